@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Sparse>
+#include <string>
+#include <vector>
+
+#include "lib/status.h"
+#include "lib/types.h"
+
+namespace maxwrench {
+
+/// max c'x  subject to  A x = b,  l <= x <= u.
+///
+/// A rows×cols is compressed by columns; l and u may be infinite or equal. Crossing bounds are an
+/// infeasible program. Names are optional (empty or one for each).
+struct LinearProgram {
+  Eigen::SparseMatrix<double> A;
+  Eigen::VectorXd b, c, l, u;
+  std::vector<std::string> row_names, col_names;
+
+  int rows() const { return static_cast<int>(A.rows()); }
+  int cols() const { return static_cast<int>(A.cols()); }
+};
+
+enum class VariableState : signed char { kAtLower, kAtUpper, kFree, kBasic };
+
+/// The answer of an `LpSolver`. It is also its storage and its warm start: pass the same object
+/// again.
+struct LpSolution {
+  Status status = Status::kNumericalError;
+  const char* reason = "";
+  Eigen::VectorXd x;       ///< cols
+  Eigen::VectorXd lambda;  ///< rows, d(objective)/db
+  /// Proof of a verdict that has no optimum. Infeasible: y (rows) with sup {y'A x : l <= x <= u} <
+  /// y'b. Unbounded: a ray r (cols) with A r = 0 that leaves no bound and c'r > 0 (x is then a
+  /// feasible point).
+  Eigen::VectorXd certificate;
+  double objective = 0;
+  int iterations = 0;
+  /// One state for each column, then one for each row's logical variable; empty: cold start.
+  std::vector<VariableState> basis;
+  int cold_restarts = 0;  ///< times the kept basis was thrown away
+};
+
+/// Figures recomputed from the program's data, never taken from a solver's word. Each is scaled by
+/// one plus the largest magnitude of the terms that it compares.
+struct LpResiduals {
+  double row = 0;           ///< A x - b
+  double bound = 0;         ///< x outside [l, u]
+  double reduced_cost = 0;  ///< sign violations of d = c - A'lambda where the bound is infinite
+  double gap = 0;           ///< |lambda'b + sup {d'x : l <= x <= u} - c'x|
+};
+
+/// Throws std::invalid_argument if the sizes disagree or an entry is NaN.
+void validate(const LinearProgram& program);
+
+LpResiduals residuals(const LinearProgram& program, const LpSolution& solution);
+
+/// Whether the status follows from the data: residuals below `tolerance` when optimal, a
+/// certificate that proves it when infeasible or unbounded. Any other status is no verdict: false.
+bool verified(const LinearProgram& program, const LpSolution& solution, double tolerance = 1e-7);
+
+}  // namespace maxwrench

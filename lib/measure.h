@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+
+#include "lib/status.h"
+#include "lib/types.h"
+
+namespace maxwrench {
+
+struct Posture;
+struct Robot;
+struct WrenchProgram;
+class WrenchSolver;
+
+/// What a measure says of one posture.
+struct Capability {
+  Status status = Status::kNumericalError;
+  const char* reason = "";
+  double beta = 0;         ///< N or N m, c'h
+  Eigen::VectorXd w;       ///< k
+  Vector6d h;              ///< W w, what the robot exerts on the environment, world axes
+  Eigen::VectorXd u;       ///< m, actuator efforts; filled only when asked for
+  Eigen::VectorXd lambda;  ///< n, d beta/d tau_d
+  /// d beta/d J (6×n). With lambda it carries the derivative to any parameter:
+  /// d beta = lambda'd tau_d + <beta_J, d J> (envelope theorem; the paper's KKT gradient).
+  Matrix6Xd beta_J;
+  int iterations = 0;
+};
+
+/// A scalar capability of a posture.
+class Measure {
+ public:
+  virtual ~Measure() = default;
+  /// `program` is that of the posture (JtW and tau_d set). Fills everything; u only if `efforts` is
+  /// set.
+  virtual void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
+                        Capability& capability) = 0;
+};
+
+/// beta_1: the positive root of eq:transmissionUVMS along c, and with free columns the farthest
+/// point of that ellipsoid along c. Actuators are weighted by the smaller of their two absolute
+/// limits. Throws std::invalid_argument if B has not full row rank or a limit is zero.
+std::unique_ptr<Measure> make_ellipsoid(const Robot& robot);
+
+/// The L2 polytope: u = B^+ (tau_d + J'h) within the limits. Throws std::invalid_argument if B has
+/// not full row rank.
+std::unique_ptr<Measure> make_l2_polytope(const Robot& robot, std::unique_ptr<WrenchSolver> solver);
+
+/// The L-infinity polytope: any u within the limits that balances (beta_2, beta_3).
+std::unique_ptr<Measure> make_linf_polytope(const Robot& robot,
+                                            std::unique_ptr<WrenchSolver> solver);
+
+}  // namespace maxwrench

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+
+#include "lib/status.h"
+#include "lib/types.h"
+
+namespace maxwrench {
+
+/// A function f(theta_r) that a `Search` maximises over lower() <= theta_r <= upper(). One object
+/// serves one thread.
+class Objective {
+ public:
+  virtual ~Objective() = default;
+  virtual const Eigen::VectorXd& lower() const = 0;
+  virtual const Eigen::VectorXd& upper() const = 0;
+
+  /// f(theta_r), or -infinity where it has no value; `status` and `reason` then say why.
+  /// `gradient`, if given, gets d f/d theta_r (at a kink one of several one-sided derivatives), NaN
+  /// where f has no value.
+  virtual double evaluate(const Eigen::VectorXd& theta_r, Eigen::VectorXd* gradient = nullptr) = 0;
+  virtual Status status() const = 0;
+  virtual const char* reason() const = 0;
+
+  /// An independent copy without memory of earlier evaluations (no warm start), so that what it
+  /// returns depends on its own calls only.
+  virtual std::unique_ptr<Objective> clone() const = 0;
+
+  int dimension() const { return static_cast<int>(lower().size()); }
+};
+
+}  // namespace maxwrench

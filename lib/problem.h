@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lib/robot.h"
+
+namespace maxwrench {
+
+/// Which end effector wrenches are allowed: only multiples of c (eq:orthogonalConstraint, beta_2),
+/// or any (beta_3).
+enum class Wrench { kPure, kAny };
+const char* to_string(Wrench wrench);
+
+/// A robot and a static task: hold the end effector at a pose and exert the largest wrench along c.
+struct Problem {
+  std::string name;   ///< as on the command line, such as "planar/force"
+  std::string label;  ///< how far the numbers are to be trusted, such as "identified"
+  std::string source;
+  Robot robot;
+  int end_effector = 0;
+  Pose<double> pose;  ///< of the end effector in the world
+  Vector6d c;         ///< unit direction [force; torque] in world axes
+  Matrix6Xd
+      W_any;  ///< 6×k: the wrenches that `Wrench::kAny` allows, orthonormal; its span contains c
+  std::vector<int> redundant;  ///< the joints that theta_r holds, from the base outward
+  /// theta_r: the joints that are free while the end effector keeps its pose.
+  Eigen::VectorXd theta_r_min, theta_r_max, theta_r_default;
+
+  int redundancy() const { return static_cast<int>(theta_r_min.size()); }
+  /// Of beta: "N" if c is a pure force, "N m" if a pure torque, "mixed" otherwise.
+  const char* unit() const;
+};
+
+}  // namespace maxwrench

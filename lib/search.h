@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "lib/objective.h"
+
+namespace maxwrench {
+
+struct SearchOptions {
+  std::uint64_t seed = 1;
+  long budget = 20000;    ///< evaluations of the objective, never exceeded
+  int threads = 1;        ///< changes the time, never the result
+  Eigen::VectorXd start;  ///< a posture that searches with a start evaluate first; empty: the
+                          ///< middle of the bounds
+  std::function<void(long evaluations)>
+      progress;  ///< called now and then, from any thread; may be empty
+};
+
+/// The best point that a search saw. `status` is kOptimal if any evaluated point has a value.
+struct SearchResult {
+  Status status = Status::kInfeasible;
+  const char* reason = "no evaluated posture has a value";
+  Eigen::VectorXd theta_r;
+  double value = -kInfinity;
+  long evaluations = 0;
+};
+
+/// Maximises an objective over its bounds.
+class Search {
+ public:
+  virtual ~Search() = default;
+  virtual SearchResult maximize(Objective& objective, const SearchOptions& options) = 0;
+};
+
+}  // namespace maxwrench

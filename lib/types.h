@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <limits>
+
+namespace maxwrench {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+template <class T>
+using Vector3 = Eigen::Matrix<T, 3, 1>;
+template <class T>
+using Matrix3 = Eigen::Matrix<T, 3, 3>;
+template <class T>
+using VectorX = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+/// Jacobians and wrench bases: six rows [linear; angular] or [force; torque].
+template <class T>
+using Matrix6X = Eigen::Matrix<T, 6, Eigen::Dynamic>;
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6Xd = Matrix6X<double>;
+
+/// A rigid transformation x -> R x + p.
+template <class T>
+struct Pose {
+  Matrix3<T> R = Matrix3<T>::Identity();
+  Vector3<T> p = Vector3<T>::Zero();
+
+  template <class S>
+  auto operator*(const Pose<S>& other) const {
+    using Result = decltype(T() * S());
+    return Pose<Result>{
+        R.template cast<Result>() * other.R.template cast<Result>(),
+        R.template cast<Result>() * other.p.template cast<Result>() + p.template cast<Result>()};
+  }
+  Pose inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
+};
+
+}  // namespace maxwrench

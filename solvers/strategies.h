@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "lib/lp_solver.h"
+#include "lib/measure.h"
+#include "lib/problem.h"
+#include "lib/search.h"
+#include "lib/wrench_solver.h"
+
+namespace maxwrench {
+
+struct MeasureEntry {
+  const char* name;
+  const char* summary;
+  bool needs_solver;  ///< false: closed form, `make` ignores the solver
+  std::unique_ptr<Measure> (*make)(const Robot&, std::unique_ptr<WrenchSolver>);
+};
+
+/// A solver of general linear programs.
+struct LpEntry {
+  const char* name;
+  const char* summary;
+  std::unique_ptr<LpSolver> (*make)();
+};
+
+/// A lower-level solver, the `--lp` of the command line: one that knows the structure, or a general
+/// one on the assembled program.
+struct WrenchSolverEntry {
+  const char* name;
+  const char* summary;
+  bool one_column_only;  ///< true: refuses Wrench::kAny
+  std::unique_ptr<WrenchSolver> (*make)();
+};
+
+struct SearchEntry {
+  const char* name;
+  const char* summary;
+  std::unique_ptr<Search> (*make)();
+};
+
+/// The tables: every strategy that exists, once.
+std::span<const MeasureEntry> measures();
+std::span<const LpEntry> lp_solvers();
+std::span<const WrenchSolverEntry> wrench_solvers();
+std::span<const SearchEntry> searches();
+
+/// The entry with this name; throws std::invalid_argument that names the alternatives.
+const MeasureEntry& find_measure(std::string_view name);
+const LpEntry& find_lp_solver(std::string_view name);
+const WrenchSolverEntry& find_wrench_solver(std::string_view name);
+const SearchEntry& find_search(std::string_view name);
+
+}  // namespace maxwrench
