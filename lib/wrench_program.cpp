@@ -1,5 +1,8 @@
 #include "lib/wrench_program.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace maxwrench {
 
 WrenchProgram make_wrench_program(const Problem& problem, Wrench wrench) {
@@ -60,6 +63,35 @@ void update(const WrenchProgram& program, LinearProgram& assembled) {
     double* values = assembled.A.valuePtr() + assembled.A.outerIndexPtr()[m + j];
     for (Eigen::Index i = 0; i < program.JtW.rows(); ++i) values[i] = -program.JtW(i, j);
   }
+}
+
+bool Residual::within(double tolerance, double beta) const {
+  return std::max({balance, bounds, dual, gap}) <= tolerance * (1 + std::abs(beta));
+}
+
+Residual recheck(const WrenchProgram& program, const Eigen::VectorXd& u, const Eigen::VectorXd& w,
+                 const Eigen::VectorXd& lambda) {
+  const Zonotope& set = *program.actuation;
+  Residual residual;
+  residual.balance = (set.B * u - program.JtW * w - program.tau_d).lpNorm<Eigen::Infinity>();
+  residual.bounds = std::max({0.0, (u - set.u_max).maxCoeff(), (set.u_min - u).maxCoeff(),
+                              (w - program.w_max).maxCoeff(), (program.w_min - w).maxCoeff()});
+  double dual_objective = lambda.dot(program.tau_d);
+  const auto add = [&](double slope, double low, double high) {
+    const double end = slope > 0 ? high : low;
+    if (slope == 0) return;
+    if (std::isfinite(end)) {
+      dual_objective += slope * end;
+    } else {
+      residual.dual = std::max(residual.dual, std::abs(slope));
+    }
+  };
+  const Eigen::VectorXd u_slope = -(set.B.transpose() * lambda);
+  const Eigen::VectorXd w_slope = program.c_w + program.JtW.transpose() * lambda;
+  for (Eigen::Index j = 0; j < u.size(); ++j) add(u_slope[j], set.u_min[j], set.u_max[j]);
+  for (Eigen::Index j = 0; j < w.size(); ++j) add(w_slope[j], program.w_min[j], program.w_max[j]);
+  residual.gap = std::abs(dual_objective - program.c_w.dot(w));
+  return residual;
 }
 
 }  // namespace maxwrench

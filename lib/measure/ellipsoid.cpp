@@ -30,24 +30,27 @@ class Ellipsoid : public Measure {
     capability.iterations = 0;
     G_.noalias() = K_.lazyProduct(program.JtW);
     g_.noalias() = K_.lazyProduct(program.tau_d);
-    const char* reason = solve(program, capability);
-    capability.status = *reason == 0 ? Status::kOptimal : Status::kInfeasible;
-    capability.reason = reason;
-    if (*reason != 0) return;
+    capability.reason = "";
+    capability.status = solve(program, capability);
+    if (capability.status != Status::kOptimal) return;
     capability.h.noalias() = program.W * capability.w;
     capability.beta_J.noalias() = capability.h * capability.lambda.transpose();
-    if (efforts) capability.u = B_pinv_ * (program.tau_d + program.JtW * capability.w);
+    if (efforts) recover(program, capability);
   }
 
  private:
-  /// Fills beta, w and lambda; returns why there is no value, or "".
-  const char* solve(const WrenchProgram& program, Capability& capability) {
-    if (g_.squaredNorm() > 1) return "the weights alone leave the ellipsoid: origin outside";
+  /// Fills beta, w and lambda.
+  Status solve(const WrenchProgram& program, Capability& capability) {
+    if (!(g_.squaredNorm() < 1)) {
+      capability.reason = "the origin is outside of the ellipsoid: tau_d alone exceeds it";
+      return Status::kInfeasible;
+    }
     normal_.noalias() = G_.transpose().lazyProduct(G_);
     ldlt_.compute(normal_);
     const auto pivots = ldlt_.vectorD();
     if (!(pivots.minCoeff() > kRankTolerance * pivots.maxCoeff())) {
-      return "J'W has not full column rank";
+      capability.reason = "J'W has not full column rank";
+      return Status::kNumericalError;
     }
     capability.w.noalias() = G_.transpose().lazyProduct(-g_);
     ldlt_.solveInPlace(capability.w);  // z
@@ -55,14 +58,28 @@ class Ellipsoid : public Measure {
     ldlt_.solveInPlace(direction_);
     e_ = g_;
     e_.noalias() += G_.lazyProduct(capability.w);
-    const double rho = std::sqrt(1 - e_.squaredNorm());
+    const double rho = std::sqrt(1 - e_.squaredNorm());  // |e| <= |g| < 1
     const double s = std::sqrt(program.c_w.dot(direction_));
-    if (!(rho > 0)) return "the ellipsoid is a point";
     capability.beta = program.c_w.dot(capability.w) + rho * s;
     capability.w += (rho / s) * direction_;
     e_.noalias() += (rho / s) * G_.lazyProduct(direction_);
     capability.lambda.noalias() = (-s / rho) * K_.transpose().lazyProduct(e_);
-    return "";
+    return Status::kOptimal;
+  }
+
+  /// u = B^+ (tau_d + J'W w), and the residual: u on the ellipsoid, c_w = -(J'W)'lambda
+  /// (stationarity), and the dual objective lambda'tau_d + sup {-lambda'tau : |W_u B^+ tau| <= 1},
+  /// whose supremum is at this very tau.
+  void recover(const WrenchProgram& program, Capability& capability) {
+    const Eigen::VectorXd tau = program.tau_d + program.JtW * capability.w;
+    const Eigen::VectorXd& lambda = capability.lambda;
+    capability.u = B_pinv_ * tau;
+    capability.residual = recheck(program, capability.u, capability.w, lambda);  // the balance
+    capability.residual.bounds = std::abs((K_ * tau).norm() - 1);
+    capability.residual.dual =
+        (program.c_w + program.JtW.transpose() * lambda).lpNorm<Eigen::Infinity>();
+    capability.residual.gap =
+        std::abs(lambda.dot(program.tau_d) - lambda.dot(tau) - capability.beta);
   }
 
   Eigen::MatrixXd B_pinv_, K_, G_, normal_;

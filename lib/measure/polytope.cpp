@@ -21,7 +21,11 @@ class LinfPolytope : public Measure {
   void evaluate(const Posture& /*posture*/, const WrenchProgram& program, bool efforts,
                 Capability& capability) override {
     solver_->solve(program, efforts, capability);
-    if (capability.status == Status::kOptimal) complete(program, capability);
+    if (capability.status != Status::kOptimal) return;
+    complete(program, capability);
+    if (efforts) {
+      capability.residual = recheck(program, capability.u, capability.w, capability.lambda);
+    }
   }
 
  private:
@@ -53,6 +57,11 @@ class L2Polytope : public Measure {
     if (capability.status != Status::kOptimal) return;
     capability.lambda.noalias() = B_pinv_.transpose().lazyProduct(lambda_);
     complete(program, capability);
+    if (!efforts) return;
+    // The balance in the robot's own rows, optimality in the rows of the program that was solved.
+    capability.residual = recheck(program_, capability.u, capability.w, lambda_);
+    capability.residual.balance =
+        recheck(program, capability.u, capability.w, capability.lambda).balance;
   }
 
  private:
