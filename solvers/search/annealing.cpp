@@ -127,7 +127,7 @@ class Annealing final : public Search {
     check(options);
     const Box box(objective);
     const Eigen::VectorXd start = box.start(options.start);
-    Progress progress(options.progress);
+    EvaluationCounter progress(options.progress);
     const long walking = box.free() == 0 ? 1 : std::max(1L, options.budget * 6 / 10);
     const long wanted = std::lround(std::sqrt(static_cast<double>(options.budget) / 300));
     const long chains = std::min(walking, std::clamp(wanted, 1L, 32L));

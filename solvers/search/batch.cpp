@@ -66,7 +66,7 @@ void parallel_for(int threads, long count, const std::function<void(long)>& body
 
 std::vector<double> evaluate_all(const Objective& objective, long count,
                                  const std::function<Eigen::VectorXd(long)>& point, int threads,
-                                 Progress& progress) {
+                                 EvaluationCounter& progress) {
   // Large enough to pay for a clone, small enough to share the work evenly.
   const long chunk = std::clamp(count / 64, 64L, 4096L);
   std::vector<double> values(count);

@@ -32,9 +32,9 @@ class Box {
 };
 
 /// Counts evaluations over all threads and reports them.
-class Progress {
+class EvaluationCounter {
  public:
-  explicit Progress(const std::function<void(long)>& report) : report_(report) {}
+  explicit EvaluationCounter(const std::function<void(long)>& report) : report_(report) {}
   void add(long evaluations) {
     const long total = count_ += evaluations;
     if (report_) report_(total);
@@ -53,7 +53,7 @@ void parallel_for(int threads, long count, const std::function<void(long)>& body
 /// fresh clone evaluates each chunk in order, so the values do not depend on the threads.
 std::vector<double> evaluate_all(const Objective& objective, long count,
                                  const std::function<Eigen::VectorXd(long)>& point, int threads,
-                                 Progress& progress);
+                                 EvaluationCounter& progress);
 
 /// The value of one point, -infinity instead of NaN.
 double evaluate_one(Objective& objective, const Eigen::VectorXd& theta_r);

@@ -82,7 +82,7 @@ class Grid final : public Search {
     check(options);
     const Box box(objective);
     const Lattice lattice(box.free(), options.budget);
-    Progress progress(options.progress);
+    EvaluationCounter progress(options.progress);
     auto point = [&](long i) { return box.theta_r(lattice.point(i)); };
     const std::vector<double> values =
         evaluate_all(objective, lattice.size(), point, options.threads, progress);

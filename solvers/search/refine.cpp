@@ -99,7 +99,7 @@ class Evolution {
 class Ascent {
  public:
   Ascent(const Objective& objective, const Box& box, const Candidate& start, Random random,
-         Progress& progress)
+         EvaluationCounter& progress)
       : objective_(objective.clone()),
         box_(box),
         rates_(box.free()),
@@ -163,7 +163,7 @@ class Ascent {
   Rates rates_;
   Candidate best_;
   Random random_;
-  Progress& progress_;
+  EvaluationCounter& progress_;
 };
 
 /// The best candidates, best first, each away from all better ones.
@@ -186,7 +186,7 @@ std::vector<Candidate> select(const Box& box, std::vector<Candidate> candidates,
 }  // namespace
 
 Candidate refine(const Objective& objective, const Box& box, std::vector<Candidate> candidates,
-                 const RefineOptions& options, Progress& progress) {
+                 const RefineOptions& options, EvaluationCounter& progress) {
   const long shared = options.budget / 2;
   const long count = std::clamp(shared / (100L * (box.free() + 1)), 1L, 8L);
   std::vector<Candidate> best = select(box, std::move(candidates), options.separation, count);

@@ -30,6 +30,6 @@ struct RefineOptions {
 /// An ascent that has converged before its share is used starts again at its best point, with the
 /// first step and with a hundredth of it in turn, until two starts in a row bring nothing.
 Candidate refine(const Objective& objective, const Box& box, std::vector<Candidate> candidates,
-                 const RefineOptions& options, Progress& progress);
+                 const RefineOptions& options, EvaluationCounter& progress);
 
 }  // namespace maxwrench
