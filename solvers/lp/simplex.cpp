@@ -17,7 +17,9 @@ constexpr int kMaxTroubles = 12;
 
 class Simplex final : public LpSolver {
  public:
-  explicit Simplex(const SimplexOptions& options) : options_(options), engine_(options) {}
+  explicit Simplex(const SimplexOptions& options) : options_(options), engine_(options) {
+    options_.max_updates = std::max(options_.max_updates, 1);
+  }
 
   void solve(const LinearProgram& program, LpSolution& solution) override {
     solution.iterations = solution.cold_restarts = 0;
@@ -26,27 +28,36 @@ class Simplex final : public LpSolver {
       fail(program, solution, "the program is malformed: sizes disagree or an entry is not finite");
       return;
     }
+    engine_.options = options_;
     engine_.resize();
     engine_.iterations = 0;
     if (engine_.model.crossing) return report_crossing(program, solution);
     const bool warm = read_basis(solution);
-    for (int attempt = warm ? 0 : 1; attempt < 3; ++attempt) {
-      engine_.options = options_;
-      if (attempt == 2) loosen(engine_.options);
-      if (attempt > (warm ? 0 : 1)) ++solution.cold_restarts;
-      if (try_once(program, solution, attempt == 0)) return;
+    for (const Attempt attempt : kAttempts) {
+      if (attempt == Attempt::kWarm && !warm) continue;
+      if (attempt == Attempt::kCold && warm) ++solution.cold_restarts;
+      set_tolerances(attempt);
+      if (try_once(program, solution, attempt == Attempt::kWarm)) return;
     }
   }
 
  private:
-  /// The last resort accepts larger violations, which the verification still has to pass, and
-  /// takes smaller entries for proof.
-  static void loosen(SimplexOptions& options) {
-    options.primal_tolerance = std::max(options.primal_tolerance, 1e-7);
-    options.dual_tolerance = std::max(options.dual_tolerance, 1e-7);
-    options.zero_tolerance *= 0.01;
-    options.singular_tolerance *= 0.01;
-    options.max_updates = std::min(options.max_updates, 20);
+  enum class Attempt { kWarm, kCold, kTight, kLoose };
+  static constexpr Attempt kAttempts[] = {Attempt::kWarm, Attempt::kCold, Attempt::kTight,
+                                          Attempt::kLoose};
+
+  /// What the data did not confirm is tried again with tighter tolerances (an optimum that hides
+  /// below them), then with looser ones (a verdict that hangs on violations near them).
+  void set_tolerances(Attempt attempt) {
+    SimplexOptions& o = engine_.options;
+    o = options_;
+    if (attempt == Attempt::kWarm || attempt == Attempt::kCold) return;
+    const double factor = attempt == Attempt::kTight ? 0.01 : 100;
+    o.primal_tolerance *= factor;
+    o.dual_tolerance *= factor;
+    o.zero_tolerance *= 0.01;
+    o.singular_tolerance *= 0.01;
+    o.max_updates = std::min(o.max_updates, 20);
   }
 
   bool try_once(const LinearProgram& program, LpSolution& solution, bool warm);
@@ -56,7 +67,7 @@ class Simplex final : public LpSolver {
   void write_basis(LpSolution& solution) const;
   void write_point(const LinearProgram& program, LpSolution& solution) const;
   void write_multipliers(LpSolution& solution) const;
-  void write_farkas(LpSolution& solution);
+  void write_farkas(const LinearProgram& program, LpSolution& solution);
   void write_ray(LpSolution& solution);
   void fail(const LinearProgram& program, LpSolution& solution, const char* reason) const;
   void report_crossing(const LinearProgram& program, LpSolution& solution) const;
@@ -88,7 +99,7 @@ bool Simplex::try_once(const LinearProgram& program, LpSolution& solution, bool 
   write_multipliers(solution);
   write_basis(solution);
   if (status == Status::kOptimal) solution.certificate.resize(0);
-  if (status == Status::kInfeasible) write_farkas(solution);
+  if (status == Status::kInfeasible) write_farkas(program, solution);
   if (status == Status::kUnbounded) write_ray(solution);
   if (status == Status::kBudgetExhausted) return true;
   if (verified(program, solution, options_.verify_tolerance, scratch_)) return true;
@@ -208,13 +219,20 @@ void Simplex::write_multipliers(LpSolution& solution) const {
 }
 
 /// The row of the tableau that no choice of the nonbasic variables can satisfy, as y'A x = y'b.
-void Simplex::write_farkas(LpSolution& solution) {
+/// Entries that may be rounding are removed step by step until the proof holds.
+void Simplex::write_farkas(const LinearProgram& program, LpSolution& solution) {
   Engine& e = engine_;
   const int m = e.model.rows;
-  e.inverse_row(e.proof_position, e.rho.data());
+  e.refined_inverse_row(e.proof_position);
+  double largest = 0;
+  for (const double v : e.rho) largest = std::max(largest, std::abs(v));
   solution.certificate.resize(m);
-  for (int i = 0; i < m; ++i) {
-    solution.certificate[i] = e.proof_sign * e.rho[i] * (e.model.scaled ? e.model.row_scale[i] : 1);
+  for (const double noise : {0.0, 1e-15, 1e-13, 1e-11, 1e-9}) {
+    for (int i = 0; i < m; ++i) {
+      const double v = std::abs(e.rho[i]) <= noise * largest ? 0 : e.proof_sign * e.rho[i];
+      solution.certificate[i] = v * (e.model.scaled ? e.model.row_scale[i] : 1);
+    }
+    if (verified(program, solution, options_.verify_tolerance, scratch_)) return;
   }
 }
 

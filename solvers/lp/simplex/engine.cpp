@@ -195,6 +195,19 @@ void Engine::inverse_row(int p, double* result) {
   factor.btran(position_work_.data(), result);
 }
 
+void Engine::refined_inverse_row(int row) {
+  inverse_row(row, rho.data());
+  for (int p = 0; p < model.rows; ++p) {
+    double sum = p == row ? 1 : 0;
+    for (int e = model.start[head[p]]; e < model.start[head[p] + 1]; ++e) {
+      sum -= model.value[e] * rho[model.index[e]];
+    }
+    position_work_[p] = sum;
+  }
+  factor.btran(position_work_.data(), row_work_.data());
+  for (int i = 0; i < model.rows; ++i) rho[i] += row_work_[i];
+}
+
 void Engine::tableau_row(const double* row) {
   for (int j = model.rows; j < model.total; ++j) {
     double sum = 0;

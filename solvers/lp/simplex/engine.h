@@ -57,6 +57,8 @@ class Engine {
   void column(int j, double* z);
   /// The row of B^-1 at position p into `y`.
   void inverse_row(int p, double* y);
+  /// The same into `rho`, with a step of iterative refinement.
+  void refined_inverse_row(int p);
   /// alpha_j = y'a_j for every nonbasic variable that may move.
   void tableau_row(const double* y);
   /// Variable q enters at position p; the one that leaves takes `leaving_state`.

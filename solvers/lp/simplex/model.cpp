@@ -150,20 +150,22 @@ void Model::apply_matrix_scales() {
   for (int i = 0; i < rows; ++i) b[i] *= row_scale[i];
 }
 
-/// Tolerances are absolute for quantities near one: costs are brought there, and right-hand sides
-/// and bounds if all are small.
+/// Tolerances are absolute for quantities near one: the geometric mean of the costs is brought
+/// there, and right-hand sides and bounds if all are small.
 void Model::apply_vector_scales() {
-  double largest_cost = 0, largest_bound = 0;
+  double smallest_cost = kInfinity, largest_cost = 0, largest_bound = 0;
   for (int j = rows; j < total; ++j) {
-    largest_cost = std::max(largest_cost, std::abs(cost[j]));
+    if (cost[j] != 0 && !fixed[j]) {
+      largest_cost = std::max(largest_cost, std::abs(cost[j]));
+      smallest_cost = std::min(smallest_cost, std::abs(cost[j]));
+    }
     if (std::isfinite(lower[j])) largest_bound = std::max(largest_bound, std::abs(lower[j]));
     if (std::isfinite(upper[j])) largest_bound = std::max(largest_bound, std::abs(upper[j]));
   }
   for (int i = 0; i < rows; ++i) largest_bound = std::max(largest_bound, std::abs(b[i]));
   cost_scale = rhs_scale = 1;
-  if (largest_cost > 0 && (largest_cost < 0.25 || largest_cost > 16)) {
-    cost_scale = 1 / power_of_two_near(largest_cost);
-    for (int j = rows; j < total; ++j) cost[j] *= cost_scale;
+  if (largest_cost > 0 && (smallest_cost < 0.25 || largest_cost > 16)) {
+    scale_costs();
   }
   if (largest_bound > 0 && largest_bound < 0.25) {
     rhs_scale = 1 / power_of_two_near(largest_bound);
@@ -173,6 +175,17 @@ void Model::apply_vector_scales() {
     }
     for (int i = 0; i < rows; ++i) b[i] *= rhs_scale;
   }
+}
+
+void Model::scale_costs() {
+  int exponents = 0, count = 0;
+  for (int j = rows; j < total; ++j) {
+    if (cost[j] == 0 || fixed[j]) continue;
+    exponents += std::ilogb(cost[j]);
+    ++count;
+  }
+  cost_scale = std::ldexp(1.0, -exponents / count);
+  for (int j = rows; j < total; ++j) cost[j] *= cost_scale;
 }
 
 }  // namespace maxwrench::simplex

@@ -31,6 +31,7 @@ struct Model {
   void choose_scales();
   void apply_matrix_scales();
   void apply_vector_scales();
+  void scale_costs();
 
   std::vector<double> row_max_, col_max_, row_min_, col_min_;
 };
