@@ -44,6 +44,10 @@ struct LpSolution {
 
 /// Figures recomputed from the program's data, never taken from a solver's word. Each is scaled by
 /// one plus the largest magnitude of the terms that it compares.
+///
+/// Bounds from 1e20 on count as infinite. A sum that rounding alone could have produced (a few
+/// units in the last place of its terms) counts as zero, so that it is not multiplied by a large
+/// bound. What cannot be computed (wrong sizes, NaN) is an infinite residual.
 struct LpResiduals {
   double row = 0;           ///< A x - b
   double bound = 0;         ///< x outside [l, u]
@@ -51,13 +55,28 @@ struct LpResiduals {
   double gap = 0;           ///< |lambda'b + sup {d'x : l <= x <= u} - c'x|
 };
 
-/// Throws std::invalid_argument if the sizes disagree or an entry is NaN.
+/// Storage that makes repeated verification free of allocation.
+struct LpScratch {
+  Eigen::VectorXd sum, size;
+};
+
+/// Throws std::invalid_argument if the sizes disagree, an entry is NaN, A, b or c is not finite, or
+/// a bound excludes every number (l = +infinity, u = -infinity).
 void validate(const LinearProgram& program);
 
 LpResiduals residuals(const LinearProgram& program, const LpSolution& solution);
+LpResiduals residuals(const LinearProgram& program, const LpSolution& solution, LpScratch& scratch);
 
 /// Whether the status follows from the data: residuals below `tolerance` when optimal, a
 /// certificate that proves it when infeasible or unbounded. Any other status is no verdict: false.
+///
+/// A certificate is judged relative to its own terms, so its length does not matter. Infeasible:
+/// y'b exceeds the supremum by 1e-10 of the sum of all magnitudes, far above rounding; (A'y)_j
+/// below 1e-10 of the magnitudes it is summed from counts as zero where the bound is infinite; any
+/// l > u is a proof by itself. Unbounded: A r vanishes and bounds are kept to 1e-9 of the terms,
+/// c'r exceeds 1e-9 of its terms, and x is feasible to `tolerance`.
 bool verified(const LinearProgram& program, const LpSolution& solution, double tolerance = 1e-7);
+bool verified(const LinearProgram& program, const LpSolution& solution, double tolerance,
+              LpScratch& scratch);
 
 }  // namespace maxwrench

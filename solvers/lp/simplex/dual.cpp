@@ -1,0 +1,305 @@
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/lp/simplex/engine.h"
+
+namespace maxwrench::simplex {
+
+/// The dual simplex: starts from reduced costs of the right sign and removes bound violations.
+///
+/// Leaving row by steepest edge. Entering column by the bound flipping ratio test: as the dual step
+/// grows, candidates whose reduced cost changes sign jump to their other bound as long as the row's
+/// violation outlasts them. Among the breakpoints that lie together within the dual tolerance
+/// (Harris) the one with the largest pivot enters; a reduced cost that this leaves on the wrong
+/// side is moved to zero by shifting its cost.
+class Dual {
+ public:
+  explicit Dual(Engine& engine) : e(engine), s(engine.options) {}
+  Outcome run();
+
+ private:
+  bool refresh();
+  void make_dual_feasible();
+  int choose_row() const;
+  void gather_candidates();
+  int choose_column();
+  int choose_column_by_index();
+  int largest_pivot_of_groups();
+  bool pivots_agree(double by_column, double by_row) const;
+  void flip();
+  void step(int q);
+  void update_duals(double theta);
+  void update_weights(double pivot);
+  void note_progress(double theta);
+  void perturb();
+
+  Engine& e;
+  const SimplexOptions& s;
+  int r_ = -1;       // leaving position
+  double sign_ = 0;  // +1: x_r above its upper bound
+  double violation_ = 0;
+  int stalled_ = 0;
+  bool perturbed_ = false, bland_ = false;
+};
+
+Outcome Engine::dual() { return Dual(*this).run(); }
+
+Outcome Dual::run() {
+  std::fill(e.weights_.begin(), e.weights_.begin() + e.model.rows, 1.0);
+  make_dual_feasible();
+  for (;;) {
+    if (e.factor.updates() == s.max_updates && !refresh()) return Outcome::kTrouble;
+    if (e.iterations >= e.iteration_limit) return Outcome::kIterationLimit;
+    r_ = choose_row();
+    if (r_ < 0) return Outcome::kDone;
+    const double infeasibility = e.infeasibility(r_);
+    sign_ = infeasibility > 0 ? 1 : -1;
+    violation_ = std::abs(infeasibility);
+    e.inverse_row(r_, e.rho.data());
+    e.tableau_row(e.rho.data());
+    gather_candidates();
+    const int q = bland_ ? choose_column_by_index() : choose_column();
+    if (q < 0) {
+      if (e.factor.updates() == 0) {
+        e.proof_position = r_;
+        e.proof_sign = sign_;
+        return Outcome::kInfeasible;
+      }
+      if (!refresh()) return Outcome::kTrouble;
+      continue;
+    }
+    e.column(q, e.alpha_column.data());
+    if (!pivots_agree(e.alpha_column[r_], e.alpha_row[q])) {
+      if (e.factor.updates() == 0 || !refresh()) return Outcome::kTrouble;
+      continue;
+    }
+    step(q);
+  }
+}
+
+/// Fresh factors, x and d. A basis that had to be repaired ends the phase.
+bool Dual::refresh() {
+  if (!e.refactor()) return false;
+  e.compute_primal();
+  e.compute_dual();
+  make_dual_feasible();
+  return true;
+}
+
+/// Boxed variables move to the bound that fits the sign of d; other costs are shifted to a small
+/// reduced cost of the right sign.
+void Dual::make_dual_feasible() {
+  bool moved = false;
+  for (int j = e.model.rows; j < e.model.total; ++j) {
+    if (e.model.fixed[j] || e.dual_violation(j) == 0) continue;
+    if (e.state[j] == VariableState::kAtLower && std::isfinite(e.upper[j])) {
+      e.state[j] = VariableState::kAtUpper;
+      moved = true;
+    } else if (e.state[j] == VariableState::kAtUpper && std::isfinite(e.lower[j])) {
+      e.state[j] = VariableState::kAtLower;
+      moved = true;
+    } else {
+      double target = 0;
+      if (e.perturb && e.state[j] != VariableState::kFree) {
+        target = (e.state[j] == VariableState::kAtLower ? 1e-3 : -1e-3) * e.jitter(j);
+      }
+      e.cost[j] += target - e.d[j];
+      e.d[j] = target;
+    }
+  }
+  if (moved) e.compute_primal();
+}
+
+int Dual::choose_row() const {
+  int best = -1;
+  double best_score = 0;
+  for (int p = 0; p < e.model.rows; ++p) {
+    const double v = e.infeasibility(p);
+    if (v == 0) continue;
+    if (bland_) {
+      if (best < 0 || e.head[p] < e.head[best]) best = p;
+      continue;
+    }
+    const double score = v * v / e.weights_[p];
+    if (score > best_score) best_score = score, best = p;
+  }
+  return best;
+}
+
+/// Nonbasic variables whose move towards their other side reduces the violation.
+void Dual::gather_candidates() {
+  e.candidates_.clear();
+  for (int j = e.model.rows; j < e.model.total; ++j) {
+    const double a = sign_ * e.alpha_row[j];
+    if (std::abs(a) <= s.zero_tolerance) continue;
+    const bool fits =
+        e.state[j] == VariableState::kFree ||
+        (a > 0 ? e.state[j] == VariableState::kAtLower : e.state[j] == VariableState::kAtUpper);
+    if (!fits) continue;
+    e.ratios_[j] = std::max(0.0, a > 0 ? e.d[j] : -e.d[j]);
+    if (e.state[j] == VariableState::kFree) e.ratios_[j] = 0;
+    e.candidates_.push_back(j);
+  }
+}
+
+int Dual::choose_column_by_index() {
+  e.flipped_.clear();
+  int best = -1;
+  double best_ratio = kInfinity;
+  for (const int j : e.candidates_) {
+    const double ratio = e.ratios_[j] / std::abs(e.alpha_row[j]);
+    if (ratio < best_ratio) best_ratio = ratio, best = j;
+  }
+  return best;
+}
+
+/// Splits the candidates into groups of neighbouring breakpoints, in order of the dual step, until
+/// the violation is used up; -1 if it outlasts all of them.
+int Dual::choose_column() {
+  auto& list = e.candidates_;
+  e.flipped_.clear();
+  e.groups_.clear();
+  e.groups_.push_back(0);
+  const int count = static_cast<int>(list.size());
+  double slope = violation_;
+  int done = 0;
+  while (done < count) {
+    double step = kInfinity;
+    for (int k = done; k < count; ++k) {
+      const int j = list[k];
+      step = std::min(step, (e.ratios_[j] + s.dual_tolerance) / std::abs(e.alpha_row[j]));
+    }
+    const int begin = done;
+    for (int k = begin; k < count; ++k) {
+      const int j = list[k];
+      const double a = std::abs(e.alpha_row[j]);
+      if (e.ratios_[j] > step * a) continue;
+      std::swap(list[k], list[done++]);
+      slope -= a * (e.upper[j] - e.lower[j]);
+    }
+    e.groups_.push_back(done);
+    if (slope <= s.primal_tolerance) return largest_pivot_of_groups();
+  }
+  return -1;
+}
+
+/// From the last group, whose step is longest, unless its pivots are small and an earlier group has
+/// a better one. All groups before the chosen one jump.
+int Dual::largest_pivot_of_groups() {
+  const auto& list = e.candidates_;
+  double largest = 0;
+  for (int k = 0; k < e.groups_.back(); ++k) {
+    largest = std::max(largest, std::abs(e.alpha_row[list[k]]));
+  }
+  const double acceptable = std::min(0.1 * largest, 1.0) * 0.1;
+  int best = -1, chosen = 0;
+  double best_pivot = 0;
+  for (int g = static_cast<int>(e.groups_.size()) - 2; g >= 0; --g) {
+    int local = -1;
+    double pivot = 0;
+    for (int k = e.groups_[g]; k < e.groups_[g + 1]; ++k) {
+      const double a = std::abs(e.alpha_row[list[k]]);
+      if (a > pivot) pivot = a, local = list[k];
+    }
+    if (pivot > best_pivot) best_pivot = pivot, best = local, chosen = g;
+    if (best_pivot >= acceptable) break;
+  }
+  e.flipped_.assign(list.begin(), list.begin() + e.groups_[chosen]);
+  return best;
+}
+
+bool Dual::pivots_agree(double by_column, double by_row) const {
+  if (std::abs(by_column) <= s.zero_tolerance) return false;
+  if (e.factor.updates() == 0) return by_column * by_row > 0;
+  return std::abs(by_column) >= s.pivot_tolerance &&
+         std::abs(by_column - by_row) <= 1e-7 * (1 + std::abs(by_column));
+}
+
+void Dual::flip() {
+  if (e.flipped_.empty()) return;
+  std::fill(e.row_work_.begin(), e.row_work_.end(), 0.0);
+  for (const int j : e.flipped_) {
+    const bool up = e.state[j] == VariableState::kAtLower;
+    e.state[j] = up ? VariableState::kAtUpper : VariableState::kAtLower;
+    const double change = up ? e.upper[j] - e.lower[j] : e.lower[j] - e.upper[j];
+    for (int k = e.model.start[j]; k < e.model.start[j + 1]; ++k) {
+      e.row_work_[e.model.index[k]] += change * e.model.value[k];
+    }
+  }
+  e.factor.ftran(e.row_work_.data(), e.position_work_.data());
+  for (int p = 0; p < e.model.rows; ++p) e.x_basic[p] -= e.position_work_[p];
+}
+
+void Dual::step(int q) {
+  ++e.iterations;
+  flip();
+  const double pivot = e.alpha_column[r_];
+  const double theta_dual = e.d[q] / e.alpha_row[q];
+  const double bound = sign_ > 0 ? e.basic_upper[r_] : e.basic_lower[r_];
+  const double theta_primal = (e.x_basic[r_] - bound) / pivot;
+  update_duals(theta_dual);
+  update_weights(pivot);
+  const double entering = e.nonbasic_value(q) + theta_primal;
+  for (int p = 0; p < e.model.rows; ++p) e.x_basic[p] -= theta_primal * e.alpha_column[p];
+  const int leaving = e.head[r_];
+  e.pivot(r_, q, sign_ > 0 ? VariableState::kAtUpper : VariableState::kAtLower, entering);
+  e.d[q] = 0;
+  e.d[leaving] = -theta_dual;
+  note_progress(theta_dual);
+}
+
+/// d -= theta alpha_r; what Harris' tolerance left on the wrong side is shifted to zero.
+void Dual::update_duals(double theta) {
+  const bool upwards = sign_ * theta >= 0;
+  for (int j = e.model.rows; j < e.model.total; ++j) {
+    const double a = e.alpha_row[j];
+    if (a == 0) continue;
+    if (upwards) e.d[j] -= theta * a;
+    const bool wrong = (e.state[j] == VariableState::kAtLower && e.d[j] < 0) ||
+                       (e.state[j] == VariableState::kAtUpper && e.d[j] > 0);
+    if (!wrong) continue;
+    e.cost[j] -= e.d[j];
+    e.d[j] = 0;
+  }
+}
+
+void Dual::update_weights(double pivot) {
+  double norm = 0;
+  for (const double v : e.rho) norm += v * v;
+  std::copy(e.rho.begin(), e.rho.end(), e.row_work_.begin());
+  e.factor.ftran(e.row_work_.data(), e.position_work_.data());
+  for (int p = 0; p < e.model.rows; ++p) {
+    const double k = e.alpha_column[p] / pivot;
+    if (k == 0) continue;
+    const double updated = e.weights_[p] - 2 * k * e.position_work_[p] + k * k * norm;
+    e.weights_[p] = std::max(updated, 1e-4 + k * k * 1e-4);
+  }
+  e.weights_[r_] = std::max(norm / (pivot * pivot), 1e-4);
+}
+
+/// Steps of length zero may cycle: they are counted, answered by perturbed costs, and if that does
+/// not help by smallest indices, which end in finitely many steps.
+void Dual::note_progress(double theta) {
+  if (std::abs(theta) > 1e-12) {
+    stalled_ = 0;
+    bland_ = false;
+    return;
+  }
+  ++stalled_;
+  if (!perturbed_ && e.perturb && stalled_ > 20 + e.model.rows / 10) perturb();
+  if (stalled_ > 300 + 5 * e.model.rows) bland_ = true;
+}
+
+void Dual::perturb() {
+  perturbed_ = true;
+  for (int j = e.model.rows; j < e.model.total; ++j) {
+    if (e.state[j] == VariableState::kBasic || e.model.fixed[j]) continue;
+    if (e.state[j] == VariableState::kFree) continue;
+    const double size = 1e-6 * (1 + std::abs(e.cost[j])) * e.jitter(j);
+    const double change = e.state[j] == VariableState::kAtLower ? size : -size;
+    e.cost[j] += change;
+    e.d[j] += change;
+  }
+}
+
+}  // namespace maxwrench::simplex

@@ -1,0 +1,233 @@
+#include "solvers/lp/simplex/engine.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace maxwrench::simplex {
+
+void Engine::resize() {
+  factor.resize(model.rows, options.max_updates);
+  const std::size_t m = model.rows, total = model.total;
+  if (head.size() == m && state.size() == total) return;
+  head.resize(m);
+  state.resize(total);
+  for (auto* v : {&lower, &upper, &cost, &d, &alpha_row, &weights_, &ratios_}) v->resize(total);
+  for (auto* v : {&x_basic, &basic_lower, &basic_upper, &y, &alpha_column, &rho, &row_work_,
+                  &position_work_}) {
+    v->resize(m);
+  }
+  for (auto* v : {&candidates_, &flipped_, &groups_}) {
+    v->clear();
+    v->reserve(total + 1);
+  }
+}
+
+void Engine::reset_bounds_and_costs() {
+  lower = model.lower;
+  upper = model.upper;
+  cost = model.cost;
+  bounds_shifted = false;
+}
+
+/// In [0.5, 1), the same sequence in every solve.
+double Engine::jitter(int j) {
+  random_ += 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(j);
+  std::uint64_t z = random_;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+  z ^= z >> 31;
+  return 0.5 + 0.5 * static_cast<double>(z >> 11) * 0x1p-53;
+}
+
+void Engine::crash_basis() {
+  random_ = 0;
+  for (int j = 0; j < model.total; ++j) {
+    state[j] = std::isfinite(lower[j])   ? VariableState::kAtLower
+               : std::isfinite(upper[j]) ? VariableState::kAtUpper
+                                         : VariableState::kFree;
+    if (state[j] == VariableState::kAtLower && std::abs(upper[j]) < std::abs(lower[j])) {
+      state[j] = VariableState::kAtUpper;
+    }
+  }
+  for (int i = 0; i < model.rows; ++i) head[i] = i;
+  for (int j = model.rows; j < model.total; ++j) {
+    const int e = model.start[j];
+    if (model.start[j + 1] - e != 1 || std::abs(model.value[e]) < 0.05 || model.fixed[j]) continue;
+    const int i = model.index[e];
+    if (upper[j] - lower[j] > upper[head[i]] - lower[head[i]]) head[i] = j;
+  }
+  for (const int j : head) state[j] = VariableState::kBasic;
+  refactor();
+  for (int j = model.rows; j < model.total; ++j) {
+    if (state[j] == VariableState::kFree) enter_free_column(j);
+  }
+}
+
+/// Takes the place of a logical variable where the pivot is not small, else of any bounded one.
+void Engine::enter_free_column(int j) {
+  if (factor.updates() == options.max_updates) refactor();
+  column(j, alpha_column.data());
+  int best = -1;
+  double best_score = 0, largest = 0;
+  for (int p = 0; p < model.rows; ++p) {
+    const double a = std::abs(alpha_column[p]);
+    largest = std::max(largest, a);
+    if (!std::isfinite(basic_lower[p]) && !std::isfinite(basic_upper[p])) continue;
+    const double score = head[p] < model.rows ? 10 * a : a;
+    if (score > best_score) best_score = score, best = p;
+  }
+  if (best < 0 || std::abs(alpha_column[best]) < 0.01 * largest ||
+      std::abs(alpha_column[best]) < options.pivot_tolerance) {
+    return;
+  }
+  pivot(best, j,
+        std::isfinite(basic_lower[best]) ? VariableState::kAtLower : VariableState::kAtUpper, 0);
+}
+
+bool Engine::refactor() {
+  bool regular = true;
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    if (factor.factorise(model, head, options.singular_tolerance)) break;
+    regular = false;
+    for (const auto& [position, row] : factor.singular()) {
+      const int j = head[position];
+      if (state[row] == VariableState::kBasic) continue;
+      state[j] = std::isfinite(lower[j])   ? VariableState::kAtLower
+                 : std::isfinite(upper[j]) ? VariableState::kAtUpper
+                                           : VariableState::kFree;
+      head[position] = row;
+      state[row] = VariableState::kBasic;
+    }
+  }
+  for (int p = 0; p < model.rows; ++p) {
+    basic_lower[p] = lower[head[p]];
+    basic_upper[p] = upper[head[p]];
+  }
+  return regular;
+}
+
+void Engine::compute_primal() {
+  std::copy(model.b.begin(), model.b.end(), row_work_.begin());
+  for (int j = 0; j < model.total; ++j) {
+    if (state[j] == VariableState::kBasic) continue;
+    const double x = nonbasic_value(j);
+    if (x == 0) continue;
+    for (int e = model.start[j]; e < model.start[j + 1]; ++e) {
+      row_work_[model.index[e]] -= x * model.value[e];
+    }
+  }
+  factor.ftran(row_work_.data(), x_basic.data());
+}
+
+void Engine::compute_dual() {
+  for (int p = 0; p < model.rows; ++p) position_work_[p] = cost[head[p]];
+  factor.btran(position_work_.data(), y.data());
+  for (int j = model.rows; j < model.total; ++j) {
+    if (state[j] == VariableState::kBasic) {
+      d[j] = 0;
+      continue;
+    }
+    double sum = cost[j];
+    for (int e = model.start[j]; e < model.start[j + 1]; ++e) {
+      sum -= model.value[e] * y[model.index[e]];
+    }
+    d[j] = sum;
+  }
+}
+
+void Engine::refine() {
+  std::copy(model.b.begin(), model.b.end(), row_work_.begin());
+  const auto subtract = [&](int j, double x) {
+    if (x == 0) return;
+    for (int e = model.start[j]; e < model.start[j + 1]; ++e) {
+      row_work_[model.index[e]] -= x * model.value[e];
+    }
+  };
+  for (int j = 0; j < model.total; ++j) {
+    if (state[j] != VariableState::kBasic) subtract(j, nonbasic_value(j));
+  }
+  for (int p = 0; p < model.rows; ++p) subtract(head[p], x_basic[p]);
+  factor.ftran(row_work_.data(), position_work_.data());
+  for (int p = 0; p < model.rows; ++p) x_basic[p] += position_work_[p];
+  for (int p = 0; p < model.rows; ++p) {
+    double sum = cost[head[p]];
+    for (int e = model.start[head[p]]; e < model.start[head[p] + 1]; ++e) {
+      sum -= model.value[e] * y[model.index[e]];
+    }
+    position_work_[p] = sum;
+  }
+  factor.btran(position_work_.data(), row_work_.data());
+  for (int i = 0; i < model.rows; ++i) y[i] += row_work_[i];
+}
+
+double Engine::dual_violation(int j) const {
+  switch (state[j]) {
+    case VariableState::kAtLower:
+      return d[j] < -options.dual_tolerance ? -d[j] : 0;
+    case VariableState::kAtUpper:
+      return d[j] > options.dual_tolerance ? d[j] : 0;
+    case VariableState::kFree:
+      return std::abs(d[j]) > options.dual_tolerance ? std::abs(d[j]) : 0;
+    case VariableState::kBasic:
+      break;
+  }
+  return 0;
+}
+
+bool Engine::primal_feasible() const {
+  for (int p = 0; p < model.rows; ++p) {
+    if (infeasibility(p) != 0) return false;
+  }
+  return true;
+}
+
+void Engine::column(int j, double* z) {
+  std::fill(row_work_.begin(), row_work_.end(), 0.0);
+  for (int e = model.start[j]; e < model.start[j + 1]; ++e) {
+    row_work_[model.index[e]] = model.value[e];
+  }
+  factor.ftran(row_work_.data(), z);
+}
+
+void Engine::inverse_row(int p, double* result) {
+  std::fill(position_work_.begin(), position_work_.end(), 0.0);
+  position_work_[p] = 1;
+  factor.btran(position_work_.data(), result);
+}
+
+void Engine::refined_inverse_row(int row) {
+  inverse_row(row, rho.data());
+  for (int p = 0; p < model.rows; ++p) {
+    double sum = p == row ? 1 : 0;
+    for (int e = model.start[head[p]]; e < model.start[head[p] + 1]; ++e) {
+      sum -= model.value[e] * rho[model.index[e]];
+    }
+    position_work_[p] = sum;
+  }
+  factor.btran(position_work_.data(), row_work_.data());
+  for (int i = 0; i < model.rows; ++i) rho[i] += row_work_[i];
+}
+
+void Engine::tableau_row(const double* row) {
+  for (int j = model.rows; j < model.total; ++j) {
+    double sum = 0;
+    if (state[j] != VariableState::kBasic && !model.fixed[j]) {
+      for (int e = model.start[j]; e < model.start[j + 1]; ++e) {
+        sum += model.value[e] * row[model.index[e]];
+      }
+    }
+    alpha_row[j] = sum;
+  }
+}
+
+void Engine::pivot(int p, int q, VariableState leaving_state, double entering_value) {
+  factor.update(p, alpha_column.data());
+  state[head[p]] = leaving_state;
+  state[q] = VariableState::kBasic;
+  head[p] = q;
+  x_basic[p] = entering_value;
+  basic_lower[p] = lower[q];
+  basic_upper[p] = upper[q];
+}
+
+}  // namespace maxwrench::simplex

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "solvers/lp/simplex.h"
+#include "solvers/lp/simplex/factor.h"
+#include "solvers/lp/simplex/model.h"
+
+namespace maxwrench::simplex {
+
+/// How one phase ended.
+enum class Outcome { kDone, kInfeasible, kUnbounded, kIterationLimit, kTrouble };
+
+/// The working state that both phases share. A basis is `head` (the variable at each position) and
+/// a `state` for every variable; x and d follow from it:
+///
+///   B x_B = b - N x_N,   B'y = cost_B,   d = cost - A'y.
+///
+/// `lower`, `upper` and `cost` are working copies that a phase may shift; the driver undoes that.
+class Engine {
+ public:
+  explicit Engine(const SimplexOptions& tolerances) : options(tolerances) {}
+
+  void resize();
+  void reset_bounds_and_costs();
+  /// Slacks and other single entries, then free columns, enter the logical basis.
+  void crash_basis();
+  /// Factors the basis; where it is singular, logical variables replace the dependent columns.
+  /// False if it was.
+  bool refactor();
+  void compute_primal();
+  void compute_dual();
+  /// One step of iterative refinement for x_B and y.
+  void refine();
+
+  double nonbasic_value(int j) const {
+    if (state[j] == VariableState::kAtLower) return lower[j];
+    return state[j] == VariableState::kAtUpper ? upper[j] : 0;
+  }
+  double tolerance_at(double bound) const {
+    return options.primal_tolerance + 1e-12 * std::abs(bound);
+  }
+  /// How far the basic variable at p is outside its bounds; 0 within tolerance, negative below.
+  double infeasibility(int p) const {
+    const double x = x_basic[p];
+    if (x < basic_lower[p] - tolerance_at(basic_lower[p])) return x - basic_lower[p];
+    if (x > basic_upper[p] + tolerance_at(basic_upper[p])) return x - basic_upper[p];
+    return 0;
+  }
+  /// The wrong-signed part of the reduced cost of nonbasic j.
+  double dual_violation(int j) const;
+  bool primal_feasible() const;
+
+  /// The column of variable j in terms of the basis, B^-1 a_j, into `z`.
+  void column(int j, double* z);
+  /// The row of B^-1 at position p into `y`.
+  void inverse_row(int p, double* y);
+  /// The same into `rho`, with a step of iterative refinement.
+  void refined_inverse_row(int p);
+  /// alpha_j = y'a_j for every nonbasic variable that may move.
+  void tableau_row(const double* y);
+  /// Variable q enters at position p; the one that leaves takes `leaving_state`.
+  void pivot(int p, int q, VariableState leaving_state, double entering_value);
+
+  /// Phases; they expect fresh factors, x and d.
+  Outcome dual();
+  Outcome primal();
+
+  SimplexOptions options;
+  Model model;
+  Factor factor;
+  std::vector<int> head;
+  std::vector<VariableState> state;
+  std::vector<double> lower, upper, cost;
+  std::vector<double> x_basic, basic_lower, basic_upper;  // by positions
+  std::vector<double> y, d;                               // by rows, by variables
+  std::vector<double> alpha_row, alpha_column, rho;
+  int iterations = 0, iteration_limit = 0;
+  bool perturb = true;  // whether stalling may be answered by shifting bounds and costs
+  bool bounds_shifted = false;
+  // What a verdict rests on: the row and the side it misses, or the column and its direction.
+  int proof_position = -1, proof_column = -1;
+  double proof_sign = 0;
+
+ private:
+  friend class Dual;
+  friend class Primal;
+  void enter_free_column(int j);
+  double jitter(int j);
+
+  std::vector<double> row_work_, position_work_, weights_, ratios_;
+  std::vector<int> candidates_, flipped_, groups_;
+  std::uint64_t random_ = 0;
+};
+
+}  // namespace maxwrench::simplex

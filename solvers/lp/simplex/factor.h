@@ -1,0 +1,67 @@
+#pragma once
+
+#include <vector>
+
+#include "solvers/lp/simplex/model.h"
+
+namespace maxwrench::simplex {
+
+/// Factors of the basis matrix B, whose column at position p is the model's column head[p].
+///
+/// Rows and columns that hold a single entry are peeled off first, which leaves the block form
+///
+///   [ U  *  * ]    columns with one entry left, used as they stand
+///   [ 0  L  0 ]    rows with one entry left, used as they stand
+///   [ 0  *  D ]    the kernel, a dense LU with row exchanges
+///
+/// so fill-in exists in D only. A pivot appends B^-1 times its column (product form).
+class Factor {
+ public:
+  void resize(int rows, int max_updates);
+
+  /// Factors B from scratch. Where columns depend on others, `singular` lists positions and the
+  /// rows left without a pivot, and the result is false.
+  struct Replacement {
+    int position, row;
+  };
+  bool factorise(const Model& model, const std::vector<int>& head, double singular_tolerance);
+  const std::vector<Replacement>& singular() const { return singular_; }
+
+  /// B z = a. `a` by rows is destroyed, z comes by positions.
+  void ftran(double* a, double* z) const;
+  /// B'y = c. `c` by positions is destroyed, y comes by rows.
+  void btran(double* c, double* y) const;
+  /// The column at `position` is replaced by one with B^-1 a = alpha.
+  void update(int position, const double* alpha);
+  int updates() const { return updates_; }
+
+ private:
+  struct Pivot {
+    int row, position, begin, end;
+    double value;
+  };
+  void peel(const Model& model, double singular_tolerance);
+  void peel_columns(const Model& model, double singular_tolerance);
+  void peel_rows(const Model& model);
+  void load_kernel(const Model& model);
+  bool factorise_kernel(double singular_tolerance);
+  void take_pivot(const Model& model, std::vector<Pivot>& list, int row, int position, double v);
+  void solve_kernel(double* a, double* z) const;
+  void solve_kernel_transposed(double* c, double* y) const;
+
+  int m_ = 0, updates_ = 0, max_updates_ = 0, k_ = 0;
+  const Model* model_ = nullptr;
+  std::vector<int> begin_, end_;  // entries of the factored column at each position
+  std::vector<Pivot> column_pivots_, row_pivots_;
+  std::vector<int> kernel_rows_, kernel_positions_;
+  std::vector<double> kernel_;  // column-major k×k, L below the diagonal with unit diagonal
+  mutable std::vector<double> work_;
+  std::vector<double> etas_;
+  std::vector<int> eta_positions_;
+  std::vector<Replacement> singular_;
+  // peeling
+  std::vector<int> row_count_, column_count_, row_sum_, column_sum_, row_start_, row_list_, queue_;
+  std::vector<char> row_done_, column_done_;
+};
+
+}  // namespace maxwrench::simplex

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "lib/linear_program.h"
+
+namespace maxwrench::simplex {
+
+/// The scaled program `min cost'x, [I A] x = b, lower <= x <= upper`: the logical variables 0..m-1,
+/// fixed at zero, come first and make every program start from a regular basis; column j of the
+/// program is variable m + j. All factors are powers of two, so that scaling rounds nothing:
+///
+///   A_s = R A C,  b_s = t R b,  x_s = t C^-1 x,  cost = -k C c,  lambda = -R y / k.
+struct Model {
+  int rows = 0, cols = 0, total = 0;
+  std::vector<int> start, index;
+  std::vector<double> value;
+  std::vector<double> b, cost, lower, upper;
+  std::vector<char> fixed;
+  std::vector<double> row_scale, col_scale;
+  double rhs_scale = 1, cost_scale = 1;
+  bool scaled = false;
+  bool crossing = false;
+
+  /// Copies and scales; explicit zeros are dropped. False if the program is malformed.
+  bool load(const LinearProgram& program);
+
+ private:
+  void resize(int new_rows, int new_cols, int entries);
+  bool copy(const LinearProgram& program);
+  void choose_scales();
+  void apply_matrix_scales();
+  void apply_vector_scales();
+  void scale_costs();
+
+  std::vector<double> row_max_, col_max_, row_min_, col_min_;
+};
+
+}  // namespace maxwrench::simplex
