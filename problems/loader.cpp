@@ -14,12 +14,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kShippedProblems = MAXWRENCH_PROBLEMS_DIR;
+constexpr const char* kShippedProblems = MAXWRENCH_PROBLEMS_DIR;
 constexpr std::array<std::string_view, 6> kWrenchAxes = {"fx", "fy", "fz", "tx", "ty", "tz"};
 
 /// The file of a shipped name or a path.
 fs::path find_task(const std::string& name) {
-  const fs::path shipped = kShippedProblems / (name + ".toml");
+  const fs::path shipped = fs::path(kShippedProblems) / (name + ".toml");
   if (fs::is_regular_file(shipped) && is_task(shipped)) return shipped;
   if (fs::is_regular_file(name)) return name;
   refuse(name, "problem", "no such file",
@@ -114,7 +114,7 @@ Problem load_problem(const std::string& name) {
   const fs::path file = find_task(name);
   const Block task = Block::read(file);
   task.allow_only({"type", "robot", "end_effector", "label", "pose", "wrench", "theta_r"});
-  if (task.text("type") != "static") task.refuse_value("type", "\"static\"");
+  if (task.text("type") != "static") task.refuse_value("type", "'static'");
   Problem problem;
   problem.name = name;
   problem.label = task.text("label");
@@ -137,6 +137,7 @@ bool is_task(const fs::path& file) { return Block::read(file).has("robot"); }
 
 std::vector<std::string> shipped_problems() {
   std::vector<std::string> names;
+  if (!fs::is_directory(kShippedProblems)) return names;
   for (const auto& entry : fs::recursive_directory_iterator(kShippedProblems)) {
     if (entry.path().extension() != ".toml" || !is_task(entry.path())) continue;
     names.push_back(fs::relative(entry.path(), kShippedProblems).replace_extension().string());

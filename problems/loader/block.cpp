@@ -14,9 +14,16 @@
 namespace maxwrench {
 namespace {
 
-/// As the user wrote it, or nearly.
+/// Nearly as the user wrote it. (toml++ prints 0.3 with 17 digits.)
 std::string shown(const toml::node& node) {
   if (node.is_table()) return "a table";
+  if (node.is_string()) return fmt::format("'{}'", node.as_string()->get());
+  if (node.is_floating_point()) return fmt::format("{}", node.as_floating_point()->get());
+  if (const toml::array* array = node.as_array()) {
+    std::vector<std::string> parts;
+    for (const toml::node& part : *array) parts.push_back(shown(part));
+    return fmt::format("[{}]", fmt::join(parts, ", "));
+  }
   std::ostringstream out;
   node.visit([&out](const auto& value) { out << value; });
   return out.str();
@@ -50,11 +57,12 @@ void collect_sources(const toml::table& table, const Block& root, const std::str
       refuse(root.file(), path.empty() ? key : path + "." + key, shown(*node), "a string");
     }
   }
-  if (const toml::node* source = table.get("source")) {
-    const toml::node* status = table.get("status");
-    std::string text = source->as_string()->get();
+  const toml::node* source = table.get("source");
+  const toml::node* status = table.get("status");
+  if (source != nullptr || status != nullptr) {
+    std::string text = source == nullptr ? "not given" : source->as_string()->get();
     if (status != nullptr) text += fmt::format(" [{}]", status->as_string()->get());
-    found.push_back({source->source().begin, path, text});
+    found.push_back({(source == nullptr ? status : source)->source().begin, path, text});
   }
   const std::string prefix = path.empty() ? "" : path + ".";
   for (const auto& [key, node] : table) {
@@ -140,7 +148,8 @@ const toml::array& Block::array(std::string_view key, std::string_view expected)
 
 std::string Block::text(std::string_view key) const {
   const toml::node& node = require(key, "a string");
-  if (!node.is_string() || node.as_string()->get().empty()) refuse_value(key, "a string");
+  if (!node.is_string()) refuse_value(key, "a string");
+  if (node.as_string()->get().empty()) refuse_value(key, "a string that is not empty");
   return node.as_string()->get();
 }
 

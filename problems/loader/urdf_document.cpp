@@ -63,7 +63,8 @@ bool are_finite_numbers(const char* text, int count) {
   return (stream >> std::ws).eof();
 }
 
-/// urdfdom names neither file nor link when a number is bad, so numbers are checked before it.
+/// urdfdom names neither file nor link when a number is bad, so numbers are checked before it. Only
+/// links and joints: other blocks, such as <gazebo>, have their own rules.
 void check_numbers(const std::filesystem::path& file, const TiXmlElement& element,
                    const std::string& path) {
   for (const NumberAttribute& known : kNumberAttributes) {
@@ -75,12 +76,14 @@ void check_numbers(const std::filesystem::path& file, const TiXmlElement& elemen
            text == nullptr ? "nothing" : fmt::format("'{}'", text),
            known.count == 1 ? "a finite number" : fmt::format("{} finite numbers", known.count));
   }
+  const bool root = path == "robot";
   const TiXmlElement* child = element.FirstChildElement();
   for (; child != nullptr; child = child->NextSiblingElement()) {
+    if (root && child->ValueStr() != "link" && child->ValueStr() != "joint") continue;
     const char* name = child->Attribute("name");
     const std::string label =
         name == nullptr ? child->ValueStr() : fmt::format("{}[{}]", child->ValueStr(), name);
-    check_numbers(file, *child, path == "robot" ? label : path + "." + label);
+    check_numbers(file, *child, root ? label : path + "." + label);
   }
 }
 
