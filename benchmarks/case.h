@@ -15,7 +15,7 @@ inline constexpr const char* kNoSolver = "none";
 
 /// A choice of names: everything that decides a result.
 struct Case {
-  std::string problem;
+  std::string problem = "";
   std::string measure = "linf_polytope";
   Wrench wrench = Wrench::kPure;
   std::string

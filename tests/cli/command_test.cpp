@@ -1,0 +1,195 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/support.h"
+
+namespace maxwrench {
+namespace {
+
+using nlohmann::json;
+
+/// A copy of the planar problem whose files may be edited.
+class Copy {
+ public:
+  Copy() {
+    for (const char* name : {"force.toml", "vehicle.toml", "vehicle.urdf"}) {
+      std::filesystem::copy(
+          std::filesystem::path(MAXWRENCH_SOURCE_DIR) / "problems" / "planar" / name,
+          folder_.path() / name);
+    }
+  }
+  void replace(const std::string& file, const std::string& from, const std::string& to) {
+    std::string text = read_text(folder_.path() / file);
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << "'" << from << "' is not in " << file;
+    std::ofstream(folder_.path() / file) << text.replace(at, from.size(), to);
+  }
+  const std::filesystem::path& path() const { return folder_.path(); }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+void expect_one_line_of_complaint(const CommandResult& result, const std::string& mention) {
+  EXPECT_EQ(result.exit_status, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_NE(result.err.find(mention), std::string::npos) << result.err;
+}
+
+struct BadWords {
+  const char* words;
+  const char* mention;
+};
+
+class BadCommandLine : public testing::TestWithParam<BadWords> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, BadCommandLine,
+    testing::Values(BadWords{"", "subcommand"}, BadWords{"evaluate planar/force", "evaluate"},
+                    BadWords{"eval", "problem"}, BadWords{"eval planar/force --speed 3", "--speed"},
+                    BadWords{"eval planar/nothing", "planar/nothing"},
+                    BadWords{"eval planar/force --measure volume", "volume"},
+                    BadWords{"eval planar/force --wrench both", "both"},
+                    BadWords{"eval planar/force --lp cplex", "cplex"},
+                    BadWords{"eval planar/force --lp facets --wrench any", "facets"},
+                    BadWords{"eval planar/force --measure ellipsoid --lp simplex", "simplex"},
+                    BadWords{"eval planar/force --theta-r 0.3", "theta_r"},
+                    BadWords{"eval planar/force --theta-r 0.3,0.1,0.2", "theta_r"},
+                    BadWords{"eval planar/force --theta-r 0.3,nan", "--theta-r"},
+                    BadWords{"eval planar/force --theta-r 0.3,x", "--theta-r"},
+                    BadWords{"eval planar/force --theta-r 0.3,", "--theta-r"},
+                    BadWords{"solve planar/force --search luck", "luck"},
+                    BadWords{"solve planar/force --budget 0", "budget"},
+                    BadWords{"solve planar/force --budget many", "--budget"},
+                    BadWords{"solve planar/force --seed -1", "--seed"},
+                    BadWords{"solve planar/force --threads -2", "--threads"},
+                    BadWords{"run colour=red", "colour"}, BadWords{"run measure", "measure"},
+                    BadWords{"run measure=volume", "volume"}, BadWords{"run budget=few", "few"},
+                    BadWords{"run budget=1 --out /proc/nowhere", "/proc/nowhere"},
+                    BadWords{"check missing.toml", "missing.toml"},
+                    BadWords{"plot planar/none", "planar/none"},
+                    BadWords{"plot planar/force --theta-r 9,9", "joint limit"}));
+
+TEST_P(BadCommandLine, ExitsWithTwoAndOneLine) {
+  expect_one_line_of_complaint(run_maxwrench(GetParam().words), GetParam().mention);
+}
+
+struct BadEdit {
+  const char* name;
+  const char* file;
+  const char* from;
+  const char* to;
+  std::vector<const char*> mentions;
+};
+
+class BadFile : public testing::TestWithParam<BadEdit> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    Each, BadFile,
+    testing::Values(
+        BadEdit{"syntax", "force.toml", "[pose]", "[pose", {"force.toml"}},
+        BadEdit{"unknown_key", "force.toml", "label =", "lable =", {"force.toml", "lable"}},
+        BadEdit{"missing_robot", "force.toml", "\"vehicle.toml\"", "\"boat.toml\"", {"boat.toml"}},
+        BadEdit{"missing_urdf", "vehicle.toml", "\"vehicle.urdf\"", "\"boat.urdf\"", {"boat.urdf"}},
+        BadEdit{"no_number", "force.toml", "c = [1, 0", "c = [nan, 0", {"force.toml", "wrench.c"}},
+        BadEdit{"no_direction", "force.toml", "c = [1, 0", "c = [0, 0", {"force.toml", "wrench.c"}},
+        BadEdit{"short_direction", "force.toml", "c = [1, 0, ", "c = [1, ", {"wrench.c", "6"}},
+        BadEdit{"outside_any", "force.toml", "\"fx\", ", "", {"force.toml", "wrench"}},
+        BadEdit{
+            "base_axes", "vehicle.toml", "\"x\", \"y\", \"yaw\"", "\"x\", \"yaw\"", {"base.axes"}},
+        BadEdit{
+            "thrust_limits", "vehicle.toml", "force_min = -1.0", "force_min = 2.0", {"force_min"}},
+        BadEdit{"thrust_direction", "vehicle.toml", "[4, -1, 0]", "[0, 0, 0]", {"direction"}},
+        BadEdit{"joint_limits", "vehicle.urdf", "lower=\"-1.04", "lower=\"9.04", {"vehicle.urdf"}},
+        BadEdit{"unknown_link", "vehicle.toml", "link = \"link_2\"", "link = \"hand\"", {"hand"}},
+        BadEdit{"default_size", "force.toml", "default = [0, 0]", "default = [0]", {"default"}},
+        BadEdit{
+            "default_outside", "force.toml", "default = [0, 0]", "default = [0, 3]", {"default"}},
+        BadEdit{"end_effector", "force.toml", "\"tool\"", "\"claw\"", {"claw"}}),
+    [](const auto& info) { return info.param.name; });
+
+TEST_P(BadFile, ExitsWithTwoAndOneLine) {
+  Copy copy;
+  copy.replace(GetParam().file, GetParam().from, GetParam().to);
+  for (const char* command : {"check ", "eval "}) {
+    const CommandResult result =
+        run_maxwrench(command + ("'" + (copy.path() / "force.toml").string() + "'"));
+    for (const char* mention : GetParam().mentions) expect_one_line_of_complaint(result, mention);
+  }
+}
+
+TEST(Command, OwnFilesGiveTheSameAnswerAsShippedOnes) {
+  const Copy copy;
+  const std::string words = " --theta-r 0.3,-0.7 --json";
+  const json own = json::parse(
+      run_maxwrench("eval '" + (copy.path() / "force.toml").string() + "'" + words).out);
+  const json shipped = json::parse(run_maxwrench("eval planar/force" + words).out);
+  EXPECT_EQ(own["beta"], shipped["beta"]);
+}
+
+TEST(Command, EvalPrintsOneObjectWithEverything) {
+  const CommandResult result = run_maxwrench(
+      "eval planar/force --theta-r 0.3,-0.7 --measure linf_polytope --wrench any --lp simplex "
+      "--json");
+  ASSERT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  const json object = json::parse(result.out);
+  for (const char* key :
+       {"problem", "measure", "wrench",   "lp",       "search",      "seed",   "status",
+        "reason",  "beta",    "unit",     "theta_r",  "theta",       "w",      "h",
+        "u",       "lambda",  "gradient", "residual", "evaluations", "wall_s", "version"}) {
+    EXPECT_TRUE(object.contains(key)) << key;
+  }
+  EXPECT_EQ(object["status"], "optimal");
+  EXPECT_TRUE(object["search"].is_null());
+  EXPECT_NEAR(object["theta"]["rpy"][2], 10 * M_PI / 180 + 0.4, 1e-12);
+  EXPECT_EQ(object["h"].size(), 6U);
+  EXPECT_EQ(object["u"].size(), 6U);
+  EXPECT_LT(object["residual"]["balance"], 1e-9);
+  EXPECT_NEAR(object["beta"], object["h"][0], 1e-12);
+}
+
+TEST(Command, ReachAndLimitsAreOtherStatuses) {
+  const CommandResult limit = run_maxwrench("eval planar/force --theta-r 2,0 --json");
+  EXPECT_EQ(limit.exit_status, 1);
+  EXPECT_EQ(json::parse(limit.out)["status"], "invalid_posture");
+  EXPECT_TRUE(json::parse(limit.out)["beta"].is_null());
+  // A tool out of the vehicle's plane cannot be reached by a base on {x, y, yaw}.
+  Copy copy;
+  copy.replace("force.toml", "xyz = [0, 0, 0]", "xyz = [0, 0, 1]");
+  const CommandResult reach =
+      run_maxwrench("eval '" + (copy.path() / "force.toml").string() + "' --json");
+  EXPECT_EQ(reach.exit_status, 1);
+  EXPECT_NE(std::string(json::parse(reach.out)["reason"]).find("unreachable"), std::string::npos);
+}
+
+TEST(Command, SelfCollisionIsReportedAndCanBeIgnored) {
+  const std::string folded = "eval planar/force --theta-r=-1.0471,-1.0471";
+  EXPECT_EQ(run_maxwrench(folded + " --ignore-collision").exit_status, 0);
+  const CommandResult result = run_maxwrench(folded + " --json");
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_EQ(json::parse(result.out)["reason"], "self-collision");
+}
+
+TEST(Command, RunWritesTheSameValuesAtAnyThreadCount) {
+  std::string first;
+  for (const char* threads : {"1", "2", "8"}) {
+    const TemporaryFolder folder;
+    const CommandResult result =
+        run_maxwrench("run budget=400 --out . --threads " + std::string(threads), folder.path());
+    ASSERT_EQ(result.exit_status, 0) << result.err;
+    const std::string values = read_text(folder.path() / "values.csv");
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "times.csv"));
+    EXPECT_GT(std::count(values.begin(), values.end(), '\n'), 20);
+    if (first.empty()) first = values;
+    EXPECT_EQ(values, first) << threads << " threads";
+  }
+}
+
+}  // namespace
+}  // namespace maxwrench
