@@ -12,6 +12,16 @@ struct Robot;
 struct WrenchProgram;
 class WrenchSolver;
 
+/// How well an answer satisfies its program, recomputed from the data.
+struct Residual {
+  double balance = 0;  ///< max |B u - J'W w - tau_d| [N, N m]
+  double bounds = 0;   ///< how far u or w leave their limits (ellipsoid: ||W_u u| - 1|)
+  double dual = 0;     ///< how far lambda is from dual feasible, on the columns without bounds
+  double gap = 0;      ///< dual objective less beta: beta is optimal to within this [N or N m]
+  /// Whether all are below `tolerance`, relative to 1 + |beta|.
+  bool within(double tolerance, double beta) const;
+};
+
 /// What a measure says of one posture.
 struct Capability {
   Status status = Status::kNumericalError;
@@ -25,6 +35,7 @@ struct Capability {
   /// d beta = lambda'd tau_d + <beta_J, d J> (envelope theorem; the paper's KKT gradient).
   Matrix6Xd beta_J;
   int iterations = 0;
+  Residual residual;  ///< filled together with u
 };
 
 /// A scalar capability of a posture.

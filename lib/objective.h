@@ -1,7 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 
+#include "lib/measure.h"
+#include "lib/problem.h"
 #include "lib/status.h"
 #include "lib/types.h"
 
@@ -28,5 +31,13 @@ class Objective {
 
   int dimension() const { return static_cast<int>(lower().size()); }
 };
+
+using MeasureMaker = std::function<std::unique_ptr<Measure>()>;
+
+/// f(theta_r) = beta of a measure at the postures of a problem, which outlives the objective. No
+/// value where the posture is invalid or the program has no optimum.
+std::unique_ptr<Objective> make_capability_objective(const Problem& problem, Wrench wrench,
+                                                     MeasureMaker make,
+                                                     bool check_collision = true);
 
 }  // namespace maxwrench

@@ -26,12 +26,11 @@ struct Pose {
   Matrix3<T> R = Matrix3<T>::Identity();
   Vector3<T> p = Vector3<T>::Zero();
 
+  /// Also for poses of another scalar: a plain and a dual one give a dual one.
   template <class S>
   auto operator*(const Pose<S>& other) const {
     using Result = decltype(T() * S());
-    return Pose<Result>{
-        R.template cast<Result>() * other.R.template cast<Result>(),
-        R.template cast<Result>() * other.p.template cast<Result>() + p.template cast<Result>()};
+    return Pose<Result>{R * other.R, R * other.p + p};
   }
   Pose inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lib/linear_program.h"
+#include "lib/measure.h"
 #include "lib/posture.h"
 #include "lib/zonotope.h"
 
@@ -33,5 +34,10 @@ void set_posture(const Posture& posture, WrenchProgram& program);
 /// the numbers of a program that `assemble` made and allocates nothing.
 LinearProgram assemble(const WrenchProgram& program);
 void update(const WrenchProgram& program, LinearProgram& assembled);
+
+/// The residual of (u, w) and lambda, the multipliers of the program's own rows: the dual objective
+/// is lambda'tau_d + sup {-(B'lambda)'u} + sup {(c_w + (J'W)'lambda)'w} over the limits.
+Residual recheck(const WrenchProgram& program, const Eigen::VectorXd& u, const Eigen::VectorXd& w,
+                 const Eigen::VectorXd& lambda);
 
 }  // namespace maxwrench

@@ -29,6 +29,6 @@ struct Zonotope {
 /// columns; beyond `max_subsets` of them the zonotope has no facets. Throws std::invalid_argument
 /// if the sizes disagree or u_min > u_max.
 Zonotope make_zonotope(Eigen::MatrixXd B, Eigen::VectorXd u_min, Eigen::VectorXd u_max,
-                       long max_subsets = 200000);
+                       long max_subsets = 20000);
 
 }  // namespace maxwrench

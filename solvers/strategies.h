@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -12,10 +13,12 @@
 
 namespace maxwrench {
 
+/// beta of a measure on a robot; `needs_solver` is false for a closed form, whose `make` ignores
+/// the solver.
 struct MeasureEntry {
   const char* name;
   const char* summary;
-  bool needs_solver;  ///< false: closed form, `make` ignores the solver
+  bool needs_solver;
   std::unique_ptr<Measure> (*make)(const Robot&, std::unique_ptr<WrenchSolver>);
 };
 
@@ -23,6 +26,9 @@ struct MeasureEntry {
 struct LpEntry {
   const char* name;
   const char* summary;
+  /// About how much dearer one solve is than that of our own solvers; the benchmark's budgets are
+  /// divided by it.
+  int cost;
   std::unique_ptr<LpSolver> (*make)();
 };
 
@@ -32,7 +38,8 @@ struct WrenchSolverEntry {
   const char* name;
   const char* summary;
   bool one_column_only;  ///< true: refuses Wrench::kAny
-  std::unique_ptr<WrenchSolver> (*make)();
+  int cost;              ///< as LpEntry
+  std::function<std::unique_ptr<WrenchSolver>()> make;
 };
 
 struct SearchEntry {
@@ -41,7 +48,8 @@ struct SearchEntry {
   std::unique_ptr<Search> (*make)();
 };
 
-/// The tables: every strategy that exists, once.
+/// The tables: every strategy that exists, once. The wrench solvers begin with those that know the
+/// structure, the LP solvers follow.
 std::span<const MeasureEntry> measures();
 std::span<const LpEntry> lp_solvers();
 std::span<const WrenchSolverEntry> wrench_solvers();

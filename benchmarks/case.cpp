@@ -1,0 +1,118 @@
+#include "benchmarks/case.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "solvers/strategies.h"
+
+namespace maxwrench {
+namespace {
+
+bool serves(const WrenchSolverEntry& solver, Wrench wrench) {
+  return wrench == Wrench::kPure || !solver.one_column_only;
+}
+
+/// The lower-level solvers that serve a measure and a wrench, with their costs.
+std::vector<std::pair<std::string, int>> solvers_for(const MeasureEntry& measure, Wrench wrench) {
+  if (!measure.needs_solver) return {{kNoSolver, 1}};
+  std::vector<std::pair<std::string, int>> names;
+  for (const WrenchSolverEntry& solver : wrench_solvers()) {
+    if (serves(solver, wrench)) names.emplace_back(solver.name, solver.cost);
+  }
+  return names;
+}
+
+}  // namespace
+
+Wrench parse_wrench(const std::string& name) {
+  if (name == "pure") return Wrench::kPure;
+  if (name == "any") return Wrench::kAny;
+  throw std::invalid_argument(fmt::format("wrench: got '{}', expected pure or any", name));
+}
+
+Case complete(Case c) {
+  const MeasureEntry& measure = find_measure(c.measure);
+  find_search(c.search);
+  if (c.budget < 1) {
+    throw std::invalid_argument(fmt::format("budget: got {}, expected at least 1", c.budget));
+  }
+  const auto allowed = solvers_for(measure, c.wrench);
+  if (c.lp.empty()) c.lp = allowed.front().first;
+  if (c.lp != kNoSolver) find_wrench_solver(c.lp);
+  const bool meaningful = std::any_of(allowed.begin(), allowed.end(),
+                                      [&](const auto& solver) { return solver.first == c.lp; });
+  if (!meaningful) {
+    std::vector<std::string> names;
+    for (const auto& solver : allowed) names.push_back(solver.first);
+    throw std::invalid_argument(fmt::format(
+        "lp: got '{}', which does not serve measure {} with wrench {}, expected one of {}", c.lp,
+        c.measure, to_string(c.wrench), fmt::join(names, " ")));
+  }
+  return c;
+}
+
+MeasureMaker measure_maker(const Problem& problem, const Case& c) {
+  const MeasureEntry& measure = find_measure(c.measure);
+  const WrenchSolverEntry* solver = measure.needs_solver ? &find_wrench_solver(c.lp) : nullptr;
+  return [&problem, &measure, solver] {
+    return measure.make(problem.robot, solver ? solver->make() : nullptr);
+  };
+}
+
+const std::vector<std::string>& case_columns() {
+  static const std::vector<std::string> kColumns = {"problem", "measure", "wrench", "lp",
+                                                    "search",  "seed",    "budget"};
+  return kColumns;
+}
+
+std::vector<std::string> case_values(const Case& c) {
+  return {c.problem,
+          c.measure,
+          to_string(c.wrench),
+          c.lp,
+          c.search,
+          fmt::format("{}", c.seed),
+          fmt::format("{}", c.budget)};
+}
+
+std::vector<Case> product(const std::string& problem, std::uint64_t seed, long budget) {
+  std::vector<Case> cases;
+  for (const MeasureEntry& measure : measures()) {
+    for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
+      for (const auto& [lp, cost] : solvers_for(measure, wrench)) {
+        for (const SearchEntry& search : searches()) {
+          cases.push_back(
+              {problem, measure.name, wrench, lp, search.name, seed, std::max(1L, budget / cost)});
+        }
+      }
+    }
+  }
+  return cases;
+}
+
+std::vector<Case> select(std::vector<Case> cases,
+                         const std::map<std::string, std::string>& filter) {
+  const std::vector<std::string>& columns = case_columns();
+  for (const auto& [column, value] : filter) {
+    const auto found = std::find(columns.begin(), columns.end(), column);
+    if (found == columns.end()) {
+      throw std::invalid_argument(
+          fmt::format("column: got '{}', expected one of {}", column, fmt::join(columns, " ")));
+    }
+    if (column == "seed" || column == "budget") continue;
+    const auto index = found - columns.begin();
+    std::erase_if(cases, [&](const Case& c) { return case_values(c)[index] != value; });
+    if (cases.empty()) {
+      throw std::invalid_argument(
+          fmt::format("{}: got '{}', expected a value that the product has together with the other "
+                      "choices",
+                      column, value));
+    }
+  }
+  return cases;
+}
+
+}  // namespace maxwrench

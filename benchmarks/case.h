@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "lib/objective.h"
+#include "lib/problem.h"
+
+namespace maxwrench {
+
+/// The name of the lower-level solver of a closed-form measure.
+inline constexpr const char* kNoSolver = "none";
+
+/// A choice of names: everything that decides a result.
+struct Case {
+  std::string problem;
+  std::string measure = "linf_polytope";
+  Wrench wrench = Wrench::kPure;
+  std::string
+      lp;  ///< empty: the first solver that serves the wrench, `kNoSolver` for a closed form
+  std::string search = "grid";
+  std::uint64_t seed = 1;
+  long budget = 20000;  ///< evaluations of a search
+};
+
+/// "pure" or "any"; throws std::invalid_argument otherwise.
+Wrench parse_wrench(const std::string& name);
+
+/// Sets an empty `lp` to its default. Throws std::invalid_argument on a name that does not exist
+/// and on a choice without meaning, such as `facets` for several wrench columns or a solver for a
+/// closed form.
+Case complete(Case c);
+
+/// Makes the measure of a completed case.
+MeasureMaker measure_maker(const Problem& problem, const Case& c);
+
+/// The columns that select a case, `problem measure wrench lp search seed budget`, as text.
+const std::vector<std::string>& case_columns();
+std::vector<std::string> case_values(const Case& c);
+
+/// Every meaningful combination measure × wrench × lp × search on a problem, in the order of the
+/// tables. The budget is divided by the cost of the solver.
+std::vector<Case> product(const std::string& problem, std::uint64_t seed, long budget);
+
+/// Of `cases`, those whose columns have the given values (column -> value); `seed` and `budget` are
+/// no filters. Throws std::invalid_argument on an unknown column, or if no case is left.
+std::vector<Case> select(std::vector<Case> cases, const std::map<std::string, std::string>& filter);
+
+}  // namespace maxwrench

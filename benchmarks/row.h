@@ -1,0 +1,48 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "benchmarks/case.h"
+#include "lib/measure.h"
+#include "lib/posture.h"
+
+namespace maxwrench {
+
+/// A row counts as solved only if its recomputed residual is below this, relative to 1 + |beta|:
+/// what the least exact solver (an interior point) reaches with room to spare.
+inline constexpr double kRowTolerance = 1e-6;
+
+/// The outcome of a case: the answer at one posture, re-checked from the problem's data.
+struct Row {
+  Case choice;
+  Status status = Status::kNumericalError;
+  std::string reason;
+  Posture posture;
+  Capability capability;
+  Eigen::VectorXd gradient;  ///< d beta/d theta_r
+  long evaluations = 0;
+  double wall_s = 0;
+
+  bool has_posture() const { return posture.theta_r.size() > 0; }
+  bool has_value() const { return status == Status::kOptimal; }
+};
+
+/// Evaluates a completed case at theta_r.
+Row evaluate(const Problem& problem, const Case& c, const Eigen::VectorXd& theta_r,
+             bool check_collision = true);
+
+/// Searches the best posture of a completed case and evaluates it anew. Same result at any thread
+/// count.
+Row solve(const Problem& problem, const Case& c, int threads,
+          const std::function<void(long)>& progress = {});
+
+/// One line of CSV, and the header. The case comes first, then values; times are not values and
+/// stand in a table of their own.
+std::vector<std::string> value_columns();
+std::vector<std::string> values(const Problem& problem, const Row& row);
+std::vector<std::string> time_columns();
+std::vector<std::string> times(const Row& row);
+
+}  // namespace maxwrench

@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "cli/cli.h"
+#include "problems/loader.h"
+
+namespace maxwrench {
+namespace {
+
+std::string base_axes(const Robot& robot) {
+  static constexpr std::array<const char*, 6> kNames = {"x", "y", "z", "roll", "pitch", "yaw"};
+  std::vector<std::string> names;
+  for (const int axis : robot.base_axes) names.emplace_back(kNames[axis]);
+  return fmt::format("{{{}}}", fmt::join(names, ", "));
+}
+
+void print(const Robot& robot) {
+  const Zonotope& set = robot.actuation;
+  fmt::print("robot {}\n", robot.name);
+  fmt::print("  degrees of freedom {}: base {}, {} joints\n", robot.velocities(), base_axes(robot),
+             robot.joints.size());
+  fmt::print("  actuators {}: {} thrusters, {} joints\n", robot.actuators(), robot.thrusters.size(),
+             robot.joints.size());
+  fmt::print("  rank of B {} of {}\n", set.rank, set.dimension());
+  if (set.has_facets) {
+    fmt::print("  facet pairs of {{B u}} {}\n", set.facet_pairs());
+  } else {
+    fmt::print("  facet pairs of {{B u}} not enumerated: too many\n");
+  }
+  fmt::print("  end effectors");
+  for (const EndEffector& e : robot.end_effectors) {
+    fmt::print(" {} (on {})", e.name, robot.links[e.link].name);
+  }
+  fmt::print("\n  collision pairs {}\n", robot.collision ? robot.collision->pairs() : 0);
+  for (const Link& link : robot.links) {
+    fmt::print("  link {:<20} {:g} kg, displaces {:g} m^3\n", link.name, link.mass, link.volume);
+  }
+  for (const Thruster& t : robot.thrusters) {
+    fmt::print("  thruster {:<16} {:g} .. {:g} N, {:g} N/s\n", t.name, t.force_min, t.force_max,
+               t.force_rate_max);
+  }
+  for (const Joint& j : robot.joints) {
+    const bool turns = j.type == JointType::kRevolute;
+    fmt::print("  joint {:<19} {:g} .. {:g} {}, effort {:g} {}\n", j.name, j.q_min, j.q_max,
+               turns ? "rad" : "m", j.effort_max, turns ? "N m" : "N");
+  }
+  for (const auto& [block, source] : robot.sources)
+    fmt::print("  source of {}: {}\n", block, source);
+}
+
+void print(const Problem& problem) {
+  fmt::print("task {}{}\n", problem.name,
+             problem.label.empty() ? "" : fmt::format(" ({})", problem.label));
+  fmt::print("  end effector {}, c = [{:g}] in [force; torque], beta in {}\n",
+             problem.robot.end_effectors[problem.end_effector].name, fmt::join(problem.c, ", "),
+             problem.unit());
+  fmt::print("  wrench any: {} columns\n", problem.W_any.cols());
+  fmt::print("  redundancy {}\n", problem.redundancy());
+  for (int i = 0; i < problem.redundancy(); ++i) {
+    fmt::print("  theta_r {:<17} {:g} .. {:g}, default {:g}\n",
+               problem.robot.joints[problem.redundant[i]].name, problem.theta_r_min[i],
+               problem.theta_r_max[i], problem.theta_r_default[i]);
+  }
+  if (!problem.source.empty()) fmt::print("  source: {}\n", problem.source);
+  print(problem.robot);
+}
+
+/// FILE is a robot file, a task file or the name of a shipped problem.
+void check(const std::string& file) {
+  const std::vector<std::string> shipped = shipped_problems();
+  if (std::find(shipped.begin(), shipped.end(), file) != shipped.end() || is_task(file)) {
+    print(load_problem(file));
+  } else {
+    print(load_robot(file));
+  }
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, int& exit_status) {
+  auto file = std::make_shared<std::string>();
+  CLI::App& command =
+      *app.add_subcommand("check", "what a robot or task file says, or what is wrong");
+  command.add_option("file", *file, "robot or task file, or a shipped problem")->required();
+  command.callback([file, &exit_status] {
+    check(*file);
+    exit_status = kAnswered;
+  });
+}
+
+}  // namespace maxwrench

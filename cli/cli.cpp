@@ -1,0 +1,93 @@
+#include "cli/cli.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+#include <thread>
+
+namespace maxwrench {
+
+int run_command(int argc, const char* const* argv) {
+  CLI::App app("Finds how strongly a kinematically redundant robot can push, lift or twist.",
+               "maxwrench");
+  app.set_version_flag("--version", MAXWRENCH_VERSION);
+  app.require_subcommand(1);
+  int exit_status = kAnswered;
+  for (const auto add :
+       {add_list, add_check, add_eval, add_solve, add_run, add_plot, add_reproduce}) {
+    add(app, exit_status);
+  }
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    fmt::print(stderr, "maxwrench: {}\n", error.what());
+    return kBadInput;
+  } catch (const std::invalid_argument& error) {
+    fmt::print(stderr, "maxwrench: {}\n", error.what());
+    return kBadInput;
+  }
+  return exit_status;
+}
+
+void CommonOptions::add_case(CLI::App& app) {
+  app.add_option("problem", choice.problem, "shipped name such as planar/force, or a task file")
+      ->required();
+  app.add_option("--measure", choice.measure, "capability measure")->capture_default_str();
+  app.add_option("--wrench", wrench, "pure: only along c; any: other components are free")
+      ->capture_default_str();
+  app.add_option("--lp", choice.lp, "lower-level solver (default: the first that serves)");
+}
+
+void CommonOptions::add_search(CLI::App& app) {
+  app.add_option("--search", choice.search, "search over theta_r")->capture_default_str();
+  app.add_option("--seed", choice.seed, "of the random numbers")->capture_default_str();
+  app.add_option("--budget", choice.budget, "evaluations")->capture_default_str();
+}
+
+void CommonOptions::add_json(CLI::App& app) {
+  app.add_flag("--json", json, "print one JSON object");
+}
+
+void CommonOptions::add_threads(CLI::App& app) {
+  app.add_option("--threads", threads, "changes the time, never the result (0: one for each core)")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
+}
+
+Case CommonOptions::read_case() const {
+  Case c = choice;
+  c.wrench = parse_wrench(wrench);
+  return complete(c);
+}
+
+int CommonOptions::thread_count() const {
+  return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+Eigen::VectorXd parse_numbers(const std::string& option, const std::string& text) {
+  std::vector<double> numbers;
+  std::size_t begin = 0;
+  while (begin <= text.size()) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string item = text.substr(begin, end - begin);
+    std::size_t used = 0;
+    double value = NAN;
+    try {
+      value = std::stod(item, &used);
+    } catch (const std::logic_error&) {
+      used = 0;
+    }
+    if (used == 0 || used != item.size() || !std::isfinite(value)) {
+      throw std::invalid_argument(
+          fmt::format("{}: got '{}', expected finite numbers separated by commas", option, text));
+    }
+    numbers.push_back(value);
+    begin = end + 1;
+  }
+  return Eigen::Map<Eigen::VectorXd>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
+}
+
+}  // namespace maxwrench

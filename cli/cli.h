@@ -1,0 +1,49 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "benchmarks/case.h"
+#include "benchmarks/row.h"
+
+namespace maxwrench {
+
+/// Exit statuses of the command.
+enum ExitStatus { kAnswered = 0, kOtherStatus = 1, kBadInput = 2 };
+
+/// The whole command line; prints results to stdout and talk to stderr, and returns the exit
+/// status.
+int run_command(int argc, const char* const* argv);
+
+/// The options that commands share. `wrench` and `theta_r` are texts until they are read.
+struct CommonOptions {
+  Case choice;
+  std::string wrench = "pure";
+  int threads = 0;  ///< 0: one for each core
+  bool json = false;
+
+  void add_case(CLI::App& app);
+  void add_search(CLI::App& app);
+  void add_json(CLI::App& app);
+  void add_threads(CLI::App& app);
+
+  Case read_case() const;
+  int thread_count() const;
+};
+
+/// Numbers separated by commas; throws std::invalid_argument that names the option.
+Eigen::VectorXd parse_numbers(const std::string& option, const std::string& text);
+
+/// A row for people or, with `json`, as one object; returns the exit status that it deserves.
+int report(const Problem& problem, const Row& row, bool json);
+
+// One function for each subcommand: adds it to the command line; its callback sets `exit_status`.
+void add_list(CLI::App& app, int& exit_status);
+void add_check(CLI::App& app, int& exit_status);
+void add_eval(CLI::App& app, int& exit_status);
+void add_solve(CLI::App& app, int& exit_status);
+void add_run(CLI::App& app, int& exit_status);
+void add_plot(CLI::App& app, int& exit_status);
+void add_reproduce(CLI::App& app, int& exit_status);
+
+}  // namespace maxwrench

@@ -1,0 +1,38 @@
+#include <memory>
+
+#include "cli/cli.h"
+#include "problems/loader.h"
+
+namespace maxwrench {
+namespace {
+
+struct EvalOptions : CommonOptions {
+  std::string theta_r;
+  bool ignore_collision = false;
+};
+
+int eval(const EvalOptions& options) {
+  Case c = options.read_case();
+  c.search.clear();  // none is used
+  const Problem problem = load_problem(c.problem);
+  const Eigen::VectorXd theta_r = options.theta_r.empty()
+                                      ? problem.theta_r_default
+                                      : parse_numbers("--theta-r", options.theta_r);
+  return report(problem, evaluate(problem, c, theta_r, !options.ignore_collision), options.json);
+}
+
+}  // namespace
+
+void add_eval(CLI::App& app, int& exit_status) {
+  auto options = std::make_shared<EvalOptions>();
+  CLI::App& command = *app.add_subcommand("eval", "the capability of one posture");
+  options->add_case(command);
+  options->add_json(command);
+  command.add_option("--theta-r", options->theta_r,
+                     "redundant coordinates, separated by commas (default: those of the task)");
+  command.add_flag("--ignore-collision", options->ignore_collision,
+                   "evaluate a colliding posture too");
+  command.callback([options, &exit_status] { exit_status = eval(*options); });
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,2 @@
+#include "cli/figures.h"
+namespace maxwrench { std::string figure(const Problem&, const std::vector<Panel>&) { return ""; } }

@@ -1,0 +1,44 @@
+#include "cli/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace maxwrench {
+namespace {
+
+constexpr std::chrono::seconds kPatience(1);
+constexpr std::chrono::milliseconds kInterval(100);
+constexpr int kWidth = 40;
+
+}  // namespace
+
+Progress::Progress(std::string what, long total)
+    : what_(std::move(what)),
+      total_(std::max(total, 1L)),
+      enabled_(isatty(fileno(stderr)) != 0),
+      start_(std::chrono::steady_clock::now()),
+      next_(start_ + kPatience) {}
+
+void Progress::show(long done) {
+  if (!enabled_) return;
+  const std::lock_guard<std::mutex> guard(mutex_);
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next_) return;
+  next_ = now + kInterval;
+  drawn_ = true;
+  const double share = std::min(1.0, static_cast<double>(done) / static_cast<double>(total_));
+  const int filled = static_cast<int>(share * kWidth);
+  fmt::print(stderr, "\r{} [{:=<{}}{:<{}}] {:3.0f} %  {:.0f} s\x1b[K", what_, "", filled, "",
+             kWidth - filled, 100 * share, std::chrono::duration<double>(now - start_).count());
+  std::fflush(stderr);
+}
+
+void Progress::finish() {
+  if (drawn_) fmt::print(stderr, "\r\x1b[K");
+  drawn_ = false;
+}
+
+}  // namespace maxwrench

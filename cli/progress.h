@@ -1,0 +1,33 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <mutex>
+#include <string>
+
+namespace maxwrench {
+
+/// A progress bar on stderr, only if that is a terminal and the work takes longer than a second.
+class Progress {
+ public:
+  Progress(std::string what, long total);
+  ~Progress() { finish(); }
+
+  /// To be called with the work done so far, from any thread.
+  void show(long done);
+  std::function<void(long)> counter() {
+    return [this](long done) { show(done); };
+  }
+  /// Removes the bar.
+  void finish();
+
+ private:
+  std::string what_;
+  long total_;
+  bool enabled_;
+  bool drawn_ = false;
+  std::mutex mutex_;
+  std::chrono::steady_clock::time_point start_, next_;
+};
+
+}  // namespace maxwrench

@@ -1,0 +1,115 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/cli.h"
+
+namespace maxwrench {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json array(const Eigen::VectorXd& v) {
+  return std::vector<double>(v.data(), v.data() + v.size());
+}
+
+/// Roll, pitch, yaw with R = Rz(yaw) Ry(pitch) Rx(roll).
+Eigen::Vector3d rpy(const Eigen::Matrix3d& R) {
+  const double pitch = std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0)));
+  return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
+}
+
+ordered_json theta(const Problem& problem, const Posture& posture) {
+  ordered_json object;
+  object["position"] = array(posture.base.p);
+  object["rpy"] = array(rpy(posture.base.R));
+  for (std::size_t i = 0; i < problem.robot.joints.size(); ++i) {
+    object[problem.robot.joints[i].name] = posture.q[static_cast<Eigen::Index>(i)];
+  }
+  return object;
+}
+
+ordered_json to_json(const Problem& problem, const Row& row) {
+  const Case& c = row.choice;
+  const Capability& capability = row.capability;
+  const Residual& residual = capability.residual;
+  const bool solved = row.has_value();
+  const auto known = [](bool condition, const ordered_json& value) {
+    return condition ? value : ordered_json(nullptr);
+  };
+  ordered_json object;
+  object["problem"] = c.problem;
+  object["measure"] = c.measure;
+  object["wrench"] = to_string(c.wrench);
+  object["lp"] = known(c.lp != kNoSolver, c.lp);
+  object["search"] = known(!c.search.empty(), c.search);
+  object["seed"] = known(!c.search.empty(), c.seed);
+  object["status"] = to_string(row.status);
+  object["reason"] = known(!row.reason.empty(), row.reason);
+  object["beta"] = known(solved, capability.beta);
+  object["unit"] = problem.unit();
+  object["theta_r"] = known(row.has_posture(), array(row.posture.theta_r));
+  object["theta"] = row.has_posture() ? theta(problem, row.posture) : ordered_json(nullptr);
+  object["w"] = known(solved, array(capability.w));
+  object["h"] = known(solved, array(capability.h));
+  object["u"] = known(solved, array(capability.u));
+  object["lambda"] = known(solved, array(capability.lambda));
+  object["gradient"] = known(solved, array(row.gradient));
+  object["residual"] = known(solved, {{"balance", residual.balance},
+                                      {"bounds", residual.bounds},
+                                      {"dual", residual.dual},
+                                      {"gap", residual.gap}});
+  object["evaluations"] = row.evaluations;
+  object["wall_s"] = row.wall_s;
+  object["version"] = MAXWRENCH_VERSION;
+  return object;
+}
+
+std::string line(const Eigen::VectorXd& v) {
+  std::string text;
+  for (const double value : v) text += fmt::format("{:>10.5f}", value);
+  return text;
+}
+
+void print(const Problem& problem, const Row& row) {
+  const Case& c = row.choice;
+  fmt::print("{}  measure {}  wrench {}  lp {}\n", c.problem, c.measure, to_string(c.wrench), c.lp);
+  if (row.has_posture()) {
+    fmt::print("theta_r  {}\n", line(row.posture.theta_r));
+    fmt::print("base xyz {}\nbase rpy {}\n", line(row.posture.base.p),
+               line(rpy(row.posture.base.R)));
+  }
+  if (!row.has_value()) {
+    fmt::print("{}: {}\n", to_string(row.status), row.reason);
+    return;
+  }
+  const Capability& capability = row.capability;
+  fmt::print("beta     {:>10.5f} {}\n", capability.beta, problem.unit());
+  fmt::print("h        {}\n", line(capability.h));
+  for (Eigen::Index i = 0; i < capability.u.size(); ++i) {
+    const auto thrusters = static_cast<Eigen::Index>(problem.robot.thrusters.size());
+    const std::string& name =
+        i < thrusters ? problem.robot.thrusters[i].name : problem.robot.joints[i - thrusters].name;
+    fmt::print("u {:>17.5f}  of {:g} .. {:g}  {}\n", capability.u[i],
+               problem.robot.actuation.u_min[i], problem.robot.actuation.u_max[i], name);
+  }
+  fmt::print("gradient {}\n", line(row.gradient));
+  fmt::print(
+      "residual balance {:.1e}, bounds {:.1e}, dual {:.1e}, gap {:.1e}; {} evaluations in "
+      "{:.3g} s\n",
+      capability.residual.balance, capability.residual.bounds, capability.residual.dual,
+      capability.residual.gap, row.evaluations, row.wall_s);
+}
+
+}  // namespace
+
+int report(const Problem& problem, const Row& row, bool json) {
+  if (json) {
+    fmt::print("{}\n", to_json(problem, row).dump());
+  } else {
+    print(problem, row);
+  }
+  return row.has_value() ? kAnswered : kOtherStatus;
+}
+
+}  // namespace maxwrench

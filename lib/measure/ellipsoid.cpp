@@ -1,0 +1,106 @@
+#include <cmath>
+#include <stdexcept>
+
+#include "lib/measure.h"
+#include "lib/posture.h"
+#include "lib/wrench_program.h"
+
+namespace maxwrench {
+namespace {
+
+/// Pivots of G'G below this share of the largest mean that J'W has not full column rank.
+constexpr double kRankTolerance = 1e-14;
+
+/// max c_w'w subject to |G w + g| <= 1, G = W_u B^+ J'W (m×k), g = W_u B^+ tau_d (m), by
+///
+///     z = -(G'G)^-1 G'g,  rho^2 = 1 - |g + G z|^2,  s^2 = c_w'(G'G)^-1 c_w,
+///     beta = c_w'z + rho s,  w = z + (rho/s) (G'G)^-1 c_w.
+///
+/// With e = G w + g the multiplier of the constraint is s/rho (from c_w = (s/rho) G'e), so lambda =
+/// -(s/rho) (W_u B^+)'e. For W = c this is the positive root of eq:transmissionUVMS.
+class Ellipsoid : public Measure {
+ public:
+  explicit Ellipsoid(const Zonotope& actuation) : B_pinv_(actuation.B_pinv) {
+    const Eigen::VectorXd limit = actuation.u_min.cwiseAbs().cwiseMin(actuation.u_max.cwiseAbs());
+    K_ = limit.cwiseInverse().asDiagonal() * actuation.B_pinv;
+  }
+
+  void evaluate(const Posture& /*posture*/, const WrenchProgram& program, bool efforts,
+                Capability& capability) override {
+    capability.iterations = 0;
+    G_.noalias() = K_.lazyProduct(program.JtW);
+    g_.noalias() = K_.lazyProduct(program.tau_d);
+    capability.reason = "";
+    capability.status = solve(program, capability);
+    if (capability.status != Status::kOptimal) return;
+    capability.h.noalias() = program.W * capability.w;
+    capability.beta_J.noalias() = capability.h * capability.lambda.transpose();
+    if (efforts) recover(program, capability);
+  }
+
+ private:
+  /// Fills beta, w and lambda.
+  Status solve(const WrenchProgram& program, Capability& capability) {
+    if (!(g_.squaredNorm() < 1)) {
+      capability.reason = "the origin is outside of the ellipsoid: tau_d alone exceeds it";
+      return Status::kInfeasible;
+    }
+    normal_.noalias() = G_.transpose().lazyProduct(G_);
+    ldlt_.compute(normal_);
+    const auto pivots = ldlt_.vectorD();
+    if (!(pivots.minCoeff() > kRankTolerance * pivots.maxCoeff())) {
+      capability.reason = "J'W has not full column rank";
+      return Status::kNumericalError;
+    }
+    capability.w.noalias() = G_.transpose().lazyProduct(-g_);
+    ldlt_.solveInPlace(capability.w);  // z
+    direction_ = program.c_w;
+    ldlt_.solveInPlace(direction_);
+    e_ = g_;
+    e_.noalias() += G_.lazyProduct(capability.w);
+    const double rho = std::sqrt(1 - e_.squaredNorm());  // |e| <= |g| < 1
+    const double s = std::sqrt(program.c_w.dot(direction_));
+    capability.beta = program.c_w.dot(capability.w) + rho * s;
+    capability.w += (rho / s) * direction_;
+    e_.noalias() += (rho / s) * G_.lazyProduct(direction_);
+    capability.lambda.noalias() = (-s / rho) * K_.transpose().lazyProduct(e_);
+    return Status::kOptimal;
+  }
+
+  /// u = B^+ (tau_d + J'W w), and the residual: u on the ellipsoid, c_w = -(J'W)'lambda
+  /// (stationarity), and the dual objective lambda'tau_d + sup {-lambda'tau : |W_u B^+ tau| <= 1},
+  /// whose supremum is at this very tau.
+  void recover(const WrenchProgram& program, Capability& capability) {
+    const Eigen::VectorXd tau = program.tau_d + program.JtW * capability.w;
+    const Eigen::VectorXd& lambda = capability.lambda;
+    capability.u = B_pinv_ * tau;
+    capability.residual = recheck(program, capability.u, capability.w, lambda);  // the balance
+    capability.residual.bounds = std::abs((K_ * tau).norm() - 1);
+    capability.residual.dual =
+        (program.c_w + program.JtW.transpose() * lambda).lpNorm<Eigen::Infinity>();
+    capability.residual.gap =
+        std::abs(lambda.dot(program.tau_d) - lambda.dot(tau) - capability.beta);
+  }
+
+  Eigen::MatrixXd B_pinv_, K_, G_, normal_;
+  Eigen::VectorXd g_, e_, direction_;
+  Eigen::LDLT<Eigen::MatrixXd> ldlt_;
+};
+
+}  // namespace
+
+std::unique_ptr<Measure> make_ellipsoid(const Robot& robot) {
+  const Zonotope& actuation = robot.actuation;
+  if (!actuation.full_row_rank()) {
+    throw std::invalid_argument("measure ellipsoid: B of " + robot.name + " has rank " +
+                                std::to_string(actuation.rank) + ", expected " +
+                                std::to_string(actuation.dimension()));
+  }
+  if ((actuation.u_min.array() >= 0).any() || (actuation.u_max.array() <= 0).any()) {
+    throw std::invalid_argument("measure ellipsoid: an actuator of " + robot.name +
+                                " cannot act in both directions, expected min < 0 < max");
+  }
+  return std::make_unique<Ellipsoid>(actuation);
+}
+
+}  // namespace maxwrench

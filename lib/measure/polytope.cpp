@@ -1,0 +1,92 @@
+#include <stdexcept>
+
+#include "lib/measure.h"
+#include "lib/posture.h"
+#include "lib/wrench_program.h"
+#include "lib/wrench_solver.h"
+
+namespace maxwrench {
+namespace {
+
+/// h and the derivative seeds from w and lambda.
+void complete(const WrenchProgram& program, Capability& capability) {
+  capability.h.noalias() = program.W * capability.w;
+  capability.beta_J.noalias() = capability.h * capability.lambda.transpose();
+}
+
+class LinfPolytope : public Measure {
+ public:
+  explicit LinfPolytope(std::unique_ptr<WrenchSolver> solver) : solver_(std::move(solver)) {}
+
+  void evaluate(const Posture& /*posture*/, const WrenchProgram& program, bool efforts,
+                Capability& capability) override {
+    solver_->solve(program, efforts, capability);
+    if (capability.status != Status::kOptimal) return;
+    complete(program, capability);
+    if (efforts) {
+      capability.residual = recheck(program, capability.u, capability.w, capability.lambda);
+    }
+  }
+
+ private:
+  std::unique_ptr<WrenchSolver> solver_;
+};
+
+/// The same program with (B, J, tau_d) replaced by (I, J (B^+)', B^+ tau_d); lambda = (B^+)'
+/// lambda_L2.
+class L2Polytope : public Measure {
+ public:
+  L2Polytope(const Zonotope& actuation, std::unique_ptr<WrenchSolver> solver)
+      : B_pinv_(actuation.B_pinv),
+        box_(make_zonotope(Eigen::MatrixXd::Identity(actuation.actuators(), actuation.actuators()),
+                           actuation.u_min, actuation.u_max)),
+        solver_(std::move(solver)) {}
+
+  void evaluate(const Posture& /*posture*/, const WrenchProgram& program, bool efforts,
+                Capability& capability) override {
+    program_.actuation = &box_;
+    program_.W = program.W;
+    program_.c_w = program.c_w;
+    program_.w_min = program.w_min;
+    program_.w_max = program.w_max;
+    program_.JtW.noalias() = B_pinv_.lazyProduct(program.JtW);
+    program_.tau_d.noalias() = B_pinv_.lazyProduct(program.tau_d);
+    capability.lambda.swap(lambda_);  // m numbers there, n numbers outside: keep both allocated
+    solver_->solve(program_, efforts, capability);
+    capability.lambda.swap(lambda_);
+    if (capability.status != Status::kOptimal) return;
+    capability.lambda.noalias() = B_pinv_.transpose().lazyProduct(lambda_);
+    complete(program, capability);
+    if (!efforts) return;
+    // The balance in the robot's own rows, optimality in the rows of the program that was solved.
+    capability.residual = recheck(program_, capability.u, capability.w, lambda_);
+    capability.residual.balance =
+        recheck(program, capability.u, capability.w, capability.lambda).balance;
+  }
+
+ private:
+  Eigen::MatrixXd B_pinv_;
+  Zonotope box_;
+  std::unique_ptr<WrenchSolver> solver_;
+  WrenchProgram program_;
+  Eigen::VectorXd lambda_;
+};
+
+}  // namespace
+
+std::unique_ptr<Measure> make_linf_polytope(const Robot& /*robot*/,
+                                            std::unique_ptr<WrenchSolver> solver) {
+  return std::make_unique<LinfPolytope>(std::move(solver));
+}
+
+std::unique_ptr<Measure> make_l2_polytope(const Robot& robot,
+                                          std::unique_ptr<WrenchSolver> solver) {
+  if (!robot.actuation.full_row_rank()) {
+    throw std::invalid_argument("measure l2_polytope: B of " + robot.name + " has rank " +
+                                std::to_string(robot.actuation.rank) + ", expected " +
+                                std::to_string(robot.velocities()));
+  }
+  return std::make_unique<L2Polytope>(robot.actuation, std::move(solver));
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,68 @@
+#include <limits>
+
+#include "lib/objective.h"
+#include "lib/posture.h"
+#include "lib/wrench_program.h"
+
+namespace maxwrench {
+namespace {
+
+class CapabilityObjective : public Objective {
+ public:
+  CapabilityObjective(const Problem& problem, Wrench wrench, MeasureMaker make, bool check)
+      : problem_(problem),
+        wrench_(wrench),
+        make_(std::move(make)),
+        check_collision_(check),
+        model_(problem, check),
+        program_(make_wrench_program(problem, wrench)),
+        measure_(make_()) {}
+
+  const Eigen::VectorXd& lower() const override { return problem_.theta_r_min; }
+  const Eigen::VectorXd& upper() const override { return problem_.theta_r_max; }
+  Status status() const override { return status_; }
+  const char* reason() const override { return reason_; }
+
+  double evaluate(const Eigen::VectorXd& theta_r, Eigen::VectorXd* gradient) override {
+    const Posture& posture = model_.evaluate(theta_r);
+    status_ = posture.status;
+    reason_ = posture.reason;
+    if (status_ == Status::kOptimal) {
+      set_posture(posture, program_);
+      measure_->evaluate(posture, program_, false, capability_);
+      status_ = capability_.status;
+      reason_ = capability_.reason;
+    }
+    if (status_ != Status::kOptimal) {
+      if (gradient) gradient->setConstant(theta_r.size(), std::numeric_limits<double>::quiet_NaN());
+      return -kInfinity;
+    }
+    if (gradient) model_.pull_back(theta_r, capability_.lambda, capability_.beta_J, *gradient);
+    return capability_.beta;
+  }
+
+  std::unique_ptr<Objective> clone() const override {
+    return make_capability_objective(problem_, wrench_, make_, check_collision_);
+  }
+
+ private:
+  const Problem& problem_;
+  Wrench wrench_;
+  MeasureMaker make_;
+  bool check_collision_;
+  PostureModel model_;
+  WrenchProgram program_;
+  std::unique_ptr<Measure> measure_;
+  Capability capability_;
+  Status status_ = Status::kNumericalError;
+  const char* reason_ = "";
+};
+
+}  // namespace
+
+std::unique_ptr<Objective> make_capability_objective(const Problem& problem, Wrench wrench,
+                                                     MeasureMaker make, bool check_collision) {
+  return std::make_unique<CapabilityObjective>(problem, wrench, std::move(make), check_collision);
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,157 @@
+#include "lib/posture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "lib/dual.h"
+#include "lib/kinematics.h"
+
+namespace maxwrench {
+namespace {
+
+/// Distance [m] and rotation [-] below which the base counts as lying on its free axes.
+constexpr double kReachTolerance = 1e-9;
+/// A posture on its limit is inside: theta_r may carry rounding from a search's box.
+constexpr double kLimitTolerance = 1e-12;
+
+/// Everything of one posture in scalar T.
+template <class T>
+struct Model {
+  explicit Model(const Problem& p)
+      : problem(p),
+        kinematics(p.robot),
+        q(p.robot.joints.size()),
+        J(6, p.robot.velocities()),
+        tau_d(p.robot.velocities()) {
+    for (Eigen::Index i = 0; i < q.size(); ++i) {
+      q[i] = T(std::clamp(0.0, p.robot.joints[i].q_min, p.robot.joints[i].q_max));
+    }
+  }
+
+  void evaluate(const VectorX<T>& theta_r) {
+    for (std::size_t i = 0; i < problem.redundant.size(); ++i) q[problem.redundant[i]] = theta_r[i];
+    const EndEffector& end_effector = problem.robot.end_effectors[problem.end_effector];
+    kinematics.set_joints(q);
+    base = problem.pose * kinematics.end_effector(end_effector).inverse();
+    kinematics.jacobian(end_effector, base.R, J);
+    kinematics.gravity_and_buoyancy(base.R, tau_d);
+  }
+
+  const Problem& problem;
+  Kinematics<T> kinematics;
+  VectorX<T> q;
+  Pose<T> base;
+  Matrix6X<T> J;
+  VectorX<T> tau_d;
+};
+
+/// Whether the pose is reached by moving along the free base axes from the world's origin.
+bool base_reaches(const Robot& robot, const Pose<double>& base) {
+  const auto is_free = [&](int axis) {
+    return std::find(robot.base_axes.begin(), robot.base_axes.end(), axis) != robot.base_axes.end();
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!is_free(axis) && std::abs(base.p[axis]) > kReachTolerance) return false;
+  }
+  if (is_free(3)) return true;
+  if (std::abs(base.R(2, 2) - 1) > kReachTolerance) return false;
+  return is_free(5) || std::abs(base.R(0, 0) - 1) <= kReachTolerance;
+}
+
+void require_theta_r(const Problem& problem, const Eigen::VectorXd& theta_r) {
+  if (theta_r.size() != problem.redundancy()) {
+    throw std::invalid_argument("theta_r: got " + std::to_string(theta_r.size()) +
+                                " numbers, expected " + std::to_string(problem.redundancy()) +
+                                " for " + problem.name);
+  }
+  if (!theta_r.allFinite()) {
+    throw std::invalid_argument("theta_r: got a value that is not a finite number");
+  }
+}
+
+}  // namespace
+
+struct PostureModel::Workspace {
+  static constexpr int kChunk = 4;  ///< directions of theta_r that one dual evaluation carries
+
+  Workspace(const Problem& p, bool check)
+      : problem(p),
+        check_collision(check && p.robot.collision != nullptr),
+        model(p),
+        dual_model(p),
+        dual_theta_r(p.redundancy()) {
+    posture.q.resize(model.q.size());
+    posture.links = model.kinematics.links();
+    posture.J = model.J;
+    posture.tau_d = model.tau_d;
+  }
+
+  /// Why the posture does not exist, or null.
+  const char* violation(const Eigen::VectorXd& theta_r) const {
+    for (Eigen::Index i = 0; i < theta_r.size(); ++i) {
+      if (theta_r[i] < problem.theta_r_min[i] - kLimitTolerance ||
+          theta_r[i] > problem.theta_r_max[i] + kLimitTolerance) {
+        return "joint limit";
+      }
+    }
+    if (!base_reaches(problem.robot, model.base))
+      return "unreachable pose: the base would leave its free axes";
+    if (check_collision && problem.robot.collision->collides(posture.links))
+      return "self-collision";
+    return nullptr;
+  }
+
+  const Problem& problem;
+  const bool check_collision;
+  Model<double> model;
+  Model<Dual<kChunk>> dual_model;
+  VectorX<Dual<kChunk>> dual_theta_r;
+  Posture posture;
+};
+
+PostureModel::PostureModel(const Problem& problem, bool check_collision)
+    : workspace_(std::make_unique<Workspace>(problem, check_collision)) {}
+PostureModel::~PostureModel() = default;
+
+const Posture& PostureModel::evaluate(const Eigen::VectorXd& theta_r) {
+  Workspace& ws = *workspace_;
+  require_theta_r(ws.problem, theta_r);
+  ws.model.evaluate(theta_r);
+  Posture& posture = ws.posture;
+  posture.theta_r = theta_r;
+  posture.base = ws.model.base;
+  posture.q = ws.model.q;
+  posture.links = ws.model.kinematics.links();
+  posture.J = ws.model.J;
+  posture.tau_d = ws.model.tau_d;
+  const char* violation = ws.violation(theta_r);
+  posture.status = violation ? Status::kInvalidPosture : Status::kOptimal;
+  posture.reason = violation ? violation : "";
+  return posture;
+}
+
+void PostureModel::pull_back(const Eigen::VectorXd& theta_r, const Eigen::VectorXd& tau_seed,
+                             const Matrix6Xd& J_seed, Eigen::VectorXd& gradient) {
+  Workspace& ws = *workspace_;
+  require_theta_r(ws.problem, theta_r);
+  constexpr int kChunk = Workspace::kChunk;
+  gradient.resize(theta_r.size());
+  for (Eigen::Index first = 0; first < theta_r.size(); first += kChunk) {
+    const int count = static_cast<int>(std::min<Eigen::Index>(kChunk, theta_r.size() - first));
+    for (Eigen::Index i = 0; i < theta_r.size(); ++i) ws.dual_theta_r[i] = theta_r[i];
+    for (int k = 0; k < count; ++k) ws.dual_theta_r[first + k].d[k] = 1;
+    ws.dual_model.evaluate(ws.dual_theta_r);
+    for (int k = 0; k < count; ++k) {
+      double sum = 0;
+      for (Eigen::Index i = 0; i < tau_seed.size(); ++i) {
+        sum += tau_seed[i] * ws.dual_model.tau_d[i].d[k];
+        for (int r = 0; r < 6; ++r) sum += J_seed(r, i) * ws.dual_model.J(r, i).d[k];
+      }
+      gradient[first + k] = sum;
+    }
+  }
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,97 @@
+#include "lib/wrench_program.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace maxwrench {
+
+WrenchProgram make_wrench_program(const Problem& problem, Wrench wrench) {
+  WrenchProgram program;
+  program.actuation = &problem.robot.actuation;
+  program.W = wrench == Wrench::kPure ? Matrix6Xd(problem.c) : problem.W_any;
+  const Eigen::Index k = program.W.cols();
+  const Eigen::Index n = problem.robot.velocities();
+  program.c_w = program.W.transpose() * problem.c;
+  program.w_min = Eigen::VectorXd::Constant(k, -kInfinity);
+  program.w_max = Eigen::VectorXd::Constant(k, kInfinity);
+  program.JtW = Eigen::MatrixXd::Zero(n, k);
+  program.tau_d = Eigen::VectorXd::Zero(n);
+  return program;
+}
+
+void set_posture(const Posture& posture, WrenchProgram& program) {
+  program.JtW.noalias() = posture.J.transpose().lazyProduct(program.W);
+  program.tau_d = posture.tau_d;
+}
+
+LinearProgram assemble(const WrenchProgram& program) {
+  const Zonotope& actuation = *program.actuation;
+  const int n = actuation.dimension();
+  const int m = actuation.actuators();
+  const int k = program.columns();
+  LinearProgram lp;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int j = 0; j < m; ++j) {
+    for (int i = 0; i < n; ++i) {
+      if (actuation.B(i, j) != 0) entries.emplace_back(i, j, actuation.B(i, j));
+    }
+  }
+  // Every entry of -J'W is stored, zero or not: the pattern is the same for all postures.
+  for (int j = 0; j < k; ++j) {
+    for (int i = 0; i < n; ++i) entries.emplace_back(i, m + j, 0.0);
+  }
+  lp.A.resize(n, m + k);
+  lp.A.setFromTriplets(entries.begin(), entries.end());
+  lp.b.resize(n);
+  lp.c = Eigen::VectorXd::Zero(m + k);
+  lp.l.resize(m + k);
+  lp.u.resize(m + k);
+  lp.l.head(m) = actuation.u_min;
+  lp.u.head(m) = actuation.u_max;
+  update(program, lp);
+  return lp;
+}
+
+void update(const WrenchProgram& program, LinearProgram& assembled) {
+  const int m = program.actuation->actuators();
+  const int k = program.columns();
+  assembled.c.tail(k) = program.c_w;
+  assembled.l.tail(k) = program.w_min;
+  assembled.u.tail(k) = program.w_max;
+  assembled.b = program.tau_d;
+  for (int j = 0; j < k; ++j) {
+    double* values = assembled.A.valuePtr() + assembled.A.outerIndexPtr()[m + j];
+    for (Eigen::Index i = 0; i < program.JtW.rows(); ++i) values[i] = -program.JtW(i, j);
+  }
+}
+
+bool Residual::within(double tolerance, double beta) const {
+  return std::max({balance, bounds, dual, gap}) <= tolerance * (1 + std::abs(beta));
+}
+
+Residual recheck(const WrenchProgram& program, const Eigen::VectorXd& u, const Eigen::VectorXd& w,
+                 const Eigen::VectorXd& lambda) {
+  const Zonotope& set = *program.actuation;
+  Residual residual;
+  residual.balance = (set.B * u - program.JtW * w - program.tau_d).lpNorm<Eigen::Infinity>();
+  residual.bounds = std::max({0.0, (u - set.u_max).maxCoeff(), (set.u_min - u).maxCoeff(),
+                              (w - program.w_max).maxCoeff(), (program.w_min - w).maxCoeff()});
+  double dual_objective = lambda.dot(program.tau_d);
+  const auto add = [&](double slope, double low, double high) {
+    const double end = slope > 0 ? high : low;
+    if (slope == 0) return;
+    if (std::isfinite(end)) {
+      dual_objective += slope * end;
+    } else {
+      residual.dual = std::max(residual.dual, std::abs(slope));
+    }
+  };
+  const Eigen::VectorXd u_slope = -(set.B.transpose() * lambda);
+  const Eigen::VectorXd w_slope = program.c_w + program.JtW.transpose() * lambda;
+  for (Eigen::Index j = 0; j < u.size(); ++j) add(u_slope[j], set.u_min[j], set.u_max[j]);
+  for (Eigen::Index j = 0; j < w.size(); ++j) add(w_slope[j], program.w_min[j], program.w_max[j]);
+  residual.gap = std::abs(dual_objective - program.c_w.dot(w));
+  return residual;
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,179 @@
+#include "lib/zonotope.h"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace maxwrench {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Rows and columns of B that hang together.
+struct Block {
+  std::vector<int> rows, cols;
+};
+
+std::vector<Block> independent_blocks(const MatrixXd& B) {
+  // Union-find over rows 0..n-1; a column joins all the rows that it touches.
+  std::vector<int> root(B.rows());
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](int row) {
+    while (root[row] != row) row = root[row];
+    return row;
+  };
+  std::vector<int> first_row(B.cols(), -1);
+  for (int j = 0; j < B.cols(); ++j) {
+    for (int i = 0; i < B.rows(); ++i) {
+      if (B(i, j) == 0) continue;
+      if (first_row[j] < 0) first_row[j] = i;
+      root[find(i)] = find(first_row[j]);
+    }
+  }
+  std::vector<Block> blocks;
+  std::vector<int> block_of(B.rows(), -1);
+  for (int i = 0; i < B.rows(); ++i) {
+    int& block = block_of[find(i)];
+    if (block < 0) {
+      block = static_cast<int>(blocks.size());
+      blocks.emplace_back();
+    }
+    blocks[block].rows.push_back(i);
+  }
+  for (int j = 0; j < B.cols(); ++j) {
+    if (first_row[j] >= 0) blocks[block_of[find(first_row[j])]].cols.push_back(j);
+  }
+  return blocks;
+}
+
+/// The number of subsets with `k` of `n` elements, or more than `limit` if it exceeds that.
+long count_subsets(int n, int k, long limit) {
+  double count = 1;
+  for (int i = 0; i < k; ++i) count = count * (n - i) / (i + 1);
+  return count > static_cast<double>(limit) ? limit + 1 : static_cast<long>(count + 0.5);
+}
+
+bool next_subset(std::vector<int>& subset, int n) {
+  const int k = static_cast<int>(subset.size());
+  int i = k - 1;
+  while (i >= 0 && subset[i] == n - k + i) --i;
+  if (i < 0) return false;
+  ++subset[i];
+  for (int j = i + 1; j < k; ++j) subset[j] = subset[j - 1] + 1;
+  return true;
+}
+
+/// Unit normals of the facets of {G v : v in a box}, G r×m of rank r, one of each antipodal pair.
+std::vector<VectorXd> facet_normals(const MatrixXd& G) {
+  const int r = static_cast<int>(G.rows());
+  if (r == 1) return {VectorXd::Ones(1)};
+  std::vector<VectorXd> normals;
+  std::vector<int> subset(r - 1);
+  std::iota(subset.begin(), subset.end(), 0);
+  MatrixXd spanning(r, r - 1);
+  do {
+    for (int i = 0; i < r - 1; ++i) spanning.col(i) = G.col(subset[i]).normalized();
+    const Eigen::FullPivHouseholderQR<MatrixXd> qr(spanning);
+    if (qr.rank() < r - 1) continue;
+    const VectorXd normal = qr.matrixQ().col(r - 1);
+    const bool known = std::any_of(normals.begin(), normals.end(), [&](const VectorXd& other) {
+      return std::abs(other.dot(normal)) > 1 - 1e-12;
+    });
+    if (!known) normals.push_back(normal);
+  } while (next_subset(subset, static_cast<int>(G.cols())));
+  return normals;
+}
+
+void add_pair(Zonotope& zonotope, const VectorXd& normal) {
+  const Eigen::Index f = zonotope.N.cols();
+  zonotope.N.conservativeResize(Eigen::NoChange, f + 1);
+  zonotope.N.col(f) = normal;
+  double low = 0;
+  double high = 0;
+  for (int j = 0; j < zonotope.actuators(); ++j) {
+    const double slope = normal.dot(zonotope.B.col(j));
+    // A generator that lies in the facet up to rounding does not move its support.
+    if (std::abs(slope) < 1e-13 * zonotope.B.col(j).norm()) continue;
+    low += std::min(slope * zonotope.u_min[j], slope * zonotope.u_max[j]);
+    high += std::max(slope * zonotope.u_min[j], slope * zonotope.u_max[j]);
+  }
+  zonotope.b_min.conservativeResize(f + 1);
+  zonotope.b_max.conservativeResize(f + 1);
+  zonotope.b_min[f] = low;
+  zonotope.b_max[f] = high;
+}
+
+/// Adds the pairs of one block; false if there would be too many.
+bool add_block(Zonotope& zonotope, const Block& block, long max_subsets) {
+  const MatrixXd part = zonotope.B(block.rows, block.cols);
+  const int rows = static_cast<int>(block.rows.size());
+  int rank = 0;
+  MatrixXd Q = MatrixXd::Identity(rows, rows);
+  if (!block.cols.empty()) {
+    const Eigen::FullPivHouseholderQR<MatrixXd> qr(part);
+    rank = static_cast<int>(qr.rank());
+    Q = qr.matrixQ();
+  }
+  if (count_subsets(static_cast<int>(block.cols.size()), std::max(rank - 1, 0), max_subsets) >
+      max_subsets) {
+    return false;
+  }
+  std::vector<VectorXd> normals;
+  if (rank > 0) {
+    const MatrixXd range =
+        rank == rows ? MatrixXd::Identity(rows, rows) : MatrixXd(Q.leftCols(rank));
+    for (const VectorXd& normal : facet_normals(range.transpose() * part)) {
+      normals.push_back(range * normal);
+    }
+  }
+  for (int i = rank; i < rows; ++i) normals.push_back(Q.col(i));  // nothing acts along these
+  for (const VectorXd& normal : normals) {
+    VectorXd full = VectorXd::Zero(zonotope.dimension());
+    full(block.rows) = normal;
+    add_pair(zonotope, full);
+  }
+  return true;
+}
+
+}  // namespace
+
+Zonotope make_zonotope(MatrixXd B, VectorXd u_min, VectorXd u_max, long max_subsets) {
+  if (B.cols() != u_min.size() || B.cols() != u_max.size()) {
+    throw std::invalid_argument("zonotope: B has " + std::to_string(B.cols()) +
+                                " columns, expected as many as limits");
+  }
+  for (Eigen::Index j = 0; j < u_min.size(); ++j) {
+    if (!(u_min[j] <= u_max[j])) {
+      throw std::invalid_argument("zonotope: limit " + std::to_string(u_min[j]) + " .. " +
+                                  std::to_string(u_max[j]) + " of actuator " + std::to_string(j) +
+                                  ", expected min <= max");
+    }
+  }
+  Zonotope zonotope;
+  zonotope.B = std::move(B);
+  zonotope.u_min = std::move(u_min);
+  zonotope.u_max = std::move(u_max);
+  if (zonotope.B.size() > 0) {
+    const Eigen::CompleteOrthogonalDecomposition<MatrixXd> cod(zonotope.B);
+    zonotope.rank = static_cast<int>(cod.rank());
+    zonotope.B_pinv = cod.pseudoInverse();
+  } else {
+    zonotope.B_pinv.resize(zonotope.B.cols(), zonotope.B.rows());
+  }
+  zonotope.N.resize(zonotope.dimension(), 0);
+  const std::vector<Block> blocks = independent_blocks(zonotope.B);
+  zonotope.has_facets = std::all_of(blocks.begin(), blocks.end(), [&](const Block& block) {
+    return add_block(zonotope, block, max_subsets);
+  });
+  if (!zonotope.has_facets) {
+    zonotope.N.resize(zonotope.dimension(), 0);
+    zonotope.b_min.resize(0);
+    zonotope.b_max.resize(0);
+  }
+  return zonotope;
+}
+
+}  // namespace maxwrench

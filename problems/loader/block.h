@@ -1,0 +1,68 @@
+#pragma once
+
+#include <toml++/impl/forward_declarations.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "lib/types.h"
+
+namespace maxwrench {
+
+/// A table of a TOML file that knows its file and its key path, so that every error names them.
+/// All numbers that it hands out are finite. `source` and `status` are allowed in every table.
+class Block {
+ public:
+  /// Reads the file; the result is its root table. A missing file or a syntax error is refused.
+  static Block read(const std::filesystem::path& file);
+
+  const std::filesystem::path& file() const { return file_; }
+  bool has(std::string_view key) const;
+  /// Refuses every key that is not in the list.
+  void allow_only(const std::vector<std::string_view>& keys) const;
+  [[noreturn]] void refuse_value(std::string_view key, std::string_view expected) const;
+  [[noreturn]] void refuse_value(std::string_view key, std::string_view got,
+                                 std::string_view expected) const;
+
+  // Values. Without a fallback the key must be there.
+  std::string text(std::string_view key) const;
+  std::string text(std::string_view key, std::string_view fallback) const;
+  double number(std::string_view key) const;
+  double number(std::string_view key, double fallback) const;
+  Eigen::VectorXd numbers(std::string_view key, int size) const;
+  Eigen::Vector3d vector(std::string_view key) const;
+  Eigen::Vector3d vector(std::string_view key, const Eigen::Vector3d& fallback) const;
+  Eigen::Vector3d direction(std::string_view key) const;  ///< normalised; zero is refused
+  double non_negative(std::string_view key, double fallback) const;
+  std::vector<std::string> texts(std::string_view key) const;
+  std::vector<std::pair<std::string, std::string>> text_pairs(std::string_view key) const;
+
+  // Tables; nothing where the key is missing. `list` is an array of tables, `named` a table of
+  // tables in the order of the file.
+  Block table(std::string_view key) const;
+  std::vector<Block> list(std::string_view key) const;
+  std::vector<std::pair<std::string, Block>> named(std::string_view key) const;
+
+  /// (block, its `source` and, in brackets, its `status`) of this table and all below it, in the
+  /// order of the file.
+  std::vector<std::pair<std::string, std::string>> sources(std::string_view root_name) const;
+
+ private:
+  Block(std::filesystem::path file, std::string path, std::shared_ptr<const toml::table> root,
+        const toml::table* table);
+  Block inner(std::string path, const toml::table& table) const;
+  std::string path_of(std::string_view key) const;
+  const toml::node& require(std::string_view key, std::string_view expected) const;
+  const toml::array& array(std::string_view key, std::string_view expected) const;
+
+  std::filesystem::path file_;
+  std::string path_;                         ///< of this table, empty for the root
+  std::shared_ptr<const toml::table> root_;  ///< keeps the tables alive
+  const toml::table* table_;                 ///< null: an absent optional table
+};
+
+}  // namespace maxwrench

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lib/robot.h"
+
+namespace maxwrench {
+
+/// A collision shape, fixed to a link of the robot.
+struct Shape {
+  enum class Kind { kCapsule, kBox, kCylinder };
+  std::string body;  ///< the URDF link that carries it
+  int link = 0;      ///< the link of the robot that this body is part of
+  Kind kind = Kind::kCapsule;
+  /// Link -> shape. The shape is centred at its origin; the axis of capsule and cylinder is z.
+  Pose<double> placement;
+  double radius = 0;       ///< m, capsule and cylinder
+  double half_length = 0;  ///< m, of the axis; a capsule of half length 0 is a sphere
+  Eigen::Vector3d half_sizes = Eigen::Vector3d::Zero();  ///< m, box
+};
+
+/// Checks all pairs of shapes on different links, except those whose bodies are named in `ignore`:
+/// a posture collides if two shapes of a pair are closer than `margin` [m]. Null if there is no
+/// pair.
+///
+/// Capsules and spheres against each other and against boxes are exact and allocate nothing. Pairs
+/// with a cylinder and pairs of boxes go to FCL as intersection tests of shapes of which one is
+/// grown by the margin: exact if one of them is a capsule, otherwise on the safe side by at most
+/// 0.74 margin at edges and corners. FCL's distances are not used: in version 0.7 they can be wrong
+/// or throw, while its intersection tests agree with the exact ones (see collision_test.cpp).
+std::shared_ptr<const CollisionChecker> make_collision_checker(
+    std::vector<Shape> shapes, const std::vector<std::pair<std::string, std::string>>& ignore,
+    double margin);
+
+/// The same decision for a single pair, with poses of the two shapes in one frame.
+bool closer_than(const Shape& a, const Pose<double>& pose_a, const Shape& b,
+                 const Pose<double>& pose_b, double margin);
+
+/// |x - y| minimised over the segments x in [a0, a1] and y in [b0, b1].
+double segment_distance(const Eigen::Vector3d& a0, const Eigen::Vector3d& a1,
+                        const Eigen::Vector3d& b0, const Eigen::Vector3d& b1);
+
+/// Distance of the segment [p0, p1] from the box |x| <= half_sizes; 0 if they meet.
+double segment_box_distance(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
+                            const Eigen::Vector3d& half_sizes);
+
+}  // namespace maxwrench

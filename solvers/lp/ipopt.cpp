@@ -1,0 +1,215 @@
+#include "solvers/lp/ipopt.h"
+
+#include <IpIpoptApplication.hpp>
+#include <IpSolveStatistics.hpp>
+#include <IpTNLP.hpp>
+#include <algorithm>
+#include <mutex>
+
+namespace maxwrench {
+namespace {
+
+using Ipopt::Index;
+using Ipopt::Number;
+
+/// Beyond this an Ipopt bound is infinite (its default nlp_*_bound_inf).
+constexpr double kIpoptInfinity = 1e19;
+/// The elastic optimum above which a program is infeasible, relative to 1 + |b|.
+constexpr double kInfeasible = 1e-7;
+
+/// min -c'x subject to A x = b, l <= x <= u, as Ipopt wants it.
+class LinearNlp : public Ipopt::TNLP {
+ public:
+  LinearNlp(const LinearProgram& program, Eigen::VectorXd start)
+      : lp_(program), start_(std::move(start)) {}
+
+  bool get_nlp_info(Index& n, Index& m, Index& nnz_jac, Index& nnz_hessian,
+                    IndexStyleEnum& style) override {
+    n = lp_.cols();
+    m = lp_.rows();
+    nnz_jac = static_cast<Index>(lp_.A.nonZeros());
+    nnz_hessian = 0;
+    style = TNLP::C_STYLE;
+    return true;
+  }
+  bool get_bounds_info(Index n, Number* l, Number* u, Index m, Number* g_l, Number* g_u) override {
+    for (Index j = 0; j < n; ++j) {
+      l[j] = std::max(lp_.l[j], -kIpoptInfinity);
+      u[j] = std::min(lp_.u[j], kIpoptInfinity);
+    }
+    for (Index i = 0; i < m; ++i) g_l[i] = g_u[i] = lp_.b[i];
+    return true;
+  }
+  bool get_starting_point(Index n, bool /*init_x*/, Number* x, bool /*init_z*/, Number* /*z_l*/,
+                          Number* /*z_u*/, Index /*m*/, bool /*init_lambda*/,
+                          Number* /*lambda*/) override {
+    std::copy(start_.data(), start_.data() + n, x);
+    return true;
+  }
+  bool eval_f(Index n, const Number* x, bool /*new_x*/, Number& value) override {
+    value = -lp_.c.dot(Eigen::Map<const Eigen::VectorXd>(x, n));
+    return true;
+  }
+  bool eval_grad_f(Index n, const Number* /*x*/, bool /*new_x*/, Number* gradient) override {
+    for (Index j = 0; j < n; ++j) gradient[j] = -lp_.c[j];
+    return true;
+  }
+  bool eval_g(Index n, const Number* x, bool /*new_x*/, Index m, Number* g) override {
+    Eigen::Map<Eigen::VectorXd>(g, m) = lp_.A * Eigen::Map<const Eigen::VectorXd>(x, n);
+    return true;
+  }
+  bool eval_jac_g(Index n, const Number* /*x*/, bool /*new_x*/, Index /*m*/, Index /*count*/,
+                  Index* rows, Index* cols, Number* values) override {
+    Index k = 0;
+    for (Index j = 0; j < n; ++j) {
+      for (Eigen::SparseMatrix<double>::InnerIterator it(lp_.A, j); it; ++it, ++k) {
+        if (values != nullptr) {
+          values[k] = it.value();
+        } else {
+          rows[k] = static_cast<Index>(it.row());
+          cols[k] = j;
+        }
+      }
+    }
+    return true;
+  }
+  bool eval_h(Index, const Number*, bool, Number, Index, const Number*, bool, Index, Index*, Index*,
+              Number*) override {
+    return true;  // a linear program has no curvature
+  }
+  void finalize_solution(Ipopt::SolverReturn, Index n, const Number* x, const Number*,
+                         const Number*, Index m, const Number*, const Number* lambda, Number,
+                         const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
+    // Ipopt's Lagrangian is -c'x + lambda'(A x - b), so its lambda is already d(c'x)/db.
+    x_ = Eigen::Map<const Eigen::VectorXd>(x, n);
+    lambda_ = Eigen::Map<const Eigen::VectorXd>(lambda, m);
+  }
+
+  const Eigen::VectorXd& x() const { return x_; }
+  const Eigen::VectorXd& lambda() const { return lambda_; }
+
+ private:
+  const LinearProgram& lp_;
+  Eigen::VectorXd start_, x_, lambda_;
+};
+
+/// A point inside the bounds.
+Eigen::VectorXd interior_point(const LinearProgram& lp) {
+  Eigen::VectorXd x(lp.cols());
+  for (int j = 0; j < lp.cols(); ++j) {
+    const bool low = std::isfinite(lp.l[j]);
+    const bool high = std::isfinite(lp.u[j]);
+    x[j] = low && high ? (lp.l[j] + lp.u[j]) / 2 : low ? lp.l[j] + 1 : high ? lp.u[j] - 1 : 0;
+  }
+  return x;
+}
+
+/// max -1's subject to A x + s_1 - s_2 = b, s >= 0.
+LinearProgram elastic(const LinearProgram& lp) {
+  const int rows = lp.rows();
+  const int cols = lp.cols();
+  LinearProgram e;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int j = 0; j < cols; ++j) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(lp.A, j); it; ++it) {
+      entries.emplace_back(it.row(), j, it.value());
+    }
+  }
+  for (int i = 0; i < rows; ++i) {
+    entries.emplace_back(i, cols + i, 1.0);
+    entries.emplace_back(i, cols + rows + i, -1.0);
+  }
+  e.A.resize(rows, cols + 2 * rows);
+  e.A.setFromTriplets(entries.begin(), entries.end());
+  e.b = lp.b;
+  e.c = Eigen::VectorXd::Zero(e.A.cols());
+  e.c.tail(2 * rows).setConstant(-1);
+  e.l = Eigen::VectorXd::Zero(e.A.cols());
+  e.u = Eigen::VectorXd::Constant(e.A.cols(), kInfinity);
+  e.l.head(cols) = lp.l;
+  e.u.head(cols) = lp.u;
+  return e;
+}
+
+class IpoptSolver : public LpSolver {
+ public:
+  void solve(const LinearProgram& program, LpSolution& solution) override {
+    static std::mutex lock;
+    const std::lock_guard<std::mutex> guard(lock);
+    solution.certificate.resize(0);
+    solution.basis.clear();
+    if ((program.l.array() > program.u.array()).any()) {
+      give_up(solution, Status::kInfeasible, "crossing bounds");
+      solution.certificate = Eigen::VectorXd::Zero(program.rows());
+      return;
+    }
+    if (run(program, solution)) {
+      solution.status = Status::kOptimal;
+      solution.reason = "";
+      solution.objective = program.c.dot(solution.x);
+      if (!verified(program, solution, kAccepted)) {
+        give_up(solution, Status::kNumericalError, "ipopt: the answer does not verify");
+      }
+      return;
+    }
+    const int iterations = solution.iterations;
+    const LinearProgram relaxed = elastic(program);
+    const bool converged = run(relaxed, solution);
+    solution.iterations += iterations;
+    const double scale = 1 + program.b.lpNorm<Eigen::Infinity>();
+    if (converged && relaxed.c.dot(solution.x) < -kInfeasible * scale) {
+      // The elastic optimum is lambda'b less sup {lambda'A x}, so -lambda points out of the
+      // reachable set.
+      solution.certificate = -solution.lambda;
+      give_up(solution, Status::kInfeasible, "no x satisfies the rows within its bounds");
+      if (verified(program, solution)) return;
+    }
+    give_up(solution, Status::kNumericalError, "ipopt: no convergence");
+  }
+
+ private:
+  /// Interior points end close to a vertex, not on it.
+  static constexpr double kAccepted = 1e-6;
+
+  static void give_up(LpSolution& solution, Status status, const char* reason) {
+    solution.status = status;
+    solution.reason = reason;
+  }
+
+  bool run(const LinearProgram& program, LpSolution& solution) {
+    if (!Ipopt::IsValid(application_)) start();
+    const Ipopt::SmartPtr<LinearNlp> nlp = new LinearNlp(program, interior_point(program));
+    const Ipopt::ApplicationReturnStatus status =
+        application_->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(nlp)));
+    solution.iterations = 0;
+    if (Ipopt::IsValid(application_->Statistics())) {
+      solution.iterations = application_->Statistics()->IterationCount();
+    }
+    if (nlp->x().size() != program.cols()) return false;
+    solution.x = nlp->x().cwiseMax(program.l).cwiseMin(program.u);
+    solution.lambda = nlp->lambda();
+    return status == Ipopt::Solve_Succeeded || status == Ipopt::Solved_To_Acceptable_Level;
+  }
+
+  void start() {
+    application_ = new Ipopt::IpoptApplication(false);
+    auto options = application_->Options();
+    options->SetIntegerValue("print_level", 0);
+    options->SetStringValue("sb", "yes");
+    options->SetNumericValue("tol", 1e-10);
+    options->SetNumericValue("bound_relax_factor", 0);
+    options->SetStringValue("mehrotra_algorithm", "yes");
+    options->SetStringValue("jac_c_constant", "yes");
+    options->SetStringValue("hessian_constant", "yes");
+    options->SetIntegerValue("max_iter", 500);
+    application_->Initialize("");
+  }
+
+  Ipopt::SmartPtr<Ipopt::IpoptApplication> application_;
+};
+
+}  // namespace
+
+std::unique_ptr<LpSolver> make_ipopt() { return std::make_unique<IpoptSolver>(); }
+
+}  // namespace maxwrench

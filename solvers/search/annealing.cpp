@@ -1,0 +1,156 @@
+#include "solvers/search/annealing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/random.h"
+#include "solvers/search/batch.h"
+#include "solvers/search/refine.h"
+
+namespace maxwrench {
+namespace {
+
+constexpr double kColdest = 1e-4;  // last temperature over the first
+constexpr int kAdaptEvery = 20;    // proposals between two changes of the step
+constexpr double kMinStep = 1e-5, kMaxStep = 0.5;
+
+/// x folded back into [0, 1] at its ends.
+double reflect(double x) {
+  x = std::fmod(std::abs(x), 2.0);
+  return x > 1 ? 2 - x : x;
+}
+
+/// One Markov chain, by its own clone of the objective and its own random numbers.
+class Chain {
+ public:
+  Chain(const Objective& objective, const Box& box, Random random)
+      : objective_(objective.clone()), box_(box), random_(random) {}
+
+  Candidate run(const Eigen::VectorXd* start, long budget) {
+    const long scouts = std::max(1L, budget / 10);
+    for (long i = 0; i < scouts; ++i) {
+      if (i == 0 && start != nullptr)
+        scout(box_.unit(*start), *start);
+      else
+        scout(uniform());
+    }
+    const long steps = budget - scouts;
+    for (long k = 0; k < steps; ++k) {
+      const double progress = static_cast<double>(k) / static_cast<double>(steps);
+      if (value_ == -kInfinity)
+        scout(uniform());
+      else
+        propose(temperature() * std::pow(kColdest, progress));
+      if ((k + 1) % kAdaptEvery == 0) adapt();
+    }
+    return best_;
+  }
+
+ private:
+  Eigen::VectorXd uniform() {
+    Eigen::VectorXd x(box_.free());
+    for (double& x_j : x) x_j = random_.uniform();
+    return x;
+  }
+
+  double evaluate(const Eigen::VectorXd& theta_r) {
+    const double value = evaluate_one(*objective_, theta_r);
+    if (value > best_.value) best_ = {theta_r, value};
+    return value;
+  }
+
+  /// Evaluates a point of the sample; the walk will start at the best one.
+  void scout(const Eigen::VectorXd& x) { scout(x, box_.theta_r(x)); }
+  void scout(const Eigen::VectorXd& x, const Eigen::VectorXd& theta_r) {
+    const double value = evaluate(theta_r);
+    if (value == -kInfinity) return;
+    ++count_;
+    const double change = value - mean_;
+    mean_ += change / count_;
+    square_ += change * (value - mean_);
+    if (value > value_) move(x, value);
+  }
+
+  /// The first temperature: the standard deviation of the sample, or where that says nothing a
+  /// tenth of the value.
+  double temperature() const {
+    return count_ < 3 ? 0.1 * std::abs(value_) : std::sqrt(square_ / (count_ - 1));
+  }
+
+  void propose(double temperature) {
+    Eigen::VectorXd x = x_;
+    const double step = step_ / std::sqrt(static_cast<double>(box_.free()));
+    for (double& x_j : x) x_j = reflect(x_j + step * random_.normal());
+    // Drawn in any case, so that the stream does not depend on the outcome.
+    const double threshold = temperature * std::log1p(-random_.uniform());
+    const double value = evaluate(box_.theta_r(x));
+    if (!(value - value_ >= threshold)) return;
+    move(x, value);
+    ++accepted_;
+  }
+
+  void move(const Eigen::VectorXd& x, double value) {
+    x_ = x;
+    value_ = value;
+  }
+
+  void adapt() {
+    const double rate = static_cast<double>(accepted_) / kAdaptEvery;
+    if (rate > 0.45) step_ = std::min(kMaxStep, 1.5 * step_);
+    if (rate < 0.3) step_ = std::max(kMinStep, step_ / 1.5);
+    accepted_ = 0;
+  }
+
+  std::unique_ptr<Objective> objective_;
+  const Box& box_;
+  Random random_;
+  Candidate best_;
+  Eigen::VectorXd x_;
+  double value_ = -kInfinity;
+  double step_ = 0.25;
+  int accepted_ = 0;
+  double count_ = 0, mean_ = 0, square_ = 0;  // of the sample: Welford's running moments
+};
+
+/// Simulated annealing with restarts.
+///
+/// Schedule: 60 % of the budget goes to r = sqrt(budget/300) independent chains (1 to 32), each
+/// with its own stream of random numbers. A chain samples the bounds with a tenth of its steps (the
+/// first chain: `start` first) and walks on from the best point of the sample. Its temperature
+/// begins at the sample's standard deviation and falls geometrically to 1e-4 of it; a proposal is a
+/// normal step of all coordinates, reflected at the bounds, its length steered to an acceptance of
+/// 30 to 45 %. A point without a value is never accepted; a chain that has seen none with a value
+/// keeps sampling. The rest of the budget refines the best points of the chains, see `refine`.
+class Annealing final : public Search {
+ public:
+  SearchResult maximize(Objective& objective, const SearchOptions& options) override {
+    check(options);
+    const Box box(objective);
+    const Eigen::VectorXd start = box.start(options.start);
+    EvaluationCounter progress(options.progress);
+    const long walking = box.free() == 0 ? 1 : std::max(1L, options.budget * 6 / 10);
+    const long wanted = std::lround(std::sqrt(static_cast<double>(options.budget) / 300));
+    const long chains = std::min(walking, std::clamp(wanted, 1L, 32L));
+    std::vector<Candidate> bests(chains);
+    parallel_for(options.threads, chains, [&](long i) {
+      const long length = walking / chains + (i < walking % chains ? 1 : 0);
+      Chain chain(objective, box, Random(options.seed, i));
+      bests[i] = chain.run(i == 0 ? &start : nullptr, length);
+      progress.add(length);
+    });
+    RefineOptions refinement;
+    refinement.step = 0.02;
+    refinement.separation = 0.02;
+    refinement.budget = options.budget - walking;
+    refinement.seed = ~options.seed;  // streams apart from those of the chains
+    refinement.threads = options.threads;
+    const Candidate best = refine(objective, box, std::move(bests), refinement, progress);
+    return make_result(best, progress.count());
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Search> make_annealing() { return std::make_unique<Annealing>(); }
+
+}  // namespace maxwrench

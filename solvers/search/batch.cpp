@@ -1,0 +1,104 @@
+#include "solvers/search/batch.h"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace maxwrench {
+
+Box::Box(const Objective& objective) : lower_(objective.lower()), upper_(objective.upper()) {
+  if (lower_.size() != upper_.size())
+    throw std::invalid_argument("search bounds: lower and upper differ in size");
+  for (int i = 0; i < lower_.size(); ++i) {
+    if (!std::isfinite(lower_[i]) || !std::isfinite(upper_[i]) || lower_[i] > upper_[i])
+      throw std::invalid_argument("search bounds of theta_r[" + std::to_string(i) +
+                                  "]: expected finite lower <= upper");
+    if (lower_[i] < upper_[i]) free_.push_back(i);
+  }
+}
+
+Eigen::VectorXd Box::theta_r(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd result = lower_;
+  for (int j = 0; j < free(); ++j) {
+    const int i = free_[j];
+    // Both ends are met exactly.
+    result[i] = x[j] >= 1 ? upper_[i] : lower_[i] + std::max(x[j], 0.0) * (upper_[i] - lower_[i]);
+  }
+  return result;
+}
+
+Eigen::VectorXd Box::unit(const Eigen::VectorXd& theta_r) const {
+  Eigen::VectorXd x(free());
+  for (int j = 0; j < free(); ++j) {
+    const int i = free_[j];
+    x[j] = (theta_r[i] - lower_[i]) / (upper_[i] - lower_[i]);
+  }
+  return x;
+}
+
+Eigen::VectorXd Box::start(const Eigen::VectorXd& start) const {
+  if (start.size() == 0) return lower_ + (upper_ - lower_) / 2;
+  if (start.size() != lower_.size())
+    throw std::invalid_argument("search start: got " + std::to_string(start.size()) +
+                                " numbers, expected " + std::to_string(lower_.size()));
+  if (!start.allFinite()) throw std::invalid_argument("search start: expected finite numbers");
+  return start.cwiseMax(lower_).cwiseMin(upper_);
+}
+
+void parallel_for(int threads, long count, const std::function<void(long)>& body) {
+  // Threads beyond the processors only slow down, but whoever asks for them gets them.
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<long>(0, count, 1),
+        [&](const tbb::blocked_range<long>& range) {
+          for (long i = range.begin(); i < range.end(); ++i) body(i);
+        },
+        tbb::simple_partitioner());
+  });
+}
+
+std::vector<double> evaluate_all(const Objective& objective, long count,
+                                 const std::function<Eigen::VectorXd(long)>& point, int threads,
+                                 EvaluationCounter& progress) {
+  // Large enough to pay for a clone, small enough to share the work evenly.
+  const long chunk = std::clamp(count / 64, 64L, 4096L);
+  std::vector<double> values(count);
+  parallel_for(threads, (count + chunk - 1) / chunk, [&](long c) {
+    const std::unique_ptr<Objective> local = objective.clone();
+    const long first = c * chunk;
+    const long last = std::min(count, first + chunk);
+    for (long i = first; i < last; ++i) values[i] = evaluate_one(*local, point(i));
+    progress.add(last - first);
+  });
+  return values;
+}
+
+double evaluate_one(Objective& objective, const Eigen::VectorXd& theta_r) {
+  const double value = objective.evaluate(theta_r);
+  return std::isnan(value) ? -kInfinity : value;
+}
+
+void check(const SearchOptions& options) {
+  if (options.budget < 1) throw std::invalid_argument("budget: expected at least 1 evaluation");
+  if (options.threads < 1) throw std::invalid_argument("threads: expected at least 1");
+}
+
+SearchResult make_result(const Candidate& best, long evaluations) {
+  SearchResult result;
+  result.evaluations = evaluations;
+  if (best.value == -kInfinity) return result;
+  result.status = Status::kOptimal;
+  result.reason = "";
+  result.theta_r = best.theta_r;
+  result.value = best.value;
+  return result;
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,209 @@
+#include "solvers/search/refine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "lib/random.h"
+
+namespace maxwrench {
+namespace {
+
+/// The numbers of CMA-ES that depend on the dimension d only (names as in Hansen's tutorial).
+struct Rates {
+  explicit Rates(int d) : lambda(6 + 3 * d), mu(lambda / 2), weights(mu) {
+    for (int i = 0; i < mu; ++i) weights[i] = std::log((lambda + 1) / 2.0) - std::log(i + 1.0);
+    weights /= weights.sum();
+    mu_eff = 1 / weights.squaredNorm();
+    c_sigma = (mu_eff + 2) / (d + mu_eff + 5);
+    d_sigma = 1 + 2 * std::max(0.0, std::sqrt((mu_eff - 1) / (d + 1)) - 1) + c_sigma;
+    c_c = (4 + mu_eff / d) / (d + 4 + 2 * mu_eff / d);
+    c_1 = 2 / ((d + 1.3) * (d + 1.3) + mu_eff);
+    c_mu = std::min(1 - c_1, 2 * (mu_eff - 2 + 1 / mu_eff) / ((d + 2.0) * (d + 2.0) + mu_eff));
+    chi = std::sqrt(d) * (1 - 1 / (4.0 * d) + 1 / (21.0 * d * d));
+  }
+
+  int lambda, mu;
+  Eigen::VectorXd weights;
+  double mu_eff, c_sigma, d_sigma, c_c, c_1, c_mu, chi;
+};
+
+/// One run of CMA-ES in the unit cube: normal samples around `mean` with covariance sigma^2 C.
+class Evolution {
+ public:
+  Evolution(const Rates& rates, const Eigen::VectorXd& mean, double sigma)
+      : rates_(rates),
+        mean_(mean),
+        path_sigma_(Eigen::VectorXd::Zero(mean.size())),
+        path_c_(path_sigma_),
+        C_(Eigen::MatrixXd::Identity(mean.size(), mean.size())),
+        axes_(C_),
+        lengths_(Eigen::VectorXd::Ones(mean.size())),
+        sigma_(sigma) {}
+
+  /// The standard deviation along the longest axis.
+  double reach() const { return sigma_ * lengths_.maxCoeff(); }
+
+  Eigen::VectorXd sample(Random& random) const {
+    Eigen::VectorXd z(mean_.size());
+    for (double& z_i : z) z_i = random.normal();
+    const Eigen::VectorXd x = mean_ + sigma_ * (axes_ * lengths_.cwiseProduct(z));
+    return x.cwiseMax(0).cwiseMin(1);
+  }
+
+  /// Nothing sampled has a value: back to the best point, and closer.
+  void retreat(const Eigen::VectorXd& best) {
+    mean_ = best;
+    sigma_ /= 2;
+  }
+
+  /// `ranked`: the mu best samples, best first.
+  void update(const std::vector<Eigen::VectorXd>& ranked) {
+    const Rates& r = rates_;
+    Eigen::MatrixXd Y(mean_.size(), r.mu);
+    for (int i = 0; i < r.mu; ++i) Y.col(i) = (ranked[i] - mean_) / sigma_;
+    const Eigen::VectorXd y = Y * r.weights;
+    mean_ += sigma_ * y;
+    const Eigen::VectorXd white =
+        axes_ * (axes_.transpose() * y).cwiseQuotient(lengths_.cwiseMax(1e-150));
+    path_sigma_ =
+        (1 - r.c_sigma) * path_sigma_ + std::sqrt(r.c_sigma * (2 - r.c_sigma) * r.mu_eff) * white;
+    const double ratio = path_sigma_.norm() / r.chi;
+    const double h = ratio < 1.4 + 2.0 / (static_cast<double>(mean_.size()) + 1) ? 1 : 0;
+    path_c_ = (1 - r.c_c) * path_c_ + h * std::sqrt(r.c_c * (2 - r.c_c) * r.mu_eff) * y;
+    const double kept = 1 - r.c_1 - r.c_mu + (1 - h) * r.c_1 * r.c_c * (2 - r.c_c);
+    C_ = (kept * C_ + r.c_1 * path_c_ * path_c_.transpose() +
+          r.c_mu * Y * r.weights.asDiagonal() * Y.transpose())
+             .eval();
+    sigma_ *= std::exp(std::min(1.0, r.c_sigma / r.d_sigma * (ratio - 1)));
+    decompose();
+  }
+
+ private:
+  void decompose() {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(C_);
+    axes_ = eigen.eigenvectors();
+    // Rounding may leave a negative eigenvalue where C is nearly flat.
+    const double floor = 1e-14 * eigen.eigenvalues().maxCoeff();
+    lengths_ = eigen.eigenvalues().cwiseMax(floor).cwiseSqrt();
+  }
+
+  const Rates& rates_;
+  Eigen::VectorXd mean_, path_sigma_, path_c_;
+  Eigen::MatrixXd C_, axes_;
+  Eigen::VectorXd lengths_;
+  double sigma_;
+};
+
+/// One ascent of one candidate, by its own clone of the objective and its own random numbers.
+class Ascent {
+ public:
+  Ascent(const Objective& objective, const Box& box, const Candidate& start, Random random,
+         EvaluationCounter& progress)
+      : objective_(objective.clone()),
+        box_(box),
+        rates_(box.free()),
+        best_(start),
+        random_(random),
+        progress_(progress) {}
+
+  /// Spends up to `budget` evaluations.
+  Candidate run(double step, double tolerance, long budget) {
+    int idle = 0;
+    for (int start = 0; budget > 0 && idle < 2; ++start) {
+      const double before = best_.value;
+      budget -= climb(start % 2 == 0 ? step : step / 100, tolerance, budget);
+      idle = best_.value > before ? 0 : idle + 1;
+    }
+    return best_;
+  }
+
+ private:
+  long climb(double step, double tolerance, long budget) {
+    Evolution evolution(rates_, box_.unit(best_.theta_r), step);
+    long used = 0;
+    while (used < budget && evolution.reach() > tolerance) {
+      const long size = std::min<long>(rates_.lambda, budget - used);
+      used += size;
+      generation(size, evolution);
+    }
+    return used;
+  }
+
+  void generation(long size, Evolution& evolution) {
+    std::vector<Eigen::VectorXd> samples(size);
+    std::vector<double> values(size);
+    for (long i = 0; i < size; ++i) {
+      samples[i] = evolution.sample(random_);
+      const Eigen::VectorXd theta_r = box_.theta_r(samples[i]);
+      values[i] = evaluate_one(*objective_, theta_r);
+      if (values[i] > best_.value) best_ = {theta_r, values[i]};
+    }
+    progress_.add(size);
+    if (size < rates_.lambda) return;  // the budget is used
+    std::vector<long> order(size);
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](long a, long b) { return values[a] > values[b]; });
+    if (values[order[0]] == -kInfinity) {
+      evolution.retreat(box_.unit(best_.theta_r));
+      return;
+    }
+    std::vector<Eigen::VectorXd> ranked;
+    for (int i = 0; i < rates_.mu; ++i) {
+      // Too few points with a value: the best one takes the places of the rest.
+      const long k = values[order[i]] == -kInfinity ? order[0] : order[i];
+      ranked.push_back(samples[k]);
+    }
+    evolution.update(ranked);
+  }
+
+  std::unique_ptr<Objective> objective_;
+  const Box& box_;
+  Rates rates_;
+  Candidate best_;
+  Random random_;
+  EvaluationCounter& progress_;
+};
+
+/// The best candidates, best first, each away from all better ones.
+std::vector<Candidate> select(const Box& box, std::vector<Candidate> candidates, double separation,
+                              long count) {
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
+  std::vector<Candidate> selected;
+  for (const Candidate& candidate : candidates) {
+    if (static_cast<long>(selected.size()) == count || candidate.value == -kInfinity) break;
+    const Eigen::VectorXd x = box.unit(candidate.theta_r);
+    const bool close = std::any_of(selected.begin(), selected.end(), [&](const Candidate& other) {
+      return (box.unit(other.theta_r) - x).lpNorm<Eigen::Infinity>() < separation;
+    });
+    if (!close) selected.push_back(candidate);
+  }
+  return selected;
+}
+
+}  // namespace
+
+Candidate refine(const Objective& objective, const Box& box, std::vector<Candidate> candidates,
+                 const RefineOptions& options, EvaluationCounter& progress) {
+  const long shared = options.budget / 2;
+  const long count = std::clamp(shared / (100L * (box.free() + 1)), 1L, 8L);
+  std::vector<Candidate> best = select(box, std::move(candidates), options.separation, count);
+  if (best.empty()) return {};
+  if (box.free() == 0 || options.budget <= 0) return best[0];
+  const long before = progress.count();
+  const long share = best.size() == 1 ? 0 : shared / static_cast<long>(best.size());
+  parallel_for(options.threads, share == 0 ? 0 : static_cast<long>(best.size()), [&](long i) {
+    Ascent ascent(objective, box, best[i], Random(options.seed, i + 1), progress);
+    best[i] = ascent.run(options.step, options.tolerance, share);
+  });
+  const Candidate* winner = &best[0];
+  for (const Candidate& candidate : best)
+    if (candidate.value > winner->value) winner = &candidate;
+  const long rest = options.budget - (progress.count() - before);
+  Ascent ascent(objective, box, *winner, Random(options.seed, 0), progress);
+  return ascent.run(options.step, options.tolerance, rest);
+}
+
+}  // namespace maxwrench

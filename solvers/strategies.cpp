@@ -1,0 +1,80 @@
+#include "solvers/strategies.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+#include "solvers/lp/assembled.h"
+#include "solvers/lp/facets.h"
+#include "solvers/lp/ipopt.h"
+#include "solvers/lp/simplex.h"
+#include "solvers/search/annealing.h"
+#include "solvers/search/grid.h"
+
+namespace maxwrench {
+namespace {
+
+const MeasureEntry kMeasures[] = {
+    {"ellipsoid", "beta_1: weighted ellipsoid of actuator efforts, closed form", false,
+     [](const Robot& robot, std::unique_ptr<WrenchSolver>) { return make_ellipsoid(robot); }},
+    {"l2_polytope", "efforts fixed to u = B^+ (tau_d + J'h), within their limits", true,
+     make_l2_polytope},
+    {"linf_polytope", "beta_2, beta_3: any efforts within their limits", true, make_linf_polytope},
+};
+
+const LpEntry kLpSolvers[] = {
+    {"simplex", "own bounded-variable simplex, warm-started", 1, [] { return make_simplex(); }},
+    {"ipopt", "Ipopt, interior point", 20, make_ipopt},
+};
+
+const SearchEntry kSearches[] = {
+    {"grid", "regular grid, then refinement around its best cells", make_grid},
+    {"annealing", "simulated annealing in independent chains", make_annealing},
+};
+
+std::vector<WrenchSolverEntry> make_wrench_solvers() {
+  std::vector<WrenchSolverEntry> table = {
+      {"facets", "ray shooting through the facets of {B u}, one wrench column", true, 1,
+       make_facets},
+  };
+  for (const LpEntry& lp : kLpSolvers) {
+    table.push_back(
+        {lp.name, lp.summary, false, lp.cost, [make = lp.make] { return make_assembled(make()); }});
+  }
+  return table;
+}
+
+template <class Entry>
+const Entry& find(std::span<const Entry> table, const char* family, std::string_view name) {
+  const auto found = std::find_if(table.begin(), table.end(),
+                                  [&](const Entry& entry) { return entry.name == name; });
+  if (found != table.end()) return *found;
+  std::vector<std::string_view> names;
+  for (const Entry& entry : table) names.emplace_back(entry.name);
+  throw std::invalid_argument(
+      fmt::format("{}: got '{}', expected one of {}", family, name, fmt::join(names, " ")));
+}
+
+}  // namespace
+
+std::span<const MeasureEntry> measures() { return kMeasures; }
+std::span<const LpEntry> lp_solvers() { return kLpSolvers; }
+std::span<const WrenchSolverEntry> wrench_solvers() {
+  static const std::vector<WrenchSolverEntry> kTable = make_wrench_solvers();
+  return kTable;
+}
+std::span<const SearchEntry> searches() { return kSearches; }
+
+const MeasureEntry& find_measure(std::string_view name) {
+  return find(measures(), "measure", name);
+}
+const LpEntry& find_lp_solver(std::string_view name) { return find(lp_solvers(), "lp", name); }
+const WrenchSolverEntry& find_wrench_solver(std::string_view name) {
+  return find(wrench_solvers(), "lp", name);
+}
+const SearchEntry& find_search(std::string_view name) { return find(searches(), "search", name); }
+
+}  // namespace maxwrench

@@ -1,0 +1,180 @@
+#include "lib/kinematics.h"
+
+#include <gtest/gtest.h>
+
+#include <kdl/chain.hpp>
+#include <kdl/chaindynparam.hpp>
+#include <kdl/chainfksolverpos_recursive.hpp>
+#include <kdl/chainjnttojacsolver.hpp>
+
+#include "tests/support.h"
+
+namespace maxwrench {
+namespace {
+
+constexpr double kStep = 1e-6;
+
+/// The base moved by `step` along velocity number i, in base axes, and the joints likewise.
+void move(const Robot& robot, int i, double step, Pose<double>& base, Eigen::VectorXd& q) {
+  const int axes = static_cast<int>(robot.base_axes.size());
+  if (i >= axes) {
+    q[i - axes] += step;
+    return;
+  }
+  const Eigen::Vector3d direction = Eigen::Vector3d::Unit(robot.base_axes[i] % 3);
+  if (robot.base_axes[i] < 3) {
+    base.p += step * base.R * direction;
+  } else {
+    base.R = base.R * Eigen::AngleAxisd(step, direction).toRotationMatrix();
+  }
+}
+
+Pose<double> end_effector(const Robot& robot, const Pose<double>& base, const Eigen::VectorXd& q) {
+  Kinematics<double> kinematics(robot);
+  kinematics.set_joints(q);
+  return base * kinematics.end_effector(robot.end_effectors[0]);
+}
+
+double potential_energy(const Robot& robot, const Pose<double>& base, const Eigen::VectorXd& q) {
+  Kinematics<double> kinematics(robot);
+  kinematics.set_joints(q);
+  double energy = 0;
+  for (std::size_t i = 0; i < robot.links.size(); ++i) {
+    const Pose<double> pose = base * kinematics.links()[i];
+    const Link& link = robot.links[i];
+    energy +=
+        robot.gravity * (link.mass * (pose.R * link.com + pose.p).z() -
+                         robot.water_density * link.volume * (pose.R * link.cob + pose.p).z());
+  }
+  return energy;
+}
+
+TEST(Kinematics, JacobianIsTheDerivativeOfTheEndEffectorPose) {
+  Random random(1);
+  for (int sample = 0; sample < 20; ++sample) {
+    const Robot robot = random_problem(random, 5).robot;
+    const Pose<double> base{random_rotation(random), random_vector(random)};
+    const Eigen::VectorXd q = Eigen::VectorXd::NullaryExpr(5, [&] { return random.normal(); });
+    Kinematics<double> kinematics(robot);
+    kinematics.set_joints(q);
+    Matrix6Xd J(6, robot.velocities());
+    kinematics.jacobian(robot.end_effectors[0], base.R, J);
+    for (int i = 0; i < robot.velocities(); ++i) {
+      Pose<double> ends[2] = {base, base};
+      for (int side = 0; side < 2; ++side) {
+        Eigen::VectorXd q_side = q;
+        move(robot, i, side ? kStep : -kStep, ends[side], q_side);
+        ends[side] = end_effector(robot, ends[side], q_side);
+      }
+      const Eigen::AngleAxisd turn(Eigen::Matrix3d(ends[1].R * ends[0].R.transpose()));
+      Vector6d twist;
+      twist << ends[1].p - ends[0].p, turn.angle() * turn.axis();
+      EXPECT_LT((twist / (2 * kStep) - J.col(i)).norm(), 1e-8) << "velocity " << i;
+    }
+  }
+}
+
+TEST(Kinematics, StaticLoadIsTheDerivativeOfThePotentialEnergy) {
+  Random random(2);
+  for (int sample = 0; sample < 20; ++sample) {
+    const Robot robot = random_problem(random, 5).robot;
+    const Pose<double> base{random_rotation(random), random_vector(random)};
+    const Eigen::VectorXd q = Eigen::VectorXd::NullaryExpr(5, [&] { return random.normal(); });
+    Kinematics<double> kinematics(robot);
+    kinematics.set_joints(q);
+    Eigen::VectorXd tau_d(robot.velocities());
+    kinematics.gravity_and_buoyancy(base.R, tau_d);
+    for (int i = 0; i < robot.velocities(); ++i) {
+      double energy[2] = {};
+      for (int side = 0; side < 2; ++side) {
+        Pose<double> moved = base;
+        Eigen::VectorXd q_side = q;
+        move(robot, i, side ? kStep : -kStep, moved, q_side);
+        energy[side] = potential_energy(robot, moved, q_side);
+      }
+      EXPECT_NEAR((energy[1] - energy[0]) / (2 * kStep), tau_d[i], 1e-7) << "velocity " << i;
+    }
+  }
+}
+
+/// The arm alone as a KDL chain, in the axes of the base.
+KDL::Chain kdl_chain(const Robot& robot) {
+  const auto frame = [](const Pose<double>& pose) {
+    KDL::Frame f;
+    for (int r = 0; r < 3; ++r) {
+      f.p[r] = pose.p[r];
+      for (int c = 0; c < 3; ++c) f.M(r, c) = pose.R(r, c);
+    }
+    return f;
+  };
+  const auto vector = [](const Eigen::Vector3d& v) { return KDL::Vector(v.x(), v.y(), v.z()); };
+  KDL::Chain chain;
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    // KDL applies the joint before the segment's tip frame: the placement is a fixed segment of its
+    // own.
+    const Joint& joint = robot.joints[i];
+    const Link& link = robot.links[i + 1];
+    chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::None), frame(joint.placement)));
+    const auto type =
+        joint.type == JointType::kRevolute ? KDL::Joint::RotAxis : KDL::Joint::TransAxis;
+    chain.addSegment(KDL::Segment(KDL::Joint("j", KDL::Vector::Zero(), vector(joint.axis), type),
+                                  KDL::Frame::Identity(),
+                                  KDL::RigidBodyInertia(link.mass, vector(link.com))));
+  }
+  chain.addSegment(
+      KDL::Segment(KDL::Joint(KDL::Joint::None), frame(robot.end_effectors[0].placement)));
+  return chain;
+}
+
+TEST(Kinematics, AgreesWithKdlOnTheDryArm) {
+  Random random(3);
+  for (int sample = 0; sample < 50; ++sample) {
+    Robot robot = random_problem(random, 6).robot;
+    robot.water_density = 0;
+    const Eigen::VectorXd q = Eigen::VectorXd::NullaryExpr(6, [&] { return random.normal(); });
+    Kinematics<double> kinematics(robot);
+    kinematics.set_joints(q);
+    const Eigen::Matrix3d upright = Eigen::Matrix3d::Identity();
+    Matrix6Xd J(6, robot.velocities());
+    kinematics.jacobian(robot.end_effectors[0], upright, J);
+    Eigen::VectorXd tau_d(robot.velocities());
+    kinematics.gravity_and_buoyancy(upright, tau_d);
+
+    const KDL::Chain chain = kdl_chain(robot);
+    KDL::JntArray positions(6);
+    positions.data = q;
+    KDL::Frame tip;
+    KDL::ChainFkSolverPos_recursive(chain).JntToCart(positions, tip);
+    KDL::Jacobian jacobian(6);
+    KDL::ChainJntToJacSolver(chain).JntToJac(positions, jacobian);
+    KDL::JntArray gravity(6);
+    KDL::ChainDynParam(chain, KDL::Vector(0, 0, -robot.gravity)).JntToGravity(positions, gravity);
+
+    const Pose<double> pose = kinematics.end_effector(robot.end_effectors[0]);
+    for (int r = 0; r < 3; ++r) {
+      EXPECT_NEAR(pose.p[r], tip.p[r], 1e-13);
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(pose.R(r, c), tip.M(r, c), 1e-13);
+    }
+    EXPECT_LT((J.rightCols(6) - jacobian.data).norm(), 1e-12);
+    EXPECT_LT((tau_d.tail(6) - gravity.data).norm(), 1e-11);
+  }
+}
+
+TEST(Kinematics, WeightPressesTheBaseDownAndItsThrustersHoldItUp) {
+  // One body of 2 kg in air: the actuators must push up with 2 * 9.81 N. Its centre lies 0.1 m
+  // ahead, so they must also pitch it nose up, which is a negative torque about y.
+  Robot robot;
+  robot.base_axes = {0, 1, 2, 3, 4, 5};
+  robot.links.resize(1);
+  robot.links[0].mass = 2;
+  robot.links[0].com = {0.1, 0, 0};
+  Kinematics<double> kinematics(robot);
+  Eigen::VectorXd tau_d(6);
+  kinematics.gravity_and_buoyancy(Eigen::Matrix3d::Identity(), tau_d);
+  Vector6d expected;
+  expected << 0, 0, 19.62, 0, -1.962, 0;
+  EXPECT_LT((tau_d - expected).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace maxwrench

@@ -1,0 +1,248 @@
+#include "problems/loader.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+namespace maxwrench {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+void write(const fs::path& file, const std::string& text) { std::ofstream(file) << text; }
+
+/// A folder of its own for each test, removed with it.
+class LoaderTest : public testing::Test {
+ protected:
+  LoaderTest() {
+    std::string name = (fs::temp_directory_path() / "maxwrench_loader_XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+  }
+  ~LoaderTest() override { fs::remove_all(folder_); }
+
+  Robot load(const std::string& urdf, const std::string& toml) {
+    write(folder_ / "robot.urdf", "<robot name='r'>" + urdf + "</robot>");
+    write(folder_ / "robot.toml", "name = 'r'\nurdf = 'robot.urdf'\n" + toml);
+    return load_robot(folder_ / "robot.toml");
+  }
+
+  fs::path folder_;
+};
+
+TEST(PlanarForce, IsShipped) {
+  EXPECT_THAT(shipped_problems(), testing::Contains("planar/force"));
+  const fs::path folder = fs::path(MAXWRENCH_SOURCE_DIR) / "problems/planar";
+  EXPECT_TRUE(is_task(folder / "force.toml"));
+  EXPECT_FALSE(is_task(folder / "vehicle.toml"));
+  const std::string path = (folder / "force.toml").string();
+  EXPECT_EQ(load_problem(path).name, path);
+}
+
+TEST(PlanarForce, RobotIsAsDescribed) {
+  const Robot robot = load_problem("planar/force").robot;
+  EXPECT_THAT(robot.base_axes, ElementsAre(0, 1, 5));
+  ASSERT_EQ(robot.joints.size(), 2u);
+  ASSERT_EQ(robot.links.size(), 3u);
+  EXPECT_EQ(robot.links[0].name, "hull");
+  EXPECT_EQ(robot.links[2].name, "link_2");
+  EXPECT_EQ(robot.joints[0].name, "shoulder");
+  EXPECT_TRUE(robot.joints[0].placement.p.isApprox(Eigen::Vector3d(0.3, 0.1, 0)));
+  EXPECT_TRUE(robot.joints[1].placement.p.isApprox(Eigen::Vector3d(0.1, 0, 0)));
+  for (const Joint& joint : robot.joints) {
+    EXPECT_EQ(joint.type, JointType::kRevolute);
+    EXPECT_EQ(joint.axis, Eigen::Vector3d::UnitZ());
+    EXPECT_NEAR(joint.q_min, -60 * kDegree, 1e-15);
+    EXPECT_NEAR(joint.q_max, 60 * kDegree, 1e-15);
+    EXPECT_EQ(joint.effort_max, 1);
+  }
+  ASSERT_EQ(robot.end_effectors.size(), 1u);
+  EXPECT_EQ(robot.end_effectors[0].link, 2);
+  EXPECT_TRUE(robot.end_effectors[0].placement.p.isApprox(Eigen::Vector3d(0.1, 0, 0)));
+  ASSERT_NE(robot.collision, nullptr);
+  EXPECT_EQ(robot.collision->pairs(), 1);  // hull and link 2; neighbours are ignored
+}
+
+TEST(PlanarForce, ThrustersLieOnTheDiagonals) {
+  const Robot robot = load_problem("planar/force").robot;
+  ASSERT_EQ(robot.thrusters.size(), 4u);
+  // Left thrusters at y = 0.2, front ones at x = 0.3; lines at atan(1/4).
+  const double c = std::cos(std::atan(0.25)), s = std::sin(std::atan(0.25));
+  const std::vector<Eigen::Vector3d> directions = {{c, -s, 0}, {c, s, 0}, {c, s, 0}, {c, -s, 0}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Thruster& thruster = robot.thrusters[i];
+    EXPECT_TRUE(thruster.direction.isApprox(directions[i], 1e-15)) << thruster.name;
+    EXPECT_EQ(thruster.position.x(), i < 2 ? 0.3 : -0.3);
+    EXPECT_EQ(thruster.position.y(), i % 2 == 0 ? 0.2 : -0.2);
+    EXPECT_EQ(thruster.force_min, -1);
+    EXPECT_EQ(thruster.force_max, 1);
+    EXPECT_EQ(thruster.force_rate_max, kInfinity);
+  }
+  EXPECT_EQ(robot.actuation.actuators(), 6);
+  EXPECT_EQ(robot.actuation.rank, 5);
+  EXPECT_EQ(robot.sources.front().first, "robot");
+  EXPECT_EQ(robot.sources[1].first, "base");
+}
+
+TEST(PlanarForce, TaskIsAsDescribed) {
+  const Problem problem = load_problem("planar/force");
+  EXPECT_EQ(problem.name, "planar/force");
+  EXPECT_EQ(problem.label, "identified");
+  EXPECT_EQ(problem.end_effector, 0);
+  EXPECT_EQ(problem.c, Vector6d::Unit(0));
+  EXPECT_STREQ(problem.unit(), "N");
+  ASSERT_EQ(problem.W_any.cols(), 3);
+  EXPECT_EQ(problem.W_any.col(0), Vector6d::Unit(0));
+  EXPECT_EQ(problem.W_any.col(1), Vector6d::Unit(1));
+  EXPECT_EQ(problem.W_any.col(2), Vector6d::Unit(5));
+  EXPECT_THAT(problem.redundant, ElementsAre(0, 1));
+  EXPECT_EQ(problem.redundancy(), 2);
+  EXPECT_TRUE(problem.theta_r_default.isZero());
+  // The tool's x axis is 10 degrees left of c.
+  EXPECT_NEAR(problem.pose.R(0, 0), std::cos(10 * kDegree), 1e-15);
+  EXPECT_NEAR(problem.pose.R(1, 0), std::sin(10 * kDegree), 1e-15);
+  EXPECT_TRUE(problem.pose.p.isZero());
+}
+
+constexpr const char* kTwoBodies = R"(
+  <link name='arm'><inertial><origin xyz='1 0 0'/><mass value='3'/>
+    <inertia ixx='1' ixy='0' ixz='0' iyy='2' iyz='0' izz='2'/></inertial></link>
+  <link name='tank'><inertial><mass value='1'/>
+    <inertia ixx='1' ixy='0' ixz='0' iyy='2' iyz='0' izz='2.5'/></inertial></link>
+  <joint name='weld' type='fixed'><parent link='arm'/><child link='tank'/>
+    <origin xyz='1 4 0' rpy='0 0 1.5707963267948966'/></joint>)";
+
+TEST_F(LoaderTest, FixedLinksAreMergedIntoTheirCarrier) {
+  const Robot robot = load(kTwoBodies, R"(
+    base = { axes = [] }
+    [buoyancy]
+    arm = { volume = 0.1, cob = [0, 0, 0] }
+    tank = { volume = 0.3, cob = [2, 0, 0] }
+    [end_effectors]
+    valve = { link = "tank", xyz = [1, 0, 0], rpy = [0.5, 0, 0] }
+  )");
+  ASSERT_EQ(robot.links.size(), 1u);
+  const Link& link = robot.links[0];
+  EXPECT_EQ(link.mass, 4);
+  // Masses 3 at (1, 0, 0) and 1 at (1, 4, 0): the common centre is at (1, 1, 0).
+  EXPECT_TRUE(link.com.isApprox(Eigen::Vector3d(1, 1, 0)));
+  // The tank turned by 90 degrees has (ixx, iyy, izz) = (2, 1, 2.5); the distances along y add
+  // 3 * 1^2 + 1 * 3^2 = 12 to ixx and izz.
+  const Eigen::Vector3d moments(1 + 2 + 12, 2 + 1, 2 + 2.5 + 12);
+  EXPECT_TRUE(link.inertia.isApprox(Eigen::Matrix3d(moments.asDiagonal()), 1e-12));
+  // The tank's cob (2, 0, 0) is (1, 4 + 2, 0) in axes of the arm; weights 1 : 3.
+  EXPECT_DOUBLE_EQ(link.volume, 0.4);
+  EXPECT_TRUE(link.cob.isApprox(Eigen::Vector3d(0.75, 4.5, 0)));
+  ASSERT_EQ(robot.end_effectors.size(), 1u);
+  const EndEffector& valve = robot.end_effectors[0];
+  EXPECT_EQ(valve.link, 0);
+  EXPECT_TRUE(valve.placement.p.isApprox(Eigen::Vector3d(1, 5, 0)));
+  const Eigen::Matrix3d R = (Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ()) *
+                             Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX()))
+                                .toRotationMatrix();
+  EXPECT_TRUE(valve.placement.R.isApprox(R, 1e-12));
+}
+
+/// A tree: `slide` (prismatic) and `turn` (continuous) on the root, `tip` behind a fixed bracket on
+/// `turn`. Their order in the file is neither alphabetical nor depth-first.
+constexpr const char* kTree = R"(
+  <link name='root'/><link name='rail'/><link name='wheel'/><link name='bracket'/>
+  <link name='finger'/>
+  <joint name='turn' type='continuous'><parent link='root'/><child link='wheel'/>
+    <axis xyz='0 2 0'/><limit effort='5' velocity='3'/></joint>
+  <joint name='slide' type='prismatic'><parent link='root'/><child link='rail'/>
+    <axis xyz='0 3 4'/><limit lower='0.1' upper='0.4' effort='7' velocity='2'/></joint>
+  <joint name='hold' type='fixed'><parent link='wheel'/><child link='bracket'/>
+    <origin xyz='0 0 2'/></joint>
+  <joint name='tip' type='revolute'><parent link='bracket'/><child link='finger'/>
+    <origin xyz='1 0 0'/><axis xyz='0 0 1'/>
+    <limit lower='-1' upper='2' effort='0.5' velocity='1'/></joint>)";
+
+TEST_F(LoaderTest, TreeIsFlattenedDepthFirstInTheOrderOfTheFile) {
+  const Robot robot = load(kTree, "base = { axes = ['yaw', 'z', 'y', 'x'], link = 'root' }");
+  EXPECT_THAT(robot.base_axes, ElementsAre(0, 1, 2, 5));
+  ASSERT_EQ(robot.joints.size(), 3u);
+  const Joint &turn = robot.joints[0], &tip = robot.joints[1], &slide = robot.joints[2];
+  EXPECT_EQ(turn.name, "turn");
+  EXPECT_EQ(turn.type, JointType::kRevolute);
+  EXPECT_EQ(turn.axis, Eigen::Vector3d::UnitY());
+  EXPECT_EQ(turn.q_min, -std::numbers::pi);
+  EXPECT_EQ(turn.q_max, std::numbers::pi);
+  EXPECT_EQ(turn.velocity_max, 3);
+  EXPECT_EQ(tip.name, "tip");
+  EXPECT_EQ(tip.parent, 1);
+  EXPECT_TRUE(tip.placement.p.isApprox(Eigen::Vector3d(1, 0, 2)));  // through the bracket
+  EXPECT_EQ(slide.name, "slide");
+  EXPECT_EQ(slide.type, JointType::kPrismatic);
+  EXPECT_EQ(slide.parent, 0);
+  EXPECT_TRUE(slide.axis.isApprox(Eigen::Vector3d(0, 0.6, 0.8)));
+  EXPECT_EQ(slide.q_min, 0.1);
+  EXPECT_EQ(slide.effort_max, 7);
+  EXPECT_EQ(robot.links[3].name, "rail");
+  EXPECT_EQ(robot.collision, nullptr);
+}
+
+TEST_F(LoaderTest, ThetaRIsTheChainAndItsDefaultLiesWithinTheLimits) {
+  load(kTree,
+       "base = { axes = ['x'] }\nend_effectors = { finger = { link = 'finger' }, "
+       "rail = { link = 'rail' } }");
+  const auto task = [&](const std::string& end_effector) {
+    write(folder_ / "task.toml",
+          "type = 'static'\nrobot = 'robot.toml'\nlabel = 'test'\n"
+          "source = 'test'\nend_effector = '" +
+              end_effector +
+              "'\npose = { xyz = [1, 2, 3], rpy = [0, 0, 0] }\n"
+              "wrench = { c = [0, 0, 0, 0, 3, 4] }\n");
+    return load_problem((folder_ / "task.toml").string());
+  };
+  const Problem finger = task("finger");
+  EXPECT_THAT(finger.redundant, ElementsAre(0, 1));
+  EXPECT_TRUE(finger.theta_r_max.isApprox(Eigen::Vector2d(std::numbers::pi, 2)));
+  EXPECT_TRUE(finger.W_any.isApprox(Eigen::MatrixXd::Identity(6, 6)));
+  EXPECT_DOUBLE_EQ(finger.c[4], 0.6);
+  EXPECT_DOUBLE_EQ(finger.c[5], 0.8);
+  const Problem rail = task("rail");
+  EXPECT_THAT(rail.redundant, ElementsAre(2));
+  EXPECT_EQ(rail.theta_r_default[0], 0.1);  // zero, moved to the nearer limit
+}
+
+TEST_F(LoaderTest, ThrustersOverrideTheDefaults) {
+  const Robot robot = load("<link name='a'/>", R"(
+    base = { axes = ["x", "y", "z", "roll", "pitch", "yaw"] }
+    [thrusters]
+    force_min = -4
+    force_max = 5
+    force_rate_max = 50
+    [[thrusters.list]]
+    name = "one"
+    position = [0, 0, 0]
+    direction = [0, 0, 2]
+    [[thrusters.list]]
+    name = "two"
+    position = [0, 1, 0]
+    direction = [1, 0, 0]
+    force_max = 6.5
+    source = "data sheet"
+    status = "measured"
+  )");
+  ASSERT_EQ(robot.thrusters.size(), 2u);
+  EXPECT_EQ(robot.thrusters[0].direction, Eigen::Vector3d::UnitZ());
+  EXPECT_EQ(robot.thrusters[0].force_max, 5);
+  EXPECT_EQ(robot.thrusters[1].force_min, -4);
+  EXPECT_EQ(robot.thrusters[1].force_max, 6.5);
+  EXPECT_EQ(robot.u_rate_max[1], 50);
+  EXPECT_THAT(robot.sources,
+              ElementsAre(testing::Pair("thrusters.list[1]", "data sheet [measured]")));
+  EXPECT_EQ(robot.gravity, 9.81);
+  EXPECT_EQ(robot.water_density, 0);
+}
+
+}  // namespace
+}  // namespace maxwrench

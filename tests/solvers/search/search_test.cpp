@@ -1,0 +1,285 @@
+#include "lib/search.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "solvers/search/annealing.h"
+#include "solvers/search/grid.h"
+
+namespace maxwrench {
+namespace {
+
+using Function = std::function<double(const Eigen::VectorXd&)>;
+
+/// A function with a known maximum; counts its evaluations over all clones and checks the bounds.
+class Known : public Objective {
+ public:
+  Known(Function f, Eigen::VectorXd lower, Eigen::VectorXd upper)
+      : f_(std::move(f)),
+        lower_(std::move(lower)),
+        upper_(std::move(upper)),
+        count_(std::make_shared<std::atomic<long>>(0)) {}
+  const Eigen::VectorXd& lower() const override { return lower_; }
+  const Eigen::VectorXd& upper() const override { return upper_; }
+  double evaluate(const Eigen::VectorXd& theta_r, Eigen::VectorXd*) override {
+    ++*count_;
+    EXPECT_TRUE((theta_r.array() >= lower_.array()).all());
+    EXPECT_TRUE((theta_r.array() <= upper_.array()).all());
+    const double value = f_(theta_r);
+    status_ = value == -kInfinity ? Status::kInfeasible : Status::kOptimal;
+    return value;
+  }
+  Status status() const override { return status_; }
+  const char* reason() const override { return ""; }
+  std::unique_ptr<Objective> clone() const override { return std::make_unique<Known>(*this); }
+  long count() const { return *count_; }
+
+ private:
+  Function f_;
+  Eigen::VectorXd lower_, upper_;
+  std::shared_ptr<std::atomic<long>> count_;
+  Status status_ = Status::kOptimal;
+};
+
+Eigen::VectorXd constant(int d, double value) { return Eigen::VectorXd::Constant(d, value); }
+
+struct Example {
+  const char* name;
+  Known objective;
+  Eigen::VectorXd maximum;
+  double value;
+  double tolerance;  // of the value, with the full budget
+};
+
+double smooth(const Eigen::VectorXd& x) {
+  return 2 - std::pow(x[0] - 0.3, 2) - 2 * std::pow(x[1] + 0.7, 2);
+}
+
+// A sharp ridge along x1 = 0.6 x0 + 0.1, curved along itself: coordinate steps stall on it.
+double ridge(const Eigen::VectorXd& x) {
+  return 1 - 5 * std::abs(x[1] - 0.6 * x[0] - 0.1) - std::pow(x[0] - 0.5, 2);
+}
+
+// The smallest of four planes: a pyramid with its top at (0.2, -0.4), skewed and steep.
+double pyramid(const Eigen::VectorXd& x) {
+  const double a = x[0] - 0.2, b = x[1] + 0.4;
+  return 3 - std::max({a + 4 * b, -2 * a + b, a - 3 * b, -a - b});
+}
+
+// Lower of two smooth functions: the maximum lies on their curved crease.
+// On the circle x0^2 + x1^2 = 1 both are equal, to x0 + x1, largest at x0 = x1 = 1/sqrt(2).
+double crease(const Eigen::VectorXd& x) { return x[0] + x[1] - 4 * std::abs(x.squaredNorm() - 1); }
+
+// Peaks at the integers of both coordinates; the quadratic picks (1, -1), whose value is 0.
+double peaks(const Eigen::VectorXd& x) {
+  const Eigen::Vector2d d = x - Eigen::Vector2d(1, -1);
+  return -0.3 * d.squaredNorm() + (2 * M_PI * d.array()).cos().sum() - 2;
+}
+
+// No value outside the annulus 0.5 <= |x| <= 1; inside the value is x0, whose maximum (1, 0) lies
+// on its edge.
+double annulus(const Eigen::VectorXd& x) {
+  const double r = x.norm();
+  return r < 0.5 || r > 1 ? -kInfinity : x[0];
+}
+
+double bowl(const Eigen::VectorXd& x) {
+  double value = 0;
+  for (int i = 0; i < x.size(); ++i) value -= (i + 1) * std::pow(x[i] - 0.1 * i, 2);
+  return value;
+}
+
+std::vector<Example> examples() {
+  const Eigen::VectorXd one = constant(2, 1), two = constant(2, 2);
+  const auto V = [](double a, double b) { return Eigen::VectorXd(Eigen::Vector2d(a, b)); };
+  const double s = std::sqrt(0.5);
+  const auto kink = [](const Eigen::VectorXd& x) { return -std::abs(x[0] - 0.123); };
+  const auto corner = [](const Eigen::VectorXd& x) { return x[0] - 2 * x[1]; };
+  Eigen::Vector4d quarter(0, 0.1, 0.2, 0.3);
+  return {
+      {"smooth", {smooth, -two, two}, V(0.3, -0.7), 2, 1e-9},
+      {"ridge", {ridge, -two, two}, V(0.5, 0.4), 1, 1e-6},
+      {"pyramid", {pyramid, -two, two}, V(0.2, -0.4), 3, 1e-6},
+      {"crease", {crease, -two, two}, V(s, s), 2 * s, 1e-6},
+      {"peaks", {peaks, -3 * one, 3 * one}, V(1, -1), 0, 1e-6},
+      {"annulus", {annulus, -two, two}, V(1, 0), 1, 1e-5},
+      {"corner", {corner, -one, 3 * one}, V(3, -1), 5, 0},
+      {"one dimension", {kink, constant(1, -1), constant(1, 2)}, constant(1, 0.123), 0, 1e-8},
+      {"four dimensions", {bowl, constant(4, -1), constant(4, 1)}, quarter, 0, 1e-6},
+      {"fixed coordinate", {smooth, V(-2, 0.5), V(2, 0.5)}, V(0.3, 0.5), -0.88, 1e-9},
+      {"one point", {smooth, V(0.3, -0.7), V(0.3, -0.7)}, V(0.3, -0.7), 2, 1e-15},
+  };
+}
+
+struct Named {
+  const char* name;
+  std::unique_ptr<Search> (*make)();
+};
+const Named kSearches[] = {{"grid", make_grid}, {"annealing", make_annealing}};
+
+class SearchTest : public testing::TestWithParam<Named> {
+ protected:
+  SearchResult maximize(Objective& objective, const SearchOptions& options) {
+    return GetParam().make()->maximize(objective, options);
+  }
+};
+
+TEST_P(SearchTest, FindsKnownMaxima) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    for (Example& example : examples()) {
+      SCOPED_TRACE(example.name + std::string(", seed ") + std::to_string(seed));
+      SearchOptions options;
+      options.seed = seed;
+      const SearchResult result = maximize(example.objective, options);
+      EXPECT_EQ(result.status, Status::kOptimal);
+      EXPECT_NEAR(result.value, example.value, example.tolerance);
+      ASSERT_EQ(result.theta_r.size(), example.maximum.size());
+      EXPECT_LT((result.theta_r - example.maximum).norm(), 0.01);
+      EXPECT_EQ(result.value, example.objective.evaluate(result.theta_r, nullptr));
+    }
+  }
+}
+
+TEST_P(SearchTest, NeedsLittleForAThousandth) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    for (Example& example : examples()) {
+      if (example.maximum.size() > 2) continue;
+      SCOPED_TRACE(example.name + std::string(", seed ") + std::to_string(seed));
+      SearchOptions options;
+      options.seed = seed;
+      options.budget = 3000;
+      EXPECT_NEAR(maximize(example.objective, options).value, example.value,
+                  1e-3 * std::max(1.0, std::abs(example.value)));
+    }
+  }
+}
+
+TEST_P(SearchTest, ThreadsChangeNothing) {
+  for (Example& example : examples()) {
+    SCOPED_TRACE(example.name);
+    SearchOptions options;
+    options.budget = 4000;
+    const SearchResult one = maximize(example.objective, options);
+    for (const int threads : {1, 2, 8}) {
+      options.threads = threads;
+      const SearchResult many = maximize(example.objective, options);
+      EXPECT_EQ(one.value, many.value);
+      EXPECT_EQ(one.theta_r, many.theta_r);
+      EXPECT_EQ(one.evaluations, many.evaluations);
+    }
+  }
+}
+
+TEST_P(SearchTest, KeepsTheBudgetAndCountsExactly) {
+  for (Example& example : examples()) {
+    for (const long budget : {1, 2, 3, 7, 50, 1000}) {
+      SCOPED_TRACE(example.name + std::string(", budget ") + std::to_string(budget));
+      SearchOptions options;
+      options.budget = budget;
+      options.threads = 2;
+      std::atomic<long> reported = 0;
+      options.progress = [&](long evaluations) {
+        for (long seen = reported; seen < evaluations;)
+          if (reported.compare_exchange_weak(seen, evaluations)) break;
+      };
+      const long before = example.objective.count();
+      const SearchResult result = maximize(example.objective, options);
+      EXPECT_EQ(example.objective.count() - before, result.evaluations);
+      EXPECT_LE(result.evaluations, budget);
+      EXPECT_GE(result.evaluations, 1);
+      EXPECT_EQ(reported, result.evaluations);
+    }
+  }
+}
+
+TEST_P(SearchTest, SaysWhenNothingHasAValue) {
+  Known nowhere([](const Eigen::VectorXd&) { return -kInfinity; }, constant(2, 0), constant(2, 1));
+  const SearchResult result = maximize(nowhere, {});
+  EXPECT_EQ(result.status, Status::kInfeasible);
+  EXPECT_EQ(result.value, -kInfinity);
+  EXPECT_STREQ(result.reason, "no evaluated posture has a value");
+  EXPECT_EQ(nowhere.count(), result.evaluations);
+}
+
+TEST_P(SearchTest, TakesNotANumberForNoValue) {
+  Known half([](const Eigen::VectorXd& x) { return x[0] < 0.5 ? std::nan("") : -x[0]; },
+             constant(1, 0), constant(1, 1));
+  const SearchResult result = maximize(half, {});
+  EXPECT_EQ(result.status, Status::kOptimal);
+  EXPECT_NEAR(result.value, -0.5, 1e-6);
+}
+
+TEST_P(SearchTest, RefusesBadInput) {
+  Known known(smooth, constant(2, -1), constant(2, 1));
+  SearchOptions options;
+  options.budget = 0;
+  EXPECT_THROW(maximize(known, options), std::invalid_argument);
+  options.budget = 10;
+  options.threads = 0;
+  EXPECT_THROW(maximize(known, options), std::invalid_argument);
+  options.threads = 1;
+  Known crossed(smooth, constant(2, 1), constant(2, -1));
+  EXPECT_THROW(maximize(crossed, options), std::invalid_argument);
+  Known unbounded(smooth, constant(2, -kInfinity), constant(2, 1));
+  EXPECT_THROW(maximize(unbounded, options), std::invalid_argument);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SearchTest, testing::ValuesIn(kSearches),
+                         [](const auto& each) { return std::string(each.param.name); });
+
+TEST(GridTest, SixHundredSquaredBeforeRefinement) {
+  // 0.9 * 400,000 = 600^2 points at -1 + 2 i/599. Nothing has a value, so nothing is refined.
+  std::atomic<long> on_lattice = 0;
+  Known lattice(
+      [&](const Eigen::VectorXd& x) {
+        const Eigen::Array2d i = (x.array() + 1) * 599 / 2;
+        if ((i - i.round()).abs().maxCoeff() < 1e-9) ++on_lattice;
+        return -kInfinity;
+      },
+      constant(2, -1), constant(2, 1));
+  SearchOptions options;
+  options.budget = 400000;
+  options.threads = 2;
+  EXPECT_EQ(make_grid()->maximize(lattice, options).evaluations, 360000);
+  EXPECT_EQ(on_lattice, 360000);
+}
+
+TEST(GridTest, IgnoresTheSeed) {
+  Known known(peaks, constant(2, -3), constant(2, 3));
+  SearchOptions one, two;
+  two.seed = 2;
+  EXPECT_EQ(make_grid()->maximize(known, one).theta_r, make_grid()->maximize(known, two).theta_r);
+}
+
+TEST(AnnealingTest, SeedsDifferAndRepeat) {
+  Known known(smooth, constant(2, -2), constant(2, 2));
+  SearchOptions options;
+  options.budget = 100;
+  const SearchResult one = make_annealing()->maximize(known, options);
+  EXPECT_EQ(one.theta_r, make_annealing()->maximize(known, options).theta_r);
+  options.seed = 2;
+  EXPECT_NE(one.theta_r, make_annealing()->maximize(known, options).theta_r);
+}
+
+TEST(AnnealingTest, EvaluatesTheStartFirst) {
+  // A needle that no sample would hit.
+  const Eigen::Vector2d needle(0.123, 0.456);
+  Known known([&](const Eigen::VectorXd& x) { return x == needle ? 1.0 : 0.0; }, constant(2, -2),
+              constant(2, 2));
+  SearchOptions options;
+  options.budget = 1;
+  EXPECT_EQ(make_annealing()->maximize(known, options).theta_r, constant(2, 0));
+  options.start = needle;
+  EXPECT_EQ(make_annealing()->maximize(known, options).theta_r, needle);
+  options.start = constant(2, 9);  // outside: moved to the bounds
+  EXPECT_EQ(make_annealing()->maximize(known, options).theta_r, constant(2, 2));
+  options.start = constant(3, 0);
+  EXPECT_THROW(make_annealing()->maximize(known, options), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace maxwrench
