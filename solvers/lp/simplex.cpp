@@ -85,11 +85,9 @@ bool Simplex::try_once(const LinearProgram& program, LpSolution& solution, bool 
   e.iteration_limit = options_.max_iterations > 0 ? per_attempt : e.iterations + per_attempt;
   e.perturb = true;
   e.reset_bounds_and_costs();
-  if (!warm) {
-    e.crash_basis();
-  } else if (!e.refactor()) {
-    return false;
-  }
+  if (!warm) e.crash_basis();
+  const bool regular = e.refactor();
+  if (warm && !regular) return false;
   const char* reason = "";
   Status status = run_rounds(reason);
   solution.status = status;
@@ -98,7 +96,7 @@ bool Simplex::try_once(const LinearProgram& program, LpSolution& solution, bool 
   write_point(program, solution);
   write_multipliers(solution);
   write_basis(solution);
-  if (status == Status::kOptimal) solution.certificate.resize(0);
+  if (status == Status::kOptimal) solution.certificate.setZero(e.model.rows);
   if (status == Status::kInfeasible) write_farkas(program, solution);
   if (status == Status::kUnbounded) write_ray(solution);
   if (status == Status::kBudgetExhausted) return true;
@@ -117,8 +115,10 @@ Status Simplex::run_rounds(const char*& reason) {
   int troubles = 0;
   for (int round = 0; round < kMaxRounds; ++round) {
     e.perturb = round < kPerturbedRounds;
-    e.reset_bounds_and_costs();
-    e.refactor();
+    if (round > 0) {
+      e.reset_bounds_and_costs();
+      e.refactor();
+    }
     e.compute_primal();
     e.compute_dual();
     const bool feasible = e.primal_feasible();

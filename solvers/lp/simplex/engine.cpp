@@ -2,8 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace maxwrench::simplex {
+namespace {
+
+constexpr double kRounding = 2 * std::numeric_limits<double>::epsilon();
+
+double largest_magnitude(const std::vector<double>& v) {
+  double largest = 0;
+  for (const double x : v) largest = std::max(largest, std::abs(x));
+  return largest;
+}
+
+}  // namespace
 
 void Engine::resize() {
   factor.resize(model.rows, options.max_updates);
@@ -136,26 +148,47 @@ void Engine::compute_dual() {
 }
 
 void Engine::refine() {
-  std::copy(model.b.begin(), model.b.end(), row_work_.begin());
+  refine_primal();
+  refine_dual();
+}
+
+/// A residual within a few units in the last place of its terms is left alone.
+void Engine::refine_primal() {
+  double size = 0;
+  for (int i = 0; i < model.rows; ++i) {
+    row_work_[i] = model.b[i];
+    size = std::max(size, std::abs(model.b[i]));
+  }
   const auto subtract = [&](int j, double x) {
     if (x == 0) return;
     for (int e = model.start[j]; e < model.start[j + 1]; ++e) {
-      row_work_[model.index[e]] -= x * model.value[e];
+      const double term = x * model.value[e];
+      row_work_[model.index[e]] -= term;
+      size = std::max(size, std::abs(term));
     }
   };
   for (int j = 0; j < model.total; ++j) {
     if (state[j] != VariableState::kBasic) subtract(j, nonbasic_value(j));
   }
   for (int p = 0; p < model.rows; ++p) subtract(head[p], x_basic[p]);
+  if (largest_magnitude(row_work_) <= kRounding * size) return;
   factor.ftran(row_work_.data(), position_work_.data());
   for (int p = 0; p < model.rows; ++p) x_basic[p] += position_work_[p];
+}
+
+void Engine::refine_dual() {
+  double size = 0;
   for (int p = 0; p < model.rows; ++p) {
     double sum = cost[head[p]];
+    size = std::max(size, std::abs(sum));
     for (int e = model.start[head[p]]; e < model.start[head[p] + 1]; ++e) {
-      sum -= model.value[e] * y[model.index[e]];
+      const double term = model.value[e] * y[model.index[e]];
+      sum -= term;
+      size = std::max(size, std::abs(term));
     }
     position_work_[p] = sum;
   }
+  if (largest_magnitude(position_work_) <= kRounding * size) return;
   factor.btran(position_work_.data(), row_work_.data());
   for (int i = 0; i < model.rows; ++i) y[i] += row_work_[i];
 }

@@ -34,6 +34,8 @@ class Engine {
   void compute_dual();
   /// One step of iterative refinement for x_B and y.
   void refine();
+  void refine_primal();
+  void refine_dual();
 
   double nonbasic_value(int j) const {
     if (state[j] == VariableState::kAtLower) return lower[j];

@@ -21,6 +21,7 @@ void Factor::resize(int rows, int max_updates) {
   kernel_positions_.reserve(m_);
   kernel_.reserve(static_cast<std::size_t>(m_) * m_);
   work_.resize(m_);
+  inverse_diagonal_.resize(m_);
   etas_.resize(static_cast<std::size_t>(m_) * max_updates);
   eta_positions_.resize(max_updates);
   singular_.reserve(m_);
@@ -74,8 +75,8 @@ void Factor::peel(const Model& model, double singular_tolerance) {
   peel_rows(model);
 }
 
-void Factor::take_pivot(const Model&, std::vector<Pivot>& list, int row, int position, double v) {
-  list.push_back({row, position, begin_[position], end_[position], v});
+void Factor::take_pivot(std::vector<Pivot>& list, int row, int position, double v) {
+  list.push_back({row, position, begin_[position], end_[position], 1 / v});
   row_done_[row] = 1;
   column_done_[position] = 1;
 }
@@ -98,7 +99,7 @@ void Factor::peel_columns(const Model& model, double singular_tolerance) {
     }
     // A tiny pivot is left to the kernel, which may find the column dependent.
     if (std::abs(v) <= singular_tolerance * 100 * largest) continue;
-    take_pivot(model, column_pivots_, i, p, v);
+    take_pivot(column_pivots_, i, p, v);
     for (int e = row_start_[i]; e < row_start_[i + 1]; ++e) {
       const int q = row_list_[e];
       if (column_done_[q]) continue;
@@ -130,7 +131,7 @@ void Factor::peel_rows(const Model& model) {
       if (!row_done_[r]) largest = std::max(largest, std::abs(model.value[e]));
     }
     if (std::abs(v) < 0.05 * largest || v == 0) continue;
-    take_pivot(model, row_pivots_, i, p, v);
+    take_pivot(row_pivots_, i, p, v);
     for (int e = begin_[p]; e < end_[p]; ++e) {
       const int r = model.index[e];
       if (row_done_[r]) continue;
@@ -190,6 +191,7 @@ bool Factor::factorise_kernel(double singular_tolerance) {
       }
     }
     const double inverse = 1 / column[c];
+    inverse_diagonal_[c] = inverse;
     for (int i = c + 1; i < k; ++i) column[i] *= inverse;
     for (int j = c + 1; j < k; ++j) {
       double* const other = a + static_cast<std::size_t>(j) * k;
@@ -216,7 +218,7 @@ void Factor::solve_kernel(double* a, double* z) const {
   for (int c = k - 1; c >= 0; --c) {
     if (w[c] == 0) continue;
     const double* const column = kernel_.data() + static_cast<std::size_t>(c) * k;
-    const double f = w[c] / column[c];
+    const double f = w[c] * inverse_diagonal_[c];
     w[c] = f;
     for (int i = 0; i < c; ++i) w[i] -= f * column[i];
   }
@@ -237,7 +239,7 @@ void Factor::ftran(double* a, double* z) const {
       z[pivot.position] = 0;
       return;
     }
-    const double x = f / pivot.value;
+    const double x = f * pivot.inverse;
     z[pivot.position] = x;
     for (int e = pivot.begin; e < pivot.end; ++e) a[index[e]] -= x * value[e];
   };
@@ -267,7 +269,7 @@ void Factor::solve_kernel_transposed(double* c, double* y) const {
     const double* const column = kernel_.data() + static_cast<std::size_t>(t) * k;
     double sum = w[t];
     for (int i = 0; i < t; ++i) sum -= column[i] * w[i];
-    w[t] = sum / column[t];
+    w[t] = sum * inverse_diagonal_[t];
   }
   for (int t = k - 1; t >= 0; --t) {
     const double* const column = kernel_.data() + static_cast<std::size_t>(t) * k;
@@ -292,7 +294,7 @@ void Factor::btran(double* c, double* y) const {
   const auto eliminate = [&](const Pivot& pivot) {
     double sum = c[pivot.position];
     for (int e = pivot.begin; e < pivot.end; ++e) sum -= value[e] * y[index[e]];
-    y[pivot.row] = sum / pivot.value;
+    y[pivot.row] = sum * pivot.inverse;
   };
   for (const Pivot& pivot : column_pivots_) eliminate(pivot);
   solve_kernel_transposed(c, y);

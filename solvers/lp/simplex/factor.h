@@ -38,14 +38,14 @@ class Factor {
  private:
   struct Pivot {
     int row, position, begin, end;
-    double value;
+    double inverse;
   };
   void peel(const Model& model, double singular_tolerance);
   void peel_columns(const Model& model, double singular_tolerance);
   void peel_rows(const Model& model);
   void load_kernel(const Model& model);
   bool factorise_kernel(double singular_tolerance);
-  void take_pivot(const Model& model, std::vector<Pivot>& list, int row, int position, double v);
+  void take_pivot(std::vector<Pivot>& list, int row, int position, double v);
   void solve_kernel(double* a, double* z) const;
   void solve_kernel_transposed(double* c, double* y) const;
 
@@ -55,6 +55,7 @@ class Factor {
   std::vector<Pivot> column_pivots_, row_pivots_;
   std::vector<int> kernel_rows_, kernel_positions_;
   std::vector<double> kernel_;  // column-major k×k, L below the diagonal with unit diagonal
+  std::vector<double> inverse_diagonal_;
   mutable std::vector<double> work_;
   std::vector<double> etas_;
   std::vector<int> eta_positions_;
