@@ -18,8 +18,8 @@ struct Case {
   std::string problem = "";
   std::string measure = "linf_polytope";
   Wrench wrench = Wrench::kPure;
-  std::string
-      lp;  ///< empty: the first solver that serves the wrench, `kNoSolver` for a closed form
+  /// Empty: the first solver that serves the wrench, `kNoSolver` for a closed form.
+  std::string lp = "";
   std::string search = "grid";
   std::uint64_t seed = 1;
   long budget = 20000;  ///< evaluations of a search

@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{
             "default_outside", "force.toml", "default = [0, 0]", "default = [0, 3]", {"default"}},
         BadEdit{"end_effector", "force.toml", "\"tool\"", "\"claw\"", {"claw"}}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& edit) { return edit.param.name; });
 
 TEST_P(BadFile, ExitsWithTwoAndOneLine) {
   Copy copy;
