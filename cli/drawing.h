@@ -1,0 +1,29 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cli/force_set.h"
+
+namespace maxwrench {
+
+/// One robot in one posture, with sets of forces around its end effector.
+struct Panel {
+  std::string title;
+  const Problem* problem = nullptr;
+  Posture posture;
+  std::vector<ForceSet> sets;
+  /// Points whose convex hull outlines the base, in base axes [m]; empty: thrusters and arm mounts.
+  std::vector<Eigen::Vector3d> hull;
+  /// Actuator efforts; the thrusters' are drawn as arrows. Empty: arrows show the directions only.
+  Eigen::VectorXd u;
+};
+
+/// Draws postures side by side, all in the same scales of metres and of newtons (fig:polytopes and
+/// fig:optimalpolytopes), as SVG. Sets of the same name have the same colour in all panels. In
+/// names and titles an underscore lowers the next character.
+std::string draw_postures(std::span<const Panel> panels, View view = View::kTop);
+std::string draw_posture(const Panel& panel, View view = View::kTop);
+
+}  // namespace maxwrench

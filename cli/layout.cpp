@@ -1,0 +1,118 @@
+#include "cli/layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/svg.h"
+#include "lib/polygon.h"
+
+namespace maxwrench {
+namespace {
+
+using Point = Eigen::Vector2d;
+using Box = Eigen::AlignedBox2d;
+
+// Colours of Okabe and Ito, told apart by colour-blind readers; vermillion is kept for c.
+constexpr const char* kColours[] = {"#009E73", "#E69F00", "#0072B2", "#CC79A7", "#56B4E9"};
+
+Scene project(const Panel& panel, View view) {
+  const Eigen::Matrix<double, 2, 3> P = axes(view);
+  const Robot& robot = panel.problem->robot;
+  const Pose<double>& base = panel.posture.base;
+  const auto on_paper = [&](const Eigen::Vector3d& p) -> Point {
+    return P * (base.R * p + base.p);
+  };
+  const auto origin = [&](int link) { return on_paper(panel.posture.links[link].p); };
+  Scene scene;
+  for (const Eigen::Vector3d& p : panel.hull) scene.hull.push_back(on_paper(p));
+  for (std::size_t j = 0; j < robot.thrusters.size(); ++j) {
+    const Thruster& thruster = robot.thrusters[j];
+    if (panel.hull.empty()) scene.hull.push_back(on_paper(thruster.position));
+    const double size = panel.u.size() > 0 ? panel.u[static_cast<Eigen::Index>(j)] : 1;
+    scene.thrusters.emplace_back(on_paper(thruster.position),
+                                 size * (P * (base.R * thruster.direction)));
+  }
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    const int link = static_cast<int>(i) + 1;
+    const int parent = robot.joints[i].parent;
+    scene.joints.push_back(origin(link));
+    if (parent > 0) scene.links.emplace_back(origin(parent), origin(link));
+    if (parent == 0 && panel.hull.empty()) scene.hull.push_back(origin(link));
+  }
+  scene.hull = convex_hull(scene.hull);
+  for (const EndEffector& e : robot.end_effectors) {
+    if (e.link == 0) continue;
+    scene.links.emplace_back(origin(e.link),
+                             on_paper((panel.posture.links[e.link] * e.placement).p));
+  }
+  scene.end_effector = P * panel.problem->pose.p;
+  scene.tool_x = P * panel.problem->pose.R.col(0);
+  scene.tool_y = P * panel.problem->pose.R.col(view == View::kTop ? 1 : 2);
+  scene.c = P * panel.problem->c.head<3>();
+  return scene;
+}
+
+Box bounds(const Scene& scene) {
+  Box box(scene.end_effector);
+  for (const Point& p : scene.hull) box.extend(p);
+  for (const Point& p : scene.joints) box.extend(p);
+  for (const auto& [a, b] : scene.links) box.extend(a).extend(b);
+  return box;
+}
+
+void choose_force_scale(std::span<const Panel> panels, Layout& layout) {
+  double largest = 0;
+  for (const Panel& panel : panels) {
+    for (const ForceSet& set : panel.sets) {
+      for (const Point& h : set.outline) largest = std::max(largest, h.norm());
+    }
+  }
+  layout.forces = largest > 0;
+  // The sets reach about half as far as the robot; a round number of newtons per metre.
+  const double extent = std::max(layout.box.sizes().maxCoeff(), 1e-3);
+  layout.metres = largest > 0 ? 1 / round_step(2.2 * largest / extent) : 0.1 * extent;
+  if (largest > 0 && largest * layout.metres > 0.8 * extent) layout.metres /= 2;
+}
+
+}  // namespace
+
+double reach_along_c(const Panel& panel, const Point& c) {
+  double reach = 0;
+  for (const ForceSet& set : panel.sets) {
+    for (const Point& h : set.outline) reach = std::max(reach, c.dot(h));
+  }
+  return 1.12 * reach;
+}
+
+Layout make_layout(std::span<const Panel> panels, View view) {
+  Layout layout;
+  layout.box.setEmpty();
+  for (const Panel& panel : panels) {
+    layout.scenes.push_back(project(panel, view));
+    layout.box.extend(bounds(layout.scenes.back()));
+    layout.rows = std::max(layout.rows, panel.sets.size());
+    for (const ForceSet& set : panel.sets) {
+      const std::size_t next = layout.colours.size() % std::size(kColours);
+      layout.colours.try_emplace(set.name, kColours[next]);
+    }
+  }
+  choose_force_scale(panels, layout);
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    const Scene& scene = layout.scenes[i];
+    for (const ForceSet& set : panels[i].sets) {
+      for (const Point& h : set.outline) layout.box.extend(scene.end_effector + layout.metres * h);
+    }
+    const double reach = reach_along_c(panels[i], scene.c);
+    layout.box.extend(scene.end_effector + 1.1 * layout.metres * reach * scene.c);
+    if (panels[i].u.size() == 0) continue;
+    for (const auto& [p, force] : scene.thrusters) layout.box.extend(p + layout.metres * force);
+  }
+  const Point margin = Point::Constant(0.05 * layout.box.sizes().maxCoeff());
+  layout.box = Box(layout.box.min() - margin, layout.box.max() + margin);
+  const double width = panels.size() == 1 ? 480 : 320;
+  layout.scale = std::min(width / layout.box.sizes().x(), 480 / layout.box.sizes().y());
+  layout.size = layout.scale * layout.box.sizes();
+  return layout;
+}
+
+}  // namespace maxwrench

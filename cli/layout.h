@@ -1,0 +1,40 @@
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/drawing.h"
+
+namespace maxwrench {
+
+/// What one panel shows of a robot, on the plane of the picture in metres.
+struct Scene {
+  std::vector<Eigen::Vector2d> hull;
+  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> links;
+  std::vector<Eigen::Vector2d> joints;
+  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>>
+      thrusters;  // position, direction or force
+  Eigen::Vector2d end_effector, tool_x, tool_y, c;
+};
+
+/// Everything that all panels share.
+struct Layout {
+  std::vector<Scene> scenes;
+  Eigen::AlignedBox2d box;  // of all panels [m]
+  double metres = 0;        // per newton
+  double scale = 0;         // px/m
+  Eigen::Vector2d size;     // of a panel's plot [px]
+  std::size_t rows = 0;     // of the legends
+  bool forces = false;      // at least one panel shows a set
+  std::map<std::string, const char*> colours;
+};
+
+Layout make_layout(std::span<const Panel> panels, View view);
+
+/// How far the arrow along c goes [N]: beyond all sets.
+double reach_along_c(const Panel& panel, const Eigen::Vector2d& c);
+
+}  // namespace maxwrench
