@@ -23,7 +23,12 @@ int run_command(int argc, const char* const* argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    fmt::print(stderr, "maxwrench: {}\n", error.what());
+    if (app.get_subcommands().empty() && argc > 1) {
+      fmt::print(stderr, "maxwrench: got '{}', expected a subcommand: see maxwrench --help\n",
+                 argv[1]);
+    } else {
+      fmt::print(stderr, "maxwrench: {}\n", error.what());
+    }
     return kBadInput;
   } catch (const std::invalid_argument& error) {
     fmt::print(stderr, "maxwrench: {}\n", error.what());
@@ -43,7 +48,9 @@ void CommonOptions::add_case(CLI::App& app) {
 
 void CommonOptions::add_search(CLI::App& app) {
   app.add_option("--search", choice.search, "search over theta_r")->capture_default_str();
-  app.add_option("--seed", choice.seed, "of the random numbers")->capture_default_str();
+  app.add_option("--seed", choice.seed, "of the random numbers")
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--budget", choice.budget, "evaluations")->capture_default_str();
 }
 
