@@ -23,7 +23,8 @@ constexpr double kLeft = 52, kRight = 14, kGap = 18, kTop = 34, kTicks = 40, kLe
 /// Draws one panel whose plot has its upper left corner at `corner` [px].
 class PanelWriter {
  public:
-  PanelWriter(Svg& svg, const Layout& layout, const Panel& panel, const Scene& scene, Point corner)
+  PanelWriter(Svg& svg, const Layout& layout, const DrawnPosture& panel, const Scene& scene,
+              Point corner)
       : svg_(svg),
         layout_(layout),
         panel_(panel),
@@ -174,7 +175,7 @@ class PanelWriter {
 
   Svg& svg_;
   const Layout& layout_;
-  const Panel& panel_;
+  const DrawnPosture& panel_;
   const Scene& scene_;
   Point corner_;
   Viewport to_px_;
@@ -204,7 +205,7 @@ void marker_note(Svg& svg, const Point& left, bool any) {
 
 }  // namespace
 
-std::string draw_postures(std::span<const Panel> panels, View view) {
+std::string draw_postures(std::span<const DrawnPosture> panels, View view) {
   const Layout layout = make_layout(panels, view);
   const double count = static_cast<double>(panels.size());
   const double width = kLeft + count * layout.size.x() + (count - 1) * kGap + kRight;
@@ -218,7 +219,7 @@ std::string draw_postures(std::span<const Panel> panels, View view) {
   if (layout.forces) {
     const double y = kTop + layout.size.y() + below - 12;
     const auto is_any = [](const ForceSet& set) { return set.wrench == Wrench::kAny; };
-    const bool any = std::any_of(panels.begin(), panels.end(), [&](const Panel& panel) {
+    const bool any = std::any_of(panels.begin(), panels.end(), [&](const DrawnPosture& panel) {
       return std::any_of(panel.sets.begin(), panel.sets.end(), is_any);
     });
     marker_note(svg, {kLeft, y}, any);
@@ -227,6 +228,8 @@ std::string draw_postures(std::span<const Panel> panels, View view) {
   return svg.str();
 }
 
-std::string draw_posture(const Panel& panel, View view) { return draw_postures({&panel, 1}, view); }
+std::string draw_posture(const DrawnPosture& panel, View view) {
+  return draw_postures({&panel, 1}, view);
+}
 
 }  // namespace maxwrench

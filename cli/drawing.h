@@ -9,7 +9,7 @@
 namespace maxwrench {
 
 /// One robot in one posture, with sets of forces around its end effector.
-struct Panel {
+struct DrawnPosture {
   std::string title;
   const Problem* problem = nullptr;
   Posture posture;
@@ -23,7 +23,7 @@ struct Panel {
 /// Draws postures side by side, all in the same scales of metres and of newtons (fig:polytopes and
 /// fig:optimalpolytopes), as SVG. Sets of the same name have the same colour in all panels. In
 /// names and titles an underscore lowers the next character.
-std::string draw_postures(std::span<const Panel> panels, View view = View::kTop);
-std::string draw_posture(const Panel& panel, View view = View::kTop);
+std::string draw_postures(std::span<const DrawnPosture> panels, View view = View::kTop);
+std::string draw_posture(const DrawnPosture& panel, View view = View::kTop);
 
 }  // namespace maxwrench

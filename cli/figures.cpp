@@ -1,2 +1,71 @@
 #include "cli/figures.h"
-namespace maxwrench { std::string figure(const Problem&, const std::vector<Panel>&) { return ""; } }
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+
+#include "cli/drawing.h"
+#include "lib/wrench_solver.h"
+#include "solvers/strategies.h"
+
+namespace maxwrench {
+namespace {
+
+/// From above, unless c points up or down.
+View view_of(const Problem& problem) {
+  return std::abs(problem.c[2]) < 1e-9 ? View::kTop : View::kSide;
+}
+
+/// The set of one measure; without value and outline if the robot's actuators do not allow this
+/// measure (B rank deficient, a one-sided limit).
+ForceSet set_of(const Problem& problem, const Posture& posture, const MeasureEntry& entry,
+                Wrench wrench, const char* name) {
+  std::unique_ptr<Measure> measure;
+  try {
+    measure = entry.make(problem.robot, find_wrench_solver("simplex").make());
+  } catch (const std::invalid_argument&) {
+    ForceSet none;
+    none.name = name;
+    none.beta = std::numeric_limits<double>::quiet_NaN();
+    none.wrench = wrench;
+    return none;
+  }
+  return force_set(problem, posture, *measure, wrench, view_of(problem), !entry.needs_solver, name);
+}
+
+std::string with_letters(std::string title) {
+  for (std::size_t i = title.find("beta"); i != std::string::npos; i = title.find("beta", i)) {
+    title.replace(i, 4, "\u03b2");
+  }
+  return title;
+}
+
+DrawnPosture draw(const Problem& problem, PostureModel& model, const Panel& panel) {
+  DrawnPosture drawn;
+  drawn.title = with_letters(panel.title);
+  drawn.problem = &problem;
+  drawn.posture = model.evaluate(panel.theta_r);
+  if (drawn.posture.status != Status::kOptimal) {
+    drawn.title += std::string(" (") + drawn.posture.reason + ")";
+  }
+  const auto add = [&](const char* measure, Wrench wrench, const char* name) {
+    drawn.sets.push_back(set_of(problem, drawn.posture, find_measure(measure), wrench, name));
+  };
+  add("ellipsoid", Wrench::kPure, "ellipsoid (\u03b2_1)");
+  add("l2_polytope", Wrench::kPure, "L_2 polytope");
+  add("linf_polytope", Wrench::kPure, "L_\u221e polytope (\u03b2_2)");
+  add("linf_polytope", Wrench::kAny, "L_\u221e polytope, any wrench (\u03b2_3)");
+  return drawn;
+}
+
+}  // namespace
+
+std::string figure(const Problem& problem, const std::vector<Panel>& panels) {
+  PostureModel model(problem);
+  std::vector<DrawnPosture> drawn;
+  for (const Panel& panel : panels) drawn.push_back(draw(problem, model, panel));
+  return draw_postures(drawn, view_of(problem));
+}
+
+}  // namespace maxwrench

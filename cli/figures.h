@@ -14,8 +14,11 @@ struct Panel {
 };
 
 /// The paper's fig:polytopes (one panel) and fig:optimalpolytopes (several) as SVG: the robot in
-/// its postures with the ellipsoid, the L2 and the L-infinity polytope of the forces in the plane
-/// of motion without torque, and c.
+/// its postures with c and four sets of forces around its end effector: the ellipsoid, the L2 and
+/// the L-infinity polytope of the forces without any other wrench component, and the L-infinity
+/// polytope of those that occur together with any allowed wrench. "beta" in a title becomes the
+/// letter. Throws std::invalid_argument if c is no force along the plane seen from above or from
+/// the side.
 std::string figure(const Problem& problem, const std::vector<Panel>& panels);
 
 }  // namespace maxwrench

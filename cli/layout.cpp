@@ -15,7 +15,7 @@ using Box = Eigen::AlignedBox2d;
 // Colours of Okabe and Ito, told apart by colour-blind readers; vermillion is kept for c.
 constexpr const char* kColours[] = {"#009E73", "#E69F00", "#0072B2", "#CC79A7", "#56B4E9"};
 
-Scene project(const Panel& panel, View view) {
+Scene project(const DrawnPosture& panel, View view) {
   const Eigen::Matrix<double, 2, 3> P = axes(view);
   const Robot& robot = panel.problem->robot;
   const Pose<double>& base = panel.posture.base;
@@ -60,9 +60,9 @@ Box bounds(const Scene& scene) {
   return box;
 }
 
-void choose_force_scale(std::span<const Panel> panels, Layout& layout) {
+void choose_force_scale(std::span<const DrawnPosture> panels, Layout& layout) {
   double largest = 0;
-  for (const Panel& panel : panels) {
+  for (const DrawnPosture& panel : panels) {
     for (const ForceSet& set : panel.sets) {
       for (const Point& h : set.outline) largest = std::max(largest, h.norm());
     }
@@ -76,7 +76,7 @@ void choose_force_scale(std::span<const Panel> panels, Layout& layout) {
 
 }  // namespace
 
-double reach_along_c(const Panel& panel, const Point& c) {
+double reach_along_c(const DrawnPosture& panel, const Point& c) {
   double reach = 0;
   for (const ForceSet& set : panel.sets) {
     for (const Point& h : set.outline) reach = std::max(reach, c.dot(h));
@@ -84,10 +84,10 @@ double reach_along_c(const Panel& panel, const Point& c) {
   return 1.12 * reach;
 }
 
-Layout make_layout(std::span<const Panel> panels, View view) {
+Layout make_layout(std::span<const DrawnPosture> panels, View view) {
   Layout layout;
   layout.box.setEmpty();
-  for (const Panel& panel : panels) {
+  for (const DrawnPosture& panel : panels) {
     layout.scenes.push_back(project(panel, view));
     layout.box.extend(bounds(layout.scenes.back()));
     layout.rows = std::max(layout.rows, panel.sets.size());

@@ -32,9 +32,9 @@ struct Layout {
   std::map<std::string, const char*> colours;
 };
 
-Layout make_layout(std::span<const Panel> panels, View view);
+Layout make_layout(std::span<const DrawnPosture> panels, View view);
 
 /// How far the arrow along c goes [N]: beyond all sets.
-double reach_along_c(const Panel& panel, const Eigen::Vector2d& c);
+double reach_along_c(const DrawnPosture& panel, const Eigen::Vector2d& c);
 
 }  // namespace maxwrench

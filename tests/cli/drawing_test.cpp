@@ -186,12 +186,12 @@ void expect_well_formed(const std::string& svg) {
 
 TEST_F(ForceSetTest, DrawsPanels) {
   const auto measure = make_linf_polytope(problem_.robot, solver());
-  Panel panel{.title = "a & b < c",
-              .problem = &problem_,
-              .posture = posture_,
-              .sets = {set(*measure, Wrench::kPure), set(*measure, Wrench::kAny)},
-              .hull = {},
-              .u = {}};
+  DrawnPosture panel{.title = "a & b < c",
+                     .problem = &problem_,
+                     .posture = posture_,
+                     .sets = {set(*measure, Wrench::kPure), set(*measure, Wrench::kAny)},
+                     .hull = {},
+                     .u = {}};
   panel.sets[1].name = "second";
   const std::string one = draw_posture(panel);
   expect_well_formed(one);
@@ -201,7 +201,7 @@ TEST_F(ForceSetTest, DrawsPanels) {
   panel.sets[0].outline.clear();
   panel.u = Eigen::VectorXd::Ones(6);
   panel.hull = {{0.3, 0.2, 0.1}, {-0.3, 0.2, 0}, {0, -0.2, -0.1}};
-  const std::vector<Panel> three(3, panel);
+  const std::vector<DrawnPosture> three(3, panel);
   expect_well_formed(draw_postures(three));
   expect_well_formed(draw_postures(three, View::kSide));
   panel.sets.clear();
