@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "solvers/lp/assembled.h"
+#include "solvers/lp/clp.h"
 #include "solvers/lp/facets.h"
+#include "solvers/lp/glpk.h"
 #include "solvers/lp/ipopt.h"
 #include "solvers/lp/simplex.h"
 #include "solvers/search/annealing.h"
@@ -27,6 +29,8 @@ const MeasureEntry kMeasures[] = {
 
 const LpEntry kLpSolvers[] = {
     {"simplex", "own bounded-variable simplex, warm-started", 1, [] { return make_simplex(); }},
+    {"clp", "Clp, simplex library of COIN-OR", 2, make_clp},
+    {"glpk", "GLPK, dual simplex", 2, make_glpk},
     {"ipopt", "Ipopt, interior point", 20, make_ipopt},
 };
 
