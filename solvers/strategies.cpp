@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solvers/lp/assembled.h"
+#include "solvers/lp/box.h"
 #include "solvers/lp/clp.h"
 #include "solvers/lp/facets.h"
 #include "solvers/lp/glpk.h"
@@ -43,6 +44,7 @@ std::vector<WrenchSolverEntry> make_wrench_solvers() {
   std::vector<WrenchSolverEntry> table = {
       {"facets", "ray shooting through the facets of {B u}, one wrench column", true, 1,
        make_facets},
+      {"box", "dual simplex in the wrench alone, between the facets of {B u}", false, 1, make_box},
   };
   for (const LpEntry& lp : kLpSolvers) {
     table.push_back(

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "solvers/lp/efforts.h"
 #include "solvers/lp/simplex.h"
 
 namespace maxwrench {
@@ -86,7 +87,7 @@ class Facets : public WrenchSolver {
     }
     fill(program, upwards ? ray.high_pair : ray.low_pair, x == (upwards ? ray.high : ray.low), x,
          capability);
-    if (efforts) balance(program, capability);
+    if (efforts) fill_efforts(program, *simplex_, capability);
   }
 
  private:
@@ -101,20 +102,6 @@ class Facets : public WrenchSolver {
       capability.lambda = normal * (-program.c_w[0] / normal.dot(program.JtW.col(0)));
     } else {
       capability.lambda.setZero(program.tau_d.size());
-    }
-  }
-
-  /// Efforts with B u = tau_d + J'W w: a vertex of the efforts that reach this point of the
-  /// boundary.
-  void balance(const WrenchProgram& program, Capability& capability) {
-    WrenchProgram fixed = program;
-    fixed.w_min = fixed.w_max = capability.w;
-    LpSolution solution;
-    simplex_->solve(assemble(fixed), solution);
-    capability.u = solution.x.head(program.actuation->actuators());
-    if (solution.status != Status::kOptimal) {
-      capability.status = Status::kNumericalError;
-      capability.reason = "no efforts found for the optimal wrench";
     }
   }
 

@@ -1,0 +1,122 @@
+#include "solvers/lp/box.h"
+
+#include <cmath>
+
+#include "solvers/lp/efforts.h"
+#include "solvers/lp/simplex.h"
+#include "solvers/lp/tableau.h"
+
+namespace maxwrench {
+namespace {
+
+class Box : public WrenchSolver {
+ public:
+  void solve(const WrenchProgram& program, bool efforts, Capability& capability) override {
+    capability.iterations = 0;
+    if (!program.actuation->has_facets || program.columns() == 0) {
+      return solve_assembled(program, efforts, capability);
+    }
+    load(program);
+    const Tableau::Outcome outcome = tableau_.solve();
+    capability.iterations = tableau_.iterations;
+    if (outcome == Tableau::Outcome::kUndecided) {
+      return solve_assembled(program, efforts, capability);
+    }
+    if (outcome == Tableau::Outcome::kInfeasible) {
+      capability.status = Status::kInfeasible;
+      capability.reason = "no actuator efforts balance the posture";
+      return;
+    }
+    fill(program, capability);
+    if (efforts) fill_efforts(program, *simplex_, capability);
+  }
+
+ private:
+  /// The facet pairs, then the columns that have a bound.
+  void load(const WrenchProgram& program) {
+    const Zonotope& set = *program.actuation;
+    const int n = set.dimension();
+    const int f = set.facet_pairs();
+    const int k = program.columns();
+    int bounded = 0;
+    for (int j = 0; j < k; ++j) bounded += is_bounded(program, j);
+    tableau_.resize(f + bounded, k);
+    tableau_.c = program.c_w;
+    sum_.resize(k + 1);
+    for (int i = 0; i < f; ++i) {
+      // Most entries of a normal are zero: thrusters and joints are independent.
+      const double* normal = set.N.data() + static_cast<Eigen::Index>(i) * n;
+      sum_.setZero();
+      for (int row = 0; row < n; ++row) {
+        const double a = normal[row];
+        if (a == 0) continue;
+        for (int j = 0; j < k; ++j) sum_[j] += a * program.JtW(row, j);
+        sum_[k] += a * program.tau_d[row];
+      }
+      for (int j = 0; j < k; ++j) tableau_.entry(i, j) = sum_[j];
+      tableau_.low[i] = set.b_min[i] - sum_[k];
+      tableau_.high[i] = set.b_max[i] - sum_[k];
+    }
+    int row = f;
+    for (int j = 0; j < k; ++j) {
+      if (!is_bounded(program, j)) continue;
+      for (int other = 0; other < k; ++other) tableau_.entry(row, other) = other == j;
+      tableau_.low[row] = program.w_min[j];
+      tableau_.high[row++] = program.w_max[j];
+    }
+  }
+
+  static bool is_bounded(const WrenchProgram& program, int j) {
+    return std::isfinite(program.w_min[j]) || std::isfinite(program.w_max[j]);
+  }
+
+  void fill(const WrenchProgram& program, Capability& capability) const {
+    const Zonotope& set = *program.actuation;
+    capability.status = Status::kOptimal;
+    capability.reason = "";
+    capability.w = tableau_.w;
+    capability.beta = program.c_w.dot(tableau_.w);
+    capability.lambda.setZero(set.dimension());
+    for (std::size_t i = 0; i < tableau_.basis.size(); ++i) {
+      const int pair = tableau_.basis[i];
+      if (pair < set.facet_pairs()) {
+        capability.lambda -= set.N.col(pair) * tableau_.y[static_cast<Eigen::Index>(i)];
+      }
+    }
+  }
+
+  /// From a cold start, so that the answer does not depend on earlier calls.
+  void solve_assembled(const WrenchProgram& program, bool efforts, Capability& capability) {
+    if (actuation_ != program.actuation || columns_ != program.columns()) {
+      assembled_ = assemble(program);
+      actuation_ = program.actuation;
+      columns_ = program.columns();
+    } else {
+      update(program, assembled_);
+    }
+    solution_.basis.clear();
+    simplex_->solve(assembled_, solution_);
+    capability.status = solution_.status;
+    capability.reason = solution_.reason;
+    capability.iterations += solution_.iterations;
+    if (solution_.status != Status::kOptimal) return;
+    capability.beta = solution_.objective;
+    capability.w = solution_.x.tail(columns_);
+    capability.lambda = solution_.lambda;
+    if (efforts) capability.u = solution_.x.head(program.actuation->actuators());
+  }
+
+  Tableau tableau_;
+  Eigen::VectorXd sum_;
+  std::unique_ptr<LpSolver> simplex_ = make_simplex();
+  LinearProgram assembled_;
+  LpSolution solution_;
+  const Zonotope* actuation_ = nullptr;
+  int columns_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<WrenchSolver> make_box() { return std::make_unique<Box>(); }
+
+}  // namespace maxwrench

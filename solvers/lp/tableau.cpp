@@ -1,0 +1,244 @@
+#include "solvers/lp/tableau.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace maxwrench {
+namespace {
+
+/// How far a row may be missed by rounding, relative to one plus its bounds.
+constexpr double kFeasibilityTolerance = 1e-9;
+/// What an accepted optimum satisfies its rows and its multipliers to.
+constexpr double kAccepted = 1e-10;
+/// Smaller entries of the tableau, whose pivots are near one, are rounding.
+constexpr double kZero = 1e-11;
+
+double magnitude(double bound) { return std::isfinite(bound) ? std::abs(bound) : 0; }
+
+}  // namespace
+
+void Tableau::resize(int rows, int columns) {
+  if (rows == rows_ && columns == columns_) return;
+  rows_ = rows;
+  columns_ = columns;
+  stride_ = (rows + columns + 3) / 4 * 4;
+  const std::size_t size = static_cast<std::size_t>(stride_) * columns;
+  G_.assign(size, 0);
+  T_.assign(size, 0);
+  for (int j = 0; j < columns; ++j) entry(rows + j, j) = 1;
+  value_.assign(stride_, 0);
+  slack_.assign(rows, 0);
+  in_basis_.assign(rows, 0);
+  r_.assign(columns, 0);
+  upper_.assign(columns, 0);
+  work_.assign(columns, 0);
+  basis.assign(columns, -1);
+  low.resize(rows);
+  high.resize(rows);
+  for (Eigen::VectorXd* v : {&c, &w, &y}) v->resize(columns);
+}
+
+double Tableau::violation(int row) const {
+  const double above = value_[row] - high[row];
+  const double below = value_[row] - low[row];
+  return above > slack_[row] ? above : below < -slack_[row] ? below : 0;
+}
+
+/// Row enters the basis at position `column`; y follows the same elimination as T.
+void Tableau::pivot(int row, int column) {
+  double* const pivot_column = &T_[column * stride_];
+  const double inverse = 1 / pivot_column[row];
+  for (int i = 0; i < stride_; ++i) pivot_column[i] *= inverse;
+  y[column] *= inverse;
+  for (int j = 0; j < columns_; ++j) {
+    if (j == column) continue;
+    double* const other = &T_[j * stride_];
+    const double factor = other[row];
+    if (factor == 0) continue;
+    for (int i = 0; i < stride_; ++i) other[i] -= factor * pivot_column[i];
+    other[row] = 0;
+    y[j] -= factor * y[column];
+  }
+  pivot_column[row] = 1;
+  if (basis[column] >= 0) in_basis_[basis[column]] = 0;
+  basis[column] = row;
+  in_basis_[row] = 1;
+}
+
+void Tableau::move(int column, double step) {
+  const double* const t = &T_[column * stride_];
+  for (int i = 0; i < stride_; ++i) value_[i] += step * t[i];
+}
+
+/// k rows with two finite bounds, the largest entry of the next column each time, on the bounds
+/// that their multipliers ask for. False if there are no such rows.
+bool Tableau::start() {
+  std::copy(G_.begin(), G_.end(), T_.begin());
+  std::fill(in_basis_.begin(), in_basis_.end(), 0);
+  std::fill(basis.begin(), basis.end(), -1);
+  std::fill(value_.begin(), value_.end(), 0.0);
+  y = c;
+  for (int j = 0; j < columns_; ++j) {
+    int best = -1;
+    double largest = kZero;
+    for (int i = 0; i < rows_; ++i) {
+      if (in_basis_[i] || std::abs(at(i, j)) <= largest) continue;
+      if (!std::isfinite(high[i] - low[i])) continue;
+      largest = std::abs(at(i, j));
+      best = i;
+    }
+    if (best < 0) return false;
+    pivot(best, j);
+  }
+  for (int j = 0; j < columns_; ++j) {
+    const int row = basis[j];
+    upper_[j] = y[j] >= 0;
+    r_[j] = upper_[j] ? high[row] : low[row];
+    move(j, r_[j]);
+  }
+  return true;
+}
+
+/// The row that is violated most, measured along its gradient; -1 if none is. `first`: the one of
+/// lowest index instead, which cannot cycle.
+int Tableau::violated_row(bool first) const {
+  int row = -1;
+  double worst = 0;
+  for (int i = 0; i < rows_; ++i) {
+    const double v = violation(i);
+    if (v == 0 || in_basis_[i]) continue;
+    if (first) return i;
+    double norm = 1e-30;
+    for (int j = 0; j < columns_; ++j) norm += at(i, j) * at(i, j);
+    if (v * v <= worst * norm) continue;
+    worst = v * v / norm;
+    row = i;
+  }
+  return row;
+}
+
+/// The dual ratio test. As the multiplier of `row` grows, those of the basis reach zero one by one;
+/// such a row flips to its other bound, which shortens the gap that `row` has to close, until the
+/// next flip would more than close it. Returns the position that leaves, or -1 if all flips leave a
+/// gap: then no w satisfies the rows.
+int Tableau::leaving(int row, double& gap, bool first) {
+  const double side = gap > 0 ? 1 : -1;
+  for (int j = 0; j < columns_; ++j) {
+    const double a = side * at(row, j);
+    const bool blocks = upper_[j] ? a > kZero : a < -kZero;
+    work_[j] = blocks ? std::max(y[j] / a, 0.0) : kInfinity;
+  }
+  for (int passed = 0; passed < columns_; ++passed) {
+    int next = -1;
+    for (int j = 0; j < columns_; ++j) {
+      if (work_[j] == kInfinity) continue;
+      const bool tie = next >= 0 && work_[j] == work_[next];
+      if (next < 0 || work_[j] < work_[next] ||
+          (tie &&
+           (first ? basis[j] < basis[next] : std::abs(at(row, j)) > std::abs(at(row, next))))) {
+        next = j;
+      }
+    }
+    if (next < 0) return -1;
+    work_[next] = kInfinity;
+    const int out = basis[next];
+    const double step = upper_[next] ? low[out] - high[out] : high[out] - low[out];
+    const double left = gap + at(row, next) * step;
+    if (!(side * left > slack_[row])) return next;
+    move(next, step);
+    upper_[next] = !upper_[next];
+    r_[next] = upper_[next] ? high[out] : low[out];
+    gap = left;
+  }
+  return -1;
+}
+
+Tableau::Outcome Tableau::solve() {
+  iterations = 0;
+  for (int i = 0; i < rows_; ++i) {
+    slack_[i] = kFeasibilityTolerance * (1 + std::max(magnitude(low[i]), magnitude(high[i])));
+    if (low[i] > high[i] + slack_[i]) return Outcome::kUndecided;
+  }
+  if (!start()) return Outcome::kUndecided;
+  const int patience = 10 + 3 * (rows_ + columns_);
+  const int limit = 10 * patience;
+  while (true) {
+    const bool first = iterations > patience;
+    const int row = violated_row(first);
+    if (row < 0) return refine() && optimum_holds() ? Outcome::kOptimal : Outcome::kUndecided;
+    if (++iterations > limit) return Outcome::kUndecided;
+    double gap = violation(row);
+    const int column = leaving(row, gap, first);
+    if (column < 0) {
+      return contradiction_holds(row) ? Outcome::kInfeasible : Outcome::kUndecided;
+    }
+    const bool to_upper = gap > 0;
+    pivot(row, column);
+    upper_[column] = to_upper;
+    r_[column] = to_upper ? high[row] : low[row];
+    move(column, r_[column] - value_[row]);
+  }
+}
+
+/// w and y from the inverse basis (the last rows of T) with one step of refinement each.
+bool Tableau::refine() {
+  w.setZero();
+  y.setZero();
+  for (int step = 0; step < 2; ++step) {
+    for (int i = 0; i < columns_; ++i) {
+      double missing = r_[i];
+      for (int j = 0; j < columns_; ++j) missing -= given(basis[i], j) * w[j];
+      work_[i] = missing;
+    }
+    for (int i = 0; i < columns_; ++i) {
+      for (int j = 0; j < columns_; ++j) w[j] += at(rows_ + j, i) * work_[i];
+    }
+    for (int j = 0; j < columns_; ++j) {
+      double missing = c[j];
+      for (int i = 0; i < columns_; ++i) missing -= given(basis[i], j) * y[i];
+      work_[j] = missing;
+    }
+    for (int i = 0; i < columns_; ++i) {
+      for (int j = 0; j < columns_; ++j) y[i] += at(rows_ + j, i) * work_[j];
+    }
+  }
+  return w.allFinite() && y.allFinite();
+}
+
+bool Tableau::optimum_holds() const {
+  const double scale = y.cwiseAbs().maxCoeff();
+  for (int i = 0; i < columns_; ++i) {
+    const bool fixed = low[basis[i]] == high[basis[i]];
+    if (!fixed && (upper_[i] ? y[i] : -y[i]) < -kAccepted * scale) return false;
+  }
+  for (int j = 0; j < columns_; ++j) {
+    double sum = -c[j];
+    for (int i = 0; i < columns_; ++i) sum += given(basis[i], j) * y[i];
+    if (std::abs(sum) > kAccepted * (std::abs(c[j]) + scale)) return false;
+  }
+  for (int i = 0; i < rows_; ++i) {
+    double sum = 0;
+    for (int j = 0; j < columns_; ++j) sum += given(i, j) * w[j];
+    // Twice: w was refined after the last look at the rows.
+    if (sum > high[i] + 2 * slack_[i] || sum < low[i] - 2 * slack_[i]) return false;
+  }
+  return true;
+}
+
+/// Whether G_row - sum T_row,i G_basis,i vanishes, so that the bounds of the basic rows bound this
+/// one too: the ratio test found that they keep it away from its own.
+bool Tableau::contradiction_holds(int row) const {
+  for (int j = 0; j < columns_; ++j) {
+    double sum = given(row, j);
+    double size = std::abs(sum);
+    for (int i = 0; i < columns_; ++i) {
+      const double term = at(row, i) * given(basis[i], j);
+      sum -= term;
+      size += std::abs(term);
+    }
+    if (std::abs(sum) > kAccepted * size) return false;
+  }
+  return true;
+}
+
+}  // namespace maxwrench

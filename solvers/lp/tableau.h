@@ -1,0 +1,53 @@
+#pragma once
+
+#include <vector>
+
+#include "lib/types.h"
+
+namespace maxwrench {
+
+/// max c'w  subject to  low <= G w <= high, a dual simplex on the full tableau for few columns.
+///
+/// G is f×k; bounds may be infinite or equal. Rows of T are those of G and then the unit rows of w,
+/// so that row f + j of T is row j of the inverse basis.
+class Tableau {
+ public:
+  enum class Outcome { kOptimal, kInfeasible, kUndecided };
+
+  /// Sizes the storage; allocates only when it grows. Then fill `entry`, `low`, `high` and `c`.
+  void resize(int rows, int columns);
+  double& entry(int row, int column) { return G_[column * stride_ + row]; }
+
+  Outcome solve();
+
+  Eigen::VectorXd low, high;  ///< f
+  Eigen::VectorXd c;          ///< k
+  Eigen::VectorXd w;          ///< k, the optimum
+  Eigen::VectorXd y;          ///< k, the multiplier of row `basis[i]`, positive at its upper bound
+  std::vector<int> basis;     ///< k rows of G
+  int iterations = 0;
+
+ private:
+  bool start();
+  int violated_row(bool first) const;
+  int leaving(int row, double& gap, bool first);
+  void pivot(int row, int column);
+  void move(int column, double step);
+  double violation(int row) const;
+  bool refine();
+  bool optimum_holds() const;
+  bool contradiction_holds(int row) const;
+  double given(int row, int column) const { return G_[column * stride_ + row]; }
+  double at(int row, int column) const { return T_[column * stride_ + row]; }
+
+  int rows_ = 0, columns_ = 0, stride_ = 0;
+  std::vector<double> G_, T_;   // columns of `stride_` entries
+  std::vector<double> value_;   // G w and w
+  std::vector<double> slack_;   // how far a row may be missed by rounding
+  std::vector<double> r_;       // the bound that the basic rows rest on
+  std::vector<char> upper_;     // whether it is the upper one
+  std::vector<char> in_basis_;  // by rows
+  std::vector<double> work_;
+};
+
+}  // namespace maxwrench
