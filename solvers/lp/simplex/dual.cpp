@@ -75,6 +75,7 @@ Outcome Dual::run() {
         continue;
       }
       q = largest_pivot_of_groups();
+      if (q < 0) return Outcome::kTrouble;
     }
     e.column(q, e.alpha_column.data());
     if (!pivots_agree(e.alpha_column[r_], e.alpha_row[q])) {
@@ -184,6 +185,7 @@ int Dual::choose_column() {
       const double reach = (e.ratios_[j] + s.dual_tolerance) / std::abs(e.alpha_row[j]);
       if (reach < step) step = reach, first = j;
     }
+    left_over_ = slope;
     if (first < 0) return -1;  // no number is left
     const int begin = done;
     for (int k = begin; k < count; ++k) {
