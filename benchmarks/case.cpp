@@ -96,7 +96,9 @@ std::vector<Case> product(const std::string& problem, std::uint64_t seed, long b
 std::vector<Case> select(std::vector<Case> cases,
                          const std::map<std::string, std::string>& filter) {
   const std::vector<std::string>& columns = case_columns();
-  for (const auto& [column, value] : filter) {
+  for (const auto& entry : filter) {
+    const std::string& column = entry.first;
+    const std::string& value = entry.second;
     const auto found = std::find(columns.begin(), columns.end(), column);
     if (found == columns.end()) {
       throw std::invalid_argument(

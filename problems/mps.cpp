@@ -43,17 +43,20 @@ Fields split(const std::string& line) {
   return fields;
 }
 
-/// The fixed columns 2-3, 5-12, 15-22, 25-36, 40-47, 50-61; blanks inside a name become '_'.
+/// One name of several words: the format allows blanks, CoinMpsIO would drop them.
+std::string join(const Fields& words, std::size_t first = 0) {
+  std::string name;
+  for (std::size_t k = first; k < words.size(); ++k) name += (k > first ? "_" : "") + words[k];
+  return name;
+}
+
+/// The fixed columns 2-3, 5-12, 15-22, 25-36, 40-47, 50-61.
 Fields split_fixed(const std::string& line) {
   constexpr std::array<std::array<std::size_t, 2>, 6> kColumns{
       {{1, 2}, {4, 8}, {14, 8}, {24, 12}, {39, 8}, {49, 12}}};
   Fields fields;
   for (const auto& [begin, length] : kColumns) {
-    std::string field = begin < line.size() ? line.substr(begin, length) : "";
-    const auto first = field.find_first_not_of(' '), last = field.find_last_not_of(' ');
-    field = first == std::string::npos ? "" : field.substr(first, last - first + 1);
-    std::replace(field.begin(), field.end(), ' ', '_');
-    fields.push_back(field);
+    fields.push_back(begin < line.size() ? join(split(line.substr(begin, length))) : "");
   }
   while (!fields.empty() && fields.back().empty()) fields.pop_back();
   return fields;
@@ -165,13 +168,11 @@ void Cards::read_sense(const std::string& word) {
 }
 
 void Cards::read_row(const Fields& fields) {
-  // A name with blanks follows the type as it stands in columns 5-12.
   if (fields.size() < 2 || fields[0].size() != 1 ||
       std::string("NELG").find(fields[0]) == std::string::npos) {
     fail("a type N, E, L or G and a name");
   }
-  std::string row = fields[1];
-  for (std::size_t k = 2; k < fields.size(); ++k) row += "_" + fields[k];
+  const std::string row = join(fields, 1);
   if (!rows_.insert(row).second) fail("row " + row + " only once");
   if (fields[0] == "N") {
     if (!objective_.empty()) {

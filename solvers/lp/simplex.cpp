@@ -68,7 +68,7 @@ class Simplex final : public LpSolver {
   void write_point(const LinearProgram& program, LpSolution& solution) const;
   void write_multipliers(LpSolution& solution) const;
   void write_farkas(const LinearProgram& program, LpSolution& solution);
-  void write_ray(LpSolution& solution);
+  void write_ray(const LinearProgram& program, LpSolution& solution);
   void fail(const LinearProgram& program, LpSolution& solution, const char* reason) const;
   void report_crossing(const LinearProgram& program, LpSolution& solution) const;
 
@@ -81,10 +81,9 @@ class Simplex final : public LpSolver {
 bool Simplex::try_once(const LinearProgram& program, LpSolution& solution, bool warm) {
   Engine& e = engine_;
   const int per_attempt = options_.max_iterations > 0 ? options_.max_iterations
-                                                      : 5000 + 50 * (e.model.rows + e.model.cols);
+                                                      : 2000 + 20 * (e.model.rows + e.model.cols);
   e.iteration_limit = options_.max_iterations > 0 ? per_attempt : e.iterations + per_attempt;
-  e.perturb = true;
-  e.reset_bounds_and_costs();
+  e.start_attempt();
   if (!warm) e.crash_basis();
   const bool regular = e.refactor();
   if (warm && !regular) return false;
@@ -98,9 +97,15 @@ bool Simplex::try_once(const LinearProgram& program, LpSolution& solution, bool 
   write_basis(solution);
   if (status == Status::kOptimal) solution.certificate.setZero(e.model.rows);
   if (status == Status::kInfeasible) write_farkas(program, solution);
-  if (status == Status::kUnbounded) write_ray(solution);
+  if (status == Status::kUnbounded) write_ray(program, solution);
   if (status == Status::kBudgetExhausted) return true;
   if (verified(program, solution, options_.verify_tolerance, scratch_)) return true;
+  if (status == Status::kOptimal || status == Status::kUnbounded) {
+    // A violation that outgrew its scaling may be small as a residual of the rows.
+    solution.x = solution.x.cwiseMax(program.l).cwiseMin(program.u);
+    solution.objective = program.c.dot(solution.x);
+    if (verified(program, solution, options_.verify_tolerance, scratch_)) return true;
+  }
   if (status != Status::kNumericalError) {
     solution.status = Status::kNumericalError;
     solution.reason = "the verdict is not confirmed by the program's data";
@@ -236,23 +241,26 @@ void Simplex::write_farkas(const LinearProgram& program, LpSolution& solution) {
   }
 }
 
-/// r_q = 1, r_B = -B^-1 a_q; entries that are rounding beside the largest are zero.
-void Simplex::write_ray(LpSolution& solution) {
+/// r_q = 1, r_B = -B^-1 a_q, cleaned of rounding in the same way.
+void Simplex::write_ray(const LinearProgram& program, LpSolution& solution) {
   Engine& e = engine_;
   const int m = e.model.rows;
   e.column(e.proof_column, e.alpha_column.data());
-  solution.certificate.setZero(e.model.cols);
-  solution.certificate[e.proof_column - m] = e.proof_sign;
   double largest = 1;
   for (const double a : e.alpha_column) largest = std::max(largest, std::abs(a));
-  for (int p = 0; p < m; ++p) {
-    const double a = e.alpha_column[p];
-    if (e.head[p] >= m && std::abs(a) > 1e-14 * largest) {
+  for (const double noise : {1e-15, 1e-13, 1e-11, 1e-9}) {
+    solution.certificate.setZero(e.model.cols);
+    solution.certificate[e.proof_column - m] = e.proof_sign;
+    for (int p = 0; p < m; ++p) {
+      const double a = e.alpha_column[p];
+      if (e.head[p] < m || std::abs(a) <= noise * largest) continue;
       solution.certificate[e.head[p] - m] = -e.proof_sign * a;
     }
+    for (int j = 0; e.model.scaled && j < e.model.cols; ++j) {
+      solution.certificate[j] *= e.model.col_scale[j];
+    }
+    if (verified(program, solution, options_.verify_tolerance, scratch_)) return;
   }
-  if (!e.model.scaled) return;
-  for (int j = 0; j < e.model.cols; ++j) solution.certificate[j] *= e.model.col_scale[j];
 }
 
 void Simplex::fail(const LinearProgram& program, LpSolution& solution, const char* reason) const {

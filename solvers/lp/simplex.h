@@ -8,14 +8,14 @@ namespace maxwrench {
 
 /// Every tolerance of the simplex. They apply to the scaled program.
 struct SimplexOptions {
-  double primal_tolerance = 1e-9;     ///< bound violation of a feasible basis, plus 1e-12 |bound|
+  double primal_tolerance = 1e-9;     ///< bound violation of a feasible basis, beside rounding
   double dual_tolerance = 1e-9;       ///< sign violation of a reduced cost, largest cost near 1
   double zero_tolerance = 1e-9;       ///< smaller entries of the tableau are no pivots
   double pivot_tolerance = 1e-7;      ///< smaller pivots are only taken from fresh factors
   double singular_tolerance = 1e-10;  ///< smaller pivots make a basis singular
   double verify_tolerance = 1e-7;     ///< residuals, from the data, of an accepted optimum
   int max_updates = 64;               ///< pivots between two factorisations
-  int max_iterations = 0;             ///< pivots and bound flips; 0: 5,000 + 50 (rows + columns)
+  int max_iterations = 0;             ///< pivots and bound flips; 0: 2,000 + 20 (rows + columns)
 };
 
 /// A bounded-variable simplex for `max c'x, A x = b, l <= x <= u`; dense factors, so meant for up

@@ -113,7 +113,8 @@ class Ascent {
     for (int start = 0; budget > 0 && idle < 2; ++start) {
       const double before = best_.value;
       budget -= climb(start % 2 == 0 ? step : step / 100, tolerance, budget);
-      idle = best_.value > before ? 0 : idle + 1;
+      // Rounding alone, as on a flat maximum, is no progress.
+      idle = best_.value > before + 1e-13 * std::abs(before) ? 0 : idle + 1;
     }
     return best_;
   }

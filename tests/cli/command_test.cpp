@@ -72,8 +72,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadWords{"run measure=volume", "volume"}, BadWords{"run budget=few", "few"},
                     BadWords{"run budget=1 --out /proc/nowhere", "/proc/nowhere"},
                     BadWords{"check missing.toml", "missing.toml"},
-                    BadWords{"plot planar/none", "planar/none"},
-                    BadWords{"plot planar/force --theta-r 9,9", "joint limit"}));
+                    BadWords{"plot planar/none", "planar/none"}));
 
 TEST_P(BadCommandLine, ExitsWithTwoAndOneLine) {
   expect_one_line_of_complaint(run_maxwrench(GetParam().words), GetParam().mention);

@@ -19,7 +19,7 @@ class Dual {
 
  private:
   bool refresh();
-  void make_dual_feasible();
+  void make_dual_feasible(bool may_flip);
   int choose_row() const;
   void gather_candidates();
   int choose_column();
@@ -38,6 +38,7 @@ class Dual {
   int r_ = -1;       // leaving position
   double sign_ = 0;  // +1: x_r above its upper bound
   double violation_ = 0;
+  double left_over_ = 0;  // of the violation, when all candidates have jumped
   int stalled_ = 0;
   bool perturbed_ = false, bland_ = false;
 };
@@ -46,7 +47,7 @@ Outcome Engine::dual() { return Dual(*this).run(); }
 
 Outcome Dual::run() {
   std::fill(e.weights_.begin(), e.weights_.begin() + e.model.rows, 1.0);
-  make_dual_feasible();
+  make_dual_feasible(true);
   for (;;) {
     if (e.factor.updates() == s.max_updates && !refresh()) return Outcome::kTrouble;
     if (e.iterations >= e.iteration_limit) return Outcome::kIterationLimit;
@@ -58,15 +59,22 @@ Outcome Dual::run() {
     e.inverse_row(r_, e.rho.data());
     e.tableau_row(e.rho.data());
     gather_candidates();
-    const int q = bland_ ? choose_column_by_index() : choose_column();
+    int q = bland_ ? choose_column_by_index() : choose_column();
+    if (q < 0 && e.factor.updates() > 0) {
+      if (!refresh()) return Outcome::kTrouble;
+      continue;
+    }
     if (q < 0) {
-      if (e.factor.updates() == 0) {
+      if (e.provable(left_over_)) {
         e.proof_position = r_;
         e.proof_sign = sign_;
         return Outcome::kInfeasible;
       }
-      if (!refresh()) return Outcome::kTrouble;
-      continue;
+      if (e.candidates_.empty()) {
+        e.excuse(r_, violation_);
+        continue;
+      }
+      q = largest_pivot_of_groups();
     }
     e.column(q, e.alpha_column.data());
     if (!pivots_agree(e.alpha_column[r_], e.alpha_row[q])) {
@@ -82,17 +90,21 @@ bool Dual::refresh() {
   if (!e.refactor()) return false;
   e.compute_primal();
   e.compute_dual();
-  make_dual_feasible();
+  make_dual_feasible(false);
   return true;
 }
 
 /// Boxed variables move to the bound that fits the sign of d; other costs are shifted to a small
-/// reduced cost of the right sign.
-void Dual::make_dual_feasible() {
+/// reduced cost of the right sign. Amid the phase only costs are shifted, since what a flip undoes
+/// would be done again.
+void Dual::make_dual_feasible(bool may_flip) {
   bool moved = false;
   for (int j = e.model.rows; j < e.model.total; ++j) {
     if (e.model.fixed[j] || e.dual_violation(j) == 0) continue;
-    if (e.state[j] == VariableState::kAtLower && std::isfinite(e.upper[j])) {
+    if (!may_flip) {
+      e.cost[j] -= e.d[j];
+      e.d[j] = 0;
+    } else if (e.state[j] == VariableState::kAtLower && std::isfinite(e.upper[j])) {
       e.state[j] = VariableState::kAtUpper;
       moved = true;
     } else if (e.state[j] == VariableState::kAtUpper && std::isfinite(e.lower[j])) {
@@ -144,6 +156,7 @@ void Dual::gather_candidates() {
 
 int Dual::choose_column_by_index() {
   e.flipped_.clear();
+  left_over_ = violation_;
   int best = -1;
   double best_ratio = kInfinity;
   for (const int j : e.candidates_) {
@@ -180,6 +193,7 @@ int Dual::choose_column() {
     e.groups_.push_back(done);
     if (slope <= s.primal_tolerance) return largest_pivot_of_groups();
   }
+  left_over_ = slope;
   return -1;
 }
 

@@ -23,15 +23,22 @@ void Engine::resize() {
   if (head.size() == m && state.size() == total) return;
   head.resize(m);
   state.resize(total);
-  for (auto* v : {&lower, &upper, &cost, &d, &alpha_row, &weights_, &ratios_}) v->resize(total);
-  for (auto* v : {&x_basic, &basic_lower, &basic_upper, &y, &alpha_column, &rho, &row_work_,
-                  &position_work_}) {
+  for (auto* v : {&lower, &upper, &cost, &d, &alpha_row, &weights_, &ratios_, &excused_})
+    v->resize(total);
+  for (auto* v : {&x_basic, &basic_lower, &basic_upper, &basic_tolerance, &y, &alpha_column, &rho,
+                  &row_work_, &position_work_}) {
     v->resize(m);
   }
   for (auto* v : {&candidates_, &flipped_, &groups_}) {
     v->clear();
     v->reserve(total + 1);
   }
+}
+
+void Engine::start_attempt() {
+  random_ = 0;
+  std::fill(excused_.begin(), excused_.end(), 0.0);
+  reset_bounds_and_costs();
 }
 
 void Engine::reset_bounds_and_costs() {
@@ -52,7 +59,6 @@ double Engine::jitter(int j) {
 }
 
 void Engine::crash_basis() {
-  random_ = 0;
   for (int j = 0; j < model.total; ++j) {
     state[j] = std::isfinite(lower[j])   ? VariableState::kAtLower
                : std::isfinite(upper[j]) ? VariableState::kAtUpper
@@ -112,8 +118,7 @@ bool Engine::refactor() {
     }
   }
   for (int p = 0; p < model.rows; ++p) {
-    basic_lower[p] = lower[head[p]];
-    basic_upper[p] = upper[head[p]];
+    load_position(p);
   }
   return regular;
 }
@@ -129,11 +134,14 @@ void Engine::compute_primal() {
     }
   }
   factor.ftran(row_work_.data(), x_basic.data());
+  rounding = 1e-6 * options.primal_tolerance *
+             std::max(largest_magnitude(x_basic), largest_magnitude(model.b));
 }
 
 void Engine::compute_dual() {
   for (int p = 0; p < model.rows; ++p) position_work_[p] = cost[head[p]];
   factor.btran(position_work_.data(), y.data());
+  dual_rounding = 1e-6 * options.dual_tolerance * largest_magnitude(y);
   for (int j = model.rows; j < model.total; ++j) {
     if (state[j] == VariableState::kBasic) {
       d[j] = 0;
@@ -194,13 +202,14 @@ void Engine::refine_dual() {
 }
 
 double Engine::dual_violation(int j) const {
+  const double tolerance = options.dual_tolerance + dual_rounding;
   switch (state[j]) {
     case VariableState::kAtLower:
-      return d[j] < -options.dual_tolerance ? -d[j] : 0;
+      return d[j] < -tolerance ? -d[j] : 0;
     case VariableState::kAtUpper:
-      return d[j] > options.dual_tolerance ? d[j] : 0;
+      return d[j] > tolerance ? d[j] : 0;
     case VariableState::kFree:
-      return std::abs(d[j]) > options.dual_tolerance ? std::abs(d[j]) : 0;
+      return std::abs(d[j]) > tolerance ? std::abs(d[j]) : 0;
     case VariableState::kBasic:
       break;
   }
@@ -259,8 +268,38 @@ void Engine::pivot(int p, int q, VariableState leaving_state, double entering_va
   state[q] = VariableState::kBasic;
   head[p] = q;
   x_basic[p] = entering_value;
-  basic_lower[p] = lower[q];
-  basic_upper[p] = upper[q];
+  load_position(p);
+}
+
+void Engine::load_position(int p) {
+  const int j = head[p];
+  basic_lower[p] = lower[j];
+  basic_upper[p] = upper[j];
+  const double bound = std::min(std::abs(lower[j]), std::abs(upper[j]));
+  basic_tolerance[p] =
+      options.primal_tolerance + (std::isfinite(bound) ? 1e-12 * bound : 0) + excused_[j];
+}
+
+/// The proof compares rho'b with the row's terms rho'a_j x_j; below 1e-10 of them it is none.
+bool Engine::provable(double violation) const {
+  double terms = 0;
+  for (int i = 0; i < model.rows; ++i) terms += std::abs(rho[i] * model.b[i]);
+  for (int j = 0; j < model.total; ++j) {
+    if (state[j] == VariableState::kBasic) continue;
+    double a = 0;
+    for (int e = model.start[j]; e < model.start[j + 1]; ++e) {
+      a += model.value[e] * rho[model.index[e]];
+    }
+    const double l = std::isfinite(lower[j]) ? lower[j] : 0;
+    const double u = std::isfinite(upper[j]) ? upper[j] : 0;
+    terms += std::abs(a) * std::max(std::abs(l), std::abs(u));
+  }
+  return violation > 1e-10 * terms;
+}
+
+void Engine::excuse(int p, double violation) {
+  excused_[head[p]] = 2 * violation;
+  load_position(p);
 }
 
 }  // namespace maxwrench::simplex

@@ -24,6 +24,7 @@ class Engine {
   explicit Engine(const SimplexOptions& tolerances) : options(tolerances) {}
 
   void resize();
+  void start_attempt();
   void reset_bounds_and_costs();
   /// Slacks and other single entries, then free columns, enter the logical basis.
   void crash_basis();
@@ -41,16 +42,17 @@ class Engine {
     if (state[j] == VariableState::kAtLower) return lower[j];
     return state[j] == VariableState::kAtUpper ? upper[j] : 0;
   }
-  double tolerance_at(double bound) const {
-    return options.primal_tolerance + 1e-12 * std::abs(bound);
-  }
   /// How far the basic variable at p is outside its bounds; 0 within tolerance, negative below.
   double infeasibility(int p) const {
-    const double x = x_basic[p];
-    if (x < basic_lower[p] - tolerance_at(basic_lower[p])) return x - basic_lower[p];
-    if (x > basic_upper[p] + tolerance_at(basic_upper[p])) return x - basic_upper[p];
+    const double x = x_basic[p], tolerance = basic_tolerance[p] + rounding;
+    if (x < basic_lower[p] - tolerance) return x - basic_lower[p];
+    if (x > basic_upper[p] + tolerance) return x - basic_upper[p];
     return 0;
   }
+  /// Whether a violation in the tableau row `rho` exceeds what rounding of b could cause.
+  bool provable(double violation) const;
+  /// Tolerates the violation at p from now on.
+  void excuse(int p, double violation);
   /// The wrong-signed part of the reduced cost of nonbasic j.
   double dual_violation(int j) const;
   bool primal_feasible() const;
@@ -76,8 +78,10 @@ class Engine {
   std::vector<int> head;
   std::vector<VariableState> state;
   std::vector<double> lower, upper, cost;
-  std::vector<double> x_basic, basic_lower, basic_upper;  // by positions
-  std::vector<double> y, d;                               // by rows, by variables
+  std::vector<double> x_basic, basic_lower, basic_upper, basic_tolerance;  // by positions
+  // What a basic variable and a reduced cost may be off by rounding alone.
+  double rounding = 0, dual_rounding = 0;
+  std::vector<double> y, d;  // by rows, by variables
   std::vector<double> alpha_row, alpha_column, rho;
   int iterations = 0, iteration_limit = 0;
   bool perturb = true;  // whether stalling may be answered by shifting bounds and costs
@@ -90,9 +94,10 @@ class Engine {
   friend class Dual;
   friend class Primal;
   void enter_free_column(int j);
+  void load_position(int p);
   double jitter(int j);
 
-  std::vector<double> row_work_, position_work_, weights_, ratios_;
+  std::vector<double> row_work_, position_work_, weights_, ratios_, excused_;
   std::vector<int> candidates_, flipped_, groups_;
   std::uint64_t random_ = 0;
 };

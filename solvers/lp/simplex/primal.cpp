@@ -75,7 +75,7 @@ bool Primal::refresh() {
   e.compute_primal();
   e.compute_dual();
   for (int p = 0; p < e.model.rows; ++p) {
-    if (std::abs(e.infeasibility(p)) > 100 * e.tolerance_at(e.x_basic[p])) return false;
+    if (std::abs(e.infeasibility(p)) > 100 * (e.basic_tolerance[p] + e.rounding)) return false;
   }
   return true;
 }

@@ -9,6 +9,7 @@
 
 #include "solvers/search/annealing.h"
 #include "solvers/search/grid.h"
+#include "solvers/strategies.h"
 
 namespace maxwrench {
 namespace {
@@ -115,13 +116,7 @@ std::vector<Example> examples() {
   };
 }
 
-struct Named {
-  const char* name;
-  std::unique_ptr<Search> (*make)();
-};
-const Named kSearches[] = {{"grid", make_grid}, {"annealing", make_annealing}};
-
-class SearchTest : public testing::TestWithParam<Named> {
+class SearchTest : public testing::TestWithParam<SearchEntry> {
  protected:
   SearchResult maximize(Objective& objective, const SearchOptions& options) {
     return GetParam().make()->maximize(objective, options);
@@ -228,7 +223,7 @@ TEST_P(SearchTest, RefusesBadInput) {
   EXPECT_THROW(maximize(unbounded, options), std::invalid_argument);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, SearchTest, testing::ValuesIn(kSearches),
+INSTANTIATE_TEST_SUITE_P(All, SearchTest, testing::ValuesIn(searches().begin(), searches().end()),
                          [](const auto& each) { return std::string(each.param.name); });
 
 TEST(GridTest, SixHundredSquaredBeforeRefinement) {

@@ -1,0 +1,77 @@
+#include "benchmarks/row.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "problems/loader.h"
+#include "solvers/strategies.h"
+#include "tests/support.h"
+
+namespace maxwrench {
+namespace {
+
+/// The converged optima of the planar problem [N]; the paper prints 1.91, 3.47 and 3.88.
+double planar_optimum(const Case& c) {
+  if (c.measure == "ellipsoid") return 1.9075;
+  return c.wrench == Wrench::kPure ? 3.4775 : 3.8806;
+}
+
+/// The rows that the paper has a number for.
+std::vector<Case> planar_cases() {
+  std::vector<Case> cases;
+  for (Case c : product("planar/force", 1, 40000)) {
+    const bool beta_1 = c.measure == "ellipsoid" && c.wrench == Wrench::kPure;
+    if (!beta_1 && c.measure != "linf_polytope") continue;
+    c.budget = c.lp == "ipopt" ? 2000 : c.search == "grid" ? 400000 : 40000;
+    cases.push_back(c);
+  }
+  return cases;
+}
+
+class PlanarOptimum : public testing::TestWithParam<Case> {};
+
+INSTANTIATE_TEST_SUITE_P(All, PlanarOptimum, testing::ValuesIn(planar_cases()),
+                         [](const testing::TestParamInfo<Case>& named) {
+                           const Case& c = named.param;
+                           return fmt::format("{}_{}_{}_{}", c.measure, to_string(c.wrench), c.lp,
+                                              c.search);
+                         });
+
+TEST_P(PlanarOptimum, IsFoundByEverySolverAndSearch) {
+  if (kSampleDivisor > 1 && GetParam().lp == "ipopt") {
+    GTEST_SKIP() << "thousands of interior point solves take too long under sanitizers";
+  }
+  const Problem problem = load_problem("planar/force");
+  const Row row = solve(problem, GetParam(), 2);
+  ASSERT_EQ(row.status, Status::kOptimal) << row.reason;
+  EXPECT_NEAR(row.capability.beta, planar_optimum(GetParam()), 1e-3);
+  EXPECT_LE(row.evaluations, GetParam().budget);
+  EXPECT_TRUE(row.capability.residual.within(kRowTolerance, row.capability.beta));
+}
+
+TEST(Row, SelfCollisionDoesNotChangeThePlanarOptima) {
+  const Problem checked = load_problem("planar/force");
+  Problem unchecked = checked;
+  unchecked.robot.collision = nullptr;
+  ASSERT_TRUE(checked.robot.collision != nullptr);
+  for (const char* measure : {"ellipsoid", "linf_polytope"}) {
+    const Case c = complete({checked.name, measure, Wrench::kPure});
+    EXPECT_NEAR(solve(checked, c, 1).capability.beta, solve(unchecked, c, 1).capability.beta, 1e-9);
+  }
+}
+
+TEST(Row, KeepsStatusAndReasonOfWhatHasNoValue) {
+  Random random(1);
+  Problem problem = random_problem(random, 2);
+  problem.robot.gravity = 1000;  // nothing can hold this
+  const Case c = complete({problem.name, "linf_polytope", Wrench::kPure, "simplex", "grid", 1, 50});
+  const Row row = solve(problem, c, 1);
+  EXPECT_EQ(row.status, Status::kInfeasible);
+  EXPECT_FALSE(row.reason.empty());
+  EXPECT_FALSE(row.has_posture());
+  EXPECT_EQ(values(problem, row).size(), value_columns().size());
+  EXPECT_EQ(times(row).size(), time_columns().size());
+}
+
+}  // namespace
+}  // namespace maxwrench
