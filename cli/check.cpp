@@ -37,7 +37,15 @@ void print(const Robot& robot) {
   }
   fmt::print("\n  collision pairs {}\n", robot.collision ? robot.collision->pairs() : 0);
   for (const Link& link : robot.links) {
-    fmt::print("  link {:<20} {:g} kg, displaces {:g} m^3\n", link.name, link.mass, link.volume);
+    fmt::print("  link {:<20} {:g} kg, displaces {:g} m^3", link.name, link.mass, link.volume);
+    const std::size_t bodies = link.hydrodynamics.size();
+    if (bodies > 0)
+      fmt::print(", added mass and drag of {} {}", bodies, bodies > 1 ? "bodies" : "body");
+    fmt::print("\n");
+  }
+  if (robot.trim.buoyancy_mass != 0) {
+    fmt::print("  trim lifts {:g} kg at [{:g}] m\n", robot.trim.buoyancy_mass,
+               fmt::join(robot.trim.position, ", "));
   }
   for (const Thruster& t : robot.thrusters) {
     fmt::print("  thruster {:<16} {:g} .. {:g} N, {:g} N/s\n", t.name, t.force_min, t.force_max,

@@ -28,6 +28,8 @@ Kinematics<T>::Kinematics(const Robot& robot) : robot_(&robot) {
     link_mass_.push_back(link.mass - displaced);
     link_moment_.push_back(link.mass * link.com - displaced * link.cob);
   }
+  link_mass_[0] -= robot.trim.buoyancy_mass;
+  link_moment_[0] -= robot.trim.buoyancy_mass * robot.trim.position;
   carried_mass_ = link_mass_;
   for (std::size_t i = robot.joints.size(); i-- > 0;) {
     carried_mass_[robot.joints[i].parent] += carried_mass_[i + 1];

@@ -24,7 +24,7 @@ class Kinematics {
   void jacobian(const EndEffector& end_effector, const Matrix3<T>& R_base, Matrix6X<T>& J) const;
 
   /// tau_d n [N, N m] at rest: the gradient of the potential energy sum_i (m_i z_com,i - rho V_i
-  /// z_cob,i) g along the velocities, the g(theta) of eq:dynamics.
+  /// z_cob,i) g, less that of the trim's lift, along the velocities: the g(theta) of eq:dynamics.
   void gravity_and_buoyancy(const Matrix3<T>& R_base, VectorX<T>& tau_d);
 
   const std::vector<Pose<T>>& links() const { return links_; }
@@ -41,8 +41,8 @@ class Kinematics {
   const Robot* robot_;
   std::vector<JointConstants> constants_;
   std::vector<Pose<T>> links_;
-  // Of the wet weight: mass less displaced water of the link and of all that it carries, and first
-  // moments.
+  // Of the wet weight: mass less displaced water (and trim, on the base) of the link and of all
+  // that it carries, and first moments.
   std::vector<Vector3<double>> link_moment_;
   std::vector<double> link_mass_, carried_mass_;
   std::vector<Vector3<T>> carried_moment_;

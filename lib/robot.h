@@ -12,6 +12,15 @@ namespace maxwrench {
 
 enum class JointType { kRevolute, kPrismatic };
 
+/// Added mass and drag of one body, diagonal in its own frame: in the axes of `frame`, for the
+/// velocity [linear; angular] at its origin. Force of the drag: -(linear + quadratic |v|) v.
+struct HydrodynamicBody {
+  Pose<double> frame;                             ///< link -> body
+  Vector6d added_mass = Vector6d::Zero();         ///< [kg, kg m^2]
+  Vector6d damping_linear = Vector6d::Zero();     ///< [N s/m, N m s]
+  Vector6d damping_quadratic = Vector6d::Zero();  ///< [N s^2/m^2, N m s^2]
+};
+
 /// The rigid body that moves with joint i is link i + 1; link 0 is the base. Bodies on fixed joints
 /// are part of the link that carries them.
 struct Link {
@@ -21,6 +30,15 @@ struct Link {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< kg m^2, about com, in link axes
   double volume = 0;                                  ///< m^3, displaced
   Eigen::Vector3d cob = Eigen::Vector3d::Zero();      ///< m, centre of buoyancy in link axes
+  /// One for each body that has such data: |v| v of a whole does not follow from one matrix.
+  std::vector<HydrodynamicBody> hydrodynamics = {};
+};
+
+/// Floats added and ballast removed to balance a vehicle: a force of buoyancy_mass * gravity
+/// upwards, in water and in air, without inertia. Negative: ballast added.
+struct Trim {
+  double buoyancy_mass = 0;                            ///< kg
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m, in base axes
 };
 
 struct Joint {
@@ -73,6 +91,7 @@ struct Robot {
   std::vector<EndEffector> end_effectors;
   double gravity = 9.81;     ///< m/s^2, along -z of the world
   double water_density = 0;  ///< kg/m^3, zero in air
+  Trim trim;
   /// Actuators: thrusters first, then one directly driven motor for each joint.
   Zonotope actuation;                                 ///< n×m
   Eigen::VectorXd u_rate_max;                         ///< m, per second; infinite for joints

@@ -102,6 +102,35 @@ void read_buoyancy(const Block& root, const UrdfTree& tree, Robot& robot) {
   }
 }
 
+void read_trim(const Block& root, Robot& robot) {
+  if (!root.has("trim")) return;
+  const Block trim = root.table("trim");
+  trim.allow_only({"buoyancy_mass", "position"});
+  robot.trim = {trim.number("buoyancy_mass"), trim.vector("position")};
+}
+
+Vector6d coefficients(const Block& block, std::string_view key) {
+  const Vector6d values = block.numbers(key, 6);
+  if (values.minCoeff() < 0) block.refuse_value(key, "6 numbers >= 0");
+  return values;
+}
+
+/// Bodies on one link stay apart; only their frames are turned into those of the link.
+void read_hydrodynamics(const Block& root, const UrdfTree& tree, Robot& robot) {
+  const Block all = root.table("hydrodynamics");
+  for (const auto& [name, block] : root.named("hydrodynamics")) {
+    block.allow_only({"center", "added_mass", "damping_linear", "damping_quadratic"});
+    const Body& body = find_body(tree, all, name, name);
+    HydrodynamicBody water;
+    water.frame = body.placement;
+    water.frame.p += body.placement.R * block.vector("center", Eigen::Vector3d::Zero());
+    water.added_mass = coefficients(block, "added_mass");
+    water.damping_linear = coefficients(block, "damping_linear");
+    water.damping_quadratic = coefficients(block, "damping_quadratic");
+    robot.links[static_cast<std::size_t>(body.link)].hydrodynamics.push_back(water);
+  }
+}
+
 Shape read_capsule(const Block& block, const UrdfTree& tree) {
   block.allow_only({"link", "p0", "p1", "radius"});
   Shape shape;
@@ -140,7 +169,7 @@ void read_collision(const Block& collision, UrdfTree& tree, Robot& robot) {
 Robot load_robot(const std::filesystem::path& file) {
   const Block root = Block::read(file);
   root.allow_only({"name", "urdf", "base", "environment", "thrusters", "end_effectors", "buoyancy",
-                   "collision"});
+                   "hydrodynamics", "trim", "collision"});
   Robot robot;
   robot.name = root.text("name");
   robot.sources = root.sources("robot");
@@ -159,6 +188,8 @@ Robot load_robot(const std::filesystem::path& file) {
   read_thrusters(root.table("thrusters"), robot);
   read_end_effectors(root, tree, robot);
   read_buoyancy(root, tree, robot);
+  read_hydrodynamics(root, tree, robot);
+  read_trim(root, robot);
   read_collision(root.table("collision"), tree, robot);
   complete_actuation(robot);
   return robot;

@@ -1,4 +1,4 @@
-// Each bad input is the shipped planar problem with one passage changed.
+#include "tests/problems/bad_input.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,16 +13,6 @@ namespace maxwrench {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct BadInput {
-  const char* name;
-  const char* file;  ///< that is changed and that the message must name
-  const char* from;  ///< replaced once; empty: the file is removed
-  const char* to;
-  std::vector<std::string> message;  ///< what must stand in it
-};
-
-void PrintTo(const BadInput& input, std::ostream* out) { *out << input.name; }
 
 const std::vector<BadInput> kBadInputs = {
     // Robot TOML.
@@ -301,35 +291,7 @@ const std::vector<BadInput> kBadInputs = {
 
 class BadInputTest : public testing::TestWithParam<BadInput> {};
 
-TEST_P(BadInputTest, IsRefusedInOneLineThatNamesFileKeyAndValue) {
-  const BadInput& input = GetParam();
-  std::string name = (fs::temp_directory_path() / "maxwrench_bad_XXXXXX").string();
-  const fs::path folder = mkdtemp(name.data());
-  for (const char* file : {"vehicle.urdf", "vehicle.toml", "force.toml"}) {
-    std::ifstream stream(fs::path(MAXWRENCH_SOURCE_DIR) / "problems/planar" / file);
-    std::string text(std::istreambuf_iterator<char>(stream), {});
-    if (file == std::string(input.file)) {
-      const std::size_t at = text.find(input.from);
-      ASSERT_NE(at, std::string::npos) << "the shipped file has no " << input.from;
-      text.replace(at, std::string(input.from).size(), input.to);
-    }
-    std::ofstream(folder / file) << text;
-  }
-  testing::internal::CaptureStderr();
-  try {
-    load_problem((folder / "force.toml").string());
-    ADD_FAILURE() << "was accepted";
-  } catch (const std::invalid_argument& error) {
-    const std::string message = error.what();
-    EXPECT_EQ(message.find((folder / input.file).string() + ": "), 0u) << message;
-    EXPECT_THAT(message, testing::HasSubstr("expected"));
-    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    for (const std::string& part : input.message) EXPECT_THAT(message, testing::HasSubstr(part));
-    RecordProperty("message", message);
-  }
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
-  fs::remove_all(folder);
-}
+TEST_P(BadInputTest, IsRefusedInOneLineThatNamesFileKeyAndValue) { expect_refused(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(Loader, BadInputTest, testing::ValuesIn(kBadInputs),
                          [](const auto& test) { return std::string(test.param.name); });
@@ -354,4 +316,34 @@ TEST(BadProblem, MissingRobotFile) {
 }
 
 }  // namespace
+
+void expect_refused(const BadInput& input) {
+  std::string name = (fs::temp_directory_path() / "maxwrench_bad_XXXXXX").string();
+  const fs::path folder = mkdtemp(name.data());
+  for (const char* file : {"vehicle.urdf", "vehicle.toml", "force.toml"}) {
+    std::ifstream stream(fs::path(MAXWRENCH_SOURCE_DIR) / "problems/planar" / file);
+    std::string text(std::istreambuf_iterator<char>(stream), {});
+    if (file == std::string(input.file)) {
+      const std::size_t at = text.find(input.from);
+      ASSERT_NE(at, std::string::npos) << "the shipped file has no " << input.from;
+      text.replace(at, std::string(input.from).size(), input.to);
+    }
+    std::ofstream(folder / file) << text;
+  }
+  testing::internal::CaptureStderr();
+  try {
+    load_problem((folder / "force.toml").string());
+    ADD_FAILURE() << "was accepted";
+  } catch (const std::invalid_argument& error) {
+    const std::string message = error.what();
+    EXPECT_EQ(message.find((folder / input.file).string() + ": "), 0u) << message;
+    EXPECT_THAT(message, testing::HasSubstr("expected"));
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    for (const std::string& part : input.message) EXPECT_THAT(message, testing::HasSubstr(part));
+    testing::Test::RecordProperty("message", message);
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  fs::remove_all(folder);
+}
+
 }  // namespace maxwrench

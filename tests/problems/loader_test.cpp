@@ -150,6 +150,42 @@ TEST_F(LoaderTest, FixedLinksAreMergedIntoTheirCarrier) {
   EXPECT_TRUE(valve.placement.R.isApprox(R, 1e-12));
 }
 
+TEST_F(LoaderTest, HydrodynamicBodiesOnOneLinkStayApart) {
+  const Robot robot = load(kTwoBodies, R"(
+    base = { axes = [] }
+    [hydrodynamics.tank]
+    center = [2, 0, 0]
+    added_mass = [1, 2, 3, 4, 5, 6]
+    damping_linear = [0, 0, 0, 0, 0, 7]
+    damping_quadratic = [8, 0, 0, 0, 0, 0]
+    [hydrodynamics.arm]
+    added_mass = [9, 9, 9, 0, 0, 0]
+    damping_linear = [0, 0, 0, 0, 0, 0]
+    damping_quadratic = [0, 0, 0, 0, 0, 0]
+  )");
+  ASSERT_EQ(robot.links[0].hydrodynamics.size(), 2u);
+  const HydrodynamicBody &tank = robot.links[0].hydrodynamics[0],
+                         &arm = robot.links[0].hydrodynamics[1];
+  // The tank lies at (1, 4, 0), turned by 90 degrees: its point (2, 0, 0) is (1, 6, 0).
+  EXPECT_TRUE(tank.frame.p.isApprox(Eigen::Vector3d(1, 6, 0)));
+  EXPECT_TRUE(tank.frame.R.col(0).isApprox(Eigen::Vector3d::UnitY()));
+  EXPECT_THAT(tank.added_mass, ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_EQ(tank.damping_linear, 7 * Vector6d::Unit(5));
+  EXPECT_EQ(tank.damping_quadratic, 8 * Vector6d::Unit(0));
+  EXPECT_TRUE(arm.frame.p.isZero());
+  EXPECT_TRUE(arm.frame.R.isIdentity());
+  EXPECT_EQ(arm.added_mass[2], 9);
+}
+
+TEST_F(LoaderTest, TrimIsOptional) {
+  EXPECT_EQ(load(kTwoBodies, "base = { axes = [] }").trim.buoyancy_mass, 0);
+  const Trim trim =
+      load(kTwoBodies, "base = { axes = [] }\ntrim = { buoyancy_mass = -2, position = [1, 2, 3] }")
+          .trim;
+  EXPECT_EQ(trim.buoyancy_mass, -2);
+  EXPECT_EQ(trim.position, Eigen::Vector3d(1, 2, 3));
+}
+
 /// A tree: `slide` (prismatic) and `turn` (continuous) on the root, `tip` behind a fixed bracket on
 /// `turn`. Their order in the file is neither alphabetical nor depth-first.
 constexpr const char* kTree = R"(

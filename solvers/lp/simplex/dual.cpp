@@ -75,6 +75,7 @@ Outcome Dual::run() {
         continue;
       }
       q = largest_pivot_of_groups();
+      if (q < 0) return Outcome::kTrouble;
     }
     e.column(q, e.alpha_column.data());
     if (!pivots_agree(e.alpha_column[r_], e.alpha_row[q])) {
@@ -178,15 +179,19 @@ int Dual::choose_column() {
   int done = 0;
   while (done < count) {
     double step = kInfinity;
+    int first = -1;
     for (int k = done; k < count; ++k) {
       const int j = list[k];
-      step = std::min(step, (e.ratios_[j] + s.dual_tolerance) / std::abs(e.alpha_row[j]));
+      const double reach = (e.ratios_[j] + s.dual_tolerance) / std::abs(e.alpha_row[j]);
+      if (reach < step) step = reach, first = j;
     }
+    left_over_ = slope;
+    if (first < 0) return -1;  // no number is left
     const int begin = done;
     for (int k = begin; k < count; ++k) {
       const int j = list[k];
       const double a = std::abs(e.alpha_row[j]);
-      if (e.ratios_[j] > step * a) continue;
+      if (e.ratios_[j] > step * a && j != first) continue;
       std::swap(list[k], list[done++]);
       slope -= a * (e.upper[j] - e.lower[j]);
     }

@@ -104,12 +104,14 @@ void Primal::choose_row(int q) {
   theta_ = e.upper[q] - e.lower[q];
   if (bland_) return choose_row_by_index();
   double longest = kInfinity;
+  int first = -1;
   for (int p = 0; p < e.model.rows; ++p) {
     const double a = direction_ * e.alpha_column[p];
     if (std::abs(a) <= s.zero_tolerance) continue;
     const double room = slack(p, a);
     if (room == kInfinity) continue;
-    longest = std::min(longest, (std::max(room, 0.0) + s.primal_tolerance) / std::abs(a));
+    const double reach = (std::max(room, 0.0) + s.primal_tolerance) / std::abs(a);
+    if (reach < longest) longest = reach, first = p;
   }
   if (theta_ <= longest) return;
   double best = 0;
@@ -117,7 +119,7 @@ void Primal::choose_row(int q) {
     const double a = direction_ * e.alpha_column[p];
     if (std::abs(a) <= std::max(s.zero_tolerance, best)) continue;
     const double room = slack(p, a);
-    if (room > longest * std::abs(a)) continue;
+    if (room > longest * std::abs(a) && p != first) continue;
     best = std::abs(a);
     r_ = p;
     theta_ = std::max(room, 0.0) / best;

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace maxwrench {
+
+/// The shipped planar problem with one passage changed.
+struct BadInput {
+  const char* name;
+  const char* file;  ///< that is changed and that the message must name
+  const char* from;  ///< replaced once; empty: the file is removed
+  const char* to;
+  std::vector<std::string> message;  ///< what must stand in it
+};
+
+inline void PrintTo(const BadInput& input, std::ostream* out) { *out << input.name; }
+
+/// The loader must refuse it in one line that names file, key and value, and print nothing.
+void expect_refused(const BadInput& input);
+
+}  // namespace maxwrench

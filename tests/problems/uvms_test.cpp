@@ -1,0 +1,245 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <kdl/chain.hpp>
+#include <kdl/chaindynparam.hpp>
+#include <kdl/chainfksolverpos_recursive.hpp>
+#include <kdl/chainjnttojacsolver.hpp>
+#include <numbers>
+#include <string>
+
+#include "benchmarks/row.h"
+#include "lib/kinematics.h"
+#include "problems/loader.h"
+#include "tests/mechanics.h"
+#include "tests/support.h"
+
+namespace maxwrench {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+class Uvms : public testing::Test {
+ protected:
+  const Problem valve_ = load_problem("uvms/valve");
+  const Problem lift_ = load_problem("uvms/lift");
+};
+
+TEST_F(Uvms, TasksShareRobotPoseAndDefaultPosture) {
+  EXPECT_EQ(valve_.c, Vector6d::Unit(5));
+  EXPECT_STREQ(valve_.unit(), "N m");
+  EXPECT_EQ(lift_.c, Vector6d::Unit(2));
+  EXPECT_STREQ(lift_.unit(), "N");
+  for (const Problem* problem : {&valve_, &lift_}) {
+    EXPECT_EQ(problem->redundancy(), 4);
+    EXPECT_TRUE(problem->pose.R.isIdentity());
+    EXPECT_TRUE(problem->pose.p.isZero());
+    EXPECT_EQ(problem->W_any.cols(), 6);
+    EXPECT_TRUE(
+        problem->theta_r_default.isApprox(Eigen::Vector4d(kPi, 0.4, 0.4 + kPi / 2, 0), 1e-15));
+  }
+}
+
+TEST_F(Uvms, ActuatorsHaveThePapersLimits) {
+  const Robot& robot = valve_.robot;
+  ASSERT_EQ(robot.velocities(), 10);
+  ASSERT_EQ(robot.actuators(), 12);
+  EXPECT_EQ(robot.actuation.rank, 10);
+  EXPECT_TRUE((robot.actuation.u_min.head(8).array() == -40).all());
+  EXPECT_TRUE((robot.actuation.u_max.head(8).array() == 50).all());
+  EXPECT_EQ(robot.actuation.u_max.tail(4), Eigen::Vector4d(9, 9, 9, 2));
+  EXPECT_EQ(robot.actuation.u_min.tail(4), -Eigen::Vector4d(9, 9, 9, 2));
+  EXPECT_TRUE((robot.u_rate_max.head(8).array() == 50).all());
+  EXPECT_TRUE((robot.u_rate_max.tail(4).array() == kInfinity).all());
+  // Heave: each of four vertical thrusters pushes the vehicle down at positive thrust.
+  EXPECT_EQ(robot.actuation.B.row(2).head(8),
+            (Eigen::VectorXd(8) << 0, 0, 0, 0, -1, -1, -1, -1).finished().transpose());
+}
+
+TEST_F(Uvms, EveryBlockKeepsItsSource) {
+  std::vector<std::string> blocks;
+  for (const auto& [block, source] : valve_.robot.sources) blocks.push_back(block);
+  for (const char* block :
+       {"robot", "base", "trim", "thrusters", "end_effectors.tool", "buoyancy", "buoyancy.vehicle",
+        "hydrodynamics", "hydrodynamics.vehicle", "collision"}) {
+    EXPECT_THAT(blocks, testing::Contains(block));
+  }
+}
+
+/// 14.5 + 0.23 + 0.16 + 0.38 + 0.14 + 0.36 = 15.77 kg; the volumes 0.01447896 + 0.00016 + 0.000032
+/// + 0.00022 + 0.000032 + 0.000134 = 0.01505696 m^3 displace 15.0268 kg; the trim lifts 0.808 kg:
+/// 0.065 kg of buoyancy are left, which the thrusters hold down with 0.636 N.
+TEST_F(Uvms, TrimLeavesLittleBuoyancy) {
+  const Robot& robot = valve_.robot;
+  double mass = 0, displaced = 0;
+  for (const Link& link : robot.links) {
+    mass += link.mass;
+    displaced += robot.water_density * link.volume;
+  }
+  EXPECT_NEAR(mass, 15.77, 1e-12);
+  EXPECT_NEAR(displaced + robot.trim.buoyancy_mass - mass, 0.065, 5e-4);
+  PostureModel model(valve_);
+  const Posture& posture = model.evaluate(valve_.theta_r_default);
+  EXPECT_NEAR(posture.tau_d[2], -(998 * 0.01505696 + 0.808 - 15.77) * 9.81, 1e-11);
+}
+
+/// Upright whenever q1 = pi, q3 = q2 + pi/2, q4 = 0; then the arm reaches ahead of the vehicle.
+TEST_F(Uvms, VehicleIsUprightAndFreeOfCollisionAtTheDefaultPosture) {
+  PostureModel model(valve_);
+  EXPECT_EQ(model.evaluate(valve_.theta_r_default).status, Status::kOptimal);
+  for (const double q2 : {0.1, 0.4, 1.0, 1.6}) {
+    const Posture& posture = model.evaluate(Eigen::Vector4d(kPi, q2, q2 + kPi / 2, 0));
+    EXPECT_TRUE(posture.base.R.isIdentity(1e-10));
+    EXPECT_LT(posture.base.p.x(), -0.3);
+    EXPECT_NEAR(posture.base.p.y(), 0, 1e-10);
+  }
+}
+
+TEST_F(Uvms, StaticLoadIsTheDerivativeOfThePotentialEnergy) {
+  Random random(1);
+  PostureModel model(lift_, false);
+  for (int sample = 0; sample < 20; ++sample) {
+    const Posture& posture = model.evaluate(random_theta_r(lift_, random));
+    const Eigen::VectorXd slopes =
+        potential_energy_slopes(lift_.robot, posture.base, posture.q, 1e-6);
+    EXPECT_LT((slopes - posture.tau_d).cwiseAbs().maxCoeff(), 1e-6);
+  }
+}
+
+/// The arm on the vehicle, typed from its table of joints and links and not from our files. KDL
+/// turns a joint before it applies the segment's frame, so each joint gets two segments.
+KDL::Chain arm() {
+  using KDL::Frame, KDL::Joint, KDL::Rotation, KDL::Segment, KDL::Vector;
+  const double mount = 1.30215820291;
+  struct Row {
+    Rotation R;
+    Vector p;
+    double mass;
+    Vector com;
+  };
+  const Row rows[] = {
+      {Rotation::RPY(0, 0, kPi), Vector(0, 0, 0), 0.16, Vector(0.006, 0, 0.0301)},
+      {Rotation::RPY(kPi / 2, mount, 0), Vector(0.02, 0, 0.0462), 0.38, Vector(0.0746, 0.00055, 0)},
+      {Rotation::RPY(kPi, 0, mount), Vector(0.1507053085, 0, 0), 0.14, Vector(0.01, -0.017, 0)},
+      {Rotation::RPY(-kPi / 2, kPi / 2, 0), Vector(0.02, 0, 0), 0.36, Vector(0, 0, -0.1195)}};
+  KDL::Chain chain;
+  const auto fixed = [&chain](const Rotation& R, const Vector& p) {
+    chain.addSegment(Segment(Joint(Joint::None), Frame(R, p)));
+  };
+  fixed(Rotation::RPY(kPi, 0, 0), Vector(0.203, 0, -0.1317));
+  for (const Row& row : rows) {
+    fixed(row.R, row.p);
+    chain.addSegment(
+        Segment(Joint(Joint::RotZ), Frame::Identity(), KDL::RigidBodyInertia(row.mass, row.com)));
+  }
+  fixed(Rotation::RPY(kPi / 2, kPi / 2, 0), Vector(0, 0, -0.18));
+  return chain;
+}
+
+TEST_F(Uvms, ArmAgreesWithKdl) {
+  Robot robot = valve_.robot;
+  robot.water_density = 0;
+  Kinematics<double> kinematics(robot);
+  const KDL::Chain chain = arm();
+  Matrix6Xd J(6, 10);
+  Eigen::VectorXd tau_d(10);
+  Random random(2);
+  for (int sample = 0; sample < 50; ++sample) {
+    KDL::JntArray q(4), gravity(4);
+    q.data = random_theta_r(valve_, random);
+    kinematics.set_joints(q.data);
+    kinematics.jacobian(robot.end_effectors[0], Eigen::Matrix3d::Identity(), J);
+    kinematics.gravity_and_buoyancy(Eigen::Matrix3d::Identity(), tau_d);
+    KDL::Frame tip;
+    KDL::ChainFkSolverPos_recursive(chain).JntToCart(q, tip);
+    KDL::Jacobian jacobian(4);
+    KDL::ChainJntToJacSolver(chain).JntToJac(q, jacobian);
+    KDL::ChainDynParam(chain, KDL::Vector(0, 0, -9.81)).JntToGravity(q, gravity);
+    const Pose<double> pose = kinematics.end_effector(robot.end_effectors[0]);
+    for (int r = 0; r < 3; ++r) {
+      EXPECT_NEAR(pose.p[r], tip.p[r], 1e-13);
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(pose.R(r, c), tip.M(r, c), 1e-13);
+    }
+    EXPECT_LT((J.rightCols(4) - jacobian.data).norm(), 1e-12);
+    EXPECT_LT((tau_d.tail(4) - gravity.data).norm(), 1e-12);
+  }
+}
+
+double capability(const Problem& problem, const char* measure, Wrench wrench) {
+  const Case c = complete({problem.name, measure, wrench});
+  const Row row = evaluate(problem, c, problem.theta_r_default);
+  EXPECT_TRUE(row.has_value()) << row.reason;
+  return row.capability.beta;
+}
+
+/// The axis of the shoulder yaw is vertical, so a pure torque about the vertical passes through
+/// this joint, whose limit is 9 N m. 29.92 N comes from an independent model with the same data.
+TEST_F(Uvms, DefaultPostureHasTheKnownCapability) {
+  EXPECT_NEAR(capability(valve_, "linf_polytope", Wrench::kPure), 9, 1e-9);
+  EXPECT_NEAR(capability(lift_, "linf_polytope", Wrench::kPure), 29.92, 0.01);
+  for (const Problem* problem : {&valve_, &lift_}) {
+    const double pure = capability(*problem, "linf_polytope", Wrench::kPure);
+    EXPECT_LE(capability(*problem, "ellipsoid", Wrench::kPure), pure);
+    EXPECT_GE(capability(*problem, "linf_polytope", Wrench::kAny), pure);
+  }
+}
+
+/// Optima of that model, found by a random search: ours must not be worse, and the same within what
+/// a random search misses.
+TEST_F(Uvms, SearchReachesTheOptimaOfAnIndependentModel) {
+  struct Optimum {
+    const Problem& problem;
+    const char* measure;
+    Wrench wrench;
+    double beta;
+  };
+  for (const Optimum& known : {Optimum{valve_, "ellipsoid", Wrench::kPure, 16.5845},
+                               Optimum{valve_, "linf_polytope", Wrench::kPure, 35.369},
+                               Optimum{valve_, "linf_polytope", Wrench::kAny, 96.775},
+                               Optimum{lift_, "ellipsoid", Wrench::kPure, 42.175},
+                               Optimum{lift_, "linf_polytope", Wrench::kPure, 106.405}}) {
+    Case c{known.problem.name, known.measure, known.wrench};
+    c.budget = 20000;
+    const Row row = solve(known.problem, complete(c), 2);
+    ASSERT_TRUE(row.has_value()) << row.reason;
+    EXPECT_GE(row.capability.beta, known.beta) << known.problem.name << " " << known.measure;
+    EXPECT_LE(row.capability.beta, 1.025 * known.beta);
+  }
+}
+
+/// Shapes: two boxes and a capsule (vehicle and arm base, one link), one capsule on each of links 1
+/// to 3, two on link 4. Between links: 3 * 5 + (1 + 1 + 2) + (1 + 2) + 2 = 24 pairs; ignored are
+/// base - link 1, 1 - 2, 2 - 3 with one pair each and 3 - 4 with two.
+TEST_F(Uvms, AllPairsButNeighboursAreCheckedForCollision) {
+  ASSERT_NE(valve_.robot.collision, nullptr);
+  EXPECT_EQ(valve_.robot.collision->pairs(), 24 - 5);
+  // Turned back, the arm puts the tool into the hull, at (-0.055, 0.141, -0.071) in its axes.
+  PostureModel model(valve_), unchecked(valve_, false);
+  const Eigen::Vector4d inside(0.5, 0.4, 1.8, 0);
+  EXPECT_STREQ(model.evaluate(inside).reason, "self-collision");
+  EXPECT_EQ(unchecked.evaluate(inside).status, Status::kOptimal);
+  // The wrist is 0.0064 m from the upper arm: nearer than the margin. A little farther is free.
+  EXPECT_STREQ(model.evaluate(Eigen::Vector4d(0.1, 1.6, 2.4, 0)).reason, "self-collision");
+  EXPECT_EQ(model.evaluate(Eigen::Vector4d(0.1, 1.6, 2, 0)).status, Status::kOptimal);
+}
+
+/// Vehicle and arm base are one link; their added mass and drag stay apart.
+TEST_F(Uvms, HydrodynamicDataIsRead) {
+  const std::vector<Link>& links = valve_.robot.links;
+  ASSERT_EQ(links.size(), 5u);
+  ASSERT_EQ(links[0].hydrodynamics.size(), 2u);
+  EXPECT_EQ(links[0].hydrodynamics[0].added_mass[2], 18);
+  EXPECT_TRUE(links[0].hydrodynamics[0].frame.p.isZero());
+  // The base lies upside down at (0.203, 0, -0.1317), its centre 0.065 m behind.
+  const HydrodynamicBody& base = links[0].hydrodynamics[1];
+  EXPECT_TRUE(base.frame.p.isApprox(Eigen::Vector3d(0.203 - 0.065, 0, -0.1317)));
+  EXPECT_NEAR(base.frame.R(2, 2), -1, 1e-15);
+  EXPECT_EQ(base.damping_quadratic[1], 1.5);
+  for (std::size_t i = 1; i < 5; ++i) {
+    ASSERT_EQ(links[i].hydrodynamics.size(), 1u);
+    EXPECT_TRUE(links[i].hydrodynamics[0].frame.p.isApprox(links[i].com));
+  }
+}
+
+}  // namespace
+}  // namespace maxwrench
