@@ -45,7 +45,9 @@ class Clp : public LpSolver {
   void solve(const LinearProgram& program, LpSolution& solution) override {
     if (refused(program, solution)) return;
     const bool warm = static_cast<int>(solution.basis.size()) == program.rows() + program.cols();
-    // Scaling costs more than a small program; what fails without it is tried again with it.
+    // Scaling costs more than a small program. The dual simplex bounds free columns by 1e10 for a
+    // while, which can leave columns 1e-6 off their bounds. What fails is tried again with scaling
+    // and the primal simplex.
     for (const bool careful : {false, true}) {
       if (careful && warm) ++solution.cold_restarts;
       if (try_once(program, warm && !careful, careful, solution)) return;
@@ -65,7 +67,7 @@ class Clp : public LpSolver {
     if (status == kClpOptimal) {
       solution.status = Status::kOptimal;
       solution.reason = "";
-      return verified(program, solution, 1e-7, scratch_);
+      return verified(program, solution, careful ? 1e-7 : 1e-9, scratch_);
     }
     if (status == kClpPrimalInfeasible) {
       return prove(program, model_.infeasibilityRay(), program.rows(), Status::kInfeasible,
@@ -99,7 +101,11 @@ class Clp : public LpSolver {
       for (int j = 0; j < cols; ++j) model_.setColumnStatus(j, to_clp(solution.basis[j]));
       for (int i = 0; i < rows; ++i) model_.setRowStatus(i, to_clp(solution.basis[cols + i]));
     }
-    model_.dual();
+    if (careful) {
+      model_.primal();
+    } else {
+      model_.dual();
+    }
     solution.iterations += model_.numberIterations();
     solution.x = Eigen::Map<const Eigen::VectorXd>(model_.primalColumnSolution(), cols);
     // Clp minimises -c'x here.

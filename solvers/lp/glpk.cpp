@@ -2,7 +2,7 @@
 
 #include <glpk.h>
 
-#include <cmath>
+#include <csetjmp>
 
 #include "solvers/lp/elastic.h"
 
@@ -11,11 +11,34 @@ namespace {
 
 /// GLPK keeps an environment for each thread, which that thread must silence and free.
 struct Environment {
-  Environment() { glp_term_out(GLP_OFF); }
+  Environment() = default;
   ~Environment() { glp_free_env(); }
   Environment(const Environment&) = delete;
   Environment& operator=(const Environment&) = delete;
 };
+
+/// Claims to have printed a message.
+int swallow(void* /*info*/, const char* /*message*/) { return 1; }
+
+void jump(void* back) { std::longjmp(*static_cast<std::jmp_buf*>(back), 1); }
+
+/// Calls a function of GLPK, which answers some singular bases with a failed assertion and would
+/// then end the process. False if it did; the environment and all that was in it are gone then.
+/// The jump back crosses frames of C only.
+bool guarded(int (*call)(glp_prob*, const glp_smcp*), glp_prob* problem, const glp_smcp* options,
+             int& result) {
+  std::jmp_buf back;
+  if (setjmp(back) != 0) {
+    glp_free_env();
+    return false;
+  }
+  glp_error_hook(jump, &back);
+  result = call(problem, options);
+  glp_error_hook(nullptr, nullptr);
+  return true;
+}
+
+int factorize(glp_prob* problem, const glp_smcp* /*options*/) { return glp_factorize(problem); }
 
 struct Delete {
   void operator()(glp_prob* problem) const { glp_delete_prob(problem); }
@@ -51,7 +74,7 @@ int bound_type(double l, double u) {
 class Glpk : public LpSolver {
  public:
   void solve(const LinearProgram& program, LpSolution& solution) override {
-    thread_local Environment environment;
+    thread_local const Environment kEnvironment;
     if (refused(program, solution)) return;
     const bool warm = static_cast<int>(solution.basis.size()) == program.rows() + program.cols();
     // Scaling costs more than a small program; what fails without it is tried again with it.
@@ -62,8 +85,8 @@ class Glpk : public LpSolver {
     prove_no_optimum(
         program,
         [this](const LinearProgram& other, LpSolution& proof) {
-          const Problem problem = load(other);
-          return run(*problem, other, false, true, proof) == GLP_OPT;
+          Problem problem = load(other);
+          return run(problem, other, false, true, proof) == GLP_OPT;
         },
         solution);
   }
@@ -71,12 +94,12 @@ class Glpk : public LpSolver {
  private:
   /// False if there is no verdict that the data confirm.
   bool try_once(const LinearProgram& program, bool warm, bool careful, LpSolution& solution) {
-    const Problem problem = load(program);
-    const int status = run(*problem, program, warm, careful, solution);
+    Problem problem = load(program);
+    const int status = run(problem, program, warm, careful, solution);
     if (status == GLP_OPT) {
       solution.status = Status::kOptimal;
       solution.reason = "";
-      return verified(program, solution, 1e-7, scratch_);
+      return verified(program, solution, careful ? 1e-7 : 1e-9, scratch_);
     }
     solution.status = Status::kInfeasible;
     solution.reason = "no x satisfies the rows within its bounds";
@@ -102,6 +125,8 @@ class Glpk : public LpSolver {
   }
 
   Problem load(const LinearProgram& program) {
+    glp_term_out(GLP_OFF);
+    glp_term_hook(swallow, nullptr);  // a failed assertion turns the output on again
     Problem problem(glp_create_prob());
     const int rows = program.rows();
     const int cols = program.cols();
@@ -128,8 +153,11 @@ class Glpk : public LpSolver {
     return problem;
   }
 
-  static int run(glp_prob& problem, const LinearProgram& program, bool warm, bool careful,
+  /// The status, GLP_UNDEF if GLPK fell over; `problem` is empty then.
+  static int run(Problem& owner, const LinearProgram& program, bool warm, bool careful,
                  LpSolution& solution) {
+    glp_prob& problem = *owner;
+    int failed = 0;
     const int rows = program.rows();
     const int cols = program.cols();
     if (careful) glp_scale_prob(&problem, GLP_SF_AUTO);
@@ -139,7 +167,8 @@ class Glpk : public LpSolver {
       for (int i = 0; i < rows; ++i) {
         glp_set_row_stat(&problem, i + 1, to_glpk(solution.basis[cols + i]));
       }
-      if (glp_factorize(&problem) != 0) glp_std_basis(&problem);
+      if (!guarded(factorize, &problem, nullptr, failed)) return lose(owner);
+      if (failed != 0) glp_std_basis(&problem);
     }
     glp_smcp options;
     glp_init_smcp(&options);
@@ -147,7 +176,7 @@ class Glpk : public LpSolver {
     options.meth = GLP_DUALP;
     options.tol_bnd = options.tol_dj = 1e-9;
     options.it_lim = 5000 + 50 * (rows + cols);
-    const bool ended = glp_simplex(&problem, &options) == 0;
+    if (!guarded(glp_simplex, &problem, &options, failed)) return lose(owner);
     solution.iterations += glp_get_it_cnt(&problem);
     solution.x.resize(cols);
     solution.lambda.resize(rows);
@@ -162,7 +191,12 @@ class Glpk : public LpSolver {
       solution.basis[cols + i] = from_glpk(glp_get_row_stat(&problem, i + 1));
     }
     solution.objective = program.c.dot(solution.x);
-    return ended ? glp_get_status(&problem) : GLP_UNDEF;
+    return failed == 0 ? glp_get_status(&problem) : GLP_UNDEF;
+  }
+
+  static int lose(Problem& owner) {
+    static_cast<void>(owner.release());  // freed with its environment
+    return GLP_UNDEF;
   }
 
   std::vector<int> indices_;

@@ -112,6 +112,17 @@ double margin(const WrenchProgram& program, LpSolver& solver) {
 /// For one column, the slope n'J'c of the facet that stops the ray, which is 1/|lambda|.
 bool steep(const Capability& capability) { return capability.lambda.norm() < 1e6; }
 
+/// Whether some wrench loads the actuators, or some facet is loaded by the wrenches, less than
+/// 1e-6: then a wrench of 1e6 N and more decides feasibility, and the solvers' tolerances decide
+/// the verdict.
+bool flat(const WrenchProgram& program) {
+  const Eigen::MatrixXd G = program.actuation->N.transpose() * program.JtW;
+  const auto slopes = G.rowwise().norm().array();
+  Eigen::FullPivLU<Eigen::MatrixXd> lu(G);
+  lu.setThreshold(1e-6);
+  return (slopes > 0 && slopes < 1e-6).any() || lu.rank() < program.columns();
+}
+
 struct Tally {
   int compared = 0, infeasible = 0, unclear = 0, flat = 0;
 };
@@ -142,6 +153,10 @@ class Agreement {
                const Capability& reference, int sample) {
     Capability capability;
     solver.solve(program, false, capability);
+    if (capability.status != reference.status && flat(program)) {
+      ++tally.flat;
+      return;
+    }
     if (capability.status != reference.status) {
       const double distance = margin(program, *margin_solver_);
       if (std::abs(distance) > 1e-6) {
@@ -221,8 +236,6 @@ TEST(Agreement, AnswersSatisfyTheirPrograms) {
 TEST(Box, OneSidedAndBoundedColumns) {
   // A push-only column w >= 0, and one between two limits, against the general simplex.
   Random random(3);
-  const auto box = find_wrench_solver("box").make();
-  const auto simplex = find_wrench_solver("simplex").make();
   int at_bound = 0;
   for (int sample = 0; sample < 2000 / kSampleDivisor; ++sample) {
     const Zonotope set = random_actuation(random, Kind::kPlain);
@@ -232,8 +245,8 @@ TEST(Box, OneSidedAndBoundedColumns) {
     program.w_max[0] = 0.5;
     Capability a;
     Capability b;
-    box->solve(program, false, a);
-    simplex->solve(program, false, b);
+    find_wrench_solver("box").make()->solve(program, false, a);
+    find_wrench_solver("simplex").make()->solve(program, false, b);
     ASSERT_EQ(a.status, b.status) << sample << " " << a.reason << " " << b.reason;
     if (a.status != Status::kOptimal) continue;
     EXPECT_NEAR(a.beta, b.beta, 1e-9 * (1 + std::abs(b.beta))) << sample;
