@@ -1,6 +1,8 @@
 #include <memory>
+#include <stdexcept>
 
 #include "cli/cli.h"
+#include "cli/wrench_file.h"
 #include "problems/loader.h"
 
 namespace maxwrench {
@@ -8,8 +10,23 @@ namespace {
 
 struct EvalOptions : CommonOptions {
   std::string theta_r;
+  std::string write;
   bool ignore_collision = false;
 };
+
+/// Writes the program of the posture, if there is one.
+void write_program(const EvalOptions& options, const Problem& problem, const Case& c,
+                   const Eigen::VectorXd& theta_r) {
+  if (c.measure != "linf_polytope") {
+    throw std::invalid_argument("--write: got measure " + c.measure + ", expected linf_polytope");
+  }
+  PostureModel model(problem, !options.ignore_collision);
+  const Posture& posture = model.evaluate(theta_r);
+  if (posture.status != Status::kOptimal) return;
+  WrenchProgram program = make_wrench_program(problem, c.wrench);
+  set_posture(posture, program);
+  write_wrench_program(problem, program, options.write);
+}
 
 int eval(const EvalOptions& options) {
   Case c = options.read_case();
@@ -18,6 +35,7 @@ int eval(const EvalOptions& options) {
   const Eigen::VectorXd theta_r = options.theta_r.empty()
                                       ? problem.theta_r_default
                                       : parse_numbers("--theta-r", options.theta_r);
+  if (!options.write.empty()) write_program(options, problem, c, theta_r);
   return report(problem, evaluate(problem, c, theta_r, !options.ignore_collision), options.json);
 }
 
@@ -30,6 +48,7 @@ void add_eval(CLI::App& app, int& exit_status) {
   options->add_json(command);
   command.add_option("--theta-r", options->theta_r,
                      "redundant coordinates, separated by commas (default: those of the task)");
+  command.add_option("--write", options->write, "the wrench program, as an MPS file");
   command.add_flag("--ignore-collision", options->ignore_collision,
                    "evaluate a colliding posture too");
   command.callback([options, &exit_status] { exit_status = eval(*options); });
