@@ -1,8 +1,7 @@
 #include "solvers/lp/box.h"
 
-#include <cmath>
-
 #include "solvers/lp/efforts.h"
+#include "solvers/lp/elimination.h"
 #include "solvers/lp/simplex.h"
 #include "solvers/lp/tableau.h"
 
@@ -13,10 +12,11 @@ class Box : public WrenchSolver {
  public:
   void solve(const WrenchProgram& program, bool efforts, Capability& capability) override {
     capability.iterations = 0;
-    if (!program.actuation->has_facets || program.columns() == 0) {
+    const bool eliminated = elimination_.load(program, tableau_);
+    if (!eliminated && (!program.actuation->has_facets || program.columns() == 0)) {
       return solve_assembled(program, efforts, capability);
     }
-    load(program);
+    if (!eliminated) load_facets(program);
     const Tableau::Outcome outcome = tableau_.solve();
     capability.iterations = tableau_.iterations;
     if (outcome == Tableau::Outcome::kUndecided) {
@@ -27,20 +27,20 @@ class Box : public WrenchSolver {
       capability.reason = "no actuator efforts balance the posture";
       return;
     }
+    capability.status = Status::kOptimal;
+    capability.reason = "";
+    if (eliminated) return elimination_.fill(program, tableau_, efforts, capability);
     fill(program, capability);
     if (efforts) fill_efforts(program, *simplex_, capability);
   }
 
  private:
-  /// The facet pairs, then the columns that have a bound.
-  void load(const WrenchProgram& program) {
+  void load_facets(const WrenchProgram& program) {
     const Zonotope& set = *program.actuation;
     const int n = set.dimension();
     const int f = set.facet_pairs();
     const int k = program.columns();
-    int bounded = 0;
-    for (int j = 0; j < k; ++j) bounded += is_bounded(program, j);
-    tableau_.resize(f + bounded, k);
+    tableau_.resize(f, k);
     tableau_.c = program.c_w;
     sum_.resize(k + 1);
     for (int i = 0; i < f; ++i) {
@@ -57,23 +57,12 @@ class Box : public WrenchSolver {
       tableau_.low[i] = set.b_min[i] - sum_[k];
       tableau_.high[i] = set.b_max[i] - sum_[k];
     }
-    int row = f;
-    for (int j = 0; j < k; ++j) {
-      if (!is_bounded(program, j)) continue;
-      for (int other = 0; other < k; ++other) tableau_.entry(row, other) = other == j;
-      tableau_.low[row] = program.w_min[j];
-      tableau_.high[row++] = program.w_max[j];
-    }
-  }
-
-  static bool is_bounded(const WrenchProgram& program, int j) {
-    return std::isfinite(program.w_min[j]) || std::isfinite(program.w_max[j]);
+    tableau_.low.tail(k) = program.w_min;
+    tableau_.high.tail(k) = program.w_max;
   }
 
   void fill(const WrenchProgram& program, Capability& capability) const {
     const Zonotope& set = *program.actuation;
-    capability.status = Status::kOptimal;
-    capability.reason = "";
     capability.w = tableau_.w;
     capability.beta = program.c_w.dot(tableau_.w);
     capability.lambda.setZero(set.dimension());
@@ -106,6 +95,7 @@ class Box : public WrenchSolver {
     if (efforts) capability.u = solution_.x.head(program.actuation->actuators());
   }
 
+  Elimination elimination_;
   Tableau tableau_;
   Eigen::VectorXd sum_;
   std::unique_ptr<LpSolver> simplex_ = make_simplex();

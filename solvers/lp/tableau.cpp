@@ -21,20 +21,21 @@ void Tableau::resize(int rows, int columns) {
   if (rows == rows_ && columns == columns_) return;
   rows_ = rows;
   columns_ = columns;
-  stride_ = (rows + columns + 3) / 4 * 4;
+  total_ = rows + columns;
+  stride_ = (total_ + 1) / 2 * 2;
   const std::size_t size = static_cast<std::size_t>(stride_) * columns;
   G_.assign(size, 0);
   T_.assign(size, 0);
   for (int j = 0; j < columns; ++j) entry(rows + j, j) = 1;
   value_.assign(stride_, 0);
-  slack_.assign(rows, 0);
-  in_basis_.assign(rows, 0);
+  slack_.assign(total_, 0);
+  in_basis_.assign(total_, 0);
   r_.assign(columns, 0);
   upper_.assign(columns, 0);
   work_.assign(columns, 0);
   basis.assign(columns, -1);
-  low.resize(rows);
-  high.resize(rows);
+  low.resize(total_);
+  high.resize(total_);
   for (Eigen::VectorXd* v : {&c, &w, &y}) v->resize(columns);
 }
 
@@ -70,18 +71,25 @@ void Tableau::move(int column, double step) {
   for (int i = 0; i < stride_; ++i) value_[i] += step * t[i];
 }
 
-/// k rows with two finite bounds, the largest entry of the next column each time, on the bounds
-/// that their multipliers ask for. False if there are no such rows.
+/// The unit rows if all have two finite bounds; otherwise k rows that do, the largest entry of the
+/// next column each time. Each rests on the bound that its multiplier asks for. False if there are
+/// no such rows.
 bool Tableau::start() {
   std::copy(G_.begin(), G_.end(), T_.begin());
   std::fill(in_basis_.begin(), in_basis_.end(), 0);
   std::fill(basis.begin(), basis.end(), -1);
   std::fill(value_.begin(), value_.end(), 0.0);
   y = c;
-  for (int j = 0; j < columns_; ++j) {
+  bool boxed = true;
+  for (int i = rows_; i < total_; ++i) boxed = boxed && std::isfinite(high[i] - low[i]);
+  for (int j = 0; j < columns_ && boxed; ++j) {
+    basis[j] = rows_ + j;
+    in_basis_[rows_ + j] = 1;
+  }
+  for (int j = 0; j < columns_ && !boxed; ++j) {
     int best = -1;
     double largest = kZero;
-    for (int i = 0; i < rows_; ++i) {
+    for (int i = 0; i < total_; ++i) {
       if (in_basis_[i] || std::abs(at(i, j)) <= largest) continue;
       if (!std::isfinite(high[i] - low[i])) continue;
       largest = std::abs(at(i, j));
@@ -104,7 +112,7 @@ bool Tableau::start() {
 int Tableau::violated_row(bool first) const {
   int row = -1;
   double worst = 0;
-  for (int i = 0; i < rows_; ++i) {
+  for (int i = 0; i < total_; ++i) {
     const double v = violation(i);
     if (v == 0 || in_basis_[i]) continue;
     if (first) return i;
@@ -155,7 +163,7 @@ int Tableau::leaving(int row, double& gap, bool first) {
 
 Tableau::Outcome Tableau::solve() {
   iterations = 0;
-  for (int i = 0; i < rows_; ++i) {
+  for (int i = 0; i < total_; ++i) {
     slack_[i] = kFeasibilityTolerance * (1 + std::max(magnitude(low[i]), magnitude(high[i])));
     if (low[i] > high[i] + slack_[i]) return Outcome::kUndecided;
   }
@@ -165,7 +173,10 @@ Tableau::Outcome Tableau::solve() {
   while (true) {
     const bool first = iterations > patience;
     const int row = violated_row(first);
-    if (row < 0) return refine() && optimum_holds() ? Outcome::kOptimal : Outcome::kUndecided;
+    if (row < 0) {
+      refine();
+      return optimum_holds() ? Outcome::kOptimal : Outcome::kUndecided;
+    }
     if (++iterations > limit) return Outcome::kUndecided;
     double gap = violation(row);
     const int column = leaving(row, gap, first);
@@ -180,53 +191,68 @@ Tableau::Outcome Tableau::solve() {
   }
 }
 
-/// w and y from the inverse basis (the last rows of T) with one step of refinement each.
-bool Tableau::refine() {
-  w.setZero();
-  y.setZero();
-  for (int step = 0; step < 2; ++step) {
-    for (int i = 0; i < columns_; ++i) {
-      double missing = r_[i];
-      for (int j = 0; j < columns_; ++j) missing -= given(basis[i], j) * w[j];
-      work_[i] = missing;
+/// One step of iterative refinement for w and y; the unit rows of the basis need none.
+void Tableau::refine() {
+  for (int j = 0; j < columns_; ++j) w[j] = value_[rows_ + j];
+  for (int i = 0; i < columns_; ++i) {
+    work_[i] = r_[i];
+    if (basis[i] >= rows_) {
+      work_[i] -= w[basis[i] - rows_];
+      continue;
     }
-    for (int i = 0; i < columns_; ++i) {
-      for (int j = 0; j < columns_; ++j) w[j] += at(rows_ + j, i) * work_[i];
-    }
-    for (int j = 0; j < columns_; ++j) {
-      double missing = c[j];
-      for (int i = 0; i < columns_; ++i) missing -= given(basis[i], j) * y[i];
-      work_[j] = missing;
-    }
-    for (int i = 0; i < columns_; ++i) {
-      for (int j = 0; j < columns_; ++j) y[i] += at(rows_ + j, i) * work_[j];
-    }
+    for (int j = 0; j < columns_; ++j) work_[i] -= given(basis[i], j) * w[j];
   }
-  return w.allFinite() && y.allFinite();
+  for (int i = 0; i < columns_; ++i) {
+    if (work_[i] == 0) continue;
+    for (int j = 0; j < columns_; ++j) w[j] += at(rows_ + j, i) * work_[i];
+  }
+  dual_residual();
+  for (int i = 0; i < columns_; ++i) {
+    for (int j = 0; j < columns_; ++j) y[i] += at(rows_ + j, i) * work_[j];
+    if (basis[i] >= rows_) w[basis[i] - rows_] = r_[i];
+  }
 }
 
-bool Tableau::optimum_holds() const {
+/// work_ = c - [G; I]_B'y
+void Tableau::dual_residual() {
+  for (int j = 0; j < columns_; ++j) work_[j] = c[j];
+  for (int i = 0; i < columns_; ++i) {
+    if (basis[i] >= rows_) {
+      work_[basis[i] - rows_] -= y[i];
+      continue;
+    }
+    for (int j = 0; j < columns_; ++j) work_[j] -= given(basis[i], j) * y[i];
+  }
+}
+
+bool Tableau::optimum_holds() {
   const double scale = y.cwiseAbs().maxCoeff();
+  if (!std::isfinite(scale)) return false;
   for (int i = 0; i < columns_; ++i) {
     const bool fixed = low[basis[i]] == high[basis[i]];
     if (!fixed && (upper_[i] ? y[i] : -y[i]) < -kAccepted * scale) return false;
   }
+  dual_residual();
   for (int j = 0; j < columns_; ++j) {
-    double sum = -c[j];
-    for (int i = 0; i < columns_; ++i) sum += given(basis[i], j) * y[i];
-    if (std::abs(sum) > kAccepted * (std::abs(c[j]) + scale)) return false;
+    if (!(std::abs(work_[j]) <= kAccepted * (std::abs(c[j]) + scale))) return false;
   }
+  // Twice the slack: w was refined after the last look at the rows.
+  const auto holds = [&](int row, double value) {
+    return value <= high[row] + 2 * slack_[row] && value >= low[row] - 2 * slack_[row];
+  };
   for (int i = 0; i < rows_; ++i) {
     double sum = 0;
     for (int j = 0; j < columns_; ++j) sum += given(i, j) * w[j];
-    // Twice: w was refined after the last look at the rows.
-    if (sum > high[i] + 2 * slack_[i] || sum < low[i] - 2 * slack_[i]) return false;
+    if (!holds(i, sum)) return false;
+  }
+  for (int j = 0; j < columns_; ++j) {
+    if (!holds(rows_ + j, w[j])) return false;
   }
   return true;
 }
 
-/// Whether G_row - sum T_row,i G_basis,i vanishes, so that the bounds of the basic rows bound this
-/// one too: the ratio test found that they keep it away from its own.
+/// Whether the row less sum T_row,i times the basic rows vanishes, so that the bounds of the basic
+/// rows bound this one too: the ratio test found that they keep it away from its own.
 bool Tableau::contradiction_holds(int row) const {
   for (int j = 0; j < columns_; ++j) {
     double sum = given(row, j);

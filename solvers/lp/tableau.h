@@ -6,25 +6,30 @@
 
 namespace maxwrench {
 
-/// max c'w  subject to  low <= G w <= high, a dual simplex on the full tableau for few columns.
+/// max c'w  subject to  low <= [G; I] w <= high, a dual simplex on the full tableau for few
+/// columns.
 ///
-/// G is f×k; bounds may be infinite or equal. Rows of T are those of G and then the unit rows of w,
-/// so that row f + j of T is row j of the inverse basis.
+/// G is f×k; bounds may be infinite or equal. A basis is k rows of [G; I], on whose bounds w lies;
+/// the tableau is T = [G; I] times the inverse of those rows, so that its last k rows are that
+/// inverse, and y = T_I'c are the multipliers. Every basis of rows with two finite bounds is dual
+/// feasible once each row rests on the bound that the sign of its y asks for: there is no first
+/// phase. With finite bounds on all of w the unit rows are that basis, and no pivot is needed.
 class Tableau {
  public:
   enum class Outcome { kOptimal, kInfeasible, kUndecided };
 
-  /// Sizes the storage; allocates only when it grows. Then fill `entry`, `low`, `high` and `c`.
+  /// Sizes the storage; allocates only when the sizes change. Then fill `entry` (of G), `low`,
+  /// `high` and `c`.
   void resize(int rows, int columns);
   double& entry(int row, int column) { return G_[column * stride_ + row]; }
 
   Outcome solve();
 
-  Eigen::VectorXd low, high;  ///< f
+  Eigen::VectorXd low, high;  ///< f + k
   Eigen::VectorXd c;          ///< k
   Eigen::VectorXd w;          ///< k, the optimum
   Eigen::VectorXd y;          ///< k, the multiplier of row `basis[i]`, positive at its upper bound
-  std::vector<int> basis;     ///< k rows of G
+  std::vector<int> basis;     ///< k rows of [G; I]
   int iterations = 0;
 
  private:
@@ -34,15 +39,16 @@ class Tableau {
   void pivot(int row, int column);
   void move(int column, double step);
   double violation(int row) const;
-  bool refine();
-  bool optimum_holds() const;
+  void refine();
+  void dual_residual();
+  bool optimum_holds();
   bool contradiction_holds(int row) const;
   double given(int row, int column) const { return G_[column * stride_ + row]; }
   double at(int row, int column) const { return T_[column * stride_ + row]; }
 
-  int rows_ = 0, columns_ = 0, stride_ = 0;
+  int rows_ = 0, columns_ = 0, total_ = 0, stride_ = 0;
   std::vector<double> G_, T_;   // columns of `stride_` entries
-  std::vector<double> value_;   // G w and w
+  std::vector<double> value_;   // [G; I] w
   std::vector<double> slack_;   // how far a row may be missed by rounding
   std::vector<double> r_;       // the bound that the basic rows rest on
   std::vector<char> upper_;     // whether it is the upper one
