@@ -9,6 +9,11 @@ namespace {
 /// Smaller pivots, relative to the largest entry, make J_b'W near singular.
 constexpr double kSingular = 1e-7;
 
+/// A diagonal entry of at least this share of its column serves as pivot.
+constexpr double kDiagonal = 0.1;
+
+constexpr int kChunk = 4;
+
 bool all_free(const WrenchProgram& program) {
   for (int j = 0; j < program.columns(); ++j) {
     if (program.w_min[j] > -kInfinity || program.w_max[j] < kInfinity) return false;
@@ -44,44 +49,77 @@ void Elimination::split(const Eigen::MatrixXd& B) {
   for (int j = 0; j < B.cols(); ++j) {
     if (!is_drive[j]) thrusters_.push_back(j);
   }
-  B_b_ = B(base_rows_, thrusters_);
+  const auto m = static_cast<Eigen::Index>(thrusters_.size());
+  const auto k = static_cast<Eigen::Index>(base_rows_.size());
+  if (k > 6) return;  // no program is of this kind
+  B_b_.setZero(6, (m + kChunk - 1) / kChunk * kChunk);
+  B_b_.topLeftCorner(k, m) = B(base_rows_, thrusters_);
+  row_.resize(B_b_.cols());
 }
 
-/// P by elimination on [J_b'W, I] with row exchanges.
+/// P by Gauss-Jordan elimination on [J_b'W, I].
 bool Elimination::invert(const WrenchProgram& program) {
   const int k = program.columns();
-  RowMajor& A = elimination_;
-  A.resize(k, 2 * k);
+  Eigen::Matrix<double, 6, 12, Eigen::RowMajor> A;
+  A << Square::Identity(), Square::Identity();
   double largest = 0;
-  for (int i = 0; i < k; ++i) {
-    for (int j = 0; j < k; ++j) {
+  for (int j = 0; j < k; ++j) {
+    for (int i = 0; i < k; ++i) {
       A(i, j) = program.JtW(base_rows_[i], j);
-      A(i, k + j) = i == j;
       largest = std::max(largest, std::abs(A(i, j)));
     }
   }
   for (int step = 0; step < k; ++step) {
+    double best = 0;
+    for (int i = step; i < k; ++i) best = std::max(best, std::abs(A(i, step)));
+    if (!(best > kSingular * largest)) return false;
+    // A search for the largest entry is a branch that no processor foresees; exchange only what is
+    // bad.
     int pivot = step;
-    for (int i = step + 1; i < k; ++i) {
-      if (std::abs(A(i, step)) > std::abs(A(pivot, step))) pivot = i;
+    if (std::abs(A(step, step)) < kDiagonal * best) {
+      while (std::abs(A(pivot, step)) != best) ++pivot;
+      A.row(step).swap(A.row(pivot));
     }
-    if (!(std::abs(A(pivot, step)) > kSingular * largest)) return false;
-    double* const row = &A(step, 0);
-    if (pivot != step) std::swap_ranges(row, row + 2 * k, &A(pivot, 0));
-    const double inverse = 1 / row[step];
-    for (int j = step; j < 2 * k; ++j) row[j] *= inverse;
+    A.row(step) *= 1 / A(step, step);
     for (int i = 0; i < k; ++i) {
-      double* const other = &A(i, 0);
-      const double factor = other[step];
-      if (i == step || factor == 0) continue;
-      for (int j = step; j < 2 * k; ++j) other[j] -= factor * row[j];
+      if (i != step) A.row(i) -= A(i, step) * A.row(step);
     }
   }
-  P_.resize(k, k);
-  for (int i = 0; i < k; ++i) {
-    for (int j = 0; j < k; ++j) P_(i, j) = A(i, k + j);
-  }
+  P_ = A.rightCols<6>();
   return true;
+}
+
+/// row_ = (P'p)'B_b; returns (P'p)'tau_b.
+double Elimination::combine(const Vector6d& p) {
+  const Vector6d left = P_.transpose() * p;
+  const Eigen::Index width = row_.size();
+  for (Eigen::Index j = 0; j < width; j += kChunk) {
+    double sum[kChunk] = {};
+    const double* b = B_b_.data() + j;
+    for (int i = 0; i < 6; ++i, b += width) {
+      for (int lane = 0; lane < kChunk; ++lane) sum[lane] += left[i] * b[lane];
+    }
+    for (int lane = 0; lane < kChunk; ++lane) row_[j + lane] = sum[lane];
+  }
+  return left.dot(tau_b_);
+}
+
+/// v_j = tau_j - (J_j'W P) tau_b + (J_j'W P B_b) u_b between the limits of b_j u_j.
+void Elimination::add_joint(const WrenchProgram& program, int joint, Tableau& tableau) {
+  const Zonotope& set = *program.actuation;
+  const int row = driven_rows_[joint];
+  const int drive = drives_[joint];
+  Vector6d p = Vector6d::Zero();
+  for (int i = 0; i < program.columns(); ++i) p[i] = program.JtW(row, i);
+  const double offset = program.tau_d[row] - combine(p);
+  for (std::size_t j = 0; j < thrusters_.size(); ++j) {
+    tableau.entry(joint, static_cast<int>(j)) = row_[static_cast<Eigen::Index>(j)];
+  }
+  const double gain = set.B(row, drive);
+  const double first = gain * set.u_min[drive];
+  const double second = gain * set.u_max[drive];
+  tableau.low[joint] = std::min(first, second) - offset;
+  tableau.high[joint] = std::max(first, second) - offset;
 }
 
 bool Elimination::load(const WrenchProgram& program, Tableau& tableau) {
@@ -95,37 +133,13 @@ bool Elimination::load(const WrenchProgram& program, Tableau& tableau) {
   if (k == 0 || m == 0 || k != static_cast<int>(base_rows_.size())) return false;
   if (!all_free(program) || !invert(program)) return false;
   tableau.resize(f, m);
-  base_row_.resize(k);
-  row_.resize(m);
-  // p = (left) P, then p B_b: for each joint's row of J'W, and last for the objective.
-  for (int joint = 0; joint <= f; ++joint) {
-    base_row_.setZero();
-    for (int i = 0; i < k; ++i) {
-      const double left = joint < f ? program.JtW(driven_rows_[joint], i) : program.c_w[i];
-      if (left == 0) continue;
-      const double* const p = &P_(i, 0);
-      for (int j = 0; j < k; ++j) base_row_[j] += left * p[j];
-    }
-    row_.setZero();
-    double offset = 0;
-    for (int i = 0; i < k; ++i) {
-      const double* const b = &B_b_(i, 0);
-      for (int j = 0; j < m; ++j) row_[j] += base_row_[i] * b[j];
-      offset -= base_row_[i] * program.tau_d[base_rows_[i]];
-    }
-    if (joint == f) {
-      tableau.c = row_;
-      break;
-    }
-    for (int j = 0; j < m; ++j) tableau.entry(joint, j) = row_[j];
-    offset += program.tau_d[driven_rows_[joint]];
-    const int drive = drives_[joint];
-    const double gain = set.B(driven_rows_[joint], drive);
-    const double first = gain * set.u_min[drive];
-    const double second = gain * set.u_max[drive];
-    tableau.low[joint] = std::min(first, second) - offset;
-    tableau.high[joint] = std::max(first, second) - offset;
-  }
+  tau_b_.setZero();
+  for (int i = 0; i < k; ++i) tau_b_[i] = program.tau_d[base_rows_[i]];
+  for (int joint = 0; joint < f; ++joint) add_joint(program, joint, tableau);
+  Vector6d c = Vector6d::Zero();
+  c.head(k) = program.c_w;
+  combine(c);
+  tableau.c = row_.head(m);
   for (int j = 0; j < m; ++j) {
     tableau.low[f + j] = set.u_min[thrusters_[j]];
     tableau.high[f + j] = set.u_max[thrusters_[j]];
@@ -138,45 +152,33 @@ void Elimination::fill(const WrenchProgram& program, const Tableau& tableau, boo
   const int k = program.columns();
   const int m = static_cast<int>(thrusters_.size());
   const int f = static_cast<int>(driven_rows_.size());
-  // w = P (B_b u_b - tau_b), with one step of refinement.
-  tau_b_.resize(k);
+  // w = P (B_b u_b - tau_b), with one step of refinement; row i of `load` is that of the balance.
+  Vector6d load = -tau_b_;
   for (int i = 0; i < k; ++i) {
-    tau_b_[i] = -program.tau_d[base_rows_[i]];
-    const double* const b = &B_b_(i, 0);
-    for (int j = 0; j < m; ++j) tau_b_[i] += b[j] * tableau.w[j];
+    for (int j = 0; j < m; ++j) load[i] += B_b_(i, j) * tableau.w[j];
   }
-  capability.w.setZero(k);
+  Vector6d w = P_ * load;
+  for (int j = 0; j < k; ++j) {
+    for (int i = 0; i < k; ++i) load[i] -= program.JtW(base_rows_[i], j) * w[j];
+  }
+  w += P_ * load;
+  capability.w = w.head(k);
   capability.lambda.setZero(program.tau_d.size());
-  for (int step = 0; step < 2; ++step) {
-    for (int i = 0; i < k; ++i) {
-      double left = tau_b_[i];
-      for (int j = 0; step > 0 && j < k; ++j) {
-        left -= program.JtW(base_rows_[i], j) * capability.w[j];
-      }
-      base_row_[i] = left;
-    }
-    for (int i = 0; i < k; ++i) {
-      const double* const p = &P_(i, 0);
-      for (int j = 0; j < k; ++j) capability.w[i] += p[j] * base_row_[j];
-    }
-  }
   for (int i = 0; i < m; ++i) {
     if (tableau.basis[i] < f) capability.lambda[driven_rows_[tableau.basis[i]]] = -tableau.y[i];
   }
   for (int step = 0; step < 2; ++step) {
-    // base_row_ = c_w + (J'W)'lambda; at the first step the base's lambda is zero.
+    // What c_w + (J'W)'lambda lacks to zero, at first all that the base has to give.
+    Vector6d left = Vector6d::Zero();
+    left.head(k) = program.c_w;
     for (int j = 0; j < k; ++j) {
       const double* const column = program.JtW.data() + j * program.JtW.rows();
-      double left = program.c_w[j];
       for (Eigen::Index i = 0; i < program.tau_d.size(); ++i) {
-        left += column[i] * capability.lambda[i];
+        left[j] += column[i] * capability.lambda[i];
       }
-      base_row_[j] = left;
     }
-    for (int j = 0; j < k; ++j) {
-      const double* const p = &P_(j, 0);
-      for (int i = 0; i < k; ++i) capability.lambda[base_rows_[i]] -= p[i] * base_row_[j];
-    }
+    const Vector6d base = P_.transpose() * left;
+    for (int i = 0; i < k; ++i) capability.lambda[base_rows_[i]] -= base[i];
   }
   capability.beta = program.c_w.dot(capability.w);
   if (!efforts) return;

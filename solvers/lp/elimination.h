@@ -29,16 +29,21 @@ class Elimination {
             Capability& capability);
 
  private:
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  /// k <= 6 is padded to 6, with an identity in P and zeros elsewhere: constant sizes are fast.
+  using Square = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+  using Wide = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>;
 
   void split(const Eigen::MatrixXd& B);
   bool invert(const WrenchProgram& program);
+  void add_joint(const WrenchProgram& program, int joint, Tableau& tableau);
+  double combine(const Vector6d& p);
 
-  Eigen::MatrixXd B_;  // that the following four were made from
+  Eigen::MatrixXd B_;  // that the following five were made from
   std::vector<int> driven_rows_, drives_, base_rows_, thrusters_;
-  RowMajor B_b_;
-  RowMajor P_, elimination_;  // k×k, k×2k
-  Eigen::VectorXd tau_b_, row_, base_row_;
+  Wide B_b_;  // columns padded with zeros to a multiple of four
+  Square P_;
+  Vector6d tau_b_;
+  Eigen::VectorXd row_;
 };
 
 }  // namespace maxwrench

@@ -13,6 +13,20 @@ constexpr double kAccepted = 1e-10;
 /// Smaller entries of the tableau, whose pivots are near one, are rounding.
 constexpr double kZero = 1e-11;
 
+/// Columns of the tableau are padded to whole chunks, so that the loops over them need no
+/// remainder.
+constexpr int kChunk = 4;
+
+/// x += a y over n entries, n a multiple of the chunk.
+inline void add_multiple(double* __restrict x, double a, const double* __restrict y, int n) {
+  for (int i = 0; i < n; i += kChunk) {
+    for (int lane = 0; lane < kChunk; ++lane) x[i + lane] += a * y[i + lane];
+  }
+}
+
+/// Keeps a row without entries from a division by zero.
+constexpr double kTiny = 1e-20;
+
 double magnitude(double bound) { return std::isfinite(bound) ? std::abs(bound) : 0; }
 
 }  // namespace
@@ -22,21 +36,29 @@ void Tableau::resize(int rows, int columns) {
   rows_ = rows;
   columns_ = columns;
   total_ = rows + columns;
-  stride_ = (total_ + 1) / 2 * 2;
+  stride_ = (total_ + kChunk - 1) / kChunk * kChunk;
   const std::size_t size = static_cast<std::size_t>(stride_) * columns;
   G_.assign(size, 0);
   T_.assign(size, 0);
   for (int j = 0; j < columns; ++j) entry(rows + j, j) = 1;
   value_.assign(stride_, 0);
   slack_.assign(total_, 0);
+  weight_.assign(total_, 1);
   in_basis_.assign(total_, 0);
   r_.assign(columns, 0);
-  upper_.assign(columns, 0);
+  side_.assign(columns, 1);
   work_.assign(columns, 0);
+  candidates_.assign(columns, 0);
   basis.assign(columns, -1);
   low.resize(total_);
   high.resize(total_);
   for (Eigen::VectorXd* v : {&c, &w, &y}) v->resize(columns);
+}
+
+/// How far a row is violated beyond its slack, over the norm of its gradient; negative if it holds.
+double Tableau::excess(int row) const {
+  const double missed = std::max(value_[row] - high[row], low[row] - value_[row]);
+  return (missed - slack_[row]) * weight_[row];
 }
 
 double Tableau::violation(int row) const {
@@ -56,7 +78,7 @@ void Tableau::pivot(int row, int column) {
     double* const other = &T_[j * stride_];
     const double factor = other[row];
     if (factor == 0) continue;
-    for (int i = 0; i < stride_; ++i) other[i] -= factor * pivot_column[i];
+    add_multiple(other, -factor, pivot_column, stride_);
     other[row] = 0;
     y[j] -= factor * y[column];
   }
@@ -67,8 +89,7 @@ void Tableau::pivot(int row, int column) {
 }
 
 void Tableau::move(int column, double step) {
-  const double* const t = &T_[column * stride_];
-  for (int i = 0; i < stride_; ++i) value_[i] += step * t[i];
+  add_multiple(value_.data(), step, &T_[column * stride_], stride_);
 }
 
 /// The unit rows if all have two finite bounds; otherwise k rows that do, the largest entry of the
@@ -80,6 +101,11 @@ bool Tableau::start() {
   std::fill(basis.begin(), basis.end(), -1);
   std::fill(value_.begin(), value_.end(), 0.0);
   y = c;
+  for (int i = 0; i < rows_; ++i) weight_[i] = 0;
+  for (int j = 0; j < columns_; ++j) {
+    for (int i = 0; i < rows_; ++i) weight_[i] += given(i, j) * given(i, j);
+  }
+  for (int i = 0; i < rows_; ++i) weight_[i] = 1 / std::sqrt(weight_[i] + kTiny);
   bool boxed = true;
   for (int i = rows_; i < total_; ++i) boxed = boxed && std::isfinite(high[i] - low[i]);
   for (int j = 0; j < columns_ && boxed; ++j) {
@@ -100,28 +126,21 @@ bool Tableau::start() {
   }
   for (int j = 0; j < columns_; ++j) {
     const int row = basis[j];
-    upper_[j] = y[j] >= 0;
-    r_[j] = upper_[j] ? high[row] : low[row];
+    side_[j] = y[j] >= 0 ? 1 : -1;
+    r_[j] = y[j] >= 0 ? high[row] : low[row];
     move(j, r_[j]);
   }
   return true;
 }
 
-/// The row that is violated most, measured along its gradient; -1 if none is. `first`: the one of
-/// lowest index instead, which cannot cycle.
+/// The row that is violated most, in units of its own size; -1 if none is. `first`: the violated
+/// one of lowest index instead, which cannot cycle.
 int Tableau::violated_row(bool first) const {
-  int row = -1;
   double worst = 0;
-  for (int i = 0; i < total_; ++i) {
-    const double v = violation(i);
-    if (v == 0 || in_basis_[i]) continue;
-    if (first) return i;
-    double norm = 1e-30;
-    for (int j = 0; j < columns_; ++j) norm += at(i, j) * at(i, j);
-    if (v * v <= worst * norm) continue;
-    worst = v * v / norm;
-    row = i;
-  }
+  for (int i = 0; i < total_; ++i) worst = std::max(worst, excess(i));
+  if (worst == 0) return -1;
+  int row = 0;
+  while (first ? excess(row) <= 0 : excess(row) != worst) ++row;
   return row;
 }
 
@@ -131,34 +150,39 @@ int Tableau::violated_row(bool first) const {
 /// gap: then no w satisfies the rows.
 int Tableau::leaving(int row, double& gap, bool first) {
   const double side = gap > 0 ? 1 : -1;
+  // No branches here: which columns block is a matter of chance.
+  int count = 0;
   for (int j = 0; j < columns_; ++j) {
-    const double a = side * at(row, j);
-    const bool blocks = upper_[j] ? a > kZero : a < -kZero;
-    work_[j] = blocks ? std::max(y[j] / a, 0.0) : kInfinity;
+    const double a = side * side_[j] * at(row, j);
+    work_[j] = std::max(side_[j] * y[j], 0.0) / a;
+    candidates_[count] = j;
+    count += a > kZero;
   }
-  for (int passed = 0; passed < columns_; ++passed) {
-    int next = -1;
-    for (int j = 0; j < columns_; ++j) {
-      if (work_[j] == kInfinity) continue;
-      const bool tie = next >= 0 && work_[j] == work_[next];
-      if (next < 0 || work_[j] < work_[next] ||
-          (tie &&
-           (first ? basis[j] < basis[next] : std::abs(at(row, j)) > std::abs(at(row, next))))) {
-        next = j;
-      }
+  while (count > 0) {
+    int best = 0;
+    for (int i = 1; i < count; ++i) {
+      if (comes_before(candidates_[i], candidates_[best], row, first)) best = i;
     }
-    if (next < 0) return -1;
-    work_[next] = kInfinity;
+    const int next = candidates_[best];
+    candidates_[best] = candidates_[--count];
     const int out = basis[next];
-    const double step = upper_[next] ? low[out] - high[out] : high[out] - low[out];
+    const double step = side_[next] * (low[out] - high[out]);
     const double left = gap + at(row, next) * step;
     if (!(side * left > slack_[row])) return next;
     move(next, step);
-    upper_[next] = !upper_[next];
-    r_[next] = upper_[next] ? high[out] : low[out];
+    side_[next] = -side_[next];
+    r_[next] = side_[next] > 0 ? high[out] : low[out];
     gap = left;
   }
   return -1;
+}
+
+/// Whether the multiplier at position i reaches zero before that at j; of two that tie the larger
+/// pivot is safer, and the lower index cannot cycle.
+bool Tableau::comes_before(int i, int j, int row, bool first) const {
+  if (work_[i] != work_[j]) return work_[i] < work_[j];
+  if (first) return basis[i] < basis[j];
+  return std::abs(at(row, i)) > std::abs(at(row, j));
 }
 
 Tableau::Outcome Tableau::solve() {
@@ -177,7 +201,7 @@ Tableau::Outcome Tableau::solve() {
       refine();
       return optimum_holds() ? Outcome::kOptimal : Outcome::kUndecided;
     }
-    if (++iterations > limit) return Outcome::kUndecided;
+    if (++iterations > limit || in_basis_[row]) return Outcome::kUndecided;
     double gap = violation(row);
     const int column = leaving(row, gap, first);
     if (column < 0) {
@@ -185,7 +209,7 @@ Tableau::Outcome Tableau::solve() {
     }
     const bool to_upper = gap > 0;
     pivot(row, column);
-    upper_[column] = to_upper;
+    side_[column] = to_upper ? 1 : -1;
     r_[column] = to_upper ? high[row] : low[row];
     move(column, r_[column] - value_[row]);
   }
@@ -208,7 +232,10 @@ void Tableau::refine() {
   }
   dual_residual();
   for (int i = 0; i < columns_; ++i) {
-    for (int j = 0; j < columns_; ++j) y[i] += at(rows_ + j, i) * work_[j];
+    const double* const inverse = &T_[i * stride_ + rows_];
+    double sum = 0;
+    for (int j = 0; j < columns_; ++j) sum += inverse[j] * work_[j];
+    y[i] += sum;
     if (basis[i] >= rows_) w[basis[i] - rows_] = r_[i];
   }
 }
@@ -230,7 +257,7 @@ bool Tableau::optimum_holds() {
   if (!std::isfinite(scale)) return false;
   for (int i = 0; i < columns_; ++i) {
     const bool fixed = low[basis[i]] == high[basis[i]];
-    if (!fixed && (upper_[i] ? y[i] : -y[i]) < -kAccepted * scale) return false;
+    if (!fixed && side_[i] * y[i] < -kAccepted * scale) return false;
   }
   dual_residual();
   for (int j = 0; j < columns_; ++j) {

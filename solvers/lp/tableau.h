@@ -36,8 +36,10 @@ class Tableau {
   bool start();
   int violated_row(bool first) const;
   int leaving(int row, double& gap, bool first);
+  bool comes_before(int i, int j, int row, bool first) const;
   void pivot(int row, int column);
   void move(int column, double step);
+  double excess(int row) const;
   double violation(int row) const;
   void refine();
   void dual_residual();
@@ -50,10 +52,12 @@ class Tableau {
   std::vector<double> G_, T_;   // columns of `stride_` entries
   std::vector<double> value_;   // [G; I] w
   std::vector<double> slack_;   // how far a row may be missed by rounding
+  std::vector<double> weight_;  // one over the norm of the rows
   std::vector<double> r_;       // the bound that the basic rows rest on
-  std::vector<char> upper_;     // whether it is the upper one
+  std::vector<double> side_;    // 1 if that is the upper one, -1 if the lower
   std::vector<char> in_basis_;  // by rows
   std::vector<double> work_;
+  std::vector<int> candidates_;
 };
 
 }  // namespace maxwrench
