@@ -4,14 +4,20 @@
 #include "solvers/lp/simplex/engine.h"
 
 namespace maxwrench::simplex {
+namespace {
+
+/// Up to so many rows steepest edge weights cost more than the pivots that they save.
+constexpr int kPlainPricing = 24;
+
+}  // namespace
 
 /// The dual simplex: starts from reduced costs of the right sign and removes bound violations.
 ///
-/// Leaving row by steepest edge. Entering column by the bound flipping ratio test: as the dual step
-/// grows, candidates whose reduced cost changes sign jump to their other bound as long as the row's
-/// violation outlasts them. Among the breakpoints that lie together within the dual tolerance
-/// (Harris) the one with the largest pivot enters; a reduced cost that this leaves on the wrong
-/// side is moved to zero by shifting its cost.
+/// Leaving row by steepest edge, by the largest violation in small programs. Entering column by the
+/// bound flipping ratio test: as the dual step grows, candidates whose reduced cost changes sign
+/// jump to their other bound as long as the row's violation outlasts them. Among the breakpoints
+/// that lie together within the dual tolerance (Harris) the one with the largest pivot enters; a
+/// reduced cost that this leaves on the wrong side is moved to zero by shifting its cost.
 class Dual {
  public:
   explicit Dual(Engine& engine) : e(engine), s(engine.options) {}
@@ -283,6 +289,7 @@ void Dual::update_duals(double theta) {
 }
 
 void Dual::update_weights(double pivot) {
+  if (e.model.rows <= kPlainPricing) return;
   double norm = 0;
   for (const double v : e.rho) norm += v * v;
   std::copy(e.rho.begin(), e.rho.end(), e.row_work_.begin());
