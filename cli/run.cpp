@@ -4,10 +4,8 @@
 #include <map>
 #include <memory>
 
-#include "benchmarks/machine.h"
-#include "benchmarks/table.h"
 #include "cli/cli.h"
-#include "cli/progress.h"
+#include "cli/row_writer.h"
 #include "problems/loader.h"
 
 namespace maxwrench {
@@ -64,21 +62,9 @@ std::vector<Case> choose(const std::map<std::string, std::string>& filter) {
 int run(const RunOptions& options) {
   const std::vector<Case> cases = choose(read_filter(options.filter));
   const std::filesystem::path folder(options.out);
-  Table value_table(folder / "values.csv", value_columns(), case_columns().size());
-  Table time_table(folder / "times.csv", time_columns(), case_columns().size());
-  write_file(folder / "machine.txt", describe_machine());
-  Progress progress("run", static_cast<long>(cases.size()));
-  long done = 0;
-  bool all_solved = true;
-  for (const Case& c : cases) {
-    const Problem problem = load_problem(c.problem);
-    const Row row = solve(problem, c, options.thread_count());
-    value_table.put(values(problem, row));
-    time_table.put(times(row));
-    all_solved = all_solved && row.has_value();
-    progress.show(++done);
-  }
-  progress.finish();
+  RowWriter writer("run", folder, options.thread_count(), static_cast<long>(cases.size()));
+  for (const Case& c : cases) writer.solve(load_problem(c.problem), c);
+  const bool all_solved = writer.finish();
   fmt::print("{} rows in {}\n", cases.size(), (folder / "values.csv").string());
   return all_solved ? kAnswered : kOtherStatus;
 }

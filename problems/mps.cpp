@@ -115,7 +115,7 @@ MpsProgram read_mps(const std::string& path) {
   result.name = cards.name;
   result.objective_name = reader.getObjectiveName();
   result.minimize = cards.minimize;
-  result.constant = -reader.objectiveOffset();
+  result.constant = 0 - reader.objectiveOffset();
   result.file_cols = reader.getNumCols();
   return result;
 }

@@ -1,3 +1,4 @@
+#include <cassert>
 #include <cmath>
 #include <stdexcept>
 
@@ -10,6 +11,13 @@ namespace {
 
 /// Pivots of G'G below this share of the largest mean that J'W has not full column rank.
 constexpr double kRankTolerance = 1e-14;
+
+/// Wrench columns of two contacts; matrices of this size live on the stack, so that solving
+/// allocates nothing.
+constexpr int kMaxColumns = 12;
+using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
+                                  kMaxColumns, kMaxColumns>;
+using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxColumns, 1>;
 
 /// max c_w'w subject to |G w + g| <= 1, G = W_u B^+ J'W (m×k), g = W_u B^+ tau_d (m), by
 ///
@@ -45,6 +53,7 @@ class Ellipsoid : public Measure {
       capability.reason = "the origin is outside of the ellipsoid: tau_d alone exceeds it";
       return Status::kInfeasible;
     }
+    assert(program.columns() <= kMaxColumns);
     normal_.noalias() = G_.transpose().lazyProduct(G_);
     ldlt_.compute(normal_);
     const auto pivots = ldlt_.vectorD();
@@ -52,10 +61,10 @@ class Ellipsoid : public Measure {
       capability.reason = "J'W has not full column rank";
       return Status::kNumericalError;
     }
-    capability.w.noalias() = G_.transpose().lazyProduct(-g_);
-    ldlt_.solveInPlace(capability.w);  // z
-    direction_ = program.c_w;
-    ldlt_.solveInPlace(direction_);
+    direction_.noalias() = -G_.transpose().lazyProduct(g_);
+    capability.w = ldlt_.solve(direction_);  // z
+    c_w_ = program.c_w;
+    direction_ = ldlt_.solve(c_w_);
     e_ = g_;
     e_.noalias() += G_.lazyProduct(capability.w);
     const double rho = std::sqrt(1 - e_.squaredNorm());  // |e| <= |g| < 1
@@ -82,9 +91,11 @@ class Ellipsoid : public Measure {
         std::abs(lambda.dot(program.tau_d) - lambda.dot(tau) - capability.beta);
   }
 
-  Eigen::MatrixXd B_pinv_, K_, G_, normal_;
-  Eigen::VectorXd g_, e_, direction_;
-  Eigen::LDLT<Eigen::MatrixXd> ldlt_;
+  Eigen::MatrixXd B_pinv_, K_, G_;
+  Eigen::VectorXd g_, e_;
+  SmallMatrix normal_;
+  SmallVector direction_, c_w_;
+  Eigen::LDLT<SmallMatrix> ldlt_;
 };
 
 }  // namespace

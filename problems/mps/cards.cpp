@@ -1,5 +1,7 @@
 #include "problems/mps/cards.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -45,7 +47,10 @@ Fields split(const std::string& line) {
 /// One name of several words: the format allows blanks, CoinMpsIO would drop them.
 std::string join(const Fields& words, std::size_t first = 0) {
   std::string name;
-  for (std::size_t k = first; k < words.size(); ++k) name += (k > first ? "_" : "") + words[k];
+  for (std::size_t k = first; k < words.size(); ++k) {
+    if (k > first) name += '_';
+    name += words[k];
+  }
   return name;
 }
 
@@ -64,8 +69,8 @@ Fields split_fixed(const std::string& line) {
 }  // namespace
 
 void Cards::fail(const std::string& expected) const {
-  throw std::invalid_argument(path_ + ", line " + std::to_string(number_) + ": expected " +
-                              expected + " in section " + (section_.empty() ? "NAME" : section_));
+  throw std::invalid_argument(fmt::format("{}, line {}: expected {} in section {}", path_, number_,
+                                          expected, section_.empty() ? "NAME" : section_));
 }
 
 void Cards::read() {
@@ -150,7 +155,7 @@ void Cards::read_row(const Fields& fields) {
     }
     objective_ = row;
   }
-  rows_text_ += " " + fields[0] + " " + row + "\n";
+  rows_text_ += fmt::format(" {} {}\n", fields[0], row);
 }
 
 /// [name, row, value, row, value] of a card; the name is "" where a set has none.
@@ -181,8 +186,8 @@ void Cards::read_column(const std::string& line) {
   for (std::size_t k = 1; k < fields.size(); k += 2) {
     // A column without entries still exists.
     const bool dropped = free_rows_.count(fields[k]) > 0;
-    columns_text_ += " " + fields[0] + " " + (dropped ? objective_ : fields[k]) + " " +
-                     (dropped ? "0" : with_c_exponent(fields[k + 1])) + "\n";
+    columns_text_ += fmt::format(" {} {} {}\n", fields[0], dropped ? objective_ : fields[k],
+                                 dropped ? "0" : with_c_exponent(fields[k + 1]));
   }
 }
 
@@ -195,7 +200,7 @@ void Cards::read_set(const std::string& line) {
     if (free_rows_.count(fields[k])) continue;
     if (section_ == "RANGES" && fields[k] == objective_) continue;
     (section_ == "RHS" ? rhs_text_ : ranges_text_) +=
-        " SET " + fields[k] + " " + with_c_exponent(fields[k + 1]) + "\n";
+        fmt::format(" SET {} {}\n", fields[k], with_c_exponent(fields[k + 1]));
   }
 }
 
@@ -223,18 +228,19 @@ bool Cards::try_bound(Fields f) {
   set_started_ = true;
   if (f[1] != set_name_) return true;
   if (type == "BV") {
-    bounds_text_ += " LO SET " + f[2] + " 0\n UP SET " + f[2] + " 1\n";
+    bounds_text_ += fmt::format(" LO SET {0} 0\n UP SET {0} 1\n", f[2]);
   } else {
     bounds_text_ +=
-        " " + type + " SET " + f[2] + (with_value ? " " + with_c_exponent(f[3]) : "") + "\n";
+        fmt::format(" {} SET {} {}\n", type, f[2], with_value ? with_c_exponent(f[3]) : "");
   }
   return true;
 }
 
 std::string Cards::text() const {
-  return "NAME maxwrench FREE\nROWS\n" + rows_text_ + "COLUMNS\n" + columns_text_ + "RHS\n" +
-         rhs_text_ + (ranges_text_.empty() ? "" : "RANGES\n" + ranges_text_) +
-         (bounds_text_.empty() ? "" : "BOUNDS\n" + bounds_text_) + "ENDATA\n";
+  const std::string ranges = ranges_text_.empty() ? "" : "RANGES\n";
+  const std::string bounds = bounds_text_.empty() ? "" : "BOUNDS\n";
+  return fmt::format("NAME maxwrench FREE\nROWS\n{}COLUMNS\n{}RHS\n{}{}{}{}{}ENDATA\n", rows_text_,
+                     columns_text_, rhs_text_, ranges, ranges_text_, bounds, bounds_text_);
 }
 
 }  // namespace maxwrench::mps

@@ -98,7 +98,7 @@ bool Simplex::try_once(const LinearProgram& program, LpSolution& solution, bool 
   if (status == Status::kOptimal) solution.certificate.setZero(e.model.rows);
   if (status == Status::kInfeasible) write_farkas(program, solution);
   if (status == Status::kUnbounded) write_ray(program, solution);
-  if (status == Status::kBudgetExhausted) return true;
+  if (status == Status::kBudgetExhausted) return options_.max_iterations > 0;
   if (verified(program, solution, options_.verify_tolerance, scratch_)) return true;
   if (status == Status::kOptimal || status == Status::kUnbounded) {
     // A violation that outgrew its scaling may be small as a residual of the rows.

@@ -135,10 +135,11 @@ TEST(Mps, BadFilesAreRefusedByName) {
 TEST(Mps, UnusualButLegalFiles) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "odd.mps";
-  std::ofstream(file) << "NAME\n* comment\n\nROWS\n N COST\n G R1\n G R2\nCOLUMNS\n"
-                         "    X  COST  1.5D+0  R1  1\n    M1 'MARKER' 'INTORG'\n"
-                         "\tY\tCOST\t1\tR2\t1\n    M2 'MARKER' 'INTEND'\n"
-                         "BOUNDS\n LO BND X 2\n LO BND Y 3\nRANGES\n RNG R1 10\nENDATA\nleft over\n";
+  std::ofstream(file)
+      << "NAME\n* comment\n\nROWS\n N COST\n G R1\n G R2\nCOLUMNS\n"
+         "    X  COST  1.5D+0  R1  1\n    M1 'MARKER' 'INTORG'\n"
+         "\tY\tCOST\t1\tR2\t1\n    M2 'MARKER' 'INTEND'\n"
+         "BOUNDS\n LO BND X 2\n LO BND Y 3\nRANGES\n RNG R1 10\nENDATA\nleft over\n";
   const Answer answer = solve(file);
   EXPECT_EQ(answer.solution.status, Status::kOptimal);
   EXPECT_NEAR(answer.mps.objective(answer.solution), 6, 1e-12);

@@ -231,11 +231,7 @@ void Engine::column(int j, double* z) {
   factor.ftran(row_work_.data(), z);
 }
 
-void Engine::inverse_row(int p, double* result) {
-  std::fill(position_work_.begin(), position_work_.end(), 0.0);
-  position_work_[p] = 1;
-  factor.btran(position_work_.data(), result);
-}
+void Engine::inverse_row(int p, double* result) { factor.row(p, position_work_.data(), result); }
 
 void Engine::refined_inverse_row(int row) {
   inverse_row(row, rho.data());

@@ -4,11 +4,19 @@
 #include <cmath>
 
 namespace maxwrench::simplex {
+namespace {
+
+constexpr int kSmall = 24;
+
+}  // namespace
 
 void Factor::resize(int rows, int max_updates) {
   if (rows == m_ && max_updates == max_updates_) return;
   m_ = rows;
   max_updates_ = max_updates;
+  small_ = rows <= kSmall;
+  singular_.reserve(m_);
+  if (small_) return inverse_.resize(rows);
   for (auto* v : {&begin_, &end_, &row_count_, &column_count_, &row_sum_, &column_sum_, &queue_}) {
     v->resize(m_);
   }
@@ -24,14 +32,13 @@ void Factor::resize(int rows, int max_updates) {
   inverse_diagonal_.resize(m_);
   etas_.resize(static_cast<std::size_t>(m_) * max_updates);
   eta_positions_.resize(max_updates);
-  singular_.reserve(m_);
 }
 
-bool Factor::factorise(const Model& model, const std::vector<int>& head,
-                       double singular_tolerance) {
+bool Factor::factorise(const Model& model, std::vector<int>& head, double singular_tolerance) {
   model_ = &model;
   updates_ = 0;
   singular_.clear();
+  if (small_) return inverse_.invert(model, head, singular_tolerance, singular_);
   for (int p = 0; p < m_; ++p) {
     begin_[p] = model.start[head[p]];
     end_[p] = model.start[head[p] + 1];
@@ -231,6 +238,7 @@ void Factor::solve_kernel(double* a, double* z) const {
 }
 
 void Factor::ftran(double* a, double* z) const {
+  if (small_) return inverse_.ftran(a, z);
   const int* const index = model_->index.data();
   const double* const value = model_->value.data();
   const auto eliminate = [&](const Pivot& pivot) {
@@ -280,7 +288,15 @@ void Factor::solve_kernel_transposed(double* c, double* y) const {
   for (int t = 0; t < k; ++t) y[kernel_rows_[t]] = w[t];
 }
 
+void Factor::row(int position, double* c, double* y) const {
+  if (small_) return inverse_.row(position, y);
+  std::fill(c, c + m_, 0.0);
+  c[position] = 1;
+  btran(c, y);
+}
+
 void Factor::btran(double* c, double* y) const {
+  if (small_) return inverse_.btran(c, y);
   const int* const index = model_->index.data();
   const double* const value = model_->value.data();
   for (int u = updates_ - 1; u >= 0; --u) {
@@ -302,6 +318,10 @@ void Factor::btran(double* c, double* y) const {
 }
 
 void Factor::update(int position, const double* alpha) {
+  if (small_) {
+    ++updates_;
+    return inverse_.update(position, alpha);
+  }
   std::copy(alpha, alpha + m_, etas_.begin() + static_cast<std::size_t>(updates_) * m_);
   eta_positions_[updates_++] = position;
 }

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "solvers/lp/simplex/inverse.h"
 #include "solvers/lp/simplex/model.h"
 
 namespace maxwrench::simplex {
@@ -14,23 +15,23 @@ namespace maxwrench::simplex {
 ///   [ 0  L  0 ]    rows with one entry left, used as they stand
 ///   [ 0  *  D ]    the kernel, a dense LU with row exchanges
 ///
-/// so fill-in exists in D only. A pivot appends B^-1 times its column (product form).
+/// so fill-in exists in D only. A pivot appends B^-1 times its column (product form). A basis of a
+/// few rows is inverted explicitly instead.
 class Factor {
  public:
   void resize(int rows, int max_updates);
 
-  /// Factors B from scratch. Where columns depend on others, `singular` lists positions and the
-  /// rows left without a pivot, and the result is false.
-  struct Replacement {
-    int position, row;
-  };
-  bool factorise(const Model& model, const std::vector<int>& head, double singular_tolerance);
+  /// Factors B from scratch; the order of `head` may change. Where columns depend on others,
+  /// `singular` lists them, and the result is false.
+  bool factorise(const Model& model, std::vector<int>& head, double singular_tolerance);
   const std::vector<Replacement>& singular() const { return singular_; }
 
   /// B z = a. `a` by rows is destroyed, z comes by positions.
   void ftran(double* a, double* z) const;
   /// B'y = c. `c` by positions is destroyed, y comes by rows.
   void btran(double* c, double* y) const;
+  /// Row `position` of B^-1; `c` by positions is destroyed.
+  void row(int position, double* c, double* y) const;
   /// The column at `position` is replaced by one with B^-1 a = alpha.
   void update(int position, const double* alpha);
   int updates() const { return updates_; }
@@ -50,6 +51,8 @@ class Factor {
   void solve_kernel_transposed(double* c, double* y) const;
 
   int m_ = 0, updates_ = 0, max_updates_ = 0, k_ = 0;
+  bool small_ = false;
+  Inverse inverse_;
   const Model* model_ = nullptr;
   std::vector<int> begin_, end_;  // entries of the factored column at each position
   std::vector<Pivot> column_pivots_, row_pivots_;

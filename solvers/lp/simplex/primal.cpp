@@ -12,7 +12,7 @@ namespace maxwrench::simplex {
 /// within it. A bound that is already violated there is shifted to the present value.
 class Primal {
  public:
-  explicit Primal(Engine& engine) : e(engine), s(engine.options) {}
+  explicit Primal(Engine& engine) : e_(engine), s_(engine.options) {}
   Outcome run();
 
  private:
@@ -28,8 +28,8 @@ class Primal {
   void note_progress(double theta);
   void perturb();
 
-  Engine& e;
-  const SimplexOptions& s;
+  Engine& e_;
+  const SimplexOptions& s_;
   int r_ = -1;
   double direction_ = 0, theta_ = 0;
   int stalled_ = 0;
@@ -39,19 +39,19 @@ class Primal {
 Outcome Engine::primal() { return Primal(*this).run(); }
 
 Outcome Primal::run() {
-  std::fill(e.weights_.begin(), e.weights_.end(), 1.0);
+  std::fill(e_.weights_.begin(), e_.weights_.end(), 1.0);
   for (;;) {
-    if (e.factor.updates() == s.max_updates && !refresh()) return Outcome::kTrouble;
-    if (e.iterations >= e.iteration_limit) return Outcome::kIterationLimit;
+    if (e_.factor.updates() == s_.max_updates && !refresh()) return Outcome::kTrouble;
+    if (e_.iterations >= e_.iteration_limit) return Outcome::kIterationLimit;
     const int q = choose_column();
     if (q < 0) return Outcome::kDone;
-    direction_ = e.d[q] < 0 ? 1 : -1;
-    e.column(q, e.alpha_column.data());
+    direction_ = e_.d[q] < 0 ? 1 : -1;
+    e_.column(q, e_.alpha_column.data());
     choose_row(q);
     if (r_ < 0 && theta_ == kInfinity) {
-      if (e.factor.updates() == 0) {
-        e.proof_column = q;
-        e.proof_sign = direction_;
+      if (e_.factor.updates() == 0) {
+        e_.proof_column = q;
+        e_.proof_sign = direction_;
         return Outcome::kUnbounded;
       }
       if (!refresh()) return Outcome::kTrouble;
@@ -61,7 +61,7 @@ Outcome Primal::run() {
       flip(q);
       continue;
     }
-    if (std::abs(e.alpha_column[r_]) < s.pivot_tolerance && e.factor.updates() > 0) {
+    if (std::abs(e_.alpha_column[r_]) < s_.pivot_tolerance && e_.factor.updates() > 0) {
       if (!refresh()) return Outcome::kTrouble;
       continue;
     }
@@ -71,11 +71,11 @@ Outcome Primal::run() {
 
 /// Fresh factors, x and d. A basis that had to be repaired or is clearly infeasible ends the phase.
 bool Primal::refresh() {
-  if (!e.refactor()) return false;
-  e.compute_primal();
-  e.compute_dual();
-  for (int p = 0; p < e.model.rows; ++p) {
-    if (std::abs(e.infeasibility(p)) > 100 * (e.basic_tolerance[p] + e.rounding)) return false;
+  if (!e_.refactor()) return false;
+  e_.compute_primal();
+  e_.compute_dual();
+  for (int p = 0; p < e_.model.rows; ++p) {
+    if (std::abs(e_.infeasibility(p)) > 100 * (e_.basic_tolerance[p] + e_.rounding)) return false;
   }
   return true;
 }
@@ -83,12 +83,12 @@ bool Primal::refresh() {
 int Primal::choose_column() const {
   int best = -1;
   double best_score = 0;
-  for (int j = e.model.rows; j < e.model.total; ++j) {
-    if (e.state[j] == VariableState::kBasic || e.model.fixed[j]) continue;
-    const double v = e.dual_violation(j);
+  for (int j = e_.model.rows; j < e_.model.total; ++j) {
+    if (e_.state[j] == VariableState::kBasic || e_.model.fixed[j]) continue;
+    const double v = e_.dual_violation(j);
     if (v == 0) continue;
     if (bland_) return j;
-    const double score = v * v / e.weights_[j];
+    const double score = v * v / e_.weights_[j];
     if (score > best_score) best_score = score, best = j;
   }
   return best;
@@ -96,28 +96,28 @@ int Primal::choose_column() const {
 
 /// Room of the basic variable at p when the entering one moves with tableau entry `a`.
 double Primal::slack(int p, double a) const {
-  return a > 0 ? e.x_basic[p] - e.basic_lower[p] : e.basic_upper[p] - e.x_basic[p];
+  return a > 0 ? e_.x_basic[p] - e_.basic_lower[p] : e_.basic_upper[p] - e_.x_basic[p];
 }
 
 void Primal::choose_row(int q) {
   r_ = -1;
-  theta_ = e.upper[q] - e.lower[q];
+  theta_ = e_.upper[q] - e_.lower[q];
   if (bland_) return choose_row_by_index();
   double longest = kInfinity;
   int first = -1;
-  for (int p = 0; p < e.model.rows; ++p) {
-    const double a = direction_ * e.alpha_column[p];
-    if (std::abs(a) <= s.zero_tolerance) continue;
+  for (int p = 0; p < e_.model.rows; ++p) {
+    const double a = direction_ * e_.alpha_column[p];
+    if (std::abs(a) <= s_.zero_tolerance) continue;
     const double room = slack(p, a);
     if (room == kInfinity) continue;
-    const double reach = (std::max(room, 0.0) + s.primal_tolerance) / std::abs(a);
+    const double reach = (std::max(room, 0.0) + s_.primal_tolerance) / std::abs(a);
     if (reach < longest) longest = reach, first = p;
   }
   if (theta_ <= longest) return;
   double best = 0;
-  for (int p = 0; p < e.model.rows; ++p) {
-    const double a = direction_ * e.alpha_column[p];
-    if (std::abs(a) <= std::max(s.zero_tolerance, best)) continue;
+  for (int p = 0; p < e_.model.rows; ++p) {
+    const double a = direction_ * e_.alpha_column[p];
+    if (std::abs(a) <= std::max(s_.zero_tolerance, best)) continue;
     const double room = slack(p, a);
     if (room > longest * std::abs(a) && p != first) continue;
     best = std::abs(a);
@@ -127,11 +127,11 @@ void Primal::choose_row(int q) {
 }
 
 void Primal::choose_row_by_index() {
-  for (int p = 0; p < e.model.rows; ++p) {
-    const double a = direction_ * e.alpha_column[p];
-    if (std::abs(a) <= s.zero_tolerance) continue;
+  for (int p = 0; p < e_.model.rows; ++p) {
+    const double a = direction_ * e_.alpha_column[p];
+    if (std::abs(a) <= s_.zero_tolerance) continue;
     const double ratio = std::max(slack(p, a), 0.0) / std::abs(a);
-    if (ratio < theta_ || (ratio == theta_ && r_ >= 0 && e.head[p] < e.head[r_])) {
+    if (ratio < theta_ || (ratio == theta_ && r_ >= 0 && e_.head[p] < e_.head[r_])) {
       theta_ = ratio;
       r_ = p;
     }
@@ -141,48 +141,48 @@ void Primal::choose_row_by_index() {
 void Primal::move(double theta) {
   if (theta == 0) return;
   const double step = direction_ * theta;
-  for (int p = 0; p < e.model.rows; ++p) e.x_basic[p] -= step * e.alpha_column[p];
+  for (int p = 0; p < e_.model.rows; ++p) e_.x_basic[p] -= step * e_.alpha_column[p];
 }
 
 void Primal::flip(int q) {
-  ++e.iterations;
+  ++e_.iterations;
   move(theta_);
-  e.state[q] = direction_ > 0 ? VariableState::kAtUpper : VariableState::kAtLower;
+  e_.state[q] = direction_ > 0 ? VariableState::kAtUpper : VariableState::kAtLower;
   note_progress(theta_);
 }
 
 void Primal::step(int q) {
-  ++e.iterations;
-  const bool to_lower = direction_ * e.alpha_column[r_] > 0;
-  const int leaving = e.head[r_];
-  const double room = slack(r_, direction_ * e.alpha_column[r_]);
+  ++e_.iterations;
+  const bool to_lower = direction_ * e_.alpha_column[r_] > 0;
+  const int leaving = e_.head[r_];
+  const double room = slack(r_, direction_ * e_.alpha_column[r_]);
   if (room < 0) {
-    (to_lower ? e.lower[leaving] : e.upper[leaving]) = e.x_basic[r_];
-    e.bounds_shifted = true;
+    (to_lower ? e_.lower[leaving] : e_.upper[leaving]) = e_.x_basic[r_];
+    e_.bounds_shifted = true;
   }
-  update_duals(q, e.alpha_column[r_]);
-  const double entering = e.nonbasic_value(q) + direction_ * theta_;
+  update_duals(q, e_.alpha_column[r_]);
+  const double entering = e_.nonbasic_value(q) + direction_ * theta_;
   move(theta_);
-  e.pivot(r_, q, to_lower ? VariableState::kAtLower : VariableState::kAtUpper, entering);
+  e_.pivot(r_, q, to_lower ? VariableState::kAtLower : VariableState::kAtUpper, entering);
   note_progress(theta_);
 }
 
 /// d -= (d_q / pivot) alpha_r, and the Devex weights that use the same row.
 void Primal::update_duals(int q, double pivot) {
-  e.inverse_row(r_, e.rho.data());
-  e.tableau_row(e.rho.data());
-  const double theta = e.d[q] / pivot, reference = e.weights_[q];
-  const int leaving = e.head[r_];
-  for (int j = e.model.rows; j < e.model.total; ++j) {
-    const double a = e.alpha_row[j];
+  e_.inverse_row(r_, e_.rho.data());
+  e_.tableau_row(e_.rho.data());
+  const double theta = e_.d[q] / pivot, reference = e_.weights_[q];
+  const int leaving = e_.head[r_];
+  for (int j = e_.model.rows; j < e_.model.total; ++j) {
+    const double a = e_.alpha_row[j];
     if (a == 0 || j == q) continue;
-    e.d[j] -= theta * a;
+    e_.d[j] -= theta * a;
     const double ratio = a / pivot;
-    e.weights_[j] = std::max(e.weights_[j], ratio * ratio * reference);
+    e_.weights_[j] = std::max(e_.weights_[j], ratio * ratio * reference);
   }
-  e.d[q] = 0;
-  e.d[leaving] = -theta;
-  e.weights_[leaving] = std::max(reference / (pivot * pivot), 1.0);
+  e_.d[q] = 0;
+  e_.d[leaving] = -theta;
+  e_.weights_[leaving] = std::max(reference / (pivot * pivot), 1.0);
 }
 
 /// As in the dual phase, with bounds in the place of costs.
@@ -193,18 +193,18 @@ void Primal::note_progress(double theta) {
     return;
   }
   ++stalled_;
-  if (!perturbed_ && e.perturb && stalled_ > 20 + e.model.rows / 10) perturb();
-  if (stalled_ > 300 + 5 * e.model.rows) bland_ = true;
+  if (!perturbed_ && e_.perturb && stalled_ > 20 + e_.model.rows / 10) perturb();
+  if (stalled_ > 300 + 5 * e_.model.rows) bland_ = true;
 }
 
 void Primal::perturb() {
   perturbed_ = true;
-  e.bounds_shifted = true;
-  for (int p = 0; p < e.model.rows; ++p) {
-    const int j = e.head[p];
-    const double size = 1e-6 * (1 + std::abs(e.x_basic[p]));
-    e.basic_lower[p] = e.lower[j] -= size * e.jitter(j);
-    e.basic_upper[p] = e.upper[j] += size * e.jitter(j);
+  e_.bounds_shifted = true;
+  for (int p = 0; p < e_.model.rows; ++p) {
+    const int j = e_.head[p];
+    const double size = 1e-6 * (1 + std::abs(e_.x_basic[p]));
+    e_.basic_lower[p] = e_.lower[j] -= size * e_.jitter(j);
+    e_.basic_upper[p] = e_.upper[j] += size * e_.jitter(j);
   }
 }
 

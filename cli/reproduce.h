@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace maxwrench {
+
+/// One of the paper's tables beside ours.
+struct PaperTable {
+  std::string text;
+  bool all_solved = true;
+};
+
+// Each solves its cases into values.csv and times.csv of the folder and writes its table, and
+// figures if it has any, beside them.
+PaperTable reproduce_planar(const std::filesystem::path& folder, int threads);
+PaperTable reproduce_uvms(const std::filesystem::path& folder, int threads);
+
+}  // namespace maxwrench
