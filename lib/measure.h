@@ -26,11 +26,13 @@ struct Residual {
 struct Capability {
   Status status = Status::kNumericalError;
   const char* reason = "";
-  double beta = 0;         ///< N or N m, c'h
-  Eigen::VectorXd w;       ///< k
-  Vector6d h;              ///< W w, what the robot exerts on the environment, world axes
-  Eigen::VectorXd u;       ///< m, actuator efforts; filled only when asked for
-  Eigen::VectorXd lambda;  ///< n, d beta/d tau_d
+  double beta = 0;    ///< N or N m, c'h
+  Eigen::VectorXd w;  ///< k
+  Vector6d h;         ///< W w, what the robot exerts on the environment, world axes
+  Eigen::VectorXd u;  ///< m, actuator efforts; filled only when asked for
+  /// n, d beta/d tau_d. Of an infeasible program instead a proof y: sup {y'(B u - J'W w)} < y'tau_d
+  /// over the limits (Farkas; for the L2 polytope in the rows of its own program).
+  Eigen::VectorXd lambda;
   /// d beta/d J (6×n). With lambda it carries the derivative to any parameter:
   /// d beta = lambda'd tau_d + <beta_J, d J> (envelope theorem; the paper's KKT gradient).
   Matrix6Xd beta_J;

@@ -14,6 +14,14 @@ void complete(const WrenchProgram& program, Capability& capability) {
   capability.beta_J.noalias() = capability.h * capability.lambda.transpose();
 }
 
+/// A verdict that the data do not confirm is none.
+void confirm_infeasible(const WrenchProgram& program, const Eigen::VectorXd& y,
+                        Capability& capability) {
+  if (capability.status != Status::kInfeasible || proves_infeasible(program, y)) return;
+  capability.status = Status::kNumericalError;
+  capability.reason = "no proof that the program is infeasible holds";
+}
+
 class LinfPolytope : public Measure {
  public:
   explicit LinfPolytope(std::unique_ptr<WrenchSolver> solver) : solver_(std::move(solver)) {}
@@ -21,6 +29,7 @@ class LinfPolytope : public Measure {
   void evaluate(const Posture& /*posture*/, const WrenchProgram& program, bool efforts,
                 Capability& capability) override {
     solver_->solve(program, efforts, capability);
+    if (efforts) confirm_infeasible(program, capability.lambda, capability);
     if (capability.status != Status::kOptimal) return;
     complete(program, capability);
     if (efforts) {
@@ -54,6 +63,7 @@ class L2Polytope : public Measure {
     capability.lambda.swap(lambda_);  // m numbers there, n numbers outside: keep both allocated
     solver_->solve(program_, efforts, capability);
     capability.lambda.swap(lambda_);
+    if (efforts) confirm_infeasible(program_, lambda_, capability);
     if (capability.status != Status::kOptimal) return;
     capability.lambda.noalias() = B_pinv_.transpose().lazyProduct(lambda_);
     complete(program, capability);

@@ -25,6 +25,9 @@ class Box : public WrenchSolver {
     if (outcome == Tableau::Outcome::kInfeasible) {
       capability.status = Status::kInfeasible;
       capability.reason = "no actuator efforts balance the posture";
+      if (eliminated) return elimination_.fill_contradiction(program, tableau_, capability.lambda);
+      fill_lambda(*program.actuation, capability.lambda);
+      capability.lambda = -capability.lambda;
       return;
     }
     capability.status = Status::kOptimal;
@@ -62,15 +65,15 @@ class Box : public WrenchSolver {
   }
 
   void fill(const WrenchProgram& program, Capability& capability) const {
-    const Zonotope& set = *program.actuation;
-    capability.w = tableau_.w;
-    capability.beta = program.c_w.dot(tableau_.w);
-    capability.lambda.setZero(set.dimension());
-    for (std::size_t i = 0; i < tableau_.basis.size(); ++i) {
-      const int pair = tableau_.basis[i];
-      if (pair < set.facet_pairs()) {
-        capability.lambda -= set.N.col(pair) * tableau_.y[static_cast<Eigen::Index>(i)];
-      }
+    capability.w = tableau_.x;
+    capability.beta = program.c_w.dot(tableau_.x);
+    fill_lambda(*program.actuation, capability.lambda);
+  }
+
+  void fill_lambda(const Zonotope& set, Eigen::VectorXd& lambda) const {
+    lambda.setZero(set.dimension());
+    for (int i = 0; i < set.facet_pairs(); ++i) {
+      if (tableau_.multipliers[i] != 0) lambda -= set.N.col(i) * tableau_.multipliers[i];
     }
   }
 
@@ -88,6 +91,7 @@ class Box : public WrenchSolver {
     capability.status = solution_.status;
     capability.reason = solution_.reason;
     capability.iterations += solution_.iterations;
+    if (solution_.status == Status::kInfeasible) capability.lambda = solution_.certificate;
     if (solution_.status != Status::kOptimal) return;
     capability.beta = solution_.objective;
     capability.w = solution_.x.tail(columns_);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace maxwrench {
 namespace {
@@ -57,11 +58,10 @@ void Elimination::split(const Eigen::MatrixXd& B) {
   row_.resize(B_b_.cols());
 }
 
-/// P by Gauss-Jordan elimination on [J_b'W, I].
+/// P by Gauss-Jordan elimination in place.
 bool Elimination::invert(const WrenchProgram& program) {
   const int k = program.columns();
-  Eigen::Matrix<double, 6, 12, Eigen::RowMajor> A;
-  A << Square::Identity(), Square::Identity();
+  Square A = Square::Identity();
   double largest = 0;
   for (int j = 0; j < k; ++j) {
     for (int i = 0; i < k; ++i) {
@@ -69,6 +69,7 @@ bool Elimination::invert(const WrenchProgram& program) {
       largest = std::max(largest, std::abs(A(i, j)));
     }
   }
+  int exchanged[6];
   for (int step = 0; step < k; ++step) {
     double best = 0;
     for (int i = step; i < k; ++i) best = std::max(best, std::abs(A(i, step)));
@@ -80,12 +81,23 @@ bool Elimination::invert(const WrenchProgram& program) {
       while (std::abs(A(pivot, step)) != best) ++pivot;
       A.row(step).swap(A.row(pivot));
     }
-    A.row(step) *= 1 / A(step, step);
-    for (int i = 0; i < k; ++i) {
-      if (i != step) A.row(i) -= A(i, step) * A.row(step);
+    exchanged[step] = pivot;
+    const double inverse = 1 / A(step, step);
+    A.row(step) *= inverse;
+    // Column `step` is written last: a processor waits when it loads two entries just after one of
+    // them was stored.
+    for (int i = 0; i < 6; ++i) {
+      if (i == step) continue;
+      const double factor = A(i, step);
+      A.row(i) -= factor * A.row(step);
+      A(i, step) = -factor * inverse;
     }
+    A(step, step) = inverse;
   }
-  P_ = A.rightCols<6>();
+  for (int step = k; step-- > 0;) {
+    if (exchanged[step] != step) A.col(step).swap(A.col(exchanged[step]));
+  }
+  P_ = A;
   return true;
 }
 
@@ -124,8 +136,9 @@ void Elimination::add_joint(const WrenchProgram& program, int joint, Tableau& ta
 
 bool Elimination::load(const WrenchProgram& program, Tableau& tableau) {
   const Zonotope& set = *program.actuation;
+  const std::size_t bytes = sizeof(double) * static_cast<std::size_t>(set.B.size());
   const bool known = B_.rows() == set.B.rows() && B_.cols() == set.B.cols() &&
-                     std::equal(B_.data(), B_.data() + B_.size(), set.B.data());
+                     std::memcmp(B_.data(), set.B.data(), bytes) == 0;
   if (!known) split(set.B);
   const int k = program.columns();
   const int m = static_cast<int>(thrusters_.size());
@@ -147,6 +160,32 @@ bool Elimination::load(const WrenchProgram& program, Tableau& tableau) {
   return true;
 }
 
+void Elimination::fill_lambda(const WrenchProgram& program, const Tableau& tableau, double c_share,
+                              Eigen::VectorXd& lambda) const {
+  const int k = program.columns();
+  lambda.setZero(program.tau_d.size());
+  for (std::size_t joint = 0; joint < driven_rows_.size(); ++joint) {
+    lambda[driven_rows_[joint]] = -tableau.multipliers[static_cast<Eigen::Index>(joint)];
+  }
+  for (int step = 0; step < 2; ++step) {
+    // What c_w + (J'W)'lambda lacks to zero, at first all that the base has to give.
+    Vector6d left = Vector6d::Zero();
+    for (int j = 0; j < k; ++j) {
+      const double* const column = program.JtW.data() + j * program.JtW.rows();
+      left[j] = c_share * program.c_w[j];
+      for (Eigen::Index i = 0; i < program.tau_d.size(); ++i) left[j] += column[i] * lambda[i];
+    }
+    const Vector6d base = P_.transpose() * left;
+    for (int i = 0; i < k; ++i) lambda[base_rows_[i]] -= base[i];
+  }
+}
+
+void Elimination::fill_contradiction(const WrenchProgram& program, const Tableau& tableau,
+                                     Eigen::VectorXd& y) const {
+  fill_lambda(program, tableau, 0, y);
+  y = -y;
+}
+
 void Elimination::fill(const WrenchProgram& program, const Tableau& tableau, bool efforts,
                        Capability& capability) {
   const int k = program.columns();
@@ -155,7 +194,7 @@ void Elimination::fill(const WrenchProgram& program, const Tableau& tableau, boo
   // w = P (B_b u_b - tau_b), with one step of refinement; row i of `load` is that of the balance.
   Vector6d load = -tau_b_;
   for (int i = 0; i < k; ++i) {
-    for (int j = 0; j < m; ++j) load[i] += B_b_(i, j) * tableau.w[j];
+    for (int j = 0; j < m; ++j) load[i] += B_b_(i, j) * tableau.x[j];
   }
   Vector6d w = P_ * load;
   for (int j = 0; j < k; ++j) {
@@ -163,27 +202,11 @@ void Elimination::fill(const WrenchProgram& program, const Tableau& tableau, boo
   }
   w += P_ * load;
   capability.w = w.head(k);
-  capability.lambda.setZero(program.tau_d.size());
-  for (int i = 0; i < m; ++i) {
-    if (tableau.basis[i] < f) capability.lambda[driven_rows_[tableau.basis[i]]] = -tableau.y[i];
-  }
-  for (int step = 0; step < 2; ++step) {
-    // What c_w + (J'W)'lambda lacks to zero, at first all that the base has to give.
-    Vector6d left = Vector6d::Zero();
-    left.head(k) = program.c_w;
-    for (int j = 0; j < k; ++j) {
-      const double* const column = program.JtW.data() + j * program.JtW.rows();
-      for (Eigen::Index i = 0; i < program.tau_d.size(); ++i) {
-        left[j] += column[i] * capability.lambda[i];
-      }
-    }
-    const Vector6d base = P_.transpose() * left;
-    for (int i = 0; i < k; ++i) capability.lambda[base_rows_[i]] -= base[i];
-  }
+  fill_lambda(program, tableau, 1, capability.lambda);
   capability.beta = program.c_w.dot(capability.w);
   if (!efforts) return;
   capability.u.setZero(program.actuation->actuators());
-  for (int j = 0; j < m; ++j) capability.u[thrusters_[j]] = tableau.w[j];
+  for (int j = 0; j < m; ++j) capability.u[thrusters_[j]] = tableau.x[j];
   for (int joint = 0; joint < f; ++joint) {
     const int row = driven_rows_[joint];
     capability.u[drives_[joint]] = (program.tau_d[row] + program.JtW.row(row).dot(capability.w)) /

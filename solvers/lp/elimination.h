@@ -27,6 +27,9 @@ class Elimination {
   /// beta, w, lambda and, if asked for, u, after the tableau was solved.
   void fill(const WrenchProgram& program, const Tableau& tableau, bool efforts,
             Capability& capability);
+  /// The Farkas vector y of the wrench program, after the tableau was found infeasible.
+  void fill_contradiction(const WrenchProgram& program, const Tableau& tableau,
+                          Eigen::VectorXd& y) const;
 
  private:
   /// k <= 6 is padded to 6, with an identity in P and zeros elsewhere: constant sizes are fast.
@@ -37,6 +40,9 @@ class Elimination {
   bool invert(const WrenchProgram& program);
   void add_joint(const WrenchProgram& program, int joint, Tableau& tableau);
   double combine(const Vector6d& p);
+  /// lambda with (J'W)'lambda = -c_share c_w.
+  void fill_lambda(const WrenchProgram& program, const Tableau& tableau, double c_share,
+                   Eigen::VectorXd& lambda) const;
 
   Eigen::MatrixXd B_;  // that the following five were made from
   std::vector<int> driven_rows_, drives_, base_rows_, thrusters_;

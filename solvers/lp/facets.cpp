@@ -18,7 +18,8 @@ constexpr double kFeasibilityTolerance = 1e-9;
 struct Interval {
   double low = -kInfinity, high = kInfinity;
   int low_pair = -1, high_pair = -1;
-  bool missed = false;  ///< a pair that the ray runs parallel to is violated
+  int missed_pair = -1;    ///< a violated pair that the ray runs parallel to
+  double missed_side = 0;  ///< 1 if its upper bound is, -1 if the lower one
 };
 
 Interval shoot(const Zonotope& set, const Eigen::VectorXd& tau, const double* a) {
@@ -39,7 +40,10 @@ Interval shoot(const Zonotope& set, const Eigen::VectorXd& tau, const double* a)
     const double above = set.b_max[j] - value;
     if (std::abs(slope) <= flat) {
       const double slack = kFeasibilityTolerance * (1 + std::abs(value));
-      ray.missed = ray.missed || below > slack || above < -slack;
+      if (below > slack || above < -slack) {
+        ray.missed_pair = j;
+        ray.missed_side = below > slack ? -1 : 1;
+      }
       continue;
     }
     const double enter = (slope > 0 ? below : above) / slope;
@@ -75,9 +79,10 @@ class Facets : public WrenchSolver {
     double x = upwards ? std::min(ray.high, program.w_max[0]) : std::max(ray.low, program.w_min[0]);
     const double low = std::max(ray.low, program.w_min[0]);
     const double high = std::min(ray.high, program.w_max[0]);
-    if (ray.missed || low > high + kFeasibilityTolerance * (1 + std::abs(high))) {
+    if (ray.missed_pair >= 0 || low > high + kFeasibilityTolerance * (1 + std::abs(high))) {
       capability.status = Status::kInfeasible;
       capability.reason = "no actuator efforts balance the posture";
+      fill_contradiction(program, ray, capability.lambda);
       return;
     }
     if (!std::isfinite(x)) {
@@ -103,6 +108,23 @@ class Facets : public WrenchSolver {
     } else {
       capability.lambda.setZero(program.tau_d.size());
     }
+  }
+
+  /// y with sup {y'(B u - J'W w)} < y'tau_d: the missed pair, or the difference of the two that
+  /// stop the ray before it begins, n/(n'J'W) each.
+  static void fill_contradiction(const WrenchProgram& program, const Interval& ray,
+                                 Eigen::VectorXd& y) {
+    const Zonotope& set = *program.actuation;
+    y.setZero(program.tau_d.size());
+    if (ray.missed_pair >= 0) {
+      y = ray.missed_side * set.N.col(ray.missed_pair);
+      return;
+    }
+    const auto add = [&](int pair, double sign) {
+      y += set.N.col(pair) * (sign / set.N.col(pair).dot(program.JtW.col(0)));
+    };
+    if (ray.high < program.w_max[0]) add(ray.high_pair, 1);
+    if (ray.low > program.w_min[0]) add(ray.low_pair, -1);
   }
 
   std::unique_ptr<LpSolver> simplex_ = make_simplex();

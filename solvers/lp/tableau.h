@@ -6,14 +6,16 @@
 
 namespace maxwrench {
 
-/// max c'w  subject to  low <= [G; I] w <= high, a dual simplex on the full tableau for few
+/// max c'x  subject to  low <= [G; I] x <= high, a dual simplex on a condensed tableau for few
 /// columns.
 ///
-/// G is f×k; bounds may be infinite or equal. A basis is k rows of [G; I], on whose bounds w lies;
-/// the tableau is T = [G; I] times the inverse of those rows, so that its last k rows are that
-/// inverse, and y = T_I'c are the multipliers. Every basis of rows with two finite bounds is dual
-/// feasible once each row rests on the bound that the sign of its y asks for: there is no first
-/// phase. With finite bounds on all of w the unit rows are that basis, and no pivot is needed.
+/// G is f×k; bounds may be infinite or equal. Of the f + k rows of [G; I] a basis holds k, on whose
+/// bounds x lies; the tableau T (f×k) gives the other rows, the dependent ones, from those of the
+/// basis, and a pivot exchanges a dependent row with one of the basis. y are the multipliers of the
+/// basis: the objective is y'(rows of the basis). Every basis of rows with two finite bounds is
+/// dual feasible once each row rests on the bound that the sign of its y asks for: there is no
+/// first phase. With finite bounds on all of x the unit rows are that basis, and no pivot is
+/// needed.
 class Tableau {
  public:
   enum class Outcome { kOptimal, kInfeasible, kUndecided };
@@ -21,43 +23,51 @@ class Tableau {
   /// Sizes the storage; allocates only when the sizes change. Then fill `entry` (of G), `low`,
   /// `high` and `c`.
   void resize(int rows, int columns);
-  double& entry(int row, int column) { return G_[column * stride_ + row]; }
+  double& entry(int row, int column) { return G_[row * stride_ + column]; }
 
+  /// What the tableau claims is checked with G before it is returned; what fails is undecided.
   Outcome solve();
 
   Eigen::VectorXd low, high;  ///< f + k
   Eigen::VectorXd c;          ///< k
-  Eigen::VectorXd w;          ///< k, the optimum
-  Eigen::VectorXd y;          ///< k, the multiplier of row `basis[i]`, positive at its upper bound
-  std::vector<int> basis;     ///< k rows of [G; I]
+  Eigen::VectorXd x;          ///< k, the optimum
+  /// f, of the rows of G. Optimal: their multipliers, positive at an upper bound. Infeasible: with
+  /// these the rows add up to one that the bounds of x contradict (Farkas).
+  Eigen::VectorXd multipliers;
   int iterations = 0;
 
  private:
-  bool start();
-  int violated_row(bool first) const;
-  int leaving(int row, double& gap, bool first);
-  bool comes_before(int i, int j, int row, bool first) const;
-  void pivot(int row, int column);
-  void move(int column, double step);
-  double excess(int row) const;
-  double violation(int row) const;
-  void refine();
-  void dual_residual();
-  bool optimum_holds();
-  bool contradiction_holds(int row) const;
-  double given(int row, int column) const { return G_[column * stride_ + row]; }
-  double at(int row, int column) const { return T_[column * stride_ + row]; }
+  /// A row of [G; I] with its bounds, wherever it is.
+  struct Line {
+    int row = 0;
+    double low = 0, high = 0;
+    double slack = 0;   // how far it may be missed by rounding
+    double weight = 1;  // one over its squared norm
+  };
 
-  int rows_ = 0, columns_ = 0, total_ = 0, stride_ = 0;
-  std::vector<double> G_, T_;   // columns of `stride_` entries
-  std::vector<double> value_;   // [G; I] w
-  std::vector<double> slack_;   // how far a row may be missed by rounding
-  std::vector<double> weight_;  // one over the norm of the rows
-  std::vector<double> r_;       // the bound that the basic rows rest on
-  std::vector<double> side_;    // 1 if that is the upper one, -1 if the lower
-  std::vector<char> in_basis_;  // by rows
-  std::vector<double> work_;
-  std::vector<int> candidates_;
+  bool start();
+  int violated(bool first) const;
+  int leaving(int i, double& gap, bool first);
+  int first_of(double ratio, int i, bool first) const;
+  void exchange(int i, int j);
+  void move(int j, double step);
+  double excess(int i) const;
+  double bound(int j) const { return side_[j] > 0 ? basis_[j].high : basis_[j].low; }
+  void fill();
+  void refine();
+  bool optimum_holds();
+  bool prove_contradiction(int i, double side);
+  double given(int row, int column) const { return G_[row * stride_ + column]; }
+  double* T(int i) { return &T_[static_cast<std::size_t>(i) * stride_]; }
+  const double* T(int i) const { return &T_[static_cast<std::size_t>(i) * stride_]; }
+
+  int rows_ = 0, columns_ = 0, stride_ = 0;
+  std::vector<double> G_, T_;  // rows of `stride_` entries; the last one of T_ is y
+  std::vector<Line> dependent_, basis_;
+  std::vector<double> value_;  // of the dependent rows
+  std::vector<double> side_;   // 1 if a row of the basis rests on its upper bound, else -1
+  std::vector<double> ratio_;
+  std::vector<double> point_, y_, slack_;  // of all rows of [G; I]
 };
 
 }  // namespace maxwrench
