@@ -47,12 +47,11 @@ class Box : public WrenchSolver {
     tableau_.c = program.c_w;
     sum_.resize(k + 1);
     for (int i = 0; i < f; ++i) {
-      // Most entries of a normal are zero: thrusters and joints are independent.
-      const double* normal = set.N.data() + static_cast<Eigen::Index>(i) * n;
+      const auto normal = set.N.col(i);
       sum_.setZero();
       for (int row = 0; row < n; ++row) {
         const double a = normal[row];
-        if (a == 0) continue;
+        if (a == 0) continue;  // most are: thrusters and joints are independent
         for (int j = 0; j < k; ++j) sum_[j] += a * program.JtW(row, j);
         sum_[k] += a * program.tau_d[row];
       }
