@@ -76,7 +76,7 @@ TEST(Mobile, SolversEqualTheEnumerationOfAllBases) {
     for (const WrenchSolverEntry& solver : wrench_solvers()) {
       if (solver.one_column_only && wrench == Wrench::kAny) continue;
       Capability capability;
-      solver.make()->solve(program, capability);
+      solver.make()->solve(program, true, capability);
       EXPECT_NEAR(capability.beta, *best, 1e-5 * *best) << solver.name;
     }
   }
