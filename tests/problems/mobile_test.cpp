@@ -65,8 +65,8 @@ TEST(Mobile, WeightLoadsTheArmOnly) {
   }
 }
 
-TEST(Mobile, SolversEqualTheEnumerationOfAllBases) {
-  const Problem problem = load_problem("mobile/push");
+void expect_solvers_equal_enumeration(const char* name) {
+  const Problem problem = load_problem(name);
   PostureModel model(problem);
   for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
     WrenchProgram program = make_wrench_program(problem, wrench);
@@ -80,6 +80,15 @@ TEST(Mobile, SolversEqualTheEnumerationOfAllBases) {
       EXPECT_NEAR(capability.beta, *best, 1e-5 * *best) << solver.name;
     }
   }
+}
+
+TEST(Mobile, SolversEqualTheEnumerationOfAllBases) {
+  expect_solvers_equal_enumeration("mobile/push");
+}
+
+/// Joints alone: B is the identity.
+TEST(FixedArm, SolversEqualTheEnumerationOfAllBases) {
+  expect_solvers_equal_enumeration("fixed/push");
 }
 
 TEST(Mobile, SearchFindsTheBestOfAGrid) {
