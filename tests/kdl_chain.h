@@ -6,7 +6,11 @@
 
 namespace maxwrench {
 
-/// An arm that is one chain, as KDL sees it in the axes of the base, with its masses.
+/// A robot without branches up to its first end effector, as a KDL chain that starts at the base,
+/// whose axes are those of KDL's world.
 KDL::Chain kdl_chain(const Robot& robot);
+
+/// The same on six joints that move the base in the world: along x, y, z, about z, y, x.
+KDL::Chain floating_kdl_chain(const Robot& robot);
 
 }  // namespace maxwrench

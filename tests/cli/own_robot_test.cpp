@@ -16,7 +16,9 @@ using nlohmann::json;
 class StrangersFolder {
  public:
   explicit StrangersFolder(double strength = 1) {
-    std::string urdf = "<robot name='gantry'>\n<link name='carriage'/>\n";
+    std::string urdf =
+        "<robot name='gantry'>\n<link name='carriage'><inertial><mass value='20'/>"
+        "<inertia ixx='0.3' ixy='0' ixz='0' iyy='0.3' iyz='0' izz='0.3'/></inertial></link>\n";
     const char* places[] = {"0 0 0.2", "0 0 0.1", "0.5 0 0", "0.3 0 0", "0.15 0 0", "0.1 0 0"};
     const char* axes[] = {"0 0 1", "0 1 0", "0 1 0", "1 0 0", "0 1 0", "1 0 0"};
     for (int i = 0; i < 6; ++i) {
