@@ -27,6 +27,8 @@ class PostureModel {
   ~PostureModel();
 
   /// Joint limits, reach and self-collision decide `status`; J and tau_d are filled in any case.
+  /// Where dependent joints do not follow (see lib/branch.h) they are those of the last point on the
+  /// way to theta_r.
   /// Throws std::invalid_argument if theta_r has the wrong size or is not finite.
   const Posture& evaluate(const Eigen::VectorXd& theta_r);
 
