@@ -25,7 +25,7 @@ struct Row {
   long evaluations = 0;
   double wall_s = 0;
 
-  bool has_posture() const { return posture.theta_r.size() > 0; }
+  bool has_posture() const { return posture.J.size() > 0; }
   bool has_value() const { return status == Status::kOptimal; }
 };
 

@@ -78,6 +78,9 @@ void print(const Problem& problem, const Row& row) {
     fmt::print("theta_r  {}\n", line(row.posture.theta_r));
     fmt::print("base xyz {}\nbase rpy {}\n", line(row.posture.base.p),
                line(rpy(row.posture.base.R)));
+    for (const int i : problem.dependent) {
+      fmt::print("follows  {:>10.5f}  {}\n", row.posture.q[i], problem.robot.joints[i].name);
+    }
   }
   if (!row.has_value()) {
     fmt::print("{}: {}\n", to_string(row.status), row.reason);

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
+#include "lib/branch.h"
 #include "lib/dual.h"
 #include "lib/kinematics.h"
 
@@ -30,12 +32,28 @@ struct Model {
     }
   }
 
+  const EndEffector& end_effector() const {
+    return problem.robot.end_effectors[problem.end_effector];
+  }
+
+  /// The base follows in closed form from all joints of the chain.
   void evaluate(const VectorX<T>& theta_r) {
     for (std::size_t i = 0; i < problem.redundant.size(); ++i) q[problem.redundant[i]] = theta_r[i];
-    const EndEffector& end_effector = problem.robot.end_effectors[problem.end_effector];
     kinematics.set_joints(q);
-    base = problem.pose * kinematics.end_effector(end_effector).inverse();
-    kinematics.jacobian(end_effector, base.R, J);
+    base = problem.pose * kinematics.end_effector(end_effector()).inverse();
+    finish();
+  }
+
+  /// z = [x, y, z, yaw of the base; all joints].
+  void evaluate_at(const VectorX<T>& z) {
+    q = z.tail(q.size());
+    kinematics.set_joints(q);
+    base = base_pose<T>(problem.robot, z.template head<4>());
+    finish();
+  }
+
+  void finish() {
+    kinematics.jacobian(end_effector(), base.R, J);
     kinematics.gravity_and_buoyancy(base.R, tau_d);
   }
 
@@ -47,8 +65,9 @@ struct Model {
   VectorX<T> tau_d;
 };
 
-/// Whether the pose is reached by moving along the free base axes from the world's origin.
-bool base_reaches(const Robot& robot, const Pose<double>& base) {
+/// Whether the pose is reached by moving along the free base axes from the mount.
+bool base_reaches(const Robot& robot, const Pose<double>& in_world) {
+  const Pose<double> base = robot.mount.inverse() * in_world;
   const auto is_free = [&](int axis) {
     return std::find(robot.base_axes.begin(), robot.base_axes.end(), axis) != robot.base_axes.end();
   };
@@ -81,11 +100,35 @@ struct PostureModel::Workspace {
         check_collision(check && p.robot.collision != nullptr),
         model(p),
         dual_model(p),
-        dual_theta_r(p.redundancy()) {
+        dual_theta_r(p.redundancy()),
+        dual_z(4 + model.q.size()) {
+    if (!p.dependent.empty()) branch.emplace(p);
     posture.q.resize(model.q.size());
     posture.links = model.kinematics.links();
     posture.J = model.J;
     posture.tau_d = model.tau_d;
+  }
+
+  void evaluate(const Eigen::VectorXd& theta_r) {
+    if (!branch) return model.evaluate(theta_r);
+    branch_reason = branch->follow(theta_r);
+    model.evaluate_at(branch->z());
+  }
+
+  /// Evaluates dual_model along theta_r_first, ..., theta_r_(first + count - 1).
+  void differentiate(const Eigen::VectorXd& theta_r, Eigen::Index first, int count) {
+    if (branch) {
+      branch->follow(theta_r);
+      for (Eigen::Index i = 0; i < dual_z.size(); ++i) {
+        dual_z[i] = branch->z()[i];
+        for (int k = 0; k < count; ++k) dual_z[i].d[k] = branch->slopes()(i, first + k);
+      }
+      dual_model.evaluate_at(dual_z);
+      return;
+    }
+    for (Eigen::Index i = 0; i < theta_r.size(); ++i) dual_theta_r[i] = theta_r[i];
+    for (int k = 0; k < count; ++k) dual_theta_r[first + k].d[k] = 1;
+    dual_model.evaluate(dual_theta_r);
   }
 
   /// Why the posture does not exist, or null.
@@ -96,7 +139,13 @@ struct PostureModel::Workspace {
         return "joint limit";
       }
     }
-    if (!base_reaches(problem.robot, model.base))
+    if (branch_reason) return branch_reason;
+    for (const int i : problem.dependent) {
+      const Joint& joint = problem.robot.joints[i];
+      if (model.q[i] < joint.q_min - kLimitTolerance || model.q[i] > joint.q_max + kLimitTolerance)
+        return "joint limit of a dependent joint";
+    }
+    if (!branch && !base_reaches(problem.robot, model.base))
       return "unreachable pose: the base would leave its free axes";
     if (check_collision && problem.robot.collision->collides(posture.links))
       return "self-collision";
@@ -107,7 +156,9 @@ struct PostureModel::Workspace {
   const bool check_collision;
   Model<double> model;
   Model<Dual<kChunk>> dual_model;
-  VectorX<Dual<kChunk>> dual_theta_r;
+  std::optional<Branch> branch;  ///< if there are dependent joints
+  const char* branch_reason = nullptr;
+  VectorX<Dual<kChunk>> dual_theta_r, dual_z;
   Posture posture;
 };
 
@@ -118,7 +169,7 @@ PostureModel::~PostureModel() = default;
 const Posture& PostureModel::evaluate(const Eigen::VectorXd& theta_r) {
   Workspace& ws = *workspace_;
   require_theta_r(ws.problem, theta_r);
-  ws.model.evaluate(theta_r);
+  ws.evaluate(theta_r);
   Posture& posture = ws.posture;
   posture.theta_r = theta_r;
   posture.base = ws.model.base;
@@ -140,9 +191,7 @@ void PostureModel::pull_back(const Eigen::VectorXd& theta_r, const Eigen::Vector
   gradient.resize(theta_r.size());
   for (Eigen::Index first = 0; first < theta_r.size(); first += kChunk) {
     const int count = static_cast<int>(std::min<Eigen::Index>(kChunk, theta_r.size() - first));
-    for (Eigen::Index i = 0; i < theta_r.size(); ++i) ws.dual_theta_r[i] = theta_r[i];
-    for (int k = 0; k < count; ++k) ws.dual_theta_r[first + k].d[k] = 1;
-    ws.dual_model.evaluate(ws.dual_theta_r);
+    ws.differentiate(theta_r, first, count);
     for (int k = 0; k < count; ++k) {
       double sum = 0;
       for (Eigen::Index i = 0; i < tau_seed.size(); ++i) {

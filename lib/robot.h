@@ -85,6 +85,8 @@ struct Robot {
   /// order: one of the eight subsets that are integrable in base axes (see
   /// `base_axes_are_integrable`).
   std::vector<int> base_axes;
+  /// Of the base in the world before it moves along its free axes. No meaning with all six.
+  Pose<double> mount;
   std::vector<Link> links;  ///< joints + 1
   std::vector<Joint> joints;
   std::vector<Thruster> thrusters;

@@ -36,7 +36,7 @@ Pose<double> read_placement(const Block& block) {
 }
 
 void read_base(const Block& base, const UrdfTree& tree, Robot& robot) {
-  base.allow_only({"axes", "link"});
+  base.allow_only({"axes", "link", "xyz", "rpy"});
   const std::map<std::string, int> axes = {{"x", 0},    {"y", 1},     {"z", 2},
                                            {"roll", 3}, {"pitch", 4}, {"yaw", 5}};
   for (const std::string& name : base.texts("axes")) {
@@ -52,6 +52,11 @@ void read_base(const Block& base, const UrdfTree& tree, Robot& robot) {
   }
   if (base.text("link", tree.root) != tree.root) {
     base.refuse_value("link", fmt::format("the root link '{}' of the URDF", tree.root));
+  }
+  robot.mount = read_placement(base);
+  if (free.size() < 6) return;
+  for (const char* key : {"xyz", "rpy"}) {
+    if (base.has(key)) base.refuse_value(key, "no such key: a base on all six axes starts nowhere");
   }
 }
 

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <numbers>
 
+#include "lib/posture.h"
+
 namespace maxwrench {
 namespace {
 
@@ -227,7 +229,8 @@ TEST_F(LoaderTest, TreeIsFlattenedDepthFirstInTheOrderOfTheFile) {
 
 TEST_F(LoaderTest, ThetaRIsTheChainAndItsDefaultLiesWithinTheLimits) {
   load(kTree,
-       "base = { axes = ['x'] }\nend_effectors = { finger = { link = 'finger' }, "
+       "base = { axes = ['x', 'y', 'z', 'roll', 'pitch', 'yaw'] }\nend_effectors = { finger = { "
+       "link = 'finger' }, "
        "rail = { link = 'rail' } }");
   const auto task = [&](const std::string& end_effector) {
     write(folder_ / "task.toml",
@@ -247,6 +250,41 @@ TEST_F(LoaderTest, ThetaRIsTheChainAndItsDefaultLiesWithinTheLimits) {
   const Problem rail = task("rail");
   EXPECT_THAT(rail.redundant, ElementsAre(2));
   EXPECT_EQ(rail.theta_r_default[0], 0.1);  // zero, moved to the nearer limit
+}
+
+TEST_F(LoaderTest, BaseIsMountedWhereTheFileSays) {
+  const Robot robot = load(kTree, "base = { axes = ['yaw'], xyz = [1, 2, 3], rpy = [0, 0.5, 0] }");
+  EXPECT_EQ(robot.mount.p, Eigen::Vector3d(1, 2, 3));
+  EXPECT_NEAR(robot.mount.R(0, 2), std::sin(0.5), 1e-15);
+  EXPECT_TRUE(load(kTree, "base = { axes = [] }").mount.R.isIdentity());
+}
+
+TEST_F(LoaderTest, WhatFollowsIsReadFromTheTask) {
+  load(kTree, "base = { axes = ['x'] }\nend_effectors = { finger = { link = 'finger' } }");
+  // x, turn and tip move the finger in three ways: nothing is redundant, both joints follow. With
+  // x = 2, turn = 0.2 about y and tip = 0 the finger is at (2, 0, 0) + Ry(0.2) (1, 0, 2).
+  const auto task = [&](const std::string& z) {
+    write(folder_ / "task.toml",
+          "type = 'static'\nrobot = 'robot.toml'\nlabel = 'test'\nsource = 'test'\n"
+          "end_effector = 'finger'\nwrench = { c = [0, 0, 1, 0, 0, 0] }\n"
+          "pose = { xyz = [3.377405239431364, 0, " +
+              z +
+              "], rpy = [0, 0.2, 0] }\n"
+              "theta_r = { joints = [], guess = { tip = 0.1 }, guess_base = { x = 1 } }\n");
+    return load_problem((folder_ / "task.toml").string());
+  };
+  const Problem problem = task("1.761463824887422");
+  EXPECT_EQ(problem.redundancy(), 0);
+  EXPECT_THAT(problem.dependent, ElementsAre(0, 1));
+  EXPECT_EQ(problem.guess_q[1], 0.1);
+  EXPECT_EQ(problem.guess_base, Eigen::Vector4d::Unit(0));
+  PostureModel model(problem);
+  const Posture& posture = model.evaluate(Eigen::VectorXd());
+  EXPECT_EQ(posture.status, Status::kOptimal) << posture.reason;
+  EXPECT_NEAR(posture.q[0], 0.2, 1e-12);
+  EXPECT_NEAR(posture.q[1], 0, 1e-12);
+  EXPECT_NEAR(posture.base.p.x(), 2, 1e-12);
+  EXPECT_THROW(task("1.77"), std::invalid_argument);
 }
 
 TEST_F(LoaderTest, ThrustersOverrideTheDefaults) {
