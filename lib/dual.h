@@ -75,6 +75,11 @@ Dual<N> sqrt(const Dual<N>& x) {
   const double root = std::sqrt(x.v);
   return x.chain(root, 0.5 / root);
 }
+/// At zero the derivative from above.
+template <int N>
+Dual<N> abs(const Dual<N>& x) {
+  return x.chain(std::abs(x.v), x.v < 0 ? -1 : 1);
+}
 
 }  // namespace maxwrench
 
