@@ -1,17 +1,21 @@
 #include <memory>
 
 #include "cli/cli.h"
+#include "cli/state.h"
 #include "problems/loader.h"
 
 namespace maxwrench {
 namespace {
 
 struct EvalOptions : CommonOptions {
-  std::string theta_r;
+  std::string theta_r, state;
   bool ignore_collision = false;
 };
 
 int eval(const EvalOptions& options) {
+  if (!options.state.empty()) {
+    return report_state(load_problem(options.choice.problem), options.state, options.json);
+  }
   Case c = options.read_case();
   c.search.clear();  // none is used
   const Problem problem = load_problem(c.problem);
@@ -32,6 +36,12 @@ void add_eval(CLI::App& app, int& exit_status) {
                      "redundant coordinates, separated by commas (default: those of the task)");
   command.add_flag("--ignore-collision", options->ignore_collision,
                    "evaluate a colliding posture too");
+  CLI::Option& state =
+      *command.add_option("--state", options->state,
+                          "M, tau_d and J at the motion in this file, instead of a capability");
+  for (const char* other : {"--theta-r", "--measure", "--wrench", "--lp", "--ignore-collision"}) {
+    state.excludes(command.get_option(other));
+  }
   command.callback([options, &exit_status] { exit_status = eval(*options); });
 }
 
