@@ -10,8 +10,10 @@ namespace maxwrench {
 /// mode).
 template <int N>
 struct Dual {
-  double v = 0;
+  /// First, so that a copy reads the pairs of numbers that arithmetic wrote: the other way round
+  /// the processor waits for every store.
   std::array<double, N> d{};
+  double v = 0;
 
   Dual() = default;
   Dual(double value) : v(value) {}  // NOLINT(google-explicit-constructor): a constant is a number
