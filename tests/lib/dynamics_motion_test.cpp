@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "lib/dynamics.h"
@@ -84,7 +85,7 @@ Motion random_motion(Random& random) {
 /// what is missing by about 16, so it is the integrator's.
 TEST(DynamicsMotion, EnergyGrowsByTheWorkDone) {
   Random random(31);
-  for (int sample = 0; sample < 5; ++sample) {
+  for (int sample = 0; sample < std::max(1, 5 / kSampleDivisor); ++sample) {
     Simulation simulation(random_wet_robot(random, kJoints));
     const VectorXd amplitude =
         VectorXd::NullaryExpr(kVelocities, [&] { return 2 * random.normal(); });
@@ -106,7 +107,7 @@ TEST(DynamicsMotion, EnergyGrowsByTheWorkDone) {
 /// world's origin, keeps its value whatever the joints do.
 TEST(DynamicsMotion, JointForcesLeaveTheMomentumAsItIs) {
   Random random(32);
-  for (int sample = 0; sample < 5; ++sample) {
+  for (int sample = 0; sample < std::max(1, 5 / kSampleDivisor); ++sample) {
     Robot robot = random_wet_robot(random, kJoints);
     robot.gravity = 0;
     for (Link& link : robot.links) {
