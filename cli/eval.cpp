@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "cli/cli.h"
+#include "cli/state.h"
 #include "cli/wrench_file.h"
 #include "problems/loader.h"
 
@@ -9,8 +10,7 @@ namespace maxwrench {
 namespace {
 
 struct EvalOptions : CommonOptions {
-  std::string theta_r;
-  std::string write;
+  std::string theta_r, state, write;
   bool ignore_collision = false;
 };
 
@@ -29,6 +29,9 @@ void write_program(const EvalOptions& options, const Problem& problem, const Cas
 }
 
 int eval(const EvalOptions& options) {
+  if (!options.state.empty()) {
+    return report_state(load_problem(options.choice.problem), options.state, options.json);
+  }
   Case c = options.read_case();
   c.search.clear();  // none is used
   const Problem problem = load_problem(c.problem);
@@ -51,6 +54,13 @@ void add_eval(CLI::App& app, int& exit_status) {
   command.add_option("--write", options->write, "the wrench program, as an MPS file");
   command.add_flag("--ignore-collision", options->ignore_collision,
                    "evaluate a colliding posture too");
+  CLI::Option& state =
+      *command.add_option("--state", options->state,
+                          "M, tau_d and J at the motion in this file, instead of a capability");
+  for (const char* other :
+       {"--theta-r", "--measure", "--wrench", "--lp", "--write", "--ignore-collision"}) {
+    state.excludes(command.get_option(other));
+  }
   command.callback([options, &exit_status] { exit_status = eval(*options); });
 }
 

@@ -136,6 +136,21 @@ void read_hydrodynamics(const Block& root, const UrdfTree& tree, Robot& robot) {
   }
 }
 
+/// What displaces water moves water: once one body has added mass, each body with a volume needs
+/// its own, if only zeros. A forgotten one would go unnoticed.
+void require_hydrodynamics(const Block& root) {
+  const Block water = root.table("hydrodynamics");
+  const auto known = root.named("hydrodynamics");
+  if (known.empty()) return;
+  for (const auto& [name, block] : root.named("buoyancy")) {
+    if (block.number("volume") == 0 || water.has(name)) continue;
+    water.refuse_value(name, "nothing",
+                       fmt::format("added mass and drag, perhaps zeros: this body displaces water "
+                                   "as '{}' does",
+                                   known.front().first));
+  }
+}
+
 Shape read_capsule(const Block& block, const UrdfTree& tree) {
   block.allow_only({"link", "p0", "p1", "radius"});
   Shape shape;
@@ -186,6 +201,9 @@ Robot load_robot(const std::filesystem::path& file) {
   robot.links = tree.links;
   robot.joints = tree.joints;
   read_base(root.table("base"), tree, robot);
+  for (std::size_t i = robot.base_axes.empty() ? 1 : 0; i < robot.links.size(); ++i) {
+    require_inertia(urdf, robot.links[i]);
+  }
   const Block environment = root.table("environment");
   environment.allow_only({"gravity", "water_density"});
   robot.gravity = environment.non_negative("gravity", robot.gravity);
@@ -194,6 +212,7 @@ Robot load_robot(const std::filesystem::path& file) {
   read_end_effectors(root, tree, robot);
   read_buoyancy(root, tree, robot);
   read_hydrodynamics(root, tree, robot);
+  require_hydrodynamics(root);
   read_trim(root, robot);
   read_collision(root.table("collision"), tree, robot);
   complete_actuation(robot);

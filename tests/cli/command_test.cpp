@@ -63,6 +63,8 @@ INSTANTIATE_TEST_SUITE_P(
                     BadWords{"eval planar/force --theta-r 0.3,nan", "--theta-r"},
                     BadWords{"eval planar/force --theta-r 0.3,x", "--theta-r"},
                     BadWords{"eval planar/force --theta-r 0.3,", "--theta-r"},
+                    BadWords{"eval planar/force --state none.toml", "none.toml: file"},
+                    BadWords{"eval planar/force --state s.toml --lp simplex", "--lp"},
                     BadWords{"solve planar/force --search luck", "luck"},
                     BadWords{"solve planar/force --budget 0", "budget"},
                     BadWords{"solve planar/force --budget many", "--budget"},
@@ -151,6 +153,34 @@ TEST(Command, EvalPrintsOneObjectWithEverything) {
   EXPECT_EQ(object["u"].size(), 6U);
   EXPECT_LT(object["residual"]["balance"], 1e-9);
   EXPECT_NEAR(object["beta"], object["h"][0], 1e-12);
+}
+
+/// The terms add up, and at rest only gravity is left.
+TEST(Command, EvalOfAStatePrintsTheEquationsOfMotion) {
+  const TemporaryFolder folder;
+  const std::string theta =
+      "[theta]\nposition = [1, 2, 0]\nrpy = [0, 0, 1]\nshoulder = 1\nelbow = 2";
+  std::ofstream(folder.path() / "rest.toml") << theta;
+  std::ofstream(folder.path() / "moving.toml")
+      << "velocity = [1, 2, 3, 4, 5]\nacceleration = [5, 4, 3, 2, 1]\n"
+      << theta;
+  const auto eval = [&](const char* file) {
+    const CommandResult result =
+        run_maxwrench("eval planar/force --json --state " + std::string(file), folder.path());
+    EXPECT_EQ(result.exit_status, 0) << result.err;
+    return json::parse(result.out);
+  };
+  const json rest = eval("rest.toml"), moving = eval("moving.toml");
+  EXPECT_EQ(rest["tau_d"], rest["g"]);
+  EXPECT_EQ(moving["velocities"], json({"x", "y", "yaw", "shoulder", "elbow"}));
+  EXPECT_EQ(moving["J"].size(), 6U);
+  EXPECT_EQ(moving["J"][0].size(), 5U);
+  for (int row = 0; row < 5; ++row) {
+    double sum = moving["C_v"][row].get<double>() + moving["D_v"][row].get<double>() +
+                 moving["g"][row].get<double>();
+    for (int i = 0; i < 5; ++i) sum += moving["M"][row][i].get<double>() * (5 - i);
+    EXPECT_NEAR(sum, moving["tau_d"][row], 1e-12);
+  }
 }
 
 TEST(Command, ReachAndLimitsAreOtherStatuses) {

@@ -29,7 +29,7 @@ constexpr Optimum kOptima[] = {{"adlittle", 225494.96316238038}, {"afiro", -464.
 
 std::string netlib(const std::string& file) { return std::string(MAXWRENCH_NETLIB_DIR "/") + file; }
 
-class Netlib : public testing::Test {
+class NetlibCommand : public testing::Test {
  protected:
   void SetUp() override {
     if (!std::filesystem::exists(MAXWRENCH_NETLIB_DIR)) {
@@ -45,7 +45,7 @@ json solve(const std::string& file, int exit_status, const std::string& options 
   return json::parse(result.out);
 }
 
-TEST_F(Netlib, OptimaAreTheExactOnes) {
+TEST_F(NetlibCommand, OptimaAreTheExactOnes) {
   for (const auto& [name, value] : kOptima) {
     const json answer = solve(netlib(std::string(name) + ".mps"), 0);
     EXPECT_EQ(answer["status"], "optimal") << name;
@@ -55,7 +55,7 @@ TEST_F(Netlib, OptimaAreTheExactOnes) {
   }
 }
 
-TEST_F(Netlib, OtherVerdictsAreProven) {
+TEST_F(NetlibCommand, OtherVerdictsAreProven) {
   for (const char* name : {"itest2", "itest6", "galenet", "bgprtr", "woodinfe", "klein1"}) {
     const json answer = solve(netlib("infeasible/" + std::string(name) + ".mps"), 1);
     EXPECT_EQ(answer["status"], "infeasible") << name;

@@ -21,6 +21,13 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 void write(const fs::path& file, const std::string& text) { std::ofstream(file) << text; }
 
+/// A link of 1 kg.
+std::string solid(const std::string& name) {
+  return "<link name='" + name +
+         "'><inertial><mass value='1'/>"
+         "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>";
+}
+
 /// A folder of its own for each test, removed with it.
 class LoaderTest : public testing::Test {
  protected:
@@ -190,9 +197,8 @@ TEST_F(LoaderTest, TrimIsOptional) {
 
 /// A tree: `slide` (prismatic) and `turn` (continuous) on the root, `tip` behind a fixed bracket on
 /// `turn`. Their order in the file is neither alphabetical nor depth-first.
-constexpr const char* kTree = R"(
-  <link name='root'/><link name='rail'/><link name='wheel'/><link name='bracket'/>
-  <link name='finger'/>
+const std::string kTree = solid("root") + solid("rail") + solid("wheel") +
+                          "<link name='bracket'/>" + solid("finger") + R"(
   <joint name='turn' type='continuous'><parent link='root'/><child link='wheel'/>
     <axis xyz='0 2 0'/><limit effort='5' velocity='3'/></joint>
   <joint name='slide' type='prismatic'><parent link='root'/><child link='rail'/>
@@ -225,6 +231,21 @@ TEST_F(LoaderTest, TreeIsFlattenedDepthFirstInTheOrderOfTheFile) {
   EXPECT_EQ(slide.effort_max, 7);
   EXPECT_EQ(robot.links[3].name, "rail");
   EXPECT_EQ(robot.collision, nullptr);
+}
+
+/// What does not move by itself needs no inertia: a fixed base, a frame on a moving link.
+TEST_F(LoaderTest, MasslessFramesAreFine) {
+  const Robot robot = load("<link name='root'/>" + solid("wheel") + R"(
+    <link name='hub'><inertial><mass value='0'/>
+      <inertia ixx='0' ixy='0' ixz='0' iyy='0' iyz='0' izz='0'/></inertial></link>
+    <joint name='turn' type='continuous'><parent link='root'/><child link='hub'/>
+      <axis xyz='0 1 0'/><limit effort='5' velocity='3'/></joint>
+    <joint name='hold' type='fixed'><parent link='hub'/><child link='wheel'/>
+      <origin xyz='0 0 2'/></joint>)",
+                           "base = { axes = [] }");
+  EXPECT_EQ(robot.links[0].mass, 0);
+  EXPECT_EQ(robot.links[1].mass, 1);
+  EXPECT_TRUE(robot.links[1].com.isApprox(Eigen::Vector3d(0, 0, 2)));
 }
 
 TEST_F(LoaderTest, ThetaRIsTheChainAndItsDefaultLiesWithinTheLimits) {
@@ -288,7 +309,7 @@ TEST_F(LoaderTest, WhatFollowsIsReadFromTheTask) {
 }
 
 TEST_F(LoaderTest, ThrustersOverrideTheDefaults) {
-  const Robot robot = load("<link name='a'/>", R"(
+  const Robot robot = load(solid("a"), R"(
     base = { axes = ["x", "y", "z", "roll", "pitch", "yaw"] }
     [thrusters]
     force_min = -4
