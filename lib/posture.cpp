@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
-#include "lib/dual.h"
 #include "lib/kinematics.h"
+#include "lib/posture/pull_back.h"
 
 namespace maxwrench {
 namespace {
@@ -16,22 +17,23 @@ constexpr double kReachTolerance = 1e-9;
 /// A posture on its limit is inside: theta_r may carry rounding from a search's box.
 constexpr double kLimitTolerance = 1e-12;
 
-/// Everything of one posture in scalar T.
-template <class T>
+/// The state of one posture.
 struct Model {
   explicit Model(const Problem& p)
       : problem(p),
         kinematics(p.robot),
+        theta_r(Eigen::VectorXd::Constant(p.redundancy(), kNothing)),
         q(p.robot.joints.size()),
         J(6, p.robot.velocities()),
         tau_d(p.robot.velocities()) {
     for (Eigen::Index i = 0; i < q.size(); ++i) {
-      q[i] = T(std::clamp(0.0, p.robot.joints[i].q_min, p.robot.joints[i].q_max));
+      q[i] = std::clamp(0.0, p.robot.joints[i].q_min, p.robot.joints[i].q_max);
     }
   }
 
-  void evaluate(const VectorX<T>& theta_r) {
-    for (std::size_t i = 0; i < problem.redundant.size(); ++i) q[problem.redundant[i]] = theta_r[i];
+  void evaluate(const Eigen::VectorXd& at) {
+    theta_r = at;
+    for (std::size_t i = 0; i < problem.redundant.size(); ++i) q[problem.redundant[i]] = at[i];
     const EndEffector& end_effector = problem.robot.end_effectors[problem.end_effector];
     kinematics.set_joints(q);
     base = problem.pose * kinematics.end_effector(end_effector).inverse();
@@ -39,12 +41,15 @@ struct Model {
     kinematics.gravity_and_buoyancy(base.R, tau_d);
   }
 
+  /// Before the first evaluation: equals no theta_r.
+  static constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
   const Problem& problem;
-  Kinematics<T> kinematics;
-  VectorX<T> q;
-  Pose<T> base;
-  Matrix6X<T> J;
-  VectorX<T> tau_d;
+  Kinematics<double> kinematics;
+  Eigen::VectorXd theta_r, q;
+  Pose<double> base;
+  Matrix6Xd J;
+  Eigen::VectorXd tau_d;
 };
 
 /// Whether the pose is reached by moving along the free base axes from the world's origin.
@@ -74,14 +79,11 @@ void require_theta_r(const Problem& problem, const Eigen::VectorXd& theta_r) {
 }  // namespace
 
 struct PostureModel::Workspace {
-  static constexpr int kChunk = 4;  ///< directions of theta_r that one dual evaluation carries
-
   Workspace(const Problem& p, bool check)
       : problem(p),
         check_collision(check && p.robot.collision != nullptr),
         model(p),
-        dual_model(p),
-        dual_theta_r(p.redundancy()) {
+        reverse(p.robot, p.end_effector) {
     posture.q.resize(model.q.size());
     posture.links = model.kinematics.links();
     posture.J = model.J;
@@ -105,9 +107,9 @@ struct PostureModel::Workspace {
 
   const Problem& problem;
   const bool check_collision;
-  Model<double> model;
-  Model<Dual<kChunk>> dual_model;
-  VectorX<Dual<kChunk>> dual_theta_r;
+  Model model;
+  PullBack reverse;
+  Eigen::VectorXd q_gradient;
   Posture posture;
 };
 
@@ -136,21 +138,12 @@ void PostureModel::pull_back(const Eigen::VectorXd& theta_r, const Eigen::Vector
                              const Matrix6Xd& J_seed, Eigen::VectorXd& gradient) {
   Workspace& ws = *workspace_;
   require_theta_r(ws.problem, theta_r);
-  constexpr int kChunk = Workspace::kChunk;
+  Model& model = ws.model;
+  if (model.theta_r != theta_r) model.evaluate(theta_r);
+  ws.reverse.evaluate(model.kinematics, model.base.R, model.J, tau_seed, J_seed, ws.q_gradient);
   gradient.resize(theta_r.size());
-  for (Eigen::Index first = 0; first < theta_r.size(); first += kChunk) {
-    const int count = static_cast<int>(std::min<Eigen::Index>(kChunk, theta_r.size() - first));
-    for (Eigen::Index i = 0; i < theta_r.size(); ++i) ws.dual_theta_r[i] = theta_r[i];
-    for (int k = 0; k < count; ++k) ws.dual_theta_r[first + k].d[k] = 1;
-    ws.dual_model.evaluate(ws.dual_theta_r);
-    for (int k = 0; k < count; ++k) {
-      double sum = 0;
-      for (Eigen::Index i = 0; i < tau_seed.size(); ++i) {
-        sum += tau_seed[i] * ws.dual_model.tau_d[i].d[k];
-        for (int r = 0; r < 6; ++r) sum += J_seed(r, i) * ws.dual_model.J(r, i).d[k];
-      }
-      gradient[first + k] = sum;
-    }
+  for (Eigen::Index k = 0; k < theta_r.size(); ++k) {
+    gradient[k] = ws.q_gradient[ws.problem.redundant[static_cast<std::size_t>(k)]];
   }
 }
 
