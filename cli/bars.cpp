@@ -18,50 +18,73 @@ constexpr double kAxis = 56, kSlot = 58, kBar = 34, kTop = 40, kHeight = 240, kB
 constexpr const char* kOurs = "#0072B2";
 constexpr const char* kMeasured = "#E69F00";
 
+/// With a minus sign instead of a hyphen.
+std::string number(double value, const char* format) {
+  return (value < 0 ? "\u2212" : "") + fmt::format(fmt::runtime(format), std::abs(value));
+}
+
 double width(const BarGroup& group) {
   return kAxis + kSlot * static_cast<double>(group.bars.size()) + kRight;
 }
 
-/// Draws one group with its axis; `left` is the left edge of its share of the picture.
-void draw_group(Svg& svg, const BarGroup& group, double left) {
-  double largest = 1e-9;
-  for (const Bar& bar : group.bars) {
-    largest = std::max({largest, std::abs(bar.value), bar.measured});
-  }
-  const double scale = kHeight / 2 / (1.12 * largest);
-  const auto y = [&](double value) { return kTop + kHeight / 2 - scale * value; };
-  const double x0 = left + kAxis, x1 = left + width(group) - kRight;
-  const double step = round_step(largest / 2);
-  for (double tick = -step * std::floor(1.12 * largest / step); tick <= 1.12 * largest;
-       tick += step) {
-    svg.line({x0, y(tick)}, {x1, y(tick)}, {.stroke = "#e8e8e8", .width = 0.8});
-    const std::string digits = fmt::format("{:.6g}", std::abs(tick));
-    svg.text({x0 - 6, y(tick) + 3.5}, tick < -step / 2 ? "\u2212" + digits : digits,
-             {.size = 10, .anchor = Anchor::kEnd});
-  }
-  for (std::size_t i = 0; i < group.bars.size(); ++i) {
-    const Bar& bar = group.bars[i];
-    const double centre = x0 + kSlot * (static_cast<double>(i) + 0.5);
-    const double l = centre - kBar / 2, r = centre + kBar / 2;
-    svg.polygon({{l, y(0)}, {r, y(0)}, {r, y(bar.value)}, {l, y(bar.value)}}, {.fill = kOurs});
-    const double beyond = y(bar.value) + (bar.value < 0 ? 12 : -4);
-    svg.text({centre, beyond},
-             fmt::format("{}{:.1f}", bar.value < 0 ? "\u2212" : "", std::abs(bar.value)),
-             {.size = 10.5, .anchor = Anchor::kMiddle});
-    if (bar.measured > 0) {
-      for (const double side : {-bar.measured, bar.measured}) {
-        svg.line({centre - kSlot / 2 + 4, y(side)}, {centre + kSlot / 2 - 4, y(side)},
-                 {.stroke = kMeasured, .width = 2, .dash = "5 3"});
-      }
+/// Draws one group with its axis.
+class GroupWriter {
+ public:
+  /// `left`: the left edge of its share of the picture.
+  GroupWriter(Svg& svg, const BarGroup& group, double left)
+      : svg_(svg),
+        group_(group),
+        left_(left),
+        x0_(left + kAxis),
+        x1_(left + width(group) - kRight) {
+    for (const Bar& bar : group.bars) {
+      largest_ = std::max(largest_, std::abs(bar.value));
+      for (const double value : bar.measured) largest_ = std::max(largest_, std::abs(value));
     }
-    svg.text({centre, kTop + kHeight + 16}, bar.name, {.size = 11.5, .anchor = Anchor::kMiddle});
+    largest_ *= 1.12;  // room for the numbers
   }
-  svg.line({x0, y(0)}, {x1, y(0)}, {.stroke = "#222222", .width = 1});
-  svg.text({left + 14, kTop + kHeight / 2}, group.unit,
-           {.size = 11, .anchor = Anchor::kMiddle, .angle = 90});
-}
 
-}  // namespace
+  void draw() {
+    ticks();
+    for (std::size_t i = 0; i < group_.bars.size(); ++i) {
+      bar(group_.bars[i], x0_ + kSlot * (static_cast<double>(i) + 0.5));
+    }
+    svg_.line({x0_, y(0)}, {x1_, y(0)}, {.stroke = "#222222", .width = 1});
+    svg_.text({left_ + 14, kTop + kHeight / 2}, group_.unit,
+              {.size = 11, .anchor = Anchor::kMiddle, .angle = 90});
+  }
+
+ private:
+  double y(double value) const { return kTop + kHeight / 2 * (1 - value / largest_); }
+
+  void ticks() {
+    const double step = round_step(largest_ / 2.2);
+    const auto last = static_cast<int>(largest_ / step);
+    for (int i = -last; i <= last; ++i) {
+      const double at = y(step * i);
+      svg_.line({x0_, at}, {x1_, at}, {.stroke = "#e8e8e8", .width = 0.8});
+      svg_.text({x0_ - 6, at + 3.5}, number(step * i, "{:.6g}"),
+                {.size = 10, .anchor = Anchor::kEnd});
+    }
+  }
+
+  void bar(const Bar& bar, double centre) {
+    const double l = centre - kBar / 2, r = centre + kBar / 2;
+    svg_.polygon({{l, y(0)}, {r, y(0)}, {r, y(bar.value)}, {l, y(bar.value)}}, {.fill = kOurs});
+    svg_.text({centre, y(bar.value) + (bar.value < 0 ? 12 : -4)}, number(bar.value, "{:.1f}"),
+              {.size = 10.5, .anchor = Anchor::kMiddle});
+    for (const double value : bar.measured) {
+      svg_.line({centre - kSlot / 2 + 4, y(value)}, {centre + kSlot / 2 - 4, y(value)},
+                {.stroke = kMeasured, .width = 2, .dash = "5 3"});
+    }
+    svg_.text({centre, kTop + kHeight + 16}, bar.name, {.size = 11.5, .anchor = Anchor::kMiddle});
+  }
+
+  Svg& svg_;
+  const BarGroup& group_;
+  double left_, x0_, x1_;
+  double largest_ = 1e-9;
+};
 
 std::string draw_bars(const std::string& title, const std::vector<BarGroup>& groups,
                       const std::string& measured) {
@@ -71,7 +94,7 @@ std::string draw_bars(const std::string& title, const std::vector<BarGroup>& gro
   svg.text({total / 2, 20}, title, {.size = 13, .anchor = Anchor::kMiddle, .bold = true});
   double left = 0;
   for (const BarGroup& group : groups) {
-    draw_group(svg, group, left);
+    GroupWriter(svg, group, left).draw();
     left += width(group);
   }
   const double y = kTop + kHeight + kBelow - 18;

@@ -8,8 +8,7 @@ namespace maxwrench {
 struct Bar {
   std::string name;
   double value = 0;
-  /// Size of a measured value without sign, drawn as dashes on both sides of zero; zero: none.
-  double measured = 0;
+  std::vector<double> measured;  ///< to compare with, drawn as dashes
 };
 
 /// Bars in one unit on a scale of their own.

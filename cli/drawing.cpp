@@ -98,10 +98,7 @@ class PanelWriter {
 
   void base() {
     for (const Silhouette& body : scene_.bodies) {
-      svg_.polygon(to_px_(body.outline), {.stroke = kSteel,
-                                          .width = 1.2,
-                                          .fill = body.on_base ? "#dfe5ea" : "#c3ccd3",
-                                          .fill_opacity = 0.75});
+      if (body.on_base || panel_.sets.empty()) draw_body(body);
     }
     svg_.polygon(to_px_(scene_.hull),
                  {.stroke = kSteel, .width = 1.2, .fill = "#dfe5ea", .fill_opacity = 0.75});
@@ -114,7 +111,18 @@ class PanelWriter {
     }
   }
 
+  void draw_body(const Silhouette& body) {
+    svg_.polygon(to_px_(body.outline), {.stroke = kSteel,
+                                        .width = 1.2,
+                                        .fill = body.on_base ? "#dfe5ea" : "#c3ccd3",
+                                        .fill_opacity = 0.75});
+  }
+
+  /// Sets of forces cover the base but not the arm, in whatever depth it is.
   void arm() {
+    for (const Silhouette& body : scene_.bodies) {
+      if (!body.on_base && !panel_.sets.empty()) draw_body(body);
+    }
     for (const auto& [a, b] : scene_.links) {
       svg_.polyline({to_px_(a), to_px_(b)}, {.stroke = kSteel, .width = 6});
       svg_.polyline({to_px_(a), to_px_(b)}, {.stroke = "#c3ccd3", .width = 4});
@@ -177,17 +185,31 @@ class PanelWriter {
       svg_.arrow(centre, tip, red, 9);
       name_c(tip + 10 * along);
     }
-    if (std::abs(scene_.c_turn) > 1e-9) {
-      std::vector<Point> arc;
-      for (int degrees = 60; degrees <= 330; degrees += 10) {
-        const double angle = std::copysign(degrees, scene_.c_turn) * std::numbers::pi / 180;
-        arc.push_back(centre + 0.6 * length * on_paper({std::cos(angle), std::sin(angle)}));
+    if (std::abs(scene_.c_towards) > 1e-9) sight_symbol(centre, red);
+    if (std::abs(scene_.c_turn) > 1e-9) turn_symbol(centre, 0.6 * length, red);
+  }
+
+  void sight_symbol(const Point& centre, const Paint& red) {
+    constexpr double kRadius = 9;
+    svg_.circle(centre, kRadius, red);
+    if (scene_.c_towards < 0) {
+      for (const Point& d : {Point(1, 1), Point(1, -1)}) {
+        svg_.line(centre - kRadius * d.normalized(), centre + kRadius * d.normalized(), red);
       }
-      svg_.polyline(arc, red);
-      const Point last = arc.back() - arc[arc.size() - 2];
-      svg_.arrow(arc.back(), arc.back() + 9 * last.normalized(), red, 9);
-      name_c(centre + Point(0.6 * length + 10, 0));
     }
+    name_c(centre + Point(kRadius + 9, 12));
+  }
+
+  void turn_symbol(const Point& centre, double radius, const Paint& red) {
+    std::vector<Point> arc;
+    for (int degrees = 60; degrees <= 330; degrees += 10) {
+      const double angle = std::copysign(degrees, scene_.c_turn) * std::numbers::pi / 180;
+      arc.push_back(centre + radius * on_paper({std::cos(angle), std::sin(angle)}));
+    }
+    svg_.polyline(arc, red);
+    const Point last = arc.back() - arc[arc.size() - 2];
+    svg_.arrow(arc.back(), arc.back() + 9 * last.normalized(), red, 9);
+    name_c(centre + Point(radius + 10, 0));
   }
 
   void end_effector() {

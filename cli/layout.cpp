@@ -100,6 +100,7 @@ Scene project(const DrawnPosture& panel, View view) {
   scene.tool_x = P * panel.problem->pose.R.col(0);
   scene.tool_y = P * panel.problem->pose.R.col(view == View::kTop ? 1 : 2);
   scene.c = P * panel.problem->c.head<3>();
+  scene.c_towards = -line_of_sight(view).dot(panel.problem->c.head<3>());
   scene.c_torque = P * panel.problem->c.tail<3>();
   scene.c_turn = -line_of_sight(view).dot(panel.problem->c.tail<3>());
   return scene;

@@ -27,6 +27,7 @@ struct Scene {
   std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>>
       thrusters;  // position, direction or force
   Eigen::Vector2d end_effector, tool_x, tool_y, c;
+  double c_towards = 0;      // the part of c that is a force towards the viewer
   Eigen::Vector2d c_torque;  // the part of c that turns about an axis in the plane
   double c_turn = 0;         // and about the line of sight, positive counterclockwise
 };

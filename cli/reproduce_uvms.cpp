@@ -117,18 +117,21 @@ std::string describe_orthogonal(const Problem& problem, const Row& row) {
       fmt::join(h.head<3>(), ", "), kTankForce, fmt::join(h.tail<3>(), ", "), kTankTorque);
 }
 
-/// All components of the wrench at the beta_3 optimum; along c the tank's value is exact.
+/// All components of the wrench at the beta_3 optimum. The paper gives no axes and no signs of the
+/// orthogonal ones.
 std::string wrench_bars(const Problem& problem, const Row& row, double tank) {
   static constexpr const char* kNames[] = {"f_x", "f_y", "f_z", "n_x", "n_y", "n_z"};
   std::vector<BarGroup> groups = {{"force [N]", {}}, {"torque [N m]", {}}};
   for (int i = 0; i < 6; ++i) {
     const bool along_c = problem.c[i] != 0;
-    const double measured = along_c ? tank : i < 3 ? kTankForce : kTankTorque;
+    const double size = i < 3 ? kTankForce : kTankTorque;
+    const std::vector<double> measured =
+        along_c ? std::vector<double>{tank} : std::vector<double>{-size, size};
     groups[static_cast<std::size_t>(i / 3)].bars.push_back(
         {std::string(kNames[i]) + (along_c ? " (c)" : ""), row.capability.h[i], measured});
   }
   return draw_bars("wrench at the optimum of \u03b2_3", groups,
-                   "tank: size of the largest; along c the maximum");
+                   "tank; orthogonal to c: size of the largest, its axis unknown");
 }
 
 /// One line for an optimum. For beta_3 the tank measured the torque while its sensor took any other
@@ -143,16 +146,6 @@ std::string line(const Problem& problem, const Task& task, const Measured& measu
                      measured.symbol, cell(best.row, task.unit), cell(pure, task.unit),
                      measured.tank, gain, tank_gain, gain / tank_gain, 100 * best.lag,
                      posture(best.row));
-}
-
-/// The values of all optima with more digits, in the unit of c.
-std::string values_note(const Problem& problem, const std::vector<Row>& best, double reference) {
-  std::string text = fmt::format("  in {}: default {:.3f}", problem.unit(), reference);
-  for (const Row& row : best) {
-    text += fmt::format(", {} {} {:.3f}", row.choice.measure, to_string(row.choice.wrench),
-                        row.capability.beta);
-  }
-  return text + "\n";
 }
 
 /// The paper's figures of a task: its postures, and the wrench of beta_3.
@@ -183,6 +176,7 @@ std::string table(RowWriter& writer, const Task& task, const std::filesystem::pa
       problem.name, task.title, problem.label, "default", "", cell(pure, task.unit),
       task.tank_default, 1.0, 1.0, 1.0, "", posture(pure));
   std::string notes = fmt::format("  default posture with any wrench:{}\n", cell(any, task.unit));
+  std::string digits = fmt::format("  in {}: default {:.3f}", problem.unit(), pure.capability.beta);
   std::vector<Row> optima;
   for (const Measured& measured : task.optima) {
     const Best best = search(writer, problem, measured);
@@ -192,10 +186,11 @@ std::string table(RowWriter& writer, const Task& task, const std::filesystem::pa
     }
     text += line(problem, task, measured, best, pure.capability.beta);
     if (measured.wrench == Wrench::kAny) notes += describe_orthogonal(problem, best.row);
+    digits += fmt::format(", {} {:.3f}", measured.symbol, best.row.capability.beta);
     optima.push_back(best.row);
   }
   if (optima.size() == task.optima.size()) write_figures(folder, problem, task, optima);
-  return text + values_note(problem, optima, pure.capability.beta) + notes;
+  return text + digits + "\n" + notes;
 }
 
 }  // namespace
