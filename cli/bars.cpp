@@ -86,6 +86,8 @@ class GroupWriter {
   double largest_ = 1e-9;
 };
 
+}  // namespace
+
 std::string draw_bars(const std::string& title, const std::vector<BarGroup>& groups,
                       const std::string& measured) {
   double total = 0;

@@ -131,7 +131,7 @@ std::string wrench_bars(const Problem& problem, const Row& row, double tank) {
         {std::string(kNames[i]) + (along_c ? " (c)" : ""), row.capability.h[i], measured});
   }
   return draw_bars("wrench at the optimum of \u03b2_3", groups,
-                   "tank; orthogonal to c: size of the largest, its axis unknown");
+                   "tank (orthogonal to c: size only)");
 }
 
 /// One line for an optimum. For beta_3 the tank measured the torque while its sensor took any other

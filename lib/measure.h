@@ -82,10 +82,10 @@ std::unique_ptr<Measure> make_weighted_transmission_ratio(const Robot& robot);
 /// std::invalid_argument if B has not full row rank.
 std::unique_ptr<Measure> make_least_effort(const Problem& problem);
 
-/// The wrench along c at which the first joint saturates, as for an arm on a fixed base: what the
-/// thrusters must do is ignored. Never less than the L-infinity polytope along c. (With u = B^+
-/// (tau_d + J'h) for all actuators it is the L2 polytope along c.) Throws std::invalid_argument if
-/// B has not full row rank or there is no joint.
+/// The wrench along c at which the first actuator saturates, by the ratio of what its limit leaves
+/// to what a unit of the wrench takes, as for a serial arm: there each joint has one effort for a
+/// given wrench. Thrusters share theirs with the least |W_u u|; where all have the same limits,
+/// this is the L2 polytope along c. Throws as `make_ellipsoid`.
 std::unique_ptr<Measure> make_saturating_wrench(const Robot& robot);
 
 /// The sum of the squared radii [-] of the ellipsoid |W_u B^+ J'h| <= 1 in the wrenches of W_any,

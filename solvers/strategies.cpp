@@ -48,8 +48,8 @@ const MeasureEntry kMeasures[] = {
      nullptr, of_robot<make_weighted_transmission_ratio>},
     {"least_effort", "minus the least sum of squared efforts at the reference wrench", false, true,
      "mixed", of_problem<make_least_effort>},
-    {"saturating_wrench", "the first joint saturates, as if the base were fixed", false, false,
-     nullptr, of_robot<make_saturating_wrench>},
+    {"saturating_wrench", "the first actuator saturates, efforts weighted by their limits", false,
+     false, nullptr, of_robot<make_saturating_wrench>},
     {"ellipsoid_trace", "squared radii of the weighted ellipsoid by the desired wrench", false,
      false, "-", of_problem<make_ellipsoid_trace>},
 };

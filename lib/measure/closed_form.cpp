@@ -16,15 +16,21 @@ void require_full_row_rank(const Robot& robot, const std::string& measure) {
                               std::to_string(robot.actuation.dimension()));
 }
 
+void require_both_directions(const Robot& robot, const std::string& measure) {
+  const Zonotope& set = robot.actuation;
+  if ((set.u_min.array() < 0).all() && (set.u_max.array() > 0).all()) return;
+  throw std::invalid_argument("measure " + measure + ": an actuator of " + robot.name +
+                              " cannot act in both directions, expected min < 0 < max");
+}
+
+Eigen::VectorXd smaller_limits(const Zonotope& actuation) {
+  return actuation.u_min.cwiseAbs().cwiseMin(actuation.u_max.cwiseAbs());
+}
+
 Eigen::MatrixXd weighted_inverse(const Robot& robot, const std::string& measure) {
   require_full_row_rank(robot, measure);
-  const Zonotope& set = robot.actuation;
-  if ((set.u_min.array() >= 0).any() || (set.u_max.array() <= 0).any()) {
-    throw std::invalid_argument("measure " + measure + ": an actuator of " + robot.name +
-                                " cannot act in both directions, expected min < 0 < max");
-  }
-  const Eigen::VectorXd limit = set.u_min.cwiseAbs().cwiseMin(set.u_max.cwiseAbs());
-  return limit.cwiseInverse().asDiagonal() * set.B_pinv;
+  require_both_directions(robot, measure);
+  return smaller_limits(robot.actuation).cwiseInverse().asDiagonal() * robot.actuation.B_pinv;
 }
 
 void fill_score(double beta, Eigen::Index velocities, Capability& capability) {

@@ -25,6 +25,12 @@ bool regular(const Eigen::LDLT<SmallMatrix>& factor);
 /// Throws std::invalid_argument that names the measure if B has not full row rank.
 void require_full_row_rank(const Robot& robot, const std::string& measure);
 
+/// Throws std::invalid_argument that names the measure if an actuator has not min < 0 < max.
+void require_both_directions(const Robot& robot, const std::string& measure);
+
+/// The smaller of each actuator's two absolute limits, m [N or N m]: the reciprocals of W_u.
+Eigen::VectorXd smaller_limits(const Zonotope& actuation);
+
 /// W_u B^+, m×n [-, per N or N m]: generalised forces -> efforts u = B^+ tau as shares of the
 /// smaller of each actuator's two absolute limits. Throws std::invalid_argument that names the
 /// measure if B has not full row rank or an actuator cannot act in both directions.

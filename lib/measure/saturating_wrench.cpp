@@ -1,5 +1,4 @@
 #include <cmath>
-#include <stdexcept>
 
 #include "lib/measure/closed_form.h"
 #include "lib/wrench_program.h"
@@ -7,22 +6,28 @@
 namespace maxwrench {
 namespace {
 
-/// A slope below this share of |J'c| does not load a joint.
+/// A slope below this share of all does not load an actuator.
 constexpr double kSlopeTolerance = 1e-12;
 
-/// The largest x with u_min,j <= tau_d,j + x (J'W)_j <= u_max,j for all joints j, beta = c_w x.
-/// With the joint j that saturates, lambda = -c_w e_j / (J'W)_j.
+/// The largest x with u_min <= K (tau_d + J'W x) <= u_max, beta = c_w x: each actuator has a ratio
+/// of what its limit leaves to what a unit of x takes. K = W_u^-1 (B W_u^-1)^+ (m×n) gives the
+/// efforts of the least |W_u u|. With the actuator i that saturates, lambda = -c_w K'e_i / (K
+/// J'W)_i.
 class SaturatingWrench : public Measure {
  public:
   explicit SaturatingWrench(const Robot& robot)
-      : B_pinv_(robot.actuation.B_pinv),
-        first_row_(static_cast<Eigen::Index>(robot.base_axes.size())),
-        u_min_(robot.actuation.u_min.tail(robot.joints.size())),
-        u_max_(robot.actuation.u_max.tail(robot.joints.size())) {}
+      : box_(make_zonotope(Eigen::MatrixXd::Identity(robot.actuators(), robot.actuators()),
+                           robot.actuation.u_min, robot.actuation.u_max)) {
+    const Eigen::VectorXd limit = smaller_limits(robot.actuation);
+    const Eigen::MatrixXd scaled = robot.actuation.B * limit.asDiagonal();
+    K_ = limit.asDiagonal() * scaled.completeOrthogonalDecomposition().pseudoInverse();
+  }
 
   void evaluate(const Posture& /*posture*/, const WrenchProgram& program, bool efforts,
                 Capability& capability) override {
     capability.iterations = 0;
+    load_.noalias() = K_.lazyProduct(program.tau_d);
+    slope_.noalias() = K_.lazyProduct(program.JtW.col(0));
     capability.status = shoot(program, capability);
     if (capability.status != Status::kOptimal) return;
     capability.h.noalias() = program.W * capability.w;
@@ -31,63 +36,62 @@ class SaturatingWrench : public Measure {
   }
 
  private:
-  Status shoot(const WrenchProgram& program, Capability& capability) const {
-    const auto slopes = program.JtW.col(0);
-    const double flat = kSlopeTolerance * slopes.norm();
+  Status shoot(const WrenchProgram& program, Capability& capability) {
+    const double flat = kSlopeTolerance * slope_.norm();
     double low = -kInfinity, high = kInfinity;
-    Eigen::Index active = -1;
-    for (Eigen::Index j = 0; j < u_min_.size(); ++j) {
-      const double slope = slopes[first_row_ + j];
-      const double below = u_min_[j] - program.tau_d[first_row_ + j];
-      const double above = u_max_[j] - program.tau_d[first_row_ + j];
-      if (std::abs(slope) <= flat) {
+    for (Eigen::Index i = 0; i < slope_.size(); ++i) {
+      const double below = box_.u_min[i] - load_[i];
+      const double above = box_.u_max[i] - load_[i];
+      if (std::abs(slope_[i]) <= flat) {
         if (below > 0 || above < 0) high = -kInfinity;
         continue;
       }
-      low = std::max(low, (slope > 0 ? below : above) / slope);
-      const double leave = (slope > 0 ? above : below) / slope;
+      low = std::max(low, (slope_[i] > 0 ? below : above) / slope_[i]);
+      const double leave = (slope_[i] > 0 ? above : below) / slope_[i];
       if (leave >= high) continue;
       high = leave;
-      active = j;
+      active_ = i;
     }
     if (low > high) {
-      capability.reason = "a joint cannot hold its load at any multiple of c";
+      capability.reason = "an actuator cannot take its share of the load at any multiple of c";
       return Status::kInfeasible;
     }
-    if (active < 0) {
-      capability.reason = "the wrench does not load any joint";
+    if (high == kInfinity) {
+      capability.reason = "the wrench does not load any actuator";
       return Status::kUnbounded;
     }
     capability.reason = "";
     capability.beta = program.c_w[0] * high;
     capability.w.setConstant(1, high);
-    capability.lambda.setZero(program.tau_d.size());
-    capability.lambda[first_row_ + active] = -program.c_w[0] / slopes[first_row_ + active];
+    capability.lambda.noalias() = K_.row(active_).transpose() * (-program.c_w[0] / slope_[active_]);
     return Status::kOptimal;
   }
 
-  /// u = B^+ (tau_d + J'h): thrusters may exceed their limits, as if something held the base.
+  /// The balance in the robot's own rows, optimality in the rows of u = K (tau_d + J'W w).
   void recover(const WrenchProgram& program, Capability& capability) const {
-    capability.u = B_pinv_ * (program.tau_d + program.JtW * capability.w);
-    capability.residual = recheck(program, capability.u, capability.w, capability.lambda);
-    const auto joints = capability.u.tail(u_min_.size());
-    capability.residual.bounds =
-        std::max({0.0, (joints - u_max_).maxCoeff(), (u_min_ - joints).maxCoeff()});
+    WrenchProgram ratios = program;
+    ratios.actuation = &box_;
+    ratios.tau_d = load_;
+    ratios.JtW = slope_;
+    capability.u = load_ + slope_ * capability.w;
+    const Eigen::VectorXd multiplier =
+        Eigen::VectorXd::Unit(slope_.size(), active_) * (-program.c_w[0] / slope_[active_]);
+    capability.residual = recheck(ratios, capability.u, capability.w, multiplier);
+    capability.residual.balance =
+        recheck(program, capability.u, capability.w, capability.lambda).balance;
   }
 
-  Eigen::MatrixXd B_pinv_;
-  Eigen::Index first_row_;
-  Eigen::VectorXd u_min_, u_max_;
+  Zonotope box_;
+  Eigen::MatrixXd K_;
+  Eigen::VectorXd load_, slope_;  ///< of each actuator: K tau_d, K J'W
+  Eigen::Index active_ = 0;
 };
 
 }  // namespace
 
 std::unique_ptr<Measure> make_saturating_wrench(const Robot& robot) {
   require_full_row_rank(robot, "saturating_wrench");
-  if (robot.joints.empty()) {
-    throw std::invalid_argument("measure saturating_wrench: " + robot.name +
-                                " has no joints, expected at least one");
-  }
+  require_both_directions(robot, "saturating_wrench");
   return std::make_unique<SaturatingWrench>(robot);
 }
 
