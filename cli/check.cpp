@@ -83,7 +83,8 @@ void print(const Problem& problem) {
   fmt::print("  end effector {}, c = [{:g}] in [force; torque], beta in {}\n",
              problem.robot.end_effectors[problem.end_effector].name, fmt::join(problem.c, ", "),
              problem.unit());
-  fmt::print("  wrench any: {} columns\n", problem.W_any.cols());
+  fmt::print("  wrench any: {} columns; reference {:g} {}, desired [{:g}]\n", problem.W_any.cols(),
+             problem.reference, problem.unit(), fmt::join(problem.desired, ", "));
   fmt::print("  redundancy {}\n", problem.redundancy());
   for (int i = 0; i < problem.redundancy(); ++i) {
     fmt::print("  theta_r {:<17} {:g} .. {:g}, default {:g}\n",

@@ -71,20 +71,14 @@ int motions_of(const Robot& robot, int end_effector) {
   return static_cast<int>(rank);
 }
 
-template <class T>
-Pose<T> base_pose(const Robot& robot, const Eigen::Matrix<T, 4, 1>& x) {
-  using std::cos;
-  using std::sin;
-  Pose<T> local;
-  local.R(0, 0) = local.R(1, 1) = cos(x[3]);
-  local.R(1, 0) = sin(x[3]);
+Pose<double> base_pose(const Robot& robot, const Eigen::Vector4d& x) {
+  Pose<double> local;
+  local.R(0, 0) = local.R(1, 1) = std::cos(x[3]);
+  local.R(1, 0) = std::sin(x[3]);
   local.R(0, 1) = -local.R(1, 0);
-  local.p = x.template head<3>();
+  local.p = x.head<3>();
   return robot.mount * local;
 }
-
-template Pose<double> base_pose(const Robot&, const Eigen::Vector4d&);
-template Pose<Dual<4>> base_pose(const Robot&, const Eigen::Matrix<Dual<4>, 4, 1>&);
 
 Branch::Branch(const Problem& problem)
     : problem_(problem),
@@ -121,7 +115,7 @@ void Branch::linearise(const Eigen::VectorXd& z) {
   const Robot& robot = problem_.robot;
   const EndEffector& end_effector =
       robot.end_effectors[static_cast<std::size_t>(problem_.end_effector)];
-  const Pose<double> base = base_pose<double>(robot, z.head<4>());
+  const Pose<double> base = base_pose(robot, z.head<4>());
   q_ = z.tail(q_.size());
   kinematics_.set_joints(q_);
   kinematics_.jacobian(end_effector, base.R, J_);

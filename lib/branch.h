@@ -18,8 +18,7 @@ int motions_of(const Robot& robot, int end_effector);
 
 /// [x, y, z, yaw] of a base that neither rolls nor pitches -> its pose in the world: the robot's
 /// mount, then (x, y, z), then Rz(yaw).
-template <class T>
-Pose<T> base_pose(const Robot& robot, const Eigen::Matrix<T, 4, 1>& x);
+Pose<double> base_pose(const Robot& robot, const Eigen::Vector4d& x);
 
 /// What follows from theta_r where the base pose alone does not. Of the coordinates
 /// z = [x, y, z, yaw; all joints], theta_r holds r and y, the free base coordinates and the

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
 #include "lib/branch.h"
-#include "lib/dual.h"
 #include "lib/kinematics.h"
+#include "lib/posture/pull_back.h"
 
 namespace maxwrench {
 namespace {
@@ -18,17 +19,17 @@ constexpr double kReachTolerance = 1e-9;
 /// A posture on its limit is inside: theta_r may carry rounding from a search's box.
 constexpr double kLimitTolerance = 1e-12;
 
-/// Everything of one posture in scalar T.
-template <class T>
+/// The state of one posture.
 struct Model {
   explicit Model(const Problem& p)
       : problem(p),
         kinematics(p.robot),
+        theta_r(Eigen::VectorXd::Constant(p.redundancy(), kNothing)),
         q(p.robot.joints.size()),
         J(6, p.robot.velocities()),
         tau_d(p.robot.velocities()) {
     for (Eigen::Index i = 0; i < q.size(); ++i) {
-      q[i] = T(std::clamp(0.0, p.robot.joints[i].q_min, p.robot.joints[i].q_max));
+      q[i] = std::clamp(0.0, p.robot.joints[i].q_min, p.robot.joints[i].q_max);
     }
   }
 
@@ -37,18 +38,20 @@ struct Model {
   }
 
   /// The base follows in closed form from all joints of the chain.
-  void evaluate(const VectorX<T>& theta_r) {
-    for (std::size_t i = 0; i < problem.redundant.size(); ++i) q[problem.redundant[i]] = theta_r[i];
+  void evaluate(const Eigen::VectorXd& at) {
+    theta_r = at;
+    for (std::size_t i = 0; i < problem.redundant.size(); ++i) q[problem.redundant[i]] = at[i];
     kinematics.set_joints(q);
     base = problem.pose * kinematics.end_effector(end_effector()).inverse();
     finish();
   }
 
   /// z = [x, y, z, yaw of the base; all joints].
-  void evaluate_at(const VectorX<T>& z) {
+  void evaluate_at(const Eigen::VectorXd& at, const Eigen::VectorXd& z) {
+    theta_r = at;
     q = z.tail(q.size());
     kinematics.set_joints(q);
-    base = base_pose<T>(problem.robot, z.template head<4>());
+    base = base_pose(problem.robot, z.head<4>());
     finish();
   }
 
@@ -57,12 +60,15 @@ struct Model {
     kinematics.gravity_and_buoyancy(base.R, tau_d);
   }
 
+  /// Before the first evaluation: equals no theta_r.
+  static constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
   const Problem& problem;
-  Kinematics<T> kinematics;
-  VectorX<T> q;
-  Pose<T> base;
-  Matrix6X<T> J;
-  VectorX<T> tau_d;
+  Kinematics<double> kinematics;
+  Eigen::VectorXd theta_r, q;
+  Pose<double> base;
+  Matrix6Xd J;
+  Eigen::VectorXd tau_d;
 };
 
 /// Whether the pose is reached by moving along the free base axes from the mount.
@@ -93,15 +99,11 @@ void require_theta_r(const Problem& problem, const Eigen::VectorXd& theta_r) {
 }  // namespace
 
 struct PostureModel::Workspace {
-  static constexpr int kChunk = 4;  ///< directions of theta_r that one dual evaluation carries
-
   Workspace(const Problem& p, bool check)
       : problem(p),
         check_collision(check && p.robot.collision != nullptr),
         model(p),
-        dual_model(p),
-        dual_theta_r(p.redundancy()),
-        dual_z(4 + model.q.size()) {
+        reverse(p.robot, p.end_effector) {
     if (!p.dependent.empty()) branch.emplace(p);
     posture.q.resize(model.q.size());
     posture.links = model.kinematics.links();
@@ -112,23 +114,7 @@ struct PostureModel::Workspace {
   void evaluate(const Eigen::VectorXd& theta_r) {
     if (!branch) return model.evaluate(theta_r);
     branch_reason = branch->follow(theta_r);
-    model.evaluate_at(branch->z());
-  }
-
-  /// Evaluates dual_model along theta_r_first, ..., theta_r_(first + count - 1).
-  void differentiate(const Eigen::VectorXd& theta_r, Eigen::Index first, int count) {
-    if (branch) {
-      branch->follow(theta_r);
-      for (Eigen::Index i = 0; i < dual_z.size(); ++i) {
-        dual_z[i] = branch->z()[i];
-        for (int k = 0; k < count; ++k) dual_z[i].d[k] = branch->slopes()(i, first + k);
-      }
-      dual_model.evaluate_at(dual_z);
-      return;
-    }
-    for (Eigen::Index i = 0; i < theta_r.size(); ++i) dual_theta_r[i] = theta_r[i];
-    for (int k = 0; k < count; ++k) dual_theta_r[first + k].d[k] = 1;
-    dual_model.evaluate(dual_theta_r);
+    model.evaluate_at(theta_r, branch->z());
   }
 
   /// Why the posture does not exist, or null.
@@ -154,11 +140,11 @@ struct PostureModel::Workspace {
 
   const Problem& problem;
   const bool check_collision;
-  Model<double> model;
-  Model<Dual<kChunk>> dual_model;
+  Model model;
+  PullBack reverse;
+  Eigen::VectorXd q_gradient;
   std::optional<Branch> branch;  ///< if there are dependent joints
   const char* branch_reason = nullptr;
-  VectorX<Dual<kChunk>> dual_theta_r, dual_z;
   Posture posture;
 };
 
@@ -187,19 +173,15 @@ void PostureModel::pull_back(const Eigen::VectorXd& theta_r, const Eigen::Vector
                              const Matrix6Xd& J_seed, Eigen::VectorXd& gradient) {
   Workspace& ws = *workspace_;
   require_theta_r(ws.problem, theta_r);
-  constexpr int kChunk = Workspace::kChunk;
+  Model& model = ws.model;
+  if (model.theta_r != theta_r) ws.evaluate(theta_r);
+  ws.reverse.evaluate(model.kinematics, model.base.R, model.J, tau_seed, J_seed, ws.q_gradient);
   gradient.resize(theta_r.size());
-  for (Eigen::Index first = 0; first < theta_r.size(); first += kChunk) {
-    const int count = static_cast<int>(std::min<Eigen::Index>(kChunk, theta_r.size() - first));
-    ws.differentiate(theta_r, first, count);
-    for (int k = 0; k < count; ++k) {
-      double sum = 0;
-      for (Eigen::Index i = 0; i < tau_seed.size(); ++i) {
-        sum += tau_seed[i] * ws.dual_model.tau_d[i].d[k];
-        for (int r = 0; r < 6; ++r) sum += J_seed(r, i) * ws.dual_model.J(r, i).d[k];
-      }
-      gradient[first + k] = sum;
-    }
+  for (Eigen::Index k = 0; k < theta_r.size(); ++k) {
+    // The base follows from all joints in closed form here too: what Newton solves holds along the
+    // branch.
+    gradient[k] = ws.branch ? ws.branch->slopes().col(k).tail(model.q.size()).dot(ws.q_gradient)
+                            : ws.q_gradient[ws.problem.redundant[static_cast<std::size_t>(k)]];
   }
 }
 

@@ -32,7 +32,8 @@ class PostureModel {
   /// finite.
   const Posture& evaluate(const Eigen::VectorXd& theta_r);
 
-  /// gradient_k = tau_seed' d tau_d/d theta_r_k + <J_seed, d J/d theta_r_k>, exact (dual numbers).
+  /// gradient_k = tau_seed' d tau_d/d theta_r_k + <J_seed, d J/d theta_r_k>, exact, by reverse
+  /// accumulation. Cheapest after `evaluate` at the same theta_r, whose posture it keeps.
   void pull_back(const Eigen::VectorXd& theta_r, const Eigen::VectorXd& tau_seed,
                  const Matrix6Xd& J_seed, Eigen::VectorXd& gradient);
 

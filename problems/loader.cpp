@@ -39,7 +39,7 @@ int find_end_effector(const Block& task, const Robot& robot) {
 }
 
 void read_wrench(const Block& wrench, Problem& problem) {
-  wrench.allow_only({"c", "any"});
+  wrench.allow_only({"c", "any", "reference", "desired"});
   const Eigen::VectorXd c = wrench.numbers("c", 6);
   if (c.norm() < 1e-9) wrench.refuse_value("c", "a direction of nonzero length");
   problem.c = c.normalized();
@@ -60,6 +60,11 @@ void read_wrench(const Block& wrench, Problem& problem) {
   if (outside.norm() > 1e-12) {
     wrench.refuse_value("c", fmt::format("a direction within any = {}", fmt::join(any, ", ")));
   }
+  problem.reference = wrench.number("reference", problem.reference);
+  if (!(problem.reference > 0)) wrench.refuse_value("reference", "a number > 0");
+  if (!wrench.has("desired")) return;
+  problem.desired = wrench.numbers("desired", 6);
+  if (!(problem.desired.array() > 0).all()) wrench.refuse_value("desired", "numbers > 0");
 }
 
 }  // namespace

@@ -1,6 +1,4 @@
-#include <stdexcept>
-
-#include "lib/measure.h"
+#include "lib/measure/closed_form.h"
 #include "lib/posture.h"
 #include "lib/wrench_program.h"
 #include "lib/wrench_solver.h"
@@ -91,11 +89,7 @@ std::unique_ptr<Measure> make_linf_polytope(const Robot& /*robot*/,
 
 std::unique_ptr<Measure> make_l2_polytope(const Robot& robot,
                                           std::unique_ptr<WrenchSolver> solver) {
-  if (!robot.actuation.full_row_rank()) {
-    throw std::invalid_argument("measure l2_polytope: B of " + robot.name + " has rank " +
-                                std::to_string(robot.actuation.rank) + ", expected " +
-                                std::to_string(robot.velocities()));
-  }
+  require_full_row_rank(robot, "l2_polytope");
   return std::make_unique<L2Polytope>(robot.actuation, std::move(solver));
 }
 

@@ -180,6 +180,7 @@ void read_collision(const Block& collision, UrdfTree& tree, Robot& robot) {
     find_body(tree, collision, "ignore", a);
     find_body(tree, collision, "ignore", b);
   }
+  for (const Shape& shape : tree.shapes) robot.solids.push_back(to_solid(shape));
   robot.collision =
       make_collision_checker(tree.shapes, ignore, collision.non_negative("margin", 0));
 }
