@@ -33,7 +33,7 @@ Problem problem_with_dependents(Random& random, const std::vector<int>& axes, in
   Eigen::VectorXd q = Eigen::VectorXd::NullaryExpr(joints, [&] { return random.uniform(-1, 1); });
   Kinematics<double> kinematics(robot);
   kinematics.set_joints(q);
-  problem.pose = base_pose<double>(robot, x) * kinematics.end_effector(robot.end_effectors[0]);
+  problem.pose = base_pose(robot, x) * kinematics.end_effector(robot.end_effectors[0]);
   problem.redundant.clear();
   for (int i = 0; i < joints; ++i) {
     (i >= joints - redundancy ? problem.redundant : problem.dependent).push_back(i);
