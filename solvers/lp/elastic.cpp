@@ -68,6 +68,11 @@ bool refused(const LinearProgram& program, LpSolution& solution) {
             "the program is malformed: sizes disagree or an entry is not finite");
     return true;
   }
+  const auto too_large = [](const auto& v) { return (v.array().abs() >= kInfiniteBound).any(); };
+  if (too_large(program.b) || too_large(program.c) || too_large(program.A.coeffs())) {
+    give_up(solution, Status::kNumericalError, "an entry is beyond 1e20, which libraries refuse");
+    return true;
+  }
   if (!(program.l.array() > program.u.array()).any()) return false;
   give_up(solution, Status::kInfeasible, "a lower bound exceeds its upper bound");
   solution.certificate.setZero(program.rows());
