@@ -1,15 +1,10 @@
 #include "solvers/lp/efforts.h"
 
-#include <cmath>
-
 namespace maxwrench {
 namespace {
 
 /// How far w may move, relative to 1 + |w|.
 constexpr double kReach = 1e-8;
-
-/// Entries of a Farkas vector below this share of the largest are rounding.
-constexpr double kRounding = 1e-12;
 
 /// The wrench program with each w_j within `reach` of the capability's.
 bool solve_near(const WrenchProgram& program, double reach, LpSolver& solver,
@@ -37,13 +32,6 @@ void fill_efforts(const WrenchProgram& program, LpSolver& solver, Capability& ca
   }
   capability.status = Status::kNumericalError;
   capability.reason = "no efforts found for the optimal wrench";
-}
-
-void drop_rounding(Eigen::VectorXd& y) {
-  const double smallest = kRounding * y.cwiseAbs().maxCoeff();
-  for (double& entry : y) {
-    if (std::abs(entry) < smallest) entry = 0;
-  }
 }
 
 }  // namespace maxwrench

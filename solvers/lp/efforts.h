@@ -11,8 +11,4 @@ namespace maxwrench {
 /// the status becomes kNumericalError. Not for the hot loop: it allocates.
 void fill_efforts(const WrenchProgram& program, LpSolver& solver, Capability& capability);
 
-/// Sets the entries of a Farkas vector to zero that are rounding beside its largest one: alone in a
-/// column without bounds they would spoil the proof.
-void drop_rounding(Eigen::VectorXd& y);
-
 }  // namespace maxwrench

@@ -90,6 +90,7 @@ void prove_no_optimum(const LinearProgram& program, const LpRun& run, LpSolution
     // The elastic optimum is lambda'b less sup {lambda'A x}, so -lambda points out of the
     // reachable set.
     solution.certificate = -proof.lambda;
+    drop_rounding(solution.certificate);
     give_up(solution, Status::kInfeasible, "no x satisfies the rows within its bounds");
     if (verified(program, solution)) return;
   } else if (feasibility_known) {
@@ -98,6 +99,7 @@ void prove_no_optimum(const LinearProgram& program, const LpRun& run, LpSolution
     if (run(recession(program), ray)) {
       solution.iterations += ray.iterations;
       solution.certificate = ray.x;
+      drop_rounding(solution.certificate);
       give_up(solution, Status::kUnbounded, "the objective grows without limit");
       if (verified(program, solution)) return;
     }

@@ -92,8 +92,8 @@ class Glpk : public LpSolver {
     prove_no_optimum(
         program,
         [this](const LinearProgram& other, LpSolution& proof) {
-          Problem problem = load(other);
-          return run(problem, other, false, true, proof) == GLP_OPT;
+          return (try_once(other, false, false, proof) || try_once(other, false, true, proof)) &&
+                 proof.status == Status::kOptimal;
         },
         solution);
   }
@@ -126,6 +126,7 @@ class Glpk : public LpSolver {
     values_[position] = 1;
     glp_btran(&problem, values_.data());
     solution.certificate = Eigen::Map<const Eigen::VectorXd>(values_.data() + 1, rows);
+    drop_rounding(solution.certificate);
     if (verified(program, solution, 1e-7, scratch_)) return true;
     solution.certificate = -solution.certificate;
     return verified(program, solution, 1e-7, scratch_);
