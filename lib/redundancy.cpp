@@ -1,0 +1,84 @@
+#include "lib/redundancy.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+namespace maxwrench {
+namespace {
+
+using Matrix6N = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
+
+/// The dependent velocities, at most six: more would leave A_r without a unique answer.
+struct Dependent {
+  std::array<int, 6> index{};
+  int count = 0;
+
+  void add(int velocity) {
+    assert(count < 6);
+    index[static_cast<std::size_t>(count++)] = velocity;
+  }
+};
+
+Dependent dependent_velocities(const Problem& problem) {
+  const Robot& robot = problem.robot;
+  const int axes = static_cast<int>(robot.base_axes.size());
+  Dependent dependent;
+  for (int axis = 0; axis < axes; ++axis) dependent.add(axis);
+  int link = robot.end_effectors[static_cast<std::size_t>(problem.end_effector)].link;
+  while (link > 0) {
+    const int joint = link - 1;
+    const std::vector<int>& redundant = problem.redundant;
+    if (std::find(redundant.begin(), redundant.end(), joint) == redundant.end()) {
+      dependent.add(axes + joint);
+    }
+    link = robot.joints[static_cast<std::size_t>(joint)].parent;
+  }
+  return dependent;
+}
+
+/// Factors J_d; `solve` then applies J_d^+.
+Eigen::CompleteOrthogonalDecomposition<Matrix6N> factor(const Posture& posture,
+                                                        const Dependent& dependent) {
+  Matrix6N J_d(6, dependent.count);
+  for (int i = 0; i < dependent.count; ++i) {
+    J_d.col(i) = posture.J.col(dependent.index[static_cast<std::size_t>(i)]);
+  }
+  return Eigen::CompleteOrthogonalDecomposition<Matrix6N>(J_d);
+}
+
+/// Writes J_d^+ y into the dependent rows of a column.
+template <class Column>
+void scatter(const Eigen::CompleteOrthogonalDecomposition<Matrix6N>& J_d,
+             const Dependent& dependent, const Vector6d& y, Column&& column) {
+  if (dependent.count == 0) return;  // a base that does not move
+  const Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1> velocities = J_d.solve(y);
+  for (int i = 0; i < dependent.count; ++i) {
+    column[dependent.index[static_cast<std::size_t>(i)]] = velocities[i];
+  }
+}
+
+}  // namespace
+
+void null_motion(const Problem& problem, const Posture& posture, Eigen::MatrixXd& A_r) {
+  const Dependent dependent = dependent_velocities(problem);
+  const auto J_d = factor(posture, dependent);
+  const auto axes = static_cast<Eigen::Index>(problem.robot.base_axes.size());
+  A_r.setZero(posture.J.cols(), problem.redundancy());
+  for (Eigen::Index k = 0; k < A_r.cols(); ++k) {
+    const Eigen::Index velocity = axes + problem.redundant[static_cast<std::size_t>(k)];
+    scatter(J_d, dependent, -posture.J.col(velocity), A_r.col(k));
+    A_r(velocity, k) = 1;
+  }
+}
+
+void end_effector_motion(const Problem& problem, const Posture& posture, Eigen::MatrixXd& J_e) {
+  const Dependent dependent = dependent_velocities(problem);
+  const auto J_d = factor(posture, dependent);
+  J_e.setZero(posture.J.cols(), 6);
+  for (Eigen::Index k = 0; k < 6; ++k) {
+    scatter(J_d, dependent, Vector6d::Unit(k), J_e.col(k));
+  }
+}
+
+}  // namespace maxwrench

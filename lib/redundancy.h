@@ -1,0 +1,25 @@
+#pragma once
+
+#include "lib/posture.h"
+
+namespace maxwrench {
+
+// The two factors of eq:redundantJacobian, `theta_dot = J_e x_dot + A_r theta_r_dot`. The dependent
+// velocities (free base axes, and joints of the chain to the end effector that theta_r does not
+// hold) follow from the twist that theta_r leaves to them. With J_d their columns of J (6×d, full
+// column rank, square and invertible for a base on all six axes) and J_r the columns of theta_r,
+//
+//     A_r = [-J_d^+ J_r; I],   J_e = [J_d^+; 0]   in the rows of the dependent and of theta_r.
+//
+// Joints beside the chain rest. Nothing is allocated once the results have their size.
+
+/// A_r n×r [-, 1/m, m]: theta_r_dot -> velocities that leave the end effector where it is:
+/// J A_r = 0.
+void null_motion(const Problem& problem, const Posture& posture, Eigen::MatrixXd& A_r);
+
+/// J_e n×6 [-, m, 1/m]: twist of the end effector in world axes -> velocities with theta_r at rest.
+/// J J_e = I if the dependent velocities reach all twists, otherwise the projector on those that
+/// they reach.
+void end_effector_motion(const Problem& problem, const Posture& posture, Eigen::MatrixXd& J_e);
+
+}  // namespace maxwrench
