@@ -4,7 +4,8 @@
 #include <IpSolveStatistics.hpp>
 #include <IpTNLP.hpp>
 #include <algorithm>
-#include <mutex>
+
+#include "solvers/ipopt_lock.h"
 
 namespace maxwrench {
 namespace {
@@ -134,8 +135,7 @@ LinearProgram elastic(const LinearProgram& lp) {
 class IpoptSolver : public LpSolver {
  public:
   void solve(const LinearProgram& program, LpSolution& solution) override {
-    static std::mutex lock;
-    const std::lock_guard<std::mutex> guard(lock);
+    const std::lock_guard guard(ipopt_lock());
     solution.certificate.resize(0);
     solution.basis.clear();
     if ((program.l.array() > program.u.array()).any()) {

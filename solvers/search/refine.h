@@ -17,6 +17,11 @@ struct RefineOptions {
   int threads = 1;
 };
 
+/// The best candidates with a value, best first, at most `count`, each at least `separation`
+/// (largest coordinate, share of the bounds) from all better ones; of equal ones the first counts.
+std::vector<Candidate> select_apart(const Box& box, std::vector<Candidate> candidates,
+                                    double separation, long count);
+
 /// Improves the best of `candidates` without derivatives; `found` gets what the search has found so
 /// far and returns with the best point of all and the trace continued.
 ///
