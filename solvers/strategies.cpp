@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "solvers/integrator/cvode.h"
 #include "solvers/lp/assembled.h"
 #include "solvers/lp/facets.h"
 #include "solvers/lp/ipopt.h"
@@ -51,6 +52,10 @@ const SearchEntry kSearches[] = {
      make_nullspace},
 };
 
+const IntegratorEntry kIntegrators[] = {
+    {"cvode", "CVODE of SUNDIALS, backward differentiation formulas", make_cvode},
+};
+
 std::vector<WrenchSolverEntry> make_wrench_solvers() {
   std::vector<WrenchSolverEntry> table = {
       {"facets", "ray shooting through the facets of {B u}, one wrench column", true, 1,
@@ -83,6 +88,7 @@ std::span<const WrenchSolverEntry> wrench_solvers() {
   return kTable;
 }
 std::span<const SearchEntry> searches() { return kSearches; }
+std::span<const IntegratorEntry> integrators() { return kIntegrators; }
 
 const MeasureEntry& find_measure(std::string_view name) {
   return find(measures(), "measure", name);

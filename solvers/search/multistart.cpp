@@ -89,7 +89,7 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> make_application() {
   options->SetStringValue("sb", "yes");
   options->SetStringValue("hessian_approximation", "limited-memory");
   options->SetNumericValue("bound_relax_factor", 0);
-  options->SetIntegerValue("max_iter", 100);
+  options->SetIntegerValue("max_iter", 40);
   application->Initialize("");
   return application;
 }

@@ -175,7 +175,7 @@ std::vector<Candidate> select_apart(const Box& box, std::vector<Candidate> candi
 void refine(const Objective& objective, const Box& box, std::vector<Candidate> candidates,
             const RefineOptions& options, EvaluationCounter& progress, Part& found) {
   const long shared = options.budget / 2;
-  const long count = std::clamp(shared / (100L * (box.free() + 1)), 1L, 8L);
+  const long count = std::clamp(shared / (100L * (box.free() + 1)), 1L, options.ascents);
   std::vector<Candidate> best = select_apart(box, std::move(candidates), options.separation, count);
   if (best.empty()) return;
   if (best[0].value > found.best.value) found.best = best[0];

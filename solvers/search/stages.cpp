@@ -59,17 +59,21 @@ SearchResult search_in_stages(Objective& objective, const SearchOptions& options
   const long climbing = options.budget / 2;
   std::vector<Part> climbs(std::min(parts, climbing));
   const long count = static_cast<long>(climbs.size());
+  std::vector<std::vector<Candidate>> peaks(count);
   parallel_for(options.threads, count, [&](long i) {
-    Probe probe(objective, climbing / count + (i < climbing % count ? 1 : 0), progress);
+    Probe probe(objective, climbing / count + (i < climbing % count ? 1 : 0), progress, &box);
     climb(probe, box, sample, i, Random(~options.seed, i));
     climbs[i] = probe.found();
+    peaks[i] = probe.peaks();
   });
   join(climbs, found);
-  for (const Part& part : climbs) candidates.push_back(part.best);
+  for (const std::vector<Candidate>& each : peaks)
+    candidates.insert(candidates.end(), each.begin(), each.end());
 
   RefineOptions refinement;
   refinement.step = 0.02;
-  refinement.separation = 0.02;
+  refinement.separation = kSeparation;
+  refinement.ascents = 24;
   refinement.budget = options.budget - found.trace.evaluations();
   refinement.seed = ~options.seed + 1;  // streams apart from those of the climbs
   refinement.threads = options.threads;
