@@ -95,27 +95,26 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> make_application() {
 }
 
 /// Local solves by Ipopt (interior point, limited-memory quasi-Newton, exact gradient) from the
-/// best points of a sample: what fmincon with MultiStart does. The starts are at most 64, for a
-/// start costs more than its evaluations. They run one after the other behind one lock, threads
-/// speed up the other two stages only. The value is that of a smooth function in between kinks; on
-/// a kink the line search gives up, and the last stage goes on from there.
+/// best points of a sample: what fmincon with MultiStart does. One start for each 1500 evaluations
+/// of the budget and at most 64, for a start costs far more time than its evaluations. They run one
+/// after the other behind one lock; threads speed up the other two stages only. Where the objective
+/// has a kink the line search gives up, and the last stage goes on from there.
 class Multistart final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {
-    return search_in_stages(
-        objective, options, 1,
-        [](Probe& probe, const Box& box, const Sample& sample, long /*part*/, Random /*random*/) {
-          const std::lock_guard guard(ipopt_lock());
-          const std::size_t count = std::min<std::size_t>(sample.starts.size(), kStarts);
-          for (std::size_t i = 0; i < count && probe.left() > 0; ++i) {
-            const Ipopt::SmartPtr<Ipopt::TNLP> nlp = new BoundedNlp(probe, box, sample.starts[i]);
-            make_application()->OptimizeTNLP(nlp);
-          }
-        });
+    const auto starts = static_cast<std::size_t>(std::clamp(options.budget / 1500, 1L, 64L));
+    return search_in_stages(objective, options, 1,
+                            [starts](Probe& probe, const Box& box, const Sample& sample,
+                                     long /*part*/, const Random& /*random*/) {
+                              const std::lock_guard guard(ipopt_lock());
+                              const std::size_t count = std::min(sample.starts.size(), starts);
+                              for (std::size_t i = 0; i < count && probe.left() > 0; ++i) {
+                                const Ipopt::SmartPtr<Ipopt::TNLP> nlp =
+                                    new BoundedNlp(probe, box, sample.starts[i]);
+                                make_application()->OptimizeTNLP(nlp);
+                              }
+                            });
   }
-
- private:
-  static constexpr std::size_t kStarts = 64;
 };
 
 }  // namespace
