@@ -17,6 +17,7 @@ bool serves(const WrenchSolverEntry& solver, Wrench wrench) {
 
 /// The lower-level solvers that serve a measure and a wrench, with their costs.
 std::vector<std::pair<std::string, int>> solvers_for(const MeasureEntry& measure, Wrench wrench) {
+  if (wrench == Wrench::kAny && !measure.serves_any) return {};
   if (!measure.needs_solver) return {{kNoSolver, 1}};
   std::vector<std::pair<std::string, int>> names;
   for (const WrenchSolverEntry& solver : wrench_solvers()) {
@@ -39,6 +40,10 @@ Case complete(Case c) {
   if (c.budget < 1) {
     throw std::invalid_argument(fmt::format("budget: got {}, expected at least 1", c.budget));
   }
+  if (c.wrench == Wrench::kAny && !measure.serves_any) {
+    throw std::invalid_argument(fmt::format(
+        "wrench: got 'any', which means nothing to measure {}, expected pure", c.measure));
+  }
   const auto allowed = solvers_for(measure, c.wrench);
   if (c.lp.empty()) c.lp = allowed.front().first;
   if (c.lp != kNoSolver) find_wrench_solver(c.lp);
@@ -58,8 +63,13 @@ MeasureMaker measure_maker(const Problem& problem, const Case& c) {
   const MeasureEntry& measure = find_measure(c.measure);
   const WrenchSolverEntry* solver = measure.needs_solver ? &find_wrench_solver(c.lp) : nullptr;
   return [&problem, &measure, solver] {
-    return measure.make(problem.robot, solver ? solver->make() : nullptr);
+    return measure.make(problem, solver ? solver->make() : nullptr);
   };
+}
+
+const char* unit(const Problem& problem, const Case& c) {
+  const char* own = find_measure(c.measure).unit;
+  return own ? own : problem.unit();
 }
 
 const std::vector<std::string>& case_columns() {

@@ -33,6 +33,9 @@ Wrench parse_wrench(const std::string& name);
 /// closed form.
 Case complete(Case c);
 
+/// The unit of a case's value.
+const char* unit(const Problem& problem, const Case& c);
+
 /// Makes the measure of a completed case.
 MeasureMaker measure_maker(const Problem& problem, const Case& c);
 

@@ -1,9 +1,15 @@
 // Times theta_r -> beta (model, lower level, nothing else) for every measure, wrench and solver, on
-// random postures without collision checks; and the parts of it.
+// random postures without collision checks; the parts of it; and KDL on the same chain. Ratios of
+// what was measured in this run follow at the end.
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <kdl/chain.hpp>
+#include <kdl/chainfksolverpos_recursive.hpp>
+#include <kdl/chainjnttojacsolver.hpp>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -41,12 +47,73 @@ void time_objective(benchmark::State& state, const Problem& problem, const Case&
   }
 }
 
-void time_model(benchmark::State& state, const Problem& problem, bool check_collision) {
-  PostureModel model(problem, check_collision);
+void time_model(benchmark::State& state, const Problem& problem) {
+  PostureModel model(problem, false);
   const std::vector<Eigen::VectorXd> postures = random_postures(problem);
   std::size_t i = 0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(model.evaluate(postures[i++ % kPostures]).J.data());
+  }
+}
+
+/// The check alone, for link poses that are known.
+void time_collision(benchmark::State& state, const Problem& problem) {
+  PostureModel model(problem, false);
+  std::vector<std::vector<Pose<double>>> links;
+  for (const Eigen::VectorXd& theta_r : random_postures(problem)) {
+    links.push_back(model.evaluate(theta_r).links);
+  }
+  std::size_t i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(problem.robot.collision->collides(links[i++ % kPostures]));
+  }
+}
+
+/// The chain from the base to the end effector with one segment for each joint, the fewest that KDL
+/// can do with.
+KDL::Chain kdl_chain(const Problem& problem) {
+  const Robot& robot = problem.robot;
+  const auto vector = [](const Eigen::Vector3d& v) { return KDL::Vector(v.x(), v.y(), v.z()); };
+  const auto frame = [&](const Pose<double>& pose) {
+    const Eigen::Matrix3d& R = pose.R;
+    return KDL::Frame(KDL::Rotation(R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0),
+                                    R(2, 1), R(2, 2)),
+                      vector(pose.p));
+  };
+  KDL::Chain chain;
+  for (std::size_t i = 0; i < problem.redundant.size(); ++i) {
+    const Joint& joint = robot.joints[static_cast<std::size_t>(problem.redundant[i])];
+    const bool last = i + 1 == problem.redundant.size();
+    const EndEffector& tool = robot.end_effectors[static_cast<std::size_t>(problem.end_effector)];
+    const auto type =
+        joint.type == JointType::kRevolute ? KDL::Joint::RotAxis : KDL::Joint::TransAxis;
+    chain.addSegment(
+        KDL::Segment(KDL::Joint("joint", vector(joint.placement.p),
+                                vector(joint.placement.R * joint.axis), type),
+                     frame(last ? joint.placement * tool.placement : joint.placement)));
+  }
+  return chain;
+}
+
+/// Forward kinematics and Jacobian by KDL.
+void time_kdl(benchmark::State& state, const Problem& problem) {
+  const KDL::Chain chain = kdl_chain(problem);
+  KDL::ChainFkSolverPos_recursive forward(chain);
+  KDL::ChainJntToJacSolver backward(chain);
+  std::vector<KDL::JntArray> postures;
+  for (const Eigen::VectorXd& theta_r : random_postures(problem)) {
+    postures.emplace_back(chain.getNrOfJoints());
+    postures.back().data = theta_r;
+  }
+  KDL::Frame tip;
+  KDL::Jacobian J(chain.getNrOfJoints());
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const KDL::JntArray& q = postures[i++ % kPostures];
+    forward.JntToCart(q, tip);
+    backward.JntToJac(q, J);
+    benchmark::DoNotOptimize(tip.p.data[0]);
+    benchmark::DoNotOptimize(J.data.data());
   }
 }
 
@@ -55,8 +122,11 @@ void add_problem(const Problem& problem) {
   const auto add = [](const std::string& title, auto body) {
     benchmark::RegisterBenchmark(title.c_str(), body);
   };
-  add(name("model"), [&](benchmark::State& state) { time_model(state, problem, false); });
-  add(name("model+collision"), [&](benchmark::State& state) { time_model(state, problem, true); });
+  add(name("kdl"), [&](benchmark::State& state) { time_kdl(state, problem); });
+  add(name("model"), [&](benchmark::State& state) { time_model(state, problem); });
+  if (problem.robot.collision) {
+    add(name("collision"), [&](benchmark::State& state) { time_collision(state, problem); });
+  }
   for (const Case& c : product(problem.name, 1, 1)) {
     if (c.search != searches()[0].name) continue;
     const std::string title = name(fmt::format("{}/{}/{}", c.measure, to_string(c.wrench), c.lp));
@@ -66,6 +136,45 @@ void add_problem(const Problem& problem) {
         [&problem, c](benchmark::State& state) { time_objective(state, problem, c, true); });
   }
 }
+
+/// The console's table; keeps the shortest time of each name.
+class Keeper : public benchmark::ConsoleReporter {
+ public:
+  void ReportRuns(const std::vector<Run>& runs) override {
+    ConsoleReporter::ReportRuns(runs);
+    for (const Run& run : runs) {
+      if (run.run_type != Run::RT_Iteration) continue;
+      const double time = run.GetAdjustedCPUTime();
+      const auto [kept, added] = times_.try_emplace(run.run_name.function_name, time);
+      if (!added) kept->second = std::min(kept->second, time);
+    }
+  }
+
+  /// The ratios of a problem whose parts were all measured.
+  void print_ratios(const Problem& problem) const {
+    const auto time = [&](const std::string& rest) {
+      const auto found = times_.find(problem.name + "/" + rest);
+      return found == times_.end() ? 0.0 : found->second;
+    };
+    const double model = time("model"), kdl = time("kdl"), collision = time("collision");
+    const double value = time("linf_polytope/pure/facets");
+    const double gradient = time("linf_polytope/pure/facets+gradient");
+    if (model > 0 && kdl > 0) {
+      fmt::print("{}: model (poses, J, tau_d) / KDL (pose, J) = {:.2f}\n", problem.name,
+                 model / kdl);
+    }
+    if (value > 0 && gradient > 0) {
+      fmt::print("{}: beta_2 with gradient / beta_2 = {:.2f}\n", problem.name, gradient / value);
+    }
+    if (value > 0 && collision > 0) {
+      fmt::print("{}: share of the collision check in one evaluation of beta_2 = {:.0f} %\n",
+                 problem.name, 100 * collision / (value + collision));
+    }
+  }
+
+ private:
+  std::map<std::string, double> times_;
+};
 
 }  // namespace
 }  // namespace maxwrench
@@ -78,5 +187,7 @@ int main(int argc, char** argv) {
     problems.push_back(std::make_unique<maxwrench::Problem>(maxwrench::load_problem(name)));
     maxwrench::add_problem(*problems.back());
   }
-  benchmark::RunSpecifiedBenchmarks();
+  maxwrench::Keeper keeper;
+  benchmark::RunSpecifiedBenchmarks(&keeper);
+  for (const auto& problem : problems) keeper.print_ratios(*problem);
 }

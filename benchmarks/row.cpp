@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <chrono>
+#include <cmath>
 
 #include "lib/wrench_program.h"
 #include "solvers/strategies.h"
@@ -21,6 +22,16 @@ std::string numbers(const Eigen::VectorXd& v) {
   std::vector<std::string> texts;
   for (const double value : v) texts.push_back(number(value));
   return fmt::format("{}", fmt::join(texts, " "));
+}
+
+double yardstick(const Problem& problem, Wrench wrench, const Posture& posture) {
+  WrenchProgram program = make_wrench_program(problem, wrench);
+  set_posture(posture, program);
+  const Case c = complete({problem.name, "linf_polytope", wrench, "simplex"});
+  Capability capability;
+  measure_maker(problem, c)()->evaluate(posture, program, false, capability);
+  return capability.status == Status::kOptimal ? capability.beta
+                                               : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
@@ -50,6 +61,9 @@ Row evaluate(const Problem& problem, const Case& c, const Eigen::VectorXd& theta
     }
   }
   row.wall_s = seconds_since(start);
+  if (row.posture.status == Status::kOptimal) {
+    row.yardstick = yardstick(problem, c.wrench, row.posture);
+  }
   return row;
 }
 
@@ -79,8 +93,9 @@ Row solve(const Problem& problem, const Case& c, int threads,
 
 std::vector<std::string> value_columns() {
   std::vector<std::string> columns = case_columns();
-  columns.insert(columns.end(), {"status", "beta", "unit", "label", "theta_r", "h", "u", "lambda",
-                                 "balance", "bounds", "dual", "gap", "evaluations", "reason"});
+  columns.insert(columns.end(),
+                 {"status", "beta", "unit", "yardstick", "yardstick_unit", "label", "theta_r", "h",
+                  "u", "lambda", "balance", "bounds", "dual", "gap", "evaluations", "reason"});
   return columns;
 }
 
@@ -91,10 +106,12 @@ std::vector<std::string> values(const Problem& problem, const Row& row) {
   const bool solved = row.has_value();
   cells.emplace_back(to_string(row.status));
   add(solved, number(capability.beta));
+  cells.emplace_back(unit(problem, row.choice));
+  add(std::isfinite(row.yardstick), number(row.yardstick));
   cells.emplace_back(problem.unit());
   cells.push_back(problem.label);
   add(row.has_posture(), numbers(row.posture.theta_r));
-  add(solved, numbers(capability.h));
+  add(solved && capability.w.size() > 0, numbers(capability.h));
   add(solved, numbers(capability.u));
   add(solved, numbers(capability.lambda));
   add(solved, number(capability.residual.balance));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -22,10 +23,14 @@ struct Row {
   Posture posture;
   Capability capability;
   Eigen::VectorXd gradient;  ///< d beta/d theta_r
+  /// What any efforts reach at the posture with the same wrenches, in the unit of the wrench along
+  /// c: beta of linf_polytope, which makes postures of different measures comparable. NaN if there
+  /// is none.
+  double yardstick = std::numeric_limits<double>::quiet_NaN();
   long evaluations = 0;
   double wall_s = 0;
 
-  bool has_posture() const { return posture.theta_r.size() > 0; }
+  bool has_posture() const { return posture.J.size() > 0; }
   bool has_value() const { return status == Status::kOptimal; }
 };
 

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "cli/cli.h"
+#include "lib/posture.h"
 #include "problems/loader.h"
 
 namespace maxwrench {
@@ -60,19 +61,37 @@ void print(const Robot& robot) {
     fmt::print("  source of {}: {}\n", block, source);
 }
 
+/// The base pose and the dependent joints, at the default of theta_r.
+void print_what_follows(const Problem& problem) {
+  PostureModel model(problem);
+  const Posture& posture = model.evaluate(problem.theta_r_default);
+  for (const int i : problem.dependent) {
+    const Joint& joint = problem.robot.joints[i];
+    fmt::print("  follows {:<17} {:g} .. {:g}, at the default {:g}\n", joint.name, joint.q_min,
+               joint.q_max, posture.q[i]);
+  }
+  fmt::print("  follows the base pose: {}\n", problem.dependent.empty()
+                                                  ? "in closed form"
+                                                  : "with these joints, by Newton's method");
+  fmt::print("  default posture: {}\n",
+             posture.status == Status::kOptimal ? "exists" : posture.reason);
+}
+
 void print(const Problem& problem) {
   fmt::print("task {}{}\n", problem.name,
              problem.label.empty() ? "" : fmt::format(" ({})", problem.label));
   fmt::print("  end effector {}, c = [{:g}] in [force; torque], beta in {}\n",
              problem.robot.end_effectors[problem.end_effector].name, fmt::join(problem.c, ", "),
              problem.unit());
-  fmt::print("  wrench any: {} columns\n", problem.W_any.cols());
+  fmt::print("  wrench any: {} columns; reference {:g} {}, desired [{:g}]\n", problem.W_any.cols(),
+             problem.reference, problem.unit(), fmt::join(problem.desired, ", "));
   fmt::print("  redundancy {}\n", problem.redundancy());
   for (int i = 0; i < problem.redundancy(); ++i) {
     fmt::print("  theta_r {:<17} {:g} .. {:g}, default {:g}\n",
                problem.robot.joints[problem.redundant[i]].name, problem.theta_r_min[i],
                problem.theta_r_max[i], problem.theta_r_default[i]);
   }
+  print_what_follows(problem);
   if (!problem.source.empty()) fmt::print("  source: {}\n", problem.source);
   print(problem.robot);
 }

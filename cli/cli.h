@@ -43,6 +43,7 @@ void add_list(CLI::App& app, int& exit_status);
 void add_check(CLI::App& app, int& exit_status);
 void add_eval(CLI::App& app, int& exit_status);
 void add_solve(CLI::App& app, int& exit_status);
+void add_lp(CLI::App& app, int& exit_status);
 void add_run(CLI::App& app, int& exit_status);
 void add_plot(CLI::App& app, int& exit_status);
 void add_compare(CLI::App& app, int& exit_status);

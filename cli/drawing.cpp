@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "cli/layout.h"
 #include "cli/svg.h"
@@ -96,6 +97,9 @@ class PanelWriter {
   }
 
   void base() {
+    for (const Silhouette& body : scene_.bodies) {
+      if (body.on_base || panel_.sets.empty()) draw_body(body);
+    }
     svg_.polygon(to_px_(scene_.hull),
                  {.stroke = kSteel, .width = 1.2, .fill = "#dfe5ea", .fill_opacity = 0.75});
     for (const auto& [p, direction] : scene_.thrusters) {
@@ -107,7 +111,18 @@ class PanelWriter {
     }
   }
 
+  void draw_body(const Silhouette& body) {
+    svg_.polygon(to_px_(body.outline), {.stroke = kSteel,
+                                        .width = 1.2,
+                                        .fill = body.on_base ? "#dfe5ea" : "#c3ccd3",
+                                        .fill_opacity = 0.75});
+  }
+
+  /// Sets of forces cover the base but not the arm, in whatever depth it is.
   void arm() {
+    for (const Silhouette& body : scene_.bodies) {
+      if (!body.on_base && !panel_.sets.empty()) draw_body(body);
+    }
     for (const auto& [a, b] : scene_.links) {
       svg_.polyline({to_px_(a), to_px_(b)}, {.stroke = kSteel, .width = 6});
       svg_.polyline({to_px_(a), to_px_(b)}, {.stroke = "#c3ccd3", .width = 4});
@@ -127,13 +142,11 @@ class PanelWriter {
   /// The arrow c, and beta c of each set; where the force that attains beta is no multiple of c, a
   /// line across c joins the two.
   void direction() {
+    if (panel_.sets.empty()) return direction_symbol();
     const double reach = reach_along_c(panel_, scene_.c);
     const Point tip = force(reach * scene_.c);
     svg_.arrow(force({0, 0}), tip, {.stroke = kRed, .width = 1.6}, 9);
-    const Point beyond(scene_.c.x(), -scene_.c.y());
-    svg_.text(
-        tip + 10 * beyond + Point(0, 4), "c",
-        {.size = 14, .colour = kRed, .anchor = Anchor::kMiddle, .bold = true, .italic = true});
+    name_c(tip + 10 * on_paper(scene_.c));
     for (const ForceSet& set : panel_.sets) {
       if (std::isnan(set.beta)) continue;
       const Point on_c = force(set.beta * scene_.c);
@@ -144,6 +157,59 @@ class PanelWriter {
       }
       svg_.circle(on_c, 3.2, {.stroke = "#ffffff", .width = 0.8, .fill = colour(set)});
     }
+  }
+
+  static Point on_paper(const Point& direction) { return {direction.x(), -direction.y()}; }
+
+  void name_c(const Point& at) {
+    svg_.text(
+        at + Point(0, 4), "c",
+        {.size = 14, .colour = kRed, .anchor = Anchor::kMiddle, .bold = true, .italic = true});
+  }
+
+  /// c without a length: a force as an arrow, a torque as an arrow with two heads or, about the
+  /// line of sight, as part of a circle.
+  void direction_symbol() {
+    const Paint red{.stroke = kRed, .width = 1.8};
+    const Point centre = to_px_(scene_.end_effector);
+    const double length = layout_.symbol * layout_.scale;
+    if (scene_.c.norm() > 1e-9) {
+      const Point tip = centre + length * on_paper(scene_.c);
+      svg_.arrow(centre, tip, red, 9);
+      name_c(tip + 10 * on_paper(scene_.c.normalized()));
+    }
+    if (scene_.c_torque.norm() > 1e-9) {
+      const Point along = on_paper(scene_.c_torque.normalized());
+      const Point tip = centre + length * on_paper(scene_.c_torque);
+      svg_.arrow(centre, tip - 7 * along, red, 9);
+      svg_.arrow(centre, tip, red, 9);
+      name_c(tip + 10 * along);
+    }
+    if (std::abs(scene_.c_towards) > 1e-9) sight_symbol(centre, red);
+    if (std::abs(scene_.c_turn) > 1e-9) turn_symbol(centre, 0.6 * length, red);
+  }
+
+  void sight_symbol(const Point& centre, const Paint& red) {
+    constexpr double kRadius = 9;
+    svg_.circle(centre, kRadius, red);
+    if (scene_.c_towards < 0) {
+      for (const Point& d : {Point(1, 1), Point(1, -1)}) {
+        svg_.line(centre - kRadius * d.normalized(), centre + kRadius * d.normalized(), red);
+      }
+    }
+    name_c(centre + Point(kRadius + 9, 12));
+  }
+
+  void turn_symbol(const Point& centre, double radius, const Paint& red) {
+    std::vector<Point> arc;
+    for (int degrees = 60; degrees <= 330; degrees += 10) {
+      const double angle = std::copysign(degrees, scene_.c_turn) * std::numbers::pi / 180;
+      arc.push_back(centre + radius * on_paper({std::cos(angle), std::sin(angle)}));
+    }
+    svg_.polyline(arc, red);
+    const Point last = arc.back() - arc[arc.size() - 2];
+    svg_.arrow(arc.back(), arc.back() + 9 * last.normalized(), red, 9);
+    name_c(centre + Point(radius + 10, 0));
   }
 
   void end_effector() {
@@ -203,9 +269,7 @@ void marker_note(Svg& svg, const Point& left, bool any) {
   svg.text(left + Point(56, 4), "force that attains \u03b2", {.size = 11});
 }
 
-}  // namespace
-
-std::string draw_postures(std::span<const DrawnPosture> panels, View view) {
+Svg picture(std::span<const DrawnPosture> panels, View view) {
   const Layout layout = make_layout(panels, view);
   const double count = static_cast<double>(panels.size());
   const double width = kLeft + count * layout.size.x() + (count - 1) * kGap + kRight;
@@ -225,7 +289,27 @@ std::string draw_postures(std::span<const DrawnPosture> panels, View view) {
     marker_note(svg, {kLeft, y}, any);
     force_scale_bar(svg, layout, {width - kRight - 2, y});
   }
-  return svg.str();
+  return svg;
+}
+
+}  // namespace
+
+std::string draw_postures(std::span<const DrawnPosture> panels, View view) {
+  return picture(panels, view).str();
+}
+
+std::string draw_both_views(std::span<const DrawnPosture> panels) {
+  const auto titled = [&](const char* view) {
+    std::vector<DrawnPosture> copy(panels.begin(), panels.end());
+    for (DrawnPosture& panel : copy) panel.title += view;
+    return copy;
+  };
+  const Svg side = picture(titled(", from the right"), View::kSide);
+  const Svg top = picture(titled(", from above"), View::kTop);
+  Svg both(std::max(side.width(), top.width()), side.height() + top.height());
+  both.place(side, {0, 0});
+  both.place(top, {0, side.height()});
+  return both.str();
 }
 
 std::string draw_posture(const DrawnPosture& panel, View view) {

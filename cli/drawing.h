@@ -14,7 +14,8 @@ struct DrawnPosture {
   const Problem* problem = nullptr;
   Posture posture;
   std::vector<ForceSet> sets;
-  /// Points whose convex hull outlines the base, in base axes [m]; empty: thrusters and arm mounts.
+  /// Points whose convex hull outlines the base, in base axes [m]; empty: the robot's solids or,
+  /// if it has none, thrusters and arm mounts.
   std::vector<Eigen::Vector3d> hull;
   /// Actuator efforts; the thrusters' are drawn as arrows. Empty: arrows show the directions only.
   Eigen::VectorXd u;
@@ -25,5 +26,8 @@ struct DrawnPosture {
 /// names and titles an underscore lowers the next character.
 std::string draw_postures(std::span<const DrawnPosture> panels, View view = View::kTop);
 std::string draw_posture(const DrawnPosture& panel, View view = View::kTop);
+
+/// The same postures seen from the robot's right, and below that from above.
+std::string draw_both_views(std::span<const DrawnPosture> panels);
 
 }  // namespace maxwrench

@@ -1,23 +1,44 @@
 #include <memory>
+#include <stdexcept>
 
 #include "cli/cli.h"
+#include "cli/state.h"
+#include "cli/wrench_file.h"
 #include "problems/loader.h"
 
 namespace maxwrench {
 namespace {
 
 struct EvalOptions : CommonOptions {
-  std::string theta_r;
+  std::string theta_r, state, write;
   bool ignore_collision = false;
 };
 
+/// Writes the program of the posture, if there is one.
+void write_program(const EvalOptions& options, const Problem& problem, const Case& c,
+                   const Eigen::VectorXd& theta_r) {
+  if (c.measure != "linf_polytope") {
+    throw std::invalid_argument("--write: got measure " + c.measure + ", expected linf_polytope");
+  }
+  PostureModel model(problem, !options.ignore_collision);
+  const Posture& posture = model.evaluate(theta_r);
+  if (posture.status != Status::kOptimal) return;
+  WrenchProgram program = make_wrench_program(problem, c.wrench);
+  set_posture(posture, program);
+  write_wrench_program(problem, program, options.write);
+}
+
 int eval(const EvalOptions& options) {
+  if (!options.state.empty()) {
+    return report_state(load_problem(options.choice.problem), options.state, options.json);
+  }
   Case c = options.read_case();
   c.search.clear();  // none is used
   const Problem problem = load_problem(c.problem);
   const Eigen::VectorXd theta_r = options.theta_r.empty()
                                       ? problem.theta_r_default
                                       : parse_numbers("--theta-r", options.theta_r);
+  if (!options.write.empty()) write_program(options, problem, c, theta_r);
   return report(problem, evaluate(problem, c, theta_r, !options.ignore_collision), options.json);
 }
 
@@ -30,8 +51,16 @@ void add_eval(CLI::App& app, int& exit_status) {
   options->add_json(command);
   command.add_option("--theta-r", options->theta_r,
                      "redundant coordinates, separated by commas (default: those of the task)");
+  command.add_option("--write", options->write, "the wrench program, as an MPS file");
   command.add_flag("--ignore-collision", options->ignore_collision,
                    "evaluate a colliding posture too");
+  CLI::Option& state =
+      *command.add_option("--state", options->state,
+                          "M, tau_d and J at the motion in this file, instead of a capability");
+  for (const char* other :
+       {"--theta-r", "--measure", "--wrench", "--lp", "--write", "--ignore-collision"}) {
+    state.excludes(command.get_option(other));
+  }
   command.callback([options, &exit_status] { exit_status = eval(*options); });
 }
 

@@ -23,7 +23,7 @@ ForceSet set_of(const Problem& problem, const Posture& posture, const MeasureEnt
                 Wrench wrench, const char* name) {
   std::unique_ptr<Measure> measure;
   try {
-    measure = entry.make(problem.robot, find_wrench_solver("simplex").make());
+    measure = entry.make(problem, find_wrench_solver("simplex").make());
   } catch (const std::invalid_argument&) {
     ForceSet none;
     none.name = name;
@@ -41,7 +41,7 @@ std::string with_letters(std::string title) {
   return title;
 }
 
-DrawnPosture draw(const Problem& problem, PostureModel& model, const Panel& panel) {
+DrawnPosture draw_robot(const Problem& problem, PostureModel& model, const Panel& panel) {
   DrawnPosture drawn;
   drawn.title = with_letters(panel.title);
   drawn.problem = &problem;
@@ -49,6 +49,11 @@ DrawnPosture draw(const Problem& problem, PostureModel& model, const Panel& pane
   if (drawn.posture.status != Status::kOptimal) {
     drawn.title += std::string(" (") + drawn.posture.reason + ")";
   }
+  return drawn;
+}
+
+DrawnPosture draw(const Problem& problem, PostureModel& model, const Panel& panel) {
+  DrawnPosture drawn = draw_robot(problem, model, panel);
   const auto add = [&](const char* measure, Wrench wrench, const char* name) {
     drawn.sets.push_back(set_of(problem, drawn.posture, find_measure(measure), wrench, name));
   };
@@ -66,6 +71,13 @@ std::string figure(const Problem& problem, const std::vector<Panel>& panels) {
   std::vector<DrawnPosture> drawn;
   for (const Panel& panel : panels) drawn.push_back(draw(problem, model, panel));
   return draw_postures(drawn, view_of(problem));
+}
+
+std::string posture_figure(const Problem& problem, const std::vector<Panel>& panels) {
+  PostureModel model(problem);
+  std::vector<DrawnPosture> drawn;
+  for (const Panel& panel : panels) drawn.push_back(draw_robot(problem, model, panel));
+  return draw_both_views(drawn);
 }
 
 }  // namespace maxwrench

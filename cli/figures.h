@@ -21,4 +21,8 @@ struct Panel {
 /// the side.
 std::string figure(const Problem& problem, const std::vector<Panel>& panels);
 
+/// The postures alone, drawn from the robot's solids and seen from two sides, as SVG. Titles as
+/// above.
+std::string posture_figure(const Problem& problem, const std::vector<Panel>& panels);
+
 }  // namespace maxwrench

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "cli/svg.h"
 #include "lib/polygon.h"
@@ -15,27 +16,53 @@ using Box = Eigen::AlignedBox2d;
 // Colours of Okabe and Ito, told apart by colour-blind readers; vermillion is kept for c.
 constexpr const char* kColours[] = {"#009E73", "#E69F00", "#0072B2", "#CC79A7", "#56B4E9"};
 
-Scene project(const DrawnPosture& panel, View view) {
-  const Eigen::Matrix<double, 2, 3> P = axes(view);
+/// Unit vector from the viewer into the picture.
+Eigen::Vector3d line_of_sight(View view) {
+  return view == View::kTop ? Eigen::Vector3d(0, 0, -1) : Eigen::Vector3d(0, 1, 0);
+}
+
+Silhouette silhouette(const Solid& solid, const DrawnPosture& panel, View view) {
+  constexpr int kRound = 24;
+  const Pose<double> link =
+      panel.posture.base * panel.posture.links[static_cast<std::size_t>(solid.link)];
+  Silhouette body;
+  body.on_base = solid.link == 0;
+  std::vector<Point> points;
+  for (const Eigen::Vector3d& p : solid.points) {
+    const Eigen::Vector3d in_world = link.R * p + link.p;
+    body.depth += line_of_sight(view).dot(in_world) / static_cast<double>(solid.points.size());
+    for (int i = 0; i < (solid.radius > 0 ? kRound : 1); ++i) {
+      const double angle = 2 * std::numbers::pi * i / kRound;
+      points.push_back(axes(view) * in_world +
+                       solid.radius * Point(std::cos(angle), std::sin(angle)));
+    }
+  }
+  body.outline = convex_hull(points);
+  return body;
+}
+
+void add_bodies(const DrawnPosture& panel, View view, Scene& scene) {
+  for (const Solid& solid : panel.problem->robot.solids) {
+    scene.bodies.push_back(silhouette(solid, panel, view));
+  }
+  std::stable_sort(scene.bodies.begin(), scene.bodies.end(),
+                   [](const Silhouette& a, const Silhouette& b) { return a.depth > b.depth; });
+}
+
+void add_mounts_and_links(const DrawnPosture& panel, View view, Scene& scene) {
   const Robot& robot = panel.problem->robot;
   const Pose<double>& base = panel.posture.base;
   const auto on_paper = [&](const Eigen::Vector3d& p) -> Point {
-    return P * (base.R * p + base.p);
+    return axes(view) * (base.R * p + base.p);
   };
   const auto origin = [&](int link) { return on_paper(panel.posture.links[link].p); };
-  Scene scene;
   for (const Eigen::Vector3d& p : panel.hull) scene.hull.push_back(on_paper(p));
-  for (std::size_t j = 0; j < robot.thrusters.size(); ++j) {
-    const Thruster& thruster = robot.thrusters[j];
+  for (const Thruster& thruster : robot.thrusters) {
     if (panel.hull.empty()) scene.hull.push_back(on_paper(thruster.position));
-    const double size = panel.u.size() > 0 ? panel.u[static_cast<Eigen::Index>(j)] : 1;
-    scene.thrusters.emplace_back(on_paper(thruster.position),
-                                 size * (P * (base.R * thruster.direction)));
   }
   for (std::size_t i = 0; i < robot.joints.size(); ++i) {
     const int link = static_cast<int>(i) + 1;
     const int parent = robot.joints[i].parent;
-    scene.joints.push_back(origin(link));
     if (parent > 0) scene.links.emplace_back(origin(parent), origin(link));
     if (parent == 0 && panel.hull.empty()) scene.hull.push_back(origin(link));
   }
@@ -45,15 +72,45 @@ Scene project(const DrawnPosture& panel, View view) {
     scene.links.emplace_back(origin(e.link),
                              on_paper((panel.posture.links[e.link] * e.placement).p));
   }
+}
+
+Scene project(const DrawnPosture& panel, View view) {
+  const Eigen::Matrix<double, 2, 3> P = axes(view);
+  const Robot& robot = panel.problem->robot;
+  const Pose<double>& base = panel.posture.base;
+  const auto on_paper = [&](const Eigen::Vector3d& p) -> Point {
+    return P * (base.R * p + base.p);
+  };
+  Scene scene;
+  if (panel.hull.empty() && !robot.solids.empty()) {
+    add_bodies(panel, view, scene);
+  } else {
+    add_mounts_and_links(panel, view, scene);
+  }
+  for (std::size_t j = 0; j < robot.thrusters.size(); ++j) {
+    const Thruster& thruster = robot.thrusters[j];
+    const double size = panel.u.size() > 0 ? panel.u[static_cast<Eigen::Index>(j)] : 1;
+    scene.thrusters.emplace_back(on_paper(thruster.position),
+                                 size * (P * (base.R * thruster.direction)));
+  }
+  for (std::size_t link = 1; link < panel.posture.links.size(); ++link) {
+    scene.joints.push_back(on_paper(panel.posture.links[link].p));
+  }
   scene.end_effector = P * panel.problem->pose.p;
   scene.tool_x = P * panel.problem->pose.R.col(0);
   scene.tool_y = P * panel.problem->pose.R.col(view == View::kTop ? 1 : 2);
   scene.c = P * panel.problem->c.head<3>();
+  scene.c_towards = -line_of_sight(view).dot(panel.problem->c.head<3>());
+  scene.c_torque = P * panel.problem->c.tail<3>();
+  scene.c_turn = -line_of_sight(view).dot(panel.problem->c.tail<3>());
   return scene;
 }
 
 Box bounds(const Scene& scene) {
   Box box(scene.end_effector);
+  for (const Silhouette& body : scene.bodies) {
+    for (const Point& p : body.outline) box.extend(p);
+  }
   for (const Point& p : scene.hull) box.extend(p);
   for (const Point& p : scene.joints) box.extend(p);
   for (const auto& [a, b] : scene.links) box.extend(a).extend(b);
@@ -97,11 +154,14 @@ Layout make_layout(std::span<const DrawnPosture> panels, View view) {
     }
   }
   choose_force_scale(panels, layout);
+  layout.symbol = layout.forces ? 0 : 0.1 * layout.box.sizes().maxCoeff();
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const Scene& scene = layout.scenes[i];
     for (const ForceSet& set : panels[i].sets) {
       for (const Point& h : set.outline) layout.box.extend(scene.end_effector + layout.metres * h);
     }
+    const Point around = Point::Constant(1.6 * layout.symbol);
+    layout.box.extend(scene.end_effector - around).extend(scene.end_effector + around);
     const double reach = reach_along_c(panels[i], scene.c);
     layout.box.extend(scene.end_effector + 1.1 * layout.metres * reach * scene.c);
     if (panels[i].u.size() == 0) continue;

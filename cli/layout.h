@@ -10,14 +10,26 @@
 
 namespace maxwrench {
 
-/// What one panel shows of a robot, on the plane of the picture in metres.
+/// The outline of one of the robot's solids.
+struct Silhouette {
+  std::vector<Eigen::Vector2d> outline;
+  bool on_base = false;
+  double depth = 0;  // [m] from the viewer's side, largest is farthest
+};
+
+/// What one panel shows of a robot, on the plane of the picture in metres. Without solids the base
+/// is the hull of what is mounted on it, and links are lines.
 struct Scene {
+  std::vector<Silhouette> bodies;  // the farthest first
   std::vector<Eigen::Vector2d> hull;
   std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> links;
   std::vector<Eigen::Vector2d> joints;
   std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>>
       thrusters;  // position, direction or force
   Eigen::Vector2d end_effector, tool_x, tool_y, c;
+  double c_towards = 0;      // the part of c that is a force towards the viewer
+  Eigen::Vector2d c_torque;  // the part of c that turns about an axis in the plane
+  double c_turn = 0;         // and about the line of sight, positive counterclockwise
 };
 
 /// Everything that all panels share.
@@ -29,6 +41,7 @@ struct Layout {
   Eigen::Vector2d size;     // of a panel's plot [px]
   std::size_t rows = 0;     // of the legends
   bool forces = false;      // at least one panel shows a set
+  double symbol = 0;        // length of c where no set gives it one [m]
   std::map<std::string, const char*> colours;
 };
 

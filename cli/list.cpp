@@ -10,14 +10,14 @@ namespace {
 template <class Table>
 void print_table(const char* title, const Table& table) {
   fmt::print("{}\n", title);
-  for (const auto& entry : table) fmt::print("  {:<16} {}\n", entry.name, entry.summary);
+  for (const auto& entry : table) fmt::print("  {:<28} {}\n", entry.name, entry.summary);
 }
 
 void list() {
   fmt::print("problems\n");
   for (const std::string& name : shipped_problems()) {
     const Problem problem = load_problem(name);
-    fmt::print("  {:<16} {}, redundancy {}, beta in {}{}\n", name, problem.robot.name,
+    fmt::print("  {:<28} {}, redundancy {}, beta in {}{}\n", name, problem.robot.name,
                problem.redundancy(), problem.unit(),
                problem.label.empty() ? "" : ", " + problem.label);
   }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "cli/cli.h"
@@ -34,6 +35,7 @@ ordered_json to_json(const Problem& problem, const Row& row) {
   const Capability& capability = row.capability;
   const Residual& residual = capability.residual;
   const bool solved = row.has_value();
+  const bool has_wrench = solved && capability.w.size() > 0;
   const auto known = [](bool condition, const ordered_json& value) {
     return condition ? value : ordered_json(nullptr);
   };
@@ -47,12 +49,14 @@ ordered_json to_json(const Problem& problem, const Row& row) {
   object["status"] = to_string(row.status);
   object["reason"] = known(!row.reason.empty(), row.reason);
   object["beta"] = known(solved, capability.beta);
-  object["unit"] = problem.unit();
+  object["unit"] = unit(problem, c);
+  object["yardstick"] = known(std::isfinite(row.yardstick), row.yardstick);
+  object["yardstick_unit"] = problem.unit();
   object["theta_r"] = known(row.has_posture(), array(row.posture.theta_r));
   object["theta"] = row.has_posture() ? theta(problem, row.posture) : ordered_json(nullptr);
-  object["w"] = known(solved, array(capability.w));
-  object["h"] = known(solved, array(capability.h));
-  object["u"] = known(solved, array(capability.u));
+  object["w"] = known(has_wrench, array(capability.w));
+  object["h"] = known(has_wrench, array(capability.h));
+  object["u"] = known(solved && capability.u.size() > 0, array(capability.u));
   object["lambda"] = known(solved, array(capability.lambda));
   object["gradient"] = known(solved, array(row.gradient));
   object["residual"] = known(solved, {{"balance", residual.balance},
@@ -78,14 +82,18 @@ void print(const Problem& problem, const Row& row) {
     fmt::print("theta_r  {}\n", line(row.posture.theta_r));
     fmt::print("base xyz {}\nbase rpy {}\n", line(row.posture.base.p),
                line(rpy(row.posture.base.R)));
+    for (const int i : problem.dependent) {
+      fmt::print("follows  {:>10.5f}  {}\n", row.posture.q[i], problem.robot.joints[i].name);
+    }
   }
   if (!row.has_value()) {
     fmt::print("{}: {}\n", to_string(row.status), row.reason);
     return;
   }
   const Capability& capability = row.capability;
-  fmt::print("beta     {:>10.5f} {}\n", capability.beta, problem.unit());
-  fmt::print("h        {}\n", line(capability.h));
+  fmt::print("beta     {:>10.5f} {}\n", capability.beta, unit(problem, c));
+  fmt::print("yardstick{:>10.5f} {}\n", row.yardstick, problem.unit());
+  if (capability.w.size() > 0) fmt::print("h        {}\n", line(capability.h));
   for (Eigen::Index i = 0; i < capability.u.size(); ++i) {
     const auto thrusters = static_cast<Eigen::Index>(problem.robot.thrusters.size());
     const std::string& name =

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "cli/bars.h"
+#include "cli/figures.h"
 #include "cli/reproduce.h"
 #include "cli/row_writer.h"
 #include "problems/loader.h"
@@ -25,6 +27,7 @@ struct Task {
   double unit;  ///< of the table, in N or N m
   double tank_default;
   std::vector<Measured> optima;
+  const char* figure;  ///< file name without ending
 };
 
 constexpr double kKilogram = 9.81;  ///< N; the tank lifted weights
@@ -37,12 +40,14 @@ const std::vector<Task>& tasks() {
        9,
        {{"beta_1", "ellipsoid", Wrench::kPure, 19.5},
         {"beta_2", "linf_polytope", Wrench::kPure, 25},
-        {"beta_3", "linf_polytope", Wrench::kAny, 76}}},
+        {"beta_3", "linf_polytope", Wrench::kAny, 76}},
+       "uvms_valve"},
       {"uvms/lift",
        "upward force, kg of 9.81 N",
        kKilogram,
        4,
-       {{"beta_1", "ellipsoid", Wrench::kPure, 7}, {"beta_2", "linf_polytope", Wrench::kPure, 10}}},
+       {{"beta_1", "ellipsoid", Wrench::kPure, 7}, {"beta_2", "linf_polytope", Wrench::kPure, 10}},
+       "uvms_lift"},
   };
   return kTasks;
 }
@@ -97,13 +102,36 @@ std::string posture(const Row& row) {
   return text;
 }
 
-/// What the environment must take besides the wrench along c, and what it took in the tank.
-std::string orthogonal(const Problem& problem, const Row& row) {
-  const Vector6d h = row.capability.h - problem.c * problem.c.dot(row.capability.h);
+/// What the environment must take besides the wrench along c, and about what it took in the tank.
+constexpr double kTankForce = 80, kTankTorque = 50;
+
+Vector6d orthogonal(const Problem& problem, const Row& row) {
+  return row.capability.h - problem.c * problem.c.dot(row.capability.h);
+}
+
+std::string describe_orthogonal(const Problem& problem, const Row& row) {
+  const Vector6d h = orthogonal(problem, row);
   return fmt::format(
-      "  orthogonal to c at the beta_3 optimum: force [{:.1f}] N (tank: around 80 N), torque "
-      "[{:.1f}] N m (tank: around 50 N m)\n",
-      fmt::join(h.head<3>(), ", "), fmt::join(h.tail<3>(), ", "));
+      "  orthogonal to c at the beta_3 optimum: force [{:.1f}] N (tank: around {} N), torque "
+      "[{:.1f}] N m (tank: around {} N m)\n",
+      fmt::join(h.head<3>(), ", "), kTankForce, fmt::join(h.tail<3>(), ", "), kTankTorque);
+}
+
+/// All components of the wrench at the beta_3 optimum. The paper gives no axes and no signs of the
+/// orthogonal ones.
+std::string wrench_bars(const Problem& problem, const Row& row, double tank) {
+  static constexpr const char* kNames[] = {"f_x", "f_y", "f_z", "n_x", "n_y", "n_z"};
+  std::vector<BarGroup> groups = {{"force [N]", {}}, {"torque [N m]", {}}};
+  for (int i = 0; i < 6; ++i) {
+    const bool along_c = problem.c[i] != 0;
+    const double size = i < 3 ? kTankForce : kTankTorque;
+    const std::vector<double> measured =
+        along_c ? std::vector<double>{tank} : std::vector<double>{-size, size};
+    groups[static_cast<std::size_t>(i / 3)].bars.push_back(
+        {std::string(kNames[i]) + (along_c ? " (c)" : ""), row.capability.h[i], measured});
+  }
+  return draw_bars("wrench at the optimum of \u03b2_3", groups,
+                   "tank (orthogonal to c: size only)");
 }
 
 /// One line for an optimum. For beta_3 the tank measured the torque while its sensor took any other
@@ -120,7 +148,21 @@ std::string line(const Problem& problem, const Task& task, const Measured& measu
                      posture(best.row));
 }
 
-std::string table(RowWriter& writer, const Task& task) {
+/// The paper's figures of a task: its postures, and the wrench of beta_3.
+void write_figures(const std::filesystem::path& folder, const Problem& problem, const Task& task,
+                   const std::vector<Row>& best) {
+  std::vector<Panel> panels = {{"default", problem.theta_r_default}};
+  for (std::size_t i = 0; i < best.size(); ++i) {
+    panels.push_back({task.optima[i].symbol, best[i].posture.theta_r});
+    if (task.optima[i].wrench != Wrench::kAny) continue;
+    write_file(folder / (std::string(task.figure) + "_wrench.svg"),
+               wrench_bars(problem, best[i], task.optima[i].tank));
+  }
+  write_file(folder / (std::string(task.figure) + "_postures.svg"),
+             posture_figure(problem, panels));
+}
+
+std::string table(RowWriter& writer, const Task& task, const std::filesystem::path& folder) {
   const Problem problem = load_problem(task.problem);
   const auto at_default = [&](Wrench wrench) {
     return writer.evaluate(problem, yardstick(problem, wrench), problem.theta_r_default);
@@ -134,6 +176,8 @@ std::string table(RowWriter& writer, const Task& task) {
       problem.name, task.title, problem.label, "default", "", cell(pure, task.unit),
       task.tank_default, 1.0, 1.0, 1.0, "", posture(pure));
   std::string notes = fmt::format("  default posture with any wrench:{}\n", cell(any, task.unit));
+  std::string digits = fmt::format("  in {}: default {:.3f}", problem.unit(), pure.capability.beta);
+  std::vector<Row> optima;
   for (const Measured& measured : task.optima) {
     const Best best = search(writer, problem, measured);
     if (!best.row.has_value()) {
@@ -141,9 +185,12 @@ std::string table(RowWriter& writer, const Task& task) {
       continue;
     }
     text += line(problem, task, measured, best, pure.capability.beta);
-    if (measured.wrench == Wrench::kAny) notes += orthogonal(problem, best.row);
+    if (measured.wrench == Wrench::kAny) notes += describe_orthogonal(problem, best.row);
+    digits += fmt::format(", {} {:.3f}", measured.symbol, best.row.capability.beta);
+    optima.push_back(best.row);
   }
-  return text + notes;
+  if (optima.size() == task.optima.size()) write_figures(folder, problem, task, optima);
+  return text + digits + "\n" + notes;
 }
 
 }  // namespace
@@ -166,7 +213,7 @@ PaperTable reproduce_uvms(const std::filesystem::path& folder, int threads) {
       "two; lag: how far the worst of {} searches stays below (grid, annealing with {} seeds, {}\n"
       "evaluations each).\n",
       std::size(kAttempts), std::size(kAttempts) - 1, kBudget);
-  for (const Task& task : tasks()) text += "\n" + table(writer, task);
+  for (const Task& task : tasks()) text += "\n" + table(writer, task, folder);
   const bool all_solved = writer.finish();
   write_file(folder / "uvms_static.txt", text);
   return {text, all_solved};

@@ -148,6 +148,11 @@ void Svg::text(const Point& at, std::string_view text, const Font& font) {
   body_ += '\n';
 }
 
+void Svg::place(const Svg& other, const Point& corner) {
+  body_ += fmt::format("<g transform=\"translate({:.2f} {:.2f})\">\n{}</g>\n", corner.x(),
+                       corner.y(), other.body_);
+}
+
 std::string Svg::str() const {
   return fmt::format(
              "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" "

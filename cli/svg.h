@@ -44,6 +44,11 @@ class Svg {
   /// `at` is the baseline's anchor. An underscore lowers the next character: "beta_1".
   void text(const Eigen::Vector2d& at, std::string_view text, const Font& font);
 
+  /// Another picture with its upper left corner at `corner`.
+  void place(const Svg& other, const Eigen::Vector2d& corner);
+
+  double width() const { return width_; }
+  double height() const { return height_; }
   std::string str() const;
 
  private:

@@ -10,8 +10,10 @@ namespace maxwrench {
 /// mode).
 template <int N>
 struct Dual {
-  double v = 0;
+  /// First, so that a copy reads the pairs of numbers that arithmetic wrote: the other way round
+  /// the processor waits for every store.
   std::array<double, N> d{};
+  double v = 0;
 
   Dual() = default;
   Dual(double value) : v(value) {}  // NOLINT(google-explicit-constructor): a constant is a number
@@ -74,6 +76,11 @@ template <int N>
 Dual<N> sqrt(const Dual<N>& x) {
   const double root = std::sqrt(x.v);
   return x.chain(root, 0.5 / root);
+}
+/// At zero the derivative from above.
+template <int N>
+Dual<N> abs(const Dual<N>& x) {
+  return x.chain(std::abs(x.v), x.v < 0 ? -1 : 1);
 }
 
 }  // namespace maxwrench

@@ -66,8 +66,7 @@ void Kinematics<T>::set_joints(const VectorX<T>& q) {
 template <class T>
 void Kinematics<T>::jacobian(const EndEffector& end_effector, const Matrix3<T>& R_base,
                              Matrix6X<T>& J) const {
-  const Vector3<T> p =
-      links_[end_effector.link].R * end_effector.placement.p + links_[end_effector.link].p;
+  const Vector3<T> p = end_effector_position(end_effector);
   const Vector3<T> r = R_base * p;
   const T zero(0.0);
   J.setConstant(zero);
@@ -84,7 +83,7 @@ void Kinematics<T>::jacobian(const EndEffector& end_effector, const Matrix3<T>& 
   }
   for (int link = end_effector.link; link != 0; link = robot_->joints[link - 1].parent) {
     const int joint = link - 1;
-    const Vector3<T> axis = R_base * Vector3<T>(links_[link].R * constants_[joint].axis);
+    const Vector3<T> axis = R_base * joint_axis(static_cast<std::size_t>(joint));
     auto target = J.col(column + joint);
     if (robot_->joints[joint].type == JointType::kRevolute) {
       const Vector3<T> lever = R_base * Vector3<T>(p - links_[link].p);
@@ -115,7 +114,7 @@ void Kinematics<T>::gravity_and_buoyancy(const Matrix3<T>& R_base, VectorX<T>& t
   }
   for (int i = 0; i < joints; ++i) {
     const Pose<T>& link = links_[i + 1];
-    const Vector3<T> axis = link.R * constants_[i].axis;
+    const Vector3<T> axis = joint_axis(static_cast<std::size_t>(i));
     if (robot_->joints[i].type == JointType::kRevolute) {
       const Vector3<T> arm = carried_moment_[i + 1] - link.p * carried_mass_[i + 1];
       tau_d[row++] = -axis.dot(Vector3<T>(arm.cross(pull)));

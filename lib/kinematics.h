@@ -30,6 +30,17 @@ class Kinematics {
   const std::vector<Pose<T>>& links() const { return links_; }
   Pose<T> end_effector(const EndEffector& e) const { return links_[e.link] * e.placement; }
 
+  Vector3<T> end_effector_position(const EndEffector& e) const {
+    return links_[e.link].R * e.placement.p + links_[e.link].p;
+  }
+
+  /// Unit vector along the axis of joint i, in base axes.
+  Vector3<T> joint_axis(std::size_t i) const { return links_[i + 1].R * constants_[i].axis; }
+  /// Wet mass [kg] of a link and all that it carries, and its first moment [kg m] about the base
+  /// origin in base axes, of the state that `gravity_and_buoyancy` saw.
+  double carried_mass(std::size_t link) const { return carried_mass_[link]; }
+  const Vector3<T>& carried_moment(std::size_t link) const { return carried_moment_[link]; }
+
  private:
   /// Rotation about the joint axis by Rodrigues' formula, placement included: K0 + sin(q) K1 + (1 -
   /// cos(q)) K2.

@@ -8,6 +8,7 @@
 namespace maxwrench {
 
 struct Posture;
+struct Problem;
 struct Robot;
 struct WrenchProgram;
 class WrenchSolver;
@@ -26,11 +27,13 @@ struct Residual {
 struct Capability {
   Status status = Status::kNumericalError;
   const char* reason = "";
-  double beta = 0;         ///< N or N m, c'h
-  Eigen::VectorXd w;       ///< k
-  Vector6d h;              ///< W w, what the robot exerts on the environment, world axes
-  Eigen::VectorXd u;       ///< m, actuator efforts; filled only when asked for
-  Eigen::VectorXd lambda;  ///< n, d beta/d tau_d
+  double beta = 0;    ///< c'h [N or N m], or a score in a unit of its own
+  Eigen::VectorXd w;  ///< k; empty and h zero if the measure says nothing of a wrench
+  Vector6d h;         ///< W w, what the robot exerts on the environment, world axes
+  Eigen::VectorXd u;  ///< m, actuator efforts; filled only when asked for, or empty
+  /// n, d beta/d tau_d. Of an infeasible program instead a proof y: sup {y'(B u - J'W w)} < y'tau_d
+  /// over the limits (Farkas; for the L2 polytope in the rows of its own program).
+  Eigen::VectorXd lambda;
   /// d beta/d J (6×n). With lambda it carries the derivative to any parameter:
   /// d beta = lambda'd tau_d + <beta_J, d J> (envelope theorem; the paper's KKT gradient).
   Matrix6Xd beta_J;
@@ -60,5 +63,35 @@ std::unique_ptr<Measure> make_l2_polytope(const Robot& robot, std::unique_ptr<Wr
 /// The L-infinity polytope: any u within the limits that balances (beta_2, beta_3).
 std::unique_ptr<Measure> make_linf_polytope(const Robot& robot,
                                             std::unique_ptr<WrenchSolver> solver);
+
+// The measures of earlier work, which the paper's background tells of.
+
+/// Yoshikawa's manipulability sqrt det(J J') [-] of the whole system: J maps base twist and joint
+/// rates to the twist of the end effector, on the axes of W_any. Lengths are in units of 1 m, so
+/// that 1 rad counts as much as 1 m, in the twist and in the velocities.
+std::unique_ptr<Measure> make_manipulability(const Problem& problem);
+
+/// The transmission ratio (c'J J'c)^(-1/2) [-]: how far the ellipsoid |J'h| <= 1 reaches along c, N
+/// and N m counting alike; with free columns its farthest point along c. Throws
+/// std::invalid_argument if B has not full row rank, as no efforts could be told.
+std::unique_ptr<Measure> make_transmission_ratio(const Robot& robot);
+
+/// eq:transmissionUVMS at tau_d = 0: |W_u B^+ J'h| <= 1. Throws as `make_ellipsoid`.
+std::unique_ptr<Measure> make_weighted_transmission_ratio(const Robot& robot);
+
+/// Minus the smallest sum of squared efforts u'u, u in N and N m, that balances c'h = reference of
+/// the task, efforts without limits; with free columns the best of all such h. Throws
+/// std::invalid_argument if B has not full row rank.
+std::unique_ptr<Measure> make_least_effort(const Problem& problem);
+
+/// The wrench along c at which the first actuator saturates, by the ratio of what its limit leaves
+/// to what a unit of the wrench takes, as for a serial arm: there each joint has one effort for a
+/// given wrench. Thrusters share theirs with the least |W_u u|; where all have the same limits,
+/// this is the L2 polytope along c. Throws as `make_ellipsoid`.
+std::unique_ptr<Measure> make_saturating_wrench(const Robot& robot);
+
+/// The sum of the squared radii [-] of the ellipsoid |W_u B^+ J'h| <= 1 in the wrenches of W_any,
+/// each axis measured by the task's desired wrench. Throws as `make_ellipsoid`.
+std::unique_ptr<Measure> make_ellipsoid_trace(const Problem& problem);
 
 }  // namespace maxwrench

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
-#include "lib/dual.h"
+#include "lib/branch.h"
 #include "lib/kinematics.h"
+#include "lib/posture/pull_back.h"
 
 namespace maxwrench {
 namespace {
@@ -16,39 +19,61 @@ constexpr double kReachTolerance = 1e-9;
 /// A posture on its limit is inside: theta_r may carry rounding from a search's box.
 constexpr double kLimitTolerance = 1e-12;
 
-/// Everything of one posture in scalar T.
-template <class T>
+/// The state of one posture.
 struct Model {
   explicit Model(const Problem& p)
       : problem(p),
         kinematics(p.robot),
+        theta_r(Eigen::VectorXd::Constant(p.redundancy(), kNothing)),
         q(p.robot.joints.size()),
         J(6, p.robot.velocities()),
         tau_d(p.robot.velocities()) {
     for (Eigen::Index i = 0; i < q.size(); ++i) {
-      q[i] = T(std::clamp(0.0, p.robot.joints[i].q_min, p.robot.joints[i].q_max));
+      q[i] = std::clamp(0.0, p.robot.joints[i].q_min, p.robot.joints[i].q_max);
     }
   }
 
-  void evaluate(const VectorX<T>& theta_r) {
-    for (std::size_t i = 0; i < problem.redundant.size(); ++i) q[problem.redundant[i]] = theta_r[i];
-    const EndEffector& end_effector = problem.robot.end_effectors[problem.end_effector];
+  const EndEffector& end_effector() const {
+    return problem.robot.end_effectors[problem.end_effector];
+  }
+
+  /// The base follows in closed form from all joints of the chain.
+  void evaluate(const Eigen::VectorXd& at) {
+    theta_r = at;
+    for (std::size_t i = 0; i < problem.redundant.size(); ++i) q[problem.redundant[i]] = at[i];
     kinematics.set_joints(q);
-    base = problem.pose * kinematics.end_effector(end_effector).inverse();
-    kinematics.jacobian(end_effector, base.R, J);
+    base = problem.pose * kinematics.end_effector(end_effector()).inverse();
+    finish();
+  }
+
+  /// z = [x, y, z, yaw of the base; all joints].
+  void evaluate_at(const Eigen::VectorXd& at, const Eigen::VectorXd& z) {
+    theta_r = at;
+    q = z.tail(q.size());
+    kinematics.set_joints(q);
+    base = base_pose(problem.robot, z.head<4>());
+    finish();
+  }
+
+  void finish() {
+    kinematics.jacobian(end_effector(), base.R, J);
     kinematics.gravity_and_buoyancy(base.R, tau_d);
   }
 
+  /// Before the first evaluation: equals no theta_r.
+  static constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
   const Problem& problem;
-  Kinematics<T> kinematics;
-  VectorX<T> q;
-  Pose<T> base;
-  Matrix6X<T> J;
-  VectorX<T> tau_d;
+  Kinematics<double> kinematics;
+  Eigen::VectorXd theta_r, q;
+  Pose<double> base;
+  Matrix6Xd J;
+  Eigen::VectorXd tau_d;
 };
 
-/// Whether the pose is reached by moving along the free base axes from the world's origin.
-bool base_reaches(const Robot& robot, const Pose<double>& base) {
+/// Whether the pose is reached by moving along the free base axes from the mount.
+bool base_reaches(const Robot& robot, const Pose<double>& in_world) {
+  const Pose<double> base = robot.mount.inverse() * in_world;
   const auto is_free = [&](int axis) {
     return std::find(robot.base_axes.begin(), robot.base_axes.end(), axis) != robot.base_axes.end();
   };
@@ -74,18 +99,22 @@ void require_theta_r(const Problem& problem, const Eigen::VectorXd& theta_r) {
 }  // namespace
 
 struct PostureModel::Workspace {
-  static constexpr int kChunk = 4;  ///< directions of theta_r that one dual evaluation carries
-
   Workspace(const Problem& p, bool check)
       : problem(p),
         check_collision(check && p.robot.collision != nullptr),
         model(p),
-        dual_model(p),
-        dual_theta_r(p.redundancy()) {
+        reverse(p.robot, p.end_effector) {
+    if (!p.dependent.empty()) branch.emplace(p);
     posture.q.resize(model.q.size());
     posture.links = model.kinematics.links();
     posture.J = model.J;
     posture.tau_d = model.tau_d;
+  }
+
+  void evaluate(const Eigen::VectorXd& theta_r) {
+    if (!branch) return model.evaluate(theta_r);
+    branch_reason = branch->follow(theta_r);
+    model.evaluate_at(theta_r, branch->z());
   }
 
   /// Why the posture does not exist, or null.
@@ -96,7 +125,13 @@ struct PostureModel::Workspace {
         return "joint limit";
       }
     }
-    if (!base_reaches(problem.robot, model.base))
+    if (branch_reason) return branch_reason;
+    for (const int i : problem.dependent) {
+      const Joint& joint = problem.robot.joints[i];
+      if (model.q[i] < joint.q_min - kLimitTolerance || model.q[i] > joint.q_max + kLimitTolerance)
+        return "joint limit of a dependent joint";
+    }
+    if (!branch && !base_reaches(problem.robot, model.base))
       return "unreachable pose: the base would leave its free axes";
     if (check_collision && problem.robot.collision->collides(posture.links))
       return "self-collision";
@@ -105,9 +140,11 @@ struct PostureModel::Workspace {
 
   const Problem& problem;
   const bool check_collision;
-  Model<double> model;
-  Model<Dual<kChunk>> dual_model;
-  VectorX<Dual<kChunk>> dual_theta_r;
+  Model model;
+  PullBack reverse;
+  Eigen::VectorXd q_gradient;
+  std::optional<Branch> branch;  ///< if there are dependent joints
+  const char* branch_reason = nullptr;
   Posture posture;
 };
 
@@ -118,7 +155,7 @@ PostureModel::~PostureModel() = default;
 const Posture& PostureModel::evaluate(const Eigen::VectorXd& theta_r) {
   Workspace& ws = *workspace_;
   require_theta_r(ws.problem, theta_r);
-  ws.model.evaluate(theta_r);
+  ws.evaluate(theta_r);
   Posture& posture = ws.posture;
   posture.theta_r = theta_r;
   posture.base = ws.model.base;
@@ -136,21 +173,15 @@ void PostureModel::pull_back(const Eigen::VectorXd& theta_r, const Eigen::Vector
                              const Matrix6Xd& J_seed, Eigen::VectorXd& gradient) {
   Workspace& ws = *workspace_;
   require_theta_r(ws.problem, theta_r);
-  constexpr int kChunk = Workspace::kChunk;
+  Model& model = ws.model;
+  if (model.theta_r != theta_r) ws.evaluate(theta_r);
+  ws.reverse.evaluate(model.kinematics, model.base.R, model.J, tau_seed, J_seed, ws.q_gradient);
   gradient.resize(theta_r.size());
-  for (Eigen::Index first = 0; first < theta_r.size(); first += kChunk) {
-    const int count = static_cast<int>(std::min<Eigen::Index>(kChunk, theta_r.size() - first));
-    for (Eigen::Index i = 0; i < theta_r.size(); ++i) ws.dual_theta_r[i] = theta_r[i];
-    for (int k = 0; k < count; ++k) ws.dual_theta_r[first + k].d[k] = 1;
-    ws.dual_model.evaluate(ws.dual_theta_r);
-    for (int k = 0; k < count; ++k) {
-      double sum = 0;
-      for (Eigen::Index i = 0; i < tau_seed.size(); ++i) {
-        sum += tau_seed[i] * ws.dual_model.tau_d[i].d[k];
-        for (int r = 0; r < 6; ++r) sum += J_seed(r, i) * ws.dual_model.J(r, i).d[k];
-      }
-      gradient[first + k] = sum;
-    }
+  for (Eigen::Index k = 0; k < theta_r.size(); ++k) {
+    // The base follows from all joints in closed form here too: what Newton solves holds along the
+    // branch.
+    gradient[k] = ws.branch ? ws.branch->slopes().col(k).tail(model.q.size()).dot(ws.q_gradient)
+                            : ws.q_gradient[ws.problem.redundant[static_cast<std::size_t>(k)]];
   }
 }
 

@@ -27,10 +27,13 @@ class PostureModel {
   ~PostureModel();
 
   /// Joint limits, reach and self-collision decide `status`; J and tau_d are filled in any case.
-  /// Throws std::invalid_argument if theta_r has the wrong size or is not finite.
+  /// Where dependent joints do not follow (see lib/branch.h) they are those of the last point on
+  /// the way to theta_r. Throws std::invalid_argument if theta_r has the wrong size or is not
+  /// finite.
   const Posture& evaluate(const Eigen::VectorXd& theta_r);
 
-  /// gradient_k = tau_seed' d tau_d/d theta_r_k + <J_seed, d J/d theta_r_k>, exact (dual numbers).
+  /// gradient_k = tau_seed' d tau_d/d theta_r_k + <J_seed, d J/d theta_r_k>, exact, by reverse
+  /// accumulation. Cheapest after `evaluate` at the same theta_r, whose posture it keeps.
   void pull_back(const Eigen::VectorXd& theta_r, const Eigen::VectorXd& tau_seed,
                  const Matrix6Xd& J_seed, Eigen::VectorXd& gradient);
 

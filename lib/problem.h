@@ -23,7 +23,17 @@ struct Problem {
   Vector6d c;         ///< unit direction [force; torque] in world axes
   Matrix6Xd
       W_any;  ///< 6×k: the wrenches that `Wrench::kAny` allows, orthonormal; its span contains c
-  std::vector<int> redundant;  ///< the joints that theta_r holds, from the base outward
+  double reference = 1;  ///< N or N m along c, of measures of efforts at a given wrench
+  /// What each axis of the wrench is measured by [N; N m], of measures of all axes at once.
+  Vector6d desired = Vector6d::Ones();
+  std::vector<int> redundant;  ///< the joints that theta_r holds
+  /// The joints between base and end effector that theta_r does not hold. They follow from it as
+  /// the base pose does (see lib/branch.h). None: the base pose follows in closed form.
+  std::vector<int> dependent;
+  /// Where the search for what follows starts at theta_r_default, if there are dependent joints:
+  /// all joints, and [x, y, z, yaw] of the base.
+  Eigen::VectorXd guess_q;
+  Eigen::Vector4d guess_base = Eigen::Vector4d::Zero();
   /// theta_r: the joints that are free while the end effector keeps its pose.
   Eigen::VectorXd theta_r_min, theta_r_max, theta_r_default;
 

@@ -66,6 +66,14 @@ struct EndEffector {
   Pose<double> placement;  ///< link -> end effector frame
 };
 
+/// A convex body on a link, for pictures: all points within `radius` of the hull of `points`, in
+/// link axes.
+struct Solid {
+  int link = 0;
+  std::vector<Eigen::Vector3d> points;  ///< m
+  double radius = 0;                    ///< m
+};
+
 /// Decides whether a posture collides with itself. Const and shared between threads.
 class CollisionChecker {
  public:
@@ -85,6 +93,8 @@ struct Robot {
   /// order: one of the eight subsets that are integrable in base axes (see
   /// `base_axes_are_integrable`).
   std::vector<int> base_axes;
+  /// Of the base in the world before it moves along its free axes. No meaning with all six.
+  Pose<double> mount;
   std::vector<Link> links;  ///< joints + 1
   std::vector<Joint> joints;
   std::vector<Thruster> thrusters;
@@ -96,6 +106,7 @@ struct Robot {
   Zonotope actuation;                                 ///< n×m
   Eigen::VectorXd u_rate_max;                         ///< m, per second; infinite for joints
   std::shared_ptr<const CollisionChecker> collision;  ///< null: nothing to check
+  std::vector<Solid> solids;                          ///< its shapes
 
   /// n: free base axes, then joints.
   int velocities() const { return static_cast<int>(base_axes.size() + joints.size()); }

@@ -12,12 +12,16 @@ using Vector3 = Eigen::Matrix<T, 3, 1>;
 template <class T>
 using Matrix3 = Eigen::Matrix<T, 3, 3>;
 template <class T>
+using Vector6 = Eigen::Matrix<T, 6, 1>;
+template <class T>
+using MatrixX = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
+template <class T>
 using VectorX = Eigen::Matrix<T, Eigen::Dynamic, 1>;
 /// Jacobians and wrench bases: six rows [linear; angular] or [force; torque].
 template <class T>
 using Matrix6X = Eigen::Matrix<T, 6, Eigen::Dynamic>;
 
-using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Vector6d = Vector6<double>;
 using Matrix6Xd = Matrix6X<double>;
 
 /// A rigid transformation x -> R x + p.

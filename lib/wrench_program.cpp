@@ -94,4 +94,11 @@ Residual recheck(const WrenchProgram& program, const Eigen::VectorXd& u, const E
   return residual;
 }
 
+bool proves_infeasible(const WrenchProgram& program, const Eigen::VectorXd& y) {
+  LpSolution solution;
+  solution.status = Status::kInfeasible;
+  solution.certificate = y;
+  return verified(assemble(program), solution);
+}
+
 }  // namespace maxwrench

@@ -40,4 +40,7 @@ void update(const WrenchProgram& program, LinearProgram& assembled);
 Residual recheck(const WrenchProgram& program, const Eigen::VectorXd& u, const Eigen::VectorXd& w,
                  const Eigen::VectorXd& lambda);
 
+/// Whether y proves that no (u, w) satisfies the program, see `verified`.
+bool proves_infeasible(const WrenchProgram& program, const Eigen::VectorXd& y);
+
 }  // namespace maxwrench

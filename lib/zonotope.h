@@ -15,7 +15,8 @@ struct Zonotope {
   int rank = 0;                  ///< of B
   Eigen::MatrixXd B_pinv;        ///< B^+, m×n
   bool has_facets = false;       ///< false if there are too many to enumerate
-  Eigen::MatrixXd N;             ///< n×f, unit columns
+  /// n×f, unit columns, stored by rows: products with all normals at once are vector code.
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> N;
   Eigen::VectorXd b_min, b_max;  ///< f
 
   int dimension() const { return static_cast<int>(B.rows()); }

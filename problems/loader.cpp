@@ -7,6 +7,7 @@
 
 #include "problems/loader/bad_input.h"
 #include "problems/loader/block.h"
+#include "problems/loader/theta_r.h"
 #include "problems/loader/urdf_tree.h"
 
 namespace maxwrench {
@@ -37,20 +38,8 @@ int find_end_effector(const Block& task, const Robot& robot) {
                     fmt::format("an end effector of the robot: {}", fmt::join(names, ", ")));
 }
 
-/// The joints that move the end effector, from the base outward.
-std::vector<int> chain_to(const Robot& robot, int end_effector) {
-  std::vector<int> chain;
-  int link = robot.end_effectors[static_cast<std::size_t>(end_effector)].link;
-  while (link > 0) {  // link i is moved by joint i - 1
-    chain.push_back(link - 1);
-    link = robot.joints[static_cast<std::size_t>(link - 1)].parent;
-  }
-  std::reverse(chain.begin(), chain.end());
-  return chain;
-}
-
 void read_wrench(const Block& wrench, Problem& problem) {
-  wrench.allow_only({"c", "any"});
+  wrench.allow_only({"c", "any", "reference", "desired"});
   const Eigen::VectorXd c = wrench.numbers("c", 6);
   if (c.norm() < 1e-9) wrench.refuse_value("c", "a direction of nonzero length");
   problem.c = c.normalized();
@@ -71,41 +60,11 @@ void read_wrench(const Block& wrench, Problem& problem) {
   if (outside.norm() > 1e-12) {
     wrench.refuse_value("c", fmt::format("a direction within any = {}", fmt::join(any, ", ")));
   }
-}
-
-void read_theta_r(const Block& theta_r, Problem& problem) {
-  theta_r.allow_only({"joints", "default"});
-  const std::vector<int> chain = chain_to(problem.robot, problem.end_effector);
-  std::vector<std::string> names;
-  for (const int joint : chain) {
-    names.push_back(problem.robot.joints[static_cast<std::size_t>(joint)].name);
-  }
-  if (theta_r.has("joints") && theta_r.texts("joints") != names) {
-    theta_r.refuse_value("joints", fmt::format("all joints from the base to the end effector, in "
-                                               "this order: {}",
-                                               fmt::join(names, ", ")));
-  }
-  const int size = static_cast<int>(chain.size());
-  problem.redundant = chain;
-  problem.theta_r_min.resize(size);
-  problem.theta_r_max.resize(size);
-  for (int i = 0; i < size; ++i) {
-    const Joint& joint =
-        problem.robot.joints[static_cast<std::size_t>(chain[static_cast<std::size_t>(i)])];
-    problem.theta_r_min[i] = joint.q_min;
-    problem.theta_r_max[i] = joint.q_max;
-  }
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(size);
-  problem.theta_r_default = zero.cwiseMax(problem.theta_r_min).cwiseMin(problem.theta_r_max);
-  if (!theta_r.has("default")) return;
-  problem.theta_r_default = theta_r.numbers("default", size);
-  for (int i = 0; i < size; ++i) {
-    const double value = problem.theta_r_default[i];
-    if (value >= problem.theta_r_min[i] && value <= problem.theta_r_max[i]) continue;
-    theta_r.refuse_value("default",
-                         fmt::format("{} within {} .. {}", names[static_cast<std::size_t>(i)],
-                                     problem.theta_r_min[i], problem.theta_r_max[i]));
-  }
+  problem.reference = wrench.number("reference", problem.reference);
+  if (!(problem.reference > 0)) wrench.refuse_value("reference", "a number > 0");
+  if (!wrench.has("desired")) return;
+  problem.desired = wrench.numbers("desired", 6);
+  if (!(problem.desired.array() > 0).all()) wrench.refuse_value("desired", "numbers > 0");
 }
 
 }  // namespace
@@ -130,6 +89,7 @@ Problem load_problem(const std::string& name) {
   problem.pose = pose_from_xyz_rpy(pose.vector("xyz"), pose.vector("rpy"));
   read_wrench(task.table("wrench"), problem);
   read_theta_r(task.table("theta_r"), problem);
+  require_branch(task, problem);
   return problem;
 }
 

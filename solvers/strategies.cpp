@@ -9,7 +9,10 @@
 
 #include "solvers/integrator/cvode.h"
 #include "solvers/lp/assembled.h"
+#include "solvers/lp/box.h"
+#include "solvers/lp/clp.h"
 #include "solvers/lp/facets.h"
+#include "solvers/lp/glpk.h"
 #include "solvers/lp/ipopt.h"
 #include "solvers/lp/simplex.h"
 #include "solvers/search/annealing.h"
@@ -25,16 +28,47 @@
 namespace maxwrench {
 namespace {
 
+/// `make` of a measure that needs a robot, or a problem, and no solver.
+template <std::unique_ptr<Measure> (*make)(const Robot&)>
+std::unique_ptr<Measure> of_robot(const Problem& problem, std::unique_ptr<WrenchSolver> /*none*/) {
+  return make(problem.robot);
+}
+template <std::unique_ptr<Measure> (*make)(const Problem&)>
+std::unique_ptr<Measure> of_problem(const Problem& problem,
+                                    std::unique_ptr<WrenchSolver> /*none*/) {
+  return make(problem);
+}
+/// `make` of a measure that solves a program.
+template <std::unique_ptr<Measure> (*make)(const Robot&, std::unique_ptr<WrenchSolver>)>
+std::unique_ptr<Measure> of_program(const Problem& problem, std::unique_ptr<WrenchSolver> solver) {
+  return make(problem.robot, std::move(solver));
+}
+
 const MeasureEntry kMeasures[] = {
-    {"ellipsoid", "beta_1: weighted ellipsoid of actuator efforts, closed form", false,
-     [](const Robot& robot, std::unique_ptr<WrenchSolver>) { return make_ellipsoid(robot); }},
-    {"l2_polytope", "efforts fixed to u = B^+ (tau_d + J'h), within their limits", true,
-     make_l2_polytope},
-    {"linf_polytope", "beta_2, beta_3: any efforts within their limits", true, make_linf_polytope},
+    {"ellipsoid", "beta_1: weighted ellipsoid of actuator efforts, closed form", false, true,
+     nullptr, of_robot<make_ellipsoid>},
+    {"l2_polytope", "efforts fixed to u = B^+ (tau_d + J'h), within their limits", true, true,
+     nullptr, of_program<make_l2_polytope>},
+    {"linf_polytope", "beta_2, beta_3: any efforts within their limits", true, true, nullptr,
+     of_program<make_linf_polytope>},
+    {"manipulability", "Yoshikawa's sqrt det(J J') of base and arm, lengths in m", false, false,
+     "-", of_problem<make_manipulability>},
+    {"transmission_ratio", "reach of |J'h| <= 1 along c, N and N m counting alike", false, true,
+     "-", of_robot<make_transmission_ratio>},
+    {"weighted_transmission_ratio", "the ellipsoid without the offset by tau_d", false, true,
+     nullptr, of_robot<make_weighted_transmission_ratio>},
+    {"least_effort", "minus the least sum of squared efforts at the reference wrench", false, true,
+     "mixed", of_problem<make_least_effort>},
+    {"saturating_wrench", "the first actuator saturates, efforts weighted by their limits", false,
+     false, nullptr, of_robot<make_saturating_wrench>},
+    {"ellipsoid_trace", "squared radii of the weighted ellipsoid by the desired wrench", false,
+     false, "-", of_problem<make_ellipsoid_trace>},
 };
 
 const LpEntry kLpSolvers[] = {
     {"simplex", "own bounded-variable simplex, warm-started", 1, [] { return make_simplex(); }},
+    {"clp", "Clp, simplex library of COIN-OR", 2, make_clp},
+    {"glpk", "GLPK, dual simplex", 2, make_glpk},
     {"ipopt", "Ipopt, interior point", 20, make_ipopt},
 };
 
@@ -60,6 +94,7 @@ std::vector<WrenchSolverEntry> make_wrench_solvers() {
   std::vector<WrenchSolverEntry> table = {
       {"facets", "ray shooting through the facets of {B u}, one wrench column", true, 1,
        make_facets},
+      {"box", "dual simplex in the wrench alone, between the facets of {B u}", false, 1, make_box},
   };
   for (const LpEntry& lp : kLpSolvers) {
     table.push_back(

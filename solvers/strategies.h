@@ -14,13 +14,15 @@
 
 namespace maxwrench {
 
-/// beta of a measure on a robot; `needs_solver` is false for a closed form, whose `make` ignores
-/// the solver.
+/// beta of a measure on a problem, which outlives it; `needs_solver` is false for a closed form,
+/// whose `make` ignores the solver.
 struct MeasureEntry {
   const char* name;
   const char* summary;
   bool needs_solver;
-  std::unique_ptr<Measure> (*make)(const Robot&, std::unique_ptr<WrenchSolver>);
+  bool serves_any;   ///< false: refuses Wrench::kAny, which would mean nothing
+  const char* unit;  ///< of its value; null: that of the wrench along c
+  std::unique_ptr<Measure> (*make)(const Problem&, std::unique_ptr<WrenchSolver>);
 };
 
 /// A solver of general linear programs.

@@ -1,8 +1,14 @@
 #pragma once
 
+#include "lib/random.h"
 #include "lib/robot.h"
 
 namespace maxwrench {
+
+/// A tree of `joints` joints (every third one prismatic) on six base axes, all numbers random: full
+/// inertias, buoyancy, trim, and bodies with added mass and drag in frames of their own, two on the
+/// base and none on link 1.
+Robot random_wet_robot(Random& random, int joints);
 
 /// The base moved by `step` along velocity number i, in base axes, or the joint likewise.
 void move(const Robot& robot, int i, double step, Pose<double>& base, Eigen::VectorXd& q);
@@ -14,5 +20,14 @@ double potential_energy(const Robot& robot, const Pose<double>& base, const Eige
 /// tau_d at rest must be.
 Eigen::VectorXd potential_energy_slopes(const Robot& robot, const Pose<double>& base,
                                         const Eigen::VectorXd& q, double step);
+
+/// [J] at the velocity v, body by body: masses at their centres, inertias about them, and added
+/// mass in each body's own frame.
+double kinetic_energy(const Robot& robot, const Eigen::VectorXd& q, const Eigen::VectorXd& v);
+
+/// [W] that the drag of all bodies, each in its own frame, takes at the velocity v from a motion
+/// along `u`.
+double drag_power(const Robot& robot, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                  const Eigen::VectorXd& u);
 
 }  // namespace maxwrench

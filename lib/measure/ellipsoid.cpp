@@ -1,23 +1,11 @@
 #include <cassert>
 #include <cmath>
-#include <stdexcept>
 
-#include "lib/measure.h"
-#include "lib/posture.h"
+#include "lib/measure/closed_form.h"
 #include "lib/wrench_program.h"
 
 namespace maxwrench {
 namespace {
-
-/// Pivots of G'G below this share of the largest mean that J'W has not full column rank.
-constexpr double kRankTolerance = 1e-14;
-
-/// Wrench columns of two contacts; matrices of this size live on the stack, so that solving
-/// allocates nothing.
-constexpr int kMaxColumns = 12;
-using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
-                                  kMaxColumns, kMaxColumns>;
-using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxColumns, 1>;
 
 /// max c_w'w subject to |G w + g| <= 1, G = W_u B^+ J'W (m×k), g = W_u B^+ tau_d (m), by
 ///
@@ -28,10 +16,8 @@ using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kM
 /// -(s/rho) (W_u B^+)'e. For W = c this is the positive root of eq:transmissionUVMS.
 class Ellipsoid : public Measure {
  public:
-  explicit Ellipsoid(const Zonotope& actuation) : B_pinv_(actuation.B_pinv) {
-    const Eigen::VectorXd limit = actuation.u_min.cwiseAbs().cwiseMin(actuation.u_max.cwiseAbs());
-    K_ = limit.cwiseInverse().asDiagonal() * actuation.B_pinv;
-  }
+  explicit Ellipsoid(const Robot& robot)
+      : B_pinv_(robot.actuation.B_pinv), K_(weighted_inverse(robot, "ellipsoid")) {}
 
   void evaluate(const Posture& /*posture*/, const WrenchProgram& program, bool efforts,
                 Capability& capability) override {
@@ -56,8 +42,7 @@ class Ellipsoid : public Measure {
     assert(program.columns() <= kMaxColumns);
     normal_.noalias() = G_.transpose().lazyProduct(G_);
     ldlt_.compute(normal_);
-    const auto pivots = ldlt_.vectorD();
-    if (!(pivots.minCoeff() > kRankTolerance * pivots.maxCoeff())) {
+    if (!regular(ldlt_)) {
       capability.reason = "J'W has not full column rank";
       return Status::kNumericalError;
     }
@@ -101,17 +86,7 @@ class Ellipsoid : public Measure {
 }  // namespace
 
 std::unique_ptr<Measure> make_ellipsoid(const Robot& robot) {
-  const Zonotope& actuation = robot.actuation;
-  if (!actuation.full_row_rank()) {
-    throw std::invalid_argument("measure ellipsoid: B of " + robot.name + " has rank " +
-                                std::to_string(actuation.rank) + ", expected " +
-                                std::to_string(actuation.dimension()));
-  }
-  if ((actuation.u_min.array() >= 0).any() || (actuation.u_max.array() <= 0).any()) {
-    throw std::invalid_argument("measure ellipsoid: an actuator of " + robot.name +
-                                " cannot act in both directions, expected min < 0 < max");
-  }
-  return std::make_unique<Ellipsoid>(actuation);
+  return std::make_unique<Ellipsoid>(robot);
 }
 
 }  // namespace maxwrench

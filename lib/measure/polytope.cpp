@@ -1,6 +1,4 @@
-#include <stdexcept>
-
-#include "lib/measure.h"
+#include "lib/measure/closed_form.h"
 #include "lib/posture.h"
 #include "lib/wrench_program.h"
 #include "lib/wrench_solver.h"
@@ -14,6 +12,14 @@ void complete(const WrenchProgram& program, Capability& capability) {
   capability.beta_J.noalias() = capability.h * capability.lambda.transpose();
 }
 
+/// A verdict that the data do not confirm is none.
+void confirm_infeasible(const WrenchProgram& program, const Eigen::VectorXd& y,
+                        Capability& capability) {
+  if (capability.status != Status::kInfeasible || proves_infeasible(program, y)) return;
+  capability.status = Status::kNumericalError;
+  capability.reason = "no proof that the program is infeasible holds";
+}
+
 class LinfPolytope : public Measure {
  public:
   explicit LinfPolytope(std::unique_ptr<WrenchSolver> solver) : solver_(std::move(solver)) {}
@@ -21,6 +27,7 @@ class LinfPolytope : public Measure {
   void evaluate(const Posture& /*posture*/, const WrenchProgram& program, bool efforts,
                 Capability& capability) override {
     solver_->solve(program, efforts, capability);
+    if (efforts) confirm_infeasible(program, capability.lambda, capability);
     if (capability.status != Status::kOptimal) return;
     complete(program, capability);
     if (efforts) {
@@ -54,6 +61,7 @@ class L2Polytope : public Measure {
     capability.lambda.swap(lambda_);  // m numbers there, n numbers outside: keep both allocated
     solver_->solve(program_, efforts, capability);
     capability.lambda.swap(lambda_);
+    if (efforts) confirm_infeasible(program_, lambda_, capability);
     if (capability.status != Status::kOptimal) return;
     capability.lambda.noalias() = B_pinv_.transpose().lazyProduct(lambda_);
     complete(program, capability);
@@ -81,11 +89,7 @@ std::unique_ptr<Measure> make_linf_polytope(const Robot& /*robot*/,
 
 std::unique_ptr<Measure> make_l2_polytope(const Robot& robot,
                                           std::unique_ptr<WrenchSolver> solver) {
-  if (!robot.actuation.full_row_rank()) {
-    throw std::invalid_argument("measure l2_polytope: B of " + robot.name + " has rank " +
-                                std::to_string(robot.actuation.rank) + ", expected " +
-                                std::to_string(robot.velocities()));
-  }
+  require_full_row_rank(robot, "l2_polytope");
   return std::make_unique<L2Polytope>(robot.actuation, std::move(solver));
 }
 

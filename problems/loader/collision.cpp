@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
 namespace maxwrench {
 namespace {
@@ -59,22 +61,37 @@ bool intersect(const Geometry& a, const Pose<double>& pose_a, const Geometry& b,
   return fcl::collide(&a, to_fcl(pose_a), &b, to_fcl(pose_b), request, result) > 0;
 }
 
-/// End points of the axis.
-Eigen::Vector3d tip(const Shape& shape, const Pose<double>& pose, double side) {
-  return pose.p + side * shape.half_length * pose.R.col(2);
+/// A shape where its link is.
+struct Placed {
+  Pose<double> pose;          ///< R only if the shape is a box or goes to FCL
+  Eigen::Vector3d half_axis;  ///< of a capsule
+};
+
+Placed place(const Shape& shape, const Pose<double>& link, bool oriented) {
+  Placed placed;
+  placed.pose.p = link.R * shape.placement.p + link.p;
+  if (oriented) placed.pose.R = link.R * shape.placement.R;
+  placed.half_axis = shape.half_length * (link.R * shape.placement.R.col(2));
+  return placed;
 }
 
-bool capsules_closer(const Shape& a, const Pose<double>& pose_a, const Shape& b,
-                     const Pose<double>& pose_b, double margin) {
-  return segment_distance(tip(a, pose_a, -1), tip(a, pose_a, 1), tip(b, pose_b, -1),
-                          tip(b, pose_b, 1)) < a.radius + b.radius + margin;
+bool capsules_closer(const Shape& a, const Placed& at_a, const Shape& b, const Placed& at_b,
+                     double margin) {
+  const Eigen::Vector3d &p = at_a.pose.p, &q = at_b.pose.p;
+  return segment_distance(p - at_a.half_axis, p + at_a.half_axis, q - at_b.half_axis,
+                          q + at_b.half_axis) < a.radius + b.radius + margin;
 }
 
-bool capsule_box_closer(const Shape& capsule, const Pose<double>& pose, const Shape& box,
+/// Most capsules are too far from a box for their length to matter.
+bool capsule_box_closer(const Shape& capsule, const Placed& at, const Shape& box,
                         const Pose<double>& box_pose, double margin) {
-  const Pose<double> local = box_pose.inverse() * pose;
-  return segment_box_distance(tip(capsule, local, -1), tip(capsule, local, 1), box.half_sizes) <
-         capsule.radius + margin;
+  const double reach = capsule.radius + margin;
+  const Eigen::Vector3d centre = box_pose.R.transpose() * (at.pose.p - box_pose.p);
+  const double far = capsule.half_length + reach;
+  const Eigen::Vector3d outside = (centre.cwiseAbs() - box.half_sizes).cwiseMax(0.0);
+  if (outside.squaredNorm() > far * far) return false;
+  const Eigen::Vector3d half_axis = box_pose.R.transpose() * at.half_axis;
+  return segment_box_distance(centre - half_axis, centre + half_axis, box.half_sizes) < reach;
 }
 
 /// Two shapes on different links, with the FCL shapes if no exact test is at hand.
@@ -100,36 +117,60 @@ Pair make_pair(const std::vector<Shape>& shapes, int i, int j, double margin) {
   return pair;
 }
 
-bool collide(const Pair& pair, const Shape& a, const Pose<double>& pose_a, const Shape& b,
-             const Pose<double>& pose_b, double margin) {
-  if (pair.geometry_a) return intersect(*pair.geometry_a, pose_a, *pair.geometry_b, pose_b);
-  if (is(a, Shape::Kind::kBox)) return capsule_box_closer(b, pose_b, a, pose_a, margin);
-  if (is(b, Shape::Kind::kBox)) return capsule_box_closer(a, pose_a, b, pose_b, margin);
-  return capsules_closer(a, pose_a, b, pose_b, margin);
+bool collide(const Pair& pair, const Shape& a, const Placed& at_a, const Shape& b,
+             const Placed& at_b, double margin) {
+  if (pair.geometry_a) {
+    return intersect(*pair.geometry_a, at_a.pose, *pair.geometry_b, at_b.pose);
+  }
+  if (is(a, Shape::Kind::kBox)) return capsule_box_closer(b, at_b, a, at_a.pose, margin);
+  if (is(b, Shape::Kind::kBox)) return capsule_box_closer(a, at_a, b, at_b.pose, margin);
+  return capsules_closer(a, at_a, b, at_b, margin);
 }
 
 class ShapePairs : public CollisionChecker {
  public:
+  /// Exact pairs come first, as FCL's tests are far dearer, then pairs that reach far, as they are
+  /// likelier to collide.
   ShapePairs(std::vector<Shape> shapes, std::vector<Pair> pairs, double margin)
-      : shapes_(std::move(shapes)), pairs_(std::move(pairs)), margin_(margin) {}
+      : shapes_(std::move(shapes)), pairs_(std::move(pairs)), margin_(margin) {
+    std::stable_sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
+      const bool a_exact = a.geometry_a == nullptr, b_exact = b.geometry_a == nullptr;
+      return a_exact != b_exact ? a_exact : a.reach > b.reach;
+    });
+    for (const Shape& shape : shapes_) {
+      oriented_.push_back(is(shape, Shape::Kind::kBox));
+      fixed_.push_back(place(shape, {}, true));
+    }
+    for (const Pair& pair : pairs_) {
+      if (pair.geometry_a) oriented_[index(pair.a)] = oriented_[index(pair.b)] = true;
+    }
+  }
 
   bool collides(const std::vector<Pose<double>>& links) const override {
+    thread_local std::vector<Placed> moving;  // allocates when it grows, not in every posture
+    moving.resize(shapes_.size());
+    for (std::size_t i = 0; i < shapes_.size(); ++i) {
+      const int link = shapes_[i].link;
+      if (link > 0) moving[i] = place(shapes_[i], links[index(link)], oriented_[i]);
+    }
+    const auto placed = [&](std::size_t i) -> const Placed& {
+      return shapes_[i].link > 0 ? moving[i] : fixed_[i];
+    };
     return std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
-      const Shape& a = shapes_[static_cast<std::size_t>(pair.a)];
-      const Shape& b = shapes_[static_cast<std::size_t>(pair.b)];
-      const Pose<double>& link_a = links[static_cast<std::size_t>(a.link)];
-      const Pose<double>& link_b = links[static_cast<std::size_t>(b.link)];
-      const Eigen::Vector3d apart =
-          link_a.R * a.placement.p + link_a.p - link_b.R * b.placement.p - link_b.p;
-      if (apart.squaredNorm() > pair.reach * pair.reach) return false;
-      return collide(pair, a, link_a * a.placement, b, link_b * b.placement, margin_);
+      const Placed &a = placed(index(pair.a)), &b = placed(index(pair.b));
+      return (a.pose.p - b.pose.p).squaredNorm() <= pair.reach * pair.reach &&
+             collide(pair, shapes_[index(pair.a)], a, shapes_[index(pair.b)], b, margin_);
     });
   }
 
   int pairs() const override { return static_cast<int>(pairs_.size()); }
 
  private:
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
   std::vector<Shape> shapes_;
+  std::vector<Placed> fixed_;   ///< where the shapes of the base are
+  std::vector<bool> oriented_;  ///< whether a shape's test needs its rotation
   std::vector<Pair> pairs_;
   double margin_;
 };
@@ -191,9 +232,43 @@ double segment_box_distance(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1
   return point_box_distance(p0 + t * v, half_sizes);
 }
 
+Solid to_solid(const Shape& shape) {
+  Solid solid;
+  solid.link = shape.link;
+  const auto add = [&](double x, double y, double z) {
+    solid.points.emplace_back(shape.placement.R * Eigen::Vector3d(x, y, z) + shape.placement.p);
+  };
+  const Eigen::Vector3d& half = shape.half_sizes;
+  constexpr int kFaces = 32;
+  for (const double end : {-1.0, 1.0}) {
+    switch (shape.kind) {
+      case Shape::Kind::kCapsule:
+        solid.radius = shape.radius;
+        add(0, 0, end * shape.half_length);
+        break;
+      case Shape::Kind::kBox:
+        for (const double x : {-1.0, 1.0}) {
+          for (const double y : {-1.0, 1.0}) add(x * half.x(), y * half.y(), end * half.z());
+        }
+        break;
+      case Shape::Kind::kCylinder:
+        for (int i = 0; i < kFaces; ++i) {
+          const double angle = 2 * std::numbers::pi * i / kFaces;
+          add(shape.radius * std::cos(angle), shape.radius * std::sin(angle),
+              end * shape.half_length);
+        }
+        break;
+    }
+  }
+  return solid;
+}
+
 bool closer_than(const Shape& a, const Pose<double>& pose_a, const Shape& b,
                  const Pose<double>& pose_b, double margin) {
-  return collide(make_pair({a, b}, 0, 1, margin), a, pose_a, b, pose_b, margin);
+  const auto at = [](const Shape& shape, const Pose<double>& pose) {
+    return Placed{pose, shape.half_length * pose.R.col(2)};
+  };
+  return collide(make_pair({a, b}, 0, 1, margin), a, at(a, pose_a), b, at(b, pose_b), margin);
 }
 
 std::shared_ptr<const CollisionChecker> make_collision_checker(

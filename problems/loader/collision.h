@@ -35,6 +35,9 @@ std::shared_ptr<const CollisionChecker> make_collision_checker(
     std::vector<Shape> shapes, const std::vector<std::pair<std::string, std::string>>& ignore,
     double margin);
 
+/// The shape as a convex body; a cylinder as a prism of 32 faces.
+Solid to_solid(const Shape& shape);
+
 /// The same decision for a single pair, with poses of the two shapes in one frame.
 bool closer_than(const Shape& a, const Pose<double>& pose_a, const Shape& b,
                  const Pose<double>& pose_b, double margin);

@@ -36,7 +36,7 @@ Pose<double> read_placement(const Block& block) {
 }
 
 void read_base(const Block& base, const UrdfTree& tree, Robot& robot) {
-  base.allow_only({"axes", "link"});
+  base.allow_only({"axes", "link", "xyz", "rpy"});
   const std::map<std::string, int> axes = {{"x", 0},    {"y", 1},     {"z", 2},
                                            {"roll", 3}, {"pitch", 4}, {"yaw", 5}};
   for (const std::string& name : base.texts("axes")) {
@@ -52,6 +52,11 @@ void read_base(const Block& base, const UrdfTree& tree, Robot& robot) {
   }
   if (base.text("link", tree.root) != tree.root) {
     base.refuse_value("link", fmt::format("the root link '{}' of the URDF", tree.root));
+  }
+  robot.mount = read_placement(base);
+  if (free.size() < 6) return;
+  for (const char* key : {"xyz", "rpy"}) {
+    if (base.has(key)) base.refuse_value(key, "no such key: a base on all six axes starts nowhere");
   }
 }
 
@@ -131,6 +136,21 @@ void read_hydrodynamics(const Block& root, const UrdfTree& tree, Robot& robot) {
   }
 }
 
+/// What displaces water moves water: once one body has added mass, each body with a volume needs
+/// its own, if only zeros. A forgotten one would go unnoticed.
+void require_hydrodynamics(const Block& root) {
+  const Block water = root.table("hydrodynamics");
+  const auto known = root.named("hydrodynamics");
+  if (known.empty()) return;
+  for (const auto& [name, block] : root.named("buoyancy")) {
+    if (block.number("volume") == 0 || water.has(name)) continue;
+    water.refuse_value(name, "nothing",
+                       fmt::format("added mass and drag, perhaps zeros: this body displaces water "
+                                   "as '{}' does",
+                                   known.front().first));
+  }
+}
+
 Shape read_capsule(const Block& block, const UrdfTree& tree) {
   block.allow_only({"link", "p0", "p1", "radius"});
   Shape shape;
@@ -160,6 +180,7 @@ void read_collision(const Block& collision, UrdfTree& tree, Robot& robot) {
     find_body(tree, collision, "ignore", a);
     find_body(tree, collision, "ignore", b);
   }
+  for (const Shape& shape : tree.shapes) robot.solids.push_back(to_solid(shape));
   robot.collision =
       make_collision_checker(tree.shapes, ignore, collision.non_negative("margin", 0));
 }
@@ -181,6 +202,9 @@ Robot load_robot(const std::filesystem::path& file) {
   robot.links = tree.links;
   robot.joints = tree.joints;
   read_base(root.table("base"), tree, robot);
+  for (std::size_t i = robot.base_axes.empty() ? 1 : 0; i < robot.links.size(); ++i) {
+    require_inertia(urdf, robot.links[i]);
+  }
   const Block environment = root.table("environment");
   environment.allow_only({"gravity", "water_density"});
   robot.gravity = environment.non_negative("gravity", robot.gravity);
@@ -189,6 +213,7 @@ Robot load_robot(const std::filesystem::path& file) {
   read_end_effectors(root, tree, robot);
   read_buoyancy(root, tree, robot);
   read_hydrodynamics(root, tree, robot);
+  require_hydrodynamics(root);
   read_trim(root, robot);
   read_collision(root.table("collision"), tree, robot);
   complete_actuation(robot);

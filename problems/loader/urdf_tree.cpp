@@ -28,36 +28,54 @@ struct Reading {
   UrdfTree tree;
 };
 
-void check_inertial(const Reading& reading, const urdf::Link& link) {
-  const urdf::Inertial& given = *link.inertial;
-  const std::string key = fmt::format("link[{}].inertial", link.name);
-  if (!(given.mass > 0)) {
-    refuse(reading.file, key + ".mass", fmt::format("{}", given.mass), "a mass > 0");
-  }
+Eigen::Matrix3d inertia_of(const urdf::Inertial& given) {
   Eigen::Matrix3d inertia;
   inertia << given.ixx, given.ixy, given.ixz, given.ixy, given.iyy, given.iyz, given.ixz, given.iyz,
       given.izz;
-  const Eigen::Vector3d moments =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
-  const double slack = 1e-9 * std::abs(moments[2]);  // moments increase
-  if (moments[0] >= -slack && moments[0] + moments[1] >= moments[2] - slack) return;
+  return inertia;
+}
+
+/// In increasing order.
+Eigen::Vector3d principal_moments(const Eigen::Matrix3d& inertia) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly)
+      .eigenvalues();
+}
+
+[[noreturn]] void refuse_moments(const std::filesystem::path& file, const std::string& link,
+                                 const Eigen::Vector3d& moments, std::string_view expected) {
   refuse(
-      reading.file, key + ".inertia",
+      file, fmt::format("link[{}].inertial.inertia", link),
       fmt::format("principal moments {:.6g}, {:.6g}, {:.6g}", moments[0], moments[1], moments[2]),
-      "moments >= 0, none above the sum of the other two");
+      expected);
+}
+
+/// A mass point, a thin rod and a frame without mass are fine as long as they are a part.
+void check_inertial(const Reading& reading, const urdf::Link& link) {
+  const urdf::Inertial& given = *link.inertial;
+  if (!(given.mass >= 0)) {
+    refuse(reading.file, fmt::format("link[{}].inertial.mass", link.name),
+           fmt::format("{}", given.mass), "a mass >= 0");
+  }
+  const Eigen::Vector3d moments = principal_moments(inertia_of(given));
+  const double slack = 1e-9 * std::abs(moments[2]);
+  if (moments[0] < -slack || moments[0] + moments[1] < moments[2] - slack) {
+    refuse_moments(reading.file, link.name, moments,
+                   "moments >= 0, none above the sum of the other two");
+  }
+  if (given.mass == 0 && moments[2] > 0) {
+    refuse_moments(reading.file, link.name, moments, "no moments where the mass is zero");
+  }
 }
 
 /// Adds a body to the link that carries it: masses add, the inertia by parallel axes.
 void add_inertial(Link& link, const urdf::Inertial& given, const Pose<double>& body) {
+  if (given.mass == 0) return;
   const Pose<double> frame = body * pose(given.origin);
-  Eigen::Matrix3d inertia;
-  inertia << given.ixx, given.ixy, given.ixz, given.ixy, given.iyy, given.iyz, given.ixz, given.iyz,
-      given.izz;
   const double mass = link.mass + given.mass;
   const Eigen::Vector3d apart = frame.p - link.com;
   const double reduced = link.mass * given.mass / mass;
   link.inertia +=
-      frame.R * inertia * frame.R.transpose() +
+      frame.R * inertia_of(given) * frame.R.transpose() +
       reduced * (apart.squaredNorm() * Eigen::Matrix3d::Identity() - apart * apart.transpose());
   link.com += given.mass / mass * apart;
   link.mass = mass;
@@ -211,6 +229,17 @@ UrdfTree read_urdf(const std::filesystem::path& file) {
   reading.tree.links.push_back(Link{.name = root.name});
   visit(reading, root, Body{});
   return std::move(reading.tree);
+}
+
+void require_inertia(const std::filesystem::path& file, const Link& link) {
+  if (!(link.mass > 0)) {
+    refuse(file, fmt::format("link[{}].inertial.mass", link.name), fmt::format("{}", link.mass),
+           "a mass > 0 of this link and what is fixed to it, because it moves");
+  }
+  const Eigen::Vector3d moments = principal_moments(link.inertia);
+  if (moments[0] > 1e-9 * moments[2]) return;
+  refuse_moments(file, link.name, moments,
+                 "moments > 0 of this link and what is fixed to it, because it moves");
 }
 
 }  // namespace maxwrench

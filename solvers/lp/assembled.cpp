@@ -21,6 +21,7 @@ class Assembled : public WrenchSolver {
     capability.status = solution_.status;
     capability.reason = solution_.reason;
     capability.iterations = solution_.iterations;
+    if (solution_.status == Status::kInfeasible) capability.lambda = solution_.certificate;
     if (solution_.status != Status::kOptimal) return;
     capability.beta = solution_.objective;
     capability.w = solution_.x.tail(columns_);

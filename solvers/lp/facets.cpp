@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "solvers/lp/efforts.h"
 #include "solvers/lp/simplex.h"
 
 namespace maxwrench {
@@ -13,47 +14,85 @@ constexpr double kSlopeTolerance = 1e-12;
 /// How far [N, N m] the set may be missed by rounding, relative to the widths involved.
 constexpr double kFeasibilityTolerance = 1e-9;
 
-/// The part of the ray inside the set.
-struct Interval {
-  double low = -kInfinity, high = kInfinity;
-  int low_pair = -1, high_pair = -1;
-  bool missed = false;  ///< a pair that the ray runs parallel to is violated
-};
+/// The part of the ray tau_d + a x inside the set: the largest `enter` and the least `leave` of its
+/// facet pairs. The loops have no branches that depend on the posture.
+class Ray {
+ public:
+  double low = 0, high = 0;
+  int missed_pair = -1;    ///< a violated pair that the ray runs parallel to
+  double missed_side = 0;  ///< 1 if its upper bound is, -1 if the lower one
 
-Interval shoot(const Zonotope& set, const Eigen::VectorXd& tau, const double* a) {
-  const Eigen::Index n = set.N.rows();
-  double norm = 0;
-  for (Eigen::Index i = 0; i < n; ++i) norm += a[i] * a[i];
-  const double flat = kSlopeTolerance * std::sqrt(norm);
-  Interval ray;
-  for (int j = 0; j < set.facet_pairs(); ++j) {
-    const double* normal = set.N.data() + j * n;
-    double slope = 0;
-    double value = 0;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      slope += normal[i] * a[i];
-      value += normal[i] * tau[i];
+  void shoot(const Zonotope& set, const Eigen::VectorXd& tau, const double* a) {
+    project(set, tau, a);
+    const int pairs = set.facet_pairs();
+    missed_pair = -1;
+    int parallel = 0;
+    low = -kInfinity;
+    high = kInfinity;
+    for (int j = 0; j < pairs; ++j) {
+      const bool moves = std::abs(slope_[j]) > flat_;
+      const double inverse = 1 / slope_[j];
+      const double first = (set.b_min[j] - value_[j]) * inverse;
+      const double second = (set.b_max[j] - value_[j]) * inverse;
+      enter_[j] = moves ? std::min(first, second) : -kInfinity;
+      leave_[j] = moves ? std::max(first, second) : kInfinity;
+      parallel += !moves;
     }
-    const double below = set.b_min[j] - value;
-    const double above = set.b_max[j] - value;
-    if (std::abs(slope) <= flat) {
-      const double slack = kFeasibilityTolerance * (1 + std::abs(value));
-      ray.missed = ray.missed || below > slack || above < -slack;
-      continue;
+    for (int j = 0; j < pairs; ++j) {
+      low = std::max(low, enter_[j]);
+      high = std::min(high, leave_[j]);
     }
-    const double enter = (slope > 0 ? below : above) / slope;
-    const double leave = (slope > 0 ? above : below) / slope;
-    if (enter > ray.low) {
-      ray.low = enter;
-      ray.low_pair = j;
+    if (parallel > 0) find_missed(set);
+  }
+
+  int low_pair() const { return find(enter_, low); }
+  int high_pair() const { return find(leave_, high); }
+
+ private:
+  static int find(const Eigen::VectorXd& bounds, double bound) {
+    int j = 0;
+    while (bounds[j] != bound) ++j;
+    return j;
+  }
+
+  /// slope_ = N'a, value_ = N'tau.
+  void project(const Zonotope& set, const Eigen::VectorXd& tau, const double* a) {
+    const Eigen::Index pairs = set.facet_pairs();
+    if (slope_.size() != pairs) {
+      for (Eigen::VectorXd* v : {&slope_, &value_, &enter_, &leave_}) v->resize(pairs);
     }
-    if (leave < ray.high) {
-      ray.high = leave;
-      ray.high_pair = j;
+    slope_.setZero();
+    value_.setZero();
+    double norm = 0;
+    double* const slope = slope_.data();
+    double* const value = value_.data();
+    for (Eigen::Index i = 0; i < set.N.rows(); ++i) {
+      const double* const row = set.N.data() + i * pairs;
+      const double a_i = a[i];
+      const double tau_i = tau[i];
+      norm += a_i * a_i;
+      for (Eigen::Index j = 0; j < pairs; ++j) {
+        slope[j] += row[j] * a_i;
+        value[j] += row[j] * tau_i;
+      }
+    }
+    flat_ = kSlopeTolerance * std::sqrt(norm);
+  }
+
+  void find_missed(const Zonotope& set) {
+    for (int j = 0; j < set.facet_pairs(); ++j) {
+      if (std::abs(slope_[j]) > flat_) continue;
+      const double slack = kFeasibilityTolerance * (1 + std::abs(value_[j]));
+      const bool below = set.b_min[j] - value_[j] > slack;
+      if (!below && set.b_max[j] - value_[j] >= -slack) continue;
+      missed_pair = j;
+      missed_side = below ? -1 : 1;
     }
   }
-  return ray;
-}
+
+  Eigen::VectorXd slope_, value_, enter_, leave_;
+  double flat_ = 0;
+};
 
 class Facets : public WrenchSolver {
  public:
@@ -69,14 +108,16 @@ class Facets : public WrenchSolver {
           "solver");
     }
     capability.iterations = 0;
-    const Interval ray = shoot(set, program.tau_d, program.JtW.data());
+    Ray& ray = ray_;
+    ray.shoot(set, program.tau_d, program.JtW.data());
     const bool upwards = program.c_w[0] >= 0;
     double x = upwards ? std::min(ray.high, program.w_max[0]) : std::max(ray.low, program.w_min[0]);
     const double low = std::max(ray.low, program.w_min[0]);
     const double high = std::min(ray.high, program.w_max[0]);
-    if (ray.missed || low > high + kFeasibilityTolerance * (1 + std::abs(high))) {
+    if (ray.missed_pair >= 0 || low > high + kFeasibilityTolerance * (1 + std::abs(high))) {
       capability.status = Status::kInfeasible;
       capability.reason = "no actuator efforts balance the posture";
+      fill_contradiction(program, ray, capability.lambda);
       return;
     }
     if (!std::isfinite(x)) {
@@ -84,9 +125,9 @@ class Facets : public WrenchSolver {
       capability.reason = "the wrench does not load any actuator";
       return;
     }
-    fill(program, upwards ? ray.high_pair : ray.low_pair, x == (upwards ? ray.high : ray.low), x,
-         capability);
-    if (efforts) balance(program, capability);
+    fill(program, upwards ? ray.high_pair() : ray.low_pair(), x == (upwards ? ray.high : ray.low),
+         x, capability);
+    if (efforts) fill_efforts(program, *simplex_, capability);
   }
 
  private:
@@ -104,20 +145,23 @@ class Facets : public WrenchSolver {
     }
   }
 
-  /// Efforts with B u = tau_d + J'W w: a vertex of the efforts that reach this point of the
-  /// boundary.
-  void balance(const WrenchProgram& program, Capability& capability) {
-    WrenchProgram fixed = program;
-    fixed.w_min = fixed.w_max = capability.w;
-    LpSolution solution;
-    simplex_->solve(assemble(fixed), solution);
-    capability.u = solution.x.head(program.actuation->actuators());
-    if (solution.status != Status::kOptimal) {
-      capability.status = Status::kNumericalError;
-      capability.reason = "no efforts found for the optimal wrench";
+  /// y with sup {y'(B u - J'W w)} < y'tau_d: the missed pair, or the difference of the two that
+  /// stop the ray before it begins, n/(n'J'W) each.
+  static void fill_contradiction(const WrenchProgram& program, const Ray& ray, Eigen::VectorXd& y) {
+    const Zonotope& set = *program.actuation;
+    y.setZero(program.tau_d.size());
+    if (ray.missed_pair >= 0) {
+      y = ray.missed_side * set.N.col(ray.missed_pair);
+      return;
     }
+    const auto add = [&](int pair, double sign) {
+      y += set.N.col(pair) * (sign / set.N.col(pair).dot(program.JtW.col(0)));
+    };
+    if (ray.high < program.w_max[0]) add(ray.high_pair(), 1);
+    if (ray.low > program.w_min[0]) add(ray.low_pair(), -1);
   }
 
+  Ray ray_;
   std::unique_ptr<LpSolver> simplex_ = make_simplex();
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "solvers/ipopt_lock.h"
+#include "solvers/lp/elastic.h"
 
 namespace maxwrench {
 namespace {
@@ -15,8 +16,6 @@ using Ipopt::Number;
 
 /// Beyond this an Ipopt bound is infinite (its default nlp_*_bound_inf).
 constexpr double kIpoptInfinity = 1e19;
-/// The elastic optimum above which a program is infeasible, relative to 1 + |b|.
-constexpr double kInfeasible = 1e-7;
 
 /// min -c'x subject to A x = b, l <= x <= u, as Ipopt wants it.
 class LinearNlp : public Ipopt::TNLP {
@@ -105,44 +104,12 @@ Eigen::VectorXd interior_point(const LinearProgram& lp) {
   return x;
 }
 
-/// max -1's subject to A x + s_1 - s_2 = b, s >= 0.
-LinearProgram elastic(const LinearProgram& lp) {
-  const int rows = lp.rows();
-  const int cols = lp.cols();
-  LinearProgram e;
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int j = 0; j < cols; ++j) {
-    for (Eigen::SparseMatrix<double>::InnerIterator it(lp.A, j); it; ++it) {
-      entries.emplace_back(it.row(), j, it.value());
-    }
-  }
-  for (int i = 0; i < rows; ++i) {
-    entries.emplace_back(i, cols + i, 1.0);
-    entries.emplace_back(i, cols + rows + i, -1.0);
-  }
-  e.A.resize(rows, cols + 2 * rows);
-  e.A.setFromTriplets(entries.begin(), entries.end());
-  e.b = lp.b;
-  e.c = Eigen::VectorXd::Zero(e.A.cols());
-  e.c.tail(2 * rows).setConstant(-1);
-  e.l = Eigen::VectorXd::Zero(e.A.cols());
-  e.u = Eigen::VectorXd::Constant(e.A.cols(), kInfinity);
-  e.l.head(cols) = lp.l;
-  e.u.head(cols) = lp.u;
-  return e;
-}
-
 class IpoptSolver : public LpSolver {
  public:
   void solve(const LinearProgram& program, LpSolution& solution) override {
     const std::lock_guard guard(ipopt_lock());
-    solution.certificate.resize(0);
+    if (refused(program, solution)) return;
     solution.basis.clear();
-    if ((program.l.array() > program.u.array()).any()) {
-      give_up(solution, Status::kInfeasible, "crossing bounds");
-      solution.certificate = Eigen::VectorXd::Zero(program.rows());
-      return;
-    }
     if (run(program, solution)) {
       solution.status = Status::kOptimal;
       solution.reason = "";
@@ -152,29 +119,14 @@ class IpoptSolver : public LpSolver {
       }
       return;
     }
-    const int iterations = solution.iterations;
-    const LinearProgram relaxed = elastic(program);
-    const bool converged = run(relaxed, solution);
-    solution.iterations += iterations;
-    const double scale = 1 + program.b.lpNorm<Eigen::Infinity>();
-    if (converged && relaxed.c.dot(solution.x) < -kInfeasible * scale) {
-      // The elastic optimum is lambda'b less sup {lambda'A x}, so -lambda points out of the
-      // reachable set.
-      solution.certificate = -solution.lambda;
-      give_up(solution, Status::kInfeasible, "no x satisfies the rows within its bounds");
-      if (verified(program, solution)) return;
-    }
-    give_up(solution, Status::kNumericalError, "ipopt: no convergence");
+    prove_no_optimum(
+        program, [&](const LinearProgram& other, LpSolution& proof) { return run(other, proof); },
+        solution);
   }
 
  private:
   /// Interior points end close to a vertex, not on it.
   static constexpr double kAccepted = 1e-6;
-
-  static void give_up(LpSolution& solution, Status status, const char* reason) {
-    solution.status = status;
-    solution.reason = reason;
-  }
 
   bool run(const LinearProgram& program, LpSolution& solution) {
     if (!Ipopt::IsValid(application_)) start();

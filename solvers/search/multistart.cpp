@@ -95,14 +95,14 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> make_application() {
 }
 
 /// Local solves by Ipopt (interior point, limited-memory quasi-Newton, exact gradient) from the
-/// best points of a sample: what fmincon with MultiStart does. One start for each 1500 evaluations
+/// best points of a sample: what fmincon with MultiStart does. One start for each 500 evaluations
 /// of the budget and at most 64, for a start costs far more time than its evaluations. They run one
 /// after the other behind one lock; threads speed up the other two stages only. Where the objective
 /// has a kink the line search gives up, and the last stage goes on from there.
 class Multistart final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {
-    const auto starts = static_cast<std::size_t>(std::clamp(options.budget / 1500, 1L, 64L));
+    const auto starts = static_cast<std::size_t>(std::clamp(options.budget / 500, 1L, 64L));
     return search_in_stages(objective, options, 1,
                             [starts](Probe& probe, const Box& box, const Sample& sample,
                                      long /*part*/, const Random& /*random*/) {

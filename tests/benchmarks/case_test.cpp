@@ -19,6 +19,7 @@ TEST(Case, RefusesChoicesWithoutMeaning) {
   EXPECT_THROW(complete({"p", "linf_polytope", Wrench::kAny, "facets"}), std::invalid_argument);
   EXPECT_THROW(complete({"p", "ellipsoid", Wrench::kPure, "simplex"}), std::invalid_argument);
   EXPECT_THROW(complete({"p", "linf_polytope", Wrench::kPure, kNoSolver}), std::invalid_argument);
+  EXPECT_THROW(complete({"p", "manipulability", Wrench::kAny}), std::invalid_argument);
   EXPECT_THROW(complete({"p", "volume", Wrench::kPure}), std::invalid_argument);
   EXPECT_THROW(complete({"p", "ellipsoid", Wrench::kPure, "", "magic"}), std::invalid_argument);
   EXPECT_THROW(complete({"p", "ellipsoid", Wrench::kPure, "", "grid", 1, 0}),

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "problems/loader.h"
 #include "solvers/strategies.h"
 #include "tests/support.h"
@@ -71,6 +73,24 @@ TEST(Row, SelfCollisionDoesNotChangeThePlanarOptima) {
     const Case c = complete({checked.name, measure, Wrench::kPure});
     EXPECT_NEAR(solve(checked, c, 1).capability.beta, solve(unchecked, c, 1).capability.beta, 1e-9);
   }
+}
+
+TEST(Row, EveryMeasureIsReadBesideTheSameYardstick) {
+  const Problem problem = load_problem("uvms/valve");
+  const Eigen::Vector4d theta_r(3, 1.2, 1.1, 0.4);
+  for (Case c : product(problem.name, 1, 1)) {
+    c.search.clear();
+    const Case common{problem.name, "linf_polytope", c.wrench, "simplex"};
+    const Row row = evaluate(problem, c, theta_r);
+    ASSERT_TRUE(row.has_value()) << c.measure << ": " << row.reason;
+    EXPECT_EQ(row.yardstick, evaluate(problem, common, theta_r).capability.beta);
+    EXPECT_EQ(values(problem, row).size(), value_columns().size());
+    const bool wrench = find_measure(c.measure).unit == nullptr;
+    EXPECT_STREQ(unit(problem, c), wrench ? "N m" : find_measure(c.measure).unit);
+  }
+  // A posture that does not exist has none.
+  const Row none = evaluate(problem, complete({problem.name}), Eigen::Vector4d(9, 9, 9, 9));
+  EXPECT_TRUE(std::isnan(none.yardstick));
 }
 
 TEST(Row, KeepsStatusAndReasonOfWhatHasNoValue) {

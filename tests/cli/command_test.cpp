@@ -5,6 +5,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "solvers/strategies.h"
 #include "tests/support.h"
 
 namespace maxwrench {
@@ -58,11 +59,15 @@ INSTANTIATE_TEST_SUITE_P(
                     BadWords{"eval planar/force --lp cplex", "cplex"},
                     BadWords{"eval planar/force --lp facets --wrench any", "facets"},
                     BadWords{"eval planar/force --measure ellipsoid --lp simplex", "simplex"},
+                    BadWords{"eval planar/force --measure saturating_wrench --wrench any", "any"},
+                    BadWords{"eval planar/force --measure manipulability --lp facets", "facets"},
                     BadWords{"eval planar/force --theta-r 0.3", "theta_r"},
                     BadWords{"eval planar/force --theta-r 0.3,0.1,0.2", "theta_r"},
                     BadWords{"eval planar/force --theta-r 0.3,nan", "--theta-r"},
                     BadWords{"eval planar/force --theta-r 0.3,x", "--theta-r"},
                     BadWords{"eval planar/force --theta-r 0.3,", "--theta-r"},
+                    BadWords{"eval planar/force --state none.toml", "none.toml: file"},
+                    BadWords{"eval planar/force --state s.toml --lp simplex", "--lp"},
                     BadWords{"solve planar/force --search luck", "luck"},
                     BadWords{"solve planar/force --budget 0", "budget"},
                     BadWords{"solve planar/force --budget many", "--budget"},
@@ -102,6 +107,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{"no_number", "force.toml", "c = [1, 0", "c = [nan, 0", {"force.toml", "wrench.c"}},
         BadEdit{"no_direction", "force.toml", "c = [1, 0", "c = [0, 0", {"force.toml", "wrench.c"}},
         BadEdit{"short_direction", "force.toml", "c = [1, 0, ", "c = [1, ", {"wrench.c", "6"}},
+        BadEdit{"reference", "force.toml", "[wrench]", "[wrench]\nreference = 0", {"reference"}},
+        BadEdit{"desired",
+                "force.toml",
+                "[wrench]",
+                "[wrench]\ndesired = [1, 1, 1, 1, 1, -1]",
+                {"wrench.desired"}},
         BadEdit{"outside_any", "force.toml", "\"fx\", ", "", {"force.toml", "wrench"}},
         BadEdit{
             "base_axes", "vehicle.toml", "\"x\", \"y\", \"yaw\"", "\"x\", \"yaw\"", {"base.axes"}},
@@ -143,9 +154,10 @@ TEST(Command, EvalPrintsOneObjectWithEverything) {
   EXPECT_EQ(result.err, "");
   const json object = json::parse(result.out);
   for (const char* key :
-       {"problem", "measure", "wrench",   "lp",       "search",      "seed",   "status",
-        "reason",  "beta",    "unit",     "theta_r",  "theta",       "w",      "h",
-        "u",       "lambda",  "gradient", "residual", "evaluations", "wall_s", "version"}) {
+       {"yardstick", "yardstick_unit", "problem",     "measure", "wrench", "lp",
+        "search",    "seed",           "status",      "reason",  "beta",   "unit",
+        "theta_r",   "theta",          "w",           "h",       "u",      "lambda",
+        "gradient",  "residual",       "evaluations", "wall_s",  "version"}) {
     EXPECT_TRUE(object.contains(key)) << key;
   }
   EXPECT_EQ(object["status"], "optimal");
@@ -155,6 +167,51 @@ TEST(Command, EvalPrintsOneObjectWithEverything) {
   EXPECT_EQ(object["u"].size(), 6U);
   EXPECT_LT(object["residual"]["balance"], 1e-9);
   EXPECT_NEAR(object["beta"], object["h"][0], 1e-12);
+}
+
+/// The terms add up, and at rest only gravity is left.
+TEST(Command, EvalOfAStatePrintsTheEquationsOfMotion) {
+  const TemporaryFolder folder;
+  const std::string theta =
+      "[theta]\nposition = [1, 2, 0]\nrpy = [0, 0, 1]\nshoulder = 1\nelbow = 2";
+  std::ofstream(folder.path() / "rest.toml") << theta;
+  std::ofstream(folder.path() / "moving.toml")
+      << "velocity = [1, 2, 3, 4, 5]\nacceleration = [5, 4, 3, 2, 1]\n"
+      << theta;
+  const auto eval = [&](const char* file) {
+    const CommandResult result =
+        run_maxwrench("eval planar/force --json --state " + std::string(file), folder.path());
+    EXPECT_EQ(result.exit_status, 0) << result.err;
+    return json::parse(result.out);
+  };
+  const json rest = eval("rest.toml"), moving = eval("moving.toml");
+  EXPECT_EQ(rest["tau_d"], rest["g"]);
+  EXPECT_EQ(moving["velocities"], json({"x", "y", "yaw", "shoulder", "elbow"}));
+  EXPECT_EQ(moving["J"].size(), 6U);
+  EXPECT_EQ(moving["J"][0].size(), 5U);
+  for (int row = 0; row < 5; ++row) {
+    double sum = moving["C_v"][row].get<double>() + moving["D_v"][row].get<double>() +
+                 moving["g"][row].get<double>();
+    for (int i = 0; i < 5; ++i) sum += moving["M"][row][i].get<double>() * (5 - i);
+    EXPECT_NEAR(sum, moving["tau_d"][row], 1e-12);
+  }
+}
+
+TEST(Command, EveryMeasureHasAValueAtAnOrdinaryPosture) {
+  for (const MeasureEntry& measure : measures()) {
+    const CommandResult result = run_maxwrench(
+        "eval uvms/valve --theta-r 3.0,1.2,1.1,0.4 --json --measure " + std::string(measure.name));
+    ASSERT_EQ(result.exit_status, 0) << result.err;
+    const json object = json::parse(result.out);
+    EXPECT_EQ(object["status"], "optimal") << measure.name;
+    EXPECT_EQ(object["gradient"].size(), 4U);
+    EXPECT_EQ(object["unit"], measure.unit ? measure.unit : "N m");
+    EXPECT_EQ(object["yardstick_unit"], "N m");
+    EXPECT_GT(object["yardstick"], 0);
+  }
+  const json score =
+      json::parse(run_maxwrench("eval planar/force --measure manipulability --json").out);
+  for (const char* key : {"w", "h", "u"}) EXPECT_TRUE(score[key].is_null()) << key;
 }
 
 TEST(Command, ReachAndLimitsAreOtherStatuses) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "cli/bars.h"
 #include "cli/svg.h"
 #include "lib/polygon.h"
 #include "lib/wrench_solver.h"
@@ -206,6 +207,33 @@ TEST_F(ForceSetTest, DrawsPanels) {
   expect_well_formed(draw_postures(three, View::kSide));
   panel.sets.clear();
   expect_well_formed(draw_posture(panel));
+}
+
+TEST_F(ForceSetTest, DrawsSolidsFromTwoSides) {
+  problem_.robot.solids = {{0, {{0.3, 0.2, 0.1}, {-0.3, 0.2, 0}, {0, -0.2, -0.1}}, 0},
+                           {1, {{0, 0, 0}, {0.1, 0, 0}}, 0.01},
+                           {2, {{0, 0, 0}}, 0.02}};
+  const DrawnPosture panel{
+      .title = "a", .problem = &problem_, .posture = posture_, .sets = {}, .hull = {}, .u = {}};
+  const std::vector<DrawnPosture> two(2, panel);
+  for (const int axis : {0, 1, 2, 3, 4, 5}) {  // c as a force and a torque in each direction
+    for (const double sign : {1.0, -1.0}) {
+      problem_.c = sign * Vector6d::Unit(axis);
+      const std::string svg = draw_both_views(two);
+      expect_well_formed(svg);
+      EXPECT_NE(svg.find("a, from the right"), std::string::npos);
+      EXPECT_NE(svg.find("a, from above"), std::string::npos);
+      EXPECT_NE(svg.find(">c<"), std::string::npos);
+    }
+  }
+}
+
+TEST(BarsTest, DrawsGroups) {
+  const std::string svg = draw_bars(
+      "two", {{"N", {{"f_x", -3, {-2, 2}}, {"f_y", 0, {}}}}, {"N m", {{"n_x", 40, {}}}}}, "tank");
+  expect_well_formed(svg);
+  EXPECT_NE(svg.find("\u22123.0"), std::string::npos);
+  EXPECT_NE(svg.find("40.0"), std::string::npos);
 }
 
 TEST(SvgTest, RoundSteps) {

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <kdl/chain.hpp>
 #include <kdl/chaindynparam.hpp>
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
 
+#include "tests/kdl_chain.h"
 #include "tests/mechanics.h"
 #include "tests/support.h"
 
@@ -60,35 +60,6 @@ TEST(Kinematics, StaticLoadIsTheDerivativeOfThePotentialEnergy) {
     const Eigen::VectorXd slopes = potential_energy_slopes(robot, base, q, kStep);
     EXPECT_LT((slopes - tau_d).cwiseAbs().maxCoeff(), 1e-7);
   }
-}
-
-/// The arm alone as a KDL chain, in the axes of the base.
-KDL::Chain kdl_chain(const Robot& robot) {
-  const auto frame = [](const Pose<double>& pose) {
-    KDL::Frame f;
-    for (int r = 0; r < 3; ++r) {
-      f.p[r] = pose.p[r];
-      for (int c = 0; c < 3; ++c) f.M(r, c) = pose.R(r, c);
-    }
-    return f;
-  };
-  const auto vector = [](const Eigen::Vector3d& v) { return KDL::Vector(v.x(), v.y(), v.z()); };
-  KDL::Chain chain;
-  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
-    // KDL applies the joint before the segment's tip frame: the placement is a fixed segment of its
-    // own.
-    const Joint& joint = robot.joints[i];
-    const Link& link = robot.links[i + 1];
-    chain.addSegment(KDL::Segment(KDL::Joint(KDL::Joint::None), frame(joint.placement)));
-    const auto type =
-        joint.type == JointType::kRevolute ? KDL::Joint::RotAxis : KDL::Joint::TransAxis;
-    chain.addSegment(KDL::Segment(KDL::Joint("j", KDL::Vector::Zero(), vector(joint.axis), type),
-                                  KDL::Frame::Identity(),
-                                  KDL::RigidBodyInertia(link.mass, vector(link.com))));
-  }
-  chain.addSegment(
-      KDL::Segment(KDL::Joint(KDL::Joint::None), frame(robot.end_effectors[0].placement)));
-  return chain;
 }
 
 TEST(Kinematics, AgreesWithKdlOnTheDryArm) {

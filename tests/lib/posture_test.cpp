@@ -30,7 +30,7 @@ TEST(Posture, EndEffectorKeepsItsPose) {
 
 TEST(Posture, PullBackEqualsCentralDifferences) {
   Random random(2);
-  for (const int joints : {1, 3, 4, 6}) {  // also more than one dual chunk
+  for (const int joints : {1, 3, 4, 6}) {
     const Problem problem = random_problem(random, joints);
     PostureModel model(problem, false);
     const Eigen::VectorXd theta_r = random_theta_r(problem, random);
@@ -52,6 +52,27 @@ TEST(Posture, PullBackEqualsCentralDifferences) {
       EXPECT_NEAR(gradient[k], difference, 1e-7 * (1 + std::abs(difference)));
     }
   }
+}
+
+TEST(Posture, PullBackKeepsTheLastPosture) {
+  Random random(4);
+  const Problem problem = random_problem(random, 3);
+  PostureModel model(problem), fresh(problem);
+  const Eigen::VectorXd here = random_theta_r(problem, random);
+  const Eigen::VectorXd there = random_theta_r(problem, random);
+  const Posture& posture = model.evaluate(here);
+  const Matrix6Xd J = posture.J;
+  const Eigen::VectorXd t = Eigen::VectorXd::Ones(problem.robot.velocities());
+  const Matrix6Xd J_seed = Matrix6Xd::Ones(6, problem.robot.velocities());
+  Eigen::VectorXd gradient, expected;
+  fresh.pull_back(there, t, J_seed, expected);
+  model.pull_back(there, t, J_seed, gradient);
+  EXPECT_EQ(gradient, expected);
+  EXPECT_EQ(posture.J, J);
+  EXPECT_EQ(posture.theta_r, here);
+  fresh.pull_back(here, t, J_seed, expected);
+  model.pull_back(here, t, J_seed, gradient);
+  EXPECT_EQ(gradient, expected);
 }
 
 TEST(Posture, PlanarFrames) {

@@ -6,7 +6,7 @@
 
 namespace maxwrench {
 
-/// The shipped planar problem with one passage changed.
+/// A shipped problem with one passage changed.
 struct BadInput {
   const char* name;
   const char* file;  ///< that is changed and that the message must name
@@ -18,6 +18,6 @@ struct BadInput {
 inline void PrintTo(const BadInput& input, std::ostream* out) { *out << input.name; }
 
 /// The loader must refuse it in one line that names file, key and value, and print nothing.
-void expect_refused(const BadInput& input);
+void expect_refused(const BadInput& input, const std::string& problem = "planar/force");
 
 }  // namespace maxwrench

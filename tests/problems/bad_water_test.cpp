@@ -36,6 +36,13 @@ const std::vector<BadInput> kBadWater = {
      "[collision]",
      "[hydrodynamics.hull]\ncenter = [0, 0]\n[collision]",
      {"hydrodynamics.hull.center: got [0, 0]", "3 finite numbers"}},
+    {"added_mass_of_one_body_only",
+     "vehicle.toml",
+     "[collision]",
+     "[buoyancy]\nlink_1 = { volume = 0.001, cob = [0, 0, 0] }\n"
+     "[hydrodynamics.hull]\nadded_mass = [1, 1, 1, 0, 0, 0]\n"
+     "damping_linear = [0, 0, 0, 0, 0, 0]\ndamping_quadratic = [0, 0, 0, 0, 0, 0]\n[collision]",
+     {"hydrodynamics.link_1: got nothing", "zeros", "displaces water as 'hull' does"}},
     {"trim_without_position",
      "vehicle.toml",
      "[collision]",

@@ -197,6 +197,36 @@ TEST(CollisionChecker, SkipsPairsOnOneLinkAndIgnoredBodies) {
   EXPECT_EQ(make_collision_checker(shapes, {{"arm", "hull"}, {"hull", "tool"}}, 0), nullptr);
 }
 
+/// Along every direction a solid reaches as far as its shape: |h|'|R'd| for a box, half length
+/// |z'd| plus the radius for a capsule, plus its share across the axis for a cylinder, less what a
+/// prism of 32 faces misses.
+TEST(Solid, ReachesAsFarAsItsShape) {
+  Sampler sampler;
+  for (const auto kind : {Shape::Kind::kBox, Shape::Kind::kCapsule, Shape::Kind::kCylinder}) {
+    for (int i = 0; i < 100; ++i) {
+      Shape shape;
+      shape.kind = kind;
+      shape.placement = sampler.pose(1);
+      shape.radius = 0.2;
+      shape.half_length = 0.5;
+      shape.half_sizes = {0.1, 0.2, 0.3};
+      const Solid solid = to_solid(shape);
+      const Vector3d d = sampler.pose(1).R.col(0), local = shape.placement.R.transpose() * d;
+      double reach = -1e9;
+      for (const Vector3d& p : solid.points) {
+        reach = std::max(reach, d.dot(p - shape.placement.p) + solid.radius);
+      }
+      double expected = 0.5 * std::abs(local.z()) + 0.2;
+      if (kind == Shape::Kind::kBox) expected = shape.half_sizes.dot(local.cwiseAbs());
+      if (kind == Shape::Kind::kCylinder) {
+        expected = 0.5 * std::abs(local.z()) + 0.2 * local.head<2>().norm();
+      }
+      EXPECT_LE(reach, expected + 1e-12);
+      EXPECT_GE(reach, expected - 0.2 * (1 - std::cos(std::numbers::pi / 32)) - 1e-12);
+    }
+  }
+}
+
 /// Both joints at -60 degrees bend the arm back: link 2 runs from the elbow at
 /// (0.3, 0.1) + 0.1 (cos 60, -sin 60) = (0.35, 0.013) along (cos 120, -sin 120) to (0.3, -0.073), a
 /// point of the hull's front face x = 0.3.

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <numbers>
 
+#include "lib/posture.h"
+
 namespace maxwrench {
 namespace {
 
@@ -18,6 +20,13 @@ using testing::HasSubstr;
 constexpr double kDegree = std::numbers::pi / 180;
 
 void write(const fs::path& file, const std::string& text) { std::ofstream(file) << text; }
+
+/// A link of 1 kg.
+std::string solid(const std::string& name) {
+  return "<link name='" + name +
+         "'><inertial><mass value='1'/>"
+         "<inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>";
+}
 
 /// A folder of its own for each test, removed with it.
 class LoaderTest : public testing::Test {
@@ -188,9 +197,8 @@ TEST_F(LoaderTest, TrimIsOptional) {
 
 /// A tree: `slide` (prismatic) and `turn` (continuous) on the root, `tip` behind a fixed bracket on
 /// `turn`. Their order in the file is neither alphabetical nor depth-first.
-constexpr const char* kTree = R"(
-  <link name='root'/><link name='rail'/><link name='wheel'/><link name='bracket'/>
-  <link name='finger'/>
+const std::string kTree = solid("root") + solid("rail") + solid("wheel") +
+                          "<link name='bracket'/>" + solid("finger") + R"(
   <joint name='turn' type='continuous'><parent link='root'/><child link='wheel'/>
     <axis xyz='0 2 0'/><limit effort='5' velocity='3'/></joint>
   <joint name='slide' type='prismatic'><parent link='root'/><child link='rail'/>
@@ -225,9 +233,25 @@ TEST_F(LoaderTest, TreeIsFlattenedDepthFirstInTheOrderOfTheFile) {
   EXPECT_EQ(robot.collision, nullptr);
 }
 
+/// What does not move by itself needs no inertia: a fixed base, a frame on a moving link.
+TEST_F(LoaderTest, MasslessFramesAreFine) {
+  const Robot robot = load("<link name='root'/>" + solid("wheel") + R"(
+    <link name='hub'><inertial><mass value='0'/>
+      <inertia ixx='0' ixy='0' ixz='0' iyy='0' iyz='0' izz='0'/></inertial></link>
+    <joint name='turn' type='continuous'><parent link='root'/><child link='hub'/>
+      <axis xyz='0 1 0'/><limit effort='5' velocity='3'/></joint>
+    <joint name='hold' type='fixed'><parent link='hub'/><child link='wheel'/>
+      <origin xyz='0 0 2'/></joint>)",
+                           "base = { axes = [] }");
+  EXPECT_EQ(robot.links[0].mass, 0);
+  EXPECT_EQ(robot.links[1].mass, 1);
+  EXPECT_TRUE(robot.links[1].com.isApprox(Eigen::Vector3d(0, 0, 2)));
+}
+
 TEST_F(LoaderTest, ThetaRIsTheChainAndItsDefaultLiesWithinTheLimits) {
   load(kTree,
-       "base = { axes = ['x'] }\nend_effectors = { finger = { link = 'finger' }, "
+       "base = { axes = ['x', 'y', 'z', 'roll', 'pitch', 'yaw'] }\nend_effectors = { finger = { "
+       "link = 'finger' }, "
        "rail = { link = 'rail' } }");
   const auto task = [&](const std::string& end_effector) {
     write(folder_ / "task.toml",
@@ -249,8 +273,43 @@ TEST_F(LoaderTest, ThetaRIsTheChainAndItsDefaultLiesWithinTheLimits) {
   EXPECT_EQ(rail.theta_r_default[0], 0.1);  // zero, moved to the nearer limit
 }
 
+TEST_F(LoaderTest, BaseIsMountedWhereTheFileSays) {
+  const Robot robot = load(kTree, "base = { axes = ['yaw'], xyz = [1, 2, 3], rpy = [0, 0.5, 0] }");
+  EXPECT_EQ(robot.mount.p, Eigen::Vector3d(1, 2, 3));
+  EXPECT_NEAR(robot.mount.R(0, 2), std::sin(0.5), 1e-15);
+  EXPECT_TRUE(load(kTree, "base = { axes = [] }").mount.R.isIdentity());
+}
+
+TEST_F(LoaderTest, WhatFollowsIsReadFromTheTask) {
+  load(kTree, "base = { axes = ['x'] }\nend_effectors = { finger = { link = 'finger' } }");
+  // x, turn and tip move the finger in three ways: nothing is redundant, both joints follow. With
+  // x = 2, turn = 0.2 about y and tip = 0 the finger is at (2, 0, 0) + Ry(0.2) (1, 0, 2).
+  const auto task = [&](const std::string& z) {
+    write(folder_ / "task.toml",
+          "type = 'static'\nrobot = 'robot.toml'\nlabel = 'test'\nsource = 'test'\n"
+          "end_effector = 'finger'\nwrench = { c = [0, 0, 1, 0, 0, 0] }\n"
+          "pose = { xyz = [3.377405239431364, 0, " +
+              z +
+              "], rpy = [0, 0.2, 0] }\n"
+              "theta_r = { joints = [], guess = { tip = 0.1 }, guess_base = { x = 1 } }\n");
+    return load_problem((folder_ / "task.toml").string());
+  };
+  const Problem problem = task("1.761463824887422");
+  EXPECT_EQ(problem.redundancy(), 0);
+  EXPECT_THAT(problem.dependent, ElementsAre(0, 1));
+  EXPECT_EQ(problem.guess_q[1], 0.1);
+  EXPECT_EQ(problem.guess_base, Eigen::Vector4d::Unit(0));
+  PostureModel model(problem);
+  const Posture& posture = model.evaluate(Eigen::VectorXd());
+  EXPECT_EQ(posture.status, Status::kOptimal) << posture.reason;
+  EXPECT_NEAR(posture.q[0], 0.2, 1e-12);
+  EXPECT_NEAR(posture.q[1], 0, 1e-12);
+  EXPECT_NEAR(posture.base.p.x(), 2, 1e-12);
+  EXPECT_THROW(task("1.77"), std::invalid_argument);
+}
+
 TEST_F(LoaderTest, ThrustersOverrideTheDefaults) {
-  const Robot robot = load("<link name='a'/>", R"(
+  const Robot robot = load(solid("a"), R"(
     base = { axes = ["x", "y", "z", "roll", "pitch", "yaw"] }
     [thrusters]
     force_min = -4

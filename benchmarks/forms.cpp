@@ -1,0 +1,155 @@
+#include "benchmarks/forms.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace maxwrench {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+LinearProgram from_dense(const MatrixXd& A, const VectorXd& b, const VectorXd& c, const VectorXd& l,
+                         const VectorXd& u) {
+  LinearProgram program;
+  program.A = A.sparseView();
+  program.b = b;
+  program.c = c;
+  program.l = l;
+  program.u = u;
+  return program;
+}
+
+/// Columns (u, h): B u - J'h = tau_d, (W W^+ - I) h = 0. J' acts on the span of W only, which those
+/// rows leave.
+LinearProgram paper_form(const WrenchProgram& program) {
+  const Zonotope& set = *program.actuation;
+  const int n = set.dimension();
+  const int m = set.actuators();
+  const bool all = program.columns() == 6;
+  const MatrixXd W_pinv = program.W.completeOrthogonalDecomposition().pseudoInverse();
+  MatrixXd A = MatrixXd::Zero(n + (all ? 0 : 6), m + 6);
+  A.topLeftCorner(n, m) = set.B;
+  A.topRightCorner(n, 6) = -program.JtW * W_pinv;
+  if (!all) A.bottomRightCorner(6, 6) = program.W * W_pinv - MatrixXd::Identity(6, 6);
+  VectorXd b = VectorXd::Zero(A.rows());
+  b.head(n) = program.tau_d;
+  VectorXd c = VectorXd::Zero(m + 6);
+  c.tail(6) = W_pinv.transpose() * program.c_w;
+  VectorXd l = VectorXd::Constant(m + 6, -kInfinity);
+  VectorXd u = VectorXd::Constant(m + 6, kInfinity);
+  l.head(m) = set.u_min;
+  u.head(m) = set.u_max;
+  return from_dense(A, b, c, l, u);
+}
+
+/// The rows of B that one direct drive alone serves, with its column; and all others.
+struct Drives {
+  std::vector<int> rows, cols, other_rows, other_cols;
+};
+
+Drives find_drives(const MatrixXd& B) {
+  Drives drives;
+  std::vector<char> driven(B.cols(), 0);
+  for (int i = 0; i < B.rows(); ++i) {
+    int column = -1;
+    for (int j = 0; j < B.cols(); ++j) {
+      const bool alone = B(i, j) != 0 && (B.row(i).array() != 0).count() == 1 &&
+                         (B.col(j).array() != 0).count() == 1;
+      if (alone) column = j;
+    }
+    if (column < 0) {
+      drives.other_rows.push_back(i);
+      continue;
+    }
+    drives.rows.push_back(i);
+    drives.cols.push_back(column);
+    driven[column] = 1;
+  }
+  for (int j = 0; j < B.cols(); ++j) {
+    if (!driven[j]) drives.other_cols.push_back(j);
+  }
+  return drives;
+}
+
+/// One column: the joints' limits bound w.
+LinearProgram reduce_pure(const WrenchProgram& program, const Drives& drives) {
+  const Zonotope& set = *program.actuation;
+  double low = program.w_min[0];
+  double high = program.w_max[0];
+  for (std::size_t k = 0; k < drives.rows.size(); ++k) {
+    const double slope = program.JtW(drives.rows[k], 0);
+    const double gain = set.B(drives.rows[k], drives.cols[k]);
+    double first = gain * set.u_min[drives.cols[k]] - program.tau_d[drives.rows[k]];
+    double second = gain * set.u_max[drives.cols[k]] - program.tau_d[drives.rows[k]];
+    if (std::abs(slope) < 1e-14) {
+      const bool holds = std::min(first, second) <= 0 && std::max(first, second) >= 0;
+      if (!holds) low = kInfinity;
+      continue;
+    }
+    first /= slope;
+    second /= slope;
+    low = std::max(low, std::min(first, second));
+    high = std::min(high, std::max(first, second));
+  }
+  // Crossing bounds are kept apart from infinity, which no bound may be.
+  if (low == kInfinity) low = high + 1;
+  const int m = static_cast<int>(drives.other_cols.size());
+  MatrixXd A(drives.other_rows.size(), m + 1);
+  A << set.B(drives.other_rows, drives.other_cols), -program.JtW(drives.other_rows, Eigen::all);
+  VectorXd l(m + 1);
+  VectorXd u(m + 1);
+  l << set.u_min(drives.other_cols), low;
+  u << set.u_max(drives.other_cols), high;
+  VectorXd c = VectorXd::Zero(m + 1);
+  c[m] = program.c_w[0];
+  return from_dense(A, program.tau_d(drives.other_rows), c, l, u);
+}
+
+/// w = P (B u - tau_d) with P = (J'W)^-1 over the rows without direct drive, v = B_ij u_j:
+/// v - J_j'W P B u = tau_d,j - J_j'W P tau_d.
+Reduced eliminate_w(const WrenchProgram& program, const Drives& drives) {
+  const Zonotope& set = *program.actuation;
+  const MatrixXd P = program.JtW(drives.other_rows, Eigen::all).inverse();
+  const MatrixXd PB = P * set.B(drives.other_rows, drives.other_cols);
+  const VectorXd Ptau = P * program.tau_d(drives.other_rows);
+  const MatrixXd loads = program.JtW(drives.rows, Eigen::all);
+  const auto m = static_cast<Eigen::Index>(drives.other_cols.size());
+  const auto joints = static_cast<Eigen::Index>(drives.rows.size());
+  MatrixXd A(joints, m + joints);
+  A << -loads * PB, MatrixXd(set.B(drives.rows, drives.cols));
+  VectorXd l(m + joints);
+  VectorXd u(m + joints);
+  l << set.u_min(drives.other_cols), set.u_min(drives.cols);
+  u << set.u_max(drives.other_cols), set.u_max(drives.cols);
+  VectorXd c = VectorXd::Zero(m + joints);
+  c.head(m) = PB.transpose() * program.c_w;
+  return {from_dense(A, program.tau_d(drives.rows) - loads * Ptau, c, l, u),
+          -program.c_w.dot(Ptau)};
+}
+
+}  // namespace
+
+const char* to_string(Form form) {
+  return form == Form::kPaper ? "F1" : form == Form::kSubstituted ? "F2" : "F3";
+}
+
+Reduced reduce(const WrenchProgram& program) {
+  const Drives drives = find_drives(program.actuation->B);
+  if (program.columns() == 1) return {reduce_pure(program, drives), 0};
+  const bool free =
+      (program.w_min.array() == -kInfinity).all() && (program.w_max.array() == kInfinity).all();
+  if (free && static_cast<int>(drives.other_rows.size()) == program.columns()) {
+    const MatrixXd block = program.JtW(drives.other_rows, Eigen::all);
+    if (block.partialPivLu().rcond() > 1e-8) return eliminate_w(program, drives);
+  }
+  return {assemble(program), 0};
+}
+
+LinearProgram make_form(const WrenchProgram& program, Form form) {
+  if (form == Form::kPaper) return paper_form(program);
+  return form == Form::kSubstituted ? assemble(program) : reduce(program).program;
+}
+
+}  // namespace maxwrench

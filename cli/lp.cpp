@@ -1,0 +1,127 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/cli.h"
+#include "problems/mps.h"
+#include "solvers/strategies.h"
+
+namespace maxwrench {
+namespace {
+
+using nlohmann::ordered_json;
+
+struct LpOptions {
+  std::string file;
+  std::string lp = "simplex";
+  bool json = false;
+};
+
+/// An answer with what was recomputed from the file's data.
+struct Checked {
+  LpSolution solution;
+  LpResiduals residual;
+  double wall_s = 0;
+
+  bool optimal() const { return solution.status == Status::kOptimal; }
+};
+
+Checked solve(const LpEntry& solver, const LinearProgram& program) {
+  Checked answer;
+  const auto start = std::chrono::steady_clock::now();
+  solver.make()->solve(program, answer.solution);
+  answer.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  LpSolution& solution = answer.solution;
+  const bool verdict = solution.status == Status::kOptimal ||
+                       solution.status == Status::kInfeasible ||
+                       solution.status == Status::kUnbounded;
+  // The interior point ends near a vertex, not on it.
+  if (verdict && !verified(program, solution, 1e-6)) {
+    solution.status = Status::kNumericalError;
+    solution.reason = "the verdict is not confirmed by the program's data";
+  }
+  if (answer.optimal()) answer.residual = residuals(program, solution);
+  return answer;
+}
+
+ordered_json by_name(const std::vector<std::string>& names, const Eigen::VectorXd& values) {
+  ordered_json object = ordered_json::object();
+  for (Eigen::Index i = 0; i < values.size(); ++i) object[names[i]] = values[i];
+  return object;
+}
+
+void print_json(const LpOptions& options, const MpsProgram& mps, const Checked& answer) {
+  const LpSolution& solution = answer.solution;
+  const bool optimal = answer.optimal();
+  const auto known = [](bool condition, const ordered_json& value) {
+    return condition ? value : ordered_json(nullptr);
+  };
+  ordered_json object;
+  object["file"] = options.file;
+  object["name"] = mps.name;
+  object["sense"] = mps.minimize ? "min" : "max";
+  object["lp"] = options.lp;
+  object["status"] = to_string(solution.status);
+  object["reason"] = known(*solution.reason != '\0', solution.reason);
+  object["objective"] = known(optimal, mps.objective(solution));
+  object["iterations"] = solution.iterations;
+  const LpResiduals& r = answer.residual;
+  object["residual"] =
+      known(optimal,
+            {{"row", r.row}, {"bound", r.bound}, {"reduced_cost", r.reduced_cost}, {"gap", r.gap}});
+  object["verified"] =
+      solution.status != Status::kNumericalError && solution.status != Status::kBudgetExhausted;
+  object["x"] = optimal ? by_name(mps.program.col_names, mps.point(solution)) : nullptr;
+  object["duals"] = optimal ? by_name(mps.program.row_names, mps.duals(solution)) : nullptr;
+  object["wall_s"] = answer.wall_s;
+  object["version"] = MAXWRENCH_VERSION;
+  fmt::print("{}\n", object.dump());
+}
+
+void print(const LpOptions& options, const MpsProgram& mps, const Checked& answer) {
+  const LpSolution& solution = answer.solution;
+  const LinearProgram& program = mps.program;
+  fmt::print("{}  {} rows  {} columns  {}  lp {}\n", options.file, program.rows(), mps.file_cols,
+             mps.minimize ? "minimise" : "maximise", options.lp);
+  if (!answer.optimal()) {
+    fmt::print("{}: {}\n", to_string(solution.status), solution.reason);
+    if (solution.status == Status::kInfeasible) fmt::print("Farkas vector checked\n");
+    if (solution.status == Status::kUnbounded) fmt::print("feasible point and ray checked\n");
+    fmt::print("{} iterations in {:.3g} s\n", solution.iterations, answer.wall_s);
+    return;
+  }
+  fmt::print("optimal  {} = {:.12g}\n", mps.objective_name, mps.objective(solution));
+  const Eigen::VectorXd duals = mps.duals(solution);
+  fmt::print("row                           dual\n");
+  for (int i = 0; i < program.rows(); ++i) {
+    if (duals[i] != 0) fmt::print("{:<20} {:>13.6g}\n", program.row_names[i], duals[i]);
+  }
+  const LpResiduals& r = answer.residual;
+  fmt::print(
+      "residual row {:.1e}, bound {:.1e}, reduced cost {:.1e}, gap {:.1e}; {} iterations in {:.3g} "
+      "s\n",
+      r.row, r.bound, r.reduced_cost, r.gap, solution.iterations, answer.wall_s);
+}
+
+int lp(const LpOptions& options) {
+  const LpEntry& solver = find_lp_solver(options.lp);
+  const MpsProgram mps = read_mps(options.file);
+  const Checked answer = solve(solver, mps.program);
+  (options.json ? print_json : print)(options, mps, answer);
+  return answer.optimal() ? kAnswered : kOtherStatus;
+}
+
+}  // namespace
+
+void add_lp(CLI::App& app, int& exit_status) {
+  auto options = std::make_shared<LpOptions>();
+  CLI::App& command = *app.add_subcommand("lp", "solves a linear program in an MPS file");
+  command.add_option("file", options->file, "fixed or free MPS")->required();
+  command.add_option("--lp", options->lp, "general solver")->capture_default_str();
+  command.add_flag("--json", options->json, "print one JSON object");
+  command.callback([options, &exit_status] { exit_status = lp(*options); });
+}
+
+}  // namespace maxwrench

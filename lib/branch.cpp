@@ -1,0 +1,274 @@
+#include "lib/branch.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "lib/dual.h"
+#include "lib/random.h"
+
+namespace maxwrench {
+namespace {
+
+/// [m; rad] of the end effector: Newton has arrived, and what one more step must reach.
+constexpr double kArrived = 1e-9;
+constexpr double kExact = 1e-12;
+/// On the way to theta_r a rougher solution is enough.
+constexpr double kOnTheWay = 1e-6;
+/// theta_r moves this far in one step [rad or m], and y is corrected by this at most.
+constexpr double kStep = 0.3;
+constexpr double kCorrection = 0.2;
+/// A step that must be shorter than this fails.
+constexpr double kShortestStep = 1e-5;
+constexpr int kMostSteps = 2000;
+/// J_d is singular if the smallest pivot of its QR decomposition is below this part of the largest.
+constexpr double kSingular = 1e-4;
+
+constexpr const char* kUnreachable = "unreachable pose: the dependent joints do not get there";
+constexpr const char* kSingularReason = "singular: the dependent joints do not fix the pose";
+
+/// The place of a base axis [x y z roll pitch yaw] in [x, y, z, yaw].
+int coordinate(int axis) { return std::min(axis, 3); }
+
+/// A rotation as axis times angle.
+Eigen::Vector3d logarithm(const Eigen::Matrix3d& R) {
+  const Eigen::AngleAxisd turn(R);
+  return turn.angle() * turn.axis();
+}
+
+}  // namespace
+
+std::vector<int> chain_to(const Robot& robot, int end_effector) {
+  std::vector<int> chain;
+  int link = robot.end_effectors[static_cast<std::size_t>(end_effector)].link;
+  while (link > 0) {  // link i is moved by joint i - 1
+    chain.push_back(link - 1);
+    link = robot.joints[static_cast<std::size_t>(link - 1)].parent;
+  }
+  std::reverse(chain.begin(), chain.end());
+  return chain;
+}
+
+int motions_of(const Robot& robot, int end_effector) {
+  constexpr int kPostures = 8;  // almost every posture has the largest rank
+  Random random(1);
+  Kinematics<double> kinematics(robot);
+  Eigen::VectorXd q(robot.joints.size());
+  Matrix6Xd J(6, robot.velocities());
+  Eigen::Index rank = 0;
+  if (J.cols() == 0) return 0;
+  for (int posture = 0; posture < kPostures; ++posture) {
+    for (double& q_i : q) q_i = random.uniform(-std::numbers::pi, std::numbers::pi);
+    kinematics.set_joints(q);
+    // The pose of the base does not change the rank.
+    kinematics.jacobian(robot.end_effectors[static_cast<std::size_t>(end_effector)],
+                        Eigen::Matrix3d::Identity(), J);
+    Eigen::ColPivHouseholderQR<Matrix6Xd> qr(J);
+    qr.setThreshold(1e-9);
+    rank = std::max(rank, qr.rank());
+  }
+  return static_cast<int>(rank);
+}
+
+Pose<double> base_pose(const Robot& robot, const Eigen::Vector4d& x) {
+  Pose<double> local;
+  local.R(0, 0) = local.R(1, 1) = std::cos(x[3]);
+  local.R(1, 0) = std::sin(x[3]);
+  local.R(0, 1) = -local.R(1, 0);
+  local.p = x.head<3>();
+  return robot.mount * local;
+}
+
+Branch::Branch(const Problem& problem)
+    : problem_(problem),
+      kinematics_(problem.robot),
+      q_(problem.robot.joints.size()),
+      start_z_(4 + q_.size()),
+      J_(6, problem.robot.velocities()) {
+  const Robot& robot = problem.robot;
+  for (const int axis : robot.base_axes) {
+    columns_.push_back(static_cast<int>(y_.size()));
+    y_.push_back(coordinate(axis));
+  }
+  for (const int joint : problem.dependent) {
+    columns_.push_back(static_cast<int>(robot.base_axes.size()) + joint);
+    y_.push_back(4 + joint);
+  }
+  assert(y_.size() <= 6);
+  const auto d = static_cast<Eigen::Index>(y_.size());
+  J_d_.resize(6, d);
+  start_z_ << problem.guess_base, problem.guess_q;
+  for (int k = 0; k < problem.redundancy(); ++k) {
+    start_z_[4 + problem.redundant[static_cast<std::size_t>(k)]] = problem.theta_r_default[k];
+  }
+  trial_ = z_ = start_z_;
+  slopes_.setZero(start_z_.size(), problem.redundancy());
+  start();
+  start_z_ = z_;
+  start_slopes_ = slopes_;
+}
+
+/// Fills error_, J_ and J_d_. The translations are coordinates along the mount's axes; those of J_
+/// are along the base's.
+void Branch::linearise(const Eigen::VectorXd& z) {
+  const Robot& robot = problem_.robot;
+  const EndEffector& end_effector =
+      robot.end_effectors[static_cast<std::size_t>(problem_.end_effector)];
+  const Pose<double> base = base_pose(robot, z.head<4>());
+  q_ = z.tail(q_.size());
+  kinematics_.set_joints(q_);
+  kinematics_.jacobian(end_effector, base.R, J_);
+  for (std::size_t i = 0; i < robot.base_axes.size(); ++i) {
+    const int axis = robot.base_axes[i];
+    if (axis < 3) J_.col(static_cast<Eigen::Index>(i)).head<3>() = robot.mount.R.col(axis);
+  }
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    J_d_.col(static_cast<Eigen::Index>(i)) = J_.col(columns_[i]);
+  }
+  const Pose<double> pose = base * kinematics_.end_effector(end_effector);
+  error_.head<3>() = problem_.pose.p - pose.p;
+  error_.tail<3>() = logarithm(problem_.pose.R * pose.R.transpose());
+}
+
+bool Branch::is_singular() const {
+  const auto pivots = qr_.matrixQR().diagonal().cwiseAbs();
+  return pivots.size() > 0 && !(pivots.minCoeff() >= kSingular * pivots.maxCoeff());
+}
+
+/// slopes_ where J_ and qr_ are, dtheta_r/dtheta_r included.
+void Branch::differentiate() {
+  const auto axes = static_cast<Eigen::Index>(problem_.robot.base_axes.size());
+  for (Eigen::Index k = 0; k < slopes_.cols(); ++k) {
+    const int joint = problem_.redundant[static_cast<std::size_t>(k)];
+    const Vector6d twist = J_.col(axes + joint);
+    const VectorN dy = qr_.solve(twist);
+    for (std::size_t i = 0; i < y_.size(); ++i) {
+      slopes_(y_[i], k) = -dy[static_cast<Eigen::Index>(i)];
+    }
+    slopes_(4 + joint, k) = 1;
+  }
+}
+
+/// One step of Levenberg and Marquardt from z_, kept if it leads closer; false if none does.
+bool Branch::damped_step(double& damping) {
+  constexpr double kMostDamping = 1e9;
+  constexpr double kLongest = 0.5;
+  const double error = error_.norm();
+  while (damping < kMostDamping) {
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6> normal =
+        J_d_.transpose() * J_d_;
+    normal.diagonal().array() += damping;
+    VectorN dy = normal.ldlt().solve(J_d_.transpose() * error_);
+    const double longest = dy.lpNorm<Eigen::Infinity>();
+    if (longest > kLongest) dy *= kLongest / longest;
+    trial_ = z_;
+    for (std::size_t i = 0; i < y_.size(); ++i) trial_[y_[i]] += dy[static_cast<Eigen::Index>(i)];
+    linearise(trial_);
+    if (error_.norm() < error) {
+      z_ = trial_;
+      damping /= 8;
+      return true;
+    }
+    linearise(z_);
+    damping *= 4;
+  }
+  return false;
+}
+
+void Branch::start() {
+  constexpr int kMostDampedSteps = 500;
+  double damping = 0.01;
+  linearise(z_);
+  for (int i = 0; i < kMostDampedSteps && error_.norm() > kArrived; ++i) {
+    if (!damped_step(damping)) break;
+  }
+  start_error_ = error_.norm();
+  qr_.compute(J_d_);
+  start_is_singular_ = is_singular();
+  differentiate();
+}
+
+/// Newton's method from trial_; false if a step does not halve the error or is too long.
+bool Branch::contract(double tolerance) {
+  double error = kInfinity;
+  while (true) {
+    linearise(trial_);
+    const double now = error_.norm();
+    if (now <= tolerance) return true;
+    if (!(now <= error / 2)) return false;
+    error = now;
+    qr_.compute(J_d_);
+    const VectorN dy = qr_.solve(error_);
+    if (!(dy.lpNorm<Eigen::Infinity>() <= kCorrection)) return false;
+    for (std::size_t i = 0; i < y_.size(); ++i) trial_[y_[i]] += dy[static_cast<Eigen::Index>(i)];
+  }
+}
+
+/// From the start to theta_r; z_ and slopes_ are those of the last point that was reached.
+const char* Branch::carry(const Eigen::VectorXd& theta_r) {
+  const Eigen::VectorXd& from = problem_.theta_r_default;
+  const double length = theta_r.size() == 0 ? 0 : (theta_r - from).lpNorm<Eigen::Infinity>();
+  const double longest = length > kStep ? kStep / length : 1;
+  double done = 0;
+  double step = longest;
+  for (int i = 0; i < kMostSteps && done < 1; ++i) {
+    const double next = std::min(1.0, done + step);
+    trial_ = z_;
+    for (Eigen::Index k = 0; k < theta_r.size(); ++k) {
+      trial_ += (next - done) * (theta_r[k] - from[k]) * slopes_.col(k);
+    }
+    for (Eigen::Index k = 0; k < theta_r.size(); ++k) {
+      trial_[4 + problem_.redundant[static_cast<std::size_t>(k)]] =
+          next < 1 ? from[k] + next * (theta_r[k] - from[k]) : theta_r[k];
+    }
+    const bool arrived = contract(next < 1 ? kOnTheWay : kArrived);
+    if (arrived) qr_.compute(J_d_);
+    if (arrived && !is_singular()) {
+      differentiate();
+      z_ = trial_;
+      done = next;
+      step = std::min(2 * step, longest);
+    } else {
+      step = (next - done) / 2;
+      if (step * length < kShortestStep) return arrived ? kSingularReason : kUnreachable;
+    }
+  }
+  return done < 1 ? kUnreachable : nullptr;
+}
+
+bool Branch::has_start() const { return start_error_ <= kArrived; }
+
+const char* Branch::follow(const Eigen::VectorXd& theta_r) {
+  // The answer depends on theta_r alone, so the last one may be kept.
+  if (followed_ && theta_r_ == theta_r) return reason_;
+  followed_ = true;
+  theta_r_ = theta_r;
+  z_ = start_z_;
+  slopes_ = start_slopes_;
+  reason_ = has_start() ? carry(theta_r) : kUnreachable;
+  if (reason_ == nullptr) {
+    const VectorN dy = qr_.solve(error_);
+    for (std::size_t i = 0; i < y_.size(); ++i) z_[y_[i]] += dy[static_cast<Eigen::Index>(i)];
+    linearise(z_);
+    if (!(error_.norm() <= kExact)) reason_ = kUnreachable;
+    qr_.compute(J_d_);
+    differentiate();
+  }
+  turn_into_limits();
+  return reason_;
+}
+
+/// A revolute joint means the same after whole turns.
+void Branch::turn_into_limits() {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  for (const int i : problem_.dependent) {
+    const Joint& joint = problem_.robot.joints[static_cast<std::size_t>(i)];
+    double& q = z_[4 + i];
+    if (joint.type != JointType::kRevolute) continue;
+    if (q > joint.q_max) q -= kTurn * std::ceil((q - joint.q_max) / kTurn);
+    if (q < joint.q_min) q += kTurn * std::ceil((joint.q_min - q) / kTurn);
+  }
+}
+
+}  // namespace maxwrench

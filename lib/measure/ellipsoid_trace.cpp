@@ -1,0 +1,64 @@
+#include <cmath>
+
+#include "lib/measure/closed_form.h"
+#include "lib/posture.h"
+
+namespace maxwrench {
+namespace {
+
+/// The sum of the squared radii of the ellipsoid {z : |W_u B^+ J'W S z| <= 1}: wrenches W S z (W
+/// 6×k, the wrenches that the task allows at most) measured by the desired wrench, S = W' diag(s)
+/// W. With G = W_u B^+ J'W (m×k) and Z = (G'G)^-1 S^-1,
+///
+///     T = trace(S^-1 Z),  d T = -2 <G Z Z', d G>.
+///
+/// The offset by tau_d moves the centre only and does not occur.
+class EllipsoidTrace : public Measure {
+ public:
+  EllipsoidTrace(Eigen::MatrixXd K, Matrix6Xd W, const Vector6d& desired)
+      : K_(std::move(K)), W_(std::move(W)) {
+    const SmallMatrix S = W_.transpose() * desired.asDiagonal() * W_;
+    S_inverse_ = S.inverse();
+  }
+
+  void evaluate(const Posture& posture, const WrenchProgram& /*program*/, bool efforts,
+                Capability& capability) override {
+    JtW_.noalias() = posture.J.transpose().lazyProduct(W_);
+    G_.noalias() = K_.lazyProduct(JtW_);
+    normal_.noalias() = G_.transpose().lazyProduct(G_);
+    ldlt_.compute(normal_);
+    if (!regular(ldlt_)) {
+      capability.status = Status::kNumericalError;
+      capability.reason = "J'W has not full column rank";
+      return;
+    }
+    Z_ = ldlt_.solve(S_inverse_);
+    fill_score(S_inverse_.cwiseProduct(Z_).sum(), posture.J.cols(), capability);
+    normal_.noalias() = -2 * Z_.lazyProduct(Z_.transpose());
+    slope_.noalias() = G_.lazyProduct(normal_);
+    seed_.noalias() = slope_.transpose().lazyProduct(K_);
+    capability.beta_J.noalias() = W_.lazyProduct(seed_);
+    if (!efforts) return;
+    // The radii are the reciprocal singular values of G S.
+    capability.residual = {};
+    const Eigen::MatrixXd scaled = G_ * S_inverse_.inverse();
+    const double trace = scaled.jacobiSvd().singularValues().cwiseAbs2().cwiseInverse().sum();
+    capability.residual.gap = std::abs(trace - capability.beta);
+  }
+
+ private:
+  Eigen::MatrixXd K_;
+  Matrix6Xd W_;
+  Eigen::MatrixXd JtW_, G_, slope_, seed_;
+  SmallMatrix S_inverse_, normal_, Z_;
+  Eigen::LDLT<SmallMatrix> ldlt_;
+};
+
+}  // namespace
+
+std::unique_ptr<Measure> make_ellipsoid_trace(const Problem& problem) {
+  return std::make_unique<EllipsoidTrace>(weighted_inverse(problem.robot, "ellipsoid_trace"),
+                                          problem.W_any, problem.desired);
+}
+
+}  // namespace maxwrench

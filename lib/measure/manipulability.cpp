@@ -1,0 +1,47 @@
+#include <cmath>
+
+#include "lib/measure/closed_form.h"
+#include "lib/posture.h"
+
+namespace maxwrench {
+namespace {
+
+/// w = sqrt det(A A') with A = W'J (k×n), W the wrenches that the task allows at most: the rows
+/// that span what the end effector can do. d w = w <(A A')^-1 A, d A>.
+class Manipulability : public Measure {
+ public:
+  explicit Manipulability(Matrix6Xd W) : W_(std::move(W)) {}
+
+  void evaluate(const Posture& posture, const WrenchProgram& /*program*/, bool efforts,
+                Capability& capability) override {
+    A_.noalias() = W_.transpose().lazyProduct(posture.J);
+    gram_.noalias() = A_.lazyProduct(A_.transpose());
+    ldlt_.compute(gram_);
+    if (!regular(ldlt_)) {
+      capability.status = Status::kNumericalError;
+      capability.reason = "J is singular";
+      return;
+    }
+    const double w = std::sqrt(ldlt_.vectorD().prod());
+    fill_score(w, posture.J.cols(), capability);
+    scaled_ = ldlt_.solve(A_);
+    capability.beta_J.noalias() = w * W_.lazyProduct(scaled_);
+    if (!efforts) return;
+    capability.residual = {};
+    capability.residual.gap = std::abs(A_.jacobiSvd().singularValues().prod() - w);
+  }
+
+ private:
+  Matrix6Xd W_;
+  Eigen::MatrixXd A_, scaled_;
+  SmallMatrix gram_;
+  Eigen::LDLT<SmallMatrix> ldlt_;
+};
+
+}  // namespace
+
+std::unique_ptr<Measure> make_manipulability(const Problem& problem) {
+  return std::make_unique<Manipulability>(problem.W_any);
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <vector>
+
+#include "lib/kinematics.h"
+
+namespace maxwrench {
+
+/// The derivative of functions of J and tau_d by the joint positions, while the end effector keeps
+/// its pose and the base follows. Reverse accumulation: its cost grows with n, not with n times the
+/// number of directions. Allocates nothing after the first call.
+///
+/// In world axes about the end effector, which rests, velocity i is a screw s_i = [v_i; w_i],
+/// column i of J. A body moved by the screw x takes the screws on it along: ds = x (×) s = [w_x ×
+/// v_s + v_x × w_s; w_x × w_s]. With the field G = [0, 0, -g] the load is tau_i = -G'p_i, p_i = m_i
+/// v_i + w_i × c_i, where velocity i carries the wet mass m_i with the first moment c_i. For seeds
+/// t = df/d tau_d and [a_i; b_i] = df/dJ_i let
+///
+///     y_i = -[w_i × a_i; v_i × a_i + w_i × b_i] + [0; t_i p_i × G],
+///
+/// so that s'y_i is the change of f due to velocity i when it and all that it carries move by -s.
+/// If q_k grows and joint k carries the end effector, all that it does not carry moves by -s_k; any
+/// other joint moves what it carries by s_k. Either way the moments c_i of the velocities that
+/// carry k change as well, which adds -p_k'(sum over them of t_i G × w_i).
+class PullBack {
+ public:
+  PullBack(const Robot& robot, int end_effector);
+
+  /// gradient_k = d(t'tau_d + <J_seed, J>)/d q_k for all joints. `kinematics` has seen the state
+  /// that J belongs to, `gravity_and_buoyancy` included.
+  void evaluate(const Kinematics<double>& kinematics, const Eigen::Matrix3d& R_base,
+                const Matrix6Xd& J, const Eigen::VectorXd& t, const Matrix6Xd& J_seed,
+                Eigen::VectorXd& gradient);
+
+ private:
+  /// Of a link and the joint that moves it; number 0 is the base.
+  struct Node {
+    bool on_chain = false;  ///< carries the end effector
+    Eigen::Vector3d v, w, p;
+    Eigen::Vector3d y_v, y_w;  ///< sum of y over the link's own and all carried velocities
+    Eigen::Vector3d load;      ///< sum of t_i G × w_i over the velocities that carry the link
+  };
+  void set_base(const Kinematics<double>& kinematics, const Eigen::Matrix3d& R_base,
+                const Matrix6Xd& J, const Eigen::VectorXd& t, const Matrix6Xd& J_seed);
+  void set_joint(const Kinematics<double>& kinematics, const Eigen::Matrix3d& R_base,
+                 const Matrix6Xd& J, std::size_t joint);
+  void collect_load(double t, Node& node) const;
+  static void collect_seed(const Matrix6Xd& J_seed, Eigen::Index column, Node& node);
+
+  const Robot* robot_;
+  const EndEffector* end_effector_;
+  Eigen::Vector3d p_e_;  ///< of the end effector, in base axes
+  std::vector<Node> nodes_;
+};
+
+}  // namespace maxwrench

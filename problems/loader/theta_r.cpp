@@ -1,0 +1,157 @@
+#include "problems/loader/theta_r.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+
+#include "lib/branch.h"
+
+namespace maxwrench {
+namespace {
+
+constexpr std::array<const char*, 6> kAxes = {"x", "y", "z", "roll", "pitch", "yaw"};
+
+std::string names_of(const Robot& robot, const std::vector<int>& joints) {
+  std::vector<std::string> names;
+  for (const int i : joints) names.push_back(robot.joints[static_cast<std::size_t>(i)].name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// The joints that the task names, `count` of the chain's.
+std::vector<int> named_joints(const Block& theta_r, const Robot& robot,
+                              const std::vector<int>& chain, int count) {
+  const std::string expected =
+      fmt::format("{} of the joints {}, each once (the other {} and the base follow)", count,
+                  names_of(robot, chain), static_cast<int>(chain.size()) - count);
+  if (count > 0 && !theta_r.has("joints")) theta_r.refuse_value("joints", expected);
+  std::vector<int> joints;
+  if (!theta_r.has("joints")) return joints;
+  for (const std::string& name : theta_r.texts("joints")) {
+    const auto found = std::find_if(chain.begin(), chain.end(), [&](int i) {
+      return robot.joints[static_cast<std::size_t>(i)].name == name;
+    });
+    const bool known = found != chain.end();
+    if (!known || std::find(joints.begin(), joints.end(), *found) != joints.end()) {
+      theta_r.refuse_value("joints", expected);
+    }
+    joints.push_back(*found);
+  }
+  if (static_cast<int>(joints.size()) != count) theta_r.refuse_value("joints", expected);
+  return joints;
+}
+
+/// All joints of the chain are redundant: the task may repeat them.
+void require_chain(const Block& theta_r, const Robot& robot, const std::vector<int>& chain) {
+  std::vector<std::string> names;
+  for (const int i : chain) names.push_back(robot.joints[static_cast<std::size_t>(i)].name);
+  if (theta_r.has("joints") && theta_r.texts("joints") != names) {
+    theta_r.refuse_value("joints", fmt::format("all joints from the base to the end effector, in "
+                                               "this order: {}",
+                                               fmt::join(names, ", ")));
+  }
+  for (const char* key : {"guess", "guess_base"}) {
+    if (theta_r.has(key)) theta_r.refuse_value(key, "no such key: the base pose follows alone");
+  }
+}
+
+void read_default(const Block& theta_r, Problem& problem) {
+  const int size = static_cast<int>(problem.redundant.size());
+  problem.theta_r_min.resize(size);
+  problem.theta_r_max.resize(size);
+  for (int i = 0; i < size; ++i) {
+    const int joint = problem.redundant[static_cast<std::size_t>(i)];
+    problem.theta_r_min[i] = problem.robot.joints[static_cast<std::size_t>(joint)].q_min;
+    problem.theta_r_max[i] = problem.robot.joints[static_cast<std::size_t>(joint)].q_max;
+  }
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(size);
+  problem.theta_r_default = zero.cwiseMax(problem.theta_r_min).cwiseMin(problem.theta_r_max);
+  if (!theta_r.has("default")) return;
+  problem.theta_r_default = theta_r.numbers("default", size);
+  for (int i = 0; i < size; ++i) {
+    const double value = problem.theta_r_default[i];
+    if (value >= problem.theta_r_min[i] && value <= problem.theta_r_max[i]) continue;
+    theta_r.refuse_value(
+        "default",
+        fmt::format("{} within {} .. {}",
+                    names_of(problem.robot, {problem.redundant[static_cast<std::size_t>(i)]}),
+                    problem.theta_r_min[i], problem.theta_r_max[i]));
+  }
+}
+
+/// Zero, moved into the limits, where the task guesses nothing.
+void read_guess(const Block& theta_r, Problem& problem) {
+  const Robot& robot = problem.robot;
+  std::vector<std::string> names;
+  problem.guess_q.resize(static_cast<Eigen::Index>(robot.joints.size()));
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    problem.guess_q[static_cast<Eigen::Index>(i)] =
+        std::clamp(0.0, robot.joints[i].q_min, robot.joints[i].q_max);
+  }
+  const Block guess = theta_r.table("guess");
+  for (const int i : problem.dependent) {
+    const Joint& joint = robot.joints[static_cast<std::size_t>(i)];
+    names.push_back(joint.name);
+    const double value = guess.number(joint.name, problem.guess_q[i]);
+    if (value < joint.q_min || value > joint.q_max) {
+      guess.refuse_value(joint.name,
+                         fmt::format("a number within {} .. {}", joint.q_min, joint.q_max));
+    }
+    problem.guess_q[i] = value;
+  }
+  guess.allow_only({names.begin(), names.end()});
+  const Block base = theta_r.table("guess_base");
+  std::vector<std::string_view> axes;
+  for (const int axis : robot.base_axes) {
+    axes.emplace_back(kAxes[static_cast<std::size_t>(axis)]);
+    problem.guess_base[std::min(axis, 3)] = base.number(axes.back(), 0);
+  }
+  base.allow_only(axes);
+}
+
+}  // namespace
+
+void read_theta_r(const Block& theta_r, Problem& problem) {
+  theta_r.allow_only({"joints", "default", "guess", "guess_base"});
+  const Robot& robot = problem.robot;
+  const std::vector<int> chain = chain_to(robot, problem.end_effector);
+  const int axes = static_cast<int>(robot.base_axes.size());
+  const int dependent = motions_of(robot, problem.end_effector) - axes;
+  problem.redundant = chain;
+  if (dependent == 0) {
+    require_chain(theta_r, robot, chain);
+    read_default(theta_r, problem);
+    return;
+  }
+  problem.redundant =
+      named_joints(theta_r, robot, chain, static_cast<int>(chain.size()) - dependent);
+  for (const int joint : chain) {
+    const auto& redundant = problem.redundant;
+    if (std::find(redundant.begin(), redundant.end(), joint) == redundant.end()) {
+      problem.dependent.push_back(joint);
+    }
+  }
+  read_default(theta_r, problem);
+  read_guess(theta_r, problem);
+}
+
+void require_branch(const Block& task, const Problem& problem) {
+  if (problem.dependent.empty()) return;
+  const Branch branch(problem);
+  const std::string names = names_of(problem.robot, problem.dependent);
+  if (!branch.has_start()) {
+    task.table("pose").refuse_value(
+        "xyz", fmt::format("a pose that {} and the base reach from theta_r.guess with theta_r at "
+                           "its default (the best found is {:.2g} m or rad away)",
+                           names, branch.start_error()));
+  }
+  if (branch.start_is_singular()) {
+    task.table("theta_r").refuse_value(
+        "joints", fmt::format("joints without which the pose fixes {} and the base (it does not "
+                              "at the default: singular)",
+                              names));
+  }
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "lib/problem.h"
+#include "problems/loader/block.h"
+
+namespace maxwrench {
+
+/// Reads `[theta_r]`: which joints are redundant, their default, and the guess for those that
+/// follow. `problem` has its robot, end effector and pose.
+void read_theta_r(const Block& theta_r, Problem& problem);
+
+/// Refuses a task whose pose is not reached from the guess, or whose theta_r does not fix the
+/// posture there.
+void require_branch(const Block& task, const Problem& problem);
+
+}  // namespace maxwrench

@@ -1,0 +1,146 @@
+#include "solvers/lp/clp.h"
+
+#include <ClpSimplex.hpp>
+
+#include "solvers/lp/elastic.h"
+
+namespace maxwrench {
+namespace {
+
+/// Clp's own codes of `status()`.
+constexpr int kClpOptimal = 0;
+constexpr int kClpPrimalInfeasible = 1;
+constexpr int kClpDualInfeasible = 2;
+
+ClpSimplex::Status to_clp(VariableState state) {
+  switch (state) {
+    case VariableState::kAtLower:
+      return ClpSimplex::atLowerBound;
+    case VariableState::kAtUpper:
+      return ClpSimplex::atUpperBound;
+    case VariableState::kFree:
+      return ClpSimplex::isFree;
+    case VariableState::kBasic:
+      break;
+  }
+  return ClpSimplex::basic;
+}
+
+VariableState from_clp(ClpSimplex::Status status) {
+  switch (status) {
+    case ClpSimplex::basic:
+      return VariableState::kBasic;
+    case ClpSimplex::atUpperBound:
+      return VariableState::kAtUpper;
+    case ClpSimplex::isFree:
+    case ClpSimplex::superBasic:
+      return VariableState::kFree;
+    default:
+      return VariableState::kAtLower;
+  }
+}
+
+class Clp : public LpSolver {
+ public:
+  void solve(const LinearProgram& program, LpSolution& solution) override {
+    if (refused(program, solution)) return;
+    const bool warm = static_cast<int>(solution.basis.size()) == program.rows() + program.cols();
+    // Scaling costs more than a small program. The dual simplex bounds free columns by 1e10 for a
+    // while, which can leave columns 1e-6 off their bounds. What fails is tried again with scaling
+    // and the primal simplex.
+    for (const bool careful : {false, true}) {
+      if (careful && warm) ++solution.cold_restarts;
+      if (try_once(program, warm && !careful, careful, solution)) return;
+    }
+    prove_no_optimum(
+        program,
+        [this](const LinearProgram& other, LpSolution& proof) {
+          return run(other, false, true, proof) == kClpOptimal;
+        },
+        solution);
+  }
+
+ private:
+  /// False if there is no verdict that the data confirm.
+  bool try_once(const LinearProgram& program, bool warm, bool careful, LpSolution& solution) {
+    const int status = run(program, warm, careful, solution);
+    if (status == kClpOptimal) {
+      solution.status = Status::kOptimal;
+      solution.reason = "";
+      return verified(program, solution, careful ? 1e-7 : 1e-9, scratch_);
+    }
+    if (status == kClpPrimalInfeasible) {
+      return prove(program, model_.infeasibilityRay(), program.rows(), Status::kInfeasible,
+                   "no x satisfies the rows within its bounds", solution);
+    }
+    if (status != kClpDualInfeasible) return false;
+    model_.primal(1);
+    solution.x = Eigen::Map<const Eigen::VectorXd>(model_.primalColumnSolution(), program.cols());
+    return prove(program, model_.unboundedRay(), program.cols(), Status::kUnbounded,
+                 "the objective grows without limit", solution);
+  }
+
+  /// Takes over a ray, which Clp allocated, in whichever sense proves the status.
+  bool prove(const LinearProgram& program, double* ray, int size, Status status, const char* reason,
+             LpSolution& solution) {
+    if (ray == nullptr) return false;
+    solution.certificate = Eigen::Map<const Eigen::VectorXd>(ray, size);
+    delete[] ray;
+    solution.status = status;
+    solution.reason = reason;
+    if (verified(program, solution, 1e-7, scratch_)) return true;
+    solution.certificate = -solution.certificate;
+    return verified(program, solution, 1e-7, scratch_);
+  }
+
+  int run(const LinearProgram& program, bool warm, bool careful, LpSolution& solution) {
+    load(program, careful);
+    const int rows = program.rows();
+    const int cols = program.cols();
+    if (warm) {
+      for (int j = 0; j < cols; ++j) model_.setColumnStatus(j, to_clp(solution.basis[j]));
+      for (int i = 0; i < rows; ++i) model_.setRowStatus(i, to_clp(solution.basis[cols + i]));
+    }
+    if (careful) {
+      model_.primal();
+    } else {
+      model_.dual();
+    }
+    solution.iterations += model_.numberIterations();
+    solution.x = Eigen::Map<const Eigen::VectorXd>(model_.primalColumnSolution(), cols);
+    // Clp minimises -c'x here.
+    solution.lambda = -Eigen::Map<const Eigen::VectorXd>(model_.dualRowSolution(), rows);
+    solution.objective = program.c.dot(solution.x);
+    solution.basis.resize(rows + cols);
+    for (int j = 0; j < cols; ++j) solution.basis[j] = from_clp(model_.getColumnStatus(j));
+    for (int i = 0; i < rows; ++i) solution.basis[cols + i] = from_clp(model_.getRowStatus(i));
+    return model_.status();
+  }
+
+  void load(const LinearProgram& program, bool careful) {
+    matrix_ = program.A;
+    matrix_.makeCompressed();
+    cost_ = -program.c;
+    model_ = ClpSimplex();
+    model_.setLogLevel(0);
+    model_.loadProblem(program.cols(), program.rows(), matrix_.outerIndexPtr(),
+                       matrix_.innerIndexPtr(), matrix_.valuePtr(), program.l.data(),
+                       program.u.data(), cost_.data(), program.b.data(), program.b.data());
+    model_.setPerturbation(100);  // 100 turns it off
+    model_.scaling(careful ? 3 : 0);
+    model_.setPrimalTolerance(1e-9);
+    model_.setDualTolerance(1e-9);
+    model_.setMaximumIterations(5000 + 50 * (program.rows() + program.cols()));
+  }
+
+  ClpSimplex model_;
+  Eigen::SparseMatrix<double> matrix_;
+  Eigen::VectorXd cost_;
+  LpScratch scratch_;
+};
+
+}  // namespace
+
+std::unique_ptr<LpSolver> make_clp() { return std::make_unique<Clp>(); }
+
+}  // namespace maxwrench

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+
+#include "lib/linear_program.h"
+
+namespace maxwrench {
+
+/// max -1's  subject to  A x + s_1 - s_2 = b, s >= 0: feasible whenever the bounds do not cross,
+/// and its optimum is minus the least 1-norm of A x - b.
+LinearProgram elastic(const LinearProgram& program);
+
+/// max c'r  subject to  A r = 0, with each r_j in [-1, 1], cut off at zero where x_j has a finite
+/// bound on that side: its optimum is positive exactly if the objective has an improving ray.
+LinearProgram recession(const LinearProgram& program);
+
+/// Solves a program that has an optimum; fills x, lambda and iterations, or returns false.
+using LpRun = std::function<bool(const LinearProgram&, LpSolution&)>;
+
+/// For a library that found no optimum and hands out no proof: solves the elastic program, whose
+/// multipliers are the Farkas vector, and if there is none the recession program, whose solution is
+/// the ray. What the data do not confirm becomes kNumericalError.
+void prove_no_optimum(const LinearProgram& program, const LpRun& run, LpSolution& solution);
+
+/// Whether the program needs no library: malformed data (kNumericalError) or crossing bounds
+/// (kInfeasible), which fill `solution`.
+bool refused(const LinearProgram& program, LpSolution& solution);
+
+/// The verdict without optimum, its reason, and no certificate yet.
+void give_up(LpSolution& solution, Status status, const char* reason);
+
+}  // namespace maxwrench

@@ -1,0 +1,217 @@
+#include "solvers/lp/elimination.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace maxwrench {
+namespace {
+
+/// Smaller pivots, relative to the largest entry, make J_b'W near singular.
+constexpr double kSingular = 1e-7;
+
+/// A diagonal entry of at least this share of its column serves as pivot.
+constexpr double kDiagonal = 0.1;
+
+constexpr int kChunk = 4;
+
+bool all_free(const WrenchProgram& program) {
+  for (int j = 0; j < program.columns(); ++j) {
+    if (program.w_min[j] > -kInfinity || program.w_max[j] < kInfinity) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void Elimination::split(const Eigen::MatrixXd& B) {
+  B_ = B;
+  driven_rows_.clear();
+  drives_.clear();
+  base_rows_.clear();
+  thrusters_.clear();
+  std::vector<char> is_drive(B.cols(), 0);
+  for (int i = 0; i < B.rows(); ++i) {
+    int drive = -1;
+    for (int j = 0; j < B.cols(); ++j) {
+      if (B(i, j) != 0 && (B.row(i).array() != 0).count() == 1 &&
+          (B.col(j).array() != 0).count() == 1) {
+        drive = j;
+      }
+    }
+    if (drive < 0) {
+      base_rows_.push_back(i);
+      continue;
+    }
+    driven_rows_.push_back(i);
+    drives_.push_back(drive);
+    is_drive[drive] = 1;
+  }
+  for (int j = 0; j < B.cols(); ++j) {
+    if (!is_drive[j]) thrusters_.push_back(j);
+  }
+  const auto m = static_cast<Eigen::Index>(thrusters_.size());
+  const auto k = static_cast<Eigen::Index>(base_rows_.size());
+  if (k > 6) return;  // no program is of this kind
+  B_b_.setZero(6, (m + kChunk - 1) / kChunk * kChunk);
+  B_b_.topLeftCorner(k, m) = B(base_rows_, thrusters_);
+  row_.resize(B_b_.cols());
+}
+
+/// P by Gauss-Jordan elimination in place.
+bool Elimination::invert(const WrenchProgram& program) {
+  const int k = program.columns();
+  Square A = Square::Identity();
+  double largest = 0;
+  for (int j = 0; j < k; ++j) {
+    for (int i = 0; i < k; ++i) {
+      A(i, j) = program.JtW(base_rows_[i], j);
+      largest = std::max(largest, std::abs(A(i, j)));
+    }
+  }
+  int exchanged[6];
+  for (int step = 0; step < k; ++step) {
+    double best = 0;
+    for (int i = step; i < k; ++i) best = std::max(best, std::abs(A(i, step)));
+    if (!(best > kSingular * largest)) return false;
+    // A search for the largest entry is a branch that no processor foresees; exchange only what is
+    // bad.
+    int pivot = step;
+    if (std::abs(A(step, step)) < kDiagonal * best) {
+      while (std::abs(A(pivot, step)) != best) ++pivot;
+      A.row(step).swap(A.row(pivot));
+    }
+    exchanged[step] = pivot;
+    const double inverse = 1 / A(step, step);
+    A.row(step) *= inverse;
+    // Column `step` is written last: a processor waits when it loads two entries just after one of
+    // them was stored.
+    for (int i = 0; i < 6; ++i) {
+      if (i == step) continue;
+      const double factor = A(i, step);
+      A.row(i) -= factor * A.row(step);
+      A(i, step) = -factor * inverse;
+    }
+    A(step, step) = inverse;
+  }
+  for (int step = k; step-- > 0;) {
+    if (exchanged[step] != step) A.col(step).swap(A.col(exchanged[step]));
+  }
+  P_ = A;
+  return true;
+}
+
+/// row_ = (P'p)'B_b; returns (P'p)'tau_b.
+double Elimination::combine(const Vector6d& p) {
+  const Vector6d left = P_.transpose() * p;
+  const Eigen::Index width = row_.size();
+  for (Eigen::Index j = 0; j < width; j += kChunk) {
+    double sum[kChunk] = {};
+    const double* b = B_b_.data() + j;
+    for (int i = 0; i < 6; ++i, b += width) {
+      for (int lane = 0; lane < kChunk; ++lane) sum[lane] += left[i] * b[lane];
+    }
+    for (int lane = 0; lane < kChunk; ++lane) row_[j + lane] = sum[lane];
+  }
+  return left.dot(tau_b_);
+}
+
+/// v_j = tau_j - (J_j'W P) tau_b + (J_j'W P B_b) u_b between the limits of b_j u_j.
+void Elimination::add_joint(const WrenchProgram& program, int joint, Tableau& tableau) {
+  const Zonotope& set = *program.actuation;
+  const int row = driven_rows_[joint];
+  const int drive = drives_[joint];
+  Vector6d p = Vector6d::Zero();
+  for (int i = 0; i < program.columns(); ++i) p[i] = program.JtW(row, i);
+  const double offset = program.tau_d[row] - combine(p);
+  for (std::size_t j = 0; j < thrusters_.size(); ++j) {
+    tableau.entry(joint, static_cast<int>(j)) = row_[static_cast<Eigen::Index>(j)];
+  }
+  const double gain = set.B(row, drive);
+  const double first = gain * set.u_min[drive];
+  const double second = gain * set.u_max[drive];
+  tableau.low[joint] = std::min(first, second) - offset;
+  tableau.high[joint] = std::max(first, second) - offset;
+}
+
+bool Elimination::load(const WrenchProgram& program, Tableau& tableau) {
+  const Zonotope& set = *program.actuation;
+  const std::size_t bytes = sizeof(double) * static_cast<std::size_t>(set.B.size());
+  const bool known = B_.rows() == set.B.rows() && B_.cols() == set.B.cols() &&
+                     std::memcmp(B_.data(), set.B.data(), bytes) == 0;
+  if (!known) split(set.B);
+  const int k = program.columns();
+  const int m = static_cast<int>(thrusters_.size());
+  const int f = static_cast<int>(driven_rows_.size());
+  if (k == 0 || m == 0 || k != static_cast<int>(base_rows_.size())) return false;
+  if (!all_free(program) || !invert(program)) return false;
+  tableau.resize(f, m);
+  tau_b_.setZero();
+  for (int i = 0; i < k; ++i) tau_b_[i] = program.tau_d[base_rows_[i]];
+  for (int joint = 0; joint < f; ++joint) add_joint(program, joint, tableau);
+  Vector6d c = Vector6d::Zero();
+  c.head(k) = program.c_w;
+  combine(c);
+  tableau.c = row_.head(m);
+  for (int j = 0; j < m; ++j) {
+    tableau.low[f + j] = set.u_min[thrusters_[j]];
+    tableau.high[f + j] = set.u_max[thrusters_[j]];
+  }
+  return true;
+}
+
+void Elimination::fill_lambda(const WrenchProgram& program, const Tableau& tableau, double c_share,
+                              Eigen::VectorXd& lambda) const {
+  const int k = program.columns();
+  lambda.setZero(program.tau_d.size());
+  for (std::size_t joint = 0; joint < driven_rows_.size(); ++joint) {
+    lambda[driven_rows_[joint]] = -tableau.multipliers[static_cast<Eigen::Index>(joint)];
+  }
+  for (int step = 0; step < 2; ++step) {
+    // What c_w + (J'W)'lambda lacks to zero, at first all that the base has to give.
+    Vector6d left = Vector6d::Zero();
+    for (int j = 0; j < k; ++j) {
+      const double* const column = program.JtW.data() + j * program.JtW.rows();
+      left[j] = c_share * program.c_w[j];
+      for (Eigen::Index i = 0; i < program.tau_d.size(); ++i) left[j] += column[i] * lambda[i];
+    }
+    const Vector6d base = P_.transpose() * left;
+    for (int i = 0; i < k; ++i) lambda[base_rows_[i]] -= base[i];
+  }
+}
+
+void Elimination::fill_contradiction(const WrenchProgram& program, const Tableau& tableau,
+                                     Eigen::VectorXd& y) const {
+  fill_lambda(program, tableau, 0, y);
+  y = -y;
+}
+
+void Elimination::fill(const WrenchProgram& program, const Tableau& tableau, bool efforts,
+                       Capability& capability) {
+  const int k = program.columns();
+  const int m = static_cast<int>(thrusters_.size());
+  const int f = static_cast<int>(driven_rows_.size());
+  // w = P (B_b u_b - tau_b), with one step of refinement; row i of `load` is that of the balance.
+  Vector6d load = -tau_b_;
+  for (int i = 0; i < k; ++i) {
+    for (int j = 0; j < m; ++j) load[i] += B_b_(i, j) * tableau.x[j];
+  }
+  Vector6d w = P_ * load;
+  for (int j = 0; j < k; ++j) {
+    for (int i = 0; i < k; ++i) load[i] -= program.JtW(base_rows_[i], j) * w[j];
+  }
+  w += P_ * load;
+  capability.w = w.head(k);
+  fill_lambda(program, tableau, 1, capability.lambda);
+  capability.beta = program.c_w.dot(capability.w);
+  if (!efforts) return;
+  capability.u.setZero(program.actuation->actuators());
+  for (int j = 0; j < m; ++j) capability.u[thrusters_[j]] = tableau.x[j];
+  for (int joint = 0; joint < f; ++joint) {
+    const int row = driven_rows_[joint];
+    capability.u[drives_[joint]] = (program.tau_d[row] + program.JtW.row(row).dot(capability.w)) /
+                                   program.actuation->B(row, drives_[joint]);
+  }
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <vector>
+
+#include "lib/wrench_program.h"
+#include "solvers/lp/tableau.h"
+
+namespace maxwrench {
+
+/// The wrench program without its equations, for free wrench columns that are as many as the rows
+/// without a direct drive (all six wrenches on a free-floating base). A direct drive is the only
+/// entry of its row and of its column of B. With P = (J_b'W)^-1 over the other rows b,
+///
+///     w = P (B_b u_b - tau_b),   v_j = tau_j + J_j'W w,   b_j u_j = v_j   for the driven rows j,
+///
+/// the efforts u_b (the thrusters) are left, each between its limits, and a row for each joint:
+///
+///     max (c_w'P B_b) u_b   subject to   u_b,min <= u_b <= u_b,max,   v_j between the limits of
+///     b_j u_j.
+///
+/// Its sign vertex is dual feasible. With z >= 0 at the upper limits of v: lambda_j = -z_j and
+/// lambda_b = -P'(c_w + (J_j'W)'lambda_j).
+class Elimination {
+ public:
+  /// Fills the tableau; false if the program is not of this kind or J_b'W is near singular.
+  bool load(const WrenchProgram& program, Tableau& tableau);
+  /// beta, w, lambda and, if asked for, u, after the tableau was solved.
+  void fill(const WrenchProgram& program, const Tableau& tableau, bool efforts,
+            Capability& capability);
+  /// The Farkas vector y of the wrench program, after the tableau was found infeasible.
+  void fill_contradiction(const WrenchProgram& program, const Tableau& tableau,
+                          Eigen::VectorXd& y) const;
+
+ private:
+  /// k <= 6 is padded to 6, with an identity in P and zeros elsewhere: constant sizes are fast.
+  using Square = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+  using Wide = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>;
+
+  void split(const Eigen::MatrixXd& B);
+  bool invert(const WrenchProgram& program);
+  void add_joint(const WrenchProgram& program, int joint, Tableau& tableau);
+  double combine(const Vector6d& p);
+  /// lambda with (J'W)'lambda = -c_share c_w.
+  void fill_lambda(const WrenchProgram& program, const Tableau& tableau, double c_share,
+                   Eigen::VectorXd& lambda) const;
+
+  Eigen::MatrixXd B_;  // that the following five were made from
+  std::vector<int> driven_rows_, drives_, base_rows_, thrusters_;
+  Wide B_b_;  // columns padded with zeros to a multiple of four
+  Square P_;
+  Vector6d tau_b_;
+  Eigen::VectorXd row_;
+};
+
+}  // namespace maxwrench

@@ -1,0 +1,132 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/support.h"
+
+namespace maxwrench {
+namespace {
+
+using nlohmann::json;
+
+struct Optimum {
+  const char* name;
+  double value;
+};
+
+/// Koch (2004), "The final NETLIB-LP results", exact optima; that of e226 with the constant 7.113
+/// that its objective's RHS entry of -7.113 means.
+constexpr Optimum kOptima[] = {{"adlittle", 225494.96316238038}, {"afiro", -464.75314285714286},
+                               {"blend", -30.812149845828220},   {"brandy", 1518.5098964881284},
+                               {"capri", 2690.0129137681610},    {"degen2", -1435.178},
+                               {"e226", -11.638929066370549},    {"israel", -896644.82186304573},
+                               {"kb2", -1749.9001299062057},     {"recipe", -266.616},
+                               {"sc50a", -64.575077058564509},   {"sc50b", -70},
+                               {"scagr7", -2331389.824330984},   {"share2b", -415.73224074141949},
+                               {"stocfor1", -41131.976219436406}};
+
+std::string netlib(const std::string& file) { return std::string(MAXWRENCH_NETLIB_DIR "/") + file; }
+
+class NetlibCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(MAXWRENCH_NETLIB_DIR)) {
+      GTEST_SKIP() << "no files in " MAXWRENCH_NETLIB_DIR;
+    }
+  }
+};
+
+json solve(const std::string& file, int exit_status, const std::string& options = "") {
+  const CommandResult result = run_maxwrench("lp '" + file + "' --json " + options);
+  EXPECT_EQ(result.exit_status, exit_status) << file << ": " << result.err;
+  EXPECT_EQ(result.err, "");
+  return json::parse(result.out);
+}
+
+TEST_F(NetlibCommand, OptimaAreTheExactOnes) {
+  for (const auto& [name, value] : kOptima) {
+    const json answer = solve(netlib(std::string(name) + ".mps"), 0);
+    EXPECT_EQ(answer["status"], "optimal") << name;
+    EXPECT_NEAR(answer["objective"], value, 1e-8 * std::abs(value)) << name;
+    EXPECT_TRUE(answer["verified"]) << name;
+    for (const auto& residual : answer["residual"]) EXPECT_LT(residual, 1e-7) << name;
+  }
+}
+
+TEST_F(NetlibCommand, OtherVerdictsAreProven) {
+  for (const char* name : {"itest2", "itest6", "galenet", "bgprtr", "woodinfe", "klein1"}) {
+    const json answer = solve(netlib("infeasible/" + std::string(name) + ".mps"), 1);
+    EXPECT_EQ(answer["status"], "infeasible") << name;
+    EXPECT_TRUE(answer["verified"]) << name;
+    EXPECT_TRUE(answer["objective"].is_null()) << name;
+  }
+  EXPECT_EQ(solve(netlib("unbounded/gas11.mps"), 1)["status"], "unbounded");
+}
+
+/// min 2 x + 3 y - 5 subject to x + y >= 4, x - y <= 1, y <= 10: x + y = 4 and x - y = 1 give
+/// x = 2.5, y = 1.5 and 9.5 - 5 = 4.5. By the rows: 2 = p + q, 3 = p - q, so p = 2.5, q = -0.5.
+constexpr const char* kSmall =
+    "NAME small\nROWS\n N cost\n G sum\n L difference\nCOLUMNS\n"
+    "    x         cost      2.0   sum       1.0\n"
+    "    x         difference 1.0\n"
+    "    y         cost      3.0   sum       1.0\n"
+    "    y         difference -1.0\n"
+    "RHS\n    RHS       sum       4.0   difference 1.0\n    RHS       cost      5.0\n"
+    "BOUNDS\n UP BND       y         10.0\nENDATA\n";
+
+TEST(LpCommand, DualsAndConstantInTheFilesOwnSense) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "small.mps").string();
+  std::ofstream(file) << kSmall;
+  for (const char* lp : {"simplex", "clp", "glpk"}) {
+    const json answer = solve(file, 0, std::string("--lp ") + lp);
+    EXPECT_NEAR(answer["objective"], 4.5, 1e-9) << lp;
+    EXPECT_NEAR(answer["x"]["x"], 2.5, 1e-9) << lp;
+    EXPECT_NEAR(answer["duals"]["sum"], 2.5, 1e-9) << lp;
+    EXPECT_NEAR(answer["duals"]["difference"], -0.5, 1e-9) << lp;
+    EXPECT_EQ(answer["sense"], "min");
+  }
+  const CommandResult text = run_maxwrench("lp '" + file + "'");
+  EXPECT_NE(text.out.find("cost = 4.5"), std::string::npos) << text.out;
+}
+
+TEST(LpCommand, BadInputExitsWithTwo) {
+  for (const char* words : {"lp", "lp missing.mps", "lp README.md", "lp README.md --lp facets"}) {
+    const CommandResult result = run_maxwrench(words);
+    EXPECT_EQ(result.exit_status, 2) << words;
+    EXPECT_EQ(result.out, "") << words;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  }
+}
+
+TEST(LpCommand, WrittenWrenchProgramsGiveTheSameBeta) {
+  const TemporaryFolder folder;
+  for (const char* problem : {"planar/force", "uvms/valve"}) {
+    for (const char* wrench : {"pure", "any"}) {
+      const std::string file = (folder.path() / "program.mps").string();
+      const CommandResult eval = run_maxwrench("eval " + std::string(problem) + " --wrench " +
+                                               wrench + " --json --write '" + file + "'");
+      ASSERT_EQ(eval.exit_status, 0) << eval.err;
+      const json expected = json::parse(eval.out);
+      const json answer = solve(file, 0);
+      const double beta = expected["beta"];
+      EXPECT_NEAR(answer["objective"], beta, 1e-10 * (1 + std::abs(beta)));
+      EXPECT_EQ(answer["sense"], "max");
+      EXPECT_TRUE(answer["duals"].contains("base_yaw"));
+      EXPECT_TRUE(answer["x"].contains(std::string(wrench) == "pure" ? "w_c" : "w_fx"));
+    }
+  }
+}
+
+TEST(LpCommand, OnlyThePolytopeOfEffortsIsWritten) {
+  for (const char* words : {"--measure ellipsoid --write x.mps", "--write /proc/nowhere/x.mps"}) {
+    const CommandResult result = run_maxwrench(std::string("eval planar/force ") + words);
+    EXPECT_EQ(result.exit_status, 2);
+    EXPECT_NE(result.err.find("--write"), std::string::npos) << result.err;
+  }
+}
+
+}  // namespace
+}  // namespace maxwrench

@@ -1,0 +1,72 @@
+#include <gtest/gtest.h>
+
+#include "tests/problems/bad_input.h"
+
+namespace maxwrench {
+namespace {
+
+constexpr const char* kHull =
+    R"(<inertial>
+      <mass value="10"/>
+      <inertia ixx="0.15" ixy="0" ixz="0" iyy="0.32" iyz="0" izz="0.43333"/>
+    </inertial>)";
+constexpr const char* kLink1 =
+    R"(<inertial>
+      <origin xyz="0.05 0 0"/>
+      <mass value="0.1"/>
+      <inertia ixx="0.000005" ixy="0" ixz="0" iyy="0.0000875" iyz="0" izz="0.0000875"/>
+    </inertial>)";
+
+const std::vector<BadInput> kBadInertia = {
+    {"moving_link_without_inertial",
+     "vehicle.urdf",
+     kLink1,
+     "",
+     {"link[link_1].inertial.mass: got 0", "a mass > 0", "because it moves"}},
+    {"moving_link_of_zero_mass",
+     "vehicle.urdf",
+     kLink1,
+     R"(<inertial><mass value="0"/>
+        <inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/></inertial>)",
+     {"link[link_1].inertial.mass: got 0", "a mass > 0"}},
+    {"moving_base_without_inertial",
+     "vehicle.urdf",
+     kHull,
+     "",
+     {"link[hull].inertial.mass: got 0", "a mass > 0"}},
+    {"moving_mass_point",
+     "vehicle.urdf",
+     R"(<inertia ixx="0.000005" ixy="0" ixz="0" iyy="0.0000875" iyz="0" izz="0.0000875"/>)",
+     R"(<inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/>)",
+     {"link[link_1].inertial.inertia: got principal moments 0, 0, 0", "moments > 0"}},
+    {"moving_thin_rod",
+     "vehicle.urdf",
+     "ixx=\"0.000005\"",
+     "ixx=\"0\"",
+     {"link[link_1].inertial.inertia: got principal moments 0, 8.75e-05", "moments > 0"}},
+    {"moments_without_mass",
+     "vehicle.urdf",
+     "<mass value=\"0.1\"/>",
+     "<mass value=\"0\"/>",
+     {"link[link_1].inertial.inertia: got principal moments 5e-06", "the mass is zero"}},
+    {"inertia_not_positive",
+     "vehicle.urdf",
+     "ixy=\"0\"",
+     "ixy=\"0.3\"",
+     {"link[hull].inertial.inertia: got principal moments -0.07", "moments >= 0"}},
+    {"inertia_nan",
+     "vehicle.urdf",
+     "iyz=\"0\"",
+     "iyz=\"nan\"",
+     {"link[hull].inertial.inertia.iyz: got 'nan'", "a finite number"}},
+};
+
+class BadInertiaTest : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadInertiaTest, IsRefused) { expect_refused(GetParam()); }
+
+INSTANTIATE_TEST_SUITE_P(Loader, BadInertiaTest, testing::ValuesIn(kBadInertia),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+}  // namespace
+}  // namespace maxwrench

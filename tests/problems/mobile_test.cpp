@@ -1,0 +1,140 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "benchmarks/row.h"
+#include "lib/posture.h"
+#include "lib/wrench_program.h"
+#include "problems/loader.h"
+#include "solvers/strategies.h"
+#include "tests/mechanics.h"
+#include "tests/reference.h"
+#include "tests/support.h"
+
+namespace maxwrench {
+namespace {
+
+TEST(Mobile, TwoJointsAreRedundantAndThreeFollow) {
+  const Problem problem = load_problem("mobile/push");
+  EXPECT_EQ(problem.redundant, (std::vector<int>{0, 1}));
+  EXPECT_EQ(problem.dependent, (std::vector<int>{2, 3, 4}));
+  EXPECT_TRUE(problem.robot.actuation.full_row_rank());
+}
+
+/// The arm moves in a vertical plane that contains the tool's axis, so elbow and wrist follow from
+/// heights alone: with a = -q_pitch and f = a - q_elbow the angles of upper arm and forearm to the
+/// ground, 0.5 + 0.45 sin a + 0.4 sin f = 0.9, f increasing on the branch of the guess (elbow up).
+TEST(Mobile, ArmFollowsFromHeights) {
+  const Problem problem = load_problem("mobile/push");
+  PostureModel model(problem, false);
+  for (const double yaw : {-2.0, 0.0, 1.0}) {
+    for (const double pitch : {-1.9, -1.4, -0.9, -0.4}) {
+      const Posture& posture = model.evaluate(Eigen::Vector2d(yaw, pitch));
+      ASSERT_EQ(posture.status, Status::kOptimal) << posture.reason;
+      const double a = -pitch;
+      const double f = std::asin((0.4 - 0.45 * std::sin(a)) / 0.4);
+      EXPECT_NEAR(posture.q[2], a - f, 1e-12);
+      EXPECT_NEAR(posture.q[3], f, 1e-12);  // the hand is level
+      EXPECT_NEAR(posture.q[4], 0, 1e-12);
+      const double heading = 0.7 - yaw;
+      EXPECT_NEAR(std::atan2(posture.base.R(1, 0), posture.base.R(0, 0)),
+                  std::remainder(heading, 2 * M_PI), 1e-12);
+      const double reach = 0.45 * std::cos(a) + 0.4 * std::cos(f) + 0.18;
+      EXPECT_NEAR(posture.base.p.x(), -0.2 * std::cos(heading) - reach * std::cos(0.7), 1e-12);
+      EXPECT_NEAR(posture.base.p.y(), -0.2 * std::sin(heading) - reach * std::sin(0.7), 1e-12);
+      EXPECT_EQ(posture.base.p.z(), 0);
+    }
+  }
+}
+
+/// The ground carries the weight: it loads the arm's joints and no axis of the base.
+TEST(Mobile, WeightLoadsTheArmOnly) {
+  const Problem problem = load_problem("mobile/push");
+  PostureModel model(problem, false);
+  Random random(1);
+  for (int i = 0; i < 20; ++i) {
+    const Posture& posture =
+        model.evaluate(Eigen::Vector2d(random.uniform(-3, 3), random.uniform(-1.9, -0.3)));
+    EXPECT_LT(posture.tau_d.head<3>().norm(), 1e-12);
+    EXPECT_GT(std::abs(posture.tau_d[4]), 1);
+    const Eigen::VectorXd slopes =
+        potential_energy_slopes(problem.robot, posture.base, posture.q, 1e-6);
+    EXPECT_LT((posture.tau_d - slopes).norm(), 1e-6);
+  }
+}
+
+void expect_solvers_equal_enumeration(const char* name) {
+  const Problem problem = load_problem(name);
+  PostureModel model(problem);
+  for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
+    WrenchProgram program = make_wrench_program(problem, wrench);
+    set_posture(model.evaluate(problem.theta_r_default), program);
+    const std::optional<double> best = brute_force(program);
+    ASSERT_TRUE(best);
+    for (const WrenchSolverEntry& solver : wrench_solvers()) {
+      if (solver.one_column_only && wrench == Wrench::kAny) continue;
+      Capability capability;
+      solver.make()->solve(program, true, capability);
+      EXPECT_NEAR(capability.beta, *best, 1e-5 * *best) << solver.name;
+    }
+  }
+}
+
+TEST(Mobile, SolversEqualTheEnumerationOfAllBases) {
+  expect_solvers_equal_enumeration("mobile/push");
+}
+
+/// Joints alone: B is the identity.
+TEST(FixedArm, SolversEqualTheEnumerationOfAllBases) {
+  expect_solvers_equal_enumeration("fixed/push");
+}
+
+TEST(Mobile, SearchFindsTheBestOfAGrid) {
+  const Problem problem = load_problem("mobile/push");
+  Case c;
+  c.problem = "mobile/push";
+  c.search = "annealing";
+  c.budget = 6000;
+  c = complete(c);
+  const Row row = solve(problem, c, 1);
+  ASSERT_EQ(row.status, Status::kOptimal);
+  const auto objective = make_capability_objective(problem, c.wrench, measure_maker(problem, c));
+  constexpr int kPoints = 120;
+  double best = 0;
+  for (int i = 0; i < kPoints; ++i) {
+    for (int j = 0; j < kPoints; ++j) {
+      const Eigen::Vector2d s(i / (kPoints - 1.0), j / (kPoints - 1.0));
+      const Eigen::VectorXd theta_r =
+          problem.theta_r_min + s.cwiseProduct(problem.theta_r_max - problem.theta_r_min);
+      best = std::max(best, objective->evaluate(theta_r));
+    }
+  }
+  EXPECT_GE(row.capability.beta, best);
+  EXPECT_LE(row.capability.beta, 1.02 * best);
+}
+
+/// Two wheels cannot hold the base in all its axes: what divides by B refuses, the polytope does
+/// not.
+TEST(Mobile, TwoWheelsAreRankDeficient) {
+  Problem problem = load_problem("mobile/push");
+  problem.robot.thrusters.resize(2);
+  complete_actuation(problem.robot);
+  EXPECT_EQ(problem.robot.actuation.rank, problem.robot.velocities() - 1);
+  Case c;
+  c.problem = "mobile/push";
+  const Eigen::VectorXd theta_r = problem.theta_r_default;
+  for (const char* measure : {"ellipsoid", "l2_polytope"}) {
+    c.measure = measure;
+    c.lp.clear();
+    EXPECT_THROW(evaluate(problem, complete(c), theta_r), std::invalid_argument) << measure;
+  }
+  c.measure = "linf_polytope";
+  c.wrench = Wrench::kAny;
+  c.lp = "simplex";
+  EXPECT_EQ(evaluate(problem, complete(c), theta_r).status, Status::kOptimal);
+}
+
+}  // namespace
+}  // namespace maxwrench

@@ -1,0 +1,91 @@
+#include "problems/state.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <stdexcept>
+
+#include "problems/loader.h"
+#include "tests/support.h"
+
+namespace maxwrench {
+namespace {
+
+State load(const std::string& problem, const std::string& text) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "state.toml") << text;
+  return load_state(folder.path() / "state.toml", load_problem(problem).robot);
+}
+
+TEST(State, IsRead) {
+  const State state = load("planar/force",
+                           "velocity = [1, 2, 3, 4, 5]\n[theta]\nelbow = 0.25\nshoulder = 9\n"
+                           "position = [0.5, -1, 0]\nrpy = [0, 0, 1.5707963267948966]\n");
+  EXPECT_EQ(state.base.p, Eigen::Vector3d(0.5, -1, 0));
+  EXPECT_TRUE(state.base.R.col(0).isApprox(Eigen::Vector3d::UnitY()));
+  EXPECT_EQ(state.q, Eigen::Vector2d(9, 0.25));  // limits bound postures, not mechanics
+  EXPECT_EQ(state.velocity[4], 5);
+  EXPECT_EQ(state.acceleration, Eigen::VectorXd::Zero(5));
+}
+
+struct BadState {
+  const char* name;
+  const char* from;  ///< in a good state of planar/force
+  const char* to;
+  std::vector<std::string> message;
+};
+
+constexpr const char* kGood =
+    "velocity = [1, 2, 3, 4, 5]\nacceleration = [0, 0, 0, 0, 0]\n[theta]\n"
+    "position = [0.5, -1, 0]\nrpy = [0, 0, 1]\nshoulder = 0.5\nelbow = 0.25\n";
+
+const std::vector<BadState> kBadStates = {
+    {"syntax", "[theta]", "[theta", {"line 3", "valid TOML"}},
+    {"unknown_key", "velocity", "velocities", {": velocities: got", "velocity, acceleration"}},
+    {"short_velocity", ", 5]", "]", {": velocity: got [1, 2, 3, 4]", "5 finite numbers"}},
+    {"infinite_velocity", ", 5]", ", inf]", {": velocity: got [1, 2, 3, 4, inf]"}},
+    {"long_acceleration", "[0, 0, 0, 0, 0]", "[0, 0, 0, 0, 0, 0]", {": acceleration: got"}},
+    {"text_for_numbers", "[0, 0, 0, 0, 0]", "\"none\"", {": acceleration: got 'none'"}},
+    {"no_theta", "[theta]", "[posture]", {": posture: got", "theta"}},
+    {"no_position", "position = [0.5, -1, 0]", "", {"theta.position: got nothing"}},
+    {"no_rpy", "rpy = [0, 0, 1]", "", {"theta.rpy: got nothing", "3 finite numbers"}},
+    {"missing_joint", "elbow = 0.25", "", {"theta.elbow: got nothing", "a finite number"}},
+    {"unknown_joint", "elbow", "wrist", {"theta.wrist", "shoulder, elbow"}},
+    {"joint_nan", "0.25", "nan", {"theta.elbow: got nan", "a finite number"}},
+    {"joint_text", "0.25", "\"up\"", {"theta.elbow: got 'up'", "a finite number"}},
+    {"off_its_plane", "-1, 0]", "-1, 0.5]", {"theta.position: got [0.5, -1, 0.5]", "z = 0"}},
+    {"rolled", "rpy = [0,", "rpy = [0.1,", {"theta.rpy: got [0.1, 0, 1]", "roll = 0"}},
+};
+
+class BadStateTest : public testing::TestWithParam<BadState> {};
+
+TEST_P(BadStateTest, IsRefusedInOneLineThatNamesFileKeyAndValue) {
+  std::string text = kGood;
+  const std::size_t at = text.find(GetParam().from);
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, std::string(GetParam().from).size(), GetParam().to);
+  try {
+    load("planar/force", text);
+    ADD_FAILURE() << "was accepted";
+  } catch (const std::invalid_argument& error) {
+    const std::string message = error.what();
+    EXPECT_THAT(message, testing::HasSubstr("state.toml: "));
+    EXPECT_THAT(message, testing::HasSubstr("expected"));
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    for (const std::string& part : GetParam().message) {
+      EXPECT_THAT(message, testing::HasSubstr(part));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Loader, BadStateTest, testing::ValuesIn(kBadStates),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(State, MissingFileIsRefused) {
+  const Robot robot = load_problem("planar/force").robot;
+  EXPECT_THROW(load_state("no/such/state.toml", robot), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace maxwrench
