@@ -92,8 +92,10 @@ std::vector<Case> product(const std::string& problem, std::uint64_t seed, long b
   std::vector<Case> cases;
   for (const MeasureEntry& measure : measures()) {
     for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
-      for (const auto& [lp, cost] : solvers_for(measure, wrench)) {
-        for (const SearchEntry& search : searches()) {
+      const auto solvers = solvers_for(measure, wrench);
+      for (const auto& [lp, cost] : solvers) {
+        const bool first = lp == solvers.front().first;
+        for (const SearchEntry& search : searches().first(first ? searches().size() : 2)) {
           cases.push_back(
               {problem, measure.name, wrench, lp, search.name, seed, std::max(1L, budget / cost)});
         }

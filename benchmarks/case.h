@@ -43,8 +43,9 @@ MeasureMaker measure_maker(const Problem& problem, const Case& c);
 const std::vector<std::string>& case_columns();
 std::vector<std::string> case_values(const Case& c);
 
-/// Every meaningful combination measure × wrench × lp × search on a problem, in the order of the
-/// tables. The budget is divided by the cost of the solver.
+/// On a problem, in the order of the tables: every meaningful measure × wrench × lp with the first
+/// two searches (what a solver is worth does not depend on the search), and with the first lp that
+/// serves every search. The budget is divided by the cost of the solver.
 std::vector<Case> product(const std::string& problem, std::uint64_t seed, long budget);
 
 /// Of `cases`, those whose columns have the given values (column -> value); `seed` and `budget` are

@@ -76,6 +76,10 @@ INSTANTIATE_TEST_SUITE_P(
                     BadWords{"run colour=red", "colour"}, BadWords{"run measure", "measure"},
                     BadWords{"run measure=volume", "volume"}, BadWords{"run budget=few", "few"},
                     BadWords{"run budget=1 --out /proc/nowhere", "/proc/nowhere"},
+                    BadWords{"compare planar/none", "planar/none"},
+                    BadWords{"compare planar/force --seeds 0", "--seeds"},
+                    BadWords{"compare planar/force --budget 0", "budget"},
+                    BadWords{"compare planar/force --lp cplex", "cplex"},
                     BadWords{"check missing.toml", "missing.toml"},
                     BadWords{"plot planar/none", "planar/none"}));
 
@@ -245,6 +249,24 @@ TEST(Command, RunWritesTheSameValuesAtAnyThreadCount) {
     EXPECT_GT(std::count(values.begin(), values.end(), '\n'), 20);
     if (first.empty()) first = values;
     EXPECT_EQ(values, first) << threads << " threads";
+  }
+}
+
+TEST(Command, CompareWritesTheSameValuesAgain) {
+  std::string first;
+  for (int run = 0; run < 2; ++run) {
+    const TemporaryFolder folder;
+    const CommandResult result =
+        run_maxwrench("compare planar/force --budget 300 --seeds 2 --out .", folder.path());
+    ASSERT_EQ(result.exit_status, 0) << result.err;
+    EXPECT_NE(result.out.find("nullspace"), std::string::npos);
+    const std::string values = read_text(folder.path() / "search_comparison.csv");
+    EXPECT_GT(std::count(values.begin(), values.end(), '\n'), 18);
+    EXPECT_NE(read_text(folder.path() / "search_comparison.svg").find("<polyline"),
+              std::string::npos);
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "search_times.csv"));
+    if (run == 0) first = values;
+    EXPECT_EQ(values, first);
   }
 }
 
