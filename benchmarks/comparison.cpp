@@ -11,8 +11,6 @@ namespace {
 
 constexpr const char* kReferenceSearch = "annealing";
 constexpr const char* kReferenceSolver = "glpk";
-/// Its attempts are slow, and only their median time is of interest.
-constexpr int kReferenceSeeds = 3;
 
 double processor_seconds() {
   return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
@@ -123,14 +121,12 @@ Comparison compare(const Problem& problem, const Case& base, int seeds,
   Comparison comparison{problem.name, problem.unit(), {}, {}};
   for (const SearchEntry& search : searches())
     comparison.contenders.push_back(contend(search.name, complete(base).lp, seeds));
-  const int count = has_reference() ? std::min(seeds, kReferenceSeeds) : 0;
-  comparison.reference = contend(kReferenceSearch, kReferenceSolver, count);
+  if (has_reference()) comparison.reference = contend(kReferenceSearch, kReferenceSolver, seeds);
   return comparison;
 }
 
 long attempt_count(int seeds) {
-  return static_cast<long>(searches().size()) * seeds +
-         (has_reference() ? std::min(seeds, kReferenceSeeds) : 0);
+  return (static_cast<long>(searches().size()) + (has_reference() ? 1 : 0)) * seeds;
 }
 
 double median(std::vector<double> values) {
