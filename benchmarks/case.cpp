@@ -59,6 +59,11 @@ Case complete(Case c) {
   return c;
 }
 
+Case fit(const Problem& problem, Case c) {
+  if (c.lp == "facets" && !problem.robot.actuation.has_facets) c.lp = "box";
+  return c;
+}
+
 MeasureMaker measure_maker(const Problem& problem, const Case& c) {
   const MeasureEntry& measure = find_measure(c.measure);
   const WrenchSolverEntry* solver = measure.needs_solver ? &find_wrench_solver(c.lp) : nullptr;

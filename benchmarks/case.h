@@ -33,6 +33,10 @@ Wrench parse_wrench(const std::string& name);
 /// closed form.
 Case complete(Case c);
 
+/// The case that can be solved on this robot: `box` takes over from `facets` if its actuators have
+/// too many facets to enumerate.
+Case fit(const Problem& problem, Case c);
+
 /// The unit of a case's value.
 const char* unit(const Problem& problem, const Case& c);
 

@@ -197,6 +197,27 @@ TEST(Command, EvalOfAStatePrintsTheEquationsOfMotion) {
   }
 }
 
+/// 240 more thrusters without thrust change nothing but the number of facets.
+TEST(Command, BoxTakesOverWhereThereAreTooManyFacets) {
+  Copy copy;
+  std::string thrusters;
+  for (int i = 0; i < 240; ++i) {
+    thrusters += "[[thrusters.list]]\nname = \"idle_" + std::to_string(i) +
+                 "\"\nposition = [0, 0, 0]\ndirection = [" + std::to_string(i + 1) +
+                 ", 7, 0]\nforce_min = 0\nforce_max = 0\n\n";
+  }
+  copy.replace("vehicle.toml", "[end_effectors.tool]", thrusters + "[end_effectors.tool]");
+  const CommandResult few = run_maxwrench("eval planar/force --theta-r 0.3,-0.7 --json");
+  const CommandResult many =
+      run_maxwrench("eval force.toml --theta-r 0.3,-0.7 --json", copy.path());
+  ASSERT_EQ(many.exit_status, 0) << many.err;
+  EXPECT_NE(many.err.find("too many facets"), std::string::npos);
+  const json a = json::parse(few.out), b = json::parse(many.out);
+  EXPECT_EQ(a["lp"], "facets");
+  EXPECT_EQ(b["lp"], "box");
+  EXPECT_NEAR(a["beta"], b["beta"], 1e-9);
+}
+
 TEST(Command, EveryMeasureHasAValueAtAnOrdinaryPosture) {
   for (const MeasureEntry& measure : measures()) {
     const CommandResult result = run_maxwrench(
