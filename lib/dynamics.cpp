@@ -7,15 +7,6 @@
 namespace maxwrench {
 namespace {
 
-/// [a]x with [a]x b = a x b.
-template <class T>
-Matrix3<T> skew(const Vector3<T>& a) {
-  const T zero(0.0);
-  Matrix3<T> S;
-  S << zero, -a.z(), a.y(), a.z(), zero, -a.x(), -a.y(), a.x(), zero;
-  return S;
-}
-
 /// x := M^-1 x for M symmetric positive definite, by M = L D L'; M is overwritten. Eigen's
 /// factorisations compare scalars, which neither dual numbers nor intervals can always do.
 template <class T>

@@ -5,15 +5,6 @@
 #include "lib/dual.h"
 
 namespace maxwrench {
-namespace {
-
-Matrix3<double> skew(const Vector3<double>& a) {
-  Matrix3<double> S;
-  S << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
-  return S;
-}
-
-}  // namespace
 
 template <class T>
 Kinematics<T>::Kinematics(const Robot& robot) : robot_(&robot) {

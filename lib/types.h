@@ -24,6 +24,15 @@ using Matrix6X = Eigen::Matrix<T, 6, Eigen::Dynamic>;
 using Vector6d = Vector6<double>;
 using Matrix6Xd = Matrix6X<double>;
 
+/// [a]x with [a]x b = a x b.
+template <class T>
+Matrix3<T> skew(const Vector3<T>& a) {
+  const T zero(0.0);
+  Matrix3<T> S;
+  S << zero, -a.z(), a.y(), a.z(), zero, -a.x(), -a.y(), a.x(), zero;
+  return S;
+}
+
 /// A rigid transformation x -> R x + p.
 template <class T>
 struct Pose {

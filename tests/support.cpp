@@ -12,7 +12,7 @@ namespace {
 std::atomic<long> allocations{0};
 }
 
-#if !defined(__SANITIZE_ADDRESS__)
+#if !defined(MAXWRENCH_SANITIZED)
 // The whole test program counts, because the hot loop promises not to allocate. Eigen and operator
 // new both end in malloc; the sanitizers need it for themselves, so there nothing is counted.
 extern "C" {

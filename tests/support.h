@@ -8,8 +8,16 @@
 
 namespace maxwrench {
 
+#if defined(__SANITIZE_ADDRESS__)  // GCC's name
+#define MAXWRENCH_SANITIZED
+#elif defined(__has_feature)  // Clang's
+#if __has_feature(address_sanitizer)
+#define MAXWRENCH_SANITIZED
+#endif
+#endif
+
 /// Sanitizers slow everything down twentyfold; statistical tests then draw fewer samples.
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(MAXWRENCH_SANITIZED)
 inline constexpr int kSampleDivisor = 20;
 #else
 inline constexpr int kSampleDivisor = 1;

@@ -5,7 +5,8 @@ namespace {
 
 class Assembled : public WrenchSolver {
  public:
-  explicit Assembled(std::unique_ptr<LpSolver> solver) : solver_(std::move(solver)) {}
+  Assembled(std::unique_ptr<LpSolver> solver, bool warm)
+      : solver_(std::move(solver)), warm_(warm) {}
 
   void solve(const WrenchProgram& program, bool efforts, Capability& capability) override {
     const int m = program.actuation->actuators();
@@ -17,6 +18,7 @@ class Assembled : public WrenchSolver {
     } else {
       update(program, lp_);
     }
+    if (!warm_) solution_.basis.clear();
     solver_->solve(lp_, solution_);
     capability.status = solution_.status;
     capability.reason = solution_.reason;
@@ -31,6 +33,7 @@ class Assembled : public WrenchSolver {
 
  private:
   std::unique_ptr<LpSolver> solver_;
+  bool warm_;
   LinearProgram lp_;
   LpSolution solution_;
   const Zonotope* actuation_ = nullptr;
@@ -39,8 +42,8 @@ class Assembled : public WrenchSolver {
 
 }  // namespace
 
-std::unique_ptr<WrenchSolver> make_assembled(std::unique_ptr<LpSolver> solver) {
-  return std::make_unique<Assembled>(std::move(solver));
+std::unique_ptr<WrenchSolver> make_assembled(std::unique_ptr<LpSolver> solver, bool warm) {
+  return std::make_unique<Assembled>(std::move(solver), warm);
 }
 
 }  // namespace maxwrench

@@ -1,5 +1,6 @@
 #include "solvers/lp/box.h"
 
+#include "solvers/lp/assembled.h"
 #include "solvers/lp/efforts.h"
 #include "solvers/lp/elimination.h"
 #include "solvers/lp/simplex.h"
@@ -79,36 +80,18 @@ class Box : public WrenchSolver {
     }
   }
 
-  /// From a cold start, so that the answer does not depend on earlier calls.
+  /// The iterations are those of both methods.
   void solve_assembled(const WrenchProgram& program, bool efforts, Capability& capability) {
-    if (actuation_ != program.actuation || columns_ != program.columns()) {
-      assembled_ = assemble(program);
-      actuation_ = program.actuation;
-      columns_ = program.columns();
-    } else {
-      update(program, assembled_);
-    }
-    solution_.basis.clear();
-    simplex_->solve(assembled_, solution_);
-    capability.status = solution_.status;
-    capability.reason = solution_.reason;
-    capability.iterations += solution_.iterations;
-    if (solution_.status == Status::kInfeasible) capability.lambda = solution_.certificate;
-    if (solution_.status != Status::kOptimal) return;
-    capability.beta = solution_.objective;
-    capability.w = solution_.x.tail(columns_);
-    capability.lambda = solution_.lambda;
-    if (efforts) capability.u = solution_.x.head(program.actuation->actuators());
+    const int before = capability.iterations;
+    assembled_->solve(program, efforts, capability);
+    capability.iterations += before;
   }
 
   Elimination elimination_;
   Tableau tableau_;
   Eigen::VectorXd sum_;
   std::unique_ptr<LpSolver> simplex_ = make_simplex();
-  LinearProgram assembled_;
-  LpSolution solution_;
-  const Zonotope* actuation_ = nullptr;
-  int columns_ = 0;
+  std::unique_ptr<WrenchSolver> assembled_ = make_assembled(make_simplex(), false);
 };
 
 }  // namespace

@@ -44,19 +44,13 @@ class Clp : public LpSolver {
  public:
   void solve(const LinearProgram& program, LpSolution& solution) override {
     if (refused(program, solution)) return;
-    const bool warm = static_cast<int>(solution.basis.size()) == program.rows() + program.cols();
     // Scaling costs more than a small program. The dual simplex bounds free columns by 1e10 for a
     // while, which can leave columns 1e-6 off their bounds. What fails is tried again with scaling
     // and the primal simplex.
-    for (const bool careful : {false, true}) {
-      if (careful && warm) ++solution.cold_restarts;
-      if (try_once(program, warm && !careful, careful, solution)) return;
-    }
-    prove_no_optimum(
+    solve_by_attempts(
         program,
-        [this](const LinearProgram& other, LpSolution& proof) {
-          return (try_once(other, false, false, proof) || try_once(other, false, true, proof)) &&
-                 proof.status == Status::kOptimal;
+        [this](const LinearProgram& other, bool warm, bool careful, LpSolution& answer) {
+          return try_once(other, warm, careful, answer);
         },
         solution);
   }

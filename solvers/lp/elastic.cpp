@@ -57,6 +57,19 @@ void give_up(LpSolution& solution, Status status, const char* reason) {
   solution.basis.clear();
 }
 
+void solve_by_attempts(const LinearProgram& program, const LpAttempt& attempt,
+                       LpSolution& solution) {
+  const bool warm = static_cast<int>(solution.basis.size()) == program.rows() + program.cols();
+  if (attempt(program, warm, false, solution)) return;
+  if (warm) ++solution.cold_restarts;
+  if (attempt(program, false, true, solution)) return;
+  const auto run = [&](const LinearProgram& other, LpSolution& proof) {
+    return (attempt(other, false, false, proof) || attempt(other, false, true, proof)) &&
+           proof.status == Status::kOptimal;
+  };
+  prove_no_optimum(program, run, solution);
+}
+
 bool refused(const LinearProgram& program, LpSolution& solution) {
   solution.iterations = solution.cold_restarts = 0;
   solution.objective = 0;

@@ -17,6 +17,14 @@ LinearProgram recession(const LinearProgram& program);
 /// Solves a program that has an optimum; fills x, lambda and iterations, or returns false.
 using LpRun = std::function<bool(const LinearProgram&, LpSolution&)>;
 
+/// One run of a library, warm from the solution's basis or cold, in its fast or its careful
+/// settings; false if it ended without a verdict that the data confirm.
+using LpAttempt = std::function<bool(const LinearProgram&, bool warm, bool careful, LpSolution&)>;
+
+/// Fast, then careful (counted as a cold restart if the first was warm), then `prove_no_optimum`.
+void solve_by_attempts(const LinearProgram& program, const LpAttempt& attempt,
+                       LpSolution& solution);
+
 /// For a library that found no optimum and hands out no proof: solves the elastic program, whose
 /// multipliers are the Farkas vector, and if there is none the recession program, whose solution is
 /// the ray. What the data do not confirm becomes kNumericalError.

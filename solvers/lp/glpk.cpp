@@ -83,17 +83,11 @@ class Glpk : public LpSolver {
   void solve(const LinearProgram& program, LpSolution& solution) override {
     thread_local const Environment kEnvironment;
     if (refused(program, solution)) return;
-    const bool warm = static_cast<int>(solution.basis.size()) == program.rows() + program.cols();
     // Scaling costs more than a small program; what fails without it is tried again with it.
-    for (const bool careful : {false, true}) {
-      if (careful && warm) ++solution.cold_restarts;
-      if (try_once(program, warm && !careful, careful, solution)) return;
-    }
-    prove_no_optimum(
+    solve_by_attempts(
         program,
-        [this](const LinearProgram& other, LpSolution& proof) {
-          return (try_once(other, false, false, proof) || try_once(other, false, true, proof)) &&
-                 proof.status == Status::kOptimal;
+        [this](const LinearProgram& other, bool warm, bool careful, LpSolution& answer) {
+          return try_once(other, warm, careful, answer);
         },
         solution);
   }

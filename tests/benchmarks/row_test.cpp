@@ -28,6 +28,7 @@ std::vector<Case> planar_cases() {
     const bool beta_1 = c.measure == "ellipsoid" && c.wrench == Wrench::kPure;
     if (!beta_1 && c.measure != "linf_polytope") continue;
     c.budget = c.lp == "ipopt" ? 2000 : is_peer(c) ? 20000 : c.search == "grid" ? 400000 : 40000;
+    if (kSampleDivisor > 1) c.budget = c.search == "grid" ? 50000 : 10000;
     cases.push_back(c);
   }
   return cases;

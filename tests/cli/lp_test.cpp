@@ -4,28 +4,13 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "tests/netlib.h"
 #include "tests/support.h"
 
 namespace maxwrench {
 namespace {
 
 using nlohmann::json;
-
-struct Optimum {
-  const char* name;
-  double value;
-};
-
-/// Koch (2004), "The final NETLIB-LP results", exact optima; that of e226 with the constant 7.113
-/// that its objective's RHS entry of -7.113 means.
-constexpr Optimum kOptima[] = {{"adlittle", 225494.96316238038}, {"afiro", -464.75314285714286},
-                               {"blend", -30.812149845828220},   {"brandy", 1518.5098964881284},
-                               {"capri", 2690.0129137681610},    {"degen2", -1435.178},
-                               {"e226", -11.638929066370549},    {"israel", -896644.82186304573},
-                               {"kb2", -1749.9001299062057},     {"recipe", -266.616},
-                               {"sc50a", -64.575077058564509},   {"sc50b", -70},
-                               {"scagr7", -2331389.824330984},   {"share2b", -415.73224074141949},
-                               {"stocfor1", -41131.976219436406}};
 
 std::string netlib(const std::string& file) { return std::string(MAXWRENCH_NETLIB_DIR "/") + file; }
 
@@ -46,7 +31,7 @@ json solve(const std::string& file, int exit_status, const std::string& options 
 }
 
 TEST_F(NetlibCommand, OptimaAreTheExactOnes) {
-  for (const auto& [name, value] : kOptima) {
+  for (const auto& [name, value] : kNetlibOptima) {
     const json answer = solve(netlib(std::string(name) + ".mps"), 0);
     EXPECT_EQ(answer["status"], "optimal") << name;
     EXPECT_NEAR(answer["objective"], value, 1e-8 * std::abs(value)) << name;
@@ -56,7 +41,7 @@ TEST_F(NetlibCommand, OptimaAreTheExactOnes) {
 }
 
 TEST_F(NetlibCommand, OtherVerdictsAreProven) {
-  for (const char* name : {"itest2", "itest6", "galenet", "bgprtr", "woodinfe", "klein1"}) {
+  for (const char* name : kNetlibInfeasible) {
     const json answer = solve(netlib("infeasible/" + std::string(name) + ".mps"), 1);
     EXPECT_EQ(answer["status"], "infeasible") << name;
     EXPECT_TRUE(answer["verified"]) << name;
