@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "lib/wrench_program.h"
+#include "lib/best_branch.h"
 #include "solvers/strategies.h"
 
 namespace maxwrench {
@@ -43,18 +43,17 @@ Row evaluate(const Problem& problem, const Case& c, const Eigen::VectorXd& theta
   row.choice = c;
   row.evaluations = 1;
   PostureModel model(problem, check_collision);
-  row.posture = model.evaluate(theta_r);
+  WrenchProgram program = make_wrench_program(problem, c.wrench);
+  row.posture = evaluate_best(model, theta_r, *measure_maker(problem, c)(), true, program,
+                              row.capability);
   row.status = row.posture.status;
   row.reason = row.posture.reason;
   if (row.status == Status::kOptimal) {
-    WrenchProgram program = make_wrench_program(problem, c.wrench);
-    set_posture(row.posture, program);
-    measure_maker(problem, c)()->evaluate(row.posture, program, true, row.capability);
     row.status = row.capability.status;
     row.reason = row.capability.reason;
   }
   if (row.status == Status::kOptimal) {
-    model.pull_back(theta_r, row.capability.lambda, row.capability.beta_J, row.gradient);
+    model.pull_back(theta_r, row.capability, row.gradient);
     if (!row.capability.residual.within(kRowTolerance, row.capability.beta)) {
       row.status = Status::kNumericalError;
       row.reason = "the answer does not satisfy its program";

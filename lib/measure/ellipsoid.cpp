@@ -19,7 +19,7 @@ class Ellipsoid : public Measure {
   explicit Ellipsoid(const Robot& robot)
       : B_pinv_(robot.actuation.B_pinv), K_(weighted_inverse(robot, "ellipsoid")) {}
 
-  void evaluate(const Posture& /*posture*/, const WrenchProgram& program, bool efforts,
+  void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
                 Capability& capability) override {
     capability.iterations = 0;
     G_.noalias() = K_.lazyProduct(program.JtW);
@@ -27,8 +27,7 @@ class Ellipsoid : public Measure {
     capability.reason = "";
     capability.status = solve(program, capability);
     if (capability.status != Status::kOptimal) return;
-    capability.h.noalias() = program.W * capability.w;
-    capability.beta_J.noalias() = capability.h * capability.lambda.transpose();
+    fill_wrenches(posture, program, capability);
     if (efforts) recover(program, capability);
   }
 

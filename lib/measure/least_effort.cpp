@@ -19,7 +19,7 @@ class LeastEffort : public Measure {
   LeastEffort(const Zonotope& actuation, double reference)
       : B_pinv_(actuation.B_pinv), reference_(reference) {}
 
-  void evaluate(const Posture& /*posture*/, const WrenchProgram& program, bool efforts,
+  void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
                 Capability& capability) override {
     capability.iterations = 0;
     capability.reason = "";
@@ -42,9 +42,8 @@ class LeastEffort : public Measure {
     capability.w = mu * along_ - rest_;
     u_.noalias() += G_.lazyProduct(capability.w);
     capability.beta = -u_.squaredNorm();
-    capability.h.noalias() = program.W * capability.w;
     capability.lambda.noalias() = -2 * B_pinv_.transpose().lazyProduct(u_);
-    capability.beta_J.noalias() = capability.h * capability.lambda.transpose();
+    fill_wrenches(posture, program, capability);
     if (efforts) recover(program, mu, capability);
   }
 

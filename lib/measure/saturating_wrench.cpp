@@ -23,15 +23,14 @@ class SaturatingWrench : public Measure {
     K_ = limit.asDiagonal() * scaled.completeOrthogonalDecomposition().pseudoInverse();
   }
 
-  void evaluate(const Posture& /*posture*/, const WrenchProgram& program, bool efforts,
+  void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
                 Capability& capability) override {
     capability.iterations = 0;
     load_.noalias() = K_.lazyProduct(program.tau_d);
     slope_.noalias() = K_.lazyProduct(program.JtW.col(0));
     capability.status = shoot(program, capability);
     if (capability.status != Status::kOptimal) return;
-    capability.h.noalias() = program.W * capability.w;
-    capability.beta_J.noalias() = capability.h * capability.lambda.transpose();
+    fill_wrenches(posture, program, capability);
     if (efforts) recover(program, capability);
   }
 

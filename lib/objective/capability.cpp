@@ -1,5 +1,6 @@
 #include <limits>
 
+#include "lib/best_branch.h"
 #include "lib/objective.h"
 #include "lib/posture.h"
 #include "lib/wrench_program.h"
@@ -24,12 +25,11 @@ class CapabilityObjective : public Objective {
   const char* reason() const override { return reason_; }
 
   double evaluate(const Eigen::VectorXd& theta_r, Eigen::VectorXd* gradient) override {
-    const Posture& posture = model_.evaluate(theta_r);
+    const Posture& posture =
+        evaluate_best(model_, theta_r, *measure_, false, program_, capability_);
     status_ = posture.status;
     reason_ = posture.reason;
     if (status_ == Status::kOptimal) {
-      set_posture(posture, program_);
-      measure_->evaluate(posture, program_, false, capability_);
       status_ = capability_.status;
       reason_ = capability_.reason;
     }
@@ -37,7 +37,7 @@ class CapabilityObjective : public Objective {
       if (gradient) gradient->setConstant(theta_r.size(), std::numeric_limits<double>::quiet_NaN());
       return -kInfinity;
     }
-    if (gradient) model_.pull_back(theta_r, capability_.lambda, capability_.beta_J, *gradient);
+    if (gradient) model_.pull_back(theta_r, capability_, *gradient);
     return capability_.beta;
   }
 
