@@ -28,10 +28,10 @@ struct Case {
 /// "pure" or "any"; throws std::invalid_argument otherwise.
 Wrench parse_wrench(const std::string& name);
 
-/// Sets an empty `lp` to its default. Throws std::invalid_argument on a name that does not exist
+/// Sets an empty `lp` to its default. `contact_columns`: of the second contact of its problem. Throws std::invalid_argument on a name that does not exist
 /// and on a choice without meaning, such as `facets` for several wrench columns or a solver for a
 /// closed form.
-Case complete(Case c);
+Case complete(Case c, int contact_columns = 0);
 
 /// The unit of a case's value.
 const char* unit(const Problem& problem, const Case& c);
@@ -45,7 +45,8 @@ std::vector<std::string> case_values(const Case& c);
 
 /// Every meaningful combination measure × wrench × lp × search on a problem, in the order of the
 /// tables. The budget is divided by the cost of the solver.
-std::vector<Case> product(const std::string& problem, std::uint64_t seed, long budget);
+std::vector<Case> product(const std::string& problem, std::uint64_t seed, long budget,
+                          int contact_columns = 0);
 
 /// Of `cases`, those whose columns have the given values (column -> value); `seed` and `budget` are
 /// no filters. Throws std::invalid_argument on an unknown column, or if no case is left.

@@ -68,7 +68,7 @@ std::unique_ptr<Set> make_set(const Problem& problem, Wrench wrench, bool walk, 
   auto set = std::make_unique<Set>();
   set->title = fmt::format("{}/{}/{}{}", problem.name, to_string(wrench), walk ? "walk" : "random",
                            overloaded ? "+infeasible" : "");
-  set->pure = wrench == Wrench::kPure;
+  set->pure = wrench == Wrench::kPure && !problem.contact;
   PostureModel model(problem, false);
   WrenchProgram program = make_wrench_program(problem, wrench);
   const auto judge = find_wrench_solver("box").make();
@@ -197,7 +197,9 @@ int main(int argc, char** argv) {
   std::vector<std::unique_ptr<Problem>> problems;
   std::vector<std::unique_ptr<Set>> sets;
   for (const std::string& name : shipped_problems()) {
-    if (name != "planar/force" && name != "uvms/valve") continue;  // one task for each robot
+    const bool chosen = name == "planar/force" || name == "uvms/valve" ||
+                        name == "dual_arm/bar_wall" || name == "dual_arm/two_arms";
+    if (!chosen) continue;  // one task for each robot
     problems.push_back(std::make_unique<Problem>(load_problem(name)));
     for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
       for (const bool overloaded : {false, true}) {

@@ -27,7 +27,7 @@ std::string numbers(const Eigen::VectorXd& v) {
 double yardstick(const Problem& problem, Wrench wrench, const Posture& posture) {
   WrenchProgram program = make_wrench_program(problem, wrench);
   set_posture(posture, program);
-  const Case c = complete({problem.name, "linf_polytope", wrench, "simplex"});
+  const Case c = complete({problem.name, "linf_polytope", wrench, "simplex"}, problem.contact_columns());
   Capability capability;
   measure_maker(problem, c)()->evaluate(posture, program, false, capability);
   return capability.status == Status::kOptimal ? capability.beta

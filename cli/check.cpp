@@ -88,7 +88,7 @@ void print(const Problem& problem) {
   fmt::print("  redundancy {}\n", problem.redundancy());
   for (int i = 0; i < problem.redundancy(); ++i) {
     fmt::print("  theta_r {:<17} {:g} .. {:g}, default {:g}\n",
-               theta_r_name(problem, i), problem.theta_r_min[i],
+               problem.theta_r_name(i), problem.theta_r_min[i],
                problem.theta_r_max[i], problem.theta_r_default[i]);
   }
   print_what_follows(problem);

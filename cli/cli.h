@@ -27,7 +27,7 @@ struct CommonOptions {
   void add_json(CLI::App& app);
   void add_threads(CLI::App& app);
 
-  Case read_case() const;
+  Case read_case(const Problem& problem) const;
   int thread_count() const;
 };
 

@@ -35,9 +35,9 @@ int eval(const EvalOptions& options) {
   if (!options.state.empty()) {
     return report_state(load_problem(options.choice.problem), options.state, options.json);
   }
-  Case c = options.read_case();
+  const Problem problem = load_problem(options.choice.problem);
+  Case c = options.read_case(problem);
   c.search.clear();  // none is used
-  const Problem problem = load_problem(c.problem);
   const Eigen::VectorXd theta_r = options.theta_r.empty()
                                       ? problem.theta_r_default
                                       : parse_numbers("--theta-r", options.theta_r);

@@ -42,6 +42,8 @@ struct Problem {
   /// coordinates of the second contact.
   Eigen::VectorXd theta_r_min, theta_r_max, theta_r_default;
 
+  /// Of a coordinate of theta_r: the joint, or regrasp_1, regrasp_2.
+  std::string theta_r_name(int i) const;
   int redundancy() const { return static_cast<int>(theta_r_min.size()); }
   /// Of the second contact's wrench, l; 0 without one.
   int contact_columns() const { return contact ? static_cast<int>(contact->C.cols()) : 0; }

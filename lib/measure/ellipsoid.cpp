@@ -85,7 +85,7 @@ class Ellipsoid : public Measure {
 }  // namespace
 
 std::unique_ptr<Measure> make_ellipsoid(const Robot& robot) {
-  return std::make_unique<Ellipsoid>(robot);
+  return make_one_sided(std::make_unique<Ellipsoid>(robot));
 }
 
 }  // namespace maxwrench
