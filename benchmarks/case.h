@@ -28,9 +28,9 @@ struct Case {
 /// "pure" or "any"; throws std::invalid_argument otherwise.
 Wrench parse_wrench(const std::string& name);
 
-/// Sets an empty `lp` to its default. `contact_columns`: of the second contact of its problem. Throws std::invalid_argument on a name that does not exist
-/// and on a choice without meaning, such as `facets` for several wrench columns or a solver for a
-/// closed form.
+/// Sets an empty `lp` to its default. `contact_columns`: of the second contact of its problem.
+/// Throws std::invalid_argument on a name that does not exist and on a choice without meaning, such
+/// as `facets` for several wrench columns or a solver for a closed form.
 Case complete(Case c, int contact_columns = 0);
 
 /// The unit of a case's value.

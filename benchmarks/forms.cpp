@@ -22,7 +22,8 @@ LinearProgram from_dense(const MatrixXd& A, const VectorXd& b, const VectorXd& c
 }
 
 /// Columns (u, h): B u - J'h = tau_d, (W W^+ - I) h = 0. J' acts on the span of W only, which those
-/// rows leave. A second contact keeps its columns w_2, whose bounds say in which directions it acts.
+/// rows leave. A second contact keeps its columns w_2, whose bounds say in which directions it
+/// acts.
 LinearProgram paper_form(const WrenchProgram& program) {
   const Zonotope& set = *program.actuation;
   const int n = set.dimension();

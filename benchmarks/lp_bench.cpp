@@ -39,13 +39,18 @@ std::vector<Eigen::VectorXd> postures(const Problem& problem, bool walk) {
   Random random(1);
   std::vector<Eigen::VectorXd> result;
   Eigen::VectorXd theta_r = problem.theta_r_default;
-  for (int i = 0; i < kPrograms; ++i) {
+  Eigen::VectorXd next = theta_r;
+  PostureModel model(problem, false);
+  while (static_cast<int>(result.size()) < kPrograms) {
     for (int j = 0; j < problem.redundancy(); ++j) {
       const double low = problem.theta_r_min[j];
       const double high = problem.theta_r_max[j];
       const double step = kWalkStep * (high - low) * random.uniform(-1, 1);
-      theta_r[j] = walk ? std::clamp(theta_r[j] + step, low, high) : random.uniform(low, high);
+      next[j] = walk ? std::clamp(theta_r[j] + step, low, high) : random.uniform(low, high);
     }
+    // A second arm must reach its contact.
+    if (problem.contact && model.evaluate(next).status != Status::kOptimal) continue;
+    theta_r = next;
     result.push_back(theta_r);
   }
   return result;

@@ -27,7 +27,8 @@ std::string numbers(const Eigen::VectorXd& v) {
 double yardstick(const Problem& problem, Wrench wrench, const Posture& posture) {
   WrenchProgram program = make_wrench_program(problem, wrench);
   set_posture(posture, program);
-  const Case c = complete({problem.name, "linf_polytope", wrench, "simplex"}, problem.contact_columns());
+  const Case c =
+      complete({problem.name, "linf_polytope", wrench, "simplex"}, problem.contact_columns());
   Capability capability;
   measure_maker(problem, c)()->evaluate(posture, program, false, capability);
   return capability.status == Status::kOptimal ? capability.beta
@@ -44,8 +45,8 @@ Row evaluate(const Problem& problem, const Case& c, const Eigen::VectorXd& theta
   row.evaluations = 1;
   PostureModel model(problem, check_collision);
   WrenchProgram program = make_wrench_program(problem, c.wrench);
-  row.posture = evaluate_best(model, theta_r, *measure_maker(problem, c)(), true, program,
-                              row.capability);
+  row.posture =
+      evaluate_best(model, theta_r, *measure_maker(problem, c)(), true, program, row.capability);
   row.status = row.posture.status;
   row.reason = row.posture.reason;
   if (row.status == Status::kOptimal) {

@@ -56,6 +56,7 @@ ordered_json to_json(const Problem& problem, const Row& row) {
   object["theta"] = row.has_posture() ? theta(problem, row.posture) : ordered_json(nullptr);
   object["w"] = known(has_wrench, array(capability.w));
   object["h"] = known(has_wrench, array(capability.h));
+  if (problem.contact) object["h_2"] = known(has_wrench, array(capability.h_2));
   object["u"] = known(solved && capability.u.size() > 0, array(capability.u));
   object["lambda"] = known(solved, array(capability.lambda));
   object["gradient"] = known(solved, array(row.gradient));
@@ -86,6 +87,17 @@ void print(const Problem& problem, const Row& row) {
       fmt::print("follows  {:>10.5f}  {}\n", row.posture.q[i], problem.robot.joints[i].name);
     }
   }
+  if (problem.contact) {
+    const BranchCounts& branches = row.posture.branches;
+    fmt::print(
+        "branches {} of the second arm: {} valid, {} beyond a limit, {} near singular, {} "
+        "in collision\n",
+        branches.found, branches.valid(), branches.beyond_limit, branches.singular,
+        branches.collision);
+    for (const int i : problem.contact->follow) {
+      fmt::print("follows  {:>10.5f}  {}\n", row.posture.q[i], problem.robot.joints[i].name);
+    }
+  }
   if (!row.has_value()) {
     fmt::print("{}: {}\n", to_string(row.status), row.reason);
     return;
@@ -94,6 +106,7 @@ void print(const Problem& problem, const Row& row) {
   fmt::print("beta     {:>10.5f} {}\n", capability.beta, unit(problem, c));
   fmt::print("yardstick{:>10.5f} {}\n", row.yardstick, problem.unit());
   if (capability.w.size() > 0) fmt::print("h        {}\n", line(capability.h));
+  if (problem.contact) fmt::print("h_2      {}\n", line(capability.h_2));
   for (Eigen::Index i = 0; i < capability.u.size(); ++i) {
     const auto thrusters = static_cast<Eigen::Index>(problem.robot.thrusters.size());
     const std::string& name =

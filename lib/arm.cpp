@@ -209,7 +209,8 @@ void Arm::solve_by_newton(const Pose<double>& target) {
   for (int seed = 0; seed < kSeeds; ++seed) {
     for (Eigen::Index i = 0; i < trial_.size(); ++i) {
       const Joint& joint =
-          problem_.robot.joints[static_cast<std::size_t>(contact_.follow[static_cast<std::size_t>(i)])];
+          problem_.robot
+              .joints[static_cast<std::size_t>(contact_.follow[static_cast<std::size_t>(i)])];
       trial_[i] = random.uniform(std::max(joint.q_min, -std::numbers::pi),
                                  std::min(joint.q_max, 2 * std::numbers::pi));
     }

@@ -9,7 +9,8 @@
 namespace maxwrench {
 
 /// The inverse kinematics of the arm that ends at a problem's contact: all positions of the joints
-/// `contact.follow` with which the end effector meets a target, the other joints of the arm at rest.
+/// `contact.follow` with which the end effector meets a target, the other joints of the arm at
+/// rest.
 ///
 /// In closed form where the target is a point and the joints that follow are revolute,
 ///

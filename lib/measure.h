@@ -29,7 +29,7 @@ struct Capability {
   const char* reason = "";
   double beta = 0;    ///< c'h [N or N m], or a score in a unit of its own
   Eigen::VectorXd w;  ///< k; empty and h zero if the measure says nothing of a wrench
-  Vector6d h;         ///< W w (of the first contact), what the robot exerts on the environment, world axes
+  Vector6d h;  ///< W w (of the first contact), what the robot exerts on the environment, world axes
   Eigen::VectorXd u;  ///< m, actuator efforts; filled only when asked for, or empty
   /// n, d beta/d tau_d. Of an infeasible program instead a proof y: sup {y'(B u - J'W w)} < y'tau_d
   /// over the limits (Farkas; for the L2 polytope in the rows of its own program).

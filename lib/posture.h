@@ -26,12 +26,12 @@ struct Posture {
   Pose<double> base;                ///< of the base in the world
   Eigen::VectorXd q;                ///< all joints
   std::vector<Pose<double>> links;  ///< relative to the base
-  Matrix6Xd J;            ///< 6×n [-, m], velocities -> twist of the end effector in world axes
+  Matrix6Xd J;  ///< 6×n [-, m], velocities -> twist of the end effector in world axes
   // Of the second contact, else empty.
-  Matrix6Xd J_2;           ///< 6×n, as J: the twist of the second end effector at the contact point
-  Matrix6Xd C_2;           ///< 6×l, basis of its wrenches in world axes
-  Pose<double> contact;    ///< the contact frame in the world
-  BranchCounts branches;   ///< of the second arm
+  Matrix6Xd J_2;          ///< 6×n, as J: the twist of the second end effector at the contact point
+  Matrix6Xd C_2;          ///< 6×l, basis of its wrenches in world axes
+  Pose<double> contact;   ///< the contact frame in the world
+  BranchCounts branches;  ///< of the second arm
   Eigen::VectorXd tau_d;  ///< n [N, N m], what the actuators must exert at rest without contact
 };
 

@@ -12,8 +12,8 @@ namespace maxwrench {
 ///     max c_w'w   subject to   B u - J'W w = tau_d,   u_min <= u <= u_max,   w_min <= w <= w_max
 ///
 /// (eq:reducedDynamics; h_e = W w). B and the bounds stay; only JtW and tau_d change from posture
-/// to posture. With a second contact w = (w_1, w_2), h_e = W w_1, h_e2 = C_2 w_2, and J'W stands for
-/// [J_1'W, J_2'C_2] (eq:dualOrthogonal); C_2 may change too. c_w is zero for w_2.
+/// to posture. With a second contact w = (w_1, w_2), h_e = W w_1, h_e2 = C_2 w_2, and J'W stands
+/// for [J_1'W, J_2'C_2] (eq:dualOrthogonal); C_2 may change too. c_w is zero for w_2.
 struct WrenchProgram {
   const Zonotope* actuation = nullptr;  ///< B and the limits of u; outlives the program
   Matrix6Xd W;                          ///< 6×k_1, basis of the allowed wrenches

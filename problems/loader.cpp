@@ -73,7 +73,8 @@ void read_wrench(const Block& wrench, Problem& problem) {
 Problem load_problem(const std::string& name) {
   const fs::path file = find_task(name);
   const Block task = Block::read(file);
-  task.allow_only({"type", "robot", "end_effector", "label", "pose", "wrench", "theta_r", "contact"});
+  task.allow_only(
+      {"type", "robot", "end_effector", "label", "pose", "wrench", "theta_r", "contact"});
   if (task.text("type") != "static") task.refuse_value("type", "'static'");
   Problem problem;
   problem.name = name;

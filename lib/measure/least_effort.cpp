@@ -72,8 +72,7 @@ class LeastEffort : public Measure {
 
 std::unique_ptr<Measure> make_least_effort(const Problem& problem) {
   require_full_row_rank(problem.robot, "least_effort");
-  return make_one_sided(
-      std::make_unique<LeastEffort>(problem.robot.actuation, problem.reference));
+  return make_one_sided(std::make_unique<LeastEffort>(problem.robot.actuation, problem.reference));
 }
 
 }  // namespace maxwrench

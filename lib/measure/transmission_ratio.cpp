@@ -68,8 +68,8 @@ class TransmissionRatio : public Measure {
 std::unique_ptr<Measure> make_transmission_ratio(const Robot& robot) {
   require_full_row_rank(robot, "transmission_ratio");
   const int n = robot.velocities();
-  return make_one_sided(std::make_unique<TransmissionRatio>(Eigen::MatrixXd::Identity(n, n),
-                                                            robot.actuation.B_pinv));
+  return make_one_sided(
+      std::make_unique<TransmissionRatio>(Eigen::MatrixXd::Identity(n, n), robot.actuation.B_pinv));
 }
 
 std::unique_ptr<Measure> make_weighted_transmission_ratio(const Robot& robot) {

@@ -27,9 +27,9 @@ class PullBack {
   /// `second`: another end effector whose velocities J_seed may hold too, or -1.
   PullBack(const Robot& robot, int end_effector, int second = -1);
 
-  /// gradient_k = d(t'tau_d + <J_seed, J>)/d q_k for all joints. J and J_seed are about the first end
-  /// effector; columns of joints that carry neither do not count. `kinematics` has seen the state
-  /// that J belongs to, `gravity_and_buoyancy` included.
+  /// gradient_k = d(t'tau_d + <J_seed, J>)/d q_k for all joints. J and J_seed are about the first
+  /// end effector; columns of joints that carry neither do not count. `kinematics` has seen the
+  /// state that J belongs to, `gravity_and_buoyancy` included.
   void evaluate(const Kinematics<double>& kinematics, const Eigen::Matrix3d& R_base,
                 const Matrix6Xd& J, const Eigen::VectorXd& t, const Matrix6Xd& J_seed,
                 Eigen::VectorXd& gradient);

@@ -36,7 +36,8 @@ SecondArm::SecondArm(const Problem& problem)
 
 int SecondArm::reach(const Pose<double>& base, const Eigen::VectorXd& theta_r) {
   const Eigen::Index own = theta_r.size() - contact_.coordinates();
-  for (int i = 0; i < contact_.coordinates(); ++i) s_[static_cast<std::size_t>(i)] = theta_r[own + i];
+  for (int i = 0; i < contact_.coordinates(); ++i)
+    s_[static_cast<std::size_t>(i)] = theta_r[own + i];
   pose_ = contact_pose(contact_, s_.data());
   C_2_.topRows<3>().noalias() = pose_.R.lazyProduct(contact_.C.topRows<3>());
   C_2_.bottomRows<3>().noalias() = pose_.R.lazyProduct(contact_.C.bottomRows<3>());

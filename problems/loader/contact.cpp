@@ -12,7 +12,7 @@
 namespace maxwrench {
 namespace {
 
-constexpr const char* kForces = "point, push, friction, grasp or basis";
+constexpr const char* kForces = "none, point, push, friction, grasp or basis";
 constexpr const char* kSurfaces = "point, line, plane or circle";
 
 std::vector<std::string> names_of(const Robot& robot, const std::vector<int>& joints) {
@@ -66,7 +66,9 @@ void read_forces(const Block& block, Contact& contact) {
   if (block.has("mu") && forces != "friction") {
     block.refuse_value("mu", "no such key, but for forces = 'friction'");
   }
-  if (forces == "point") {
+  if (forces == "none") {
+    set_basis(Matrix6Xd(6, 0), true, contact);
+  } else if (forces == "point") {
     set_basis(all.leftCols(3), true, contact);
   } else if (forces == "push") {
     set_basis(all.middleCols(2, 1), false, contact);
@@ -98,8 +100,9 @@ void read_arm(const Block& block, Problem& problem, Contact& contact) {
   const std::vector<int> chain = chain_to(robot, contact.end_effector);
   for (const int joint : chain_to(robot, problem.end_effector)) {
     if (contains(chain, joint)) {
-      block.refuse_value("end_effector", "an end effector on an arm of its own (the first one "
-                                         "shares a joint with it)");
+      block.refuse_value("end_effector",
+                         "an end effector on an arm of its own (the first one "
+                         "shares a joint with it)");
     }
   }
   const auto names = names_of(robot, chain);
@@ -110,13 +113,13 @@ void read_arm(const Block& block, Problem& problem, Contact& contact) {
     }
     contact.follow.push_back(chain[static_cast<std::size_t>(found - names.begin())]);
   }
-  const bool ordered = std::is_sorted(contact.follow.begin(), contact.follow.end()) &&
-                       std::adjacent_find(contact.follow.begin(), contact.follow.end()) ==
-                           contact.follow.end();
+  const bool ordered =
+      std::is_sorted(contact.follow.begin(), contact.follow.end()) &&
+      std::adjacent_find(contact.follow.begin(), contact.follow.end()) == contact.follow.end();
   const auto most = static_cast<std::size_t>(contact.rows());
   if (!ordered || contact.follow.empty() || contact.follow.size() > most) {
-    block.refuse_value("joints", fmt::format("at most {} of {}, in this order", most,
-                                             fmt::join(names, ", ")));
+    block.refuse_value(
+        "joints", fmt::format("at most {} of {}, in this order", most, fmt::join(names, ", ")));
   }
   if (contact.holds_axes && contact.follow.size() != most) {
     block.refuse_value("joints", "six joints: a firm grasp needs them");

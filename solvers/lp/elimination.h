@@ -9,9 +9,9 @@ namespace maxwrench {
 
 /// The wrench program without its equations, for a program whose first wrench columns are free and
 /// as many as the rows without a direct drive (all six wrenches on a free-floating base). Further
-/// ones, those of a second contact, stay with their bounds as if they were thrusters whose column of
-/// B_b is that of -J_b'W; in a driven row j they also appear by themselves. A direct drive is the only
-/// entry of its row and of its column of B. With P = (J_b'W)^-1 over the other rows b,
+/// ones, those of a second contact, stay with their bounds as if they were thrusters whose column
+/// of B_b is that of -J_b'W; in a driven row j they also appear by themselves. A direct drive is
+/// the only entry of its row and of its column of B. With P = (J_b'W)^-1 over the other rows b,
 ///
 ///     w = P (B_b u_b - tau_b),   v_j = tau_j + J_j'W w,   b_j u_j = v_j   for the driven rows j,
 ///
@@ -34,7 +34,8 @@ class Elimination {
                           Eigen::VectorXd& y) const;
 
  private:
-  /// k <= 6 columns that are eliminated, padded to 6, with an identity in P and zeros elsewhere: constant sizes are fast.
+  /// k <= 6 columns that are eliminated, padded to 6, with an identity in P and zeros elsewhere:
+  /// constant sizes are fast.
   using Square = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
   using Wide = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>;
 

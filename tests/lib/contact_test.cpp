@@ -137,8 +137,8 @@ TEST(Contact, StackedJacobianEqualsDifferences) {
         } else if (problem.robot.base_axes[i] < 3) {
           base.p += step * base.R.col(problem.robot.base_axes[i]);
         } else {
-          base.R = base.R * Eigen::AngleAxisd(
-                                step, Eigen::Vector3d::Unit(problem.robot.base_axes[i] - 3));
+          base.R = base.R *
+                   Eigen::AngleAxisd(step, Eigen::Vector3d::Unit(problem.robot.base_axes[i] - 3));
         }
         kinematics.set_joints(q);
         return base * kinematics.end_effector(problem.robot.end_effectors[tip]);
@@ -178,8 +178,7 @@ TEST(Contact, GradientEqualsDifferences) {
           const Posture& p = model.evaluate(at);
           jumped |= model.branches() != branches;
           return seeds.lambda.dot(p.tau_d) + seeds.beta_J.cwiseProduct(p.J).sum() +
-                 seeds.beta_J2.cwiseProduct(p.J_2).sum() +
-                 seeds.beta_C2.cwiseProduct(p.C_2).sum();
+                 seeds.beta_J2.cwiseProduct(p.J_2).sum() + seeds.beta_C2.cwiseProduct(p.C_2).sum();
         };
         constexpr double kStep = 1e-6;
         for (int k = 0; k < problem.redundancy(); ++k) {
