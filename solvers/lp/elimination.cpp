@@ -167,6 +167,7 @@ bool Elimination::load(const WrenchProgram& program, Tableau& tableau) {
   const int m = static_cast<int>(thrusters_.size());
   const int f = static_cast<int>(driven_rows_.size());
   if (k == 0 || k > 6 || m == 0 || k > program.columns()) return false;
+  if (k < program.columns() && program.W.cols() == program.columns()) return false;
   if (!first_free(program, k) || !invert(program)) return false;
   append(program);
   tableau.resize(f, m + extra_);
