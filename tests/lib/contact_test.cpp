@@ -85,11 +85,10 @@ TEST(Contact, EveryBranchReachesItsPoint) {
   }
 }
 
-TEST(Contact, NewtonFindsWhatTheClosedFormFinds) {
+TEST(Contact, NewtonReachesWhereNoClosedFormIsKnown) {
   Random random(2);
   const Problem problem = load_problem("planar/two_arms");
-  // A firm grasp is refused by the closed form; here the same point through Newton: a third joint
-  // that rests would not change the branches, so the arm is made unknown by a prismatic elbow.
+  // A sliding elbow has no closed form here.
   Problem slide = problem;
   slide.robot.joints[static_cast<std::size_t>(slide.contact->follow[1])].type =
       JointType::kPrismatic;
@@ -250,32 +249,34 @@ TEST(Contact, MoreFreedomNeverLowersTheValue) {
   }
 }
 
+/// The bar leaves the base no motion, so a stretched second arm lacks one direction.
 TEST(Contact, NearSingularPosturesAreRejected) {
-  Problem problem = load_problem("planar/two_arms");
-  PostureModel model(problem, false);
-  ASSERT_EQ(model.evaluate(problem.theta_r_default).status, Status::kOptimal);
-  const Posture posture = model.evaluate(problem.theta_r_default);
-  const double gain = smallest_gain(problem.robot, *problem.contact, posture.J, posture.J_2);
-  EXPECT_GT(gain, problem.contact->sigma_min);
-  // Away from the base until the second arm, 0.2 m long, is stretched: the gain shrinks to zero.
-  const Eigen::Vector3d shoulder =
-      (posture.base * posture.links[static_cast<std::size_t>(problem.contact->follow[0]) + 1]).p;
-  const Eigen::Vector3d away = (posture.contact.p - shoulder).normalized();
-  problem.contact->surface = Surface::kPoint;
-  problem.theta_r_min.conservativeResize(2);
-  problem.theta_r_max.conservativeResize(2);
-  problem.theta_r_default.conservativeResize(2);
-  problem.contact->frame.p = shoulder + 0.2 * (1 - 1e-6) * away;
-  PostureModel stretched(problem, false);
-  const Posture& rejected = stretched.evaluate(problem.theta_r_default);
-  EXPECT_EQ(rejected.status, Status::kInvalidPosture);
-  EXPECT_EQ(std::string(rejected.reason).find("singular"), 0u) << rejected.reason;
-  EXPECT_GT(rejected.branches.singular, 0);
-  EXPECT_EQ(rejected.branches.valid(), 0);
-  problem.contact->frame.p = shoulder + 0.201 * away;
-  PostureModel far(problem, false);
-  EXPECT_EQ(std::string(far.evaluate(problem.theta_r_default).reason).find("unreachable contact"),
-            0u);
+  Problem problem = load_problem("dual_arm/bar_wall");
+  EXPECT_EQ(problem.contact->rank, 9);
+  for (const int i : problem.contact->follow) {
+    problem.robot.joints[i].q_min = -7;
+    problem.robot.joints[i].q_max = 7;
+  }
+  const Eigen::Vector3d start = problem.contact->frame.p;
+  const Eigen::Vector3d away = Eigen::Vector3d(0.1, -1, 0.2).normalized();
+  const auto at = [&](double distance) {
+    problem.contact->frame.p = start + distance * away;
+    return PostureModel(problem, false).evaluate(problem.theta_r_default);
+  };
+  EXPECT_EQ(at(0).status, Status::kOptimal);
+  double low = 0, high = 1;  // it reaches the one and not the other
+  for (int step = 0; step < 50; ++step) {
+    (at((low + high) / 2).branches.found > 0 ? low : high) = (low + high) / 2;
+  }
+  const Posture stretched = at(low - 1e-6);
+  EXPECT_LT(smallest_gain(problem.robot, *problem.contact, stretched.J, stretched.J_2), 0.05);
+  EXPECT_EQ(stretched.status, Status::kInvalidPosture);
+  EXPECT_EQ(std::string(stretched.reason).find("singular"), 0u) << stretched.reason;
+  EXPECT_GT(stretched.branches.singular, 0);
+  EXPECT_EQ(stretched.branches.valid(), 0);
+  const Posture far = at(high + 1e-6);
+  EXPECT_EQ(far.status, Status::kInvalidPosture);
+  EXPECT_EQ(std::string(far.reason).find("unreachable contact"), 0u) << far.reason;
 }
 
 }  // namespace
