@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 
+#include "lib/integrator.h"
 #include "lib/lp_solver.h"
 #include "lib/measure.h"
 #include "lib/problem.h"
@@ -47,7 +48,14 @@ struct WrenchSolverEntry {
 struct SearchEntry {
   const char* name;
   const char* summary;
+  bool local;  ///< true: climbs from one posture, and finds no better maximum elsewhere
   std::unique_ptr<Search> (*make)();
+};
+
+struct IntegratorEntry {
+  const char* name;
+  const char* summary;
+  std::unique_ptr<Integrator> (*make)();
 };
 
 /// The tables: every strategy that exists, once. The wrench solvers begin with those that know the
@@ -56,6 +64,7 @@ std::span<const MeasureEntry> measures();
 std::span<const LpEntry> lp_solvers();
 std::span<const WrenchSolverEntry> wrench_solvers();
 std::span<const SearchEntry> searches();
+std::span<const IntegratorEntry> integrators();
 
 /// The entry with this name; throws std::invalid_argument that names the alternatives.
 const MeasureEntry& find_measure(std::string_view name);

@@ -53,6 +53,7 @@ class Elimination {
   Wide B_b_;  // columns padded with zeros to a multiple of four; then those of a second contact
   int extra_ = 0;  // of the latter
   Square P_;
+  int steps_ = 1;  // of refinement with P, the first included
   Vector6d tau_b_;
   Eigen::VectorXd row_;
 };

@@ -41,6 +41,15 @@ Eigen::VectorXd Box::unit(const Eigen::VectorXd& theta_r) const {
   return x;
 }
 
+Eigen::VectorXd Box::slope(const Eigen::VectorXd& gradient) const {
+  Eigen::VectorXd slope(free());
+  for (int j = 0; j < free(); ++j) {
+    const int i = free_[j];
+    slope[j] = gradient[i] * (upper_[i] - lower_[i]);
+  }
+  return slope;
+}
+
 Eigen::VectorXd Box::start(const Eigen::VectorXd& start) const {
   if (start.size() == 0) return lower_ + (upper_ - lower_) / 2;
   if (start.size() != lower_.size())
@@ -80,25 +89,15 @@ std::vector<double> evaluate_all(const Objective& objective, long count,
   return values;
 }
 
-double evaluate_one(Objective& objective, const Eigen::VectorXd& theta_r) {
-  const double value = objective.evaluate(theta_r);
+double evaluate_one(Objective& objective, const Eigen::VectorXd& theta_r,
+                    Eigen::VectorXd* gradient) {
+  const double value = objective.evaluate(theta_r, gradient);
   return std::isnan(value) ? -kInfinity : value;
 }
 
 void check(const SearchOptions& options) {
   if (options.budget < 1) throw std::invalid_argument("budget: expected at least 1 evaluation");
   if (options.threads < 1) throw std::invalid_argument("threads: expected at least 1");
-}
-
-SearchResult make_result(const Candidate& best, long evaluations) {
-  SearchResult result;
-  result.evaluations = evaluations;
-  if (best.value == -kInfinity) return result;
-  result.status = Status::kOptimal;
-  result.reason = "";
-  result.theta_r = best.theta_r;
-  result.value = best.value;
-  return result;
 }
 
 }  // namespace maxwrench
