@@ -48,6 +48,7 @@ Row evaluate(const Problem& problem, const Case& asked, const Eigen::VectorXd& t
   WrenchProgram program = make_wrench_program(problem, c.wrench);
   row.posture =
       evaluate_best(model, theta_r, *measure_maker(problem, c)(), true, program, row.capability);
+  row.branches = row.posture.branches;
   row.status = row.posture.status;
   row.reason = row.posture.reason;
   if (row.status == Status::kOptimal) {
@@ -72,7 +73,9 @@ Row solve(const Problem& problem, const Case& asked, int threads,
           const std::function<void(long)>& progress) {
   const auto start = std::chrono::steady_clock::now();
   const Case c = fit(problem, asked);
-  const auto objective = make_capability_objective(problem, c.wrench, measure_maker(problem, c));
+  const auto tally = problem.contact ? std::make_shared<BranchTally>() : nullptr;
+  const auto objective =
+      make_capability_objective(problem, c.wrench, measure_maker(problem, c), true, tally);
   SearchOptions options;
   options.seed = c.seed;
   options.budget = c.budget;
@@ -89,6 +92,7 @@ Row solve(const Problem& problem, const Case& asked, int threads,
     row.reason = result.reason;
   }
   row.evaluations = result.evaluations;
+  if (tally) row.branches = tally->sum();
   row.wall_s = seconds_since(start);
   return row;
 }

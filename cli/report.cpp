@@ -30,6 +30,14 @@ ordered_json theta(const Problem& problem, const Posture& posture) {
   return object;
 }
 
+ordered_json to_json(const BranchCounts& branches) {
+  return {{"valid", branches.valid()},
+          {"unreachable", branches.unreachable},
+          {"beyond_limit", branches.beyond_limit},
+          {"singular", branches.singular},
+          {"collision", branches.collision}};
+}
+
 ordered_json to_json(const Problem& problem, const Row& row) {
   const Case& c = row.choice;
   const Capability& capability = row.capability;
@@ -65,6 +73,7 @@ ordered_json to_json(const Problem& problem, const Row& row) {
                                       {"dual", residual.dual},
                                       {"gap", residual.gap}});
   object["evaluations"] = row.evaluations;
+  if (problem.contact) object["branches"] = to_json(row.branches);
   object["wall_s"] = row.wall_s;
   object["version"] = MAXWRENCH_VERSION;
   return object;
@@ -88,12 +97,7 @@ void print(const Problem& problem, const Row& row) {
     }
   }
   if (problem.contact) {
-    const BranchCounts& branches = row.posture.branches;
-    fmt::print(
-        "branches {} of the second arm: {} valid, {} beyond a limit, {} near singular, {} "
-        "in collision\n",
-        branches.found, branches.valid(), branches.beyond_limit, branches.singular,
-        branches.collision);
+    fmt::print("{}\n", describe(row.branches));
     for (const int i : problem.contact->follow) {
       fmt::print("follows  {:>10.5f}  {}\n", row.posture.q[i], problem.robot.joints[i].name);
     }
@@ -123,6 +127,14 @@ void print(const Problem& problem, const Row& row) {
 }
 
 }  // namespace
+
+std::string describe(const BranchCounts& branches) {
+  return fmt::format(
+      "branches of the second arm: {} valid, {} beyond a joint's limit, {} near singular, {} in "
+      "collision; no solution: {}",
+      branches.valid(), branches.beyond_limit, branches.singular, branches.collision,
+      branches.unreachable);
+}
 
 int report(const Problem& problem, const Row& row, bool json) {
   if (row.choice.wrench == Wrench::kPure && row.choice.lp == "box" &&

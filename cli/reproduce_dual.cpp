@@ -4,9 +4,11 @@
 #include <array>
 #include <string>
 
+#include "cli/cli.h"
 #include "cli/figures.h"
 #include "cli/reproduce.h"
 #include "cli/row_writer.h"
+#include "lib/objective.h"
 #include "lib/random.h"
 #include "problems/loader.h"
 
@@ -45,25 +47,19 @@ std::string line(const char* name, const Row& row, double one, double tank, doub
 std::string count_branches(const Problem& problem) {
   Random random(1);
   PostureModel model(problem);
-  BranchCounts sum;
-  int none = 0, valid = 0;
+  BranchTally tally;
+  int valid = 0;
   Eigen::VectorXd theta_r = problem.theta_r_default;
   for (int sample = 0; sample < kSamples; ++sample) {
     for (Eigen::Index i = 0; i < theta_r.size(); ++i) {
       theta_r[i] = random.uniform(problem.theta_r_min[i], problem.theta_r_max[i]);
     }
     const Posture& posture = model.evaluate(theta_r);
-    none += posture.branches.found == 0;
     valid += posture.status == Status::kOptimal;
-    sum.found += posture.branches.found;
-    sum.beyond_limit += posture.branches.beyond_limit;
-    sum.singular += posture.branches.singular;
-    sum.collision += posture.branches.collision;
+    tally.add(posture.branches);
   }
-  return fmt::format(
-      "  {} random contacts: {} valid, {} without solution; of {} branches {} leave a joint's "
-      "limits,\n  {} are near singular, {} collide\n",
-      kSamples, valid, none, sum.found, sum.beyond_limit, sum.singular, sum.collision);
+  return fmt::format("  {} random contacts, {} of them valid; {}\n", kSamples, valid,
+                     describe(tally.sum()));
 }
 
 }  // namespace

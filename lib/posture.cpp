@@ -175,8 +175,10 @@ struct PostureModel::Workspace {
     BranchCounts& counts = posture.branches;
     counts = {};
     valid_count = 0;
-    counts.found = second->reach(model.base, theta_r);
-    for (int i = 0; i < counts.found; ++i) {
+    const int found = second->reach(model.base, theta_r);
+    counts.found = found;
+    counts.unreachable = found == 0;
+    for (int i = 0; i < found; ++i) {
       if (!place(i)) {
         ++counts.beyond_limit;
       } else if (smallest_gain(problem.robot, *problem.contact, model.J, model.J_2) <
@@ -194,8 +196,8 @@ struct PostureModel::Workspace {
     }
     if (counts.collision > 0) return "self-collision";
     if (counts.singular > 0) return "singular: the two contacts lack a direction of motion";
-    return counts.found > 0 ? "joint limit of the second arm"
-                            : "unreachable contact: the second arm does not get there";
+    return found > 0 ? "joint limit of the second arm"
+                     : "unreachable contact: the second arm does not get there";
   }
 
   void read_model(const Eigen::VectorXd& theta_r) {

@@ -9,13 +9,14 @@
 
 namespace maxwrench {
 
-/// What became of the solutions of the second arm's inverse kinematics at one theta_r.
+/// What became of the solutions of the second arm's inverse kinematics, at one theta_r or in sum.
 struct BranchCounts {
-  int found = 0;         ///< solutions
-  int beyond_limit = 0;  ///< of them, those that leave a joint's limits,
-  int singular = 0;      ///< are near singular,
-  int collision = 0;     ///< collide with the robot itself
-  int valid() const { return found - beyond_limit - singular - collision; }
+  long unreachable = 0;   ///< how often there was no solution
+  long found = 0;         ///< solutions
+  long beyond_limit = 0;  ///< of them, those that leave a joint's limits,
+  long singular = 0;      ///< are near singular,
+  long collision = 0;     ///< collide with the robot itself
+  long valid() const { return found - beyond_limit - singular - collision; }
 };
 
 /// Everything known at one theta_r (eq:reducedDynamics): the configuration, J and tau_d.

@@ -16,8 +16,8 @@ namespace {
 /// -2 (B^+)'u.
 class LeastEffort : public Measure {
  public:
-  LeastEffort(const Zonotope& actuation, double reference)
-      : B_pinv_(actuation.B_pinv), reference_(reference) {}
+  LeastEffort(Eigen::MatrixXd B_pinv, double reference)
+      : B_pinv_(std::move(B_pinv)), reference_(reference) {}
 
   void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
                 Capability& capability) override {
@@ -72,7 +72,9 @@ class LeastEffort : public Measure {
 
 std::unique_ptr<Measure> make_least_effort(const Problem& problem) {
   require_full_row_rank(problem.robot, "least_effort");
-  return make_one_sided(std::make_unique<LeastEffort>(problem.robot.actuation, problem.reference));
+  return make_one_sided([B_pinv = problem.robot.actuation.B_pinv, r = problem.reference] {
+    return std::make_unique<LeastEffort>(B_pinv, r);
+  });
 }
 
 }  // namespace maxwrench

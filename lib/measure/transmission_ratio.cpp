@@ -63,18 +63,22 @@ class TransmissionRatio : public Measure {
   Eigen::LDLT<SmallMatrix> ldlt_;
 };
 
+std::unique_ptr<Measure> make(Eigen::MatrixXd K, const Robot& robot) {
+  return make_one_sided([K = std::move(K), B_pinv = robot.actuation.B_pinv] {
+    return std::make_unique<TransmissionRatio>(K, B_pinv);
+  });
+}
+
 }  // namespace
 
 std::unique_ptr<Measure> make_transmission_ratio(const Robot& robot) {
   require_full_row_rank(robot, "transmission_ratio");
   const int n = robot.velocities();
-  return make_one_sided(
-      std::make_unique<TransmissionRatio>(Eigen::MatrixXd::Identity(n, n), robot.actuation.B_pinv));
+  return make(Eigen::MatrixXd::Identity(n, n), robot);
 }
 
 std::unique_ptr<Measure> make_weighted_transmission_ratio(const Robot& robot) {
-  return make_one_sided(std::make_unique<TransmissionRatio>(
-      weighted_inverse(robot, "weighted_transmission_ratio"), robot.actuation.B_pinv));
+  return make(weighted_inverse(robot, "weighted_transmission_ratio"), robot);
 }
 
 }  // namespace maxwrench

@@ -66,6 +66,9 @@ void read_forces(const Block& block, Contact& contact) {
   if (block.has("mu") && forces != "friction") {
     block.refuse_value("mu", "no such key, but for forces = 'friction'");
   }
+  if (block.has("basis") && forces != "basis") {
+    block.refuse_value("basis", "no such key, but for forces = 'basis'");
+  }
   if (forces == "none") {
     set_basis(Matrix6Xd(6, 0), true, contact);
   } else if (forces == "point") {
@@ -92,6 +95,32 @@ Surface read_surface(const Block& block) {
   if (name == "plane") return Surface::kPlane;
   if (name == "circle") return Surface::kCircle;
   block.refuse_value("surface", kSurfaces);
+}
+
+/// Where the joints of the arm that do not follow rest.
+void read_rest(const Block& block, const std::vector<int>& chain, Problem& problem,
+               Contact& contact) {
+  const Robot& robot = problem.robot;
+  contact.q_rest.resize(static_cast<Eigen::Index>(robot.joints.size()));
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    contact.q_rest[static_cast<Eigen::Index>(i)] =
+        std::clamp(0.0, robot.joints[i].q_min, robot.joints[i].q_max);
+  }
+  const Block rest = block.table("rest");
+  std::vector<std::string> resting;
+  for (const int i : chain) {
+    if (contains(contact.follow, i)) continue;
+    const Joint& joint = robot.joints[static_cast<std::size_t>(i)];
+    resting.push_back(joint.name);
+    const double value = rest.number(joint.name, contact.q_rest[i]);
+    if (value < joint.q_min || value > joint.q_max) {
+      rest.refuse_value(joint.name,
+                        fmt::format("a number within {} .. {}", joint.q_min, joint.q_max));
+    }
+    contact.q_rest[i] = value;
+    if (!problem.dependent.empty()) problem.guess_q[i] = value;
+  }
+  rest.allow_only({resting.begin(), resting.end()});
 }
 
 /// Which joints of the arm follow; the others rest.
@@ -124,26 +153,7 @@ void read_arm(const Block& block, Problem& problem, Contact& contact) {
   if (contact.holds_axes && contact.follow.size() != most) {
     block.refuse_value("joints", "six joints: a firm grasp needs them");
   }
-  contact.q_rest.resize(static_cast<Eigen::Index>(robot.joints.size()));
-  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
-    contact.q_rest[static_cast<Eigen::Index>(i)] =
-        std::clamp(0.0, robot.joints[i].q_min, robot.joints[i].q_max);
-  }
-  const Block rest = block.table("rest");
-  std::vector<std::string> resting;
-  for (const int i : chain) {
-    if (contains(contact.follow, i)) continue;
-    const Joint& joint = robot.joints[static_cast<std::size_t>(i)];
-    resting.push_back(joint.name);
-    const double value = rest.number(joint.name, contact.q_rest[i]);
-    if (value < joint.q_min || value > joint.q_max) {
-      rest.refuse_value(joint.name,
-                        fmt::format("a number within {} .. {}", joint.q_min, joint.q_max));
-    }
-    contact.q_rest[i] = value;
-    if (!problem.dependent.empty()) problem.guess_q[i] = value;
-  }
-  rest.allow_only({resting.begin(), resting.end()});
+  read_rest(block, chain, problem, contact);
 }
 
 void read_coordinates(const Block& block, Problem& problem, const Contact& contact) {

@@ -16,7 +16,7 @@ constexpr double kWellConditioned = 1e-2;
 /// A diagonal entry of at least this share of its column serves as pivot.
 constexpr double kDiagonal = 0.1;
 
-constexpr int kChunk = 4;
+constexpr int kChunk = Tableau::kChunk;
 
 bool first_free(const WrenchProgram& program, int k) {
   for (int j = 0; j < k; ++j) {
@@ -124,17 +124,17 @@ bool Elimination::invert(const WrenchProgram& program) {
   return true;
 }
 
-/// row_ = (P'p)'B_b; returns (P'p)'tau_b.
-double Elimination::combine(const Vector6d& p) {
+/// row = (P'p)'B_b; returns (P'p)'tau_b.
+double Elimination::combine(const Vector6d& p, double* row) const {
   const Vector6d left = P_.transpose() * p;
-  const Eigen::Index width = row_.size();
+  const Eigen::Index width = B_b_.cols();
   for (Eigen::Index j = 0; j < width; j += kChunk) {
     double sum[kChunk] = {};
     const double* b = B_b_.data() + j;
     for (int i = 0; i < 6; ++i, b += width) {
       for (int lane = 0; lane < kChunk; ++lane) sum[lane] += left[i] * b[lane];
     }
-    for (int lane = 0; lane < kChunk; ++lane) row_[j + lane] = sum[lane];
+    for (int lane = 0; lane < kChunk; ++lane) row[j + lane] = sum[lane];
   }
   return left.dot(tau_b_);
 }
@@ -147,14 +147,10 @@ void Elimination::add_joint(const WrenchProgram& program, int joint, Tableau& ta
   Vector6d p = Vector6d::Zero();
   const int k = static_cast<int>(base_rows_.size());
   for (int i = 0; i < k; ++i) p[i] = program.JtW(row, i);
-  const double offset = program.tau_d[row] - combine(p);
-  for (std::size_t j = 0; j < thrusters_.size(); ++j) {
-    tableau.entry(joint, static_cast<int>(j)) = row_[static_cast<Eigen::Index>(j)];
-  }
+  double* const entries = tableau.row(joint);
+  const double offset = program.tau_d[row] - combine(p, entries);
   const int m = static_cast<int>(thrusters_.size());
-  for (int j = 0; j < extra_; ++j) {
-    tableau.entry(joint, m + j) = row_[m + j] + program.JtW(row, k + j);
-  }
+  for (int j = 0; j < extra_; ++j) entries[m + j] += program.JtW(row, k + j);
   const double gain = set.B(row, drive);
   const double first = gain * set.u_min[drive];
   const double second = gain * set.u_max[drive];
@@ -173,15 +169,16 @@ bool Elimination::load(const WrenchProgram& program, Tableau& tableau) {
   const int f = static_cast<int>(driven_rows_.size());
   if (k == 0 || k > 6 || m == 0 || k > program.columns()) return false;
   if (k < program.columns() && program.W.cols() == program.columns()) return false;
-  if (!first_free(program, k) || !invert(program)) return false;
+  if (!first_free(program, k)) return false;
   append(program);
+  if (!invert(program)) return false;
   tableau.resize(f, m + extra_);
   tau_b_.setZero();
   for (int i = 0; i < k; ++i) tau_b_[i] = program.tau_d[base_rows_[i]];
   for (int joint = 0; joint < f; ++joint) add_joint(program, joint, tableau);
   Vector6d c = Vector6d::Zero();
   c.head(k) = program.c_w.head(k);
-  combine(c);
+  combine(c, row_.data());
   tableau.c = row_.head(m + extra_);
   tableau.c.tail(extra_) += program.c_w.tail(extra_);
   for (int j = 0; j < m; ++j) {

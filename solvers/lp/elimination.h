@@ -43,7 +43,7 @@ class Elimination {
   void append(const WrenchProgram& program);
   bool invert(const WrenchProgram& program);
   void add_joint(const WrenchProgram& program, int joint, Tableau& tableau);
-  double combine(const Vector6d& p);
+  double combine(const Vector6d& p, double* row) const;
   /// lambda with (J'W)'lambda = -c_share c_w.
   void fill_lambda(const WrenchProgram& program, const Tableau& tableau, double c_share,
                    Eigen::VectorXd& lambda) const;

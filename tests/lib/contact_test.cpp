@@ -8,39 +8,10 @@
 #include "lib/best_branch.h"
 #include "problems/loader.h"
 #include "solvers/strategies.h"
-#include "tests/support.h"
+#include "tests/contacts.h"
 
 namespace maxwrench {
 namespace {
-
-constexpr const char* kProblems[] = {"dual_arm/bar_wall", "dual_arm/two_arms", "planar/two_arms"};
-
-/// Near the default, where many postures are valid.
-Eigen::VectorXd near_default(const Problem& problem, Random& random) {
-  Eigen::VectorXd theta_r = problem.theta_r_default;
-  for (Eigen::Index i = 0; i < theta_r.size(); ++i) {
-    const double width = 0.3 * (problem.theta_r_max[i] - problem.theta_r_min[i]);
-    theta_r[i] = std::clamp(theta_r[i] + std::min(width, 0.15) * random.uniform(-1, 1),
-                            problem.theta_r_min[i], problem.theta_r_max[i]);
-  }
-  return theta_r;
-}
-
-/// The same task, touching a pipe instead: C_2 turns with the regrasp coordinate.
-Problem with_pipe(Problem problem) {
-  Contact& contact = *problem.contact;
-  const int others = problem.redundancy() - contact.coordinates();
-  contact.surface = Surface::kCircle;
-  contact.radius = 0.08;
-  contact.frame.p += contact.radius * contact.frame.R.col(2);
-  problem.theta_r_default.conservativeResize(others + 1);
-  problem.theta_r_min.conservativeResize(others + 1);
-  problem.theta_r_max.conservativeResize(others + 1);
-  problem.theta_r_default[others] = 0.1;
-  problem.theta_r_min[others] = -1;
-  problem.theta_r_max[others] = 1;
-  return problem;
-}
 
 std::unique_ptr<Measure> linf(const Problem& problem, const char* solver) {
   return make_linf_polytope(problem.robot, find_wrench_solver(solver).make());
@@ -48,7 +19,7 @@ std::unique_ptr<Measure> linf(const Problem& problem, const char* solver) {
 
 TEST(Contact, EveryBranchReachesItsPoint) {
   Random random(1);
-  for (const char* name : kProblems) {
+  for (const char* name : kContactProblems) {
     for (const Problem& problem : {load_problem(name), with_pipe(load_problem(name))}) {
       Arm arm(problem);
       EXPECT_TRUE(arm.closed_form()) << name;
@@ -118,7 +89,7 @@ TEST(Contact, NewtonReachesWhereNoClosedFormIsKnown) {
 /// joints one by one.
 TEST(Contact, StackedJacobianEqualsDifferences) {
   Random random(3);
-  for (const char* name : kProblems) {
+  for (const char* name : kContactProblems) {
     const Problem problem = load_problem(name);
     PostureModel model(problem, false);
     const Posture& posture = model.evaluate(problem.theta_r_default);
@@ -156,7 +127,7 @@ TEST(Contact, StackedJacobianEqualsDifferences) {
 /// Of beta and of random linear functions of tau_d, J, J_2 and C_2, on one branch.
 TEST(Contact, GradientEqualsDifferences) {
   Random random(4);
-  for (const char* name : kProblems) {
+  for (const char* name : kContactProblems) {
     for (const Problem& problem : {load_problem(name), with_pipe(load_problem(name))}) {
       PostureModel model(problem, false);
       const int n = problem.robot.velocities();
@@ -197,7 +168,7 @@ TEST(Contact, GradientEqualsDifferences) {
 /// w >= 0.
 TEST(Contact, MoreFreedomNeverLowersTheValue) {
   Random random(5);
-  for (const char* name : kProblems) {
+  for (const char* name : kContactProblems) {
     for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
       const Problem problem = load_problem(name);
       Problem idle = problem;
