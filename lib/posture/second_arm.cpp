@@ -77,15 +77,15 @@ void SecondArm::follow(const Vector3d& p_e, const Matrix6Xd& J, const Matrix6Xd&
   const auto axes = static_cast<Eigen::Index>(problem_.robot.base_axes.size());
   const int rows = contact_.rows();
   const auto d = static_cast<Eigen::Index>(contact_.follow.size());
-  Square J_f(d, rows);  // transposed
+  Square J_f(rows, d);
   Rows slope(d);
   for (Eigen::Index i = 0; i < d; ++i) {
     const int joint = contact_.follow[static_cast<std::size_t>(i)];
-    J_f.row(i) = J_2.col(axes + joint).head(rows).transpose();
+    J_f.col(i) = J_2.col(axes + joint).head(rows);
     slope[i] = q_gradient[joint];
   }
   Vector6d mu = Vector6d::Zero();
-  const Rows solved = Eigen::CompleteOrthogonalDecomposition<Square>(J_f).solve(slope);
+  const Rows solved = Eigen::ColPivHouseholderQR<Square>(J_f).transpose().solve(slope);
   mu.head(rows) = solved;
   // With the first end effector at rest, joint k moves all that it does not carry by -s_k.
   for (Eigen::Index k = 0; k < q_gradient.size(); ++k) {

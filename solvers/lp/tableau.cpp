@@ -92,6 +92,7 @@ void Tableau::move(int j, double step) {
 
 /// The rows of G as dependent ones, the unit rows as basis.
 void Tableau::read() {
+  measured_ = false;
   std::copy(G_.begin(), G_.end(), T_.begin());
   std::copy(c.data(), c.data() + columns_, T(rows_));
   for (int row = 0; row < rows_ + columns_; ++row) {
@@ -103,18 +104,12 @@ void Tableau::read() {
     dependent_.low[i] = low[i];
     dependent_.high[i] = high[i];
     dependent_.slack[i] = slack_[i];
-    double sums[kChunk] = {};
-    for (int j = 0; j < stride_; j += kChunk) {
-      for (int lane = 0; lane < kChunk; ++lane) sums[lane] += T(i)[j + lane] * T(i)[j + lane];
-    }
-    dependent_.weight[i] = 1 / (sums[0] + sums[1] + (sums[2] + sums[3]) + kTiny);
   }
   for (int j = 0; j < columns_; ++j) {
     basis_.row[j] = rows_ + j;
     basis_.low[j] = low[rows_ + j];
     basis_.high[j] = high[rows_ + j];
     basis_.slack[j] = slack_[rows_ + j];
-    basis_.weight[j] = 1;
   }
 }
 
@@ -134,10 +129,18 @@ int Tableau::highest(double least) const {
   return row;
 }
 
-/// `tight` of all rows; those of the basis do not come back once they have left it.
+/// `weight` and `tight` of all rows, before the first exchange; many programs need none. Rows of
+/// the basis do not serve as pivots once they have left it.
 void Tableau::measure() {
+  measured_ = true;
+  std::fill(basis_.weight.begin(), basis_.weight.end(), 1.0);
   std::fill(basis_.tight.begin(), basis_.tight.end(), 0.0);
   for (int i = 0; i < rows_; ++i) {
+    double sums[kChunk] = {};
+    for (int j = 0; j < stride_; j += kChunk) {
+      for (int lane = 0; lane < kChunk; ++lane) sums[lane] += T(i)[j + lane] * T(i)[j + lane];
+    }
+    dependent_.weight[i] = 1 / (sums[0] + sums[1] + (sums[2] + sums[3]) + kTiny);
     dependent_.tight[i] = 1 / (dependent_.high[i] - dependent_.low[i] + kTiny);
   }
 }
@@ -157,14 +160,12 @@ bool Tableau::start() {
   for (int row = 0; row < rows_ + columns_; ++row) {
     if (low[row] > high[row] + slack_[row]) return false;
   }
-  bool measured = false;
   for (int j = 0; j < columns_;) {
     if (rests(j)) {
       ++j;
       continue;
     }
-    if (!measured) measure();
-    measured = true;
+    if (!measured_) measure();
     for (int i = 0; i < rows_; ++i) {
       const double entry = T(i)[j];
       const bool fit = entry * entry * dependent_.weight[i] > kSmallPivot;
@@ -187,11 +188,16 @@ bool Tableau::start() {
 /// The dependent row that is violated most, in units of its own size; -1 if none is. `first`: the
 /// violated one of lowest index instead, which cannot cycle.
 int Tableau::violated(bool first) {
+  bool any = false;
   for (int i = 0; i < rows_; ++i) {
     const double over = value_[i] - dependent_.high[i], under = dependent_.low[i] - value_[i];
     const double missed = (over > under ? over : under) - dependent_.slack[i];
-    score_[i] = missed * std::abs(missed) * dependent_.weight[i];
+    score_[i] = missed * std::abs(missed);
+    any |= missed > 0;
   }
+  if (!any) return -1;
+  if (!measured_) measure();
+  for (int i = 0; i < rows_; ++i) score_[i] *= dependent_.weight[i];
   if (first) {
     for (int i = 0; i < rows_; ++i) {
       if (score_[i] > 0) score_[i] = 1.0 / (1 + dependent_.row[i]);

@@ -77,6 +77,7 @@ class Tableau {
   Lines dependent_, basis_;
   std::vector<double> value_;  // of the dependent rows
   std::vector<double> score_;  // of the dependent rows, padded to a whole chunk
+  bool measured_ = false;      // weight and tight are known
   std::vector<int> used_;      // rows of G with a multiplier
   std::vector<double> side_;   // 1 if a row of the basis rests on its upper bound, else -1
   std::vector<double> ratio_;

@@ -28,34 +28,53 @@ std::vector<Case> cases_of(const Problem& problem, const std::vector<std::string
 template <class F>
 double largest(F&& f, double high) {
   double low = 0;
-  for (int step = 0; step < 90; ++step) {
+  for (int step = 0; step < 70; ++step) {
     const double a = low + (high - low) / 3, b = high - (high - low) / 3;
-    (f(a) >= f(b) ? high : low) = f(a) >= f(b) ? b : a;
+    if (f(a) >= f(b)) {
+      high = b;
+    } else {
+      low = a;
+    }
   }
   return f((low + high) / 2);
 }
 
 /// beta for given pushes (x, y) of two one-sided columns, by the definition of each closed form:
-/// the largest w_1 with |G w + g| <= 1, or the effort at w_1 = reference.
-double by_definition(const std::string& measure, const Problem& problem,
-                     const WrenchProgram& program, double x, double y) {
-  const Zonotope& set = *program.actuation;
-  Eigen::MatrixXd K = set.B.transpose() * (set.B * set.B.transpose()).inverse();
-  const Eigen::VectorXd limit = set.u_max.cwiseMin(-set.u_min);
-  if (measure == "ellipsoid" || measure == "weighted_transmission_ratio") {
-    K = limit.cwiseInverse().asDiagonal() * K;
-  } else if (measure == "transmission_ratio") {
-    K = Eigen::MatrixXd::Identity(set.dimension(), set.dimension());
+/// the largest w_1 with |a w_1 + b| <= 1, or minus the effort at w_1 = reference.
+class Definition {
+ public:
+  Definition(const std::string& measure, const Problem& problem, const WrenchProgram& program)
+      : effort_(measure == "least_effort"), reference_(problem.reference) {
+    const Zonotope& set = *program.actuation;
+    Eigen::MatrixXd K = set.B.transpose() * (set.B * set.B.transpose()).inverse();
+    const Eigen::VectorXd limit = set.u_max.cwiseMin(-set.u_min);
+    if (measure == "ellipsoid" || measure == "weighted_transmission_ratio") {
+      K = limit.cwiseInverse().asDiagonal() * K;
+    } else if (measure == "transmission_ratio") {
+      K = Eigen::MatrixXd::Identity(set.dimension(), set.dimension());
+    }
+    const bool loaded = effort_ || measure == "ellipsoid";
+    G_.resize(K.rows(), 4);
+    G_ << K * program.JtW, K * program.tau_d * (loaded ? 1 : 0);
+    // All that a value needs are the scalar products of the columns.
+    products_ = G_.transpose() * G_;
   }
-  Eigen::VectorXd rest = program.JtW.col(1) * x + program.JtW.col(2) * y;
-  if (measure == "ellipsoid" || measure == "least_effort") rest += program.tau_d;
-  const Eigen::VectorXd a = K * program.JtW.col(0), b = K * rest;
-  if (measure == "least_effort") return -(a * problem.reference + b).squaredNorm();
-  // |a w + b|^2 = 1
-  const double half = a.dot(b) / a.squaredNorm();
-  const double square = half * half - (b.squaredNorm() - 1) / a.squaredNorm();
-  return square < 0 ? -kInfinity : -half + std::sqrt(square);
-}
+
+  double operator()(double x, double y) const {
+    const Eigen::Vector4d rest(0, x, y, 1);
+    const double aa = products_(0, 0), ab = products_.row(0).dot(rest),
+                 bb = rest.dot(products_ * rest);
+    if (effort_) return -(aa * reference_ * reference_ + 2 * ab * reference_ + bb);
+    const double half = ab / aa, square = half * half - (bb - 1) / aa;
+    return square < 0 ? -kInfinity : -half + std::sqrt(square);
+  }
+
+ private:
+  bool effort_;
+  double reference_;
+  Eigen::MatrixXd G_;
+  Eigen::Matrix4d products_;
+};
 
 TEST(OneSided, ClosedFormsEqualAScanOverThePushes) {
   Random random(31);
@@ -81,13 +100,10 @@ TEST(OneSided, ClosedFormsEqualAScanOverThePushes) {
       ASSERT_EQ(capability.status, Status::kOptimal) << capability.reason;
       EXPECT_TRUE(capability.residual.within(1e-9, capability.beta)) << measure;
       EXPECT_GE(capability.w.tail(2).minCoeff(), 0) << measure;
+      const Definition value(measure, problem, program);
       const double high = 1000;
       const double scan = largest(
-          [&](double x) {
-            return largest([&](double y) { return by_definition(measure, problem, program, x, y); },
-                           high);
-          },
-          high);
+          [&](double x) { return largest([&](double y) { return value(x, y); }, high); }, high);
       EXPECT_NEAR(capability.beta, scan, 1e-7 * (1 + std::abs(scan))) << measure;
       rests += capability.w.tail(2).minCoeff() == 0;
       ++compared;
