@@ -1,5 +1,7 @@
 #include "solvers/lp/box.h"
 
+#include <algorithm>
+
 #include "solvers/lp/efforts.h"
 #include "solvers/lp/elimination.h"
 #include "solvers/lp/simplex.h"
@@ -54,17 +56,18 @@ class Box : public WrenchSolver {
       for (Eigen::Index row = 0; row < n; ++row) loads_(j, row) = program.JtW(row, j);
     }
     for (int i = 0; i < f; ++i) {
-      double* const entries = tableau_.row(i);
+      double offset = 0;
       for (int column = 0; column < stride; column += Tableau::kChunk) {
         double sum[Tableau::kChunk] = {};
+        double tau = 0;
         for_normal(set, i, [&](Eigen::Index row, double a) {
           const double* const load = &loads_(column, row);
           for (int lane = 0; lane < Tableau::kChunk; ++lane) sum[lane] += a * load[lane];
+          tau += a * program.tau_d[row];
         });
-        for (int lane = 0; lane < Tableau::kChunk; ++lane) entries[column + lane] = sum[lane];
+        std::copy(sum, sum + Tableau::kChunk, tableau_.row(i) + column);
+        offset = tau;  // the same in each chunk
       }
-      double offset = 0;
-      for_normal(set, i, [&](Eigen::Index row, double a) { offset += a * program.tau_d[row]; });
       tableau_.low[i] = set.b_min[i] - offset;
       tableau_.high[i] = set.b_max[i] - offset;
     }
