@@ -66,9 +66,6 @@ void read_forces(const Block& block, Contact& contact) {
   if (block.has("mu") && forces != "friction") {
     block.refuse_value("mu", "no such key, but for forces = 'friction'");
   }
-  if (block.has("basis") && forces != "basis") {
-    block.refuse_value("basis", "no such key, but for forces = 'basis'");
-  }
   if (forces == "none") {
     set_basis(Matrix6Xd(6, 0), true, contact);
   } else if (forces == "point") {
@@ -202,6 +199,9 @@ void read_contact(const Block& block, Problem& problem) {
   contact.sigma_min = block.non_negative("sigma_min", contact.sigma_min);
   contact.rank = stacked_rank(problem.robot, problem.end_effector, contact);
   read_coordinates(block, problem, contact);
+  if (block.has("basis") && block.text("forces") != "basis") {
+    block.refuse_value("basis", "no such key, but for forces = 'basis'");
+  }
   problem.contact = std::move(contact);
 }
 
