@@ -8,7 +8,6 @@
 namespace maxwrench {
 namespace {
 
-constexpr int kChunk = Tableau::kChunk;
 /// What an accepted optimum satisfies its multipliers to.
 constexpr double kAccepted = 1e-10;
 
