@@ -11,17 +11,18 @@
 namespace maxwrench {
 namespace {
 
-bool serves(const WrenchSolverEntry& solver, Wrench wrench) {
-  return wrench == Wrench::kPure || !solver.one_column_only;
+bool serves(const WrenchSolverEntry& solver, Wrench wrench, int contact_columns) {
+  return (wrench == Wrench::kPure && contact_columns == 0) || !solver.one_column_only;
 }
 
 /// The lower-level solvers that serve a measure and a wrench, with their costs.
-std::vector<std::pair<std::string, int>> solvers_for(const MeasureEntry& measure, Wrench wrench) {
+std::vector<std::pair<std::string, int>> solvers_for(const MeasureEntry& measure, Wrench wrench,
+                                                     int contact_columns) {
   if (wrench == Wrench::kAny && !measure.serves_any) return {};
   if (!measure.needs_solver) return {{kNoSolver, 1}};
   std::vector<std::pair<std::string, int>> names;
   for (const WrenchSolverEntry& solver : wrench_solvers()) {
-    if (serves(solver, wrench)) names.emplace_back(solver.name, solver.cost);
+    if (serves(solver, wrench, contact_columns)) names.emplace_back(solver.name, solver.cost);
   }
   return names;
 }
@@ -34,7 +35,7 @@ Wrench parse_wrench(const std::string& name) {
   throw std::invalid_argument(fmt::format("wrench: got '{}', expected pure or any", name));
 }
 
-Case complete(Case c) {
+Case complete(Case c, int contact_columns) {
   const MeasureEntry& measure = find_measure(c.measure);
   find_search(c.search);
   if (c.budget < 1) {
@@ -44,7 +45,7 @@ Case complete(Case c) {
     throw std::invalid_argument(fmt::format(
         "wrench: got 'any', which means nothing to measure {}, expected pure", c.measure));
   }
-  const auto allowed = solvers_for(measure, c.wrench);
+  const auto allowed = solvers_for(measure, c.wrench, contact_columns);
   if (c.lp.empty()) c.lp = allowed.front().first;
   if (c.lp != kNoSolver) find_wrench_solver(c.lp);
   const bool meaningful = std::any_of(allowed.begin(), allowed.end(),
@@ -53,8 +54,9 @@ Case complete(Case c) {
     std::vector<std::string> names;
     for (const auto& solver : allowed) names.push_back(solver.first);
     throw std::invalid_argument(fmt::format(
-        "lp: got '{}', which does not serve measure {} with wrench {}, expected one of {}", c.lp,
-        c.measure, to_string(c.wrench), fmt::join(names, " ")));
+        "lp: got '{}', which does not serve measure {} with wrench {}{}, expected one of {}", c.lp,
+        c.measure, to_string(c.wrench), contact_columns > 0 ? " and a second contact" : "",
+        fmt::join(names, " ")));
   }
   return c;
 }
@@ -93,11 +95,12 @@ std::vector<std::string> case_values(const Case& c) {
           fmt::format("{}", c.budget)};
 }
 
-std::vector<Case> product(const std::string& problem, std::uint64_t seed, long budget) {
+std::vector<Case> product(const std::string& problem, std::uint64_t seed, long budget,
+                          int contact_columns) {
   std::vector<Case> cases;
   for (const MeasureEntry& measure : measures()) {
     for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
-      const auto solvers = solvers_for(measure, wrench);
+      const auto solvers = solvers_for(measure, wrench, contact_columns);
       for (const auto& [lp, cost] : solvers) {
         const bool first = lp == solvers.front().first;
         for (const SearchEntry& search : searches().first(first ? searches().size() : 2)) {

@@ -28,10 +28,10 @@ struct Case {
 /// "pure" or "any"; throws std::invalid_argument otherwise.
 Wrench parse_wrench(const std::string& name);
 
-/// Sets an empty `lp` to its default. Throws std::invalid_argument on a name that does not exist
-/// and on a choice without meaning, such as `facets` for several wrench columns or a solver for a
-/// closed form.
-Case complete(Case c);
+/// Sets an empty `lp` to its default. `contact_columns`: of the second contact of its problem.
+/// Throws std::invalid_argument on a name that does not exist and on a choice without meaning, such
+/// as `facets` for several wrench columns or a solver for a closed form.
+Case complete(Case c, int contact_columns = 0);
 
 /// The case that can be solved on this robot: `box` takes over from `facets` if its actuators have
 /// too many facets to enumerate.
@@ -50,7 +50,8 @@ std::vector<std::string> case_values(const Case& c);
 /// On a problem, in the order of the tables: every meaningful measure × wrench × lp with the first
 /// two searches (what a solver is worth does not depend on the search), and with the first lp that
 /// serves every search. The budget is divided by the cost of the solver.
-std::vector<Case> product(const std::string& problem, std::uint64_t seed, long budget);
+std::vector<Case> product(const std::string& problem, std::uint64_t seed, long budget,
+                          int contact_columns = 0);
 
 /// Of `cases`, those whose columns have the given values (column -> value); `seed` and `budget` are
 /// no filters. Throws std::invalid_argument on an unknown column, or if no case is left.

@@ -113,14 +113,15 @@ Comparison compare(const Problem& problem, const Case& base, int seeds,
       c.search = search;
       c.lp = lp;
       c.seed = static_cast<std::uint64_t>(seed);
-      contender.attempts.push_back(attempt(problem, complete(c)));
+      contender.attempts.push_back(attempt(problem, complete(c, problem.contact_columns())));
       done();
     }
     return contender;
   };
   Comparison comparison{problem.name, problem.unit(), {}, {}};
   for (const SearchEntry& search : searches())
-    comparison.contenders.push_back(contend(search.name, complete(base).lp, seeds));
+    comparison.contenders.push_back(
+        contend(search.name, complete(base, problem.contact_columns()).lp, seeds));
   if (has_reference()) comparison.reference = contend(kReferenceSearch, kReferenceSolver, seeds);
   return comparison;
 }

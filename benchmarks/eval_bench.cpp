@@ -127,7 +127,7 @@ void add_problem(const Problem& problem) {
   if (problem.robot.collision) {
     add(name("collision"), [&](benchmark::State& state) { time_collision(state, problem); });
   }
-  for (const Case& c : product(problem.name, 1, 1)) {
+  for (const Case& c : product(problem.name, 1, 1, problem.contact_columns())) {
     if (c.search != searches()[0].name) continue;
     const std::string title = name(fmt::format("{}/{}/{}", c.measure, to_string(c.wrench), c.lp));
     add(title,

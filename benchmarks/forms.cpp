@@ -22,26 +22,32 @@ LinearProgram from_dense(const MatrixXd& A, const VectorXd& b, const VectorXd& c
 }
 
 /// Columns (u, h): B u - J'h = tau_d, (W W^+ - I) h = 0. J' acts on the span of W only, which those
-/// rows leave.
+/// rows leave. A second contact keeps its columns w_2, whose bounds say in which directions it
+/// acts.
 LinearProgram paper_form(const WrenchProgram& program) {
   const Zonotope& set = *program.actuation;
   const int n = set.dimension();
   const int m = set.actuators();
-  const bool all = program.columns() == 6;
+  const auto own = static_cast<int>(program.W.cols());
+  const int l = program.columns() - own;
+  const bool all = own == 6;
   const MatrixXd W_pinv = program.W.completeOrthogonalDecomposition().pseudoInverse();
-  MatrixXd A = MatrixXd::Zero(n + (all ? 0 : 6), m + 6);
+  MatrixXd A = MatrixXd::Zero(n + (all ? 0 : 6), m + 6 + l);
   A.topLeftCorner(n, m) = set.B;
-  A.topRightCorner(n, 6) = -program.JtW * W_pinv;
-  if (!all) A.bottomRightCorner(6, 6) = program.W * W_pinv - MatrixXd::Identity(6, 6);
+  A.block(0, m, n, 6) = -program.JtW.leftCols(own) * W_pinv;
+  A.topRightCorner(n, l) = -program.JtW.rightCols(l);
+  if (!all) A.block(n, m, 6, 6) = program.W * W_pinv - MatrixXd::Identity(6, 6);
   VectorXd b = VectorXd::Zero(A.rows());
   b.head(n) = program.tau_d;
-  VectorXd c = VectorXd::Zero(m + 6);
-  c.tail(6) = W_pinv.transpose() * program.c_w;
-  VectorXd l = VectorXd::Constant(m + 6, -kInfinity);
-  VectorXd u = VectorXd::Constant(m + 6, kInfinity);
-  l.head(m) = set.u_min;
-  u.head(m) = set.u_max;
-  return from_dense(A, b, c, l, u);
+  VectorXd c = VectorXd::Zero(m + 6 + l);
+  c.segment(m, 6) = W_pinv.transpose() * program.c_w.head(own);
+  VectorXd low = VectorXd::Constant(m + 6 + l, -kInfinity);
+  VectorXd high = VectorXd::Constant(m + 6 + l, kInfinity);
+  low.head(m) = set.u_min;
+  high.head(m) = set.u_max;
+  low.tail(l) = program.w_min.tail(l);
+  high.tail(l) = program.w_max.tail(l);
+  return from_dense(A, b, c, low, high);
 }
 
 /// The rows of B that one direct drive alone serves, with its column; and all others.

@@ -41,13 +41,18 @@ std::vector<Eigen::VectorXd> postures(const Problem& problem, bool walk) {
   Random random(1);
   std::vector<Eigen::VectorXd> result;
   Eigen::VectorXd theta_r = problem.theta_r_default;
-  for (int i = 0; i < kPrograms; ++i) {
+  Eigen::VectorXd next = theta_r;
+  PostureModel model(problem, false);
+  while (static_cast<int>(result.size()) < kPrograms) {
     for (int j = 0; j < problem.redundancy(); ++j) {
       const double low = problem.theta_r_min[j];
       const double high = problem.theta_r_max[j];
       const double step = kWalkStep * (high - low) * random.uniform(-1, 1);
-      theta_r[j] = walk ? std::clamp(theta_r[j] + step, low, high) : random.uniform(low, high);
+      next[j] = walk ? std::clamp(theta_r[j] + step, low, high) : random.uniform(low, high);
     }
+    // A second arm must reach its contact.
+    if (problem.contact && model.evaluate(next).status != Status::kOptimal) continue;
+    theta_r = next;
     result.push_back(theta_r);
   }
   return result;
@@ -70,7 +75,7 @@ std::unique_ptr<Set> make_set(const Problem& problem, Wrench wrench, bool walk, 
   auto set = std::make_unique<Set>();
   set->title = fmt::format("{}/{}/{}{}", problem.name, to_string(wrench), walk ? "walk" : "random",
                            overloaded ? "+infeasible" : "");
-  set->pure = wrench == Wrench::kPure;
+  set->pure = wrench == Wrench::kPure && !problem.contact;
   set->problem = &problem;
   set->theta_r = postures(problem, walk);
   PostureModel model(problem, false);
@@ -219,7 +224,9 @@ int main(int argc, char** argv) {
   std::vector<std::unique_ptr<Problem>> problems;
   std::vector<std::unique_ptr<Set>> sets;
   for (const std::string& name : shipped_problems()) {
-    if (name != "planar/force" && name != "uvms/valve") continue;  // one task for each robot
+    const bool chosen = name == "planar/force" || name == "uvms/valve" ||
+                        name == "dual_arm/bar_wall" || name == "dual_arm/two_arms";
+    if (!chosen) continue;  // one task for each robot
     problems.push_back(std::make_unique<Problem>(load_problem(name)));
     for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
       for (const bool overloaded : {false, true}) {

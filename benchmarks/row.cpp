@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "lib/wrench_program.h"
+#include "lib/best_branch.h"
 #include "solvers/strategies.h"
 
 namespace maxwrench {
@@ -27,7 +27,8 @@ std::string numbers(const Eigen::VectorXd& v) {
 double yardstick(const Problem& problem, Wrench wrench, const Posture& posture) {
   WrenchProgram program = make_wrench_program(problem, wrench);
   set_posture(posture, program);
-  const Case c = complete({problem.name, "linf_polytope", wrench, "simplex"});
+  const Case c =
+      complete({problem.name, "linf_polytope", wrench, "simplex"}, problem.contact_columns());
   Capability capability;
   measure_maker(problem, c)()->evaluate(posture, program, false, capability);
   return capability.status == Status::kOptimal ? capability.beta
@@ -44,18 +45,18 @@ Row evaluate(const Problem& problem, const Case& asked, const Eigen::VectorXd& t
   row.choice = c;
   row.evaluations = 1;
   PostureModel model(problem, check_collision);
-  row.posture = model.evaluate(theta_r);
+  WrenchProgram program = make_wrench_program(problem, c.wrench);
+  row.posture =
+      evaluate_best(model, theta_r, *measure_maker(problem, c)(), true, program, row.capability);
+  row.branches = row.posture.branches;
   row.status = row.posture.status;
   row.reason = row.posture.reason;
   if (row.status == Status::kOptimal) {
-    WrenchProgram program = make_wrench_program(problem, c.wrench);
-    set_posture(row.posture, program);
-    measure_maker(problem, c)()->evaluate(row.posture, program, true, row.capability);
     row.status = row.capability.status;
     row.reason = row.capability.reason;
   }
   if (row.status == Status::kOptimal) {
-    model.pull_back(theta_r, row.capability.lambda, row.capability.beta_J, row.gradient);
+    model.pull_back(theta_r, row.capability, row.gradient);
     if (!row.capability.residual.within(kRowTolerance, row.capability.beta)) {
       row.status = Status::kNumericalError;
       row.reason = "the answer does not satisfy its program";
@@ -72,7 +73,9 @@ Row solve(const Problem& problem, const Case& asked, int threads,
           const std::function<void(long)>& progress) {
   const auto start = std::chrono::steady_clock::now();
   const Case c = fit(problem, asked);
-  const auto objective = make_capability_objective(problem, c.wrench, measure_maker(problem, c));
+  const auto tally = problem.contact ? std::make_shared<BranchTally>() : nullptr;
+  const auto objective =
+      make_capability_objective(problem, c.wrench, measure_maker(problem, c), true, tally);
   SearchOptions options;
   options.seed = c.seed;
   options.budget = c.budget;
@@ -89,6 +92,7 @@ Row solve(const Problem& problem, const Case& asked, int threads,
     row.reason = result.reason;
   }
   row.evaluations = result.evaluations;
+  if (tally) row.branches = tally->sum();
   row.wall_s = seconds_since(start);
   return row;
 }

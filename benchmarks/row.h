@@ -28,6 +28,7 @@ struct Row {
   /// is none.
   double yardstick = std::numeric_limits<double>::quiet_NaN();
   long evaluations = 0;
+  BranchCounts branches;  ///< of the second arm, if there is one, in sum over the evaluations
   double wall_s = 0;
 
   bool has_posture() const { return posture.J.size() > 0; }

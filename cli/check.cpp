@@ -87,9 +87,8 @@ void print(const Problem& problem) {
              problem.reference, problem.unit(), fmt::join(problem.desired, ", "));
   fmt::print("  redundancy {}\n", problem.redundancy());
   for (int i = 0; i < problem.redundancy(); ++i) {
-    fmt::print("  theta_r {:<17} {:g} .. {:g}, default {:g}\n",
-               problem.robot.joints[problem.redundant[i]].name, problem.theta_r_min[i],
-               problem.theta_r_max[i], problem.theta_r_default[i]);
+    fmt::print("  theta_r {:<17} {:g} .. {:g}, default {:g}\n", problem.theta_r_name(i),
+               problem.theta_r_min[i], problem.theta_r_max[i], problem.theta_r_default[i]);
   }
   print_what_follows(problem);
   if (!problem.source.empty()) fmt::print("  source: {}\n", problem.source);

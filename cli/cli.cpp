@@ -68,10 +68,10 @@ void CommonOptions::add_threads(CLI::App& app) {
       ->check(CLI::Range(0, 1024));
 }
 
-Case CommonOptions::read_case() const {
+Case CommonOptions::read_case(const Problem& problem) const {
   Case c = choice;
   c.wrench = parse_wrench(wrench);
-  return complete(c);
+  return complete(c, problem.contact_columns());
 }
 
 int CommonOptions::thread_count() const {

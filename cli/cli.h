@@ -28,12 +28,15 @@ struct CommonOptions {
   void add_json(CLI::App& app);
   void add_threads(CLI::App& app);
 
-  Case read_case() const;
+  Case read_case(const Problem& problem) const;
   int thread_count() const;
 };
 
 /// Numbers separated by commas; throws std::invalid_argument that names the option.
 Eigen::VectorXd parse_numbers(const std::string& option, const std::string& text);
+
+/// One line.
+std::string describe(const BranchCounts& branches);
 
 /// A row for people or, with `json`, as one object; returns the exit status that it deserves.
 int report(const Problem& problem, const Row& row, bool json);

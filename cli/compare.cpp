@@ -96,22 +96,26 @@ void keep(const Comparison& comparison, const std::filesystem::path& folder) {
 
 int compare_all(const CompareOptions& options) {
   const std::filesystem::path folder(options.out);
-  const Case base = options.read_case();
+  std::vector<Problem> problems;
+  std::vector<Case> cases;
+  for (const std::string& name : options.problems) {
+    problems.push_back(load_problem(name));
+    cases.push_back(options.read_case(problems.back()));
+  }
   write_file(folder / "machine.txt", describe_machine());
   Progress progress("compare",
                     attempt_count(options.seeds) * static_cast<long>(options.problems.size()));
   long done = 0;
   std::vector<Comparison> comparisons;
-  std::vector<Problem> problems;
-  for (const std::string& name : options.problems) problems.push_back(load_problem(name));
-  for (const Problem& problem : problems) {
-    comparisons.push_back(compare(problem, base, options.seeds, [&] { progress.show(++done); }));
+  for (std::size_t i = 0; i < problems.size(); ++i) {
+    comparisons.push_back(
+        compare(problems[i], cases[i], options.seeds, [&] { progress.show(++done); }));
     keep(comparisons.back(), folder);
   }
   progress.finish();
   fmt::print(
       "Every search with {} seeds, {} evaluations each, on one thread; time of the processor.\n",
-      options.seeds, base.budget);
+      options.seeds, options.choice.budget);
   for (const Comparison& comparison : comparisons) fmt::print("\n{}", text(comparison));
   write_file(folder / "search_comparison.svg", draw_convergence(comparisons));
   return kAnswered;

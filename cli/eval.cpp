@@ -4,6 +4,7 @@
 #include "cli/cli.h"
 #include "cli/state.h"
 #include "cli/wrench_file.h"
+#include "lib/best_branch.h"
 #include "problems/loader.h"
 
 namespace maxwrench {
@@ -21,9 +22,11 @@ void write_program(const EvalOptions& options, const Problem& problem, const Cas
     throw std::invalid_argument("--write: got measure " + c.measure + ", expected linf_polytope");
   }
   PostureModel model(problem, !options.ignore_collision);
-  const Posture& posture = model.evaluate(theta_r);
-  if (posture.status != Status::kOptimal) return;
   WrenchProgram program = make_wrench_program(problem, c.wrench);
+  Capability capability;
+  const Posture& posture =
+      evaluate_best(model, theta_r, *measure_maker(problem, c)(), false, program, capability);
+  if (posture.status != Status::kOptimal) return;
   set_posture(posture, program);
   write_wrench_program(problem, program, options.write);
 }
@@ -32,9 +35,9 @@ int eval(const EvalOptions& options) {
   if (!options.state.empty()) {
     return report_state(load_problem(options.choice.problem), options.state, options.json);
   }
-  Case c = options.read_case();
+  const Problem problem = load_problem(options.choice.problem);
+  Case c = options.read_case(problem);
   c.search.clear();  // none is used
-  const Problem problem = load_problem(c.problem);
   const Eigen::VectorXd theta_r = options.theta_r.empty()
                                       ? problem.theta_r_default
                                       : parse_numbers("--theta-r", options.theta_r);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "cli/drawing.h"
+#include "lib/best_branch.h"
 #include "lib/wrench_solver.h"
 #include "solvers/strategies.h"
 
@@ -45,7 +46,11 @@ DrawnPosture draw_robot(const Problem& problem, PostureModel& model, const Panel
   DrawnPosture drawn;
   drawn.title = with_letters(panel.title);
   drawn.problem = &problem;
-  drawn.posture = model.evaluate(panel.theta_r);
+  // Of several branches of a second arm the best one is drawn.
+  WrenchProgram program = make_wrench_program(problem, Wrench::kPure);
+  const auto measure = make_linf_polytope(problem.robot, find_wrench_solver("box").make());
+  Capability capability;
+  drawn.posture = evaluate_best(model, panel.theta_r, *measure, false, program, capability);
   if (drawn.posture.status != Status::kOptimal) {
     drawn.title += std::string(" (") + drawn.posture.reason + ")";
   }

@@ -47,13 +47,19 @@ ForceSet force_set(const Problem& problem, const Posture& posture, Measure& meas
 
   WrenchProgram program = along_c;
   program.W = outline_basis(problem, wrench, view);
-  program.w_min = Eigen::VectorXd::Constant(program.columns(), -kInfinity);
+  // The second contact's columns follow those of the outline.
+  const Eigen::Index own = program.W.cols();
+  const Eigen::Index l = program.C_2.cols();
+  program.c_w.setZero(own + l);
+  program.w_min = Eigen::VectorXd::Constant(own + l, -kInfinity);
   program.w_max = -program.w_min;
-  program.JtW.resize(posture.J.cols(), program.columns());
+  program.w_min.tail(l) = along_c.w_min.tail(l);
+  program.w_max.tail(l) = along_c.w_max.tail(l);
+  program.JtW.resize(posture.J.cols(), own + l);
   set_posture(posture, program);
   const Support support =
       [&](const Eigen::Vector2d& d) -> std::optional<std::pair<double, Eigen::Vector2d>> {
-    program.c_w = program.W.topRows<3>().transpose() * (P.transpose() * d);
+    program.c_w.head(own) = program.W.topRows<3>().transpose() * (P.transpose() * d);
     measure.evaluate(posture, program, false, capability);
     if (capability.status != Status::kOptimal) return std::nullopt;
     return std::make_pair(capability.beta, Eigen::Vector2d(P * capability.h.head<3>()));

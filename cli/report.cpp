@@ -30,6 +30,14 @@ ordered_json theta(const Problem& problem, const Posture& posture) {
   return object;
 }
 
+ordered_json to_json(const BranchCounts& branches) {
+  return {{"valid", branches.valid()},
+          {"unreachable", branches.unreachable},
+          {"beyond_limit", branches.beyond_limit},
+          {"singular", branches.singular},
+          {"collision", branches.collision}};
+}
+
 ordered_json to_json(const Problem& problem, const Row& row) {
   const Case& c = row.choice;
   const Capability& capability = row.capability;
@@ -56,6 +64,7 @@ ordered_json to_json(const Problem& problem, const Row& row) {
   object["theta"] = row.has_posture() ? theta(problem, row.posture) : ordered_json(nullptr);
   object["w"] = known(has_wrench, array(capability.w));
   object["h"] = known(has_wrench, array(capability.h));
+  if (problem.contact) object["h_2"] = known(has_wrench, array(capability.h_2));
   object["u"] = known(solved && capability.u.size() > 0, array(capability.u));
   object["lambda"] = known(solved, array(capability.lambda));
   object["gradient"] = known(solved, array(row.gradient));
@@ -64,6 +73,7 @@ ordered_json to_json(const Problem& problem, const Row& row) {
                                       {"dual", residual.dual},
                                       {"gap", residual.gap}});
   object["evaluations"] = row.evaluations;
+  if (problem.contact) object["branches"] = to_json(row.branches);
   object["wall_s"] = row.wall_s;
   object["version"] = MAXWRENCH_VERSION;
   return object;
@@ -86,6 +96,12 @@ void print(const Problem& problem, const Row& row) {
       fmt::print("follows  {:>10.5f}  {}\n", row.posture.q[i], problem.robot.joints[i].name);
     }
   }
+  if (problem.contact) {
+    fmt::print("{}\n", describe(row.branches));
+    for (const int i : problem.contact->follow) {
+      fmt::print("follows  {:>10.5f}  {}\n", row.posture.q[i], problem.robot.joints[i].name);
+    }
+  }
   if (!row.has_value()) {
     fmt::print("{}: {}\n", to_string(row.status), row.reason);
     return;
@@ -94,6 +110,7 @@ void print(const Problem& problem, const Row& row) {
   fmt::print("beta     {:>10.5f} {}\n", capability.beta, unit(problem, c));
   fmt::print("yardstick{:>10.5f} {}\n", row.yardstick, problem.unit());
   if (capability.w.size() > 0) fmt::print("h        {}\n", line(capability.h));
+  if (problem.contact) fmt::print("h_2      {}\n", line(capability.h_2));
   for (Eigen::Index i = 0; i < capability.u.size(); ++i) {
     const auto thrusters = static_cast<Eigen::Index>(problem.robot.thrusters.size());
     const std::string& name =
@@ -110,6 +127,14 @@ void print(const Problem& problem, const Row& row) {
 }
 
 }  // namespace
+
+std::string describe(const BranchCounts& branches) {
+  return fmt::format(
+      "branches of the second arm: {} valid, {} beyond a joint's limit, {} near singular, {} in "
+      "collision; no solution: {}",
+      branches.valid(), branches.beyond_limit, branches.singular, branches.collision,
+      branches.unreachable);
+}
 
 int report(const Problem& problem, const Row& row, bool json) {
   if (row.choice.wrench == Wrench::kPure && row.choice.lp == "box" &&

@@ -15,7 +15,7 @@ struct ReproduceOptions : CommonOptions {
 
 int reproduce(const ReproduceOptions& options) {
   bool all_solved = true;
-  for (const auto table : {reproduce_planar, reproduce_uvms}) {
+  for (const auto table : {reproduce_planar, reproduce_uvms, reproduce_dual}) {
     const PaperTable done = table(options.out, options.thread_count());
     fmt::print("{}\n", done.text);
     all_solved = all_solved && done.all_solved;

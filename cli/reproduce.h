@@ -15,5 +15,6 @@ struct PaperTable {
 // figures if it has any, beside them.
 PaperTable reproduce_planar(const std::filesystem::path& folder, int threads);
 PaperTable reproduce_uvms(const std::filesystem::path& folder, int threads);
+PaperTable reproduce_dual(const std::filesystem::path& folder, int threads);
 
 }  // namespace maxwrench

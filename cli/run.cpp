@@ -53,7 +53,8 @@ std::vector<Case> choose(const std::map<std::string, std::string>& filter) {
   const long budget = read_whole(filter, "budget", defaults.budget);
   std::vector<Case> cases;
   for (const std::string& name : shipped_problems()) {
-    const std::vector<Case> more = product(name, static_cast<std::uint64_t>(seed), budget);
+    const std::vector<Case> more = product(name, static_cast<std::uint64_t>(seed), budget,
+                                           load_problem(name).contact_columns());
     cases.insert(cases.end(), more.begin(), more.end());
   }
   return select(std::move(cases), filter);

@@ -15,8 +15,8 @@ void add_solve(CLI::App& app, int& exit_status) {
   options->add_threads(command);
   options->add_json(command);
   command.callback([options, &exit_status] {
-    const Case c = options->read_case();
-    const Problem problem = load_problem(c.problem);
+    const Problem problem = load_problem(options->choice.problem);
+    const Case c = options->read_case(problem);
     Progress progress("solve", c.budget);
     const Row row = solve(problem, c, options->thread_count(), progress.counter());
     progress.finish();

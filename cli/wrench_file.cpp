@@ -13,8 +13,10 @@ namespace {
 
 std::string wrench_name(const Problem& problem, const WrenchProgram& program, int j) {
   static constexpr std::array<const char*, 6> kAxes = {"fx", "fy", "fz", "mx", "my", "mz"};
+  const Eigen::Index own = program.W.cols();
+  if (j >= own) return fmt::format("w2_{}", j - own + 1);
   const Vector6d direction = program.W.col(j);
-  if (program.columns() == 1 && direction == problem.c) return "w_c";
+  if (own == 1 && direction == problem.c) return "w_c";
   for (int axis = 0; axis < 6; ++axis) {
     if (direction == Vector6d::Unit(axis)) return fmt::format("w_{}", kAxes[axis]);
   }

@@ -99,11 +99,11 @@ Branch::Branch(const Problem& problem)
   const auto d = static_cast<Eigen::Index>(y_.size());
   J_d_.resize(6, d);
   start_z_ << problem.guess_base, problem.guess_q;
-  for (int k = 0; k < problem.redundancy(); ++k) {
-    start_z_[4 + problem.redundant[static_cast<std::size_t>(k)]] = problem.theta_r_default[k];
+  for (std::size_t k = 0; k < problem.redundant.size(); ++k) {
+    start_z_[4 + problem.redundant[k]] = problem.theta_r_default[static_cast<Eigen::Index>(k)];
   }
   trial_ = z_ = start_z_;
-  slopes_.setZero(start_z_.size(), problem.redundancy());
+  slopes_.setZero(start_z_.size(), static_cast<Eigen::Index>(problem.redundant.size()));
   start();
   start_z_ = z_;
   start_slopes_ = slopes_;
@@ -207,7 +207,7 @@ bool Branch::contract(double tolerance) {
 
 /// From the start to theta_r; z_ and slopes_ are those of the last point that was reached.
 const char* Branch::carry(const Eigen::VectorXd& theta_r) {
-  const Eigen::VectorXd& from = problem_.theta_r_default;
+  const auto from = problem_.theta_r_default.head(theta_r.size());
   const double length = theta_r.size() == 0 ? 0 : (theta_r - from).lpNorm<Eigen::Infinity>();
   const double longest = length > kStep ? kStep / length : 1;
   double done = 0;

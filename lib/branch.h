@@ -48,7 +48,8 @@ class Branch {
   /// Whether J_d is singular there: theta_r holds the wrong joints.
   bool start_is_singular() const { return start_is_singular_; }
 
-  /// Solves for y; null, or why there is none. Allocates nothing after the first call.
+  /// Solves for y; null, or why there is none. `theta_r`: its joints. Allocates nothing after the
+  /// first call.
   const char* follow(const Eigen::VectorXd& theta_r);
 
   /// Of the last theta_r, or the last point before it that was reached.

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 
 #include "lib/measure.h"
+#include "lib/posture.h"
 #include "lib/problem.h"
 #include "lib/status.h"
 #include "lib/types.h"
@@ -39,10 +41,21 @@ class Objective {
 
 using MeasureMaker = std::function<std::unique_ptr<Measure>()>;
 
+/// Sums up the branches of a second arm over all evaluations of an objective and its clones, in any
+/// threads.
+class BranchTally {
+ public:
+  void add(const BranchCounts& counts);
+  BranchCounts sum() const;
+
+ private:
+  std::atomic<long> unreachable_ = 0, found_ = 0, beyond_limit_ = 0, singular_ = 0, collision_ = 0;
+};
+
 /// f(theta_r) = beta of a measure at the postures of a problem, which outlives the objective. No
-/// value where the posture is invalid or the program has no optimum.
+/// value where the posture is invalid or the program has no optimum. `tally`, if given, counts.
 std::unique_ptr<Objective> make_capability_objective(const Problem& problem, Wrench wrench,
-                                                     MeasureMaker make,
-                                                     bool check_collision = true);
+                                                     MeasureMaker make, bool check_collision = true,
+                                                     std::shared_ptr<BranchTally> tally = nullptr);
 
 }  // namespace maxwrench

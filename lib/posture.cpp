@@ -1,6 +1,8 @@
 #include "lib/posture.h"
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -10,6 +12,7 @@
 #include "lib/branch.h"
 #include "lib/kinematics.h"
 #include "lib/posture/pull_back.h"
+#include "lib/posture/second_arm.h"
 
 namespace maxwrench {
 namespace {
@@ -27,7 +30,12 @@ struct Model {
         theta_r(Eigen::VectorXd::Constant(p.redundancy(), kNothing)),
         q(p.robot.joints.size()),
         J(6, p.robot.velocities()),
+        J_2(6, p.contact ? p.robot.velocities() : 0),
         tau_d(p.robot.velocities()) {
+    if (p.contact) {
+      q = p.contact->q_rest;
+      return;
+    }
     for (Eigen::Index i = 0; i < q.size(); ++i) {
       q[i] = std::clamp(0.0, p.robot.joints[i].q_min, p.robot.joints[i].q_max);
     }
@@ -40,7 +48,9 @@ struct Model {
   /// The base follows in closed form from all joints of the chain.
   void evaluate(const Eigen::VectorXd& at) {
     theta_r = at;
-    for (std::size_t i = 0; i < problem.redundant.size(); ++i) q[problem.redundant[i]] = at[i];
+    for (std::size_t i = 0; i < problem.redundant.size(); ++i) {
+      q[problem.redundant[i]] = at[static_cast<Eigen::Index>(i)];
+    }
     kinematics.set_joints(q);
     base = problem.pose * kinematics.end_effector(end_effector()).inverse();
     finish();
@@ -58,6 +68,9 @@ struct Model {
   void finish() {
     kinematics.jacobian(end_effector(), base.R, J);
     kinematics.gravity_and_buoyancy(base.R, tau_d);
+    if (!problem.contact) return;
+    const auto second = static_cast<std::size_t>(problem.contact->end_effector);
+    kinematics.jacobian(problem.robot.end_effectors[second], base.R, J_2);
   }
 
   /// Before the first evaluation: equals no theta_r.
@@ -67,7 +80,7 @@ struct Model {
   Kinematics<double> kinematics;
   Eigen::VectorXd theta_r, q;
   Pose<double> base;
-  Matrix6Xd J;
+  Matrix6Xd J, J_2;
   Eigen::VectorXd tau_d;
 };
 
@@ -103,8 +116,9 @@ struct PostureModel::Workspace {
       : problem(p),
         check_collision(check && p.robot.collision != nullptr),
         model(p),
-        reverse(p.robot, p.end_effector) {
+        reverse(p.robot, p.end_effector, p.contact ? p.contact->end_effector : -1) {
     if (!p.dependent.empty()) branch.emplace(p);
+    if (p.contact) second.emplace(p);
     posture.q.resize(model.q.size());
     posture.links = model.kinematics.links();
     posture.J = model.J;
@@ -112,8 +126,13 @@ struct PostureModel::Workspace {
   }
 
   void evaluate(const Eigen::VectorXd& theta_r) {
+    if (second) {
+      model.q = problem.contact->q_rest;
+      placed = -1;
+    }
     if (!branch) return model.evaluate(theta_r);
-    branch_reason = branch->follow(theta_r);
+    joints_of_theta_r = theta_r.head(static_cast<Eigen::Index>(problem.redundant.size()));
+    branch_reason = branch->follow(joints_of_theta_r);
     model.evaluate_at(theta_r, branch->z());
   }
 
@@ -133,9 +152,105 @@ struct PostureModel::Workspace {
     }
     if (!branch && !base_reaches(problem.robot, model.base))
       return "unreachable pose: the base would leave its free axes";
-    if (check_collision && problem.robot.collision->collides(posture.links))
-      return "self-collision";
-    return nullptr;
+    if (second) return nullptr;  // it moves yet
+    return collides() ? "self-collision" : nullptr;
+  }
+
+  bool collides() const {
+    return check_collision && problem.robot.collision->collides(model.kinematics.links());
+  }
+
+  /// Moves the second arm to a branch; whether that is within its limits.
+  bool place(int i) {
+    const bool inside = second->place(i, model.q);
+    model.kinematics.set_joints(model.q);
+    model.finish();
+    placed = i;
+    return inside;
+  }
+
+  /// Finds the valid branches of the second arm and moves it to the first; null, or why there is
+  /// none.
+  const char* reach(const Eigen::VectorXd& theta_r) {
+    BranchCounts& counts = posture.branches;
+    counts = {};
+    valid_count = 0;
+    const int found = second->reach(model.base, theta_r);
+    counts.found = found;
+    counts.unreachable = found == 0;
+    for (int i = 0; i < found; ++i) {
+      if (!place(i)) {
+        ++counts.beyond_limit;
+      } else if (smallest_gain(problem.robot, *problem.contact, model.J, model.J_2) <
+                 problem.contact->sigma_min) {
+        ++counts.singular;
+      } else if (collides()) {
+        ++counts.collision;
+      } else {
+        valid[static_cast<std::size_t>(valid_count++)] = i;
+      }
+    }
+    if (valid_count > 0) {
+      if (placed != valid[0]) place(valid[0]);
+      return nullptr;
+    }
+    if (counts.collision > 0) return "self-collision";
+    if (counts.singular > 0) return "singular: the two contacts lack a direction of motion";
+    return found > 0 ? "joint limit of the second arm"
+                     : "unreachable contact: the second arm does not get there";
+  }
+
+  void read_model(const Eigen::VectorXd& theta_r) {
+    posture.theta_r = theta_r;
+    posture.base = model.base;
+    posture.q = model.q;
+    posture.links = model.kinematics.links();
+    posture.J = model.J;
+    posture.tau_d = model.tau_d;
+    if (!second) return;
+    posture.J_2 = model.J_2;
+    posture.C_2 = second->C_2();
+    posture.contact = second->contact();
+  }
+
+  /// All of `PostureModel::evaluate`.
+  void run(const Eigen::VectorXd& theta_r) {
+    evaluate(theta_r);
+    const char* reason = violation(theta_r);
+    valid_count = reason ? 0 : 1;
+    if (second) {
+      posture.branches = {};
+      if (!reason) reason = reach(theta_r);
+    }
+    read_model(theta_r);
+    posture.status = reason ? Status::kInvalidPosture : Status::kOptimal;
+    posture.reason = reason ? reason : "";
+  }
+
+  void pull_back(const Eigen::VectorXd& theta_r, const Eigen::VectorXd& tau_seed,
+                 const Matrix6Xd& J_seed, const Matrix6Xd& J2_seed, const Matrix6Xd& C2_seed,
+                 Eigen::VectorXd& gradient) {
+    if (model.theta_r != theta_r) {
+      if (second) {
+        run(theta_r);  // chooses a branch
+      } else {
+        evaluate(theta_r);
+      }
+    }
+    gradient.resize(theta_r.size());
+    const Matrix6Xd& seeds =
+        second ? second->shifted_seeds(problem.pose.p, J_seed, J2_seed) : J_seed;
+    reverse.evaluate(model.kinematics, model.base.R, model.J, tau_seed, seeds, q_gradient);
+    if (second) {
+      second->follow(problem.pose.p, model.J, model.J_2, J2_seed, C2_seed, q_gradient, gradient);
+    }
+    for (std::size_t k = 0; k < problem.redundant.size(); ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      // The base follows from all joints in closed form here too: what Newton solves holds along
+      // the branch.
+      gradient[i] = branch ? branch->slopes().col(i).tail(model.q.size()).dot(q_gradient)
+                           : q_gradient[problem.redundant[k]];
+    }
   }
 
   const Problem& problem;
@@ -145,6 +260,11 @@ struct PostureModel::Workspace {
   Eigen::VectorXd q_gradient;
   std::optional<Branch> branch;  ///< if there are dependent joints
   const char* branch_reason = nullptr;
+  Eigen::VectorXd joints_of_theta_r;
+  std::optional<SecondArm> second;  ///< if there is a second contact
+  std::array<int, Arm::kMostBranches> valid{};
+  int valid_count = 0, placed = -1;
+  const Matrix6Xd none;  ///< no seeds
   Posture posture;
 };
 
@@ -155,34 +275,34 @@ PostureModel::~PostureModel() = default;
 const Posture& PostureModel::evaluate(const Eigen::VectorXd& theta_r) {
   Workspace& ws = *workspace_;
   require_theta_r(ws.problem, theta_r);
-  ws.evaluate(theta_r);
-  Posture& posture = ws.posture;
-  posture.theta_r = theta_r;
-  posture.base = ws.model.base;
-  posture.q = ws.model.q;
-  posture.links = ws.model.kinematics.links();
-  posture.J = ws.model.J;
-  posture.tau_d = ws.model.tau_d;
-  const char* violation = ws.violation(theta_r);
-  posture.status = violation ? Status::kInvalidPosture : Status::kOptimal;
-  posture.reason = violation ? violation : "";
-  return posture;
+  ws.run(theta_r);
+  return ws.posture;
+}
+
+int PostureModel::branches() const { return workspace_->valid_count; }
+
+const Posture& PostureModel::select(int branch) {
+  Workspace& ws = *workspace_;
+  assert(branch >= 0 && branch < ws.valid_count);
+  const int i = ws.valid[static_cast<std::size_t>(branch)];
+  if (!ws.second || ws.placed == i) return ws.posture;
+  ws.place(i);
+  ws.read_model(ws.model.theta_r);
+  return ws.posture;
 }
 
 void PostureModel::pull_back(const Eigen::VectorXd& theta_r, const Eigen::VectorXd& tau_seed,
                              const Matrix6Xd& J_seed, Eigen::VectorXd& gradient) {
-  Workspace& ws = *workspace_;
-  require_theta_r(ws.problem, theta_r);
-  Model& model = ws.model;
-  if (model.theta_r != theta_r) ws.evaluate(theta_r);
-  ws.reverse.evaluate(model.kinematics, model.base.R, model.J, tau_seed, J_seed, ws.q_gradient);
-  gradient.resize(theta_r.size());
-  for (Eigen::Index k = 0; k < theta_r.size(); ++k) {
-    // The base follows from all joints in closed form here too: what Newton solves holds along the
-    // branch.
-    gradient[k] = ws.branch ? ws.branch->slopes().col(k).tail(model.q.size()).dot(ws.q_gradient)
-                            : ws.q_gradient[ws.problem.redundant[static_cast<std::size_t>(k)]];
-  }
+  require_theta_r(workspace_->problem, theta_r);
+  const Matrix6Xd& none = workspace_->none;
+  workspace_->pull_back(theta_r, tau_seed, J_seed, none, none, gradient);
+}
+
+void PostureModel::pull_back(const Eigen::VectorXd& theta_r, const Capability& capability,
+                             Eigen::VectorXd& gradient) {
+  require_theta_r(workspace_->problem, theta_r);
+  workspace_->pull_back(theta_r, capability.lambda, capability.beta_J, capability.beta_J2,
+                        capability.beta_C2, gradient);
 }
 
 }  // namespace maxwrench

@@ -3,10 +3,21 @@
 #include <memory>
 #include <vector>
 
+#include "lib/measure.h"
 #include "lib/problem.h"
 #include "lib/status.h"
 
 namespace maxwrench {
+
+/// What became of the solutions of the second arm's inverse kinematics, at one theta_r or in sum.
+struct BranchCounts {
+  long unreachable = 0;   ///< how often there was no solution
+  long found = 0;         ///< solutions
+  long beyond_limit = 0;  ///< of them, those that leave a joint's limits,
+  long singular = 0;      ///< are near singular,
+  long collision = 0;     ///< collide with the robot itself
+  long valid() const { return found - beyond_limit - singular - collision; }
+};
 
 /// Everything known at one theta_r (eq:reducedDynamics): the configuration, J and tau_d.
 struct Posture {
@@ -16,7 +27,12 @@ struct Posture {
   Pose<double> base;                ///< of the base in the world
   Eigen::VectorXd q;                ///< all joints
   std::vector<Pose<double>> links;  ///< relative to the base
-  Matrix6Xd J;            ///< 6×n [-, m], velocities -> twist of the end effector in world axes
+  Matrix6Xd J;  ///< 6×n [-, m], velocities -> twist of the end effector in world axes
+  // Of the second contact, else empty.
+  Matrix6Xd J_2;          ///< 6×n, as J: the twist of the second end effector at the contact point
+  Matrix6Xd C_2;          ///< 6×l, basis of its wrenches in world axes
+  Pose<double> contact;   ///< the contact frame in the world
+  BranchCounts branches;  ///< of the second arm
   Eigen::VectorXd tau_d;  ///< n [N, N m], what the actuators must exert at rest without contact
 };
 
@@ -29,13 +45,28 @@ class PostureModel {
   /// Joint limits, reach and self-collision decide `status`; J and tau_d are filled in any case.
   /// Where dependent joints do not follow (see lib/branch.h) they are those of the last point on
   /// the way to theta_r. Throws std::invalid_argument if theta_r has the wrong size or is not
-  /// finite.
+  /// finite. With a second contact this is the first valid branch of the second arm.
   const Posture& evaluate(const Eigen::VectorXd& theta_r);
+
+  /// How many valid postures the last theta_r has: one for each branch of the second arm, at most
+  /// one without it. `select` turns to one of them.
+  int branches() const;
+  const Posture& select(int branch);
 
   /// gradient_k = tau_seed' d tau_d/d theta_r_k + <J_seed, d J/d theta_r_k>, exact, by reverse
   /// accumulation. Cheapest after `evaluate` at the same theta_r, whose posture it keeps.
   void pull_back(const Eigen::VectorXd& theta_r, const Eigen::VectorXd& tau_seed,
                  const Matrix6Xd& J_seed, Eigen::VectorXd& gradient);
+
+  /// The gradient of beta from its seeds. With a second contact, on the branch of the posture: its
+  /// joints q_2 follow by the implicit function theorem. With S_k the twist of the second end
+  /// effector at the contact point along joint k and t_i that of the contact frame along s_i,
+  ///
+  ///     J_f dq_2 = sum_i t_i ds_i - sum_k S_k dq_k,
+  ///
+  /// J_f the columns of J_2 of the joints that follow; and C_2 turns with the contact frame.
+  void pull_back(const Eigen::VectorXd& theta_r, const Capability& capability,
+                 Eigen::VectorXd& gradient);
 
  private:
   struct Workspace;

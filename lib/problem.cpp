@@ -10,4 +10,10 @@ const char* Problem::unit() const {
   return "mixed";
 }
 
+std::string Problem::theta_r_name(int i) const {
+  const int joints = static_cast<int>(redundant.size());
+  if (i >= joints) return "regrasp_" + std::to_string(i - joints + 1);
+  return robot.joints[static_cast<std::size_t>(redundant[static_cast<std::size_t>(i)])].name;
+}
+
 }  // namespace maxwrench

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "lib/contact.h"
 #include "lib/robot.h"
 
 namespace maxwrench {
@@ -34,10 +36,17 @@ struct Problem {
   /// all joints, and [x, y, z, yaw] of the base.
   Eigen::VectorXd guess_q;
   Eigen::Vector4d guess_base = Eigen::Vector4d::Zero();
-  /// theta_r: the joints that are free while the end effector keeps its pose.
+  /// What a second end effector does, if there is one. Only the first is scored.
+  std::optional<Contact> contact;
+  /// theta_r: the joints that are free while the end effector keeps its pose, then the regrasp
+  /// coordinates of the second contact.
   Eigen::VectorXd theta_r_min, theta_r_max, theta_r_default;
 
+  /// Of a coordinate of theta_r: the joint, or regrasp_1, regrasp_2.
+  std::string theta_r_name(int i) const;
   int redundancy() const { return static_cast<int>(theta_r_min.size()); }
+  /// Of the second contact's wrench, l; 0 without one.
+  int contact_columns() const { return contact ? static_cast<int>(contact->C.cols()) : 0; }
   /// Of beta: "N" if c is a pure force, "N m" if a pure torque, "mixed" otherwise.
   const char* unit() const;
 };

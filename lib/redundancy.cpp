@@ -58,6 +58,28 @@ void scatter(const Eigen::CompleteOrthogonalDecomposition<Matrix6N>& J_d,
   }
 }
 
+/// The second arm's joints that follow, in a column of A_r: J_f dq_2 = t - J_2 (the column), t the
+/// twist of the contact frame.
+void follow_contact(const Problem& problem, const Posture& posture, const Vector6d& t,
+                    Eigen::Ref<Eigen::VectorXd> column) {
+  const Contact& contact = *problem.contact;
+  const auto axes = static_cast<Eigen::Index>(problem.robot.base_axes.size());
+  const int rows = contact.rows();
+  const auto d = static_cast<Eigen::Index>(contact.follow.size());
+  Matrix6N J_f = Matrix6N::Zero(6, d);
+  for (Eigen::Index i = 0; i < d; ++i) {
+    J_f.col(i).head(rows) =
+        posture.J_2.col(axes + contact.follow[static_cast<std::size_t>(i)]).head(rows);
+  }
+  Vector6d twist = t - posture.J_2.lazyProduct(column);
+  twist.tail(6 - rows).setZero();
+  const Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1> dq =
+      Eigen::CompleteOrthogonalDecomposition<Matrix6N>(J_f).solve(twist);
+  for (Eigen::Index i = 0; i < d; ++i) {
+    column[axes + contact.follow[static_cast<std::size_t>(i)]] = dq[i];
+  }
+}
+
 }  // namespace
 
 void null_motion(const Problem& problem, const Posture& posture, Eigen::MatrixXd& A_r) {
@@ -65,10 +87,17 @@ void null_motion(const Problem& problem, const Posture& posture, Eigen::MatrixXd
   const auto J_d = factor(posture, dependent);
   const auto axes = static_cast<Eigen::Index>(problem.robot.base_axes.size());
   A_r.setZero(posture.J.cols(), problem.redundancy());
-  for (Eigen::Index k = 0; k < A_r.cols(); ++k) {
+  const auto joints = static_cast<Eigen::Index>(problem.redundant.size());
+  for (Eigen::Index k = 0; k < joints; ++k) {
     const Eigen::Index velocity = axes + problem.redundant[static_cast<std::size_t>(k)];
     scatter(J_d, dependent, -posture.J.col(velocity), A_r.col(k));
     A_r(velocity, k) = 1;
+    if (problem.contact) follow_contact(problem, posture, Vector6d::Zero(), A_r.col(k));
+  }
+  for (Eigen::Index k = joints; k < A_r.cols(); ++k) {
+    const Vector6d t = contact_twist(*problem.contact, posture.theta_r.data() + joints,
+                                     static_cast<int>(k - joints));
+    follow_contact(problem, posture, t, A_r.col(k));
   }
 }
 

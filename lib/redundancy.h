@@ -11,7 +11,9 @@ namespace maxwrench {
 //
 //     A_r = [-J_d^+ J_r; I],   J_e = [J_d^+; 0]   in the rows of the dependent and of theta_r.
 //
-// Joints beside the chain rest. Nothing is allocated once the results have their size.
+// With a second contact its arm follows in A_r, and regrasp coordinates move that arm alone; J_e
+// leaves the second contact out. Other joints beside the chain rest. Nothing is allocated once the
+// results have their size.
 
 /// A_r n×r [-, 1/m, m]: theta_r_dot -> velocities that leave the end effector where it is:
 /// J A_r = 0.

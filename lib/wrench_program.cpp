@@ -9,19 +9,49 @@ WrenchProgram make_wrench_program(const Problem& problem, Wrench wrench) {
   WrenchProgram program;
   program.actuation = &problem.robot.actuation;
   program.W = wrench == Wrench::kPure ? Matrix6Xd(problem.c) : problem.W_any;
-  const Eigen::Index k = program.W.cols();
+  const Eigen::Index own = program.W.cols();
+  const Eigen::Index l = problem.contact_columns();
+  const Eigen::Index k = own + l;
   const Eigen::Index n = problem.robot.velocities();
-  program.c_w = program.W.transpose() * problem.c;
+  program.C_2 = Matrix6Xd::Zero(6, l);
+  program.c_w = Eigen::VectorXd::Zero(k);
+  program.c_w.head(own) = program.W.transpose() * problem.c;
   program.w_min = Eigen::VectorXd::Constant(k, -kInfinity);
   program.w_max = Eigen::VectorXd::Constant(k, kInfinity);
+  if (l > 0) {
+    program.w_min.tail(l) = problem.contact->w_min;
+    program.w_max.tail(l) = problem.contact->w_max;
+  }
   program.JtW = Eigen::MatrixXd::Zero(n, k);
   program.tau_d = Eigen::VectorXd::Zero(n);
   return program;
 }
 
 void set_posture(const Posture& posture, WrenchProgram& program) {
-  program.JtW.noalias() = posture.J.transpose().lazyProduct(program.W);
   program.tau_d = posture.tau_d;
+  if (program.columns() == program.W.cols()) {
+    program.JtW.noalias() = posture.J.transpose().lazyProduct(program.W);
+    return;
+  }
+  program.C_2 = posture.C_2;
+  program.JtW.leftCols(program.W.cols()).noalias() = posture.J.transpose().lazyProduct(program.W);
+  program.JtW.rightCols(program.C_2.cols()).noalias() =
+      posture.J_2.transpose().lazyProduct(program.C_2);
+}
+
+void fill_wrenches(const Posture& posture, const WrenchProgram& program, Capability& capability) {
+  const Eigen::Index l = program.columns() - program.W.cols();
+  if (l == 0) {
+    capability.h.noalias() = program.W * capability.w;
+  } else {
+    const auto w_2 = capability.w.tail(l);
+    capability.h.noalias() = program.W * capability.w.head(program.W.cols());
+    capability.h_2.noalias() = program.C_2.lazyProduct(w_2);
+    capability.beta_J2.noalias() = capability.h_2 * capability.lambda.transpose();
+    const Vector6d twist = posture.J_2.lazyProduct(capability.lambda);
+    capability.beta_C2.noalias() = twist * w_2.transpose();
+  }
+  capability.beta_J.noalias() = capability.h * capability.lambda.transpose();
 }
 
 LinearProgram assemble(const WrenchProgram& program) {

@@ -173,6 +173,8 @@ Zonotope make_zonotope(MatrixXd B, VectorXd u_min, VectorXd u_max, long max_subs
     zonotope.b_min.resize(0);
     zonotope.b_max.resize(0);
   }
+  zonotope.N_nonzero = zonotope.N.sparseView();
+  zonotope.N_nonzero.makeCompressed();
   return zonotope;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Sparse>
+
 #include "lib/types.h"
 
 namespace maxwrench {
@@ -17,7 +19,8 @@ struct Zonotope {
   bool has_facets = false;       ///< false if there are too many to enumerate
   /// n×f, unit columns, stored by rows: products with all normals at once are vector code.
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> N;
-  Eigen::VectorXd b_min, b_max;  ///< f
+  Eigen::SparseMatrix<double> N_nonzero;  ///< N without its zeros, by columns
+  Eigen::VectorXd b_min, b_max;           ///< f
 
   int dimension() const { return static_cast<int>(B.rows()); }
   int actuators() const { return static_cast<int>(B.cols()); }

@@ -7,6 +7,7 @@
 
 #include "problems/loader/bad_input.h"
 #include "problems/loader/block.h"
+#include "problems/loader/contact.h"
 #include "problems/loader/theta_r.h"
 #include "problems/loader/urdf_tree.h"
 
@@ -72,7 +73,8 @@ void read_wrench(const Block& wrench, Problem& problem) {
 Problem load_problem(const std::string& name) {
   const fs::path file = find_task(name);
   const Block task = Block::read(file);
-  task.allow_only({"type", "robot", "end_effector", "label", "pose", "wrench", "theta_r"});
+  task.allow_only(
+      {"type", "robot", "end_effector", "label", "pose", "wrench", "theta_r", "contact"});
   if (task.text("type") != "static") task.refuse_value("type", "'static'");
   Problem problem;
   problem.name = name;
@@ -90,6 +92,7 @@ Problem load_problem(const std::string& name) {
   read_wrench(task.table("wrench"), problem);
   read_theta_r(task.table("theta_r"), problem);
   require_branch(task, problem);
+  if (task.has("contact")) read_contact(task.table("contact"), problem);
   return problem;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "lib/measure.h"
@@ -35,6 +36,9 @@ Eigen::VectorXd smaller_limits(const Zonotope& actuation);
 /// smaller of each actuator's two absolute limits. Throws std::invalid_argument that names the
 /// measure if B has not full row rank or an actuator cannot act in both directions.
 Eigen::MatrixXd weighted_inverse(const Robot& robot, const std::string& measure);
+
+/// Serves wrench columns that may only push, or rest, with a closed form for free ones.
+std::unique_ptr<Measure> make_one_sided(std::function<std::unique_ptr<Measure>()> closed_form);
 
 /// A score that says nothing of a wrench or of efforts, and does not depend on tau_d.
 void fill_score(double beta, Eigen::Index velocities, Capability& capability);

@@ -16,10 +16,10 @@ namespace {
 /// -(s/rho) (W_u B^+)'e. For W = c this is the positive root of eq:transmissionUVMS.
 class Ellipsoid : public Measure {
  public:
-  explicit Ellipsoid(const Robot& robot)
-      : B_pinv_(robot.actuation.B_pinv), K_(weighted_inverse(robot, "ellipsoid")) {}
+  Ellipsoid(Eigen::MatrixXd K, Eigen::MatrixXd B_pinv)
+      : B_pinv_(std::move(B_pinv)), K_(std::move(K)) {}
 
-  void evaluate(const Posture& /*posture*/, const WrenchProgram& program, bool efforts,
+  void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
                 Capability& capability) override {
     capability.iterations = 0;
     G_.noalias() = K_.lazyProduct(program.JtW);
@@ -27,8 +27,7 @@ class Ellipsoid : public Measure {
     capability.reason = "";
     capability.status = solve(program, capability);
     if (capability.status != Status::kOptimal) return;
-    capability.h.noalias() = program.W * capability.w;
-    capability.beta_J.noalias() = capability.h * capability.lambda.transpose();
+    fill_wrenches(posture, program, capability);
     if (efforts) recover(program, capability);
   }
 
@@ -86,7 +85,10 @@ class Ellipsoid : public Measure {
 }  // namespace
 
 std::unique_ptr<Measure> make_ellipsoid(const Robot& robot) {
-  return std::make_unique<Ellipsoid>(robot);
+  return make_one_sided(
+      [K = weighted_inverse(robot, "ellipsoid"), B_pinv = robot.actuation.B_pinv] {
+        return std::make_unique<Ellipsoid>(K, B_pinv);
+      });
 }
 
 }  // namespace maxwrench

@@ -16,10 +16,10 @@ namespace {
 /// -2 (B^+)'u.
 class LeastEffort : public Measure {
  public:
-  LeastEffort(const Zonotope& actuation, double reference)
-      : B_pinv_(actuation.B_pinv), reference_(reference) {}
+  LeastEffort(Eigen::MatrixXd B_pinv, double reference)
+      : B_pinv_(std::move(B_pinv)), reference_(reference) {}
 
-  void evaluate(const Posture& /*posture*/, const WrenchProgram& program, bool efforts,
+  void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
                 Capability& capability) override {
     capability.iterations = 0;
     capability.reason = "";
@@ -42,9 +42,8 @@ class LeastEffort : public Measure {
     capability.w = mu * along_ - rest_;
     u_.noalias() += G_.lazyProduct(capability.w);
     capability.beta = -u_.squaredNorm();
-    capability.h.noalias() = program.W * capability.w;
     capability.lambda.noalias() = -2 * B_pinv_.transpose().lazyProduct(u_);
-    capability.beta_J.noalias() = capability.h * capability.lambda.transpose();
+    fill_wrenches(posture, program, capability);
     if (efforts) recover(program, mu, capability);
   }
 
@@ -73,7 +72,9 @@ class LeastEffort : public Measure {
 
 std::unique_ptr<Measure> make_least_effort(const Problem& problem) {
   require_full_row_rank(problem.robot, "least_effort");
-  return std::make_unique<LeastEffort>(problem.robot.actuation, problem.reference);
+  return make_one_sided([B_pinv = problem.robot.actuation.B_pinv, r = problem.reference] {
+    return std::make_unique<LeastEffort>(B_pinv, r);
+  });
 }
 
 }  // namespace maxwrench

@@ -6,12 +6,6 @@
 namespace maxwrench {
 namespace {
 
-/// h and the derivative seeds from w and lambda.
-void complete(const WrenchProgram& program, Capability& capability) {
-  capability.h.noalias() = program.W * capability.w;
-  capability.beta_J.noalias() = capability.h * capability.lambda.transpose();
-}
-
 /// A verdict that the data do not confirm is none.
 void confirm_infeasible(const WrenchProgram& program, const Eigen::VectorXd& y,
                         Capability& capability) {
@@ -24,12 +18,12 @@ class LinfPolytope : public Measure {
  public:
   explicit LinfPolytope(std::unique_ptr<WrenchSolver> solver) : solver_(std::move(solver)) {}
 
-  void evaluate(const Posture& /*posture*/, const WrenchProgram& program, bool efforts,
+  void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
                 Capability& capability) override {
     solver_->solve(program, efforts, capability);
     if (efforts) confirm_infeasible(program, capability.lambda, capability);
     if (capability.status != Status::kOptimal) return;
-    complete(program, capability);
+    fill_wrenches(posture, program, capability);
     if (efforts) {
       capability.residual = recheck(program, capability.u, capability.w, capability.lambda);
     }
@@ -49,7 +43,7 @@ class L2Polytope : public Measure {
                            actuation.u_min, actuation.u_max)),
         solver_(std::move(solver)) {}
 
-  void evaluate(const Posture& /*posture*/, const WrenchProgram& program, bool efforts,
+  void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
                 Capability& capability) override {
     program_.actuation = &box_;
     program_.W = program.W;
@@ -64,7 +58,7 @@ class L2Polytope : public Measure {
     if (efforts) confirm_infeasible(program_, lambda_, capability);
     if (capability.status != Status::kOptimal) return;
     capability.lambda.noalias() = B_pinv_.transpose().lazyProduct(lambda_);
-    complete(program, capability);
+    fill_wrenches(posture, program, capability);
     if (!efforts) return;
     // The balance in the robot's own rows, optimality in the rows of the program that was solved.
     capability.residual = recheck(program_, capability.u, capability.w, lambda_);

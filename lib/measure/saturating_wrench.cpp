@@ -23,15 +23,14 @@ class SaturatingWrench : public Measure {
     K_ = limit.asDiagonal() * scaled.completeOrthogonalDecomposition().pseudoInverse();
   }
 
-  void evaluate(const Posture& /*posture*/, const WrenchProgram& program, bool efforts,
+  void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
                 Capability& capability) override {
     capability.iterations = 0;
     load_.noalias() = K_.lazyProduct(program.tau_d);
     slope_.noalias() = K_.lazyProduct(program.JtW.col(0));
     capability.status = shoot(program, capability);
     if (capability.status != Status::kOptimal) return;
-    capability.h.noalias() = program.W * capability.w;
-    capability.beta_J.noalias() = capability.h * capability.lambda.transpose();
+    fill_wrenches(posture, program, capability);
     if (efforts) recover(program, capability);
   }
 
@@ -62,7 +61,8 @@ class SaturatingWrench : public Measure {
     }
     capability.reason = "";
     capability.beta = program.c_w[0] * high;
-    capability.w.setConstant(1, high);
+    capability.w.setZero(program.columns());  // a second contact rests
+    capability.w[0] = high;
     capability.lambda.noalias() = K_.row(active_).transpose() * (-program.c_w[0] / slope_[active_]);
     return Status::kOptimal;
   }
@@ -73,10 +73,13 @@ class SaturatingWrench : public Measure {
     ratios.actuation = &box_;
     ratios.tau_d = load_;
     ratios.JtW = slope_;
-    capability.u = load_ + slope_ * capability.w;
+    ratios.c_w = program.c_w.head(1);
+    ratios.w_min = program.w_min.head(1);
+    ratios.w_max = program.w_max.head(1);
+    capability.u = load_ + slope_ * capability.w[0];
     const Eigen::VectorXd multiplier =
         Eigen::VectorXd::Unit(slope_.size(), active_) * (-program.c_w[0] / slope_[active_]);
-    capability.residual = recheck(ratios, capability.u, capability.w, multiplier);
+    capability.residual = recheck(ratios, capability.u, capability.w.head(1), multiplier);
     capability.residual.balance =
         recheck(program, capability.u, capability.w, capability.lambda).balance;
   }

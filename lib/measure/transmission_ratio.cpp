@@ -17,7 +17,7 @@ class TransmissionRatio : public Measure {
   TransmissionRatio(Eigen::MatrixXd K, Eigen::MatrixXd B_pinv)
       : K_(std::move(K)), B_pinv_(std::move(B_pinv)) {}
 
-  void evaluate(const Posture& /*posture*/, const WrenchProgram& program, bool efforts,
+  void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
                 Capability& capability) override {
     capability.iterations = 0;
     capability.reason = "";
@@ -34,11 +34,11 @@ class TransmissionRatio : public Measure {
     w_ = ldlt_.solve(w_);
     capability.beta = std::sqrt(program.c_w.dot(w_));
     capability.w = w_ / capability.beta;
-    capability.h.noalias() = program.W * capability.w;
     e_.noalias() = G_.lazyProduct(capability.w);
     load_.noalias() = -capability.beta * K_.transpose().lazyProduct(e_);
-    capability.beta_J.noalias() = capability.h * load_.transpose();
-    capability.lambda.setZero(program.tau_d.size());
+    capability.lambda = load_;
+    fill_wrenches(posture, program, capability);
+    capability.lambda.setZero();
     if (efforts) recover(program, capability);
   }
 
@@ -63,18 +63,22 @@ class TransmissionRatio : public Measure {
   Eigen::LDLT<SmallMatrix> ldlt_;
 };
 
+std::unique_ptr<Measure> make(Eigen::MatrixXd K, const Robot& robot) {
+  return make_one_sided([K = std::move(K), B_pinv = robot.actuation.B_pinv] {
+    return std::make_unique<TransmissionRatio>(K, B_pinv);
+  });
+}
+
 }  // namespace
 
 std::unique_ptr<Measure> make_transmission_ratio(const Robot& robot) {
   require_full_row_rank(robot, "transmission_ratio");
   const int n = robot.velocities();
-  return std::make_unique<TransmissionRatio>(Eigen::MatrixXd::Identity(n, n),
-                                             robot.actuation.B_pinv);
+  return make(Eigen::MatrixXd::Identity(n, n), robot);
 }
 
 std::unique_ptr<Measure> make_weighted_transmission_ratio(const Robot& robot) {
-  return std::make_unique<TransmissionRatio>(weighted_inverse(robot, "weighted_transmission_ratio"),
-                                             robot.actuation.B_pinv);
+  return make(weighted_inverse(robot, "weighted_transmission_ratio"), robot);
 }
 
 }  // namespace maxwrench

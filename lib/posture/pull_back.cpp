@@ -10,13 +10,18 @@ Vector3d field_cross(double g, const Vector3d& x) { return {g * x.y(), -g * x.x(
 
 }  // namespace
 
-PullBack::PullBack(const Robot& robot, int end_effector)
+PullBack::PullBack(const Robot& robot, int end_effector, int second)
     : robot_(&robot),
       end_effector_(&robot.end_effectors[static_cast<std::size_t>(end_effector)]),
       nodes_(robot.links.size()) {
   for (int link = end_effector_->link; link > 0;
        link = robot.joints[static_cast<std::size_t>(link - 1)].parent) {
     nodes_[static_cast<std::size_t>(link)].on_chain = true;
+    nodes_[static_cast<std::size_t>(link)].seeded = true;
+  }
+  int link = second < 0 ? 0 : robot.end_effectors[static_cast<std::size_t>(second)].link;
+  for (; link > 0; link = robot.joints[static_cast<std::size_t>(link - 1)].parent) {
+    nodes_[static_cast<std::size_t>(link)].seeded = true;
   }
 }
 
@@ -87,7 +92,7 @@ void PullBack::evaluate(const Kinematics<double>& kinematics, const Eigen::Matri
     node.load = parent_of(k).load;
     const Eigen::Index column = axes + static_cast<Eigen::Index>(k);
     collect_load(t[column], node);
-    if (node.on_chain) collect_seed(J_seed, column, node);
+    if (node.seeded) collect_seed(J_seed, column, node);
   }
   for (std::size_t k = joints; k-- > 0;) {
     parent_of(k).y_v += nodes_[k + 1].y_v;

@@ -24,10 +24,12 @@ namespace maxwrench {
 /// carry k change as well, which adds -p_k'(sum over them of t_i G × w_i).
 class PullBack {
  public:
-  PullBack(const Robot& robot, int end_effector);
+  /// `second`: another end effector whose velocities J_seed may hold too, or -1.
+  PullBack(const Robot& robot, int end_effector, int second = -1);
 
-  /// gradient_k = d(t'tau_d + <J_seed, J>)/d q_k for all joints. `kinematics` has seen the state
-  /// that J belongs to, `gravity_and_buoyancy` included.
+  /// gradient_k = d(t'tau_d + <J_seed, J>)/d q_k for all joints. J and J_seed are about the first
+  /// end effector; columns of joints that carry neither do not count. `kinematics` has seen the
+  /// state that J belongs to, `gravity_and_buoyancy` included.
   void evaluate(const Kinematics<double>& kinematics, const Eigen::Matrix3d& R_base,
                 const Matrix6Xd& J, const Eigen::VectorXd& t, const Matrix6Xd& J_seed,
                 Eigen::VectorXd& gradient);
@@ -36,6 +38,7 @@ class PullBack {
   /// Of a link and the joint that moves it; number 0 is the base.
   struct Node {
     bool on_chain = false;  ///< carries the end effector
+    bool seeded = false;    ///< carries it or the second one
     Eigen::Vector3d v, w, p;
     Eigen::Vector3d y_v, y_w;  ///< sum of y over the link's own and all carried velocities
     Eigen::Vector3d load;      ///< sum of t_i G × w_i over the velocities that carry the link

@@ -1,5 +1,7 @@
 #include "solvers/lp/box.h"
 
+#include <algorithm>
+
 #include "solvers/lp/assembled.h"
 #include "solvers/lp/efforts.h"
 #include "solvers/lp/elimination.h"
@@ -44,27 +46,44 @@ class Box : public WrenchSolver {
  private:
   void load_facets(const WrenchProgram& program) {
     const Zonotope& set = *program.actuation;
-    const int n = set.dimension();
     const int f = set.facet_pairs();
     const int k = program.columns();
     tableau_.resize(f, k);
     tableau_.c = program.c_w;
-    sum_.resize(k + 1);
+    const int stride = tableau_.stride();
+    const auto n = static_cast<Eigen::Index>(set.dimension());
+    if (loads_.rows() != stride || loads_.cols() != n) loads_.setZero(stride, n);
+    for (int j = 0; j < k; ++j) {
+      for (Eigen::Index row = 0; row < n; ++row) loads_(j, row) = program.JtW(row, j);
+    }
     for (int i = 0; i < f; ++i) {
-      const auto normal = set.N.col(i);
-      sum_.setZero();
-      for (int row = 0; row < n; ++row) {
-        const double a = normal[row];
-        if (a == 0) continue;  // most are: thrusters and joints are independent
-        for (int j = 0; j < k; ++j) sum_[j] += a * program.JtW(row, j);
-        sum_[k] += a * program.tau_d[row];
+      double offset = 0;
+      for (int column = 0; column < stride; column += Tableau::kChunk) {
+        double sum[Tableau::kChunk] = {};
+        double tau = 0;
+        for_normal(set, i, [&](Eigen::Index row, double a) {
+          const double* const load = &loads_(column, row);
+          for (int lane = 0; lane < Tableau::kChunk; ++lane) sum[lane] += a * load[lane];
+          tau += a * program.tau_d[row];
+        });
+        std::copy(sum, sum + Tableau::kChunk, tableau_.row(i) + column);
+        offset = tau;  // the same in each chunk
       }
-      for (int j = 0; j < k; ++j) tableau_.entry(i, j) = sum_[j];
-      tableau_.low[i] = set.b_min[i] - sum_[k];
-      tableau_.high[i] = set.b_max[i] - sum_[k];
+      tableau_.low[i] = set.b_min[i] - offset;
+      tableau_.high[i] = set.b_max[i] - offset;
     }
     tableau_.low.tail(k) = program.w_min;
     tableau_.high.tail(k) = program.w_max;
+  }
+
+  /// Calls body(row, entry) for the entries of normal i; most are zero, as thrusters and joints are
+  /// independent.
+  template <class Body>
+  static void for_normal(const Zonotope& set, int i, Body&& body) {
+    const int* const begin = set.N_nonzero.outerIndexPtr() + i;
+    for (int entry = begin[0]; entry < begin[1]; ++entry) {
+      body(set.N_nonzero.innerIndexPtr()[entry], set.N_nonzero.valuePtr()[entry]);
+    }
   }
 
   void fill(const WrenchProgram& program, Capability& capability) const {
@@ -76,7 +95,9 @@ class Box : public WrenchSolver {
   void fill_lambda(const Zonotope& set, Eigen::VectorXd& lambda) const {
     lambda.setZero(set.dimension());
     for (int i = 0; i < set.facet_pairs(); ++i) {
-      if (tableau_.multipliers[i] != 0) lambda -= set.N.col(i) * tableau_.multipliers[i];
+      const double multiplier = tableau_.multipliers[i];
+      if (multiplier == 0) continue;
+      for_normal(set, i, [&](Eigen::Index j, double a) { lambda[j] -= a * multiplier; });
     }
   }
 
@@ -89,7 +110,7 @@ class Box : public WrenchSolver {
 
   Elimination elimination_;
   Tableau tableau_;
-  Eigen::VectorXd sum_;
+  Eigen::MatrixXd loads_;  ///< (J'W)', padded with zeros as the rows of the tableau are
   std::unique_ptr<LpSolver> simplex_ = make_simplex();
   std::unique_ptr<WrenchSolver> assembled_ = make_assembled(make_simplex(), false);
 };

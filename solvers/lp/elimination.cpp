@@ -16,10 +16,10 @@ constexpr double kWellConditioned = 1e-2;
 /// A diagonal entry of at least this share of its column serves as pivot.
 constexpr double kDiagonal = 0.1;
 
-constexpr int kChunk = 4;
+constexpr int kChunk = Tableau::kChunk;
 
-bool all_free(const WrenchProgram& program) {
-  for (int j = 0; j < program.columns(); ++j) {
+bool first_free(const WrenchProgram& program, int k) {
+  for (int j = 0; j < k; ++j) {
     if (program.w_min[j] > -kInfinity || program.w_max[j] < kInfinity) return false;
   }
   return true;
@@ -56,14 +56,32 @@ void Elimination::split(const Eigen::MatrixXd& B) {
   const auto m = static_cast<Eigen::Index>(thrusters_.size());
   const auto k = static_cast<Eigen::Index>(base_rows_.size());
   if (k > 6) return;  // no program is of this kind
+  extra_ = 0;
   B_b_.setZero(6, (m + kChunk - 1) / kChunk * kChunk);
   B_b_.topLeftCorner(k, m) = B(base_rows_, thrusters_);
   row_.resize(B_b_.cols());
 }
 
+/// The wrench columns beyond those that are eliminated, behind the thrusters.
+void Elimination::append(const WrenchProgram& program) {
+  const int m = static_cast<int>(thrusters_.size());
+  const int k = static_cast<int>(base_rows_.size());
+  const int extra = program.columns() - k;
+  if (extra != extra_) {
+    extra_ = extra;
+    const Eigen::MatrixXd thrust = B_b_.leftCols(m);
+    B_b_.setZero(6, (m + extra + kChunk - 1) / kChunk * kChunk);
+    B_b_.leftCols(m) = thrust;
+    row_.resize(B_b_.cols());
+  }
+  for (int j = 0; j < extra; ++j) {
+    for (int i = 0; i < k; ++i) B_b_(i, m + j) = -program.JtW(base_rows_[i], k + j);
+  }
+}
+
 /// P by Gauss-Jordan elimination in place.
 bool Elimination::invert(const WrenchProgram& program) {
-  const int k = program.columns();
+  const int k = static_cast<int>(base_rows_.size());
   Square A = Square::Identity();
   double largest = 0;
   for (int j = 0; j < k; ++j) {
@@ -106,17 +124,17 @@ bool Elimination::invert(const WrenchProgram& program) {
   return true;
 }
 
-/// row_ = (P'p)'B_b; returns (P'p)'tau_b.
-double Elimination::combine(const Vector6d& p) {
+/// row = (P'p)'B_b; returns (P'p)'tau_b.
+double Elimination::combine(const Vector6d& p, double* row) const {
   const Vector6d left = P_.transpose() * p;
-  const Eigen::Index width = row_.size();
+  const Eigen::Index width = B_b_.cols();
   for (Eigen::Index j = 0; j < width; j += kChunk) {
     double sum[kChunk] = {};
     const double* b = B_b_.data() + j;
     for (int i = 0; i < 6; ++i, b += width) {
       for (int lane = 0; lane < kChunk; ++lane) sum[lane] += left[i] * b[lane];
     }
-    for (int lane = 0; lane < kChunk; ++lane) row_[j + lane] = sum[lane];
+    for (int lane = 0; lane < kChunk; ++lane) row[j + lane] = sum[lane];
   }
   return left.dot(tau_b_);
 }
@@ -127,11 +145,12 @@ void Elimination::add_joint(const WrenchProgram& program, int joint, Tableau& ta
   const int row = driven_rows_[joint];
   const int drive = drives_[joint];
   Vector6d p = Vector6d::Zero();
-  for (int i = 0; i < program.columns(); ++i) p[i] = program.JtW(row, i);
-  const double offset = program.tau_d[row] - combine(p);
-  for (std::size_t j = 0; j < thrusters_.size(); ++j) {
-    tableau.entry(joint, static_cast<int>(j)) = row_[static_cast<Eigen::Index>(j)];
-  }
+  const int k = static_cast<int>(base_rows_.size());
+  for (int i = 0; i < k; ++i) p[i] = program.JtW(row, i);
+  double* const entries = tableau.row(joint);
+  const double offset = program.tau_d[row] - combine(p, entries);
+  const int m = static_cast<int>(thrusters_.size());
+  for (int j = 0; j < extra_; ++j) entries[m + j] += program.JtW(row, k + j);
   const double gain = set.B(row, drive);
   const double first = gain * set.u_min[drive];
   const double second = gain * set.u_max[drive];
@@ -145,29 +164,35 @@ bool Elimination::load(const WrenchProgram& program, Tableau& tableau) {
   const bool known = B_.rows() == set.B.rows() && B_.cols() == set.B.cols() &&
                      std::memcmp(B_.data(), set.B.data(), bytes) == 0;
   if (!known) split(set.B);
-  const int k = program.columns();
+  const int k = static_cast<int>(base_rows_.size());
   const int m = static_cast<int>(thrusters_.size());
   const int f = static_cast<int>(driven_rows_.size());
-  if (k == 0 || m == 0 || k != static_cast<int>(base_rows_.size())) return false;
-  if (!all_free(program) || !invert(program)) return false;
-  tableau.resize(f, m);
+  if (k == 0 || k > 6 || m == 0 || k > program.columns()) return false;
+  if (k < program.columns() && program.W.cols() == program.columns()) return false;
+  if (!first_free(program, k)) return false;
+  append(program);
+  if (!invert(program)) return false;
+  tableau.resize(f, m + extra_);
   tau_b_.setZero();
   for (int i = 0; i < k; ++i) tau_b_[i] = program.tau_d[base_rows_[i]];
   for (int joint = 0; joint < f; ++joint) add_joint(program, joint, tableau);
   Vector6d c = Vector6d::Zero();
-  c.head(k) = program.c_w;
-  combine(c);
-  tableau.c = row_.head(m);
+  c.head(k) = program.c_w.head(k);
+  combine(c, row_.data());
+  tableau.c = row_.head(m + extra_);
+  tableau.c.tail(extra_) += program.c_w.tail(extra_);
   for (int j = 0; j < m; ++j) {
     tableau.low[f + j] = set.u_min[thrusters_[j]];
     tableau.high[f + j] = set.u_max[thrusters_[j]];
   }
+  tableau.low.tail(extra_) = program.w_min.tail(extra_);
+  tableau.high.tail(extra_) = program.w_max.tail(extra_);
   return true;
 }
 
 void Elimination::fill_lambda(const WrenchProgram& program, const Tableau& tableau, double c_share,
                               Eigen::VectorXd& lambda) const {
-  const int k = program.columns();
+  const int k = static_cast<int>(base_rows_.size());
   lambda.setZero(program.tau_d.size());
   for (std::size_t joint = 0; joint < driven_rows_.size(); ++joint) {
     lambda[driven_rows_[joint]] = -tableau.multipliers[static_cast<Eigen::Index>(joint)];
@@ -193,13 +218,13 @@ void Elimination::fill_contradiction(const WrenchProgram& program, const Tableau
 
 void Elimination::fill(const WrenchProgram& program, const Tableau& tableau, bool efforts,
                        Capability& capability) {
-  const int k = program.columns();
+  const int k = static_cast<int>(base_rows_.size());
   const int m = static_cast<int>(thrusters_.size());
   const int f = static_cast<int>(driven_rows_.size());
   // w = P (B_b u_b - tau_b), refined if need be; row i of `load` is that of the balance.
   Vector6d load = -tau_b_;
   for (int i = 0; i < k; ++i) {
-    for (int j = 0; j < m; ++j) load[i] += B_b_(i, j) * tableau.x[j];
+    for (int j = 0; j < m + extra_; ++j) load[i] += B_b_(i, j) * tableau.x[j];
   }
   Vector6d w = P_ * load;
   if (steps_ > 1) {
@@ -208,7 +233,9 @@ void Elimination::fill(const WrenchProgram& program, const Tableau& tableau, boo
     }
     w += P_ * load;
   }
-  capability.w = w.head(k);
+  capability.w.resize(program.columns());
+  capability.w.head(k) = w.head(k);
+  capability.w.tail(extra_) = tableau.x.tail(extra_);
   fill_lambda(program, tableau, 1, capability.lambda);
   capability.beta = program.c_w.dot(capability.w);
   if (!efforts) return;

@@ -7,9 +7,11 @@
 
 namespace maxwrench {
 
-/// The wrench program without its equations, for free wrench columns that are as many as the rows
-/// without a direct drive (all six wrenches on a free-floating base). A direct drive is the only
-/// entry of its row and of its column of B. With P = (J_b'W)^-1 over the other rows b,
+/// The wrench program without its equations, for a program whose first wrench columns are free and
+/// as many as the rows without a direct drive (all six wrenches on a free-floating base). Further
+/// ones, those of a second contact, stay with their bounds as if they were thrusters whose column
+/// of B_b is that of -J_b'W; in a driven row j they also appear by themselves. A direct drive is
+/// the only entry of its row and of its column of B. With P = (J_b'W)^-1 over the other rows b,
 ///
 ///     w = P (B_b u_b - tau_b),   v_j = tau_j + J_j'W w,   b_j u_j = v_j   for the driven rows j,
 ///
@@ -32,21 +34,24 @@ class Elimination {
                           Eigen::VectorXd& y) const;
 
  private:
-  /// k <= 6 is padded to 6, with an identity in P and zeros elsewhere: constant sizes are fast.
+  /// k <= 6 columns that are eliminated, padded to 6, with an identity in P and zeros elsewhere:
+  /// constant sizes are fast.
   using Square = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
   using Wide = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>;
 
   void split(const Eigen::MatrixXd& B);
+  void append(const WrenchProgram& program);
   bool invert(const WrenchProgram& program);
   void add_joint(const WrenchProgram& program, int joint, Tableau& tableau);
-  double combine(const Vector6d& p);
+  double combine(const Vector6d& p, double* row) const;
   /// lambda with (J'W)'lambda = -c_share c_w.
   void fill_lambda(const WrenchProgram& program, const Tableau& tableau, double c_share,
                    Eigen::VectorXd& lambda) const;
 
   Eigen::MatrixXd B_;  // that the following five were made from
   std::vector<int> driven_rows_, drives_, base_rows_, thrusters_;
-  Wide B_b_;  // columns padded with zeros to a multiple of four
+  Wide B_b_;  // columns padded with zeros to a multiple of four; then those of a second contact
+  int extra_ = 0;  // of the latter
   Square P_;
   int steps_ = 1;  // of refinement with P, the first included
   Vector6d tau_b_;

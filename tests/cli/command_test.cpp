@@ -62,6 +62,9 @@ INSTANTIATE_TEST_SUITE_P(
                     BadWords{"eval planar/force --measure ellipsoid --lp simplex", "simplex"},
                     BadWords{"eval planar/force --measure saturating_wrench --wrench any", "any"},
                     BadWords{"eval planar/force --measure manipulability --lp facets", "facets"},
+                    BadWords{"eval dual_arm/bar_wall --lp facets", "second contact"},
+                    BadWords{"solve dual_arm/two_arms --lp facets", "second contact"},
+                    BadWords{"compare planar/two_arms --lp facets", "second contact"},
                     BadWords{"eval planar/force --theta-r 0.3", "theta_r"},
                     BadWords{"eval planar/force --theta-r 0.3,0.1,0.2", "theta_r"},
                     BadWords{"eval planar/force --theta-r 0.3,nan", "--theta-r"},
@@ -145,6 +148,29 @@ TEST(Command, OwnFilesGiveTheSameAnswerAsShippedOnes) {
       run_maxwrench("eval '" + (copy.path() / "force.toml").string() + "'" + words).out);
   const json shipped = json::parse(run_maxwrench("eval planar/force" + words).out);
   EXPECT_EQ(own["beta"], shipped["beta"]);
+}
+
+TEST(Command, EvalReportsTheSecondContact) {
+  const CommandResult text = run_maxwrench("eval planar/two_arms");
+  EXPECT_EQ(text.exit_status, 0) << text.err;
+  EXPECT_NE(text.out.find("\nh_2 "), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("branches of the second arm: "), std::string::npos) << text.out;
+  // Its theta_r ends with the regrasp coordinate. Beyond the reach there is no solution.
+  const CommandResult away = run_maxwrench("eval dual_arm/bar_wall --theta-r 0.2,0.15 --json");
+  EXPECT_EQ(away.exit_status, 1);
+  const json object = json::parse(away.out);
+  EXPECT_EQ(object["status"], "invalid_posture");
+  EXPECT_EQ(object["branches"]["valid"], 0);
+  EXPECT_EQ(object["branches"]["unreachable"], 1);
+  EXPECT_TRUE(object["h_2"].is_null());
+  // A search counts over all its evaluations.
+  const json best =
+      json::parse(run_maxwrench("solve dual_arm/bar_wall --budget 300 --search grid --json").out);
+  EXPECT_EQ(best["status"], "optimal");
+  EXPECT_EQ(best["theta_r"].size(), 2);
+  EXPECT_EQ(best["h_2"].size(), 6);
+  EXPECT_GT(best["branches"]["valid"], 10);
+  EXPECT_GT(best["branches"]["collision"], 10);
 }
 
 TEST(Command, EvalPrintsOneObjectWithEverything) {

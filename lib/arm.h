@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "lib/kinematics.h"
+#include "lib/problem.h"
+
+namespace maxwrench {
+
+/// The inverse kinematics of the arm that ends at a problem's contact: all positions of the joints
+/// `contact.follow` with which the end effector meets a target, the other joints of the arm at
+/// rest.
+///
+/// In closed form where the target is a point and the joints that follow are revolute,
+///
+///  * two about parallel axes (an arm in a plane), or
+///  * three, the last two about parallel axes (a shoulder's yaw, its pitch and an elbow).
+///
+/// With the unit axis a and a point o of each axis at zero positions, R(a, q) the rotation, and p_0
+/// the end effector's origin there, the first joint must bring the target p into the plane in which
+/// the other two move it: n'R(a_1, -q_1)(p - o_1) = n'(p_0 - o_1), n the common axis, an equation A
+/// cos q_1 + B sin q_1 = C with two solutions. The elbow then sets the distance from the axis of
+/// the pitch (two solutions), the pitch the direction. So there are up to four branches.
+///
+/// Any other arm goes through a damped Newton's method from a fixed set of positions within the
+/// limits; solutions that differ count as branches.
+class Arm {
+ public:
+  static constexpr int kMostBranches = 16;
+
+  /// Keeps a reference to the problem, which has a contact.
+  explicit Arm(const Problem& problem);
+
+  bool closed_form() const { return closed_form_; }
+
+  /// All branches for a target in base axes; returns their number. Revolute joints are turned into
+  /// their limits as far as whole turns do. Allocates nothing after the first call.
+  int solve(const Pose<double>& target);
+
+  /// The joints of `contact.follow` in branch i [rad or m].
+  const Eigen::VectorXd& branch(int i) const { return branches_[static_cast<std::size_t>(i)]; }
+
+ private:
+  /// A joint that follows, in base axes at zero positions of all that follow.
+  struct Axis {
+    Eigen::Vector3d a, o;
+  };
+  using Error = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1>;
+  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
+
+  void read_axes();
+  void solve_plane(const Eigen::Vector3d& p, double first);
+  void solve_shoulder(const Eigen::Vector3d& p);
+  void solve_by_newton(const Pose<double>& target);
+  bool newton(const Pose<double>& target);
+  void linearise(const Pose<double>& target);
+  void turn_into_limits(double& q, int joint) const;
+  void keep();
+
+  const Problem& problem_;
+  const Contact& contact_;
+  Kinematics<double> kinematics_;
+  bool closed_form_ = false;
+  std::array<Axis, 3> axes_;
+  Eigen::Vector3d p_0_;
+  int count_ = 0;
+  std::array<Eigen::VectorXd, kMostBranches> branches_;
+  Eigen::VectorXd q_, trial_;  ///< all joints; those that follow
+  Matrix6Xd J_;
+  Error error_;
+  Square J_f_;
+};
+
+}  // namespace maxwrench

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+
+#include "lib/arm.h"
+#include "lib/posture.h"
+
+namespace maxwrench {
+
+/// The second arm of a problem with a second contact: the branches that reach the contact, and how
+/// f(theta_r) changes through them.
+class SecondArm {
+ public:
+  /// Keeps a reference to the problem.
+  explicit SecondArm(const Problem& problem);
+
+  /// All branches for the base and the regrasp coordinates at the end of theta_r. Returns their
+  /// number.
+  int reach(const Pose<double>& base, const Eigen::VectorXd& theta_r);
+  /// Writes branch i into q; whether it is within the limits of its joints.
+  bool place(int i, Eigen::VectorXd& q) const;
+
+  const Pose<double>& contact() const { return pose_; }
+  const Matrix6Xd& C_2() const { return C_2_; }
+
+  /// Seeds of all velocities about the first end effector, at p_e in the world: J_seed for the
+  /// velocities that move it, and the seed [a; b] of a column of J_2, at r = p_2 - p_e, counts as
+  /// [a; b + r × a].
+  const Matrix6Xd& shifted_seeds(const Eigen::Vector3d& p_e, const Matrix6Xd& J_seed,
+                                 const Matrix6Xd& J2_seed);
+
+  /// Turns the derivatives by all joints, with the contact point where it is, into those along the
+  /// contact: what the joints that follow contribute moves to the joints of the first chain (in
+  /// `q_gradient`) and to the regrasp coordinates (the end of `gradient`).
+  void follow(const Eigen::Vector3d& p_e, const Matrix6Xd& J, const Matrix6Xd& J_2,
+              const Matrix6Xd& J2_seed, const Matrix6Xd& C2_seed, Eigen::VectorXd& q_gradient,
+              Eigen::VectorXd& gradient);
+
+ private:
+  const Problem& problem_;
+  const Contact& contact_;
+  Arm arm_;
+  std::vector<char> first_, second_;  ///< whether a velocity moves the end effector
+  std::array<double, 2> s_{};
+  Pose<double> pose_;
+  Matrix6Xd C_2_, seeds_;
+};
+
+}  // namespace maxwrench
