@@ -22,6 +22,11 @@ class Objective {
   /// `gradient`, if given, gets d f/d theta_r (at a kink one of several one-sided derivatives), NaN
   /// where f has no value.
   virtual double evaluate(const Eigen::VectorXd& theta_r, Eigen::VectorXd* gradient = nullptr) = 0;
+  /// M(theta_r), d×d, positive definite where f has a value: how far a step really moves,
+  /// |d theta|^2 = d theta_r' M d theta_r. Identity unless the objective knows better.
+  virtual void metric(const Eigen::VectorXd& theta_r, Eigen::MatrixXd& M) {
+    M.setIdentity(theta_r.size(), theta_r.size());
+  }
   virtual Status status() const = 0;
   virtual const char* reason() const = 0;
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 #include "lib/objective.h"
 
@@ -17,6 +18,12 @@ struct SearchOptions {
       progress;  ///< called now and then, from any thread; may be empty
 };
 
+/// After so many evaluations the best value so far rose to `value`.
+struct Improvement {
+  long evaluations = 0;
+  double value = -kInfinity;
+};
+
 /// The best point that a search saw. `status` is kOptimal if any evaluated point has a value.
 struct SearchResult {
   Status status = Status::kInfeasible;
@@ -24,6 +31,9 @@ struct SearchResult {
   Eigen::VectorXd theta_r;
   double value = -kInfinity;
   long evaluations = 0;
+  /// Every improvement, the last one is `value`. Parts of a search that run side by side count as
+  /// if they took turns, one evaluation each, so the history is the same at any thread count.
+  std::vector<Improvement> history;
 };
 
 /// Maximises an objective over its bounds.

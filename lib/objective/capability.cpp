@@ -2,6 +2,7 @@
 
 #include "lib/objective.h"
 #include "lib/posture.h"
+#include "lib/redundancy.h"
 #include "lib/wrench_program.h"
 
 namespace maxwrench {
@@ -41,6 +42,12 @@ class CapabilityObjective : public Objective {
     return capability_.beta;
   }
 
+  /// A_r'A_r of eq:redundantJacobian: |theta_dot|^2 of the motion that theta_r_dot makes.
+  void metric(const Eigen::VectorXd& theta_r, Eigen::MatrixXd& M) override {
+    null_motion(problem_, model_.evaluate(theta_r), A_r_);
+    M.noalias() = A_r_.transpose() * A_r_;
+  }
+
   std::unique_ptr<Objective> clone() const override {
     return make_capability_objective(problem_, wrench_, make_, check_collision_);
   }
@@ -54,6 +61,7 @@ class CapabilityObjective : public Objective {
   WrenchProgram program_;
   std::unique_ptr<Measure> measure_;
   Capability capability_;
+  Eigen::MatrixXd A_r_;
   Status status_ = Status::kNumericalError;
   const char* reason_ = "";
 };

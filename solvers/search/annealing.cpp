@@ -23,10 +23,11 @@ double reflect(double x) {
 /// One Markov chain, by its own clone of the objective and its own random numbers.
 class Chain {
  public:
-  Chain(const Objective& objective, const Box& box, Random random)
-      : objective_(objective.clone()), box_(box), random_(random) {}
+  Chain(Probe& probe, const Box& box, Random random) : probe_(probe), box_(box), random_(random) {}
 
-  Candidate run(const Eigen::VectorXd* start, long budget) {
+  /// Uses all evaluations of the probe.
+  void run(const Eigen::VectorXd* start) {
+    const long budget = probe_.left();
     const long scouts = std::max(1L, budget / 10);
     for (long i = 0; i < scouts; ++i) {
       if (i == 0 && start != nullptr)
@@ -43,7 +44,6 @@ class Chain {
         propose(temperature() * std::pow(kColdest, progress));
       if ((k + 1) % kAdaptEvery == 0) adapt();
     }
-    return best_;
   }
 
  private:
@@ -53,16 +53,10 @@ class Chain {
     return x;
   }
 
-  double evaluate(const Eigen::VectorXd& theta_r) {
-    const double value = evaluate_one(*objective_, theta_r);
-    if (value > best_.value) best_ = {theta_r, value};
-    return value;
-  }
-
   /// Evaluates a point of the sample; the walk will start at the best one.
   void scout(const Eigen::VectorXd& x) { scout(x, box_.theta_r(x)); }
   void scout(const Eigen::VectorXd& x, const Eigen::VectorXd& theta_r) {
-    const double value = evaluate(theta_r);
+    const double value = probe_.evaluate(theta_r);
     if (value == -kInfinity) return;
     ++count_;
     const double change = value - mean_;
@@ -83,7 +77,7 @@ class Chain {
     for (double& x_j : x) x_j = reflect(x_j + step * random_.normal());
     // Drawn in any case, so that the stream does not depend on the outcome.
     const double threshold = temperature * std::log1p(-random_.uniform());
-    const double value = evaluate(box_.theta_r(x));
+    const double value = probe_.evaluate(box_.theta_r(x));
     if (!(value - value_ >= threshold)) return;
     move(x, value);
     ++accepted_;
@@ -101,10 +95,9 @@ class Chain {
     accepted_ = 0;
   }
 
-  std::unique_ptr<Objective> objective_;
+  Probe& probe_;
   const Box& box_;
   Random random_;
-  Candidate best_;
   Eigen::VectorXd x_;
   double value_ = -kInfinity;
   double step_ = 0.25;
@@ -131,21 +124,25 @@ class Annealing final : public Search {
     const long walking = box.free() == 0 ? 1 : std::max(1L, options.budget * 6 / 10);
     const long wanted = std::lround(std::sqrt(static_cast<double>(options.budget) / 300));
     const long chains = std::min(walking, std::clamp(wanted, 1L, 32L));
-    std::vector<Candidate> bests(chains);
+    std::vector<Part> parts(chains);
     parallel_for(options.threads, chains, [&](long i) {
       const long length = walking / chains + (i < walking % chains ? 1 : 0);
-      Chain chain(objective, box, Random(options.seed, i));
-      bests[i] = chain.run(i == 0 ? &start : nullptr, length);
-      progress.add(length);
+      Probe probe(objective, length, progress);
+      Chain(probe, box, Random(options.seed, i)).run(i == 0 ? &start : nullptr);
+      parts[i] = probe.found();
     });
+    Part found;
+    join(parts, found);
+    std::vector<Candidate> bests;
+    for (const Part& part : parts) bests.push_back(part.best);
     RefineOptions refinement;
     refinement.step = 0.02;
     refinement.separation = 0.02;
     refinement.budget = options.budget - walking;
     refinement.seed = ~options.seed;  // streams apart from those of the chains
     refinement.threads = options.threads;
-    const Candidate best = refine(objective, box, std::move(bests), refinement, progress);
-    return make_result(best, progress.count());
+    refine(objective, box, std::move(bests), refinement, progress, found);
+    return make_result(found);
   }
 };
 

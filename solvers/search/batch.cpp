@@ -80,25 +80,15 @@ std::vector<double> evaluate_all(const Objective& objective, long count,
   return values;
 }
 
-double evaluate_one(Objective& objective, const Eigen::VectorXd& theta_r) {
-  const double value = objective.evaluate(theta_r);
+double evaluate_one(Objective& objective, const Eigen::VectorXd& theta_r,
+                    Eigen::VectorXd* gradient) {
+  const double value = objective.evaluate(theta_r, gradient);
   return std::isnan(value) ? -kInfinity : value;
 }
 
 void check(const SearchOptions& options) {
   if (options.budget < 1) throw std::invalid_argument("budget: expected at least 1 evaluation");
   if (options.threads < 1) throw std::invalid_argument("threads: expected at least 1");
-}
-
-SearchResult make_result(const Candidate& best, long evaluations) {
-  SearchResult result;
-  result.evaluations = evaluations;
-  if (best.value == -kInfinity) return result;
-  result.status = Status::kOptimal;
-  result.reason = "";
-  result.theta_r = best.theta_r;
-  result.value = best.value;
-  return result;
 }
 
 }  // namespace maxwrench

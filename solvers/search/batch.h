@@ -56,11 +56,10 @@ std::vector<double> evaluate_all(const Objective& objective, long count,
                                  EvaluationCounter& progress);
 
 /// The value of one point, -infinity instead of NaN.
-double evaluate_one(Objective& objective, const Eigen::VectorXd& theta_r);
+double evaluate_one(Objective& objective, const Eigen::VectorXd& theta_r,
+                    Eigen::VectorXd* gradient = nullptr);
 
 /// Throws std::invalid_argument unless budget and threads are at least 1.
 void check(const SearchOptions& options);
-
-SearchResult make_result(const Candidate& best, long evaluations);
 
 }  // namespace maxwrench

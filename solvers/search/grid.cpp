@@ -86,16 +86,19 @@ class Grid final : public Search {
     auto point = [&](long i) { return box.theta_r(lattice.point(i)); };
     const std::vector<double> values =
         evaluate_all(objective, lattice.size(), point, options.threads, progress);
+    Part found;
     std::vector<Candidate> peaks;
-    for (long i = 0; i < lattice.size(); ++i)
+    for (long i = 0; i < lattice.size(); ++i) {
+      found.trace.add(values[i]);
       if (lattice.is_peak(values, i)) peaks.push_back({point(i), values[i]});
+    }
     RefineOptions refinement;
     refinement.step = lattice.spacing();
     refinement.separation = 1.0 / 16;
     refinement.budget = options.budget - lattice.size();
     refinement.threads = options.threads;
-    const Candidate best = refine(objective, box, std::move(peaks), refinement, progress);
-    return make_result(best, progress.count());
+    refine(objective, box, std::move(peaks), refinement, progress, found);
+    return make_result(found);
   }
 };
 

@@ -95,24 +95,18 @@ class Evolution {
   double sigma_;
 };
 
-/// One ascent of one candidate, by its own clone of the objective and its own random numbers.
+/// One ascent of one candidate, with its own random numbers.
 class Ascent {
  public:
-  Ascent(const Objective& objective, const Box& box, const Candidate& start, Random random,
-         EvaluationCounter& progress)
-      : objective_(objective.clone()),
-        box_(box),
-        rates_(box.free()),
-        best_(start),
-        random_(random),
-        progress_(progress) {}
+  Ascent(Probe& probe, const Box& box, const Candidate& start, Random random)
+      : probe_(probe), box_(box), rates_(box.free()), best_(start), random_(random) {}
 
-  /// Spends up to `budget` evaluations.
-  Candidate run(double step, double tolerance, long budget) {
+  /// Spends the evaluations of the probe, or fewer.
+  Candidate run(double step, double tolerance) {
     int idle = 0;
-    for (int start = 0; budget > 0 && idle < 2; ++start) {
+    for (int start = 0; probe_.left() > 0 && idle < 2; ++start) {
       const double before = best_.value;
-      budget -= climb(start % 2 == 0 ? step : step / 100, tolerance, budget);
+      climb(start % 2 == 0 ? step : step / 100, tolerance);
       // Rounding alone, as on a flat maximum, is no progress.
       idle = best_.value > before + 1e-13 * std::abs(before) ? 0 : idle + 1;
     }
@@ -120,15 +114,10 @@ class Ascent {
   }
 
  private:
-  long climb(double step, double tolerance, long budget) {
+  void climb(double step, double tolerance) {
     Evolution evolution(rates_, box_.unit(best_.theta_r), step);
-    long used = 0;
-    while (used < budget && evolution.reach() > tolerance) {
-      const long size = std::min<long>(rates_.lambda, budget - used);
-      used += size;
-      generation(size, evolution);
-    }
-    return used;
+    while (probe_.left() > 0 && evolution.reach() > tolerance)
+      generation(std::min<long>(rates_.lambda, probe_.left()), evolution);
   }
 
   void generation(long size, Evolution& evolution) {
@@ -137,10 +126,9 @@ class Ascent {
     for (long i = 0; i < size; ++i) {
       samples[i] = evolution.sample(random_);
       const Eigen::VectorXd theta_r = box_.theta_r(samples[i]);
-      values[i] = evaluate_one(*objective_, theta_r);
+      values[i] = probe_.evaluate(theta_r);
       if (values[i] > best_.value) best_ = {theta_r, values[i]};
     }
-    progress_.add(size);
     if (size < rates_.lambda) return;  // the budget is used
     std::vector<long> order(size);
     std::iota(order.begin(), order.end(), 0);
@@ -159,12 +147,11 @@ class Ascent {
     evolution.update(ranked);
   }
 
-  std::unique_ptr<Objective> objective_;
+  Probe& probe_;
   const Box& box_;
   Rates rates_;
   Candidate best_;
   Random random_;
-  EvaluationCounter& progress_;
 };
 
 /// The best candidates, best first, each away from all better ones.
@@ -186,25 +173,30 @@ std::vector<Candidate> select(const Box& box, std::vector<Candidate> candidates,
 
 }  // namespace
 
-Candidate refine(const Objective& objective, const Box& box, std::vector<Candidate> candidates,
-                 const RefineOptions& options, EvaluationCounter& progress) {
+void refine(const Objective& objective, const Box& box, std::vector<Candidate> candidates,
+            const RefineOptions& options, EvaluationCounter& progress, Part& found) {
   const long shared = options.budget / 2;
   const long count = std::clamp(shared / (100L * (box.free() + 1)), 1L, 8L);
   std::vector<Candidate> best = select(box, std::move(candidates), options.separation, count);
-  if (best.empty()) return {};
-  if (box.free() == 0 || options.budget <= 0) return best[0];
-  const long before = progress.count();
+  if (best.empty()) return;
+  if (best[0].value > found.best.value) found.best = best[0];
+  if (box.free() == 0 || options.budget <= 0) return;
+  const long before = found.trace.evaluations();
+  const auto ascend = [&](const Candidate& start, long budget, std::uint64_t stream) {
+    Probe probe(objective, budget, progress);
+    Part part;
+    part.best = Ascent(probe, box, start, Random(options.seed, stream))
+                    .run(options.step, options.tolerance);
+    part.trace = probe.found().trace;
+    return part;
+  };
   const long share = best.size() == 1 ? 0 : shared / static_cast<long>(best.size());
-  parallel_for(options.threads, share == 0 ? 0 : static_cast<long>(best.size()), [&](long i) {
-    Ascent ascent(objective, box, best[i], Random(options.seed, i + 1), progress);
-    best[i] = ascent.run(options.step, options.tolerance, share);
-  });
-  const Candidate* winner = &best[0];
-  for (const Candidate& candidate : best)
-    if (candidate.value > winner->value) winner = &candidate;
-  const long rest = options.budget - (progress.count() - before);
-  Ascent ascent(objective, box, *winner, Random(options.seed, 0), progress);
-  return ascent.run(options.step, options.tolerance, rest);
+  std::vector<Part> parts(share == 0 ? 0 : best.size());
+  parallel_for(options.threads, static_cast<long>(parts.size()),
+               [&](long i) { parts[i] = ascend(best[i], share, i + 1); });
+  join(parts, found);
+  const long rest = options.budget - (found.trace.evaluations() - before);
+  join({ascend(found.best, rest, 0)}, found);
 }
 
 }  // namespace maxwrench

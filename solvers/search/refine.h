@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "solvers/search/batch.h"
+#include "solvers/search/probe.h"
 
 namespace maxwrench {
 
@@ -17,7 +17,8 @@ struct RefineOptions {
   int threads = 1;
 };
 
-/// Improves the best of `candidates` without derivatives, and returns the best point seen.
+/// Improves the best of `candidates` without derivatives; `found` gets what the search has found so
+/// far and returns with the best point of all and the trace continued.
 ///
 /// Each ascent is an evolution strategy with covariance matrix adaptation (CMA-ES; Hansen, "The CMA
 /// Evolution Strategy: A Tutorial", 2016) in the unit cube, projected onto the bounds. A capability
@@ -29,7 +30,7 @@ struct RefineOptions {
 /// evaluations each, share one half of the budget; the best of their results gets the rest.
 /// An ascent that has converged before its share is used starts again at its best point, with the
 /// first step and with a hundredth of it in turn, until two starts in a row bring nothing.
-Candidate refine(const Objective& objective, const Box& box, std::vector<Candidate> candidates,
-                 const RefineOptions& options, EvaluationCounter& progress);
+void refine(const Objective& objective, const Box& box, std::vector<Candidate> candidates,
+            const RefineOptions& options, EvaluationCounter& progress, Part& found);
 
 }  // namespace maxwrench

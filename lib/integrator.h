@@ -1,0 +1,40 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lib/ode.h"
+#include "lib/status.h"
+
+namespace maxwrench {
+
+struct IntegratorOptions {
+  double relative_tolerance = 1e-8;  ///< of each step's error, of every component
+  double absolute_tolerance = 1e-10;
+  long max_steps = 10000;  ///< over the whole call
+};
+
+/// The points y[i] = y(t[i]) that an integration has passed.
+struct Trajectory {
+  std::vector<double> t;
+  std::vector<Eigen::VectorXd> y;
+  int root = -1;       ///< the component of g that ended the integration at the last point, or -1
+  std::string reason;  ///< why it ended before the last time, in the integrator's words
+};
+
+/// Integrates initial value problems.
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+
+  /// Fills the trajectory with y at `times`, the first of which is that of the initial value.
+  /// kOptimal: all times were reached, or a root was, which is then the last point.
+  /// kBudgetExhausted: max_steps did not suffice. kNumericalError: no step was short enough. After
+  /// these two the last point is the last one that was reached. Throws std::invalid_argument
+  /// unless the times increase and are at least two.
+  virtual Status integrate(Ode& ode, const IntegratorOptions& options,
+                           std::span<const double> times, Trajectory& trajectory) = 0;
+};
+
+}  // namespace maxwrench

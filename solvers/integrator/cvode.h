@@ -1,0 +1,11 @@
+#pragma once
+
+#include <memory>
+
+#include "lib/integrator.h"
+
+namespace maxwrench {
+
+std::unique_ptr<Integrator> make_cvode();
+
+}  // namespace maxwrench

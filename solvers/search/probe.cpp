@@ -1,0 +1,54 @@
+#include "solvers/search/probe.h"
+
+#include <cassert>
+
+namespace maxwrench {
+namespace {
+
+/// Evaluations between two reports of the progress.
+constexpr long kReportEvery = 256;
+
+}  // namespace
+
+Probe::Probe(const Objective& objective, long budget, EvaluationCounter& progress)
+    : objective_(objective.clone()), budget_(budget), progress_(progress) {}
+
+Probe::~Probe() { report(); }
+
+double Probe::evaluate(const Eigen::VectorXd& theta_r, Eigen::VectorXd* gradient) {
+  assert(left() > 0);
+  const double value = evaluate_one(*objective_, theta_r, gradient);
+  found_.trace.add(value);
+  if (value > found_.best.value) found_.best = {theta_r, value};
+  if (found_.trace.evaluations() - reported_ >= kReportEvery) report();
+  return value;
+}
+
+void Probe::report() {
+  const long evaluations = found_.trace.evaluations();
+  if (evaluations > reported_) progress_.add(evaluations - reported_);
+  reported_ = evaluations;
+}
+
+void join(const std::vector<Part>& parts, Part& found) {
+  std::vector<Trace> traces;
+  for (const Part& part : parts) {
+    traces.push_back(part.trace);
+    if (part.best.value > found.best.value) found.best = part.best;
+  }
+  found.trace.append(traces);
+}
+
+SearchResult make_result(const Part& found) {
+  SearchResult result;
+  result.evaluations = found.trace.evaluations();
+  if (found.best.value == -kInfinity) return result;
+  result.status = Status::kOptimal;
+  result.reason = "";
+  result.theta_r = found.best.theta_r;
+  result.value = found.best.value;
+  result.history = found.trace.improvements();
+  return result;
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "solvers/search/batch.h"
+#include "solvers/search/trace.h"
+
+namespace maxwrench {
+
+/// What one part of a search found.
+struct Part {
+  Candidate best;
+  Trace trace;
+};
+
+/// The eyes of one part of a search: its own clone of the objective, its share of the budget, and
+/// the best point so far.
+class Probe {
+ public:
+  Probe(const Objective& objective, long budget, EvaluationCounter& progress);
+  ~Probe();
+  Probe(const Probe&) = delete;
+  Probe& operator=(const Probe&) = delete;
+
+  /// Evaluations that are left.
+  long left() const { return budget_ - found_.trace.evaluations(); }
+
+  /// The value at theta_r, -infinity where there is none; costs one evaluation, with a gradient
+  /// too. There must be one left.
+  double evaluate(const Eigen::VectorXd& theta_r, Eigen::VectorXd* gradient = nullptr);
+
+  void metric(const Eigen::VectorXd& theta_r, Eigen::MatrixXd& M) {
+    objective_->metric(theta_r, M);
+  }
+  const Part& found() const { return found_; }
+
+ private:
+  void report();
+
+  std::unique_ptr<Objective> objective_;
+  long budget_;
+  EvaluationCounter& progress_;
+  long reported_ = 0;
+  Part found_;
+};
+
+/// Of parts that ran side by side: the best point (the first of equals) and the common trace,
+/// appended to `found`.
+void join(const std::vector<Part>& parts, Part& found);
+
+SearchResult make_result(const Part& found);
+
+}  // namespace maxwrench
