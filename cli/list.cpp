@@ -24,6 +24,7 @@ void list() {
   print_table("measures", measures());
   print_table("lower-level solvers (--lp)", wrench_solvers());
   print_table("searches", searches());
+  print_table("integrators", integrators());
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ struct IntegratorOptions {
   double relative_tolerance = 1e-8;  ///< of each step's error, of every component
   double absolute_tolerance = 1e-10;
   long max_steps = 10000;  ///< over the whole call
+  double step = 1e-3;      ///< of methods with a fixed step, which ignore the tolerances
 };
 
 /// The points y[i] = y(t[i]) that an integration has passed.

@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 
+#include "lib/integrator.h"
 #include "lib/lp_solver.h"
 #include "lib/measure.h"
 #include "lib/problem.h"
@@ -50,17 +51,26 @@ struct SearchEntry {
   std::unique_ptr<Search> (*make)();
 };
 
+struct IntegratorEntry {
+  const char* name;
+  const char* summary;
+  bool stiff;  ///< true: its steps are not bounded by what decays fast
+  std::unique_ptr<Integrator> (*make)();
+};
+
 /// The tables: every strategy that exists, once. The wrench solvers begin with those that know the
 /// structure, the LP solvers follow.
 std::span<const MeasureEntry> measures();
 std::span<const LpEntry> lp_solvers();
 std::span<const WrenchSolverEntry> wrench_solvers();
 std::span<const SearchEntry> searches();
+std::span<const IntegratorEntry> integrators();
 
 /// The entry with this name; throws std::invalid_argument that names the alternatives.
 const MeasureEntry& find_measure(std::string_view name);
 const LpEntry& find_lp_solver(std::string_view name);
 const WrenchSolverEntry& find_wrench_solver(std::string_view name);
 const SearchEntry& find_search(std::string_view name);
+const IntegratorEntry& find_integrator(std::string_view name);
 
 }  // namespace maxwrench
