@@ -1,0 +1,134 @@
+#include "lib/effort_tracking.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace maxwrench {
+namespace {
+
+constexpr double kReached = 1e-8;    // of the largest control effort, at least 1
+constexpr double kAtBound = 1e-9;    // of an effort
+constexpr double kStiffness = 1e5;   // of P beside Q, by their traces
+constexpr int kMultiplierSteps = 6;  // each shrinks what is missing by about kStiffness
+constexpr int kIterationsPerEffort = 20;
+
+}  // namespace
+
+EffortTracker::EffortTracker(const Eigen::MatrixXd& B, const Eigen::VectorXd& Q)
+    : B_(B), BQ_(Q.cwiseInverse().asDiagonal() * B.transpose()), Q_(Q) {
+  full_rank_ = Eigen::FullPivLU<Eigen::MatrixXd>(B).rank() == B.rows();
+  if (full_rank_) BQB_.compute(B * BQ_);
+  side_.resize(static_cast<std::size_t>(B.cols()));
+}
+
+bool EffortTracker::pseudo_inverse(const EffortRequest& request, EffortAnswer& answer) {
+  if (!full_rank_) return false;
+  rhs_ = request.tau_c - B_ * request.u_star;
+  answer.u = request.u_star + BQ_ * BQB_.solve(rhs_);
+  return (answer.u.array() >= request.lower.array()).all() &&
+         (answer.u.array() <= request.upper.array()).all();
+}
+
+void EffortTracker::solve(const EffortRequest& request, EffortAnswer& answer) {
+  answer.iterations = 0;
+  answer.saturated = answer.relaxed = false;
+  const double scale = std::max(1.0, request.tau_c.lpNorm<Eigen::Infinity>());
+  if (!pseudo_inverse(request, answer)) {
+    const Eigen::MatrixXd PB = request.P * B_;
+    H_ = B_.transpose() * PB;
+    const double rho =
+        kStiffness * Q_.maxCoeff() / (request.P.trace() / static_cast<double>(B_.rows()));
+    H_ *= rho;
+    H_.diagonal() += Q_;
+    std::fill(side_.begin(), side_.end(), 0);
+    y_ = request.tau_c;
+    answer.u = answer.u.size() == Q_.size() ? answer.u : request.u_star;
+    answer.u = answer.u.cwiseMax(request.lower).cwiseMin(request.upper);
+    Eigen::VectorXd first;
+    for (int step = 0; step < kMultiplierSteps; ++step) {
+      f_ = Q_.cwiseProduct(request.u_star) + rho * PB.transpose() * y_;
+      minimise_in_box(request, answer);
+      if (step == 0) first = answer.u;
+      rhs_ = request.tau_c - B_ * answer.u;
+      if (rhs_.lpNorm<Eigen::Infinity>() <= kReached * scale) break;
+      y_ += rhs_;
+    }
+    // Multipliers of what cannot be had grow without end: the first answer is the least squares.
+    if (rhs_.lpNorm<Eigen::Infinity>() > kReached * scale) answer.u = first;
+  }
+  answer.shortfall = (B_ * answer.u - request.tau_c).lpNorm<Eigen::Infinity>();
+  answer.relaxed = answer.shortfall > kReached * scale;
+  for (Eigen::Index i = 0; i < Q_.size(); ++i) {
+    const double margin = kAtBound * (1 + std::abs(answer.u[i]));
+    answer.saturated |=
+        answer.u[i] - request.lower[i] < margin || request.upper[i] - answer.u[i] < margin;
+  }
+}
+
+/// min u'H u/2 - f'u within the bounds, from answer.u within them and the sides of its bounds.
+void EffortTracker::minimise_in_box(const EffortRequest& request, EffortAnswer& answer) {
+  const int limit = kIterationsPerEffort * static_cast<int>(Q_.size());
+  target_ = answer.u;
+  for (int k = 0; k < limit; ++k) {
+    ++answer.iterations;
+    target_ = answer.u;
+    solve_free();
+    if (!step_towards_free(request, answer.u)) continue;  // a bound was met
+    if (!release(answer.u)) return;
+  }
+}
+
+/// target: the minimum over the free efforts, the others where they are.
+void EffortTracker::solve_free() {
+  free_.clear();
+  for (std::size_t i = 0; i < side_.size(); ++i) {
+    if (side_[i] == 0) free_.push_back(static_cast<int>(i));
+  }
+  if (free_.empty()) return;
+  gradient_ = f_ - H_ * target_;
+  H_free_ = H_(free_, free_);
+  rhs_ = gradient_(free_);
+  const Eigen::VectorXd step = H_free_.llt().solve(rhs_);
+  for (std::size_t i = 0; i < free_.size(); ++i) {
+    target_[free_[i]] += step[static_cast<Eigen::Index>(i)];
+  }
+}
+
+/// As far as the bounds allow; true if all the way.
+bool EffortTracker::step_towards_free(const EffortRequest& request, Eigen::VectorXd& u) {
+  double length = 1;
+  int blocking = -1, side = 0;
+  for (const int i : free_) {
+    const double move = target_[i] - u[i];
+    const double room = (move < 0 ? request.lower[i] : request.upper[i]) - u[i];
+    if (std::abs(move) > std::abs(room) && std::abs(room) < length * std::abs(move)) {
+      length = std::abs(room / move);
+      blocking = i;
+      side = move < 0 ? -1 : 1;
+    }
+  }
+  u += length * (target_ - u);
+  if (blocking < 0) return true;
+  u[blocking] = side < 0 ? request.lower[blocking] : request.upper[blocking];
+  side_[static_cast<std::size_t>(blocking)] = side;
+  return false;
+}
+
+/// Frees the effort at a bound that the objective pulls inwards most; false if there is none.
+bool EffortTracker::release(const Eigen::VectorXd& u) {
+  gradient_ = H_ * u - f_;
+  int worst = -1;
+  double most = 1e-11 * (1 + f_.lpNorm<Eigen::Infinity>());
+  for (std::size_t i = 0; i < side_.size(); ++i) {
+    const double pull = side_[i] * gradient_[static_cast<Eigen::Index>(i)];
+    if (pull > most) {
+      most = pull;
+      worst = static_cast<int>(i);
+    }
+  }
+  if (worst < 0) return false;
+  side_[static_cast<std::size_t>(worst)] = 0;
+  return true;
+}
+
+}  // namespace maxwrench

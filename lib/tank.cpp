@@ -1,0 +1,172 @@
+#include "lib/tank.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+
+#include "lib/random.h"
+#include "lib/redundancy.h"
+#include "lib/tank/controller.h"
+#include "lib/tank/ode.h"
+
+namespace maxwrench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// The share of the planned wrench at time t.
+double profile(double t, const TankOptions& options) {
+  const double down = t - options.ramp - options.hold;
+  if (t < options.ramp) return t / options.ramp;
+  return down <= 0 ? 1 : std::max(0.0, 1 - down / options.ramp);
+}
+
+/// One experiment in steps of the control period.
+class Experiment {
+ public:
+  Experiment(const Problem& problem, const Posture& posture, const Vector6d& h,
+             const Eigen::VectorXd& u_plan, Integrator& integrator, const TankOptions& options)
+      : problem_(problem),
+        options_(options),
+        h_(h),
+        u_plan_(u_plan),
+        integrator_(integrator),
+        ode_(problem, posture, options),
+        controller_(problem, posture, options),
+        random_(options.imperfections.seed) {
+    begin(posture);
+  }
+
+  TankRun run() {
+    const Clock::time_point start = Clock::now();
+    const double length = 2 * options_.ramp + options_.hold;
+    const long periods = std::lround(length / options_.period);
+    run_.status = Status::kOptimal;
+    for (long k = 0; k < periods && run_.status == Status::kOptimal; ++k) period(k);
+    run_.requests = periods;
+    run_.evaluations = ode_.evaluations();
+    run_.model_s = ode_.seconds();
+    run_.total_s = seconds_since(start);
+    summarise();
+    return std::move(run_);
+  }
+
+ private:
+  void begin(const Posture& posture) {
+    motion_ = {posture.base, posture.q, Eigen::VectorXd::Zero(problem_.robot.velocities())};
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(u_plan_.size());
+    controller_.request(motion_, Vector6d::Zero(), none, none, kInfinity, request_);
+    tracker().solve(request_, answer_);
+    u_0_ = u_ = answer_.u;
+    ode_.start(motion_, u_);
+  }
+
+  EffortTracker& tracker() { return controller_.tracker(); }
+
+  void period(long k) {
+    const double t_0 = static_cast<double>(k) * options_.period;
+    const double t_1 = static_cast<double>(k + 1) * options_.period;
+    ode_.read(ode_.initial(), motion_);
+    const double s = profile(t_1, options_);
+    const Clock::time_point start = Clock::now();
+    controller_.request(motion_, s * h_, u_0_ + s * (u_plan_ - u_0_), u_, options_.period,
+                        request_);
+    const Clock::time_point asked = Clock::now();
+    tracker().solve(request_, answer_);
+    run_.qp_s += seconds_since(asked);
+    run_.controller_s += std::chrono::duration<double>(asked - start).count();
+    run_.active_set_iterations += answer_.iterations;
+    ode_.command(t_0, u_, t_1, answer_.u, profile(t_0, options_) * h_, s * h_);
+    draw_noise();
+    const Eigen::VectorXd before = ode_.efforts(t_0);
+    run_.status = integrator_.integrate(ode_, options_.integrator, std::array{t_0, t_1}, path_);
+    run_.reason = path_.reason;
+    ode_.restart(path_.y.back());
+    u_ = answer_.u;
+    keep(t_1, s, before);
+  }
+
+  void draw_noise() {
+    if (options_.imperfections.thrust_noise == 0) return;
+    Eigen::VectorXd noise(static_cast<Eigen::Index>(problem_.robot.thrusters.size()));
+    for (double& value : noise) value = options_.imperfections.thrust_noise * random_.normal();
+    ode_.set_noise(noise);
+  }
+
+  void keep(double t, double s, const Eigen::VectorXd& before) {
+    ode_.read(ode_.initial(), motion_);
+    TankSample sample;
+    sample.t = t;
+    sample.planned = s * problem_.c.dot(h_);
+    sample.h_e = ode_.wrench(t, motion_);
+    sample.u = ode_.efforts(t);
+    sample.shortfall = answer_.shortfall;
+    sample.saturated = answer_.saturated;
+    sample.relaxed = answer_.relaxed;
+    sample.joint_error = controller_.joint_error(motion_);
+    sample.position_error = ode_.displacement(motion_).head<3>().norm();
+    const Zonotope& limits = problem_.robot.actuation;
+    const Eigen::ArrayXd rate = (sample.u - before).array().abs() / options_.period;
+    sample.violation =
+        std::max({0.0, (sample.u - limits.u_max).maxCoeff(), (limits.u_min - sample.u).maxCoeff(),
+                  (rate - problem_.robot.u_rate_max.array()).maxCoeff()});
+    run_.samples.push_back(std::move(sample));
+  }
+
+  void summarise() {
+    TankSummary& summary = run_.summary;
+    summary.planned = problem_.c.dot(h_);
+    summary.low = kInfinity;
+    summary.high = -kInfinity;
+    int count = 0;
+    for (const TankSample& sample : run_.samples) {
+      summary.violation = std::max(summary.violation, sample.violation);
+      const double into = sample.t - options_.ramp;
+      if (into < options_.hold / 2 || into > options_.hold) continue;
+      const double reading = problem_.c.dot(sample.h_e);
+      ++count;
+      summary.mean += reading;
+      summary.low = std::min(summary.low, reading);
+      summary.high = std::max(summary.high, reading);
+      summary.joint_error = std::max(summary.joint_error, sample.joint_error);
+      summary.position_error = std::max(summary.position_error, sample.position_error);
+      summary.shortfall += sample.shortfall;
+      summary.relaxed += sample.relaxed;
+    }
+    if (count == 0) return;
+    for (double* mean : {&summary.mean, &summary.relaxed, &summary.shortfall}) *mean /= count;
+    summary.held =
+        run_.status == Status::kOptimal && summary.joint_error <= kHeldJoint &&
+        std::abs(summary.mean - summary.planned) <= kHeldShare * std::abs(summary.planned) &&
+        (!options_.release || summary.position_error <= kHeldPosition);
+  }
+
+  const Problem& problem_;
+  const TankOptions& options_;
+  Vector6d h_;
+  Eigen::VectorXd u_plan_, u_0_, u_;
+  Integrator& integrator_;
+  TankOde ode_;
+  PostureController controller_;
+  Random random_;
+  Motion motion_;
+  EffortRequest request_;
+  EffortAnswer answer_;
+  Trajectory path_;
+  TankRun run_;
+};
+
+}  // namespace
+
+TankRun run_tank(const Problem& problem, const Posture& posture, const Vector6d& h,
+                 const Eigen::VectorXd& u_plan, Integrator& integrator,
+                 const TankOptions& options) {
+  return Experiment(problem, posture, h, u_plan, integrator, options).run();
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "lib/tank.h"
+
+namespace maxwrench {
+
+/// Holds a posture while the end effector exerts a wrench (see `run_tank`), from a measured motion.
+class PostureController {
+ public:
+  PostureController(const Problem& problem, const Posture& posture, const TankOptions& options);
+
+  /// tau_c of the motion for the wrench h, with efforts close to u_star and within their limits and
+  /// what the rate limits allow within `period` after u_before.
+  void request(const Motion& motion, const Vector6d& h, const Eigen::VectorXd& u_star,
+               const Eigen::VectorXd& u_before, double period, EffortRequest& request);
+
+  EffortTracker& tracker() { return tracker_; }
+  /// max |theta_r - its reference|.
+  double joint_error(const Motion& motion) const;
+
+ private:
+  void accelerate_posture(const Motion& motion);
+  void accelerate_all(const Motion& motion);
+
+  const Problem& problem_;
+  const EndEffector& tool_;
+  const TankOptions& options_;
+  Dynamics<double> dynamics_;
+  EffortTracker tracker_;
+  Posture reference_, now_;
+  Eigen::MatrixXd A_r_, M_;
+  Eigen::VectorXd a_, error_;
+};
+
+}  // namespace maxwrench
