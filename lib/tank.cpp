@@ -72,6 +72,7 @@ class Experiment {
     const double t_0 = static_cast<double>(k) * options_.period;
     const double t_1 = static_cast<double>(k + 1) * options_.period;
     ode_.read(ode_.initial(), motion_);
+    u_ = ode_.efforts(t_0);
     const double s = profile(t_1, options_);
     const Clock::time_point start = Clock::now();
     controller_.request(motion_, s * h_, u_0_ + s * (u_plan_ - u_0_), u_, options_.period,
@@ -83,12 +84,10 @@ class Experiment {
     run_.active_set_iterations += answer_.iterations;
     ode_.command(t_0, u_, t_1, answer_.u, profile(t_0, options_) * h_, s * h_);
     draw_noise();
-    const Eigen::VectorXd before = ode_.efforts(t_0);
     run_.status = integrator_.integrate(ode_, options_.integrator, std::array{t_0, t_1}, path_);
     run_.reason = path_.reason;
     ode_.restart(path_.y.back());
-    u_ = answer_.u;
-    keep(t_1, s, before);
+    keep(t_1, s, u_);
   }
 
   void draw_noise() {

@@ -93,6 +93,8 @@ void TankOde::prepare(double t, const Eigen::VectorXd& y, Eigen::VectorXd& rates
   rates.resize(y.size());
   configuration_rates(problem_.robot, motion_, y, rates);
   u_ = u_0_ + share(t) * (u_1_ - u_0_);
+  u_.head(thrusters) += options_.thruster_lag / (t_1_ - t_0_) * (u_1_ - u_0_).head(thrusters);
+  u_ = u_.cwiseMax(problem_.robot.actuation.u_min).cwiseMin(problem_.robot.actuation.u_max);
   const auto thrust = y.tail(thrusters);
   rates.tail(thrusters) = ((u_.head(thrusters) - thrust) / options_.thruster_lag)
                               .cwiseMax(-rate_max_)
