@@ -6,6 +6,14 @@ namespace {
 constexpr int kPoseSize = 7;
 constexpr double kPull = 1;  // 1/s, towards |e| = 1
 
+Vector6d base_twist(const Robot& robot, const Motion& motion) {
+  Vector6d twist = Vector6d::Zero();
+  for (std::size_t i = 0; i < robot.base_axes.size(); ++i) {
+    twist[robot.base_axes[i]] = motion.v[static_cast<Eigen::Index>(i)];
+  }
+  return twist;
+}
+
 }  // namespace
 
 int motion_size(const Robot& robot) {
@@ -27,12 +35,20 @@ void read_motion(const Eigen::VectorXd& y, Motion& motion) {
   motion.v = y.segment(kPoseSize + motion.q.size(), motion.v.size());
 }
 
+Motion advanced(const Robot& robot, Motion motion, double seconds) {
+  const Vector6d moved = seconds * base_twist(robot, motion);
+  const Eigen::Vector3d turn = moved.tail<3>();
+  motion.base.p += motion.base.R * moved.head<3>();
+  if (const double angle = turn.norm(); angle > 0) {
+    motion.base.R *= Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
+  }
+  motion.q += seconds * motion.v.tail(motion.q.size());
+  return motion;
+}
+
 void configuration_rates(const Robot& robot, const Motion& motion, const Eigen::VectorXd& y,
                          Eigen::VectorXd& y_dot) {
-  Vector6d twist = Vector6d::Zero();
-  for (std::size_t i = 0; i < robot.base_axes.size(); ++i) {
-    twist[robot.base_axes[i]] = motion.v[static_cast<Eigen::Index>(i)];
-  }
+  const Vector6d twist = base_twist(robot, motion);
   const double w = y[3];
   const Eigen::Vector3d e = y.segment<3>(4), turn = twist.tail<3>();
   y_dot.head<3>() = motion.base.R * twist.head<3>();

@@ -33,6 +33,9 @@ void read_motion(const Eigen::VectorXd& y, Motion& motion);
 void configuration_rates(const Robot& robot, const Motion& motion, const Eigen::VectorXd& y,
                          Eigen::VectorXd& y_dot);
 
+/// The configuration after `seconds` with the velocities that it has.
+Motion advanced(const Robot& robot, Motion motion, double seconds);
+
 /// A robot free of contact under actuator forces tau(t) (eq:dynamics with h_e = 0). Its residual
 /// form needs no factorisation of M.
 class FreeMotion final : public Ode {

@@ -75,8 +75,9 @@ class Experiment {
     u_ = ode_.efforts(t_0);
     const double s = profile(t_1, options_);
     const Clock::time_point start = Clock::now();
-    controller_.request(motion_, s * h_, u_0_ + s * (u_plan_ - u_0_), u_, options_.period,
-                        request_);
+    // The efforts are those of t_1, so the motion is that of t_1 too, as far as it can be told.
+    controller_.request(advanced(problem_.robot, motion_, options_.period), s * h_,
+                        u_0_ + s * (u_plan_ - u_0_), u_, options_.period, request_);
     const Clock::time_point asked = Clock::now();
     tracker().solve(request_, answer_);
     run_.qp_s += seconds_since(asked);
