@@ -30,10 +30,10 @@ struct Imperfections {
 /// An experiment as in the paper: ramp, hold, ramp.
 struct TankOptions {
   double ramp = 5, hold = 5;  ///< s
-  double period = 0.02;       ///< s, between two commands; efforts are linear in between
+  double period = 0.01;       ///< s, between two commands; efforts are linear in between
   double thruster_lag = 0.1;  ///< s, first order
   double stiffness = 25;      ///< 1/s^2, of the posture: acceleration per error
-  double damping = 10;       ///< 1/s
+  double damping = 10;        ///< 1/s
   bool release = false;       ///< true: nothing holds the end effector, which carries a load
   LoadCell cell;
   Imperfections imperfections;

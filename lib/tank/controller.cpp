@@ -8,6 +8,8 @@
 namespace maxwrench {
 namespace {
 
+constexpr double kWrenchWeight = 1e-3;  // beside the posture, of what cannot be had
+
 /// Of (u - u*)'Q(u - u*): an effort counts by its smaller limit, as in beta_1.
 Eigen::VectorXd weights(const Zonotope& actuation) {
   const Eigen::ArrayXd limit =
@@ -78,6 +80,11 @@ void PostureController::request(const Motion& motion, const Vector6d& h,
   M_.resize(a_.size(), a_.size());
   dynamics_.mass_matrix(M_);
   request.P = M_.llt().solve(Eigen::MatrixXd::Identity(a_.size(), a_.size()));
+  if (!options_.release) {
+    // The cell takes what leaves the null space, so the posture comes before the wrench.
+    const Eigen::MatrixXd M_r = A_r_.transpose() * M_ * A_r_;
+    request.P = kWrenchWeight * request.P + A_r_ * M_r.llt().solve(A_r_.transpose());
+  }
   const Robot& robot = problem_.robot;
   const Eigen::VectorXd reach = period * robot.u_rate_max;
   request.u_star = u_star;

@@ -7,8 +7,8 @@ namespace maxwrench {
 /// The robot in the tank. State: its motion (see lib/motion.h), then the thrust of each thruster
 /// [N], which follows its command with a first-order lag, never faster than its rate limit. Joint
 /// torques are those commanded. Efforts are asked for linearly between two instants; the command of
-/// a thruster leads by its lag times the slope, within its limits, so that away from them its thrust
-/// is what was asked for.
+/// a thruster leads by its lag times the slope, within its limits, so that away from them its
+/// thrust is what was asked for.
 class TankOde final : public Ode {
  public:
   TankOde(const Problem& problem, const Posture& posture, const TankOptions& options);
