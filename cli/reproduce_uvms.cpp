@@ -8,6 +8,7 @@
 #include "cli/figures.h"
 #include "cli/reproduce.h"
 #include "cli/row_writer.h"
+#include "cli/tank_experiment.h"
 #include "problems/loader.h"
 
 namespace maxwrench {
@@ -94,6 +95,24 @@ std::string cell(const Row& row, double unit) {
                          : fmt::format("{:>8}", "none");
 }
 
+/// What the virtual tank measures: the mean torque of the hold, or the heaviest load that is held.
+struct Simulated {
+  TankRun run;
+  std::string cell;
+};
+
+Simulated simulated(const Problem& problem, const Task& task, const Row& own, const Row& pure) {
+  Simulated result;
+  if (task.unit == kKilogram) {
+    result.cell = fmt::format("{:>8}", heaviest_load(problem, pure, "cvode", {}));
+  } else {
+    result.run = simulate_tank(problem, own, own.capability.beta, "cvode", {});
+    const TankSummary& summary = result.run.summary;
+    result.cell = summary.held ? fmt::format("{:>8.2f}", summary.mean) : "    lost";
+  }
+  return result;
+}
+
 std::string posture(const Row& row) {
   std::string text;
   if (row.has_value()) {
@@ -137,14 +156,14 @@ std::string wrench_bars(const Problem& problem, const Row& row, double tank) {
 /// One line for an optimum. For beta_3 the tank measured the torque while its sensor took any other
 /// component, so the own value is the one to compare, otherwise the pure one.
 std::string line(const Problem& problem, const Task& task, const Measured& measured,
-                 const Best& best, double reference) {
-  const Row pure = evaluate(problem, yardstick(problem, Wrench::kPure), best.row.posture.theta_r);
+                 const Best& best, const Row& pure, const std::string& virtual_tank,
+                 double reference) {
   const Row& compared = measured.wrench == Wrench::kAny ? best.row : pure;
   const double gain = compared.capability.beta / reference;
   const double tank_gain = measured.tank / task.tank_default;
-  return fmt::format("{:<8} {} {}  {:>5.1f}  {:>6.2f} {:>6.2f}  {:>6.2f}  {:>6.3f} %  {}\n",
+  return fmt::format("{:<8} {} {} {}  {:>5.1f}  {:>6.2f} {:>6.2f}  {:>6.2f}  {:>6.3f} %  {}\n",
                      measured.symbol, cell(best.row, task.unit), cell(pure, task.unit),
-                     measured.tank, gain, tank_gain, gain / tank_gain, 100 * best.lag,
+                     virtual_tank, measured.tank, gain, tank_gain, gain / tank_gain, 100 * best.lag,
                      posture(best.row));
 }
 
@@ -162,18 +181,31 @@ void write_figures(const std::filesystem::path& folder, const Problem& problem, 
              posture_figure(problem, panels));
 }
 
+/// The paper's fig:staticTorque.
+void write_tank_figure(const std::filesystem::path& folder, const Problem& problem,
+                       const Task& task, const std::vector<Simulated>& experiments) {
+  if (task.unit == kKilogram) return;  // a load is held or not
+  std::vector<TankCurve> curves = {{"default", &experiments.front().run}};
+  for (std::size_t i = 1; i < experiments.size(); ++i) {
+    curves.push_back({task.optima[i - 1].symbol, &experiments[i].run});
+  }
+  write_file(folder / (std::string(task.figure) + "_tank.svg"), tank_figure(problem, curves));
+}
+
 std::string table(RowWriter& writer, const Task& task, const std::filesystem::path& folder) {
   const Problem problem = load_problem(task.problem);
   const auto at_default = [&](Wrench wrench) {
     return writer.evaluate(problem, yardstick(problem, wrench), problem.theta_r_default);
   };
   const Row pure = at_default(Wrench::kPure), any = at_default(Wrench::kAny);
+  std::vector<Simulated> experiments = {simulated(problem, task, pure, pure)};
+  const Simulated& at_rest = experiments.front();
   std::string text = fmt::format(
       "{}: {} ({})\n"
-      "                             ------- gain -------\n"
-      "              own     pure   tank    ours   tank   ratio  lag        theta_r\n"
-      "{:<8} {:>8} {}  {:>5.1f}  {:>6.2f} {:>6.2f}  {:>6.2f}  {:>8}  {}\n",
-      problem.name, task.title, problem.label, "default", "", cell(pure, task.unit),
+      "                                      ------- gain -------\n"
+      "              own     pure  virtual   tank    ours   tank   ratio  lag        theta_r\n"
+      "{:<8} {:>8} {} {}  {:>5.1f}  {:>6.2f} {:>6.2f}  {:>6.2f}  {:>8}  {}\n",
+      problem.name, task.title, problem.label, "default", "", cell(pure, task.unit), at_rest.cell,
       task.tank_default, 1.0, 1.0, 1.0, "", posture(pure));
   std::string notes = fmt::format("  default posture with any wrench:{}\n", cell(any, task.unit));
   std::string digits = fmt::format("  in {}: default {:.3f}", problem.unit(), pure.capability.beta);
@@ -184,12 +216,19 @@ std::string table(RowWriter& writer, const Task& task, const std::filesystem::pa
       text += fmt::format("{:<8} no posture found\n", measured.symbol);
       continue;
     }
-    text += line(problem, task, measured, best, pure.capability.beta);
+    const Row at_best =
+        evaluate(problem, yardstick(problem, Wrench::kPure), best.row.posture.theta_r);
+    experiments.push_back(simulated(problem, task, best.row, at_best));
+    text +=
+        line(problem, task, measured, best, at_best, experiments.back().cell, pure.capability.beta);
     if (measured.wrench == Wrench::kAny) notes += describe_orthogonal(problem, best.row);
     digits += fmt::format(", {} {:.3f}", measured.symbol, best.row.capability.beta);
     optima.push_back(best.row);
   }
-  if (optima.size() == task.optima.size()) write_figures(folder, problem, task, optima);
+  if (optima.size() == task.optima.size()) {
+    write_figures(folder, problem, task, optima);
+    write_tank_figure(folder, problem, task, experiments);
+  }
   return text + digits + "\n" + notes;
 }
 
@@ -211,7 +250,8 @@ PaperTable reproduce_uvms(const std::filesystem::path& folder, int threads) {
       "own for beta_3, where the tank's sensor took all other components), in the tank, ratio of "
       "the\n"
       "two; lag: how far the worst of {} searches stays below (grid, annealing with {} seeds, {}\n"
-      "evaluations each).\n",
+      "evaluations each); virtual: the simulated robot's reading of own during the hold, and the\n"
+      "heaviest load that it carries, in steps of 1 kg.\n",
       std::size(kAttempts), std::size(kAttempts) - 1, kBudget);
   for (const Task& task : tasks()) text += "\n" + table(writer, task, folder);
   const bool all_solved = writer.finish();
