@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <ctime>
+
 #include "benchmarks/case.h"
 #include "benchmarks/row.h"
 #include "problems/loader.h"
 #include "solvers/strategies.h"
+#include "tests/support.h"
 
 namespace maxwrench {
 namespace {
@@ -48,15 +51,17 @@ INSTANTIATE_TEST_SUITE_P(Static, TankTest, testing::ValuesIn(kExperiments),
 TEST_P(TankTest, TheCellReadsWhatWasPlannedWithinTheLimits) {
   const Problem problem = load_problem("uvms/valve");
   const Row row = planned(problem, GetParam());
+  const std::clock_t begin = std::clock();
   const TankRun tank = run(problem, row, 0);
+  const double cpu_s = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   ASSERT_EQ(tank.status, Status::kOptimal) << tank.reason;
   const TankSummary& s = tank.summary;
   EXPECT_TRUE(s.held);
   EXPECT_GT(s.low, 0.98 * s.planned);
   EXPECT_LT(s.high, 1.02 * s.planned);
   EXPECT_LT(s.joint_error, 0.01);
-  EXPECT_LT(s.violation, 1e-6);  // efforts and rates; what the integrator leaves
-  EXPECT_LT(tank.total_s, 15);   // faster than real time
+  EXPECT_LT(s.violation, 1e-6);           // efforts and rates; what the integrator leaves
+  EXPECT_LT(cpu_s, 15 * kSampleDivisor);  // faster than real time
 }
 
 /// beta_1 is a share of what the efforts reach, so a little more is within reach there.
