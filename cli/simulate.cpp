@@ -77,7 +77,7 @@ int simulate(const SimulateOptions& options) {
   const TankRun run = simulate_tank(problem, row, planned, options.integrator, options.tank);
   if (!options.out.empty()) write_file(options.out, tank_csv(problem, run));
   if (!options.figure.empty()) {
-    write_file(options.figure, tank_figure(problem, {{c.measure, &run}}));
+    write_file(options.figure, tank_figure(problem, {{problem.name, &run}}));
   }
   print_summary(problem, options, run);
   return run.status == Status::kOptimal ? kAnswered : kOtherStatus;

@@ -7,6 +7,7 @@ namespace maxwrench {
 namespace {
 
 constexpr double kReached = 1e-8;    // of the largest control effort, at least 1
+constexpr double kMissed = 1e-6;     // likewise: from here on it is not reached
 constexpr double kAtBound = 1e-9;    // of an effort
 constexpr double kStiffness = 1e5;   // of P beside Q, by their traces
 constexpr int kMultiplierSteps = 6;  // each shrinks what is missing by about kStiffness
@@ -57,7 +58,7 @@ void EffortTracker::solve(const EffortRequest& request, EffortAnswer& answer) {
     if (rhs_.lpNorm<Eigen::Infinity>() > kReached * scale) answer.u = first;
   }
   answer.shortfall = (B_ * answer.u - request.tau_c).lpNorm<Eigen::Infinity>();
-  answer.relaxed = answer.shortfall > kReached * scale;
+  answer.relaxed = answer.shortfall > kMissed * scale;
   for (Eigen::Index i = 0; i < Q_.size(); ++i) {
     const double margin = kAtBound * (1 + std::abs(answer.u[i]));
     answer.saturated |=
