@@ -59,6 +59,11 @@ Case complete(Case c) {
   return c;
 }
 
+Case fit(const Problem& problem, Case c) {
+  if (c.lp == "facets" && !problem.robot.actuation.has_facets) c.lp = "box";
+  return c;
+}
+
 MeasureMaker measure_maker(const Problem& problem, const Case& c) {
   const MeasureEntry& measure = find_measure(c.measure);
   const WrenchSolverEntry* solver = measure.needs_solver ? &find_wrench_solver(c.lp) : nullptr;
@@ -92,8 +97,10 @@ std::vector<Case> product(const std::string& problem, std::uint64_t seed, long b
   std::vector<Case> cases;
   for (const MeasureEntry& measure : measures()) {
     for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
-      for (const auto& [lp, cost] : solvers_for(measure, wrench)) {
-        for (const SearchEntry& search : searches()) {
+      const auto solvers = solvers_for(measure, wrench);
+      for (const auto& [lp, cost] : solvers) {
+        const bool first = lp == solvers.front().first;
+        for (const SearchEntry& search : searches().first(first ? searches().size() : 2)) {
           cases.push_back(
               {problem, measure.name, wrench, lp, search.name, seed, std::max(1L, budget / cost)});
         }

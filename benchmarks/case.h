@@ -33,6 +33,10 @@ Wrench parse_wrench(const std::string& name);
 /// closed form.
 Case complete(Case c);
 
+/// The case that can be solved on this robot: `box` takes over from `facets` if its actuators have
+/// too many facets to enumerate.
+Case fit(const Problem& problem, Case c);
+
 /// The unit of a case's value.
 const char* unit(const Problem& problem, const Case& c);
 
@@ -43,8 +47,9 @@ MeasureMaker measure_maker(const Problem& problem, const Case& c);
 const std::vector<std::string>& case_columns();
 std::vector<std::string> case_values(const Case& c);
 
-/// Every meaningful combination measure × wrench × lp × search on a problem, in the order of the
-/// tables. The budget is divided by the cost of the solver.
+/// On a problem, in the order of the tables: every meaningful measure × wrench × lp with the first
+/// two searches (what a solver is worth does not depend on the search), and with the first lp that
+/// serves every search. The budget is divided by the cost of the solver.
 std::vector<Case> product(const std::string& problem, std::uint64_t seed, long budget);
 
 /// Of `cases`, those whose columns have the given values (column -> value); `seed` and `budget` are

@@ -31,6 +31,8 @@ constexpr double kWalkStep = 0.01;  // of each coordinate's range
 struct Set {
   std::string title;  ///< problem/wrench/postures
   bool pure = false;
+  const Problem* problem = nullptr;
+  std::vector<Eigen::VectorXd> theta_r;
   std::vector<WrenchProgram> programs;
   std::map<Form, std::vector<LinearProgram>> forms;
 };
@@ -69,11 +71,13 @@ std::unique_ptr<Set> make_set(const Problem& problem, Wrench wrench, bool walk, 
   set->title = fmt::format("{}/{}/{}{}", problem.name, to_string(wrench), walk ? "walk" : "random",
                            overloaded ? "+infeasible" : "");
   set->pure = wrench == Wrench::kPure;
+  set->problem = &problem;
+  set->theta_r = postures(problem, walk);
   PostureModel model(problem, false);
   WrenchProgram program = make_wrench_program(problem, wrench);
   const auto judge = find_wrench_solver("box").make();
   Random random(2);
-  for (const Eigen::VectorXd& theta_r : postures(problem, walk)) {
+  for (const Eigen::VectorXd& theta_r : set->theta_r) {
     set_posture(model.evaluate(theta_r), program);
     set->programs.push_back(program);
     if (overloaded && set->programs.size() % 2 == 0) {
@@ -96,6 +100,20 @@ void time_own(benchmark::State& state, const Set& set, const char* name) {
   }
 }
 
+/// theta_r -> J, tau_d -> beta, without the collision check.
+void time_total(benchmark::State& state, const Set& set, const char* name) {
+  PostureModel model(*set.problem, false);
+  WrenchProgram program = set.programs.front();
+  const auto solver = find_wrench_solver(name).make();
+  Capability capability;
+  std::size_t i = 0;
+  for (auto _ : state) {
+    set_posture(model.evaluate(set.theta_r[i++ % kPrograms]), program);
+    solver->solve(program, false, capability);
+    benchmark::DoNotOptimize(capability.beta);
+  }
+}
+
 void time_general(benchmark::State& state, const std::vector<LinearProgram>& programs,
                   const LpEntry& entry, bool warm) {
   const auto solver = entry.make();
@@ -108,7 +126,7 @@ void time_general(benchmark::State& state, const std::vector<LinearProgram>& pro
   }
 }
 
-std::string own_solver(const Set& set) { return set.pure ? "facets" : "box"; }
+const char* own_solver(const Set& set) { return set.pure ? "facets" : "box"; }
 
 void add_set(const Set& set) {
   const auto add = [&](const std::string& rest, auto body) {
@@ -122,6 +140,7 @@ void add_set(const Set& set) {
     if (!set.pure && find_wrench_solver(name).one_column_only) continue;
     add(name, [&set, name](benchmark::State& state) { time_own(state, set, name); });
   }
+  add("total", [&set](benchmark::State& state) { time_total(state, set, own_solver(set)); });
   for (const LpEntry& entry : lp_solvers()) {
     if (std::string_view(entry.name) == "ipopt") continue;  // no simplex, 100 times slower
     for (const auto& [form, programs] : set.forms) {
@@ -161,11 +180,14 @@ double best_peer(const Collector& collector, const Set& set, const char* form, c
 }
 
 void print_ratios(const Collector& collector, const std::vector<std::unique_ptr<Set>>& sets) {
-  fmt::print("\nHow many times faster than the best of Clp and GLPK (medians, microseconds)\n");
+  fmt::print(
+      "\nHow many times faster than the best of Clp and GLPK (medians, microseconds). total: from\n"
+      "theta_r, with poses, J and tau_d, against the peers' solve alone; no collision check\n");
   fmt::print("{:<36} {:<16} {:>8}  {:>20}   {:>20}\n", "programs", "solver", "us",
              "cold F1    F2    F3", "warm F1    F2    F3");
   for (const auto& set : sets) {
-    std::vector<std::pair<std::string, std::string>> rows = {{own_solver(*set), own_solver(*set)}};
+    std::vector<std::pair<std::string, std::string>> rows = {{own_solver(*set), own_solver(*set)},
+                                                             {"total", "total"}};
     for (const char* form : {"F2", "F3"}) {
       for (const char* start : {"cold", "warm"}) {
         rows.emplace_back(fmt::format("simplex {} {}", form, start),

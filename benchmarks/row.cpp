@@ -36,9 +36,10 @@ double yardstick(const Problem& problem, Wrench wrench, const Posture& posture) 
 
 }  // namespace
 
-Row evaluate(const Problem& problem, const Case& c, const Eigen::VectorXd& theta_r,
+Row evaluate(const Problem& problem, const Case& asked, const Eigen::VectorXd& theta_r,
              bool check_collision) {
   const auto start = std::chrono::steady_clock::now();
+  const Case c = fit(problem, asked);
   Row row;
   row.choice = c;
   row.evaluations = 1;
@@ -67,9 +68,10 @@ Row evaluate(const Problem& problem, const Case& c, const Eigen::VectorXd& theta
   return row;
 }
 
-Row solve(const Problem& problem, const Case& c, int threads,
+Row solve(const Problem& problem, const Case& asked, int threads,
           const std::function<void(long)>& progress) {
   const auto start = std::chrono::steady_clock::now();
+  const Case c = fit(problem, asked);
   const auto objective = make_capability_objective(problem, c.wrench, measure_maker(problem, c));
   SearchOptions options;
   options.seed = c.seed;

@@ -16,7 +16,7 @@ int run_command(int argc, const char* const* argv) {
   app.require_subcommand(1);
   int exit_status = kAnswered;
   for (const auto add : {add_list, add_check, add_eval, add_solve, add_lp, add_run, add_simulate,
-                         add_plot, add_reproduce}) {
+                         add_plot, add_compare, add_reproduce}) {
     add(app, exit_status);
   }
   try {
@@ -40,6 +40,10 @@ int run_command(int argc, const char* const* argv) {
 void CommonOptions::add_case(CLI::App& app) {
   app.add_option("problem", choice.problem, "shipped name such as planar/force, or a task file")
       ->required();
+  add_choice(app);
+}
+
+void CommonOptions::add_choice(CLI::App& app) {
   app.add_option("--measure", choice.measure, "capability measure")->capture_default_str();
   app.add_option("--wrench", wrench, "pure: only along c; any: other components are free")
       ->capture_default_str();

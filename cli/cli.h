@@ -23,6 +23,7 @@ struct CommonOptions {
   bool json = false;
 
   void add_case(CLI::App& app);
+  void add_choice(CLI::App& app);  ///< measure, wrench and lp
   void add_search(CLI::App& app);
   void add_json(CLI::App& app);
   void add_threads(CLI::App& app);
@@ -46,6 +47,7 @@ void add_lp(CLI::App& app, int& exit_status);
 void add_run(CLI::App& app, int& exit_status);
 void add_simulate(CLI::App& app, int& exit_status);
 void add_plot(CLI::App& app, int& exit_status);
+void add_compare(CLI::App& app, int& exit_status);
 void add_reproduce(CLI::App& app, int& exit_status);
 
 }  // namespace maxwrench

@@ -112,6 +112,11 @@ void print(const Problem& problem, const Row& row) {
 }  // namespace
 
 int report(const Problem& problem, const Row& row, bool json) {
+  if (row.choice.wrench == Wrench::kPure && row.choice.lp == "box" &&
+      !problem.robot.actuation.has_facets) {
+    fmt::print(stderr, "{}: the actuators have too many facets to enumerate, so box is used\n",
+               problem.robot.name);
+  }
   if (json) {
     fmt::print("{}\n", to_json(problem, row).dump());
   } else {

@@ -7,6 +7,9 @@
 namespace maxwrench {
 namespace {
 
+/// Entries of a certificate below this share of the largest are rounding.
+constexpr double kNegligible = 1e-12;
+
 constexpr double kInfiniteBound = 1e20;
 constexpr double kRounding = 64 * std::numeric_limits<double>::epsilon();
 constexpr double kFarkasMargin = 1e-10;
@@ -209,6 +212,14 @@ bool verified(const LinearProgram& program, const LpSolution& solution, double t
 bool verified(const LinearProgram& program, const LpSolution& solution, double tolerance) {
   LpScratch scratch;
   return verified(program, solution, tolerance, scratch);
+}
+
+void drop_rounding(Eigen::VectorXd& certificate) {
+  if (certificate.size() == 0) return;
+  const double smallest = kNegligible * certificate.cwiseAbs().maxCoeff();
+  for (double& entry : certificate) {
+    if (std::abs(entry) < smallest) entry = 0;
+  }
 }
 
 }  // namespace maxwrench

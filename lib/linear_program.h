@@ -79,4 +79,8 @@ bool verified(const LinearProgram& program, const LpSolution& solution, double t
 bool verified(const LinearProgram& program, const LpSolution& solution, double tolerance,
               LpScratch& scratch);
 
+/// Sets the entries of a certificate to zero that are rounding beside its largest one: in a row or
+/// column where no other entry counts they would spoil the proof.
+void drop_rounding(Eigen::VectorXd& certificate);
+
 }  // namespace maxwrench

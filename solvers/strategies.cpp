@@ -19,7 +19,14 @@
 #include "solvers/lp/ipopt.h"
 #include "solvers/lp/simplex.h"
 #include "solvers/search/annealing.h"
+#include "solvers/search/cobyla.h"
+#include "solvers/search/crs2.h"
+#include "solvers/search/direct_l.h"
 #include "solvers/search/grid.h"
+#include "solvers/search/isres.h"
+#include "solvers/search/mlsl.h"
+#include "solvers/search/multistart.h"
+#include "solvers/search/nullspace.h"
 
 namespace maxwrench {
 namespace {
@@ -69,8 +76,17 @@ const LpEntry kLpSolvers[] = {
 };
 
 const SearchEntry kSearches[] = {
-    {"grid", "regular grid, then refinement around its best cells", make_grid},
-    {"annealing", "simulated annealing in independent chains", make_annealing},
+    {"grid", "regular grid, then refinement around its best cells", false, make_grid},
+    {"annealing", "simulated annealing in independent chains", false, make_annealing},
+    {"multistart", "Ipopt with exact gradients from many postures, as fmincon", false,
+     make_multistart},
+    {"direct_l", "DIRECT-L of NLopt: divides boxes", false, make_direct_l},
+    {"crs2", "controlled random search of NLopt, in several populations", false, make_crs2},
+    {"mlsl", "multi-level single-linkage of NLopt, with gradients", false, make_mlsl},
+    {"isres", "evolution strategy ISRES of NLopt, in several populations", false, make_isres},
+    {"cobyla", "COBYLA of NLopt from many postures", false, make_cobyla},
+    {"nullspace", "local baseline: gradient projected onto the null space of J", true,
+     make_nullspace},
 };
 
 const IntegratorEntry kIntegrators[] = {

@@ -48,6 +48,7 @@ struct WrenchSolverEntry {
 struct SearchEntry {
   const char* name;
   const char* summary;
+  bool local;  ///< true: climbs from one posture, and finds no better maximum elsewhere
   std::unique_ptr<Search> (*make)();
 };
 

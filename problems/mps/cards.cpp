@@ -182,7 +182,9 @@ void Cards::read_column(const std::string& line) {
     return;  // the relaxation is read
   }
   const Fields fields = pairs(line, false);
-  columns_.insert(fields[0]);
+  const bool known = !columns_.insert(fields[0]).second;
+  if (known && fields[0] != column_) fail("the cards of column " + fields[0] + " together");
+  column_ = fields[0];
   for (std::size_t k = 1; k < fields.size(); k += 2) {
     // A column without entries still exists.
     const bool dropped = free_rows_.count(fields[k]) > 0;

@@ -34,7 +34,7 @@ class Cards {
   void read_bound(const std::string& line);
   bool try_bound(Fields fields);
 
-  std::string path_, section_, objective_;
+  std::string path_, section_, objective_, column_;
   int number_ = 0;
   bool ended_ = false;
   std::set<std::string> seen_, rows_, columns_, free_rows_;

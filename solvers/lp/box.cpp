@@ -25,10 +25,13 @@ class Box : public WrenchSolver {
     if (outcome == Tableau::Outcome::kInfeasible) {
       capability.status = Status::kInfeasible;
       capability.reason = "no actuator efforts balance the posture";
-      if (eliminated) return elimination_.fill_contradiction(program, tableau_, capability.lambda);
-      fill_lambda(*program.actuation, capability.lambda);
-      capability.lambda = -capability.lambda;
-      return;
+      if (eliminated) {
+        elimination_.fill_contradiction(program, tableau_, capability.lambda);
+      } else {
+        fill_lambda(*program.actuation, capability.lambda);
+        capability.lambda = -capability.lambda;
+      }
+      return drop_rounding(capability.lambda);
     }
     capability.status = Status::kOptimal;
     capability.reason = "";

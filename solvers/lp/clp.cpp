@@ -55,7 +55,8 @@ class Clp : public LpSolver {
     prove_no_optimum(
         program,
         [this](const LinearProgram& other, LpSolution& proof) {
-          return run(other, false, true, proof) == kClpOptimal;
+          return (try_once(other, false, false, proof) || try_once(other, false, true, proof)) &&
+                 proof.status == Status::kOptimal;
         },
         solution);
   }
@@ -86,6 +87,7 @@ class Clp : public LpSolver {
     if (ray == nullptr) return false;
     solution.certificate = Eigen::Map<const Eigen::VectorXd>(ray, size);
     delete[] ray;
+    drop_rounding(solution.certificate);
     solution.status = status;
     solution.reason = reason;
     if (verified(program, solution, 1e-7, scratch_)) return true;

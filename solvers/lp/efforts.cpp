@@ -4,7 +4,7 @@ namespace maxwrench {
 namespace {
 
 /// How far w may move, relative to 1 + |w|.
-constexpr double kRounding = 1e-8;
+constexpr double kReach = 1e-8;
 
 /// The wrench program with each w_j within `reach` of the capability's.
 bool solve_near(const WrenchProgram& program, double reach, LpSolver& solver,
@@ -27,7 +27,7 @@ bool solve_near(const WrenchProgram& program, double reach, LpSolver& solver,
 }  // namespace
 
 void fill_efforts(const WrenchProgram& program, LpSolver& solver, Capability& capability) {
-  for (const double reach : {0.0, kRounding}) {
+  for (const double reach : {0.0, kReach}) {
     if (solve_near(program, reach, solver, capability)) return;
   }
   capability.status = Status::kNumericalError;

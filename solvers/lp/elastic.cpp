@@ -68,6 +68,11 @@ bool refused(const LinearProgram& program, LpSolution& solution) {
             "the program is malformed: sizes disagree or an entry is not finite");
     return true;
   }
+  const auto too_large = [](const auto& v) { return (v.array().abs() >= kInfiniteBound).any(); };
+  if (too_large(program.b) || too_large(program.c) || too_large(program.A.coeffs())) {
+    give_up(solution, Status::kNumericalError, "an entry is beyond 1e20, which libraries refuse");
+    return true;
+  }
   if (!(program.l.array() > program.u.array()).any()) return false;
   give_up(solution, Status::kInfeasible, "a lower bound exceeds its upper bound");
   solution.certificate.setZero(program.rows());
@@ -85,6 +90,7 @@ void prove_no_optimum(const LinearProgram& program, const LpRun& run, LpSolution
     // The elastic optimum is lambda'b less sup {lambda'A x}, so -lambda points out of the
     // reachable set.
     solution.certificate = -proof.lambda;
+    drop_rounding(solution.certificate);
     give_up(solution, Status::kInfeasible, "no x satisfies the rows within its bounds");
     if (verified(program, solution)) return;
   } else if (feasibility_known) {
@@ -93,6 +99,7 @@ void prove_no_optimum(const LinearProgram& program, const LpRun& run, LpSolution
     if (run(recession(program), ray)) {
       solution.iterations += ray.iterations;
       solution.certificate = ray.x;
+      drop_rounding(solution.certificate);
       give_up(solution, Status::kUnbounded, "the objective grows without limit");
       if (verified(program, solution)) return;
     }

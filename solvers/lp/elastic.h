@@ -22,8 +22,8 @@ using LpRun = std::function<bool(const LinearProgram&, LpSolution&)>;
 /// the ray. What the data do not confirm becomes kNumericalError.
 void prove_no_optimum(const LinearProgram& program, const LpRun& run, LpSolution& solution);
 
-/// Whether the program needs no library: malformed data (kNumericalError) or crossing bounds
-/// (kInfeasible), which fill `solution`.
+/// Whether the program is not for a library: malformed data or entries beyond 1e20
+/// (kNumericalError) or crossing bounds (kInfeasible), which fill `solution`.
 bool refused(const LinearProgram& program, LpSolution& solution);
 
 /// The verdict without optimum, its reason, and no certificate yet.

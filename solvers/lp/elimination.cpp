@@ -10,6 +10,9 @@ namespace {
 /// Smaller pivots, relative to the largest entry, make J_b'W near singular.
 constexpr double kSingular = 1e-7;
 
+/// Above this, P is so accurate that its products need no refinement.
+constexpr double kWellConditioned = 1e-2;
+
 /// A diagonal entry of at least this share of its column serves as pivot.
 constexpr double kDiagonal = 0.1;
 
@@ -70,10 +73,12 @@ bool Elimination::invert(const WrenchProgram& program) {
     }
   }
   int exchanged[6];
-  for (int step = 0; step < k; ++step) {
+  steps_ = 1;
+  for (int step = 0; step < 6; ++step) {  // beyond k the identity
     double best = 0;
-    for (int i = step; i < k; ++i) best = std::max(best, std::abs(A(i, step)));
-    if (!(best > kSingular * largest)) return false;
+    for (int i = step; i < 6; ++i) best = std::max(best, std::abs(A(i, step)));
+    if (step < k && !(best > kSingular * largest)) return false;
+    if (!(best > kWellConditioned * largest)) steps_ = 2;
     // A search for the largest entry is a branch that no processor foresees; exchange only what is
     // bad.
     int pivot = step;
@@ -94,7 +99,7 @@ bool Elimination::invert(const WrenchProgram& program) {
     }
     A(step, step) = inverse;
   }
-  for (int step = k; step-- > 0;) {
+  for (int step = 6; step-- > 0;) {
     if (exchanged[step] != step) A.col(step).swap(A.col(exchanged[step]));
   }
   P_ = A;
@@ -167,7 +172,7 @@ void Elimination::fill_lambda(const WrenchProgram& program, const Tableau& table
   for (std::size_t joint = 0; joint < driven_rows_.size(); ++joint) {
     lambda[driven_rows_[joint]] = -tableau.multipliers[static_cast<Eigen::Index>(joint)];
   }
-  for (int step = 0; step < 2; ++step) {
+  for (int step = 0; step < steps_; ++step) {
     // What c_w + (J'W)'lambda lacks to zero, at first all that the base has to give.
     Vector6d left = Vector6d::Zero();
     for (int j = 0; j < k; ++j) {
@@ -191,16 +196,18 @@ void Elimination::fill(const WrenchProgram& program, const Tableau& tableau, boo
   const int k = program.columns();
   const int m = static_cast<int>(thrusters_.size());
   const int f = static_cast<int>(driven_rows_.size());
-  // w = P (B_b u_b - tau_b), with one step of refinement; row i of `load` is that of the balance.
+  // w = P (B_b u_b - tau_b), refined if need be; row i of `load` is that of the balance.
   Vector6d load = -tau_b_;
   for (int i = 0; i < k; ++i) {
     for (int j = 0; j < m; ++j) load[i] += B_b_(i, j) * tableau.x[j];
   }
   Vector6d w = P_ * load;
-  for (int j = 0; j < k; ++j) {
-    for (int i = 0; i < k; ++i) load[i] -= program.JtW(base_rows_[i], j) * w[j];
+  if (steps_ > 1) {
+    for (int j = 0; j < k; ++j) {
+      for (int i = 0; i < k; ++i) load[i] -= program.JtW(base_rows_[i], j) * w[j];
+    }
+    w += P_ * load;
   }
-  w += P_ * load;
   capability.w = w.head(k);
   fill_lambda(program, tableau, 1, capability.lambda);
   capability.beta = program.c_w.dot(capability.w);

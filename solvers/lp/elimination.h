@@ -48,6 +48,7 @@ class Elimination {
   std::vector<int> driven_rows_, drives_, base_rows_, thrusters_;
   Wide B_b_;  // columns padded with zeros to a multiple of four
   Square P_;
+  int steps_ = 1;  // of refinement with P, the first included
   Vector6d tau_b_;
   Eigen::VectorXd row_;
 };

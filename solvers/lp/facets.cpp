@@ -118,7 +118,7 @@ class Facets : public WrenchSolver {
       capability.status = Status::kInfeasible;
       capability.reason = "no actuator efforts balance the posture";
       fill_contradiction(program, ray, capability.lambda);
-      return;
+      return drop_rounding(capability.lambda);
     }
     if (!std::isfinite(x)) {
       capability.status = Status::kUnbounded;

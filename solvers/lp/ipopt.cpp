@@ -4,8 +4,8 @@
 #include <IpSolveStatistics.hpp>
 #include <IpTNLP.hpp>
 #include <algorithm>
-#include <mutex>
 
+#include "solvers/ipopt_lock.h"
 #include "solvers/lp/elastic.h"
 
 namespace maxwrench {
@@ -107,8 +107,7 @@ Eigen::VectorXd interior_point(const LinearProgram& lp) {
 class IpoptSolver : public LpSolver {
  public:
   void solve(const LinearProgram& program, LpSolution& solution) override {
-    static std::mutex lock;
-    const std::lock_guard<std::mutex> guard(lock);
+    const std::lock_guard guard(ipopt_lock());
     if (refused(program, solution)) return;
     solution.basis.clear();
     if (run(program, solution)) {

@@ -93,9 +93,11 @@ bool Tableau::start() {
     if (line.low > line.high + line.slack) return false;
   }
   for (int i = 0; i < rows_; ++i) {
-    double sum = kTiny;
-    for (int j = 0; j < stride_; ++j) sum += T(i)[j] * T(i)[j];
-    dependent_[i].weight = 1 / sum;
+    double sums[kChunk] = {};
+    for (int j = 0; j < stride_; j += kChunk) {
+      for (int lane = 0; lane < kChunk; ++lane) sums[lane] += T(i)[j + lane] * T(i)[j + lane];
+    }
+    dependent_[i].weight = 1 / (sums[0] + sums[1] + (sums[2] + sums[3]) + kTiny);
   }
   for (int j = 0; j < columns_; ++j) {
     if (std::isfinite(basis_[j].high - basis_[j].low)) continue;
@@ -110,10 +112,14 @@ bool Tableau::start() {
     if (best < 0) return false;
     exchange(best, j);
   }
-  std::fill(value_.begin(), value_.end(), 0.0);
   for (int j = 0; j < columns_; ++j) {
     side_[j] = T(rows_)[j] >= 0 ? 1 : -1;
-    move(j, bound(j));
+    ratio_[j] = bound(j);
+  }
+  for (int i = 0; i < rows_; ++i) {
+    double sum = 0;
+    for (int j = 0; j < columns_; ++j) sum += T(i)[j] * ratio_[j];
+    value_[i] = sum;
   }
   return true;
 }
@@ -148,7 +154,7 @@ int Tableau::leaving(int i, double& gap, bool first) {
   }
   while (true) {
     double least = kInfinity;
-    for (int j = 0; j < stride_; ++j) least = std::min(least, ratio_[j]);
+    for (int j = 0; j < columns_; ++j) least = std::min(least, ratio_[j]);
     if (least == kInfinity) return -1;
     const int next = first_of(least, i, first);
     const double step = side_[next] * (basis_[next].low - basis_[next].high);

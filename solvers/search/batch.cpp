@@ -41,6 +41,15 @@ Eigen::VectorXd Box::unit(const Eigen::VectorXd& theta_r) const {
   return x;
 }
 
+Eigen::VectorXd Box::slope(const Eigen::VectorXd& gradient) const {
+  Eigen::VectorXd slope(free());
+  for (int j = 0; j < free(); ++j) {
+    const int i = free_[j];
+    slope[j] = gradient[i] * (upper_[i] - lower_[i]);
+  }
+  return slope;
+}
+
 Eigen::VectorXd Box::start(const Eigen::VectorXd& start) const {
   if (start.size() == 0) return lower_ + (upper_ - lower_) / 2;
   if (start.size() != lower_.size())

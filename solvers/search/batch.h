@@ -22,6 +22,8 @@ class Box {
   int free() const { return static_cast<int>(free_.size()); }
   Eigen::VectorXd theta_r(const Eigen::VectorXd& x) const;
   Eigen::VectorXd unit(const Eigen::VectorXd& theta_r) const;
+  /// The gradient along x of a function whose gradient along theta_r is given.
+  Eigen::VectorXd slope(const Eigen::VectorXd& gradient) const;
   /// `start` moved into the bounds, or their middle if it is empty. Throws std::invalid_argument if
   /// its size is wrong.
   Eigen::VectorXd start(const Eigen::VectorXd& start) const;

@@ -1,5 +1,6 @@
 #include "solvers/search/probe.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace maxwrench {
@@ -10,8 +11,8 @@ constexpr long kReportEvery = 256;
 
 }  // namespace
 
-Probe::Probe(const Objective& objective, long budget, EvaluationCounter& progress)
-    : objective_(objective.clone()), budget_(budget), progress_(progress) {}
+Probe::Probe(const Objective& objective, long budget, EvaluationCounter& progress, const Box* box)
+    : box_(box), objective_(objective.clone()), budget_(budget), progress_(progress) {}
 
 Probe::~Probe() { report(); }
 
@@ -20,8 +21,26 @@ double Probe::evaluate(const Eigen::VectorXd& theta_r, Eigen::VectorXd* gradient
   const double value = evaluate_one(*objective_, theta_r, gradient);
   found_.trace.add(value);
   if (value > found_.best.value) found_.best = {theta_r, value};
+  if (box_ != nullptr && value > -kInfinity) {
+    Candidate& best = cells_[cell(theta_r)];
+    if (value > best.value) best = {theta_r, value};
+  }
   if (found_.trace.evaluations() - reported_ >= kReportEvery) report();
   return value;
+}
+
+std::vector<Candidate> Probe::peaks() const {
+  std::vector<Candidate> peaks;
+  for (const auto& [cell, best] : cells_) peaks.push_back(best);
+  return peaks;
+}
+
+/// Beyond 21 coordinates the numbers wrap and a few cells share one.
+std::uint64_t Probe::cell(const Eigen::VectorXd& theta_r) const {
+  std::uint64_t number = 0;
+  for (const double x : box_->unit(theta_r))
+    number = 8 * number + static_cast<std::uint64_t>(std::clamp(8 * x, 0.0, 7.0));
+  return number;
 }
 
 void Probe::report() {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -18,7 +20,10 @@ struct Part {
 /// the best point so far.
 class Probe {
  public:
-  Probe(const Objective& objective, long budget, EvaluationCounter& progress);
+  /// With `box`, also keeps the best point of each of its cells: an eighth of the bounds wide in
+  /// every coordinate.
+  Probe(const Objective& objective, long budget, EvaluationCounter& progress,
+        const Box* box = nullptr);
   ~Probe();
   Probe(const Probe&) = delete;
   Probe& operator=(const Probe&) = delete;
@@ -34,10 +39,15 @@ class Probe {
     objective_->metric(theta_r, M);
   }
   const Part& found() const { return found_; }
+  /// The best points of the cells.
+  std::vector<Candidate> peaks() const;
 
  private:
   void report();
+  std::uint64_t cell(const Eigen::VectorXd& theta_r) const;
 
+  const Box* box_;
+  std::map<std::uint64_t, Candidate> cells_;
   std::unique_ptr<Objective> objective_;
   long budget_;
   EvaluationCounter& progress_;

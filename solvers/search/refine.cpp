@@ -154,9 +154,10 @@ class Ascent {
   Random random_;
 };
 
-/// The best candidates, best first, each away from all better ones.
-std::vector<Candidate> select(const Box& box, std::vector<Candidate> candidates, double separation,
-                              long count) {
+}  // namespace
+
+std::vector<Candidate> select_apart(const Box& box, std::vector<Candidate> candidates,
+                                    double separation, long count) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
   std::vector<Candidate> selected;
@@ -171,13 +172,11 @@ std::vector<Candidate> select(const Box& box, std::vector<Candidate> candidates,
   return selected;
 }
 
-}  // namespace
-
 void refine(const Objective& objective, const Box& box, std::vector<Candidate> candidates,
             const RefineOptions& options, EvaluationCounter& progress, Part& found) {
   const long shared = options.budget / 2;
-  const long count = std::clamp(shared / (100L * (box.free() + 1)), 1L, 8L);
-  std::vector<Candidate> best = select(box, std::move(candidates), options.separation, count);
+  const long count = std::clamp(shared / (100L * (box.free() + 1)), 1L, options.ascents);
+  std::vector<Candidate> best = select_apart(box, std::move(candidates), options.separation, count);
   if (best.empty()) return;
   if (best[0].value > found.best.value) found.best = best[0];
   if (box.free() == 0 || options.budget <= 0) return;

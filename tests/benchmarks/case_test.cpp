@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "solvers/strategies.h"
+
 namespace maxwrench {
 namespace {
 
@@ -31,6 +33,15 @@ TEST(Case, ProductHoldsEachMeaningfulCombinationOnce) {
     EXPECT_NO_THROW(complete(cases[i]));
     for (std::size_t j = 0; j < i; ++j) EXPECT_NE(case_values(cases[i]), case_values(cases[j]));
   }
+}
+
+TEST(Case, ProductCrossesEverySearchAndEverySolverWithoutCrossingBoth) {
+  const std::vector<Case> cases = product("p", 1, 100);
+  for (const SearchEntry& search : searches())
+    EXPECT_FALSE(select(cases, {{"search", search.name}, {"lp", "facets"}}).empty());
+  for (const WrenchSolverEntry& solver : wrench_solvers())
+    EXPECT_FALSE(select(cases, {{"search", searches()[0].name}, {"lp", solver.name}}).empty());
+  EXPECT_THROW(select(cases, {{"search", "multistart"}, {"lp", "ipopt"}}), std::invalid_argument);
 }
 
 TEST(Case, SelectKeepsWhatMatches) {

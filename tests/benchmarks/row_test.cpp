@@ -18,13 +18,16 @@ double planar_optimum(const Case& c) {
   return c.wrench == Wrench::kPure ? 3.4775 : 3.8806;
 }
 
+/// Whether the lower level is somebody else's: slower, and none of ours to sanitize.
+bool is_peer(const Case& c) { return c.lp == "clp" || c.lp == "glpk" || c.lp == "ipopt"; }
+
 /// The rows that the paper has a number for.
 std::vector<Case> planar_cases() {
   std::vector<Case> cases;
   for (Case c : product("planar/force", 1, 40000)) {
     const bool beta_1 = c.measure == "ellipsoid" && c.wrench == Wrench::kPure;
     if (!beta_1 && c.measure != "linf_polytope") continue;
-    c.budget = c.lp == "ipopt" ? 2000 : c.search == "grid" ? 400000 : 40000;
+    c.budget = c.lp == "ipopt" ? 2000 : is_peer(c) ? 20000 : c.search == "grid" ? 400000 : 40000;
     cases.push_back(c);
   }
   return cases;
@@ -40,15 +43,28 @@ INSTANTIATE_TEST_SUITE_P(All, PlanarOptimum, testing::ValuesIn(planar_cases()),
                          });
 
 TEST_P(PlanarOptimum, IsFoundByEverySolverAndSearch) {
-  if (kSampleDivisor > 1 && GetParam().lp == "ipopt") {
-    GTEST_SKIP() << "thousands of interior point solves take too long under sanitizers";
+  if (kSampleDivisor > 1 && is_peer(GetParam())) {
+    GTEST_SKIP() << "thousands of solves by a library take too long under sanitizers";
   }
   const Problem problem = load_problem("planar/force");
   const Row row = solve(problem, GetParam(), 2);
   ASSERT_EQ(row.status, Status::kOptimal) << row.reason;
-  EXPECT_NEAR(row.capability.beta, planar_optimum(GetParam()), 1e-3);
+  if (find_search(GetParam().search).local) {
+    EXPECT_LT(row.capability.beta, planar_optimum(GetParam()) + 1e-3);
+  } else {
+    EXPECT_NEAR(row.capability.beta, planar_optimum(GetParam()), 1e-3);
+  }
   EXPECT_LE(row.evaluations, GetParam().budget);
   EXPECT_TRUE(row.capability.residual.within(kRowTolerance, row.capability.beta));
+}
+
+TEST(Row, SearchByIpoptMayEvaluateByIpopt) {
+  if (kSampleDivisor > 1) GTEST_SKIP() << "interior point solves take too long under sanitizers";
+  const Problem problem = load_problem("planar/force");
+  const Row row = solve(
+      problem, {problem.name, "linf_polytope", Wrench::kPure, "ipopt", "multistart", 1, 200}, 2);
+  EXPECT_EQ(row.status, Status::kOptimal) << row.reason;
+  EXPECT_LE(row.evaluations, 200);
 }
 
 TEST(Row, SelfCollisionDoesNotChangeThePlanarOptima) {

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -76,6 +77,10 @@ INSTANTIATE_TEST_SUITE_P(
                     BadWords{"run colour=red", "colour"}, BadWords{"run measure", "measure"},
                     BadWords{"run measure=volume", "volume"}, BadWords{"run budget=few", "few"},
                     BadWords{"run budget=1 --out /proc/nowhere", "/proc/nowhere"},
+                    BadWords{"compare planar/none", "planar/none"},
+                    BadWords{"compare planar/force --seeds 0", "--seeds"},
+                    BadWords{"compare planar/force --budget 0", "budget"},
+                    BadWords{"compare planar/force --lp cplex", "cplex"},
                     BadWords{"check missing.toml", "missing.toml"},
                     BadWords{"plot planar/none", "planar/none"}));
 
@@ -193,6 +198,27 @@ TEST(Command, EvalOfAStatePrintsTheEquationsOfMotion) {
   }
 }
 
+/// 240 more thrusters without thrust change nothing but the number of facets.
+TEST(Command, BoxTakesOverWhereThereAreTooManyFacets) {
+  Copy copy;
+  std::string thrusters;
+  for (int i = 0; i < 240; ++i) {
+    thrusters += "[[thrusters.list]]\nname = \"idle_" + std::to_string(i) +
+                 "\"\nposition = [0, 0, 0]\ndirection = [" + std::to_string(i + 1) +
+                 ", 7, 0]\nforce_min = 0\nforce_max = 0\n\n";
+  }
+  copy.replace("vehicle.toml", "[end_effectors.tool]", thrusters + "[end_effectors.tool]");
+  const CommandResult few = run_maxwrench("eval planar/force --theta-r 0.3,-0.7 --json");
+  const CommandResult many =
+      run_maxwrench("eval force.toml --theta-r 0.3,-0.7 --json", copy.path());
+  ASSERT_EQ(many.exit_status, 0) << many.err;
+  EXPECT_NE(many.err.find("too many facets"), std::string::npos);
+  const json a = json::parse(few.out), b = json::parse(many.out);
+  EXPECT_EQ(a["lp"], "facets");
+  EXPECT_EQ(b["lp"], "box");
+  EXPECT_NEAR(a["beta"], b["beta"], 1e-9);
+}
+
 TEST(Command, EveryMeasureHasAValueAtAnOrdinaryPosture) {
   for (const MeasureEntry& measure : measures()) {
     const CommandResult result = run_maxwrench(
@@ -236,15 +262,34 @@ TEST(Command, RunWritesTheSameValuesAtAnyThreadCount) {
   std::string first;
   for (const char* threads : {"1", "2", "8"}) {
     const TemporaryFolder folder;
-    const CommandResult result = run_maxwrench(
-        "run problem=planar/force budget=400 --out . --threads " + std::string(threads),
-        folder.path());
+    const CommandResult result =
+        run_maxwrench(fmt::format("run problem=planar/force budget={} --out . --threads {}",
+                                  std::max(400 / kSampleDivisor, 40), threads),
+                      folder.path());
     ASSERT_EQ(result.exit_status, 0) << result.err;
     const std::string values = read_text(folder.path() / "values.csv");
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "times.csv"));
     EXPECT_GT(std::count(values.begin(), values.end(), '\n'), 20);
     if (first.empty()) first = values;
     EXPECT_EQ(values, first) << threads << " threads";
+  }
+}
+
+TEST(Command, CompareWritesTheSameValuesAgain) {
+  std::string first;
+  for (int run = 0; run < 2; ++run) {
+    const TemporaryFolder folder;
+    const CommandResult result =
+        run_maxwrench("compare planar/force --budget 300 --seeds 2 --out .", folder.path());
+    ASSERT_EQ(result.exit_status, 0) << result.err;
+    EXPECT_NE(result.out.find("nullspace"), std::string::npos);
+    const std::string values = read_text(folder.path() / "search_comparison.csv");
+    EXPECT_GT(std::count(values.begin(), values.end(), '\n'), 18);
+    EXPECT_NE(read_text(folder.path() / "search_comparison.svg").find("<polyline"),
+              std::string::npos);
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "search_times.csv"));
+    if (run == 0) first = values;
+    EXPECT_EQ(values, first);
   }
 }
 

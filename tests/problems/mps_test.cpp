@@ -112,6 +112,7 @@ TEST(Mps, BadFilesAreRefusedByName) {
       {head + "QUADOBJ\n X X 1\nENDATA\n", "QUADOBJ"},
       {head + " M1 'MARKER' 'SOSORG'\nENDATA\n", "SOS"},
       {head + " X R1 2\nENDATA\n", "contradictions"},
+      {head + " Y COST 1\n X R1 2\nENDATA\n", "column X together"},
       {"NAME X\nROWS\n N COST\n K R1\nENDATA\n", "line 4"},
       {"NAME X\nOBJSENSE\n    SIDEWAYS\nROWS\n N COST\n", "MIN or MAX"},
       {head + " " + std::string(500, 'Y') + " R1 1\nENDATA\n", "100 characters"}};

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "benchmarks/case.h"
+#include "lib/search.h"
+
+namespace maxwrench {
+
+/// One run of a search on one thread, with the time of the processor (what other programs use does
+/// not count).
+struct Attempt {
+  Case choice;
+  double value = -kInfinity;
+  long evaluations = 0;
+  double seconds = 0;                ///< of the whole run
+  std::vector<Improvement> history;  ///< by evaluations
+  std::vector<double> improved_at;   ///< seconds of each rise of the best value ...
+  std::vector<double> improved_to;   ///< ... and the value it rose to
+
+  /// Evaluations until the best value reached `target`, infinity if it never did.
+  double evaluations_to(double target) const;
+  double seconds_to(double target) const;
+  /// The best value after so many evaluations, -infinity before the first.
+  double value_after(double count) const;
+};
+
+Attempt attempt(const Problem& problem, const Case& c);
+
+/// All attempts of one search through one lower-level solver.
+struct Contender {
+  std::string search, lp;
+  std::vector<Attempt> attempts;  ///< seeds 1, 2, ...
+};
+
+/// All searches on one problem.
+struct Comparison {
+  std::string problem, unit;
+  std::vector<Contender> contenders;  ///< in the order of the table of searches
+  /// Annealing through GLPK, a general solver of linear programs: the plain way, of which every
+  /// speed is a multiple. No attempts if there is no such solver.
+  Contender reference;
+
+  /// The best value of all attempts.
+  double best() const;
+  /// What counts as reached: a thousandth below the best.
+  double target() const;
+};
+
+/// Runs every search with `seeds` seeds; `base` holds measure, wrench, lp and budget. `done` is
+/// called after each attempt.
+Comparison compare(const Problem& problem, const Case& base, int seeds,
+                   const std::function<void()>& done);
+/// How many attempts that makes.
+long attempt_count(int seeds);
+
+/// The middle value, the mean of the two middle ones of an even number; infinity if there is none.
+double median(std::vector<double> values);
+
+}  // namespace maxwrench

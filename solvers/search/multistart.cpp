@@ -1,0 +1,124 @@
+#include "solvers/search/multistart.h"
+
+#include <IpIpoptApplication.hpp>
+#include <IpTNLP.hpp>
+#include <algorithm>
+
+#include "solvers/ipopt_lock.h"
+#include "solvers/search/stages.h"
+
+namespace maxwrench {
+namespace {
+
+using Ipopt::Index;
+using Ipopt::Number;
+
+/// min -f(theta_r(x)) subject to 0 <= x <= 1, with the exact gradient. Where f has no value, Ipopt
+/// is told so and shortens its step.
+class BoundedNlp : public Ipopt::TNLP {
+ public:
+  BoundedNlp(Probe& probe, const Box& box, Eigen::VectorXd start)
+      : probe_(probe), box_(box), start_(std::move(start)) {}
+
+  bool get_nlp_info(Index& n, Index& m, Index& nnz_jac, Index& nnz_hessian,
+                    IndexStyleEnum& style) override {
+    n = box_.free();
+    m = nnz_jac = nnz_hessian = 0;
+    style = TNLP::C_STYLE;
+    return true;
+  }
+  bool get_bounds_info(Index n, Number* l, Number* u, Index, Number*, Number*) override {
+    std::fill(l, l + n, 0.0);
+    std::fill(u, u + n, 1.0);
+    return true;
+  }
+  bool get_starting_point(Index n, bool, Number* x, bool, Number*, Number*, Index, bool,
+                          Number*) override {
+    std::copy(start_.data(), start_.data() + n, x);
+    return true;
+  }
+  bool eval_f(Index n, const Number* x, bool, Number& value) override {
+    if (!look(n, x)) return false;
+    value = -value_;
+    return true;
+  }
+  bool eval_grad_f(Index n, const Number* x, bool, Number* gradient) override {
+    if (!look(n, x)) return false;
+    Eigen::Map<Eigen::VectorXd>(gradient, n) = -slope_;
+    return slope_.allFinite();
+  }
+  bool eval_g(Index, const Number*, bool, Index, Number*) override { return true; }
+  bool eval_jac_g(Index, const Number*, bool, Index, Index, Index*, Index*, Number*) override {
+    return true;
+  }
+  bool intermediate_callback(Ipopt::AlgorithmMode, Index, Number, Number, Number, Number, Number,
+                             Number, Number, Number, Index, const Ipopt::IpoptData*,
+                             Ipopt::IpoptCalculatedQuantities*) override {
+    return probe_.left() > 0;
+  }
+  void finalize_solution(Ipopt::SolverReturn, Index, const Number*, const Number*, const Number*,
+                         Index, const Number*, const Number*, Number, const Ipopt::IpoptData*,
+                         Ipopt::IpoptCalculatedQuantities*) override {
+    // The probe has kept the best point.
+  }
+
+ private:
+  /// Value and gradient at x, once for each point: Ipopt asks for them one after the other.
+  bool look(Index n, const Number* x) {
+    const Eigen::Map<const Eigen::VectorXd> point(x, n);
+    if (x_.size() != n || x_ != point) {
+      if (probe_.left() == 0) return false;
+      x_ = point;
+      value_ = probe_.evaluate(box_.theta_r(x_), &gradient_);
+      slope_ = box_.slope(gradient_);
+    }
+    return value_ != -kInfinity;
+  }
+
+  Probe& probe_;
+  const Box& box_;
+  const Eigen::VectorXd start_;
+  Eigen::VectorXd x_, gradient_, slope_;
+  double value_ = -kInfinity;
+};
+
+Ipopt::SmartPtr<Ipopt::IpoptApplication> make_application() {
+  Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(false);
+  auto options = application->Options();
+  options->SetIntegerValue("print_level", 0);
+  options->SetStringValue("sb", "yes");
+  options->SetStringValue("hessian_approximation", "limited-memory");
+  options->SetNumericValue("bound_relax_factor", 0);
+  options->SetIntegerValue("max_iter", 40);
+  application->Initialize("");
+  return application;
+}
+
+/// Local solves by Ipopt (interior point, limited-memory quasi-Newton, exact gradient) from the
+/// best points of a sample: what fmincon with MultiStart does. One start for each 500 evaluations
+/// of the budget and at most 64, for a start costs far more time than its evaluations. They run one
+/// after the other behind one lock; threads speed up the other two stages only. Where the objective
+/// has a kink the line search gives up, and the last stage goes on from there.
+class Multistart final : public Search {
+ public:
+  SearchResult maximize(Objective& objective, const SearchOptions& options) override {
+    const auto starts = static_cast<std::size_t>(std::clamp(options.budget / 500, 1L, 64L));
+    return search_in_stages(objective, options, 1,
+                            [starts](Probe& probe, const Box& box, const Sample& sample,
+                                     long /*part*/, const Random& /*random*/) {
+                              const std::lock_guard guard(ipopt_lock());
+                              const std::size_t count = std::min(sample.starts.size(), starts);
+                              for (std::size_t i = 0; i < count && probe.left() > 0; ++i) {
+                                const Ipopt::SmartPtr<Ipopt::TNLP> nlp =
+                                    new BoundedNlp(probe, box, sample.starts[i]);
+                                make_application()->OptimizeTNLP(nlp);
+                              }
+                            });
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Search> make_multistart() { return std::make_unique<Multistart>(); }
+
+}  // namespace maxwrench
