@@ -84,15 +84,17 @@ void print_shares(const Problem& problem) {
   Case c = complete({problem.name, "linf_polytope", Wrench::kPure});
   c.search.clear();
   const Row row = evaluate(problem, c, problem.theta_r_default);
-  fmt::print("\nstatic experiment of 15 s at the default posture, 1500 control periods\n");
-  fmt::print("{:<12} {:>8} {:>9} {:>11} {:>10} {:>6} {:>12}\n", "integrator", "s", "model",
-             "integrator", "control", "QP", "evaluations");
+  fmt::print(
+      "\nstatic experiment of 15 s at the default posture, 1500 control periods, on one core\n");
+  fmt::print("{:<12} {:>8} {:>10} {:>9} {:>11} {:>10} {:>6} {:>12}\n", "integrator", "s",
+             "real time", "model", "integrator", "control", "QP", "evaluations");
   for (const char* name : {"cvode", "ida"}) {
-    const TankRun run = run_tank(problem, row.posture, row.capability.h, row.capability.u,
+    const TankRun run = run_tank(problem, row.posture, {row.capability.h, row.capability.u},
                                  *find_integrator(name).make(), {});
     const double rest = run.total_s - run.model_s - run.controller_s - run.qp_s;
-    fmt::print("{:<12} {:>8.3f} {:>7.0f} % {:>9.0f} % {:>8.1f} % {:>4.1f} % {:>12}\n", name,
-               run.total_s, 100 * run.model_s / run.total_s, 100 * rest / run.total_s,
+    fmt::print("{:<12} {:>8.3f} {:>8.0f} x {:>7.0f} % {:>9.0f} % {:>8.1f} % {:>4.1f} % {:>12}\n",
+               name, run.total_s, run.samples.back().t / run.total_s,
+               100 * run.model_s / run.total_s, 100 * rest / run.total_s,
                100 * run.controller_s / run.total_s, 100 * run.qp_s / run.total_s, run.evaluations);
   }
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "cli/svg.h"
 #include "solvers/strategies.h"
@@ -11,7 +12,6 @@
 namespace maxwrench {
 namespace {
 
-constexpr double kKilogram = 9.81;  // N; the tank lifted weights
 constexpr double kLeft = 56, kTop = 20, kWidth = 620, kHeight = 300, kBelow = 46,
                  kRight = 90;  // px
 constexpr const char* kColours[] = {"#222222", "#E69F00", "#0072B2", "#009E73", "#D55E00"};
@@ -66,20 +66,30 @@ TankRun simulate_tank(const Problem& problem, const Row& row, double planned,
   // Beyond the capability only the component along c grows; below it all of them shrink, which the
   // convex set of efforts allows.
   const double share = std::clamp(planned / capability.beta, 0.0, 1.0);
-  Vector6d h = share * capability.h;
-  h += (planned - problem.c.dot(h)) * problem.c;
-  return run_tank(problem, row.posture, h, share * capability.u,
-                  *find_integrator(integrator).make(), options);
+  TankPlan plan{share * capability.h, share * capability.u, row.choice.wrench};
+  plan.h += (planned - problem.c.dot(plan.h)) * problem.c;
+  return run_tank(problem, row.posture, plan, *find_integrator(integrator).make(), options);
+}
+
+TankRun simulate_load(const Problem& problem, const Row& row, double load,
+                      const std::string& integrator, TankOptions options) {
+  if (!problem.c.isApprox(Vector6d::Unit(2), 1e-9)) {
+    throw std::invalid_argument(
+        "--load: got a task whose wrench is not the force upwards, which a "
+        "weight asks for; expected one such as uvms/lift");
+  }
+  options.load = load;
+  return simulate_tank(problem, row, load * problem.robot.gravity, integrator, options);
 }
 
 int heaviest_load(const Problem& problem, const Row& row, const std::string& integrator,
-                  const TankOptions& options) {
-  TankOptions released = options;
-  released.release = true;
-  int held = 0, lost = static_cast<int>(row.capability.beta / kKilogram) + 2;
+                  TankOptions options) {
+  options.until_hold = true;
+  int held = 0;
+  int lost = static_cast<int>(row.capability.beta / problem.robot.gravity) + 2;
   while (lost - held > 1) {
     const int mass = (held + lost) / 2;
-    const TankRun run = simulate_tank(problem, row, mass * kKilogram, integrator, released);
+    const TankRun run = simulate_load(problem, row, mass, integrator, options);
     (run.summary.held ? held : lost) = mass;
   }
   return held;
@@ -89,14 +99,14 @@ std::string tank_csv(const Problem& problem, const TankRun& run) {
   std::string text = "t,planned,reading,f_x,f_y,f_z,n_x,n_y,n_z";
   for (const Thruster& thruster : problem.robot.thrusters) text += "," + thruster.name;
   for (const Joint& joint : problem.robot.joints) text += "," + joint.name;
-  text += ",saturated,relaxed,shortfall,joint_error,position_error\n";
+  text += ",saturated,relaxed,shortfall,drift,position_error\n";
   for (const TankSample& sample : run.samples) {
     text +=
         fmt::format("{:.6g},{:.6g},{:.6g}", sample.t, sample.planned, problem.c.dot(sample.h_e));
     for (const double value : sample.h_e) text += fmt::format(",{:.6g}", value);
     for (const double value : sample.u) text += fmt::format(",{:.6g}", value);
     text += fmt::format(",{},{},{:.3g},{:.3g},{:.3g}\n", int{sample.saturated}, int{sample.relaxed},
-                        sample.shortfall, sample.joint_error, sample.position_error);
+                        sample.shortfall, sample.drift, sample.position_error);
   }
   return text;
 }

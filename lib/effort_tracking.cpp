@@ -6,64 +6,67 @@
 namespace maxwrench {
 namespace {
 
-constexpr double kReached = 1e-8;    // of the largest control effort, at least 1
-constexpr double kMissed = 1e-6;     // likewise: from here on it is not reached
-constexpr double kAtBound = 1e-9;    // of an effort
-constexpr double kStiffness = 1e5;   // of P beside Q, by their traces
-constexpr int kMultiplierSteps = 6;  // each shrinks what is missing by about kStiffness
+constexpr double kReached = 1e-9;     // of the largest control effort, at least 1
+constexpr double kMissed = 1e-6;      // likewise: from here on it is not reached
+constexpr double kAtBound = 1e-9;     // of an effort
+constexpr double kStiffness = 1e6;    // of what is missing beside the distance to u*
+constexpr double kRankMargin = 1e-9;  // of B Q^-1 B', which has an inverse even so
+constexpr int kMultiplierSteps = 8;   // each shrinks what is missing by up to kStiffness
 constexpr int kIterationsPerEffort = 20;
 
 }  // namespace
 
-EffortTracker::EffortTracker(const Eigen::MatrixXd& B, const Eigen::VectorXd& Q)
-    : B_(B), BQ_(Q.cwiseInverse().asDiagonal() * B.transpose()), Q_(Q) {
-  full_rank_ = Eigen::FullPivLU<Eigen::MatrixXd>(B).rank() == B.rows();
-  if (full_rank_) BQB_.compute(B * BQ_);
-  side_.resize(static_cast<std::size_t>(B.cols()));
-}
-
-bool EffortTracker::pseudo_inverse(const EffortRequest& request, EffortAnswer& answer) {
-  if (!full_rank_) return false;
-  rhs_ = request.tau_c - B_ * request.u_star;
-  answer.u = request.u_star + BQ_ * BQB_.solve(rhs_);
-  return (answer.u.array() >= request.lower.array()).all() &&
-         (answer.u.array() <= request.upper.array()).all();
-}
+EffortTracker::EffortTracker(const Eigen::VectorXd& Q)
+    : Q_(Q), side_(static_cast<std::size_t>(Q.size())) {}
 
 void EffortTracker::solve(const EffortRequest& request, EffortAnswer& answer) {
   answer.iterations = 0;
-  answer.saturated = answer.relaxed = false;
+  answer.saturated = false;
   const double scale = std::max(1.0, request.tau_c.lpNorm<Eigen::Infinity>());
-  if (!pseudo_inverse(request, answer)) {
-    const Eigen::MatrixXd PB = request.P * B_;
-    H_ = B_.transpose() * PB;
-    const double rho =
-        kStiffness * Q_.maxCoeff() / (request.P.trace() / static_cast<double>(B_.rows()));
-    H_ *= rho;
-    H_.diagonal() += Q_;
-    std::fill(side_.begin(), side_.end(), 0);
-    y_ = request.tau_c;
-    answer.u = answer.u.size() == Q_.size() ? answer.u : request.u_star;
-    answer.u = answer.u.cwiseMax(request.lower).cwiseMin(request.upper);
-    Eigen::VectorXd first;
-    for (int step = 0; step < kMultiplierSteps; ++step) {
-      f_ = Q_.cwiseProduct(request.u_star) + rho * PB.transpose() * y_;
-      minimise_in_box(request, answer);
-      if (step == 0) first = answer.u;
-      rhs_ = request.tau_c - B_ * answer.u;
-      if (rhs_.lpNorm<Eigen::Infinity>() <= kReached * scale) break;
-      y_ += rhs_;
-    }
-    // Multipliers of what cannot be had grow without end: the first answer is the least squares.
-    if (rhs_.lpNorm<Eigen::Infinity>() > kReached * scale) answer.u = first;
-  }
-  answer.shortfall = (B_ * answer.u - request.tau_c).lpNorm<Eigen::Infinity>();
+  BQ_ = Q_.cwiseInverse().asDiagonal() * request.B.transpose();
+  S_ = request.B * BQ_;
+  S_.diagonal().array() += kRankMargin * S_.trace() / static_cast<double>(S_.rows());
+  factored_S_.compute(S_);
+  if (!pseudo_inverse(request, answer)) active_set(request, scale, answer);
+  answer.shortfall = (request.B * answer.u - request.tau_c).lpNorm<Eigen::Infinity>();
   answer.relaxed = answer.shortfall > kMissed * scale;
   for (Eigen::Index i = 0; i < Q_.size(); ++i) {
     const double margin = kAtBound * (1 + std::abs(answer.u[i]));
     answer.saturated |=
         answer.u[i] - request.lower[i] < margin || request.upper[i] - answer.u[i] < margin;
   }
+}
+
+/// True if it is within the bounds. The second step removes what kRankMargin adds.
+bool EffortTracker::pseudo_inverse(const EffortRequest& request, EffortAnswer& answer) {
+  answer.u = request.u_star;
+  for (int step = 0; step < 2; ++step) {
+    rhs_ = request.tau_c - request.B * answer.u;
+    answer.u += BQ_ * factored_S_.solve(rhs_);
+  }
+  return (answer.u.array() >= request.lower.array()).all() &&
+         (answer.u.array() <= request.upper.array()).all();
+}
+
+/// With P = (B Q^-1 B')^-1: min (u - u*)'Q(u - u*) + rho (B u - y)'P(B u - y) within the bounds,
+/// where y starts as tau_c and moves until B u = tau_c.
+void EffortTracker::active_set(const EffortRequest& request, double scale, EffortAnswer& answer) {
+  PB_ = factored_S_.solve(request.B);
+  H_ = kStiffness * request.B.transpose() * PB_;
+  H_.diagonal() += Q_;
+  std::fill(side_.begin(), side_.end(), 0);
+  y_ = request.tau_c;
+  answer.u = answer.u.cwiseMax(request.lower).cwiseMin(request.upper);
+  for (int step = 0; step < kMultiplierSteps; ++step) {
+    f_ = Q_.cwiseProduct(request.u_star) + kStiffness * PB_.transpose() * y_;
+    minimise_in_box(request, answer);
+    if (step == 0) first_ = answer.u;
+    rhs_ = request.tau_c - request.B * answer.u;
+    if (rhs_.lpNorm<Eigen::Infinity>() <= kReached * scale) return;
+    y_ += rhs_;
+  }
+  // Multipliers of what cannot be had grow without end: the first answer is the nearest one.
+  if (rhs_.lpNorm<Eigen::Infinity>() > kMissed * scale) answer.u = first_;
 }
 
 /// min u'H u/2 - f'u within the bounds, from answer.u within them and the sides of its bounds.

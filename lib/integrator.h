@@ -33,7 +33,8 @@ class Integrator {
   /// kOptimal: all times were reached, or a root was, which is then the last point.
   /// kBudgetExhausted: max_steps did not suffice. kNumericalError: no step was short enough. After
   /// these two the last point is the last one that was reached. Throws std::invalid_argument
-  /// unless the times increase and are at least two.
+  /// unless the times increase and are at least two, absolute tolerance and step are positive and
+  /// the relative tolerance is not negative.
   virtual Status integrate(Ode& ode, const IntegratorOptions& options,
                            std::span<const double> times, Trajectory& trajectory) = 0;
 };

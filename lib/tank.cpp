@@ -26,29 +26,37 @@ double profile(double t, const TankOptions& options) {
   return down <= 0 ? 1 : std::max(0.0, 1 - down / options.ramp);
 }
 
+/// With the load as a point mass at the end effector.
+Problem loaded(Problem problem, double load) {
+  if (load == 0) return problem;
+  const EndEffector& tool =
+      problem.robot.end_effectors[static_cast<std::size_t>(problem.end_effector)];
+  add_body(problem.robot.links[static_cast<std::size_t>(tool.link)], load, tool.placement.p,
+           Eigen::Matrix3d::Zero());
+  return problem;
+}
+
 /// One experiment in steps of the control period.
 class Experiment {
  public:
-  Experiment(const Problem& problem, const Posture& posture, const Vector6d& h,
-             const Eigen::VectorXd& u_plan, Integrator& integrator, const TankOptions& options)
-      : problem_(problem),
+  Experiment(const Problem& problem, const Posture& posture, const TankPlan& plan,
+             Integrator& integrator, const TankOptions& options)
+      : problem_(loaded(problem, options.load)),
         options_(options),
-        h_(h),
-        u_plan_(u_plan),
+        plan_(plan),
         integrator_(integrator),
-        ode_(problem, posture, options),
-        controller_(problem, posture, options),
+        ode_(problem_, posture, options),
+        controller_(problem_, posture, plan.wrench, options),
         random_(options.imperfections.seed) {
     begin(posture);
   }
 
   TankRun run() {
     const Clock::time_point start = Clock::now();
-    const double length = 2 * options_.ramp + options_.hold;
+    const double length = (options_.until_hold ? 1 : 2) * options_.ramp + options_.hold;
     const long periods = std::lround(length / options_.period);
     run_.status = Status::kOptimal;
-    for (long k = 0; k < periods && run_.status == Status::kOptimal; ++k) period(k);
-    run_.requests = periods;
+    for (long k = 0; k < periods && run_.status == Status::kOptimal && !lost(); ++k) period(k);
     run_.evaluations = ode_.evaluations();
     run_.model_s = ode_.seconds();
     run_.total_s = seconds_since(start);
@@ -59,14 +67,21 @@ class Experiment {
  private:
   void begin(const Posture& posture) {
     motion_ = {posture.base, posture.q, Eigen::VectorXd::Zero(problem_.robot.velocities())};
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(u_plan_.size());
-    controller_.request(motion_, Vector6d::Zero(), none, none, kInfinity, request_);
-    tracker().solve(request_, answer_);
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(plan_.u.size());
+    controller_.request(motion_, exerted(0), none, none, kInfinity, request_);
+    controller_.tracker().solve(request_, answer_);
     u_0_ = u_ = answer_.u;
     ode_.start(motion_, u_);
   }
 
-  EffortTracker& tracker() { return controller_.tracker(); }
+  /// What the robot exerts on its environment at a share of the plan: on what holds the load up,
+  /// the weight that it does not carry itself.
+  Vector6d exerted(double share) const { return (options_.load > 0 ? share - 1 : share) * plan_.h; }
+
+  /// The share that is asked for. A load is what it is.
+  double asked(double share) const {
+    return options_.load > 0 ? share : (1 - options_.margin) * share;
+  }
 
   void period(long k) {
     const double t_0 = static_cast<double>(k) * options_.period;
@@ -76,19 +91,20 @@ class Experiment {
     const double s = profile(t_1, options_);
     const Clock::time_point start = Clock::now();
     // The efforts are those of t_1, so the motion is that of t_1 too, as far as it can be told.
-    controller_.request(advanced(problem_.robot, motion_, options_.period), s * h_,
-                        u_0_ + s * (u_plan_ - u_0_), u_, options_.period, request_);
-    const Clock::time_point asked = Clock::now();
-    tracker().solve(request_, answer_);
-    run_.qp_s += seconds_since(asked);
-    run_.controller_s += std::chrono::duration<double>(asked - start).count();
+    controller_.request(advanced(problem_.robot, motion_, options_.period), exerted(asked(s)),
+                        u_0_ + asked(s) * (plan_.u - u_0_), u_, options_.period, request_);
+    const Clock::time_point asked_at = Clock::now();
+    controller_.tracker().solve(request_, answer_);
+    run_.qp_s += seconds_since(asked_at);
+    run_.controller_s += std::chrono::duration<double>(asked_at - start).count();
+    ++run_.requests;
     run_.active_set_iterations += answer_.iterations;
-    ode_.command(t_0, u_, t_1, answer_.u, profile(t_0, options_) * h_, s * h_);
+    ode_.command(t_0, u_, t_1, answer_.u, exerted(profile(t_0, options_)), exerted(s));
     draw_noise();
     run_.status = integrator_.integrate(ode_, options_.integrator, std::array{t_0, t_1}, path_);
     run_.reason = path_.reason;
     ode_.restart(path_.y.back());
-    keep(t_1, s, u_);
+    keep(t_1, s);
   }
 
   void draw_noise() {
@@ -98,62 +114,74 @@ class Experiment {
     ode_.set_noise(noise);
   }
 
-  void keep(double t, double s, const Eigen::VectorXd& before) {
+  void keep(double t, double s) {
     ode_.read(ode_.initial(), motion_);
     TankSample sample;
     sample.t = t;
-    sample.planned = s * problem_.c.dot(h_);
+    sample.planned = s * problem_.c.dot(plan_.h);
     sample.h_e = ode_.wrench(t, motion_);
+    if (options_.load > 0) sample.h_e += plan_.h;
     sample.u = ode_.efforts(t);
     sample.shortfall = answer_.shortfall;
     sample.saturated = answer_.saturated;
     sample.relaxed = answer_.relaxed;
-    sample.joint_error = controller_.joint_error(motion_);
+    sample.drift = controller_.drift(motion_);
     sample.position_error = ode_.displacement(motion_).head<3>().norm();
     const Zonotope& limits = problem_.robot.actuation;
-    const Eigen::ArrayXd rate = (sample.u - before).array().abs() / options_.period;
+    const Eigen::ArrayXd rate = (sample.u - u_).array().abs() / options_.period;
     sample.violation =
         std::max({0.0, (sample.u - limits.u_max).maxCoeff(), (limits.u_min - sample.u).maxCoeff(),
                   (rate - problem_.robot.u_rate_max.array()).maxCoeff()});
     run_.samples.push_back(std::move(sample));
   }
 
+  bool lost() const {
+    if (run_.samples.empty()) return false;
+    const TankSample& now = run_.samples.back();
+    return now.drift > kLost || now.position_error > kLost;
+  }
+
   void summarise() {
     TankSummary& summary = run_.summary;
-    summary.planned = problem_.c.dot(h_);
-    summary.low = kInfinity;
-    summary.high = -kInfinity;
+    summary.planned = problem_.c.dot(plan_.h);
     int count = 0;
     for (const TankSample& sample : run_.samples) {
       summary.violation = std::max(summary.violation, sample.violation);
       const double into = sample.t - options_.ramp;
-      if (into < options_.hold / 2 || into > options_.hold) continue;
+      if (into < -options_.period / 2 || into > options_.hold + options_.period / 2) continue;
       const double reading = problem_.c.dot(sample.h_e);
+      summary.low = count == 0 ? reading : std::min(summary.low, reading);
+      summary.high = count == 0 ? reading : std::max(summary.high, reading);
       ++count;
       summary.mean += reading;
-      summary.low = std::min(summary.low, reading);
-      summary.high = std::max(summary.high, reading);
-      summary.joint_error = std::max(summary.joint_error, sample.joint_error);
+      summary.drift = std::max(summary.drift, sample.drift);
       summary.position_error = std::max(summary.position_error, sample.position_error);
       summary.shortfall += sample.shortfall;
+      summary.saturated += sample.saturated;
       summary.relaxed += sample.relaxed;
     }
+    if (lost()) {
+      summary.drift = std::max(summary.drift, run_.samples.back().drift);
+      summary.position_error = std::max(summary.position_error, run_.samples.back().position_error);
+    }
     if (count == 0) return;
-    for (double* mean : {&summary.mean, &summary.relaxed, &summary.shortfall}) *mean /= count;
+    for (double* mean : {&summary.mean, &summary.saturated, &summary.relaxed, &summary.shortfall}) {
+      *mean /= count;
+    }
     summary.held =
-        run_.status == Status::kOptimal && summary.joint_error <= kHeldJoint &&
+        run_.status == Status::kOptimal && !lost() && summary.drift <= kHeldDrift &&
         std::abs(summary.mean - summary.planned) <= kHeldShare * std::abs(summary.planned) &&
-        (!options_.release || summary.position_error <= kHeldPosition);
+        (options_.load == 0 || summary.position_error <= kHeldPosition);
   }
 
-  const Problem& problem_;
+  const Problem problem_;
   const TankOptions& options_;
-  Vector6d h_;
-  Eigen::VectorXd u_plan_, u_0_, u_;
+  const TankPlan& plan_;
   Integrator& integrator_;
   TankOde ode_;
   PostureController controller_;
   Random random_;
+  Eigen::VectorXd u_0_, u_;
   Motion motion_;
   EffortRequest request_;
   EffortAnswer answer_;
@@ -163,10 +191,9 @@ class Experiment {
 
 }  // namespace
 
-TankRun run_tank(const Problem& problem, const Posture& posture, const Vector6d& h,
-                 const Eigen::VectorXd& u_plan, Integrator& integrator,
-                 const TankOptions& options) {
-  return Experiment(problem, posture, h, u_plan, integrator, options).run();
+TankRun run_tank(const Problem& problem, const Posture& posture, const TankPlan& plan,
+                 Integrator& integrator, const TankOptions& options) {
+  return Experiment(problem, posture, plan, integrator, options).run();
 }
 
 }  // namespace maxwrench

@@ -11,13 +11,14 @@
 
 namespace maxwrench {
 
-/// What holds the end effector. Stiffness and damping of each world axis are those of a sensor
-/// between a stiff frame and the gripper, all three forces and all three torques alike.
+/// What holds the end effector. Stiffness and damping of each world axis, all three forces and all
+/// three torques alike. A commercial six-axis sensor has about 1e7 N/m and 1e5 N m/rad; the frame
+/// that carries it yields more. The damping is the stiffness times 1 ms.
 struct LoadCell {
-  double stiffness_linear = 1e5;   ///< N/m: 1 mm at 100 N
-  double stiffness_angular = 1e4;  ///< N m/rad: 0.4 degrees at 76 N m
+  double stiffness_linear = 1e6;   ///< N/m: 0.1 mm at 100 N
+  double stiffness_angular = 1e5;  ///< N m/rad: 0.06 degrees at 100 N m
   double damping_linear = 1e3;     ///< N s/m
-  double damping_angular = 50;     ///< N m s/rad
+  double damping_angular = 100;    ///< N m s/rad
 };
 
 /// How the simulated robot differs from its model. All off by default.
@@ -32,35 +33,49 @@ struct TankOptions {
   double ramp = 5, hold = 5;  ///< s
   double period = 0.01;       ///< s, between two commands; efforts are linear in between
   double thruster_lag = 0.1;  ///< s, first order
-  double stiffness = 25;      ///< 1/s^2, of the posture: acceleration per error
-  double damping = 10;        ///< 1/s
-  bool release = false;       ///< true: nothing holds the end effector, which carries a load
+  /// rad/s, of the posture's errors, critically damped: a fifth of what the thrusters follow,
+  /// 1/thruster_lag.
+  double bandwidth = 2;
+  /// Share of the planned wrench that is not asked for, so that efforts are left to hold the
+  /// posture: a quarter of kHeldShare.
+  double margin = 0.005;
+  /// kg. Positive: nothing holds the end effector, which carries this point mass.
+  double load = 0;
+  /// Ends the experiment after the hold.
+  bool until_hold = false;
   LoadCell cell;
   Imperfections imperfections;
   IntegratorOptions integrator{1e-6, 1e-8, 100000, 1e-4};
 };
 
+/// What the robot is to exert.
+struct TankPlan {
+  Vector6d h;                     ///< [N; N m] in world axes; with a load its weight
+  Eigen::VectorXd u;              ///< m, efforts that exert it at rest
+  Wrench wrench = Wrench::kPure;  ///< kAny: the cell may take any of W_any across c
+};
+
 /// One instant, at the end of a control period.
 struct TankSample {
   double t = 0;          ///< s
-  double planned = 0;    ///< c'h that the controller aims at [N, N m]
-  Vector6d h_e;          ///< the cell's reading, or the load
+  double planned = 0;    ///< c'h of the plan [N, N m]
+  Vector6d h_e;          ///< the cell's reading, or the part of the load's weight that is carried
   Eigen::VectorXd u;     ///< m, actual efforts without noise
   double shortfall = 0;  ///< see EffortAnswer
   bool saturated = false, relaxed = false;
-  double joint_error = 0;     ///< max |theta_r - its reference| [rad, m]
+  double drift = 0;           ///< max |theta_r - its reference| [rad, m]
   double position_error = 0;  ///< of the end effector [m]
   double violation = 0;       ///< how far efforts or rates leave their limits [N, N m, N/s]
 };
 
-/// What the second half of the hold was like.
+/// What the hold was like. If the posture was lost, drift and position_error reach to that instant.
 struct TankSummary {
   double planned = 0;                  ///< c'h [N, N m]
   double mean = 0, low = 0, high = 0;  ///< c'h_e
-  double joint_error = 0;              ///< largest [rad, m]
-  double position_error = 0;           ///< m
+  double drift = 0;                    ///< largest [rad, m]
+  double position_error = 0;           ///< largest [m]
   double violation = 0;                ///< largest of the whole experiment
-  double relaxed = 0;                  ///< share of the periods without efforts for tau_c
+  double saturated = 0, relaxed = 0;   ///< shares of the periods
   double shortfall = 0;                ///< mean [N, N m]
   bool held = false;
 };
@@ -75,20 +90,28 @@ struct TankRun {
   double model_s = 0, controller_s = 0, qp_s = 0, total_s = 0;
 };
 
-/// Limits of what counts as held, during the second half of the hold.
+/// Held is a wrench whose mean is this close to the plan, while the posture stays this close to its
+/// reference.
 inline constexpr double kHeldShare = 0.02;     ///< of the planned c'h
-inline constexpr double kHeldJoint = 0.05;     ///< rad, m
-inline constexpr double kHeldPosition = 0.03;  ///< m, of an end effector that carries a load
+inline constexpr double kHeldDrift = 0.01;     ///< rad, m: 0.6 degrees
+inline constexpr double kHeldPosition = 0.01;  ///< m, of an end effector that carries a load
+/// This far from its reference the posture is lost, which ends the experiment [rad, m].
+inline constexpr double kLost = 0.5;
 
-/// The experiment at `posture`: the wrench grows from zero to h in the ramp, stays, and shrinks.
-/// Efforts follow the plan u* = (1 - s) u_0 + s u_plan, u_0 those at rest, by the tracking program
-/// (see EffortTracker) for
+/// The experiment at `posture`: a share s of the wrench grows from zero to one in the ramp, stays,
+/// and shrinks. Efforts follow the plan u* = (1 - s) u_0 + s u, u_0 those at rest, by the tracking
+/// program (see EffortTracker) for
 ///
-///     tau_c = C v + D v + g + s J'h + M a,   a = A_r (k e_r - d theta_r_dot)
+///     tau_c = C v + D v + g + s J'h + M a,   a = A_r (omega^2 e_r - 2 omega theta_r_dot)
 ///
-/// where e_r are the errors of theta_r; what A_r accelerates leaves the end effector alone, so the
-/// reading is that of the plan. Released, a = k e - d v acts on all velocities.
-TankRun run_tank(const Problem& problem, const Posture& posture, const Vector6d& h,
-                 const Eigen::VectorXd& u_plan, Integrator& integrator, const TankOptions& options);
+/// where e_r are the errors of theta_r and omega the bandwidth; what A_r accelerates leaves the end
+/// effector alone, so the reading is that of the plan. With kAny the rows of the balance are those
+/// combinations in which the wrenches across c have no part.
+///
+/// A load is part of the robot's mass matrix and weight from the start; what holds it up lets go in
+/// the ramp. Then a = omega^2 e - 2 omega v acts on all velocities, e the errors of base and
+/// joints.
+TankRun run_tank(const Problem& problem, const Posture& posture, const TankPlan& plan,
+                 Integrator& integrator, const TankOptions& options);
 
 }  // namespace maxwrench

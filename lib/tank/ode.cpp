@@ -54,13 +54,13 @@ void TankOde::start(const Motion& motion, const Eigen::VectorXd& u) {
 }
 
 void TankOde::command(double t_0, const Eigen::VectorXd& u_0, double t_1,
-                      const Eigen::VectorXd& u_1, const Vector6d& load_0, const Vector6d& load_1) {
+                      const Eigen::VectorXd& u_1, const Vector6d& h_0, const Vector6d& h_1) {
   t_0_ = t_0;
   t_1_ = t_1;
   u_0_ = u_0;
   u_1_ = u_1;
-  load_0_ = load_0;
-  load_1_ = load_1;
+  exerted_0_ = h_0;
+  exerted_1_ = h_1;
 }
 
 Eigen::VectorXd TankOde::efforts(double t) const {
@@ -81,7 +81,7 @@ Vector6d TankOde::displacement(const Motion& motion) {
 Vector6d TankOde::wrench(double t, const Motion& motion) {
   const Vector6d moved = displacement(motion);
   dynamics_.kinematics().jacobian(tool_, motion.base.R, J_);
-  if (options_.release) return load_0_ + share(t) * (load_1_ - load_0_);
+  if (options_.load > 0) return exerted_0_ + share(t) * (exerted_1_ - exerted_0_);
   return stiffness_.cwiseProduct(moved) + damping_.cwiseProduct(J_ * motion.v);
 }
 

@@ -16,9 +16,9 @@ class TankOde final : public Ode {
   /// At rest or not, with efforts that have settled.
   void start(const Motion& motion, const Eigen::VectorXd& u);
   void restart(const Eigen::VectorXd& y) { start_ = y; }
-  /// Efforts and, of a load, its wrench, from t_0 to t_1.
+  /// Efforts and, with a load, what is exerted on its support, from t_0 to t_1.
   void command(double t_0, const Eigen::VectorXd& u_0, double t_1, const Eigen::VectorXd& u_1,
-               const Vector6d& load_0, const Vector6d& load_1);
+               const Vector6d& h_0, const Vector6d& h_1);
   void set_noise(const Eigen::VectorXd& noise) { noise_ = noise; }
 
   const Eigen::VectorXd& initial() const override { return start_; }
@@ -30,7 +30,8 @@ class TankOde final : public Ode {
   void read(const Eigen::VectorXd& y, Motion& motion) const { read_motion(y, motion); }
   /// Of the state that `initial` returns, without noise and losses.
   Eigen::VectorXd efforts(double t) const;
-  /// h_e: K [p_e - p_0; rotation vector of R_e R_0'] + D J v, or the load.
+  /// h_e: K [p_e - p_0; rotation vector of R_e R_0'] + D J v, or what is exerted on the support of
+  /// the load.
   Vector6d wrench(double t, const Motion& motion);
   /// [m, rad] of the end effector from the pose of the task, in world axes.
   Vector6d displacement(const Motion& motion);
@@ -49,7 +50,7 @@ class TankOde final : public Ode {
   Pose<double> anchor_;
   Vector6d stiffness_, damping_;
   Eigen::VectorXd rate_max_, start_, u_0_, u_1_, noise_, u_, tau_, v_d_, tau_d_, rates_;
-  Vector6d load_0_ = Vector6d::Zero(), load_1_ = Vector6d::Zero(), h_e_;
+  Vector6d exerted_0_ = Vector6d::Zero(), exerted_1_ = Vector6d::Zero(), h_e_;
   double t_0_ = 0, t_1_ = 1;
   Motion motion_;
   Matrix6Xd J_;

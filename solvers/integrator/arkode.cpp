@@ -2,9 +2,7 @@
 
 #include <arkode/arkode_erkstep.h>
 
-#include <cassert>
-
-#include "solvers/integrator/check_times.h"
+#include "solvers/integrator/check_request.h"
 #include "solvers/integrator/sundials.h"
 
 namespace maxwrench {
@@ -20,16 +18,14 @@ class ArkodeSession : public sundials::Session {
                [](void* m) { ERKStepFree(&m); }};
     void* m = memory_.get();
     ERKStepSetErrHandlerFn(m, sundials::be_silent, nullptr);
-    [[maybe_unused]] const bool ready =
-        ERKStepSetOrder(m, kOrder) == ARK_SUCCESS &&
-        ERKStepSetUserData(m, static_cast<Session*>(this)) == ARK_SUCCESS &&
-        ERKStepSStolerances(m, options.relative_tolerance, options.absolute_tolerance) ==
-            ARK_SUCCESS;
-    assert(ready);
-    if (ode.roots() > 0) ERKStepRootInit(m, ode.roots(), root);
+    require(ERKStepSetOrder(m, kOrder));
+    require(ERKStepSetUserData(m, static_cast<Session*>(this)));
+    require(ERKStepSStolerances(m, options.relative_tolerance, options.absolute_tolerance));
+    if (ode.roots() > 0) require(ERKStepRootInit(m, ode.roots(), root));
   }
 
   int advance(double t, double end, double& reached) {
+    if (failure_ != 0) return failure_;
     void* m = memory_.get();
     long used = 0;
     ERKStepGetNumSteps(m, &used);
@@ -61,7 +57,7 @@ class Arkode final : public Integrator {
  public:
   Status integrate(Ode& ode, const IntegratorOptions& options, std::span<const double> times,
                    Trajectory& trajectory) override {
-    check_times(times);
+    check_request(options, times);
     trajectory = {{times[0]}, {ode.initial()}, -1, ""};
     ArkodeSession session(ode, options, times[0]);
     return sundials::run(session, times, trajectory);

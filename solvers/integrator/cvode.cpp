@@ -4,9 +4,7 @@
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
-#include <cassert>
-
-#include "solvers/integrator/check_times.h"
+#include "solvers/integrator/check_request.h"
 #include "solvers/integrator/sundials.h"
 
 namespace maxwrench {
@@ -23,17 +21,19 @@ class CvodeSession : public sundials::Session {
     memory_ = {CVodeCreate(method, context_.get()), [](void* m) { CVodeFree(&m); }};
     void* m = memory_.get();
     CVodeSetErrHandlerFn(m, sundials::be_silent, nullptr);
-    [[maybe_unused]] const bool ready =
-        CVodeInit(m, derivative, t_0, state_.get()) == CV_SUCCESS &&
-        CVodeSetUserData(m, static_cast<Session*>(this)) == CV_SUCCESS &&
-        CVodeSStolerances(m, options.relative_tolerance, options.absolute_tolerance) ==
-            CV_SUCCESS &&
-        (method == CV_BDF ? use_newton(t_0) : use_fixed_point());
-    assert(ready);
-    if (ode.roots() > 0) CVodeRootInit(m, ode.roots(), root);
+    require(CVodeInit(m, derivative, t_0, state_.get()));
+    require(CVodeSetUserData(m, static_cast<Session*>(this)));
+    require(CVodeSStolerances(m, options.relative_tolerance, options.absolute_tolerance));
+    if (method == CV_BDF) {
+      use_newton(t_0);
+    } else {
+      use_fixed_point();
+    }
+    if (ode.roots() > 0) require(CVodeRootInit(m, ode.roots(), root));
   }
 
   int advance(double t, double end, double& reached) {
+    if (failure_ != 0) return failure_;
     void* m = memory_.get();
     long used = 0;
     CVodeGetNumSteps(m, &used);
@@ -54,17 +54,15 @@ class CvodeSession : public sundials::Session {
   }
 
  private:
-  bool use_newton(double t_0) {
+  void use_newton(double t_0) {
     make_linear_solver();
-    if (CVodeSetLinearSolver(memory_.get(), linear_.get(), matrix_.get()) != CV_SUCCESS)
-      return false;
-    return !ode_.jacobian(t_0, y_, jacobian_) ||
-           CVodeSetJacFn(memory_.get(), jacobian) == CV_SUCCESS;
+    require(CVodeSetLinearSolver(memory_.get(), linear_.get(), matrix_.get()));
+    if (ode_.jacobian(t_0, y_, jacobian_)) require(CVodeSetJacFn(memory_.get(), jacobian));
   }
 
-  bool use_fixed_point() {
+  void use_fixed_point() {
     nonlinear_ = {SUNNonlinSol_FixedPoint(state_.get(), 0, context_.get()), SUNNonlinSolFree};
-    return CVodeSetNonlinearSolver(memory_.get(), nonlinear_.get()) == CV_SUCCESS;
+    require(CVodeSetNonlinearSolver(memory_.get(), nonlinear_.get()));
   }
 
   static int jacobian(double t, N_Vector y, N_Vector /*y_dot*/, SUNMatrix df_dy, void* self,
@@ -88,7 +86,7 @@ class Cvode final : public Integrator {
 
   Status integrate(Ode& ode, const IntegratorOptions& options, std::span<const double> times,
                    Trajectory& trajectory) override {
-    check_times(times);
+    check_request(options, times);
     trajectory = {{times[0]}, {ode.initial()}, -1, ""};
     CvodeSession session(ode, options, times[0], method_);
     return sundials::run(session, times, trajectory);

@@ -2,9 +2,7 @@
 
 #include <ida/ida.h>
 
-#include <cassert>
-
-#include "solvers/integrator/check_times.h"
+#include "solvers/integrator/check_request.h"
 #include "solvers/integrator/sundials.h"
 
 namespace maxwrench {
@@ -23,16 +21,15 @@ class IdaSession : public sundials::Session {
     memory_ = {IDACreate(context_.get()), [](void* m) { IDAFree(&m); }};
     void* m = memory_.get();
     IDASetErrHandlerFn(m, sundials::be_silent, nullptr);
-    [[maybe_unused]] const bool ready =
-        IDAInit(m, residual, t_0, state_.get(), rate_.get()) == IDA_SUCCESS &&
-        IDASetUserData(m, static_cast<Session*>(this)) == IDA_SUCCESS &&
-        IDASStolerances(m, options.relative_tolerance, options.absolute_tolerance) == IDA_SUCCESS &&
-        IDASetLinearSolver(m, linear_.get(), matrix_.get()) == IDA_SUCCESS;
-    assert(ready);
-    if (ode.roots() > 0) IDARootInit(m, ode.roots(), root_of_pair);
+    require(IDAInit(m, residual, t_0, state_.get(), rate_.get()));
+    require(IDASetUserData(m, static_cast<Session*>(this)));
+    require(IDASStolerances(m, options.relative_tolerance, options.absolute_tolerance));
+    require(IDASetLinearSolver(m, linear_.get(), matrix_.get()));
+    if (ode.roots() > 0) require(IDARootInit(m, ode.roots(), root_of_pair));
   }
 
   int advance(double t, double end, double& reached) {
+    if (failure_ != 0) return failure_;
     void* m = memory_.get();
     long used = 0;
     IDAGetNumSteps(m, &used);
@@ -72,7 +69,7 @@ class Ida final : public Integrator {
  public:
   Status integrate(Ode& ode, const IntegratorOptions& options, std::span<const double> times,
                    Trajectory& trajectory) override {
-    check_times(times);
+    check_request(options, times);
     trajectory = {{times[0]}, {ode.initial()}, -1, ""};
     Eigen::VectorXd y_dot(ode.dimension());
     if (!ode.derivative(times[0], ode.initial(), y_dot)) {

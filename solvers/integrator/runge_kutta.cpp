@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "solvers/integrator/check_times.h"
+#include "solvers/integrator/check_request.h"
 
 namespace maxwrench {
 namespace {
@@ -79,7 +79,7 @@ class RungeKutta final : public Integrator {
  public:
   Status integrate(Ode& ode, const IntegratorOptions& options, std::span<const double> times,
                    Trajectory& trajectory) override {
-    check_times(times);
+    check_request(options, times);
     trajectory = {{times[0]}, {ode.initial()}, -1, ""};
     Walk walk(ode, times[0]);
     long left = options.max_steps;

@@ -8,7 +8,6 @@
 #include <functional>
 #include <memory>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -45,12 +44,17 @@ class Session {
   N_Vector new_vector() const;
   /// Dense; of the implicit methods.
   void make_linear_solver();
+  /// Keeps the first failure of what an integration needs before it can start.
+  void require(int flag) {
+    if (failure_ == 0) failure_ = flag;
+  }
   /// Which component of g has the first sign in `found`.
   int first_root(const std::vector<int>& found) const;
 
   Ode& ode_;
   Eigen::VectorXd y_, y_dot_, g_;
   const IntegratorOptions& options_;
+  int failure_ = 0;                                   ///< a flag, what `advance` then returns
   Owned<std::remove_pointer_t<SUNContext>> context_;  // destroyed last
   Owned<_generic_N_Vector> state_;
   Owned<_generic_SUNMatrix> matrix_;
