@@ -97,14 +97,17 @@ std::string cell(const Row& row, double unit) {
 
 /// What the virtual tank measures: the mean torque of the hold, or the heaviest load that is held.
 struct Simulated {
+  std::string name;
   TankRun run;
   std::string cell;
   std::string beyond;  ///< what one N m more than the efforts reach does
 };
 
 /// `reach`: what any efforts exert at the posture with the wrenches of `own`.
-Simulated simulated(const Problem& problem, const Task& task, const Row& own, const Row& reach) {
+Simulated simulated(const Problem& problem, const Task& task, const char* name, const Row& own,
+                    const Row& reach) {
   Simulated result;
+  result.name = name;
   if (task.unit == kKilogram) {
     result.cell = fmt::format("{:>8}", heaviest_load(problem, reach, "cvode", {}));
     return result;
@@ -114,10 +117,19 @@ Simulated simulated(const Problem& problem, const Task& task, const Row& own, co
   result.cell = summary.held ? fmt::format("{:>8.2f}", summary.mean) : "    lost";
   const TankRun beyond = simulate_tank(problem, reach, reach.capability.beta + 1, "cvode", {});
   result.beyond = fmt::format(
-      "    {:.2f}: {}, mean reading {:.2f}, drift {:.2f} rad{}\n", beyond.summary.planned,
-      beyond.summary.held ? "held" : "not held", beyond.summary.mean, beyond.summary.drift,
+      "    {:<8} {:>5.2f}: {}, mean reading {:.2f}, drift {:.2f} rad{}\n", name,
+      beyond.summary.planned, beyond.summary.held ? "held" : "not held", beyond.summary.mean,
+      beyond.summary.drift,
       beyond.summary.drift < kLost ? "" : fmt::format(" after {:.1f} s", beyond.samples.back().t));
   return result;
+}
+
+std::string describe_beyond(const Task& task, const std::vector<Simulated>& experiments) {
+  if (task.unit == kKilogram) return "";
+  std::string text =
+      "  one N m more than efforts reach (pure, own of beta_3) in the virtual tank:\n";
+  for (const Simulated& experiment : experiments) text += experiment.beyond;
+  return text;
 }
 
 std::string posture(const Row& row) {
@@ -191,9 +203,9 @@ void write_figures(const std::filesystem::path& folder, const Problem& problem, 
 void write_tank_figure(const std::filesystem::path& folder, const Problem& problem,
                        const Task& task, const std::vector<Simulated>& experiments) {
   if (task.unit == kKilogram) return;  // a load is held or not
-  std::vector<TankCurve> curves = {{"default", &experiments.front().run}};
-  for (std::size_t i = 1; i < experiments.size(); ++i) {
-    curves.push_back({task.optima[i - 1].symbol, &experiments[i].run});
+  std::vector<TankCurve> curves;
+  for (const Simulated& experiment : experiments) {
+    curves.push_back({experiment.name, &experiment.run});
   }
   write_file(folder / (std::string(task.figure) + "_tank.svg"), tank_figure(problem, curves));
 }
@@ -204,15 +216,14 @@ std::string table(RowWriter& writer, const Task& task, const std::filesystem::pa
     return writer.evaluate(problem, yardstick(problem, wrench), problem.theta_r_default);
   };
   const Row pure = at_default(Wrench::kPure), any = at_default(Wrench::kAny);
-  std::vector<Simulated> experiments = {simulated(problem, task, pure, pure)};
-  const Simulated& at_rest = experiments.front();
+  std::vector<Simulated> experiments = {simulated(problem, task, "default", pure, pure)};
   std::string text = fmt::format(
       "{}: {} ({})\n"
       "                                      ------- gain -------\n"
       "              own     pure  virtual   tank    ours   tank   ratio  lag        theta_r\n"
       "{:<8} {:>8} {} {}  {:>5.1f}  {:>6.2f} {:>6.2f}  {:>6.2f}  {:>8}  {}\n",
-      problem.name, task.title, problem.label, "default", "", cell(pure, task.unit), at_rest.cell,
-      task.tank_default, 1.0, 1.0, 1.0, "", posture(pure));
+      problem.name, task.title, problem.label, "default", "", cell(pure, task.unit),
+      experiments.front().cell, task.tank_default, 1.0, 1.0, 1.0, "", posture(pure));
   std::string notes = fmt::format("  default posture with any wrench:{}\n", cell(any, task.unit));
   std::string digits = fmt::format("  in {}: default {:.3f}", problem.unit(), pure.capability.beta);
   std::vector<Row> optima;
@@ -225,7 +236,8 @@ std::string table(RowWriter& writer, const Task& task, const std::filesystem::pa
     const Row at_best =
         evaluate(problem, yardstick(problem, Wrench::kPure), best.row.posture.theta_r);
     const bool any_wrench = measured.wrench == Wrench::kAny;
-    experiments.push_back(simulated(problem, task, best.row, any_wrench ? best.row : at_best));
+    experiments.push_back(
+        simulated(problem, task, measured.symbol, best.row, any_wrench ? best.row : at_best));
     text += line(task, measured, best, at_best, experiments.back().cell, pure.capability.beta);
     if (any_wrench) notes += describe_orthogonal(problem, best.row);
     digits += fmt::format(", {} {:.3f}", measured.symbol, best.row.capability.beta);
@@ -235,11 +247,7 @@ std::string table(RowWriter& writer, const Task& task, const std::filesystem::pa
     write_figures(folder, problem, task, optima);
     write_tank_figure(folder, problem, task, experiments);
   }
-  if (task.unit != kKilogram) {
-    notes += "  one N m more than efforts reach (pure, own of beta_3) in the virtual tank:\n";
-    for (const Simulated& experiment : experiments) notes += experiment.beyond;
-  }
-  return text + digits + "\n" + notes;
+  return text + digits + "\n" + notes + describe_beyond(task, experiments);
 }
 
 }  // namespace

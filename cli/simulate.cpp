@@ -142,7 +142,9 @@ void add_imperfections(CLI::App& command, Imperfections& imperfections) {
                   "standard deviation of each thruster [N]")
       ->capture_default_str()
       ->check(number(not_negative, "a number >= 0"));
-  command.add_option("--seed", imperfections.seed, "of the noise")->capture_default_str();
+  command.add_option("--seed", imperfections.seed, "of the noise")
+      ->capture_default_str()
+      ->check(number(not_negative, "a number >= 0"));
 }
 
 void add_times(CLI::App& command, TankOptions& tank) {

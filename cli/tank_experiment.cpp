@@ -13,7 +13,7 @@ namespace maxwrench {
 namespace {
 
 constexpr double kLeft = 56, kTop = 20, kWidth = 620, kHeight = 300, kBelow = 46,
-                 kRight = 90;  // px
+                 kRight = 20;  // px
 constexpr const char* kColours[] = {"#222222", "#E69F00", "#0072B2", "#009E73", "#D55E00"};
 
 /// Where the curves go: time and wrench -> px.
@@ -41,7 +41,8 @@ Frame frame_of(const Problem& problem, const std::vector<TankCurve>& curves) {
 
 void draw_axes(Svg& svg, const Frame& frame, const char* unit) {
   const double step = round_step((frame.high - frame.low) / 4);
-  for (double value = std::ceil(frame.low / step) * step; value <= frame.high; value += step) {
+  for (double k = std::ceil(frame.low / step); k * step <= frame.high; ++k) {
+    const double value = k * step + 0.0;  // no negative zero
     svg.line(frame(0, value), frame(frame.t_max, value), {.stroke = "#e8e8e8", .width = 0.8});
     svg.text(frame(0, value) + Eigen::Vector2d(-6, 3.5), fmt::format("{:.6g}", value),
              {.size = 10, .anchor = Anchor::kEnd});
@@ -56,6 +57,7 @@ void draw_axes(Svg& svg, const Frame& frame, const char* unit) {
            {.anchor = Anchor::kMiddle});
   svg.text({14, kTop + kHeight / 2}, fmt::format("along c [{}]", unit),
            {.anchor = Anchor::kMiddle, .angle = 90});
+  svg.text({kLeft + 8, kTop + 10}, "reading, and the plan (dashed)", {.size = 11});
 }
 
 }  // namespace
@@ -123,12 +125,13 @@ std::string tank_figure(const Problem& problem, const std::vector<TankCurve>& cu
       const double value = problem.c.dot(sample.h_e);
       planned.push_back(frame(sample.t, sample.planned));
       reading.push_back(frame(sample.t, value));
-      if (sample.t <= 2.0 / 3 * frame.t_max) at = value;
+      if (sample.t <= frame.t_max / 2) at = value;
     }
     svg.polyline(planned, {.stroke = "#999999", .width = 1, .dash = "4 3"});
     svg.polyline(reading, {.stroke = colour, .width = 1.8});
-    svg.text(frame(2.0 / 3 * frame.t_max, at) + Eigen::Vector2d(10, 2),
-             fmt::format("{}: {:.1f}", curves[i].name, at), {.size = 11, .colour = colour});
+    svg.text(frame(frame.t_max / 2, at) - Eigen::Vector2d(0, 6),
+             fmt::format("{}: {:.1f}", curves[i].name, at),
+             {.size = 11, .colour = colour, .anchor = Anchor::kMiddle});
   }
   return svg.str();
 }

@@ -149,6 +149,19 @@ TEST_P(IntegratorTest, RefusesTimesThatDoNotIncrease) {
   EXPECT_THROW(integrate(still, {0, 1, 0.5}), std::invalid_argument);
 }
 
+TEST_P(IntegratorTest, RefusesOptionsOfNoIntegration) {
+  Given still(one(0), [](double, const auto&) { return one(0); });
+  for (double IntegratorOptions::*option :
+       {&IntegratorOptions::relative_tolerance, &IntegratorOptions::absolute_tolerance,
+        &IntegratorOptions::step}) {
+    for (const double value : {-1.0, kNan}) {
+      options = {};
+      options.*option = value;
+      EXPECT_THROW(integrate(still, {0, 1}), std::invalid_argument) << value;
+    }
+  }
+}
+
 TEST(Ode, ResidualIsThatOfTheExplicitForm) {
   Given square(one(2), [](double t, const auto& y) { return one(t * y[0]); });
   Eigen::VectorXd F;
