@@ -57,7 +57,7 @@ void draw_axes(Svg& svg, const Frame& frame, const char* unit) {
            {.anchor = Anchor::kMiddle});
   svg.text({14, kTop + kHeight / 2}, fmt::format("along c [{}]", unit),
            {.anchor = Anchor::kMiddle, .angle = 90});
-  svg.text({kLeft + 8, kTop + 10}, "reading, and the plan (dashed)", {.size = 11});
+  svg.text({kLeft + 8, kTop - 6}, "reading, and the plan (dashed)", {.size = 11});
 }
 
 }  // namespace
