@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "lib/random.h"
-#include "lib/redundancy.h"
 #include "lib/tank/controller.h"
 #include "lib/tank/ode.h"
 

@@ -39,7 +39,8 @@ struct TankOptions {
   /// Share of the planned wrench that is not asked for, so that efforts are left to hold the
   /// posture: a quarter of kHeldShare.
   double margin = 0.005;
-  /// kg. Positive: nothing holds the end effector, which carries this point mass.
+  /// kg. Positive: nothing holds the end effector, which carries this point mass. It displaces no
+  /// water.
   double load = 0;
   /// Ends the experiment after the hold.
   bool until_hold = false;

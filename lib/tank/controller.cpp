@@ -15,14 +15,17 @@ Eigen::VectorXd weights(const Zonotope& actuation) {
   return limit.square().inverse();
 }
 
-/// Orthonormal columns that span what is orthogonal to `columns`, or with `complement` off, what
-/// they span.
-Eigen::MatrixXd basis(const Eigen::MatrixXd& columns, bool complement) {
+/// Orthonormal: first what the columns span, then what is orthogonal to them.
+struct Split {
+  Eigen::MatrixXd range, complement;
+};
+
+Split split(const Eigen::MatrixXd& columns) {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
   qr.setThreshold(1e-9);
   qr.compute(columns);
   const Eigen::MatrixXd Q = qr.householderQ();
-  return complement ? Q.rightCols(Q.cols() - qr.rank()) : Q.leftCols(qr.rank());
+  return {Q.leftCols(qr.rank()), Q.rightCols(Q.cols() - qr.rank())};
 }
 
 }  // namespace
@@ -38,7 +41,7 @@ PostureController::PostureController(const Problem& problem, const Posture& post
       now_(posture),
       a_(problem.robot.velocities()) {
   if (wrench == Wrench::kAny && options.load == 0) {
-    across_ = basis(problem.W_any - problem.c * (problem.c.transpose() * problem.W_any), false);
+    across_ = split(problem.W_any - problem.c * (problem.c.transpose() * problem.W_any)).range;
   }
 }
 
@@ -79,7 +82,7 @@ void PostureController::accelerate_all(const Motion& motion) {
 /// Only those combinations of the balance's rows in which the wrenches `across_` have no part.
 void PostureController::leave_free(EffortRequest& request) const {
   if (across_.cols() == 0) return;
-  const Eigen::MatrixXd N = basis(now_.J.transpose() * across_, true);
+  const Eigen::MatrixXd N = split(now_.J.transpose() * across_).complement;
   request.B = N.transpose() * request.B;
   request.tau_c = N.transpose() * request.tau_c;
 }

@@ -153,8 +153,8 @@ void require_hydrodynamics(const Block& root, const Robot& robot) {
   if (robot.water_density > 0) return;
   root.table("environment")
       .refuse_value("water_density", fmt::format("{:g}", robot.water_density),
-                    fmt::format("a density > 0: '{}' has added mass and drag in water, which "
-                                "stand in no air",
+                    fmt::format("a density > 0: '{}' has added mass and drag, which are those "
+                                "of water",
                                 known.front().first));
 }
 
