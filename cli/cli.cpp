@@ -15,8 +15,8 @@ int run_command(int argc, const char* const* argv) {
   app.set_version_flag("--version", MAXWRENCH_VERSION);
   app.require_subcommand(1);
   int exit_status = kAnswered;
-  for (const auto add : {add_list, add_check, add_eval, add_solve, add_lp, add_run, add_plot,
-                         add_compare, add_reproduce}) {
+  for (const auto add : {add_list, add_check, add_eval, add_solve, add_lp, add_run, add_simulate,
+                         add_plot, add_compare, add_reproduce}) {
     add(app, exit_status);
   }
   try {

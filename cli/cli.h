@@ -48,6 +48,7 @@ void add_eval(CLI::App& app, int& exit_status);
 void add_solve(CLI::App& app, int& exit_status);
 void add_lp(CLI::App& app, int& exit_status);
 void add_run(CLI::App& app, int& exit_status);
+void add_simulate(CLI::App& app, int& exit_status);
 void add_plot(CLI::App& app, int& exit_status);
 void add_compare(CLI::App& app, int& exit_status);
 void add_reproduce(CLI::App& app, int& exit_status);

@@ -11,6 +11,17 @@ bool base_axes_are_integrable(const std::vector<int>& axes) {
   return std::find(kAllowed.begin(), kAllowed.end(), axes) != kAllowed.end();
 }
 
+void add_body(Link& link, double mass, const Eigen::Vector3d& com, const Eigen::Matrix3d& inertia) {
+  // About the common centre of mass, the parallel axes of both parts are those of their reduced
+  // mass at their distance.
+  const Eigen::Vector3d apart = com - link.com;
+  const double reduced = link.mass * mass / (link.mass + mass);
+  link.inertia += inertia + reduced * (apart.squaredNorm() * Eigen::Matrix3d::Identity() -
+                                       apart * apart.transpose());
+  link.com += mass / (link.mass + mass) * apart;
+  link.mass += mass;
+}
+
 void complete_actuation(Robot& robot) {
   const int n = robot.velocities();
   const int m = robot.actuators();

@@ -113,6 +113,10 @@ struct Robot {
   int actuators() const { return static_cast<int>(thrusters.size() + joints.size()); }
 };
 
+/// Makes a rigid body part of the link: its mass > 0, centre of mass, and inertia about it, in link
+/// axes.
+void add_body(Link& link, double mass, const Eigen::Vector3d& com, const Eigen::Matrix3d& inertia);
+
 /// Whether velocities along these base axes reach a group of poses: {}, {x}, {x,y}, {x,y,z}, {yaw},
 /// {x,y,yaw}, {x,y,z,yaw} or all six.
 bool base_axes_are_integrable(const std::vector<int>& axes);

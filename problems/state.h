@@ -13,7 +13,8 @@ struct State {
   Eigen::VectorXd velocity, acceleration;  ///< n, see lib/dynamics.h
 };
 
-/// Reads a state from TOML: `[theta]` with `position`, `rpy` and each joint by its name; `velocity`
+/// Reads a state from TOML: `[theta]` with the base's `position` and `rpy` in the world, which may
+/// differ from the mount along the free axes only, and each joint by its name; `velocity`
 /// and `acceleration` with n numbers, zero where they are missing. Errors as `load_robot`.
 State load_state(const std::filesystem::path& file, const Robot& robot);
 

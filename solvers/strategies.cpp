@@ -7,7 +7,10 @@
 #include <stdexcept>
 #include <vector>
 
+#include "solvers/integrator/arkode.h"
 #include "solvers/integrator/cvode.h"
+#include "solvers/integrator/ida.h"
+#include "solvers/integrator/runge_kutta.h"
 #include "solvers/lp/assembled.h"
 #include "solvers/lp/box.h"
 #include "solvers/lp/clp.h"
@@ -87,7 +90,11 @@ const SearchEntry kSearches[] = {
 };
 
 const IntegratorEntry kIntegrators[] = {
-    {"cvode", "CVODE of SUNDIALS, backward differentiation formulas", make_cvode},
+    {"cvode", "CVODE of SUNDIALS, backward differentiation formulas", true, make_cvode},
+    {"cvode_adams", "CVODE of SUNDIALS, Adams-Moulton formulas", false, make_cvode_adams},
+    {"arkode", "ARKODE of SUNDIALS, explicit Runge-Kutta method of order 5", false, make_arkode},
+    {"ida", "IDA of SUNDIALS on the residual form", true, make_ida},
+    {"runge_kutta", "own classical Runge-Kutta method with a fixed step", false, make_runge_kutta},
 };
 
 std::vector<WrenchSolverEntry> make_wrench_solvers() {
@@ -133,5 +140,8 @@ const WrenchSolverEntry& find_wrench_solver(std::string_view name) {
   return find(wrench_solvers(), "lp", name);
 }
 const SearchEntry& find_search(std::string_view name) { return find(searches(), "search", name); }
+const IntegratorEntry& find_integrator(std::string_view name) {
+  return find(integrators(), "integrator", name);
+}
 
 }  // namespace maxwrench

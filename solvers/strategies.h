@@ -55,6 +55,7 @@ struct SearchEntry {
 struct IntegratorEntry {
   const char* name;
   const char* summary;
+  bool stiff;  ///< true: its steps are not bounded by what decays fast
   std::unique_ptr<Integrator> (*make)();
 };
 
@@ -71,5 +72,6 @@ const MeasureEntry& find_measure(std::string_view name);
 const LpEntry& find_lp_solver(std::string_view name);
 const WrenchSolverEntry& find_wrench_solver(std::string_view name);
 const SearchEntry& find_search(std::string_view name);
+const IntegratorEntry& find_integrator(std::string_view name);
 
 }  // namespace maxwrench

@@ -25,7 +25,8 @@ std::string included(const std::string& line, const std::string& start) {
 }
 
 bool of_solver_library(const std::string& header) {
-  for (const char* prefix : {"Ip", "nlopt", "nvector", "cvode", "ida", "arkode", "Clp", "glpk"}) {
+  for (const char* prefix :
+       {"Ip", "nlopt", "nvector", "cvode", "ida", "arkode", "sun", "Clp", "glpk"}) {
     if (header.starts_with(prefix)) return true;
   }
   return false;

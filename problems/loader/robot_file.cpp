@@ -137,8 +137,9 @@ void read_hydrodynamics(const Block& root, const UrdfTree& tree, Robot& robot) {
 }
 
 /// What displaces water moves water: once one body has added mass, each body with a volume needs
-/// its own, if only zeros. A forgotten one would go unnoticed.
-void require_hydrodynamics(const Block& root) {
+/// its own, if only zeros. A forgotten one would go unnoticed. Added mass and drag are those of
+/// water, so there must be some.
+void require_hydrodynamics(const Block& root, const Robot& robot) {
   const Block water = root.table("hydrodynamics");
   const auto known = root.named("hydrodynamics");
   if (known.empty()) return;
@@ -149,6 +150,12 @@ void require_hydrodynamics(const Block& root) {
                                    "as '{}' does",
                                    known.front().first));
   }
+  if (robot.water_density > 0) return;
+  root.table("environment")
+      .refuse_value("water_density", fmt::format("{:g}", robot.water_density),
+                    fmt::format("a density > 0: '{}' has added mass and drag, which are those "
+                                "of water",
+                                known.front().first));
 }
 
 Shape read_capsule(const Block& block, const UrdfTree& tree) {
@@ -213,7 +220,7 @@ Robot load_robot(const std::filesystem::path& file) {
   read_end_effectors(root, tree, robot);
   read_buoyancy(root, tree, robot);
   read_hydrodynamics(root, tree, robot);
-  require_hydrodynamics(root);
+  require_hydrodynamics(root, robot);
   read_trim(root, robot);
   read_collision(root.table("collision"), tree, robot);
   complete_actuation(robot);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "problems/loader/block.h"
 #include "problems/loader/urdf_tree.h"
@@ -10,16 +11,24 @@
 namespace maxwrench {
 namespace {
 
-/// The base of a robot stays where its axes do not lead.
-void require_free_axes(const Block& theta, std::string_view key, const Eigen::Vector3d& values,
-                       int first, const Robot& robot) {
+/// Of the base from its mount: zero to rounding where its axes do not lead.
+void require_free_axes(const Block& theta, const Pose<double>& base, const Robot& robot) {
   constexpr std::array<const char*, 6> kNames = {"x", "y", "z", "roll", "pitch", "yaw"};
-  for (int i = 0; i < 3; ++i) {
+  constexpr double kRounding = 1e-9;
+  if (robot.base_axes.size() == kNames.size()) return;
+  const Pose<double> moved = robot.mount.inverse() * base;
+  const Eigen::AngleAxisd turn(moved.R);
+  Vector6d along;
+  along << moved.p, turn.angle() * turn.axis();
+  for (int i = 0; i < 6; ++i) {
     const auto& free = robot.base_axes;
-    if (values[i] == 0 || std::find(free.begin(), free.end(), first + i) != free.end()) continue;
-    const char* name = kNames[static_cast<std::size_t>(first + i)];
-    theta.refuse_value(key,
-                       fmt::format("{} = 0, because {} is not among the base's axes", name, name));
+    const bool fixed = std::find(free.begin(), free.end(), i) == free.end();
+    if (!fixed || std::abs(along[i]) <= kRounding) continue;
+    const char* name = kNames[static_cast<std::size_t>(i)];
+    theta.refuse_value(i < 3 ? "position" : "rpy",
+                       fmt::format("{} = 0 from where the base is mounted, because {} is not among "
+                                   "its axes",
+                                   name, name));
   }
 }
 
@@ -39,9 +48,8 @@ State load_state(const std::filesystem::path& file, const Robot& robot) {
   theta.allow_only(keys);
   State state;
   const Eigen::Vector3d position = theta.vector("position"), rpy = theta.vector("rpy");
-  require_free_axes(theta, "position", position, 0, robot);
-  require_free_axes(theta, "rpy", rpy, 3, robot);
   state.base = pose_from_xyz_rpy(position, rpy);
+  require_free_axes(theta, state.base, robot);
   state.q.resize(static_cast<Eigen::Index>(robot.joints.size()));
   for (std::size_t i = 0; i < robot.joints.size(); ++i) {
     state.q[static_cast<Eigen::Index>(i)] = theta.number(robot.joints[i].name);

@@ -67,18 +67,11 @@ void check_inertial(const Reading& reading, const urdf::Link& link) {
   }
 }
 
-/// Adds a body to the link that carries it: masses add, the inertia by parallel axes.
+/// Adds a body to the link that carries it.
 void add_inertial(Link& link, const urdf::Inertial& given, const Pose<double>& body) {
   if (given.mass == 0) return;
   const Pose<double> frame = body * pose(given.origin);
-  const double mass = link.mass + given.mass;
-  const Eigen::Vector3d apart = frame.p - link.com;
-  const double reduced = link.mass * given.mass / mass;
-  link.inertia +=
-      frame.R * inertia_of(given) * frame.R.transpose() +
-      reduced * (apart.squaredNorm() * Eigen::Matrix3d::Identity() - apart * apart.transpose());
-  link.com += given.mass / mass * apart;
-  link.mass = mass;
+  add_body(link, given.mass, frame.p, frame.R * inertia_of(given) * frame.R.transpose());
 }
 
 void require_positive(const Reading& reading, const std::string& key, double value) {

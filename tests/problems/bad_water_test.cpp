@@ -43,6 +43,12 @@ const std::vector<BadInput> kBadWater = {
      "[hydrodynamics.hull]\nadded_mass = [1, 1, 1, 0, 0, 0]\n"
      "damping_linear = [0, 0, 0, 0, 0, 0]\ndamping_quadratic = [0, 0, 0, 0, 0, 0]\n[collision]",
      {"hydrodynamics.link_1: got nothing", "zeros", "displaces water as 'hull' does"}},
+    {"hydrodynamics_in_air",
+     "vehicle.toml",
+     "[collision]",
+     "[hydrodynamics.hull]\nadded_mass = [1, 1, 1, 0, 0, 0]\n"
+     "damping_linear = [0, 0, 0, 0, 0, 0]\ndamping_quadratic = [0, 0, 0, 0, 0, 0]\n[collision]",
+     {"environment.water_density: got 0", "a density > 0", "'hull'"}},
     {"trim_without_position",
      "vehicle.toml",
      "[collision]",

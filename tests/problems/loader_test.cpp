@@ -162,6 +162,7 @@ TEST_F(LoaderTest, FixedLinksAreMergedIntoTheirCarrier) {
 TEST_F(LoaderTest, HydrodynamicBodiesOnOneLinkStayApart) {
   const Robot robot = load(kTwoBodies, R"(
     base = { axes = [] }
+    environment = { water_density = 998 }
     [hydrodynamics.tank]
     center = [2, 0, 0]
     added_mass = [1, 2, 3, 4, 5, 6]

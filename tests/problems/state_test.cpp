@@ -29,6 +29,24 @@ TEST(State, IsRead) {
   EXPECT_EQ(state.acceleration, Eigen::VectorXd::Zero(5));
 }
 
+/// A base on a mount stands there and nowhere else; one that moves does so along the mount's axes.
+TEST(State, BaseStartsAtItsMount) {
+  Robot robot = load_problem("planar/force").robot;  // x, y, yaw
+  robot.mount.p = {0, 0, 0.3};
+  robot.mount.R = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  const TemporaryFolder folder;
+  const auto read = [&](const Eigen::Vector3d& p, const char* rpy) {
+    std::ofstream(folder.path() / "state.toml")
+        << "[theta]\nshoulder = 0\nelbow = 0\nposition = [" << p.x() << ", " << p.y() << ", "
+        << p.z() << "]\nrpy = " << rpy << "\n";
+    return load_state(folder.path() / "state.toml", robot);
+  };
+  EXPECT_EQ(read({2, 0, 0.3}, "[0.5, 0, 0]").base.p, Eigen::Vector3d(2, 0, 0.3));
+  EXPECT_THROW(read({0, 1, 0.3}, "[0.5, 0, 0]"), std::invalid_argument);  // y is tilted
+  EXPECT_THROW(read({0, 0, 0}, "[0.5, 0, 0]"), std::invalid_argument);
+  EXPECT_THROW(read({0, 0, 0.3}, "[0, 0, 0]"), std::invalid_argument);
+}
+
 struct BadState {
   const char* name;
   const char* from;  ///< in a good state of planar/force

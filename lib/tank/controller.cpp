@@ -1,0 +1,112 @@
+#include "lib/tank/controller.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/redundancy.h"
+
+namespace maxwrench {
+namespace {
+
+/// Of (u - u*)'Q(u - u*): an effort counts by its smaller limit, as in beta_1.
+Eigen::VectorXd weights(const Zonotope& actuation) {
+  const Eigen::ArrayXd limit =
+      actuation.u_min.array().abs().min(actuation.u_max.array().abs()).max(1e-3);
+  return limit.square().inverse();
+}
+
+/// Orthonormal: first what the columns span, then what is orthogonal to them.
+struct Split {
+  Eigen::MatrixXd range, complement;
+};
+
+Split split(const Eigen::MatrixXd& columns) {
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  qr.setThreshold(1e-9);
+  qr.compute(columns);
+  const Eigen::MatrixXd Q = qr.householderQ();
+  return {Q.leftCols(qr.rank()), Q.rightCols(Q.cols() - qr.rank())};
+}
+
+}  // namespace
+
+PostureController::PostureController(const Problem& problem, const Posture& posture, Wrench wrench,
+                                     const TankOptions& options)
+    : problem_(problem),
+      tool_(problem.robot.end_effectors[static_cast<std::size_t>(problem.end_effector)]),
+      options_(options),
+      dynamics_(problem.robot),
+      tracker_(weights(problem.robot.actuation)),
+      reference_(posture),
+      now_(posture),
+      a_(problem.robot.velocities()) {
+  if (wrench == Wrench::kAny && options.load == 0) {
+    across_ = split(problem.W_any - problem.c * (problem.c.transpose() * problem.W_any)).range;
+  }
+}
+
+double PostureController::drift(const Motion& motion) const {
+  double worst = 0;
+  for (const int joint : problem_.redundant) {
+    worst = std::max(worst, std::abs(reference_.q[joint] - motion.q[joint]));
+  }
+  return worst;
+}
+
+/// a = A_r (omega^2 e_r - 2 omega theta_r_dot).
+void PostureController::accelerate_posture(const Motion& motion) {
+  const auto axes = static_cast<Eigen::Index>(problem_.robot.base_axes.size());
+  const double omega = options_.bandwidth;
+  null_motion(problem_, now_, A_r_);
+  error_.resize(A_r_.cols());
+  for (Eigen::Index k = 0; k < error_.size(); ++k) {
+    const int joint = problem_.redundant[static_cast<std::size_t>(k)];
+    error_[k] = omega * omega * (reference_.q[joint] - motion.q[joint]) -
+                2 * omega * motion.v[axes + joint];
+  }
+  a_ = A_r_ * error_;
+}
+
+/// a = omega^2 e - 2 omega v, e the error of the pose in base axes and of the joints.
+void PostureController::accelerate_all(const Motion& motion) {
+  const Eigen::Matrix3d R = motion.base.R.transpose();
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(R * reference_.base.R));
+  Vector6d pose;
+  pose << R * (reference_.base.p - motion.base.p), turn.angle() * turn.axis();
+  const auto& axes = problem_.robot.base_axes;
+  for (std::size_t i = 0; i < axes.size(); ++i) a_[static_cast<Eigen::Index>(i)] = pose[axes[i]];
+  a_.tail(motion.q.size()) = reference_.q - motion.q;
+  a_ = options_.bandwidth * options_.bandwidth * a_ - 2 * options_.bandwidth * motion.v;
+}
+
+/// Only those combinations of the balance's rows in which the wrenches `across_` have no part.
+void PostureController::leave_free(EffortRequest& request) const {
+  if (across_.cols() == 0) return;
+  const Eigen::MatrixXd N = split(now_.J.transpose() * across_).complement;
+  request.B = N.transpose() * request.B;
+  request.tau_c = N.transpose() * request.tau_c;
+}
+
+void PostureController::request(const Motion& motion, const Vector6d& h,
+                                const Eigen::VectorXd& u_star, const Eigen::VectorXd& u_before,
+                                double period, EffortRequest& request) {
+  const Robot& robot = problem_.robot;
+  dynamics_.set_configuration(motion.base.R, motion.q);
+  dynamics_.kinematics().jacobian(tool_, motion.base.R, now_.J);
+  if (options_.load > 0) {
+    accelerate_all(motion);
+  } else {
+    accelerate_posture(motion);
+  }
+  request.tau_c.resize(a_.size());
+  dynamics_.inverse(motion.v, a_, request.tau_c);
+  request.tau_c += now_.J.transpose() * h;
+  request.B = robot.actuation.B;
+  leave_free(request);
+  const Eigen::VectorXd reach = period * robot.u_rate_max;
+  request.u_star = u_star;
+  request.lower = robot.actuation.u_min.cwiseMax(u_before - reach);
+  request.upper = robot.actuation.u_max.cwiseMin(u_before + reach);
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "lib/tank.h"
+
+namespace maxwrench {
+
+/// Holds a posture while the end effector exerts a wrench (see `run_tank`), from a measured motion.
+class PostureController {
+ public:
+  PostureController(const Problem& problem, const Posture& posture, Wrench wrench,
+                    const TankOptions& options);
+
+  /// tau_c of the motion for the wrench h, with efforts close to u_star and within their limits and
+  /// what the rate limits allow within `period` after u_before.
+  void request(const Motion& motion, const Vector6d& h, const Eigen::VectorXd& u_star,
+               const Eigen::VectorXd& u_before, double period, EffortRequest& request);
+
+  EffortTracker& tracker() { return tracker_; }
+  /// max |theta_r - its reference|.
+  double drift(const Motion& motion) const;
+
+ private:
+  void accelerate_posture(const Motion& motion);
+  void accelerate_all(const Motion& motion);
+  void leave_free(EffortRequest& request) const;
+
+  const Problem& problem_;
+  const EndEffector& tool_;
+  const TankOptions& options_;
+  Dynamics<double> dynamics_;
+  EffortTracker tracker_;
+  Posture reference_, now_;
+  Matrix6Xd across_;  ///< 6×k: what the cell takes without being asked for
+  Eigen::MatrixXd A_r_;
+  Eigen::VectorXd a_, error_;
+};
+
+}  // namespace maxwrench

@@ -1,0 +1,128 @@
+#include "lib/tank/ode.h"
+
+#include <chrono>
+
+namespace maxwrench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Adds the time of its life.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds), begin_(Clock::now()) {}
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - begin_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  double& seconds_;
+  Clock::time_point begin_;
+};
+
+Vector6d six(double linear, double angular) {
+  Vector6d values;
+  values << Eigen::Vector3d::Constant(linear), Eigen::Vector3d::Constant(angular);
+  return values;
+}
+
+}  // namespace
+
+TankOde::TankOde(const Problem& problem, const Posture& posture, const TankOptions& options)
+    : problem_(problem),
+      tool_(problem.robot.end_effectors[static_cast<std::size_t>(problem.end_effector)]),
+      options_(options),
+      dynamics_(problem.robot),
+      stiffness_(six(options.cell.stiffness_linear, options.cell.stiffness_angular)),
+      damping_(six(options.cell.damping_linear, options.cell.damping_angular)),
+      rate_max_(
+          problem.robot.u_rate_max.head(static_cast<Eigen::Index>(problem.robot.thrusters.size()))),
+      noise_(Eigen::VectorXd::Zero(rate_max_.size())),
+      v_d_(problem.robot.velocities()),
+      tau_d_(problem.robot.velocities()),
+      J_(6, problem.robot.velocities()) {
+  motion_ = {posture.base, posture.q, Eigen::VectorXd::Zero(problem.robot.velocities())};
+  dynamics_.set_configuration(posture.base.R, posture.q);
+  anchor_ = posture.base * dynamics_.kinematics().end_effector(tool_);
+}
+
+void TankOde::start(const Motion& motion, const Eigen::VectorXd& u) {
+  start_.resize(motion_size(problem_.robot) + rate_max_.size());
+  write_motion(motion, start_);
+  start_.tail(rate_max_.size()) = u.head(rate_max_.size());
+  u_0_ = u_1_ = u;
+}
+
+void TankOde::command(double t_0, const Eigen::VectorXd& u_0, double t_1,
+                      const Eigen::VectorXd& u_1, const Vector6d& h_0, const Vector6d& h_1) {
+  t_0_ = t_0;
+  t_1_ = t_1;
+  u_0_ = u_0;
+  u_1_ = u_1;
+  exerted_0_ = h_0;
+  exerted_1_ = h_1;
+}
+
+Eigen::VectorXd TankOde::efforts(double t) const {
+  Eigen::VectorXd u = u_0_ + share(t) * (u_1_ - u_0_);
+  u.head(rate_max_.size()) = start_.tail(rate_max_.size());
+  return u;
+}
+
+Vector6d TankOde::displacement(const Motion& motion) {
+  dynamics_.set_configuration(motion.base.R, motion.q);
+  const Pose<double> tool = motion.base * dynamics_.kinematics().end_effector(tool_);
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(tool.R * anchor_.R.transpose()));
+  Vector6d moved;
+  moved << tool.p - anchor_.p, turn.angle() * turn.axis();
+  return moved;
+}
+
+Vector6d TankOde::wrench(double t, const Motion& motion) {
+  const Vector6d moved = displacement(motion);
+  dynamics_.kinematics().jacobian(tool_, motion.base.R, J_);
+  if (options_.load > 0) return exerted_0_ + share(t) * (exerted_1_ - exerted_0_);
+  return stiffness_.cwiseProduct(moved) + damping_.cwiseProduct(J_ * motion.v);
+}
+
+/// Reads y; fills tau_, h_e_ and J_, and all rates but those of v.
+void TankOde::prepare(double t, const Eigen::VectorXd& y, Eigen::VectorXd& rates) {
+  const Eigen::Index thrusters = rate_max_.size();
+  read_motion(y, motion_);
+  h_e_ = wrench(t, motion_);
+  rates.resize(y.size());
+  configuration_rates(problem_.robot, motion_, y, rates);
+  u_ = u_0_ + share(t) * (u_1_ - u_0_);
+  u_.head(thrusters) += options_.thruster_lag / (t_1_ - t_0_) * (u_1_ - u_0_).head(thrusters);
+  u_ = u_.cwiseMax(problem_.robot.actuation.u_min).cwiseMin(problem_.robot.actuation.u_max);
+  const auto thrust = y.tail(thrusters);
+  rates.tail(thrusters) = ((u_.head(thrusters) - thrust) / options_.thruster_lag)
+                              .cwiseMax(-rate_max_)
+                              .cwiseMin(rate_max_);
+  u_.head(thrusters) = options_.imperfections.thrust_efficiency * thrust + noise_;
+  tau_ = problem_.robot.actuation.B * u_;
+}
+
+bool TankOde::derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& y_dot) {
+  const Stopwatch watch(seconds_);
+  ++evaluations_;
+  prepare(t, y, y_dot);
+  dynamics_.forward(motion_.v, tau_, tool_, h_e_, v_d_);
+  y_dot.segment(motion_size(problem_.robot) - v_d_.size(), v_d_.size()) = v_d_;
+  return y_dot.allFinite();
+}
+
+bool TankOde::residual(double t, const Eigen::VectorXd& y, const Eigen::VectorXd& y_dot,
+                       Eigen::VectorXd& F) {
+  const Stopwatch watch(seconds_);
+  ++evaluations_;
+  prepare(t, y, rates_);
+  const Eigen::Index n = v_d_.size(), first = motion_size(problem_.robot) - n;
+  v_d_ = y_dot.segment(first, n);
+  dynamics_.inverse(motion_.v, v_d_, tau_d_);
+  F = y_dot - rates_;
+  F.segment(first, n) = tau_d_ + J_.transpose() * h_e_ - tau_;
+  return F.allFinite();
+}
+
+}  // namespace maxwrench

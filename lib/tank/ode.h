@@ -1,0 +1,61 @@
+#pragma once
+
+#include "lib/tank.h"
+
+namespace maxwrench {
+
+/// The robot in the tank. State: its motion (see lib/motion.h), then the thrust of each thruster
+/// [N], which follows its command with a first-order lag, never faster than its rate limit. Joint
+/// torques are those commanded. Efforts are asked for linearly between two instants; the command of
+/// a thruster leads by its lag times the slope, within its limits, so that away from them its
+/// thrust is what was asked for.
+class TankOde final : public Ode {
+ public:
+  TankOde(const Problem& problem, const Posture& posture, const TankOptions& options);
+
+  /// At rest or not, with efforts that have settled.
+  void start(const Motion& motion, const Eigen::VectorXd& u);
+  void restart(const Eigen::VectorXd& y) { start_ = y; }
+  /// Efforts and, with a load, what is exerted on its support, from t_0 to t_1.
+  void command(double t_0, const Eigen::VectorXd& u_0, double t_1, const Eigen::VectorXd& u_1,
+               const Vector6d& h_0, const Vector6d& h_1);
+  void set_noise(const Eigen::VectorXd& noise) { noise_ = noise; }
+
+  const Eigen::VectorXd& initial() const override { return start_; }
+  bool derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& y_dot) override;
+  /// M v' + C v + D v + g + J'h_e - B u in the rows of v.
+  bool residual(double t, const Eigen::VectorXd& y, const Eigen::VectorXd& y_dot,
+                Eigen::VectorXd& F) override;
+
+  void read(const Eigen::VectorXd& y, Motion& motion) const { read_motion(y, motion); }
+  /// Of the state that `initial` returns, without noise and losses.
+  Eigen::VectorXd efforts(double t) const;
+  /// h_e: K [p_e - p_0; rotation vector of R_e R_0'] + D J v, or what is exerted on the support of
+  /// the load.
+  Vector6d wrench(double t, const Motion& motion);
+  /// [m, rad] of the end effector from the pose of the task, in world axes.
+  Vector6d displacement(const Motion& motion);
+
+  long evaluations() const { return evaluations_; }
+  double seconds() const { return seconds_; }
+
+ private:
+  double share(double t) const { return (t - t_0_) / (t_1_ - t_0_); }
+  void prepare(double t, const Eigen::VectorXd& y, Eigen::VectorXd& rates);
+
+  const Problem& problem_;
+  const EndEffector& tool_;
+  const TankOptions& options_;
+  Dynamics<double> dynamics_;
+  Pose<double> anchor_;
+  Vector6d stiffness_, damping_;
+  Eigen::VectorXd rate_max_, start_, u_0_, u_1_, noise_, u_, tau_, v_d_, tau_d_, rates_;
+  Vector6d exerted_0_ = Vector6d::Zero(), exerted_1_ = Vector6d::Zero(), h_e_;
+  double t_0_ = 0, t_1_ = 1;
+  Motion motion_;
+  Matrix6Xd J_;
+  long evaluations_ = 0;
+  double seconds_ = 0;
+};
+
+}  // namespace maxwrench

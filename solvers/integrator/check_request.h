@@ -1,0 +1,24 @@
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <span>
+#include <stdexcept>
+
+#include "lib/integrator.h"
+
+namespace maxwrench {
+
+/// Throws std::invalid_argument unless the times increase and are at least two, and the options are
+/// those of an integration.
+inline void check_request(const IntegratorOptions& options, std::span<const double> times) {
+  const bool increase =
+      std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
+  if (times.size() < 2 || !increase)
+    throw std::invalid_argument("integrator times: expected at least two, increasing");
+  if (!(options.relative_tolerance >= 0) || !(options.absolute_tolerance > 0))
+    throw std::invalid_argument("integrator tolerances: expected relative >= 0, absolute > 0");
+  if (!(options.step > 0)) throw std::invalid_argument("integrator step: expected > 0");
+}
+
+}  // namespace maxwrench

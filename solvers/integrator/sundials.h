@@ -1,0 +1,90 @@
+#pragma once
+
+#include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_matrix.h>
+#include <sundials/sundials_nvector.h>
+
+#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "lib/integrator.h"
+
+// What the integrators of SUNDIALS share (Hindmarsh et al., 2005).
+
+namespace maxwrench::sundials {
+
+/// Flags with one meaning in CVODE, ARKODE and IDA.
+enum Flag { kReached = 0, kReachedStop = 1, kFoundRoot = 2, kTooMuchWork = -1 };
+
+template <class T>
+using Owned = std::unique_ptr<T, std::function<void(T*)>>;
+
+Eigen::Map<Eigen::VectorXd> view(N_Vector v);
+
+/// What goes wrong is reported by flags, not on stderr.
+void be_silent(int code, const char* module, const char* function, char* message, void* data);
+
+/// A problem in the form of SUNDIALS: storage, and callbacks whose last argument is this object.
+class Session {
+ public:
+  Session(Ode& ode, const IntegratorOptions& options);
+
+  Eigen::VectorXd state() const { return view(state_.get()); }
+
+ protected:
+  /// A positive return means "try a shorter step".
+  static int derivative(double t, N_Vector y, N_Vector y_dot, void* self);
+  static int root(double t, N_Vector y, double* g, void* self);
+
+  N_Vector new_vector() const;
+  /// Dense; of the implicit methods.
+  void make_linear_solver();
+  /// Keeps the first failure of what an integration needs before it can start.
+  void require(int flag) {
+    if (failure_ == 0) failure_ = flag;
+  }
+  /// Which component of g has the first sign in `found`.
+  int first_root(const std::vector<int>& found) const;
+
+  Ode& ode_;
+  Eigen::VectorXd y_, y_dot_, g_;
+  const IntegratorOptions& options_;
+  int failure_ = 0;                                   ///< a flag, what `advance` then returns
+  Owned<std::remove_pointer_t<SUNContext>> context_;  // destroyed last
+  Owned<_generic_N_Vector> state_;
+  Owned<_generic_SUNMatrix> matrix_;
+  Owned<_generic_SUNLinearSolver> linear_;
+};
+
+/// The loop over the times. A session has
+///   int advance(double t, double end, double& reached)  on to t, never evaluating beyond end;
+///   Eigen::VectorXd state() const;   int found_root() const;   std::string words(int flag) const.
+template <class S>
+Status run(S& session, std::span<const double> times, Trajectory& trajectory) {
+  for (const double t : times.subspan(1)) {
+    double reached = trajectory.t.back();
+    const int flag = session.advance(t, times.back(), reached);
+    if (reached > trajectory.t.back()) {
+      trajectory.t.push_back(reached);
+      trajectory.y.push_back(session.state());
+    }
+    if (flag == kReached || flag == kReachedStop) continue;
+    if (flag == kFoundRoot) {
+      trajectory.root = session.found_root();
+      return Status::kOptimal;
+    }
+    trajectory.reason = session.words(flag);
+    return flag == kTooMuchWork ? Status::kBudgetExhausted : Status::kNumericalError;
+  }
+  return Status::kOptimal;
+}
+
+/// "library: NAME_OF_FLAG"; takes the name, which SUNDIALS allocates.
+std::string words(const char* library, char* name);
+
+}  // namespace maxwrench::sundials

@@ -1,0 +1,79 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/support.h"
+
+namespace maxwrench {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* kShort = "simulate uvms/valve --planned 4 --ramp 0.5 --hold 0.5 ";
+
+json simulated(const std::string& words) {
+  const CommandResult result = run_maxwrench(words + " --json");
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  return json::parse(result.out);
+}
+
+TEST(SimulateCommand, SaysWhetherThePlanIsHeld) {
+  const json held = simulated(kShort);
+  EXPECT_EQ(held["status"], "optimal");
+  EXPECT_EQ(held["planned"], 4);
+  EXPECT_EQ(held["held"], true);
+  EXPECT_EQ(held["end"], 1.5);
+  const json lost = simulated("simulate uvms/valve --planned 10 --ramp 2 --hold 2");
+  EXPECT_EQ(lost["held"], false);
+  EXPECT_EQ(lost["saturated"], 1);
+  const CommandResult text = run_maxwrench(kShort);
+  for (const char* words :
+       {"planned     4.00000 N m", "reading     3.98", "held, ended at 1.5 s"}) {
+    EXPECT_NE(text.out.find(words), std::string::npos) << text.out;
+  }
+}
+
+TEST(SimulateCommand, WritesOneRowForEachPeriodAndAFigure) {
+  const TemporaryFolder folder;
+  const CommandResult result =
+      run_maxwrench(kShort + std::string("--out a.csv --figure a.svg"), folder.path());
+  ASSERT_EQ(result.exit_status, 0) << result.err;
+  const std::string csv = read_text(folder.path() / "a.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 150);
+  std::istringstream lines(csv);
+  std::string header, row;
+  std::getline(lines, header);
+  EXPECT_TRUE(header.starts_with("t,planned,reading,f_x,")) << header;
+  while (std::getline(lines, row)) {
+    EXPECT_EQ(std::count(row.begin(), row.end(), ','),
+              std::count(header.begin(), header.end(), ','));
+  }
+  const std::string svg = read_text(folder.path() / "a.svg");
+  EXPECT_NE(svg.find("time [s]"), std::string::npos);
+  EXPECT_NE(svg.find("</svg>"), std::string::npos);
+}
+
+TEST(SimulateCommand, SameSeedSameRows) {
+  const TemporaryFolder folder;
+  const auto rows = [&](const std::string& words) {
+    EXPECT_EQ(run_maxwrench(kShort + words + " --out rows.csv", folder.path()).exit_status, 0);
+    return read_text(folder.path() / "rows.csv");
+  };
+  const std::string noisy = rows("--thrust-noise 0.5 --seed 3");
+  EXPECT_EQ(rows("--thrust-noise 0.5 --seed 3"), noisy);
+  EXPECT_NE(rows("--thrust-noise 0.5 --seed 4"), noisy);
+  EXPECT_EQ(rows("--seed 3"), rows(""));
+}
+
+/// 3.05 kg by the polytope (see results/uvms_static.txt).
+TEST(SimulateCommand, FindsTheHeaviestLoad) {
+  EXPECT_EQ(simulated("simulate uvms/lift --heaviest --ramp 2 --hold 2")["heaviest"], 3);
+  const json load = simulated("simulate uvms/lift --load 3 --ramp 2 --hold 1");
+  EXPECT_EQ(load["held"], true);
+  EXPECT_NEAR(load["planned"].get<double>(), 3 * 9.81, 1e-12);
+}
+
+}  // namespace
+}  // namespace maxwrench
