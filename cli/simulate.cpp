@@ -83,7 +83,7 @@ int print_heaviest(const Problem& problem, const SimulateOptions& options, const
 TankRun simulate_plan(const Problem& problem, const SimulateOptions& options, const Row& row) {
   const TankOptions& tank = options.tank;
   if (tank.load > 0) return simulate_load(problem, row, tank.load, options.integrator, tank);
-  const double planned = options.planned > 0 ? options.planned : row.capability.beta;
+  const double planned = options.planned > 0 ? options.planned : problem.c.dot(row.capability.h);
   if (planned <= 0) {
     throw std::invalid_argument(
         fmt::format("--planned: got {}, expected a value > 0: none is possible here", planned));
@@ -93,12 +93,20 @@ TankRun simulate_plan(const Problem& problem, const SimulateOptions& options, co
 
 int simulate(const SimulateOptions& options) {
   if (!find_integrator(options.integrator).stiff) {
+    std::string stiff;
+    for (const IntegratorEntry& entry : integrators()) {
+      if (entry.stiff) stiff += std::string(" ") + entry.name;
+    }
     throw std::invalid_argument("--integrator: got " + options.integrator +
-                                ", expected one for stiff systems: cvode ida");
+                                ", expected one for stiff systems:" + stiff);
   }
-  Case c = options.read_case();
+  const Problem problem = load_problem(options.choice.problem);
+  if (problem.contact) {
+    throw std::invalid_argument("problem: got " + problem.name +
+                                ", expected one without a second contact");
+  }
+  Case c = options.read_case(problem);
   c.search.clear();  // none is used
-  const Problem problem = load_problem(c.problem);
   const Eigen::VectorXd theta_r = options.theta_r.empty()
                                       ? problem.theta_r_default
                                       : parse_numbers("--theta-r", options.theta_r);

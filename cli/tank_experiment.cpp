@@ -60,6 +60,21 @@ void draw_axes(Svg& svg, const Frame& frame, const char* unit) {
   svg.text({kLeft + 8, kTop - 6}, "reading, and the plan (dashed)", {.size = 11});
 }
 
+/// Throws unless the row's wrench is one that a hanging mass asks for.
+void require_weight(const Problem& problem, const Row& row) {
+  if (!problem.c.isApprox(Vector6d::Unit(2), 1e-9)) {
+    throw std::invalid_argument(
+        "--load: got a task whose wrench is not the force upwards, which a "
+        "weight asks for; expected one such as uvms/lift");
+  }
+  if (row.choice.wrench != Wrench::kPure) {
+    throw std::invalid_argument("--wrench: got any, expected pure: a load has a weight alone");
+  }
+  if (!(problem.robot.gravity > 0)) {
+    throw std::invalid_argument("--load: got a robot without gravity, expected gravity > 0");
+  }
+}
+
 }  // namespace
 
 TankRun simulate_tank(const Problem& problem, const Row& row, double planned,
@@ -67,7 +82,7 @@ TankRun simulate_tank(const Problem& problem, const Row& row, double planned,
   const Capability& capability = row.capability;
   // Beyond the capability only the component along c grows; below it all of them shrink, which the
   // convex set of efforts allows.
-  const double share = std::clamp(planned / capability.beta, 0.0, 1.0);
+  const double share = std::clamp(planned / problem.c.dot(capability.h), 0.0, 1.0);
   TankPlan plan{share * capability.h, share * capability.u, row.choice.wrench};
   plan.h += (planned - problem.c.dot(plan.h)) * problem.c;
   return run_tank(problem, row.posture, plan, *find_integrator(integrator).make(), options);
@@ -75,20 +90,17 @@ TankRun simulate_tank(const Problem& problem, const Row& row, double planned,
 
 TankRun simulate_load(const Problem& problem, const Row& row, double load,
                       const std::string& integrator, TankOptions options) {
-  if (!problem.c.isApprox(Vector6d::Unit(2), 1e-9)) {
-    throw std::invalid_argument(
-        "--load: got a task whose wrench is not the force upwards, which a "
-        "weight asks for; expected one such as uvms/lift");
-  }
+  require_weight(problem, row);
   options.load = load;
   return simulate_tank(problem, row, load * problem.robot.gravity, integrator, options);
 }
 
 int heaviest_load(const Problem& problem, const Row& row, const std::string& integrator,
                   TankOptions options) {
+  require_weight(problem, row);
   options.until_hold = true;
   int held = 0;
-  int lost = static_cast<int>(row.capability.beta / problem.robot.gravity) + 2;
+  int lost = std::max(1, static_cast<int>(row.yardstick / problem.robot.gravity) + 2);
   while (lost - held > 1) {
     const int mass = (held + lost) / 2;
     const TankRun run = simulate_load(problem, row, mass, integrator, options);

@@ -139,6 +139,19 @@ void Arm::turn_into_limits(double& q, int joint) const {
   if (q < limits.q_min) q += kTurn * std::ceil((limits.q_min - q) / kTurn);
 }
 
+/// Whether `trial_` is this posture, up to whole turns.
+bool Arm::same(const Eigen::VectorXd& branch) const {
+  for (Eigen::Index i = 0; i < trial_.size(); ++i) {
+    const auto joint = static_cast<std::size_t>(contact_.follow[static_cast<std::size_t>(i)]);
+    double apart = branch[i] - trial_[i];
+    if (problem_.robot.joints[joint].type == JointType::kRevolute) {
+      apart = std::remainder(apart, kTurn);
+    }
+    if (std::abs(apart) >= kSame) return false;
+  }
+  return true;
+}
+
 /// Adds `trial_` to the branches, unless it is one of them.
 void Arm::keep() {
   for (Eigen::Index i = 0; i < trial_.size(); ++i) {
@@ -147,7 +160,7 @@ void Arm::keep() {
   if (count_ == kMostBranches) return;
   if (!closed_form_) {
     for (int i = 0; i < count_; ++i) {
-      if ((branch(i) - trial_).lpNorm<Eigen::Infinity>() < kSame) return;
+      if (same(branch(i))) return;
     }
   }
   branches_[static_cast<std::size_t>(count_++)] = trial_;

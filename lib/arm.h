@@ -56,6 +56,7 @@ class Arm {
   bool newton(const Pose<double>& target);
   void linearise(const Pose<double>& target);
   void turn_into_limits(double& q, int joint) const;
+  bool same(const Eigen::VectorXd& branch) const;
   void keep();
 
   const Problem& problem_;

@@ -21,6 +21,7 @@ EffortTracker::EffortTracker(const Eigen::VectorXd& Q)
 
 void EffortTracker::solve(const EffortRequest& request, EffortAnswer& answer) {
   answer.iterations = 0;
+  answer.converged = true;
   answer.saturated = false;
   const double scale = std::max(1.0, request.tau_c.lpNorm<Eigen::Infinity>());
   BQ_ = Q_.cwiseInverse().asDiagonal() * request.B.transpose();
@@ -80,6 +81,7 @@ void EffortTracker::minimise_in_box(const EffortRequest& request, EffortAnswer& 
     if (!step_towards_free(request, answer.u)) continue;  // a bound was met
     if (!release(answer.u)) return;
   }
+  answer.converged = false;
 }
 
 /// target: the minimum over the free efforts, the others where they are.

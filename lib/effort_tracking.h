@@ -18,6 +18,7 @@ struct EffortAnswer {
   double shortfall = 0;    ///< max |B u - tau_c| [N, N m]; zero to rounding unless relaxed
   bool saturated = false;  ///< at least one effort is at a bound
   bool relaxed = false;    ///< no u within the bounds reaches tau_c
+  bool converged = true;   ///< false: the active set ran out of iterations, u is within the bounds
   int iterations = 0;      ///< of the active set; zero: the pseudo-inverse was within the bounds
 };
 

@@ -12,7 +12,8 @@ class Ode {
   virtual const Eigen::VectorXd& initial() const = 0;  ///< y_0, d
   int dimension() const { return static_cast<int>(initial().size()); }
 
-  /// f(t, y). False where f has no value; the integrator then tries a shorter step.
+  /// f(t, y) into the d entries of y_dot. False where f has no value; the integrator then tries a
+  /// shorter step.
   virtual bool derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& y_dot) = 0;
 
   /// d f/d y, d×d. False: not offered, the integrator differences f.
@@ -20,7 +21,8 @@ class Ode {
     return false;
   }
 
-  /// The integration ends where one of the `roots()` components of g(t, y) passes through zero.
+  /// The integration ends where one of the `roots()` components of g(t, y), which has
+  /// its size already, passes through zero.
   virtual int roots() const { return 0; }
   virtual void root(double /*t*/, const Eigen::VectorXd& /*y*/, Eigen::VectorXd& /*g*/) {}
 

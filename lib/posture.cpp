@@ -141,7 +141,9 @@ struct PostureModel::Workspace {
     for (Eigen::Index i = 0; i < theta_r.size(); ++i) {
       if (theta_r[i] < problem.theta_r_min[i] - kLimitTolerance ||
           theta_r[i] > problem.theta_r_max[i] + kLimitTolerance) {
-        return "joint limit";
+        return i < static_cast<Eigen::Index>(problem.redundant.size())
+                   ? "joint limit"
+                   : "regrasp coordinate beyond its limits";
       }
     }
     if (branch_reason) return branch_reason;

@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "lib/random.h"
 #include "lib/tank/controller.h"
@@ -13,6 +14,8 @@ namespace maxwrench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -102,6 +105,10 @@ class Experiment {
     draw_noise();
     run_.status = integrator_.integrate(ode_, options_.integrator, std::array{t_0, t_1}, path_);
     run_.reason = path_.reason;
+    if (!answer_.converged) {
+      run_.status = Status::kNumericalError;
+      run_.reason = "the tracking program ran out of iterations";
+    }
     ode_.restart(path_.y.back());
     keep(t_1, s);
   }
@@ -128,9 +135,12 @@ class Experiment {
     sample.position_error = ode_.displacement(motion_).head<3>().norm();
     const Zonotope& limits = problem_.robot.actuation;
     const Eigen::ArrayXd rate = (sample.u - u_).array().abs() / options_.period;
-    sample.violation =
-        std::max({0.0, (sample.u - limits.u_max).maxCoeff(), (limits.u_min - sample.u).maxCoeff(),
-                  (rate - problem_.robot.u_rate_max.array()).maxCoeff()});
+    // Of what the actuators do, and of what they were told.
+    sample.violation = std::max(0.0, (rate - problem_.robot.u_rate_max.array()).maxCoeff());
+    for (const Eigen::VectorXd* u : {&sample.u, &answer_.u}) {
+      sample.violation = std::max(
+          {sample.violation, (*u - limits.u_max).maxCoeff(), (limits.u_min - *u).maxCoeff()});
+    }
     run_.samples.push_back(std::move(sample));
   }
 
@@ -163,14 +173,21 @@ class Experiment {
       summary.drift = std::max(summary.drift, run_.samples.back().drift);
       summary.position_error = std::max(summary.position_error, run_.samples.back().position_error);
     }
-    if (count == 0) return;
+    if (count == 0) {
+      for (double* value : {&summary.mean, &summary.low, &summary.high, &summary.saturated,
+                            &summary.relaxed, &summary.shortfall}) {
+        *value = kNothing;
+      }
+      return;
+    }
     for (double* mean : {&summary.mean, &summary.saturated, &summary.relaxed, &summary.shortfall}) {
       *mean /= count;
     }
-    summary.held =
-        run_.status == Status::kOptimal && !lost() && summary.drift <= kHeldDrift &&
-        std::abs(summary.mean - summary.planned) <= kHeldShare * std::abs(summary.planned) &&
-        (options_.load == 0 || summary.position_error <= kHeldPosition);
+    summary.held = run_.status == Status::kOptimal && !lost() && summary.drift <= kHeldDrift &&
+                   (options_.load > 0 ? summary.position_error <= kHeldPosition
+                                      : std::abs(summary.mean - summary.planned) <=
+                                            kHeldShare * std::abs(summary.planned));
+    if (options_.load > 0) summary.mean = summary.low = summary.high = kNothing;  // no cell
   }
 
   const Problem problem_;

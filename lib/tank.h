@@ -52,7 +52,7 @@ struct TankOptions {
 /// What the robot is to exert.
 struct TankPlan {
   Vector6d h;                     ///< [N; N m] in world axes; with a load its weight
-  Eigen::VectorXd u;              ///< m, efforts that exert it at rest
+  Eigen::VectorXd u;              ///< m, efforts to stay close to at the full share
   Wrench wrench = Wrench::kPure;  ///< kAny: the cell may take any of W_any across c
 };
 
@@ -69,7 +69,8 @@ struct TankSample {
   double violation = 0;       ///< how far efforts or rates leave their limits [N, N m, N/s]
 };
 
-/// What the hold was like. If the posture was lost, drift and position_error reach to that instant.
+/// What the hold was like; NaN where there was no hold, and for the reading of a load, which no
+/// cell weighs. If the posture was lost, drift and position_error reach to that instant.
 struct TankSummary {
   double planned = 0;                  ///< c'h [N, N m]
   double mean = 0, low = 0, high = 0;  ///< c'h_e

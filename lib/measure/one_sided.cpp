@@ -24,13 +24,14 @@ class OneSided : public Measure {
   void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
                 Capability& capability) override {
     sort_columns(program);
-    if (sided_.empty() && free_.size() == static_cast<std::size_t>(program.columns())) {
-      return forms_[0]->measure->evaluate(posture, program, efforts, capability);
-    }
     if (!supported_) {
       capability.status = Status::kNumericalError;
-      capability.reason = "closed forms serve limits of a contact at zero or infinity only";
+      capability.reason =
+          "closed forms serve 12 wrench columns, and limits of a contact at zero or infinity only";
       return;
+    }
+    if (sided_.empty() && free_.size() == static_cast<std::size_t>(program.columns())) {
+      return forms_[0]->measure->evaluate(posture, program, efforts, capability);
     }
     const unsigned sets = 1U << sided_.size();
     unsigned best = 0;
@@ -46,8 +47,6 @@ class OneSided : public Measure {
   }
 
  private:
-  static constexpr std::size_t kMostSided = 12;
-
   /// The closed form for some number of columns.
   struct Form {
     std::unique_ptr<Measure> measure;
@@ -71,7 +70,7 @@ class OneSided : public Measure {
       (free ? free_ : sided_).push_back(j);
       supported_ &= free || ((low == 0 || low == -kInfinity) && (high == 0 || high == kInfinity));
     }
-    supported_ &= sided_.size() <= kMostSided;
+    supported_ &= free_.size() + sided_.size() <= kMaxColumns;
   }
 
   /// The closed form on the free columns and those one-sided ones whose bit is set.
@@ -143,9 +142,11 @@ class OneSided : public Measure {
     if (!efforts) return;
     capability.u = answer.u;
     capability.residual = answer.residual;
+    // d beta = load' d(J'W) w: what lambda is where tau_d counts.
+    const Eigen::VectorXd load = answer.beta_J.transpose() * answer.h / answer.h.squaredNorm();
     for (const int j : sided_) {
       if (std::binary_search(kept_.begin(), kept_.end(), j)) continue;
-      const double slope = program.c_w[j] + program.JtW.col(j).dot(capability.lambda);
+      const double slope = program.c_w[j] + program.JtW.col(j).dot(load);
       const double inwards = program.w_min[j] == 0 ? slope : -slope;
       capability.residual.dual = std::max(capability.residual.dual, inwards);
     }

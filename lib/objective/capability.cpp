@@ -47,7 +47,9 @@ class CapabilityObjective : public Objective {
 
   /// A_r'A_r of eq:redundantJacobian: |theta_dot|^2 of the motion that theta_r_dot makes.
   void metric(const Eigen::VectorXd& theta_r, Eigen::MatrixXd& M) override {
-    null_motion(problem_, model_.evaluate(theta_r), A_r_);
+    const Posture& posture =
+        evaluate_best(model_, theta_r, *measure_, false, program_, capability_);
+    null_motion(problem_, posture, A_r_);
     M.noalias() = A_r_.transpose() * A_r_;
   }
 

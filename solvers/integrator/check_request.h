@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <span>
 #include <stdexcept>
@@ -14,8 +15,10 @@ namespace maxwrench {
 inline void check_request(const IntegratorOptions& options, std::span<const double> times) {
   const bool increase =
       std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
-  if (times.size() < 2 || !increase)
-    throw std::invalid_argument("integrator times: expected at least two, increasing");
+  const bool finite =
+      std::all_of(times.begin(), times.end(), [](double t) { return std::isfinite(t); });
+  if (times.size() < 2 || !increase || !finite)
+    throw std::invalid_argument("integrator times: expected at least two, finite and increasing");
   if (!(options.relative_tolerance >= 0) || !(options.absolute_tolerance > 0))
     throw std::invalid_argument("integrator tolerances: expected relative >= 0, absolute > 0");
   if (!(options.step > 0)) throw std::invalid_argument("integrator step: expected > 0");

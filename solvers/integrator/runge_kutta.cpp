@@ -7,12 +7,15 @@
 namespace maxwrench {
 namespace {
 
+constexpr double kMostSteps = 1e15;
 constexpr int kBisections = 60;  // halve a step down to rounding
 
 /// One integration: where it stands, and room for a step.
 class Walk {
  public:
   explicit Walk(Ode& ode, double t_0) : t(t_0), y(ode.initial()), ode_(ode) {
+    for (Eigen::VectorXd* k : {&k1_, &k2_, &k3_, &k4_}) k->resize(y.size());
+    g_.resize(ode.roots());
     if (ode.roots() > 0) ode.root(t, y, g_);
   }
 
@@ -85,6 +88,10 @@ class RungeKutta final : public Integrator {
     long left = options.max_steps;
     for (std::size_t i = 1; i < times.size(); ++i) {
       const double length = times[i] - times[i - 1];
+      if (!(length / options.step < kMostSteps)) {
+        trajectory.reason = "runge_kutta: the step is too short";
+        return Status::kBudgetExhausted;
+      }
       const auto steps = static_cast<long>(std::ceil(length / options.step * (1 - 1e-12)));
       const Status status = advance(walk, times[i - 1], length, steps, left, trajectory);
       if (walk.t > trajectory.t.back()) {

@@ -53,6 +53,7 @@ class Box : public WrenchSolver {
     const int stride = tableau_.stride();
     const auto n = static_cast<Eigen::Index>(set.dimension());
     if (loads_.rows() != stride || loads_.cols() != n) loads_.setZero(stride, n);
+    loads_.bottomRows(stride - k).setZero();
     for (int j = 0; j < k; ++j) {
       for (Eigen::Index row = 0; row < n; ++row) loads_(j, row) = program.JtW(row, j);
     }

@@ -99,6 +99,8 @@ INSTANTIATE_TEST_SUITE_P(
                     BadWords{"simulate uvms/valve --thrust-efficiency x", "--thrust-efficiency"},
                     BadWords{"simulate uvms/valve --seed -1", "--seed"},
                     BadWords{"simulate uvms/valve --theta-r 1", "theta_r"},
+                    BadWords{"simulate dual_arm/bar_wall", "second contact"},
+                    BadWords{"simulate uvms/lift --load 1 --wrench any", "--wrench"},
                     BadWords{"simulate uvms/valve --measure manipulability", "--measure"},
                     BadWords{"simulate planar/force --ramp 0.1 --hold 0.1 --out /proc/x",
                              "/proc/x"},

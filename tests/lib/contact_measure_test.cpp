@@ -113,6 +113,26 @@ TEST(OneSided, ClosedFormsEqualAScanOverThePushes) {
   }
 }
 
+/// A friction pyramid of eight edges beside all six wrenches: more columns than closed forms hold.
+TEST(OneSided, TooManyColumnsAreAStatus) {
+  for (const double low : {0.0, -kInfinity}) {
+    Problem problem = load_problem("dual_arm/bar_wall");
+    Contact& contact = *problem.contact;
+    contact.C = Matrix6Xd::Zero(6, 8);
+    contact.C.row(2).setOnes();
+    contact.w_min.setConstant(8, low);
+    contact.w_max.setConstant(8, kInfinity);
+    PostureModel model(problem, false);
+    WrenchProgram program = make_wrench_program(problem, Wrench::kAny);
+    set_posture(model.evaluate(problem.theta_r_default), program);
+    Capability capability;
+    measure_maker(problem, complete({problem.name, "ellipsoid", Wrench::kAny}, 8))()->evaluate(
+        model.evaluate(problem.theta_r_default), program, true, capability);
+    EXPECT_EQ(capability.status, Status::kNumericalError);
+    EXPECT_STRNE(capability.reason, "");
+  }
+}
+
 /// Columns that may do nothing are as good as none, those that may do anything no worse; both for
 /// every measure and solver.
 TEST(ContactMeasure, RestingColumnsChangeNothing) {

@@ -149,6 +149,7 @@ TEST(EffortTracking, AgreesWithAllActiveSetsTriedOut) {
         enumerate(c, 2 * MatrixXd(c.Q.asDiagonal()), 2 * c.Q.cwiseProduct(c.request.u_star),
                   &c.request.tau_c);
     ASSERT_TRUE(expected.has_value()) << sample;
+    EXPECT_TRUE(c.answer.converged) << sample;
     EXPECT_FALSE(c.answer.relaxed) << sample;
     EXPECT_TRUE(c.within(c.answer.u, 0)) << sample;
     EXPECT_LT((c.answer.u - *expected).norm(), 1e-5) << sample;
@@ -172,6 +173,7 @@ TEST(EffortTracking, WhatCannotBeHadIsMissedByTheLeastEffort) {
         enumerate(c, 2 * c.request.B.transpose() * P * c.request.B,
                   2 * c.request.B.transpose() * P * c.request.tau_c, nullptr);
     ASSERT_TRUE(expected.has_value()) << sample;
+    EXPECT_TRUE(c.answer.converged) << sample;
     EXPECT_TRUE(c.answer.relaxed) << sample;
     EXPECT_TRUE(c.answer.saturated) << sample;
     EXPECT_TRUE(c.within(c.answer.u, 0)) << sample;

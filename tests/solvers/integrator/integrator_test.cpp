@@ -31,7 +31,7 @@ class Given : public Ode {
   }
   int roots() const override { return static_cast<int>(levels.size()); }
   void root(double, const Eigen::VectorXd& y, Eigen::VectorXd& g) override {
-    g = y[0] - levels.array();
+    for (Eigen::Index i = 0; i < levels.size(); ++i) g[i] = y[0] - levels[i];
   }
 
   long evaluations = 0, jacobians = 0;
@@ -126,6 +126,7 @@ TEST_P(IntegratorTest, EndsWhereThereIsNoValue) {
   EXPECT_NE(integrate(wall, {0, 0.5, 3}), Status::kOptimal);  // some try until no step is left
   EXPECT_FALSE(trajectory.reason.empty());
   EXPECT_LE(trajectory.y.back()[0], 1 + 1e-9);
+  EXPECT_GE(trajectory.t.back(), 0.5 - 1e-9);
   EXPECT_NEAR(trajectory.y.back()[0], trajectory.t.back(), 1e-9);
   Given nowhere(one(0), [](double, const auto&) { return one(kNan); });
   EXPECT_EQ(integrate(nowhere, {0, 1}), Status::kNumericalError);
