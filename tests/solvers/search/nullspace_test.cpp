@@ -10,6 +10,7 @@
 #include "problems/loader.h"
 #include "solvers/integrator/cvode.h"
 #include "tests/solvers/search/known.h"
+#include "tests/support.h"
 
 namespace maxwrench {
 namespace {
