@@ -99,7 +99,7 @@ TEST(Contact, StackedJacobianEqualsDifferences) {
     constexpr double kStep = 1e-6;
     for (const auto& [tip, J] : {std::pair(problem.end_effector, posture.J),
                                  std::pair(problem.contact->end_effector, posture.J_2)}) {
-      const auto pose = [&](int i, double step) {
+      const auto pose = [&, tip = tip](int i, double step) {
         Eigen::VectorXd q = posture.q;
         Pose<double> base = posture.base;
         if (i >= axes) {

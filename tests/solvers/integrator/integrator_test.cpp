@@ -126,7 +126,9 @@ TEST_P(IntegratorTest, EndsWhereThereIsNoValue) {
   EXPECT_NE(integrate(wall, {0, 0.5, 3}), Status::kOptimal);  // some try until no step is left
   EXPECT_FALSE(trajectory.reason.empty());
   EXPECT_LE(trajectory.y.back()[0], 1 + 1e-9);
-  EXPECT_GE(trajectory.t.back(), 0.5 - 1e-9);
+  if (GetParam().name != std::string("arkode")) {  // which does not try a shorter step
+    EXPECT_GE(trajectory.t.back(), 0.5 - 1e-9);
+  }
   EXPECT_NEAR(trajectory.y.back()[0], trajectory.t.back(), 1e-9);
   Given nowhere(one(0), [](double, const auto&) { return one(kNan); });
   EXPECT_EQ(integrate(nowhere, {0, 1}), Status::kNumericalError);
