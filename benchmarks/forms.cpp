@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "lib/decompositions.h"
+
 namespace maxwrench {
 namespace {
 
@@ -31,7 +33,7 @@ LinearProgram paper_form(const WrenchProgram& program) {
   const auto own = static_cast<int>(program.W.cols());
   const int l = program.columns() - own;
   const bool all = own == 6;
-  const MatrixXd W_pinv = program.W.completeOrthogonalDecomposition().pseudoInverse();
+  const MatrixXd W_pinv = pseudo_inverse(program.W);
   MatrixXd A = MatrixXd::Zero(n + (all ? 0 : 6), m + 6 + l);
   A.topLeftCorner(n, m) = set.B;
   A.block(0, m, n, 6) = -program.JtW.leftCols(own) * W_pinv;
@@ -117,7 +119,7 @@ LinearProgram reduce_pure(const WrenchProgram& program, const Drives& drives) {
 /// v - J_j'W P B u = tau_d,j - J_j'W P tau_d.
 Reduced eliminate_w(const WrenchProgram& program, const Drives& drives) {
   const Zonotope& set = *program.actuation;
-  const MatrixXd P = program.JtW(drives.other_rows, Eigen::all).inverse();
+  const MatrixXd P = pseudo_inverse(program.JtW(drives.other_rows, Eigen::all));
   const MatrixXd PB = P * set.B(drives.other_rows, drives.other_cols);
   const VectorXd Ptau = P * program.tau_d(drives.other_rows);
   const MatrixXd loads = program.JtW(drives.rows, Eigen::all);
@@ -147,8 +149,8 @@ Reduced reduce(const WrenchProgram& program) {
   const bool free =
       (program.w_min.array() == -kInfinity).all() && (program.w_max.array() == kInfinity).all();
   if (free && static_cast<int>(drives.other_rows.size()) == program.columns()) {
-    const MatrixXd block = program.JtW(drives.other_rows, Eigen::all);
-    if (block.partialPivLu().rcond() > 1e-8) return eliminate_w(program, drives);
+    const VectorXd gains = singular_values(program.JtW(drives.other_rows, Eigen::all));
+    if (gains.minCoeff() > 1e-8 * gains.maxCoeff()) return eliminate_w(program, drives);
   }
   return {assemble(program), 0};
 }

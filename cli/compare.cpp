@@ -21,7 +21,7 @@ struct CompareOptions : CommonOptions {
   std::string out = "results";
 };
 
-std::string number(double value, const char* format) {
+std::string number_or_dash(double value, const char* format) {
   return value == kInfinity ? "-" : fmt::format(fmt::runtime(format), value);
 }
 
@@ -45,11 +45,13 @@ std::string line(const Comparison& comparison, const Contender& contender) {
   return fmt::format(
       "{:<11} {:<8} {:>2} of {:<2} {:>11} {:>8} {:>9} {:>9.4f} {:>9}\n", contender.search,
       contender.lp, reached, contender.attempts.size(),
-      number(median_of(contender, evaluations), "{:.0f}"), number(1e3 * time, "{:.0f}"),
-      number(1e3 * median_of(contender, [](const Attempt& each) { return each.seconds; }),
-             "{:.0f}"),
+      number_or_dash(median_of(contender, evaluations), "{:.0f}"),
+      number_or_dash(1e3 * time, "{:.0f}"),
+      number_or_dash(1e3 * median_of(contender, [](const Attempt& each) { return each.seconds; }),
+                     "{:.0f}"),
       below,
-      time == kInfinity || reference == kInfinity ? "-" : number(time / reference, "{:.4f}"));
+      time == kInfinity || reference == kInfinity ? "-"
+                                                  : number_or_dash(time / reference, "{:.4f}"));
 }
 
 std::string text(const Comparison& comparison) {
@@ -86,10 +88,13 @@ void keep(const Comparison& comparison, const std::filesystem::path& folder) {
   for (const Contender& contender : all) {
     for (const Attempt& each : contender.attempts) {
       put(values, each,
-          {number(each.value, "{:.17g}"), comparison.unit,
-           number((best - each.value) / std::abs(best), "{:.3e}"),
-           number(each.evaluations_to(target), "{:.0f}"), fmt::format("{}", each.evaluations)});
-      put(times, each, {number(each.seconds_to(target), "{:.4g}"), number(each.seconds, "{:.4g}")});
+          {number_or_dash(each.value, "{:.17g}"), comparison.unit,
+           number_or_dash((best - each.value) / std::abs(best), "{:.3e}"),
+           number_or_dash(each.evaluations_to(target), "{:.0f}"),
+           fmt::format("{}", each.evaluations)});
+      put(times, each,
+          {number_or_dash(each.seconds_to(target), "{:.4g}"),
+           number_or_dash(each.seconds, "{:.4g}")});
     }
   }
 }

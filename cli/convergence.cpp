@@ -12,21 +12,22 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-constexpr double kWidth = 380, kHeight = 300, kLeft = 70, kTop = 36, kGap = 30, kBottom = 50;
+constexpr double kPanelWidth = 380, kPanelHeight = 300, kPanelLeft = 70, kPanelTop = 36,
+                 kPanelGap = 30, kPanelBottom = 50;
 constexpr double kLegend = 110;
 constexpr double kSmallest = 1e-6;  // share of the best value: the foot of the picture
 constexpr int kPointsPerDecade = 24;
-constexpr const char* kColours[] = {"#E69F00", "#000000", "#0072B2", "#009E73", "#CC79A7",
-                                    "#56B4E9", "#D55E00", "#B8A800", "#888888"};
+constexpr const char* kLineColours[] = {"#E69F00", "#000000", "#0072B2", "#009E73", "#CC79A7",
+                                        "#56B4E9", "#D55E00", "#B8A800", "#888888"};
 
-const char* colour(std::size_t i) { return kColours[i % std::size(kColours)]; }
+const char* colour(std::size_t i) { return kLineColours[i % std::size(kLineColours)]; }
 /// Colours that come round again are dashed.
-std::string dash(std::size_t i) { return i < std::size(kColours) ? "" : "5 3"; }
+std::string dash(std::size_t i) { return i < std::size(kLineColours) ? "" : "5 3"; }
 
 /// One panel in decades: x log10 of evaluations from 0, y log10 of the shortfall up to 0.
-class Panel {
+class DecadePanel {
  public:
-  Panel(Svg& svg, const Comparison& comparison, double left)
+  DecadePanel(Svg& svg, const Comparison& comparison, double left)
       : svg_(svg), comparison_(comparison), left_(left) {
     for (const Contender& contender : comparison.contenders)
       for (const Attempt& each : contender.attempts)
@@ -39,13 +40,14 @@ class Panel {
     for (std::size_t i = 0; i < comparison_.contenders.size(); ++i)
       svg_.polyline(curve(comparison_.contenders[i], best),
                     {.stroke = colour(i), .width = 1.6, .dash = dash(i)});
-    svg_.text({left_ + kWidth / 2, kTop - 12}, comparison_.problem,
+    svg_.text({left_ + kPanelWidth / 2, kPanelTop - 12}, comparison_.problem,
               {.size = 13, .anchor = Anchor::kMiddle, .bold = true});
   }
 
  private:
   Point at(double x, double y) const {
-    return {left_ + kWidth * x / decades_, kTop + kHeight * y / std::log10(kSmallest)};
+    return {left_ + kPanelWidth * x / decades_,
+            kPanelTop + kPanelHeight * y / std::log10(kSmallest)};
   }
 
   void grid(bool leftmost) {
@@ -68,7 +70,7 @@ class Panel {
     svg_.text(at(decades_ / 2, foot) + Point(0, 34), "evaluations",
               {.size = 11, .anchor = Anchor::kMiddle});
     if (leftmost)
-      svg_.text({left_ - 56, kTop + kHeight / 2}, "median below the best known value",
+      svg_.text({left_ - 56, kPanelTop + kPanelHeight / 2}, "median below the best known value",
                 {.size = 11, .anchor = Anchor::kMiddle, .angle = 90});
   }
 
@@ -99,13 +101,15 @@ class Panel {
 
 std::string draw_convergence(std::span<const Comparison> comparisons) {
   const auto count = static_cast<double>(comparisons.size());
-  const double right = kLeft + count * (kWidth + kGap);
-  Svg svg(right + kLegend, kTop + kHeight + kBottom);
+  const double right = kPanelLeft + count * (kPanelWidth + kPanelGap);
+  Svg svg(right + kLegend, kPanelTop + kPanelHeight + kPanelBottom);
   for (std::size_t i = 0; i < comparisons.size(); ++i)
-    Panel(svg, comparisons[i], kLeft + static_cast<double>(i) * (kWidth + kGap)).draw(i == 0);
+    DecadePanel(svg, comparisons[i],
+                kPanelLeft + static_cast<double>(i) * (kPanelWidth + kPanelGap))
+        .draw(i == 0);
   if (comparisons.empty()) return svg.str();
   for (std::size_t i = 0; i < comparisons[0].contenders.size(); ++i) {
-    const double y = kTop + 12 + 18 * static_cast<double>(i);
+    const double y = kPanelTop + 12 + 18 * static_cast<double>(i);
     svg.line({right, y}, {right + 20, y}, {.stroke = colour(i), .width = 2, .dash = dash(i)});
     std::string name = comparisons[0].contenders[i].search;
     std::replace(name.begin(), name.end(), '_', '-');  // here an underscore lowers a character

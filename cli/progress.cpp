@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::chrono::seconds kPatience(1);
 constexpr std::chrono::milliseconds kInterval(100);
-constexpr int kWidth = 40;
+constexpr int kCharacters = 40;
 
 }  // namespace
 
@@ -30,9 +30,10 @@ void Progress::show(long done) {
   next_ = now + kInterval;
   drawn_ = true;
   const double share = std::min(1.0, static_cast<double>(done) / static_cast<double>(total_));
-  const int filled = static_cast<int>(share * kWidth);
+  const int filled = static_cast<int>(share * kCharacters);
   fmt::print(stderr, "\r{} [{:=<{}}{:<{}}] {:3.0f} %  {:.0f} s\x1b[K", what_, "", filled, "",
-             kWidth - filled, 100 * share, std::chrono::duration<double>(now - start_).count());
+             kCharacters - filled, 100 * share,
+             std::chrono::duration<double>(now - start_).count());
   std::fflush(stderr);
 }
 

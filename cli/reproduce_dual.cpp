@@ -16,7 +16,7 @@ namespace maxwrench {
 namespace {
 
 constexpr std::array<const char*, 2> kSearches = {"grid", "annealing"};
-constexpr long kBudget = 20000;
+constexpr long kDualBudget = 20000;
 constexpr int kSamples = 2000;
 
 struct Tank {
@@ -25,7 +25,7 @@ struct Tank {
 
 /// Of the measure beta_2: pure torque at the bar.
 Case pure(const Problem& problem, const char* search) {
-  Case c{problem.name, "linf_polytope", Wrench::kPure, "", search, 1, kBudget};
+  Case c{problem.name, "linf_polytope", Wrench::kPure, "", search, 1, kDualBudget};
   return complete(c, problem.contact_columns());
 }
 

@@ -58,7 +58,7 @@ struct Attempt {
   std::uint64_t seed;
 };
 constexpr Attempt kAttempts[] = {{"grid", 1}, {"annealing", 1}, {"annealing", 2}, {"annealing", 3}};
-constexpr long kBudget = 200000;
+constexpr long kStaticBudget = 200000;
 
 /// The row of the best search, and by which share the worst one stays below.
 struct Best {
@@ -71,7 +71,7 @@ Best search(RowWriter& writer, const Problem& problem, const Measured& measured)
   double worst = kInfinity;
   for (const Attempt& attempt : kAttempts) {
     const Case c{problem.name,   measured.measure, measured.wrench, "",
-                 attempt.search, attempt.seed,     kBudget};
+                 attempt.search, attempt.seed,     kStaticBudget};
     const Row row = writer.solve(problem, complete(c));
     if (!row.has_value()) continue;
     worst = std::min(worst, row.capability.beta);
@@ -273,7 +273,7 @@ PaperTable reproduce_uvms(const std::filesystem::path& folder, int threads) {
       "which {:g} % are not asked for so that efforts are left to hold the posture; or the "
       "heaviest\n"
       "load that is carried for 5 s there, in steps of 1 kg.\n",
-      std::size(kAttempts), std::size(kAttempts) - 1, kBudget, 100 * TankOptions().margin);
+      std::size(kAttempts), std::size(kAttempts) - 1, kStaticBudget, 100 * TankOptions().margin);
   for (const Task& task : tasks()) text += "\n" + table(writer, task, folder);
   const bool all_solved = writer.finish();
   write_file(folder / "uvms_static.txt", text);

@@ -12,15 +12,17 @@
 namespace maxwrench {
 namespace {
 
-constexpr double kLeft = 56, kTop = 20, kWidth = 620, kHeight = 300, kBelow = 46,
-                 kRight = 20;  // px
-constexpr const char* kColours[] = {"#222222", "#E69F00", "#0072B2", "#009E73", "#D55E00"};
+constexpr double kPlotLeft = 56, kPlotTop = 20, kPlotWidth = 620, kPlotHeight = 300,
+                 kPlotBelow = 46,
+                 kPlotRight = 20;  // px
+constexpr const char* kCurveColours[] = {"#222222", "#E69F00", "#0072B2", "#009E73", "#D55E00"};
 
 /// Where the curves go: time and wrench -> px.
 struct Frame {
   double t_max = 0, low = 0, high = 0;
   Eigen::Vector2d operator()(double t, double value) const {
-    return {kLeft + kWidth * t / t_max, kTop + kHeight * (high - value) / (high - low)};
+    return {kPlotLeft + kPlotWidth * t / t_max,
+            kPlotTop + kPlotHeight * (high - value) / (high - low)};
   }
 };
 
@@ -55,9 +57,9 @@ void draw_axes(Svg& svg, const Frame& frame, const char* unit) {
   svg.line(frame(0, frame.low), frame(frame.t_max, frame.low), {.stroke = "#222222"});
   svg.text(frame(frame.t_max / 2, frame.low) + Eigen::Vector2d(0, 34), "time [s]",
            {.anchor = Anchor::kMiddle});
-  svg.text({14, kTop + kHeight / 2}, fmt::format("along c [{}]", unit),
+  svg.text({14, kPlotTop + kPlotHeight / 2}, fmt::format("along c [{}]", unit),
            {.anchor = Anchor::kMiddle, .angle = 90});
-  svg.text({kLeft + 8, kTop - 6}, "reading, and the plan (dashed)", {.size = 11});
+  svg.text({kPlotLeft + 8, kPlotTop - 6}, "reading, and the plan (dashed)", {.size = 11});
 }
 
 /// Throws unless the row's wrench is one that a hanging mass asks for.
@@ -126,11 +128,11 @@ std::string tank_csv(const Problem& problem, const TankRun& run) {
 }
 
 std::string tank_figure(const Problem& problem, const std::vector<TankCurve>& curves) {
-  Svg svg(kLeft + kWidth + kRight, kTop + kHeight + kBelow);
+  Svg svg(kPlotLeft + kPlotWidth + kPlotRight, kPlotTop + kPlotHeight + kPlotBelow);
   const Frame frame = frame_of(problem, curves);
   draw_axes(svg, frame, problem.unit());
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    const char* colour = kColours[i % std::size(kColours)];
+    const char* colour = kCurveColours[i % std::size(kCurveColours)];
     std::vector<Eigen::Vector2d> planned, reading;
     double at = 0;
     for (const TankSample& sample : curves[i].run->samples) {

@@ -1,6 +1,5 @@
 #include "lib/arm.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,14 +11,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kTurn = 2 * std::numbers::pi;
 /// Axes whose sine is below this are parallel.
 constexpr double kParallel = 1e-9;
 /// How far [m] a target may lie off the plane of an arm that cannot leave it.
 constexpr double kOffPlane = 1e-9;
-/// [m; rad] Newton has arrived, and what its last step must reach.
-constexpr double kArrived = 1e-9;
-constexpr double kExact = 1e-12;
 /// [rad or m] Closer solutions are the same.
 constexpr double kSame = 1e-5;
 constexpr int kSeeds = 24;
@@ -131,21 +126,13 @@ void Arm::solve_plane(const Vector3d& p, double first) {
   }
 }
 
-/// A revolute joint means the same after whole turns.
-void Arm::turn_into_limits(double& q, int joint) const {
-  const Joint& limits = problem_.robot.joints[static_cast<std::size_t>(joint)];
-  if (limits.type != JointType::kRevolute) return;
-  if (q > limits.q_max) q -= kTurn * std::ceil((q - limits.q_max) / kTurn);
-  if (q < limits.q_min) q += kTurn * std::ceil((limits.q_min - q) / kTurn);
-}
-
 /// Whether `trial_` is this posture, up to whole turns.
 bool Arm::same(const Eigen::VectorXd& branch) const {
   for (Eigen::Index i = 0; i < trial_.size(); ++i) {
     const auto joint = static_cast<std::size_t>(contact_.follow[static_cast<std::size_t>(i)]);
     double apart = branch[i] - trial_[i];
     if (problem_.robot.joints[joint].type == JointType::kRevolute) {
-      apart = std::remainder(apart, kTurn);
+      apart = std::remainder(apart, 2 * std::numbers::pi);
     }
     if (std::abs(apart) >= kSame) return false;
   }
@@ -155,7 +142,9 @@ bool Arm::same(const Eigen::VectorXd& branch) const {
 /// Adds `trial_` to the branches, unless it is one of them.
 void Arm::keep() {
   for (Eigen::Index i = 0; i < trial_.size(); ++i) {
-    turn_into_limits(trial_[i], contact_.follow[static_cast<std::size_t>(i)]);
+    const int joint = contact_.follow[static_cast<std::size_t>(i)];
+    trial_[i] =
+        turned_into_limits(problem_.robot.joints[static_cast<std::size_t>(joint)], trial_[i]);
   }
   if (count_ == kMostBranches) return;
   if (!closed_form_) {
@@ -182,8 +171,7 @@ void Arm::linearise(const Pose<double>& target) {
   const Pose<double> pose = kinematics_.end_effector(tip);
   error_.head<3>() = target.p - pose.p;
   if (!contact_.holds_axes) return;
-  const Eigen::AngleAxisd turn(Eigen::Matrix3d(target.R * pose.R.transpose()));
-  error_.tail<3>() = turn.angle() * turn.axis();
+  error_.tail<3>() = logarithm(target.R * pose.R.transpose());
 }
 
 /// Levenberg's and Marquardt's method from trial_, then a plain step; whether it arrives.
@@ -193,9 +181,7 @@ bool Arm::newton(const Pose<double>& target) {
   linearise(target);
   for (int step = 0; step < kMostSteps && error_.norm() > kArrived; ++step) {
     const double before = error_.norm();
-    Square normal = J_f_.transpose() * J_f_;
-    normal.diagonal().array() += damping * before;
-    const Error dq = normal.ldlt().solve(J_f_.transpose() * error_);
+    const Vector6N dq = damped_step(J_f_, error_, damping * before);
     trial_ += dq;
     linearise(target);
     if (error_.norm() < before) {
@@ -208,9 +194,9 @@ bool Arm::newton(const Pose<double>& target) {
     if (damping > kMostDamping) return false;
   }
   if (error_.norm() > kArrived) return false;
-  const Eigen::ColPivHouseholderQR<Square> qr(J_f_);
+  const LeastSquares6 qr(J_f_);
   for (int step = 0; step < 2; ++step) {
-    const Error dq = qr.solve(error_);
+    const Vector6N dq = qr.solve(error_);
     trial_ += dq;
     linearise(target);
   }

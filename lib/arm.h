@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 
+#include "lib/decompositions.h"
 #include "lib/kinematics.h"
 #include "lib/problem.h"
 
@@ -46,8 +47,6 @@ class Arm {
   struct Axis {
     Eigen::Vector3d a, o;
   };
-  using Error = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1>;
-  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
 
   void read_axes();
   void solve_plane(const Eigen::Vector3d& p, double first);
@@ -55,7 +54,6 @@ class Arm {
   void solve_by_newton(const Pose<double>& target);
   bool newton(const Pose<double>& target);
   void linearise(const Pose<double>& target);
-  void turn_into_limits(double& q, int joint) const;
   bool same(const Eigen::VectorXd& branch) const;
   void keep();
 
@@ -69,8 +67,8 @@ class Arm {
   std::array<Eigen::VectorXd, kMostBranches> branches_;
   Eigen::VectorXd q_, trial_;  ///< all joints; those that follow
   Matrix6Xd J_;
-  Error error_;
-  Square J_f_;
+  Vector6N error_;
+  Matrix6N J_f_;
 };
 
 }  // namespace maxwrench

@@ -11,9 +11,6 @@
 namespace maxwrench {
 namespace {
 
-/// [m; rad] of the end effector: Newton has arrived, and what one more step must reach.
-constexpr double kArrived = 1e-9;
-constexpr double kExact = 1e-12;
 /// On the way to theta_r a rougher solution is enough.
 constexpr double kOnTheWay = 1e-6;
 /// theta_r moves this far in one step [rad or m], and y is corrected by this at most.
@@ -21,7 +18,7 @@ constexpr double kStep = 0.3;
 constexpr double kCorrection = 0.2;
 /// A step that must be shorter than this fails.
 constexpr double kShortestStep = 1e-5;
-constexpr int kMostSteps = 2000;
+constexpr int kMostPathSteps = 2000;
 /// J_d is singular if the smallest pivot of its QR decomposition is below this part of the largest.
 constexpr double kSingular = 1e-4;
 
@@ -30,12 +27,6 @@ constexpr const char* kSingularReason = "singular: the dependent joints do not f
 
 /// The place of a base axis [x y z roll pitch yaw] in [x, y, z, yaw].
 int coordinate(int axis) { return std::min(axis, 3); }
-
-/// A rotation as axis times angle.
-Eigen::Vector3d logarithm(const Eigen::Matrix3d& R) {
-  const Eigen::AngleAxisd turn(R);
-  return turn.angle() * turn.axis();
-}
 
 }  // namespace
 
@@ -64,9 +55,7 @@ int motions_of(const Robot& robot, int end_effector) {
     // The pose of the base does not change the rank.
     kinematics.jacobian(robot.end_effectors[static_cast<std::size_t>(end_effector)],
                         Eigen::Matrix3d::Identity(), J);
-    Eigen::ColPivHouseholderQR<Matrix6Xd> qr(J);
-    qr.setThreshold(1e-9);
-    rank = std::max(rank, qr.rank());
+    rank = std::max(rank, split(J, 1e-9).range.cols());
   }
   return static_cast<int>(rank);
 }
@@ -131,18 +120,13 @@ void Branch::linearise(const Eigen::VectorXd& z) {
   error_.tail<3>() = logarithm(problem_.pose.R * pose.R.transpose());
 }
 
-bool Branch::is_singular() const {
-  const auto pivots = qr_.matrixQR().diagonal().cwiseAbs();
-  return pivots.size() > 0 && !(pivots.minCoeff() >= kSingular * pivots.maxCoeff());
-}
-
 /// slopes_ where J_ and qr_ are, dtheta_r/dtheta_r included.
 void Branch::differentiate() {
   const auto axes = static_cast<Eigen::Index>(problem_.robot.base_axes.size());
   for (Eigen::Index k = 0; k < slopes_.cols(); ++k) {
     const int joint = problem_.redundant[static_cast<std::size_t>(k)];
     const Vector6d twist = J_.col(axes + joint);
-    const VectorN dy = qr_.solve(twist);
+    const Vector6N dy = qr_.solve(twist);
     for (std::size_t i = 0; i < y_.size(); ++i) {
       slopes_(y_[i], k) = -dy[static_cast<Eigen::Index>(i)];
     }
@@ -151,15 +135,12 @@ void Branch::differentiate() {
 }
 
 /// One step of Levenberg and Marquardt from z_, kept if it leads closer; false if none does.
-bool Branch::damped_step(double& damping) {
+bool Branch::approach(double& damping) {
   constexpr double kMostDamping = 1e9;
   constexpr double kLongest = 0.5;
   const double error = error_.norm();
   while (damping < kMostDamping) {
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6> normal =
-        J_d_.transpose() * J_d_;
-    normal.diagonal().array() += damping;
-    VectorN dy = normal.ldlt().solve(J_d_.transpose() * error_);
+    Vector6N dy = damped_step(J_d_, error_, damping);
     const double longest = dy.lpNorm<Eigen::Infinity>();
     if (longest > kLongest) dy *= kLongest / longest;
     trial_ = z_;
@@ -181,11 +162,11 @@ void Branch::start() {
   double damping = 0.01;
   linearise(z_);
   for (int i = 0; i < kMostDampedSteps && error_.norm() > kArrived; ++i) {
-    if (!damped_step(damping)) break;
+    if (!approach(damping)) break;
   }
   start_error_ = error_.norm();
   qr_.compute(J_d_);
-  start_is_singular_ = is_singular();
+  start_is_singular_ = qr_.is_singular(kSingular);
   differentiate();
 }
 
@@ -199,7 +180,7 @@ bool Branch::contract(double tolerance) {
     if (!(now <= error / 2)) return false;
     error = now;
     qr_.compute(J_d_);
-    const VectorN dy = qr_.solve(error_);
+    const Vector6N dy = qr_.solve(error_);
     if (!(dy.lpNorm<Eigen::Infinity>() <= kCorrection)) return false;
     for (std::size_t i = 0; i < y_.size(); ++i) trial_[y_[i]] += dy[static_cast<Eigen::Index>(i)];
   }
@@ -212,7 +193,7 @@ const char* Branch::carry(const Eigen::VectorXd& theta_r) {
   const double longest = length > kStep ? kStep / length : 1;
   double done = 0;
   double step = longest;
-  for (int i = 0; i < kMostSteps && done < 1; ++i) {
+  for (int i = 0; i < kMostPathSteps && done < 1; ++i) {
     const double next = std::min(1.0, done + step);
     trial_ = z_;
     for (Eigen::Index k = 0; k < theta_r.size(); ++k) {
@@ -224,7 +205,7 @@ const char* Branch::carry(const Eigen::VectorXd& theta_r) {
     }
     const bool arrived = contract(next < 1 ? kOnTheWay : kArrived);
     if (arrived) qr_.compute(J_d_);
-    if (arrived && !is_singular()) {
+    if (arrived && !qr_.is_singular(kSingular)) {
       differentiate();
       z_ = trial_;
       done = next;
@@ -248,27 +229,17 @@ const char* Branch::follow(const Eigen::VectorXd& theta_r) {
   slopes_ = start_slopes_;
   reason_ = has_start() ? carry(theta_r) : kUnreachable;
   if (reason_ == nullptr) {
-    const VectorN dy = qr_.solve(error_);
+    const Vector6N dy = qr_.solve(error_);
     for (std::size_t i = 0; i < y_.size(); ++i) z_[y_[i]] += dy[static_cast<Eigen::Index>(i)];
     linearise(z_);
     if (!(error_.norm() <= kExact)) reason_ = kUnreachable;
     qr_.compute(J_d_);
     differentiate();
   }
-  turn_into_limits();
-  return reason_;
-}
-
-/// A revolute joint means the same after whole turns.
-void Branch::turn_into_limits() {
-  constexpr double kTurn = 2 * std::numbers::pi;
   for (const int i : problem_.dependent) {
-    const Joint& joint = problem_.robot.joints[static_cast<std::size_t>(i)];
-    double& q = z_[4 + i];
-    if (joint.type != JointType::kRevolute) continue;
-    if (q > joint.q_max) q -= kTurn * std::ceil((q - joint.q_max) / kTurn);
-    if (q < joint.q_min) q += kTurn * std::ceil((joint.q_min - q) / kTurn);
+    z_[4 + i] = turned_into_limits(problem_.robot.joints[static_cast<std::size_t>(i)], z_[4 + i]);
   }
+  return reason_;
 }
 
 }  // namespace maxwrench

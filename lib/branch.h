@@ -1,8 +1,8 @@
 #pragma once
 
-#include <Eigen/QR>
 #include <vector>
 
+#include "lib/decompositions.h"
 #include "lib/kinematics.h"
 #include "lib/problem.h"
 
@@ -58,17 +58,12 @@ class Branch {
   const Eigen::MatrixXd& slopes() const { return slopes_; }
 
  private:
-  using Matrix6N = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
-  using VectorN = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1>;
-
   void linearise(const Eigen::VectorXd& z);
   void differentiate();
-  bool is_singular() const;
-  bool damped_step(double& damping);
+  bool approach(double& damping);
   void start();
   bool contract(double tolerance);
   const char* carry(const Eigen::VectorXd& theta_r);
-  void turn_into_limits();
 
   const Problem& problem_;
   Kinematics<double> kinematics_;
@@ -84,7 +79,7 @@ class Branch {
   Vector6d error_;  ///< [m; rad], the twist that leads to the pose
   Matrix6Xd J_;
   Matrix6N J_d_;
-  Eigen::ColPivHouseholderQR<Matrix6N> qr_;
+  LeastSquares6 qr_;
 };
 
 }  // namespace maxwrench

@@ -19,8 +19,6 @@ namespace {
 
 /// Distance [m] and rotation [-] below which the base counts as lying on its free axes.
 constexpr double kReachTolerance = 1e-9;
-/// A posture on its limit is inside: theta_r may carry rounding from a search's box.
-constexpr double kLimitTolerance = 1e-12;
 
 /// The state of one posture.
 struct Model {

@@ -4,10 +4,10 @@
 #include <array>
 #include <cassert>
 
+#include "lib/decompositions.h"
+
 namespace maxwrench {
 namespace {
-
-using Matrix6N = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
 
 /// The dependent velocities, at most six: more would leave A_r without a unique answer.
 struct Dependent {
@@ -38,21 +38,20 @@ Dependent dependent_velocities(const Problem& problem) {
 }
 
 /// Factors J_d; `solve` then applies J_d^+.
-Eigen::CompleteOrthogonalDecomposition<Matrix6N> factor(const Posture& posture,
-                                                        const Dependent& dependent) {
+LeastSquares6 factor(const Posture& posture, const Dependent& dependent) {
   Matrix6N J_d(6, dependent.count);
   for (int i = 0; i < dependent.count; ++i) {
     J_d.col(i) = posture.J.col(dependent.index[static_cast<std::size_t>(i)]);
   }
-  return Eigen::CompleteOrthogonalDecomposition<Matrix6N>(J_d);
+  return LeastSquares6(J_d);
 }
 
 /// Writes J_d^+ y into the dependent rows of a column.
 template <class Column>
-void scatter(const Eigen::CompleteOrthogonalDecomposition<Matrix6N>& J_d,
-             const Dependent& dependent, const Vector6d& y, Column&& column) {
+void scatter(const LeastSquares6& J_d, const Dependent& dependent, const Vector6d& y,
+             Column&& column) {
   if (dependent.count == 0) return;  // a base that does not move
-  const Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1> velocities = J_d.solve(y);
+  const Vector6N velocities = J_d.solve(y);
   for (int i = 0; i < dependent.count; ++i) {
     column[dependent.index[static_cast<std::size_t>(i)]] = velocities[i];
   }
@@ -73,8 +72,7 @@ void follow_contact(const Problem& problem, const Posture& posture, const Vector
   }
   Vector6d twist = t - posture.J_2.lazyProduct(column);
   twist.tail(6 - rows).setZero();
-  const Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1> dq =
-      Eigen::CompleteOrthogonalDecomposition<Matrix6N>(J_f).solve(twist);
+  const Vector6N dq = LeastSquares6(J_f).solve(twist);
   for (Eigen::Index i = 0; i < d; ++i) {
     column[axes + contact.follow[static_cast<std::size_t>(i)]] = dq[i];
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
 namespace maxwrench {
 
@@ -9,6 +11,14 @@ bool base_axes_are_integrable(const std::vector<int>& axes) {
   static const std::array<std::vector<int>, 8> kAllowed = {
       {{}, {0}, {0, 1}, {0, 1, 2}, {5}, {0, 1, 5}, {0, 1, 2, 5}, {0, 1, 2, 3, 4, 5}}};
   return std::find(kAllowed.begin(), kAllowed.end(), axes) != kAllowed.end();
+}
+
+double turned_into_limits(const Joint& joint, double q) {
+  if (joint.type != JointType::kRevolute) return q;
+  constexpr double kTurn = 2 * std::numbers::pi;
+  if (q > joint.q_max) q -= kTurn * std::ceil((q - joint.q_max) / kTurn);
+  if (q < joint.q_min) q += kTurn * std::ceil((joint.q_min - q) / kTurn);
+  return q;
 }
 
 void add_body(Link& link, double mass, const Eigen::Vector3d& com, const Eigen::Matrix3d& inertia) {

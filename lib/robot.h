@@ -10,6 +10,9 @@
 
 namespace maxwrench {
 
+/// [rad or m] A posture on its limit is inside: theta_r may carry rounding from a search's box.
+inline constexpr double kLimitTolerance = 1e-12;
+
 enum class JointType { kRevolute, kPrismatic };
 
 /// Added mass and drag of one body, diagonal in its own frame: in the axes of `frame`, for the
@@ -51,6 +54,9 @@ struct Joint {
   double velocity_max = kInfinity;                  ///< rad/s or m/s
   double effort_max = 0;                            ///< N m or N
 };
+
+/// A revolute joint means the same after whole turns: q less those that bring it inside its limits.
+double turned_into_limits(const Joint& joint, double q);
 
 struct Thruster {
   std::string name;

@@ -33,6 +33,12 @@ Matrix3<T> skew(const Vector3<T>& a) {
   return S;
 }
 
+/// The rotation vector [rad], of length at most pi, whose rotation is R.
+inline Eigen::Vector3d logarithm(const Eigen::Matrix3d& R) {
+  const Eigen::AngleAxisd turn(R);
+  return turn.angle() * turn.axis();
+}
+
 /// A rigid transformation x -> R x + p.
 template <class T>
 struct Pose {

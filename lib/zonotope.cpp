@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "lib/decompositions.h"
+
 namespace maxwrench {
 namespace {
 
@@ -76,9 +78,9 @@ std::vector<VectorXd> facet_normals(const MatrixXd& G) {
   MatrixXd spanning(r, r - 1);
   do {
     for (int i = 0; i < r - 1; ++i) spanning.col(i) = G.col(subset[i]).normalized();
-    const Eigen::FullPivHouseholderQR<MatrixXd> qr(spanning);
-    if (qr.rank() < r - 1) continue;
-    const VectorXd normal = qr.matrixQ().col(r - 1);
+    const MatrixXd across = split(spanning).complement;
+    if (across.cols() > 1) continue;
+    const VectorXd normal = across.col(0);
     const bool known = std::any_of(normals.begin(), normals.end(), [&](const VectorXd& other) {
       return std::abs(other.dot(normal)) > 1 - 1e-12;
     });
@@ -110,26 +112,21 @@ void add_pair(Zonotope& zonotope, const VectorXd& normal) {
 bool add_block(Zonotope& zonotope, const Block& block, long max_subsets) {
   const MatrixXd part = zonotope.B(block.rows, block.cols);
   const int rows = static_cast<int>(block.rows.size());
-  int rank = 0;
-  MatrixXd Q = MatrixXd::Identity(rows, rows);
-  if (!block.cols.empty()) {
-    const Eigen::FullPivHouseholderQR<MatrixXd> qr(part);
-    rank = static_cast<int>(qr.rank());
-    Q = qr.matrixQ();
-  }
+  auto [range, complement] = split(part);
+  const auto rank = static_cast<int>(range.cols());
   if (count_subsets(static_cast<int>(block.cols.size()), std::max(rank - 1, 0), max_subsets) >
       max_subsets) {
     return false;
   }
   std::vector<VectorXd> normals;
   if (rank > 0) {
-    const MatrixXd range =
-        rank == rows ? MatrixXd::Identity(rows, rows) : MatrixXd(Q.leftCols(rank));
+    if (rank == rows) range.setIdentity();
     for (const VectorXd& normal : facet_normals(range.transpose() * part)) {
       normals.push_back(range * normal);
     }
   }
-  for (int i = rank; i < rows; ++i) normals.push_back(Q.col(i));  // nothing acts along these
+  // Nothing acts along these.
+  for (int i = 0; i < rows - rank; ++i) normals.push_back(complement.col(i));
   for (const VectorXd& normal : normals) {
     VectorXd full = VectorXd::Zero(zonotope.dimension());
     full(block.rows) = normal;
@@ -157,9 +154,8 @@ Zonotope make_zonotope(MatrixXd B, VectorXd u_min, VectorXd u_max, long max_subs
   zonotope.u_min = std::move(u_min);
   zonotope.u_max = std::move(u_max);
   if (zonotope.B.size() > 0) {
-    const Eigen::CompleteOrthogonalDecomposition<MatrixXd> cod(zonotope.B);
-    zonotope.rank = static_cast<int>(cod.rank());
-    zonotope.B_pinv = cod.pseudoInverse();
+    zonotope.rank = static_cast<int>(split(zonotope.B).range.cols());
+    zonotope.B_pinv = pseudo_inverse(zonotope.B);
   } else {
     zonotope.B_pinv.resize(zonotope.B.cols(), zonotope.B.rows());
   }

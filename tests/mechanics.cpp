@@ -25,6 +25,10 @@ Vector6d twist_of(const Robot& robot, const Eigen::VectorXd& q, const Eigen::Vec
 
 }  // namespace
 
+Eigen::VectorXd random_numbers(Random& random, int size) {
+  return Eigen::VectorXd::NullaryExpr(size, [&] { return random.normal(); });
+}
+
 Robot random_wet_robot(Random& random, int joints) {
   Robot robot = random_problem(random, joints).robot;
   robot.trim = {random.uniform(-2, 2), random_vector(random, 0.2)};

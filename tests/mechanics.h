@@ -10,6 +10,9 @@ namespace maxwrench {
 /// base and none on link 1.
 Robot random_wet_robot(Random& random, int joints);
 
+/// From the normal distribution.
+Eigen::VectorXd random_numbers(Random& random, int size);
+
 /// The base moved by `step` along velocity number i, in base axes, or the joint likewise.
 void move(const Robot& robot, int i, double step, Pose<double>& base, Eigen::VectorXd& q);
 

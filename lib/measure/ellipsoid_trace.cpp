@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "lib/decompositions.h"
 #include "lib/measure/closed_form.h"
 #include "lib/posture.h"
 
@@ -42,7 +43,7 @@ class EllipsoidTrace : public Measure {
     // The radii are the reciprocal singular values of G S.
     capability.residual = {};
     const Eigen::MatrixXd scaled = G_ * S_inverse_.inverse();
-    const double trace = scaled.jacobiSvd().singularValues().cwiseAbs2().cwiseInverse().sum();
+    const double trace = singular_values(scaled).cwiseAbs2().cwiseInverse().sum();
     capability.residual.gap = std::abs(trace - capability.beta);
   }
 

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "lib/decompositions.h"
 #include "lib/measure/closed_form.h"
 #include "lib/posture.h"
 
@@ -28,7 +29,7 @@ class Manipulability : public Measure {
     capability.beta_J.noalias() = w * W_.lazyProduct(scaled_);
     if (!efforts) return;
     capability.residual = {};
-    capability.residual.gap = std::abs(A_.jacobiSvd().singularValues().prod() - w);
+    capability.residual.gap = std::abs(singular_values(A_).prod() - w);
   }
 
  private:

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "lib/decompositions.h"
 #include "lib/measure/closed_form.h"
 #include "lib/wrench_program.h"
 
@@ -20,7 +21,7 @@ class SaturatingWrench : public Measure {
                            robot.actuation.u_min, robot.actuation.u_max)) {
     const Eigen::VectorXd limit = smaller_limits(robot.actuation);
     const Eigen::MatrixXd scaled = robot.actuation.B * limit.asDiagonal();
-    K_ = limit.asDiagonal() * scaled.completeOrthogonalDecomposition().pseudoInverse();
+    K_ = limit.asDiagonal() * pseudo_inverse(scaled);
   }
 
   void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,

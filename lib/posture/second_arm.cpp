@@ -1,18 +1,12 @@
 #include "lib/posture/second_arm.h"
 
-#include <Eigen/QR>
-
 #include "lib/branch.h"
+#include "lib/decompositions.h"
 
 namespace maxwrench {
 namespace {
 
 using Eigen::Vector3d;
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1>;
-using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
-
-/// A posture on its limit is inside.
-constexpr double kLimitTolerance = 1e-12;
 
 std::vector<char> moving(const Robot& robot, int end_effector) {
   std::vector<char> moves(static_cast<std::size_t>(robot.velocities()), 0);
@@ -77,16 +71,15 @@ void SecondArm::follow(const Vector3d& p_e, const Matrix6Xd& J, const Matrix6Xd&
   const auto axes = static_cast<Eigen::Index>(problem_.robot.base_axes.size());
   const int rows = contact_.rows();
   const auto d = static_cast<Eigen::Index>(contact_.follow.size());
-  Square J_f(rows, d);
-  Rows slope(d);
+  Matrix6N J_f(rows, d);
+  Vector6N slope(d);
   for (Eigen::Index i = 0; i < d; ++i) {
     const int joint = contact_.follow[static_cast<std::size_t>(i)];
     J_f.col(i) = J_2.col(axes + joint).head(rows);
     slope[i] = q_gradient[joint];
   }
   Vector6d mu = Vector6d::Zero();
-  const Rows solved = Eigen::ColPivHouseholderQR<Square>(J_f).transpose().solve(slope);
-  mu.head(rows) = solved;
+  mu.head(rows) = LeastSquares6(J_f).solve_transposed(slope);
   // With the first end effector at rest, joint k moves all that it does not carry by -s_k.
   for (Eigen::Index k = 0; k < q_gradient.size(); ++k) {
     if (!first_[static_cast<std::size_t>(axes + k)]) continue;

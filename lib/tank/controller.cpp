@@ -3,29 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/decompositions.h"
 #include "lib/redundancy.h"
 
 namespace maxwrench {
 namespace {
+
+/// Directions that differ by less than this share are one.
+constexpr double kSame = 1e-9;
 
 /// Of (u - u*)'Q(u - u*): an effort counts by its smaller limit, as in beta_1.
 Eigen::VectorXd weights(const Zonotope& actuation) {
   const Eigen::ArrayXd limit =
       actuation.u_min.array().abs().min(actuation.u_max.array().abs()).max(1e-3);
   return limit.square().inverse();
-}
-
-/// Orthonormal: first what the columns span, then what is orthogonal to them.
-struct Split {
-  Eigen::MatrixXd range, complement;
-};
-
-Split split(const Eigen::MatrixXd& columns) {
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-  qr.setThreshold(1e-9);
-  qr.compute(columns);
-  const Eigen::MatrixXd Q = qr.householderQ();
-  return {Q.leftCols(qr.rank()), Q.rightCols(Q.cols() - qr.rank())};
 }
 
 }  // namespace
@@ -41,7 +32,8 @@ PostureController::PostureController(const Problem& problem, const Posture& post
       now_(posture),
       a_(problem.robot.velocities()) {
   if (wrench == Wrench::kAny && options.load == 0) {
-    across_ = split(problem.W_any - problem.c * (problem.c.transpose() * problem.W_any)).range;
+    across_ =
+        split(problem.W_any - problem.c * (problem.c.transpose() * problem.W_any), kSame).range;
   }
 }
 
@@ -70,9 +62,8 @@ void PostureController::accelerate_posture(const Motion& motion) {
 /// a = omega^2 e - 2 omega v, e the error of the pose in base axes and of the joints.
 void PostureController::accelerate_all(const Motion& motion) {
   const Eigen::Matrix3d R = motion.base.R.transpose();
-  const Eigen::AngleAxisd turn(Eigen::Matrix3d(R * reference_.base.R));
   Vector6d pose;
-  pose << R * (reference_.base.p - motion.base.p), turn.angle() * turn.axis();
+  pose << R * (reference_.base.p - motion.base.p), logarithm(R * reference_.base.R);
   const auto& axes = problem_.robot.base_axes;
   for (std::size_t i = 0; i < axes.size(); ++i) a_[static_cast<Eigen::Index>(i)] = pose[axes[i]];
   a_.tail(motion.q.size()) = reference_.q - motion.q;
@@ -82,7 +73,7 @@ void PostureController::accelerate_all(const Motion& motion) {
 /// Only those combinations of the balance's rows in which the wrenches `across_` have no part.
 void PostureController::leave_free(EffortRequest& request) const {
   if (across_.cols() == 0) return;
-  const Eigen::MatrixXd N = split(now_.J.transpose() * across_).complement;
+  const Eigen::MatrixXd N = split(now_.J.transpose() * across_, kSame).complement;
   request.B = N.transpose() * request.B;
   request.tau_c = N.transpose() * request.tau_c;
 }

@@ -72,9 +72,8 @@ Eigen::VectorXd TankOde::efforts(double t) const {
 Vector6d TankOde::displacement(const Motion& motion) {
   dynamics_.set_configuration(motion.base.R, motion.q);
   const Pose<double> tool = motion.base * dynamics_.kinematics().end_effector(tool_);
-  const Eigen::AngleAxisd turn(Eigen::Matrix3d(tool.R * anchor_.R.transpose()));
   Vector6d moved;
-  moved << tool.p - anchor_.p, turn.angle() * turn.axis();
+  moved << tool.p - anchor_.p, logarithm(tool.R * anchor_.R.transpose());
   return moved;
 }
 

@@ -1,12 +1,12 @@
 #include "problems/loader/contact.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "lib/branch.h"
+#include "problems/loader/theta_r.h"
 #include "problems/loader/urdf_tree.h"
 
 namespace maxwrench {
@@ -14,12 +14,6 @@ namespace {
 
 constexpr const char* kForces = "none, point, push, friction, grasp or basis";
 constexpr const char* kSurfaces = "point, line, plane or circle";
-
-std::vector<std::string> names_of(const Robot& robot, const std::vector<int>& joints) {
-  std::vector<std::string> names;
-  for (const int i : joints) names.push_back(robot.joints[static_cast<std::size_t>(i)].name);
-  return names;
-}
 
 bool contains(const std::vector<int>& values, int value) {
   return std::find(values.begin(), values.end(), value) != values.end();
@@ -131,21 +125,20 @@ void read_arm(const Block& block, Problem& problem, Contact& contact) {
                          "shares a joint with it)");
     }
   }
-  const auto names = names_of(robot, chain);
+  const std::string names = names_of(robot, chain);
   for (const std::string& name : block.texts("joints")) {
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) {
-      block.refuse_value("joints", fmt::format("some of {}", fmt::join(names, ", ")));
-    }
-    contact.follow.push_back(chain[static_cast<std::size_t>(found - names.begin())]);
+    const auto found = std::find_if(chain.begin(), chain.end(), [&](int joint) {
+      return robot.joints[static_cast<std::size_t>(joint)].name == name;
+    });
+    if (found == chain.end()) block.refuse_value("joints", "some of " + names);
+    contact.follow.push_back(*found);
   }
   const bool ordered =
       std::is_sorted(contact.follow.begin(), contact.follow.end()) &&
       std::adjacent_find(contact.follow.begin(), contact.follow.end()) == contact.follow.end();
   const auto most = static_cast<std::size_t>(contact.rows());
   if (!ordered || contact.follow.empty() || contact.follow.size() > most) {
-    block.refuse_value(
-        "joints", fmt::format("at most {} of {}, in this order", most, fmt::join(names, ", ")));
+    block.refuse_value("joints", fmt::format("at most {} of {}, in this order", most, names));
   }
   if (contact.holds_axes && contact.follow.size() != most) {
     block.refuse_value("joints", "six joints: a firm grasp needs them");

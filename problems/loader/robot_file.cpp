@@ -169,9 +169,12 @@ Shape read_capsule(const Block& block, const UrdfTree& tree) {
   const Eigen::Vector3d p0 = block.vector("p0"), p1 = block.vector("p1");
   shape.half_length = (p1 - p0).norm() / 2;
   shape.placement.p = (p0 + p1) / 2;
-  shape.placement.R =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), p1 - p0).toRotationMatrix();
-  if (shape.half_length == 0) shape.placement.R.setIdentity();
+  if (shape.half_length > 0) {  // its axis is z
+    Eigen::Matrix3d& R = shape.placement.R;
+    R.col(2) = (p1 - p0).normalized();
+    R.col(0) = R.col(2).unitOrthogonal();
+    R.col(1) = R.col(2).cross(R.col(0));
+  }
   shape.placement = body.placement * shape.placement;
   return shape;
 }

@@ -17,9 +17,8 @@ void require_free_axes(const Block& theta, const Pose<double>& base, const Robot
   constexpr double kRounding = 1e-9;
   if (robot.base_axes.size() == kNames.size()) return;
   const Pose<double> moved = robot.mount.inverse() * base;
-  const Eigen::AngleAxisd turn(moved.R);
   Vector6d along;
-  along << moved.p, turn.angle() * turn.axis();
+  along << moved.p, logarithm(moved.R);
   for (int i = 0; i < 6; ++i) {
     const auto& free = robot.base_axes;
     const bool fixed = std::find(free.begin(), free.end(), i) == free.end();

@@ -13,12 +13,6 @@ namespace {
 
 constexpr std::array<const char*, 6> kAxes = {"x", "y", "z", "roll", "pitch", "yaw"};
 
-std::string names_of(const Robot& robot, const std::vector<int>& joints) {
-  std::vector<std::string> names;
-  for (const int i : joints) names.push_back(robot.joints[static_cast<std::size_t>(i)].name);
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
 /// The joints that the task names, `count` of the chain's.
 std::vector<int> named_joints(const Block& theta_r, const Robot& robot,
                               const std::vector<int>& chain, int count) {
@@ -111,6 +105,12 @@ void read_guess(const Block& theta_r, Problem& problem) {
 }
 
 }  // namespace
+
+std::string names_of(const Robot& robot, const std::vector<int>& joints) {
+  std::vector<std::string> names;
+  for (const int i : joints) names.push_back(robot.joints[static_cast<std::size_t>(i)].name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
 
 void read_theta_r(const Block& theta_r, Problem& problem) {
   theta_r.allow_only({"joints", "default", "guess", "guess_base"});

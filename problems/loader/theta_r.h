@@ -1,9 +1,15 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "lib/problem.h"
 #include "problems/loader/block.h"
 
 namespace maxwrench {
+
+/// The joints' names, separated by commas.
+std::string names_of(const Robot& robot, const std::vector<int>& joints);
 
 /// Reads `[theta_r]`: which joints are redundant, their default, and the guess for those that
 /// follow. `problem` has its robot, end effector and pose.

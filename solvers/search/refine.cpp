@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "lib/decompositions.h"
 #include "lib/random.h"
 
 namespace maxwrench {
@@ -81,11 +82,11 @@ class Evolution {
 
  private:
   void decompose() {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(C_);
-    axes_ = eigen.eigenvectors();
+    const SymmetricEigen eigen = symmetric_eigen(C_);
+    axes_ = eigen.V;
     // Rounding may leave a negative eigenvalue where C is nearly flat.
-    const double floor = 1e-14 * eigen.eigenvalues().maxCoeff();
-    lengths_ = eigen.eigenvalues().cwiseMax(floor).cwiseSqrt();
+    const double floor = 1e-14 * eigen.values.maxCoeff();
+    lengths_ = eigen.values.cwiseMax(floor).cwiseSqrt();
   }
 
   const Rates& rates_;

@@ -18,20 +18,16 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr int kJoints = 6;
+constexpr int kChainJoints = 6;
 
 /// A chain without water.
 Robot random_dry_chain(Random& random) {
-  Robot robot = random_wet_robot(random, kJoints);
+  Robot robot = random_wet_robot(random, kChainJoints);
   robot.water_density = 0;
   robot.trim = {};
   for (Link& link : robot.links) link.hydrodynamics.clear();
-  for (int i = 0; i < kJoints; ++i) robot.joints[i].parent = i;
+  for (int i = 0; i < kChainJoints; ++i) robot.joints[i].parent = i;
   return robot;
-}
-
-VectorXd random_numbers(Random& random, int size) {
-  return VectorXd::NullaryExpr(size, [&] { return random.normal(); });
 }
 
 /// What KDL says about one motion of a chain.
@@ -70,13 +66,14 @@ TEST(DynamicsKdl, ArmOnAFixedBase) {
   for (int sample = 0; sample < 100; ++sample) {
     Robot robot = random_dry_chain(random);
     robot.base_axes = {};
-    const VectorXd q = random_numbers(random, kJoints), v = random_numbers(random, kJoints),
-                   v_d = random_numbers(random, kJoints);
+    const VectorXd q = random_numbers(random, kChainJoints),
+                   v = random_numbers(random, kChainJoints),
+                   v_d = random_numbers(random, kChainJoints);
     const Kdl kdl(kdl_chain(robot), robot.gravity, q, v, v_d);
     Dynamics<double> dynamics(robot);
     dynamics.set_configuration(Matrix3d::Identity(), q);
     MatrixXd M;
-    VectorXd C_v(kJoints), tau_d(kJoints);
+    VectorXd C_v(kChainJoints), tau_d(kChainJoints);
     dynamics.mass_matrix(M);
     dynamics.coriolis(v, C_v);
     dynamics.inverse(v, v_d, tau_d);
@@ -102,7 +99,7 @@ struct BaseJoints {
   }
 
   MatrixXd G() const {
-    MatrixXd result = MatrixXd::Identity(6 + kJoints, 6 + kJoints);
+    MatrixXd result = MatrixXd::Identity(6 + kChainJoints, 6 + kChainJoints);
     result.topLeftCorner<3, 3>() = R.transpose();
     result.block<3, 3>(3, 3) = E;
     return result;
@@ -124,7 +121,7 @@ struct BaseJoints {
 
 TEST(DynamicsKdl, ArmOnAFloatingBase) {
   Random random(22);
-  const int n = 6 + kJoints;
+  const int n = 6 + kChainJoints;
   for (int sample = 0; sample < 100; ++sample) {
     const Robot robot = random_dry_chain(random);
     const VectorXd y = random_numbers(random, n), y_d = random_numbers(random, n),
@@ -134,7 +131,7 @@ TEST(DynamicsKdl, ArmOnAFloatingBase) {
     const MatrixXd G = base.G();
     const VectorXd G_d_y_d = base.G_d_y_d(y_d);
     Dynamics<double> dynamics(robot);
-    dynamics.set_configuration(base.R, y.tail<kJoints>());
+    dynamics.set_configuration(base.R, y.tail<kChainJoints>());
     MatrixXd M;
     VectorXd C_v(n), tau_d(n);
     dynamics.mass_matrix(M);

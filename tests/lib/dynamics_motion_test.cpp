@@ -19,16 +19,16 @@ using Eigen::VectorXd;
 constexpr int kJoints = 4;
 constexpr int kVelocities = 6 + kJoints;
 
-struct Motion {
+struct Driven {
   Pose<double> base;
   VectorXd q, v;
   double work = 0;  ///< J, done on the robot by actuators, drag and contact
 };
 
-Motion operator+(const Motion& a, const Motion& b) {
+Driven operator+(const Driven& a, const Driven& b) {
   return {{a.base.R + b.base.R, a.base.p + b.base.p}, a.q + b.q, a.v + b.v, a.work + b.work};
 }
-Motion operator*(double s, const Motion& a) {
+Driven operator*(double s, const Driven& a) {
   return {{s * a.base.R, s * a.base.p}, s * a.q, s * a.v, s * a.work};
 }
 
@@ -36,7 +36,7 @@ Motion operator*(double s, const Motion& a) {
 struct Simulation {
   explicit Simulation(Robot simulated) : robot(std::move(simulated)) {}
 
-  Motion derivative(double t, const Motion& m) {
+  Driven derivative(double t, const Driven& m) {
     dynamics.set_configuration(m.base.R, m.q);
     VectorXd v_d(kVelocities);
     dynamics.forward(m.v, tau(t), tool, h_e, v_d);
@@ -50,20 +50,20 @@ struct Simulation {
   }
 
   /// The classical Runge-Kutta method of order four.
-  Motion run(Motion m, double seconds, int steps) {
+  Driven run(Driven m, double seconds, int steps) {
     const double h = seconds / steps;
     for (int i = 0; i < steps; ++i) {
       const double t = i * h;
-      const Motion k1 = derivative(t, m);
-      const Motion k2 = derivative(t + h / 2, m + h / 2 * k1);
-      const Motion k3 = derivative(t + h / 2, m + h / 2 * k2);
-      const Motion k4 = derivative(t + h, m + h * k3);
+      const Driven k1 = derivative(t, m);
+      const Driven k2 = derivative(t + h / 2, m + h / 2 * k1);
+      const Driven k3 = derivative(t + h / 2, m + h / 2 * k2);
+      const Driven k4 = derivative(t + h, m + h * k3);
       m = m + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
     }
     return m;
   }
 
-  double energy(const Motion& m) const {
+  double energy(const Driven& m) const {
     return kinetic_energy(robot, m.q, m.v) + potential_energy(robot, m.base, m.q);
   }
 
@@ -74,11 +74,10 @@ struct Simulation {
   Dynamics<double> dynamics{robot};
 };
 
-Motion random_motion(Random& random) {
-  const auto numbers = [&random](int size) -> VectorXd {
-    return VectorXd::NullaryExpr(size, [&] { return random.normal(); });
-  };
-  return {{random_rotation(random), random_vector(random)}, numbers(kJoints), numbers(kVelocities)};
+Driven random_motion(Random& random) {
+  return {{random_rotation(random), random_vector(random)},
+          random_numbers(random, kJoints),
+          random_numbers(random, kVelocities)};
 }
 
 /// T + V grows by the work of actuators, less that of drag and contact. Halving the step divides
@@ -91,10 +90,10 @@ TEST(DynamicsMotion, EnergyGrowsByTheWorkDone) {
         VectorXd::NullaryExpr(kVelocities, [&] { return 2 * random.normal(); });
     simulation.tau = [amplitude](double t) -> VectorXd { return std::cos(3 * t) * amplitude; };
     simulation.h_e = Vector6d::NullaryExpr([&] { return random.normal(); });
-    const Motion start = random_motion(random);
+    const Driven start = random_motion(random);
     double missing[2] = {};
     for (const int half : {0, 1}) {
-      const Motion end = simulation.run(start, 0.5, half ? 1000 : 500);
+      const Driven end = simulation.run(start, 0.5, half ? 1000 : 500);
       missing[half] = std::abs(simulation.energy(end) - simulation.energy(start) - end.work);
       EXPECT_GT((end.v - start.v).norm(), 0.1);
     }
@@ -120,7 +119,7 @@ TEST(DynamicsMotion, JointForcesLeaveTheMomentumAsItIs) {
     VectorXd amplitude = VectorXd::Zero(kVelocities);
     for (int i = 6; i < kVelocities; ++i) amplitude[i] = 2 * random.normal();
     simulation.tau = [amplitude](double t) -> VectorXd { return std::cos(3 * t) * amplitude; };
-    const auto momentum = [&simulation](const Motion& m) -> Vector6d {
+    const auto momentum = [&simulation](const Driven& m) -> Vector6d {
       Eigen::MatrixXd M;
       simulation.dynamics.set_configuration(m.base.R, m.q);
       simulation.dynamics.mass_matrix(M);
@@ -130,8 +129,8 @@ TEST(DynamicsMotion, JointForcesLeaveTheMomentumAsItIs) {
       result << linear, m.base.R * p.segment<3>(3) + m.base.p.cross(linear);
       return result;
     };
-    const Motion start = random_motion(random);
-    const Motion end = simulation.run(start, 0.5, 1000);
+    const Driven start = random_motion(random);
+    const Driven end = simulation.run(start, 0.5, 1000);
     EXPECT_GT((end.v - start.v).norm(), 0.1);
     EXPECT_LT((momentum(end) - momentum(start)).norm(), 1e-8 * momentum(start).norm());
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "lib/decompositions.h"
 #include "lib/random.h"
 #include "lib/types.h"
 #include "problems/loader.h"
@@ -98,7 +99,7 @@ std::optional<VectorXd> enumerate(const Case& c, const MatrixXd& H, const Vector
       kkt.bottomLeftCorner(rows, k) = B_free;
       rhs.tail(rows) = *reached - c.request.B * u;
     }
-    if (k > 0) u(free) = VectorXd(kkt.completeOrthogonalDecomposition().solve(rhs)).head(k);
+    if (k > 0) u(free) = VectorXd(pseudo_inverse(kkt) * rhs).head(k);
     if (!c.within(u, 1e-9)) continue;
     if (reached != nullptr && (c.request.B * u - *reached).norm() > 1e-9) continue;
     const double value = u.dot(H * u) / 2 - f.dot(u);

@@ -49,7 +49,7 @@ TEST(Grasp, EveryBranchHoldsPositionAndAxes) {
 TEST(Grasp, HoldingFirmlyHelpsMost) {
   Random random(22);
   int helped = 0;
-  for (int sample = 0; sample < 10; ++sample) {
+  for (int sample = 0; sample < 20; ++sample) {
     const Problem problem = with_firm_grasp(random);
     PostureModel model(problem, false);
     const Posture& posture = model.evaluate(problem.theta_r_default);

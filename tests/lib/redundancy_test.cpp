@@ -8,8 +8,6 @@
 namespace maxwrench {
 namespace {
 
-constexpr double kStep = 1e-6;
-
 std::vector<Problem> examples() {
   Random random(1);
   std::vector<Problem> problems = {load_problem("uvms/valve"), load_problem("planar/force")};
@@ -62,6 +60,7 @@ TEST(Redundancy, NullMotionIsTheDerivativeOfTheBasePose) {
       const Eigen::VectorXd theta_r = random_theta_r(problem, random);
       null_motion(problem, model.evaluate(theta_r), A_r);
       for (int k = 0; k < problem.redundancy(); ++k) {
+        constexpr double kStep = 1e-6;
         const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(problem.redundancy(), k);
         const Pose<double> from = model.evaluate(theta_r - step).base;
         const Vector6d twist = base_twist(from, model.evaluate(theta_r + step).base, 2 * kStep);

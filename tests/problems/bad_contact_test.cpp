@@ -7,10 +7,10 @@ namespace {
 
 constexpr const char* kTable = "[contact]\n";
 constexpr const char* kForces = "forces = \"basis\"";
-constexpr const char* kJoints = "joints = [\"shoulder_2\", \"elbow_2\"]";
+constexpr const char* kFollowers = "joints = [\"shoulder_2\", \"elbow_2\"]";
 
 /// The planar vehicle whose second arm pushes on a wall.
-const std::vector<BadInput> kBadInputs = {
+const std::vector<BadInput> kBadContacts = {
     {"unknown_key",
      "two_arms.toml",
      kTable,
@@ -134,15 +134,15 @@ const std::vector<BadInput> kBadInputs = {
      "max = [0.12]\ndefault = [0]",
      "max = [0.12]\ndefault = [1]",
      {"contact.default: got [1]", "within min .. max"}},
-    {"joints_missing", "two_arms.toml", kJoints, "", {"contact.joints: got nothing"}},
+    {"joints_missing", "two_arms.toml", kFollowers, "", {"contact.joints: got nothing"}},
     {"joint_unknown",
      "two_arms.toml",
-     kJoints,
+     kFollowers,
      "joints = [\"shoulder_2\", \"wrist_2\"]",
      {"contact.joints: got ['shoulder_2', 'wrist_2']", "shoulder_2, elbow_2"}},
     {"joints_inwards",
      "two_arms.toml",
-     kJoints,
+     kFollowers,
      "joints = [\"elbow_2\", \"shoulder_2\"]",
      {"contact.joints: got ['elbow_2', 'shoulder_2']", "in this order"}},
     {"grasp_with_two_joints",
@@ -152,17 +152,17 @@ const std::vector<BadInput> kBadInputs = {
      {"contact.joints: got", "six joints"}},
     {"rest_of_a_joint_that_follows",
      "two_arms.toml",
-     kJoints,
+     kFollowers,
      "joints = [\"shoulder_2\", \"elbow_2\"]\nrest = { elbow_2 = 0 }",
      {"contact.rest.elbow_2"}},
     {"rest_beyond_the_limit",
      "two_arms.toml",
-     kJoints,
+     kFollowers,
      "joints = [\"shoulder_2\"]\nrest = { elbow_2 = 9 }",
      {"contact.rest.elbow_2: got 9", "within"}},
     {"rest_no_table",
      "two_arms.toml",
-     kJoints,
+     kFollowers,
      "joints = [\"shoulder_2\"]\nrest = 1",
      {"contact.rest: got 1", "a table"}},
     {"length_scale",
@@ -183,7 +183,7 @@ TEST_P(BadContact, IsRefusedInOneLineThatNamesFileKeyAndValue) {
   expect_refused(GetParam(), "planar/two_arms");
 }
 
-INSTANTIATE_TEST_SUITE_P(Loader, BadContact, testing::ValuesIn(kBadInputs),
+INSTANTIATE_TEST_SUITE_P(Loader, BadContact, testing::ValuesIn(kBadContacts),
                          [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

@@ -5,37 +5,37 @@
 namespace maxwrench {
 namespace {
 
-constexpr const char* kJoints = "joints = [\"shoulder_yaw\", \"shoulder_pitch\"]";
+constexpr const char* kRedundant = "joints = [\"shoulder_yaw\", \"shoulder_pitch\"]";
 constexpr const char* kGuess = "guess = { elbow = 1, wrist_pitch = 0, wrist_roll = 0 }";
 
 /// The wheeled base with an arm, whose task names two redundant joints.
-const std::vector<BadInput> kBadInputs = {
+const std::vector<BadInput> kBadThetaRs = {
     {"joints_missing",
      "push.toml",
-     kJoints,
+     kRedundant,
      "",
      {"theta_r.joints: got nothing", "2 of the joints shoulder_yaw, shoulder_pitch, elbow"}},
     {"joint_unknown",
      "push.toml",
-     kJoints,
+     kRedundant,
      "joints = [\"shoulder_yaw\", \"sholder_pitch\"]",
      {"theta_r.joints: got ['shoulder_yaw', 'sholder_pitch']", "2 of the joints"}},
     {"joint_twice",
      "push.toml",
-     kJoints,
+     kRedundant,
      "joints = [\"elbow\", \"elbow\"]",
      {"theta_r.joints: got ['elbow', 'elbow']", "each once"}},
     {"joints_too_few",
      "push.toml",
-     kJoints,
+     kRedundant,
      "joints = [\"shoulder_yaw\"]",
      {"theta_r.joints: got ['shoulder_yaw']", "2 of the joints", "the other 3"}},
     {"joints_too_many",
      "push.toml",
-     kJoints,
+     kRedundant,
      "joints = [\"shoulder_yaw\", \"shoulder_pitch\", \"elbow\"]",
      {"theta_r.joints: got", "2 of the joints"}},
-    {"joints_are_a_number", "push.toml", kJoints, "joints = 2", {"theta_r.joints: got 2"}},
+    {"joints_are_a_number", "push.toml", kRedundant, "joints = 2", {"theta_r.joints: got 2"}},
     {"joints_do_not_fix_the_posture",
      "push.toml",
      "joints = [\"shoulder_yaw\", \"shoulder_pitch\"]\ndefault = [0, -1]\n"
@@ -111,7 +111,7 @@ TEST_P(BadThetaR, IsRefusedInOneLineThatNamesFileKeyAndValue) {
   expect_refused(GetParam(), "mobile/push");
 }
 
-INSTANTIATE_TEST_SUITE_P(Loader, BadThetaR, testing::ValuesIn(kBadInputs),
+INSTANTIATE_TEST_SUITE_P(Loader, BadThetaR, testing::ValuesIn(kBadThetaRs),
                          [](const auto& test) { return std::string(test.param.name); });
 
 /// Where the base pose follows in closed form there is nothing to guess, and a base on all six axes

@@ -6,6 +6,7 @@
 #include <kdl/chainjnttojacsolver.hpp>
 
 #include "benchmarks/row.h"
+#include "lib/decompositions.h"
 #include "lib/kinematics.h"
 #include "lib/posture.h"
 #include "problems/loader.h"
@@ -51,16 +52,13 @@ class KdlArm {
         error[r] = problem_.pose.p[r] - at.p[r];
         for (int c = 0; c < 3; ++c) R(r, c) = at.M(r, c);
       }
-      const Eigen::AngleAxisd turn(Eigen::Matrix3d(problem_.pose.R * R.transpose()));
-      error.tail<3>() = turn.angle() * turn.axis();
-      q += jacobian(q).completeOrthogonalDecomposition().solve(error);
+      error.tail<3>() = logarithm(problem_.pose.R * R.transpose());
+      q += pseudo_inverse(jacobian(q)) * error;
     }
   }
 
   /// The joint rates that keep the pose, of unit length.
-  Joints null_motion(const Joints& q) {
-    return jacobian(q).jacobiSvd(Eigen::ComputeFullV).matrixV().col(6);
-  }
+  Joints null_motion(const Joints& q) { return split(jacobian(q).transpose()).complement.col(0); }
 
   /// The largest b with |weight + J'c b| <= effort, joint by joint; negative if there is none.
   double capability(const Joints& q) {

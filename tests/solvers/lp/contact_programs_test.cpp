@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -91,7 +92,7 @@ TEST(ContactPrograms, EverySolverGivesTheSameAnswer) {
       infeasible += reference.status == Status::kInfeasible;
     }
   }
-  EXPECT_LE(undecided, compared / 500);
+  EXPECT_LE(undecided, std::max(3, compared / 500));
   EXPECT_GT(infeasible, compared / 20);
   EXPECT_LT(infeasible, compared * 19 / 20);
 }
