@@ -198,12 +198,15 @@ void Elimination::fill_lambda(const WrenchProgram& program, const Tableau& table
     lambda[driven_rows_[joint]] = -tableau.multipliers[static_cast<Eigen::Index>(joint)];
   }
   for (int step = 0; step < steps_; ++step) {
-    // What c_w + (J'W)'lambda lacks to zero, at first all that the base has to give.
+    // What c_w + (J'W)'lambda lacks to zero, at first all that the base has to give. Most joints
+    // are not at their limits.
     Vector6d left = Vector6d::Zero();
-    for (int j = 0; j < k; ++j) {
-      const double* const column = program.JtW.data() + j * program.JtW.rows();
-      left[j] = c_share * program.c_w[j];
-      for (Eigen::Index i = 0; i < program.tau_d.size(); ++i) left[j] += column[i] * lambda[i];
+    for (int j = 0; j < k; ++j) left[j] = c_share * program.c_w[j];
+    const Eigen::Index n = program.tau_d.size();
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (lambda[i] == 0) continue;
+      const double* const row = program.JtW.data() + i;
+      for (int j = 0; j < k; ++j) left[j] += row[j * n] * lambda[i];
     }
     const Vector6d base = P_.transpose() * left;
     for (int i = 0; i < k; ++i) lambda[base_rows_[i]] -= base[i];

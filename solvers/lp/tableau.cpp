@@ -83,6 +83,18 @@ void Tableau::exchange(int i, int j) {
   dependent_.exchange(i, basis_, j);
 }
 
+/// products_i = sum_j rows_ij factors_j over the f rows and the columns of a tableau.
+void Tableau::multiply(const double* __restrict rows, const double* __restrict factors,
+                       double* __restrict products) const {
+  for (int i = 0; i < rows_; ++i, rows += stride_) {
+    double sums[kChunk] = {};
+    for (int j = 0; j < stride_; j += kChunk) {
+      for (int lane = 0; lane < kChunk; ++lane) sums[lane] += rows[j + lane] * factors[j + lane];
+    }
+    products[i] = sums[0] + sums[1] + (sums[2] + sums[3]);
+  }
+}
+
 /// Position j of the basis moves by `step`.
 void Tableau::move(int j, double step) {
   for (int i = 0; i < rows_; ++i) value_[i] += step * T(i)[j];
@@ -174,12 +186,9 @@ bool Tableau::start() {
     exchange(best, j);
     j = 0;  // all of y have changed
   }
+  std::fill(ratio_.begin(), ratio_.end(), 0.0);
   for (int j = 0; j < columns_; ++j) ratio_[j] = bound(j);
-  for (int i = 0; i < rows_; ++i) {
-    double sum = 0;
-    for (int j = 0; j < columns_; ++j) sum += T(i)[j] * ratio_[j];
-    value_[i] = sum;
-  }
+  multiply(T_.data(), ratio_.data(), value_.data());
   return true;
 }
 

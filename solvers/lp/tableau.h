@@ -62,6 +62,7 @@ class Tableau {
   int leaving(int i, double& gap, bool first);
   int first_of(double ratio, int i, bool first) const;
   void exchange(int i, int j);
+  void multiply(const double* rows, const double* factors, double* products) const;
   void move(int j, double step);
   double bound(int j) const { return side_[j] > 0 ? basis_.high[j] : basis_.low[j]; }
   void fill();

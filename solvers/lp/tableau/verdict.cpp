@@ -64,14 +64,7 @@ bool Tableau::optimum_holds() {
   }
   std::fill(ratio_.begin(), ratio_.end(), 0.0);
   std::copy(x.data(), x.data() + columns_, ratio_.begin());
-  for (int i = 0; i < rows_; ++i) {
-    const double* const row = &G_[static_cast<std::size_t>(i) * stride_];
-    double sums[kChunk] = {};
-    for (int j = 0; j < stride_; j += kChunk) {
-      for (int lane = 0; lane < kChunk; ++lane) sums[lane] += row[j + lane] * ratio_[j + lane];
-    }
-    point_[i] = sums[0] + sums[1] + (sums[2] + sums[3]);
-  }
+  multiply(G_.data(), ratio_.data(), point_.data());
   for (int k = 0; k < columns_; ++k) {
     scale = std::max({scale, std::abs(c[k]), std::abs(y_[rows_ + k])});
   }
