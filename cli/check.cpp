@@ -70,11 +70,37 @@ void print_what_follows(const Problem& problem) {
     fmt::print("  follows {:<17} {:g} .. {:g}, at the default {:g}\n", joint.name, joint.q_min,
                joint.q_max, posture.q[i]);
   }
-  fmt::print("  follows the base pose: {}\n", problem.dependent.empty()
-                                                  ? "in closed form"
-                                                  : "with these joints, by Newton's method");
+  fmt::print("  {}\n", problem.robot.base_axes.empty()
+                           ? "the base stands, these joints follow by Newton's method"
+                       : problem.dependent.empty()
+                           ? "the base pose follows in closed form"
+                           : "the base pose follows with these joints, by Newton's method");
   fmt::print("  default posture: {}\n",
              posture.status == Status::kOptimal ? "exists" : posture.reason);
+}
+
+std::string bounds(double low, double high) {
+  if (low == -kInfinity && high == kInfinity) return "any amount";
+  return fmt::format("{:g} .. {:g}", low, high);
+}
+
+void print(const Robot& robot, const Contact& contact) {
+  static constexpr std::array<const char*, 4> kSurfaces = {"point", "line", "plane", "circle"};
+  const EndEffector& tip = robot.end_effectors[static_cast<std::size_t>(contact.end_effector)];
+  std::vector<std::string> joints;
+  for (const int i : contact.follow)
+    joints.push_back(robot.joints[static_cast<std::size_t>(i)].name);
+  const Eigen::Vector3d inward = (1e9 * contact.frame.R.col(2)).array().round() / 1e9 + 0.0;
+  fmt::print(
+      "  second contact {}: {} at [{:g}] m, into the environment along [{:.3g}]; {} follow\n",
+      tip.name, kSurfaces[static_cast<std::size_t>(contact.surface)],
+      fmt::join(contact.frame.p, ", "), fmt::join(inward, ", "), fmt::join(joints, ", "));
+  if (contact.C.cols() == 0) fmt::print("  second contact exerts nothing\n");
+  for (Eigen::Index i = 0; i < contact.C.cols(); ++i) {
+    fmt::print("  second contact exerts [{:g}], {}\n",
+               fmt::join(Eigen::VectorXd(contact.C.col(i)), ", "),
+               bounds(contact.w_min[i], contact.w_max[i]));
+  }
 }
 
 void print(const Problem& problem) {
@@ -91,6 +117,7 @@ void print(const Problem& problem) {
                problem.theta_r_min[i], problem.theta_r_max[i], problem.theta_r_default[i]);
   }
   print_what_follows(problem);
+  if (problem.contact) print(problem.robot, *problem.contact);
   if (!problem.source.empty()) fmt::print("  source: {}\n", problem.source);
   print(problem.robot);
 }

@@ -111,9 +111,7 @@ std::string draw_convergence(std::span<const Comparison> comparisons) {
   for (std::size_t i = 0; i < comparisons[0].contenders.size(); ++i) {
     const double y = kPanelTop + 12 + 18 * static_cast<double>(i);
     svg.line({right, y}, {right + 20, y}, {.stroke = colour(i), .width = 2, .dash = dash(i)});
-    std::string name = comparisons[0].contenders[i].search;
-    std::replace(name.begin(), name.end(), '_', '-');  // here an underscore lowers a character
-    svg.text({right + 26, y + 4}, name, {});
+    svg.text({right + 26, y + 4}, comparisons[0].contenders[i].search, {});
   }
   return svg.str();
 }

@@ -81,7 +81,7 @@ ordered_json to_json(const Problem& problem, const Row& row) {
 
 std::string line(const Eigen::VectorXd& v) {
   std::string text;
-  for (const double value : v) text += fmt::format("{:>10.5f}", value);
+  for (const double value : v) text += fmt::format(" {:>9.5f}", value);
   return text;
 }
 

@@ -53,12 +53,17 @@ void print_text(const Problem& problem, const SimulateOptions& options, const Ta
   fmt::print("planned     {:.5f} {}\n", s.planned, problem.unit());
   if (options.tank.load > 0) {
     fmt::print("load        {:g} kg, within {:.2g} m\n", options.tank.load, s.position_error);
+  } else if (!std::isfinite(s.mean)) {
+    fmt::print("reading     none, the posture was lost before the hold\n");
   } else {
     fmt::print("reading     {:.5f}, between {:.5f} and {:.5f}\n", s.mean, s.low, s.high);
   }
   fmt::print("drift       {:.2g} rad from theta_r\n", s.drift);
-  fmt::print("efforts     saturated {:.0f} %, request relaxed {:.0f} % of the hold, lack {:.2g}\n",
-             100 * s.saturated, 100 * s.relaxed, s.shortfall);
+  if (std::isfinite(s.saturated)) {
+    fmt::print(
+        "efforts     saturated {:.0f} %, request relaxed {:.0f} % of the hold, lack {:.2g}\n",
+        100 * s.saturated, 100 * s.relaxed, s.shortfall);
+  }
   fmt::print("limits      left by {:.2g}\n", s.violation);
   fmt::print("{}", s.held ? "held" : "not held");
   if (run.status != Status::kOptimal) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace maxwrench {
@@ -75,8 +76,14 @@ std::string spans(std::string_view text, double size) {
       plain += text[i++];
       continue;
     }
+    const std::size_t length = character_length(text, i + 1);
+    const std::size_t after = i + 1 + length;
+    if (after < text.size() && std::isalnum(static_cast<unsigned char>(text[after])) != 0) {
+      plain += text[i++];  // a name
+      continue;
+    }
     flush();
-    const std::size_t length = character_length(text, ++i);
+    ++i;
     const double drop = lowered > 0 ? 0 : 0.22 * size;
     result += fmt::format(R"(<tspan dy="{:.2f}" font-size="{:.1f}">{}</tspan>)", drop, 0.72 * size,
                           escaped(text.substr(i, length)));

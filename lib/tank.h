@@ -61,7 +61,7 @@ struct TankSample {
   double t = 0;          ///< s
   double planned = 0;    ///< c'h of the plan [N, N m]
   Vector6d h_e;          ///< the cell's reading, or the part of the load's weight that is carried
-  Eigen::VectorXd u;     ///< m, actual efforts without noise
+  Eigen::VectorXd u;     ///< m, efforts before the imperfections
   double shortfall = 0;  ///< see EffortAnswer
   bool saturated = false, relaxed = false;
   double drift = 0;           ///< max |theta_r - its reference| [rad, m]

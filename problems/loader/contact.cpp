@@ -38,6 +38,7 @@ Matrix6Xd friction_edges(double mu) {
 
 void read_basis(const Block& block, Contact& contact) {
   const std::vector<Block> list = block.list("basis");
+  if (list.empty()) block.refuse_value("basis", "one direction or more");
   set_basis(Matrix6Xd::Zero(6, static_cast<Eigen::Index>(list.size())), true, contact);
   for (std::size_t i = 0; i < list.size(); ++i) {
     const auto j = static_cast<Eigen::Index>(i);
@@ -118,6 +119,7 @@ void read_rest(const Block& block, const std::vector<int>& chain, Problem& probl
 void read_arm(const Block& block, Problem& problem, Contact& contact) {
   const Robot& robot = problem.robot;
   const std::vector<int> chain = chain_to(robot, contact.end_effector);
+  if (chain.empty()) block.refuse_value("end_effector", "an end effector on an arm of its own");
   for (const int joint : chain_to(robot, problem.end_effector)) {
     if (contains(chain, joint)) {
       block.refuse_value("end_effector",

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "solvers/strategies.h"
 #include "tests/support.h"
@@ -168,6 +169,29 @@ TEST(Command, OwnFilesGiveTheSameAnswerAsShippedOnes) {
       run_maxwrench("eval '" + (copy.path() / "force.toml").string() + "'" + words).out);
   const json shipped = json::parse(run_maxwrench("eval planar/force" + words).out);
   EXPECT_EQ(own["beta"], shipped["beta"]);
+}
+
+TEST(Command, CheckSaysHowTheSecondContactActs) {
+  const CommandResult wall = run_maxwrench("check dual_arm/bar_wall");
+  EXPECT_EQ(wall.exit_status, 0) << wall.err;
+  EXPECT_NE(wall.out.find("second contact right_tool: plane at [-0.2, -0.5, 0] m, into the "
+                          "environment along [0, -1, 0]; right_q1_shoulder_yaw, "),
+            std::string::npos)
+      << wall.out;
+  EXPECT_NE(wall.out.find("second contact exerts [0, 0, 1, 0, 0, 0], 0 .. inf"), std::string::npos);
+  EXPECT_EQ(run_maxwrench("check uvms/valve").out.find("second contact"), std::string::npos);
+}
+
+/// Wide numbers stay apart.
+TEST(Command, EvalSeparatesNumbersByBlanks) {
+  const std::string out = run_maxwrench("eval fixed/push").out;
+  const std::size_t begin = out.find("\nh ") + 2;
+  std::istringstream words(out.substr(begin, out.find('\n', begin) - begin));
+  int count = 0;
+  for (std::string word; words >> word; ++count) {
+    EXPECT_EQ(word.find('-', 1), std::string::npos) << word;
+  }
+  EXPECT_EQ(count, 6);
 }
 
 TEST(Command, EvalReportsTheSecondContact) {

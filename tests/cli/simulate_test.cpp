@@ -33,6 +33,9 @@ TEST(SimulateCommand, SaysWhetherThePlanIsHeld) {
        {"planned     4.00000 N m", "reading     3.98", "held, ended at 1.5 s"}) {
     EXPECT_NE(text.out.find(words), std::string::npos) << text.out;
   }
+  const std::string early = run_maxwrench("simulate uvms/valve --planned 34").out;
+  EXPECT_NE(early.find("reading     none, the posture was lost"), std::string::npos) << early;
+  EXPECT_EQ(early.find("nan"), std::string::npos) << early;
 }
 
 TEST(SimulateCommand, WritesOneRowForEachPeriodAndAFigure) {

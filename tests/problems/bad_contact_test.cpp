@@ -48,6 +48,12 @@ const std::vector<BadInput> kBadContacts = {
      kForces,
      "forces = \"friction\"\nmu = 0",
      {"contact.mu: got 0", "> 0"}},
+    {"basis_empty",
+     "two_arms.toml",
+     "[[contact.basis]]\ndirection = [0.5, 0, 1, 0, 0, 0]\nmin = 0\n\n"
+     "[[contact.basis]]\ndirection = [-0.5, 0, 1, 0, 0, 0]\nmin = 0\n",
+     "",
+     {"contact.basis: got nothing", "one direction or more"}},
     {"basis_without_direction",
      "two_arms.toml",
      "direction = [0.5, 0, 1, 0, 0, 0]",
