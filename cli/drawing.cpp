@@ -17,9 +17,11 @@ using Point = Eigen::Vector2d;
 constexpr const char* kRed = "#D55E00";
 constexpr const char* kInk = "#222222";
 constexpr const char* kSteel = "#5b6770";
+constexpr const char* kViolet = "#6A3D9A";
 
 // px
-constexpr double kLeft = 52, kRight = 14, kGap = 18, kTop = 34, kTicks = 40, kLegendLine = 18;
+constexpr double kLeft = 52, kRight = 14, kGap = 18, kTop = 34, kTicks = 40, kLegendLine = 18,
+                 kTouch = 22;
 
 /// Draws one panel whose plot has its upper left corner at `corner` [px].
 class PanelWriter {
@@ -41,6 +43,7 @@ class PanelWriter {
     base();
     outlines();
     arm();
+    touch();
     direction();
     end_effector();
     legend();
@@ -130,6 +133,17 @@ class PanelWriter {
     for (const Point& p : scene_.joints) {
       svg_.circle(to_px_(p), 4, {.stroke = kSteel, .width = 1.4, .fill = "#ffffff"});
     }
+  }
+
+  /// The second contact and, dashed, the places that it may have.
+  void touch() {
+    if (!scene_.touch) return;
+    const Touch& touch = *scene_.touch;
+    if (!touch.places.empty())
+      svg_.polyline(to_px_(touch.places), {.stroke = kViolet, .width = 1.4, .dash = "4 3"});
+    const Point place = to_px_(touch.place);
+    svg_.arrow(place, place + kTouch * on_paper(touch.into), {.stroke = kViolet, .width = 1.6}, 7);
+    svg_.circle(place, 3, {.fill = kViolet});
   }
 
   void outlines() {
@@ -269,17 +283,28 @@ void marker_note(Svg& svg, const Point& left, bool any) {
   svg.text(left + Point(56, 4), "force that attains \u03b2", {.size = 11});
 }
 
+/// What is violet.
+void touch_note(Svg& svg, const Point& left) {
+  svg.circle(left + Point(5, 0), 3, {.fill = kViolet});
+  svg.text(left + Point(13, 4),
+           "second contact, arrow into the environment; dashed: where it may be", {.size = 11});
+}
+
 Svg picture(std::span<const DrawnPosture> panels, View view) {
   const Layout layout = make_layout(panels, view);
   const double count = static_cast<double>(panels.size());
   const double width = kLeft + count * layout.size.x() + (count - 1) * kGap + kRight;
   const double legend = kLegendLine * static_cast<double>(layout.rows);
-  const double below = kTicks + legend + (layout.forces ? 30 : 8);
+  const bool touches = std::any_of(layout.scenes.begin(), layout.scenes.end(),
+                                   [](const Scene& scene) { return scene.touch.has_value(); });
+  const double notes = (layout.forces ? 30 : 8) + (touches ? kLegendLine : 0);
+  const double below = kTicks + legend + notes;
   Svg svg(width, kTop + layout.size.y() + below);
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const double x = kLeft + static_cast<double>(i) * (layout.size.x() + kGap);
     PanelWriter(svg, layout, panels[i], layout.scenes[i], {x, kTop}).draw(view, i == 0);
   }
+  if (touches) touch_note(svg, {kLeft, kTop + layout.size.y() + kTicks + legend + 10});
   if (layout.forces) {
     const double y = kTop + layout.size.y() + below - 12;
     const auto is_any = [](const ForceSet& set) { return set.wrench == Wrench::kAny; };

@@ -72,6 +72,7 @@ DrawnPosture draw(const Problem& problem, PostureModel& model, const Panel& pane
 }  // namespace
 
 std::string figure(const Problem& problem, const std::vector<Panel>& panels) {
+  if (!in_view(problem.c, view_of(problem))) return posture_figure(problem, panels);
   PostureModel model(problem);
   std::vector<DrawnPosture> drawn;
   for (const Panel& panel : panels) drawn.push_back(draw(problem, model, panel));

@@ -17,12 +17,10 @@ struct Panel {
 /// its postures with c and four sets of forces around its end effector: the ellipsoid, the L2 and
 /// the L-infinity polytope of the forces without any other wrench component, and the L-infinity
 /// polytope of those that occur together with any allowed wrench. "beta" in a title becomes the
-/// letter. Throws std::invalid_argument if c is no force along the plane seen from above or from
-/// the side.
+/// letter. If c is no force along the plane seen from above or from the side, as `posture_figure`.
 std::string figure(const Problem& problem, const std::vector<Panel>& panels);
 
-/// The postures alone, drawn from the robot's solids and seen from two sides, as SVG. Titles as
-/// above.
+/// The postures alone, from two sides, as SVG. Titles as above.
 std::string posture_figure(const Problem& problem, const std::vector<Panel>& panels);
 
 }  // namespace maxwrench

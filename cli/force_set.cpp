@@ -26,11 +26,14 @@ Eigen::Matrix<double, 2, 3> axes(View view) {
   return result;
 }
 
+bool in_view(const Vector6d& c, View view) {
+  return std::abs((axes(view) * c.head<3>()).norm() - 1) < 1e-9;
+}
+
 ForceSet force_set(const Problem& problem, const Posture& posture, Measure& measure, Wrench wrench,
                    View view, bool curved, std::string name) {
   const Eigen::Matrix<double, 2, 3> P = axes(view);
-  const Eigen::Vector2d c = P * problem.c.head<3>();
-  if (std::abs(c.norm() - 1) > 1e-9) {
+  if (!in_view(problem.c, view)) {
     throw std::invalid_argument("plot: c of " + problem.name +
                                 " is no force in the plane of the picture");
   }

@@ -15,6 +15,9 @@ enum class View { kTop, kSide };
 /// The world's axes along the picture's two, 2×3.
 Eigen::Matrix<double, 2, 3> axes(View view);
 
+/// Whether c is a force along the plane of a view.
+bool in_view(const Vector6d& c, View view);
+
 /// The forces in the plane of a view that a measure allows in a posture.
 struct ForceSet {
   std::string name;

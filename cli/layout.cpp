@@ -74,6 +74,28 @@ void add_mounts_and_links(const DrawnPosture& panel, View view, Scene& scene) {
   }
 }
 
+Touch touch_of(const DrawnPosture& panel, View view) {
+  constexpr int kPieces = 24;
+  const Problem& problem = *panel.problem;
+  const Contact& contact = *problem.contact;
+  const Eigen::VectorXd low = problem.theta_r_min.tail(contact.coordinates());
+  const Eigen::VectorXd range = problem.theta_r_max.tail(contact.coordinates()) - low;
+  Touch touch{
+      axes(view) * panel.posture.contact.p, axes(view) * panel.posture.contact.R.col(2), {}};
+  const auto add = [&](const Eigen::VectorXd& share) {
+    const Eigen::VectorXd s = low + share.cwiseProduct(range);
+    touch.places.emplace_back(axes(view) * contact_pose(contact, s.data()).p);
+  };
+  if (contact.coordinates() == 1) {
+    for (int i = 0; i <= kPieces; ++i) add(Eigen::VectorXd::Constant(1, double(i) / kPieces));
+  } else if (contact.coordinates() == 2) {
+    for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}}) add(Eigen::Vector2d(x, y));
+    touch.places = convex_hull(touch.places);  // of a plane seen from its edge a line
+    if (touch.places.size() > 2) touch.places.push_back(touch.places.front());
+  }
+  return touch;
+}
+
 Scene project(const DrawnPosture& panel, View view) {
   const Eigen::Matrix<double, 2, 3> P = axes(view);
   const Robot& robot = panel.problem->robot;
@@ -103,6 +125,7 @@ Scene project(const DrawnPosture& panel, View view) {
   scene.c_towards = -line_of_sight(view).dot(panel.problem->c.head<3>());
   scene.c_torque = P * panel.problem->c.tail<3>();
   scene.c_turn = -line_of_sight(view).dot(panel.problem->c.tail<3>());
+  if (panel.problem->contact) scene.touch = touch_of(panel, view);
   return scene;
 }
 
@@ -114,6 +137,10 @@ Box bounds(const Scene& scene) {
   for (const Point& p : scene.hull) box.extend(p);
   for (const Point& p : scene.joints) box.extend(p);
   for (const auto& [a, b] : scene.links) box.extend(a).extend(b);
+  if (scene.touch) {
+    box.extend(scene.touch->place);
+    for (const Point& p : scene.touch->places) box.extend(p);
+  }
   return box;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -17,6 +18,13 @@ struct Silhouette {
   double depth = 0;  // [m] from the viewer's side, largest is farthest
 };
 
+/// The second contact of a robot.
+struct Touch {
+  Eigen::Vector2d place;
+  Eigen::Vector2d into;                 // the environment: the contact frame's z axis
+  std::vector<Eigen::Vector2d> places;  // a line along or around all places within the limits
+};
+
 /// What one panel shows of a robot, on the plane of the picture in metres. Without solids the base
 /// is the hull of what is mounted on it, and links are lines.
 struct Scene {
@@ -30,6 +38,7 @@ struct Scene {
   double c_towards = 0;      // the part of c that is a force towards the viewer
   Eigen::Vector2d c_torque;  // the part of c that turns about an axis in the plane
   double c_turn = 0;         // and about the line of sight, positive counterclockwise
+  std::optional<Touch> touch;
 };
 
 /// Everything that all panels share.

@@ -228,6 +228,37 @@ TEST_F(ForceSetTest, DrawsSolidsFromTwoSides) {
   }
 }
 
+/// The second contact and its places: of each surface, also seen from its edge.
+TEST_F(ForceSetTest, DrawsTheSecondContact) {
+  const auto drawn = [&](Surface surface) {
+    Contact contact;
+    contact.surface = surface;
+    contact.radius = 0.2;
+    contact.end_effector = 0;
+    problem_.contact = contact;
+    problem_.theta_r_min = problem_.theta_r_default = Eigen::VectorXd::Constant(4, -0.1);
+    problem_.theta_r_max = Eigen::VectorXd::Constant(4, 0.3);
+    const DrawnPosture panel{
+        .title = "a", .problem = &problem_, .posture = posture_, .sets = {}, .hull = {}, .u = {}};
+    return draw_both_views({&panel, 1});
+  };
+  const auto count = [](const std::string& text, const std::string& word) {
+    int found = 0;
+    for (std::size_t i = text.find(word); i != std::string::npos; i = text.find(word, i + 1)) {
+      ++found;
+    }
+    return found;
+  };
+  for (const Surface surface :
+       {Surface::kPoint, Surface::kLine, Surface::kPlane, Surface::kCircle}) {
+    const std::string svg = drawn(surface);
+    expect_well_formed(svg);
+    EXPECT_EQ(count(svg, ">second contact, "), 2);
+    EXPECT_EQ(count(svg, "stroke-dasharray=\"4 3\""), surface == Surface::kPoint ? 0 : 2);
+  }
+  problem_.contact.reset();
+}
+
 TEST(BarsTest, DrawsGroups) {
   const std::string svg = draw_bars(
       "two", {{"N", {{"f_x", -3, {-2, 2}}, {"f_y", 0, {}}}}, {"N m", {{"n_x", 40, {}}}}}, "tank");
