@@ -5,6 +5,7 @@
 #include "solvers/lp/assembled.h"
 #include "solvers/lp/efforts.h"
 #include "solvers/lp/elimination.h"
+#include "solvers/lp/padded.h"
 #include "solvers/lp/simplex.h"
 #include "solvers/lp/tableau.h"
 
@@ -46,9 +47,8 @@ class Box : public WrenchSolver {
  private:
   void load_facets(const WrenchProgram& program) {
     const Zonotope& set = *program.actuation;
-    const int f = set.facet_pairs();
     const int k = program.columns();
-    tableau_.resize(f, k);
+    tableau_.resize(set.facet_pairs(), k);
     tableau_.c = program.c_w;
     const int stride = tableau_.stride();
     const auto n = static_cast<Eigen::Index>(set.dimension());
@@ -57,24 +57,30 @@ class Box : public WrenchSolver {
     for (int j = 0; j < k; ++j) {
       for (Eigen::Index row = 0; row < n; ++row) loads_(j, row) = program.JtW(row, j);
     }
-    for (int i = 0; i < f; ++i) {
+    with_length(stride, [&](auto length) { load_rows(program, length); });
+    tableau_.low.tail(k) = program.w_min;
+    tableau_.high.tail(k) = program.w_max;
+  }
+
+  template <class Length>
+  void load_rows(const WrenchProgram& program, Length stride) {
+    const Zonotope& set = *program.actuation;
+    for (int i = 0; i < set.facet_pairs(); ++i) {
       double offset = 0;
-      for (int column = 0; column < stride; column += Tableau::kChunk) {
-        double sum[Tableau::kChunk] = {};
+      for (int column = 0; column < stride; column += kLanes<Length>) {
+        double sum[kLanes<Length>] = {};
         double tau = 0;
         for_normal(set, i, [&](Eigen::Index row, double a) {
           const double* const load = &loads_(column, row);
-          for (int lane = 0; lane < Tableau::kChunk; ++lane) sum[lane] += a * load[lane];
+          for (int lane = 0; lane < kLanes<Length>; ++lane) sum[lane] += a * load[lane];
           tau += a * program.tau_d[row];
         });
-        std::copy(sum, sum + Tableau::kChunk, tableau_.row(i) + column);
+        std::copy(sum, sum + kLanes<Length>, tableau_.row(i) + column);
         offset = tau;  // the same in each chunk
       }
       tableau_.low[i] = set.b_min[i] - offset;
       tableau_.high[i] = set.b_max[i] - offset;
     }
-    tableau_.low.tail(k) = program.w_min;
-    tableau_.high.tail(k) = program.w_max;
   }
 
   /// Calls body(row, entry) for the entries of normal i; most are zero, as thrusters and joints are

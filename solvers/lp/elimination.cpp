@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "solvers/lp/padded.h"
+
 namespace maxwrench {
 namespace {
 
@@ -15,8 +17,6 @@ constexpr double kWellConditioned = 1e-2;
 
 /// A diagonal entry of at least this share of its column serves as pivot.
 constexpr double kDiagonal = 0.1;
-
-constexpr int kChunk = Tableau::kChunk;
 
 bool first_free(const WrenchProgram& program, int k) {
   for (int j = 0; j < k; ++j) {
@@ -57,7 +57,7 @@ void Elimination::split(const Eigen::MatrixXd& B) {
   const auto k = static_cast<Eigen::Index>(base_rows_.size());
   if (k > 6) return;  // no program is of this kind
   extra_ = 0;
-  B_b_.setZero(6, (m + kChunk - 1) / kChunk * kChunk);
+  B_b_.setZero(6, padded(static_cast<int>(m)));
   B_b_.topLeftCorner(k, m) = B(base_rows_, thrusters_);
   row_.resize(B_b_.cols());
 }
@@ -70,7 +70,7 @@ void Elimination::append(const WrenchProgram& program) {
   if (extra != extra_) {
     extra_ = extra;
     const Eigen::MatrixXd thrust = B_b_.leftCols(m);
-    B_b_.setZero(6, (m + extra + kChunk - 1) / kChunk * kChunk);
+    B_b_.setZero(6, padded(m + extra));
     B_b_.leftCols(m) = thrust;
     row_.resize(B_b_.cols());
   }
@@ -127,15 +127,17 @@ bool Elimination::invert(const WrenchProgram& program) {
 /// row = (P'p)'B_b; returns (P'p)'tau_b.
 double Elimination::combine(const Vector6d& p, double* row) const {
   const Vector6d left = P_.transpose() * p;
-  const Eigen::Index width = B_b_.cols();
-  for (Eigen::Index j = 0; j < width; j += kChunk) {
-    double sum[kChunk] = {};
-    const double* b = B_b_.data() + j;
-    for (int i = 0; i < 6; ++i, b += width) {
-      for (int lane = 0; lane < kChunk; ++lane) sum[lane] += left[i] * b[lane];
+  with_length(static_cast<int>(B_b_.cols()), [&](auto width) {
+    constexpr int kSize = kLanes<decltype(width)>;
+    for (int j = 0; j < width; j += kSize) {
+      double sum[kSize] = {};
+      const double* b = B_b_.data() + j;
+      for (int i = 0; i < 6; ++i, b += width) {
+        for (int lane = 0; lane < kSize; ++lane) sum[lane] += left[i] * b[lane];
+      }
+      for (int lane = 0; lane < kSize; ++lane) row[j + lane] = sum[lane];
     }
-    for (int lane = 0; lane < kChunk; ++lane) row[j + lane] = sum[lane];
-  }
+  });
   return left.dot(tau_b_);
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/lp/padded.h"
+
 namespace maxwrench {
 namespace {
 
@@ -15,14 +17,8 @@ constexpr double kSmallPivot = 1e-8;
 /// Keeps a row without entries from a division by zero.
 constexpr double kTiny = 1e-20;
 
-constexpr int kChunk = Tableau::kChunk;
-
-/// x += a y over n entries, n a multiple of the chunk.
-inline void add_multiple(double* __restrict x, double a, const double* __restrict y, int n) {
-  for (int i = 0; i < n; i += kChunk) {
-    for (int lane = 0; lane < kChunk; ++lane) x[i + lane] += a * y[i + lane];
-  }
-}
+/// Scores that are compared side by side.
+constexpr int kScores = 4;
 
 double magnitude(double bound) { return std::isfinite(bound) ? std::abs(bound) : 0; }
 
@@ -46,13 +42,13 @@ void Tableau::resize(int rows, int columns) {
   if (rows == rows_ && columns == columns_) return;
   rows_ = rows;
   columns_ = columns;
-  stride_ = (columns + kChunk - 1) / kChunk * kChunk;
+  stride_ = padded(columns);
   G_.assign(static_cast<std::size_t>(stride_) * rows, 0);
   T_.assign(static_cast<std::size_t>(stride_) * (rows + 1), 0);
   dependent_.resize(rows);
   basis_.resize(columns);
   value_.assign(rows, 0);
-  score_.assign((rows + kChunk - 1) / kChunk * kChunk, -1);
+  score_.assign((rows + kScores - 1) / kScores * kScores, -1);
   used_.reserve(columns + 1);
   side_.assign(stride_, 1);
   ratio_.assign(stride_, 0);
@@ -72,13 +68,15 @@ void Tableau::exchange(int i, int j) {
   for (int k = 0; k < stride_; ++k) pivot[k] *= -inverse;
   // Column j is written last: a processor waits when it loads a whole chunk just after a part of it
   // was stored.
-  for (int other = 0; other <= rows_; ++other) {
-    if (other == i) continue;
-    double* const row = T(other);
-    const double factor = row[j];
-    add_multiple(row, factor, pivot, stride_);
-    row[j] = factor * inverse;
-  }
+  with_length(stride_, [&](auto n) {
+    double* row = T_.data();
+    for (int other = 0; other <= rows_; ++other, row += n) {
+      if (other == i) continue;
+      const double factor = row[j];
+      add_multiple(row, factor, pivot, n);
+      row[j] = factor * inverse;
+    }
+  });
   pivot[j] = inverse;
   dependent_.exchange(i, basis_, j);
 }
@@ -86,13 +84,9 @@ void Tableau::exchange(int i, int j) {
 /// products_i = sum_j rows_ij factors_j over the f rows and the columns of a tableau.
 void Tableau::multiply(const double* __restrict rows, const double* __restrict factors,
                        double* __restrict products) const {
-  for (int i = 0; i < rows_; ++i, rows += stride_) {
-    double sums[kChunk] = {};
-    for (int j = 0; j < stride_; j += kChunk) {
-      for (int lane = 0; lane < kChunk; ++lane) sums[lane] += rows[j + lane] * factors[j + lane];
-    }
-    products[i] = sums[0] + sums[1] + (sums[2] + sums[3]);
-  }
+  with_length(stride_, [&](auto n) {
+    for (int i = 0; i < rows_; ++i) products[i] = dot(rows + i * n, factors, n);
+  });
 }
 
 /// Position j of the basis moves by `step`.
@@ -126,9 +120,9 @@ void Tableau::read() {
 /// The first row with the highest score, -1 if none is above `least`. No branches: which row it is
 /// is a matter of chance.
 int Tableau::highest(double least) const {
-  double most[kChunk] = {least, least, least, least};
-  for (std::size_t i = 0; i < score_.size(); i += kChunk) {
-    for (int lane = 0; lane < kChunk; ++lane) {
+  double most[kScores] = {least, least, least, least};
+  for (std::size_t i = 0; i < score_.size(); i += kScores) {
+    for (int lane = 0; lane < kScores; ++lane) {
       most[lane] = score_[i + lane] > most[lane] ? score_[i + lane] : most[lane];
     }
   }
@@ -145,14 +139,13 @@ void Tableau::measure() {
   measured_ = true;
   std::fill(basis_.weight.begin(), basis_.weight.end(), 1.0);
   std::fill(basis_.tight.begin(), basis_.tight.end(), 0.0);
-  for (int i = 0; i < rows_; ++i) {
-    double sums[kChunk] = {};
-    for (int j = 0; j < stride_; j += kChunk) {
-      for (int lane = 0; lane < kChunk; ++lane) sums[lane] += T(i)[j + lane] * T(i)[j + lane];
+  with_length(stride_, [&](auto n) {
+    for (int i = 0; i < rows_; ++i) {
+      const double* const row = T_.data() + i * n;
+      dependent_.weight[i] = 1 / (dot(row, row, n) + kTiny);
+      dependent_.tight[i] = 1 / (dependent_.high[i] - dependent_.low[i] + kTiny);
     }
-    dependent_.weight[i] = 1 / (sums[0] + sums[1] + (sums[2] + sums[3]) + kTiny);
-    dependent_.tight[i] = 1 / (dependent_.high[i] - dependent_.low[i] + kTiny);
-  }
+  });
 }
 
 /// Whether the sign of y_j asks for a finite bound; then side_ is set to it.

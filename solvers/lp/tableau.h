@@ -18,15 +18,14 @@ namespace maxwrench {
 /// whose y asks for infinity, first leaves for a row of G with two finite bounds.
 class Tableau {
  public:
-  /// Rows are padded to whole chunks, so that the loops over them need no remainder.
-  static constexpr int kChunk = 4;
   enum class Outcome { kOptimal, kInfeasible, kUndecided };
 
   /// Sizes the storage; allocates only when the sizes change. Then fill `entry` (of G), `low`,
   /// `high` and `c`.
   void resize(int rows, int columns);
   double& entry(int row, int column) { return G_[row * stride_ + column]; }
-  /// Entries of one row of G, `stride` of them: beyond k they are zero and must stay so.
+  /// Entries of one row of G, `stride` of them (solvers/lp/padded.h): beyond k they are zero and
+  /// must stay so.
   double* row(int i) { return &G_[static_cast<std::size_t>(i) * stride_]; }
   int stride() const { return stride_; }
 

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <type_traits>
+
+namespace maxwrench {
+
+// Short rows of numbers, padded with zeros so that loops over them are vectorised without a
+// remainder. The compiler knows the length of the shortest, for which that matters most.
+
+/// The length of a row that holds `count` numbers.
+constexpr int padded(int count) { return count <= 2 ? 2 : (count + 3) / 4 * 4; }
+
+/// body(length); two is a constant.
+template <class Body>
+void with_length(int length, Body&& body) {
+  if (length == 2) {
+    body(std::integral_constant<int, 2>{});
+  } else {
+    body(length);
+  }
+}
+
+/// How many numbers are worked on side by side: a divisor of the length.
+template <class Length>
+constexpr int kLanes = std::is_same_v<Length, int> ? 4 : 2;
+
+/// x += a y.
+template <class Length>
+inline void add_multiple(double* __restrict x, double a, const double* __restrict y, Length n) {
+  for (int i = 0; i < n; i += kLanes<Length>) {
+    for (int lane = 0; lane < kLanes<Length>; ++lane) x[i + lane] += a * y[i + lane];
+  }
+}
+
+/// x'y.
+template <class Length>
+inline double dot(const double* __restrict x, const double* __restrict y, Length n) {
+  double sums[kLanes<Length>] = {};
+  for (int i = 0; i < n; i += kLanes<Length>) {
+    for (int lane = 0; lane < kLanes<Length>; ++lane) sums[lane] += x[i + lane] * y[i + lane];
+  }
+  double sum = sums[0] + sums[1];
+  for (int lane = 2; lane < kLanes<Length>; lane += 2) sum += sums[lane] + sums[lane + 1];
+  return sum;
+}
+
+}  // namespace maxwrench
