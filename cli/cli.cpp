@@ -54,7 +54,11 @@ void CommonOptions::add_search(CLI::App& app) {
   app.add_option("--search", choice.search, "search over theta_r")->capture_default_str();
   app.add_option("--seed", choice.seed, "of the random numbers")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check([](const std::string& text) {
+        const bool whole =
+            text.size() < 20 && text.find_first_not_of("0123456789") == std::string::npos;
+        return whole ? "" : "got " + text + ", expected a whole number of 0 to 10^19 - 1";
+      });
   app.add_option("--budget", choice.budget, "evaluations")->capture_default_str();
 }
 

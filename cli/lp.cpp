@@ -80,6 +80,14 @@ void print_json(const LpOptions& options, const MpsProgram& mps, const Checked& 
   fmt::print("{}\n", object.dump());
 }
 
+void print_nonzero(const char* kind, const char* symbol, const std::vector<std::string>& names,
+                   const Eigen::VectorXd& values) {
+  fmt::print("{:<20} {:>13}\n", kind, symbol);
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    if (values[i] != 0) fmt::print("{:<20} {:>13.6g}\n", names[i], values[i]);
+  }
+}
+
 void print(const LpOptions& options, const MpsProgram& mps, const Checked& answer) {
   const LpSolution& solution = answer.solution;
   const LinearProgram& program = mps.program;
@@ -93,11 +101,8 @@ void print(const LpOptions& options, const MpsProgram& mps, const Checked& answe
     return;
   }
   fmt::print("optimal  {} = {:.12g}\n", mps.objective_name, mps.objective(solution));
-  const Eigen::VectorXd duals = mps.duals(solution);
-  fmt::print("row                           dual\n");
-  for (int i = 0; i < program.rows(); ++i) {
-    if (duals[i] != 0) fmt::print("{:<20} {:>13.6g}\n", program.row_names[i], duals[i]);
-  }
+  print_nonzero("column", "x", program.col_names, mps.point(solution));
+  print_nonzero("row", "dual", program.row_names, mps.duals(solution));
   const LpResiduals& r = answer.residual;
   fmt::print(
       "residual row {:.1e}, bound {:.1e}, reduced cost {:.1e}, gap {:.1e}; {} iterations in {:.3g} "

@@ -16,7 +16,7 @@ ordered_json array(const Eigen::VectorXd& v) {
 
 /// Roll, pitch, yaw with R = Rz(yaw) Ry(pitch) Rx(roll).
 Eigen::Vector3d rpy(const Eigen::Matrix3d& R) {
-  const double pitch = std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0)));
+  const double pitch = std::atan2(0 - R(2, 0), std::hypot(R(0, 0), R(1, 0)));  // 0 - 0, not -0
   return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
 }
 

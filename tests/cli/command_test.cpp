@@ -77,6 +77,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadWords{"solve planar/force --budget 0", "budget"},
                     BadWords{"solve planar/force --budget many", "--budget"},
                     BadWords{"solve planar/force --seed -1", "--seed"},
+                    BadWords{"solve planar/force --seed 99999999999999999999", "10^19"},
                     BadWords{"solve planar/force --threads -2", "--threads"},
                     BadWords{"run colour=red", "colour"}, BadWords{"run measure", "measure"},
                     BadWords{"run measure=volume", "volume"}, BadWords{"run budget=few", "few"},
