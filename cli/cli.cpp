@@ -50,15 +50,16 @@ void CommonOptions::add_choice(CLI::App& app) {
   app.add_option("--lp", choice.lp, "lower-level solver (default: the first that serves)");
 }
 
+std::string refuse_seed(const std::string& text) {
+  const bool whole = text.size() < 20 && text.find_first_not_of("0123456789") == std::string::npos;
+  return whole ? "" : "got " + text + ", expected a whole number of 0 to 10^19 - 1";
+}
+
 void CommonOptions::add_search(CLI::App& app) {
   app.add_option("--search", choice.search, "search over theta_r")->capture_default_str();
   app.add_option("--seed", choice.seed, "of the random numbers")
       ->capture_default_str()
-      ->check([](const std::string& text) {
-        const bool whole =
-            text.size() < 20 && text.find_first_not_of("0123456789") == std::string::npos;
-        return whole ? "" : "got " + text + ", expected a whole number of 0 to 10^19 - 1";
-      });
+      ->check(refuse_seed);
   app.add_option("--budget", choice.budget, "evaluations")->capture_default_str();
 }
 

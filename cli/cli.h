@@ -35,6 +35,9 @@ struct CommonOptions {
 /// Numbers separated by commas; throws std::invalid_argument that names the option.
 Eigen::VectorXd parse_numbers(const std::string& option, const std::string& text);
 
+/// Empty, or why the text is no seed of random numbers.
+std::string refuse_seed(const std::string& text);
+
 /// One line.
 std::string describe(const BranchCounts& branches);
 

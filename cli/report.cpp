@@ -85,6 +85,13 @@ std::string line(const Eigen::VectorXd& v) {
   return text;
 }
 
+void print_following(const Problem& problem, const Posture& posture,
+                     const std::vector<int>& joints) {
+  for (const int i : joints) {
+    fmt::print("follows  {:>10.5f}  {}\n", posture.q[i], problem.robot.joints[i].name);
+  }
+}
+
 void print(const Problem& problem, const Row& row) {
   const Case& c = row.choice;
   fmt::print("{}  measure {}  wrench {}  lp {}\n", c.problem, c.measure, to_string(c.wrench), c.lp);
@@ -92,15 +99,11 @@ void print(const Problem& problem, const Row& row) {
     fmt::print("theta_r  {}\n", line(row.posture.theta_r));
     fmt::print("base xyz {}\nbase rpy {}\n", line(row.posture.base.p),
                line(rpy(row.posture.base.R)));
-    for (const int i : problem.dependent) {
-      fmt::print("follows  {:>10.5f}  {}\n", row.posture.q[i], problem.robot.joints[i].name);
-    }
+    print_following(problem, row.posture, problem.dependent);
   }
   if (problem.contact) {
     fmt::print("{}\n", describe(row.branches));
-    for (const int i : problem.contact->follow) {
-      fmt::print("follows  {:>10.5f}  {}\n", row.posture.q[i], problem.robot.joints[i].name);
-    }
+    if (row.has_posture()) print_following(problem, row.posture, problem.contact->follow);
   }
   if (!row.has_value()) {
     fmt::print("{}: {}\n", to_string(row.status), row.reason);

@@ -51,14 +51,16 @@ void print_text(const Problem& problem, const SimulateOptions& options, const Ta
   const TankSummary& s = run.summary;
   fmt::print("{}  virtual tank  integrator {}\n", problem.name, options.integrator);
   fmt::print("planned     {:.5f} {}\n", s.planned, problem.unit());
-  if (options.tank.load > 0) {
+  if (!std::isfinite(s.drift)) {
+    fmt::print("reading     none, the experiment ended before the hold\n");
+  } else if (options.tank.load > 0) {
     fmt::print("load        {:g} kg, within {:.2g} m\n", options.tank.load, s.position_error);
   } else if (!std::isfinite(s.mean)) {
     fmt::print("reading     none, the posture was lost before the hold\n");
   } else {
     fmt::print("reading     {:.5f}, between {:.5f} and {:.5f}\n", s.mean, s.low, s.high);
   }
-  fmt::print("drift       {:.2g} rad from theta_r\n", s.drift);
+  if (std::isfinite(s.drift)) fmt::print("drift       {:.2g} rad from theta_r\n", s.drift);
   if (std::isfinite(s.saturated)) {
     fmt::print(
         "efforts     saturated {:.0f} %, request relaxed {:.0f} % of the hold, lack {:.2g}\n",
@@ -157,7 +159,7 @@ void add_imperfections(CLI::App& command, Imperfections& imperfections) {
       ->check(number(not_negative, "a number >= 0"));
   command.add_option("--seed", imperfections.seed, "of the noise")
       ->capture_default_str()
-      ->check(number(not_negative, "a number >= 0"));
+      ->check(refuse_seed);
 }
 
 void add_times(CLI::App& command, TankOptions& tank) {

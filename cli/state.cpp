@@ -73,7 +73,7 @@ void print_json(const Problem& problem, const std::string& file, const Terms& te
 
 void print_row(std::string_view name, const Eigen::VectorXd& values) {
   fmt::print("{:<18}", name);
-  for (const double value : values) fmt::print("{:>11.5f}", value);
+  for (const double value : values) fmt::print(" {:>10.5f}", value);
   fmt::print("\n");
 }
 

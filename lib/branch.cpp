@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
 #include "lib/dual.h"
-#include "lib/random.h"
+#include "lib/generic_rank.h"
 
 namespace maxwrench {
 namespace {
@@ -42,22 +41,14 @@ std::vector<int> chain_to(const Robot& robot, int end_effector) {
 }
 
 int motions_of(const Robot& robot, int end_effector) {
-  constexpr int kPostures = 8;  // almost every posture has the largest rank
-  Random random(1);
-  Kinematics<double> kinematics(robot);
-  Eigen::VectorXd q(robot.joints.size());
   Matrix6Xd J(6, robot.velocities());
-  Eigen::Index rank = 0;
   if (J.cols() == 0) return 0;
-  for (int posture = 0; posture < kPostures; ++posture) {
-    for (double& q_i : q) q_i = random.uniform(-std::numbers::pi, std::numbers::pi);
-    kinematics.set_joints(q);
+  return generic_rank(robot, [&](const Kinematics<double>& kinematics) {
     // The pose of the base does not change the rank.
     kinematics.jacobian(robot.end_effectors[static_cast<std::size_t>(end_effector)],
                         Eigen::Matrix3d::Identity(), J);
-    rank = std::max(rank, split(J, 1e-9).range.cols());
-  }
-  return static_cast<int>(rank);
+    return split(J, kRankTolerance).range.cols();
+  });
 }
 
 Pose<double> base_pose(const Robot& robot, const Eigen::Vector4d& x) {

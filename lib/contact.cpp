@@ -3,10 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "lib/kinematics.h"
-#include "lib/random.h"
+#include "lib/decompositions.h"
+#include "lib/generic_rank.h"
 #include "lib/robot.h"
 
 namespace maxwrench {
@@ -82,24 +81,30 @@ double smallest_gain(const Robot& robot, const Contact& contact, const Matrix6Xd
 }
 
 int stacked_rank(const Robot& robot, int end_effector, const Contact& contact) {
-  constexpr int kPostures = 8;  // almost every posture has the largest rank
   constexpr double kZero = 1e-12;
-  Random random(1);
-  Kinematics<double> kinematics(robot);
-  Eigen::VectorXd q(robot.joints.size());
   Matrix6Xd J(6, robot.velocities());
   Matrix6Xd J_2 = J;
-  Eigen::Index rank = 0;
-  for (int posture = 0; posture < kPostures; ++posture) {
-    for (double& q_i : q) q_i = random.uniform(-std::numbers::pi, std::numbers::pi);
-    kinematics.set_joints(q);
+  return generic_rank(robot, [&](const Kinematics<double>& kinematics) {
     const auto at = [&](int i) { return robot.end_effectors[static_cast<std::size_t>(i)]; };
     kinematics.jacobian(at(end_effector), Eigen::Matrix3d::Identity(), J);
     kinematics.jacobian(at(contact.end_effector), Eigen::Matrix3d::Identity(), J_2);
     const auto squares = squared_gains(robot, contact, J, J_2);
-    rank = std::max(rank, (squares.array() > kZero * squares.maxCoeff()).count());
-  }
-  return static_cast<int>(rank);
+    return (squares.array() > kZero * squares.maxCoeff()).count();
+  });
+}
+
+int following_rank(const Robot& robot, const Contact& contact) {
+  Matrix6Xd J_2(6, robot.velocities());
+  Eigen::MatrixXd J_f(contact.rows(), contact.follow.size());
+  return generic_rank(robot, [&](const Kinematics<double>& kinematics) {
+    kinematics.jacobian(robot.end_effectors[static_cast<std::size_t>(contact.end_effector)],
+                        Eigen::Matrix3d::Identity(), J_2);
+    const auto axes = static_cast<Eigen::Index>(robot.base_axes.size());
+    for (Eigen::Index i = 0; i < J_f.cols(); ++i) {
+      J_f.col(i) = J_2.col(axes + contact.follow[static_cast<std::size_t>(i)]).head(J_f.rows());
+    }
+    return split(J_f, kRankTolerance).range.cols();
+  });
 }
 
 }  // namespace maxwrench

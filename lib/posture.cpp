@@ -171,11 +171,11 @@ struct PostureModel::Workspace {
 
   /// Finds the valid branches of the second arm and moves it to the first; null, or why there is
   /// none.
-  const char* reach(const Eigen::VectorXd& theta_r) {
+  const char* reach() {
     BranchCounts& counts = posture.branches;
     counts = {};
     valid_count = 0;
-    const int found = second->reach(model.base, theta_r);
+    const int found = second->reach(model.base);
     counts.found = found;
     counts.unreachable = found == 0;
     for (int i = 0; i < found; ++i) {
@@ -220,7 +220,8 @@ struct PostureModel::Workspace {
     valid_count = reason ? 0 : 1;
     if (second) {
       posture.branches = {};
-      if (!reason) reason = reach(theta_r);
+      second->touch(theta_r);
+      if (!reason) reason = reach();
     }
     read_model(theta_r);
     posture.status = reason ? Status::kInvalidPosture : Status::kOptimal;

@@ -110,7 +110,7 @@ class Experiment {
       run_.reason = "the tracking program ran out of iterations";
     }
     ode_.restart(path_.y.back());
-    keep(t_1, s);
+    if (path_.t.back() > t_0) keep(path_.t.back());
   }
 
   void draw_noise() {
@@ -120,11 +120,11 @@ class Experiment {
     ode_.set_noise(noise);
   }
 
-  void keep(double t, double s) {
+  void keep(double t) {
     ode_.read(ode_.initial(), motion_);
     TankSample sample;
     sample.t = t;
-    sample.planned = s * problem_.c.dot(plan_.h);
+    sample.planned = profile(t, options_) * problem_.c.dot(plan_.h);
     sample.h_e = ode_.wrench(t, motion_);
     if (options_.load > 0) sample.h_e += plan_.h;
     sample.u = ode_.efforts(t);
@@ -174,6 +174,7 @@ class Experiment {
       summary.position_error = std::max(summary.position_error, run_.samples.back().position_error);
     }
     if (count == 0) {
+      if (!lost()) summary.drift = summary.position_error = kNothing;
       for (double* value : {&summary.mean, &summary.low, &summary.high, &summary.saturated,
                             &summary.relaxed, &summary.shortfall}) {
         *value = kNothing;

@@ -56,7 +56,7 @@ struct TankPlan {
   Wrench wrench = Wrench::kPure;  ///< kAny: the cell may take any of W_any across c
 };
 
-/// One instant, at the end of a control period.
+/// One instant, at the end of a control period or where the integrator gave up within one.
 struct TankSample {
   double t = 0;          ///< s
   double planned = 0;    ///< c'h of the plan [N, N m]

@@ -28,15 +28,16 @@ SecondArm::SecondArm(const Problem& problem)
       C_2_(contact_.C),
       seeds_(6, problem.robot.velocities()) {}
 
-int SecondArm::reach(const Pose<double>& base, const Eigen::VectorXd& theta_r) {
+void SecondArm::touch(const Eigen::VectorXd& theta_r) {
   const Eigen::Index own = theta_r.size() - contact_.coordinates();
   for (int i = 0; i < contact_.coordinates(); ++i)
     s_[static_cast<std::size_t>(i)] = theta_r[own + i];
   pose_ = contact_pose(contact_, s_.data());
   C_2_.topRows<3>().noalias() = pose_.R.lazyProduct(contact_.C.topRows<3>());
   C_2_.bottomRows<3>().noalias() = pose_.R.lazyProduct(contact_.C.bottomRows<3>());
-  return arm_.solve(base.inverse() * pose_);
 }
+
+int SecondArm::reach(const Pose<double>& base) { return arm_.solve(base.inverse() * pose_); }
 
 bool SecondArm::place(int i, Eigen::VectorXd& q) const {
   bool inside = true;

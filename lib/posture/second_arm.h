@@ -14,9 +14,10 @@ class SecondArm {
   /// Keeps a reference to the problem.
   explicit SecondArm(const Problem& problem);
 
-  /// All branches for the base and the regrasp coordinates at the end of theta_r. Returns their
-  /// number.
-  int reach(const Pose<double>& base, const Eigen::VectorXd& theta_r);
+  /// The contact at the regrasp coordinates at the end of theta_r.
+  void touch(const Eigen::VectorXd& theta_r);
+  /// All branches that reach it from the base. Returns their number.
+  int reach(const Pose<double>& base);
   /// Writes branch i into q; whether it is within the limits of its joints.
   bool place(int i, Eigen::VectorXd& q) const;
 

@@ -218,7 +218,7 @@ std::vector<std::pair<std::string, std::string>> Block::text_pairs(std::string_v
 Block Block::table(std::string_view key) const {
   if (!has(key)) return Block(file_, path_of(key), root_, nullptr);
   const toml::table* table = table_->get(key)->as_table();
-  if (table == nullptr) refuse_value(key, "a table");
+  if (table == nullptr) refuse_value(key, fmt::format("a table [{}], not a list", path_of(key)));
   return inner(path_of(key), *table);
 }
 

@@ -145,6 +145,12 @@ void read_arm(const Block& block, Problem& problem, Contact& contact) {
   if (contact.holds_axes && contact.follow.size() != most) {
     block.refuse_value("joints", "six joints: a firm grasp needs them");
   }
+  const int ways = following_rank(robot, contact);
+  if (ways < static_cast<int>(contact.follow.size())) {
+    block.refuse_value("joints",
+                       fmt::format("joints that the contact fixes: of these {} it fixes {}",
+                                   contact.follow.size(), ways));
+  }
   read_rest(block, chain, problem, contact);
 }
 

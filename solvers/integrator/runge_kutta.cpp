@@ -69,6 +69,7 @@ class Walk {
   int changed_sign(const Eigen::VectorXd& g_0) {
     ode_.root(t, y, g_);
     for (Eigen::Index i = 0; i < g_.size(); ++i) {
+      if (g_0[i] == 0) continue;  // it leaves zero
       if (g_[i] == 0 || (g_[i] > 0) != (g_0[i] > 0)) return static_cast<int>(i);
     }
     return -1;

@@ -15,15 +15,12 @@ namespace {
 
 using nlohmann::json;
 
-/// A copy of the planar problem whose files may be edited.
+/// A copy of the planar problems whose files may be edited.
 class Copy {
  public:
   Copy() {
-    for (const char* name : {"force.toml", "vehicle.toml", "vehicle.urdf"}) {
-      std::filesystem::copy(
-          std::filesystem::path(MAXWRENCH_SOURCE_DIR) / "problems" / "planar" / name,
-          folder_.path() / name);
-    }
+    std::filesystem::copy(std::filesystem::path(MAXWRENCH_SOURCE_DIR) / "problems" / "planar",
+                          folder_.path());
   }
   void replace(const std::string& file, const std::string& from, const std::string& to) {
     std::string text = read_text(folder_.path() / file);
@@ -99,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadWords{"simulate uvms/valve --integrator arkode", "stiff"},
                     BadWords{"simulate uvms/valve --thrust-noise -1", "--thrust-noise: got -1"},
                     BadWords{"simulate uvms/valve --thrust-efficiency x", "--thrust-efficiency"},
-                    BadWords{"simulate uvms/valve --seed -1", "--seed"},
+                    BadWords{"simulate uvms/valve --seed 1.5", "--seed: got 1.5, expected"},
                     BadWords{"simulate uvms/valve --theta-r 1", "theta_r"},
                     BadWords{"simulate dual_arm/bar_wall", "second contact"},
                     BadWords{"simulate uvms/lift --load 1 --wrench any", "--wrench"},
@@ -216,6 +213,16 @@ TEST(Command, EvalReportsTheSecondContact) {
   EXPECT_EQ(best["h_2"].size(), 6);
   EXPECT_GT(best["branches"]["valid"], 10);
   EXPECT_GT(best["branches"]["collision"], 10);
+}
+
+TEST(Command, SolveSaysThatTheSecondArmDoesNotReach) {
+  Copy copy;
+  copy.replace("two_arms.toml", "xyz = [-0.02, -0.25, 0]", "xyz = [-0.02, -25, 0]");
+  const CommandResult result = run_maxwrench("solve two_arms.toml --budget 50", copy.path());
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_NE(result.out.find("branches of the second arm: 0 valid"), std::string::npos)
+      << result.out;
+  EXPECT_NE(result.out.find("no evaluated posture has a value"), std::string::npos) << result.out;
 }
 
 TEST(Command, EvalPrintsOneObjectWithEverything) {

@@ -36,6 +36,14 @@ TEST(SimulateCommand, SaysWhetherThePlanIsHeld) {
   const std::string early = run_maxwrench("simulate uvms/valve --planned 34").out;
   EXPECT_NE(early.find("reading     none, the posture was lost"), std::string::npos) << early;
   EXPECT_EQ(early.find("nan"), std::string::npos) << early;
+  // No step succeeds.
+  const std::string wild = "simulate uvms/valve --thrust-noise 1e300";
+  const std::string none = run_maxwrench(wild).out;
+  EXPECT_NE(none.find("reading     none, the experiment ended"), std::string::npos) << none;
+  EXPECT_EQ(none.find("drift"), std::string::npos) << none;
+  const json object = json::parse(run_maxwrench(wild + " --json").out);
+  EXPECT_TRUE(object["drift"].is_null());
+  EXPECT_EQ(object["end"], 0);
 }
 
 TEST(SimulateCommand, WritesOneRowForEachPeriodAndAFigure) {

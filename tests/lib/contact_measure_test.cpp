@@ -133,8 +133,7 @@ TEST(OneSided, TooManyColumnsAreAStatus) {
   }
 }
 
-/// Columns that may do nothing are as good as none, those that may do anything no worse; both for
-/// every measure and solver.
+/// Columns that may do nothing are as good as none, for every measure and both own solvers.
 TEST(ContactMeasure, RestingColumnsChangeNothing) {
   Random random(32);
   for (const char* name : kContactProblems) {
@@ -147,6 +146,7 @@ TEST(ContactMeasure, RestingColumnsChangeNothing) {
     for (const Case& c : cases_of(problem, {"box", "simplex"})) {
       PostureModel model(problem, false);
       const auto measure = measure_maker(problem, c)();
+      int compared = 0;
       for (int sample = 0; sample < 10; ++sample) {
         const Posture& posture = model.evaluate(near_default(problem, random));
         if (posture.status != Status::kOptimal) continue;
@@ -162,9 +162,11 @@ TEST(ContactMeasure, RestingColumnsChangeNothing) {
             EXPECT_TRUE(capability.h_2.isZero()) << name << " " << c.measure;
           }
         }
-        if (beta[0] == beta[1]) continue;
+        if (beta[0] == -kInfinity && beta[1] == -kInfinity) continue;
         EXPECT_NEAR(beta[0], beta[1], 1e-9 * (1 + std::abs(beta[1]))) << name << " " << c.measure;
+        ++compared;
       }
+      EXPECT_GT(compared, 0) << name << " " << c.measure;
     }
   }
 }

@@ -166,6 +166,17 @@ TEST(Contact, GradientEqualsDifferences) {
 
 /// Nothing from the second contact: the value of the first alone. Anything: never less. Push: only
 /// w >= 0.
+TEST(Contact, FrameIsThatOfAnInvalidPostureToo) {
+  const Problem problem = load_problem("dual_arm/bar_wall");
+  PostureModel model(problem);
+  ASSERT_EQ(model.evaluate(problem.theta_r_default).status, Status::kOptimal);
+  const Eigen::Vector2d beyond = 2 * problem.theta_r_max;
+  const Posture& posture = model.evaluate(beyond);
+  EXPECT_EQ(posture.status, Status::kInvalidPosture);
+  const Pose<double> contact = contact_pose(*problem.contact, beyond.data());
+  EXPECT_LT((posture.contact.p - contact.p).norm(), 1e-15);
+}
+
 TEST(Contact, MoreFreedomNeverLowersTheValue) {
   Random random(5);
   for (const char* name : kContactProblems) {

@@ -183,11 +183,35 @@ const std::vector<BadInput> kBadContacts = {
      {"contact.sigma_min: got -0.1", ">= 0"}},
 };
 
+/// Of the spatial arm: the roll does not move the tool.
+const BadInput kBadArms[] = {
+    {"joints_that_the_contact_leaves_free",
+     "bar_wall.toml",
+     "joints = [\"right_q1_shoulder_yaw\", \"right_q2_shoulder_pitch\", \"right_q3_elbow\"]\n"
+     "rest = { right_q4_wrist_roll = 0 }",
+     "joints = [\"right_q2_shoulder_pitch\", \"right_q3_elbow\", \"right_q4_wrist_roll\"]",
+     {"contact.joints: got", "of these 3 it fixes 2"}},
+    {"contact_twice",
+     "bar_wall.toml",
+     "[contact]\n",
+     "[[contact]]\n",
+     {"contact: got [a table]", "a table [contact], not a list"}},
+};
+
 class BadContact : public testing::TestWithParam<BadInput> {};
 
 TEST_P(BadContact, IsRefusedInOneLineThatNamesFileKeyAndValue) {
   expect_refused(GetParam(), "planar/two_arms");
 }
+
+class BadSecondArm : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadSecondArm, IsRefusedInOneLineThatNamesFileKeyAndValue) {
+  expect_refused(GetParam(), "dual_arm/bar_wall");
+}
+
+INSTANTIATE_TEST_SUITE_P(Loader, BadSecondArm, testing::ValuesIn(kBadArms),
+                         [](const auto& test) { return std::string(test.param.name); });
 
 INSTANTIATE_TEST_SUITE_P(Loader, BadContact, testing::ValuesIn(kBadContacts),
                          [](const auto& test) { return std::string(test.param.name); });

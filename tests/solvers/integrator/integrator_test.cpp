@@ -120,6 +120,15 @@ TEST_P(IntegratorTest, EndsAtARoot) {
   EXPECT_NEAR(trajectory.y.back()[0], 1.5, 1e-9);
 }
 
+TEST_P(IntegratorTest, LeavesARootWhereItBegins) {
+  // y = 2 + t leaves 2 at once and passes 2.5 at t = 0.5.
+  Given rising(one(2), [](double, const auto&) { return one(1); });
+  rising.levels = Eigen::Vector2d(2, 2.5);
+  ASSERT_EQ(integrate(rising, {0, 0.25, 3}), Status::kOptimal);
+  EXPECT_EQ(trajectory.root, 1);
+  EXPECT_NEAR(trajectory.t.back(), 0.5, 1e-9);
+}
+
 TEST_P(IntegratorTest, EndsWhereThereIsNoValue) {
   // y' = 1, but beyond y = 1 there is none.
   Given wall(one(0), [](double, const auto& y) { return one(y[0] > 1 ? kNan : 1); });
