@@ -16,7 +16,8 @@ namespace maxwrench {
 /// In closed form where the target is a point and the joints that follow are revolute,
 ///
 ///  * two about parallel axes (an arm in a plane), or
-///  * three, the last two about parallel axes (a shoulder's yaw, its pitch and an elbow).
+///  * three, the last two about parallel axes (a shoulder's yaw, its pitch and an elbow), the first
+///    about another.
 ///
 /// With the unit axis a and a point o of each axis at zero positions, R(a, q) the rotation, and p_0
 /// the end effector's origin there, the first joint must bring the target p into the plane in which
