@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "solvers/strategies.h"
@@ -66,9 +67,26 @@ Case fit(const Problem& problem, Case c) {
   return c;
 }
 
+namespace {
+
+/// Whether a force of the contact ends at a limit other than zero.
+bool limited(const Contact& contact) {
+  const auto counts = [](double limit) { return limit != 0 && std::isfinite(limit); };
+  return std::any_of(contact.w_min.begin(), contact.w_min.end(), counts) ||
+         std::any_of(contact.w_max.begin(), contact.w_max.end(), counts);
+}
+
+}  // namespace
+
 MeasureMaker measure_maker(const Problem& problem, const Case& c) {
   const MeasureEntry& measure = find_measure(c.measure);
   const WrenchSolverEntry* solver = measure.needs_solver ? &find_wrench_solver(c.lp) : nullptr;
+  const bool closed_form = !measure.needs_solver && measure.serves_any;
+  if (closed_form && problem.contact && limited(*problem.contact)) {
+    throw std::invalid_argument("measure: got " + c.measure +
+                                ", expected one with a solver: a closed form serves no limits of "
+                                "contact.basis but zero and infinity");
+  }
   return [&problem, &measure, solver] {
     return measure.make(problem, solver ? solver->make() : nullptr);
   };

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <new>
 #include <stdexcept>
 #include <thread>
 
@@ -33,6 +34,9 @@ int run_command(int argc, const char* const* argv) {
   } catch (const std::invalid_argument& error) {
     fmt::print(stderr, "maxwrench: {}\n", error.what());
     return kBadInput;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "maxwrench: got no memory for so much, expected a smaller --budget\n");
+    return kBadInput;
   }
   return exit_status;
 }
@@ -60,7 +64,17 @@ void CommonOptions::add_search(CLI::App& app) {
   app.add_option("--seed", choice.seed, "of the random numbers")
       ->capture_default_str()
       ->check(refuse_seed);
-  app.add_option("--budget", choice.budget, "evaluations")->capture_default_str();
+  add_budget(app, "evaluations");
+}
+
+void CommonOptions::add_budget(CLI::App& app, const char* what) {
+  app.add_option("--budget", choice.budget, what)
+      ->capture_default_str()
+      ->check(CLI::Range(1L, kMostBudget));
+}
+
+Eigen::VectorXd theta_r_of(const Problem& problem, const std::optional<std::string>& text) {
+  return text ? parse_numbers("--theta-r", *text) : problem.theta_r_default;
 }
 
 void CommonOptions::add_json(CLI::App& app) {

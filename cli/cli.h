@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
 
 #include "benchmarks/case.h"
@@ -25,6 +26,7 @@ struct CommonOptions {
   void add_case(CLI::App& app);
   void add_choice(CLI::App& app);  ///< measure, wrench and lp
   void add_search(CLI::App& app);
+  void add_budget(CLI::App& app, const char* what);
   void add_json(CLI::App& app);
   void add_threads(CLI::App& app);
 
@@ -34,6 +36,12 @@ struct CommonOptions {
 
 /// Numbers separated by commas; throws std::invalid_argument that names the option.
 Eigen::VectorXd parse_numbers(const std::string& option, const std::string& text);
+
+/// More evaluations than anyone waits for: a grid keeps all their values.
+inline constexpr long kMostBudget = 100'000'000;
+
+/// The posture that `--theta-r` names; without it that of the task.
+Eigen::VectorXd theta_r_of(const Problem& problem, const std::optional<std::string>& text);
 
 /// Empty, or why the text is no seed of random numbers.
 std::string refuse_seed(const std::string& text);

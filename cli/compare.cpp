@@ -135,8 +135,7 @@ void add_compare(CLI::App& app, int& exit_status) {
   command.add_option("problems", options->problems, "shipped names or task files")
       ->capture_default_str();
   options->add_choice(command);
-  command.add_option("--budget", options->choice.budget, "evaluations of each search")
-      ->capture_default_str();
+  options->add_budget(command, "evaluations of each search");
   command.add_option("--seeds", options->seeds, "seeds 1 to this")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));

@@ -11,7 +11,8 @@ namespace maxwrench {
 namespace {
 
 struct EvalOptions : CommonOptions {
-  std::string theta_r, state, write;
+  std::optional<std::string> theta_r;
+  std::string state, write;
   bool ignore_collision = false;
 };
 
@@ -38,9 +39,7 @@ int eval(const EvalOptions& options) {
   const Problem problem = load_problem(options.choice.problem);
   Case c = options.read_case(problem);
   c.search.clear();  // none is used
-  const Eigen::VectorXd theta_r = options.theta_r.empty()
-                                      ? problem.theta_r_default
-                                      : parse_numbers("--theta-r", options.theta_r);
+  const Eigen::VectorXd theta_r = theta_r_of(problem, options.theta_r);
   if (!options.write.empty()) write_program(options, problem, c, theta_r);
   return report(problem, evaluate(problem, c, theta_r, !options.ignore_collision), options.json);
 }

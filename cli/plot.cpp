@@ -11,14 +11,13 @@ namespace maxwrench {
 namespace {
 
 struct PlotOptions {
-  std::string problem, theta_r, out;
+  std::string problem, out;
+  std::optional<std::string> theta_r;
 };
 
 void plot(const PlotOptions& options) {
   const Problem problem = load_problem(options.problem);
-  const Eigen::VectorXd theta_r = options.theta_r.empty()
-                                      ? problem.theta_r_default
-                                      : parse_numbers("--theta-r", options.theta_r);
+  const Eigen::VectorXd theta_r = theta_r_of(problem, options.theta_r);
   const std::string svg = figure(problem, {{problem.name, theta_r}});
   if (options.out.empty()) {
     fmt::print("{}", svg);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 
@@ -29,7 +30,7 @@ std::map<std::string, std::string> read_filter(const std::vector<std::string>& t
 }
 
 long read_whole(const std::map<std::string, std::string>& filter, const std::string& column,
-                long fallback) {
+                long fallback, long most) {
   const auto found = filter.find(column);
   if (found == filter.end()) return fallback;
   std::size_t used = 0;
@@ -39,9 +40,9 @@ long read_whole(const std::map<std::string, std::string>& filter, const std::str
   } catch (const std::logic_error&) {
     used = 0;
   }
-  if (used == 0 || used != found->second.size() || value < 1) {
-    throw std::invalid_argument(
-        fmt::format("{}: got '{}', expected a whole number of at least 1", column, found->second));
+  if (used == 0 || used != found->second.size() || value < 1 || value > most) {
+    throw std::invalid_argument(fmt::format("{}: got '{}', expected a whole number of 1 to {}",
+                                            column, found->second, most));
   }
   return value;
 }
@@ -49,8 +50,9 @@ long read_whole(const std::map<std::string, std::string>& filter, const std::str
 /// The chosen cases of every shipped problem.
 std::vector<Case> choose(const std::map<std::string, std::string>& filter) {
   const Case defaults;
-  const long seed = read_whole(filter, "seed", static_cast<long>(defaults.seed));
-  const long budget = read_whole(filter, "budget", defaults.budget);
+  const long seed = read_whole(filter, "seed", static_cast<long>(defaults.seed),
+                               std::numeric_limits<long>::max());
+  const long budget = read_whole(filter, "budget", defaults.budget, kMostBudget);
   std::vector<Case> cases;
   for (const std::string& name : shipped_problems()) {
     const std::vector<Case> more = product(name, static_cast<std::uint64_t>(seed), budget,

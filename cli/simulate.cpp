@@ -16,7 +16,8 @@ namespace maxwrench {
 namespace {
 
 struct SimulateOptions : CommonOptions {
-  std::string theta_r, out, figure, integrator = "cvode";
+  std::optional<std::string> theta_r;
+  std::string out, figure, integrator = "cvode";
   double planned = 0;  ///< zero: the capability
   bool heaviest = false;
   TankOptions tank;
@@ -98,15 +99,19 @@ TankRun simulate_plan(const Problem& problem, const SimulateOptions& options, co
   return simulate_tank(problem, row, planned, options.integrator, tank);
 }
 
-int simulate(const SimulateOptions& options) {
-  if (!find_integrator(options.integrator).stiff) {
-    std::string stiff;
-    for (const IntegratorEntry& entry : integrators()) {
-      if (entry.stiff) stiff += std::string(" ") + entry.name;
-    }
-    throw std::invalid_argument("--integrator: got " + options.integrator +
-                                ", expected one for stiff systems:" + stiff);
+void require_stiff(const std::string& name) {
+  std::string stiff;
+  for (const IntegratorEntry& entry : integrators()) {
+    if (!entry.stiff) continue;
+    if (entry.name == name) return;
+    stiff += std::string(" ") + entry.name;
   }
+  throw std::invalid_argument("--integrator: got " + name +
+                              ", expected one for stiff systems:" + stiff);
+}
+
+int simulate(const SimulateOptions& options) {
+  require_stiff(options.integrator);
   const Problem problem = load_problem(options.choice.problem);
   if (problem.contact) {
     throw std::invalid_argument("problem: got " + problem.name +
@@ -114,9 +119,7 @@ int simulate(const SimulateOptions& options) {
   }
   Case c = options.read_case(problem);
   c.search.clear();  // none is used
-  const Eigen::VectorXd theta_r = options.theta_r.empty()
-                                      ? problem.theta_r_default
-                                      : parse_numbers("--theta-r", options.theta_r);
+  const Eigen::VectorXd theta_r = theta_r_of(problem, options.theta_r);
   const Row row = evaluate(problem, c, theta_r);
   if (!row.has_value()) return report(problem, row, options.json);
   if (row.capability.u.size() == 0 || row.capability.w.size() == 0) {

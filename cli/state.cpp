@@ -96,6 +96,10 @@ void print_text(const Problem& problem, const Terms& terms) {
 
 int report_state(const Problem& problem, const std::string& file, bool json) {
   const Terms terms = evaluate_terms(problem, load_state(file, problem.robot));
+  if (!terms.tau_d.allFinite()) {
+    throw std::invalid_argument(file + ": got a motion whose tau_d overflows, expected smaller " +
+                                "numbers");
+  }
   if (json) {
     print_json(problem, file, terms);
   } else {

@@ -66,7 +66,7 @@ void draw_axes(Svg& svg, const Frame& frame, const char* unit) {
 void require_weight(const Problem& problem, const Row& row) {
   if (!problem.c.isApprox(Vector6d::Unit(2), 1e-9)) {
     throw std::invalid_argument(
-        "--load: got a task whose wrench is not the force upwards, which a "
+        "--load, --heaviest: got a task whose wrench is not the force upwards, which a "
         "weight asks for; expected one such as uvms/lift");
   }
   if (row.choice.wrench != Wrench::kPure) {

@@ -42,8 +42,8 @@ int find_end_effector(const Block& task, const Robot& robot) {
 void read_wrench(const Block& wrench, Problem& problem) {
   wrench.allow_only({"c", "any", "reference", "desired"});
   const Eigen::VectorXd c = wrench.numbers("c", 6);
-  if (c.norm() < 1e-9) wrench.refuse_value("c", "a direction of nonzero length");
-  problem.c = c.normalized();
+  if (c.stableNorm() < 1e-9) wrench.refuse_value("c", "a direction of nonzero length");
+  problem.c = c.stableNormalized();
   std::vector<std::string> any(kWrenchAxes.begin(), kWrenchAxes.end());
   if (wrench.has("any")) any = wrench.texts("any");
   problem.W_any.setZero(6, static_cast<Eigen::Index>(any.size()));

@@ -35,7 +35,8 @@ class Ellipsoid : public Measure {
   /// Fills beta, w and lambda.
   Status solve(const WrenchProgram& program, Capability& capability) {
     if (!(g_.squaredNorm() < 1)) {
-      capability.reason = "the origin is outside of the ellipsoid: tau_d alone exceeds it";
+      capability.reason =
+          "the origin is outside of the ellipsoid: without contact forces tau_d alone exceeds it";
       return Status::kInfeasible;
     }
     assert(program.columns() <= kMaxColumns);

@@ -174,7 +174,8 @@ double Block::non_negative(std::string_view key, double fallback) const {
 }
 
 Eigen::VectorXd Block::numbers(std::string_view key, int size) const {
-  const std::string expected = fmt::format("{} finite numbers", size);
+  const std::string expected =
+      fmt::format("a list of {} finite number{}", size, size == 1 ? "" : "s");
   const toml::array& values = array(key, expected);
   if (static_cast<int>(values.size()) != size) refuse_value(key, expected);
   Eigen::VectorXd result(size);
@@ -194,8 +195,8 @@ Eigen::Vector3d Block::vector(std::string_view key, const Eigen::Vector3d& fallb
 
 Eigen::Vector3d Block::direction(std::string_view key) const {
   const Eigen::Vector3d value = vector(key);
-  if (value.norm() < 1e-9) refuse_value(key, "a direction of nonzero length");
-  return value.normalized();
+  if (value.stableNorm() < 1e-9) refuse_value(key, "a direction of nonzero length");
+  return value.stableNormalized();
 }
 
 std::vector<std::string> Block::texts(std::string_view key) const {

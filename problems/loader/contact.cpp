@@ -58,9 +58,6 @@ void read_forces(const Block& block, Contact& contact) {
   const std::string forces = block.text("forces");
   const Matrix6Xd all = Matrix6Xd::Identity(6, 6);
   contact.holds_axes = forces == "grasp";
-  if (block.has("mu") && forces != "friction") {
-    block.refuse_value("mu", "no such key, but for forces = 'friction'");
-  }
   if (forces == "none") {
     set_basis(Matrix6Xd(6, 0), true, contact);
   } else if (forces == "point") {
@@ -77,6 +74,9 @@ void read_forces(const Block& block, Contact& contact) {
     read_basis(block, contact);
   } else {
     block.refuse_value("forces", kForces);
+  }
+  if (block.has("mu") && forces != "friction") {
+    block.refuse_value("mu", "no such key, but for forces = 'friction'");
   }
 }
 

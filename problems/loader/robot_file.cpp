@@ -68,12 +68,20 @@ void read_thrusters(const Block& thrusters, Robot& robot) {
     const auto holder = [&](std::string_view key) { return block.has(key) ? block : thrusters; };
     Thruster thruster;
     thruster.name = block.text("name");
-    if (!names.insert(thruster.name).second) block.refuse_value("name", "a name of its own");
+    const bool is_joint =
+        std::any_of(robot.joints.begin(), robot.joints.end(),
+                    [&](const Joint& joint) { return joint.name == thruster.name; });
+    if (is_joint || !names.insert(thruster.name).second) {
+      block.refuse_value("name", "a name of its own");
+    }
     thruster.position = block.vector("position");
     thruster.direction = block.direction("direction");
     thruster.force_min = holder("force_min").number("force_min");
     thruster.force_max = holder("force_max").number("force_max");
     if (thruster.force_min > thruster.force_max) {
+      if (block.has("force_max")) {
+        block.refuse_value("force_max", fmt::format("at least force_min = {}", thruster.force_min));
+      }
       holder("force_min")
           .refuse_value("force_min", fmt::format("at most force_max = {}", thruster.force_max));
     }

@@ -170,11 +170,11 @@ int add_joint(Reading& reading, const urdf::Joint& from, const Body& parent) {
   joint.parent = parent.link;
   joint.placement = parent.placement * pose(from.parent_to_joint_origin_transform);
   const Eigen::Vector3d axis = vector(from.axis);
-  if (axis.norm() < 1e-9) {
+  if (axis.stableNorm() < 1e-9) {
     refuse(reading.file, fmt::format("joint[{}].axis.xyz", from.name), "0 0 0",
            "a direction of nonzero length");
   }
-  joint.axis = axis.normalized();
+  joint.axis = axis.stableNormalized();
   set_limits(reading, from, joint);
   if (from.mimic != nullptr) {
     refuse(reading.file, fmt::format("joint[{}].mimic", from.name),

@@ -50,7 +50,7 @@ class Elimination {
 
   Eigen::MatrixXd B_;  // that the following five were made from
   std::vector<int> driven_rows_, drives_, base_rows_, thrusters_;
-  Wide B_b_;  // thrusters, then columns of a second contact, then zeros (solvers/lp/padded.h)
+  Wide B_b_;       // thrusters, then columns of a second contact, then zeros (solvers/lp/padded.h)
   int extra_ = 0;  // of the latter
   Square P_;
   int steps_ = 1;  // of refinement with P, the first included

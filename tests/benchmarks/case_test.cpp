@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "problems/loader.h"
 #include "solvers/strategies.h"
 
 namespace maxwrench {
@@ -25,6 +26,19 @@ TEST(Case, RefusesChoicesWithoutMeaning) {
   EXPECT_THROW(complete({"p", "ellipsoid", Wrench::kPure, "", "grid", 1, 0}),
                std::invalid_argument);
   EXPECT_THROW(parse_wrench("both"), std::invalid_argument);
+}
+
+TEST(Case, ClosedFormsRefuseLimitedContacts) {
+  Problem problem = load_problem("planar/two_arms");
+  const auto made = [&](const char* measure) {
+    measure_maker(problem, complete({problem.name, measure}, problem.contact_columns()))();
+  };
+  EXPECT_NO_THROW(made("ellipsoid"));
+  problem.contact->w_max[0] = 5;
+  EXPECT_THROW(made("ellipsoid"), std::invalid_argument);
+  EXPECT_THROW(made("least_effort"), std::invalid_argument);
+  EXPECT_NO_THROW(made("linf_polytope"));
+  EXPECT_NO_THROW(made("manipulability"));
 }
 
 TEST(Case, ProductHoldsEachMeaningfulCombinationOnce) {

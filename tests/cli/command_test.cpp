@@ -73,6 +73,10 @@ INSTANTIATE_TEST_SUITE_P(
                     BadWords{"solve planar/force --search luck", "luck"},
                     BadWords{"solve planar/force --budget 0", "budget"},
                     BadWords{"solve planar/force --budget many", "--budget"},
+                    BadWords{"solve planar/force --budget 99999999999", "100000000"},
+                    BadWords{"run budget=99999999999", "1 to 100000000"},
+                    BadWords{"eval planar/force --theta-r ''", "--theta-r"},
+                    BadWords{"simulate uvms/valve --integrator euler", "systems: cvode ida"},
                     BadWords{"solve planar/force --seed -1", "--seed"},
                     BadWords{"solve planar/force --seed 99999999999999999999", "10^19"},
                     BadWords{"solve planar/force --threads -2", "--threads"},
@@ -213,6 +217,28 @@ TEST(Command, EvalReportsTheSecondContact) {
   EXPECT_EQ(best["h_2"].size(), 6);
   EXPECT_GT(best["branches"]["valid"], 10);
   EXPECT_GT(best["branches"]["collision"], 10);
+}
+
+TEST(Command, EvalRefusesAMotionThatOverflows) {
+  const TemporaryFolder folder;
+  std::string text =
+      read_text(std::filesystem::path(MAXWRENCH_SOURCE_DIR) / "problems/uvms/state_example.toml");
+  const std::string speed = "velocity = [0.2";
+  ASSERT_NE(text.find(speed), std::string::npos);
+  std::ofstream(folder.path() / "fast.toml")
+      << text.replace(text.find(speed), speed.size(), "velocity = [1e200");
+  expect_one_line_of_complaint(
+      run_maxwrench("eval uvms/valve --state fast.toml --json", folder.path()), "fast.toml");
+}
+
+/// Only the direction of c counts.
+TEST(Command, EvalTakesAnyLengthOfC) {
+  Copy copy;
+  copy.replace("force.toml", "c = [1, 0, 0, 0, 0, 0]", "c = [1e200, 0, 0, 0, 0, 0]");
+  const auto beta = [&](const std::string& problem) {
+    return json::parse(run_maxwrench("eval " + problem + " --json", copy.path()).out)["beta"];
+  };
+  EXPECT_EQ(beta("force.toml"), beta("planar/force"));
 }
 
 TEST(Command, SolveSaysThatTheSecondArmDoesNotReach) {
