@@ -20,7 +20,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// Random requests on the underwater vehicle's B with its own limits and random weights.
-struct Case {
+struct TrackingCase {
   VectorXd Q;
   EffortRequest request;
   EffortAnswer answer;
@@ -45,9 +45,9 @@ struct Case {
   }
 };
 
-Case on_vehicle(Random& random) {
+TrackingCase on_vehicle(Random& random) {
   static const Robot kRobot = load_problem("uvms/valve").robot;
-  Case c;
+  TrackingCase c;
   c.Q = VectorXd::NullaryExpr(kRobot.actuators(), [&] { return random.uniform(0.1, 2); });
   c.request = {kRobot.actuation.B, {}, {}, kRobot.actuation.u_min, kRobot.actuation.u_max};
   return c;
@@ -55,12 +55,12 @@ Case on_vehicle(Random& random) {
 
 /// Two rows and five efforts, all random; `kind` 1: two efforts pull alike, 2: one effort has equal
 /// bounds, 3: both.
-Case small(Random& random, int kind) {
+TrackingCase small(Random& random, int kind) {
   const int m = 5;
   const auto numbers = [&random](int size, double low, double high) -> VectorXd {
     return VectorXd::NullaryExpr(size, [&] { return random.uniform(low, high); });
   };
-  Case c;
+  TrackingCase c;
   c.Q = numbers(m, 0.1, 2);
   c.request.B = MatrixXd::NullaryExpr(2, m, [&] { return random.normal(); });
   c.request.lower = numbers(m, -3, -0.5);
@@ -72,7 +72,7 @@ Case small(Random& random, int kind) {
 
 /// min x'H x/2 - f'x with B_f x_f = what `reached` and the fixed efforts leave, over every choice
 /// of efforts at the lower bound, at the upper bound and free; without `reached` no equality.
-std::optional<VectorXd> enumerate(const Case& c, const MatrixXd& H, const VectorXd& f,
+std::optional<VectorXd> enumerate(const TrackingCase& c, const MatrixXd& H, const VectorXd& f,
                                   const VectorXd* reached) {
   const auto m = static_cast<int>(f.size());
   int choices = 1;
@@ -114,7 +114,7 @@ std::optional<VectorXd> enumerate(const Case& c, const MatrixXd& H, const Vector
 TEST(EffortTracking, InsideTheLimitsItIsTheWeightedPseudoInverse) {
   Random random(1);
   for (int sample = 0; sample < 50; ++sample) {
-    Case c = on_vehicle(random);
+    TrackingCase c = on_vehicle(random);
     c.request.u_star = c.inside(random, 0.1);
     c.request.tau_c = c.request.B * c.inside(random, 0.1);
     c.solve();
@@ -135,7 +135,7 @@ TEST(EffortTracking, AgreesWithAllActiveSetsTriedOut) {
   Random random(2);
   int at_bounds = 0;
   for (int sample = 0; sample < std::max(8, 80 / kSampleDivisor); ++sample) {
-    Case c = small(random, sample % 4);
+    TrackingCase c = small(random, sample % 4);
     c.request.u_star = c.inside(random, 3);
     VectorXd feasible = c.inside(random, 1);
     if (sample % 5 == 0) {  // a vertex of {B u}: the largest value of a random row of B
@@ -163,7 +163,7 @@ TEST(EffortTracking, AgreesWithAllActiveSetsTriedOut) {
 TEST(EffortTracking, WhatCannotBeHadIsMissedByTheLeastEffort) {
   Random random(3);
   for (int sample = 0; sample < std::max(8, 80 / kSampleDivisor); ++sample) {
-    Case c = small(random, sample % 4);
+    TrackingCase c = small(random, sample % 4);
     c.request.u_star = c.inside(random, 0.5);
     const VectorXd reach = c.request.B.cwiseAbs() * c.request.upper.cwiseMax(-c.request.lower);
     c.request.tau_c = 1.5 * reach;
@@ -187,7 +187,7 @@ TEST(EffortTracking, AgreesWithIpoptOnTheVehicle) {
   Random random(4);
   int at_limits = 0;
   for (int sample = 0; sample < std::max(2, 30 / kSampleDivisor); ++sample) {
-    Case c = on_vehicle(random);
+    TrackingCase c = on_vehicle(random);
     c.request.u_star = c.inside(random, 3);
     c.request.tau_c = c.request.B * c.inside(random, 0.99);
     c.solve();
@@ -208,7 +208,7 @@ TEST(EffortTracking, AgreesWithIpoptOnTheVehicle) {
 TEST(EffortTracking, AgreesWithIpoptOnWhatCannotBeHad) {
   Random random(5);
   for (int sample = 0; sample < std::max(2, 30 / kSampleDivisor); ++sample) {
-    Case c = on_vehicle(random);
+    TrackingCase c = on_vehicle(random);
     const Eigen::Index m = c.Q.size(), n = c.request.B.rows();
     c.request.u_star = c.inside(random, 0.5);
     c.request.tau_c = 3 * c.request.B * c.inside(random, 1);
@@ -239,7 +239,7 @@ TEST(EffortTracking, AgreesWithIpoptOnWhatCannotBeHad) {
 TEST(EffortTracking, RowsMayDependOnEachOther) {
   Random random(6);
   for (int sample = 0; sample < 20; ++sample) {
-    Case c = small(random, 0);
+    TrackingCase c = small(random, 0);
     MatrixXd B(3, c.request.B.cols());
     B << c.request.B, c.request.B.row(0) + c.request.B.row(1);
     c.request.B = B;
@@ -253,11 +253,11 @@ TEST(EffortTracking, RowsMayDependOnEachOther) {
 
 TEST(EffortTracking, EarlierRequestsLeaveNoTrace) {
   Random random(7);
-  Case reference = small(random, 0);
+  TrackingCase reference = small(random, 0);
   EffortTracker tracker(reference.Q);
   EffortAnswer reused;
   for (int sample = 0; sample < 30; ++sample) {
-    Case c = small(random, sample % 4);
+    TrackingCase c = small(random, sample % 4);
     c.Q = reference.Q;
     c.request.u_star = c.inside(random, 2);
     c.request.tau_c = (sample % 3) * c.request.B * c.inside(random, 1);
