@@ -53,6 +53,14 @@ Robot random_wet_robot(Random& random, int joints) {
   return robot;
 }
 
+Robot random_dry_robot(Random& random, int joints) {
+  Robot robot = random_wet_robot(random, joints);
+  robot.water_density = 0;
+  robot.trim = {};
+  for (Link& link : robot.links) link.hydrodynamics.clear();
+  return robot;
+}
+
 void move(const Robot& robot, int i, double step, Pose<double>& base, Eigen::VectorXd& q) {
   const int axes = static_cast<int>(robot.base_axes.size());
   if (i >= axes) {

@@ -10,6 +10,9 @@ namespace maxwrench {
 /// base and none on link 1.
 Robot random_wet_robot(Random& random, int joints);
 
+/// The same without water.
+Robot random_dry_robot(Random& random, int joints);
+
 /// From the normal distribution.
 Eigen::VectorXd random_numbers(Random& random, int size);
 

@@ -22,10 +22,7 @@ constexpr int kChainJoints = 6;
 
 /// A chain without water.
 Robot random_dry_chain(Random& random) {
-  Robot robot = random_wet_robot(random, kChainJoints);
-  robot.water_density = 0;
-  robot.trim = {};
-  for (Link& link : robot.links) link.hydrodynamics.clear();
+  Robot robot = random_dry_robot(random, kChainJoints);
   for (int i = 0; i < kChainJoints; ++i) robot.joints[i].parent = i;
   return robot;
 }

@@ -23,14 +23,6 @@ using Eigen::VectorXd;
 
 constexpr int kTreeJoints = 6;
 
-Robot random_dry_tree(Random& random) {
-  Robot robot = random_wet_robot(random, kTreeJoints);
-  robot.water_density = 0;
-  robot.trim = {};
-  for (Link& link : robot.links) link.hydrodynamics.clear();
-  return robot;
-}
-
 std::string mjcf_numbers(const Vector3d& v) {
   return fmt::format("{:.17g} {:.17g} {:.17g}", v.x(), v.y(), v.z());
 }
@@ -131,7 +123,7 @@ TEST(DynamicsMuJoCo, TreeOnAFloatingBase) {
   Random random(23);
   const int n = 6 + kTreeJoints;
   for (int tree = 0; tree < 20; ++tree) {
-    const Robot robot = random_dry_tree(random);
+    const Robot robot = random_dry_robot(random, kTreeJoints);
     MuJoCo mujoco(robot);
     Dynamics<double> dynamics(robot);
     for (int sample = 0; sample < 50; ++sample) {
