@@ -28,6 +28,13 @@ std::vector<std::pair<std::string, int>> solvers_for(const MeasureEntry& measure
   return names;
 }
 
+/// Whether a force of the contact ends at a limit other than zero.
+bool limited(const Contact& contact) {
+  const auto counts = [](double limit) { return limit != 0 && std::isfinite(limit); };
+  return std::any_of(contact.w_min.begin(), contact.w_min.end(), counts) ||
+         std::any_of(contact.w_max.begin(), contact.w_max.end(), counts);
+}
+
 }  // namespace
 
 Wrench parse_wrench(const std::string& name) {
@@ -66,17 +73,6 @@ Case fit(const Problem& problem, Case c) {
   if (c.lp == "facets" && !problem.robot.actuation.has_facets) c.lp = "box";
   return c;
 }
-
-namespace {
-
-/// Whether a force of the contact ends at a limit other than zero.
-bool limited(const Contact& contact) {
-  const auto counts = [](double limit) { return limit != 0 && std::isfinite(limit); };
-  return std::any_of(contact.w_min.begin(), contact.w_min.end(), counts) ||
-         std::any_of(contact.w_max.begin(), contact.w_max.end(), counts);
-}
-
-}  // namespace
 
 MeasureMaker measure_maker(const Problem& problem, const Case& c) {
   const MeasureEntry& measure = find_measure(c.measure);

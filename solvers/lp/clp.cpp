@@ -1,6 +1,7 @@
 #include "solvers/lp/clp.h"
 
 #include <ClpSimplex.hpp>
+#include <cmath>
 
 #include "solvers/lp/elastic.h"
 
@@ -45,8 +46,9 @@ class Clp : public LpSolver {
   void solve(const LinearProgram& program, LpSolution& solution) override {
     if (refused(program, solution)) return;
     // Scaling costs more than a small program. The dual simplex bounds free columns by 1e10 for a
-    // while, which can leave columns 1e-6 off their bounds. What fails is tried again with scaling
-    // and the primal simplex.
+    // while, which can leave columns 1e-6 off their bounds, or free ones out there where any value
+    // would do, with rows that balance to 1e-6 only. What fails is tried again with scaling and the
+    // primal simplex.
     solve_by_attempts(
         program,
         [this](const LinearProgram& other, bool warm, bool careful, LpSolution& answer) {
@@ -56,12 +58,22 @@ class Clp : public LpSolver {
   }
 
  private:
+  /// Whether a free column is where the dual simplex bounded it.
+  static bool far_out(const LinearProgram& program, const Eigen::VectorXd& x) {
+    for (int j = 0; j < program.cols(); ++j) {
+      const bool free = program.l[j] == -kInfinity && program.u[j] == kInfinity;
+      if (free && std::abs(x[j]) > 1e9) return true;
+    }
+    return false;
+  }
+
   /// False if there is no verdict that the data confirm.
   bool try_once(const LinearProgram& program, bool warm, bool careful, LpSolution& solution) {
     const int status = run(program, warm, careful, solution);
     if (status == kClpOptimal) {
       solution.status = Status::kOptimal;
       solution.reason = "";
+      if (!careful && far_out(program, solution.x)) return false;
       return verified(program, solution, careful ? 1e-7 : 1e-9, scratch_);
     }
     if (status == kClpPrimalInfeasible) {
