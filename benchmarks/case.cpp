@@ -5,27 +5,50 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 
-#include "solvers/strategies.h"
+#include "maxwrench/problem.h"
+#include "maxwrench/strategies.h"
 
 namespace maxwrench {
 namespace {
 
-bool serves(const WrenchSolverEntry& solver, Wrench wrench, int contact_columns) {
-  return (wrench == Wrench::kPure && contact_columns == 0) || !solver.one_column_only;
+bool serves(const WrenchSolverEntry& solver, const Problem& problem, Wrench wrench) {
+  const bool one_column = wrench == Wrench::kPure && problem.contact_columns() == 0;
+  if (solver.one_column_only && !one_column) return false;
+  return !solver.needs_facets || problem.robot.actuation.has_facets;
 }
 
-/// The lower-level solvers that serve a measure and a wrench, with their costs.
-std::vector<std::pair<std::string, int>> solvers_for(const MeasureEntry& measure, Wrench wrench,
-                                                     int contact_columns) {
+/// The lower-level solvers that serve a measure and a wrench; a null entry for a closed form.
+std::vector<const WrenchSolverEntry*> solvers_for(const MeasureEntry& measure,
+                                                  const Problem& problem, Wrench wrench) {
   if (wrench == Wrench::kAny && !measure.serves_any) return {};
-  if (!measure.needs_solver) return {{kNoSolver, 1}};
-  std::vector<std::pair<std::string, int>> names;
+  if (!measure.needs_solver) return {nullptr};
+  std::vector<const WrenchSolverEntry*> served;
   for (const WrenchSolverEntry& solver : wrench_solvers()) {
-    if (serves(solver, wrench, contact_columns)) names.emplace_back(solver.name, solver.cost);
+    if (serves(solver, problem, wrench)) served.push_back(&solver);
   }
-  return names;
+  return served;
+}
+
+const char* name_of(const WrenchSolverEntry* solver) { return solver ? solver->name : kNoSolver; }
+
+/// The solver with this name, or the first one of those that serve. Throws if it is none of them.
+const WrenchSolverEntry* choose_solver(const std::vector<const WrenchSolverEntry*>& served,
+                                       const Problem& problem, const Case& c) {
+  if (c.lp.empty()) return served.front();
+  if (c.lp != kNoSolver) find_wrench_solver(c.lp);
+  std::vector<std::string> names;
+  for (const WrenchSolverEntry* solver : served) {
+    if (c.lp == name_of(solver)) return solver;
+    names.emplace_back(name_of(solver));
+  }
+  const bool many = served.front() && !problem.robot.actuation.has_facets;
+  throw std::invalid_argument(fmt::format(
+      "lp: got '{}', which does not serve measure {} with wrench {}{}{}, expected one of {}", c.lp,
+      c.measure, to_string(c.wrench), problem.contact_columns() > 0 ? " and a second contact" : "",
+      many ? " and too many facets" : "", fmt::join(names, " ")));
 }
 
 /// Whether a force of the contact ends at a limit other than zero.
@@ -43,54 +66,38 @@ Wrench parse_wrench(const std::string& name) {
   throw std::invalid_argument(fmt::format("wrench: got '{}', expected pure or any", name));
 }
 
-Case complete(Case c, int contact_columns) {
+Method resolve(const Problem& problem, const Case& c) {
+  Method method;
+  method.choice = c;
   const MeasureEntry& measure = find_measure(c.measure);
-  find_search(c.search);
+  method.measure = &measure;
+  if (!c.search.empty()) method.search = &find_search(c.search);
   if (c.budget < 1) {
     throw std::invalid_argument(fmt::format("budget: got {}, expected at least 1", c.budget));
   }
-  if (c.wrench == Wrench::kAny && !measure.serves_any) {
+  const auto served = solvers_for(measure, problem, c.wrench);
+  if (served.empty()) {
     throw std::invalid_argument(fmt::format(
         "wrench: got 'any', which means nothing to measure {}, expected pure", c.measure));
   }
-  const auto allowed = solvers_for(measure, c.wrench, contact_columns);
-  if (c.lp.empty()) c.lp = allowed.front().first;
-  if (c.lp != kNoSolver) find_wrench_solver(c.lp);
-  const bool meaningful = std::any_of(allowed.begin(), allowed.end(),
-                                      [&](const auto& solver) { return solver.first == c.lp; });
-  if (!meaningful) {
-    std::vector<std::string> names;
-    for (const auto& solver : allowed) names.push_back(solver.first);
-    throw std::invalid_argument(fmt::format(
-        "lp: got '{}', which does not serve measure {} with wrench {}{}, expected one of {}", c.lp,
-        c.measure, to_string(c.wrench), contact_columns > 0 ? " and a second contact" : "",
-        fmt::join(names, " ")));
-  }
-  return c;
-}
-
-Case fit(const Problem& problem, Case c) {
-  if (c.lp == "facets" && !problem.robot.actuation.has_facets) c.lp = "box";
-  return c;
-}
-
-MeasureMaker measure_maker(const Problem& problem, const Case& c) {
-  const MeasureEntry& measure = find_measure(c.measure);
-  const WrenchSolverEntry* solver = measure.needs_solver ? &find_wrench_solver(c.lp) : nullptr;
+  const WrenchSolverEntry* solver = choose_solver(served, problem, c);
+  method.choice.lp = name_of(solver);
   const bool closed_form = !measure.needs_solver && measure.serves_any;
   if (closed_form && problem.contact && limited(*problem.contact)) {
     throw std::invalid_argument("measure: got " + c.measure +
                                 ", expected one with a solver: a closed form serves no limits of "
                                 "contact.basis but zero and infinity");
   }
-  return [&problem, &measure, solver] {
+  method.unit = measure.unit ? measure.unit : problem.unit();
+  method.make_measure = [&problem, &measure, solver] {
     return measure.make(problem, solver ? solver->make() : nullptr);
   };
-}
-
-const char* unit(const Problem& problem, const Case& c) {
-  const char* own = find_measure(c.measure).unit;
-  return own ? own : problem.unit();
+  const MeasureEntry& yardstick = find_measure("linf_polytope");
+  const WrenchSolverEntry& reference = find_wrench_solver("simplex");
+  method.make_yardstick = [&problem, &yardstick, &reference] {
+    return yardstick.make(problem, reference.make());
+  };
+  return method;
 }
 
 const std::vector<std::string>& case_columns() {
@@ -109,17 +116,17 @@ std::vector<std::string> case_values(const Case& c) {
           fmt::format("{}", c.budget)};
 }
 
-std::vector<Case> product(const std::string& problem, std::uint64_t seed, long budget,
-                          int contact_columns) {
+std::vector<Case> product(const Problem& problem, std::uint64_t seed, long budget) {
   std::vector<Case> cases;
   for (const MeasureEntry& measure : measures()) {
     for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
-      const auto solvers = solvers_for(measure, wrench, contact_columns);
-      for (const auto& [lp, cost] : solvers) {
-        const bool first = lp == solvers.front().first;
+      const auto served = solvers_for(measure, problem, wrench);
+      for (const WrenchSolverEntry* solver : served) {
+        const bool first = solver == served.front();
+        const long share = std::max(1L, budget / (solver ? solver->cost : 1));
         for (const SearchEntry& search : searches().first(first ? searches().size() : 2)) {
           cases.push_back(
-              {problem, measure.name, wrench, lp, search.name, seed, std::max(1L, budget / cost)});
+              {problem.name, measure.name, wrench, name_of(solver), search.name, seed, share});
         }
       }
     }
@@ -139,13 +146,15 @@ std::vector<Case> select(std::vector<Case> cases,
           fmt::format("column: got '{}', expected one of {}", column, fmt::join(columns, " ")));
     }
     if (column == "seed" || column == "budget") continue;
-    const auto index = found - columns.begin();
+    const auto index = static_cast<std::size_t>(found - columns.begin());
+    std::set<std::string> existing;
+    for (const Case& c : cases) existing.insert(case_values(c)[index]);
     std::erase_if(cases, [&](const Case& c) { return case_values(c)[index] != value; });
     if (cases.empty()) {
       throw std::invalid_argument(
-          fmt::format("{}: got '{}', expected a value that the product has together with the other "
-                      "choices",
-                      column, value));
+          fmt::format("{}: got '{}', expected one that the product has together with the other "
+                      "choices: {}",
+                      column, value, fmt::join(existing, " ")));
     }
   }
   return cases;

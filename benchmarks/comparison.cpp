@@ -1,10 +1,12 @@
 #include "benchmarks/comparison.h"
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <memory>
 
-#include "solvers/strategies.h"
+#include "maxwrench/problem.h"
+#include "maxwrench/strategies.h"
 
 namespace maxwrench {
 namespace {
@@ -24,8 +26,8 @@ class Stopwatch final : public Objective {
 
   const Eigen::VectorXd& lower() const override { return objective_->lower(); }
   const Eigen::VectorXd& upper() const override { return objective_->upper(); }
-  Status status() const override { return objective_->status(); }
-  const char* reason() const override { return objective_->reason(); }
+  const Verdict& verdict() const override { return objective_->verdict(); }
+  bool ended() const override { return objective_->ended(); }
   void metric(const Eigen::VectorXd& theta_r, Eigen::MatrixXd& M) override {
     objective_->metric(theta_r, M);
   }
@@ -48,9 +50,10 @@ class Stopwatch final : public Objective {
   double start_;
 };
 
-bool has_reference() {
+bool has_reference(const Case& base) {
   const auto table = wrench_solvers();
-  return std::any_of(table.begin(), table.end(),
+  return find_measure(base.measure).needs_solver &&
+         std::any_of(table.begin(), table.end(),
                      [](const auto& entry) { return entry.name == std::string(kReferenceSolver); });
 }
 
@@ -75,22 +78,32 @@ double Attempt::value_after(double count) const {
   return best;
 }
 
-Attempt attempt(const Problem& problem, const Case& c) {
+Attempt attempt(const Problem& problem, const Method& method, Interruption* interruption) {
   Attempt run;
-  run.choice = c;
+  run.choice = method.choice;
   const double start = processor_seconds();
-  Stopwatch objective(make_capability_objective(problem, c.wrench, measure_maker(problem, c)), run,
-                      start);
+  Stopwatch objective(make_interruptible(make_capability_objective(problem, method.choice.wrench,
+                                                                   method.make_measure),
+                                         interruption),
+                      run, start);
   SearchOptions options;
-  options.seed = c.seed;
-  options.budget = c.budget;
+  options.seed = method.choice.seed;
+  options.budget = method.choice.budget;
   options.start = problem.theta_r_default;
-  const SearchResult result = find_search(c.search).make()->maximize(objective, options);
+  const SearchResult result = method.search->make()->maximize(objective, options);
   run.seconds = processor_seconds() - start;
   run.value = result.value;
   run.evaluations = result.evaluations;
   run.history = result.history;
   return run;
+}
+
+double Contender::shortfall_after(double evaluations, double best) const {
+  if (best == 0 || best == -kInfinity) return kInfinity;
+  std::vector<double> shortfalls;
+  for (const Attempt& each : attempts)
+    shortfalls.push_back((best - each.value_after(evaluations)) / std::abs(best));
+  return median(shortfalls);
 }
 
 double Comparison::best() const {
@@ -101,33 +114,37 @@ double Comparison::best() const {
   return best;
 }
 
-double Comparison::target() const { return best() - 1e-3 * std::abs(best()); }
+double Comparison::target() const {
+  return has_value() ? best() - 1e-3 * std::abs(best()) : kInfinity;
+}
 
 Comparison compare(const Problem& problem, const Case& base, int seeds,
-                   const std::function<void()>& done) {
-  const auto contend = [&](const char* search, const std::string& lp, int count) {
+                   const std::function<void()>& done, Interruption* interruption) {
+  const auto interrupted = [&] { return interruption != nullptr && interruption->asked; };
+  const auto contend = [&](const char* search, const std::string& lp) {
     Contender contender{search, lp, {}};
-    for (int seed = 1; seed <= count; ++seed) {
+    for (int seed = 1; seed <= seeds && !interrupted(); ++seed) {
       Case c = base;
       c.problem = problem.name;
       c.search = search;
       c.lp = lp;
       c.seed = static_cast<std::uint64_t>(seed);
-      contender.attempts.push_back(attempt(problem, complete(c, problem.contact_columns())));
+      contender.attempts.push_back(attempt(problem, resolve(problem, c), interruption));
       done();
     }
     return contender;
   };
-  Comparison comparison{problem.name, problem.unit(), {}, {}};
+  const Method method = resolve(problem, base);
+  Comparison comparison{problem.name, method.unit, {}, {}, false};
   for (const SearchEntry& search : searches())
-    comparison.contenders.push_back(
-        contend(search.name, complete(base, problem.contact_columns()).lp, seeds));
-  if (has_reference()) comparison.reference = contend(kReferenceSearch, kReferenceSolver, seeds);
+    comparison.contenders.push_back(contend(search.name, method.choice.lp));
+  if (has_reference(base)) comparison.reference = contend(kReferenceSearch, kReferenceSolver);
+  comparison.interrupted = interrupted();
   return comparison;
 }
 
-long attempt_count(int seeds) {
-  return (static_cast<long>(searches().size()) + (has_reference() ? 1 : 0)) * seeds;
+long attempt_count(const Case& base, int seeds) {
+  return (static_cast<long>(searches().size()) + (has_reference(base) ? 1 : 0)) * seeds;
 }
 
 double median(std::vector<double> values) {

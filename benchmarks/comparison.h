@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "benchmarks/case.h"
-#include "lib/search.h"
+#include "benchmarks/interruption.h"
+#include "maxwrench/search.h"
 
 namespace maxwrench {
 
-/// One run of a search on one thread, with the time of the processor (what other programs use does
-/// not count).
+/// One run of a search on one thread, perhaps cut short, with the time of the processor (what other
+/// programs use does not count).
 struct Attempt {
   Case choice;
   double value = -kInfinity;
@@ -27,12 +28,16 @@ struct Attempt {
   double value_after(double count) const;
 };
 
-Attempt attempt(const Problem& problem, const Case& c);
+Attempt attempt(const Problem& problem, const Method& method, Interruption* interruption = nullptr);
 
 /// All attempts of one search through one lower-level solver.
 struct Contender {
   std::string search, lp;
   std::vector<Attempt> attempts;  ///< seeds 1, 2, ...
+
+  /// The median over the attempts of how far their best value so far stays below `best`, as a share
+  /// of it; infinity until half of them have a value, and if `best` is zero or none.
+  double shortfall_after(double evaluations, double best) const;
 };
 
 /// All searches on one problem.
@@ -40,21 +45,24 @@ struct Comparison {
   std::string problem, unit;
   std::vector<Contender> contenders;  ///< in the order of the table of searches
   /// Annealing through GLPK, a general solver of linear programs: the plain way, of which every
-  /// speed is a multiple. No attempts if there is no such solver.
+  /// speed is a multiple. No attempts if there is no such solver or the measure takes none.
   Contender reference;
+  bool interrupted = false;  ///< attempts are missing, and the last one was cut short
 
-  /// The best value of all attempts.
+  bool has_value() const { return best() > -kInfinity; }
+  /// The best value of all attempts, -infinity if none has one.
   double best() const;
-  /// What counts as reached: a thousandth below the best.
+  /// What counts as reached: a thousandth below the best; infinity, which nothing reaches, if there
+  /// is no value.
   double target() const;
 };
 
 /// Runs every search with `seeds` seeds; `base` holds measure, wrench, lp and budget. `done` is
-/// called after each attempt.
+/// called after each attempt. After an interruption no attempt begins.
 Comparison compare(const Problem& problem, const Case& base, int seeds,
-                   const std::function<void()>& done);
+                   const std::function<void()>& done, Interruption* interruption = nullptr);
 /// How many attempts that makes.
-long attempt_count(int seeds);
+long attempt_count(const Case& base, int seeds);
 
 /// The middle value, the mean of the two middle ones of an even number; infinity if there is none.
 double median(std::vector<double> values);

@@ -14,10 +14,11 @@
 #include <vector>
 
 #include "benchmarks/case.h"
-#include "lib/random.h"
-#include "lib/wrench_program.h"
-#include "problems/loader.h"
-#include "solvers/strategies.h"
+#include "lib/math/random.h"
+#include "maxwrench/load.h"
+#include "maxwrench/posture.h"
+#include "maxwrench/strategies.h"
+#include "maxwrench/wrench_program.h"
 
 namespace maxwrench {
 namespace {
@@ -37,7 +38,7 @@ std::vector<Eigen::VectorXd> random_postures(const Problem& problem) {
 
 void time_objective(benchmark::State& state, const Problem& problem, const Case& c, bool gradient) {
   const auto objective =
-      make_capability_objective(problem, c.wrench, measure_maker(problem, c), false);
+      make_capability_objective(problem, c.wrench, resolve(problem, c).make_measure, false);
   const std::vector<Eigen::VectorXd> postures = random_postures(problem);
   Eigen::VectorXd slope;
   std::size_t i = 0;
@@ -48,7 +49,7 @@ void time_objective(benchmark::State& state, const Problem& problem, const Case&
 }
 
 void time_model(benchmark::State& state, const Problem& problem) {
-  PostureModel model(problem, false);
+  PostureEvaluator model(problem, false);
   const std::vector<Eigen::VectorXd> postures = random_postures(problem);
   std::size_t i = 0;
   for (auto _ : state) {
@@ -58,7 +59,7 @@ void time_model(benchmark::State& state, const Problem& problem) {
 
 /// The check alone, for link poses that are known.
 void time_collision(benchmark::State& state, const Problem& problem) {
-  PostureModel model(problem, false);
+  PostureEvaluator model(problem, false);
   std::vector<std::vector<Pose<double>>> links;
   for (const Eigen::VectorXd& theta_r : random_postures(problem)) {
     links.push_back(model.evaluate(theta_r).links);
@@ -127,7 +128,7 @@ void add_problem(const Problem& problem) {
   if (problem.robot.collision) {
     add(name("collision"), [&](benchmark::State& state) { time_collision(state, problem); });
   }
-  for (const Case& c : product(problem.name, 1, 1, problem.contact_columns())) {
+  for (const Case& c : product(problem, 1, 1)) {
     if (c.search != searches()[0].name) continue;
     const std::string title = name(fmt::format("{}/{}/{}", c.measure, to_string(c.wrench), c.lp));
     add(title,

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "lib/decompositions.h"
+#include "lib/math/decompositions.h"
+#include "lib/math/direct_drives.h"
 
 namespace maxwrench {
 namespace {
@@ -52,45 +53,16 @@ LinearProgram paper_form(const WrenchProgram& program) {
   return from_dense(A, b, c, low, high);
 }
 
-/// The rows of B that one direct drive alone serves, with its column; and all others.
-struct Drives {
-  std::vector<int> rows, cols, other_rows, other_cols;
-};
-
-Drives find_drives(const MatrixXd& B) {
-  Drives drives;
-  std::vector<char> driven(B.cols(), 0);
-  for (int i = 0; i < B.rows(); ++i) {
-    int column = -1;
-    for (int j = 0; j < B.cols(); ++j) {
-      const bool alone = B(i, j) != 0 && (B.row(i).array() != 0).count() == 1 &&
-                         (B.col(j).array() != 0).count() == 1;
-      if (alone) column = j;
-    }
-    if (column < 0) {
-      drives.other_rows.push_back(i);
-      continue;
-    }
-    drives.rows.push_back(i);
-    drives.cols.push_back(column);
-    driven[column] = 1;
-  }
-  for (int j = 0; j < B.cols(); ++j) {
-    if (!driven[j]) drives.other_cols.push_back(j);
-  }
-  return drives;
-}
-
 /// One column: the joints' limits bound w.
-LinearProgram reduce_pure(const WrenchProgram& program, const Drives& drives) {
+LinearProgram reduce_pure(const WrenchProgram& program, const DirectDrives& drives) {
   const Zonotope& set = *program.actuation;
   double low = program.w_min[0];
   double high = program.w_max[0];
   for (std::size_t k = 0; k < drives.rows.size(); ++k) {
     const double slope = program.JtW(drives.rows[k], 0);
-    const double gain = set.B(drives.rows[k], drives.cols[k]);
-    double first = gain * set.u_min[drives.cols[k]] - program.tau_d[drives.rows[k]];
-    double second = gain * set.u_max[drives.cols[k]] - program.tau_d[drives.rows[k]];
+    const double gain = set.B(drives.rows[k], drives.columns[k]);
+    double first = gain * set.u_min[drives.columns[k]] - program.tau_d[drives.rows[k]];
+    double second = gain * set.u_max[drives.columns[k]] - program.tau_d[drives.rows[k]];
     if (std::abs(slope) < 1e-14) {
       const bool holds = std::min(first, second) <= 0 && std::max(first, second) >= 0;
       if (!holds) low = kInfinity;
@@ -103,13 +75,13 @@ LinearProgram reduce_pure(const WrenchProgram& program, const Drives& drives) {
   }
   // Crossing bounds are kept apart from infinity, which no bound may be.
   if (low == kInfinity) low = high + 1;
-  const int m = static_cast<int>(drives.other_cols.size());
+  const int m = static_cast<int>(drives.other_columns.size());
   MatrixXd A(drives.other_rows.size(), m + 1);
-  A << set.B(drives.other_rows, drives.other_cols), -program.JtW(drives.other_rows, Eigen::all);
+  A << set.B(drives.other_rows, drives.other_columns), -program.JtW(drives.other_rows, Eigen::all);
   VectorXd l(m + 1);
   VectorXd u(m + 1);
-  l << set.u_min(drives.other_cols), low;
-  u << set.u_max(drives.other_cols), high;
+  l << set.u_min(drives.other_columns), low;
+  u << set.u_max(drives.other_columns), high;
   VectorXd c = VectorXd::Zero(m + 1);
   c[m] = program.c_w[0];
   return from_dense(A, program.tau_d(drives.other_rows), c, l, u);
@@ -117,20 +89,20 @@ LinearProgram reduce_pure(const WrenchProgram& program, const Drives& drives) {
 
 /// w = P (B u - tau_d) with P = (J'W)^-1 over the rows without direct drive, v = B_ij u_j:
 /// v - J_j'W P B u = tau_d,j - J_j'W P tau_d.
-Reduced eliminate_w(const WrenchProgram& program, const Drives& drives) {
+Reduced eliminate_w(const WrenchProgram& program, const DirectDrives& drives) {
   const Zonotope& set = *program.actuation;
   const MatrixXd P = pseudo_inverse(program.JtW(drives.other_rows, Eigen::all));
-  const MatrixXd PB = P * set.B(drives.other_rows, drives.other_cols);
+  const MatrixXd PB = P * set.B(drives.other_rows, drives.other_columns);
   const VectorXd Ptau = P * program.tau_d(drives.other_rows);
   const MatrixXd loads = program.JtW(drives.rows, Eigen::all);
-  const auto m = static_cast<Eigen::Index>(drives.other_cols.size());
+  const auto m = static_cast<Eigen::Index>(drives.other_columns.size());
   const auto joints = static_cast<Eigen::Index>(drives.rows.size());
   MatrixXd A(joints, m + joints);
-  A << -loads * PB, MatrixXd(set.B(drives.rows, drives.cols));
+  A << -loads * PB, MatrixXd(set.B(drives.rows, drives.columns));
   VectorXd l(m + joints);
   VectorXd u(m + joints);
-  l << set.u_min(drives.other_cols), set.u_min(drives.cols);
-  u << set.u_max(drives.other_cols), set.u_max(drives.cols);
+  l << set.u_min(drives.other_columns), set.u_min(drives.columns);
+  u << set.u_max(drives.other_columns), set.u_max(drives.columns);
   VectorXd c = VectorXd::Zero(m + joints);
   c.head(m) = PB.transpose() * program.c_w;
   return {from_dense(A, program.tau_d(drives.rows) - loads * Ptau, c, l, u),
@@ -144,7 +116,7 @@ const char* to_string(Form form) {
 }
 
 Reduced reduce(const WrenchProgram& program) {
-  const Drives drives = find_drives(program.actuation->B);
+  const DirectDrives drives = direct_drives(program.actuation->B);
   if (program.columns() == 1) return {reduce_pure(program, drives), 0};
   const bool free =
       (program.w_min.array() == -kInfinity).all() && (program.w_max.array() == kInfinity).all();

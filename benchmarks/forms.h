@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lib/wrench_program.h"
+#include "maxwrench/wrench_program.h"
 
 namespace maxwrench {
 

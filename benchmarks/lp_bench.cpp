@@ -1,9 +1,14 @@
-// Times the lower level alone: our solvers that know the structure, and every general simplex in
-// three forms of the program, cold and warm, on random postures and along a walk in small steps;
-// then prints how many times faster ours are than the best of Clp and GLPK in the same run.
+// Times the lower level alone: our solvers that know the structure, without and with the efforts
+// (+u, the output that general solvers give), and every general simplex in three forms of the
+// program, on random postures and along a walk in small steps; then prints how many times faster
+// ours are than the best of Clp and GLPK in the same run. All of them work to tolerances of 1e-9.
 //
-// A general solver gets its program assembled for free; what is timed includes loading it into the
-// library and checking the answer, as everywhere else.
+// A general solver gets its program assembled for free; what is timed includes checking the answer,
+// as everywhere else, and bringing the program into the library in one of three ways:
+//
+//     cold   loaded afresh, from the slack basis
+//     basis  loaded afresh, from the last basis
+//     model  the library's model stays alive, is edited in place and keeps its basis
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -16,10 +21,11 @@
 #include <vector>
 
 #include "benchmarks/forms.h"
-#include "lib/posture.h"
-#include "lib/random.h"
-#include "problems/loader.h"
-#include "solvers/strategies.h"
+#include "lib/math/random.h"
+#include "maxwrench/load.h"
+#include "maxwrench/posture.h"
+#include "maxwrench/strategies.h"
+#include "solvers/lp/makers.h"
 
 namespace maxwrench {
 namespace {
@@ -42,7 +48,7 @@ std::vector<Eigen::VectorXd> postures(const Problem& problem, bool walk) {
   std::vector<Eigen::VectorXd> result;
   Eigen::VectorXd theta_r = problem.theta_r_default;
   Eigen::VectorXd next = theta_r;
-  PostureModel model(problem, false);
+  PostureEvaluator model(problem, false);
   while (static_cast<int>(result.size()) < kPrograms) {
     for (int j = 0; j < problem.redundancy(); ++j) {
       const double low = problem.theta_r_min[j];
@@ -51,7 +57,7 @@ std::vector<Eigen::VectorXd> postures(const Problem& problem, bool walk) {
       next[j] = walk ? std::clamp(theta_r[j] + step, low, high) : random.uniform(low, high);
     }
     // A second arm must reach its contact.
-    if (problem.contact && model.evaluate(next).status != Status::kOptimal) continue;
+    if (problem.contact && model.evaluate(next).status != Status::kValid) continue;
     theta_r = next;
     result.push_back(theta_r);
   }
@@ -78,7 +84,7 @@ std::unique_ptr<Set> make_set(const Problem& problem, Wrench wrench, bool walk, 
   set->pure = wrench == Wrench::kPure && !problem.contact;
   set->problem = &problem;
   set->theta_r = postures(problem, walk);
-  PostureModel model(problem, false);
+  PostureEvaluator model(problem, false);
   WrenchProgram program = make_wrench_program(problem, wrench);
   const auto judge = find_wrench_solver("box").make();
   Random random(2);
@@ -95,19 +101,19 @@ std::unique_ptr<Set> make_set(const Problem& problem, Wrench wrench, bool walk, 
   return set;
 }
 
-void time_own(benchmark::State& state, const Set& set, const char* name) {
+void time_own(benchmark::State& state, const Set& set, const char* name, bool efforts) {
   const auto solver = find_wrench_solver(name).make();
   Capability capability;
   std::size_t i = 0;
   for (auto _ : state) {
-    solver->solve(set.programs[i++ % kPrograms], false, capability);
+    solver->solve(set.programs[i++ % kPrograms], efforts, capability);
     benchmark::DoNotOptimize(capability.beta);
   }
 }
 
 /// theta_r -> J, tau_d -> beta, without the collision check.
 void time_total(benchmark::State& state, const Set& set, const char* name) {
-  PostureModel model(*set.problem, false);
+  PostureEvaluator model(*set.problem, false);
   WrenchProgram program = set.programs.front();
   const auto solver = find_wrench_solver(name).make();
   Capability capability;
@@ -119,13 +125,26 @@ void time_total(benchmark::State& state, const Set& set, const char* name) {
   }
 }
 
+/// How a general solver gets its programs.
+enum class Start { kCold, kBasis, kModel };
+constexpr std::pair<Start, const char*> kStarts[] = {
+    {Start::kCold, "cold"}, {Start::kBasis, "basis"}, {Start::kModel, "model"}};
+
+/// Null if the solver has no model that stays alive.
+std::unique_ptr<LpSolver> make_general(const LpEntry& entry, Start start) {
+  if (start != Start::kModel) return entry.make();
+  if (std::string_view(entry.name) == "clp") return make_clp_keeping_its_model();
+  if (std::string_view(entry.name) == "glpk") return make_glpk_keeping_its_model();
+  return nullptr;
+}
+
 void time_general(benchmark::State& state, const std::vector<LinearProgram>& programs,
-                  const LpEntry& entry, bool warm) {
-  const auto solver = entry.make();
+                  const LpEntry& entry, Start start) {
+  const auto solver = make_general(entry, start);
   LpSolution solution;
   std::size_t i = 0;
   for (auto _ : state) {
-    if (!warm) solution.basis.clear();
+    if (start == Start::kCold) solution.basis.clear();
     solver->solve(programs[i++ % kPrograms], solution);
     benchmark::DoNotOptimize(solution.objective);
   }
@@ -143,16 +162,20 @@ void add_set(const Set& set) {
   };
   for (const char* name : {"facets", "box"}) {
     if (!set.pure && find_wrench_solver(name).one_column_only) continue;
-    add(name, [&set, name](benchmark::State& state) { time_own(state, set, name); });
+    for (const bool efforts : {false, true}) {
+      add(std::string(name) + (efforts ? "+u" : ""),
+          [&set, name, efforts](benchmark::State& state) { time_own(state, set, name, efforts); });
+    }
   }
   add("total", [&set](benchmark::State& state) { time_total(state, set, own_solver(set)); });
   for (const LpEntry& entry : lp_solvers()) {
     if (std::string_view(entry.name) == "ipopt") continue;  // no simplex, 100 times slower
     for (const auto& [form, programs] : set.forms) {
-      for (const bool warm : {false, true}) {
-        add(fmt::format("{}/{}/{}", entry.name, to_string(form), warm ? "warm" : "cold"),
-            [&programs = programs, &entry, warm](benchmark::State& state) {
-              time_general(state, programs, entry, warm);
+      for (const auto& [start, label] : kStarts) {
+        if (!make_general(entry, start)) continue;
+        add(fmt::format("{}/{}/{}", entry.name, to_string(form), label),
+            [&programs = programs, &entry, start = start](benchmark::State& state) {
+              time_general(state, programs, entry, start);
             });
       }
     }
@@ -184,17 +207,26 @@ double best_peer(const Collector& collector, const Set& set, const char* form, c
   return best;
 }
 
-void print_ratios(const Collector& collector, const std::vector<std::unique_ptr<Set>>& sets) {
+void print_legend() {
   fmt::print(
-      "\nHow many times faster than the best of Clp and GLPK (medians, microseconds). total: from\n"
-      "theta_r, with poses, J and tau_d, against the peers' solve alone; no collision check\n");
-  fmt::print("{:<36} {:<16} {:>8}  {:>20}   {:>20}\n", "programs", "solver", "us",
-             "cold F1    F2    F3", "warm F1    F2    F3");
+      "\nHow many times faster than the best of Clp and GLPK (medians, microseconds).\n"
+      "facets, box: always cold; without efforts, +u with them. total: from theta_r, with poses,\n"
+      "J and tau_d, without efforts, against the peers' solve alone; no collision check.\n"
+      "Peers: tolerances 1e-9 as ours, with efforts (F3: those of the thrusters), multipliers.\n"
+      "cold: loaded, slack basis; basis: loaded, last basis; model: edited in place, last basis.\n"
+      "No peer knows the facets of {{B u}} or eliminates by structure: it gets F3 for free.\n");
+  fmt::print("{:<36} {:<17} {:>8}  {:>20}   {:>20}   {:>20}\n", "programs", "solver", "us",
+             "cold F1    F2    F3", "basis F1    F2    F3", "model F1    F2    F3");
+}
+
+void print_ratios(const Collector& collector, const std::vector<std::unique_ptr<Set>>& sets) {
+  print_legend();
   for (const auto& set : sets) {
-    std::vector<std::pair<std::string, std::string>> rows = {{own_solver(*set), own_solver(*set)},
-                                                             {"total", "total"}};
+    const std::string own = own_solver(*set);
+    std::vector<std::pair<std::string, std::string>> rows = {
+        {own, own}, {own + "+u", own + "+u"}, {"total", "total"}};
     for (const char* form : {"F2", "F3"}) {
-      for (const char* start : {"cold", "warm"}) {
+      for (const char* start : {"cold", "basis"}) {
         rows.emplace_back(fmt::format("simplex {} {}", form, start),
                           fmt::format("simplex/{}/{}", form, start));
       }
@@ -202,10 +234,10 @@ void print_ratios(const Collector& collector, const std::vector<std::unique_ptr<
     for (const auto& [label, path] : rows) {
       const auto found = collector.medians.find(set->title + "/" + path);
       if (found == collector.medians.end()) continue;
-      fmt::print("{:<36} {:<16} {:>8.3f} ", set->title, label, found->second);
-      for (const char* start : {"cold", "warm"}) {
+      fmt::print("{:<36} {:<17} {:>8.3f} ", set->title, label, found->second);
+      for (const auto& [start, name] : kStarts) {
         for (const char* form : {"F1", "F2", "F3"}) {
-          fmt::print(" {:>6.1f}", best_peer(collector, *set, form, start) / found->second);
+          fmt::print(" {:>6.1f}", best_peer(collector, *set, form, name) / found->second);
         }
         fmt::print("  ");
       }

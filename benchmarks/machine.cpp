@@ -6,22 +6,25 @@
 #include <fstream>
 #include <thread>
 
+#include "maxwrench/version.h"
+
 namespace maxwrench {
 
-std::string describe_machine() {
-  std::string processor = "unknown";
+std::string processor_name() {
   std::ifstream cpuinfo("/proc/cpuinfo");
   for (std::string line; std::getline(cpuinfo, line);) {
-    if (line.starts_with("model name")) {
-      processor = line.substr(line.find(':') + 2);
-      break;
-    }
+    const std::size_t colon = line.find(": ");
+    if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
   }
+  return "unknown";
+}
+
+std::string describe_machine() {
   utsname system{};
   uname(&system);
-  return fmt::format("maxwrench {}\nprocessor {}\ncores {}\nsystem {} {}\ncompiler {}\n",
-                     MAXWRENCH_VERSION, processor, std::thread::hardware_concurrency(),
-                     system.sysname, system.machine, __VERSION__);
+  return describe_build() + fmt::format("processor {}\ncores {}\nsystem {} {}\n", processor_name(),
+                                        std::thread::hardware_concurrency(), system.sysname,
+                                        system.machine);
 }
 
 }  // namespace maxwrench

@@ -4,7 +4,11 @@
 
 namespace maxwrench {
 
-/// Processor, cores, system, compiler and version: what stands beside every measured time.
+/// The processor's model, for a column of a table.
+std::string processor_name();
+
+/// The build (`describe_build`), processor, cores and system: what stands beside every measured
+/// time.
 std::string describe_machine();
 
 }  // namespace maxwrench

@@ -9,9 +9,10 @@
 
 #include "benchmarks/case.h"
 #include "benchmarks/row.h"
-#include "lib/tank.h"
-#include "problems/loader.h"
-#include "solvers/strategies.h"
+#include "lib/robot/motion.h"
+#include "maxwrench/load.h"
+#include "maxwrench/strategies.h"
+#include "maxwrench/tank.h"
 
 namespace maxwrench {
 namespace {
@@ -40,7 +41,7 @@ class Counted final : public Ode {
 
 /// The default posture, moving, under forces that swing.
 FreeMotion swing(const Problem& problem) {
-  PostureModel model(problem);
+  PostureEvaluator model(problem);
   const Posture& posture = model.evaluate(problem.theta_r_default);
   const Motion start = {posture.base, posture.q,
                         Eigen::VectorXd::Constant(problem.robot.velocities(), 0.1)};
@@ -75,15 +76,13 @@ void print_work_and_precision(const Problem& problem) {
       const double ms = 1e3 * std::chrono::duration<double>(Clock::now() - begin).count();
       fmt::print("{:<12} {:>14.1e} {:>10.1e} {:>12} {:>9.2f}  {}\n", entry.name, accuracy,
                  (trajectory.y.back() - reference).lpNorm<Eigen::Infinity>(), counted.evaluations,
-                 ms, status == Status::kOptimal ? "" : trajectory.reason);
+                 ms, status == Status::kReached ? "" : trajectory.reason.c_str());
     }
   }
 }
 
 void print_shares(const Problem& problem) {
-  Case c = complete({problem.name, "linf_polytope", Wrench::kPure});
-  c.search.clear();
-  const Row row = evaluate(problem, c, problem.theta_r_default);
+  const Row row = evaluate(problem, resolve(problem, {problem.name}), problem.theta_r_default);
   fmt::print(
       "\nstatic experiment of 15 s at the default posture, 1500 control periods, on one core\n");
   fmt::print("{:<12} {:>8} {:>10} {:>9} {:>11} {:>10} {:>6} {:>12}\n", "integrator", "s",

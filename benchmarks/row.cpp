@@ -6,8 +6,10 @@
 #include <chrono>
 #include <cmath>
 
-#include "lib/best_branch.h"
-#include "solvers/strategies.h"
+#include "maxwrench/measure.h"
+#include "maxwrench/problem.h"
+#include "maxwrench/strategies.h"
+#include "maxwrench/wrench_program.h"
 
 namespace maxwrench {
 namespace {
@@ -24,76 +26,76 @@ std::string numbers(const Eigen::VectorXd& v) {
   return fmt::format("{}", fmt::join(texts, " "));
 }
 
-double yardstick(const Problem& problem, Wrench wrench, const Posture& posture) {
-  WrenchProgram program = make_wrench_program(problem, wrench);
+double yardstick(const Problem& problem, const Method& method, const Posture& posture) {
+  WrenchProgram program = make_wrench_program(problem, method.choice.wrench);
   set_posture(posture, program);
-  const Case c =
-      complete({problem.name, "linf_polytope", wrench, "simplex"}, problem.contact_columns());
   Capability capability;
-  measure_maker(problem, c)()->evaluate(posture, program, false, capability);
+  method.make_yardstick()->evaluate(posture, program, false, capability);
   return capability.status == Status::kOptimal ? capability.beta
                                                : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
 
-Row evaluate(const Problem& problem, const Case& asked, const Eigen::VectorXd& theta_r,
+Row evaluate(const Problem& problem, const Method& method, const Eigen::VectorXd& theta_r,
              bool check_collision) {
   const auto start = std::chrono::steady_clock::now();
-  const Case c = fit(problem, asked);
   Row row;
-  row.choice = c;
+  row.choice = method.choice;
+  row.unit = method.unit;
   row.evaluations = 1;
-  PostureModel model(problem, check_collision);
-  WrenchProgram program = make_wrench_program(problem, c.wrench);
+  PostureEvaluator model(problem, check_collision);
+  WrenchProgram program = make_wrench_program(problem, method.choice.wrench);
   row.posture =
-      evaluate_best(model, theta_r, *measure_maker(problem, c)(), true, program, row.capability);
+      evaluate_best(model, theta_r, *method.make_measure(), true, program, row.capability);
   row.branches = row.posture.branches;
-  row.status = row.posture.status;
-  row.reason = row.posture.reason;
-  if (row.status == Status::kOptimal) {
-    row.status = row.capability.status;
-    row.reason = row.capability.reason;
-  }
+  const bool valid = row.posture.status == Status::kValid;
+  static_cast<Verdict&>(row) = valid ? Verdict(row.capability) : Verdict(row.posture);
+  if (!valid) row.reason = describe_violation(problem, row.posture);
   if (row.status == Status::kOptimal) {
     model.pull_back(theta_r, row.capability, row.gradient);
-    if (!row.capability.residual.within(kRowTolerance, row.capability.beta)) {
-      row.status = Status::kNumericalError;
-      row.reason = "the answer does not satisfy its program";
+    if (!row.capability.residual.within(kRowTolerance * (1 + std::abs(row.capability.beta)))) {
+      row.conclude(Status::kNumericalError, "the answer does not satisfy its program");
     }
   }
   row.wall_s = seconds_since(start);
-  if (row.posture.status == Status::kOptimal) {
-    row.yardstick = yardstick(problem, c.wrench, row.posture);
-  }
+  if (valid) row.yardstick = yardstick(problem, method, row.posture);
   return row;
 }
 
-Row solve(const Problem& problem, const Case& asked, int threads,
-          const std::function<void(long)>& progress) {
+Row solve(const Problem& problem, const Method& method, int threads,
+          const std::function<void(long)>& progress, Interruption* interruption) {
   const auto start = std::chrono::steady_clock::now();
-  const Case c = fit(problem, asked);
-  const auto tally = problem.contact ? std::make_shared<BranchTally>() : nullptr;
-  const auto objective =
-      make_capability_objective(problem, c.wrench, measure_maker(problem, c), true, tally);
+  const auto tally = std::make_shared<Tally>();
+  const auto objective = make_interruptible(
+      make_capability_objective(problem, method.choice.wrench, method.make_measure, true, tally),
+      interruption);
   SearchOptions options;
-  options.seed = c.seed;
-  options.budget = c.budget;
+  options.seed = method.choice.seed;
+  options.budget = method.choice.budget;
   options.threads = threads;
   options.progress = progress;
   options.start = problem.theta_r_default;
-  const SearchResult result = find_search(c.search).make()->maximize(*objective, options);
+  const SearchResult result = method.search->make()->maximize(*objective, options);
+  const double search_s = seconds_since(start);
   Row row;
-  if (result.status == Status::kOptimal) {
-    row = evaluate(problem, c, result.theta_r);
+  if (result.status == Status::kBestFound) {
+    row = evaluate(problem, method, result.theta_r);
   } else {
-    row.choice = c;
-    row.status = result.status;
-    row.reason = result.reason;
+    static_cast<Verdict&>(row) = result;
+    row.choice = method.choice;
+    row.unit = method.unit;
   }
   row.evaluations = result.evaluations;
-  if (tally) row.branches = tally->sum();
-  row.wall_s = seconds_since(start);
+  if (interruption != nullptr && interruption->noticed) {
+    row.evaluations -= interruption->skipped;
+    if (row.status != Status::kNumericalError) {
+      row.conclude(Status::kBudgetExhausted, "interrupted");
+    }
+  }
+  row.undecided = tally->undecided();
+  if (problem.contact) row.branches = tally->sum();
+  row.wall_s += search_s;
   return row;
 }
 
@@ -112,7 +114,7 @@ std::vector<std::string> values(const Problem& problem, const Row& row) {
   const bool solved = row.has_value();
   cells.emplace_back(to_string(row.status));
   add(solved, number(capability.beta));
-  cells.emplace_back(unit(problem, row.choice));
+  cells.emplace_back(row.unit);
   add(std::isfinite(row.yardstick), number(row.yardstick));
   cells.emplace_back(problem.unit());
   cells.push_back(problem.label);
@@ -125,7 +127,7 @@ std::vector<std::string> values(const Problem& problem, const Row& row) {
   add(solved, number(capability.residual.dual));
   add(solved, number(capability.residual.gap));
   cells.push_back(fmt::format("{}", row.evaluations));
-  cells.push_back(row.reason);
+  cells.push_back(row.reason.str());
   return cells;
 }
 

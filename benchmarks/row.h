@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "benchmarks/case.h"
-#include "lib/measure.h"
-#include "lib/posture.h"
+#include "benchmarks/interruption.h"
+#include "maxwrench/measure.h"
+#include "maxwrench/posture.h"
 
 namespace maxwrench {
 
@@ -16,10 +17,9 @@ namespace maxwrench {
 inline constexpr double kRowTolerance = 1e-6;
 
 /// The outcome of a case: the answer at one posture, re-checked from the problem's data.
-struct Row {
+struct Row : Verdict {
   Case choice;
-  Status status = Status::kNumericalError;
-  std::string reason;
+  const char* unit = "";  ///< of beta
   Posture posture;
   Capability capability;
   Eigen::VectorXd gradient;  ///< d beta/d theta_r
@@ -28,21 +28,26 @@ struct Row {
   /// is none.
   double yardstick = std::numeric_limits<double>::quiet_NaN();
   long evaluations = 0;
+  long undecided = 0;     ///< of the evaluations, those whose lower level ended without a verdict
   BranchCounts branches;  ///< of the second arm, if there is one, in sum over the evaluations
-  double wall_s = 0;
+  double wall_s = 0;      ///< without the yardstick
 
   bool has_posture() const { return posture.J.size() > 0; }
-  bool has_value() const { return status == Status::kOptimal; }
+  /// A value of the posture, which an interrupted search (kBudgetExhausted) may have too.
+  bool has_value() const {
+    return status == Status::kOptimal ||
+           (status == Status::kBudgetExhausted && capability.status == Status::kOptimal);
+  }
 };
 
-/// Evaluates a completed case at theta_r.
-Row evaluate(const Problem& problem, const Case& c, const Eigen::VectorXd& theta_r,
+/// Evaluates a method at theta_r.
+Row evaluate(const Problem& problem, const Method& method, const Eigen::VectorXd& theta_r,
              bool check_collision = true);
 
-/// Searches the best posture of a completed case and evaluates it anew. Same result at any thread
-/// count.
-Row solve(const Problem& problem, const Case& c, int threads,
-          const std::function<void(long)>& progress = {});
+/// Searches the best posture and evaluates it anew. Same result at any thread count. If it was
+/// interrupted, the best so far with status kBudgetExhausted.
+Row solve(const Problem& problem, const Method& method, int threads,
+          const std::function<void(long)>& progress = {}, Interruption* interruption = nullptr);
 
 /// One line of CSV, and the header. The case comes first, then values; times are not values and
 /// stand in a table of their own.

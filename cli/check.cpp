@@ -6,16 +6,15 @@
 #include <memory>
 
 #include "cli/cli.h"
-#include "lib/posture.h"
-#include "problems/loader.h"
+#include "maxwrench/load.h"
+#include "maxwrench/posture.h"
 
 namespace maxwrench {
 namespace {
 
 std::string base_axes(const Robot& robot) {
-  static constexpr std::array<const char*, 6> kNames = {"x", "y", "z", "roll", "pitch", "yaw"};
   std::vector<std::string> names;
-  for (const int axis : robot.base_axes) names.emplace_back(kNames[axis]);
+  for (const int axis : robot.base_axes) names.emplace_back(kTwistAxes[axis]);
   return fmt::format("{{{}}}", fmt::join(names, ", "));
 }
 
@@ -63,7 +62,7 @@ void print(const Robot& robot) {
 
 /// The base pose and the dependent joints, at the default of theta_r.
 void print_what_follows(const Problem& problem) {
-  PostureModel model(problem);
+  PostureEvaluator model(problem);
   const Posture& posture = model.evaluate(problem.theta_r_default);
   for (const int i : problem.dependent) {
     const Joint& joint = problem.robot.joints[i];
@@ -76,7 +75,7 @@ void print_what_follows(const Problem& problem) {
                            ? "the base pose follows in closed form"
                            : "the base pose follows with these joints, by Newton's method");
   fmt::print("  default posture: {}\n",
-             posture.status == Status::kOptimal ? "exists" : posture.reason);
+             posture.status == Status::kValid ? "exists" : describe_violation(problem, posture));
 }
 
 std::string bounds(double low, double high) {

@@ -4,41 +4,76 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <new>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 
-namespace maxwrench {
+#include "cli/output.h"
+#include "maxwrench/problem.h"
+#include "maxwrench/version.h"
 
-int run_command(int argc, const char* const* argv) {
+namespace maxwrench {
+namespace {
+
+int parse_and_run(int argc, const char* const* argv) {
   CLI::App app("Finds how strongly a kinematically redundant robot can push, lift or twist.",
                "maxwrench");
-  app.set_version_flag("--version", MAXWRENCH_VERSION);
+  app.set_version_flag("--version", [] {
+    std::string text = describe_build();
+    text.pop_back();  // a line break follows
+    return text;
+  });
   app.require_subcommand(1);
   int exit_status = kAnswered;
   for (const auto add : {add_list, add_check, add_eval, add_solve, add_lp, add_run, add_simulate,
-                         add_plot, add_compare, add_reproduce}) {
+                         add_plot, add_compare, add_reproduce, add_manual}) {
     add(app, exit_status);
   }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    if (app.get_subcommands().empty() && argc > 1) {
-      fmt::print(stderr, "maxwrench: got '{}', expected a subcommand: see maxwrench --help\n",
-                 argv[1]);
-    } else {
-      fmt::print(stderr, "maxwrench: {}\n", error.what());
-    }
-    return kBadInput;
-  } catch (const std::invalid_argument& error) {
-    fmt::print(stderr, "maxwrench: {}\n", error.what());
-    return kBadInput;
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "maxwrench: got no memory for so much, expected a smaller --budget\n");
+    const bool no_subcommand = app.get_subcommands().empty() && argc > 1;
+    complain(no_subcommand
+                 ? fmt::format("got '{}', expected a subcommand: see maxwrench --help", argv[1])
+                 : error.what());
     return kBadInput;
   }
   return exit_status;
+}
+
+/// Nothing leaves the command but a status and, if it is that of bad input, one line.
+std::string complaint_of(const std::exception_ptr& thrown) {
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return fmt::format("{}: got '{}', expected a file or folder that can be used",
+                       error.path1().string(), error.code().message());
+  } catch (const std::system_error& error) {
+    if (std::ferror(stdout) == 0) return error.what();
+    return fmt::format("stdout: got '{}', expected a stream that takes the answer",
+                       error.code().message());
+  } catch (const std::bad_alloc&) {
+    return "got no memory for so much, expected a smaller --budget";
+  } catch (const std::exception& error) {
+    return error.what();
+  } catch (...) {
+    return "stopped by an error without a name";
+  }
+}
+
+}  // namespace
+
+int run_command(int argc, const char* const* argv) {
+  prepare_streams();
+  try {
+    return flush_output(parse_and_run(argc, argv));
+  } catch (...) {
+    complain(complaint_of(std::current_exception()));
+    return kBadInput;
+  }
 }
 
 void CommonOptions::add_case(CLI::App& app) {
@@ -57,6 +92,10 @@ void CommonOptions::add_choice(CLI::App& app) {
 std::string refuse_seed(const std::string& text) {
   const bool whole = text.size() < 20 && text.find_first_not_of("0123456789") == std::string::npos;
   return whole ? "" : "got " + text + ", expected a whole number of 0 to 10^19 - 1";
+}
+
+std::string refuse_empty(const std::string& text) {
+  return text.empty() ? "got '', expected a name" : "";
 }
 
 void CommonOptions::add_search(CLI::App& app) {
@@ -87,10 +126,10 @@ void CommonOptions::add_threads(CLI::App& app) {
       ->check(CLI::Range(0, 1024));
 }
 
-Case CommonOptions::read_case(const Problem& problem) const {
+Case CommonOptions::read_case() const {
   Case c = choice;
   c.wrench = parse_wrench(wrench);
-  return complete(c, problem.contact_columns());
+  return c;
 }
 
 int CommonOptions::thread_count() const {

@@ -5,9 +5,12 @@
 #include <string>
 
 #include "benchmarks/case.h"
-#include "benchmarks/row.h"
 
 namespace maxwrench {
+
+struct BranchCounts;
+struct Problem;
+struct Row;
 
 /// Exit statuses of the command.
 enum ExitStatus { kAnswered = 0, kOtherStatus = 1, kBadInput = 2 };
@@ -30,7 +33,7 @@ struct CommonOptions {
   void add_json(CLI::App& app);
   void add_threads(CLI::App& app);
 
-  Case read_case(const Problem& problem) const;
+  Case read_case() const;
   int thread_count() const;
 };
 
@@ -45,6 +48,9 @@ Eigen::VectorXd theta_r_of(const Problem& problem, const std::optional<std::stri
 
 /// Empty, or why the text is no seed of random numbers.
 std::string refuse_seed(const std::string& text);
+
+/// Empty, or why the text names no file or folder.
+std::string refuse_empty(const std::string& text);
 
 /// One line.
 std::string describe(const BranchCounts& branches);
@@ -63,5 +69,6 @@ void add_simulate(CLI::App& app, int& exit_status);
 void add_plot(CLI::App& app, int& exit_status);
 void add_compare(CLI::App& app, int& exit_status);
 void add_reproduce(CLI::App& app, int& exit_status);
+void add_manual(CLI::App& app, int& exit_status);
 
 }  // namespace maxwrench

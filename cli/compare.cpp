@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -7,10 +8,14 @@
 #include "benchmarks/comparison.h"
 #include "benchmarks/machine.h"
 #include "benchmarks/table.h"
+#include "benchmarks/write_file.h"
 #include "cli/cli.h"
-#include "cli/convergence.h"
+#include "cli/ctrl_c.h"
+#include "cli/output.h"
 #include "cli/progress.h"
-#include "problems/loader.h"
+#include "drawing/convergence.h"
+#include "maxwrench/load.h"
+#include "maxwrench/version.h"
 
 namespace maxwrench {
 namespace {
@@ -22,7 +27,12 @@ struct CompareOptions : CommonOptions {
 };
 
 std::string number_or_dash(double value, const char* format) {
-  return value == kInfinity ? "-" : fmt::format(fmt::runtime(format), value);
+  return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "-";
+}
+
+/// How far a value stays below the best, as a share of it; NaN if there is none.
+double shortfall(const Comparison& comparison, double value) {
+  return (comparison.best() - value) / std::abs(comparison.best());
 }
 
 /// The median over the attempts of what `of` says.
@@ -39,29 +49,34 @@ std::string line(const Comparison& comparison, const Contender& contender) {
   int reached = 0;
   for (const Attempt& each : contender.attempts) reached += each.value >= target ? 1 : 0;
   const double final = median_of(contender, [](const Attempt& each) { return each.value; });
-  const double below = 100 * (comparison.best() - final) / std::abs(comparison.best());
   const double time = median_of(contender, seconds);
-  const double reference = median_of(comparison.reference, seconds);
-  return fmt::format(
-      "{:<11} {:<8} {:>2} of {:<2} {:>11} {:>8} {:>9} {:>9.4f} {:>9}\n", contender.search,
-      contender.lp, reached, contender.attempts.size(),
+  const std::string text = fmt::format(
+      "{:<11} {:<8} {:>2} of {:<2} {:>11} {:>8} {:>9} {:>9}", contender.search, contender.lp,
+      reached, contender.attempts.size(),
       number_or_dash(median_of(contender, evaluations), "{:.0f}"),
       number_or_dash(1e3 * time, "{:.0f}"),
       number_or_dash(1e3 * median_of(contender, [](const Attempt& each) { return each.seconds; }),
                      "{:.0f}"),
-      below,
-      time == kInfinity || reference == kInfinity ? "-"
-                                                  : number_or_dash(time / reference, "{:.4f}"));
+      number_or_dash(100 * shortfall(comparison, final), "{:.4f}"));
+  if (comparison.reference.attempts.empty()) return text + "\n";
+  const double reference = median_of(comparison.reference, seconds);
+  const bool both = std::isfinite(time) && std::isfinite(reference);
+  return fmt::format("{} {:>9}\n", text, both ? number_or_dash(time / reference, "{:.4f}") : "-");
 }
 
 std::string text(const Comparison& comparison) {
+  const bool referred = !comparison.reference.attempts.empty();
+  const std::string best = number_or_dash(comparison.best(), "{:.5f}");
   std::string text = fmt::format(
-      "{}: best known {:.5f} {}\n"
-      "                     -- to 0.1 % below it, median --      all   median    time to that of\n"
-      "search      lp       reached evaluations       ms        ms   below %   annealing, glpk\n",
-      comparison.problem, comparison.best(), comparison.unit);
-  for (const Contender& contender : comparison.contenders) text += line(comparison, contender);
-  if (!comparison.reference.attempts.empty()) text += line(comparison, comparison.reference);
+      "{}{}: best known {} {}\n"
+      "                     -- to 0.1 % below it, median --      all   median{}\n"
+      "search      lp       reached evaluations       ms        ms   below %{}\n",
+      comparison.problem, comparison.interrupted ? ", interrupted" : "", best, comparison.unit,
+      referred ? "    time to that of" : "", referred ? "   annealing, glpk" : "");
+  for (const Contender& contender : comparison.contenders) {
+    if (!contender.attempts.empty()) text += line(comparison, contender);
+  }
+  if (referred) text += line(comparison, comparison.reference);
   return text;
 }
 
@@ -76,53 +91,93 @@ void keep(const Comparison& comparison, const std::filesystem::path& folder) {
   Table values(folder / "search_comparison.csv",
                columns({"beta", "unit", "below", "evaluations_to_thousandth", "evaluations"}),
                keys);
-  Table times(folder / "search_times.csv", columns({"seconds_to_thousandth", "seconds"}), keys);
+  Table times(folder / "search_times.csv",
+              columns({"seconds_to_thousandth", "seconds", "threads", "machine", "version"}), keys);
   const auto put = [](Table& table, const Attempt& each, std::initializer_list<std::string> more) {
     std::vector<std::string> cells = case_values(each.choice);
     cells.insert(cells.end(), more);
     table.put(cells);
   };
-  const double best = comparison.best(), target = comparison.target();
+  const double target = comparison.target();
   std::vector<Contender> all = comparison.contenders;
   all.push_back(comparison.reference);
   for (const Contender& contender : all) {
     for (const Attempt& each : contender.attempts) {
       put(values, each,
           {number_or_dash(each.value, "{:.17g}"), comparison.unit,
-           number_or_dash((best - each.value) / std::abs(best), "{:.3e}"),
+           number_or_dash(shortfall(comparison, each.value), "{:.3e}"),
            number_or_dash(each.evaluations_to(target), "{:.0f}"),
            fmt::format("{}", each.evaluations)});
       put(times, each,
           {number_or_dash(each.seconds_to(target), "{:.4g}"),
-           number_or_dash(each.seconds, "{:.4g}")});
+           number_or_dash(each.seconds, "{:.4g}"), "1", processor_name(), version()});
     }
   }
 }
 
-int compare_all(const CompareOptions& options) {
-  const std::filesystem::path folder(options.out);
+/// The median of each search as a curve; `comparison` outlives it.
+ConvergencePanel panel(const Comparison& comparison) {
+  ConvergencePanel panel{comparison.problem, 1, {}};
+  const double best = comparison.best();
+  for (const Contender& contender : comparison.contenders) {
+    for (const Attempt& each : contender.attempts)
+      panel.budget = std::max(panel.budget, static_cast<double>(each.choice.budget));
+    panel.curves.push_back({contender.search, [&contender, best](double evaluations) {
+                              return contender.shortfall_after(evaluations, best);
+                            }});
+  }
+  return panel;
+}
+
+/// Keeps what is finished; of an interrupted problem nothing, because each line depends on the best
+/// of all.
+std::vector<Comparison> attempt_all(const CompareOptions& options,
+                                    const std::filesystem::path& folder) {
   std::vector<Problem> problems;
   std::vector<Case> cases;
   for (const std::string& name : options.problems) {
     problems.push_back(load_problem(name));
-    cases.push_back(options.read_case(problems.back()));
+    cases.push_back(options.read_case());
+    resolve(problems.back(), cases.back());  // refuses before anything is computed
   }
   write_file(folder / "machine.txt", describe_machine());
-  Progress progress("compare",
-                    attempt_count(options.seeds) * static_cast<long>(options.problems.size()));
-  long done = 0;
+  long total = 0, done = 0;
+  for (const Case& c : cases) total += attempt_count(c, options.seeds);
+  Progress progress("compare", total);
+  CtrlC ctrl_c;
   std::vector<Comparison> comparisons;
-  for (std::size_t i = 0; i < problems.size(); ++i) {
-    comparisons.push_back(
-        compare(problems[i], cases[i], options.seeds, [&] { progress.show(++done); }));
-    keep(comparisons.back(), folder);
+  for (std::size_t i = 0; i < problems.size() && !ctrl_c.interruption.asked; ++i) {
+    comparisons.push_back(compare(
+        problems[i], cases[i], options.seeds, [&] { progress.show(++done); },
+        &ctrl_c.interruption));
+    if (!comparisons.back().interrupted) keep(comparisons.back(), folder);
   }
   progress.finish();
+  return comparisons;
+}
+
+/// Whether every problem has all its attempts and a value.
+bool finished(const CompareOptions& options, const std::vector<Comparison>& comparisons) {
+  return comparisons.size() == options.problems.size() &&
+         std::all_of(comparisons.begin(), comparisons.end(), [](const Comparison& comparison) {
+           return comparison.has_value() && !comparison.interrupted;
+         });
+}
+
+int compare_all(const CompareOptions& options) {
+  const std::filesystem::path folder(options.out);
+  const std::vector<Comparison> comparisons = attempt_all(options, folder);
   fmt::print(
       "Every search with {} seeds, {} evaluations each, on one thread; time of the processor.\n",
       options.seeds, options.choice.budget);
   for (const Comparison& comparison : comparisons) fmt::print("\n{}", text(comparison));
-  write_file(folder / "search_comparison.svg", draw_convergence(comparisons));
+  if (!finished(options, comparisons)) {
+    remark("interrupted or without a value: the figure is not drawn");
+    return kOtherStatus;
+  }
+  std::vector<ConvergencePanel> panels;
+  for (const Comparison& comparison : comparisons) panels.push_back(panel(comparison));
+  write_file(folder / "search_comparison.svg", draw_convergence(panels));
   return kAnswered;
 }
 
@@ -139,7 +194,9 @@ void add_compare(CLI::App& app, int& exit_status) {
   command.add_option("--seeds", options->seeds, "seeds 1 to this")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
-  command.add_option("--out", options->out, "folder of the results")->capture_default_str();
+  command.add_option("--out", options->out, "folder of the results")
+      ->capture_default_str()
+      ->check(refuse_empty);
   command.callback([options, &exit_status] { exit_status = compare_all(*options); });
 }
 

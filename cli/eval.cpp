@@ -1,11 +1,14 @@
 #include <memory>
 #include <stdexcept>
 
+#include "benchmarks/row.h"
+#include "benchmarks/write_file.h"
 #include "cli/cli.h"
+#include "cli/output.h"
 #include "cli/state.h"
-#include "cli/wrench_file.h"
-#include "lib/best_branch.h"
-#include "problems/loader.h"
+#include "maxwrench/load.h"
+#include "maxwrench/measure.h"
+#include "maxwrench/mps.h"
 
 namespace maxwrench {
 namespace {
@@ -17,31 +20,35 @@ struct EvalOptions : CommonOptions {
 };
 
 /// Writes the program of the posture, if there is one.
-void write_program(const EvalOptions& options, const Problem& problem, const Case& c,
+void write_program(const EvalOptions& options, const Problem& problem, const Method& method,
                    const Eigen::VectorXd& theta_r) {
-  if (c.measure != "linf_polytope") {
-    throw std::invalid_argument("--write: got measure " + c.measure + ", expected linf_polytope");
+  if (method.choice.measure != "linf_polytope") {
+    throw std::invalid_argument("--write: got measure " + method.choice.measure +
+                                ", expected linf_polytope");
   }
-  PostureModel model(problem, !options.ignore_collision);
-  WrenchProgram program = make_wrench_program(problem, c.wrench);
+  PostureEvaluator model(problem, !options.ignore_collision);
+  WrenchProgram program = make_wrench_program(problem, method.choice.wrench);
   Capability capability;
   const Posture& posture =
-      evaluate_best(model, theta_r, *measure_maker(problem, c)(), false, program, capability);
-  if (posture.status != Status::kOptimal) return;
+      evaluate_best(model, theta_r, *method.make_measure(), false, program, capability);
+  if (posture.status != Status::kValid) return;
   set_posture(posture, program);
-  write_wrench_program(problem, program, options.write);
+  write_file(options.write, wrench_program_mps(problem, program));
 }
 
 int eval(const EvalOptions& options) {
+  require_apart({{"problem", options.choice.problem}}, {{"--write", options.write}});
   if (!options.state.empty()) {
     return report_state(load_problem(options.choice.problem), options.state, options.json);
   }
   const Problem problem = load_problem(options.choice.problem);
-  Case c = options.read_case(problem);
+  Case c = options.read_case();
   c.search.clear();  // none is used
+  const Method method = resolve(problem, c);
   const Eigen::VectorXd theta_r = theta_r_of(problem, options.theta_r);
-  if (!options.write.empty()) write_program(options, problem, c, theta_r);
-  return report(problem, evaluate(problem, c, theta_r, !options.ignore_collision), options.json);
+  if (!options.write.empty()) write_program(options, problem, method, theta_r);
+  return report(problem, evaluate(problem, method, theta_r, !options.ignore_collision),
+                options.json);
 }
 
 }  // namespace
@@ -53,7 +60,8 @@ void add_eval(CLI::App& app, int& exit_status) {
   options->add_json(command);
   command.add_option("--theta-r", options->theta_r,
                      "redundant coordinates, separated by commas (default: those of the task)");
-  command.add_option("--write", options->write, "the wrench program, as an MPS file");
+  command.add_option("--write", options->write, "the wrench program, as an MPS file")
+      ->check(refuse_empty);
   command.add_flag("--ignore-collision", options->ignore_collision,
                    "evaluate a colliding posture too");
   CLI::Option& state =

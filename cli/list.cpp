@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
+#include <stdexcept>
+
 #include "cli/cli.h"
-#include "problems/loader.h"
-#include "solvers/strategies.h"
+#include "cli/output.h"
+#include "maxwrench/load.h"
+#include "maxwrench/strategies.h"
 
 namespace maxwrench {
 namespace {
@@ -13,28 +16,42 @@ void print_table(const char* title, const Table& table) {
   for (const auto& entry : table) fmt::print("  {:<28} {}\n", entry.name, entry.summary);
 }
 
-void list() {
-  fmt::print("problems\n");
+void print_problem(const std::string& name) {
+  const Problem problem = load_problem(name);
+  fmt::print("  {:<28} {}, redundancy {}, beta in {}{}\n", name, problem.robot.name,
+             problem.redundancy(), problem.unit(),
+             problem.label.empty() ? "" : ", " + problem.label);
+}
+
+/// A broken file does not hide the others: it is named, and the exit status tells.
+int list() {
+  int exit_status = kAnswered;
+  const std::filesystem::path folder = problems_folder();
+  fmt::print("problems ({})\n",
+             folder.empty() ? "no folder found: set MAXWRENCH_PROBLEMS" : "in " + folder.string());
   for (const std::string& name : shipped_problems()) {
-    const Problem problem = load_problem(name);
-    fmt::print("  {:<28} {}, redundancy {}, beta in {}{}\n", name, problem.robot.name,
-               problem.redundancy(), problem.unit(),
-               problem.label.empty() ? "" : ", " + problem.label);
+    try {
+      print_problem(name);
+    } catch (const std::invalid_argument& error) {
+      complain(error.what());
+      exit_status = kBadInput;
+    }
   }
   print_table("measures", measures());
   print_table("lower-level solvers (--lp)", wrench_solvers());
   print_table("searches", searches());
   print_table("integrators", integrators());
+  for (const Absent& absent : not_built_in()) {
+    fmt::print("not built in: {} {} (needs {})\n", absent.family, absent.name, absent.library);
+  }
+  return exit_status;
 }
 
 }  // namespace
 
 void add_list(CLI::App& app, int& exit_status) {
   CLI::App& command = *app.add_subcommand("list", "what there is to choose from");
-  command.callback([&exit_status] {
-    list();
-    exit_status = kAnswered;
-  });
+  command.callback([&exit_status] { exit_status = list(); });
 }
 
 }  // namespace maxwrench

@@ -5,8 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/cli.h"
-#include "problems/mps.h"
-#include "solvers/strategies.h"
+#include "cli/output.h"
+#include "maxwrench/mps.h"
+#include "maxwrench/strategies.h"
+#include "maxwrench/version.h"
 
 namespace maxwrench {
 namespace {
@@ -22,7 +24,7 @@ struct LpOptions {
 /// An answer with what was recomputed from the file's data.
 struct Checked {
   LpSolution solution;
-  LpResiduals residual;
+  Residual residual;
   double wall_s = 0;
 
   bool optimal() const { return solution.status == Status::kOptimal; }
@@ -52,7 +54,7 @@ ordered_json by_name(const std::vector<std::string>& names, const Eigen::VectorX
   return object;
 }
 
-void print_json(const LpOptions& options, const MpsProgram& mps, const Checked& answer) {
+void print_object(const LpOptions& options, const MpsProgram& mps, const Checked& answer) {
   const LpSolution& solution = answer.solution;
   const bool optimal = answer.optimal();
   const auto known = [](bool condition, const ordered_json& value) {
@@ -64,20 +66,19 @@ void print_json(const LpOptions& options, const MpsProgram& mps, const Checked& 
   object["sense"] = mps.minimize ? "min" : "max";
   object["lp"] = options.lp;
   object["status"] = to_string(solution.status);
-  object["reason"] = known(*solution.reason != '\0', solution.reason);
+  object["reason"] = known(!solution.reason.empty(), solution.reason.str());
   object["objective"] = known(optimal, mps.objective(solution));
   object["iterations"] = solution.iterations;
-  const LpResiduals& r = answer.residual;
-  object["residual"] =
-      known(optimal,
-            {{"row", r.row}, {"bound", r.bound}, {"reduced_cost", r.reduced_cost}, {"gap", r.gap}});
+  const Residual& r = answer.residual;
+  object["residual"] = known(
+      optimal, {{"row", r.balance}, {"bound", r.bounds}, {"reduced_cost", r.dual}, {"gap", r.gap}});
   object["verified"] =
       solution.status != Status::kNumericalError && solution.status != Status::kBudgetExhausted;
   object["x"] = optimal ? by_name(mps.program.col_names, mps.point(solution)) : nullptr;
   object["duals"] = optimal ? by_name(mps.program.row_names, mps.duals(solution)) : nullptr;
   object["wall_s"] = answer.wall_s;
-  object["version"] = MAXWRENCH_VERSION;
-  fmt::print("{}\n", object.dump());
+  object["version"] = version();
+  print_json(object);
 }
 
 void print_nonzero(const char* kind, const char* symbol, const std::vector<std::string>& names,
@@ -88,13 +89,13 @@ void print_nonzero(const char* kind, const char* symbol, const std::vector<std::
   }
 }
 
-void print(const LpOptions& options, const MpsProgram& mps, const Checked& answer) {
+void print_lp(const LpOptions& options, const MpsProgram& mps, const Checked& answer) {
   const LpSolution& solution = answer.solution;
   const LinearProgram& program = mps.program;
   fmt::print("{}  {} rows  {} columns  {}  lp {}\n", options.file, program.rows(), mps.file_cols,
              mps.minimize ? "minimise" : "maximise", options.lp);
   if (!answer.optimal()) {
-    fmt::print("{}: {}\n", to_string(solution.status), solution.reason);
+    fmt::print("{}: {}\n", to_string(solution.status), solution.reason.c_str());
     if (solution.status == Status::kInfeasible) fmt::print("Farkas vector checked\n");
     if (solution.status == Status::kUnbounded) fmt::print("feasible point and ray checked\n");
     fmt::print("{} iterations in {:.3g} s\n", solution.iterations, answer.wall_s);
@@ -103,18 +104,18 @@ void print(const LpOptions& options, const MpsProgram& mps, const Checked& answe
   fmt::print("optimal  {} = {:.12g}\n", mps.objective_name, mps.objective(solution));
   print_nonzero("column", "x", program.col_names, mps.point(solution));
   print_nonzero("row", "dual", program.row_names, mps.duals(solution));
-  const LpResiduals& r = answer.residual;
+  const Residual& r = answer.residual;
   fmt::print(
       "residual row {:.1e}, bound {:.1e}, reduced cost {:.1e}, gap {:.1e}; {} iterations in {:.3g} "
       "s\n",
-      r.row, r.bound, r.reduced_cost, r.gap, solution.iterations, answer.wall_s);
+      r.balance, r.bounds, r.dual, r.gap, solution.iterations, answer.wall_s);
 }
 
 int lp(const LpOptions& options) {
   const LpEntry& solver = find_lp_solver(options.lp);
   const MpsProgram mps = read_mps(options.file);
   const Checked answer = solve(solver, mps.program);
-  (options.json ? print_json : print)(options, mps, answer);
+  (options.json ? print_object : print_lp)(options, mps, answer);
   return answer.optimal() ? kAnswered : kOtherStatus;
 }
 

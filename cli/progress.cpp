@@ -31,14 +31,17 @@ void Progress::show(long done) {
   drawn_ = true;
   const double share = std::min(1.0, static_cast<double>(done) / static_cast<double>(total_));
   const int filled = static_cast<int>(share * kCharacters);
-  fmt::print(stderr, "\r{} [{:=<{}}{:<{}}] {:3.0f} %  {:.0f} s\x1b[K", what_, "", filled, "",
-             kCharacters - filled, 100 * share,
-             std::chrono::duration<double>(now - start_).count());
+  // Not fmt::print, which throws if the terminal is gone: the caller may be a C library.
+  std::fputs(fmt::format("\r{} [{:=<{}}{:<{}}] {:3.0f} %  {:.0f} s\x1b[K", what_, "", filled, "",
+                         kCharacters - filled, 100 * share,
+                         std::chrono::duration<double>(now - start_).count())
+                 .c_str(),
+             stderr);
   std::fflush(stderr);
 }
 
 void Progress::finish() {
-  if (drawn_) fmt::print(stderr, "\r\x1b[K");
+  if (drawn_) std::fputs("\r\x1b[K", stderr);
   drawn_ = false;
 }
 

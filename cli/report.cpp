@@ -3,7 +3,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/row.h"
 #include "cli/cli.h"
+#include "cli/output.h"
+#include "maxwrench/problem.h"
+#include "maxwrench/version.h"
 
 namespace maxwrench {
 namespace {
@@ -55,9 +59,9 @@ ordered_json to_json(const Problem& problem, const Row& row) {
   object["search"] = known(!c.search.empty(), c.search);
   object["seed"] = known(!c.search.empty(), c.seed);
   object["status"] = to_string(row.status);
-  object["reason"] = known(!row.reason.empty(), row.reason);
+  object["reason"] = known(!row.reason.empty(), row.reason.str());
   object["beta"] = known(solved, capability.beta);
-  object["unit"] = unit(problem, c);
+  object["unit"] = row.unit;
   object["yardstick"] = known(std::isfinite(row.yardstick), row.yardstick);
   object["yardstick_unit"] = problem.unit();
   object["theta_r"] = known(row.has_posture(), array(row.posture.theta_r));
@@ -73,9 +77,10 @@ ordered_json to_json(const Problem& problem, const Row& row) {
                                       {"dual", residual.dual},
                                       {"gap", residual.gap}});
   object["evaluations"] = row.evaluations;
+  object["undecided"] = row.undecided;
   if (problem.contact) object["branches"] = to_json(row.branches);
   object["wall_s"] = row.wall_s;
-  object["version"] = MAXWRENCH_VERSION;
+  object["version"] = version();
   return object;
 }
 
@@ -106,11 +111,14 @@ void print(const Problem& problem, const Row& row) {
     if (row.has_posture()) print_following(problem, row.posture, problem.contact->follow);
   }
   if (!row.has_value()) {
-    fmt::print("{}: {}\n", to_string(row.status), row.reason);
+    fmt::print("{}: {}\n", to_string(row.status), row.reason.c_str());
     return;
   }
+  if (row.status != Status::kOptimal) {
+    fmt::print("{}: {}, the best so far\n", to_string(row.status), row.reason.c_str());
+  }
   const Capability& capability = row.capability;
-  fmt::print("beta     {:>10.5f} {}\n", capability.beta, unit(problem, c));
+  fmt::print("beta     {:>10.5f} {}\n", capability.beta, row.unit);
   fmt::print("yardstick{:>10.5f} {}\n", row.yardstick, problem.unit());
   if (capability.w.size() > 0) fmt::print("h        {}\n", line(capability.h));
   if (problem.contact) fmt::print("h_2      {}\n", line(capability.h_2));
@@ -122,6 +130,7 @@ void print(const Problem& problem, const Row& row) {
                problem.robot.actuation.u_min[i], problem.robot.actuation.u_max[i], name);
   }
   fmt::print("gradient {}\n", line(row.gradient));
+  if (row.undecided > 0) fmt::print("undecided {} evaluations without a verdict\n", row.undecided);
   fmt::print(
       "residual balance {:.1e}, bounds {:.1e}, dual {:.1e}, gap {:.1e}; {} evaluations in "
       "{:.3g} s\n",
@@ -140,17 +149,12 @@ std::string describe(const BranchCounts& branches) {
 }
 
 int report(const Problem& problem, const Row& row, bool json) {
-  if (row.choice.wrench == Wrench::kPure && row.choice.lp == "box" &&
-      !problem.robot.actuation.has_facets) {
-    fmt::print(stderr, "{}: the actuators have too many facets to enumerate, so box is used\n",
-               problem.robot.name);
-  }
   if (json) {
-    fmt::print("{}\n", to_json(problem, row).dump());
+    print_json(to_json(problem, row));
   } else {
     print(problem, row);
   }
-  return row.has_value() ? kAnswered : kOtherStatus;
+  return row.status == Status::kOptimal ? kAnswered : kOtherStatus;
 }
 
 }  // namespace maxwrench

@@ -10,22 +10,23 @@
 namespace maxwrench {
 
 /// Solves cases one after the other and keeps their rows in values.csv and times.csv of a folder,
-/// each written as soon as it is known; describes the machine in machine.txt. Shows its progress.
+/// each written as soon as it is known; describes the machine in machine.txt. Each time says on how
+/// many threads, on which processor and by which version it was measured, because a table may grow
+/// on several. Shows its progress.
 class RowWriter {
  public:
   /// `rows`: how many are expected, for the progress bar.
   RowWriter(const std::string& command, const std::filesystem::path& folder, int threads,
             long rows);
 
-  /// Of a completed case.
-  Row solve(const Problem& problem, const Case& c);
-  Row evaluate(const Problem& problem, const Case& c, const Eigen::VectorXd& theta_r);
+  Row solve(const Problem& problem, const Method& method);
+  Row evaluate(const Problem& problem, const Method& method, const Eigen::VectorXd& theta_r);
 
   /// Removes the progress bar; whether every row has a value.
   bool finish();
 
  private:
-  void keep(const Problem& problem, const Row& row);
+  void keep(const Problem& problem, const Row& row, int threads);
 
   Table values_, times_;
   int threads_;

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -7,26 +8,48 @@
 
 #include "cli/cli.h"
 #include "cli/row_writer.h"
-#include "problems/loader.h"
+#include "maxwrench/load.h"
 
 namespace maxwrench {
 namespace {
 
 struct RunOptions : CommonOptions {
-  std::vector<std::string> filter;
+  std::vector<std::string> words;
   std::string out = "results";
 };
 
-std::map<std::string, std::string> read_filter(const std::vector<std::string>& texts) {
+/// What the words of the command line choose.
+struct Choice {
+  std::vector<std::string> problems;
   std::map<std::string, std::string> filter;
-  for (const std::string& text : texts) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos) {
-      throw std::invalid_argument(fmt::format("run: got '{}', expected column=value", text));
+};
+
+bool is_problem(const std::string& word) {
+  const std::vector<std::string> shipped = shipped_problems();
+  std::error_code ignored;
+  return std::find(shipped.begin(), shipped.end(), word) != shipped.end() ||
+         std::filesystem::is_regular_file(word, ignored);
+}
+
+Choice read_words(const std::vector<std::string>& words) {
+  Choice choice;
+  for (const std::string& word : words) {
+    const std::size_t equals = word.find('=');
+    if (is_problem(word)) {
+      choice.problems.push_back(word);
+    } else if (equals == std::string::npos) {
+      throw std::invalid_argument(fmt::format(
+          "run: got '{}', expected column=value, a shipped problem or a task file", word));
+    } else if (!choice.filter.emplace(word.substr(0, equals), word.substr(equals + 1)).second) {
+      throw std::invalid_argument(fmt::format("run: got '{}', expected each column once", word));
     }
-    filter[text.substr(0, equals)] = text.substr(equals + 1);
   }
-  return filter;
+  const auto named = choice.filter.find("problem");
+  if (named != choice.filter.end() && is_problem(named->second)) {
+    choice.problems.push_back(named->second);
+  }
+  if (choice.problems.empty()) choice.problems = shipped_problems();
+  return choice;
 }
 
 long read_whole(const std::map<std::string, std::string>& filter, const std::string& column,
@@ -47,26 +70,32 @@ long read_whole(const std::map<std::string, std::string>& filter, const std::str
   return value;
 }
 
-/// The chosen cases of every shipped problem.
-std::vector<Case> choose(const std::map<std::string, std::string>& filter) {
+/// The chosen cases of the problems.
+std::vector<Case> choose(const std::map<std::string, Problem>& problems,
+                         const std::map<std::string, std::string>& filter) {
   const Case defaults;
   const long seed = read_whole(filter, "seed", static_cast<long>(defaults.seed),
                                std::numeric_limits<long>::max());
   const long budget = read_whole(filter, "budget", defaults.budget, kMostBudget);
   std::vector<Case> cases;
-  for (const std::string& name : shipped_problems()) {
-    const std::vector<Case> more = product(name, static_cast<std::uint64_t>(seed), budget,
-                                           load_problem(name).contact_columns());
+  for (const auto& named : problems) {
+    const std::vector<Case> more = product(named.second, static_cast<std::uint64_t>(seed), budget);
     cases.insert(cases.end(), more.begin(), more.end());
   }
   return select(std::move(cases), filter);
 }
 
 int run(const RunOptions& options) {
-  const std::vector<Case> cases = choose(read_filter(options.filter));
+  const Choice choice = read_words(options.words);
+  std::map<std::string, Problem> problems;
+  for (const std::string& name : choice.problems) problems.try_emplace(name, load_problem(name));
+  const std::vector<Case> cases = choose(problems, choice.filter);
   const std::filesystem::path folder(options.out);
   RowWriter writer("run", folder, options.thread_count(), static_cast<long>(cases.size()));
-  for (const Case& c : cases) writer.solve(load_problem(c.problem), c);
+  for (const Case& c : cases) {
+    const Problem& problem = problems.at(c.problem);
+    writer.solve(problem, resolve(problem, c));
+  }
   const bool all_solved = writer.finish();
   fmt::print("{} rows in {}\n", cases.size(), (folder / "values.csv").string());
   return all_solved ? kAnswered : kOtherStatus;
@@ -78,10 +107,12 @@ void add_run(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<RunOptions>();
   CLI::App& command =
       *app.add_subcommand("run", "every meaningful combination of measure, wrench, solver, search");
-  command.add_option("filter", options->filter,
-                     "column=value: only these rows (seed and budget are set, not filtered)");
+  command.add_option("words", options->words,
+                     "problems, shipped or task files (default: all shipped), and column=value: "
+                     "only these rows (seed and budget are set, not filtered)");
   command.add_option("--out", options->out, "folder of values.csv, times.csv and machine.txt")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(refuse_empty);
   options->add_threads(command);
   command.callback([options, &exit_status] { exit_status = run(*options); });
 }

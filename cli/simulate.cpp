@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <memory>
@@ -6,11 +7,15 @@
 #include <stdexcept>
 #include <utility>
 
-#include "benchmarks/table.h"
+#include "benchmarks/row.h"
+#include "benchmarks/tank_experiment.h"
+#include "benchmarks/write_file.h"
 #include "cli/cli.h"
-#include "cli/tank_experiment.h"
-#include "problems/loader.h"
-#include "solvers/strategies.h"
+#include "cli/output.h"
+#include "maxwrench/figures.h"
+#include "maxwrench/load.h"
+#include "maxwrench/strategies.h"
+#include "maxwrench/version.h"
 
 namespace maxwrench {
 namespace {
@@ -23,45 +28,60 @@ struct SimulateOptions : CommonOptions {
   TankOptions tank;
 };
 
-void print_json(const Problem& problem, const SimulateOptions& options, const TankRun& run) {
+void print_object(const Problem& problem, const SimulateOptions& options, const TankRun& run) {
   const TankSummary& s = run.summary;
-  const nlohmann::ordered_json object = {{"problem", problem.name},
-                                         {"integrator", options.integrator},
-                                         {"status", to_string(run.status)},
-                                         {"reason", run.reason},
-                                         {"unit", problem.unit()},
-                                         {"load", options.tank.load},
-                                         {"planned", s.planned},
-                                         {"mean", s.mean},
-                                         {"low", s.low},
-                                         {"high", s.high},
-                                         {"drift", s.drift},
-                                         {"position_error", s.position_error},
-                                         {"saturated", s.saturated},
-                                         {"relaxed", s.relaxed},
-                                         {"shortfall", s.shortfall},
-                                         {"violation", s.violation},
-                                         {"held", s.held},
-                                         {"end", run.samples.empty() ? 0 : run.samples.back().t},
-                                         {"wall_s", run.total_s},
-                                         {"version", MAXWRENCH_VERSION}};
-  fmt::print("{}\n", object.dump());
+  const nlohmann::ordered_json object = {
+      {"problem", problem.name},
+      {"integrator", options.integrator},
+      {"status", to_string(run.status)},
+      {"reason", run.reason.str()},
+      {"unit", problem.unit()},
+      {"load", options.tank.load},
+      {"planned", s.planned},
+      {"mean", s.mean},
+      {"low", s.low},
+      {"high", s.high},
+      {"across", std::vector<double>(s.across.begin(), s.across.end())},
+      {"drift", s.drift},
+      {"moved", s.moved},
+      {"position_error", s.position_error},
+      {"displaced", s.displaced},
+      {"saturated", s.saturated},
+      {"relaxed", s.relaxed},
+      {"shortfall", s.shortfall},
+      {"violation", s.violation},
+      {"held", s.held},
+      {"end", run.samples.empty() ? 0 : run.samples.back().t},
+      {"wall_s", run.total_s},
+      {"version", version()}};
+  print_json(object);
+}
+
+void print_reading(const SimulateOptions& options, const TankSummary& s) {
+  if (options.tank.load > 0) fmt::print("load        {:g} kg\n", options.tank.load);
+  if (!std::isfinite(s.mean)) {
+    fmt::print("reading     none, the {} before the hold\n",
+               std::isfinite(s.drift) ? "posture was lost" : "experiment ended");
+    return;
+  }
+  fmt::print("{}     {:.5f}, between {:.5f} and {:.5f}\n",
+             options.tank.load > 0 ? "carried" : "reading", s.mean, s.low, s.high);
+  // In thousandths, without the sign of a zero.
+  const Vector6d across = (1000 * s.across).array().round() / 1000 + 0.0;
+  fmt::print("across      {:.3f} N, {:.3f} N m\n", fmt::join(across.head<3>(), " "),
+             fmt::join(across.tail<3>(), " "));
 }
 
 void print_text(const Problem& problem, const SimulateOptions& options, const TankRun& run) {
   const TankSummary& s = run.summary;
   fmt::print("{}  virtual tank  integrator {}\n", problem.name, options.integrator);
   fmt::print("planned     {:.5f} {}\n", s.planned, problem.unit());
-  if (!std::isfinite(s.drift)) {
-    fmt::print("reading     none, the experiment ended before the hold\n");
-  } else if (options.tank.load > 0) {
-    fmt::print("load        {:g} kg, within {:.2g} m\n", options.tank.load, s.position_error);
-  } else if (!std::isfinite(s.mean)) {
-    fmt::print("reading     none, the posture was lost before the hold\n");
-  } else {
-    fmt::print("reading     {:.5f}, between {:.5f} and {:.5f}\n", s.mean, s.low, s.high);
+  print_reading(options, s);
+  if (std::isfinite(s.drift)) {
+    fmt::print("drift       {:.2g} rad from theta_r, {:.2g} of all joints and the base\n", s.drift,
+               s.moved);
+    fmt::print("displaced   {:.2g} m or rad from where the end effector is held\n", s.displaced);
   }
-  if (std::isfinite(s.drift)) fmt::print("drift       {:.2g} rad from theta_r\n", s.drift);
   if (std::isfinite(s.saturated)) {
     fmt::print(
         "efforts     saturated {:.0f} %, request relaxed {:.0f} % of the hold, lack {:.2g}\n",
@@ -69,8 +89,8 @@ void print_text(const Problem& problem, const SimulateOptions& options, const Ta
   }
   fmt::print("limits      left by {:.2g}\n", s.violation);
   fmt::print("{}", s.held ? "held" : "not held");
-  if (run.status != Status::kOptimal) {
-    fmt::print(", {}: {}", to_string(run.status), run.reason);
+  if (run.status != Status::kReached) {
+    fmt::print(", {}: {}", to_string(run.status), run.reason.c_str());
   } else if (!run.samples.empty()) {
     fmt::print(", ended at {:g} s", run.samples.back().t);
   }
@@ -80,8 +100,7 @@ void print_text(const Problem& problem, const SimulateOptions& options, const Ta
 int print_heaviest(const Problem& problem, const SimulateOptions& options, const Row& row) {
   const int mass = heaviest_load(problem, row, options.integrator, options.tank);
   if (options.json) {
-    fmt::print("{}\n",
-               nlohmann::ordered_json{{"problem", problem.name}, {"heaviest", mass}}.dump());
+    print_json({{"problem", problem.name}, {"heaviest", mass}});
   } else {
     fmt::print("{}  virtual tank  heaviest load {} kg\n", problem.name, mass);
   }
@@ -106,21 +125,26 @@ void require_stiff(const std::string& name) {
     if (entry.name == name) return;
     stiff += std::string(" ") + entry.name;
   }
-  throw std::invalid_argument("--integrator: got " + name +
-                              ", expected one for stiff systems:" + stiff);
+  for (const Absent& absent : not_built_in()) {
+    if (absent.name == name) find_integrator(name);  // says what is missing
+  }
+  throw std::invalid_argument("--integrator: got " + name + ", expected one for stiff systems:" +
+                              (stiff.empty() ? " none is built in" : stiff));
 }
 
 int simulate(const SimulateOptions& options) {
+  require_apart({{"problem", options.choice.problem}},
+                {{"--out", options.out}, {"--figure", options.figure}});
   require_stiff(options.integrator);
   const Problem problem = load_problem(options.choice.problem);
   if (problem.contact) {
     throw std::invalid_argument("problem: got " + problem.name +
                                 ", expected one without a second contact");
   }
-  Case c = options.read_case(problem);
+  Case c = options.read_case();
   c.search.clear();  // none is used
   const Eigen::VectorXd theta_r = theta_r_of(problem, options.theta_r);
-  const Row row = evaluate(problem, c, theta_r);
+  const Row row = evaluate(problem, resolve(problem, c), theta_r);
   if (!row.has_value()) return report(problem, row, options.json);
   if (row.capability.u.size() == 0 || row.capability.w.size() == 0) {
     throw std::invalid_argument("--measure: got " + c.measure + ", expected one with a wrench");
@@ -128,11 +152,12 @@ int simulate(const SimulateOptions& options) {
   if (options.heaviest) return print_heaviest(problem, options, row);
   const TankRun run = simulate_plan(problem, options, row);
   if (!options.out.empty()) write_file(options.out, tank_csv(problem, run));
+  (options.json ? print_object : print_text)(problem, options, run);
+  // Last: it refuses an experiment without samples, whose answer stands even so.
   if (!options.figure.empty()) {
     write_file(options.figure, tank_figure(problem, {{problem.name, &run}}));
   }
-  (options.json ? print_json : print_text)(problem, options, run);
-  return run.status == Status::kOptimal ? kAnswered : kOtherStatus;
+  return run.status == Status::kReached ? kAnswered : kOtherStatus;
 }
 
 using Accepts = bool (*)(double);

@@ -1,8 +1,10 @@
 #include <memory>
 
+#include "benchmarks/row.h"
 #include "cli/cli.h"
+#include "cli/ctrl_c.h"
 #include "cli/progress.h"
-#include "problems/loader.h"
+#include "maxwrench/load.h"
 
 namespace maxwrench {
 
@@ -16,9 +18,11 @@ void add_solve(CLI::App& app, int& exit_status) {
   options->add_json(command);
   command.callback([options, &exit_status] {
     const Problem problem = load_problem(options->choice.problem);
-    const Case c = options->read_case(problem);
-    Progress progress("solve", c.budget);
-    const Row row = solve(problem, c, options->thread_count(), progress.counter());
+    const Method method = resolve(problem, options->read_case());
+    Progress progress("solve", method.choice.budget);
+    CtrlC ctrl_c;
+    const Row row =
+        solve(problem, method, options->thread_count(), progress.counter(), &ctrl_c.interruption);
     progress.finish();
     exit_status = report(problem, row, options->json);
   });

@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/cli.h"
-#include "lib/dynamics.h"
-#include "problems/state.h"
+#include "cli/output.h"
+#include "lib/robot/dynamics.h"
+#include "maxwrench/load.h"
+#include "maxwrench/version.h"
 
 namespace maxwrench {
 namespace {
@@ -39,9 +41,9 @@ Terms evaluate_terms(const Problem& problem, const State& state) {
 }
 
 std::vector<std::string> velocity_names(const Robot& robot) {
-  constexpr std::array<const char*, 6> kAxes = {"x", "y", "z", "roll", "pitch", "yaw"};
   std::vector<std::string> names;
-  for (const int axis : robot.base_axes) names.emplace_back(kAxes[static_cast<std::size_t>(axis)]);
+  for (const int axis : robot.base_axes)
+    names.emplace_back(kTwistAxes[static_cast<std::size_t>(axis)]);
   for (const Joint& joint : robot.joints) names.push_back(joint.name);
   return names;
 }
@@ -56,7 +58,7 @@ ordered_json rows(const Eigen::MatrixXd& matrix) {
   return result;
 }
 
-void print_json(const Problem& problem, const std::string& file, const Terms& terms) {
+void print_object(const Problem& problem, const std::string& file, const Terms& terms) {
   ordered_json object;
   object["problem"] = problem.name;
   object["state"] = file;
@@ -67,8 +69,8 @@ void print_json(const Problem& problem, const std::string& file, const Terms& te
   object["g"] = array(terms.g);
   object["tau_d"] = array(terms.tau_d);
   object["J"] = rows(terms.J);
-  object["version"] = MAXWRENCH_VERSION;
-  fmt::print("{}\n", object.dump());
+  object["version"] = version();
+  print_json(object);
 }
 
 void print_row(std::string_view name, const Eigen::VectorXd& values) {
@@ -101,7 +103,7 @@ int report_state(const Problem& problem, const std::string& file, bool json) {
                                 "numbers");
   }
   if (json) {
-    print_json(problem, file, terms);
+    print_object(problem, file, terms);
   } else {
     print_text(problem, terms);
   }

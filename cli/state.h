@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "lib/problem.h"
+#include "maxwrench/problem.h"
 
 namespace maxwrench {
 

@@ -1,4 +1,4 @@
-#include "solvers/strategies.h"
+#include "maxwrench/strategies.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,26 +7,11 @@
 #include <stdexcept>
 #include <vector>
 
-#include "solvers/integrator/arkode.h"
-#include "solvers/integrator/cvode.h"
-#include "solvers/integrator/ida.h"
-#include "solvers/integrator/runge_kutta.h"
-#include "solvers/lp/assembled.h"
-#include "solvers/lp/box.h"
-#include "solvers/lp/clp.h"
-#include "solvers/lp/facets.h"
-#include "solvers/lp/glpk.h"
-#include "solvers/lp/ipopt.h"
-#include "solvers/lp/simplex.h"
-#include "solvers/search/annealing.h"
-#include "solvers/search/cobyla.h"
-#include "solvers/search/crs2.h"
-#include "solvers/search/direct_l.h"
-#include "solvers/search/grid.h"
-#include "solvers/search/isres.h"
-#include "solvers/search/mlsl.h"
-#include "solvers/search/multistart.h"
-#include "solvers/search/nullspace.h"
+#include "maxwrench/problem.h"
+#include "solvers/integrator/makers.h"
+#include "solvers/lp/makers.h"
+#include "solvers/search/makers.h"
+#include "solvers/wrench/makers.h"
 
 namespace maxwrench {
 namespace {
@@ -70,42 +55,86 @@ const MeasureEntry kMeasures[] = {
 
 const LpEntry kLpSolvers[] = {
     {"simplex", "own bounded-variable simplex, warm-started", 1, [] { return make_simplex(); }},
+#if MAXWRENCH_WITH_CLP
     {"clp", "Clp, simplex library of COIN-OR", 2, make_clp},
+#endif
+#if MAXWRENCH_WITH_GLPK
     {"glpk", "GLPK, dual simplex", 2, make_glpk},
+#endif
+#if MAXWRENCH_WITH_IPOPT
     {"ipopt", "Ipopt, interior point", 20, make_ipopt},
+#endif
 };
 
 const SearchEntry kSearches[] = {
     {"grid", "regular grid, then refinement around its best cells", false, make_grid},
     {"annealing", "simulated annealing in independent chains", false, make_annealing},
+#if MAXWRENCH_WITH_IPOPT
     {"multistart", "Ipopt with exact gradients from many postures, as fmincon", false,
      make_multistart},
+#endif
+#if MAXWRENCH_WITH_NLOPT
     {"direct_l", "DIRECT-L of NLopt: divides boxes", false, make_direct_l},
     {"crs2", "controlled random search of NLopt, in several populations", false, make_crs2},
     {"mlsl", "multi-level single-linkage of NLopt, with gradients", false, make_mlsl},
     {"isres", "evolution strategy ISRES of NLopt, in several populations", false, make_isres},
     {"cobyla", "COBYLA of NLopt from many postures", false, make_cobyla},
+#endif
+#if MAXWRENCH_WITH_SUNDIALS
     {"nullspace", "local baseline: gradient projected onto the null space of J", true,
      make_nullspace},
+#endif
 };
 
 const IntegratorEntry kIntegrators[] = {
+#if MAXWRENCH_WITH_SUNDIALS
     {"cvode", "CVODE of SUNDIALS, backward differentiation formulas", true, make_cvode},
     {"cvode_adams", "CVODE of SUNDIALS, Adams-Moulton formulas", false, make_cvode_adams},
     {"arkode", "ARKODE of SUNDIALS, explicit Runge-Kutta method of order 5", false, make_arkode},
     {"ida", "IDA of SUNDIALS on the residual form", true, make_ida},
+#endif
     {"runge_kutta", "own classical Runge-Kutta method with a fixed step", false, make_runge_kutta},
 };
 
+/// What the conditions above may leave out.
+constexpr struct {
+  bool built_in;
+  Absent entry;
+} kOptional[] = {
+    {MAXWRENCH_WITH_CLP, {"lp", "clp", "Clp"}},
+    {MAXWRENCH_WITH_GLPK, {"lp", "glpk", "GLPK"}},
+    {MAXWRENCH_WITH_IPOPT, {"lp", "ipopt", "Ipopt"}},
+    {MAXWRENCH_WITH_IPOPT, {"search", "multistart", "Ipopt"}},
+    {MAXWRENCH_WITH_NLOPT, {"search", "direct_l", "NLopt"}},
+    {MAXWRENCH_WITH_NLOPT, {"search", "crs2", "NLopt"}},
+    {MAXWRENCH_WITH_NLOPT, {"search", "mlsl", "NLopt"}},
+    {MAXWRENCH_WITH_NLOPT, {"search", "isres", "NLopt"}},
+    {MAXWRENCH_WITH_NLOPT, {"search", "cobyla", "NLopt"}},
+    {MAXWRENCH_WITH_SUNDIALS, {"search", "nullspace", "SUNDIALS"}},
+    {MAXWRENCH_WITH_SUNDIALS, {"integrator", "cvode", "SUNDIALS"}},
+    {MAXWRENCH_WITH_SUNDIALS, {"integrator", "cvode_adams", "SUNDIALS"}},
+    {MAXWRENCH_WITH_SUNDIALS, {"integrator", "arkode", "SUNDIALS"}},
+    {MAXWRENCH_WITH_SUNDIALS, {"integrator", "ida", "SUNDIALS"}},
+};
+
+std::vector<Absent> make_absent() {
+  std::vector<Absent> absent;
+  for (const auto& [built_in, entry] : kOptional) {
+    if (!built_in) absent.push_back(entry);
+  }
+  return absent;
+}
+
 std::vector<WrenchSolverEntry> make_wrench_solvers() {
   std::vector<WrenchSolverEntry> table = {
-      {"facets", "ray shooting through the facets of {B u}, one wrench column", true, 1,
+      {"facets", "ray shooting through the facets of {B u}, one wrench column", true, true, 1,
        make_facets},
-      {"box", "dual simplex in the wrench alone, between the facets of {B u}", false, 1, make_box},
+      {"box", "dual simplex in the wrench alone, between the facets of {B u}", false, false, 1,
+       make_box},
   };
   for (const LpEntry& lp : kLpSolvers) {
-    table.push_back(
-        {lp.name, lp.summary, false, lp.cost, [make = lp.make] { return make_assembled(make()); }});
+    table.push_back({lp.name, lp.summary, false, false, lp.cost,
+                     [make = lp.make] { return make_assembled(make()); }});
   }
   return table;
 }
@@ -117,8 +146,13 @@ const Entry& find(std::span<const Entry> table, const char* family, std::string_
   if (found != table.end()) return *found;
   std::vector<std::string_view> names;
   for (const Entry& entry : table) names.emplace_back(entry.name);
+  std::string why;
+  for (const Absent& absent : not_built_in()) {
+    if (absent.name != name || std::string_view(absent.family) != family) continue;
+    why = fmt::format(", which is not built in (it needs {})", absent.library);
+  }
   throw std::invalid_argument(
-      fmt::format("{}: got '{}', expected one of {}", family, name, fmt::join(names, " ")));
+      fmt::format("{}: got '{}'{}, expected one of {}", family, name, why, fmt::join(names, " ")));
 }
 
 }  // namespace
@@ -131,6 +165,10 @@ std::span<const WrenchSolverEntry> wrench_solvers() {
 }
 std::span<const SearchEntry> searches() { return kSearches; }
 std::span<const IntegratorEntry> integrators() { return kIntegrators; }
+std::span<const Absent> not_built_in() {
+  static const std::vector<Absent> kAbsent = make_absent();
+  return kAbsent;
+}
 
 const MeasureEntry& find_measure(std::string_view name) {
   return find(measures(), "measure", name);

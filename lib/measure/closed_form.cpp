@@ -6,7 +6,7 @@ namespace maxwrench {
 
 bool regular(const Eigen::LDLT<SmallMatrix>& factor) {
   const auto pivots = factor.vectorD();
-  return pivots.minCoeff() > kRankTolerance * pivots.maxCoeff();
+  return pivots.minCoeff() > kPivotTolerance * pivots.maxCoeff();
 }
 
 void require_full_row_rank(const Robot& robot, const std::string& measure) {

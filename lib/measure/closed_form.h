@@ -3,15 +3,15 @@
 #include <functional>
 #include <string>
 
-#include "lib/measure.h"
-#include "lib/robot.h"
+#include "maxwrench/measure.h"
+#include "maxwrench/robot.h"
 
 // What the closed forms share.
 
 namespace maxwrench {
 
 /// Pivots of a Gram matrix below this share of its largest mean that a factor is rank deficient.
-inline constexpr double kRankTolerance = 1e-14;
+inline constexpr double kPivotTolerance = 1e-14;
 
 /// Wrench columns of two contacts; matrices of this size live on the stack, so that solving
 /// allocates nothing.

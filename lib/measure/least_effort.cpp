@@ -1,8 +1,9 @@
 #include <cmath>
 
 #include "lib/measure/closed_form.h"
-#include "lib/problem.h"
-#include "lib/wrench_program.h"
+#include "maxwrench/posture.h"
+#include "maxwrench/problem.h"
+#include "maxwrench/wrench_program.h"
 
 namespace maxwrench {
 namespace {

@@ -1,8 +1,10 @@
 #include <cmath>
 
-#include "lib/decompositions.h"
+#include "lib/math/decompositions.h"
 #include "lib/measure/closed_form.h"
-#include "lib/posture.h"
+#include "maxwrench/posture.h"
+#include "maxwrench/problem.h"
+#include "maxwrench/wrench_program.h"
 
 namespace maxwrench {
 namespace {

@@ -3,7 +3,8 @@
 #include <vector>
 
 #include "lib/measure/closed_form.h"
-#include "lib/wrench_program.h"
+#include "maxwrench/posture.h"
+#include "maxwrench/wrench_program.h"
 
 namespace maxwrench {
 namespace {
@@ -143,12 +144,14 @@ class OneSided : public Measure {
     capability.u = answer.u;
     capability.residual = answer.residual;
     // d beta = load' d(J'W) w: what lambda is where tau_d counts.
-    const Eigen::VectorXd load = answer.beta_J.transpose() * answer.h / answer.h.squaredNorm();
+    Eigen::VectorXd load = answer.lambda;
+    if (!answer.h.isZero(0)) load = answer.beta_J.transpose() * answer.h / answer.h.squaredNorm();
     for (const int j : sided_) {
       if (std::binary_search(kept_.begin(), kept_.end(), j)) continue;
       const double slope = program.c_w[j] + program.JtW.col(j).dot(load);
       const double inwards = program.w_min[j] == 0 ? slope : -slope;
-      capability.residual.dual = std::max(capability.residual.dual, inwards);
+      if (!(inwards <= capability.residual.dual)) capability.residual.dual = inwards;
+      if (std::isnan(inwards)) break;
     }
   }
 

@@ -1,7 +1,7 @@
 #include "lib/measure/closed_form.h"
-#include "lib/posture.h"
-#include "lib/wrench_program.h"
-#include "lib/wrench_solver.h"
+#include "maxwrench/posture.h"
+#include "maxwrench/wrench_program.h"
+#include "maxwrench/wrench_solver.h"
 
 namespace maxwrench {
 namespace {

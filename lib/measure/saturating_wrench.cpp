@@ -1,8 +1,9 @@
 #include <cmath>
 
-#include "lib/decompositions.h"
+#include "lib/math/decompositions.h"
 #include "lib/measure/closed_form.h"
-#include "lib/wrench_program.h"
+#include "maxwrench/posture.h"
+#include "maxwrench/wrench_program.h"
 
 namespace maxwrench {
 namespace {

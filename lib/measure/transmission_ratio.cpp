@@ -1,7 +1,8 @@
 #include <cmath>
 
 #include "lib/measure/closed_form.h"
-#include "lib/wrench_program.h"
+#include "maxwrench/posture.h"
+#include "maxwrench/wrench_program.h"
 
 namespace maxwrench {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "lib/kinematics.h"
+#include "lib/robot/kinematics.h"
 
 namespace maxwrench {
 
@@ -24,8 +24,10 @@ namespace maxwrench {
 /// carry k change as well, which adds -p_k'(sum over them of t_i G × w_i).
 class PullBack {
  public:
-  /// `second`: another end effector whose velocities J_seed may hold too, or -1.
+  /// `second`: another end effector whose velocities J_seed may hold too, or -1. The robot outlives
+  /// this.
   PullBack(const Robot& robot, int end_effector, int second = -1);
+  PullBack(const Robot&&, int, int = -1) = delete;
 
   /// gradient_k = d(t'tau_d + <J_seed, J>)/d q_k for all joints. J and J_seed are about the first
   /// end effector; columns of joints that carry neither do not count. `kinematics` has seen the

@@ -1,7 +1,8 @@
 #include "lib/posture/second_arm.h"
 
-#include "lib/branch.h"
-#include "lib/decompositions.h"
+#include "lib/math/decompositions.h"
+#include "lib/posture/dependent_joints.h"
+#include "lib/robot/chain.h"
 
 namespace maxwrench {
 namespace {
@@ -44,7 +45,7 @@ bool SecondArm::place(int i, Eigen::VectorXd& q) const {
   for (std::size_t k = 0; k < contact_.follow.size(); ++k) {
     const int joint = contact_.follow[k];
     const Joint& limits = problem_.robot.joints[static_cast<std::size_t>(joint)];
-    q[joint] = arm_.branch(i)[static_cast<Eigen::Index>(k)];
+    q[joint] = arm_.solution(i)[static_cast<Eigen::Index>(k)];
     inside &= q[joint] >= limits.q_min - kLimitTolerance;
     inside &= q[joint] <= limits.q_max + kLimitTolerance;
   }

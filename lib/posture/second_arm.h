@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "lib/arm.h"
-#include "lib/posture.h"
+#include "lib/posture/contact_arm.h"
+#include "maxwrench/posture.h"
 
 namespace maxwrench {
 
@@ -13,6 +13,7 @@ class SecondArm {
  public:
   /// Keeps a reference to the problem.
   explicit SecondArm(const Problem& problem);
+  explicit SecondArm(const Problem&& problem) = delete;
 
   /// The contact at the regrasp coordinates at the end of theta_r.
   void touch(const Eigen::VectorXd& theta_r);
@@ -40,7 +41,7 @@ class SecondArm {
  private:
   const Problem& problem_;
   const Contact& contact_;
-  Arm arm_;
+  ContactArm arm_;
   std::vector<char> first_, second_;  ///< whether a velocity moves the end effector
   std::array<double, 2> s_{};
   Pose<double> pose_;

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/decompositions.h"
-#include "lib/redundancy.h"
+#include "lib/math/decompositions.h"
+#include "lib/posture/redundancy.h"
+#include "maxwrench/problem.h"
 
 namespace maxwrench {
 namespace {
@@ -45,6 +46,21 @@ double PostureController::drift(const Motion& motion) const {
   return worst;
 }
 
+double PostureController::moved(const Motion& motion) const {
+  const Vector6d base = offset(motion.base);
+  const double joints =
+      motion.q.size() > 0 ? (reference_.q - motion.q).lpNorm<Eigen::Infinity>() : 0;
+  return std::max({joints, base.head<3>().norm(), base.tail<3>().norm()});
+}
+
+/// From the base to its reference in base axes: [m; rotation vector].
+Vector6d PostureController::offset(const Pose<double>& base) const {
+  const Eigen::Matrix3d R = base.R.transpose();
+  Vector6d pose;
+  pose << R * (reference_.base.p - base.p), logarithm(R * reference_.base.R);
+  return pose;
+}
+
 /// a = A_r (omega^2 e_r - 2 omega theta_r_dot).
 void PostureController::accelerate_posture(const Motion& motion) {
   const auto axes = static_cast<Eigen::Index>(problem_.robot.base_axes.size());
@@ -61,9 +77,7 @@ void PostureController::accelerate_posture(const Motion& motion) {
 
 /// a = omega^2 e - 2 omega v, e the error of the pose in base axes and of the joints.
 void PostureController::accelerate_all(const Motion& motion) {
-  const Eigen::Matrix3d R = motion.base.R.transpose();
-  Vector6d pose;
-  pose << R * (reference_.base.p - motion.base.p), logarithm(R * reference_.base.R);
+  const Vector6d pose = offset(motion.base);
   const auto& axes = problem_.robot.base_axes;
   for (std::size_t i = 0; i < axes.size(); ++i) a_[static_cast<Eigen::Index>(i)] = pose[axes[i]];
   a_.tail(motion.q.size()) = reference_.q - motion.q;

@@ -1,6 +1,9 @@
 #pragma once
 
-#include "lib/tank.h"
+#include "lib/robot/motion.h"
+#include "lib/tank/effort_tracking.h"
+#include "maxwrench/posture.h"
+#include "maxwrench/tank.h"
 
 namespace maxwrench {
 
@@ -18,8 +21,11 @@ class PostureController {
   EffortTracker& tracker() { return tracker_; }
   /// max |theta_r - its reference|.
   double drift(const Motion& motion) const;
+  /// The largest distance of a joint or of the base from its reference [rad, m].
+  double moved(const Motion& motion) const;
 
  private:
+  Vector6d offset(const Pose<double>& base) const;
   void accelerate_posture(const Motion& motion);
   void accelerate_all(const Motion& motion);
   void leave_free(EffortRequest& request) const;

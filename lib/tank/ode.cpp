@@ -2,6 +2,9 @@
 
 #include <chrono>
 
+#include "maxwrench/posture.h"
+#include "maxwrench/problem.h"
+
 namespace maxwrench {
 namespace {
 
@@ -75,6 +78,12 @@ Vector6d TankOde::displacement(const Motion& motion) {
   Vector6d moved;
   moved << tool.p - anchor_.p, logarithm(tool.R * anchor_.R.transpose());
   return moved;
+}
+
+Vector6d TankOde::twist(const Motion& motion) {
+  dynamics_.set_configuration(motion.base.R, motion.q);
+  dynamics_.kinematics().jacobian(tool_, motion.base.R, J_);
+  return J_ * motion.v;
 }
 
 Vector6d TankOde::wrench(double t, const Motion& motion) {

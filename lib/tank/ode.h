@@ -1,14 +1,15 @@
 #pragma once
 
-#include "lib/tank.h"
+#include "lib/robot/motion.h"
+#include "maxwrench/tank.h"
 
 namespace maxwrench {
 
-/// The robot in the tank. State: its motion (see lib/motion.h), then the thrust of each thruster
-/// [N], which follows its command with a first-order lag, never faster than its rate limit. Joint
-/// torques are those commanded. Efforts are asked for linearly between two instants; the command of
-/// a thruster leads by its lag times the slope, within its limits, so that away from them its
-/// thrust is what was asked for.
+/// The robot in the tank. State: its motion (see lib/robot/motion.h), then the thrust of each
+/// thruster [N], which follows its command with a first-order lag, never faster than its rate
+/// limit. Joint torques are those commanded. Efforts are asked for linearly between two instants;
+/// the command of a thruster leads by its lag times the slope, within its limits, so that away from
+/// them its thrust is what was asked for.
 class TankOde final : public Ode {
  public:
   TankOde(const Problem& problem, const Posture& posture, const TankOptions& options);
@@ -35,6 +36,8 @@ class TankOde final : public Ode {
   Vector6d wrench(double t, const Motion& motion);
   /// [m, rad] of the end effector from the pose of the task, in world axes.
   Vector6d displacement(const Motion& motion);
+  /// [m/s, rad/s] of the end effector, in world axes.
+  Vector6d twist(const Motion& motion);
 
   long evaluations() const { return evaluations_; }
   double seconds() const { return seconds_; }

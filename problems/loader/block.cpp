@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <optional>
@@ -42,6 +43,21 @@ std::optional<std::vector<std::string>> all_texts(const toml::array& array) {
     texts.push_back(node.as_string()->get());
   }
   return texts;
+}
+
+/// toml++ calls itself for every part of a dotted key, so a long one would overrun the stack.
+void require_short_keys(const std::filesystem::path& file, const std::string& text) {
+  constexpr int kMostDots = 1000;
+  int dots = 0;
+  for (const char c : text) {
+    const bool in_key = std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+                        std::string_view("_-\"' \t").find(c) != std::string_view::npos;
+    if (c == '.') ++dots;
+    if (c != '.' && !in_key) dots = 0;
+    if (dots > kMostDots) {
+      refuse(file, "file", fmt::format("a key of more than {} parts", kMostDots), "shorter keys");
+    }
+  }
 }
 
 struct Source {
@@ -89,6 +105,7 @@ Block Block::read(const std::filesystem::path& file) {
     refuse(file, "file", "nothing that can be read", "a TOML file");
   }
   const std::string text(std::istreambuf_iterator<char>(stream), {});
+  require_short_keys(file, text);
   try {
     auto root = std::make_shared<const toml::table>(toml::parse(text, file.string()));
     const toml::table* table = root.get();

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/types.h"
+#include "maxwrench/types.h"
 
 namespace maxwrench {
 

@@ -146,7 +146,7 @@ class ShapePairs : public CollisionChecker {
     }
   }
 
-  bool collides(const std::vector<Pose<double>>& links) const override {
+  int colliding_pair(const std::vector<Pose<double>>& links) const override {
     thread_local std::vector<Placed> moving;  // allocates when it grows, not in every posture
     moving.resize(shapes_.size());
     for (std::size_t i = 0; i < shapes_.size(); ++i) {
@@ -156,14 +156,20 @@ class ShapePairs : public CollisionChecker {
     const auto placed = [&](std::size_t i) -> const Placed& {
       return shapes_[i].link > 0 ? moving[i] : fixed_[i];
     };
-    return std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
+    const auto found = std::find_if(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
       const Placed &a = placed(index(pair.a)), &b = placed(index(pair.b));
       return (a.pose.p - b.pose.p).squaredNorm() <= pair.reach * pair.reach &&
              collide(pair, shapes_[index(pair.a)], a, shapes_[index(pair.b)], b, margin_);
     });
+    return found == pairs_.end() ? -1 : static_cast<int>(found - pairs_.begin());
   }
 
   int pairs() const override { return static_cast<int>(pairs_.size()); }
+
+  std::string pair_name(int i) const override {
+    const Pair& pair = pairs_[index(i)];
+    return shapes_[index(pair.a)].body + " and " + shapes_[index(pair.b)].body;
+  }
 
  private:
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
@@ -261,14 +267,6 @@ Solid to_solid(const Shape& shape) {
     }
   }
   return solid;
-}
-
-bool closer_than(const Shape& a, const Pose<double>& pose_a, const Shape& b,
-                 const Pose<double>& pose_b, double margin) {
-  const auto at = [](const Shape& shape, const Pose<double>& pose) {
-    return Placed{pose, shape.half_length * pose.R.col(2)};
-  };
-  return collide(make_pair({a, b}, 0, 1, margin), a, at(a, pose_a), b, at(b, pose_b), margin);
 }
 
 std::shared_ptr<const CollisionChecker> make_collision_checker(

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "lib/robot.h"
+#include "maxwrench/robot.h"
 
 namespace maxwrench {
 
@@ -37,10 +37,6 @@ std::shared_ptr<const CollisionChecker> make_collision_checker(
 
 /// The shape as a convex body; a cylinder as a prism of 32 faces.
 Solid to_solid(const Shape& shape);
-
-/// The same decision for a single pair, with poses of the two shapes in one frame.
-bool closer_than(const Shape& a, const Pose<double>& pose_a, const Shape& b,
-                 const Pose<double>& pose_b, double margin);
 
 /// |x - y| minimised over the segments x in [a0, a1] and y in [b0, b1].
 double segment_distance(const Eigen::Vector3d& a0, const Eigen::Vector3d& a1,

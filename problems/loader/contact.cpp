@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/branch.h"
+#include "lib/math/decompositions.h"
+#include "lib/posture/dependent_joints.h"
+#include "lib/posture/movable.h"
+#include "lib/robot/chain.h"
 #include "problems/loader/theta_r.h"
 #include "problems/loader/urdf_tree.h"
 
@@ -77,6 +80,45 @@ void read_forces(const Block& block, Contact& contact) {
   }
   if (block.has("mu") && forces != "friction") {
     block.refuse_value("mu", "no such key, but for forces = 'friction'");
+  }
+}
+
+/// The directions of `basis` that may be pulled and pushed without limit: none of their sums may be
+/// free of work, or zero, because nothing would bound it. One alone that does no work is refused
+/// whatever its limits.
+void require_work(const Block& block, const Eigen::MatrixXd& works, const Contact& contact) {
+  const std::vector<Block> list = block.list("basis");
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index j = 0; j < works.cols(); ++j) {
+    if (works.col(j).norm() < kRankTolerance * contact.C.col(j).norm()) {
+      list[static_cast<std::size_t>(j)].refuse_value(
+          "direction", "one that does work: the end effector can move along it");
+    }
+    if (contact.w_min[j] == -kInfinity && contact.w_max[j] == kInfinity) free.push_back(j);
+  }
+  const Eigen::MatrixXd both = works(Eigen::all, free);
+  const auto rank = split(both, kRankTolerance).range.cols();
+  if (rank == both.cols()) return;
+  block.refuse_value(
+      "basis", fmt::format("{} directions without limits", free.size()),
+      fmt::format("no more than do work independently of each other, {} of these", rank));
+}
+
+/// Leaves out of C what does no work, because the structure takes it: of free forces all such
+/// columns, of others their part along which the end effector cannot move.
+void drop_idle(const Block& block, const Robot& robot, Contact& contact) {
+  const std::string forces = block.text("forces");
+  const Eigen::Matrix<double, 6, 6> movable = movable_at_contact(robot, contact);
+  const Matrix6Xd works = movable * contact.C;
+  if (forces == "basis") require_work(block, works, contact);
+  if ((forces == "push" || forces == "friction") && movable.col(2).norm() < kRankTolerance) {
+    block.refuse_value("rpy", "a frame along whose z the end effector can move");
+  }
+  if (movable.isIdentity(kRankTolerance)) return;
+  if (forces == "point" || forces == "grasp") {
+    set_basis(tidy_range(works), true, contact);
+  } else {
+    contact.C = works;
   }
 }
 
@@ -194,6 +236,7 @@ void read_contact(const Block& block, Problem& problem) {
   if (circle) contact.radius = block.number("radius");
   if (circle && !(contact.radius > 0)) block.refuse_value("radius", "a number > 0");
   read_forces(block, contact);
+  drop_idle(block, problem.robot, contact);
   read_arm(block, problem, contact);
   contact.length_scale = block.number("length_scale", contact.length_scale);
   if (!(contact.length_scale > 0)) block.refuse_value("length_scale", "a number > 0");

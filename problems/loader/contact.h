@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lib/problem.h"
+#include "maxwrench/problem.h"
 #include "problems/loader/block.h"
 
 namespace maxwrench {

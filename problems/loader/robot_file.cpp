@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "problems/loader.h"
+#include "maxwrench/load.h"
 #include "problems/loader/bad_input.h"
 #include "problems/loader/block.h"
 #include "problems/loader/collision.h"
@@ -37,8 +37,8 @@ Pose<double> read_placement(const Block& block) {
 
 void read_base(const Block& base, const UrdfTree& tree, Robot& robot) {
   base.allow_only({"axes", "link", "xyz", "rpy"});
-  const std::map<std::string, int> axes = {{"x", 0},    {"y", 1},     {"z", 2},
-                                           {"roll", 3}, {"pitch", 4}, {"yaw", 5}};
+  std::map<std::string, int> axes;
+  for (const char* axis : kTwistAxes) axes.emplace(axis, static_cast<int>(axes.size()));
   for (const std::string& name : base.texts("axes")) {
     robot.base_axes.push_back(find_named(axes, name, base, "axes", "only these axes"));
   }

@@ -4,18 +4,17 @@
 #include <array>
 #include <cmath>
 
+#include "maxwrench/load.h"
 #include "problems/loader/block.h"
 #include "problems/loader/urdf_tree.h"
-#include "problems/state.h"
 
 namespace maxwrench {
 namespace {
 
 /// Of the base from its mount: zero to rounding where its axes do not lead.
 void require_free_axes(const Block& theta, const Pose<double>& base, const Robot& robot) {
-  constexpr std::array<const char*, 6> kNames = {"x", "y", "z", "roll", "pitch", "yaw"};
   constexpr double kRounding = 1e-9;
-  if (robot.base_axes.size() == kNames.size()) return;
+  if (robot.base_axes.size() == kTwistAxes.size()) return;
   const Pose<double> moved = robot.mount.inverse() * base;
   Vector6d along;
   along << moved.p, logarithm(moved.R);
@@ -23,7 +22,7 @@ void require_free_axes(const Block& theta, const Pose<double>& base, const Robot
     const auto& free = robot.base_axes;
     const bool fixed = std::find(free.begin(), free.end(), i) == free.end();
     if (!fixed || std::abs(along[i]) <= kRounding) continue;
-    const char* name = kNames[static_cast<std::size_t>(i)];
+    const char* name = kTwistAxes[static_cast<std::size_t>(i)];
     theta.refuse_value(i < 3 ? "position" : "rpy",
                        fmt::format("{} = 0 from where the base is mounted, because {} is not among "
                                    "its axes",

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
-#include "lib/branch.h"
+#include "lib/posture/dependent_joints.h"
+#include "lib/robot/chain.h"
 
 namespace maxwrench {
 namespace {
-
-constexpr std::array<const char*, 6> kAxes = {"x", "y", "z", "roll", "pitch", "yaw"};
 
 /// The joints that the task names, `count` of the chain's.
 std::vector<int> named_joints(const Block& theta_r, const Robot& robot,
@@ -98,10 +98,19 @@ void read_guess(const Block& theta_r, Problem& problem) {
   const Block base = theta_r.table("guess_base");
   std::vector<std::string_view> axes;
   for (const int axis : robot.base_axes) {
-    axes.emplace_back(kAxes[static_cast<std::size_t>(axis)]);
+    axes.emplace_back(kTwistAxes[static_cast<std::size_t>(axis)]);
     problem.guess_base[std::min(axis, 3)] = base.number(axes.back(), 0);
   }
   base.allow_only(axes);
+}
+
+/// Of a twist [m; rad], the coordinate that is largest.
+std::string shown_gap(const Vector6d& gap) {
+  int i = 0;
+  gap.cwiseAbs().maxCoeff(&i);
+  const char axis = "xyz"[i % 3];
+  return i < 3 ? fmt::format("{:.2g} m away along the world's {}", std::abs(gap[i]), axis)
+               : fmt::format("{:.2g} rad away about the world's {}", std::abs(gap[i]), axis);
 }
 
 }  // namespace
@@ -138,13 +147,13 @@ void read_theta_r(const Block& theta_r, Problem& problem) {
 
 void require_branch(const Block& task, const Problem& problem) {
   if (problem.dependent.empty()) return;
-  const Branch branch(problem);
+  const DependentJoints branch(problem);
   const std::string names = names_of(problem.robot, problem.dependent);
   if (!branch.has_start()) {
     task.table("pose").refuse_value(
         "xyz", fmt::format("a pose that {} and the base reach from theta_r.guess with theta_r at "
-                           "its default (the best found is {:.2g} m or rad away)",
-                           names, branch.start_error()));
+                           "its default (the best found stays {})",
+                           names, shown_gap(branch.start_gap())));
   }
   if (branch.start_is_singular()) {
     task.table("theta_r").refuse_value(

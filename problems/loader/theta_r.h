@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/problem.h"
+#include "maxwrench/problem.h"
 #include "problems/loader/block.h"
 
 namespace maxwrench {

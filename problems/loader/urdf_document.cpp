@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "problems/loader/bad_input.h"
+#include "problems/loader/urdf_structure.h"
 
 namespace maxwrench {
 namespace {
@@ -111,6 +112,7 @@ UrdfDocument read_urdf_document(const std::filesystem::path& file) {
     refuse(file, "file", "nothing that can be read", "a URDF file");
   }
   const std::string text(std::istreambuf_iterator<char>(stream), {});
+  require_shallow(file, text);
   TiXmlDocument xml;
   xml.Parse(text.c_str());
   if (xml.Error()) {
@@ -120,6 +122,7 @@ UrdfDocument read_urdf_document(const std::filesystem::path& file) {
   const TiXmlElement* robot = xml.FirstChildElement("robot");
   if (robot == nullptr) refuse(file, "robot", "nothing", "an element <robot>");
   check_numbers(file, *robot, "robot");
+  check_structure(file, *robot);
   UrdfDocument document{parse(file, text), {}};
   const TiXmlElement* joint = robot->FirstChildElement("joint");
   for (; joint != nullptr; joint = joint->NextSiblingElement("joint")) {

@@ -15,7 +15,8 @@ struct UrdfDocument {
   std::map<std::string, int> joint_order;  ///< position of each joint in the file
 };
 
-/// Refuses what is not XML, numbers that are missing or not finite, and what urdfdom refuses.
+/// Refuses what is not XML, numbers that are missing or not finite, what is no tree of links with
+/// shapes that we know, and what urdfdom refuses.
 UrdfDocument read_urdf_document(const std::filesystem::path& file);
 
 }  // namespace maxwrench

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -80,7 +81,7 @@ void require_positive(const Reading& reading, const std::string& key, double val
 
 void add_shape(Reading& reading, const urdf::Link& link, const urdf::Collision& collision) {
   const std::string key = fmt::format("link[{}].collision.geometry", link.name);
-  if (collision.geometry == nullptr) refuse(reading.file, key, "nothing", "a shape");
+  assert(collision.geometry != nullptr);  // refused in urdf_structure.cpp, as meshes
   const Body& body = reading.tree.bodies.at(link.name);
   Shape shape{
       .body = link.name, .link = body.link, .placement = body.placement * pose(collision.origin)};
@@ -103,9 +104,8 @@ void add_shape(Reading& reading, const urdf::Link& link, const urdf::Collision& 
       require_positive(reading, key + ".cylinder.length", cylinder.length);
       break;
     }
-    case urdf::Geometry::MESH:
-      refuse(reading.file, key, "a mesh",
-             "a box, cylinder or sphere here, or capsules in the robot's TOML");
+    default:
+      assert(false);
   }
   reading.tree.shapes.push_back(std::move(shape));
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/robot.h"
+#include "maxwrench/robot.h"
 #include "problems/loader/collision.h"
 
 namespace maxwrench {

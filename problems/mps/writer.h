@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "lib/linear_program.h"
+#include "maxwrench/linear_program.h"
 
 namespace maxwrench {
 

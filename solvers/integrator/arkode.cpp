@@ -1,8 +1,7 @@
-#include "solvers/integrator/arkode.h"
-
 #include <arkode/arkode_erkstep.h>
 
 #include "solvers/integrator/check_request.h"
+#include "solvers/integrator/makers.h"
 #include "solvers/integrator/sundials.h"
 
 namespace maxwrench {
@@ -58,7 +57,7 @@ class Arkode final : public Integrator {
   Status integrate(Ode& ode, const IntegratorOptions& options, std::span<const double> times,
                    Trajectory& trajectory) override {
     check_request(options, times);
-    trajectory = {{times[0]}, {ode.initial()}, -1, ""};
+    trajectory.start(times[0], ode.initial());
     ArkodeSession session(ode, options, times[0]);
     return sundials::run(session, times, trajectory);
   }

@@ -6,7 +6,7 @@
 #include <span>
 #include <stdexcept>
 
-#include "lib/integrator.h"
+#include "maxwrench/integrator.h"
 
 namespace maxwrench {
 

@@ -1,10 +1,9 @@
-#include "solvers/integrator/cvode.h"
-
 #include <cvode/cvode.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #include "solvers/integrator/check_request.h"
+#include "solvers/integrator/makers.h"
 #include "solvers/integrator/sundials.h"
 
 namespace maxwrench {
@@ -68,10 +67,13 @@ class CvodeSession : public sundials::Session {
   static int jacobian(double t, N_Vector y, N_Vector /*y_dot*/, SUNMatrix df_dy, void* self,
                       N_Vector /*a*/, N_Vector /*b*/, N_Vector /*c*/) {
     auto& s = static_cast<CvodeSession&>(*static_cast<Session*>(self));
-    s.y_ = view(y);
-    if (!s.ode_.jacobian(t, s.y_, s.jacobian_)) return 1;
-    Eigen::Map<Eigen::MatrixXd>(SUNDenseMatrix_Data(df_dy), s.y_.size(), s.y_.size()) = s.jacobian_;
-    return 0;
+    return s.caught_.run<int>(kGiveUp, [&]() -> int {
+      s.y_ = view(y);
+      if (!s.ode_.jacobian(t, s.y_, s.jacobian_)) return kNoValue;
+      const Eigen::Index d = s.y_.size();
+      Eigen::Map<Eigen::MatrixXd>(SUNDenseMatrix_Data(df_dy), d, d) = s.jacobian_;
+      return kValue;
+    });
   }
 
   Eigen::MatrixXd jacobian_;
@@ -87,7 +89,7 @@ class Cvode final : public Integrator {
   Status integrate(Ode& ode, const IntegratorOptions& options, std::span<const double> times,
                    Trajectory& trajectory) override {
     check_request(options, times);
-    trajectory = {{times[0]}, {ode.initial()}, -1, ""};
+    trajectory.start(times[0], ode.initial());
     CvodeSession session(ode, options, times[0], method_);
     return sundials::run(session, times, trajectory);
   }

@@ -1,8 +1,7 @@
-#include "solvers/integrator/ida.h"
-
 #include <ida/ida.h>
 
 #include "solvers/integrator/check_request.h"
+#include "solvers/integrator/makers.h"
 #include "solvers/integrator/sundials.h"
 
 namespace maxwrench {
@@ -50,11 +49,13 @@ class IdaSession : public sundials::Session {
  private:
   static int residual(double t, N_Vector y, N_Vector y_dot, N_Vector F, void* self) {
     auto& s = static_cast<IdaSession&>(*static_cast<Session*>(self));
-    s.y_ = view(y);
-    s.y_dot_ = view(y_dot);
-    if (!s.ode_.residual(t, s.y_, s.y_dot_, s.F_)) return 1;
-    view(F) = s.F_;
-    return 0;
+    return s.caught_.run<int>(kGiveUp, [&]() -> int {
+      s.y_ = view(y);
+      s.y_dot_ = view(y_dot);
+      if (!s.ode_.residual(t, s.y_, s.y_dot_, s.F_)) return kNoValue;
+      view(F) = s.F_;
+      return kValue;
+    });
   }
   static int root_of_pair(double t, N_Vector y, N_Vector /*y_dot*/, double* g, void* self) {
     return root(t, y, g, self);
@@ -70,11 +71,10 @@ class Ida final : public Integrator {
   Status integrate(Ode& ode, const IntegratorOptions& options, std::span<const double> times,
                    Trajectory& trajectory) override {
     check_request(options, times);
-    trajectory = {{times[0]}, {ode.initial()}, -1, ""};
+    trajectory.start(times[0], ode.initial());
     Eigen::VectorXd y_dot(ode.dimension());
     if (!ode.derivative(times[0], ode.initial(), y_dot)) {
-      trajectory.reason = "ida: no derivative at the first time";
-      return Status::kNumericalError;
+      return trajectory.conclude(Status::kNumericalError, "ida: no derivative at the first time");
     }
     IdaSession session(ode, options, times[0], y_dot);
     return sundials::run(session, times, trajectory);

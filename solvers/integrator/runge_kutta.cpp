@@ -1,8 +1,7 @@
-#include "solvers/integrator/runge_kutta.h"
-
 #include <cmath>
 
 #include "solvers/integrator/check_request.h"
+#include "solvers/integrator/makers.h"
 
 namespace maxwrench {
 namespace {
@@ -84,25 +83,24 @@ class RungeKutta final : public Integrator {
   Status integrate(Ode& ode, const IntegratorOptions& options, std::span<const double> times,
                    Trajectory& trajectory) override {
     check_request(options, times);
-    trajectory = {{times[0]}, {ode.initial()}, -1, ""};
+    trajectory.start(times[0], ode.initial());
     Walk walk(ode, times[0]);
     long left = options.max_steps;
     for (std::size_t i = 1; i < times.size(); ++i) {
       const double length = times[i] - times[i - 1];
       if (!(length / options.step < kMostSteps)) {
-        trajectory.reason = "runge_kutta: the step is too short";
-        return Status::kBudgetExhausted;
+        return trajectory.conclude(Status::kBudgetExhausted, "runge_kutta: the step is too short");
       }
       const auto steps = static_cast<long>(std::ceil(length / options.step * (1 - 1e-12)));
       const Status status = advance(walk, times[i - 1], length, steps, left, trajectory);
       if (walk.t > trajectory.t.back()) {
-        const bool arrived = status == Status::kOptimal && trajectory.root < 0;
+        const bool arrived = status == Status::kReached && trajectory.root < 0;
         trajectory.t.push_back(arrived ? times[i] : walk.t);
         trajectory.y.push_back(walk.y);
       }
-      if (status != Status::kOptimal || trajectory.root >= 0) return status;
+      if (status != Status::kReached || trajectory.root >= 0) return status;
     }
-    return Status::kOptimal;
+    return trajectory.conclude(Status::kReached);
   }
 
  private:
@@ -111,8 +109,7 @@ class RungeKutta final : public Integrator {
     const double h = length / static_cast<double>(steps);
     for (long k = 0; k < steps; ++k) {
       if (left-- <= 0) {
-        trajectory.reason = "runge_kutta: no steps left";
-        return Status::kBudgetExhausted;
+        return trajectory.conclude(Status::kBudgetExhausted, "runge_kutta: no steps left");
       }
       walk.t = begin + static_cast<double>(k) * h;
       const double t_0 = walk.t;
@@ -120,13 +117,13 @@ class RungeKutta final : public Integrator {
       if (!walk.step(h) || !walk.y.allFinite()) {
         walk.t = t_0;
         walk.y = y_0;
-        trajectory.reason = "runge_kutta: no derivative within a step";
-        return Status::kNumericalError;
+        return trajectory.conclude(Status::kNumericalError,
+                                   "runge_kutta: no derivative within a step");
       }
       trajectory.root = walk.find_root(t_0, y_0, h);
-      if (trajectory.root >= 0) return Status::kOptimal;
+      if (trajectory.root >= 0) return trajectory.conclude(Status::kReached);
     }
-    return Status::kOptimal;
+    return trajectory.conclude(Status::kReached);
   }
 };
 

@@ -36,19 +36,23 @@ void Session::make_linear_solver() {
 
 int Session::derivative(double t, N_Vector y, N_Vector y_dot, void* self) {
   auto& s = *static_cast<Session*>(self);
-  s.y_ = view(y);
-  if (!s.ode_.derivative(t, s.y_, s.y_dot_)) return 1;
-  view(y_dot) = s.y_dot_;
-  return 0;
+  return s.caught_.run<int>(kGiveUp, [&]() -> int {
+    s.y_ = view(y);
+    if (!s.ode_.derivative(t, s.y_, s.y_dot_)) return kNoValue;
+    view(y_dot) = s.y_dot_;
+    return kValue;
+  });
 }
 
 int Session::root(double t, N_Vector y, double* g, void* self) {
   auto& s = *static_cast<Session*>(self);
-  s.y_ = view(y);
-  s.g_.resize(s.ode_.roots());
-  s.ode_.root(t, s.y_, s.g_);
-  std::copy(s.g_.begin(), s.g_.end(), g);
-  return 0;
+  return s.caught_.run<int>(kGiveUp, [&]() -> int {
+    s.y_ = view(y);
+    s.g_.resize(s.ode_.roots());
+    s.ode_.root(t, s.y_, s.g_);
+    std::copy(s.g_.begin(), s.g_.end(), g);
+    return kValue;
+  });
 }
 
 int Session::first_root(const std::vector<int>& found) const {

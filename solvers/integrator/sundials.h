@@ -12,7 +12,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "lib/integrator.h"
+#include "maxwrench/integrator.h"
+#include "solvers/caught.h"
 
 // What the integrators of SUNDIALS share (Hindmarsh et al., 2005).
 
@@ -35,9 +36,12 @@ class Session {
   Session(Ode& ode, const IntegratorOptions& options);
 
   Eigen::VectorXd state() const { return view(state_.get()); }
+  void rethrow() { caught_.rethrow(); }
 
  protected:
-  /// A positive return means "try a shorter step".
+  /// What callbacks return: no value here, try a shorter step; give up.
+  enum Answer { kValue = 0, kNoValue = 1, kGiveUp = -1 };
+
   static int derivative(double t, N_Vector y, N_Vector y_dot, void* self);
   static int root(double t, N_Vector y, double* g, void* self);
 
@@ -52,6 +56,7 @@ class Session {
   int first_root(const std::vector<int>& found) const;
 
   Ode& ode_;
+  Caught caught_;  ///< by the callbacks
   Eigen::VectorXd y_, y_dot_, g_;
   const IntegratorOptions& options_;
   int failure_ = 0;                                   ///< a flag, what `advance` then returns
@@ -63,12 +68,14 @@ class Session {
 
 /// The loop over the times. A session has
 ///   int advance(double t, double end, double& reached)  on to t, never evaluating beyond end;
+///   void rethrow()  what the callbacks threw;
 ///   Eigen::VectorXd state() const;   int found_root() const;   std::string words(int flag) const.
 template <class S>
 Status run(S& session, std::span<const double> times, Trajectory& trajectory) {
   for (const double t : times.subspan(1)) {
     double reached = trajectory.t.back();
     const int flag = session.advance(t, times.back(), reached);
+    session.rethrow();
     if (reached > trajectory.t.back()) {
       trajectory.t.push_back(reached);
       trajectory.y.push_back(session.state());
@@ -76,12 +83,13 @@ Status run(S& session, std::span<const double> times, Trajectory& trajectory) {
     if (flag == kReached || flag == kReachedStop) continue;
     if (flag == kFoundRoot) {
       trajectory.root = session.found_root();
-      return Status::kOptimal;
+      break;
     }
-    trajectory.reason = session.words(flag);
-    return flag == kTooMuchWork ? Status::kBudgetExhausted : Status::kNumericalError;
+    return trajectory.conclude(
+        flag == kTooMuchWork ? Status::kBudgetExhausted : Status::kNumericalError,
+        session.words(flag));
   }
-  return Status::kOptimal;
+  return trajectory.conclude(Status::kReached);
 }
 
 /// "library: NAME_OF_FLAG"; takes the name, which SUNDIALS allocates.

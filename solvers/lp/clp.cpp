@@ -1,9 +1,9 @@
-#include "solvers/lp/clp.h"
-
 #include <ClpSimplex.hpp>
+#include <algorithm>
 #include <cmath>
 
 #include "solvers/lp/elastic.h"
+#include "solvers/lp/makers.h"
 
 namespace maxwrench {
 namespace {
@@ -43,6 +43,8 @@ VariableState from_clp(ClpSimplex::Status status) {
 
 class Clp : public LpSolver {
  public:
+  explicit Clp(bool keep_model) : keep_model_(keep_model) {}
+
   void solve(const LinearProgram& program, LpSolution& solution) override {
     if (refused(program, solution)) return;
     // Scaling costs more than a small program. The dual simplex bounds free columns by 1e10 for a
@@ -105,6 +107,7 @@ class Clp : public LpSolver {
     load(program, careful);
     const int rows = program.rows();
     const int cols = program.cols();
+    if (!warm && keep_model_) model_.allSlackBasis();
     if (warm) {
       for (int j = 0; j < cols; ++j) model_.setColumnStatus(j, to_clp(solution.basis[j]));
       for (int i = 0; i < rows; ++i) model_.setRowStatus(i, to_clp(solution.basis[cols + i]));
@@ -129,8 +132,11 @@ class Clp : public LpSolver {
     matrix_ = program.A;
     matrix_.makeCompressed();
     cost_ = -program.c;
+    if (keep_model_ && !careful && edit(program)) return;
     model_ = ClpSimplex();
     model_.setLogLevel(0);
+    // Zeros then stay, and there is room for other numbers.
+    if (keep_model_) model_.setSmallElementValue(0);
     model_.loadProblem(program.cols(), program.rows(), matrix_.outerIndexPtr(),
                        matrix_.innerIndexPtr(), matrix_.valuePtr(), program.l.data(),
                        program.u.data(), cost_.data(), program.b.data(), program.b.data());
@@ -139,8 +145,35 @@ class Clp : public LpSolver {
     model_.setPrimalTolerance(1e-9);
     model_.setDualTolerance(1e-9);
     model_.setMaximumIterations(5000 + 50 * (program.rows() + program.cols()));
+    editable_ = !careful;
   }
 
+  /// Writes the program over the one that the model holds; false if its pattern is another.
+  bool edit(const LinearProgram& program) {
+    if (!editable_ || program.cols() != model_.numberColumns() ||
+        program.rows() != model_.numberRows()) {
+      return false;
+    }
+    CoinPackedMatrix& held = *model_.matrix();
+    const auto count = static_cast<std::size_t>(matrix_.nonZeros());
+    const auto columns = static_cast<std::size_t>(program.cols());
+    const bool same =
+        held.getNumElements() == matrix_.nonZeros() &&
+        std::equal(held.getVectorStarts(), held.getVectorStarts() + columns + 1,
+                   matrix_.outerIndexPtr()) &&
+        std::equal(held.getIndices(), held.getIndices() + count, matrix_.innerIndexPtr());
+    if (!same) return false;
+    std::copy_n(matrix_.valuePtr(), count, held.getMutableElements());
+    std::copy_n(cost_.data(), columns, model_.objective());
+    std::copy_n(program.l.data(), columns, model_.columnLower());
+    std::copy_n(program.u.data(), columns, model_.columnUpper());
+    std::copy_n(program.b.data(), program.rows(), model_.rowLower());
+    std::copy_n(program.b.data(), program.rows(), model_.rowUpper());
+    return true;
+  }
+
+  bool keep_model_;
+  bool editable_ = false;  ///< the model was loaded in the fast settings
   ClpSimplex model_;
   Eigen::SparseMatrix<double> matrix_;
   Eigen::VectorXd cost_;
@@ -149,6 +182,7 @@ class Clp : public LpSolver {
 
 }  // namespace
 
-std::unique_ptr<LpSolver> make_clp() { return std::make_unique<Clp>(); }
+std::unique_ptr<LpSolver> make_clp() { return std::make_unique<Clp>(false); }
+std::unique_ptr<LpSolver> make_clp_keeping_its_model() { return std::make_unique<Clp>(true); }
 
 }  // namespace maxwrench

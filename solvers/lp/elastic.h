@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "lib/linear_program.h"
+#include "maxwrench/linear_program.h"
 
 namespace maxwrench {
 

@@ -1,35 +1,91 @@
-#include "solvers/lp/glpk.h"
-
 #include <glpk.h>
 
 #include <csetjmp>
 
 #include "solvers/lp/elastic.h"
+#include "solvers/lp/makers.h"
 
 namespace maxwrench {
 namespace {
 
-/// GLPK keeps an environment for each thread, which that thread must silence and free.
-struct Environment {
+/// Blocks of memory in this thread's environment.
+int blocks() {
+  int count = 0;
+  glp_mem_usage(&count, nullptr, nullptr, nullptr);
+  return count;
+}
+
+/// GLPK keeps an environment for each thread. It may hold problems of a host program:
+/// only one that we opened, and that holds nothing but what failed calls of ours left, is freed.
+class Environment {
+ public:
   Environment() = default;
-  ~Environment() { glp_free_env(); }
+  ~Environment() { free(); }
   Environment(const Environment&) = delete;
   Environment& operator=(const Environment&) = delete;
+
+  void open() {
+    if (glp_init_env() == 0) ours_ = true;
+  }
+
+  /// A call has failed and left its problem in pieces; before it there were so many blocks.
+  void clean_up(int before) {
+    lost_ += blocks() - before;
+    if (free()) open();
+  }
+
+ private:
+  bool free() {
+    if (!ours_ || blocks() != lost_) return false;
+    glp_free_env();
+    ours_ = false;
+    lost_ = 0;
+    return true;
+  }
+
+  bool ours_ = false;
+  int lost_ = 0;  ///< blocks that nobody can free one by one
 };
+
+Environment& environment() {
+  thread_local Environment environment;
+  return environment;
+}
 
 /// Claims to have printed a message.
 int swallow(void* /*info*/, const char* /*message*/) { return 1; }
 
+/// Keeps GLPK quiet. A failed assertion turns the output on again, hence the hook.
+class Quiet {
+ public:
+  Quiet() : before_(start()) {}
+  ~Quiet() {
+    glp_term_hook(nullptr, nullptr);
+    glp_term_out(before_);
+  }
+  Quiet(const Quiet&) = delete;
+  Quiet& operator=(const Quiet&) = delete;
+
+  /// Again after an error, and in an environment that is new. Returns what was before.
+  static int start() {
+    glp_term_hook(swallow, nullptr);
+    return glp_term_out(GLP_OFF);
+  }
+
+ private:
+  int before_;
+};
+
 void jump(void* back) { std::longjmp(*static_cast<std::jmp_buf*>(back), 1); }
 
 /// Calls a function of GLPK, which answers some singular bases with a failed assertion and would
-/// then end the process. False if it did; the environment and all that was in it are gone then.
-/// The jump back crosses frames of C only.
+/// then end the process. False if it did; the problem must not be touched any more. The jump back
+/// crosses frames of C only.
 bool guarded(int (*call)(glp_prob*, const glp_smcp*), glp_prob* problem, const glp_smcp* options,
              int& result) {
   std::jmp_buf back;
   if (setjmp(back) != 0) {
-    glp_free_env();
+    glp_error_hook(nullptr, nullptr);
     return false;
   }
   glp_error_hook(jump, &back);
@@ -46,6 +102,11 @@ int prepare(glp_prob* problem, const glp_smcp* /*options*/) {
 }
 
 int factorize(glp_prob* problem, const glp_smcp* /*options*/) { return glp_factorize(problem); }
+
+/// A factorisation of the basis, if there is none.
+int refactorize(glp_prob* problem, const glp_smcp* /*options*/) {
+  return glp_bf_exists(problem) ? 0 : glp_factorize(problem);
+}
 
 struct Delete {
   void operator()(glp_prob* problem) const { glp_delete_prob(problem); }
@@ -80,14 +141,19 @@ int bound_type(double l, double u) {
 
 class Glpk : public LpSolver {
  public:
+  explicit Glpk(bool keep_model) : keep_model_(keep_model) {}
+
   void solve(const LinearProgram& program, LpSolution& solution) override {
-    thread_local const Environment kEnvironment;
     if (refused(program, solution)) return;
+    environment().open();
+    const Quiet quiet;
     // Scaling costs more than a small program; what fails without it is tried again with it.
     solve_by_attempts(
         program,
         [this](const LinearProgram& other, bool warm, bool careful, LpSolution& answer) {
-          return try_once(other, warm, careful, answer);
+          const bool verdict = try_once(other, warm, careful, answer);
+          if (!keep_model_ || !verdict) problem_.reset();
+          return verdict;
         },
         solution);
   }
@@ -95,8 +161,9 @@ class Glpk : public LpSolver {
  private:
   /// False if there is no verdict that the data confirm.
   bool try_once(const LinearProgram& program, bool warm, bool careful, LpSolution& solution) {
-    Problem problem = load(program);
-    const int status = run(problem, program, warm, careful, solution);
+    if (careful) problem_.reset();
+    load(program);
+    const int status = run(program, warm, careful, solution);
     if (status == GLP_OPT) {
       solution.status = Status::kOptimal;
       solution.reason = "";
@@ -104,21 +171,25 @@ class Glpk : public LpSolver {
     }
     solution.status = Status::kInfeasible;
     solution.reason = "no x satisfies the rows within its bounds";
-    return status == GLP_NOFEAS && find_farkas(*problem, program, solution);
+    return status == GLP_NOFEAS && find_farkas(program, solution);
   }
 
   /// The row of the inverse basis that belongs to the variable that cannot become feasible: GLPK's
   /// system is x_R - A x_S = 0, of which any combination of rows is a consequence.
-  bool find_farkas(glp_prob& problem, const LinearProgram& program, LpSolution& solution) {
+  bool find_farkas(const LinearProgram& program, LpSolution& solution) {
+    glp_prob* const problem = problem_.get();
     const int rows = program.rows();
-    const int k = glp_get_unbnd_ray(&problem);
-    if (k == 0 || (!glp_bf_exists(&problem) && glp_factorize(&problem) != 0)) return false;
+    const int k = glp_get_unbnd_ray(problem);
+    int failed = 0;
+    if (k == 0) return false;
+    if (!guarded(refactorize, problem, nullptr, failed)) return lose() == GLP_OPT;
+    if (failed != 0) return false;
     const int position =
-        k <= rows ? glp_get_row_bind(&problem, k) : glp_get_col_bind(&problem, k - rows);
+        k <= rows ? glp_get_row_bind(problem, k) : glp_get_col_bind(problem, k - rows);
     if (position == 0) return false;
     values_.assign(rows + 1, 0);
     values_[position] = 1;
-    glp_btran(&problem, values_.data());
+    glp_btran(problem, values_.data());
     solution.certificate = Eigen::Map<const Eigen::VectorXd>(values_.data() + 1, rows);
     drop_rounding(solution.certificate);
     if (verified(program, solution, 1e-7, scratch_)) return true;
@@ -126,22 +197,28 @@ class Glpk : public LpSolver {
     return verified(program, solution, 1e-7, scratch_);
   }
 
-  Problem load(const LinearProgram& program) {
-    glp_term_out(GLP_OFF);
-    glp_term_hook(swallow, nullptr);  // a failed assertion turns the output on again
-    Problem problem(glp_create_prob());
+  /// Writes the program into the problem that is kept, or into a new one.
+  void load(const LinearProgram& program) {
     const int rows = program.rows();
     const int cols = program.cols();
-    glp_set_obj_dir(problem.get(), GLP_MAX);
-    if (rows > 0) glp_add_rows(problem.get(), rows);
-    if (cols > 0) glp_add_cols(problem.get(), cols);
+    const bool fits = problem_ && glp_get_num_rows(problem_.get()) == rows &&
+                      glp_get_num_cols(problem_.get()) == cols;
+    if (!fits) {
+      problem_.reset();
+      blocks_before_ = blocks();
+      problem_.reset(glp_create_prob());
+      if (rows > 0) glp_add_rows(problem_.get(), rows);
+      if (cols > 0) glp_add_cols(problem_.get(), cols);
+    }
+    glp_prob* const problem = problem_.get();
+    glp_set_obj_dir(problem, GLP_MAX);
     for (int i = 0; i < rows; ++i) {
-      glp_set_row_bnds(problem.get(), i + 1, GLP_FX, program.b[i], program.b[i]);
+      glp_set_row_bnds(problem, i + 1, GLP_FX, program.b[i], program.b[i]);
     }
     for (int j = 0; j < cols; ++j) {
-      glp_set_col_bnds(problem.get(), j + 1, bound_type(program.l[j], program.u[j]), program.l[j],
+      glp_set_col_bnds(problem, j + 1, bound_type(program.l[j], program.u[j]), program.l[j],
                        program.u[j]);
-      glp_set_obj_coef(problem.get(), j + 1, program.c[j]);
+      glp_set_obj_coef(problem, j + 1, program.c[j]);
       indices_.assign(1, 0);
       values_.assign(1, 0);
       for (Eigen::SparseMatrix<double>::InnerIterator it(program.A, j); it; ++it) {
@@ -149,57 +226,73 @@ class Glpk : public LpSolver {
         indices_.push_back(static_cast<int>(it.row()) + 1);
         values_.push_back(it.value());
       }
-      glp_set_mat_col(problem.get(), j + 1, static_cast<int>(indices_.size()) - 1, indices_.data(),
+      glp_set_mat_col(problem, j + 1, static_cast<int>(indices_.size()) - 1, indices_.data(),
                       values_.data());
     }
-    return problem;
   }
 
-  /// The status, GLP_UNDEF if GLPK fell over; `problem` is empty then.
-  static int run(Problem& owner, const LinearProgram& program, bool warm, bool careful,
-                 LpSolution& solution) {
-    glp_prob& problem = *owner;
+  /// False if GLPK fell over.
+  bool start(const LinearProgram& program, bool warm, bool careful, const LpSolution& solution) {
+    glp_prob* const problem = problem_.get();
+    const int cols = program.cols();
     int failed = 0;
+    if (careful) return guarded(prepare, problem, nullptr, failed);
+    if (!warm) {
+      glp_std_basis(problem);
+      return true;
+    }
+    for (int j = 0; j < cols; ++j) glp_set_col_stat(problem, j + 1, to_glpk(solution.basis[j]));
+    for (int i = 0; i < program.rows(); ++i) {
+      glp_set_row_stat(problem, i + 1, to_glpk(solution.basis[cols + i]));
+    }
+    if (!guarded(factorize, problem, nullptr, failed)) return false;
+    if (failed != 0) glp_std_basis(problem);
+    return true;
+  }
+
+  /// The status, GLP_UNDEF if GLPK fell over; there is no problem then.
+  int run(const LinearProgram& program, bool warm, bool careful, LpSolution& solution) {
+    if (!start(program, warm, careful, solution)) return lose();
+    glp_prob* const problem = problem_.get();
     const int rows = program.rows();
     const int cols = program.cols();
-    if (careful && !guarded(prepare, &problem, nullptr, failed)) return lose(owner);
-    if (warm) {
-      for (int j = 0; j < cols; ++j) glp_set_col_stat(&problem, j + 1, to_glpk(solution.basis[j]));
-      for (int i = 0; i < rows; ++i) {
-        glp_set_row_stat(&problem, i + 1, to_glpk(solution.basis[cols + i]));
-      }
-      if (!guarded(factorize, &problem, nullptr, failed)) return lose(owner);
-      if (failed != 0) glp_std_basis(&problem);
-    }
+    const int before = glp_get_it_cnt(problem);
+    int failed = 0;
     glp_smcp options;
     glp_init_smcp(&options);
     options.msg_lev = GLP_MSG_OFF;
     options.meth = GLP_DUALP;
     options.tol_bnd = options.tol_dj = 1e-9;
     options.it_lim = 5000 + 50 * (rows + cols);
-    if (!guarded(glp_simplex, &problem, &options, failed)) return lose(owner);
-    solution.iterations += glp_get_it_cnt(&problem);
+    if (!guarded(glp_simplex, problem, &options, failed)) return lose();
+    solution.iterations += glp_get_it_cnt(problem) - before;
     solution.x.resize(cols);
     solution.lambda.resize(rows);
     solution.basis.resize(rows + cols);
     for (int j = 0; j < cols; ++j) {
-      solution.x[j] = glp_get_col_prim(&problem, j + 1);
-      solution.basis[j] = from_glpk(glp_get_col_stat(&problem, j + 1));
+      solution.x[j] = glp_get_col_prim(problem, j + 1);
+      solution.basis[j] = from_glpk(glp_get_col_stat(problem, j + 1));
     }
     for (int i = 0; i < rows; ++i) {
       // The reduced cost of the row's auxiliary variable, which is fixed at b.
-      solution.lambda[i] = glp_get_row_dual(&problem, i + 1);
-      solution.basis[cols + i] = from_glpk(glp_get_row_stat(&problem, i + 1));
+      solution.lambda[i] = glp_get_row_dual(problem, i + 1);
+      solution.basis[cols + i] = from_glpk(glp_get_row_stat(problem, i + 1));
     }
     solution.objective = program.c.dot(solution.x);
-    return failed == 0 ? glp_get_status(&problem) : GLP_UNDEF;
+    return failed == 0 ? glp_get_status(problem) : GLP_UNDEF;
   }
 
-  static int lose(Problem& owner) {
-    static_cast<void>(owner.release());  // freed with its environment
+  /// Leaves a problem in pieces to the environment.
+  int lose() {
+    static_cast<void>(problem_.release());
+    environment().clean_up(blocks_before_);
+    Quiet::start();
     return GLP_UNDEF;
   }
 
+  bool keep_model_;
+  Problem problem_;
+  int blocks_before_ = 0;  ///< of the environment, without the problem
   std::vector<int> indices_;
   std::vector<double> values_;
   LpScratch scratch_;
@@ -207,6 +300,7 @@ class Glpk : public LpSolver {
 
 }  // namespace
 
-std::unique_ptr<LpSolver> make_glpk() { return std::make_unique<Glpk>(); }
+std::unique_ptr<LpSolver> make_glpk() { return std::make_unique<Glpk>(false); }
+std::unique_ptr<LpSolver> make_glpk_keeping_its_model() { return std::make_unique<Glpk>(true); }
 
 }  // namespace maxwrench

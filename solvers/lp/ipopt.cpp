@@ -1,5 +1,3 @@
-#include "solvers/lp/ipopt.h"
-
 #include <IpIpoptApplication.hpp>
 #include <IpSolveStatistics.hpp>
 #include <IpTNLP.hpp>
@@ -7,6 +5,7 @@
 
 #include "solvers/ipopt_lock.h"
 #include "solvers/lp/elastic.h"
+#include "solvers/lp/makers.h"
 
 namespace maxwrench {
 namespace {

@@ -1,8 +1,7 @@
-#include "solvers/lp/simplex.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/lp/makers.h"
 #include "solvers/lp/simplex/engine.h"
 
 namespace maxwrench {

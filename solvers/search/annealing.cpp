@@ -1,10 +1,9 @@
-#include "solvers/search/annealing.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "lib/random.h"
-#include "solvers/search/batch.h"
+#include "lib/math/random.h"
+#include "maxwrench/batch.h"
+#include "solvers/search/makers.h"
 #include "solvers/search/refine.h"
 
 namespace maxwrench {
@@ -128,7 +127,7 @@ class Annealing final : public Search {
     parallel_for(options.threads, chains, [&](long i) {
       const long length = walking / chains + (i < walking % chains ? 1 : 0);
       Probe probe(objective, length, progress);
-      Chain(probe, box, Random(options.seed, i)).run(i == 0 ? &start : nullptr);
+      Chain(probe, box, Random(options.seed, RandomUse::kClimb, i)).run(i == 0 ? &start : nullptr);
       parts[i] = probe.found();
     });
     Part found;
@@ -139,7 +138,7 @@ class Annealing final : public Search {
     refinement.step = 0.02;
     refinement.separation = 0.02;
     refinement.budget = options.budget - walking;
-    refinement.seed = ~options.seed;  // streams apart from those of the chains
+    refinement.seed = options.seed;
     refinement.threads = options.threads;
     refine(objective, box, std::move(bests), refinement, progress, found);
     return make_result(found);

@@ -1,10 +1,11 @@
-#include "solvers/search/batch.h"
+#include "maxwrench/batch.h"
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -63,14 +64,21 @@ void parallel_for(int threads, long count, const std::function<void(long)>& body
   // Threads beyond the processors only slow down, but whoever asks for them gets them.
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
   tbb::task_arena arena(threads);
+  // What the caller wrote before is seen by every body, and what they wrote by the caller after:
+  // TBB sees to it, but a thread sanitizer does not see that, so it is said once more.
+  std::atomic<long> begun{0}, ended{0};
+  begun.store(1, std::memory_order_release);
   arena.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<long>(0, count, 1),
         [&](const tbb::blocked_range<long>& range) {
+          begun.load(std::memory_order_acquire);
           for (long i = range.begin(); i < range.end(); ++i) body(i);
+          ended.fetch_add(1, std::memory_order_release);
         },
         tbb::simple_partitioner());
   });
+  ended.load(std::memory_order_acquire);
 }
 
 std::vector<double> evaluate_all(const Objective& objective, long count,

@@ -1,5 +1,4 @@
-#include "solvers/search/cobyla.h"
-
+#include "solvers/search/makers.h"
 #include "solvers/search/nlopt_run.h"
 
 namespace maxwrench {

@@ -1,5 +1,4 @@
-#include "solvers/search/crs2.h"
-
+#include "solvers/search/makers.h"
 #include "solvers/search/nlopt_run.h"
 
 namespace maxwrench {

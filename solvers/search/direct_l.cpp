@@ -1,5 +1,4 @@
-#include "solvers/search/direct_l.h"
-
+#include "solvers/search/makers.h"
 #include "solvers/search/nlopt_run.h"
 
 namespace maxwrench {

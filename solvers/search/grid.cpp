@@ -1,9 +1,8 @@
-#include "solvers/search/grid.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "solvers/search/batch.h"
+#include "maxwrench/batch.h"
+#include "solvers/search/makers.h"
 #include "solvers/search/refine.h"
 
 namespace maxwrench {

@@ -1,10 +1,10 @@
-#include "solvers/search/multistart.h"
-
 #include <IpIpoptApplication.hpp>
 #include <IpTNLP.hpp>
 #include <algorithm>
 
+#include "solvers/caught.h"
 #include "solvers/ipopt_lock.h"
+#include "solvers/search/makers.h"
 #include "solvers/search/stages.h"
 
 namespace maxwrench {
@@ -54,7 +54,7 @@ class BoundedNlp : public Ipopt::TNLP {
   bool intermediate_callback(Ipopt::AlgorithmMode, Index, Number, Number, Number, Number, Number,
                              Number, Number, Number, Index, const Ipopt::IpoptData*,
                              Ipopt::IpoptCalculatedQuantities*) override {
-    return probe_.left() > 0;
+    return probe_.left() > 0 && !caught_.any();
   }
   void finalize_solution(Ipopt::SolverReturn, Index, const Number*, const Number*, const Number*,
                          Index, const Number*, const Number*, Number, const Ipopt::IpoptData*,
@@ -62,9 +62,16 @@ class BoundedNlp : public Ipopt::TNLP {
     // The probe has kept the best point.
   }
 
+  /// What the objective threw; Ipopt would keep it to itself.
+  void rethrow() { caught_.rethrow(); }
+
  private:
-  /// Value and gradient at x, once for each point: Ipopt asks for them one after the other.
   bool look(Index n, const Number* x) {
+    return caught_.run(false, [&] { return evaluate(n, x); });
+  }
+
+  /// Value and gradient at x, once for each point: Ipopt asks for them one after the other.
+  bool evaluate(Index n, const Number* x) {
     const Eigen::Map<const Eigen::VectorXd> point(x, n);
     if (x_.size() != n || x_ != point) {
       if (probe_.left() == 0) return false;
@@ -80,6 +87,7 @@ class BoundedNlp : public Ipopt::TNLP {
   const Eigen::VectorXd start_;
   Eigen::VectorXd x_, gradient_, slope_;
   double value_ = -kInfinity;
+  Caught caught_;
 };
 
 Ipopt::SmartPtr<Ipopt::IpoptApplication> make_application() {
@@ -97,23 +105,24 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> make_application() {
 /// Local solves by Ipopt (interior point, limited-memory quasi-Newton, exact gradient) from the
 /// best points of a sample: what fmincon with MultiStart does. One start for each 500 evaluations
 /// of the budget and at most 64, for a start costs far more time than its evaluations. They run one
-/// after the other behind one lock; threads speed up the other two stages only. Where the objective
-/// has a kink the line search gives up, and the last stage goes on from there.
+/// after the other behind one lock, by one application; threads speed up the other two stages only.
+/// Where the objective has a kink the line search gives up, and the last stage goes on from there.
 class Multistart final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {
     const auto starts = static_cast<std::size_t>(std::clamp(options.budget / 500, 1L, 64L));
-    return search_in_stages(objective, options, 1,
-                            [starts](Probe& probe, const Box& box, const Sample& sample,
-                                     long /*part*/, const Random& /*random*/) {
-                              const std::lock_guard guard(ipopt_lock());
-                              const std::size_t count = std::min(sample.starts.size(), starts);
-                              for (std::size_t i = 0; i < count && probe.left() > 0; ++i) {
-                                const Ipopt::SmartPtr<Ipopt::TNLP> nlp =
-                                    new BoundedNlp(probe, box, sample.starts[i]);
-                                make_application()->OptimizeTNLP(nlp);
-                              }
-                            });
+    const auto climb = [starts](Probe& probe, const Box& box, const Sample& sample, long /*part*/,
+                                const Random& /*random*/) {
+      const std::lock_guard guard(ipopt_lock());
+      const auto application = make_application();
+      const std::size_t count = std::min(sample.starts.size(), starts);
+      for (std::size_t i = 0; i < count && probe.left() > 0; ++i) {
+        const Ipopt::SmartPtr<BoundedNlp> nlp = new BoundedNlp(probe, box, sample.starts[i]);
+        application->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(nlp)));
+        nlp->rethrow();
+      }
+    };
+    return search_in_stages(objective, options, 1, climb);
   }
 };
 

@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include "solvers/caught.h"
+
 namespace maxwrench {
 namespace {
 
@@ -13,12 +15,14 @@ struct Session {
   double scale;
   nlopt_opt opt;
   Eigen::VectorXd gradient;
+  Caught caught;
 };
 
-double objective(unsigned n, const double* x, double* slope, void* data) {
-  Session& s = *static_cast<Session*>(data);
+/// phi(f) at x.
+double look(Session& s, unsigned n, const double* x, double* slope) {
   double value = -kInfinity;
-  if (s.probe.left() == 0) {
+  // Some methods take seconds to spend a large budget in vain.
+  if (s.probe.left() == 0 || s.probe.ended()) {
     nlopt_force_stop(s.opt);
   } else {
     const Eigen::Map<const Eigen::VectorXd> point(x, n);
@@ -35,13 +39,22 @@ double objective(unsigned n, const double* x, double* slope, void* data) {
   return value / reach;
 }
 
+double objective(unsigned n, const double* x, double* slope, void* data) {
+  Session& s = *static_cast<Session*>(data);
+  const double value = s.caught.run(-1.0, [&] { return look(s, n, x, slope); });
+  if (s.caught.any()) {
+    if (slope) std::fill(slope, slope + n, 0.0);
+    nlopt_force_stop(s.opt);
+  }
+  return value;
+}
+
 Owned make(nlopt_algorithm algorithm, const NloptOptions& options, unsigned n) {
   Owned opt(nlopt_create(algorithm, n), nlopt_destroy);
   nlopt_set_lower_bounds1(opt.get(), 0);
   nlopt_set_upper_bounds1(opt.get(), 1);
   nlopt_set_xtol_abs1(opt.get(), options.x_tolerance);
   if (options.initial_step > 0) nlopt_set_initial_step1(opt.get(), options.initial_step);
-  if (options.population > 0) nlopt_set_population(opt.get(), options.population);
   return opt;
 }
 
@@ -51,7 +64,7 @@ void run_nlopt(const NloptOptions& options, Probe& probe, const Box& box, const 
                Eigen::VectorXd x, Random& random) {
   const auto n = static_cast<unsigned>(box.free());
   const Owned opt = make(options.algorithm, options, n);
-  Session session{probe, box, sample.scale, opt.get(), {}};
+  Session session{probe, box, sample.scale, opt.get(), {}, {}};
   nlopt_set_max_objective(opt.get(), objective, &session);
   nlopt_set_maxeval(opt.get(), static_cast<int>(probe.left()));
   if (options.local != NLOPT_NUM_ALGORITHMS) {
@@ -61,11 +74,12 @@ void run_nlopt(const NloptOptions& options, Probe& probe, const Box& box, const 
   nlopt_srand(static_cast<unsigned long>(random.next()));
   double value = 0;
   nlopt_optimize(opt.get(), x.data(), &value);  // however it ends, the probe has kept the best
+  session.caught.rethrow();
 }
 
 Climb nlopt_restarts(const NloptOptions& options, long parts) {
   return [=](Probe& probe, const Box& box, const Sample& sample, long part, Random random) {
-    for (auto next = static_cast<std::size_t>(part); probe.left() > 0;
+    for (auto next = static_cast<std::size_t>(part); probe.left() > 0 && !probe.ended();
          next += static_cast<std::size_t>(parts)) {
       Eigen::VectorXd x(box.free());
       for (double& x_j : x) x_j = random.uniform();

@@ -10,7 +10,6 @@ struct NloptOptions {
   nlopt_algorithm algorithm = NLOPT_LN_COBYLA;
   /// The local optimiser of a method that has one.
   nlopt_algorithm local = NLOPT_NUM_ALGORITHMS;
-  int population = 0;       ///< 0: NLopt's own choice
   double initial_step = 0;  ///< share of the bounds; 0: NLopt's own choice
   double x_tolerance = 0;   ///< share of the bounds; 0: runs until the budget is used
 };

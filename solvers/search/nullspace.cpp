@@ -1,11 +1,10 @@
-#include "solvers/search/nullspace.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "lib/random.h"
-#include "solvers/integrator/cvode.h"
+#include "lib/math/random.h"
+#include "solvers/integrator/makers.h"
+#include "solvers/search/makers.h"
 #include "solvers/search/probe.h"
 
 namespace maxwrench {
@@ -31,7 +30,7 @@ class Flow final : public Ode {
     // A trial step may leave the bounds by a little, the flow does not.
     const Eigen::VectorXd theta_r = y.cwiseMax(lower_).cwiseMin(upper_);
     if (probe_.evaluate(theta_r, &gradient_) == -kInfinity) return false;
-    probe_.metric(theta_r, M_);
+    probe_.metric(M_);
     return velocity(y_dot);
   }
 
@@ -110,7 +109,7 @@ class Nullspace final : public Search {
     Probe probe(objective, options.budget, progress);
     Eigen::VectorXd start = box.start(options.start);
     if (options.seed != 1) {
-      Random random(options.seed);
+      Random random(options.seed, RandomUse::kSample, 0);
       do {
         for (int i = 0; i < start.size(); ++i)
           start[i] = random.uniform(objective.lower()[i], objective.upper()[i]);
@@ -145,7 +144,7 @@ class Nullspace final : public Search {
       speed = flow.choose();
       const double gain = probe.found().best.value - before;
       const bool still = trajectory.root < 0 && gain <= kStill * std::abs(before);
-      if (status != Status::kOptimal || still) return;
+      if (status != Status::kReached || still) return;
       length *= 2;
     }
   }

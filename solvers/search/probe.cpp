@@ -14,11 +14,17 @@ constexpr long kReportEvery = 256;
 Probe::Probe(const Objective& objective, long budget, EvaluationCounter& progress, const Box* box)
     : box_(box), objective_(objective.clone()), budget_(budget), progress_(progress) {}
 
-Probe::~Probe() { report(); }
+Probe::~Probe() {
+  try {
+    report();
+  } catch (...) {  // no exception leaves a destructor: the evaluations are counted, not shown
+  }
+}
 
 double Probe::evaluate(const Eigen::VectorXd& theta_r, Eigen::VectorXd* gradient) {
   assert(left() > 0);
   const double value = evaluate_one(*objective_, theta_r, gradient);
+  last_ = theta_r;
   found_.trace.add(value);
   if (value > found_.best.value) found_.best = {theta_r, value};
   if (box_ != nullptr && value > -kInfinity) {
@@ -45,8 +51,9 @@ std::uint64_t Probe::cell(const Eigen::VectorXd& theta_r) const {
 
 void Probe::report() {
   const long evaluations = found_.trace.evaluations();
-  if (evaluations > reported_) progress_.add(evaluations - reported_);
+  const long news = evaluations - reported_;
   reported_ = evaluations;
+  if (news > 0) progress_.add(news);
 }
 
 void join(const std::vector<Part>& parts, Part& found) {
@@ -62,8 +69,7 @@ SearchResult make_result(const Part& found) {
   SearchResult result;
   result.evaluations = found.trace.evaluations();
   if (found.best.value == -kInfinity) return result;
-  result.status = Status::kOptimal;
-  result.reason = "";
+  result.conclude(Status::kBestFound);
   result.theta_r = found.best.theta_r;
   result.value = found.best.value;
   result.history = found.trace.improvements();

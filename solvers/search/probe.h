@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "solvers/search/batch.h"
+#include "maxwrench/batch.h"
 #include "solvers/search/trace.h"
 
 namespace maxwrench {
@@ -31,13 +31,15 @@ class Probe {
   /// Evaluations that are left.
   long left() const { return budget_ - found_.trace.evaluations(); }
 
+  /// Whether the rest of the evaluations is worth nothing.
+  bool ended() const { return objective_->ended(); }
+
   /// The value at theta_r, -infinity where there is none; costs one evaluation, with a gradient
   /// too. There must be one left.
   double evaluate(const Eigen::VectorXd& theta_r, Eigen::VectorXd* gradient = nullptr);
 
-  void metric(const Eigen::VectorXd& theta_r, Eigen::MatrixXd& M) {
-    objective_->metric(theta_r, M);
-  }
+  /// The metric at the point of the last evaluation, which costs nothing.
+  void metric(Eigen::MatrixXd& M) { objective_->metric(last_, M); }
   const Part& found() const { return found_; }
   /// The best points of the cells.
   std::vector<Candidate> peaks() const;
@@ -53,6 +55,7 @@ class Probe {
   EvaluationCounter& progress_;
   long reported_ = 0;
   Part found_;
+  Eigen::VectorXd last_;
 };
 
 /// Of parts that ran side by side: the best point (the first of equals) and the common trace,

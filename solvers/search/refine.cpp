@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "lib/decompositions.h"
-#include "lib/random.h"
+#include "lib/math/decompositions.h"
+#include "lib/math/random.h"
 
 namespace maxwrench {
 namespace {
@@ -185,7 +185,7 @@ void refine(const Objective& objective, const Box& box, std::vector<Candidate> c
   const auto ascend = [&](const Candidate& start, long budget, std::uint64_t stream) {
     Probe probe(objective, budget, progress);
     Part part;
-    part.best = Ascent(probe, box, start, Random(options.seed, stream))
+    part.best = Ascent(probe, box, start, Random(options.seed, RandomUse::kRefine, stream))
                     .run(options.step, options.tolerance);
     part.trace = probe.found().trace;
     return part;

@@ -24,7 +24,7 @@ std::vector<Candidate> sample(const Objective& objective, const Box& box,
   const long count = box.free() == 0 ? 1 : std::max(1L, options.budget / 10);
   const Eigen::VectorXd start = box.start(options.start);
   const auto point = [&](long i) {
-    return i == 0 ? start : box.theta_r(uniform(box, Random(options.seed, i)));
+    return i == 0 ? start : box.theta_r(uniform(box, Random(options.seed, RandomUse::kSample, i)));
   };
   const std::vector<double> values =
       evaluate_all(objective, count, point, options.threads, progress);
@@ -62,7 +62,7 @@ SearchResult search_in_stages(Objective& objective, const SearchOptions& options
   std::vector<std::vector<Candidate>> peaks(count);
   parallel_for(options.threads, count, [&](long i) {
     Probe probe(objective, climbing / count + (i < climbing % count ? 1 : 0), progress, &box);
-    climb(probe, box, sample, i, Random(~options.seed, i));
+    climb(probe, box, sample, i, Random(options.seed, RandomUse::kClimb, i));
     climbs[i] = probe.found();
     peaks[i] = probe.peaks();
   });
@@ -75,7 +75,7 @@ SearchResult search_in_stages(Objective& objective, const SearchOptions& options
   refinement.separation = kSeparation;
   refinement.ascents = 24;
   refinement.budget = options.budget - found.trace.evaluations();
-  refinement.seed = ~options.seed + 1;  // streams apart from those of the climbs
+  refinement.seed = options.seed;
   refinement.threads = options.threads;
   refine(objective, box, std::move(candidates), refinement, progress, found);
   return make_result(found);

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "lib/random.h"
+#include "lib/math/random.h"
 #include "solvers/search/probe.h"
 
 namespace maxwrench {

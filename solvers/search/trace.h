@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "lib/search.h"
+#include "maxwrench/search.h"
 
 namespace maxwrench {
 

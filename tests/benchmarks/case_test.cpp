@@ -4,34 +4,53 @@
 
 #include <stdexcept>
 
-#include "problems/loader.h"
-#include "solvers/strategies.h"
+#include "maxwrench/load.h"
+#include "maxwrench/strategies.h"
 
 namespace maxwrench {
 namespace {
 
 TEST(Case, DefaultsToTheFirstSolverThatServes) {
-  EXPECT_EQ(complete({"p", "linf_polytope", Wrench::kPure}).lp, "facets");
-  EXPECT_NE(complete({"p", "linf_polytope", Wrench::kAny}).lp, "facets");
-  EXPECT_EQ(complete({"p", "ellipsoid", Wrench::kAny}).lp, kNoSolver);
+  Problem problem = load_problem("planar/force");
+  const auto lp = [&](const char* measure, Wrench wrench) {
+    return resolve(problem, {problem.name, measure, wrench}).choice.lp;
+  };
+  EXPECT_EQ(lp("linf_polytope", Wrench::kPure), "facets");
+  EXPECT_EQ(lp("linf_polytope", Wrench::kAny), "box");
+  EXPECT_EQ(lp("ellipsoid", Wrench::kAny), kNoSolver);
+  problem.robot.actuation.has_facets = false;
+  EXPECT_EQ(lp("linf_polytope", Wrench::kPure), "box");
 }
 
 TEST(Case, RefusesChoicesWithoutMeaning) {
-  EXPECT_THROW(complete({"p", "linf_polytope", Wrench::kAny, "facets"}), std::invalid_argument);
-  EXPECT_THROW(complete({"p", "ellipsoid", Wrench::kPure, "simplex"}), std::invalid_argument);
-  EXPECT_THROW(complete({"p", "linf_polytope", Wrench::kPure, kNoSolver}), std::invalid_argument);
-  EXPECT_THROW(complete({"p", "manipulability", Wrench::kAny}), std::invalid_argument);
-  EXPECT_THROW(complete({"p", "volume", Wrench::kPure}), std::invalid_argument);
-  EXPECT_THROW(complete({"p", "ellipsoid", Wrench::kPure, "", "magic"}), std::invalid_argument);
-  EXPECT_THROW(complete({"p", "ellipsoid", Wrench::kPure, "", "grid", 1, 0}),
-               std::invalid_argument);
+  Problem problem = load_problem("planar/force");
+  const auto refused = [&](const Case& c) {
+    EXPECT_THROW(resolve(problem, c), std::invalid_argument) << c.measure << " " << c.lp;
+  };
+  refused({"p", "linf_polytope", Wrench::kAny, "facets"});
+  refused({"p", "ellipsoid", Wrench::kPure, "simplex"});
+  refused({"p", "linf_polytope", Wrench::kPure, kNoSolver});
+  refused({"p", "manipulability", Wrench::kAny});
+  refused({"p", "volume", Wrench::kPure});
+  refused({"p", "ellipsoid", Wrench::kPure, "", "magic"});
+  refused({"p", "ellipsoid", Wrench::kPure, "", "grid", 1, 0});
   EXPECT_THROW(parse_wrench("both"), std::invalid_argument);
+  // An explicit choice is never replaced.
+  problem.robot.actuation.has_facets = false;
+  refused({"p", "linf_polytope", Wrench::kPure, "facets"});
+}
+
+TEST(Case, KeepsNoProblemThatGoesAway) {
+  static_assert(
+      !std::is_invocable_v<decltype([](auto&& p) -> decltype(resolve(std::forward<decltype(p)>(p),
+                                                                     Case{})) {}),
+                           Problem>);
 }
 
 TEST(Case, ClosedFormsRefuseLimitedContacts) {
   Problem problem = load_problem("planar/two_arms");
   const auto made = [&](const char* measure) {
-    measure_maker(problem, complete({problem.name, measure}, problem.contact_columns()))();
+    resolve(problem, {problem.name, measure}).make_measure();
   };
   EXPECT_NO_THROW(made("ellipsoid"));
   problem.contact->w_max[0] = 5;
@@ -42,15 +61,16 @@ TEST(Case, ClosedFormsRefuseLimitedContacts) {
 }
 
 TEST(Case, ProductHoldsEachMeaningfulCombinationOnce) {
-  const std::vector<Case> cases = product("p", 3, 100);
+  const Problem problem = load_problem("planar/force");
+  const std::vector<Case> cases = product(problem, 3, 100);
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    EXPECT_NO_THROW(complete(cases[i]));
+    EXPECT_EQ(resolve(problem, cases[i]).choice.lp, cases[i].lp);
     for (std::size_t j = 0; j < i; ++j) EXPECT_NE(case_values(cases[i]), case_values(cases[j]));
   }
 }
 
 TEST(Case, ProductCrossesEverySearchAndEverySolverWithoutCrossingBoth) {
-  const std::vector<Case> cases = product("p", 1, 100);
+  const std::vector<Case> cases = product(load_problem("planar/force"), 1, 100);
   for (const SearchEntry& search : searches())
     EXPECT_FALSE(select(cases, {{"search", search.name}, {"lp", "facets"}}).empty());
   for (const WrenchSolverEntry& solver : wrench_solvers())
@@ -59,7 +79,7 @@ TEST(Case, ProductCrossesEverySearchAndEverySolverWithoutCrossingBoth) {
 }
 
 TEST(Case, SelectKeepsWhatMatches) {
-  const std::vector<Case> cases = product("p", 1, 100);
+  const std::vector<Case> cases = product(load_problem("planar/force"), 1, 100);
   for (const Case& c : select(cases, {{"measure", "ellipsoid"}, {"wrench", "any"}})) {
     EXPECT_EQ(c.measure, "ellipsoid");
     EXPECT_EQ(c.wrench, Wrench::kAny);

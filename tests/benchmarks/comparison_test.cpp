@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "problems/loader.h"
+#include "maxwrench/load.h"
 
 namespace maxwrench {
 namespace {
@@ -34,8 +34,8 @@ TEST(Comparison, ClockSeesWhatTheHistorySees) {
   const Problem problem = load_problem("planar/force");
   for (const char* search : {"grid", "annealing", "cobyla", "nullspace"}) {
     SCOPED_TRACE(search);
-    Case c = complete({problem.name, "linf_polytope", Wrench::kPure, "", search, 1, 500});
-    const Attempt run = attempt(problem, c);
+    const Case c{problem.name, "linf_polytope", Wrench::kPure, "", search, 1, 500};
+    const Attempt run = attempt(problem, resolve(problem, c));
     ASSERT_FALSE(run.improved_to.empty());
     EXPECT_EQ(run.improved_to.back(), run.value);
     EXPECT_EQ(run.history.back().value, run.value);

@@ -2,9 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "problems/loader.h"
-#include "solvers/strategies.h"
-#include "tests/support.h"
+#include "maxwrench/load.h"
+#include "maxwrench/posture.h"
+#include "maxwrench/strategies.h"
+#include "tests/support/support.h"
 
 namespace maxwrench {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 TEST(Forms, HaveTheSameOptimumAndVerdict) {
   for (const char* name : {"planar/force", "uvms/valve"}) {
     const Problem problem = load_problem(name);
-    PostureModel model(problem, false);
+    PostureEvaluator model(problem, false);
     for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
       WrenchProgram program = make_wrench_program(problem, wrench);
       Random random(1);

@@ -3,19 +3,73 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numbers>
+#include <tuple>
 
-#include "problems/loader.h"
-#include "solvers/strategies.h"
-#include "tests/support.h"
+#include "maxwrench/load.h"
+#include "maxwrench/strategies.h"
+#include "tests/reference_models/static_task.h"
+#include "tests/support/support.h"
 
 namespace maxwrench {
 namespace {
 
-/// The converged optima of the planar problem [N]; the paper prints 1.91, 3.47 and 3.88.
+/// The joints' limit [rad].
+constexpr double kReach = std::numbers::pi / 3;
+
+using Value = std::function<double(const Eigen::Vector2d&)>;
+
+/// The best point of a grid of `points` each way around `middle`, `width` to each side.
+std::vector<std::pair<double, Eigen::Vector2d>> grid(const Value& value,
+                                                     const Eigen::Vector2d& middle, double width,
+                                                     int points) {
+  std::vector<std::pair<double, Eigen::Vector2d>> found;
+  for (int i = 0; i < points; ++i) {
+    for (int k = 0; k < points; ++k) {
+      const Eigen::Vector2d step =
+          Eigen::Vector2d(i, k) * 2 / (points - 1) - Eigen::Vector2d::Ones();
+      const Eigen::Vector2d at = (middle + width * step).cwiseMax(-kReach).cwiseMin(kReach);
+      found.emplace_back(value(at), at);
+    }
+  }
+  std::sort(found.begin(), found.end(),
+            [](const auto& a, const auto& b) { return a.first > b.first; });
+  return found;
+}
+
+/// The optimum of the planar problem [N] in a model of its own: a grid over the joints' limits, and
+/// finer and finer ones around its best points.
 double planar_optimum(const Case& c) {
-  if (c.measure == "ellipsoid") return 1.9075;
-  return c.wrench == Wrench::kPure ? 3.4775 : 3.8806;
+  const reference::Lagrange robot(MAXWRENCH_SOURCE_DIR "/problems/planar/vehicle.toml");
+  Eigen::Isometry3d tool = Eigen::Isometry3d::Identity();
+  tool.rotate(Eigen::AngleAxisd(10 * std::numbers::pi / 180, Eigen::Vector3d::UnitZ()));
+  Eigen::MatrixXd in_plane(6, 3);
+  in_plane << Vector6d::Unit(0), Vector6d::Unit(1), Vector6d::Unit(5);
+  const reference::StaticTask task{
+      robot, "tool", tool, Vector6d::Unit(0),
+      c.wrench == Wrench::kPure ? Eigen::MatrixXd(Vector6d::Unit(0)) : in_plane};
+  const Value value = [&](const Eigen::Vector2d& q) {
+    return (c.measure == "ellipsoid" ? task.ellipsoid(q) : task.polytope(q)).value_or(-kInfinity);
+  };
+  const auto coarse = grid(value, {0, 0}, kReach, 41);
+  double best = -kInfinity;
+  for (std::size_t start = 0; start < 5; ++start) {
+    auto [beta, q] = coarse[start];
+    for (double width = kReach / 20; width > 1e-5; width /= 3) {
+      std::tie(beta, q) = grid(value, q, width, 7).front();
+    }
+    best = std::max(best, beta);
+  }
+  return best;
+}
+
+/// As the paper prints it [N].
+double printed_optimum(const Case& c) {
+  if (c.measure == "ellipsoid") return 1.91;
+  return c.wrench == Wrench::kPure ? 3.47 : 3.88;
 }
 
 /// Whether the lower level is somebody else's: slower, and none of ours to sanitize.
@@ -24,7 +78,7 @@ bool is_peer(const Case& c) { return c.lp == "clp" || c.lp == "glpk" || c.lp == 
 /// The rows that the paper has a number for.
 std::vector<Case> planar_cases() {
   std::vector<Case> cases;
-  for (Case c : product("planar/force", 1, 40000)) {
+  for (Case c : product(load_problem("planar/force"), 1, 40000)) {
     const bool beta_1 = c.measure == "ellipsoid" && c.wrench == Wrench::kPure;
     if (!beta_1 && c.measure != "linf_polytope") continue;
     c.budget = c.lp == "ipopt" ? 2000 : is_peer(c) ? 20000 : c.search == "grid" ? 400000 : 40000;
@@ -48,23 +102,37 @@ TEST_P(PlanarOptimum, IsFoundByEverySolverAndSearch) {
     GTEST_SKIP() << "thousands of solves by a library take too long under sanitizers";
   }
   const Problem problem = load_problem("planar/force");
-  const Row row = solve(problem, GetParam(), 2);
-  ASSERT_EQ(row.status, Status::kOptimal) << row.reason;
+  const Row row = solve(problem, resolve(problem, GetParam()), 2);
+  ASSERT_EQ(row.status, Status::kOptimal) << row.reason.c_str();
+  // The model of its own is slow under sanitizers: there the numbers that the paper prints will do.
+  const bool slow = kSampleDivisor > 1;
+  const double optimum = slow ? printed_optimum(GetParam()) : planar_optimum(GetParam());
+  const double tolerance = slow ? 0.01 : 1e-3;
   if (find_search(GetParam().search).local) {
-    EXPECT_LT(row.capability.beta, planar_optimum(GetParam()) + 1e-3);
+    EXPECT_LT(row.capability.beta, optimum + tolerance);
   } else {
-    EXPECT_NEAR(row.capability.beta, planar_optimum(GetParam()), 1e-3);
+    EXPECT_NEAR(row.capability.beta, optimum, tolerance);
   }
   EXPECT_LE(row.evaluations, GetParam().budget);
-  EXPECT_TRUE(row.capability.residual.within(kRowTolerance, row.capability.beta));
+  EXPECT_TRUE(row.capability.residual.within(kRowTolerance * (1 + std::abs(row.capability.beta))));
+}
+
+/// The geometry was identified by the numbers that the paper prints [N].
+TEST(Row, PlanarOptimaAreThePapers) {
+  const auto optimum = [](const char* measure, Wrench wrench) {
+    return planar_optimum({"planar/force", measure, wrench});
+  };
+  EXPECT_NEAR(optimum("ellipsoid", Wrench::kPure), 1.91, 0.01);
+  EXPECT_NEAR(optimum("linf_polytope", Wrench::kPure), 3.47, 0.01);
+  EXPECT_NEAR(optimum("linf_polytope", Wrench::kAny), 3.88, 0.01);
 }
 
 TEST(Row, SearchByIpoptMayEvaluateByIpopt) {
   if (kSampleDivisor > 1) GTEST_SKIP() << "interior point solves take too long under sanitizers";
   const Problem problem = load_problem("planar/force");
-  const Row row = solve(
-      problem, {problem.name, "linf_polytope", Wrench::kPure, "ipopt", "multistart", 1, 200}, 2);
-  EXPECT_EQ(row.status, Status::kOptimal) << row.reason;
+  const Case c{problem.name, "linf_polytope", Wrench::kPure, "ipopt", "multistart", 1, 200};
+  const Row row = solve(problem, resolve(problem, c), 2);
+  EXPECT_EQ(row.status, Status::kOptimal) << row.reason.c_str();
   EXPECT_LE(row.evaluations, 200);
 }
 
@@ -74,26 +142,28 @@ TEST(Row, SelfCollisionDoesNotChangeThePlanarOptima) {
   unchecked.robot.collision = nullptr;
   ASSERT_TRUE(checked.robot.collision != nullptr);
   for (const char* measure : {"ellipsoid", "linf_polytope"}) {
-    const Case c = complete({checked.name, measure, Wrench::kPure});
-    EXPECT_NEAR(solve(checked, c, 1).capability.beta, solve(unchecked, c, 1).capability.beta, 1e-9);
+    const Case c{checked.name, measure, Wrench::kPure};
+    const Row with = solve(checked, resolve(checked, c), 1);
+    const Row without = solve(unchecked, resolve(unchecked, c), 1);
+    EXPECT_NEAR(with.capability.beta, without.capability.beta, 1e-9);
   }
 }
 
 TEST(Row, EveryMeasureIsReadBesideTheSameYardstick) {
   const Problem problem = load_problem("uvms/valve");
   const Eigen::Vector4d theta_r(3, 1.2, 1.1, 0.4);
-  for (Case c : product(problem.name, 1, 1)) {
+  for (Case c : product(problem, 1, 1)) {
     c.search.clear();
     const Case common{problem.name, "linf_polytope", c.wrench, "simplex"};
-    const Row row = evaluate(problem, c, theta_r);
-    ASSERT_TRUE(row.has_value()) << c.measure << ": " << row.reason;
-    EXPECT_EQ(row.yardstick, evaluate(problem, common, theta_r).capability.beta);
+    const Row row = evaluate(problem, resolve(problem, c), theta_r);
+    ASSERT_TRUE(row.has_value()) << c.measure << ": " << row.reason.c_str();
+    EXPECT_EQ(row.yardstick, evaluate(problem, resolve(problem, common), theta_r).capability.beta);
     EXPECT_EQ(values(problem, row).size(), value_columns().size());
     const bool wrench = find_measure(c.measure).unit == nullptr;
-    EXPECT_STREQ(unit(problem, c), wrench ? "N m" : find_measure(c.measure).unit);
+    EXPECT_STREQ(row.unit, wrench ? "N m" : find_measure(c.measure).unit);
   }
   // A posture that does not exist has none.
-  const Row none = evaluate(problem, complete({problem.name}), Eigen::Vector4d(9, 9, 9, 9));
+  const Row none = evaluate(problem, resolve(problem, {problem.name}), Eigen::Vector4d(9, 9, 9, 9));
   EXPECT_TRUE(std::isnan(none.yardstick));
 }
 
@@ -101,8 +171,8 @@ TEST(Row, KeepsStatusAndReasonOfWhatHasNoValue) {
   Random random(1);
   Problem problem = random_problem(random, 2);
   problem.robot.gravity = 1000;  // nothing can hold this
-  const Case c = complete({problem.name, "linf_polytope", Wrench::kPure, "simplex", "grid", 1, 50});
-  const Row row = solve(problem, c, 1);
+  const Case c{problem.name, "linf_polytope", Wrench::kPure, "simplex", "grid", 1, 50};
+  const Row row = solve(problem, resolve(problem, c), 1);
   EXPECT_EQ(row.status, Status::kInfeasible);
   EXPECT_FALSE(row.reason.empty());
   EXPECT_FALSE(row.has_posture());

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "tests/support.h"
+#include "tests/support/support.h"
 
 namespace maxwrench {
 namespace {
@@ -24,8 +24,29 @@ TEST(Table, ReplacesRowsByKeyAndKeepsTheRest) {
   EXPECT_EQ(read_text(file), "a,value\n9,new\n");
 }
 
-TEST(Table, UnwritablePlaceIsNamed) {
-  EXPECT_THROW(write_file("/proc/nowhere/t.csv", ""), std::invalid_argument);
+TEST(Table, NewColumnsAreEmptyInOldRows) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "t.csv";
+  Table(file, {"a", "b", "seconds"}, 2).put({"1", "x", "0.5"});
+  Table(file, {"a", "b", "threads", "seconds"}, 2).put({"2", "x", "8", "0.1"});
+  EXPECT_EQ(read_text(file), "a,b,threads,seconds\n1,x,,0.5\n2,x,8,0.1\n");
+}
+
+TEST(Table, LineBreaksBecomeBlanks) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "t.csv";
+  Table(file, {"a", "value"}, 1).put({"two\nlines", "1"});
+  Table(file, {"a", "value"}, 1).put({"other", "2"});
+  EXPECT_EQ(read_text(file), "a,value\ntwo lines,1\nother,2\n");
+}
+
+/// Taken for an empty table, it would be lost with the next row.
+TEST(Table, WhatIsNoTableIsRefused) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "t.csv");
+  EXPECT_THROW(Table(folder.path() / "t.csv", {"a"}, 1), std::invalid_argument);
+  std::filesystem::create_symlink("circle", folder.path() / "circle");
+  EXPECT_THROW(Table(folder.path() / "circle", {"a"}, 1), std::invalid_argument);
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "tests/cli/edited_copy.h"
-#include "tests/support.h"
+#include "tests/support/edited_copy.h"
+#include "tests/support/support.h"
 
 namespace maxwrench {
 namespace {
@@ -137,6 +137,32 @@ TEST_P(BadFile, ExitsWithTwoAndOneLine) {
         run_maxwrench(command + ("'" + (copy.path() / "force.toml").string() + "'"));
     for (const char* mention : GetParam().mentions) expect_one_line_of_complaint(result, mention);
   }
+}
+
+/// A broken file among the shipped ones hides none of the others.
+TEST(BadShippedFile, IsNamedBesideTheHealthyOnes) {
+  const TemporaryFolder folder;
+  const auto list = [&](const std::string& problems) {
+    return run_maxwrench(
+        "--version > /dev/null; MAXWRENCH_PROBLEMS='" + problems + "' '" MAXWRENCH_COMMAND "' list",
+        folder.path());
+  };
+  const std::filesystem::path copy = folder.path() / "problems";
+  std::filesystem::copy(std::filesystem::path(MAXWRENCH_SOURCE_DIR) / "problems", copy,
+                        std::filesystem::copy_options::recursive);
+  const CommandResult healthy = list(copy.string());
+  EXPECT_EQ(healthy.exit_status, 0) << healthy.err;
+  std::ofstream(copy / "fixed/push.toml", std::ios::app) << "[wrench\n";
+  const CommandResult broken = list(copy.string());
+  EXPECT_EQ(broken.exit_status, 2);
+  EXPECT_EQ(std::count(broken.err.begin(), broken.err.end(), '\n'), 1) << broken.err;
+  EXPECT_NE(broken.err.find("fixed/push.toml"), std::string::npos) << broken.err;
+  // All lines but one are as they were.
+  const std::size_t begin = healthy.out.find("  fixed/push ");
+  ASSERT_NE(begin, std::string::npos);
+  std::string others = healthy.out;
+  others.erase(begin, others.find('\n', begin) + 1 - begin);
+  EXPECT_EQ(broken.out, others);
 }
 
 TEST(BadState, MotionThatOverflowsIsRefused) {

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "tests/support.h"
+#include "tests/support/support.h"
 
 namespace maxwrench {
 namespace {

@@ -1,10 +1,12 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tests/support.h"
+#include "tests/support/support.h"
 
 namespace maxwrench {
 namespace {
@@ -21,16 +23,23 @@ json simulated(const std::string& words) {
 
 TEST(SimulateCommand, SaysWhetherThePlanIsHeld) {
   const json held = simulated(kShort);
-  EXPECT_EQ(held["status"], "optimal");
+  EXPECT_EQ(held["status"], "reached");
   EXPECT_EQ(held["planned"], 4);
   EXPECT_EQ(held["held"], true);
   EXPECT_EQ(held["end"], 1.5);
+  ASSERT_EQ(held["across"].size(), 6U);
+  EXPECT_EQ(held["across"][5], 0);  // c itself
+  for (const double value : held["across"]) EXPECT_LT(std::abs(value), 0.02 * 4);
   const json lost = simulated("simulate uvms/valve --planned 10 --ramp 2 --hold 2");
   EXPECT_EQ(lost["held"], false);
   EXPECT_EQ(lost["saturated"], 1);
+  // Of the hold, which is half a second after a ramp: the reading creeps up to the plan.
+  EXPECT_NEAR(held["mean"].get<double>(), 4, 0.02 * 4);
   const CommandResult text = run_maxwrench(kShort);
-  for (const char* words :
-       {"planned     4.00000 N m", "reading     3.98", "held, ended at 1.5 s"}) {
+  for (const std::string& words :
+       {std::string("planned     4.00000 N m"), std::string("across      "),
+        fmt::format("reading     {:.5f}, ", held["mean"].get<double>()),
+        std::string("held, ended at 1.5 s")}) {
     EXPECT_NE(text.out.find(words), std::string::npos) << text.out;
   }
   const std::string early = run_maxwrench("simulate uvms/valve --planned 34").out;
@@ -78,12 +87,16 @@ TEST(SimulateCommand, SameSeedSameRows) {
   EXPECT_EQ(rows("--seed 3"), rows(""));
 }
 
-/// 3.05 kg by the polytope (see results/uvms_static.txt).
+/// The whole kilograms that the polytope carries.
 TEST(SimulateCommand, FindsTheHeaviestLoad) {
-  EXPECT_EQ(simulated("simulate uvms/lift --heaviest --ramp 2 --hold 2")["heaviest"], 3);
-  const json load = simulated("simulate uvms/lift --load 3 --ramp 2 --hold 1");
+  const json lift = json::parse(run_maxwrench("eval uvms/lift --json").out);
+  const int most = static_cast<int>(std::floor(lift["beta"].get<double>() / 9.81));
+  EXPECT_GT(most, 0);
+  EXPECT_EQ(simulated("simulate uvms/lift --heaviest --ramp 2 --hold 2")["heaviest"], most);
+  const json load = simulated(fmt::format("simulate uvms/lift --load {} --ramp 2 --hold 1", most));
   EXPECT_EQ(load["held"], true);
-  EXPECT_NEAR(load["planned"].get<double>(), 3 * 9.81, 1e-12);
+  EXPECT_NEAR(load["mean"].get<double>(), most * 9.81, 0.02 * most * 9.81);
+  EXPECT_NEAR(load["planned"].get<double>(), most * 9.81, 1e-12);
 }
 
 }  // namespace

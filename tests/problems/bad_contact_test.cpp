@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/problems/bad_input.h"
+#include "tests/support/bad_input.h"
 
 namespace maxwrench {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/problems/bad_input.h"
+#include "tests/support/bad_input.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,8 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "problems/loader.h"
+#include "maxwrench/load.h"
+#include "tests/support/edited_copy.h"
 
 namespace maxwrench {
 namespace {
@@ -150,21 +151,6 @@ const std::vector<BadInput> kBadInputs = {
      "<robot name=\"planar_vehicle\">",
      "<model/><robot>",
      {"robot", "valid URDF"}},
-    {"two_roots",
-     "vehicle.urdf",
-     "<link name=\"link_1\">",
-     "<link name=\"buoy\"/><link name=\"link_1\">",
-     {"robot", "root", "valid URDF"}},
-    {"link_twice",
-     "vehicle.urdf",
-     "<link name=\"link_1\">",
-     "<link name=\"hull\"/><link name=\"link_1\">",
-     {"robot", "hull", "valid URDF"}},
-    {"joint_to_unknown_link",
-     "vehicle.urdf",
-     "<child link=\"link_1\"/>",
-     "<child link=\"leg\"/>",
-     {"robot", "leg", "valid URDF"}},
     {"floating_joint",
      "vehicle.urdf",
      "\"shoulder\" type=\"revolute\"",
@@ -235,11 +221,6 @@ const std::vector<BadInput> kBadInputs = {
      "izz=\"0.43333\"",
      "izz=\"5\"",
      {"link[hull].inertial.inertia", "5", "sum of the other two"}},
-    {"mesh",
-     "vehicle.urdf",
-     "<box size=\"0.6 0.4 0.2\"/>",
-     "<mesh filename=\"hull.stl\"/>",
-     {"link[hull].collision.geometry: got a mesh", "capsules"}},
     {"flat_box",
      "vehicle.urdf",
      "0.6 0.4 0.2",
@@ -318,6 +299,19 @@ std::string message_of(const std::string& problem) {
 TEST(BadProblem, UnknownNameListsTheShippedOnes) {
   EXPECT_THAT(message_of("planar/forc"), testing::StartsWith("planar/forc: problem: got"));
   EXPECT_THAT(message_of("planar/forc"), testing::HasSubstr("planar/force"));
+}
+
+TEST(BadProblem, KeyOfTooManyParts) {
+  const EditedCopy copy;
+  std::ofstream(copy.path() / "force.toml") << "type = 'static'\n"
+                                            <<
+      [] {
+        std::string key = "a";
+        for (int i = 0; i < 200000; ++i) key += ".a";
+        return key;
+      }() << " = 1\n";
+  EXPECT_THAT(message_of((copy.path() / "force.toml").string()),
+              testing::HasSubstr("force.toml: file: got a key of more than 1000 parts, expected"));
 }
 
 TEST(BadProblem, MissingRobotFile) {

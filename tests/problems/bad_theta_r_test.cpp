@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/problems/bad_input.h"
+#include "tests/support/bad_input.h"
 
 namespace maxwrench {
 namespace {
@@ -92,7 +92,7 @@ const std::vector<BadInput> kBadThetaRs = {
      "push.toml",
      "xyz = [0, 0, 0.9]",
      "xyz = [0, 0, 2.9]",
-     {"pose.xyz: got [0, 0, 2.9]", "reach from theta_r.guess", "m or rad away"}},
+     {"pose.xyz: got [0, 0, 2.9]", "reach from theta_r.guess", "1.6 m away along the world's z"}},
     {"base_on_short_position",
      "rover.toml",
      "axes = [\"x\", \"y\", \"yaw\"]",

@@ -1,5 +1,3 @@
-#include "problems/loader.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,7 +6,8 @@
 #include <fstream>
 #include <numbers>
 
-#include "lib/posture.h"
+#include "maxwrench/load.h"
+#include "maxwrench/posture.h"
 
 namespace maxwrench {
 namespace {
@@ -53,6 +52,19 @@ TEST(PlanarForce, IsShipped) {
   EXPECT_FALSE(is_task(folder / "vehicle.toml"));
   const std::string path = (folder / "force.toml").string();
   EXPECT_EQ(load_problem(path).name, path);
+}
+
+TEST_F(LoaderTest, TasksOfAFolderAreListedEvenIfTheyAreBroken) {
+  fs::create_directories(folder_ / "family");
+  write(folder_ / "family/robot.toml", "name = 'r'\nurdf = 'robot.urdf'\n");
+  write(folder_ / "family/state.toml", "[theta]\nrobot = 'a joint of this name'\n");
+  write(folder_ / "family/task.toml", "type = 'static'\n robot = 'robot.toml'\n");
+  write(folder_ / "broken.toml", "robot = 'robot.toml'\n[pose\n");
+  EXPECT_THAT(tasks_in(folder_), ElementsAre("broken", "family/task"));
+  EXPECT_THAT(tasks_in(folder_ / "none"), testing::IsEmpty());
+  EXPECT_TRUE(is_task(folder_ / "broken.toml"));
+  EXPECT_THROW(load_problem((folder_ / "broken.toml").string()), std::invalid_argument);
+  EXPECT_THROW(is_task(folder_ / "none.toml"), std::invalid_argument);
 }
 
 TEST(PlanarForce, RobotIsAsDescribed) {
@@ -300,9 +312,9 @@ TEST_F(LoaderTest, WhatFollowsIsReadFromTheTask) {
   EXPECT_THAT(problem.dependent, ElementsAre(0, 1));
   EXPECT_EQ(problem.guess_q[1], 0.1);
   EXPECT_EQ(problem.guess_base, Eigen::Vector4d::Unit(0));
-  PostureModel model(problem);
+  PostureEvaluator model(problem);
   const Posture& posture = model.evaluate(Eigen::VectorXd());
-  EXPECT_EQ(posture.status, Status::kOptimal) << posture.reason;
+  EXPECT_EQ(posture.status, Status::kValid) << posture.reason.c_str();
   EXPECT_NEAR(posture.q[0], 0.2, 1e-12);
   EXPECT_NEAR(posture.q[1], 0, 1e-12);
   EXPECT_NEAR(posture.base.p.x(), 2, 1e-12);

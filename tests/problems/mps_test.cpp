@@ -1,4 +1,4 @@
-#include "problems/mps.h"
+#include "maxwrench/mps.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "solvers/lp/simplex.h"
-#include "tests/support.h"
+#include "solvers/lp/makers.h"
+#include "tests/support/support.h"
 
 namespace maxwrench {
 namespace {

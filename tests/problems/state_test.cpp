@@ -1,13 +1,11 @@
-#include "problems/state.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <stdexcept>
 
-#include "problems/loader.h"
-#include "tests/support.h"
+#include "maxwrench/load.h"
+#include "tests/support/support.h"
 
 namespace maxwrench {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "solvers/lp/simplex.h"
+#include "solvers/lp/makers.h"
 #include "solvers/lp/simplex/factor.h"
 #include "solvers/lp/simplex/model.h"
 

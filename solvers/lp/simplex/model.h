@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "lib/linear_program.h"
+#include "maxwrench/linear_program.h"
 
 namespace maxwrench::simplex {
 

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "lib/dual.h"
-#include "problems/loader.h"
-#include "tests/support.h"
+#include "lib/math/dual.h"
+#include "maxwrench/load.h"
+#include "tests/support/support.h"
 
 namespace maxwrench {
 namespace {

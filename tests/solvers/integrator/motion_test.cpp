@@ -1,4 +1,4 @@
-#include "lib/motion.h"
+#include "lib/robot/motion.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,10 @@
 #include <array>
 #include <cmath>
 
-#include "problems/loader.h"
-#include "solvers/strategies.h"
-#include "tests/mechanics.h"
+#include "maxwrench/load.h"
+#include "maxwrench/posture.h"
+#include "maxwrench/strategies.h"
+#include "tests/support/mechanics.h"
 
 // Motions of the free underwater vehicle, alone and with its arm, by every integrator.
 
@@ -26,7 +27,7 @@ struct Swing {
 
   Swing() {
     const Problem problem = load_problem("uvms/valve");
-    PostureModel model(problem);
+    PostureEvaluator model(problem);
     const Posture& posture = model.evaluate(problem.theta_r_default);
     start = {posture.base, posture.q, VectorXd::Constant(robot.velocities(), 0.1)};
   }
@@ -57,7 +58,7 @@ struct Swing {
     const Status status = find_integrator(integrator)
                               .make()
                               ->integrate(motion, options, std::array{0.0, kSeconds}, trajectory);
-    EXPECT_EQ(status, Status::kOptimal) << integrator << ": " << trajectory.reason;
+    EXPECT_EQ(status, Status::kReached) << integrator << ": " << trajectory.reason.c_str();
     return trajectory.y.back();
   }
   VectorXd end(const char* integrator, const IntegratorOptions& options) const {

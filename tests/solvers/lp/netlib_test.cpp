@@ -1,13 +1,13 @@
-#include "tests/netlib.h"
+#include "tests/support/netlib.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <filesystem>
 
-#include "problems/mps.h"
-#include "solvers/lp/simplex.h"
-#include "tests/solvers/lp/programs.h"
+#include "maxwrench/mps.h"
+#include "solvers/lp/makers.h"
+#include "tests/support/programs.h"
 
 namespace maxwrench {
 namespace {

@@ -1,13 +1,12 @@
-#include "solvers/lp/simplex.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
-#include "tests/solvers/lp/programs.h"
-#include "tests/support.h"
+#include "solvers/lp/makers.h"
+#include "tests/support/programs.h"
+#include "tests/support/support.h"
 
 namespace maxwrench {
 namespace {
@@ -141,7 +140,7 @@ TEST(Simplex, MalformedProgramsAreAStatusNotACrash) {
               : p.A.coeffRef(1, 1)) = NAN;
     const LpSolution solution = solve_with_simplex(p);
     EXPECT_EQ(solution.status, Status::kNumericalError);
-    EXPECT_STRNE(solution.reason, "");
+    EXPECT_STRNE(solution.reason.c_str(), "");
   }
 }
 

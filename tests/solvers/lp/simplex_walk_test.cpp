@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "solvers/lp/simplex.h"
-#include "tests/solvers/lp/programs.h"
-#include "tests/support.h"
+#include "solvers/lp/makers.h"
+#include "tests/support/programs.h"
+#include "tests/support/support.h"
 
 // The simplex method on wrench programs that move along a line.
 
@@ -75,7 +75,7 @@ TEST(Simplex, WarmWalksEqualColdSolvesWithoutAllocation) {
       if (warm.status != Status::kOptimal) continue;
       ++optima;
       EXPECT_NEAR(warm.objective, cold.objective, 1e-9 * (1 + std::abs(cold.objective)));
-      EXPECT_LE(residuals(walk.program, warm).row, 1e-14);
+      EXPECT_LE(residuals(walk.program, warm).balance, 1e-14);
     }
   }
   EXPECT_GT(optima, 100);

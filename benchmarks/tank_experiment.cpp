@@ -1,0 +1,81 @@
+#include "benchmarks/tank_experiment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "benchmarks/row.h"
+#include "maxwrench/problem.h"
+#include "maxwrench/strategies.h"
+
+namespace maxwrench {
+namespace {
+
+/// Throws unless the row's wrench is one that a hanging mass asks for.
+void require_weight(const Problem& problem, const Row& row) {
+  if (!problem.c.isApprox(Vector6d::Unit(2), 1e-9)) {
+    throw std::invalid_argument(
+        "--load, --heaviest: got a task whose wrench is not the force upwards, which a "
+        "weight asks for; expected one such as uvms/lift");
+  }
+  if (row.choice.wrench != Wrench::kPure) {
+    throw std::invalid_argument("--wrench: got any, expected pure: a load has a weight alone");
+  }
+  if (!(problem.robot.gravity > 0)) {
+    throw std::invalid_argument("--load: got a robot without gravity, expected gravity > 0");
+  }
+}
+
+}  // namespace
+
+TankRun simulate_tank(const Problem& problem, const Row& row, double planned,
+                      const std::string& integrator, const TankOptions& options) {
+  const Capability& capability = row.capability;
+  // Beyond the capability only the component along c grows; below it all of them shrink, which the
+  // convex set of efforts allows.
+  const double share = std::clamp(planned / problem.c.dot(capability.h), 0.0, 1.0);
+  TankPlan plan{share * capability.h, share * capability.u, row.choice.wrench};
+  plan.h += (planned - problem.c.dot(plan.h)) * problem.c;
+  return run_tank(problem, row.posture, plan, *find_integrator(integrator).make(), options);
+}
+
+TankRun simulate_load(const Problem& problem, const Row& row, double load,
+                      const std::string& integrator, TankOptions options) {
+  require_weight(problem, row);
+  options.load = load;
+  return simulate_tank(problem, row, load * problem.robot.gravity, integrator, options);
+}
+
+int heaviest_load(const Problem& problem, const Row& row, const std::string& integrator,
+                  TankOptions options) {
+  require_weight(problem, row);
+  options.until_hold = true;
+  int held = 0;
+  int lost = std::max(1, static_cast<int>(row.yardstick / problem.robot.gravity) + 2);
+  while (lost - held > 1) {
+    const int mass = (held + lost) / 2;
+    const TankRun run = simulate_load(problem, row, mass, integrator, options);
+    (run.summary.held ? held : lost) = mass;
+  }
+  return held;
+}
+
+std::string tank_csv(const Problem& problem, const TankRun& run) {
+  std::string text = "t,planned,reading,f_x,f_y,f_z,n_x,n_y,n_z";
+  for (const Thruster& thruster : problem.robot.thrusters) text += "," + thruster.name;
+  for (const Joint& joint : problem.robot.joints) text += "," + joint.name;
+  text += ",saturated,relaxed,shortfall,drift,position_error\n";
+  for (const TankSample& sample : run.samples) {
+    text +=
+        fmt::format("{:.6g},{:.6g},{:.6g}", sample.t, sample.planned, problem.c.dot(sample.h_e));
+    for (const double value : sample.h_e) text += fmt::format(",{:.6g}", value);
+    for (const double value : sample.u) text += fmt::format(",{:.6g}", value);
+    text += fmt::format(",{},{},{:.3g},{:.3g},{:.3g}\n", int{sample.saturated}, int{sample.relaxed},
+                        sample.shortfall, sample.drift, sample.position_error);
+  }
+  return text;
+}
+
+}  // namespace maxwrench

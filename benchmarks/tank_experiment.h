@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "maxwrench/tank.h"
+
+namespace maxwrench {
+
+struct Problem;
+struct Row;
+
+/// The simulated experiment at a row's posture with the wrench and the efforts of its capability;
+/// `planned`: c'h instead of the capability's own [N, N m].
+TankRun simulate_tank(const Problem& problem, const Row& row, double planned,
+                      const std::string& integrator, const TankOptions& options);
+
+/// The same with a mass of `load` kg instead of a load cell. Throws std::invalid_argument unless c
+/// is the force upwards.
+TankRun simulate_load(const Problem& problem, const Row& row, double load,
+                      const std::string& integrator, TankOptions options);
+
+/// The heaviest whole number of kilograms that an end effector that nothing else holds carries for
+/// the whole hold at the row's posture, by bisection between nothing and one more than the
+/// capability.
+int heaviest_load(const Problem& problem, const Row& row, const std::string& integrator,
+                  TankOptions options);
+
+/// The samples as CSV: t, planned, c'h_e, the wrench, the efforts, and how well it went.
+std::string tank_csv(const Problem& problem, const TankRun& run);
+
+}  // namespace maxwrench

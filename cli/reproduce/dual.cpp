@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <string>
+
+#include "benchmarks/write_file.h"
+#include "cli/cli.h"
+#include "cli/reproduce/reproduce.h"
+#include "cli/row_writer.h"
+#include "lib/math/random.h"
+#include "maxwrench/figures.h"
+#include "maxwrench/load.h"
+#include "maxwrench/objective.h"
+
+namespace maxwrench {
+namespace {
+
+constexpr std::array<const char*, 2> kSearches = {"grid", "annealing"};
+constexpr long kDualBudget = 20000;
+constexpr int kSamples = 2000;
+
+struct Tank {
+  double one = 23, chosen = 26, best = 30;  ///< N m, measured in the paper
+};
+
+/// Of the measure beta_2: pure torque at the bar.
+Method pure(const Problem& problem, const char* search) {
+  return resolve(problem,
+                 {problem.name, "linf_polytope", Wrench::kPure, "", search, 1, kDualBudget});
+}
+
+Row at_default(RowWriter& writer, const Problem& problem) {
+  return writer.evaluate(problem, pure(problem, ""), problem.theta_r_default);
+}
+
+std::string line(const char* name, const Row& row, double one, double tank, double tank_one) {
+  if (!row.has_value()) return fmt::format("{:<16} no value: {}\n", name, row.reason.c_str());
+  const double w_2 = row.capability.h_2.head<3>().norm();
+  return fmt::format("{:<16} {:>8.3f}  {:>7.1f}  {:>+8.1f} %  {:>+6.1f} %  {:>8.2f}  [{:.4f}]\n",
+                     name, row.capability.beta, tank, 100 * (row.capability.beta / one - 1),
+                     100 * (tank / tank_one - 1), w_2, fmt::join(row.posture.theta_r, ", "));
+}
+
+/// What became of the branches at random places within the limits.
+std::string count_branches(const Problem& problem) {
+  Random random(1);
+  PostureEvaluator model(problem);
+  Tally tally;
+  int valid = 0;
+  Eigen::VectorXd theta_r = problem.theta_r_default;
+  for (int sample = 0; sample < kSamples; ++sample) {
+    for (Eigen::Index i = 0; i < theta_r.size(); ++i) {
+      theta_r[i] = random.uniform(problem.theta_r_min[i], problem.theta_r_max[i]);
+    }
+    const Posture& posture = model.evaluate(theta_r);
+    valid += posture.status == Status::kValid;
+    tally.add(posture.branches);
+  }
+  return fmt::format("  {} random contacts, {} of them valid; {}\n", kSamples, valid,
+                     describe(tally.sum()));
+}
+
+}  // namespace
+
+PaperTable reproduce_dual(const std::filesystem::path& folder, int threads) {
+  const Problem alone = load_problem("dual_arm/bar_alone");
+  const Problem wall = load_problem("dual_arm/bar_wall");
+  RowWriter writer("reproduce dual", folder, threads, 2 + static_cast<long>(kSearches.size()));
+  const Tank tank;
+  const Row one = at_default(writer, alone);
+  const Row chosen = at_default(writer, wall);
+  Row best;
+  for (const char* search : kSearches) {
+    const Row row = writer.solve(wall, pure(wall, search));
+    if (!row.has_value()) continue;
+    if (!best.has_value() || row.capability.beta > best.capability.beta) best = row;
+  }
+  const double reference = one.capability.beta;
+  std::string text = fmt::format(
+      "dual_arm/bar_wall: torque about the vertical at a rigid bar, while the arm may push on a "
+      "wall,\nN m ({}). tank: measured in the paper; push: force on the wall, "
+      "N.\n\n                     ours     tank  ours gain  tank gain  push    regrasp [m]\n",
+      wall.label);
+  text += line("one contact", one, reference, tank.one, tank.one);
+  text += line("default contact", chosen, reference, tank.chosen, tank.one);
+  text += line("best contact", best, reference, tank.best, tank.one);
+  text += count_branches(wall);
+  if (best.has_value()) {
+    write_file(folder / "dual_postures.svg",
+               posture_figure(wall, {{"default contact", wall.theta_r_default},
+                                     {"best contact", best.posture.theta_r}}));
+  }
+  const bool all_solved = writer.finish();
+  write_file(folder / "dual.txt", text);
+  return {text, all_solved};
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,40 @@
+#include "cli/reproduce/reproduce.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/cli.h"
+
+namespace maxwrench {
+namespace {
+
+struct ReproduceOptions : CommonOptions {
+  std::string out = "results";
+};
+
+int reproduce(const ReproduceOptions& options) {
+  bool all_solved = true;
+  for (const auto table : {reproduce_planar, reproduce_uvms, reproduce_dual}) {
+    const PaperTable done = table(options.out, options.thread_count());
+    fmt::print("{}\n", done.text);
+    all_solved = all_solved && done.all_solved;
+  }
+  fmt::print("values, times and figures: {}\n", options.out);
+  return all_solved ? kAnswered : kOtherStatus;
+}
+
+}  // namespace
+
+void add_reproduce(CLI::App& app, int& exit_status) {
+  auto options = std::make_shared<ReproduceOptions>();
+  CLI::App& command =
+      *app.add_subcommand("reproduce", "the paper's tables and figures beside ours");
+  command.add_option("--out", options->out, "folder of the results")
+      ->capture_default_str()
+      ->check(refuse_empty);
+  options->add_threads(command);
+  command.callback([options, &exit_status] { exit_status = reproduce(*options); });
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,282 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "benchmarks/tank_experiment.h"
+#include "benchmarks/write_file.h"
+#include "cli/reproduce/reproduce.h"
+#include "cli/row_writer.h"
+#include "drawing/bars.h"
+#include "maxwrench/figures.h"
+#include "maxwrench/load.h"
+
+namespace maxwrench {
+namespace {
+
+/// One posture of the paper's static experiments and what the tank measured there.
+struct Measured {
+  const char* symbol;
+  const char* measure;
+  Wrench wrench;
+  double tank;  ///< in the unit of the task
+};
+
+struct Task {
+  const char* problem;
+  const char* title;
+  double unit;  ///< of the table, in N or N m
+  double tank_default;
+  std::vector<Measured> optima;
+  const char* figure;  ///< file name without ending
+};
+
+constexpr double kKilogram = 9.81;  ///< N; the tank lifted weights
+
+const std::vector<Task>& tasks() {
+  static const std::vector<Task> kTasks = {
+      {"uvms/valve",
+       "torque about the vertical, N m",
+       1,
+       9,
+       {{"beta_1", "ellipsoid", Wrench::kPure, 19.5},
+        {"beta_2", "linf_polytope", Wrench::kPure, 25},
+        {"beta_3", "linf_polytope", Wrench::kAny, 76}},
+       "uvms_valve"},
+      {"uvms/lift",
+       "upward force, kg of 9.81 N",
+       kKilogram,
+       4,
+       {{"beta_1", "ellipsoid", Wrench::kPure, 7}, {"beta_2", "linf_polytope", Wrench::kPure, 10}},
+       "uvms_lift"},
+  };
+  return kTasks;
+}
+
+struct Attempt {
+  const char* search;
+  std::uint64_t seed;
+};
+constexpr Attempt kAttempts[] = {{"grid", 1}, {"annealing", 1}, {"annealing", 2}, {"annealing", 3}};
+constexpr long kStaticBudget = 200000;
+
+/// The row of the best search, and by which share the worst one stays below.
+struct Best {
+  Row row;
+  double lag = 0;
+};
+
+Best search(RowWriter& writer, const Problem& problem, const Measured& measured) {
+  Best best;
+  double worst = kInfinity;
+  for (const Attempt& attempt : kAttempts) {
+    const Case c{problem.name,   measured.measure, measured.wrench, "",
+                 attempt.search, attempt.seed,     kStaticBudget};
+    const Row row = writer.solve(problem, resolve(problem, c));
+    if (!row.has_value()) continue;
+    worst = std::min(worst, row.capability.beta);
+    const bool better =
+        !best.row.has_value() || row.capability.beta > best.row.capability.beta * (1 + 1e-9);
+    if (better) best.row = row;  // within rounding the first one stays
+  }
+  if (best.row.has_value()) best.lag = 1 - worst / best.row.capability.beta;
+  return best;
+}
+
+/// What the actuators can do at a posture: the common yardstick of all measures.
+Method yardstick(const Problem& problem, Wrench wrench) {
+  return resolve(problem, {problem.name, "linf_polytope", wrench, "", ""});
+}
+
+std::string cell(const Row& row, double unit) {
+  return row.has_value() ? fmt::format("{:>8.2f}", row.capability.beta / unit)
+                         : fmt::format("{:>8}", "none");
+}
+
+/// What the virtual tank measures: the mean torque of the hold, or the heaviest load that is held.
+struct Simulated {
+  std::string name;
+  TankRun run;
+  std::string cell;
+  std::string beyond;  ///< what one N m more than the efforts reach does
+};
+
+/// `reach`: what any efforts exert at the posture with the wrenches of `own`.
+Simulated simulated(const Problem& problem, const Task& task, const char* name, const Row& own,
+                    const Row& reach) {
+  Simulated result;
+  result.name = name;
+  if (task.unit == kKilogram) {
+    result.cell = fmt::format("{:>8}", heaviest_load(problem, reach, "cvode", {}));
+    return result;
+  }
+  result.run = simulate_tank(problem, own, own.capability.beta, "cvode", {});
+  const TankSummary& summary = result.run.summary;
+  result.cell = summary.held ? fmt::format("{:>8.2f}", summary.mean) : "    lost";
+  const TankRun beyond = simulate_tank(problem, reach, reach.capability.beta + 1, "cvode", {});
+  result.beyond = fmt::format(
+      "    {:<8} {:>5.2f}: {}, mean reading {:.2f}, drift {:.2f} rad{}\n", name,
+      beyond.summary.planned, beyond.summary.held ? "held" : "not held", beyond.summary.mean,
+      beyond.summary.drift,
+      beyond.summary.drift < kLost ? "" : fmt::format(" after {:.1f} s", beyond.samples.back().t));
+  return result;
+}
+
+std::string describe_beyond(const Task& task, const std::vector<Simulated>& experiments) {
+  if (task.unit == kKilogram) return "";
+  std::string text =
+      "  one N m more than efforts reach (pure, own of beta_3) in the virtual tank:\n";
+  for (const Simulated& experiment : experiments) text += experiment.beyond;
+  return text;
+}
+
+std::string posture(const Row& row) {
+  std::string text;
+  if (row.has_value()) {
+    for (const double angle : row.posture.theta_r) text += fmt::format(" {:>7.4f}", angle);
+  }
+  return text;
+}
+
+/// What the environment must take besides the wrench along c, and about what it took in the tank.
+constexpr double kTankForce = 80, kTankTorque = 50;
+
+Vector6d orthogonal(const Problem& problem, const Row& row) {
+  return row.capability.h - problem.c * problem.c.dot(row.capability.h);
+}
+
+std::string describe_orthogonal(const Problem& problem, const Row& row) {
+  const Vector6d h = orthogonal(problem, row);
+  return fmt::format(
+      "  orthogonal to c at the beta_3 optimum: force [{:.1f}] N (tank: around {} N), torque "
+      "[{:.1f}] N m (tank: around {} N m)\n",
+      fmt::join(h.head<3>(), ", "), kTankForce, fmt::join(h.tail<3>(), ", "), kTankTorque);
+}
+
+/// All components of the wrench at the beta_3 optimum. The paper gives no axes and no signs of the
+/// orthogonal ones.
+std::string wrench_bars(const Problem& problem, const Row& row, double tank) {
+  static constexpr const char* kNames[] = {"f_x", "f_y", "f_z", "n_x", "n_y", "n_z"};
+  std::vector<BarGroup> groups = {{"force [N]", {}}, {"torque [N m]", {}}};
+  for (int i = 0; i < 6; ++i) {
+    const bool along_c = problem.c[i] != 0;
+    const double size = i < 3 ? kTankForce : kTankTorque;
+    const std::vector<double> measured =
+        along_c ? std::vector<double>{tank} : std::vector<double>{-size, size};
+    groups[static_cast<std::size_t>(i / 3)].bars.push_back(
+        {std::string(kNames[i]) + (along_c ? " (c)" : ""), row.capability.h[i], measured});
+  }
+  return draw_bars("wrench at the optimum of \u03b2_3", groups,
+                   "tank (orthogonal to c: size only)");
+}
+
+/// One line for an optimum. For beta_3 the tank measured the torque while its sensor took any other
+/// component, so the own value is the one to compare, otherwise the pure one.
+std::string line(const Task& task, const Measured& measured, const Best& best, const Row& pure,
+                 const std::string& virtual_tank, double reference) {
+  const Row& compared = measured.wrench == Wrench::kAny ? best.row : pure;
+  const double gain = compared.capability.beta / reference;
+  const double tank_gain = measured.tank / task.tank_default;
+  return fmt::format("{:<8} {} {} {}  {:>5.1f}  {:>6.2f} {:>6.2f}  {:>6.2f}  {:>6.3f} %  {}\n",
+                     measured.symbol, cell(best.row, task.unit), cell(pure, task.unit),
+                     virtual_tank, measured.tank, gain, tank_gain, gain / tank_gain, 100 * best.lag,
+                     posture(best.row));
+}
+
+/// The paper's figures of a task: its postures, and the wrench of beta_3.
+void write_figures(const std::filesystem::path& folder, const Problem& problem, const Task& task,
+                   const std::vector<Row>& best) {
+  std::vector<Panel> panels = {{"default", problem.theta_r_default}};
+  for (std::size_t i = 0; i < best.size(); ++i) {
+    panels.push_back({task.optima[i].symbol, best[i].posture.theta_r});
+    if (task.optima[i].wrench != Wrench::kAny) continue;
+    write_file(folder / (std::string(task.figure) + "_wrench.svg"),
+               wrench_bars(problem, best[i], task.optima[i].tank));
+  }
+  write_file(folder / (std::string(task.figure) + "_postures.svg"),
+             posture_figure(problem, panels));
+}
+
+/// The paper's fig:staticTorque.
+void write_tank_figure(const std::filesystem::path& folder, const Problem& problem,
+                       const Task& task, const std::vector<Simulated>& experiments) {
+  if (task.unit == kKilogram) return;  // a load is held or not
+  std::vector<TankCurve> curves;
+  for (const Simulated& experiment : experiments) {
+    curves.push_back({experiment.name, &experiment.run});
+  }
+  write_file(folder / (std::string(task.figure) + "_tank.svg"), tank_figure(problem, curves));
+}
+
+std::string table(RowWriter& writer, const Task& task, const std::filesystem::path& folder) {
+  const Problem problem = load_problem(task.problem);
+  const auto at_default = [&](Wrench wrench) {
+    return writer.evaluate(problem, yardstick(problem, wrench), problem.theta_r_default);
+  };
+  const Row pure = at_default(Wrench::kPure), any = at_default(Wrench::kAny);
+  std::vector<Simulated> experiments = {simulated(problem, task, "default", pure, pure)};
+  std::string text = fmt::format(
+      "{}: {} ({})\n"
+      "                                      ------- gain -------\n"
+      "              own     pure  virtual   tank    ours   tank   ratio  lag        theta_r\n"
+      "{:<8} {:>8} {} {}  {:>5.1f}  {:>6.2f} {:>6.2f}  {:>6.2f}  {:>8}  {}\n",
+      problem.name, task.title, problem.label, "default", "", cell(pure, task.unit),
+      experiments.front().cell, task.tank_default, 1.0, 1.0, 1.0, "", posture(pure));
+  std::string notes = fmt::format("  default posture with any wrench:{}\n", cell(any, task.unit));
+  std::string digits = fmt::format("  in {}: default {:.3f}", problem.unit(), pure.capability.beta);
+  std::vector<Row> optima;
+  for (const Measured& measured : task.optima) {
+    const Best best = search(writer, problem, measured);
+    if (!best.row.has_value()) {
+      text += fmt::format("{:<8} no posture found\n", measured.symbol);
+      continue;
+    }
+    const Row at_best =
+        evaluate(problem, yardstick(problem, Wrench::kPure), best.row.posture.theta_r);
+    const bool any_wrench = measured.wrench == Wrench::kAny;
+    experiments.push_back(
+        simulated(problem, task, measured.symbol, best.row, any_wrench ? best.row : at_best));
+    text += line(task, measured, best, at_best, experiments.back().cell, pure.capability.beta);
+    if (any_wrench) notes += describe_orthogonal(problem, best.row);
+    digits += fmt::format(", {} {:.3f}", measured.symbol, best.row.capability.beta);
+    optima.push_back(best.row);
+  }
+  if (optima.size() == task.optima.size()) {
+    write_figures(folder, problem, task, optima);
+    write_tank_figure(folder, problem, task, experiments);
+  }
+  return text + digits + "\n" + notes + describe_beyond(task, experiments);
+}
+
+}  // namespace
+
+PaperTable reproduce_uvms(const std::filesystem::path& folder, int threads) {
+  long rows = 0;
+  for (const Task& task : tasks()) {
+    rows += 2 + static_cast<long>(task.optima.size() * std::size(kAttempts));
+  }
+  RowWriter writer("reproduce uvms", folder, threads, rows);
+  std::string text = fmt::format(
+      "The underwater vehicle with a 4-joint arm, static. The model is public data, nothing is "
+      "tuned to\n"
+      "the tank. own: value of the measure; pure: the largest wrench along c alone that any "
+      "efforts\n"
+      "reach at that posture; tank: measured in the paper; gain over the default posture: of pure "
+      "(of\n"
+      "own for beta_3, where the tank's sensor took all other components), in the tank, ratio of "
+      "the\n"
+      "two; lag: how far the worst of {} searches stays below (grid, annealing with {} seeds, {}\n"
+      "evaluations each); virtual: the mean reading in the virtual tank during the hold of own, "
+      "of\n"
+      "which {:g} % are not asked for so that efforts are left to hold the posture; or the "
+      "heaviest\n"
+      "load that is carried for 5 s there, in steps of 1 kg.\n",
+      std::size(kAttempts), std::size(kAttempts) - 1, kStaticBudget, 100 * TankOptions().margin);
+  for (const Task& task : tasks()) text += "\n" + table(writer, task, folder);
+  const bool all_solved = writer.finish();
+  write_file(folder / "uvms_static.txt", text);
+  return {text, all_solved};
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,39 @@
+# Writes OUTPUT, a source with the version of the tree in SOURCE: RELEASE where the tag vRELEASE stands on a clean tree, else
+# RELEASE+COMMIT, with .dirty behind it if a tracked source has changed. What git archive exports knows its commit as well.
+set(commit "unknown")
+set(archived "$Format:%h$")
+if(NOT archived MATCHES Format)
+  set(commit ${archived})
+endif()
+
+function(git result)
+  execute_process(COMMAND git -C ${SOURCE} ${ARGN} OUTPUT_VARIABLE output RESULT_VARIABLE status
+    OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  if(status)
+    set(output "")
+  endif()
+  set(${result} "${output}" PARENT_SCOPE)
+endfunction()
+
+# A copy inside a foreign repository is not of that repository's commit.
+git(root rev-parse --show-toplevel)
+get_filename_component(source ${SOURCE} REALPATH)
+if(root AND root STREQUAL source)
+  git(commit rev-parse --short=10 HEAD)
+  git(tags tag --points-at HEAD)
+  git(changed status --porcelain --untracked-files=no -- . :!results)
+endif()
+set(version "${RELEASE}+${commit}")
+if(changed)
+  string(APPEND version ".dirty")
+elseif("${tags}" MATCHES "(^|\n)v${RELEASE}(\n|$)")
+  set(version ${RELEASE})
+endif()
+file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT
+[[namespace maxwrench {
+
+const char* version();
+const char* version() { return "@version@"; }
+
+}  // namespace maxwrench
+]])

@@ -1,0 +1,93 @@
+#include "drawing/axes.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace maxwrench {
+namespace {
+
+using Point = Eigen::Vector2d;
+
+constexpr double kLargest = 1e100;   // powers of ten beyond it are out of reach of double's range
+constexpr double kNarrowest = 1e-9;  // of the largest value: below, ticks coincide by rounding
+constexpr int kMostTicks = 50;
+
+const Paint& faint() {
+  static const Paint kFaint{.stroke = "#e2e2e2", .width = 0.8};
+  return kFaint;
+}
+
+}  // namespace
+
+Axis make_axis(double low, double high, double from, double to, const std::string& what) {
+  const double size = std::max(std::abs(low), std::abs(high));
+  if (!(size < kLargest) || !(high - low > kNarrowest * size) || !(high - low > 1 / kLargest)) {
+    throw std::invalid_argument(
+        fmt::format("figure: got {} between {:g} and {:g}, expected finite values that differ",
+                    what, low, high));
+  }
+  return {low, high, from, to};
+}
+
+std::vector<Tick> round_ticks(const Axis& axis, int pieces) {
+  const double step = round_step((axis.high - axis.low) / pieces);
+  const double first = std::ceil(axis.low / step * (1 - 1e-12));
+  std::vector<Tick> ticks;
+  for (int i = 0; i < kMostTicks; ++i) {
+    const double value = step * (first + i);
+    if (!(value <= axis.high + 1e-9 * step)) break;
+    ticks.push_back({value, with_minus(value)});
+  }
+  return ticks;
+}
+
+void draw_x_axis(Svg& svg, const Axis& x, const Axis& y, const std::vector<Tick>& ticks,
+                 const std::string& name) {
+  const double foot = std::max(y.from, y.to);
+  for (const Tick& tick : ticks) {
+    const double at = x(tick.value);
+    svg.line({at, y.from}, {at, y.to}, faint());
+    svg.text({at, foot + 14}, tick.label, {.anchor = Anchor::kMiddle});
+  }
+  if (name.empty()) return;
+  svg.text({(x.from + x.to) / 2, foot + 29}, name, {.anchor = Anchor::kMiddle});
+}
+
+void draw_y_lines(Svg& svg, const Axis& x, const Axis& y, const std::vector<Tick>& ticks) {
+  for (const Tick& tick : ticks) {
+    svg.line({x.from, y(tick.value)}, {x.to, y(tick.value)}, faint());
+  }
+}
+
+void draw_y_axis(Svg& svg, const Axis& x, const Axis& y, const std::vector<Tick>& ticks,
+                 const std::string& name) {
+  draw_y_lines(svg, x, y, ticks);
+  double widest = 0;
+  for (const Tick& tick : ticks) {
+    svg.text({x.from - 5, y(tick.value) + 4}, tick.label, {.anchor = Anchor::kEnd});
+    widest = std::max(widest, text_width(tick.label, Font().size));
+  }
+  svg.text({x.from - 11 - widest, (y.from + y.to) / 2}, name,
+           {.anchor = Anchor::kMiddle, .angle = 90});
+}
+
+void draw_frame(Svg& svg, const Axis& x, const Axis& y) {
+  svg.polygon({{x.from, y.from}, {x.to, y.from}, {x.to, y.to}, {x.from, y.to}},
+              {.stroke = "#8a8a8a", .width = 0.8});
+}
+
+double round_step(double value) {
+  const double power = std::pow(10, std::floor(std::log10(value)));
+  const double mantissa = value / power * (1 + 1e-9);
+  return (mantissa >= 5 ? 5 : mantissa >= 2 ? 2 : 1) * power;
+}
+
+std::string with_minus(double value, const char* format) {
+  const std::string digits = fmt::format(fmt::runtime(format), std::abs(value));
+  const bool zero = digits.find_first_not_of("0.") == std::string::npos;
+  return (value < 0 && !zero ? "\u2212" : "") + digits;
+}
+
+}  // namespace maxwrench

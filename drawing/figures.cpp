@@ -1,0 +1,87 @@
+#include "maxwrench/figures.h"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <stdexcept>
+
+#include "drawing/postures.h"
+#include "drawing/svg.h"
+#include "maxwrench/measure.h"
+#include "maxwrench/problem.h"
+#include "maxwrench/strategies.h"
+#include "maxwrench/wrench_program.h"
+#include "maxwrench/wrench_solver.h"
+
+namespace maxwrench {
+namespace {
+
+/// From above, unless c points up or down.
+View view_of(const Problem& problem) {
+  return std::abs(problem.c[2]) < 1e-9 ? View::kTop : View::kSide;
+}
+
+/// The set of one measure; without value and outline if the robot's actuators do not allow this
+/// measure (B rank deficient, a one-sided limit).
+ForceSet set_of(const Problem& problem, const Posture& posture, const MeasureEntry& entry,
+                Wrench wrench, const char* name) {
+  std::unique_ptr<Measure> measure;
+  try {
+    measure = entry.make(problem, find_wrench_solver("simplex").make());
+  } catch (const std::invalid_argument&) {
+    ForceSet none;
+    none.name = name;
+    none.beta = std::numeric_limits<double>::quiet_NaN();
+    none.wrench = wrench;
+    return none;
+  }
+  return force_set(problem, posture, *measure, wrench, view_of(problem), !entry.needs_solver, name);
+}
+
+DrawnPosture draw_robot(const Problem& problem, PostureEvaluator& model, const Panel& panel) {
+  DrawnPosture drawn;
+  drawn.title = with_letters(panel.title);
+  drawn.problem = &problem;
+  // Of several branches of a second arm the best one is drawn.
+  WrenchProgram program = make_wrench_program(problem, Wrench::kPure);
+  const auto measure = make_linf_polytope(problem.robot, find_wrench_solver("box").make());
+  Capability capability;
+  drawn.posture = evaluate_best(model, panel.theta_r, *measure, false, program, capability);
+  if (drawn.posture.status == Status::kInvalidPosture) {
+    throw std::invalid_argument(
+        "figure: got a theta_r of " + problem.name + " without a posture (" +
+        describe_violation(problem, drawn.posture) + "), expected one that exists");
+  }
+  return drawn;
+}
+
+DrawnPosture draw(const Problem& problem, PostureEvaluator& model, const Panel& panel) {
+  DrawnPosture drawn = draw_robot(problem, model, panel);
+  const auto add = [&](const char* measure, Wrench wrench, const char* name) {
+    drawn.sets.push_back(set_of(problem, drawn.posture, find_measure(measure), wrench, name));
+  };
+  add("ellipsoid", Wrench::kPure, "ellipsoid (\u03b2_1)");
+  add("l2_polytope", Wrench::kPure, "L_2 polytope");
+  add("linf_polytope", Wrench::kPure, "L_\u221e polytope (\u03b2_2)");
+  add("linf_polytope", Wrench::kAny, "L_\u221e polytope, any wrench (\u03b2_3)");
+  return drawn;
+}
+
+}  // namespace
+
+std::string figure(const Problem& problem, const std::vector<Panel>& panels) {
+  if (!in_view(problem.c, view_of(problem))) return posture_figure(problem, panels);
+  PostureEvaluator model(problem);
+  std::vector<DrawnPosture> drawn;
+  for (const Panel& panel : panels) drawn.push_back(draw(problem, model, panel));
+  return draw_postures(drawn, view_of(problem));
+}
+
+std::string posture_figure(const Problem& problem, const std::vector<Panel>& panels) {
+  PostureEvaluator model(problem);
+  std::vector<DrawnPosture> drawn;
+  for (const Panel& panel : panels) drawn.push_back(draw_robot(problem, model, panel));
+  return draw_both_views(drawn);
+}
+
+}  // namespace maxwrench

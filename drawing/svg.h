@@ -1,0 +1,87 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "maxwrench/types.h"
+
+namespace maxwrench {
+
+/// How a shape looks. An empty colour draws nothing.
+struct Paint {
+  std::string stroke = {};
+  double width = 1;       ///< px
+  std::string dash = {};  ///< px, as in SVG: "4 3"
+  std::string fill = {};
+  double fill_opacity = 1;
+};
+
+/// All figures are made for a column of 8 cm: this many px wide, so that kFontSize is 6.2 pt there.
+inline constexpr double kPageWidth = 400;  ///< px
+inline constexpr double kFontSize = 11;    ///< px, the smallest one of words and numbers
+
+/// Marks that differ in shape, for readers without colours.
+enum class Mark { kCircle, kSquare, kDiamond, kTriangle, kFlipped, kCross };
+
+enum class Anchor { kStart, kMiddle, kEnd };
+
+struct Font {
+  double size = kFontSize;  ///< px
+  std::string colour = "#222222";
+  Anchor anchor = Anchor::kStart;
+  bool bold = false;
+  bool italic = false;
+  double angle = 0;  ///< degrees, counterclockwise
+};
+
+/// Writes an SVG picture on white ground. All coordinates are px, y down, as in SVG. Throws
+/// std::invalid_argument for one that is not finite or far outside any picture.
+class Svg {
+ public:
+  Svg(double width, double height);
+
+  void line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Paint& paint);
+  /// Closed; with two points a line, with one a dot.
+  void polygon(const std::vector<Eigen::Vector2d>& points, const Paint& paint);
+  void polyline(const std::vector<Eigen::Vector2d>& points, const Paint& paint);
+  void circle(const Eigen::Vector2d& centre, double radius, const Paint& paint);
+  /// A shaft in the paint's stroke and a filled head of that length at `tip`.
+  void arrow(const Eigen::Vector2d& tail, const Eigen::Vector2d& tip, const Paint& paint,
+             double head);
+  void mark(const Eigen::Vector2d& at, Mark mark, double radius, const Paint& paint);
+  /// `at` is the baseline's anchor. After a word of one letter an underscore lowers the next
+  /// character: "L_2"; "direct_l" stays as it is.
+  void text(const Eigen::Vector2d& at, std::string_view text, const Font& font);
+
+  /// Another picture with its upper left corner at `corner`.
+  void place(const Svg& other, const Eigen::Vector2d& corner);
+
+  double width() const { return width_; }
+  double height() const { return height_; }
+  std::string str() const;
+
+ private:
+  double width_, height_;
+  std::string body_;
+};
+
+/// A plane of the world on the paper: metres, y up -> px, y down.
+struct Viewport {
+  Eigen::Vector2d origin;  ///< px, of the world's (0, 0)
+  double scale;            ///< px/m
+
+  Eigen::Vector2d operator()(const Eigen::Vector2d& p) const {
+    return {origin.x() + scale * p.x(), origin.y() - scale * p.y()};
+  }
+  std::vector<Eigen::Vector2d> operator()(const std::vector<Eigen::Vector2d>& points) const;
+};
+
+/// About how wide a text is [px].
+double text_width(std::string_view text, double size);
+/// What fits of a text: its end, after an ellipsis.
+std::string fitted(const std::string& text, double size, double width);
+/// "beta" as the letter.
+std::string with_letters(std::string text);
+
+}  // namespace maxwrench

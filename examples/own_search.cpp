@@ -1,0 +1,58 @@
+// A search of one's own: compass search. From a start it tries a step to both sides of each
+// coordinate, moves to what is better, and halves the step where nothing is.
+#include <algorithm>
+#include <cstdio>
+
+#include "maxwrench/load.h"
+#include "maxwrench/objective.h"
+#include "maxwrench/strategies.h"
+
+using namespace maxwrench;
+
+class Compass : public Search {
+ public:
+  SearchResult maximize(Objective& objective, const SearchOptions& options) override {
+    SearchResult best;
+    const Eigen::VectorXd start = 0.5 * (objective.lower() + objective.upper());
+    const auto attempt = [&](const Eigen::VectorXd& theta_r) {
+      if (best.evaluations == options.budget) return false;
+      ++best.evaluations;
+      const double value = objective.evaluate(theta_r);
+      if (!(value > best.value)) return false;
+      best.conclude(Status::kBestFound);
+      best.theta_r = theta_r;
+      best.value = value;
+      best.history.push_back({best.evaluations, value});
+      return true;
+    };
+    if (!attempt(options.start.size() > 0 ? options.start : start)) return best;
+    for (double step = 0.25; step > 1e-7 && best.evaluations < options.budget;) {
+      bool better = false;
+      for (int i = 0; i < 2 * start.size(); ++i) {
+        const int k = i / 2;
+        const double range = objective.upper()[k] - objective.lower()[k];
+        Eigen::VectorXd theta_r = best.theta_r;
+        theta_r[k] = std::clamp(theta_r[k] + (i % 2 == 0 ? step : -step) * range,
+                                objective.lower()[k], objective.upper()[k]);
+        better = attempt(theta_r) || better;
+      }
+      if (!better) step /= 2;
+    }
+    return best;
+  }
+};
+
+int main() {
+  const Problem problem = load_problem("planar/force");
+  const auto objective = make_capability_objective(
+      problem, Wrench::kPure, [&problem] { return make_ellipsoid(problem.robot); });
+  SearchOptions options;
+  options.start = problem.theta_r_default;
+  Compass compass;
+  const SearchResult best = compass.maximize(*objective, options);
+  std::printf("compass  %.6f %s after %ld evaluations\n", best.value, problem.unit(),
+              best.evaluations);
+  const SearchResult other = find_search("grid").make()->maximize(*objective, options);
+  std::printf("grid     %.6f %s after %ld evaluations\n", other.value, problem.unit(),
+              other.evaluations);
+}

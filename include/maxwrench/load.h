@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "maxwrench/problem.h"
+
+namespace maxwrench {
+
+/// Reads a robot: a TOML file and the URDF that it names. Throws std::invalid_argument with one
+/// line that names file, key, value and what was expected.
+Robot load_robot(const std::filesystem::path& file);
+
+/// Reads a static task and its robot. `name` is a shipped problem such as "planar/force", or the
+/// path of a task file. Errors as `load_robot`.
+Problem load_problem(const std::string& name);
+
+/// Whether a TOML file describes a task (it names a robot) rather than a robot. A look at the keys
+/// before the first table: what else is wrong with the file shows when it is loaded. Throws
+/// std::invalid_argument if there is nothing to read.
+bool is_task(const std::filesystem::path& file);
+
+/// The tasks in a folder and below it by path, without their ending, sorted. A broken file counts:
+/// it is refused when it is loaded.
+std::vector<std::string> tasks_in(const std::filesystem::path& folder);
+
+/// The folder of the shipped problems: the environment variable MAXWRENCH_PROBLEMS, else
+/// share/maxwrench/problems beside the folder of the running program, the source tree, or where
+/// maxwrench was to be installed; empty if none is there. Throws std::invalid_argument if the
+/// variable names no folder.
+std::filesystem::path problems_folder();
+
+/// The names of the problems in that folder, sorted.
+std::vector<std::string> shipped_problems();
+
+/// One instant of a robot's motion.
+struct State {
+  Pose<double> base;                       ///< in the world
+  Eigen::VectorXd q;                       ///< all joints
+  Eigen::VectorXd velocity, acceleration;  ///< n, see lib/robot/dynamics.h
+};
+
+/// Reads a state from TOML: `[theta]` with the base's `position` and `rpy` in the world, which may
+/// differ from the mount along the free axes only, and each joint by its name; `velocity`
+/// and `acceleration` with n numbers, zero where they are missing. Errors as `load_robot`.
+State load_state(const std::filesystem::path& file, const Robot& robot);
+
+}  // namespace maxwrench

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "maxwrench/contact.h"
+#include "maxwrench/robot.h"
+
+namespace maxwrench {
+
+/// A robot and a static task: hold the end effector at a pose and exert the largest wrench along c.
+struct Problem {
+  std::string name;   ///< as on the command line, such as "planar/force"
+  std::string label;  ///< how far the numbers are to be trusted, such as "identified"
+  std::string source;
+  Robot robot;
+  int end_effector = 0;
+  Pose<double> pose;  ///< of the end effector in the world
+  Vector6d c;         ///< unit direction [force; torque] in world axes
+  /// 6×k: the wrenches that `Wrench::kAny` allows, orthonormal; its span contains c, and each of
+  /// its wrenches can do work.
+  Matrix6Xd W_any;
+  double reference = 1;  ///< N or N m along c, of measures of efforts at a given wrench
+  /// What each axis of the wrench is measured by [N; N m], of measures of all axes at once.
+  Vector6d desired = Vector6d::Ones();
+  std::vector<int> redundant;  ///< the joints that theta_r holds
+  /// The joints between base and end effector that theta_r does not hold. They follow from it as
+  /// the base pose does (see lib/posture/dependent_joints.h). None: the base pose follows in closed
+  /// form.
+  std::vector<int> dependent;
+  /// Where the search for what follows starts at theta_r_default, if there are dependent joints:
+  /// all joints, and [x, y, z, yaw] of the base.
+  Eigen::VectorXd guess_q;
+  Eigen::Vector4d guess_base = Eigen::Vector4d::Zero();
+  /// What a second end effector does, if there is one. Only the first is scored.
+  std::optional<Contact> contact;
+  /// theta_r: the joints that are free while the end effector keeps its pose, then the regrasp
+  /// coordinates of the second contact.
+  Eigen::VectorXd theta_r_min, theta_r_max, theta_r_default;
+
+  /// Of a coordinate of theta_r: the joint, or regrasp_1, regrasp_2.
+  std::string theta_r_name(int i) const;
+  int redundancy() const { return static_cast<int>(theta_r_min.size()); }
+  /// Of the second contact's wrench, l; 0 without one.
+  int contact_columns() const { return contact ? static_cast<int>(contact->C.cols()) : 0; }
+  /// Of beta: "N" if c is a pure force, "N m" if a pure torque, "mixed" otherwise.
+  const char* unit() const;
+};
+
+}  // namespace maxwrench

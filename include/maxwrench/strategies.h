@@ -1,0 +1,88 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "maxwrench/integrator.h"
+#include "maxwrench/lp_solver.h"
+#include "maxwrench/measure.h"
+#include "maxwrench/search.h"
+#include "maxwrench/wrench_solver.h"
+
+namespace maxwrench {
+
+struct Problem;
+
+/// beta of a measure on a problem, which outlives it; `needs_solver` is false for a closed form,
+/// whose `make` ignores the solver.
+struct MeasureEntry {
+  const char* name;
+  const char* summary;
+  bool needs_solver;
+  bool serves_any;   ///< false: refuses Wrench::kAny, which would mean nothing
+  const char* unit;  ///< of its value; null: that of the wrench along c
+  std::unique_ptr<Measure> (*make)(const Problem&, std::unique_ptr<WrenchSolver>);
+};
+
+/// A solver of general linear programs.
+struct LpEntry {
+  const char* name;
+  const char* summary;
+  /// About how much dearer one solve is than that of our own solvers; the benchmark's budgets are
+  /// divided by it.
+  int cost;
+  std::unique_ptr<LpSolver> (*make)();
+};
+
+/// A lower-level solver, the `--lp` of the command line: one that knows the structure, or a general
+/// one on the assembled program.
+struct WrenchSolverEntry {
+  const char* name;
+  const char* summary;
+  bool one_column_only;  ///< true: refuses Wrench::kAny and second contacts
+  bool needs_facets;     ///< true: refuses actuators with too many facets to enumerate
+  int cost;              ///< as LpEntry
+  std::function<std::unique_ptr<WrenchSolver>()> make;
+};
+
+struct SearchEntry {
+  const char* name;
+  const char* summary;
+  bool local;  ///< true: climbs from one posture, and finds no better maximum elsewhere
+  std::unique_ptr<Search> (*make)();
+};
+
+struct IntegratorEntry {
+  const char* name;
+  const char* summary;
+  bool stiff;  ///< true: its steps are not bounded by what decays fast
+  std::unique_ptr<Integrator> (*make)();
+};
+
+/// The tables: every strategy that exists, once. The wrench solvers begin with those that know the
+/// structure, the LP solvers follow.
+std::span<const MeasureEntry> measures();
+std::span<const LpEntry> lp_solvers();
+std::span<const WrenchSolverEntry> wrench_solvers();
+std::span<const SearchEntry> searches();
+std::span<const IntegratorEntry> integrators();
+
+/// A strategy that this build leaves out. `family` is that of its table: lp, search or integrator.
+struct Absent {
+  const char* family;
+  const char* name;
+  const char* library;  ///< that it needs
+};
+std::span<const Absent> not_built_in();
+
+/// The entry with this name; throws std::invalid_argument that names the alternatives, and the
+/// library that is missing if this build leaves the entry out.
+const MeasureEntry& find_measure(std::string_view name);
+const LpEntry& find_lp_solver(std::string_view name);
+const WrenchSolverEntry& find_wrench_solver(std::string_view name);
+const SearchEntry& find_search(std::string_view name);
+const IntegratorEntry& find_integrator(std::string_view name);
+
+}  // namespace maxwrench

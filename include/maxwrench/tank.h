@@ -1,0 +1,130 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "maxwrench/integrator.h"
+#include "maxwrench/types.h"
+
+namespace maxwrench {
+
+struct Posture;
+struct Problem;
+
+/// What holds the end effector. Stiffness and damping of each world axis, all three forces and all
+/// three torques alike. A commercial six-axis sensor has about 1e7 N/m and 1e5 N m/rad; the frame
+/// that carries it yields more. The damping is the stiffness times 1 ms.
+struct LoadCell {
+  double stiffness_linear = 1e6;   ///< N/m: 0.1 mm at 100 N
+  double stiffness_angular = 1e5;  ///< N m/rad: 0.06 degrees at 100 N m
+  double damping_linear = 1e3;     ///< N s/m
+  double damping_angular = 100;    ///< N m s/rad
+};
+
+/// How the simulated robot differs from its model. All off by default.
+struct Imperfections {
+  double thrust_efficiency = 1;  ///< thrust over commanded thrust
+  double thrust_noise = 0;       ///< N, standard deviation of each thruster, new each period
+  std::uint64_t seed = 1;
+};
+
+/// An experiment as in the paper: ramp, hold, ramp.
+struct TankOptions {
+  double ramp = 5, hold = 5;  ///< s
+  double period = 0.01;       ///< s, between two commands; efforts are linear in between
+  double thruster_lag = 0.1;  ///< s, first order
+  /// rad/s, of the posture's errors, critically damped: a fifth of what the thrusters follow,
+  /// 1/thruster_lag.
+  double bandwidth = 2;
+  /// Share of the planned wrench that is not asked for, so that efforts are left to hold the
+  /// posture: a quarter of kHeldShare.
+  double margin = 0.005;
+  /// kg. Positive: nothing holds the end effector, which carries this point mass. It displaces no
+  /// water.
+  double load = 0;
+  /// Ends the experiment after the hold.
+  bool until_hold = false;
+  LoadCell cell;
+  Imperfections imperfections;
+  IntegratorOptions integrator{1e-6, 1e-8, 100000, 1e-4};
+};
+
+/// What the robot is to exert.
+struct TankPlan {
+  Vector6d h;                     ///< [N; N m] in world axes; with a load its weight
+  Eigen::VectorXd u;              ///< m, efforts to stay close to at the full share
+  Wrench wrench = Wrench::kPure;  ///< kAny: the cell may take any of W_any across c
+};
+
+/// One instant, at the end of a control period or where the integrator gave up within one.
+struct TankSample {
+  double t = 0;          ///< s
+  double planned = 0;    ///< c'h of the plan [N, N m]
+  Vector6d h_e;          ///< the cell's reading, or what carries and accelerates the load
+  Eigen::VectorXd u;     ///< m, efforts before the imperfections
+  double shortfall = 0;  ///< see EffortAnswer
+  bool saturated = false, relaxed = false;
+  double drift = 0;           ///< max |theta_r - its reference| [rad, m]
+  double moved = 0;           ///< the same of all joints, and of the base [rad, m]
+  double position_error = 0;  ///< of the end effector [m]
+  double displaced = 0;       ///< likewise [m, rad], from where the plan bends the cell to
+  double violation = 0;       ///< how far efforts or rates leave their limits [N, N m, N/s]
+};
+
+/// What the hold was like; NaN where there was no hold. If the posture was lost, how far it is from
+/// its reference reaches to that instant.
+struct TankSummary {
+  double planned = 0;                  ///< c'h [N, N m]
+  double mean = 0, low = 0, high = 0;  ///< c'h_e
+  Vector6d across;                     ///< mean of h_e less its part along c [N; N m]
+  double drift = 0, moved = 0;         ///< largest [rad, m]
+  double position_error = 0;           ///< largest [m]
+  double displaced = 0;                ///< largest [m, rad]
+  double violation = 0;                ///< largest of the whole experiment
+  double saturated = 0, relaxed = 0;   ///< shares of the periods
+  double shortfall = 0;                ///< mean [N, N m]
+  bool held = false;
+};
+
+/// kReached: the experiment ran to its end, or until the posture was lost.
+struct TankRun : Verdict {
+  std::vector<TankSample> samples;
+  TankSummary summary;
+  long requests = 0, active_set_iterations = 0, evaluations = 0;
+  /// Time in derivatives, in tau_c, in the tracking program, in all; the rest is the integrator's.
+  double model_s = 0, controller_s = 0, qp_s = 0, total_s = 0;
+};
+
+/// Held is a wrench whose mean over the hold is this close to the plan, along c and, unless the
+/// task leaves them to the environment, in all components across c, while the whole posture stays
+/// this close to its reference, the end effector this close to where the plan bends the cell to,
+/// and efforts and rates within their limits. Of a load the wrench is what carries and accelerates
+/// it: what falls is not held.
+inline constexpr double kHeldShare = 0.02;      ///< of the planned c'h
+inline constexpr double kHeldDrift = 0.01;      ///< rad, m: 0.6 degrees
+inline constexpr double kHeldPosition = 0.01;   ///< m, rad
+inline constexpr double kHeldViolation = 1e-3;  ///< N, N m, N/s: of what the integrator leaves
+/// m: beside a planned force a torque counts as the force at this lever, about the size of a hand,
+/// and beside a planned torque a force as the torque that it has there.
+inline constexpr double kHeldLever = 0.1;
+/// This far from its reference the posture is lost, which ends the experiment [rad, m].
+inline constexpr double kLost = 0.5;
+
+/// The experiment at `posture`: a share s of the wrench grows from zero to one in the ramp, stays,
+/// and shrinks. Efforts follow the plan u* = (1 - s) u_0 + s u, u_0 those at rest, by the tracking
+/// program (see EffortTracker) for
+///
+///     tau_c = C v + D v + g + s J'h + M a,   a = A_r (omega^2 e_r - 2 omega theta_r_dot)
+///
+/// where e_r are the errors of theta_r and omega the bandwidth; what A_r accelerates leaves the end
+/// effector alone, so the reading is that of the plan. With kAny the rows of the balance are those
+/// combinations in which the wrenches across c have no part.
+///
+/// A load is part of the robot's mass matrix and weight from the start; what holds it up lets go in
+/// the ramp. Then a = omega^2 e - 2 omega v acts on all velocities, e the errors of base and
+/// joints.
+TankRun run_tank(const Problem& problem, const Posture& posture, const TankPlan& plan,
+                 Integrator& integrator, const TankOptions& options);
+
+}  // namespace maxwrench

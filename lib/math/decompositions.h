@@ -1,0 +1,62 @@
+#pragma once
+
+#include "maxwrench/types.h"
+
+// Dense decompositions. Eigen's templates for them take longer to compile than most files that need
+// one, so they are compiled once, here.
+
+namespace maxwrench {
+
+/// Sizes up to six live on the stack: unless A is rank deficient, nothing that takes or gives these
+/// allocates.
+using Matrix6N = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
+using Vector6N = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1>;
+
+/// A^+ b for matrices A r×d, r and d <= 6, by Householder reflections with column pivoting.
+class LeastSquares6 {
+ public:
+  LeastSquares6() = default;
+  explicit LeastSquares6(const Matrix6N& A) { compute(A); }
+
+  void compute(const Matrix6N& A) { qr_.compute(A); }
+  /// Whether a pivot is smaller than this share of the largest.
+  bool is_singular(double threshold) const;
+  /// b with r rows -> A^+ b with d rows.
+  Vector6N solve(const Vector6N& b) const;
+  /// b with d rows -> (A')^+ b with r rows.
+  Vector6N solve_transposed(const Vector6N& b) const;
+
+ private:
+  Eigen::CompleteOrthogonalDecomposition<Matrix6N> qr_;
+};
+
+/// [m; rad] from a pose: Newton's method has arrived, and what one more step must reach.
+inline constexpr double kArrived = 1e-9;
+inline constexpr double kExact = 1e-12;
+
+/// (A'A + damping I)^-1 A'b, the step of Levenberg and Marquardt; A r×d, r and d <= 6, damping > 0.
+Vector6N damped_step(const Matrix6N& A, const Vector6N& b, double damping);
+
+/// Orthonormal columns: those that span what the columns of a matrix span, then all others.
+struct Split {
+  Eigen::MatrixXd range, complement;
+};
+
+/// Pivots below `threshold` times the largest count as zero; at -1, those of rounding.
+Split split(const Eigen::MatrixXd& A, double threshold = -1);
+
+/// A^+ (Moore and Penrose).
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& A);
+
+/// In decreasing order.
+Eigen::VectorXd singular_values(const Eigen::MatrixXd& A);
+
+/// A = V diag(values) V', the values in increasing order.
+struct SymmetricEigen {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd V;
+};
+
+SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A);
+
+}  // namespace maxwrench

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+
+namespace maxwrench {
+
+/// What the streams of one seed are for. Uses do not share streams, and neither do seeds: nothing
+/// is derived from a seed but by naming a use.
+enum class RandomUse : std::uint64_t { kRefine, kSample, kClimb };
+
+/// One stream of random numbers per (seed, stream): SplitMix64 (Steele, Lea, Flood 2014). The
+/// mapping to doubles is ours, so the same numbers come out on every machine and at any thread
+/// count.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed, std::uint64_t stream = 0);
+  /// Stream `index` (below 2^56) of one use of a seed; those of kRefine are the plain ones.
+  Random(std::uint64_t seed, RandomUse use, std::uint64_t index)
+      : Random(seed, (static_cast<std::uint64_t>(use) << 56U) + index) {}
+  std::uint64_t next();
+  /// Uniform in [0, 1), a multiple of 2^-53.
+  double uniform();
+  double uniform(double lower, double upper) { return lower + (upper - lower) * uniform(); }
+  /// Standard normal, by the Box-Muller transform.
+  double normal();
+
+ private:
+  std::uint64_t state_;
+};
+
+}  // namespace maxwrench

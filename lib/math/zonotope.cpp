@@ -1,0 +1,177 @@
+#include "maxwrench/zonotope.h"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "lib/math/decompositions.h"
+
+namespace maxwrench {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Rows and columns of B that hang together.
+struct Block {
+  std::vector<int> rows, cols;
+};
+
+std::vector<Block> independent_blocks(const MatrixXd& B) {
+  // Union-find over rows 0..n-1; a column joins all the rows that it touches.
+  std::vector<int> root(B.rows());
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](int row) {
+    while (root[row] != row) row = root[row];
+    return row;
+  };
+  std::vector<int> first_row(B.cols(), -1);
+  for (int j = 0; j < B.cols(); ++j) {
+    for (int i = 0; i < B.rows(); ++i) {
+      if (B(i, j) == 0) continue;
+      if (first_row[j] < 0) first_row[j] = i;
+      root[find(i)] = find(first_row[j]);
+    }
+  }
+  std::vector<Block> blocks;
+  std::vector<int> block_of(B.rows(), -1);
+  for (int i = 0; i < B.rows(); ++i) {
+    int& block = block_of[find(i)];
+    if (block < 0) {
+      block = static_cast<int>(blocks.size());
+      blocks.emplace_back();
+    }
+    blocks[block].rows.push_back(i);
+  }
+  for (int j = 0; j < B.cols(); ++j) {
+    if (first_row[j] >= 0) blocks[block_of[find(first_row[j])]].cols.push_back(j);
+  }
+  return blocks;
+}
+
+/// The number of subsets with `k` of `n` elements, or more than `limit` if it exceeds that.
+long count_subsets(int n, int k, long limit) {
+  double count = 1;
+  for (int i = 0; i < k; ++i) count = count * (n - i) / (i + 1);
+  return count > static_cast<double>(limit) ? limit + 1 : static_cast<long>(count + 0.5);
+}
+
+bool next_subset(std::vector<int>& subset, int n) {
+  const int k = static_cast<int>(subset.size());
+  int i = k - 1;
+  while (i >= 0 && subset[i] == n - k + i) --i;
+  if (i < 0) return false;
+  ++subset[i];
+  for (int j = i + 1; j < k; ++j) subset[j] = subset[j - 1] + 1;
+  return true;
+}
+
+/// Unit normals of the facets of {G v : v in a box}, G r×m of rank r, one of each antipodal pair.
+std::vector<VectorXd> facet_normals(const MatrixXd& G) {
+  const int r = static_cast<int>(G.rows());
+  if (r == 1) return {VectorXd::Ones(1)};
+  std::vector<VectorXd> normals;
+  std::vector<int> subset(r - 1);
+  std::iota(subset.begin(), subset.end(), 0);
+  MatrixXd spanning(r, r - 1);
+  do {
+    for (int i = 0; i < r - 1; ++i) spanning.col(i) = G.col(subset[i]).normalized();
+    const MatrixXd across = split(spanning).complement;
+    if (across.cols() > 1) continue;
+    const VectorXd normal = across.col(0);
+    const bool known = std::any_of(normals.begin(), normals.end(), [&](const VectorXd& other) {
+      return std::abs(other.dot(normal)) > 1 - 1e-12;
+    });
+    if (!known) normals.push_back(normal);
+  } while (next_subset(subset, static_cast<int>(G.cols())));
+  return normals;
+}
+
+void add_pair(Zonotope& zonotope, const VectorXd& normal) {
+  const Eigen::Index f = zonotope.N.cols();
+  zonotope.N.conservativeResize(Eigen::NoChange, f + 1);
+  zonotope.N.col(f) = normal;
+  double low = 0;
+  double high = 0;
+  for (int j = 0; j < zonotope.actuators(); ++j) {
+    const double slope = normal.dot(zonotope.B.col(j));
+    // A generator that lies in the facet up to rounding does not move its support.
+    if (std::abs(slope) < 1e-13 * zonotope.B.col(j).norm()) continue;
+    low += std::min(slope * zonotope.u_min[j], slope * zonotope.u_max[j]);
+    high += std::max(slope * zonotope.u_min[j], slope * zonotope.u_max[j]);
+  }
+  zonotope.b_min.conservativeResize(f + 1);
+  zonotope.b_max.conservativeResize(f + 1);
+  zonotope.b_min[f] = low;
+  zonotope.b_max[f] = high;
+}
+
+/// Adds the pairs of one block; false if there would be too many.
+bool add_block(Zonotope& zonotope, const Block& block, long max_subsets) {
+  const MatrixXd part = zonotope.B(block.rows, block.cols);
+  const int rows = static_cast<int>(block.rows.size());
+  auto [range, complement] = split(part);
+  const auto rank = static_cast<int>(range.cols());
+  if (count_subsets(static_cast<int>(block.cols.size()), std::max(rank - 1, 0), max_subsets) >
+      max_subsets) {
+    return false;
+  }
+  std::vector<VectorXd> normals;
+  if (rank > 0) {
+    if (rank == rows) range.setIdentity();
+    for (const VectorXd& normal : facet_normals(range.transpose() * part)) {
+      normals.push_back(range * normal);
+    }
+  }
+  // Nothing acts along these.
+  for (int i = 0; i < rows - rank; ++i) normals.push_back(complement.col(i));
+  for (const VectorXd& normal : normals) {
+    VectorXd full = VectorXd::Zero(zonotope.dimension());
+    full(block.rows) = normal;
+    add_pair(zonotope, full);
+  }
+  return true;
+}
+
+}  // namespace
+
+Zonotope make_zonotope(MatrixXd B, VectorXd u_min, VectorXd u_max, long max_subsets) {
+  if (B.cols() != u_min.size() || B.cols() != u_max.size()) {
+    throw std::invalid_argument("zonotope: B has " + std::to_string(B.cols()) +
+                                " columns, expected as many as limits");
+  }
+  for (Eigen::Index j = 0; j < u_min.size(); ++j) {
+    if (!(u_min[j] <= u_max[j])) {
+      throw std::invalid_argument("zonotope: limit " + std::to_string(u_min[j]) + " .. " +
+                                  std::to_string(u_max[j]) + " of actuator " + std::to_string(j) +
+                                  ", expected min <= max");
+    }
+  }
+  Zonotope zonotope;
+  zonotope.B = std::move(B);
+  zonotope.u_min = std::move(u_min);
+  zonotope.u_max = std::move(u_max);
+  if (zonotope.B.size() > 0) {
+    zonotope.rank = static_cast<int>(split(zonotope.B).range.cols());
+    zonotope.B_pinv = pseudo_inverse(zonotope.B);
+  } else {
+    zonotope.B_pinv.resize(zonotope.B.cols(), zonotope.B.rows());
+  }
+  zonotope.N.resize(zonotope.dimension(), 0);
+  const std::vector<Block> blocks = independent_blocks(zonotope.B);
+  zonotope.has_facets = std::all_of(blocks.begin(), blocks.end(), [&](const Block& block) {
+    return add_block(zonotope, block, max_subsets);
+  });
+  if (!zonotope.has_facets) {
+    zonotope.N.resize(zonotope.dimension(), 0);
+    zonotope.b_min.resize(0);
+    zonotope.b_max.resize(0);
+  }
+  zonotope.N_nonzero = zonotope.N.sparseView();
+  zonotope.N_nonzero.makeCompressed();
+  return zonotope;
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "lib/math/decompositions.h"
+#include "lib/robot/kinematics.h"
+#include "maxwrench/problem.h"
+
+namespace maxwrench {
+
+/// The inverse kinematics of the arm that ends at a problem's contact: all positions of the joints
+/// `contact.follow` with which the end effector meets a target, the other joints of the arm at
+/// rest.
+///
+/// In closed form where the target is a point and the joints that follow are revolute,
+///
+///  * two about parallel axes (an arm in a plane), or
+///  * three, the last two about parallel axes (a shoulder's yaw, its pitch and an elbow), the first
+///    about another.
+///
+/// With the unit axis a and a point o of each axis at zero positions, R(a, q) the rotation, and p_0
+/// the end effector's origin there, the first joint must bring the target p into the plane in which
+/// the other two move it: n'R(a_1, -q_1)(p - o_1) = n'(p_0 - o_1), n the common axis, an equation A
+/// cos q_1 + B sin q_1 = C with two solutions. The elbow then sets the distance from the axis of
+/// the pitch (two solutions), the pitch the direction. So there are up to four solutions.
+///
+/// Any other arm goes through a damped Newton's method from a fixed set of positions within the
+/// limits; those that differ count.
+class ContactArm {
+ public:
+  static constexpr int kMostSolutions = 16;
+
+  /// Keeps a reference to the problem, which has a contact.
+  explicit ContactArm(const Problem& problem);
+  explicit ContactArm(const Problem&& problem) = delete;
+
+  bool closed_form() const { return closed_form_; }
+
+  /// All solutions for a target in base axes; returns their number. Revolute joints are turned into
+  /// their limits as far as whole turns do. Allocates nothing after the first call.
+  int solve(const Pose<double>& target);
+
+  /// The joints of `contact.follow` in solution i [rad or m].
+  const Eigen::VectorXd& solution(int i) const { return solutions_[static_cast<std::size_t>(i)]; }
+
+ private:
+  /// A joint that follows, in base axes at zero positions of all that follow.
+  struct Axis {
+    Eigen::Vector3d a, o;
+  };
+
+  void read_axes();
+  void solve_plane(const Eigen::Vector3d& p, double first);
+  void solve_shoulder(const Eigen::Vector3d& p);
+  void solve_by_newton(const Pose<double>& target);
+  bool newton(const Pose<double>& target);
+  void linearise(const Pose<double>& target);
+  bool same(const Eigen::VectorXd& solution) const;
+  void keep();
+
+  const Problem& problem_;
+  const Contact& contact_;
+  Kinematics<double> kinematics_;
+  bool closed_form_ = false;
+  std::array<Axis, 3> axes_;
+  Eigen::Vector3d p_0_;
+  int count_ = 0;
+  std::array<Eigen::VectorXd, kMostSolutions> solutions_;
+  Eigen::VectorXd q_, trial_;  ///< all joints; those that follow
+  Matrix6Xd J_;
+  Vector6N error_;
+  Matrix6N J_f_;
+};
+
+}  // namespace maxwrench

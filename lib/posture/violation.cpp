@@ -1,0 +1,92 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <string_view>
+
+#include "maxwrench/posture.h"
+#include "maxwrench/problem.h"
+
+namespace maxwrench {
+namespace {
+
+bool outside(double x, double min, double max) {
+  return x < min - kLimitTolerance || x > max + kLimitTolerance;
+}
+
+std::string shown_place(const std::string& name, double x, const char* unit, double min,
+                        double max) {
+  std::ostringstream text;
+  text << name << " at " << x << ' ' << unit << ", limits " << min << " .. " << max;
+  return text.str();
+}
+
+/// The first coordinate of theta_r beyond its limits, or nothing.
+std::string theta_r_beyond(const Problem& problem, const Posture& posture) {
+  for (int i = 0; i < static_cast<int>(posture.theta_r.size()); ++i) {
+    const double x = posture.theta_r[i], min = problem.theta_r_min[i], max = problem.theta_r_max[i];
+    if (!outside(x, min, max)) continue;
+    const auto k = static_cast<std::size_t>(i);
+    const bool turns =
+        k < problem.redundant.size()
+            ? problem.robot.joints[static_cast<std::size_t>(problem.redundant[k])].type ==
+                  JointType::kRevolute
+            : problem.contact->surface == Surface::kCircle;
+    return shown_place(problem.theta_r_name(i), x, turns ? "rad" : "m", min, max);
+  }
+  return "";
+}
+
+/// The first of these joints beyond its limits, or nothing.
+std::string joint_beyond(const Robot& robot, const std::vector<int>& joints,
+                         const Eigen::VectorXd& q) {
+  for (const int i : joints) {
+    const Joint& joint = robot.joints[static_cast<std::size_t>(i)];
+    if (!outside(q[i], joint.q_min, joint.q_max)) continue;
+    const char* unit = joint.type == JointType::kRevolute ? "rad" : "m";
+    return shown_place(joint.name, q[i], unit, joint.q_min, joint.q_max);
+  }
+  return "";
+}
+
+/// Where the base is off its free axes, farthest: the coordinate from its mount.
+std::string base_off_its_axes(const Robot& robot, const Pose<double>& base) {
+  constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
+  const Pose<double> moved = robot.mount.inverse() * base;
+  Vector6d along;
+  along << moved.p, logarithm(moved.R);
+  for (const int axis : robot.base_axes) along[axis] = 0;
+  int i = 0;
+  along.cwiseAbs().maxCoeff(&i);
+  const char* axis = kAxes[static_cast<std::size_t>(i % 3)];
+  std::ostringstream text;
+  text << "it would be " << along[i] << (i < 3 ? " m along " : " rad about ") << axis
+       << " from its mount";
+  return text.str();
+}
+
+std::string detail_of(const Problem& problem, const Posture& posture) {
+  const Robot& robot = problem.robot;
+  const std::string_view reason = posture.reason.c_str();
+  const auto says = [reason](std::string_view part) { return reason.find(part) != reason.npos; };
+  if (says("collision")) {
+    // With a second arm the posture is the last of several, which may fail by something else.
+    const int pair = robot.collision ? robot.collision->colliding_pair(posture.links) : -1;
+    return pair < 0 ? "" : robot.collision->pair_name(pair);
+  }
+  if (says("free axes")) return base_off_its_axes(robot, posture.base);
+  if (!says("limit")) return "";
+  if (says("dependent")) return joint_beyond(robot, problem.dependent, posture.q);
+  if (says("second arm")) return joint_beyond(robot, problem.contact->follow, posture.q);
+  return theta_r_beyond(problem, posture);
+}
+
+}  // namespace
+
+std::string describe_violation(const Problem& problem, const Posture& posture) {
+  if (posture.status == Status::kValid) return "";
+  const std::string detail = detail_of(problem, posture);
+  return detail.empty() ? posture.reason.str() : posture.reason.str() + ": " + detail;
+}
+
+}  // namespace maxwrench

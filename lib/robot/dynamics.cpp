@@ -1,0 +1,318 @@
+#include "lib/robot/dynamics.h"
+
+#include <cmath>
+
+#include "lib/math/dual.h"
+
+namespace maxwrench {
+namespace {
+
+/// x := M^-1 x for M symmetric positive definite, by M = L D L'; M is overwritten. Eigen's
+/// factorisations compare scalars, which neither dual numbers nor intervals can always do.
+template <class T>
+void solve_in_place(MatrixX<T>& M, VectorX<T>& x) {
+  const Eigen::Index n = x.size();
+  for (Eigen::Index j = 0; j < n; ++j) {
+    for (Eigen::Index i = n - 1; i > j; --i) {
+      const T l = M(i, j) / M(j, j);
+      for (Eigen::Index k = j + 1; k <= i; ++k) M(i, k) -= l * M(k, j);
+      M(i, j) = l;
+      x[i] -= l * x[j];
+    }
+  }
+  for (Eigen::Index j = n; j-- > 0;) {
+    x[j] /= M(j, j);
+    for (Eigen::Index i = j + 1; i < n; ++i) x[j] -= M(i, j) * x[i];
+  }
+}
+
+}  // namespace
+
+template <class T>
+Dynamics<T>::Dynamics(const Robot& robot)
+    : robot_(&robot),
+      kinematics_(robot),
+      axes_(robot.joints.size()),
+      twists_(robot.links.size()),
+      twist_rates_(robot.links.size()),
+      forces_(robot.links.size()),
+      carried_(robot.links.size()),
+      zero_(VectorX<T>::Zero(robot.velocities())),
+      load_(robot.velocities()),
+      tau_(robot.velocities()),
+      M_(robot.velocities(), robot.velocities()),
+      J_(6, robot.velocities()) {
+  for (const Link& link : robot.links) inertia_.push_back(link_inertia(link));
+}
+
+/// Of the link and of the water that its bodies move, at the link's origin and in its axes.
+template <class T>
+auto Dynamics<T>::link_inertia(const Link& link) -> Inertia<double> {
+  const Matrix3<double> zero = Matrix3<double>::Zero();
+  const Matrix3<double> mass = link.mass * Matrix3<double>::Identity();
+  Inertia<double> sum =
+      moved<double>({Matrix3<double>::Identity(), link.com}, {mass, zero, link.inertia});
+  for (const HydrodynamicBody& body : link.hydrodynamics) {
+    const Inertia<double> water = moved<double>(
+        body.frame,
+        {body.added_mass.head<3>().asDiagonal(), zero, body.added_mass.tail<3>().asDiagonal()});
+    sum.A += water.A;
+    sum.B += water.B;
+    sum.C += water.C;
+  }
+  return sum;
+}
+
+/// An inertia given at `frame`'s origin in its axes, at the origin and axes that `frame` is
+/// relative to: with P = [p]x the twist at p is (v - P w, w), and momentum at p counts L + p x (A v
+/// + B w).
+template <class T>
+template <class S>
+auto Dynamics<T>::moved(const Pose<S>& frame, const Inertia<double>& inertia) -> Inertia<S> {
+  const auto turned = [&frame](const Matrix3<double>& block) -> Matrix3<S> {
+    const Matrix3<S> left = frame.R * block;
+    return left * frame.R.transpose();
+  };
+  const Matrix3<S> P = skew(frame.p);
+  Inertia<S> result{turned(inertia.A), turned(inertia.B), turned(inertia.C)};
+  const Matrix3<S> B_P = result.B.transpose() * P;
+  result.B -= result.A * P;
+  const Matrix3<S> P_B = P * result.B;
+  result.C += P_B - B_P;
+  return result;
+}
+
+template <class T>
+template <class S>
+auto Dynamics<T>::momentum(const Inertia<S>& inertia, const Screw& twist) -> Screw {
+  return {inertia.A * twist.linear + inertia.B * twist.angular,
+          inertia.B.transpose() * twist.linear + inertia.C * twist.angular};
+}
+
+/// Power of a wrench along a twist.
+template <class T>
+T Dynamics<T>::along(const Screw& twist, const Screw& wrench) {
+  return twist.linear.dot(wrench.linear) + twist.angular.dot(wrench.angular);
+}
+
+/// Number `axis` of [linear; angular].
+template <class T>
+T Dynamics<T>::component(const Screw& screw, int axis) {
+  return axis < 3 ? screw.linear[axis] : screw.angular[axis - 3];
+}
+
+/// The twist at `frame`'s origin, in its axes.
+template <class T>
+auto Dynamics<T>::into(const Pose<T>& frame, const Screw& twist) -> Screw {
+  const Vector3<T> linear = twist.linear + twist.angular.cross(frame.p);
+  return {frame.R.transpose() * linear, frame.R.transpose() * twist.angular};
+}
+
+template <class T>
+void Dynamics<T>::set_configuration(const Matrix3<T>& R_base, const VectorX<T>& q) {
+  R_base_ = R_base;
+  kinematics_.set_joints(q);
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const Pose<T>& link = kinematics_.links()[i + 1];
+    const Vector3<T> axis = link.R * robot_->joints[i].axis;
+    if (robot_->joints[i].type == JointType::kRevolute) {
+      axes_[i] = {link.p.cross(axis), axis};
+    } else {
+      axes_[i].linear = axis;
+    }
+  }
+}
+
+/// Composite bodies: a joint's column of M is the momentum that its unit rate gives to all that it
+/// carries, as the velocities of the base and of its ancestors see it.
+template <class T>
+void Dynamics<T>::mass_matrix(MatrixX<T>& M) {
+  const int base = static_cast<int>(robot_->base_axes.size());
+  const int joints = static_cast<int>(axes_.size());
+  for (int i = 0; i <= joints; ++i) carried_[i] = moved<T>(kinematics_.links()[i], inertia_[i]);
+  for (int i = joints; i > 0; --i) {
+    Inertia<T>& parent = carried_[robot_->joints[i - 1].parent];
+    parent.A += carried_[i].A;
+    parent.B += carried_[i].B;
+    parent.C += carried_[i].C;
+  }
+  M.resize(base + joints, base + joints);
+  M.setConstant(T(0.0));
+  const auto base_rows = [&](int column, const Screw& p) {
+    for (int row = 0; row < base; ++row) {
+      M(row, column) = M(column, row) = component(p, robot_->base_axes[row]);
+    }
+  };
+  for (int column = 0; column < base; ++column) {
+    base_rows(column, momentum(carried_[0], base_unit(robot_->base_axes[column])));
+  }
+  for (int i = 0; i < joints; ++i) {
+    const Screw p = momentum(carried_[i + 1], axes_[i]);
+    base_rows(base + i, p);
+    for (int link = i + 1; link != 0; link = robot_->joints[link - 1].parent) {
+      const int row = base + link - 1;
+      M(row, base + i) = M(base + i, row) = along(axes_[link - 1], p);
+    }
+  }
+}
+
+template <class T>
+void Dynamics<T>::coriolis(const VectorX<T>& velocity, VectorX<T>& C_v) {
+  set_twists(velocity);
+  set_twist_rates(velocity, zero_);
+  clear_forces();
+  add_inertial_forces();
+  project_forces(C_v);
+}
+
+template <class T>
+void Dynamics<T>::damping(const VectorX<T>& velocity, VectorX<T>& D_v) {
+  set_twists(velocity);
+  clear_forces();
+  add_drag();
+  project_forces(D_v);
+}
+
+template <class T>
+void Dynamics<T>::inverse(const VectorX<T>& velocity, const VectorX<T>& acceleration,
+                          VectorX<T>& tau_d) {
+  set_twists(velocity);
+  set_twist_rates(velocity, acceleration);
+  clear_forces();
+  add_inertial_forces();
+  add_drag();
+  project_forces(tau_d);
+  gravity(load_);
+  tau_d += load_;
+}
+
+template <class T>
+void Dynamics<T>::forward(const VectorX<T>& velocity, const VectorX<T>& tau,
+                          VectorX<T>& acceleration) {
+  inverse(velocity, zero_, acceleration);
+  acceleration = tau - acceleration;
+  mass_matrix(M_);
+  solve_in_place(M_, acceleration);
+}
+
+template <class T>
+void Dynamics<T>::forward(const VectorX<T>& velocity, const VectorX<T>& tau,
+                          const EndEffector& end_effector, const Vector6<T>& h_e,
+                          VectorX<T>& acceleration) {
+  kinematics_.jacobian(end_effector, R_base_, J_);
+  tau_.noalias() = tau - J_.transpose().lazyProduct(h_e);
+  forward(velocity, tau_, acceleration);
+}
+
+/// The twist of the base at unit velocity along one of [x y z roll pitch yaw].
+template <class T>
+auto Dynamics<T>::base_unit(int axis) -> Screw {
+  Screw unit;
+  (axis < 3 ? unit.linear : unit.angular)[axis % 3] = T(1.0);
+  return unit;
+}
+
+/// The base's part of n numbers, as a twist.
+template <class T>
+auto Dynamics<T>::base_twist(const VectorX<T>& velocity) const -> Screw {
+  Screw twist;
+  for (std::size_t i = 0; i < robot_->base_axes.size(); ++i) {
+    const int axis = robot_->base_axes[i];
+    (axis < 3 ? twist.linear : twist.angular)[axis % 3] = velocity[static_cast<Eigen::Index>(i)];
+  }
+  return twist;
+}
+
+template <class T>
+void Dynamics<T>::set_twists(const VectorX<T>& velocity) {
+  const auto base = static_cast<Eigen::Index>(robot_->base_axes.size());
+  twists_[0] = base_twist(velocity);
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const Screw& parent = twists_[robot_->joints[i].parent];
+    const T& rate = velocity[base + static_cast<Eigen::Index>(i)];
+    twists_[i + 1] = {parent.linear + axes_[i].linear * rate,
+                      parent.angular + axes_[i].angular * rate};
+  }
+}
+
+/// Derivatives in resting axes that coincide with the base's: a joint's axis moves with its parent.
+/// Those of the base's own components are the same in moving and in resting axes.
+template <class T>
+void Dynamics<T>::set_twist_rates(const VectorX<T>& velocity, const VectorX<T>& acceleration) {
+  const auto base = static_cast<Eigen::Index>(robot_->base_axes.size());
+  twist_rates_[0] = base_twist(acceleration);
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const auto k = base + static_cast<Eigen::Index>(i);
+    const Screw& carrier = twists_[robot_->joints[i].parent];
+    const Screw& parent = twist_rates_[robot_->joints[i].parent];
+    const Screw& axis = axes_[i];
+    const Vector3<T> turned = carrier.angular.cross(axis.angular);
+    const Vector3<T> swept =
+        carrier.angular.cross(axis.linear) + carrier.linear.cross(axis.angular);
+    twist_rates_[i + 1] = {parent.linear + axis.linear * acceleration[k] + swept * velocity[k],
+                           parent.angular + axis.angular * acceleration[k] + turned * velocity[k]};
+  }
+}
+
+template <class T>
+void Dynamics<T>::clear_forces() {
+  for (Screw& force : forces_) force = Screw();
+}
+
+/// Adds a wrench given at `frame`'s origin in its axes.
+template <class T>
+void Dynamics<T>::add_force(int link, const Pose<T>& frame, const Screw& wrench) {
+  const Vector3<T> force = frame.R * wrench.linear;
+  forces_[link].linear += force;
+  forces_[link].angular += frame.R * wrench.angular + frame.p.cross(force);
+}
+
+/// The rate of each link's momentum, in its own axes, where its inertia is constant: with momentum
+/// (p, L) and twist (v, w) it is p_d + w x p and L_d + w x L + v x p.
+template <class T>
+void Dynamics<T>::add_inertial_forces() {
+  for (int i = 0; i < static_cast<int>(inertia_.size()); ++i) {
+    const Pose<T>& frame = kinematics_.links()[i];
+    const Screw twist = into(frame, twists_[i]);
+    const Screw p = momentum(inertia_[i], twist);
+    Screw rate = momentum(inertia_[i], into(frame, twist_rates_[i]));
+    rate.linear += twist.angular.cross(p.linear);
+    rate.angular += twist.angular.cross(p.angular) + twist.linear.cross(p.linear);
+    add_force(i, frame, rate);
+  }
+}
+
+template <class T>
+void Dynamics<T>::add_drag() {
+  using std::abs;
+  for (int i = 0; i < static_cast<int>(inertia_.size()); ++i) {
+    for (const HydrodynamicBody& body : robot_->links[i].hydrodynamics) {
+      const Pose<T> frame = kinematics_.links()[i] * body.frame;
+      Screw screw = into(frame, twists_[i]);
+      for (int axis = 0; axis < 6; ++axis) {
+        T& x = (axis < 3 ? screw.linear : screw.angular)[axis % 3];
+        x *= body.damping_linear[axis] + body.damping_quadratic[axis] * abs(x);
+      }
+      add_force(i, frame, screw);
+    }
+  }
+}
+
+/// Each force loads all joints between it and the base. Overwrites the forces.
+template <class T>
+void Dynamics<T>::project_forces(VectorX<T>& tau) {
+  tau.resize(robot_->velocities());
+  for (std::size_t i = axes_.size(); i > 0; --i) {
+    Screw& parent = forces_[robot_->joints[i - 1].parent];
+    parent.linear += forces_[i].linear;
+    parent.angular += forces_[i].angular;
+  }
+  Eigen::Index row = 0;
+  for (const int axis : robot_->base_axes) tau[row++] = component(forces_[0], axis);
+  for (std::size_t i = 0; i < axes_.size(); ++i) tau[row++] = along(axes_[i], forces_[i + 1]);
+}
+
+template class Dynamics<double>;
+template class Dynamics<Dual<4>>;
+
+}  // namespace maxwrench

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "maxwrench/robot.h"
+
+namespace maxwrench {
+
+/// Rigid-body quantities of a robot, templates on the scalar: double, or a dual number for exact
+/// derivatives. The constants of the tree are prepared once; evaluation allocates nothing.
+///
+/// Velocities are [free base axes in base axes; joint rates], n in number.
+template <class T>
+class Kinematics {
+ public:
+  /// The robot outlives this.
+  explicit Kinematics(const Robot& robot);
+  explicit Kinematics(const Robot&&) = delete;
+
+  /// Poses of all links relative to the base, for the joint positions q.
+  void set_joints(const VectorX<T>& q);
+
+  /// J 6×n [-, m]: velocities -> twist [linear; angular] of the end effector in world axes, at its
+  /// origin.
+  void jacobian(const EndEffector& end_effector, const Matrix3<T>& R_base, Matrix6X<T>& J) const;
+
+  /// tau_d n [N, N m] at rest: the gradient of the potential energy sum_i (m_i z_com,i - rho V_i
+  /// z_cob,i) g, less that of the trim's lift, along the velocities: the g(theta) of eq:dynamics.
+  void gravity_and_buoyancy(const Matrix3<T>& R_base, VectorX<T>& tau_d);
+
+  const std::vector<Pose<T>>& links() const { return links_; }
+  Pose<T> end_effector(const EndEffector& e) const { return links_[e.link] * e.placement; }
+
+  Vector3<T> end_effector_position(const EndEffector& e) const {
+    return links_[e.link].R * e.placement.p + links_[e.link].p;
+  }
+
+  /// Unit vector along the axis of joint i, in base axes.
+  Vector3<T> joint_axis(std::size_t i) const { return links_[i + 1].R * constants_[i].axis; }
+  /// Wet mass [kg] of a link and all that it carries, and its first moment [kg m] about the base
+  /// origin in base axes, of the state that `gravity_and_buoyancy` saw.
+  double carried_mass(std::size_t link) const { return carried_mass_[link]; }
+  const Vector3<T>& carried_moment(std::size_t link) const { return carried_moment_[link]; }
+
+ private:
+  /// Rotation about the joint axis by Rodrigues' formula, placement included: K0 + sin(q) K1 + (1 -
+  /// cos(q)) K2.
+  struct JointConstants {
+    std::array<Matrix3<double>, 3> K;
+    Vector3<double> axis;  ///< in the axes of the link that it moves
+  };
+
+  const Robot* robot_;
+  std::vector<JointConstants> constants_;
+  std::vector<Pose<T>> links_;
+  // Of the wet weight: mass less displaced water (and trim, on the base) of the link and of all
+  // that it carries, and first moments.
+  std::vector<Vector3<double>> link_moment_;
+  std::vector<double> link_mass_, carried_mass_;
+  std::vector<Vector3<T>> carried_moment_;
+};
+
+}  // namespace maxwrench

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <functional>
+
+#include "lib/robot/dynamics.h"
+#include "maxwrench/ode.h"
+
+namespace maxwrench {
+
+// A moving robot as the state y of an Ode, in this order:
+//
+//   p   3  position of the base in the world [m]
+//   e   4  its orientation as a quaternion (w, x, y, z)
+//   q      joint positions
+//   v   n  velocities (see lib/robot/dynamics.h)
+//
+// The orientation is read from e/|e|, so its length means nothing to the motion; the rate of e has
+// a term along e that pulls the length back to one, so it never drifts far.
+
+/// The configuration and velocity of a robot.
+struct Motion {
+  Pose<double> base;
+  Eigen::VectorXd q, v;
+};
+
+/// The numbers that a motion takes in a state.
+int motion_size(const Robot& robot);
+/// Into and from the head of y.
+void write_motion(const Motion& motion, Eigen::VectorXd& y);
+void read_motion(const Eigen::VectorXd& y, Motion& motion);
+/// The rates of p, e and q by a motion that was read from y, into the head of y_dot:
+/// p_dot = R v_lin,  e_dot = e * (0, w)/2 + k (1 - |e|^2) e,  k = 1/s,  q_dot.
+void configuration_rates(const Robot& robot, const Motion& motion, const Eigen::VectorXd& y,
+                         Eigen::VectorXd& y_dot);
+
+/// The configuration after `seconds` with the velocities that it has.
+Motion advanced(const Robot& robot, Motion motion, double seconds);
+
+/// A robot free of contact under actuator forces tau(t) (eq:dynamics with h_e = 0). Its residual
+/// form needs no factorisation of M.
+class FreeMotion final : public Ode {
+ public:
+  /// The robot outlives this. `tau` fills n numbers [N, N m].
+  FreeMotion(const Robot& robot, const Motion& start,
+             std::function<void(double t, Eigen::VectorXd& tau)> tau);
+  FreeMotion(const Robot&&, const Motion&, std::function<void(double, Eigen::VectorXd&)>) = delete;
+
+  const Eigen::VectorXd& initial() const override { return start_; }
+  bool derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& y_dot) override;
+  bool residual(double t, const Eigen::VectorXd& y, const Eigen::VectorXd& y_dot,
+                Eigen::VectorXd& F) override;
+
+ private:
+  const Robot& robot_;
+  Dynamics<double> dynamics_;
+  std::function<void(double, Eigen::VectorXd&)> effort_;
+  Eigen::VectorXd start_, tau_, v_d_, tau_d_;
+  Motion motion_;
+};
+
+}  // namespace maxwrench

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "maxwrench/tank.h"
+
+namespace maxwrench {
+
+/// How well the hold of `run` went (see TankSummary and `run_tank`). `lost`: the posture was.
+TankSummary summarise(const Problem& problem, const TankPlan& plan, const TankOptions& options,
+                      const TankRun& run, bool lost);
+
+}  // namespace maxwrench

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+
+#include "maxwrench/lp_solver.h"
+
+// Solvers of general linear programs.
+
+namespace maxwrench {
+
+/// Every tolerance of the simplex. They apply to the scaled program.
+struct SimplexOptions {
+  double primal_tolerance = 1e-9;     ///< bound violation of a feasible basis, beside rounding
+  double dual_tolerance = 1e-9;       ///< sign violation of a reduced cost, largest cost near 1
+  double zero_tolerance = 1e-9;       ///< smaller entries of the tableau are no pivots
+  double pivot_tolerance = 1e-7;      ///< smaller pivots are only taken from fresh factors
+  double singular_tolerance = 1e-10;  ///< smaller pivots make a basis singular
+  double verify_tolerance = 1e-7;     ///< residuals, from the data, of an accepted optimum
+  int max_updates = 64;               ///< pivots between two factorisations
+  int max_iterations = 0;             ///< pivots and bound flips; 0: 2,000 + 20 (rows + columns)
+};
+
+/// A bounded-variable simplex for `max c'x, A x = b, l <= x <= u`; dense factors, so meant for up
+/// to about 500 × 1,000.
+///
+/// A basis that is dual feasible, if need be after moving boxed variables to their other bound, is
+/// repaired by the dual simplex; one that is primal feasible is improved by the primal simplex; one
+/// that is neither goes through a first phase: the dual simplex on costs shifted until the basis is
+/// dual feasible, which ends in a feasible basis or a proof that there is none. A solution with a
+/// `basis` that fits is a warm start. After the first call a warm start of the same sizes allocates
+/// nothing. Same program and same basis: same answer, bit for bit.
+std::unique_ptr<LpSolver> make_simplex(const SimplexOptions& options = {});
+
+/// Clp, COIN-OR's simplex library, silent: the dual simplex with bounds and costs unperturbed.
+/// Every call loads the program afresh and then the kept basis. Proofs are its rays; where it has
+/// none, `prove_no_optimum`.
+std::unique_ptr<LpSolver> make_clp();
+
+/// The same on one model that is edited in place from call to call, with its own basis, while the
+/// pattern of A stays (for benchmarks: the least that Clp can do with).
+std::unique_ptr<LpSolver> make_clp_keeping_its_model();
+
+/// GLPK's dual simplex, silent. Every call loads the program afresh and then the kept basis,
+/// because to edit and resolve was seen to give an "optimum" with wrong residuals. GLPK's
+/// environment belongs to a thread: problems live only during a call. The environment of a host
+/// program that uses GLPK in the same thread is left as it was, but for its terminal and error
+/// hooks. A Farkas vector is a row of the inverse basis; a ray comes from `prove_no_optimum`.
+std::unique_ptr<LpSolver> make_glpk();
+
+/// The same on one problem that is edited in place from call to call (for benchmarks). The thread
+/// that uses it must also destroy it.
+std::unique_ptr<LpSolver> make_glpk_keeping_its_model();
+
+/// Ipopt, a general interior point method, with settings for linear programs (Mehrotra's
+/// predictor-corrector, no relaxed bounds). When it does not converge, the elastic program (least
+/// 1-norm of A x - b) decides whether the program is infeasible: its multipliers are the Farkas
+/// vector. Debian's build is not thread-safe, so all solves in a process stand behind one lock.
+std::unique_ptr<LpSolver> make_ipopt();
+
+}  // namespace maxwrench

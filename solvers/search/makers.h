@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+
+#include "maxwrench/search.h"
+
+// Searches; what each does stands in the table of strategies.
+
+namespace maxwrench {
+
+std::unique_ptr<Search> make_annealing();
+
+std::unique_ptr<Search> make_cobyla();
+
+std::unique_ptr<Search> make_crs2();
+
+std::unique_ptr<Search> make_direct_l();
+
+std::unique_ptr<Search> make_grid();
+
+std::unique_ptr<Search> make_isres();
+
+std::unique_ptr<Search> make_mlsl();
+
+std::unique_ptr<Search> make_multistart();
+
+std::unique_ptr<Search> make_nullspace();
+
+}  // namespace maxwrench

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <vector>
+
+#include "lib/math/direct_drives.h"
+#include "maxwrench/wrench_program.h"
+#include "solvers/wrench/tableau.h"
+
+namespace maxwrench {
+
+/// The wrench program without its equations, for a program whose first wrench columns are free and
+/// as many as the rows without a direct drive (all six wrenches on a free-floating base). Further
+/// ones, those of a second contact, stay with their bounds as if they were thrusters whose column
+/// of B_b is that of -J_b'W; in a driven row j they also appear by themselves. A direct drive is
+/// the only entry of its row and of its column of B. With P = (J_b'W)^-1 over the other rows b,
+///
+///     w = P (B_b u_b - tau_b),   v_j = tau_j + J_j'W w,   b_j u_j = v_j   for the driven rows j,
+///
+/// the efforts u_b (the thrusters) are left, each between its limits, and a row for each joint:
+///
+///     max (c_w'P B_b) u_b   subject to   u_b,min <= u_b <= u_b,max,   v_j between the limits of
+///     b_j u_j.
+///
+/// Its sign vertex is dual feasible. With z >= 0 at the upper limits of v: lambda_j = -z_j and
+/// lambda_b = -P'(c_w + (J_j'W)'lambda_j).
+class Elimination {
+ public:
+  /// Fills the tableau; false if the program is not of this kind or J_b'W is near singular.
+  bool load(const WrenchProgram& program, Tableau& tableau);
+  /// beta, w, lambda and, if asked for, u, after the tableau was solved.
+  void fill(const WrenchProgram& program, const Tableau& tableau, bool efforts,
+            Capability& capability);
+  /// The Farkas vector y of the wrench program, after the tableau was found infeasible.
+  void fill_contradiction(const WrenchProgram& program, const Tableau& tableau,
+                          Eigen::VectorXd& y) const;
+
+ private:
+  /// k <= 6 columns that are eliminated, padded to 6, with an identity in P and zeros elsewhere:
+  /// constant sizes are fast.
+  using Square = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+  using Wide = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>;
+
+  void split(const Eigen::MatrixXd& B);
+  void append(const WrenchProgram& program);
+  bool invert(const WrenchProgram& program);
+  void add_joint(const WrenchProgram& program, int joint, Tableau& tableau);
+  double combine(const Vector6d& p, double* row) const;
+  /// lambda with (J'W)'lambda = -c_share c_w.
+  void fill_lambda(const WrenchProgram& program, const Tableau& tableau, double c_share,
+                   Eigen::VectorXd& lambda) const;
+
+  Eigen::MatrixXd B_;    // that the following two were made from
+  DirectDrives drives_;  // the other rows are those of the base, the other columns thrusters
+  Wide B_b_;  // thrusters, then columns of a second contact, then zeros (solvers/wrench/padded.h)
+  int extra_ = 0;  // of the latter
+  Square P_;
+  int steps_ = 1;  // of refinement with P, the first included
+  Vector6d tau_b_;
+  Eigen::VectorXd row_;
+};
+
+}  // namespace maxwrench

@@ -1,0 +1,182 @@
+#include <cmath>
+#include <stdexcept>
+
+#include "solvers/lp/makers.h"
+#include "solvers/wrench/efforts.h"
+#include "solvers/wrench/makers.h"
+
+namespace maxwrench {
+namespace {
+
+/// A slope n'a below this share of |a| does not move along the ray.
+constexpr double kSlopeTolerance = 1e-12;
+/// How far [N, N m] the set may be missed by rounding, relative to the widths involved.
+constexpr double kPairTolerance = 1e-9;
+
+/// The part of the ray tau_d + a x inside the set: the largest `enter` and the least `leave` of its
+/// facet pairs. The loops have no branches that depend on the posture.
+class Ray {
+ public:
+  double low = 0, high = 0;
+  int missed_pair = -1;    ///< a violated pair that the ray runs parallel to
+  double missed_side = 0;  ///< 1 if its upper bound is, -1 if the lower one
+
+  void shoot(const Zonotope& set, const Eigen::VectorXd& tau, const double* a) {
+    project(set, tau, a);
+    const int pairs = set.facet_pairs();
+    missed_pair = -1;
+    int parallel = 0;
+    low = -kInfinity;
+    high = kInfinity;
+    for (int j = 0; j < pairs; ++j) {
+      const bool moves = std::abs(slope_[j]) > flat_;
+      const double inverse = 1 / slope_[j];
+      const double first = (set.b_min[j] - value_[j]) * inverse;
+      const double second = (set.b_max[j] - value_[j]) * inverse;
+      enter_[j] = moves ? std::min(first, second) : -kInfinity;
+      leave_[j] = moves ? std::max(first, second) : kInfinity;
+      parallel += !moves;
+    }
+    for (int j = 0; j < pairs; ++j) {
+      low = std::max(low, enter_[j]);
+      high = std::min(high, leave_[j]);
+    }
+    if (parallel > 0) find_missed(set);
+  }
+
+  int low_pair() const { return find(enter_, low); }
+  int high_pair() const { return find(leave_, high); }
+
+ private:
+  static int find(const Eigen::VectorXd& bounds, double bound) {
+    int j = 0;
+    while (bounds[j] != bound) ++j;
+    return j;
+  }
+
+  /// slope_ = N'a, value_ = N'tau.
+  void project(const Zonotope& set, const Eigen::VectorXd& tau, const double* a) {
+    const Eigen::Index pairs = set.facet_pairs();
+    if (slope_.size() != pairs) {
+      for (Eigen::VectorXd* v : {&slope_, &value_, &enter_, &leave_}) v->resize(pairs);
+    }
+    slope_.setZero();
+    value_.setZero();
+    double norm = 0;
+    double* const slope = slope_.data();
+    double* const value = value_.data();
+    for (Eigen::Index i = 0; i < set.N.rows(); ++i) {
+      const double* const row = set.N.data() + i * pairs;
+      const double a_i = a[i];
+      const double tau_i = tau[i];
+      norm += a_i * a_i;
+      for (Eigen::Index j = 0; j < pairs; ++j) {
+        slope[j] += row[j] * a_i;
+        value[j] += row[j] * tau_i;
+      }
+    }
+    flat_ = kSlopeTolerance * std::sqrt(norm);
+  }
+
+  void find_missed(const Zonotope& set) {
+    for (int j = 0; j < set.facet_pairs(); ++j) {
+      if (std::abs(slope_[j]) > flat_) continue;
+      const double slack = kPairTolerance * (1 + std::abs(value_[j]));
+      const bool below = set.b_min[j] - value_[j] > slack;
+      if (!below && set.b_max[j] - value_[j] >= -slack) continue;
+      missed_pair = j;
+      missed_side = below ? -1 : 1;
+    }
+  }
+
+  Eigen::VectorXd slope_, value_, enter_, leave_;
+  double flat_ = 0;
+};
+
+class Facets : public WrenchSolver {
+ public:
+  void solve(const WrenchProgram& program, bool efforts, Capability& capability) override {
+    if (program.columns() != 1) {
+      throw std::invalid_argument("solver facets: got " + std::to_string(program.columns()) +
+                                  " wrench columns, expected one (wrench pure)");
+    }
+    const Zonotope& set = *program.actuation;
+    if (!set.has_facets) {
+      throw std::invalid_argument(
+          "solver facets: the actuators have too many facets to enumerate, expected another "
+          "solver");
+    }
+    capability.iterations = 0;
+    Ray& ray = ray_;
+    ray.shoot(set, program.tau_d, program.JtW.data());
+    const bool upwards = program.c_w[0] >= 0;
+    double x = upwards ? std::min(ray.high, program.w_max[0]) : std::max(ray.low, program.w_min[0]);
+    const double low = std::max(ray.low, program.w_min[0]);
+    const double high = std::min(ray.high, program.w_max[0]);
+    if (ray.missed_pair >= 0 || low > high + kPairTolerance * (1 + std::abs(high))) {
+      capability.status = Status::kInfeasible;
+      capability.reason = "no actuator efforts balance the posture";
+      fill_contradiction(program, ray, capability.lambda);
+      if (proves_infeasible(program, capability.lambda)) return;
+      capability.status = Status::kNumericalError;
+      capability.reason = "no proof that the program is infeasible holds";
+      return;
+    }
+    if (!std::isfinite(x)) {
+      capability.status = Status::kUnbounded;
+      capability.reason = "the wrench does not load any actuator";
+      return;
+    }
+    fill(program, upwards ? ray.high_pair() : ray.low_pair(), x == (upwards ? ray.high : ray.low),
+         x, capability);
+    if (efforts) fill_efforts(program, *simplex_, capability);
+  }
+
+ private:
+  static void fill(const WrenchProgram& program, int pair, bool facet_active, double x,
+                   Capability& capability) {
+    capability.status = Status::kOptimal;
+    capability.reason = "";
+    capability.beta = program.c_w[0] * x;
+    capability.w.setConstant(1, x);
+    if (facet_active) {
+      const auto normal = program.actuation->N.col(pair);
+      capability.lambda = normal * (-program.c_w[0] / normal.dot(program.JtW.col(0)));
+    } else {
+      capability.lambda.setZero(program.tau_d.size());
+    }
+  }
+
+  /// y with sup {y'(B u - J'W w)} < y'tau_d: the missed pair, or the difference of the two that
+  /// stop the ray before it begins, n/(n'J'W) each.
+  static void fill_contradiction(const WrenchProgram& program, const Ray& ray, Eigen::VectorXd& y) {
+    const Zonotope& set = *program.actuation;
+    y.setZero(program.tau_d.size());
+    const auto a = program.JtW.col(0);
+    const bool free = program.w_min[0] == -kInfinity || program.w_max[0] == kInfinity;
+    // A slope y'a that ought to vanish is taken away, for w may have no bound to keep it small.
+    const auto level = [&] {
+      const double size = a.squaredNorm();
+      if (free && size > 0) y -= a * (a.dot(y) / size);
+    };
+    if (ray.missed_pair >= 0) {
+      y = ray.missed_side * set.N.col(ray.missed_pair);
+      return level();
+    }
+    const auto add = [&](int pair, double sign) {
+      y += set.N.col(pair) * (sign / set.N.col(pair).dot(program.JtW.col(0)));
+    };
+    if (ray.high < program.w_max[0]) add(ray.high_pair(), 1);
+    if (ray.low > program.w_min[0]) add(ray.low_pair(), -1);
+    if (ray.high < program.w_max[0] && ray.low > program.w_min[0]) level();
+  }
+
+  Ray ray_;
+  std::unique_ptr<LpSolver> simplex_ = make_simplex();
+};
+
+}  // namespace
+
+std::unique_ptr<WrenchSolver> make_facets() { return std::make_unique<Facets>(); }
+
+}  // namespace maxwrench

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <vector>
+
+#include "maxwrench/types.h"
+
+namespace maxwrench {
+
+/// max c'x  subject to  low <= [G; I] x <= high, a dual simplex on a condensed tableau for few
+/// columns.
+///
+/// G is f×k; bounds may be infinite or equal. Of the f + k rows of [G; I] a basis holds k, on whose
+/// bounds x lies; the tableau T (f×k) gives the other rows, the dependent ones, from those of the
+/// basis, and a pivot exchanges a dependent row with one of the basis. y are the multipliers of the
+/// basis: the objective is y'(rows of the basis). A basis is dual feasible if the bound that the
+/// sign of y asks for is finite in each of its rows: there is no first phase. With finite bounds on
+/// all of x the unit rows are that basis, and no pivot is needed; a free column, or a bounded one
+/// whose y asks for infinity, first leaves for a row of G with two finite bounds.
+class Tableau {
+ public:
+  enum class Outcome { kOptimal, kInfeasible, kUndecided };
+
+  /// Sizes the storage; allocates only when the sizes change. Then fill `entry` (of G), `low`,
+  /// `high` and `c`.
+  void resize(int rows, int columns);
+  double& entry(int row, int column) { return G_[row * stride_ + column]; }
+  /// Entries of one row of G, `stride` of them (solvers/wrench/padded.h): beyond k they are zero
+  /// and must stay so.
+  double* row(int i) { return &G_[static_cast<std::size_t>(i) * stride_]; }
+  int stride() const { return stride_; }
+
+  /// What the tableau claims is checked with G before it is returned; what fails is undecided.
+  Outcome solve();
+
+  Eigen::VectorXd low, high;  ///< f + k
+  Eigen::VectorXd c;          ///< k
+  Eigen::VectorXd x;          ///< k, the optimum
+  /// f, of the rows of G. Optimal: their multipliers, positive at an upper bound. Infeasible: with
+  /// these the rows add up to one that the bounds of x contradict (Farkas).
+  Eigen::VectorXd multipliers;
+  int iterations = 0;
+
+ private:
+  /// Rows of [G; I] with their bounds, wherever they are.
+  struct Lines {
+    std::vector<int> row;
+    std::vector<double> low, high;
+    std::vector<double> slack;   // how far it may be missed by rounding
+    std::vector<double> weight;  // one over its squared norm
+    std::vector<double> tight;   // one over the distance of its bounds
+    void resize(int count);
+    void exchange(int i, Lines& other, int j);
+  };
+
+  void read();
+  void measure();
+  bool start();
+  bool rests(int j);
+  int violated(bool first);
+  int highest(double least) const;
+  int leaving(int i, double& gap, bool first);
+  int first_of(double ratio, int i, bool first) const;
+  void exchange(int i, int j);
+  void multiply(const double* rows, const double* factors, double* products) const;
+  void move(int j, double step);
+  double bound(int j) const { return side_[j] > 0 ? basis_.high[j] : basis_.low[j]; }
+  void fill();
+  void refine();
+  bool optimum_holds();
+  bool prove_contradiction(int i, double side);
+  double given(int row, int column) const { return G_[row * stride_ + column]; }
+  double* T(int i) { return &T_[static_cast<std::size_t>(i) * stride_]; }
+  const double* T(int i) const { return &T_[static_cast<std::size_t>(i) * stride_]; }
+
+  int rows_ = 0, columns_ = 0, stride_ = 0;
+  std::vector<double> G_, T_;  // rows of `stride_` entries; the last one of T_ is y
+  Lines dependent_, basis_;
+  std::vector<double> value_;  // of the dependent rows
+  std::vector<double> score_;  // of the dependent rows, padded to a whole chunk
+  bool measured_ = false;      // weight and tight are known
+  std::vector<int> used_;      // rows of G with a multiplier
+  std::vector<double> side_;   // 1 if a row of the basis rests on its upper bound, else -1
+  std::vector<double> ratio_;
+  std::vector<double> point_, y_, slack_;  // of all rows of [G; I]
+};
+
+}  // namespace maxwrench

@@ -1,0 +1,81 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "maxwrench/strategies.h"
+#include "tests/support/support.h"
+
+namespace maxwrench {
+namespace {
+
+using nlohmann::json;
+
+/// Runs a command that would take minutes and sends it SIGINT after a second, or `seconds`.
+CommandResult interrupt(const std::string& words, const std::filesystem::path& folder,
+                        const std::string& seconds = "1") {
+  return run_maxwrench("--version > /dev/null; timeout --foreground --preserve-status -s INT " +
+                           seconds + " '" MAXWRENCH_COMMAND "' " + words,
+                       folder);
+}
+
+TEST(CtrlC, SolvePrintsTheBestSoFar) {
+  const TemporaryFolder folder;
+  for (const SearchEntry& search : searches()) {
+    if (search.name == std::string("nullspace")) continue;  // ends by itself, soon
+    SCOPED_TRACE(search.name);
+    const CommandResult result =
+        interrupt("solve uvms/valve --json --budget 3000000 --search " + std::string(search.name),
+                  folder.path());
+    EXPECT_EQ(result.exit_status, 1) << result.err;
+    EXPECT_EQ(result.err, "");
+    const json best = json::parse(result.out);
+    EXPECT_EQ(best["status"], "budget_exhausted");
+    EXPECT_EQ(best["reason"], "interrupted");
+    EXPECT_GT(best["evaluations"], 0);
+    EXPECT_LT(best["evaluations"], 3000000);
+    // Its posture has its value.
+    std::string theta_r;
+    for (const json& angle : best["theta_r"])
+      theta_r += (theta_r.empty() ? "" : ",") + angle.dump();
+    const json again =
+        json::parse(run_maxwrench("eval uvms/valve --json --theta-r=" + theta_r).out);
+    EXPECT_NEAR(again["beta"], best["beta"], 1e-9);
+  }
+}
+
+TEST(CtrlC, TheTextSaysSo) {
+  const TemporaryFolder folder;
+  const CommandResult result = interrupt("solve uvms/valve --budget 3000000", folder.path());
+  EXPECT_EQ(result.exit_status, 1) << result.err;
+  EXPECT_NE(result.out.find("budget_exhausted: interrupted"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("\nbeta "), std::string::npos) << result.out;
+}
+
+/// After a second to the search, after two to what waits for it and hands it on.
+TEST(CtrlC, TheSecondEndsAtOnce) {
+  const TemporaryFolder folder;
+  const std::string wait = "timeout --foreground --preserve-status -s INT ";
+  const CommandResult result = run_maxwrench(
+      "--version > /dev/null; " + wait + "2 " + wait +
+          "1 '" MAXWRENCH_COMMAND "' solve uvms/valve --budget 90000000 --search annealing",
+      folder.path());
+  EXPECT_EQ(result.exit_status, 130) << result.err;  // 128 + SIGINT
+  EXPECT_EQ(result.out, "");
+}
+
+/// Half a comparison is printed and kept nowhere: each of its lines depends on the best of all.
+TEST(CtrlC, ComparePrintsWhatItHas) {
+  const TemporaryFolder folder;
+  const CommandResult result = interrupt(
+      "compare uvms/valve planar/force --budget 3000000 --seeds 1 --out .", folder.path(), "2");
+  EXPECT_EQ(result.exit_status, 1) << result.err;
+  EXPECT_NE(result.out.find("uvms/valve, interrupted: best known "), std::string::npos)
+      << result.out;
+  EXPECT_NE(result.out.find("\ngrid "), std::string::npos) << result.out;
+  EXPECT_EQ(result.out.find("planar/force"), std::string::npos) << result.out;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "search_comparison.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "search_comparison.svg"));
+}
+
+}  // namespace
+}  // namespace maxwrench

@@ -1,0 +1,3 @@
+#include "maxwrench/types.h"
+
+int main() { return maxwrench::kInfinity > 0 ? 0 : 1; }

@@ -1,0 +1,120 @@
+#!/usr/bin/env bash
+# What stands behind the front door: installs BUILD, moves the tree, and uses it as others would, with nothing of the sources at hand but
+# the examples. Quiet unless something fails.
+set -euo pipefail
+source=$1 build=$2 compiler=$3
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+log=$work/log
+fail() {
+  echo "install: $*" >&2
+  [ ! -s "$log" ] || tail -n 40 "$log" >&2
+  exit 1
+}
+quietly() { "$@" > "$log" 2>&1 || fail "failed: $*"; }
+# same WHAT GOT EXPECTED
+same() { [ "$2" = "$3" ] || fail "$1: got '$2', expected '$3'"; }
+# holds FILE WORD...: each stands in it.
+holds() {
+  local file=$1 word
+  shift
+  for word; do grep -qF -- "$word" "$file" || fail "$file does not hold '$word'"; done
+}
+
+quietly cmake --install "$build" --prefix "$work/first"
+mv "$work/first" "$work/moved"
+prefix=$work/moved
+! grep -rIl "$work/first\|$source" "$prefix" > "$log" || fail "files name the place where they were made"
+[ -z "$(find "$prefix" -name '*.cpp')" ] || fail "sources are installed"
+export PKG_CONFIG_PATH=$prefix/lib/pkgconfig
+unset MAXWRENCH_PROBLEMS
+
+# The moved command, from a folder of its own.
+cd "$work"
+"$prefix/bin/maxwrench" list > list
+holds list "$prefix/share/maxwrench/problems" planar/force uvms/valve grid
+"$prefix/bin/maxwrench" --version > version
+holds version "maxwrench 0." build libraries Eigen
+"$prefix/bin/maxwrench" eval planar/force --json > eval
+same "the version of a result" "$(sed 's/.*"version":"\([^"]*\)".*/\1/' eval)" "$(sed -n 's/^maxwrench //p' version)"
+! MAXWRENCH_PROBLEMS=/nowhere "$prefix/bin/maxwrench" list > /dev/null 2> refusal || fail "a wrong MAXWRENCH_PROBLEMS is taken"
+same "refusal" "$(cat refusal)" "maxwrench: MAXWRENCH_PROBLEMS: got '/nowhere', expected a folder with problems"
+
+# The manual and the completion know the command.
+page=$prefix/share/man/man1/maxwrench.1
+holds "$page" .TH "maxwrench solve" '\-\-budget'
+if command -v man > /dev/null; then
+  MANWIDTH=120 man --warnings -l "$page" > page 2> "$log" || fail "no manual page"
+  [ ! -s "$log" ] || fail "the manual page has errors"
+  holds page "maxwrench solve" --budget MAXWRENCH_PROBLEMS
+fi
+completion=$prefix/share/bash-completion/completions/maxwrench
+bash -n "$completion"
+# complete WORD...: what bash offers for the last word.
+complete_words() {
+  (
+    complete() { :; }
+    source "$completion"
+    COMP_WORDS=("$@") COMP_CWORD=$(($# - 1))
+    _maxwrench
+    echo "${COMPREPLY[*]}"
+  )
+}
+same "completion" "$(complete_words maxwrench sol)" solve
+same "completion" "$(complete_words maxwrench solve --thr)" --threads
+same "completion" "$(complete_words maxwrench solve uvms/v)" uvms/valve
+same "completion" "$(complete_words maxwrench solve uvms/valve --search ann)" annealing
+
+# The examples, by CMake and by pkg-config.
+cp -r "$source/examples" "$source/tests/install/native" .
+quietly cmake -S examples -B cmake -D CMAKE_CXX_COMPILER="$compiler" -D CMAKE_PREFIX_PATH="$prefix" -D CMAKE_CXX_FLAGS=-O0
+quietly cmake --build cmake
+mkdir make
+quietly make -C examples OUT="$work/make" CXX="$compiler" CXXFLAGS=-O0
+MAXWRENCH_PROBLEMS=$(pkg-config --variable=problems maxwrench)
+export MAXWRENCH_PROBLEMS
+[ "$MAXWRENCH_PROBLEMS" -ef "$prefix/share/maxwrench/problems" ] || fail "maxwrench.pc names $MAXWRENCH_PROBLEMS"
+for how in cmake make; do
+  for name in solve own_measure own_search lp; do "$how/$name" > "$how.$name" 2> "$log" || fail "$how/$name fails"; done
+  # The command says the same.
+  "$prefix/bin/maxwrench" solve planar/force --lp box --json > solve
+  same "$how/solve" "$(awk '/^best posture/ {print $3}' $how.solve)" "$(sed 's/.*"beta":\([0-9.]*\).*/\1/' solve | xargs printf %.6f)"
+  # The gradient by the seeds is that by differences.
+  same "$how/own_measure" "$(awk '/^gradient/ {print $2}' $how.own_measure)" "$(awk '/^slope/ {print $2}' $how.own_measure)"
+  # Both searches find the paper's optimum, 1.91 N.
+  same "$how/own_search" "$(awk '{printf "%.2f ", $2}' $how.own_search)" "1.91 1.91 "
+  # A textbook's program (Wyndor Glass): 36 at (2, 6), the last two rows are worth 3/2 and 1.
+  wyndor="optimal 36.0000 at (2.0000, 6.0000), multipliers 0.0000 1.5000 1.0000, verified"
+  same "$how/lp" "$(sed -n 's/-0\.0000/0.0000/g; s/^simplex  *//p' $how.lp)" "$wyndor"
+done
+
+# A program built for this processor shares Eigen's memory with the library; one that would not is refused.
+quietly cmake -S native -B native/build -D CMAKE_CXX_COMPILER="$compiler" -D CMAKE_PREFIX_PATH="$prefix" -D CMAKE_CXX_FLAGS=-O0
+quietly cmake --build native/build
+native/build/native > native.out 2> "$log" || fail "a program with -march=native fails"
+same "native" "$(sed 's/native [0-9.]* //' native.out)" 1
+refused() {
+  ! "$compiler" -std=c++20 -fsyntax-only "$@" "$source/tests/install/parent/parent.cpp" 2> "$log" || fail "$* is taken"
+  holds "$log" "Eigen must align to 16 bytes"
+}
+read -ra flags <<< "$(pkg-config --cflags maxwrench)"
+"$compiler" -std=c++20 -fsyntax-only "${flags[@]}" "$source/tests/install/parent/parent.cpp"
+refused "${flags[@]}" -UEIGEN_MAX_ALIGN_BYTES -DEIGEN_MAX_ALIGN_BYTES=32
+refused "${flags[@]}" -UEIGEN_MALLOC_ALREADY_ALIGNED -DEIGEN_MALLOC_ALREADY_ALIGNED=0
+[ "$(uname -m)" != x86_64 ] || refused -I"$prefix/include" -I"$(pkg-config --variable=prefix eigen3)/include/eigen3" -mavx
+
+# A project that adds the sources keeps its own flags, and so do our sources in it.
+quietly cmake -S "$source/tests/install/parent" -B parent -D MAXWRENCH="$source" -D CMAKE_CXX_COMPILER="$compiler" \
+  -D CMAKE_BUILD_TYPE=Release
+holds parent/compile_commands.json parent.cpp /lib/robot/robot.cpp -DNDEBUG
+! grep -q -e -Werror -e -Wall parent/compile_commands.json || fail "our warnings reach a project that adds us"
+
+# Without its libraries nothing is built that would need them.
+quietly cmake -S "$source/tests/install/parent" -B bare -D MAXWRENCH="$source" -D CMAKE_CXX_COMPILER="$compiler" \
+  -D MAXWRENCH_WITH_IPOPT=OFF -D MAXWRENCH_WITH_CLP=OFF -D MAXWRENCH_WITH_GLPK=OFF -D MAXWRENCH_WITH_NLOPT=OFF \
+  -D MAXWRENCH_WITH_SUNDIALS=OFF
+for file in $(grep -lE '#include <(Ip|Clp|glpk|nlopt|arkode|cvode|ida|nvector|sundials)' -r "$source/solvers" --include='*.cpp'); do
+  file=${file#"$source/"}
+  [ "$file" = solvers/version.cpp ] || ! grep -q "$file" bare/compile_commands.json || fail "$file needs a library that is left out"
+done
+holds bare/compile_commands.json solvers/lp/simplex.cpp solvers/search/grid.cpp

@@ -1,0 +1,254 @@
+#include "lib/posture/dependent_joints.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lib/robot/chain.h"
+#include "maxwrench/posture.h"
+#include "tests/support/support.h"
+
+namespace maxwrench {
+namespace {
+
+const std::vector<std::vector<int>> kAxes = {{},  {0},       {0, 1},      {0, 1, 2},
+                                             {5}, {0, 1, 5}, {0, 1, 2, 5}};
+
+/// A robot with these base axes, mounted anywhere, and a chain of random joints, `redundancy` of
+/// them redundant; its pose is that of random joint positions, and the guess is near them.
+Problem problem_with_dependents(Random& random, const std::vector<int>& axes, int redundancy) {
+  const int joints = 6 - static_cast<int>(axes.size()) + redundancy;
+  Problem problem = random_problem(random, joints);
+  Robot& robot = problem.robot;
+  robot.base_axes = axes;
+  robot.mount = {random_rotation(random), random_vector(random)};
+  for (Joint& joint : robot.joints) {
+    joint.q_min = -20;
+    joint.q_max = 20;
+    // One that slides would repeat a translation of the base.
+    if (axes.size() >= 3) joint.type = JointType::kRevolute;
+  }
+  complete_actuation(robot);
+  Eigen::Vector4d x = Eigen::Vector4d::Zero();
+  for (const int axis : axes) x[std::min(axis, 3)] = random.uniform(-1, 1);
+  Eigen::VectorXd q = Eigen::VectorXd::NullaryExpr(joints, [&] { return random.uniform(-1, 1); });
+  Kinematics<double> kinematics(robot);
+  kinematics.set_joints(q);
+  problem.pose = base_pose(robot, x) * kinematics.end_effector(robot.end_effectors[0]);
+  problem.redundant.clear();
+  for (int i = 0; i < joints; ++i) {
+    (i >= joints - redundancy ? problem.redundant : problem.dependent).push_back(i);
+  }
+  problem.theta_r_default = q.tail(redundancy);
+  problem.theta_r_min = problem.theta_r_default.array() - 0.4;
+  problem.theta_r_max = problem.theta_r_default.array() + 0.4;
+  problem.guess_q =
+      q + Eigen::VectorXd::NullaryExpr(joints, [&] { return 0.05 * random.normal(); });
+  problem.guess_base = x;
+  return problem;
+}
+
+double pose_error(const Problem& problem, const Posture& posture) {
+  const EndEffector& end_effector = problem.robot.end_effectors[0];
+  const Pose<double> pose = posture.base *
+                            posture.links[static_cast<std::size_t>(end_effector.link)] *
+                            end_effector.placement;
+  return std::max((pose.p - problem.pose.p).norm(), (pose.R - problem.pose.R).norm());
+}
+
+/// Fourth-order differences of f along coordinate k.
+template <class F>
+double difference(const F& f, const Eigen::VectorXd& at, int k) {
+  constexpr double kStep = 1e-5;
+  const Eigen::VectorXd h = kStep * Eigen::VectorXd::Unit(at.size(), k);
+  return (8 * (f(at + h) - f(at - h)) - (f(at + 2 * h) - f(at - 2 * h))) / (12 * kStep);
+}
+
+TEST(DependentJoints, MotionsOfTheEndEffector) {
+  Random random(1);
+  for (const auto& axes : kAxes) {
+    const Problem problem = problem_with_dependents(random, axes, 2);
+    EXPECT_EQ(motions_of(problem.robot, 0), 6);
+  }
+  Problem problem = random_problem(random, 3);
+  EXPECT_EQ(motions_of(problem.robot, 0), 6);
+  problem.robot.base_axes = {5};
+  EXPECT_EQ(motions_of(problem.robot, 0), 4);
+  // Axes in parallel: a plane.
+  for (Joint& joint : problem.robot.joints) {
+    joint.type = JointType::kRevolute;
+    joint.placement.R.setIdentity();
+    joint.axis = Eigen::Vector3d::UnitZ();
+  }
+  EXPECT_EQ(motions_of(problem.robot, 0), 3);
+  problem.robot.base_axes = {0, 1, 2, 5};
+  EXPECT_EQ(motions_of(problem.robot, 0), 4);
+}
+
+/// At 1,000 random postures over all sets of base axes the pose is met and the derivative of a
+/// random function of tau_d and J is that of differences.
+TEST(DependentJoints, PoseAndDerivativeAtRandomPostures) {
+  Random random(2);
+  int valid = 0;
+  for (int sample = 0; sample < 1600 / kSampleDivisor; ++sample) {
+    const auto& axes = kAxes[static_cast<std::size_t>(sample) % kAxes.size()];
+    const Problem problem = problem_with_dependents(random, axes, 1 + sample % 5);
+    PostureEvaluator model(problem, false);
+    const Eigen::VectorXd theta_r = random_theta_r(problem, random);
+    const Posture& posture = model.evaluate(theta_r);
+    if (posture.status != Status::kValid) continue;
+    ASSERT_LT(pose_error(problem, posture), 1e-12);
+    const int n = problem.robot.velocities();
+    const Eigen::VectorXd tau_seed =
+        Eigen::VectorXd::NullaryExpr(n, [&] { return random.normal(); });
+    const Matrix6Xd J_seed =
+        Matrix6Xd::NullaryExpr(6, n, [&](Eigen::Index, Eigen::Index) { return random.normal(); });
+    bool reached = true;
+    const auto value = [&](const Eigen::VectorXd& at) {
+      const Posture& near = model.evaluate(at);
+      reached = reached && near.reason.str().find("unreachable") == std::string::npos;
+      return tau_seed.dot(near.tau_d) + J_seed.cwiseProduct(near.J).sum();
+    };
+    Eigen::VectorXd gradient;
+    model.pull_back(theta_r, tau_seed, J_seed, gradient);
+    Eigen::VectorXd differences(problem.redundancy());
+    for (int k = 0; k < problem.redundancy(); ++k) differences[k] = difference(value, theta_r, k);
+    if (!reached) continue;  // the end of the branch lies between the points of the difference
+    ++valid;
+    EXPECT_LT((gradient - differences).norm(), 1e-6 * (1 + differences.norm())) << sample;
+  }
+  EXPECT_GE(valid, 1000 / kSampleDivisor);
+}
+
+TEST(DependentJoints, DependsOnThetaRAlone) {
+  Random random(3);
+  const Problem problem = problem_with_dependents(random, {0, 1, 5}, 2);
+  PostureEvaluator model(problem, false);
+  std::vector<Eigen::VectorXd> points;
+  std::vector<Eigen::VectorXd> q;
+  for (int i = 0; i < 20; ++i) {
+    points.push_back(random_theta_r(problem, random));
+    q.push_back(model.evaluate(points.back()).q);
+  }
+  PostureEvaluator other(problem, false);
+  for (std::size_t i = points.size(); i-- > 0;) EXPECT_EQ(other.evaluate(points[i]).q, q[i]);
+}
+
+TEST(DependentJoints, AllocatesNothingAfterTheFirstCall) {
+  Random random(4);
+  const Problem problem = problem_with_dependents(random, {5}, 3);
+  PostureEvaluator model(problem, false);
+  std::vector<Eigen::VectorXd> points;
+  for (int i = 0; i < 20; ++i) points.push_back(random_theta_r(problem, random));
+  const Eigen::VectorXd tau_seed = Eigen::VectorXd::Ones(problem.robot.velocities());
+  const Matrix6Xd J_seed = Matrix6Xd::Ones(6, problem.robot.velocities());
+  Eigen::VectorXd gradient;
+  model.evaluate(points[0]);
+  model.pull_back(points[0], tau_seed, J_seed, gradient);
+  const long before = allocation_count();
+  for (const Eigen::VectorXd& theta_r : points) {
+    model.evaluate(theta_r);
+    model.pull_back(theta_r, tau_seed, J_seed, gradient);
+  }
+  EXPECT_EQ(allocation_count(), before);
+}
+
+/// Without weight only the pose relative to the mount counts.
+TEST(DependentJoints, MovesWithTheMount) {
+  Random random(5);
+  Problem problem = problem_with_dependents(random, {0, 1}, 2);
+  const Eigen::VectorXd theta_r = random_theta_r(problem, random);
+  const Eigen::VectorXd q = PostureEvaluator(problem, false).evaluate(theta_r).q;
+  const Pose<double> motion{random_rotation(random), random_vector(random)};
+  problem.robot.mount = motion * problem.robot.mount;
+  problem.pose = motion * problem.pose;
+  EXPECT_LT((PostureEvaluator(problem, false).evaluate(theta_r).q - q).norm(), 1e-10);
+}
+
+/// A fixed arm of four links of 1, 1, 1 and 0 m that turn about z: the first joint is redundant.
+Problem four_bars() {
+  Problem problem;
+  Robot& robot = problem.robot;
+  robot.links.resize(5);
+  for (int i = 0; i < 4; ++i) {
+    Joint joint;
+    joint.parent = i;
+    joint.placement.p = Eigen::Vector3d(i == 0 ? 0 : 1, 0, 0);
+    joint.q_min = -3;
+    joint.q_max = 3;
+    robot.joints.push_back(joint);
+  }
+  robot.end_effectors = {{"tool", 4, {}}};
+  complete_actuation(robot);
+  problem.pose.p = {1.5, 0.5, 0};
+  problem.redundant = {0};
+  problem.dependent = {1, 2, 3};
+  problem.theta_r_min = Eigen::VectorXd::Constant(1, -3);
+  problem.theta_r_max = Eigen::VectorXd::Constant(1, 3);
+  problem.theta_r_default = Eigen::VectorXd::Constant(1, 0.5);
+  problem.guess_q = Eigen::Vector4d(0.5, -0.5, 1.5, 0);
+  return problem;
+}
+
+TEST(DependentJoints, PlanarArmEqualsTheLawOfCosines) {
+  const Problem problem = four_bars();
+  EXPECT_EQ(motions_of(problem.robot, 0), 3);
+  PostureEvaluator model(problem);
+  for (double q0 = -0.6; q0 < 1.2; q0 += 0.05) {
+    const Posture& posture = model.evaluate(Eigen::VectorXd::Constant(1, q0));
+    const Eigen::Vector2d rest(1.5 - std::cos(q0), 0.5 - std::sin(q0));
+    if (rest.norm() > 1.999) {
+      EXPECT_NE(posture.status, Status::kValid);
+      continue;
+    }
+    ASSERT_EQ(posture.status, Status::kValid) << posture.reason.c_str() << " at " << q0;
+    const double q2 = std::acos((rest.squaredNorm() - 2) / 2);  // the guess bends to the left
+    const double q1 = std::atan2(rest.y(), rest.x()) - q2 / 2 - q0;
+    EXPECT_NEAR(posture.q[2], q2, 1e-12);
+    EXPECT_NEAR(posture.q[1], q1, 1e-12);
+    EXPECT_NEAR(posture.q[3], -q0 - q1 - q2, 1e-12);
+  }
+}
+
+TEST(DependentJoints, SaysWhyThereIsNoPosture) {
+  Problem problem = four_bars();
+  // At q0 = 3 the second joint is at (-1, 0.14), 2.5 m away from the tool; two links reach 2 m.
+  const Eigen::VectorXd far = Eigen::VectorXd::Constant(1, 3);
+  EXPECT_EQ(PostureEvaluator(problem).evaluate(far).status, Status::kInvalidPosture);
+  EXPECT_EQ(PostureEvaluator(problem).evaluate(far).reason.str().find("unreachable pose"), 0u);
+  problem.robot.joints[2].q_max = 0.4;
+  EXPECT_STREQ(PostureEvaluator(problem).evaluate(problem.theta_r_default).reason.c_str(),
+               "joint limit of a dependent joint");
+  // Out of the plane.
+  problem.pose.p.z() = 0.1;
+  EXPECT_FALSE(DependentJoints(problem).has_start());
+  EXPECT_NEAR(DependentJoints(problem).start_error(), 0.1, 1e-6);
+  EXPECT_EQ(PostureEvaluator(problem)
+                .evaluate(problem.theta_r_default)
+                .reason.str()
+                .find("unreachable pose"),
+            0u);
+  // Stretched: elbow and shoulder are no longer independent.
+  problem = four_bars();
+  problem.pose.p = {3, 0, 0};
+  problem.theta_r_default.setZero();
+  problem.guess_q.setZero();
+  EXPECT_TRUE(DependentJoints(problem).has_start());
+  EXPECT_TRUE(DependentJoints(problem).start_is_singular());
+  EXPECT_EQ(
+      PostureEvaluator(problem).evaluate(problem.theta_r_default).reason.str().find("singular"),
+      0u);
+}
+
+/// A whole turn more in the guess is the same posture, within the limits.
+TEST(DependentJoints, TurnsIntoTheLimits) {
+  Problem problem = four_bars();
+  const Eigen::VectorXd q = PostureEvaluator(problem).evaluate(problem.theta_r_default).q;
+  problem.guess_q[3] += 4 * M_PI;
+  const Posture posture = PostureEvaluator(problem).evaluate(problem.theta_r_default);
+  EXPECT_EQ(posture.status, Status::kValid) << posture.reason.c_str();
+  EXPECT_LT((posture.q - q).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace maxwrench

@@ -1,0 +1,27 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <type_traits>
+
+#include "lib/posture/pull_back.h"
+#include "lib/robot/motion.h"
+
+namespace maxwrench {
+namespace {
+
+/// What keeps a robot takes none that dies at the end of the line.
+template <class Keeper, class... Rest>
+constexpr bool kKeepsOnlyWhatLives = std::is_constructible_v<Keeper, const Robot&, Rest...> &&
+                                     !std::is_constructible_v<Keeper, Robot, Rest...> &&
+                                     !std::is_constructible_v<Keeper, const Robot, Rest...>;
+
+using Effort = std::function<void(double, Eigen::VectorXd&)>;
+
+static_assert(kKeepsOnlyWhatLives<Kinematics<double>>);
+static_assert(kKeepsOnlyWhatLives<Dynamics<double>>);
+static_assert(kKeepsOnlyWhatLives<PullBack, int>);
+static_assert(kKeepsOnlyWhatLives<PullBack, int, int>);
+static_assert(kKeepsOnlyWhatLives<FreeMotion, const Motion&, Effort>);
+
+}  // namespace
+}  // namespace maxwrench

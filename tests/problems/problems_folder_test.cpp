@@ -1,0 +1,52 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "maxwrench/load.h"
+#include "tests/support/support.h"
+
+namespace maxwrench {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// MAXWRENCH_PROBLEMS as long as this lives.
+class ProblemsVariable {
+ public:
+  explicit ProblemsVariable(const fs::path& folder) {
+    setenv("MAXWRENCH_PROBLEMS", folder.c_str(), 1);
+  }
+  ~ProblemsVariable() { unsetenv("MAXWRENCH_PROBLEMS"); }
+  ProblemsVariable(const ProblemsVariable&) = delete;
+  ProblemsVariable& operator=(const ProblemsVariable&) = delete;
+};
+
+TEST(ProblemsFolder, IsThatOfTheSourcesWhereNothingIsInstalled) {
+  unsetenv("MAXWRENCH_PROBLEMS");
+  EXPECT_EQ(problems_folder(), fs::canonical(fs::path(MAXWRENCH_SOURCE_DIR) / "problems"));
+  const ProblemsVariable empty("");
+  EXPECT_EQ(problems_folder(), fs::canonical(fs::path(MAXWRENCH_SOURCE_DIR) / "problems"));
+}
+
+TEST(ProblemsFolder, TheVariableComesFirst) {
+  const TemporaryFolder folder;
+  fs::copy(fs::path(MAXWRENCH_SOURCE_DIR) / "problems/fixed", folder.path() / "own");
+  const ProblemsVariable variable(folder.path());
+  EXPECT_EQ(shipped_problems(), std::vector<std::string>{"own/push"});
+  EXPECT_EQ(load_problem("own/push").robot.joints.size(), 7U);
+  EXPECT_THROW(load_problem("planar/force"), std::invalid_argument);
+}
+
+TEST(ProblemsFolder, AWrongVariableIsBadInput) {
+  const ProblemsVariable variable("/proc/nowhere");
+  for (const char* words : {"list", "eval planar/force"}) {
+    const CommandResult result = run_maxwrench(words);
+    EXPECT_EQ(result.exit_status, 2);
+    EXPECT_EQ(result.err,
+              "maxwrench: MAXWRENCH_PROBLEMS: got '/proc/nowhere', expected a folder with "
+              "problems\n");
+  }
+}
+
+}  // namespace
+}  // namespace maxwrench

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "lib/math/random.h"
+#include "maxwrench/linear_program.h"
+
+// What the tests of the LP solvers share.
+
+namespace maxwrench {
+
+/// By the simplex method from a cold start, and by GLPK, whose verdicts are verified too.
+LpSolution solve_with_simplex(const LinearProgram& program);
+LpSolution solve_with_glpk(const LinearProgram& program);
+
+/// The answer is confirmed by the program's data.
+void expect_verified(const LinearProgram& program, const LpSolution& solution);
+
+/// Small integers, so that ties, dependent rows and degenerate vertices are frequent.
+LinearProgram random_program(Random& random, int m, int n, bool bounded);
+
+}  // namespace maxwrench

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "lib/math/random.h"
+#include "maxwrench/problem.h"
+
+namespace maxwrench {
+
+#if defined(__SANITIZE_ADDRESS__)  // GCC's name
+#define MAXWRENCH_SANITIZED
+#elif defined(__has_feature)  // Clang's
+#if __has_feature(address_sanitizer)
+#define MAXWRENCH_SANITIZED
+#endif
+#endif
+
+/// Sanitizers slow everything down twentyfold; statistical tests then draw fewer samples.
+#if defined(MAXWRENCH_SANITIZED)
+inline constexpr int kSampleDivisor = 20;
+#else
+inline constexpr int kSampleDivisor = 1;
+#endif
+
+/// Heap allocations of this process so far; always zero under sanitizers.
+long allocation_count();
+
+/// A vehicle on six axes with eight thrusters of asymmetric limits and an arm of `joints` joints
+/// (every third one prismatic), all numbers random; end effector pose and c random, any wrench
+/// allowed.
+Problem random_problem(Random& random, int joints);
+
+/// Uniform within the limits of theta_r.
+Eigen::VectorXd random_theta_r(const Problem& problem, Random& random);
+
+Eigen::Vector3d random_vector(Random& random, double scale = 1);
+Eigen::Matrix3d random_rotation(Random& random);
+
+/// What a command printed.
+struct CommandResult {
+  int exit_status = -1;
+  std::string out, err;
+};
+
+/// Runs `build/maxwrench` with these words (shell syntax) in `folder`.
+CommandResult run_maxwrench(const std::string& words,
+                            const std::filesystem::path& folder = MAXWRENCH_SOURCE_DIR);
+
+std::string read_text(const std::filesystem::path& file);
+
+/// A fresh folder that is removed at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace maxwrench

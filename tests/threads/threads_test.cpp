@@ -1,0 +1,178 @@
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "benchmarks/row.h"
+#include "lib/math/random.h"
+#include "maxwrench/batch.h"
+#include "maxwrench/load.h"
+#include "maxwrench/strategies.h"
+#include "maxwrench/wrench_program.h"
+
+// What runs beside each other, in one small program: the thread sanitizer's build holds nothing
+// else. Everything is compared with what one thread alone gets.
+
+namespace maxwrench {
+namespace {
+
+constexpr int kThreads = 4;
+
+/// Calls body(0) ... body(kThreads - 1) at once.
+void at_once(const std::function<void(int)>& body) {
+  std::vector<std::thread> threads;
+  for (int t = 0; t < kThreads; ++t) threads.emplace_back(body, t);
+  for (std::thread& thread : threads) thread.join();
+}
+
+Eigen::VectorXd anywhere(const Problem& problem, Random& random) {
+  const Eigen::VectorXd share =
+      Eigen::VectorXd::NullaryExpr(problem.redundancy(), [&] { return random.uniform(); });
+  return problem.theta_r_min + share.cwiseProduct(problem.theta_r_max - problem.theta_r_min);
+}
+
+TEST(Threads, ParallelForCallsEachOnceAndWhatFollowsSeesIt) {
+  for (int round = 0; round < 20; ++round) {
+    std::vector<int> calls(500, 0);
+    long sum = 0;
+    parallel_for(kThreads, 500, [&](long i) { calls[static_cast<std::size_t>(i)] += round; });
+    for (const int count : calls) sum += count;
+    EXPECT_EQ(sum, 500 * round);
+  }
+}
+
+class ThreadsInSearch : public testing::TestWithParam<SearchEntry> {};
+
+INSTANTIATE_TEST_SUITE_P(All, ThreadsInSearch,
+                         testing::ValuesIn(searches().begin(), searches().end()),
+                         [](const testing::TestParamInfo<SearchEntry>& entry) {
+                           std::string name = entry.param.name;
+                           for (char& c : name) c = std::isalnum(c) ? c : '_';
+                           return name;
+                         });
+
+/// uvms/valve has self-collision of boxes and capsules, dual_arm/bar_wall branches that are
+/// counted.
+TEST_P(ThreadsInSearch, FindsTheSame) {
+  for (const char* name : {"uvms/valve", "dual_arm/bar_wall"}) {
+    const Problem problem = load_problem(name);
+    Case c;
+    c.problem = problem.name;
+    c.search = GetParam().name;
+    c.budget = 400;
+    const Method method = resolve(problem, c);
+    const Row one = solve(problem, method, 1), many = solve(problem, method, kThreads);
+    EXPECT_EQ(one.status, many.status);
+    EXPECT_EQ(one.evaluations, many.evaluations);
+    EXPECT_EQ(one.branches.found, many.branches.found);
+    if (one.has_value()) {
+      EXPECT_EQ(one.posture.theta_r, many.posture.theta_r);
+    }
+  }
+}
+
+TEST(Threads, BatchesOfEvaluationsShareNothing) {
+  const Problem problem = load_problem("planar/two_arms");
+  const Case c{problem.name};
+  const auto objective =
+      make_capability_objective(problem, c.wrench, resolve(problem, c).make_measure, true);
+  const auto values = [&](int threads) {
+    const std::function<void(long)> none;
+    EvaluationCounter counter(none);
+    const auto point = [&](long i) {
+      Random random(1, static_cast<std::uint64_t>(i));
+      return anywhere(problem, random);
+    };
+    const std::vector<double> result = evaluate_all(*objective, 1000, point, threads, counter);
+    return result;
+  };
+  EXPECT_EQ(values(1), values(kThreads));
+}
+
+TEST(Threads, ProblemsAreLoadedAtOnce) {
+  const std::vector<std::string> names = shipped_problems();
+  std::vector<std::vector<Problem>> loaded(kThreads);
+  at_once([&](int t) {
+    for (const std::string& name : names)
+      loaded[static_cast<std::size_t>(t)].push_back(load_problem(name));
+  });
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const Problem alone = load_problem(names[i]);
+    for (const std::vector<Problem>& of_thread : loaded) {
+      EXPECT_EQ(of_thread[i].theta_r_default, alone.theta_r_default);
+      EXPECT_EQ(of_thread[i].robot.actuation.B, alone.robot.actuation.B);
+      EXPECT_EQ(of_thread[i].robot.links.size(), alone.robot.links.size());
+    }
+  }
+}
+
+/// A robot and its collision shapes are shared; each thread has a model of its own.
+TEST(Threads, ShareARobot) {
+  for (const char* name : {"uvms/valve", "dual_arm/two_arms", "mobile/push"}) {
+    const Problem problem = load_problem(name);
+    std::vector<std::vector<Eigen::VectorXd>> seen(kThreads);
+    at_once([&](int t) {
+      PostureEvaluator model(problem);
+      Random random(1);
+      for (int i = 0; i < 100; ++i) {
+        const Posture& posture = model.evaluate(anywhere(problem, random));
+        Eigen::VectorXd row(posture.tau_d.size() + 1);
+        row << posture.tau_d, static_cast<double>(posture.status);
+        seen[static_cast<std::size_t>(t)].push_back(row);
+      }
+    });
+    for (const auto& rows : seen) EXPECT_EQ(rows, seen[0]) << name;
+  }
+}
+
+/// Ipopt, GLPK and Clp among them.
+TEST(Threads, EveryLowerLevelSolverServesSeveralAtOnce) {
+  const Problem problem = load_problem("uvms/valve");
+  PostureEvaluator model(problem, false);
+  for (const WrenchSolverEntry& entry : wrench_solvers()) {
+    WrenchProgram program = make_wrench_program(problem, Wrench::kPure);
+    set_posture(model.evaluate(problem.theta_r_default), program);
+    std::vector<double> beta(kThreads, 0);
+    at_once([&](int t) {
+      const auto solver = entry.make();
+      Capability capability;
+      for (int i = 0; i < 10; ++i) solver->solve(program, true, capability);
+      beta[static_cast<std::size_t>(t)] = capability.beta;
+    });
+    for (const double value : beta) EXPECT_EQ(value, beta[0]) << entry.name;
+    // The axis of the shoulder carries 9 N m.
+    EXPECT_NEAR(beta[0], 9, 1e-4) << entry.name;
+  }
+}
+
+/// y' = -y.
+class Decay : public Ode {
+ public:
+  const Eigen::VectorXd& initial() const override { return start_; }
+  bool derivative(double, const Eigen::VectorXd& y, Eigen::VectorXd& y_dot) override {
+    y_dot = -y;
+    return true;
+  }
+
+ private:
+  Eigen::VectorXd start_ = Eigen::VectorXd::Ones(3);
+};
+
+TEST(Threads, EveryIntegratorServesSeveralAtOnce) {
+  for (const IntegratorEntry& entry : integrators()) {
+    at_once([&](int) {
+      Decay decay;
+      Trajectory trajectory;
+      const double times[] = {0, 0.5, 1};
+      EXPECT_EQ(entry.make()->integrate(decay, {}, times, trajectory), Status::kReached);
+      EXPECT_NEAR(trajectory.y.back()[0], std::exp(-1), 1e-5) << entry.name;
+    });
+  }
+}
+
+}  // namespace
+}  // namespace maxwrench
