@@ -26,6 +26,16 @@ void expect_verified(const LinearProgram& program, const LpSolution& solution) {
       << to_string(solution.status) << ": " << solution.reason.c_str();
 }
 
+LinearProgram small_program() {
+  LinearProgram p;
+  p.A = Eigen::RowVector3d(1, 1, 1).sparseView();
+  p.b = Eigen::VectorXd::Constant(1, 4);
+  p.c = Eigen::Vector3d(1, 2, 0);
+  p.l = Eigen::Vector3d::Zero();
+  p.u = Eigen::Vector3d(3, 2, kInfinity);
+  return p;
+}
+
 LinearProgram random_program(Random& random, int m, int n, bool bounded) {
   const auto integer = [&](int low, int high) {
     return low + static_cast<int>(random.next() % (high - low + 1));

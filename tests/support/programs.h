@@ -14,6 +14,10 @@ LpSolution solve_with_glpk(const LinearProgram& program);
 /// The answer is confirmed by the program's data.
 void expect_verified(const LinearProgram& program, const LpSolution& solution);
 
+/// max x + 2 y  subject to  x + y + s = 4, 0 <= x <= 3, 0 <= y <= 2, s >= 0: y = 2, x = 2, value 6.
+/// More of b goes into x, so lambda = 1.
+LinearProgram small_program();
+
 /// Small integers, so that ties, dependent rows and degenerate vertices are frequent.
 LinearProgram random_program(Random& random, int m, int n, bool bounded);
 
