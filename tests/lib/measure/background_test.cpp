@@ -10,6 +10,7 @@
 #include "benchmarks/case.h"
 #include "lib/math/decompositions.h"
 #include "maxwrench/load.h"
+#include "maxwrench/measure.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/wrench_program.h"
 #include "tests/support/support.h"

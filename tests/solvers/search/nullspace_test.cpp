@@ -6,6 +6,7 @@
 #include "lib/posture/redundancy.h"
 #include "lib/robot/kinematics.h"
 #include "maxwrench/load.h"
+#include "maxwrench/measure.h"
 #include "maxwrench/wrench_program.h"
 #include "solvers/integrator/makers.h"
 #include "solvers/search/makers.h"
