@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "maxwrench/objective.h"
@@ -37,14 +38,14 @@ class Box {
 /// Counts evaluations over all threads and reports them.
 class EvaluationCounter {
  public:
-  explicit EvaluationCounter(const std::function<void(long)>& report) : report_(report) {}
+  explicit EvaluationCounter(std::function<void(long)> report) : report_(std::move(report)) {}
   void add(long evaluations) {
     const long total = count_ += evaluations;
     if (report_) report_(total);
   }
 
  private:
-  const std::function<void(long)>& report_;
+  std::function<void(long)> report_;
   std::atomic<long> count_{0};
 };
 

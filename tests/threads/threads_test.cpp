@@ -81,8 +81,7 @@ TEST(Threads, BatchesOfEvaluationsShareNothing) {
   const auto objective =
       make_capability_objective(problem, c.wrench, resolve(problem, c).make_measure, true);
   const auto values = [&](int threads) {
-    const std::function<void(long)> none;
-    EvaluationCounter counter(none);
+    EvaluationCounter counter({});
     const auto point = [&](long i) {
       Random random(1, static_cast<std::uint64_t>(i));
       return anywhere(problem, random);
