@@ -4,7 +4,6 @@
 #include <cstdio>
 
 #include "maxwrench/load.h"
-#include "maxwrench/objective.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"

@@ -4,7 +4,6 @@
 #include <cstdio>
 
 #include "maxwrench/load.h"
-#include "maxwrench/objective.h"
 #include "maxwrench/strategies.h"
 
 using namespace maxwrench;

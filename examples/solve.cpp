@@ -3,7 +3,6 @@
 #include <exception>
 
 #include "maxwrench/load.h"
-#include "maxwrench/objective.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"

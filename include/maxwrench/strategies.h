@@ -8,6 +8,7 @@
 #include "maxwrench/integrator.h"
 #include "maxwrench/lp_solver.h"
 #include "maxwrench/measure.h"
+#include "maxwrench/objective.h"
 #include "maxwrench/search.h"
 #include "maxwrench/wrench_solver.h"
 
