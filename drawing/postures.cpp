@@ -88,8 +88,4 @@ std::string draw_both_views(std::span<const DrawnPosture> panels) {
                       picture(titled(", from above"), View::kTop)});
 }
 
-std::string draw_posture(const DrawnPosture& panel, View view) {
-  return draw_postures({&panel, 1}, view);
-}
-
 }  // namespace maxwrench

@@ -26,7 +26,6 @@ struct DrawnPosture {
 /// titles are written by `Svg::text`. Throws std::invalid_argument if there is nothing to draw or
 /// it is not finite.
 std::string draw_postures(std::span<const DrawnPosture> panels, View view = View::kTop);
-std::string draw_posture(const DrawnPosture& panel, View view = View::kTop);
 
 /// The same postures seen from the robot's right, and below that from above.
 std::string draw_both_views(std::span<const DrawnPosture> panels);

@@ -196,7 +196,7 @@ TEST_F(ForceSetTest, DrawsPanels) {
                      .hull = {},
                      .u = {}};
   panel.sets[1].name = "second";
-  const std::string one = draw_posture(panel);
+  const std::string one = draw_postures({&panel, 1});
   expect_well_formed(one);
   EXPECT_NE(one.find("a &amp; b &lt; c"), std::string::npos);
   EXPECT_NE(one.find("second"), std::string::npos);
@@ -208,7 +208,7 @@ TEST_F(ForceSetTest, DrawsPanels) {
   expect_well_formed(draw_postures(three));
   expect_well_formed(draw_postures(three, View::kSide));
   panel.sets.clear();
-  expect_well_formed(draw_posture(panel));
+  expect_well_formed(draw_postures({&panel, 1}));
 }
 
 TEST_F(ForceSetTest, DrawsSolidsFromTwoSides) {
