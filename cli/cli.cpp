@@ -90,8 +90,9 @@ void CommonOptions::add_choice(CLI::App& app) {
 }
 
 std::string refuse_seed(const std::string& text) {
-  const bool whole = text.size() < 20 && text.find_first_not_of("0123456789") == std::string::npos;
-  return whole ? "" : "got " + text + ", expected a whole number of 0 to 10^19 - 1";
+  const bool whole = !text.empty() && text.size() < 20 &&
+                     text.find_first_not_of("0123456789") == std::string::npos;
+  return whole ? "" : "got '" + text + "', expected a whole number of 0 to 10^19 - 1";
 }
 
 std::string refuse_empty(const std::string& text) {

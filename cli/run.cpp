@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <memory>
 
@@ -52,10 +51,17 @@ Choice read_words(const std::vector<std::string>& words) {
   return choice;
 }
 
-long read_whole(const std::map<std::string, std::string>& filter, const std::string& column,
-                long fallback, long most) {
-  const auto found = filter.find(column);
-  if (found == filter.end()) return fallback;
+std::uint64_t read_seed(const std::map<std::string, std::string>& filter) {
+  const auto found = filter.find("seed");
+  if (found == filter.end()) return Case().seed;
+  const std::string why = refuse_seed(found->second);
+  if (!why.empty()) throw std::invalid_argument("seed: " + why);
+  return std::stoull(found->second);
+}
+
+long read_budget(const std::map<std::string, std::string>& filter) {
+  const auto found = filter.find("budget");
+  if (found == filter.end()) return Case().budget;
   std::size_t used = 0;
   long value = 0;
   try {
@@ -63,9 +69,9 @@ long read_whole(const std::map<std::string, std::string>& filter, const std::str
   } catch (const std::logic_error&) {
     used = 0;
   }
-  if (used == 0 || used != found->second.size() || value < 1 || value > most) {
-    throw std::invalid_argument(fmt::format("{}: got '{}', expected a whole number of 1 to {}",
-                                            column, found->second, most));
+  if (used == 0 || used != found->second.size() || value < 1 || value > kMostBudget) {
+    throw std::invalid_argument(fmt::format("budget: got '{}', expected a whole number of 1 to {}",
+                                            found->second, kMostBudget));
   }
   return value;
 }
@@ -73,13 +79,11 @@ long read_whole(const std::map<std::string, std::string>& filter, const std::str
 /// The chosen cases of the problems.
 std::vector<Case> choose(const std::map<std::string, Problem>& problems,
                          const std::map<std::string, std::string>& filter) {
-  const Case defaults;
-  const long seed = read_whole(filter, "seed", static_cast<long>(defaults.seed),
-                               std::numeric_limits<long>::max());
-  const long budget = read_whole(filter, "budget", defaults.budget, kMostBudget);
+  const std::uint64_t seed = read_seed(filter);
+  const long budget = read_budget(filter);
   std::vector<Case> cases;
   for (const auto& named : problems) {
-    const std::vector<Case> more = product(named.second, static_cast<std::uint64_t>(seed), budget);
+    const std::vector<Case> more = product(named.second, seed, budget);
     cases.insert(cases.end(), more.begin(), more.end());
   }
   return select(std::move(cases), filter);

@@ -50,6 +50,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadWords{"solve planar/force --budget many", "--budget"},
                     BadWords{"solve planar/force --budget 99999999999", "100000000"},
                     BadWords{"run budget=99999999999", "1 to 100000000"},
+                    BadWords{"run seed=-1", "seed: got '-1'"}, BadWords{"run seed=", "10^19"},
                     BadWords{"eval planar/force --theta-r ''", "--theta-r"},
                     BadWords{"simulate uvms/valve --integrator euler", "systems: cvode ida"},
                     BadWords{"solve planar/force --seed -1", "--seed"},
