@@ -37,9 +37,21 @@ class Tally {
   std::atomic<long> unreachable_ = 0, found_ = 0, beyond_limit_ = 0, singular_ = 0, collision_ = 0;
 };
 
+/// What makes a posture invalid.
+enum class Violation {
+  kNone,
+  kThetaR,          ///< a coordinate of theta_r is beyond its limits
+  kDependentJoint,  ///< so is a joint that follows from theta_r,
+  kSecondArm,       ///< or one of a second arm, in each of its solutions
+  kBase,            ///< the base would leave its free axes
+  kNoSolution,      ///< nothing follows from theta_r or for the second arm, or it is near singular
+  kCollision
+};
+
 /// Everything known at one theta_r (eq:reducedDynamics): the configuration, J and tau_d. kValid if
 /// it exists and violates nothing, else kInvalidPosture.
 struct Posture : Verdict {
+  Violation violation = Violation::kNone;  ///< what `reason` is about
   Eigen::VectorXd theta_r;
   Pose<double> base;                ///< of the base in the world
   Eigen::VectorXd q;                ///< all joints

@@ -102,6 +102,12 @@ bool base_reaches(const Robot& robot, const Pose<double>& in_world) {
   return is_free(5) || std::abs(base.R(0, 0) - 1) <= kReachTolerance;
 }
 
+/// What is wrong with a posture, and how that is said; null: nothing.
+struct Fault {
+  Violation violation = Violation::kNone;
+  const char* reason = nullptr;
+};
+
 void require_theta_r(const Problem& problem, const Eigen::VectorXd& theta_r) {
   if (theta_r.size() != problem.redundancy()) {
     throw std::invalid_argument("theta_r: got " + std::to_string(theta_r.size()) +
@@ -140,26 +146,26 @@ struct PostureEvaluator::Workspace {
     model.evaluate_at(theta_r, branch->z());
   }
 
-  /// Why the posture does not exist, or null.
-  const char* violation(const Eigen::VectorXd& theta_r) const {
+  /// Why the posture does not exist.
+  Fault find_fault(const Eigen::VectorXd& theta_r) const {
     for (Eigen::Index i = 0; i < theta_r.size(); ++i) {
       if (theta_r[i] < problem.theta_r_min[i] - kLimitTolerance ||
           theta_r[i] > problem.theta_r_max[i] + kLimitTolerance) {
-        return i < static_cast<Eigen::Index>(problem.redundant.size())
-                   ? "joint limit"
-                   : "regrasp coordinate beyond its limits";
+        return {Violation::kThetaR, i < static_cast<Eigen::Index>(problem.redundant.size())
+                                        ? "joint limit"
+                                        : "regrasp coordinate beyond its limits"};
       }
     }
-    if (branch_reason) return branch_reason;
+    if (branch_reason) return {Violation::kNoSolution, branch_reason};
     for (const int i : problem.dependent) {
       const Joint& joint = problem.robot.joints[i];
       if (model.q[i] < joint.q_min - kLimitTolerance || model.q[i] > joint.q_max + kLimitTolerance)
-        return "joint limit of a dependent joint";
+        return {Violation::kDependentJoint, "joint limit of a dependent joint"};
     }
     if (!branch && !base_reaches(problem.robot, model.base))
-      return "unreachable pose: the base would leave its free axes";
-    if (second) return nullptr;  // it moves yet
-    return collides() ? "self-collision" : nullptr;
+      return {Violation::kBase, "unreachable pose: the base would leave its free axes"};
+    if (second || !collides()) return {};  // a second arm moves yet
+    return {Violation::kCollision, "self-collision"};
   }
 
   bool collides() const {
@@ -175,9 +181,9 @@ struct PostureEvaluator::Workspace {
     return inside;
   }
 
-  /// Finds the valid branches of the second arm and moves it to the first; null, or why there is
+  /// Finds the valid branches of the second arm and moves it to the first, or says why there is
   /// none.
-  const char* reach() {
+  Fault reach() {
     BranchCounts& counts = posture.branches;
     counts = {};
     valid_count = 0;
@@ -198,12 +204,14 @@ struct PostureEvaluator::Workspace {
     }
     if (valid_count > 0) {
       if (placed != valid[0]) place(valid[0]);
-      return nullptr;
+      return {};
     }
-    if (counts.collision > 0) return "self-collision";
-    if (counts.singular > 0) return "singular: the two contacts lack a direction of motion";
-    return found > 0 ? "joint limit of the second arm"
-                     : "unreachable contact: the second arm does not get there";
+    if (counts.collision > 0) return {Violation::kCollision, "self-collision"};
+    if (counts.singular > 0) {
+      return {Violation::kNoSolution, "singular: the two contacts lack a direction of motion"};
+    }
+    if (found > 0) return {Violation::kSecondArm, "joint limit of the second arm"};
+    return {Violation::kNoSolution, "unreachable contact: the second arm does not get there"};
   }
 
   void read_model(const Eigen::VectorXd& theta_r) {
@@ -222,16 +230,17 @@ struct PostureEvaluator::Workspace {
   /// All of `PostureEvaluator::evaluate`.
   void run(const Eigen::VectorXd& theta_r) {
     evaluate(theta_r);
-    const char* reason = violation(theta_r);
-    valid_count = reason ? 0 : 1;
+    Fault fault = find_fault(theta_r);
+    valid_count = fault.reason ? 0 : 1;
     if (second) {
       posture.branches = {};
       second->touch(theta_r);
-      if (!reason) reason = reach();
+      if (!fault.reason) fault = reach();
     }
     read_model(theta_r);
-    if (reason) {
-      posture.conclude(Status::kInvalidPosture, reason);
+    posture.violation = fault.violation;
+    if (fault.reason) {
+      posture.conclude(Status::kInvalidPosture, fault.reason);
     } else {
       posture.conclude(Status::kValid);
     }

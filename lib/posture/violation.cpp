@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <sstream>
-#include <string_view>
 
 #include "maxwrench/posture.h"
 #include "maxwrench/problem.h"
@@ -67,18 +66,25 @@ std::string base_off_its_axes(const Robot& robot, const Pose<double>& base) {
 
 std::string detail_of(const Problem& problem, const Posture& posture) {
   const Robot& robot = problem.robot;
-  const std::string_view reason = posture.reason.c_str();
-  const auto says = [reason](std::string_view part) { return reason.find(part) != reason.npos; };
-  if (says("collision")) {
-    // With a second arm the posture is the last of several, which may fail by something else.
-    const int pair = robot.collision ? robot.collision->colliding_pair(posture.links) : -1;
-    return pair < 0 ? "" : robot.collision->pair_name(pair);
+  switch (posture.violation) {
+    case Violation::kThetaR:
+      return theta_r_beyond(problem, posture);
+    case Violation::kDependentJoint:
+      return joint_beyond(robot, problem.dependent, posture.q);
+    case Violation::kSecondArm:
+      return joint_beyond(robot, problem.contact->follow, posture.q);
+    case Violation::kBase:
+      return base_off_its_axes(robot, posture.base);
+    case Violation::kCollision: {
+      // With a second arm the posture is the last of several, which may fail by something else.
+      const int pair = robot.collision ? robot.collision->colliding_pair(posture.links) : -1;
+      return pair < 0 ? "" : robot.collision->pair_name(pair);
+    }
+    case Violation::kNone:
+    case Violation::kNoSolution:
+      break;
   }
-  if (says("free axes")) return base_off_its_axes(robot, posture.base);
-  if (!says("limit")) return "";
-  if (says("dependent")) return joint_beyond(robot, problem.dependent, posture.q);
-  if (says("second arm")) return joint_beyond(robot, problem.contact->follow, posture.q);
-  return theta_r_beyond(problem, posture);
+  return "";
 }
 
 }  // namespace

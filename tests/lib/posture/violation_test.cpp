@@ -35,9 +35,25 @@ TEST(Violation, NamesTheJointAndItsLimits) {
             "joint limit: elbow at 1.95 rad, limits -1 .. 1");
 }
 
+/// The last joint turned almost all the way: the shoulder has to follow it beyond its 2.09 rad.
+TEST(Violation, NamesTheDependentJoint) {
+  const std::string text =
+      violation_at(load_problem("fixed/push"), Eigen::VectorXd::Constant(1, 3));
+  EXPECT_TRUE(text.starts_with("joint limit of a dependent joint: joint_2 at 2.")) << text;
+  EXPECT_TRUE(text.ends_with(" rad, limits -2.09 .. 2.09")) << text;
+}
+
 TEST(Violation, NamesTheRegraspCoordinate) {
   EXPECT_EQ(violation_at(load_problem("planar/two_arms"), Eigen::Vector3d(0, 0, 0.5)),
             "regrasp coordinate beyond its limits: regrasp_1 at 0.5 m, limits -0.12 .. 0.12");
+}
+
+/// Folded as far as the second arm has to be here, its elbow is beyond 120 degrees.
+TEST(Violation, NamesTheJointOfTheSecondArm) {
+  const std::string text =
+      violation_at(load_problem("planar/two_arms"), Eigen::Vector3d(-1, 0, 0.1));
+  EXPECT_TRUE(text.starts_with("joint limit of the second arm: elbow_2 at 3.")) << text;
+  EXPECT_TRUE(text.ends_with(" rad, limits -2.0944 .. 2.0944")) << text;
 }
 
 /// The tool is 0.4 m above the plane in which the vehicle floats.
