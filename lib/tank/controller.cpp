@@ -11,7 +11,7 @@ namespace maxwrench {
 namespace {
 
 /// Directions that differ by less than this share are one.
-constexpr double kSame = 1e-9;
+constexpr double kSameDirection = 1e-9;
 
 /// Of (u - u*)'Q(u - u*): an effort counts by its smaller limit, as in beta_1.
 Eigen::VectorXd weights(const Zonotope& actuation) {
@@ -34,7 +34,8 @@ PostureController::PostureController(const Problem& problem, const Posture& post
       a_(problem.robot.velocities()) {
   if (wrench == Wrench::kAny && options.load == 0) {
     across_ =
-        split(problem.W_any - problem.c * (problem.c.transpose() * problem.W_any), kSame).range;
+        split(problem.W_any - problem.c * (problem.c.transpose() * problem.W_any), kSameDirection)
+            .range;
   }
 }
 
@@ -87,7 +88,7 @@ void PostureController::accelerate_all(const Motion& motion) {
 /// Only those combinations of the balance's rows in which the wrenches `across_` have no part.
 void PostureController::leave_free(EffortRequest& request) const {
   if (across_.cols() == 0) return;
-  const Eigen::MatrixXd N = split(now_.J.transpose() * across_, kSame).complement;
+  const Eigen::MatrixXd N = split(now_.J.transpose() * across_, kSameDirection).complement;
   request.B = N.transpose() * request.B;
   request.tau_c = N.transpose() * request.tau_c;
 }

@@ -4,14 +4,13 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "lib/math/farkas.h"
+
 namespace maxwrench {
 namespace {
 
 /// The least violation that counts as infeasible, relative to 1 + |b|.
 constexpr double kInfeasible = 1e-7;
-
-/// From here on a bound is infinite to the libraries and to `verified`.
-constexpr double kInfiniteBound = 1e20;
 
 }  // namespace
 

@@ -7,7 +7,7 @@
 namespace maxwrench {
 namespace {
 
-using Owned = std::unique_ptr<std::remove_pointer_t<nlopt_opt>, decltype(&nlopt_destroy)>;
+using OwnedOptimizer = std::unique_ptr<std::remove_pointer_t<nlopt_opt>, decltype(&nlopt_destroy)>;
 
 struct Session {
   Probe& probe;
@@ -49,8 +49,8 @@ double objective(unsigned n, const double* x, double* slope, void* data) {
   return value;
 }
 
-Owned make(nlopt_algorithm algorithm, const NloptOptions& options, unsigned n) {
-  Owned opt(nlopt_create(algorithm, n), nlopt_destroy);
+OwnedOptimizer make(nlopt_algorithm algorithm, const NloptOptions& options, unsigned n) {
+  OwnedOptimizer opt(nlopt_create(algorithm, n), nlopt_destroy);
   nlopt_set_lower_bounds1(opt.get(), 0);
   nlopt_set_upper_bounds1(opt.get(), 1);
   nlopt_set_xtol_abs1(opt.get(), options.x_tolerance);
@@ -63,7 +63,7 @@ Owned make(nlopt_algorithm algorithm, const NloptOptions& options, unsigned n) {
 void run_nlopt(const NloptOptions& options, Probe& probe, const Box& box, const Sample& sample,
                Eigen::VectorXd x, Random& random) {
   const auto n = static_cast<unsigned>(box.free());
-  const Owned opt = make(options.algorithm, options, n);
+  const OwnedOptimizer opt = make(options.algorithm, options, n);
   Session session{probe, box, sample.scale, opt.get(), {}, {}};
   nlopt_set_max_objective(opt.get(), objective, &session);
   nlopt_set_maxeval(opt.get(), static_cast<int>(probe.left()));

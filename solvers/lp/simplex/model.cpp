@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/math/farkas.h"
+
 namespace maxwrench::simplex {
 namespace {
 
-constexpr double kInfiniteBound = 1e20;
 constexpr int kGeometricPasses = 4;
 
 double power_of_two_near(double x) {
