@@ -53,7 +53,7 @@ class SaturatingWrench : public Measure {
       high = leave;
       active_ = i;
     }
-    if (low > high) {
+    if (low > high || high == -kInfinity) {
       capability.reason = "an actuator cannot take its share of the load at any multiple of c";
       return Status::kInfeasible;
     }

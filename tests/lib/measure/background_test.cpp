@@ -238,6 +238,8 @@ TEST(Background, WhatHasNoValueSaysWhy) {
     EXPECT_EQ(status(measure, posture), Status::kNumericalError) << measure;
   }
   EXPECT_EQ(status("saturating_wrench", posture), Status::kUnbounded);
+  posture.tau_d = heavy.tau_d;  // no wrench helps an actuator, and two are overloaded
+  EXPECT_EQ(status("saturating_wrench", posture), Status::kInfeasible);
 }
 
 }  // namespace
