@@ -41,7 +41,8 @@ bool names_a_robot(std::istream& toml) {
 fs::path find_task(const std::string& name) {
   const fs::path folder = problems_folder();
   const fs::path shipped = folder / (name + ".toml");
-  if (!folder.empty() && fs::is_regular_file(shipped) && is_task(shipped)) return shipped;
+  std::error_code none;  // a path may be no name: too long with the folder before it
+  if (!folder.empty() && fs::is_regular_file(shipped, none) && is_task(shipped)) return shipped;
   if (fs::is_regular_file(name)) return name;
   refuse(name, "problem", "no such file",
          fmt::format("the path of a task or one of {}", fmt::join(shipped_problems(), ", ")));
@@ -173,7 +174,8 @@ std::vector<std::string> tasks_in(const fs::path& folder) {
   if (!fs::is_directory(folder)) return names;
   const auto options = fs::directory_options::skip_permission_denied;
   for (const auto& entry : fs::recursive_directory_iterator(folder, options)) {
-    if (entry.path().extension() != ".toml" || !entry.is_regular_file()) continue;
+    std::error_code none;  // such as a link that leads to itself
+    if (entry.path().extension() != ".toml" || !entry.is_regular_file(none)) continue;
     std::ifstream stream(entry.path(), std::ios::binary);
     if (stream && !names_a_robot(stream)) continue;
     names.push_back(entry.path().lexically_relative(folder).replace_extension().string());

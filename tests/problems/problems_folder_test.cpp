@@ -37,6 +37,24 @@ TEST(ProblemsFolder, TheVariableComesFirst) {
   EXPECT_THROW(load_problem("planar/force"), std::invalid_argument);
 }
 
+/// One broken file does not hide the others.
+TEST(ProblemsFolder, ALinkThatLeadsToItselfIsNoProblem) {
+  const TemporaryFolder folder;
+  fs::copy(fs::path(MAXWRENCH_SOURCE_DIR) / "problems/fixed", folder.path() / "own");
+  fs::create_symlink("loop.toml", folder.path() / "own" / "loop.toml");
+  const ProblemsVariable variable(folder.path());
+  EXPECT_EQ(shipped_problems(), std::vector<std::string>{"own/push"});
+}
+
+/// 255 letters are a name of a file; as the name of a problem it would get five more.
+TEST(ProblemsFolder, LongFileNamesAreFiles) {
+  const TemporaryFolder folder;
+  fs::copy(fs::path(MAXWRENCH_SOURCE_DIR) / "problems/fixed", folder.path() / "own");
+  const fs::path task = folder.path() / "own" / (std::string(250, 'a') + ".toml");
+  fs::rename(folder.path() / "own" / "push.toml", task);
+  EXPECT_EQ(load_problem(task.string()).robot.joints.size(), 7U);
+}
+
 TEST(ProblemsFolder, AWrongVariableIsBadInput) {
   const ProblemsVariable variable("/proc/nowhere");
   for (const char* words : {"list", "eval planar/force"}) {
