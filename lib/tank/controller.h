@@ -10,8 +10,10 @@ namespace maxwrench {
 /// Holds a posture while the end effector exerts a wrench (see `run_tank`), from a measured motion.
 class PostureController {
  public:
+  /// Keeps references to the problem and the options.
   PostureController(const Problem& problem, const Posture& posture, Wrench wrench,
                     const TankOptions& options);
+  PostureController(const Problem&&, const Posture&, Wrench, const TankOptions&) = delete;
 
   /// tau_c of the motion for the wrench h, with efforts close to u_star and within their limits and
   /// what the rate limits allow within `period` after u_before.

@@ -12,7 +12,9 @@ namespace maxwrench {
 /// them its thrust is what was asked for.
 class TankOde final : public Ode {
  public:
+  /// Keeps references to the problem and the options.
   TankOde(const Problem& problem, const Posture& posture, const TankOptions& options);
+  TankOde(const Problem&&, const Posture&, const TankOptions&) = delete;
 
   /// At rest or not, with efforts that have settled.
   void start(const Motion& motion, const Eigen::VectorXd& u);

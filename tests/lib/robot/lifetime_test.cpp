@@ -5,6 +5,9 @@
 
 #include "lib/posture/pull_back.h"
 #include "lib/robot/motion.h"
+#include "lib/tank/controller.h"
+#include "lib/tank/ode.h"
+#include "maxwrench/problem.h"
 
 namespace maxwrench {
 namespace {
@@ -22,6 +25,12 @@ static_assert(kKeepsOnlyWhatLives<Dynamics<double>>);
 static_assert(kKeepsOnlyWhatLives<PullBack, int>);
 static_assert(kKeepsOnlyWhatLives<PullBack, int, int>);
 static_assert(kKeepsOnlyWhatLives<FreeMotion, const Motion&, Effort>);
+static_assert(std::is_constructible_v<TankOde, const Problem&, Posture, const TankOptions&> &&
+              !std::is_constructible_v<TankOde, Problem, Posture, const TankOptions&>);
+static_assert(
+    std::is_constructible_v<PostureController, const Problem&, Posture, Wrench,
+                            const TankOptions&> &&
+    !std::is_constructible_v<PostureController, Problem, Posture, Wrench, const TankOptions&>);
 
 }  // namespace
 }  // namespace maxwrench
