@@ -76,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadWords{"simulate uvms/valve --integrator arkode", "stiff"},
                     BadWords{"simulate uvms/valve --thrust-noise -1", "--thrust-noise: got -1"},
                     BadWords{"simulate uvms/valve --thrust-efficiency x", "--thrust-efficiency"},
-                    BadWords{"simulate uvms/valve --seed 1.5", "--seed: got 1.5, expected"},
+                    BadWords{"simulate uvms/valve --seed 1.5", "--seed: got '1.5', expected"},
                     BadWords{"simulate uvms/valve --theta-r 1", "theta_r"},
                     BadWords{"simulate dual_arm/bar_wall", "second contact"},
                     BadWords{"simulate uvms/lift --load 1 --wrench any", "--wrench"},

@@ -7,6 +7,7 @@
 #include "lib/math/random.h"
 #include "maxwrench/strategies.h"
 #include "tests/support/programs.h"
+#include "tests/support/support.h"
 
 #if defined(MAXWRENCH_SANITIZED)
 #include <sanitizer/lsan_interface.h>
