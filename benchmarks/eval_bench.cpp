@@ -185,7 +185,9 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   std::vector<std::unique_ptr<maxwrench::Problem>> problems;
   for (const std::string& name : maxwrench::shipped_problems()) {
-    problems.push_back(std::make_unique<maxwrench::Problem>(maxwrench::load_problem(name)));
+    auto problem = std::make_unique<maxwrench::Problem>(maxwrench::load_problem(name));
+    if (problem->motion) continue;
+    problems.push_back(std::move(problem));
     maxwrench::add_problem(*problems.back());
   }
   maxwrench::Keeper keeper;

@@ -19,6 +19,7 @@ class Interruptible final : public Objective {
     if (interruption_.asked) interruption_.noticed = true;
     return interruption_.asked;
   }
+  PlanEvaluator* plans() override { return objective_->plans(); }
   void metric(const Eigen::VectorXd& theta_r, Eigen::MatrixXd& M) override {
     objective_->metric(theta_r, M);
   }

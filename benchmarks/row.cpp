@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <chrono>
 #include <cmath>
 
 #include "maxwrench/measure.h"
@@ -13,10 +12,6 @@
 
 namespace maxwrench {
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 std::string number(double value) { return fmt::format("{:.17g}", value); }
 
@@ -70,13 +65,8 @@ Row solve(const Problem& problem, const Method& method, int threads,
   const auto objective = make_interruptible(
       make_capability_objective(problem, method.choice.wrench, method.make_measure, true, tally),
       interruption);
-  SearchOptions options;
-  options.seed = method.choice.seed;
-  options.budget = method.choice.budget;
-  options.threads = threads;
-  options.progress = progress;
-  options.start = problem.theta_r_default;
-  const SearchResult result = method.search->make()->maximize(*objective, options);
+  const SearchResult result =
+      search(method.choice, *method.search, *objective, problem.theta_r_default, threads, progress);
   const double search_s = seconds_since(start);
   Row row;
   if (result.status == Status::kBestFound) {
@@ -86,13 +76,7 @@ Row solve(const Problem& problem, const Method& method, int threads,
     row.choice = method.choice;
     row.unit = method.unit;
   }
-  row.evaluations = result.evaluations;
-  if (interruption != nullptr && interruption->noticed) {
-    row.evaluations -= interruption->skipped;
-    if (row.status != Status::kNumericalError) {
-      row.conclude(Status::kBudgetExhausted, "interrupted");
-    }
-  }
+  conclude_search(result, interruption, row);
   row.undecided = tally->undecided();
   if (problem.contact) row.branches = tally->sum();
   row.wall_s += search_s;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "benchmarks/case.h"
-#include "benchmarks/interruption.h"
+#include "benchmarks/searched.h"
 #include "maxwrench/measure.h"
 #include "maxwrench/posture.h"
 
@@ -34,18 +34,16 @@ struct Row : Verdict {
 
   bool has_posture() const { return posture.J.size() > 0; }
   /// A value of the posture, which an interrupted search (kBudgetExhausted) may have too.
-  bool has_value() const {
-    return status == Status::kOptimal ||
-           (status == Status::kBudgetExhausted && capability.status == Status::kOptimal);
-  }
+  bool has_value() const { return counts(status, capability.status); }
 };
 
 /// Evaluates a method at theta_r.
 Row evaluate(const Problem& problem, const Method& method, const Eigen::VectorXd& theta_r,
              bool check_collision = true);
 
-/// Searches the best posture and evaluates it anew. Same result at any thread count. If it was
-/// interrupted, the best so far with status kBudgetExhausted.
+/// Searches the best posture and evaluates it anew: kBestFound, for only the lower level is
+/// optimal. Same result at any thread count. If it was interrupted, the best so far with status
+/// kBudgetExhausted.
 Row solve(const Problem& problem, const Method& method, int threads,
           const std::function<void(long)>& progress = {}, Interruption* interruption = nullptr);
 

@@ -66,14 +66,19 @@ std::string tank_csv(const Problem& problem, const TankRun& run) {
   std::string text = "t,planned,reading,f_x,f_y,f_z,n_x,n_y,n_z";
   for (const Thruster& thruster : problem.robot.thrusters) text += "," + thruster.name;
   for (const Joint& joint : problem.robot.joints) text += "," + joint.name;
-  text += ",saturated,relaxed,shortfall,drift,position_error\n";
+  text += ",saturated,relaxed,shortfall,drift,position_error";
+  for (int i = 0; run.summary.motion && i < problem.redundancy(); ++i) {
+    text += ",theta_r_" + problem.theta_r_name(i);
+  }
+  text += run.summary.motion ? ",angle\n" : "\n";
   for (const TankSample& sample : run.samples) {
-    text +=
-        fmt::format("{:.6g},{:.6g},{:.6g}", sample.t, sample.planned, problem.c.dot(sample.h_e));
+    text += fmt::format("{:.6g},{:.6g},{:.6g}", sample.t, sample.planned, sample.reading);
     for (const double value : sample.h_e) text += fmt::format(",{:.6g}", value);
     for (const double value : sample.u) text += fmt::format(",{:.6g}", value);
-    text += fmt::format(",{},{},{:.3g},{:.3g},{:.3g}\n", int{sample.saturated}, int{sample.relaxed},
+    text += fmt::format(",{},{},{:.3g},{:.3g},{:.3g}", int{sample.saturated}, int{sample.relaxed},
                         sample.shortfall, sample.drift, sample.position_error);
+    for (const double value : sample.theta_r) text += fmt::format(",{:.6g}", value);
+    text += run.summary.motion ? fmt::format(",{:.6g}\n", sample.angle) : "\n";
   }
   return text;
 }

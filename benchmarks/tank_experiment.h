@@ -26,7 +26,9 @@ TankRun simulate_load(const Problem& problem, const Row& row, double load,
 int heaviest_load(const Problem& problem, const Row& row, const std::string& integrator,
                   TankOptions options);
 
-/// The samples as CSV: t, planned, c'h_e, the wrench, the efforts, and how well it went.
+/// The samples as CSV: t, planned, c'h_e, the wrench, the efforts, and how well it went; of
+/// a task in time also theta_r and the angle of the end effector, and the wrench in axes that turn
+/// with the cell.
 std::string tank_csv(const Problem& problem, const TankRun& run);
 
 }  // namespace maxwrench

@@ -102,12 +102,43 @@ void print(const Robot& robot, const Contact& contact) {
   }
 }
 
+std::string at_pose(const Pose<double>& pose) {
+  const Eigen::Vector3d turn = logarithm(pose.R);
+  const auto tidy = [](const Eigen::Vector3d& a) {
+    return Eigen::Vector3d((1e9 * a).array().round() / 1e9 + 0.0);
+  };
+  return fmt::format("[{:.6g}] m, rotation vector [{:.6g}] rad", fmt::join(tidy(pose.p), ", "),
+                     fmt::join(tidy(turn), ", "));
+}
+
+/// Of a task in time.
+void print(const MotionTask& motion) {
+  fmt::print("  {} of {:g} s, {} knots of theta_r, scheme {}",
+             motion.impulse ? "impulse" : "trajectory", motion.T, motion.k,
+             to_string(motion.scheme));
+  if (motion.scheme == Scheme::kSpline) {
+    fmt::print(", {} instants per interval", motion.instants_per_interval);
+  }
+  fmt::print("; the limits of the rates of efforts {}\n", motion.rates ? "hold" : "do not hold");
+  if (motion.impulse) {
+    fmt::print("  peak at knot {}, start {} at theta_r [{:g}]\n",
+               motion.t_h > 0 ? fmt::format("{}", motion.t_h) : "best", to_string(motion.start),
+               fmt::join(motion.theta_0, ", "));
+    return;
+  }
+  fmt::print("  path from {}\n       to   {}", at_pose(motion.path.pose(0)),
+             at_pose(motion.path.pose(motion.T)));
+  if (motion.path.angle() != 0) fmt::print(", turned by {:g} rad", motion.path.angle());
+  fmt::print("\n  c {}\n", motion.c_turns ? "turns with the end effector" : "stays in the world");
+}
+
 void print(const Problem& problem) {
   fmt::print("task {}{}\n", problem.name,
              problem.label.empty() ? "" : fmt::format(" ({})", problem.label));
   fmt::print("  end effector {}, c = [{:g}] in [force; torque], beta in {}\n",
              problem.robot.end_effectors[problem.end_effector].name, fmt::join(problem.c, ", "),
              problem.unit());
+  if (problem.motion) print(*problem.motion);
   fmt::print("  wrench any: {} columns; reference {:g} {}, desired [{:g}]\n", problem.W_any.cols(),
              problem.reference, problem.unit(), fmt::join(problem.desired, ", "));
   fmt::print("  redundancy {}\n", problem.redundancy());

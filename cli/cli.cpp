@@ -100,7 +100,8 @@ std::string refuse_empty(const std::string& text) {
 }
 
 void CommonOptions::add_search(CLI::App& app) {
-  app.add_option("--search", choice.search, "search over theta_r")->capture_default_str();
+  app.add_option("--search", choice.search, "search over theta_r (of a task in time: slp)")
+      ->capture_default_str();
   app.add_option("--seed", choice.seed, "of the random numbers")
       ->capture_default_str()
       ->check(refuse_seed);
@@ -111,6 +112,13 @@ void CommonOptions::add_budget(CLI::App& app, const char* what) {
   app.add_option("--budget", choice.budget, what)
       ->capture_default_str()
       ->check(CLI::Range(1L, kMostBudget));
+}
+
+void require_static(const Problem& problem, const char* command) {
+  if (!problem.motion) return;
+  throw std::invalid_argument(fmt::format("{}: type: got {} {}, expected a static task for `{}`",
+                                          problem.name, problem.motion->impulse ? "an" : "a",
+                                          problem.type(), command));
 }
 
 Eigen::VectorXd theta_r_of(const Problem& problem, const std::optional<std::string>& text) {

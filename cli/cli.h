@@ -46,6 +46,9 @@ inline constexpr long kMostBudget = 100'000'000;
 /// The posture that `--theta-r` names; without it that of the task.
 Eigen::VectorXd theta_r_of(const Problem& problem, const std::optional<std::string>& text);
 
+/// Throws std::invalid_argument for a task in time, which the command does not serve.
+void require_static(const Problem& problem, const char* command);
+
 /// Empty, or why the text is no seed of random numbers.
 std::string refuse_seed(const std::string& text);
 

@@ -137,6 +137,7 @@ std::vector<Comparison> attempt_all(const CompareOptions& options,
   std::vector<Case> cases;
   for (const std::string& name : options.problems) {
     problems.push_back(load_problem(name));
+    require_static(problems.back(), "compare");
     cases.push_back(options.read_case());
     resolve(problems.back(), cases.back());  // refuses before anything is computed
   }

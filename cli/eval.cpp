@@ -1,9 +1,11 @@
 #include <memory>
 #include <stdexcept>
 
+#include "benchmarks/plan_row.h"
 #include "benchmarks/row.h"
 #include "benchmarks/write_file.h"
 #include "cli/cli.h"
+#include "cli/motion_options.h"
 #include "cli/output.h"
 #include "cli/state.h"
 #include "maxwrench/load.h"
@@ -17,6 +19,7 @@ struct EvalOptions : CommonOptions {
   std::optional<std::string> theta_r;
   std::string state, write;
   bool ignore_collision = false;
+  MotionOptions motion;
 };
 
 /// Writes the program of the posture, if there is one.
@@ -36,14 +39,29 @@ void write_program(const EvalOptions& options, const Problem& problem, const Met
   write_file(options.write, wrench_program_mps(problem, program));
 }
 
+int eval_plan(const EvalOptions& options, const Problem& problem, const Case& c) {
+  require_apart(
+      {{"path.file", problem.motion->path_file}, {"--theta-r", options.theta_r.value_or("")}},
+      {{"--write", options.write}});
+  const PlanMethod method = resolve_plan(c);
+  const PlanRow row =
+      evaluate_plan(problem, method, knots_of(problem, options.theta_r), !options.ignore_collision);
+  if (!options.write.empty() && row.status != Status::kInvalidPosture) {
+    write_file(options.write, plan_program_mps(problem, row.program));
+  }
+  return report(problem, row, options.json);
+}
+
 int eval(const EvalOptions& options) {
   require_apart({{"problem", options.choice.problem}}, {{"--write", options.write}});
   if (!options.state.empty()) {
     return report_state(load_problem(options.choice.problem), options.state, options.json);
   }
-  const Problem problem = load_problem(options.choice.problem);
+  Problem problem = load_problem(options.choice.problem);
+  options.motion.change(problem);
   Case c = options.read_case();
   c.search.clear();  // none is used
+  if (problem.motion) return eval_plan(options, problem, c);
   const Method method = resolve(problem, c);
   const Eigen::VectorXd theta_r = theta_r_of(problem, options.theta_r);
   if (!options.write.empty()) write_program(options, problem, method, theta_r);
@@ -55,20 +73,23 @@ int eval(const EvalOptions& options) {
 
 void add_eval(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<EvalOptions>();
-  CLI::App& command = *app.add_subcommand("eval", "the capability of one posture");
+  CLI::App& command = *app.add_subcommand("eval", "the capability of one posture or plan");
   options->add_case(command);
   options->add_json(command);
-  command.add_option("--theta-r", options->theta_r,
-                     "redundant coordinates, separated by commas (default: those of the task)");
-  command.add_option("--write", options->write, "the wrench program, as an MPS file")
+  command.add_option(
+      "--theta-r", options->theta_r,
+      "redundant coordinates, separated by commas (default: those of the task); of a "
+      "task in time they hold throughout, or a CSV file has a row for each knot");
+  options->motion.add(command);
+  command.add_option("--write", options->write, "the linear program, as an MPS file")
       ->check(refuse_empty);
   command.add_flag("--ignore-collision", options->ignore_collision,
                    "evaluate a colliding posture too");
   CLI::Option& state =
       *command.add_option("--state", options->state,
                           "M, tau_d and J at the motion in this file, instead of a capability");
-  for (const char* other :
-       {"--theta-r", "--measure", "--wrench", "--lp", "--write", "--ignore-collision"}) {
+  for (const char* other : {"--theta-r", "--measure", "--wrench", "--lp", "--write",
+                            "--ignore-collision", "--scheme", "--t-h"}) {
     state.excludes(command.get_option(other));
   }
   command.callback([options, &exit_status] { exit_status = eval(*options); });

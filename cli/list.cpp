@@ -18,7 +18,9 @@ void print_table(const char* title, const Table& table) {
 
 void print_problem(const std::string& name) {
   const Problem problem = load_problem(name);
-  fmt::print("  {:<28} {}, redundancy {}, beta in {}{}\n", name, problem.robot.name,
+  const std::string motion =
+      problem.motion ? fmt::format("{} of {:g} s, ", problem.type(), problem.motion->T) : "";
+  fmt::print("  {:<28} {}, {}redundancy {}, beta in {}{}\n", name, problem.robot.name, motion,
              problem.redundancy(), problem.unit(),
              problem.label.empty() ? "" : ", " + problem.label);
 }
@@ -39,7 +41,9 @@ int list() {
   }
   print_table("measures", measures());
   print_table("lower-level solvers (--lp)", wrench_solvers());
+  print_table("lower-level solvers of tasks in time (--lp)", plan_solvers());
   print_table("searches", searches());
+  print_table("searches of tasks in time", plan_searches());
   print_table("integrators", integrators());
   for (const Absent& absent : not_built_in()) {
     fmt::print("not built in: {} {} (needs {})\n", absent.family, absent.name, absent.library);

@@ -21,6 +21,7 @@ struct PlotOptions {
 int plot(const PlotOptions& options) {
   require_apart({{"problem", options.problem}}, {{"--out", options.out}});
   const Problem problem = load_problem(options.problem);
+  require_static(problem, "plot");
   const Eigen::VectorXd theta_r = theta_r_of(problem, options.theta_r);
   PostureEvaluator model(problem);
   const Posture& posture = model.evaluate(theta_r);

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "benchmarks/row.h"
 #include "cli/cli.h"
 #include "cli/output.h"
+#include "cli/pieces.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/version.h"
 
@@ -13,26 +13,6 @@ namespace maxwrench {
 namespace {
 
 using nlohmann::ordered_json;
-
-ordered_json array(const Eigen::VectorXd& v) {
-  return std::vector<double>(v.data(), v.data() + v.size());
-}
-
-/// Roll, pitch, yaw with R = Rz(yaw) Ry(pitch) Rx(roll).
-Eigen::Vector3d rpy(const Eigen::Matrix3d& R) {
-  const double pitch = std::atan2(0 - R(2, 0), std::hypot(R(0, 0), R(1, 0)));  // 0 - 0, not -0
-  return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
-}
-
-ordered_json theta(const Problem& problem, const Posture& posture) {
-  ordered_json object;
-  object["position"] = array(posture.base.p);
-  object["rpy"] = array(rpy(posture.base.R));
-  for (std::size_t i = 0; i < problem.robot.joints.size(); ++i) {
-    object[problem.robot.joints[i].name] = posture.q[static_cast<Eigen::Index>(i)];
-  }
-  return object;
-}
 
 ordered_json to_json(const BranchCounts& branches) {
   return {{"valid", branches.valid()},
@@ -45,12 +25,8 @@ ordered_json to_json(const BranchCounts& branches) {
 ordered_json to_json(const Problem& problem, const Row& row) {
   const Case& c = row.choice;
   const Capability& capability = row.capability;
-  const Residual& residual = capability.residual;
   const bool solved = row.has_value();
   const bool has_wrench = solved && capability.w.size() > 0;
-  const auto known = [](bool condition, const ordered_json& value) {
-    return condition ? value : ordered_json(nullptr);
-  };
   ordered_json object;
   object["problem"] = c.problem;
   object["measure"] = c.measure;
@@ -65,29 +41,21 @@ ordered_json to_json(const Problem& problem, const Row& row) {
   object["yardstick"] = known(std::isfinite(row.yardstick), row.yardstick);
   object["yardstick_unit"] = problem.unit();
   object["theta_r"] = known(row.has_posture(), array(row.posture.theta_r));
-  object["theta"] = row.has_posture() ? theta(problem, row.posture) : ordered_json(nullptr);
+  object["theta"] = row.has_posture() ? theta(problem.robot, row.posture.base, row.posture.q)
+                                      : ordered_json(nullptr);
   object["w"] = known(has_wrench, array(capability.w));
   object["h"] = known(has_wrench, array(capability.h));
   if (problem.contact) object["h_2"] = known(has_wrench, array(capability.h_2));
   object["u"] = known(solved && capability.u.size() > 0, array(capability.u));
   object["lambda"] = known(solved, array(capability.lambda));
   object["gradient"] = known(solved, array(row.gradient));
-  object["residual"] = known(solved, {{"balance", residual.balance},
-                                      {"bounds", residual.bounds},
-                                      {"dual", residual.dual},
-                                      {"gap", residual.gap}});
+  object["residual"] = known(solved, to_json(capability.residual));
   object["evaluations"] = row.evaluations;
   object["undecided"] = row.undecided;
   if (problem.contact) object["branches"] = to_json(row.branches);
   object["wall_s"] = row.wall_s;
   object["version"] = version();
   return object;
-}
-
-std::string line(const Eigen::VectorXd& v) {
-  std::string text;
-  for (const double value : v) text += fmt::format(" {:>9.5f}", value);
-  return text;
 }
 
 void print_following(const Problem& problem, const Posture& posture,
@@ -114,7 +82,7 @@ void print(const Problem& problem, const Row& row) {
     fmt::print("{}: {}\n", to_string(row.status), row.reason.c_str());
     return;
   }
-  if (row.status != Status::kOptimal) {
+  if (!answers(row.status)) {
     fmt::print("{}: {}, the best so far\n", to_string(row.status), row.reason.c_str());
   }
   const Capability& capability = row.capability;
@@ -123,19 +91,14 @@ void print(const Problem& problem, const Row& row) {
   if (capability.w.size() > 0) fmt::print("h        {}\n", line(capability.h));
   if (problem.contact) fmt::print("h_2      {}\n", line(capability.h_2));
   for (Eigen::Index i = 0; i < capability.u.size(); ++i) {
-    const auto thrusters = static_cast<Eigen::Index>(problem.robot.thrusters.size());
-    const std::string& name =
-        i < thrusters ? problem.robot.thrusters[i].name : problem.robot.joints[i - thrusters].name;
     fmt::print("u {:>17.5f}  of {:g} .. {:g}  {}\n", capability.u[i],
-               problem.robot.actuation.u_min[i], problem.robot.actuation.u_max[i], name);
+               problem.robot.actuation.u_min[i], problem.robot.actuation.u_max[i],
+               actuator_name(problem.robot, i));
   }
   fmt::print("gradient {}\n", line(row.gradient));
   if (row.undecided > 0) fmt::print("undecided {} evaluations without a verdict\n", row.undecided);
-  fmt::print(
-      "residual balance {:.1e}, bounds {:.1e}, dual {:.1e}, gap {:.1e}; {} evaluations in "
-      "{:.3g} s\n",
-      capability.residual.balance, capability.residual.bounds, capability.residual.dual,
-      capability.residual.gap, row.evaluations, row.wall_s);
+  fmt::print("residual {}; {} evaluations in {:.3g} s\n", line(capability.residual),
+             row.evaluations, row.wall_s);
 }
 
 }  // namespace
@@ -154,7 +117,7 @@ int report(const Problem& problem, const Row& row, bool json) {
   } else {
     print(problem, row);
   }
-  return row.status == Status::kOptimal ? kAnswered : kOtherStatus;
+  return answers(row.status) ? kAnswered : kOtherStatus;
 }
 
 }  // namespace maxwrench

@@ -47,7 +47,6 @@ Choice read_words(const std::vector<std::string>& words) {
   if (named != choice.filter.end() && is_problem(named->second)) {
     choice.problems.push_back(named->second);
   }
-  if (choice.problems.empty()) choice.problems = shipped_problems();
   return choice;
 }
 
@@ -89,10 +88,21 @@ std::vector<Case> choose(const std::map<std::string, Problem>& problems,
   return select(std::move(cases), filter);
 }
 
+/// Those named, or all shipped static ones.
+std::map<std::string, Problem> load_chosen(const std::vector<std::string>& named) {
+  std::map<std::string, Problem> problems;
+  for (const std::string& name : named.empty() ? shipped_problems() : named) {
+    Problem problem = load_problem(name);
+    if (named.empty() && problem.motion) continue;
+    require_static(problem, "run");
+    problems.try_emplace(name, std::move(problem));
+  }
+  return problems;
+}
+
 int run(const RunOptions& options) {
   const Choice choice = read_words(options.words);
-  std::map<std::string, Problem> problems;
-  for (const std::string& name : choice.problems) problems.try_emplace(name, load_problem(name));
+  const std::map<std::string, Problem> problems = load_chosen(choice.problems);
   const std::vector<Case> cases = choose(problems, choice.filter);
   const std::filesystem::path folder(options.out);
   RowWriter writer("run", folder, options.thread_count(), static_cast<long>(cases.size()));
@@ -111,9 +121,10 @@ void add_run(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<RunOptions>();
   CLI::App& command =
       *app.add_subcommand("run", "every meaningful combination of measure, wrench, solver, search");
-  command.add_option("words", options->words,
-                     "problems, shipped or task files (default: all shipped), and column=value: "
-                     "only these rows (seed and budget are set, not filtered)");
+  command.add_option(
+      "words", options->words,
+      "problems, shipped or task files (default: all static ones shipped), and column=value: "
+      "only these rows (seed and budget are set, not filtered)");
   command.add_option("--out", options->out, "folder of values.csv, times.csv and machine.txt")
       ->capture_default_str()
       ->check(refuse_empty);

@@ -1,3 +1,5 @@
+#include "cli/simulate.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -10,7 +12,6 @@
 #include "benchmarks/row.h"
 #include "benchmarks/tank_experiment.h"
 #include "benchmarks/write_file.h"
-#include "cli/cli.h"
 #include "cli/output.h"
 #include "maxwrench/figures.h"
 #include "maxwrench/load.h"
@@ -19,14 +20,6 @@
 
 namespace maxwrench {
 namespace {
-
-struct SimulateOptions : CommonOptions {
-  std::optional<std::string> theta_r;
-  std::string out, figure, integrator = "cvode";
-  double planned = 0;  ///< zero: the capability
-  bool heaviest = false;
-  TankOptions tank;
-};
 
 void print_object(const Problem& problem, const SimulateOptions& options, const TankRun& run) {
   const TankSummary& s = run.summary;
@@ -132,15 +125,7 @@ void require_stiff(const std::string& name) {
                               (stiff.empty() ? " none is built in" : stiff));
 }
 
-int simulate(const SimulateOptions& options) {
-  require_apart({{"problem", options.choice.problem}},
-                {{"--out", options.out}, {"--figure", options.figure}});
-  require_stiff(options.integrator);
-  const Problem problem = load_problem(options.choice.problem);
-  if (problem.contact) {
-    throw std::invalid_argument("problem: got " + problem.name +
-                                ", expected one without a second contact");
-  }
+int simulate_static(const Problem& problem, const SimulateOptions& options) {
   Case c = options.read_case();
   c.search.clear();  // none is used
   const Eigen::VectorXd theta_r = theta_r_of(problem, options.theta_r);
@@ -158,6 +143,28 @@ int simulate(const SimulateOptions& options) {
     write_file(options.figure, tank_figure(problem, {{problem.name, &run}}));
   }
   return run.status == Status::kReached ? kAnswered : kOtherStatus;
+}
+
+int simulate(const SimulateOptions& options) {
+  require_apart({{"problem", options.choice.problem}},
+                {{"--out", options.out}, {"--figure", options.figure}});
+  require_stiff(options.integrator);
+  Problem problem = load_problem(options.choice.problem);
+  if (problem.contact) {
+    throw std::invalid_argument("problem: got " + problem.name +
+                                ", expected one without a second contact");
+  }
+  options.motion.change(problem);
+  if (problem.motion) {
+    require_apart({{"--theta-r", options.theta_r.value_or("")}},
+                  {{"--out", options.out}, {"--figure", options.figure}});
+    return simulate_motion(problem, options);
+  }
+  if (options.interpolation) {
+    throw std::invalid_argument("--interpolation: got '" + *options.interpolation +
+                                "', expected none: " + problem.name + " is a static task");
+  }
+  return simulate_static(problem, options);
 }
 
 using Accepts = bool (*)(double);
@@ -190,6 +197,17 @@ void add_imperfections(CLI::App& command, Imperfections& imperfections) {
       ->check(refuse_seed);
 }
 
+/// Of what is carried out.
+void add_plan_options(CLI::App& command, SimulateOptions& options) {
+  command.add_option(
+      "--theta-r", options.theta_r,
+      "redundant coordinates, separated by commas (default: those of the task); of a "
+      "task in time they hold throughout, or a CSV file has a row for each knot");
+  options.motion.add(command);
+  command.add_option("--interpolation", options.interpolation,
+                     "what joins the instants of a plan: linear or spline");
+}
+
 void add_times(CLI::App& command, TankOptions& tank) {
   for (auto [name, value] : {std::pair("--ramp", &tank.ramp), std::pair("--hold", &tank.hold)}) {
     command.add_option(name, *value, "s")
@@ -203,13 +221,16 @@ void add_times(CLI::App& command, TankOptions& tank) {
 void add_simulate(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<SimulateOptions>();
   CLI::App& command = *app.add_subcommand(
-      "simulate", "the static experiment on the simulated robot: ramp, hold, ramp");
+      "simulate",
+      "the experiment on the simulated robot: ramp, hold, ramp, or a plan of a task in time");
+  options->command = &command;
   options->add_case(command);
   options->add_json(command);
-  command.add_option("--theta-r", options->theta_r,
-                     "redundant coordinates, separated by commas (default: those of the task)");
+  add_plan_options(command, *options);
   CLI::Option* planned =
-      command.add_option("--planned", options->planned, "wrench along c (default: the capability)")
+      command
+          .add_option("--planned", options->planned,
+                      "wrench along c (default: the capability, or what the plan is worth)")
           ->check(number(positive, "a number > 0"));
   CLI::Option* load = command
                           .add_option("--load", options->tank.load,
@@ -225,7 +246,7 @@ void add_simulate(CLI::App& app, int& exit_status) {
   command.add_option("--integrator", options->integrator, "see maxwrench list")
       ->capture_default_str();
   command.add_option("--out", options->out, "the time series, as a CSV file")->excludes(heaviest);
-  command.add_option("--figure", options->figure, "c'h over time, as an SVG file")
+  command.add_option("--figure", options->figure, "the run over time, as an SVG file")
       ->excludes(heaviest);
   add_imperfections(command, options->tank.imperfections);
   command.callback([options, &exit_status] { exit_status = simulate(*options); });

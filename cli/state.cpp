@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <nlohmann/json.hpp>
 
 #include "cli/cli.h"
 #include "cli/output.h"
+#include "cli/pieces.h"
 #include "lib/robot/dynamics.h"
 #include "maxwrench/load.h"
 #include "maxwrench/version.h"
@@ -46,16 +46,6 @@ std::vector<std::string> velocity_names(const Robot& robot) {
     names.emplace_back(kTwistAxes[static_cast<std::size_t>(axis)]);
   for (const Joint& joint : robot.joints) names.push_back(joint.name);
   return names;
-}
-
-ordered_json array(const Eigen::VectorXd& v) {
-  return std::vector<double>(v.data(), v.data() + v.size());
-}
-
-ordered_json rows(const Eigen::MatrixXd& matrix) {
-  ordered_json result = ordered_json::array();
-  for (const auto row : matrix.rowwise()) result.push_back(array(row.transpose()));
-  return result;
 }
 
 void print_object(const Problem& problem, const std::string& file, const Terms& terms) {

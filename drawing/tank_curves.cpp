@@ -28,7 +28,7 @@ struct TankAxes {
 };
 
 /// Those of all samples and of zero. Throws std::invalid_argument if there is nothing to draw.
-TankAxes axes_of(const Problem& problem, const std::vector<TankCurve>& curves) {
+TankAxes axes_of(const std::vector<TankCurve>& curves) {
   double end = 0, low = 0, high = 0;
   bool finite = true;
   for (const TankCurve& curve : curves) {
@@ -39,7 +39,7 @@ TankAxes axes_of(const Problem& problem, const std::vector<TankCurve>& curves) {
     }
     for (const TankSample& sample : curve.run->samples) {
       end = std::max(end, sample.t);
-      for (const double value : {sample.planned, problem.c.dot(sample.h_e)}) {
+      for (const double value : {sample.planned, sample.reading}) {
         finite = finite && std::isfinite(value);
         low = std::min(low, value);
         high = std::max(high, value);
@@ -53,13 +53,13 @@ TankAxes axes_of(const Problem& problem, const std::vector<TankCurve>& curves) {
 }
 
 /// The reading and the plan of one run, with marks in places of its own.
-void draw_run(Svg& svg, const TankAxes& axes, const Problem& problem, const TankCurve& curve,
-              std::size_t index, std::size_t count) {
+void draw_run(Svg& svg, const TankAxes& axes, const TankCurve& curve, std::size_t index,
+              std::size_t count) {
   const CurveStyle style = curve_style(index);
   std::vector<Point> planned, reading;
   for (const TankSample& sample : curve.run->samples) {
     planned.push_back(axes(sample.t, sample.planned));
-    reading.push_back(axes(sample.t, problem.c.dot(sample.h_e)));
+    reading.push_back(axes(sample.t, sample.reading));
   }
   svg.polyline(planned, plan_paint());
   svg.polyline(reading, {.stroke = style.colour, .width = 1.6, .dash = style.dash});
@@ -84,7 +84,7 @@ LegendEntry entry_of(const Problem& problem, const TankCurve& curve, std::size_t
 }  // namespace
 
 std::string tank_figure(const Problem& problem, const std::vector<TankCurve>& curves) {
-  const TankAxes axes = axes_of(problem, curves);
+  const TankAxes axes = axes_of(curves);
   std::vector<LegendEntry> legend;
   for (std::size_t i = 0; i < curves.size(); ++i) {
     legend.push_back(entry_of(problem, curves[i], i));
@@ -100,7 +100,7 @@ std::string tank_figure(const Problem& problem, const std::vector<TankCurve>& cu
               fmt::format("reading along c [{}]", problem.unit()));
   draw_frame(svg, axes.time, axes.value);
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    draw_run(svg, axes, problem, curves[i], i, curves.size());
+    draw_run(svg, axes, curves[i], i, curves.size());
   }
   draw_legend(&svg, legend, corner, width);
   return svg.str();

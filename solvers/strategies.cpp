@@ -10,6 +10,7 @@
 #include "maxwrench/problem.h"
 #include "solvers/integrator/makers.h"
 #include "solvers/lp/makers.h"
+#include "solvers/plan/makers.h"
 #include "solvers/search/makers.h"
 #include "solvers/wrench/makers.h"
 
@@ -86,6 +87,11 @@ const SearchEntry kSearches[] = {
 #endif
 };
 
+const SearchEntry kPlanSearches[] = {
+    {"slp", "sequential linear programs in knots, efforts and wrenches, from many starts", false,
+     make_slp},
+};
+
 const IntegratorEntry kIntegrators[] = {
 #if MAXWRENCH_WITH_SUNDIALS
     {"cvode", "CVODE of SUNDIALS, backward differentiation formulas", true, make_cvode},
@@ -139,6 +145,18 @@ std::vector<WrenchSolverEntry> make_wrench_solvers() {
   return table;
 }
 
+std::vector<PlanSolverEntry> make_plan_solvers() {
+  std::vector<PlanSolverEntry> table = {
+      {"ipm", "own interior point method, linear in the number of instants", make_plan_ipm},
+      {"structured", "the worst instant by its facets if efforts follow, else ipm",
+       make_plan_structured}};
+  for (const LpEntry& lp : kLpSolvers) {
+    table.push_back(
+        {lp.name, lp.summary, [make = lp.make] { return make_assembled_plan(make()); }});
+  }
+  return table;
+}
+
 template <class Entry>
 const Entry& find(std::span<const Entry> table, const char* family, std::string_view name) {
   const auto found = std::find_if(table.begin(), table.end(),
@@ -163,7 +181,12 @@ std::span<const WrenchSolverEntry> wrench_solvers() {
   static const std::vector<WrenchSolverEntry> kTable = make_wrench_solvers();
   return kTable;
 }
+std::span<const PlanSolverEntry> plan_solvers() {
+  static const std::vector<PlanSolverEntry> kPlanSolvers = make_plan_solvers();
+  return kPlanSolvers;
+}
 std::span<const SearchEntry> searches() { return kSearches; }
+std::span<const SearchEntry> plan_searches() { return kPlanSearches; }
 std::span<const IntegratorEntry> integrators() { return kIntegrators; }
 std::span<const Absent> not_built_in() {
   static const std::vector<Absent> kAbsent = make_absent();
@@ -177,7 +200,18 @@ const LpEntry& find_lp_solver(std::string_view name) { return find(lp_solvers(),
 const WrenchSolverEntry& find_wrench_solver(std::string_view name) {
   return find(wrench_solvers(), "lp", name);
 }
+const PlanSolverEntry& find_plan_solver(std::string_view name) {
+  return find(plan_solvers(), "lp", name);
+}
 const SearchEntry& find_search(std::string_view name) { return find(searches(), "search", name); }
+const SearchEntry& find_plan_search(std::string_view name) {
+  static const std::vector<SearchEntry> kAll = [] {
+    std::vector<SearchEntry> all(std::begin(kPlanSearches), std::end(kPlanSearches));
+    all.insert(all.end(), std::begin(kSearches), std::end(kSearches));
+    return all;
+  }();
+  return find(std::span<const SearchEntry>(kAll), "search", name);
+}
 const IntegratorEntry& find_integrator(std::string_view name) {
   return find(integrators(), "integrator", name);
 }

@@ -66,6 +66,7 @@ std::string count_branches(const Problem& problem) {
 PaperTable reproduce_dual(const std::filesystem::path& folder, int threads) {
   const Problem alone = load_problem("dual_arm/bar_alone");
   const Problem wall = load_problem("dual_arm/bar_wall");
+  for (const Problem* problem : {&alone, &wall}) require_static(*problem, "reproduce");
   RowWriter writer("reproduce dual", folder, threads, 2 + static_cast<long>(kSearches.size()));
   const Tank tank;
   const Row one = at_default(writer, alone);

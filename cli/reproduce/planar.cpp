@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "benchmarks/write_file.h"
+#include "cli/cli.h"
 #include "cli/reproduce/reproduce.h"
 #include "cli/row_writer.h"
 #include "maxwrench/figures.h"
@@ -84,6 +85,7 @@ Rows solve_planar(const Problem& problem, const std::filesystem::path& folder, i
 
 PaperTable reproduce_planar(const std::filesystem::path& folder, int threads) {
   const Problem problem = load_problem("planar/force");
+  require_static(problem, "reproduce");
   const Rows rows = solve_planar(problem, folder, threads);
   write_file(folder / "planar.txt", rows.text);
   std::vector<Panel> optima;

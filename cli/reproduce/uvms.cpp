@@ -6,6 +6,7 @@
 
 #include "benchmarks/tank_experiment.h"
 #include "benchmarks/write_file.h"
+#include "cli/cli.h"
 #include "cli/reproduce/reproduce.h"
 #include "cli/row_writer.h"
 #include "drawing/bars.h"
@@ -211,6 +212,7 @@ void write_tank_figure(const std::filesystem::path& folder, const Problem& probl
 
 std::string table(RowWriter& writer, const Task& task, const std::filesystem::path& folder) {
   const Problem problem = load_problem(task.problem);
+  require_static(problem, "reproduce");
   const auto at_default = [&](Wrench wrench) {
     return writer.evaluate(problem, yardstick(problem, wrench), problem.theta_r_default);
   };

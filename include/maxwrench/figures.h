@@ -36,4 +36,8 @@ struct TankCurve {
 /// without samples, or with readings that are not finite.
 std::string tank_figure(const Problem& problem, const std::vector<TankCurve>& curves);
 
+/// One run of a task in time as SVG: the reading along c with the plan dashed, the thruster forces,
+/// theta_r and the angle of the end effector, all over time. Throws as `tank_figure`.
+std::string motion_figure(const Problem& problem, const TankRun& run);
+
 }  // namespace maxwrench

@@ -12,7 +12,7 @@ namespace maxwrench {
 /// line that names file, key, value and what was expected.
 Robot load_robot(const std::filesystem::path& file);
 
-/// Reads a static task and its robot. `name` is a shipped problem such as "planar/force", or the
+/// Reads a task and its robot. `name` is a shipped problem such as "planar/force", or the
 /// path of a task file. Errors as `load_robot`.
 Problem load_problem(const std::string& name);
 
@@ -33,6 +33,14 @@ std::filesystem::path problems_folder();
 
 /// The names of the problems in that folder, sorted.
 std::vector<std::string> shipped_problems();
+
+/// Reads knots of theta_r from CSV: k rows of r numbers [rad or m], without knot 0 of a heave; one
+/// row for a static problem. A first line with the names of the coordinates may stand before them.
+/// Errors as `load_robot`; limits are not looked at.
+Eigen::MatrixXd load_knots(const std::filesystem::path& file, const Problem& problem);
+
+/// Knots k×r as such a table, each number with all its digits.
+std::string knots_csv(const Problem& problem, const Eigen::MatrixXd& knots);
 
 /// One instant of a robot's motion.
 struct State {

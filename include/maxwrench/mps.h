@@ -3,6 +3,7 @@
 #include <string>
 
 #include "maxwrench/linear_program.h"
+#include "maxwrench/plan_program.h"
 #include "maxwrench/wrench_program.h"
 
 namespace maxwrench {
@@ -45,5 +46,10 @@ MpsProgram read_mps(const std::string& path);
 /// base axis (base_x .. base_yaw) and joint, a column for each actuator and wrench (w_fx .. w_tz
 /// where it is along an axis, w_c where it is along c).
 std::string wrench_program_mps(const Problem& problem, const WrenchProgram& program);
+
+/// The same of a plan program: names end with the number of the instant, counted from 0, such as
+/// base_x.3. Besides, `t`; a row and a column `above_t` for each t <= c_w'w, and `rate.NAME` from
+/// instant to instant.
+std::string plan_program_mps(const Problem& problem, const PlanProgram& program);
 
 }  // namespace maxwrench

@@ -10,6 +10,7 @@ namespace maxwrench {
 
 class Tally;
 class Measure;
+class PlanEvaluator;
 struct Problem;
 
 /// A function f(theta_r) that a `Search` maximises over lower() <= theta_r <= upper(). One object
@@ -34,6 +35,10 @@ class Objective {
   virtual const Verdict& verdict() const = 0;
   /// Whether no evaluation will have a value any more: a search should come to its end.
   virtual bool ended() const { return false; }
+
+  /// The evaluator of plans behind f, for searches that solve linear programs in the knots; null if
+  /// there is none.
+  virtual PlanEvaluator* plans() { return nullptr; }
 
   /// An independent copy without memory of earlier evaluations (no warm start), so that what it
   /// returns depends on its own calls only.

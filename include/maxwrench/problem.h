@@ -5,19 +5,23 @@
 #include <vector>
 
 #include "maxwrench/contact.h"
+#include "maxwrench/path.h"
 #include "maxwrench/robot.h"
 
 namespace maxwrench {
 
-/// A robot and a static task: hold the end effector at a pose and exert the largest wrench along c.
+/// A robot and a task: hold the end effector at a pose, or move it along a path, and exert the
+/// largest wrench along c.
 struct Problem {
   std::string name;   ///< as on the command line, such as "planar/force"
   std::string label;  ///< how far the numbers are to be trusted, such as "identified"
   std::string source;
   Robot robot;
   int end_effector = 0;
-  Pose<double> pose;  ///< of the end effector in the world
+  Pose<double> pose;  ///< of the end effector in the world; where a path starts
   Vector6d c;         ///< unit direction [force; torque] in world axes
+  /// A task in time. A static problem has none.
+  std::optional<MotionTask> motion;
   /// 6×k: the wrenches that `Wrench::kAny` allows, orthonormal; its span contains c, and each of
   /// its wrenches can do work.
   Matrix6Xd W_any;
@@ -46,6 +50,8 @@ struct Problem {
   int contact_columns() const { return contact ? static_cast<int>(contact->C.cols()) : 0; }
   /// Of beta: "N" if c is a pure force, "N m" if a pure torque, "mixed" otherwise.
   const char* unit() const;
+  /// "static", "trajectory" or "impulse".
+  const char* type() const;
 };
 
 }  // namespace maxwrench

@@ -80,6 +80,14 @@ struct Solid {
   double radius = 0;                    ///< m
 };
 
+/// How near two bodies on different links are.
+struct Nearness {
+  double clearance = 0;  ///< m, what is left of the distance beyond the margin; negative: collision
+  int link_a = 0, link_b = 0;
+  /// Points whose distance changes with the links as the clearance does, in base axes.
+  Eigen::Vector3d on_a, on_b;
+};
+
 /// Decides whether a posture collides with itself. Const and shared between threads.
 class CollisionChecker {
  public:
@@ -88,6 +96,9 @@ class CollisionChecker {
   virtual int colliding_pair(const std::vector<Pose<double>>& links) const = 0;
   bool collides(const std::vector<Pose<double>>& links) const { return colliding_pair(links) >= 0; }
   virtual int pairs() const = 0;
+  /// How near a pair is; false if only a test is known of it, or its points fall together.
+  virtual bool nearest(const std::vector<Pose<double>>& links, int pair,
+                       Nearness& result) const = 0;
   /// The links of the URDF that a pair is about, such as "forearm and base".
   virtual std::string pair_name(int pair) const = 0;
 };

@@ -9,6 +9,7 @@
 #include "maxwrench/lp_solver.h"
 #include "maxwrench/measure.h"
 #include "maxwrench/objective.h"
+#include "maxwrench/plan_program.h"
 #include "maxwrench/search.h"
 #include "maxwrench/wrench_solver.h"
 
@@ -48,6 +49,14 @@ struct WrenchSolverEntry {
   std::function<std::unique_ptr<WrenchSolver>()> make;
 };
 
+/// A solver of the programs of plans: one that knows the structure, or a general one on the
+/// assembled program.
+struct PlanSolverEntry {
+  const char* name;
+  const char* summary;
+  std::function<std::unique_ptr<PlanSolver>()> make;
+};
+
 struct SearchEntry {
   const char* name;
   const char* summary;
@@ -63,11 +72,14 @@ struct IntegratorEntry {
 };
 
 /// The tables: every strategy that exists, once. The wrench solvers begin with those that know the
-/// structure, the LP solvers follow.
+/// structure, the LP solvers follow; so do the plan solvers.
 std::span<const MeasureEntry> measures();
 std::span<const LpEntry> lp_solvers();
 std::span<const WrenchSolverEntry> wrench_solvers();
+std::span<const PlanSolverEntry> plan_solvers();
 std::span<const SearchEntry> searches();
+/// Searches of tasks in time alone; those of postures serve stacked knots too.
+std::span<const SearchEntry> plan_searches();
 std::span<const IntegratorEntry> integrators();
 
 /// A strategy that this build leaves out. `family` is that of its table: lp, search or integrator.
@@ -83,7 +95,10 @@ std::span<const Absent> not_built_in();
 const MeasureEntry& find_measure(std::string_view name);
 const LpEntry& find_lp_solver(std::string_view name);
 const WrenchSolverEntry& find_wrench_solver(std::string_view name);
+const PlanSolverEntry& find_plan_solver(std::string_view name);
 const SearchEntry& find_search(std::string_view name);
+/// Of a task in time.
+const SearchEntry& find_plan_search(std::string_view name);
 const IntegratorEntry& find_integrator(std::string_view name);
 
 }  // namespace maxwrench

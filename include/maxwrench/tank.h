@@ -1,14 +1,20 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "maxwrench/integrator.h"
+#include "maxwrench/path.h"
 #include "maxwrench/types.h"
 
 namespace maxwrench {
 
+class PlanSolver;
+struct Instant;
+struct Plan;
 struct Posture;
 struct Problem;
 
@@ -61,6 +67,7 @@ struct TankPlan {
 struct TankSample {
   double t = 0;          ///< s
   double planned = 0;    ///< c'h of the plan [N, N m]
+  double reading = 0;    ///< c'h_e
   Vector6d h_e;          ///< the cell's reading, or what carries and accelerates the load
   Eigen::VectorXd u;     ///< m, efforts before the imperfections
   double shortfall = 0;  ///< see EffortAnswer
@@ -70,6 +77,21 @@ struct TankSample {
   double position_error = 0;  ///< of the end effector [m]
   double displaced = 0;       ///< likewise [m, rad], from where the plan bends the cell to
   double violation = 0;       ///< how far efforts or rates leave their limits [N, N m, N/s]
+  // Of a task in time only.
+  double stray_force = 0, stray_torque = 0;  ///< of h_e across c, from the plan [N, N m]
+  double speed = 0;         ///< how far joints are beyond their speed limits [rad/s, m/s]
+  double angle = 0;         ///< that the end effector has turned by [rad]
+  Eigen::VectorXd theta_r;  ///< r
+};
+
+/// What a task in time was like; times are those of samples [s].
+struct MotionSummary {
+  double t_low = 0, t_high = 0;              ///< of the lowest and the highest reading
+  double at_peak = 0;                        ///< of a heave: the reading at t_h; else NaN
+  double deviation = 0;                      ///< largest of the reading from the plan [N, N m]
+  double stray_force = 0, stray_torque = 0;  ///< largest across c from the plan, if not free
+  double speed = 0;                          ///< largest of the samples [rad/s, m/s]
+  int violations = 0;                        ///< samples beyond a limit of effort, rate or speed
 };
 
 /// What the hold was like; NaN where there was no hold. If the posture was lost, how far it is from
@@ -85,6 +107,7 @@ struct TankSummary {
   double saturated = 0, relaxed = 0;   ///< shares of the periods
   double shortfall = 0;                ///< mean [N, N m]
   bool held = false;
+  std::optional<MotionSummary> motion;  ///< of a task in time, whose hold is all of it
 };
 
 /// kReached: the experiment ran to its end, or until the posture was lost.
@@ -126,5 +149,69 @@ inline constexpr double kLost = 0.5;
 /// joints.
 TankRun run_tank(const Problem& problem, const Posture& posture, const TankPlan& plan,
                  Integrator& integrator, const TankOptions& options);
+
+/// What joins the instants of a plan.
+enum class Interpolation {
+  kLinear,  ///< the scheme's own instants; theta_r and efforts are linear in between, as in the
+            ///< paper
+  kSpline   ///< the clamped spline through the knots, with efforts at the instants of `continuous`
+};
+const char* to_string(Interpolation interpolation);
+/// By its name. Throws std::invalid_argument that names both.
+Interpolation parse_interpolation(const std::string& name);
+
+/// What the tank carries out: a plan joined in time. Not all of a plan: a wrench is asked for that
+/// is smaller by the margin, and the efforts are those that the lower level finds for it. Its use
+/// needs maxwrench/plan.h.
+struct TankScript : Verdict {
+  Path path = Path::constant({}, 1);  ///< of what holds the end effector
+  std::vector<Instant> instants;      ///< t from 0 to T; u and h as asked for
+  Interpolation interpolation = Interpolation::kSpline;
+  Wrench wrench = Wrench::kPure;
+  double planned = 0;                                     ///< along c, of a heave at t_h [N, N m]
+  double margin = 0;                                      ///< share of it that is not asked for
+  double t_h = std::numeric_limits<double>::quiet_NaN();  ///< s, of a heave
+  double slack = 0;  ///< largest of the balance of the efforts [N, N m]: 0 if they reach it
+};
+
+struct ScriptOptions {
+  Interpolation interpolation = Interpolation::kSpline;
+  double planned = 0;     ///< zero: value, or `continuous` on the spline
+  double margin = 0.005;  ///< as in TankOptions
+};
+
+/// Efforts for exactly the wrench that is asked for: along a path c'h = (1 - margin) planned at all
+/// instants, in a heave at t_h, by the elastic program of the plan,
+///
+///     B u_i - J_i'h_i (+ s_i) = tau_d,i,   u_min <= u_i <= u_max,   |u_i+1 - u_i| <= du_max dt.
+///
+/// `plan` was evaluated, on the spline as well. Knots of `forward` along a path are T/(k-1) apart
+/// here as their poses are; one knot is held where the path starts. kInfeasible: the plan has no
+/// value to ask for, and none was given.
+TankScript make_script(const Problem& problem, const Plan& plan, Wrench wrench, PlanSolver& solver,
+                       const ScriptOptions& options);
+
+/// As held counts a reading in time that is this close to the plan, all along a path or at t_h,
+/// while the whole posture stays this close to its reference, no sample is beyond a limit of
+/// effort, rate or joint speed, and the end effector is as close as in a hold to where the plan
+/// bends the cell to.
+inline constexpr double kFollowedShare = 0.03;  ///< of the planned c'h
+inline constexpr double kFollowedMoved = 0.02;  ///< rad, m: twice that of a hold
+
+/// The experiment along a script, of its duration. What holds the end effector moves along the path
+/// and reads the wrench, in axes that turn with it and are those of the world at the start. At the
+/// start the load is on: the end effector is where it bends the cell to, theta_r at rest at its
+/// first value, and the efforts those of the first instant. Efforts follow those of the script by
+/// the tracking program for
+///
+///     tau_c = M a + C v + D v + g + J'h,   theta_r_ddot = that of the script + omega^2 e + 2 omega
+///     e_dot
+///
+/// where a is the acceleration of all velocities that keeps the end effector on the path with that
+/// theta_r_ddot, e the errors of theta_r and omega the bandwidth. Of the options ramp, hold,
+/// margin, load and until_hold mean nothing here. Throws std::invalid_argument unless the script
+/// has at least two instants with efforts.
+TankRun run_tank(const Problem& problem, const TankScript& script, Integrator& integrator,
+                 const TankOptions& options);
 
 }  // namespace maxwrench

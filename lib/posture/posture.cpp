@@ -1,6 +1,5 @@
 #include "maxwrench/posture.h"
 
-#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -17,13 +16,6 @@
 #include "maxwrench/capability.h"
 
 namespace maxwrench {
-namespace {
-
-/// Distance [m] and rotation [-] below which the base counts as lying on its free axes.
-constexpr double kReachTolerance = 1e-9;
-
-}  // namespace
-
 /// The state of one posture.
 struct PostureState {
   explicit PostureState(const Problem& p)
@@ -38,9 +30,7 @@ struct PostureState {
       q = p.contact->q_rest;
       return;
     }
-    for (Eigen::Index i = 0; i < q.size(); ++i) {
-      q[i] = std::clamp(0.0, p.robot.joints[i].q_min, p.robot.joints[i].q_max);
-    }
+    q = resting_joints(p.robot);
   }
 
   const EndEffector& end_effector() const {
@@ -87,20 +77,6 @@ struct PostureState {
 };
 
 namespace {
-
-/// Whether the pose is reached by moving along the free base axes from the mount.
-bool base_reaches(const Robot& robot, const Pose<double>& in_world) {
-  const Pose<double> base = robot.mount.inverse() * in_world;
-  const auto is_free = [&](int axis) {
-    return std::find(robot.base_axes.begin(), robot.base_axes.end(), axis) != robot.base_axes.end();
-  };
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!is_free(axis) && std::abs(base.p[axis]) > kReachTolerance) return false;
-  }
-  if (is_free(3)) return true;
-  if (std::abs(base.R(2, 2) - 1) > kReachTolerance) return false;
-  return is_free(5) || std::abs(base.R(0, 0) - 1) <= kReachTolerance;
-}
 
 /// What is wrong with a posture, and how that is said; null: nothing.
 struct Fault {

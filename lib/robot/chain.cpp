@@ -38,4 +38,26 @@ Pose<double> base_pose(const Robot& robot, const Eigen::Vector4d& x) {
   return robot.mount * local;
 }
 
+bool base_reaches(const Robot& robot, const Pose<double>& in_world) {
+  const Pose<double> base = robot.mount.inverse() * in_world;
+  const auto is_free = [&](int axis) {
+    return std::find(robot.base_axes.begin(), robot.base_axes.end(), axis) != robot.base_axes.end();
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!is_free(axis) && std::abs(base.p[axis]) > kReachTolerance) return false;
+  }
+  if (is_free(3)) return true;
+  if (std::abs(base.R(2, 2) - 1) > kReachTolerance) return false;
+  return is_free(5) || std::abs(base.R(0, 0) - 1) <= kReachTolerance;
+}
+
+Eigen::VectorXd resting_joints(const Robot& robot) {
+  Eigen::VectorXd q(robot.joints.size());
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    const Joint& joint = robot.joints[static_cast<std::size_t>(i)];
+    q[i] = std::clamp(0.0, joint.q_min, joint.q_max);
+  }
+  return q;
+}
+
 }  // namespace maxwrench

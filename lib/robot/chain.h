@@ -21,6 +21,15 @@ int motions_of(const Robot& robot, int end_effector);
 /// mount, then (x, y, z), then Rz(yaw).
 Pose<double> base_pose(const Robot& robot, const Eigen::Vector4d& x);
 
+/// Distance [m] and rotation [-] below which the base counts as lying on its free axes.
+inline constexpr double kReachTolerance = 1e-9;
+
+/// Whether a pose in the world is reached by moving along the free base axes from the mount.
+bool base_reaches(const Robot& robot, const Pose<double>& in_world);
+
+/// All joints at zero, or at the limit next to it.
+Eigen::VectorXd resting_joints(const Robot& robot);
+
 /// Singular values below this part of the largest are rounding.
 inline constexpr double kRankTolerance = 1e-9;
 

@@ -10,6 +10,11 @@ const char* Problem::unit() const {
   return "mixed";
 }
 
+const char* Problem::type() const {
+  if (!motion) return "static";
+  return motion->impulse ? "impulse" : "trajectory";
+}
+
 std::string Problem::theta_r_name(int i) const {
   const int joints = static_cast<int>(redundant.size());
   if (i >= joints) return "regrasp_" + std::to_string(i - joints + 1);

@@ -88,22 +88,45 @@ void PostureController::accelerate_all(const Motion& motion) {
 /// Only those combinations of the balance's rows in which the wrenches `across_` have no part.
 void PostureController::leave_free(EffortRequest& request) const {
   if (across_.cols() == 0) return;
-  const Eigen::MatrixXd N = split(now_.J.transpose() * across_, kSameDirection).complement;
+  Matrix6Xd across(6, across_.cols());
+  across << turn_ * across_.topRows<3>(), turn_ * across_.bottomRows<3>();
+  const Eigen::MatrixXd N = split(now_.J.transpose() * across, kSameDirection).complement;
   request.B = N.transpose() * request.B;
   request.tau_c = N.transpose() * request.tau_c;
+}
+
+void PostureController::set_motion(const Motion& motion) {
+  dynamics_.set_configuration(motion.base.R, motion.q);
+  dynamics_.kinematics().jacobian(tool_, motion.base.R, now_.J);
 }
 
 void PostureController::request(const Motion& motion, const Vector6d& h,
                                 const Eigen::VectorXd& u_star, const Eigen::VectorXd& u_before,
                                 double period, EffortRequest& request) {
-  const Robot& robot = problem_.robot;
-  dynamics_.set_configuration(motion.base.R, motion.q);
-  dynamics_.kinematics().jacobian(tool_, motion.base.R, now_.J);
+  set_motion(motion);
   if (options_.load > 0) {
     accelerate_all(motion);
   } else {
     accelerate_posture(motion);
   }
+  fill(motion, h, u_star, u_before, period, request);
+}
+
+void PostureController::request(const Motion& motion, const Eigen::VectorXd& acceleration,
+                                const Vector6d& h, const Eigen::Matrix3d& turn,
+                                const Eigen::VectorXd& u_star, const Eigen::VectorXd& u_before,
+                                double period, EffortRequest& request) {
+  set_motion(motion);
+  a_ = acceleration;
+  turn_ = turn;
+  fill(motion, h, u_star, u_before, period, request);
+}
+
+/// From a_, J and the dynamics at the motion.
+void PostureController::fill(const Motion& motion, const Vector6d& h, const Eigen::VectorXd& u_star,
+                             const Eigen::VectorXd& u_before, double period,
+                             EffortRequest& request) {
+  const Robot& robot = problem_.robot;
   request.tau_c.resize(a_.size());
   dynamics_.inverse(motion.v, a_, request.tau_c);
   request.tau_c += now_.J.transpose() * h;

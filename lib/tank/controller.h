@@ -20,6 +20,12 @@ class PostureController {
   void request(const Motion& motion, const Vector6d& h, const Eigen::VectorXd& u_star,
                const Eigen::VectorXd& u_before, double period, EffortRequest& request);
 
+  /// The same with a given acceleration of all velocities (n) in place of the posture's errors, and
+  /// with the wrenches that the cell takes turned by `turn`.
+  void request(const Motion& motion, const Eigen::VectorXd& acceleration, const Vector6d& h,
+               const Eigen::Matrix3d& turn, const Eigen::VectorXd& u_star,
+               const Eigen::VectorXd& u_before, double period, EffortRequest& request);
+
   EffortTracker& tracker() { return tracker_; }
   /// max |theta_r - its reference|.
   double drift(const Motion& motion) const;
@@ -30,6 +36,9 @@ class PostureController {
   Vector6d offset(const Pose<double>& base) const;
   void accelerate_posture(const Motion& motion);
   void accelerate_all(const Motion& motion);
+  void set_motion(const Motion& motion);
+  void fill(const Motion& motion, const Vector6d& h, const Eigen::VectorXd& u_star,
+            const Eigen::VectorXd& u_before, double period, EffortRequest& request);
   void leave_free(EffortRequest& request) const;
 
   const Problem& problem_;
@@ -39,6 +48,7 @@ class PostureController {
   EffortTracker tracker_;
   Posture reference_, now_;
   Matrix6Xd across_;  ///< 6×k: what the cell takes without being asked for
+  Eigen::Matrix3d turn_ = Eigen::Matrix3d::Identity();  ///< of it
   Eigen::MatrixXd A_r_;
   Eigen::VectorXd a_, error_;
 };

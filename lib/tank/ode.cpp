@@ -1,27 +1,11 @@
 #include "lib/tank/ode.h"
 
-#include <chrono>
-
+#include "lib/tank/stopwatch.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/problem.h"
 
 namespace maxwrench {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-/// Adds the time of its life.
-class Stopwatch {
- public:
-  explicit Stopwatch(double& seconds) : seconds_(seconds), begin_(Clock::now()) {}
-  ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - begin_).count(); }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
- private:
-  double& seconds_;
-  Clock::time_point begin_;
-};
 
 Vector6d six(double linear, double angular) {
   Vector6d values;
@@ -46,7 +30,7 @@ TankOde::TankOde(const Problem& problem, const Posture& posture, const TankOptio
       J_(6, problem.robot.velocities()) {
   motion_ = {posture.base, posture.q, Eigen::VectorXd::Zero(problem.robot.velocities())};
   dynamics_.set_configuration(posture.base.R, posture.q);
-  anchor_ = posture.base * dynamics_.kinematics().end_effector(tool_);
+  anchor_.pose = posture.base * dynamics_.kinematics().end_effector(tool_);
 }
 
 void TankOde::start(const Motion& motion, const Eigen::VectorXd& u) {
@@ -72,11 +56,15 @@ Eigen::VectorXd TankOde::efforts(double t) const {
   return u;
 }
 
-Vector6d TankOde::displacement(const Motion& motion) {
+Vector6d TankOde::displacement(double t, const Motion& motion) {
+  return displacement(held(t).pose, motion);
+}
+
+Vector6d TankOde::displacement(const Pose<double>& from, const Motion& motion) {
   dynamics_.set_configuration(motion.base.R, motion.q);
   const Pose<double> tool = motion.base * dynamics_.kinematics().end_effector(tool_);
   Vector6d moved;
-  moved << tool.p - anchor_.p, logarithm(tool.R * anchor_.R.transpose());
+  moved << tool.p - from.p, logarithm(tool.R * from.R.transpose());
   return moved;
 }
 
@@ -87,10 +75,11 @@ Vector6d TankOde::twist(const Motion& motion) {
 }
 
 Vector6d TankOde::wrench(double t, const Motion& motion) {
-  const Vector6d moved = displacement(motion);
+  const PathPoint at = held(t);
+  const Vector6d moved = displacement(at.pose, motion);
   dynamics_.kinematics().jacobian(tool_, motion.base.R, J_);
   if (options_.load > 0) return exerted_0_ + share(t) * (exerted_1_ - exerted_0_);
-  return stiffness_.cwiseProduct(moved) + damping_.cwiseProduct(J_ * motion.v);
+  return stiffness_.cwiseProduct(moved) + damping_.cwiseProduct(J_ * motion.v - at.twist);
 }
 
 /// Reads y; fills tau_, h_e_ and J_, and all rates but those of v.

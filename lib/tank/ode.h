@@ -1,6 +1,7 @@
 #pragma once
 
 #include "lib/robot/motion.h"
+#include "maxwrench/path.h"
 #include "maxwrench/tank.h"
 
 namespace maxwrench {
@@ -16,6 +17,8 @@ class TankOde final : public Ode {
   TankOde(const Problem& problem, const Posture& posture, const TankOptions& options);
   TankOde(const Problem&&, const Posture&, const TankOptions&) = delete;
 
+  /// What holds the end effector follows `path`, which outlives this, instead of staying.
+  void hold_along(const Path& path) { path_ = &path; }
   /// At rest or not, with efforts that have settled.
   void start(const Motion& motion, const Eigen::VectorXd& u);
   void restart(const Eigen::VectorXd& y) { start_ = y; }
@@ -33,11 +36,11 @@ class TankOde final : public Ode {
   void read(const Eigen::VectorXd& y, Motion& motion) const { read_motion(y, motion); }
   /// Of the state that `initial` returns, without noise and losses.
   Eigen::VectorXd efforts(double t) const;
-  /// h_e: K [p_e - p_0; rotation vector of R_e R_0'] + D J v, or what is exerted on the support of
-  /// the load.
+  /// h_e: K [p_e - p_0; rotation vector of R_e R_0'] + D (J v - x_0_dot), p_0, R_0 and x_0_dot of
+  /// what holds the end effector, or what is exerted on the support of the load.
   Vector6d wrench(double t, const Motion& motion);
-  /// [m, rad] of the end effector from the pose of the task, in world axes.
-  Vector6d displacement(const Motion& motion);
+  /// [m, rad] of the end effector from what holds it, in world axes.
+  Vector6d displacement(double t, const Motion& motion);
   /// [m/s, rad/s] of the end effector, in world axes.
   Vector6d twist(const Motion& motion);
 
@@ -46,13 +49,16 @@ class TankOde final : public Ode {
 
  private:
   double share(double t) const { return (t - t_0_) / (t_1_ - t_0_); }
+  PathPoint held(double t) const { return path_ ? path_->at(t) : anchor_; }
+  Vector6d displacement(const Pose<double>& from, const Motion& motion);
   void prepare(double t, const Eigen::VectorXd& y, Eigen::VectorXd& rates);
 
   const Problem& problem_;
   const EndEffector& tool_;
   const TankOptions& options_;
   Dynamics<double> dynamics_;
-  Pose<double> anchor_;
+  PathPoint anchor_;
+  const Path* path_ = nullptr;
   Vector6d stiffness_, damping_;
   Eigen::VectorXd rate_max_, start_, u_0_, u_1_, noise_, u_, tau_, v_d_, tau_d_, rates_;
   Vector6d exerted_0_ = Vector6d::Zero(), exerted_1_ = Vector6d::Zero(), h_e_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
 
 namespace maxwrench {
@@ -34,6 +35,33 @@ Vector6d unasked(const Problem& problem, const TankPlan& plan, const TankOptions
                  const Vector6d& across) {
   if (plan.wrench == Wrench::kPure || options.load > 0) return across;
   return across - problem.W_any * (problem.W_any.transpose() * across);  // orthonormal
+}
+
+void take_means(double count, TankSummary& summary) {
+  summary.across /= count;
+  for (double* mean : {&summary.mean, &summary.saturated, &summary.relaxed, &summary.shortfall}) {
+    *mean /= count;
+  }
+}
+
+/// One sample of a task in time.
+void add_sample(const TankSample& sample, TankSummary& summary) {
+  MotionSummary& motion = *summary.motion;
+  summary.violation = std::max(summary.violation, sample.violation);
+  motion.speed = std::max(motion.speed, sample.speed);
+  motion.violations += sample.violation > kHeldViolation || sample.speed > kHeldViolation;
+  if (sample.reading < summary.low) motion.t_low = sample.t;
+  if (sample.reading > summary.high) motion.t_high = sample.t;
+  summary.low = std::min(summary.low, sample.reading);
+  summary.high = std::max(summary.high, sample.reading);
+  summary.mean += sample.reading;
+  motion.deviation = std::max(motion.deviation, std::abs(sample.reading - sample.planned));
+  motion.stray_force = std::max(motion.stray_force, sample.stray_force);
+  motion.stray_torque = std::max(motion.stray_torque, sample.stray_torque);
+  reach(sample, summary);
+  summary.shortfall += sample.shortfall;
+  summary.saturated += sample.saturated;
+  summary.relaxed += sample.relaxed;
 }
 
 bool reads_as_planned(const Problem& problem, const TankPlan& plan, const TankOptions& options,
@@ -74,13 +102,39 @@ TankSummary summarise(const Problem& problem, const TankPlan& plan, const TankOp
     forget(summary, lost);
     return summary;
   }
-  summary.across /= count;
-  for (double* mean : {&summary.mean, &summary.saturated, &summary.relaxed, &summary.shortfall}) {
-    *mean /= count;
-  }
+  take_means(count, summary);
   summary.held = run.status == Status::kReached && !lost && summary.violation <= kHeldViolation &&
                  summary.moved <= kHeldDrift && summary.displaced <= kHeldPosition &&
                  reads_as_planned(problem, plan, options, summary);
+  return summary;
+}
+
+TankSummary summarise(const TankScript& script, const TankRun& run, bool lost) {
+  TankSummary summary;
+  summary.planned = script.planned;
+  summary.across.setConstant(kNone);  // see the stray wrenches
+  summary.motion.emplace();
+  MotionSummary& motion = *summary.motion;
+  motion.at_peak = kNone;
+  if (run.samples.empty()) {
+    forget(summary, lost);
+    return summary;
+  }
+  summary.low = kInfinity;
+  summary.high = -kInfinity;
+  double nearest = kInfinity;
+  for (const TankSample& sample : run.samples) {
+    add_sample(sample, summary);
+    if (!(std::abs(sample.t - script.t_h) < nearest)) continue;
+    nearest = std::abs(sample.t - script.t_h);
+    motion.at_peak = sample.reading;
+  }
+  take_means(static_cast<double>(run.samples.size()), summary);
+  const double missed =
+      std::isfinite(script.t_h) ? std::abs(motion.at_peak - script.planned) : motion.deviation;
+  summary.held = run.status == Status::kReached && !lost && motion.violations == 0 &&
+                 summary.moved <= kFollowedMoved && summary.displaced <= kHeldPosition &&
+                 missed <= kFollowedShare * std::abs(script.planned);
   return summary;
 }
 

@@ -144,13 +144,14 @@ class Experiment {
     sample.planned = profile(t, options_) * problem_.c.dot(plan_.h);
     sample.h_e = ode_.wrench(t, motion_);
     if (options_.load > 0) sample.h_e += plan_.h + inertia_force(t);
+    sample.reading = problem_.c.dot(sample.h_e);
     sample.u = ode_.efforts(t);
     sample.shortfall = answer_.shortfall;
     sample.saturated = answer_.saturated;
     sample.relaxed = answer_.relaxed;
     sample.drift = controller_.drift(motion_);
     sample.moved = controller_.moved(motion_);
-    const Vector6d displacement = ode_.displacement(motion_);
+    const Vector6d displacement = ode_.displacement(t, motion_);
     sample.position_error = displacement.head<3>().norm();
     const Vector6d rest = displacement - bend(profile(t, options_));
     sample.displaced = std::max(rest.head<3>().norm(), rest.tail<3>().norm());

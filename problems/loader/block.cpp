@@ -216,6 +216,29 @@ Eigen::Vector3d Block::direction(std::string_view key) const {
   return value.stableNormalized();
 }
 
+int Block::whole(std::string_view key, int low, int high) const {
+  const double value = number(key);
+  if (value < low || value > high || value != std::floor(value)) {
+    refuse_value(key, fmt::format("a whole number of {} to {}", low, high));
+  }
+  return static_cast<int>(value);
+}
+
+int Block::whole(std::string_view key, int low, int high, int fallback) const {
+  return has(key) ? whole(key, low, high) : fallback;
+}
+
+bool Block::truth(std::string_view key, bool fallback) const {
+  if (!has(key)) return fallback;
+  const toml::node& node = require(key, "true or false");
+  if (!node.is_boolean()) refuse_value(key, "true or false");
+  return node.as_boolean()->get();
+}
+
+bool Block::is_text(std::string_view key) const {
+  return has(key) && table_->get(key)->is_string();
+}
+
 std::vector<std::string> Block::texts(std::string_view key) const {
   auto result = all_texts(array(key, "a list of strings"));
   if (!result) refuse_value(key, "a list of strings");

@@ -38,6 +38,10 @@ class Block {
   Eigen::Vector3d vector(std::string_view key, const Eigen::Vector3d& fallback) const;
   Eigen::Vector3d direction(std::string_view key) const;  ///< normalised; zero is refused
   double non_negative(std::string_view key, double fallback) const;
+  int whole(std::string_view key, int low, int high) const;
+  int whole(std::string_view key, int low, int high, int fallback) const;
+  bool truth(std::string_view key, bool fallback) const;
+  bool is_text(std::string_view key) const;
   std::vector<std::string> texts(std::string_view key) const;
   std::vector<std::pair<std::string, std::string>> text_pairs(std::string_view key) const;
 

@@ -11,6 +11,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "problems/loader/distance.h"
+
 namespace maxwrench {
 namespace {
 
@@ -94,6 +96,16 @@ bool capsule_box_closer(const Shape& capsule, const Placed& at, const Shape& box
   return segment_box_distance(centre - half_axis, centre + half_axis, box.half_sizes) < reach;
 }
 
+/// Nearest points of a capsule's axis and a box, in the frame that both are placed in.
+Between capsule_to_box(const Placed& at, const Shape& box, const Pose<double>& box_pose) {
+  const Pose<double> into = box_pose.inverse();
+  const Eigen::Vector3d centre = into.R * at.pose.p + into.p;
+  const Eigen::Vector3d half_axis = into.R * at.half_axis;
+  Between between = segment_to_box(centre - half_axis, centre + half_axis, box.half_sizes);
+  for (Eigen::Vector3d* x : {&between.on_a, &between.on_b}) *x = box_pose.R * *x + box_pose.p;
+  return between;
+}
+
 /// Two shapes on different links, with the FCL shapes if no exact test is at hand.
 struct Pair {
   int a, b;
@@ -164,6 +176,27 @@ class ShapePairs : public CollisionChecker {
     return found == pairs_.end() ? -1 : static_cast<int>(found - pairs_.begin());
   }
 
+  bool nearest(const std::vector<Pose<double>>& links, int i, Nearness& result) const override {
+    const Pair& pair = pairs_[index(i)];
+    if (pair.geometry_a) return false;
+    const bool box_first = is(shapes_[index(pair.a)], Shape::Kind::kBox);
+    const Shape& a = shapes_[index(box_first ? pair.b : pair.a)];  // a capsule
+    const Shape& b = shapes_[index(box_first ? pair.a : pair.b)];
+    const Placed at_a = place(a, links[index(a.link)], true);
+    const Placed at_b = place(b, links[index(b.link)], true);
+    Between between;
+    if (is(b, Shape::Kind::kBox)) {
+      between = capsule_to_box(at_a, b, at_b.pose);
+    } else {
+      between = segment_to_segment(at_a.pose.p - at_a.half_axis, at_a.pose.p + at_a.half_axis,
+                                   at_b.pose.p - at_b.half_axis, at_b.pose.p + at_b.half_axis);
+    }
+    const Eigen::Vector3d apart = between.on_a - between.on_b;
+    const double distance = apart.norm();
+    result = {distance - a.radius - b.radius - margin_, a.link, b.link, between.on_a, between.on_b};
+    return distance > 0;
+  }
+
   int pairs() const override { return static_cast<int>(pairs_.size()); }
 
   std::string pair_name(int i) const override {
@@ -181,62 +214,7 @@ class ShapePairs : public CollisionChecker {
   double margin_;
 };
 
-double point_box_distance(const Eigen::Vector3d& x, const Eigen::Vector3d& half_sizes) {
-  return (x.cwiseAbs() - half_sizes).cwiseMax(0.0).norm();
-}
-
 }  // namespace
-
-double segment_distance(const Eigen::Vector3d& a0, const Eigen::Vector3d& a1,
-                        const Eigen::Vector3d& b0, const Eigen::Vector3d& b1) {
-  // The squared distance |r + s u - t v|^2 is convex in (s, t). Its minimum over the square lies
-  // inside (then the lines' nearest points are it) or on an edge (an end point of one segment).
-  const Eigen::Vector3d u = a1 - a0, v = b1 - b0, r = a0 - b0;
-  const auto to_point = [](const Eigen::Vector3d& from, const Eigen::Vector3d& along) {
-    const double squared = along.squaredNorm();
-    const double t = squared > 0 ? std::clamp(-from.dot(along) / squared, 0.0, 1.0) : 0.0;
-    return (from + t * along).squaredNorm();
-  };
-  double best =
-      std::min({to_point(r, u), to_point(r - v, u), to_point(-r, v), to_point(-r - u, v)});
-  const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v);
-  const double determinant = uu * vv - uv * uv;
-  if (determinant > 1e-12 * uu * vv) {  // nearly parallel: an end point is as near, to 1e-6
-    const double s = (uv * r.dot(v) - vv * r.dot(u)) / determinant;
-    const double t = (uu * r.dot(v) - uv * r.dot(u)) / determinant;
-    const bool inside = s > 0 && s < 1 && t > 0 && t < 1;
-    if (inside) best = std::min(best, (r + s * u - t * v).squaredNorm());
-  }
-  return std::sqrt(best);
-}
-
-double segment_box_distance(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
-                            const Eigen::Vector3d& half_sizes) {
-  const Eigen::Vector3d v = p1 - p0;
-  // Half the derivative of the squared distance along the segment: piecewise linear, increasing,
-  // with its breakpoints where the segment crosses a plane of a face.
-  const auto slope = [&](double t) {
-    const Eigen::Vector3d x = p0 + t * v;
-    const Eigen::Vector3d outside = x - x.cwiseMax(-half_sizes).cwiseMin(half_sizes);
-    return outside.dot(v);
-  };
-  double low = 0, high = 1;
-  double slope_low = slope(low), slope_high = slope(high);
-  if (slope_low >= 0) return point_box_distance(p0, half_sizes);
-  if (slope_high <= 0) return point_box_distance(p1, half_sizes);
-  for (int i = 0; i < 3; ++i) {
-    if (v[i] == 0) continue;
-    for (const double face : {-half_sizes[i], half_sizes[i]}) {
-      const double t = (face - p0[i]) / v[i];
-      if (!(t > low && t < high)) continue;
-      const double slope_t = slope(t);
-      (slope_t < 0 ? low : high) = t;
-      (slope_t < 0 ? slope_low : slope_high) = slope_t;
-    }
-  }
-  const double t = low + (high - low) * slope_low / (slope_low - slope_high);
-  return point_box_distance(p0 + t * v, half_sizes);
-}
 
 Solid to_solid(const Shape& shape) {
   Solid solid;

@@ -38,12 +38,4 @@ std::shared_ptr<const CollisionChecker> make_collision_checker(
 /// The shape as a convex body; a cylinder as a prism of 32 faces.
 Solid to_solid(const Shape& shape);
 
-/// |x - y| minimised over the segments x in [a0, a1] and y in [b0, b1].
-double segment_distance(const Eigen::Vector3d& a0, const Eigen::Vector3d& a1,
-                        const Eigen::Vector3d& b0, const Eigen::Vector3d& b1);
-
-/// Distance of the segment [p0, p1] from the box |x| <= half_sizes; 0 if they meet.
-double segment_box_distance(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
-                            const Eigen::Vector3d& half_sizes);
-
 }  // namespace maxwrench

@@ -13,6 +13,7 @@
 #include "problems/loader/bad_input.h"
 #include "problems/loader/block.h"
 #include "problems/loader/contact.h"
+#include "problems/loader/motion.h"
 #include "problems/loader/theta_r.h"
 #include "problems/loader/urdf_tree.h"
 
@@ -59,11 +60,27 @@ int find_end_effector(const Block& task, const Robot& robot) {
                     fmt::format("an end effector of the robot: {}", fmt::join(names, ", ")));
 }
 
+/// From the axes in which the task gives its wrenches to the world's, as the path starts.
+Eigen::Matrix<double, 6, 6> wrench_axes(const Problem& problem) {
+  Eigen::Matrix<double, 6, 6> axes = Eigen::Matrix<double, 6, 6>::Identity();
+  if (!problem.motion || !problem.motion->c_turns) return axes;
+  axes.topLeftCorner<3, 3>() = axes.bottomRightCorner<3, 3>() = problem.pose.R;
+  return axes;
+}
+
 void read_wrench(const Block& wrench, Problem& problem) {
-  wrench.allow_only({"c", "any", "reference", "desired"});
+  std::vector<std::string_view> keys = {"c", "any", "reference", "desired"};
+  const bool moves = problem.motion && !problem.motion->impulse;
+  if (moves) keys.emplace_back("frame");
+  wrench.allow_only(keys);
+  const std::string frame = wrench.text("frame", "world");
+  if (frame != "world" && frame != "end_effector") {
+    wrench.refuse_value("frame", "'world' or 'end_effector'");
+  }
+  if (moves) problem.motion->c_turns = frame == "end_effector";
   const Eigen::VectorXd c = wrench.numbers("c", 6);
   if (c.stableNorm() < 1e-9) wrench.refuse_value("c", "a direction of nonzero length");
-  problem.c = c.stableNormalized();
+  problem.c = wrench_axes(problem) * c.stableNormalized();
   problem.reference = wrench.number("reference", problem.reference);
   if (!(problem.reference > 0)) wrench.refuse_value("reference", "a number > 0");
   if (!wrench.has("desired")) return;
@@ -84,10 +101,34 @@ void read_any(const Block& wrench, Problem& problem) {
     }
     problem.W_any(axis - kWrenchAxes.begin(), static_cast<Eigen::Index>(column)) = 1;
   }
+  problem.W_any = wrench_axes(problem) * problem.W_any;
   const Vector6d outside = problem.c - problem.W_any * (problem.W_any.transpose() * problem.c);
   if (outside.norm() > 1e-12) {
     wrench.refuse_value("c", fmt::format("a direction within any = {}", fmt::join(any, ", ")));
   }
+}
+
+/// What a task of this type may hold.
+void allow_keys(const Block& task) {
+  const std::string type = task.text("type");
+  std::vector<std::string_view> keys = {"type", "robot",  "end_effector", "label",
+                                        "pose", "wrench", "theta_r",      "contact"};
+  if (type == "trajectory") {
+    keys.insert(keys.end(), {"path", "motion"});
+  } else if (type == "impulse") {
+    keys.insert(keys.end(), {"motion", "start"});
+  } else if (type != "static") {
+    task.refuse_value("type", "'static', 'trajectory' or 'impulse'");
+  }
+  task.allow_only(keys);
+}
+
+/// A path through the poses of a table brings its own.
+void read_pose(const Block& task, Problem& problem) {
+  if (follows_poses(task)) return;
+  const Block pose = task.table("pose");
+  pose.allow_only({"xyz", "rpy"});
+  problem.pose = pose_from_xyz_rpy(pose.vector("xyz"), pose.vector("rpy"));
 }
 
 /// W_any, of wrenches that do work: with T the twists with which the end effector can leave its
@@ -120,9 +161,7 @@ void choose_wrenches(const Block& wrench, Problem& problem) {
 Problem load_problem(const std::string& name) {
   const fs::path file = find_task(name);
   const Block task = Block::read(file);
-  task.allow_only(
-      {"type", "robot", "end_effector", "label", "pose", "wrench", "theta_r", "contact"});
-  if (task.text("type") != "static") task.refuse_value("type", "'static'");
+  allow_keys(task);
   Problem problem;
   problem.name = name;
   problem.label = task.text("label");
@@ -133,14 +172,14 @@ Problem load_problem(const std::string& name) {
   }
   problem.robot = load_robot(robot);
   problem.end_effector = find_end_effector(task, problem.robot);
-  const Block pose = task.table("pose");
-  pose.allow_only({"xyz", "rpy"});
-  problem.pose = pose_from_xyz_rpy(pose.vector("xyz"), pose.vector("rpy"));
+  read_pose(task, problem);
+  read_motion(task, problem);
   read_wrench(task.table("wrench"), problem);
   read_theta_r(task.table("theta_r"), problem);
   require_branch(task, problem);
   choose_wrenches(task.table("wrench"), problem);
   if (task.has("contact")) read_contact(task.table("contact"), problem);
+  read_start(task, problem);
   return problem;
 }
 

@@ -62,16 +62,7 @@ void read_default(const Block& theta_r, Problem& problem) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(size);
   problem.theta_r_default = zero.cwiseMax(problem.theta_r_min).cwiseMin(problem.theta_r_max);
   if (!theta_r.has("default")) return;
-  problem.theta_r_default = theta_r.numbers("default", size);
-  for (int i = 0; i < size; ++i) {
-    const double value = problem.theta_r_default[i];
-    if (value >= problem.theta_r_min[i] && value <= problem.theta_r_max[i]) continue;
-    theta_r.refuse_value(
-        "default",
-        fmt::format("{} within {} .. {}",
-                    names_of(problem.robot, {problem.redundant[static_cast<std::size_t>(i)]}),
-                    problem.theta_r_min[i], problem.theta_r_max[i]));
-  }
+  problem.theta_r_default = limited_theta_r(theta_r, "default", problem);
 }
 
 /// Zero, moved into the limits, where the task guesses nothing.
@@ -119,6 +110,17 @@ std::string names_of(const Robot& robot, const std::vector<int>& joints) {
   std::vector<std::string> names;
   for (const int i : joints) names.push_back(robot.joints[static_cast<std::size_t>(i)].name);
   return fmt::format("{}", fmt::join(names, ", "));
+}
+
+Eigen::VectorXd limited_theta_r(const Block& block, std::string_view key, const Problem& problem) {
+  const int size = problem.redundancy();
+  Eigen::VectorXd values = block.numbers(key, size);
+  for (int i = 0; i < size; ++i) {
+    if (values[i] >= problem.theta_r_min[i] && values[i] <= problem.theta_r_max[i]) continue;
+    block.refuse_value(key, fmt::format("{} within {} .. {}", problem.theta_r_name(i),
+                                        problem.theta_r_min[i], problem.theta_r_max[i]));
+  }
+  return values;
 }
 
 void read_theta_r(const Block& theta_r, Problem& problem) {

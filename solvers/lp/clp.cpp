@@ -43,7 +43,8 @@ VariableState from_clp(ClpSimplex::Status status) {
 
 class Clp : public LpSolver {
  public:
-  explicit Clp(bool keep_model) : keep_model_(keep_model) {}
+  explicit Clp(bool keep_model, ClpMethod method = ClpMethod::kDual)
+      : keep_model_(keep_model), method_(method) {}
 
   void solve(const LinearProgram& program, LpSolution& solution) override {
     if (refused(program, solution)) return;
@@ -112,10 +113,15 @@ class Clp : public LpSolver {
       for (int j = 0; j < cols; ++j) model_.setColumnStatus(j, to_clp(solution.basis[j]));
       for (int i = 0; i < rows; ++i) model_.setRowStatus(i, to_clp(solution.basis[cols + i]));
     }
-    if (careful) {
+    if (careful || method_ == ClpMethod::kPrimal) {
       model_.primal();
-    } else {
+    } else if (method_ == ClpMethod::kDual) {
       model_.dual();
+    } else {
+      ClpSolve options;
+      options.setSolveType(ClpSolve::automatic);
+      options.setPresolveType(ClpSolve::presolveOn);
+      model_.initialSolve(options);
     }
     solution.iterations += model_.numberIterations();
     solution.x = Eigen::Map<const Eigen::VectorXd>(model_.primalColumnSolution(), cols);
@@ -141,7 +147,7 @@ class Clp : public LpSolver {
                        matrix_.innerIndexPtr(), matrix_.valuePtr(), program.l.data(),
                        program.u.data(), cost_.data(), program.b.data(), program.b.data());
     model_.setPerturbation(100);  // 100 turns it off
-    model_.scaling(careful ? 3 : 0);
+    model_.scaling(careful || method_ != ClpMethod::kDual ? 3 : 0);
     model_.setPrimalTolerance(1e-9);
     model_.setDualTolerance(1e-9);
     model_.setMaximumIterations(5000 + 50 * (program.rows() + program.cols()));
@@ -173,6 +179,7 @@ class Clp : public LpSolver {
   }
 
   bool keep_model_;
+  ClpMethod method_;
   bool editable_ = false;  ///< the model was loaded in the fast settings
   ClpSimplex model_;
   Eigen::SparseMatrix<double> matrix_;
@@ -183,6 +190,9 @@ class Clp : public LpSolver {
 }  // namespace
 
 std::unique_ptr<LpSolver> make_clp() { return std::make_unique<Clp>(false); }
+std::unique_ptr<LpSolver> make_clp_by(ClpMethod method) {
+  return std::make_unique<Clp>(false, method);
+}
 std::unique_ptr<LpSolver> make_clp_keeping_its_model() { return std::make_unique<Clp>(true); }
 
 }  // namespace maxwrench

@@ -40,6 +40,13 @@ std::unique_ptr<LpSolver> make_clp();
 /// pattern of A stays (for benchmarks: the least that Clp can do with).
 std::unique_ptr<LpSolver> make_clp_keeping_its_model();
 
+/// What Clp does first: its dual or its primal simplex, or what it chooses after presolving. The
+/// latter two scale.
+enum class ClpMethod { kDual, kPrimal, kPresolved };
+
+/// The same by another method (for benchmarks: large programs are not for one setting).
+std::unique_ptr<LpSolver> make_clp_by(ClpMethod method);
+
 /// GLPK's dual simplex, silent. Every call loads the program afresh and then the kept basis,
 /// because to edit and resolve was seen to give an "optimum" with wrong residuals. GLPK's
 /// environment belongs to a thread: problems live only during a call. The environment of a host

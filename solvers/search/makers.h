@@ -26,4 +26,6 @@ std::unique_ptr<Search> make_multistart();
 
 std::unique_ptr<Search> make_nullspace();
 
+std::unique_ptr<Search> make_slp();
+
 }  // namespace maxwrench

@@ -10,7 +10,7 @@
 namespace maxwrench {
 namespace {
 
-class Box : public WrenchSolver {
+class BoxSolver : public WrenchSolver {
  public:
   void solve(const WrenchProgram& program, bool efforts, Capability& capability) override {
     capability.iterations = 0;
@@ -124,6 +124,6 @@ class Box : public WrenchSolver {
 
 }  // namespace
 
-std::unique_ptr<WrenchSolver> make_box() { return std::make_unique<Box>(); }
+std::unique_ptr<WrenchSolver> make_box() { return std::make_unique<BoxSolver>(); }
 
 }  // namespace maxwrench

@@ -124,7 +124,7 @@ TEST_P(PlanarOptimum, IsFoundByEverySolverAndSearch) {
   }
   const Problem problem = load_problem("planar/force");
   const Row row = solve(problem, resolve(problem, GetParam()), 2);
-  ASSERT_EQ(row.status, Status::kOptimal) << row.reason.c_str();
+  ASSERT_EQ(row.status, Status::kBestFound) << row.reason.c_str();
   EXPECT_NEAR(PlanarModel(GetParam())(row.posture.theta_r), row.capability.beta,
               GetParam().lp == "ipopt" ? 1e-6 : 1e-8);
   // Its optimum takes thousands of values, too slow under sanitizers: there the numbers that the
@@ -156,7 +156,7 @@ TEST(Row, SearchByIpoptMayEvaluateByIpopt) {
   const Problem problem = load_problem("planar/force");
   const Case c{problem.name, "linf_polytope", Wrench::kPure, "ipopt", "multistart", 1, 200};
   const Row row = solve(problem, resolve(problem, c), 2);
-  EXPECT_EQ(row.status, Status::kOptimal) << row.reason.c_str();
+  EXPECT_EQ(row.status, Status::kBestFound) << row.reason.c_str();
   EXPECT_LE(row.evaluations, 200);
 }
 

@@ -63,7 +63,7 @@ TEST(Command, EvalReportsTheSecondContact) {
   // A search counts over all its evaluations.
   const json best =
       json::parse(run_maxwrench("solve dual_arm/bar_wall --budget 300 --search grid --json").out);
-  EXPECT_EQ(best["status"], "optimal");
+  EXPECT_EQ(best["status"], "best_found");
   EXPECT_EQ(best["theta_r"].size(), 2);
   EXPECT_EQ(best["h_2"].size(), 6);
   EXPECT_GT(best["branches"]["valid"], 10);
@@ -203,6 +203,32 @@ TEST(Command, RunTakesTaskFiles) {
   for (const MeasureEntry& measure : measures()) {
     EXPECT_NE(none.err.find(measure.name), std::string::npos) << none.err;
   }
+}
+
+TEST(Command, CheckAndListDescribeTasksInTime) {
+  const CommandResult jet = run_maxwrench("check uvms/jet_trajectory");
+  EXPECT_EQ(jet.exit_status, 0) << jet.err;
+  for (const char* part :
+       {"trajectory of 10 s, 10 knots of theta_r, scheme spline, 4 instants per interval",
+        "path from [0, 0, 0] m", "turned by 1.5708 rad", "c turns with the end effector"}) {
+    EXPECT_NE(jet.out.find(part), std::string::npos) << part << jet.out;
+  }
+  const CommandResult heave = run_maxwrench("check uvms/lift_impulse");
+  for (const char* part : {"impulse of 2.5 s, 4 knots", "peak at knot 3, start static at"})
+    EXPECT_NE(heave.out.find(part), std::string::npos) << part << heave.out;
+  EXPECT_NE(run_maxwrench("list").out.find("impulse of 2.5 s, redundancy 4"), std::string::npos);
+}
+
+/// Tasks in time have no measures to combine: they are left out unless they are named.
+TEST(Command, RunTakesAllStaticTasks) {
+  const TemporaryFolder folder;
+  const CommandResult result = run_maxwrench(
+      "run measure=manipulability search=grid wrench=pure budget=5 --out .", folder.path());
+  EXPECT_LT(result.exit_status, 2) << result.err;  // not every grid so small has a valid posture
+  const std::string values = read_text(folder.path() / "values.csv");
+  EXPECT_NE(values.find("\nuvms/valve,"), std::string::npos);
+  EXPECT_EQ(values.find("trajectory"), std::string::npos);
+  EXPECT_EQ(values.find("impulse"), std::string::npos);
 }
 
 /// A table may grow on several machines, so each time says where it was measured.

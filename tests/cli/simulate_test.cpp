@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -97,6 +99,87 @@ TEST(SimulateCommand, FindsTheHeaviestLoad) {
   EXPECT_EQ(load["held"], true);
   EXPECT_NEAR(load["mean"].get<double>(), most * 9.81, 0.02 * most * 9.81);
   EXPECT_NEAR(load["planned"].get<double>(), most * 9.81, 1e-12);
+}
+
+TEST(SimulateCommand, FollowsATurn) {
+  const json turn = simulated("simulate uvms/valve_trajectory");
+  EXPECT_EQ(turn["status"], "reached");
+  EXPECT_EQ(turn["scheme"], "spline");
+  EXPECT_EQ(turn["interpolation"], "spline");
+  EXPECT_EQ(turn["planned"], turn["continuous"]);
+  EXPECT_EQ(turn["held"], true);
+  EXPECT_EQ(turn["violations"], 0);
+  EXPECT_EQ(turn["end"], 5);
+  EXPECT_TRUE(turn["t_h"].is_null());
+  EXPECT_TRUE(turn["at_t_h"].is_null());
+  const double planned = turn["planned"], low = turn["low"];
+  EXPECT_GT(low, 0.97 * planned);
+  EXPECT_LT(turn["deviation"].get<double>(), 0.03 * planned);
+  const CommandResult text = run_maxwrench("simulate uvms/valve_trajectory");
+  EXPECT_EQ(text.exit_status, 0);
+  for (const std::string& words :
+       {fmt::format("planned     {:.5f} N m", planned), fmt::format("least {:.5f} at ", low),
+        std::string("held, ended at 5 s")}) {
+    EXPECT_NE(text.out.find(words), std::string::npos) << text.out;
+  }
+}
+
+TEST(SimulateCommand, FollowsAHeaveToItsPeak) {
+  const json heave = simulated("simulate uvms/valve_impulse --t-h 2");
+  EXPECT_EQ(heave["t_h"], 1.25);
+  EXPECT_EQ(heave["end"], 2.5);
+  EXPECT_EQ(heave["held"], true);
+  const double planned = heave["planned"];
+  EXPECT_NEAR(heave["at_t_h"].get<double>(), planned, 0.03 * planned);
+  const json less = simulated("simulate uvms/valve_impulse --planned 20 --scheme forward");
+  EXPECT_EQ(less["planned"], 20);
+  EXPECT_EQ(less["interpolation"], "linear");
+  EXPECT_EQ(less["held"], true);
+}
+
+/// A plan whose four steps are no motion has no peak on the spline through its knots.
+TEST(SimulateCommand, SaysWhyAPlanIsNotRun) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / "knots.csv")
+      << "3.070,0.772,0.453,-2.983\n3.046,0.550,0.615,-3.008\n"
+         "3.156,0.709,0.477,-3.048\n3.035,0.656,0.474,-2.968\n";
+  const std::string words = "simulate uvms/valve_impulse --scheme backward --theta-r knots.csv ";
+  const CommandResult none = run_maxwrench(
+      words + "--interpolation spline --json --out a.csv --figure a.svg", folder.path());
+  EXPECT_EQ(none.exit_status, 1) << none.err;
+  const json object = json::parse(none.out);
+  EXPECT_EQ(object["status"], "infeasible");
+  EXPECT_TRUE(object["low"].is_null());
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.svg"));
+  const CommandResult own = run_maxwrench(words + "--json", folder.path());
+  EXPECT_EQ(own.exit_status, 0) << own.err;
+  EXPECT_EQ(json::parse(own.out)["held"], false);
+  const CommandResult beyond = run_maxwrench("simulate uvms/valve_trajectory --theta-r 9,0,0,0");
+  EXPECT_EQ(beyond.exit_status, 1);
+  EXPECT_NE(beyond.out.find("not held, invalid_posture: "), std::string::npos) << beyond.out;
+}
+
+TEST(SimulateCommand, WritesTheSeriesAndTheFigureOfATurn) {
+  const TemporaryFolder folder;
+  const std::string words =
+      "simulate uvms/valve_trajectory --planned 20 --out a.csv --figure a.svg";
+  ASSERT_EQ(run_maxwrench(words, folder.path()).exit_status, 0);
+  const std::string csv = read_text(folder.path() / "a.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 500);
+  std::istringstream lines(csv);
+  std::string header, row;
+  std::getline(lines, header);
+  EXPECT_TRUE(header.ends_with(",theta_r_q3_elbow,theta_r_q4_wrist_roll,angle")) << header;
+  while (std::getline(lines, row)) {
+    EXPECT_EQ(std::count(row.begin(), row.end(), ','),
+              std::count(header.begin(), header.end(), ','));
+  }
+  const std::string svg = read_text(folder.path() / "a.svg");
+  for (const char* name :
+       {"along c [N m]", "thrusters [N]", "theta_r [rad]", "turned [rad]", "</svg>"}) {
+    EXPECT_NE(svg.find(name), std::string::npos) << name;
+  }
 }
 
 }  // namespace

@@ -53,6 +53,7 @@ TankRun made_run(const Problem& problem, const std::vector<double>& readings) {
     TankSample sample;
     sample.t = 0.01 * static_cast<double>(i + 1);
     sample.planned = 1;
+    sample.reading = readings[i];
     sample.h_e = readings[i] * problem.c;
     run.samples.push_back(sample);
   }

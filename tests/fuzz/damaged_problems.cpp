@@ -15,10 +15,12 @@ namespace {
 namespace fs = std::filesystem;
 
 const char* const kTomlWords[] = {
-    "[",        "]",         "[[",   "]]",     "=",       "{",      "}",
-    "\"",       "\"\"\"",    "true", "\n",     "#",       "[pose]", "[theta_r]",
-    "[wrench]", "[contact]", "type", "xyz",    "default", "min",    "source = \"x\"\n",
-    ", 1",      "\xff",      "..",   "\\u0000"};
+    "[",         "]",        "[[",      "]]",        "=",
+    "{",         "}",        "\"",      "\"\"\"",    "true",
+    "\n",        "#",        "[pose]",  "[theta_r]", "[wrench]",
+    "[contact]", "[motion]", "[path]",  "T = 0\n",   "k = 1\n",
+    "type",      "xyz",      "default", "min",       "source = \"x\"\n",
+    ", 1",       "\xff",     "..",      "\\u0000"};
 const char* const kUrdfWords[] = {
     "<",          "/>",       ">",         "\"",       "<link name=\"a\"/>",
     "</robot>",   "<!--",     "&lt;",      "<joint",   "type=\"fixed\"",
@@ -32,6 +34,7 @@ void write(const fs::path& file, const std::string& text) {
 }
 
 std::string answer(const Problem& problem) {
+  if (problem.motion) return problem.type();
   const auto objective = make_capability_objective(problem, Wrench::kPure, [&] {
     return find_measure("linf_polytope").make(problem, find_wrench_solver("box").make());
   });

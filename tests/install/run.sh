@@ -62,7 +62,7 @@ complete_words() {
 }
 same "completion" "$(complete_words maxwrench sol)" solve
 same "completion" "$(complete_words maxwrench solve --thr)" --threads
-same "completion" "$(complete_words maxwrench solve uvms/v)" uvms/valve
+same "completion" "$(complete_words maxwrench solve mobile/p)" mobile/push
 same "completion" "$(complete_words maxwrench solve uvms/valve --search ann)" annealing
 
 # The examples, by CMake and by pkg-config.

@@ -10,6 +10,7 @@
 
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
+#include "problems/loader/distance.h"
 
 namespace maxwrench {
 namespace {

@@ -1,0 +1,65 @@
+#include "benchmarks/plan_row.h"
+
+#include <stdexcept>
+
+#include "benchmarks/searched.h"
+#include "maxwrench/problem.h"
+#include "maxwrench/strategies.h"
+
+namespace maxwrench {
+
+PlanMethod resolve_plan(const Case& c) {
+  PlanMethod method;
+  method.choice = c;
+  if (std::string_view(find_measure(c.measure).name) != Case().measure) {
+    throw std::invalid_argument("measure: got '" + c.measure + "', expected " + Case().measure +
+                                ": a task in time has no other");
+  }
+  method.solver = c.lp.empty() ? &plan_solvers().front() : &find_plan_solver(c.lp);
+  method.choice.lp = method.solver->name;
+  if (!c.search.empty()) method.search = &find_plan_search(c.search);
+  return method;
+}
+
+bool PlanRow::has_value() const { return counts(status, plan.status); }
+
+PlanRow evaluate_plan(const Problem& problem, const PlanMethod& method,
+                      const Eigen::MatrixXd& knots, bool check_collision) {
+  const auto start = std::chrono::steady_clock::now();
+  PlanRow row;
+  row.choice = method.choice;
+  row.unit = problem.unit();
+  row.collision = check_collision && problem.robot.collision != nullptr;
+  row.evaluations = 1;
+  PlanEvaluator evaluator(problem, method.choice.wrench, method.solver->make, check_collision);
+  const Plan& plan = evaluator.evaluate(knots);
+  if (plan.status != Status::kInvalidPosture) evaluator.evaluate_continuous();
+  static_cast<Verdict&>(row) = plan;
+  row.plan = plan;
+  row.program = evaluator.program();
+  row.wall_s = seconds_since(start);
+  return row;
+}
+
+PlanRow solve_plan(const Problem& problem, const PlanMethod& method, int threads,
+                   const std::function<void(long)>& progress, Interruption* interruption) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto objective = make_interruptible(
+      make_plan_objective(problem, method.choice.wrench, method.solver->make), interruption);
+  const Eigen::VectorXd constant = problem.theta_r_default.replicate(problem.motion->k, 1);
+  const SearchResult result =
+      search(method.choice, *method.search, *objective, constant, threads, progress);
+  PlanRow row;
+  if (result.status == Status::kBestFound) {
+    row = evaluate_plan(problem, method, unstacked(result.theta_r, problem.redundancy()));
+  } else {
+    static_cast<Verdict&>(row) = result;
+    row.choice = method.choice;
+    row.unit = problem.unit();
+  }
+  conclude_search(result, interruption, row);
+  row.wall_s = seconds_since(start);
+  return row;
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <chrono>
+
+#include "benchmarks/case.h"
+#include "benchmarks/interruption.h"
+#include "maxwrench/search.h"
+
+namespace maxwrench {
+
+inline double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Whether a row that ended so is what was asked for.
+inline bool answers(Status row) { return row == Status::kOptimal || row == Status::kBestFound; }
+
+/// Whether a row that ended so has a value, if its lower level ended so: an interrupted search may
+/// have one too.
+inline bool counts(Status row, Status lower_level) {
+  return answers(row) || (row == Status::kBudgetExhausted && lower_level == Status::kOptimal);
+}
+
+/// Runs the search of a case from `start`.
+SearchResult search(const Case& c, const SearchEntry& entry, Objective& objective,
+                    const Eigen::VectorXd& start, int threads,
+                    const std::function<void(long)>& progress);
+
+/// Makes the row of a posture, or plan, that a search found the row of that search: what it took,
+/// and its word, for `optimal` is one of the lower level.
+template <class AnyRow>
+void conclude_search(const SearchResult& result, const Interruption* interruption, AnyRow& row) {
+  row.evaluations = result.evaluations;
+  if (row.status == Status::kOptimal) row.conclude(Status::kBestFound);
+  if (interruption == nullptr || !interruption->noticed) return;
+  row.evaluations -= interruption->skipped;
+  if (row.status != Status::kNumericalError) {
+    row.conclude(Status::kBudgetExhausted, "interrupted");
+  }
+}
+
+}  // namespace maxwrench

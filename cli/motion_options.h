@@ -1,0 +1,29 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "maxwrench/problem.h"
+
+namespace maxwrench {
+
+struct PlanRow;
+
+/// Options of tasks in time.
+struct MotionOptions {
+  std::optional<std::string> scheme, t_h;
+
+  void add(CLI::App& app);
+  /// Replaces what the task says. Throws std::invalid_argument where that means nothing.
+  void change(Problem& problem) const;
+};
+
+/// The table that `--theta-r` names: a file, or numbers that hold throughout; without it the
+/// constant default of the task.
+Eigen::MatrixXd knots_of(const Problem& problem, const std::optional<std::string>& text);
+
+/// A plan for people or, with `json`, as one object; returns the exit status that it deserves.
+int report(const Problem& problem, const PlanRow& row, bool json);
+
+}  // namespace maxwrench

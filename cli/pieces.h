@@ -1,0 +1,40 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "maxwrench/problem.h"
+#include "maxwrench/status.h"
+
+// Pieces of what commands print.
+
+namespace maxwrench {
+
+nlohmann::ordered_json array(const Eigen::VectorXd& v);
+
+/// An array of its rows.
+nlohmann::ordered_json rows(const Eigen::MatrixXd& matrix);
+
+/// The value, or null.
+nlohmann::ordered_json known(bool condition, const nlohmann::ordered_json& value);
+
+/// position, rpy
+nlohmann::ordered_json to_json(const Pose<double>& pose);
+
+/// position and rpy of the base in the world, then each joint by its name.
+nlohmann::ordered_json theta(const Robot& robot, const Pose<double>& base,
+                             const Eigen::VectorXd& q);
+
+nlohmann::ordered_json to_json(const Residual& residual);
+
+/// Roll, pitch, yaw with R = Rz(yaw) Ry(pitch) Rx(roll).
+Eigen::Vector3d rpy(const Eigen::Matrix3d& R);
+
+/// Numbers in columns.
+std::string line(const Eigen::VectorXd& v);
+std::string line(const Residual& residual);
+
+/// Thrusters, then joints.
+const std::string& actuator_name(const Robot& robot, Eigen::Index i);
+
+}  // namespace maxwrench

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "maxwrench/objective.h"
+#include "maxwrench/plan_program.h"
+#include "maxwrench/types.h"
+
+namespace maxwrench {
+
+struct Problem;
+
+/// Everything known at one instant of a motion.
+struct Instant {
+  double t = 0;                     ///< s
+  Pose<double> end_effector, base;  ///< in the world
+  Eigen::VectorXd q;                ///< all joints
+  Eigen::VectorXd v, v_dot;         ///< n, base twist in base axes and joint rates; its derivative
+  Eigen::VectorXd tau_d;            ///< n, by the full dynamics (eq:dynamics)
+  Matrix6Xd J;                      ///< 6×n
+  Vector6d c = Vector6d::Zero();    ///< the direction in the world
+  Vector6d h = Vector6d::Zero();    ///< what the robot exerts
+  Eigen::VectorXd u;                ///< m
+  double beta() const { return c.dot(h); }
+};
+
+/// A table of theta_r and what it is worth.
+struct Plan : Verdict {
+  Eigen::MatrixXd knots;                                    ///< k×r, without theta_0 of a heave
+  std::vector<Instant> instants;                            ///< of a heave the start first
+  double value = std::numeric_limits<double>::quiet_NaN();  ///< N or N m
+  double continuous = std::numeric_limits<double>::quiet_NaN();  ///< NaN: none, and why
+  Reason continuous_reason;
+  Reason collision;          ///< the first knot that collides, and which bodies; empty: none
+  int t_h = 0;               ///< of a heave: the knot of the peak
+  Eigen::MatrixXd gradient;  ///< k×r, of the value
+  PlanSolution solution;
+};
+
+using PlanSolverMaker = std::function<std::unique_ptr<PlanSolver>()>;
+
+/// Rows on the stacked knots x (k r numbers, row by row): r_min <= R x <= r_max.
+struct KnotRows {
+  Eigen::SparseMatrix<double> R;
+  Eigen::VectorXd r_min, r_max;
+};
+
+/// Two bodies of the robot that are near each other at a knot (from 0): how much is left, and its
+/// derivative by theta_r there.
+struct NearPair {
+  int knot = 0;
+  double clearance = 0;
+  Eigen::VectorXd gradient;  ///< r
+};
+
+/// Evaluates tables of theta_r of a task in time.
+class PlanEvaluator {
+ public:
+  /// Keeps a reference to the problem; a static one is a task of k = 1. Throws
+  /// std::invalid_argument if it has joints that follow or a second contact.
+  PlanEvaluator(const Problem& problem, Wrench wrench, const PlanSolverMaker& make,
+                bool check_collision = true);
+  PlanEvaluator(const Problem&&, Wrench, const PlanSolverMaker&, bool = true) = delete;
+  ~PlanEvaluator();
+
+  /// knots k×r. The hard program, with u, h and the gradient where it has an optimum. The best t_h
+  /// if the task leaves it open. kInvalidPosture names knots and joint where limits, speed limits
+  /// or the reach are violated beyond 1e-6; a knot that collides is reported, no more. Throws
+  /// std::invalid_argument if the table has the wrong size or is not finite.
+  const Plan& evaluate(const Eigen::MatrixXd& knots);
+
+  /// The value of the last plan on the clamped cubic spline through its knots, see `Plan`.
+  void evaluate_continuous();
+
+  /// The elastic program at knots: value less the price of the slack, and its gradient k×r.
+  /// -infinity where `evaluate` finds an invalid posture or a knot that collides.
+  double evaluate_elastic(const Eigen::MatrixXd& knots, Eigen::MatrixXd* gradient);
+
+  /// After `evaluate_elastic`: the elastic program as a linear one in steps y of the knots too, row
+  /// by row (theta_r of the first knot first), about the last answer. The caller sets bounds and
+  /// rows of y.
+  PlanProgram& linearize();
+
+  /// The pairs of bodies within `within` [m] of each other at each knot, of those whose distance
+  /// is known. Empty if collisions are not checked.
+  const std::vector<NearPair>& near_pairs(const Eigen::MatrixXd& knots, double within);
+
+  const Plan& plan() const;
+  /// The hard program of the last `evaluate`.
+  const PlanProgram& program() const;
+  /// The limits on x, the stacked knots, beside the bounds of each.
+  const KnotRows& rows() const;
+  int knots() const;  ///< k
+  /// Whether the scheme is `spline`, which says what happens between the instants.
+  bool smooth() const;
+
+ private:
+  struct Workspace;
+  std::unique_ptr<Workspace> workspace_;
+};
+
+/// f(x) of the stacked knots x (k r numbers, row by row): the elastic value of the plan, which is
+/// the value of the hard program where that has one. No value where the knots violate limits, speed
+/// limits or the reach, or collide. A static problem is one of k = 1. Throws as `PlanEvaluator`.
+std::unique_ptr<Objective> make_plan_objective(const Problem& problem, Wrench wrench,
+                                               const PlanSolverMaker& make,
+                                               bool check_collision = true);
+std::unique_ptr<Objective> make_plan_objective(const Problem&&, Wrench, const PlanSolverMaker&,
+                                               bool = true) = delete;
+
+/// The table of stacked knots, and the other way round.
+Eigen::MatrixXd unstacked(const Eigen::VectorXd& x, Eigen::Index r);
+Eigen::VectorXd stacked(const Eigen::MatrixXd& knots);
+
+}  // namespace maxwrench

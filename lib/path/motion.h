@@ -1,0 +1,57 @@
+#pragma once
+
+#include <vector>
+
+#include "lib/path/follow.h"
+#include "lib/path/scheme.h"
+#include "lib/robot/dynamics.h"
+#include "maxwrench/plan.h"
+
+namespace maxwrench {
+
+/// What a table of knots makes a robot do at the instants of a scheme, and the derivatives of that.
+/// Nothing is allocated after the first call.
+class MotionEvaluator {
+ public:
+  /// The problem outlives this.
+  MotionEvaluator(const Problem& problem, SchemeMaps maps);
+  MotionEvaluator(const Problem&&, SchemeMaps) = delete;
+
+  const SchemeMaps& maps() const { return maps_; }
+
+  /// Q K×r. Fills t, the poses, q, v, v_dot, J and tau_d of the instants.
+  void evaluate(const Eigen::MatrixXd& Q, std::vector<Instant>& instants);
+
+  /// How f_i = tau_d,i + J_i'h_i moves with the motion at instant i, at the h of the instants,
+  /// after `evaluate`. n×r each.
+  struct Slopes {
+    Eigen::MatrixXd place, rate, bend;  ///< by theta_r, theta_r_dot, theta_r_ddot (`spline`)
+    Eigen::MatrixXd M;                  ///< n×n, by v_dot
+    Eigen::MatrixXd v_place, v_rate;    ///< of v: the last is A_r
+  };
+  void linearize(const std::vector<Instant>& instants, std::vector<Slopes>& slopes);
+
+  /// gradient K×r of sum_i lambda_i'f_i, lambda n×N: the slopes pulled back through the scheme.
+  void pull_back(const std::vector<Slopes>& slopes, const Eigen::MatrixXd& lambda,
+                 Eigen::MatrixXd& gradient) const;
+  /// G n×(K r) of f_i by the knots, row by row: theta_r_1 of all coordinates first.
+  void push_forward(const std::vector<Slopes>& slopes, int instant, Eigen::MatrixXd& G) const;
+
+ private:
+  void set_rows(const Eigen::MatrixXd& Q);
+  void accelerate_by_differences(std::vector<Instant>& instants) const;
+  void linearize(const Instant& instant, int i, int chunk, Slopes& slopes);
+
+  const Problem& problem_;
+  SchemeMaps maps_;
+  Follower<double> follower_;
+  Dynamics<double> dynamics_;
+  Follower<Dual<4>> dual_follower_;
+  Dynamics<Dual<4>> dual_dynamics_;
+  Eigen::MatrixXd place_, rate_, bend_;  ///< r×N: theta_r and its derivatives at the instants
+  VectorX<double> theta_r_, rate_r_, bend_r_;
+  VectorX<Dual<4>> dual_theta_r_, dual_rate_, dual_bend_, dual_v_, dual_v_dot_, dual_tau_;
+  Matrix6X<Dual<4>> dual_J_;
+};
+
+}  // namespace maxwrench

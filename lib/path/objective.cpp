@@ -1,0 +1,66 @@
+#include "maxwrench/objective.h"
+
+#include "maxwrench/plan.h"
+#include "maxwrench/problem.h"
+
+namespace maxwrench {
+namespace {
+
+class PlanObjective : public Objective {
+ public:
+  PlanObjective(const Problem& problem, Wrench wrench, PlanSolverMaker make, bool check)
+      : problem_(problem),
+        wrench_(wrench),
+        make_(std::move(make)),
+        check_(check),
+        evaluator_(problem, wrench, make_, check),
+        lower_(problem.theta_r_min.replicate(evaluator_.knots(), 1)),
+        upper_(problem.theta_r_max.replicate(evaluator_.knots(), 1)) {}
+
+  const Eigen::VectorXd& lower() const override { return lower_; }
+  const Eigen::VectorXd& upper() const override { return upper_; }
+  const Verdict& verdict() const override { return evaluator_.plan(); }
+  PlanEvaluator* plans() override { return &evaluator_; }
+
+  double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) override {
+    const Eigen::Index r = problem_.redundancy();
+    const double value =
+        evaluator_.evaluate_elastic(unstacked(x, r), gradient ? &gradient_ : nullptr);
+    if (gradient) {
+      if (value == -kInfinity) {
+        gradient->setConstant(x.size(), std::numeric_limits<double>::quiet_NaN());
+      } else {
+        *gradient = stacked(gradient_);
+      }
+    }
+    return value;
+  }
+
+  std::unique_ptr<Objective> clone() const override {
+    return make_plan_objective(problem_, wrench_, make_, check_);
+  }
+
+ private:
+  const Problem& problem_;
+  Wrench wrench_;
+  PlanSolverMaker make_;
+  bool check_;
+  PlanEvaluator evaluator_;
+  Eigen::VectorXd lower_, upper_;
+  Eigen::MatrixXd gradient_;
+};
+
+}  // namespace
+
+Eigen::MatrixXd unstacked(const Eigen::VectorXd& x, Eigen::Index r) {
+  return x.reshaped<Eigen::RowMajor>(x.size() / r, r);
+}
+
+Eigen::VectorXd stacked(const Eigen::MatrixXd& knots) { return knots.reshaped<Eigen::RowMajor>(); }
+
+std::unique_ptr<Objective> make_plan_objective(const Problem& problem, Wrench wrench,
+                                               const PlanSolverMaker& make, bool check_collision) {
+  return std::make_unique<PlanObjective>(problem, wrench, make, check_collision);
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,327 @@
+#include "maxwrench/plan.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "lib/path/clearance.h"
+#include "lib/path/limits.h"
+#include "lib/path/motion.h"
+#include "lib/path/program.h"
+#include "lib/robot/chain.h"
+#include "maxwrench/problem.h"
+
+namespace maxwrench {
+namespace {
+
+/// The slack [N, N m] that `continuous` forgives.
+constexpr double kSlackForgiven = 0.05;
+/// A verdict counts if its figures are within this part of 1 + |value|.
+constexpr double kVerified = 1e-7;
+
+/// The task in time; a static one holds its pose at one knot.
+MotionTask task_of(const Problem& problem) {
+  if (problem.contact || !problem.dependent.empty()) {
+    throw std::invalid_argument(problem.name +
+                                ": got a second contact or joints that follow, expected a task in "
+                                "time with neither");
+  }
+  if (problem.motion) return *problem.motion;
+  MotionTask task;
+  task.path = Path::constant(problem.pose, task.T);
+  task.scheme = Scheme::kForward;
+  return task;
+}
+
+}  // namespace
+
+struct PlanEvaluator::Workspace {
+  Workspace(const Problem& p, Wrench w, const PlanSolverMaker& make, bool check)
+      : problem(p),
+        task(task_of(p)),
+        wrench(w),
+        check_collision(check && p.robot.collision != nullptr),
+        motion(p, make_scheme(task)),
+        program(make_plan_program(p, task, w, motion.maps())),
+        elastic(program),
+        solver(make()),
+        elastic_solver(make()),
+        links(p.robot),
+        rows(knot_rows(p, task, motion.maps())) {
+    elastic.rho = kElasticWeight;
+    if (task.impulse && task.start == Start::kStatic) bound_start(make);
+  }
+
+  /// w_0 is at most the static capability at theta_0.
+  void bound_start(const PlanSolverMaker& make) {
+    Q = all_knots(task.theta_0.transpose().replicate(task.k, 1));
+    motion.evaluate(Q, plan.instants);
+    set_instants(problem, task, wrench, motion.maps(), plan.instants, program);
+    PlanProgram start = program;
+    start.instants.resize(1);
+    start.instants[0].w_min.setConstant(-kInfinity);
+    start.instants[0].w_max.setConstant(kInfinity);
+    start.du_max.resize(start.du_max.rows(), 0);
+    start.peak = 0;
+    PlanSolution best;
+    make()->solve(start, best);
+    if (best.status != Status::kOptimal || !(best.value >= 0)) {
+      throw std::invalid_argument(problem.name +
+                                  ": start.theta_r: got a posture that cannot hold " +
+                                  "itself, expected one with a static capability");
+    }
+    for (PlanProgram* each : {&program, &elastic}) {
+      each->instants[0].w_max.setConstant(best.value);
+    }
+  }
+
+  Eigen::MatrixXd all_knots(const Eigen::MatrixXd& knots) const {
+    if (!task.impulse) return knots;
+    Eigen::MatrixXd all(knots.rows() + 1, knots.cols());
+    all << task.theta_0.transpose(), knots;
+    return all;
+  }
+
+  void require_table(const Eigen::MatrixXd& knots) const {
+    if (knots.rows() != task.k || knots.cols() != problem.redundancy()) {
+      throw std::invalid_argument("theta_r: got a table of " + std::to_string(knots.rows()) +
+                                  " x " + std::to_string(knots.cols()) + " numbers, expected " +
+                                  std::to_string(task.k) + " x " +
+                                  std::to_string(problem.redundancy()) + " for " + problem.name);
+    }
+    if (!knots.allFinite()) {
+      throw std::invalid_argument("theta_r: got a value that is not a finite number");
+    }
+  }
+
+  /// Empty, or where the base would leave its free axes.
+  std::string reach_violation() const {
+    for (std::size_t i = 0; i < plan.instants.size(); ++i) {
+      if (base_reaches(problem.robot, plan.instants[i].base)) continue;
+      return "unreachable pose at t = " + std::to_string(plan.instants[i].t) +
+             " s: the base would leave its free axes";
+    }
+    return {};
+  }
+
+  /// Empty, or the first knot that collides.
+  std::string collision() {
+    if (!check_collision) return {};
+    const SchemeMaps& maps = motion.maps();
+    const int first = maps.starts ? 0 : 1;
+    for (std::size_t knot = maps.starts ? 1 : 0; knot < maps.knot_at.size(); ++knot) {
+      links.set_joints(plan.instants[static_cast<std::size_t>(maps.knot_at[knot])].q);
+      const int pair = problem.robot.collision->colliding_pair(links.links());
+      if (pair < 0) continue;
+      return "self-collision: knot " + std::to_string(first + static_cast<int>(knot)) + ": " +
+             problem.robot.collision->pair_name(pair);
+    }
+    return {};
+  }
+
+  /// The block of a knot of a heave.
+  int block_of(const SchemeMaps& maps, int knot) const {
+    const int instant = maps.smooth() ? knot * ((maps.instants() - 1) / task.k) : knot;
+    return instant - (start_is_block(task, maps) ? 0 : 1);
+  }
+
+  /// Solves for the task's t_h, or for each one and keeps the best.
+  void solve_best(PlanProgram& p, PlanSolver& with, PlanSolution& best, int& t_h) {
+    if (!task.impulse) {
+      with.solve(p, best);
+      return;
+    }
+    const int from = task.t_h > 0 ? task.t_h : 1, to = task.t_h > 0 ? task.t_h : task.k;
+    for (int knot = from; knot <= to; ++knot) {
+      p.peak = block_of(motion.maps(), knot);
+      PlanSolution& each = knot == from ? best : other;
+      with.solve(p, each);
+      if (knot == from) {
+        t_h = knot;
+        continue;
+      }
+      const bool better =
+          each.status == Status::kOptimal &&
+          (best.status != Status::kOptimal || each.value - each.price > best.value - best.price);
+      if (!better) continue;
+      std::swap(best, other);
+      t_h = knot;
+    }
+    p.peak = block_of(motion.maps(), t_h);
+  }
+
+  /// The hard program is cheaper where it has an answer, and where no multiplier exceeds the weight
+  /// of the slack, it is that of the elastic one too.
+  void solve_elastic() {
+    elastic.rho = kInfinity;
+    solve_best(elastic, *solver, elastic_solution, plan.t_h);
+    elastic.rho = kElasticWeight;
+    const bool same = elastic_solution.status == Status::kOptimal &&
+                      elastic_solution.lambda.cwiseAbs().maxCoeff() <= kElasticWeight &&
+                      (!task.impulse || task.t_h > 0);
+    if (!same) solve_best(elastic, *elastic_solver, elastic_solution, plan.t_h);
+  }
+
+  void pull_back(const PlanProgram& p, const PlanSolution& solution, Eigen::MatrixXd& gradient) {
+    motion.linearize(plan.instants, slopes);
+    const Eigen::Index skipped =
+        static_cast<Eigen::Index>(plan.instants.size()) - static_cast<Eigen::Index>(p.size());
+    lambda.setZero(problem.robot.velocities(), motion.maps().instants());
+    lambda.rightCols(lambda.cols() - skipped) = solution.lambda;
+    motion.pull_back(slopes, lambda, all_gradient);
+    gradient = all_gradient.bottomRows(task.k);
+  }
+
+  const Problem& problem;
+  const MotionTask task;
+  const Wrench wrench;
+  const bool check_collision;
+  MotionEvaluator motion;
+  PlanProgram program, elastic, bordered;
+  std::unique_ptr<PlanSolver> solver, elastic_solver;
+  Kinematics<double> links;
+  std::vector<NearPair> near;
+  KnotRows rows;
+  std::vector<MotionEvaluator::Slopes> slopes;
+  PlanSolution elastic_solution, other;
+  Eigen::MatrixXd Q, lambda, all_gradient, G;
+  std::optional<MotionEvaluator> fine;
+  Plan plan;
+};
+
+PlanEvaluator::PlanEvaluator(const Problem& problem, Wrench wrench, const PlanSolverMaker& make,
+                             bool check_collision)
+    : workspace_(std::make_unique<Workspace>(problem, wrench, make, check_collision)) {}
+PlanEvaluator::~PlanEvaluator() = default;
+
+const std::vector<NearPair>& PlanEvaluator::near_pairs(const Eigen::MatrixXd& knots,
+                                                       double within) {
+  Workspace& ws = *workspace_;
+  ws.near.clear();
+  if (!ws.check_collision) return ws.near;
+  Eigen::VectorXd q = resting_joints(ws.problem.robot);
+  for (int knot = 0; knot < ws.task.k; ++knot) {
+    for (std::size_t j = 0; j < ws.problem.redundant.size(); ++j) {
+      q[ws.problem.redundant[j]] = knots(knot, static_cast<Eigen::Index>(j));
+    }
+    ws.links.set_joints(q);
+    find_near_pairs(ws.problem, ws.links, knot, within, ws.near);
+  }
+  return ws.near;
+}
+
+const Plan& PlanEvaluator::plan() const { return workspace_->plan; }
+const PlanProgram& PlanEvaluator::program() const { return workspace_->program; }
+const KnotRows& PlanEvaluator::rows() const { return workspace_->rows; }
+int PlanEvaluator::knots() const { return workspace_->task.k; }
+bool PlanEvaluator::smooth() const { return workspace_->motion.maps().smooth(); }
+
+const Plan& PlanEvaluator::evaluate(const Eigen::MatrixXd& knots) {
+  Workspace& ws = *workspace_;
+  Plan& plan = ws.plan;
+  ws.require_table(knots);
+  plan.knots = knots;
+  plan.value = plan.continuous = std::numeric_limits<double>::quiet_NaN();
+  plan.continuous_reason = "";
+  ws.Q = ws.all_knots(knots);
+  ws.motion.evaluate(ws.Q, plan.instants);
+  std::string violation = knots_violation(ws.problem, ws.motion.maps(), ws.Q);
+  if (violation.empty()) violation = ws.reach_violation();
+  set_instants(ws.problem, ws.task, ws.wrench, ws.motion.maps(), plan.instants, ws.program);
+  plan.collision = ws.collision();
+  if (!violation.empty()) {
+    plan.conclude(Status::kInvalidPosture, violation);
+    return plan;
+  }
+  ws.solve_best(ws.program, *ws.solver, plan.solution, plan.t_h);
+  plan.conclude(plan.solution.status, plan.solution.reason.c_str());
+  if (plan.status != Status::kOptimal) return plan;
+  plan.value = plan.solution.value;
+  plan.solution.residual = recheck(ws.program, plan.solution);
+  if (!plan.solution.residual.within(kVerified * (1 + std::abs(plan.value)))) {
+    plan.conclude(Status::kNumericalError, "the answer does not satisfy its program");
+    return plan;
+  }
+  read_efforts(ws.problem, ws.task, ws.program, plan.solution, plan.instants);
+  ws.pull_back(ws.program, plan.solution, plan.gradient);
+  return plan;
+}
+
+void PlanEvaluator::evaluate_continuous() {
+  Workspace& ws = *workspace_;
+  Plan& plan = ws.plan;
+  const MotionTask& task = ws.task;
+  if (ws.Q.rows() < 2) {
+    plan.continuous = plan.value;
+    plan.continuous_reason = plan.reason;
+    return;
+  }
+  if (!ws.fine) {
+    ws.fine.emplace(ws.problem,
+                    make_continuous(task, task.impulse ? kContinuousHeave : kContinuousPath));
+  }
+  const SchemeMaps& maps = ws.fine->maps();
+  PlanProgram program = make_plan_program(ws.problem, task, ws.wrench, maps);
+  std::vector<Instant> instants;
+  ws.fine->evaluate(ws.Q, instants);
+  set_instants(ws.problem, ws.task, ws.wrench, maps, instants, program);
+  program.rho = kElasticWeight;
+  if (task.impulse && task.start == Start::kStatic) {
+    program.instants[0].w_max = ws.program.instants[0].w_max;
+  }
+  if (task.impulse) program.peak = ws.block_of(maps, plan.t_h);
+  PlanSolution solution;
+  ws.elastic_solver->solve(program, solution);
+  if (solution.status != Status::kOptimal) {
+    plan.continuous_reason = solution.reason;
+    return;
+  }
+  const double slack = solution.s.cwiseAbs().maxCoeff();
+  if (!(slack <= kSlackForgiven)) {
+    plan.continuous_reason =
+        "a balance on the spline through the knots lacks " + std::to_string(slack) + " N or N m";
+    return;
+  }
+  plan.continuous = solution.value;
+}
+
+double PlanEvaluator::evaluate_elastic(const Eigen::MatrixXd& knots, Eigen::MatrixXd* gradient) {
+  Workspace& ws = *workspace_;
+  Plan& plan = ws.plan;
+  ws.require_table(knots);
+  plan.knots = knots;
+  ws.Q = ws.all_knots(knots);
+  ws.motion.evaluate(ws.Q, plan.instants);
+  std::string violation = knots_violation(ws.problem, ws.motion.maps(), ws.Q);
+  if (violation.empty()) violation = ws.reach_violation();
+  if (violation.empty()) violation = ws.collision();
+  if (!violation.empty()) {
+    plan.conclude(Status::kInvalidPosture, violation);
+    return -kInfinity;
+  }
+  set_instants(ws.problem, ws.task, ws.wrench, ws.motion.maps(), plan.instants, ws.elastic);
+  ws.solve_elastic();
+  const PlanSolution& solution = ws.elastic_solution;
+  plan.conclude(solution.status, solution.reason.c_str());
+  if (solution.status != Status::kOptimal) return -kInfinity;
+  read_efforts(ws.problem, ws.task, ws.elastic, solution, plan.instants);
+  if (gradient) ws.pull_back(ws.elastic, solution, *gradient);
+  return solution.value - solution.price;
+}
+
+PlanProgram& PlanEvaluator::linearize() {
+  Workspace& ws = *workspace_;
+  PlanProgram& program = ws.bordered;
+  program = ws.elastic;
+  const std::size_t skipped = ws.plan.instants.size() - program.instants.size();
+  ws.motion.linearize(ws.plan.instants, ws.slopes);
+  program.G.resize(program.instants.size());
+  const Eigen::Index r = ws.problem.redundancy();
+  for (std::size_t i = 0; i < program.instants.size(); ++i) {
+    ws.motion.push_forward(ws.slopes, static_cast<int>(i + skipped), ws.G);
+    program.G[i] = -ws.G.rightCols(ws.task.k * r);
+  }
+  return program;
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "maxwrench/path.h"
+
+namespace maxwrench {
+
+/// What a scheme makes of a table Q of knots (K×r): linear maps to N instants. Of a heave the first
+/// of the K = k + 1 knots is theta_0 and the first instant, if `starts`, is at rest there.
+///
+///     theta_r = P Q,   theta_r_dot = V Q,   v = moves (J_e x_dot + A_r theta_r_dot)
+///     `spline`: theta_r_ddot = A Q and v_dot exact;   else: v_dot = D v
+///
+/// v and v_dot are those of all velocities, in base axes.
+struct SchemeMaps {
+  std::vector<double> t;     ///< N [s]
+  std::vector<PathPoint> x;  ///< N, of the end effector; acceleration only of `spline`
+  std::vector<int> knot_at;  ///< K: the instant of each knot; -1: none
+  Eigen::MatrixXd P, V, A;   ///< N×K; A of `spline`, else empty
+  Eigen::MatrixXd D;         ///< N×N; empty of `spline`
+  Eigen::VectorXd moves;     ///< N of 1, or 0 where v is zero by the scheme
+  bool starts = false;       ///< the first instant is the start of a heave
+  double dt = 0;             ///< between neighbouring knots [s]; 0 if k = 1
+  /// Rows on each coordinate of theta_r over its K knots: limits of its rate (speed Q within
+  /// +-q_dot_max), of its value (place Q within the limits, beyond those of the knots), and what
+  /// must vanish (zero Q = 0; times dt^2 where it is an acceleration).
+  Eigen::MatrixXd speed, place, zero;
+
+  int instants() const { return static_cast<int>(t.size()); }
+  int knots() const { return static_cast<int>(P.cols()); }
+  bool smooth() const { return D.size() == 0; }
+};
+
+/// Throws std::invalid_argument if the scheme does not serve the task.
+SchemeMaps make_scheme(const MotionTask& task);
+
+/// Instants per interval of `continuous`, along a path and in a heave.
+inline constexpr int kContinuousPath = 25, kContinuousHeave = 50;
+
+/// The clamped cubic spline through the knots of a task, whatever its scheme, with this many
+/// instants an interval: what `continuous` is judged by. Of a heave it begins with the start.
+SchemeMaps make_continuous(const MotionTask& task, int instants_per_interval);
+
+}  // namespace maxwrench

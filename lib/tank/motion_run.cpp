@@ -1,0 +1,275 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "lib/math/random.h"
+#include "lib/path/follow.h"
+#include "lib/tank/controller.h"
+#include "lib/tank/ode.h"
+#include "lib/tank/reference.h"
+#include "lib/tank/stopwatch.h"
+#include "lib/tank/summary.h"
+#include "maxwrench/plan.h"
+
+namespace maxwrench {
+namespace {
+
+/// Slower than this the cell turns about no axis [rad/s].
+constexpr double kSpins = 1e-9;
+
+/// A joint nears its speed limit no faster than with this time constant [s], that of the thrusters.
+constexpr double kBrake = 0.1;
+
+Eigen::Matrix3d rotation_by(const Eigen::Vector3d& turn) {
+  const double angle = turn.norm();
+  if (angle == 0) return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
+}
+
+/// Only what the controller and the simulated robot need.
+Posture at_rest(const Problem& problem, const Motion& motion) {
+  Posture posture;
+  posture.base = motion.base;
+  posture.q = motion.q;
+  posture.J.resize(6, problem.robot.velocities());
+  return posture;
+}
+
+/// One experiment in steps of the control period, the last of which ends with the script.
+class MotionExperiment {
+ public:
+  MotionExperiment(const Problem& problem, const TankScript& script, Integrator& integrator,
+                   const TankOptions& options)
+      : problem_(problem),
+        options_(options),
+        script_(script),
+        integrator_(integrator),
+        reader_(problem, script),
+        follower_(problem),
+        motion_(start()),
+        ode_(problem, at_rest(problem, motion_), options),
+        controller_(problem, at_rest(problem, motion_), script.wrench, options),
+        random_(options.imperfections.seed) {
+    ode_.hold_along(script.path);
+    ode_.start(motion_, reference_.u);
+    R_before_ = bent().R;
+  }
+
+  TankRun run() {
+    {
+      const Stopwatch watch(run_.total_s);
+      run_all();
+    }
+    run_.evaluations = ode_.evaluations();
+    run_.model_s = ode_.seconds();
+    run_.summary = summarise(script_, run_, lost());
+    return std::move(run_);
+  }
+
+ private:
+  /// The pose of an end effector that bends the cell with the wrench of the reference.
+  Pose<double> bent() const {
+    const Vector6d bend = this->bend();
+    return {rotation_by(bend.tail<3>()) * reference_.x.pose.R,
+            reference_.x.pose.p + bend.head<3>()};
+  }
+
+  Vector6d bend() const {
+    Vector6d displacement;
+    displacement << reference_.h.head<3>() / options_.cell.stiffness_linear,
+        reference_.h.tail<3>() / options_.cell.stiffness_angular;
+    return displacement;
+  }
+
+  Motion start() {
+    reader_.read(0, reference_);
+    PathPoint x = reference_.x;
+    x.pose = bent();
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(problem_.redundancy());
+    const bool linear = script_.interpolation == Interpolation::kLinear;
+    follower_.set(x, reference_.theta_r, linear ? none : reference_.rate, reference_.acceleration);
+    a_ = follower_.v_dot();
+    return {follower_.base(), follower_.q(), follower_.v()};
+  }
+
+  /// a of all velocities at a motion: on the path, with the errors of theta_r corrected.
+  void accelerate(const Motion& motion) {
+    const auto axes = static_cast<Eigen::Index>(problem_.robot.base_axes.size());
+    const double omega = options_.bandwidth;
+    theta_r_.resize(problem_.redundancy());
+    rate_.resize(theta_r_.size());
+    for (Eigen::Index i = 0; i < theta_r_.size(); ++i) {
+      const int joint = problem_.redundant[static_cast<std::size_t>(i)];
+      theta_r_[i] = motion.q[joint];
+      rate_[i] = motion.v[axes + joint];
+    }
+    bend_ = reference_.acceleration + omega * omega * (reference_.theta_r - theta_r_) +
+            2 * omega * (reference_.rate - rate_);
+    for (Eigen::Index i = 0; i < bend_.size(); ++i) {
+      const int joint = problem_.redundant[static_cast<std::size_t>(i)];
+      const double most = problem_.robot.joints[static_cast<std::size_t>(joint)].velocity_max;
+      bend_[i] = std::clamp(bend_[i], -(most + rate_[i]) / kBrake, (most - rate_[i]) / kBrake);
+    }
+    follower_.set(reference_.x, theta_r_, rate_, bend_);
+    a_ = follower_.v_dot();
+  }
+
+  void run_all() {
+    const double T = script_.instants.back().t;
+    const long periods = static_cast<long>(std::ceil(T / options_.period - 1e-9));
+    run_.conclude(Status::kReached);
+    for (long k = 0; k < periods && run_.status == Status::kReached && !lost(); ++k) {
+      period(static_cast<double>(k) * options_.period,
+             std::min(T, static_cast<double>(k + 1) * options_.period));
+    }
+  }
+
+  /// The efforts of t_1, so the motion is that of t_1 too, as far as it can be told.
+  void request(double dt, double t_1) {
+    const Stopwatch watch(run_.controller_s);
+    Motion then = advanced(problem_.robot, motion_, dt);
+    then.v += dt * a_;
+    reader_.read(t_1, reference_);
+    accelerate(then);
+    controller_.request(then, a_, reference_.h, reference_.turn, reference_.u, u_, dt, request_);
+  }
+
+  void track() {
+    const Stopwatch watch(run_.qp_s);
+    controller_.tracker().solve(request_, answer_);
+    ++run_.requests;
+    run_.active_set_iterations += answer_.iterations;
+  }
+
+  void period(double t_0, double t_1) {
+    ode_.read(ode_.initial(), motion_);
+    u_ = ode_.efforts(t_0);
+    request(t_1 - t_0, t_1);
+    track();
+    ode_.command(t_0, u_, t_1, answer_.u, Vector6d::Zero(), Vector6d::Zero());
+    draw_noise();
+    integrator_.integrate(ode_, options_.integrator, std::array{t_0, t_1}, path_);
+    run_.conclude(path_.status, path_.reason.c_str());
+    if (!answer_.converged) {
+      run_.conclude(Status::kNumericalError, "the tracking program ran out of iterations");
+    }
+    ode_.restart(path_.y.back());
+    if (path_.t.back() > t_0) keep(t_0, path_.t.back());
+  }
+
+  void draw_noise() {
+    if (options_.imperfections.thrust_noise == 0) return;
+    Eigen::VectorXd noise(static_cast<Eigen::Index>(problem_.robot.thrusters.size()));
+    for (double& value : noise) value = options_.imperfections.thrust_noise * random_.normal();
+    ode_.set_noise(noise);
+  }
+
+  void keep(double t_0, double t) {
+    reader_.read(t, reference_);
+    ode_.read(ode_.initial(), motion_);
+    TankSample sample;
+    sample.t = t;
+    sample.planned = reference_.c.dot(reference_.h) / (1 - script_.margin);
+    read_cell(t, sample);
+    sample.u = ode_.efforts(t);
+    sample.shortfall = answer_.shortfall;
+    sample.saturated = answer_.saturated;
+    sample.relaxed = answer_.relaxed;
+    const Vector6d displacement = ode_.displacement(t, motion_);
+    sample.position_error = displacement.head<3>().norm();
+    const Vector6d rest = displacement - bend();
+    sample.displaced = std::max(rest.head<3>().norm(), rest.tail<3>().norm());
+    compare(sample);
+    check_limits(t - t_0, sample);
+    run_.samples.push_back(std::move(sample));
+  }
+
+  void read_cell(double t, TankSample& sample) {
+    const Vector6d h_e = ode_.wrench(t, motion_);
+    sample.reading = reference_.c.dot(h_e);
+    Vector6d stray = h_e - reference_.h;
+    stray -= reference_.c.dot(stray) * reference_.c;
+    stray = rotated(reference_.turn.transpose(), stray);  // W_any is that of the start
+    if (script_.wrench == Wrench::kAny) {
+      stray -= problem_.W_any * (problem_.W_any.transpose() * stray);  // orthonormal
+    }
+    sample.stray_force = stray.head<3>().norm();
+    sample.stray_torque = stray.tail<3>().norm();
+    const Eigen::Matrix3d turn = reference_.x.pose.R * script_.path.pose(0).R.transpose();
+    sample.h_e = rotated(turn.transpose(), h_e);
+  }
+
+  /// With the posture that the script asks for.
+  void compare(TankSample& sample) {
+    follower_.set(reference_.x, reference_.theta_r, reference_.rate, reference_.acceleration);
+    sample.theta_r.resize(problem_.redundancy());
+    for (Eigen::Index i = 0; i < sample.theta_r.size(); ++i) {
+      sample.theta_r[i] = motion_.q[problem_.redundant[static_cast<std::size_t>(i)]];
+    }
+    sample.drift = (sample.theta_r - reference_.theta_r).lpNorm<Eigen::Infinity>();
+    const Pose<double>& base = follower_.base();
+    sample.moved = std::max({(motion_.q - follower_.q()).lpNorm<Eigen::Infinity>(),
+                             (motion_.base.p - base.p).norm(),
+                             logarithm(motion_.base.R * base.R.transpose()).norm()});
+    // About the axis that the cell turns about, or did last.
+    const Eigen::Vector3d spin = reference_.x.twist.tail<3>();
+    if (spin.norm() > kSpins) axis_ = spin.normalized();
+    const Eigen::Matrix3d R =
+        rotation_by(ode_.displacement(sample.t, motion_).tail<3>()) * reference_.x.pose.R;
+    angle_ += axis_.dot(logarithm(R * R_before_.transpose()));
+    R_before_ = R;
+    sample.angle = angle_;
+  }
+
+  void check_limits(double dt, TankSample& sample) const {
+    const Robot& robot = problem_.robot;
+    const Eigen::ArrayXd rate = (sample.u - u_).array().abs() / dt;
+    // Of what the actuators do, and of what they were told.
+    sample.violation = std::max(0.0, (rate - robot.u_rate_max.array()).maxCoeff());
+    const auto beyond = [&](const Eigen::VectorXd& u) {
+      return std::max((u - robot.actuation.u_max).maxCoeff(),
+                      (robot.actuation.u_min - u).maxCoeff());
+    };
+    sample.violation = std::max({sample.violation, beyond(sample.u), beyond(answer_.u)});
+    const auto axes = static_cast<Eigen::Index>(robot.base_axes.size());
+    for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+      const double speed = std::abs(motion_.v[axes + static_cast<Eigen::Index>(i)]);
+      sample.speed = std::max(sample.speed, speed - robot.joints[i].velocity_max);
+    }
+  }
+
+  bool lost() const {
+    if (run_.samples.empty()) return false;
+    const TankSample& now = run_.samples.back();
+    return now.drift > kLost || now.position_error > kLost;
+  }
+
+  const Problem& problem_;
+  const TankOptions& options_;
+  const TankScript& script_;
+  Integrator& integrator_;
+  const ScriptReader reader_;
+  Follower<double> follower_;
+  Reference reference_;
+  Eigen::VectorXd a_, theta_r_, rate_, bend_, u_;
+  Motion motion_;
+  TankOde ode_;
+  PostureController controller_;
+  Random random_;
+  Eigen::Vector3d axis_ = Eigen::Vector3d::UnitZ();
+  Eigen::Matrix3d R_before_;
+  double angle_ = 0;
+  EffortRequest request_;
+  EffortAnswer answer_;
+  Trajectory path_;
+  TankRun run_;
+};
+
+}  // namespace
+
+TankRun run_tank(const Problem& problem, const TankScript& script, Integrator& integrator,
+                 const TankOptions& options) {
+  return MotionExperiment(problem, script, integrator, options).run();
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,137 @@
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "lib/path/motion.h"
+#include "lib/path/program.h"
+#include "maxwrench/plan.h"
+#include "maxwrench/problem.h"
+#include "maxwrench/tank.h"
+
+namespace maxwrench {
+namespace {
+
+Eigen::MatrixXd with_start(const MotionTask& task, const Eigen::MatrixXd& knots) {
+  if (!task.impulse) return knots;
+  Eigen::MatrixXd all(knots.rows() + 1, knots.cols());
+  all << task.theta_0.transpose(), knots;
+  return all;
+}
+
+SchemeMaps maps_of(const MotionTask& task, Interpolation interpolation) {
+  const bool rests = task.k == 1 && !task.impulse;
+  if (rests || interpolation == Interpolation::kLinear) return make_scheme(task);
+  return make_continuous(task, task.impulse ? kContinuousHeave : kContinuousPath);
+}
+
+/// Fixes c'h of a block: its columns turned so that the first one is c, which all of W's span
+/// holds.
+void fix_wrench(double asked, WrenchProgram& block) {
+  const Eigen::VectorXd along = block.c_w.normalized();
+  Eigen::MatrixXd Z = along.householderQr().householderQ();
+  Z.col(0) = along;
+  block.W = block.W * Z;
+  block.JtW = block.JtW * Z;
+  block.c_w = Z.transpose() * block.c_w;
+  block.w_min[0] = block.w_max[0] = asked / block.c_w[0];
+}
+
+/// Along a path the knots of a scheme that has them T/k apart, T/(k-1) apart.
+void stretch(const MotionTask& task, std::vector<Instant>& instants) {
+  const double f = task.T / instants.back().t;
+  for (Instant& instant : instants) {
+    instant.t *= f;
+    instant.v /= f;
+    instant.v_dot /= f * f;
+  }
+  instants.back().t = task.T;
+}
+
+/// At rest for the whole duration.
+void rest(const MotionTask& task, std::vector<Instant>& instants) {
+  instants.push_back(instants.front());
+  instants.back().t = task.T;
+}
+
+double worth(const Plan& plan, const ScriptOptions& options) {
+  if (options.planned > 0) return options.planned;
+  return options.interpolation == Interpolation::kSpline ? plan.continuous : plan.value;
+}
+
+/// Concludes why not.
+bool askable(const Plan& plan, TankScript& script) {
+  if (plan.status == Status::kInvalidPosture) {
+    script.conclude(plan.status, plan.reason.c_str());
+  } else if (!std::isfinite(script.planned)) {
+    const bool spline = plan.status == Status::kOptimal;
+    script.conclude(spline ? Status::kInfeasible : plan.status,
+                    (spline ? plan.continuous_reason : plan.reason).c_str());
+  } else if (!(script.planned > 0)) {
+    script.conclude(Status::kInfeasible, "no wrench > 0 along c is possible");
+  } else {
+    return true;
+  }
+  return false;
+}
+
+/// The program of the instants with the wrench that is asked for.
+PlanProgram asking(const Problem& problem, const SchemeMaps& maps, int t_h, TankScript& script) {
+  const MotionTask& task = *problem.motion;
+  PlanProgram program = make_plan_program(problem, *problem.motion, script.wrench, maps);
+  set_instants(problem, *problem.motion, script.wrench, maps, script.instants, program);
+  program.rho = kElasticWeight;
+  const double asked = (1 - script.margin) * script.planned;
+  if (!task.impulse) {
+    for (WrenchProgram& block : program.instants) fix_wrench(asked, block);
+    return program;
+  }
+  const bool block = start_is_block(task, maps);
+  // What balances at theta_0 is at most the static capability.
+  if (block && task.start == Start::kStatic) program.instants[0].w_max.setConstant(kInfinity);
+  const int peak = maps.knot_at[static_cast<std::size_t>(t_h)];
+  program.peak = peak - (block ? 0 : 1);
+  fix_wrench(asked, program.instants[static_cast<std::size_t>(program.peak)]);
+  script.t_h = script.instants[static_cast<std::size_t>(peak)].t;
+  return program;
+}
+
+}  // namespace
+
+const char* to_string(Interpolation interpolation) {
+  return interpolation == Interpolation::kLinear ? "linear" : "spline";
+}
+
+Interpolation parse_interpolation(const std::string& name) {
+  for (const Interpolation each : {Interpolation::kLinear, Interpolation::kSpline}) {
+    if (name == to_string(each)) return each;
+  }
+  throw std::invalid_argument("interpolation: got " + name + ", expected linear or spline");
+}
+
+TankScript make_script(const Problem& problem, const Plan& plan, Wrench wrench, PlanSolver& solver,
+                       const ScriptOptions& options) {
+  const MotionTask& task = *problem.motion;
+  TankScript script;
+  script.interpolation = options.interpolation;
+  script.wrench = wrench;
+  script.margin = options.margin;
+  script.planned = worth(plan, options);
+  if (!askable(plan, script)) return script;
+  script.path = task.impulse || task.k == 1 ? Path::constant(task.path.pose(0), task.T) : task.path;
+  MotionEvaluator motion(problem, maps_of(task, options.interpolation));
+  const SchemeMaps& maps = motion.maps();
+  motion.evaluate(with_start(task, plan.knots), script.instants);
+  const PlanProgram program = asking(problem, maps, plan.t_h, script);
+  PlanSolution solution;
+  solver.solve(program, solution);
+  script.conclude(solution.status, solution.reason.c_str());
+  if (script.status != Status::kOptimal) return script;
+  script.slack = solution.s.cwiseAbs().maxCoeff();
+  read_efforts(problem, *problem.motion, program, solution, script.instants);
+  if (script.instants.size() == 1) rest(task, script.instants);
+  if (!task.impulse) stretch(task, script.instants);
+  return script;
+}
+
+}  // namespace maxwrench

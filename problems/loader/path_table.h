@@ -1,0 +1,13 @@
+#pragma once
+
+#include <filesystem>
+
+#include "maxwrench/path.h"
+
+namespace maxwrench {
+
+/// Reads a path through poses in the world from CSV: columns t,x,y,z and roll,pitch,yaw or
+/// qw,qx,qy,qz [s, m, rad], t from 0. What is wrong is refused in one line.
+Path read_path_table(const std::filesystem::path& file);
+
+}  // namespace maxwrench

@@ -1,0 +1,332 @@
+#include "solvers/plan/forms.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "lib/math/farkas.h"
+
+namespace maxwrench {
+namespace {
+
+/// An interval narrower than this, relative to 1 + its end, is an equation.
+constexpr double kWidth = 1e-11;
+
+/// Added to the products of the columns of J'W, which may be dependent, as a share of their trace.
+constexpr double kGram = 1e-13;
+/// Instants whose lambda is below this share of the largest take no part in a proof.
+constexpr double kPart = 1e-10;
+/// And entries below this are rounding.
+constexpr double kRest = 1e-12;
+
+bool limited(const WrenchProgram& at, int j) {
+  return at.w_min[j] > -kInfiniteBound || at.w_max[j] < kInfiniteBound;
+}
+
+}  // namespace
+
+void Forms::build(const PlanProgram& program) {
+  const Zonotope& set = *program.instants.front().actuation;
+  if (actuation_ != &set || Z_.rows() != set.actuators() || P_.rows() != set.dimension()) {
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(set.B, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Z_ = svd.matrixV().rightCols(set.actuators() - set.rank);
+    P_ = svd.matrixU().rightCols(set.dimension() - set.rank);
+    actuation_ = &set;
+  }
+  R = &program.R;
+  shape(program);
+  fill(program);
+}
+
+void Forms::shape(const PlanProgram& program) {
+  const int m = actuation_->actuators();
+  const int n = actuation_->dimension();
+  N = program.size();
+  t = program.peak < 0 ? 1 : 0;
+  p = program.border();
+  order.clear();
+  const auto has_rate = [&](int j) {
+    for (int i = 0; i + 1 < N; ++i) {
+      if (program.du_max(j, i) < kInfiniteBound) return true;
+    }
+    return false;
+  };
+  for (int j = 0; j < m; ++j) {
+    if (has_rate(j)) order.push_back(j);
+  }
+  rated = static_cast<int>(order.size());
+  for (int j = 0; j < m; ++j) {
+    if (std::find(order.begin(), order.begin() + rated, j) == order.begin() + rated) {
+      order.push_back(j);
+    }
+  }
+  stages.resize(N);
+  Stage next;
+  for (int i = 0; i < N; ++i) {
+    const WrenchProgram& at = program.instants[i];
+    const int k = at.columns();
+    next.elastic = program.elastic() && i >= program.first_elastic;
+    next.w0 = m;
+    next.w_count = 0;
+    for (int j = 0; j < k; ++j) next.w_count += limited(at, j);
+    next.w = next.elastic ? n : 0;
+    next.d = next.w + k + static_cast<int>(Z_.cols());
+    next.count = m + next.w_count + next.w + static_cast<int>(P_.cols()) + t;
+    stages[i] = next;
+    next.x0 += next.d;
+    next.f0 += next.count;
+    next.F0 += next.d * next.count;
+    next.D0 += p * next.count;
+  }
+  variables = next.x0 + t + p;
+  rates0 = next.f0;
+  border0 = rates0 + rated * (N - 1);
+  size = border0 + p + static_cast<int>(program.R.rows());
+  F.setZero(next.F0);
+  D.setZero(next.D0);
+  for (Eigen::VectorXd* v : {&lo, &hi, &has_lo, &has_hi}) v->setZero(size);
+  scale.setOnes(size);
+  cost.setZero(variables);
+}
+
+void Forms::fill(const PlanProgram& program) {
+  slacks.clear();
+  equations.clear();
+  offsets_.setZero(actuation_->actuators(), N);
+  for (int i = 0; i < N; ++i) fill_stage(program, i);
+  fill_rates(program);
+  if (p > 0) fill_border(program);
+  if (t > 0) cost[z0()] = 1;
+  if (t == 0)
+    cost.segment(stages[program.peak].x0 + stages[program.peak].w,
+                 program.instants[program.peak].columns()) = program.instants[program.peak].c_w;
+}
+
+/// low <= phi + offset <= high.
+void Forms::limit(int form, double low, double high, double offset) {
+  if (std::abs(high) < kInfiniteBound && high - low <= kWidth * (1 + std::abs(high))) {
+    hi[form] = 0.5 * (low + high) - offset;
+    equations.push_back(form);
+    return;
+  }
+  has_lo[form] = low > -kInfiniteBound;
+  has_hi[form] = high < kInfiniteBound;
+  if (has_lo[form] != 0) lo[form] = low - offset;
+  if (has_hi[form] != 0) hi[form] = high - offset;
+  if (has_lo[form] != 0 && has_hi[form] != 0) scale[form] = 0.5 * (high - low);
+}
+
+void Forms::fill_stage(const PlanProgram& program, int i) {
+  const Stage& at = stages[i];
+  const WrenchProgram& data = program.instants[i];
+  Eigen::Map<Eigen::MatrixXd> F_i(F.data() + at.F0, at.count, at.d);
+  fill_efforts(program, i);
+  if (P_.cols() > 0) fill_unreached(program, i);
+  for (int r = 0; r < at.w; ++r) {
+    const int form = at.w0 + at.w_count + r;
+    F_i(form, r) = 1;
+    has_lo[at.f0 + form] = has_hi[at.f0 + form] = 1;
+    slacks.push_back(at.f0 + form);
+  }
+  for (std::size_t r = 0; r < order.size(); ++r) {
+    const int j = order[r];
+    const Eigen::VectorXd& low = i == 0 ? program.first_min : actuation_->u_min;
+    const Eigen::VectorXd& high = i == 0 ? program.first_max : actuation_->u_max;
+    limit(at.f0 + static_cast<int>(r), low[j], high[j], offsets_(j, i));
+  }
+  int row = at.w0;
+  for (int j = 0; j < data.columns(); ++j) {
+    if (!limited(data, j)) continue;
+    F_i(row, at.w + j) = 1;
+    limit(at.f0 + row++, data.w_min[j], data.w_max[j], 0);
+  }
+  if (t == 0) return;
+  F_i.row(at.count - 1).segment(at.w, data.columns()) = data.c_w.transpose();
+  has_lo[at.f0 + at.count - 1] = 1;
+}
+
+/// u = B^+ (tau_d + J'W w - G y - s) + Z v.
+void Forms::fill_efforts(const PlanProgram& program, int i) {
+  const Stage& at = stages[i];
+  const WrenchProgram& data = program.instants[i];
+  Eigen::Map<Eigen::MatrixXd> F_i(F.data() + at.F0, at.count, at.d);
+  Eigen::Map<Eigen::MatrixXd> D_i(D.data() + at.D0, at.count, p);
+  offsets_.col(i).noalias() = actuation_->B_pinv * data.tau_d;
+  for (std::size_t r = 0; r < order.size(); ++r) {
+    const auto row = actuation_->B_pinv.row(order[r]);
+    F_i.row(r).head(at.w) = -row.head(at.w);
+    F_i.row(r).segment(at.w, data.columns()).noalias() = row.lazyProduct(data.JtW);
+    F_i.row(r).tail(Z_.cols()) = Z_.row(order[r]);
+    if (p > 0) D_i.row(r).noalias() = -row.lazyProduct(program.G[i]);
+  }
+}
+
+/// What B does not reach: P'(J'W w - G y - s) = -P'tau_d.
+void Forms::fill_unreached(const PlanProgram& program, int i) {
+  const Stage& at = stages[i];
+  const WrenchProgram& data = program.instants[i];
+  Eigen::Map<Eigen::MatrixXd> F_i(F.data() + at.F0, at.count, at.d);
+  Eigen::Map<Eigen::MatrixXd> D_i(D.data() + at.D0, at.count, p);
+  const int first = at.w0 + at.w_count + at.w;
+  for (int q = 0; q < P_.cols(); ++q) {
+    const auto row = P_.col(q).transpose();
+    F_i.row(first + q).head(at.w) = -row.head(at.w);
+    F_i.row(first + q).segment(at.w, data.columns()).noalias() = row.lazyProduct(data.JtW);
+    if (p > 0) D_i.row(first + q).noalias() = -row.lazyProduct(program.G[i]);
+    hi[at.f0 + first + q] = -row.dot(data.tau_d);
+    equations.push_back(at.f0 + first + q);
+  }
+}
+
+void Forms::fill_rates(const PlanProgram& program) {
+  for (int i = 0; i + 1 < N; ++i) {
+    for (int r = 0; r < rated; ++r) {
+      const int j = order[r];
+      const double most = program.du_max(j, i);
+      limit(rates0 + rated * i + r, -most, most, offsets_(j, i + 1) - offsets_(j, i));
+    }
+  }
+}
+
+void Forms::fill_border(const PlanProgram& program) {
+  for (int j = 0; j < p; ++j) limit(border0 + j, program.y_min[j], program.y_max[j], 0);
+  for (int r = 0; r < R->rows(); ++r) {
+    limit(border0 + p + r, program.r_min[r], program.r_max[r], 0);
+  }
+}
+
+void Forms::apply(const Eigen::VectorXd& X, Eigen::VectorXd& phi) const {
+  const auto y = X.tail(p);
+  for (const Stage& at : stages) {
+    auto out = phi.segment(at.f0, at.count);
+    out.noalias() = F_of(at).lazyProduct(X.segment(at.x0, at.d));
+    if (p > 0) out.noalias() += D_of(at) * y;
+    if (t > 0) out[at.count - 1] -= X[z0()];
+  }
+  for (int i = 0; i + 1 < N; ++i) {
+    phi.segment(rates0 + rated * i, rated) =
+        phi.segment(stages[i + 1].f0, rated) - phi.segment(stages[i].f0, rated);
+  }
+  if (p == 0) return;
+  phi.segment(border0, p) = y;
+  if (R->rows() > 0) phi.tail(R->rows()).noalias() = *R * y;
+}
+
+void Forms::add_transposed(Eigen::VectorXd& g, Eigen::VectorXd& X) const {
+  for (int i = 0; i + 1 < N; ++i) {
+    const auto rate = g.segment(rates0 + rated * i, rated);
+    g.segment(stages[i + 1].f0, rated) += rate;
+    g.segment(stages[i].f0, rated) -= rate;
+  }
+  for (const Stage& at : stages) {
+    const auto in = g.segment(at.f0, at.count);
+    X.segment(at.x0, at.d).noalias() += F_of(at).transpose().lazyProduct(in);
+    if (p > 0) X.tail(p).noalias() += D_of(at).transpose() * in;
+    if (t > 0) X[z0()] -= in[at.count - 1];
+  }
+  if (p == 0) return;
+  X.tail(p) += g.segment(border0, p);
+  if (R->rows() > 0) X.tail(p).noalias() += R->transpose() * g.tail(R->rows());
+}
+
+void Forms::read_primal(const PlanProgram& program, const Eigen::VectorXd& X, double tau,
+                        PlanSolution& solution) const {
+  const int m = actuation_->actuators();
+  const int n = actuation_->dimension();
+  solution.u.resize(m, N);
+  solution.s.setZero(n, N);
+  solution.w.resize(N);
+  solution.y = X.tail(p) / tau;
+  solution.price = 0;
+  solution.value = kInfinity;
+  for (int i = 0; i < N; ++i) {
+    const Stage& at = stages[i];
+    const WrenchProgram& data = program.instants[i];
+    const int k = data.columns();
+    solution.w[i] = X.segment(at.x0 + at.w, k) / tau;
+    for (int r = 0; r < m; ++r) {
+      double u = F_of(at).row(r).dot(X.segment(at.x0, at.d)) / tau;
+      if (p > 0) u += D_of(at).row(r).dot(solution.y);
+      solution.u(order[r], i) = u + offsets_(order[r], i);
+    }
+    if (i == program.peak || t > 0) {
+      solution.value = std::min(solution.value, data.c_w.dot(solution.w[i]));
+    }
+    if (!at.elastic) continue;
+    auto s = solution.s.col(i);
+    s = data.tau_d;
+    s.noalias() += data.JtW.lazyProduct(solution.w[i]);
+    s.noalias() -= actuation_->B.lazyProduct(solution.u.col(i));
+    if (p > 0) s.noalias() -= program.G[i] * solution.y;
+    solution.price += program.rho * s.lpNorm<1>();
+  }
+}
+
+void Forms::read_dual(const PlanProgram& program, const Eigen::VectorXd& multipliers, double tau,
+                      bool proof, PlanSolution& solution) {
+  const int m = actuation_->actuators();
+  solution.lambda.setZero(actuation_->dimension(), N);
+  solution.mu.setZero(m, N - 1);
+  solution.pi.setZero(N);
+  solution.nu = multipliers.tail(program.R.rows()) / tau;
+  for (int i = 0; i + 1 < N; ++i) {
+    for (int r = 0; r < rated; ++r) {
+      solution.mu(order[r], i) = multipliers[rates0 + rated * i + r] / tau;
+    }
+  }
+  // Those of t add up to nothing in a proof.
+  for (int i = 0; t > 0 && !proof && i < N; ++i) {
+    solution.pi[i] = -multipliers[stages[i].f0 + stages[i].count - 1];
+  }
+  if (t > 0 && !proof) solution.pi /= solution.pi.sum();
+  if (t == 0 && !proof) solution.pi[program.peak] = 1;
+  for (int i = 0; i < N; ++i) {
+    const Stage& at = stages[i];
+    if (at.elastic && proof) continue;
+    auto lambda = solution.lambda.col(i);
+    for (int r = 0; r < m; ++r) {
+      const int j = order[r];
+      double g = multipliers[at.f0 + r] / tau;
+      if (i > 0) g += solution.mu(j, i - 1);
+      if (i + 1 < N) g -= solution.mu(j, i);
+      lambda -= actuation_->B_pinv.row(j).transpose() * g;
+    }
+    const int first = at.f0 + at.w0 + at.w_count + at.w;
+    for (int q = 0; q < P_.cols(); ++q) lambda -= P_.col(q) * (multipliers[first + q] / tau);
+    level(program, multipliers, tau, i, solution);
+  }
+  if (!proof) return;
+  const double largest = solution.lambda.lpNorm<Eigen::Infinity>();
+  for (int i = 0; i < N; ++i) {
+    auto lambda = solution.lambda.col(i);
+    lambda *= lambda.lpNorm<Eigen::Infinity>() < kPart * largest ? 0 : -1;
+    for (double& entry : lambda) {
+      if (std::abs(entry) < kRest * largest) entry = 0;
+    }
+  }
+}
+
+/// lambda -= J'W (W'J J'W)^-1 (pi c_w + W'J lambda - multipliers of w).
+void Forms::level(const PlanProgram& program, const Eigen::VectorXd& multipliers, double tau, int i,
+                  PlanSolution& solution) {
+  const WrenchProgram& data = program.instants[i];
+  auto lambda = solution.lambda.col(i);
+  gram_.resize(data.columns(), data.columns());
+  gram_.noalias() = data.JtW.transpose().lazyProduct(data.JtW);
+  gram_.diagonal().array() += kGram * gram_.trace();
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factors(gram_);
+  if (factors.info() != Eigen::Success) return;
+  // Once more for what was added.
+  for (int pass = 0; pass < 2; ++pass) {
+    slope_ = solution.pi[i] * data.c_w;
+    slope_.noalias() += data.JtW.transpose().lazyProduct(lambda);
+    int form = stages[i].f0 + stages[i].w0;
+    for (int j = 0; j < data.columns(); ++j) {
+      if (limited(data, j)) slope_[j] -= multipliers[form++] / tau;
+    }
+    factors.solveInPlace(slope_);
+    lambda.noalias() -= data.JtW.lazyProduct(slope_);
+  }
+}
+
+}  // namespace maxwrench

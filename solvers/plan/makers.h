@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+
+#include "maxwrench/lp_solver.h"
+#include "maxwrench/plan_program.h"
+
+// Solvers of the programs of plans: one that knows the structure, and any other on the assembled
+// program.
+
+namespace maxwrench {
+
+/// A primal-dual interior point method on linear forms of free variables (`Forms`): the balance is
+/// solved for the efforts beforehand. The homogeneous self-dual embedding (Xu, Hung, Ye) with
+/// Mehrotra's predictor and corrector needs no feasible start and ends in an optimum or in a proof
+/// that there is none. Its normal equations are a chain of small blocks (`NormalMatrix`): a cost
+/// linear in the number of instants.
+///
+/// Each call starts cold: the answer depends on nothing but the program. An optimum that `recheck`
+/// does not confirm to 1e-9 (1 + |value|) and a proof that does not hold are no verdicts.
+std::unique_ptr<PlanSolver> make_plan_ipm();
+
+/// The same after an attempt on hard max-min programs of one wrench column: without the rates each
+/// instant's value is found by its facets, and the least is the answer if efforts that keep the
+/// rates are found for it. They are sought where the most loaded actuator is loaded least
+/// (`EvenEfforts`), which is enough for slow motions.
+std::unique_ptr<PlanSolver> make_plan_structured();
+
+/// Any general LP solver on the assembled program, warm-started from call to call while the shape
+/// stays; or cold each time.
+std::unique_ptr<PlanSolver> make_assembled_plan(std::unique_ptr<LpSolver> solver, bool warm = true);
+
+}  // namespace maxwrench

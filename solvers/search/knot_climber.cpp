@@ -1,0 +1,153 @@
+#include "solvers/search/knot_climber.h"
+
+#include <cmath>
+
+#include "solvers/plan/makers.h"
+
+namespace maxwrench {
+namespace {
+
+constexpr double kFirstRadius = 0.1;  // rad or m
+constexpr double kSmallestRadius = 1e-7;
+constexpr double kAccept = 0.05, kShrink = 0.25, kGrow = 0.7;  // of what was predicted
+constexpr double kReach = 2;         // m per radius: how far bodies may come nearer in a step
+constexpr double kSpare = 1e-9;      // m, beyond the margin where knots are moved apart
+constexpr int kRounds = 5;           // of moving them apart
+constexpr double kHonest = 0.004;    // between value and continuous, relative
+constexpr double kConverged = 1e-9;  // predicted, relative to 1 + |f|
+
+}  // namespace
+
+KnotClimber::KnotClimber(std::unique_ptr<Objective> objective, Candidate start)
+    : objective_(std::move(objective)),
+      plans_(*objective_->plans()),
+      solver_(make_plan_ipm()),
+      at_(std::move(start)),
+      radius_(kFirstRadius),
+      reach_(plans_.rows().R.cwiseAbs() * Eigen::VectorXd::Ones(at_.theta_r.size())) {
+  found_.best = at_;
+}
+
+void KnotClimber::climb(long evaluations) {
+  const auto left = [&] { return evaluations - found_.trace.evaluations(); };
+  while (!done_ && left() >= 3) {
+    if (program_ == nullptr) {
+      evaluate(at_.theta_r);  // its efforts are what the program is linearised about
+      program_ = &plans_.linearize();
+    }
+    if (try_step()) program_ = &plans_.linearize();
+    done_ = done_ || !(radius_ > kSmallestRadius) || objective_->ended();
+  }
+}
+
+/// Whether it moved, and `plans_` stands at the new point.
+bool KnotClimber::try_step() {
+  if (!solve()) {
+    done_ = true;
+    return false;
+  }
+  const double predicted = solution_.value - solution_.price - at_.value;
+  if (!(predicted > kConverged * (1 + std::abs(at_.value)))) {
+    done_ = true;
+    return false;
+  }
+  const Eigen::VectorXd trial = apart(inside(at_.theta_r + solution_.y));
+  const double size = solution_.y.lpNorm<Eigen::Infinity>();
+  const double risen = evaluate(trial) - at_.value;
+  if (!(risen >= kShrink * predicted)) {
+    radius_ = 0.4 * size;
+  } else if (risen > kGrow * predicted && size > 0.9 * radius_) {
+    radius_ *= 2;
+  }
+  if (!(risen >= kAccept * predicted)) return false;
+  at_ = {trial, at_.value + risen};
+  return true;
+}
+
+double KnotClimber::evaluate(const Eigen::VectorXd& x) {
+  const double value = evaluate_one(*objective_, x);
+  found_.trace.add(value);
+  if (value > found_.best.value) found_.best = {x, value};
+  return value;
+}
+
+Eigen::VectorXd KnotClimber::inside(const Eigen::VectorXd& x) const {
+  return x.cwiseMax(objective_->lower()).cwiseMin(objective_->upper());
+}
+
+bool KnotClimber::is_honest() {
+  if (!plans_.smooth()) return true;
+  const Eigen::Index r = found_.best.theta_r.size() / plans_.knots();
+  program_ = nullptr;
+  if (plans_.evaluate(unstacked(found_.best.theta_r, r)).status != Status::kOptimal) return false;
+  plans_.evaluate_continuous();
+  const Plan& plan = plans_.plan();
+  return std::abs(plan.value - plan.continuous) <= kHonest * std::abs(plan.value);
+}
+
+/// Solves for a step; whether there is an answer.
+bool KnotClimber::solve() {
+  program_->y_min = (objective_->lower() - at_.theta_r).cwiseMax(-radius_);
+  program_->y_max = (objective_->upper() - at_.theta_r).cwiseMin(radius_);
+  set_rows();
+  solver_->solve(*program_, solution_);
+  found_.trace.add(-kInfinity);
+  return solution_.status == Status::kOptimal;
+}
+
+/// Limits of the knots, and no pair of bodies nearer than its margin, to first order. Rows that no
+/// step of this radius reaches are left out.
+void KnotClimber::set_rows() {
+  const KnotRows& rows = plans_.rows();
+  const Eigen::VectorXd& x = at_.theta_r;
+  const Eigen::Index r = x.size() / plans_.knots();
+  const Eigen::VectorXd at = rows.R * x, reach = radius_ * reach_;
+  entries_.clear();
+  low_.clear();
+  high_.clear();
+  row_of_.assign(static_cast<std::size_t>(at.size()), -1);
+  for (Eigen::Index i = 0; i < at.size(); ++i) {
+    const double low = rows.r_min[i] - at[i], high = rows.r_max[i] - at[i];
+    if (low < -reach[i] && high > reach[i]) continue;
+    row_of_[static_cast<std::size_t>(i)] = static_cast<int>(low_.size());
+    // What rounding left outside is no reason to fail.
+    low_.push_back(std::min(low, 0.0));
+    high_.push_back(std::max(high, 0.0));
+  }
+  for (int column = 0; column < rows.R.outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(rows.R, column); it; ++it) {
+      const int row = row_of_[static_cast<std::size_t>(it.row())];
+      if (row >= 0) entries_.emplace_back(row, it.col(), it.value());
+    }
+  }
+  for (const NearPair& pair : plans_.near_pairs(unstacked(x, r), kReach * radius_)) {
+    for (Eigen::Index j = 0; j < r; ++j) {
+      entries_.emplace_back(low_.size(), pair.knot * r + j, pair.gradient[j]);
+    }
+    low_.push_back(std::min(0.0, -pair.clearance));
+    high_.push_back(kInfinity);
+  }
+  const auto count = static_cast<Eigen::Index>(low_.size());
+  program_->r_min = Eigen::Map<Eigen::VectorXd>(low_.data(), count);
+  program_->r_max = Eigen::Map<Eigen::VectorXd>(high_.data(), count);
+  program_->R.resize(count, x.size());
+  program_->R.setFromTriplets(entries_.begin(), entries_.end());
+}
+
+/// x with colliding knots moved apart by Newton's method along the gradients of the clearance.
+Eigen::VectorXd KnotClimber::apart(Eigen::VectorXd x) {
+  const Eigen::Index r = x.size() / plans_.knots();
+  for (int round = 0; round < kRounds; ++round) {
+    const auto& near = plans_.near_pairs(unstacked(x, r), 0);
+    if (near.empty()) break;
+    for (const NearPair& pair : near) {
+      const double squared = pair.gradient.squaredNorm();
+      if (!(squared > 0)) continue;
+      x.segment(pair.knot * r, r) += (kSpare - pair.clearance) / squared * pair.gradient;
+    }
+    x = inside(x);
+  }
+  return x;
+}
+
+}  // namespace maxwrench

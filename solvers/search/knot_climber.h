@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "maxwrench/batch.h"
+#include "maxwrench/plan.h"
+#include "solvers/search/probe.h"
+
+namespace maxwrench {
+
+/// One climb of sequential linear programming: each step y of the knots comes from a linear program
+/// in the knots, the efforts and the wrenches at once,
+///
+///     max t - rho sum |s_i|_1   subject to the balance linearised at the last plan, |y| <= radius,
+///     the limits and speed limits of the knots, no bodies nearer than their margin to first order.
+///
+/// A step counts if the elastic value, an exact penalty function, rises by a share of what the
+/// linear program predicted; the radius follows from that share. Knots that collide after a step
+/// are moved apart.
+class KnotClimber {
+ public:
+  /// Keeps an objective of its own, with plans. `start` has a value.
+  KnotClimber(std::unique_ptr<Objective> objective, Candidate start);
+
+  /// Goes on until it has converged or has used so many evaluations; a linear program counts as
+  /// one.
+  void climb(long evaluations);
+
+  /// Whether the best plan of scheme `spline` is worth the same between its instants, see
+  /// `Plan::continuous`; true of other schemes, whose motion there is not theirs.
+  bool is_honest();
+
+  double value() const { return at_.value; }
+  const Part& found() const { return found_; }
+
+ private:
+  double evaluate(const Eigen::VectorXd& x);
+  bool try_step();
+  bool solve();
+  void set_rows();
+  Eigen::VectorXd inside(const Eigen::VectorXd& x) const;
+  Eigen::VectorXd apart(Eigen::VectorXd x);
+
+  std::unique_ptr<Objective> objective_;
+  PlanEvaluator& plans_;
+  std::unique_ptr<PlanSolver> solver_;
+  Candidate at_;
+  double radius_;
+  Eigen::VectorXd reach_;  ///< of each row of the knots: sum of the magnitudes of its entries
+  bool done_ = false;
+  PlanProgram* program_ = nullptr;  ///< about at_; null: not linearised yet
+  PlanSolution solution_;
+  std::vector<Eigen::Triplet<double>> entries_;
+  std::vector<double> low_, high_;
+  std::vector<int> row_of_;
+  Part found_;
+};
+
+}  // namespace maxwrench

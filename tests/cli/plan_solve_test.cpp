@@ -1,0 +1,78 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/edited_copy.h"
+#include "tests/support/support.h"
+
+namespace maxwrench {
+namespace {
+
+using nlohmann::json;
+
+/// What solve writes is what it says, and eval agrees.
+TEST(PlanSolve, WritesTheTableThatItFound) {
+  const TemporaryFolder folder;
+  const CommandResult result = run_maxwrench(
+      "solve planar/trajectory --budget 300 --seed 2 --json --out t/best.csv", folder.path());
+  ASSERT_EQ(result.exit_status, 0) << result.err;
+  const json best = json::parse(result.out);
+  EXPECT_EQ(best["status"], "best_found");
+  EXPECT_EQ(best["seed"], 2);
+  EXPECT_EQ(best["search"], "slp");
+  EXPECT_LE(best["evaluations"], 300);
+  const json start = json::parse(run_maxwrench("eval planar/trajectory --json").out);
+  EXPECT_GE(best["value"], start["value"]);
+  const CommandResult again =
+      run_maxwrench("eval planar/trajectory --json --theta-r t/best.csv", folder.path());
+  const json plan = json::parse(again.out);
+  EXPECT_EQ(plan["status"], "optimal");
+  EXPECT_EQ(plan["theta_r"], best["theta_r"]);
+  EXPECT_EQ(plan["value"], best["value"]);
+  EXPECT_EQ(plan["continuous"], best["continuous"]);
+  const std::string table = read_text(folder.path() / "t/best.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), plan["task"]["k"].get<int>() + 1);
+  EXPECT_NE(run_maxwrench("solve planar/trajectory --budget 30").out.find("\nbest_found\n"),
+            std::string::npos);
+}
+
+TEST(PlanSolve, IsTheSameAtAnyThreadCount) {
+  std::string first;
+  for (const char* threads : {"1", "2", "8"}) {
+    json plan = json::parse(run_maxwrench("solve planar/trajectory --budget 200 --json --threads " +
+                                          std::string(threads))
+                                .out);
+    plan.erase("wall_s");
+    if (first.empty()) first = plan.dump();
+    EXPECT_EQ(plan.dump(), first) << threads;
+  }
+}
+
+/// Its poses are an input too.
+TEST(PlanSolve, DoesNotReplaceThePath) {
+  EditedCopy copy;
+  const std::string poses = "0,0,0,0,0,0,0\n1,0.1,0,0,0,0,0\n2,0.1,0.1,0,0,0,0\n";
+  std::ofstream(copy.path() / "poses.csv") << poses;
+  std::string text = read_text(copy.path() / "trajectory.toml");
+  for (const char* block : {"[pose]", "[path]"}) {
+    const std::size_t begin = text.find(block), end = text.find("\n[", begin);
+    text.erase(begin, end - begin + 1);
+  }
+  text += "\n[path]\nkind = \"poses\"\nfile = \"poses.csv\"\n";
+  const std::size_t T = text.find("\nT = ") + 1;
+  std::ofstream(copy.path() / "own.toml") << text.erase(T, text.find('\n', T) - T + 1);
+  ASSERT_LT(run_maxwrench("eval own.toml", copy.path()).exit_status, 2)
+      << run_maxwrench("eval own.toml", copy.path()).err;
+  for (const char* words :
+       {"solve own.toml --budget 9 --out ./poses.csv", "eval own.toml --write poses.csv"}) {
+    const CommandResult result = run_maxwrench(words, copy.path());
+    EXPECT_EQ(result.exit_status, 2) << words;
+    EXPECT_NE(result.err.find("which is the file of path.file"), std::string::npos) << result.err;
+  }
+  EXPECT_EQ(read_text(copy.path() / "poses.csv"), poses);
+}
+
+}  // namespace
+}  // namespace maxwrench

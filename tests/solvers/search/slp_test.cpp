@@ -1,0 +1,85 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "maxwrench/load.h"
+#include "maxwrench/plan.h"
+#include "maxwrench/problem.h"
+#include "maxwrench/strategies.h"
+#include "tests/support/support.h"
+
+namespace maxwrench {
+namespace {
+
+SearchResult search(const Problem& problem, long budget, int threads = 2) {
+  const auto objective =
+      make_plan_objective(problem, Wrench::kPure, find_plan_solver("structured").make);
+  SearchOptions options;
+  options.budget = budget;
+  options.threads = threads;
+  options.start = problem.theta_r_default.replicate(problem.motion->k, 1);
+  return find_plan_search("slp").make()->maximize(*objective, options);
+}
+
+Plan plan_of(const Problem& problem, const SearchResult& result) {
+  PlanEvaluator evaluator(problem, Wrench::kPure, find_plan_solver("ipm").make);
+  evaluator.evaluate(unstacked(result.theta_r, problem.redundancy()));
+  evaluator.evaluate_continuous();
+  return evaluator.plan();
+}
+
+/// What an independent model found by other methods, less a margin (N m).
+struct Wanted {
+  const char* problem;
+  Scheme scheme;
+  double value;
+};
+
+class SlpFinds : public testing::TestWithParam<Wanted> {};
+INSTANTIATE_TEST_SUITE_P(Tasks, SlpFinds,
+                         testing::Values(Wanted{"uvms/valve_trajectory", Scheme::kSpline, 35.73},
+                                         Wanted{"uvms/valve_impulse", Scheme::kSpline, 39.87}));
+
+TEST_P(SlpFinds, PlansThatHoldBetweenTheirInstants) {
+  if (kSampleDivisor > 1) GTEST_SKIP() << "a thousand linear programs take too long";
+  Problem problem = load_problem(GetParam().problem);
+  problem.motion->scheme = GetParam().scheme;
+  const SearchResult result = search(problem, 4000);
+  ASSERT_EQ(result.status, Status::kBestFound);
+  const Plan plan = plan_of(problem, result);
+  ASSERT_EQ(plan.status, Status::kOptimal) << plan.reason.c_str();
+  EXPECT_NEAR(plan.value, result.value, 1e-7);
+  EXPECT_GE(plan.value, GetParam().value);
+  EXPECT_LE(std::abs(plan.value - plan.continuous), 0.005 * plan.value);
+}
+
+TEST(Slp, SameAtAnyThreadCount) {
+  const Problem problem = load_problem("planar/trajectory");
+  const SearchResult one = search(problem, 200, 1), four = search(problem, 200, 4);
+  ASSERT_EQ(one.status, Status::kBestFound);
+  EXPECT_EQ(one.theta_r, four.theta_r);
+  EXPECT_EQ(one.evaluations, four.evaluations);
+  EXPECT_LE(one.evaluations, 200);
+  ASSERT_FALSE(one.history.empty());
+  EXPECT_EQ(one.history.back().value, one.value);
+}
+
+TEST(Slp, RisesFromTheStart) {
+  const Problem problem = load_problem("planar/trajectory");
+  const SearchResult result = search(problem, 300);
+  const auto objective =
+      make_plan_objective(problem, Wrench::kPure, find_plan_solver("structured").make);
+  const double start = objective->evaluate(problem.theta_r_default.replicate(problem.motion->k, 1));
+  EXPECT_GT(result.value, 1.5 * start);
+}
+
+TEST(Slp, RefusesObjectivesWithoutPlans) {
+  const Problem problem = load_problem("planar/force");
+  const auto objective = make_capability_objective(problem, Wrench::kPure, [&] {
+    return find_measure("linf_polytope").make(problem, find_wrench_solver("facets").make());
+  });
+  EXPECT_THROW(find_plan_search("slp").make()->maximize(*objective, {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace maxwrench
