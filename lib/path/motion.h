@@ -10,7 +10,7 @@
 namespace maxwrench {
 
 /// What a table of knots makes a robot do at the instants of a scheme, and the derivatives of that.
-/// Nothing is allocated after the first call.
+/// `evaluate` and `linearize` allocate nothing after the first call.
 class MotionEvaluator {
  public:
   /// The problem outlives this.

@@ -54,7 +54,7 @@ struct PlanEvaluator::Workspace {
 
   /// w_0 is at most the static capability at theta_0.
   void bound_start(const PlanSolverMaker& make) {
-    Q = all_knots(task.theta_0.transpose().replicate(task.k, 1));
+    Q = all_knots(task, task.theta_0.transpose().replicate(task.k, 1));
     motion.evaluate(Q, plan.instants);
     set_instants(problem, task, wrench, motion.maps(), plan.instants, program);
     PlanProgram start = program;
@@ -73,13 +73,6 @@ struct PlanEvaluator::Workspace {
     for (PlanProgram* each : {&program, &elastic}) {
       each->instants[0].w_max.setConstant(best.value);
     }
-  }
-
-  Eigen::MatrixXd all_knots(const Eigen::MatrixXd& knots) const {
-    if (!task.impulse) return knots;
-    Eigen::MatrixXd all(knots.rows() + 1, knots.cols());
-    all << task.theta_0.transpose(), knots;
-    return all;
   }
 
   void require_table(const Eigen::MatrixXd& knots) const {
@@ -151,15 +144,17 @@ struct PlanEvaluator::Workspace {
   }
 
   /// The hard program is cheaper where it has an answer, and where no multiplier exceeds the weight
-  /// of the slack, it is that of the elastic one too.
+  /// of the slack, it is that of the elastic one too. Not so of the best t_h of several.
   void solve_elastic() {
-    elastic.rho = kInfinity;
-    solve_best(elastic, *solver, elastic_solution, plan.t_h);
-    elastic.rho = kElasticWeight;
-    const bool same = elastic_solution.status == Status::kOptimal &&
-                      elastic_solution.lambda.cwiseAbs().maxCoeff() <= kElasticWeight &&
-                      (!task.impulse || task.t_h > 0);
-    if (!same) solve_best(elastic, *elastic_solver, elastic_solution, plan.t_h);
+    if (!task.impulse || task.t_h > 0) {
+      elastic.rho = kInfinity;
+      solve_best(elastic, *solver, elastic_solution, plan.t_h);
+      elastic.rho = kElasticWeight;
+      const bool same = elastic_solution.status == Status::kOptimal &&
+                        elastic_solution.lambda.cwiseAbs().maxCoeff() <= kElasticWeight;
+      if (same) return;
+    }
+    solve_best(elastic, *elastic_solver, elastic_solution, plan.t_h);
   }
 
   void pull_back(const PlanProgram& p, const PlanSolution& solution, Eigen::MatrixXd& gradient) {
@@ -223,7 +218,7 @@ const Plan& PlanEvaluator::evaluate(const Eigen::MatrixXd& knots) {
   plan.knots = knots;
   plan.value = plan.continuous = std::numeric_limits<double>::quiet_NaN();
   plan.continuous_reason = "";
-  ws.Q = ws.all_knots(knots);
+  ws.Q = all_knots(ws.task, knots);
   ws.motion.evaluate(ws.Q, plan.instants);
   std::string violation = knots_violation(ws.problem, ws.motion.maps(), ws.Q);
   if (violation.empty()) violation = ws.reach_violation();
@@ -290,7 +285,7 @@ double PlanEvaluator::evaluate_elastic(const Eigen::MatrixXd& knots, Eigen::Matr
   Plan& plan = ws.plan;
   ws.require_table(knots);
   plan.knots = knots;
-  ws.Q = ws.all_knots(knots);
+  ws.Q = all_knots(ws.task, knots);
   ws.motion.evaluate(ws.Q, plan.instants);
   std::string violation = knots_violation(ws.problem, ws.motion.maps(), ws.Q);
   if (violation.empty()) violation = ws.reach_violation();

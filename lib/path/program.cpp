@@ -1,14 +1,9 @@
 #include "lib/path/program.h"
 
+#include "lib/math/rotated.h"
+
 namespace maxwrench {
 namespace {
-
-/// blkdiag(R, R) x for [force; torque] or twists.
-Matrix6Xd turned(const Eigen::Matrix3d& R, const Matrix6Xd& x) {
-  Matrix6Xd result(6, x.cols());
-  result << R * x.topRows<3>(), R * x.bottomRows<3>();
-  return result;
-}
 
 /// In place of `set_posture`: J'W of one instant.
 void set_block(const Instant& instant, const Matrix6Xd& W, WrenchProgram& block) {
@@ -64,10 +59,10 @@ void set_instants(const Problem& problem, const MotionTask& task, Wrench wrench,
   const Matrix6Xd own = wrench == Wrench::kPure ? Matrix6Xd(problem.c) : problem.W_any;
   for (std::size_t i = 0; i < instants.size(); ++i) {
     Instant& instant = instants[i];
-    instant.c = turned(turn(instant), problem.c);
+    instant.c = rotated(turn(instant), problem.c);
     if (i < skipped) continue;
     const bool start = i == 0 && start_is_block(task, maps);
-    set_block(instant, start ? Matrix6Xd(instant.c) : turned(turn(instant), own),
+    set_block(instant, start ? Matrix6Xd(instant.c) : rotated(turn(instant), own),
               program.instants[i - skipped]);
   }
 }

@@ -4,46 +4,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "lib/math/cubic_spline.h"
+
 namespace maxwrench {
 namespace {
-
-/// Values and derivatives of a cubic spline through knots at times 0, dt, 2 dt, ... as rows over
-/// the K knots.
-class SplineRows {
- public:
-  /// theta_r_dot = 0 at both ends. K >= 2.
-  SplineRows(int knots, double dt) : dt_(dt) {
-    // The slopes m of a clamped spline: m_i-1 + 4 m_i + m_i+1 = 3 (q_i+1 - q_i-1)/dt.
-    Eigen::MatrixXd system = Eigen::MatrixXd::Identity(knots, knots);
-    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(knots, knots);
-    for (int i = 1; i + 1 < knots; ++i) {
-      system.row(i).segment(i - 1, 3) << 1, 4, 1;
-      right(i, i + 1) = 3 / dt;
-      right(i, i - 1) = -3 / dt;
-    }
-    slopes_ = system.partialPivLu().solve(right);
-  }
-
-  /// At z = (t - t_i)/dt in [0, 1] of interval i, by Hermite's basis.
-  void at(int i, double z, Eigen::RowVectorXd& value, Eigen::RowVectorXd& rate,
-          Eigen::RowVectorXd& bend) const {
-    const double z2 = z * z, z3 = z2 * z;
-    value = (z3 - 2 * z2 + z) * dt_ * slopes_.row(i) + (z3 - z2) * dt_ * slopes_.row(i + 1);
-    rate = (3 * z2 - 4 * z + 1) * slopes_.row(i) + (3 * z2 - 2 * z) * slopes_.row(i + 1);
-    bend = ((6 * z - 4) * slopes_.row(i) + (6 * z - 2) * slopes_.row(i + 1)) / dt_;
-    value[i] += 2 * z3 - 3 * z2 + 1;
-    value[i + 1] += 3 * z2 - 2 * z3;
-    const double rise = (6 * z - 6 * z2) / dt_, turn = (6 - 12 * z) / (dt_ * dt_);
-    rate[i] -= rise;
-    rate[i + 1] += rise;
-    bend[i] -= turn;
-    bend[i + 1] += turn;
-  }
-
- private:
-  double dt_;
-  Eigen::MatrixXd slopes_;  ///< K×K
-};
 
 void resize(SchemeMaps& maps, int instants, int knots) {
   maps.t.assign(static_cast<std::size_t>(instants), 0);
@@ -81,15 +45,22 @@ SchemeMaps make_spline(const MotionTask& task, int per_interval, bool limited) {
   maps.A = Eigen::MatrixXd::Zero(instants, knots);
   maps.dt = task.T / intervals;
   maps.starts = task.impulse;
-  const SplineRows spline(knots, maps.dt);
-  Eigen::RowVectorXd value(knots), rate(knots), bend(knots);
+  std::vector<double> times;
+  for (int knot = 0; knot < knots; ++knot) times.push_back(knot * maps.dt);
+  const Eigen::MatrixXd values = Eigen::MatrixXd::Identity(knots, knots);
+  const Eigen::MatrixXd bends = clamped_spline_bends(times, values);
   for (int n = 0; n < instants; ++n) {
-    const int i = std::min(n / per_interval, intervals - 1);
-    const double z = static_cast<double>(n - i * per_interval) / per_interval;
-    spline.at(i, z, value, rate, bend);
-    maps.P.row(n) = value;
-    maps.V.row(n) = rate;
-    maps.A.row(n) = bend;
+    // Whole knots are met to the last digit.
+    const bool knot = n % per_interval == 0;
+    const SplineInstant at_n =
+        spline_at(times, knot ? times[static_cast<std::size_t>(n / per_interval)]
+                              : n * maps.dt / per_interval);
+    Eigen::MatrixXd four(knots, 4);
+    four << values.middleCols<2>(at_n.interval), bends.middleCols<2>(at_n.interval);
+    const Eigen::MatrixXd rows = (four * at_n.weights).transpose();
+    maps.P.row(n) = rows.row(0);
+    maps.V.row(n) = rows.row(1);
+    maps.A.row(n) = rows.row(2);
     const auto at = static_cast<std::size_t>(n);
     maps.t[at] = n == instants - 1 ? task.T : n * maps.dt / per_interval;
     maps.x[at] = task.path.at(task.impulse ? 0 : maps.t[at]);
@@ -200,6 +171,13 @@ SchemeMaps make_scheme(const MotionTask& task) {
                                               : "spline forward ends of a path"));
   }
   return task.impulse ? make_heave_differences(task) : make_differences(task);
+}
+
+Eigen::MatrixXd all_knots(const MotionTask& task, const Eigen::MatrixXd& table) {
+  if (!task.impulse) return table;
+  Eigen::MatrixXd all(table.rows() + 1, table.cols());
+  all << task.theta_0.transpose(), table;
+  return all;
 }
 
 SchemeMaps make_continuous(const MotionTask& task, int instants_per_interval) {

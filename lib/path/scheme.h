@@ -38,6 +38,9 @@ SchemeMaps make_scheme(const MotionTask& task);
 /// Instants per interval of `continuous`, along a path and in a heave.
 inline constexpr int kContinuousPath = 25, kContinuousHeave = 50;
 
+/// The knots that a scheme maps: those of a table, of a heave with theta_0 before them.
+Eigen::MatrixXd all_knots(const MotionTask& task, const Eigen::MatrixXd& table);
+
 /// The clamped cubic spline through the knots of a task, whatever its scheme, with this many
 /// instants an interval: what `continuous` is judged by. Of a heave it begins with the start.
 SchemeMaps make_continuous(const MotionTask& task, int instants_per_interval);

@@ -39,6 +39,7 @@ Pose<double> base_pose(const Robot& robot, const Eigen::Vector4d& x) {
 }
 
 bool base_reaches(const Robot& robot, const Pose<double>& in_world) {
+  if (robot.base_axes.size() == 6) return true;
   const Pose<double> base = robot.mount.inverse() * in_world;
   const auto is_free = [&](int axis) {
     return std::find(robot.base_axes.begin(), robot.base_axes.end(), axis) != robot.base_axes.end();

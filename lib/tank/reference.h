@@ -1,16 +1,10 @@
 #pragma once
 
+#include "lib/math/rotated.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/tank.h"
 
 namespace maxwrench {
-
-/// blkdiag(R, R) x for [force; torque] or twists.
-inline Vector6d rotated(const Eigen::Matrix3d& R, const Vector6d& x) {
-  Vector6d result;
-  result << R * x.head<3>(), R * x.tail<3>();
-  return result;
-}
 
 /// What a script asks for at one time.
 struct Reference {

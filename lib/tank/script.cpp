@@ -12,13 +12,6 @@
 namespace maxwrench {
 namespace {
 
-Eigen::MatrixXd with_start(const MotionTask& task, const Eigen::MatrixXd& knots) {
-  if (!task.impulse) return knots;
-  Eigen::MatrixXd all(knots.rows() + 1, knots.cols());
-  all << task.theta_0.transpose(), knots;
-  return all;
-}
-
 SchemeMaps maps_of(const MotionTask& task, Interpolation interpolation) {
   const bool rests = task.k == 1 && !task.impulse;
   if (rests || interpolation == Interpolation::kLinear) return make_scheme(task);
@@ -121,7 +114,7 @@ TankScript make_script(const Problem& problem, const Plan& plan, Wrench wrench, 
   script.path = task.impulse || task.k == 1 ? Path::constant(task.path.pose(0), task.T) : task.path;
   MotionEvaluator motion(problem, maps_of(task, options.interpolation));
   const SchemeMaps& maps = motion.maps();
-  motion.evaluate(with_start(task, plan.knots), script.instants);
+  motion.evaluate(all_knots(task, plan.knots), script.instants);
   const PlanProgram program = asking(problem, maps, plan.t_h, script);
   PlanSolution solution;
   solver.solve(program, solution);

@@ -77,6 +77,7 @@ Eigen::VectorXd KnotClimber::inside(const Eigen::VectorXd& x) const {
 
 bool KnotClimber::is_honest() {
   if (!plans_.smooth()) return true;
+  for (int solved = 0; solved < kJudgement; ++solved) found_.trace.add(-kInfinity);
   const Eigen::Index r = found_.best.theta_r.size() / plans_.knots();
   program_ = nullptr;
   if (plans_.evaluate(unstacked(found_.best.theta_r, r)).status != Status::kOptimal) return false;

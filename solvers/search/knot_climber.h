@@ -27,6 +27,8 @@ class KnotClimber {
   /// one.
   void climb(long evaluations);
 
+  /// What `is_honest` costs: the program at the instants, and that between them.
+  static constexpr int kJudgement = 2;
   /// Whether the best plan of scheme `spline` is worth the same between its instants, see
   /// `Plan::continuous`; true of other schemes, whose motion there is not theirs.
   bool is_honest();

@@ -15,6 +15,7 @@ namespace {
 constexpr long kSamples = 96;      // at most, besides the start; at most a tenth of the budget
 constexpr double kNear = 0.5;      // rad or m, around the start, of every other sample
 constexpr std::size_t kBatch = 8;  // climbs that compete
+constexpr long kFewest = 6;        // evaluations of a climb that are worth a batch
 constexpr int kPatience = 2;       // batches without a better plan before the search ends
 constexpr double kBetter = 1e-5;   // relative to 1 + |f|
 /// The climbs that go on, and the evaluations of each by then.
@@ -85,6 +86,13 @@ struct Outcome {
   }
 };
 
+bool is_honest(KnotClimber& climber, EvaluationCounter& progress) {
+  const long before = climber.found().trace.evaluations();
+  const bool honest = climber.is_honest();
+  progress.add(climber.found().trace.evaluations() - before);
+  return honest;
+}
+
 /// Climbs that compete in rounds, side by side; all that they found, and the best honest plan or
 /// else the best.
 Outcome compete(const Objective& objective, std::vector<Candidate> starts, long budget, int threads,
@@ -93,7 +101,7 @@ Outcome compete(const Objective& objective, std::vector<Candidate> starts, long 
   for (Candidate& start : starts) {
     climbers.push_back(std::make_unique<KnotClimber>(objective.clone(), start));
   }
-  const long share = budget / static_cast<long>(std::max<std::size_t>(1, climbers.size()));
+  const long share = budget / static_cast<long>(climbers.size()) - KnotClimber::kJudgement;
   std::vector<KnotClimber*> running;
   for (const auto& climber : climbers) running.push_back(climber.get());
   const auto sort = [&] {
@@ -116,7 +124,7 @@ Outcome compete(const Objective& objective, std::vector<Candidate> starts, long 
   sort();
   outcome.found.best = running.front()->found().best;
   for (KnotClimber* climber : running) {
-    if (!climber->is_honest()) continue;
+    if (!is_honest(*climber, progress)) continue;
     outcome.found.best = climber->found().best;
     outcome.honest = true;
     break;
@@ -156,14 +164,17 @@ class Slp : public Search {
     EvaluationCounter progress(options.progress);
     Outcome best;
     std::vector<Candidate> starts = sample(objective, options, draw, box, progress, best.found);
-    if (!starts.empty()) {
-      best.honest = KnotClimber(objective.clone(), best.found.best).is_honest();
+    if (!starts.empty() &&
+        options.budget - best.found.trace.evaluations() >= KnotClimber::kJudgement) {
+      KnotClimber judge(objective.clone(), best.found.best);
+      best.honest = is_honest(judge, progress);
+      best.found.trace.append(judge.found().trace);
     }
     int idle = 0;
     while (!starts.empty() && idle < kPatience && !objective.ended()) {
       const auto batch = static_cast<std::ptrdiff_t>(std::min(kBatch, starts.size()));
       const long left = options.budget - best.found.trace.evaluations();
-      if (left < 4 * batch) break;
+      if (left < kFewest * batch) break;
       Outcome climbs = compete(objective, {starts.begin(), starts.begin() + batch}, left,
                                options.threads, progress);
       starts.erase(starts.begin(), starts.begin() + batch);

@@ -71,6 +71,23 @@ TEST_P(FollowedPath, AccelerationsAreDerivativesOfTheVelocities) {
   }
 }
 
+TEST(Motion, AllocatesNothingAfterTheFirstCall) {
+  for (const char* name : {"uvms/valve_trajectory", "uvms/valve_impulse"}) {
+    const Problem problem = load_problem(name);
+    MotionEvaluator motion(problem, make_scheme(*problem.motion));
+    const Eigen::MatrixXd Q =
+        problem.theta_r_default.transpose().replicate(motion.maps().knots(), 1);
+    std::vector<Instant> instants;
+    std::vector<MotionEvaluator::Slopes> slopes;
+    motion.evaluate(Q, instants);
+    motion.linearize(instants, slopes);
+    const long before = allocation_count();
+    motion.evaluate(Q, instants);
+    motion.linearize(instants, slopes);
+    EXPECT_EQ(allocation_count(), before) << name;
+  }
+}
+
 /// A task in time and how its value is found.
 struct Sloped {
   const char* problem;

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "maxwrench/types.h"
+
+namespace maxwrench {
+
+/// blkdiag(R, R) x for columns [force; torque] or twists.
+template <class Columns>
+Eigen::Matrix<double, 6, Columns::ColsAtCompileTime> rotated(const Eigen::Matrix3d& R,
+                                                             const Eigen::MatrixBase<Columns>& x) {
+  Eigen::Matrix<double, 6, Columns::ColsAtCompileTime> result(6, x.cols());
+  result << R * x.template topRows<3>(), R * x.template bottomRows<3>();
+  return result;
+}
+
+}  // namespace maxwrench
