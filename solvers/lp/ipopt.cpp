@@ -105,6 +105,15 @@ Eigen::VectorXd interior_point(const LinearProgram& lp) {
 
 class IpoptSolver : public LpSolver {
  public:
+  IpoptSolver() = default;
+  IpoptSolver(const IpoptSolver&) = delete;
+  IpoptSolver& operator=(const IpoptSolver&) = delete;
+  /// The application ends its MUMPS, in memory that MUMPS shares with those of other threads.
+  ~IpoptSolver() override {
+    const std::lock_guard guard(ipopt_lock());
+    application_ = nullptr;
+  }
+
   void solve(const LinearProgram& program, LpSolution& solution) override {
     const std::lock_guard guard(ipopt_lock());
     if (refused(program, solution)) return;

@@ -128,7 +128,8 @@ TEST(Threads, ShareARobot) {
   }
 }
 
-/// Ipopt, GLPK and Clp among them.
+/// Ipopt, GLPK and Clp among them. Every other time with a new solver, so that some begin and end
+/// while others run.
 TEST(Threads, EveryLowerLevelSolverServesSeveralAtOnce) {
   const Problem problem = load_problem("uvms/valve");
   PostureEvaluator model(problem, false);
@@ -137,9 +138,12 @@ TEST(Threads, EveryLowerLevelSolverServesSeveralAtOnce) {
     set_posture(model.evaluate(problem.theta_r_default), program);
     std::vector<double> beta(kThreads, 0);
     at_once([&](int t) {
-      const auto solver = entry.make();
+      std::unique_ptr<WrenchSolver> solver;
       Capability capability;
-      for (int i = 0; i < 10; ++i) solver->solve(program, true, capability);
+      for (int i = 0; i < 20; ++i) {
+        if (i % 2 == 0) solver = entry.make();
+        solver->solve(program, true, capability);
+      }
       beta[static_cast<std::size_t>(t)] = capability.beta;
     });
     for (const double value : beta) EXPECT_EQ(value, beta[0]) << entry.name;
