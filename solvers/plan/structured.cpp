@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/plan/bordered_facets.h"
 #include "solvers/plan/even_efforts.h"
 #include "solvers/plan/makers.h"
 #include "solvers/wrench/makers.h"
@@ -13,32 +14,40 @@ constexpr double kConfirmed = 1e-9;
 class Structured : public PlanSolver {
  public:
   void solve(const PlanProgram& program, PlanSolution& solution) override {
-    if (suits(program) && instant_by_instant(program, solution)) return;
+    solution.basis.clear();
+    solution.iterations = 0;
+    if (suits(program)) {
+      if (program.border() > 0 ? all_at_once(program, solution)
+                               : instant_by_instant(program, solution)) {
+        return;
+      }
+    }
     ipm_->solve(program, solution);
   }
 
  private:
-  /// Hard max-min over one free column of W, with facets, and no other limits at the first instant.
+  /// Max-min over one free column of W, with facets, and no other limits at the first instant. Of
+  /// an elastic program the hard one is tried.
   bool suits(const PlanProgram& program) {
     const Zonotope& set = *program.instants.front().actuation;
-    if (program.peak >= 0 || program.border() > 0 || !set.has_facets) return false;
-    if (program.elastic() && program.first_elastic < program.size()) return false;
+    if (program.peak >= 0 || !set.has_facets) return false;
     if (program.first_min != set.u_min || program.first_max != set.u_max) return false;
     for (const WrenchProgram& at : program.instants) {
-      if (at.columns() != 1 || at.c_w[0] == 0) return false;
+      if (at.columns() != 1 || !(at.c_w[0] > 0)) return false;
+      if (at.w_min[0] != -kInfinity || at.w_max[0] != kInfinity) return false;
     }
     return efforts_.prepare(set);
   }
 
   /// True if the worst instant alone decides and `recheck` or a proof confirms it.
   bool instant_by_instant(const PlanProgram& program, PlanSolution& solution) {
-    solution.basis.clear();
-    solution.iterations = 0;
     int worst = 0;
     solution.value = kInfinity;
     for (int i = 0; i < program.size(); ++i) {
       facets_->solve(program.instants[i], false, capability_);
-      if (capability_.status == Status::kInfeasible) return prove(program, i, solution);
+      if (capability_.status == Status::kInfeasible) {
+        return !slackens(program) && prove(program, i, solution);
+      }
       if (capability_.status != Status::kOptimal) return false;
       if (capability_.beta >= solution.value) continue;
       solution.value = capability_.beta;
@@ -48,11 +57,28 @@ class Structured : public PlanSolver {
     clear_multipliers(program, solution);
     solution.lambda.col(worst) = lambda_;
     solution.pi[worst] = 1;
+    solution.y.resize(0);
+    return confirm(program, solution);
+  }
+
+  /// The border with the facets of all instants.
+  bool all_at_once(const PlanProgram& program, PlanSolution& solution) {
+    if (!bordered_.solve(program, solution)) return false;
+    solution.mu.setZero(program.du_max.rows(), program.size() - 1);
+    return confirm(program, solution);
+  }
+
+  /// Where a slack would be cheaper, or efforts within the rates are not found, `recheck` fails.
+  bool confirm(const PlanProgram& program, PlanSolution& solution) {
     if (!fill_efforts(program, solution)) return false;
     solution.residual = recheck(program, solution);
     if (!solution.residual.within(kConfirmed * (1 + std::abs(solution.value)))) return false;
     solution.conclude(Status::kOptimal);
     return true;
+  }
+
+  static bool slackens(const PlanProgram& program) {
+    return program.elastic() && program.first_elastic < program.size();
   }
 
   static void clear_multipliers(const PlanProgram& program, PlanSolution& solution) {
@@ -78,12 +104,12 @@ class Structured : public PlanSolver {
     solution.u.resize(set.actuators(), N);
     solution.s.setZero(set.dimension(), N);
     solution.w.resize(N);
-    solution.y.resize(0);
     solution.price = 0;
     for (int i = 0; i < N; ++i) {
       const WrenchProgram& at = program.instants[i];
       solution.w[i].setConstant(1, solution.value / at.c_w[0]);
       tau_ = at.tau_d + at.JtW.col(0) * solution.w[i][0];
+      if (program.border() > 0) tau_.noalias() -= program.G[i] * solution.y;
       if (!efforts_.solve(tau_, solution.u.col(i))) return false;
     }
     return true;
@@ -91,6 +117,7 @@ class Structured : public PlanSolver {
 
   std::unique_ptr<WrenchSolver> facets_ = make_facets();
   std::unique_ptr<PlanSolver> ipm_ = make_plan_ipm();
+  BorderedFacets bordered_;
   EvenEfforts efforts_;
   Capability capability_;
   Eigen::VectorXd lambda_, tau_;

@@ -21,7 +21,7 @@ constexpr double kConverged = 1e-9;  // predicted, relative to 1 + |f|
 KnotClimber::KnotClimber(std::unique_ptr<Objective> objective, Candidate start)
     : objective_(std::move(objective)),
       plans_(*objective_->plans()),
-      solver_(make_plan_ipm()),
+      solver_(make_plan_structured()),
       at_(std::move(start)),
       radius_(kFirstRadius),
       reach_(plans_.rows().R.cwiseAbs() * Eigen::VectorXd::Ones(at_.theta_r.size())) {
