@@ -79,6 +79,10 @@ class PlanEvaluator {
   /// -infinity where `evaluate` finds an invalid posture or a knot that collides.
   double evaluate_elastic(const Eigen::MatrixXd& knots, Eigen::MatrixXd* gradient);
 
+  /// After `evaluate_elastic`: whether anything but the wrenches and efforts of single instants
+  /// decided, a rate of efforts or a slack.
+  bool coupled() const;
+
   /// After `evaluate_elastic`: the elastic program as a linear one in steps y of the knots too, row
   /// by row (theta_r of the first knot first), about the last answer. The caller sets bounds and
   /// rows of y.

@@ -16,6 +16,8 @@ namespace {
 
 /// The slack [N, N m] that `continuous` forgives.
 constexpr double kSlackForgiven = 0.05;
+/// Less is rounding of an interior point.
+constexpr double kNoPrice = 1e-7, kNoMultiplier = 1e-7;
 /// A verdict counts if its figures are within this part of 1 + |value|.
 constexpr double kVerified = 1e-7;
 
@@ -302,6 +304,11 @@ double PlanEvaluator::evaluate_elastic(const Eigen::MatrixXd& knots, Eigen::Matr
   read_efforts(ws.problem, ws.task, ws.elastic, solution, plan.instants);
   if (gradient) ws.pull_back(ws.elastic, solution, *gradient);
   return solution.value - solution.price;
+}
+
+bool PlanEvaluator::coupled() const {
+  const PlanSolution& solution = workspace_->elastic_solution;
+  return solution.price > kNoPrice || (solution.mu.array().abs() > kNoMultiplier).any();
 }
 
 PlanProgram& PlanEvaluator::linearize() {

@@ -6,89 +6,139 @@
 namespace maxwrench {
 namespace {
 
-constexpr double kFlat = 1e-12;  // a slope below this part of the wrench's size is rounding
-constexpr int kRowsAtOnce = 64;  // the tableau grows by so many rows, the last ones without limits
+constexpr double kFlat = 1e-12;    // a slope below this part of the wrench's size is rounding
+constexpr double kLikely = 0.1;    // part of its reach that y is expected to move a row
+constexpr double kMissed = 1e-10;  // relative, by a row that was left out
+constexpr int kRounds = 20;
+constexpr int kRowsAtOnce = 32;  // the tableau grows by so many rows, the last ones without limits
 
 }  // namespace
+
+bool BorderedFacets::suits(const PlanProgram& program) {
+  const auto single = [](const WrenchProgram& at) {
+    return at.columns() == 1 && at.c_w[0] > 0 && at.w_min[0] == -kInfinity &&
+           at.w_max[0] == kInfinity;
+  };
+  return program.peak < 0 && program.border() > 0 &&
+         program.instants.front().actuation->has_facets &&
+         std::all_of(program.instants.begin(), program.instants.end(), single);
+}
 
 bool BorderedFacets::solve(const PlanProgram& program, PlanSolution& solution) {
   collect(program);
   if (!std::isfinite(most_)) return false;
-  load(program);
-  if (tableau_.solve() != Tableau::Outcome::kOptimal) return false;
-  read(program, solution);
-  return true;
+  choose();
+  solution.iterations = 0;
+  for (int round = 0; round < kRounds; ++round) {
+    load(program);
+    const bool solved = tableau_.solve() == Tableau::Outcome::kOptimal;
+    solution.iterations += tableau_.iterations;
+    if (!solved) return false;
+    if (add_violated(tableau_.x)) continue;
+    read(program, solution);
+    return true;
+  }
+  return false;
 }
 
-/// All facets with what y can do to them.
 void BorderedFacets::collect(const PlanProgram& program) {
-  const Zonotope& set = *program.instants.front().actuation;
-  const Eigen::VectorXd range = program.y_min.cwiseAbs().cwiseMax(program.y_max.cwiseAbs());
-  facets_.clear();
-  pulls_.resize(program.border(), static_cast<Eigen::Index>(set.facet_pairs()) * program.size());
-  most_ = kInfinity;
-  for (int i = 0; i < program.size(); ++i) {
-    const WrenchProgram& at = program.instants[i];
-    auto pulls =
-        pulls_.middleCols(static_cast<Eigen::Index>(i) * set.facet_pairs(), set.facet_pairs());
-    pulls.noalias() = program.G[i].transpose() * set.N;
-    const double flat = kFlat * at.JtW.norm() / std::abs(at.c_w[0]);
-    for (int j = 0; j < set.facet_pairs(); ++j) {
-      Facet facet{.instant = i, .pair = j};
-      const double s = set.N.col(j).dot(at.JtW.col(0)) / at.c_w[0];
-      const double load = set.N.col(j).dot(at.tau_d);
-      facet.reach = range.dot(pulls.col(j).cwiseAbs());
-      facet.low = -kInfinity;
-      facet.high = set.b_max[j] - load;
-      if (std::abs(s) > flat) {
-        facet.side = s > 0 ? 1 : -1;
-        facet.slope = std::abs(s);
-        if (s < 0) facet.high = load - set.b_min[j];
-        most_ = std::min(most_, (facet.high + facet.reach) / facet.slope);
-      } else {
-        facet.low = set.b_min[j] - load;
-      }
-      facets_.push_back(facet);
-    }
+  const int pairs = program.instants.front().actuation->facet_pairs();
+  const Eigen::Index facets = static_cast<Eigen::Index>(pairs) * program.size();
+  rows_.clear();
+  pulls_.resize(program.border(), facets + program.R.rows());
+  for (int i = 0; i < program.size(); ++i) add_facets(program, i);
+  pulls_.rightCols(program.R.rows()) = program.R.transpose();
+  for (int i = 0; i < program.R.rows(); ++i) {
+    rows_.push_back({.index = i, .low = program.r_min[i], .high = program.r_max[i]});
   }
+  const Eigen::VectorXd range = program.y_min.cwiseAbs().cwiseMax(program.y_max.cwiseAbs());
+  pulled_.noalias() = pulls_.cwiseAbs().transpose() * range;
+  most_ = kInfinity;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    Row& row = rows_[i];
+    row.reach = pulled_[static_cast<Eigen::Index>(i)];
+    if (row.side != 0) most_ = std::min(most_, (row.high + row.reach) / row.slope);
+  }
+}
+
+void BorderedFacets::add_facets(const PlanProgram& program, int instant) {
+  const Zonotope& set = *program.instants.front().actuation;
+  const WrenchProgram& at = program.instants[instant];
+  auto pulls = pulls_.middleCols(static_cast<Eigen::Index>(rows_.size()), set.facet_pairs());
+  pulls.noalias() = -program.G[instant].transpose() * set.N;
+  const double flat = kFlat * at.JtW.norm() / at.c_w[0];
+  for (int j = 0; j < set.facet_pairs(); ++j) {
+    const double s = set.N.col(j).dot(at.JtW.col(0)) / at.c_w[0];
+    const double load = set.N.col(j).dot(at.tau_d);
+    Row row{.instant = instant, .index = j};
+    row.low = set.b_min[j] - load;
+    row.high = set.b_max[j] - load;
+    if (std::abs(s) > flat) {
+      row.side = s > 0 ? 1 : -1;
+      row.slope = std::abs(s);
+      if (s < 0) {
+        row.high = -row.low;
+        pulls.col(j) *= -1;
+      }
+      row.low = -kInfinity;
+    }
+    rows_.push_back(row);
+  }
+}
+
+/// Those that become the tightest where y goes a part of the way that its bounds allow.
+void BorderedFacets::choose() {
+  double tightest = kInfinity;
+  for (const Row& row : rows_) {
+    if (row.side == 0) continue;
+    tightest = std::min(tightest, (row.high + kLikely * row.reach) / row.slope);
+  }
+  for (Row& row : rows_) {
+    const double reach = kLikely * row.reach;
+    row.used = row.side == 0 ? row.high < reach || row.low > -reach
+                             : row.high - reach <= row.slope * tightest;
+  }
+}
+
+/// Whether there were any at (t, y).
+bool BorderedFacets::add_violated(const Eigen::VectorXd& x) {
+  pulled_.noalias() = pulls_.transpose() * x.tail(pulls_.rows());
+  bool any = false;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    Row& row = rows_[i];
+    if (row.used) continue;
+    const double value = row.slope * x[0] + pulled_[static_cast<Eigen::Index>(i)];
+    const double slack = kMissed * (1 + std::abs(value));
+    row.used = value > row.high + slack || value < row.low - slack;
+    any |= row.used;
+  }
+  return any;
 }
 
 void BorderedFacets::load(const PlanProgram& program) {
-  std::erase_if(facets_, [&](const Facet& facet) {
-    if (facet.side == 0) {
-      return facet.high - facet.reach >= 0 && facet.low + facet.reach <= 0;
-    }
-    return facet.high - facet.reach > facet.slope * most_;
-  });
-  const int p = program.border(), extra = static_cast<int>(program.R.rows());
-  rows_ = static_cast<int>(facets_.size()) + extra;
-  const int height = (rows_ + kRowsAtOnce - 1) / kRowsAtOnce * kRowsAtOnce;
+  const int p = program.border();
+  const auto used = static_cast<int>(
+      std::count_if(rows_.begin(), rows_.end(), [](const Row& row) { return row.used; }));
+  const int height = (used + kRowsAtOnce - 1) / kRowsAtOnce * kRowsAtOnce;
   tableau_.resize(height, 1 + p);
-  const int pairs = program.instants.front().actuation->facet_pairs();
-  int row = 0;
-  for (const Facet& facet : facets_) {
-    const double sign = facet.side == 0 ? 1 : facet.side;
-    tableau_.entry(row, 0) = facet.slope;
-    const auto pull = pulls_.col(static_cast<Eigen::Index>(facet.instant) * pairs + facet.pair);
-    for (int k = 0; k < p; ++k) tableau_.entry(row, 1 + k) = -sign * pull[k];
-    tableau_.low[row] = facet.low;
-    tableau_.high[row] = facet.high;
-    ++row;
+  int line = 0;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Row& row = rows_[i];
+    if (!row.used) continue;
+    tableau_.entry(line, 0) = row.slope;
+    const auto pull = pulls_.col(static_cast<Eigen::Index>(i));
+    std::copy(pull.data(), pull.data() + p, tableau_.row(line) + 1);
+    tableau_.low[line] = row.low;
+    tableau_.high[line] = row.high;
+    ++line;
   }
-  for (int other = row; other < height; ++other) {
-    std::fill(tableau_.row(other), tableau_.row(other) + tableau_.stride(), 0.0);
+  for (; line < height; ++line) {
+    std::fill(tableau_.row(line), tableau_.row(line) + tableau_.stride(), 0.0);
+    tableau_.low[line] = -kInfinity;
+    tableau_.high[line] = kInfinity;
   }
-  for (int column = 0; column < program.R.outerSize(); ++column) {
-    for (Eigen::SparseMatrix<double>::InnerIterator it(program.R, column); it; ++it) {
-      tableau_.entry(row + static_cast<int>(it.row()), 1 + column) = it.value();
-    }
-  }
-  tableau_.low.segment(row, extra) = program.r_min;
-  tableau_.high.segment(row, extra) = program.r_max;
-  tableau_.low.segment(rows_, height - rows_).setConstant(-kInfinity);
-  tableau_.high.segment(rows_, height - rows_).setConstant(kInfinity);
   tableau_.low[height] = -kInfinity;
-  tableau_.high[height] = most_;
+  tableau_.high[height] = most_ + 1 + std::abs(most_);  // where it never rests in the end
   tableau_.low.tail(p) = program.y_min;
   tableau_.high.tail(p) = program.y_max;
   tableau_.c.setZero();
@@ -100,18 +150,21 @@ void BorderedFacets::read(const PlanProgram& program, PlanSolution& solution) co
   const Zonotope& set = *program.instants.front().actuation;
   solution.value = tableau_.x[0];
   solution.y = tableau_.x.tail(program.border());
-  solution.iterations = tableau_.iterations;
   solution.lambda.setZero(set.dimension(), program.size());
   solution.pi.setZero(program.size());
-  int row = 0;
-  for (const Facet& facet : facets_) {
-    const double m = tableau_.multipliers[row++];
-    if (m == 0) continue;
-    const double sign = facet.side == 0 ? 1 : facet.side;
-    solution.lambda.col(facet.instant) -= sign * m * set.N.col(facet.pair);
-    solution.pi[facet.instant] += m * facet.slope;
+  solution.nu.setZero(program.R.rows());
+  int line = 0;
+  for (const Row& row : rows_) {
+    if (!row.used) continue;
+    const double m = tableau_.multipliers[line++];
+    if (row.instant < 0) {
+      solution.nu[row.index] = m;
+    } else if (m != 0) {
+      const double sign = row.side == 0 ? 1 : row.side;
+      solution.lambda.col(row.instant) -= sign * m * set.N.col(row.index);
+      solution.pi[row.instant] += m * row.slope;
+    }
   }
-  solution.nu = tableau_.multipliers.segment(row, program.R.rows());
 }
 
 }  // namespace maxwrench

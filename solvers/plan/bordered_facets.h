@@ -7,37 +7,47 @@
 
 namespace maxwrench {
 
-/// Bordered max-min programs of one wrench column without slacks and rates, in t and y alone: as
-/// B u fills its zonotope, instant i allows t exactly if
+/// Bordered max-min programs of one wrench column, in t and y alone, without what couples
+/// instants or slackens them: no effort rates, no slacks, and only the facets that limit t from
+/// above. As B u fills its zonotope, instant i allows t if, for all facet pairs j,
 ///
-///     |s_ij| t - sigma_ij n_j'G_i y <= sigma_ij (b_j - n_j'tau_d,i)   for all facet pairs j,
-///     s_ij = n_j'(J'W)_i / c_w,i,  sigma_ij = sign(s_ij),  b_j the bound on that side
+///     |s_ij| t - sigma_ij n_j'G_i y <= sigma_ij (b_j - n_j'tau_d,i),
+///     s_ij = n_j'(J'W)_i / c_w,i,  sigma_ij = sign(s_ij),  b_j the bound on that side.
 ///
-/// and none of its facets on the other side is beyond t, which the caller checks. Facets that no y
-/// within its bounds makes the tightest are left out; the rest is a dual simplex (`Tableau`).
+/// So t is an upper bound of the program's, and its value where none of the rest matters. A dual
+/// simplex (`Tableau`) solves it with the rows that are likely to matter, and again with those that
+/// its answer violates until there are none.
 class BorderedFacets {
  public:
-  /// Sets value, y, lambda, pi, nu. False if there is no verified optimum.
+  static bool suits(const PlanProgram& program);
+  /// Sets value, y and the multipliers lambda, pi, nu, whose limits and signs are verified; no
+  /// efforts. False if there is no verified optimum.
   bool solve(const PlanProgram& program, PlanSolution& solution);
 
  private:
-  struct Facet {
-    int instant = 0, pair = 0;
+  /// low <= slope t + pull'y <= high.
+  struct Row {
+    int instant = -1;  ///< -1: a row of R
+    int index = 0;     ///< the facet pair, or the row of R
     double side = 0;   ///< sigma; 0 where t does not matter
     double slope = 0;  ///< |s|
     double low = 0, high = 0;
-    double reach = 0;  ///< how far y can move the row
+    double reach = 0;  ///< how far y can move it
+    bool used = false;
   };
 
   void collect(const PlanProgram& program);
+  void add_facets(const PlanProgram& program, int instant);
+  void choose();
+  bool add_violated(const Eigen::VectorXd& x);
   void load(const PlanProgram& program);
   void read(const PlanProgram& program, PlanSolution& solution) const;
 
-  std::vector<Facet> facets_;
-  Eigen::MatrixXd pulls_;  ///< n_j'G_i, a column of p for each facet
+  std::vector<Row> rows_;
+  Eigen::MatrixXd pulls_;  ///< p×(rows)
+  Eigen::VectorXd pulled_;
   Tableau tableau_;
   double most_ = 0;  ///< no y allows more t
-  int rows_ = 0;
 };
 
 }  // namespace maxwrench

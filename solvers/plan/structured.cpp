@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solvers/plan/bordered_facets.h"
 #include "solvers/plan/even_efforts.h"
 #include "solvers/plan/makers.h"
 #include "solvers/wrench/makers.h"
@@ -16,12 +15,7 @@ class Structured : public PlanSolver {
   void solve(const PlanProgram& program, PlanSolution& solution) override {
     solution.basis.clear();
     solution.iterations = 0;
-    if (suits(program)) {
-      if (program.border() > 0 ? all_at_once(program, solution)
-                               : instant_by_instant(program, solution)) {
-        return;
-      }
-    }
+    if (suits(program) && instant_by_instant(program, solution)) return;
     ipm_->solve(program, solution);
   }
 
@@ -30,7 +24,7 @@ class Structured : public PlanSolver {
   /// an elastic program the hard one is tried.
   bool suits(const PlanProgram& program) {
     const Zonotope& set = *program.instants.front().actuation;
-    if (program.peak >= 0 || !set.has_facets) return false;
+    if (program.peak >= 0 || program.border() > 0 || !set.has_facets) return false;
     if (program.first_min != set.u_min || program.first_max != set.u_max) return false;
     for (const WrenchProgram& at : program.instants) {
       if (at.columns() != 1 || !(at.c_w[0] > 0)) return false;
@@ -58,13 +52,6 @@ class Structured : public PlanSolver {
     solution.lambda.col(worst) = lambda_;
     solution.pi[worst] = 1;
     solution.y.resize(0);
-    return confirm(program, solution);
-  }
-
-  /// The border with the facets of all instants.
-  bool all_at_once(const PlanProgram& program, PlanSolution& solution) {
-    if (!bordered_.solve(program, solution)) return false;
-    solution.mu.setZero(program.du_max.rows(), program.size() - 1);
     return confirm(program, solution);
   }
 
@@ -109,7 +96,6 @@ class Structured : public PlanSolver {
       const WrenchProgram& at = program.instants[i];
       solution.w[i].setConstant(1, solution.value / at.c_w[0]);
       tau_ = at.tau_d + at.JtW.col(0) * solution.w[i][0];
-      if (program.border() > 0) tau_.noalias() -= program.G[i] * solution.y;
       if (!efforts_.solve(tau_, solution.u.col(i))) return false;
     }
     return true;
@@ -117,7 +103,6 @@ class Structured : public PlanSolver {
 
   std::unique_ptr<WrenchSolver> facets_ = make_facets();
   std::unique_ptr<PlanSolver> ipm_ = make_plan_ipm();
-  BorderedFacets bordered_;
   EvenEfforts efforts_;
   Capability capability_;
   Eigen::VectorXd lambda_, tau_;

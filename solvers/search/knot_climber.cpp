@@ -10,18 +10,19 @@ namespace {
 constexpr double kFirstRadius = 0.1;  // rad or m
 constexpr double kSmallestRadius = 1e-7;
 constexpr double kAccept = 0.05, kShrink = 0.25, kGrow = 0.7;  // of what was predicted
-constexpr double kReach = 2;         // m per radius: how far bodies may come nearer in a step
-constexpr double kSpare = 1e-9;      // m, beyond the margin where knots are moved apart
-constexpr int kRounds = 5;           // of moving them apart
-constexpr double kHonest = 0.004;    // between value and continuous, relative
-constexpr double kConverged = 1e-9;  // predicted, relative to 1 + |f|
+constexpr double kReach = 2;             // m per radius: how far bodies may come nearer in a step
+constexpr double kSpare = 1e-9;          // m, beyond the margin where knots are moved apart
+constexpr int kRounds = 5;               // of moving them apart
+constexpr double kHonest = 0.004;        // between value and continuous, relative
+constexpr double kStepTolerance = 1e-6;  // of a linear program, whose answer is only a step
+constexpr double kConverged = 1e-9;      // predicted, relative to 1 + |f|
 
 }  // namespace
 
 KnotClimber::KnotClimber(std::unique_ptr<Objective> objective, Candidate start)
     : objective_(std::move(objective)),
       plans_(*objective_->plans()),
-      solver_(make_plan_structured()),
+      solver_(make_plan_ipm(kStepTolerance)),
       at_(std::move(start)),
       radius_(kFirstRadius),
       reach_(plans_.rows().R.cwiseAbs() * Eigen::VectorXd::Ones(at_.theta_r.size())) {
@@ -67,6 +68,7 @@ bool KnotClimber::try_step() {
 double KnotClimber::evaluate(const Eigen::VectorXd& x) {
   const double value = evaluate_one(*objective_, x);
   found_.trace.add(value);
+  if (value > -kInfinity) coupled_ = plans_.coupled();
   if (value > found_.best.value) found_.best = {x, value};
   return value;
 }
@@ -91,8 +93,12 @@ bool KnotClimber::solve() {
   program_->y_min = (objective_->lower() - at_.theta_r).cwiseMax(-radius_);
   program_->y_max = (objective_->upper() - at_.theta_r).cwiseMin(radius_);
   set_rows();
-  solver_->solve(*program_, solution_);
   found_.trace.add(-kInfinity);
+  solution_.price = 0;
+  if (!coupled_ && BorderedFacets::suits(*program_) && uncoupled_.solve(*program_, solution_)) {
+    return true;
+  }
+  solver_->solve(*program_, solution_);
   return solution_.status == Status::kOptimal;
 }
 

@@ -5,6 +5,7 @@
 
 #include "maxwrench/batch.h"
 #include "maxwrench/plan.h"
+#include "solvers/plan/bordered_facets.h"
 #include "solvers/search/probe.h"
 
 namespace maxwrench {
@@ -15,9 +16,10 @@ namespace maxwrench {
 ///     max t - rho sum |s_i|_1   subject to the balance linearised at the last plan, |y| <= radius,
 ///     the limits and speed limits of the knots, no bodies nearer than their margin to first order.
 ///
-/// A step counts if the elastic value, an exact penalty function, rises by a share of what the
-/// linear program predicted; the radius follows from that share. Knots that collide after a step
-/// are moved apart.
+/// While neither effort rates nor slacks decide, the program without them is enough
+/// (`BorderedFacets`). A step counts if the elastic value, an exact penalty function, rises by a
+/// share of what the linear program predicted; the radius follows from that share. Knots that
+/// collide after a step are moved apart.
 class KnotClimber {
  public:
   /// Keeps an objective of its own, with plans. `start` has a value.
@@ -46,7 +48,9 @@ class KnotClimber {
 
   std::unique_ptr<Objective> objective_;
   PlanEvaluator& plans_;
+  BorderedFacets uncoupled_;
   std::unique_ptr<PlanSolver> solver_;
+  bool coupled_ = true;  ///< at the last point with a value
   Candidate at_;
   double radius_;
   Eigen::VectorXd reach_;  ///< of each row of the knots: sum of the magnitudes of its entries

@@ -13,6 +13,7 @@ namespace maxwrench {
 namespace {
 
 constexpr long kSamples = 96;      // at most, besides the start; at most a tenth of the budget
+constexpr double kFar = 0.8;       // rad or m, between starts of the same round
 constexpr double kNear = 0.5;      // rad or m, around the start, of every other sample
 constexpr std::size_t kBatch = 8;  // climbs that compete
 constexpr long kFewest = 6;        // evaluations of a climb that are worth a batch
@@ -212,7 +213,26 @@ class Slp : public Search {
     }
     std::stable_sort(starts.begin(), starts.end(),
                      [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
-    return starts;
+    return spread(std::move(starts));
+  }
+
+  /// In rounds: each takes, best first, the starts that are far from those which it has taken.
+  static std::vector<Candidate> spread(std::vector<Candidate> starts) {
+    std::vector<Candidate> ordered;
+    while (!starts.empty()) {
+      const std::size_t round = ordered.size();
+      std::vector<Candidate> later;
+      for (Candidate& start : starts) {
+        const bool far = std::all_of(ordered.begin() + static_cast<std::ptrdiff_t>(round),
+                                     ordered.end(), [&](const Candidate& taken) {
+                                       const Eigen::VectorXd way = taken.theta_r - start.theta_r;
+                                       return way.lpNorm<Eigen::Infinity>() > kFar;
+                                     });
+        (far ? ordered : later).push_back(std::move(start));
+      }
+      starts = std::move(later);
+    }
+    return ordered;
   }
 };
 
