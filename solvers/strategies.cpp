@@ -147,10 +147,10 @@ std::vector<WrenchSolverEntry> make_wrench_solvers() {
 
 std::vector<PlanSolverEntry> make_plan_solvers() {
   std::vector<PlanSolverEntry> table = {
-      {"ipm", "own interior point method, linear in the number of instants",
-       [] { return make_plan_ipm(); }},
       {"structured", "the worst instant by its facets if efforts follow, else ipm",
-       make_plan_structured}};
+       make_plan_structured},
+      {"ipm", "own interior point method, linear in the number of instants",
+       [] { return make_plan_ipm(); }}};
   for (const LpEntry& lp : kLpSolvers) {
     table.push_back(
         {lp.name, lp.summary, [make = lp.make] { return make_assembled_plan(make()); }});

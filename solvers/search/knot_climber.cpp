@@ -19,7 +19,7 @@ constexpr double kConverged = 1e-9;      // predicted, relative to 1 + |f|
 
 }  // namespace
 
-KnotClimber::KnotClimber(std::unique_ptr<Objective> objective, Candidate start)
+KnotClimber::KnotClimber(std::unique_ptr<Objective> objective, Candidate start, bool alike)
     : objective_(std::move(objective)),
       plans_(*objective_->plans()),
       solver_(make_plan_ipm(kStepTolerance)),
@@ -27,6 +27,17 @@ KnotClimber::KnotClimber(std::unique_ptr<Objective> objective, Candidate start)
       radius_(kFirstRadius),
       reach_(plans_.rows().R.cwiseAbs() * Eigen::VectorXd::Ones(at_.theta_r.size())) {
   found_.best = at_;
+  if (!alike) return;
+  const Eigen::Index r = at_.theta_r.size() / plans_.knots();
+  shared_ = Eigen::MatrixXd::Identity(r, r).replicate(plans_.knots(), 1);
+}
+
+PlanProgram* KnotClimber::linearize() {
+  PlanProgram& program = plans_.linearize();
+  if (shared_.size() > 0) {
+    for (Eigen::MatrixXd& G : program.G) G = G * shared_;
+  }
+  return &program;
 }
 
 void KnotClimber::climb(long evaluations) {
@@ -34,9 +45,9 @@ void KnotClimber::climb(long evaluations) {
   while (!done_ && left() >= 3) {
     if (program_ == nullptr) {
       evaluate(at_.theta_r);  // its efforts are what the program is linearised about
-      program_ = &plans_.linearize();
+      program_ = linearize();
     }
-    if (try_step()) program_ = &plans_.linearize();
+    if (try_step()) program_ = linearize();
     done_ = done_ || !(radius_ > kSmallestRadius) || objective_->ended();
   }
 }
@@ -52,7 +63,10 @@ bool KnotClimber::try_step() {
     done_ = true;
     return false;
   }
-  const Eigen::VectorXd trial = apart(inside(at_.theta_r + solution_.y));
+  const bool alike = shared_.size() > 0;
+  const Eigen::VectorXd step = alike ? shared_ * solution_.y : solution_.y;
+  Eigen::VectorXd trial = inside(at_.theta_r + step);
+  if (!alike) trial = apart(std::move(trial));
   const double size = solution_.y.lpNorm<Eigen::Infinity>();
   const double risen = evaluate(trial) - at_.value;
   if (!(risen >= kShrink * predicted)) {
@@ -90,8 +104,9 @@ bool KnotClimber::is_honest() {
 
 /// Solves for a step; whether there is an answer.
 bool KnotClimber::solve() {
-  program_->y_min = (objective_->lower() - at_.theta_r).cwiseMax(-radius_);
-  program_->y_max = (objective_->upper() - at_.theta_r).cwiseMin(radius_);
+  const Eigen::Index moved = shared_.size() > 0 ? shared_.cols() : at_.theta_r.size();
+  program_->y_min = (objective_->lower() - at_.theta_r).head(moved).cwiseMax(-radius_);
+  program_->y_max = (objective_->upper() - at_.theta_r).head(moved).cwiseMin(radius_);
   set_rows();
   found_.trace.add(-kInfinity);
   solution_.price = 0;
@@ -139,6 +154,7 @@ void KnotClimber::set_rows() {
   program_->r_max = Eigen::Map<Eigen::VectorXd>(high_.data(), count);
   program_->R.resize(count, x.size());
   program_->R.setFromTriplets(entries_.begin(), entries_.end());
+  if (shared_.size() > 0) program_->R = (program_->R * shared_).sparseView();
 }
 
 /// x with colliding knots moved apart by Newton's method along the gradients of the clearance.

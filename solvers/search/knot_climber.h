@@ -22,8 +22,9 @@ namespace maxwrench {
 /// collide after a step are moved apart.
 class KnotClimber {
  public:
-  /// Keeps an objective of its own, with plans. `start` has a value.
-  KnotClimber(std::unique_ptr<Objective> objective, Candidate start);
+  /// Keeps an objective of its own, with plans. `start` has a value. `alike`: all knots take the
+  /// same step, a program in the coordinates of one.
+  KnotClimber(std::unique_ptr<Objective> objective, Candidate start, bool alike = false);
 
   /// Goes on until it has converged or has used so many evaluations; a linear program counts as
   /// one.
@@ -36,10 +37,12 @@ class KnotClimber {
   bool is_honest();
 
   double value() const { return at_.value; }
+  const Candidate& at() const { return at_; }
   const Part& found() const { return found_; }
 
  private:
   double evaluate(const Eigen::VectorXd& x);
+  PlanProgram* linearize();
   bool try_step();
   bool solve();
   void set_rows();
@@ -48,6 +51,7 @@ class KnotClimber {
 
   std::unique_ptr<Objective> objective_;
   PlanEvaluator& plans_;
+  Eigen::MatrixXd shared_;  ///< the step of the knots by that of one; empty: each its own
   BorderedFacets uncoupled_;
   std::unique_ptr<PlanSolver> solver_;
   bool coupled_ = true;  ///< at the last point with a value

@@ -2,79 +2,21 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "lib/math/decompositions.h"
-#include "lib/math/random.h"
 #include "maxwrench/plan.h"
 #include "solvers/search/knot_climber.h"
+#include "solvers/search/knot_starts.h"
 #include "solvers/search/makers.h"
 #include "solvers/search/probe.h"
 
 namespace maxwrench {
 namespace {
 
-constexpr long kSamples = 96;      // at most, besides the start; at most a tenth of the budget
-constexpr double kFar = 0.8;       // rad or m, between starts of the same round
-constexpr double kNear = 0.5;      // rad or m, around the start, of every other sample
 constexpr std::size_t kBatch = 8;  // climbs that compete
 constexpr long kFewest = 6;        // evaluations of a climb that are worth a batch
 constexpr int kPatience = 2;       // batches without a better plan before the search ends
 constexpr double kBetter = 1e-5;   // relative to 1 + |f|
 /// The climbs that go on, and the evaluations of each by then.
-constexpr std::pair<std::size_t, long> kRounds[] = {{kBatch, 13}, {4, 25}, {2, 45}, {1, 400}};
-
-/// Tables around the start that keep the rows of the limits: an offset for all knots alike, or, as
-/// such a one leaves the start of a heave at once, for each knot.
-class Starts {
- public:
-  Starts(const Objective& objective, const KnotRows& rows, int knots, const Eigen::VectorXd& start)
-      : objective_(objective), rows_(rows), knots_(knots), start_(start) {
-    std::vector<Eigen::Index> equations;
-    for (Eigen::Index row = 0; row < rows.r_min.size(); ++row) {
-      if (rows.r_min[row] == rows.r_max[row]) equations.push_back(row);
-    }
-    const Eigen::MatrixXd R = rows.R;
-    equations_ = R(equations, Eigen::all);
-    if (!equations.empty()) inverse_ = pseudo_inverse(equations_);
-  }
-
-  Eigen::VectorXd draw(Random random, bool near) const {
-    const Eigen::Index r = start_.size() / knots_;
-    Eigen::VectorXd offset(start_.size());
-    const bool alike = equations_.rows() == 0;
-    for (Eigen::Index i = 0; i < start_.size(); ++i) {
-      if (alike && i >= r) {
-        offset[i] = offset[i - r];
-        continue;
-      }
-      const double down = objective_.lower()[i] - start_[i], up = objective_.upper()[i] - start_[i];
-      offset[i] =
-          near ? std::clamp(random.uniform(-kNear, kNear), down, up) : random.uniform(down, up);
-    }
-    if (equations_.rows() > 0) offset -= inverse_ * (equations_ * offset);
-    return (start_ + share(offset) * offset)
-        .cwiseMax(objective_.lower())
-        .cwiseMin(objective_.upper());
-  }
-
- private:
-  /// The share of a step from the start that the rows allow.
-  double share(const Eigen::VectorXd& offset) const {
-    const Eigen::VectorXd at = rows_.R * start_, moved = rows_.R * offset;
-    double share = 1;
-    for (Eigen::Index row = 0; row < at.size(); ++row) {
-      if (std::abs(moved[row]) < 1e-12) continue;
-      const double room = moved[row] > 0 ? rows_.r_max[row] - at[row] : rows_.r_min[row] - at[row];
-      share = std::min(share, std::max(0.0, room / moved[row]));
-    }
-    return share;
-  }
-
-  const Objective& objective_;
-  const KnotRows& rows_;
-  int knots_;
-  const Eigen::VectorXd start_;
-  Eigen::MatrixXd equations_, inverse_;
-};
+constexpr std::pair<std::size_t, long> kRounds[] = {{kBatch, 19}, {4, 33}, {2, 61}, {1, 400}};
 
 /// What was found, and whether its best plan is worth the same between its instants.
 struct Outcome {
@@ -154,17 +96,14 @@ class Slp : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {
     check(options);
-    PlanEvaluator* const plans = objective.plans();
-    if (plans == nullptr) {
+    if (objective.plans() == nullptr) {
       throw std::invalid_argument(
           "search: got slp, which serves linf_polytope without a second contact or joints that "
           "follow, expected another one");
     }
-    const Box box(objective);
-    const Starts draw(objective, plans->rows(), plans->knots(), box.start(options.start));
     EvaluationCounter progress(options.progress);
     Outcome best;
-    std::vector<Candidate> starts = sample(objective, options, draw, box, progress, best.found);
+    std::vector<Candidate> starts = find_knot_starts(objective, options, progress, best.found);
     if (!starts.empty() &&
         options.budget - best.found.trace.evaluations() >= KnotClimber::kJudgement) {
       KnotClimber judge(objective.clone(), best.found.best);
@@ -188,51 +127,6 @@ class Slp : public Search {
       best.honest = climbs.honest;
     }
     return make_result(best);
-  }
-
- private:
-  /// The start and tables around it that have a value, best first.
-  static std::vector<Candidate> sample(const Objective& objective, const SearchOptions& options,
-                                       const Starts& draw, const Box& box,
-                                       EvaluationCounter& progress, Part& found) {
-    const long count = std::clamp(options.budget / 10, 1L, kSamples + 1);
-    const auto point = [&](long i) {
-      if (i == 0) return box.start(options.start);
-      return draw.draw(Random(options.seed, RandomUse::kSample, static_cast<std::uint64_t>(i)),
-                       i % 2 == 1);
-    };
-    const std::vector<double> values =
-        evaluate_all(objective, count, point, options.threads, progress);
-    std::vector<Candidate> starts;
-    for (long i = 0; i < count; ++i) {
-      const double value = values[static_cast<std::size_t>(i)];
-      found.trace.add(value);
-      if (value == -kInfinity) continue;
-      starts.push_back({point(i), value});
-      if (value > found.best.value) found.best = starts.back();
-    }
-    std::stable_sort(starts.begin(), starts.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
-    return spread(std::move(starts));
-  }
-
-  /// In rounds: each takes, best first, the starts that are far from those which it has taken.
-  static std::vector<Candidate> spread(std::vector<Candidate> starts) {
-    std::vector<Candidate> ordered;
-    while (!starts.empty()) {
-      const std::size_t round = ordered.size();
-      std::vector<Candidate> later;
-      for (Candidate& start : starts) {
-        const bool far = std::all_of(ordered.begin() + static_cast<std::ptrdiff_t>(round),
-                                     ordered.end(), [&](const Candidate& taken) {
-                                       const Eigen::VectorXd way = taken.theta_r - start.theta_r;
-                                       return way.lpNorm<Eigen::Infinity>() > kFar;
-                                     });
-        (far ? ordered : later).push_back(std::move(start));
-      }
-      starts = std::move(later);
-    }
-    return ordered;
   }
 };
 

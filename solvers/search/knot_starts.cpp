@@ -1,0 +1,178 @@
+#include "solvers/search/knot_starts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "lib/math/decompositions.h"
+#include "lib/math/random.h"
+#include "solvers/search/knot_climber.h"
+
+namespace maxwrench {
+namespace {
+
+constexpr long kSamples = 192;    // at most, besides the start; at most a tenth of the budget
+constexpr long kNearOf = 4;       // every so many of them is near the start,
+constexpr double kNear = 0.5;     // by so much [rad or m]
+constexpr double kFar = 0.8;      // rad or m, between starts of the same round
+constexpr double kSame = 0.1;     // rad or m: closer ones are of one family
+constexpr long kAlike = 48;       // climbs with all knots alike, at most,
+constexpr long kAlikeSteps = 30;  // of so many evaluations; a fifth of the budget, at most
+constexpr double kHopeful = 0.8;  // of the best value: what a family must have
+
+/// Tables around the start that keep the rows of the limits.
+class Drawing {
+ public:
+  Drawing(const Objective& objective, const PlanEvaluator& plans, const Eigen::VectorXd& start)
+      : objective_(objective), rows_(plans.rows()), knots_(plans.knots()), start_(start) {
+    std::vector<Eigen::Index> equations;
+    for (Eigen::Index row = 0; row < rows_.r_min.size(); ++row) {
+      if (rows_.r_min[row] == rows_.r_max[row]) equations.push_back(row);
+    }
+    const Eigen::MatrixXd R = rows_.R;
+    equations_ = R(equations, Eigen::all);
+    if (!equations.empty()) inverse_ = pseudo_inverse(equations_);
+  }
+
+  /// Whether the knots of a table move alike.
+  bool alike() const { return equations_.rows() == 0; }
+
+  Eigen::VectorXd draw(Random random, bool near) const {
+    const Eigen::Index r = start_.size() / knots_;
+    Eigen::VectorXd offset(start_.size());
+    for (Eigen::Index i = 0; i < start_.size(); ++i) {
+      if (alike() && i >= r) {
+        offset[i] = offset[i - r];
+        continue;
+      }
+      const double down = objective_.lower()[i] - start_[i], up = objective_.upper()[i] - start_[i];
+      offset[i] =
+          near ? std::clamp(random.uniform(-kNear, kNear), down, up) : random.uniform(down, up);
+    }
+    if (!alike()) offset -= inverse_ * (equations_ * offset);
+    return (start_ + share(offset) * offset)
+        .cwiseMax(objective_.lower())
+        .cwiseMin(objective_.upper());
+  }
+
+ private:
+  /// The share of a step from the start that the rows allow.
+  double share(const Eigen::VectorXd& offset) const {
+    const Eigen::VectorXd at = rows_.R * start_, moved = rows_.R * offset;
+    double share = 1;
+    for (Eigen::Index row = 0; row < at.size(); ++row) {
+      if (std::abs(moved[row]) < 1e-12) continue;
+      const double room = moved[row] > 0 ? rows_.r_max[row] - at[row] : rows_.r_min[row] - at[row];
+      share = std::min(share, std::max(0.0, room / moved[row]));
+    }
+    return share;
+  }
+
+  const Objective& objective_;
+  const KnotRows& rows_;
+  int knots_;
+  const Eigen::VectorXd& start_;
+  Eigen::MatrixXd equations_, inverse_;
+};
+
+double distance(const Candidate& a, const Candidate& b) {
+  return (a.theta_r - b.theta_r).lpNorm<Eigen::Infinity>();
+}
+
+bool is_near(const Candidate& start, std::span<const Candidate> others, double within) {
+  return std::any_of(others.begin(), others.end(),
+                     [&](const Candidate& other) { return distance(start, other) <= within; });
+}
+
+/// Best first in rounds: each takes those that are far from the ones it has taken.
+std::vector<Candidate> spread(std::vector<Candidate> starts) {
+  std::stable_sort(starts.begin(), starts.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
+  std::vector<Candidate> ordered;
+  while (!starts.empty()) {
+    const std::size_t round = ordered.size();
+    std::vector<Candidate> later;
+    for (Candidate& start : starts) {
+      const bool near = is_near(start, std::span(ordered).subspan(round), kFar);
+      (near ? later : ordered).push_back(std::move(start));
+    }
+    starts = std::move(later);
+  }
+  return ordered;
+}
+
+/// The best of each family that is worth a climb of its own.
+std::vector<Candidate> families(std::vector<Candidate> starts) {
+  std::stable_sort(starts.begin(), starts.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
+  const double least = starts.front().value - (1 - kHopeful) * (1 + std::abs(starts.front().value));
+  std::vector<Candidate> heads;
+  for (Candidate& start : starts) {
+    if (start.value >= least && !is_near(start, heads, kSame)) heads.push_back(std::move(start));
+  }
+  return heads;
+}
+
+/// The start and the drawn tables that have a value.
+std::vector<Candidate> sample(const Objective& objective, const SearchOptions& options,
+                              const Drawing& drawing, const Eigen::VectorXd& start,
+                              EvaluationCounter& progress, Part& found) {
+  const long count = std::clamp(options.budget / 10, 1L, kSamples + 1);
+  const auto point = [&](long i) {
+    if (i == 0) return start;
+    const auto stream = static_cast<std::uint64_t>(i);
+    return drawing.draw(Random(options.seed, RandomUse::kSample, stream), i % kNearOf == 1);
+  };
+  const std::vector<double> values =
+      evaluate_all(objective, count, point, options.threads, progress);
+  std::vector<Candidate> starts;
+  for (long i = 0; i < count; ++i) {
+    const double value = values[static_cast<std::size_t>(i)];
+    found.trace.add(value);
+    if (value == -kInfinity) continue;
+    starts.push_back({point(i), value});
+    if (value > found.best.value) found.best = starts.back();
+  }
+  return starts;
+}
+
+/// The ends of climbs with all knots alike.
+std::vector<Candidate> climb_alike(const Objective& objective, const SearchOptions& options,
+                                   std::span<const Candidate> starts, EvaluationCounter& progress,
+                                   Part& found) {
+  const long count = std::min(static_cast<long>(starts.size()),
+                              std::min(kAlike, options.budget / 5 / kAlikeSteps));
+  std::vector<std::unique_ptr<KnotClimber>> climbers;
+  for (long i = 0; i < count; ++i) {
+    climbers.push_back(std::make_unique<KnotClimber>(objective.clone(),
+                                                     starts[static_cast<std::size_t>(i)], true));
+  }
+  parallel_for(options.threads, count, [&](long i) {
+    KnotClimber& climber = *climbers[static_cast<std::size_t>(i)];
+    climber.climb(kAlikeSteps);
+    progress.add(climber.found().trace.evaluations());
+  });
+  std::vector<Candidate> ends;
+  std::vector<Trace> traces;
+  for (const auto& climber : climbers) {
+    ends.push_back(climber->at());
+    traces.push_back(climber->found().trace);
+    if (ends.back().value > found.best.value) found.best = ends.back();
+  }
+  found.trace.append(traces);
+  return ends;
+}
+
+}  // namespace
+
+std::vector<Candidate> find_knot_starts(Objective& objective, const SearchOptions& options,
+                                        EvaluationCounter& progress, Part& found) {
+  const Eigen::VectorXd start = Box(objective).start(options.start);
+  const Drawing drawing(objective, *objective.plans(), start);
+  const std::vector<Candidate> starts =
+      spread(sample(objective, options, drawing, start, progress, found));
+  if (starts.empty() || !drawing.alike()) return starts;
+  std::vector<Candidate> ends = climb_alike(objective, options, starts, progress, found);
+  return ends.empty() ? starts : families(std::move(ends));
+}
+
+}  // namespace maxwrench
