@@ -90,6 +90,10 @@ const SearchEntry kSearches[] = {
 const SearchEntry kPlanSearches[] = {
     {"slp", "sequential linear programs in knots, efforts and wrenches, from many starts", false,
      make_slp},
+#if MAXWRENCH_WITH_IPOPT
+    {"joint_nlp", "Ipopt in knots, efforts and wrenches at once, from the starts of slp", false,
+     make_joint_nlp},
+#endif
 };
 
 const IntegratorEntry kIntegrators[] = {
@@ -111,6 +115,7 @@ constexpr struct {
     {MAXWRENCH_WITH_GLPK, {"lp", "glpk", "GLPK"}},
     {MAXWRENCH_WITH_IPOPT, {"lp", "ipopt", "Ipopt"}},
     {MAXWRENCH_WITH_IPOPT, {"search", "multistart", "Ipopt"}},
+    {MAXWRENCH_WITH_IPOPT, {"search", "joint_nlp", "Ipopt"}},
     {MAXWRENCH_WITH_NLOPT, {"search", "direct_l", "NLopt"}},
     {MAXWRENCH_WITH_NLOPT, {"search", "crs2", "NLopt"}},
     {MAXWRENCH_WITH_NLOPT, {"search", "mlsl", "NLopt"}},

@@ -87,6 +87,12 @@ class PlanEvaluator {
   /// by row (theta_r of the first knot first), about the last answer. The caller sets bounds and
   /// rows of y.
   PlanProgram& linearize();
+  /// The same about knots and the wrenches of all blocks (`PlanProgram::instants`), with nothing
+  /// solved. Of a heave the peak is that of the last answer.
+  PlanProgram& linearize(const Eigen::MatrixXd& knots, const std::vector<Eigen::VectorXd>& w);
+
+  /// The answer of the last `evaluate_elastic`.
+  const PlanSolution& elastic_solution() const;
 
   /// The pairs of bodies within `within` [m] of each other at each knot, of those whose distance
   /// is known. Empty if collisions are not checked.

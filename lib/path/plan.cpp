@@ -311,6 +311,21 @@ bool PlanEvaluator::coupled() const {
   return solution.price > kNoPrice || (solution.mu.array().abs() > kNoMultiplier).any();
 }
 
+const PlanSolution& PlanEvaluator::elastic_solution() const { return workspace_->elastic_solution; }
+
+PlanProgram& PlanEvaluator::linearize(const Eigen::MatrixXd& knots,
+                                      const std::vector<Eigen::VectorXd>& w) {
+  Workspace& ws = *workspace_;
+  ws.require_table(knots);
+  ws.Q = all_knots(ws.task, knots);
+  ws.motion.evaluate(ws.Q, ws.plan.instants);
+  set_instants(ws.problem, ws.task, ws.wrench, ws.motion.maps(), ws.plan.instants, ws.elastic);
+  ws.other.u.setZero(ws.problem.robot.actuators(), ws.elastic.size());
+  ws.other.w = w;
+  read_efforts(ws.problem, ws.task, ws.elastic, ws.other, ws.plan.instants);
+  return linearize();
+}
+
 PlanProgram& PlanEvaluator::linearize() {
   Workspace& ws = *workspace_;
   PlanProgram& program = ws.bordered;

@@ -20,6 +20,8 @@ std::unique_ptr<Search> make_grid();
 
 std::unique_ptr<Search> make_isres();
 
+std::unique_ptr<Search> make_joint_nlp();
+
 std::unique_ptr<Search> make_mlsl();
 
 std::unique_ptr<Search> make_multistart();

@@ -1,0 +1,191 @@
+#include <IpIpoptApplication.hpp>
+#include <IpTNLP.hpp>
+#include <algorithm>
+#include <stdexcept>
+
+#include "solvers/caught.h"
+#include "solvers/ipopt_lock.h"
+#include "solvers/search/joint_program.h"
+#include "solvers/search/knot_starts.h"
+#include "solvers/search/makers.h"
+
+namespace maxwrench {
+namespace {
+
+using Ipopt::Index;
+using Ipopt::Number;
+
+constexpr std::size_t kStarts = 4;
+constexpr int kIterations = 200;
+
+/// A `JointProgram` as Ipopt wants it. The table of every iterate is evaluated as any search does,
+/// so what is found was found by the lower level and not by Ipopt's tolerances.
+class JointNlp : public Ipopt::TNLP {
+ public:
+  JointNlp(Objective& objective, JointProgram& program, long budget, Part& found)
+      : objective_(objective), program_(program), budget_(budget), found_(found) {}
+
+  bool get_nlp_info(Index& n, Index& m, Index& nnz_jac, Index& nnz_hessian,
+                    IndexStyleEnum& style) override {
+    n = static_cast<Index>(program_.start().size());
+    m = static_cast<Index>(program_.row_min().size());
+    nnz_jac = static_cast<Index>(program_.jacobian().nonZeros());
+    nnz_hessian = 0;
+    style = TNLP::C_STYLE;
+    return true;
+  }
+  bool get_bounds_info(Index, Number* l, Number* u, Index, Number* g_l, Number* g_u) override {
+    copy(program_.lower(), l);
+    copy(program_.upper(), u);
+    copy(program_.row_min(), g_l);
+    copy(program_.row_max(), g_u);
+    return true;
+  }
+  bool get_starting_point(Index, bool, Number* x, bool, Number*, Number*, Index, bool,
+                          Number*) override {
+    copy(program_.start(), x);
+    return true;
+  }
+  bool eval_f(Index n, const Number* x, bool, Number& value) override {
+    value = -program_.objective().dot(Eigen::Map<const Eigen::VectorXd>(x, n));
+    return true;
+  }
+  bool eval_grad_f(Index, const Number*, bool, Number* gradient) override {
+    copy(-program_.objective(), gradient);
+    return true;
+  }
+  bool eval_g(Index n, const Number* x, bool, Index, Number* g) override {
+    if (!look(n, x)) return false;
+    copy(program_.rows(), g);
+    return program_.rows().allFinite();
+  }
+  bool eval_jac_g(Index n, const Number* x, bool, Index, Index, Index* rows, Index* cols,
+                  Number* values) override {
+    if (values == nullptr) {
+      fill_pattern(rows, cols);
+      return true;
+    }
+    if (!look(n, x) || !judge()) return false;
+    std::copy_n(program_.jacobian().valuePtr(), program_.jacobian().nonZeros(), values);
+    return true;
+  }
+  bool intermediate_callback(Ipopt::AlgorithmMode, Index, Number, Number, Number, Number, Number,
+                             Number, Number, Number, Index, const Ipopt::IpoptData*,
+                             Ipopt::IpoptCalculatedQuantities*) override {
+    return left() >= 2 && !caught_.any();
+  }
+  void finalize_solution(Ipopt::SolverReturn, Index, const Number*, const Number*, const Number*,
+                         Index, const Number*, const Number*, Number, const Ipopt::IpoptData*,
+                         Ipopt::IpoptCalculatedQuantities*) override {
+    // `found` has the best table.
+  }
+
+  void rethrow() { caught_.rethrow(); }
+
+ private:
+  static void copy(const Eigen::VectorXd& from, Number* to) {
+    std::copy_n(from.data(), from.size(), to);
+  }
+  long left() const { return budget_ - found_.trace.evaluations(); }
+
+  void fill_pattern(Index* rows, Index* cols) const {
+    const Eigen::SparseMatrix<double>& jacobian = program_.jacobian();
+    for (int column = 0; column < jacobian.outerSize(); ++column) {
+      for (Eigen::SparseMatrix<double>::InnerIterator it(jacobian, column); it; ++it) {
+        *rows++ = static_cast<Index>(it.row());
+        *cols++ = static_cast<Index>(it.col());
+      }
+    }
+  }
+
+  bool look(Index n, const Number* x) {
+    return caught_.run(false, [&] {
+      const Eigen::Map<const Eigen::VectorXd> point(x, n);
+      if (X_.size() == n && X_ == point) return true;
+      if (left() == 0) return false;
+      X_ = point;
+      program_.evaluate(X_);
+      found_.trace.add(-kInfinity);
+      return true;
+    });
+  }
+
+  /// What the lower level makes of the table of an iterate.
+  bool judge() {
+    return caught_.run(false, [&] {
+      if (left() == 0) return false;
+      const Eigen::VectorXd x = program_.knots(X_);
+      const double value = evaluate_one(objective_, x);
+      found_.trace.add(value);
+      if (value > found_.best.value) found_.best = {x, value};
+      program_.evaluate(X_);  // the lower level has moved the evaluator's motion
+      return true;
+    });
+  }
+
+  Objective& objective_;
+  JointProgram& program_;
+  long budget_;
+  Part& found_;
+  Eigen::VectorXd X_;
+  Caught caught_;
+};
+
+Ipopt::SmartPtr<Ipopt::IpoptApplication> make_application() {
+  Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(false);
+  auto options = application->Options();
+  options->SetIntegerValue("print_level", 0);
+  options->SetStringValue("sb", "yes");
+  options->SetStringValue("hessian_approximation", "limited-memory");
+  options->SetStringValue("mu_strategy", "adaptive");
+  options->SetNumericValue("tol", 1e-7);
+  options->SetNumericValue("bound_relax_factor", 0);
+  options->SetIntegerValue("max_iter", kIterations);
+  application->Initialize("");
+  return application;
+}
+
+/// The plan, its efforts and its wrenches in one nonlinear program (`JointProgram`) by Ipopt with
+/// exact sparse first derivatives, from the starts of `slp`, one after the other behind Ipopt's
+/// lock. It does not see collisions: a plan that collides counts for nothing.
+class JointNlpSearch : public Search {
+ public:
+  SearchResult maximize(Objective& objective, const SearchOptions& options) override {
+    check(options);
+    if (objective.plans() == nullptr) {
+      throw std::invalid_argument(
+          "search: got joint_nlp, which serves linf_polytope without a second contact or joints "
+          "that follow, expected another one");
+    }
+    EvaluationCounter progress(options.progress);
+    Part found;
+    const std::vector<Candidate> starts = find_knot_starts(objective, options, progress, found);
+    for (std::size_t i = 0; i < std::min(starts.size(), kStarts); ++i) {
+      const auto later = static_cast<long>(std::min(starts.size(), kStarts) - i);
+      const long before = found.trace.evaluations(), left = options.budget - before;
+      if (left < kFewest || objective.ended()) break;
+      climb(objective, starts[i], before + std::max(kFewest, left / later), found);
+      progress.add(found.trace.evaluations() - before);
+    }
+    return make_result(found);
+  }
+
+ private:
+  static constexpr long kFewest = 6;  // evaluations that are worth a climb
+
+  static void climb(Objective& objective, const Candidate& start, long until, Part& found) {
+    found.trace.add(evaluate_one(objective, start.theta_r));
+    JointProgram program(*objective.plans(), objective.lower(), objective.upper());
+    const std::lock_guard guard(ipopt_lock());
+    const auto application = make_application();
+    const Ipopt::SmartPtr<JointNlp> nlp = new JointNlp(objective, program, until, found);
+    application->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(nlp)));
+    nlp->rethrow();
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Search> make_joint_nlp() { return std::make_unique<JointNlpSearch>(); }
+
+}  // namespace maxwrench

@@ -1,0 +1,130 @@
+#include "solvers/search/joint_program.h"
+
+namespace maxwrench {
+
+JointProgram::JointProgram(PlanEvaluator& plans, const Eigen::VectorXd& x_min,
+                           const Eigen::VectorXd& x_max)
+    : plans_(plans), p_(static_cast<int>(x_min.size())), r_(p_ / plans.knots()) {
+  const PlanSolution& plan = plans.elastic_solution();
+  w_ = plan.w;
+  const Eigen::VectorXd x = stacked(plans.plan().knots);
+  const PlanProgram& program = plans.linearize();
+  m_ = program.instants.front().actuation->actuators();
+  n_ = program.instants.front().actuation->dimension();
+  N_ = program.size();
+  int next = p_ + 1;
+  for (const WrenchProgram& at : program.instants) {
+    first_.push_back(next);
+    next += m_ + at.columns();
+  }
+  start_.resize(next);
+  start_ << x, plan.value, Eigen::VectorXd::Zero(next - p_ - 1);
+  lower_ = Eigen::VectorXd::Constant(next, -kInfinity);
+  upper_ = Eigen::VectorXd::Constant(next, kInfinity);
+  lower_.head(p_) = x_min;
+  upper_.head(p_) = x_max;
+  objective_.setZero(next);
+  for (int i = 0; i < N_; ++i) {
+    start_.segment(u0(i), m_) = plan.u.col(i);
+    start_.segment(w0(i), w_[static_cast<std::size_t>(i)].size()) = w_[static_cast<std::size_t>(i)];
+  }
+  set_limits(program, plans.rows());
+  evaluate(start_);
+}
+
+void JointProgram::set_limits(const PlanProgram& program, const KnotRows& rows) {
+  const Zonotope& set = *program.instants.front().actuation;
+  for (int i = 0; i < N_; ++i) {
+    const WrenchProgram& at = program.instants[static_cast<std::size_t>(i)];
+    lower_.segment(u0(i), m_) = i == 0 ? program.first_min : set.u_min;
+    upper_.segment(u0(i), m_) = i == 0 ? program.first_max : set.u_max;
+    lower_.segment(w0(i), at.columns()) = at.w_min;
+    upper_.segment(w0(i), at.columns()) = at.w_max;
+    if (i + 1 == N_) break;
+    for (int j = 0; j < m_; ++j) {
+      if (program.du_max(j, i) < kInfinity) rated_.emplace_back(i, j);
+    }
+  }
+  const bool path = program.peak < 0;
+  if (path) {
+    objective_[p_] = 1;
+  } else {
+    const WrenchProgram& at = program.instants[static_cast<std::size_t>(program.peak)];
+    objective_.segment(w0(program.peak), at.columns()) = at.c_w;
+    lower_[p_] = upper_[p_] = start_[p_] = 0;  // t has no part in it
+  }
+  const auto rates = static_cast<Eigen::Index>(rated_.size());
+  const Eigen::Index limits = path ? N_ : 0, R = rows.R.rows();
+  row_min_.setZero(n_ * N_ + limits + rates + R);
+  row_max_ = row_min_;
+  row_min_.segment(n_ * N_, limits).setConstant(-kInfinity);
+  for (Eigen::Index k = 0; k < rates; ++k) {
+    const auto& [i, j] = rated_[static_cast<std::size_t>(k)];
+    row_max_[n_ * N_ + limits + k] = program.du_max(j, i);
+    row_min_[n_ * N_ + limits + k] = -program.du_max(j, i);
+  }
+  row_min_.tail(R) = rows.r_min;
+  row_max_.tail(R) = rows.r_max;
+}
+
+void JointProgram::evaluate(const Eigen::VectorXd& X) {
+  for (int i = 0; i < N_; ++i) {
+    Eigen::VectorXd& w = w_[static_cast<std::size_t>(i)];
+    w = X.segment(w0(i), w.size());
+  }
+  const PlanProgram& program = plans_.linearize(unstacked(X.head(p_), r_), w_);
+  fill(program);
+  rows_.noalias() = jacobian_ * X;
+  // The knots move the balance in another way than their derivative times themselves.
+  for (int i = 0; i < N_; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    rows_.segment(n_ * i, n_) -= program.G[at] * X.head(p_) + program.instants[at].tau_d;
+  }
+}
+
+void JointProgram::fill(const PlanProgram& program) {
+  entries_.clear();
+  for (int i = 0; i < N_; ++i) fill_block(program, i);
+  fill_linear(program);
+  jacobian_.resize(row_min_.size(), start_.size());
+  jacobian_.setFromTriplets(entries_.begin(), entries_.end());
+}
+
+/// The balance of one instant. Of a robot's zeros in B none is an entry; of J'W and G all are.
+void JointProgram::fill_block(const PlanProgram& program, int i) {
+  const WrenchProgram& at = program.instants[static_cast<std::size_t>(i)];
+  const Eigen::MatrixXd& B = at.actuation->B;
+  const Eigen::MatrixXd& G = program.G[static_cast<std::size_t>(i)];
+  for (int row = 0; row < n_; ++row) {
+    for (int j = 0; j < m_; ++j) {
+      if (B(row, j) != 0) entries_.emplace_back(n_ * i + row, u0(i) + j, B(row, j));
+    }
+    for (int j = 0; j < at.columns(); ++j) {
+      entries_.emplace_back(n_ * i + row, w0(i) + j, -at.JtW(row, j));
+    }
+    for (int j = 0; j < p_; ++j) entries_.emplace_back(n_ * i + row, j, G(row, j));
+  }
+}
+
+void JointProgram::fill_linear(const PlanProgram& program) {
+  int row = n_ * N_;
+  if (program.peak < 0) {
+    for (int i = 0; i < N_; ++i, ++row) {
+      const WrenchProgram& at = program.instants[static_cast<std::size_t>(i)];
+      entries_.emplace_back(row, p_, 1);
+      for (int j = 0; j < at.columns(); ++j) entries_.emplace_back(row, w0(i) + j, -at.c_w[j]);
+    }
+  }
+  for (const auto& [i, j] : rated_) {
+    entries_.emplace_back(row, u0(i + 1) + j, 1);
+    entries_.emplace_back(row++, u0(i) + j, -1);
+  }
+  const Eigen::SparseMatrix<double>& R = plans_.rows().R;
+  for (int column = 0; column < R.outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(R, column); it; ++it) {
+      entries_.emplace_back(row + static_cast<int>(it.row()), column, it.value());
+    }
+  }
+}
+
+}  // namespace maxwrench

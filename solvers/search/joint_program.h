@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Sparse>
+#include <vector>
+
+#include "maxwrench/plan.h"
+
+namespace maxwrench {
+
+/// The whole of a plan as one nonlinear program in X = (x, t, u_i and w_i of all blocks), x the
+/// stacked knots:
+///
+///     max t (of a heave c_w,p'w_p)   subject to
+///     B u_i - J_i(x)'W_i(x) w_i - tau_d,i(x) = 0,   t - c_w,i'w_i <= 0,   the rates,   R x
+///
+/// and all limits. The balance is the only part that is not linear. Collisions are not in it.
+class JointProgram {
+ public:
+  /// About the plan that `plans` has evaluated last by `evaluate_elastic`; keeps a reference.
+  JointProgram(PlanEvaluator& plans, const Eigen::VectorXd& x_min, const Eigen::VectorXd& x_max);
+
+  /// X of that plan.
+  const Eigen::VectorXd& start() const { return start_; }
+  const Eigen::VectorXd& lower() const { return lower_; }
+  const Eigen::VectorXd& upper() const { return upper_; }
+  const Eigen::VectorXd& row_min() const { return row_min_; }
+  const Eigen::VectorXd& row_max() const { return row_max_; }
+  const Eigen::VectorXd& objective() const { return objective_; }  ///< linear, to be maximised
+  auto knots(const Eigen::VectorXd& X) const { return X.head(p_); }
+
+  /// The rows at X, and their derivative, whose pattern is always the same.
+  void evaluate(const Eigen::VectorXd& X);
+  const Eigen::VectorXd& rows() const { return rows_; }
+  const Eigen::SparseMatrix<double>& jacobian() const { return jacobian_; }
+
+ private:
+  int u0(int i) const { return first_[static_cast<std::size_t>(i)]; }
+  int w0(int i) const { return u0(i) + m_; }
+  void set_limits(const PlanProgram& program, const KnotRows& rows);
+  void fill(const PlanProgram& program);
+  void fill_block(const PlanProgram& program, int i);
+  void fill_linear(const PlanProgram& program);
+
+  PlanEvaluator& plans_;
+  int p_, r_, m_, n_, N_;
+  std::vector<int> first_;  ///< of u_i
+  std::vector<std::pair<int, int>> rated_;
+  Eigen::VectorXd start_, lower_, upper_, row_min_, row_max_, objective_, rows_;
+  std::vector<Eigen::VectorXd> w_;
+  std::vector<Eigen::Triplet<double>> entries_;
+  Eigen::SparseMatrix<double> jacobian_;
+};
+
+}  // namespace maxwrench
