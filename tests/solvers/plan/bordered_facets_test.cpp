@@ -16,7 +16,7 @@ namespace {
 /// slacks.
 PlanProgram step_program(const Problem& problem, double radius, Random& random) {
   PlanEvaluator plans(problem, Wrench::kPure, find_plan_solver("ipm").make, false);
-  Eigen::MatrixXd knots = problem.theta_r_default.replicate(plans.knots(), 1);
+  Eigen::MatrixXd knots = problem.theta_r_default.transpose().replicate(plans.knots(), 1);
   for (double& value : knots.reshaped()) value += random.uniform(-0.02, 0.02);
   EXPECT_GT(plans.evaluate_elastic(knots, nullptr), -kInfinity);
   PlanProgram program = plans.linearize();

@@ -22,7 +22,8 @@ class JointProgramOf : public testing::TestWithParam<Setting> {
     problem_.motion->scheme = GetParam().scheme;
     plans_ = std::make_unique<PlanEvaluator>(problem_, GetParam().wrench,
                                              find_plan_solver("ipm").make, false);
-    const Eigen::MatrixXd knots = problem_.theta_r_default.replicate(plans_->knots(), 1);
+    const Eigen::MatrixXd knots =
+        problem_.theta_r_default.transpose().replicate(plans_->knots(), 1);
     value_ = plans_->evaluate_elastic(knots, nullptr);
     const auto limits = [&](const Eigen::VectorXd& limit) -> Eigen::VectorXd {
       return limit.replicate(plans_->knots(), 1);
