@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "lib/tank/ode.h"
 #include "lib/tank/stopwatch.h"
 #include "maxwrench/problem.h"
 

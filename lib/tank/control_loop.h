@@ -2,13 +2,14 @@
 
 #include "lib/math/random.h"
 #include "lib/tank/effort_tracking.h"
-#include "lib/tank/ode.h"
 #include "maxwrench/integrator.h"
 #include "maxwrench/tank.h"
 
 namespace maxwrench {
 
+class TankOde;
 struct Problem;
+struct Robot;
 
 /// The control periods of an experiment: in each the tracking program answers what a controller
 /// asks for, and the simulated robot carries that out.
