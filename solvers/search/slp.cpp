@@ -76,11 +76,11 @@ class Starts {
 };
 
 /// What was found, and whether its best plan is worth the same between its instants.
-struct Outcome {
+struct SlpOutcome {
   Part found;
   bool honest = false;
 
-  bool beats(const Outcome& other) const {
+  bool beats(const SlpOutcome& other) const {
     if (honest != other.honest) return honest;
     return found.best.value > other.found.best.value;
   }
@@ -95,8 +95,8 @@ bool is_honest(KnotClimber& climber, EvaluationCounter& progress) {
 
 /// Climbs that compete in rounds, side by side; all that they found, and the best honest plan or
 /// else the best.
-Outcome compete(const Objective& objective, std::vector<Candidate> starts, long budget, int threads,
-                EvaluationCounter& progress) {
+SlpOutcome compete(const Objective& objective, std::vector<Candidate> starts, long budget,
+                   int threads, EvaluationCounter& progress) {
   std::vector<std::unique_ptr<KnotClimber>> climbers;
   for (Candidate& start : starts) {
     climbers.push_back(std::make_unique<KnotClimber>(objective.clone(), start));
@@ -108,7 +108,7 @@ Outcome compete(const Objective& objective, std::vector<Candidate> starts, long 
     std::stable_sort(running.begin(), running.end(),
                      [](const auto* a, const auto* b) { return a->value() > b->value(); });
   };
-  Outcome outcome;
+  SlpOutcome outcome;
   for (const auto& [count, evaluations] : kRounds) {
     running.resize(std::min(running.size(), count));
     parallel_for(threads, static_cast<long>(running.size()), [&, until = evaluations](long i) {
@@ -136,7 +136,7 @@ Outcome compete(const Objective& objective, std::vector<Candidate> starts, long 
 }
 
 /// Without the values above that of the plan that was chosen.
-SearchResult make_result(const Outcome& outcome) {
+SearchResult make_result(const SlpOutcome& outcome) {
   SearchResult result = make_result(outcome.found);
   std::erase_if(result.history, [&](const Improvement& i) { return i.value > result.value; });
   const bool complete = !result.history.empty() && result.history.back().value == result.value;
@@ -162,7 +162,7 @@ class Slp : public Search {
     const Box box(objective);
     const Starts draw(objective, plans->rows(), plans->knots(), box.start(options.start));
     EvaluationCounter progress(options.progress);
-    Outcome best;
+    SlpOutcome best;
     std::vector<Candidate> starts = sample(objective, options, draw, box, progress, best.found);
     if (!starts.empty() &&
         options.budget - best.found.trace.evaluations() >= KnotClimber::kJudgement) {
@@ -175,8 +175,8 @@ class Slp : public Search {
       const auto batch = static_cast<std::ptrdiff_t>(std::min(kBatch, starts.size()));
       const long left = options.budget - best.found.trace.evaluations();
       if (left < kFewest * batch) break;
-      Outcome climbs = compete(objective, {starts.begin(), starts.begin() + batch}, left,
-                               options.threads, progress);
+      SlpOutcome climbs = compete(objective, {starts.begin(), starts.begin() + batch}, left,
+                                  options.threads, progress);
       starts.erase(starts.begin(), starts.begin() + batch);
       const double wanted = best.found.best.value + kBetter * (1 + std::abs(best.found.best.value));
       const bool better = climbs.beats(best);
