@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -16,6 +17,18 @@
 
 namespace maxwrench {
 namespace {
+
+/// What was refused by the name of its key, such as "lp: got ", by that of its option, "--lp: got
+/// ".
+std::string as_option(const CLI::App& app, const std::string& message) {
+  std::string key = message.substr(0, message.find(": got "));
+  std::replace(key.begin(), key.end(), '_', '-');
+  for (const CLI::App* command : app.get_subcommands()) {
+    if (command->get_option_no_throw("--" + key) == nullptr) continue;
+    return "--" + key + message.substr(key.size());
+  }
+  return message;
+}
 
 int parse_and_run(int argc, const char* const* argv) {
   CLI::App app("Finds how strongly a kinematically redundant robot can push, lift or twist.",
@@ -40,6 +53,8 @@ int parse_and_run(int argc, const char* const* argv) {
                  ? fmt::format("got '{}', expected a subcommand: see maxwrench --help", argv[1])
                  : error.what());
     return kBadInput;
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(as_option(app, error.what()));
   }
   return exit_status;
 }

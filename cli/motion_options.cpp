@@ -49,7 +49,7 @@ void change_peak(const Problem& problem, const std::string& text, MotionTask& ta
 /// Whether the text begins as a number does, and no name of a file.
 bool is_number(const std::string& text) {
   const std::size_t first = text.find_first_not_of("+-.");
-  return text.find(',') != std::string::npos ||
+  return text.empty() || text.find(',') != std::string::npos ||
          (first != std::string::npos && text.find_first_not_of("0123456789.+-eE") > text.size());
 }
 

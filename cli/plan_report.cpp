@@ -58,6 +58,19 @@ ordered_json task_json(const Problem& problem, const PlanRow& row) {
   return object;
 }
 
+/// In the order of u; `rate` is null where it has no limit.
+ordered_json actuators_json(const Robot& robot) {
+  ordered_json list = ordered_json::array();
+  for (Eigen::Index i = 0; i < robot.actuators(); ++i) {
+    const double rate = robot.u_rate_max[i];
+    list.push_back({{"name", actuator_name(robot, i)},
+                    {"min", robot.actuation.u_min[i]},
+                    {"max", robot.actuation.u_max[i]},
+                    {"rate", known(rate < kInfinity, rate)}});
+  }
+  return list;
+}
+
 ordered_json instant_json(const Robot& robot, const Instant& instant, bool solved) {
   ordered_json object;
   object["t"] = instant.t;
@@ -100,19 +113,12 @@ ordered_json plan_json(const Problem& problem, const PlanRow& row) {
   object["continuous_reason"] =
       known(!plan.continuous_reason.empty(), plan.continuous_reason.str());
   object["collision"] = known(!plan.collision.empty(), plan.collision.str());
+  object["actuators"] = actuators_json(problem.robot);
   object["instants"] = ordered_json::array();
   for (const Instant& instant : plan.instants) {
     object["instants"].push_back(instant_json(problem.robot, instant, solved));
   }
   return object;
-}
-
-Eigen::VectorXd theta_r_at(const Problem& problem, const Instant& instant) {
-  Eigen::VectorXd theta_r(problem.redundancy());
-  for (Eigen::Index j = 0; j < theta_r.size(); ++j) {
-    theta_r[j] = instant.q[problem.redundant[static_cast<std::size_t>(j)]];
-  }
-  return theta_r;
 }
 
 /// Some of the instants at knots.
@@ -126,7 +132,7 @@ void print_instants(const Problem& problem, const PlanRow& row) {
   for (int i = 0; i < count; i += step) {
     const Instant& instant = instants[static_cast<std::size_t>(i)];
     const std::string beta = row.has_value() ? fmt::format("{:.5f}", instant.beta()) : "-";
-    fmt::print("{:>9.4f}  {:>9}  {}  {}\n", instant.t, beta, line(theta_r_at(problem, instant)),
+    fmt::print("{:>9.4f}  {:>9}  {}  {}\n", instant.t, beta, line(instant.q(problem.redundant)),
                row.has_value() ? nearest_limit(problem.robot, instant.u) : "");
   }
 }
@@ -150,6 +156,9 @@ void print_plan(const Problem& problem, const PlanRow& row) {
   fmt::print("{} of {:g} s, {} knots, scheme {}", problem.type(), task.T, task.k,
              to_string(task.scheme));
   if (row.has_plan()) fmt::print(", {} instants", plan.instants.size());
+  if (!task.impulse && task.scheme == Scheme::kForward && task.k > 1) {
+    fmt::print(" T/k apart at poses T/(k-1) apart");
+  }
   if (task.impulse && plan.t_h > 0) fmt::print(", peak at knot {}", plan.t_h);
   fmt::print("\n{}{}{}\n", to_string(row.status), row.reason.empty() ? "" : ": ",
              row.reason.c_str());

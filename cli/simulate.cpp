@@ -44,6 +44,7 @@ void print_object(const Problem& problem, const SimulateOptions& options, const 
       {"shortfall", s.shortfall},
       {"violation", s.violation},
       {"held", s.held},
+      {"missed", s.missed},
       {"end", run.samples.empty() ? 0 : run.samples.back().t},
       {"wall_s", run.total_s},
       {"version", version()}};
@@ -81,13 +82,7 @@ void print_text(const Problem& problem, const SimulateOptions& options, const Ta
         100 * s.saturated, 100 * s.relaxed, s.shortfall);
   }
   fmt::print("limits      left by {:.2g}\n", s.violation);
-  fmt::print("{}", s.held ? "held" : "not held");
-  if (run.status != Status::kReached) {
-    fmt::print(", {}: {}", to_string(run.status), run.reason.c_str());
-  } else if (!run.samples.empty()) {
-    fmt::print(", ended at {:g} s", run.samples.back().t);
-  }
-  fmt::print("; in {:.3g} s, {} evaluations\n", run.total_s, run.evaluations);
+  print_end(run);
 }
 
 int print_heaviest(const Problem& problem, const SimulateOptions& options, const Row& row) {
@@ -217,6 +212,18 @@ void add_times(CLI::App& command, TankOptions& tank) {
 }
 
 }  // namespace
+
+void print_end(const TankRun& run) {
+  const TankSummary& s = run.summary;
+  if (!s.missed.empty()) fmt::print("missed      {}\n", s.missed);
+  fmt::print("{}", s.held ? "held" : "not held");
+  if (run.status != Status::kReached) {
+    fmt::print(", {}: {}", to_string(run.status), run.reason.c_str());
+  } else if (!run.samples.empty()) {
+    fmt::print(", ended at {:g} s", run.samples.back().t);
+  }
+  fmt::print("; in {:.3g} s, {} evaluations\n", run.total_s, run.evaluations);
+}
 
 void add_simulate(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<SimulateOptions>();

@@ -19,6 +19,9 @@ struct SimulateOptions : CommonOptions {
   const CLI::App* command = nullptr;
 };
 
+/// Whether it held, what it missed, and how it ended.
+void print_end(const TankRun& run);
+
 /// The experiment of a task in time; returns the exit status.
 int simulate_motion(const Problem& problem, const SimulateOptions& options);
 

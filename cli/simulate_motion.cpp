@@ -87,6 +87,7 @@ void add_measured(const TankRun& run, nlohmann::ordered_json& object) {
   }
   object["violations"] = m.violations;
   object["held"] = s.held;
+  object["missed"] = s.missed;
   object["end"] = ran ? run.samples.back().t : 0;
 }
 
@@ -149,13 +150,7 @@ void print_motion_text(const Problem& problem, const SimulateOptions& options,
     fmt::print("planned     {:.5f} {}\n", answer.script.planned, problem.unit());
   }
   if (!run.samples.empty()) print_motion_reading(answer);
-  fmt::print("{}", run.summary.held ? "held" : "not held");
-  if (run.status != Status::kReached) {
-    fmt::print(", {}: {}", to_string(run.status), run.reason.c_str());
-  } else if (!run.samples.empty()) {
-    fmt::print(", ended at {:g} s", run.samples.back().t);
-  }
-  fmt::print("; in {:.3g} s, {} evaluations\n", run.total_s, run.evaluations);
+  print_end(run);
 }
 
 }  // namespace

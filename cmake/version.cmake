@@ -1,6 +1,8 @@
 # Writes OUTPUT, a source with the version of the tree in SOURCE: RELEASE where the tag vRELEASE stands on a clean tree, else
-# RELEASE+COMMIT, with .dirty behind it if a tracked source has changed. What git archive exports knows its commit as well.
+# RELEASE+COMMIT, with .dirty behind it if a tracked source has changed. What git archive exports knows its commit as well. A commit may
+# be rewritten into another one with the same files, so beside it stands what those were: SHA1 of the list of all but results/.
 set(commit "unknown")
+set(sources "unknown")
 set(archived "$Format:%h$")
 if(NOT archived MATCHES Format)
   set(commit ${archived})
@@ -20,6 +22,10 @@ git(root rev-parse --show-toplevel)
 get_filename_component(source ${SOURCE} REALPATH)
 if(root AND root STREQUAL source)
   git(commit rev-parse --short=10 HEAD)
+  git(files ls-tree -r HEAD)
+  string(REGEX REPLACE "[^\n]*\tresults/[^\n]*\n" "" files "${files}\n")
+  string(SHA1 sources "${files}")
+  string(SUBSTRING ${sources} 0 10 sources)
   git(tags tag --points-at HEAD)
   git(changed status --porcelain --untracked-files=no -- . :!results)
 endif()
@@ -34,6 +40,9 @@ file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT
 
 const char* version();
 const char* version() { return "@version@"; }
+
+const char* sources_id();
+const char* sources_id() { return "@sources@"; }
 
 }  // namespace maxwrench
 ]])

@@ -20,10 +20,9 @@ int main(int argc, char** argv) try {
   std::printf("default posture  %.6f %s\n", objective->evaluate(problem.theta_r_default),
               problem.unit());
 
-  SearchOptions options;
-  options.budget = 20000;
-  const SearchResult best = find_search("grid").make()->maximize(*objective, options);
+  const SearchResult best = find_search("grid").make()->maximize(*objective, SearchOptions());
   std::printf("best posture     %.6f %s, %s\n", best.value, problem.unit(), to_string(best.status));
+  if (best.status != Status::kBestFound) return 1;
 
   // What the actuators do there.
   PostureEvaluator model(problem);
@@ -34,7 +33,6 @@ int main(int argc, char** argv) try {
     std::printf("%-16s %9.5f\n", problem.theta_r_name(i).c_str(), best.theta_r[i]);
   }
   for (const double effort : capability.u) std::printf("effort           %9.5f\n", effort);
-  return best.status == Status::kBestFound ? 0 : 1;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "solve: %s\n", error.what());
   return 2;

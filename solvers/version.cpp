@@ -52,8 +52,9 @@ std::string library_versions() {
 }  // namespace
 
 std::string describe_build() {
-  return fmt::format("maxwrench {}\nbuild {}: {}\ncompiler {}\nlibraries {}\n", version(),
-                     MAXWRENCH_BUILD, MAXWRENCH_FLAGS, __VERSION__, library_versions());
+  return fmt::format("maxwrench {}\nsources {}\nbuild {}: {}\ncompiler {}\nlibraries {}\n",
+                     version(), sources_id(), MAXWRENCH_BUILD, MAXWRENCH_FLAGS, __VERSION__,
+                     library_versions());
 }
 
 }  // namespace maxwrench

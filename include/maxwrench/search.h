@@ -28,9 +28,9 @@ struct Improvement {
 };
 
 /// The best point that a search saw: kBestFound if any evaluated point has a value, else
-/// kInfeasible.
+/// kNoneFound.
 struct SearchResult : Verdict {
-  SearchResult() { conclude(Status::kInfeasible, "no evaluated posture has a value"); }
+  SearchResult() { conclude(Status::kNoneFound, "nothing that was evaluated has a value"); }
   Eigen::VectorXd theta_r;
   double value = -kInfinity;
   long evaluations = 0;

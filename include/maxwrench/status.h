@@ -8,7 +8,7 @@
 namespace maxwrench {
 
 /// How a computation ended. Only a lower level says `kOptimal`, and only what was verified from the
-/// data; what was searched is `kBestFound`.
+/// data; a search says `kBestFound` or `kNoneFound`, which prove nothing.
 enum class Status {
   kOptimal,          ///< of a lower level: verified
   kInfeasible,       ///< of a lower level: proved
@@ -18,6 +18,7 @@ enum class Status {
   kNumericalError,   ///< no verdict that the data confirm
   kValid,            ///< of a posture: it exists and violates nothing
   kBestFound,        ///< of a search: the best of what was evaluated
+  kNoneFound,        ///< of a search: nothing that it evaluated has a value
   kReached           ///< of an integration: the last time, or a root
 };
 

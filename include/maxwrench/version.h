@@ -8,7 +8,12 @@ namespace maxwrench {
 /// ".dirty" behind it if sources were changed after the commit.
 const char* version();
 
-/// The version, how the library was built and the libraries that it uses, one line each.
+/// What the commit held, whatever became of it: ten digits of the SHA1 of the list of its files,
+/// results left out.
+const char* sources_id();
+
+/// The version, its sources, how the library was built and the libraries that it uses, one line
+/// each.
 std::string describe_build();
 
 }  // namespace maxwrench

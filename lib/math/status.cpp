@@ -20,6 +20,8 @@ const char* to_string(Status status) {
       return "valid";
     case Status::kBestFound:
       return "best_found";
+    case Status::kNoneFound:
+      return "none_found";
     case Status::kReached:
       return "reached";
     case Status::kNumericalError:

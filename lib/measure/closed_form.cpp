@@ -33,6 +33,11 @@ Eigen::MatrixXd weighted_inverse(const Robot& robot, const std::string& measure)
   return smaller_limits(robot.actuation).cwiseInverse().asDiagonal() * robot.actuation.B_pinv;
 }
 
+Status without_answer(Status how, const char* why, Capability& capability) {
+  capability.lambda.setZero();
+  return capability.conclude(how, why);
+}
+
 void fill_score(double beta, Eigen::Index velocities, Capability& capability) {
   capability.status = Status::kOptimal;
   capability.reason = "";

@@ -40,6 +40,9 @@ Eigen::MatrixXd weighted_inverse(const Robot& robot, const std::string& measure)
 /// Serves wrench columns that may only push, or rest, with a closed form for free ones.
 std::unique_ptr<Measure> make_one_sided(std::function<std::unique_ptr<Measure>()> closed_form);
 
+/// Ends without an answer. The multiplier of an earlier one is cleared: it would pass for a proof.
+Status without_answer(Status how, const char* why, Capability& capability);
+
 /// A score that says nothing of a wrench or of efforts, and does not depend on tau_d.
 void fill_score(double beta, Eigen::Index velocities, Capability& capability);
 

@@ -36,16 +36,16 @@ class Ellipsoid : public Measure {
   /// Fills beta, w and lambda.
   Status solve(const WrenchProgram& program, Capability& capability) {
     if (!(g_.squaredNorm() < 1)) {
-      capability.reason =
-          "the origin is outside of the ellipsoid: without contact forces tau_d alone exceeds it";
-      return Status::kInfeasible;
+      return without_answer(
+          Status::kInfeasible,
+          "the origin is outside of the ellipsoid: without contact forces tau_d alone exceeds it",
+          capability);
     }
     assert(program.columns() <= kMaxColumns);
     normal_.noalias() = G_.transpose().lazyProduct(G_);
     ldlt_.compute(normal_);
     if (!regular(ldlt_)) {
-      capability.reason = "J'W has not full column rank";
-      return Status::kNumericalError;
+      return without_answer(Status::kNumericalError, "J'W has not full column rank", capability);
     }
     direction_.noalias() = -G_.transpose().lazyProduct(g_);
     capability.w = ldlt_.solve(direction_);  // z

@@ -30,8 +30,7 @@ class LeastEffort : public Measure {
     normal_.noalias() = G_.transpose().lazyProduct(G_);
     ldlt_.compute(normal_);
     if (!regular(ldlt_)) {
-      capability.status = Status::kNumericalError;
-      capability.reason = "J'W has not full column rank";
+      without_answer(Status::kNumericalError, "J'W has not full column rank", capability);
       return;
     }
     capability.status = Status::kOptimal;

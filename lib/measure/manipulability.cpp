@@ -21,8 +21,7 @@ class Manipulability : public Measure {
     gram_.noalias() = A_.lazyProduct(A_.transpose());
     ldlt_.compute(gram_);
     if (!regular(ldlt_)) {
-      capability.status = Status::kNumericalError;
-      capability.reason = "J is singular";
+      without_answer(Status::kNumericalError, "J is singular", capability);
       return;
     }
     const double w = std::sqrt(ldlt_.vectorD().prod());

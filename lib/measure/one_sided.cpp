@@ -26,9 +26,10 @@ class OneSided : public Measure {
                 Capability& capability) override {
     sort_columns(program);
     if (!supported_) {
-      capability.status = Status::kNumericalError;
-      capability.reason =
-          "closed forms serve 12 wrench columns, and limits of a contact at zero or infinity only";
+      without_answer(
+          Status::kNumericalError,
+          "closed forms serve 12 wrench columns, and limits of a contact at zero or infinity only",
+          capability);
       return;
     }
     if (sided_.empty() && free_.size() == static_cast<std::size_t>(program.columns())) {
@@ -116,10 +117,12 @@ class OneSided : public Measure {
   /// The answer on the columns kept, with zeros for those that rest.
   void expand(const WrenchProgram& program, const Capability& answer, bool efforts,
               Capability& capability) const {
-    capability.status = answer.status;
-    capability.reason = answer.reason;
     capability.iterations = answer.iterations;
-    if (answer.status != Status::kOptimal) return;
+    if (answer.status != Status::kOptimal) {
+      without_answer(answer.status, answer.reason.c_str(), capability);
+      return;
+    }
+    capability.conclude(Status::kOptimal);
     const auto own = static_cast<int>(program.W.cols());
     capability.beta = answer.beta;
     capability.h = answer.h;

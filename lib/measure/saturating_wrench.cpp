@@ -54,12 +54,13 @@ class SaturatingWrench : public Measure {
       active_ = i;
     }
     if (low > high || high == -kInfinity) {
-      capability.reason = "an actuator cannot take its share of the load at any multiple of c";
-      return Status::kInfeasible;
+      return without_answer(Status::kInfeasible,
+                            "an actuator cannot take its share of the load at any multiple of c",
+                            capability);
     }
     if (high == kInfinity) {
-      capability.reason = "the wrench does not load any actuator";
-      return Status::kUnbounded;
+      return without_answer(Status::kUnbounded, "the wrench does not load any actuator",
+                            capability);
     }
     capability.reason = "";
     capability.beta = program.c_w[0] * high;

@@ -99,6 +99,32 @@ void MotionEvaluator::linearize(const std::vector<Instant>& instants, std::vecto
 void MotionEvaluator::linearize(const Instant& instant, int i, int chunk, Slopes& slopes) {
   const int r = problem_.redundancy(), first = 4 * chunk;
   const int count = std::min(4, 2 * r - first);
+  follow(instant, i, first, count);
+  dual_dynamics_.set_configuration(dual_follower_.base().R, dual_follower_.q());
+  dual_dynamics_.inverse(dual_v_, dual_v_dot_, dual_tau_);
+  dual_dynamics_.kinematics().jacobian(
+      problem_.robot.end_effectors[static_cast<std::size_t>(problem_.end_effector)],
+      dual_follower_.base().R, dual_J_);
+  for (int d = 0; d < count; ++d) {
+    const int direction = first + d;
+    const auto at = static_cast<std::size_t>(d);
+    const Eigen::Index column = direction < r ? direction : direction - r;
+    Eigen::MatrixXd& f = direction < r ? slopes.place : slopes.rate;
+    Eigen::MatrixXd& v = direction < r ? slopes.v_place : slopes.v_rate;
+    for (Eigen::Index row = 0; row < dual_tau_.size(); ++row) {
+      double turned = 0;
+      for (Eigen::Index axis = 0; axis < 6; ++axis) {
+        turned += dual_J_(axis, row).d[at] * instant.h[axis];
+      }
+      f(row, column) = dual_tau_[row].d[at] + turned;
+      v(row, column) = dual_v_[row].d[at];
+    }
+  }
+}
+
+/// The motion at instant i with its slopes along `count` directions from `first` on.
+void MotionEvaluator::follow(const Instant& instant, int i, int first, int count) {
+  const int r = problem_.redundancy();
   for (Eigen::Index j = 0; j < r; ++j) {
     dual_theta_r_[j] = place_(j, i);
     dual_rate_[j] = rate_(j, i);
@@ -121,26 +147,6 @@ void MotionEvaluator::linearize(const Instant& instant, int i, int chunk, Slopes
       for (std::size_t d = 0; d < 4; ++d) {
         dual_v_dot_[row].d[d] = maps_.D(i, i) * dual_v_[row].d[d];
       }
-    }
-  }
-  dual_dynamics_.set_configuration(dual_follower_.base().R, dual_follower_.q());
-  dual_dynamics_.inverse(dual_v_, dual_v_dot_, dual_tau_);
-  dual_dynamics_.kinematics().jacobian(
-      problem_.robot.end_effectors[static_cast<std::size_t>(problem_.end_effector)],
-      dual_follower_.base().R, dual_J_);
-  for (int d = 0; d < count; ++d) {
-    const int direction = first + d;
-    const auto at = static_cast<std::size_t>(d);
-    const Eigen::Index column = direction < r ? direction : direction - r;
-    Eigen::MatrixXd& f = direction < r ? slopes.place : slopes.rate;
-    Eigen::MatrixXd& v = direction < r ? slopes.v_place : slopes.v_rate;
-    for (Eigen::Index row = 0; row < dual_tau_.size(); ++row) {
-      double turned = 0;
-      for (Eigen::Index axis = 0; axis < 6; ++axis) {
-        turned += dual_J_(axis, row).d[at] * instant.h[axis];
-      }
-      f(row, column) = dual_tau_[row].d[at] + turned;
-      v(row, column) = dual_v_[row].d[at];
     }
   }
 }

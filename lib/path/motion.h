@@ -41,6 +41,7 @@ class MotionEvaluator {
   void set_rows(const Eigen::MatrixXd& Q);
   void accelerate_by_differences(std::vector<Instant>& instants) const;
   void linearize(const Instant& instant, int i, int chunk, Slopes& slopes);
+  void follow(const Instant& instant, int i, int first, int count);
 
   const Problem& problem_;
   SchemeMaps maps_;

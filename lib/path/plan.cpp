@@ -198,9 +198,7 @@ const std::vector<NearPair>& PlanEvaluator::near_pairs(const Eigen::MatrixXd& kn
   if (!ws.check_collision) return ws.near;
   Eigen::VectorXd q = resting_joints(ws.problem.robot);
   for (int knot = 0; knot < ws.task.k; ++knot) {
-    for (std::size_t j = 0; j < ws.problem.redundant.size(); ++j) {
-      q[ws.problem.redundant[j]] = knots(knot, static_cast<Eigen::Index>(j));
-    }
+    q(ws.problem.redundant) = knots.row(knot);
     ws.links.set_joints(q);
     find_near_pairs(ws.problem, ws.links, knot, within, ws.near);
   }

@@ -1,9 +1,8 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "lib/math/random.h"
 #include "lib/path/follow.h"
+#include "lib/tank/control_loop.h"
 #include "lib/tank/controller.h"
 #include "lib/tank/ode.h"
 #include "lib/tank/reference.h"
@@ -43,13 +42,12 @@ class MotionExperiment {
       : problem_(problem),
         options_(options),
         script_(script),
-        integrator_(integrator),
         reader_(problem, script),
         follower_(problem),
         motion_(start()),
         ode_(problem, at_rest(problem, motion_), options),
         controller_(problem, at_rest(problem, motion_), script.wrench, options),
-        random_(options.imperfections.seed) {
+        loop_(problem, options, integrator, ode_, controller_.tracker()) {
     ode_.hold_along(script.path);
     ode_.start(motion_, reference_.u);
     R_before_ = bent().R;
@@ -57,13 +55,12 @@ class MotionExperiment {
 
   TankRun run() {
     {
-      const Stopwatch watch(run_.total_s);
+      const Stopwatch watch(loop_.run.total_s);
       run_all();
     }
-    run_.evaluations = ode_.evaluations();
-    run_.model_s = ode_.seconds();
-    run_.summary = summarise(script_, run_, lost());
-    return std::move(run_);
+    TankRun& run = loop_.finish();
+    run.summary = summarise(script_, run, loop_.lost());
+    return std::move(run);
   }
 
  private:
@@ -94,15 +91,9 @@ class MotionExperiment {
 
   /// a of all velocities at a motion: on the path, with the errors of theta_r corrected.
   void accelerate(const Motion& motion) {
-    const auto axes = static_cast<Eigen::Index>(problem_.robot.base_axes.size());
     const double omega = options_.bandwidth;
-    theta_r_.resize(problem_.redundancy());
-    rate_.resize(theta_r_.size());
-    for (Eigen::Index i = 0; i < theta_r_.size(); ++i) {
-      const int joint = problem_.redundant[static_cast<std::size_t>(i)];
-      theta_r_[i] = motion.q[joint];
-      rate_[i] = motion.v[axes + joint];
-    }
+    theta_r_ = motion.q(problem_.redundant);
+    rate_ = motion.v.tail(motion.q.size())(problem_.redundant);
     bend_ = reference_.acceleration + omega * omega * (reference_.theta_r - theta_r_) +
             2 * omega * (reference_.rate - rate_);
     for (Eigen::Index i = 0; i < bend_.size(); ++i) {
@@ -117,71 +108,44 @@ class MotionExperiment {
   void run_all() {
     const double T = script_.instants.back().t;
     const long periods = static_cast<long>(std::ceil(T / options_.period - 1e-9));
-    run_.conclude(Status::kReached);
-    for (long k = 0; k < periods && run_.status == Status::kReached && !lost(); ++k) {
+    for (long k = 0; k < periods && loop_.goes_on(); ++k) {
       period(static_cast<double>(k) * options_.period,
              std::min(T, static_cast<double>(k + 1) * options_.period));
     }
   }
 
   /// The efforts of t_1, so the motion is that of t_1 too, as far as it can be told.
-  void request(double dt, double t_1) {
-    const Stopwatch watch(run_.controller_s);
+  void request(const Eigen::VectorXd& u, double dt, double t_1) {
+    const Stopwatch watch(loop_.run.controller_s);
     Motion then = advanced(problem_.robot, motion_, dt);
     then.v += dt * a_;
     reader_.read(t_1, reference_);
     accelerate(then);
-    controller_.request(then, a_, reference_.h, reference_.turn, reference_.u, u_, dt, request_);
-  }
-
-  void track() {
-    const Stopwatch watch(run_.qp_s);
-    controller_.tracker().solve(request_, answer_);
-    ++run_.requests;
-    run_.active_set_iterations += answer_.iterations;
+    controller_.request(then, a_, reference_.h, reference_.turn, reference_.u, u, dt,
+                        loop_.request);
   }
 
   void period(double t_0, double t_1) {
     ode_.read(ode_.initial(), motion_);
-    u_ = ode_.efforts(t_0);
-    request(t_1 - t_0, t_1);
-    track();
-    ode_.command(t_0, u_, t_1, answer_.u, Vector6d::Zero(), Vector6d::Zero());
-    draw_noise();
-    integrator_.integrate(ode_, options_.integrator, std::array{t_0, t_1}, path_);
-    run_.conclude(path_.status, path_.reason.c_str());
-    if (!answer_.converged) {
-      run_.conclude(Status::kNumericalError, "the tracking program ran out of iterations");
-    }
-    ode_.restart(path_.y.back());
-    if (path_.t.back() > t_0) keep(t_0, path_.t.back());
-  }
-
-  void draw_noise() {
-    if (options_.imperfections.thrust_noise == 0) return;
-    Eigen::VectorXd noise(static_cast<Eigen::Index>(problem_.robot.thrusters.size()));
-    for (double& value : noise) value = options_.imperfections.thrust_noise * random_.normal();
-    ode_.set_noise(noise);
+    const Eigen::VectorXd u = ode_.efforts(t_0);
+    request(u, t_1 - t_0, t_1);
+    const double t = loop_.step(t_0, u, t_1, Vector6d::Zero(), Vector6d::Zero());
+    if (t > t_0) keep(t_0, t);
   }
 
   void keep(double t_0, double t) {
     reader_.read(t, reference_);
     ode_.read(ode_.initial(), motion_);
-    TankSample sample;
-    sample.t = t;
+    TankSample sample = loop_.sample(t_0, t);
     sample.planned = reference_.c.dot(reference_.h) / (1 - script_.margin);
     read_cell(t, sample);
-    sample.u = ode_.efforts(t);
-    sample.shortfall = answer_.shortfall;
-    sample.saturated = answer_.saturated;
-    sample.relaxed = answer_.relaxed;
     const Vector6d displacement = ode_.displacement(t, motion_);
     sample.position_error = displacement.head<3>().norm();
     const Vector6d rest = displacement - bend();
     sample.displaced = std::max(rest.head<3>().norm(), rest.tail<3>().norm());
     compare(sample);
-    check_limits(t - t_0, sample);
-    run_.samples.push_back(std::move(sample));
+    sample.speed = speeding();
+    loop_.run.samples.push_back(std::move(sample));
   }
 
   void read_cell(double t, TankSample& sample) {
@@ -202,10 +166,7 @@ class MotionExperiment {
   /// With the posture that the script asks for.
   void compare(TankSample& sample) {
     follower_.set(reference_.x, reference_.theta_r, reference_.rate, reference_.acceleration);
-    sample.theta_r.resize(problem_.redundancy());
-    for (Eigen::Index i = 0; i < sample.theta_r.size(); ++i) {
-      sample.theta_r[i] = motion_.q[problem_.redundant[static_cast<std::size_t>(i)]];
-    }
+    sample.theta_r = motion_.q(problem_.redundant);
     sample.drift = (sample.theta_r - reference_.theta_r).lpNorm<Eigen::Infinity>();
     const Pose<double>& base = follower_.base();
     sample.moved = std::max({(motion_.q - follower_.q()).lpNorm<Eigen::Infinity>(),
@@ -221,48 +182,32 @@ class MotionExperiment {
     sample.angle = angle_;
   }
 
-  void check_limits(double dt, TankSample& sample) const {
+  /// How far joints are beyond their speed limits.
+  double speeding() const {
     const Robot& robot = problem_.robot;
-    const Eigen::ArrayXd rate = (sample.u - u_).array().abs() / dt;
-    // Of what the actuators do, and of what they were told.
-    sample.violation = std::max(0.0, (rate - robot.u_rate_max.array()).maxCoeff());
-    const auto beyond = [&](const Eigen::VectorXd& u) {
-      return std::max((u - robot.actuation.u_max).maxCoeff(),
-                      (robot.actuation.u_min - u).maxCoeff());
-    };
-    sample.violation = std::max({sample.violation, beyond(sample.u), beyond(answer_.u)});
     const auto axes = static_cast<Eigen::Index>(robot.base_axes.size());
+    double most = 0;
     for (std::size_t i = 0; i < robot.joints.size(); ++i) {
       const double speed = std::abs(motion_.v[axes + static_cast<Eigen::Index>(i)]);
-      sample.speed = std::max(sample.speed, speed - robot.joints[i].velocity_max);
+      most = std::max(most, speed - robot.joints[i].velocity_max);
     }
-  }
-
-  bool lost() const {
-    if (run_.samples.empty()) return false;
-    const TankSample& now = run_.samples.back();
-    return now.drift > kLost || now.position_error > kLost;
+    return most;
   }
 
   const Problem& problem_;
   const TankOptions& options_;
   const TankScript& script_;
-  Integrator& integrator_;
   const ScriptReader reader_;
   Follower<double> follower_;
   Reference reference_;
-  Eigen::VectorXd a_, theta_r_, rate_, bend_, u_;
+  Eigen::VectorXd a_, theta_r_, rate_, bend_;
   Motion motion_;
   TankOde ode_;
   PostureController controller_;
-  Random random_;
+  ControlLoop loop_;
   Eigen::Vector3d axis_ = Eigen::Vector3d::UnitZ();
   Eigen::Matrix3d R_before_;
   double angle_ = 0;
-  EffortRequest request_;
-  EffortAnswer answer_;
-  Trajectory path_;
-  TankRun run_;
 };
 
 }  // namespace

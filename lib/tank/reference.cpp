@@ -22,12 +22,8 @@ Eigen::Matrix3d ScriptReader::turn(const Eigen::Matrix3d& R) const {
 
 /// The part of theta_r in all velocities.
 Eigen::VectorXd ScriptReader::of_theta_r(const Eigen::VectorXd& velocities) const {
-  const auto axes = static_cast<Eigen::Index>(problem_.robot.base_axes.size());
-  Eigen::VectorXd part(problem_.redundancy());
-  for (Eigen::Index i = 0; i < part.size(); ++i) {
-    part[i] = velocities[axes + problem_.redundant[static_cast<std::size_t>(i)]];
-  }
-  return part;
+  const auto joints = static_cast<Eigen::Index>(problem_.robot.joints.size());
+  return velocities.tail(joints)(problem_.redundant);
 }
 
 void ScriptReader::read(double t, Reference& reference) const {
@@ -52,12 +48,7 @@ void ScriptReader::read(double t, Reference& reference) const {
 /// theta_r and its derivatives at z in [0, 1] between two instants.
 void ScriptReader::join(std::size_t from, double z, double dt, Reference& reference) const {
   const Instant &a = script_.instants[from], &b = script_.instants[from + 1];
-  Eigen::VectorXd start(problem_.redundancy()), end(start.size());
-  for (Eigen::Index i = 0; i < start.size(); ++i) {
-    const int joint = problem_.redundant[static_cast<std::size_t>(i)];
-    start[i] = a.q[joint];
-    end[i] = b.q[joint];
-  }
+  const Eigen::VectorXd start = a.q(problem_.redundant), end = b.q(problem_.redundant);
   const Eigen::VectorXd slope = (end - start) / dt;
   if (script_.interpolation == Interpolation::kLinear) {
     reference.theta_r = start + z * dt * slope;

@@ -1,8 +1,11 @@
 #include "lib/tank/summary.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
+#include <string>
 
 #include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
@@ -64,14 +67,35 @@ void add_sample(const TankSample& sample, TankSummary& summary) {
   summary.relaxed += sample.relaxed;
 }
 
-bool reads_as_planned(const Problem& problem, const TankPlan& plan, const TankOptions& options,
-                      const TankSummary& summary) {
+/// What is more than it may be, or not a number, is missed.
+void allow(double most, const char* what, double value, TankSummary& summary) {
+  if (value <= most) return;
+  std::array<char, 120> text{};
+  std::snprintf(text.data(), text.size(), "%s%s %.3g, at most %.3g",
+                summary.missed.empty() ? "" : "; ", what, value, most);
+  summary.missed += text.data();
+}
+
+void judge_reading(const Problem& problem, const TankPlan& plan, const TankOptions& options,
+                   TankSummary& summary) {
   const double room = kHeldShare * std::abs(summary.planned);
   const double force = problem.c.head<3>().norm(), torque = problem.c.tail<3>().norm();
   const Vector6d across = unasked(problem, plan, options, summary.across);
-  return std::abs(summary.mean - summary.planned) <= room &&
-         across.head<3>().norm() <= room * (force + torque / kHeldLever) &&
-         across.tail<3>().norm() <= room * (torque + force * kHeldLever);
+  allow(room, "reading off by", std::abs(summary.mean - summary.planned), summary);
+  allow(room * (force + torque / kHeldLever), "force across c", across.head<3>().norm(), summary);
+  allow(room * (torque + force * kHeldLever), "torque across c", across.tail<3>().norm(), summary);
+}
+
+/// `moved`: how far the posture may be from its reference.
+void judge_posture(double moved, TankSummary& summary) {
+  allow(moved, "posture off by", summary.moved, summary);
+  allow(kHeldPosition, "end effector displaced by", summary.displaced, summary);
+}
+
+/// Last: held is what missed nothing to its end.
+void conclude(const TankRun& run, bool lost, TankSummary& summary) {
+  if (lost) summary.missed = "the posture was lost";
+  summary.held = run.status == Status::kReached && summary.missed.empty();
 }
 
 }  // namespace
@@ -100,12 +124,14 @@ TankSummary summarise(const Problem& problem, const TankPlan& plan, const TankOp
   if (lost) reach(run.samples.back(), summary);
   if (count == 0) {
     forget(summary, lost);
-    return summary;
+    summary.missed = "no hold";
+  } else {
+    take_means(count, summary);
+    allow(kHeldViolation, "efforts or rates beyond their limits by", summary.violation, summary);
+    judge_posture(kHeldDrift, summary);
+    judge_reading(problem, plan, options, summary);
   }
-  take_means(count, summary);
-  summary.held = run.status == Status::kReached && !lost && summary.violation <= kHeldViolation &&
-                 summary.moved <= kHeldDrift && summary.displaced <= kHeldPosition &&
-                 reads_as_planned(problem, plan, options, summary);
+  conclude(run, lost, summary);
   return summary;
 }
 
@@ -118,6 +144,7 @@ TankSummary summarise(const TankScript& script, const TankRun& run, bool lost) {
   motion.at_peak = kNone;
   if (run.samples.empty()) {
     forget(summary, lost);
+    summary.missed = "no sample";
     return summary;
   }
   summary.low = kInfinity;
@@ -132,9 +159,10 @@ TankSummary summarise(const TankScript& script, const TankRun& run, bool lost) {
   take_means(static_cast<double>(run.samples.size()), summary);
   const double missed =
       std::isfinite(script.t_h) ? std::abs(motion.at_peak - script.planned) : motion.deviation;
-  summary.held = run.status == Status::kReached && !lost && motion.violations == 0 &&
-                 summary.moved <= kFollowedMoved && summary.displaced <= kHeldPosition &&
-                 missed <= kFollowedShare * std::abs(script.planned);
+  allow(0, "samples beyond a limit of effort, rate or joint speed:", motion.violations, summary);
+  judge_posture(kFollowedMoved, summary);
+  allow(kFollowedShare * std::abs(script.planned), "reading off by", missed, summary);
+  conclude(run, lost, summary);
   return summary;
 }
 

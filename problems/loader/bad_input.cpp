@@ -5,6 +5,7 @@
 #include <cctype>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 namespace maxwrench {
 
@@ -22,6 +23,18 @@ void refuse(const std::filesystem::path& file, std::string_view key, std::string
     if (space && !line.empty() && line.back() != ' ') line += ' ';
   }
   throw std::invalid_argument(line);
+}
+
+bool is_file(const std::filesystem::path& path) {
+  std::error_code none;
+  return std::filesystem::is_regular_file(path, none);
+}
+
+std::ifstream open_file(const std::filesystem::path& file, std::string_view expected) {
+  std::ifstream stream;
+  if (is_file(file)) stream.open(file, std::ios::binary);
+  if (!stream.is_open()) refuse(file, "file", "nothing that can be read", expected);
+  return stream;
 }
 
 }  // namespace maxwrench

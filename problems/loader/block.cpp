@@ -100,10 +100,7 @@ Block::Block(std::filesystem::path file, std::string path, std::shared_ptr<const
     : file_(std::move(file)), path_(std::move(path)), root_(std::move(root)), table_(table) {}
 
 Block Block::read(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!std::filesystem::is_regular_file(file) || !stream) {
-    refuse(file, "file", "nothing that can be read", "a TOML file");
-  }
+  std::ifstream stream = open_file(file, "a TOML file");
   const std::string text(std::istreambuf_iterator<char>(stream), {});
   require_short_keys(file, text);
   try {

@@ -76,10 +76,7 @@ void NumberTable::refuse_row(std::size_t row, const std::string& expected) const
 }
 
 NumberTable read_numbers(const std::filesystem::path& file, const std::vector<Columns>& choices) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!std::filesystem::is_regular_file(file) || !stream) {
-    refuse(file, "file", "nothing that can be read", "a CSV file");
-  }
+  std::ifstream stream = open_file(file, "a CSV file");
   NumberTable table{{}, {}, {}, file};
   int number = 0;
   for (std::string line; std::getline(stream, line);) {

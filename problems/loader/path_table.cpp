@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kShortestTime = 1e-6;     // s, between neighbours
 constexpr double kLengthTolerance = 1e-3;  // of a quaternion that was printed with a few digits
+/// rad, between neighbours: near pi it hangs on the last digits which way round the path turns.
+constexpr double kLargestTurn = 3;
 
 Pose<double> pose_of(const NumberTable& table, std::size_t row) {
   const std::vector<double>& n = table.rows[row];
@@ -31,9 +33,8 @@ void require_order(const NumberTable& table, const std::vector<Pose<double>>& po
     if (t - table.rows[i - 1][0] < kShortestTime) {
       table.refuse_row(i, "a t that rises from row to row, by 1e-6 s or more");
     }
-    constexpr double kMargin = 1e-6;  // rad
-    if (logarithm(poses[i - 1].R.transpose() * poses[i].R).norm() > M_PI - kMargin) {
-      table.refuse_row(i, "a pose turned by less than pi from the row before");
+    if (logarithm(poses[i - 1].R.transpose() * poses[i].R).norm() > kLargestTurn) {
+      table.refuse_row(i, "a pose turned by at most 3 rad from the row before");
     }
   }
 }

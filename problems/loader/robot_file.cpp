@@ -213,7 +213,7 @@ Robot load_robot(const std::filesystem::path& file) {
   robot.name = root.text("name");
   robot.sources = root.sources("robot");
   const std::filesystem::path urdf = file.parent_path() / root.text("urdf");
-  if (!std::filesystem::is_regular_file(urdf)) {
+  if (!is_file(urdf)) {
     root.refuse_value("urdf", fmt::format("a file beside this one ({} is none)", urdf.string()));
   }
   UrdfTree tree = read_urdf(urdf);

@@ -38,13 +38,17 @@ bool names_a_robot(std::istream& toml) {
   return false;
 }
 
+bool is_folder(const fs::path& path) {
+  std::error_code none;
+  return fs::is_directory(path, none);
+}
+
 /// The file of a shipped name or a path.
 fs::path find_task(const std::string& name) {
   const fs::path folder = problems_folder();
   const fs::path shipped = folder / (name + ".toml");
-  std::error_code none;  // a path may be no name: too long with the folder before it
-  if (!folder.empty() && fs::is_regular_file(shipped, none) && is_task(shipped)) return shipped;
-  if (fs::is_regular_file(name)) return name;
+  if (!folder.empty() && is_file(shipped) && is_task(shipped)) return shipped;
+  if (is_file(name)) return name;
   refuse(name, "problem", "no such file",
          fmt::format("the path of a task or one of {}", fmt::join(shipped_problems(), ", ")));
 }
@@ -167,7 +171,7 @@ Problem load_problem(const std::string& name) {
   problem.label = task.text("label");
   problem.source = task.text("source");
   const fs::path robot = file.parent_path() / task.text("robot");
-  if (!fs::is_regular_file(robot)) {
+  if (!is_file(robot)) {
     task.refuse_value("robot", fmt::format("the path of a robot ({} is none)", robot.string()));
   }
   problem.robot = load_robot(robot);
@@ -184,17 +188,14 @@ Problem load_problem(const std::string& name) {
 }
 
 bool is_task(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!fs::is_regular_file(file) || !stream) {
-    refuse(file, "file", "nothing that can be read", "a TOML file");
-  }
+  std::ifstream stream = open_file(file, "a TOML file");
   return names_a_robot(stream);
 }
 
 fs::path problems_folder() {
   const char* const chosen = std::getenv(kProblemsVariable);
   if (chosen && *chosen) {
-    if (fs::is_directory(chosen)) return chosen;
+    if (is_folder(chosen)) return chosen;
     throw std::invalid_argument(std::string(kProblemsVariable) + ": got '" + chosen +
                                 "', expected a folder with problems");
   }
@@ -203,14 +204,14 @@ fs::path problems_folder() {
   for (const fs::path& folder :
        {program.parent_path() / MAXWRENCH_PROBLEMS_BESIDE, fs::path(MAXWRENCH_PROBLEMS_SOURCE),
         fs::path(MAXWRENCH_PROBLEMS_INSTALLED)}) {
-    if (fs::is_directory(folder)) return fs::canonical(folder);
+    if (is_folder(folder)) return fs::canonical(folder);
   }
   return {};
 }
 
 std::vector<std::string> tasks_in(const fs::path& folder) {
   std::vector<std::string> names;
-  if (!fs::is_directory(folder)) return names;
+  if (!is_folder(folder)) return names;
   const auto options = fs::directory_options::skip_permission_denied;
   for (const auto& entry : fs::recursive_directory_iterator(folder, options)) {
     std::error_code none;  // such as a link that leads to itself

@@ -107,10 +107,7 @@ urdf::ModelInterfaceSharedPtr parse(const std::filesystem::path& file, const std
 }  // namespace
 
 UrdfDocument read_urdf_document(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!std::filesystem::is_regular_file(file) || !stream) {
-    refuse(file, "file", "nothing that can be read", "a URDF file");
-  }
+  std::ifstream stream = open_file(file, "a URDF file");
   const std::string text(std::istreambuf_iterator<char>(stream), {});
   require_shallow(file, text);
   TiXmlDocument xml;

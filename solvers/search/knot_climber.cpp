@@ -10,9 +10,9 @@ namespace {
 constexpr double kFirstRadius = 0.1;  // rad or m
 constexpr double kSmallestRadius = 1e-7;
 constexpr double kAccept = 0.05, kShrink = 0.25, kGrow = 0.7;  // of what was predicted
-constexpr double kReach = 2;             // m per radius: how far bodies may come nearer in a step
+constexpr double kNearing = 2;           // m per radius: how far bodies may come nearer in a step
 constexpr double kSpare = 1e-9;          // m, beyond the margin where knots are moved apart
-constexpr int kRounds = 5;               // of moving them apart
+constexpr int kApartRounds = 5;          // of moving them apart
 constexpr double kHonest = 0.004;        // between value and continuous, relative
 constexpr double kStepTolerance = 1e-6;  // of a linear program, whose answer is only a step
 constexpr double kConverged = 1e-9;      // predicted, relative to 1 + |f|
@@ -142,7 +142,7 @@ void KnotClimber::set_rows() {
       if (row >= 0) entries_.emplace_back(row, it.col(), it.value());
     }
   }
-  for (const NearPair& pair : plans_.near_pairs(unstacked(x, r), kReach * radius_)) {
+  for (const NearPair& pair : plans_.near_pairs(unstacked(x, r), kNearing * radius_)) {
     for (Eigen::Index j = 0; j < r; ++j) {
       entries_.emplace_back(low_.size(), pair.knot * r + j, pair.gradient[j]);
     }
@@ -160,7 +160,7 @@ void KnotClimber::set_rows() {
 /// x with colliding knots moved apart by Newton's method along the gradients of the clearance.
 Eigen::VectorXd KnotClimber::apart(Eigen::VectorXd x) {
   const Eigen::Index r = x.size() / plans_.knots();
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kApartRounds; ++round) {
     const auto& near = plans_.near_pairs(unstacked(x, r), 0);
     if (near.empty()) break;
     for (const NearPair& pair : near) {

@@ -19,11 +19,11 @@ constexpr double kBetter = 1e-5;   // relative to 1 + |f|
 constexpr std::pair<std::size_t, long> kRounds[] = {{kBatch, 19}, {4, 33}, {2, 61}, {1, 400}};
 
 /// What was found, and whether its best plan is worth the same between its instants.
-struct Outcome {
+struct SlpOutcome {
   Part found;
   bool honest = false;
 
-  bool beats(const Outcome& other) const {
+  bool beats(const SlpOutcome& other) const {
     if (honest != other.honest) return honest;
     return found.best.value > other.found.best.value;
   }
@@ -38,8 +38,8 @@ bool is_honest(KnotClimber& climber, EvaluationCounter& progress) {
 
 /// Climbs that compete in rounds, side by side; all that they found, and the best honest plan or
 /// else the best.
-Outcome compete(const Objective& objective, std::vector<Candidate> starts, long budget, int threads,
-                EvaluationCounter& progress) {
+SlpOutcome compete(const Objective& objective, std::vector<Candidate> starts, long budget,
+                   int threads, EvaluationCounter& progress) {
   std::vector<std::unique_ptr<KnotClimber>> climbers;
   for (Candidate& start : starts) {
     climbers.push_back(std::make_unique<KnotClimber>(objective.clone(), start));
@@ -51,7 +51,7 @@ Outcome compete(const Objective& objective, std::vector<Candidate> starts, long 
     std::stable_sort(running.begin(), running.end(),
                      [](const auto* a, const auto* b) { return a->value() > b->value(); });
   };
-  Outcome outcome;
+  SlpOutcome outcome;
   for (const auto& [count, evaluations] : kRounds) {
     running.resize(std::min(running.size(), count));
     parallel_for(threads, static_cast<long>(running.size()), [&, until = evaluations](long i) {
@@ -79,7 +79,7 @@ Outcome compete(const Objective& objective, std::vector<Candidate> starts, long 
 }
 
 /// Without the values above that of the plan that was chosen.
-SearchResult make_result(const Outcome& outcome) {
+SearchResult make_result(const SlpOutcome& outcome) {
   SearchResult result = make_result(outcome.found);
   std::erase_if(result.history, [&](const Improvement& i) { return i.value > result.value; });
   const bool complete = !result.history.empty() && result.history.back().value == result.value;
@@ -102,7 +102,7 @@ class Slp : public Search {
           "follow, expected another one");
     }
     EvaluationCounter progress(options.progress);
-    Outcome best;
+    SlpOutcome best;
     std::vector<Candidate> starts = find_knot_starts(objective, options, progress, best.found);
     if (!starts.empty() &&
         options.budget - best.found.trace.evaluations() >= KnotClimber::kJudgement) {
@@ -115,8 +115,8 @@ class Slp : public Search {
       const auto batch = static_cast<std::ptrdiff_t>(std::min(kBatch, starts.size()));
       const long left = options.budget - best.found.trace.evaluations();
       if (left < kFewest * batch) break;
-      Outcome climbs = compete(objective, {starts.begin(), starts.begin() + batch}, left,
-                               options.threads, progress);
+      SlpOutcome climbs = compete(objective, {starts.begin(), starts.begin() + batch}, left,
+                                  options.threads, progress);
       starts.erase(starts.begin(), starts.begin() + batch);
       const double wanted = best.found.best.value + kBetter * (1 + std::abs(best.found.best.value));
       const bool better = climbs.beats(best);

@@ -87,7 +87,9 @@ TEST(Command, SolveSaysThatTheSecondArmDoesNotReach) {
   EXPECT_EQ(result.exit_status, 1);
   EXPECT_NE(result.out.find("branches of the second arm: 0 valid"), std::string::npos)
       << result.out;
-  EXPECT_NE(result.out.find("no evaluated posture has a value"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("none_found: nothing that was evaluated has a value"),
+            std::string::npos)
+      << result.out;
 }
 
 TEST(Command, EvalPrintsOneObjectWithEverything) {

@@ -77,6 +77,13 @@ TEST(PlanCommand, PrintsOneObjectWithEverything) {
   EXPECT_EQ(plan["gradient"].size(), 10U);
   EXPECT_EQ(plan["gradient"][0].size(), 4U);
   EXPECT_EQ(plan["instants"].size(), 37U);  // 4 k - 3
+  const json& actuators = plan["actuators"];
+  ASSERT_EQ(actuators.size(), plan["instants"][0]["u"].size());
+  // As in robot.toml and the URDF: T200 thrusters with a rate, and an arm without.
+  EXPECT_EQ(actuators[0]["min"], -40);
+  EXPECT_EQ(actuators[0]["max"], 50);
+  EXPECT_GT(actuators[0]["rate"], 0);
+  EXPECT_TRUE(actuators.back()["rate"].is_null());
   const json expected = {{"kind", "trajectory"},
                          {"scheme", "spline"},
                          {"k", 10},

@@ -208,7 +208,8 @@ const std::vector<BadTable> kBadTables = {
     {"late_start", "1,0,0,0,0,0,0\n2,0,0,0,0,0,0\n", {"line 1: got '1,0,", "t = 0"}},
     {"time_stands", "0,0,0,0,0,0,0\n1,0,0,0,0,0,0\n1,0,0,0,0,0,0\n", {"line 3: got", "rises"}},
     {"time_goes_back", "0,0,0,0,0,0,0\n-1,0,0,0,0,0,0\n", {"line 2: got '-1,", "rises"}},
-    {"half_a_turn", "0,0,0,0,1,0,0,0\n1,0,0,0,0,0,0,1\n", {"line 2: got", "less than pi"}},
+    {"half_a_turn", "0,0,0,0,1,0,0,0\n1,0,0,0,0,0,0,1\n", {"line 2: got", "at most 3 rad"}},
+    {"nearly_half_a_turn", "0,0,0,0,0,0,0\n1,0,0,0,0,0,3.01\n", {"line 2: got", "at most 3 rad"}},
     {"long_quaternion", "0,0,0,0,1,0,0,0\n1,0,0,0,1,0,0,1\n", {"line 2: got", "length 1"}},
     {"zero_quaternion", "0,0,0,0,0,0,0,0\n1,0,0,0,1,0,0,0\n", {"line 1: got", "length 1"}},
 };

@@ -46,6 +46,22 @@ TEST(ProblemsFolder, ALinkThatLeadsToItselfIsNoProblem) {
   EXPECT_EQ(shipped_problems(), std::vector<std::string>{"own/push"});
 }
 
+/// Not what std::filesystem throws there.
+TEST(ProblemsFolder, ALinkThatLeadsToItselfIsBadInput) {
+  const TemporaryFolder folder;
+  const fs::path circle = folder.path() / "circle";
+  fs::create_symlink("circle", circle);
+  const Problem problem = load_problem("planar/force");
+  EXPECT_THROW(load_problem(circle.string()), std::invalid_argument);
+  EXPECT_THROW(load_robot(circle), std::invalid_argument);
+  EXPECT_THROW(is_task(circle), std::invalid_argument);
+  EXPECT_THROW(load_knots(circle, problem), std::invalid_argument);
+  EXPECT_THROW(load_state(circle, problem.robot), std::invalid_argument);
+  EXPECT_TRUE(tasks_in(circle).empty());
+  const ProblemsVariable variable(circle);
+  EXPECT_THROW(problems_folder(), std::invalid_argument);
+}
+
 /// 255 letters are a name of a file; as the name of a problem it would get five more.
 TEST(ProblemsFolder, LongFileNamesAreFiles) {
   const TemporaryFolder folder;

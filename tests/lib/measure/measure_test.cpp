@@ -241,6 +241,26 @@ TEST(Measure, EllipsoidIsThePositiveRoot) {
   }
 }
 
+/// It would pass for the proof that an infeasible capability carries.
+TEST(Measure, ClosedFormsLeaveNoMultiplierOfAnEarlierAnswer) {
+  const Problem problem = load_problem("uvms/valve");
+  PostureEvaluator model(problem, false);
+  const Posture& posture = model.evaluate(problem.theta_r_default);
+  for (const char* name : {"ellipsoid", "saturating_wrench"}) {
+    const auto measure = find_measure(name).make(problem, nullptr);
+    WrenchProgram program = make_wrench_program(problem, Wrench::kPure);
+    set_posture(posture, program);
+    Capability capability;
+    measure->evaluate(posture, program, false, capability);
+    ASSERT_EQ(capability.status, Status::kOptimal) << name;
+    ASSERT_GT(capability.lambda.norm(), 0) << name;
+    program.tau_d *= 1e6;  // far more than all actuators exert
+    measure->evaluate(posture, program, false, capability);
+    EXPECT_EQ(capability.status, Status::kInfeasible) << name;
+    EXPECT_TRUE(capability.lambda.isZero(0)) << name;
+  }
+}
+
 TEST(Measure, RefusesDeficientActuation) {
   Random random(9);
   Problem problem = random_problem(random, 2);

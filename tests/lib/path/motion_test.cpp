@@ -170,9 +170,8 @@ TEST_P(PlanGradient, IsThatOfCentralDifferences) {
       continue;
     }
     ++compared;
-    // Rounding of the optimum: about 1e-9 of the value, which the price of the slack makes large.
-    EXPECT_NEAR(gradient.dot(direction), (right + left) / 2,
-                1e-6 * scale + 1e-10 * std::abs(value) / h);
+    // Of 200 tables the worst are off by 3e-7.
+    EXPECT_NEAR(gradient.dot(direction), (right + left) / 2, 1e-6 * scale);
   }
   EXPECT_GE(compared, wanted / 2) << kinks << " kinks";
   RecordProperty("kinks", kinks);

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -90,6 +91,7 @@ TEST(TankHeld, ThePlanAtTheCapability) {
   ASSERT_NEAR(arm.capability.beta, 10, 1e-9);
   const TankSummary held = arm.experiment(10, brief());
   EXPECT_TRUE(held.held);
+  EXPECT_EQ(held.missed, "");
   EXPECT_LT(held.across.norm(), 1e-3);
 }
 
@@ -103,6 +105,8 @@ TEST(TankHeld, NotWhatTheCellTakesAcrossC) {
   EXPECT_NEAR(std::abs(beyond.across[4]), 0.0567, 0.002);
   EXPECT_LT(beyond.moved, kHeldDrift);
   EXPECT_FALSE(beyond.held);
+  EXPECT_THAT(beyond.missed, testing::StartsWith("torque across c 0.05"));
+  EXPECT_THAT(beyond.missed, testing::EndsWith(", at most 0.022"));
 }
 
 /// If the task leaves the other components to the cell, the same reading is as good as any.
@@ -130,6 +134,7 @@ TEST(TankHeld, ALoadThatTheArmGivesWayTo) {
   EXPECT_GT(given.moved, 0.02);
   EXPECT_LT(given.moved, 0.04);
   EXPECT_FALSE(given.held);
+  EXPECT_THAT(given.missed, testing::HasSubstr("posture off by 0.0"));
 }
 
 }  // namespace

@@ -131,6 +131,7 @@ TEST(TankMotion, ABackwardHeaveDoesNotReachItsPeak) {
   EXPECT_GT(script.planned, 38);
   const TankRun tank = run(problem, script);
   EXPECT_FALSE(tank.summary.held);
+  EXPECT_THAT(tank.summary.missed, testing::HasSubstr("reading off by"));
   EXPECT_LT(tank.summary.motion->at_peak, 0.95 * script.planned);
   EXPECT_LT(tank.summary.violation, 1e-6);
   const TankScript spline = script_of(problem, knots);

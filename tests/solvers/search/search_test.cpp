@@ -210,9 +210,9 @@ TEST_P(SearchTest, ExceptionsPassThrough) {
 TEST_P(SearchTest, SaysWhenNothingHasAValue) {
   Known nowhere([](const Eigen::VectorXd&) { return -kInfinity; }, constant(2, 0), constant(2, 1));
   const SearchResult result = maximize(nowhere, {});
-  EXPECT_EQ(result.status, Status::kInfeasible);
+  EXPECT_EQ(result.status, Status::kNoneFound);
   EXPECT_EQ(result.value, -kInfinity);
-  EXPECT_STREQ(result.reason.c_str(), "no evaluated posture has a value");
+  EXPECT_STREQ(result.reason.c_str(), "nothing that was evaluated has a value");
   EXPECT_EQ(nowhere.count(), result.evaluations);
 }
 

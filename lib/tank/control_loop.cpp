@@ -1,0 +1,84 @@
+#include "lib/tank/control_loop.h"
+
+#include <algorithm>
+#include <array>
+
+#include "lib/tank/ode.h"
+#include "lib/tank/stopwatch.h"
+#include "maxwrench/problem.h"
+
+namespace maxwrench {
+
+ControlLoop::ControlLoop(const Problem& problem, const TankOptions& options, Integrator& integrator,
+                         TankOde& ode, EffortTracker& tracker)
+    : robot_(problem.robot),
+      options_(options),
+      integrator_(integrator),
+      ode_(ode),
+      tracker_(tracker),
+      random_(options.imperfections.seed) {
+  run.conclude(Status::kReached);
+}
+
+double ControlLoop::step(double t_0, const Eigen::VectorXd& u_0, double t_1, const Vector6d& h_0,
+                         const Vector6d& h_1) {
+  u_0_ = u_0;
+  {
+    const Stopwatch watch(run.qp_s);
+    tracker_.solve(request, answer_);
+  }
+  ++run.requests;
+  run.active_set_iterations += answer_.iterations;
+  ode_.command(t_0, u_0_, t_1, answer_.u, h_0, h_1);
+  draw_noise();
+  integrator_.integrate(ode_, options_.integrator, std::array{t_0, t_1}, path_);
+  run.conclude(path_.status, path_.reason.c_str());
+  if (!answer_.converged) {
+    run.conclude(Status::kNumericalError, "the tracking program ran out of iterations");
+  }
+  ode_.restart(path_.y.back());
+  return path_.t.back();
+}
+
+void ControlLoop::draw_noise() {
+  if (options_.imperfections.thrust_noise == 0) return;
+  Eigen::VectorXd noise(static_cast<Eigen::Index>(robot_.thrusters.size()));
+  for (double& value : noise) value = options_.imperfections.thrust_noise * random_.normal();
+  ode_.set_noise(noise);
+}
+
+TankSample ControlLoop::sample(double t_0, double t) const {
+  TankSample sample;
+  sample.t = t;
+  sample.u = ode_.efforts(t);
+  sample.shortfall = answer_.shortfall;
+  sample.saturated = answer_.saturated;
+  sample.relaxed = answer_.relaxed;
+  sample.violation = violation(t - t_0, sample.u);
+  return sample;
+}
+
+/// Of what the actuators do, and of what they were told.
+double ControlLoop::violation(double dt, const Eigen::VectorXd& u) const {
+  const Zonotope& limits = robot_.actuation;
+  const Eigen::ArrayXd rate = (u - u_0_).array().abs() / dt;
+  double most = std::max(0.0, (rate - robot_.u_rate_max.array()).maxCoeff());
+  for (const Eigen::VectorXd* each : {&u, &answer_.u}) {
+    most = std::max({most, (*each - limits.u_max).maxCoeff(), (limits.u_min - *each).maxCoeff()});
+  }
+  return most;
+}
+
+bool ControlLoop::lost() const {
+  if (run.samples.empty()) return false;
+  const TankSample& now = run.samples.back();
+  return now.drift > kLost || now.position_error > kLost;
+}
+
+TankRun& ControlLoop::finish() {
+  run.evaluations = ode_.evaluations();
+  run.model_s = ode_.seconds();
+  return run;
+}
+
+}  // namespace maxwrench
