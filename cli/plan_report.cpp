@@ -107,14 +107,6 @@ ordered_json plan_json(const Problem& problem, const PlanRow& row) {
   return object;
 }
 
-Eigen::VectorXd theta_r_at(const Problem& problem, const Instant& instant) {
-  Eigen::VectorXd theta_r(problem.redundancy());
-  for (Eigen::Index j = 0; j < theta_r.size(); ++j) {
-    theta_r[j] = instant.q[problem.redundant[static_cast<std::size_t>(j)]];
-  }
-  return theta_r;
-}
-
 /// Some of the instants at knots.
 void print_instants(const Problem& problem, const PlanRow& row) {
   const auto& instants = row.plan.instants;

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "benchmarks/plan_row.h"
 #include "benchmarks/row.h"
 #include "benchmarks/table.h"
 #include "cli/progress.h"
@@ -20,13 +21,17 @@ class RowWriter {
             long rows);
 
   Row solve(const Problem& problem, const Method& method);
+  PlanRow solve(const Problem& problem, const PlanMethod& method);
   Row evaluate(const Problem& problem, const Method& method, const Eigen::VectorXd& theta_r);
+  PlanRow evaluate(const Problem& problem, const PlanMethod& method, const Eigen::MatrixXd& knots);
 
   /// Removes the progress bar; whether every row has a value.
   bool finish();
 
  private:
-  void keep(const Problem& problem, const Row& row, int threads);
+  /// Of a `Row` or `PlanRow`.
+  template <class AnyRow>
+  AnyRow kept(const Problem& problem, AnyRow row, int threads);
 
   Table values_, times_;
   int threads_;
