@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include "benchmarks/plan_row.h"
+
 namespace maxwrench {
 
 /// One of the paper's tables beside ours.
@@ -16,5 +18,9 @@ struct PaperTable {
 PaperTable reproduce_planar(const std::filesystem::path& folder, int threads);
 PaperTable reproduce_uvms(const std::filesystem::path& folder, int threads);
 PaperTable reproduce_dual(const std::filesystem::path& folder, int threads);
+/// Each plan that was found becomes a table plans/TASK_SCHEME.csv of the folder. `budget` is that
+/// of each search.
+PaperTable reproduce_motion(const std::filesystem::path& folder, int threads,
+                            long budget = kPlanBudget);
 
 }  // namespace maxwrench
