@@ -5,6 +5,7 @@
 #include <ctime>
 #include <memory>
 
+#include "benchmarks/plan_row.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
 

@@ -6,10 +6,11 @@
 
 #include "benchmarks/case.h"
 #include "benchmarks/interruption.h"
-#include "benchmarks/plan_row.h"
 #include "maxwrench/search.h"
 
 namespace maxwrench {
+
+struct PlanMethod;
 
 /// One run of a search on one thread, perhaps cut short, with the time of the processor (what other
 /// programs use does not count).

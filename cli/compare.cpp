@@ -7,6 +7,7 @@
 
 #include "benchmarks/comparison.h"
 #include "benchmarks/machine.h"
+#include "benchmarks/plan_row.h"
 #include "benchmarks/table.h"
 #include "benchmarks/write_file.h"
 #include "cli/cli.h"

@@ -1,6 +1,7 @@
 #include "cli/row_writer.h"
 
 #include "benchmarks/machine.h"
+#include "benchmarks/plan_row.h"
 #include "benchmarks/write_file.h"
 #include "maxwrench/version.h"
 

@@ -3,12 +3,14 @@
 #include <filesystem>
 #include <string>
 
-#include "benchmarks/plan_row.h"
 #include "benchmarks/row.h"
 #include "benchmarks/table.h"
 #include "cli/progress.h"
 
 namespace maxwrench {
+
+struct PlanMethod;
+struct PlanRow;
 
 /// Solves cases one after the other and keeps their rows in values.csv and times.csv of a folder,
 /// each written as soon as it is known; describes the machine in machine.txt. Each time says on how

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 
+#include "benchmarks/plan_row.h"
 #include "cli/cli.h"
 #include "cli/row_writer.h"
 #include "maxwrench/load.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "benchmarks/plan_row.h"
 #include "benchmarks/tank_experiment.h"
 #include "benchmarks/write_file.h"
 #include "cli/motion_options.h"

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "benchmarks/plan_row.h"
 #include "cli/cli.h"
 
 namespace maxwrench {
@@ -16,7 +17,7 @@ struct ReproduceOptions : CommonOptions {
 int reproduce(const ReproduceOptions& options) {
   bool all_solved = true;
   const auto motion = [](const std::filesystem::path& folder, int threads) {
-    return reproduce_motion(folder, threads);
+    return reproduce_motion(folder, threads, kPlanBudget);
   };
   for (PaperTable (*const table)(const std::filesystem::path&, int) :
        {reproduce_planar, reproduce_uvms, reproduce_dual, +motion}) {

@@ -3,8 +3,6 @@
 #include <filesystem>
 #include <string>
 
-#include "benchmarks/plan_row.h"
-
 namespace maxwrench {
 
 /// One of the paper's tables beside ours.
@@ -20,7 +18,6 @@ PaperTable reproduce_uvms(const std::filesystem::path& folder, int threads);
 PaperTable reproduce_dual(const std::filesystem::path& folder, int threads);
 /// Each plan that was found becomes a table plans/TASK_SCHEME.csv of the folder. `budget` is that
 /// of each search.
-PaperTable reproduce_motion(const std::filesystem::path& folder, int threads,
-                            long budget = kPlanBudget);
+PaperTable reproduce_motion(const std::filesystem::path& folder, int threads, long budget);
 
 }  // namespace maxwrench

@@ -4,6 +4,7 @@
 
 #include <tuple>
 
+#include "benchmarks/plan_row.h"
 #include "maxwrench/load.h"
 
 namespace maxwrench {
