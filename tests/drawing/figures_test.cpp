@@ -35,12 +35,15 @@ std::vector<double> numbers(const std::string& svg, const std::string& attribute
 }
 
 /// In a column of 8 cm (72 pt are an inch) words are 6 pt high or more; lowered letters, which are
-/// four fifths of that, 4.8 pt.
+/// four fifths of that, 4.8 pt. Those along the left edge are whole: their middle is 8 px inside.
 void expect_legible(const std::string& svg) {
   const double pt = 8 / 2.54 * 72 / numbers(svg, "width").front();
   std::istringstream lines(svg);
   for (std::string line; std::getline(lines, line);) {
     if (!line.starts_with("<text")) continue;
+    if (line.find("rotate(-90") != std::string::npos) {
+      EXPECT_GE(numbers(line, "x").front(), 8);
+    }
     const std::vector<double> sizes = numbers(line, "font-size");
     for (std::size_t i = 0; i < sizes.size(); ++i) EXPECT_GE(pt * sizes[i], i == 0 ? 6 : 4.8);
   }
