@@ -99,8 +99,8 @@ void run_block(const DocumentBlock& block, const fs::path& folder) {
 
 class Docs : public testing::TestWithParam<std::string> {};
 
-/// In a folder with copies of the shipped problems and plans and the files of the document: TOML blocks that
-/// begin with their path as a comment.
+/// In a folder with copies of the shipped problems and plans and the files of the document: TOML
+/// blocks that begin with their path as a comment.
 TEST_P(Docs, EveryCommandWorks) {
   const TemporaryFolder folder;
   fs::copy(kRoot / "problems", folder.path() / "problems", fs::copy_options::recursive);
