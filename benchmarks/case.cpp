@@ -58,6 +58,35 @@ bool limited(const Contact& contact) {
          std::any_of(contact.w_max.begin(), contact.w_max.end(), counts);
 }
 
+/// The schemes that a task in time can have; the spline needs two knots.
+std::vector<std::string> schemes_of(const MotionTask& task) {
+  std::vector<std::string> names = scheme_names(task.impulse);
+  if (task.k < 2) std::erase(names, to_string(Scheme::kSpline));
+  return names;
+}
+
+std::vector<Case> plan_product(const Problem& problem, std::uint64_t seed, long budget) {
+  std::vector<Case> cases;
+  for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
+    for (const std::string& scheme : schemes_of(*problem.motion)) {
+      Case c{problem.name, Case().measure, wrench, "", plan_searches().front().name,
+             seed,         budget,         scheme};
+      for (const PlanSolverEntry& solver : plan_solvers()) {
+        c.lp = solver.name;
+        cases.push_back(c);
+      }
+      c.lp = plan_solvers().front().name;
+      for (const auto& table : {plan_searches().subspan(1), searches()}) {
+        for (const SearchEntry& search : table) {
+          c.search = search.name;
+          cases.push_back(c);
+        }
+      }
+    }
+  }
+  return cases;
+}
+
 }  // namespace
 
 Wrench parse_wrench(const std::string& name) {
@@ -67,6 +96,10 @@ Wrench parse_wrench(const std::string& name) {
 }
 
 Method resolve(const Problem& problem, const Case& c) {
+  if (!c.scheme.empty()) {
+    throw std::invalid_argument(fmt::format("scheme: got '{}', expected none: {} is a static task",
+                                            c.scheme, problem.name));
+  }
   Method method;
   method.choice = c;
   const MeasureEntry& measure = find_measure(c.measure);
@@ -102,7 +135,7 @@ Method resolve(const Problem& problem, const Case& c) {
 
 const std::vector<std::string>& case_columns() {
   static const std::vector<std::string> kColumns = {"problem", "measure", "wrench", "lp",
-                                                    "search",  "seed",    "budget"};
+                                                    "search",  "seed",    "budget", "scheme"};
   return kColumns;
 }
 
@@ -113,10 +146,27 @@ std::vector<std::string> case_values(const Case& c) {
           c.lp,
           c.search,
           fmt::format("{}", c.seed),
-          fmt::format("{}", c.budget)};
+          fmt::format("{}", c.budget),
+          c.scheme};
+}
+
+void set_scheme(const char* key, const std::string& scheme, Problem& problem) {
+  MotionTask& task = *problem.motion;
+  const std::vector<std::string> served = scheme_names(task.impulse);
+  if (std::find(served.begin(), served.end(), scheme) == served.end()) {
+    throw std::invalid_argument(fmt::format("{}: got '{}', expected one of {} for {} {}", key,
+                                            scheme, fmt::join(served, " "),
+                                            task.impulse ? "an" : "a", problem.type()));
+  }
+  task.scheme = parse_scheme(scheme);
+  if (task.scheme == Scheme::kSpline && task.k < 2) {
+    throw std::invalid_argument(
+        fmt::format("{}: got '{}', expected another one for k = 1", key, scheme));
+  }
 }
 
 std::vector<Case> product(const Problem& problem, std::uint64_t seed, long budget) {
+  if (problem.motion) return plan_product(problem, seed, budget);
   std::vector<Case> cases;
   for (const MeasureEntry& measure : measures()) {
     for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {

@@ -26,6 +26,8 @@ struct Case {
   std::string search = "grid";  ///< empty: none, the posture is given
   std::uint64_t seed = 1;
   long budget = 20000;  ///< evaluations of a search
+  /// Of a task in time, how knots become motion; empty: as the task says, or a static one.
+  std::string scheme = "";
 };
 
 /// "pure" or "any"; throws std::invalid_argument otherwise.
@@ -48,13 +50,18 @@ struct Method {
 Method resolve(const Problem& problem, const Case& c);
 Method resolve(const Problem&& problem, const Case& c) = delete;
 
-/// The columns that select a case, `problem measure wrench lp search seed budget`, as text.
+/// Replaces what a task in time says. Throws std::invalid_argument, which names `key`, unless it
+/// has a scheme of this name.
+void set_scheme(const char* key, const std::string& scheme, Problem& problem);
+
+/// The columns that select a case, `problem measure wrench lp search seed budget scheme`, as text.
 const std::vector<std::string>& case_columns();
 std::vector<std::string> case_values(const Case& c);
 
 /// On a problem, in the order of the tables: every meaningful measure × wrench × lp with the first
 /// two searches (what a solver is worth does not depend on the search), and with the first lp that
-/// serves every search. The budget is divided by the cost of the solver.
+/// serves every search. The budget is divided by the cost of the solver. Of a task in time: wrench
+/// × scheme × lp with the first search, and × search with the first lp.
 std::vector<Case> product(const Problem& problem, std::uint64_t seed, long budget);
 
 /// Of `cases`, those whose columns have the given values (column -> value); `seed` and `budget` are

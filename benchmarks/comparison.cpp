@@ -5,14 +5,18 @@
 #include <ctime>
 #include <memory>
 
+#include "benchmarks/plan_row.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
 
 namespace maxwrench {
 namespace {
 
-constexpr const char* kReferenceSearch = "annealing";
-constexpr const char* kReferenceSolver = "glpk";
+/// The names of a `Comparison::reference`.
+struct Reference {
+  const char *search, *solver;
+};
+constexpr Reference kOfPostures{"annealing", "glpk"}, kOfPlans{"multistart", "clp"};
 
 double processor_seconds() {
   return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
@@ -28,6 +32,7 @@ class Stopwatch final : public Objective {
   const Eigen::VectorXd& upper() const override { return objective_->upper(); }
   const Verdict& verdict() const override { return objective_->verdict(); }
   bool ended() const override { return objective_->ended(); }
+  PlanEvaluator* plans() override { return objective_->plans(); }
   void metric(const Eigen::VectorXd& theta_r, Eigen::MatrixXd& M) override {
     objective_->metric(theta_r, M);
   }
@@ -50,11 +55,63 @@ class Stopwatch final : public Objective {
   double start_;
 };
 
-bool has_reference(const Case& base) {
-  const auto table = wrench_solvers();
-  return find_measure(base.measure).needs_solver &&
-         std::any_of(table.begin(), table.end(),
-                     [](const auto& entry) { return entry.name == std::string(kReferenceSolver); });
+Reference reference_of(const Problem& problem) { return problem.motion ? kOfPlans : kOfPostures; }
+
+bool has_reference(const Problem& problem, const Case& base) {
+  const auto holds = [](const auto& table, const char* name) {
+    return std::any_of(table.begin(), table.end(),
+                       [&](const auto& entry) { return entry.name == std::string(name); });
+  };
+  const Reference reference = reference_of(problem);
+  return find_measure(base.measure).needs_solver && holds(searches(), reference.search) &&
+         holds(lp_solvers(), reference.solver);
+}
+
+/// The searches that serve a problem.
+std::vector<const SearchEntry*> searches_of(const Problem& problem) {
+  std::vector<const SearchEntry*> served;
+  if (problem.motion) {
+    for (const SearchEntry& search : plan_searches()) served.push_back(&search);
+  }
+  for (const SearchEntry& search : searches()) served.push_back(&search);
+  return served;
+}
+
+/// What was noted while the search looked beyond the plan that it chose (`slp` leaves out those
+/// that are worth less between their instants) is no rise of its answer.
+void forget_beyond(Attempt& run) {
+  std::vector<double>&at = run.improved_at, &to = run.improved_to;
+  const auto beyond = std::upper_bound(to.begin(), to.end(), run.value) - to.begin();
+  at.erase(at.begin() + beyond, at.end());
+  to.erase(to.begin() + beyond, to.end());
+  if (run.value > (to.empty() ? -kInfinity : to.back())) {
+    at.push_back(run.seconds);
+    to.push_back(run.value);
+  }
+}
+
+/// From `start`; `found` gets the best point, if there is one.
+Attempt attempt_from(const Case& choice, const SearchEntry& entry,
+                     std::unique_ptr<Objective> objective, const Eigen::VectorXd& start,
+                     Eigen::VectorXd& found) {
+  Attempt run;
+  run.choice = choice;
+  const double begin = processor_seconds();
+  Stopwatch watch(std::move(objective), run, begin);
+  const SearchResult result = search(choice, entry, watch, start, 1, {});
+  run.seconds = processor_seconds() - begin;
+  run.value = result.value;
+  run.evaluations = result.evaluations;
+  run.history = result.history;
+  forget_beyond(run);
+  found = result.theta_r;
+  return run;
+}
+
+/// Of a case on its problem.
+Attempt attempt_case(const Problem& problem, const Case& c, Interruption* interruption) {
+  return problem.motion ? attempt(problem, resolve_plan(problem, c), interruption)
+                        : attempt(problem, resolve(problem, c), interruption);
 }
 
 }  // namespace
@@ -79,22 +136,25 @@ double Attempt::value_after(double count) const {
 }
 
 Attempt attempt(const Problem& problem, const Method& method, Interruption* interruption) {
-  Attempt run;
-  run.choice = method.choice;
-  const double start = processor_seconds();
-  Stopwatch objective(make_interruptible(make_capability_objective(problem, method.choice.wrench,
+  Eigen::VectorXd found;
+  return attempt_from(method.choice, *method.search,
+                      make_interruptible(make_capability_objective(problem, method.choice.wrench,
                                                                    method.make_measure),
                                          interruption),
-                      run, start);
-  SearchOptions options;
-  options.seed = method.choice.seed;
-  options.budget = method.choice.budget;
-  options.start = problem.theta_r_default;
-  const SearchResult result = method.search->make()->maximize(objective, options);
-  run.seconds = processor_seconds() - start;
-  run.value = result.value;
-  run.evaluations = result.evaluations;
-  run.history = result.history;
+                      problem.theta_r_default, found);
+}
+
+Attempt attempt(const Problem& problem, const PlanMethod& method, Interruption* interruption) {
+  Eigen::VectorXd found;
+  Attempt run = attempt_from(
+      method.choice, *method.search,
+      make_interruptible(make_plan_objective(problem, method.choice.wrench, method.solver->make),
+                         interruption),
+      stacked(constant_knots(problem, problem.theta_r_default)), found);
+  if (run.value > -kInfinity) {
+    run.continuous =
+        evaluate_plan(problem, method, unstacked(found, problem.redundancy())).plan.continuous;
+  }
   return run;
 }
 
@@ -104,6 +164,17 @@ double Contender::shortfall_after(double evaluations, double best) const {
   for (const Attempt& each : attempts)
     shortfalls.push_back((best - each.value_after(evaluations)) / std::abs(best));
   return median(shortfalls);
+}
+
+double Contender::expected_seconds(double target) const {
+  double seconds = 0;
+  int reached = 0;
+  for (const Attempt& each : attempts) {
+    const double to = each.seconds_to(target);
+    seconds += std::isfinite(to) ? to : each.seconds;
+    reached += std::isfinite(to) ? 1 : 0;
+  }
+  return reached > 0 ? seconds / reached : kInfinity;
 }
 
 double Comparison::best() const {
@@ -121,7 +192,7 @@ double Comparison::target() const {
 Comparison compare(const Problem& problem, const Case& base, int seeds,
                    const std::function<void()>& done, Interruption* interruption) {
   const auto interrupted = [&] { return interruption != nullptr && interruption->asked; };
-  const auto contend = [&](const char* search, const std::string& lp) {
+  const auto contend = [&](const std::string& search, const std::string& lp) {
     Contender contender{search, lp, {}};
     for (int seed = 1; seed <= seeds && !interrupted(); ++seed) {
       Case c = base;
@@ -129,22 +200,27 @@ Comparison compare(const Problem& problem, const Case& base, int seeds,
       c.search = search;
       c.lp = lp;
       c.seed = static_cast<std::uint64_t>(seed);
-      contender.attempts.push_back(attempt(problem, resolve(problem, c), interruption));
+      contender.attempts.push_back(attempt_case(problem, c, interruption));
       done();
     }
     return contender;
   };
-  const Method method = resolve(problem, base);
-  Comparison comparison{problem.name, method.unit, {}, {}, false};
-  for (const SearchEntry& search : searches())
-    comparison.contenders.push_back(contend(search.name, method.choice.lp));
-  if (has_reference(base)) comparison.reference = contend(kReferenceSearch, kReferenceSolver);
+  const char* unit = problem.motion ? problem.unit() : resolve(problem, base).unit;
+  const std::string lp = complete(problem, base).lp;
+  Comparison comparison{problem.name, unit, {}, {}, problem.motion.has_value(), base.budget};
+  for (const SearchEntry* search : searches_of(problem))
+    comparison.contenders.push_back(contend(search->name, lp));
+  const Reference reference = reference_of(problem);
+  if (has_reference(problem, base))
+    comparison.reference = contend(reference.search, reference.solver);
   comparison.interrupted = interrupted();
   return comparison;
 }
 
-long attempt_count(const Case& base, int seeds) {
-  return (static_cast<long>(searches().size()) + (has_reference(base) ? 1 : 0)) * seeds;
+long attempt_count(const Problem& problem, const Case& base, int seeds) {
+  const auto contenders =
+      static_cast<long>(searches_of(problem).size()) + (has_reference(problem, base) ? 1 : 0);
+  return contenders * seeds;
 }
 
 double median(std::vector<double> values) {

@@ -1,14 +1,22 @@
 #include "benchmarks/plan_row.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <stdexcept>
 
-#include "benchmarks/searched.h"
+#include "benchmarks/row.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
 
 namespace maxwrench {
 
-PlanMethod resolve_plan(const Case& c) {
+PlanMethod resolve_plan(const Problem& problem, const Case& c) {
+  const char* scheme = to_string(problem.motion->scheme);
+  if (!c.scheme.empty() && c.scheme != scheme) {
+    throw std::invalid_argument(
+        fmt::format("scheme: got '{}', expected {}, that of the task", c.scheme, scheme));
+  }
   PlanMethod method;
   method.choice = c;
   if (std::string_view(find_measure(c.measure).name) != Case().measure) {
@@ -17,8 +25,17 @@ PlanMethod resolve_plan(const Case& c) {
   }
   method.solver = c.lp.empty() ? &plan_solvers().front() : &find_plan_solver(c.lp);
   method.choice.lp = method.solver->name;
+  method.choice.scheme = scheme;
   if (!c.search.empty()) method.search = &find_plan_search(c.search);
   return method;
+}
+
+Case complete(const Problem& problem, const Case& c) {
+  return problem.motion ? resolve_plan(problem, c).choice : resolve(problem, c).choice;
+}
+
+Eigen::MatrixXd constant_knots(const Problem& problem, const Eigen::VectorXd& theta_r) {
+  return theta_r.transpose().replicate(problem.motion->k, 1);
 }
 
 bool PlanRow::has_value() const { return counts(status, plan.status); }
@@ -46,7 +63,7 @@ PlanRow solve_plan(const Problem& problem, const PlanMethod& method, int threads
   const auto start = std::chrono::steady_clock::now();
   const auto objective = make_interruptible(
       make_plan_objective(problem, method.choice.wrench, method.solver->make), interruption);
-  const Eigen::VectorXd constant = problem.theta_r_default.replicate(problem.motion->k, 1);
+  const Eigen::VectorXd constant = stacked(constant_knots(problem, problem.theta_r_default));
   const SearchResult result =
       search(method.choice, *method.search, *objective, constant, threads, progress);
   PlanRow row;
@@ -60,6 +77,21 @@ PlanRow solve_plan(const Problem& problem, const PlanMethod& method, int threads
   conclude_search(result, interruption, row);
   row.wall_s = seconds_since(start);
   return row;
+}
+
+std::vector<std::string> values(const Problem& problem, const PlanRow& row) {
+  const Plan& plan = row.plan;
+  const Residual& residual = plan.solution.residual;
+  const bool solved = row.has_value();
+  const auto known = [](bool is, double value) { return is ? exact_text(value) : std::string(); };
+  std::vector<std::string> cells = case_values(row.choice);
+  cells.insert(cells.end(), {to_string(row.status), known(solved, plan.value),
+                             known(std::isfinite(plan.continuous), plan.continuous), row.unit, "",
+                             problem.unit(), problem.label, exact_text(stacked(plan.knots)), "", "",
+                             "", known(solved, residual.balance), known(solved, residual.bounds),
+                             known(solved, residual.dual), known(solved, residual.gap),
+                             fmt::format("{}", row.evaluations), row.reason.str()});
+  return cells;
 }
 
 }  // namespace maxwrench

@@ -14,8 +14,19 @@ struct PlanMethod {
   const SearchEntry* search = nullptr;  ///< null: none
 };
 
-/// As `resolve`, of a task in time. An empty `lp` is the first plan solver.
-PlanMethod resolve_plan(const Case& c);
+/// As `resolve`, of a task in time, whose scheme a case may name and not change. An empty `lp` is
+/// the first plan solver.
+PlanMethod resolve_plan(const Problem& problem, const Case& c);
+
+/// The case with nothing left to defaults, of any task; throws as `resolve` and `resolve_plan`.
+Case complete(const Problem& problem, const Case& c);
+
+/// What is usual for a search of plans: one evaluation costs about a thousand times that of a
+/// posture.
+inline constexpr long kPlanBudget = 5000;
+
+/// One theta_r throughout, k×r.
+Eigen::MatrixXd constant_knots(const Problem& problem, const Eigen::VectorXd& theta_r);
 
 /// `Row` of a task in time: what a table of theta_r is worth, re-checked from the problem's data.
 struct PlanRow : Verdict {
@@ -45,5 +56,8 @@ PlanRow solve_plan(const Problem& problem, const PlanMethod& method, int threads
 PlanRow solve_plan(const Problem&& problem, const PlanMethod& method, int threads,
                    const std::function<void(long)>& progress = {},
                    Interruption* interruption = nullptr) = delete;
+
+/// The cells of `value_columns`: beta is the value, theta_r the table row by row.
+std::vector<std::string> values(const Problem& problem, const PlanRow& row);
 
 }  // namespace maxwrench

@@ -13,14 +13,6 @@
 namespace maxwrench {
 namespace {
 
-std::string number(double value) { return fmt::format("{:.17g}", value); }
-
-std::string numbers(const Eigen::VectorXd& v) {
-  std::vector<std::string> texts;
-  for (const double value : v) texts.push_back(number(value));
-  return fmt::format("{}", fmt::join(texts, " "));
-}
-
 double yardstick(const Problem& problem, const Method& method, const Posture& posture) {
   WrenchProgram program = make_wrench_program(problem, method.choice.wrench);
   set_posture(posture, program);
@@ -85,9 +77,9 @@ Row solve(const Problem& problem, const Method& method, int threads,
 
 std::vector<std::string> value_columns() {
   std::vector<std::string> columns = case_columns();
-  columns.insert(columns.end(),
-                 {"status", "beta", "unit", "yardstick", "yardstick_unit", "label", "theta_r", "h",
-                  "u", "lambda", "balance", "bounds", "dual", "gap", "evaluations", "reason"});
+  columns.insert(columns.end(), {"status", "beta", "continuous", "unit", "yardstick",
+                                 "yardstick_unit", "label", "theta_r", "h", "u", "lambda",
+                                 "balance", "bounds", "dual", "gap", "evaluations", "reason"});
   return columns;
 }
 
@@ -97,19 +89,20 @@ std::vector<std::string> values(const Problem& problem, const Row& row) {
   const Capability& capability = row.capability;
   const bool solved = row.has_value();
   cells.emplace_back(to_string(row.status));
-  add(solved, number(capability.beta));
+  add(solved, exact_text(capability.beta));
+  cells.emplace_back();  // continuous is what plans have
   cells.emplace_back(row.unit);
-  add(std::isfinite(row.yardstick), number(row.yardstick));
+  add(std::isfinite(row.yardstick), exact_text(row.yardstick));
   cells.emplace_back(problem.unit());
   cells.push_back(problem.label);
-  add(row.has_posture(), numbers(row.posture.theta_r));
-  add(solved && capability.w.size() > 0, numbers(capability.h));
-  add(solved, numbers(capability.u));
-  add(solved, numbers(capability.lambda));
-  add(solved, number(capability.residual.balance));
-  add(solved, number(capability.residual.bounds));
-  add(solved, number(capability.residual.dual));
-  add(solved, number(capability.residual.gap));
+  add(row.has_posture(), exact_text(row.posture.theta_r));
+  add(solved && capability.w.size() > 0, exact_text(capability.h));
+  add(solved, exact_text(capability.u));
+  add(solved, exact_text(capability.lambda));
+  add(solved, exact_text(capability.residual.balance));
+  add(solved, exact_text(capability.residual.bounds));
+  add(solved, exact_text(capability.residual.dual));
+  add(solved, exact_text(capability.residual.gap));
   cells.push_back(fmt::format("{}", row.evaluations));
   cells.push_back(row.reason.str());
   return cells;
@@ -121,12 +114,20 @@ std::vector<std::string> time_columns() {
   return columns;
 }
 
-std::vector<std::string> times(const Row& row) {
-  std::vector<std::string> cells = case_values(row.choice);
-  cells.push_back(fmt::format("{}", row.evaluations));
-  cells.push_back(fmt::format("{:.4g}", row.wall_s));
-  cells.push_back(fmt::format("{:.4g}", 1e6 * row.wall_s / static_cast<double>(row.evaluations)));
+std::vector<std::string> times(const Case& c, long evaluations, double wall_s) {
+  std::vector<std::string> cells = case_values(c);
+  cells.push_back(fmt::format("{}", evaluations));
+  cells.push_back(fmt::format("{:.4g}", wall_s));
+  cells.push_back(fmt::format("{:.4g}", 1e6 * wall_s / static_cast<double>(evaluations)));
   return cells;
+}
+
+std::string exact_text(double value) { return fmt::format("{:.17g}", value); }
+
+std::string exact_text(const Eigen::VectorXd& v) {
+  std::vector<std::string> texts;
+  for (const double value : v) texts.push_back(exact_text(value));
+  return fmt::format("{}", fmt::join(texts, " "));
 }
 
 }  // namespace maxwrench

@@ -52,6 +52,10 @@ Row solve(const Problem& problem, const Method& method, int threads,
 std::vector<std::string> value_columns();
 std::vector<std::string> values(const Problem& problem, const Row& row);
 std::vector<std::string> time_columns();
-std::vector<std::string> times(const Row& row);
+std::vector<std::string> times(const Case& c, long evaluations, double wall_s);
+
+/// Numbers with all their digits, separated by blanks.
+std::string exact_text(double value);
+std::string exact_text(const Eigen::VectorXd& v);
 
 }  // namespace maxwrench

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "benchmarks/row.h"
+#include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
 
@@ -60,6 +61,24 @@ int heaviest_load(const Problem& problem, const Row& row, const std::string& int
     (run.summary.held ? held : lost) = mass;
   }
   return held;
+}
+
+PlanExperiment simulate_plan(const Problem& problem, const Plan& plan, Wrench wrench,
+                             const PlanSolverEntry& lp, const ScriptOptions& script,
+                             const std::string& integrator, const TankOptions& options) {
+  PlanExperiment experiment;
+  experiment.script = make_script(problem, plan, wrench, *lp.make(), script);
+  experiment.run.conclude(experiment.script.status, experiment.script.reason.c_str());
+  if (experiment.script.status == Status::kOptimal) {
+    experiment.run =
+        run_tank(problem, experiment.script, *find_integrator(integrator).make(), options);
+  }
+  return experiment;
+}
+
+Interpolation usual_interpolation(const Problem& problem) {
+  return problem.motion->scheme == Scheme::kSpline ? Interpolation::kSpline
+                                                   : Interpolation::kLinear;
 }
 
 std::string tank_csv(const Problem& problem, const TankRun& run) {

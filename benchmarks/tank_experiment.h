@@ -7,6 +7,7 @@
 
 namespace maxwrench {
 
+struct PlanSolverEntry;
 struct Problem;
 struct Row;
 
@@ -25,6 +26,20 @@ TankRun simulate_load(const Problem& problem, const Row& row, double load,
 /// capability.
 int heaviest_load(const Problem& problem, const Row& row, const std::string& integrator,
                   TankOptions options);
+
+/// What the tank was asked for along a plan, and what came of it.
+struct PlanExperiment {
+  TankScript script;
+  TankRun run;  ///< without samples and with the script's status if there is nothing to ask for
+};
+
+/// The simulated experiment along a plan that was evaluated, on the spline as well.
+PlanExperiment simulate_plan(const Problem& problem, const Plan& plan, Wrench wrench,
+                             const PlanSolverEntry& lp, const ScriptOptions& script,
+                             const std::string& integrator, const TankOptions& options);
+
+/// What joins the instants of a task's scheme unless another is asked for.
+Interpolation usual_interpolation(const Problem& problem);
 
 /// The samples as CSV: t, planned, c'h_e, the wrench, the efforts, and how well it went; of
 /// a task in time also theta_r and the angle of the end effector, and the wrench in axes that turn

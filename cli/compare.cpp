@@ -7,10 +7,12 @@
 
 #include "benchmarks/comparison.h"
 #include "benchmarks/machine.h"
+#include "benchmarks/plan_row.h"
 #include "benchmarks/table.h"
 #include "benchmarks/write_file.h"
 #include "cli/cli.h"
 #include "cli/ctrl_c.h"
+#include "cli/motion_options.h"
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "drawing/convergence.h"
@@ -23,6 +25,8 @@ namespace {
 struct CompareOptions : CommonOptions {
   std::vector<std::string> problems = {"uvms/valve", "uvms/lift"};
   int seeds = 10;
+  bool names_budget = false;
+  MotionOptions motion;
   std::string out = "results";
 };
 
@@ -48,31 +52,41 @@ std::string line(const Comparison& comparison, const Contender& contender) {
   const auto evaluations = [&](const Attempt& each) { return each.evaluations_to(target); };
   int reached = 0;
   for (const Attempt& each : contender.attempts) reached += each.value >= target ? 1 : 0;
-  const double final = median_of(contender, [](const Attempt& each) { return each.value; });
+  const auto median_number = [&](double Attempt::*number) {
+    return median_of(contender, [number](const Attempt& each) { return each.*number; });
+  };
   const double time = median_of(contender, seconds);
-  const std::string text = fmt::format(
-      "{:<11} {:<8} {:>2} of {:<2} {:>11} {:>8} {:>9} {:>9}", contender.search, contender.lp,
+  std::string text = fmt::format(
+      "{:<11} {:<8} {:>2} of {:<2} {:>11} {:>8} {:>9} {:>9} {:>9}", contender.search, contender.lp,
       reached, contender.attempts.size(),
       number_or_dash(median_of(contender, evaluations), "{:.0f}"),
       number_or_dash(1e3 * time, "{:.0f}"),
-      number_or_dash(1e3 * median_of(contender, [](const Attempt& each) { return each.seconds; }),
-                     "{:.0f}"),
-      number_or_dash(100 * shortfall(comparison, final), "{:.4f}"));
+      number_or_dash(1e3 * contender.expected_seconds(target), "{:.0f}"),
+      number_or_dash(1e3 * median_number(&Attempt::seconds), "{:.0f}"),
+      number_or_dash(100 * shortfall(comparison, median_number(&Attempt::value)), "{:.4f}"));
+  if (comparison.in_time) {
+    text += fmt::format(" {:>10}", number_or_dash(median_number(&Attempt::continuous), "{:.4f}"));
+  }
   if (comparison.reference.attempts.empty()) return text + "\n";
-  const double reference = median_of(comparison.reference, seconds);
-  const bool both = std::isfinite(time) && std::isfinite(reference);
-  return fmt::format("{} {:>9}\n", text, both ? number_or_dash(time / reference, "{:.4f}") : "-");
+  const double plain = comparison.reference.expected_seconds(target);
+  const double share = contender.expected_seconds(target) / plain;
+  return fmt::format("{} {:>9}\n", text,
+                     std::isfinite(plain) ? number_or_dash(share, "{:.4f}") : "-");
 }
 
 std::string text(const Comparison& comparison) {
-  const bool referred = !comparison.reference.attempts.empty();
+  const Contender& reference = comparison.reference;
+  const bool referred = !reference.attempts.empty();
   const std::string best = number_or_dash(comparison.best(), "{:.5f}");
+  const std::string plain = fmt::format("{}, {}", reference.search, reference.lp);
   std::string text = fmt::format(
-      "{}{}: best known {} {}\n"
-      "                     -- to 0.1 % below it, median --      all   median{}\n"
-      "search      lp       reached evaluations       ms        ms   below %{}\n",
+      "{}{}: best known {} {}, {} evaluations each\n"
+      "                     -- to 0.1 % below it, median --                all   median{}{}\n"
+      "search      lp       reached evaluations       ms  expected        ms   below %{}{}\n",
       comparison.problem, comparison.interrupted ? ", interrupted" : "", best, comparison.unit,
-      referred ? "    time to that of" : "", referred ? "   annealing, glpk" : "");
+      comparison.budget, comparison.in_time ? "     median" : "",
+      referred ? "   expected to that" : "", comparison.in_time ? " continuous" : "",
+      referred ? "   of " + plain : "");
   for (const Contender& contender : comparison.contenders) {
     if (!contender.attempts.empty()) text += line(comparison, contender);
   }
@@ -88,9 +102,10 @@ void keep(const Comparison& comparison, const std::filesystem::path& folder) {
     return names;
   };
   const std::size_t keys = case_columns().size();
-  Table values(folder / "search_comparison.csv",
-               columns({"beta", "unit", "below", "evaluations_to_thousandth", "evaluations"}),
-               keys);
+  Table values(
+      folder / "search_comparison.csv",
+      columns({"beta", "continuous", "unit", "below", "evaluations_to_thousandth", "evaluations"}),
+      keys);
   Table times(folder / "search_times.csv",
               columns({"seconds_to_thousandth", "seconds", "threads", "machine", "version"}), keys);
   const auto put = [](Table& table, const Attempt& each, std::initializer_list<std::string> more) {
@@ -104,8 +119,8 @@ void keep(const Comparison& comparison, const std::filesystem::path& folder) {
   for (const Contender& contender : all) {
     for (const Attempt& each : contender.attempts) {
       put(values, each,
-          {number_or_dash(each.value, "{:.17g}"), comparison.unit,
-           number_or_dash(shortfall(comparison, each.value), "{:.3e}"),
+          {number_or_dash(each.value, "{:.17g}"), number_or_dash(each.continuous, "{:.17g}"),
+           comparison.unit, number_or_dash(shortfall(comparison, each.value), "{:.3e}"),
            number_or_dash(each.evaluations_to(target), "{:.0f}"),
            fmt::format("{}", each.evaluations)});
       put(times, each,
@@ -117,11 +132,9 @@ void keep(const Comparison& comparison, const std::filesystem::path& folder) {
 
 /// The median of each search as a curve; `comparison` outlives it.
 ConvergencePanel panel(const Comparison& comparison) {
-  ConvergencePanel panel{comparison.problem, 1, {}};
+  ConvergencePanel panel{comparison.problem, static_cast<double>(comparison.budget), {}};
   const double best = comparison.best();
   for (const Contender& contender : comparison.contenders) {
-    for (const Attempt& each : contender.attempts)
-      panel.budget = std::max(panel.budget, static_cast<double>(each.choice.budget));
     panel.curves.push_back({contender.search, [&contender, best](double evaluations) {
                               return contender.shortfall_after(evaluations, best);
                             }});
@@ -136,14 +149,17 @@ std::vector<Comparison> attempt_all(const CompareOptions& options,
   std::vector<Problem> problems;
   std::vector<Case> cases;
   for (const std::string& name : options.problems) {
-    problems.push_back(load_problem(name));
-    require_static(problems.back(), "compare");
-    cases.push_back(options.read_case());
-    resolve(problems.back(), cases.back());  // refuses before anything is computed
+    Problem& problem = problems.emplace_back(load_problem(name));
+    options.motion.change(problem);
+    Case& c = cases.emplace_back(options.read_case());
+    if (problem.motion && !options.names_budget) c.budget = kPlanBudget;
+    complete(problem, c);  // refuses before anything is computed
   }
   write_file(folder / "machine.txt", describe_machine());
   long total = 0, done = 0;
-  for (const Case& c : cases) total += attempt_count(c, options.seeds);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    total += attempt_count(problems[i], cases[i], options.seeds);
+  }
   Progress progress("compare", total);
   CtrlC ctrl_c;
   std::vector<Comparison> comparisons;
@@ -168,17 +184,21 @@ bool finished(const CompareOptions& options, const std::vector<Comparison>& comp
 int compare_all(const CompareOptions& options) {
   const std::filesystem::path folder(options.out);
   const std::vector<Comparison> comparisons = attempt_all(options, folder);
-  fmt::print(
-      "Every search with {} seeds, {} evaluations each, on one thread; time of the processor.\n",
-      options.seeds, options.choice.budget);
+  fmt::print("Every search with {} seeds on one thread; time of the processor.\n", options.seeds);
   for (const Comparison& comparison : comparisons) fmt::print("\n{}", text(comparison));
   if (!finished(options, comparisons)) {
     remark("interrupted or without a value: the figure is not drawn");
     return kOtherStatus;
   }
-  std::vector<ConvergencePanel> panels;
-  for (const Comparison& comparison : comparisons) panels.push_back(panel(comparison));
-  write_file(folder / "search_comparison.svg", draw_convergence(panels));
+  for (const bool in_time : {false, true}) {
+    std::vector<ConvergencePanel> panels;
+    for (const Comparison& comparison : comparisons) {
+      if (comparison.in_time == in_time) panels.push_back(panel(comparison));
+    }
+    if (panels.empty()) continue;
+    write_file(folder / (in_time ? "plan_comparison.svg" : "search_comparison.svg"),
+               draw_convergence(panels));
+  }
   return kAnswered;
 }
 
@@ -191,14 +211,18 @@ void add_compare(CLI::App& app, int& exit_status) {
   command.add_option("problems", options->problems, "shipped names or task files")
       ->capture_default_str();
   options->add_choice(command);
-  options->add_budget(command, "evaluations of each search");
+  options->add_budget(command, "evaluations of each search (default of tasks in time: 5000)");
+  options->motion.add(command);
   command.add_option("--seeds", options->seeds, "seeds 1 to this")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   command.add_option("--out", options->out, "folder of the results")
       ->capture_default_str()
       ->check(refuse_empty);
-  command.callback([options, &exit_status] { exit_status = compare_all(*options); });
+  command.callback([options, &command, &exit_status] {
+    options->names_budget = command.count("--budget") > 0;
+    exit_status = compare_all(*options);
+  });
 }
 
 }  // namespace maxwrench

@@ -43,7 +43,7 @@ int eval_plan(const EvalOptions& options, const Problem& problem, const Case& c)
   require_apart(
       {{"path.file", problem.motion->path_file}, {"--theta-r", options.theta_r.value_or("")}},
       {{"--write", options.write}});
-  const PlanMethod method = resolve_plan(c);
+  const PlanMethod method = resolve_plan(problem, c);
   const PlanRow row =
       evaluate_plan(problem, method, knots_of(problem, options.theta_r), !options.ignore_collision);
   if (!options.write.empty() && row.status != Status::kInvalidPosture) {

@@ -1,15 +1,15 @@
 #include "cli/motion_options.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <stdexcept>
 
+#include "benchmarks/plan_row.h"
 #include "cli/cli.h"
 #include "maxwrench/load.h"
+#include "maxwrench/plan.h"
 
 namespace maxwrench {
 namespace {
@@ -17,19 +17,6 @@ namespace {
 [[noreturn]] void refuse_option(const char* option, const std::string& got,
                                 const std::string& expected) {
   throw std::invalid_argument(fmt::format("{}: got '{}', expected {}", option, got, expected));
-}
-
-void change_scheme(const Problem& problem, const std::string& name, MotionTask& task) {
-  const std::vector<std::string> served = scheme_names(task.impulse);
-  if (std::find(served.begin(), served.end(), name) == served.end()) {
-    refuse_option("--scheme", name,
-                  fmt::format("one of {} for {} {}", fmt::join(served, " "),
-                              task.impulse ? "an" : "a", problem.type()));
-  }
-  task.scheme = parse_scheme(name);
-  if (task.scheme == Scheme::kSpline && task.k < 2) {
-    refuse_option("--scheme", name, "another one for k = 1");
-  }
 }
 
 void change_peak(const Problem& problem, const std::string& text, MotionTask& task) {
@@ -62,7 +49,7 @@ void MotionOptions::add(CLI::App& app) {
 
 void MotionOptions::change(Problem& problem) const {
   if (problem.motion) {
-    if (scheme) change_scheme(problem, *scheme, *problem.motion);
+    if (scheme) set_scheme("--scheme", *scheme, problem);
     if (t_h) change_peak(problem, *t_h, *problem.motion);
     return;
   }
@@ -81,7 +68,13 @@ Eigen::MatrixXd knots_of(const Problem& problem, const std::optional<std::string
                   fmt::format("{} numbers or a file of k = {} rows", problem.redundancy(),
                               problem.motion->k));
   }
-  return theta_r.transpose().replicate(problem.motion->k, 1);
+  return constant_knots(problem, theta_r);
+}
+
+std::vector<double> telling_times(const MotionTask& task, const Plan& plan) {
+  const int t_h = task.t_h > 0 ? task.t_h : plan.t_h;
+  const double middle = task.impulse && t_h > 0 ? task.T * t_h / task.k : task.T / 2;
+  return {0, middle, task.T};
 }
 
 }  // namespace maxwrench

@@ -3,11 +3,13 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "maxwrench/problem.h"
 
 namespace maxwrench {
 
+struct Plan;
 struct PlanRow;
 
 /// Options of tasks in time.
@@ -22,6 +24,10 @@ struct MotionOptions {
 /// The table that `--theta-r` names: a file, or numbers that hold throughout; without it the
 /// constant default of the task.
 Eigen::MatrixXd knots_of(const Problem& problem, const std::optional<std::string>& text);
+
+/// When postures tell most [s]: at the start, in the middle (of a heave at its peak) and at the
+/// end.
+std::vector<double> telling_times(const MotionTask& task, const Plan& plan);
 
 /// A plan for people or, with `json`, as one object; returns the exit status that it deserves.
 int report(const Problem& problem, const PlanRow& row, bool json);

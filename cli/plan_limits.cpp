@@ -28,6 +28,16 @@ Eigen::VectorXd effort_prices(const Robot& robot, const PlanSolution& solution, 
   return prices;
 }
 
+/// Those that count, the dearest first.
+std::vector<BindingLimit> dearest_first(std::vector<BindingLimit> limits) {
+  std::stable_sort(limits.begin(), limits.end(),
+                   [](const auto& a, const auto& b) { return a.worth > b.worth; });
+  std::erase_if(limits, [most = limits.front().worth](const BindingLimit& limit) {
+    return !(limit.worth > kCounts * most);
+  });
+  return limits;
+}
+
 std::vector<BindingLimit> limits_at(const Robot& robot, const PlanRow& row, Eigen::Index i) {
   const PlanSolution& solution = row.plan.solution;
   const Zonotope& set = robot.actuation;
@@ -49,12 +59,7 @@ std::vector<BindingLimit> limits_at(const Robot& robot, const PlanRow& row, Eige
            fmt::format("rate of {} {}", actuator_name(robot, j), pair < i ? "before" : "after")});
     }
   }
-  std::stable_sort(limits.begin(), limits.end(),
-                   [](const auto& a, const auto& b) { return a.worth > b.worth; });
-  std::erase_if(limits, [most = limits.front().worth](const BindingLimit& limit) {
-    return !(limit.worth > kCounts * most);
-  });
-  return limits;
+  return dearest_first(std::move(limits));
 }
 
 std::string describe(const std::vector<BindingLimit>& limits) {
@@ -87,6 +92,38 @@ std::vector<std::string> binding_limits(const Robot& robot, const PlanRow& row) 
                                 describe(limits_at(robot, row, i))));
   }
   return lines;
+}
+
+std::string dearest_efforts(const Robot& robot, const PlanRow& row) {
+  const Zonotope& set = robot.actuation;
+  std::vector<BindingLimit> limits;
+  for (Eigen::Index j = 0; j < set.u_min.size(); ++j)
+    limits.push_back({0, actuator_name(robot, j)});
+  for (Eigen::Index i = 0; i < row.plan.solution.lambda.cols(); ++i) {
+    const Eigen::VectorXd prices = effort_prices(robot, row.plan.solution, i);
+    for (Eigen::Index j = 0; j < prices.size(); ++j) {
+      if (std::abs(prices[j]) < 1e-9) continue;  // it may have no limits
+      limits[static_cast<std::size_t>(j)].worth +=
+          std::abs(prices[j]) * (set.u_max[j] - set.u_min[j]);
+    }
+  }
+  return describe(dearest_first(std::move(limits)));
+}
+
+std::string fastest_joint(const Robot& robot, const Plan& plan) {
+  double most = 0;
+  const std::string* name = nullptr;
+  for (const Instant& instant : plan.instants) {
+    const auto rates = instant.v.tail(static_cast<Eigen::Index>(robot.joints.size()));
+    for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+      const double share =
+          std::abs(rates[static_cast<Eigen::Index>(j)]) / robot.joints[j].velocity_max;
+      if (!(share > most + 1e-9)) continue;
+      most = share;
+      name = &robot.joints[j].name;
+    }
+  }
+  return name == nullptr ? "none moves" : fmt::format("{:.0f} % {}", 100 * most, *name);
 }
 
 std::string nearest_limit(const Robot& robot, const Eigen::VectorXd& u) {

@@ -9,6 +9,9 @@
 
 namespace maxwrench {
 
+struct PlanMethod;
+struct PlanRow;
+
 /// Solves cases one after the other and keeps their rows in values.csv and times.csv of a folder,
 /// each written as soon as it is known; describes the machine in machine.txt. Each time says on how
 /// many threads, on which processor and by which version it was measured, because a table may grow
@@ -20,13 +23,17 @@ class RowWriter {
             long rows);
 
   Row solve(const Problem& problem, const Method& method);
+  PlanRow solve(const Problem& problem, const PlanMethod& method);
   Row evaluate(const Problem& problem, const Method& method, const Eigen::VectorXd& theta_r);
+  PlanRow evaluate(const Problem& problem, const PlanMethod& method, const Eigen::MatrixXd& knots);
 
   /// Removes the progress bar; whether every row has a value.
   bool finish();
 
  private:
-  void keep(const Problem& problem, const Row& row, int threads);
+  /// Of a `Row` or `PlanRow`.
+  template <class AnyRow>
+  AnyRow kept(const Problem& problem, AnyRow row, int threads);
 
   Table values_, times_;
   int threads_;

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 
+#include "benchmarks/plan_row.h"
 #include "cli/cli.h"
 #include "cli/row_writer.h"
 #include "maxwrench/load.h"
@@ -58,9 +59,9 @@ std::uint64_t read_seed(const std::map<std::string, std::string>& filter) {
   return std::stoull(found->second);
 }
 
-long read_budget(const std::map<std::string, std::string>& filter) {
+long read_budget(const std::map<std::string, std::string>& filter, bool in_time) {
   const auto found = filter.find("budget");
-  if (found == filter.end()) return Case().budget;
+  if (found == filter.end()) return in_time ? kPlanBudget : Case().budget;
   std::size_t used = 0;
   long value = 0;
   try {
@@ -79,9 +80,9 @@ long read_budget(const std::map<std::string, std::string>& filter) {
 std::vector<Case> choose(const std::map<std::string, Problem>& problems,
                          const std::map<std::string, std::string>& filter) {
   const std::uint64_t seed = read_seed(filter);
-  const long budget = read_budget(filter);
   std::vector<Case> cases;
   for (const auto& named : problems) {
+    const long budget = read_budget(filter, named.second.motion.has_value());
     const std::vector<Case> more = product(named.second, seed, budget);
     cases.insert(cases.end(), more.begin(), more.end());
   }
@@ -94,10 +95,19 @@ std::map<std::string, Problem> load_chosen(const std::vector<std::string>& named
   for (const std::string& name : named.empty() ? shipped_problems() : named) {
     Problem problem = load_problem(name);
     if (named.empty() && problem.motion) continue;
-    require_static(problem, "run");
     problems.try_emplace(name, std::move(problem));
   }
   return problems;
+}
+
+/// On a copy, whose scheme is that of the case.
+void solve_case(RowWriter& writer, Problem problem, const Case& c) {
+  if (!problem.motion) {
+    writer.solve(problem, resolve(problem, c));
+    return;
+  }
+  set_scheme("scheme", c.scheme, problem);
+  writer.solve(problem, resolve_plan(problem, c));
 }
 
 int run(const RunOptions& options) {
@@ -107,8 +117,7 @@ int run(const RunOptions& options) {
   const std::filesystem::path folder(options.out);
   RowWriter writer("run", folder, options.thread_count(), static_cast<long>(cases.size()));
   for (const Case& c : cases) {
-    const Problem& problem = problems.at(c.problem);
-    writer.solve(problem, resolve(problem, c));
+    solve_case(writer, problems.at(c.problem), c);
   }
   const bool all_solved = writer.finish();
   fmt::print("{} rows in {}\n", cases.size(), (folder / "values.csv").string());

@@ -95,7 +95,7 @@ int print_heaviest(const Problem& problem, const SimulateOptions& options, const
   return kAnswered;
 }
 
-TankRun simulate_plan(const Problem& problem, const SimulateOptions& options, const Row& row) {
+TankRun simulate_row(const Problem& problem, const SimulateOptions& options, const Row& row) {
   const TankOptions& tank = options.tank;
   if (tank.load > 0) return simulate_load(problem, row, tank.load, options.integrator, tank);
   const double planned = options.planned > 0 ? options.planned : problem.c.dot(row.capability.h);
@@ -130,7 +130,7 @@ int simulate_static(const Problem& problem, const SimulateOptions& options) {
     throw std::invalid_argument("--measure: got " + c.measure + ", expected one with a wrench");
   }
   if (options.heaviest) return print_heaviest(problem, options, row);
-  const TankRun run = simulate_plan(problem, options, row);
+  const TankRun run = simulate_row(problem, options, row);
   if (!options.out.empty()) write_file(options.out, tank_csv(problem, run));
   (options.json ? print_object : print_text)(problem, options, run);
   // Last: it refuses an experiment without samples, whose answer stands even so.

@@ -17,11 +17,9 @@
 namespace maxwrench {
 namespace {
 
-/// The plan, what the tank was asked for, and what came of it.
-struct MotionAnswer {
+/// The plan, and its experiment.
+struct MotionAnswer : PlanExperiment {
   Plan plan;
-  TankScript script;
-  TankRun run;
 };
 
 void require_motion_options(const Problem& problem, const SimulateOptions& options) {
@@ -37,10 +35,7 @@ void require_motion_options(const Problem& problem, const SimulateOptions& optio
 }
 
 Interpolation interpolation_of(const Problem& problem, const SimulateOptions& options) {
-  if (!options.interpolation) {
-    return problem.motion->scheme == Scheme::kSpline ? Interpolation::kSpline
-                                                     : Interpolation::kLinear;
-  }
+  if (!options.interpolation) return usual_interpolation(problem);
   const Interpolation chosen = parse_interpolation(*options.interpolation);
   if (chosen == Interpolation::kSpline && problem.motion->k < 2 && !problem.motion->impulse) {
     throw std::invalid_argument("--interpolation: got spline for k = 1, expected linear");
@@ -56,17 +51,11 @@ MotionAnswer answer_of(const Problem& problem, const SimulateOptions& options) {
   script.interpolation = interpolation_of(problem, options);
   script.planned = options.planned;
   script.margin = options.tank.margin;
-  MotionAnswer answer;
   PlanEvaluator evaluator(problem, wrench, lp.make);
   evaluator.evaluate(knots_of(problem, options.theta_r));
   if (evaluator.plan().status == Status::kOptimal) evaluator.evaluate_continuous();
-  answer.plan = evaluator.plan();
-  answer.script = make_script(problem, answer.plan, wrench, *lp.make(), script);
-  answer.run.conclude(answer.script.status, answer.script.reason.c_str());
-  if (answer.script.status != Status::kOptimal) return answer;
-  answer.run =
-      run_tank(problem, answer.script, *find_integrator(options.integrator).make(), options.tank);
-  return answer;
+  const Plan& plan = evaluator.plan();
+  return {simulate_plan(problem, plan, wrench, lp, script, options.integrator, options.tank), plan};
 }
 
 /// What was measured; null where nothing was.
@@ -164,7 +153,7 @@ int simulate_motion(const Problem& problem, const SimulateOptions& options) {
   (options.json ? print_motion_object : print_motion_text)(problem, options, answer);
   // Last: it refuses an experiment without samples, whose answer stands even so.
   if (!options.figure.empty() && answer.script.status == Status::kOptimal) {
-    write_file(options.figure, motion_figure(problem, answer.run));
+    write_file(options.figure, motion_figure(problem, {{problem.name, &answer.run}}));
   }
   return answer.run.status == Status::kReached ? kAnswered : kOtherStatus;
 }

@@ -40,7 +40,7 @@ int solve_posture(const SolveOptions& options, const Problem& problem) {
 int solve_motion(const SolveOptions& options, const Problem& problem) {
   Case c = options.read_case();
   if (!options.names_search) c.search = plan_searches().front().name;
-  const PlanMethod method = resolve_plan(c);
+  const PlanMethod method = resolve_plan(problem, c);
   Progress progress("solve", method.choice.budget);
   CtrlC ctrl_c;
   const PlanRow row =

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -13,6 +14,7 @@ using Point = Eigen::Vector2d;
 constexpr double kLargest = 1e100;   // powers of ten beyond it are out of reach of double's range
 constexpr double kNarrowest = 1e-9;  // of the largest value: below, ticks coincide by rounding
 constexpr int kMostTicks = 50;
+constexpr double kLeastNameLeft = 9;  // px: a name along the left edge is whole
 
 const Paint& faint() {
   static const Paint kFaint{.stroke = "#e2e2e2", .width = 0.8};
@@ -69,7 +71,7 @@ void draw_y_axis(Svg& svg, const Axis& x, const Axis& y, const std::vector<Tick>
     svg.text({x.from - 5, y(tick.value) + 4}, tick.label, {.anchor = Anchor::kEnd});
     widest = std::max(widest, text_width(tick.label, Font().size));
   }
-  svg.text({x.from - 11 - widest, (y.from + y.to) / 2}, name,
+  svg.text({std::max(x.from - 11 - widest, kLeastNameLeft), (y.from + y.to) / 2}, name,
            {.anchor = Anchor::kMiddle, .angle = 90});
 }
 

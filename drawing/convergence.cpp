@@ -14,7 +14,7 @@ namespace {
 using Point = Eigen::Vector2d;
 
 // px
-constexpr double kPanelHeight = 180, kPanelLeft = 62, kPanelTop = 26, kPanelRight = 12,
+constexpr double kPanelHeight = 180, kPanelLeft = 78, kPanelTop = 26, kPanelRight = 12,
                  kPanelBottom = 40;
 constexpr double kSmallest = 1e-6;  // share of the best value: the foot of the picture
 constexpr int kPointsPerDecade = 24;

@@ -1,13 +1,19 @@
 #include "maxwrench/figures.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
+#include <deque>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include "drawing/postures.h"
 #include "drawing/svg.h"
 #include "maxwrench/measure.h"
+#include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"
@@ -67,6 +73,23 @@ DrawnPosture draw(const Problem& problem, PostureEvaluator& model, const Panel& 
   return drawn;
 }
 
+/// The static task of an instant.
+Problem at_instant(const Problem& problem, const Instant& instant) {
+  Problem still = problem;
+  still.motion.reset();
+  still.pose = instant.end_effector;
+  still.c = instant.c;
+  return still;
+}
+
+/// Of a path that turns the angle, else the time.
+std::string title_of(const Problem& problem, const Plan& plan, const Instant& instant) {
+  if (problem.motion->path.angle() == 0) return fmt::format("{:.4g} s", instant.t);
+  const Eigen::AngleAxisd turned(plan.instants.front().end_effector.R.transpose() *
+                                 instant.end_effector.R);
+  return fmt::format("{:.3g}\u00b0", turned.angle() * 180 / std::numbers::pi);
+}
+
 }  // namespace
 
 std::string figure(const Problem& problem, const std::vector<Panel>& panels) {
@@ -81,6 +104,23 @@ std::string posture_figure(const Problem& problem, const std::vector<Panel>& pan
   PostureEvaluator model(problem);
   std::vector<DrawnPosture> drawn;
   for (const Panel& panel : panels) drawn.push_back(draw_robot(problem, model, panel));
+  return draw_both_views(drawn);
+}
+
+std::string plan_figure(const Problem& problem, const Plan& plan,
+                        const std::vector<double>& times) {
+  std::deque<Problem> problems;  // whose elements stay where they are
+  std::vector<DrawnPosture> drawn;
+  for (const double time : times) {
+    const auto& instant = *std::min_element(plan.instants.begin(), plan.instants.end(),
+                                            [time](const Instant& a, const Instant& b) {
+                                              return std::abs(a.t - time) < std::abs(b.t - time);
+                                            });
+    const Problem& still = problems.emplace_back(at_instant(problem, instant));
+    PostureEvaluator model(still, false);
+    drawn.push_back(
+        draw_robot(still, model, {title_of(problem, plan, instant), theta_r_at(problem, instant)}));
+  }
   return draw_both_views(drawn);
 }
 

@@ -10,7 +10,6 @@ namespace {
 using Point = Eigen::Vector2d;
 
 constexpr double kAfterMark = 5;  // px
-constexpr int kColumns = 3;
 
 // Colours of Okabe and Ito, told apart by colour-blind readers; none as light as their yellow.
 constexpr CurveStyle kCurveStyles[] = {
@@ -18,18 +17,19 @@ constexpr CurveStyle kCurveStyles[] = {
     {"#0072B2", "", Mark::kTriangle, false},       {"#009E73", "2 2", Mark::kDiamond, true},
     {"#CC4E00", "7 2 2 2", Mark::kFlipped, false}, {"#CC79A7", "", Mark::kSquare, false},
     {"#3A9BD9", "4 2", Mark::kCircle, true},       {"#8A7A00", "", Mark::kCross, false},
-    {"#777777", "7 2 2 2", Mark::kTriangle, true}};
+    {"#777777", "7 2 2 2", Mark::kTriangle, true}, {"#5A2A82", "4 2", Mark::kDiamond, false},
+    {"#222222", "2 2", Mark::kFlipped, true},      {"#0072B2", "7 2", Mark::kSquare, false}};
 
 }  // namespace
 
 double draw_legend(Svg* svg, const std::vector<LegendEntry>& entries, const Point& corner,
-                   double width) {
-  const double column = width / kColumns;
+                   double width, int columns) {
+  const double column = width / columns;
   int row = 0, next = 0;
   for (const LegendEntry& entry : entries) {
     const double length = kLegendMark + 2 * kAfterMark + text_width(entry.text, Font().size);
-    const int span = std::clamp(static_cast<int>(std::ceil(length / column)), 1, kColumns);
-    if (next + span > kColumns) {
+    const int span = std::clamp(static_cast<int>(std::ceil(length / column)), 1, columns);
+    if (next + span > columns) {
       ++row;
       next = 0;
     }

@@ -18,10 +18,10 @@ struct LegendEntry {
 inline constexpr double kLegendMark = 28;  ///< px
 inline constexpr double kLegendLine = 16;  ///< px
 
-/// In rows of three columns; a long text takes several of them. Returns the height; with no `svg`
+/// In rows of so many columns; a long text takes several of them. Returns the height; with no `svg`
 /// it draws nothing.
 double draw_legend(Svg* svg, const std::vector<LegendEntry>& entries, const Eigen::Vector2d& corner,
-                   double width);
+                   double width, int columns = 3);
 
 /// How the i-th of several curves looks. Read in grey, marks and dashes tell them apart.
 struct CurveStyle {

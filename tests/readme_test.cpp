@@ -99,11 +99,13 @@ void run_block(const DocumentBlock& block, const fs::path& folder) {
 
 class Docs : public testing::TestWithParam<std::string> {};
 
-/// In a folder with a copy of the shipped problems and the files of the document: TOML blocks that
-/// begin with their path as a comment.
+/// In a folder with copies of the shipped problems and plans and the files of the document: TOML
+/// blocks that begin with their path as a comment.
 TEST_P(Docs, EveryCommandWorks) {
   const TemporaryFolder folder;
   fs::copy(kRoot / "problems", folder.path() / "problems", fs::copy_options::recursive);
+  fs::create_directory(folder.path() / "results");
+  fs::copy(kRoot / "results/plans", folder.path() / "results/plans");
   static const std::regex kPath("# ([a-z_/]+\\.toml)");
   for (const DocumentBlock& block : document_blocks(GetParam())) {
     if (block.kind == "console") run_block(block, folder.path());

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "benchmarks/plan_row.h"
 #include "cli/cli.h"
 
 namespace maxwrench {
@@ -15,7 +16,11 @@ struct ReproduceOptions : CommonOptions {
 
 int reproduce(const ReproduceOptions& options) {
   bool all_solved = true;
-  for (const auto table : {reproduce_planar, reproduce_uvms, reproduce_dual}) {
+  const auto motion = [](const std::filesystem::path& folder, int threads) {
+    return reproduce_motion(folder, threads, kPlanBudget);
+  };
+  for (PaperTable (*const table)(const std::filesystem::path&, int) :
+       {reproduce_planar, reproduce_uvms, reproduce_dual, +motion}) {
     const PaperTable done = table(options.out, options.thread_count());
     fmt::print("{}\n", done.text);
     all_solved = all_solved && done.all_solved;

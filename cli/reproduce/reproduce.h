@@ -16,5 +16,8 @@ struct PaperTable {
 PaperTable reproduce_planar(const std::filesystem::path& folder, int threads);
 PaperTable reproduce_uvms(const std::filesystem::path& folder, int threads);
 PaperTable reproduce_dual(const std::filesystem::path& folder, int threads);
+/// Each plan that was found becomes a table plans/TASK_SCHEME.csv of the folder. `budget` is that
+/// of each search.
+PaperTable reproduce_motion(const std::filesystem::path& folder, int threads, long budget);
 
 }  // namespace maxwrench

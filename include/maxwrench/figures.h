@@ -8,6 +8,7 @@
 
 namespace maxwrench {
 
+struct Plan;
 struct Problem;
 
 /// One posture of a figure.
@@ -36,8 +37,14 @@ struct TankCurve {
 /// without samples, or with readings that are not finite.
 std::string tank_figure(const Problem& problem, const std::vector<TankCurve>& curves);
 
-/// One run of a task in time as SVG: the reading along c with the plan dashed, the thruster forces,
-/// theta_r and the angle of the end effector, all over time. Throws as `tank_figure`.
-std::string motion_figure(const Problem& problem, const TankRun& run);
+/// Runs of a task in time as SVG, all over time: the angle of the end effector (not of a heave,
+/// where it rests), the readings along c and the plans, and of each run the thruster forces with
+/// their limits and theta_r. Throws as `tank_figure`.
+std::string motion_figure(const Problem& problem, const std::vector<TankCurve>& curves);
+
+/// The robot at the instants of a plan that are next to `times` [s], from two sides, as SVG; titles
+/// say how far the end effector has turned, or when it is. The plan has instants, as one that is no
+/// invalid posture.
+std::string plan_figure(const Problem& problem, const Plan& plan, const std::vector<double>& times);
 
 }  // namespace maxwrench

@@ -121,6 +121,9 @@ std::unique_ptr<Objective> make_plan_objective(const Problem& problem, Wrench wr
 std::unique_ptr<Objective> make_plan_objective(const Problem&&, Wrench, const PlanSolverMaker&,
                                                bool = true) = delete;
 
+/// theta_r at an instant.
+Eigen::VectorXd theta_r_at(const Problem& problem, const Instant& instant);
+
 /// The table of stacked knots, and the other way round.
 Eigen::MatrixXd unstacked(const Eigen::VectorXd& x, Eigen::Index r);
 Eigen::VectorXd stacked(const Eigen::MatrixXd& knots);

@@ -52,6 +52,10 @@ class PlanObjective : public Objective {
 
 }  // namespace
 
+Eigen::VectorXd theta_r_at(const Problem& problem, const Instant& instant) {
+  return instant.q(problem.redundant);
+}
+
 Eigen::MatrixXd unstacked(const Eigen::VectorXd& x, Eigen::Index r) {
   return x.reshaped<Eigen::RowMajor>(x.size() / r, r);
 }

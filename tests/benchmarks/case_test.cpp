@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
 #include <stdexcept>
 
+#include "benchmarks/plan_row.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
 
@@ -87,6 +89,38 @@ TEST(Case, SelectKeepsWhatMatches) {
   EXPECT_EQ(select(cases, {{"seed", "5"}}).size(), cases.size());
   EXPECT_THROW(select(cases, {{"colour", "red"}}), std::invalid_argument);
   EXPECT_THROW(select(cases, {{"measure", "ellipsoid"}, {"lp", "facets"}}), std::invalid_argument);
+}
+
+TEST(Case, SchemesAreThoseOfTheTask) {
+  Problem turn = load_problem("planar/trajectory");
+  set_scheme("scheme", "ends", turn);
+  EXPECT_EQ(turn.motion->scheme, Scheme::kEnds);
+  EXPECT_THROW(set_scheme("scheme", "backward", turn), std::invalid_argument);
+  turn.motion->k = 1;
+  EXPECT_THROW(set_scheme("scheme", "spline", turn), std::invalid_argument);
+  for (const Case& c : product(turn, 1, 100)) EXPECT_NE(c.scheme, "spline");
+  const Problem still = load_problem("planar/force");
+  EXPECT_THROW(resolve(still, {.problem = still.name, .scheme = "ends"}), std::invalid_argument);
+}
+
+/// Each row of the product of a task in time is another case, which its problem resolves to itself.
+TEST(Case, ProductOfATaskInTimeCrossesItsSchemes) {
+  Problem heave = load_problem("uvms/valve_impulse");
+  const std::vector<Case> cases = product(heave, 3, 100);
+  std::set<std::vector<std::string>> different;
+  for (const Case& c : cases) {
+    set_scheme("scheme", c.scheme, heave);
+    EXPECT_EQ(case_values(complete(heave, c)), case_values(c));
+    different.insert(case_values(c));
+  }
+  EXPECT_EQ(different.size(), cases.size());
+  for (const std::string& scheme : scheme_names(true)) {
+    for (const SearchEntry& search : searches())
+      EXPECT_FALSE(select(cases, {{"search", search.name}, {"scheme", scheme}}).empty());
+    for (const PlanSolverEntry& solver : plan_solvers())
+      EXPECT_FALSE(select(cases, {{"lp", solver.name}, {"scheme", scheme}}).empty());
+  }
+  EXPECT_THROW(select(cases, {{"scheme", "ends"}}), std::invalid_argument);
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <tuple>
+
+#include "benchmarks/plan_row.h"
 #include "maxwrench/load.h"
 
 namespace maxwrench {
@@ -41,6 +44,40 @@ TEST(Comparison, ClockSeesWhatTheHistorySees) {
     EXPECT_EQ(run.history.back().value, run.value);
     EXPECT_LE(run.improved_at.back(), run.seconds);
     EXPECT_LE(run.evaluations, 500);
+  }
+}
+
+/// Two of three seeds reach 2, after 1 s and 2 s; the third spends 7 s on less: (1 + 2 + 7) s / 2.
+TEST(Comparison, ExpectedTimeCountsWhatMisses) {
+  Contender contender;
+  for (const auto& [value, at, seconds] :
+       {std::tuple(2.0, 1.0, 4.0), std::tuple(3.0, 2.0, 2.0), std::tuple(1.0, 0.5, 7.0)}) {
+    Attempt& attempt = contender.attempts.emplace_back();
+    attempt.improved_at = {at};
+    attempt.improved_to = {value};
+    attempt.seconds = seconds;
+  }
+  EXPECT_EQ(contender.expected_seconds(2), 5);
+  EXPECT_EQ(contender.expected_seconds(4), kInfinity);
+}
+
+/// The clock knows of no value beyond that of the plan that a search chose, and of that one.
+TEST(Comparison, ClockSeesThePlanThatWasChosen) {
+  const Problem problem = load_problem("planar/trajectory");
+  for (const char* name : {"slp", "annealing"}) {
+    SCOPED_TRACE(name);
+    const Case c{problem.name, "linf_polytope", Wrench::kPure, "", name, 1, 80};
+    const PlanMethod method = resolve_plan(problem, c);
+    const Attempt run = attempt(problem, method);
+    EXPECT_EQ(run.choice.scheme, "spline");
+    ASSERT_FALSE(run.improved_to.empty());
+    EXPECT_EQ(run.improved_to.back(), run.value);
+    EXPECT_LE(run.improved_at.back(), run.seconds);
+    EXPECT_LE(run.evaluations, 80);
+    const PlanRow row = solve_plan(problem, method, 2);
+    EXPECT_EQ(run.evaluations, row.evaluations);
+    EXPECT_NEAR(run.value, row.plan.value, 1e-6);  // the elastic value of a feasible plan
+    EXPECT_EQ(run.continuous, row.plan.continuous);
   }
 }
 

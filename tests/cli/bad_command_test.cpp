@@ -98,10 +98,12 @@ INSTANTIATE_TEST_SUITE_P(
                     BadWords{"simulate uvms/valve --measure manipulability", "--measure"},
                     BadWords{"simulate planar/force --ramp 0.1 --hold 0.1 --out /proc/x",
                              "/proc/x"},
-                    BadWords{"plot planar/trajectory", "a static task for `plot`"},
-                    BadWords{"run planar/trajectory", "a static task for `run`"},
-                    BadWords{"run problem=planar/trajectory", "a static task for `run`"},
-                    BadWords{"compare planar/trajectory", "a static task for `compare`"},
+                    BadWords{"plot planar/trajectory --theta-r 1,2,3", "got '1,2,3'"},
+                    BadWords{"plot planar/force --scheme ends", "is a static task"},
+                    BadWords{"run planar/trajectory scheme=backward", "scheme: got 'backward'"},
+                    BadWords{"run planar/trajectory measure=ellipsoid", "got 'ellipsoid'"},
+                    BadWords{"compare planar/trajectory --lp facets", "lp: got 'facets'"},
+                    BadWords{"compare planar/force --scheme ends", "is a static task"},
                     BadWords{"check missing.toml", "missing.toml"},
                     BadWords{"plot planar/none", "planar/none"}));
 

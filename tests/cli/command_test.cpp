@@ -221,7 +221,7 @@ TEST(Command, CheckAndListDescribeTasksInTime) {
   EXPECT_NE(run_maxwrench("list").out.find("impulse of 2.5 s, redundancy 4"), std::string::npos);
 }
 
-/// Tasks in time have no measures to combine: they are left out unless they are named.
+/// Tasks in time take much longer: they are left out unless they are named.
 TEST(Command, RunTakesAllStaticTasks) {
   const TemporaryFolder folder;
   const CommandResult result = run_maxwrench(

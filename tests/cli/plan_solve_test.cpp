@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "maxwrench/strategies.h"
 #include "tests/support/edited_copy.h"
 #include "tests/support/support.h"
 
@@ -47,6 +48,46 @@ TEST(PlanSolve, IsTheSameAtAnyThreadCount) {
     plan.erase("wall_s");
     if (first.empty()) first = plan.dump();
     EXPECT_EQ(plan.dump(), first) << threads;
+  }
+}
+
+/// Of the product, what the words choose; a scheme of its own each.
+TEST(PlanRun, WritesTheSameValuesAtAnyThreadCount) {
+  std::string first;
+  for (const char* threads : {"1", "2", "8"}) {
+    const TemporaryFolder folder;
+    const CommandResult result = run_maxwrench(
+        "run planar/trajectory search=slp lp=ipm wrench=pure budget=60 --out . --threads " +
+            std::string(threads),
+        folder.path());
+    ASSERT_EQ(result.exit_status, 0) << result.err;
+    const std::string values = read_text(folder.path() / "values.csv");
+    EXPECT_EQ(std::count(values.begin(), values.end(), '\n'), 4) << values;
+    for (const char* scheme : {"forward", "ends", "spline"}) {
+      EXPECT_NE(values.find(",60," + std::string(scheme) + ",best_found,"), std::string::npos);
+    }
+    if (first.empty()) first = values;
+    EXPECT_EQ(values, first) << threads << " threads";
+  }
+}
+
+TEST(PlanCompare, RacesEverySearchOfPlans) {
+  std::string first;
+  for (int run = 0; run < 2; ++run) {
+    const TemporaryFolder folder;
+    const CommandResult result = run_maxwrench(
+        "compare planar/trajectory --scheme ends --budget 20 --seeds 1 --out .", folder.path());
+    ASSERT_EQ(result.exit_status, 0) << result.err;
+    for (const auto& table : {plan_searches(), searches()}) {
+      for (const SearchEntry& search : table) {
+        EXPECT_NE(result.out.find("\n" + std::string(search.name) + " "), std::string::npos);
+      }
+    }
+    const std::string values = read_text(folder.path() / "search_comparison.csv");
+    EXPECT_NE(values.find(",slp,1,20,ends,"), std::string::npos) << values;
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "plan_comparison.svg"));
+    if (run == 0) first = values;
+    EXPECT_EQ(values, first);
   }
 }
 

@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <fstream>
 
 #include "tests/support/support.h"
 
@@ -18,6 +20,29 @@ TEST(PlotCommand, DrawsNoPostureThatDoesNotExist) {
             "invalid_posture: joint limit: shoulder at 9 rad, limits -1.0472 .. 1.0472\n");
   EXPECT_EQ(result.out, "");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.svg"));
+}
+
+/// At the start, in the middle and at the end; of a heave at its peak.
+TEST(PlotCommand, DrawsThePosturesOfAPlan) {
+  const TemporaryFolder folder;
+  for (const auto& [words, titles] :
+       {std::pair("plot uvms/valve_trajectory", std::array{"0°", "90°", "180°"}),
+        std::pair("plot uvms/valve_impulse --t-h 2", std::array{"0 s", "1.25 s", "2.5 s"})}) {
+    const CommandResult result = run_maxwrench(words);
+    ASSERT_EQ(result.exit_status, 0) << result.err;
+    for (const char* title : titles) {
+      for (const char* view : {", from above", ", from the right"})
+        EXPECT_NE(result.out.find(">" + std::string(title) + view + "<"), std::string::npos)
+            << words << title;
+    }
+  }
+  std::ofstream(folder.path() / "t.csv") << "0,0\n0.1,0\n0.2,0\n9,0\n9,0\n9,0\n9,0\n9,0\n";
+  const std::string words = "plot planar/trajectory --theta-r t.csv --out ";
+  const CommandResult beyond = run_maxwrench(words + "a.svg", folder.path());
+  EXPECT_EQ(beyond.exit_status, 1);
+  EXPECT_TRUE(beyond.err.starts_with("invalid_posture: ")) << beyond.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.svg"));
+  EXPECT_EQ(run_maxwrench(words + "t.csv", folder.path()).exit_status, 2);
 }
 
 /// No step of the experiment succeeds. The answer stands, the figure has nothing to show.

@@ -4,11 +4,14 @@
 
 #include <cmath>
 #include <regex>
+#include <set>
 #include <sstream>
+#include <tuple>
 
 #include "drawing/axes.h"
 #include "drawing/bars.h"
 #include "drawing/convergence.h"
+#include "drawing/legend.h"
 #include "drawing/postures.h"
 #include "maxwrench/load.h"
 
@@ -32,12 +35,15 @@ std::vector<double> numbers(const std::string& svg, const std::string& attribute
 }
 
 /// In a column of 8 cm (72 pt are an inch) words are 6 pt high or more; lowered letters, which are
-/// four fifths of that, 4.8 pt.
+/// four fifths of that, 4.8 pt. Those along the left edge are whole: their middle is 8 px inside.
 void expect_legible(const std::string& svg) {
   const double pt = 8 / 2.54 * 72 / numbers(svg, "width").front();
   std::istringstream lines(svg);
   for (std::string line; std::getline(lines, line);) {
     if (!line.starts_with("<text")) continue;
+    if (line.find("rotate(-90") != std::string::npos) {
+      EXPECT_GE(numbers(line, "x").front(), 8);
+    }
     const std::vector<double> sizes = numbers(line, "font-size");
     for (std::size_t i = 0; i < sizes.size(); ++i) EXPECT_GE(pt * sizes[i], i == 0 ? 6 : 4.8);
   }
@@ -94,17 +100,23 @@ TEST_F(FiguresTest, NamesAreSpelledInOneWay) {
 
 /// Curves without a finite value are not drawn, wild budgets are cut; no two curves look the same
 /// in grey: dash or mark differ.
-TEST_F(FiguresTest, ConvergenceOfNineSearches) {
+TEST_F(FiguresTest, ConvergenceOfTwelveSearches) {
   ConvergencePanel panel{"p", 1e5, {}};
-  for (int i = 0; i < 9; ++i) {
+  for (int i = 0; i < 12; ++i) {
     panel.curves.push_back({std::string(1, static_cast<char>('a' + i)),
                             [](double n) { return n < 100 ? std::nan("") : 1 / n; }});
   }
   const std::string svg = draw_convergence({&panel, 1});
   expect_legible(svg);
-  for (int i = 0; i < 9; ++i) {
+  for (int i = 0; i < 12; ++i) {
     EXPECT_EQ(count(svg, std::string(">") + static_cast<char>('a' + i) + "<"), 1);
   }
+  std::set<std::tuple<std::string, Mark, bool>> looks;
+  for (std::size_t i = 0; i < 12; ++i) {
+    const CurveStyle style = curve_style(i);
+    looks.insert({style.dash, style.mark, style.open});
+  }
+  EXPECT_EQ(looks.size(), 12U);
   panel.budget = kInfinity;
   EXPECT_LT(draw_convergence({&panel, 1}).size(), 200000U);
 }
@@ -157,6 +169,37 @@ TEST_F(FiguresTest, LegendsNameEveryMark) {
   // Open circles: joints, and the one in the legend.
   EXPECT_EQ(count(svg, "r=\"3.20\" fill=\"#ffffff\""),
             static_cast<int>(problem_.robot.joints.size()) + 1);
+}
+
+/// Every curve is named: those of each run where they share a plot, those of both once where each
+/// run has its own. The limits of the thrusters are lines in each of their plots and the legend.
+TEST(MotionFigure, ComparesRuns) {
+  const Problem problem = load_problem("planar/trajectory");
+  std::vector<TankRun> runs = {made_run(problem, {1, 2, 3}), made_run(problem, {2, 2, 4})};
+  const Eigen::Index actuators = problem.robot.actuation.B.cols();
+  for (TankRun& run : runs) {
+    for (TankSample& sample : run.samples) {
+      sample.u.setConstant(actuators, 0.5);
+      sample.theta_r.setZero(problem.redundancy());
+    }
+  }
+  const std::string svg = motion_figure(problem, {{"fixed", &runs[0]}, {"best", &runs[1]}});
+  expect_legible(svg);
+  std::vector<std::string> names = {"limits", "time [s]"};
+  for (const char* curve : {"reading, ", "plan, ", "end effector, "}) {
+    for (const char* run : {"fixed", "best"}) names.push_back(std::string(curve) + run);
+  }
+  for (const Thruster& thruster : problem.robot.thrusters) names.push_back(thruster.name);
+  for (int i = 0; i < problem.redundancy(); ++i) names.push_back(problem.theta_r_name(i));
+  for (const std::string& name : names) EXPECT_EQ(count(svg, ">" + name + "<"), 1) << name;
+  for (const char* title : {"fixed", "best"}) {
+    EXPECT_EQ(count(svg, ">" + std::string(title) + "<"), 2) << title;
+  }
+  // -1 and 1 N of all thrusters, in two plots and the legend.
+  EXPECT_EQ(count(svg, "stroke-dasharray=\"1 3\""), 2 * 2 + 1);
+  runs[1].samples.clear();
+  EXPECT_THROW(motion_figure(problem, {{"fixed", &runs[0]}, {"best", &runs[1]}}),
+               std::invalid_argument);
 }
 
 /// Without solids a robot is its skeleton: a line from the base to the first joint, between joints

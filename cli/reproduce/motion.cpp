@@ -1,0 +1,228 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "benchmarks/plan_row.h"
+#include "benchmarks/tank_experiment.h"
+#include "benchmarks/write_file.h"
+#include "cli/motion_options.h"
+#include "cli/plan_limits.h"
+#include "cli/reproduce/reproduce.h"
+#include "cli/row_writer.h"
+#include "maxwrench/figures.h"
+#include "maxwrench/load.h"
+#include "maxwrench/strategies.h"
+
+namespace maxwrench {
+namespace {
+
+/// One of the paper's experiments in time and what its tank measured.
+struct MotionTable {
+  const char* problem;
+  const char* title;
+  const char *constant, *moving;  ///< what their rows are called
+  double tank_constant, tank_moving;
+  const char* reading;  ///< what of the virtual tank's cell stands in the table
+};
+
+constexpr MotionTable kMotionTables[] = {
+    {"uvms/valve_trajectory", "torque throughout a turn by 180 degrees in 5 s", "fixed",
+     "optimised", 16, 19, "least"},
+    {"uvms/valve_impulse", "peak torque in a heave of 2.5 s", "static", "heave", 25, 35, "at t_h"},
+};
+
+constexpr double kWide = 0.5;  // m: bodies this far apart are not near each other
+
+/// One row of a table, of a problem that outlives it.
+struct Moved {
+  const Problem& problem;
+  std::string name;
+  PlanRow row;
+  PlanExperiment tank;
+
+  double reading() const {
+    const TankSummary& summary = tank.run.summary;
+    return problem.motion->impulse ? summary.motion->at_peak : summary.low;
+  }
+  bool ran() const { return !tank.run.samples.empty(); }
+};
+
+std::string in_column(double value, int width = 8, int digits = 2) {
+  return std::isfinite(value) ? fmt::format("{:>{}.{}f}", value, width, digits)
+                              : fmt::format("{:>{}}", "none", width);
+}
+
+/// The value of the same table of theta_r under another task, less its own.
+std::string rise(const Moved& moved, const MotionTask& other) {
+  Problem problem = moved.problem;
+  problem.motion = other;
+  const PlanMethod method = resolve_plan(problem, moved.row.choice);
+  const Plan plan = evaluate_plan(problem, method, moved.row.plan.knots).plan;
+  const double risen = std::round(1000 * (plan.value - moved.row.plan.value)) / 1000;
+  return std::isfinite(risen) ? fmt::format("{:>+8.3f}", risen + 0.0)
+                              : in_column(risen);  // no zero below zero
+}
+
+/// How much is left between the bodies of the robot at the knots, beyond their margin.
+std::string clearance(const Moved& moved) {
+  PlanEvaluator evaluator(moved.problem, Wrench::kPure, plan_solvers().front().make);
+  double least = kWide;
+  for (const NearPair& pair : evaluator.near_pairs(moved.row.plan.knots, kWide)) {
+    least = std::min(least, pair.clearance);
+  }
+  return least < kWide ? fmt::format("{:>7.3f}", least + 0.0) : fmt::format("{:>7}", "far");
+}
+
+std::string limits_line(const Moved& moved) {
+  const Robot& robot = moved.problem.robot;
+  MotionTask no_rates = *moved.problem.motion, free_start = no_rates;
+  no_rates.rates = false;
+  free_start.start = Start::kFree;
+  return fmt::format("{:<9} {:<9} {} {} {}  {:<24} {}\n", to_string(moved.problem.motion->scheme),
+                     moved.name, rise(moved, no_rates),
+                     free_start.impulse ? rise(moved, free_start) : fmt::format("{:>8}", "-"),
+                     clearance(moved), fastest_joint(robot, moved.row.plan),
+                     dearest_efforts(robot, moved.row));
+}
+
+/// What the virtual tank was asked for and what came of it.
+std::string tank_cells(const Moved& moved) {
+  const TankScript& script = moved.tank.script;
+  const TankSummary& summary = moved.tank.run.summary;
+  const std::string asked = in_column((1 - script.margin) * script.planned);
+  if (!moved.ran()) return fmt::format("{} {} {:>6} {:>4}", asked, in_column(NAN), "-", "-");
+  const char* held = summary.held ? "yes" : summary.drift < kLost ? "no" : "lost";
+  return fmt::format("{} {} {:>6.3f} {:>4}", asked, in_column(moved.reading()), summary.moved,
+                     held);
+}
+
+/// `constant`: the row of the same scheme that the gain refers to.
+std::string value_line(const MotionTable& table, const Moved& moved, const Moved& constant) {
+  const Plan& plan = moved.row.plan;
+  const bool found = &moved != &constant;
+  const bool both = moved.ran() && constant.ran();
+  return fmt::format("{:<9} {:<9} {} {}   {}  {:>5.1f}  {} {} {:>6.2f}\n",
+                     to_string(moved.problem.motion->scheme), moved.name, in_column(plan.value),
+                     in_column(plan.continuous), tank_cells(moved),
+                     found ? table.tank_moving : table.tank_constant,
+                     in_column(plan.value / constant.row.plan.value, 6),
+                     in_column(both ? moved.reading() / constant.reading() : NAN, 7),
+                     found ? table.tank_moving / table.tank_constant : 1);
+}
+
+/// The constant default and the plan that the search finds, each in the virtual tank.
+std::vector<Moved> solve_scheme(RowWriter& writer, const MotionTable& table, const Problem& problem,
+                                const std::filesystem::path& folder, long budget) {
+  Case c{.problem = problem.name, .search = "", .budget = budget};
+  std::vector<Moved> rows;
+  const auto add = [&](const char* name, const PlanMethod& method, const PlanRow& row) {
+    Moved& moved = rows.emplace_back(Moved{problem, name, row, {}});
+    const ScriptOptions script{.interpolation = usual_interpolation(problem)};
+    moved.tank =
+        simulate_plan(problem, row.plan, Wrench::kPure, *method.solver, script, "cvode", {});
+  };
+  const PlanMethod given = resolve_plan(problem, c);
+  const Eigen::MatrixXd constant = constant_knots(problem, problem.theta_r_default);
+  add(table.constant, given, writer.evaluate(problem, given, constant));
+  c.search = plan_searches().front().name;
+  const PlanMethod searched = resolve_plan(problem, c);
+  const PlanRow found = writer.solve(problem, searched);
+  if (!found.has_value()) return rows;
+  add(table.moving, searched, found);
+  std::string file = fmt::format("{}_{}.csv", problem.name, to_string(problem.motion->scheme));
+  std::replace(file.begin(), file.end(), '/', '_');
+  write_file(folder / "plans" / file, knots_csv(problem, found.plan.knots));
+  return rows;
+}
+
+/// The paper's figures of a task in time, of the scheme that says what happens between instants.
+void write_motion_figures(const MotionTable& table, const std::vector<Moved>& rows,
+                          const std::filesystem::path& folder) {
+  const Moved& found = rows.back();
+  std::string name = table.problem;
+  std::replace(name.begin(), name.end(), '/', '_');
+  std::vector<TankCurve> curves;
+  for (const Moved& row : rows) {
+    if (row.ran()) curves.push_back({row.name, &row.tank.run});
+  }
+  if (!curves.empty()) {
+    write_file(folder / (name + ".svg"), motion_figure(found.problem, curves));
+  }
+  write_file(folder / (name + "_postures.svg"),
+             plan_figure(found.problem, found.row.plan,
+                         telling_times(*found.problem.motion, found.row.plan)));
+}
+
+/// Those of the table: for a heave without the one that ends at rest, which nobody has measured.
+std::vector<std::string> schemes_of_table(const Problem& problem) {
+  std::vector<std::string> schemes = scheme_names(problem.motion->impulse);
+  std::erase(schemes, to_string(Scheme::kBackwardStop));
+  return schemes;
+}
+
+std::string motion_table(RowWriter& writer, const MotionTable& table,
+                         const std::filesystem::path& folder, long budget) {
+  Problem problem = load_problem(table.problem);
+  std::string text = fmt::format(
+      "{}: {}, {} ({})\n"
+      "                                       ------ virtual tank ------   paper  ------- gain "
+      "-------\n"
+      "scheme    plan         value  contin.      asked {:>8}  drift held   tank   value reading   "
+      "tank\n",
+      problem.name, table.title, problem.unit(), problem.label, table.reading);
+  std::string limits =
+      "  what limits the plan:\n"
+      "scheme    plan      no rates   start  clear.  fastest joint            efforts at their "
+      "limits, the dearest first\n";
+  for (const std::string& scheme : schemes_of_table(problem)) {
+    set_scheme("scheme", scheme, problem);
+    const std::vector<Moved> rows = solve_scheme(writer, table, problem, folder, budget);
+    for (const Moved& row : rows) {
+      text += value_line(table, row, rows.front());
+      if (row.row.has_value()) limits += limits_line(row);
+    }
+    if (rows.size() < 2) text += fmt::format("{:<9} no plan found\n", scheme);
+    if (scheme == to_string(Scheme::kSpline)) write_motion_figures(table, rows, folder);
+  }
+  return text + limits;
+}
+
+}  // namespace
+
+PaperTable reproduce_motion(const std::filesystem::path& folder, int threads, long budget) {
+  long rows = 0;
+  for (const MotionTable& table : kMotionTables) {
+    rows += 2 * static_cast<long>(schemes_of_table(load_problem(table.problem)).size());
+  }
+  RowWriter writer("reproduce motion", folder, threads, rows);
+  std::string text = fmt::format(
+      "The underwater vehicle along a path and in a heave. Values are those of a model of public\n"
+      "data, nothing is tuned to the tank; tank: measured in the paper. fixed, static: the best\n"
+      "static posture held throughout; the others: the best plan that search {} found with seed "
+      "{}\n"
+      "and at most {} evaluations, which stands in plans/TASK_SCHEME.csv. contin.: the value on "
+      "the\n"
+      "spline through the knots, none where no efforts follow it. The virtual tank is asked for\n"
+      "{:g} % less than the plan is worth and joins its instants as the scheme does (spline: with\n"
+      "the efforts of contin.); drift: of all joints and the base from the plan, rad or m; held:\n"
+      "the reading within {:g} % of the plan all along the path or at t_h, drift and limits kept;\n"
+      "lost: drift ended the experiment. gain: over the constant posture of the same scheme, of "
+      "the\n"
+      "value, of the virtual tank's reading, and of the paper's tank. no rates, start: by what "
+      "the\n"
+      "value at the same knots rises without limits of effort rates, and from any efforts at the\n"
+      "start; clear.: least distance of bodies at knots beyond their margin, m; fastest joint:\n"
+      "share of its speed limit at an instant.\n",
+      plan_searches().front().name, Case().seed, budget, 100 * TankOptions().margin,
+      100 * kFollowedShare);
+  for (const MotionTable& table : kMotionTables) {
+    text += "\n" + motion_table(writer, table, folder, budget);
+  }
+  const bool all_solved = writer.finish();
+  write_file(folder / "uvms_motion.txt", text);
+  return {text, all_solved};
+}
+
+}  // namespace maxwrench

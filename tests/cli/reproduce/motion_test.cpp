@@ -1,0 +1,88 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+#include <vector>
+
+#include "benchmarks/plan_row.h"
+#include "cli/reproduce/reproduce.h"
+#include "maxwrench/load.h"
+#include "maxwrench/strategies.h"
+#include "tests/support/support.h"
+
+namespace maxwrench {
+namespace {
+
+constexpr long kSmallBudget = 40;
+
+/// The fields of the lines of a table without line breaks and quotes in what is asked for.
+std::vector<std::vector<std::string>> fields(const std::filesystem::path& file) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream text(read_text(file));
+  for (std::string line; std::getline(text, line);) {
+    std::istringstream cells(line);
+    auto& row = rows.emplace_back();
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(cell);
+  }
+  return rows;
+}
+
+/// The rows of plans that were searched have their tables beside them, whose values they repeat;
+/// the table of the paper has the same ones. Returns how many there are.
+int expect_plans(const std::filesystem::path& folder, const std::string& text) {
+  const auto rows = fields(folder / "values.csv");
+  const auto at = [&](const std::vector<std::string>& row, const char* column) {
+    const auto& names = rows.front();
+    return row.at(
+        static_cast<std::size_t>(std::find(names.begin(), names.end(), column) - names.begin()));
+  };
+  int plans = 0;
+  for (const auto& row : rows) {
+    const std::string problem_name = at(row, "problem"), scheme = at(row, "scheme");
+    std::string file = problem_name + "_" + scheme + ".csv";
+    std::replace(file.begin(), file.end(), '/', '_');
+    if (at(row, "search") != plan_searches().front().name ||
+        !std::filesystem::exists(folder / "plans" / file))
+      continue;
+    Problem problem = load_problem(problem_name);
+    set_scheme("scheme", scheme, problem);
+    const PlanRow plan =
+        evaluate_plan(problem, resolve_plan(problem, {.problem = problem_name, .search = ""}),
+                      load_knots(folder / "plans" / file, problem));
+    EXPECT_TRUE(plan.plan.collision.empty()) << file;
+    EXPECT_NEAR(plan.plan.value, std::stod(at(row, "beta")), 1e-6) << file;
+    EXPECT_NE(text.find(fmt::format("{:>8.2f}", plan.plan.value)), std::string::npos) << file;
+    ++plans;
+  }
+  return plans;
+}
+
+TEST(ReproduceMotion, FillsTheTablesAlikeAtAnyThreadCount) {
+  std::string first;
+  for (const int threads : {1, 2}) {
+    if (threads == 1 && kSampleDivisor > 1) continue;  // too slow twice
+    const TemporaryFolder folder;
+    const PaperTable table = reproduce_motion(folder.path(), threads, kSmallBudget);
+    EXPECT_TRUE(table.all_solved);
+    EXPECT_EQ(table.text, read_text(folder.path() / "uvms_motion.txt"));
+    if (first.empty()) first = table.text;
+    EXPECT_EQ(table.text, first);
+    EXPECT_EQ(expect_plans(folder.path(), table.text), 6);
+    for (const char* task : {"uvms_valve_trajectory", "uvms_valve_impulse"}) {
+      for (const char* figure : {".svg", "_postures.svg"}) {
+        EXPECT_TRUE(std::filesystem::exists(folder.path() / (std::string(task) + figure)));
+      }
+    }
+  }
+  EXPECT_EQ(first.find("nan"), std::string::npos) << first;
+  EXPECT_EQ(first.find("-0.000"), std::string::npos) << first;
+}
+
+TEST(ReproduceMotion, ShippedPlansAreWorthWhatTheirRowsSay) {
+  const std::filesystem::path results(MAXWRENCH_SOURCE_DIR "/results");
+  EXPECT_EQ(expect_plans(results, read_text(results / "uvms_motion.txt")), 6);
+}
+
+}  // namespace
+}  // namespace maxwrench
