@@ -147,7 +147,8 @@ std::vector<WrenchSolverEntry> make_wrench_solvers() {
 
 std::vector<PlanSolverEntry> make_plan_solvers() {
   std::vector<PlanSolverEntry> table = {
-      {"ipm", "own interior point method, linear in the number of instants", make_plan_ipm},
+      {"ipm", "own interior point method, linear in the number of instants",
+       [] { return make_plan_ipm(); }},
       {"structured", "the worst instant by its facets if efforts follow, else ipm",
        make_plan_structured}};
   for (const LpEntry& lp : kLpSolvers) {

@@ -11,13 +11,13 @@ namespace {
 constexpr int kMaxIterations = 150;
 /// An equation's weight in the normal equations; what this leaves of it vanishes with the steps.
 constexpr double kEquation = 1e8;
-/// How far an optimum may be off, relative to 1 + |value|.
-constexpr double kTolerance = 1e-9;
 /// The share of the way to the boundary that a step goes.
 constexpr double kBoundary = 0.99;
 
 class Ipm : public PlanSolver {
  public:
+  explicit Ipm(double tolerance) : tolerance_(tolerance) {}
+
   void solve(const PlanProgram& program, PlanSolution& solution) override {
     forms_.build(program);
     matrix_.reserve(forms_);
@@ -274,12 +274,12 @@ class Ipm : public PlanSolver {
   bool settled(const PlanProgram& program, PlanSolution& solution) {
     if (!std::isfinite(mu_)) return false;
     const double size = tau_ + std::abs(primal_value_);
-    if (std::abs(dual_value_ - primal_value_) <= kTolerance * size && kappa_ < tau_) {
+    if (std::abs(dual_value_ - primal_value_) <= tolerance_ * size && kappa_ < tau_) {
       work_ = high_.y - low_.y;
       forms_.read_primal(program, X_, tau_, solution);
       forms_.read_dual(program, work_, tau_, false, solution);
       solution.residual = recheck(program, solution);
-      const double tolerance = kTolerance * (1 + std::abs(solution.value) + solution.price);
+      const double tolerance = tolerance_ * (1 + std::abs(solution.value) + solution.price);
       if (solution.residual.within(tolerance)) {
         solution.conclude(Status::kOptimal);
         return true;
@@ -301,6 +301,7 @@ class Ipm : public PlanSolver {
     return "the interior point method ends without a verdict that the data confirm";
   }
 
+  const double tolerance_;  ///< how far an optimum may be off, relative to 1 + |value|
   Forms forms_;
   NormalMatrix matrix_;
   Slacks low_, high_;
@@ -316,6 +317,8 @@ class Ipm : public PlanSolver {
 
 }  // namespace
 
-std::unique_ptr<PlanSolver> make_plan_ipm() { return std::make_unique<Ipm>(); }
+std::unique_ptr<PlanSolver> make_plan_ipm(double tolerance) {
+  return std::make_unique<Ipm>(tolerance);
+}
 
 }  // namespace maxwrench

@@ -17,8 +17,10 @@ namespace maxwrench {
 /// linear in the number of instants.
 ///
 /// Each call starts cold: the answer depends on nothing but the program. An optimum that `recheck`
-/// does not confirm to 1e-9 (1 + |value|) and a proof that does not hold are no verdicts.
-std::unique_ptr<PlanSolver> make_plan_ipm();
+/// does not confirm to `tolerance` (1 + |value| + price), residuals and gap alike, and a proof that
+/// does not hold are no verdicts. A search that only steps by the answer may ask for less, e.g.
+/// 1e-6: the iterations of the last digits are saved.
+std::unique_ptr<PlanSolver> make_plan_ipm(double tolerance = 1e-9);
 
 /// The same after an attempt on hard max-min programs of one wrench column: without the rates each
 /// instant's value is found by its facets, and the least is the answer if efforts that keep the

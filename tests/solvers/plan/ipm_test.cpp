@@ -266,6 +266,33 @@ TEST(PlanIpm, AnswersDependOnNothingButTheProgram) {
   EXPECT_EQ(first.value, again.value);
 }
 
+TEST(PlanIpm, ALooserToleranceEndsEarlierAndKeepsToIt) {
+  const Problem problem = load_problem("uvms/valve");
+  Random random(10);
+  const double tolerance = 1e-5;
+  const auto exact = make_plan_ipm(), loose = make_plan_ipm(tolerance);
+  long saved = 0;
+  for (int sample = 0; sample < 10; ++sample) {
+    PlanRecipe recipe;
+    recipe.rho = 100;
+    recipe.border = 5;
+    const PlanProgram program = random_plan(problem, recipe, random);
+    PlanSolution reference, solution;
+    exact->solve(program, reference);
+    loose->solve(program, solution);
+    ASSERT_EQ(reference.status, Status::kOptimal);
+    ASSERT_EQ(solution.status, Status::kOptimal) << solution.reason.c_str();
+    const double size = 1 + std::abs(solution.value) + solution.price;
+    EXPECT_TRUE(solution.residual.within(tolerance * size));
+    // The gap bounds how far the objective is off, once for each program, and what the slacks,
+    // bounds and rates may be violated by is priced by multipliers of about rho.
+    EXPECT_NEAR(solution.value - solution.price, reference.value - reference.price,
+                2 * recipe.rho * tolerance * size);
+    saved += reference.iterations - solution.iterations;
+  }
+  EXPECT_GE(saved, 10);
+}
+
 TEST(PlanIpm, AWrenchThatLoadsNothingHasNoVerdict) {
   const Problem problem = load_problem("uvms/valve");
   Random random(9);
