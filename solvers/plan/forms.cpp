@@ -44,28 +44,7 @@ void Forms::shape(const PlanProgram& program, bool with_rates, bool with_slacks)
   N = program.size();
   t = program.peak < 0 ? 1 : 0;
   p = program.border();
-  order.clear();
-  const auto has_rate = [&](int j) {
-    for (int i = 0; with_rates && i + 1 < N; ++i) {
-      if (program.du_max(j, i) < kInfiniteBound) return true;
-    }
-    return false;
-  };
-  for (int j = 0; j < m; ++j) {
-    if (has_rate(j)) order.push_back(j);
-  }
-  rated = static_cast<int>(order.size());
-  for (int j = 0; j < m; ++j) {
-    if (std::find(order.begin(), order.begin() + rated, j) == order.begin() + rated) {
-      order.push_back(j);
-    }
-  }
-  B_pinv_.resize(m, n);
-  Z_ordered_.resize(m, Z_.cols());
-  for (int r = 0; r < m; ++r) {
-    B_pinv_.row(r) = actuation_->B_pinv.row(order[r]);
-    Z_ordered_.row(r) = Z_.row(order[r]);
-  }
+  order_actuators(program, with_rates);
   stages.resize(N);
   Stage next;
   for (int i = 0; i < N; ++i) {
@@ -92,6 +71,33 @@ void Forms::shape(const PlanProgram& program, bool with_rates, bool with_slacks)
   for (Eigen::VectorXd* v : {&lo, &hi, &has_lo, &has_hi}) v->setZero(size);
   scale.setOnes(size);
   cost.setZero(variables);
+}
+
+/// Those with rates first.
+void Forms::order_actuators(const PlanProgram& program, bool with_rates) {
+  const int m = actuation_->actuators();
+  order.clear();
+  const auto has_rate = [&](int j) {
+    for (int i = 0; with_rates && i + 1 < N; ++i) {
+      if (program.du_max(j, i) < kInfiniteBound) return true;
+    }
+    return false;
+  };
+  for (int j = 0; j < m; ++j) {
+    if (has_rate(j)) order.push_back(j);
+  }
+  rated = static_cast<int>(order.size());
+  for (int j = 0; j < m; ++j) {
+    if (std::find(order.begin(), order.begin() + rated, j) == order.begin() + rated) {
+      order.push_back(j);
+    }
+  }
+  B_pinv_.resize(m, actuation_->dimension());
+  Z_ordered_.resize(m, Z_.cols());
+  for (int r = 0; r < m; ++r) {
+    B_pinv_.row(r) = actuation_->B_pinv.row(order[r]);
+    Z_ordered_.row(r) = Z_.row(order[r]);
+  }
 }
 
 void Forms::fill(const PlanProgram& program) {

@@ -75,6 +75,7 @@ struct Forms {
 
  private:
   void shape(const PlanProgram& program, bool with_rates, bool with_slacks);
+  void order_actuators(const PlanProgram& program, bool with_rates);
   void fill(const PlanProgram& program);
   void fill_stage(const PlanProgram& program, int i);
   void fill_efforts(const PlanProgram& program, int i);
