@@ -9,6 +9,11 @@ namespace {
 constexpr int kMaxIterations = 150;
 /// An equation's weight in the normal equations; what this leaves of it vanishes with the steps.
 constexpr double kEquation = 1e8;
+/// Pivots of the normal equations below this share are rounding. Where steps end at once, more is:
+/// the limit rises tenfold each time.
+constexpr double kPivot = 1e-15;
+constexpr double kStuck = 1e-4;
+constexpr int kPatience = 4;
 /// The share of the way to the boundary that a step goes.
 constexpr double kBoundary = 0.99;
 /// A correction that does not lengthen the step by so much is the last.
@@ -30,7 +35,7 @@ Embedding::End Embedding::run(const PlanProgram& program, bool rates, bool slack
   for (int count = 0;; ++count, ++solution.iterations) {
     measure(step);
     if (settled(program, tolerance, solution)) return End::kVerdict;
-    const bool ends = count == kMaxIterations || !(mu_ > 1e-20) || stuck > 3;
+    const bool ends = count == kMaxIterations || !(mu_ > 1e-20) || stuck > kPatience;
     const bool unbalanced = dual_value_ < 0 && kappa_ > tau_;
     if (!slacks && (ends || unbalanced)) return End::kNeedsSlacks;
     if (!rates && (ends || (kappa_ < tau_ && !forms_.keeps_rates(program, phi_, tau_)))) {
@@ -39,7 +44,8 @@ Embedding::End Embedding::run(const PlanProgram& program, bool rates, bool slack
     if (ends) return End::kNone;
     iterate();
     step = std::min(1.0, kBoundary * reach());
-    stuck = step < 1e-4 ? stuck + 1 : 0;
+    stuck = step < kStuck ? stuck + 1 : 0;
+    if (stuck > 0) least_pivot_ *= 10;
   }
 }
 
@@ -74,6 +80,7 @@ void Embedding::start(const PlanProgram& program) {
   }
   tau_ = 1;
   kappa_ = mu;
+  least_pivot_ = kPivot;
 }
 
 /// Takes the step; residuals of the embedding and right-hand sides at the point where it ends.
@@ -165,7 +172,7 @@ bool Embedding::settled(const PlanProgram& program, double tolerance, PlanSoluti
 }
 
 void Embedding::iterate() {
-  matrix_.factor(forms_, weight_);
+  matrix_.factor(forms_, weight_, least_pivot_);
   predict();
   const double rest = 1 - std::min(1.0, reach());
   const double gamma = std::max(rest * rest * std::min(rest, 0.5), 1e-12);

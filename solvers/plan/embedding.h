@@ -57,6 +57,7 @@ class Embedding {
   Eigen::VectorXd X_, sigma_, phi_, phi_low_, weight_, s_phi_, s_diagonal_, scale_;
   Eigen::VectorXd kept_X_, kept_sigma_, kept_G_, kept_low_;
   double tau_ = 1, kappa_ = 1, d_tau_ = 0, d_kappa_ = 0, tau_pivot_ = 0;
+  double least_pivot_ = 0;
   double mu_ = 0, rho_ = 0, count_ = 0, dual_value_ = 0, primal_value_ = 0, gap_residual_ = 0;
 };
 

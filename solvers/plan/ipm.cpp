@@ -4,6 +4,9 @@
 namespace maxwrench {
 namespace {
 
+/// How far the least sum of slacks may be off [N, N m].
+constexpr double kLeast = 1e-9;
+
 /// Leaves out rates and slacks until the embedding asks for them.
 class Ipm : public PlanSolver {
  public:
@@ -20,7 +23,8 @@ class Ipm : public PlanSolver {
       const auto end = embedding.run(program, rates, slacks, tolerance_, solution);
       if (end == Embedding::End::kVerdict) return;
       if (end == Embedding::End::kNone) {
-        solution.conclude(Status::kNumericalError, embedding.reason());
+        const char* const reason = embedding.reason();
+        if (!lacks_balance(program, solution)) solution.conclude(Status::kNumericalError, reason);
         return;
       }
       (end == Embedding::End::kNeedsRates ? rates : slacks) = true;
@@ -28,6 +32,24 @@ class Ipm : public PlanSolver {
   }
 
  private:
+  /// Programs that miss an answer by little are hard to tell from those that hit one. The least sum
+  /// of slacks that balances all instants is a program with an answer; if it is not zero, its
+  /// multipliers prove that there is none without slack.
+  bool lacks_balance(const PlanProgram& program, PlanSolution& solution) {
+    if (program.elastic()) return false;
+    PlanProgram least = program;
+    least.rho = 1;
+    least.first_elastic = 0;
+    least.peak = 0;
+    for (WrenchProgram& at : least.instants) at.c_w.setZero();
+    const auto end = embeddings_[1][1].run(least, true, true, kLeast, solution);
+    if (end != Embedding::End::kVerdict || solution.status != Status::kOptimal) return false;
+    solution.lambda *= -1;
+    if (!proves_infeasible(program, solution)) return false;
+    solution.conclude(Status::kInfeasible, "no efforts and wrenches balance all instants");
+    return true;
+  }
+
   const double tolerance_;  ///< how far an optimum may be off, relative to 1 + |value|
   Embedding embeddings_[2][2];
 };

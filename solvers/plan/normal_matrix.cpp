@@ -15,18 +15,16 @@ using ConstStageBlock = Eigen::Map<const Eigen::Matrix<double, D, D>>;
 template <int D>
 using ConstForms = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, D>>;
 
-/// A pivot below this share of its diagonal is none.
-constexpr double kPivot = 1e-15;
-
-/// The lower triangle of A becomes L with A = L L', the inverse in the diagonal.
+/// The lower triangle of A becomes L with A = L L', the inverse in the diagonal. A pivot below the
+/// share `least` of its diagonal is none.
 template <class Matrix>
-void cholesky(Matrix& A) {
+void cholesky(Matrix& A, double least) {
   const Eigen::Index d = A.rows();
   for (Eigen::Index c = 0; c < d; ++c) {
     const double diagonal = A(c, c);
     double pivot = diagonal;
     for (Eigen::Index l = 0; l < c; ++l) pivot -= A(c, l) * A(c, l);
-    const double inverse = pivot > kPivot * diagonal ? 1 / std::sqrt(pivot) : 0;
+    const double inverse = pivot > least * diagonal ? 1 / std::sqrt(pivot) : 0;
     A(c, c) = inverse;
     for (Eigen::Index r = c + 1; r < d; ++r) {
       double sum = A(r, c);
@@ -79,7 +77,8 @@ void NormalMatrix::reserve(const Forms& forms) {
   stack_.resize(forms.border0, forms.p);
 }
 
-void NormalMatrix::factor(const Forms& forms, const Eigen::VectorXd& theta) {
+void NormalMatrix::factor(const Forms& forms, const Eigen::VectorXd& theta, double least_pivot) {
+  least_pivot_ = least_pivot;
   assemble(forms, theta);
   for (int i = 0; i < forms.N; ++i) {
     with_dimension(forms.stages[i].d, [&]<int D>() { factor_stage<D>(forms, i); });
@@ -91,7 +90,7 @@ void NormalMatrix::factor(const Forms& forms, const Eigen::VectorXd& theta) {
     const Eigen::Map<const RowMatrix> E(E_.data(), E_.size() / b, b);
     H_.selfadjointView<Eigen::Lower>().rankUpdate(E.transpose(), -1);
   }
-  cholesky(H_);
+  cholesky(H_, least_pivot_);
 }
 
 void NormalMatrix::assemble(const Forms& forms, const Eigen::VectorXd& theta) {
@@ -197,7 +196,7 @@ void NormalMatrix::factor_stage(const Forms& forms, int i) {
   const int d = forms.stages[i].d;
   const int b = forms.t + forms.p;
   StageBlock<D> L(K_.data() + K0_[i], d, d);
-  cholesky(L);
+  cholesky(L, least_pivot_);
   Eigen::Map<RowMatrix> E(E_.data() + E0_[i], d, b);
   for (int c = 0; c < d; ++c) {
     E.row(c) *= L(c, c);

@@ -11,12 +11,13 @@ struct Forms;
 /// H = sum_f theta_f phi_f phi_f' over the forms of a plan, factored by stages: its blocks K_i of
 /// the instants are coupled only by the rates (K_i+1,i), and the border z = (t, y) is last.
 ///
-/// A pivot that vanishes beside its diagonal is a direction that no form sees: it is left out.
+/// A pivot below the share `least_pivot` of its diagonal is a direction that no form sees: it is
+/// left out.
 class NormalMatrix {
  public:
   /// Storage for the shape of these forms.
   void reserve(const Forms& forms);
-  void factor(const Forms& forms, const Eigen::VectorXd& theta);
+  void factor(const Forms& forms, const Eigen::VectorXd& theta, double least_pivot);
   /// X = H^-1 X, column by column.
   void solve(const Forms& forms, Columns X) const;
 
@@ -35,6 +36,7 @@ class NormalMatrix {
   void border(const Forms& forms, const Eigen::VectorXd& theta);
   void border_limits(const Forms& forms, const Eigen::VectorXd& theta);
 
+  double least_pivot_ = 0;
   std::vector<int> K0_, S0_, E0_;  ///< where the blocks of a stage begin
   Eigen::VectorXd K_;              ///< d×d, then its factor L with inverse diagonal
   Eigen::VectorXd S_;              ///< d_i+1 × d_i, then K_i+1,i L_i^-T
