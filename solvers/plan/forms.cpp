@@ -25,7 +25,7 @@ bool limited(const WrenchProgram& at, int j) {
 
 }  // namespace
 
-void Forms::build(const PlanProgram& program) {
+void Forms::build(const PlanProgram& program, bool with_rates, bool with_slacks) {
   const Zonotope& set = *program.instants.front().actuation;
   if (actuation_ != &set || Z_.rows() != set.actuators() || P_.rows() != set.dimension()) {
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(set.B, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -34,19 +34,51 @@ void Forms::build(const PlanProgram& program) {
     actuation_ = &set;
   }
   R = &program.R;
-  shape(program);
+  shape(program, with_rates, with_slacks);
   fill(program);
 }
 
-void Forms::shape(const PlanProgram& program) {
+void Forms::shape(const PlanProgram& program, bool with_rates, bool with_slacks) {
   const int m = actuation_->actuators();
   const int n = actuation_->dimension();
   N = program.size();
   t = program.peak < 0 ? 1 : 0;
   p = program.border();
+  order_actuators(program, with_rates);
+  stages.resize(N);
+  Stage next;
+  for (int i = 0; i < N; ++i) {
+    const WrenchProgram& at = program.instants[i];
+    const int k = at.columns();
+    next.elastic = with_slacks && program.elastic() && i >= program.first_elastic;
+    next.w0 = m;
+    next.w_count = 0;
+    for (int j = 0; j < k; ++j) next.w_count += limited(at, j);
+    next.w = next.elastic ? n : 0;
+    next.d = next.w + k + static_cast<int>(Z_.cols());
+    next.count = m + next.w_count + next.w + static_cast<int>(P_.cols()) + t;
+    stages[i] = next;
+    next.x0 += next.d;
+    next.f0 += next.count;
+    next.F0 += next.d * next.count;
+  }
+  variables = next.x0 + t + p;
+  rates0 = next.f0;
+  border0 = rates0 + rated * (N - 1);
+  size = border0 + p + static_cast<int>(program.R.rows());
+  F.setZero(next.F0);
+  D.setZero(border0, p);
+  for (Eigen::VectorXd* v : {&lo, &hi, &has_lo, &has_hi}) v->setZero(size);
+  scale.setOnes(size);
+  cost.setZero(variables);
+}
+
+/// Those with rates first.
+void Forms::order_actuators(const PlanProgram& program, bool with_rates) {
+  const int m = actuation_->actuators();
   order.clear();
   const auto has_rate = [&](int j) {
-    for (int i = 0; i + 1 < N; ++i) {
+    for (int i = 0; with_rates && i + 1 < N; ++i) {
       if (program.du_max(j, i) < kInfiniteBound) return true;
     }
     return false;
@@ -60,33 +92,12 @@ void Forms::shape(const PlanProgram& program) {
       order.push_back(j);
     }
   }
-  stages.resize(N);
-  Stage next;
-  for (int i = 0; i < N; ++i) {
-    const WrenchProgram& at = program.instants[i];
-    const int k = at.columns();
-    next.elastic = program.elastic() && i >= program.first_elastic;
-    next.w0 = m;
-    next.w_count = 0;
-    for (int j = 0; j < k; ++j) next.w_count += limited(at, j);
-    next.w = next.elastic ? n : 0;
-    next.d = next.w + k + static_cast<int>(Z_.cols());
-    next.count = m + next.w_count + next.w + static_cast<int>(P_.cols()) + t;
-    stages[i] = next;
-    next.x0 += next.d;
-    next.f0 += next.count;
-    next.F0 += next.d * next.count;
-    next.D0 += p * next.count;
+  B_pinv_.resize(m, actuation_->dimension());
+  Z_ordered_.resize(m, Z_.cols());
+  for (int r = 0; r < m; ++r) {
+    B_pinv_.row(r) = actuation_->B_pinv.row(order[r]);
+    Z_ordered_.row(r) = Z_.row(order[r]);
   }
-  variables = next.x0 + t + p;
-  rates0 = next.f0;
-  border0 = rates0 + rated * (N - 1);
-  size = border0 + p + static_cast<int>(program.R.rows());
-  F.setZero(next.F0);
-  D.setZero(next.D0);
-  for (Eigen::VectorXd* v : {&lo, &hi, &has_lo, &has_hi}) v->setZero(size);
-  scale.setOnes(size);
-  cost.setZero(variables);
 }
 
 void Forms::fill(const PlanProgram& program) {
@@ -150,15 +161,12 @@ void Forms::fill_efforts(const PlanProgram& program, int i) {
   const Stage& at = stages[i];
   const WrenchProgram& data = program.instants[i];
   Eigen::Map<Eigen::MatrixXd> F_i(F.data() + at.F0, at.count, at.d);
-  Eigen::Map<Eigen::MatrixXd> D_i(D.data() + at.D0, at.count, p);
+  const int m = actuation_->actuators();
   offsets_.col(i).noalias() = actuation_->B_pinv * data.tau_d;
-  for (std::size_t r = 0; r < order.size(); ++r) {
-    const auto row = actuation_->B_pinv.row(order[r]);
-    F_i.row(r).head(at.w) = -row.head(at.w);
-    F_i.row(r).segment(at.w, data.columns()).noalias() = row.lazyProduct(data.JtW);
-    F_i.row(r).tail(Z_.cols()) = Z_.row(order[r]);
-    if (p > 0) D_i.row(r).noalias() = -row.lazyProduct(program.G[i]);
-  }
+  F_i.topLeftCorner(m, at.w) = -B_pinv_.leftCols(at.w);
+  F_i.block(0, at.w, m, data.columns()).noalias() = B_pinv_.lazyProduct(data.JtW);
+  F_i.topRightCorner(m, Z_.cols()) = Z_ordered_;
+  if (p > 0) D.middleRows(at.f0, m).noalias() = -B_pinv_ * program.G[i];
 }
 
 /// What B does not reach: P'(J'W w - G y - s) = -P'tau_d.
@@ -166,13 +174,12 @@ void Forms::fill_unreached(const PlanProgram& program, int i) {
   const Stage& at = stages[i];
   const WrenchProgram& data = program.instants[i];
   Eigen::Map<Eigen::MatrixXd> F_i(F.data() + at.F0, at.count, at.d);
-  Eigen::Map<Eigen::MatrixXd> D_i(D.data() + at.D0, at.count, p);
   const int first = at.w0 + at.w_count + at.w;
   for (int q = 0; q < P_.cols(); ++q) {
     const auto row = P_.col(q).transpose();
     F_i.row(first + q).head(at.w) = -row.head(at.w);
     F_i.row(first + q).segment(at.w, data.columns()).noalias() = row.lazyProduct(data.JtW);
-    if (p > 0) D_i.row(first + q).noalias() = -row.lazyProduct(program.G[i]);
+    if (p > 0) D.row(at.f0 + first + q).noalias() = -row.lazyProduct(program.G[i]);
     hi[at.f0 + first + q] = -row.dot(data.tau_d);
     equations.push_back(at.f0 + first + q);
   }
@@ -185,6 +192,8 @@ void Forms::fill_rates(const PlanProgram& program) {
       const double most = program.du_max(j, i);
       limit(rates0 + rated * i + r, -most, most, offsets_(j, i + 1) - offsets_(j, i));
     }
+    D.middleRows(rates0 + rated * i, rated) =
+        D.middleRows(stages[i + 1].f0, rated) - D.middleRows(stages[i].f0, rated);
   }
 }
 
@@ -195,38 +204,68 @@ void Forms::fill_border(const PlanProgram& program) {
   }
 }
 
-void Forms::apply(const Eigen::VectorXd& X, Eigen::VectorXd& phi) const {
-  const auto y = X.tail(p);
+void Forms::apply(const Columns& X, Columns phi) const {
   for (const Stage& at : stages) {
-    auto out = phi.segment(at.f0, at.count);
-    out.noalias() = F_of(at).lazyProduct(X.segment(at.x0, at.d));
-    if (p > 0) out.noalias() += D_of(at) * y;
-    if (t > 0) out[at.count - 1] -= X[z0()];
+    with_dimension(at.d, [&]<int d>() {
+      const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, d>> F_i(F.data() + at.F0,
+                                                                           at.count, at.d);
+      for (Eigen::Index c = 0; c < X.cols(); ++c) {
+        phi.col(c).segment(at.f0, at.count).noalias() =
+            F_i.lazyProduct(X.col(c).template segment<d>(at.x0, at.d));
+        if (t > 0) phi(at.f0 + at.count - 1, c) -= X(z0(), c);
+      }
+    });
   }
-  for (int i = 0; i + 1 < N; ++i) {
-    phi.segment(rates0 + rated * i, rated) =
-        phi.segment(stages[i + 1].f0, rated) - phi.segment(stages[i].f0, rated);
+  for (Eigen::Index c = 0; c < X.cols(); ++c) {
+    auto out = phi.col(c);
+    const auto y = X.col(c).tail(p);
+    if (p > 0) out.head(rates0).noalias() += D.topRows(rates0) * y;
+    for (int i = 0; rated > 0 && i + 1 < N; ++i) {
+      out.segment(rates0 + rated * i, rated) =
+          out.segment(stages[i + 1].f0, rated) - out.segment(stages[i].f0, rated);
+    }
+    if (p > 0) out.segment(border0, p) = y;
+    if (R->rows() > 0) out.tail(R->rows()).noalias() = *R * y;
   }
-  if (p == 0) return;
-  phi.segment(border0, p) = y;
-  if (R->rows() > 0) phi.tail(R->rows()).noalias() = *R * y;
 }
 
-void Forms::add_transposed(Eigen::VectorXd& g, Eigen::VectorXd& X) const {
-  for (int i = 0; i + 1 < N; ++i) {
-    const auto rate = g.segment(rates0 + rated * i, rated);
-    g.segment(stages[i + 1].f0, rated) += rate;
-    g.segment(stages[i].f0, rated) -= rate;
+void Forms::add_transposed(Columns g, Columns X) const {
+  for (Eigen::Index c = 0; c < X.cols(); ++c) {
+    auto in = g.col(c);
+    for (int i = 0; rated > 0 && i + 1 < N; ++i) {
+      const auto rate = in.segment(rates0 + rated * i, rated);
+      in.segment(stages[i + 1].f0, rated) += rate;
+      in.segment(stages[i].f0, rated) -= rate;
+    }
+    if (p > 0) X.col(c).tail(p).noalias() += D.topRows(rates0).transpose() * in.head(rates0);
+    if (p > 0) X.col(c).tail(p) += in.segment(border0, p);
+    if (R->rows() > 0) X.col(c).tail(p).noalias() += R->transpose() * in.tail(R->rows());
   }
   for (const Stage& at : stages) {
-    const auto in = g.segment(at.f0, at.count);
-    X.segment(at.x0, at.d).noalias() += F_of(at).transpose().lazyProduct(in);
-    if (p > 0) X.tail(p).noalias() += D_of(at).transpose() * in;
-    if (t > 0) X[z0()] -= in[at.count - 1];
+    with_dimension(at.d, [&]<int d>() {
+      const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, d>> F_i(F.data() + at.F0,
+                                                                           at.count, at.d);
+      for (Eigen::Index c = 0; c < X.cols(); ++c) {
+        const auto in = g.col(c).segment(at.f0, at.count);
+        X.col(c).template segment<d>(at.x0, at.d).noalias() += F_i.transpose().lazyProduct(in);
+        if (t > 0) X(z0(), c) -= in[at.count - 1];
+      }
+    });
   }
-  if (p == 0) return;
-  X.tail(p) += g.segment(border0, p);
-  if (R->rows() > 0) X.tail(p).noalias() += R->transpose() * g.tail(R->rows());
+}
+
+bool Forms::keeps_rates(const PlanProgram& program, const Eigen::VectorXd& phi, double tau) const {
+  const auto m = static_cast<int>(order.size());
+  for (int i = 0; i + 1 < N; ++i) {
+    const int from = stages[i].f0, to = stages[i + 1].f0;
+    for (int r = 0; r < m; ++r) {
+      const int j = order[r];
+      const double change = phi[to + r] - phi[from + r];
+      const double constant = offsets_(j, i + 1) - offsets_(j, i);
+      if (!(std::abs(change + tau * constant) <= tau * program.du_max(j, i))) return false;
+    }
+  }
+  return true;
 }
 
 void Forms::read_primal(const PlanProgram& program, const Eigen::VectorXd& X, double tau,
@@ -246,7 +285,7 @@ void Forms::read_primal(const PlanProgram& program, const Eigen::VectorXd& X, do
     solution.w[i] = X.segment(at.x0 + at.w, k) / tau;
     for (int r = 0; r < m; ++r) {
       double u = F_of(at).row(r).dot(X.segment(at.x0, at.d)) / tau;
-      if (p > 0) u += D_of(at).row(r).dot(solution.y);
+      if (p > 0) u += D.row(at.f0 + r).dot(solution.y);
       solution.u(order[r], i) = u + offsets_(order[r], i);
     }
     if (i == program.peak || t > 0) {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "maxwrench/plan_program.h"
+#include "solvers/plan/blocks.h"
 
 namespace maxwrench {
 
@@ -16,11 +17,14 @@ namespace maxwrench {
 /// elastic instant x = (s, w, v), its slacks s are taken from tau_d, and they are forms that cost
 /// rho |s|: what weighs most in the end is a diagonal block.
 ///
+/// Most programs of plans have an answer within their rates and without slack even if neither is
+/// asked for: each may be left out, and the answer without is one with (`keeps_rates`).
+///
 /// Forms of an instant, phi = F x + D y (less t in the last one): efforts, those with rates first;
 /// w with limits; slacks or equations; c_w'w - t >= 0. Then follow the rates, which are differences
 /// of the instants' first forms, y, and R y. Constant parts are in lo and hi.
 struct Forms {
-  void build(const PlanProgram& program);
+  void build(const PlanProgram& program, bool with_rates = true, bool with_slacks = true);
 
   int N = 0;
   int t = 0;      ///< 1 for max-min
@@ -32,13 +36,14 @@ struct Forms {
   struct Stage {
     int d = 0, x0 = 0;        ///< variables
     int count = 0, f0 = 0;    ///< forms
-    int F0 = 0, D0 = 0;       ///< in `F` and `D`
+    int F0 = 0;               ///< in `F`
     int w0 = 0, w_count = 0;  ///< forms of limits of w, from f0 on
     int w = 0;                ///< where w begins in x
     bool elastic = false;
   };
   std::vector<Stage> stages;
-  Eigen::VectorXd F, D;                ///< count×d and count×p of each stage, by columns
+  Eigen::VectorXd F;                   ///< count×d of each stage, by columns
+  RowMatrix D;                         ///< border0×p, of the instants' forms and the rates
   Eigen::VectorXd lo, hi;              ///< zero where infinite
   Eigen::VectorXd has_lo, has_hi;      ///< 1 or 0; both zero: an equation phi = hi
   Eigen::VectorXd scale;               ///< a guess of how far phi is from its limits
@@ -50,16 +55,15 @@ struct Forms {
   Eigen::Map<const Eigen::MatrixXd> F_of(const Stage& at) const {
     return {F.data() + at.F0, at.count, at.d};
   }
-  Eigen::Map<const Eigen::MatrixXd> D_of(const Stage& at) const {
-    return {D.data() + at.D0, at.count, p};
-  }
   int z0() const { return variables - p - t; }
 
-  /// phi = phi(X), without constant parts.
-  void apply(const Eigen::VectorXd& X, Eigen::VectorXd& phi) const;
+  /// phi = phi(X), without constant parts, column by column.
+  void apply(const Columns& X, Columns phi) const;
   /// X += the transposed map of g; uses g's storage.
-  void add_transposed(Eigen::VectorXd& g, Eigen::VectorXd& X) const;
+  void add_transposed(Columns g, Columns X) const;
 
+  /// Whether the efforts at X (phi = phi(X)) keep the rates.
+  bool keeps_rates(const PlanProgram& program, const Eigen::VectorXd& phi, double tau) const;
   /// u, w, s, y, value and price.
   void read_primal(const PlanProgram& program, const Eigen::VectorXd& X, double tau,
                    PlanSolution& solution) const;
@@ -70,7 +74,8 @@ struct Forms {
                  bool proof, PlanSolution& solution);
 
  private:
-  void shape(const PlanProgram& program);
+  void shape(const PlanProgram& program, bool with_rates, bool with_slacks);
+  void order_actuators(const PlanProgram& program, bool with_rates);
   void fill(const PlanProgram& program);
   void fill_stage(const PlanProgram& program, int i);
   void fill_efforts(const PlanProgram& program, int i);
@@ -82,8 +87,9 @@ struct Forms {
   void limit(int form, double low, double high, double offset);
 
   const Zonotope* actuation_ = nullptr;
-  Eigen::MatrixXd Z_, P_;    ///< m×(m - rank), n×(n - rank)
-  Eigen::MatrixXd offsets_;  ///< B^+ tau_d, m×N
+  Eigen::MatrixXd Z_, P_;               ///< m×(m - rank), n×(n - rank)
+  Eigen::MatrixXd B_pinv_, Z_ordered_;  ///< with rows in the order of the forms
+  Eigen::MatrixXd offsets_;             ///< B^+ tau_d, m×N
   Eigen::MatrixXd gram_;
   Eigen::VectorXd slope_;
 };

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/plan/forms.h"
+
 namespace maxwrench {
 namespace {
 
-using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 template <int D>
 using StageBlock = Eigen::Map<Eigen::Matrix<double, D, D>>;
 template <int D>
@@ -14,18 +15,16 @@ using ConstStageBlock = Eigen::Map<const Eigen::Matrix<double, D, D>>;
 template <int D>
 using ConstForms = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, D>>;
 
-/// A pivot below this share of its diagonal is none.
-constexpr double kPivot = 1e-15;
-
-/// The lower triangle of A becomes L with A = L L', the inverse in the diagonal.
+/// The lower triangle of A becomes L with A = L L', the inverse in the diagonal. A pivot below the
+/// share `least` of its diagonal is none.
 template <class Matrix>
-void cholesky(Matrix& A) {
+void cholesky(Matrix& A, double least) {
   const Eigen::Index d = A.rows();
   for (Eigen::Index c = 0; c < d; ++c) {
     const double diagonal = A(c, c);
     double pivot = diagonal;
     for (Eigen::Index l = 0; l < c; ++l) pivot -= A(c, l) * A(c, l);
-    const double inverse = pivot > kPivot * diagonal ? 1 / std::sqrt(pivot) : 0;
+    const double inverse = pivot > least * diagonal ? 1 / std::sqrt(pivot) : 0;
     A(c, c) = inverse;
     for (Eigen::Index r = c + 1; r < d; ++r) {
       double sum = A(r, c);
@@ -51,27 +50,11 @@ void solve_upper(const Matrix& L, Vector&& x) {
   }
 }
 
-/// Calls body with the number of a stage's variables, known to the compiler where it is that of the
-/// robots with eight thrusters and six base axes.
-template <class Body>
-void with_dimension(int d, Body&& body) {
-  switch (d) {
-    case 1:
-      return body.template operator()<1>();
-    case 3:
-      return body.template operator()<3>();
-    case 8:
-      return body.template operator()<8>();
-    default:
-      return body.template operator()<Eigen::Dynamic>();
-  }
-}
-
 }  // namespace
 
 void NormalMatrix::reserve(const Forms& forms) {
   const int b = forms.t + forms.p;
-  int K = 0, S = 0, E = 0, most = 0, widest = 0;
+  int K = 0, S = 0, E = 0, most = 0;
   K0_.resize(forms.N);
   S0_.resize(forms.N);
   E0_.resize(forms.N);
@@ -84,23 +67,30 @@ void NormalMatrix::reserve(const Forms& forms) {
     E += d * b;
     if (i + 1 < forms.N) S += d * forms.stages[i + 1].d;
     most = std::max(most, forms.stages[i].count);
-    widest = std::max(widest, d);
   }
   K_.resize(K);
   S_.resize(S);
   E_.resize(E);
   H_.resize(b, b);
   weight_.resize(forms.size);
-  weighted_.resize(most, std::max(widest, forms.p));
-  stack_.resize(most + forms.rated, forms.p);
+  weighted_.resize(most);
+  stack_.resize(forms.border0, forms.p);
 }
 
-void NormalMatrix::factor(const Forms& forms, const Eigen::VectorXd& theta) {
+void NormalMatrix::factor(const Forms& forms, const Eigen::VectorXd& theta, double least_pivot) {
+  least_pivot_ = least_pivot;
   assemble(forms, theta);
   for (int i = 0; i < forms.N; ++i) {
     with_dimension(forms.stages[i].d, [&]<int D>() { factor_stage<D>(forms, i); });
   }
-  cholesky(H_);
+  const int b = forms.t + forms.p;
+  if (b == 1) {
+    H_(0, 0) -= E_.squaredNorm();
+  } else if (b > 0) {
+    const Eigen::Map<const RowMatrix> E(E_.data(), E_.size() / b, b);
+    H_.selfadjointView<Eigen::Lower>().rankUpdate(E.transpose(), -1);
+  }
+  cholesky(H_, least_pivot_);
 }
 
 void NormalMatrix::assemble(const Forms& forms, const Eigen::VectorXd& theta) {
@@ -115,10 +105,10 @@ void NormalMatrix::assemble(const Forms& forms, const Eigen::VectorXd& theta) {
   for (int i = 0; i < forms.N; ++i) {
     with_dimension(forms.stages[i].d, [&]<int D>() {
       assemble_stage<D>(forms, theta, i);
-      if (i + 1 < forms.N) couple<D>(forms, theta, i);
+      if (i + 1 < forms.N && forms.rated > 0) couple<D>(forms, theta, i);
     });
-    if (forms.p > 0) border(forms, theta, i);
   }
+  if (forms.p > 0) border(forms, theta);
   if (forms.p > 0) border_limits(forms, theta);
 }
 
@@ -129,7 +119,7 @@ void NormalMatrix::assemble_stage(const Forms& forms, const Eigen::VectorXd& the
   StageBlock<D> K(K_.data() + K0_[i], at.d, at.d);
   const auto weight = weight_.segment(at.f0, at.count);
   for (int c = 0; c < at.d; ++c) {
-    auto column = weighted_.col(0).head(at.count);
+    auto column = weighted_.head(at.count);
     column = weight.cwiseProduct(F.col(c));
     for (int r = c; r < at.d; ++r) K(r, c) = F.col(r).dot(column);
   }
@@ -152,7 +142,7 @@ void NormalMatrix::couple(const Forms& forms, const Eigen::VectorXd& theta, int 
   double* const S = S_.data() + S0_[i];
   const auto rate = theta.segment(forms.rates0 + forms.rated * i, forms.rated);
   for (int c = 0; c < at.d; ++c) {
-    auto column = weighted_.col(0).head(forms.rated);
+    auto column = weighted_.head(forms.rated);
     column = -rate.cwiseProduct(F.col(c).head(forms.rated));
     for (int r = 0; r < next.d; ++r) {
       S[c * next.d + r] = F_next.col(r).head(forms.rated).dot(column);
@@ -160,34 +150,28 @@ void NormalMatrix::couple(const Forms& forms, const Eigen::VectorXd& theta, int 
   }
 }
 
-/// What stage i and the rates after it add to E and to the border's own block.
-void NormalMatrix::border(const Forms& forms, const Eigen::VectorXd& theta, int i) {
-  const Forms::Stage& at = forms.stages[i];
-  const int p = forms.p, b = forms.t + p, rated = forms.rated;
-  const auto D = forms.D_of(at);
-  const auto E_of = [&](int stage) {
-    return Eigen::Map<RowMatrix>(E_.data() + E0_[stage], forms.stages[stage].d, b).rightCols(p);
+/// What the border's columns add: E = F'theta D of the stages and their rates, H += D'theta D.
+void NormalMatrix::border(const Forms& forms, const Eigen::VectorXd& theta) {
+  const int p = forms.p, b = forms.t + p;
+  stack_ = theta.head(forms.border0).asDiagonal() * forms.D;
+  const auto add = [&](int stage, int from, int count, double sign) {
+    const Forms::Stage& at = forms.stages[stage];
+    Eigen::Map<RowMatrix> E(E_.data() + E0_[stage], at.d, b);
+    const auto F = forms.F_of(at);
+    for (int c = 0; c < at.d; ++c) {
+      for (int r = 0; r < count; ++r) {
+        E.row(c).tail(p) += (sign * F(r, c)) * stack_.row(from + r);
+      }
+    }
   };
-  auto scaled = weighted_.topLeftCorner(at.count, p);
-  const auto own = theta.segment(at.f0, at.count);
-  scaled = own.asDiagonal() * D;
-  E_of(i).noalias() += forms.F_of(at).transpose() * scaled;
-  int rows = at.count;
-  stack_.topRows(rows) = own.cwiseSqrt().asDiagonal() * D;
-  if (i + 1 < forms.N && rated > 0) {
-    const Forms::Stage& next = forms.stages[i + 1];
-    const auto rate = theta.segment(forms.rates0 + rated * i, rated);
-    auto change = stack_.middleRows(rows, rated);
-    change = forms.D_of(next).topRows(rated) - D.topRows(rated);
-    auto pull = weighted_.topLeftCorner(rated, p);
-    pull = rate.asDiagonal() * change;
-    E_of(i + 1).noalias() += forms.F_of(next).topRows(rated).transpose() * pull;
-    E_of(i).noalias() -= forms.F_of(at).topRows(rated).transpose() * pull;
-    change = rate.cwiseSqrt().asDiagonal() * change;
-    rows += rated;
+  for (int i = 0; i < forms.N; ++i) {
+    add(i, forms.stages[i].f0, forms.stages[i].count, 1);
+    if (i + 1 == forms.N || forms.rated == 0) continue;
+    add(i, forms.rates0 + forms.rated * i, forms.rated, -1);
+    add(i + 1, forms.rates0 + forms.rated * i, forms.rated, 1);
   }
-  H_.bottomRightCorner(p, p).selfadjointView<Eigen::Lower>().rankUpdate(
-      stack_.topRows(rows).transpose());
+  stack_ = theta.head(forms.border0).cwiseSqrt().asDiagonal() * forms.D;
+  H_.bottomRightCorner(p, p).selfadjointView<Eigen::Lower>().rankUpdate(stack_.transpose());
 }
 
 void NormalMatrix::border_limits(const Forms& forms, const Eigen::VectorXd& theta) {
@@ -212,16 +196,11 @@ void NormalMatrix::factor_stage(const Forms& forms, int i) {
   const int d = forms.stages[i].d;
   const int b = forms.t + forms.p;
   StageBlock<D> L(K_.data() + K0_[i], d, d);
-  cholesky(L);
+  cholesky(L, least_pivot_);
   Eigen::Map<RowMatrix> E(E_.data() + E0_[i], d, b);
   for (int c = 0; c < d; ++c) {
     E.row(c) *= L(c, c);
     for (int r = c + 1; r < d; ++r) E.row(r) -= L(r, c) * E.row(c);
-  }
-  if (b == 1) {
-    H_(0, 0) -= E.squaredNorm();
-  } else if (b > 0) {
-    H_.selfadjointView<Eigen::Lower>().rankUpdate(E.transpose(), -1);
   }
   if (i + 1 == forms.N || forms.rated == 0) return;
   const int next = forms.stages[i + 1].d;
@@ -241,49 +220,53 @@ void NormalMatrix::factor_stage(const Forms& forms, int i) {
   if (b > 0) E_next.noalias() -= S.lazyProduct(E);
 }
 
-void NormalMatrix::solve(const Forms& forms, Eigen::VectorXd& X) const {
+void NormalMatrix::solve(const Forms& forms, Columns X) const {
   const int b = forms.t + forms.p;
   for (int i = 0; i < forms.N; ++i) {
     with_dimension(forms.stages[i].d, [&]<int D>() { forward<D>(forms, X, i); });
   }
-  solve_lower(H_, X.tail(b));
-  solve_upper(H_, X.tail(b));
+  for (Eigen::Index c = 0; c < X.cols(); ++c) {
+    solve_lower(H_, X.col(c).tail(b));
+    solve_upper(H_, X.col(c).tail(b));
+  }
   for (int i = forms.N - 1; i >= 0; --i) {
     with_dimension(forms.stages[i].d, [&]<int D>() { backward<D>(forms, X, i); });
   }
 }
 
 template <int D>
-void NormalMatrix::forward(const Forms& forms, Eigen::VectorXd& X, int i) const {
+void NormalMatrix::forward(const Forms& forms, Columns X, int i) const {
   const Forms::Stage& at = forms.stages[i];
   const int b = forms.t + forms.p;
   const ConstStageBlock<D> L(K_.data() + K0_[i], at.d, at.d);
-  Eigen::Map<Eigen::Matrix<double, D, 1>> x(X.data() + at.x0, at.d);
-  solve_lower(L, x);
   const Eigen::Map<const RowMatrix> E(E_.data() + E0_[i], at.d, b);
-  if (b > 0) X.tail(b).noalias() -= E.transpose().lazyProduct(x);
-  if (i + 1 == forms.N || forms.rated == 0) return;
-  const int next = forms.stages[i + 1].d;
-  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, D>> S(S_.data() + S0_[i], next,
-                                                                     at.d);
-  X.segment(at.x0 + at.d, next).noalias() -= S.lazyProduct(x);
+  for (Eigen::Index c = 0; c < X.cols(); ++c) {
+    auto x = X.col(c).template segment<D>(at.x0, at.d);
+    solve_lower(L, x);
+    for (int r = 0; r < at.d && b > 0; ++r) X.col(c).tail(b) -= x[r] * E.row(r).transpose();
+    if (i + 1 == forms.N || forms.rated == 0) continue;
+    const int next = forms.stages[i + 1].d;
+    const ConstForms<D> S(S_.data() + S0_[i], next, at.d);
+    X.col(c).segment(at.x0 + at.d, next).noalias() -= S.lazyProduct(x);
+  }
 }
 
 template <int D>
-void NormalMatrix::backward(const Forms& forms, Eigen::VectorXd& X, int i) const {
+void NormalMatrix::backward(const Forms& forms, Columns X, int i) const {
   const Forms::Stage& at = forms.stages[i];
   const int b = forms.t + forms.p;
   const ConstStageBlock<D> L(K_.data() + K0_[i], at.d, at.d);
-  Eigen::Map<Eigen::Matrix<double, D, 1>> x(X.data() + at.x0, at.d);
   const Eigen::Map<const RowMatrix> E(E_.data() + E0_[i], at.d, b);
-  if (b > 0) x.noalias() -= E.lazyProduct(X.tail(b));
-  if (i + 1 < forms.N && forms.rated > 0) {
-    const int next = forms.stages[i + 1].d;
-    const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, D>> S(S_.data() + S0_[i], next,
-                                                                       at.d);
-    x.noalias() -= S.transpose().lazyProduct(X.segment(at.x0 + at.d, next));
+  for (Eigen::Index c = 0; c < X.cols(); ++c) {
+    auto x = X.col(c).template segment<D>(at.x0, at.d);
+    for (int r = 0; r < at.d && b > 0; ++r) x[r] -= E.row(r).dot(X.col(c).tail(b));
+    if (i + 1 < forms.N && forms.rated > 0) {
+      const int next = forms.stages[i + 1].d;
+      const ConstForms<D> S(S_.data() + S0_[i], next, at.d);
+      x.noalias() -= S.transpose().lazyProduct(X.col(c).segment(at.x0 + at.d, next));
+    }
+    solve_upper(L, x);
   }
-  solve_upper(L, x);
 }
 
 }  // namespace maxwrench

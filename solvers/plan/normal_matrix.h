@@ -2,21 +2,24 @@
 
 #include <vector>
 
-#include "solvers/plan/forms.h"
+#include "solvers/plan/blocks.h"
 
 namespace maxwrench {
+
+struct Forms;
 
 /// H = sum_f theta_f phi_f phi_f' over the forms of a plan, factored by stages: its blocks K_i of
 /// the instants are coupled only by the rates (K_i+1,i), and the border z = (t, y) is last.
 ///
-/// A pivot that vanishes beside its diagonal is a direction that no form sees: it is left out.
+/// A pivot below the share `least_pivot` of its diagonal is a direction that no form sees: it is
+/// left out.
 class NormalMatrix {
  public:
   /// Storage for the shape of these forms.
   void reserve(const Forms& forms);
-  void factor(const Forms& forms, const Eigen::VectorXd& theta);
-  /// X = H^-1 X.
-  void solve(const Forms& forms, Eigen::VectorXd& X) const;
+  void factor(const Forms& forms, const Eigen::VectorXd& theta, double least_pivot);
+  /// X = H^-1 X, column by column.
+  void solve(const Forms& forms, Columns X) const;
 
  private:
   void assemble(const Forms& forms, const Eigen::VectorXd& theta);
@@ -27,20 +30,21 @@ class NormalMatrix {
   template <int D>
   void couple(const Forms& forms, const Eigen::VectorXd& theta, int i);
   template <int D>
-  void forward(const Forms& forms, Eigen::VectorXd& X, int i) const;
+  void forward(const Forms& forms, Columns X, int i) const;
   template <int D>
-  void backward(const Forms& forms, Eigen::VectorXd& X, int i) const;
-  void border(const Forms& forms, const Eigen::VectorXd& theta, int i);
+  void backward(const Forms& forms, Columns X, int i) const;
+  void border(const Forms& forms, const Eigen::VectorXd& theta);
   void border_limits(const Forms& forms, const Eigen::VectorXd& theta);
 
+  double least_pivot_ = 0;
   std::vector<int> K0_, S0_, E0_;  ///< where the blocks of a stage begin
   Eigen::VectorXd K_;              ///< d×d, then its factor L with inverse diagonal
   Eigen::VectorXd S_;              ///< d_i+1 × d_i, then K_i+1,i L_i^-T
   Eigen::VectorXd E_;              ///< d×b by rows, then L_i^-1 E_i
   Eigen::MatrixXd H_;              ///< b×b, then its factor
   Eigen::VectorXd weight_;         ///< theta with those of the rates added to the efforts'
-  Eigen::MatrixXd weighted_, stack_;
-  Eigen::VectorXd row_;
+  Eigen::VectorXd weighted_, row_;
+  RowMatrix stack_;
 };
 
 }  // namespace maxwrench

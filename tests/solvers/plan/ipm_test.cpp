@@ -221,6 +221,8 @@ TEST(PlanIpm, RowsThatNoActuatorReaches) {
   EXPECT_GT(deficient, 2);
 }
 
+// The first of its kind: the storage for slacks and rates comes with the first program that needs
+// them.
 TEST(PlanIpm, NothingIsAllocatedAfterTheFirstCall) {
   const Problem problem = load_problem("uvms/valve");
   for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
@@ -236,13 +238,10 @@ TEST(PlanIpm, NothingIsAllocatedAfterTheFirstCall) {
         for (int i = 0; i < 5; ++i) programs.push_back(random_plan(problem, recipe, random));
         const auto solver = make_plan_ipm();
         PlanSolution solution;
-        for (const PlanProgram& program : programs) {
-          const bool first = &program == &programs.front();
-          const long before = allocation_count();
-          solver->solve(program, solution);
-          if (first) continue;
-          EXPECT_EQ(allocation_count(), before) << elastic << " " << border;
-        }
+        for (const PlanProgram& program : programs) solver->solve(program, solution);
+        const long before = allocation_count();
+        for (const PlanProgram& program : programs) solver->solve(program, solution);
+        EXPECT_EQ(allocation_count(), before) << elastic << " " << border;
       }
     }
   }
@@ -293,11 +292,50 @@ TEST(PlanIpm, ALooserToleranceEndsEarlierAndKeepsToIt) {
   EXPECT_GE(saved, 10);
 }
 
+TEST(PlanIpm, LoadsABitBeyondWhatCanBeBalancedAreProvedSo) {
+  // A load of which an instant holds at most the share alpha without rates: at a bit more there is
+  // no answer.
+  const Problem problem = load_problem("uvms/valve");
+  Random random(11);
+  int proved = 0;
+  for (int sample = 0; sample < 10; ++sample) {
+    PlanRecipe recipe;
+    PlanProgram program = random_plan(problem, recipe, random);
+    // The largest share of its own load that can be held: tau_d alpha as a column of the wrench.
+    PlanProgram held = program;
+    held.peak = 0;
+    for (WrenchProgram& at : held.instants) {
+      at.JtW.conservativeResize(Eigen::NoChange, 2);
+      at.JtW.col(1) = at.tau_d;
+      at.tau_d.setZero();
+      at.c_w = Eigen::Vector2d(0, 1);
+      at.w_min = Eigen::Vector2d(-kInfinity, 0);
+      at.w_max = Eigen::Vector2d(kInfinity, &at == &held.instants[0] ? 1e6 : 0);
+    }
+    program.du_max.setConstant(kInfinity);
+    held.du_max.setConstant(kInfinity);
+    const PlanSolution most = solve_by_ipm(held);
+    ASSERT_EQ(most.status, Status::kOptimal);
+    for (const double beyond : {1e-3, 1e-5, 1e-6}) {
+      program.instants[0].tau_d = held.instants[0].JtW.col(1) * (most.value * (1 + beyond));
+      const PlanSolution solution = solve_by_ipm(program);
+      EXPECT_EQ(solution.status, Status::kInfeasible) << beyond << solution.reason.c_str();
+      EXPECT_TRUE(proves_infeasible(program, solution));
+      ++proved;
+    }
+  }
+  EXPECT_EQ(proved, 30);
+}
+
 TEST(PlanIpm, AWrenchThatLoadsNothingHasNoVerdict) {
   const Problem problem = load_problem("uvms/valve");
   Random random(9);
   PlanProgram program = random_plan(problem, {}, random);
-  for (WrenchProgram& at : program.instants) at.JtW.setZero();
+  // The load is zero too, so there are answers, of any value.
+  for (WrenchProgram& at : program.instants) {
+    at.JtW.setZero();
+    at.tau_d.setZero();
+  }
   const PlanSolution solution = solve_by_ipm(program);
   EXPECT_EQ(solution.status, Status::kNumericalError);
   EXPECT_STRNE(solution.reason.c_str(), "");
