@@ -9,7 +9,7 @@ namespace {
 constexpr double kFlat = 1e-12;    // a slope below this part of the wrench's size is rounding
 constexpr double kLikely = 0.1;    // part of its reach that y is expected to move a row
 constexpr double kMissed = 1e-10;  // relative, by a row that was left out
-constexpr int kRounds = 20;
+constexpr int kLazyRounds = 20;
 constexpr int kRowsAtOnce = 32;  // the tableau grows by so many rows, the last ones without limits
 
 }  // namespace
@@ -29,7 +29,7 @@ bool BorderedFacets::solve(const PlanProgram& program, PlanSolution& solution) {
   if (!std::isfinite(most_)) return false;
   choose();
   solution.iterations = 0;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kLazyRounds; ++round) {
     load(program);
     const bool solved = tableau_.solve() == Tableau::Outcome::kOptimal;
     solution.iterations += tableau_.iterations;

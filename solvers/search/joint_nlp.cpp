@@ -15,8 +15,8 @@ namespace {
 using Ipopt::Index;
 using Ipopt::Number;
 
-constexpr std::size_t kStarts = 4;
-constexpr int kIterations = 200;
+constexpr std::size_t kJointStarts = 4;
+constexpr int kJointIterations = 200;
 
 /// A `JointProgram` as Ipopt wants it. The table of every iterate is evaluated as any search does,
 /// so what is found was found by the lower level and not by Ipopt's tolerances.
@@ -131,7 +131,7 @@ class JointNlp : public Ipopt::TNLP {
   Caught caught_;
 };
 
-Ipopt::SmartPtr<Ipopt::IpoptApplication> make_application() {
+Ipopt::SmartPtr<Ipopt::IpoptApplication> make_joint_application() {
   Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(false);
   auto options = application->Options();
   options->SetIntegerValue("print_level", 0);
@@ -140,7 +140,7 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> make_application() {
   options->SetStringValue("mu_strategy", "adaptive");
   options->SetNumericValue("tol", 1e-7);
   options->SetNumericValue("bound_relax_factor", 0);
-  options->SetIntegerValue("max_iter", kIterations);
+  options->SetIntegerValue("max_iter", kJointIterations);
   application->Initialize("");
   return application;
 }
@@ -160,8 +160,8 @@ class JointNlpSearch : public Search {
     EvaluationCounter progress(options.progress);
     Part found;
     const std::vector<Candidate> starts = find_knot_starts(objective, options, progress, found);
-    for (std::size_t i = 0; i < std::min(starts.size(), kStarts); ++i) {
-      const auto later = static_cast<long>(std::min(starts.size(), kStarts) - i);
+    for (std::size_t i = 0; i < std::min(starts.size(), kJointStarts); ++i) {
+      const auto later = static_cast<long>(std::min(starts.size(), kJointStarts) - i);
       const long before = found.trace.evaluations(), left = options.budget - before;
       if (left < kFewest || objective.ended()) break;
       climb(objective, starts[i], before + std::max(kFewest, left / later), found);
@@ -177,7 +177,7 @@ class JointNlpSearch : public Search {
     found.trace.add(evaluate_one(objective, start.theta_r));
     JointProgram program(*objective.plans(), objective.lower(), objective.upper());
     const std::lock_guard guard(ipopt_lock());
-    const auto application = make_application();
+    const auto application = make_joint_application();
     const Ipopt::SmartPtr<JointNlp> nlp = new JointNlp(objective, program, until, found);
     application->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(nlp)));
     nlp->rethrow();

@@ -13,10 +13,10 @@ namespace {
 
 constexpr std::size_t kBatch = 8;  // climbs that compete
 constexpr long kFewest = 6;        // evaluations of a climb that are worth a batch
-constexpr int kPatience = 2;       // batches without a better plan before the search ends
+constexpr int kIdleBatches = 2;    // batches without a better plan before the search ends
 constexpr double kBetter = 1e-5;   // relative to 1 + |f|
 /// The climbs that go on, and the evaluations of each by then.
-constexpr std::pair<std::size_t, long> kRounds[] = {{kBatch, 19}, {4, 33}, {2, 61}, {1, 400}};
+constexpr std::pair<std::size_t, long> kClimbRounds[] = {{kBatch, 19}, {4, 33}, {2, 61}, {1, 400}};
 
 /// What was found, and whether its best plan is worth the same between its instants.
 struct SlpOutcome {
@@ -52,7 +52,7 @@ SlpOutcome compete(const Objective& objective, std::vector<Candidate> starts, lo
                      [](const auto* a, const auto* b) { return a->value() > b->value(); });
   };
   SlpOutcome outcome;
-  for (const auto& [count, evaluations] : kRounds) {
+  for (const auto& [count, evaluations] : kClimbRounds) {
     running.resize(std::min(running.size(), count));
     parallel_for(threads, static_cast<long>(running.size()), [&, until = evaluations](long i) {
       KnotClimber& climber = *running[static_cast<std::size_t>(i)];
@@ -111,7 +111,7 @@ class Slp : public Search {
       best.found.trace.append(judge.found().trace);
     }
     int idle = 0;
-    while (!starts.empty() && idle < kPatience && !objective.ended()) {
+    while (!starts.empty() && idle < kIdleBatches && !objective.ended()) {
       const auto batch = static_cast<std::ptrdiff_t>(std::min(kBatch, starts.size()));
       const long left = options.budget - best.found.trace.evaluations();
       if (left < kFewest * batch) break;
