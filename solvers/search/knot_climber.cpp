@@ -13,7 +13,6 @@ constexpr double kAccept = 0.05, kShrink = 0.25, kGrow = 0.7;  // of what was pr
 constexpr double kNearing = 2;           // m per radius: how far bodies may come nearer in a step
 constexpr double kSpare = 1e-9;          // m, beyond the margin where knots are moved apart
 constexpr int kApartRounds = 5;          // of moving them apart
-constexpr double kHonest = 0.004;        // between value and continuous, relative
 constexpr double kStepTolerance = 1e-6;  // of a linear program, whose answer is only a step
 constexpr double kConverged = 1e-9;      // predicted, relative to 1 + |f|
 
@@ -91,15 +90,17 @@ Eigen::VectorXd KnotClimber::inside(const Eigen::VectorXd& x) const {
   return x.cwiseMax(objective_->lower()).cwiseMin(objective_->upper());
 }
 
-bool KnotClimber::is_honest() {
-  if (!plans_.smooth()) return true;
+double KnotClimber::worth() {
+  if (!plans_.smooth()) return found_.best.value;
   for (int solved = 0; solved < kJudgement; ++solved) found_.trace.add(-kInfinity);
   const Eigen::Index r = found_.best.theta_r.size() / plans_.knots();
   program_ = nullptr;
-  if (plans_.evaluate(unstacked(found_.best.theta_r, r)).status != Status::kOptimal) return false;
+  if (plans_.evaluate(unstacked(found_.best.theta_r, r)).status != Status::kOptimal) {
+    return -kInfinity;
+  }
   plans_.evaluate_continuous();
   const Plan& plan = plans_.plan();
-  return std::abs(plan.value - plan.continuous) <= kHonest * std::abs(plan.value);
+  return std::isnan(plan.continuous) ? -kInfinity : std::min(plan.value, plan.continuous);
 }
 
 /// Solves for a step; whether there is an answer.

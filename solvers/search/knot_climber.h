@@ -32,9 +32,10 @@ class KnotClimber {
 
   /// What `is_honest` costs: the program at the instants, and that between them.
   static constexpr int kJudgement = 2;
-  /// Whether the best plan of scheme `spline` is worth the same between its instants, see
-  /// `Plan::continuous`; true of other schemes, whose motion there is not theirs.
-  bool is_honest();
+  /// The value of the best plan, or what it is worth between its instants if that is less
+  /// (`Plan::continuous`); -infinity if it is worth nothing there. Schemes other than `spline` do
+  /// not say what happens there.
+  double worth();
 
   double value() const { return at_.value; }
   const Candidate& at() const { return at_; }

@@ -18,26 +18,30 @@ constexpr double kBetter = 1e-5;   // relative to 1 + |f|
 /// The climbs that go on, and the evaluations of each by then.
 constexpr std::pair<std::size_t, long> kClimbRounds[] = {{kBatch, 19}, {4, 33}, {2, 61}, {1, 400}};
 
-/// What was found, and whether its best plan is worth the same between its instants.
+/// What was found, and what its best plan is worth, see `KnotClimber::worth`.
 struct SlpOutcome {
   Part found;
-  bool honest = false;
+  double worth = -kInfinity;
 
   bool beats(const SlpOutcome& other) const {
-    if (honest != other.honest) return honest;
+    if (worth != other.worth) return worth > other.worth;
     return found.best.value > other.found.best.value;
   }
 };
 
-bool is_honest(KnotClimber& climber, EvaluationCounter& progress) {
+/// Makes the best plan of a climber the outcome's if it is worth more.
+void judge(KnotClimber& climber, EvaluationCounter& progress, SlpOutcome& outcome) {
   const long before = climber.found().trace.evaluations();
-  const bool honest = climber.is_honest();
+  const double worth = climber.worth();
   progress.add(climber.found().trace.evaluations() - before);
-  return honest;
+  const bool first = outcome.found.best.theta_r.size() == 0;
+  if (!first && !(worth > outcome.worth)) return;
+  outcome.worth = worth;
+  outcome.found.best = climber.found().best;
 }
 
-/// Climbs that compete in rounds, side by side; all that they found, and the best honest plan or
-/// else the best.
+/// Climbs that compete in rounds, side by side; all that they found, and the plan that is worth
+/// most or, if none is worth anything, the best.
 SlpOutcome compete(const Objective& objective, std::vector<Candidate> starts, long budget,
                    int threads, EvaluationCounter& progress) {
   std::vector<std::unique_ptr<KnotClimber>> climbers;
@@ -65,12 +69,8 @@ SlpOutcome compete(const Objective& objective, std::vector<Candidate> starts, lo
   running.clear();
   for (const auto& climber : climbers) running.push_back(climber.get());
   sort();
-  outcome.found.best = running.front()->found().best;
   for (KnotClimber* climber : running) {
-    if (!is_honest(*climber, progress)) continue;
-    outcome.found.best = climber->found().best;
-    outcome.honest = true;
-    break;
+    if (climber->value() > outcome.worth) judge(*climber, progress, outcome);
   }
   std::vector<Trace> traces;
   for (const auto& climber : climbers) traces.push_back(climber->found().trace);
@@ -90,8 +90,7 @@ SearchResult make_result(const SlpOutcome& outcome) {
 }
 
 /// Sequential linear programming from many starts. Of the best start and the ends of all climbs it
-/// takes the best plan that is worth the same between its instants (`KnotClimber::is_honest`), or
-/// the best if there is none.
+/// takes the plan that is worth most at its instants and between them.
 class Slp : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {
@@ -106,9 +105,9 @@ class Slp : public Search {
     std::vector<Candidate> starts = find_knot_starts(objective, options, progress, best.found);
     if (!starts.empty() &&
         options.budget - best.found.trace.evaluations() >= KnotClimber::kJudgement) {
-      KnotClimber judge(objective.clone(), best.found.best);
-      best.honest = is_honest(judge, progress);
-      best.found.trace.append(judge.found().trace);
+      KnotClimber climber(objective.clone(), best.found.best);
+      judge(climber, progress, best);
+      best.found.trace.append(climber.found().trace);
     }
     int idle = 0;
     while (!starts.empty() && idle < kIdleBatches && !objective.ended()) {
@@ -118,13 +117,13 @@ class Slp : public Search {
       SlpOutcome climbs = compete(objective, {starts.begin(), starts.begin() + batch}, left,
                                   options.threads, progress);
       starts.erase(starts.begin(), starts.begin() + batch);
-      const double wanted = best.found.best.value + kBetter * (1 + std::abs(best.found.best.value));
       const bool better = climbs.beats(best);
-      idle = better && (!best.honest || climbs.found.best.value > wanted) ? 0 : idle + 1;
+      const bool much = climbs.worth > best.worth + kBetter * (1 + std::abs(best.worth));
+      idle = better && much ? 0 : idle + 1;
       best.found.trace.append(climbs.found.trace);
       if (!better) continue;
       best.found.best = climbs.found.best;
-      best.honest = climbs.honest;
+      best.worth = climbs.worth;
     }
     return make_result(best);
   }
