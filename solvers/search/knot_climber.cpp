@@ -90,17 +90,15 @@ Eigen::VectorXd KnotClimber::inside(const Eigen::VectorXd& x) const {
   return x.cwiseMax(objective_->lower()).cwiseMin(objective_->upper());
 }
 
-double KnotClimber::worth() {
-  if (!plans_.smooth()) return found_.best.value;
+double KnotClimber::worth(const Candidate& plan) {
+  if (!plans_.smooth()) return plan.value;
   for (int solved = 0; solved < kJudgement; ++solved) found_.trace.add(-kInfinity);
-  const Eigen::Index r = found_.best.theta_r.size() / plans_.knots();
-  program_ = nullptr;
-  if (plans_.evaluate(unstacked(found_.best.theta_r, r)).status != Status::kOptimal) {
-    return -kInfinity;
-  }
+  done_ = true;
+  const Eigen::MatrixXd knots = unstacked(plan.theta_r, plan.theta_r.size() / plans_.knots());
+  if (plans_.evaluate(knots).status != Status::kOptimal) return -kInfinity;
   plans_.evaluate_continuous();
-  const Plan& plan = plans_.plan();
-  return std::isnan(plan.continuous) ? -kInfinity : std::min(plan.value, plan.continuous);
+  const double continuous = plans_.plan().continuous;
+  return std::isnan(continuous) ? -kInfinity : std::min(plan.value, continuous);
 }
 
 /// Solves for a step; whether there is an answer.

@@ -30,12 +30,15 @@ class KnotClimber {
   /// one.
   void climb(long evaluations);
 
-  /// What `is_honest` costs: the program at the instants, and that between them.
+  /// What `worth` costs: the program at the instants, and that between them.
   static constexpr int kJudgement = 2;
-  /// The value of the best plan, or what it is worth between its instants if that is less
+  /// The value of a plan, or what it is worth between its instants if that is less
   /// (`Plan::continuous`); -infinity if it is worth nothing there. Schemes other than `spline` do
-  /// not say what happens there.
-  double worth();
+  /// not say what happens there. Ends the climb.
+  double worth(const Candidate& plan);
+
+  /// One evaluation elsewhere, which the climb does not follow.
+  Candidate look(const Eigen::VectorXd& x) { return {x, evaluate(x)}; }
 
   double value() const { return at_.value; }
   const Candidate& at() const { return at_; }

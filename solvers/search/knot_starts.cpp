@@ -101,10 +101,10 @@ std::vector<Candidate> spread(std::vector<Candidate> starts) {
 }
 
 /// The best of each family that is worth a climb of its own.
-std::vector<Candidate> families(std::vector<Candidate> starts) {
+std::vector<Candidate> families(std::vector<Candidate> starts, const Candidate& best) {
   std::stable_sort(starts.begin(), starts.end(),
                    [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
-  const double least = starts.front().value - (1 - kHopeful) * (1 + std::abs(starts.front().value));
+  const double least = best.value - (1 - kHopeful) * (1 + std::abs(best.value));
   std::vector<Candidate> heads;
   for (Candidate& start : starts) {
     if (start.value >= least && !is_near(start, heads, kSame)) heads.push_back(std::move(start));
@@ -171,8 +171,10 @@ std::vector<Candidate> find_knot_starts(Objective& objective, const SearchOption
   const std::vector<Candidate> starts =
       spread(sample(objective, options, drawing, start, progress, found));
   if (starts.empty() || !drawing.alike()) return starts;
-  std::vector<Candidate> ends = climb_alike(objective, options, starts, progress, found);
-  return ends.empty() ? starts : families(std::move(ends));
+  std::vector<Candidate> ordered =
+      families(climb_alike(objective, options, starts, progress, found), found.best);
+  ordered.insert(ordered.end(), starts.begin(), starts.end());
+  return ordered;
 }
 
 }  // namespace maxwrench

@@ -12,8 +12,9 @@ namespace maxwrench {
 /// at once, one for each knot. Those of one posture first climb as such, all knots alike
 /// (`KnotClimber`), which costs little and of hundreds of tables leaves a few families.
 ///
-/// Adds to `found` what was evaluated. Best first in rounds: each takes those that are apart from
-/// the ones it has taken. Empty if the start and all others have no value.
+/// Adds to `found` what was evaluated. First the families, best first; then the tables as drawn, in
+/// rounds, each of which takes those that are apart from the ones it has taken. Empty if none has a
+/// value.
 std::vector<Candidate> find_knot_starts(Objective& objective, const SearchOptions& options,
                                         EvaluationCounter& progress, Part& found);
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 #include "maxwrench/plan.h"
@@ -15,6 +16,11 @@ constexpr std::size_t kBatch = 8;  // climbs that compete
 constexpr long kFewest = 6;        // evaluations of a climb that are worth a batch
 constexpr int kIdleBatches = 2;    // batches without a better plan before the search ends
 constexpr double kBetter = 1e-5;   // relative to 1 + |f|
+/// How far a plan that is worth nothing keeps away from one that is worth something.
+constexpr double kRetreats[] = {0.97, 0.9, 0.75, 0.5};
+/// Evaluations of one judgement.
+constexpr long kJudged =
+    KnotClimber::kJudgement + std::size(kRetreats) * (1 + KnotClimber::kJudgement);
 /// The climbs that go on, and the evaluations of each by then.
 constexpr std::pair<std::size_t, long> kClimbRounds[] = {{kBatch, 19}, {4, 33}, {2, 61}, {1, 400}};
 
@@ -23,39 +29,54 @@ struct SlpOutcome {
   Part found;
   double worth = -kInfinity;
 
-  bool beats(const SlpOutcome& other) const {
-    if (worth != other.worth) return worth > other.worth;
-    return found.best.value > other.found.best.value;
+  /// Whether a plan is better, by more than `margin` relative to 1 + |what counts|; of two that are
+  /// worth nothing the one of higher value.
+  bool improves(double its_worth, double its_value, double margin) const {
+    const bool nothing = worth == -kInfinity && its_worth == -kInfinity;
+    const double mine = nothing ? found.best.value : worth;
+    const double other = nothing ? its_value : its_worth;
+    return mine == -kInfinity ? other > mine : other > mine + margin * (1 + std::abs(mine));
   }
 };
 
-/// Makes the best plan of a climber the outcome's if it is worth more.
+/// Makes the best plan of a climber the outcome's if it is worth more. One that is worth nothing
+/// goes back some of the way from the outcome's.
 void judge(KnotClimber& climber, EvaluationCounter& progress, SlpOutcome& outcome) {
   const long before = climber.found().trace.evaluations();
-  const double worth = climber.worth();
+  Candidate plan = climber.found().best;
+  double worth = climber.worth(plan);
+  if (worth == -kInfinity && outcome.worth > -kInfinity) {
+    const Eigen::VectorXd base = outcome.found.best.theta_r, way = plan.theta_r - base;
+    for (const double share : kRetreats) {
+      const Candidate between = climber.look(base + share * way);
+      if (!(between.value > outcome.worth)) continue;
+      worth = climber.worth(between);
+      plan = between;
+      if (worth > outcome.worth) break;
+    }
+  }
   progress.add(climber.found().trace.evaluations() - before);
-  const bool first = outcome.found.best.theta_r.size() == 0;
-  if (!first && !(worth > outcome.worth)) return;
+  if (!outcome.improves(worth, plan.value, 0)) return;
   outcome.worth = worth;
-  outcome.found.best = climber.found().best;
+  outcome.found.best = plan;
 }
 
 /// Climbs that compete in rounds, side by side; all that they found, and the plan that is worth
 /// most or, if none is worth anything, the best.
 SlpOutcome compete(const Objective& objective, std::vector<Candidate> starts, long budget,
-                   int threads, EvaluationCounter& progress) {
+                   int threads, const SlpOutcome& best, EvaluationCounter& progress) {
   std::vector<std::unique_ptr<KnotClimber>> climbers;
   for (Candidate& start : starts) {
     climbers.push_back(std::make_unique<KnotClimber>(objective.clone(), start));
   }
-  const long share = budget / static_cast<long>(climbers.size()) - KnotClimber::kJudgement;
+  const long share = budget / static_cast<long>(climbers.size()) - kJudged;
   std::vector<KnotClimber*> running;
   for (const auto& climber : climbers) running.push_back(climber.get());
   const auto sort = [&] {
     std::stable_sort(running.begin(), running.end(),
                      [](const auto* a, const auto* b) { return a->value() > b->value(); });
   };
-  SlpOutcome outcome;
+  SlpOutcome outcome = {{best.found.best, {}}, best.worth};
   for (const auto& [count, evaluations] : kClimbRounds) {
     running.resize(std::min(running.size(), count));
     parallel_for(threads, static_cast<long>(running.size()), [&, until = evaluations](long i) {
@@ -103,8 +124,7 @@ class Slp : public Search {
     EvaluationCounter progress(options.progress);
     SlpOutcome best;
     std::vector<Candidate> starts = find_knot_starts(objective, options, progress, best.found);
-    if (!starts.empty() &&
-        options.budget - best.found.trace.evaluations() >= KnotClimber::kJudgement) {
+    if (!starts.empty() && options.budget - best.found.trace.evaluations() >= kJudged) {
       KnotClimber climber(objective.clone(), best.found.best);
       judge(climber, progress, best);
       best.found.trace.append(climber.found().trace);
@@ -115,13 +135,11 @@ class Slp : public Search {
       const long left = options.budget - best.found.trace.evaluations();
       if (left < kFewest * batch) break;
       SlpOutcome climbs = compete(objective, {starts.begin(), starts.begin() + batch}, left,
-                                  options.threads, progress);
+                                  options.threads, best, progress);
       starts.erase(starts.begin(), starts.begin() + batch);
-      const bool better = climbs.beats(best);
-      const bool much = climbs.worth > best.worth + kBetter * (1 + std::abs(best.worth));
-      idle = better && much ? 0 : idle + 1;
+      const bool better = best.improves(climbs.worth, climbs.found.best.value, kBetter);
+      idle = better ? 0 : idle + 1;
       best.found.trace.append(climbs.found.trace);
-      if (!better) continue;
       best.found.best = climbs.found.best;
       best.worth = climbs.worth;
     }
