@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(
                        "--measure: got 'ellipsoid', expected linf_polytope"},
         BadMotionWords{"eval uvms/valve_trajectory --measure volume", "volume"},
         BadMotionWords{"eval uvms/valve_trajectory --wrench both", "both"},
-        BadMotionWords{"eval uvms/valve_trajectory --lp facets", "expected one of ipm"},
+        BadMotionWords{"eval uvms/valve_trajectory --lp facets", "expected one of structured ipm"},
         BadMotionWords{"eval uvms/valve_trajectory --theta-r 1,2,3",
                        "--theta-r: got '1,2,3', expected 4 numbers or a file of k = 10 rows"},
         BadMotionWords{"eval uvms/valve_trajectory --theta-r 1,2,3,x", "--theta-r"},

@@ -135,7 +135,7 @@ TEST_P(PlanGradient, IsThatOfCentralDifferences) {
   // The row on the start of a smooth heave is no matter of the gradient: any table has a value
   // here that keeps it, so tables are drawn in its null space.
   const auto objective =
-      make_plan_objective(problem, GetParam().wrench, find_plan_solver("ipm").make, false);
+      make_plan_objective(problem, GetParam().wrench, find_plan_solver("structured").make, false);
   const KnotRows& rows = objective->plans()->rows();
   const Eigen::MatrixXd R = rows.R;
   std::vector<Eigen::Index> equations;

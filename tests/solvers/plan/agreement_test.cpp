@@ -125,7 +125,7 @@ TEST(PlanAgreement, AWarmStartGivesTheSameAnswer) {
 }
 
 TEST(PlanSolvers, ATableNamesThem) {
-  EXPECT_STREQ(plan_solvers().front().name, "ipm");
+  EXPECT_STREQ(plan_solvers().front().name, "structured");
   EXPECT_STREQ(find_plan_solver("simplex").name, "simplex");
   EXPECT_THROW(find_plan_solver("none"), std::invalid_argument);
 }
