@@ -164,13 +164,19 @@ std::vector<Candidate> climb_alike(const Objective& objective, const SearchOptio
 
 }  // namespace
 
-std::vector<Candidate> find_knot_starts(Objective& objective, const SearchOptions& options,
+std::vector<Candidate> draw_knot_starts(Objective& objective, const SearchOptions& options,
                                         EvaluationCounter& progress, Part& found) {
   const Eigen::VectorXd start = Box(objective).start(options.start);
   const Drawing drawing(objective, *objective.plans(), start);
-  const std::vector<Candidate> starts =
-      spread(sample(objective, options, drawing, start, progress, found));
-  if (starts.empty() || !drawing.alike()) return starts;
+  return spread(sample(objective, options, drawing, start, progress, found));
+}
+
+std::vector<Candidate> find_knot_starts(Objective& objective, const SearchOptions& options,
+                                        EvaluationCounter& progress, Part& found) {
+  const std::vector<Candidate> starts = draw_knot_starts(objective, options, progress, found);
+  const KnotRows& rows = objective.plans()->rows();
+  const bool bound = (rows.r_min.array() == rows.r_max.array()).any();
+  if (starts.empty() || bound) return starts;
   std::vector<Candidate> ordered =
       families(climb_alike(objective, options, starts, progress, found), found.best);
   ordered.insert(ordered.end(), starts.begin(), starts.end());

@@ -7,14 +7,16 @@
 
 namespace maxwrench {
 
-/// Where the climbs of `slp` begin: the search's start and tables drawn around it that keep the
-/// rows of the limits, an offset for all knots alike; or, as such a one leaves the start of a heave
-/// at once, one for each knot. Those of one posture first climb as such, all knots alike
-/// (`KnotClimber`), which costs little and of hundreds of tables leaves a few families.
-///
-/// Adds to `found` what was evaluated. First the families, best first; then the tables as drawn, in
-/// rounds, each of which takes those that are apart from the ones it has taken. Empty if none has a
-/// value.
+/// The search's start and tables drawn around it that keep the rows of the limits, an offset for
+/// all knots alike; or, as such a one leaves the start of a heave at once, one for each knot. Those
+/// that have a value, best first in rounds, each of which takes those that are apart from the ones
+/// it has taken. Adds to `found` what was evaluated.
+std::vector<Candidate> draw_knot_starts(Objective& objective, const SearchOptions& options,
+                                        EvaluationCounter& progress, Part& found);
+
+/// Where the climbs of `slp` begin. Drawn tables of one posture first climb as such, all knots
+/// alike (`KnotClimber`), which costs little and of hundreds of tables leaves a few families: these
+/// come first, then the tables as drawn. Empty if none has a value.
 std::vector<Candidate> find_knot_starts(Objective& objective, const SearchOptions& options,
                                         EvaluationCounter& progress, Part& found);
 

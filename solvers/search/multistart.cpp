@@ -4,6 +4,7 @@
 
 #include "solvers/caught.h"
 #include "solvers/ipopt_lock.h"
+#include "solvers/search/knot_starts.h"
 #include "solvers/search/makers.h"
 #include "solvers/search/stages.h"
 
@@ -13,23 +14,40 @@ namespace {
 using Ipopt::Index;
 using Ipopt::Number;
 
-/// min -f(theta_r(x)) subject to 0 <= x <= 1, with the exact gradient. Where f has no value, Ipopt
-/// is told so and shortens its step.
+constexpr int kPostureIterations = 40;
+constexpr int kPlanIterations = 200;
+
+/// min -f(theta_r(x)) subject to 0 <= x <= 1, with the exact gradient, and of a plan to the rows of
+/// its knots. Where f has no value, Ipopt is told so and shortens its step.
 class BoundedNlp : public Ipopt::TNLP {
  public:
-  BoundedNlp(Probe& probe, const Box& box, Eigen::VectorXd start)
-      : probe_(probe), box_(box), start_(std::move(start)) {}
+  BoundedNlp(Probe& probe, const Box& box, Eigen::VectorXd start, const KnotRows* rows = nullptr)
+      : probe_(probe), box_(box), start_(std::move(start)) {
+    if (rows == nullptr) return;
+    const Eigen::VectorXd origin = box_.theta_r(Eigen::VectorXd::Zero(box_.free()));
+    Eigen::MatrixXd reach(origin.size(), box_.free());
+    for (int j = 0; j < box_.free(); ++j) {
+      reach.col(j) = box_.theta_r(Eigen::VectorXd::Unit(box_.free(), j)) - origin;
+    }
+    R_ = (rows->R * reach).sparseView();
+    r_min_ = rows->r_min - rows->R * origin;
+    r_max_ = rows->r_max - rows->R * origin;
+  }
 
   bool get_nlp_info(Index& n, Index& m, Index& nnz_jac, Index& nnz_hessian,
                     IndexStyleEnum& style) override {
     n = box_.free();
-    m = nnz_jac = nnz_hessian = 0;
+    m = static_cast<Index>(R_.rows());
+    nnz_jac = static_cast<Index>(R_.nonZeros());
+    nnz_hessian = 0;
     style = TNLP::C_STYLE;
     return true;
   }
-  bool get_bounds_info(Index n, Number* l, Number* u, Index, Number*, Number*) override {
+  bool get_bounds_info(Index n, Number* l, Number* u, Index m, Number* g_l, Number* g_u) override {
     std::fill(l, l + n, 0.0);
     std::fill(u, u + n, 1.0);
+    std::copy_n(r_min_.data(), m, g_l);
+    std::copy_n(r_max_.data(), m, g_u);
     return true;
   }
   bool get_starting_point(Index n, bool, Number* x, bool, Number*, Number*, Index, bool,
@@ -47,8 +65,22 @@ class BoundedNlp : public Ipopt::TNLP {
     Eigen::Map<Eigen::VectorXd>(gradient, n) = -slope_;
     return slope_.allFinite();
   }
-  bool eval_g(Index, const Number*, bool, Index, Number*) override { return true; }
-  bool eval_jac_g(Index, const Number*, bool, Index, Index, Index*, Index*, Number*) override {
+  bool eval_g(Index n, const Number* x, bool, Index m, Number* g) override {
+    Eigen::Map<Eigen::VectorXd>(g, m) = R_ * Eigen::Map<const Eigen::VectorXd>(x, n);
+    return true;
+  }
+  bool eval_jac_g(Index, const Number*, bool, Index, Index, Index* rows, Index* cols,
+                  Number* values) override {
+    if (values != nullptr) {
+      std::copy_n(R_.valuePtr(), R_.nonZeros(), values);
+      return true;
+    }
+    for (int column = 0; column < R_.outerSize(); ++column) {
+      for (Eigen::SparseMatrix<double>::InnerIterator it(R_, column); it; ++it) {
+        *rows++ = static_cast<Index>(it.row());
+        *cols++ = static_cast<Index>(it.col());
+      }
+    }
     return true;
   }
   bool intermediate_callback(Ipopt::AlgorithmMode, Index, Number, Number, Number, Number, Number,
@@ -85,19 +117,21 @@ class BoundedNlp : public Ipopt::TNLP {
   Probe& probe_;
   const Box& box_;
   const Eigen::VectorXd start_;
+  Eigen::SparseMatrix<double> R_;  ///< rows on x; none unless of a plan
+  Eigen::VectorXd r_min_, r_max_;
   Eigen::VectorXd x_, gradient_, slope_;
   double value_ = -kInfinity;
   Caught caught_;
 };
 
-Ipopt::SmartPtr<Ipopt::IpoptApplication> make_application() {
+Ipopt::SmartPtr<Ipopt::IpoptApplication> make_application(int iterations) {
   Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(false);
   auto options = application->Options();
   options->SetIntegerValue("print_level", 0);
   options->SetStringValue("sb", "yes");
   options->SetStringValue("hessian_approximation", "limited-memory");
   options->SetNumericValue("bound_relax_factor", 0);
-  options->SetIntegerValue("max_iter", 40);
+  options->SetIntegerValue("max_iter", iterations);
   application->Initialize("");
   return application;
 }
@@ -107,14 +141,18 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> make_application() {
 /// of the budget and at most 64, for a start costs far more time than its evaluations. They run one
 /// after the other behind one lock, by one application; threads speed up the other two stages only.
 /// Where the objective has a kink the line search gives up, and the last stage goes on from there.
+///
+/// Of a plan it is the paper's bilevel method and nothing else: from the best of the drawn tables,
+/// one start after the other, subject to the rows of the knots.
 class Multistart final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {
+    if (objective.plans() != nullptr) return maximize_plan(objective, options);
     const auto starts = static_cast<std::size_t>(std::clamp(options.budget / 500, 1L, 64L));
     const auto climb = [starts](Probe& probe, const Box& box, const Sample& sample, long /*part*/,
                                 const Random& /*random*/) {
       const std::lock_guard guard(ipopt_lock());
-      const auto application = make_application();
+      const auto application = make_application(kPostureIterations);
       const std::size_t count = std::min(sample.starts.size(), starts);
       for (std::size_t i = 0; i < count && probe.left() > 0; ++i) {
         const Ipopt::SmartPtr<BoundedNlp> nlp = new BoundedNlp(probe, box, sample.starts[i]);
@@ -123,6 +161,28 @@ class Multistart final : public Search {
       }
     };
     return search_in_stages(objective, options, 1, climb);
+  }
+
+ private:
+  static SearchResult maximize_plan(Objective& objective, const SearchOptions& options) {
+    check(options);
+    EvaluationCounter progress(options.progress);
+    Part found;
+    const std::vector<Candidate> starts = draw_knot_starts(objective, options, progress, found);
+    const Box box(objective);
+    const KnotRows& rows = objective.plans()->rows();
+    Probe probe(objective, options.budget - found.trace.evaluations(), progress);
+    for (const Candidate& start : starts) {
+      if (probe.left() == 0) break;
+      const std::lock_guard guard(ipopt_lock());
+      const auto application = make_application(kPlanIterations);
+      const Ipopt::SmartPtr<BoundedNlp> nlp =
+          new BoundedNlp(probe, box, box.unit(start.theta_r), &rows);
+      application->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(nlp)));
+      nlp->rethrow();
+    }
+    join({probe.found()}, found);
+    return make_result(found);
   }
 };
 

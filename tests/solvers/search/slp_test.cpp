@@ -79,6 +79,21 @@ TEST(Slp, RisesFromTheStart) {
   EXPECT_GT(result.value, 1.5 * start);
 }
 
+/// A static problem is a plan of one knot: the independent model's best posture has 35.4077 N m.
+TEST(Slp, ServesAStaticProblemAsAPlanOfOneKnot) {
+  const Problem problem = load_problem("uvms/valve");
+  const auto objective =
+      make_plan_objective(problem, Wrench::kPure, find_plan_solver("structured").make);
+  SearchOptions options;
+  options.budget = 5000;
+  options.start = problem.theta_r_default;
+  const SearchResult result = find_plan_search("slp").make()->maximize(*objective, options);
+  ASSERT_EQ(result.status, Status::kBestFound);
+  EXPECT_EQ(result.theta_r.size(), problem.redundancy());
+  EXPECT_GE(result.value, 35.407);
+  EXPECT_LE(result.value, 35.41);
+}
+
 TEST(Slp, RefusesObjectivesWithoutPlans) {
   const Problem problem = load_problem("planar/force");
   const auto objective = make_capability_objective(problem, Wrench::kPure, [&] {
