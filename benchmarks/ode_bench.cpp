@@ -1,5 +1,5 @@
 // Work and precision of every integrator on a motion of the free underwater vehicle, and where the
-// time of a simulated static experiment goes.
+// time of a simulated experiment goes, static and along a turn.
 
 #include <fmt/format.h>
 
@@ -8,7 +8,9 @@
 #include <cmath>
 
 #include "benchmarks/case.h"
+#include "benchmarks/plan_row.h"
 #include "benchmarks/row.h"
+#include "benchmarks/tank_experiment.h"
 #include "lib/robot/motion.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
@@ -81,21 +83,46 @@ void print_work_and_precision(const Problem& problem) {
   }
 }
 
-void print_shares(const Problem& problem) {
-  const Row row = evaluate(problem, resolve(problem, {problem.name}), problem.theta_r_default);
-  fmt::print(
-      "\nstatic experiment of 15 s at the default posture, 1500 control periods, on one core\n");
-  fmt::print("{:<12} {:>8} {:>10} {:>9} {:>11} {:>10} {:>6} {:>12}\n", "integrator", "s",
-             "real time", "model", "integrator", "control", "QP", "evaluations");
-  for (const char* name : {"cvode", "ida"}) {
-    const TankRun run = run_tank(problem, row.posture, {row.capability.h, row.capability.u},
-                                 *find_integrator(name).make(), {});
+/// Only integrators for stiff systems serve the tank.
+template <typename Experiment>
+void print_shares(const char* what, const Problem& problem, const Experiment& experiment) {
+  fmt::print("\n{}, {}, on one core\n", problem.name, what);
+  fmt::print("{:<24} {:>8} {:>10} {:>9} {:>11} {:>10} {:>6} {:>12}\n",
+             fmt::format("integrator, least [{}]", problem.unit()), "s", "real time", "model",
+             "integrator", "control", "QP", "evaluations");
+  for (const IntegratorEntry& entry : integrators()) {
+    if (!entry.stiff) continue;
+    const TankRun run = experiment(entry.name);
     const double rest = run.total_s - run.model_s - run.controller_s - run.qp_s;
-    fmt::print("{:<12} {:>8.3f} {:>8.0f} x {:>7.0f} % {:>9.0f} % {:>8.1f} % {:>4.1f} % {:>12}\n",
-               name, run.total_s, run.samples.back().t / run.total_s,
-               100 * run.model_s / run.total_s, 100 * rest / run.total_s,
-               100 * run.controller_s / run.total_s, 100 * run.qp_s / run.total_s, run.evaluations);
+    const double end = run.samples.empty() ? 0 : run.samples.back().t;
+    fmt::print(
+        "{:<24} {:>8.3f} {:>8.0f} x {:>7.0f} % {:>9.0f} % {:>8.1f} % {:>4.1f} % {:>12}  {}\n",
+        fmt::format("{:<12} {:.5f}", entry.name, run.summary.low), run.total_s, end / run.total_s,
+        100 * run.model_s / run.total_s, 100 * rest / run.total_s,
+        100 * run.controller_s / run.total_s, 100 * run.qp_s / run.total_s, run.evaluations,
+        run.reason.c_str());
   }
+}
+
+void print_static_shares(const Problem& problem) {
+  const Row row = evaluate(problem, resolve(problem, {problem.name}), problem.theta_r_default);
+  print_shares("static experiment of 15 s at the default posture, 1500 control periods", problem,
+               [&](const char* integrator) {
+                 return simulate_tank(problem, row, problem.c.dot(row.capability.h), integrator,
+                                      {});
+               });
+}
+
+void print_turn_shares(const Problem& problem) {
+  const PlanMethod method = resolve_plan(problem, {problem.name});
+  const PlanRow row =
+      evaluate_plan(problem, method, constant_knots(problem, problem.theta_r_default));
+  print_shares("tracked turn of 5 s with the default posture throughout, 500 control periods",
+               problem, [&](const char* integrator) {
+                 return simulate_plan(problem, row.plan, method.choice.wrench, *method.solver, {},
+                                      integrator, {})
+                     .run;
+               });
 }
 
 }  // namespace
@@ -104,5 +131,6 @@ void print_shares(const Problem& problem) {
 int main() {
   const maxwrench::Problem problem = maxwrench::load_problem("uvms/valve");
   maxwrench::print_work_and_precision(problem);
-  maxwrench::print_shares(problem);
+  maxwrench::print_static_shares(problem);
+  maxwrench::print_turn_shares(maxwrench::load_problem("uvms/valve_trajectory"));
 }
