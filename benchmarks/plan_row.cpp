@@ -53,6 +53,7 @@ PlanRow evaluate_plan(const Problem& problem, const PlanMethod& method,
   if (plan.status != Status::kInvalidPosture) evaluator.evaluate_continuous();
   static_cast<Verdict&>(row) = plan;
   row.plan = plan;
+  row.clearance = evaluator.least_clearance();
   row.program = evaluator.program();
   row.wall_s = seconds_since(start);
   return row;

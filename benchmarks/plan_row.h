@@ -34,6 +34,7 @@ struct PlanRow : Verdict {
   const char* unit = "";  ///< of the value
   bool collision = true;  ///< whether knots that collide were refused
   Plan plan;
+  std::optional<Clearance> clearance;  ///< the least between knots too
   PlanProgram program;  ///< of the plan, whose value is its optimum; refers to the problem
   long evaluations = 0;
   double wall_s = 0;

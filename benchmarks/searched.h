@@ -32,6 +32,9 @@ template <class AnyRow>
 void conclude_search(const SearchResult& result, const Interruption* interruption, AnyRow& row) {
   row.evaluations = result.evaluations;
   if (row.status == Status::kOptimal) row.conclude(Status::kBestFound);
+  if (row.status == Status::kInfeasible) {  // true of what was found, not of the task
+    row.conclude(Status::kNoneFound, "of the best that was found: " + row.reason.str());
+  }
   if (interruption == nullptr || !interruption->noticed) return;
   row.evaluations -= interruption->skipped;
   if (row.status != Status::kNumericalError) {

@@ -85,6 +85,11 @@ ordered_json instant_json(const Robot& robot, const Instant& instant, bool solve
   return object;
 }
 
+ordered_json clearance_json(const std::optional<Clearance>& clearance) {
+  if (!clearance) return nullptr;
+  return {{"least", clearance->least}, {"t", clearance->t}, {"pair", clearance->pair}};
+}
+
 ordered_json plan_json(const Problem& problem, const PlanRow& row) {
   const Case& c = row.choice;
   const Plan& plan = row.plan;
@@ -113,6 +118,7 @@ ordered_json plan_json(const Problem& problem, const PlanRow& row) {
   object["continuous_reason"] =
       known(!plan.continuous_reason.empty(), plan.continuous_reason.str());
   object["collision"] = known(!plan.collision.empty(), plan.collision.str());
+  object["clearance"] = clearance_json(row.clearance);
   object["actuators"] = actuators_json(problem.robot);
   object["instants"] = ordered_json::array();
   for (const Instant& instant : plan.instants) {
@@ -167,6 +173,10 @@ void print_plan(const Problem& problem, const PlanRow& row) {
     for (const std::string& text : binding_limits(problem.robot, row)) {
       fmt::print("{}\n", text);
     }
+  }
+  if (row.clearance) {
+    fmt::print("clearance {:>9.5f} m at {:.4f} s: {}\n", row.clearance->least, row.clearance->t,
+               row.clearance->pair);
   }
   if (row.has_plan()) print_instants(problem, row);
   if (row.has_value()) fmt::print("residual {}; ", line(plan.solution.residual));

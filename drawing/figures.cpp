@@ -84,7 +84,10 @@ Problem at_instant(const Problem& problem, const Instant& instant) {
 
 /// Of a path that turns the angle, else the time.
 std::string title_of(const Problem& problem, const Plan& plan, const Instant& instant) {
-  if (problem.motion->path.angle() == 0) return fmt::format("{:.4g} s", instant.t);
+  const double angle = problem.motion->path.angle();
+  // A rotation by more than half a turn cannot be read from where it has arrived.
+  if (angle == 0 || std::abs(angle) > std::numbers::pi * (1 + 1e-12))
+    return fmt::format("{:.4g} s", instant.t);
   const Eigen::AngleAxisd turned(plan.instants.front().end_effector.R.transpose() *
                                  instant.end_effector.R);
   return fmt::format("{:.3g}\u00b0", turned.angle() * 180 / std::numbers::pi);

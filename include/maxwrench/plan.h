@@ -3,6 +3,8 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "maxwrench/objective.h"
@@ -56,6 +58,13 @@ struct NearPair {
   Eigen::VectorXd gradient;  ///< r
 };
 
+/// How near the robot comes to itself along a plan.
+struct Clearance {
+  double least = 0;  ///< m, beyond the margin of the collision check; negative: collision
+  double t = 0;      ///< s
+  std::string pair;  ///< which links, such as "forearm and base"
+};
+
 /// Evaluates tables of theta_r of a task in time.
 class PlanEvaluator {
  public:
@@ -75,6 +84,11 @@ class PlanEvaluator {
   /// The value of the last plan on the clamped cubic spline through its knots, see `Plan`.
   void evaluate_continuous();
 
+  /// The least of all pairs of bodies on that spline, at the instants of `continuous`, the earliest
+  /// of several within 1e-9 m. A pair of which only a test is known counts where it collides, as 0.
+  /// Nothing if collisions are not checked, or if no distance is known and nothing collides.
+  std::optional<Clearance> least_clearance();
+
   /// The elastic program at knots: value less the price of the slack, and its gradient k×r.
   /// -infinity where `evaluate` finds an invalid posture or a knot that collides.
   double evaluate_elastic(const Eigen::MatrixXd& knots, Eigen::MatrixXd* gradient);
@@ -85,7 +99,7 @@ class PlanEvaluator {
 
   /// After `evaluate_elastic`: the elastic program as a linear one in steps y of the knots too, row
   /// by row (theta_r of the first knot first), about the last answer. The caller sets bounds and
-  /// rows of y.
+  /// rows of y. Throws std::logic_error if nothing was evaluated.
   PlanProgram& linearize();
   /// The same about knots and the wrenches of all blocks (`PlanProgram::instants`), with nothing
   /// solved. Of a heave the peak is that of the last answer.

@@ -82,7 +82,9 @@ struct Solid {
 
 /// How near two bodies on different links are.
 struct Nearness {
-  double clearance = 0;  ///< m, what is left of the distance beyond the margin; negative: collision
+  /// m, what is left of the distance beyond the margin; negative: collision. It grows no deeper
+  /// where the points fall together.
+  double clearance = 0;
   int link_a = 0, link_b = 0;
   /// Points whose distance changes with the links as the clearance does, in base axes.
   Eigen::Vector3d on_a, on_b;
@@ -96,7 +98,7 @@ class CollisionChecker {
   virtual int colliding_pair(const std::vector<Pose<double>>& links) const = 0;
   bool collides(const std::vector<Pose<double>>& links) const { return colliding_pair(links) >= 0; }
   virtual int pairs() const = 0;
-  /// How near a pair is; false if only a test is known of it, or its points fall together.
+  /// How near a pair is; false if only a test is known of it.
   virtual bool nearest(const std::vector<Pose<double>>& links, int pair,
                        Nearness& result) const = 0;
   /// The links of the URDF that a pair is about, such as "forearm and base".

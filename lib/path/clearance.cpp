@@ -1,9 +1,13 @@
 #include "lib/path/clearance.h"
 
+#include "lib/robot/chain.h"
 #include "maxwrench/problem.h"
 
 namespace maxwrench {
 namespace {
+
+/// m: less is rounding, which shall not choose among instants at which nothing moved.
+constexpr double kNearer = 1e-9;
 
 bool carries(const Robot& robot, int joint, int link) {
   while (link > 0) {
@@ -31,7 +35,9 @@ void find_near_pairs(const Problem& problem, const Kinematics<double>& kinematic
   Nearness near;
   for (int pair = 0; pair < checker.pairs(); ++pair) {
     if (!checker.nearest(kinematics.links(), pair, near) || near.clearance > within) continue;
-    const Eigen::Vector3d apart = (near.on_a - near.on_b).normalized();
+    const Eigen::Vector3d between = near.on_a - near.on_b;
+    if (between.norm() == 0) continue;  // no derivative
+    const Eigen::Vector3d apart = between.normalized();
     NearPair& added = pairs.emplace_back();
     added.knot = knot;
     added.clearance = near.clearance;
@@ -43,6 +49,33 @@ void find_near_pairs(const Problem& problem, const Kinematics<double>& kinematic
                     velocity(problem.robot, kinematics, joint, near.link_b, near.on_b));
     }
   }
+}
+
+std::optional<Clearance> find_least_clearance(const Problem& problem, const std::vector<double>& t,
+                                              const Eigen::MatrixXd& theta_r,
+                                              Kinematics<double>& kinematics) {
+  const CollisionChecker& checker = *problem.robot.collision;
+  Clearance found{kInfinity, 0, ""};
+  int nearest = -1;
+  Nearness near;
+  Eigen::VectorXd q = resting_joints(problem.robot);
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    q(problem.redundant) = theta_r.row(static_cast<Eigen::Index>(i));
+    kinematics.set_joints(q);
+    const int colliding = checker.colliding_pair(kinematics.links());
+    for (int pair = 0; pair < checker.pairs(); ++pair) {
+      const bool known = checker.nearest(kinematics.links(), pair, near);
+      if (!known && pair != colliding) continue;
+      const double clearance = known ? near.clearance : 0;
+      if (!(clearance < found.least - kNearer)) continue;
+      found.least = clearance;
+      found.t = t[i];
+      nearest = pair;
+    }
+  }
+  if (nearest < 0) return {};
+  found.pair = checker.pair_name(nearest);
+  return found;
 }
 
 }  // namespace maxwrench

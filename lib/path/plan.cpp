@@ -114,6 +114,15 @@ struct PlanEvaluator::Workspace {
     return {};
   }
 
+  /// On the clamped spline through the knots, of which there are at least two.
+  MotionEvaluator& on_spline() {
+    if (!fine) {
+      fine.emplace(problem,
+                   make_continuous(task, task.impulse ? kContinuousHeave : kContinuousPath));
+    }
+    return *fine;
+  }
+
   /// The block of a knot of a heave.
   int block_of(const SchemeMaps& maps, int knot) const {
     const int instant = maps.smooth() ? knot * ((maps.instants() - 1) / task.k) : knot;
@@ -251,14 +260,11 @@ void PlanEvaluator::evaluate_continuous() {
     plan.continuous_reason = plan.reason;
     return;
   }
-  if (!ws.fine) {
-    ws.fine.emplace(ws.problem,
-                    make_continuous(task, task.impulse ? kContinuousHeave : kContinuousPath));
-  }
-  const SchemeMaps& maps = ws.fine->maps();
+  MotionEvaluator& fine = ws.on_spline();
+  const SchemeMaps& maps = fine.maps();
   PlanProgram program = make_plan_program(ws.problem, task, ws.wrench, maps);
   std::vector<Instant> instants;
-  ws.fine->evaluate(ws.Q, instants);
+  fine.evaluate(ws.Q, instants);
   set_instants(ws.problem, ws.task, ws.wrench, maps, instants, program);
   program.rho = kElasticWeight;
   if (task.impulse && task.start == Start::kStatic) {
@@ -278,6 +284,13 @@ void PlanEvaluator::evaluate_continuous() {
     return;
   }
   plan.continuous = solution.value;
+}
+
+std::optional<Clearance> PlanEvaluator::least_clearance() {
+  Workspace& ws = *workspace_;
+  if (!ws.check_collision) return {};
+  const SchemeMaps& maps = (ws.Q.rows() < 2 ? ws.motion : ws.on_spline()).maps();
+  return find_least_clearance(ws.problem, maps.t, maps.P * ws.Q, ws.links);
 }
 
 double PlanEvaluator::evaluate_elastic(const Eigen::MatrixXd& knots, Eigen::MatrixXd* gradient) {
@@ -326,6 +339,9 @@ PlanProgram& PlanEvaluator::linearize(const Eigen::MatrixXd& knots,
 
 PlanProgram& PlanEvaluator::linearize() {
   Workspace& ws = *workspace_;
+  if (ws.plan.instants.size() < ws.elastic.instants.size()) {
+    throw std::logic_error("linearize: got no plan, expected one that was evaluated");
+  }
   PlanProgram& program = ws.bordered;
   program = ws.elastic;
   const std::size_t skipped = ws.plan.instants.size() - program.instants.size();

@@ -191,10 +191,9 @@ class ShapePairs : public CollisionChecker {
       between = segment_to_segment(at_a.pose.p - at_a.half_axis, at_a.pose.p + at_a.half_axis,
                                    at_b.pose.p - at_b.half_axis, at_b.pose.p + at_b.half_axis);
     }
-    const Eigen::Vector3d apart = between.on_a - between.on_b;
-    const double distance = apart.norm();
+    const double distance = (between.on_a - between.on_b).norm();
     result = {distance - a.radius - b.radius - margin_, a.link, b.link, between.on_a, between.on_b};
-    return distance > 0;
+    return true;
   }
 
   int pairs() const override { return static_cast<int>(pairs_.size()); }

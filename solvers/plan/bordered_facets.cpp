@@ -6,6 +6,7 @@
 namespace maxwrench {
 namespace {
 
+constexpr int kMostColumns = 64;   // of y: a dense tableau loses against `ipm` with more
 constexpr double kFlat = 1e-12;    // a slope below this part of the wrench's size is rounding
 constexpr double kLikely = 0.1;    // part of its reach that y is expected to move a row
 constexpr double kMissed = 1e-10;  // relative, by a row that was left out
@@ -19,8 +20,9 @@ bool BorderedFacets::suits(const PlanProgram& program) {
     return at.columns() == 1 && at.c_w[0] > 0 && at.w_min[0] == -kInfinity &&
            at.w_max[0] == kInfinity;
   };
-  return program.peak < 0 && program.border() > 0 &&
-         program.instants.front().actuation->has_facets &&
+  const Zonotope& set = *program.instants.front().actuation;
+  return program.peak < 0 && program.border() > 0 && program.border() <= kMostColumns &&
+         set.has_facets && program.first_min == set.u_min && program.first_max == set.u_max &&
          std::all_of(program.instants.begin(), program.instants.end(), single);
 }
 

@@ -19,6 +19,7 @@ namespace maxwrench {
 /// its answer violates until there are none.
 class BorderedFacets {
  public:
+  /// Whether the program is of this kind; it may have rates and slacks, which are left out.
   static bool suits(const PlanProgram& program);
   /// Sets value, y and the multipliers lambda, pi, nu, whose limits and signs are verified; no
   /// efforts. False if there is no verified optimum.

@@ -27,11 +27,12 @@ bool limited(const WrenchProgram& at, int j) {
 
 void Forms::build(const PlanProgram& program, bool with_rates, bool with_slacks) {
   const Zonotope& set = *program.instants.front().actuation;
-  if (actuation_ != &set || Z_.rows() != set.actuators() || P_.rows() != set.dimension()) {
+  actuation_ = &set;
+  if (B_.rows() != set.B.rows() || B_.cols() != set.B.cols() || B_ != set.B) {
+    B_ = set.B;
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(set.B, Eigen::ComputeFullU | Eigen::ComputeFullV);
     Z_ = svd.matrixV().rightCols(set.actuators() - set.rank);
     P_ = svd.matrixU().rightCols(set.dimension() - set.rank);
-    actuation_ = &set;
   }
   R = &program.R;
   shape(program, with_rates, with_slacks);

@@ -87,6 +87,7 @@ struct Forms {
   void limit(int form, double low, double high, double offset);
 
   const Zonotope* actuation_ = nullptr;
+  Eigen::MatrixXd B_;                   ///< of which Z_ and P_ are
   Eigen::MatrixXd Z_, P_;               ///< m×(m - rank), n×(n - rank)
   Eigen::MatrixXd B_pinv_, Z_ordered_;  ///< with rows in the order of the forms
   Eigen::MatrixXd offsets_;             ///< B^+ tau_d, m×N

@@ -1,3 +1,4 @@
+#include "lib/math/farkas.h"
 #include "solvers/plan/embedding.h"
 #include "solvers/plan/makers.h"
 

@@ -19,7 +19,8 @@ constexpr std::size_t kJointStarts = 4;
 constexpr int kJointIterations = 200;
 
 /// A `JointProgram` as Ipopt wants it. The table of every iterate is evaluated as any search does,
-/// so what is found was found by the lower level and not by Ipopt's tolerances.
+/// so what is found was found by the lower level and not by Ipopt's tolerances. An evaluation is
+/// one of these or one of the rows; the rows are computed once more after each of the former.
 class JointNlp : public Ipopt::TNLP {
  public:
   JointNlp(Objective& objective, JointProgram& program, long budget, Part& found)
@@ -72,7 +73,7 @@ class JointNlp : public Ipopt::TNLP {
   bool intermediate_callback(Ipopt::AlgorithmMode, Index, Number, Number, Number, Number, Number,
                              Number, Number, Number, Index, const Ipopt::IpoptData*,
                              Ipopt::IpoptCalculatedQuantities*) override {
-    return left() >= 2 && !caught_.any();
+    return left() >= 2 && !caught_.any() && !objective_.ended();
   }
   void finalize_solution(Ipopt::SolverReturn, Index, const Number*, const Number*, const Number*,
                          Index, const Number*, const Number*, Number, const Ipopt::IpoptData*,
@@ -102,7 +103,7 @@ class JointNlp : public Ipopt::TNLP {
     return caught_.run(false, [&] {
       const Eigen::Map<const Eigen::VectorXd> point(x, n);
       if (X_.size() == n && X_ == point) return true;
-      if (left() == 0) return false;
+      if (left() == 0 || objective_.ended()) return false;
       X_ = point;
       program_.evaluate(X_);
       found_.trace.add(-kInfinity);
@@ -141,7 +142,9 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> make_joint_application() {
   options->SetNumericValue("tol", 1e-7);
   options->SetNumericValue("bound_relax_factor", 0);
   options->SetIntegerValue("max_iter", kJointIterations);
-  application->Initialize("");
+  if (application->Initialize("") != Ipopt::Solve_Succeeded) {
+    throw std::runtime_error("joint_nlp: Ipopt does not take its options");
+  }
   return application;
 }
 
@@ -174,7 +177,9 @@ class JointNlpSearch : public Search {
   static constexpr long kFewest = 6;  // evaluations that are worth a climb
 
   static void climb(Objective& objective, const Candidate& start, long until, Part& found) {
-    found.trace.add(evaluate_one(objective, start.theta_r));
+    const double value = evaluate_one(objective, start.theta_r);
+    found.trace.add(value);
+    if (value == -kInfinity) return;
     JointProgram program(*objective.plans(), objective.lower(), objective.upper());
     const std::lock_guard guard(ipopt_lock());
     const auto application = make_joint_application();

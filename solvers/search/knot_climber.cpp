@@ -43,7 +43,9 @@ void KnotClimber::climb(long evaluations) {
   const auto left = [&] { return evaluations - found_.trace.evaluations(); };
   while (!done_ && left() >= 3) {
     if (program_ == nullptr) {
-      evaluate(at_.theta_r);  // its efforts are what the program is linearised about
+      // Its efforts are what the program is linearised about; an objective that has ended has none.
+      done_ = evaluate(at_.theta_r) == -kInfinity;
+      if (done_) return;
       program_ = linearize();
     }
     if (try_step()) program_ = linearize();
@@ -67,14 +69,14 @@ bool KnotClimber::try_step() {
   Eigen::VectorXd trial = inside(at_.theta_r + step);
   if (!alike) trial = apart(std::move(trial));
   const double size = solution_.y.lpNorm<Eigen::Infinity>();
-  const double risen = evaluate(trial) - at_.value;
+  const double value = evaluate(trial), risen = value - at_.value;
   if (!(risen >= kShrink * predicted)) {
     radius_ = 0.4 * size;
   } else if (risen > kGrow * predicted && size > 0.9 * radius_) {
     radius_ *= 2;
   }
   if (!(risen >= kAccept * predicted)) return false;
-  at_ = {trial, at_.value + risen};
+  at_ = {trial, value};
   return true;
 }
 

@@ -17,7 +17,7 @@ constexpr double kFar = 0.8;      // rad or m, between starts of the same round
 constexpr double kSame = 0.1;     // rad or m: closer ones are of one family
 constexpr long kAlike = 48;       // climbs with all knots alike, at most,
 constexpr long kAlikeSteps = 30;  // of so many evaluations; a fifth of the budget, at most
-constexpr double kHopeful = 0.8;  // of the best value: what a family must have
+constexpr double kHopeful = 0.8;  // a family is less than 1 - this of 1 + |best| below the best
 
 /// Tables around the start that keep the rows of the limits.
 class Drawing {

@@ -133,7 +133,7 @@ class Slp : public Search {
     while (!starts.empty() && idle < kIdleBatches && !objective.ended()) {
       const auto batch = static_cast<std::ptrdiff_t>(std::min(kBatch, starts.size()));
       const long left = options.budget - best.found.trace.evaluations();
-      if (left < kFewest * batch) break;
+      if (left < (kJudged + kFewest) * batch) break;
       SlpOutcome climbs = compete(objective, {starts.begin(), starts.begin() + batch}, left,
                                   options.threads, best, progress);
       starts.erase(starts.begin(), starts.begin() + batch);

@@ -61,12 +61,12 @@ TEST_P(KnownPlan, HasTheValueOfTheIndependentModel) {
 
 TEST(PlanCommand, PrintsOneObjectWithEverything) {
   const json plan = object_of("eval uvms/valve_trajectory");
-  for (const char* key : {"problem", "measure",  "wrench",   "lp",          "search",
-                          "seed",    "status",   "reason",   "beta",        "unit",
-                          "theta_r", "theta",    "w",        "h",           "u",
-                          "lambda",  "gradient", "residual", "evaluations", "wall_s",
-                          "version", "task",     "value",    "continuous",  "continuous_reason",
-                          "instants"}) {
+  for (const char* key : {"problem",  "measure",  "wrench",   "lp",          "search",
+                          "seed",     "status",   "reason",   "beta",        "unit",
+                          "theta_r",  "theta",    "w",        "h",           "u",
+                          "lambda",   "gradient", "residual", "evaluations", "wall_s",
+                          "version",  "task",     "value",    "continuous",  "continuous_reason",
+                          "instants", "clearance"}) {
     EXPECT_TRUE(plan.contains(key)) << key;
   }
   for (const char* key : {"theta", "w", "h", "u", "lambda", "search", "seed", "reason"}) {
@@ -98,6 +98,9 @@ TEST(PlanCommand, PrintsOneObjectWithEverything) {
                          {"angle", M_PI},
                          {"sub", 4}};
   EXPECT_EQ(plan["task"], expected);
+  EXPECT_GE(plan["clearance"]["least"], -1e-9);  // the best static posture, which is allowed
+  EXPECT_EQ(plan["clearance"]["t"], 0);          // and held throughout
+  EXPECT_EQ(plan["clearance"]["pair"], "link_2 and link_4");
 }
 
 TEST(PlanCommand, DescribesAHeave) {
@@ -106,6 +109,7 @@ TEST(PlanCommand, DescribesAHeave) {
   EXPECT_EQ(plan["task"]["sub"], 16);
   EXPECT_EQ(plan["task"]["theta0"], plan["theta_r"][0]);
   EXPECT_EQ(plan["task"]["collision"], false);
+  EXPECT_TRUE(plan["clearance"].is_null());
   EXPECT_GE(plan["task"]["t_h"], 1);
   EXPECT_EQ(plan["instants"].size(), 65U);  // 16 k + 1: knot 0 is the first
   EXPECT_EQ(object_of("eval uvms/valve_impulse")["task"]["t_h"], 3);
@@ -197,9 +201,10 @@ TEST_P(SelfConsistentPlan, IsWhatItsNumbersSay) { PlanCheck(GetParam()).run(); }
 TEST(PlanCommand, TextSaysWhatBindsWhere) {
   const CommandResult turn = run_maxwrench("eval uvms/valve_trajectory" + kFixed);
   EXPECT_EQ(turn.exit_status, 0) << turn.err;
-  for (const char* part : {"trajectory of 5 s, 10 knots, scheme spline, 37 instants\noptimal\n",
-                           "value      34.30190 N m\n", "continuous 34.30164 N m\n", "binds at ",
-                           "    t [s]  ", "100 % "}) {
+  for (const char* part :
+       {"trajectory of 5 s, 10 knots, scheme spline, 37 instants\noptimal\n",
+        "value      34.30190 N m\n", "continuous 34.30164 N m\n", "binds at ", "clearance ",
+        " m at 0.0000 s: link_2 and link_4\n", "    t [s]  ", "100 % "}) {
     EXPECT_NE(turn.out.find(part), std::string::npos) << part << turn.out;
   }
   EXPECT_LT(std::count(turn.out.begin(), turn.out.end(), '\n'), 30);
