@@ -13,7 +13,7 @@ MotionEvaluator::MotionEvaluator(const Problem& problem, SchemeMaps maps)
       follower_(problem),
       dynamics_(problem.robot),
       dual_follower_(problem),
-      dual_dynamics_(problem.robot),
+      dynamics_slopes_(problem.robot),
       place_(problem.redundancy(), maps_.instants()),
       rate_(place_),
       bend_(place_),
@@ -25,8 +25,11 @@ MotionEvaluator::MotionEvaluator(const Problem& problem, SchemeMaps maps)
       dual_bend_(problem.redundancy()),
       dual_v_(problem.robot.velocities()),
       dual_v_dot_(problem.robot.velocities()),
-      dual_tau_(problem.robot.velocities()),
-      dual_J_(6, problem.robot.velocities()) {}
+      turn_slopes_(3, 2 * problem.redundancy()),
+      q_slopes_(problem.robot.joints.size(), turn_slopes_.cols()),
+      v_slopes_(problem.robot.velocities(), turn_slopes_.cols()),
+      v_dot_slopes_(v_slopes_),
+      f_slopes_(v_slopes_) {}
 
 /// theta_r and its derivatives at all instants.
 void MotionEvaluator::set_rows(const Eigen::MatrixXd& Q) {
@@ -82,47 +85,32 @@ void MotionEvaluator::accelerate_by_differences(std::vector<Instant>& instants) 
 
 void MotionEvaluator::linearize(const std::vector<Instant>& instants, std::vector<Slopes>& slopes) {
   slopes.resize(instants.size());
-  const int n = problem_.robot.velocities(), r = problem_.redundancy();
+  const int r = problem_.redundancy();
+  const EndEffector& end_effector =
+      problem_.robot.end_effectors[static_cast<std::size_t>(problem_.end_effector)];
   for (std::size_t i = 0; i < instants.size(); ++i) {
-    Slopes& s = slopes[i];
-    for (Eigen::MatrixXd* part : {&s.place, &s.rate, &s.v_place, &s.v_rate}) part->resize(n, r);
-    for (int chunk = 0; 4 * chunk < 2 * r; ++chunk) {
-      linearize(instants[i], static_cast<int>(i), chunk, s);
+    const Instant& instant = instants[i];
+    for (int first = 0; first < 2 * r; first += 4) {
+      follow(instant, static_cast<int>(i), first, std::min(4, 2 * r - first));
     }
-    dynamics_.set_configuration(instants[i].base.R, instants[i].q);
-    dynamics_.mass_matrix(s.M);
+    DynamicsSlopes& f = dynamics_slopes_;
+    f.set(instant.base.R, instant.q, instant.v, instant.v_dot, end_effector, instant.h);
+    f_slopes_.noalias() = f.by_turn().lazyProduct(turn_slopes_);
+    f_slopes_.noalias() += f.by_q().lazyProduct(q_slopes_);
+    f_slopes_.noalias() += f.by_v().lazyProduct(v_slopes_);
+    f_slopes_.noalias() += f.by_v_dot().lazyProduct(v_dot_slopes_);
+    Slopes& s = slopes[i];
+    s.place = f_slopes_.leftCols(r);
+    s.rate = f_slopes_.rightCols(r);
+    s.v_place = v_slopes_.leftCols(r);
+    s.v_rate = v_slopes_.rightCols(r);
+    s.M = f.by_v_dot();
     if (maps_.smooth()) s.bend.noalias() = s.M.lazyProduct(s.v_rate);
   }
 }
 
-/// Four of the 2r directions (theta_r, theta_r_dot) at a time.
-void MotionEvaluator::linearize(const Instant& instant, int i, int chunk, Slopes& slopes) {
-  const int r = problem_.redundancy(), first = 4 * chunk;
-  const int count = std::min(4, 2 * r - first);
-  follow(instant, i, first, count);
-  dual_dynamics_.set_configuration(dual_follower_.base().R, dual_follower_.q());
-  dual_dynamics_.inverse(dual_v_, dual_v_dot_, dual_tau_);
-  dual_dynamics_.kinematics().jacobian(
-      problem_.robot.end_effectors[static_cast<std::size_t>(problem_.end_effector)],
-      dual_follower_.base().R, dual_J_);
-  for (int d = 0; d < count; ++d) {
-    const int direction = first + d;
-    const auto at = static_cast<std::size_t>(d);
-    const Eigen::Index column = direction < r ? direction : direction - r;
-    Eigen::MatrixXd& f = direction < r ? slopes.place : slopes.rate;
-    Eigen::MatrixXd& v = direction < r ? slopes.v_place : slopes.v_rate;
-    for (Eigen::Index row = 0; row < dual_tau_.size(); ++row) {
-      double turned = 0;
-      for (Eigen::Index axis = 0; axis < 6; ++axis) {
-        turned += dual_J_(axis, row).d[at] * instant.h[axis];
-      }
-      f(row, column) = dual_tau_[row].d[at] + turned;
-      v(row, column) = dual_v_[row].d[at];
-    }
-  }
-}
-
-/// The motion at instant i with its slopes along `count` directions from `first` on.
+/// The slopes of the motion at instant i along `count` of the 2r directions (theta_r, theta_r_dot)
+/// from `first` on.
 void MotionEvaluator::follow(const Instant& instant, int i, int first, int count) {
   const int r = problem_.redundancy();
   for (Eigen::Index j = 0; j < r; ++j) {
@@ -149,6 +137,21 @@ void MotionEvaluator::follow(const Instant& instant, int i, int first, int count
       }
     }
   }
+  for (int d = 0; d < count; ++d) read_slopes(static_cast<std::size_t>(d), first + d);
+}
+
+/// Infinitesimal d of the dual numbers, the slopes along a direction.
+void MotionEvaluator::read_slopes(std::size_t d, Eigen::Index direction) {
+  const auto slope = [d](const D4& x) { return x.d[d]; };
+  q_slopes_.col(direction) = dual_follower_.q().unaryExpr(slope);
+  v_slopes_.col(direction) = dual_v_.unaryExpr(slope);
+  v_dot_slopes_.col(direction) = dual_v_dot_.unaryExpr(slope);
+  // The base turns by R'dR = [turn]x.
+  const Matrix3<D4>& R = dual_follower_.base().R;
+  const auto along = [&](int a, int b) {
+    return R(0, a).v * R(0, b).d[d] + R(1, a).v * R(1, b).d[d] + R(2, a).v * R(2, b).d[d];
+  };
+  turn_slopes_.col(direction) << along(2, 1), along(0, 2), along(1, 0);
 }
 
 void MotionEvaluator::pull_back(const std::vector<Slopes>& slopes, const Eigen::MatrixXd& lambda,

@@ -5,6 +5,7 @@
 #include "lib/path/follow.h"
 #include "lib/path/scheme.h"
 #include "lib/robot/dynamics.h"
+#include "lib/robot/dynamics_slopes.h"
 #include "maxwrench/plan.h"
 
 namespace maxwrench {
@@ -40,19 +41,20 @@ class MotionEvaluator {
  private:
   void set_rows(const Eigen::MatrixXd& Q);
   void accelerate_by_differences(std::vector<Instant>& instants) const;
-  void linearize(const Instant& instant, int i, int chunk, Slopes& slopes);
   void follow(const Instant& instant, int i, int first, int count);
+  void read_slopes(std::size_t d, Eigen::Index direction);
 
   const Problem& problem_;
   SchemeMaps maps_;
   Follower<double> follower_;
   Dynamics<double> dynamics_;
   Follower<Dual<4>> dual_follower_;
-  Dynamics<Dual<4>> dual_dynamics_;
+  DynamicsSlopes dynamics_slopes_;
   Eigen::MatrixXd place_, rate_, bend_;  ///< r×N: theta_r and its derivatives at the instants
   VectorX<double> theta_r_, rate_r_, bend_r_;
-  VectorX<Dual<4>> dual_theta_r_, dual_rate_, dual_bend_, dual_v_, dual_v_dot_, dual_tau_;
-  Matrix6X<Dual<4>> dual_J_;
+  VectorX<Dual<4>> dual_theta_r_, dual_rate_, dual_bend_, dual_v_, dual_v_dot_;
+  /// Of the motion at an instant by (theta_r, theta_r_dot), and of f, 2r columns each.
+  Eigen::MatrixXd turn_slopes_, q_slopes_, v_slopes_, v_dot_slopes_, f_slopes_;
 };
 
 }  // namespace maxwrench

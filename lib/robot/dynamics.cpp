@@ -45,69 +45,6 @@ Dynamics<T>::Dynamics(const Robot& robot)
   for (const Link& link : robot.links) inertia_.push_back(link_inertia(link));
 }
 
-/// Of the link and of the water that its bodies move, at the link's origin and in its axes.
-template <class T>
-auto Dynamics<T>::link_inertia(const Link& link) -> Inertia<double> {
-  const Matrix3<double> zero = Matrix3<double>::Zero();
-  const Matrix3<double> mass = link.mass * Matrix3<double>::Identity();
-  Inertia<double> sum =
-      moved<double>({Matrix3<double>::Identity(), link.com}, {mass, zero, link.inertia});
-  for (const HydrodynamicBody& body : link.hydrodynamics) {
-    const Inertia<double> water = moved<double>(
-        body.frame,
-        {body.added_mass.head<3>().asDiagonal(), zero, body.added_mass.tail<3>().asDiagonal()});
-    sum.A += water.A;
-    sum.B += water.B;
-    sum.C += water.C;
-  }
-  return sum;
-}
-
-/// An inertia given at `frame`'s origin in its axes, at the origin and axes that `frame` is
-/// relative to: with P = [p]x the twist at p is (v - P w, w), and momentum at p counts L + p x (A v
-/// + B w).
-template <class T>
-template <class S>
-auto Dynamics<T>::moved(const Pose<S>& frame, const Inertia<double>& inertia) -> Inertia<S> {
-  const auto turned = [&frame](const Matrix3<double>& block) -> Matrix3<S> {
-    const Matrix3<S> left = frame.R * block;
-    return left * frame.R.transpose();
-  };
-  const Matrix3<S> P = skew(frame.p);
-  Inertia<S> result{turned(inertia.A), turned(inertia.B), turned(inertia.C)};
-  const Matrix3<S> B_P = result.B.transpose() * P;
-  result.B -= result.A * P;
-  const Matrix3<S> P_B = P * result.B;
-  result.C += P_B - B_P;
-  return result;
-}
-
-template <class T>
-template <class S>
-auto Dynamics<T>::momentum(const Inertia<S>& inertia, const Screw& twist) -> Screw {
-  return {inertia.A * twist.linear + inertia.B * twist.angular,
-          inertia.B.transpose() * twist.linear + inertia.C * twist.angular};
-}
-
-/// Power of a wrench along a twist.
-template <class T>
-T Dynamics<T>::along(const Screw& twist, const Screw& wrench) {
-  return twist.linear.dot(wrench.linear) + twist.angular.dot(wrench.angular);
-}
-
-/// Number `axis` of [linear; angular].
-template <class T>
-T Dynamics<T>::component(const Screw& screw, int axis) {
-  return axis < 3 ? screw.linear[axis] : screw.angular[axis - 3];
-}
-
-/// The twist at `frame`'s origin, in its axes.
-template <class T>
-auto Dynamics<T>::into(const Pose<T>& frame, const Screw& twist) -> Screw {
-  const Vector3<T> linear = twist.linear + twist.angular.cross(frame.p);
-  return {frame.R.transpose() * linear, frame.R.transpose() * twist.angular};
-}
-
 template <class T>
 void Dynamics<T>::set_configuration(const Matrix3<T>& R_base, const VectorX<T>& q) {
   R_base_ = R_base;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "lib/robot/kinematics.h"
+#include "lib/robot/spatial.h"
 #include "maxwrench/robot.h"
 
 namespace maxwrench {
@@ -55,25 +56,7 @@ class Dynamics {
   const Kinematics<T>& kinematics() const { return kinematics_; }
 
  private:
-  /// A twist [linear; angular] or its rate, a momentum or a wrench [force; torque]: in base axes at
-  /// the base origin unless said otherwise.
-  struct Screw {
-    Vector3<T> linear = Vector3<T>::Zero(), angular = Vector3<T>::Zero();
-  };
-  /// Twist -> momentum at the same origin: [A v + B w; B'v + C w], all 3×3.
-  template <class S>
-  struct Inertia {
-    Matrix3<S> A, B, C;
-  };
-
-  template <class S>
-  static Inertia<S> moved(const Pose<S>& frame, const Inertia<double>& inertia);
-  template <class S>
-  static Screw momentum(const Inertia<S>& inertia, const Screw& twist);
-  static Inertia<double> link_inertia(const Link& link);
-  static T along(const Screw& twist, const Screw& wrench);
-  static T component(const Screw& screw, int axis);
-  static Screw into(const Pose<T>& frame, const Screw& twist);
+  using Screw = maxwrench::Screw<T>;
 
   static Screw base_unit(int axis);
   Screw base_twist(const VectorX<T>& velocity) const;
