@@ -76,15 +76,12 @@ void add_eval(CLI::App& app, int& exit_status) {
   CLI::App& command = *app.add_subcommand("eval", "the capability of one posture or plan");
   options->add_case(command);
   options->add_json(command);
-  command.add_option(
-      "--theta-r", options->theta_r,
-      "redundant coordinates, separated by commas (default: those of the task); of a "
-      "task in time they hold throughout, or a CSV file has a row for each knot");
+  add_theta_r(command, options->theta_r);
   options->motion.add(command);
   command.add_option("--write", options->write, "the linear program, as an MPS file")
       ->check(refuse_empty);
   command.add_flag("--ignore-collision", options->ignore_collision,
-                   "evaluate a colliding posture too");
+                   "evaluate a posture that collides too; of a plan, look for no collisions");
   CLI::Option& state =
       *command.add_option("--state", options->state,
                           "M, tau_d and J at the motion in this file, instead of a capability");

@@ -58,6 +58,12 @@ void MotionOptions::change(Problem& problem) const {
   if (t_h) refuse_option("--t-h", *t_h, expected);
 }
 
+void add_theta_r(CLI::App& app, std::optional<std::string>& theta_r) {
+  app.add_option("--theta-r", theta_r,
+                 "redundant coordinates, separated by commas (default: those of the task); of a "
+                 "task in time they hold throughout, or a CSV file has a row for each knot");
+}
+
 Eigen::MatrixXd knots_of(const Problem& problem, const std::optional<std::string>& text) {
   std::error_code ignored;
   const bool numbers = text && !std::filesystem::exists(*text, ignored) && is_number(*text);

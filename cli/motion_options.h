@@ -21,6 +21,9 @@ struct MotionOptions {
   void change(Problem& problem) const;
 };
 
+/// `--theta-r`, of any task.
+void add_theta_r(CLI::App& app, std::optional<std::string>& theta_r);
+
 /// The table that `--theta-r` names: a file, or numbers that hold throughout; without it the
 /// constant default of the task.
 Eigen::MatrixXd knots_of(const Problem& problem, const std::optional<std::string>& text);

@@ -57,6 +57,11 @@ std::string line(const Residual& residual) {
                      residual.bounds, residual.dual, residual.gap);
 }
 
+std::string line(long evaluations, double seconds) {
+  return fmt::format("{} evaluation{} in {:.3g} s", evaluations, evaluations == 1 ? "" : "s",
+                     seconds);
+}
+
 const std::string& actuator_name(const Robot& robot, Eigen::Index i) {
   const auto at = static_cast<std::size_t>(i);
   const std::size_t thrusters = robot.thrusters.size();

@@ -34,6 +34,9 @@ Eigen::Vector3d rpy(const Eigen::Matrix3d& R);
 std::string line(const Eigen::VectorXd& v);
 std::string line(const Residual& residual);
 
+/// "20 evaluations in 0.5 s"
+std::string line(long evaluations, double seconds);
+
 /// Thrusters, then joints.
 const std::string& actuator_name(const Robot& robot, Eigen::Index i);
 

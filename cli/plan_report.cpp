@@ -180,7 +180,7 @@ void print_plan(const Problem& problem, const PlanRow& row) {
   }
   if (row.has_plan()) print_instants(problem, row);
   if (row.has_value()) fmt::print("residual {}; ", line(plan.solution.residual));
-  fmt::print("{} evaluations in {:.3g} s\n", row.evaluations, row.wall_s);
+  fmt::print("{}\n", line(row.evaluations, row.wall_s));
 }
 
 }  // namespace

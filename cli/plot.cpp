@@ -67,11 +67,9 @@ int plot(const PlotOptions& options) {
 void add_plot(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<PlotOptions>();
   CLI::App& command = *app.add_subcommand(
-      "plot", "draw a posture with its wrench sets, or those of a plan, as SVG");
+      "plot", "draw a posture with its wrench sets, or the postures of a plan, as SVG");
   command.add_option("problem", options->problem, "shipped name or task file")->required();
-  command.add_option("--theta-r", options->theta_r,
-                     "redundant coordinates, separated by commas (default: those of the task), or "
-                     "of a task in time a CSV file");
+  add_theta_r(command, options->theta_r);
   options->motion.add(command);
   command.add_option("--out", options->out, "file to write (default: stdout)")->check(refuse_empty);
   command.callback([options, &exit_status] { exit_status = plot(*options); });

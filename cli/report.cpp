@@ -96,9 +96,9 @@ void print(const Problem& problem, const Row& row) {
                actuator_name(problem.robot, i));
   }
   fmt::print("gradient {}\n", line(row.gradient));
-  if (row.undecided > 0) fmt::print("undecided {} evaluations without a verdict\n", row.undecided);
-  fmt::print("residual {}; {} evaluations in {:.3g} s\n", line(capability.residual),
-             row.evaluations, row.wall_s);
+  if (row.undecided > 0)
+    fmt::print("undecided {} (evaluations without a verdict)\n", row.undecided);
+  fmt::print("residual {}; {}\n", line(capability.residual), line(row.evaluations, row.wall_s));
 }
 
 }  // namespace

@@ -128,8 +128,8 @@ int run(const RunOptions& options) {
 
 void add_run(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<RunOptions>();
-  CLI::App& command =
-      *app.add_subcommand("run", "every meaningful combination of measure, wrench, solver, search");
+  CLI::App& command = *app.add_subcommand(
+      "run", "every meaningful combination of measure, wrench, scheme, solver, search");
   command.add_option(
       "words", options->words,
       "problems, shipped or task files (default: all static ones shipped), and column=value: "

@@ -194,10 +194,7 @@ void add_imperfections(CLI::App& command, Imperfections& imperfections) {
 
 /// Of what is carried out.
 void add_plan_options(CLI::App& command, SimulateOptions& options) {
-  command.add_option(
-      "--theta-r", options.theta_r,
-      "redundant coordinates, separated by commas (default: those of the task); of a "
-      "task in time they hold throughout, or a CSV file has a row for each knot");
+  add_theta_r(command, options.theta_r);
   options.motion.add(command);
   command.add_option("--interpolation", options.interpolation,
                      "what joins the instants of a plan: linear or spline");

@@ -199,22 +199,23 @@ PaperTable reproduce_motion(const std::filesystem::path& folder, int threads, lo
   RowWriter writer("reproduce motion", folder, threads, rows);
   std::string text = fmt::format(
       "The underwater vehicle along a path and in a heave. Values are those of a model of public\n"
-      "data, nothing is tuned to the tank; tank: measured in the paper. fixed, static: the best\n"
-      "static posture held throughout; the others: the best plan that search {} found with seed "
-      "{}\n"
-      "and at most {} evaluations, which stands in plans/TASK_SCHEME.csv. contin.: the value on "
-      "the\n"
-      "spline through the knots, none where no efforts follow it. The virtual tank is asked for\n"
-      "{:g} % less than the plan is worth and joins its instants as the scheme does (spline: with\n"
-      "the efforts of contin.); drift: of all joints and the base from the plan, rad or m; held:\n"
-      "the reading within {:g} % of the plan all along the path or at t_h, drift and limits kept;\n"
-      "lost: drift ended the experiment. gain: over the constant posture of the same scheme, of "
-      "the\n"
-      "value, of the virtual tank's reading, and of the paper's tank. no rates, start: by what "
-      "the\n"
-      "value at the same knots rises without limits of effort rates, and from any efforts at the\n"
-      "start; clear.: least distance of bodies at knots beyond their margin, m; fastest joint:\n"
-      "share of its speed limit at an instant.\n",
+      "data, nothing is tuned to the tank; tank: measured in the paper. fixed, static: the "
+      "default\n"
+      "posture of the task held throughout, which is the best static one of uvms/valve; the\n"
+      "others: the best plan that search {} found with seed {} and at most {} evaluations, which\n"
+      "stands in plans/TASK_SCHEME.csv. contin.: the value on the spline through the knots, none\n"
+      "where no efforts follow it. The virtual tank is asked for {:g} % less than the plan is "
+      "worth\n"
+      "and joins its instants as the scheme does (spline: with the efforts of contin.); drift: of\n"
+      "all joints and the base from the plan, rad or m; held: the reading within {:g} % of the "
+      "plan\n"
+      "all along the path or at t_h, drift and limits kept; lost: drift ended the experiment.\n"
+      "gain: over the constant posture of the same scheme, of the value, of the virtual tank's\n"
+      "reading, and of the paper's tank. no rates, start: by what the value at the same knots\n"
+      "rises without limits of effort rates, and from any efforts at the start; clear.: least\n"
+      "distance of bodies at knots beyond their margin, m; fastest joint: share of its speed "
+      "limit\n"
+      "at an instant.\n",
       plan_searches().front().name, Case().seed, budget, 100 * TankOptions().margin,
       100 * kFollowedShare);
   for (const MotionTable& table : kMotionTables) {
