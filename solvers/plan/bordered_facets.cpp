@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/plan/by_facets.h"
+
 namespace maxwrench {
 namespace {
 
@@ -16,14 +18,7 @@ constexpr int kRowsAtOnce = 32;  // the tableau grows by so many rows, the last 
 }  // namespace
 
 bool BorderedFacets::suits(const PlanProgram& program) {
-  const auto single = [](const WrenchProgram& at) {
-    return at.columns() == 1 && at.c_w[0] > 0 && at.w_min[0] == -kInfinity &&
-           at.w_max[0] == kInfinity;
-  };
-  const Zonotope& set = *program.instants.front().actuation;
-  return program.peak < 0 && program.border() > 0 && program.border() <= kMostColumns &&
-         set.has_facets && program.first_min == set.u_min && program.first_max == set.u_max &&
-         std::all_of(program.instants.begin(), program.instants.end(), single);
+  return program.border() > 0 && program.border() <= kMostColumns && bounded_by_facets(program);
 }
 
 bool BorderedFacets::solve(const PlanProgram& program, PlanSolution& solution) {

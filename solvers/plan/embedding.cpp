@@ -151,9 +151,9 @@ bool Embedding::settled(const PlanProgram& program, double tolerance, PlanSoluti
   if (!std::isfinite(mu_)) return false;
   const double size = tau_ + std::abs(primal_value_);
   if (std::abs(dual_value_ - primal_value_) <= tolerance * size && kappa_ < tau_) {
-    forms_.read_primal(program, X_, tau_, solution);
+    reader_.read_primal(program, forms_, X_, tau_, solution);
     kept_G_ = high_.y - low_.y;
-    forms_.read_dual(program, kept_G_, tau_, false, solution);
+    reader_.read_dual(program, forms_, kept_G_, tau_, false, solution);
     solution.residual = recheck(program, solution);
     if (solution.residual.within(tolerance * (1 + std::abs(solution.value) + solution.price))) {
       solution.conclude(Status::kOptimal);
@@ -162,7 +162,7 @@ bool Embedding::settled(const PlanProgram& program, double tolerance, PlanSoluti
   }
   if (dual_value_ < 0 && kappa_ > tau_) {
     kept_G_ = high_.y - low_.y;
-    forms_.read_dual(program, kept_G_, -dual_value_, true, solution);
+    reader_.read_dual(program, forms_, kept_G_, -dual_value_, true, solution);
     if (proves_infeasible(program, solution)) {
       solution.conclude(Status::kInfeasible, "no efforts and wrenches balance all instants");
       return true;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solvers/plan/forms.h"
+#include "solvers/plan/forms_reader.h"
 #include "solvers/plan/normal_matrix.h"
 #include "solvers/plan/side.h"
 
@@ -49,6 +49,7 @@ class Embedding {
   const Eigen::MatrixXd& G_low() const { return split() ? G_low_ : G_; }
 
   Forms forms_;
+  FormsReader reader_;
   NormalMatrix matrix_;
   Side low_{-1}, high_{1};
   /// Columns: of tau, of the direction, of the residual of c tau. X: variables, sigma: slacks; G:

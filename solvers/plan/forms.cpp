@@ -12,27 +12,20 @@ namespace {
 /// An interval narrower than this, relative to 1 + its end, is an equation.
 constexpr double kWidth = 1e-11;
 
-/// Added to the products of the columns of J'W, which may be dependent, as a share of their trace.
-constexpr double kGram = 1e-13;
-/// Instants whose lambda is below this share of the largest take no part in a proof.
-constexpr double kPart = 1e-10;
-/// And entries below this are rounding.
-constexpr double kRest = 1e-12;
+}  // namespace
 
-bool limited(const WrenchProgram& at, int j) {
+bool has_limits(const WrenchProgram& at, int j) {
   return at.w_min[j] > -kInfiniteBound || at.w_max[j] < kInfiniteBound;
 }
 
-}  // namespace
-
 void Forms::build(const PlanProgram& program, bool with_rates, bool with_slacks) {
   const Zonotope& set = *program.instants.front().actuation;
-  actuation_ = &set;
+  actuation = &set;
   if (B_.rows() != set.B.rows() || B_.cols() != set.B.cols() || B_ != set.B) {
     B_ = set.B;
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(set.B, Eigen::ComputeFullU | Eigen::ComputeFullV);
     Z_ = svd.matrixV().rightCols(set.actuators() - set.rank);
-    P_ = svd.matrixU().rightCols(set.dimension() - set.rank);
+    P = svd.matrixU().rightCols(set.dimension() - set.rank);
   }
   R = &program.R;
   shape(program, with_rates, with_slacks);
@@ -40,8 +33,8 @@ void Forms::build(const PlanProgram& program, bool with_rates, bool with_slacks)
 }
 
 void Forms::shape(const PlanProgram& program, bool with_rates, bool with_slacks) {
-  const int m = actuation_->actuators();
-  const int n = actuation_->dimension();
+  const int m = actuation->actuators();
+  const int n = actuation->dimension();
   N = program.size();
   t = program.peak < 0 ? 1 : 0;
   p = program.border();
@@ -54,10 +47,10 @@ void Forms::shape(const PlanProgram& program, bool with_rates, bool with_slacks)
     next.elastic = with_slacks && program.elastic() && i >= program.first_elastic;
     next.w0 = m;
     next.w_count = 0;
-    for (int j = 0; j < k; ++j) next.w_count += limited(at, j);
+    for (int j = 0; j < k; ++j) next.w_count += has_limits(at, j);
     next.w = next.elastic ? n : 0;
     next.d = next.w + k + static_cast<int>(Z_.cols());
-    next.count = m + next.w_count + next.w + static_cast<int>(P_.cols()) + t;
+    next.count = m + next.w_count + next.w + static_cast<int>(P.cols()) + t;
     stages[i] = next;
     next.x0 += next.d;
     next.f0 += next.count;
@@ -76,7 +69,7 @@ void Forms::shape(const PlanProgram& program, bool with_rates, bool with_slacks)
 
 /// Those with rates first.
 void Forms::order_actuators(const PlanProgram& program, bool with_rates) {
-  const int m = actuation_->actuators();
+  const int m = actuation->actuators();
   order.clear();
   const auto has_rate = [&](int j) {
     for (int i = 0; with_rates && i + 1 < N; ++i) {
@@ -93,10 +86,10 @@ void Forms::order_actuators(const PlanProgram& program, bool with_rates) {
       order.push_back(j);
     }
   }
-  B_pinv_.resize(m, actuation_->dimension());
+  B_pinv_.resize(m, actuation->dimension());
   Z_ordered_.resize(m, Z_.cols());
   for (int r = 0; r < m; ++r) {
-    B_pinv_.row(r) = actuation_->B_pinv.row(order[r]);
+    B_pinv_.row(r) = actuation->B_pinv.row(order[r]);
     Z_ordered_.row(r) = Z_.row(order[r]);
   }
 }
@@ -104,7 +97,7 @@ void Forms::order_actuators(const PlanProgram& program, bool with_rates) {
 void Forms::fill(const PlanProgram& program) {
   slacks.clear();
   equations.clear();
-  offsets_.setZero(actuation_->actuators(), N);
+  offsets.setZero(actuation->actuators(), N);
   for (int i = 0; i < N; ++i) fill_stage(program, i);
   fill_rates(program);
   if (p > 0) fill_border(program);
@@ -133,7 +126,7 @@ void Forms::fill_stage(const PlanProgram& program, int i) {
   const WrenchProgram& data = program.instants[i];
   Eigen::Map<Eigen::MatrixXd> F_i(F.data() + at.F0, at.count, at.d);
   fill_efforts(program, i);
-  if (P_.cols() > 0) fill_unreached(program, i);
+  if (P.cols() > 0) fill_unreached(program, i);
   for (int r = 0; r < at.w; ++r) {
     const int form = at.w0 + at.w_count + r;
     F_i(form, r) = 1;
@@ -142,13 +135,13 @@ void Forms::fill_stage(const PlanProgram& program, int i) {
   }
   for (std::size_t r = 0; r < order.size(); ++r) {
     const int j = order[r];
-    const Eigen::VectorXd& low = i == 0 ? program.first_min : actuation_->u_min;
-    const Eigen::VectorXd& high = i == 0 ? program.first_max : actuation_->u_max;
-    limit(at.f0 + static_cast<int>(r), low[j], high[j], offsets_(j, i));
+    const Eigen::VectorXd& low = i == 0 ? program.first_min : actuation->u_min;
+    const Eigen::VectorXd& high = i == 0 ? program.first_max : actuation->u_max;
+    limit(at.f0 + static_cast<int>(r), low[j], high[j], offsets(j, i));
   }
   int row = at.w0;
   for (int j = 0; j < data.columns(); ++j) {
-    if (!limited(data, j)) continue;
+    if (!has_limits(data, j)) continue;
     F_i(row, at.w + j) = 1;
     limit(at.f0 + row++, data.w_min[j], data.w_max[j], 0);
   }
@@ -162,8 +155,8 @@ void Forms::fill_efforts(const PlanProgram& program, int i) {
   const Stage& at = stages[i];
   const WrenchProgram& data = program.instants[i];
   Eigen::Map<Eigen::MatrixXd> F_i(F.data() + at.F0, at.count, at.d);
-  const int m = actuation_->actuators();
-  offsets_.col(i).noalias() = actuation_->B_pinv * data.tau_d;
+  const int m = actuation->actuators();
+  offsets.col(i).noalias() = actuation->B_pinv * data.tau_d;
   F_i.topLeftCorner(m, at.w) = -B_pinv_.leftCols(at.w);
   F_i.block(0, at.w, m, data.columns()).noalias() = B_pinv_.lazyProduct(data.JtW);
   F_i.topRightCorner(m, Z_.cols()) = Z_ordered_;
@@ -176,8 +169,8 @@ void Forms::fill_unreached(const PlanProgram& program, int i) {
   const WrenchProgram& data = program.instants[i];
   Eigen::Map<Eigen::MatrixXd> F_i(F.data() + at.F0, at.count, at.d);
   const int first = at.w0 + at.w_count + at.w;
-  for (int q = 0; q < P_.cols(); ++q) {
-    const auto row = P_.col(q).transpose();
+  for (int q = 0; q < P.cols(); ++q) {
+    const auto row = P.col(q).transpose();
     F_i.row(first + q).head(at.w) = -row.head(at.w);
     F_i.row(first + q).segment(at.w, data.columns()).noalias() = row.lazyProduct(data.JtW);
     if (p > 0) D.row(at.f0 + first + q).noalias() = -row.lazyProduct(program.G[i]);
@@ -191,7 +184,7 @@ void Forms::fill_rates(const PlanProgram& program) {
     for (int r = 0; r < rated; ++r) {
       const int j = order[r];
       const double most = program.du_max(j, i);
-      limit(rates0 + rated * i + r, -most, most, offsets_(j, i + 1) - offsets_(j, i));
+      limit(rates0 + rated * i + r, -most, most, offsets(j, i + 1) - offsets(j, i));
     }
     D.middleRows(rates0 + rated * i, rated) =
         D.middleRows(stages[i + 1].f0, rated) - D.middleRows(stages[i].f0, rated);
@@ -262,111 +255,11 @@ bool Forms::keeps_rates(const PlanProgram& program, const Eigen::VectorXd& phi, 
     for (int r = 0; r < m; ++r) {
       const int j = order[r];
       const double change = phi[to + r] - phi[from + r];
-      const double constant = offsets_(j, i + 1) - offsets_(j, i);
+      const double constant = offsets(j, i + 1) - offsets(j, i);
       if (!(std::abs(change + tau * constant) <= tau * program.du_max(j, i))) return false;
     }
   }
   return true;
-}
-
-void Forms::read_primal(const PlanProgram& program, const Eigen::VectorXd& X, double tau,
-                        PlanSolution& solution) const {
-  const int m = actuation_->actuators();
-  const int n = actuation_->dimension();
-  solution.u.resize(m, N);
-  solution.s.setZero(n, N);
-  solution.w.resize(N);
-  solution.y = X.tail(p) / tau;
-  solution.price = 0;
-  solution.value = kInfinity;
-  for (int i = 0; i < N; ++i) {
-    const Stage& at = stages[i];
-    const WrenchProgram& data = program.instants[i];
-    const int k = data.columns();
-    solution.w[i] = X.segment(at.x0 + at.w, k) / tau;
-    for (int r = 0; r < m; ++r) {
-      double u = F_of(at).row(r).dot(X.segment(at.x0, at.d)) / tau;
-      if (p > 0) u += D.row(at.f0 + r).dot(solution.y);
-      solution.u(order[r], i) = u + offsets_(order[r], i);
-    }
-    if (i == program.peak || t > 0) {
-      solution.value = std::min(solution.value, data.c_w.dot(solution.w[i]));
-    }
-    if (!at.elastic) continue;
-    auto s = solution.s.col(i);
-    s = data.tau_d;
-    s.noalias() += data.JtW.lazyProduct(solution.w[i]);
-    s.noalias() -= actuation_->B.lazyProduct(solution.u.col(i));
-    if (p > 0) s.noalias() -= program.G[i] * solution.y;
-    solution.price += program.rho * s.lpNorm<1>();
-  }
-}
-
-void Forms::read_dual(const PlanProgram& program, const Eigen::VectorXd& multipliers, double tau,
-                      bool proof, PlanSolution& solution) {
-  const int m = actuation_->actuators();
-  solution.lambda.setZero(actuation_->dimension(), N);
-  solution.mu.setZero(m, N - 1);
-  solution.pi.setZero(N);
-  solution.nu = multipliers.tail(program.R.rows()) / tau;
-  for (int i = 0; i + 1 < N; ++i) {
-    for (int r = 0; r < rated; ++r) {
-      solution.mu(order[r], i) = multipliers[rates0 + rated * i + r] / tau;
-    }
-  }
-  // Those of t add up to nothing in a proof.
-  for (int i = 0; t > 0 && !proof && i < N; ++i) {
-    solution.pi[i] = -multipliers[stages[i].f0 + stages[i].count - 1];
-  }
-  if (t > 0 && !proof) solution.pi /= solution.pi.sum();
-  if (t == 0 && !proof) solution.pi[program.peak] = 1;
-  for (int i = 0; i < N; ++i) {
-    const Stage& at = stages[i];
-    if (at.elastic && proof) continue;
-    auto lambda = solution.lambda.col(i);
-    for (int r = 0; r < m; ++r) {
-      const int j = order[r];
-      double g = multipliers[at.f0 + r] / tau;
-      if (i > 0) g += solution.mu(j, i - 1);
-      if (i + 1 < N) g -= solution.mu(j, i);
-      lambda -= actuation_->B_pinv.row(j).transpose() * g;
-    }
-    const int first = at.f0 + at.w0 + at.w_count + at.w;
-    for (int q = 0; q < P_.cols(); ++q) lambda -= P_.col(q) * (multipliers[first + q] / tau);
-    level(program, multipliers, tau, i, solution);
-  }
-  if (!proof) return;
-  const double largest = solution.lambda.lpNorm<Eigen::Infinity>();
-  for (int i = 0; i < N; ++i) {
-    auto lambda = solution.lambda.col(i);
-    lambda *= lambda.lpNorm<Eigen::Infinity>() < kPart * largest ? 0 : -1;
-    for (double& entry : lambda) {
-      if (std::abs(entry) < kRest * largest) entry = 0;
-    }
-  }
-}
-
-/// lambda -= J'W (W'J J'W)^-1 (pi c_w + W'J lambda - multipliers of w).
-void Forms::level(const PlanProgram& program, const Eigen::VectorXd& multipliers, double tau, int i,
-                  PlanSolution& solution) {
-  const WrenchProgram& data = program.instants[i];
-  auto lambda = solution.lambda.col(i);
-  gram_.resize(data.columns(), data.columns());
-  gram_.noalias() = data.JtW.transpose().lazyProduct(data.JtW);
-  gram_.diagonal().array() += kGram * gram_.trace();
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factors(gram_);
-  if (factors.info() != Eigen::Success) return;
-  // Once more for what was added.
-  for (int pass = 0; pass < 2; ++pass) {
-    slope_ = solution.pi[i] * data.c_w;
-    slope_.noalias() += data.JtW.transpose().lazyProduct(lambda);
-    int form = stages[i].f0 + stages[i].w0;
-    for (int j = 0; j < data.columns(); ++j) {
-      if (limited(data, j)) slope_[j] -= multipliers[form++] / tau;
-    }
-    factors.solveInPlace(slope_);
-    lambda.noalias() -= data.JtW.lazyProduct(slope_);
-  }
 }
 
 }  // namespace maxwrench

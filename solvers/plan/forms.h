@@ -7,6 +7,9 @@
 
 namespace maxwrench {
 
+/// Whether w_j has a limit.
+bool has_limits(const WrenchProgram& at, int j);
+
 /// A plan program as linear forms of free variables, between limits:
 ///
 ///     max c'X   subject to   lo <= phi(X) <= hi,
@@ -51,6 +54,9 @@ struct Forms {
   std::vector<int> slacks, equations;  ///< forms of these kinds
   std::vector<int> order;              ///< actuators, rated ones first
   const Eigen::SparseMatrix<double>* R = nullptr;  ///< the program's
+  const Zonotope* actuation = nullptr;             ///< the program's
+  Eigen::MatrixXd P;        ///< n×(n - rank), a basis of what B does not reach
+  Eigen::MatrixXd offsets;  ///< B^+ tau_d, m×N
 
   Eigen::Map<const Eigen::MatrixXd> F_of(const Stage& at) const {
     return {F.data() + at.F0, at.count, at.d};
@@ -64,14 +70,6 @@ struct Forms {
 
   /// Whether the efforts at X (phi = phi(X)) keep the rates.
   bool keeps_rates(const PlanProgram& program, const Eigen::VectorXd& phi, double tau) const;
-  /// u, w, s, y, value and price.
-  void read_primal(const PlanProgram& program, const Eigen::VectorXd& X, double tau,
-                   PlanSolution& solution) const;
-  /// lambda, mu, pi and nu from the forms' multipliers (positive at hi), divided by tau; with
-  /// `proof` as in a proof of infeasibility. What rounding would leave on w, which may have no
-  /// limits to pay for it, is taken from lambda.
-  void read_dual(const PlanProgram& program, const Eigen::VectorXd& multipliers, double tau,
-                 bool proof, PlanSolution& solution);
 
  private:
   void shape(const PlanProgram& program, bool with_rates, bool with_slacks);
@@ -82,17 +80,11 @@ struct Forms {
   void fill_unreached(const PlanProgram& program, int i);
   void fill_rates(const PlanProgram& program);
   void fill_border(const PlanProgram& program);
-  void level(const PlanProgram& program, const Eigen::VectorXd& multipliers, double tau, int i,
-             PlanSolution& solution);
   void limit(int form, double low, double high, double offset);
 
-  const Zonotope* actuation_ = nullptr;
-  Eigen::MatrixXd B_;                   ///< of which Z_ and P_ are
-  Eigen::MatrixXd Z_, P_;               ///< m×(m - rank), n×(n - rank)
+  Eigen::MatrixXd B_;                   ///< of which Z_ and P are
+  Eigen::MatrixXd Z_;                   ///< m×(m - rank)
   Eigen::MatrixXd B_pinv_, Z_ordered_;  ///< with rows in the order of the forms
-  Eigen::MatrixXd offsets_;             ///< B^+ tau_d, m×N
-  Eigen::MatrixXd gram_;
-  Eigen::VectorXd slope_;
 };
 
 }  // namespace maxwrench

@@ -1,6 +1,6 @@
-#include <algorithm>
 #include <cmath>
 
+#include "solvers/plan/by_facets.h"
 #include "solvers/plan/even_efforts.h"
 #include "solvers/plan/makers.h"
 #include "solvers/wrench/makers.h"
@@ -20,17 +20,10 @@ class Structured : public PlanSolver {
   }
 
  private:
-  /// Max-min over one free column of W, with facets, and no other limits at the first instant. Of
-  /// an elastic program the hard one is tried.
+  /// Of an elastic program the hard one is tried.
   bool suits(const PlanProgram& program) {
-    const Zonotope& set = *program.instants.front().actuation;
-    if (program.peak >= 0 || program.border() > 0 || !set.has_facets) return false;
-    if (program.first_min != set.u_min || program.first_max != set.u_max) return false;
-    for (const WrenchProgram& at : program.instants) {
-      if (at.columns() != 1 || !(at.c_w[0] > 0)) return false;
-      if (at.w_min[0] != -kInfinity || at.w_max[0] != kInfinity) return false;
-    }
-    return efforts_.prepare(set);
+    return program.border() == 0 && bounded_by_facets(program) &&
+           efforts_.prepare(*program.instants.front().actuation);
   }
 
   /// True if the worst instant alone decides and `recheck` or a proof confirms it.

@@ -155,27 +155,21 @@ class JointNlpSearch : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {
     check(options);
-    if (objective.plans() == nullptr) {
-      throw std::invalid_argument(
-          "search: got joint_nlp, which serves linf_polytope without a second contact or joints "
-          "that follow, expected another one");
-    }
+    require_plans(objective, "joint_nlp");
     EvaluationCounter progress(options.progress);
     Part found;
     const std::vector<Candidate> starts = find_knot_starts(objective, options, progress, found);
     for (std::size_t i = 0; i < std::min(starts.size(), kJointStarts); ++i) {
       const auto later = static_cast<long>(std::min(starts.size(), kJointStarts) - i);
       const long before = found.trace.evaluations(), left = options.budget - before;
-      if (left < kFewest || objective.ended()) break;
-      climb(objective, starts[i], before + std::max(kFewest, left / later), found);
+      if (left < kFewestOfClimb || objective.ended()) break;
+      climb(objective, starts[i], before + std::max(kFewestOfClimb, left / later), found);
       progress.add(found.trace.evaluations() - before);
     }
     return make_result(found);
   }
 
  private:
-  static constexpr long kFewest = 6;  // evaluations that are worth a climb
-
   static void climb(Objective& objective, const Candidate& start, long until, Part& found) {
     const double value = evaluate_one(objective, start.theta_r);
     found.trace.add(value);

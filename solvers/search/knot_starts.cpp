@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "lib/math/decompositions.h"
 #include "lib/math/random.h"
@@ -163,6 +165,13 @@ std::vector<Candidate> climb_alike(const Objective& objective, const SearchOptio
 }
 
 }  // namespace
+
+void require_plans(Objective& objective, const char* search) {
+  if (objective.plans() != nullptr) return;
+  throw std::invalid_argument(std::string("search: got ") + search +
+                              ", which serves linf_polytope without a second contact or joints "
+                              "that follow, expected another one");
+}
 
 std::vector<Candidate> draw_knot_starts(Objective& objective, const SearchOptions& options,
                                         EvaluationCounter& progress, Part& found) {

@@ -7,6 +7,12 @@
 
 namespace maxwrench {
 
+/// A climb of fewer evaluations is not worth its start.
+inline constexpr long kFewestOfClimb = 6;
+
+/// Throws std::invalid_argument, which names the search, unless the objective has plans.
+void require_plans(Objective& objective, const char* search);
+
 /// The search's start and tables drawn around it that keep the rows of the limits, an offset for
 /// all knots alike; or, as such a one leaves the start of a heave at once, one for each knot. Those
 /// that have a value, best first in rounds, each of which takes those that are apart from the ones

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <stdexcept>
 
 #include "maxwrench/plan.h"
 #include "solvers/search/knot_climber.h"
@@ -13,7 +12,6 @@ namespace maxwrench {
 namespace {
 
 constexpr std::size_t kBatch = 8;  // climbs that compete
-constexpr long kFewest = 6;        // evaluations of a climb that are worth a batch
 constexpr int kIdleBatches = 2;    // batches without a better plan before the search ends
 constexpr double kBetter = 1e-5;   // relative to 1 + |f|
 /// How far a plan that is worth nothing keeps away from one that is worth something.
@@ -116,11 +114,7 @@ class Slp : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {
     check(options);
-    if (objective.plans() == nullptr) {
-      throw std::invalid_argument(
-          "search: got slp, which serves linf_polytope without a second contact or joints that "
-          "follow, expected another one");
-    }
+    require_plans(objective, "slp");
     EvaluationCounter progress(options.progress);
     SlpOutcome best;
     std::vector<Candidate> starts = find_knot_starts(objective, options, progress, best.found);
@@ -133,7 +127,7 @@ class Slp : public Search {
     while (!starts.empty() && idle < kIdleBatches && !objective.ended()) {
       const auto batch = static_cast<std::ptrdiff_t>(std::min(kBatch, starts.size()));
       const long left = options.budget - best.found.trace.evaluations();
-      if (left < (kJudged + kFewest) * batch) break;
+      if (left < (kJudged + kFewestOfClimb) * batch) break;
       SlpOutcome climbs = compete(objective, {starts.begin(), starts.begin() + batch}, left,
                                   options.threads, best, progress);
       starts.erase(starts.begin(), starts.begin() + batch);
