@@ -28,7 +28,6 @@ constexpr int kTau = 0, kStep = 1, kDual = 2;
 Embedding::End Embedding::run(const PlanProgram& program, bool rates, bool slacks, double tolerance,
                               PlanSolution& solution) {
   forms_.build(program, rates, slacks);
-  matrix_.reserve(forms_);
   start(program);
   int stuck = 0;
   double step = 0;
@@ -52,13 +51,7 @@ Embedding::End Embedding::run(const PlanProgram& program, bool rates, bool slack
 void Embedding::start(const PlanProgram& program) {
   const int size = forms_.size;
   const auto slacks = static_cast<Eigen::Index>(forms_.slacks.size());
-  G_.resize(size, 3);
-  if (split()) G_low_.resize(size, 2);
-  D_X_.resize(forms_.variables, 3);
-  D_sigma_.resize(slacks, 2);
-  weight_.resize(size);
-  s_phi_.resize(slacks);
-  s_diagonal_.resize(slacks);
+  D_.reserve(forms_, 3);
   rho_ = split() ? program.rho : 0;
   count_ = forms_.has_lo.sum() + forms_.has_hi.sum();
   const double mu = 30.0 / forms_.N;
@@ -86,8 +79,8 @@ void Embedding::start(const PlanProgram& program) {
 /// Takes the step; residuals of the embedding and right-hand sides at the point where it ends.
 void Embedding::measure(double step) {
   if (step > 0) {
-    X_ += step * (D_X_.col(kStep) + d_tau_ * D_X_.col(kTau));
-    sigma_ += step * (D_sigma_.col(kStep) + d_tau_ * D_sigma_.col(kTau));
+    X_ += step * (D_.X.col(kStep) + d_tau_ * D_.X.col(kTau));
+    sigma_ += step * (D_.sigma.col(kStep) + d_tau_ * D_.sigma.col(kTau));
     tau_ += step * d_tau_;
     kappa_ += step * d_kappa_;
   }
@@ -104,20 +97,21 @@ void Embedding::measure(double step) {
     complementarity -= each.centre.segment(a, n).sum();
   };
   for_chunks(forms_.size, [&](Eigen::Index a, Eigen::Index n) {
-    side(high_, phi_, G_, true, a, n);
-    side(low_, split() ? phi_low_ : phi_, G_low(), split(), a, n);
+    side(high_, phi_, D_.G, true, a, n);
+    side(low_, split() ? phi_low_ : phi_, D_.low(), split(), a, n);
     const auto theta_h = high_.theta.segment(a, n), theta_l = low_.theta.segment(a, n);
     const auto y_h = high_.y.segment(a, n), y_l = low_.y.segment(a, n);
-    weight_.segment(a, n) = theta_h + theta_l;
-    G_.col(kTau).segment(a, n) = theta_h.cwiseProduct(forms_.hi.segment(a, n)) +
-                                 theta_l.cwiseProduct(forms_.lo.segment(a, n));
-    G_.col(kDual).segment(a, n) = y_l - y_h;
-    G_.col(kStep).segment(a, n) = y_h - y_l + theta_h.cwiseProduct(high_.residual.segment(a, n)) -
-                                  theta_l.cwiseProduct(low_.residual.segment(a, n));
+    D_.weight.segment(a, n) = theta_h + theta_l;
+    D_.G.col(kTau).segment(a, n) = theta_h.cwiseProduct(forms_.hi.segment(a, n)) +
+                                   theta_l.cwiseProduct(forms_.lo.segment(a, n));
+    D_.G.col(kDual).segment(a, n) = y_l - y_h;
+    D_.G.col(kStep).segment(a, n) = y_h - y_l + theta_h.cwiseProduct(high_.residual.segment(a, n)) -
+                                    theta_l.cwiseProduct(low_.residual.segment(a, n));
   });
   for (const int f : forms_.equations) complementarity -= high_.y[f];
   measure_equations();
-  measure_slacks();
+  D_.eliminate(forms_, low_, high_);
+  D_.sigma.col(kTau).setConstant(-rho_);
   primal_value_ = forms_.cost.dot(X_) - rho_ * sigma_.sum();
   gap_residual_ = kappa_ + dual_value_ - primal_value_;
   mu_ = (complementarity + tau_ * kappa_) / (count_ + 1);
@@ -127,22 +121,10 @@ void Embedding::measure(double step) {
 void Embedding::measure_equations() {
   for (const int f : forms_.equations) {
     high_.residual[f] = forms_.hi[f] * tau_ - phi_[f];
-    high_.theta[f] = weight_[f] = kEquation;
+    high_.theta[f] = D_.weight[f] = kEquation;
     high_.centre[f] = 0;
-    G_(f, kTau) = kEquation * forms_.hi[f];
-    G_(f, kStep) = kEquation * high_.residual[f];
-  }
-}
-
-/// The columns of sigma are eliminated: what is left of a slack's weight.
-void Embedding::measure_slacks() {
-  for (std::size_t i = 0; i < forms_.slacks.size(); ++i) {
-    const int f = forms_.slacks[i];
-    const double h = high_.theta[f], l = low_.theta[f];
-    s_diagonal_[i] = h + l;
-    s_phi_[i] = l - h;
-    weight_[f] = 4 * h * l / (h + l);
-    D_sigma_(i, kTau) = -rho_;
+    D_.G(f, kTau) = kEquation * forms_.hi[f];
+    D_.G(f, kStep) = kEquation * high_.residual[f];
   }
 }
 
@@ -172,7 +154,7 @@ bool Embedding::settled(const PlanProgram& program, double tolerance, PlanSoluti
 }
 
 void Embedding::iterate() {
-  matrix_.factor(forms_, weight_, least_pivot_);
+  D_.factor(forms_, least_pivot_);
   predict();
   const double rest = 1 - std::min(1.0, reach());
   const double gamma = std::max(rest * rest * std::min(rest, 0.5), 1e-12);
@@ -189,41 +171,16 @@ void Embedding::predict() {
   for (std::size_t i = 0; i < forms_.slacks.size(); ++i) {
     const int f = forms_.slacks[i];
     const double sigma_residual = high_.y[f] + low_.y[f] - rho_ * tau_;
-    D_sigma_(i, kStep) = sigma_residual - high_.y[f] - low_.y[f] -
+    D_.sigma(i, kStep) = sigma_residual - high_.y[f] - low_.y[f] -
                          high_.theta[f] * high_.residual[f] - low_.theta[f] * low_.residual[f];
   }
-  D_X_.col(kTau) = forms_.cost;
-  D_X_.col(kDual) = tau_ * forms_.cost;
-  forms_.add_transposed(G_.col(kDual), D_X_.col(kDual));
-  D_X_.col(kStep) = D_X_.col(kDual);
-  solve_normal(kTau, 2);
+  D_.X.col(kTau) = forms_.cost;
+  D_.X.col(kDual) = tau_ * forms_.cost;
+  forms_.add_transposed(D_.G.col(kDual), D_.X.col(kDual));
+  D_.X.col(kStep) = D_.X.col(kDual);
+  D_.solve(forms_, kTau, 2);
   aim_tau();
   finish(1, -tau_ * kappa_);
-}
-
-/// H (X, sigma) = (X + phi's map of G, sigma) for `count` columns: X and G, sigma in place.
-void Embedding::solve_normal(int first, int count) {
-  for (int c = first; c < first + count; ++c) {
-    for (std::size_t i = 0; i < forms_.slacks.size(); ++i) {
-      G_(forms_.slacks[i], c) -= s_phi_[i] / s_diagonal_[i] * D_sigma_(i, c);
-    }
-  }
-  auto X = D_X_.middleCols(first, count);
-  auto G = G_.middleCols(first, count);
-  forms_.add_transposed(G, X);
-  matrix_.solve(forms_, X);
-  forms_.apply(X, G);
-  if (!split()) return;
-  G_low_.middleCols(first, count) = G;
-  for (int c = first; c < first + count; ++c) {
-    for (std::size_t i = 0; i < forms_.slacks.size(); ++i) {
-      const int f = forms_.slacks[i];
-      double& sigma = D_sigma_(i, c);
-      sigma = (sigma - s_phi_[i] * G_(f, c)) / s_diagonal_[i];
-      G_(f, c) -= sigma;
-      G_low_(f, c) += sigma;
-    }
-  }
 }
 
 /// What is left of the limits along the direction of tau: sums of squares, which do not cancel.
@@ -233,22 +190,22 @@ void Embedding::aim_tau() {
     tau_pivot_ += side.theta.segment(a, n).dot(side.drift(q, a, n).cwiseAbs2());
   };
   for_chunks(forms_.size, [&](Eigen::Index a, Eigen::Index n) {
-    add(high_, G_.col(kTau), a, n);
-    add(low_, G_low().col(kTau), a, n);
+    add(high_, D_.G.col(kTau), a, n);
+    add(low_, D_.low().col(kTau), a, n);
   });
 }
 
 /// The direction for the present centre and the share of the residuals that goes.
 void Embedding::direct(double share, double tau_centre) {
   push(share);
-  D_X_.col(kStep) = share * D_X_.col(kDual);
-  solve_normal(kStep, 1);
+  D_.X.col(kStep) = share * D_.X.col(kDual);
+  D_.solve(forms_, kStep, 1);
   finish(share, tau_centre);
 }
 
 void Embedding::push(double share) {
   for_chunks(forms_.size, [&](Eigen::Index a, Eigen::Index n) {
-    G_.col(kStep).segment(a, n) = low_.push(share, a, n) - high_.push(share, a, n);
+    D_.G.col(kStep).segment(a, n) = low_.push(share, a, n) - high_.push(share, a, n);
   });
   const auto push = [&](const Side& side, int f) {
     return side.centre[f] * side.inverse_s[f] - share * side.theta[f] * side.residual[f];
@@ -256,17 +213,17 @@ void Embedding::push(double share) {
   for (std::size_t i = 0; i < forms_.slacks.size(); ++i) {
     const int f = forms_.slacks[i];
     const double sigma_residual = high_.y[f] + low_.y[f] - rho_ * tau_;
-    D_sigma_(i, kStep) = share * sigma_residual + push(high_, f) + push(low_, f);
+    D_.sigma(i, kStep) = share * sigma_residual + push(high_, f) + push(low_, f);
   }
 }
 
 /// d tau, and with it the steps of all slacks and multipliers.
 void Embedding::finish(double share, double tau_centre) {
-  double right = share * (gap_residual_ + D_X_.col(kTau).dot(D_X_.col(kDual))) + tau_centre / tau_ -
-                 forms_.cost.dot(D_X_.col(kStep)) + rho_ * D_sigma_.col(kStep).sum();
+  double right = share * (gap_residual_ + D_.X.col(kTau).dot(D_.X.col(kDual))) + tau_centre / tau_ -
+                 forms_.cost.dot(D_.X.col(kStep)) + rho_ * D_.sigma.col(kStep).sum();
   for (std::size_t i = 0; i < forms_.slacks.size(); ++i) {
     const int f = forms_.slacks[i];
-    right += share * D_sigma_(i, kTau) * (high_.y[f] + low_.y[f] - rho_ * tau_);
+    right += share * D_.sigma(i, kTau) * (high_.y[f] + low_.y[f] - rho_ * tau_);
   }
   const auto pull = [&](const Side& side, const Eigen::MatrixXd& G, Eigen::Index a,
                         Eigen::Index n) {
@@ -275,17 +232,17 @@ void Embedding::finish(double share, double tau_centre) {
     right += side.drift(G.col(kTau), a, n).dot(side.push(share, a, n) + moved);
   };
   for_chunks(forms_.size, [&](Eigen::Index a, Eigen::Index n) {
-    pull(high_, G_, a, n);
-    pull(low_, G_low(), a, n);
+    pull(high_, D_.G, a, n);
+    pull(low_, D_.low(), a, n);
   });
   d_tau_ = right / tau_pivot_;
   d_kappa_ = (tau_centre - kappa_ * d_tau_) / tau_;
   for_chunks(forms_.size, [&](Eigen::Index a, Eigen::Index n) {
-    high_.finish(share, d_tau_, G_.col(kTau), G_.col(kStep), a, n);
-    low_.finish(share, d_tau_, G_low().col(kTau), G_low().col(kStep), a, n);
+    high_.finish(share, d_tau_, D_.G.col(kTau), D_.G.col(kStep), a, n);
+    low_.finish(share, d_tau_, D_.low().col(kTau), D_.low().col(kStep), a, n);
   });
   for (const int f : forms_.equations) {
-    high_.dy[f] = kEquation * (G_(f, kStep) + d_tau_ * (G_(f, kTau) - forms_.hi[f]) -
+    high_.dy[f] = kEquation * (D_.G(f, kStep) + d_tau_ * (D_.G(f, kTau) - forms_.hi[f]) -
                                share * high_.residual[f]);
   }
 }
@@ -324,30 +281,30 @@ void Embedding::centralise(double share, double tau_centre, double step) {
 
 /// Takes from the multipliers' steps what rounding of the normal equations left in A'dy.
 void Embedding::refine(double share) {
-  kept_X_ = D_X_.col(kStep);
-  kept_G_ = G_.col(kStep);
-  kept_sigma_ = D_sigma_.col(kStep);
-  if (split()) kept_low_ = G_low_.col(kStep);
-  D_X_.col(kStep) = share * D_X_.col(kDual) + d_tau_ * forms_.cost;
-  G_.col(kStep) = low_.dy - high_.dy;
-  forms_.add_transposed(G_.col(kStep), D_X_.col(kStep));
-  G_.col(kStep).setZero();
+  kept_X_ = D_.X.col(kStep);
+  kept_G_ = D_.G.col(kStep);
+  kept_sigma_ = D_.sigma.col(kStep);
+  if (split()) kept_low_ = D_.G_low.col(kStep);
+  D_.X.col(kStep) = share * D_.X.col(kDual) + d_tau_ * forms_.cost;
+  D_.G.col(kStep) = low_.dy - high_.dy;
+  forms_.add_transposed(D_.G.col(kStep), D_.X.col(kStep));
+  D_.G.col(kStep).setZero();
   for (std::size_t i = 0; i < forms_.slacks.size(); ++i) {
     const int f = forms_.slacks[i];
-    D_sigma_(i, kStep) =
+    D_.sigma(i, kStep) =
         share * (high_.y[f] + low_.y[f] - rho_ * tau_) - d_tau_ * rho_ + high_.dy[f] + low_.dy[f];
   }
-  solve_normal(kStep, 1);
+  D_.solve(forms_, kStep, 1);
   const auto add = [&](Side& side, const Eigen::MatrixXd& G) {
     side.ds -= side.sign * G.col(kStep).cwiseProduct(*side.has);
     side.dy += side.sign * side.theta.cwiseProduct(G.col(kStep));
   };
-  add(high_, G_);
-  add(low_, G_low());
-  D_X_.col(kStep) += kept_X_;
-  G_.col(kStep) += kept_G_;
-  D_sigma_.col(kStep) += kept_sigma_;
-  if (split()) G_low_.col(kStep) += kept_low_;
+  add(high_, D_.G);
+  add(low_, D_.low());
+  D_.X.col(kStep) += kept_X_;
+  D_.G.col(kStep) += kept_G_;
+  D_.sigma.col(kStep) += kept_sigma_;
+  if (split()) D_.G_low.col(kStep) += kept_low_;
 }
 
 /// The longest step up to 1,000 that keeps s, y, tau and kappa positive.

@@ -1,8 +1,7 @@
 #pragma once
 
+#include "solvers/plan/directions.h"
 #include "solvers/plan/forms_reader.h"
-#include "solvers/plan/normal_matrix.h"
-#include "solvers/plan/side.h"
 
 namespace maxwrench {
 
@@ -30,11 +29,9 @@ class Embedding {
   void start(const PlanProgram& program);
   void measure(double step);
   void measure_equations();
-  void measure_slacks();
   bool settled(const PlanProgram& program, double tolerance, PlanSolution& solution);
   void iterate();
   void predict();
-  void solve_normal(int first, int count);
   void aim_tau();
   void push(double share);
   void direct(double share, double tau_centre);
@@ -45,17 +42,12 @@ class Embedding {
   double reach() const;
 
   bool split() const { return !forms_.slacks.empty(); }
-  const Eigen::VectorXd& phi_low() const { return split() ? phi_low_ : phi_; }
-  const Eigen::MatrixXd& G_low() const { return split() ? G_low_ : G_; }
 
   Forms forms_;
   FormsReader reader_;
-  NormalMatrix matrix_;
   Side low_{-1}, high_{1};
-  /// Columns: of tau, of the direction, of the residual of c tau. X: variables, sigma: slacks; G:
-  /// forms, what is mapped to X, then phi of it (less and plus sigma for the two sides).
-  Eigen::MatrixXd D_X_, D_sigma_, G_, G_low_;
-  Eigen::VectorXd X_, sigma_, phi_, phi_low_, weight_, s_phi_, s_diagonal_, scale_;
+  Directions D_;  ///< columns: of tau, of the step, of the residual of c tau
+  Eigen::VectorXd X_, sigma_, phi_, phi_low_, scale_;
   Eigen::VectorXd kept_X_, kept_sigma_, kept_G_, kept_low_;
   double tau_ = 1, kappa_ = 1, d_tau_ = 0, d_kappa_ = 0, tau_pivot_ = 0;
   double least_pivot_ = 0;
