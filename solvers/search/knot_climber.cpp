@@ -103,11 +103,19 @@ double KnotClimber::worth(const Candidate& plan) {
   return std::isnan(continuous) ? -kInfinity : std::min(plan.value, continuous);
 }
 
+/// The radius, and what is left to the bounds: of a step that knots share to the nearest one.
+void KnotClimber::set_bounds() {
+  const Eigen::Index size = at_.theta_r.size();
+  const Eigen::Index moved = shared_.size() > 0 ? shared_.cols() : size;
+  const Eigen::MatrixXd low = (objective_->lower() - at_.theta_r).reshaped(moved, size / moved);
+  const Eigen::MatrixXd high = (objective_->upper() - at_.theta_r).reshaped(moved, size / moved);
+  program_->y_min = low.rowwise().maxCoeff().cwiseMax(-radius_);
+  program_->y_max = high.rowwise().minCoeff().cwiseMin(radius_);
+}
+
 /// Solves for a step; whether there is an answer.
 bool KnotClimber::solve() {
-  const Eigen::Index moved = shared_.size() > 0 ? shared_.cols() : at_.theta_r.size();
-  program_->y_min = (objective_->lower() - at_.theta_r).head(moved).cwiseMax(-radius_);
-  program_->y_max = (objective_->upper() - at_.theta_r).head(moved).cwiseMin(radius_);
+  set_bounds();
   set_rows();
   found_.trace.add(-kInfinity);
   solution_.price = 0;

@@ -49,6 +49,7 @@ class KnotClimber {
   PlanProgram* linearize();
   bool try_step();
   bool solve();
+  void set_bounds();
   void set_rows();
   Eigen::VectorXd inside(const Eigen::VectorXd& x) const;
   Eigen::VectorXd apart(Eigen::VectorXd x);

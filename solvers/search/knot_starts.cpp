@@ -25,7 +25,7 @@ constexpr double kHopeful = 0.8;  // a family is less than 1 - this of 1 + |best
 class Drawing {
  public:
   Drawing(const Objective& objective, const PlanEvaluator& plans, const Eigen::VectorXd& start)
-      : objective_(objective), rows_(plans.rows()), knots_(plans.knots()), start_(start) {
+      : objective_(objective), rows_(plans.rows()), start_(start) {
     std::vector<Eigen::Index> equations;
     for (Eigen::Index row = 0; row < rows_.r_min.size(); ++row) {
       if (rows_.r_min[row] == rows_.r_max[row]) equations.push_back(row);
@@ -33,23 +33,22 @@ class Drawing {
     const Eigen::MatrixXd R = rows_.R;
     equations_ = R(equations, Eigen::all);
     if (!equations.empty()) inverse_ = pseudo_inverse(equations_);
+    const Eigen::Index moved = alike() ? start.size() / plans.knots() : start.size();
+    const Eigen::Index times = start.size() / moved;
+    down_ = (objective.lower() - start).reshaped(moved, times).rowwise().maxCoeff();
+    up_ = (objective.upper() - start).reshaped(moved, times).rowwise().minCoeff();
   }
 
   /// Whether the knots of a table move alike.
   bool alike() const { return equations_.rows() == 0; }
 
   Eigen::VectorXd draw(Random random, bool near) const {
-    const Eigen::Index r = start_.size() / knots_;
-    Eigen::VectorXd offset(start_.size());
-    for (Eigen::Index i = 0; i < start_.size(); ++i) {
-      if (alike() && i >= r) {
-        offset[i] = offset[i - r];
-        continue;
-      }
-      const double down = objective_.lower()[i] - start_[i], up = objective_.upper()[i] - start_[i];
-      offset[i] =
-          near ? std::clamp(random.uniform(-kNear, kNear), down, up) : random.uniform(down, up);
+    Eigen::VectorXd offset(down_.size());
+    for (Eigen::Index i = 0; i < offset.size(); ++i) {
+      offset[i] = near ? std::clamp(random.uniform(-kNear, kNear), down_[i], up_[i])
+                       : random.uniform(down_[i], up_[i]);
     }
+    offset = offset.replicate(start_.size() / offset.size(), 1).eval();
     if (!alike()) offset -= inverse_ * (equations_ * offset);
     return (start_ + share(offset) * offset)
         .cwiseMax(objective_.lower())
@@ -71,9 +70,9 @@ class Drawing {
 
   const Objective& objective_;
   const KnotRows& rows_;
-  int knots_;
   const Eigen::VectorXd& start_;
   Eigen::MatrixXd equations_, inverse_;
+  Eigen::VectorXd down_, up_;  ///< of the offset, for all knots if they move alike
 };
 
 double distance(const Candidate& a, const Candidate& b) {

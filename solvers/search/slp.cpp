@@ -1,12 +1,8 @@
 #include <algorithm>
-#include <cmath>
-#include <iterator>
 
-#include "maxwrench/plan.h"
-#include "solvers/search/knot_climber.h"
 #include "solvers/search/knot_starts.h"
 #include "solvers/search/makers.h"
-#include "solvers/search/probe.h"
+#include "solvers/search/slp_outcome.h"
 
 namespace maxwrench {
 namespace {
@@ -14,50 +10,8 @@ namespace {
 constexpr std::size_t kBatch = 8;  // climbs that compete
 constexpr int kIdleBatches = 2;    // batches without a better plan before the search ends
 constexpr double kBetter = 1e-5;   // relative to 1 + |f|
-/// How far a plan that is worth nothing keeps away from one that is worth something.
-constexpr double kRetreats[] = {0.97, 0.9, 0.75, 0.5};
-/// Evaluations of one judgement.
-constexpr long kJudged =
-    KnotClimber::kJudgement + std::size(kRetreats) * (1 + KnotClimber::kJudgement);
 /// The climbs that go on, and the evaluations of each by then.
 constexpr std::pair<std::size_t, long> kClimbRounds[] = {{kBatch, 19}, {4, 33}, {2, 61}, {1, 400}};
-
-/// What was found, and what its best plan is worth, see `KnotClimber::worth`.
-struct SlpOutcome {
-  Part found;
-  double worth = -kInfinity;
-
-  /// Whether a plan is better, by more than `margin` relative to 1 + |what counts|; of two that are
-  /// worth nothing the one of higher value.
-  bool improves(double its_worth, double its_value, double margin) const {
-    const bool nothing = worth == -kInfinity && its_worth == -kInfinity;
-    const double mine = nothing ? found.best.value : worth;
-    const double other = nothing ? its_value : its_worth;
-    return mine == -kInfinity ? other > mine : other > mine + margin * (1 + std::abs(mine));
-  }
-};
-
-/// Makes the best plan of a climber the outcome's if it is worth more. One that is worth nothing
-/// goes back some of the way from the outcome's.
-void judge(KnotClimber& climber, EvaluationCounter& progress, SlpOutcome& outcome) {
-  const long before = climber.found().trace.evaluations();
-  Candidate plan = climber.found().best;
-  double worth = climber.worth(plan);
-  if (worth == -kInfinity && outcome.worth > -kInfinity) {
-    const Eigen::VectorXd base = outcome.found.best.theta_r, way = plan.theta_r - base;
-    for (const double share : kRetreats) {
-      const Candidate between = climber.look(base + share * way);
-      if (!(between.value > outcome.worth)) continue;
-      worth = climber.worth(between);
-      plan = between;
-      if (worth > outcome.worth) break;
-    }
-  }
-  progress.add(climber.found().trace.evaluations() - before);
-  if (!outcome.improves(worth, plan.value, 0)) return;
-  outcome.worth = worth;
-  outcome.found.best = plan;
-}
 
 /// Climbs that compete in rounds, side by side; all that they found, and the plan that is worth
 /// most or, if none is worth anything, the best.
