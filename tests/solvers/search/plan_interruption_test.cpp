@@ -4,35 +4,10 @@
 #include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
+#include "tests/support/objectives.h"
 
 namespace maxwrench {
 namespace {
-
-/// An objective that has no value any more after so many evaluations of all its clones together, as
-/// one that somebody interrupts.
-class Ending final : public Objective {
- public:
-  Ending(std::unique_ptr<Objective> objective, std::shared_ptr<long> left)
-      : objective_(std::move(objective)), left_(std::move(left)) {}
-
-  const Eigen::VectorXd& lower() const override { return objective_->lower(); }
-  const Eigen::VectorXd& upper() const override { return objective_->upper(); }
-  const Verdict& verdict() const override { return objective_->verdict(); }
-  bool ended() const override { return *left_ <= 0; }
-  PlanEvaluator* plans() override { return objective_->plans(); }
-  double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) override {
-    if (--*left_ >= 0) return objective_->evaluate(x, gradient);
-    if (gradient) gradient->setConstant(x.size(), std::numeric_limits<double>::quiet_NaN());
-    return -kInfinity;
-  }
-  std::unique_ptr<Objective> clone() const override {
-    return std::make_unique<Ending>(objective_->clone(), left_);
-  }
-
- private:
-  std::unique_ptr<Objective> objective_;
-  std::shared_ptr<long> left_;
-};
 
 TEST(PlanInterruption, EndsASearchSoonWithWhatItHas) {
   const Problem problem = load_problem("planar/trajectory");

@@ -1,0 +1,199 @@
+#include "solvers/search/knot_starts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <stdexcept>
+#include <string>
+
+#include "maxwrench/load.h"
+#include "maxwrench/problem.h"
+#include "maxwrench/strategies.h"
+#include "tests/support/objectives.h"
+
+namespace maxwrench {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+std::unique_ptr<Objective> plan_objective(const Problem& problem) {
+  return make_plan_objective(problem, Wrench::kPure, find_plan_solver("structured").make);
+}
+
+SearchOptions options_of(const Problem& problem, long budget, int threads = 2) {
+  SearchOptions options;
+  options.budget = budget;
+  options.threads = threads;
+  options.start = problem.theta_r_default.replicate(problem.motion->k, 1);
+  return options;
+}
+
+/// What was drawn, and what that took.
+struct Drawn {
+  using Draw = std::vector<Candidate>(Objective&, const SearchOptions&, EvaluationCounter&, Part&);
+  Drawn(Draw* draw, Objective& objective, const SearchOptions& options) {
+    EvaluationCounter progress([this](long count) { shown = std::max<long>(shown, count); });
+    starts = draw(objective, options, progress, found);
+  }
+  std::vector<Candidate> starts;
+  Part found;
+  std::atomic<long> shown = 0;
+};
+
+/// k×r: what each knot differs by from that of the start.
+MatrixXd offsets(const Candidate& start, const SearchOptions& options, int r) {
+  return unstacked(start.theta_r - options.start, r);
+}
+
+class KnotStartsOf : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Tasks, KnotStartsOf,
+                         testing::Values("planar/trajectory", "uvms/valve_trajectory",
+                                         "uvms/valve_impulse"));
+
+TEST_P(KnotStartsOf, AreTablesWithAValueWithinAllLimits) {
+  const Problem problem = load_problem(GetParam());
+  const auto objective = plan_objective(problem);
+  const SearchOptions options = options_of(problem, 300);
+  const Drawn drawn(draw_knot_starts, *objective, options);
+  // A tenth of the budget, the start among them.
+  EXPECT_EQ(drawn.found.trace.evaluations(), 30);
+  EXPECT_EQ(drawn.shown, 30);
+  ASSERT_GT(drawn.starts.size(), 5U);
+  EXPECT_LE(drawn.starts.size(), 30U);
+  EXPECT_TRUE(std::any_of(drawn.starts.begin(), drawn.starts.end(),
+                          [&](const Candidate& c) { return c.theta_r == options.start; }));
+  const KnotRows& rows = objective->plans()->rows();
+  double best = -kInfinity;
+  for (const Candidate& start : drawn.starts) {
+    EXPECT_NEAR(objective->evaluate(start.theta_r), start.value, 1e-9);
+    EXPECT_TRUE((start.theta_r.array() >= objective->lower().array()).all());
+    EXPECT_TRUE((start.theta_r.array() <= objective->upper().array()).all());
+    const VectorXd at = rows.R * start.theta_r;
+    EXPECT_LE((at - rows.r_max).maxCoeff(), 1e-9);
+    EXPECT_LE((rows.r_min - at).maxCoeff(), 1e-9);
+    best = std::max(best, start.value);
+  }
+  EXPECT_EQ(drawn.starts.front().value, best);
+  EXPECT_EQ(drawn.found.best.value, best);
+}
+
+/// Along a path all knots are moved alike. A heave, whose start a row binds to knot 0, would not
+/// leave it: its knots differ.
+TEST_P(KnotStartsOf, MoveAlikeWhereTheyMay) {
+  const Problem problem = load_problem(GetParam());
+  const auto objective = plan_objective(problem);
+  const SearchOptions options = options_of(problem, 300);
+  const Drawn drawn(draw_knot_starts, *objective, options);
+  bool differ = false;
+  for (const Candidate& start : drawn.starts) {
+    const MatrixXd moved = offsets(start, options, problem.redundancy());
+    differ = differ || (moved.rowwise() - moved.row(0)).norm() > 1e-9;
+  }
+  EXPECT_EQ(differ, problem.motion->impulse);
+}
+
+TEST_P(KnotStartsOf, AreTheSameAtAnyThreadCount) {
+  const Problem problem = load_problem(GetParam());
+  const auto objective = plan_objective(problem);
+  const Drawn one(find_knot_starts, *objective, options_of(problem, 300, 1));
+  const Drawn four(find_knot_starts, *objective, options_of(problem, 300, 4));
+  ASSERT_EQ(one.starts.size(), four.starts.size());
+  for (std::size_t i = 0; i < one.starts.size(); ++i) {
+    EXPECT_EQ(one.starts[i].theta_r, four.starts[i].theta_r);
+    EXPECT_EQ(one.starts[i].value, four.starts[i].value);
+  }
+  EXPECT_EQ(one.found.trace.evaluations(), four.found.trace.evaluations());
+  SearchOptions other = options_of(problem, 300);
+  other.seed = 2;
+  const Drawn elsewhere(find_knot_starts, *objective, other);
+  EXPECT_NE(one.starts.back().theta_r, elsewhere.starts.back().theta_r);
+}
+
+/// Before the tables that were drawn come the ends of climbs with all knots alike: they are no
+/// worse, of one posture, and no two of a family. Heaves have none.
+TEST_P(KnotStartsOf, BeginWithTheEndsOfClimbs) {
+  const Problem problem = load_problem(GetParam());
+  const auto objective = plan_objective(problem);
+  const SearchOptions options = options_of(problem, 600);
+  const Drawn drawn(draw_knot_starts, *objective, options);
+  const Drawn found(find_knot_starts, *objective, options);
+  EXPECT_LE(found.found.trace.evaluations(), 60 + 120);  // a tenth and a fifth of the budget
+  EXPECT_EQ(found.shown, found.found.trace.evaluations());
+  const std::size_t heads = found.starts.size() - drawn.starts.size();
+  EXPECT_EQ(heads == 0, problem.motion->impulse);
+  for (std::size_t i = 0; i < drawn.starts.size(); ++i) {
+    EXPECT_EQ(found.starts[heads + i].theta_r, drawn.starts[i].theta_r);
+  }
+  EXPECT_GE(found.found.best.value, drawn.found.best.value);
+  if (heads == 0) return;
+  EXPECT_GT(found.starts.front().value, drawn.starts.front().value);
+  for (std::size_t i = 0; i < heads; ++i) {
+    const MatrixXd moved = offsets(found.starts[i], options, problem.redundancy());
+    EXPECT_LT((moved.rowwise() - moved.row(0)).norm(), 1e-9);
+    EXPECT_NEAR(objective->evaluate(found.starts[i].theta_r), found.starts[i].value, 1e-9);
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_GE(found.starts[j].value, found.starts[i].value);
+      EXPECT_GT((found.starts[j].theta_r - found.starts[i].theta_r).norm(), 0.05);
+    }
+  }
+}
+
+/// A start whose knots differ, and one knot with narrow bounds: offsets are within the bounds of
+/// all knots, so that they are the same for all and the differences stay.
+TEST(KnotStarts, AlikeMeansWithinTheBoundsOfAllKnots) {
+  const Problem problem = load_problem("planar/trajectory");
+  const auto whole = plan_objective(problem);
+  const int r = problem.redundancy();
+  SearchOptions options = options_of(problem, 2000);
+  VectorXd lower = whole->lower(), upper = whole->upper();
+  upper.segment(3 * r, r).setConstant(0.1);
+  options.start.tail(r).array() -= 0.2;
+  OtherBounds objective(plan_objective(problem), lower, upper);
+  for (Drawn::Draw* draw : {draw_knot_starts, find_knot_starts}) {
+    const Drawn drawn(draw, objective, options);
+    ASSERT_GT(drawn.starts.size(), 20U);
+    for (const Candidate& start : drawn.starts) {
+      const MatrixXd moved = offsets(start, options, r);
+      EXPECT_LT((moved.rowwise() - moved.row(0)).norm(), 1e-7);
+      EXPECT_LE(moved.maxCoeff(), 0.1 + 1e-7);
+    }
+  }
+}
+
+TEST(KnotStarts, NoneWhereNothingHasAValue) {
+  const Problem problem = load_problem("planar/trajectory");
+  Ending objective(plan_objective(problem), std::make_shared<long>(0));
+  const Drawn drawn(find_knot_starts, objective, options_of(problem, 500));
+  EXPECT_TRUE(drawn.starts.empty());
+  EXPECT_EQ(drawn.found.best.value, -kInfinity);
+  EXPECT_EQ(drawn.found.trace.evaluations(), 50);
+}
+
+TEST(KnotStarts, OneEvaluationIsTheStart) {
+  const Problem problem = load_problem("planar/trajectory");
+  const auto objective = plan_objective(problem);
+  for (const long budget : {1, 19}) {
+    const Drawn drawn(find_knot_starts, *objective, options_of(problem, budget));
+    EXPECT_EQ(drawn.found.trace.evaluations(), 1);
+    EXPECT_EQ(drawn.found.best.theta_r, options_of(problem, budget).start);
+  }
+}
+
+TEST(KnotStarts, RequirePlans) {
+  const Problem problem = load_problem("planar/force");
+  const auto posture = make_capability_objective(problem, Wrench::kPure, [&] {
+    return find_measure("linf_polytope").make(problem, find_wrench_solver("facets").make());
+  });
+  try {
+    require_plans(*posture, "a_search");
+    FAIL() << "expected std::invalid_argument";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("got a_search,"), std::string::npos) << error.what();
+  }
+  EXPECT_NO_THROW(require_plans(*plan_objective(problem), "a_search"));
+}
+
+}  // namespace
+}  // namespace maxwrench
