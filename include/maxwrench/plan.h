@@ -120,6 +120,8 @@ class PlanEvaluator {
   int knots() const;  ///< k
   /// Whether the scheme is `spline`, which says what happens between the instants.
   bool smooth() const;
+  /// Whether knot 0 is given, from which the others set out.
+  bool starts() const;
 
  private:
   struct Workspace;

@@ -219,6 +219,7 @@ const PlanProgram& PlanEvaluator::program() const { return workspace_->program; 
 const KnotRows& PlanEvaluator::rows() const { return workspace_->rows; }
 int PlanEvaluator::knots() const { return workspace_->task.k; }
 bool PlanEvaluator::smooth() const { return workspace_->motion.maps().smooth(); }
+bool PlanEvaluator::starts() const { return workspace_->motion.maps().starts; }
 
 const Plan& PlanEvaluator::evaluate(const Eigen::MatrixXd& knots) {
   Workspace& ws = *workspace_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -19,13 +21,14 @@ constexpr double kFar = 0.8;      // rad or m, between starts of the same round
 constexpr double kSame = 0.1;     // rad or m: closer ones are of one family
 constexpr long kAlike = 48;       // climbs with all knots alike, at most,
 constexpr long kAlikeSteps = 30;  // of so many evaluations; a fifth of the budget, at most
+constexpr double kKicks[] = {0.05, 0.15, 0.4, 0.8};  // rad or m
 constexpr double kHopeful = 0.8;  // a family is less than 1 - this of 1 + |best| below the best
 
 /// Tables around the start that keep the rows of the limits.
 class Drawing {
  public:
   Drawing(const Objective& objective, const PlanEvaluator& plans, const Eigen::VectorXd& start)
-      : objective_(objective), rows_(plans.rows()), start_(start) {
+      : objective_(objective), rows_(plans.rows()), start_(start), alike_(!plans.starts()) {
     std::vector<Eigen::Index> equations;
     for (Eigen::Index row = 0; row < rows_.r_min.size(); ++row) {
       if (rows_.r_min[row] == rows_.r_max[row]) equations.push_back(row);
@@ -33,14 +36,11 @@ class Drawing {
     const Eigen::MatrixXd R = rows_.R;
     equations_ = R(equations, Eigen::all);
     if (!equations.empty()) inverse_ = pseudo_inverse(equations_);
-    const Eigen::Index moved = alike() ? start.size() / plans.knots() : start.size();
+    const Eigen::Index moved = alike_ ? start.size() / plans.knots() : start.size();
     const Eigen::Index times = start.size() / moved;
     down_ = (objective.lower() - start).reshaped(moved, times).rowwise().maxCoeff();
     up_ = (objective.upper() - start).reshaped(moved, times).rowwise().minCoeff();
   }
-
-  /// Whether the knots of a table move alike.
-  bool alike() const { return equations_.rows() == 0; }
 
   Eigen::VectorXd draw(Random random, bool near) const {
     Eigen::VectorXd offset(down_.size());
@@ -48,14 +48,27 @@ class Drawing {
       offset[i] = near ? std::clamp(random.uniform(-kNear, kNear), down_[i], up_[i])
                        : random.uniform(down_[i], up_[i]);
     }
-    offset = offset.replicate(start_.size() / offset.size(), 1).eval();
-    if (!alike()) offset -= inverse_ * (equations_ * offset);
+    return moved(offset.replicate(start_.size() / offset.size(), 1));
+  }
+
+  /// Each number of the table moved by `reach` at most, or those of a coordinate alike.
+  Eigen::VectorXd kick(Random random, double reach, bool alike) const {
+    const Eigen::Index drawn = alike ? down_.size() : start_.size();
+    const Eigen::VectorXd offset =
+        Eigen::VectorXd::NullaryExpr(drawn, [&] { return random.uniform(-reach, reach); });
+    return moved(offset.replicate(start_.size() / drawn, 1)
+                     .cwiseMax(objective_.lower() - start_)
+                     .cwiseMin(objective_.upper() - start_));
+  }
+
+ private:
+  Eigen::VectorXd moved(Eigen::VectorXd offset) const {
+    if (equations_.rows() > 0) offset -= inverse_ * (equations_ * offset);
     return (start_ + share(offset) * offset)
         .cwiseMax(objective_.lower())
         .cwiseMin(objective_.upper());
   }
 
- private:
   /// The share of a step from the start that the rows allow.
   double share(const Eigen::VectorXd& offset) const {
     const Eigen::VectorXd at = rows_.R * start_, moved = rows_.R * offset;
@@ -71,6 +84,7 @@ class Drawing {
   const Objective& objective_;
   const KnotRows& rows_;
   const Eigen::VectorXd& start_;
+  bool alike_;  ///< whether the knots of a table move alike
   Eigen::MatrixXd equations_, inverse_;
   Eigen::VectorXd down_, up_;  ///< of the offset, for all knots if they move alike
 };
@@ -113,27 +127,34 @@ std::vector<Candidate> families(std::vector<Candidate> starts, const Candidate& 
   return heads;
 }
 
-/// The start and the drawn tables that have a value.
-std::vector<Candidate> sample(const Objective& objective, const SearchOptions& options,
-                              const Drawing& drawing, const Eigen::VectorXd& start,
-                              EvaluationCounter& progress, Part& found) {
-  const long count = std::clamp(options.budget / 10, 1L, kSamples + 1);
-  const auto point = [&](long i) {
-    if (i == 0) return start;
-    const auto stream = static_cast<std::uint64_t>(i);
-    return drawing.draw(Random(options.seed, RandomUse::kSample, stream), i % kNearOf == 1);
-  };
+/// Those of `count` tables that have a value.
+std::vector<Candidate> with_value(const Objective& objective, const SearchOptions& options,
+                                  long count, const std::function<Eigen::VectorXd(long)>& table,
+                                  EvaluationCounter& progress, Part& found) {
   const std::vector<double> values =
-      evaluate_all(objective, count, point, options.threads, progress);
-  std::vector<Candidate> starts;
+      evaluate_all(objective, count, table, options.threads, progress);
+  std::vector<Candidate> valued;
   for (long i = 0; i < count; ++i) {
     const double value = values[static_cast<std::size_t>(i)];
     found.trace.add(value);
     if (value == -kInfinity) continue;
-    starts.push_back({point(i), value});
-    if (value > found.best.value) found.best = starts.back();
+    valued.push_back({table(i), value});
+    if (value > found.best.value) found.best = valued.back();
   }
-  return starts;
+  return valued;
+}
+
+/// The start and the drawn tables that have a value.
+std::vector<Candidate> sample(const Objective& objective, const SearchOptions& options,
+                              const Drawing& drawing, const Eigen::VectorXd& start,
+                              EvaluationCounter& progress, Part& found) {
+  const auto table = [&](long i) {
+    if (i == 0) return start;
+    const auto stream = static_cast<std::uint64_t>(i);
+    return drawing.draw(Random(options.seed, RandomUse::kSample, stream), i % kNearOf == 1);
+  };
+  const long count = std::clamp(options.budget / 10, 1L, kSamples + 1);
+  return with_value(objective, options, count, table, progress, found);
 }
 
 /// The ends of climbs with all knots alike.
@@ -179,12 +200,22 @@ std::vector<Candidate> draw_knot_starts(Objective& objective, const SearchOption
   return spread(sample(objective, options, drawing, start, progress, found));
 }
 
+std::vector<Candidate> kick_knots(Objective& objective, const SearchOptions& options,
+                                  const Candidate& best, long first, long count,
+                                  EvaluationCounter& progress, Part& found) {
+  const Drawing drawing(objective, *objective.plans(), best.theta_r);
+  const auto table = [&](long i) {
+    const auto number = static_cast<std::uint64_t>(first + i);
+    return drawing.kick(Random(options.seed, RandomUse::kKick, number),
+                        kKicks[number / 2 % std::size(kKicks)], number % 2 == 0);
+  };
+  return with_value(objective, options, count, table, progress, found);
+}
+
 std::vector<Candidate> find_knot_starts(Objective& objective, const SearchOptions& options,
                                         EvaluationCounter& progress, Part& found) {
   const std::vector<Candidate> starts = draw_knot_starts(objective, options, progress, found);
-  const KnotRows& rows = objective.plans()->rows();
-  const bool bound = (rows.r_min.array() == rows.r_max.array()).any();
-  if (starts.empty() || bound) return starts;
+  if (starts.empty() || objective.plans()->starts()) return starts;
   std::vector<Candidate> ordered =
       families(climb_alike(objective, options, starts, progress, found), found.best);
   ordered.insert(ordered.end(), starts.begin(), starts.end());

@@ -8,7 +8,7 @@ namespace maxwrench {
 namespace {
 
 constexpr std::size_t kBatch = 8;  // climbs that compete
-constexpr int kIdleBatches = 2;    // batches without a better plan before the search ends
+constexpr int kIdleBatches = 3;    // without a better plan before the search ends
 constexpr double kBetter = 1e-5;   // relative to 1 + |f|
 /// The climbs that go on, and the evaluations of each by then.
 constexpr std::pair<std::size_t, long> kClimbRounds[] = {{kBatch, 19}, {4, 33}, {2, 61}, {1, 400}};
@@ -62,7 +62,20 @@ SearchResult make_result(const SlpOutcome& outcome) {
   return result;
 }
 
-/// Sequential linear programming from many starts. Of the best start and the ends of all climbs it
+/// Starts near the best plan, batch number `round` of them.
+std::vector<Candidate> kick(Objective& objective, const SearchOptions& options, long round,
+                            SlpOutcome& best, EvaluationCounter& progress) {
+  const auto batch = static_cast<long>(kBatch);
+  const long left = options.budget - best.found.trace.evaluations();
+  Part found = {best.found.best, {}};
+  std::vector<Candidate> starts = kick_knots(objective, options, best.found.best, round * batch,
+                                             std::min(batch, left), progress, found);
+  best.found.trace.append(found.trace);
+  return starts;
+}
+
+/// Sequential linear programming from many starts until a batch brings nothing better, then from
+/// near the best plan until that brings nothing. Of the best start and the ends of all climbs it
 /// takes the plan that is worth most at its instants and between them.
 class Slp : public Search {
  public:
@@ -77,19 +90,21 @@ class Slp : public Search {
       judge(climber, progress, best);
       best.found.trace.append(climber.found().trace);
     }
-    int idle = 0;
-    while (!starts.empty() && idle < kIdleBatches && !objective.ended()) {
-      const auto batch = static_cast<std::ptrdiff_t>(std::min(kBatch, starts.size()));
+    long kicks = 0;  // batches
+    for (int idle = 0; idle < kIdleBatches && !starts.empty() && !objective.ended();) {
       const long left = options.budget - best.found.trace.evaluations();
-      if (left < (kJudged + kFewestOfClimb) * batch) break;
-      SlpOutcome climbs = compete(objective, {starts.begin(), starts.begin() + batch}, left,
+      const auto size = static_cast<std::ptrdiff_t>(std::min(kBatch, starts.size()));
+      if (left < (kJudged + kFewestOfClimb) * size) break;
+      SlpOutcome climbs = compete(objective, {starts.begin(), starts.begin() + size}, left,
                                   options.threads, best, progress);
-      starts.erase(starts.begin(), starts.begin() + batch);
-      const bool better = best.improves(climbs.worth, climbs.found.best.value, kBetter);
-      idle = better ? 0 : idle + 1;
+      starts.erase(starts.begin(), starts.begin() + size);
+      idle = best.improves(climbs.worth, climbs.found.best.value, kBetter) ? 0 : idle + 1;
       best.found.trace.append(climbs.found.trace);
       best.found.best = climbs.found.best;
       best.worth = climbs.worth;
+      if (kicks > 0 || idle > 0 || starts.empty()) {
+        starts = kick(objective, options, kicks++, best, progress);
+      }
     }
     return make_result(best);
   }
