@@ -51,6 +51,19 @@ const WrenchSolverEntry* choose_solver(const std::vector<const WrenchSolverEntry
       many ? " and too many facets" : "", fmt::join(names, " ")));
 }
 
+/// For a search of plans, which it asks, the solver of the same name; `facets` and `box` are
+/// `structured` there.
+const PlanSolverEntry* plan_solver_of(const Problem& problem, const Case& c) {
+  const auto named = [](const auto& table, const std::string& name) {
+    return std::find_if(table.begin(), table.end(),
+                        [&](const auto& entry) { return entry.name == name; });
+  };
+  if (named(plan_searches(), c.search) == plan_searches().end()) return nullptr;
+  if (!serves_as_plan(problem, c.measure)) return nullptr;
+  const auto same = named(plan_solvers(), c.lp);
+  return same == plan_solvers().end() ? &plan_solvers().front() : &*same;
+}
+
 /// Whether a force of the contact ends at a limit other than zero.
 bool limited(const Contact& contact) {
   const auto counts = [](double limit) { return limit != 0 && std::isfinite(limit); };
@@ -95,6 +108,10 @@ Wrench parse_wrench(const std::string& name) {
   throw std::invalid_argument(fmt::format("wrench: got '{}', expected pure or any", name));
 }
 
+bool serves_as_plan(const Problem& problem, const std::string& measure) {
+  return measure == Case().measure && problem.dependent.empty() && !problem.contact;
+}
+
 Method resolve(const Problem& problem, const Case& c) {
   if (!c.scheme.empty()) {
     throw std::invalid_argument(fmt::format("scheme: got '{}', expected none: {} is a static task",
@@ -104,7 +121,7 @@ Method resolve(const Problem& problem, const Case& c) {
   method.choice = c;
   const MeasureEntry& measure = find_measure(c.measure);
   method.measure = &measure;
-  if (!c.search.empty()) method.search = &find_search(c.search);
+  if (!c.search.empty()) method.search = &find_plan_search(c.search);
   if (c.budget < 1) {
     throw std::invalid_argument(fmt::format("budget: got {}, expected at least 1", c.budget));
   }
@@ -115,6 +132,7 @@ Method resolve(const Problem& problem, const Case& c) {
   }
   const WrenchSolverEntry* solver = choose_solver(served, problem, c);
   method.choice.lp = name_of(solver);
+  method.plan_solver = plan_solver_of(problem, method.choice);
   const bool closed_form = !measure.needs_solver && measure.serves_any;
   if (closed_form && problem.contact && limited(*problem.contact)) {
     throw std::invalid_argument("measure: got " + c.measure +
@@ -175,6 +193,11 @@ std::vector<Case> product(const Problem& problem, std::uint64_t seed, long budge
         const bool first = solver == served.front();
         const long share = std::max(1L, budget / (solver ? solver->cost : 1));
         for (const SearchEntry& search : searches().first(first ? searches().size() : 2)) {
+          cases.push_back(
+              {problem.name, measure.name, wrench, name_of(solver), search.name, seed, share});
+        }
+        if (!first || !serves_as_plan(problem, measure.name)) continue;
+        for (const SearchEntry& search : plan_searches()) {
           cases.push_back(
               {problem.name, measure.name, wrench, name_of(solver), search.name, seed, share});
         }

@@ -10,6 +10,7 @@
 namespace maxwrench {
 
 struct MeasureEntry;
+struct PlanSolverEntry;
 struct Problem;
 struct SearchEntry;
 
@@ -38,11 +39,18 @@ struct Method {
   Case choice;  ///< complete: nothing is left to defaults
   const MeasureEntry* measure = nullptr;
   const SearchEntry* search = nullptr;  ///< null: none
-  const char* unit = "";                ///< of beta
+  /// The search is one of plans and gets those of one knot, solved by this one; null: it gets
+  /// postures.
+  const PlanSolverEntry* plan_solver = nullptr;
+  const char* unit = "";  ///< of beta
   MeasureMaker make_measure;
   /// linf_polytope with the same wrenches by the reference solver, see `Row`.
   MeasureMaker make_yardstick;
 };
+
+/// Whether searches of plans serve a static task, which is a plan of one knot: by linf_polytope,
+/// without a second contact or joints that follow.
+bool serves_as_plan(const Problem& problem, const std::string& measure);
 
 /// Throws std::invalid_argument on a name that does not exist and on a choice without meaning, such
 /// as `facets` for several wrench columns or for actuators with too many facets, or a solver for a
@@ -60,8 +68,9 @@ std::vector<std::string> case_values(const Case& c);
 
 /// On a problem, in the order of the tables: every meaningful measure × wrench × lp with the first
 /// two searches (what a solver is worth does not depend on the search), and with the first lp that
-/// serves every search. The budget is divided by the cost of the solver. Of a task in time: wrench
-/// × scheme × lp with the first search, and × search with the first lp.
+/// serves every search, those of plans too where they serve. The budget is divided by the cost of
+/// the solver. Of a task in time: wrench × scheme × lp with the first search, and × search with the
+/// first lp.
 std::vector<Case> product(const Problem& problem, std::uint64_t seed, long budget);
 
 /// Of `cases`, those whose columns have the given values (column -> value); `seed` and `budget` are

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "benchmarks/plan_row.h"
+#include "benchmarks/row.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
 
@@ -67,13 +68,16 @@ bool has_reference(const Problem& problem, const Case& base) {
          holds(lp_solvers(), reference.solver);
 }
 
-/// The searches that serve a problem.
-std::vector<const SearchEntry*> searches_of(const Problem& problem) {
+/// The searches that serve a problem: of a task in time those of plans first, of a static one, if
+/// they serve it, last.
+std::vector<const SearchEntry*> searches_of(const Problem& problem, const Case& base) {
   std::vector<const SearchEntry*> served;
-  if (problem.motion) {
-    for (const SearchEntry& search : plan_searches()) served.push_back(&search);
-  }
-  for (const SearchEntry& search : searches()) served.push_back(&search);
+  const auto add = [&](std::span<const SearchEntry> table) {
+    for (const SearchEntry& search : table) served.push_back(&search);
+  };
+  if (problem.motion) add(plan_searches());
+  add(searches());
+  if (!problem.motion && serves_as_plan(problem, base.measure)) add(plan_searches());
   return served;
 }
 
@@ -137,11 +141,17 @@ double Attempt::value_after(double count) const {
 
 Attempt attempt(const Problem& problem, const Method& method, Interruption* interruption) {
   Eigen::VectorXd found;
-  return attempt_from(method.choice, *method.search,
-                      make_interruptible(make_capability_objective(problem, method.choice.wrench,
-                                                                   method.make_measure),
-                                         interruption),
-                      problem.theta_r_default, found);
+  Attempt run = attempt_from(method.choice, *method.search,
+                             make_interruptible(make_objective(problem, method), interruption),
+                             problem.theta_r_default, found);
+  // What a search of plans maximises has a value where only slack balances a posture.
+  if (method.plan_solver && run.value > -kInfinity &&
+      !evaluate(problem, method, found).has_value()) {
+    run.value = -kInfinity;
+    run.history.clear();
+    forget_beyond(run);
+  }
+  return run;
 }
 
 Attempt attempt(const Problem& problem, const PlanMethod& method, Interruption* interruption) {
@@ -208,7 +218,7 @@ Comparison compare(const Problem& problem, const Case& base, int seeds,
   const char* unit = problem.motion ? problem.unit() : resolve(problem, base).unit;
   const std::string lp = complete(problem, base).lp;
   Comparison comparison{problem.name, unit, {}, {}, problem.motion.has_value(), base.budget};
-  for (const SearchEntry* search : searches_of(problem))
+  for (const SearchEntry* search : searches_of(problem, base))
     comparison.contenders.push_back(contend(search->name, lp));
   const Reference reference = reference_of(problem);
   if (has_reference(problem, base))
@@ -219,7 +229,7 @@ Comparison compare(const Problem& problem, const Case& base, int seeds,
 
 long attempt_count(const Problem& problem, const Case& base, int seeds) {
   const auto contenders =
-      static_cast<long>(searches_of(problem).size()) + (has_reference(problem, base) ? 1 : 0);
+      static_cast<long>(searches_of(problem, base).size()) + (has_reference(problem, base) ? 1 : 0);
   return contenders * seeds;
 }
 

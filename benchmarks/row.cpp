@@ -54,9 +54,7 @@ Row solve(const Problem& problem, const Method& method, int threads,
           const std::function<void(long)>& progress, Interruption* interruption) {
   const auto start = std::chrono::steady_clock::now();
   const auto tally = std::make_shared<Tally>();
-  const auto objective = make_interruptible(
-      make_capability_objective(problem, method.choice.wrench, method.make_measure, true, tally),
-      interruption);
+  const auto objective = make_interruptible(make_objective(problem, method, tally), interruption);
   const SearchResult result =
       search(method.choice, *method.search, *objective, problem.theta_r_default, threads, progress);
   const double search_s = seconds_since(start);

@@ -28,7 +28,9 @@ struct Row : Verdict {
   /// is none.
   double yardstick = std::numeric_limits<double>::quiet_NaN();
   long evaluations = 0;
-  long undecided = 0;     ///< of the evaluations, those whose lower level ended without a verdict
+  /// Of the evaluations, those whose lower level ended without a verdict; not counted by searches
+  /// of plans.
+  long undecided = 0;
   BranchCounts branches;  ///< of the second arm, if there is one, in sum over the evaluations
   double wall_s = 0;      ///< without the yardstick
 

@@ -21,6 +21,12 @@ inline bool counts(Status row, Status lower_level) {
   return answers(row) || (row == Status::kBudgetExhausted && lower_level == Status::kOptimal);
 }
 
+/// What the search of a method maximises.
+std::unique_ptr<Objective> make_objective(const Problem& problem, const Method& method,
+                                          std::shared_ptr<Tally> tally = nullptr);
+std::unique_ptr<Objective> make_objective(const Problem&&, const Method&,
+                                          std::shared_ptr<Tally> = nullptr) = delete;
+
 /// Runs the search of a case from `start`.
 SearchResult search(const Case& c, const SearchEntry& entry, Objective& objective,
                     const Eigen::VectorXd& start, int threads,

@@ -43,7 +43,8 @@ int list() {
   print_table("lower-level solvers (--lp)", wrench_solvers());
   print_table("lower-level solvers of tasks in time (--lp)", plan_solvers());
   print_table("searches", searches());
-  print_table("searches of tasks in time", plan_searches());
+  print_table("searches of plans: of tasks in time, and by linf_polytope of static ones",
+              plan_searches());
   print_table("integrators", integrators());
   for (const Absent& absent : not_built_in()) {
     fmt::print("not built in: {} {} (needs {})\n", absent.family, absent.name, absent.library);

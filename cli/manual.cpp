@@ -78,11 +78,20 @@ void write_command(const CLI::App& command, std::string& page) {
 std::string choices(const std::string& option) {
   std::string names;
   const auto add = [&names](const auto& table) {
-    for (const auto& entry : table) names += std::string(names.empty() ? "" : " ") + entry.name;
+    for (const auto& entry : table) {
+      const bool listed = (' ' + names + ' ').find(fmt::format(" {} ", entry.name)) < names.size();
+      if (!listed) names += std::string(names.empty() ? "" : " ") + entry.name;
+    }
   };
   if (option == "--measure") add(measures());
-  if (option == "--lp") add(wrench_solvers());
-  if (option == "--search") add(searches());
+  if (option == "--lp") {
+    add(wrench_solvers());
+    add(plan_solvers());
+  }
+  if (option == "--search") {
+    add(searches());
+    add(plan_searches());
+  }
   if (option == "--integrator") add(integrators());
   if (option == "--wrench") names = "pure any";
   if (option == "problem") names = fmt::format("{}", fmt::join(shipped_problems(), " "));

@@ -78,7 +78,8 @@ std::span<const LpEntry> lp_solvers();
 std::span<const WrenchSolverEntry> wrench_solvers();
 std::span<const PlanSolverEntry> plan_solvers();
 std::span<const SearchEntry> searches();
-/// Searches of tasks in time alone; those of postures serve stacked knots too.
+/// Searches of plans alone: of tasks in time, and of static ones by linf_polytope, which are plans
+/// of one knot. Those of postures serve stacked knots too.
 std::span<const SearchEntry> plan_searches();
 std::span<const IntegratorEntry> integrators();
 
@@ -97,7 +98,7 @@ const LpEntry& find_lp_solver(std::string_view name);
 const WrenchSolverEntry& find_wrench_solver(std::string_view name);
 const PlanSolverEntry& find_plan_solver(std::string_view name);
 const SearchEntry& find_search(std::string_view name);
-/// Of a task in time.
+/// Of both tables.
 const SearchEntry& find_plan_search(std::string_view name);
 const IntegratorEntry& find_integrator(std::string_view name);
 

@@ -1,5 +1,8 @@
 #include "solvers/plan/directions.h"
 
+#include "solvers/plan/forms.h"
+#include "solvers/plan/side.h"
+
 namespace maxwrench {
 
 void Directions::reserve(const Forms& forms, int columns) {

@@ -1,10 +1,11 @@
 #pragma once
 
-#include "solvers/plan/forms.h"
 #include "solvers/plan/normal_matrix.h"
-#include "solvers/plan/side.h"
 
 namespace maxwrench {
+
+struct Forms;
+struct Side;
 
 /// Directions of the embedding, one a column: of the variables X and, where the forms have slacks,
 /// of the sizes sigma that these are paid by, |s| <= sigma. They come from its normal equations,

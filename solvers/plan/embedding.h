@@ -1,7 +1,9 @@
 #pragma once
 
 #include "solvers/plan/directions.h"
+#include "solvers/plan/forms.h"
 #include "solvers/plan/forms_reader.h"
+#include "solvers/plan/side.h"
 
 namespace maxwrench {
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/plan/forms.h"
+
 namespace maxwrench {
 namespace {
 

@@ -1,8 +1,12 @@
 #pragma once
 
-#include "solvers/plan/forms.h"
+#include <Eigen/Core>
 
 namespace maxwrench {
+
+struct Forms;
+struct PlanProgram;
+struct PlanSolution;
 
 /// Reads the answer of a plan program from a point of its forms.
 class FormsReader {

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "solvers/search/knot_climber.h"
 #include "solvers/search/knot_starts.h"
 #include "solvers/search/makers.h"
 #include "solvers/search/slp_outcome.h"

@@ -1,8 +1,13 @@
 #include "solvers/search/slp_outcome.h"
 
 #include <cmath>
+#include <iterator>
+
+#include "solvers/search/knot_climber.h"
 
 namespace maxwrench {
+
+const long kJudged = KnotClimber::kJudgement + std::size(kRetreats) * (1 + KnotClimber::kJudgement);
 
 bool SlpOutcome::improves(double its_worth, double its_value, double margin) const {
   const bool nothing = worth == -kInfinity && its_worth == -kInfinity;

@@ -1,16 +1,15 @@
 #pragma once
 
-#include <iterator>
-
-#include "solvers/search/knot_climber.h"
+#include "solvers/search/probe.h"
 
 namespace maxwrench {
 
+class KnotClimber;
+
 /// How far a plan that is worth nothing keeps away from one that is worth something.
 inline constexpr double kRetreats[] = {0.97, 0.9, 0.75, 0.5};
-/// Evaluations of one judgement.
-inline constexpr long kJudged =
-    KnotClimber::kJudgement + std::size(kRetreats) * (1 + KnotClimber::kJudgement);
+/// Evaluations of one judgement, at most.
+extern const long kJudged;
 
 /// What `slp` has found, and what its best plan is worth, see `KnotClimber::worth`.
 struct SlpOutcome {

@@ -4,6 +4,7 @@
 
 #include <set>
 #include <stdexcept>
+#include <string>
 
 #include "benchmarks/plan_row.h"
 #include "maxwrench/load.h"
@@ -78,6 +79,35 @@ TEST(Case, ProductCrossesEverySearchAndEverySolverWithoutCrossingBoth) {
   for (const WrenchSolverEntry& solver : wrench_solvers())
     EXPECT_FALSE(select(cases, {{"search", searches()[0].name}, {"lp", solver.name}}).empty());
   EXPECT_THROW(select(cases, {{"search", "multistart"}, {"lp", "ipopt"}}), std::invalid_argument);
+}
+
+/// As plans of one knot, by the solver of the same name if there is one.
+TEST(Case, SearchesOfPlansServeStaticTasksByLinfPolytope) {
+  const Problem problem = load_problem("planar/force");
+  const auto solver = [&](const char* measure, Wrench wrench, const char* lp, const char* search) {
+    const PlanSolverEntry* entry =
+        resolve(problem, {problem.name, measure, wrench, lp, search}).plan_solver;
+    return std::string(entry ? entry->name : "");
+  };
+  EXPECT_EQ(solver("linf_polytope", Wrench::kPure, "", "slp"), "structured");  // facets
+  EXPECT_EQ(solver("linf_polytope", Wrench::kAny, "", "slp"), "structured");   // box
+  EXPECT_EQ(solver("linf_polytope", Wrench::kPure, "simplex", "slp"), "simplex");
+  EXPECT_EQ(solver("linf_polytope", Wrench::kPure, "", "grid"), "");
+  EXPECT_EQ(solver("l2_polytope", Wrench::kPure, "", "slp"), "");
+  EXPECT_TRUE(serves_as_plan(problem, "linf_polytope"));
+  EXPECT_FALSE(serves_as_plan(problem, "ellipsoid"));
+  for (const char* other : {"planar/two_arms", "mobile/push"}) {
+    EXPECT_FALSE(serves_as_plan(load_problem(other), "linf_polytope")) << other;
+  }
+  const std::vector<Case> cases = product(problem, 1, 100);
+  for (const SearchEntry& search : plan_searches()) {
+    for (const Case& c : select(cases, {{"search", search.name}})) {
+      EXPECT_EQ(c.measure, "linf_polytope");
+    }
+    EXPECT_EQ(select(cases, {{"search", search.name}}).size(), 2U);  // pure and any
+  }
+  EXPECT_THROW(select(product(load_problem("planar/two_arms"), 1, 100), {{"search", "slp"}}),
+               std::invalid_argument);
 }
 
 TEST(Case, SelectKeepsWhatMatches) {

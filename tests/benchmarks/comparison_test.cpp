@@ -6,6 +6,7 @@
 
 #include "benchmarks/plan_row.h"
 #include "maxwrench/load.h"
+#include "maxwrench/strategies.h"
 
 namespace maxwrench {
 namespace {
@@ -35,7 +36,7 @@ TEST(Comparison, AttemptReadsItsHistory) {
 
 TEST(Comparison, ClockSeesWhatTheHistorySees) {
   const Problem problem = load_problem("planar/force");
-  for (const char* search : {"grid", "annealing", "cobyla", "nullspace"}) {
+  for (const char* search : {"grid", "annealing", "cobyla", "nullspace", "slp"}) {
     SCOPED_TRACE(search);
     const Case c{problem.name, "linf_polytope", Wrench::kPure, "", search, 1, 500};
     const Attempt run = attempt(problem, resolve(problem, c));
@@ -45,6 +46,31 @@ TEST(Comparison, ClockSeesWhatTheHistorySees) {
     EXPECT_LE(run.improved_at.back(), run.seconds);
     EXPECT_LE(run.evaluations, 500);
   }
+}
+
+/// No posture can be held; a search of plans has seen values, with slack, that count for nothing.
+TEST(Comparison, ValuesWithSlackAreNone) {
+  Problem problem = load_problem("uvms/valve");
+  add_body(problem.robot.links[0], 1000, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero());
+  const Case c{problem.name, "linf_polytope", Wrench::kPure, "", "slp", 1, 60};
+  const Attempt run = attempt(problem, resolve(problem, c));
+  EXPECT_EQ(run.value, -kInfinity);
+  EXPECT_GT(run.evaluations, 0);
+  EXPECT_EQ(run.evaluations_to(-1e9), kInfinity);
+  EXPECT_EQ(run.seconds_to(-1e9), kInfinity);
+}
+
+/// Of a static task by linf_polytope those of plans too; then the plain way, if it has a solver.
+TEST(Comparison, RacesTheSearchesThatServe) {
+  const Problem problem = load_problem("planar/force");
+  const auto postures = static_cast<long>(searches().size());
+  const auto plans = static_cast<long>(plan_searches().size());
+  Case c{.problem = problem.name};
+  EXPECT_EQ(attempt_count(problem, c, 3), 3 * (postures + plans + 1));
+  c.measure = "ellipsoid";
+  EXPECT_EQ(attempt_count(problem, c, 3), 3 * postures);
+  c.measure = "linf_polytope";
+  EXPECT_EQ(attempt_count(load_problem("planar/two_arms"), c, 1), postures + 1);
 }
 
 /// Two of three seeds reach 2, after 1 s and 2 s; the third spends 7 s on less: (1 + 2 + 7) s / 2.

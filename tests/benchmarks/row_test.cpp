@@ -132,7 +132,7 @@ TEST_P(PlanarOptimum, IsFoundByEverySolverAndSearch) {
   const bool slow = kSampleDivisor > 1;
   const double optimum = slow ? printed_optimum(GetParam()) : planar_optimum(GetParam());
   const double tolerance = slow ? 0.01 : 1e-3;
-  if (find_search(GetParam().search).local) {
+  if (find_plan_search(GetParam().search).local) {
     EXPECT_LT(row.capability.beta, optimum + tolerance);
   } else {
     EXPECT_NEAR(row.capability.beta, optimum, tolerance);
@@ -158,6 +158,29 @@ TEST(Row, SearchByIpoptMayEvaluateByIpopt) {
   const Row row = solve(problem, resolve(problem, c), 2);
   EXPECT_EQ(row.status, Status::kBestFound) << row.reason.c_str();
   EXPECT_LE(row.evaluations, 200);
+}
+
+/// So heavy that no posture can be held: what a search of plans finds has a value with slack alone.
+TEST(Row, ASearchOfPlansFindsNothingWhereOnlySlackBalances) {
+  Problem problem = load_problem("uvms/valve");
+  add_body(problem.robot.links[0], 1000, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero());
+  for (const SearchEntry& search : plan_searches()) {
+    const Case c{problem.name, "linf_polytope", Wrench::kPure, "", search.name, 1, 60};
+    const Row row = solve(problem, resolve(problem, c), 2);
+    EXPECT_EQ(row.status, Status::kNoneFound) << search.name;
+    EXPECT_FALSE(row.has_value());
+    EXPECT_LE(row.evaluations, 60);
+  }
+}
+
+TEST(Row, ASearchOfPlansRefusesWhatIsNone) {
+  for (const auto& [name, measure] :
+       {std::pair("planar/force", "ellipsoid"), std::pair("planar/two_arms", "linf_polytope"),
+        std::pair("mobile/push", "linf_polytope")}) {
+    const Problem problem = load_problem(name);
+    const Case c{problem.name, measure, Wrench::kPure, "", "slp", 1, 60};
+    EXPECT_THROW(solve(problem, resolve(problem, c), 1), std::invalid_argument) << name;
+  }
 }
 
 TEST(Row, SelfCollisionDoesNotChangeThePlanarOptima) {

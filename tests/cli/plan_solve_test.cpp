@@ -51,6 +51,37 @@ TEST(PlanSolve, IsTheSameAtAnyThreadCount) {
   }
 }
 
+/// A static task is a plan of one knot for a search of plans; what it finds is a posture like any
+/// other, which `eval` confirms, and no worse than that of a search of postures.
+TEST(PlanSolve, ServesAStaticTaskToo) {
+  for (const char* wrench : {"pure", "any"}) {
+    const std::string words = "solve uvms/lift --json --wrench " + std::string(wrench);
+    json first;
+    for (const char* threads : {"1", "8"}) {
+      const CommandResult result = run_maxwrench(words + " --search slp --threads " + threads);
+      ASSERT_EQ(result.exit_status, 0) << result.err;
+      json best = json::parse(result.out);
+      best.erase("wall_s");
+      if (first.is_null()) first = best;
+      EXPECT_EQ(best, first);
+    }
+    EXPECT_EQ(first["status"], "best_found");
+    EXPECT_EQ(first["search"], "slp");
+    EXPECT_EQ(first["lp"], wrench == std::string("pure") ? "facets" : "box");
+    EXPECT_LE(first["evaluations"], 20000);
+    std::string theta_r;
+    for (const json& angle : first["theta_r"])
+      theta_r += (theta_r.empty() ? "" : ",") + angle.dump();
+    const json again = json::parse(run_maxwrench("eval uvms/lift --json --wrench " +
+                                                 std::string(wrench) + " --theta-r=" + theta_r)
+                                       .out);
+    EXPECT_EQ(again["status"], "optimal");
+    EXPECT_EQ(again["beta"], first["beta"]);
+    const json other = json::parse(run_maxwrench(words + " --search crs2").out);
+    EXPECT_GE(first["beta"].get<double>(), 0.999 * other["beta"].get<double>());
+  }
+}
+
 /// Of the product, what the words choose; a scheme of its own each.
 TEST(PlanRun, WritesTheSameValuesAtAnyThreadCount) {
   std::string first;

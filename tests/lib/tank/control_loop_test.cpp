@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 constexpr double kPeriod = 0.01;  // s
 
 /// Gives up in the middle of what it is asked for, with an unchanged state.
-class GivesUp final : public Integrator {
+class GivesUpHalfway final : public Integrator {
  public:
   Status integrate(Ode& ode, const IntegratorOptions&, std::span<const double> times,
                    Trajectory& trajectory) override {
@@ -132,7 +132,7 @@ TEST(ControlLoop, AnswersWhatIsBeyondReachWithTheMostThereIs) {
 
 TEST(ControlLoop, EndsWhereTheIntegratorGivesUp) {
   AtRest rest;
-  GivesUp integrator;
+  GivesUpHalfway integrator;
   ControlLoop loop(rest.problem, rest.options, integrator, rest.ode, rest.tracker);
   loop.request = rest.loop.request;
   EXPECT_DOUBLE_EQ(loop.step(0, rest.u, kPeriod, Vector6d::Zero(), Vector6d::Zero()), kPeriod / 2);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kTight = 1e-9;
 
-PlanSolution by_glpk(const PlanProgram& program) {
+PlanSolution plan_by_glpk(const PlanProgram& program) {
   PlanSolution solution;
   find_plan_solver("glpk").make()->solve(program, solution);
   return solution;
@@ -33,7 +33,7 @@ PlanRecipe recipe_of(int sample) {
   return recipe;
 }
 
-PlanSolution solve(const PlanProgram& program, double tolerance = kTight) {
+PlanSolution embedded(const PlanProgram& program, double tolerance = kTight) {
   PlanSolution solution;
   Embedding embedding;
   EXPECT_EQ(embedding.run(program, true, true, tolerance, solution), Embedding::End::kVerdict)
@@ -49,7 +49,7 @@ TEST(Embedding, AgreesWithGlpkWhateverItHasSolvedBefore) {
   int optimal = 0, infeasible = 0;
   for (int sample = 0; sample < 120 / kSampleDivisor; ++sample) {
     const PlanProgram program = random_plan(problem, recipe_of(sample), random);
-    const PlanSolution reference = by_glpk(program);
+    const PlanSolution reference = plan_by_glpk(program);
     PlanSolution solution;
     const auto end = embedding.run(program, true, true, kTight, solution);
     ASSERT_EQ(end, Embedding::End::kVerdict) << sample << ' ' << embedding.reason();
@@ -63,7 +63,7 @@ TEST(Embedding, AgreesWithGlpkWhateverItHasSolvedBefore) {
     EXPECT_NEAR(solution.value - solution.price, reference.value - reference.price, 1e-8 * scale);
     EXPECT_TRUE(recheck(program, solution).within(kTight * scale)) << sample;
     // What it has solved before leaves no trace.
-    const PlanSolution fresh = solve(program);
+    const PlanSolution fresh = embedded(program);
     EXPECT_EQ(fresh.value, solution.value);
     EXPECT_EQ(fresh.u, solution.u);
     EXPECT_EQ(fresh.lambda, solution.lambda);
@@ -85,7 +85,7 @@ TEST(Embedding, SaysWhenItNeedsTheRates) {
     recipe.load = 0.03;
     recipe.du = sample % 2 == 0 ? 0.02 : 1.5;
     const PlanProgram program = random_plan(problem, recipe, random);
-    const PlanSolution reference = by_glpk(program);
+    const PlanSolution reference = plan_by_glpk(program);
     Embedding embedding;
     PlanSolution solution;
     const auto end = embedding.run(program, false, true, kTight, solution);
@@ -100,7 +100,7 @@ TEST(Embedding, SaysWhenItNeedsTheRates) {
     ++needed;
     PlanProgram unbound = program;
     unbound.du_max.setConstant(kInfinity);
-    const PlanSolution without = by_glpk(unbound);
+    const PlanSolution without = plan_by_glpk(unbound);
     if (without.status != Status::kOptimal || reference.status != Status::kOptimal) continue;
     EXPECT_GE(without.value, reference.value - 1e-9);
   }
@@ -124,7 +124,7 @@ TEST(Embedding, SaysWhenItNeedsTheSlacks) {
     EXPECT_EQ(embedding.run(program, true, false, kTight, solution), Embedding::End::kNeedsSlacks);
     EXPECT_EQ(embedding.run(program, true, true, kTight, solution), Embedding::End::kVerdict);
     ASSERT_EQ(solution.status, Status::kOptimal);
-    const PlanSolution reference = by_glpk(program);
+    const PlanSolution reference = plan_by_glpk(program);
     EXPECT_NEAR(solution.value - solution.price, reference.value - reference.price,
                 1e-8 * (1 + reference.price));
     EXPECT_GT(solution.s.col(at).lpNorm<1>(), 1);
@@ -141,7 +141,7 @@ TEST(Embedding, IsAsExactAsItIsAskedToBe) {
     recipe.border = 4;
     recipe.rho = 100;
     const PlanProgram program = random_plan(problem, recipe, random);
-    const PlanSolution tight = solve(program), loose = solve(program, 1e-4);
+    const PlanSolution tight = embedded(program), loose = embedded(program, 1e-4);
     ASSERT_EQ(tight.status, Status::kOptimal);
     ASSERT_EQ(loose.status, Status::kOptimal);
     EXPECT_LT(loose.iterations, tight.iterations);
@@ -159,7 +159,7 @@ TEST(Embedding, GivesNoVerdictWhereTheValueHasNoLimit) {
   recipe.load = 0.01;
   PlanProgram program = random_plan(problem, recipe, random);
   for (WrenchProgram& at : program.instants) at.JtW.setZero();
-  ASSERT_EQ(by_glpk(program).status, Status::kUnbounded);
+  ASSERT_EQ(plan_by_glpk(program).status, Status::kUnbounded);
   Embedding embedding;
   PlanSolution solution;
   EXPECT_EQ(embedding.run(program, true, true, kTight, solution), Embedding::End::kNone);
@@ -189,7 +189,7 @@ TEST(Embedding, FixedStepsMoveTheLoad) {
     moved.y_min.resize(0);
     moved.y_max.resize(0);
     moved.R.resize(0, 0);
-    const PlanSolution with = solve(program), without = solve(moved);
+    const PlanSolution with = embedded(program), without = embedded(moved);
     ASSERT_EQ(with.status, without.status);
     if (with.status != Status::kOptimal) continue;
     EXPECT_NEAR(with.value, without.value, 1e-8 * (1 + std::abs(with.value)));

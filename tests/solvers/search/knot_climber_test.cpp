@@ -33,13 +33,13 @@ KnotClimber climber_from(std::unique_ptr<Objective> objective, const VectorXd& x
 }
 
 /// The hard program of a table, by a general solver.
-Plan confirmed(const Problem& problem, const VectorXd& x, Wrench wrench = Wrench::kPure) {
+Plan confirmed_plan(const Problem& problem, const VectorXd& x, Wrench wrench = Wrench::kPure) {
   PlanEvaluator plans(problem, wrench, find_plan_solver("glpk").make);
   return plans.evaluate(unstacked(x, problem.redundancy()));
 }
 
 /// How far a table is beyond its bounds and rows.
-double violation(Objective& objective, const VectorXd& x) {
+double table_violation(Objective& objective, const VectorXd& x) {
   const KnotRows& rows = objective.plans()->rows();
   const VectorXd at = rows.R * x;
   return std::max({0.0, (x - objective.upper()).maxCoeff(), (objective.lower() - x).maxCoeff(),
@@ -64,10 +64,10 @@ TEST(KnotClimber, RisesWithinItsShare) {
     }
     KnotClimber climber = climber_from(elastic_value(problem, wrench), default_table(problem));
     climber.climb(40);
-    const Plan plan = confirmed(problem, climber.at().theta_r, wrench);
+    const Plan plan = confirmed_plan(problem, climber.at().theta_r, wrench);
     ASSERT_EQ(plan.status, Status::kOptimal) << plan.reason.c_str();
     EXPECT_NEAR(plan.value, climber.value(), 1e-7);
-    EXPECT_GT(climber.value(), 1.5 * confirmed(problem, default_table(problem), wrench).value);
+    EXPECT_GT(climber.value(), 1.5 * confirmed_plan(problem, default_table(problem), wrench).value);
   }
 }
 
@@ -128,10 +128,10 @@ TEST(KnotClimber, KeepsSpeedLimits) {
   KnotClimber climber = climber_from(elastic_value(problem), default_table(problem));
   climber.climb(60);
   const VectorXd& x = climber.at().theta_r;
-  EXPECT_LE(violation(*objective, x), 1e-9);
+  EXPECT_LE(table_violation(*objective, x), 1e-9);
   const VectorXd at = objective->plans()->rows().R * x;
   EXPECT_LT((objective->plans()->rows().r_max - at).minCoeff(), 1e-6);
-  EXPECT_EQ(confirmed(problem, x).status, Status::kOptimal);
+  EXPECT_EQ(confirmed_plan(problem, x).status, Status::kOptimal);
 }
 
 TEST(KnotClimber, KeepsTheBoundsThatItStartsAt) {
@@ -142,7 +142,7 @@ TEST(KnotClimber, KeepsTheBoundsThatItStartsAt) {
     ASSERT_GT(climber.value(), -kInfinity);
     const double start = climber.value();
     climber.climb(30);
-    EXPECT_LE(violation(*objective, climber.at().theta_r), 1e-9);
+    EXPECT_LE(table_violation(*objective, climber.at().theta_r), 1e-9);
     EXPECT_GE(climber.value(), start);
   }
 }
@@ -195,7 +195,7 @@ TEST(KnotClimber, KnotsThatMoveAlikeKeepTheNearestBound) {
   const VectorXd moved = climber.at().theta_r - start;
   EXPECT_GT(moved.lpNorm<Eigen::Infinity>(), 0.02);
   EXPECT_LT((moved - moved.head(r).replicate(problem.motion->k, 1)).norm(), 1e-7);
-  EXPECT_LE(violation(*bounded(), climber.at().theta_r), 0);
+  EXPECT_LE(table_violation(*bounded(), climber.at().theta_r), 0);
 }
 
 /// A fixed posture is too slow for this turn: slack makes up for it, until the climb needs none.
@@ -204,9 +204,9 @@ TEST(KnotClimber, LeavesSlackBehind) {
   Problem problem = load_problem("uvms/valve_trajectory_fast");
   problem.motion->scheme = Scheme::kEnds;
   KnotClimber climber = climber_from(elastic_value(problem), default_table(problem));
-  EXPECT_EQ(confirmed(problem, climber.at().theta_r).status, Status::kInfeasible);
+  EXPECT_EQ(confirmed_plan(problem, climber.at().theta_r).status, Status::kInfeasible);
   climber.climb(100);
-  const Plan plan = confirmed(problem, climber.at().theta_r);
+  const Plan plan = confirmed_plan(problem, climber.at().theta_r);
   ASSERT_EQ(plan.status, Status::kOptimal) << plan.reason.c_str();
   EXPECT_NEAR(plan.value, climber.value(), 1e-6);
 }

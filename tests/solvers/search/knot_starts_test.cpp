@@ -18,11 +18,11 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-std::unique_ptr<Objective> plan_objective(const Problem& problem) {
+std::unique_ptr<Objective> plans_to_draw(const Problem& problem) {
   return make_plan_objective(problem, Wrench::kPure, find_plan_solver("structured").make);
 }
 
-SearchOptions options_of(const Problem& problem, long budget, int threads = 2) {
+SearchOptions draw_options(const Problem& problem, long budget, int threads = 2) {
   SearchOptions options;
   options.budget = budget;
   options.threads = threads;
@@ -54,8 +54,8 @@ INSTANTIATE_TEST_SUITE_P(Tasks, KnotStartsOf,
 
 TEST_P(KnotStartsOf, AreTablesWithAValueWithinAllLimits) {
   const Problem problem = load_problem(GetParam());
-  const auto objective = plan_objective(problem);
-  const SearchOptions options = options_of(problem, 300);
+  const auto objective = plans_to_draw(problem);
+  const SearchOptions options = draw_options(problem, 300);
   const Drawn drawn(draw_knot_starts, *objective, options);
   // A tenth of the budget, the start among them.
   EXPECT_EQ(drawn.found.trace.evaluations(), 30);
@@ -83,8 +83,8 @@ TEST_P(KnotStartsOf, AreTablesWithAValueWithinAllLimits) {
 /// leave it: its knots differ.
 TEST_P(KnotStartsOf, MoveAlikeWhereTheyMay) {
   const Problem problem = load_problem(GetParam());
-  const auto objective = plan_objective(problem);
-  const SearchOptions options = options_of(problem, 300);
+  const auto objective = plans_to_draw(problem);
+  const SearchOptions options = draw_options(problem, 300);
   const Drawn drawn(draw_knot_starts, *objective, options);
   bool differ = false;
   for (const Candidate& start : drawn.starts) {
@@ -96,16 +96,16 @@ TEST_P(KnotStartsOf, MoveAlikeWhereTheyMay) {
 
 TEST_P(KnotStartsOf, AreTheSameAtAnyThreadCount) {
   const Problem problem = load_problem(GetParam());
-  const auto objective = plan_objective(problem);
-  const Drawn one(find_knot_starts, *objective, options_of(problem, 300, 1));
-  const Drawn four(find_knot_starts, *objective, options_of(problem, 300, 4));
+  const auto objective = plans_to_draw(problem);
+  const Drawn one(find_knot_starts, *objective, draw_options(problem, 300, 1));
+  const Drawn four(find_knot_starts, *objective, draw_options(problem, 300, 4));
   ASSERT_EQ(one.starts.size(), four.starts.size());
   for (std::size_t i = 0; i < one.starts.size(); ++i) {
     EXPECT_EQ(one.starts[i].theta_r, four.starts[i].theta_r);
     EXPECT_EQ(one.starts[i].value, four.starts[i].value);
   }
   EXPECT_EQ(one.found.trace.evaluations(), four.found.trace.evaluations());
-  SearchOptions other = options_of(problem, 300);
+  SearchOptions other = draw_options(problem, 300);
   other.seed = 2;
   const Drawn elsewhere(find_knot_starts, *objective, other);
   EXPECT_NE(one.starts.back().theta_r, elsewhere.starts.back().theta_r);
@@ -115,8 +115,8 @@ TEST_P(KnotStartsOf, AreTheSameAtAnyThreadCount) {
 /// worse, of one posture, and no two of a family. Heaves have none.
 TEST_P(KnotStartsOf, BeginWithTheEndsOfClimbs) {
   const Problem problem = load_problem(GetParam());
-  const auto objective = plan_objective(problem);
-  const SearchOptions options = options_of(problem, 600);
+  const auto objective = plans_to_draw(problem);
+  const SearchOptions options = draw_options(problem, 600);
   const Drawn drawn(draw_knot_starts, *objective, options);
   const Drawn found(find_knot_starts, *objective, options);
   EXPECT_LE(found.found.trace.evaluations(), 60 + 120);  // a tenth and a fifth of the budget
@@ -144,13 +144,13 @@ TEST_P(KnotStartsOf, BeginWithTheEndsOfClimbs) {
 /// all knots, so that they are the same for all and the differences stay.
 TEST(KnotStarts, AlikeMeansWithinTheBoundsOfAllKnots) {
   const Problem problem = load_problem("planar/trajectory");
-  const auto whole = plan_objective(problem);
+  const auto whole = plans_to_draw(problem);
   const int r = problem.redundancy();
-  SearchOptions options = options_of(problem, 2000);
+  SearchOptions options = draw_options(problem, 2000);
   VectorXd lower = whole->lower(), upper = whole->upper();
   upper.segment(3 * r, r).setConstant(0.1);
   options.start.tail(r).array() -= 0.2;
-  OtherBounds objective(plan_objective(problem), lower, upper);
+  OtherBounds objective(plans_to_draw(problem), lower, upper);
   for (Drawn::Draw* draw : {draw_knot_starts, find_knot_starts}) {
     const Drawn drawn(draw, objective, options);
     ASSERT_GT(drawn.starts.size(), 20U);
@@ -164,8 +164,8 @@ TEST(KnotStarts, AlikeMeansWithinTheBoundsOfAllKnots) {
 
 TEST(KnotStarts, NoneWhereNothingHasAValue) {
   const Problem problem = load_problem("planar/trajectory");
-  Ending objective(plan_objective(problem), std::make_shared<long>(0));
-  const Drawn drawn(find_knot_starts, objective, options_of(problem, 500));
+  Ending objective(plans_to_draw(problem), std::make_shared<long>(0));
+  const Drawn drawn(find_knot_starts, objective, draw_options(problem, 500));
   EXPECT_TRUE(drawn.starts.empty());
   EXPECT_EQ(drawn.found.best.value, -kInfinity);
   EXPECT_EQ(drawn.found.trace.evaluations(), 50);
@@ -173,11 +173,11 @@ TEST(KnotStarts, NoneWhereNothingHasAValue) {
 
 TEST(KnotStarts, OneEvaluationIsTheStart) {
   const Problem problem = load_problem("planar/trajectory");
-  const auto objective = plan_objective(problem);
+  const auto objective = plans_to_draw(problem);
   for (const long budget : {1, 19}) {
-    const Drawn drawn(find_knot_starts, *objective, options_of(problem, budget));
+    const Drawn drawn(find_knot_starts, *objective, draw_options(problem, budget));
     EXPECT_EQ(drawn.found.trace.evaluations(), 1);
-    EXPECT_EQ(drawn.found.best.theta_r, options_of(problem, budget).start);
+    EXPECT_EQ(drawn.found.best.theta_r, draw_options(problem, budget).start);
   }
 }
 
@@ -190,9 +190,9 @@ TEST(KnotStarts, RequirePlans) {
     require_plans(*posture, "a_search");
     FAIL() << "expected std::invalid_argument";
   } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("got a_search,"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("got 'a_search',"), std::string::npos) << error.what();
   }
-  EXPECT_NO_THROW(require_plans(*plan_objective(problem), "a_search"));
+  EXPECT_NO_THROW(require_plans(*plans_to_draw(problem), "a_search"));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
+#include "solvers/search/knot_climber.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {
