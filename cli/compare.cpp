@@ -46,7 +46,7 @@ double median_of(const Contender& contender, const std::function<double(const At
   return median(values);
 }
 
-std::string line(const Comparison& comparison, const Contender& contender) {
+std::string contender_line(const Comparison& comparison, const Contender& contender) {
   const double target = comparison.target();
   const auto seconds = [&](const Attempt& each) { return each.seconds_to(target); };
   const auto evaluations = [&](const Attempt& each) { return each.evaluations_to(target); };
@@ -88,9 +88,9 @@ std::string text(const Comparison& comparison) {
       referred ? "   expected to that" : "", comparison.in_time ? " continuous" : "",
       referred ? "   of " + plain : "");
   for (const Contender& contender : comparison.contenders) {
-    if (!contender.attempts.empty()) text += line(comparison, contender);
+    if (!contender.attempts.empty()) text += contender_line(comparison, contender);
   }
-  if (referred) text += line(comparison, comparison.reference);
+  if (referred) text += contender_line(comparison, comparison.reference);
   return text;
 }
 

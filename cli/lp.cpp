@@ -54,7 +54,7 @@ ordered_json by_name(const std::vector<std::string>& names, const Eigen::VectorX
   return object;
 }
 
-void print_object(const LpOptions& options, const MpsProgram& mps, const Checked& answer) {
+void print_lp_object(const LpOptions& options, const MpsProgram& mps, const Checked& answer) {
   const LpSolution& solution = answer.solution;
   const bool optimal = answer.optimal();
   const auto known = [](bool condition, const ordered_json& value) {
@@ -115,7 +115,7 @@ int lp(const LpOptions& options) {
   const LpEntry& solver = find_lp_solver(options.lp);
   const MpsProgram mps = read_mps(options.file);
   const Checked answer = solve(solver, mps.program);
-  (options.json ? print_object : print_lp)(options, mps, answer);
+  (options.json ? print_lp_object : print_lp)(options, mps, answer);
   return answer.optimal() ? kAnswered : kOtherStatus;
 }
 

@@ -48,7 +48,7 @@ std::vector<std::string> velocity_names(const Robot& robot) {
   return names;
 }
 
-void print_object(const Problem& problem, const std::string& file, const Terms& terms) {
+void print_terms_object(const Problem& problem, const std::string& file, const Terms& terms) {
   ordered_json object;
   object["problem"] = problem.name;
   object["state"] = file;
@@ -69,7 +69,7 @@ void print_row(std::string_view name, const Eigen::VectorXd& values) {
   fmt::print("\n");
 }
 
-void print_text(const Problem& problem, const Terms& terms) {
+void print_terms(const Problem& problem, const Terms& terms) {
   const std::vector<std::string> names = velocity_names(problem.robot);
   fmt::print("{}  M, the terms of tau_d = M v_d + C_v + D_v + g, and J by columns\n", problem.name);
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -93,9 +93,9 @@ int report_state(const Problem& problem, const std::string& file, bool json) {
                                 "numbers");
   }
   if (json) {
-    print_object(problem, file, terms);
+    print_terms_object(problem, file, terms);
   } else {
-    print_text(problem, terms);
+    print_terms(problem, terms);
   }
   return kAnswered;
 }

@@ -111,7 +111,7 @@ int refactorize(glp_prob* problem, const glp_smcp* /*options*/) {
 struct Delete {
   void operator()(glp_prob* problem) const { glp_delete_prob(problem); }
 };
-using Problem = std::unique_ptr<glp_prob, Delete>;
+using GlpkProblem = std::unique_ptr<glp_prob, Delete>;
 
 int to_glpk(VariableState state) {
   switch (state) {
@@ -291,7 +291,7 @@ class Glpk : public LpSolver {
   }
 
   bool keep_model_;
-  Problem problem_;
+  GlpkProblem problem_;
   int blocks_before_ = 0;  ///< of the environment, without the problem
   std::vector<int> indices_;
   std::vector<double> values_;
