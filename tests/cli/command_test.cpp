@@ -47,6 +47,14 @@ TEST(Command, EvalSeparatesNumbersByBlanks) {
   EXPECT_EQ(count, 6);
 }
 
+TEST(Command, OneEvaluationIsOne) {
+  for (const char* words : {"eval planar/force", "eval planar/trajectory"}) {
+    EXPECT_NE(run_maxwrench(words).out.find("; 1 evaluation in "), std::string::npos) << words;
+  }
+  EXPECT_NE(run_maxwrench("solve planar/force --budget 20").out.find("; 20 evaluations in "),
+            std::string::npos);
+}
+
 TEST(Command, EvalReportsTheSecondContact) {
   const CommandResult text = run_maxwrench("eval planar/two_arms");
   EXPECT_EQ(text.exit_status, 0) << text.err;
