@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -160,6 +161,37 @@ TEST(KnotStarts, AlikeMeansWithinTheBoundsOfAllKnots) {
       EXPECT_LE(moved.maxCoeff(), 0.1 + 1e-7);
     }
   }
+}
+
+/// Each pair of kicks has a reach of its own, and the first of a pair moves all knots alike, unless
+/// limits are in the way.
+TEST_P(KnotStartsOf, KicksStayNearThePlanAndWithinAllLimits) {
+  const Problem problem = load_problem(GetParam());
+  const auto objective = plans_to_draw(problem);
+  const SearchOptions options = draw_options(problem, 300);
+  const Candidate plan = {options.start, objective->evaluate(options.start)};
+  const KnotRows& rows = objective->plans()->rows();
+  EvaluationCounter progress(nullptr);
+  Part found;
+  const auto kicks = kick_knots(*objective, options, plan, 0, 16, progress, found);
+  EXPECT_EQ(found.trace.evaluations(), 16);
+  ASSERT_GT(kicks.size(), 8U);
+  for (const Candidate& kick : kicks) {
+    EXPECT_NEAR(objective->evaluate(kick.theta_r), kick.value, 1e-9);
+    EXPECT_TRUE((kick.theta_r.array() >= objective->lower().array()).all());
+    EXPECT_TRUE((kick.theta_r.array() <= objective->upper().array()).all());
+    const VectorXd at = rows.R * kick.theta_r;
+    EXPECT_LE((at - rows.r_max).maxCoeff(), 1e-9);
+    EXPECT_LE((rows.r_min - at).maxCoeff(), 1e-9);
+    const double moved = (kick.theta_r - plan.theta_r).norm();
+    EXPECT_GT(moved, 0);
+    EXPECT_LE(moved, 0.8 * std::sqrt(static_cast<double>(plan.theta_r.size())));
+  }
+  // Others of the series differ, the same ones do not.
+  const auto again = kick_knots(*objective, options, plan, 0, 16, progress, found);
+  const auto later = kick_knots(*objective, options, plan, 16, 16, progress, found);
+  EXPECT_EQ(again.front().theta_r, kicks.front().theta_r);
+  EXPECT_NE(later.front().theta_r, kicks.front().theta_r);
 }
 
 TEST(KnotStarts, NoneWhereNothingHasAValue) {
