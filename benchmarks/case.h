@@ -49,7 +49,7 @@ struct Method {
 };
 
 /// Whether searches of plans serve a static task, which is a plan of one knot: by linf_polytope,
-/// without a second contact or joints that follow.
+/// without a second contact.
 bool serves_as_plan(const Problem& problem, const std::string& measure);
 
 /// Throws std::invalid_argument on a name that does not exist and on a choice without meaning, such

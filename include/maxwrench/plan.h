@@ -50,6 +50,12 @@ struct KnotRows {
   Eigen::VectorXd r_min, r_max;
 };
 
+/// What is limited beside, no linear function of x: its values `at` a plan, so to first order
+/// r_min <= at + R y <= r_max for a step y of x.
+struct FollowingRows : KnotRows {
+  Eigen::VectorXd at;
+};
+
 /// Two bodies of the robot that are near each other at a knot (from 0): how much is left, and its
 /// derivative by theta_r there.
 struct NearPair {
@@ -69,7 +75,7 @@ struct Clearance {
 class PlanEvaluator {
  public:
   /// Keeps a reference to the problem; a static one is a task of k = 1. Throws
-  /// std::invalid_argument if it has joints that follow or a second contact.
+  /// std::invalid_argument if it has a second contact.
   PlanEvaluator(const Problem& problem, Wrench wrench, const PlanSolverMaker& make,
                 bool check_collision = true);
   PlanEvaluator(const Problem&&, Wrench, const PlanSolverMaker&, bool = true) = delete;
@@ -77,7 +83,8 @@ class PlanEvaluator {
 
   /// knots k×r. The hard program, with u, h and the gradient where it has an optimum. The best t_h
   /// if the task leaves it open. kInvalidPosture names knots and joint where limits, speed limits
-  /// or the reach are violated beyond 1e-6; a knot that collides is reported, no more. Throws
+  /// or the reach are violated beyond 1e-6, dependent joints' too; a knot that collides is
+  /// reported, no more. Instants that dependent joints do not get to are NaN. Throws
   /// std::invalid_argument if the table has the wrong size or is not finite.
   const Plan& evaluate(const Eigen::MatrixXd& knots);
 
@@ -86,7 +93,8 @@ class PlanEvaluator {
 
   /// The least of all pairs of bodies on that spline, at the instants of `continuous`, the earliest
   /// of several within 1e-9 m. A pair of which only a test is known counts where it collides, as 0.
-  /// Nothing if collisions are not checked, or if no distance is known and nothing collides.
+  /// Nothing if collisions are not checked, if no distance is known and nothing collides, or if
+  /// dependent joints do not get along it.
   std::optional<Clearance> least_clearance();
 
   /// The elastic program at knots: value less the price of the slack, and its gradient k×r.
@@ -104,6 +112,10 @@ class PlanEvaluator {
   /// The same about knots and the wrenches of all blocks (`PlanProgram::instants`), with nothing
   /// solved. Of a heave the peak is that of the last answer.
   PlanProgram& linearize(const Eigen::MatrixXd& knots, const std::vector<Eigen::VectorXd>& w);
+
+  /// After `linearize`, about the same plan: the limits of dependent joints and of their rates.
+  /// Rows are always the same in number and place; none without dependent joints.
+  const FollowingRows& following_rows() const;
 
   /// The answer of the last `evaluate_elastic`.
   const PlanSolution& elastic_solution() const;

@@ -1,7 +1,14 @@
 #include "lib/path/motion.h"
 
+#include "lib/robot/chain.h"
+
 namespace maxwrench {
 namespace {
+
+/// m/s, rad/s (squared: accelerations), beside 1 + the largest asked for.
+constexpr double kPathMissed = 1e-6;
+constexpr const char* kLeavesPath =
+    "unreachable motion: the robot cannot move the end effector as the path asks";
 
 using D4 = Dual<4>;
 
@@ -20,6 +27,7 @@ MotionEvaluator::MotionEvaluator(const Problem& problem, SchemeMaps maps)
       theta_r_(problem.redundancy()),
       rate_r_(theta_r_),
       bend_r_(theta_r_),
+      q_(resting_joints(problem.robot)),
       dual_theta_r_(problem.redundancy()),
       dual_rate_(problem.redundancy()),
       dual_bend_(problem.redundancy()),
@@ -48,19 +56,25 @@ void MotionEvaluator::set_rows(const Eigen::MatrixXd& Q) {
 void MotionEvaluator::evaluate(const Eigen::MatrixXd& Q, std::vector<Instant>& instants) {
   set_rows(Q);
   instants.resize(static_cast<std::size_t>(maps_.instants()));
-  for (Eigen::Index i = 0; i < maps_.instants(); ++i) {
+  follower_.restart();
+  lost_ = -1;
+  for (Eigen::Index i = 0; i < maps_.instants() && lost_ < 0; ++i) {
     const auto at = static_cast<std::size_t>(i);
     Instant& instant = instants[at];
     theta_r_ = place_.col(i);
     rate_r_ = rate_.col(i);
     bend_r_ = bend_.col(i);
-    follower_.set(maps_.x[at], theta_r_, rate_r_, bend_r_);
+    const char* const reason = follower_.set(maps_.x[at], theta_r_, rate_r_, bend_r_);
+    const Follower<double>& motion = follower_.motion();
     instant.t = maps_.t[at];
     instant.end_effector = maps_.x[at].pose;
-    instant.base = follower_.base();
-    instant.q = follower_.q();
-    instant.v = maps_.moves[i] * follower_.v();
-    instant.v_dot = maps_.moves[i] * follower_.v_dot();
+    instant.base = motion.base();
+    instant.q = motion.q();
+    instant.v = maps_.moves[i] * motion.v();
+    instant.v_dot = maps_.moves[i] * motion.v_dot();
+    if (reason || leaves_path(static_cast<int>(i))) {
+      lose(static_cast<int>(i), reason ? reason : kLeavesPath, instants);
+    }
   }
   if (!maps_.smooth()) accelerate_by_differences(instants);
   const auto& end_effector =
@@ -70,6 +84,59 @@ void MotionEvaluator::evaluate(const Eigen::MatrixXd& Q, std::vector<Instant>& i
     dynamics_.inverse(instant.v, instant.v_dot, instant.tau_d);
     dynamics_.kinematics().jacobian(end_effector, instant.base.R, instant.J);
   }
+}
+
+/// Whether the twist at the instant that was followed last, or its derivative if the scheme has
+/// one, is not that of the path.
+bool MotionEvaluator::leaves_path(int i) const {
+  const PathPoint& x = maps_.x[static_cast<std::size_t>(i)];
+  const Follower<double>& motion = follower_.motion();
+  const auto missed = [](double by, const Vector6d& asked) {
+    return by > kPathMissed * (1 + asked.lpNorm<Eigen::Infinity>());
+  };
+  return maps_.moves[i] != 0 &&
+         (missed(motion.twist_missed(), x.twist) ||
+          (maps_.smooth() && missed(motion.acceleration_missed(), x.acceleration)));
+}
+
+/// From this instant on theta_r alone is known.
+void MotionEvaluator::lose(int instant, const char* reason, std::vector<Instant>& instants) {
+  lost_ = instant;
+  lost_reason_ = reason;
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  const int n = problem_.robot.velocities();
+  for (int i = instant; i < maps_.instants(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    Instant& unknown = instants[at];
+    unknown.t = maps_.t[at];
+    unknown.end_effector = maps_.x[at].pose;
+    unknown.base.R.setConstant(kUnknown);
+    unknown.base.p.setConstant(kUnknown);
+    unknown.q.setConstant(q_.size(), kUnknown);
+    for (std::size_t k = 0; k < problem_.redundant.size(); ++k) {
+      unknown.q[problem_.redundant[k]] = place_(static_cast<Eigen::Index>(k), i);
+    }
+    unknown.v.setConstant(n, kUnknown);
+    unknown.v_dot.setConstant(n, kUnknown);
+  }
+}
+
+bool MotionEvaluator::visit(
+    const Eigen::MatrixXd& Q,
+    const std::function<void(int, const Eigen::VectorXd&, const Eigen::MatrixXd&)>& see) {
+  visited_.noalias() = Q.transpose().lazyProduct(maps_.P.transpose());
+  follower_.restart();
+  const bool follow = !problem_.dependent.empty();
+  for (Eigen::Index i = 0; i < maps_.instants(); ++i) {
+    theta_r_ = visited_.col(i);
+    if (follower_.place(maps_.x[static_cast<std::size_t>(i)].pose, theta_r_)) return false;
+    for (std::size_t k = 0; k < problem_.redundant.size(); ++k) {
+      q_[problem_.redundant[k]] = theta_r_[static_cast<Eigen::Index>(k)];
+    }
+    if (follow) q_ = follower_.branch().z().tail(q_.size());
+    see(static_cast<int>(i), q_, follow ? follower_.branch().slopes() : no_slopes_);
+  }
+  return true;
 }
 
 /// v_dot = D v.
@@ -83,7 +150,8 @@ void MotionEvaluator::accelerate_by_differences(std::vector<Instant>& instants) 
   }
 }
 
-void MotionEvaluator::linearize(const std::vector<Instant>& instants, std::vector<Slopes>& slopes) {
+void MotionEvaluator::linearize(const std::vector<Instant>& instants,
+                                std::vector<MotionSlopes>& slopes) {
   slopes.resize(instants.size());
   const int r = problem_.redundancy();
   const EndEffector& end_effector =
@@ -99,11 +167,12 @@ void MotionEvaluator::linearize(const std::vector<Instant>& instants, std::vecto
     f_slopes_.noalias() += f.by_q().lazyProduct(q_slopes_);
     f_slopes_.noalias() += f.by_v().lazyProduct(v_slopes_);
     f_slopes_.noalias() += f.by_v_dot().lazyProduct(v_dot_slopes_);
-    Slopes& s = slopes[i];
+    MotionSlopes& s = slopes[i];
     s.place = f_slopes_.leftCols(r);
     s.rate = f_slopes_.rightCols(r);
     s.v_place = v_slopes_.leftCols(r);
     s.v_rate = v_slopes_.rightCols(r);
+    if (!problem_.dependent.empty()) s.q_place = q_slopes_.leftCols(r);
     s.M = f.by_v_dot();
     if (maps_.smooth()) s.bend.noalias() = s.M.lazyProduct(s.v_rate);
   }
@@ -123,7 +192,12 @@ void MotionEvaluator::follow(const Instant& instant, int i, int first, int count
     D4& seeded = direction < r ? dual_theta_r_[direction] : dual_rate_[direction - r];
     seeded.d[static_cast<std::size_t>(d)] = 1;
   }
-  dual_follower_.set(maps_.x[static_cast<std::size_t>(i)], dual_theta_r_, dual_rate_, dual_bend_);
+  const PathPoint& x = maps_.x[static_cast<std::size_t>(i)];
+  if (problem_.dependent.empty()) {
+    dual_follower_.set(x, dual_theta_r_, dual_rate_, dual_bend_);
+  } else {
+    dual_follower_.set(x, instant.base, instant.q, dual_theta_r_, dual_rate_, dual_bend_);
+  }
   dual_v_ = dual_follower_.v();
   dual_v_dot_ = dual_follower_.v_dot();
   const bool moves = maps_.moves[i] != 0;
@@ -154,8 +228,8 @@ void MotionEvaluator::read_slopes(std::size_t d, Eigen::Index direction) {
   turn_slopes_.col(direction) << along(2, 1), along(0, 2), along(1, 0);
 }
 
-void MotionEvaluator::pull_back(const std::vector<Slopes>& slopes, const Eigen::MatrixXd& lambda,
-                                Eigen::MatrixXd& gradient) const {
+void MotionEvaluator::pull_back(const std::vector<MotionSlopes>& slopes,
+                                const Eigen::MatrixXd& lambda, Eigen::MatrixXd& gradient) const {
   gradient.setZero(maps_.knots(), problem_.redundancy());
   const Eigen::Index count = maps_.instants();
   const auto add = [&](const Eigen::MatrixXd& rows, Eigen::Index i, const Eigen::MatrixXd& part,
@@ -163,7 +237,7 @@ void MotionEvaluator::pull_back(const std::vector<Slopes>& slopes, const Eigen::
     gradient += rows.row(i).transpose() * (part.transpose() * seed).transpose();
   };
   for (Eigen::Index i = maps_.starts ? 1 : 0; i < count; ++i) {  // the start rests where it is
-    const Slopes& s = slopes[static_cast<std::size_t>(i)];
+    const MotionSlopes& s = slopes[static_cast<std::size_t>(i)];
     add(maps_.P, i, s.place, lambda.col(i));
     add(maps_.V, i, s.rate, lambda.col(i));
     if (maps_.smooth()) {
@@ -173,7 +247,7 @@ void MotionEvaluator::pull_back(const std::vector<Slopes>& slopes, const Eigen::
     const Eigen::VectorXd momentum = s.M * lambda.col(i);
     for (Eigen::Index j = 0; j < count; ++j) {
       if (j == i || maps_.D(i, j) == 0) continue;
-      const Slopes& other = slopes[static_cast<std::size_t>(j)];
+      const MotionSlopes& other = slopes[static_cast<std::size_t>(j)];
       const Eigen::VectorXd seed = maps_.D(i, j) * momentum;
       add(maps_.P, j, other.v_place, seed);
       add(maps_.V, j, other.v_rate, seed);
@@ -181,10 +255,10 @@ void MotionEvaluator::pull_back(const std::vector<Slopes>& slopes, const Eigen::
   }
 }
 
-void MotionEvaluator::push_forward(const std::vector<Slopes>& slopes, int instant,
+void MotionEvaluator::push_forward(const std::vector<MotionSlopes>& slopes, int instant,
                                    Eigen::MatrixXd& G) const {
   const Eigen::Index r = problem_.redundancy(), i = instant;
-  const Slopes& s = slopes[static_cast<std::size_t>(instant)];
+  const MotionSlopes& s = slopes[static_cast<std::size_t>(instant)];
   G.setZero(s.place.rows(), maps_.knots() * r);
   if (maps_.starts && instant == 0) return;
   const auto add = [&](const Eigen::MatrixXd& rows, Eigen::Index at, const auto& part) {
@@ -197,7 +271,7 @@ void MotionEvaluator::push_forward(const std::vector<Slopes>& slopes, int instan
   if (maps_.smooth()) return add(maps_.A, i, s.bend);
   for (Eigen::Index j = 0; j < maps_.instants(); ++j) {
     if (j == i || maps_.D(i, j) == 0) continue;
-    const Slopes& other = slopes[static_cast<std::size_t>(j)];
+    const MotionSlopes& other = slopes[static_cast<std::size_t>(j)];
     add(maps_.P, j, Eigen::MatrixXd(maps_.D(i, j) * s.M * other.v_place));
     add(maps_.V, j, Eigen::MatrixXd(maps_.D(i, j) * s.M * other.v_rate));
   }

@@ -8,7 +8,6 @@
 #include "lib/path/limits.h"
 #include "lib/path/motion.h"
 #include "lib/path/program.h"
-#include "lib/robot/chain.h"
 #include "maxwrench/problem.h"
 
 namespace maxwrench {
@@ -23,10 +22,9 @@ constexpr double kVerified = 1e-7;
 
 /// The task in time; a static one holds its pose at one knot.
 MotionTask task_of(const Problem& problem) {
-  if (problem.contact || !problem.dependent.empty()) {
+  if (problem.contact) {
     throw std::invalid_argument(problem.name +
-                                ": got a second contact or joints that follow, expected a task in "
-                                "time with neither");
+                                ": got a second contact, expected a task in time without one");
   }
   if (problem.motion) return *problem.motion;
   MotionTask task;
@@ -89,29 +87,15 @@ struct PlanEvaluator::Workspace {
     }
   }
 
-  /// Empty, or where the base would leave its free axes.
-  std::string reach_violation() const {
-    for (std::size_t i = 0; i < plan.instants.size(); ++i) {
-      if (base_reaches(problem.robot, plan.instants[i].base)) continue;
-      return "unreachable pose at t = " + std::to_string(plan.instants[i].t) +
-             " s: the base would leave its free axes";
-    }
-    return {};
+  /// Empty, or why the knots or their motion are no answer.
+  std::string violation() const {
+    const std::string of_knots = knots_violation(problem, motion.maps(), Q);
+    return of_knots.empty() ? motion_violation(problem, motion, plan.instants) : of_knots;
   }
 
   /// Empty, or the first knot that collides.
   std::string collision() {
-    if (!check_collision) return {};
-    const SchemeMaps& maps = motion.maps();
-    const int first = maps.starts ? 0 : 1;
-    for (std::size_t knot = maps.starts ? 1 : 0; knot < maps.knot_at.size(); ++knot) {
-      links.set_joints(plan.instants[static_cast<std::size_t>(maps.knot_at[knot])].q);
-      const int pair = problem.robot.collision->colliding_pair(links.links());
-      if (pair < 0) continue;
-      return "self-collision: knot " + std::to_string(first + static_cast<int>(knot)) + ": " +
-             problem.robot.collision->pair_name(pair);
-    }
-    return {};
+    return check_collision ? knot_collision(problem, motion, plan.instants, links) : "";
   }
 
   /// On the clamped spline through the knots, of which there are at least two.
@@ -188,7 +172,8 @@ struct PlanEvaluator::Workspace {
   Kinematics<double> links;
   std::vector<NearPair> near;
   KnotRows rows;
-  std::vector<MotionEvaluator::Slopes> slopes;
+  FollowingRows following;
+  std::vector<MotionSlopes> slopes;
   PlanSolution elastic_solution, other;
   Eigen::MatrixXd Q, lambda, all_gradient, G;
   std::optional<MotionEvaluator> fine;
@@ -205,18 +190,14 @@ const std::vector<NearPair>& PlanEvaluator::near_pairs(const Eigen::MatrixXd& kn
   Workspace& ws = *workspace_;
   ws.near.clear();
   if (!ws.check_collision) return ws.near;
-  Eigen::VectorXd q = resting_joints(ws.problem.robot);
-  for (int knot = 0; knot < ws.task.k; ++knot) {
-    q(ws.problem.redundant) = knots.row(knot);
-    ws.links.set_joints(q);
-    find_near_pairs(ws.problem, ws.links, knot, within, ws.near);
-  }
+  find_near_pairs(ws.problem, ws.motion, all_knots(ws.task, knots), within, ws.links, ws.near);
   return ws.near;
 }
 
 const Plan& PlanEvaluator::plan() const { return workspace_->plan; }
 const PlanProgram& PlanEvaluator::program() const { return workspace_->program; }
 const KnotRows& PlanEvaluator::rows() const { return workspace_->rows; }
+const FollowingRows& PlanEvaluator::following_rows() const { return workspace_->following; }
 int PlanEvaluator::knots() const { return workspace_->task.k; }
 bool PlanEvaluator::smooth() const { return workspace_->motion.maps().smooth(); }
 bool PlanEvaluator::starts() const { return workspace_->motion.maps().starts; }
@@ -230,8 +211,7 @@ const Plan& PlanEvaluator::evaluate(const Eigen::MatrixXd& knots) {
   plan.continuous_reason = "";
   ws.Q = all_knots(ws.task, knots);
   ws.motion.evaluate(ws.Q, plan.instants);
-  std::string violation = knots_violation(ws.problem, ws.motion.maps(), ws.Q);
-  if (violation.empty()) violation = ws.reach_violation();
+  const std::string violation = ws.violation();
   set_instants(ws.problem, ws.task, ws.wrench, ws.motion.maps(), plan.instants, ws.program);
   plan.collision = ws.collision();
   if (!violation.empty()) {
@@ -266,6 +246,10 @@ void PlanEvaluator::evaluate_continuous() {
   PlanProgram program = make_plan_program(ws.problem, task, ws.wrench, maps);
   std::vector<Instant> instants;
   fine.evaluate(ws.Q, instants);
+  if (fine.lost() >= 0) {
+    plan.continuous_reason = motion_violation(ws.problem, fine, instants);
+    return;
+  }
   set_instants(ws.problem, ws.task, ws.wrench, maps, instants, program);
   program.rho = kElasticWeight;
   if (task.impulse && task.start == Start::kStatic) {
@@ -290,8 +274,8 @@ void PlanEvaluator::evaluate_continuous() {
 std::optional<Clearance> PlanEvaluator::least_clearance() {
   Workspace& ws = *workspace_;
   if (!ws.check_collision) return {};
-  const SchemeMaps& maps = (ws.Q.rows() < 2 ? ws.motion : ws.on_spline()).maps();
-  return find_least_clearance(ws.problem, maps.t, maps.P * ws.Q, ws.links);
+  MotionEvaluator& motion = ws.Q.rows() < 2 ? ws.motion : ws.on_spline();
+  return find_least_clearance(ws.problem, motion, ws.Q, ws.links);
 }
 
 double PlanEvaluator::evaluate_elastic(const Eigen::MatrixXd& knots, Eigen::MatrixXd* gradient) {
@@ -301,8 +285,7 @@ double PlanEvaluator::evaluate_elastic(const Eigen::MatrixXd& knots, Eigen::Matr
   plan.knots = knots;
   ws.Q = all_knots(ws.task, knots);
   ws.motion.evaluate(ws.Q, plan.instants);
-  std::string violation = knots_violation(ws.problem, ws.motion.maps(), ws.Q);
-  if (violation.empty()) violation = ws.reach_violation();
+  std::string violation = ws.violation();
   if (violation.empty()) violation = ws.collision();
   if (!violation.empty()) {
     plan.conclude(Status::kInvalidPosture, violation);
@@ -347,6 +330,7 @@ PlanProgram& PlanEvaluator::linearize() {
   program = ws.elastic;
   const std::size_t skipped = ws.plan.instants.size() - program.instants.size();
   ws.motion.linearize(ws.plan.instants, ws.slopes);
+  ws.following = make_following_rows(ws.problem, ws.motion, ws.plan.instants, ws.slopes);
   program.G.resize(program.instants.size());
   const Eigen::Index r = ws.problem.redundancy();
   for (std::size_t i = 0; i < program.instants.size(); ++i) {

@@ -26,6 +26,16 @@ constexpr const char* kSingularReason = "singular: the dependent joints do not f
 /// The place of a base axis [x y z roll pitch yaw] in [x, y, z, yaw].
 int coordinate(int axis) { return std::min(axis, 3); }
 
+/// A share of the way [m; rad] from a pose.
+Pose<double> between(const Pose<double>& start, const Vector6d& way, double share) {
+  const Eigen::Vector3d turn = share * way.tail<3>();
+  const double angle = turn.norm();
+  Pose<double> pose = start;
+  pose.p += share * way.head<3>();
+  if (angle > 0) pose.R = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() * start.R;
+  return pose;
+}
+
 }  // namespace
 
 DependentJoints::DependentJoints(const Problem& problem)
@@ -33,6 +43,8 @@ DependentJoints::DependentJoints(const Problem& problem)
       kinematics_(problem.robot),
       q_(problem.robot.joints.size()),
       start_z_(4 + q_.size()),
+      from_(static_cast<Eigen::Index>(problem.redundant.size())),
+      pose_(problem.pose),
       J_(6, problem.robot.velocities()) {
   const Robot& robot = problem.robot;
   for (const int axis : robot.base_axes) {
@@ -75,8 +87,8 @@ void DependentJoints::linearise(const Eigen::VectorXd& z) {
     J_d_.col(static_cast<Eigen::Index>(i)) = J_.col(columns_[i]);
   }
   const Pose<double> pose = base * kinematics_.end_effector(end_effector);
-  error_.head<3>() = problem_.pose.p - pose.p;
-  error_.tail<3>() = logarithm(problem_.pose.R * pose.R.transpose());
+  error_.head<3>() = pose_.p - pose.p;
+  error_.tail<3>() = logarithm(pose_.R * pose.R.transpose());
 }
 
 /// slopes_ where J_ and qr_ are, dtheta_r/dtheta_r included.
@@ -145,36 +157,72 @@ bool DependentJoints::contract(double tolerance) {
   }
 }
 
-/// From the start to theta_r; z_ and slopes_ are those of the last point that was reached.
-const char* DependentJoints::carry(const Eigen::VectorXd& theta_r) {
-  const auto from = problem_.theta_r_default.head(theta_r.size());
-  const double length = theta_r.size() == 0 ? 0 : (theta_r - from).lpNorm<Eigen::Infinity>();
+/// trial_ along the tangent from one share of the way to another, with theta_r and X there.
+void DependentJoints::predict(double from, double to, const Eigen::VectorXd& theta_r) {
+  trial_ = z_;
+  for (Eigen::Index k = 0; k < theta_r.size(); ++k) {
+    trial_ += (to - from) * (theta_r[k] - from_[k]) * slopes_.col(k);
+  }
+  for (Eigen::Index k = 0; k < theta_r.size(); ++k) {
+    trial_[4 + problem_.redundant[static_cast<std::size_t>(k)]] =
+        to < 1 ? from_[k] + to * (theta_r[k] - from_[k]) : theta_r[k];
+  }
+  if (twist_.isZero(0)) return;
+  for (std::size_t i = 0; i < y_.size(); ++i) {
+    trial_[y_[i]] += (to - from) * drift_[static_cast<Eigen::Index>(i)];
+  }
+}
+
+/// From from_ and pose_ to theta_r and a pose; z_ and slopes_ are those of the last point that was
+/// reached.
+const char* DependentJoints::carry(const Eigen::VectorXd& theta_r, const Pose<double>& pose) {
+  const Pose<double> start = pose_;
+  const Eigen::Vector3d turn = logarithm(pose.R * start.R.transpose());
+  twist_ << pose.p - start.p, turn;
+  if (pose.R == start.R) twist_.tail<3>().setZero();
+  const double joints = theta_r.size() == 0 ? 0 : (theta_r - from_).lpNorm<Eigen::Infinity>();
+  const double length = std::max(joints, twist_.lpNorm<Eigen::Infinity>());
   const double longest = length > kStep ? kStep / length : 1;
-  double done = 0;
-  double step = longest;
-  for (int i = 0; i < kMostPathSteps && done < 1; ++i) {
+  drift_ = qr_.solve(twist_);
+  double done = 0, step = longest;
+  const char* reason = nullptr;
+  for (int i = 0; done < 1 && reason == nullptr; ++i) {
     const double next = std::min(1.0, done + step);
-    trial_ = z_;
-    for (Eigen::Index k = 0; k < theta_r.size(); ++k) {
-      trial_ += (next - done) * (theta_r[k] - from[k]) * slopes_.col(k);
-    }
-    for (Eigen::Index k = 0; k < theta_r.size(); ++k) {
-      trial_[4 + problem_.redundant[static_cast<std::size_t>(k)]] =
-          next < 1 ? from[k] + next * (theta_r[k] - from[k]) : theta_r[k];
-    }
+    predict(done, next, theta_r);
+    pose_ = next < 1 ? between(start, twist_, next) : pose;
     const bool arrived = contract(next < 1 ? kOnTheWay : kArrived);
     if (arrived) qr_.compute(J_d_);
     if (arrived && !qr_.is_singular(kSingular)) {
       differentiate();
+      drift_ = qr_.solve(twist_);
       z_ = trial_;
       done = next;
       step = std::min(2 * step, longest);
     } else {
       step = (next - done) / 2;
-      if (step * length < kShortestStep) return arrived ? kSingularReason : kUnreachable;
+      if (step * length < kShortestStep) reason = arrived ? kSingularReason : kUnreachable;
     }
+    if (i + 1 == kMostPathSteps && done < 1) reason = kUnreachable;
   }
-  return done < 1 ? kUnreachable : nullptr;
+  if (done < 1) pose_ = between(start, twist_, done);
+  return reason;
+}
+
+/// A last step to the pose, from close to it.
+const char* DependentJoints::arrive() {
+  const Vector6N dy = qr_.solve(error_);
+  for (std::size_t i = 0; i < y_.size(); ++i) z_[y_[i]] += dy[static_cast<Eigen::Index>(i)];
+  linearise(z_);
+  qr_.compute(J_d_);
+  differentiate();
+  return error_.norm() <= kExact ? nullptr : kUnreachable;
+}
+
+/// from_ of z_.
+void DependentJoints::read_theta_r() {
+  for (Eigen::Index k = 0; k < from_.size(); ++k) {
+    from_[k] = z_[4 + problem_.redundant[static_cast<std::size_t>(k)]];
+  }
 }
 
 bool DependentJoints::has_start() const { return start_error() <= kArrived; }
@@ -186,18 +234,27 @@ const char* DependentJoints::follow(const Eigen::VectorXd& theta_r) {
   theta_r_ = theta_r;
   z_ = start_z_;
   slopes_ = start_slopes_;
-  reason_ = has_start() ? carry(theta_r) : kUnreachable;
-  if (reason_ == nullptr) {
-    const Vector6N dy = qr_.solve(error_);
-    for (std::size_t i = 0; i < y_.size(); ++i) z_[y_[i]] += dy[static_cast<Eigen::Index>(i)];
-    linearise(z_);
-    if (!(error_.norm() <= kExact)) reason_ = kUnreachable;
-    qr_.compute(J_d_);
-    differentiate();
-  }
+  read_theta_r();
+  pose_ = problem_.pose;
+  reason_ = has_start() ? carry(theta_r, pose_) : kUnreachable;
+  if (reason_ == nullptr) reason_ = arrive();
   for (const int i : problem_.dependent) {
     z_[4 + i] = turned_into_limits(problem_.robot.joints[static_cast<std::size_t>(i)], z_[4 + i]);
   }
+  read_theta_r();
+  return reason_;
+}
+
+const char* DependentJoints::go_on(const Eigen::VectorXd& theta_r, const Pose<double>& pose) {
+  followed_ = false;
+  if (reason_ != nullptr) {
+    linearise(z_);
+    qr_.compute(J_d_);
+    differentiate();
+  }
+  reason_ = carry(theta_r, pose);
+  if (reason_ == nullptr) reason_ = arrive();
+  read_theta_r();
   return reason_;
 }
 

@@ -24,6 +24,10 @@ namespace maxwrench {
 ///
 /// With d < 6 the end effector moves in d ways only; a pose that it reaches satisfies all six
 /// equations.
+///
+/// Along a motion y goes on from one (theta_r, X) to the next in the same way: theta_r along the
+/// straight line, the end effector's origin along one too, while it turns about one axis, by less
+/// than pi.
 class DependentJoints {
  public:
   /// Keeps a reference to the problem.
@@ -39,9 +43,12 @@ class DependentJoints {
   /// Whether J_d is singular there: theta_r holds the wrong joints.
   bool start_is_singular() const { return start_is_singular_; }
 
-  /// Solves for y; null, or why there is none. `theta_r`: its joints. Allocates nothing after the
+  /// Solves for y at the problem's pose; null, or why there is none. `theta_r`: its joints.
+  /// Dependent joints are turned into their limits by whole turns. Allocates nothing after the
   /// first call.
   const char* follow(const Eigen::VectorXd& theta_r);
+  /// The same from where the last call ended, at a pose; the joints are not turned.
+  const char* go_on(const Eigen::VectorXd& theta_r, const Pose<double>& pose);
 
   /// Of the last theta_r, or the last point before it that was reached.
   const Eigen::VectorXd& z() const { return z_; }
@@ -54,14 +61,20 @@ class DependentJoints {
   bool approach(double& damping);
   void start();
   bool contract(double tolerance);
-  const char* carry(const Eigen::VectorXd& theta_r);
+  void predict(double from, double to, const Eigen::VectorXd& theta_r);
+  const char* carry(const Eigen::VectorXd& theta_r, const Pose<double>& pose);
+  const char* arrive();
+  void read_theta_r();
 
   const Problem& problem_;
   Kinematics<double> kinematics_;
   std::vector<int> y_, columns_;  ///< indices of y in z, and in the velocities
   Vector6d start_error_ = Vector6d::Zero();
   bool start_is_singular_ = true;
-  Eigen::VectorXd q_, start_z_, theta_r_, z_, trial_;
+  Eigen::VectorXd q_, start_z_, theta_r_, from_, z_, trial_;
+  Pose<double> pose_;  ///< X
+  Vector6d twist_;     ///< [m; rad], the way of X
+  Vector6N drift_;     ///< dy by it, J_d^+ twist, where J_ and qr_ are
   Eigen::MatrixXd start_slopes_, slopes_;
   bool followed_ = false;  ///< theta_r_ and reason_ are known
   const char* reason_ = nullptr;

@@ -84,9 +84,17 @@ class MotionExperiment {
     x.pose = bent();
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(problem_.redundancy());
     const bool linear = script_.interpolation == Interpolation::kLinear;
-    follower_.set(x, reference_.theta_r, linear ? none : reference_.rate, reference_.acceleration);
-    a_ = follower_.v_dot();
-    return {follower_.base(), follower_.q(), follower_.v()};
+    const auto& follower =
+        follow(x, reference_.theta_r, linear ? none : reference_.rate, reference_.acceleration);
+    a_ = follower.v_dot();
+    return {follower.base(), follower.q(), follower.v()};
+  }
+
+  /// The robot at x. Where dependent joints do not get there the experiment ends.
+  const Follower<double>& follow(const PathPoint& x, const Eigen::VectorXd& theta_r,
+                                 const Eigen::VectorXd& rate, const Eigen::VectorXd& acceleration) {
+    if (const char* const reason = follower_.set(x, theta_r, rate, acceleration)) lost_ = reason;
+    return follower_.motion();
   }
 
   /// a of all velocities at a motion: on the path, with the errors of theta_r corrected.
@@ -101,17 +109,17 @@ class MotionExperiment {
       const double most = problem_.robot.joints[static_cast<std::size_t>(joint)].velocity_max;
       bend_[i] = std::clamp(bend_[i], -(most + rate_[i]) / kBrake, (most - rate_[i]) / kBrake);
     }
-    follower_.set(reference_.x, theta_r_, rate_, bend_);
-    a_ = follower_.v_dot();
+    a_ = follow(reference_.x, theta_r_, rate_, bend_).v_dot();
   }
 
   void run_all() {
     const double T = script_.instants.back().t;
     const long periods = static_cast<long>(std::ceil(T / options_.period - 1e-9));
-    for (long k = 0; k < periods && loop_.goes_on(); ++k) {
+    for (long k = 0; k < periods && loop_.goes_on() && !lost_; ++k) {
       period(static_cast<double>(k) * options_.period,
              std::min(T, static_cast<double>(k + 1) * options_.period));
     }
+    if (lost_) loop_.run.conclude(Status::kInvalidPosture, lost_);
   }
 
   /// The efforts of t_1, so the motion is that of t_1 too, as far as it can be told.
@@ -165,11 +173,12 @@ class MotionExperiment {
 
   /// With the posture that the script asks for.
   void compare(TankSample& sample) {
-    follower_.set(reference_.x, reference_.theta_r, reference_.rate, reference_.acceleration);
+    const auto& follower =
+        follow(reference_.x, reference_.theta_r, reference_.rate, reference_.acceleration);
     sample.theta_r = motion_.q(problem_.redundant);
     sample.drift = (sample.theta_r - reference_.theta_r).lpNorm<Eigen::Infinity>();
-    const Pose<double>& base = follower_.base();
-    sample.moved = std::max({(motion_.q - follower_.q()).lpNorm<Eigen::Infinity>(),
+    const Pose<double>& base = follower.base();
+    sample.moved = std::max({(motion_.q - follower.q()).lpNorm<Eigen::Infinity>(),
                              (motion_.base.p - base.p).norm(),
                              logarithm(motion_.base.R * base.R.transpose()).norm()});
     // About the axis that the cell turns about, or did last.
@@ -198,7 +207,8 @@ class MotionExperiment {
   const TankOptions& options_;
   const TankScript& script_;
   const ScriptReader reader_;
-  Follower<double> follower_;
+  BranchFollower follower_;
+  const char* lost_ = nullptr;
   Reference reference_;
   Eigen::VectorXd a_, theta_r_, rate_, bend_;
   Motion motion_;

@@ -115,6 +115,10 @@ TankScript make_script(const Problem& problem, const Plan& plan, Wrench wrench, 
   MotionEvaluator motion(problem, maps_of(task, options.interpolation));
   const SchemeMaps& maps = motion.maps();
   motion.evaluate(all_knots(task, plan.knots), script.instants);
+  if (motion.lost() >= 0) {
+    script.conclude(Status::kInvalidPosture, motion.lost_reason());
+    return script;
+  }
   const PlanProgram program = asking(problem, maps, plan.t_h, script);
   PlanSolution solution;
   solver.solve(program, solution);

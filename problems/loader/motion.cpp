@@ -108,21 +108,6 @@ Start read_start_kind(const Block& start) {
   start.refuse_value("kind", "one of static, rest, zero, free");
 }
 
-void require_served(const Block& task, const Problem& problem) {
-  if (!problem.dependent.empty()) {
-    task.table("theta_r").refuse_value(
-        "joints", fmt::format("all joints up to the end effector, with a base that follows in "
-                              "closed form: joints that follow ({}) are served in static tasks "
-                              "only, not yet in time",
-                              names_of(problem.robot, problem.dependent)));
-  }
-  if (problem.contact) {
-    task.refuse_value("contact",
-                      "none: a second contact is served in static tasks only, not yet "
-                      "in time");
-  }
-}
-
 }  // namespace
 
 bool follows_poses(const Block& task) {
@@ -151,7 +136,10 @@ void read_motion(const Block& task, Problem& problem) {
 
 void read_start(const Block& task, Problem& problem) {
   if (!problem.motion) return;
-  require_served(task, problem);
+  if (task.has("contact")) {
+    task.refuse_value("contact",
+                      "none: a second contact is served in static tasks only, not yet in time");
+  }
   if (!problem.motion->impulse) return;
   const Block start = task.table("start"), theta_r = task.table("theta_r");
   start.allow_only({"theta_r", "kind"});

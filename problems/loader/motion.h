@@ -12,8 +12,8 @@ bool follows_poses(const Block& task);
 /// robot and its pose.
 void read_motion(const Block& task, Problem& problem);
 
-/// Reads `[start]` of a heave, and refuses tasks in time that are not served. `problem` has its
-/// theta_r and contact.
+/// Reads `[start]` of a heave, which is its default of theta_r, and refuses tasks in time that are
+/// not served. `problem` has its theta_r.
 void read_start(const Block& task, Problem& problem);
 
 }  // namespace maxwrench

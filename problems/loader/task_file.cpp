@@ -180,10 +180,10 @@ Problem load_problem(const std::string& name) {
   read_motion(task, problem);
   read_wrench(task.table("wrench"), problem);
   read_theta_r(task.table("theta_r"), problem);
+  read_start(task, problem);
   require_branch(task, problem);
   choose_wrenches(task.table("wrench"), problem);
   if (task.has("contact")) read_contact(task.table("contact"), problem);
-  read_start(task, problem);
   return problem;
 }
 

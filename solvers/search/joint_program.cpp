@@ -28,11 +28,12 @@ JointProgram::JointProgram(PlanEvaluator& plans, const Eigen::VectorXd& x_min,
     start_.segment(u0(i), m_) = plan.u.col(i);
     start_.segment(w0(i), w_[static_cast<std::size_t>(i)].size()) = w_[static_cast<std::size_t>(i)];
   }
-  set_limits(program, plans.rows());
+  set_limits(program, plans.rows(), plans.following_rows());
   evaluate(start_);
 }
 
-void JointProgram::set_limits(const PlanProgram& program, const KnotRows& rows) {
+void JointProgram::set_limits(const PlanProgram& program, const KnotRows& rows,
+                              const KnotRows& following) {
   const Zonotope& set = *program.instants.front().actuation;
   for (int i = 0; i < N_; ++i) {
     const WrenchProgram& at = program.instants[static_cast<std::size_t>(i)];
@@ -54,8 +55,8 @@ void JointProgram::set_limits(const PlanProgram& program, const KnotRows& rows) 
     lower_[p_] = upper_[p_] = start_[p_] = 0;  // t has no part in it
   }
   const auto rates = static_cast<Eigen::Index>(rated_.size());
-  const Eigen::Index limits = path ? N_ : 0, R = rows.R.rows();
-  row_min_.setZero(n_ * N_ + limits + rates + R);
+  const Eigen::Index limits = path ? N_ : 0, R = rows.R.rows(), F = following.R.rows();
+  row_min_.setZero(n_ * N_ + limits + rates + R + F);
   row_max_ = row_min_;
   row_min_.segment(n_ * N_, limits).setConstant(-kInfinity);
   for (Eigen::Index k = 0; k < rates; ++k) {
@@ -63,8 +64,8 @@ void JointProgram::set_limits(const PlanProgram& program, const KnotRows& rows) 
     row_max_[n_ * N_ + limits + k] = program.du_max(j, i);
     row_min_[n_ * N_ + limits + k] = -program.du_max(j, i);
   }
-  row_min_.tail(R) = rows.r_min;
-  row_max_.tail(R) = rows.r_max;
+  row_min_.tail(R + F) << rows.r_min, following.r_min;
+  row_max_.tail(R + F) << rows.r_max, following.r_max;
 }
 
 void JointProgram::evaluate(const Eigen::VectorXd& X) {
@@ -80,6 +81,7 @@ void JointProgram::evaluate(const Eigen::VectorXd& X) {
     const auto at = static_cast<std::size_t>(i);
     rows_.segment(n_ * i, n_) -= program.G[at] * X.head(p_) + program.instants[at].tau_d;
   }
+  rows_.tail(plans_.following_rows().at.size()) = plans_.following_rows().at;
 }
 
 void JointProgram::fill(const PlanProgram& program) {
@@ -119,10 +121,15 @@ void JointProgram::fill_linear(const PlanProgram& program) {
     entries_.emplace_back(row, u0(i + 1) + j, 1);
     entries_.emplace_back(row++, u0(i) + j, -1);
   }
-  const Eigen::SparseMatrix<double>& R = plans_.rows().R;
+  fill_rows(plans_.rows().R, row);
+  fill_rows(plans_.following_rows().R, row + static_cast<int>(plans_.rows().R.rows()));
+}
+
+/// Rows on the knots, from `first` on.
+void JointProgram::fill_rows(const Eigen::SparseMatrix<double>& R, int first) {
   for (int column = 0; column < R.outerSize(); ++column) {
     for (Eigen::SparseMatrix<double>::InnerIterator it(R, column); it; ++it) {
-      entries_.emplace_back(row + static_cast<int>(it.row()), column, it.value());
+      entries_.emplace_back(first + static_cast<int>(it.row()), column, it.value());
     }
   }
 }

@@ -11,9 +11,11 @@ namespace maxwrench {
 /// stacked knots:
 ///
 ///     max t (of a heave c_w,p'w_p)   subject to
-///     B u_i - J_i(x)'W_i(x) w_i - tau_d,i(x) = 0,   t - c_w,i'w_i <= 0,   the rates,   R x
+///     B u_i - J_i(x)'W_i(x) w_i - tau_d,i(x) = 0,   t - c_w,i'w_i <= 0,   the rates,   R x,
+///     positions and rates of dependent joints (x)
 ///
-/// and all limits. The balance is the only part that is not linear. Collisions are not in it.
+/// and all limits. The balance and the last rows are the parts that are not linear. Collisions are
+/// not in it.
 class JointProgram {
  public:
   /// About the plan that `plans` has evaluated last by `evaluate_elastic`; keeps a reference.
@@ -36,10 +38,11 @@ class JointProgram {
  private:
   int u0(int i) const { return first_[static_cast<std::size_t>(i)]; }
   int w0(int i) const { return u0(i) + m_; }
-  void set_limits(const PlanProgram& program, const KnotRows& rows);
+  void set_limits(const PlanProgram& program, const KnotRows& rows, const KnotRows& following);
   void fill(const PlanProgram& program);
   void fill_block(const PlanProgram& program, int i);
   void fill_linear(const PlanProgram& program);
+  void fill_rows(const Eigen::SparseMatrix<double>& R, int first);
 
   PlanEvaluator& plans_;
   int p_, r_, m_, n_, N_;

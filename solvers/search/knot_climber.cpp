@@ -126,31 +126,40 @@ bool KnotClimber::solve() {
   return solution_.status == Status::kOptimal;
 }
 
-/// Limits of the knots, and no pair of bodies nearer than its margin, to first order. Rows that no
-/// step of this radius reaches are left out.
-void KnotClimber::set_rows() {
-  const KnotRows& rows = plans_.rows();
-  const Eigen::VectorXd& x = at_.theta_r;
-  const Eigen::Index r = x.size() / plans_.knots();
-  const Eigen::VectorXd at = rows.R * x, reach = radius_ * reach_;
-  entries_.clear();
-  low_.clear();
-  high_.clear();
-  row_of_.assign(static_cast<std::size_t>(at.size()), -1);
-  for (Eigen::Index i = 0; i < at.size(); ++i) {
-    const double low = rows.r_min[i] - at[i], high = rows.r_max[i] - at[i];
-    if (low < -reach[i] && high > reach[i]) continue;
+/// low <= R y <= high, without rows that no step of this radius reaches; `reach` sums the
+/// magnitudes of each row.
+void KnotClimber::add_rows(const Eigen::SparseMatrix<double>& R, const Eigen::VectorXd& reach,
+                           const Eigen::VectorXd& low, const Eigen::VectorXd& high) {
+  row_of_.assign(static_cast<std::size_t>(R.rows()), -1);
+  for (Eigen::Index i = 0; i < R.rows(); ++i) {
+    if (low[i] < -radius_ * reach[i] && high[i] > radius_ * reach[i]) continue;
     row_of_[static_cast<std::size_t>(i)] = static_cast<int>(low_.size());
     // What rounding left outside is no reason to fail.
-    low_.push_back(std::min(low, 0.0));
-    high_.push_back(std::max(high, 0.0));
+    low_.push_back(std::min(low[i], 0.0));
+    high_.push_back(std::max(high[i], 0.0));
   }
-  for (int column = 0; column < rows.R.outerSize(); ++column) {
-    for (Eigen::SparseMatrix<double>::InnerIterator it(rows.R, column); it; ++it) {
+  for (int column = 0; column < R.outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(R, column); it; ++it) {
       const int row = row_of_[static_cast<std::size_t>(it.row())];
       if (row >= 0) entries_.emplace_back(row, it.col(), it.value());
     }
   }
+}
+
+/// Limits of the knots; to first order those of dependent joints, and no pair of bodies nearer than
+/// its margin.
+void KnotClimber::set_rows() {
+  const KnotRows& rows = plans_.rows();
+  const FollowingRows& following = plans_.following_rows();
+  const Eigen::VectorXd& x = at_.theta_r;
+  const Eigen::Index r = x.size() / plans_.knots();
+  const Eigen::VectorXd at = rows.R * x, ones = Eigen::VectorXd::Ones(x.size());
+  entries_.clear();
+  low_.clear();
+  high_.clear();
+  add_rows(rows.R, reach_, rows.r_min - at, rows.r_max - at);
+  add_rows(following.R, following.R.cwiseAbs() * ones, following.r_min - following.at,
+           following.r_max - following.at);
   for (const NearPair& pair : plans_.near_pairs(unstacked(x, r), kNearing * radius_)) {
     for (Eigen::Index j = 0; j < r; ++j) {
       entries_.emplace_back(low_.size(), pair.knot * r + j, pair.gradient[j]);

@@ -14,7 +14,8 @@ namespace maxwrench {
 /// in the knots, the efforts and the wrenches at once,
 ///
 ///     max t - rho sum |s_i|_1   subject to the balance linearised at the last plan, |y| <= radius,
-///     the limits and speed limits of the knots, no bodies nearer than their margin to first order.
+///     the limits and speed limits of the knots, to first order those of dependent joints, and no
+///     bodies nearer than their margin to first order.
 ///
 /// While neither effort rates nor slacks decide, the program without them is enough
 /// (`BorderedFacets`). A step counts if the elastic value, an exact penalty function, rises by a
@@ -50,6 +51,8 @@ class KnotClimber {
   bool try_step();
   bool solve();
   void set_bounds();
+  void add_rows(const Eigen::SparseMatrix<double>& R, const Eigen::VectorXd& reach,
+                const Eigen::VectorXd& low, const Eigen::VectorXd& high);
   void set_rows();
   Eigen::VectorXd inside(const Eigen::VectorXd& x) const;
   Eigen::VectorXd apart(Eigen::VectorXd x);

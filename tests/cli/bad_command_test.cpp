@@ -46,7 +46,6 @@ INSTANTIATE_TEST_SUITE_P(
                     BadWords{"eval planar/force --state none.toml", "none.toml: file"},
                     BadWords{"eval planar/force --state s.toml --lp simplex", "--lp"},
                     BadWords{"solve planar/force --search luck", "luck"},
-                    BadWords{"solve mobile/push --search slp", "joints that follow"},
                     BadWords{"solve planar/two_arms --search joint_nlp", "second contact"},
                     BadWords{"solve planar/force --measure ellipsoid --search slp",
                              "--search: got 'slp', which serves linf_polytope"},

@@ -188,13 +188,13 @@ class PlanCheck {
 
 class SelfConsistentPlan : public testing::TestWithParam<const char*> {};
 
-INSTANTIATE_TEST_SUITE_P(Each, SelfConsistentPlan,
-                         testing::Values("uvms/valve_trajectory",
-                                         "uvms/valve_trajectory --wrench any --lp clp",
-                                         "uvms/valve_trajectory --scheme ends",
-                                         "uvms/jet_trajectory", "planar/trajectory",
-                                         "uvms/valve_impulse", "uvms/lift_impulse",
-                                         "uvms/valve_impulse --scheme backward --t-h best"));
+INSTANTIATE_TEST_SUITE_P(
+    Each, SelfConsistentPlan,
+    testing::Values("uvms/valve_trajectory", "uvms/valve_trajectory --wrench any --lp clp",
+                    "uvms/valve_trajectory --scheme ends", "uvms/jet_trajectory",
+                    "planar/trajectory", "mobile/trajectory",
+                    "mobile/trajectory --scheme forward --wrench any", "uvms/valve_impulse",
+                    "uvms/lift_impulse", "uvms/valve_impulse --scheme backward --t-h best"));
 
 TEST_P(SelfConsistentPlan, IsWhatItsNumbersSay) { PlanCheck(GetParam()).run(); }
 

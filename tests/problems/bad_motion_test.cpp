@@ -169,12 +169,6 @@ const std::vector<BadMotion> kBadMotions = {
       "type = \"static\"",
       kMoves,
       {"contact: got a table", "static tasks only"}}},
-    {"mobile/push",
-     {"joints_that_follow",
-      "push.toml",
-      "type = \"static\"",
-      kMoves,
-      {"theta_r.joints: got ", "elbow, wrist_pitch, wrist_roll", "static tasks only"}}},
 };
 
 class BadMotionTest : public testing::TestWithParam<BadMotion> {};

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <stdexcept>
 
 #include "benchmarks/row.h"
 #include "maxwrench/load.h"
+#include "maxwrench/plan.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"
@@ -47,6 +49,36 @@ TEST(Mobile, ArmFollowsFromHeights) {
       EXPECT_EQ(posture.base.p.z(), 0);
     }
   }
+}
+
+/// Elbow and wrist of a heave follow at its start: at the default of other tasks, zero, the
+/// stretched arm would be singular.
+TEST(Mobile, AHeaveFollowsFromItsStart) {
+  TemporaryFolder folder;
+  const auto shipped = std::filesystem::path(MAXWRENCH_SOURCE_DIR) / "problems" / "mobile";
+  std::string text = read_text(shipped / "push.toml");
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    ASSERT_NE(text.find(from), std::string::npos) << from;
+    text.replace(text.find(from), from.size(), to);
+  };
+  replace("type = \"static\"",
+          "type = \"impulse\"\nmotion = { T = 2, k = 4, t_h = 3 }\n"
+          "start = { theta_r = [0.5, -1.2] }");
+  replace("default = [0, -1]\n", "");
+  replace("rover.toml", (shipped / "rover.toml").string());
+  std::ofstream(folder.path() / "heave.toml") << text;
+  const Problem problem = load_problem((folder.path() / "heave.toml").string());
+  EXPECT_EQ(problem.theta_r_default, Eigen::Vector2d(0.5, -1.2));
+  PlanEvaluator evaluator(problem, Wrench::kPure, plan_solvers().front().make);
+  const Plan& plan = evaluator.evaluate(problem.theta_r_default.transpose().replicate(4, 1));
+  ASSERT_EQ(plan.status, Status::kOptimal) << plan.reason.c_str();
+  // At rest throughout, no effort rates: the static capability.
+  PostureEvaluator model(problem);
+  WrenchProgram program = make_wrench_program(problem, Wrench::kPure);
+  set_posture(model.evaluate(problem.theta_r_default), program);
+  const std::optional<double> best = brute_force(program);
+  ASSERT_TRUE(best);
+  EXPECT_NEAR(plan.value, *best, 1e-7 * *best);
 }
 
 /// The ground carries the weight: it loads the arm's joints and no axis of the base.

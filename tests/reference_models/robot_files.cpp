@@ -137,7 +137,7 @@ Files read_robot(const std::filesystem::path& file) {
     }
   }
   files.gravity = table["environment"]["gravity"].value<double>().value();
-  files.density = table["environment"]["water_density"].value<double>().value();
+  files.density = table["environment"]["water_density"].value_or(0.0);
   files.trim_mass = table["trim"]["buoyancy_mass"].value_or(0.0);
   files.trim_place = numbers(table["trim"]["position"], 3);
   for (const auto& [name, node] : *table["end_effectors"].as_table()) {

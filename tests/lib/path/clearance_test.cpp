@@ -43,6 +43,36 @@ TEST(Clearance, GradientIsThatOfCentralDifferences) {
   EXPECT_GT(compared, 500);
 }
 
+/// Of the knots of a plan, with joints that follow from theta_r.
+TEST(Clearance, GradientHasTheDependentJoints) {
+  const Problem problem = load_problem("mobile/trajectory");
+  PlanEvaluator evaluator(problem, Wrench::kPure, plan_solvers().front().make);
+  Eigen::VectorXd x = problem.theta_r_default.replicate(problem.motion->k, 1);
+  Random random(6);
+  for (double& q : x) q += random.uniform(-0.2, 0.2);
+  const auto near = [&](const Eigen::VectorXd& at) {
+    return evaluator.near_pairs(unstacked(at, 2), kInfinity);
+  };
+  const auto pairs = near(x);
+  const double h = 1e-6;
+  int compared = 0;
+  for (Eigen::Index j = 0; j < x.size(); ++j) {
+    const auto after = near(x + h * Eigen::VectorXd::Unit(x.size(), j));
+    const auto before = near(x - h * Eigen::VectorXd::Unit(x.size(), j));
+    ASSERT_EQ(after.size(), pairs.size());
+    ASSERT_EQ(before.size(), pairs.size());
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const double right = (after[i].clearance - pairs[i].clearance) / h;
+      const double left = (pairs[i].clearance - before[i].clearance) / h;
+      if (std::abs(right - left) > 1e-3) continue;  // another feature becomes the nearest
+      const double slope = pairs[i].knot == j / 2 ? pairs[i].gradient[j % 2] : 0;
+      EXPECT_NEAR(slope, (right + left) / 2, 1e-5);
+      compared += std::abs(slope) > 1e-3;
+    }
+  }
+  EXPECT_GT(compared, 20);
+}
+
 TEST(Clearance, IsNegativeWhereBodiesCollide) {
   const Problem problem = load_problem("uvms/valve");
   Kinematics<double> kinematics(problem.robot);

@@ -72,13 +72,13 @@ TEST_P(FollowedPath, AccelerationsAreDerivativesOfTheVelocities) {
 }
 
 TEST(Motion, AllocatesNothingAfterTheFirstCall) {
-  for (const char* name : {"uvms/valve_trajectory", "uvms/valve_impulse"}) {
+  for (const char* name : {"uvms/valve_trajectory", "uvms/valve_impulse", "mobile/trajectory"}) {
     const Problem problem = load_problem(name);
     MotionEvaluator motion(problem, make_scheme(*problem.motion));
     const Eigen::MatrixXd Q =
         problem.theta_r_default.transpose().replicate(motion.maps().knots(), 1);
     std::vector<Instant> instants;
-    std::vector<MotionEvaluator::Slopes> slopes;
+    std::vector<MotionSlopes> slopes;
     motion.evaluate(Q, instants);
     motion.linearize(instants, slopes);
     const long before = allocation_count();
@@ -110,6 +110,12 @@ INSTANTIATE_TEST_SUITE_P(
                     Sloped{"uvms/valve_trajectory", Scheme::kSpline, Wrench::kAny},
                     Sloped{"uvms/jet_trajectory", Scheme::kSpline, Wrench::kPure},
                     Sloped{"planar/trajectory", Scheme::kSpline, Wrench::kPure},
+                    Sloped{"mobile/trajectory", Scheme::kSpline, Wrench::kPure},
+                    Sloped{"mobile/trajectory", Scheme::kEnds, Wrench::kPure},
+                    Sloped{"mobile/trajectory", Scheme::kForward, Wrench::kPure},
+                    Sloped{"mobile/trajectory", Scheme::kSpline, Wrench::kAny},
+                    Sloped{"mobile/push", Scheme::kSpline, Wrench::kPure},
+                    Sloped{"mobile/push", Scheme::kForward, Wrench::kPure},
                     Sloped{"uvms/valve_impulse", Scheme::kSpline, Wrench::kPure},
                     Sloped{"uvms/valve_impulse", Scheme::kBackward, Wrench::kPure},
                     Sloped{"uvms/valve_impulse", Scheme::kForward, Wrench::kPure}),
@@ -125,11 +131,31 @@ Eigen::VectorXd random_table(const Problem& problem, Random& random) {
   return x;
 }
 
+/// A static problem as a heave from its default.
+Problem load_moving(const char* name) {
+  Problem problem = load_problem(name);
+  if (problem.motion) return problem;
+  MotionTask& task = problem.motion.emplace();
+  task.impulse = true;
+  task.T = 4;
+  task.k = 4;
+  task.t_h = 3;
+  task.path = Path::constant(problem.pose, task.T);
+  task.theta_0 = problem.theta_r_default;
+  return problem;
+}
+
 TEST_P(PlanGradient, IsThatOfCentralDifferences) {
-  Problem problem = load_problem(GetParam().problem);
+  Problem problem = load_moving(GetParam().problem);
   problem.motion->scheme = GetParam().scheme;
   problem.robot.collision = nullptr;
   for (Joint& joint : problem.robot.joints) joint.velocity_max = kInfinity;
+  for (const int i : problem.dependent) {
+    Joint& joint = problem.robot.joints[static_cast<std::size_t>(i)];
+    joint.q_min = -10;
+    joint.q_max = 10;
+  }
+  const Problem drawn = problem;
   problem.theta_r_min.setConstant(-10);
   problem.theta_r_max.setConstant(10);
   // The row on the start of a smooth heave is no matter of the gradient: any table has a value
@@ -153,8 +179,10 @@ TEST_P(PlanGradient, IsThatOfCentralDifferences) {
   const int wanted = std::max(4, 200 / kSampleDivisor);
   const Eigen::VectorXd start = problem.theta_r_default.replicate(problem.motion->k, 1);
   int compared = 0, kinks = 0;
-  for (int sample = 0; compared < wanted && sample < 3 * wanted; ++sample) {
-    const Eigen::VectorXd x = start + kept(random_table(problem, random) - start);
+  for (int sample = 0; compared < wanted && sample < 6 * wanted; ++sample) {
+    // What is beyond the limits of other joints is hardly ever reached.
+    const Problem& around = problem.dependent.empty() ? problem : drawn;
+    const Eigen::VectorXd x = start + kept(random_table(around, random) - start);
     Eigen::VectorXd direction(x.size());
     for (double& d : direction) d = random.normal();
     direction = kept(direction).normalized();

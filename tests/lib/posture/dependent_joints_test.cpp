@@ -134,6 +134,47 @@ TEST(DependentJoints, DependsOnThetaRAlone) {
   for (std::size_t i = points.size(); i-- > 0;) EXPECT_EQ(other.evaluate(points[i]).q, q[i]);
 }
 
+/// Along random ways of theta_r and the pose, there and back: the pose is met at the end, and y is
+/// what it was at the start.
+TEST(DependentJoints, GoesOnAlongAMotion) {
+  Random random(7);
+  int arrived = 0;
+  for (int sample = 0; sample < 400 / kSampleDivisor; ++sample) {
+    const auto& axes = kAxes[static_cast<std::size_t>(sample) % kAxes.size()];
+    Problem problem = problem_with_dependents(random, axes, 1 + sample % 5);
+    const Pose<double> start = problem.pose;
+    const Eigen::VectorXd before = problem.theta_r_default;
+    const Eigen::VectorXd after = random_theta_r(problem, random);
+    const Eigen::Vector3d turn = random_vector(random, 0.2);
+    const Eigen::Vector3d way = random_vector(random, 0.1);
+    const auto pose_at = [&](double s) -> Pose<double> {
+      return {Eigen::AngleAxisd(s * turn.norm(), turn.normalized()) * start.R, start.p + s * way};
+    };
+    DependentJoints branch(problem);
+    if (branch.follow(before)) continue;  // singular
+    const Eigen::VectorXd z = branch.z();
+    bool reached = true;
+    const auto go = [&](double s) {
+      reached = reached && !branch.go_on(before + s * (after - before), pose_at(s));
+    };
+    for (int i = 1; i <= 10; ++i) go(i / 10.0);
+    if (!reached) continue;
+    ++arrived;
+    Posture posture;
+    posture.base = base_pose(problem.robot, branch.z().head<4>());
+    Kinematics<double> kinematics(problem.robot);
+    kinematics.set_joints(branch.z().tail(before.size() + problem.dependent.size()));
+    posture.links = kinematics.links();
+    problem.pose = pose_at(1);
+    EXPECT_LT(pose_error(problem, posture), 1e-12);
+    problem.pose = start;
+    for (int i = 9; i >= 0; --i) go(i / 10.0);
+    EXPECT_TRUE(reached);
+    EXPECT_LT((branch.z() - z).norm(), 1e-8 * (1 + z.norm()));
+  }
+  EXPECT_GT(arrived, 200 / kSampleDivisor);
+}
+
 TEST(DependentJoints, AllocatesNothingAfterTheFirstCall) {
   Random random(4);
   const Problem problem = problem_with_dependents(random, {5}, 3);

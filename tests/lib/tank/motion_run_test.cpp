@@ -93,6 +93,23 @@ TEST(TankMotion, EachSchemesTurnAtRestIsHeld) {
   }
 }
 
+/// The elbow and the wrist of the wheeled base follow from theta_r, here on a curve.
+TEST(TankMotion, ADoorIsPushedWithJointsThatFollow) {
+  const Problem problem = load_problem("mobile/trajectory");
+  MatrixXd knots = constant(problem, problem.theta_r_default);
+  for (Eigen::Index i = 0; i < knots.rows(); ++i) {
+    knots.row(i) += 0.05 * static_cast<double>(i) * Eigen::RowVector2d(1, -1);
+  }
+  const TankScript script = script_of(problem, knots);
+  ASSERT_EQ(script.status, Status::kOptimal) << script.reason.c_str();
+  const TankRun tank = run(problem, script);
+  expect_within_limits(tank);
+  EXPECT_TRUE(tank.summary.held) << tank.summary.missed;
+  EXPECT_LT(tank.summary.moved, 1e-3);
+  EXPECT_NEAR(tank.summary.low, script.planned, kFollowedShare * script.planned);
+  EXPECT_NEAR(tank.samples.back().angle, pi / 3, 1e-4);
+}
+
 /// Only c'h is fixed; the cell takes the rest.
 TEST(TankMotion, FreeComponentsAreLeftToTheCell) {
   const Problem problem = turn_of(Scheme::kSpline);

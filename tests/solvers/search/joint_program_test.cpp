@@ -42,6 +42,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Setting{"planar/trajectory", Scheme::kSpline, Wrench::kPure},
                     Setting{"uvms/valve_trajectory", Scheme::kSpline, Wrench::kPure},
                     Setting{"uvms/valve_trajectory", Scheme::kEnds, Wrench::kAny},
+                    Setting{"mobile/trajectory", Scheme::kSpline, Wrench::kPure},
+                    Setting{"mobile/trajectory", Scheme::kEnds, Wrench::kAny},
                     Setting{"uvms/valve_impulse", Scheme::kSpline, Wrench::kPure},
                     Setting{"uvms/valve_impulse", Scheme::kBackward, Wrench::kPure}));
 
