@@ -7,27 +7,31 @@ namespace maxwrench {
 namespace {
 
 constexpr int kMaxIterations = 150;
-/// An equation's weight in the normal equations; what this leaves of it vanishes with the steps.
-constexpr double kEquation = 1e8;
 /// Pivots of the normal equations below this share are rounding. Where steps end at once, more is:
 /// the limit rises tenfold each time.
 constexpr double kPivot = 1e-15;
 constexpr double kStuck = 1e-4;
 constexpr int kPatience = 4;
-/// The share of the way to the boundary that a step goes.
-constexpr double kBoundary = 0.99;
+/// The share of the way to the boundary that a step leaves: of the gap, within these.
+constexpr double kLeft = 0.3, kMostLeft = 0.01, kLeastLeft = 1e-5;
+/// The gap goes so far below the tolerance, so that values can be compared, unless only a step is
+/// asked for.
+constexpr double kClosed = 0.1, kStepOnly = 1e-8;
 /// A correction that does not lengthen the step by so much is the last.
 constexpr double kLonger = 0.02;
 constexpr int kCorrections = 2;
-
-/// Columns of the directions.
-constexpr int kTau = 0, kStep = 1, kDual = 2;
+/// Slacks [N, N m] from which it starts: their products with their multipliers, mu for all, leave
+/// room for programs that need much more.
+constexpr double kSlack = 10;
+/// Below this gap steps are refined.
+constexpr double kRefine = 1e-6;
 
 }  // namespace
 
 Embedding::End Embedding::run(const PlanProgram& program, bool rates, bool slacks, double tolerance,
                               PlanSolution& solution) {
   forms_.build(program, rates, slacks);
+  matrix_.reserve(forms_);
   start(program);
   int stuck = 0;
   double step = 0;
@@ -42,7 +46,7 @@ Embedding::End Embedding::run(const PlanProgram& program, bool rates, bool slack
     }
     if (ends) return End::kNone;
     iterate();
-    step = std::min(1.0, kBoundary * reach());
+    step = std::min(1.0, (1 - left()) * reach());
     stuck = step < kStuck ? stuck + 1 : 0;
     if (stuck > 0) least_pivot_ *= 10;
   }
@@ -51,10 +55,18 @@ Embedding::End Embedding::run(const PlanProgram& program, bool rates, bool slack
 void Embedding::start(const PlanProgram& program) {
   const int size = forms_.size;
   const auto slacks = static_cast<Eigen::Index>(forms_.slacks.size());
-  D_.reserve(forms_, 3);
+  G_.resize(size, 3);
+  if (split()) G_low_.resize(size, 2);
+  D_X_.resize(forms_.variables, 3);
+  D_sigma_.resize(slacks, 2);
+  weight_.resize(size);
+  s_phi_.resize(slacks);
+  s_diagonal_.resize(slacks);
+  equation_y_.setZero(static_cast<Eigen::Index>(forms_.equations.size()));
+  equation_dy_.resizeLike(equation_y_);
   rho_ = split() ? program.rho : 0;
   count_ = forms_.has_lo.sum() + forms_.has_hi.sum();
-  const double mu = 30.0 / forms_.N;
+  const double mu = split() ? 0.5 * rho_ * kSlack : 30.0 / forms_.N;
   scale_ = forms_.scale;
   for (int i = 0; forms_.t > 0 && i < forms_.N; ++i) {
     scale_[forms_.stages[i].f0 + forms_.stages[i].count - 1] = 30;
@@ -63,79 +75,28 @@ void Embedding::start(const PlanProgram& program) {
   high_.start(forms_.hi, forms_.has_hi, scale_, mu);
   X_.setZero(forms_.variables);
   phi_.setZero(size);
-  sigma_.setOnes(slacks);
+  sigma_.setConstant(slacks, kSlack);
   if (split()) phi_low_.setZero(size);
   for (const int f : forms_.slacks) {
-    phi_[f] = -1;
-    phi_low_[f] = 1;
+    phi_[f] = -kSlack;
+    phi_low_[f] = kSlack;
     low_.y[f] = high_.y[f] = 0.5 * rho_;
-    low_.s[f] = high_.s[f] = 1;
+    low_.s[f] = high_.s[f] = kSlack;
   }
   tau_ = 1;
   kappa_ = mu;
   least_pivot_ = kPivot;
 }
 
-/// Takes the step; residuals of the embedding and right-hand sides at the point where it ends.
-void Embedding::measure(double step) {
-  if (step > 0) {
-    X_ += step * (D_.X.col(kStep) + d_tau_ * D_.X.col(kTau));
-    sigma_ += step * (D_.sigma.col(kStep) + d_tau_ * D_.sigma.col(kTau));
-    tau_ += step * d_tau_;
-    kappa_ += step * d_kappa_;
-  }
-  dual_value_ = 0;
-  double complementarity = 0;
-  const auto side = [&](Side& each, Eigen::VectorXd& phi, const Eigen::MatrixXd& G, bool own,
-                        Eigen::Index a, Eigen::Index n) {
-    if (step > 0) {
-      if (own) phi.segment(a, n) += step * (G.col(kStep) + d_tau_ * G.col(kTau)).segment(a, n);
-      each.advance(step, a, n);
-    }
-    each.measure(phi, tau_, a, n);
-    dual_value_ += each.sign * each.limit->segment(a, n).dot(each.y.segment(a, n));
-    complementarity -= each.centre.segment(a, n).sum();
-  };
-  for_chunks(forms_.size, [&](Eigen::Index a, Eigen::Index n) {
-    side(high_, phi_, D_.G, true, a, n);
-    side(low_, split() ? phi_low_ : phi_, D_.low(), split(), a, n);
-    const auto theta_h = high_.theta.segment(a, n), theta_l = low_.theta.segment(a, n);
-    const auto y_h = high_.y.segment(a, n), y_l = low_.y.segment(a, n);
-    D_.weight.segment(a, n) = theta_h + theta_l;
-    D_.G.col(kTau).segment(a, n) = theta_h.cwiseProduct(forms_.hi.segment(a, n)) +
-                                   theta_l.cwiseProduct(forms_.lo.segment(a, n));
-    D_.G.col(kDual).segment(a, n) = y_l - y_h;
-    D_.G.col(kStep).segment(a, n) = y_h - y_l + theta_h.cwiseProduct(high_.residual.segment(a, n)) -
-                                    theta_l.cwiseProduct(low_.residual.segment(a, n));
-  });
-  for (const int f : forms_.equations) complementarity -= high_.y[f];
-  measure_equations();
-  D_.eliminate(forms_, low_, high_);
-  D_.sigma.col(kTau).setConstant(-rho_);
-  primal_value_ = forms_.cost.dot(X_) - rho_ * sigma_.sum();
-  gap_residual_ = kappa_ + dual_value_ - primal_value_;
-  mu_ = (complementarity + tau_ * kappa_) / (count_ + 1);
-}
-
-/// An equation has a weight and a multiplier of any sign.
-void Embedding::measure_equations() {
-  for (const int f : forms_.equations) {
-    high_.residual[f] = forms_.hi[f] * tau_ - phi_[f];
-    high_.theta[f] = D_.weight[f] = kEquation;
-    high_.centre[f] = 0;
-    D_.G(f, kTau) = kEquation * forms_.hi[f];
-    D_.G(f, kStep) = kEquation * high_.residual[f];
-  }
-}
-
 /// Whether the present point is a verdict that the data confirm.
 bool Embedding::settled(const PlanProgram& program, double tolerance, PlanSolution& solution) {
   if (!std::isfinite(mu_)) return false;
   const double size = tau_ + std::abs(primal_value_);
-  if (std::abs(dual_value_ - primal_value_) <= tolerance * size && kappa_ < tau_) {
-    reader_.read_primal(program, forms_, X_, tau_, solution);
-    kept_G_ = high_.y - low_.y;
-    reader_.read_dual(program, forms_, kept_G_, tau_, false, solution);
+  const double gap = tolerance < kStepOnly ? kClosed * tolerance : tolerance;
+  if (std::abs(dual_value_ - primal_value_) <= gap * size && kappa_ < tau_) {
+    forms_.read_primal(program, X_, tau_, solution);
+    collect_multipliers();
+    forms_.read_dual(program, kept_G_, tau_, false, solution);
     solution.residual = recheck(program, solution);
     if (solution.residual.within(tolerance * (1 + std::abs(solution.value) + solution.price))) {
       solution.conclude(Status::kOptimal);
@@ -143,8 +104,8 @@ bool Embedding::settled(const PlanProgram& program, double tolerance, PlanSoluti
     }
   }
   if (dual_value_ < 0 && kappa_ > tau_) {
-    kept_G_ = high_.y - low_.y;
-    reader_.read_dual(program, forms_, kept_G_, -dual_value_, true, solution);
+    collect_multipliers();
+    forms_.read_dual(program, kept_G_, -dual_value_, true, solution);
     if (proves_infeasible(program, solution)) {
       solution.conclude(Status::kInfeasible, "no efforts and wrenches balance all instants");
       return true;
@@ -153,126 +114,116 @@ bool Embedding::settled(const PlanProgram& program, double tolerance, PlanSoluti
   return false;
 }
 
+void Embedding::collect_multipliers() {
+  kept_G_ = high_.y - low_.y;
+  for (std::size_t e = 0; e < forms_.equations.size(); ++e) {
+    kept_G_[forms_.equations[e]] = equation_y_[static_cast<Eigen::Index>(e)];
+  }
+}
+
 void Embedding::iterate() {
-  D_.factor(forms_, least_pivot_);
+  matrix_.factor(forms_, weight_, least_pivot_);
   predict();
   const double rest = 1 - std::min(1.0, reach());
   const double gamma = std::max(rest * rest * std::min(rest, 0.5), 1e-12);
   const double share = 1 - gamma;
   const double tau_centre = gamma * mu_ - tau_ * kappa_ - d_tau_ * d_kappa_;
-  correct(gamma);
-  direct(share, tau_centre);
-  if (forms_.p > 0) centralise(share, tau_centre, reach());
-  if (dual_value_ - primal_value_ < 1e-4 * (tau_ + std::abs(primal_value_))) refine(share);
+  direct(share, tau_centre, gamma * mu_);
+  if (forms_.p > 0) centralise(share, tau_centre);
+  if (dual_value_ - primal_value_ < kRefine * (tau_ + std::abs(primal_value_))) refine(share);
 }
 
 /// The directions of tau and of the predictor, at once.
 void Embedding::predict() {
   for (std::size_t i = 0; i < forms_.slacks.size(); ++i) {
     const int f = forms_.slacks[i];
-    const double sigma_residual = high_.y[f] + low_.y[f] - rho_ * tau_;
-    D_.sigma(i, kStep) = sigma_residual - high_.y[f] - low_.y[f] -
-                         high_.theta[f] * high_.residual[f] - low_.theta[f] * low_.residual[f];
+    D_sigma_(i, kStep) = high_.y[f] + low_.y[f] - rho_ * tau_ + high_.push(1, phi_[f], tau_, f) +
+                         low_.push(1, phi_low_[f], tau_, f);
   }
-  D_.X.col(kTau) = forms_.cost;
-  D_.X.col(kDual) = tau_ * forms_.cost;
-  forms_.add_transposed(D_.G.col(kDual), D_.X.col(kDual));
-  D_.X.col(kStep) = D_.X.col(kDual);
-  D_.solve(forms_, kTau, 2);
-  aim_tau();
-  finish(1, -tau_ * kappa_);
+  D_X_.col(kTau) = forms_.cost;
+  D_X_.col(kStep).setZero();
+  D_X_.col(kDual) = tau_ * forms_.cost;
+  eliminate_slacks(kTau, 2);
+  forms_.add_transposed(G_, D_X_);
+  D_X_.col(kStep) += D_X_.col(kDual);
+  solve_normal(kTau, 2);
+  aim(1, -tau_ * kappa_, sum_pushes());
+  foresee();
 }
 
-/// What is left of the limits along the direction of tau: sums of squares, which do not cancel.
-void Embedding::aim_tau() {
-  tau_pivot_ = kappa_ / tau_;
-  const auto add = [&](const Side& side, const auto& q, Eigen::Index a, Eigen::Index n) {
-    tau_pivot_ += side.theta.segment(a, n).dot(side.drift(q, a, n).cwiseAbs2());
-  };
-  for_chunks(forms_.size, [&](Eigen::Index a, Eigen::Index n) {
-    add(high_, D_.G.col(kTau), a, n);
-    add(low_, D_.low().col(kTau), a, n);
-  });
+/// The right-hand sides without the columns of sigma.
+void Embedding::eliminate_slacks(int first, int count) {
+  for (int c = first; c < first + count; ++c) {
+    for (std::size_t i = 0; i < forms_.slacks.size(); ++i) {
+      G_(forms_.slacks[i], c) -= s_phi_[i] / s_diagonal_[i] * D_sigma_(i, c);
+    }
+  }
 }
 
-/// The direction for the present centre and the share of the residuals that goes.
-void Embedding::direct(double share, double tau_centre) {
-  push(share);
-  D_.X.col(kStep) = share * D_.X.col(kDual);
-  D_.solve(forms_, kStep, 1);
-  finish(share, tau_centre);
+/// Columns of X and sigma from their right-hand sides, and G of them.
+void Embedding::solve_normal(int first, int count) {
+  auto X = D_X_.middleCols(first, count);
+  auto G = G_.middleCols(first, count);
+  matrix_.solve(forms_, X);
+  forms_.apply(X, G);
+  if (!split()) return;
+  G_low_.middleCols(first, count) = G;
+  for (int c = first; c < first + count; ++c) {
+    for (std::size_t i = 0; i < forms_.slacks.size(); ++i) {
+      const int f = forms_.slacks[i];
+      double& sigma = D_sigma_(i, c);
+      sigma = (sigma - s_phi_[i] * G_(f, c)) / s_diagonal_[i];
+      G_(f, c) -= sigma;
+      G_low_(f, c) += sigma;
+    }
+  }
 }
 
-void Embedding::push(double share) {
-  for_chunks(forms_.size, [&](Eigen::Index a, Eigen::Index n) {
-    D_.G.col(kStep).segment(a, n) = low_.push(share, a, n) - high_.push(share, a, n);
-  });
-  const auto push = [&](const Side& side, int f) {
-    return side.centre[f] * side.inverse_s[f] - share * side.theta[f] * side.residual[f];
-  };
+/// The direction for the present centres, raised by `raise`, and the share of the residuals that
+/// goes.
+void Embedding::direct(double share, double tau_centre, double raise) {
+  const double pushes = push(share, raise);
+  D_X_.col(kStep) = share * D_X_.col(kDual);
+  eliminate_slacks(kStep, 1);
+  forms_.add_transposed(G_.col(kStep), D_X_.col(kStep));
+  solve_normal(kStep, 1);
+  aim(share, tau_centre, pushes);
+  finish(share);
+}
+
+/// d tau and d kappa. What the step does to the limits along the direction of tau is
+/// (c, -rho)'(X, sigma) of the step by symmetry of H; slacks, whose weights differ most, lose too
+/// much to rounding by it.
+void Embedding::aim(double share, double tau_centre, double pushes) {
+  double dual = D_X_.col(kTau).dot(D_X_.col(kDual));
   for (std::size_t i = 0; i < forms_.slacks.size(); ++i) {
     const int f = forms_.slacks[i];
-    const double sigma_residual = high_.y[f] + low_.y[f] - rho_ * tau_;
-    D_.sigma(i, kStep) = share * sigma_residual + push(high_, f) + push(low_, f);
+    dual += D_sigma_(i, kTau) * (high_.y[f] + low_.y[f] - rho_ * tau_);
   }
-}
-
-/// d tau, and with it the steps of all slacks and multipliers.
-void Embedding::finish(double share, double tau_centre) {
-  double right = share * (gap_residual_ + D_.X.col(kTau).dot(D_.X.col(kDual))) + tau_centre / tau_ -
-                 forms_.cost.dot(D_.X.col(kStep)) + rho_ * D_.sigma.col(kStep).sum();
-  for (std::size_t i = 0; i < forms_.slacks.size(); ++i) {
-    const int f = forms_.slacks[i];
-    right += share * D_.sigma(i, kTau) * (high_.y[f] + low_.y[f] - rho_ * tau_);
-  }
-  const auto pull = [&](const Side& side, const Eigen::MatrixXd& G, Eigen::Index a,
-                        Eigen::Index n) {
-    const auto moved =
-        side.sign * side.theta.segment(a, n).cwiseProduct(G.col(kStep).segment(a, n));
-    right += side.drift(G.col(kTau), a, n).dot(side.push(share, a, n) + moved);
-  };
-  for_chunks(forms_.size, [&](Eigen::Index a, Eigen::Index n) {
-    pull(high_, D_.G, a, n);
-    pull(low_, D_.low(), a, n);
-  });
+  const double along = forms_.cost.dot(D_X_.col(kStep)) - rho_ * D_sigma_.col(kStep).sum();
+  const double right = share * (gap_residual_ + dual) + tau_centre / tau_ + pushes - along +
+                       (split() ? sum_moves() : -along);
   d_tau_ = right / tau_pivot_;
   d_kappa_ = (tau_centre - kappa_ * d_tau_) / tau_;
-  for_chunks(forms_.size, [&](Eigen::Index a, Eigen::Index n) {
-    high_.finish(share, d_tau_, D_.G.col(kTau), D_.G.col(kStep), a, n);
-    low_.finish(share, d_tau_, D_.low().col(kTau), D_.low().col(kStep), a, n);
-  });
-  for (const int f : forms_.equations) {
-    high_.dy[f] = kEquation * (D_.G(f, kStep) + d_tau_ * (D_.G(f, kTau) - forms_.hi[f]) -
-                               share * high_.residual[f]);
-  }
-}
-
-/// Mehrotra's centre after the predictor.
-void Embedding::correct(double gamma) {
-  for_chunks(forms_.size, [&](Eigen::Index a, Eigen::Index n) {
-    for (Side* side : {&high_, &low_}) {
-      side->centre.segment(a, n) += gamma * mu_ * side->has->segment(a, n) -
-                                    side->ds.segment(a, n).cwiseProduct(side->dy.segment(a, n));
-    }
-  });
 }
 
 /// Gondzio's corrections: products that a longer step would leave far from mu are pulled back. One
 /// that does not lengthen the step is taken back.
-void Embedding::centralise(double share, double tau_centre, double step) {
+void Embedding::centralise(double share, double tau_centre) {
+  double step = reach();
   for (int count = 0; count < kCorrections && step < 0.9; ++count) {
     const double trial = std::min(1.0, step + 0.2);
     const double mu = (1 - trial * share) * mu_;
-    for_chunks(forms_.size, [&](Eigen::Index a, Eigen::Index n) {
-      high_.pull(trial, mu, a, n);
-      low_.pull(trial, mu, a, n);
+    for_lanes(forms_.size, [&]<int L>(Eigen::Index i) {
+      high_.pull<L>(trial, mu, i);
+      low_.pull<L>(trial, mu, i);
     });
-    direct(share, tau_centre);
+    direct(share, tau_centre, 0);
     const double longer = reach();
     if (longer < step + kLonger) {
       high_.centre -= high_.correction;
       low_.centre -= low_.correction;
-      direct(share, tau_centre);
+      direct(share, tau_centre, 0);
       return;
     }
     step = longer;
@@ -281,39 +232,39 @@ void Embedding::centralise(double share, double tau_centre, double step) {
 
 /// Takes from the multipliers' steps what rounding of the normal equations left in A'dy.
 void Embedding::refine(double share) {
-  kept_X_ = D_.X.col(kStep);
-  kept_G_ = D_.G.col(kStep);
-  kept_sigma_ = D_.sigma.col(kStep);
-  if (split()) kept_low_ = D_.G_low.col(kStep);
-  D_.X.col(kStep) = share * D_.X.col(kDual) + d_tau_ * forms_.cost;
-  D_.G.col(kStep) = low_.dy - high_.dy;
-  forms_.add_transposed(D_.G.col(kStep), D_.X.col(kStep));
-  D_.G.col(kStep).setZero();
+  kept_X_ = D_X_.col(kStep);
+  kept_G_ = G_.col(kStep);
+  kept_sigma_ = D_sigma_.col(kStep);
+  if (split()) kept_low_ = G_low_.col(kStep);
+  D_X_.col(kStep) = share * D_X_.col(kDual) + d_tau_ * forms_.cost;
+  G_.col(kStep) = low_.dy - high_.dy;
+  for (std::size_t e = 0; e < forms_.equations.size(); ++e) {
+    G_(forms_.equations[e], kStep) = -equation_dy_[static_cast<Eigen::Index>(e)];
+  }
   for (std::size_t i = 0; i < forms_.slacks.size(); ++i) {
     const int f = forms_.slacks[i];
-    D_.sigma(i, kStep) =
+    D_sigma_(i, kStep) =
         share * (high_.y[f] + low_.y[f] - rho_ * tau_) - d_tau_ * rho_ + high_.dy[f] + low_.dy[f];
   }
-  D_.solve(forms_, kStep, 1);
-  const auto add = [&](Side& side, const Eigen::MatrixXd& G) {
-    side.ds -= side.sign * G.col(kStep).cwiseProduct(*side.has);
-    side.dy += side.sign * side.theta.cwiseProduct(G.col(kStep));
-  };
-  add(high_, D_.G);
-  add(low_, D_.low());
-  D_.X.col(kStep) += kept_X_;
-  D_.G.col(kStep) += kept_G_;
-  D_.sigma.col(kStep) += kept_sigma_;
-  if (split()) D_.G_low.col(kStep) += kept_low_;
+  eliminate_slacks(kStep, 1);
+  forms_.add_transposed(G_.col(kStep), D_X_.col(kStep));
+  solve_normal(kStep, 1);
+  add_change();
+  D_X_.col(kStep) += kept_X_;
+  G_.col(kStep) += kept_G_;
+  D_sigma_.col(kStep) += kept_sigma_;
+  if (split()) G_low_.col(kStep) += kept_low_;
+}
+
+/// How much of the way to the boundary the step leaves: less as the gap closes.
+double Embedding::left() const {
+  const double gap = std::abs(dual_value_ - primal_value_) / (tau_ + std::abs(primal_value_));
+  return std::clamp(kLeft * gap, kLeastLeft, kMostLeft);
 }
 
 /// The longest step up to 1,000 that keeps s, y, tau and kappa positive.
 double Embedding::reach() const {
-  double falls = std::max(1e-3, std::max(-d_tau_ / tau_, -d_kappa_ / kappa_));
-  for_chunks(forms_.size, [&](Eigen::Index a, Eigen::Index n) {
-    falls = std::max(falls, std::max(high_.falls(a, n), low_.falls(a, n)));
-  });
-  return 1 / falls;
+  return 1 / std::max({1e-3, -d_tau_ / tau_, -d_kappa_ / kappa_, falls_});
 }
 
 const char* Embedding::reason() const {

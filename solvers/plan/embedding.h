@@ -1,8 +1,7 @@
 #pragma once
 
-#include "solvers/plan/directions.h"
 #include "solvers/plan/forms.h"
-#include "solvers/plan/forms_reader.h"
+#include "solvers/plan/normal_matrix.h"
 #include "solvers/plan/side.h"
 
 namespace maxwrench {
@@ -28,32 +27,52 @@ class Embedding {
   const char* reason() const;
 
  private:
+  /// Columns of the directions: of tau, of the step without it, of the residual of c tau.
+  static constexpr int kTau = 0, kStep = 1, kDual = 2;
+
   void start(const PlanProgram& program);
-  void measure(double step);
-  void measure_equations();
   bool settled(const PlanProgram& program, double tolerance, PlanSolution& solution);
+  void collect_multipliers();
   void iterate();
   void predict();
-  void aim_tau();
-  void push(double share);
-  void direct(double share, double tau_centre);
-  void finish(double share, double tau_centre);
-  void correct(double gamma);
-  void centralise(double share, double tau_centre, double step);
+  void eliminate_slacks(int first, int count);
+  void solve_normal(int first, int count);
+  void direct(double share, double tau_centre, double raise);
+  void aim(double share, double tau_centre, double pushes);
+  void centralise(double share, double tau_centre);
   void refine(double share);
+  double left() const;
   double reach() const;
 
+  // One pass over all forms each.
+  void measure(double step);
+  void advance(double step);
+  void measure_equations();
+  void measure_slacks();
+  double sum_pushes();
+  void foresee();
+  double push(double share, double raise);
+  double sum_moves() const;
+  void finish(double share);
+  void add_change();
+
   bool split() const { return !forms_.slacks.empty(); }
+  const Eigen::VectorXd& phi_low() const { return split() ? phi_low_ : phi_; }
+  const Eigen::MatrixXd& G_low() const { return split() ? G_low_ : G_; }
 
   Forms forms_;
-  FormsReader reader_;
+  NormalMatrix matrix_;
   Side low_{-1}, high_{1};
-  Directions D_;  ///< columns: of tau, of the step, of the residual of c tau
-  Eigen::VectorXd X_, sigma_, phi_, phi_low_, scale_;
+  /// X: variables, sigma: slacks; G: forms, what is mapped to X, then phi of it (less and plus
+  /// sigma for the two sides).
+  Eigen::MatrixXd D_X_, D_sigma_, G_, G_low_;
+  Eigen::VectorXd X_, sigma_, phi_, phi_low_, weight_, s_phi_, s_diagonal_, scale_;
   Eigen::VectorXd kept_X_, kept_sigma_, kept_G_, kept_low_;
+  Eigen::VectorXd equation_y_, equation_dy_;  ///< multipliers of any sign
   double tau_ = 1, kappa_ = 1, d_tau_ = 0, d_kappa_ = 0, tau_pivot_ = 0;
   double least_pivot_ = 0;
   double mu_ = 0, rho_ = 0, count_ = 0, dual_value_ = 0, primal_value_ = 0, gap_residual_ = 0;
+  double falls_ = 0;  ///< the most that an s or a y loses of itself in a full step
 };
 
 }  // namespace maxwrench

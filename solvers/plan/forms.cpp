@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lib/math/farkas.h"
+#include "solvers/plan/small_blocks.h"
 
 namespace maxwrench {
 namespace {
@@ -12,20 +13,27 @@ namespace {
 /// An interval narrower than this, relative to 1 + its end, is an equation.
 constexpr double kWidth = 1e-11;
 
-}  // namespace
+/// Added to the products of the columns of J'W, which may be dependent, as a share of their trace.
+constexpr double kGram = 1e-13;
+/// Instants whose lambda is below this share of the largest take no part in a proof.
+constexpr double kPart = 1e-10;
+/// And entries below this are rounding.
+constexpr double kRest = 1e-12;
 
-bool has_limits(const WrenchProgram& at, int j) {
+bool limited(const WrenchProgram& at, int j) {
   return at.w_min[j] > -kInfiniteBound || at.w_max[j] < kInfiniteBound;
 }
 
+}  // namespace
+
 void Forms::build(const PlanProgram& program, bool with_rates, bool with_slacks) {
   const Zonotope& set = *program.instants.front().actuation;
-  actuation = &set;
+  actuation_ = &set;
   if (B_.rows() != set.B.rows() || B_.cols() != set.B.cols() || B_ != set.B) {
     B_ = set.B;
     const Eigen::JacobiSVD<Eigen::MatrixXd> svd(set.B, Eigen::ComputeFullU | Eigen::ComputeFullV);
     Z_ = svd.matrixV().rightCols(set.actuators() - set.rank);
-    P = svd.matrixU().rightCols(set.dimension() - set.rank);
+    P_ = svd.matrixU().rightCols(set.dimension() - set.rank);
   }
   R = &program.R;
   shape(program, with_rates, with_slacks);
@@ -33,24 +41,30 @@ void Forms::build(const PlanProgram& program, bool with_rates, bool with_slacks)
 }
 
 void Forms::shape(const PlanProgram& program, bool with_rates, bool with_slacks) {
-  const int m = actuation->actuators();
-  const int n = actuation->dimension();
+  const int m = actuation_->actuators();
+  const int n = actuation_->dimension();
   N = program.size();
   t = program.peak < 0 ? 1 : 0;
   p = program.border();
   order_actuators(program, with_rates);
+  offsets_.resize(m, N);
+  slopes_.resize(m, N);
   stages.resize(N);
   Stage next;
   for (int i = 0; i < N; ++i) {
     const WrenchProgram& at = program.instants[i];
     const int k = at.columns();
     next.elastic = with_slacks && program.elastic() && i >= program.first_elastic;
-    next.w0 = m;
+    stages[i] = next;
+    merge(program, i);
+    next = stages[i];
+    next.efforts = next.merged() ? m - lone : m;
+    next.w0 = next.efforts + (next.merged() ? 1 : 0);
     next.w_count = 0;
-    for (int j = 0; j < k; ++j) next.w_count += has_limits(at, j);
+    for (int j = 0; j < k; ++j) next.w_count += limited(at, j);
     next.w = next.elastic ? n : 0;
     next.d = next.w + k + static_cast<int>(Z_.cols());
-    next.count = m + next.w_count + next.w + static_cast<int>(P.cols()) + t;
+    next.count = next.w0 + next.w_count + next.w + static_cast<int>(P_.cols()) + t;
     stages[i] = next;
     next.x0 += next.d;
     next.f0 += next.count;
@@ -67,37 +81,9 @@ void Forms::shape(const PlanProgram& program, bool with_rates, bool with_slacks)
   cost.setZero(variables);
 }
 
-/// Those with rates first.
-void Forms::order_actuators(const PlanProgram& program, bool with_rates) {
-  const int m = actuation->actuators();
-  order.clear();
-  const auto has_rate = [&](int j) {
-    for (int i = 0; with_rates && i + 1 < N; ++i) {
-      if (program.du_max(j, i) < kInfiniteBound) return true;
-    }
-    return false;
-  };
-  for (int j = 0; j < m; ++j) {
-    if (has_rate(j)) order.push_back(j);
-  }
-  rated = static_cast<int>(order.size());
-  for (int j = 0; j < m; ++j) {
-    if (std::find(order.begin(), order.begin() + rated, j) == order.begin() + rated) {
-      order.push_back(j);
-    }
-  }
-  B_pinv_.resize(m, actuation->dimension());
-  Z_ordered_.resize(m, Z_.cols());
-  for (int r = 0; r < m; ++r) {
-    B_pinv_.row(r) = actuation->B_pinv.row(order[r]);
-    Z_ordered_.row(r) = Z_.row(order[r]);
-  }
-}
-
 void Forms::fill(const PlanProgram& program) {
   slacks.clear();
   equations.clear();
-  offsets.setZero(actuation->actuators(), N);
   for (int i = 0; i < N; ++i) fill_stage(program, i);
   fill_rates(program);
   if (p > 0) fill_border(program);
@@ -126,22 +112,25 @@ void Forms::fill_stage(const PlanProgram& program, int i) {
   const WrenchProgram& data = program.instants[i];
   Eigen::Map<Eigen::MatrixXd> F_i(F.data() + at.F0, at.count, at.d);
   fill_efforts(program, i);
-  if (P.cols() > 0) fill_unreached(program, i);
+  if (P_.cols() > 0) fill_unreached(program, i);
   for (int r = 0; r < at.w; ++r) {
     const int form = at.w0 + at.w_count + r;
     F_i(form, r) = 1;
     has_lo[at.f0 + form] = has_hi[at.f0 + form] = 1;
     slacks.push_back(at.f0 + form);
   }
-  for (std::size_t r = 0; r < order.size(); ++r) {
+  for (int r = 0; r < at.efforts; ++r) {
     const int j = order[r];
-    const Eigen::VectorXd& low = i == 0 ? program.first_min : actuation->u_min;
-    const Eigen::VectorXd& high = i == 0 ? program.first_max : actuation->u_max;
-    limit(at.f0 + static_cast<int>(r), low[j], high[j], offsets(j, i));
+    limit(at.f0 + r, u_min(program, i)[j], u_max(program, i)[j], offsets_(j, i));
+  }
+  if (at.merged()) {
+    F_i(at.efforts, at.w) = 1;
+    limit(at.f0 + at.efforts, end_of_w(program, i, at.lowest, false),
+          end_of_w(program, i, at.highest, true), 0);
   }
   int row = at.w0;
   for (int j = 0; j < data.columns(); ++j) {
-    if (!has_limits(data, j)) continue;
+    if (!limited(data, j)) continue;
     F_i(row, at.w + j) = 1;
     limit(at.f0 + row++, data.w_min[j], data.w_max[j], 0);
   }
@@ -155,11 +144,14 @@ void Forms::fill_efforts(const PlanProgram& program, int i) {
   const Stage& at = stages[i];
   const WrenchProgram& data = program.instants[i];
   Eigen::Map<Eigen::MatrixXd> F_i(F.data() + at.F0, at.count, at.d);
-  const int m = actuation->actuators();
-  offsets.col(i).noalias() = actuation->B_pinv * data.tau_d;
-  F_i.topLeftCorner(m, at.w) = -B_pinv_.leftCols(at.w);
-  F_i.block(0, at.w, m, data.columns()).noalias() = B_pinv_.lazyProduct(data.JtW);
-  F_i.topRightCorner(m, Z_.cols()) = Z_ordered_;
+  const int m = at.efforts;
+  F_i.topLeftCorner(m, at.w) = -B_pinv_.topLeftCorner(m, at.w);
+  if (data.columns() == 1) {
+    F_i.col(at.w).head(m) = slopes_.col(i).head(m);
+  } else {
+    F_i.block(0, at.w, m, data.columns()).noalias() = B_pinv_.lazyProduct(data.JtW);
+  }
+  F_i.topRightCorner(m, Z_.cols()) = Z_ordered_.topRows(m);
   if (p > 0) D.middleRows(at.f0, m).noalias() = -B_pinv_ * program.G[i];
 }
 
@@ -169,8 +161,8 @@ void Forms::fill_unreached(const PlanProgram& program, int i) {
   const WrenchProgram& data = program.instants[i];
   Eigen::Map<Eigen::MatrixXd> F_i(F.data() + at.F0, at.count, at.d);
   const int first = at.w0 + at.w_count + at.w;
-  for (int q = 0; q < P.cols(); ++q) {
-    const auto row = P.col(q).transpose();
+  for (int q = 0; q < P_.cols(); ++q) {
+    const auto row = P_.col(q).transpose();
     F_i.row(first + q).head(at.w) = -row.head(at.w);
     F_i.row(first + q).segment(at.w, data.columns()).noalias() = row.lazyProduct(data.JtW);
     if (p > 0) D.row(at.f0 + first + q).noalias() = -row.lazyProduct(program.G[i]);
@@ -184,7 +176,7 @@ void Forms::fill_rates(const PlanProgram& program) {
     for (int r = 0; r < rated; ++r) {
       const int j = order[r];
       const double most = program.du_max(j, i);
-      limit(rates0 + rated * i + r, -most, most, offsets(j, i + 1) - offsets(j, i));
+      limit(rates0 + rated * i + r, -most, most, offsets_(j, i + 1) - offsets_(j, i));
     }
     D.middleRows(rates0 + rated * i, rated) =
         D.middleRows(stages[i + 1].f0, rated) - D.middleRows(stages[i].f0, rated);
@@ -201,11 +193,8 @@ void Forms::fill_border(const PlanProgram& program) {
 void Forms::apply(const Columns& X, Columns phi) const {
   for (const Stage& at : stages) {
     with_dimension(at.d, [&]<int d>() {
-      const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, d>> F_i(F.data() + at.F0,
-                                                                           at.count, at.d);
       for (Eigen::Index c = 0; c < X.cols(); ++c) {
-        phi.col(c).segment(at.f0, at.count).noalias() =
-            F_i.lazyProduct(X.col(c).template segment<d>(at.x0, at.d));
+        map_stage<d>(F_of(at), X.col(c).data() + at.x0, phi.col(c).data() + at.f0);
         if (t > 0) phi(at.f0 + at.count - 1, c) -= X(z0(), c);
       }
     });
@@ -237,11 +226,9 @@ void Forms::add_transposed(Columns g, Columns X) const {
   }
   for (const Stage& at : stages) {
     with_dimension(at.d, [&]<int d>() {
-      const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, d>> F_i(F.data() + at.F0,
-                                                                           at.count, at.d);
       for (Eigen::Index c = 0; c < X.cols(); ++c) {
-        const auto in = g.col(c).segment(at.f0, at.count);
-        X.col(c).template segment<d>(at.x0, at.d).noalias() += F_i.transpose().lazyProduct(in);
+        const double* const in = g.col(c).data() + at.f0;
+        add_transposed_stage<d>(F_of(at), in, X.col(c).data() + at.x0);
         if (t > 0) X(z0(), c) -= in[at.count - 1];
       }
     });
@@ -249,17 +236,120 @@ void Forms::add_transposed(Columns g, Columns X) const {
 }
 
 bool Forms::keeps_rates(const PlanProgram& program, const Eigen::VectorXd& phi, double tau) const {
-  const auto m = static_cast<int>(order.size());
+  const int m = static_cast<int>(order.size()) - lone;
   for (int i = 0; i + 1 < N; ++i) {
     const int from = stages[i].f0, to = stages[i + 1].f0;
     for (int r = 0; r < m; ++r) {
       const int j = order[r];
       const double change = phi[to + r] - phi[from + r];
-      const double constant = offsets(j, i + 1) - offsets(j, i);
+      const double constant = offsets_(j, i + 1) - offsets_(j, i);
       if (!(std::abs(change + tau * constant) <= tau * program.du_max(j, i))) return false;
     }
   }
   return true;
+}
+
+void Forms::read_primal(const PlanProgram& program, const Eigen::VectorXd& X, double tau,
+                        PlanSolution& solution) const {
+  const int m = actuation_->actuators();
+  const int n = actuation_->dimension();
+  solution.u.resize(m, N);
+  solution.s.setZero(n, N);
+  solution.w.resize(N);
+  solution.y = X.tail(p) / tau;
+  solution.price = 0;
+  solution.value = kInfinity;
+  for (int i = 0; i < N; ++i) {
+    const Stage& at = stages[i];
+    const WrenchProgram& data = program.instants[i];
+    const int k = data.columns();
+    solution.w[i] = X.segment(at.x0 + at.w, k) / tau;
+    for (int r = at.efforts; r < m; ++r) {
+      solution.u(order[r], i) = slopes_(r, i) * solution.w[i][0] + offsets_(order[r], i);
+    }
+    for (int r = 0; r < at.efforts; ++r) {
+      double u = F_of(at).row(r).dot(X.segment(at.x0, at.d)) / tau;
+      if (p > 0) u += D.row(at.f0 + r).dot(solution.y);
+      solution.u(order[r], i) = u + offsets_(order[r], i);
+    }
+    if (i == program.peak || t > 0) {
+      solution.value = std::min(solution.value, data.c_w.dot(solution.w[i]));
+    }
+    if (!at.elastic) continue;
+    auto s = solution.s.col(i);
+    s = data.tau_d;
+    s.noalias() += data.JtW.lazyProduct(solution.w[i]);
+    s.noalias() -= actuation_->B.lazyProduct(solution.u.col(i));
+    if (p > 0) s.noalias() -= program.G[i] * solution.y;
+    solution.price += program.rho * s.lpNorm<1>();
+  }
+}
+
+void Forms::read_dual(const PlanProgram& program, const Eigen::VectorXd& multipliers, double tau,
+                      bool proof, PlanSolution& solution) {
+  const int m = actuation_->actuators();
+  solution.lambda.setZero(actuation_->dimension(), N);
+  solution.mu.setZero(m, N - 1);
+  solution.pi.setZero(N);
+  solution.nu = multipliers.tail(program.R.rows()) / tau;
+  for (int i = 0; i + 1 < N; ++i) {
+    for (int r = 0; r < rated; ++r) {
+      solution.mu(order[r], i) = multipliers[rates0 + rated * i + r] / tau;
+    }
+  }
+  // Those of t add up to nothing in a proof.
+  for (int i = 0; t > 0 && !proof && i < N; ++i) {
+    solution.pi[i] = -multipliers[stages[i].f0 + stages[i].count - 1];
+  }
+  if (t > 0 && !proof) solution.pi /= solution.pi.sum();
+  if (t == 0 && !proof) solution.pi[program.peak] = 1;
+  for (int i = 0; i < N; ++i) {
+    const Stage& at = stages[i];
+    if (at.elastic && proof) continue;
+    auto lambda = solution.lambda.col(i);
+    for (int r = 0; r < m; ++r) {
+      const int j = order[r];
+      double g = effort_multiplier(multipliers, i, r) / tau;
+      if (i > 0) g += solution.mu(j, i - 1);
+      if (i + 1 < N) g -= solution.mu(j, i);
+      lambda -= actuation_->B_pinv.row(j).transpose() * g;
+    }
+    const int first = at.f0 + at.w0 + at.w_count + at.w;
+    for (int q = 0; q < P_.cols(); ++q) lambda -= P_.col(q) * (multipliers[first + q] / tau);
+    level(program, multipliers, tau, i, solution);
+  }
+  if (!proof) return;
+  const double largest = solution.lambda.lpNorm<Eigen::Infinity>();
+  for (int i = 0; i < N; ++i) {
+    auto lambda = solution.lambda.col(i);
+    lambda *= lambda.lpNorm<Eigen::Infinity>() < kPart * largest ? 0 : -1;
+    for (double& entry : lambda) {
+      if (std::abs(entry) < kRest * largest) entry = 0;
+    }
+  }
+}
+
+/// lambda -= J'W (W'J J'W)^-1 (pi c_w + W'J lambda - multipliers of w).
+void Forms::level(const PlanProgram& program, const Eigen::VectorXd& multipliers, double tau, int i,
+                  PlanSolution& solution) {
+  const WrenchProgram& data = program.instants[i];
+  auto lambda = solution.lambda.col(i);
+  gram_.resize(data.columns(), data.columns());
+  gram_.noalias() = data.JtW.transpose().lazyProduct(data.JtW);
+  gram_.diagonal().array() += kGram * gram_.trace();
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factors(gram_);
+  if (factors.info() != Eigen::Success) return;
+  // Once more for what was added.
+  for (int pass = 0; pass < 2; ++pass) {
+    slope_ = solution.pi[i] * data.c_w;
+    slope_.noalias() += data.JtW.transpose().lazyProduct(lambda);
+    int form = stages[i].f0 + stages[i].w0;
+    for (int j = 0; j < data.columns(); ++j) {
+      if (limited(data, j)) slope_[j] -= multipliers[form++] / tau;
+    }
+    factors.solveInPlace(slope_);
+    lambda.noalias() -= data.JtW.lazyProduct(slope_);
+  }
 }
 
 }  // namespace maxwrench

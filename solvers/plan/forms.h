@@ -7,9 +7,6 @@
 
 namespace maxwrench {
 
-/// Whether w_j has a limit.
-bool has_limits(const WrenchProgram& at, int j);
-
 /// A plan program as linear forms of free variables, between limits:
 ///
 ///     max c'X   subject to   lo <= phi(X) <= hi,
@@ -24,8 +21,9 @@ bool has_limits(const WrenchProgram& at, int j);
 /// asked for: each may be left out, and the answer without is one with (`keeps_rates`).
 ///
 /// Forms of an instant, phi = F x + D y (less t in the last one): efforts, those with rates first;
-/// w with limits; slacks or equations; c_w'w - t >= 0. Then follow the rates, which are differences
-/// of the instants' first forms, y, and R y. Constant parts are in lo and hi.
+/// the one w in the place of efforts that nothing else moves; w with limits; slacks or equations;
+/// c_w'w - t >= 0. Then follow the rates, which are differences of the instants' first forms, y,
+/// and R y. Constant parts are in lo and hi.
 struct Forms {
   void build(const PlanProgram& program, bool with_rates = true, bool with_slacks = true);
 
@@ -40,9 +38,14 @@ struct Forms {
     int d = 0, x0 = 0;        ///< variables
     int count = 0, f0 = 0;    ///< forms
     int F0 = 0;               ///< in `F`
+    int efforts = 0;          ///< forms of efforts
     int w0 = 0, w_count = 0;  ///< forms of limits of w, from f0 on
     int w = 0;                ///< where w begins in x
     bool elastic = false;
+    /// Where one form w takes the place of all efforts that only the single w moves: the rows in
+    /// `order` of those that limit it; -1 otherwise. It follows the other efforts.
+    int lowest = -1, highest = -1;
+    bool merged() const { return highest >= 0; }
   };
   std::vector<Stage> stages;
   Eigen::VectorXd F;                   ///< count×d of each stage, by columns
@@ -52,11 +55,9 @@ struct Forms {
   Eigen::VectorXd scale;               ///< a guess of how far phi is from its limits
   Eigen::VectorXd cost;                ///< c
   std::vector<int> slacks, equations;  ///< forms of these kinds
-  std::vector<int> order;              ///< actuators, rated ones first
+  std::vector<int> order;              ///< actuators, rated ones first, lone ones last
+  int lone = 0;                        ///< without rates, and not moved by the null space of B
   const Eigen::SparseMatrix<double>* R = nullptr;  ///< the program's
-  const Zonotope* actuation = nullptr;             ///< the program's
-  Eigen::MatrixXd P;        ///< n×(n - rank), a basis of what B does not reach
-  Eigen::MatrixXd offsets;  ///< B^+ tau_d, m×N
 
   Eigen::Map<const Eigen::MatrixXd> F_of(const Stage& at) const {
     return {F.data() + at.F0, at.count, at.d};
@@ -70,21 +71,45 @@ struct Forms {
 
   /// Whether the efforts at X (phi = phi(X)) keep the rates.
   bool keeps_rates(const PlanProgram& program, const Eigen::VectorXd& phi, double tau) const;
+  /// u, w, s, y, value and price.
+  void read_primal(const PlanProgram& program, const Eigen::VectorXd& X, double tau,
+                   PlanSolution& solution) const;
+  /// lambda, mu, pi and nu from the forms' multipliers (positive at hi), divided by tau; with
+  /// `proof` as in a proof of infeasibility. What rounding would leave on w, which may have no
+  /// limits to pay for it, is taken from lambda.
+  void read_dual(const PlanProgram& program, const Eigen::VectorXd& multipliers, double tau,
+                 bool proof, PlanSolution& solution);
 
  private:
   void shape(const PlanProgram& program, bool with_rates, bool with_slacks);
   void order_actuators(const PlanProgram& program, bool with_rates);
+  void merge(const PlanProgram& program, int i);
+  double end_of_w(const PlanProgram& program, int i, int r, bool high) const;
+  double effort_multiplier(const Eigen::VectorXd& multipliers, int i, int r) const;
   void fill(const PlanProgram& program);
   void fill_stage(const PlanProgram& program, int i);
   void fill_efforts(const PlanProgram& program, int i);
   void fill_unreached(const PlanProgram& program, int i);
   void fill_rates(const PlanProgram& program);
   void fill_border(const PlanProgram& program);
+  void level(const PlanProgram& program, const Eigen::VectorXd& multipliers, double tau, int i,
+             PlanSolution& solution);
   void limit(int form, double low, double high, double offset);
+  const Eigen::VectorXd& u_min(const PlanProgram& program, int i) const {
+    return i == 0 ? program.first_min : actuation_->u_min;
+  }
+  const Eigen::VectorXd& u_max(const PlanProgram& program, int i) const {
+    return i == 0 ? program.first_max : actuation_->u_max;
+  }
 
-  Eigen::MatrixXd B_;                   ///< of which Z_ and P are
-  Eigen::MatrixXd Z_;                   ///< m×(m - rank)
+  const Zonotope* actuation_ = nullptr;
+  Eigen::MatrixXd B_;                   ///< of which Z_ and P_ are
+  Eigen::MatrixXd Z_, P_;               ///< m×(m - rank), n×(n - rank)
   Eigen::MatrixXd B_pinv_, Z_ordered_;  ///< with rows in the order of the forms
+  Eigen::MatrixXd offsets_;             ///< B^+ tau_d, m×N
+  Eigen::MatrixXd slopes_;              ///< by the one w of an instant, m×N in order of the forms
+  Eigen::MatrixXd gram_;
+  Eigen::VectorXd slope_;
 };
 
 }  // namespace maxwrench

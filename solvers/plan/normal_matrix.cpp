@@ -1,56 +1,11 @@
 #include "solvers/plan/normal_matrix.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "solvers/plan/forms.h"
+#include "solvers/plan/small_blocks.h"
 
 namespace maxwrench {
-namespace {
-
-template <int D>
-using StageBlock = Eigen::Map<Eigen::Matrix<double, D, D>>;
-template <int D>
-using ConstStageBlock = Eigen::Map<const Eigen::Matrix<double, D, D>>;
-template <int D>
-using ConstForms = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, D>>;
-
-/// The lower triangle of A becomes L with A = L L', the inverse in the diagonal. A pivot below the
-/// share `least` of its diagonal is none.
-template <class Matrix>
-void cholesky(Matrix& A, double least) {
-  const Eigen::Index d = A.rows();
-  for (Eigen::Index c = 0; c < d; ++c) {
-    const double diagonal = A(c, c);
-    double pivot = diagonal;
-    for (Eigen::Index l = 0; l < c; ++l) pivot -= A(c, l) * A(c, l);
-    const double inverse = pivot > least * diagonal ? 1 / std::sqrt(pivot) : 0;
-    A(c, c) = inverse;
-    for (Eigen::Index r = c + 1; r < d; ++r) {
-      double sum = A(r, c);
-      for (Eigen::Index l = 0; l < c; ++l) sum -= A(r, l) * A(c, l);
-      A(r, c) = sum * inverse;
-    }
-  }
-}
-
-/// x = L^-1 x and x = L^-T x.
-template <class Matrix, class Vector>
-void solve_lower(const Matrix& L, Vector&& x) {
-  for (Eigen::Index c = 0; c < L.rows(); ++c) {
-    x[c] *= L(c, c);
-    for (Eigen::Index r = c + 1; r < L.rows(); ++r) x[r] -= L(r, c) * x[c];
-  }
-}
-template <class Matrix, class Vector>
-void solve_upper(const Matrix& L, Vector&& x) {
-  for (Eigen::Index c = L.rows() - 1; c >= 0; --c) {
-    for (Eigen::Index r = c + 1; r < L.rows(); ++r) x[c] -= L(r, c) * x[r];
-    x[c] *= L(c, c);
-  }
-}
-
-}  // namespace
 
 void NormalMatrix::reserve(const Forms& forms) {
   const int b = forms.t + forms.p;
@@ -115,20 +70,25 @@ void NormalMatrix::assemble(const Forms& forms, const Eigen::VectorXd& theta) {
 template <int D>
 void NormalMatrix::assemble_stage(const Forms& forms, const Eigen::VectorXd& theta, int i) {
   const Forms::Stage& at = forms.stages[i];
-  const ConstForms<D> F(forms.F.data() + at.F0, at.count, at.d);
-  StageBlock<D> K(K_.data() + K0_[i], at.d, at.d);
+  const double* const F = forms.F.data() + at.F0;
+  double* const K = K_.data() + K0_[i];
   const auto weight = weight_.segment(at.f0, at.count);
-  for (int c = 0; c < at.d; ++c) {
-    auto column = weighted_.head(at.count);
-    column = weight.cwiseProduct(F.col(c));
-    for (int r = c; r < at.d; ++r) K(r, c) = F.col(r).dot(column);
+  if constexpr (D == Eigen::Dynamic) {
+    const Eigen::Map<const Eigen::MatrixXd> F_i = forms.F_of(at);
+    for (int c = 0; c < at.d; ++c) {
+      auto column = weighted_.head(at.count);
+      column = weight.cwiseProduct(F_i.col(c));
+      for (int r = c; r < at.d; ++r) K[c * at.d + r] = F_i.col(r).dot(column);
+    }
+  } else {
+    product<D>(F, at.count, F, at.count, weight.data(), at.count, 1, K);
   }
   if (forms.t == 0) return;
   const int last = at.count - 1;
   const double theta_t = theta[at.f0 + last];
   const int b = forms.t + forms.p;
   double* const E = E_.data() + E0_[i];
-  for (int r = 0; r < at.d; ++r) E[r * b] = -theta_t * F(last, r);
+  for (int r = 0; r < at.d; ++r) E[r * b] = -theta_t * F[r * at.count + last];
   H_(0, 0) += theta_t;
 }
 
@@ -137,16 +97,19 @@ template <int D>
 void NormalMatrix::couple(const Forms& forms, const Eigen::VectorXd& theta, int i) {
   const Forms::Stage& at = forms.stages[i];
   const Forms::Stage& next = forms.stages[i + 1];
-  const ConstForms<D> F(forms.F.data() + at.F0, at.count, at.d);
-  const Eigen::Map<const Eigen::MatrixXd> F_next = forms.F_of(next);
   double* const S = S_.data() + S0_[i];
   const auto rate = theta.segment(forms.rates0 + forms.rated * i, forms.rated);
-  for (int c = 0; c < at.d; ++c) {
-    auto column = weighted_.head(forms.rated);
-    column = -rate.cwiseProduct(F.col(c).head(forms.rated));
-    for (int r = 0; r < next.d; ++r) {
-      S[c * next.d + r] = F_next.col(r).head(forms.rated).dot(column);
+  if (D == Eigen::Dynamic || next.d != at.d) {
+    const auto C = forms.F_of(at).topRows(forms.rated);
+    const auto C_next = forms.F_of(next).topRows(forms.rated);
+    for (int c = 0; c < at.d; ++c) {
+      auto column = weighted_.head(forms.rated);
+      column = -rate.cwiseProduct(C.col(c));
+      for (int r = 0; r < next.d; ++r) S[c * next.d + r] = C_next.col(r).dot(column);
     }
+  } else if constexpr (D != Eigen::Dynamic) {
+    product<D>(forms.F.data() + next.F0, next.count, forms.F.data() + at.F0, at.count, rate.data(),
+               forms.rated, -1, S);
   }
 }
 
@@ -197,27 +160,52 @@ void NormalMatrix::factor_stage(const Forms& forms, int i) {
   const int b = forms.t + forms.p;
   StageBlock<D> L(K_.data() + K0_[i], d, d);
   cholesky(L, least_pivot_);
-  Eigen::Map<RowMatrix> E(E_.data() + E0_[i], d, b);
-  for (int c = 0; c < d; ++c) {
-    E.row(c) *= L(c, c);
-    for (int r = c + 1; r < d; ++r) E.row(r) -= L(r, c) * E.row(c);
+  double* const E = E_.data() + E0_[i];
+  if (b == 1) {
+    StageColumn<D> e(E, d);
+    solve_lower(L, e);
+  } else {
+    Eigen::Map<RowMatrix> rows(E, d, b);
+    for (int c = 0; c < d; ++c) {
+      rows.row(c) *= L(c, c);
+      for (int r = c + 1; r < d; ++r) rows.row(r) -= L(r, c) * rows.row(c);
+    }
   }
   if (i + 1 == forms.N || forms.rated == 0) return;
   const int next = forms.stages[i + 1].d;
-  Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, D>> S(S_.data() + S0_[i], next, d);
+  if (next == d) return factor_coupling<D, D>(forms, i);
+  factor_coupling<D, Eigen::Dynamic>(forms, i);
+}
+
+/// S = K_i+1,i L^-T and what it leaves of the next stage.
+template <int D, int Next>
+void NormalMatrix::factor_coupling(const Forms& forms, int i) {
+  const int d = forms.stages[i].d, next = forms.stages[i + 1].d;
+  const int b = forms.t + forms.p;
+  const StageBlock<D> L(K_.data() + K0_[i], d, d);
+  Eigen::Map<Eigen::Matrix<double, Next, D>> S(S_.data() + S0_[i], next, d);
   for (int c = 0; c < d; ++c) {
     S.col(c) *= L(c, c);
     for (int r = c + 1; r < d; ++r) S.col(r) -= L(r, c) * S.col(c);
   }
-  StageBlock<Eigen::Dynamic> K_next(K_.data() + K0_[i + 1], next, next);
-  for (int c = 0; c < next; ++c) {
-    for (int l = 0; l < d; ++l) {
-      const double factor = S(c, l);
-      for (int r = c; r < next; ++r) K_next(r, c) -= S(r, l) * factor;
-    }
+  StageBlock<Next> K(K_.data() + K0_[i + 1], next, next);
+  if constexpr (Next > 4) {
+    constexpr int kLate = Next - 4;  // above the last columns nothing is needed
+    K.template leftCols<4>() -= S.lazyProduct(S.template topRows<4>().transpose());
+    const auto late = S.template bottomRows<kLate>();
+    K.template bottomRightCorner<kLate, kLate>() -= late.lazyProduct(late.transpose());
+  } else {
+    K.noalias() -= S.lazyProduct(S.transpose());
   }
-  Eigen::Map<RowMatrix> E_next(E_.data() + E0_[i + 1], next, b);
-  if (b > 0) E_next.noalias() -= S.lazyProduct(E);
+  if (b == 0) return;
+  double* const E = E_.data();
+  if (b == 1) {
+    StageColumn<Next>(E + E0_[i + 1], next).noalias() -=
+        S.lazyProduct(ConstStageColumn<D>(E + E0_[i], d));
+  } else {
+    Eigen::Map<RowMatrix>(E + E0_[i + 1], next, b).noalias() -=
+        S.lazyProduct(Eigen::Map<const RowMatrix>(E + E0_[i], d, b));
+  }
 }
 
 void NormalMatrix::solve(const Forms& forms, Columns X) const {
@@ -240,14 +228,24 @@ void NormalMatrix::forward(const Forms& forms, Columns X, int i) const {
   const int b = forms.t + forms.p;
   const ConstStageBlock<D> L(K_.data() + K0_[i], at.d, at.d);
   const Eigen::Map<const RowMatrix> E(E_.data() + E0_[i], at.d, b);
+  const int next = i + 1 < forms.N && forms.rated > 0 ? forms.stages[i + 1].d : 0;
   for (Eigen::Index c = 0; c < X.cols(); ++c) {
-    auto x = X.col(c).template segment<D>(at.x0, at.d);
+    double* const place = X.col(c).data() + at.x0;
+    StageVector<D> x(place, at.d);
     solve_lower(L, x);
-    for (int r = 0; r < at.d && b > 0; ++r) X.col(c).tail(b) -= x[r] * E.row(r).transpose();
-    if (i + 1 == forms.N || forms.rated == 0) continue;
-    const int next = forms.stages[i + 1].d;
-    const ConstForms<D> S(S_.data() + S0_[i], next, at.d);
-    X.col(c).segment(at.x0 + at.d, next).noalias() -= S.lazyProduct(x);
+    if (b == 1) {
+      double sum = 0;
+      for (int r = 0; r < x.size(); ++r) sum += E(r, 0) * x[r];
+      X(forms.z0(), c) -= sum;
+    } else {
+      for (int r = 0; r < x.size() && b > 0; ++r) X.col(c).tail(b) -= x[r] * E.row(r).transpose();
+    }
+    x.store(place);
+    if (next == at.d) {
+      subtract_product<D>(S_.data() + S0_[i], next, x, place + at.d);
+    } else if (next > 0) {
+      subtract_product<Eigen::Dynamic>(S_.data() + S0_[i], next, x, place + at.d);
+    }
   }
 }
 
@@ -257,15 +255,23 @@ void NormalMatrix::backward(const Forms& forms, Columns X, int i) const {
   const int b = forms.t + forms.p;
   const ConstStageBlock<D> L(K_.data() + K0_[i], at.d, at.d);
   const Eigen::Map<const RowMatrix> E(E_.data() + E0_[i], at.d, b);
+  const int next = i + 1 < forms.N && forms.rated > 0 ? forms.stages[i + 1].d : 0;
   for (Eigen::Index c = 0; c < X.cols(); ++c) {
-    auto x = X.col(c).template segment<D>(at.x0, at.d);
-    for (int r = 0; r < at.d && b > 0; ++r) x[r] -= E.row(r).dot(X.col(c).tail(b));
-    if (i + 1 < forms.N && forms.rated > 0) {
-      const int next = forms.stages[i + 1].d;
-      const ConstForms<D> S(S_.data() + S0_[i], next, at.d);
-      x.noalias() -= S.transpose().lazyProduct(X.col(c).segment(at.x0 + at.d, next));
+    double* const place = X.col(c).data() + at.x0;
+    StageVector<D> x(place, at.d);
+    if (b == 1) {
+      const double t = X(forms.z0(), c);
+      for (int r = 0; r < x.size(); ++r) x[r] -= E(r, 0) * t;
+    } else {
+      for (int r = 0; r < x.size() && b > 0; ++r) x[r] -= E.row(r).dot(X.col(c).tail(b));
+    }
+    if (next == at.d) {
+      subtract_transposed<D>(S_.data() + S0_[i], next, place + at.d, x);
+    } else if (next > 0) {
+      subtract_transposed<Eigen::Dynamic>(S_.data() + S0_[i], next, place + at.d, x);
     }
     solve_upper(L, x);
+    x.store(place);
   }
 }
 

@@ -27,6 +27,8 @@ class NormalMatrix {
   void assemble_stage(const Forms& forms, const Eigen::VectorXd& theta, int i);
   template <int D>
   void factor_stage(const Forms& forms, int i);
+  template <int D, int Next>
+  void factor_coupling(const Forms& forms, int i);
   template <int D>
   void couple(const Forms& forms, const Eigen::VectorXd& theta, int i);
   template <int D>
