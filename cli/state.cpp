@@ -28,7 +28,7 @@ Terms evaluate_terms(const Problem& problem, const State& state) {
   Terms terms;
   for (auto* vector : {&terms.C_v, &terms.D_v, &terms.g, &terms.tau_d}) vector->resize(n);
   terms.J.resize(6, n);
-  Dynamics<double> dynamics(problem.robot);
+  Dynamics dynamics(problem.robot);
   dynamics.set_configuration(state.base.R, state.q);
   dynamics.mass_matrix(terms.M);
   dynamics.coriolis(state.velocity, terms.C_v);

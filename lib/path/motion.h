@@ -64,7 +64,7 @@ class MotionEvaluator {
   const Problem& problem_;
   SchemeMaps maps_;
   BranchFollower follower_;
-  Dynamics<double> dynamics_;
+  Dynamics dynamics_;
   Follower<Dual<4>> dual_follower_;
   DynamicsSlopes dynamics_slopes_;
   Eigen::MatrixXd place_, rate_, bend_;  ///< r×N: theta_r and its derivatives at the instants

@@ -2,34 +2,8 @@
 
 #include <cmath>
 
-#include "lib/math/dual.h"
-
 namespace maxwrench {
-namespace {
-
-/// x := M^-1 x for M symmetric positive definite, by M = L D L'; M is overwritten. Eigen's
-/// factorisations compare scalars, which neither dual numbers nor intervals can always do.
-template <class T>
-void solve_in_place(MatrixX<T>& M, VectorX<T>& x) {
-  const Eigen::Index n = x.size();
-  for (Eigen::Index j = 0; j < n; ++j) {
-    for (Eigen::Index i = n - 1; i > j; --i) {
-      const T l = M(i, j) / M(j, j);
-      for (Eigen::Index k = j + 1; k <= i; ++k) M(i, k) -= l * M(k, j);
-      M(i, j) = l;
-      x[i] -= l * x[j];
-    }
-  }
-  for (Eigen::Index j = n; j-- > 0;) {
-    x[j] /= M(j, j);
-    for (Eigen::Index i = j + 1; i < n; ++i) x[j] -= M(i, j) * x[i];
-  }
-}
-
-}  // namespace
-
-template <class T>
-Dynamics<T>::Dynamics(const Robot& robot)
+Dynamics::Dynamics(const Robot& robot)
     : robot_(&robot),
       kinematics_(robot),
       axes_(robot.joints.size()),
@@ -37,21 +11,21 @@ Dynamics<T>::Dynamics(const Robot& robot)
       twist_rates_(robot.links.size()),
       forces_(robot.links.size()),
       carried_(robot.links.size()),
-      zero_(VectorX<T>::Zero(robot.velocities())),
+      zero_(Eigen::VectorXd::Zero(robot.velocities())),
       load_(robot.velocities()),
       tau_(robot.velocities()),
       M_(robot.velocities(), robot.velocities()),
+      llt_(robot.velocities()),
       J_(6, robot.velocities()) {
   for (const Link& link : robot.links) inertia_.push_back(link_inertia(link));
 }
 
-template <class T>
-void Dynamics<T>::set_configuration(const Matrix3<T>& R_base, const VectorX<T>& q) {
+void Dynamics::set_configuration(const Eigen::Matrix3d& R_base, const Eigen::VectorXd& q) {
   R_base_ = R_base;
   kinematics_.set_joints(q);
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const Pose<T>& link = kinematics_.links()[i + 1];
-    const Vector3<T> axis = link.R * robot_->joints[i].axis;
+    const Pose<double>& link = kinematics_.links()[i + 1];
+    const Eigen::Vector3d axis = link.R * robot_->joints[i].axis;
     if (robot_->joints[i].type == JointType::kRevolute) {
       axes_[i] = {link.p.cross(axis), axis};
     } else {
@@ -62,19 +36,19 @@ void Dynamics<T>::set_configuration(const Matrix3<T>& R_base, const VectorX<T>& 
 
 /// Composite bodies: a joint's column of M is the momentum that its unit rate gives to all that it
 /// carries, as the velocities of the base and of its ancestors see it.
-template <class T>
-void Dynamics<T>::mass_matrix(MatrixX<T>& M) {
+void Dynamics::mass_matrix(Eigen::MatrixXd& M) {
   const int base = static_cast<int>(robot_->base_axes.size());
   const int joints = static_cast<int>(axes_.size());
-  for (int i = 0; i <= joints; ++i) carried_[i] = moved<T>(kinematics_.links()[i], inertia_[i]);
+  for (int i = 0; i <= joints; ++i)
+    carried_[i] = moved<double>(kinematics_.links()[i], inertia_[i]);
   for (int i = joints; i > 0; --i) {
-    Inertia<T>& parent = carried_[robot_->joints[i - 1].parent];
+    Inertia<double>& parent = carried_[robot_->joints[i - 1].parent];
     parent.A += carried_[i].A;
     parent.B += carried_[i].B;
     parent.C += carried_[i].C;
   }
   M.resize(base + joints, base + joints);
-  M.setConstant(T(0.0));
+  M.setConstant(0.0);
   const auto base_rows = [&](int column, const Screw& p) {
     for (int row = 0; row < base; ++row) {
       M(row, column) = M(column, row) = component(p, robot_->base_axes[row]);
@@ -93,8 +67,7 @@ void Dynamics<T>::mass_matrix(MatrixX<T>& M) {
   }
 }
 
-template <class T>
-void Dynamics<T>::coriolis(const VectorX<T>& velocity, VectorX<T>& C_v) {
+void Dynamics::coriolis(const Eigen::VectorXd& velocity, Eigen::VectorXd& C_v) {
   set_twists(velocity);
   set_twist_rates(velocity, zero_);
   clear_forces();
@@ -102,17 +75,15 @@ void Dynamics<T>::coriolis(const VectorX<T>& velocity, VectorX<T>& C_v) {
   project_forces(C_v);
 }
 
-template <class T>
-void Dynamics<T>::damping(const VectorX<T>& velocity, VectorX<T>& D_v) {
+void Dynamics::damping(const Eigen::VectorXd& velocity, Eigen::VectorXd& D_v) {
   set_twists(velocity);
   clear_forces();
   add_drag();
   project_forces(D_v);
 }
 
-template <class T>
-void Dynamics<T>::inverse(const VectorX<T>& velocity, const VectorX<T>& acceleration,
-                          VectorX<T>& tau_d) {
+void Dynamics::inverse(const Eigen::VectorXd& velocity, const Eigen::VectorXd& acceleration,
+                       Eigen::VectorXd& tau_d) {
   set_twists(velocity);
   set_twist_rates(velocity, acceleration);
   clear_forces();
@@ -123,35 +94,32 @@ void Dynamics<T>::inverse(const VectorX<T>& velocity, const VectorX<T>& accelera
   tau_d += load_;
 }
 
-template <class T>
-void Dynamics<T>::forward(const VectorX<T>& velocity, const VectorX<T>& tau,
-                          VectorX<T>& acceleration) {
+void Dynamics::forward(const Eigen::VectorXd& velocity, const Eigen::VectorXd& tau,
+                       Eigen::VectorXd& acceleration) {
   inverse(velocity, zero_, acceleration);
   acceleration = tau - acceleration;
   mass_matrix(M_);
-  solve_in_place(M_, acceleration);
+  llt_.compute(M_);
+  llt_.solveInPlace(acceleration);
 }
 
-template <class T>
-void Dynamics<T>::forward(const VectorX<T>& velocity, const VectorX<T>& tau,
-                          const EndEffector& end_effector, const Vector6<T>& h_e,
-                          VectorX<T>& acceleration) {
+void Dynamics::forward(const Eigen::VectorXd& velocity, const Eigen::VectorXd& tau,
+                       const EndEffector& end_effector, const Vector6d& h_e,
+                       Eigen::VectorXd& acceleration) {
   kinematics_.jacobian(end_effector, R_base_, J_);
   tau_.noalias() = tau - J_.transpose().lazyProduct(h_e);
   forward(velocity, tau_, acceleration);
 }
 
 /// The twist of the base at unit velocity along one of [x y z roll pitch yaw].
-template <class T>
-auto Dynamics<T>::base_unit(int axis) -> Screw {
+auto Dynamics::base_unit(int axis) -> Screw {
   Screw unit;
-  (axis < 3 ? unit.linear : unit.angular)[axis % 3] = T(1.0);
+  (axis < 3 ? unit.linear : unit.angular)[axis % 3] = 1.0;
   return unit;
 }
 
 /// The base's part of n numbers, as a twist.
-template <class T>
-auto Dynamics<T>::base_twist(const VectorX<T>& velocity) const -> Screw {
+auto Dynamics::base_twist(const Eigen::VectorXd& velocity) const -> Screw {
   Screw twist;
   for (std::size_t i = 0; i < robot_->base_axes.size(); ++i) {
     const int axis = robot_->base_axes[i];
@@ -160,13 +128,12 @@ auto Dynamics<T>::base_twist(const VectorX<T>& velocity) const -> Screw {
   return twist;
 }
 
-template <class T>
-void Dynamics<T>::set_twists(const VectorX<T>& velocity) {
+void Dynamics::set_twists(const Eigen::VectorXd& velocity) {
   const auto base = static_cast<Eigen::Index>(robot_->base_axes.size());
   twists_[0] = base_twist(velocity);
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const Screw& parent = twists_[robot_->joints[i].parent];
-    const T& rate = velocity[base + static_cast<Eigen::Index>(i)];
+    const double& rate = velocity[base + static_cast<Eigen::Index>(i)];
     twists_[i + 1] = {parent.linear + axes_[i].linear * rate,
                       parent.angular + axes_[i].angular * rate};
   }
@@ -174,8 +141,8 @@ void Dynamics<T>::set_twists(const VectorX<T>& velocity) {
 
 /// Derivatives in resting axes that coincide with the base's: a joint's axis moves with its parent.
 /// Those of the base's own components are the same in moving and in resting axes.
-template <class T>
-void Dynamics<T>::set_twist_rates(const VectorX<T>& velocity, const VectorX<T>& acceleration) {
+void Dynamics::set_twist_rates(const Eigen::VectorXd& velocity,
+                               const Eigen::VectorXd& acceleration) {
   const auto base = static_cast<Eigen::Index>(robot_->base_axes.size());
   twist_rates_[0] = base_twist(acceleration);
   for (std::size_t i = 0; i < axes_.size(); ++i) {
@@ -183,33 +150,30 @@ void Dynamics<T>::set_twist_rates(const VectorX<T>& velocity, const VectorX<T>& 
     const Screw& carrier = twists_[robot_->joints[i].parent];
     const Screw& parent = twist_rates_[robot_->joints[i].parent];
     const Screw& axis = axes_[i];
-    const Vector3<T> turned = carrier.angular.cross(axis.angular);
-    const Vector3<T> swept =
+    const Eigen::Vector3d turned = carrier.angular.cross(axis.angular);
+    const Eigen::Vector3d swept =
         carrier.angular.cross(axis.linear) + carrier.linear.cross(axis.angular);
     twist_rates_[i + 1] = {parent.linear + axis.linear * acceleration[k] + swept * velocity[k],
                            parent.angular + axis.angular * acceleration[k] + turned * velocity[k]};
   }
 }
 
-template <class T>
-void Dynamics<T>::clear_forces() {
+void Dynamics::clear_forces() {
   for (Screw& force : forces_) force = Screw();
 }
 
 /// Adds a wrench given at `frame`'s origin in its axes.
-template <class T>
-void Dynamics<T>::add_force(int link, const Pose<T>& frame, const Screw& wrench) {
-  const Vector3<T> force = frame.R * wrench.linear;
+void Dynamics::add_force(int link, const Pose<double>& frame, const Screw& wrench) {
+  const Eigen::Vector3d force = frame.R * wrench.linear;
   forces_[link].linear += force;
   forces_[link].angular += frame.R * wrench.angular + frame.p.cross(force);
 }
 
 /// The rate of each link's momentum, in its own axes, where its inertia is constant: with momentum
 /// (p, L) and twist (v, w) it is p_d + w x p and L_d + w x L + v x p.
-template <class T>
-void Dynamics<T>::add_inertial_forces() {
+void Dynamics::add_inertial_forces() {
   for (int i = 0; i < static_cast<int>(inertia_.size()); ++i) {
-    const Pose<T>& frame = kinematics_.links()[i];
+    const Pose<double>& frame = kinematics_.links()[i];
     const Screw twist = into(frame, twists_[i]);
     const Screw p = momentum(inertia_[i], twist);
     Screw rate = momentum(inertia_[i], into(frame, twist_rates_[i]));
@@ -219,15 +183,14 @@ void Dynamics<T>::add_inertial_forces() {
   }
 }
 
-template <class T>
-void Dynamics<T>::add_drag() {
+void Dynamics::add_drag() {
   using std::abs;
   for (int i = 0; i < static_cast<int>(inertia_.size()); ++i) {
     for (const HydrodynamicBody& body : robot_->links[i].hydrodynamics) {
-      const Pose<T> frame = kinematics_.links()[i] * body.frame;
+      const Pose<double> frame = kinematics_.links()[i] * body.frame;
       Screw screw = into(frame, twists_[i]);
       for (int axis = 0; axis < 6; ++axis) {
-        T& x = (axis < 3 ? screw.linear : screw.angular)[axis % 3];
+        double& x = (axis < 3 ? screw.linear : screw.angular)[axis % 3];
         x *= body.damping_linear[axis] + body.damping_quadratic[axis] * abs(x);
       }
       add_force(i, frame, screw);
@@ -236,8 +199,7 @@ void Dynamics<T>::add_drag() {
 }
 
 /// Each force loads all joints between it and the base. Overwrites the forces.
-template <class T>
-void Dynamics<T>::project_forces(VectorX<T>& tau) {
+void Dynamics::project_forces(Eigen::VectorXd& tau) {
   tau.resize(robot_->velocities());
   for (std::size_t i = axes_.size(); i > 0; --i) {
     Screw& parent = forces_[robot_->joints[i - 1].parent];
@@ -248,8 +210,5 @@ void Dynamics<T>::project_forces(VectorX<T>& tau) {
   for (const int axis : robot_->base_axes) tau[row++] = component(forces_[0], axis);
   for (std::size_t i = 0; i < axes_.size(); ++i) tau[row++] = along(axes_[i], forces_[i + 1]);
 }
-
-template class Dynamics<double>;
-template class Dynamics<Dual<4>>;
 
 }  // namespace maxwrench

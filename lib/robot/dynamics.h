@@ -8,8 +8,8 @@
 
 namespace maxwrench {
 
-/// The equations of motion of a tree on its base (eq:dynamics, eq:reducedDynamics), templates on
-/// the scalar as Kinematics; evaluation allocates nothing.
+/// The equations of motion of a tree on its base (eq:dynamics, eq:reducedDynamics);
+/// evaluation allocates nothing.
 ///
 ///   tau_d = M(theta) v_d + C(theta, v) v + D(theta, v) v + g(theta),   tau_d + J'h_e = B u
 ///
@@ -21,7 +21,6 @@ namespace maxwrench {
 /// body's twist (Kirchhoff): added mass is an inertia that differs between axes, with Coriolis
 /// terms of its own. Added mass and drag act as given, whatever the water's density; the loader
 /// refuses them in air. Joints have no friction, motors no inertia.
-template <class T>
 class Dynamics {
  public:
   /// The robot outlives this.
@@ -30,55 +29,58 @@ class Dynamics {
 
   /// theta: orientation of the base in the world, joint positions. Nothing depends on where the
   /// base is.
-  void set_configuration(const Matrix3<T>& R_base, const VectorX<T>& q);
+  void set_configuration(const Eigen::Matrix3d& R_base, const Eigen::VectorXd& q);
 
   /// M n×n [kg, kg m, kg m^2], symmetric, with added mass.
-  void mass_matrix(MatrixX<T>& M);
+  void mass_matrix(Eigen::MatrixXd& M);
   /// C(theta, v) v, with the terms of added mass.
-  void coriolis(const VectorX<T>& velocity, VectorX<T>& C_v);
+  void coriolis(const Eigen::VectorXd& velocity, Eigen::VectorXd& C_v);
   /// D(theta, v) v: the drag that the actuators overcome. Differentiable once where v is zero.
-  void damping(const VectorX<T>& velocity, VectorX<T>& D_v);
+  void damping(const Eigen::VectorXd& velocity, Eigen::VectorXd& D_v);
   /// g(theta): weight, buoyancy and trim.
-  void gravity(VectorX<T>& g) { kinematics_.gravity_and_buoyancy(R_base_, g); }
+  void gravity(Eigen::VectorXd& g) { kinematics_.gravity_and_buoyancy(R_base_, g); }
 
   /// tau_d of a motion, by the recursive Newton-Euler algorithm.
-  void inverse(const VectorX<T>& velocity, const VectorX<T>& acceleration, VectorX<T>& tau_d);
+  void inverse(const Eigen::VectorXd& velocity, const Eigen::VectorXd& acceleration,
+               Eigen::VectorXd& tau_d);
 
   /// The motion under actuator forces tau = B u, free of contact: v_d of tau_d(theta, v, v_d) =
   /// tau.
-  void forward(const VectorX<T>& velocity, const VectorX<T>& tau, VectorX<T>& acceleration);
+  void forward(const Eigen::VectorXd& velocity, const Eigen::VectorXd& tau,
+               Eigen::VectorXd& acceleration);
   /// The same while an end effector exerts h_e = [force; torque] in world axes at its origin on the
   /// environment: v_d of tau_d(theta, v, v_d) = tau - J'h_e.
-  void forward(const VectorX<T>& velocity, const VectorX<T>& tau, const EndEffector& end_effector,
-               const Vector6<T>& h_e, VectorX<T>& acceleration);
+  void forward(const Eigen::VectorXd& velocity, const Eigen::VectorXd& tau,
+               const EndEffector& end_effector, const Vector6d& h_e, Eigen::VectorXd& acceleration);
 
   /// At the configuration that was set.
-  const Kinematics<T>& kinematics() const { return kinematics_; }
+  const Kinematics<double>& kinematics() const { return kinematics_; }
 
  private:
-  using Screw = maxwrench::Screw<T>;
+  using Screw = maxwrench::Screw<double>;
 
   static Screw base_unit(int axis);
-  Screw base_twist(const VectorX<T>& velocity) const;
-  void set_twists(const VectorX<T>& velocity);
-  void set_twist_rates(const VectorX<T>& velocity, const VectorX<T>& acceleration);
+  Screw base_twist(const Eigen::VectorXd& velocity) const;
+  void set_twists(const Eigen::VectorXd& velocity);
+  void set_twist_rates(const Eigen::VectorXd& velocity, const Eigen::VectorXd& acceleration);
   void clear_forces();
-  void add_force(int link, const Pose<T>& frame, const Screw& wrench);
+  void add_force(int link, const Pose<double>& frame, const Screw& wrench);
   void add_inertial_forces();
   void add_drag();
-  void project_forces(VectorX<T>& tau);
+  void project_forces(Eigen::VectorXd& tau);
 
   const Robot* robot_;
-  Kinematics<T> kinematics_;
+  Kinematics<double> kinematics_;
   std::vector<Inertia<double>> inertia_;  ///< of each link with its water, at its origin and axes
-  Matrix3<T> R_base_ = Matrix3<T>::Identity();
+  Eigen::Matrix3d R_base_ = Eigen::Matrix3d::Identity();
   std::vector<Screw> axes_;  ///< of each joint: the twist of its link per joint rate
   std::vector<Screw> twists_, twist_rates_;
   std::vector<Screw> forces_;  ///< on each link, once projected also on all that it carries
-  std::vector<Inertia<T>> carried_;
-  VectorX<T> zero_, load_, tau_;
-  MatrixX<T> M_;
-  Matrix6X<T> J_;
+  std::vector<Inertia<double>> carried_;
+  Eigen::VectorXd zero_, load_, tau_;
+  Eigen::MatrixXd M_;
+  Eigen::LLT<Eigen::MatrixXd> llt_;
+  Matrix6Xd J_;
 };
 
 }  // namespace maxwrench

@@ -52,7 +52,7 @@ class FreeMotion final : public Ode {
 
  private:
   const Robot& robot_;
-  Dynamics<double> dynamics_;
+  Dynamics dynamics_;
   std::function<void(double, Eigen::VectorXd&)> effort_;
   Eigen::VectorXd start_, tau_, v_d_, tau_d_;
   Motion motion_;

@@ -44,7 +44,7 @@ class PostureController {
   const Problem& problem_;
   const EndEffector& tool_;
   const TankOptions& options_;
-  Dynamics<double> dynamics_;
+  Dynamics dynamics_;
   EffortTracker tracker_;
   Posture reference_, now_;
   Matrix6Xd across_;  ///< 6×k: what the cell takes without being asked for

@@ -56,7 +56,7 @@ class TankOde final : public Ode {
   const Problem& problem_;
   const EndEffector& tool_;
   const TankOptions& options_;
-  Dynamics<double> dynamics_;
+  Dynamics dynamics_;
   PathPoint anchor_;
   const Path* path_ = nullptr;
   Vector6d stiffness_, damping_;

@@ -21,7 +21,7 @@ constexpr double kFar = 0.8;      // rad or m, between starts of the same round
 constexpr double kSame = 0.1;     // rad or m: closer ones are of one family
 constexpr long kAlike = 48;       // climbs with all knots alike, at most,
 constexpr long kAlikeSteps = 30;  // of so many evaluations; a fifth of the budget, at most
-constexpr double kKicks[] = {0.05, 0.15, 0.4, 0.8};  // rad or m
+constexpr double kKickReach[] = {0.05, 0.15, 0.4, 0.8};  // rad or m
 constexpr double kHopeful = 0.8;  // a family is less than 1 - this of 1 + |best| below the best
 
 /// Tables around the start that keep the rows of the limits.
@@ -207,7 +207,7 @@ std::vector<Candidate> kick_knots(Objective& objective, const SearchOptions& opt
   const auto table = [&](long i) {
     const auto number = static_cast<std::uint64_t>(first + i);
     return drawing.kick(Random(options.seed, RandomUse::kKick, number),
-                        kKicks[number / 2 % std::size(kKicks)], number % 2 == 0);
+                        kKickReach[number / 2 % std::size(kKickReach)], number % 2 == 0);
   };
   return with_value(objective, options, count, table, progress, found);
 }

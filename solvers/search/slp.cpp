@@ -9,6 +9,7 @@ namespace maxwrench {
 namespace {
 
 constexpr std::size_t kBatch = 8;  // climbs that compete
+constexpr long kKicks = 24;        // tables near the best plan for a batch: many collide
 constexpr int kIdleBatches = 3;    // without a better plan before the search ends
 constexpr double kBetter = 1e-5;   // relative to 1 + |f|
 /// The climbs that go on, and the evaluations of each by then.
@@ -66,11 +67,10 @@ SearchResult make_result(const SlpOutcome& outcome) {
 /// Starts near the best plan, batch number `round` of them.
 std::vector<Candidate> kick(Objective& objective, const SearchOptions& options, long round,
                             SlpOutcome& best, EvaluationCounter& progress) {
-  const auto batch = static_cast<long>(kBatch);
   const long left = options.budget - best.found.trace.evaluations();
   Part found = {best.found.best, {}};
-  std::vector<Candidate> starts = kick_knots(objective, options, best.found.best, round * batch,
-                                             std::min(batch, left), progress, found);
+  std::vector<Candidate> starts = kick_knots(objective, options, best.found.best, round * kKicks,
+                                             std::min(kKicks, left), progress, found);
   best.found.trace.append(found.trace);
   return starts;
 }

@@ -96,9 +96,8 @@ TEST(Case, SearchesOfPlansServeStaticTasksByLinfPolytope) {
   EXPECT_EQ(solver("l2_polytope", Wrench::kPure, "", "slp"), "");
   EXPECT_TRUE(serves_as_plan(problem, "linf_polytope"));
   EXPECT_FALSE(serves_as_plan(problem, "ellipsoid"));
-  for (const char* other : {"planar/two_arms", "mobile/push"}) {
-    EXPECT_FALSE(serves_as_plan(load_problem(other), "linf_polytope")) << other;
-  }
+  EXPECT_TRUE(serves_as_plan(load_problem("mobile/push"), "linf_polytope"));
+  EXPECT_FALSE(serves_as_plan(load_problem("planar/two_arms"), "linf_polytope"));
   const std::vector<Case> cases = product(problem, 1, 100);
   for (const SearchEntry& search : plan_searches()) {
     for (const Case& c : select(cases, {{"search", search.name}})) {

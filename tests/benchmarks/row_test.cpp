@@ -175,8 +175,7 @@ TEST(Row, ASearchOfPlansFindsNothingWhereOnlySlackBalances) {
 
 TEST(Row, ASearchOfPlansRefusesWhatIsNone) {
   for (const auto& [name, measure] :
-       {std::pair("planar/force", "ellipsoid"), std::pair("planar/two_arms", "linf_polytope"),
-        std::pair("mobile/push", "linf_polytope")}) {
+       {std::pair("planar/force", "ellipsoid"), std::pair("planar/two_arms", "linf_polytope")}) {
     const Problem problem = load_problem(name);
     const Case c{problem.name, measure, Wrench::kPure, "", "slp", 1, 60};
     EXPECT_THROW(solve(problem, resolve(problem, c), 1), std::invalid_argument) << name;

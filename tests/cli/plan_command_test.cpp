@@ -183,7 +183,7 @@ class PlanCheck {
 
   json plan_;
   Problem problem_;
-  Dynamics<double> dynamics_;
+  Dynamics dynamics_;
 };
 
 class SelfConsistentPlan : public testing::TestWithParam<const char*> {};

@@ -67,7 +67,7 @@ TEST(DynamicsKdl, ArmOnAFixedBase) {
                    v = random_numbers(random, kChainJoints),
                    v_d = random_numbers(random, kChainJoints);
     const Kdl kdl(kdl_chain(robot), robot.gravity, q, v, v_d);
-    Dynamics<double> dynamics(robot);
+    Dynamics dynamics(robot);
     dynamics.set_configuration(Matrix3d::Identity(), q);
     MatrixXd M;
     VectorXd C_v(kChainJoints), tau_d(kChainJoints);
@@ -127,7 +127,7 @@ TEST(DynamicsKdl, ArmOnAFloatingBase) {
     const BaseJoints base(y.segment<3>(3));
     const MatrixXd G = base.G();
     const VectorXd G_d_y_d = base.G_d_y_d(y_d);
-    Dynamics<double> dynamics(robot);
+    Dynamics dynamics(robot);
     dynamics.set_configuration(base.R, y.tail<kChainJoints>());
     MatrixXd M;
     VectorXd C_v(n), tau_d(n);

@@ -71,7 +71,7 @@ struct Simulation {
   EndEffector tool = robot.end_effectors[0];
   std::function<VectorXd(double)> tau;
   Vector6d h_e = Vector6d::Zero();
-  Dynamics<double> dynamics{robot};
+  Dynamics dynamics{robot};
 };
 
 Driven random_motion(Random& random) {

@@ -125,7 +125,7 @@ TEST(DynamicsMuJoCo, TreeOnAFloatingBase) {
   for (int tree = 0; tree < 20; ++tree) {
     const Robot robot = random_dry_robot(random, kTreeJoints);
     MuJoCo mujoco(robot);
-    Dynamics<double> dynamics(robot);
+    Dynamics dynamics(robot);
     for (int sample = 0; sample < 50; ++sample) {
       const Pose<double> base{random_rotation(random), random_vector(random)};
       const VectorXd q = random_numbers(random, kTreeJoints);

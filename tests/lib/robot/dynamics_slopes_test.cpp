@@ -29,7 +29,7 @@ Argument random_argument(const Robot& robot, Random& random) {
 
 /// The definition, by the recursive algorithm.
 VectorXd loads(const Robot& robot, const Argument& at) {
-  Dynamics<double> dynamics(robot);
+  Dynamics dynamics(robot);
   dynamics.set_configuration(at.R_base, at.q);
   VectorXd tau_d(robot.velocities());
   dynamics.inverse(at.v, at.v_dot, tau_d);

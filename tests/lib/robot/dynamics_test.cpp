@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "lib/math/decompositions.h"
-#include "lib/math/dual.h"
 #include "tests/support/mechanics.h"
 #include "tests/support/support.h"
 
@@ -30,7 +29,7 @@ struct Sample {
   const int n;
   const Eigen::Matrix3d R_base;
   const VectorXd q, v, v_d;
-  Dynamics<double> dynamics;
+  Dynamics dynamics;
 };
 
 double relative(const MatrixXd& ours, const MatrixXd& expected) {
@@ -153,7 +152,7 @@ TEST(Dynamics, FewerBaseAxesGiveTheSameRows) {
       S(i < base ? axes[i] : 6 + i - base, i) = 1;
     }
     const VectorXd v = S.transpose() * full.v, v_d = S.transpose() * full.v_d;
-    Dynamics<double> dynamics(robot);
+    Dynamics dynamics(robot);
     dynamics.set_configuration(full.R_base, full.q);
     VectorXd tau_d(n), tau_full(full.n), back(n);
     MatrixXd M, M_full;
@@ -188,11 +187,6 @@ TEST(Dynamics, ForwardInvertsInverseWithAndWithoutContact) {
 TEST(Dynamics, AllocatesNothing) {
   Random random(8);
   Sample s(random);
-  Dynamics<Dual<4>> dual(s.robot);
-  using DualVector = VectorX<Dual<4>>;
-  const DualVector q = s.q.cast<Dual<4>>(), v = s.v.cast<Dual<4>>();
-  const Matrix3<Dual<4>> R = s.R_base.cast<Dual<4>>();
-  DualVector dual_tau(s.n), dual_v_d(s.n);
   VectorXd tau_d(s.n), v_d(s.n);
   MatrixXd M(s.n, s.n);
   const Vector6d h_e = Vector6d::Ones();
@@ -204,9 +198,6 @@ TEST(Dynamics, AllocatesNothing) {
   s.dynamics.damping(s.v, v_d);
   s.dynamics.gravity(v_d);
   s.dynamics.forward(s.v, tau_d, s.robot.end_effectors[0], h_e, v_d);
-  dual.set_configuration(R, q);
-  dual.inverse(v, v, dual_tau);
-  dual.forward(v, dual_tau, dual_v_d);
   EXPECT_EQ(allocation_count(), before);
 }
 
@@ -224,7 +215,7 @@ TEST(Dynamics, OneBodyInWaterByHand) {
   water.damping_linear[0] = 4;
   water.damping_quadratic[0] = 7;
   robot.links[0].hydrodynamics = {water};
-  Dynamics<double> dynamics(robot);
+  Dynamics dynamics(robot);
   dynamics.set_configuration(Eigen::Matrix3d::Identity(), VectorXd());
   VectorXd v(6), tau_d(6), expected(6);
   v << 1, 1, 0, 0, 0, 1;

@@ -21,7 +21,7 @@ constexpr bool kKeepsOnlyWhatLives = std::is_constructible_v<Keeper, const Robot
 using Effort = std::function<void(double, Eigen::VectorXd&)>;
 
 static_assert(kKeepsOnlyWhatLives<Kinematics<double>>);
-static_assert(kKeepsOnlyWhatLives<Dynamics<double>>);
+static_assert(kKeepsOnlyWhatLives<Dynamics>);
 static_assert(kKeepsOnlyWhatLives<PullBack, int>);
 static_assert(kKeepsOnlyWhatLives<PullBack, int, int>);
 static_assert(kKeepsOnlyWhatLives<FreeMotion, const Motion&, Effort>);

@@ -178,7 +178,7 @@ TEST(Tank, ALoadIsAPartOfTheRobot) {
   add_body(robot.links[static_cast<std::size_t>(tool.link)], mass, tool.placement.p,
            Eigen::Matrix3d::Zero());
   const Row row = planned(problem, Wrench::kPure, kDefault);
-  Dynamics<double> bare(problem.robot), carrying(robot);
+  Dynamics bare(problem.robot), carrying(robot);
   Eigen::MatrixXd M_bare, M;
   VectorXd g_bare(problem.robot.velocities()), g(g_bare.size());
   bare.set_configuration(row.posture.base.R, row.posture.q);
