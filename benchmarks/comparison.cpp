@@ -163,7 +163,7 @@ Attempt attempt(const Problem& problem, const PlanMethod& method, Interruption* 
       stacked(constant_knots(problem, problem.theta_r_default)), found);
   if (run.value > -kInfinity) {
     run.continuous =
-        evaluate_plan(problem, method, unstacked(found, problem.redundancy())).plan.continuous;
+        evaluate_plan(problem, method, unstacked(found, knots_of(problem))).plan.continuous;
   }
   return run;
 }

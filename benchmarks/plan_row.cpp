@@ -69,7 +69,7 @@ PlanRow solve_plan(const Problem& problem, const PlanMethod& method, int threads
       search(method.choice, *method.search, *objective, constant, threads, progress);
   PlanRow row;
   if (result.status == Status::kBestFound) {
-    row = evaluate_plan(problem, method, unstacked(result.theta_r, problem.redundancy()));
+    row = evaluate_plan(problem, method, unstacked(result.theta_r, knots_of(problem)));
   } else {
     static_cast<Verdict&>(row) = result;
     row.choice = method.choice;

@@ -39,7 +39,7 @@ struct PlanRow : Verdict {
   long evaluations = 0;
   double wall_s = 0;
 
-  bool has_plan() const { return plan.knots.size() > 0; }
+  bool has_plan() const { return plan.knots.rows() > 0; }
   bool has_value() const;
 };
 

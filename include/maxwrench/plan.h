@@ -152,8 +152,11 @@ std::unique_ptr<Objective> make_plan_objective(const Problem&&, Wrench, const Pl
 /// theta_r at an instant.
 Eigen::VectorXd theta_r_at(const Problem& problem, const Instant& instant);
 
-/// The table of stacked knots, and the other way round.
-Eigen::MatrixXd unstacked(const Eigen::VectorXd& x, Eigen::Index r);
+/// k; one of a static problem.
+int knots_of(const Problem& problem);
+
+/// The table of stacked knots, so many rows, and the other way round.
+Eigen::MatrixXd unstacked(const Eigen::VectorXd& x, Eigen::Index knots);
 Eigen::VectorXd stacked(const Eigen::MatrixXd& knots);
 
 }  // namespace maxwrench

@@ -9,6 +9,10 @@
 namespace maxwrench {
 namespace {
 
+/// rad or m: limits of a static posture's dependent joints hold to rounding (`kLimitTolerance`), so
+/// what keeps to them to first order only stays away by this.
+constexpr double kSpareOfPosture = 1e-7;
+
 /// The joint of a coordinate of theta_r.
 const Joint& joint_of(const Problem& problem, Eigen::Index coordinate) {
   return problem.robot
@@ -60,7 +64,8 @@ class FollowingJoint {
         maps_(maps),
         instants_(instants),
         q_(joint),
-        v_(static_cast<int>(problem.robot.base_axes.size()) + joint) {}
+        v_(static_cast<int>(problem.robot.base_axes.size()) + joint),
+        tolerance_(problem.motion ? kTableTolerance : kLimitTolerance) {}
 
   double place(int i) const { return instants_[static_cast<std::size_t>(i)].q[q_]; }
   double rate(int i) const { return instants_[static_cast<std::size_t>(i)].v[v_]; }
@@ -76,7 +81,7 @@ class FollowingJoint {
   std::string violation() const {
     const double low = joint_.q_min, high = joint_.q_max;
     for (int i = maps_.starts ? 1 : 0; i < maps_.instants(); ++i) {
-      if (place(i) >= low - kTableTolerance && place(i) <= high + kTableTolerance) continue;
+      if (place(i) >= low - tolerance_ && place(i) <= high + tolerance_) continue;
       return "joint limit: " + place_of_instant(i, maps_) + ": " + joint_.name +
              text(" at %.6g, limits %.6g .. %.6g", place(i), low, high);
     }
@@ -93,7 +98,7 @@ class FollowingJoint {
 
  private:
   bool too_fast(double speed) const {
-    return std::abs(speed) > joint_.velocity_max + kTableTolerance;
+    return !(std::abs(speed) <= joint_.velocity_max + kTableTolerance);
   }
   std::string speeding(const std::string& place, double speed) const {
     return "speed limit: " + place + ": " + joint_.name +
@@ -104,6 +109,7 @@ class FollowingJoint {
   const SchemeMaps& maps_;
   const std::vector<Instant>& instants_;
   int q_, v_;
+  double tolerance_;
 };
 
 /// Collects `FollowingRows`.
@@ -205,13 +211,14 @@ FollowingRows make_following_rows(const Problem& problem, const MotionEvaluator&
   const SchemeMaps& maps = motion.maps();
   RowCollector rows(problem.redundancy(), maps);
   const auto at = [&](int i) -> const auto& { return slopes[static_cast<std::size_t>(i)]; };
+  const double spare = problem.motion ? 0 : kSpareOfPosture;
   for (const int number : problem.dependent) {
     const FollowingJoint following(problem, maps, instants, number);
     const Joint& joint = following.joint();
     const double speed = joint.velocity_max;
     for (int i = maps.starts ? 1 : 0; i < maps.instants(); ++i) {
       if (joint.q_min > -kInfinity || joint.q_max < kInfinity) {
-        rows.begin(following.place(i), joint.q_min, joint.q_max);
+        rows.begin(following.place(i), joint.q_min + spare, joint.q_max - spare);
         rows.add(maps.P, i, 1, at(i).q_place, following.q());
       }
       if (speed == kInfinity) continue;

@@ -76,7 +76,7 @@ void MotionEvaluator::evaluate(const Eigen::MatrixXd& Q, std::vector<Instant>& i
       lose(static_cast<int>(i), reason ? reason : kLeavesPath, instants);
     }
   }
-  if (!maps_.smooth()) accelerate_by_differences(instants);
+  if (!maps_.smooth() && lost_ < 0) accelerate_by_differences(instants);
   const auto& end_effector =
       problem_.robot.end_effectors[static_cast<std::size_t>(problem_.end_effector)];
   for (Instant& instant : instants) {
@@ -92,7 +92,7 @@ bool MotionEvaluator::leaves_path(int i) const {
   const PathPoint& x = maps_.x[static_cast<std::size_t>(i)];
   const Follower<double>& motion = follower_.motion();
   const auto missed = [](double by, const Vector6d& asked) {
-    return by > kPathMissed * (1 + asked.lpNorm<Eigen::Infinity>());
+    return !(by <= kPathMissed * (1 + asked.lpNorm<Eigen::Infinity>()));
   };
   return maps_.moves[i] != 0 &&
          (missed(motion.twist_missed(), x.twist) ||

@@ -23,9 +23,8 @@ class PlanObjective : public Objective {
   PlanEvaluator* plans() override { return &evaluator_; }
 
   double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) override {
-    const Eigen::Index r = problem_.redundancy();
-    const double value =
-        evaluator_.evaluate_elastic(unstacked(x, r), gradient ? &gradient_ : nullptr);
+    const double value = evaluator_.evaluate_elastic(unstacked(x, evaluator_.knots()),
+                                                     gradient ? &gradient_ : nullptr);
     if (gradient) {
       if (value == -kInfinity) {
         gradient->setConstant(x.size(), std::numeric_limits<double>::quiet_NaN());
@@ -56,8 +55,10 @@ Eigen::VectorXd theta_r_at(const Problem& problem, const Instant& instant) {
   return instant.q(problem.redundant);
 }
 
-Eigen::MatrixXd unstacked(const Eigen::VectorXd& x, Eigen::Index r) {
-  return x.reshaped<Eigen::RowMajor>(x.size() / r, r);
+int knots_of(const Problem& problem) { return problem.motion ? problem.motion->k : 1; }
+
+Eigen::MatrixXd unstacked(const Eigen::VectorXd& x, Eigen::Index knots) {
+  return x.reshaped<Eigen::RowMajor>(knots, x.size() / knots);
 }
 
 Eigen::VectorXd stacked(const Eigen::MatrixXd& knots) { return knots.reshaped<Eigen::RowMajor>(); }

@@ -138,18 +138,21 @@ struct PlanEvaluator::Workspace {
     p.peak = block_of(motion.maps(), t_h);
   }
 
-  /// The hard program is cheaper where it has an answer, and where no multiplier exceeds the weight
-  /// of the slack, it is that of the elastic one too. Not so of the best t_h of several.
+  /// The hard program's answer where it has one: it is cheaper, and that of the elastic one too but
+  /// where a multiplier exceeds the weight of the slack, so that slack is cheaper than a wrench.
+  /// The best t_h of several may be one that needs slack, and is sought with it first.
   void solve_elastic() {
-    if (!task.impulse || task.t_h > 0) {
-      elastic.rho = kInfinity;
-      solve_best(elastic, *solver, elastic_solution, plan.t_h);
-      elastic.rho = kElasticWeight;
-      const bool same = elastic_solution.status == Status::kOptimal &&
-                        elastic_solution.lambda.cwiseAbs().maxCoeff() <= kElasticWeight;
-      if (same) return;
-    }
+    const bool several = task.impulse && task.t_h == 0;
+    if (!several && solve_hard()) return;
     solve_best(elastic, *elastic_solver, elastic_solution, plan.t_h);
+    if (several && elastic_solution.status != Status::kOptimal) solve_hard();
+  }
+
+  bool solve_hard() {
+    elastic.rho = kInfinity;
+    solve_best(elastic, *solver, elastic_solution, plan.t_h);
+    elastic.rho = kElasticWeight;
+    return elastic_solution.status == Status::kOptimal;
   }
 
   void pull_back(const PlanProgram& p, const PlanSolution& solution, Eigen::MatrixXd& gradient) {
@@ -258,11 +261,15 @@ void PlanEvaluator::evaluate_continuous() {
   if (task.impulse) program.peak = ws.block_of(maps, plan.t_h);
   PlanSolution solution;
   ws.elastic_solver->solve(program, solution);
+  if (solution.status != Status::kOptimal) {  // perhaps slack is cheaper than a wrench
+    program.rho = kInfinity;
+    ws.elastic_solver->solve(program, solution);
+  }
   if (solution.status != Status::kOptimal) {
     plan.continuous_reason = solution.reason;
     return;
   }
-  const double slack = solution.s.cwiseAbs().maxCoeff();
+  const double slack = solution.s.size() == 0 ? 0 : solution.s.cwiseAbs().maxCoeff();
   if (!(slack <= kSlackForgiven)) {
     plan.continuous_reason =
         "a balance on the spline through the knots lacks " + std::to_string(slack) + " N or N m";

@@ -84,6 +84,10 @@ class MotionExperiment {
     x.pose = bent();
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(problem_.redundancy());
     const bool linear = script_.interpolation == Interpolation::kLinear;
+    if (follower_.place(x.pose, reference_.theta_r)) {  // a tool that moves in some ways only
+      x.pose = reference_.x.pose;
+      follower_.restart();
+    }
     const auto& follower =
         follow(x, reference_.theta_r, linear ? none : reference_.rate, reference_.acceleration);
     a_ = follower.v_dot();

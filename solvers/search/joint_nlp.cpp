@@ -158,7 +158,8 @@ class JointNlpSearch : public Search {
     require_plans(objective, "joint_nlp");
     EvaluationCounter progress(options.progress);
     Part found;
-    const std::vector<Candidate> starts = find_knot_starts(objective, options, progress, found);
+    std::vector<Candidate> starts = find_knot_starts(objective, options, progress, found);
+    if (objective.dimension() == 0) starts.clear();
     for (std::size_t i = 0; i < std::min(starts.size(), kJointStarts); ++i) {
       const auto later = static_cast<long>(std::min(starts.size(), kJointStarts) - i);
       const long before = found.trace.evaluations(), left = options.budget - before;

@@ -73,7 +73,7 @@ void JointProgram::evaluate(const Eigen::VectorXd& X) {
     Eigen::VectorXd& w = w_[static_cast<std::size_t>(i)];
     w = X.segment(w0(i), w.size());
   }
-  const PlanProgram& program = plans_.linearize(unstacked(X.head(p_), r_), w_);
+  const PlanProgram& program = plans_.linearize(unstacked(X.head(p_), plans_.knots()), w_);
   fill(program);
   rows_.noalias() = jacobian_ * X;
   // The knots move the balance in another way than their derivative times themselves.

@@ -96,7 +96,7 @@ double KnotClimber::worth(const Candidate& plan) {
   if (!plans_.smooth()) return plan.value;
   for (int solved = 0; solved < kJudgement; ++solved) found_.trace.add(-kInfinity);
   done_ = true;
-  const Eigen::MatrixXd knots = unstacked(plan.theta_r, plan.theta_r.size() / plans_.knots());
+  const Eigen::MatrixXd knots = unstacked(plan.theta_r, plans_.knots());
   if (plans_.evaluate(knots).status != Status::kOptimal) return -kInfinity;
   plans_.evaluate_continuous();
   const double continuous = plans_.plan().continuous;
@@ -160,7 +160,7 @@ void KnotClimber::set_rows() {
   add_rows(rows.R, reach_, rows.r_min - at, rows.r_max - at);
   add_rows(following.R, following.R.cwiseAbs() * ones, following.r_min - following.at,
            following.r_max - following.at);
-  for (const NearPair& pair : plans_.near_pairs(unstacked(x, r), kNearing * radius_)) {
+  for (const NearPair& pair : plans_.near_pairs(unstacked(x, plans_.knots()), kNearing * radius_)) {
     for (Eigen::Index j = 0; j < r; ++j) {
       entries_.emplace_back(low_.size(), pair.knot * r + j, pair.gradient[j]);
     }
@@ -179,7 +179,7 @@ void KnotClimber::set_rows() {
 Eigen::VectorXd KnotClimber::apart(Eigen::VectorXd x) {
   const Eigen::Index r = x.size() / plans_.knots();
   for (int round = 0; round < kApartRounds; ++round) {
-    const auto& near = plans_.near_pairs(unstacked(x, r), 0);
+    const auto& near = plans_.near_pairs(unstacked(x, plans_.knots()), 0);
     if (near.empty()) break;
     for (const NearPair& pair : near) {
       const double squared = pair.gradient.squaredNorm();

@@ -196,6 +196,10 @@ void require_plans(Objective& objective, const char* search) {
 std::vector<Candidate> draw_knot_starts(Objective& objective, const SearchOptions& options,
                                         EvaluationCounter& progress, Part& found) {
   const Eigen::VectorXd start = Box(objective).start(options.start);
+  if (start.size() == 0) {  // nothing to choose
+    return with_value(
+        objective, options, 1, [&](long) { return start; }, progress, found);
+  }
   const Drawing drawing(objective, *objective.plans(), start);
   return spread(sample(objective, options, drawing, start, progress, found));
 }
@@ -215,7 +219,7 @@ std::vector<Candidate> kick_knots(Objective& objective, const SearchOptions& opt
 std::vector<Candidate> find_knot_starts(Objective& objective, const SearchOptions& options,
                                         EvaluationCounter& progress, Part& found) {
   const std::vector<Candidate> starts = draw_knot_starts(objective, options, progress, found);
-  if (starts.empty() || objective.plans()->starts()) return starts;
+  if (starts.empty() || objective.dimension() == 0 || objective.plans()->starts()) return starts;
   std::vector<Candidate> ordered =
       families(climb_alike(objective, options, starts, progress, found), found.best);
   ordered.insert(ordered.end(), starts.begin(), starts.end());

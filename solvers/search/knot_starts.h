@@ -27,9 +27,9 @@ std::vector<Candidate> find_knot_starts(Objective& objective, const SearchOption
                                         EvaluationCounter& progress, Part& found);
 
 /// Tables near a plan, numbers `first` to `first` + `count` - 1 of an endless series: knots moved
-/// alike or each by itself, by 0.05 to 0.8 [rad or m] at most, the rows of the limits kept. Those
-/// that have a value: where a climb has stalled, another from nearby may not. Adds to `found` what
-/// was evaluated.
+/// alike or, always of a heave, each by itself, by 0.05 to 0.8 [rad or m] at most, the rows of the
+/// limits kept. Those that have a value: where a climb has stalled, another from nearby may not.
+/// Adds to `found` what was evaluated.
 std::vector<Candidate> kick_knots(Objective& objective, const SearchOptions& options,
                                   const Candidate& best, long first, long count,
                                   EvaluationCounter& progress, Part& found);

@@ -92,6 +92,7 @@ class Slp : public Search {
       best.found.trace.append(climber.found().trace);
     }
     long kicks = 0;  // batches
+    if (objective.dimension() == 0) starts.clear();
     for (int idle = 0; idle < kIdleBatches && !starts.empty() && !objective.ended();) {
       const long left = options.budget - best.found.trace.evaluations();
       const auto size = static_cast<std::ptrdiff_t>(std::min(kBatch, starts.size()));

@@ -28,7 +28,7 @@ TEST(PlanRow, CellsRepeatTheirValue) {
   std::istringstream text(cell(row, problem, "theta_r"));
   Eigen::VectorXd x(problem.motion->k * problem.redundancy());
   for (double& value : x) text >> value;
-  const PlanRow again = evaluate_plan(problem, method, unstacked(x, problem.redundancy()));
+  const PlanRow again = evaluate_plan(problem, method, unstacked(x, knots_of(problem)));
   EXPECT_EQ(std::stod(cell(row, problem, "beta")), again.plan.value);
   EXPECT_EQ(std::stod(cell(row, problem, "continuous")), again.plan.continuous);
 }

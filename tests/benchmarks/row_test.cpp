@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <numbers>
 #include <tuple>
@@ -179,6 +181,58 @@ TEST(Row, ASearchOfPlansRefusesWhatIsNone) {
     const Problem problem = load_problem(name);
     const Case c{problem.name, measure, Wrench::kPure, "", "slp", 1, 60};
     EXPECT_THROW(solve(problem, resolve(problem, c), 1), std::invalid_argument) << name;
+  }
+}
+
+/// fixed/push with the arm all but straight, `reach` m from the wall.
+Problem stretched(const std::string& reach) {
+  const TemporaryFolder folder;
+  std::filesystem::copy(std::filesystem::path(MAXWRENCH_SOURCE_DIR) / "problems" / "fixed",
+                        folder.path());
+  std::ofstream(folder.path() / "stretched.toml")
+      << "type = \"static\"\nrobot = \"arm.toml\"\nend_effector = \"tool\"\nlabel = \"made "
+         "up\"\nsource = \"a test\"\n"
+         "[pose]\nxyz = ["
+      << reach
+      << ", 0, 0.34]\nrpy = [0, 1.5707963267948966, 0]\n[wrench]\nc = [1, 0, 0, 0, 0, 0]\n"
+         "[theta_r]\njoints = [\"joint_7\"]\ndefault = [0]\n"
+         "guess = { joint_2 = 1.5, joint_4 = -0.1, joint_6 = -0.06 }\n";
+  return load_problem((folder.path() / "stretched.toml").string());
+}
+
+/// A straight arm pushes harder than any weight of slack, and a limit of a joint that follows
+/// binds: what a search of plans finds is a posture all the same, no worse than what a search of
+/// postures finds.
+TEST(Row, SearchesOfPlansFindPosturesOfAStraightArm) {
+  for (const char* reach : {"1.0299", "1.027"}) {
+    const Problem problem = stretched(reach);
+    const Case c{problem.name, "linf_polytope", Wrench::kPure, "", "cobyla", 1, 600};
+    const Row cobyla = solve(problem, resolve(problem, c), 2);
+    ASSERT_TRUE(cobyla.has_value());
+    for (const SearchEntry& search : plan_searches()) {
+      const Case each{problem.name, "linf_polytope", Wrench::kPure, "", search.name, 1, 600};
+      const Row row = solve(problem, resolve(problem, each), 2);
+      ASSERT_TRUE(row.has_value()) << search.name << ' ' << reach << ": " << row.reason.c_str();
+      EXPECT_GT(row.posture.theta_r.size(), 0);
+      EXPECT_GE(row.capability.beta, 0.999 * cobyla.capability.beta) << search.name << ' ' << reach;
+    }
+  }
+}
+
+/// Without a choice there is one posture, whose value is that of the default.
+TEST(Row, SearchesOfPlansWithNothingToChoose) {
+  Problem problem = load_problem("planar/force");
+  problem.redundant.clear();
+  for (Eigen::VectorXd* part :
+       {&problem.theta_r_default, &problem.theta_r_min, &problem.theta_r_max}) {
+    part->resize(0);
+  }
+  for (const SearchEntry& search : plan_searches()) {
+    const Case c{problem.name, "linf_polytope", Wrench::kPure, "", search.name, 1, 60};
+    const Method method = resolve(problem, c);
+    const Row row = solve(problem, method, 2);
+    ASSERT_TRUE(row.has_value()) << search.name;
+    EXPECT_EQ(row.capability.beta, evaluate(problem, method, Eigen::VectorXd()).capability.beta);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "lib/math/random.h"
 #include "maxwrench/batch.h"
 #include "maxwrench/load.h"
+#include "maxwrench/plan.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"
 
@@ -72,6 +73,30 @@ TEST_P(ThreadsInSearch, FindsTheSame) {
     if (one.has_value()) {
       EXPECT_EQ(one.posture.theta_r, many.posture.theta_r);
     }
+  }
+}
+
+class ThreadsInSearchOfPlans : public testing::TestWithParam<SearchEntry> {};
+
+INSTANTIATE_TEST_SUITE_P(All, ThreadsInSearchOfPlans,
+                         testing::ValuesIn(plan_searches().begin(), plan_searches().end()),
+                         [](const auto& entry) { return std::string(entry.param.name); });
+
+/// A posture, a plan, and one with joints that follow.
+TEST_P(ThreadsInSearchOfPlans, FindsTheSame) {
+  for (const char* name : {"uvms/valve", "uvms/valve_trajectory", "mobile/trajectory"}) {
+    const Problem problem = load_problem(name);
+    const auto objective = make_plan_objective(problem, Wrench::kPure, plan_solvers().front().make);
+    SearchOptions options;
+    options.budget = 300;
+    options.start = problem.theta_r_default.replicate(knots_of(problem), 1);
+    options.threads = 1;
+    const SearchResult one = GetParam().make()->maximize(*objective, options);
+    options.threads = kThreads;
+    const SearchResult many = GetParam().make()->maximize(*objective, options);
+    EXPECT_EQ(one.value, many.value) << name;
+    EXPECT_EQ(one.theta_r, many.theta_r) << name;
+    EXPECT_EQ(one.evaluations, many.evaluations) << name;
   }
 }
 

@@ -51,7 +51,7 @@ TEST(Clearance, GradientHasTheDependentJoints) {
   Random random(6);
   for (double& q : x) q += random.uniform(-0.2, 0.2);
   const auto near = [&](const Eigen::VectorXd& at) {
-    return evaluator.near_pairs(unstacked(at, 2), kInfinity);
+    return evaluator.near_pairs(unstacked(at, knots_of(problem)), kInfinity);
   };
   const auto pairs = near(x);
   const double h = 1e-6;

@@ -87,7 +87,7 @@ TEST(FollowingLimits, RowsAreDerivatives) {
     Eigen::VectorXd x = stacked(folding(problem, 0.5));
     for (double& q : x) q += random.uniform(-0.05, 0.05);
     const auto rows_at = [&](const Eigen::VectorXd& at) {
-      EXPECT_GT(evaluator.evaluate_elastic(unstacked(at, 2), nullptr), -kInfinity);
+      EXPECT_GT(evaluator.evaluate_elastic(unstacked(at, knots_of(problem)), nullptr), -kInfinity);
       evaluator.linearize();
       return evaluator.following_rows();
     };

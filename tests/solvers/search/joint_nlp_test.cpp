@@ -29,7 +29,7 @@ TEST(JointNlp, FindsWhatTheLowerLevelConfirms) {
   ASSERT_EQ(result.status, Status::kBestFound);
   EXPECT_LE(result.evaluations, 2000);
   PlanEvaluator plans(problem, Wrench::kPure, find_plan_solver("simplex").make);
-  const Plan& plan = plans.evaluate(unstacked(result.theta_r, problem.redundancy()));
+  const Plan& plan = plans.evaluate(unstacked(result.theta_r, knots_of(problem)));
   ASSERT_EQ(plan.status, Status::kOptimal) << plan.reason.c_str();
   EXPECT_NEAR(plan.value, result.value, 1e-7 * (1 + result.value));
   // No worse by 1 % than what linear programs find.

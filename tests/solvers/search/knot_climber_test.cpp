@@ -35,7 +35,7 @@ KnotClimber climber_from(std::unique_ptr<Objective> objective, const VectorXd& x
 /// The hard program of a table, by a general solver.
 Plan confirmed_plan(const Problem& problem, const VectorXd& x, Wrench wrench = Wrench::kPure) {
   PlanEvaluator plans(problem, wrench, find_plan_solver("glpk").make);
-  return plans.evaluate(unstacked(x, problem.redundancy()));
+  return plans.evaluate(unstacked(x, knots_of(problem)));
 }
 
 /// How far a table is beyond its bounds and rows.
@@ -154,7 +154,7 @@ TEST(KnotClimber, MovesKnotsApart) {
   PlanEvaluator plans(problem, Wrench::kPure, find_plan_solver("ipm").make);
   const auto least = [&](const VectorXd& x) {
     double clearance = 1;
-    for (const NearPair& pair : plans.near_pairs(unstacked(x, problem.redundancy()), 1)) {
+    for (const NearPair& pair : plans.near_pairs(unstacked(x, knots_of(problem)), 1)) {
       clearance = std::min(clearance, pair.clearance);
     }
     return clearance;
@@ -164,8 +164,7 @@ TEST(KnotClimber, MovesKnotsApart) {
   climber.climb(20);
   EXPECT_GT(climber.value(), start + 1);
   EXPECT_GE(least(climber.at().theta_r), 0);
-  EXPECT_TRUE(
-      plans.evaluate(unstacked(climber.at().theta_r, problem.redundancy())).collision.empty());
+  EXPECT_TRUE(plans.evaluate(unstacked(climber.at().theta_r, knots_of(problem))).collision.empty());
 }
 
 /// Bounds that differ from knot to knot, and a start whose knots differ: a step that all knots
@@ -231,7 +230,7 @@ TEST(KnotClimber, APlanIsWorthTheLessOfItsInstantsAndWhatIsBetweenThem) {
   Problem problem = load_problem("planar/trajectory");
   const Candidate plan{default_table(problem), 7};  // its value is taken as it is given
   PlanEvaluator plans(problem, Wrench::kPure, find_plan_solver("clp").make);
-  plans.evaluate(unstacked(plan.theta_r, problem.redundancy()));
+  plans.evaluate(unstacked(plan.theta_r, knots_of(problem)));
   plans.evaluate_continuous();
   const double between = plans.plan().continuous;
   KnotClimber climber = climber_from(elastic_value(problem), plan.theta_r);

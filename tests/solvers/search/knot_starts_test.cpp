@@ -44,8 +44,8 @@ struct Drawn {
 };
 
 /// k×r: what each knot differs by from that of the start.
-MatrixXd offsets(const Candidate& start, const SearchOptions& options, int r) {
-  return unstacked(start.theta_r - options.start, r);
+MatrixXd offsets(const Candidate& start, const SearchOptions& options, int knots) {
+  return unstacked(start.theta_r - options.start, knots);
 }
 
 class KnotStartsOf : public testing::TestWithParam<const char*> {};
@@ -89,7 +89,7 @@ TEST_P(KnotStartsOf, MoveAlikeWhereTheyMay) {
   const Drawn drawn(draw_knot_starts, *objective, options);
   bool differ = false;
   for (const Candidate& start : drawn.starts) {
-    const MatrixXd moved = offsets(start, options, problem.redundancy());
+    const MatrixXd moved = offsets(start, options, knots_of(problem));
     differ = differ || (moved.rowwise() - moved.row(0)).norm() > 1e-9;
   }
   EXPECT_EQ(differ, problem.motion->impulse);
@@ -131,7 +131,7 @@ TEST_P(KnotStartsOf, BeginWithTheEndsOfClimbs) {
   if (heads == 0) return;
   EXPECT_GT(found.starts.front().value, drawn.starts.front().value);
   for (std::size_t i = 0; i < heads; ++i) {
-    const MatrixXd moved = offsets(found.starts[i], options, problem.redundancy());
+    const MatrixXd moved = offsets(found.starts[i], options, knots_of(problem));
     EXPECT_LT((moved.rowwise() - moved.row(0)).norm(), 1e-9);
     EXPECT_NEAR(objective->evaluate(found.starts[i].theta_r), found.starts[i].value, 1e-9);
     for (std::size_t j = 0; j < i; ++j) {
@@ -156,7 +156,7 @@ TEST(KnotStarts, AlikeMeansWithinTheBoundsOfAllKnots) {
     const Drawn drawn(draw, objective, options);
     ASSERT_GT(drawn.starts.size(), 20U);
     for (const Candidate& start : drawn.starts) {
-      const MatrixXd moved = offsets(start, options, r);
+      const MatrixXd moved = offsets(start, options, knots_of(problem));
       EXPECT_LT((moved.rowwise() - moved.row(0)).norm(), 1e-7);
       EXPECT_LE(moved.maxCoeff(), 0.1 + 1e-7);
     }

@@ -20,7 +20,7 @@ namespace {
 /// What a table is worth, by a general solver.
 double worth_of(const Problem& problem, const Eigen::VectorXd& x) {
   PlanEvaluator plans(problem, Wrench::kPure, find_plan_solver("clp").make);
-  if (plans.evaluate(unstacked(x, problem.redundancy())).status != Status::kOptimal) {
+  if (plans.evaluate(unstacked(x, knots_of(problem))).status != Status::kOptimal) {
     return -kInfinity;
   }
   plans.evaluate_continuous();
