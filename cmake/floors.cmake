@@ -51,10 +51,11 @@ function(add_core_floor name)
 endfunction()
 
 add_core_floor(lib)
-# The way from theta_r to J and tau_d stays out of joined units: in a large one GCC no longer inlines products of 3x3 matrices, which
-# costs a tenth of an evaluation.
+# The way from theta_r to J and tau_d, and the collision check, stay out of joined units: in a large one GCC no longer inlines products
+# of 3x3 matrices, which costs a tenth of an evaluation.
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   set_source_files_properties(${PROJECT_SOURCE_DIR}/lib/robot/kinematics.cpp ${PROJECT_SOURCE_DIR}/lib/posture/posture.cpp
+    ${PROJECT_SOURCE_DIR}/problems/loader/collision.cpp
     PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endif()
 
