@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "lib/math/farkas.h"
 #include "maxwrench/plan_program.h"
 #include "solvers/plan/blocks.h"
 
@@ -94,7 +95,11 @@ struct Forms {
   void fill_border(const PlanProgram& program);
   void level(const PlanProgram& program, const Eigen::VectorXd& multipliers, double tau, int i,
              PlanSolution& solution);
+  void sign_proof(PlanSolution& solution) const;
   void limit(int form, double low, double high, double offset);
+  static bool has_limits(const WrenchProgram& at, int j) {
+    return at.w_min[j] > -kInfiniteBound || at.w_max[j] < kInfiniteBound;
+  }
   const Eigen::VectorXd& u_min(const PlanProgram& program, int i) const {
     return i == 0 ? program.first_min : actuation_->u_min;
   }

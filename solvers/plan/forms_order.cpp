@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/math/farkas.h"
 #include "solvers/plan/forms.h"
 
 // Which efforts come first, and which of them one form may stand for.
