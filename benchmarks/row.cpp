@@ -68,7 +68,7 @@ Row solve(const Problem& problem, const Method& method, int threads,
   }
   conclude_search(result, interruption, row);
   row.undecided = tally->undecided();
-  if (problem.contact) row.branches = tally->sum();
+  row.branches = tally->sum();
   row.wall_s += search_s;
   return row;
 }

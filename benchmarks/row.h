@@ -31,7 +31,7 @@ struct Row : Verdict {
   /// Of the evaluations, those whose lower level ended without a verdict; not counted by searches
   /// of plans.
   long undecided = 0;
-  BranchCounts branches;  ///< of the second arm, if there is one, in sum over the evaluations
+  BranchCounts branches;  ///< in sum over the evaluations; not counted by searches of plans
   double wall_s = 0;      ///< without the yardstick
 
   bool has_posture() const { return posture.J.size() > 0; }

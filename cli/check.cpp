@@ -6,11 +6,14 @@
 #include <memory>
 
 #include "cli/cli.h"
+#include "cli/pieces.h"
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
 
 namespace maxwrench {
 namespace {
+
+constexpr int kSamples = 1000;
 
 std::string base_axes(const Robot& robot) {
   std::vector<std::string> names;
@@ -70,12 +73,15 @@ void print_what_follows(const Problem& problem) {
                joint.q_max, posture.q[i]);
   }
   fmt::print("  {}\n", problem.robot.base_axes.empty()
-                           ? "the base stands, these joints follow by Newton's method"
+                           ? "the base stands, these joints follow in all ways that reach the pose"
                        : problem.dependent.empty()
                            ? "the base pose follows in closed form"
-                           : "the base pose follows with these joints, by Newton's method");
+                           : "the base pose follows with these joints, in all ways that reach it");
   fmt::print("  default posture: {}\n",
              posture.status == Status::kValid ? "exists" : describe_violation(problem, posture));
+  const Sampled sampled = sample_postures(problem, kSamples);
+  fmt::print("  {} of {} random theta_r are valid; {}\n", sampled.valid, kSamples,
+             describe(sampled.postures));
 }
 
 std::string bounds(double low, double high) {

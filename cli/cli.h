@@ -8,7 +8,6 @@
 
 namespace maxwrench {
 
-struct BranchCounts;
 struct Problem;
 struct Row;
 
@@ -54,9 +53,6 @@ std::string refuse_seed(const std::string& text);
 
 /// Empty, or why the text names no file or folder.
 std::string refuse_empty(const std::string& text);
-
-/// One line.
-std::string describe(const BranchCounts& branches);
 
 /// A row for people or, with `json`, as one object; returns the exit status that it deserves.
 int report(const Problem& problem, const Row& row, bool json);

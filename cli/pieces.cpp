@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "lib/math/random.h"
+
 namespace maxwrench {
 
 using nlohmann::ordered_json;
@@ -60,6 +62,33 @@ std::string line(const Residual& residual) {
 std::string line(long evaluations, double seconds) {
   return fmt::format("{} evaluation{} in {:.3g} s", evaluations, evaluations == 1 ? "" : "s",
                      seconds);
+}
+
+Sampled sample_postures(const Problem& problem, int samples) {
+  Random random(1);
+  PostureEvaluator model(problem);
+  Tally tally;
+  Sampled result;
+  Eigen::VectorXd theta_r = problem.theta_r_default;
+  for (int sample = 0; sample < samples; ++sample) {
+    for (Eigen::Index i = 0; i < theta_r.size(); ++i) {
+      theta_r[i] = random.uniform(problem.theta_r_min[i], problem.theta_r_max[i]);
+    }
+    const Posture& posture = model.evaluate(theta_r);
+    result.valid += posture.status == Status::kValid ? 1 : 0;
+    tally.add(posture.branches);
+  }
+  result.postures = tally.sum();
+  return result;
+}
+
+std::string describe(const BranchCounts& branches) {
+  return fmt::format(
+      "postures: {} valid, {} beyond a joint's limit, {} near singular, {} in collision; none at "
+      "{} "
+      "theta_r, at most {} at one",
+      branches.valid(), branches.beyond_limit, branches.singular, branches.collision,
+      branches.unreachable, branches.most);
 }
 
 const std::string& actuator_name(const Robot& robot, Eigen::Index i) {

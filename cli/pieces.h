@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "maxwrench/posture.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/status.h"
 
@@ -36,6 +37,17 @@ std::string line(const Residual& residual);
 
 /// "20 evaluations in 0.5 s"
 std::string line(long evaluations, double seconds);
+
+/// Random theta_r within the limits, always the same: at how many there is a valid posture, and
+/// what became of all postures there.
+struct Sampled {
+  int valid = 0;
+  BranchCounts postures;
+};
+Sampled sample_postures(const Problem& problem, int samples);
+
+/// "postures: 3 valid, ..."
+std::string describe(const BranchCounts& branches);
 
 /// Thrusters, then joints.
 const std::string& actuator_name(const Robot& robot, Eigen::Index i);

@@ -15,11 +15,9 @@ namespace {
 using nlohmann::ordered_json;
 
 ordered_json to_json(const BranchCounts& branches) {
-  return {{"valid", branches.valid()},
-          {"unreachable", branches.unreachable},
-          {"beyond_limit", branches.beyond_limit},
-          {"singular", branches.singular},
-          {"collision", branches.collision}};
+  return {{"valid", branches.valid()},           {"most", branches.most},
+          {"unreachable", branches.unreachable}, {"beyond_limit", branches.beyond_limit},
+          {"singular", branches.singular},       {"collision", branches.collision}};
 }
 
 ordered_json to_json(const Problem& problem, const Row& row) {
@@ -52,7 +50,7 @@ ordered_json to_json(const Problem& problem, const Row& row) {
   object["residual"] = known(solved, to_json(capability.residual));
   object["evaluations"] = row.evaluations;
   object["undecided"] = row.undecided;
-  if (problem.contact) object["branches"] = to_json(row.branches);
+  object["branches"] = to_json(row.branches);
   object["wall_s"] = row.wall_s;
   object["version"] = version();
   return object;
@@ -74,9 +72,11 @@ void print(const Problem& problem, const Row& row) {
                line(rpy(row.posture.base.R)));
     print_following(problem, row.posture, problem.dependent);
   }
-  if (problem.contact) {
+  if (problem.contact && row.has_posture()) {
+    print_following(problem, row.posture, problem.contact->follow);
+  }
+  if (row.branches.found + row.branches.unreachable > 0) {
     fmt::print("{}\n", describe(row.branches));
-    if (row.has_posture()) print_following(problem, row.posture, problem.contact->follow);
   }
   if (!row.has_value()) {
     fmt::print("{}: {}\n", to_string(row.status), row.reason.c_str());
@@ -102,14 +102,6 @@ void print(const Problem& problem, const Row& row) {
 }
 
 }  // namespace
-
-std::string describe(const BranchCounts& branches) {
-  return fmt::format(
-      "branches of the second arm: {} valid, {} beyond a joint's limit, {} near singular, {} in "
-      "collision; no solution: {}",
-      branches.valid(), branches.beyond_limit, branches.singular, branches.collision,
-      branches.unreachable);
-}
 
 int report(const Problem& problem, const Row& row, bool json) {
   if (json) {

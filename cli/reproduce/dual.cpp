@@ -6,12 +6,11 @@
 
 #include "benchmarks/write_file.h"
 #include "cli/cli.h"
+#include "cli/pieces.h"
 #include "cli/reproduce/reproduce.h"
 #include "cli/row_writer.h"
-#include "lib/math/random.h"
 #include "maxwrench/figures.h"
 #include "maxwrench/load.h"
-#include "maxwrench/objective.h"
 
 namespace maxwrench {
 namespace {
@@ -42,25 +41,6 @@ std::string line(const char* name, const Row& row, double one, double tank, doub
                      100 * (tank / tank_one - 1), w_2, fmt::join(row.posture.theta_r, ", "));
 }
 
-/// What became of the branches at random places within the limits.
-std::string count_branches(const Problem& problem) {
-  Random random(1);
-  PostureEvaluator model(problem);
-  Tally tally;
-  int valid = 0;
-  Eigen::VectorXd theta_r = problem.theta_r_default;
-  for (int sample = 0; sample < kSamples; ++sample) {
-    for (Eigen::Index i = 0; i < theta_r.size(); ++i) {
-      theta_r[i] = random.uniform(problem.theta_r_min[i], problem.theta_r_max[i]);
-    }
-    const Posture& posture = model.evaluate(theta_r);
-    valid += posture.status == Status::kValid;
-    tally.add(posture.branches);
-  }
-  return fmt::format("  {} random contacts, {} of them valid; {}\n", kSamples, valid,
-                     describe(tally.sum()));
-}
-
 }  // namespace
 
 PaperTable reproduce_dual(const std::filesystem::path& folder, int threads) {
@@ -86,7 +66,9 @@ PaperTable reproduce_dual(const std::filesystem::path& folder, int threads) {
   text += line("one contact", one, reference, tank.one, tank.one);
   text += line("default contact", chosen, reference, tank.chosen, tank.one);
   text += line("best contact", best, reference, tank.best, tank.one);
-  text += count_branches(wall);
+  const Sampled contacts = sample_postures(wall, kSamples);
+  text += fmt::format("  {} random contacts, {} of them valid; {}\n", kSamples, contacts.valid,
+                      describe(contacts.postures));
   if (best.has_value()) {
     write_file(folder / "dual_postures.svg",
                posture_figure(wall, {{"default contact", wall.theta_r_default},

@@ -13,18 +13,20 @@ namespace maxwrench {
 struct Capability;
 struct Problem;
 
-/// What became of the solutions of the second arm's inverse kinematics, at one theta_r or in sum.
+/// What became of the postures that reach the pose, and the second contact, at one theta_r or in
+/// sum over several: one for each solution of the inverse kinematics of what follows from theta_r.
 struct BranchCounts {
-  long unreachable = 0;   ///< how often there was no solution
-  long found = 0;         ///< solutions
+  long unreachable = 0;   ///< how many theta_r have none
+  long most = 0;          ///< how many one theta_r has at most
+  long found = 0;         ///< all of them
   long beyond_limit = 0;  ///< of them, those that leave a joint's limits,
   long singular = 0;      ///< are near singular,
   long collision = 0;     ///< collide with the robot itself
   long valid() const { return found - beyond_limit - singular - collision; }
 };
 
-/// Sums up over all evaluations of an objective and its clones, in any threads: the branches of a
-/// second arm, and how often the lower level ended without a verdict that the data confirm.
+/// Sums up over all evaluations of an objective and its clones, in any threads: their postures, and
+/// how often the lower level ended without a verdict that the data confirm.
 class Tally {
  public:
   void add(const BranchCounts& counts);
@@ -34,7 +36,8 @@ class Tally {
 
  private:
   std::atomic<long> undecided_ = 0;
-  std::atomic<long> unreachable_ = 0, found_ = 0, beyond_limit_ = 0, singular_ = 0, collision_ = 0;
+  std::atomic<long> unreachable_ = 0, most_ = 0, found_ = 0;
+  std::atomic<long> beyond_limit_ = 0, singular_ = 0, collision_ = 0;
 };
 
 /// What makes a posture invalid.
@@ -61,7 +64,7 @@ struct Posture : Verdict {
   Matrix6Xd J_2;          ///< 6×n, as J: the twist of the second end effector at the contact point
   Matrix6Xd C_2;          ///< 6×l, basis of its wrenches in world axes
   Pose<double> contact;   ///< the contact frame in the world
-  BranchCounts branches;  ///< of the second arm
+  BranchCounts branches;  ///< the postures at this theta_r, of which this is one
   Eigen::VectorXd tau_d;  ///< n [N, N m], what the actuators must exert at rest without contact
 };
 
@@ -77,14 +80,15 @@ class PostureEvaluator {
   explicit PostureEvaluator(const Problem&& problem, bool check_collision = true) = delete;
   ~PostureEvaluator();
 
-  /// Joint limits, reach and self-collision decide `status`; J and tau_d are filled in any case.
-  /// Where dependent joints do not follow (see lib/posture/dependent_joints.h) they are those of
-  /// the last point on the way to theta_r. Throws std::invalid_argument if theta_r has the wrong
-  /// size or is not finite. With a second contact this is the first valid branch of the second arm.
+  /// Joint limits, reach and self-collision decide `status`; J and tau_d are filled in any case:
+  /// of the first valid posture, or of one that shows what is wrong with all, or, where none reaches
+  /// the pose, of theta_r with the guess of what follows. Throws std::invalid_argument if theta_r
+  /// has the wrong size or is not finite.
   const Posture& evaluate(const Eigen::VectorXd& theta_r);
 
-  /// How many valid postures the last theta_r has: one for each branch of the second arm, at most
-  /// one without it. `select` turns to one of them.
+  /// How many valid postures the last theta_r has: one for each solution of the inverse kinematics
+  /// of dependent joints and of the second arm, at most one without either. `select` turns to one
+  /// of them.
   int branches() const;
   const Posture& select(int branch);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,8 @@
 #include "maxwrench/robot.h"
 
 namespace maxwrench {
+
+class BranchAtlas;
 
 /// A robot and a task: hold the end effector at a pose, or move it along a path, and exert the
 /// largest wrench along c.
@@ -33,10 +36,13 @@ struct Problem {
   /// the base pose does (see lib/posture/dependent_joints.h). None: the base pose follows in closed
   /// form.
   std::vector<int> dependent;
-  /// Where the search for what follows starts at theta_r_default, if there are dependent joints:
-  /// all joints, and [x, y, z, yaw] of the base.
+  /// A posture near one at theta_r_default, if there are dependent joints: all joints, and [x, y,
+  /// z, yaw] of the base. A task in time begins on its branch; of a static one all branches count.
   Eigen::VectorXd guess_q;
   Eigen::Vector4d guess_base = Eigen::Vector4d::Zero();
+  /// What finds all branches, shared by those that evaluate postures; null, or of another robot,
+  /// task or limits: each of them makes its own, which takes some hundredths of a second.
+  std::shared_ptr<const BranchAtlas> atlas;
   /// What a second end effector does, if there is one. Only the first is scored.
   std::optional<Contact> contact;
   /// theta_r: the joints that are free while the end effector keeps its pose, then the regrasp
@@ -53,5 +59,8 @@ struct Problem {
   /// "static", "trajectory" or "impulse".
   const char* type() const;
 };
+
+/// Fills `atlas` of a problem with dependent joints.
+void prepare_branches(Problem& problem);
 
 }  // namespace maxwrench

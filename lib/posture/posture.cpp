@@ -1,6 +1,5 @@
 #include "maxwrench/posture.h"
 
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -8,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "lib/posture/dependent_joints.h"
+#include "lib/posture/primary_branches.h"
 #include "lib/posture/pull_back.h"
 #include "lib/posture/second_arm.h"
 #include "lib/robot/chain.h"
@@ -84,6 +83,26 @@ struct Fault {
   const char* reason = nullptr;
 };
 
+constexpr Fault kBeyondDependent{Violation::kDependentJoint, "joint limit of a dependent joint"};
+constexpr Fault kBeyondSecondArm{Violation::kSecondArm, "joint limit of the second arm"};
+constexpr Fault kSingularPosture{Violation::kNoSolution,
+                                 "singular: the dependent joints do not fix the pose"};
+constexpr Fault kSingularContacts{Violation::kNoSolution,
+                                  "singular: the two contacts lack a direction of motion"};
+constexpr Fault kUnreachablePose{Violation::kNoSolution,
+                                 "unreachable pose: the dependent joints do not get there"};
+constexpr Fault kUnreachableContact{Violation::kNoSolution,
+                                    "unreachable contact: the second arm does not get there"};
+constexpr Fault kBaseOffItsAxes{Violation::kBase,
+                                "unreachable pose: the base would leave its free axes"};
+constexpr Fault kSelfCollision{Violation::kCollision, "self-collision"};
+
+/// A posture at one theta_r: the numbers of the solutions for what follows, and for the second arm.
+struct Branch {
+  int primary = -1, second = -1;
+  bool operator==(const Branch&) const = default;
+};
+
 void require_theta_r(const Problem& problem, const Eigen::VectorXd& theta_r) {
   if (theta_r.size() != problem.redundancy()) {
     throw std::invalid_argument("theta_r: got " + std::to_string(theta_r.size()) +
@@ -103,7 +122,7 @@ struct PostureEvaluator::Workspace {
         check_collision(check && p.robot.collision != nullptr),
         model(p),
         reverse(p.robot, p.end_effector, p.contact ? p.contact->end_effector : -1) {
-    if (!p.dependent.empty()) branch.emplace(p);
+    if (!p.dependent.empty()) primary.emplace(p);
     if (p.contact) second.emplace(p);
     posture.q.resize(model.q.size());
     posture.links = model.kinematics.links();
@@ -111,19 +130,7 @@ struct PostureEvaluator::Workspace {
     posture.tau_d = model.tau_d;
   }
 
-  void evaluate(const Eigen::VectorXd& theta_r) {
-    if (second) {
-      model.q = problem.contact->q_rest;
-      placed = -1;
-    }
-    if (!branch) return model.evaluate(theta_r);
-    joints_of_theta_r = theta_r.head(static_cast<Eigen::Index>(problem.redundant.size()));
-    branch_reason = branch->follow(joints_of_theta_r);
-    model.evaluate_at(theta_r, branch->z());
-  }
-
-  /// Why the posture does not exist.
-  Fault find_fault(const Eigen::VectorXd& theta_r) const {
+  Fault find_beyond(const Eigen::VectorXd& theta_r) const {
     for (Eigen::Index i = 0; i < theta_r.size(); ++i) {
       if (theta_r[i] < problem.theta_r_min[i] - kLimitTolerance ||
           theta_r[i] > problem.theta_r_max[i] + kLimitTolerance) {
@@ -132,62 +139,124 @@ struct PostureEvaluator::Workspace {
                                         : "regrasp coordinate beyond its limits"};
       }
     }
-    if (branch_reason) return {Violation::kNoSolution, branch_reason};
-    for (const int i : problem.dependent) {
-      const Joint& joint = problem.robot.joints[i];
-      if (model.q[i] < joint.q_min - kLimitTolerance || model.q[i] > joint.q_max + kLimitTolerance)
-        return {Violation::kDependentJoint, "joint limit of a dependent joint"};
-    }
-    if (!branch && !base_reaches(problem.robot, model.base))
-      return {Violation::kBase, "unreachable pose: the base would leave its free axes"};
-    if (second || !collides()) return {};  // a second arm moves yet
-    return {Violation::kCollision, "self-collision"};
+    return {};
   }
 
   bool collides() const {
     return check_collision && problem.robot.collision->collides(model.kinematics.links());
   }
 
-  /// Moves the second arm to a branch; whether that is within its limits.
-  bool place(int i) {
+  /// Moves the second arm to one of its solutions; whether that is within its limits.
+  bool place_second(int i) {
     const bool inside = second->place(i, model.q);
     model.kinematics.set_joints(model.q);
     model.finish();
-    placed = i;
+    placed.second = i;
     return inside;
   }
 
-  /// Finds the valid branches of the second arm and moves it to the first, or says why there is
-  /// none.
-  Fault reach() {
-    BranchCounts& counts = posture.branches;
-    counts = {};
-    valid_count = 0;
+  /// Moves what follows to one of its solutions.
+  void place_primary(int i) {
+    primary->place(i);
+    model.evaluate_at(model.theta_r, primary->z());
+    placed = {i, -1};
+    if (second) second->reach(model.base);
+  }
+
+  void place(const Branch& branch) {
+    if (branch.primary != placed.primary) place_primary(branch.primary);
+    if (branch.second != placed.second) place_second(branch.second);
+  }
+
+  /// Goes through the solutions for the second arm, from where the base is.
+  void try_second() {
     const int found = second->reach(model.base);
-    counts.found = found;
-    counts.unreachable = found == 0;
     for (int i = 0; i < found; ++i) {
-      if (!place(i)) {
-        ++counts.beyond_limit;
+      if (!place_second(i)) {
+        turn_down(posture.branches.beyond_limit, kBeyondSecondArm);
       } else if (smallest_gain(problem.robot, *problem.contact, model.J, model.J_2) <
                  problem.contact->sigma_min) {
-        ++counts.singular;
-      } else if (collides()) {
-        ++counts.collision;
+        turn_down(posture.branches.singular, kSingularContacts);
       } else {
-        valid[static_cast<std::size_t>(valid_count++)] = i;
+        try_collision();
       }
     }
-    if (valid_count > 0) {
-      if (placed != valid[0]) place(valid[0]);
-      return {};
+  }
+
+  void try_collision() {
+    if (collides()) return turn_down(posture.branches.collision, kSelfCollision);
+    ++posture.branches.found;
+    valid.push_back(placed);
+  }
+
+  /// Counts the branch where the model is. Of all faults the gravest says what is wrong with a
+  /// theta_r without a valid posture.
+  void turn_down(long& count, const Fault& why) {
+    ++posture.branches.found;
+    ++count;
+    if (fault.reason && why.violation <= fault.violation) return;
+    fault = why;
+    shown = placed;
+  }
+
+  /// Goes through the solutions for what follows.
+  void try_primary(const Eigen::VectorXd& theta_r) {
+    const int found = primary->solve(theta_r);
+    model.theta_r = theta_r;
+    if (found == 0) {
+      primary->place_guess();
+      model.evaluate_at(theta_r, primary->z());
     }
-    if (counts.collision > 0) return {Violation::kCollision, "self-collision"};
-    if (counts.singular > 0) {
-      return {Violation::kNoSolution, "singular: the two contacts lack a direction of motion"};
+    for (int i = 0; i < found; ++i) {
+      placed = {i, -1};
+      if (!primary->place(i)) {
+        turn_down(posture.branches.beyond_limit, kBeyondDependent);
+        continue;
+      }
+      model.evaluate_at(theta_r, primary->z());
+      if (primary->is_singular(model.J)) {
+        turn_down(posture.branches.singular, kSingularPosture);
+      } else if (second) {
+        try_second();
+      } else {
+        try_collision();
+      }
     }
-    if (found > 0) return {Violation::kSecondArm, "joint limit of the second arm"};
-    return {Violation::kNoSolution, "unreachable contact: the second arm does not get there"};
+  }
+
+  /// Fills `valid` and, if there is none, `fault`; the model shows the first valid posture, or what
+  /// is wrong.
+  void find_branches(const Eigen::VectorXd& theta_r) {
+    valid.clear();
+    fault = {};
+    shown = placed = {};
+    posture.branches = {};
+    if (second) {
+      model.q = problem.contact->q_rest;
+      second->touch(theta_r);
+    }
+    if (primary) {
+      try_primary(theta_r);
+    } else {
+      model.evaluate(theta_r);
+      if (!base_reaches(problem.robot, model.base)) {
+        fault = kBaseOffItsAxes;
+      } else if (second) {
+        try_second();
+      } else {
+        try_collision();
+      }
+    }
+    BranchCounts& counts = posture.branches;
+    counts.most = counts.found;
+    counts.unreachable = counts.found == 0;
+    if (!valid.empty()) {
+      fault = {};
+      return place(valid.front());
+    }
+    if (!fault.reason) fault = second ? kUnreachableContact : kUnreachablePose;
+    if (primary && shown.primary >= 0) place_primary(shown.primary);
+    if (shown.second >= 0) place_second(shown.second);
   }
 
   void read_model(const Eigen::VectorXd& theta_r) {
@@ -205,13 +274,10 @@ struct PostureEvaluator::Workspace {
 
   /// All of `PostureEvaluator::evaluate`.
   void run(const Eigen::VectorXd& theta_r) {
-    evaluate(theta_r);
-    Fault fault = find_fault(theta_r);
-    valid_count = fault.reason ? 0 : 1;
-    if (second) {
-      posture.branches = {};
-      second->touch(theta_r);
-      if (!fault.reason) fault = reach();
+    find_branches(theta_r);
+    if (const Fault beyond = find_beyond(theta_r); beyond.reason) {
+      fault = beyond;
+      valid.clear();
     }
     read_model(theta_r);
     posture.violation = fault.violation;
@@ -226,10 +292,10 @@ struct PostureEvaluator::Workspace {
                  const Matrix6Xd& J_seed, const Matrix6Xd& J2_seed, const Matrix6Xd& C2_seed,
                  Eigen::VectorXd& gradient) {
     if (model.theta_r != theta_r) {
-      if (second) {
+      if (second || primary) {
         run(theta_r);  // chooses a branch
       } else {
-        evaluate(theta_r);
+        model.evaluate(theta_r);
       }
     }
     gradient.resize(theta_r.size());
@@ -239,12 +305,9 @@ struct PostureEvaluator::Workspace {
     if (second) {
       second->follow(problem.pose.p, model.J, model.J_2, J2_seed, C2_seed, q_gradient, gradient);
     }
+    if (primary) return primary->follow(model.J, q_gradient, gradient);
     for (std::size_t k = 0; k < problem.redundant.size(); ++k) {
-      const auto i = static_cast<Eigen::Index>(k);
-      // The base follows from all joints in closed form here too: what Newton solves holds along
-      // the branch.
-      gradient[i] = branch ? branch->slopes().col(i).tail(model.q.size()).dot(q_gradient)
-                           : q_gradient[problem.redundant[k]];
+      gradient[static_cast<Eigen::Index>(k)] = q_gradient[problem.redundant[k]];
     }
   }
 
@@ -253,12 +316,11 @@ struct PostureEvaluator::Workspace {
   PostureState model;
   PullBack reverse;
   Eigen::VectorXd q_gradient;
-  std::optional<DependentJoints> branch;  ///< if there are dependent joints
-  const char* branch_reason = nullptr;
-  Eigen::VectorXd joints_of_theta_r;
-  std::optional<SecondArm> second;  ///< if there is a second contact
-  std::array<int, ContactArm::kMostSolutions> valid{};
-  int valid_count = 0, placed = -1;
+  std::optional<PrimaryBranches> primary;  ///< if joints are dependent
+  std::optional<SecondArm> second;         ///< if there is a second contact
+  std::vector<Branch> valid;
+  Fault fault;           ///< if none is valid,
+  Branch shown, placed;  ///< and where it is; where the model is
   const Matrix6Xd none;  ///< no seeds
   Posture posture;
 };
@@ -274,14 +336,14 @@ const Posture& PostureEvaluator::evaluate(const Eigen::VectorXd& theta_r) {
   return ws.posture;
 }
 
-int PostureEvaluator::branches() const { return workspace_->valid_count; }
+int PostureEvaluator::branches() const { return static_cast<int>(workspace_->valid.size()); }
 
 const Posture& PostureEvaluator::select(int branch) {
   Workspace& ws = *workspace_;
-  assert(branch >= 0 && branch < ws.valid_count);
-  const int i = ws.valid[static_cast<std::size_t>(branch)];
-  if (!ws.second || ws.placed == i) return ws.posture;
-  ws.place(i);
+  assert(branch >= 0 && branch < branches());
+  const Branch& chosen = ws.valid[static_cast<std::size_t>(branch)];
+  if (chosen == ws.placed) return ws.posture;
+  ws.place(chosen);
   ws.read_model(ws.model.theta_r);
   return ws.posture;
 }

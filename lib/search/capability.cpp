@@ -75,6 +75,9 @@ class CapabilityObjective : public Objective {
 
 void Tally::add(const BranchCounts& counts) {
   unreachable_ += counts.unreachable;
+  long most = most_.load();
+  while (most < counts.most && !most_.compare_exchange_weak(most, counts.most)) {
+  }
   found_ += counts.found;
   beyond_limit_ += counts.beyond_limit;
   singular_ += counts.singular;
@@ -82,7 +85,7 @@ void Tally::add(const BranchCounts& counts) {
 }
 
 BranchCounts Tally::sum() const {
-  return {unreachable_, found_, beyond_limit_, singular_, collision_};
+  return {unreachable_, most_, found_, beyond_limit_, singular_, collision_};
 }
 
 std::unique_ptr<Objective> make_capability_objective(const Problem& problem, Wrench wrench,

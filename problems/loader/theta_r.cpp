@@ -7,8 +7,11 @@
 #include <array>
 #include <cmath>
 
+#include "lib/math/random.h"
+#include "lib/posture/branch_atlas.h"
 #include "lib/posture/dependent_joints.h"
 #include "lib/robot/chain.h"
+#include "maxwrench/posture.h"
 
 namespace maxwrench {
 namespace {
@@ -104,6 +107,44 @@ std::string shown_gap(const Vector6d& gap) {
                : fmt::format("{:.2g} rad away about the world's {}", std::abs(gap[i]), axis);
 }
 
+[[noreturn]] void refuse_pose(const Block& task, const Problem& problem) {
+  const DependentJoints branch(problem);
+  const std::string names = names_of(problem.robot, problem.dependent);
+  if (branch.has_start() && branch.start_is_singular()) {
+    task.table("theta_r").refuse_value(
+        "joints", fmt::format("joints without which the pose fixes {} and the base (it does not "
+                              "at the default: singular)",
+                              names));
+  }
+  task.table("pose").refuse_value(
+      "xyz", fmt::format("a pose that {} and the base reach from theta_r.guess with theta_r at its "
+                         "default (the best found stays {})",
+                         names, shown_gap(branch.start_gap())));
+}
+
+/// Whether the pose is reached, in a posture that may yet collide.
+bool is_reached(const Posture& posture) { return posture.branches.found > 0; }
+
+/// A default that the task leaves open: the first place with a valid posture, or else where the
+/// pose is reached at all.
+void find_default(PostureEvaluator& model, Problem& problem) {
+  constexpr int kPlaces = 4000;
+  Random random(3);
+  Eigen::VectorXd place = problem.theta_r_default;
+  bool reached = false;
+  for (int i = 0; i < kPlaces; ++i) {
+    for (Eigen::Index k = 0; k < place.size(); ++k) {
+      place[k] = random.uniform(problem.theta_r_min[k], problem.theta_r_max[k]);
+    }
+    const Posture& posture = model.evaluate(place);
+    const bool valid = posture.status == Status::kValid;
+    if (!valid && (reached || !is_reached(posture))) continue;
+    problem.theta_r_default = place;
+    reached = true;
+    if (valid) return;
+  }
+}
+
 }  // namespace
 
 std::string names_of(const Robot& robot, const std::vector<int>& joints) {
@@ -147,22 +188,29 @@ void read_theta_r(const Block& theta_r, Problem& problem) {
   read_guess(theta_r, problem);
 }
 
-void require_branch(const Block& task, const Problem& problem) {
+void require_branch(const Block& task, Problem& problem) {
   if (problem.dependent.empty()) return;
-  const DependentJoints branch(problem);
-  const std::string names = names_of(problem.robot, problem.dependent);
-  if (!branch.has_start()) {
-    task.table("pose").refuse_value(
-        "xyz", fmt::format("a pose that {} and the base reach from theta_r.guess with theta_r at "
-                           "its default (the best found stays {})",
-                           names, shown_gap(branch.start_gap())));
+  prepare_branches(problem);
+  if (!problem.atlas->reaches()) refuse_pose(task, problem);
+  const Block theta_r = task.table("theta_r");
+  PostureEvaluator model(problem);
+  const Posture& at_default = model.evaluate(problem.theta_r_default);
+  const bool open = !theta_r.has("default") && !problem.motion;
+  if (open ? at_default.status != Status::kValid : !is_reached(at_default)) {
+    if (!open) {
+      theta_r.refuse_value("default",
+                           fmt::format("theta_r at which {} and the base reach the pose (they do "
+                                       "elsewhere: without this key a place is found)",
+                                       names_of(problem.robot, problem.dependent)));
+    }
+    find_default(model, problem);
   }
-  if (branch.start_is_singular()) {
-    task.table("theta_r").refuse_value(
-        "joints", fmt::format("joints without which the pose fixes {} and the base (it does not "
-                              "at the default: singular)",
-                              names));
-  }
+  if (DependentJoints(problem).has_start()) return;
+  if (problem.motion && theta_r.has("guess")) refuse_pose(task, problem);
+  const Posture& posture = model.evaluate(problem.theta_r_default);
+  for (const int i : problem.dependent) problem.guess_q[i] = posture.q[i];
+  const Pose<double> base = problem.robot.mount.inverse() * posture.base;
+  problem.guess_base << base.p, std::atan2(base.R(1, 0), base.R(0, 0));
 }
 
 }  // namespace maxwrench

@@ -20,8 +20,9 @@ void read_theta_r(const Block& theta_r, Problem& problem);
 /// `problem`.
 Eigen::VectorXd limited_theta_r(const Block& block, std::string_view key, const Problem& problem);
 
-/// Refuses a task whose pose is not reached from the guess, or whose theta_r does not fix the
-/// posture there.
-void require_branch(const Block& task, const Problem& problem);
+/// Of a problem with dependent joints: finds all postures (`Problem::atlas`), and a default and a
+/// guess where the task gives none. Refuses a pose that is not reached, and a theta_r that does not
+/// fix the posture.
+void require_branch(const Block& task, Problem& problem);
 
 }  // namespace maxwrench

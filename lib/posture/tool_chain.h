@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "maxwrench/problem.h"
+
+namespace maxwrench {
+
+/// Of up to six numbers y that follow from theta_r.
+template <class T>
+using Six = std::array<T, 6>;
+
+/// The end effector at (theta_r, y), in world axes.
+template <class T>
+struct ToolState {
+  Pose<T> pose;
+  Six<Vector6<T>> J;                      ///< [m; rad], twist by each y
+  Vector6<T> twist;                       ///< by the rates
+  std::vector<Vector3<T>> axes, origins;  ///< of the coordinates
+};
+
+/// The way from the world to the end effector: free base axes and joints, each of which turns about
+/// or slides along the z axis of its own frame. y are the base axes and the dependent joints, d <=
+/// 6 in the order of the chain; theta_r, r of them, are the other joints. A template on the scalar:
+/// double or Complex.
+class ToolChain {
+ public:
+  explicit ToolChain(const Problem& problem);
+
+  int unknowns() const { return static_cast<int>(places_.size()); }
+  int parameters() const { return parameters_; }
+  /// Whether y_i is an angle.
+  bool turns(int i) const {
+    const int place = places_[static_cast<std::size_t>(i)];
+    return coordinates_[static_cast<std::size_t>(place)].turns;
+  }
+  /// The place of y_i in z = [x, y, z, yaw of the base; all joints].
+  int place_in_z(int i) const { return in_z_[static_cast<std::size_t>(i)]; }
+
+  /// Whether all coordinates are the same.
+  bool operator==(const ToolChain& other) const;
+
+  /// Fills `state`. `theta_r_rate` and `y_rate` may be null: they are zero.
+  template <class T>
+  void evaluate(const T* theta_r, const T* y, const T* theta_r_rate, const T* y_rate,
+                ToolState<T>& state) const;
+
+ private:
+  struct Coordinate {
+    Pose<double> placement;  ///< from the frame before
+    bool turns = true;
+    int unknown = -1, parameter = -1;  ///< its number in y or in theta_r
+  };
+
+  void add(const Pose<double>& placement, const Eigen::Vector3d& axis, bool turns);
+  void follows(int place_in_z);
+
+  std::vector<Coordinate> coordinates_;
+  std::vector<int> places_, in_z_;  ///< of y in coordinates_ and in z
+  int parameters_ = 0;
+  Pose<double> behind_;  ///< from the last frame to what comes next, at last the end effector
+};
+
+}  // namespace maxwrench
