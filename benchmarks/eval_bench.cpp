@@ -57,6 +57,24 @@ void time_model(benchmark::State& state, const Problem& problem) {
   }
 }
 
+/// What a search asks of a model with a second contact where that is reached: all valid branches,
+/// collision checked.
+void time_branches(benchmark::State& state, const Problem& problem) {
+  PostureEvaluator model(problem);
+  std::vector<Eigen::VectorXd> postures;
+  for (Eigen::VectorXd& theta_r : random_postures(problem)) {
+    if (model.evaluate(theta_r).status == Status::kValid) postures.push_back(std::move(theta_r));
+  }
+  std::size_t i = 0;
+  for (auto _ : state) {
+    if (i == postures.size()) i = 0;
+    benchmark::DoNotOptimize(model.evaluate(postures[i++]).J.data());
+    for (int branch = 1; branch < model.branches(); ++branch) {
+      benchmark::DoNotOptimize(model.select(branch).J_2.data());
+    }
+  }
+}
+
 /// The check alone, for link poses that are known.
 void time_collision(benchmark::State& state, const Problem& problem) {
   PostureEvaluator model(problem, false);
@@ -125,6 +143,9 @@ void add_problem(const Problem& problem) {
   };
   add(name("kdl"), [&](benchmark::State& state) { time_kdl(state, problem); });
   add(name("model"), [&](benchmark::State& state) { time_model(state, problem); });
+  if (problem.contact) {
+    add(name("model/branches"), [&](benchmark::State& state) { time_branches(state, problem); });
+  }
   if (problem.robot.collision) {
     add(name("collision"), [&](benchmark::State& state) { time_collision(state, problem); });
   }

@@ -63,6 +63,10 @@ Vector6d contact_twist(const Contact& contact, const double* s, int i);
 double smallest_gain(const Robot& robot, const Contact& contact, const Matrix6Xd& J,
                      const Matrix6Xd& J_2);
 
+/// smallest_gain < sigma_min, from the signs of pivots instead of singular values: cheaper.
+bool near_singular(const Robot& robot, const Contact& contact, const Matrix6Xd& J,
+                   const Matrix6Xd& J_2);
+
 /// `rank` of a contact, while `end_effector` makes the first.
 int stacked_rank(const Robot& robot, int end_effector, const Contact& contact);
 

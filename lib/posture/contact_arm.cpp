@@ -20,25 +20,40 @@ constexpr double kSame = 1e-5;
 constexpr int kSeeds = 24;
 constexpr int kMostSteps = 60;
 
-Vector3d rotate(const Vector3d& a, double q, const Vector3d& x) {
-  return x * std::cos(q) + a.cross(x) * std::sin(q) + a * (a.dot(x) * (1 - std::cos(q)));
+/// An angle q with c = cos q and s = sin q.
+struct Angle {
+  double q = 0, c = 1, s = 0;
+};
+
+/// x, turned by q about a.
+Vector3d rotate(const Vector3d& a, const Angle& q, const Vector3d& x) {
+  return x * q.c + a.cross(x) * q.s + a * (a.dot(x) * (1 - q.c));
 }
+
+/// x less its part along n.
+Vector3d flat(const Vector3d& n, const Vector3d& x) { return x - n * n.dot(x); }
 
 /// The angle about a that turns x, less its part along a, towards y.
 double angle_about(const Vector3d& a, const Vector3d& x, const Vector3d& y) {
   return std::atan2(a.dot(x.cross(y)), x.dot(y) - a.dot(x) * a.dot(y));
 }
 
-/// The solutions of A cos q + B sin q = C: q = middle -+ half; false if there are none.
-bool solve_cosine(double A, double B, double C, double& middle, double& half) {
-  const double size = std::hypot(A, B);
-  if (!(std::abs(C) <= size)) return false;
-  middle = std::atan2(B, A);
-  half = std::acos(C / size);
-  return size > 0;
-}
-
 }  // namespace
+
+ContactArm::Cosine::Cosine(double A, double B)
+    : size(std::hypot(A, B)), middle(std::atan2(B, A)), c(A / size), s(B / size) {}
+
+/// The solutions of A cos q + B sin q = C: q = middle -+ half.
+template <class Use>
+void ContactArm::Cosine::solve(double C, Use&& use) const {
+  if (!(size > 0 && std::abs(C) <= size)) return;
+  const double cos_half = C / size;
+  const double half = std::acos(cos_half);
+  const double sin_half = std::sqrt((1 - cos_half) * (1 + cos_half));
+  use(Angle{middle - half, c * cos_half + s * sin_half, s * cos_half - c * sin_half});
+  if (half == 0) return;
+  use(Angle{middle + half, c * cos_half - s * sin_half, s * cos_half + c * sin_half});
+}
 
 ContactArm::ContactArm(const Problem& problem)
     : problem_(problem),
@@ -69,7 +84,14 @@ void ContactArm::read_axes() {
   }
   p_0_ = kinematics_.end_effector_position(
       robot.end_effectors[static_cast<std::size_t>(contact_.end_effector)]);
-  closed_form_ = axes_[count - 2].a.cross(axes_[count - 1].a).norm() < kParallel;
+  const Axis &inner = axes_[count - 2], &outer = axes_[count - 1];
+  closed_form_ = inner.a.cross(outer.a).norm() < kParallel;
+  const Vector3d& n = outer.a;
+  fore_ = p_0_ - outer.o;
+  upper_ = inner.o - outer.o;
+  const Vector3d flat_fore = flat(n, fore_), flat_upper = flat(n, upper_);
+  elbow_ = Cosine(flat_fore.dot(flat_upper), n.cross(flat_fore).dot(flat_upper));
+  lengths_ = (flat_fore.squaredNorm() + flat_upper.squaredNorm()) / 2;
 }
 
 int ContactArm::solve(const Pose<double>& target) {
@@ -90,40 +112,24 @@ void ContactArm::solve_shoulder(const Vector3d& p) {
   const Vector3d& n = axes_[1].a;
   const Vector3d x = p - axes_[0].o;
   const double along = n.dot(a) * a.dot(x);
-  double middle = 0, half = 0;
-  if (!solve_cosine(n.dot(x) - along, -n.dot(a.cross(x)), n.dot(p_0_ - axes_[0].o) - along, middle,
-                    half)) {
-    return;
-  }
-  for (const double q : {middle - half, middle + half}) {
-    solve_plane(axes_[0].o + rotate(a, -q, x), q);
-    if (half == 0) break;
-  }
+  const Cosine yaw(n.dot(x) - along, -n.dot(a.cross(x)));
+  yaw.solve(n.dot(p_0_ - axes_[0].o) - along, [&](const Angle& q) {
+    solve_plane(axes_[0].o + rotate(a, {-q.q, q.c, -q.s}, x), q.q);
+  });
 }
 
 /// The last two joints, about parallel axes; `first` is the one before them.
 void ContactArm::solve_plane(const Vector3d& p, double first) {
   const bool shoulder = contact_.follow.size() == 3;
   const Axis& inner = axes_[shoulder ? 1 : 0];
-  const Axis& outer = axes_[shoulder ? 2 : 1];
-  const Vector3d& n = outer.a;
-  const auto flat = [&n](const Vector3d& x) { return Vector3d(x - n * n.dot(x)); };
-  const Vector3d fore = flat(p_0_ - outer.o);
-  const Vector3d upper = flat(inner.o - outer.o);
-  const double far = flat(p - inner.o).squaredNorm();
-  double middle = 0, half = 0;
-  if (!solve_cosine(fore.dot(upper), n.cross(fore).dot(upper),
-                    (fore.squaredNorm() + upper.squaredNorm() - far) / 2, middle, half)) {
-    return;
-  }
-  for (const double q : {middle - half, middle + half}) {
-    const Vector3d reached = outer.o + rotate(n, q, p_0_ - outer.o) - inner.o;
-    trial_[trial_.size() - 1] = q;
-    trial_[trial_.size() - 2] = angle_about(inner.a, reached, p - inner.o);
+  const Vector3d& n = axes_[shoulder ? 2 : 1].a;
+  const Vector3d target = p - inner.o;
+  elbow_.solve(lengths_ - flat(n, target).squaredNorm() / 2, [&](const Angle& q) {
+    trial_[trial_.size() - 1] = q.q;
+    trial_[trial_.size() - 2] = angle_about(inner.a, rotate(n, q, fore_) - upper_, target);
     if (shoulder) trial_[0] = first;
     keep();
-    if (half == 0) break;
-  }
+  });
 }
 
 /// Whether `trial_` is this posture, up to whole turns.

@@ -50,6 +50,17 @@ class ContactArm {
     Eigen::Vector3d a, o;
   };
 
+  /// The left side of A cos q + B sin q = C, which is size cos(q - middle).
+  struct Cosine {
+    Cosine() = default;
+    Cosine(double A, double B);
+    template <class Use>
+    void solve(double C, Use&& use) const;
+
+    double size = 0, middle = 0;
+    double c = 1, s = 0;  ///< of the middle
+  };
+
   void read_axes();
   void solve_plane(const Eigen::Vector3d& p, double first);
   void solve_shoulder(const Eigen::Vector3d& p);
@@ -65,6 +76,9 @@ class ContactArm {
   bool closed_form_ = false;
   std::array<Axis, 3> axes_;
   Eigen::Vector3d p_0_;
+  Eigen::Vector3d upper_, fore_;  ///< from the last axis to the one before it, and to p_0
+  Cosine elbow_;                  ///< upper'R(q) fore = lengths - (distance of the target)^2 / 2
+  double lengths_ = 0;            ///< (upper^2 + fore^2) / 2, each less its part along the axes
   int count_ = 0;
   std::array<Eigen::VectorXd, kMostSolutions> solutions_;
   Eigen::VectorXd q_, trial_;  ///< all joints; those that follow

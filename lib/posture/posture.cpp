@@ -25,11 +25,11 @@ struct PostureState {
         J(6, p.robot.velocities()),
         J_2(6, p.contact ? p.robot.velocities() : 0),
         tau_d(p.robot.velocities()) {
-    if (p.contact) {
-      q = p.contact->q_rest;
-      return;
+    q = p.contact ? p.contact->q_rest : resting_joints(p.robot);
+    if (p.contact) second = carried_by(p.robot, p.contact->follow);
+    for (int i = 0; i < static_cast<int>(p.robot.joints.size()); ++i) {
+      if (!std::binary_search(second.begin(), second.end(), i)) first.push_back(i);
     }
-    q = resting_joints(p.robot);
   }
 
   const EndEffector& end_effector() const {
@@ -42,7 +42,7 @@ struct PostureState {
     for (std::size_t i = 0; i < problem.redundant.size(); ++i) {
       q[problem.redundant[i]] = at[static_cast<Eigen::Index>(i)];
     }
-    kinematics.set_joints(q);
+    kinematics.set_joints(q, first);
     base = problem.pose * kinematics.end_effector(end_effector()).inverse();
     finish();
   }
@@ -51,17 +51,21 @@ struct PostureState {
   void evaluate_at(const Eigen::VectorXd& at, const Eigen::VectorXd& z) {
     theta_r = at;
     q = z.tail(q.size());
-    kinematics.set_joints(q);
+    kinematics.set_joints(q, first);
     base = base_pose(problem.robot, z.head<4>());
     finish();
   }
 
   void finish() {
     kinematics.jacobian(end_effector(), base.R, J);
-    kinematics.gravity_and_buoyancy(base.R, tau_d);
-    if (!problem.contact) return;
-    const auto second = static_cast<std::size_t>(problem.contact->end_effector);
-    kinematics.jacobian(problem.robot.end_effectors[second], base.R, J_2);
+    if (!problem.contact) kinematics.gravity_and_buoyancy(base.R, tau_d);
+  }
+
+  /// The same for a second arm that has moved, but for tau_d.
+  void finish_second() {
+    kinematics.set_joints(q, second);
+    const auto touching = static_cast<std::size_t>(problem.contact->end_effector);
+    kinematics.jacobian(problem.robot.end_effectors[touching], base.R, J_2);
   }
 
   /// Before the first evaluation: equals no theta_r.
@@ -69,6 +73,8 @@ struct PostureState {
 
   const Problem& problem;
   Kinematics<double> kinematics;
+  std::vector<int> second;  ///< the joints that move with a second arm's branch
+  std::vector<int> first;   ///< all others
   Eigen::VectorXd theta_r, q;
   Pose<double> base;
   Matrix6Xd J, J_2;
@@ -146,13 +152,11 @@ struct PostureEvaluator::Workspace {
     return check_collision && problem.robot.collision->collides(model.kinematics.links());
   }
 
-  /// Moves the second arm to one of its solutions; whether that is within its limits.
-  bool place_second(int i) {
-    const bool inside = second->place(i, model.q);
-    model.kinematics.set_joints(model.q);
-    model.finish();
+  /// Moves the second arm to one of its solutions.
+  void place_second(int i) {
+    second->place(i, model.q);
+    model.finish_second();
     placed.second = i;
-    return inside;
   }
 
   /// Moves what follows to one of its solutions.
@@ -172,10 +176,13 @@ struct PostureEvaluator::Workspace {
   void try_second() {
     const int found = second->reach(model.base);
     for (int i = 0; i < found; ++i) {
-      if (!place_second(i)) {
+      placed.second = i;
+      if (!second->within_limits(i)) {
         turn_down(posture.branches.beyond_limit, kBeyondSecondArm);
-      } else if (smallest_gain(problem.robot, *problem.contact, model.J, model.J_2) <
-                 problem.contact->sigma_min) {
+        continue;
+      }
+      place_second(i);
+      if (near_singular(problem.robot, *problem.contact, model.J, model.J_2)) {
         turn_down(posture.branches.singular, kSingularContacts);
       } else {
         try_collision();
@@ -256,10 +263,15 @@ struct PostureEvaluator::Workspace {
     }
     if (!fault.reason) fault = second ? kUnreachableContact : kUnreachablePose;
     if (primary && shown.primary >= 0) place_primary(shown.primary);
-    if (shown.second >= 0) place_second(shown.second);
+    if (shown.second >= 0) {
+      place_second(shown.second);
+    } else if (second) {
+      model.finish_second();  // at rest
+    }
   }
 
   void read_model(const Eigen::VectorXd& theta_r) {
+    if (second) model.kinematics.gravity_and_buoyancy(model.base.R, model.tau_d);
     posture.theta_r = theta_r;
     posture.base = model.base;
     posture.q = model.q;

@@ -40,16 +40,19 @@ void SecondArm::touch(const Eigen::VectorXd& theta_r) {
 
 int SecondArm::reach(const Pose<double>& base) { return arm_.solve(base.inverse() * pose_); }
 
-bool SecondArm::place(int i, Eigen::VectorXd& q) const {
-  bool inside = true;
+bool SecondArm::within_limits(int i) const {
   for (std::size_t k = 0; k < contact_.follow.size(); ++k) {
-    const int joint = contact_.follow[k];
-    const Joint& limits = problem_.robot.joints[static_cast<std::size_t>(joint)];
-    q[joint] = arm_.solution(i)[static_cast<Eigen::Index>(k)];
-    inside &= q[joint] >= limits.q_min - kLimitTolerance;
-    inside &= q[joint] <= limits.q_max + kLimitTolerance;
+    const Joint& limits = problem_.robot.joints[static_cast<std::size_t>(contact_.follow[k])];
+    const double q = arm_.solution(i)[static_cast<Eigen::Index>(k)];
+    if (!(q >= limits.q_min - kLimitTolerance && q <= limits.q_max + kLimitTolerance)) return false;
   }
-  return inside;
+  return true;
+}
+
+void SecondArm::place(int i, Eigen::VectorXd& q) const {
+  for (std::size_t k = 0; k < contact_.follow.size(); ++k) {
+    q[contact_.follow[k]] = arm_.solution(i)[static_cast<Eigen::Index>(k)];
+  }
 }
 
 const Matrix6Xd& SecondArm::shifted_seeds(const Vector3d& p_e, const Matrix6Xd& J_seed,

@@ -19,8 +19,10 @@ class SecondArm {
   void touch(const Eigen::VectorXd& theta_r);
   /// All branches that reach it from the base. Returns their number.
   int reach(const Pose<double>& base);
-  /// Writes branch i into q; whether it is within the limits of its joints.
-  bool place(int i, Eigen::VectorXd& q) const;
+  /// Whether branch i is within the limits of its joints.
+  bool within_limits(int i) const;
+  /// Writes branch i into q.
+  void place(int i, Eigen::VectorXd& q) const;
 
   const Pose<double>& contact() const { return pose_; }
   const Matrix6Xd& C_2() const { return C_2_; }

@@ -18,6 +18,17 @@ std::vector<int> chain_to(const Robot& robot, int end_effector) {
   return chain;
 }
 
+std::vector<int> carried_by(const Robot& robot, const std::vector<int>& joints) {
+  std::vector<char> moves(robot.links.size(), 0);
+  for (const int joint : joints) moves[static_cast<std::size_t>(joint) + 1] = 1;
+  std::vector<int> carried;
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    moves[i + 1] |= moves[static_cast<std::size_t>(robot.joints[i].parent)];
+    if (moves[i + 1]) carried.push_back(static_cast<int>(i));
+  }
+  return carried;
+}
+
 int motions_of(const Robot& robot, int end_effector) {
   Matrix6Xd J(6, robot.velocities());
   if (J.cols() == 0) return 0;

@@ -12,6 +12,9 @@ namespace maxwrench {
 /// The joints of the chain from the base to an end effector, from the base outward.
 std::vector<int> chain_to(const Robot& robot, int end_effector);
 
+/// These joints and all that they carry, from the base outward.
+std::vector<int> carried_by(const Robot& robot, const std::vector<int>& joints);
+
 /// In how many independent ways the free base axes and the joints of the chain move an end
 /// effector: the largest rank of their columns of J over all postures, 6 in space and 3 in a plane.
 /// A pose leaves (free base axes + joints of the chain - this number) coordinates free: theta_r.

@@ -16,29 +16,78 @@ Eigen::Vector3d spoke(const Contact& contact, const Eigen::Matrix3d& R) {
   return -contact.radius * R.col(2);
 }
 
-using Gram = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 12, 12>;
-using Gains = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 12, 1>;
-using Column = Eigen::Matrix<double, 12, 1>;
+template <int kRows>
+using Square = Eigen::Matrix<double, kRows, kRows>;
 
-/// In increasing order.
-Gains squared_gains(const Robot& robot, const Contact& contact, const Matrix6Xd& J,
-                    const Matrix6Xd& J_2) {
-  const int rows = contact.rows();
+/// The Gram matrix JJ' of the stacked J, in units of length_scale: the lower triangle.
+template <int kRows>
+Square<kRows> gram_of(const Robot& robot, const Contact& contact, const Matrix6Xd& J,
+                      const Matrix6Xd& J_2) {
+  constexpr int kSecond = kRows - 6;
   const double length = contact.length_scale;
   const auto axes = static_cast<Eigen::Index>(robot.base_axes.size());
-  Gram gram = Gram::Zero(6 + rows, 6 + rows);
+  Square<kRows> gram = Square<kRows>::Zero();
   for (Eigen::Index i = 0; i < J.cols(); ++i) {
     const bool slides =
         i < axes ? robot.base_axes[static_cast<std::size_t>(i)] < 3
                  : robot.joints[static_cast<std::size_t>(i - axes)].type == JointType::kPrismatic;
-    Column column;
-    column << J.col(i), J_2.col(i);
-    column.segment<3>(3) *= length;
-    column.tail<3>() *= length;
-    if (!slides) column /= length;
-    gram.noalias() += column.head(6 + rows) * column.head(6 + rows).transpose();
+    const double weight = slides ? 1 : 1 / (length * length);
+    const auto a = J.col(i);
+    const auto b = J_2.col(i).template head<kSecond>();
+    for (int k = 0; k < 6; ++k) {
+      gram.col(k).template head<6>() += weight * a[k] * a;
+      if (i < axes) gram.col(k).template tail<kSecond>() += weight * a[k] * b;
+    }
+    for (int k = 0; k < kSecond; ++k) {
+      gram.col(6 + k).template tail<kSecond>() += weight * b[k] * b;
+    }
   }
+  for (const int first : {3, 9}) {  // angular rows
+    for (int k = first; k < first + 3 && k < kRows; ++k) {
+      gram.row(k) *= length;
+      gram.col(k) *= length;
+    }
+  }
+  return gram;
+}
+
+using Gram = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 12, 12>;
+using Gains = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 12, 1>;
+
+/// In increasing order.
+Gains squared_gains(const Robot& robot, const Contact& contact, const Matrix6Xd& J,
+                    const Matrix6Xd& J_2) {
+  const Gram gram = contact.holds_axes ? Gram(gram_of<12>(robot, contact, J, J_2))
+                                       : Gram(gram_of<9>(robot, contact, J, J_2));
   return Eigen::SelfAdjointEigenSolver<Gram>(gram, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+/// How many eigenvalues of the symmetric A are positive: as many as pivots (Sylvester's law of
+/// inertia). -1 if a pivot is so small that rounding may have given it its sign. Overwrites A.
+template <int kRows>
+int count_positive(Square<kRows>& A) {
+  const double smallest = 1e-6 * A.diagonal().cwiseAbs().sum();
+  int count = 0;
+  for (int k = 0; k < kRows; ++k) {
+    const double pivot = A(k, k);
+    if (!(std::abs(pivot) > smallest)) return -1;
+    count += pivot > 0;
+    const double inverse = 1 / pivot;
+    for (int j = k + 1; j < kRows; ++j) {
+      const double factor = A(j, k) * inverse;
+      for (int i = j; i < kRows; ++i) A(i, j) -= factor * A(i, k);
+    }
+  }
+  return count;
+}
+
+/// How many gains exceed sigma_min, or -1.
+template <int kRows>
+int count_large(const Robot& robot, const Contact& contact, const Matrix6Xd& J,
+                const Matrix6Xd& J_2) {
+  Square<kRows> shifted = gram_of<kRows>(robot, contact, J, J_2);
+  shifted.diagonal().array() -= contact.sigma_min * contact.sigma_min;
+  return count_positive<kRows>(shifted);
 }
 
 }  // namespace
@@ -78,6 +127,14 @@ double smallest_gain(const Robot& robot, const Contact& contact, const Matrix6Xd
   const auto squares = squared_gains(robot, contact, J, J_2);
   if (contact.rank == 0) return 0;
   return std::sqrt(std::max(squares[squares.size() - contact.rank], 0.0));
+}
+
+bool near_singular(const Robot& robot, const Contact& contact, const Matrix6Xd& J,
+                   const Matrix6Xd& J_2) {
+  const int large = contact.holds_axes ? count_large<12>(robot, contact, J, J_2)
+                                       : count_large<9>(robot, contact, J, J_2);
+  if (large >= 0 && contact.rank > 0) return large < contact.rank;
+  return smallest_gain(robot, contact, J, J_2) < contact.sigma_min;
 }
 
 int stacked_rank(const Robot& robot, int end_effector, const Contact& contact) {

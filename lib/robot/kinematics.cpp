@@ -11,6 +11,7 @@ Kinematics<T>::Kinematics(const Robot& robot) : robot_(&robot) {
   for (const Joint& joint : robot.joints) {
     const Matrix3<double> S = skew(joint.axis);
     const Matrix3<double>& R = joint.placement.R;
+    all_joints_.push_back(static_cast<int>(constants_.size()));
     constants_.push_back({{R, R * S, R * S * S}, joint.axis});
   }
   links_.resize(robot.links.size());
@@ -29,10 +30,10 @@ Kinematics<T>::Kinematics(const Robot& robot) : robot_(&robot) {
 }
 
 template <class T>
-void Kinematics<T>::set_joints(const VectorX<T>& q) {
+void Kinematics<T>::set_joints(const VectorX<T>& q, const std::vector<int>& changed) {
   using std::cos;
   using std::sin;
-  for (std::size_t i = 0; i < constants_.size(); ++i) {
+  for (const int i : changed) {
     const Joint& joint = robot_->joints[i];
     const auto& K = constants_[i].K;
     Pose<T> motion;

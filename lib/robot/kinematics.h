@@ -19,7 +19,11 @@ class Kinematics {
   explicit Kinematics(const Robot&&) = delete;
 
   /// Poses of all links relative to the base, for the joint positions q.
-  void set_joints(const VectorX<T>& q);
+  void set_joints(const VectorX<T>& q) { set_joints(q, all_joints_); }
+
+  /// The same after a change of these joints alone, from the base outward. They include all that
+  /// they carry.
+  void set_joints(const VectorX<T>& q, const std::vector<int>& changed);
 
   /// J 6×n [-, m]: velocities -> twist [linear; angular] of the end effector in world axes, at its
   /// origin.
@@ -53,6 +57,7 @@ class Kinematics {
 
   const Robot* robot_;
   std::vector<JointConstants> constants_;
+  std::vector<int> all_joints_;
   std::vector<Pose<T>> links_;
   // Of the wet weight: mass less displaced water (and trim, on the base) of the link and of all
   // that it carries, and first moments.

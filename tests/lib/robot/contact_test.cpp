@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "lib/math/decompositions.h"
 #include "lib/posture/contact_arm.h"
 #include "maxwrench/load.h"
 #include "maxwrench/measure.h"
@@ -232,6 +233,47 @@ TEST(Contact, MoreFreedomNeverLowersTheValue) {
         ++compared;
       }
       EXPECT_GT(compared, 5) << name;
+    }
+  }
+}
+
+/// The stacked J of the docstring.
+Eigen::MatrixXd stacked(const Problem& problem, const Posture& posture) {
+  const Contact& contact = *problem.contact;
+  const Eigen::Index base = static_cast<Eigen::Index>(problem.robot.base_axes.size());
+  Eigen::MatrixXd J(6 + contact.rows(), posture.J.cols());
+  J << posture.J, posture.J_2.topRows(contact.rows());
+  for (Eigen::Index row = 3; row < J.rows(); ++row) {
+    if (row < 6 || row >= 9) J.row(row) *= contact.length_scale;
+  }
+  for (Eigen::Index i = 0; i < J.cols(); ++i) {
+    const bool turns = i < base ? problem.robot.base_axes[i] >= 3
+                                : problem.robot.joints[i - base].type == JointType::kRevolute;
+    if (turns) J.col(i) /= contact.length_scale;
+  }
+  return J;
+}
+
+/// By singular values, at thresholds on both sides of the smallest that counts.
+TEST(Contact, PivotsTellNearSingularPostures) {
+  Random random(12);
+  std::vector<Problem> problems;
+  for (const char* name : kContactProblems) problems.push_back(load_problem(name));
+  for (int sample = 0; sample < 3; ++sample) problems.push_back(with_firm_grasp(random));
+  for (const Problem& problem : problems) {
+    PostureEvaluator model(problem, false);
+    for (int sample = 0; sample < 10; ++sample) {
+      const Posture& posture = model.evaluate(near_default(problem, random));
+      Contact contact = *problem.contact;
+      const double gain = singular_values(stacked(problem, posture))[contact.rank - 1];
+      EXPECT_NEAR(smallest_gain(problem.robot, contact, posture.J, posture.J_2), gain, 1e-9);
+      for (const double part : {0.0, 1e-7, 0.5, 1 - 1e-7, 1 + 1e-7, 2.0}) {
+        contact.sigma_min = part * gain;
+        EXPECT_EQ(near_singular(problem.robot, contact, posture.J, posture.J_2), part > 1)
+            << problem.name << " " << part << " of " << gain;
+      }
+      contact.rank = 0;  // nothing moves: singular at any threshold
+      EXPECT_TRUE(near_singular(problem.robot, contact, posture.J, posture.J_2));
     }
   }
 }

@@ -6,6 +6,8 @@
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
 
+#include "lib/robot/chain.h"
+#include "tests/support/contacts.h"
 #include "tests/support/kdl_chain.h"
 #include "tests/support/mechanics.h"
 #include "tests/support/support.h"
@@ -41,6 +43,27 @@ TEST(Kinematics, JacobianIsTheDerivativeOfTheEndEffectorPose) {
       Vector6d twist;
       twist << ends[1].p - ends[0].p, logarithm(ends[1].R * ends[0].R.transpose());
       EXPECT_LT((twist / (2 * kDifference) - J.col(i)).norm(), 1e-8) << "velocity " << i;
+    }
+  }
+}
+
+/// Joint 4 carries the second arm, joint 1 the rest of the first.
+TEST(Kinematics, SetsTheLinksOfChangedJointsAlone) {
+  Random random(4);
+  const Robot robot = with_firm_grasp(random).robot;
+  EXPECT_EQ(carried_by(robot, {1}), (std::vector<int>{1, 2, 3}));
+  EXPECT_EQ(carried_by(robot, {6, 4}), (std::vector<int>{4, 5, 6, 7, 8, 9}));
+  EXPECT_EQ(carried_by(robot, {}), std::vector<int>());
+  Eigen::VectorXd q = Eigen::VectorXd::NullaryExpr(10, [&] { return random.normal(); });
+  Kinematics<double> once(robot), again(robot);
+  again.set_joints(q);
+  for (const int joint : {1, 4, 7}) {
+    q[joint] += 0.5;
+    once.set_joints(q);
+    again.set_joints(q, carried_by(robot, {joint}));
+    for (std::size_t link = 0; link < robot.links.size(); ++link) {
+      EXPECT_EQ(again.links()[link].p, once.links()[link].p) << link;
+      EXPECT_EQ(again.links()[link].R, once.links()[link].R) << link;
     }
   }
 }
