@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "lib/search/facet_program.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
 
@@ -112,6 +113,10 @@ bool serves_as_plan(const Problem& problem, const std::string& measure) {
   return measure == Case().measure && !problem.contact;
 }
 
+bool serves_between_facets(const Problem& problem, const std::string& measure) {
+  return measure == Case().measure && has_facet_program(problem);
+}
+
 Method resolve(const Problem& problem, const Case& c) {
   if (!c.scheme.empty()) {
     throw std::invalid_argument(fmt::format("scheme: got '{}', expected none: {} is a static task",
@@ -192,15 +197,15 @@ std::vector<Case> product(const Problem& problem, std::uint64_t seed, long budge
       for (const WrenchSolverEntry* solver : served) {
         const bool first = solver == served.front();
         const long share = std::max(1L, budget / (solver ? solver->cost : 1));
-        for (const SearchEntry& search : searches().first(first ? searches().size() : 2)) {
-          cases.push_back(
-              {problem.name, measure.name, wrench, name_of(solver), search.name, seed, share});
-        }
-        if (!first || !serves_as_plan(problem, measure.name)) continue;
-        for (const SearchEntry& search : plan_searches()) {
-          cases.push_back(
-              {problem.name, measure.name, wrench, name_of(solver), search.name, seed, share});
-        }
+        const auto add = [&](std::span<const SearchEntry> table) {
+          for (const SearchEntry& search : table) {
+            cases.push_back(
+                {problem.name, measure.name, wrench, name_of(solver), search.name, seed, share});
+          }
+        };
+        add(searches().first(first ? searches().size() : 2));
+        if (first && serves_as_plan(problem, measure.name)) add(plan_searches());
+        if (first && serves_between_facets(problem, measure.name)) add(facet_searches());
       }
     }
   }

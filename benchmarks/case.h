@@ -52,6 +52,9 @@ struct Method {
 /// without a second contact.
 bool serves_as_plan(const Problem& problem, const std::string& measure);
 
+/// Whether searches between facets serve: linf_polytope of a static task, few facets.
+bool serves_between_facets(const Problem& problem, const std::string& measure);
+
 /// Throws std::invalid_argument on a name that does not exist and on a choice without meaning, such
 /// as `facets` for several wrench columns or for actuators with too many facets, or a solver for a
 /// closed form.
@@ -68,9 +71,9 @@ std::vector<std::string> case_values(const Case& c);
 
 /// On a problem, in the order of the tables: every meaningful measure × wrench × lp with the first
 /// two searches (what a solver is worth does not depend on the search), and with the first lp that
-/// serves every search, those of plans too where they serve. The budget is divided by the cost of
-/// the solver. Of a task in time: wrench × scheme × lp with the first search, and × search with the
-/// first lp.
+/// serves every search, those of plans and between facets too where they serve. The budget is
+/// divided by the cost of the solver. Of a task in time: wrench × scheme × lp with the first
+/// search, and × search with the first lp.
 std::vector<Case> product(const Problem& problem, std::uint64_t seed, long budget);
 
 /// Of `cases`, those whose columns have the given values (column -> value); `seed` and `budget` are

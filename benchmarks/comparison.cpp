@@ -34,6 +34,7 @@ class Stopwatch final : public Objective {
   const Verdict& verdict() const override { return objective_->verdict(); }
   bool ended() const override { return objective_->ended(); }
   PlanEvaluator* plans() override { return objective_->plans(); }
+  FacetProgram* facets() override { return objective_->facets(); }
   void metric(const Eigen::VectorXd& theta_r, Eigen::MatrixXd& M) override {
     objective_->metric(theta_r, M);
   }
@@ -68,8 +69,8 @@ bool has_reference(const Problem& problem, const Case& base) {
          holds(lp_solvers(), reference.solver);
 }
 
-/// The searches that serve a problem: of a task in time those of plans first, of a static one, if
-/// they serve it, last.
+/// The searches that serve a problem: of a task in time those of plans first, of a static one
+/// those that serve it last.
 std::vector<const SearchEntry*> searches_of(const Problem& problem, const Case& base) {
   std::vector<const SearchEntry*> served;
   const auto add = [&](std::span<const SearchEntry> table) {
@@ -78,6 +79,7 @@ std::vector<const SearchEntry*> searches_of(const Problem& problem, const Case& 
   if (problem.motion) add(plan_searches());
   add(searches());
   if (!problem.motion && serves_as_plan(problem, base.measure)) add(plan_searches());
+  if (serves_between_facets(problem, base.measure)) add(facet_searches());
   return served;
 }
 

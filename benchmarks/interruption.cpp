@@ -20,6 +20,7 @@ class Interruptible final : public Objective {
     return interruption_.asked;
   }
   PlanEvaluator* plans() override { return objective_->plans(); }
+  FacetProgram* facets() override { return objective_->facets(); }
   void metric(const Eigen::VectorXd& theta_r, Eigen::MatrixXd& M) override {
     objective_->metric(theta_r, M);
   }

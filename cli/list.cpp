@@ -45,6 +45,8 @@ int list() {
   print_table("searches", searches());
   print_table("searches of plans: of tasks in time, and by linf_polytope of static ones",
               plan_searches());
+  print_table("searches between facets: of static tasks by linf_polytope, few facets",
+              facet_searches());
   print_table("integrators", integrators());
   for (const Absent& absent : not_built_in()) {
     fmt::print("not built in: {} {} (needs {})\n", absent.family, absent.name, absent.library);

@@ -91,6 +91,7 @@ std::string choices(const std::string& option) {
   if (option == "--search") {
     add(searches());
     add(plan_searches());
+    add(facet_searches());
   }
   if (option == "--integrator") add(integrators());
   if (option == "--wrench") names = "pure any";

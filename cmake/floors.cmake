@@ -7,10 +7,10 @@ set(eigen_interface EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MAX_STATIC_ALIGN_BYTES=16 EIG
 
 # Of a folder's sources, those that need a library which is left out: they include its headers or what stands on them. A source that asks
 # for MAXWRENCH_WITH_... knows itself what to do.
-set(needs_IPOPT "#include <Ip")
+set(needs_IPOPT "#include (<Ip|\".*/(facet_nlp|multistart).h)")
 set(needs_CLP "#include <Clp")
 set(needs_GLPK "#include <glpk")
-set(needs_NLOPT "#include (<nlopt|\".*/nlopt_run.h)")
+set(needs_NLOPT "#include (<nlopt|\".*/(facet_sqp|nlopt_run).h)")
 set(needs_SUNDIALS "#include (<arkode|<cvode|<ida|<sundials|\".*/sundials.h)|= make_cvode\\(\\)")
 function(leave_out_absent variable)
   set(kept)
@@ -137,6 +137,7 @@ if(MAXWRENCH_BUILD_BENCHMARKS)
   find_package(benchmark REQUIRED)
   find_package(orocos_kdl REQUIRED)
   file(GLOB benches CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/benchmarks/*_bench.cpp)
+  leave_out_absent(benches)
   foreach(bench IN LISTS benches)
     get_filename_component(name ${bench} NAME_WE)
     add_executable(${name} ${bench})

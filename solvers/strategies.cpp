@@ -116,6 +116,8 @@ constexpr struct {
     {MAXWRENCH_WITH_IPOPT, {"lp", "ipopt", "Ipopt"}},
     {MAXWRENCH_WITH_IPOPT, {"search", "multistart", "Ipopt"}},
     {MAXWRENCH_WITH_IPOPT, {"search", "joint_nlp", "Ipopt"}},
+    {MAXWRENCH_WITH_IPOPT, {"search", "facet_nlp", "Ipopt"}},
+    {MAXWRENCH_WITH_NLOPT, {"search", "facet_sqp", "NLopt"}},
     {MAXWRENCH_WITH_NLOPT, {"search", "direct_l", "NLopt"}},
     {MAXWRENCH_WITH_NLOPT, {"search", "crs2", "NLopt"}},
     {MAXWRENCH_WITH_NLOPT, {"search", "mlsl", "NLopt"}},
@@ -134,6 +136,19 @@ std::vector<Absent> make_absent() {
     if (!built_in) absent.push_back(entry);
   }
   return absent;
+}
+
+/// Perhaps none is built in.
+std::vector<SearchEntry> make_facet_searches() {
+  return {
+#if MAXWRENCH_WITH_NLOPT
+    {"facet_sqp", "SLSQP of NLopt in posture and wrenches, between the facets of {B u}", false,
+     make_facet_sqp},
+#endif
+#if MAXWRENCH_WITH_IPOPT
+        {"facet_nlp", "the same by Ipopt", false, make_facet_nlp},
+#endif
+  };
 }
 
 std::vector<WrenchSolverEntry> make_wrench_solvers() {
@@ -193,6 +208,10 @@ std::span<const PlanSolverEntry> plan_solvers() {
 }
 std::span<const SearchEntry> searches() { return kSearches; }
 std::span<const SearchEntry> plan_searches() { return kPlanSearches; }
+std::span<const SearchEntry> facet_searches() {
+  static const std::vector<SearchEntry> kFacetSearches = make_facet_searches();
+  return kFacetSearches;
+}
 std::span<const IntegratorEntry> integrators() { return kIntegrators; }
 std::span<const Absent> not_built_in() {
   static const std::vector<Absent> kAbsent = make_absent();
@@ -214,6 +233,7 @@ const SearchEntry& find_plan_search(std::string_view name) {
   static const std::vector<SearchEntry> kAll = [] {
     std::vector<SearchEntry> all(std::begin(kPlanSearches), std::end(kPlanSearches));
     all.insert(all.end(), std::begin(kSearches), std::end(kSearches));
+    all.insert(all.end(), facet_searches().begin(), facet_searches().end());
     return all;
   }();
   return find(std::span<const SearchEntry>(kAll), "search", name);

@@ -21,6 +21,8 @@ class Measure {
   /// set.
   virtual void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
                         Capability& capability) = 0;
+  /// Whether its value is the optimum of that program itself.
+  virtual bool solves_program() const { return false; }
 };
 
 /// The capability at theta_r: of the valid branches of the second arm the one with the best value,

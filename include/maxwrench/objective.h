@@ -8,6 +8,7 @@
 
 namespace maxwrench {
 
+class FacetProgram;
 class Tally;
 class Measure;
 class PlanEvaluator;
@@ -39,6 +40,9 @@ class Objective {
   /// The evaluator of plans behind f, for searches that solve linear programs in the knots; null if
   /// there is none.
   virtual PlanEvaluator* plans() { return nullptr; }
+  /// f as a smooth program, for searches that solve it; null if there is none: f is no optimum of
+  /// the wrench program, or {B u} has too many facets.
+  virtual FacetProgram* facets() { return nullptr; }
 
   /// An independent copy without memory of earlier evaluations (no warm start), so that what it
   /// returns depends on its own calls only.

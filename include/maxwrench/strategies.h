@@ -81,6 +81,8 @@ std::span<const SearchEntry> searches();
 /// Searches of plans alone: of tasks in time, and of static ones by linf_polytope, which are plans
 /// of one knot. Those of postures serve stacked knots too.
 std::span<const SearchEntry> plan_searches();
+/// Searches of static tasks by linf_polytope, of robots whose actuators have few facets.
+std::span<const SearchEntry> facet_searches();
 std::span<const IntegratorEntry> integrators();
 
 /// A strategy that this build leaves out. `family` is that of its table: lp, search or integrator.
@@ -98,7 +100,7 @@ const LpEntry& find_lp_solver(std::string_view name);
 const WrenchSolverEntry& find_wrench_solver(std::string_view name);
 const PlanSolverEntry& find_plan_solver(std::string_view name);
 const SearchEntry& find_search(std::string_view name);
-/// Of both tables.
+/// Of all tables of searches.
 const SearchEntry& find_plan_search(std::string_view name);
 const IntegratorEntry& find_integrator(std::string_view name);
 

@@ -28,6 +28,7 @@ class LinfPolytope : public Measure {
       capability.residual = recheck(program, capability.u, capability.w, capability.lambda);
     }
   }
+  bool solves_program() const override { return true; }
 
  private:
   std::unique_ptr<WrenchSolver> solver_;

@@ -1,6 +1,7 @@
 #include "lib/path/clearance.h"
 
 #include "lib/path/motion.h"
+#include "lib/robot/opening.h"
 #include "maxwrench/problem.h"
 
 namespace maxwrench {
@@ -8,24 +9,6 @@ namespace {
 
 /// m: less is rounding, which shall not choose among instants at which nothing moved.
 constexpr double kNearer = 1e-9;
-
-bool carries(const Robot& robot, int joint, int link) {
-  while (link > 0) {
-    if (link - 1 == joint) return true;
-    link = robot.joints[static_cast<std::size_t>(link - 1)].parent;
-  }
-  return false;
-}
-
-/// Velocity of a point on a link per rate of a joint, in base axes.
-Eigen::Vector3d velocity(const Robot& robot, const Kinematics<double>& kinematics, int joint,
-                         int link, const Eigen::Vector3d& point) {
-  if (!carries(robot, joint, link)) return Eigen::Vector3d::Zero();
-  const auto i = static_cast<std::size_t>(joint);
-  const Eigen::Vector3d axis = kinematics.joint_axis(i);
-  if (robot.joints[i].type == JointType::kPrismatic) return axis;
-  return axis.cross(point - kinematics.links()[i + 1].p);
-}
 
 }  // namespace
 
@@ -35,22 +18,19 @@ void find_near_pairs(const Problem& problem, const Kinematics<double>& kinematic
   Nearness near;
   for (int pair = 0; pair < checker.pairs(); ++pair) {
     if (!checker.nearest(kinematics.links(), pair, near) || near.clearance > within) continue;
-    const Eigen::Vector3d between = near.on_a - near.on_b;
-    if (between.norm() == 0) continue;  // no derivative
-    const Eigen::Vector3d apart = between.normalized();
+    if (near.on_a == near.on_b) continue;  // no derivative
     NearPair& added = pairs.emplace_back();
     added.knot = knot;
     added.clearance = near.clearance;
     added.gradient.resize(problem.redundancy());
-    const auto opening = [&](int joint) {
-      return apart.dot(velocity(problem.robot, kinematics, joint, near.link_a, near.on_a) -
-                       velocity(problem.robot, kinematics, joint, near.link_b, near.on_b));
+    const auto opens = [&](int joint) {
+      return opening(problem.robot, kinematics.links(), near, joint);
     };
     for (Eigen::Index k = 0; k < added.gradient.size(); ++k) {
-      added.gradient[k] = opening(problem.redundant[static_cast<std::size_t>(k)]);
+      added.gradient[k] = opens(problem.redundant[static_cast<std::size_t>(k)]);
     }
     for (const int joint : problem.dependent) {
-      added.gradient += opening(joint) * slopes.row(4 + joint).transpose();
+      added.gradient += opens(joint) * slopes.row(4 + joint).transpose();
     }
   }
 }

@@ -1,6 +1,7 @@
 #include <limits>
 
 #include "lib/posture/redundancy.h"
+#include "lib/search/facet_program.h"
 #include "maxwrench/measure.h"
 #include "maxwrench/objective.h"
 #include "maxwrench/posture.h"
@@ -51,6 +52,13 @@ class CapabilityObjective : public Objective {
     M.noalias() = A_r_.transpose() * A_r_;
   }
 
+  FacetProgram* facets() override {
+    if (!measure_->solves_program() || !has_facet_program(problem_)) return nullptr;
+    if (!facets_)
+      facets_ = std::make_unique<FacetProgram>(problem_, wrench_, make_, check_collision_);
+    return facets_.get();
+  }
+
   std::unique_ptr<Objective> clone() const override {
     return make_capability_objective(problem_, wrench_, make_, check_collision_, tally_);
   }
@@ -63,6 +71,7 @@ class CapabilityObjective : public Objective {
   PostureEvaluator model_;
   WrenchProgram program_;
   std::unique_ptr<Measure> measure_;
+  std::unique_ptr<FacetProgram> facets_;  ///< once asked for
   std::shared_ptr<Tally> tally_;
   Capability capability_;
   const Posture* posture_ = nullptr;  ///< of the last evaluation, at theta_r_

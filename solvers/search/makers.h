@@ -16,6 +16,10 @@ std::unique_ptr<Search> make_crs2();
 
 std::unique_ptr<Search> make_direct_l();
 
+std::unique_ptr<Search> make_facet_nlp();
+
+std::unique_ptr<Search> make_facet_sqp();
+
 std::unique_ptr<Search> make_grid();
 
 std::unique_ptr<Search> make_isres();

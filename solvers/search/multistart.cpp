@@ -1,3 +1,5 @@
+#include "solvers/search/multistart.h"
+
 #include <IpIpoptApplication.hpp>
 #include <IpTNLP.hpp>
 #include <algorithm>
@@ -136,10 +138,22 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> make_application(int iterations) {
   return application;
 }
 
+}  // namespace
+
+void climb_by_ipopt(Probe& probe, const Box& box, const Eigen::VectorXd& x) {
+  const std::lock_guard guard(ipopt_lock());
+  const auto application = make_application(kPostureIterations);
+  const Ipopt::SmartPtr<BoundedNlp> nlp = new BoundedNlp(probe, box, x);
+  application->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(nlp)));
+  nlp->rethrow();
+}
+
+namespace {
+
 /// Local solves by Ipopt (interior point, limited-memory quasi-Newton, exact gradient) from the
 /// best points of a sample: what fmincon with MultiStart does. One start for each 500 evaluations
 /// of the budget and at most 64, for a start costs far more time than its evaluations. They run one
-/// after the other behind one lock, by one application; threads speed up the other two stages only.
+/// after the other behind one lock; threads speed up the other two stages only.
 /// Where the objective has a kink the line search gives up, and the last stage goes on from there.
 ///
 /// Of a plan it is the paper's bilevel method and nothing else: from the best of the drawn tables,
@@ -151,13 +165,9 @@ class Multistart final : public Search {
     const auto starts = static_cast<std::size_t>(std::clamp(options.budget / 500, 1L, 64L));
     const auto climb = [starts](Probe& probe, const Box& box, const Sample& sample, long /*part*/,
                                 const Random& /*random*/) {
-      const std::lock_guard guard(ipopt_lock());
-      const auto application = make_application(kPostureIterations);
       const std::size_t count = std::min(sample.starts.size(), starts);
       for (std::size_t i = 0; i < count && probe.left() > 0; ++i) {
-        const Ipopt::SmartPtr<BoundedNlp> nlp = new BoundedNlp(probe, box, sample.starts[i]);
-        application->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(nlp)));
-        nlp->rethrow();
+        climb_by_ipopt(probe, box, sample.starts[i]);
       }
     };
     return search_in_stages(objective, options, 1, climb);

@@ -35,6 +35,12 @@ double Probe::evaluate(const Eigen::VectorXd& theta_r, Eigen::VectorXd* gradient
   return value;
 }
 
+void Probe::spend() {
+  assert(left() > 0);
+  found_.trace.add(-kInfinity);
+  if (found_.trace.evaluations() - reported_ >= kReportEvery) report();
+}
+
 std::vector<Candidate> Probe::peaks() const {
   std::vector<Candidate> peaks;
   for (const auto& [cell, best] : cells_) peaks.push_back(best);

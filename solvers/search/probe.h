@@ -38,6 +38,11 @@ class Probe {
   /// too. There must be one left.
   double evaluate(const Eigen::VectorXd& theta_r, Eigen::VectorXd* gradient = nullptr);
 
+  /// The objective's smooth program, or null. What it is asked is counted by `spend`.
+  FacetProgram* facets() { return objective_->facets(); }
+  /// Counts an evaluation of something else than the objective's value; there must be one left.
+  void spend();
+
   /// The metric at the point of the last evaluation, which costs nothing.
   void metric(Eigen::MatrixXd& M) { objective_->metric(last_, M); }
   const Part& found() const { return found_; }

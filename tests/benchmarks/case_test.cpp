@@ -109,6 +109,24 @@ TEST(Case, SearchesOfPlansServeStaticTasksByLinfPolytope) {
                std::invalid_argument);
 }
 
+TEST(Case, SearchesBetweenFacetsServeLinfPolytopeWithFewFacets) {
+  for (const char* name : {"planar/force", "planar/two_arms", "mobile/push"}) {
+    const Problem problem = load_problem(name);
+    EXPECT_TRUE(serves_between_facets(problem, "linf_polytope")) << name;
+    EXPECT_FALSE(serves_between_facets(problem, "l2_polytope")) << name;
+    const std::vector<Case> cases = product(problem, 1, 100);
+    for (const SearchEntry& search : facet_searches()) {
+      const std::vector<Case> its = select(cases, {{"search", search.name}});
+      EXPECT_EQ(its.size(), 2U) << name;  // pure and any
+      for (const Case& c : its) EXPECT_EQ(c.measure, "linf_polytope");
+    }
+  }
+  Problem many = load_problem("planar/force");
+  many.robot.actuation.has_facets = false;
+  EXPECT_FALSE(serves_between_facets(many, "linf_polytope"));
+  EXPECT_FALSE(serves_between_facets(load_problem("planar/trajectory"), "linf_polytope"));
+}
+
 TEST(Case, SelectKeepsWhatMatches) {
   const std::vector<Case> cases = product(load_problem("planar/force"), 1, 100);
   for (const Case& c : select(cases, {{"measure", "ellipsoid"}, {"wrench", "any"}})) {

@@ -60,17 +60,19 @@ TEST(Comparison, ValuesWithSlackAreNone) {
   EXPECT_EQ(run.seconds_to(-1e9), kInfinity);
 }
 
-/// Of a static task by linf_polytope those of plans too; then the plain way, if it has a solver.
+/// Of a static task by linf_polytope those of plans and between facets too; then the plain way, if
+/// it has a solver.
 TEST(Comparison, RacesTheSearchesThatServe) {
   const Problem problem = load_problem("planar/force");
   const auto postures = static_cast<long>(searches().size());
   const auto plans = static_cast<long>(plan_searches().size());
+  const auto facets = static_cast<long>(facet_searches().size());
   Case c{.problem = problem.name};
-  EXPECT_EQ(attempt_count(problem, c, 3), 3 * (postures + plans + 1));
+  EXPECT_EQ(attempt_count(problem, c, 3), 3 * (postures + plans + facets + 1));
   c.measure = "ellipsoid";
   EXPECT_EQ(attempt_count(problem, c, 3), 3 * postures);
   c.measure = "linf_polytope";
-  EXPECT_EQ(attempt_count(load_problem("planar/two_arms"), c, 1), postures + 1);
+  EXPECT_EQ(attempt_count(load_problem("planar/two_arms"), c, 1), postures + facets + 1);
 }
 
 /// Two of three seeds reach 2, after 1 s and 2 s; the third spends 7 s on less: (1 + 2 + 7) s / 2.

@@ -10,7 +10,7 @@
 
 namespace maxwrench {
 
-/// The other one, with its plans.
+/// The other one, with its plans and facets.
 class Wrapped : public Objective {
  public:
   explicit Wrapped(std::unique_ptr<Objective> objective) : objective_(std::move(objective)) {}
@@ -20,6 +20,7 @@ class Wrapped : public Objective {
   const Verdict& verdict() const override { return objective_->verdict(); }
   bool ended() const override { return objective_->ended(); }
   PlanEvaluator* plans() override { return objective_->plans(); }
+  FacetProgram* facets() override { return objective_->facets(); }
   double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) override {
     return objective_->evaluate(x, gradient);
   }

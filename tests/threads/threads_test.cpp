@@ -76,6 +76,10 @@ TEST_P(ThreadsInSearch, FindsTheSame) {
   }
 }
 
+INSTANTIATE_TEST_SUITE_P(BetweenFacets, ThreadsInSearch,
+                         testing::ValuesIn(facet_searches().begin(), facet_searches().end()),
+                         [](const auto& entry) { return std::string(entry.param.name); });
+
 class ThreadsInSearchOfPlans : public testing::TestWithParam<SearchEntry> {};
 
 INSTANTIATE_TEST_SUITE_P(All, ThreadsInSearchOfPlans,

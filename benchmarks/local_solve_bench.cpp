@@ -1,0 +1,115 @@
+// Single local solves of beta_2 from the same random postures that have a value: what share reaches
+// the best known value within 0.1 %, the evaluations and the time of one. Where a second arm has
+// several branches, the solves between facets begin at each.
+
+#include <benchmark/benchmark.h>
+
+#include <memory>
+#include <vector>
+
+#include "benchmarks/case.h"
+#include "lib/math/random.h"
+#include "lib/search/facet_program.h"
+#include "maxwrench/load.h"
+#include "maxwrench/objective.h"
+#include "maxwrench/problem.h"
+#include "solvers/search/facet_nlp.h"
+#include "solvers/search/facet_sqp.h"
+#include "solvers/search/multistart.h"
+
+namespace maxwrench {
+namespace {
+
+constexpr int kStarts = 1000;
+constexpr long kMostEvaluations = 1000;  // of one solve; none takes as many
+constexpr double kShort = 1e-3;
+
+struct Target {
+  const char* problem;
+  double best;  ///< seen by any search
+};
+constexpr Target kTargets[] = {
+    {"planar/force", 3.47748},       {"uvms/valve", 35.40830},        {"uvms/lift", 108.40954},
+    {"dual_arm/bar_wall", 37.94392}, {"dual_arm/two_arms", 87.85696},
+};
+
+/// A start: x in the unit cube of the bounds, and a branch.
+struct LocalStart {
+  Eigen::VectorXd x;
+  int branch = 0;
+};
+
+/// One local solve; the best value that it evaluated.
+using LocalSolve = double (*)(Probe& probe, const Box& box, const LocalStart& start);
+
+template <Eigen::VectorXd (*solve)(FacetView&)>
+double between_facets(Probe& probe, const Box& box, const LocalStart& start) {
+  return solve_from(probe, box, box.theta_r(start.x), start.branch, solve);
+}
+
+double bilevel(Probe& probe, const Box& box, const LocalStart& start) {
+  climb_by_ipopt(probe, box, start.x);
+  return probe.found().best.value;
+}
+
+/// `every_branch`: each as a start of its own.
+std::vector<LocalStart> random_starts(Objective& objective, bool every_branch) {
+  const Box box(objective);
+  Random random(1);
+  std::vector<LocalStart> starts;
+  for (int found = 0; found < kStarts;) {
+    LocalStart start{Eigen::VectorXd(box.free()), 0};
+    for (double& x_j : start.x) x_j = random.uniform();
+    const Eigen::VectorXd theta_r = box.theta_r(start.x);
+    if (evaluate_one(objective, theta_r) == -kInfinity) continue;
+    ++found;
+    const int branches = every_branch ? objective.facets()->branches(theta_r) : 1;
+    for (start.branch = 0; start.branch < branches; ++start.branch) starts.push_back(start);
+  }
+  return starts;
+}
+
+void time_solves(benchmark::State& state, const Target& target, LocalSolve solve,
+                 bool every_branch) {
+  const Problem problem = load_problem(target.problem);
+  const auto objective = make_capability_objective(
+      problem, Wrench::kPure, resolve(problem, Case{problem.name}).make_measure);
+  const std::vector<LocalStart> starts = random_starts(*objective, every_branch);
+  const Box box(*objective);
+  EvaluationCounter progress({});
+  long reached = 0, evaluations = 0;
+  for (auto _ : state) {
+    for (const LocalStart& start : starts) {
+      Probe probe(*objective, kMostEvaluations, progress);
+      reached += solve(probe, box, start) >= (1 - kShort) * target.best;
+      evaluations += probe.found().trace.evaluations();
+    }
+  }
+  const auto solves = static_cast<double>(state.iterations()) * static_cast<double>(starts.size());
+  state.counters["reached_%"] = 100 * static_cast<double>(reached) / solves;
+  state.counters["evaluations"] = static_cast<double>(evaluations) / solves;
+  state.counters["solves"] = static_cast<double>(starts.size());
+}
+
+void add_target(const Target& target) {
+  const auto add = [&](const char* name, LocalSolve solve, bool every_branch) {
+    benchmark::RegisterBenchmark(
+        (std::string(target.problem) + "/" + name).c_str(),
+        [=, &target](benchmark::State& state) { time_solves(state, target, solve, every_branch); })
+        ->Iterations(1)
+        ->Unit(benchmark::kMillisecond);
+  };
+  add("facet_sqp", between_facets<solve_facets_by_slsqp>, true);
+  add("facet_nlp", between_facets<solve_facets_by_ipopt>, true);
+  add("bilevel", bilevel, false);
+}
+
+}  // namespace
+}  // namespace maxwrench
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  for (const maxwrench::Target& target : maxwrench::kTargets) maxwrench::add_target(target);
+  benchmark::RunSpecifiedBenchmarks();
+}

@@ -1,0 +1,224 @@
+#include "lib/search/facet_program.h"
+
+#include <cmath>
+#include <vector>
+
+#include "lib/posture/redundancy.h"
+#include "lib/robot/opening.h"
+#include "maxwrench/measure.h"
+#include "maxwrench/posture.h"
+#include "maxwrench/problem.h"
+#include "maxwrench/wrench_program.h"
+
+namespace maxwrench {
+namespace {
+
+/// m: bodies that touch are a collision, and a solver keeps to its bounds up to rounding.
+constexpr double kLeastClearance = 1e-9;
+constexpr int kMostPairs = 200;
+constexpr double kClearanceUnit = 0.1;  // m
+
+/// The pairs whose distance is known.
+std::vector<int> known_pairs(const Problem& problem, bool check_collision) {
+  std::vector<int> known;
+  const CollisionChecker* checker = problem.robot.collision.get();
+  if (!check_collision || checker == nullptr) return known;
+  const std::vector<Pose<double>> links(problem.robot.links.size());
+  Nearness near;
+  for (int pair = 0; pair < checker->pairs(); ++pair) {
+    if (checker->nearest(links, pair, near)) known.push_back(pair);
+  }
+  return known;
+}
+
+std::vector<int> following_joints(const Problem& problem) {
+  std::vector<int> following = problem.dependent;
+  if (problem.contact) {
+    following.insert(following.end(), problem.contact->follow.begin(),
+                     problem.contact->follow.end());
+  }
+  return following;
+}
+
+}  // namespace
+
+struct FacetProgram::Workspace {
+  Workspace(const Problem& p, Wrench wrench, const MeasureMaker& make, bool check_collision)
+      : problem(p),
+        model(p, false),
+        program(make_wrench_program(p, wrench)),
+        measure(make()),
+        pairs(known_pairs(p, check_collision)),
+        following(following_joints(p)),
+        slopes(p.robot.velocities(), p.redundancy()) {
+    set_bounds();
+    const Eigen::Index count = row_min.size();
+    rows.setZero(count);
+    by_theta_r.setZero(count, p.redundancy());
+    by_w.setZero(count, program.columns());
+  }
+
+  void set_bounds() {
+    const Zonotope& set = actuation();
+    const Eigen::Index faces = facets(), p = static_cast<Eigen::Index>(pairs.size());
+    row_min.resize(faces + p + static_cast<Eigen::Index>(following.size()));
+    row_min << set.b_min, Eigen::VectorXd::Constant(p, kLeastClearance),
+        Eigen::VectorXd::Zero(row_min.size() - faces - p);
+    row_max = row_min;
+    row_max.head(faces) = set.b_max;
+    row_max.segment(faces, p).setConstant(kInfinity);
+    for (std::size_t i = 0; i < following.size(); ++i) {
+      const Joint& joint = problem.robot.joints[static_cast<std::size_t>(following[i])];
+      const Eigen::Index row = faces + p + static_cast<Eigen::Index>(i);
+      row_min[row] = joint.q_min;
+      row_max[row] = joint.q_max;
+    }
+    row_unit = (row_max - row_min) / 2;
+    row_unit.segment(faces, p).setConstant(kClearanceUnit);
+    for (double& unit : row_unit) unit = unit > 0 && std::isfinite(unit) ? unit : 1;
+  }
+
+  const Zonotope& actuation() const { return *program.actuation; }
+  Eigen::Index facets() const { return actuation().facet_pairs(); }
+
+  bool place(const Eigen::VectorXd& theta_r) {
+    if (posture && posture->theta_r == theta_r) return posture->status == Status::kValid;
+    posture = &model.evaluate(theta_r);
+    if (posture->status != Status::kValid) return false;
+    if (model.branches() > 1) choose_nearest();
+    set_posture(*posture, program);
+    return true;
+  }
+
+  /// Turns to the branch nearest to `anchor`, the first of equal ones.
+  void choose_nearest() {
+    int nearest = 0;
+    double least = kInfinity;
+    for (int i = 0; i < model.branches(); ++i) {
+      const double distance = (model.select(i).q - anchor).squaredNorm();
+      if (distance >= least) continue;
+      least = distance;
+      nearest = i;
+    }
+    model.select(nearest);
+  }
+
+  void fill_rows() {
+    f = program.tau_d;
+    f.noalias() += program.JtW.lazyProduct(w);
+    rows.head(facets()).noalias() = actuation().N.transpose() * f;
+    Eigen::Index row = facets();
+    for (const int pair : pairs) {
+      problem.robot.collision->nearest(posture->links, pair, near);
+      rows[row++] = near.clearance;
+    }
+    for (const int joint : following) rows[row++] = posture->q[joint];
+  }
+
+  /// The derivatives of clearances and of the joints that follow, by those of all joints.
+  void differentiate_places() {
+    null_motion(problem, *posture, A_r);
+    const auto turns = A_r.bottomRows(posture->q.size());
+    Eigen::Index row = facets();
+    for (const int pair : pairs) {
+      problem.robot.collision->nearest(posture->links, pair, near);
+      auto slope_of_pair = by_theta_r.row(row++);
+      slope_of_pair.setZero();
+      if (near.on_a == near.on_b) continue;  // no derivative
+      for (Eigen::Index joint = 0; joint < turns.rows(); ++joint) {
+        const double opens = opening(problem.robot, posture->links, near, static_cast<int>(joint));
+        if (opens != 0) slope_of_pair += opens * turns.row(joint);
+      }
+    }
+    for (const int joint : following) by_theta_r.row(row++) = turns.row(joint);
+  }
+
+  /// The derivative of f = tau_d + J'W w at constant w: row k is that of a capability with lambda =
+  /// e_k.
+  void differentiate() {
+    seeds.w = w;
+    for (Eigen::Index k = 0; k < slopes.rows(); ++k) {
+      seeds.lambda.setZero(slopes.rows());
+      seeds.lambda[k] = 1;
+      fill_wrenches(*posture, program, seeds);
+      model.pull_back(posture->theta_r, seeds, slope);
+      slopes.row(k) = slope.transpose();
+    }
+  }
+
+  const Problem& problem;
+  PostureEvaluator model;
+  WrenchProgram program;
+  std::unique_ptr<Measure> measure;
+  const std::vector<int> pairs, following;
+  const Posture* posture = nullptr;
+  Eigen::VectorXd anchor;  ///< joints of the branch
+  Capability capability, seeds;
+  Eigen::VectorXd w, f, slope;
+  Eigen::MatrixXd slopes;  ///< n×r
+  Nearness near;
+  Eigen::MatrixXd A_r;  ///< n×r
+  Eigen::VectorXd rows, row_min, row_max, row_unit;
+  Eigen::MatrixXd by_theta_r, by_w;
+};
+
+bool has_facet_program(const Problem& problem) {
+  const Zonotope& actuation = problem.robot.actuation;
+  return !problem.motion && actuation.has_facets && actuation.facet_pairs() <= kMostPairs;
+}
+
+FacetProgram::FacetProgram(const Problem& problem, Wrench wrench, const MeasureMaker& make,
+                           bool check_collision)
+    : workspace_(std::make_unique<Workspace>(problem, wrench, make, check_collision)) {}
+FacetProgram::~FacetProgram() = default;
+
+const Eigen::VectorXd& FacetProgram::c_w() const { return workspace_->program.c_w; }
+const Eigen::VectorXd& FacetProgram::w_min() const { return workspace_->program.w_min; }
+const Eigen::VectorXd& FacetProgram::w_max() const { return workspace_->program.w_max; }
+const Eigen::VectorXd& FacetProgram::row_min() const { return workspace_->row_min; }
+const Eigen::VectorXd& FacetProgram::row_max() const { return workspace_->row_max; }
+const Eigen::VectorXd& FacetProgram::row_unit() const { return workspace_->row_unit; }
+
+int FacetProgram::branches(const Eigen::VectorXd& theta_r) {
+  Workspace& ws = *workspace_;
+  ws.posture = &ws.model.evaluate(theta_r);
+  return ws.posture->status == Status::kValid ? ws.model.branches() : 0;
+}
+
+void FacetProgram::set_out(const Eigen::VectorXd& theta_r, int branch, Eigen::VectorXd& w) {
+  Workspace& ws = *workspace_;
+  ws.model.evaluate(theta_r);
+  ws.posture = &ws.model.select(branch);
+  ws.anchor = ws.posture->q;
+  set_posture(*ws.posture, ws.program);
+  ws.measure->evaluate(*ws.posture, ws.program, false, ws.capability);
+  if (ws.capability.status == Status::kOptimal) {
+    w = ws.capability.w;
+  } else {
+    w = Eigen::VectorXd::Zero(w_min().size()).cwiseMax(w_min()).cwiseMin(w_max());
+  }
+}
+
+bool FacetProgram::evaluate(const Eigen::VectorXd& theta_r, const Eigen::VectorXd& w) {
+  Workspace& ws = *workspace_;
+  if (!ws.place(theta_r)) return false;
+  ws.w = w;
+  ws.fill_rows();
+  return true;
+}
+
+const Eigen::VectorXd& FacetProgram::rows() const { return workspace_->rows; }
+
+void FacetProgram::linearize() {
+  Workspace& ws = *workspace_;
+  ws.anchor = ws.posture->q;
+  ws.differentiate();
+  ws.differentiate_places();
+  ws.by_theta_r.topRows(ws.facets()).noalias() = ws.actuation().N.transpose() * ws.slopes;
+  ws.by_w.topRows(ws.facets()).noalias() = ws.actuation().N.transpose() * ws.program.JtW;
+}
+
+const Eigen::MatrixXd& FacetProgram::by_theta_r() const { return workspace_->by_theta_r; }
+const Eigen::MatrixXd& FacetProgram::by_w() const { return workspace_->by_w; }
+
+}  // namespace maxwrench

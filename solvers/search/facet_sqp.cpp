@@ -1,0 +1,130 @@
+#include "solvers/search/facet_sqp.h"
+
+#include <nlopt.h>
+
+#include <memory>
+
+#include "solvers/caught.h"
+#include "solvers/search/makers.h"
+
+namespace maxwrench {
+namespace {
+
+using FacetOptimizer = std::unique_ptr<std::remove_pointer_t<nlopt_opt>, decltype(&nlopt_destroy)>;
+
+/// Of rows in shares of half their width, and of y.
+constexpr double kRowTolerance = 1e-9, kYTolerance = 1e-9;
+/// By how much a point without a posture seems to miss each row, and to lose.
+constexpr double kMiss = 10;
+constexpr int kSqpPoints = 400;
+
+/// A side of a row: sign row <= limit.
+struct Bounded {
+  Eigen::Index row;
+  double sign, limit;
+};
+
+/// A local solve of the view as NLopt's functions see it.
+struct FacetSession {
+  FacetView& view;
+  nlopt_opt opt;
+  Eigen::VectorXd y, gradient;
+  std::vector<Bounded> wide;       ///< the sides of rows with some width that are bounded,
+  std::vector<Eigen::Index> flat;  ///< and the rows without
+  Caught caught;
+
+  /// Whether there are rows at point.
+  bool look(unsigned n, const double* point) {
+    y = Eigen::Map<const Eigen::VectorXd>(point, n);
+    const bool seen = caught.run(false, [&] { return view.look(y); });
+    if (caught.any() || (!seen && view.ended())) nlopt_force_stop(opt);
+    return seen;
+  }
+  /// The derivative of a row, with a sign; zero where there is none.
+  void slope(bool seen, Eigen::Index row, double sign, double* to) {
+    Eigen::Map<Eigen::RowVectorXd> into(to, y.size());
+    into.setZero();
+    if (seen) caught.run(0, [&] { return into = sign * view.jacobian().row(row), 0; });
+  }
+};
+
+double wrench(unsigned n, const double* point, double* slope, void* data) {
+  FacetSession& s = *static_cast<FacetSession*>(data);
+  const bool seen = s.look(n, point);
+  if (slope) Eigen::Map<Eigen::VectorXd>(slope, n) = s.view.c_y();
+  return s.view.c_y().dot(s.y) - (seen ? 0 : kMiss);
+}
+
+/// How far the sides of rows with some width are exceeded.
+void limits(unsigned, double* result, unsigned n, const double* point, double* slope, void* data) {
+  FacetSession& s = *static_cast<FacetSession*>(data);
+  const bool seen = s.look(n, point);
+  for (const Bounded& side : s.wide) {
+    *result++ = seen ? side.sign * s.view.rows()[side.row] - side.limit : kMiss;
+    if (!slope) continue;
+    s.slope(seen, side.row, side.sign, slope);
+    slope += n;
+  }
+}
+
+/// rows - row_max of those without.
+void balance(unsigned, double* result, unsigned n, const double* point, double* slope, void* data) {
+  FacetSession& s = *static_cast<FacetSession*>(data);
+  const bool seen = s.look(n, point);
+  for (const Eigen::Index row : s.flat) {
+    *result++ = seen ? s.view.rows()[row] - s.view.row_max()[row] : kMiss;
+    if (!slope) continue;
+    s.slope(seen, row, 1, slope);
+    slope += n;
+  }
+}
+
+}  // namespace
+
+Eigen::VectorXd solve_facets_by_slsqp(FacetView& view) {
+  Eigen::VectorXd y = view.start();
+  const FacetOptimizer opt(nlopt_create(NLOPT_LD_SLSQP, static_cast<unsigned>(y.size())),
+                           nlopt_destroy);
+  FacetSession session{view, opt.get(), y, {}, {}, {}, {}};
+  for (Eigen::Index j = 0; j < view.row_min().size(); ++j) {
+    const double low = view.row_min()[j], high = view.row_max()[j];
+    if (low == high) {
+      session.flat.push_back(j);
+      continue;
+    }
+    if (high < kInfinity) session.wide.push_back({j, 1, high});
+    if (low > -kInfinity) session.wide.push_back({j, -1, -low});
+  }
+  nlopt_set_lower_bounds(opt.get(), view.lower().data());
+  nlopt_set_upper_bounds(opt.get(), view.upper().data());
+  nlopt_set_max_objective(opt.get(), wrench, &session);
+  const std::vector<double> tolerance(session.wide.size() + session.flat.size(), kRowTolerance);
+  nlopt_add_inequality_mconstraint(opt.get(), static_cast<unsigned>(session.wide.size()), limits,
+                                   &session, tolerance.data());
+  if (!session.flat.empty()) {
+    nlopt_add_equality_mconstraint(opt.get(), static_cast<unsigned>(session.flat.size()), balance,
+                                   &session, tolerance.data());
+  }
+  nlopt_set_xtol_abs1(opt.get(), kYTolerance);
+  nlopt_set_maxeval(opt.get(), kSqpPoints);
+  double value = 0;
+  nlopt_optimize(opt.get(), y.data(), &value);
+  session.caught.rethrow();
+  return y;
+}
+
+namespace {
+
+/// SLSQP (Kraft 1994) of NLopt: sequential quadratic programs, exact first derivatives.
+class FacetSqp final : public Search {
+ public:
+  SearchResult maximize(Objective& objective, const SearchOptions& options) override {
+    return search_from_facet_starts("facet_sqp", objective, options, solve_facets_by_slsqp);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Search> make_facet_sqp() { return std::make_unique<FacetSqp>(); }
+
+}  // namespace maxwrench

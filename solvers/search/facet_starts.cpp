@@ -1,0 +1,143 @@
+#include "solvers/search/facet_starts.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "lib/math/random.h"
+
+namespace maxwrench {
+namespace {
+
+/// Of the scale of a column of w, whatever the posture of a start says [N, N m].
+constexpr double kLeastScale = 1e-2, kMostScale = 1e4;
+
+/// Evaluations that a local solve wants: to set out, to move, and at its end.
+constexpr long kFewest = 3;
+
+long facet_parts_of(long budget) { return std::clamp(budget / 200, 1L, 8L); }
+
+Eigen::VectorXd draw(const Box& box, Random random) {
+  Eigen::VectorXd x(box.free());
+  for (double& x_j : x) x_j = random.uniform();
+  return box.theta_r(x);
+}
+
+/// From each branch of theta_r; how many there are.
+int solve_all(Probe& probe, const Box& box, const Eigen::VectorXd& theta_r,
+              const FacetSolve& solve) {
+  probe.spend();
+  const int branches = probe.facets()->branches(theta_r);
+  for (int k = 0; k < branches && probe.left() >= kFewest && !probe.ended(); ++k) {
+    solve_from(probe, box, theta_r, k, solve);
+  }
+  return branches;
+}
+
+}  // namespace
+
+FacetView::FacetView(Probe& probe, const Box& box)
+    : probe_(probe),
+      box_(box),
+      program_(*probe.facets()),
+      d_(box.free()),
+      unit_(program_.row_unit()) {
+  row_min_ = program_.row_min().cwiseQuotient(unit_);
+  row_max_ = program_.row_max().cwiseQuotient(unit_);
+}
+
+void FacetView::set_out(const Eigen::VectorXd& theta_r, int branch) {
+  probe_.spend();
+  Eigen::VectorXd w;
+  program_.set_out(theta_r, branch, w);
+  program_.evaluate(theta_r, w);
+  program_.linearize();
+  scale(w);
+  start_.resize(d_ + w.size());
+  start_ << box_.unit(theta_r), w.cwiseQuotient(w_scale_);
+  y_.resize(0);
+}
+
+/// s, and what depends on it.
+void FacetView::scale(const Eigen::VectorXd& w) {
+  const Eigen::Index k = w.size();
+  w_scale_.resize(k);
+  for (Eigen::Index j = 0; j < k; ++j) {
+    const double borne =
+        1 / (program_.by_w().col(j).cwiseQuotient(unit_)).lpNorm<Eigen::Infinity>();
+    w_scale_[j] = std::clamp(std::max(std::abs(w[j]), borne), kLeastScale, kMostScale);
+  }
+  lower_ = Eigen::VectorXd::Zero(d_ + k);
+  upper_ = Eigen::VectorXd::Ones(d_ + k);
+  lower_.tail(k) = program_.w_min().cwiseQuotient(w_scale_);
+  upper_.tail(k) = program_.w_max().cwiseQuotient(w_scale_);
+  c_y_ = Eigen::VectorXd::Zero(d_ + k);
+  c_y_.tail(k) = program_.c_w().cwiseProduct(w_scale_);
+  c_y_ /= c_y_.lpNorm<Eigen::Infinity>();
+}
+
+bool FacetView::look(const Eigen::VectorXd& y) {
+  if (y_.size() == y.size() && y_ == y) return valid_;
+  if (ended() || !y.allFinite()) return false;
+  probe_.spend();
+  y_ = y;
+  linear_ = false;
+  valid_ = program_.evaluate(theta_r(y), y.tail(w_scale_.size()).cwiseProduct(w_scale_));
+  if (valid_) rows_ = program_.rows().cwiseQuotient(unit_);
+  return valid_;
+}
+
+const FacetView::Jacobian& FacetView::jacobian() {
+  if (linear_) return jacobian_;
+  linear_ = true;
+  program_.linearize();
+  const Eigen::Index k = w_scale_.size();
+  jacobian_.resize(rows_.size(), d_ + k);
+  for (Eigen::Index j = 0; j < rows_.size(); ++j) {
+    jacobian_.row(j).head(d_) = box_.slope(program_.by_theta_r().row(j).transpose()).transpose();
+  }
+  jacobian_.rightCols(k) = program_.by_w() * w_scale_.asDiagonal();
+  jacobian_ = unit_.cwiseInverse().asDiagonal() * jacobian_;
+  return jacobian_;
+}
+
+double solve_from(Probe& probe, const Box& box, const Eigen::VectorXd& theta_r, int branch,
+                  const FacetSolve& solve) {
+  FacetView view(probe, box);
+  view.set_out(theta_r, branch);
+  return probe.evaluate(view.theta_r(solve(view)));
+}
+
+SearchResult search_from_facet_starts(const char* name, Objective& objective,
+                                      const SearchOptions& options, const FacetSolve& solve,
+                                      long most) {
+  check(options);
+  if (objective.facets() == nullptr) {
+    throw std::invalid_argument(std::string("search: got '") + name +
+                                "', which serves linf_polytope of a static task where the "
+                                "actuators have few facets, expected another search");
+  }
+  const Box box(objective);
+  const Eigen::VectorXd start = box.start(options.start);
+  EvaluationCounter progress(options.progress);
+  const long parts = facet_parts_of(options.budget);
+  std::vector<Part> found(static_cast<std::size_t>(parts));
+  parallel_for(options.threads, parts, [&](long part) {
+    Probe probe(objective, options.budget / parts + (part < options.budget % parts ? 1 : 0),
+                progress);
+    if (part == 0) probe.evaluate(start);
+    long solves = 0;
+    for (long i = part;
+         box.free() > 0 && probe.left() > 0 && !probe.ended() && solves <= most / parts;
+         i += parts) {
+      const Random random(options.seed, RandomUse::kClimb, static_cast<std::uint64_t>(i));
+      solves += solve_all(probe, box, i == 0 ? start : draw(box, random), solve);
+    }
+    found[static_cast<std::size_t>(part)] = probe.found();
+  });
+  Part all;
+  join(found, all);
+  return make_result(all);
+}
+
+}  // namespace maxwrench
