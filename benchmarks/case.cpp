@@ -59,8 +59,11 @@ const PlanSolverEntry* plan_solver_of(const Problem& problem, const Case& c) {
     return std::find_if(table.begin(), table.end(),
                         [&](const auto& entry) { return entry.name == name; });
   };
-  if (named(plan_searches(), c.search) == plan_searches().end()) return nullptr;
-  if (!serves_as_plan(problem, c.measure)) return nullptr;
+  const std::vector<const SearchEntry*> stages = find_plan_search(c.search).stages;
+  const bool of_plans = std::any_of(stages.begin(), stages.end(), [&](const SearchEntry* stage) {
+    return named(plan_searches(), stage->name) != plan_searches().end();
+  });
+  if (!of_plans || !serves_as_plan(problem, c.measure)) return nullptr;
   const auto same = named(plan_solvers(), c.lp);
   return same == plan_solvers().end() ? &plan_solvers().front() : &*same;
 }
@@ -126,7 +129,7 @@ Method resolve(const Problem& problem, const Case& c) {
   method.choice = c;
   const MeasureEntry& measure = find_measure(c.measure);
   method.measure = &measure;
-  if (!c.search.empty()) method.search = &find_plan_search(c.search);
+  if (!c.search.empty()) method.search = find_plan_search(c.search);
   if (c.budget < 1) {
     throw std::invalid_argument(fmt::format("budget: got {}, expected at least 1", c.budget));
   }
@@ -137,7 +140,7 @@ Method resolve(const Problem& problem, const Case& c) {
   }
   const WrenchSolverEntry* solver = choose_solver(served, problem, c);
   method.choice.lp = name_of(solver);
-  method.plan_solver = plan_solver_of(problem, method.choice);
+  if (method.search) method.plan_solver = plan_solver_of(problem, method.choice);
   const bool closed_form = !measure.needs_solver && measure.serves_any;
   if (closed_form && problem.contact && limited(*problem.contact)) {
     throw std::invalid_argument("measure: got " + c.measure +
@@ -197,15 +200,19 @@ std::vector<Case> product(const Problem& problem, std::uint64_t seed, long budge
       for (const WrenchSolverEntry* solver : served) {
         const bool first = solver == served.front();
         const long share = std::max(1L, budget / (solver ? solver->cost : 1));
-        const auto add = [&](std::span<const SearchEntry> table) {
-          for (const SearchEntry& search : table) {
-            cases.push_back(
-                {problem.name, measure.name, wrench, name_of(solver), search.name, seed, share});
-          }
+        const auto add = [&](const char* search) {
+          cases.push_back(
+              {problem.name, measure.name, wrench, name_of(solver), search, seed, share});
         };
-        add(searches().first(first ? searches().size() : 2));
-        if (first && serves_as_plan(problem, measure.name)) add(plan_searches());
-        if (first && serves_between_facets(problem, measure.name)) add(facet_searches());
+        add(default_search());
+        add("grid+cmaes");
+        if (!first) continue;
+        for (const SearchEntry& search : searches()) add(search.name);
+        if (serves_as_plan(problem, measure.name)) {
+          for (const SearchEntry& search : plan_searches()) add(search.name);
+        }
+        if (!serves_between_facets(problem, measure.name)) continue;
+        for (const SearchEntry& search : facet_searches()) add(search.name);
       }
     }
   }

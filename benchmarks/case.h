@@ -2,17 +2,18 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "maxwrench/objective.h"
+#include "maxwrench/search.h"
 
 namespace maxwrench {
 
 struct MeasureEntry;
 struct PlanSolverEntry;
 struct Problem;
-struct SearchEntry;
 
 /// The name of the lower-level solver of a closed-form measure.
 inline constexpr const char* kNoSolver = "none";
@@ -24,7 +25,7 @@ struct Case {
   Wrench wrench = Wrench::kPure;
   /// Empty: the first solver that serves problem and wrench, `kNoSolver` for a closed form.
   std::string lp = "";
-  std::string search = "grid";  ///< empty: none, the posture is given
+  std::string search = default_search();  ///< empty: none, the posture is given
   std::uint64_t seed = 1;
   long budget = 20000;  ///< evaluations of a search
   /// Of a task in time, how knots become motion; empty: as the task says, or a static one.
@@ -38,7 +39,7 @@ Wrench parse_wrench(const std::string& name);
 struct Method {
   Case choice;  ///< complete: nothing is left to defaults
   const MeasureEntry* measure = nullptr;
-  const SearchEntry* search = nullptr;  ///< null: none
+  std::optional<NamedSearch> search;  ///< none: the posture is given
   /// The search is one of plans and gets those of one knot, solved by this one; null: it gets
   /// postures.
   const PlanSolverEntry* plan_solver = nullptr;
@@ -69,11 +70,11 @@ void set_scheme(const char* key, const std::string& scheme, Problem& problem);
 const std::vector<std::string>& case_columns();
 std::vector<std::string> case_values(const Case& c);
 
-/// On a problem, in the order of the tables: every meaningful measure × wrench × lp with the first
-/// two searches (what a solver is worth does not depend on the search), and with the first lp that
-/// serves every search, those of plans and between facets too where they serve. The budget is
-/// divided by the cost of the solver. Of a task in time: wrench × scheme × lp with the first
-/// search, and × search with the first lp.
+/// On a problem, in the order of the tables: every meaningful measure × wrench × lp with the
+/// default search and with `grid+cmaes` (what a solver is worth does not depend on the search), and
+/// with the first lp that serves every method alone, those of plans and between facets too where
+/// they serve. The budget is divided by the cost of the solver. Of a task in time: wrench × scheme
+/// × lp with the first search, and × search with the first lp.
 std::vector<Case> product(const Problem& problem, std::uint64_t seed, long budget);
 
 /// Of `cases`, those whose columns have the given values (column -> value); `seed` and `budget` are

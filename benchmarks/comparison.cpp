@@ -17,7 +17,7 @@ namespace {
 struct Reference {
   const char *search, *solver;
 };
-constexpr Reference kOfPostures{"annealing", "glpk"}, kOfPlans{"multistart", "clp"};
+constexpr Reference kOfPostures{"annealing+cmaes", "glpk"}, kOfPlans{"multistart", "clp"};
 
 double processor_seconds() {
   return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
@@ -65,17 +65,19 @@ bool has_reference(const Problem& problem, const Case& base) {
                        [&](const auto& entry) { return entry.name == std::string(name); });
   };
   const Reference reference = reference_of(problem);
-  return find_measure(base.measure).needs_solver && holds(searches(), reference.search) &&
+  const bool built_in = !problem.motion || holds(searches(), reference.search);
+  return find_measure(base.measure).needs_solver && built_in &&
          holds(lp_solvers(), reference.solver);
 }
 
-/// The searches that serve a problem: of a task in time those of plans first, of a static one
-/// those that serve it last.
-std::vector<const SearchEntry*> searches_of(const Problem& problem, const Case& base) {
-  std::vector<const SearchEntry*> served;
+/// The searches that serve a problem: of a task in time those of plans first, of a static one the
+/// default first and the tables that serve it last.
+std::vector<const char*> searches_of(const Problem& problem, const Case& base) {
+  std::vector<const char*> served;
   const auto add = [&](std::span<const SearchEntry> table) {
-    for (const SearchEntry& search : table) served.push_back(&search);
+    for (const SearchEntry& search : table) served.push_back(search.name);
   };
+  if (!problem.motion) served.push_back(default_search());
   if (problem.motion) add(plan_searches());
   add(searches());
   if (!problem.motion && serves_as_plan(problem, base.measure)) add(plan_searches());
@@ -97,14 +99,14 @@ void forget_beyond(Attempt& run) {
 }
 
 /// From `start`; `found` gets the best point, if there is one.
-Attempt attempt_from(const Case& choice, const SearchEntry& entry,
+Attempt attempt_from(const Case& choice, const NamedSearch& named,
                      std::unique_ptr<Objective> objective, const Eigen::VectorXd& start,
                      Eigen::VectorXd& found) {
   Attempt run;
   run.choice = choice;
   const double begin = processor_seconds();
   Stopwatch watch(std::move(objective), run, begin);
-  const SearchResult result = search(choice, entry, watch, start, 1, {});
+  const SearchResult result = search(choice, named, watch, start, 1, {});
   run.seconds = processor_seconds() - begin;
   run.value = result.value;
   run.evaluations = result.evaluations;
@@ -220,8 +222,8 @@ Comparison compare(const Problem& problem, const Case& base, int seeds,
   const char* unit = problem.motion ? problem.unit() : resolve(problem, base).unit;
   const std::string lp = complete(problem, base).lp;
   Comparison comparison{problem.name, unit, {}, {}, problem.motion.has_value(), base.budget};
-  for (const SearchEntry* search : searches_of(problem, base))
-    comparison.contenders.push_back(contend(search->name, lp));
+  for (const char* search : searches_of(problem, base))
+    comparison.contenders.push_back(contend(search, lp));
   const Reference reference = reference_of(problem);
   if (has_reference(problem, base))
     comparison.reference = contend(reference.search, reference.solver);

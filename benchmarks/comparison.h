@@ -53,10 +53,10 @@ struct Contender {
 /// All searches on one problem.
 struct Comparison {
   std::string problem, unit;
-  std::vector<Contender> contenders;  ///< in the order of the table of searches
-  /// The plain way, of which every speed is a multiple: annealing through GLPK, of a task in time
-  /// the paper's multistart through Clp, both general solvers of linear programs. No attempts if
-  /// this build has none or the measure takes none.
+  std::vector<Contender> contenders;  ///< in the order of the tables of searches
+  /// The plain way, of which every speed is a multiple: annealing+cmaes through GLPK, of a task in
+  /// time the paper's multistart through Clp, both general solvers of linear programs. No attempts
+  /// if this build has none or the measure takes none.
   Contender reference;
   bool in_time = false;      ///< a task in time
   long budget = 0;           ///< evaluations of each attempt

@@ -150,7 +150,7 @@ void add_problem(const Problem& problem) {
     add(name("collision"), [&](benchmark::State& state) { time_collision(state, problem); });
   }
   for (const Case& c : product(problem, 1, 1)) {
-    if (c.search != searches()[0].name) continue;
+    if (c.search != default_search()) continue;
     const std::string title = name(fmt::format("{}/{}/{}", c.measure, to_string(c.wrench), c.lp));
     add(title,
         [&problem, c](benchmark::State& state) { time_objective(state, problem, c, false); });

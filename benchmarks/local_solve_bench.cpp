@@ -42,13 +42,13 @@ struct LocalStart {
 /// One local solve; the best value that it evaluated.
 using LocalSolve = double (*)(Probe& probe, const Box& box, const LocalStart& start);
 
-template <Eigen::VectorXd (*solve)(FacetView&)>
+template <FacetEnd (*solve)(FacetView&)>
 double between_facets(Probe& probe, const Box& box, const LocalStart& start) {
   return solve_from(probe, box, box.theta_r(start.x), start.branch, solve);
 }
 
 double bilevel(Probe& probe, const Box& box, const LocalStart& start) {
-  climb_by_ipopt(probe, box, start.x);
+  climb_by_ipopt(probe, box, box.theta_r(start.x));
   return probe.found().best.value;
 }
 

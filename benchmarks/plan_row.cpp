@@ -26,7 +26,7 @@ PlanMethod resolve_plan(const Problem& problem, const Case& c) {
   method.solver = c.lp.empty() ? &plan_solvers().front() : &find_plan_solver(c.lp);
   method.choice.lp = method.solver->name;
   method.choice.scheme = scheme;
-  if (!c.search.empty()) method.search = &find_plan_search(c.search);
+  if (!c.search.empty()) method.search = find_plan_search(c.search);
   return method;
 }
 
@@ -86,12 +86,13 @@ std::vector<std::string> values(const Problem& problem, const PlanRow& row) {
   const bool solved = row.has_value();
   const auto known = [](bool is, double value) { return is ? exact_text(value) : std::string(); };
   std::vector<std::string> cells = case_values(row.choice);
-  cells.insert(cells.end(), {to_string(row.status), known(solved, plan.value),
-                             known(std::isfinite(plan.continuous), plan.continuous), row.unit, "",
-                             problem.unit(), problem.label, exact_text(stacked(plan.knots)), "", "",
-                             "", known(solved, residual.balance), known(solved, residual.bounds),
-                             known(solved, residual.dual), known(solved, residual.gap),
-                             fmt::format("{}", row.evaluations), row.reason.str()});
+  cells.insert(
+      cells.end(),
+      {to_string(row.status), known(solved, plan.value),
+       known(std::isfinite(plan.continuous), plan.continuous), row.unit, "", problem.unit(),
+       problem.label, exact_text(stacked(plan.knots)), "", "", "", known(solved, residual.balance),
+       known(solved, residual.bounds), known(solved, residual.dual), known(solved, residual.gap),
+       fmt::format("{}", row.evaluations), row.reason.str(), describe(row.calls)});
   return cells;
 }
 

@@ -11,7 +11,7 @@ struct PlanSolverEntry;
 struct PlanMethod {
   Case choice;  ///< complete: nothing is left to defaults
   const PlanSolverEntry* solver = nullptr;
-  const SearchEntry* search = nullptr;  ///< null: none
+  std::optional<NamedSearch> search;  ///< none: the plan is given
 };
 
 /// As `resolve`, of a task in time, whose scheme a case may name and not change. An empty `lp` is
@@ -37,6 +37,7 @@ struct PlanRow : Verdict {
   std::optional<Clearance> clearance;  ///< the least between knots too
   PlanProgram program;  ///< of the plan, whose value is its optimum; refers to the problem
   long evaluations = 0;
+  std::vector<CallCount> calls;  ///< of the methods of the search
   double wall_s = 0;
 
   bool has_plan() const { return plan.knots.rows() > 0; }

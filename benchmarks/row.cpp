@@ -75,9 +75,10 @@ Row solve(const Problem& problem, const Method& method, int threads,
 
 std::vector<std::string> value_columns() {
   std::vector<std::string> columns = case_columns();
-  columns.insert(columns.end(), {"status", "beta", "continuous", "unit", "yardstick",
-                                 "yardstick_unit", "label", "theta_r", "h", "u", "lambda",
-                                 "balance", "bounds", "dual", "gap", "evaluations", "reason"});
+  columns.insert(
+      columns.end(),
+      {"status", "beta", "continuous", "unit", "yardstick", "yardstick_unit", "label", "theta_r",
+       "h", "u", "lambda", "balance", "bounds", "dual", "gap", "evaluations", "reason", "calls"});
   return columns;
 }
 
@@ -103,6 +104,7 @@ std::vector<std::string> values(const Problem& problem, const Row& row) {
   add(solved, exact_text(capability.residual.gap));
   cells.push_back(fmt::format("{}", row.evaluations));
   cells.push_back(row.reason.str());
+  cells.push_back(describe(row.calls));
   return cells;
 }
 

@@ -28,6 +28,7 @@ struct Row : Verdict {
   /// is none.
   double yardstick = std::numeric_limits<double>::quiet_NaN();
   long evaluations = 0;
+  std::vector<CallCount> calls;  ///< of the methods of the search
   /// Of the evaluations, those whose lower level ended without a verdict; not counted by searches
   /// of plans.
   long undecided = 0;

@@ -27,8 +27,18 @@ std::unique_ptr<Objective> make_objective(const Problem& problem, const Method& 
 std::unique_ptr<Objective> make_objective(const Problem&&, const Method&,
                                           std::shared_ptr<Tally> = nullptr) = delete;
 
+/// How often a method of a search ended so, and what that took.
+struct CallCount {
+  std::string method, status;
+  long calls = 0, evaluations = 0;
+};
+/// In the order in which they first appear.
+std::vector<CallCount> count_calls(const std::vector<Call>& calls);
+/// "slsqp xtol_reached 12 340; slsqp failure 1 20": calls and evaluations.
+std::string describe(const std::vector<CallCount>& counts);
+
 /// Runs the search of a case from `start`.
-SearchResult search(const Case& c, const SearchEntry& entry, Objective& objective,
+SearchResult search(const Case& c, const NamedSearch& named, Objective& objective,
                     const Eigen::VectorXd& start, int threads,
                     const std::function<void(long)>& progress);
 
@@ -37,6 +47,7 @@ SearchResult search(const Case& c, const SearchEntry& entry, Objective& objectiv
 template <class AnyRow>
 void conclude_search(const SearchResult& result, const Interruption* interruption, AnyRow& row) {
   row.evaluations = result.evaluations;
+  row.calls = count_calls(result.calls);
   if (row.status == Status::kOptimal) row.conclude(Status::kBestFound);
   if (row.status == Status::kInfeasible) {  // true of what was found, not of the task
     row.conclude(Status::kNoneFound, "of the best that was found: " + row.reason.str());

@@ -57,7 +57,7 @@ std::string contender_line(const Comparison& comparison, const Contender& conten
   };
   const double time = median_of(contender, seconds);
   std::string text = fmt::format(
-      "{:<11} {:<8} {:>2} of {:<2} {:>11} {:>8} {:>9} {:>9} {:>9}", contender.search, contender.lp,
+      "{:<15} {:<8} {:>2} of {:<2} {:>11} {:>8} {:>9} {:>9} {:>9}", contender.search, contender.lp,
       reached, contender.attempts.size(),
       number_or_dash(median_of(contender, evaluations), "{:.0f}"),
       number_or_dash(1e3 * time, "{:.0f}"),
@@ -81,8 +81,8 @@ std::string text(const Comparison& comparison) {
   const std::string plain = fmt::format("{}, {}", reference.search, reference.lp);
   std::string text = fmt::format(
       "{}{}: best known {} {}, {} evaluations each\n"
-      "                     -- to 0.1 % below it, median --                all   median{}{}\n"
-      "search      lp       reached evaluations       ms  expected        ms   below %{}{}\n",
+      "                         -- to 0.1 % below it, median --                all   median{}{}\n"
+      "search          lp       reached evaluations       ms  expected        ms   below %{}{}\n",
       comparison.problem, comparison.interrupted ? ", interrupted" : "", best, comparison.unit,
       comparison.budget, comparison.in_time ? "     median" : "",
       referred ? "   expected to that" : "", comparison.in_time ? " continuous" : "",

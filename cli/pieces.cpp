@@ -59,6 +59,17 @@ std::string line(const Residual& residual) {
                      residual.bounds, residual.dual, residual.gap);
 }
 
+nlohmann::ordered_json to_json(const std::vector<CallCount>& counts) {
+  auto array = nlohmann::ordered_json::array();
+  for (const CallCount& count : counts) {
+    array.push_back({{"method", count.method},
+                     {"status", count.status},
+                     {"calls", count.calls},
+                     {"evaluations", count.evaluations}});
+  }
+  return array;
+}
+
 std::string line(long evaluations, double seconds) {
   return fmt::format("{} evaluation{} in {:.3g} s", evaluations, evaluations == 1 ? "" : "s",
                      seconds);

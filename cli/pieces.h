@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "benchmarks/searched.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/status.h"
@@ -27,6 +28,9 @@ nlohmann::ordered_json theta(const Robot& robot, const Pose<double>& base,
                              const Eigen::VectorXd& q);
 
 nlohmann::ordered_json to_json(const Residual& residual);
+
+/// An array of objects.
+nlohmann::ordered_json to_json(const std::vector<CallCount>& counts);
 
 /// Roll, pitch, yaw with R = Rz(yaw) Ry(pitch) Rx(roll).
 Eigen::Vector3d rpy(const Eigen::Matrix3d& R);

@@ -110,6 +110,7 @@ ordered_json plan_json(const Problem& problem, const PlanRow& row) {
   object["gradient"] = known(solved, rows(plan.gradient));
   object["residual"] = known(solved, to_json(plan.solution.residual));
   object["evaluations"] = row.evaluations;
+  object["calls"] = known(!c.search.empty(), to_json(row.calls));
   object["wall_s"] = row.wall_s;
   object["version"] = version();
   object["task"] = task_json(problem, row);

@@ -49,6 +49,7 @@ ordered_json to_json(const Problem& problem, const Row& row) {
   object["gradient"] = known(solved, array(row.gradient));
   object["residual"] = known(solved, to_json(capability.residual));
   object["evaluations"] = row.evaluations;
+  object["calls"] = known(!c.search.empty(), to_json(row.calls));
   object["undecided"] = row.undecided;
   object["branches"] = to_json(row.branches);
   object["wall_s"] = row.wall_s;

@@ -11,7 +11,7 @@ macro(maxwrench_missing what)
     set(${CMAKE_FIND_PACKAGE_NAME}_NOT_FOUND_MESSAGE "maxwrench was built with ${what}, which is not here")
   else()
     message(FATAL_ERROR "maxwrench: ${what} is not here. packages.txt names the packages of Debian; strategies that need "
-      "Ipopt, Clp, GLPK, NLopt or SUNDIALS are left out by MAXWRENCH_WITH_...=OFF")
+      "Ipopt, Clp, GLPK, NLopt, pagmo or SUNDIALS are left out by MAXWRENCH_WITH_...=OFF")
   endif()
 endmacro()
 
@@ -37,7 +37,8 @@ macro(maxwrench_need_module name module)
   endif()
 endmacro()
 
-# Libraries without a file that describes them (GLPK), or whose description asks for much that is not used (SUNDIALS: MPI, OpenMP).
+# Libraries without a file that describes them (GLPK), or whose description asks for much that is not used (SUNDIALS: MPI,
+# OpenMP; pagmo: Boost's CMake files).
 macro(maxwrench_need_files name header)
   find_path(MAXWRENCH_${name}_INCLUDE ${header})
   mark_as_advanced(MAXWRENCH_${name}_INCLUDE)
@@ -70,11 +71,13 @@ maxwrench_need_package(tomlplusplus tomlplusplus::tomlplusplus)
 maxwrench_need_module(TINYXML tinyxml)
 maxwrench_need_module(URDFDOM urdfdom)
 maxwrench_need_module(COINUTILS coinutils)
-foreach(library IPOPT CLP GLPK NLOPT SUNDIALS)
+foreach(library IPOPT CLP GLPK NLOPT PAGMO SUNDIALS)
   if(NOT MAXWRENCH_WITH_${library})
     list(APPEND maxwrench_absent ${library})
   elseif(library STREQUAL GLPK)
     maxwrench_need_files(GLPK glpk.h glpk)
+  elseif(library STREQUAL PAGMO)
+    maxwrench_need_files(PAGMO pagmo/config.hpp pagmo boost_serialization)
   elseif(library STREQUAL SUNDIALS)
     maxwrench_need_files(SUNDIALS sundials/sundials_types.h sundials_arkode sundials_cvode sundials_ida sundials_nvecserial
       sundials_sunlinsoldense sundials_sunmatrixdense sundials_sunnonlinsolfixedpoint)

@@ -7,10 +7,11 @@ set(eigen_interface EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MAX_STATIC_ALIGN_BYTES=16 EIG
 
 # Of a folder's sources, those that need a library which is left out: they include its headers or what stands on them. A source that asks
 # for MAXWRENCH_WITH_... knows itself what to do.
-set(needs_IPOPT "#include (<Ip|\".*/(facet_nlp|multistart).h)")
+set(needs_IPOPT "#include (<Ip|\".*/(facet_nlp|ipopt_word|multistart).h)")
 set(needs_CLP "#include <Clp")
 set(needs_GLPK "#include <glpk")
 set(needs_NLOPT "#include (<nlopt|\".*/(facet_sqp|nlopt_run).h)")
+set(needs_PAGMO "#include <pagmo")
 set(needs_SUNDIALS "#include (<arkode|<cvode|<ida|<sundials|\".*/sundials.h)|= make_cvode\\(\\)")
 function(leave_out_absent variable)
   set(kept)
@@ -68,7 +69,7 @@ target_compile_definitions(maxwrench_problems PRIVATE
   TOML_HEADER_ONLY=0 TOML_SHARED_LIB=1)
 
 add_core_floor(solvers TBB::tbb fmt::fmt)
-foreach(library IPOPT CLP GLPK NLOPT SUNDIALS)
+foreach(library IPOPT CLP GLPK NLOPT PAGMO SUNDIALS)
   target_compile_definitions(maxwrench_solvers PRIVATE MAXWRENCH_WITH_${library}=$<BOOL:${MAXWRENCH_WITH_${library}}>)
   if(NOT MAXWRENCH_WITH_${library})
     continue()

@@ -97,7 +97,7 @@ set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libmaxwrench-dev)
 set(development_packages libeigen3-dev libfmt-dev libtbb-dev libfcl-dev libtomlplusplus-dev libtinyxml-dev liburdfdom-dev
   coinor-libcoinutils-dev pkg-config)
-foreach(pair IPOPT:coinor-libipopt-dev CLP:coinor-libclp-dev GLPK:libglpk-dev NLOPT:libnlopt-dev SUNDIALS:libsundials-dev)
+foreach(pair IPOPT:coinor-libipopt-dev CLP:coinor-libclp-dev GLPK:libglpk-dev NLOPT:libnlopt-dev PAGMO:libpagmo-dev SUNDIALS:libsundials-dev)
   string(REPLACE ":" ";" pair ${pair})
   list(POP_FRONT pair library)
   if(MAXWRENCH_WITH_${library})

@@ -39,6 +39,6 @@ int main() {
 
   SearchOptions options;
   options.budget = 2000;
-  const SearchResult best = find_search("annealing").make()->maximize(*objective, options);
+  const SearchResult best = find_search("annealing+cmaes").make()->maximize(*objective, options);
   std::printf("best     %.6f\n", best.value);
 }

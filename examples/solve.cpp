@@ -20,7 +20,8 @@ int main(int argc, char** argv) try {
   std::printf("default posture  %.6f %s\n", objective->evaluate(problem.theta_r_default),
               problem.unit());
 
-  const SearchResult best = find_search("grid").make()->maximize(*objective, SearchOptions());
+  const SearchResult best =
+      find_search(default_search()).make()->maximize(*objective, SearchOptions());
   std::printf("best posture     %.6f %s, %s\n", best.value, problem.unit(), to_string(best.status));
   if (best.status != Status::kBestFound) return 1;
 

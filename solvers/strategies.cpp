@@ -11,6 +11,7 @@
 #include "solvers/integrator/makers.h"
 #include "solvers/lp/makers.h"
 #include "solvers/plan/makers.h"
+#include "solvers/search/composition.h"
 #include "solvers/search/makers.h"
 #include "solvers/wrench/makers.h"
 
@@ -68,22 +69,35 @@ const LpEntry kLpSolvers[] = {
 };
 
 const SearchEntry kSearches[] = {
-    {"grid", "regular grid, then refinement around its best cells", false, make_grid},
-    {"annealing", "simulated annealing in independent chains", false, make_annealing},
+    {"sample", "uniformly random postures, the floor of every comparison", false, make_sample,
+     false, 0.1},
+    {"grid", "regular grid", false, make_grid, false, 0.9},
+    {"annealing", "simulated annealing in independent chains", false, make_annealing, true},
+    {"cmaes", "own CMA-ES (covariance matrix adaptation) from many postures", false, make_cmaes,
+     true},
+#if MAXWRENCH_WITH_PAGMO
+    {"pagmo_cmaes", "CMA-ES of pagmo from many postures", false, make_pagmo_cmaes, true},
+    {"de", "differential evolution of pagmo, in several populations", false, make_de, true},
+    {"sade", "self-adaptive differential evolution of pagmo", false, make_sade, true},
+#endif
 #if MAXWRENCH_WITH_IPOPT
     {"multistart", "Ipopt with exact gradients from many postures, as fmincon", false,
-     make_multistart},
+     make_multistart, true},
 #endif
 #if MAXWRENCH_WITH_NLOPT
     {"direct_l", "DIRECT-L of NLopt: divides boxes", false, make_direct_l},
-    {"crs2", "controlled random search of NLopt, in several populations", false, make_crs2},
-    {"mlsl", "multi-level single-linkage of NLopt, with gradients", false, make_mlsl},
-    {"isres", "evolution strategy ISRES of NLopt, in several populations", false, make_isres},
-    {"cobyla", "COBYLA of NLopt from many postures", false, make_cobyla},
+    {"crs2", "controlled random search of NLopt, in several populations", false, make_crs2, true},
+    {"mlsl", "multi-level single-linkage of NLopt, with gradients", false, make_mlsl, true},
+    {"isres", "evolution strategy ISRES of NLopt, in several populations", false, make_isres, true},
+    {"slsqp", "SLSQP of NLopt with exact gradients from many postures", false, make_slsqp, true},
+    {"mma", "MMA of NLopt with exact gradients from many postures", false, make_mma, true},
+    {"lbfgs", "L-BFGS of NLopt with exact gradients from many postures", false, make_lbfgs, true},
+    {"bobyqa", "BOBYQA of NLopt from many postures", false, make_bobyqa, true},
+    {"cobyla", "COBYLA of NLopt from many postures", false, make_cobyla, true},
 #endif
 #if MAXWRENCH_WITH_SUNDIALS
     {"nullspace", "local baseline: gradient projected onto the null space of J", true,
-     make_nullspace},
+     make_nullspace, true},
 #endif
 };
 
@@ -122,7 +136,14 @@ constexpr struct {
     {MAXWRENCH_WITH_NLOPT, {"search", "crs2", "NLopt"}},
     {MAXWRENCH_WITH_NLOPT, {"search", "mlsl", "NLopt"}},
     {MAXWRENCH_WITH_NLOPT, {"search", "isres", "NLopt"}},
+    {MAXWRENCH_WITH_NLOPT, {"search", "slsqp", "NLopt"}},
+    {MAXWRENCH_WITH_NLOPT, {"search", "mma", "NLopt"}},
+    {MAXWRENCH_WITH_NLOPT, {"search", "lbfgs", "NLopt"}},
+    {MAXWRENCH_WITH_NLOPT, {"search", "bobyqa", "NLopt"}},
     {MAXWRENCH_WITH_NLOPT, {"search", "cobyla", "NLopt"}},
+    {MAXWRENCH_WITH_PAGMO, {"search", "pagmo_cmaes", "pagmo"}},
+    {MAXWRENCH_WITH_PAGMO, {"search", "de", "pagmo"}},
+    {MAXWRENCH_WITH_PAGMO, {"search", "sade", "pagmo"}},
     {MAXWRENCH_WITH_SUNDIALS, {"search", "nullspace", "SUNDIALS"}},
     {MAXWRENCH_WITH_SUNDIALS, {"integrator", "cvode", "SUNDIALS"}},
     {MAXWRENCH_WITH_SUNDIALS, {"integrator", "cvode_adams", "SUNDIALS"}},
@@ -143,10 +164,10 @@ std::vector<SearchEntry> make_facet_searches() {
   return {
 #if MAXWRENCH_WITH_NLOPT
     {"facet_sqp", "SLSQP of NLopt in posture and wrenches, between the facets of {B u}", false,
-     make_facet_sqp},
+     make_facet_sqp, true},
 #endif
 #if MAXWRENCH_WITH_IPOPT
-        {"facet_nlp", "the same by Ipopt", false, make_facet_nlp},
+        {"facet_nlp", "the same by Ipopt", false, make_facet_nlp, true},
 #endif
   };
 }
@@ -179,12 +200,18 @@ std::vector<PlanSolverEntry> make_plan_solvers() {
 }
 
 template <class Entry>
+const char* name_in(const Entry& entry) {
+  return entry.name;
+}
+const char* name_in(const SearchEntry* entry) { return entry->name; }
+
+template <class Entry>
 const Entry& find(std::span<const Entry> table, const char* family, std::string_view name) {
   const auto found = std::find_if(table.begin(), table.end(),
-                                  [&](const Entry& entry) { return entry.name == name; });
+                                  [&](const Entry& entry) { return name_in(entry) == name; });
   if (found != table.end()) return *found;
   std::vector<std::string_view> names;
-  for (const Entry& entry : table) names.emplace_back(entry.name);
+  for (const Entry& entry : table) names.emplace_back(name_in(entry));
   std::string why;
   for (const Absent& absent : not_built_in()) {
     if (absent.name != name || std::string_view(absent.family) != family) continue;
@@ -192,6 +219,29 @@ const Entry& find(std::span<const Entry> table, const char* family, std::string_
   }
   throw std::invalid_argument(
       fmt::format("{}: got '{}'{}, expected one of {}", family, name, why, fmt::join(names, " ")));
+}
+
+/// Stages of a name, of one table.
+NamedSearch find_stages(std::span<const SearchEntry* const> table, std::string_view name) {
+  NamedSearch search{std::string(name), {}, true};
+  for (std::size_t begin = 0; begin <= name.size();) {
+    const std::size_t end = std::min(name.find('+', begin), name.size());
+    const SearchEntry& stage = *find(table, "search", name.substr(begin, end - begin));
+    if (begin > 0 && !stage.goes_on) {
+      std::vector<std::string_view> others;
+      for (const SearchEntry* entry : table) {
+        if (entry->goes_on) others.emplace_back(entry->name);
+      }
+      throw std::invalid_argument(
+          fmt::format("search: got '{}', where {} begins by itself, expected as a later stage one "
+                      "of {}",
+                      name, stage.name, fmt::join(others, " ")));
+    }
+    search.stages.push_back(&stage);
+    search.local = search.local && stage.local;
+    begin = end + 1;
+  }
+  return search;
 }
 
 }  // namespace
@@ -228,15 +278,21 @@ const WrenchSolverEntry& find_wrench_solver(std::string_view name) {
 const PlanSolverEntry& find_plan_solver(std::string_view name) {
   return find(plan_solvers(), "lp", name);
 }
-const SearchEntry& find_search(std::string_view name) { return find(searches(), "search", name); }
-const SearchEntry& find_plan_search(std::string_view name) {
-  static const std::vector<SearchEntry> kAll = [] {
-    std::vector<SearchEntry> all(std::begin(kPlanSearches), std::end(kPlanSearches));
-    all.insert(all.end(), std::begin(kSearches), std::end(kSearches));
-    all.insert(all.end(), facet_searches().begin(), facet_searches().end());
-    return all;
-  }();
-  return find(std::span<const SearchEntry>(kAll), "search", name);
+const char* default_search() { return MAXWRENCH_WITH_NLOPT ? "crs2+cmaes" : "annealing+cmaes"; }
+NamedSearch find_search(std::string_view name) {
+  std::vector<const SearchEntry*> table;
+  for (const SearchEntry& entry : kSearches) table.push_back(&entry);
+  return find_stages(table, name);
+}
+NamedSearch find_plan_search(std::string_view name) {
+  std::vector<const SearchEntry*> table;
+  for (const SearchEntry& entry : kPlanSearches) table.push_back(&entry);
+  for (const SearchEntry& entry : kSearches) table.push_back(&entry);
+  for (const SearchEntry& entry : facet_searches()) table.push_back(&entry);
+  return find_stages(table, name);
+}
+std::unique_ptr<Search> NamedSearch::make() const {
+  return stages.size() == 1 ? stages.front()->make() : make_composition(stages);
 }
 const IntegratorEntry& find_integrator(std::string_view name) {
   return find(integrators(), "integrator", name);

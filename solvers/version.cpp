@@ -16,6 +16,9 @@
 #if MAXWRENCH_WITH_NLOPT
 #include <nlopt.h>
 #endif
+#if MAXWRENCH_WITH_PAGMO
+#include <pagmo/config.hpp>
+#endif
 #if MAXWRENCH_WITH_SUNDIALS
 #include <sundials/sundials_version.h>
 #endif
@@ -40,6 +43,9 @@ std::string library_versions() {
   int major = 0, minor = 0, patch = 0;
   nlopt_version(&major, &minor, &patch);
   text += fmt::format(", NLopt {}.{}.{}", major, minor, patch);
+#endif
+#if MAXWRENCH_WITH_PAGMO
+  text += ", pagmo " PAGMO_VERSION;
 #endif
 #if MAXWRENCH_WITH_SUNDIALS
   char sundials[40] = "";

@@ -51,7 +51,7 @@ std::string to_path(const std::string& text) {
 
 bool of_solver_library(const std::string& header) {
   for (const char* prefix :
-       {"Ip", "nlopt", "nvector", "cvode", "ida", "arkode", "sun", "Clp", "glpk"}) {
+       {"Ip", "nlopt", "nvector", "cvode", "ida", "arkode", "sun", "Clp", "glpk", "pagmo"}) {
     if (header.starts_with(prefix)) return true;
   }
   return false;

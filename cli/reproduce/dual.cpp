@@ -15,7 +15,7 @@
 namespace maxwrench {
 namespace {
 
-constexpr std::array<const char*, 2> kSearches = {"grid", "annealing"};
+constexpr std::array<const char*, 2> kSearches = {"grid+cmaes", "annealing+cmaes"};
 constexpr long kDualBudget = 20000;
 constexpr int kSamples = 2000;
 

@@ -59,7 +59,8 @@ struct Attempt {
   const char* search;
   std::uint64_t seed;
 };
-constexpr Attempt kAttempts[] = {{"grid", 1}, {"annealing", 1}, {"annealing", 2}, {"annealing", 3}};
+constexpr Attempt kAttempts[] = {
+    {"grid+cmaes", 1}, {"annealing+cmaes", 1}, {"annealing+cmaes", 2}, {"annealing+cmaes", 3}};
 constexpr long kStaticBudget = 200000;
 
 /// The row of the best search, and by which share the worst one stays below.
@@ -268,7 +269,8 @@ PaperTable reproduce_uvms(const std::filesystem::path& folder, int threads) {
       "(of\n"
       "own for beta_3, where the tank's sensor took all other components), in the tank, ratio of "
       "the\n"
-      "two; lag: how far the worst of {} searches stays below (grid, annealing with {} seeds, {}\n"
+      "two; lag: how far the worst of {} searches stays below (grid+cmaes, annealing+cmaes with {} "
+      "seeds, {}\n"
       "evaluations each); virtual: the mean reading in the virtual tank during the hold of own, "
       "of\n"
       "which {:g} % are not asked for so that efforts are left to hold the posture; or the "

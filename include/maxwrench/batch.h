@@ -10,12 +10,6 @@
 
 namespace maxwrench {
 
-/// A point that was evaluated. `value` is -infinity where the objective has none.
-struct Candidate {
-  Eigen::VectorXd theta_r;
-  double value = -kInfinity;
-};
-
 /// The bounds of an objective, seen as a unit cube x in [0, 1]^d of the coordinates that can move
 /// (lower < upper). Throws std::invalid_argument if a bound is not finite or lower > upper.
 class Box {
@@ -29,6 +23,8 @@ class Box {
   /// `start` moved into the bounds, or their middle if it is empty. Throws std::invalid_argument if
   /// its size is wrong.
   Eigen::VectorXd start(const Eigen::VectorXd& start) const;
+  /// How far two points are apart: the largest coordinate, as a share of the bounds.
+  double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
 
  private:
   Eigen::VectorXd lower_, upper_;

@@ -81,9 +81,9 @@ class PostureEvaluator {
   ~PostureEvaluator();
 
   /// Joint limits, reach and self-collision decide `status`; J and tau_d are filled in any case:
-  /// of the first valid posture, or of one that shows what is wrong with all, or, where none reaches
-  /// the pose, of theta_r with the guess of what follows. Throws std::invalid_argument if theta_r
-  /// has the wrong size or is not finite.
+  /// of the first valid posture, or of one that shows what is wrong with all, or, where none
+  /// reaches the pose, of theta_r with the guess of what follows. Throws std::invalid_argument if
+  /// theta_r has the wrong size or is not finite.
   const Posture& evaluate(const Eigen::VectorXd& theta_r);
 
   /// How many valid postures the last theta_r has: one for each solution of the inverse kinematics

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "maxwrench/status.h"
@@ -10,6 +12,13 @@
 namespace maxwrench {
 
 class Objective;
+struct SearchEntry;
+
+/// A point that was evaluated. `value` is -infinity where the objective has none.
+struct Candidate {
+  Eigen::VectorXd theta_r;
+  double value = -kInfinity;
+};
 
 struct SearchOptions {
   std::uint64_t seed = 1;
@@ -17,6 +26,10 @@ struct SearchOptions {
   int threads = 1;        ///< changes the time, never the result
   Eigen::VectorXd start;  ///< a posture that searches with a start evaluate first; empty: the
                           ///< middle of the bounds
+  /// What an earlier search has found, best first, each with a value: a search that goes on begins
+  /// there, and only then where it would begin by itself.
+  std::vector<Candidate> starts;
+  long peaks = 0;  ///< how many points the result shall hold, at most, for a search that goes on
   std::function<void(long evaluations)>
       progress;  ///< called now and then, from any thread; may be empty
 };
@@ -25,6 +38,13 @@ struct SearchOptions {
 struct Improvement {
   long evaluations = 0;
   double value = -kInfinity;
+};
+
+/// One run of a method, such as one climb of "slsqp" that ended with "xtol_reached".
+struct Call {
+  std::string method;  ///< the search's name
+  std::string status;  ///< the word of the library; "budget" where its evaluations ran out
+  long evaluations = 0;
 };
 
 /// The best point that a search saw: kBestFound if any evaluated point has a value, else
@@ -37,6 +57,9 @@ struct SearchResult : Verdict {
   /// Every improvement, the last one is `value`. Parts of a search that run side by side count as
   /// if they took turns, one evaluation each, so the history is the same at any thread count.
   std::vector<Improvement> history;
+  /// Points for a search that goes on, best first and apart from each other.
+  std::vector<Candidate> peaks;
+  std::vector<Call> calls;  ///< of a method that runs more than once, or in a library; in order
 };
 
 /// Maximises an objective over its bounds.
@@ -45,5 +68,17 @@ class Search {
   virtual ~Search() = default;
   virtual SearchResult maximize(Objective& objective, const SearchOptions& options) = 0;
 };
+
+/// What the name of a search says: an entry's, or several joined by '+', such as "crs2+cmaes":
+/// stages, each of which goes on where the earlier ones have been.
+struct NamedSearch {
+  std::string name;
+  std::vector<const SearchEntry*> stages;
+  bool local = false;  ///< all stages are
+  std::unique_ptr<Search> make() const;
+};
+
+/// The search of postures that is best in general, of those that are built in.
+const char* default_search();
 
 }  // namespace maxwrench

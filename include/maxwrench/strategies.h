@@ -57,11 +57,17 @@ struct PlanSolverEntry {
   std::function<std::unique_ptr<PlanSolver>()> make;
 };
 
+/// One method alone.
 struct SearchEntry {
   const char* name;
   const char* summary;
   bool local;  ///< true: climbs from one posture, and finds no better maximum elsewhere
   std::unique_ptr<Search> (*make)();
+  /// Whether it begins where an earlier search has been (`SearchOptions::starts`), so that it can
+  /// be a later stage.
+  bool goes_on = false;
+  /// Of the budget, as a stage that others follow; 0: one part for each stage that is left.
+  double share = 0;
 };
 
 struct IntegratorEntry {
@@ -99,9 +105,10 @@ const MeasureEntry& find_measure(std::string_view name);
 const LpEntry& find_lp_solver(std::string_view name);
 const WrenchSolverEntry& find_wrench_solver(std::string_view name);
 const PlanSolverEntry& find_plan_solver(std::string_view name);
-const SearchEntry& find_search(std::string_view name);
-/// Of all tables of searches.
-const SearchEntry& find_plan_search(std::string_view name);
+/// Also throws if a later stage cannot go on.
+NamedSearch find_search(std::string_view name);
+/// Stages of all tables.
+NamedSearch find_plan_search(std::string_view name);
 const IntegratorEntry& find_integrator(std::string_view name);
 
 }  // namespace maxwrench

@@ -4,7 +4,7 @@
 #include "lib/math/random.h"
 #include "maxwrench/batch.h"
 #include "solvers/search/makers.h"
-#include "solvers/search/refine.h"
+#include "solvers/search/probe.h"
 
 namespace maxwrench {
 namespace {
@@ -104,44 +104,39 @@ class Chain {
   double count_ = 0, mean_ = 0, square_ = 0;  // of the sample: Welford's running moments
 };
 
-/// Simulated annealing with restarts.
+/// Simulated annealing with restarts (Kirkpatrick, Gelatt, Vecchi 1983).
 ///
-/// Schedule: 60 % of the budget goes to r = sqrt(budget/300) independent chains (1 to 32), each
-/// with its own stream of random numbers. A chain samples the bounds with a tenth of its steps (the
-/// first chain: `start` first) and walks on from the best point of the sample. Its temperature
-/// begins at the sample's standard deviation and falls geometrically to 1e-4 of it; a proposal is a
-/// normal step of all coordinates, reflected at the bounds, its length steered to an acceptance of
-/// 30 to 45 %. A point without a value is never accepted; a chain that has seen none with a value
-/// keeps sampling. The rest of the budget refines the best points of the chains, see `refine`.
+/// The budget goes to r = sqrt(budget/180) independent chains (1 to 32), each with its own stream
+/// of random numbers. A chain samples the bounds with a tenth of its steps (after a point of the
+/// earlier search, if there is one; without any, the first chain after `start`) and walks on from
+/// the best point of the sample. Its temperature begins at the sample's standard deviation and
+/// falls geometrically to 1e-4 of it; a proposal is a normal step of all coordinates, reflected at
+/// the bounds, its length steered to an acceptance of 30 to 45 %. A point without a value is never
+/// accepted; a chain that has seen none with a value keeps sampling.
 class Annealing final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {
     check(options);
     const Box box(objective);
-    const Eigen::VectorXd start = box.start(options.start);
     EvaluationCounter progress(options.progress);
-    const long walking = box.free() == 0 ? 1 : std::max(1L, options.budget * 6 / 10);
-    const long wanted = std::lround(std::sqrt(static_cast<double>(options.budget) / 300));
+    const long walking = box.free() == 0 ? 1 : options.budget;
+    const long wanted = std::lround(std::sqrt(static_cast<double>(walking) / 180));
     const long chains = std::min(walking, std::clamp(wanted, 1L, 32L));
+    std::vector<Eigen::VectorXd> starts;
+    for (const Candidate& start : options.starts) starts.push_back(start.theta_r);
+    if (starts.empty()) starts.push_back(box.start(options.start));
     std::vector<Part> parts(chains);
     parallel_for(options.threads, chains, [&](long i) {
       const long length = walking / chains + (i < walking % chains ? 1 : 0);
-      Probe probe(objective, length, progress);
-      Chain(probe, box, Random(options.seed, RandomUse::kClimb, i)).run(i == 0 ? &start : nullptr);
-      parts[i] = probe.found();
+      Probe probe(objective, length, progress, options.peaks > 0 ? &box : nullptr);
+      const bool given = i < static_cast<long>(starts.size());
+      Chain(probe, box, Random(options.seed, RandomUse::kClimb, i))
+          .run(given ? &starts[i] : nullptr);
+      parts[i] = probe.take();
     });
     Part found;
     join(parts, found);
-    std::vector<Candidate> bests;
-    for (const Part& part : parts) bests.push_back(part.best);
-    RefineOptions refinement;
-    refinement.step = 0.02;
-    refinement.separation = 0.02;
-    refinement.budget = options.budget - walking;
-    refinement.seed = options.seed;
-    refinement.threads = options.threads;
-    refine(objective, box, std::move(bests), refinement, progress, found);
-    return make_result(found);
+    return make_result(std::move(found), box, options);
   }
 };
 

@@ -42,6 +42,13 @@ Eigen::VectorXd Box::unit(const Eigen::VectorXd& theta_r) const {
   return x;
 }
 
+double Box::distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const {
+  double distance = 0;
+  for (const int i : free_)
+    distance = std::max(distance, std::abs(a[i] - b[i]) / (upper_[i] - lower_[i]));
+  return distance;
+}
+
 Eigen::VectorXd Box::slope(const Eigen::VectorXd& gradient) const {
   Eigen::VectorXd slope(free());
   for (int j = 0; j < free(); ++j) {
@@ -61,6 +68,10 @@ Eigen::VectorXd Box::start(const Eigen::VectorXd& start) const {
 }
 
 void parallel_for(int threads, long count, const std::function<void(long)>& body) {
+  if (threads == 1 || count == 1) {
+    for (long i = 0; i < count; ++i) body(i);
+    return;
+  }
   // Threads beyond the processors only slow down, but whoever asks for them gets them.
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
   tbb::task_arena arena(threads);

@@ -7,6 +7,7 @@
 
 #include "solvers/caught.h"
 #include "solvers/ipopt_lock.h"
+#include "solvers/search/ipopt_word.h"
 #include "solvers/search/makers.h"
 
 namespace maxwrench {
@@ -117,13 +118,13 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> make_facet_application() {
 
 }  // namespace
 
-Eigen::VectorXd solve_facets_by_ipopt(FacetView& view) {
+FacetEnd solve_facets_by_ipopt(FacetView& view) {
   const std::lock_guard guard(ipopt_lock());
   const auto application = make_facet_application();
   const Ipopt::SmartPtr<FacetNlp> nlp = new FacetNlp(view);
-  application->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(nlp)));
+  const auto status = application->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(nlp)));
   nlp->rethrow();
-  return nlp->end();
+  return {nlp->end(), word_of(status)};
 }
 
 namespace {

@@ -6,6 +6,6 @@ namespace maxwrench {
 
 /// A local solve by Ipopt with a limited-memory Hessian, at most 100 iterations, behind Ipopt's
 /// lock. At a point without a posture Ipopt is told so and shortens its step.
-Eigen::VectorXd solve_facets_by_ipopt(FacetView& view);
+FacetEnd solve_facets_by_ipopt(FacetView& view);
 
 }  // namespace maxwrench

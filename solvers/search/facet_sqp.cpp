@@ -6,6 +6,7 @@
 
 #include "solvers/caught.h"
 #include "solvers/search/makers.h"
+#include "solvers/search/nlopt_run.h"
 
 namespace maxwrench {
 namespace {
@@ -81,7 +82,7 @@ void balance(unsigned, double* result, unsigned n, const double* point, double* 
 
 }  // namespace
 
-Eigen::VectorXd solve_facets_by_slsqp(FacetView& view) {
+FacetEnd solve_facets_by_slsqp(FacetView& view) {
   Eigen::VectorXd y = view.start();
   const FacetOptimizer opt(nlopt_create(NLOPT_LD_SLSQP, static_cast<unsigned>(y.size())),
                            nlopt_destroy);
@@ -108,9 +109,9 @@ Eigen::VectorXd solve_facets_by_slsqp(FacetView& view) {
   nlopt_set_xtol_abs1(opt.get(), kYTolerance);
   nlopt_set_maxeval(opt.get(), kSqpPoints);
   double value = 0;
-  nlopt_optimize(opt.get(), y.data(), &value);
+  const nlopt_result result = nlopt_optimize(opt.get(), y.data(), &value);
   session.caught.rethrow();
-  return y;
+  return {y, word_of(result)};
 }
 
 namespace {

@@ -6,6 +6,6 @@ namespace maxwrench {
 
 /// A local solve by SLSQP of NLopt, at most 400 points. SLSQP wants numbers everywhere: a point
 /// without a posture misses all rows by ten half widths there, so that a step gets shorter.
-Eigen::VectorXd solve_facets_by_slsqp(FacetView& view);
+FacetEnd solve_facets_by_slsqp(FacetView& view);
 
 }  // namespace maxwrench

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "lib/math/random.h"
+#include "solvers/search/climbs.h"
 
 namespace maxwrench {
 namespace {
@@ -23,15 +24,17 @@ Eigen::VectorXd draw(const Box& box, Random random) {
   return box.theta_r(x);
 }
 
-/// From each branch of theta_r; how many there are.
-int solve_all(Probe& probe, const Box& box, const Eigen::VectorXd& theta_r,
-              const FacetSolve& solve) {
+/// From each branch of theta_r; appends how each solve ended.
+void solve_all(Probe& probe, const Box& box, const Eigen::VectorXd& theta_r, const char* name,
+               const FacetSolve& solve, std::vector<Call>& calls) {
   probe.spend();
   const int branches = probe.facets()->branches(theta_r);
   for (int k = 0; k < branches && probe.left() >= kFewest && !probe.ended(); ++k) {
-    solve_from(probe, box, theta_r, k, solve);
+    Call call{name, "", probe.left()};
+    solve_from(probe, box, theta_r, k, solve, &call.status);
+    call.evaluations -= probe.left();
+    calls.push_back(std::move(call));
   }
-  return branches;
 }
 
 }  // namespace
@@ -102,10 +105,12 @@ const FacetView::Jacobian& FacetView::jacobian() {
 }
 
 double solve_from(Probe& probe, const Box& box, const Eigen::VectorXd& theta_r, int branch,
-                  const FacetSolve& solve) {
+                  const FacetSolve& solve, std::string* status) {
   FacetView view(probe, box);
   view.set_out(theta_r, branch);
-  return probe.evaluate(view.theta_r(solve(view)));
+  const FacetEnd end = solve(view);
+  if (status) *status = view.ended() ? kBudgetUsed : end.status;
+  return probe.evaluate(view.theta_r(end.y));
 }
 
 SearchResult search_from_facet_starts(const char* name, Objective& objective,
@@ -119,25 +124,30 @@ SearchResult search_from_facet_starts(const char* name, Objective& objective,
   }
   const Box box(objective);
   const Eigen::VectorXd start = box.start(options.start);
+  const long givens = std::max<long>(1, static_cast<long>(options.starts.size()));
+  const auto given = [&](long i) -> const Eigen::VectorXd& {
+    return options.starts.empty() ? start : options.starts[static_cast<std::size_t>(i)].theta_r;
+  };
   EvaluationCounter progress(options.progress);
   const long parts = facet_parts_of(options.budget);
   std::vector<Part> found(static_cast<std::size_t>(parts));
   parallel_for(options.threads, parts, [&](long part) {
     Probe probe(objective, options.budget / parts + (part < options.budget % parts ? 1 : 0),
-                progress);
-    if (part == 0) probe.evaluate(start);
-    long solves = 0;
-    for (long i = part;
-         box.free() > 0 && probe.left() > 0 && !probe.ended() && solves <= most / parts;
+                progress, options.peaks > 0 ? &box : nullptr);
+    if (part == 0) probe.evaluate(given(0));
+    std::vector<Call> calls;
+    const auto enough = [&] { return static_cast<long>(calls.size()) > most / parts; };
+    for (long i = part; box.free() > 0 && probe.left() > 0 && !probe.ended() && !enough();
          i += parts) {
       const Random random(options.seed, RandomUse::kClimb, static_cast<std::uint64_t>(i));
-      solves += solve_all(probe, box, i == 0 ? start : draw(box, random), solve);
+      solve_all(probe, box, i < givens ? given(i) : draw(box, random), name, solve, calls);
     }
-    found[static_cast<std::size_t>(part)] = probe.found();
+    found[static_cast<std::size_t>(part)] = probe.take();
+    found[static_cast<std::size_t>(part)].calls = std::move(calls);
   });
   Part all;
   join(found, all);
-  return make_result(all);
+  return make_result(std::move(all), box, options);
 }
 
 }  // namespace maxwrench

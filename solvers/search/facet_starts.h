@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <limits>
+#include <string>
 
 #include "lib/search/facet_program.h"
 #include "solvers/search/probe.h"
@@ -55,22 +56,30 @@ class FacetView {
   Jacobian jacobian_;
 };
 
-/// A local solve from `view.start()`; returns where it ended.
-using FacetSolve = std::function<Eigen::VectorXd(FacetView& view)>;
+/// Where a local solve ended, and the library's word for it.
+struct FacetEnd {
+  Eigen::VectorXd y;
+  std::string status;
+};
 
-/// Local solves from many postures, first `options.start`, then random ones: from each of the
-/// branches of one. The objective is evaluated at the end of each, and that alone counts as found.
-/// Each start counts as an evaluation, with or without a posture, and so does each of its branches,
-/// each point at which a solve asks for rows, and each end. Runs in up to eight parts side by side,
-/// one for each 200 evaluations of the budget, and ends after `most` solves or a few more. Throws
-/// std::invalid_argument, with `name`, if the objective has no facets.
+/// A local solve from `view.start()`.
+using FacetSolve = std::function<FacetEnd(FacetView& view)>;
+
+/// Local solves from many postures, first `options.starts`, or without any `options.start`, then
+/// random ones: from each of the branches of one. The objective is evaluated at the end of each,
+/// and that alone counts as found. Each start counts as an evaluation, with or without a posture,
+/// and so does each of its branches, each point at which a solve asks for rows, and each end. Runs
+/// in up to eight parts side by side, one for each 200 evaluations of the budget, and ends after
+/// `most` solves or a few more. Throws std::invalid_argument, with `name`, if the objective has no
+/// facets.
 SearchResult search_from_facet_starts(const char* name, Objective& objective,
                                       const SearchOptions& options, const FacetSolve& solve,
                                       long most = std::numeric_limits<long>::max());
 
 /// One of these local solves, from a branch of theta_r (`FacetProgram::branches`): the value at its
-/// end, -infinity if there is none. At least three evaluations are left.
+/// end, -infinity if there is none. At least three evaluations are left. `status`, if given, gets
+/// the library's word.
 double solve_from(Probe& probe, const Box& box, const Eigen::VectorXd& theta_r, int branch,
-                  const FacetSolve& solve);
+                  const FacetSolve& solve, std::string* status = nullptr);
 
 }  // namespace maxwrench

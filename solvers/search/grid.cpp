@@ -3,7 +3,7 @@
 
 #include "maxwrench/batch.h"
 #include "solvers/search/makers.h"
-#include "solvers/search/refine.h"
+#include "solvers/search/probe.h"
 
 namespace maxwrench {
 namespace {
@@ -12,11 +12,11 @@ namespace {
 /// stands in the middle. The first coordinate runs slowest.
 class Lattice {
  public:
-  /// The largest N with N^d <= 0.9 budget, the same in all d dimensions. Where even 2^d is too
-  /// many, the first dimensions get two points, as many as the budget allows, and the others one.
+  /// The largest N with N^d <= budget, the same in all d dimensions. Where even 2^d is too many,
+  /// the first dimensions get two points, as many as the budget allows, and the others one.
   Lattice(int d, long budget) : points_(d, 1) {
     if (d == 0) return;
-    const double share = 0.9 * static_cast<double>(budget);
+    const auto share = static_cast<double>(budget);
     auto fits = [&](double N) { return std::pow(N, d) <= share; };
     long N = std::lround(std::pow(share, 1.0 / d)) + 1;
     while (N > 1 && !fits(static_cast<double>(N))) --N;
@@ -31,11 +31,6 @@ class Lattice {
     return product;
   }
   int dimension() const { return static_cast<int>(points_.size()); }
-  /// The distance between neighbours along the finest coordinate.
-  double spacing() const {
-    const long N = points_.empty() ? 1 : points_[0];
-    return N == 1 ? 0.5 : 1 / static_cast<double>(N - 1);
-  }
 
   Eigen::VectorXd point(long index) const {
     Eigen::VectorXd x(dimension());
@@ -68,13 +63,9 @@ class Lattice {
   std::vector<long> points_;
 };
 
-/// A grid over the bounds, refined around its best peaks.
-///
-/// Schedule: N = floor((0.9 budget)^(1/d)) points in each of the d dimensions, the bounds included
-/// (600 × 600 for a budget of 400,000 in two dimensions). The rest of the budget refines the best
-/// peaks of the grid (points without a better neighbour, at least a sixteenth of the bounds apart;
-/// see `refine`), starting with a reach of one cell, until it is used or the reach is below 1e-9.
-/// A dimension with lower = upper takes no part. The seed has no effect.
+/// A regular grid over the bounds: N = floor(budget^(1/d)) points in each of the d dimensions, the
+/// bounds included. A dimension with lower = upper takes no part. The seed has no effect. What a
+/// later search gets are its peaks, the points without a better neighbour.
 class Grid final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {
@@ -86,18 +77,13 @@ class Grid final : public Search {
     const std::vector<double> values =
         evaluate_all(objective, lattice.size(), point, options.threads, progress);
     Part found;
-    std::vector<Candidate> peaks;
     for (long i = 0; i < lattice.size(); ++i) {
       found.trace.add(values[i]);
-      if (lattice.is_peak(values, i)) peaks.push_back({point(i), values[i]});
+      if (values[i] > found.best.value) found.best = {point(i), values[i]};
+      if (options.peaks > 0 && lattice.is_peak(values, i))
+        found.peaks.push_back({point(i), values[i]});
     }
-    RefineOptions refinement;
-    refinement.step = lattice.spacing();
-    refinement.separation = 1.0 / 16;
-    refinement.budget = options.budget - lattice.size();
-    refinement.threads = options.threads;
-    refine(objective, box, std::move(peaks), refinement, progress, found);
-    return make_result(found);
+    return make_result(std::move(found), box, options);
   }
 };
 

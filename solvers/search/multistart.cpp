@@ -6,9 +6,10 @@
 
 #include "solvers/caught.h"
 #include "solvers/ipopt_lock.h"
+#include "solvers/search/climbs.h"
+#include "solvers/search/ipopt_word.h"
 #include "solvers/search/knot_starts.h"
 #include "solvers/search/makers.h"
-#include "solvers/search/stages.h"
 
 namespace maxwrench {
 namespace {
@@ -138,39 +139,43 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> make_application(int iterations) {
   return application;
 }
 
+/// One solve from `start`, and Ipopt's word for its end.
+std::string solve_by_ipopt(Probe& probe, const Box& box, const Eigen::VectorXd& start,
+                           int iterations, const KnotRows* rows = nullptr) {
+  const std::lock_guard guard(ipopt_lock());
+  const auto application = make_application(iterations);
+  const Ipopt::SmartPtr<BoundedNlp> nlp = new BoundedNlp(probe, box, box.unit(start), rows);
+  const auto status = application->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(nlp)));
+  nlp->rethrow();
+  return probe.left() == 0 ? kBudgetUsed : word_of(status);
+}
+
 }  // namespace
 
-void climb_by_ipopt(Probe& probe, const Box& box, const Eigen::VectorXd& x) {
-  const std::lock_guard guard(ipopt_lock());
-  const auto application = make_application(kPostureIterations);
-  const Ipopt::SmartPtr<BoundedNlp> nlp = new BoundedNlp(probe, box, x);
-  application->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(nlp)));
-  nlp->rethrow();
+void climb_by_ipopt(Probe& probe, const Box& box, const Eigen::VectorXd& theta_r) {
+  solve_by_ipopt(probe, box, theta_r, kPostureIterations);
 }
 
 namespace {
 
-/// Local solves by Ipopt (interior point, limited-memory quasi-Newton, exact gradient) from the
-/// best points of a sample: what fmincon with MultiStart does. One start for each 500 evaluations
-/// of the budget and at most 64, for a start costs far more time than its evaluations. They run one
-/// after the other behind one lock; threads speed up the other two stages only.
-/// Where the objective has a kink the line search gives up, and the last stage goes on from there.
+/// Local solves by Ipopt (interior point, limited-memory quasi-Newton, exact gradient) from many
+/// random points: what fmincon with MultiStart does. One start for each 500 evaluations of the
+/// budget and at most 64, for a start costs far more time than its evaluations; they run one after
+/// the other behind one lock. Where the objective has a kink the line search gives up.
 ///
-/// Of a plan it is the paper's bilevel method and nothing else: from the best of the drawn tables,
-/// one start after the other, subject to the rows of the knots.
+/// Of a plan it is the paper's bilevel method: from the best of the drawn tables, or where an
+/// earlier search has been, one start after the other, subject to the rows of the knots.
 class Multistart final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {
     if (objective.plans() != nullptr) return maximize_plan(objective, options);
-    const auto starts = static_cast<std::size_t>(std::clamp(options.budget / 500, 1L, 64L));
-    const auto climb = [starts](Probe& probe, const Box& box, const Sample& sample, long /*part*/,
-                                const Random& /*random*/) {
-      const std::size_t count = std::min(sample.starts.size(), starts);
-      for (std::size_t i = 0; i < count && probe.left() > 0; ++i) {
-        climb_by_ipopt(probe, box, sample.starts[i]);
-      }
+    Climbing climbing{"multistart"};
+    climbing.starts = std::clamp(options.budget / 500, 1L, 64L);
+    climbing.most = 1;
+    climbing.climb = [](Probe& probe, const Box& box, const Candidate& start, Random& /*random*/) {
+      return solve_by_ipopt(probe, box, start.theta_r, kPostureIterations);
     };
-    return search_in_stages(objective, options, 1, climb);
+    return search_by_climbs(objective, options, climbing);
   }
 
  private:
@@ -178,21 +183,23 @@ class Multistart final : public Search {
     check(options);
     EvaluationCounter progress(options.progress);
     Part found;
-    const std::vector<Candidate> starts = draw_knot_starts(objective, options, progress, found);
+    const std::vector<Candidate> starts =
+        options.starts.empty() ? draw_knot_starts(objective, options, progress, found)
+                               : options.starts;
     const Box box(objective);
-    const KnotRows& rows = objective.plans()->rows();
-    Probe probe(objective, options.budget - found.trace.evaluations(), progress);
+    Probe probe(objective, 0, progress, options.peaks > 0 ? &box : nullptr);
     for (const Candidate& start : starts) {
-      if (probe.left() == 0) break;
-      const std::lock_guard guard(ipopt_lock());
-      const auto application = make_application(kPlanIterations);
-      const Ipopt::SmartPtr<BoundedNlp> nlp =
-          new BoundedNlp(probe, box, box.unit(start.theta_r), &rows);
-      application->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(nlp)));
-      nlp->rethrow();
+      const long left = options.budget - found.trace.evaluations();
+      if (left <= 0) break;
+      probe.grant(left);
+      Call call{"multistart", "", left};
+      call.status =
+          solve_by_ipopt(probe, box, start.theta_r, kPlanIterations, &objective.plans()->rows());
+      call.evaluations -= probe.left();
+      join({probe.take()}, found);
+      found.calls.push_back(call);
     }
-    join({probe.found()}, found);
-    return make_result(found);
+    return make_result(std::move(found), box, options);
   }
 };
 

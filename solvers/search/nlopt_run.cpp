@@ -1,5 +1,6 @@
 #include "solvers/search/nlopt_run.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "solvers/caught.h"
@@ -21,19 +22,18 @@ struct Session {
 /// phi(f) at x.
 double look(Session& s, unsigned n, const double* x, double* slope) {
   double value = -kInfinity;
-  // Some methods take seconds to spend a large budget in vain.
-  if (s.probe.left() == 0 || s.probe.ended()) {
+  const Eigen::Map<const Eigen::VectorXd> point(x, n);
+  // Some methods take seconds to spend a large budget in vain, and some leave the numbers.
+  if (s.probe.left() == 0 || s.probe.ended() || !point.allFinite()) {
     nlopt_force_stop(s.opt);
   } else {
-    const Eigen::Map<const Eigen::VectorXd> point(x, n);
     value = s.probe.evaluate(s.box.theta_r(point), slope ? &s.gradient : nullptr);
   }
-  if (value == -kInfinity) {
-    if (slope) std::fill(slope, slope + n, 0.0);
-    return -1;
-  }
+  const bool climbs = slope && value > -kInfinity && s.gradient.allFinite();
+  if (slope && !climbs) std::fill(slope, slope + n, 0.0);
+  if (value == -kInfinity) return -1;
   const double reach = s.scale + std::abs(value);
-  if (slope) {
+  if (climbs) {
     Eigen::Map<Eigen::VectorXd>(slope, n) = s.scale / (reach * reach) * s.box.slope(s.gradient);
   }
   return value / reach;
@@ -54,17 +54,16 @@ OwnedOptimizer make(nlopt_algorithm algorithm, const NloptOptions& options, unsi
   nlopt_set_lower_bounds1(opt.get(), 0);
   nlopt_set_upper_bounds1(opt.get(), 1);
   nlopt_set_xtol_abs1(opt.get(), options.x_tolerance);
+  nlopt_set_ftol_rel(opt.get(), options.f_tolerance);
   if (options.initial_step > 0) nlopt_set_initial_step1(opt.get(), options.initial_step);
   return opt;
 }
 
-}  // namespace
-
-void run_nlopt(const NloptOptions& options, Probe& probe, const Box& box, const Sample& sample,
-               Eigen::VectorXd x, Random& random) {
+std::string climb_by_nlopt(const NloptOptions& options, Probe& probe, const Box& box,
+                           const Candidate& start, Random& random) {
   const auto n = static_cast<unsigned>(box.free());
   const OwnedOptimizer opt = make(options.algorithm, options, n);
-  Session session{probe, box, sample.scale, opt.get(), {}, {}};
+  Session session{probe, box, std::max(1.0, std::abs(start.value)), opt.get(), {}, {}};
   nlopt_set_max_objective(opt.get(), objective, &session);
   nlopt_set_maxeval(opt.get(), static_cast<int>(probe.left()));
   if (options.local != NLOPT_NUM_ALGORITHMS) {
@@ -72,23 +71,45 @@ void run_nlopt(const NloptOptions& options, Probe& probe, const Box& box, const 
     nlopt_set_xtol_abs1(opt.get(), 0);
   }
   nlopt_srand(static_cast<unsigned long>(random.next()));
+  Eigen::VectorXd x = box.unit(start.theta_r);
   double value = 0;
-  nlopt_optimize(opt.get(), x.data(), &value);  // however it ends, the probe has kept the best
+  // However it ends, the probe has kept the best.
+  const nlopt_result result = nlopt_optimize(opt.get(), x.data(), &value);
   session.caught.rethrow();
+  return probe.left() == 0 ? kBudgetUsed : word_of(result);
 }
 
-Climb nlopt_restarts(const NloptOptions& options, long parts) {
-  return [=](Probe& probe, const Box& box, const Sample& sample, long part, Random random) {
-    for (auto next = static_cast<std::size_t>(part); probe.left() > 0 && !probe.ended();
-         next += static_cast<std::size_t>(parts)) {
-      Eigen::VectorXd x(box.free());
-      for (double& x_j : x) x_j = random.uniform();
-      if (next < sample.starts.size()) x = sample.starts[next];
-      const long before = probe.left();
-      run_nlopt(options, probe, box, sample, x, random);
-      if (probe.left() == before) return;
-    }
-  };
+class NloptSearch final : public Search {
+ public:
+  explicit NloptSearch(const NloptOptions& method) : method_(method) {}
+  SearchResult maximize(Objective& objective, const SearchOptions& options) override {
+    NloptOptions method = method_;
+    if (options.peaks > 0 && method.x_rough > 0) method.x_tolerance = method.x_rough;
+    Climbing climbing{method.method};
+    climbing.reach = method.reach;
+    climbing.most = method.most;
+    climbing.climb = [&method](Probe& probe, const Box& box, const Candidate& start,
+                               Random& random) {
+      return climb_by_nlopt(method, probe, box, start, random);
+    };
+    return search_by_climbs(objective, options, climbing);
+  }
+
+ private:
+  NloptOptions method_;
+};
+
+}  // namespace
+
+std::string word_of(nlopt_result result) {
+  std::string word = nlopt_result_to_string(result);
+  std::transform(word.begin(), word.end(), word.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return word;
+}
+
+std::unique_ptr<Search> make_nlopt_search(const NloptOptions& method) {
+  return std::make_unique<NloptSearch>(method);
 }
 
 }  // namespace maxwrench

@@ -94,21 +94,24 @@ class Flow final : public Ode {
 /// Projection of the gradient onto the null space of J, eq:NullSpace: the established local method,
 /// here as the baseline that every global search should beat.
 ///
-/// Schedule: one flow from `start` if the seed is 1, for any other seed from the first of uniformly
-/// random postures that has a value. CVODE integrates it over intervals of growing length; between
-/// them the coordinates at a bound are chosen anew that must rest there. The flow ends when it
-/// stands still (an interval brings less than 1e-10 of the value), where it runs against postures
-/// without a value, where it chatters along a kink, or with the budget. It finds the maximum that
-/// lies uphill from its start and no other one, and may stop on a ridge.
+/// Schedule: one flow from the best point of an earlier search; without any, from `start` if the
+/// seed is 1, for any other seed from the first of uniformly random postures that has a value.
+/// CVODE integrates it over intervals of growing length; between them the coordinates at a bound
+/// are chosen anew that must rest there. The flow ends when it stands still (an interval brings
+/// less than 1e-10 of the value), where it runs against postures without a value, where it chatters
+/// along a kink, or with the budget. It finds the maximum that lies uphill from its start and no
+/// other one, and may stop on a ridge.
 class Nullspace final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {
     check(options);
     const Box box(objective);
     EvaluationCounter progress(options.progress);
-    Probe probe(objective, options.budget, progress);
+    Probe probe(objective, options.budget, progress, options.peaks > 0 ? &box : nullptr);
     Eigen::VectorXd start = box.start(options.start);
-    if (options.seed != 1) {
+    if (!options.starts.empty()) {
+      start = options.starts.front().theta_r;
+    } else if (options.seed != 1) {
       Random random(options.seed, RandomUse::kSample, 0);
       do {
         for (int i = 0; i < start.size(); ++i)
@@ -116,7 +119,7 @@ class Nullspace final : public Search {
       } while (probe.left() > 0 && probe.evaluate(start) == -kInfinity);
     }
     follow(probe, objective, start);
-    return make_result(probe.found());
+    return make_result(probe.take(), box, options);
   }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 namespace maxwrench {
 namespace {
@@ -41,10 +42,12 @@ void Probe::spend() {
   if (found_.trace.evaluations() - reported_ >= kReportEvery) report();
 }
 
-std::vector<Candidate> Probe::peaks() const {
-  std::vector<Candidate> peaks;
-  for (const auto& [cell, best] : cells_) peaks.push_back(best);
-  return peaks;
+Part Probe::take() {
+  report();
+  for (const auto& [cell, best] : cells_) found_.peaks.push_back(best);
+  cells_.clear();
+  reported_ = budget_ = 0;
+  return std::exchange(found_, {});
 }
 
 /// Beyond 21 coordinates the numbers wrap and a few cells share one.
@@ -67,18 +70,44 @@ void join(const std::vector<Part>& parts, Part& found) {
   for (const Part& part : parts) {
     traces.push_back(part.trace);
     if (part.best.value > found.best.value) found.best = part.best;
+    found.peaks.insert(found.peaks.end(), part.peaks.begin(), part.peaks.end());
+    found.calls.insert(found.calls.end(), part.calls.begin(), part.calls.end());
   }
   found.trace.append(traces);
+}
+
+std::vector<Candidate> select_apart(const Box& box, std::vector<Candidate> candidates,
+                                    double separation, long count) {
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
+  std::vector<Candidate> selected;
+  for (Candidate& candidate : candidates) {
+    if (static_cast<long>(selected.size()) == count || candidate.value == -kInfinity) break;
+    const bool close = std::any_of(selected.begin(), selected.end(), [&](const Candidate& other) {
+      return box.distance(other.theta_r, candidate.theta_r) < separation;
+    });
+    if (!close) selected.push_back(std::move(candidate));
+  }
+  return selected;
 }
 
 SearchResult make_result(const Part& found) {
   SearchResult result;
   result.evaluations = found.trace.evaluations();
+  result.calls = found.calls;
   if (found.best.value == -kInfinity) return result;
   result.conclude(Status::kBestFound);
   result.theta_r = found.best.theta_r;
   result.value = found.best.value;
   result.history = found.trace.improvements();
+  return result;
+}
+
+SearchResult make_result(Part found, const Box& box, const SearchOptions& options) {
+  SearchResult result = make_result(found);
+  if (options.peaks == 0) return result;
+  found.peaks.insert(found.peaks.begin(), found.best);
+  result.peaks = select_apart(box, std::move(found.peaks), kApart, options.peaks);
   return result;
 }
 

@@ -14,6 +14,8 @@ namespace maxwrench {
 struct Part {
   Candidate best;
   Trace trace;
+  std::vector<Candidate> peaks = {};
+  std::vector<Call> calls = {};
 };
 
 /// The eyes of one part of a search: its own clone of the objective, its share of the budget, and
@@ -27,6 +29,12 @@ class Probe {
   ~Probe();
   Probe(const Probe&) = delete;
   Probe& operator=(const Probe&) = delete;
+
+  /// More evaluations.
+  void grant(long evaluations) { budget_ += evaluations; }
+
+  /// What was found since the last time; leaves no budget.
+  Part take();
 
   /// Evaluations that are left.
   long left() const { return budget_ - found_.trace.evaluations(); }
@@ -46,8 +54,6 @@ class Probe {
   /// The metric at the point of the last evaluation, which costs nothing.
   void metric(Eigen::MatrixXd& M) { objective_->metric(last_, M); }
   const Part& found() const { return found_; }
-  /// The best points of the cells.
-  std::vector<Candidate> peaks() const;
 
  private:
   void report();
@@ -63,10 +69,20 @@ class Probe {
   Eigen::VectorXd last_;
 };
 
-/// Of parts that ran side by side: the best point (the first of equals) and the common trace,
-/// appended to `found`.
+/// Of parts that ran side by side: the best point (the first of equals), the common trace, peaks
+/// and calls, appended to `found`.
 void join(const std::vector<Part>& parts, Part& found);
 
+/// How far two points of a selection are apart, at least, as a share of the bounds.
+inline constexpr double kApart = 0.05;
+
+/// The best candidates with a value, best first, at most `count`, each `separation` (as
+/// `Box::distance`) or more from all better ones; of equal ones the first counts.
+std::vector<Candidate> select_apart(const Box& box, std::vector<Candidate> candidates,
+                                    double separation, long count);
+
 SearchResult make_result(const Part& found);
+/// With the peaks that `options` ask for.
+SearchResult make_result(Part found, const Box& box, const SearchOptions& options);
 
 }  // namespace maxwrench

@@ -46,6 +46,8 @@ INSTANTIATE_TEST_SUITE_P(
                     BadWords{"eval planar/force --state none.toml", "none.toml: file"},
                     BadWords{"eval planar/force --state s.toml --lp simplex", "--lp"},
                     BadWords{"solve planar/force --search luck", "luck"},
+                    BadWords{"solve planar/force --search sample+luck", "got 'luck'"},
+                    BadWords{"solve planar/force --search cmaes+grid", "grid begins by itself"},
                     BadWords{"solve planar/two_arms --search joint_nlp", "second contact"},
                     BadWords{"solve planar/force --measure ellipsoid --search slp",
                              "--search: got 'slp', which serves linf_polytope"},

@@ -21,10 +21,11 @@ CommandResult interrupt(const std::string& words, const std::filesystem::path& f
 TEST(CtrlC, SolvePrintsTheBestSoFar) {
   const TemporaryFolder folder;
   for (const SearchEntry& search : searches()) {
-    if (search.name == std::string("nullspace")) continue;  // ends by itself, soon
+    const std::string name = search.name;
+    if (name == "nullspace" || name == "multistart") continue;  // end by themselves, soon
     SCOPED_TRACE(search.name);
     const CommandResult result =
-        interrupt("solve uvms/valve --json --budget 3000000 --search " + std::string(search.name),
+        interrupt("solve uvms/valve --json --budget 10000000 --search " + std::string(search.name),
                   folder.path());
     EXPECT_EQ(result.exit_status, 1) << result.err;
     EXPECT_EQ(result.err, "");
@@ -32,7 +33,7 @@ TEST(CtrlC, SolvePrintsTheBestSoFar) {
     EXPECT_EQ(best["status"], "budget_exhausted");
     EXPECT_EQ(best["reason"], "interrupted");
     EXPECT_GT(best["evaluations"], 0);
-    EXPECT_LT(best["evaluations"], 3000000);
+    EXPECT_LT(best["evaluations"], 10000000);
     // Its posture has its value.
     std::string theta_r;
     for (const json& angle : best["theta_r"])
@@ -71,7 +72,7 @@ TEST(CtrlC, ComparePrintsWhatItHas) {
   EXPECT_EQ(result.exit_status, 1) << result.err;
   EXPECT_NE(result.out.find("uvms/valve, interrupted: best known "), std::string::npos)
       << result.out;
-  EXPECT_NE(result.out.find("\ngrid "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("\ncrs2+cmaes "), std::string::npos) << result.out;
   EXPECT_EQ(result.out.find("planar/force"), std::string::npos) << result.out;
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "search_comparison.csv"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "search_comparison.svg"));

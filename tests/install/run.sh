@@ -116,10 +116,10 @@ holds parent/compile_commands.json parent.cpp /lib/robot/robot.cpp -DNDEBUG
 quietly cmake -S "$source/tests/install/parent" -B bare -D MAXWRENCH="$source" -D CMAKE_UNITY_BUILD=ON \
   -D CMAKE_UNITY_BUILD_BATCH_SIZE=0 -D CMAKE_CXX_FLAGS=-O0 \
   -D CMAKE_CXX_COMPILER="$(command -v clang++ || echo "$compiler")" -D MAXWRENCH_WITH_IPOPT=OFF -D MAXWRENCH_WITH_CLP=OFF \
-  -D MAXWRENCH_WITH_GLPK=OFF -D MAXWRENCH_WITH_NLOPT=OFF -D MAXWRENCH_WITH_SUNDIALS=OFF
+  -D MAXWRENCH_WITH_GLPK=OFF -D MAXWRENCH_WITH_NLOPT=OFF -D MAXWRENCH_WITH_PAGMO=OFF -D MAXWRENCH_WITH_SUNDIALS=OFF
 find bare -name 'unity_*.cxx' -exec cat {} + > bare.sources
 holds bare.sources solvers/lp/simplex.cpp solvers/search/grid.cpp
-for file in $(grep -lE '#include <(Ip|Clp|glpk|nlopt|arkode|cvode|ida|nvector|sundials)' -r "$source/solvers" --include='*.cpp'); do
+for file in $(grep -lE '#include <(Ip|Clp|glpk|nlopt|pagmo|arkode|cvode|ida|nvector|sundials)' -r "$source/solvers" --include='*.cpp'); do
   file=${file#"$source/"}
   [ "$file" = solvers/version.cpp ] || ! grep -q "$file" bare.sources || fail "$file needs a library that is left out"
 done

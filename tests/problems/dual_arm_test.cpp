@@ -18,7 +18,7 @@ Method pure_torque(const Problem& problem, const char* lp = "") {
   c.problem = problem.name;
   c.measure = "linf_polytope";
   c.lp = lp;
-  c.search = "grid";
+  c.search = "grid+cmaes";
   c.budget = kSampleDivisor > 1 ? 500 : 5000;
   return resolve(problem, c);
 }

@@ -165,7 +165,7 @@ TEST(FixedArm, SearchFindsTheBestOfAllPostures) {
   }
   Case c;
   c.problem = "fixed/push";
-  c.search = "grid";
+  c.search = "grid+cmaes";
   c.budget = kSampleDivisor > 1 ? 1000 : 4000;
   const Row row = solve(problem, resolve(problem, c), 1);
   ASSERT_EQ(row.status, Status::kBestFound);

@@ -127,7 +127,7 @@ TEST(Mobile, SearchFindsTheBestOfAGrid) {
   const Problem problem = load_problem("mobile/push");
   Case c;
   c.problem = "mobile/push";
-  c.search = "annealing";
+  c.search = "annealing+cmaes";
   c.budget = kSampleDivisor > 1 ? 2000 : 6000;
   const Row row = solve(problem, resolve(problem, c), 1);
   ASSERT_EQ(row.status, Status::kBestFound);

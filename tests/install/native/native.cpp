@@ -23,7 +23,7 @@ int main() {
     if (gradient.size() != problem.redundancy()) return 1;
     gradient.resize(size);
   }
-  result = find_search("grid").make()->maximize(*objective, options);
+  result = find_search("grid+cmaes").make()->maximize(*objective, options);
   Problem copy = load_problem("uvms/lift");
   copy = problem;
   const std::string svg = posture_figure(copy, {{"beta", result.theta_r}});

@@ -18,7 +18,7 @@ namespace {
 std::vector<Case> cases_of(const Problem& problem, const std::vector<std::string>& solvers) {
   std::vector<Case> cases = product(problem, 1, 1);
   std::erase_if(cases, [&](const Case& c) {
-    return c.search != searches()[0].name ||
+    return c.search != default_search() ||
            (c.lp != kNoSolver && std::find(solvers.begin(), solvers.end(), c.lp) == solvers.end());
   });
   return cases;

@@ -51,7 +51,7 @@ class Evaluator {
 /// Every closed form, and every measure with every solver that serves the wrench.
 std::vector<Case> all_cases(const std::string& problem) {
   std::vector<Case> cases = product(load_problem(problem), 1, 1);
-  std::erase_if(cases, [](const Case& c) { return c.search != searches()[0].name; });
+  std::erase_if(cases, [](const Case& c) { return c.search != default_search(); });
   return cases;
 }
 

@@ -1,11 +1,11 @@
-#include "solvers/search/refine.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "lib/math/decompositions.h"
 #include "lib/math/random.h"
+#include "solvers/search/climbs.h"
+#include "solvers/search/makers.h"
 
 namespace maxwrench {
 namespace {
@@ -103,21 +103,20 @@ class Ascent {
       : probe_(probe), box_(box), rates_(box.free()), best_(start), random_(random) {}
 
   /// Spends the evaluations of the probe, or fewer.
-  Candidate run(double step, double tolerance) {
+  void run(double step, double tolerance) {
     int idle = 0;
-    for (int start = 0; probe_.left() > 0 && idle < 2; ++start) {
+    for (int start = 0; probe_.left() > 0 && !probe_.ended() && idle < 2; ++start) {
       const double before = best_.value;
       climb(start % 2 == 0 ? step : step / 100, tolerance);
       // Rounding alone, as on a flat maximum, is no progress.
       idle = best_.value > before + 1e-13 * std::abs(before) ? 0 : idle + 1;
     }
-    return best_;
   }
 
  private:
   void climb(double step, double tolerance) {
     Evolution evolution(rates_, box_.unit(best_.theta_r), step);
-    while (probe_.left() > 0 && evolution.reach() > tolerance)
+    while (probe_.left() > 0 && !probe_.ended() && evolution.reach() > tolerance)
       generation(std::min<long>(rates_.lambda, probe_.left()), evolution);
   }
 
@@ -155,48 +154,72 @@ class Ascent {
   Random random_;
 };
 
-}  // namespace
+constexpr double kFirstStep = 0.3;   // from a random point, as a share of the bounds
+constexpr double kNearStep = 0.02;   // from where an earlier search has been
+constexpr double kTolerance = 1e-9;  // an ascent ends when it looks less far than this
+constexpr long kMostAscents = 24;    // from points of an earlier search
 
-std::vector<Candidate> select_apart(const Box& box, std::vector<Candidate> candidates,
-                                    double separation, long count) {
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
-  std::vector<Candidate> selected;
-  for (const Candidate& candidate : candidates) {
-    if (static_cast<long>(selected.size()) == count || candidate.value == -kInfinity) break;
-    const Eigen::VectorXd x = box.unit(candidate.theta_r);
-    const bool close = std::any_of(selected.begin(), selected.end(), [&](const Candidate& other) {
-      return (box.unit(other.theta_r) - x).lpNorm<Eigen::Infinity>() < separation;
-    });
-    if (!close) selected.push_back(candidate);
-  }
-  return selected;
-}
-
-void refine(const Objective& objective, const Box& box, std::vector<Candidate> candidates,
-            const RefineOptions& options, EvaluationCounter& progress, Part& found) {
-  const long shared = options.budget / 2;
-  const long count = std::clamp(shared / (100L * (box.free() + 1)), 1L, options.ascents);
-  std::vector<Candidate> best = select_apart(box, std::move(candidates), options.separation, count);
-  if (best.empty()) return;
-  if (best[0].value > found.best.value) found.best = best[0];
-  if (box.free() == 0 || options.budget <= 0) return;
-  const long before = found.trace.evaluations();
+/// Goes on from the best points of an earlier search: up to 24, best first and no more than the
+/// budget gives 120 (d + 1) evaluations each, share one half of it; the best of their results gets
+/// the rest.
+void ascend_from(const Objective& objective, const Box& box, const SearchOptions& options,
+                 EvaluationCounter& progress, Part& found) {
+  const long half = options.budget / 2;
+  const auto known = static_cast<long>(options.starts.size());
+  const long count =
+      std::min(known, std::clamp(half / (120L * (box.free() + 1)), 1L, kMostAscents));
   const auto ascend = [&](const Candidate& start, long budget, std::uint64_t stream) {
-    Probe probe(objective, budget, progress);
-    Part part;
-    part.best = Ascent(probe, box, start, Random(options.seed, RandomUse::kRefine, stream))
-                    .run(options.step, options.tolerance);
-    part.trace = probe.found().trace;
+    Probe probe(objective, budget, progress, options.peaks > 0 ? &box : nullptr);
+    Random random(options.seed, RandomUse::kRefine, stream);
+    Ascent(probe, box, start, random).run(kNearStep, kTolerance);
+    const long left = probe.left();
+    Part part = probe.take();
+    part.calls.push_back({"cmaes", left > 0 ? "converged" : kBudgetUsed, budget - left});
     return part;
   };
-  const long share = best.size() == 1 ? 0 : shared / static_cast<long>(best.size());
-  std::vector<Part> parts(share == 0 ? 0 : best.size());
+  const long share = count == 1 ? 0 : half / count;
+  std::vector<Part> parts(share == 0 ? 0 : static_cast<std::size_t>(count));
   parallel_for(options.threads, static_cast<long>(parts.size()),
-               [&](long i) { parts[i] = ascend(best[i], share, i + 1); });
+               [&](long i) { parts[i] = ascend(options.starts[i], share, i + 1); });
   join(parts, found);
-  const long rest = options.budget - (found.trace.evaluations() - before);
-  join({ascend(found.best, rest, 0)}, found);
+  const bool risen = found.best.value > options.starts.front().value;
+  const Candidate best = risen ? found.best : options.starts.front();
+  join({ascend(best, options.budget - found.trace.evaluations(), 0)}, found);
 }
+
+/// An evolution strategy with covariance matrix adaptation (CMA-ES; Hansen, "The CMA Evolution
+/// Strategy: A Tutorial", 2016) in the unit cube, projected onto the bounds. A capability is
+/// piecewise smooth: its maxima often lie on sharp ridges that are not parallel to the axes, where
+/// compass search and shrinking grids stall. The adapted covariance learns the ridge. Points
+/// without a value rank last.
+///
+/// Ascents from random points, or where an earlier search has been, see `ascend_from`, and then
+/// from random points. One that has converged starts again at its best point, with the first step
+/// and with a hundredth of it in turn, until two starts in a row bring nothing.
+class Cmaes final : public Search {
+ public:
+  SearchResult maximize(Objective& objective, const SearchOptions& options) override {
+    Climbing climbing{"cmaes"};
+    climbing.reach = 5000;
+    climbing.climb = [](Probe& probe, const Box& box, const Candidate& start, Random& random) {
+      Ascent(probe, box, start, random).run(kFirstStep, kTolerance);
+      return probe.left() > 0 ? "converged" : kBudgetUsed;
+    };
+    if (options.starts.empty()) return search_by_climbs(objective, options, climbing);
+    check(options);
+    const Box box(objective);
+    EvaluationCounter progress(options.progress);
+    Part found;
+    if (box.free() > 0) ascend_from(objective, box, options, progress, found);
+    SearchOptions anew = options;
+    anew.starts.clear();
+    if (box.free() > 0) climb_from_starts(objective, box, anew, climbing, progress, found);
+    return make_result(std::move(found), box, options);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Search> make_cmaes() { return std::make_unique<Cmaes>(); }
 
 }  // namespace maxwrench

@@ -1,0 +1,86 @@
+#include "solvers/search/makers.h"
+#include "solvers/search/nlopt_run.h"
+
+// The methods of NLopt, one maker each.
+
+namespace maxwrench {
+namespace {
+
+NloptOptions gradient_climb(const char* method, nlopt_algorithm algorithm) {
+  NloptOptions options{method, algorithm};
+  options.x_tolerance = 1e-7;
+  options.f_tolerance = 1e-10;
+  return options;
+}
+
+}  // namespace
+
+/// Sequential quadratic programs with a dense quasi-Newton matrix (Kraft 1994).
+std::unique_ptr<Search> make_slsqp() {
+  return make_nlopt_search(gradient_climb("slsqp", NLOPT_LD_SLSQP));
+}
+
+/// Moving asymptotes: separable convex models (Svanberg 2002).
+std::unique_ptr<Search> make_mma() {
+  return make_nlopt_search(gradient_climb("mma", NLOPT_LD_MMA));
+}
+
+/// Limited-memory quasi-Newton method with bounds (Liu, Nocedal 1989; Luksan's code).
+std::unique_ptr<Search> make_lbfgs() {
+  return make_nlopt_search(gradient_climb("lbfgs", NLOPT_LD_LBFGS));
+}
+
+/// Quadratic models without derivatives (Powell 2009).
+std::unique_ptr<Search> make_bobyqa() {
+  NloptOptions options{"bobyqa", NLOPT_LN_BOBYQA};
+  options.initial_step = 0.1;
+  options.x_tolerance = 1e-6;
+  return make_nlopt_search(options);
+}
+
+/// Linear models on a simplex without derivatives (Powell 1994).
+std::unique_ptr<Search> make_cobyla() {
+  NloptOptions options{"cobyla", NLOPT_LN_COBYLA};
+  options.initial_step = 0.1;
+  options.x_tolerance = 1e-6;
+  return make_nlopt_search(options);
+}
+
+/// Controlled random search with local mutation (Price 1983; Kaelo, Ali 2006): a population, the
+/// start one of it, that random simplices pull together. Where another search goes on, a population
+/// that has come within a hundredth of the bounds has shown where.
+std::unique_ptr<Search> make_crs2() {
+  NloptOptions options{"crs2", NLOPT_GN_CRS2_LM};
+  options.x_tolerance = 1e-7;
+  options.x_rough = 1e-2;
+  options.reach = 2500;
+  return make_nlopt_search(options);
+}
+
+/// Improved stochastic ranking evolution strategy (Runarsson, Yao 2005), the start one of its first
+/// population. Runs until the budget is used.
+std::unique_ptr<Search> make_isres() {
+  NloptOptions options{"isres", NLOPT_GN_ISRES};
+  options.reach = 10000;
+  return make_nlopt_search(options);
+}
+
+/// Multi-level single-linkage (Rinnooy Kan, Timmer 1987): climbs by L-BFGS from random points, at
+/// most one for each cluster of points.
+std::unique_ptr<Search> make_mlsl() {
+  NloptOptions options{"mlsl", NLOPT_G_MLSL, NLOPT_LD_LBFGS};
+  options.x_tolerance = 1e-7;
+  options.most = 1;
+  return make_nlopt_search(options);
+}
+
+/// DIRECT-L: divides the bounds into boxes, first those that may hold the best value by any
+/// Lipschitz constant, biased to local search (Gablonsky, Kelley 2001). No random numbers: the
+/// start says which s of phi it sees, and else is one point more.
+std::unique_ptr<Search> make_direct_l() {
+  NloptOptions options{"direct_l", NLOPT_GN_DIRECT_L};
+  options.most = 1;
+  return make_nlopt_search(options);
+}
+
+}  // namespace maxwrench

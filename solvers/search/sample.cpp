@@ -1,0 +1,49 @@
+#include <algorithm>
+
+#include "lib/math/random.h"
+#include "solvers/search/makers.h"
+#include "solvers/search/probe.h"
+
+namespace maxwrench {
+namespace {
+
+/// Evaluated at a time, so that the memory has a bound.
+constexpr long kBlock = 1L << 16U;
+
+/// Uniformly random points within the bounds and nothing else: what every other search has to beat.
+/// Point i has a stream of its own.
+class Sample final : public Search {
+ public:
+  SearchResult maximize(Objective& objective, const SearchOptions& options) override {
+    check(options);
+    const Box box(objective);
+    EvaluationCounter progress(options.progress);
+    const auto point = [&](long i) {
+      Random random(options.seed, RandomUse::kSample, static_cast<std::uint64_t>(i));
+      Eigen::VectorXd x(box.free());
+      for (double& x_j : x) x_j = random.uniform();
+      return box.theta_r(x);
+    };
+    const long count = box.free() == 0 ? 1 : options.budget;
+    Part found;
+    for (long first = 0; first < count && !objective.ended(); first += kBlock) {
+      const long size = std::min(kBlock, count - first);
+      const std::vector<double> values = evaluate_all(
+          objective, size, [&](long i) { return point(first + i); }, options.threads, progress);
+      for (long i = 0; i < size; ++i) {
+        found.trace.add(values[i]);
+        if (values[i] > found.best.value) found.best = {point(first + i), values[i]};
+        if (options.peaks > 0 && values[i] > -kInfinity)
+          found.peaks.push_back({point(first + i), values[i]});
+      }
+      found.peaks = select_apart(box, std::move(found.peaks), kApart, options.peaks);
+    }
+    return make_result(std::move(found), box, options);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Search> make_sample() { return std::make_unique<Sample>(); }
+
+}  // namespace maxwrench
