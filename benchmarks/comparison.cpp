@@ -72,12 +72,12 @@ bool has_reference(const Problem& problem, const Case& base) {
 
 /// The searches that serve a problem: of a task in time those of plans first, of a static one the
 /// default first and the tables that serve it last.
-std::vector<const char*> searches_of(const Problem& problem, const Case& base) {
-  std::vector<const char*> served;
+std::vector<std::string> searches_of(const Problem& problem, const Case& base) {
+  std::vector<std::string> served;
   const auto add = [&](std::span<const SearchEntry> table) {
     for (const SearchEntry& search : table) served.push_back(search.name);
   };
-  if (!problem.motion) served.push_back(default_search());
+  if (!problem.motion) served.push_back(best_search(problem, base.measure));
   if (problem.motion) add(plan_searches());
   add(searches());
   if (!problem.motion && serves_as_plan(problem, base.measure)) add(plan_searches());
@@ -222,7 +222,7 @@ Comparison compare(const Problem& problem, const Case& base, int seeds,
   const char* unit = problem.motion ? problem.unit() : resolve(problem, base).unit;
   const std::string lp = complete(problem, base).lp;
   Comparison comparison{problem.name, unit, {}, {}, problem.motion.has_value(), base.budget};
-  for (const char* search : searches_of(problem, base))
+  for (const std::string& search : searches_of(problem, base))
     comparison.contenders.push_back(contend(search, lp));
   const Reference reference = reference_of(problem);
   if (has_reference(problem, base))

@@ -6,6 +6,8 @@
 
 #include "lib/math/decompositions.h"
 #include "lib/math/random.h"
+#include "lib/posture/carrier.h"
+#include "maxwrench/problem.h"
 
 namespace maxwrench {
 namespace {
