@@ -7,7 +7,7 @@ set(eigen_interface EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MAX_STATIC_ALIGN_BYTES=16 EIG
 
 # Of a folder's sources, those that need a library which is left out: they include its headers or what stands on them. A source that asks
 # for MAXWRENCH_WITH_... knows itself what to do.
-set(needs_IPOPT "#include (<Ip|\".*/(facet_nlp|ipopt_word|multistart).h)")
+set(needs_IPOPT "#include (<Ip|\".*/(facet_nlp|ipopt_run|multistart).h)")
 set(needs_CLP "#include <Clp")
 set(needs_GLPK "#include <glpk")
 set(needs_NLOPT "#include (<nlopt|\".*/(facet_sqp|nlopt_run).h)")

@@ -34,6 +34,10 @@ class LeastSquares6 {
 inline constexpr double kArrived = 1e-9;
 inline constexpr double kExact = 1e-12;
 
+/// J_d, 6×d of what follows, is singular if a pivot of its QR decomposition is below this part of
+/// the largest.
+inline constexpr double kSingularShare = 1e-4;
+
 /// (A'A + damping I)^-1 A'b, the step of Levenberg and Marquardt; A r×d, r and d <= 6, damping > 0.
 Vector6N damped_step(const Matrix6N& A, const Vector6N& b, double damping);
 

@@ -17,11 +17,6 @@ constexpr double kCorrection = 0.2;
 /// A step that must be shorter than this fails.
 constexpr double kShortestStep = 1e-5;
 constexpr int kMostPathSteps = 2000;
-/// J_d is singular if the smallest pivot of its QR decomposition is below this part of the largest.
-constexpr double kSingular = 1e-4;
-
-constexpr const char* kUnreachable = "unreachable pose: the dependent joints do not get there";
-constexpr const char* kSingularReason = "singular: the dependent joints do not fix the pose";
 
 /// The place of a base axis [x y z roll pitch yaw] in [x, y, z, yaw].
 int coordinate(int axis) { return std::min(axis, 3); }
@@ -137,7 +132,7 @@ void DependentJoints::start() {
   }
   start_error_ = error_;
   qr_.compute(J_d_);
-  start_is_singular_ = qr_.is_singular(kSingular);
+  start_is_singular_ = qr_.is_singular(kSingularShare);
   differentiate();
 }
 
@@ -192,7 +187,7 @@ const char* DependentJoints::carry(const Eigen::VectorXd& theta_r, const Pose<do
     pose_ = next < 1 ? between(start, twist_, next) : pose;
     const bool arrived = contract(next < 1 ? kOnTheWay : kArrived);
     if (arrived) qr_.compute(J_d_);
-    if (arrived && !qr_.is_singular(kSingular)) {
+    if (arrived && !qr_.is_singular(kSingularShare)) {
       differentiate();
       drift_ = qr_.solve(twist_);
       z_ = trial_;
@@ -200,9 +195,9 @@ const char* DependentJoints::carry(const Eigen::VectorXd& theta_r, const Pose<do
       step = std::min(2 * step, longest);
     } else {
       step = (next - done) / 2;
-      if (step * length < kShortestStep) reason = arrived ? kSingularReason : kUnreachable;
+      if (step * length < kShortestStep) reason = arrived ? kSingularReason : kUnreachableReason;
     }
-    if (i + 1 == kMostPathSteps && done < 1) reason = kUnreachable;
+    if (i + 1 == kMostPathSteps && done < 1) reason = kUnreachableReason;
   }
   if (done < 1) pose_ = between(start, twist_, done);
   return reason;
@@ -215,7 +210,7 @@ const char* DependentJoints::arrive() {
   linearise(z_);
   qr_.compute(J_d_);
   differentiate();
-  return error_.norm() <= kExact ? nullptr : kUnreachable;
+  return error_.norm() <= kExact ? nullptr : kUnreachableReason;
 }
 
 /// from_ of z_.
@@ -236,7 +231,7 @@ const char* DependentJoints::follow(const Eigen::VectorXd& theta_r) {
   slopes_ = start_slopes_;
   read_theta_r();
   pose_ = problem_.pose;
-  reason_ = has_start() ? carry(theta_r, pose_) : kUnreachable;
+  reason_ = has_start() ? carry(theta_r, pose_) : kUnreachableReason;
   if (reason_ == nullptr) reason_ = arrive();
   for (const int i : problem_.dependent) {
     z_[4 + i] = turned_into_limits(problem_.robot.joints[static_cast<std::size_t>(i)], z_[4 + i]);

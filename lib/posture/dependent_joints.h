@@ -8,6 +8,11 @@
 
 namespace maxwrench {
 
+/// Why there is no posture.
+inline constexpr const char* kUnreachableReason =
+    "unreachable pose: the dependent joints do not get there";
+inline constexpr const char* kSingularReason = "singular: the dependent joints do not fix the pose";
+
 /// What follows from theta_r where the base pose alone does not. Of the coordinates
 /// z = [x, y, z, yaw; all joints], theta_r holds r and y, the free base coordinates and the
 /// dependent joints, d <= 6. y solves

@@ -1,5 +1,6 @@
 #include "maxwrench/posture.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -7,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "lib/posture/dependent_joints.h"
 #include "lib/posture/primary_branches.h"
 #include "lib/posture/pull_back.h"
 #include "lib/posture/second_arm.h"
@@ -91,12 +93,10 @@ struct Fault {
 
 constexpr Fault kBeyondDependent{Violation::kDependentJoint, "joint limit of a dependent joint"};
 constexpr Fault kBeyondSecondArm{Violation::kSecondArm, "joint limit of the second arm"};
-constexpr Fault kSingularPosture{Violation::kNoSolution,
-                                 "singular: the dependent joints do not fix the pose"};
+constexpr Fault kSingularPosture{Violation::kNoSolution, kSingularReason};
 constexpr Fault kSingularContacts{Violation::kNoSolution,
                                   "singular: the two contacts lack a direction of motion"};
-constexpr Fault kUnreachablePose{Violation::kNoSolution,
-                                 "unreachable pose: the dependent joints do not get there"};
+constexpr Fault kUnreachablePose{Violation::kNoSolution, kUnreachableReason};
 constexpr Fault kUnreachableContact{Violation::kNoSolution,
                                     "unreachable contact: the second arm does not get there"};
 constexpr Fault kBaseOffItsAxes{Violation::kBase,
@@ -257,6 +257,7 @@ struct PostureEvaluator::Workspace {
     BranchCounts& counts = posture.branches;
     counts.most = counts.found;
     counts.unreachable = counts.found == 0;
+    counts.incomplete = primary && !primary->complete();
     if (!valid.empty()) {
       fault = {};
       return place(valid.front());

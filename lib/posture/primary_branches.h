@@ -7,9 +7,6 @@ namespace maxwrench {
 
 struct Problem;
 
-/// Postures with J_d of pivots below this part of the largest are singular (QR decomposition).
-inline constexpr double kSingularShare = 1e-4;
-
 /// The joints of the first arm, and the base, that follow from theta_r: every posture that reaches
 /// the pose, and how f(theta_r) changes through what follows.
 class PrimaryBranches {
@@ -20,6 +17,8 @@ class PrimaryBranches {
 
   /// All postures at theta_r, of which only the joints count; returns their number.
   int solve(const Eigen::VectorXd& theta_r);
+  /// Whether that are all of them (`Branches::complete`).
+  bool complete() const { return branches_.complete(); }
   /// Writes posture i into z = [x, y, z, yaw of the base; all joints]; whether the dependent joints
   /// are within their limits, into which they are turned by whole turns.
   bool place(int i);

@@ -15,9 +15,7 @@ Candidate draw_start(Probe& probe, const Box& box, const SearchOptions& options,
   };
   if (climb == 0 && options.starts.empty()) evaluate(box.start(options.start));
   while (start.value == -kInfinity && probe.left() > 0 && !probe.ended()) {
-    Eigen::VectorXd x(box.free());
-    for (double& x_j : x) x_j = random.uniform();
-    evaluate(box.theta_r(x));
+    evaluate(random_point(box, random));
   }
   return start;
 }

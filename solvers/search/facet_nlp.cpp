@@ -1,13 +1,12 @@
 #include "solvers/search/facet_nlp.h"
 
-#include <IpIpoptApplication.hpp>
 #include <IpTNLP.hpp>
 #include <algorithm>
 #include <stdexcept>
 
 #include "solvers/caught.h"
 #include "solvers/ipopt_lock.h"
-#include "solvers/search/ipopt_word.h"
+#include "solvers/search/ipopt_run.h"
 #include "solvers/search/makers.h"
 
 namespace maxwrench {
@@ -101,26 +100,13 @@ class FacetNlp : public Ipopt::TNLP {
   Caught caught_;
 };
 
-Ipopt::SmartPtr<Ipopt::IpoptApplication> make_facet_application() {
-  Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(false);
-  auto options = application->Options();
-  options->SetIntegerValue("print_level", 0);
-  options->SetStringValue("sb", "yes");
-  options->SetStringValue("hessian_approximation", "limited-memory");
-  options->SetNumericValue("bound_relax_factor", 0);
-  options->SetNumericValue("tol", 1e-9);
-  options->SetIntegerValue("max_iter", kFacetIterations);
-  if (application->Initialize("") != Ipopt::Solve_Succeeded) {
-    throw std::runtime_error("facet_nlp: Ipopt does not take its options");
-  }
-  return application;
-}
-
 }  // namespace
 
 FacetEnd solve_facets_by_ipopt(FacetView& view) {
   const std::lock_guard guard(ipopt_lock());
-  const auto application = make_facet_application();
+  const auto application = make_ipopt_application(
+      "facet_nlp", kFacetIterations,
+      [](Ipopt::OptionsList& options) { options.SetNumericValue("tol", 1e-9); });
   const Ipopt::SmartPtr<FacetNlp> nlp = new FacetNlp(view);
   const auto status = application->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(nlp)));
   nlp->rethrow();

@@ -18,12 +18,6 @@ constexpr long kFewest = 3;
 
 long facet_parts_of(long budget) { return std::clamp(budget / 200, 1L, 8L); }
 
-Eigen::VectorXd draw(const Box& box, Random random) {
-  Eigen::VectorXd x(box.free());
-  for (double& x_j : x) x_j = random.uniform();
-  return box.theta_r(x);
-}
-
 /// From each branch of theta_r; appends how each solve ended.
 void solve_all(Probe& probe, const Box& box, const Eigen::VectorXd& theta_r, const char* name,
                const FacetSolve& solve, std::vector<Call>& calls) {
@@ -139,8 +133,8 @@ SearchResult search_from_facet_starts(const char* name, Objective& objective,
     const auto enough = [&] { return static_cast<long>(calls.size()) > most / parts; };
     for (long i = part; box.free() > 0 && probe.left() > 0 && !probe.ended() && !enough();
          i += parts) {
-      const Random random(options.seed, RandomUse::kClimb, static_cast<std::uint64_t>(i));
-      solve_all(probe, box, i < givens ? given(i) : draw(box, random), name, solve, calls);
+      Random random(options.seed, RandomUse::kClimb, static_cast<std::uint64_t>(i));
+      solve_all(probe, box, i < givens ? given(i) : random_point(box, random), name, solve, calls);
     }
     found[static_cast<std::size_t>(part)] = probe.take();
     found[static_cast<std::size_t>(part)].calls = std::move(calls);

@@ -1,10 +1,10 @@
-#include <IpIpoptApplication.hpp>
 #include <IpTNLP.hpp>
 #include <algorithm>
 #include <stdexcept>
 
 #include "solvers/caught.h"
 #include "solvers/ipopt_lock.h"
+#include "solvers/search/ipopt_run.h"
 #include "solvers/search/joint_program.h"
 #include "solvers/search/knot_starts.h"
 #include "solvers/search/makers.h"
@@ -132,22 +132,6 @@ class JointNlp : public Ipopt::TNLP {
   Caught caught_;
 };
 
-Ipopt::SmartPtr<Ipopt::IpoptApplication> make_joint_application() {
-  Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(false);
-  auto options = application->Options();
-  options->SetIntegerValue("print_level", 0);
-  options->SetStringValue("sb", "yes");
-  options->SetStringValue("hessian_approximation", "limited-memory");
-  options->SetStringValue("mu_strategy", "adaptive");
-  options->SetNumericValue("tol", 1e-7);
-  options->SetNumericValue("bound_relax_factor", 0);
-  options->SetIntegerValue("max_iter", kJointIterations);
-  if (application->Initialize("") != Ipopt::Solve_Succeeded) {
-    throw std::runtime_error("joint_nlp: Ipopt does not take its options");
-  }
-  return application;
-}
-
 /// The plan, its efforts and its wrenches in one nonlinear program (`JointProgram`) by Ipopt with
 /// exact sparse first derivatives, from the starts of `slp`, one after the other behind Ipopt's
 /// lock. It does not see collisions: a plan that collides counts for nothing.
@@ -177,7 +161,11 @@ class JointNlpSearch : public Search {
     if (value == -kInfinity) return;
     JointProgram program(*objective.plans(), objective.lower(), objective.upper());
     const std::lock_guard guard(ipopt_lock());
-    const auto application = make_joint_application();
+    const auto application =
+        make_ipopt_application("joint_nlp", kJointIterations, [](Ipopt::OptionsList& options) {
+          options.SetStringValue("mu_strategy", "adaptive");
+          options.SetNumericValue("tol", 1e-7);
+        });
     const Ipopt::SmartPtr<JointNlp> nlp = new JointNlp(objective, program, until, found);
     application->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(nlp)));
     nlp->rethrow();

@@ -1,13 +1,12 @@
 #include "solvers/search/multistart.h"
 
-#include <IpIpoptApplication.hpp>
 #include <IpTNLP.hpp>
 #include <algorithm>
 
 #include "solvers/caught.h"
 #include "solvers/ipopt_lock.h"
 #include "solvers/search/climbs.h"
-#include "solvers/search/ipopt_word.h"
+#include "solvers/search/ipopt_run.h"
 #include "solvers/search/knot_starts.h"
 #include "solvers/search/makers.h"
 
@@ -127,23 +126,11 @@ class BoundedNlp : public Ipopt::TNLP {
   Caught caught_;
 };
 
-Ipopt::SmartPtr<Ipopt::IpoptApplication> make_application(int iterations) {
-  Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(false);
-  auto options = application->Options();
-  options->SetIntegerValue("print_level", 0);
-  options->SetStringValue("sb", "yes");
-  options->SetStringValue("hessian_approximation", "limited-memory");
-  options->SetNumericValue("bound_relax_factor", 0);
-  options->SetIntegerValue("max_iter", iterations);
-  application->Initialize("");
-  return application;
-}
-
 /// One solve from `start`, and Ipopt's word for its end.
 std::string solve_by_ipopt(Probe& probe, const Box& box, const Eigen::VectorXd& start,
                            int iterations, const KnotRows* rows = nullptr) {
   const std::lock_guard guard(ipopt_lock());
-  const auto application = make_application(iterations);
+  const auto application = make_ipopt_application("multistart", iterations);
   const Ipopt::SmartPtr<BoundedNlp> nlp = new BoundedNlp(probe, box, box.unit(start), rows);
   const auto status = application->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(nlp)));
   nlp->rethrow();

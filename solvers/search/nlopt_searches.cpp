@@ -13,6 +13,13 @@ NloptOptions gradient_climb(const char* method, nlopt_algorithm algorithm) {
   return options;
 }
 
+NloptOptions model_climb(const char* method, nlopt_algorithm algorithm) {
+  NloptOptions options{method, algorithm};
+  options.initial_step = 0.1;
+  options.x_tolerance = 1e-6;
+  return options;
+}
+
 }  // namespace
 
 /// Sequential quadratic programs with a dense quasi-Newton matrix (Kraft 1994).
@@ -32,18 +39,12 @@ std::unique_ptr<Search> make_lbfgs() {
 
 /// Quadratic models without derivatives (Powell 2009).
 std::unique_ptr<Search> make_bobyqa() {
-  NloptOptions options{"bobyqa", NLOPT_LN_BOBYQA};
-  options.initial_step = 0.1;
-  options.x_tolerance = 1e-6;
-  return make_nlopt_search(options);
+  return make_nlopt_search(model_climb("bobyqa", NLOPT_LN_BOBYQA));
 }
 
 /// Linear models on a simplex without derivatives (Powell 1994).
 std::unique_ptr<Search> make_cobyla() {
-  NloptOptions options{"cobyla", NLOPT_LN_COBYLA};
-  options.initial_step = 0.1;
-  options.x_tolerance = 1e-6;
-  return make_nlopt_search(options);
+  return make_nlopt_search(model_climb("cobyla", NLOPT_LN_COBYLA));
 }
 
 /// Controlled random search with local mutation (Price 1983; Kaelo, Ali 2006): a population, the

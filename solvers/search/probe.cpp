@@ -76,6 +76,12 @@ void join(const std::vector<Part>& parts, Part& found) {
   found.trace.append(traces);
 }
 
+Eigen::VectorXd random_point(const Box& box, Random& random) {
+  Eigen::VectorXd x(box.free());
+  for (double& x_j : x) x_j = random.uniform();
+  return box.theta_r(x);
+}
+
 std::vector<Candidate> select_apart(const Box& box, std::vector<Candidate> candidates,
                                     double separation, long count) {
   std::stable_sort(candidates.begin(), candidates.end(),

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "lib/math/random.h"
 #include "maxwrench/batch.h"
 #include "solvers/search/trace.h"
 
@@ -72,6 +73,9 @@ class Probe {
 /// Of parts that ran side by side: the best point (the first of equals), the common trace, peaks
 /// and calls, appended to `found`.
 void join(const std::vector<Part>& parts, Part& found);
+
+/// Uniformly random within the bounds.
+Eigen::VectorXd random_point(const Box& box, Random& random);
 
 /// How far two points of a selection are apart, at least, as a share of the bounds.
 inline constexpr double kApart = 0.05;

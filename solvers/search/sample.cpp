@@ -20,9 +20,7 @@ class Sample final : public Search {
     EvaluationCounter progress(options.progress);
     const auto point = [&](long i) {
       Random random(options.seed, RandomUse::kSample, static_cast<std::uint64_t>(i));
-      Eigen::VectorXd x(box.free());
-      for (double& x_j : x) x_j = random.uniform();
-      return box.theta_r(x);
+      return random_point(box, random);
     };
     const long count = box.free() == 0 ? 1 : options.budget;
     Part found;

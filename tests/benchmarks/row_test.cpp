@@ -144,6 +144,7 @@ TEST_P(PlanarOptimum, IsFoundByEverySolverAndSearch) {
   const bool coarse = search == "sample" || search == "grid" || search == "mma";
   if (coarse || find_plan_search(search).local) {
     EXPECT_LT(row.capability.beta, optimum + tolerance);
+    if (coarse && !slow) EXPECT_GT(row.capability.beta, 0.99 * optimum);
   } else {
     EXPECT_NEAR(row.capability.beta, optimum, tolerance);
   }
@@ -222,7 +223,7 @@ TEST(Row, SearchesOfPlansFindPosturesOfAStraightArm) {
       const Row row = solve(problem, resolve(problem, each), 2);
       ASSERT_TRUE(row.has_value()) << search.name << ' ' << reach << ": " << row.reason.c_str();
       EXPECT_GT(row.posture.theta_r.size(), 0);
-      EXPECT_GE(row.capability.beta, 0.99 * cobyla.capability.beta) << search.name << ' ' << reach;
+      EXPECT_GE(row.capability.beta, 0.998 * cobyla.capability.beta) << search.name << ' ' << reach;
     }
   }
 }

@@ -18,6 +18,10 @@ inline const std::vector<std::vector<int>> kIntegrableAxes = {
 Problem problem_with_dependents(Random& random, const std::vector<int>& axes, int redundancy,
                                 bool turns = false);
 
+/// A fixed arm of four links of 1, 1, 1 and 0 m that turn about z: the first joint is redundant.
+/// The tool is held at (1.5, 0.5) m, along x.
+Problem four_bars();
+
 /// How far the posture is from the problem's pose, [m] or of the rotation matrix.
 double pose_error(const Problem& problem, const Posture& posture);
 

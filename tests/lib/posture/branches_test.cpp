@@ -195,6 +195,41 @@ TEST(Branches, DependOnThetaRAlone) {
   }
 }
 
+/// Where a pair of postures ends (a stretched arm), both are found as near to it from anywhere as
+/// from close by. The four bars of dependent_joints_test: with the elbow at (cos q_0, sin q_0) the
+/// rest of the way to the tool is stretched at a distance of 2 m.
+TEST(Branches, AreTheSameFromAnywhereNearAFold) {
+  const Problem problem = four_bars();
+  const auto atlas = std::make_shared<const BranchAtlas>(problem);
+  const auto apart_by = [](double q_0) {
+    return std::hypot(1.5 - std::cos(q_0), 0.5 - std::sin(q_0)) - 2;
+  };
+  double inside = 0.5, outside = 3;
+  while (outside - inside > 1e-15) {
+    const double middle = (inside + outside) / 2;
+    if (middle == inside || middle == outside) break;
+    (apart_by(middle) < 0 ? inside : outside) = middle;
+  }
+  for (double distance = 1e-2; distance > 1e-11; distance /= 10) {
+    const Eigen::VectorXd place = Eigen::VectorXd::Constant(1, inside - distance);
+    Branches fresh(atlas), close(atlas);
+    close.solve(Eigen::VectorXd::Constant(1, inside - 1.5 * distance));
+    EXPECT_EQ(fresh.solve(place), 2) << distance;
+    EXPECT_EQ(close.solve(place), 2) << distance;
+    EXPECT_TRUE(fresh.complete() && close.complete()) << distance;
+    EXPECT_EQ(fresh.solve(Eigen::VectorXd::Constant(1, inside + distance)), 0) << distance;
+  }
+}
+
+/// A base that drives anywhere reaches a pose anywhere.
+TEST(Branches, OfAPoseFarAway) {
+  Problem problem = load_problem("mobile/push");
+  const int near = Branches(serving_atlas(problem)).solve(problem.theta_r_default);
+  problem.pose.p += Eigen::Vector3d(2000, -700, 0);
+  EXPECT_EQ(Branches(serving_atlas(problem)).solve(problem.theta_r_default), near);
+  EXPECT_GT(near, 0);
+}
+
 TEST(Branches, AtlasIsOfOneProblem) {
   Problem problem = load_problem("mobile/push");
   ASSERT_NE(problem.atlas, nullptr);

@@ -168,31 +168,6 @@ TEST(DependentJoints, MovesWithTheMount) {
   EXPECT_LT((PostureEvaluator(problem, false).evaluate(theta_r).q - q).norm(), 1e-10);
 }
 
-/// A fixed arm of four links of 1, 1, 1 and 0 m that turn about z: the first joint is redundant.
-Problem four_bars() {
-  Problem problem;
-  Robot& robot = problem.robot;
-  robot.links.resize(5);
-  for (int i = 0; i < 4; ++i) {
-    Joint joint;
-    joint.parent = i;
-    joint.placement.p = Eigen::Vector3d(i == 0 ? 0 : 1, 0, 0);
-    joint.q_min = -3;
-    joint.q_max = 3;
-    robot.joints.push_back(joint);
-  }
-  robot.end_effectors = {{"tool", 4, {}}};
-  complete_actuation(robot);
-  problem.pose.p = {1.5, 0.5, 0};
-  problem.redundant = {0};
-  problem.dependent = {1, 2, 3};
-  problem.theta_r_min = Eigen::VectorXd::Constant(1, -3);
-  problem.theta_r_max = Eigen::VectorXd::Constant(1, 3);
-  problem.theta_r_default = Eigen::VectorXd::Constant(1, 0.5);
-  problem.guess_q = Eigen::Vector4d(0.5, -0.5, 1.5, 0);
-  return problem;
-}
-
 TEST(DependentJoints, PlanarArmEqualsTheLawOfCosines) {
   const Problem problem = four_bars();
   EXPECT_EQ(motions_of(problem.robot, 0), 3);

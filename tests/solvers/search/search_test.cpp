@@ -280,7 +280,9 @@ TEST_P(SearchTest, TakesNotANumberForNoValue) {
              constant(1, 0), constant(1, 1));
   const SearchResult result = maximize(half, {});
   EXPECT_EQ(result.status, Status::kBestFound);
-  EXPECT_NEAR(result.value, -0.5, 1e-2);
+  // 20,000 evaluations: the gap of a lattice is 5e-5; alone, methods that climb stop at the edge.
+  const bool ends_in_cmaes = GetParam().ends_with("cmaes");
+  EXPECT_NEAR(result.value, -0.5, ends_in_cmaes ? 1e-6 : 1e-2);
 }
 
 TEST_P(SearchTest, KeepsTheHistoryOfItsImprovements) {
@@ -357,76 +359,6 @@ INSTANTIATE_TEST_SUITE_P(All, CompositionTest,
                          testing::Values("crs2+cmaes", "grid+cmaes", "annealing+cmaes",
                                          "sample+slsqp+cmaes"),
                          as_title);
-
-TEST(GridTest, SixHundredSquared) {
-  // 360,000 = 600^2 points at -1 + 2 i/599.
-  std::atomic<long> on_lattice = 0;
-  Known lattice(
-      [&](const Eigen::VectorXd& x) {
-        const Eigen::Array2d i = (x.array() + 1) * 599 / 2;
-        if ((i - i.round()).abs().maxCoeff() < 1e-9) ++on_lattice;
-        return -kInfinity;
-      },
-      constant(2, -1), constant(2, 1));
-  SearchOptions options;
-  options.budget = 360100;
-  options.threads = 2;
-  EXPECT_EQ(make_grid()->maximize(lattice, options).evaluations, 360000);
-  EXPECT_EQ(on_lattice, 360000);
-}
-
-/// Half of 4000 uniform points lie in each half of the bounds, within four standard deviations
-/// (sqrt(4000)/2 = 32), and no two of them are the same.
-TEST(SampleTest, IsUniform) {
-  std::vector<double> seen;
-  Known known(
-      [&](const Eigen::VectorXd& x) {
-        seen.push_back(x[0]);
-        return x[0];
-      },
-      constant(2, -1), constant(2, 3));
-  SearchOptions options;
-  options.budget = 4000;
-  const SearchResult result = make_sample()->maximize(known, options);
-  ASSERT_EQ(seen.size(), 4000U);
-  EXPECT_NEAR(std::count_if(seen.begin(), seen.end(), [](double x) { return x > 1; }), 2000, 128);
-  std::sort(seen.begin(), seen.end());
-  EXPECT_EQ(std::unique(seen.begin(), seen.end()), seen.end());
-  EXPECT_EQ(result.value, seen.back());
-}
-
-TEST(GridTest, IgnoresTheSeed) {
-  Known known(peaks, constant(2, -3), constant(2, 3));
-  SearchOptions one, two;
-  two.seed = 2;
-  EXPECT_EQ(make_grid()->maximize(known, one).theta_r, make_grid()->maximize(known, two).theta_r);
-}
-
-TEST(AnnealingTest, SeedsDifferAndRepeat) {
-  Known known(smooth, constant(2, -2), constant(2, 2));
-  SearchOptions options;
-  options.budget = 100;
-  const SearchResult one = make_annealing()->maximize(known, options);
-  EXPECT_EQ(one.theta_r, make_annealing()->maximize(known, options).theta_r);
-  options.seed = 2;
-  EXPECT_NE(one.theta_r, make_annealing()->maximize(known, options).theta_r);
-}
-
-TEST(AnnealingTest, EvaluatesTheStartFirst) {
-  // A needle that no sample would hit.
-  const Eigen::Vector2d needle(0.123, 0.456);
-  Known known([&](const Eigen::VectorXd& x) { return x == needle ? 1.0 : 0.0; }, constant(2, -2),
-              constant(2, 2));
-  SearchOptions options;
-  options.budget = 1;
-  EXPECT_EQ(make_annealing()->maximize(known, options).theta_r, constant(2, 0));
-  options.start = needle;
-  EXPECT_EQ(make_annealing()->maximize(known, options).theta_r, needle);
-  options.start = constant(2, 9);  // outside: moved to the bounds
-  EXPECT_EQ(make_annealing()->maximize(known, options).theta_r, constant(2, 2));
-  options.start = constant(3, 0);
-  EXPECT_THROW(make_annealing()->maximize(known, options), std::invalid_argument);
-}
 
 }  // namespace
 }  // namespace maxwrench

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <IpIpoptApplication.hpp>
+#include <functional>
+#include <string>
+
+namespace maxwrench {
+
+/// A silent Ipopt with a limited-memory Hessian that keeps to its bounds; `more`, if given, sets
+/// further options. Throws std::runtime_error, with the search's name, if Ipopt does not take them.
+Ipopt::SmartPtr<Ipopt::IpoptApplication> make_ipopt_application(
+    const char* search, int iterations,
+    const std::function<void(Ipopt::OptionsList& options)>& more = {});
+
+/// How Ipopt ended, in one word for a row; that its user stopped it means that the budget was used.
+std::string word_of(Ipopt::ApplicationReturnStatus status);
+
+}  // namespace maxwrench
