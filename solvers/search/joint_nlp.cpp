@@ -107,6 +107,7 @@ class JointNlp : public Ipopt::TNLP {
       X_ = point;
       program_.evaluate(X_);
       found_.trace.add(-kInfinity);
+      objective_.spend(1);
       return true;
     });
   }
