@@ -14,6 +14,7 @@ double quantile(const std::vector<double>& sorted, double share) {
   const double rest = place - static_cast<double>(below);
   if (rest == 0) return sorted[below];
   const double low = sorted[below], high = sorted[below + 1];
+  if (!std::isfinite(low)) return low;
   return std::isfinite(high) ? low + rest * (high - low) : high;
 }
 
