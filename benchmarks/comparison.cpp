@@ -115,6 +115,7 @@ Attempt attempt_from(const Case& choice, const NamedSearch& named,
   const double begin = thread_seconds();
   Stopwatch watch(std::move(objective), attempt.run, begin);
   const SearchResult result = search(choice, named, watch, start, 1, {});
+  attempt.counted = attempt.run.spent.evaluations;
   attempt.run.spent = {static_cast<double>(result.evaluations), thread_seconds() - begin};
   attempt.run.interrupted = interruption != nullptr && interruption->noticed;
   attempt.value = result.value;

@@ -21,7 +21,8 @@ struct Attempt {
   double value = -kInfinity;
   /// Of a plan, that between its instants (`Plan::continuous`); NaN: none.
   double continuous = std::numeric_limits<double>::quiet_NaN();
-  RaceRun run;
+  RaceRun run;         ///< what was spent in the whole run as the search counts it
+  double counted = 0;  ///< evaluations that the clock saw: as many
 };
 
 /// The answer is checked from the problem's data outside the clock; one that fails is none.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "drawing/axes.h"
 #include "drawing/named_curves.h"
@@ -21,6 +22,7 @@ Axis decades_of(const EcdfPanel& panel, double from, double to) {
   double low = kHighestDecade, high = kLowestDecade;
   for (const EcdfCurve& curve : panel.curves) {
     for (const Point& step : curve.steps) {
+      if (!step.allFinite()) throw std::invalid_argument(panel.axis + ": expected finite steps");
       const double decade = std::log10(std::max(step.x(), std::pow(10, kLowestDecade)));
       low = std::min(low, std::floor(decade));
       high = std::max(high, std::ceil(decade));
