@@ -14,7 +14,7 @@ using Point = Eigen::Vector2d;
 
 // px
 constexpr double kEcdfLeft = 52, kEcdfTop = 24, kEcdfHeight = 150, kEcdfBottom = 40,
-                 kEcdfBetween = 14, kEcdfRight = 10;
+                 kEcdfBetween = 34, kEcdfRight = 10;
 constexpr double kLowestDecade = -6, kHighestDecade = 12;
 
 /// The decades that hold all steps of a panel.
