@@ -120,6 +120,14 @@ bool serves_between_facets(const Problem& problem, const std::string& measure) {
   return measure == Case().measure && has_facet_program(problem);
 }
 
+std::string best_search(const Problem& problem, const std::string& measure) {
+  const bool has_sqp =
+      std::any_of(facet_searches().begin(), facet_searches().end(),
+                  [](const SearchEntry& entry) { return entry.name == std::string("facet_sqp"); });
+  const bool serves = has_sqp && serves_between_facets(problem, measure);
+  return serves ? "facet_sqp+cmaes" : default_search();
+}
+
 Method resolve(const Problem& problem, const Case& c) {
   if (!c.scheme.empty()) {
     throw std::invalid_argument(fmt::format("scheme: got '{}', expected none: {} is a static task",

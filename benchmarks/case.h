@@ -66,6 +66,11 @@ Method resolve(const Problem&& problem, const Case& c) = delete;
 /// has a scheme of this name.
 void set_scheme(const char* key, const std::string& scheme, Problem& problem);
 
+/// The search that is best in general for a measure of a static task: between facets where that
+/// serves, going on by `cmaes` from where it has been (its ends may collide, and it is blind to
+/// pairs of which only a test is known), else that of any objective.
+std::string best_search(const Problem& problem, const std::string& measure);
+
 /// The columns that select a case, `problem measure wrench lp search seed budget scheme`, as text.
 const std::vector<std::string>& case_columns();
 std::vector<std::string> case_values(const Case& c);

@@ -116,8 +116,8 @@ std::string refuse_empty(const std::string& text) {
 
 void CommonOptions::add_search(CLI::App& app) {
   app.add_option("--search", choice.search,
-                 "search over theta_r, or stages joined by + (of a task in time: slp)")
-      ->capture_default_str();
+                 "search over theta_r, or stages joined by + (default: facet_sqp+cmaes where it "
+                 "serves, else crs2+cmaes; of a task in time slp)");
   app.add_option("--seed", choice.seed, "of the random numbers")
       ->capture_default_str()
       ->check(refuse_seed);

@@ -27,7 +27,9 @@ void write_table(const SolveOptions& options, const Problem& problem, const Eige
 }
 
 int solve_posture(const SolveOptions& options, const Problem& problem) {
-  const Method method = resolve(problem, options.read_case());
+  Case c = options.read_case();
+  if (!options.names_search) c.search = best_search(problem, c.measure);
+  const Method method = resolve(problem, c);
   Progress progress("solve", method.choice.budget);
   CtrlC ctrl_c;
   const Row row =

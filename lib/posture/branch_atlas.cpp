@@ -6,6 +6,8 @@
 
 #include "lib/math/decompositions.h"
 #include "lib/math/random.h"
+#include "lib/posture/carrier.h"
+#include "maxwrench/problem.h"
 
 namespace maxwrench {
 namespace {
@@ -69,11 +71,11 @@ class FirstNewton {
       : chain_(chain), pose_(pose), J_(6, chain.unknowns()), error_(6) {}
 
   bool run(const Eigen::VectorXd& theta_r, Six<double>& y) {
-    constexpr int kMostSteps = 100;
+    constexpr int kMostNewtonSteps = 100;
     constexpr double kMostDamping = 1e6, kLongest = 0.5;
     double damping = 1e-2;
     linearise(theta_r, y);
-    for (int step = 0; step < kMostSteps && error_.norm() > kArrived; ++step) {
+    for (int step = 0; step < kMostNewtonSteps && error_.norm() > kArrived; ++step) {
       const double before = error_.norm();
       Vector6N dy = damped_step(J_, error_, damping);
       const double longest = dy.lpNorm<Eigen::Infinity>();

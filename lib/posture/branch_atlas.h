@@ -5,11 +5,15 @@
 #include <optional>
 #include <vector>
 
-#include "lib/math/random.h"
-#include "lib/posture/carrier.h"
-#include "maxwrench/problem.h"
+#include "lib/posture/atlas_node.h"
 
 namespace maxwrench {
+
+class Carrier;
+class Random;
+template <class T>
+class Continuation;
+struct Problem;
 
 /// All solutions of the inverse kinematics of what follows,
 ///

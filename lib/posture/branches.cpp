@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "lib/posture/branch_atlas.h"
+
 namespace maxwrench {
 namespace {
 

@@ -3,9 +3,11 @@
 #include <memory>
 #include <vector>
 
-#include "lib/posture/branch_atlas.h"
+#include "lib/posture/carrier.h"
 
 namespace maxwrench {
+
+class BranchAtlas;
 
 /// Of one thread: all postures that reach the pose at one theta_r after the other. Solutions are
 /// carried from the last theta_r, or from the nearest place of the atlas: real ones along the

@@ -2,19 +2,10 @@
 
 #include <vector>
 
-#include "lib/math/complex.h"
+#include "lib/posture/atlas_node.h"
 #include "lib/posture/continuation.h"
 
 namespace maxwrench {
-
-/// A place of theta_r and the solutions y there: those that are real, and one of each pair of
-/// conjugate ones.
-struct AtlasNode {
-  Eigen::VectorXd theta_r;
-  std::vector<Six<double>> real;
-  std::vector<Six<Complex>> pairs;
-  bool complete = false;  ///< as many as there are
-};
 
 /// What carries solutions along ways to a real theta_r; of one thread.
 class Carrier {

@@ -16,8 +16,8 @@ constexpr double kGoodCorrection = 0.02;
 constexpr double kContraction = 0.25;
 /// Corrections below this end Newton's method on the way, and at its end.
 constexpr double kCloseEnough = 1e-4;
-constexpr double kRounding = 1e-13;
-constexpr double kNearRounding = 1e-10;
+constexpr double kLastCorrection = 1e-13;
+constexpr double kLeastError = 1e-10;
 constexpr int kMostCorrections = 8;
 /// A way in steps shorter than this share of it, or in more steps, fails.
 constexpr double kShortestShare = 1e-5;
@@ -132,14 +132,14 @@ bool Continuation<T>::contract(Six<T>& y, bool exact, double& first) {
     const double length = largest(dy, d_);
     if (i == 0) first = length;
     if (!(length <= kLongestCorrection)) return false;
-    if (i > 0 && length > std::max(kContraction * last, kRounding)) {
+    if (i > 0 && length > std::max(kContraction * last, kLastCorrection)) {
       // At rounding nothing contracts any more.
-      return exact && last <= kNearRounding && linearise(y) <= kNearRounding;
+      return exact && last <= kLeastError && linearise(y) <= kLeastError;
     }
     for (int j = 0; j < d_; ++j) y[j] += dy[j];
     last = length;
     if (!exact && length <= kCloseEnough) return true;
-    if (length <= kRounding) return linearise(y) <= kNearRounding;
+    if (length <= kLastCorrection) return linearise(y) <= kLeastError;
   }
   return false;
 }
@@ -207,12 +207,12 @@ bool Continuation<T>::correct(const VectorX<T>& theta_r, const Pose<T>& pose, Si
 
 template <class T>
 bool Continuation<T>::seek(const VectorX<T>& theta_r, const Pose<T>& pose, Six<T>& y) {
-  constexpr int kMostSteps = 50;
+  constexpr int kMostSeekSteps = 50;
   constexpr double kLongest = 0.5;
   theta_r_ = theta_r;
   rate_.setConstant(T(0.0));
   pose_ = pose;
-  for (int i = 0; i < kMostSteps && is_finite(y); ++i) {
+  for (int i = 0; i < kMostSeekSteps && is_finite(y); ++i) {
     linearise(y);
     const Six<T> dy = J_d_.solve(error_);
     const double length = largest(dy, d_);

@@ -1,5 +1,8 @@
 #include "lib/posture/primary_branches.h"
 
+#include "lib/posture/branch_atlas.h"
+#include "maxwrench/problem.h"
+
 namespace maxwrench {
 
 PrimaryBranches::PrimaryBranches(const Problem& problem)

@@ -5,6 +5,8 @@
 
 namespace maxwrench {
 
+struct Problem;
+
 /// Postures with J_d of pivots below this part of the largest are singular (QR decomposition).
 inline constexpr double kSingularShare = 1e-4;
 

@@ -5,6 +5,7 @@
 
 #include "lib/math/complex.h"
 #include "lib/robot/chain.h"
+#include "maxwrench/problem.h"
 
 namespace maxwrench {
 

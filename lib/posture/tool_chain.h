@@ -3,9 +3,11 @@
 #include <array>
 #include <vector>
 
-#include "maxwrench/problem.h"
+#include "maxwrench/types.h"
 
 namespace maxwrench {
+
+struct Problem;
 
 /// Of up to six numbers y that follow from theta_r.
 template <class T>

@@ -106,6 +106,7 @@ std::vector<Case> planar_cases() {
     if (!beta_1 && c.measure != "linf_polytope") continue;
     const bool grid = c.search.starts_with("grid");
     c.budget = c.lp == "ipopt" ? 2000 : is_peer(c) ? 20000 : grid ? 400000 : 40000;
+    if (c.search == "mlsl") c.budget = 4000;  // its clusters take time that grows with its square
     if (kSampleDivisor > 1) c.budget = grid ? 50000 : 10000;
     cases.push_back(c);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lib/math/decompositions.h"
+#include "lib/posture/branch_atlas.h"
 #include "lib/robot/chain.h"
 #include "lib/robot/kinematics.h"
 #include "maxwrench/load.h"
@@ -151,7 +152,7 @@ TEST(Branches, AreAsManyAsTheoryHas) {
     EXPECT_EQ(BranchAtlas(problem).solutions(), 16);
     problem = problem_with_dependents(random, {0, 1, 2, 5}, 2, true);
     EXPECT_EQ(BranchAtlas(problem).solutions(), 2);
-    // Three angles of which two sums turn and one is a height: an equation of degree 8 at most.
+    // Three angles turn one orientation into another, in two ways.
     problem = problem_with_dependents(random, {0, 1, 2}, 2, true);
     EXPECT_EQ(BranchAtlas(problem).solutions(), 2);
   }

@@ -41,12 +41,12 @@ TEST(DependentJoints, MotionsOfTheEndEffector) {
   EXPECT_EQ(motions_of(problem.robot, 0), 4);
 }
 
-/// At 1,000 random postures over all sets of base axes the pose is met and the derivative of a
+/// At random postures over all sets of base axes the pose is met and the derivative of a
 /// random function of tau_d and J is that of differences.
 TEST(DependentJoints, PoseAndDerivativeAtRandomPostures) {
   Random random(2);
   int valid = 0;
-  for (int sample = 0; sample < 1600 / kSampleDivisor; ++sample) {
+  for (int sample = 0; sample < 280 / std::min(kSampleDivisor, 10); ++sample) {
     const auto& axes = kIntegrableAxes[static_cast<std::size_t>(sample) % kIntegrableAxes.size()];
     const Problem problem = problem_with_dependents(random, axes, 1 + sample % 5);
     PostureEvaluator model(problem, false);
@@ -74,7 +74,7 @@ TEST(DependentJoints, PoseAndDerivativeAtRandomPostures) {
     ++valid;
     EXPECT_LT((gradient - differences).norm(), 1e-6 * (1 + differences.norm())) << sample;
   }
-  EXPECT_GE(valid, 1000 / kSampleDivisor);
+  EXPECT_GE(valid, 170 / std::min(kSampleDivisor, 10));
 }
 
 /// Of a path: from the guess along the straight line.

@@ -36,6 +36,8 @@ Problem weak_wrist() {
     joint.placement.p = places[i];
     joint.axis = Eigen::Vector3d::UnitY();
     joint.effort_max = efforts[i];
+    joint.q_min = -0.5;  // the elbow bends to one side only
+    joint.q_max = 0.5;
     robot.joints.push_back(joint);
     add_body(robot.links[static_cast<std::size_t>(i) + 1], 0.1, Eigen::Vector3d::Zero(),
              0.01 * Eigen::Matrix3d::Identity());
