@@ -27,7 +27,7 @@ class EllipsoidTrace : public Measure {
 
   void evaluate(const Posture& posture, const WrenchProgram& /*program*/, bool efforts,
                 Capability& capability) override {
-    rotate(posture.turn, W_0_, W_);
+    rotate_into(posture.turn, W_0_, W_);
     JtW_.noalias() = posture.J.transpose().lazyProduct(W_);
     G_.noalias() = K_.lazyProduct(JtW_);
     normal_.noalias() = G_.transpose().lazyProduct(G_);

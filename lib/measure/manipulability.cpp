@@ -18,7 +18,7 @@ class Manipulability : public Measure {
 
   void evaluate(const Posture& posture, const WrenchProgram& /*program*/, bool efforts,
                 Capability& capability) override {
-    rotate(posture.turn, W_0_, W_);
+    rotate_into(posture.turn, W_0_, W_);
     A_.noalias() = W_.transpose().lazyProduct(posture.J);
     gram_.noalias() = A_.lazyProduct(A_.transpose());
     ldlt_.compute(gram_);

@@ -49,7 +49,7 @@ WrenchProgram make_wrench_program(const Problem& problem, Wrench wrench) {
 
 void set_posture(const Posture& posture, WrenchProgram& program) {
   program.tau_d = posture.tau_d;
-  if (program.W_0.cols() > 0) rotate(posture.turn, program.W_0, program.W);
+  if (program.W_0.cols() > 0) rotate_into(posture.turn, program.W_0, program.W);
   if (program.columns() == program.W.cols()) {
     program.JtW.noalias() = posture.J.transpose().lazyProduct(program.W);
     return;

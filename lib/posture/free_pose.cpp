@@ -1,5 +1,8 @@
 #include "lib/posture/free_pose.h"
 
+#include <stdexcept>
+#include <string>
+
 #include "lib/math/rotated.h"
 
 namespace maxwrench {
@@ -21,6 +24,17 @@ Eigen::Matrix3d turned(const Vector6d& s) {
 }
 
 }  // namespace
+
+void require_theta_r(const Problem& problem, const Eigen::VectorXd& theta_r) {
+  if (theta_r.size() != problem.redundancy()) {
+    throw std::invalid_argument("theta_r: got " + std::to_string(theta_r.size()) +
+                                " numbers, expected " + std::to_string(problem.redundancy()) +
+                                " for " + problem.name);
+  }
+  if (!theta_r.allFinite()) {
+    throw std::invalid_argument("theta_r: got a value that is not a finite number");
+  }
+}
 
 Pose<double> pose_at(const Problem& problem, const Eigen::VectorXd& theta_r) {
   Pose<double> pose = problem.pose;
@@ -54,6 +68,7 @@ Vector6d free_twist(const Problem& problem, const Eigen::VectorXd& theta_r, int 
 }
 
 Eigen::VectorXd held_theta_r(const Problem& problem, const Eigen::VectorXd& theta_r) {
+  require_theta_r(problem, theta_r);
   const auto joints = static_cast<Eigen::Index>(problem.redundant.size());
   const Eigen::Index kept = theta_r.size() - problem.free.count();
   Eigen::VectorXd result(kept);
@@ -62,6 +77,7 @@ Eigen::VectorXd held_theta_r(const Problem& problem, const Eigen::VectorXd& thet
 }
 
 Problem held_at(const Problem& problem, const Eigen::VectorXd& theta_r) {
+  require_theta_r(problem, theta_r);
   Problem held = problem;
   if (problem.free.axes.empty()) return held;
   held.pose = pose_at(problem, theta_r);

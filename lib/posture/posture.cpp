@@ -114,17 +114,6 @@ struct Branch {
   bool operator==(const Branch&) const = default;
 };
 
-void require_theta_r(const Problem& problem, const Eigen::VectorXd& theta_r) {
-  if (theta_r.size() != problem.redundancy()) {
-    throw std::invalid_argument("theta_r: got " + std::to_string(theta_r.size()) +
-                                " numbers, expected " + std::to_string(problem.redundancy()) +
-                                " for " + problem.name);
-  }
-  if (!theta_r.allFinite()) {
-    throw std::invalid_argument("theta_r: got a value that is not a finite number");
-  }
-}
-
 }  // namespace
 
 struct PostureEvaluator::Workspace {
