@@ -67,9 +67,7 @@ TEST(FreePose, AxesOfThePoseAndOfTheTool) {
   EXPECT_LT((along_tool.R - along_pose.R).norm(), 1e-15);
 }
 
-/// Pitch by 90 degrees, then roll by 90: the tool's x points down, and its y, which would be the
-/// pose's, is turned about that x: along the pose's -x... of Ry(90) Rx(90) the columns are (0, 0,
-/// -1), (1, 0, 0) and (0, -1, 0).
+/// Ry(90 degrees) Rx(90 degrees) has the columns (0, 0, -1), (1, 0, 0) and (0, -1, 0).
 TEST(FreePose, AnglesAreThoseOfRpy) {
   Problem problem;
   problem.free.axes = {3, 4};
@@ -234,8 +232,8 @@ TEST(FreePose, YawOfAllIsASymmetry) {
 }
 
 /// The tool of the planar vehicle at any yaw: its best is that of the best of many fixed yaws,
-/// whose searches know nothing of free poses. Between two of them, 1 degree apart, beta changes by
-/// less than 0.01 N.
+/// whose searches know nothing of free poses. They are 1 degree apart; thrusters of 4 N in all
+/// change beta by about 4 N times half a degree between them.
 TEST(FreePose, BestIsThatOfAGridOfFixedPoses) {
   const Problem fixed = load_problem("planar/force");
   const auto best = [](const Problem& problem) {
@@ -254,7 +252,7 @@ TEST(FreePose, BestIsThatOfAGridOfFixedPoses) {
   }
   EXPECT_GT(found, best(fixed) + 0.1);
   EXPECT_GT(found, most - 1e-4);
-  EXPECT_LT(found, most + 0.01);
+  EXPECT_LT(found, most + 0.05);
 }
 
 TEST(FreePose, AllocatesNothingAfterTheFirstCall) {
