@@ -74,6 +74,7 @@ std::vector<Comparison> attempt_all(const CompareOptions& options,
     Problem& problem = problems.emplace_back(load_problem(name));
     options.motion.change(problem);
     Case& c = cases.emplace_back(options.read_case());
+    if (!problem.motion) c.search = best_search(problem, c.measure);
     if (!options.names_budget) c.budget = usual_budget(problem, c.budget);
     complete(problem, c);  // refuses before anything is computed
   }
