@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "lib/math/decompositions.h"
 
@@ -30,13 +31,19 @@ std::vector<int> carried_by(const Robot& robot, const std::vector<int>& joints) 
 }
 
 int motions_of(const Robot& robot, int end_effector) {
+  std::vector<int> all(static_cast<std::size_t>(robot.velocities()));
+  std::iota(all.begin(), all.end(), 0);
+  return motions_of(robot, end_effector, all);
+}
+
+int motions_of(const Robot& robot, int end_effector, const std::vector<int>& velocities) {
   Matrix6Xd J(6, robot.velocities());
-  if (J.cols() == 0) return 0;
+  if (velocities.empty()) return 0;
   return generic_rank(robot, [&](const Kinematics<double>& kinematics) {
     // The pose of the base does not change the rank.
     kinematics.jacobian(robot.end_effectors[static_cast<std::size_t>(end_effector)],
                         Eigen::Matrix3d::Identity(), J);
-    return split(J, kRankTolerance).range.cols();
+    return split(J(Eigen::all, velocities), kRankTolerance).range.cols();
   });
 }
 

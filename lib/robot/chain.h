@@ -19,6 +19,8 @@ std::vector<int> carried_by(const Robot& robot, const std::vector<int>& joints);
 /// effector: the largest rank of their columns of J over all postures, 6 in space and 3 in a plane.
 /// A pose leaves (free base axes + joints of the chain - this number) coordinates free: theta_r.
 int motions_of(const Robot& robot, int end_effector);
+/// The same for these velocities alone.
+int motions_of(const Robot& robot, int end_effector, const std::vector<int>& velocities);
 
 /// [x, y, z, yaw] of a base that neither rolls nor pitches -> its pose in the world: the robot's
 /// mount, then (x, y, z), then Rz(yaw).

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "lib/math/random.h"
 #include "lib/posture/branch_atlas.h"
@@ -107,14 +108,28 @@ std::string shown_gap(const Vector6d& gap) {
                : fmt::format("{:.2g} rad away about the world's {}", std::abs(gap[i]), axis);
 }
 
+[[noreturn]] void refuse_joints(const Block& task, const Problem& problem, const char* why) {
+  task.table("theta_r").refuse_value(
+      "joints", fmt::format("joints without which the pose fixes {} and the base ({})",
+                            names_of(problem.robot, problem.dependent), why));
+}
+
+/// Whether base and dependent joints move the end effector in as many ways as they are, in almost
+/// all postures.
+bool follow_independently(const Problem& problem) {
+  std::vector<int> velocities(problem.robot.base_axes.size());
+  std::iota(velocities.begin(), velocities.end(), 0);
+  const int axes = static_cast<int>(velocities.size());
+  for (const int joint : problem.dependent) velocities.push_back(axes + joint);
+  return motions_of(problem.robot, problem.end_effector, velocities) ==
+         static_cast<int>(velocities.size());
+}
+
 [[noreturn]] void refuse_pose(const Block& task, const Problem& problem) {
   const DependentJoints branch(problem);
   const std::string names = names_of(problem.robot, problem.dependent);
   if (branch.has_start() && branch.start_is_singular()) {
-    task.table("theta_r").refuse_value(
-        "joints", fmt::format("joints without which the pose fixes {} and the base (it does not "
-                              "at the default: singular)",
-                              names));
+    refuse_joints(task, problem, "it does not at the default: singular");
   }
   task.table("pose").refuse_value(
       "xyz", fmt::format("a pose that {} and the base reach from theta_r.guess with theta_r at its "
@@ -190,6 +205,9 @@ void read_theta_r(const Block& theta_r, Problem& problem) {
 
 void require_branch(const Block& task, Problem& problem) {
   if (problem.dependent.empty()) return;
+  if (!follow_independently(problem)) {
+    refuse_joints(task, problem, "it does in no posture: singular");
+  }
   prepare_branches(problem);
   if (!problem.atlas->reaches()) refuse_pose(task, problem);
   const Block theta_r = task.table("theta_r");
