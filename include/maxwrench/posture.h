@@ -22,6 +22,7 @@ struct BranchCounts {
   long beyond_limit = 0;  ///< of them, those that leave a joint's limits,
   long singular = 0;      ///< are near singular,
   long collision = 0;     ///< collide with the robot itself
+  long incomplete = 0;    ///< at how many theta_r some may be missing, as two all but meet there
   long valid() const { return found - beyond_limit - singular - collision; }
 };
 
@@ -37,7 +38,7 @@ class Tally {
  private:
   std::atomic<long> undecided_ = 0;
   std::atomic<long> unreachable_ = 0, most_ = 0, found_ = 0;
-  std::atomic<long> beyond_limit_ = 0, singular_ = 0, collision_ = 0;
+  std::atomic<long> beyond_limit_ = 0, singular_ = 0, collision_ = 0, incomplete_ = 0;
 };
 
 /// What makes a posture invalid.

@@ -78,7 +78,10 @@ class FirstNewton {
     for (int step = 0; step < kMostNewtonSteps && error_.norm() > kArrived; ++step) {
       const double before = error_.norm();
       Vector6N dy = damped_step(J_, error_, damping);
-      const double longest = dy.lpNorm<Eigen::Infinity>();
+      double longest = 0;  // of the angles; translations are linear
+      for (Eigen::Index i = 0; i < dy.size(); ++i) {
+        if (chain_.turns(static_cast<int>(i))) longest = std::max(longest, std::abs(dy[i]));
+      }
       if (longest > kLongest) dy *= kLongest / longest;
       Six<double> trial = y;
       for (Eigen::Index i = 0; i < dy.size(); ++i) trial[static_cast<std::size_t>(i)] += dy[i];
@@ -128,6 +131,10 @@ BranchAtlas::BranchAtlas(const Problem& problem)
   find_first(problem);
   if (!first_) return;
   find_generic();
+  if (generic_.empty()) {
+    first_.reset();
+    return;
+  }
   spread();
 }
 
@@ -138,18 +145,39 @@ bool BranchAtlas::serves(const Problem& problem) const {
          problem.theta_r_max.head(r) == theta_r_max_ && ToolChain(problem) == chain_;
 }
 
+/// Where y may be: any angle, joints within their limits, the base near the pose.
+void BranchAtlas::set_reach(const Problem& problem) {
+  const Eigen::Vector3d near = (problem.robot.mount.inverse() * pose_).p;
+  for (int j = 0; j < chain_.unknowns(); ++j) {
+    const auto k = static_cast<std::size_t>(j);
+    const int z = chain_.place_in_z(j);
+    middle_[k] = 0;
+    reach_[k] = chain_.turns(j) ? kPi : 1;
+    if (chain_.turns(j)) continue;
+    if (z < 4) {
+      middle_[k] = near[z];
+      continue;
+    }
+    const Joint& joint = problem.robot.joints[static_cast<std::size_t>(z - 4)];
+    if (!std::isfinite(joint.q_min) || !std::isfinite(joint.q_max)) continue;
+    middle_[k] = (joint.q_min + joint.q_max) / 2;
+    reach_[k] = (joint.q_max - joint.q_min) / 2;
+  }
+}
+
 /// Somewhere, in real numbers.
 Six<double> BranchAtlas::random_y(Random& random) const {
   Six<double> y{};
   for (int j = 0; j < chain_.unknowns(); ++j) {
-    y[static_cast<std::size_t>(j)] =
-        chain_.turns(j) ? random.uniform(-kPi, kPi) : random.uniform(-1, 1);
+    y[static_cast<std::size_t>(j)] = middle_[static_cast<std::size_t>(j)] +
+                                     reach_[static_cast<std::size_t>(j)] * random.uniform(-1, 1);
   }
   return y;
 }
 
 /// One at the default, from the guess or from anywhere, or else at any theta_r; then others there.
 void BranchAtlas::find_first(const Problem& problem) {
+  set_reach(problem);
   FirstNewton newton(chain_, pose_);
   Continuation<double> correction(chain_);
   Random random(1);
@@ -207,7 +235,8 @@ void BranchAtlas::seek_generic(Continuation<Complex>& continuation, Random& rand
     for (int i = 0; i < chain_.unknowns(); ++i) {
       if (chain_.turns(i)) y[static_cast<std::size_t>(i)].re = random.uniform(-kPi, kPi);
     }
-    if (continuation.seek(generic_theta_r_, pose, y)) keep(y);
+    const bool arrived = continuation.seek(generic_theta_r_, pose, y);
+    if (arrived && !continuation.is_singular(kSingularSolution)) keep(y);
   }
 }
 
@@ -217,6 +246,7 @@ void BranchAtlas::find_generic() {
   Continuation<Complex> continuation(chain_);
   Random random(2);
   seek_generic(continuation, random);
+  if (generic_.empty()) return;
   for (int loop = 0, idle = 0; loop < kMostLoops && idle < kIdleLoops; ++loop, ++idle) {
     const auto reference =
         static_cast<std::size_t>(random.uniform() * static_cast<double>(generic_.size()));

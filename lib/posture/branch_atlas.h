@@ -62,6 +62,7 @@ class BranchAtlas {
   };
 
   void find_first(const Problem& problem);
+  void set_reach(const Problem& problem);
   Six<double> random_y(Random& random) const;
   void seek_generic(Continuation<Complex>& continuation, Random& random);
   void find_generic();
@@ -71,6 +72,7 @@ class BranchAtlas {
   ToolChain chain_;
   Pose<double> pose_;
   Eigen::VectorXd theta_r_min_, theta_r_max_;
+  Six<double> middle_{}, reach_{};  ///< where y is looked for
   std::optional<AtlasNode> first_;
   VectorX<Complex> generic_theta_r_;
   std::vector<Six<Complex>> generic_;

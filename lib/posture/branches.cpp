@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "lib/posture/branch_atlas.h"
@@ -13,7 +14,7 @@ namespace {
 constexpr double kNear = 0.2;
 /// How far a way around leads off the real numbers, as a share of its length.
 constexpr double kSidestep = 0.4;
-/// Values of y closer than this are equal in the order of postures.
+/// [rad or m] The lattice of the order of postures.
 constexpr double kEqual = 1e-7;
 
 double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
@@ -80,11 +81,14 @@ bool Branches::go_around(const AtlasNode& from, double side) {
 }
 
 void Branches::sort() {
-  std::sort(node_.real.begin(), node_.real.end(), [](const Six<double>& a, const Six<double>& b) {
-    for (std::size_t i = 0; i < 6; ++i) {
-      if (std::abs(a[i] - b[i]) > kEqual) return a[i] < b[i];
-    }
-    return false;
+  // On a lattice, so that rounding rarely changes the order; -pi and pi are one place.
+  const auto place = [](double y) {
+    return y < kEqual - std::numbers::pi ? std::numbers::pi / kEqual : std::round(y / kEqual);
+  };
+  std::sort(node_.real.begin(), node_.real.end(), [&](const Six<double>& a, const Six<double>& b) {
+    return std::lexicographical_compare(
+        a.begin(), a.end(), b.begin(), b.end(),
+        [&](double a_i, double b_i) { return place(a_i) < place(b_i); });
   });
 }
 

@@ -17,9 +17,13 @@ constexpr double kContraction = 0.25;
 /// Corrections below this end Newton's method on the way, and at its end.
 constexpr double kCloseEnough = 1e-4;
 constexpr double kLastCorrection = 1e-13;
-constexpr double kLeastError = 1e-10;
+/// One that may grow no smaller near a singular posture.
+constexpr double kSmallCorrection = 1e-6;
+/// [rad, or share of a metre and the distance of the pose] The error of an answer.
+constexpr double kLeastError = 1e-12;
 constexpr int kMostCorrections = 8;
-/// A way in steps shorter than this share of it, or in more steps, fails.
+/// A way in steps shorter than this share of what is left of it, or in more steps, fails: what lies
+/// just beyond its end does not hold it up, as the fold beyond which a pair of postures is gone.
 constexpr double kShortestShare = 1e-5;
 constexpr int kMostWaySteps = 2000;
 constexpr double kLongestShare = 0.5;
@@ -35,7 +39,8 @@ double largest(const Six<T>& y, int d) {
   double most = 0;
   for (int i = 0; i < d; ++i) {
     const double size = magnitude(y[static_cast<std::size_t>(i)]);
-    if (!(size <= most)) most = size;  // NaN counts
+    if (std::isnan(size)) return size;
+    most = std::max(most, size);
   }
   return most;
 }
@@ -117,9 +122,17 @@ double Continuation<T>::linearise(const Six<T>& y) {
   for (int k = 0; k < 3; ++k) turn += state_.pose.R.col(k).cross(pose_.R.col(k));
   error_.template tail<3>() = turn * 0.5;
   J_d_.factor(state_.J, d_);
-  double most = 0;
-  for (int i = 0; i < 6; ++i) most = std::max(most, magnitude(error_[i]));
-  return most;
+  Six<T> error;
+  std::copy(error_.begin(), error_.end(), error.begin());
+  return largest(error, 6);
+}
+
+/// What rounding leaves of the error.
+template <class T>
+double Continuation<T>::least_error() const {
+  double far = 1;
+  for (int i = 0; i < 3; ++i) far = std::max(far, magnitude(pose_.p[i]));
+  return kLeastError * far;
 }
 
 /// Newton's method from y; `first` is the length of its first correction.
@@ -134,12 +147,12 @@ bool Continuation<T>::contract(Six<T>& y, bool exact, double& first) {
     if (!(length <= kLongestCorrection)) return false;
     if (i > 0 && length > std::max(kContraction * last, kLastCorrection)) {
       // At rounding nothing contracts any more.
-      return exact && last <= kLeastError && linearise(y) <= kLeastError;
+      return exact && last <= kSmallCorrection && linearise(y) <= least_error();
     }
     for (int j = 0; j < d_; ++j) y[j] += dy[j];
     last = length;
     if (!exact && length <= kCloseEnough) return true;
-    if (length <= kLastCorrection) return linearise(y) <= kLeastError;
+    if (length <= kLastCorrection) return linearise(y) <= least_error();
   }
   return false;
 }
@@ -181,7 +194,7 @@ bool Continuation<T>::follow(const Way<T>& way, Six<T>& y) {
     const bool arrived = contract(trial, next == 1, first) && is_finite(trial);
     if (!arrived) {
       step = h / 4;
-      if (step < kShortestShare) return false;
+      if (step < kShortestShare * (1 - s)) return false;
       continue;
     }
     y = trial;

@@ -33,7 +33,7 @@ struct Way {
 
 /// Carries a solution y of X_e(theta_r, y) = X along a way: a step along the polynomial of second
 /// order through the last two tangents, then Newton's method, whose first correction must be small
-/// and whose next ones must contract, else the step is halved.
+/// and whose next ones must contract, else the step is quartered.
 template <class T>
 class Continuation {
  public:
@@ -57,6 +57,7 @@ class Continuation {
   bool contract(Six<T>& y, bool exact, double& first);
   Six<T> tangent();
   bool is_finite(const Six<T>& y) const;
+  double least_error() const;
 
   const ToolChain& chain_;
   const int d_, r_;

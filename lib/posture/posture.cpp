@@ -253,6 +253,7 @@ struct PostureEvaluator::Workspace {
     BranchCounts& counts = posture.branches;
     counts.most = counts.found;
     counts.unreachable = counts.found == 0;
+    counts.incomplete = primary && !primary->complete();
     if (!valid.empty()) {
       fault = {};
       return place(valid.front());

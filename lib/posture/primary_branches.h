@@ -20,6 +20,8 @@ class PrimaryBranches {
 
   /// All postures at theta_r, of which regrasp coordinates do not count; returns their number.
   int solve(const Eigen::VectorXd& theta_r);
+  /// Whether that are all of them (`Branches::complete`).
+  bool complete() const { return branches_.complete(); }
   /// Writes posture i into z = [x, y, z, yaw of the base; all joints]; whether the dependent joints
   /// are within their limits, into which they are turned by whole turns.
   bool place(int i);

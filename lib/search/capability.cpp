@@ -91,10 +91,11 @@ void Tally::add(const BranchCounts& counts) {
   beyond_limit_ += counts.beyond_limit;
   singular_ += counts.singular;
   collision_ += counts.collision;
+  incomplete_ += counts.incomplete;
 }
 
 BranchCounts Tally::sum() const {
-  return {unreachable_, most_, found_, beyond_limit_, singular_, collision_};
+  return {unreachable_, most_, found_, beyond_limit_, singular_, collision_, incomplete_};
 }
 
 std::unique_ptr<Objective> make_capability_objective(const Problem& problem, Wrench wrench,

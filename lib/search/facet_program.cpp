@@ -1,6 +1,7 @@
 #include "lib/search/facet_program.h"
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "lib/posture/redundancy.h"
@@ -90,12 +91,24 @@ struct FacetProgram::Workspace {
     return true;
   }
 
+  /// Whole turns do not count.
+  double away(const Eigen::VectorXd& q) const {
+    double sum = 0;
+    for (Eigen::Index i = 0; i < q.size(); ++i) {
+      const bool turns =
+          problem.robot.joints[static_cast<std::size_t>(i)].type == JointType::kRevolute;
+      const double d = q[i] - anchor[i];
+      sum += turns ? std::pow(std::remainder(d, 2 * std::numbers::pi), 2) : d * d;
+    }
+    return sum;
+  }
+
   /// Turns to the branch nearest to `anchor`, the first of equal ones.
   void choose_nearest() {
     int nearest = 0;
     double least = kInfinity;
     for (int i = 0; i < model.branches(); ++i) {
-      const double distance = (model.select(i).q - anchor).squaredNorm();
+      const double distance = away(model.select(i).q);
       if (distance >= least) continue;
       least = distance;
       nearest = i;
@@ -185,9 +198,9 @@ int FacetProgram::branches(const Eigen::VectorXd& theta_r) {
   return ws.posture->status == Status::kValid ? ws.model.branches() : 0;
 }
 
-void FacetProgram::set_out(const Eigen::VectorXd& theta_r, int branch, Eigen::VectorXd& w) {
+bool FacetProgram::set_out(const Eigen::VectorXd& theta_r, int branch, Eigen::VectorXd& w) {
   Workspace& ws = *workspace_;
-  ws.model.evaluate(theta_r);
+  if (branch >= branches(theta_r)) return false;
   ws.posture = &ws.model.select(branch);
   ws.anchor = ws.posture->q;
   set_posture(*ws.posture, ws.program);
@@ -197,6 +210,7 @@ void FacetProgram::set_out(const Eigen::VectorXd& theta_r, int branch, Eigen::Ve
   } else {
     w = Eigen::VectorXd::Zero(w_min().size()).cwiseMax(w_min()).cwiseMin(w_max());
   }
+  return true;
 }
 
 bool FacetProgram::evaluate(const Eigen::VectorXd& theta_r, const Eigen::VectorXd& w) {

@@ -39,7 +39,8 @@ class FacetProgram {
   int branches(const Eigen::VectorXd& theta_r);
   /// Sets out from one of these; w gets the lower level's answer there, or, where it has none, what
   /// is nearest to zero within the limits.
-  void set_out(const Eigen::VectorXd& theta_r, int branch, Eigen::VectorXd& w);
+  /// False if there are no more so many, which may happen where postures appear or end.
+  bool set_out(const Eigen::VectorXd& theta_r, int branch, Eigen::VectorXd& w);
 
   /// The rows at (theta_r, w): on the branch whose joints are nearest to those of the last
   /// `linearize`, or of `set_out` if that came later. False if theta_r has no valid posture.

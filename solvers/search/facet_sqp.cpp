@@ -111,7 +111,7 @@ FacetEnd solve_facets_by_slsqp(FacetView& view) {
   double value = 0;
   const nlopt_result result = nlopt_optimize(opt.get(), y.data(), &value);
   session.caught.rethrow();
-  return {y, word_of(result)};
+  return {y.allFinite() ? y : view.start(), word_of(result)};
 }
 
 namespace {

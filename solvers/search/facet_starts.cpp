@@ -49,16 +49,16 @@ FacetView::FacetView(Probe& probe, const Box& box)
   row_max_ = program_.row_max().cwiseQuotient(unit_);
 }
 
-void FacetView::set_out(const Eigen::VectorXd& theta_r, int branch) {
+bool FacetView::set_out(const Eigen::VectorXd& theta_r, int branch) {
   probe_.spend();
   Eigen::VectorXd w;
-  program_.set_out(theta_r, branch, w);
-  program_.evaluate(theta_r, w);
+  if (!program_.set_out(theta_r, branch, w) || !program_.evaluate(theta_r, w)) return false;
   program_.linearize();
   scale(w);
   start_.resize(d_ + w.size());
   start_ << box_.unit(theta_r), w.cwiseQuotient(w_scale_);
   y_.resize(0);
+  return true;
 }
 
 /// s, and what depends on it.
@@ -107,7 +107,7 @@ const FacetView::Jacobian& FacetView::jacobian() {
 double solve_from(Probe& probe, const Box& box, const Eigen::VectorXd& theta_r, int branch,
                   const FacetSolve& solve, std::string* status) {
   FacetView view(probe, box);
-  view.set_out(theta_r, branch);
+  if (!view.set_out(theta_r, branch)) return -kInfinity;
   const FacetEnd end = solve(view);
   if (status) *status = view.ended() ? kBudgetUsed : end.status;
   return probe.evaluate(view.theta_r(end.y));

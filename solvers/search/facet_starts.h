@@ -21,8 +21,9 @@ class FacetView {
   /// All outlive this; the probe has facets.
   FacetView(Probe& probe, const Box& box);
 
-  /// Sets out at one of the branches of theta_r, which counts as an evaluation.
-  void set_out(const Eigen::VectorXd& theta_r, int branch);
+  /// Sets out at one of the branches of theta_r, which counts as an evaluation; false if there are
+  /// no more so many.
+  bool set_out(const Eigen::VectorXd& theta_r, int branch);
   const Eigen::VectorXd& start() const { return start_; }
   const Eigen::VectorXd& lower() const { return lower_; }
   const Eigen::VectorXd& upper() const { return upper_; }
