@@ -7,6 +7,7 @@
 
 #include "cli/cli.h"
 #include "cli/pieces.h"
+#include "lib/posture/dependent_joints.h"
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
 
@@ -67,10 +68,18 @@ void print(const Robot& robot) {
 void print_what_follows(const Problem& problem) {
   PostureEvaluator model(problem);
   const Posture& posture = model.evaluate(problem.theta_r_default);
+  Eigen::VectorXd q = posture.q;
+  if (problem.motion && !problem.dependent.empty()) {  // a plan begins on the guess's branch
+    DependentJoints branch(problem);
+    branch.follow(problem.theta_r_default);
+    q = branch.z().tail(q.size());
+  }
   for (const int i : problem.dependent) {
     const Joint& joint = problem.robot.joints[i];
-    fmt::print("  follows {:<17} {:g} .. {:g}, at the default {:g}\n", joint.name, joint.q_min,
-               joint.q_max, posture.q[i]);
+    const bool inside =
+        q[i] >= joint.q_min - kLimitTolerance && q[i] <= joint.q_max + kLimitTolerance;
+    fmt::print("  follows {:<17} {:g} .. {:g}, at the default {:g}{}\n", joint.name, joint.q_min,
+               joint.q_max, q[i], inside ? "" : ", beyond its limits");
   }
   fmt::print("  {}\n", problem.robot.base_axes.empty()
                            ? "the base stands, these joints follow in all ways that reach the pose"

@@ -97,9 +97,12 @@ std::string describe(const BranchCounts& branches) {
   return fmt::format(
       "postures: {} valid, {} beyond a joint's limit, {} near singular, {} in collision; none at "
       "{} "
-      "theta_r, at most {} at one",
+      "theta_r, at most {} at one{}",
       branches.valid(), branches.beyond_limit, branches.singular, branches.collision,
-      branches.unreachable, branches.most);
+      branches.unreachable, branches.most,
+      branches.incomplete > 0
+          ? fmt::format(", some perhaps missing at {} theta_r", branches.incomplete)
+          : "");
 }
 
 const std::string& actuator_name(const Robot& robot, Eigen::Index i) {

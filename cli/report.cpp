@@ -17,7 +17,8 @@ using nlohmann::ordered_json;
 ordered_json to_json(const BranchCounts& branches) {
   return {{"valid", branches.valid()},           {"most", branches.most},
           {"unreachable", branches.unreachable}, {"beyond_limit", branches.beyond_limit},
-          {"singular", branches.singular},       {"collision", branches.collision}};
+          {"singular", branches.singular},       {"collision", branches.collision},
+          {"incomplete", branches.incomplete}};
 }
 
 ordered_json to_json(const Problem& problem, const Row& row) {

@@ -108,10 +108,16 @@ std::string shown_gap(const Vector6d& gap) {
                : fmt::format("{:.2g} rad away about the world's {}", std::abs(gap[i]), axis);
 }
 
+/// "elbow, wrist and the base"
+std::string followers_of(const Problem& problem) {
+  return names_of(problem.robot, problem.dependent) +
+         (problem.robot.base_axes.empty() ? "" : " and the base");
+}
+
 [[noreturn]] void refuse_joints(const Block& task, const Problem& problem, const char* why) {
   task.table("theta_r").refuse_value(
-      "joints", fmt::format("joints without which the pose fixes {} and the base ({})",
-                            names_of(problem.robot, problem.dependent), why));
+      "joints",
+      fmt::format("joints without which the pose fixes {} ({})", followers_of(problem), why));
 }
 
 /// Whether base and dependent joints move the end effector in as many ways as they are, in almost
@@ -127,14 +133,28 @@ bool follow_independently(const Problem& problem) {
 
 [[noreturn]] void refuse_pose(const Block& task, const Problem& problem) {
   const DependentJoints branch(problem);
-  const std::string names = names_of(problem.robot, problem.dependent);
   if (branch.has_start() && branch.start_is_singular()) {
     refuse_joints(task, problem, "it does not at the default: singular");
   }
   task.table("pose").refuse_value(
-      "xyz", fmt::format("a pose that {} and the base reach from theta_r.guess with theta_r at its "
-                         "default (the best found stays {})",
-                         names, shown_gap(branch.start_gap())));
+      "xyz",
+      fmt::format("a pose that {} reach{} (from theta_r.guess at the default Newton's method "
+                  "stays {})",
+                  followers_of(problem), problem.motion ? " on the branch of the guess" : "",
+                  shown_gap(branch.start_gap())));
+}
+
+[[noreturn]] void refuse_default(const Block& task, const Problem& problem, bool heave) {
+  const std::string followers = followers_of(problem);
+  if (heave) {
+    task.table("start").refuse_value(
+        "theta_r",
+        fmt::format("theta_r at which {} reach the pose (they do elsewhere)", followers));
+  }
+  task.table("theta_r").refuse_value(
+      "default", fmt::format("theta_r at which {} reach the pose (they do elsewhere: without this "
+                             "key a place is found)",
+                             followers));
 }
 
 /// Whether the pose is reached, in a posture that may yet collide.
@@ -213,18 +233,16 @@ void require_branch(const Block& task, Problem& problem) {
   const Block theta_r = task.table("theta_r");
   PostureEvaluator model(problem);
   const Posture& at_default = model.evaluate(problem.theta_r_default);
-  const bool open = !theta_r.has("default") && !problem.motion;
+  const bool heave = problem.motion && problem.motion->impulse;
+  const bool open = !theta_r.has("default") && !heave;
   if (open ? at_default.status != Status::kValid : !is_reached(at_default)) {
-    if (!open) {
-      theta_r.refuse_value("default",
-                           fmt::format("theta_r at which {} and the base reach the pose (they do "
-                                       "elsewhere: without this key a place is found)",
-                                       names_of(problem.robot, problem.dependent)));
-    }
+    if (!open) refuse_default(task, problem, heave);
     find_default(model, problem);
   }
-  if (DependentJoints(problem).has_start()) return;
-  if (problem.motion && theta_r.has("guess")) refuse_pose(task, problem);
+  if (theta_r.has("guess") || theta_r.has("guess_base")) {
+    if (DependentJoints(problem).has_start()) return;
+    if (problem.motion) refuse_pose(task, problem);
+  }
   const Posture& posture = model.evaluate(problem.theta_r_default);
   for (const int i : problem.dependent) problem.guess_q[i] = posture.q[i];
   const Pose<double> base = problem.robot.mount.inverse() * posture.base;

@@ -92,7 +92,7 @@ const std::vector<BadInput> kBadThetaRs = {
      "push.toml",
      "xyz = [0, 0, 0.9]",
      "xyz = [0, 0, 2.9]",
-     {"pose.xyz: got [0, 0, 2.9]", "reach from theta_r.guess", "1.6 m away along the world's z"}},
+     {"pose.xyz: got [0, 0, 2.9]", "wrist_roll and the base reach", "1.6 m away along the world's z"}},
     {"base_on_short_position",
      "rover.toml",
      "axes = [\"x\", \"y\", \"yaw\"]",
