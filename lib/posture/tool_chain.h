@@ -7,6 +7,7 @@
 
 namespace maxwrench {
 
+struct FreePose;
 struct Problem;
 
 /// Of up to six numbers y that follow from theta_r.
