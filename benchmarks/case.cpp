@@ -113,7 +113,7 @@ Wrench parse_wrench(const std::string& name) {
 }
 
 bool serves_as_plan(const Problem& problem, const std::string& measure) {
-  return measure == Case().measure && !problem.contact;
+  return measure == Case().measure && !problem.contact && problem.free.count() == 0;
 }
 
 bool serves_between_facets(const Problem& problem, const std::string& measure) {

@@ -7,27 +7,32 @@
 
 #include "benchmarks/plan_row.h"
 #include "benchmarks/row.h"
+#include "lib/posture/branch_atlas.h"
+#include "maxwrench/batch.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
 
 namespace maxwrench {
 namespace {
 
-/// The names of a `Comparison::reference`.
-struct Reference {
-  const char *search, *solver;
-};
-constexpr Reference kOfPostures{"annealing+cmaes", "glpk"}, kOfPlans{"multistart", "clp"};
+constexpr const char* kPeers[] = {"glpk", "clp"};
 
-double processor_seconds() {
-  return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
+const char* plain_search(const Problem& problem) {
+  return problem.motion ? "multistart" : "annealing+cmaes";
 }
 
-/// An objective that notes when its best value rises, over all clones. For one thread.
+double thread_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// An objective that notes what was spent when its best value rises, over all clones. For one
+/// thread.
 class Stopwatch final : public Objective {
  public:
-  Stopwatch(std::unique_ptr<Objective> objective, Attempt& attempt, double start)
-      : objective_(std::move(objective)), attempt_(attempt), start_(start) {}
+  Stopwatch(std::unique_ptr<Objective> objective, RaceRun& run, double start)
+      : objective_(std::move(objective)), run_(run), start_(start) {}
 
   const Eigen::VectorXd& lower() const override { return objective_->lower(); }
   const Eigen::VectorXd& upper() const override { return objective_->upper(); }
@@ -38,36 +43,41 @@ class Stopwatch final : public Objective {
   void metric(const Eigen::VectorXd& theta_r, Eigen::MatrixXd& M) override {
     objective_->metric(theta_r, M);
   }
+  void spend(long evaluations) override {
+    run_.spent.evaluations += static_cast<double>(evaluations);
+    objective_->spend(evaluations);
+  }
   double evaluate(const Eigen::VectorXd& theta_r, Eigen::VectorXd* gradient) override {
     const double value = objective_->evaluate(theta_r, gradient);
-    std::vector<double>& values = attempt_.improved_to;
-    if (value > (values.empty() ? -kInfinity : values.back())) {
-      values.push_back(value);
-      attempt_.improved_at.push_back(processor_seconds() - start_);
+    ++run_.spent.evaluations;
+    if (value > (run_.rises.empty() ? -kInfinity : run_.rises.back().value)) {
+      run_.rises.push_back({{run_.spent.evaluations, thread_seconds() - start_}, value});
     }
     return value;
   }
   std::unique_ptr<Objective> clone() const override {
-    return std::make_unique<Stopwatch>(objective_->clone(), attempt_, start_);
+    return std::make_unique<Stopwatch>(objective_->clone(), run_, start_);
   }
 
  private:
   std::unique_ptr<Objective> objective_;
-  Attempt& attempt_;
+  RaceRun& run_;
   double start_;
 };
 
-Reference reference_of(const Problem& problem) { return problem.motion ? kOfPlans : kOfPostures; }
-
-bool has_reference(const Problem& problem, const Case& base) {
-  const auto holds = [](const auto& table, const char* name) {
+/// The solvers of `Comparison::peers`.
+std::vector<std::string> peers_of(const Problem& problem, const Case& base) {
+  const auto holds = [](const auto& table, const std::string& name) {
     return std::any_of(table.begin(), table.end(),
-                       [&](const auto& entry) { return entry.name == std::string(name); });
+                       [&](const auto& entry) { return entry.name == name; });
   };
-  const Reference reference = reference_of(problem);
-  const bool built_in = !problem.motion || holds(searches(), reference.search);
-  return find_measure(base.measure).needs_solver && built_in &&
-         holds(lp_solvers(), reference.solver);
+  std::vector<std::string> names;
+  if (!find_measure(base.measure).needs_solver) return names;
+  if (problem.motion && !holds(searches(), plain_search(problem))) return names;
+  for (const char* peer : kPeers) {
+    if (holds(lp_solvers(), peer)) names.emplace_back(peer);
+  }
+  return names;
 }
 
 /// The searches that serve a problem: of a task in time those of plans first, of a static one the
@@ -75,9 +85,11 @@ bool has_reference(const Problem& problem, const Case& base) {
 std::vector<std::string> searches_of(const Problem& problem, const Case& base) {
   std::vector<std::string> served;
   const auto add = [&](std::span<const SearchEntry> table) {
-    for (const SearchEntry& search : table) served.push_back(search.name);
+    for (const SearchEntry& search : table) {
+      if (problem.motion || search.name != base.search) served.emplace_back(search.name);
+    }
   };
-  if (!problem.motion) served.push_back(best_search(problem, base.measure));
+  if (!problem.motion) served.push_back(base.search);
   if (problem.motion) add(plan_searches());
   add(searches());
   if (!problem.motion && serves_as_plan(problem, base.measure)) add(plan_searches());
@@ -87,33 +99,29 @@ std::vector<std::string> searches_of(const Problem& problem, const Case& base) {
 
 /// What was noted while the search looked beyond the plan that it chose (`slp` leaves out those
 /// that are worth less between their instants) is no rise of its answer.
-void forget_beyond(Attempt& run) {
-  std::vector<double>&at = run.improved_at, &to = run.improved_to;
-  const auto beyond = std::upper_bound(to.begin(), to.end(), run.value) - to.begin();
-  at.erase(at.begin() + beyond, at.end());
-  to.erase(to.begin() + beyond, to.end());
-  if (run.value > (to.empty() ? -kInfinity : to.back())) {
-    at.push_back(run.seconds);
-    to.push_back(run.value);
+void forget_beyond(double value, RaceRun& run) {
+  std::erase_if(run.rises, [value](const Rise& rise) { return rise.value > value; });
+  if (value > (run.rises.empty() ? -kInfinity : run.rises.back().value)) {
+    run.rises.push_back({run.spent, value});
   }
 }
 
 /// From `start`; `found` gets the best point, if there is one.
 Attempt attempt_from(const Case& choice, const NamedSearch& named,
                      std::unique_ptr<Objective> objective, const Eigen::VectorXd& start,
-                     Eigen::VectorXd& found) {
-  Attempt run;
-  run.choice = choice;
-  const double begin = processor_seconds();
-  Stopwatch watch(std::move(objective), run, begin);
+                     const Interruption* interruption, Eigen::VectorXd& found) {
+  Attempt attempt;
+  attempt.choice = choice;
+  const double begin = thread_seconds();
+  Stopwatch watch(std::move(objective), attempt.run, begin);
   const SearchResult result = search(choice, named, watch, start, 1, {});
-  run.seconds = processor_seconds() - begin;
-  run.value = result.value;
-  run.evaluations = result.evaluations;
-  run.history = result.history;
-  forget_beyond(run);
+  attempt.counted = attempt.run.spent.evaluations;
+  attempt.run.spent = {static_cast<double>(result.evaluations), thread_seconds() - begin};
+  attempt.run.interrupted = interruption != nullptr && interruption->noticed;
+  attempt.value = result.value;
+  forget_beyond(result.value, attempt.run);
   found = result.theta_r;
-  return run;
+  return attempt;
 }
 
 /// Of a case on its problem.
@@ -122,127 +130,141 @@ Attempt attempt_case(const Problem& problem, const Case& c, Interruption* interr
                         : attempt(problem, resolve(problem, c), interruption);
 }
 
+/// Of the dearest stage.
+int cost_of(const std::string& search) {
+  int cost = 1;
+  for (const SearchEntry* stage : find_plan_search(search).stages) {
+    cost = std::max(cost, stage->cost);
+  }
+  return cost;
+}
+
+/// Who asks first for a node would pay for all.
+void make_all_nodes(const BranchAtlas& atlas, int threads) {
+  parallel_for(threads, atlas.nodes(), [&](long i) { atlas.node(static_cast<int>(i)); });
+}
+
+/// Seed by seed, so that attempts of one search, which may wait for each other, do not run side by
+/// side.
+void run_all(const Problem& problem, const Case& base, const RaceOptions& options,
+             Interruption* interruption, Comparison& comparison) {
+  std::vector<Contender*> all;
+  for (auto* group : {&comparison.contenders, &comparison.peers}) {
+    for (Contender& contender : *group) all.push_back(&contender);
+  }
+  const auto count = static_cast<long>(all.size());
+  std::vector<std::optional<Attempt>> attempts(all.size() *
+                                               static_cast<std::size_t>(options.seeds));
+  parallel_for(options.threads, count * options.seeds, [&](long i) {
+    if (interruption != nullptr && interruption->asked) return;
+    const Contender& contender = *all[static_cast<std::size_t>(i % count)];
+    Case c = base;
+    c.problem = problem.name;
+    c.search = contender.search;
+    c.lp = contender.lp;
+    c.seed = static_cast<std::uint64_t>(i / count + 1);
+    c.budget = contender.budget;
+    attempts[static_cast<std::size_t>(i)] = attempt_case(problem, c, interruption);
+    if (options.done) options.done();
+  });
+  for (std::size_t i = 0; i < attempts.size(); ++i) {
+    if (attempts[i]) all[i % all.size()]->attempts.push_back(std::move(*attempts[i]));
+  }
+}
+
 }  // namespace
-
-double Attempt::evaluations_to(double target) const {
-  for (const Improvement& rise : history)
-    if (rise.value >= target) return static_cast<double>(rise.evaluations);
-  return kInfinity;
-}
-
-double Attempt::seconds_to(double target) const {
-  for (std::size_t i = 0; i < improved_to.size(); ++i)
-    if (improved_to[i] >= target) return improved_at[i];
-  return kInfinity;
-}
-
-double Attempt::value_after(double count) const {
-  double best = -kInfinity;
-  for (const Improvement& rise : history)
-    if (static_cast<double>(rise.evaluations) <= count) best = rise.value;
-  return best;
-}
 
 Attempt attempt(const Problem& problem, const Method& method, Interruption* interruption) {
   Eigen::VectorXd found;
-  Attempt run = attempt_from(method.choice, *method.search,
-                             make_interruptible(make_objective(problem, method), interruption),
-                             problem.theta_r_default, found);
-  // What a search of plans maximises has a value where only slack balances a posture.
-  if (method.plan_solver && run.value > -kInfinity &&
-      !evaluate(problem, method, found).has_value()) {
-    run.value = -kInfinity;
-    run.history.clear();
-    forget_beyond(run);
+  Attempt result = attempt_from(method.choice, *method.search,
+                                make_interruptible(make_objective(problem, method), interruption),
+                                problem.theta_r_default, interruption, found);
+  // What a search of plans maximises has a value where only slack balances a posture, too.
+  if (result.value > -kInfinity && !evaluate(problem, method, found).has_value()) {
+    result.value = -kInfinity;
+    result.run.rises.clear();
   }
-  return run;
+  return result;
 }
 
 Attempt attempt(const Problem& problem, const PlanMethod& method, Interruption* interruption) {
   Eigen::VectorXd found;
-  Attempt run = attempt_from(
+  Attempt result = attempt_from(
       method.choice, *method.search,
       make_interruptible(make_plan_objective(problem, method.choice.wrench, method.solver->make),
                          interruption),
-      stacked(constant_knots(problem, problem.theta_r_default)), found);
-  if (run.value > -kInfinity) {
-    run.continuous =
+      stacked(constant_knots(problem, problem.theta_r_default)), interruption, found);
+  if (result.value > -kInfinity) {
+    result.continuous =
         evaluate_plan(problem, method, unstacked(found, knots_of(problem))).plan.continuous;
   }
-  return run;
+  return result;
+}
+
+std::vector<RaceRun> Contender::runs() const {
+  std::vector<RaceRun> runs;
+  for (const Attempt& each : attempts) runs.push_back(each.run);
+  return runs;
 }
 
 double Contender::shortfall_after(double evaluations, double best) const {
   if (best == 0 || best == -kInfinity) return kInfinity;
   std::vector<double> shortfalls;
-  for (const Attempt& each : attempts)
-    shortfalls.push_back((best - each.value_after(evaluations)) / std::abs(best));
+  for (const Attempt& each : attempts) {
+    const double value = value_after(each.run, &Spent::evaluations, evaluations);
+    shortfalls.push_back((best - value) / std::abs(best));
+  }
   return median(shortfalls);
 }
 
-double Contender::expected_seconds(double target) const {
-  double seconds = 0;
-  int reached = 0;
-  for (const Attempt& each : attempts) {
-    const double to = each.seconds_to(target);
-    seconds += std::isfinite(to) ? to : each.seconds;
-    reached += std::isfinite(to) ? 1 : 0;
-  }
-  return reached > 0 ? seconds / reached : kInfinity;
+double Contender::expected(double target, Cost cost) const {
+  return expected_running_time(runs(), target, cost);
+}
+
+const Contender* Comparison::reference() const {
+  const auto best = std::min_element(peers.begin(), peers.end(), [&](const auto& a, const auto& b) {
+    return a.expected(target(), &Spent::seconds) < b.expected(target(), &Spent::seconds);
+  });
+  return best == peers.end() ? nullptr : &*best;
 }
 
 double Comparison::best() const {
-  double best = -kInfinity;
-  for (const Contender& contender : contenders)
-    for (const Attempt& each : contender.attempts) best = std::max(best, each.value);
-  for (const Attempt& each : reference.attempts) best = std::max(best, each.value);
+  double best = best_known.value_or(-kInfinity);
+  if (best_known) return best;
+  for (const auto* group : {&contenders, &peers}) {
+    for (const Contender& contender : *group) {
+      for (const Attempt& each : contender.attempts) best = std::max(best, each.value);
+    }
+  }
   return best;
 }
 
-double Comparison::target() const {
-  return has_value() ? best() - 1e-3 * std::abs(best()) : kInfinity;
-}
-
-Comparison compare(const Problem& problem, const Case& base, int seeds,
-                   const std::function<void()>& done, Interruption* interruption) {
-  const auto interrupted = [&] { return interruption != nullptr && interruption->asked; };
-  const auto contend = [&](const std::string& search, const std::string& lp) {
-    Contender contender{search, lp, {}};
-    for (int seed = 1; seed <= seeds && !interrupted(); ++seed) {
-      Case c = base;
-      c.problem = problem.name;
-      c.search = search;
-      c.lp = lp;
-      c.seed = static_cast<std::uint64_t>(seed);
-      contender.attempts.push_back(attempt_case(problem, c, interruption));
-      done();
-    }
-    return contender;
-  };
+Comparison compare(const Problem& problem, const Case& base, const RaceOptions& options,
+                   Interruption* interruption) {
+  const Case whole = complete(problem, base);
   const char* unit = problem.motion ? problem.unit() : resolve(problem, base).unit;
-  const std::string lp = complete(problem, base).lp;
-  Comparison comparison{problem.name, unit, {}, {}, problem.motion.has_value(), base.budget};
-  for (const std::string& search : searches_of(problem, base))
-    comparison.contenders.push_back(contend(search, lp));
-  const Reference reference = reference_of(problem);
-  if (has_reference(problem, base))
-    comparison.reference = contend(reference.search, reference.solver);
-  comparison.interrupted = interrupted();
+  Comparison comparison{problem.name, unit, {}, {}, base.search, problem.motion.has_value(),
+                        base.budget};
+  if (problem.motion) comparison.default_search = plan_searches().front().name;
+  const auto enter = [&](const std::string& search, const std::string& lp) {
+    const long share = options.shares_budget ? cost_of(search) : 1;
+    return Contender{search, lp, std::max(1L, base.budget / share), {}};
+  };
+  for (const std::string& search : searches_of(problem, base)) {
+    comparison.contenders.push_back(enter(search, whole.lp));
+  }
+  for (const std::string& lp : peers_of(problem, base)) {
+    comparison.peers.push_back(enter(plain_search(problem), lp));
+  }
+  if (problem.atlas) make_all_nodes(*problem.atlas, options.threads);
+  run_all(problem, base, options, interruption, comparison);
+  comparison.interrupted = interruption != nullptr && interruption->asked;
   return comparison;
 }
 
 long attempt_count(const Problem& problem, const Case& base, int seeds) {
-  const auto contenders =
-      static_cast<long>(searches_of(problem, base).size()) + (has_reference(problem, base) ? 1 : 0);
-  return contenders * seeds;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return kInfinity;
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  if (values.size() % 2 == 1) return values[half];
-  return values[half] == kInfinity ? kInfinity : (values[half - 1] + values[half]) / 2;
+  return static_cast<long>(searches_of(problem, base).size() + peers_of(problem, base).size()) *
+         seeds;
 }
 
 }  // namespace maxwrench

@@ -1,37 +1,31 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "benchmarks/case.h"
 #include "benchmarks/interruption.h"
-#include "maxwrench/search.h"
+#include "benchmarks/race_statistics.h"
 
 namespace maxwrench {
 
 struct PlanMethod;
 
-/// One run of a search on one thread, perhaps cut short, with the time of the processor (what other
-/// programs use does not count).
+/// One run of a search on one thread, with the time of that thread's processor: what other programs
+/// and other attempts use does not count. Evaluations and seconds are those of the same order, in
+/// which the thread evaluated.
 struct Attempt {
   Case choice;
   double value = -kInfinity;
   /// Of a plan, that between its instants (`Plan::continuous`); NaN: none.
   double continuous = std::numeric_limits<double>::quiet_NaN();
-  long evaluations = 0;
-  double seconds = 0;                ///< of the whole run
-  std::vector<Improvement> history;  ///< by evaluations
-  std::vector<double> improved_at;   ///< seconds of each rise of the best value ...
-  std::vector<double> improved_to;   ///< ... and the value it rose to
-
-  /// Evaluations until the best value reached `target`, infinity if it never did.
-  double evaluations_to(double target) const;
-  double seconds_to(double target) const;
-  /// The best value after so many evaluations, -infinity before the first.
-  double value_after(double count) const;
+  RaceRun run;         ///< what was spent in the whole run as the search counts it
+  double counted = 0;  ///< evaluations that the clock saw: as many
 };
 
+/// The answer is checked from the problem's data outside the clock; one that fails is none.
 Attempt attempt(const Problem& problem, const Method& method, Interruption* interruption = nullptr);
 Attempt attempt(const Problem& problem, const PlanMethod& method,
                 Interruption* interruption = nullptr);
@@ -39,45 +33,62 @@ Attempt attempt(const Problem& problem, const PlanMethod& method,
 /// All attempts of one search through one lower-level solver.
 struct Contender {
   std::string search, lp;
-  std::vector<Attempt> attempts;  ///< seeds 1, 2, ...
+  long budget = 0;                ///< evaluations of each attempt
+  std::vector<Attempt> attempts;  ///< seeds 1, 2, ...; of a problem that was interrupted, those
+                                  ///< that had begun
 
+  std::vector<RaceRun> runs() const;
   /// The median over the attempts of how far their best value so far stays below `best`, as a share
   /// of it; infinity until half of them have a value, and if `best` is zero or none.
   double shortfall_after(double evaluations, double best) const;
-  /// The expected running time to `target` of a search that is started again with another seed
-  /// until it reaches it: the seconds to it, and all those of the attempts that miss it, over the
-  /// number of those that reach it. Infinity if none does.
-  double expected_seconds(double target) const;
+  /// `expected_running_time` of its runs.
+  double expected(double target, Cost cost) const;
 };
 
 /// All searches on one problem.
 struct Comparison {
   std::string problem, unit;
   std::vector<Contender> contenders;  ///< in the order of the tables of searches
-  /// The plain way, of which every speed is a multiple: annealing+cmaes through GLPK, of a task in
-  /// time the paper's multistart through Clp, both general solvers of linear programs. No attempts
-  /// if this build has none or the measure takes none.
-  Contender reference;
-  bool in_time = false;      ///< a task in time
-  long budget = 0;           ///< evaluations of each attempt
-  bool interrupted = false;  ///< attempts are missing, and the last one was cut short
+  /// The plain way through general solvers of linear programs, GLPK and Clp as far as they are
+  /// built in: annealing+cmaes, of a task in time the paper's multistart. None if the measure takes
+  /// no solver.
+  std::vector<Contender> peers;
+  std::string default_search;  ///< that of `solve`
+  bool in_time = false;        ///< a task in time
+  long budget = 0;             ///< the largest of the contenders
+  bool interrupted = false;    ///< attempts are missing
+  /// Replaces the best value of the attempts, such as a proven bound.
+  std::optional<double> best_known = std::nullopt;
 
+  /// Of `peers` the one from which every speed is a multiple: that with the least expected time to
+  /// `target`, the first of equals; null: none.
+  const Contender* reference() const;
   bool has_value() const { return best() > -kInfinity; }
-  /// The best value of all attempts, -infinity if none has one.
+  /// What targets lie below: `best_known`, or the best value of all attempts, -infinity if none has
+  /// one.
   double best() const;
-  /// What counts as reached: a thousandth below the best; infinity, which nothing reaches, if there
-  /// is no value.
-  double target() const;
+  /// The target at a share below it.
+  double target(double share) const { return target_below(best(), share); }
+  /// What counts as reached where one target stands for all: a thousandth below.
+  double target() const { return target(1e-3); }
 };
 
-/// Runs every search that serves the problem with `seeds` seeds; `base` holds measure, wrench, lp
-/// and budget. `done` is called after each attempt. After an interruption no attempt begins.
-Comparison compare(const Problem& problem, const Case& base, int seeds,
-                   const std::function<void()>& done, Interruption* interruption = nullptr);
+struct RaceOptions {
+  int seeds = 20;
+  /// Attempts side by side. Those with Ipopt wait for each other; that is no time of theirs.
+  int threads = 1;
+  /// Of searches whose evaluations are dear (`SearchEntry::cost`) the budget is divided by that.
+  bool shares_budget = true;
+  std::function<void()> done;  ///< called after each attempt, from any thread; may be empty
+};
+
+/// Runs every search that serves the problem with seeds 1 to `seeds`; `base` holds measure, wrench,
+/// lp, budget and the default search. What all attempts share of the problem (`BranchAtlas`) is
+/// made before, outside the clock. After an interruption no attempt begins. The values do not
+/// depend on the threads.
+Comparison compare(const Problem& problem, const Case& base, const RaceOptions& options,
+                   Interruption* interruption = nullptr);
 /// How many attempts that makes.
 long attempt_count(const Problem& problem, const Case& base, int seeds);
-
-/// The middle value, the mean of the two middle ones of an even number; infinity if there is none.
-double median(std::vector<double> values);
 
 }  // namespace maxwrench

@@ -19,6 +19,7 @@ class Interruptible final : public Objective {
     if (interruption_.asked) interruption_.noticed = true;
     return interruption_.asked;
   }
+  void spend(long evaluations) override { objective_->spend(evaluations); }
   PlanEvaluator* plans() override { return objective_->plans(); }
   FacetProgram* facets() override { return objective_->facets(); }
   void metric(const Eigen::VectorXd& theta_r, Eigen::MatrixXd& M) override {

@@ -154,6 +154,11 @@ void print(const Problem& problem) {
              problem.robot.end_effectors[problem.end_effector].name, fmt::join(problem.c, ", "),
              problem.unit());
   if (problem.motion) print(*problem.motion);
+  if (problem.free.count() > 0) {
+    fmt::print("  pose free along {}; c {}\n",
+               problem.free.along_tool ? "the end effector's axes" : "its own axes",
+               problem.free.wrench_turns ? "turns with the end effector" : "stays in the world");
+  }
   fmt::print("  wrench any: {} columns; reference {:g} {}, desired [{:g}]\n", problem.W_any.cols(),
              problem.reference, problem.unit(), fmt::join(problem.desired, ", "));
   fmt::print("  redundancy {}\n", problem.redundancy());

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -8,126 +9,42 @@
 #include "benchmarks/comparison.h"
 #include "benchmarks/machine.h"
 #include "benchmarks/plan_row.h"
-#include "benchmarks/table.h"
+#include "benchmarks/race_summary.h"
 #include "benchmarks/write_file.h"
 #include "cli/cli.h"
 #include "cli/ctrl_c.h"
 #include "cli/motion_options.h"
 #include "cli/output.h"
 #include "cli/progress.h"
+#include "cli/race_table.h"
 #include "drawing/convergence.h"
+#include "drawing/ecdf.h"
 #include "maxwrench/load.h"
-#include "maxwrench/version.h"
 
 namespace maxwrench {
 namespace {
 
 struct CompareOptions : CommonOptions {
-  std::vector<std::string> problems = {"uvms/valve", "uvms/lift"};
-  int seeds = 10;
+  std::vector<std::string> problems;  ///< none: all static ones that are shipped
+  int seeds = 20;
   bool names_budget = false;
   MotionOptions motion;
   std::string out = "results";
 };
 
-std::string number_or_dash(double value, const char* format) {
-  return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "-";
-}
+/// Problems of so few coordinates get a fifth of the budget unless it is named.
+constexpr int kFewCoordinates = 2;
+constexpr long kFewShare = 5;
+/// Searches with names in the figures.
+constexpr std::size_t kNamed = 8;
 
-/// How far a value stays below the best, as a share of it; NaN if there is none.
-double shortfall(const Comparison& comparison, double value) {
-  return (comparison.best() - value) / std::abs(comparison.best());
-}
-
-/// The median over the attempts of what `of` says.
-double median_of(const Contender& contender, const std::function<double(const Attempt&)>& of) {
-  std::vector<double> values;
-  for (const Attempt& each : contender.attempts) values.push_back(of(each));
-  return median(values);
-}
-
-std::string contender_line(const Comparison& comparison, const Contender& contender) {
-  const double target = comparison.target();
-  const auto seconds = [&](const Attempt& each) { return each.seconds_to(target); };
-  const auto evaluations = [&](const Attempt& each) { return each.evaluations_to(target); };
-  int reached = 0;
-  for (const Attempt& each : contender.attempts) reached += each.value >= target ? 1 : 0;
-  const auto median_number = [&](double Attempt::*number) {
-    return median_of(contender, [number](const Attempt& each) { return each.*number; });
-  };
-  const double time = median_of(contender, seconds);
-  std::string text = fmt::format(
-      "{:<15} {:<8} {:>2} of {:<2} {:>11} {:>8} {:>9} {:>9} {:>9}", contender.search, contender.lp,
-      reached, contender.attempts.size(),
-      number_or_dash(median_of(contender, evaluations), "{:.0f}"),
-      number_or_dash(1e3 * time, "{:.0f}"),
-      number_or_dash(1e3 * contender.expected_seconds(target), "{:.0f}"),
-      number_or_dash(1e3 * median_number(&Attempt::seconds), "{:.0f}"),
-      number_or_dash(100 * shortfall(comparison, median_number(&Attempt::value)), "{:.4f}"));
-  if (comparison.in_time) {
-    text += fmt::format(" {:>10}", number_or_dash(median_number(&Attempt::continuous), "{:.4f}"));
+/// All shipped static ones, with a second contact too.
+std::vector<std::string> static_problems() {
+  std::vector<std::string> names;
+  for (const std::string& name : shipped_problems()) {
+    if (!load_problem(name).motion) names.push_back(name);
   }
-  if (comparison.reference.attempts.empty()) return text + "\n";
-  const double plain = comparison.reference.expected_seconds(target);
-  const double share = contender.expected_seconds(target) / plain;
-  return fmt::format("{} {:>9}\n", text,
-                     std::isfinite(plain) ? number_or_dash(share, "{:.4f}") : "-");
-}
-
-std::string text(const Comparison& comparison) {
-  const Contender& reference = comparison.reference;
-  const bool referred = !reference.attempts.empty();
-  const std::string best = number_or_dash(comparison.best(), "{:.5f}");
-  const std::string plain = fmt::format("{}, {}", reference.search, reference.lp);
-  std::string text = fmt::format(
-      "{}{}: best known {} {}, {} evaluations each\n"
-      "                         -- to 0.1 % below it, median --                all   median{}{}\n"
-      "search          lp       reached evaluations       ms  expected        ms   below %{}{}\n",
-      comparison.problem, comparison.interrupted ? ", interrupted" : "", best, comparison.unit,
-      comparison.budget, comparison.in_time ? "     median" : "",
-      referred ? "   expected to that" : "", comparison.in_time ? " continuous" : "",
-      referred ? "   of " + plain : "");
-  for (const Contender& contender : comparison.contenders) {
-    if (!contender.attempts.empty()) text += contender_line(comparison, contender);
-  }
-  if (referred) text += contender_line(comparison, comparison.reference);
-  return text;
-}
-
-/// The values and, apart from them, the times of all attempts.
-void keep(const Comparison& comparison, const std::filesystem::path& folder) {
-  const auto columns = [](std::initializer_list<std::string> more) {
-    std::vector<std::string> names = case_columns();
-    names.insert(names.end(), more);
-    return names;
-  };
-  const std::size_t keys = case_columns().size();
-  Table values(
-      folder / "search_comparison.csv",
-      columns({"beta", "continuous", "unit", "below", "evaluations_to_thousandth", "evaluations"}),
-      keys);
-  Table times(folder / "search_times.csv",
-              columns({"seconds_to_thousandth", "seconds", "threads", "machine", "version"}), keys);
-  const auto put = [](Table& table, const Attempt& each, std::initializer_list<std::string> more) {
-    std::vector<std::string> cells = case_values(each.choice);
-    cells.insert(cells.end(), more);
-    table.put(cells);
-  };
-  const double target = comparison.target();
-  std::vector<Contender> all = comparison.contenders;
-  all.push_back(comparison.reference);
-  for (const Contender& contender : all) {
-    for (const Attempt& each : contender.attempts) {
-      put(values, each,
-          {number_or_dash(each.value, "{:.17g}"), number_or_dash(each.continuous, "{:.17g}"),
-           comparison.unit, number_or_dash(shortfall(comparison, each.value), "{:.3e}"),
-           number_or_dash(each.evaluations_to(target), "{:.0f}"),
-           fmt::format("{}", each.evaluations)});
-      put(times, each,
-          {number_or_dash(each.seconds_to(target), "{:.4g}"),
-           number_or_dash(each.seconds, "{:.4g}"), "1", processor_name(), version()});
-    }
-  }
+  return names;
 }
 
 /// The median of each search as a curve; `comparison` outlives it.
@@ -142,6 +59,11 @@ ConvergencePanel panel(const Comparison& comparison) {
   return panel;
 }
 
+long usual_budget(const Problem& problem, long budget) {
+  if (problem.motion) return kPlanBudget;
+  return problem.redundancy() > kFewCoordinates ? budget : budget / kFewShare;
+}
+
 /// Keeps what is finished; of an interrupted problem nothing, because each line depends on the best
 /// of all.
 std::vector<Comparison> attempt_all(const CompareOptions& options,
@@ -152,11 +74,13 @@ std::vector<Comparison> attempt_all(const CompareOptions& options,
     Problem& problem = problems.emplace_back(load_problem(name));
     options.motion.change(problem);
     Case& c = cases.emplace_back(options.read_case());
-    if (problem.motion && !options.names_budget) c.budget = kPlanBudget;
+    if (!problem.motion) c.search = best_search(problem, c.measure);
+    if (!options.names_budget) c.budget = usual_budget(problem, c.budget);
     complete(problem, c);  // refuses before anything is computed
   }
   write_file(folder / "machine.txt", describe_machine());
-  long total = 0, done = 0;
+  long total = 0;
+  std::atomic<long> done = 0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     total += attempt_count(problems[i], cases[i], options.seeds);
   }
@@ -164,9 +88,9 @@ std::vector<Comparison> attempt_all(const CompareOptions& options,
   CtrlC ctrl_c;
   std::vector<Comparison> comparisons;
   for (std::size_t i = 0; i < problems.size() && !ctrl_c.interruption.asked; ++i) {
-    comparisons.push_back(compare(
-        problems[i], cases[i], options.seeds, [&] { progress.show(++done); },
-        &ctrl_c.interruption));
+    const RaceOptions race{options.seeds, options.thread_count(), !options.names_budget,
+                           [&] { progress.show(++done); }};
+    comparisons.push_back(compare(problems[i], cases[i], race, &ctrl_c.interruption));
     if (!comparisons.back().interrupted) keep(comparisons.back(), folder);
   }
   progress.finish();
@@ -181,23 +105,71 @@ bool finished(const CompareOptions& options, const std::vector<Comparison>& comp
          });
 }
 
+/// Of each of the problems, or of all together as one.
+std::vector<EcdfPanel> ecdf_panels(std::span<const Comparison> comparisons,
+                                   const std::string& title) {
+  std::vector<EcdfPanel> panels = {{title, "evaluations", {}}, {title, "ms", {}}};
+  const Cost costs[] = {&Spent::evaluations, &Spent::seconds};
+  for (const Standing& standing : standings(comparisons)) {
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+      EcdfCurve& curve = panels[i].curves.emplace_back(EcdfCurve{standing.search, {}});
+      const double unit = i == 0 ? 1 : 1e3;
+      for (const EcdfStep& step : target_ecdf(comparisons, standing.search, costs[i])) {
+        curve.steps.emplace_back(unit * step.spent, step.share);
+      }
+    }
+  }
+  return panels;
+}
+
+/// `kind` is "search" or "plan".
+void draw(std::span<const Comparison> comparisons, const std::filesystem::path& folder,
+          const std::string& kind) {
+  const std::vector<std::string> named = leaders(standings(comparisons), kNamed);
+  std::vector<ConvergencePanel> panels;
+  std::vector<EcdfPanel> each;
+  for (const Comparison& comparison : comparisons) {
+    panels.push_back(panel(comparison));
+    for (EcdfPanel& one : ecdf_panels({&comparison, 1}, comparison.problem)) {
+      each.push_back(std::move(one));
+    }
+  }
+  write_file(folder / (kind + "_comparison.svg"), draw_convergence(panels, named));
+  write_file(folder / (kind + "_ecdf_problems.svg"), draw_ecdf(each, named, 2));
+  write_file(folder / (kind + "_ecdf.svg"),
+             draw_ecdf(ecdf_panels(comparisons, "all problems"), named, 1));
+}
+
+void print_summary(std::span<const Comparison> comparisons) {
+  fmt::print(
+      "\nAll problems together, best first, the default in bold. Of each problem the expected ms "
+      "to "
+      "0.1 %; typical and worst:\nhow many times the best search's that is, median and largest; "
+      "10 % ... 0.01 %: of all problems and seeds the share [%]\nthat came so near (what a search "
+      "does not serve counts as missed).\n\n{}",
+      summary_table(comparisons));
+}
+
 int compare_all(const CompareOptions& options) {
   const std::filesystem::path folder(options.out);
   const std::vector<Comparison> comparisons = attempt_all(options, folder);
-  fmt::print("Every search with {} seeds on one thread; time of the processor.\n", options.seeds);
-  for (const Comparison& comparison : comparisons) fmt::print("\n{}", text(comparison));
+  fmt::print(
+      "Every search with {} seeds, each on one thread; time of the processor, best first, * the "
+      "default.\n",
+      options.seeds);
+  for (const Comparison& comparison : comparisons) fmt::print("\n{}", race_table(comparison));
   if (!finished(options, comparisons)) {
-    remark("interrupted or without a value: the figure is not drawn");
+    remark("interrupted or without a value: no figure is drawn, no summary printed");
     return kOtherStatus;
   }
   for (const bool in_time : {false, true}) {
-    std::vector<ConvergencePanel> panels;
+    std::vector<Comparison> some;
     for (const Comparison& comparison : comparisons) {
-      if (comparison.in_time == in_time) panels.push_back(panel(comparison));
+      if (comparison.in_time == in_time) some.push_back(comparison);
     }
-    if (panels.empty()) continue;
-    write_file(folder / (in_time ? "plan_comparison.svg" : "search_comparison.svg"),
-               draw_convergence(panels));
+    if (some.empty()) continue;
+    if (some.size() > 1) print_summary(some);
+    draw(some, folder, in_time ? "plan" : "search");
   }
   return kAnswered;
 }
@@ -208,10 +180,13 @@ void add_compare(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<CompareOptions>();
   options->choice.budget = 100000;
   CLI::App& command = *app.add_subcommand("compare", "every search with many seeds, side by side");
-  command.add_option("problems", options->problems, "shipped names or task files")
-      ->capture_default_str();
+  command.add_option("problems", options->problems,
+                     "shipped names or task files (default: all static ones)");
   options->add_choice(command);
-  options->add_budget(command, "evaluations of each search (default of tasks in time: 5000)");
+  options->add_budget(command,
+                      "evaluations of each search (default: a fifth with up to two "
+                      "coordinates, 5000 for tasks in time, and of these a fifth for Ipopt)");
+  options->add_threads(command);
   options->motion.add(command);
   command.add_option("--seeds", options->seeds, "seeds 1 to this")
       ->capture_default_str()
@@ -221,6 +196,7 @@ void add_compare(CLI::App& app, int& exit_status) {
       ->check(refuse_empty);
   command.callback([options, &command, &exit_status] {
     options->names_budget = command.count("--budget") > 0;
+    if (options->problems.empty()) options->problems = static_problems();
     exit_status = compare_all(*options);
   });
 }

@@ -42,6 +42,10 @@ ordered_json to_json(const Problem& problem, const Row& row) {
   object["theta_r"] = known(row.has_posture(), array(row.posture.theta_r));
   object["theta"] = row.has_posture() ? theta(problem.robot, row.posture.base, row.posture.q)
                                       : ordered_json(nullptr);
+  if (problem.free.count() > 0) {
+    object["pose"] =
+        row.has_posture() ? to_json(pose_at(problem, row.posture.theta_r)) : ordered_json(nullptr);
+  }
   object["w"] = known(has_wrench, array(capability.w));
   object["h"] = known(has_wrench, array(capability.h));
   if (problem.contact) object["h_2"] = known(has_wrench, array(capability.h_2));
@@ -73,6 +77,10 @@ void print(const Problem& problem, const Row& row) {
     fmt::print("base xyz {}\nbase rpy {}\n", line(row.posture.base.p),
                line(rpy(row.posture.base.R)));
     print_following(problem, row.posture, problem.dependent);
+    if (problem.free.count() > 0) {
+      const Pose<double> pose = pose_at(problem, row.posture.theta_r);
+      fmt::print("tool xyz {}\ntool rpy {}\n", line(pose.p), line(rpy(pose.R)));
+    }
   }
   if (problem.contact && row.has_posture()) {
     print_following(problem, row.posture, problem.contact->follow);

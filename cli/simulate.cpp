@@ -120,11 +120,13 @@ void require_stiff(const std::string& name) {
                               (stiff.empty() ? " none is built in" : stiff));
 }
 
-int simulate_static(const Problem& problem, const SimulateOptions& options) {
+int simulate_static(const Problem& task, const SimulateOptions& options) {
   Case c = options.read_case();
   c.search.clear();  // none is used
-  const Eigen::VectorXd theta_r = theta_r_of(problem, options.theta_r);
-  const Row row = evaluate(problem, resolve(problem, c), theta_r);
+  // The controller holds the end effector where theta_r has it.
+  const Eigen::VectorXd theta_r = theta_r_of(task, options.theta_r);
+  const Problem problem = held_at(task, theta_r);
+  const Row row = evaluate(problem, resolve(problem, c), held_theta_r(task, theta_r));
   if (!row.has_value()) return report(problem, row, options.json);
   if (row.capability.u.size() == 0 || row.capability.w.size() == 0) {
     throw std::invalid_argument("--measure: got " + c.measure + ", expected one with a wrench");

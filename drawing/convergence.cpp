@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "drawing/axes.h"
-#include "drawing/legend.h"
+#include "drawing/named_curves.h"
 
 namespace maxwrench {
 namespace {
@@ -23,9 +23,10 @@ constexpr int kMostDecades = 12;  // of evaluations
 /// One panel in decades: x log10 of evaluations from 0, y log10 of the shortfall up to 0.
 class DecadePanel {
  public:
-  DecadePanel(Svg& svg, const ConvergencePanel& panel, double top)
+  DecadePanel(Svg& svg, const ConvergencePanel& panel, const NamedCurves& styles, double top)
       : svg_(svg),
         panel_(panel),
+        styles_(styles),
         x_(make_axis(0, std::clamp(std::log10(panel.budget), 1.0, double{kMostDecades}), kPanelLeft,
                      kPageWidth - kPanelRight, "decades")),
         y_(make_axis(std::log10(kSmallest), 0, top + kPanelTop + kPanelHeight, top + kPanelTop,
@@ -33,7 +34,12 @@ class DecadePanel {
 
   void draw() {
     grid();
-    for (std::size_t i = 0; i < panel_.curves.size(); ++i) curve(i);
+    for (const bool named : {false, true}) {
+      for (const ConvergenceCurve& curve : panel_.curves) {
+        if ((styles_.place(curve.name) >= 0) != named) continue;
+        styles_.draw(svg_, curve.name, stairs(curve), x_.from, x_(1) - x_(0));
+      }
+    }
     svg_.text({(x_.from + x_.to) / 2, y_.to - 9}, with_letters(panel_.title),
               {.size = 13, .anchor = Anchor::kMiddle, .bold = true});
   }
@@ -41,15 +47,10 @@ class DecadePanel {
  private:
   Point at(double x, double y) const { return {x_(x), y_(y)}; }
 
-  static std::string power(int decade) {
-    static const char* const kUnits[] = {"", "k", "M", "G", "T"};
-    return fmt::format("{}{}", std::lround(std::pow(10, decade % 3)), kUnits[decade / 3]);
-  }
-
   void grid() {
     std::vector<Tick> evaluations, shares;
     for (int x = 0; x <= static_cast<int>(x_.high); ++x) {
-      evaluations.push_back({double(x), power(x)});
+      evaluations.push_back({double(x), decade_label(x)});
     }
     for (int y = 0; y >= static_cast<int>(y_.low); --y) {
       shares.push_back({double(y), fmt::format("{:.6g} %", 100 * std::pow(10, y))});
@@ -58,21 +59,6 @@ class DecadePanel {
     draw_y_axis(svg_, x_, y_, shares, "median below best known");
     svg_.line(at(0, -3), at(x_.high, -3), {.stroke = "#8a8a8a", .width = 1, .dash = "4 3"});
     draw_frame(svg_, x_, y_);
-  }
-
-  /// With marks about a decade apart, in places of its own.
-  void curve(std::size_t i) {
-    const CurveStyle style = curve_style(i);
-    const std::vector<Point> points = stairs(panel_.curves[i]);
-    svg_.polyline(points, {.stroke = style.colour, .width = 1.5, .dash = style.dash});
-    const double decade = x_(1) - x_(0);
-    double next = x_.from + decade * static_cast<double>(i + 1) /
-                                static_cast<double>(panel_.curves.size() + 1);
-    for (const Point& p : points) {
-      if (p.x() < next) continue;
-      draw_mark(svg_, p, style);
-      next += decade * (1 + std::floor((p.x() - next) / decade));
-    }
   }
 
   /// From the first evaluation with a value.
@@ -92,22 +78,28 @@ class DecadePanel {
 
   Svg& svg_;
   const ConvergencePanel& panel_;
+  const NamedCurves& styles_;
   Axis x_, y_;
 };
 
 }  // namespace
 
-std::string draw_convergence(std::span<const ConvergencePanel> panels) {
-  std::vector<LegendEntry> legend;
-  for (std::size_t i = 0; !panels.empty() && i < panels[0].curves.size(); ++i) {
-    legend.push_back(legend_entry(panels[0].curves[i].name, curve_style(i)));
+std::string draw_convergence(std::span<const ConvergencePanel> panels,
+                             const std::vector<std::string>& named) {
+  const NamedCurves styles(named);
+  bool others = false;
+  for (const ConvergencePanel& panel : panels) {
+    for (const ConvergenceCurve& curve : panel.curves) {
+      others = others || styles.place(curve.name) < 0;
+    }
   }
+  const std::vector<LegendEntry> legend = styles.legend(others);
   const double each = kPanelTop + kPanelHeight + kPanelBottom;
   const Point corner(kPanelLeft, each * static_cast<double>(panels.size()));
   const double width = kPageWidth - kPanelLeft;
   Svg svg(kPageWidth, corner.y() + draw_legend(nullptr, legend, corner, width) + 8);
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    DecadePanel(svg, panels[i], each * static_cast<double>(i)).draw();
+    DecadePanel(svg, panels[i], styles, each * static_cast<double>(i)).draw();
   }
   draw_legend(&svg, legend, corner, width);
   return svg.str();

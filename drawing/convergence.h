@@ -20,8 +20,9 @@ struct ConvergencePanel {
   std::vector<ConvergenceCurve> curves;
 };
 
-/// Panels below each other as SVG, shortfalls against evaluations, both logarithmic. The legend is
-/// that of the first.
-std::string draw_convergence(std::span<const ConvergencePanel> panels);
+/// Panels below each other as SVG, shortfalls against evaluations, both logarithmic. The curves of
+/// `named` have styles and names in one legend, the others are grey.
+std::string draw_convergence(std::span<const ConvergencePanel> panels,
+                             const std::vector<std::string>& named);
 
 }  // namespace maxwrench

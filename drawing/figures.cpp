@@ -96,7 +96,8 @@ std::string title_of(const Problem& problem, const Plan& plan, const Instant& in
 }  // namespace
 
 std::string figure(const Problem& problem, const std::vector<Panel>& panels) {
-  if (!in_view(problem.c, view_of(problem))) return posture_figure(problem, panels);
+  if (problem.free.wrench_turns || !in_view(problem.c, view_of(problem)))
+    return posture_figure(problem, panels);
   PostureEvaluator model(problem);
   std::vector<DrawnPosture> drawn;
   for (const Panel& panel : panels) drawn.push_back(draw(problem, model, panel));

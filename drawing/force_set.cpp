@@ -35,7 +35,8 @@ bool in_view(const Vector6d& c, View view) {
 ForceSet force_set(const Problem& problem, const Posture& posture, Measure& measure, Wrench wrench,
                    View view, bool curved, std::string name) {
   const Eigen::Matrix<double, 2, 3> P = axes(view);
-  if (!in_view(problem.c, view)) {
+  const Problem held = held_at(problem, posture.theta_r);
+  if (!in_view(held.c, view)) {
     throw std::invalid_argument("plot: c of " + problem.name +
                                 " is no force in the plane of the picture");
   }
@@ -51,7 +52,8 @@ ForceSet force_set(const Problem& problem, const Posture& posture, Measure& meas
   if (has_value) set.h = P * capability.h.head<3>();
 
   WrenchProgram program = along_c;
-  program.W = outline_basis(problem, wrench, view);
+  program.W = outline_basis(held, wrench, view);
+  program.W_0.resize(6, 0);
   // The second contact's columns follow those of the outline.
   const Eigen::Index own = program.W.cols();
   const Eigen::Index l = program.C_2.cols();

@@ -8,6 +8,7 @@
 #include "drawing/axes.h"
 #include "drawing/svg.h"
 #include "lib/math/polygon.h"
+#include "lib/math/rotated.h"
 #include "maxwrench/problem.h"
 
 namespace maxwrench {
@@ -139,13 +140,15 @@ Scene project(const DrawnPosture& panel, View view) {
   for (std::size_t link = 1; link < panel.posture.links.size(); ++link) {
     scene.joints.push_back(on_paper(panel.posture.links[link].p));
   }
-  scene.end_effector = P * panel.problem->pose.p;
-  scene.tool_x = P * panel.problem->pose.R.col(0);
-  scene.tool_y = P * panel.problem->pose.R.col(view == View::kTop ? 1 : 2);
-  scene.c = P * panel.problem->c.head<3>();
-  scene.c_towards = -line_of_sight(view).dot(panel.problem->c.head<3>());
-  scene.c_torque = P * panel.problem->c.tail<3>();
-  scene.c_turn = -line_of_sight(view).dot(panel.problem->c.tail<3>());
+  const Pose<double> tool = pose_at(*panel.problem, panel.posture.theta_r);
+  const Vector6d c = rotated(panel.posture.turn, panel.problem->c);
+  scene.end_effector = P * tool.p;
+  scene.tool_x = P * tool.R.col(0);
+  scene.tool_y = P * tool.R.col(view == View::kTop ? 1 : 2);
+  scene.c = P * c.head<3>();
+  scene.c_towards = -line_of_sight(view).dot(c.head<3>());
+  scene.c_torque = P * c.tail<3>();
+  scene.c_turn = -line_of_sight(view).dot(c.tail<3>());
   if (panel.problem->contact) scene.touch = touch_of(panel, view);
   return scene;
 }

@@ -82,7 +82,7 @@ const SearchEntry kSearches[] = {
 #endif
 #if MAXWRENCH_WITH_IPOPT
     {"multistart", "Ipopt with exact gradients from many postures, as fmincon", false,
-     make_multistart, true},
+     make_multistart, true, 0, 5},
 #endif
 #if MAXWRENCH_WITH_NLOPT
     {"direct_l", "DIRECT-L of NLopt: divides boxes", false, make_direct_l},
@@ -106,7 +106,7 @@ const SearchEntry kPlanSearches[] = {
      make_slp},
 #if MAXWRENCH_WITH_IPOPT
     {"joint_nlp", "Ipopt in knots, efforts and wrenches at once, from the starts of slp", false,
-     make_joint_nlp},
+     make_joint_nlp, false, 0, 5},
 #endif
 };
 
@@ -167,7 +167,7 @@ std::vector<SearchEntry> make_facet_searches() {
      make_facet_sqp, true},
 #endif
 #if MAXWRENCH_WITH_IPOPT
-        {"facet_nlp", "the same by Ipopt", false, make_facet_nlp, true},
+        {"facet_nlp", "the same by Ipopt", false, make_facet_nlp, true, 0, 5},
 #endif
   };
 }

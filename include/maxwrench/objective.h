@@ -37,6 +37,10 @@ class Objective {
   /// Whether no evaluation will have a value any more: a search should come to its end.
   virtual bool ended() const { return false; }
 
+  /// Called by a search that counts `evaluations` of something else than f (a linear program, the
+  /// rows of a smooth one) when it made them, so that who watches knows what was spent by when.
+  virtual void spend(long evaluations) { static_cast<void>(evaluations); }
+
   /// The evaluator of plans behind f, for searches that solve linear programs in the knots; null if
   /// there is none.
   virtual PlanEvaluator* plans() { return nullptr; }

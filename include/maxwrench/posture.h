@@ -60,6 +60,9 @@ struct Posture : Verdict {
   Pose<double> base;                ///< of the base in the world
   Eigen::VectorXd q;                ///< all joints
   std::vector<Pose<double>> links;  ///< relative to the base
+  /// By which the task's wrenches have turned; the identity unless they turn with an end effector
+  /// whose pose is free.
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   Matrix6Xd J;  ///< 6×n [-, m], velocities -> twist of the end effector in world axes
   // Of the second contact, else empty.
   Matrix6Xd J_2;          ///< 6×n, as J: the twist of the second end effector at the contact point
@@ -94,7 +97,7 @@ class PostureEvaluator {
   const Posture& select(int branch);
 
   /// gradient_k = tau_seed' d tau_d/d theta_r_k + <J_seed, d J/d theta_r_k>, exact, by reverse
-  /// accumulation. Cheapest after `evaluate` at the same theta_r, whose posture it keeps.
+  /// accumulation; of wrenches that turn, d (R'J) R for d J, R the `turn`: what a value depends on. Cheapest after `evaluate` at the same theta_r, whose posture it keeps.
   void pull_back(const Eigen::VectorXd& theta_r, const Eigen::VectorXd& tau_seed,
                  const Matrix6Xd& J_seed, Eigen::VectorXd& gradient);
 

@@ -13,6 +13,22 @@ namespace maxwrench {
 
 class BranchAtlas;
 
+/// What a static task leaves free of the end effector's pose: with X_0 = `Problem::pose` and the
+/// coordinates s, those that are not free zero,
+///
+///     X(s) = X_0 Trans(x, y, z) Rz(yaw) Ry(pitch) Rx(roll)      along the axes of X_0,
+///     X(s) = X_0 Rz(yaw) Ry(pitch) Rx(roll) Trans(x, y, z)      along the end effector's own.
+///
+/// So the end effector turns about its own origin, wherever that has moved to, or about that of
+/// X_0, whose distance it keeps.
+struct FreePose {
+  std::vector<int> axes;  ///< of s, in increasing order: numbers of kTwistAxes [m; rad]
+  bool along_tool = false;
+  /// c and the other wrenches turn with the end effector, from where they are at X_0.
+  bool wrench_turns = false;
+  int count() const { return static_cast<int>(axes.size()); }
+};
+
 /// A robot and a task: hold the end effector at a pose, or move it along a path, and exert the
 /// largest wrench along c.
 struct Problem {
@@ -22,6 +38,7 @@ struct Problem {
   Robot robot;
   int end_effector = 0;
   Pose<double> pose;  ///< of the end effector in the world; where a path starts
+  FreePose free;      ///< how a static task lets it leave this pose
   Vector6d c;         ///< unit direction [force; torque] in world axes
   /// A task in time. A static problem has none.
   std::optional<MotionTask> motion;
@@ -45,12 +62,14 @@ struct Problem {
   std::shared_ptr<const BranchAtlas> atlas;
   /// What a second end effector does, if there is one. Only the first is scored.
   std::optional<Contact> contact;
-  /// theta_r: the joints that are free while the end effector keeps its pose, then the regrasp
-  /// coordinates of the second contact.
+  /// theta_r: the joints that are free while the end effector keeps its pose, then the coordinates
+  /// of that pose which are free, then the regrasp coordinates of the second contact.
   Eigen::VectorXd theta_r_min, theta_r_max, theta_r_default;
 
-  /// Of a coordinate of theta_r: the joint, or regrasp_1, regrasp_2.
+  /// Of a coordinate of theta_r: the joint, or pose_x, ..., pose_yaw, or regrasp_1, regrasp_2.
   std::string theta_r_name(int i) const;
+  /// Its unit: "rad" or "m".
+  const char* theta_r_unit(int i) const;
   int redundancy() const { return static_cast<int>(theta_r_min.size()); }
   /// Of the second contact's wrench, l; 0 without one.
   int contact_columns() const { return contact ? static_cast<int>(contact->C.cols()) : 0; }
@@ -59,6 +78,16 @@ struct Problem {
   /// "static", "trajectory" or "impulse".
   const char* type() const;
 };
+
+/// X(s) at theta_r.
+Pose<double> pose_at(const Problem& problem, const Eigen::VectorXd& theta_r);
+
+/// The same task with the end effector held at X(s), and c turned as it is there: nothing of its
+/// pose is free, and theta_r has joints and regrasp coordinates only.
+Problem held_at(const Problem& problem, const Eigen::VectorXd& theta_r);
+
+/// Those coordinates of theta_r.
+Eigen::VectorXd held_theta_r(const Problem& problem, const Eigen::VectorXd& theta_r);
 
 /// Fills `atlas` of a problem with dependent joints.
 void prepare_branches(Problem& problem);

@@ -68,6 +68,9 @@ struct SearchEntry {
   bool goes_on = false;
   /// Of the budget, as a stage that others follow; 0: one part for each stage that is left.
   double share = 0;
+  /// About how much dearer an evaluation is with it than with others; the race's budgets are
+  /// divided by it.
+  int cost = 1;
 };
 
 struct IntegratorEntry {

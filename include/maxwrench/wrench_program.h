@@ -19,6 +19,7 @@ struct Problem;
 struct WrenchProgram {
   const Zonotope* actuation = nullptr;  ///< B and the limits of u; outlives the program
   Matrix6Xd W;                          ///< 6×k_1, basis of the allowed wrenches
+  Matrix6Xd W_0;                        ///< before it turns with the end effector; empty: it rests
   Matrix6Xd C_2;                        ///< 6×l, of those of the second contact; k = k_1 + l
   Eigen::VectorXd c_w;                  ///< k, W'c
   Eigen::VectorXd w_min, w_max;         ///< k
@@ -32,7 +33,7 @@ struct WrenchProgram {
 WrenchProgram make_wrench_program(const Problem& problem, Wrench wrench);
 WrenchProgram make_wrench_program(const Problem&& problem, Wrench wrench) = delete;
 
-/// Sets JtW, tau_d and C_2.
+/// Sets JtW, tau_d and C_2; W too if it turns.
 void set_posture(const Posture& posture, WrenchProgram& program);
 
 /// The same program for general solvers: x = (u, w), A = [B, -J'W], b = tau_d. `update` rewrites

@@ -13,4 +13,11 @@ Eigen::Matrix<double, 6, Columns::ColsAtCompileTime> rotated(const Eigen::Matrix
   return result;
 }
 
+/// The same into storage, which is not allocated again if it has the size.
+inline void rotate_into(const Eigen::Matrix3d& R, const Matrix6Xd& x, Matrix6Xd& result) {
+  result.resize(6, x.cols());
+  result.topRows<3>().noalias() = R.lazyProduct(x.topRows<3>());
+  result.bottomRows<3>().noalias() = R.lazyProduct(x.bottomRows<3>());
+}
+
 }  // namespace maxwrench

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "lib/math/decompositions.h"
+#include "lib/math/rotated.h"
 #include "lib/measure/closed_form.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/problem.h"
@@ -19,13 +20,14 @@ namespace {
 class EllipsoidTrace : public Measure {
  public:
   EllipsoidTrace(Eigen::MatrixXd K, Matrix6Xd W, const Vector6d& desired)
-      : K_(std::move(K)), W_(std::move(W)) {
-    const SmallMatrix S = W_.transpose() * desired.asDiagonal() * W_;
+      : K_(std::move(K)), W_0_(std::move(W)) {
+    const SmallMatrix S = W_0_.transpose() * desired.asDiagonal() * W_0_;
     S_inverse_ = S.inverse();
   }
 
   void evaluate(const Posture& posture, const WrenchProgram& /*program*/, bool efforts,
                 Capability& capability) override {
+    rotate_into(posture.turn, W_0_, W_);
     JtW_.noalias() = posture.J.transpose().lazyProduct(W_);
     G_.noalias() = K_.lazyProduct(JtW_);
     normal_.noalias() = G_.transpose().lazyProduct(G_);
@@ -50,7 +52,7 @@ class EllipsoidTrace : public Measure {
 
  private:
   Eigen::MatrixXd K_;
-  Matrix6Xd W_;
+  Matrix6Xd W_0_, W_;  ///< before and after they turn with the end effector
   Eigen::MatrixXd JtW_, G_, slope_, seed_;
   SmallMatrix S_inverse_, normal_, Z_;
   Eigen::LDLT<SmallMatrix> ldlt_;

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "lib/math/decompositions.h"
+#include "lib/math/rotated.h"
 #include "lib/measure/closed_form.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/problem.h"
@@ -13,10 +14,11 @@ namespace {
 /// that span what the end effector can do. d w = w <(A A')^-1 A, d A>.
 class Manipulability : public Measure {
  public:
-  explicit Manipulability(Matrix6Xd W) : W_(std::move(W)) {}
+  explicit Manipulability(Matrix6Xd W) : W_0_(std::move(W)) {}
 
   void evaluate(const Posture& posture, const WrenchProgram& /*program*/, bool efforts,
                 Capability& capability) override {
+    rotate_into(posture.turn, W_0_, W_);
     A_.noalias() = W_.transpose().lazyProduct(posture.J);
     gram_.noalias() = A_.lazyProduct(A_.transpose());
     ldlt_.compute(gram_);
@@ -34,7 +36,7 @@ class Manipulability : public Measure {
   }
 
  private:
-  Matrix6Xd W_;
+  Matrix6Xd W_0_, W_;  ///< before and after they turn with the end effector
   Eigen::MatrixXd A_, scaled_;
   SmallMatrix gram_;
   Eigen::LDLT<SmallMatrix> ldlt_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lib/math/farkas.h"
+#include "lib/math/rotated.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/problem.h"
 
@@ -27,6 +28,7 @@ WrenchProgram make_wrench_program(const Problem& problem, Wrench wrench) {
   WrenchProgram program;
   program.actuation = &problem.robot.actuation;
   program.W = wrench == Wrench::kPure ? Matrix6Xd(problem.c) : problem.W_any;
+  if (problem.free.wrench_turns) program.W_0 = program.W;
   const Eigen::Index own = program.W.cols();
   const Eigen::Index l = problem.contact_columns();
   const Eigen::Index k = own + l;
@@ -47,6 +49,7 @@ WrenchProgram make_wrench_program(const Problem& problem, Wrench wrench) {
 
 void set_posture(const Posture& posture, WrenchProgram& program) {
   program.tau_d = posture.tau_d;
+  if (program.W_0.cols() > 0) rotate_into(posture.turn, program.W_0, program.W);
   if (program.columns() == program.W.cols()) {
     program.JtW.noalias() = posture.J.transpose().lazyProduct(program.W);
     return;

@@ -27,6 +27,10 @@ MotionTask task_of(const Problem& problem) {
                                 ": got a second contact, expected a task in time without one");
   }
   if (problem.motion) return *problem.motion;
+  if (problem.free.count() > 0) {
+    throw std::invalid_argument(problem.name +
+                                ": got free pose coordinates, expected a pose that is fixed");
+  }
   MotionTask task;
   task.path = Path::constant(problem.pose, task.T);
   task.scheme = Scheme::kForward;

@@ -39,7 +39,7 @@ DependentJoints::DependentJoints(const Problem& problem)
       q_(problem.robot.joints.size()),
       start_z_(4 + q_.size()),
       from_(static_cast<Eigen::Index>(problem.redundant.size())),
-      pose_(problem.pose),
+      pose_(pose_at(problem, problem.theta_r_default)),
       J_(6, problem.robot.velocities()) {
   const Robot& robot = problem.robot;
   for (const int axis : robot.base_axes) {
@@ -230,7 +230,7 @@ const char* DependentJoints::follow(const Eigen::VectorXd& theta_r) {
   z_ = start_z_;
   slopes_ = start_slopes_;
   read_theta_r();
-  pose_ = problem_.pose;
+  pose_ = pose_at(problem_, problem_.theta_r_default);
   reason_ = has_start() ? carry(theta_r, pose_) : kUnreachableReason;
   if (reason_ == nullptr) reason_ = arrive();
   for (const int i : problem_.dependent) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lib/math/decompositions.h"
+#include "lib/math/rotated.h"
 #include "lib/robot/chain.h"
 #include "maxwrench/posture.h"
 
@@ -19,7 +20,8 @@ constexpr double kOnAxis = 1e-12;
 /// Of a base that follows in closed form: it alone moves the end effector in all ways.
 Matrix6Xd base_motions(const Problem& problem) {
   const Robot& robot = problem.robot;
-  const Eigen::Vector3d lever = problem.pose.p - robot.mount.p;
+  const Pose<double> pose = pose_at(problem, problem.theta_r_default);
+  const Eigen::Vector3d lever = pose.p - robot.mount.p;
   Matrix6Xd twists = Matrix6Xd::Zero(6, static_cast<Eigen::Index>(robot.base_axes.size()));
   Eigen::Index column = 0;
   for (const int axis : robot.base_axes) {
@@ -57,9 +59,16 @@ Eigen::MatrixXd tidy_range(const Eigen::MatrixXd& A) {
 }
 
 Matrix6Xd motions_at_pose(const Problem& problem) {
-  if (problem.dependent.empty()) return tidy_range(base_motions(problem));
-  PostureEvaluator model(problem, false);
-  return tidy_range(model.evaluate(problem.theta_r_default).J);
+  Matrix6Xd T = base_motions(problem);
+  if (!problem.dependent.empty()) {
+    PostureEvaluator model(problem, false);
+    T = model.evaluate(problem.theta_r_default).J;
+  }
+  if (problem.free.wrench_turns) {
+    const Pose<double> pose = pose_at(problem, problem.theta_r_default);
+    T = rotated(problem.pose.R * pose.R.transpose(), T);
+  }
+  return tidy_range(T);
 }
 
 Eigen::Matrix<double, 6, 6> movable_at_contact(const Robot& robot, const Contact& contact) {

@@ -11,7 +11,7 @@ namespace maxwrench {
 /// The twists with which the end effector can leave the task's pose: an orthonormal basis 6×r in
 /// world axes at the end effector, unit vectors where that is possible. The range of J at
 /// theta_r_default; all regular postures share it, as it touches the r-dimensional set of poses
-/// that are reached.
+/// that are reached. Where the wrenches turn with the end effector, turned back to `Problem::pose`.
 Matrix6Xd motions_at_pose(const Problem& problem);
 
 /// The orthogonal projector, in contact axes, onto forces that the second end effector's velocity

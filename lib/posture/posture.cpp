@@ -1,88 +1,18 @@
 #include "maxwrench/posture.h"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <stdexcept>
-#include <string>
 
 #include "lib/posture/dependent_joints.h"
+#include "lib/posture/posture_state.h"
 #include "lib/posture/primary_branches.h"
 #include "lib/posture/pull_back.h"
 #include "lib/posture/second_arm.h"
-#include "lib/robot/chain.h"
-#include "lib/robot/kinematics.h"
 #include "maxwrench/capability.h"
 
 namespace maxwrench {
-/// The state of one posture.
-struct PostureState {
-  explicit PostureState(const Problem& p)
-      : problem(p),
-        kinematics(p.robot),
-        theta_r(Eigen::VectorXd::Constant(p.redundancy(), kNothing)),
-        q(p.robot.joints.size()),
-        J(6, p.robot.velocities()),
-        J_2(6, p.contact ? p.robot.velocities() : 0),
-        tau_d(p.robot.velocities()) {
-    q = p.contact ? p.contact->q_rest : resting_joints(p.robot);
-    if (p.contact) second = carried_by(p.robot, p.contact->follow);
-    for (int i = 0; i < static_cast<int>(p.robot.joints.size()); ++i) {
-      if (!std::binary_search(second.begin(), second.end(), i)) first.push_back(i);
-    }
-  }
-
-  const EndEffector& end_effector() const {
-    return problem.robot.end_effectors[problem.end_effector];
-  }
-
-  /// The base follows in closed form from all joints of the chain.
-  void evaluate(const Eigen::VectorXd& at) {
-    theta_r = at;
-    for (std::size_t i = 0; i < problem.redundant.size(); ++i) {
-      q[problem.redundant[i]] = at[static_cast<Eigen::Index>(i)];
-    }
-    kinematics.set_joints(q, first);
-    base = problem.pose * kinematics.end_effector(end_effector()).inverse();
-    finish();
-  }
-
-  /// z = [x, y, z, yaw of the base; all joints].
-  void evaluate_at(const Eigen::VectorXd& at, const Eigen::VectorXd& z) {
-    theta_r = at;
-    q = z.tail(q.size());
-    kinematics.set_joints(q, first);
-    base = base_pose(problem.robot, z.head<4>());
-    finish();
-  }
-
-  void finish() {
-    kinematics.jacobian(end_effector(), base.R, J);
-    if (!problem.contact) kinematics.gravity_and_buoyancy(base.R, tau_d);
-  }
-
-  /// The same for a second arm that has moved, but for tau_d.
-  void finish_second() {
-    kinematics.set_joints(q, second);
-    const auto touching = static_cast<std::size_t>(problem.contact->end_effector);
-    kinematics.jacobian(problem.robot.end_effectors[touching], base.R, J_2);
-  }
-
-  /// Before the first evaluation: equals no theta_r.
-  static constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-
-  const Problem& problem;
-  Kinematics<double> kinematics;
-  std::vector<int> second;  ///< the joints that move with a second arm's branch
-  std::vector<int> first;   ///< all others
-  Eigen::VectorXd theta_r, q;
-  Pose<double> base;
-  Matrix6Xd J, J_2;
-  Eigen::VectorXd tau_d;
-};
-
 namespace {
 
 /// What is wrong with a posture, and how that is said; null: nothing.
@@ -109,17 +39,6 @@ struct Branch {
   bool operator==(const Branch&) const = default;
 };
 
-void require_theta_r(const Problem& problem, const Eigen::VectorXd& theta_r) {
-  if (theta_r.size() != problem.redundancy()) {
-    throw std::invalid_argument("theta_r: got " + std::to_string(theta_r.size()) +
-                                " numbers, expected " + std::to_string(problem.redundancy()) +
-                                " for " + problem.name);
-  }
-  if (!theta_r.allFinite()) {
-    throw std::invalid_argument("theta_r: got a value that is not a finite number");
-  }
-}
-
 }  // namespace
 
 struct PostureEvaluator::Workspace {
@@ -140,8 +59,10 @@ struct PostureEvaluator::Workspace {
     for (Eigen::Index i = 0; i < theta_r.size(); ++i) {
       if (theta_r[i] < problem.theta_r_min[i] - kLimitTolerance ||
           theta_r[i] > problem.theta_r_max[i] + kLimitTolerance) {
-        return {Violation::kThetaR, i < static_cast<Eigen::Index>(problem.redundant.size())
-                                        ? "joint limit"
+        const Eigen::Index joints = static_cast<Eigen::Index>(problem.redundant.size());
+        if (i < joints) return {Violation::kThetaR, "joint limit"};
+        return {Violation::kThetaR, i < joints + problem.free.count()
+                                        ? "free pose coordinate beyond its limits"
                                         : "regrasp coordinate beyond its limits"};
       }
     }
@@ -279,6 +200,7 @@ struct PostureEvaluator::Workspace {
     posture.links = model.kinematics.links();
     posture.J = model.J;
     posture.tau_d = model.tau_d;
+    if (problem.free.wrench_turns) posture.turn = model.pose.R * problem.pose.R.transpose();
     if (!second) return;
     posture.J_2 = model.J_2;
     posture.C_2 = second->C_2();
@@ -312,15 +234,37 @@ struct PostureEvaluator::Workspace {
       }
     }
     gradient.resize(theta_r.size());
-    const Matrix6Xd& seeds =
-        second ? second->shifted_seeds(problem.pose.p, J_seed, J2_seed) : J_seed;
+    const Eigen::Vector3d& p_e = model.pose.p;
+    const Matrix6Xd& seeds = second ? second->shifted_seeds(p_e, J_seed, J2_seed) : J_seed;
     reverse.evaluate(model.kinematics, model.base.R, model.J, tau_seed, seeds, q_gradient);
     if (second) {
-      second->follow(problem.pose.p, model.J, model.J_2, J2_seed, C2_seed, q_gradient, gradient);
+      second->follow(p_e, model.J, model.J_2, J2_seed, C2_seed, q_gradient, gradient);
     }
-    if (primary) return primary->follow(model.J, q_gradient, gradient);
-    for (std::size_t k = 0; k < problem.redundant.size(); ++k) {
-      gradient[static_cast<Eigen::Index>(k)] = q_gradient[problem.redundant[k]];
+    if (primary) {
+      primary->follow(model.J, q_gradient, gradient);
+    } else {
+      for (std::size_t k = 0; k < problem.redundant.size(); ++k) {
+        gradient[static_cast<Eigen::Index>(k)] = q_gradient[problem.redundant[k]];
+      }
+    }
+    if (!problem.free.axes.empty()) follow_pose(J_seed, gradient);
+  }
+
+  /// The derivatives by the free coordinates of the pose. Each moves the robot by a twist of the
+  /// end effector, at joints that rest; then what follows answers.
+  void follow_pose(const Matrix6Xd& J_seed, Eigen::VectorXd& gradient) const {
+    Vector6d by_twist = reverse.by_twist();
+    for (Eigen::Index i = 0; i < J_seed.cols(); ++i) {
+      const Eigen::Vector3d a = J_seed.col(i).head<3>(), b = J_seed.col(i).tail<3>();
+      const Eigen::Vector3d v = model.J.col(i).head<3>(), w = model.J.col(i).tail<3>();
+      by_twist.head<3>() -= w.cross(a);  // J moves along with its point
+      if (problem.free.wrench_turns) by_twist.tail<3>() += a.cross(v) + b.cross(w);
+    }
+    if (second) by_twist += second->by_twist(model.pose.p);
+    if (primary) by_twist += primary->by_twist();
+    const auto joints = static_cast<Eigen::Index>(problem.redundant.size());
+    for (int i = 0; i < problem.free.count(); ++i) {
+      gradient[joints + i] = by_twist.dot(free_twist(problem, model.theta_r, i));
     }
   }
 

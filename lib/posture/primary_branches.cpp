@@ -8,7 +8,7 @@ namespace maxwrench {
 PrimaryBranches::PrimaryBranches(const Problem& problem)
     : problem_(problem),
       branches_(serving_atlas(problem)),
-      joints_(static_cast<Eigen::Index>(problem.redundant.size())),
+      own_(static_cast<Eigen::Index>(problem.redundant.size()) + problem.free.count()),
       z_(4 + problem.guess_q.size()) {
   const int axes = static_cast<int>(problem.robot.base_axes.size());
   for (int i = 0; i < axes; ++i) columns_.push_back(i);
@@ -16,19 +16,19 @@ PrimaryBranches::PrimaryBranches(const Problem& problem)
   const auto d = static_cast<Eigen::Index>(columns_.size());
   J_d_.resize(6, d);
   seed_.setZero(d);
-  joints_ = problem.theta_r_default.head(joints_.size());
+  own_ = problem.theta_r_default.head(own_.size());
   place_guess();
 }
 
 int PrimaryBranches::solve(const Eigen::VectorXd& theta_r) {
-  joints_ = theta_r.head(joints_.size());
-  return branches_.solve(joints_);
+  own_ = theta_r.head(own_.size());
+  return branches_.solve(own_);
 }
 
 void PrimaryBranches::place_guess() {
   z_ << problem_.guess_base, problem_.guess_q;
   for (std::size_t k = 0; k < problem_.redundant.size(); ++k) {
-    z_[4 + problem_.redundant[k]] = joints_[static_cast<Eigen::Index>(k)];
+    z_[4 + problem_.redundant[k]] = own_[static_cast<Eigen::Index>(k)];
   }
 }
 
@@ -67,10 +67,10 @@ void PrimaryBranches::follow(const Matrix6Xd& J, const Eigen::VectorXd& q_gradie
   for (Eigen::Index i = axes; i < seed_.size(); ++i) {
     seed_[i] = q_gradient[problem_.dependent[static_cast<std::size_t>(i - axes)]];
   }
-  const Vector6N lambda = qr_.solve_transposed(seed_);
-  for (Eigen::Index k = 0; k < joints_.size(); ++k) {
-    const int joint = problem_.redundant[static_cast<std::size_t>(k)];
-    gradient[k] = q_gradient[joint] - J.col(axes + joint).dot(lambda);
+  lambda_ = qr_.solve_transposed(seed_);
+  for (std::size_t k = 0; k < problem_.redundant.size(); ++k) {
+    const int joint = problem_.redundant[k];
+    gradient[static_cast<Eigen::Index>(k)] = q_gradient[joint] - J.col(axes + joint).dot(lambda_);
   }
 }
 

@@ -15,7 +15,7 @@ class PrimaryBranches {
   explicit PrimaryBranches(const Problem& problem);
   explicit PrimaryBranches(const Problem&& problem) = delete;
 
-  /// All postures at theta_r, of which only the joints count; returns their number.
+  /// All postures at theta_r, of which regrasp coordinates do not count; returns their number.
   int solve(const Eigen::VectorXd& theta_r);
   /// Whether that are all of them (`Branches::complete`).
   bool complete() const { return branches_.complete(); }
@@ -34,16 +34,20 @@ class PrimaryBranches {
   ///     gradient_k = q_gradient_k - J_r,k' lambda,   J_d' lambda = [0; q_gradient of y].
   void follow(const Matrix6Xd& J, const Eigen::VectorXd& q_gradient, Eigen::VectorXd& gradient);
 
+  /// By the twist of the end effector, at joints of theta_r that rest: what y adds to it, lambda.
+  const Vector6d& by_twist() const { return lambda_; }
+
  private:
   void decompose(const Matrix6Xd& J);
 
   const Problem& problem_;
   Branches branches_;
   std::vector<int> columns_;  ///< of J_d in J
-  Eigen::VectorXd joints_, z_;
+  Eigen::VectorXd own_, z_;   ///< theta_r without regrasp coordinates
   Matrix6N J_d_;
   LeastSquares6 qr_;
   Vector6N seed_;
+  Vector6d lambda_ = Vector6d::Zero();
 };
 
 }  // namespace maxwrench

@@ -36,6 +36,14 @@ class PullBack {
                 const Matrix6Xd& J, const Eigen::VectorXd& t, const Matrix6Xd& J_seed,
                 Eigen::VectorXd& gradient);
 
+  /// The derivative of f at the last state by the twist with which the robot as a whole moves, all
+  /// seeds staying about the point where they are: -(sum of all y).
+  Vector6d by_twist() const {
+    Vector6d slope;
+    slope << -nodes_[0].y_v, -nodes_[0].y_w;
+    return slope;
+  }
+
  private:
   /// Of a link and the joint that moves it; number 0 is the base.
   struct Node {

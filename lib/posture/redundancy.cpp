@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "lib/math/decompositions.h"
+#include "lib/posture/free_pose.h"
 #include "maxwrench/problem.h"
 
 namespace maxwrench {
@@ -93,9 +94,15 @@ void null_motion(const Problem& problem, const Posture& posture, Eigen::MatrixXd
     A_r(velocity, k) = 1;
     if (problem.contact) follow_contact(problem, posture, Vector6d::Zero(), A_r.col(k));
   }
-  for (Eigen::Index k = joints; k < A_r.cols(); ++k) {
-    const Vector6d t = contact_twist(*problem.contact, posture.theta_r.data() + joints,
-                                     static_cast<int>(k - joints));
+  const Eigen::Index regrasp = joints + problem.free.count();
+  for (Eigen::Index k = joints; k < regrasp; ++k) {
+    const Vector6d t = free_twist(problem, posture.theta_r, static_cast<int>(k - joints));
+    scatter(J_d, dependent, t, A_r.col(k));
+    if (problem.contact) follow_contact(problem, posture, Vector6d::Zero(), A_r.col(k));
+  }
+  for (Eigen::Index k = regrasp; k < A_r.cols(); ++k) {
+    const Vector6d t = contact_twist(*problem.contact, posture.theta_r.data() + regrasp,
+                                     static_cast<int>(k - regrasp));
     follow_contact(problem, posture, t, A_r.col(k));
   }
 }

@@ -11,11 +11,12 @@ namespace maxwrench {
 //
 //     A_r = [-J_d^+ J_r; I]   in the rows of the dependent and of theta_r.
 //
-// With a second contact its arm follows, and regrasp coordinates move that arm alone. Other joints
+// A free coordinate of the pose with the twist t moves J_d^+ t, the joints of theta_r resting. With
+// a second contact its arm follows, and regrasp coordinates move that arm alone. Other joints
 // beside the chain rest. Nothing is allocated once the result has its size.
 
-/// A_r n×r [-, 1/m, m]: theta_r_dot -> velocities that leave the end effector where it is:
-/// J A_r = 0.
+/// A_r n×r [-, 1/m, m]: theta_r_dot -> velocities that leave the end effector where it is, J A_r =
+/// 0, but for the columns of free pose coordinates, where J A_r = t.
 void null_motion(const Problem& problem, const Posture& posture, Eigen::MatrixXd& A_r);
 
 }  // namespace maxwrench

@@ -83,21 +83,21 @@ void SecondArm::follow(const Vector3d& p_e, const Matrix6Xd& J, const Matrix6Xd&
     J_f.col(i) = J_2.col(axes + joint).head(rows);
     slope[i] = q_gradient[joint];
   }
-  Vector6d mu = Vector6d::Zero();
-  mu.head(rows) = LeastSquares6(J_f).solve_transposed(slope);
+  mu_.setZero();
+  mu_.head(rows) = LeastSquares6(J_f).solve_transposed(slope);
   // With the first end effector at rest, joint k moves all that it does not carry by -s_k.
   for (Eigen::Index k = 0; k < q_gradient.size(); ++k) {
     if (!first_[static_cast<std::size_t>(axes + k)]) continue;
     const Vector3d v = J.col(axes + k).head<3>(), w = J.col(axes + k).tail<3>();
-    q_gradient[k] += mu.head<3>().dot(v + w.cross(r)) + mu.tail<3>().dot(w);
+    q_gradient[k] += mu_.head<3>().dot(v + w.cross(r)) + mu_.tail<3>().dot(w);
   }
   // J_2 as a function of the contact point: column i grows by w_i × dp.
-  Vector3d by_point = mu.head<3>();
+  Vector3d by_point = mu_.head<3>();
   for (Eigen::Index i = 0; i < J2_seed.cols(); ++i) {
     if (!second_[static_cast<std::size_t>(i)]) continue;
     by_point += Vector3d(J2_seed.col(i).head<3>()).cross(Vector3d(J_2.col(i).tail<3>()));
   }
-  Vector3d by_turn = mu.tail<3>();
+  Vector3d by_turn = mu_.tail<3>();
   for (Eigen::Index j = 0; j < C2_seed.cols(); ++j) {
     for (const int part : {0, 3}) {
       const Vector3d column = C_2_.col(j).segment<3>(part), seed = C2_seed.col(j).segment<3>(part);
@@ -109,6 +109,13 @@ void SecondArm::follow(const Vector3d& p_e, const Matrix6Xd& J, const Matrix6Xd&
     const Vector6d twist = contact_twist(contact_, s_.data(), i);
     gradient[own + i] = by_point.dot(twist.head<3>()) + by_turn.dot(twist.tail<3>());
   }
+}
+
+Vector6d SecondArm::by_twist(const Vector3d& p_e) const {
+  const Vector3d r = pose_.p - p_e, force = mu_.head<3>();
+  Vector6d slope = -mu_;
+  slope.tail<3>() -= r.cross(force);
+  return slope;
 }
 
 }  // namespace maxwrench

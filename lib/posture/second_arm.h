@@ -40,6 +40,10 @@ class SecondArm {
               const Matrix6Xd& J2_seed, const Matrix6Xd& C2_seed, Eigen::VectorXd& q_gradient,
               Eigen::VectorXd& gradient);
 
+  /// By the twist of the first end effector, at joints of its chain that rest: what the second
+  /// arm's answer adds. After `follow`.
+  Vector6d by_twist(const Eigen::Vector3d& p_e) const;
+
  private:
   const Problem& problem_;
   const Contact& contact_;
@@ -48,6 +52,7 @@ class SecondArm {
   std::array<double, 2> s_{};
   Pose<double> pose_;
   Matrix6Xd C_2_, seeds_;
+  Vector6d mu_ = Vector6d::Zero();  ///< J_f' mu = the slopes of the joints that follow
 };
 
 }  // namespace maxwrench

@@ -27,6 +27,7 @@ ToolChain::ToolChain(const Problem& problem) : behind_(problem.robot.mount) {
   }
   parameters_ = static_cast<int>(problem.redundant.size());
   behind_ = behind_ * robot.end_effectors[static_cast<std::size_t>(problem.end_effector)].placement;
+  add_free(problem.free);
 }
 
 void ToolChain::add(const Pose<double>& placement, const Eigen::Vector3d& axis, bool turns) {
@@ -38,6 +39,22 @@ void ToolChain::add(const Pose<double>& placement, const Eigen::Vector3d& axis, 
   coordinate.turns = turns;
   coordinates_.push_back(coordinate);
   behind_ = onto_axis.inverse();
+}
+
+/// D(s)^-1 behind the end effector, so that the chain ends at X_0: X_e(theta_r, y) D(s)^-1 = X_0.
+void ToolChain::add_free(const FreePose& free) {
+  const auto add_axis = [&](int axis) {
+    const auto found = std::find(free.axes.begin(), free.axes.end(), axis);
+    if (found == free.axes.end()) return;
+    add({}, -Eigen::Vector3d::Unit(axis % 3), axis >= 3);
+    coordinates_.back().parameter = parameters_ + static_cast<int>(found - free.axes.begin());
+  };
+  const auto add_axes = [&](int first) {
+    for (int axis = first; axis < first + 3; ++axis) add_axis(axis);
+  };
+  add_axes(free.along_tool ? 0 : 3);
+  add_axes(free.along_tool ? 3 : 0);
+  parameters_ += free.count();
 }
 
 /// The last coordinate is the next y.

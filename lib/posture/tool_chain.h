@@ -7,6 +7,7 @@
 
 namespace maxwrench {
 
+struct FreePose;
 struct Problem;
 
 /// Of up to six numbers y that follow from theta_r.
@@ -24,8 +25,9 @@ struct ToolState {
 
 /// The way from the world to the end effector: free base axes and joints, each of which turns about
 /// or slides along the z axis of its own frame. y are the base axes and the dependent joints, d <=
-/// 6 in the order of the chain; theta_r, r of them, are the other joints. A template on the scalar:
-/// double or Complex.
+/// 6 in the order of the chain; theta_r, r of them, are the other joints and the free coordinates
+/// of the end effector's pose, whose inverse ends the chain. A template on the scalar: double or
+/// Complex.
 class ToolChain {
  public:
   explicit ToolChain(const Problem& problem);
@@ -56,6 +58,7 @@ class ToolChain {
   };
 
   void add(const Pose<double>& placement, const Eigen::Vector3d& axis, bool turns);
+  void add_free(const FreePose& free);
   void follows(int place_in_z);
 
   std::vector<Coordinate> coordinates_;

@@ -25,13 +25,7 @@ std::string theta_r_beyond(const Problem& problem, const Posture& posture) {
   for (int i = 0; i < static_cast<int>(posture.theta_r.size()); ++i) {
     const double x = posture.theta_r[i], min = problem.theta_r_min[i], max = problem.theta_r_max[i];
     if (!outside(x, min, max)) continue;
-    const auto k = static_cast<std::size_t>(i);
-    const bool turns =
-        k < problem.redundant.size()
-            ? problem.robot.joints[static_cast<std::size_t>(problem.redundant[k])].type ==
-                  JointType::kRevolute
-            : problem.contact->surface == Surface::kCircle;
-    return shown_place(problem.theta_r_name(i), x, turns ? "rad" : "m", min, max);
+    return shown_place(problem.theta_r_name(i), x, problem.theta_r_unit(i), min, max);
   }
   return "";
 }

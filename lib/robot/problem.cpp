@@ -17,8 +17,24 @@ const char* Problem::type() const {
 
 std::string Problem::theta_r_name(int i) const {
   const int joints = static_cast<int>(redundant.size());
-  if (i >= joints) return "regrasp_" + std::to_string(i - joints + 1);
-  return robot.joints[static_cast<std::size_t>(redundant[static_cast<std::size_t>(i)])].name;
+  if (i < joints) {
+    return robot.joints[static_cast<std::size_t>(redundant[static_cast<std::size_t>(i)])].name;
+  }
+  if (i >= joints + free.count()) return "regrasp_" + std::to_string(i - joints - free.count() + 1);
+  const int axis = free.axes[static_cast<std::size_t>(i - joints)];
+  return std::string("pose_") + kTwistAxes[static_cast<std::size_t>(axis)];
+}
+
+const char* Problem::theta_r_unit(int i) const {
+  const int joints = static_cast<int>(redundant.size());
+  bool turns = contact && contact->surface == Surface::kCircle;
+  if (i < joints) {
+    const int joint = redundant[static_cast<std::size_t>(i)];
+    turns = robot.joints[static_cast<std::size_t>(joint)].type == JointType::kRevolute;
+  } else if (i < joints + free.count()) {
+    turns = free.axes[static_cast<std::size_t>(i - joints)] >= 3;
+  }
+  return turns ? "rad" : "m";
 }
 
 }  // namespace maxwrench

@@ -13,6 +13,7 @@
 #include "problems/loader/bad_input.h"
 #include "problems/loader/block.h"
 #include "problems/loader/contact.h"
+#include "problems/loader/free_pose.h"
 #include "problems/loader/motion.h"
 #include "problems/loader/theta_r.h"
 #include "problems/loader/urdf_tree.h"
@@ -65,26 +66,26 @@ int find_end_effector(const Block& task, const Robot& robot) {
 }
 
 /// From the axes in which the task gives its wrenches to the world's, as the path starts.
-Eigen::Matrix<double, 6, 6> wrench_axes(const Problem& problem) {
+Eigen::Matrix<double, 6, 6> wrench_axes(const Block& wrench, const Problem& problem) {
   Eigen::Matrix<double, 6, 6> axes = Eigen::Matrix<double, 6, 6>::Identity();
-  if (!problem.motion || !problem.motion->c_turns) return axes;
+  if (wrench.text("frame", "world") == "world") return axes;
   axes.topLeftCorner<3, 3>() = axes.bottomRightCorner<3, 3>() = problem.pose.R;
   return axes;
 }
 
 void read_wrench(const Block& wrench, Problem& problem) {
   std::vector<std::string_view> keys = {"c", "any", "reference", "desired"};
-  const bool moves = problem.motion && !problem.motion->impulse;
-  if (moves) keys.emplace_back("frame");
+  const bool heaves = problem.motion && problem.motion->impulse;
+  if (!heaves) keys.emplace_back("frame");
   wrench.allow_only(keys);
   const std::string frame = wrench.text("frame", "world");
-  if (frame != "world" && frame != "end_effector") {
-    wrench.refuse_value("frame", "'world' or 'end_effector'");
+  if (frame != "world" && frame != "tool" && frame != "end_effector") {
+    wrench.refuse_value("frame", "'world' or 'tool' (or 'end_effector', the same)");
   }
-  if (moves) problem.motion->c_turns = frame == "end_effector";
+  if (problem.motion) problem.motion->c_turns = frame != "world";
   const Eigen::VectorXd c = wrench.numbers("c", 6);
   if (c.stableNorm() < 1e-9) wrench.refuse_value("c", "a direction of nonzero length");
-  problem.c = wrench_axes(problem) * c.stableNormalized();
+  problem.c = wrench_axes(wrench, problem) * c.stableNormalized();
   problem.reference = wrench.number("reference", problem.reference);
   if (!(problem.reference > 0)) wrench.refuse_value("reference", "a number > 0");
   if (!wrench.has("desired")) return;
@@ -105,7 +106,7 @@ void read_any(const Block& wrench, Problem& problem) {
     }
     problem.W_any(axis - kWrenchAxes.begin(), static_cast<Eigen::Index>(column)) = 1;
   }
-  problem.W_any = wrench_axes(problem) * problem.W_any;
+  problem.W_any = wrench_axes(wrench, problem) * problem.W_any;
   const Vector6d outside = problem.c - problem.W_any * (problem.W_any.transpose() * problem.c);
   if (outside.norm() > 1e-12) {
     wrench.refuse_value("c", fmt::format("a direction within any = {}", fmt::join(any, ", ")));
@@ -131,7 +132,12 @@ void allow_keys(const Block& task) {
 void read_pose(const Block& task, Problem& problem) {
   if (follows_poses(task)) return;
   const Block pose = task.table("pose");
-  pose.allow_only({"xyz", "rpy"});
+  pose.allow_only({"xyz", "rpy", "free", "range", "axes"});
+  for (const char* key : {"free", "range", "axes"}) {
+    if (task.text("type") != "static" && pose.has(key)) {
+      pose.refuse_value(key, "no such key, but for static tasks: in time the pose is given");
+    }
+  }
   problem.pose = pose_from_xyz_rpy(pose.vector("xyz"), pose.vector("rpy"));
 }
 
@@ -180,8 +186,10 @@ Problem load_problem(const std::string& name) {
   read_motion(task, problem);
   read_wrench(task.table("wrench"), problem);
   read_theta_r(task.table("theta_r"), problem);
+  read_free_pose(task, problem);
   read_start(task, problem);
   require_branch(task, problem);
+  require_free_motions(task, problem);
   choose_wrenches(task.table("wrench"), problem);
   if (task.has("contact")) read_contact(task.table("contact"), problem);
   return problem;

@@ -2,7 +2,6 @@
 
 #include <IpTNLP.hpp>
 #include <algorithm>
-#include <stdexcept>
 
 #include "solvers/caught.h"
 #include "solvers/ipopt_lock.h"

@@ -1,6 +1,5 @@
 #include <IpTNLP.hpp>
 #include <algorithm>
-#include <stdexcept>
 
 #include "solvers/caught.h"
 #include "solvers/ipopt_lock.h"
@@ -107,6 +106,7 @@ class JointNlp : public Ipopt::TNLP {
       X_ = point;
       program_.evaluate(X_);
       found_.trace.add(-kInfinity);
+      objective_.spend(1);
       return true;
     });
   }

@@ -95,6 +95,7 @@ Eigen::VectorXd KnotClimber::inside(const Eigen::VectorXd& x) const {
 double KnotClimber::worth(const Candidate& plan) {
   if (!plans_.smooth()) return plan.value;
   for (int solved = 0; solved < kJudgement; ++solved) found_.trace.add(-kInfinity);
+  objective_->spend(kJudgement);
   done_ = true;
   const Eigen::MatrixXd knots = unstacked(plan.theta_r, plans_.knots());
   if (plans_.evaluate(knots).status != Status::kOptimal) return -kInfinity;
@@ -118,6 +119,7 @@ bool KnotClimber::solve() {
   set_bounds();
   set_rows();
   found_.trace.add(-kInfinity);
+  objective_->spend(1);
   solution_.price = 0;
   if (!coupled_ && BorderedFacets::suits(*program_) && uncoupled_.solve(*program_, solution_)) {
     return true;

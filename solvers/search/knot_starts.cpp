@@ -189,8 +189,8 @@ std::vector<Candidate> climb_alike(const Objective& objective, const SearchOptio
 void require_plans(Objective& objective, const char* search) {
   if (objective.plans() != nullptr) return;
   throw std::invalid_argument(std::string("search: got '") + search +
-                              "', which serves linf_polytope without a second contact, expected "
-                              "another one");
+                              "', which serves linf_polytope at a fixed pose without a second "
+                              "contact, expected another one");
 }
 
 std::vector<Candidate> draw_knot_starts(Objective& objective, const SearchOptions& options,

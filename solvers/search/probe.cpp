@@ -39,6 +39,7 @@ double Probe::evaluate(const Eigen::VectorXd& theta_r, Eigen::VectorXd* gradient
 void Probe::spend() {
   assert(left() > 0);
   found_.trace.add(-kInfinity);
+  objective_->spend(1);
   if (found_.trace.evaluations() - reported_ >= kReportEvery) report();
 }
 

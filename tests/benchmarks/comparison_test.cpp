@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <tuple>
+#include <string>
+#include <utility>
 
 #include "benchmarks/plan_row.h"
 #include "maxwrench/load.h"
@@ -11,40 +12,27 @@
 namespace maxwrench {
 namespace {
 
-TEST(Comparison, Medians) {
-  EXPECT_EQ(median({}), kInfinity);
-  EXPECT_EQ(median({3}), 3);
-  EXPECT_EQ(median({5, 1, 3}), 3);
-  EXPECT_EQ(median({4, 1, 3, 2}), 2.5);
-  // Half of the attempts fail: the middle is not known to be finite.
-  EXPECT_EQ(median({1, kInfinity}), kInfinity);
-}
-
-TEST(Comparison, AttemptReadsItsHistory) {
-  Attempt attempt;
-  attempt.history = {{1, 2.0}, {10, 3.0}};
-  attempt.improved_at = {0.5, 0.7};
-  attempt.improved_to = {2, 3};
-  EXPECT_EQ(attempt.evaluations_to(2.5), 10);
-  EXPECT_EQ(attempt.evaluations_to(3.5), kInfinity);
-  EXPECT_EQ(attempt.seconds_to(2), 0.5);
-  EXPECT_EQ(attempt.seconds_to(9), kInfinity);
-  EXPECT_EQ(attempt.value_after(0), -kInfinity);
-  EXPECT_EQ(attempt.value_after(9), 2);
-  EXPECT_EQ(attempt.value_after(10), 3);
-}
-
-TEST(Comparison, ClockSeesWhatTheHistorySees) {
+/// Of all searches that serve: every evaluation passes the clock, of values or of something else,
+/// so that what was spent when a value rose is counted as the budget is.
+TEST(Comparison, ClockCountsWhatTheSearchCounts) {
   const Problem problem = load_problem("planar/force");
-  for (const char* search : {"grid", "annealing", "cobyla", "nullspace", "slp"}) {
-    SCOPED_TRACE(search);
-    const Case c{problem.name, "linf_polytope", Wrench::kPure, "", search, 1, 500};
-    const Attempt run = attempt(problem, resolve(problem, c));
-    ASSERT_FALSE(run.improved_to.empty());
-    EXPECT_EQ(run.improved_to.back(), run.value);
-    EXPECT_EQ(run.history.back().value, run.value);
-    EXPECT_LE(run.improved_at.back(), run.seconds);
-    EXPECT_LE(run.evaluations, 500);
+  for (const auto& table : {searches(), plan_searches(), facet_searches()}) {
+    for (const SearchEntry& entry : table) {
+      SCOPED_TRACE(entry.name);
+      const Case c{problem.name, "linf_polytope", Wrench::kPure, "", entry.name, 1, 300};
+      const Method method = resolve(problem, c);
+      const Attempt run = attempt(problem, method);
+      ASSERT_FALSE(run.run.rises.empty());
+      EXPECT_EQ(run.run.rises.back().value, run.value);
+      EXPECT_LE(run.run.rises.back().at.evaluations, run.run.spent.evaluations);
+      EXPECT_LE(run.run.rises.back().at.seconds, run.run.spent.seconds);
+      EXPECT_EQ(run.counted, run.run.spent.evaluations);
+      EXPECT_LE(run.run.spent.evaluations, 300);
+      for (std::size_t i = 1; i < run.run.rises.size(); ++i) {
+        EXPECT_GT(run.run.rises[i].at.evaluations, run.run.rises[i - 1].at.evaluations);
+        EXPECT_GT(run.run.rises[i].value, run.run.rises[i - 1].value);
+      }
+    }
   }
 }
 
@@ -55,38 +43,74 @@ TEST(Comparison, ValuesWithSlackAreNone) {
   const Case c{problem.name, "linf_polytope", Wrench::kPure, "", "slp", 1, 60};
   const Attempt run = attempt(problem, resolve(problem, c));
   EXPECT_EQ(run.value, -kInfinity);
-  EXPECT_GT(run.evaluations, 0);
-  EXPECT_EQ(run.evaluations_to(-1e9), kInfinity);
-  EXPECT_EQ(run.seconds_to(-1e9), kInfinity);
+  EXPECT_GT(run.run.spent.evaluations, 0);
+  EXPECT_EQ(first_hit(run.run, -1e9).evaluations, kInfinity);
 }
 
-/// Of a static task by linf_polytope those of plans and between facets too; then the plain way, if
-/// it has a solver.
+/// Of a static task by linf_polytope those of plans and between facets too; then the plain way
+/// through each peer that is built in.
 TEST(Comparison, RacesTheSearchesThatServe) {
   const Problem problem = load_problem("planar/force");
   const auto postures = static_cast<long>(searches().size()) + 1;  // and the default
   const auto plans = static_cast<long>(plan_searches().size());
   const auto facets = static_cast<long>(facet_searches().size());
+  long peers = 0;
+  for (const LpEntry& lp : lp_solvers()) {
+    peers += lp.name == std::string("glpk") || lp.name == std::string("clp") ? 1 : 0;
+  }
   Case c{.problem = problem.name};
-  EXPECT_EQ(attempt_count(problem, c, 3), 3 * (postures + plans + facets + 1));
+  EXPECT_EQ(attempt_count(problem, c, 3), 3 * (postures + plans + facets + peers));
   c.measure = "ellipsoid";
   EXPECT_EQ(attempt_count(problem, c, 3), 3 * postures);
   c.measure = "linf_polytope";
-  EXPECT_EQ(attempt_count(load_problem("planar/two_arms"), c, 1), postures + facets + 1);
+  EXPECT_EQ(attempt_count(load_problem("planar/two_arms"), c, 1), postures + facets + peers);
 }
 
-/// Two of three seeds reach 2, after 1 s and 2 s; the third spends 7 s on less: (1 + 2 + 7) s / 2.
-TEST(Comparison, ExpectedTimeCountsWhatMisses) {
-  Contender contender;
-  for (const auto& [value, at, seconds] :
-       {std::tuple(2.0, 1.0, 4.0), std::tuple(3.0, 2.0, 2.0), std::tuple(1.0, 0.5, 7.0)}) {
-    Attempt& attempt = contender.attempts.emplace_back();
-    attempt.improved_at = {at};
-    attempt.improved_to = {value};
-    attempt.seconds = seconds;
+/// The same attempts at any number of threads, in the order of the seeds; dear searches get a part
+/// of the budget.
+TEST(Comparison, ThreadsDoNotChangeTheRace) {
+  const Problem problem = load_problem("planar/two_arms");
+  const Case base{.problem = problem.name, .budget = 60};
+  const Comparison one = compare(problem, base, {2, 1, true, {}});
+  const Comparison four = compare(problem, base, {2, 4, true, {}});
+  ASSERT_EQ(one.contenders.size(), four.contenders.size());
+  for (std::size_t i = 0; i < one.contenders.size(); ++i) {
+    const Contender &a = one.contenders[i], &b = four.contenders[i];
+    SCOPED_TRACE(a.search);
+    EXPECT_EQ(a.budget, a.search == "multistart" || a.search == "facet_nlp" ? 12 : 60);
+    ASSERT_EQ(a.attempts.size(), 2U);
+    ASSERT_EQ(b.attempts.size(), 2U);
+    for (std::size_t k = 0; k < 2; ++k) {
+      EXPECT_EQ(a.attempts[k].choice.seed, k + 1);
+      EXPECT_EQ(a.attempts[k].value, b.attempts[k].value);
+      ASSERT_EQ(a.attempts[k].run.rises.size(), b.attempts[k].run.rises.size());
+      for (std::size_t r = 0; r < a.attempts[k].run.rises.size(); ++r) {
+        EXPECT_EQ(a.attempts[k].run.rises[r].at.evaluations,
+                  b.attempts[k].run.rises[r].at.evaluations);
+      }
+    }
   }
-  EXPECT_EQ(contender.expected_seconds(2), 5);
-  EXPECT_EQ(contender.expected_seconds(4), kInfinity);
+}
+
+/// A proven bound, or what another run found, replaces the best of the attempts; the reference is
+/// the peer that gets to the target sooner.
+TEST(Comparison, TargetsAndReference) {
+  Comparison comparison;
+  EXPECT_EQ(comparison.reference(), nullptr);
+  EXPECT_EQ(comparison.target(), kInfinity);
+  for (const auto& [lp, seconds] : {std::pair("glpk", 3.0), std::pair("clp", 2.0)}) {
+    Attempt attempt;
+    attempt.value = 100;
+    attempt.run = {{{{1, seconds}, 100}}, {1, seconds}};
+    comparison.peers.push_back({"annealing+cmaes", lp, 1, {attempt}});
+  }
+  EXPECT_EQ(comparison.best(), 100);
+  EXPECT_DOUBLE_EQ(comparison.target(), 99.9);
+  EXPECT_EQ(comparison.reference()->lp, "clp");
+  comparison.best_known = 110;
+  EXPECT_DOUBLE_EQ(comparison.target(0.1), 99);
+  EXPECT_EQ(comparison.peers[0].expected(comparison.target(), &Spent::seconds), kInfinity);
+  EXPECT_EQ(comparison.reference()->lp, "glpk");  // neither gets there: the first
 }
 
 /// The clock knows of no value beyond that of the plan that a search chose, and of that one.
@@ -98,12 +122,12 @@ TEST(Comparison, ClockSeesThePlanThatWasChosen) {
     const PlanMethod method = resolve_plan(problem, c);
     const Attempt run = attempt(problem, method);
     EXPECT_EQ(run.choice.scheme, "spline");
-    ASSERT_FALSE(run.improved_to.empty());
-    EXPECT_EQ(run.improved_to.back(), run.value);
-    EXPECT_LE(run.improved_at.back(), run.seconds);
-    EXPECT_LE(run.evaluations, 80);
+    ASSERT_FALSE(run.run.rises.empty());
+    EXPECT_EQ(run.run.rises.back().value, run.value);
+    EXPECT_LE(run.run.rises.back().at.seconds, run.run.spent.seconds);
+    EXPECT_LE(run.run.spent.evaluations, 80);
     const PlanRow row = solve_plan(problem, method, 2);
-    EXPECT_EQ(run.evaluations, row.evaluations);
+    EXPECT_EQ(run.run.spent.evaluations, static_cast<double>(row.evaluations));
     EXPECT_NEAR(run.value, row.plan.value, 1e-6);  // the elastic value of a feasible plan
     EXPECT_EQ(run.continuous, row.plan.continuous);
   }

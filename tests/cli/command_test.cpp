@@ -162,7 +162,7 @@ TEST(Command, WriteAndCompareTakeBoxWhereThereAreTooManyFacets) {
   const CommandResult compare =
       run_maxwrench("compare force.toml --budget 50 --seeds 1 --out .", copy.path());
   EXPECT_EQ(compare.exit_status, 0) << compare.err;
-  EXPECT_NE(compare.out.find("\ngrid            box "), std::string::npos) << compare.out;
+  EXPECT_NE(compare.out.find("\ngrid             box "), std::string::npos) << compare.out;
 }
 
 /// A closed form has no use for GLPK, so there is nothing to relate times to.
@@ -172,7 +172,7 @@ TEST(Command, CompareOfAClosedFormHasNoReference) {
       "compare planar/force --measure ellipsoid --budget 50 --seeds 1 --out .", folder.path());
   EXPECT_EQ(result.exit_status, 0) << result.err;
   EXPECT_EQ(result.out.find("glpk"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("\nnullspace       none "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("\nnullspace        none "), std::string::npos) << result.out;
 }
 
 /// 25 m away nothing is reached: no value, no number.
@@ -183,7 +183,7 @@ TEST(Command, CompareSaysThatNothingHasAValue) {
       run_maxwrench("compare two_arms.toml --budget 20 --seeds 2 --out .", copy.path());
   EXPECT_EQ(result.exit_status, 1) << result.err;
   EXPECT_NE(result.out.find("best known - N"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("\ngrid            box       0 of 2            -        - "),
+  EXPECT_NE(result.out.find("\ngrid             box            20   0 of 2         -       - "),
             std::string::npos)
       << result.out;
   EXPECT_EQ(result.out.find("2 of 2"), std::string::npos) << result.out;
@@ -342,7 +342,10 @@ TEST(Command, CompareWritesTheSameValuesAgain) {
     EXPECT_GT(std::count(values.begin(), values.end(), '\n'), 18);
     EXPECT_NE(read_text(folder.path() / "search_comparison.svg").find("<polyline"),
               std::string::npos);
-    EXPECT_TRUE(std::filesystem::exists(folder.path() / "search_times.csv"));
+    for (const char* file : {"search_times.csv", "search_ecdf.svg", "search_ecdf_problems.svg"}) {
+      EXPECT_TRUE(std::filesystem::exists(folder.path() / file)) << file;
+    }
+    EXPECT_NE(values.find(",evaluations_to_ten_thousandth,"), std::string::npos) << values;
     if (run == 0) first = values;
     EXPECT_EQ(values, first);
   }

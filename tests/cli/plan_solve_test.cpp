@@ -111,7 +111,7 @@ TEST(PlanCompare, RacesEverySearchOfPlans) {
     ASSERT_EQ(result.exit_status, 0) << result.err;
     for (const auto& table : {plan_searches(), searches()}) {
       for (const SearchEntry& search : table) {
-        EXPECT_NE(result.out.find("\n" + std::string(search.name) + " "), std::string::npos);
+        EXPECT_NE(result.out.find("\n" + std::string(search.name)), std::string::npos);
       }
     }
     const std::string values = read_text(folder.path() / "search_comparison.csv");

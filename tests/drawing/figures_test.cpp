@@ -11,6 +11,7 @@
 #include "drawing/axes.h"
 #include "drawing/bars.h"
 #include "drawing/convergence.h"
+#include "drawing/ecdf.h"
 #include "drawing/legend.h"
 #include "drawing/postures.h"
 #include "maxwrench/load.h"
@@ -95,22 +96,25 @@ TEST_F(FiguresTest, NamesAreSpelledInOneWay) {
   EXPECT_NE(svg.find(">direct_l: "), std::string::npos);
   const ConvergenceCurve curve{"direct_l", [](double) { return 0.1; }};
   const ConvergencePanel panel{"uvms/valve", 1e5, {curve}};
-  EXPECT_NE(draw_convergence({&panel, 1}).find(">direct_l<"), std::string::npos);
+  EXPECT_NE(draw_convergence({&panel, 1}, {"direct_l"}).find(">direct_l<"), std::string::npos);
 }
 
-/// Curves without a finite value are not drawn, wild budgets are cut; no two curves look the same
-/// in grey: dash or mark differ.
+/// Curves without a finite value are not drawn, wild budgets are cut; the named ones are in the
+/// legend, no two look the same in grey (dash or mark differ), and all others are one entry.
 TEST_F(FiguresTest, ConvergenceOfTwelveSearches) {
   ConvergencePanel panel{"p", 1e5, {}};
+  std::vector<std::string> named;
   for (int i = 0; i < 12; ++i) {
     panel.curves.push_back({std::string(1, static_cast<char>('a' + i)),
                             [](double n) { return n < 100 ? std::nan("") : 1 / n; }});
+    if (i < 8) named.push_back(panel.curves.back().name);
   }
-  const std::string svg = draw_convergence({&panel, 1});
+  const std::string svg = draw_convergence({&panel, 1}, named);
   expect_legible(svg);
   for (int i = 0; i < 12; ++i) {
-    EXPECT_EQ(count(svg, std::string(">") + static_cast<char>('a' + i) + "<"), 1);
+    EXPECT_EQ(count(svg, std::string(">") + static_cast<char>('a' + i) + "<"), i < 8 ? 1 : 0);
   }
+  EXPECT_EQ(count(svg, ">all others<"), 1);
   std::set<std::tuple<std::string, Mark, bool>> looks;
   for (std::size_t i = 0; i < 12; ++i) {
     const CurveStyle style = curve_style(i);
@@ -118,7 +122,23 @@ TEST_F(FiguresTest, ConvergenceOfTwelveSearches) {
   }
   EXPECT_EQ(looks.size(), 12U);
   panel.budget = kInfinity;
-  EXPECT_LT(draw_convergence({&panel, 1}).size(), 200000U);
+  EXPECT_LT(draw_convergence({&panel, 1}, named).size(), 200000U);
+}
+
+/// Two searches in two panels side by side, one of them named; a search that reached nothing is not
+/// drawn, and a first hit that took no time stands at the left end.
+TEST_F(FiguresTest, EcdfNamesAFew) {
+  const EcdfCurve a{"a", {{10, 0.25}, {200, 1}}}, b{"b", {{0, 0.5}, {3e4, 0.75}}}, none{"none", {}};
+  const EcdfPanel panels[] = {{"p", "evaluations", {a, b, none}}, {"p", "ms", {b, a}}};
+  const std::string svg = draw_ecdf(panels, {"a"}, 2);
+  expect_legible(svg);
+  EXPECT_EQ(count(svg, ">a<"), 1);
+  EXPECT_EQ(count(svg, ">b<"), 0);
+  EXPECT_EQ(count(svg, ">all others<"), 1);
+  EXPECT_EQ(count(svg, "<polyline"), 4);
+  EXPECT_EQ(count(draw_ecdf({panels, 1}, {"a", "b", "none"}, 1), ">all others<"), 0);
+  const EcdfPanel wild{"p", "ms", {{"a", {{kInfinity, 1}}}}};
+  EXPECT_THROW(draw_ecdf({&wild, 1}, {}, 1), std::invalid_argument);
 }
 
 TEST_F(FiguresTest, BarsThatCannotBeDrawnAreRefused) {

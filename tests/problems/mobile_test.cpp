@@ -147,6 +147,22 @@ TEST(Mobile, SearchFindsTheBestOfAGrid) {
   EXPECT_LE(row.capability.beta, 1.02 * best);
 }
 
+/// The four rollers lie at 45 degrees to the base's x and take 135 N each (the motor's), so no push
+/// is beyond 4 x 135 N / sqrt 2, which is reached along x of a base that stands straight: with a
+/// tool that may turn.
+TEST(Mobile, DoorPushedAnywhereTakesAllThatTheWheelsGive) {
+  const Problem problem = load_problem("mobile/push_any_height");
+  EXPECT_EQ(problem.free.axes, (std::vector<int>{2, 5}));
+  EXPECT_EQ(problem.theta_r_name(2), "pose_z");
+  EXPECT_EQ(problem.theta_r_name(3), "pose_yaw");
+  Case c;
+  c.problem = problem.name;
+  const Row row = solve(problem, resolve(problem, c), 1);
+  const double most = 4 * 135 / std::sqrt(2);
+  EXPECT_LE(row.capability.beta, most + 1e-9);
+  EXPECT_GE(row.capability.beta, 0.999 * most);
+}
+
 /// Two wheels cannot hold the base in all its axes: what divides by B refuses, the polytope does
 /// not.
 TEST(Mobile, TwoWheelsAreRankDeficient) {

@@ -10,6 +10,7 @@
 #include "maxwrench/posture.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
+#include "tests/support/free_poses.h"
 
 namespace maxwrench {
 namespace {
@@ -31,7 +32,13 @@ Eigen::VectorXd draw_theta_r(const Problem& problem, Random& random) {
 struct Kind {
   const char* problem;
   Wrench wrench;
+  FreePose free = {};
 };
+
+Problem load(const Kind& kind) {
+  const Problem problem = load_problem(kind.problem);
+  return kind.free.count() > 0 ? with_free_pose(problem, kind.free) : problem;
+}
 
 class FacetRows : public testing::TestWithParam<Kind> {};
 
@@ -41,16 +48,20 @@ INSTANTIATE_TEST_SUITE_P(
                     Kind{"uvms/valve", Wrench::kPure}, Kind{"uvms/lift", Wrench::kAny},
                     Kind{"dual_arm/bar_wall", Wrench::kPure},
                     Kind{"dual_arm/two_arms", Wrench::kAny}, Kind{"mobile/push", Wrench::kPure},
-                    Kind{"fixed/push", Wrench::kAny}),
+                    Kind{"fixed/push", Wrench::kAny},
+                    Kind{"uvms/valve", Wrench::kAny, {{0, 4, 5}, true, true}},
+                    Kind{"fixed/push", Wrench::kPure, {{2, 4}, false, true}},
+                    Kind{"dual_arm/two_arms", Wrench::kAny, {{1, 3}, false, true}}),
     [](const auto& each) {
       std::string name = each.param.problem;
+      if (each.param.free.count() > 0) name += "_free";
       for (char& c : name) c = std::isalnum(c) ? c : '_';
       return name + "_" + to_string(each.param.wrench);
     });
 
 /// Of all rows by theta_r and w, at each branch; w is any.
 TEST_P(FacetRows, DerivativesAreThoseOfDifferences) {
-  const Problem problem = load_problem(GetParam().problem);
+  const Problem problem = load(GetParam());
   FacetProgram program(problem, GetParam().wrench, linf_polytope(problem));
   Random random(1);
   constexpr double kStep = 1e-6;
@@ -91,7 +102,7 @@ TEST_P(FacetRows, DerivativesAreThoseOfDifferences) {
 
 /// The lower level's answer satisfies the facet rows, and nothing along c beyond it does.
 TEST_P(FacetRows, HoldTheLowerLevel) {
-  const Problem problem = load_problem(GetParam().problem);
+  const Problem problem = load(GetParam());
   FacetProgram program(problem, GetParam().wrench, linf_polytope(problem));
   const Eigen::Index pairs = problem.robot.actuation.facet_pairs();
   Random random(2);

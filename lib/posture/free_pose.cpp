@@ -1,0 +1,97 @@
+#include "lib/posture/free_pose.h"
+
+#include <stdexcept>
+#include <string>
+
+#include "lib/math/rotated.h"
+
+namespace maxwrench {
+namespace {
+
+/// All six s, those that are not free zero.
+Vector6d coordinates_at(const Problem& problem, const Eigen::VectorXd& theta_r) {
+  Vector6d s = Vector6d::Zero();
+  auto next = static_cast<Eigen::Index>(problem.redundant.size());
+  for (const int axis : problem.free.axes) s[axis] = theta_r[next++];
+  return s;
+}
+
+Eigen::Matrix3d turned(const Vector6d& s) {
+  return (Eigen::AngleAxisd(s[5], Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(s[4], Eigen::Vector3d::UnitY()) *
+          Eigen::AngleAxisd(s[3], Eigen::Vector3d::UnitX()))
+      .toRotationMatrix();
+}
+
+}  // namespace
+
+void require_theta_r(const Problem& problem, const Eigen::VectorXd& theta_r) {
+  if (theta_r.size() != problem.redundancy()) {
+    throw std::invalid_argument("theta_r: got " + std::to_string(theta_r.size()) +
+                                " numbers, expected " + std::to_string(problem.redundancy()) +
+                                " for " + problem.name);
+  }
+  if (!theta_r.allFinite()) {
+    throw std::invalid_argument("theta_r: got a value that is not a finite number");
+  }
+}
+
+Pose<double> pose_at(const Problem& problem, const Eigen::VectorXd& theta_r) {
+  Pose<double> pose = problem.pose;
+  if (problem.free.axes.empty()) return pose;
+  const Vector6d s = coordinates_at(problem, theta_r);
+  const Eigen::Matrix3d R = problem.pose.R * turned(s);
+  pose.p += (problem.free.along_tool ? R : problem.pose.R) * s.head<3>();
+  pose.R = R;
+  return pose;
+}
+
+Vector6d free_twist(const Problem& problem, const Eigen::VectorXd& theta_r, int i) {
+  const int axis = problem.free.axes[static_cast<std::size_t>(i)];
+  const Vector6d s = coordinates_at(problem, theta_r);
+  Vector6d twist = Vector6d::Zero();
+  if (axis < 3) {
+    const bool along_tool = problem.free.along_tool;
+    const Eigen::Matrix3d& R_0 = problem.pose.R;
+    twist.head<3>() = along_tool ? Eigen::Vector3d(R_0 * turned(s).col(axis)) : R_0.col(axis);
+    return twist;
+  }
+  // About which axis: z, then y turned by the yaw, then x turned by the pitch too.
+  Vector6d outer = Vector6d::Zero();
+  for (int j = axis + 1; j < 6; ++j) outer[j] = s[j];
+  const Eigen::Vector3d w = problem.pose.R * turned(outer).col(axis - 3);
+  twist.tail<3>() = w;
+  if (problem.free.along_tool) {
+    twist.head<3>() = w.cross(Eigen::Vector3d(problem.pose.R * (turned(s) * s.head<3>())));
+  }
+  return twist;
+}
+
+Eigen::VectorXd held_theta_r(const Problem& problem, const Eigen::VectorXd& theta_r) {
+  require_theta_r(problem, theta_r);
+  const auto joints = static_cast<Eigen::Index>(problem.redundant.size());
+  const Eigen::Index kept = theta_r.size() - problem.free.count();
+  Eigen::VectorXd result(kept);
+  result << theta_r.head(joints), theta_r.tail(kept - joints);
+  return result;
+}
+
+Problem held_at(const Problem& problem, const Eigen::VectorXd& theta_r) {
+  require_theta_r(problem, theta_r);
+  Problem held = problem;
+  if (problem.free.axes.empty()) return held;
+  held.pose = pose_at(problem, theta_r);
+  if (problem.free.wrench_turns) {
+    const Eigen::Matrix3d turn = held.pose.R * problem.pose.R.transpose();
+    held.c = rotated(turn, problem.c);
+    held.W_any = rotated(turn, problem.W_any);
+  }
+  held.free = {};
+  for (Eigen::VectorXd* v : {&held.theta_r_min, &held.theta_r_max, &held.theta_r_default}) {
+    *v = held_theta_r(problem, *v);
+  }
+  held.atlas.reset();
+  return held;
+}
+
+}  // namespace maxwrench
