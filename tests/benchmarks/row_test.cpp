@@ -144,7 +144,9 @@ TEST_P(PlanarOptimum, IsFoundByEverySolverAndSearch) {
   const bool coarse = search == "sample" || search == "grid" || search == "mma";
   if (coarse || find_plan_search(search).local) {
     EXPECT_LT(row.capability.beta, optimum + tolerance);
-    if (coarse && !slow) EXPECT_GT(row.capability.beta, 0.99 * optimum);
+    if (coarse && !slow) {
+      EXPECT_GT(row.capability.beta, 0.99 * optimum);
+    }
   } else {
     EXPECT_NEAR(row.capability.beta, optimum, tolerance);
   }

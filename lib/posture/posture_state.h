@@ -1,0 +1,85 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "lib/posture/free_pose.h"
+#include "lib/robot/chain.h"
+#include "lib/robot/kinematics.h"
+#include "maxwrench/problem.h"
+
+namespace maxwrench {
+
+/// The state of one posture.
+struct PostureState {
+  explicit PostureState(const Problem& p)
+      : problem(p),
+        pose(p.pose),
+        kinematics(p.robot),
+        theta_r(Eigen::VectorXd::Constant(p.redundancy(), kNothing)),
+        q(p.robot.joints.size()),
+        J(6, p.robot.velocities()),
+        J_2(6, p.contact ? p.robot.velocities() : 0),
+        tau_d(p.robot.velocities()) {
+    q = p.contact ? p.contact->q_rest : resting_joints(p.robot);
+    if (p.contact) second = carried_by(p.robot, p.contact->follow);
+    for (int i = 0; i < static_cast<int>(p.robot.joints.size()); ++i) {
+      if (!std::binary_search(second.begin(), second.end(), i)) first.push_back(i);
+    }
+  }
+
+  const EndEffector& end_effector() const {
+    return problem.robot.end_effectors[problem.end_effector];
+  }
+
+  /// The base follows in closed form from all joints of the chain.
+  void evaluate(const Eigen::VectorXd& at) {
+    theta_r = at;
+    for (std::size_t i = 0; i < problem.redundant.size(); ++i) {
+      q[problem.redundant[i]] = at[static_cast<Eigen::Index>(i)];
+    }
+    kinematics.set_joints(q, first);
+    if (!problem.free.axes.empty()) pose = pose_at(problem, at);
+    base = pose * kinematics.end_effector(end_effector()).inverse();
+    finish();
+  }
+
+  /// z = [x, y, z, yaw of the base; all joints].
+  void evaluate_at(const Eigen::VectorXd& at, const Eigen::VectorXd& z) {
+    theta_r = at;
+    if (!problem.free.axes.empty()) pose = pose_at(problem, at);
+    q = z.tail(q.size());
+    kinematics.set_joints(q, first);
+    base = base_pose(problem.robot, z.head<4>());
+    finish();
+  }
+
+  void finish() {
+    kinematics.jacobian(end_effector(), base.R, J);
+    if (!problem.contact) kinematics.gravity_and_buoyancy(base.R, tau_d);
+  }
+
+  /// The same for a second arm that has moved, but for tau_d.
+  void finish_second() {
+    kinematics.set_joints(q, second);
+    const auto touching = static_cast<std::size_t>(problem.contact->end_effector);
+    kinematics.jacobian(problem.robot.end_effectors[touching], base.R, J_2);
+  }
+
+  /// Before the first evaluation: equals no theta_r.
+  static constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+  const Problem& problem;
+  Pose<double> pose;  ///< of the end effector, X(s)
+  Kinematics<double> kinematics;
+  std::vector<int> second;  ///< the joints that move with a second arm's branch
+  std::vector<int> first;   ///< all others
+  Eigen::VectorXd theta_r, q;
+  Pose<double> base;
+  Matrix6Xd J, J_2;
+  Eigen::VectorXd tau_d;
+};
+
+}  // namespace maxwrench
