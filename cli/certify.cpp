@@ -92,7 +92,20 @@ Proof prove(const ProofOptions& options, const Problem& problem) {
   proof.result = certify(*objective, *bound, incumbent, how);
   const Candidate& best = proof.result.best;
   if (best.value > incumbent.value) proof.row = evaluate(problem, method, best.theta_r);
+  if (best.value == -kInfinity) {
+    if (proof.result.status == Status::kProven) proof.result.reason = "no posture has a value";
+  } else if (!proof.row.has_value()) {
+    static_cast<Verdict&>(proof.result) = proof.row;
+  }
   return proof;
+}
+
+/// Empty, or why the text is no gap.
+std::string refuse_gap(const std::string& text) {
+  double gap = 0;
+  const bool read = CLI::detail::lexical_cast(text, gap);
+  if (read && gap >= kLeastGap && gap <= 1) return "";
+  return fmt::format("got '{}', expected a number of {:g} to 1", text, kLeastGap);
 }
 
 void print_object(const ProofOptions& options, const Problem& problem, const Proof& proof) {
@@ -160,7 +173,7 @@ void add_certify(CLI::App& app, int& exit_status) {
       ->capture_default_str();
   command.add_option("--gap", options->gap, "of the bound to beta that is to be reached")
       ->capture_default_str()
-      ->check(CLI::Range(kLeastGap, 1.0));
+      ->check(refuse_gap);
   command.add_option("--time", options->seconds, "s, after which a bracket is printed")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1e9));

@@ -9,7 +9,7 @@ namespace maxwrench {
 namespace {
 
 /// How deep [m] all of a box must be within reach: more than what checks of collisions round off.
-constexpr double kDepth = 1e-7;
+constexpr double kDepth = 1e-6;
 
 /// The coordinates of theta_r between two links.
 Coordinates between_links(const Problem& problem, int a, int b) {

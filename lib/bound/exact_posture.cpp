@@ -55,7 +55,9 @@ MultiAffine pure_rows(const Problem& problem, const Eigen::MatrixXd& K) {
   return {all_coordinates(problem), problem.theta_r_default, [&](const ExtendedVector& theta_r) {
             posture.set(theta_r);
             ExtendedVector rows(2 * K.rows());
-            rows << into * posture.tau_d(), into * (posture.J().transpose() * c);
+            rows.head(K.rows()).noalias() = into * posture.tau_d();
+            const ExtendedVector a = posture.J().transpose() * c;
+            rows.tail(K.rows()).noalias() = into * a;
             return rows;
           }};
 }

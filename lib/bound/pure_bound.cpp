@@ -224,7 +224,7 @@ class EllipsoidBound final : public Bound {
     weigh_centre(model_->f.coordinates(), lower, upper, weights_);
     tau_.noalias() = box_.tau().transpose() * weights_;
     a_.noalias() = box_.a().transpose() * weights_;
-    aim();
+    aim(low);
     reach_.noalias() = L_inverse_ * lambda_;
     off_.noalias() = L_inverse_.cwiseAbs() * lambda_.cwiseAbs();
     improve(reach_.norm() + kBoundRounding * off_.sum() + box_.most(lambda_, low, high), lambda_,
@@ -236,16 +236,15 @@ class EllipsoidBound final : public Bound {
   }
 
  private:
-  /// Along the ellipsoid's normal Q (tau + t a) where the centre's ray leaves it, or comes next to
-  /// it, scaled to lambda'a = 1.
-  void aim() {
+  /// Along the normal Q (tau + t a) where the centre's ray leaves the ellipsoid, or, if `low` is
+  /// farther out, at `low`; scaled to lambda'a = 1.
+  void aim(double low) {
     lambda_.noalias() = Q_ * a_;
-    const double aa = a_.dot(lambda_), at = tau_.dot(lambda_);
     off_.noalias() = Q_ * tau_;
-    const double rest = tau_.dot(off_) - 1;
-    const double root = std::sqrt(std::max(at * at - aa * rest, kLeast * aa));
-    const double t = (root - at) / aa;
-    lambda_ = (off_ + t * lambda_) / root;
+    const double aa = a_.dot(lambda_), at = tau_.dot(lambda_);
+    const double square = at * at - aa * (tau_.dot(off_) - 1);
+    const double t = std::max(low, (std::sqrt(std::max(square, kLeast * aa)) - at) / aa);
+    lambda_ = (off_ + t * lambda_) / std::max(at + t * aa, kLeast * std::sqrt(aa));
   }
 
   static constexpr double kLeast = 1e-6;

@@ -55,21 +55,16 @@ class BranchAndBound {
     auto root = std::make_unique<CertifiedBox>();
     root->lower = objective.lower().array() - kLimitTolerance;
     root->upper = objective.upper().array() + kLimitTolerance;
-    root->high = root->proof.high = bound.ceiling();
-    waiting_.push_back(std::move(root));
+    root->high = bound.ceiling();
+    children_.push_back(std::move(root));
   }
 
   CertifyResult run() {
-    CertifiedBoxes parents, children;
-    for (;;) {
-      if (ended()) break;
-      take(parents);
-      cut(parents, children);
-      const double low = target();
-      parallel_for(options_.threads, static_cast<long>(children.size()),
-                   [&](long i) { bound_one(*children[static_cast<std::size_t>(i)], low); });
-      for (auto& parent : parents) report(*parent);
-      merge(children);
+    bound_children();
+    while (!ended()) {
+      take_parents();
+      cut_parents();
+      bound_children();
     }
     result_.bound = std::max(top(), target());
     result_.seconds = seconds();
@@ -111,17 +106,17 @@ class BranchAndBound {
   }
 
   /// The boxes with the largest bounds.
-  void take(CertifiedBoxes& parents) {
-    parents.clear();
+  void take_parents() {
+    parents_.clear();
     const std::size_t most = std::clamp(waiting_.size() / kShare, std::size_t{1}, kRound);
-    while (parents.size() < most && top() > target()) {
+    while (parents_.size() < most && top() > target()) {
       std::pop_heap(waiting_.begin(), waiting_.end(), comes_later);
-      parents.push_back(std::move(waiting_.back()));
+      parents_.push_back(std::move(waiting_.back()));
       waiting_.pop_back();
     }
   }
 
-  /// How wide a box is along a coordinate.
+  /// The widest coordinate of a box; -1 if it is too narrow to be cut.
   int widest(const CertifiedBox& box) const {
     int axis = -1;
     double most = kNarrowest;
@@ -134,35 +129,50 @@ class BranchAndBound {
     return axis;
   }
 
-  void cut(CertifiedBoxes& parents, CertifiedBoxes& children) {
-    children.clear();
-    for (auto& parent : parents) {
+  void add_half(const CertifiedBox& parent, int axis, bool second) {
+    auto child = std::make_unique<CertifiedBox>();
+    child->lower = parent.lower;
+    child->upper = parent.upper;
+    const double middle = (parent.lower[axis] + parent.upper[axis]) / 2;
+    (second ? child->lower : child->upper)[axis] = middle;
+    child->high = parent.proof.high;
+    child->proof.multiplier = parent.proof.multiplier;
+    child->proof.basis = parent.proof.basis;
+    child->depth = parent.depth + 1;
+    children_.push_back(std::move(child));
+  }
+
+  void cut_parents() {
+    improve(*parents_.front());
+    for (auto& parent : parents_) {
       const int axis = widest(*parent);
       if (axis < 0) {
         too_narrow_ = true;
+        push(std::move(parent));
         continue;
       }
       parent->cut = true;
-      const double middle = (parent->lower[axis] + parent->upper[axis]) / 2;
-      for (const bool second : {false, true}) {
-        auto child = std::make_unique<CertifiedBox>();
-        child->lower = parent->lower;
-        child->upper = parent->upper;
-        (second ? child->lower : child->upper)[axis] = middle;
-        child->high = parent->proof.high;
-        child->proof.multiplier = parent->proof.multiplier;
-        child->proof.basis = parent->proof.basis;
-        child->depth = parent->depth + 1;
-        children.push_back(std::move(child));
+      add_half(*parent, axis, false);
+      add_half(*parent, axis, true);
+      report(*parent);
+    }
+  }
+
+  /// All of them with the same aim, whatever the threads.
+  void bound_children() {
+    const double low = target();
+    parallel_for(options_.threads, static_cast<long>(children_.size()),
+                 [&](long i) { bound_one(*children_[static_cast<std::size_t>(i)], low); });
+    for (auto& child : children_) {
+      ++result_.boxes;
+      if (child->proof.kind == BoxProof::Kind::kCollision) ++result_.colliding;
+      if (child->proof.high > child->low) {
+        push(std::move(child));
+      } else {
+        report(*child);
       }
     }
-    CertifiedBoxes uncut;
-    for (auto& parent : parents) {
-      if (!parent->cut) uncut.push_back(std::move(parent));
-    }
-    std::erase(parents, nullptr);
-    for (auto& box : uncut) push(std::move(box));
-    if (!parents.empty()) improve(*parents.front());
+    children_.clear();
   }
 
   void bound_one(CertifiedBox& box, double low) {
@@ -182,18 +192,6 @@ class BranchAndBound {
     if (options_.sink) options_.sink(box);
   }
 
-  void merge(CertifiedBoxes& children) {
-    for (auto& child : children) {
-      ++result_.boxes;
-      if (child->proof.kind == BoxProof::Kind::kCollision) ++result_.colliding;
-      if (child->proof.high > child->low) {
-        push(std::move(child));
-      } else {
-        report(*child);
-      }
-    }
-  }
-
   void push(std::unique_ptr<CertifiedBox> box) {
     waiting_.push_back(std::move(box));
     std::push_heap(waiting_.begin(), waiting_.end(), comes_later);
@@ -204,6 +202,7 @@ class BranchAndBound {
   BoundPool pool_;
   std::chrono::steady_clock::time_point start_;
   CertifiedBoxes waiting_;  ///< a heap
+  CertifiedBoxes parents_, children_;
   bool too_narrow_ = false;
   CertifyResult result_;
 };
@@ -215,6 +214,7 @@ CertifyResult certify(Objective& objective, const Bound& bound, const Candidate&
   if (!(options.gap >= kLeastGap)) {
     throw std::invalid_argument("gap: expected at least 1e-8");
   }
+  const Box refuses_infinite_limits(objective);
   return BranchAndBound(objective, bound, incumbent, options).run();
 }
 
