@@ -68,6 +68,7 @@ class BranchAndBound {
     }
     result_.bound = std::max(top(), target());
     result_.seconds = seconds();
+    for (const auto& box : waiting_) report(*box);
     return std::move(result_);
   }
 
@@ -139,6 +140,8 @@ class BranchAndBound {
     child->proof.multiplier = parent.proof.multiplier;
     child->proof.basis = parent.proof.basis;
     child->depth = parent.depth + 1;
+    child->id = ++last_id_;
+    child->parent = parent.id;
     children_.push_back(std::move(child));
   }
 
@@ -151,7 +154,7 @@ class BranchAndBound {
         push(std::move(parent));
         continue;
       }
-      parent->cut = true;
+      parent->cut_axis = axis;
       add_half(*parent, axis, false);
       add_half(*parent, axis, true);
       report(*parent);
@@ -204,6 +207,7 @@ class BranchAndBound {
   CertifiedBoxes waiting_;  ///< a heap
   CertifiedBoxes parents_, children_;
   bool too_narrow_ = false;
+  long last_id_ = 0;  ///< the root's
   CertifyResult result_;
 };
 

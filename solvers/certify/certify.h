@@ -16,7 +16,10 @@ struct CertifiedBox {
   double low = 0, high = 0;
   BoxProof proof;
   int depth = 0;
-  bool cut = false;  ///< it is not proven, but its two halves come
+  long id = 0, parent = -1;  ///< in the order in which boxes were made, the lower half first
+  /// Along which it was cut at its middle: it is not proven, but its two halves come. -1: it is a
+  /// leaf.
+  int cut_axis = -1;
 };
 
 struct CertifyOptions {
@@ -27,7 +30,8 @@ struct CertifyOptions {
   std::function<bool()> interrupted;
   /// Called now and then with the bound and the incumbent.
   std::function<void(double bound, double incumbent)> progress;
-  /// Gets every box, in the same order at any thread count.
+  /// Gets every box, in the same order at any thread count; at last those that were neither proven
+  /// nor cut when the search ended, as what they have is enough, or all there is.
   std::function<void(const CertifiedBox&)> sink;
 };
 

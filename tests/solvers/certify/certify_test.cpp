@@ -161,7 +161,7 @@ TEST(Certify, HoldsForPosturesOneByOne) {
       EXPECT_NE(box.proof.kind, BoxProof::Kind::kCollision);
       EXPECT_LE(postures[i].value, std::max(box.low, box.proof.high));
       EXPECT_LE(postures[i].value, std::max(box.low, box.high));
-      leaves[i] += box.cut ? 0 : 1;
+      leaves[i] += box.cut_axis < 0 ? 1 : 0;
     }
   };
   const Candidate best = at.searched();
@@ -177,7 +177,7 @@ TEST(Certify, HandsOverATree) {
   double volume = 0;
   CertifyOptions options = to_gap(1e-3);
   options.sink = [&](const CertifiedBox& box) {
-    if (box.cut) return;
+    if (box.cut_axis >= 0) return;
     EXPECT_LE(box.proof.high, box.low);
     EXPECT_NE(box.proof.kind, BoxProof::Kind::kNone);
     volume += (box.upper - box.lower).prod();

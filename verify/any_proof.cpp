@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <stdexcept>
+
+#include "verify/value_proof.h"
+#include "verify/weighted.h"
+
+namespace maxwrench {
+namespace {
+
+struct AnyRows {
+  FormRow o_0;
+  std::vector<FormRow> tau_0;           ///< of each joint
+  std::vector<FormRow> y;               ///< of each free base axis
+  std::vector<std::vector<FormRow>> K;  ///< joints, then free base axes
+};
+
+std::vector<FormRow> on_free_axes(const Problem& problem, const std::array<FormVector, 2>& twist) {
+  std::vector<FormRow> rows;
+  for (const int axis : problem.robot.base_axes) {
+    rows.emplace_back(twist[static_cast<std::size_t>(axis / 3)][static_cast<std::size_t>(axis % 3)]);
+  }
+  return rows;
+}
+
+std::shared_ptr<const AnyRows> any_rows(const Problem& problem, const FormModel& model) {
+  AnyRows rows{FormRow(model.weight_along_c()), {}, on_free_axes(problem, model.carrying()), {}};
+  for (std::size_t i = 0; i < problem.robot.joints.size(); ++i) {
+    rows.tau_0.emplace_back(model.weight_at(i));
+    rows.K.push_back(on_free_axes(problem, model.screw(i)));
+  }
+  return std::make_shared<const AnyRows>(std::move(rows));
+}
+
+class AnyProof final : public ValueProof {
+ public:
+  AnyProof(const Problem& problem, const FormModel& model, std::shared_ptr<const AnyRows> rows)
+      : problem_(problem),
+        model_(model),
+        rows_(std::move(rows)),
+        box_(model.shape()),
+        g_(rows_->y.size()) {}
+
+  int width() const override { return static_cast<int>(rows_->tau_0.size()); }
+  double ceiling() const override { return kInfinity; }
+
+  double most(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, const double* mu,
+              double low, double high) override {
+    if (high <= low || !box_.set(lower, upper)) return high;
+    const auto size = static_cast<std::size_t>(model_.shape().size);
+    constant_.assign(size, 0.0);
+    add_to(constant_, rows_->o_0, 1.0);
+    for (std::size_t axis = 0; axis < g_.size(); ++axis) {
+      g_[axis].assign(size, 0.0);
+      add_to(g_[axis], rows_->y[axis], 1.0);
+    }
+    for (std::size_t i = 0; i < rows_->tau_0.size(); ++i) {
+      add_to(constant_, rows_->tau_0[i], -mu[i]);
+      for (std::size_t axis = 0; axis < g_.size(); ++axis) add_to(g_[axis], rows_->K[i][axis], -mu[i]);
+    }
+    box_.over_box(constant_);
+    for (std::vector<Narrow>& g : g_) box_.over_box(g);
+    double most = -kInfinity;
+    for (std::size_t v = 0; v < size; ++v) {
+      most = std::max(most, (constant_[v] + thrust(v)).high);
+    }
+    return std::min(high, Narrow::above(most + joints(mu)));
+  }
+
+  std::unique_ptr<ValueProof> clone() const override {
+    return std::make_unique<AnyProof>(problem_, model_, rows_);
+  }
+
+ private:
+  /// sum_k max over limits of u_k (B_b'g)_k at a control point.
+  Narrow thrust(std::size_t v) const {
+    const Zonotope& set = problem_.robot.actuation;
+    Narrow sum;
+    for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(problem_.robot.thrusters.size()); ++k) {
+      Narrow d;
+      for (std::size_t axis = 0; axis < g_.size(); ++axis) {
+        const double b = set.B(static_cast<Eigen::Index>(axis), k);
+        if (b != 0) d += Narrow(b) * g_[axis][v];
+      }
+      sum += larger(d, set.u_min[k], set.u_max[k]);
+    }
+    return sum;
+  }
+
+  /// The support of the joints' limits.
+  double joints(const double* mu) const {
+    const Zonotope& set = problem_.robot.actuation;
+    Narrow sum;
+    const auto first = static_cast<Eigen::Index>(problem_.robot.thrusters.size());
+    for (Eigen::Index i = 0; i < width(); ++i) {
+      sum += larger(Narrow(mu[i]), set.u_min[first + i], set.u_max[first + i]);
+    }
+    return sum.high;
+  }
+
+  const Problem& problem_;
+  const FormModel& model_;
+  std::shared_ptr<const AnyRows> rows_;
+  BoxForms box_;
+  std::vector<std::vector<Narrow>> g_;
+  std::vector<Narrow> constant_;
+};
+
+}  // namespace
+
+std::unique_ptr<ValueProof> make_any_proof(const Problem& problem, const FormModel& model) {
+  const Eigen::MatrixXd& B = problem.robot.actuation.B;
+  const auto joints = static_cast<Eigen::Index>(problem.robot.joints.size());
+  if (!B.bottomRightCorner(joints, joints).isIdentity(0) || !B.topRightCorner(B.rows() - joints, joints).isZero(0) ||
+      !B.bottomLeftCorner(joints, B.cols() - joints).isZero(0)) {
+    throw std::invalid_argument(problem.name + ": wrench: got 'any', expected pure: joints without motors of their own");
+  }
+  return std::make_unique<AnyProof>(problem, model, any_rows(problem, model));
+}
+
+std::unique_ptr<ValueProof> make_value_proof(const Problem& problem, const FormModel& model,
+                                             const std::string& measure, Wrench wrench) {
+  if (wrench == Wrench::kPure) return make_pure_proof(problem, model, measure);
+  if (measure == "linf_polytope") return make_any_proof(problem, model);
+  throw std::invalid_argument("wrench: got 'any', expected pure with measure " + measure);
+}
+
+}  // namespace maxwrench

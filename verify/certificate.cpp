@@ -1,0 +1,205 @@
+#include "verify/certificate.h"
+
+#include <zlib.h>
+
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "verify/bytes.h"
+
+namespace maxwrench {
+namespace {
+
+constexpr std::string_view kMagic = "maxwrench proof 1\n";
+/// zlib packs no tighter.
+constexpr std::uint64_t kMostPacked = 1100;
+
+void put_pose(ByteWriter& to, const Pose<double>& pose) {
+  to.matrix(pose.R);
+  to.matrix(pose.p);
+}
+
+void put_core(ByteWriter& to, const Core& core) {
+  to.count(core.link);
+  put_pose(to, core.placement);
+  to.matrix(core.half_sizes);
+}
+
+void put_collision(ByteWriter& to, const CollisionChecker* checker) {
+  const int pairs = checker == nullptr ? 0 : checker->pairs();
+  to.count(pairs);
+  for (int i = 0; i < pairs; ++i) {
+    CorePair pair;
+    const bool known = checker->cores(i, pair);
+    to.whole(known ? 1 : 0, 1);
+    if (!known) continue;
+    put_core(to, pair.a);
+    put_core(to, pair.b);
+    to.real(pair.reach);
+  }
+}
+
+void put_robot(ByteWriter& to, const Robot& robot) {
+  for (const int axis : robot.base_axes) to.count(axis);
+  for (const Link& link : robot.links) {
+    to.real(link.mass);
+    to.matrix(link.com);
+    to.real(link.volume);
+    to.matrix(link.cob);
+  }
+  for (const Joint& joint : robot.joints) {
+    to.count(joint.type == JointType::kRevolute ? 0 : 1);
+    to.count(joint.parent);
+    put_pose(to, joint.placement);
+    to.matrix(joint.axis);
+    to.real(joint.q_min);
+    to.real(joint.q_max);
+  }
+  to.real(robot.gravity);
+  to.real(robot.water_density);
+  to.real(robot.trim.buoyancy_mass);
+  to.matrix(robot.trim.position);
+  to.matrix(robot.actuation.B);
+  to.matrix(robot.actuation.u_min);
+  to.matrix(robot.actuation.u_max);
+  put_collision(to, robot.collision.get());
+}
+
+void put_tree(ByteWriter& to, const CertificateTree& tree) {
+  to.count(tree.width);
+  to.count(static_cast<Eigen::Index>(tree.nodes.size()));
+  for (const CertificateTree::Node& node : tree.nodes) {
+    to.whole(static_cast<std::uint64_t>(node.reason) | static_cast<std::uint64_t>(node.axis + 1) << 2,
+             1);
+    if (node.reason == CertificateTree::Reason::kCollision) {
+      to.whole(static_cast<std::uint64_t>(node.pair), 4);
+    }
+    if (node.reason != CertificateTree::Reason::kMultiplier) continue;
+    for (int i = 0; i < tree.width; ++i) {
+      to.real(tree.multipliers[node.multiplier + static_cast<std::size_t>(i)]);
+    }
+  }
+}
+
+/// False if it is none.
+bool take_tree(ByteReader& from, CertificateTree& tree) {
+  const std::size_t width = from.count(sizeof(double));
+  tree.width = static_cast<int>(width);
+  tree.nodes.resize(from.count(1));
+  for (CertificateTree::Node& node : tree.nodes) {
+    const auto tag = static_cast<int>(from.whole(1));
+    if (!from.good() || (tag & 3) > 2) return false;
+    node.reason = static_cast<CertificateTree::Reason>(tag & 3);
+    node.axis = (tag >> 2) - 1;
+    if (node.reason == CertificateTree::Reason::kCollision) {
+      node.pair = static_cast<int>(from.whole(4));
+    }
+    if (node.reason != CertificateTree::Reason::kMultiplier) continue;
+    node.multiplier = tree.multipliers.size();
+    for (std::size_t i = 0; i < width; ++i) tree.multipliers.push_back(from.real());
+  }
+  return true;
+}
+
+std::string read_all(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (!stream.is_open() || stream.bad()) {
+    throw std::invalid_argument(file + ": got nothing, expected a file that can be read");
+  }
+  return text;
+}
+
+/// Empty if it is damaged.
+std::string unpack(std::string_view text) {
+  ByteReader head(text.substr(kMagic.size()));
+  const std::uint64_t length = head.whole(8), sum = head.whole(4);
+  if (!head.good()) return "";
+  const std::string_view packed = text.substr(kMagic.size() + 12);
+  if (length / kMostPacked > packed.size()) return "";
+  std::string raw(length, '\0');
+  uLongf got = length;
+  const int how = uncompress(reinterpret_cast<Bytef*>(raw.data()), &got,
+                             reinterpret_cast<const Bytef*>(packed.data()), packed.size());
+  if (how != Z_OK || got != length) return "";
+  return crc32_z(0, reinterpret_cast<const Bytef*>(raw.data()), length) == sum ? raw : "";
+}
+
+}  // namespace
+
+std::uint64_t digest(const Problem& problem) {
+  ByteWriter all;
+  put_robot(all, problem.robot);
+  const EndEffector& tip =
+      problem.robot.end_effectors[static_cast<std::size_t>(problem.end_effector)];
+  all.count(tip.link);
+  put_pose(all, tip.placement);
+  put_pose(all, problem.pose);
+  all.matrix(problem.c);
+  all.matrix(problem.W_any);
+  for (const int joint : problem.redundant) all.count(joint);
+  all.matrix(problem.theta_r_min);
+  all.matrix(problem.theta_r_max);
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char byte : all.text()) {
+    hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
+  }
+  return hash;
+}
+
+std::string certificate_text(const ProofCertificate& proof) {
+  ByteWriter raw;
+  raw.words(proof.version);
+  raw.words(proof.problem);
+  raw.words(proof.measure);
+  raw.whole(proof.wrench == Wrench::kAny ? 1 : 0, 1);
+  raw.whole(proof.collision ? 1 : 0, 1);
+  raw.whole(proof.digest, 8);
+  for (const double x : {proof.bound, proof.gap, proof.value}) raw.real(x);
+  for (const Eigen::VectorXd& v :
+       {proof.theta_r, proof.u, Eigen::VectorXd(proof.h), proof.lower, proof.upper}) {
+    raw.matrix(v);
+  }
+  put_tree(raw, proof.tree);
+  const std::string& text = raw.text();
+  const auto* bytes = reinterpret_cast<const Bytef*>(text.data());
+  std::string packed(compressBound(text.size()), '\0');
+  uLongf length = packed.size();
+  if (compress2(reinterpret_cast<Bytef*>(packed.data()), &length, bytes, text.size(), 1) != Z_OK) {
+    throw std::runtime_error("zlib: got no memory");
+  }
+  ByteWriter head;
+  head.whole(text.size(), 8);
+  head.whole(crc32_z(0, bytes, text.size()), 4);
+  return std::string(kMagic) + head.text() + packed.substr(0, length);
+}
+
+ProofCertificate read_certificate(const std::string& file) {
+  const std::string text = read_all(file);
+  if (!std::string_view(text).starts_with(kMagic)) {
+    throw std::invalid_argument(file + ": got something else, expected a certificate of 'certify'");
+  }
+  const std::string raw = unpack(text);
+  ByteReader from(raw);
+  ProofCertificate proof;
+  proof.version = from.words();
+  proof.problem = from.words();
+  proof.measure = from.words();
+  proof.wrench = from.whole(1) == 1 ? Wrench::kAny : Wrench::kPure;
+  proof.collision = from.whole(1) == 1;
+  proof.digest = from.whole(8);
+  for (double* x : {&proof.bound, &proof.gap, &proof.value}) *x = from.real();
+  proof.theta_r = from.vector();
+  proof.u = from.vector();
+  const Eigen::VectorXd h = from.vector();
+  proof.lower = from.vector();
+  proof.upper = from.vector();
+  if (h.size() != 6 || !take_tree(from, proof.tree) || !from.at_end()) {
+    throw std::invalid_argument(file + ": got a damaged file, expected a whole certificate");
+  }
+  proof.h = h;
+  return proof;
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,101 @@
+#include "verify/collision_proof.h"
+
+namespace maxwrench {
+namespace {
+
+/// An upper bound of how far x [m] is beyond the reach of a box; negative within it. Convex in x.
+double beyond(const std::array<Narrow, 3>& x, const Eigen::Vector3d& half_sizes, double reach) {
+  double most = -kInfinity;
+  Narrow square;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double out = Narrow::above(x[i].magnitude() - half_sizes[static_cast<Eigen::Index>(i)]);
+    most = std::max(most, out);
+    if (out > 0) square += Narrow(out) * Narrow(out);
+  }
+  return Narrow::above((most <= 0 ? most : root_above(square.high)) - reach);
+}
+
+bool is_thin(const Core& core) { return (core.half_sizes.array() > 0).count() <= 1; }
+
+/// Corners of a box and points midway; of a segment its quarters.
+std::vector<Eigen::Vector3d> points_of(const Core& core) {
+  const int steps = is_thin(core) ? 2 : 1;
+  const auto most = [&](int axis) { return core.half_sizes[axis] > 0 ? steps : 0; };
+  std::vector<Eigen::Vector3d> points;
+  for (int i = -most(0); i <= most(0); ++i) {
+    for (int j = -most(1); j <= most(1); ++j) {
+      for (int k = -most(2); k <= most(2); ++k) {
+        points.push_back(Eigen::Vector3d(i, j, k).cwiseProduct(core.half_sizes) / steps);
+      }
+    }
+  }
+  return points;
+}
+
+/// A hair inside: points are moved into link axes with rounded numbers.
+constexpr double kHair = 1e-9;
+
+}  // namespace
+
+bool CollisionProof::collides(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
+                              int pair) {
+  const CollisionChecker* const checker = problem_.robot.collision.get();
+  if (checker == nullptr || pair < 0 || pair >= checker->pairs() || !box_.set(lower, upper)) {
+    return false;
+  }
+  const Eigen::VectorXd centre = (lower + upper) / 2;
+  for (const Movers& each : movers(pair)) {
+    for (const auto& point : each.points) {
+      if (may_be_close(each, point, centre) && is_close(each, point)) return true;
+    }
+  }
+  return false;
+}
+
+const std::vector<CollisionProof::Movers>& CollisionProof::movers(int pair) {
+  const auto found = known_.find(pair);
+  if (found != known_.end()) return found->second;
+  std::vector<Movers>& both = known_[pair];
+  CorePair cores;
+  if (problem_.robot.collision->cores(pair, cores)) {
+    both.push_back(movers(cores.a, cores.b, cores.reach));
+    both.push_back(movers(cores.b, cores.a, cores.reach));
+  }
+  return both;
+}
+
+CollisionProof::Movers CollisionProof::movers(const Core& core, const Core& other,
+                                              double reach) const {
+  Movers result{other.half_sizes, reach - kHair, {}};
+  for (const Eigen::Vector3d& at : points_of(core)) {
+    const Eigen::Vector3d in_link = core.placement.R * at + core.placement.p;
+    const FormVector x = model_.seen(core.link, in_link, other.link);
+    const FormVector in_core = model_.into(other.placement, x);
+    result.points.push_back({FormRow(in_core[0]), FormRow(in_core[1]), FormRow(in_core[2])});
+  }
+  return result;
+}
+
+/// At the centre of the box, which costs less than at its control points.
+bool CollisionProof::may_be_close(const Movers& movers, const std::array<FormRow, 3>& point,
+                                  const Eigen::VectorXd& centre) const {
+  std::array<Narrow, 3> x;
+  for (std::size_t i = 0; i < 3; ++i) {
+    x[i] = BoxForms::at_point(model_.shape(), point[i], centre);
+  }
+  return beyond(x, movers.half_sizes, movers.reach) < 0;
+}
+
+bool CollisionProof::is_close(const Movers& movers, const std::array<FormRow, 3>& point) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    x_[i].assign(static_cast<std::size_t>(model_.shape().size), 0.0);
+    add_to(x_[i], point[i], 1.0);
+    box_.over_box(x_[i]);
+  }
+  for (std::size_t v = 0; v < x_[0].size(); ++v) {
+    if (beyond({x_[0][v], x_[1][v], x_[2][v]}, movers.half_sizes, movers.reach) >= 0) return false;
+  }
+  return true;
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,114 @@
+#include "verify/form.h"
+
+#include <stdexcept>
+
+namespace maxwrench {
+
+FormShape::FormShape(std::vector<int> terms_of) : terms(std::move(terms_of)) {
+  strides.resize(terms.size());
+  for (std::size_t i = terms.size(); i-- > 0;) {
+    strides[i] = size;
+    size *= terms[i];
+  }
+}
+
+Form::Form(const FormShape& shape, const Wide& constant)
+    : shape_(&shape), c_(static_cast<std::size_t>(shape.size)) {
+  c_[0] = constant;
+}
+
+Form::Form(const FormShape& shape, int variable, const Wide& constant, const Wide& by_1,
+           const Wide& by_2)
+    : Form(shape, constant) {
+  const auto at = static_cast<std::size_t>(variable);
+  const auto stride = static_cast<std::size_t>(shape.strides[at]);
+  c_[stride] = by_1;
+  if (shape.terms[at] == 3) c_[2 * stride] = by_2;
+}
+
+long double Form::magnitude(const std::vector<double>& far) const {
+  Wide sum;
+  for (int k = 0; k < shape_->size; ++k) {
+    Wide term = c_[static_cast<std::size_t>(k)].magnitude();
+    for (std::size_t i = 0; i < far.size(); ++i) {
+      if (shape_->terms[i] == 2 && shape_->digit(k, i) == 1) term = term * Wide(far[i]);
+    }
+    sum += term;
+  }
+  return sum.high;
+}
+
+Form& Form::operator+=(const Form& other) {
+  for (std::size_t k = 0; k < c_.size(); ++k) {
+    if (other.c_[k].is_zero()) continue;
+    c_[k] = c_[k].is_zero() ? other.c_[k] : c_[k] + other.c_[k];
+  }
+  return *this;
+}
+
+Form Form::operator-() const {
+  Form result = *this;
+  for (Wide& c : result.c_) c = -c;
+  return result;
+}
+
+/// Where the product of two products of terms stands.
+int Form::product(int a, int b) const {
+  for (std::size_t i = 0; i < shape_->terms.size(); ++i) {
+    if (shape_->digit(a, i) != 0 && shape_->digit(b, i) != 0) {
+      throw std::logic_error("a product of functions of the same joint");
+    }
+  }
+  return a + b;
+}
+
+Form operator*(const Form& a, const Form& b) {
+  Form result(*a.shape_);
+  for (int i = 0; i < a.shape_->size; ++i) {
+    const Wide& x = a.c_[static_cast<std::size_t>(i)];
+    if (x.is_zero()) continue;
+    for (int j = 0; j < a.shape_->size; ++j) {
+      const Wide& y = b.c_[static_cast<std::size_t>(j)];
+      if (y.is_zero()) continue;
+      Wide& to = result.c_[static_cast<std::size_t>(a.product(i, j))];
+      to = to.is_zero() ? x * y : to + x * y;
+    }
+  }
+  return result;
+}
+
+Form dot(const FormVector& a, const FormVector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+FormVector operator+(const FormVector& a, const FormVector& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+
+FormVector operator-(const FormVector& a, const FormVector& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+FormVector operator*(const Form& a, const FormVector& b) { return {a * b[0], a * b[1], a * b[2]}; }
+
+FormVector operator*(const FormMatrix& a, const FormVector& b) {
+  return {dot(a[0], b), dot(a[1], b), dot(a[2], b)};
+}
+
+FormVector cross(const FormVector& a, const FormVector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+FormMatrix transposed(const FormMatrix& a) {
+  return {FormVector{a[0][0], a[1][0], a[2][0]}, FormVector{a[0][1], a[1][1], a[2][1]},
+          FormVector{a[0][2], a[1][2], a[2][2]}};
+}
+
+FormRow::FormRow(const Form& form) {
+  for (std::size_t k = 0; k < form.coefficients().size(); ++k) {
+    const Wide& c = form.coefficients()[k];
+    if (c.is_zero()) continue;
+    index.push_back(static_cast<int>(k));
+    coefficient.push_back(narrow(c));
+  }
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "verify/interval.h"
+
+namespace maxwrench {
+
+/// The variables of a `Form`: a turning joint q has the terms 1, cos q, sin q, a sliding one 1, q.
+struct FormShape {
+  std::vector<int> terms;    ///< 3 or 2 for each variable
+  std::vector<int> strides;  ///< of a variable's terms among all, the last one's 1
+  int size = 1;              ///< of all products of terms
+
+  explicit FormShape(std::vector<int> terms_of);
+  int digit(int index, std::size_t variable) const {
+    return index / strides[variable] % terms[variable];
+  }
+};
+
+/// A multi-affine function of joints: a coefficient for each product of terms, one term of each
+/// variable. The shape outlives it.
+class Form {
+ public:
+  explicit Form(const FormShape& shape, const Wide& constant = 0.0L);
+  /// constant + by_1 t_1 + by_2 t_2 with the terms of one variable.
+  Form(const FormShape& shape, int variable, const Wide& constant, const Wide& by_1,
+       const Wide& by_2);
+
+  const std::vector<Wide>& coefficients() const { return c_; }
+  /// Sum of |coefficients| where all terms are at most 1 in magnitude, sliding ones up to `far`.
+  long double magnitude(const std::vector<double>& far) const;
+
+  Form& operator+=(const Form& other);
+  Form operator-() const;
+  friend Form operator+(Form a, const Form& b) { return a += b; }
+  friend Form operator-(Form a, const Form& b) { return a += -b; }
+  /// Of functions that have no variable in common; throws std::logic_error of others.
+  friend Form operator*(const Form& a, const Form& b);
+
+ private:
+  int product(int a, int b) const;
+
+  const FormShape* shape_;
+  std::vector<Wide> c_;
+};
+
+using FormVector = std::array<Form, 3>;
+using FormMatrix = std::array<FormVector, 3>;  ///< rows
+
+Form dot(const FormVector& a, const FormVector& b);
+FormVector operator+(const FormVector& a, const FormVector& b);
+FormVector operator-(const FormVector& a, const FormVector& b);
+FormVector operator*(const Form& a, const FormVector& b);
+FormVector operator*(const FormMatrix& a, const FormVector& b);
+FormVector cross(const FormVector& a, const FormVector& b);
+FormMatrix transposed(const FormMatrix& a);
+
+/// The nonzero coefficients of a form, rounded outward.
+struct FormRow {
+  std::vector<int> index;
+  std::vector<Narrow> coefficient;
+  explicit FormRow(const Form& form);
+};
+
+}  // namespace maxwrench

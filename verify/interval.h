@@ -1,0 +1,97 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace maxwrench {
+
+/// All real numbers from `low` to `high`. Every operation returns an interval that contains the
+/// result for any members of its operands. It rounds to nearest and then steps outward: for a
+/// rounded result x the neighbour above is at most x + ulp(x), and ulp(x) <= |x| epsilon + min, so
+/// that x + (|x| epsilon + min), rounded in turn, is at least that neighbour, which is at least the
+/// exact result. No rounding mode is touched and no flag of the compiler needed, but for those that
+/// break IEEE 754. All is finite.
+template <class T>
+struct Interval {
+  T low = 0, high = 0;
+
+  Interval() = default;
+  Interval(T x) : low(x), high(x) {}  // NOLINT: a number is an interval
+  Interval(T from, T to) : low(from), high(to) {}
+
+  static T above(T x) {
+    return x + (std::abs(x) * std::numeric_limits<T>::epsilon() + std::numeric_limits<T>::min());
+  }
+  static T below(T x) {
+    return x - (std::abs(x) * std::numeric_limits<T>::epsilon() + std::numeric_limits<T>::min());
+  }
+
+  bool is_zero() const { return low == 0 && high == 0; }
+  T magnitude() const { return std::max(std::abs(low), std::abs(high)); }
+  Interval operator-() const { return {-high, -low}; }
+
+  friend Interval operator+(const Interval& a, const Interval& b) {
+    return {below(a.low + b.low), above(a.high + b.high)};
+  }
+  friend Interval operator-(const Interval& a, const Interval& b) { return a + -b; }
+  friend Interval operator*(const Interval& a, const Interval& b) {
+    const T p = a.low * b.low, q = a.low * b.high, r = a.high * b.low, s = a.high * b.high;
+    return {below(std::min(std::min(p, q), std::min(r, s))),
+            above(std::max(std::max(p, q), std::max(r, s)))};
+  }
+  /// b > 0
+  friend Interval operator/(const Interval& a, const Interval& b) {
+    return a * Interval(below(1 / b.high), above(1 / b.low));
+  }
+  Interval& operator+=(const Interval& other) { return *this = *this + other; }
+  Interval& operator-=(const Interval& other) { return *this = *this - other; }
+};
+
+/// The square root is rounded correctly.
+template <class T>
+T root_above(T x) {
+  return Interval<T>::above(std::sqrt(std::max(x, T(0))));
+}
+
+using Narrow = Interval<double>;
+/// What constants are made of, so that they are known to the last digits of a double.
+using Wide = Interval<long double>;
+
+/// Contains it.
+inline Narrow narrow(const Wide& x) {
+  if (x.is_zero()) return 0.0;
+  return {Narrow::below(static_cast<double>(x.low)), Narrow::above(static_cast<double>(x.high))};
+}
+inline Wide wide(const Narrow& x) { return {x.low, x.high}; }
+
+template <class T>
+struct CosSin {
+  Interval<T> c, s;
+};
+
+/// cos x and sin x: x is halved until |x| <= 1/2, where their series is summed to the term of
+/// degree 20 and what remains of it enclosed by the next one; then angles are doubled, cos 2y = 1 -
+/// 2 sin^2 y and sin 2y = 2 sin y cos y.
+inline CosSin<long double> enclose_wide(double x) {
+  int halvings = 0;
+  long double y = x;  // halved exactly
+  for (; std::abs(y) > 0.5L; ++halvings) y /= 2;
+  CosSin<long double> sum{1.0L, Wide(y)};
+  Wide term(y);
+  for (int degree = 2; degree <= 20; ++degree) {
+    term = term * Wide(y) / Wide(static_cast<long double>(degree));
+    const bool minus = degree % 4 == 2 || degree % 4 == 3;
+    Wide& to = degree % 2 == 0 ? sum.c : sum.s;
+    to = minus ? to - term : to + term;
+  }
+  const long double left = term.magnitude();  // the next terms, of |y|^21/21! and less, are smaller
+  sum.c += Wide(-left, left);
+  sum.s += Wide(-left, left);
+  for (; halvings > 0; --halvings) {
+    sum = {Wide(1.0L) - Wide(2.0L) * (sum.s * sum.s), Wide(2.0L) * (sum.s * sum.c)};
+  }
+  return sum;
+}
+
+}  // namespace maxwrench

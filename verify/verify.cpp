@@ -1,0 +1,205 @@
+#include "verify/verify.h"
+
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+#include "verify/collision_proof.h"
+#include "verify/incumbent.h"
+#include "verify/value_proof.h"
+
+namespace maxwrench {
+namespace {
+
+using Node = CertificateTree::Node;
+using Reason = CertificateTree::Reason;
+
+/// A node of the tree, its box, and a number that no value in the box of its parent exceeds.
+struct OpenBox {
+  std::size_t node = 0;
+  Eigen::VectorXd lower, upper;
+  double high = kInfinity;
+};
+
+/// Empty, or why the nodes are no tree of boxes: each that is cut is followed by two.
+std::string refuse_shape(const CertificateTree& tree, Eigen::Index axes, int width) {
+  if (tree.width != width && !tree.multipliers.empty()) return "multipliers of another length";
+  std::size_t open = 1;
+  for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+    if (open == 0) return "boxes that belong to no other";
+    if (tree.nodes[i].axis >= axes) return "a box is cut along no joint";
+    open += tree.nodes[i].axis < 0 ? std::size_t(-1) : 1;
+  }
+  return open == 0 ? "" : "boxes are missing";
+}
+
+/// Where each node's upper half stands, behind all of its lower half.
+std::vector<std::size_t> upper_halves(const CertificateTree& tree) {
+  std::vector<std::size_t> size(tree.nodes.size(), 1), second(tree.nodes.size(), 0);
+  for (std::size_t i = tree.nodes.size(); i-- > 0;) {
+    if (tree.nodes[i].axis < 0) continue;
+    second[i] = i + 1 + size[i + 1];
+    size[i] += size[i + 1] + size[second[i]];
+  }
+  return second;
+}
+
+/// Walks through parts of the tree. The induction: no value in a node's box exceeds max(bound,
+/// high), `high` proven of its parent's box, which contains it (at the root: the ceiling of all
+/// postures). With t in [bound, high] the node's own multiplier then proves max(bound, high') with
+/// high' <= high, for its halves; a collision, that there is no value. Nothing of the file's is
+/// believed: neither that a multiplier is good nor what it was good for. A leaf needs high' <=
+/// bound. The two halves of a box are cut at the same number and so cover it.
+class TreeWalk {
+ public:
+  TreeWalk(const Problem& problem, const FormModel& model, const ProofCertificate& proof,
+           const std::vector<std::size_t>& second, std::unique_ptr<ValueProof> value)
+      : proof_(proof), second_(second), value_(std::move(value)), collision_(problem, model) {}
+
+  /// All below a node; stops where the proof fails.
+  void walk(OpenBox top) {
+    std::vector<OpenBox> open;
+    open.push_back(std::move(top));
+    while (!open.empty() && done.refusal.empty()) {
+      OpenBox box = std::move(open.back());
+      open.pop_back();
+      if (check(box)) push_halves(box, open);
+    }
+  }
+
+  /// Takes over what the node proves; true if it is cut.
+  bool check(OpenBox& box) {
+    const Node& node = tree().nodes[box.node];
+    ++done.boxes;
+    const double before = box.high;
+    if (node.reason == Reason::kCollision) {
+      if (collision_.collides(box.lower, box.upper, node.pair)) box.high = -kInfinity;
+    } else if (node.reason == Reason::kMultiplier) {
+      box.high = value_->most(box.lower, box.upper, &tree().multipliers[node.multiplier],
+                              proof_.bound, before);
+    }
+    if (node.axis >= 0) return true;
+    if (!(box.high <= proof_.bound)) return refuse(box, node);
+    if (before <= proof_.bound) {
+      ++done.by_parent;
+    } else {
+      ++(node.reason == Reason::kCollision ? done.by_collision : done.by_multiplier);
+    }
+    return false;
+  }
+
+  void push_halves(const OpenBox& box, std::vector<OpenBox>& open) const {
+    const int axis = tree().nodes[box.node].axis;
+    const double middle = (box.lower[axis] + box.upper[axis]) / 2;
+    OpenBox half = box;
+    half.node = second_[box.node];
+    half.lower[axis] = middle;
+    open.push_back(half);
+    half.lower[axis] = box.lower[axis];
+    half.upper[axis] = middle;
+    half.node = box.node + 1;
+    open.push_back(std::move(half));
+  }
+
+  Verification done;
+  std::size_t failed = std::size_t(-1);  ///< the node
+
+ private:
+  const CertificateTree& tree() const { return proof_.tree; }
+
+  bool refuse(const OpenBox& box, const Node& node) {
+    failed = box.node;
+    done.refusal = "box " + std::to_string(box.node) +
+                   (node.reason == Reason::kCollision ? ": does not collide throughout"
+                                                      : ": values up to " + std::to_string(box.high) +
+                                                            " are not excluded");
+    return false;
+  }
+
+  const ProofCertificate& proof_;
+  const std::vector<std::size_t>& second_;
+  std::unique_ptr<ValueProof> value_;
+  CollisionProof collision_;
+};
+
+void add(const TreeWalk& part, Verification& sum, std::size_t& failed) {
+  sum.boxes += part.done.boxes;
+  sum.by_multiplier += part.done.by_multiplier;
+  sum.by_collision += part.done.by_collision;
+  sum.by_parent += part.done.by_parent;
+  if (part.failed >= failed) return;
+  failed = part.failed;
+  sum.refusal = part.done.refusal;
+}
+
+/// What does not ask for the boxes.
+std::string refuse_claims(const Problem& problem, const FormModel& model,
+                          const ProofCertificate& proof) {
+  if (proof.digest != digest(problem)) return "it is about another robot or task";
+  const Eigen::Index n = problem.theta_r_min.size();
+  if (proof.lower.size() != n || proof.upper.size() != n) return "its box has other joints";
+  if (!((proof.lower - problem.theta_r_min).maxCoeff() <= -kLimitTolerance / 2) ||
+      !((problem.theta_r_max - proof.upper).maxCoeff() <= -kLimitTolerance / 2) ||
+      !((proof.upper - proof.lower).maxCoeff() < 100)) {
+    return "its box does not contain the limits";
+  }
+  if (!std::isfinite(proof.bound) || !std::isfinite(proof.gap)) return "its bound is no number";
+  const double slack = 1e-9 * std::abs(proof.value);
+  if (!(proof.bound <= proof.value + proof.gap * std::abs(proof.value) + slack)) {
+    return "its gap is larger than it says";
+  }
+  return refuse_incumbent(problem, model, proof);
+}
+
+/// The first boxes one by one, until there are enough to share out.
+std::vector<OpenBox> first_boxes(TreeWalk& walk, OpenBox root) {
+  constexpr std::size_t kEnough = 256;
+  std::vector<OpenBox> open;
+  open.push_back(std::move(root));
+  std::size_t next = 0;
+  for (; next < open.size() && open.size() - next < kEnough && walk.done.refusal.empty(); ++next) {
+    OpenBox box = open[next];
+    if (walk.check(box)) walk.push_halves(box, open);
+  }
+  open.erase(open.begin(), open.begin() + static_cast<std::ptrdiff_t>(next));
+  return open;
+}
+
+}  // namespace
+
+Verification verify(const Problem& problem, const ProofCertificate& proof, int threads) {
+  const FormModel model(problem);
+  const auto value = make_value_proof(problem, model, proof.measure, proof.wrench);
+  Verification result;
+  result.ceiling = value->ceiling();
+  result.refusal = refuse_claims(problem, model, proof);
+  if (result.refusal.empty()) {
+    result.refusal = refuse_shape(proof.tree, proof.lower.size(), value->width());
+  }
+  if (!result.refusal.empty()) return result;
+  const std::vector<std::size_t> second = upper_halves(proof.tree);
+  TreeWalk first(problem, model, proof, second, value->clone());
+  const std::vector<OpenBox> open =
+      first_boxes(first, {0, proof.lower, proof.upper, result.ceiling});
+  std::size_t failed = std::size_t(-1);
+  add(first, result, failed);
+  std::atomic<std::size_t> next = 0;
+  std::mutex mutex;
+  const auto work = [&] {
+    TreeWalk walk(problem, model, proof, second, value->clone());
+    for (std::size_t i = next++; i < open.size(); i = next++) {
+      walk.walk(open[i]);
+      const std::lock_guard<std::mutex> guard(mutex);
+      add(walk, result, failed);
+      walk.done = {};
+      walk.failed = std::size_t(-1);
+    }
+  };
+  std::vector<std::thread> others;
+  for (int i = 1; i < threads; ++i) others.emplace_back(work);
+  work();
+  for (std::thread& each : others) each.join();
+  return result;
+}
+
+}  // namespace maxwrench
