@@ -201,9 +201,8 @@ struct Naive {
     return *this;
   }
   friend Naive operator*(const Naive& a, const Naive& b) {
-    const auto [low, high] =
-        std::minmax({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
-    return {low, high};
+    const auto ends = std::minmax({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
+    return {ends.first, ends.second};
   }
 };
 
