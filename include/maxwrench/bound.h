@@ -21,6 +21,9 @@ struct BoxProof {
   double high = kInfinity;     ///< [N or N m]
   Eigen::VectorXd multiplier;  ///< lambda of the measure's program, or mu of the joints
   int pair = -1;               ///< of the robot's `CollisionChecker`
+  /// Where it is well cut: a half along this coordinate collides; -1: no such is known. Proves
+  /// nothing.
+  int axis = -1;
   /// Where a larger box came to its end, to start from in its parts; proves nothing.
   std::vector<int> basis;
 };

@@ -112,19 +112,18 @@ class CollisionBound final : public Bound {
   void evaluate(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double /*low*/,
                 double high, BoxProof& proof) override {
     proof.high = high;
-    for (std::size_t i = 0; i < problem_.redundant.size(); ++i) {
-      const auto at = static_cast<Eigen::Index>(i);
-      q_[problem_.redundant[i]] = (lower[at] + upper[at]) / 2;
-    }
-    centre_.set_joints(q_);
-    for (std::size_t i = 0; i < movers_->size(); ++i) {
-      const Eigen::Vector3d* x = deepest((*movers_)[i]);
-      if (x == nullptr || !collides(i, *x, lower, upper)) continue;
+    proof.axis = -1;
+    place(lower, upper);
+    nearest_ = -1;
+    near_ = kLever * (upper - lower).maxCoeff();
+    for (int i = 0; i < static_cast<int>(movers_->size()); ++i) {
+      if (!collides(i, lower, upper)) continue;
       proof.kind = BoxProof::Kind::kCollision;
       proof.high = -kInfinity;
-      proof.pair = (*movers_)[i].pair;
+      proof.pair = (*movers_)[static_cast<std::size_t>(i)].pair;
       return;
     }
+    if (nearest_ >= 0) proof.axis = cut(nearest_, lower, upper);
   }
 
   std::unique_ptr<Bound> clone() const override {
@@ -132,19 +131,51 @@ class CollisionBound final : public Bound {
   }
 
  private:
+  /// To the centre of a box.
+  void place(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+    for (std::size_t i = 0; i < problem_.redundant.size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      q_[problem_.redundant[i]] = (lower[at] + upper[at]) / 2;
+    }
+    centre_.set_joints(q_);
+  }
+
+  /// A coordinate, not much narrower than the widest, along which a half of the box collides; -1 if
+  /// there is none.
+  int cut(int mover, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+    const double widest = (upper - lower).maxCoeff();
+    for (const int i : (*movers_)[static_cast<std::size_t>(mover)].path.coordinates().index) {
+      if (upper[i] - lower[i] < kThinnest * widest) continue;
+      for (const bool second : {false, true}) {
+        part_lower_ = lower;
+        part_upper_ = upper;
+        (second ? part_lower_ : part_upper_)[i] = (lower[i] + upper[i]) / 2;
+        place(part_lower_, part_upper_);
+        if (collides(mover, part_lower_, part_upper_)) return i;
+      }
+    }
+    return -1;
+  }
+
   /// The point that is deepest within reach at the centre of the box; null: none is, and so not
-  /// all control points can be.
-  const Eigen::Vector3d* deepest(const Mover& mover) const {
+  /// all control points can be. Remembers the mover that comes nearest.
+  const Eigen::Vector3d* deepest(int i) {
+    const Mover& mover = (*movers_)[static_cast<std::size_t>(i)];
     const Pose<double>& a = centre_.links()[static_cast<std::size_t>(mover.core.link)];
     const Pose<double>& b = centre_.links()[static_cast<std::size_t>(mover.other.link)];
     const Eigen::Vector3d between =
         a.R * mover.core.placement.p + a.p - (b.R * mover.other.placement.p + b.p);
-    if (between.squaredNorm() > mover.far * mover.far) return nullptr;
+    const double far = mover.far + std::max(near_, 0.0);
+    if (between.squaredNorm() > far * far) return nullptr;
     const Pose<double> pose = mover.into * (b.inverse() * a);
     const Eigen::Vector3d* found = nullptr;
     double least = 0;
     for (const Eigen::Vector3d& x : mover.points) {
       const double by = beyond(mover.other.half_sizes, mover.reach, pose.R * x + pose.p);
+      if (by < near_) {
+        near_ = by;
+        nearest_ = i;
+      }
       if (by >= least) continue;
       least = by;
       found = &x;
@@ -152,25 +183,33 @@ class CollisionBound final : public Bound {
     return found;
   }
 
-  bool collides(std::size_t i, const Eigen::Vector3d& x, const Eigen::VectorXd& lower,
-                const Eigen::VectorXd& upper) {
-    const Mover& mover = (*movers_)[i];
+  bool collides(int i, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+    const Eigen::Vector3d* const x = deepest(i);
+    if (x == nullptr) return false;
+    const Mover& mover = (*movers_)[static_cast<std::size_t>(i)];
     if (!(spread(mover.path.coordinates(), lower, upper) <= kMostSpread)) return false;
-    const Eigen::MatrixXd& P = corners_[i].over(lower, upper);
+    const Eigen::MatrixXd& P = corners_[static_cast<std::size_t>(i)].over(lower, upper);
     for (Eigen::Index v = 0; v < P.cols(); ++v) {
       const Eigen::Map<const Eigen::Matrix3d> R(P.col(v).data());
-      const Eigen::Vector3d at = R * x + P.col(v).tail<3>();
+      const Eigen::Vector3d at = R * *x + P.col(v).tail<3>();
       const Eigen::Vector3d in_core = mover.into.R * at + mover.into.p;
       if (beyond(mover.other.half_sizes, mover.reach, in_core) >= 0) return false;
     }
     return true;
   }
 
+  /// m per rad (or m per m): how far a body may move while a coordinate crosses half a box.
+  static constexpr double kLever = 0.1;
+  /// Of the widest coordinate: narrower ones are not cut before.
+  static constexpr double kThinnest = 0.1;
+
   const Problem& problem_;
   std::shared_ptr<const Movers> movers_;
   std::vector<ControlPoints> corners_;
   Kinematics<double> centre_;
-  Eigen::VectorXd q_;
+  Eigen::VectorXd q_, part_lower_, part_upper_;
+  double near_ = 0;   ///< how near [m] the nearest mover came at the last centre,
+  int nearest_ = -1;  ///< and which; -1: none as near as the box could bring it
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "lib/bound/multi_affine.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -130,8 +131,12 @@ void ControlPoints::advance(int axis, double lower, double upper) {
   const int n = terms(f_.coordinates(), axis);
   const Eigen::Index length = stride(f_.coordinates(), axis) * f_.rows();
   const Eigen::Index total = f_.coefficients().size();
-  const double m = (lower + upper) / 2, stretch = n == 3 ? 1 / std::cos((upper - lower) / 2) : 1;
-  const double places[3] = {lower, m, upper};
+  std::array<double, 3> c{}, s{};
+  if (n == 3) {
+    const double m = (lower + upper) / 2, stretch = 1 / std::cos((upper - lower) / 2);
+    c = {std::cos(lower), stretch * std::cos(m), std::cos(upper)};
+    s = {std::sin(lower), stretch * std::sin(m), std::sin(upper)};
+  }
   const double* from = levels_[static_cast<std::size_t>(axis)].data();
   double* to = levels_[static_cast<std::size_t>(axis) + 1].data();
   for (Eigen::Index first = 0; first < total; first += n * length) {
@@ -144,10 +149,9 @@ void ControlPoints::advance(int axis, double lower, double upper) {
       continue;
     }
     const ConstPart f2(from + first + 2 * length, length);
-    for (int corner = 0; corner < 3; ++corner) {
-      const double scale = corner == 1 ? stretch : 1;
-      const double c = scale * std::cos(places[corner]), s = scale * std::sin(places[corner]);
-      Part(to + first + corner * length, length) = f0 + c * f1 + s * f2;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const auto at = first + static_cast<Eigen::Index>(corner) * length;
+      Part(to + at, length) = f0 + c[corner] * f1 + s[corner] * f2;
     }
   }
 }

@@ -117,10 +117,13 @@ class BranchAndBound {
     }
   }
 
-  /// The widest coordinate of a box; -1 if it is too narrow to be cut.
-  int widest(const CertifiedBox& box) const {
+  /// Where a box is cut: the coordinate that its bound names, else the widest; -1 if it is too
+  /// narrow.
+  int axis_of(const CertifiedBox& box) const {
     int axis = -1;
     double most = kNarrowest;
+    const int hint = box.proof.axis;
+    if (hint >= 0 && box.upper[hint] - box.lower[hint] > kNarrowest) return hint;
     for (Eigen::Index i = 0; i < box.lower.size(); ++i) {
       const double width = box.upper[i] - box.lower[i];
       if (width <= most) continue;
@@ -148,7 +151,7 @@ class BranchAndBound {
   void cut_parents() {
     improve(*parents_.front());
     for (auto& parent : parents_) {
-      const int axis = widest(*parent);
+      const int axis = axis_of(*parent);
       if (axis < 0) {
         too_narrow_ = true;
         push(std::move(parent));

@@ -50,8 +50,9 @@ struct CertifyResult : Verdict {
 };
 
 /// Branch and bound over the box of the objective: the box with the largest bound comes next, cut
-/// along its widest coordinate. `incumbent`, a point with its value, sets what is to be proven;
-/// better values at centres of boxes replace it. Boxes narrower than 1e-6 are not cut.
+/// in two along the coordinate that its bound names, else its widest. `incumbent`, a point with its
+/// value, sets what is to be proven; better values at centres of boxes replace it. Boxes narrower
+/// than 1e-6 are not cut.
 CertifyResult certify(Objective& objective, const Bound& bound, const Candidate& incumbent,
                       const CertifyOptions& options);
 

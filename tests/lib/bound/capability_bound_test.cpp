@@ -201,9 +201,8 @@ struct Naive {
     return *this;
   }
   friend Naive operator*(const Naive& a, const Naive& b) {
-    const auto [low, high] =
-        std::minmax({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
-    return {low, high};
+    const auto ends = std::minmax({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
+    return {ends.first, ends.second};
   }
 };
 
@@ -296,18 +295,35 @@ TEST(PolytopeBound, StandsBesideThatOfIntervals) {
   EXPECT_LT(ours, theirs);
 }
 
-/// All of a box that is turned down collides, and there are such boxes.
+/// Whether a half of a box collides throughout.
+bool half_collides(Bound& bound, const RandomBox& box, int axis) {
+  for (const bool second : {false, true}) {
+    RandomBox half = box;
+    (second ? half.lower : half.upper)[axis] = (box.lower[axis] + box.upper[axis]) / 2;
+    BoxProof proof;
+    bound.evaluate(half.lower, half.upper, 0, bound.ceiling(), proof);
+    if (proof.kind == BoxProof::Kind::kCollision) return true;
+  }
+  return false;
+}
+
+/// All of a box that is turned down collides, and there are such boxes; of others, half of it where
+/// it says so.
 TEST(CollisionBound, TurnsDownNothingValid) {
   const Problem problem = load_problem("uvms/valve");
   const auto bound = make_capability_bound(problem, "ellipsoid", Wrench::kPure);
   PostureEvaluator model(problem);
   Random random(6);
-  int turned_down = 0;
+  int turned_down = 0, cuts = 0;
   for (int sample = 0; sample < 3000 / kSampleDivisor; ++sample) {
     RandomBox box = random_box(problem, random);
     BoxProof proof;
     bound->evaluate(box.lower, box.upper, 0, bound->ceiling(), proof);
-    if (proof.kind != BoxProof::Kind::kCollision) continue;
+    if (proof.kind != BoxProof::Kind::kCollision) {
+      EXPECT_TRUE(proof.axis < 0 || half_collides(*bound, box, proof.axis));
+      cuts += proof.axis >= 0 ? 1 : 0;
+      continue;
+    }
     ++turned_down;
     EXPECT_EQ(proof.high, -kInfinity);
     EXPECT_FALSE(problem.robot.collision->pair_name(proof.pair).empty());
@@ -318,6 +334,7 @@ TEST(CollisionBound, TurnsDownNothingValid) {
     }
   }
   EXPECT_GT(turned_down, 300 / kSampleDivisor);
+  EXPECT_GT(cuts, 20 / kSampleDivisor);
 }
 
 std::string refusal(const std::string& name, const char* measure, Wrench wrench) {
