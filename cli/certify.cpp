@@ -7,7 +7,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/row.h"
+#include "benchmarks/proof_recorder.h"
+#include "benchmarks/write_file.h"
 #include "cli/cli.h"
 #include "cli/ctrl_c.h"
 #include "cli/output.h"
@@ -23,6 +24,7 @@ struct ProofOptions : CommonOptions {
   double gap = CertifyOptions().gap;
   double seconds = 60;
   bool ignore_collision = false;
+  std::string certificate;
 };
 
 /// What was proven of the best posture that was found.
@@ -30,6 +32,7 @@ struct Proof {
   Row row;  ///< of the posture, evaluated anew
   CertifyResult result;
   double search_s = 0;
+  ProofRecorder boxes;  ///< if there is to be a certificate
 
   /// Of |beta|; infinite without a posture.
   double gap() const {
@@ -83,6 +86,9 @@ Proof prove(const ProofOptions& options, const Problem& problem) {
   how.seconds = options.seconds;
   how.threads = options.thread_count();
   how.interrupted = [&ctrl_c] { return ctrl_c.interruption.asked.load(); };
+  if (!options.certificate.empty()) {
+    how.sink = [&proof](const CertifiedBox& box) { proof.boxes.add(box); };
+  }
   how.progress = [&line](double most, double beta) { line.show(most, beta); };
   Candidate incumbent;
   if (proof.row.has_value()) {
@@ -106,6 +112,17 @@ std::string refuse_gap(const std::string& text) {
   const bool read = CLI::detail::lexical_cast(text, gap);
   if (read && gap >= kLeastGap && gap <= 1) return "";
   return fmt::format("got '{}', expected a number of {:g} to 1", text, kLeastGap);
+}
+
+/// Without a posture of a value, or a bound, there is nothing to certify.
+void write_certificate(const ProofOptions& options, const Problem& problem, const Proof& proof) {
+  if (options.certificate.empty()) return;
+  if (!proof.row.has_value() || !std::isfinite(proof.result.bound)) {
+    remark(options.certificate + ": not written, as there is no value or no bound");
+    return;
+  }
+  write_file(options.certificate, certificate_text(proof.boxes.certificate(
+                                      problem, proof.row, proof.result, options.gap)));
 }
 
 void print_object(const ProofOptions& options, const Problem& problem, const Proof& proof) {
@@ -179,12 +196,19 @@ void add_certify(CLI::App& app, int& exit_status) {
       ->check(CLI::Range(0.0, 1e9));
   command.add_flag("--ignore-collision", options->ignore_collision,
                    "count postures that collide, too");
+  command
+      .add_option("--certificate", options->certificate,
+                  "file for the proof, which 'verify' checks")
+      ->check(refuse_empty);
   options->add_threads(command);
   options->add_json(command);
   command.callback([options, &exit_status] {
+    require_apart({{"problem", options->choice.problem}},
+                  {{"--certificate", options->certificate}});
     Problem problem = load_problem(options->choice.problem);
     if (options->ignore_collision) problem.robot.collision = nullptr;
     const Proof proof = prove(*options, problem);
+    write_certificate(*options, problem, proof);
     if (options->json) {
       print_object(*options, problem, proof);
     } else {

@@ -63,6 +63,7 @@ void add_check(CLI::App& app, int& exit_status);
 void add_eval(CLI::App& app, int& exit_status);
 void add_solve(CLI::App& app, int& exit_status);
 void add_certify(CLI::App& app, int& exit_status);
+void add_verify(CLI::App& app, int& exit_status);
 void add_lp(CLI::App& app, int& exit_status);
 void add_run(CLI::App& app, int& exit_status);
 void add_simulate(CLI::App& app, int& exit_status);

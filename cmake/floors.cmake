@@ -106,8 +106,16 @@ set_target_properties(maxwrench_drawing PROPERTIES EXPORT_NAME drawing)
 target_link_libraries(maxwrench_drawing PUBLIC maxwrench_core PRIVATE fmt::fmt)
 
 if(MAXWRENCH_BUILD_COMMAND OR MAXWRENCH_BUILD_BENCHMARKS)
+  # It links none of the floors: what it takes of theirs is plain data.
+  find_package(ZLIB REQUIRED)
+  add_floor(verify STATIC)
+  target_include_directories(maxwrench_verify PRIVATE ${PROJECT_SOURCE_DIR}/include)
+  target_compile_definitions(maxwrench_verify PRIVATE ${eigen_interface})
+  target_compile_options(maxwrench_verify PRIVATE -ffp-contract=off)
+  target_link_libraries(maxwrench_verify PRIVATE Eigen3::Eigen ZLIB::ZLIB)
+
   add_floor(benchmarks STATIC)
-  target_link_libraries(maxwrench_benchmarks PUBLIC maxwrench_core PRIVATE TBB::tbb fmt::fmt)
+  target_link_libraries(maxwrench_benchmarks PUBLIC maxwrench_core maxwrench_verify PRIVATE TBB::tbb fmt::fmt)
 endif()
 
 if(MAXWRENCH_BUILD_COMMAND)

@@ -17,7 +17,8 @@ struct AnyRows {
 std::vector<FormRow> on_free_axes(const Problem& problem, const std::array<FormVector, 2>& twist) {
   std::vector<FormRow> rows;
   for (const int axis : problem.robot.base_axes) {
-    rows.emplace_back(twist[static_cast<std::size_t>(axis / 3)][static_cast<std::size_t>(axis % 3)]);
+    rows.emplace_back(
+        twist[static_cast<std::size_t>(axis / 3)][static_cast<std::size_t>(axis % 3)]);
   }
   return rows;
 }
@@ -55,7 +56,8 @@ class AnyProof final : public ValueProof {
     }
     for (std::size_t i = 0; i < rows_->tau_0.size(); ++i) {
       add_to(constant_, rows_->tau_0[i], -mu[i]);
-      for (std::size_t axis = 0; axis < g_.size(); ++axis) add_to(g_[axis], rows_->K[i][axis], -mu[i]);
+      for (std::size_t axis = 0; axis < g_.size(); ++axis)
+        add_to(g_[axis], rows_->K[i][axis], -mu[i]);
     }
     box_.over_box(constant_);
     for (std::vector<Narrow>& g : g_) box_.over_box(g);
@@ -110,9 +112,11 @@ class AnyProof final : public ValueProof {
 std::unique_ptr<ValueProof> make_any_proof(const Problem& problem, const FormModel& model) {
   const Eigen::MatrixXd& B = problem.robot.actuation.B;
   const auto joints = static_cast<Eigen::Index>(problem.robot.joints.size());
-  if (!B.bottomRightCorner(joints, joints).isIdentity(0) || !B.topRightCorner(B.rows() - joints, joints).isZero(0) ||
+  if (!B.bottomRightCorner(joints, joints).isIdentity(0) ||
+      !B.topRightCorner(B.rows() - joints, joints).isZero(0) ||
       !B.bottomLeftCorner(joints, B.cols() - joints).isZero(0)) {
-    throw std::invalid_argument(problem.name + ": wrench: got 'any', expected pure: joints without motors of their own");
+    throw std::invalid_argument(
+        problem.name + ": wrench: got 'any', expected pure: joints without motors of their own");
   }
   return std::make_unique<AnyProof>(problem, model, any_rows(problem, model));
 }

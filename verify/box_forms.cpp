@@ -15,7 +15,8 @@ CosSin<double> enclose(double x) {
 
 const CosSin<double>& BoxForms::at(double angle) {
   const auto found = known_.find(angle);
-  return found != known_.end() ? found->second : known_.emplace(angle, enclose(angle)).first->second;
+  return found != known_.end() ? found->second
+                               : known_.emplace(angle, enclose(angle)).first->second;
 }
 
 /// With the middle m and half the width r: where the tangents meet, (cos m, sin m)/cos r, is the

@@ -70,7 +70,8 @@ void put_tree(ByteWriter& to, const CertificateTree& tree) {
   to.count(tree.width);
   to.count(static_cast<Eigen::Index>(tree.nodes.size()));
   for (const CertificateTree::Node& node : tree.nodes) {
-    to.whole(static_cast<std::uint64_t>(node.reason) | static_cast<std::uint64_t>(node.axis + 1) << 2,
+    to.whole(static_cast<std::uint64_t>(node.reason) | static_cast<std::uint64_t>(node.axis + 1)
+                                                           << 2,
              1);
     if (node.reason == CertificateTree::Reason::kCollision) {
       to.whole(static_cast<std::uint64_t>(node.pair), 4);

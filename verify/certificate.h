@@ -14,13 +14,13 @@ struct CertificateTree {
   enum class Reason : std::uint8_t { kNone, kMultiplier, kCollision };
   struct Node {
     Reason reason = Reason::kNone;
-    int axis = -1;         ///< cut in two at its middle along this one; its halves follow. -1: a leaf
-    int pair = -1;         ///< that collides
+    int axis = -1;  ///< cut in two at its middle along this one; its halves follow. -1: a leaf
+    int pair = -1;  ///< that collides
     std::size_t multiplier = 0;  ///< where it begins among `multipliers`
   };
-  int width = 0;                    ///< numbers of a multiplier
+  int width = 0;  ///< numbers of a multiplier
   std::vector<double> multipliers;
-  std::vector<Node> nodes;          ///< a node, then its lower half, then its upper half
+  std::vector<Node> nodes;  ///< a node, then its lower half, then its upper half
 };
 
 struct ProofCertificate {
@@ -28,10 +28,10 @@ struct ProofCertificate {
   std::string problem;  ///< as it was named on the command line
   std::string measure;
   Wrench wrench = Wrench::kPure;
-  bool collision = true;    ///< postures that collide do not count
-  std::uint64_t digest = 0; ///< of the robot and the task
-  double bound = 0;         ///< [N or N m] no posture has more
-  double gap = 0;           ///< bound <= value + gap |value|
+  bool collision = true;     ///< postures that collide do not count
+  std::uint64_t digest = 0;  ///< of the robot and the task
+  double bound = 0;          ///< [N or N m] no posture has more
+  double gap = 0;            ///< bound <= value + gap |value|
   // A posture, its value, and for the L-infinity polytope the efforts and the wrench (world axes)
   // with which it is reached.
   Eigen::VectorXd theta_r;
@@ -45,8 +45,8 @@ struct ProofCertificate {
 /// All numbers of robot and task that a proof rests upon, as one number (FNV-1a).
 std::uint64_t digest(const Problem& problem);
 
-/// A file: "maxwrench proof 1\n", the length and the CRC-32 of what follows when unpacked, and that,
-/// packed by zlib; little endian.
+/// A file: "maxwrench proof 1\n", the length and the CRC-32 of what follows when unpacked, and
+/// that, packed by zlib; little endian.
 std::string certificate_text(const ProofCertificate& certificate);
 
 /// Throws std::invalid_argument with one line that names the file for what is no certificate, or a

@@ -77,7 +77,9 @@ Form operator*(const Form& a, const Form& b) {
   return result;
 }
 
-Form dot(const FormVector& a, const FormVector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Form dot(const FormVector& a, const FormVector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 FormVector operator+(const FormVector& a, const FormVector& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};

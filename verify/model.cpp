@@ -58,9 +58,9 @@ FormModel::FormModel(const Problem& problem)
       shape_(terms_of(problem)),
       variable_(problem.robot.joints.size(), -1),
       on_chain_(problem.robot.links.size(), 0) {
-  refuse_unless(!problem.motion && !problem.contact && problem.free.count() == 0 &&
-                    problem.dependent.empty(),
-                problem);
+  refuse_unless(
+      !problem.motion && !problem.contact && problem.free.count() == 0 && problem.dependent.empty(),
+      problem);
   const Robot& robot = problem.robot;
   int link = robot.end_effectors[static_cast<std::size_t>(problem.end_effector)].link;
   for (; link > 0; link = parent(static_cast<std::size_t>(link))) {
@@ -109,10 +109,9 @@ FormModel::Place FormModel::place_of(std::size_t joint) const {
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
       const Wide still = RSS[i][j].magnitude() == 0 ? R[i][j] : R[i][j] + RSS[i][j];
-      place.R[i][j] =
-          variable < 0
-              ? Form(shape_, still - RSS[i][j] * turned.c + RS[i][j] * turned.s)
-              : Form(shape_, variable, still, -RSS[i][j], RS[i][j]);
+      place.R[i][j] = variable < 0
+                          ? Form(shape_, still - RSS[i][j] * turned.c + RS[i][j] * turned.s)
+                          : Form(shape_, variable, still, -RSS[i][j], RS[i][j]);
     }
   }
   return place;
@@ -141,10 +140,10 @@ void FormModel::weigh() {
   const EndEffector& tip = robot.end_effectors[static_cast<std::size_t>(problem_.end_effector)];
   const FormVector nothing = constant(Eigen::Vector3d::Zero());
   pull_.assign(robot.links.size(), nothing);
-  FormVector pull = transposed(matrix(problem_.pose.R)) *
-                    constant({0, 0, -robot.gravity});
+  FormVector pull = transposed(matrix(problem_.pose.R)) * constant({0, 0, -robot.gravity});
   pull = matrix(tip.placement.R) * pull;
-  for (auto link = static_cast<std::size_t>(tip.link);; link = static_cast<std::size_t>(parent(link))) {
+  for (auto link = static_cast<std::size_t>(tip.link);;
+       link = static_cast<std::size_t>(parent(link))) {
     pull_[link] = pull;
     if (link == 0) break;
     pull = places_[link - 1].R * pull;
@@ -157,8 +156,8 @@ void FormModel::weigh() {
   for (std::size_t i = robot.joints.size(); i > 0; --i) {
     const auto to = static_cast<std::size_t>(parent(i));
     const Place& place = places_[i - 1];
-    load_[to] = load_[to] + place.R * load_[i] +
-                cross(place.p, Form(shape_, carried_[i]) * pull_[to]);
+    load_[to] =
+        load_[to] + place.R * load_[i] + cross(place.p, Form(shape_, carried_[i]) * pull_[to]);
   }
 }
 
@@ -171,8 +170,8 @@ FormVector FormModel::inboard(std::size_t link, const FormVector& before) const 
   for (std::size_t i = links - 1; i > base; --i) {
     if (on_chain_[i]) continue;
     const auto to = static_cast<std::size_t>(parent(i));
-    moment[to] = moment[to] + places_[i - 1].R * moment[i] +
-                 Form(shape_, carried_[i]) * places_[i - 1].p;
+    moment[to] =
+        moment[to] + places_[i - 1].R * moment[i] + Form(shape_, carried_[i]) * places_[i - 1].p;
   }
   const Place& place = places_[link - 1];
   const Wide rest = carried_[0] - carried_[link];
@@ -236,7 +235,8 @@ std::vector<Form> FormModel::exerted(const Vector6d& h) const {
   const std::size_t base = robot.base_axes.size();
   auto [force, moment] = from_end_effector(h);
   const EndEffector& tip = robot.end_effectors[static_cast<std::size_t>(problem_.end_effector)];
-  for (auto i = static_cast<std::size_t>(tip.link); i > 0; i = static_cast<std::size_t>(parent(i))) {
+  for (auto i = static_cast<std::size_t>(tip.link); i > 0;
+       i = static_cast<std::size_t>(parent(i))) {
     const Joint& joint = robot.joints[i - 1];
     const bool turns = joint.type == JointType::kRevolute;
     rows[base + i - 1] = dot(constant(joint.axis), turns ? moment : force);
@@ -253,7 +253,8 @@ std::vector<Form> FormModel::exerted(const Vector6d& h) const {
 FormVector FormModel::along_at_base(bool force) const {
   Vector6d h = Vector6d::Zero();
   h.head<3>() = force ? problem_.c.head<3>() : problem_.c.tail<3>();
-  const int link = problem_.robot.end_effectors[static_cast<std::size_t>(problem_.end_effector)].link;
+  const int link =
+      problem_.robot.end_effectors[static_cast<std::size_t>(problem_.end_effector)].link;
   const auto [along, about] = from_end_effector(h);
   return to_base(link, along, about)[0];
 }

@@ -27,8 +27,8 @@ class FormModel {
   std::vector<Form> exerted(const Vector6d& h) const;
   /// The force of c (or, if not `force`, its torque) in base axes.
   FormVector along_at_base(bool force) const;
-  /// [linear; angular] of the base when the end effector moves by c as if they were one body: y with
-  /// J_b y = c, so c'h = y'J_b'h.
+  /// [linear; angular] of the base when the end effector moves by c as if they were one body: y
+  /// with J_b y = c, so c'h = y'J_b'h.
   std::array<FormVector, 2> carrying() const;
   /// The same of joint i: J_i = J_b K_i', so J_i'h = K_i J_b'h.
   std::array<FormVector, 2> screw(std::size_t joint) const;
@@ -62,16 +62,16 @@ class FormModel {
 
   const Problem& problem_;
   FormShape shape_;
-  std::vector<int> variable_;  ///< of each joint; -1: it rests
+  std::vector<int> variable_;   ///< of each joint; -1: it rests
   std::vector<char> on_chain_;  ///< links between base and end effector
   std::vector<double> far_;
-  std::vector<Place> places_;          ///< of each joint: parent link -> link
-  std::vector<Wide> mass_;             ///< kg, wet, of each link
-  std::vector<FormVector> moment_;     ///< its first moment about its origin
-  std::vector<Wide> carried_;          ///< kg, with all that a link carries
-  std::vector<FormVector> pull_;       ///< gravity in link axes
-  std::vector<FormVector> load_;       ///< moment of the carried weights about the link's origin
-  std::vector<FormVector> total_;      ///< of all weights
+  std::vector<Place> places_;       ///< of each joint: parent link -> link
+  std::vector<Wide> mass_;          ///< kg, wet, of each link
+  std::vector<FormVector> moment_;  ///< its first moment about its origin
+  std::vector<Wide> carried_;       ///< kg, with all that a link carries
+  std::vector<FormVector> pull_;    ///< gravity in link axes
+  std::vector<FormVector> load_;    ///< moment of the carried weights about the link's origin
+  std::vector<FormVector> total_;   ///< of all weights
 };
 
 }  // namespace maxwrench

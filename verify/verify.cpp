@@ -110,9 +110,9 @@ class TreeWalk {
   bool refuse(const OpenBox& box, const Node& node) {
     failed = box.node;
     done.refusal = "box " + std::to_string(box.node) +
-                   (node.reason == Reason::kCollision ? ": does not collide throughout"
-                                                      : ": values up to " + std::to_string(box.high) +
-                                                            " are not excluded");
+                   (node.reason == Reason::kCollision
+                        ? ": does not collide throughout"
+                        : ": values up to " + std::to_string(box.high) + " are not excluded");
     return false;
   }
 

@@ -1,0 +1,89 @@
+#include "verify/verify.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "cli/cli.h"
+#include "cli/output.h"
+#include "cli/pieces.h"
+#include "maxwrench/load.h"
+
+namespace maxwrench {
+namespace {
+
+struct VerifyOptions : CommonOptions {
+  std::string file;
+};
+
+void print_verified(const ProofCertificate& proof, const Problem& problem,
+                    const Verification& result, double seconds) {
+  fmt::print("{}  measure {}  wrench {}{}\n", proof.problem, proof.measure, to_string(proof.wrench),
+             proof.collision ? "" : "  collisions ignored");
+  fmt::print("{}{}{}\n", result.refusal.empty() ? "verified" : "refused",
+             result.refusal.empty() ? "" : ": ", result.refusal);
+  if (proof.theta_r.size() > 0) fmt::print("theta_r   {}\n", line(proof.theta_r));
+  fmt::print("beta      {:>9.5f} {}\n", proof.value, problem.unit());
+  fmt::print("bound     {:>9.5f} {}{}\n", proof.bound, problem.unit(),
+             result.refusal.empty() ? ": no posture has more" : ", as it claims");
+  fmt::print("gap       {:.3g} %\n", 100 * (proof.bound - proof.value) / std::abs(proof.value));
+  fmt::print("boxes     {}: {} leaves by a multiplier, {} in collision, {} by the box around\n",
+             result.boxes, result.by_multiplier, result.by_collision, result.by_parent);
+  fmt::print("checked in {:.3g} s, written by maxwrench {}\n", seconds, proof.version);
+}
+
+void print_verified_object(const ProofCertificate& proof, const Problem& problem,
+                           const Verification& result, double seconds) {
+  nlohmann::ordered_json object = {{"problem", proof.problem},
+                                   {"measure", proof.measure},
+                                   {"wrench", to_string(proof.wrench)},
+                                   {"status", result.refusal.empty() ? "verified" : "refused"},
+                                   {"reason", result.refusal},
+                                   {"beta", proof.value},
+                                   {"bound", proof.bound},
+                                   {"unit", problem.unit()},
+                                   {"gap", (proof.bound - proof.value) / std::abs(proof.value)},
+                                   {"collision", proof.collision}};
+  object["theta_r"] = array(proof.theta_r);
+  object["boxes"] = result.boxes;
+  object["multiplier"] = result.by_multiplier;
+  object["colliding"] = result.by_collision;
+  object["parent"] = result.by_parent;
+  object["ceiling"] = known(std::isfinite(result.ceiling), result.ceiling);
+  object["wall_s"] = seconds;
+  object["version"] = proof.version;
+  print_json(object);
+}
+
+int check_file(const VerifyOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const ProofCertificate proof = read_certificate(options.file);
+  const std::string& other = options.choice.problem;
+  Problem problem = load_problem(other.empty() ? proof.problem : other);
+  if (!proof.collision) problem.robot.collision = nullptr;
+  const Verification result = verify(problem, proof, options.thread_count());
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  (options.json ? print_verified_object : print_verified)(proof, problem, result, seconds);
+  return result.refusal.empty() ? kAnswered : kOtherStatus;
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app, int& exit_status) {
+  auto options = std::make_shared<VerifyOptions>();
+  options->choice.problem.clear();
+  CLI::App& command = *app.add_subcommand(
+      "verify", "checks a certificate of 'certify' with no code of what made it");
+  command.add_option("file", options->file, "certificate")->required()->check(refuse_empty);
+  command
+      .add_option("--problem", options->choice.problem,
+                  "what it is to be about, shipped name or task file; default: what it says")
+      ->check(refuse_empty);
+  options->add_threads(command);
+  options->add_json(command);
+  command.callback([options, &exit_status] { exit_status = check_file(*options); });
+}
+
+}  // namespace maxwrench
