@@ -14,20 +14,24 @@ struct AnyRows {
   std::vector<std::vector<FormRow>> K;  ///< joints, then free base axes
 };
 
-std::vector<FormRow> on_free_axes(const Problem& problem, const std::array<FormVector, 2>& twist) {
+std::vector<FormRow> on_free_axes(const Problem& problem, const FormModel& model,
+                                  const std::array<FormVector, 2>& twist) {
   std::vector<FormRow> rows;
   for (const int axis : problem.robot.base_axes) {
-    rows.emplace_back(
-        twist[static_cast<std::size_t>(axis / 3)][static_cast<std::size_t>(axis % 3)]);
+    rows.emplace_back(twist[static_cast<std::size_t>(axis / 3)][static_cast<std::size_t>(axis % 3)],
+                      model.far());
   }
   return rows;
 }
 
 std::shared_ptr<const AnyRows> any_rows(const Problem& problem, const FormModel& model) {
-  AnyRows rows{FormRow(model.weight_along_c()), {}, on_free_axes(problem, model.carrying()), {}};
+  AnyRows rows{FormRow(model.weight_along_c(), model.far()),
+               {},
+               on_free_axes(problem, model, model.carrying()),
+               {}};
   for (std::size_t i = 0; i < problem.robot.joints.size(); ++i) {
-    rows.tau_0.emplace_back(model.weight_at(i));
-    rows.K.push_back(on_free_axes(problem, model.screw(i)));
+    rows.tau_0.emplace_back(model.weight_at(i), model.far());
+    rows.K.push_back(on_free_axes(problem, model, model.screw(i)));
   }
   return std::make_shared<const AnyRows>(std::move(rows));
 }
@@ -81,7 +85,7 @@ class AnyProof final : public ValueProof {
       Narrow d;
       for (std::size_t axis = 0; axis < g_.size(); ++axis) {
         const double b = set.B(static_cast<Eigen::Index>(axis), k);
-        if (b != 0) d += Narrow(b) * g_[axis][v];
+        if (b != 0) d += b * g_[axis][v];
       }
       sum += larger(d, set.u_min[k], set.u_max[k]);
     }

@@ -25,13 +25,34 @@ bool BoxForms::set_turning(Corners& corners) {
   if (!(Narrow::above(corners.upper - corners.lower) < kWidestArc)) return false;
   const CosSin<double> a = at(corners.lower), b = at(corners.upper);
   const Narrow below = Narrow(1.0) + a.c * b.c + a.s * b.s;
-  corners.first[0] = a.c;
-  corners.second[0] = a.s;
-  corners.first[1] = (a.c + b.c) / below;
-  corners.second[1] = (a.s + b.s) / below;
-  corners.first[2] = b.c;
-  corners.second[2] = b.s;
+  corners.first[0] = Term(a.c);
+  corners.second[0] = Term(a.s);
+  corners.first[1] = Term((a.c + b.c) / below);
+  corners.second[1] = Term((a.s + b.s) / below);
+  corners.first[2] = Term(b.c);
+  corners.second[2] = Term(b.s);
   return true;
+}
+
+BoxForms::Term::Term(const Narrow& x)
+    : middle((x.low + x.high) / 2),
+      radius(Narrow::above(std::max(x.high - middle, middle - x.low))) {}
+
+/// f0 + f1 t1 + f2 t2, rounded to nearest first. With magnitudes M_i of f_i and S = M_0 + M_1 |t1|
+/// + M_2 |t2| at the middles, two products, two sums and the last difference are off by less than 6
+/// u S, u = epsilon/2, and the radii add M_i r_i: less than E, whose own rounding takes a few u of
+/// it.
+Narrow BoxForms::combine(const Narrow& f0, const Narrow& f1, const Narrow& f2, const Term& t1,
+                         const Term& t2) {
+  constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+  const double low = f0.low + (t1.middle < 0 ? f1.high : f1.low) * t1.middle +
+                     (t2.middle < 0 ? f2.high : f2.low) * t2.middle;
+  const double high = f0.high + (t1.middle < 0 ? f1.low : f1.high) * t1.middle +
+                      (t2.middle < 0 ? f2.low : f2.high) * t2.middle;
+  const double E = kRounding * f0.magnitude() +
+                   (kRounding * std::abs(t1.middle) + 2 * t1.radius) * f1.magnitude() +
+                   (kRounding * std::abs(t2.middle) + 2 * t2.radius) * f2.magnitude() + kTiny;
+  return {low - E, high + E};
 }
 
 bool BoxForms::set(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
@@ -43,8 +64,8 @@ bool BoxForms::set(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
     corners.lower = lower[k];
     corners.upper = upper[k];
     if (shape_.terms[i] == 2) {
-      corners.first[0] = lower[k];
-      corners.first[1] = upper[k];
+      corners.first[0] = Term(Narrow(lower[k]));
+      corners.first[1] = Term(Narrow(upper[k]));
     } else if (!set_turning(corners)) {
       corners.lower = kInfinity;  // look again
       narrow_enough = false;
@@ -62,14 +83,14 @@ void BoxForms::over_box(std::vector<Narrow>& values) const {
       for (std::size_t k = block; k < block + stride; ++k) {
         const Narrow f0 = values[k], f1 = values[k + stride];
         if (terms == 2) {
-          values[k] = f0 + f1 * corners.first[0];
-          values[k + stride] = f0 + f1 * corners.first[1];
+          values[k] = combine(f0, f1, 0.0, corners.first[0], Term());
+          values[k + stride] = combine(f0, f1, 0.0, corners.first[1], Term());
           continue;
         }
         const Narrow f2 = values[k + 2 * stride];
         for (std::size_t corner = 0; corner < 3; ++corner) {
           values[k + corner * stride] =
-              f0 + f1 * corners.first[corner] + f2 * corners.second[corner];
+              combine(f0, f1, f2, corners.first[corner], corners.second[corner]);
         }
       }
     }

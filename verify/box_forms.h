@@ -26,10 +26,18 @@ class BoxForms {
   static Narrow at_point(const FormShape& shape, const FormRow& row, const Eigen::VectorXd& q);
 
  private:
+  /// What a term is at a corner: within `radius` of `middle`.
+  struct Term {
+    double middle = 0, radius = 0;
+    Term() = default;
+    explicit Term(const Narrow& x);
+  };
   struct Corners {
     double lower = kInfinity, upper = -kInfinity;
-    Narrow first[3], second[3];  ///< what the second and third term, or the second, are there
+    Term first[3], second[3];  ///< the second and third term, or the second
   };
+  static Narrow combine(const Narrow& f0, const Narrow& f1, const Narrow& f2, const Term& t1,
+                        const Term& t2);
   const CosSin<double>& at(double angle);
   bool set_turning(Corners& corners);
 

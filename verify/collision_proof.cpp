@@ -15,6 +15,22 @@ double beyond(const std::array<Narrow, 3>& x, const Eigen::Vector3d& half_sizes,
   return Narrow::above((most <= 0 ? most : root_above(square.high)) - reach);
 }
 
+/// Of all coefficients, the products of terms at q.
+void set_products(const FormShape& shape, const Eigen::VectorXd& q, std::vector<double>& terms) {
+  terms.assign(1, 1.0);
+  for (std::size_t i = 0; i < shape.terms.size(); ++i) {
+    const double x = q[static_cast<Eigen::Index>(i)];
+    const bool turns = shape.terms[i] == 3;
+    std::vector<double> more;
+    for (const double term : terms) {
+      more.push_back(term);
+      more.push_back(term * (turns ? std::cos(x) : x));
+      if (turns) more.push_back(term * std::sin(x));
+    }
+    terms = std::move(more);
+  }
+}
+
 bool is_thin(const Core& core) { return (core.half_sizes.array() > 0).count() <= 1; }
 
 /// Corners of a box and points midway; of a segment its quarters.
@@ -43,10 +59,10 @@ bool CollisionProof::collides(const Eigen::VectorXd& lower, const Eigen::VectorX
   if (checker == nullptr || pair < 0 || pair >= checker->pairs() || !box_.set(lower, upper)) {
     return false;
   }
-  const Eigen::VectorXd centre = (lower + upper) / 2;
+  set_products(model_.shape(), (lower + upper) / 2, terms_);
   for (const Movers& each : movers(pair)) {
     for (const auto& point : each.points) {
-      if (may_be_close(each, point, centre) && is_close(each, point)) return true;
+      if (may_be_close(each, point) && is_close(each, point)) return true;
     }
   }
   return false;
@@ -71,17 +87,22 @@ CollisionProof::Movers CollisionProof::movers(const Core& core, const Core& othe
     const Eigen::Vector3d in_link = core.placement.R * at + core.placement.p;
     const FormVector x = model_.seen(core.link, in_link, other.link);
     const FormVector in_core = model_.into(other.placement, x);
-    result.points.push_back({FormRow(in_core[0]), FormRow(in_core[1]), FormRow(in_core[2])});
+    const std::vector<double>& far = model_.far();
+    result.points.push_back(
+        {FormRow(in_core[0], far), FormRow(in_core[1], far), FormRow(in_core[2], far)});
   }
   return result;
 }
 
-/// At the centre of the box, which costs less than at its control points.
-bool CollisionProof::may_be_close(const Movers& movers, const std::array<FormRow, 3>& point,
-                                  const Eigen::VectorXd& centre) const {
+/// Whether it is at the centre of the box, rounded: worth a proof.
+bool CollisionProof::may_be_close(const Movers& movers, const std::array<FormRow, 3>& point) const {
   std::array<Narrow, 3> x;
   for (std::size_t i = 0; i < 3; ++i) {
-    x[i] = BoxForms::at_point(model_.shape(), point[i], centre);
+    double sum = 0;
+    for (std::size_t k = 0; k < point[i].index.size(); ++k) {
+      sum += point[i].coefficient[k].low * terms_[static_cast<std::size_t>(point[i].index[k])];
+    }
+    x[i] = sum;
   }
   return beyond(x, movers.half_sizes, movers.reach) < 0;
 }

@@ -30,13 +30,13 @@ class CollisionProof {
   const std::vector<Movers>& movers(int pair);
   Movers movers(const Core& core, const Core& other, double reach) const;
   bool is_close(const Movers& movers, const std::array<FormRow, 3>& point);
-  bool may_be_close(const Movers& movers, const std::array<FormRow, 3>& point,
-                    const Eigen::VectorXd& centre) const;
+  bool may_be_close(const Movers& movers, const std::array<FormRow, 3>& point) const;
 
   const Problem& problem_;
   const FormModel& model_;
   BoxForms box_;
   std::map<int, std::vector<Movers>> known_;
+  std::vector<double> terms_;  ///< products of terms at the centre of the box, rounded
   std::array<std::vector<Narrow>, 3> x_;
 };
 

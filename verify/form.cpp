@@ -26,15 +26,18 @@ Form::Form(const FormShape& shape, int variable, const Wide& constant, const Wid
   if (shape.terms[at] == 3) c_[2 * stride] = by_2;
 }
 
+long double Form::magnitude(int index, const std::vector<double>& far) const {
+  Wide term = c_[static_cast<std::size_t>(index)].magnitude();
+  for (std::size_t i = 0; i < far.size(); ++i) {
+    const bool slides = shape_->terms[i] == 2 && shape_->digit(index, i) == 1;
+    if (slides) term = term * Wide(far[i]);
+  }
+  return term.high;
+}
+
 long double Form::magnitude(const std::vector<double>& far) const {
   Wide sum;
-  for (int k = 0; k < shape_->size; ++k) {
-    Wide term = c_[static_cast<std::size_t>(k)].magnitude();
-    for (std::size_t i = 0; i < far.size(); ++i) {
-      if (shape_->terms[i] == 2 && shape_->digit(k, i) == 1) term = term * Wide(far[i]);
-    }
-    sum += term;
-  }
+  for (int k = 0; k < shape_->size; ++k) sum += Wide(magnitude(k, far));
   return sum.high;
 }
 
@@ -104,13 +107,24 @@ FormMatrix transposed(const FormMatrix& a) {
           FormVector{a[0][2], a[1][2], a[2][2]}};
 }
 
-FormRow::FormRow(const Form& form) {
-  for (std::size_t k = 0; k < form.coefficients().size(); ++k) {
-    const Wide& c = form.coefficients()[k];
+FormRow::FormRow(const Form& form, const std::vector<double>& far) {
+  constexpr long double kNearlyZero = 1e-16L;  // of all
+  const long double all = form.magnitude(far);
+  Wide constant = form.coefficients()[0];
+  for (int k = 1; k < static_cast<int>(form.coefficients().size()); ++k) {
+    const Wide& c = form.coefficients()[static_cast<std::size_t>(k)];
     if (c.is_zero()) continue;
-    index.push_back(static_cast<int>(k));
+    const long double size = form.magnitude(k, far);
+    if (size <= kNearlyZero * all) {
+      constant += Wide(-size, size);
+      continue;
+    }
+    index.push_back(k);
     coefficient.push_back(narrow(c));
   }
+  if (constant.is_zero()) return;
+  index.push_back(0);
+  coefficient.push_back(narrow(constant));
 }
 
 }  // namespace maxwrench

@@ -31,6 +31,8 @@ class Form {
   const std::vector<Wide>& coefficients() const { return c_; }
   /// Sum of |coefficients| where all terms are at most 1 in magnitude, sliding ones up to `far`.
   long double magnitude(const std::vector<double>& far) const;
+  /// The same of one of them.
+  long double magnitude(int index, const std::vector<double>& far) const;
 
   Form& operator+=(const Form& other);
   Form operator-() const;
@@ -57,11 +59,13 @@ FormVector operator*(const FormMatrix& a, const FormVector& b);
 FormVector cross(const FormVector& a, const FormVector& b);
 FormMatrix transposed(const FormMatrix& a);
 
-/// The nonzero coefficients of a form, rounded outward.
+/// The coefficients of a form, rounded outward. Those that are nearly zero, by the rounding of what
+/// they were made of, become part of the constant one: their terms are at most 1 in magnitude, or
+/// at most `far`.
 struct FormRow {
   std::vector<int> index;
   std::vector<Narrow> coefficient;
-  explicit FormRow(const Form& form);
+  FormRow(const Form& form, const std::vector<double>& far);
 };
 
 }  // namespace maxwrench

@@ -39,7 +39,8 @@ std::vector<Narrow> load(const FormModel& model, const Eigen::VectorXd& theta_r,
   const std::vector<Form> tau_d = model.tau_d(), exerted = model.exerted(h);
   std::vector<Narrow> sum;
   for (std::size_t i = 0; i < tau_d.size(); ++i) {
-    sum.push_back(BoxForms::at_point(model.shape(), FormRow(tau_d[i] + exerted[i]), theta_r));
+    sum.push_back(
+        BoxForms::at_point(model.shape(), FormRow(tau_d[i] + exerted[i], model.far()), theta_r));
   }
   return sum;
 }

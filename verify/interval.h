@@ -6,12 +6,16 @@
 
 namespace maxwrench {
 
+/// So much is added to every step outward: more than the smallest normal number, so that intervals
+/// about zero do not become denormal, on which processors are slow.
+inline constexpr double kTiny = 1e-280;
+
 /// All real numbers from `low` to `high`. Every operation returns an interval that contains the
 /// result for any members of its operands. It rounds to nearest and then steps outward: for a
 /// rounded result x the neighbour above is at most x + ulp(x), and ulp(x) <= |x| epsilon + min, so
 /// that x + (|x| epsilon + min), rounded in turn, is at least that neighbour, which is at least the
-/// exact result. No rounding mode is touched and no flag of the compiler needed, but for those that
-/// break IEEE 754. All is finite.
+/// exact result; kTiny stands for min. No rounding mode is touched and no flag of the compiler
+/// needed, but for those that break IEEE 754. All is finite.
 template <class T>
 struct Interval {
   T low = 0, high = 0;
@@ -20,12 +24,8 @@ struct Interval {
   Interval(T x) : low(x), high(x) {}  // NOLINT: a number is an interval
   Interval(T from, T to) : low(from), high(to) {}
 
-  static T above(T x) {
-    return x + (std::abs(x) * std::numeric_limits<T>::epsilon() + std::numeric_limits<T>::min());
-  }
-  static T below(T x) {
-    return x - (std::abs(x) * std::numeric_limits<T>::epsilon() + std::numeric_limits<T>::min());
-  }
+  static T above(T x) { return x + (std::abs(x) * std::numeric_limits<T>::epsilon() + T(kTiny)); }
+  static T below(T x) { return x - (std::abs(x) * std::numeric_limits<T>::epsilon() + T(kTiny)); }
 
   bool is_zero() const { return low == 0 && high == 0; }
   T magnitude() const { return std::max(std::abs(low), std::abs(high)); }
@@ -39,6 +39,9 @@ struct Interval {
     const T p = a.low * b.low, q = a.low * b.high, r = a.high * b.low, s = a.high * b.high;
     return {below(std::min(std::min(p, q), std::min(r, s))),
             above(std::max(std::max(p, q), std::max(r, s)))};
+  }
+  friend Interval operator*(T x, const Interval& a) {
+    return {below(x * (x < 0 ? a.high : a.low)), above(x * (x < 0 ? a.low : a.high))};
   }
   /// b > 0
   friend Interval operator/(const Interval& a, const Interval& b) {

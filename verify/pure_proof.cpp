@@ -12,8 +12,10 @@ struct PureRows {
   double ceiling;
 };
 
-std::vector<FormRow> to_rows(const std::vector<Form>& forms) {
-  return {forms.begin(), forms.end()};
+std::vector<FormRow> to_rows(const std::vector<Form>& forms, const std::vector<double>& far) {
+  std::vector<FormRow> rows;
+  for (const Form& form : forms) rows.emplace_back(form, far);
+  return rows;
 }
 
 /// t <= (sum_k max |u_k| |B_k| + |tau_d|) / |J'c|, on the base's free axes, linear ones for a force
@@ -195,8 +197,9 @@ class EllipsoidProof final : public PureProof {
 
 std::unique_ptr<ValueProof> make_pure_proof(const Problem& problem, const FormModel& model,
                                             const std::string& measure) {
-  const auto rows = std::make_shared<const PureRows>(PureRows{
-      to_rows(model.tau_d()), to_rows(model.exerted(problem.c)), pure_ceiling(problem, model)});
+  const auto rows = std::make_shared<const PureRows>(
+      PureRows{to_rows(model.tau_d(), model.far()), to_rows(model.exerted(problem.c), model.far()),
+               pure_ceiling(problem, model)});
   if (measure == "linf_polytope") return std::make_unique<PolytopeProof>(problem, model, rows);
   if (measure == "l2_polytope") return std::make_unique<SmallestEffortProof>(problem, model, rows);
   if (measure == "ellipsoid") return std::make_unique<EllipsoidProof>(problem, model, rows);

@@ -7,7 +7,7 @@ namespace maxwrench {
 
 /// max over u in [min, max] of u slope, enclosed.
 inline Narrow larger(const Narrow& slope, double min, double max) {
-  const Narrow a = slope * Narrow(min), b = slope * Narrow(max);
+  const Narrow a = min * slope, b = max * slope;
   return {std::max(a.low, b.low), std::max(a.high, b.high)};
 }
 
