@@ -13,8 +13,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::vector<std::string>> kFloors = {
-    {"lib"}, {"solvers", "problems"}, {"drawing", "benchmarks"}, {"cli"}, {"examples", "tests"}};
+const std::vector<std::vector<std::string>> kFloors = {{"lib"},
+                                                       {"solvers", "problems", "verify"},
+                                                       {"drawing", "benchmarks"},
+                                                       {"cli"},
+                                                       {"examples", "tests"}};
 
 /// Public headers stand on the floor of their implementation.
 const std::map<std::string, std::string> kImplementedIn = {
@@ -104,6 +107,19 @@ TEST(Floors, IncludesGoDownwards) {
     }
   }
   EXPECT_GT(sources().size(), 200U);
+}
+
+/// A check of proofs shares plain data and the loader's answer with what makes them, and no code.
+TEST(Floors, VerifyKnowsNoSolver) {
+  for (const auto& [file, source] : sources()) {
+    if (folder_of(file) != "verify") continue;
+    for (const std::string& header : source.own) {
+      const bool plain = header == "include/maxwrench/types.h" ||
+                         header == "include/maxwrench/zonotope.h" ||
+                         header == "include/maxwrench/problem.h";
+      EXPECT_TRUE(plain || header.starts_with("verify/")) << file << ": " << header;
+    }
+  }
 }
 
 /// What is installed includes nothing that is not.

@@ -112,19 +112,24 @@ std::string read_all(const std::string& file) {
   return text;
 }
 
+std::uint64_t checksum(std::string_view text) {
+  return crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size());
+}
+
 /// Empty if it is damaged.
 std::string unpack(std::string_view text) {
-  ByteReader head(text.substr(kMagic.size()));
-  const std::uint64_t length = head.whole(8), sum = head.whole(4);
+  ByteReader sum(text);
+  if (sum.whole(4) != checksum(text.substr(std::min<std::size_t>(4, text.size())))) return "";
+  ByteReader head(text.substr(4));
+  const std::uint64_t length = head.whole(8);
   if (!head.good()) return "";
-  const std::string_view packed = text.substr(kMagic.size() + 12);
+  const std::string_view packed = text.substr(12);
   if (length / kMostPacked > packed.size()) return "";
   std::string raw(length, '\0');
   uLongf got = length;
   const int how = uncompress(reinterpret_cast<Bytef*>(raw.data()), &got,
                              reinterpret_cast<const Bytef*>(packed.data()), packed.size());
-  if (how != Z_OK || got != length) return "";
-  return crc32_z(0, reinterpret_cast<const Bytef*>(raw.data()), length) == sum ? raw : "";
+  return how == Z_OK && got == length ? raw : "";
 }
 
 }  // namespace
@@ -172,8 +177,10 @@ std::string certificate_text(const ProofCertificate& proof) {
   }
   ByteWriter head;
   head.whole(text.size(), 8);
-  head.whole(crc32_z(0, bytes, text.size()), 4);
-  return std::string(kMagic) + head.text() + packed.substr(0, length);
+  const std::string all = head.text() + packed.substr(0, length);
+  ByteWriter sum;
+  sum.whole(checksum(all), 4);
+  return std::string(kMagic) + sum.text() + all;
 }
 
 ProofCertificate read_certificate(const std::string& file) {
@@ -181,7 +188,7 @@ ProofCertificate read_certificate(const std::string& file) {
   if (!std::string_view(text).starts_with(kMagic)) {
     throw std::invalid_argument(file + ": got something else, expected a certificate of 'certify'");
   }
-  const std::string raw = unpack(text);
+  const std::string raw = unpack(std::string_view(text).substr(kMagic.size()));
   ByteReader from(raw);
   ProofCertificate proof;
   proof.version = from.words();

@@ -45,8 +45,8 @@ struct ProofCertificate {
 /// All numbers of robot and task that a proof rests upon, as one number (FNV-1a).
 std::uint64_t digest(const Problem& problem);
 
-/// A file: "maxwrench proof 1\n", the length and the CRC-32 of what follows when unpacked, and
-/// that, packed by zlib; little endian.
+/// A file: "maxwrench proof 1\n", the CRC-32 of all that follows, the length of the certificate,
+/// and that, packed by zlib; little endian.
 std::string certificate_text(const ProofCertificate& certificate);
 
 /// Throws std::invalid_argument with one line that names the file for what is no certificate, or a

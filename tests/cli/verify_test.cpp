@@ -1,0 +1,85 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/support.h"
+
+namespace maxwrench {
+namespace {
+
+using nlohmann::json;
+
+class VerifyCommand : public testing::Test {
+ protected:
+  std::string certificate(const std::string& words) const {
+    const std::string file = folder_.path() / "proof.mwc";
+    const CommandResult result = run_maxwrench("certify " + words + " --certificate " + file);
+    EXPECT_EQ(result.exit_status, 0) << result.err;
+    return file;
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(VerifyCommand, Verifies) {
+  const std::string file = certificate("planar/force --measure ellipsoid");
+  const CommandResult text = run_maxwrench("verify " + file);
+  EXPECT_EQ(text.exit_status, 0) << text.err;
+  for (const char* line : {"planar/force  measure ellipsoid  wrench pure\nverified\n",
+                           ": no posture has more\n", " by a multiplier, "}) {
+    EXPECT_NE(text.out.find(line), std::string::npos) << line << " in\n" << text.out;
+  }
+  const json object = json::parse(run_maxwrench("verify --json " + file).out);
+  EXPECT_EQ(object["status"], "verified");
+  EXPECT_EQ(object["reason"], "");
+  EXPECT_GE(object["bound"], object["beta"]);
+  EXPECT_GE(object["ceiling"], object["bound"]);
+  EXPECT_TRUE(object["collision"]);
+}
+
+TEST_F(VerifyCommand, KnowsWhetherCollisionsCounted) {
+  const std::string file = certificate("uvms/lift --ignore-collision --gap 0.1");
+  const CommandResult result = run_maxwrench("verify " + file);
+  EXPECT_EQ(result.exit_status, 0) << result.out;
+  EXPECT_NE(result.out.find("collisions ignored"), std::string::npos);
+}
+
+TEST_F(VerifyCommand, RefusesAnotherTask) {
+  const std::string file = certificate("planar/force");
+  const CommandResult result = run_maxwrench("verify --problem uvms/valve " + file);
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_NE(result.out.find("\nrefused: it is about another robot or task\n"), std::string::npos)
+      << result.out;
+}
+
+TEST_F(VerifyCommand, RefusesOtherFilesInOneLine) {
+  const auto refused = [](const std::string& words, const char* mention) {
+    const CommandResult result = run_maxwrench("verify " + words);
+    EXPECT_EQ(result.exit_status, 2) << words;
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_NE(result.err.find(mention), std::string::npos) << result.err;
+  };
+  refused("README.md", "README.md: got something else");
+  refused("no_such_file", "no_such_file: got nothing");
+  const std::string file = certificate("planar/force");
+  std::string text = read_text(file);
+  text[text.size() / 2] ^= 1;
+  std::ofstream(file, std::ios::binary) << text;
+  refused(file, "damaged");
+}
+
+/// A certificate of nothing is none.
+TEST(CertifyCommand, WritesNoCertificateWithoutABound) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "proof.mwc";
+  const CommandResult result =
+      run_maxwrench("certify uvms/valve --wrench any --time 0 --certificate " + file);
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_NE(result.err.find("not written"), std::string::npos) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+}  // namespace
+}  // namespace maxwrench

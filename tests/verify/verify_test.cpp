@@ -1,0 +1,237 @@
+#include "verify/verify.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "benchmarks/proof_recorder.h"
+#include "maxwrench/load.h"
+#include "maxwrench/strategies.h"
+#include "solvers/certify/certify.h"
+#include "tests/support/support.h"
+
+namespace maxwrench {
+namespace {
+
+/// A problem and what `certify` writes of it.
+struct Certified {
+  Problem problem;
+  ProofCertificate proof;
+
+  Certified(const char* name, const char* measure, Wrench wrench, double gap, long boxes = 1000000)
+      : problem(load_problem(name)) {
+    Case c;
+    c.problem = name;
+    c.measure = measure;
+    c.wrench = wrench;
+    c.search = best_search(problem, measure);
+    const Method method = resolve(problem, c);
+    Row row = solve(problem, method, 1);
+    ProofRecorder recorder;
+    CertifyOptions options;
+    options.gap = gap;
+    options.boxes = boxes;
+    options.sink = [&](const CertifiedBox& box) { recorder.add(box); };
+    const auto objective = make_capability_objective(problem, wrench, method.make_measure);
+    const auto bound = make_capability_bound(problem, measure, wrench);
+    const CertifyResult result =
+        certify(*objective, *bound, {row.posture.theta_r, row.capability.beta}, options);
+    if (result.best.value > row.capability.beta) {
+      row = evaluate(problem, method, result.best.theta_r);
+    }
+    proof = recorder.certificate(problem, row, result, gap);
+  }
+  Certified(const Certified&) = delete;
+
+  std::string refusal(const ProofCertificate& of) const { return verify(problem, of, 1).refusal; }
+};
+
+struct Shipped {
+  const char* problem;
+  const char* measure;
+  Wrench wrench;
+  double gap;
+};
+
+class VerifyShipped : public testing::TestWithParam<Shipped> {};
+
+/// The problem with four joints at a gap that takes no second.
+INSTANTIATE_TEST_SUITE_P(
+    Static, VerifyShipped,
+    testing::Values(Shipped{"planar/force", "linf_polytope", Wrench::kPure, 1e-4},
+                    Shipped{"planar/force", "linf_polytope", Wrench::kAny, 1e-4},
+                    Shipped{"planar/force", "l2_polytope", Wrench::kPure, 1e-4},
+                    Shipped{"planar/force", "ellipsoid", Wrench::kPure, 1e-4},
+                    Shipped{"uvms/lift", "linf_polytope", Wrench::kPure, 1e-2},
+                    Shipped{"uvms/lift", "linf_polytope", Wrench::kAny, 1e-2}));
+
+TEST_P(VerifyShipped, IsVerifiedAtAnyThreadCount) {
+  const Shipped& shipped = GetParam();
+  const Certified at(shipped.problem, shipped.measure, shipped.wrench, shipped.gap);
+  for (const int threads : {1, 3}) {
+    const Verification result = verify(at.problem, at.proof, threads);
+    EXPECT_EQ(result.refusal, "");
+    EXPECT_EQ(result.boxes, static_cast<long>(at.proof.tree.nodes.size()));
+    EXPECT_EQ(2 * (result.by_multiplier + result.by_collision + result.by_parent),
+              result.boxes + 1);  // leaves of a tree in which each other box has two halves
+  }
+}
+
+/// Where the boxes ran out the claim is smaller, and as true.
+TEST(Verify, AcceptsABracket) {
+  const Certified at("uvms/lift", "linf_polytope", Wrench::kPure, 1e-3, 500);
+  EXPECT_GT(at.proof.gap, 1e-3);
+  EXPECT_EQ(at.refusal(at.proof), "");
+}
+
+std::string file_of(const TemporaryFolder& folder, const std::string& text) {
+  const std::string file = folder.path() / "proof";
+  std::ofstream(file, std::ios::binary) << text;
+  return file;
+}
+
+TEST(Verify, ReadsWhatIsWritten) {
+  const Certified at("planar/force", "ellipsoid", Wrench::kPure, 1e-3);
+  const TemporaryFolder folder;
+  const std::string text = certificate_text(at.proof);
+  const ProofCertificate read = read_certificate(file_of(folder, text));
+  EXPECT_EQ(certificate_text(read), text);
+  EXPECT_EQ(at.refusal(read), "");
+  EXPECT_EQ(read.theta_r, at.proof.theta_r);
+  EXPECT_EQ(read.bound, at.proof.bound);
+}
+
+/// Any byte that changes, and any end that is missing.
+TEST(Verify, RefusesDamagedFiles) {
+  const Certified at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
+  const TemporaryFolder folder;
+  const std::string text = certificate_text(at.proof);
+  Random random(1);
+  const auto below = [&](std::size_t n) {
+    return static_cast<std::size_t>(random.uniform(0, 1) * static_cast<double>(n));
+  };
+  for (int i = 0; i < 1000 / kSampleDivisor; ++i) {
+    std::string damaged = text;
+    if (i % 4 == 0) {
+      damaged.resize(below(text.size()));
+    } else {
+      damaged[below(text.size())] ^= static_cast<char>(1 << below(8));
+    }
+    EXPECT_THROW(read_certificate(file_of(folder, damaged)), std::invalid_argument);
+  }
+  EXPECT_THROW(read_certificate(folder.path() / "none"), std::invalid_argument);
+}
+
+using Tree = CertificateTree;
+
+/// The end of the part of the tree that begins with a node.
+std::size_t end_of(const Tree& tree, std::size_t node) {
+  std::size_t open = 1;
+  for (; open > 0; ++node) open += tree.nodes[node].axis < 0 ? std::size_t(-1) : 1;
+  return node;
+}
+
+/// Proofs that have become false, each in its own way.
+class Tampering {
+ public:
+  Tampering(const Certified& at, std::uint64_t seed) : at_(at), random_(seed) {}
+
+  static constexpr int kWays = 8;
+  ProofCertificate next(int way) {
+    ProofCertificate proof = at_.proof;
+    Tree& tree = proof.tree;
+    const std::size_t leaf = draw(tree, true);
+    const auto place = tree.nodes.begin() + static_cast<std::ptrdiff_t>(leaf);
+    if (way == 0) tree.nodes.erase(place);           // dropped
+    if (way == 1) tree.nodes.insert(place, *place);  // there twice
+    if (way == 2) drop_halves(tree);
+    if (way == 3) tree.nodes[leaf] = other_reason(tree.nodes[leaf]);
+    if (way == 4) spoil_multiplier(proof);
+    const double share = std::pow(10, random_.uniform(-5, -0.5));
+    if (way == 5) proof.value += share * std::abs(proof.value);  // the incumbent raised
+    if (way == 6) proof.bound = proof.value - share * std::abs(proof.value);
+    if (way == 7) shrink_root(proof, share);
+    return proof;
+  }
+
+ private:
+  std::size_t draw(const Tree& tree, bool leaf) {
+    for (;;) {
+      const double at = random_.uniform(0, 1) * static_cast<double>(tree.nodes.size());
+      const auto node = static_cast<std::size_t>(at);
+      if ((tree.nodes[node].axis < 0) == leaf) return node;
+    }
+  }
+  /// A box that had to be cut becomes a leaf.
+  void drop_halves(Tree& tree) {
+    const std::size_t node = draw(tree, false);
+    const auto begin = tree.nodes.begin() + static_cast<std::ptrdiff_t>(node);
+    tree.nodes.erase(begin + 1,
+                     tree.nodes.begin() + static_cast<std::ptrdiff_t>(end_of(tree, node)));
+    tree.nodes[node].axis = -1;
+  }
+  /// No box of a proof collides if its multiplier was needed, or the other way round.
+  Tree::Node other_reason(Tree::Node node) {
+    const bool collides = node.reason == Tree::Reason::kCollision;
+    node.reason = collides ? Tree::Reason::kNone : Tree::Reason::kCollision;
+    node.pair = static_cast<int>(random_.uniform(-1, 30));
+    return node;
+  }
+  /// Nothing follows from zero but what was known, and from the opposite nothing of use.
+  void spoil_multiplier(ProofCertificate& proof) {
+    Tree& tree = proof.tree;
+    for (;;) {
+      const Tree::Node& node = tree.nodes[draw(tree, true)];
+      if (node.reason != Tree::Reason::kMultiplier) continue;
+      const double factor = -random_.uniform(0, 1);
+      for (int i = 0; i < tree.width; ++i) {
+        tree.multipliers[node.multiplier + static_cast<std::size_t>(i)] *= factor;
+      }
+      return;
+    }
+  }
+  void shrink_root(ProofCertificate& proof, double share) {
+    const auto axis =
+        static_cast<Eigen::Index>(random_.uniform(0, 1) * static_cast<double>(proof.lower.size()));
+    proof.lower[axis] += share * (proof.upper[axis] - proof.lower[axis]);
+  }
+
+  const Certified& at_;
+  Random random_;
+};
+
+/// 1,000 in all, on three problems. None of them goes through a file, so no checksum helps.
+TEST(Verify, RefusesFalseProofs) {
+  const auto refuse_all = [](const Certified& at, int count) {
+    ASSERT_EQ(at.refusal(at.proof), "");
+    Tampering tampering(at, 7);
+    for (int i = 0; i < count; ++i) {
+      const int way = i % Tampering::kWays;
+      EXPECT_NE(at.refusal(tampering.next(way)), "") << "way " << way << ", tampering " << i;
+    }
+  };
+  refuse_all({"planar/force", "linf_polytope", Wrench::kPure, 1e-3}, 480 / kSampleDivisor);
+  refuse_all({"planar/force", "ellipsoid", Wrench::kPure, 1e-2}, 480 / kSampleDivisor);
+  refuse_all({"uvms/lift", "linf_polytope", Wrench::kPure, 1e-1}, 40 / kSampleDivisor);
+}
+
+/// Ten percent more of all efforts reach more, so the old bound is false, whatever the digest says.
+TEST(Verify, RefusesStrongerRobots) {
+  Certified at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
+  at.problem.robot.actuation.u_max *= 1.1;
+  at.problem.robot.actuation.u_min *= 1.1;
+  EXPECT_NE(at.refusal(at.proof).find("another robot or task"), std::string::npos);
+  at.proof.digest = digest(at.problem);
+  EXPECT_NE(at.refusal(at.proof).find("not excluded"), std::string::npos);
+}
+
+TEST(Verify, RefusesOtherTasks) {
+  Certified at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
+  at.problem = load_problem("uvms/lift");
+  EXPECT_NE(at.refusal(at.proof), "");
+  at.proof.digest = digest(at.problem);
+  EXPECT_NE(at.refusal(at.proof), "");
+}
+
+}  // namespace
+}  // namespace maxwrench
