@@ -172,36 +172,39 @@ void print_text(const Problem& problem, const Proof& proof) {
              result.boxes, result.colliding, result.seconds, proof.search_s);
 }
 
+void add_proof_options(CLI::App& command, ProofOptions& options) {
+  command
+      .add_option("problem", options.choice.problem,
+                  "shipped name such as planar/force, or a task file")
+      ->required();
+  command
+      .add_option("--measure", options.choice.measure, "linf_polytope, l2_polytope or ellipsoid")
+      ->capture_default_str();
+  command
+      .add_option("--wrench", options.wrench, "pure: only along c; any: other components are free")
+      ->capture_default_str();
+  command.add_option("--gap", options.gap, "of the bound to beta that is to be reached")
+      ->capture_default_str()
+      ->check(refuse_gap);
+  command.add_option("--time", options.seconds, "s, after which a bracket is printed")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1e9));
+  command.add_flag("--ignore-collision", options.ignore_collision,
+                   "count postures that collide, too");
+  command
+      .add_option("--certificate", options.certificate, "file for the proof, which 'verify' checks")
+      ->check(refuse_empty);
+  options.add_threads(command);
+  options.add_json(command);
+}
+
 }  // namespace
 
 void add_certify(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<ProofOptions>();
   CLI::App& command = *app.add_subcommand(
       "certify", "the largest capability, and a proof that no posture has more");
-  command
-      .add_option("problem", options->choice.problem,
-                  "shipped name such as planar/force, or a task file")
-      ->required();
-  command
-      .add_option("--measure", options->choice.measure, "linf_polytope, l2_polytope or ellipsoid")
-      ->capture_default_str();
-  command
-      .add_option("--wrench", options->wrench, "pure: only along c; any: other components are free")
-      ->capture_default_str();
-  command.add_option("--gap", options->gap, "of the bound to beta that is to be reached")
-      ->capture_default_str()
-      ->check(refuse_gap);
-  command.add_option("--time", options->seconds, "s, after which a bracket is printed")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 1e9));
-  command.add_flag("--ignore-collision", options->ignore_collision,
-                   "count postures that collide, too");
-  command
-      .add_option("--certificate", options->certificate,
-                  "file for the proof, which 'verify' checks")
-      ->check(refuse_empty);
-  options->add_threads(command);
-  options->add_json(command);
+  add_proof_options(command, *options);
   command.callback([options, &exit_status] {
     require_apart({{"problem", options->choice.problem}},
                   {{"--certificate", options->certificate}});

@@ -103,6 +103,9 @@ std::string refuse_incumbent(const Problem& problem, const FormModel& model,
                              const ProofCertificate& proof) {
   const Eigen::VectorXd& theta_r = proof.theta_r;
   if (theta_r.size() != problem.theta_r_min.size()) return "its posture has other joints";
+  if (!theta_r.allFinite() || !proof.u.allFinite() || !proof.h.allFinite()) {
+    return "its posture is no number";
+  }
   if (!((problem.theta_r_min - theta_r).maxCoeff() <= kLimitTolerance) ||
       !((theta_r - problem.theta_r_max).maxCoeff() <= kLimitTolerance)) {
     return "its posture is beyond the limits";
@@ -110,7 +113,6 @@ std::string refuse_incumbent(const Problem& problem, const FormModel& model,
   if (problem.robot.collision && problem.robot.collision->collides(links_at(problem, theta_r))) {
     return "its posture collides";
   }
-  if (!std::isfinite(proof.value) || !proof.h.allFinite()) return "its value is no number";
   return refuse_value(problem, model, proof, kIncumbentTolerance * (1 + std::abs(proof.value)));
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "verify/wide_matrix.h"
+
 namespace maxwrench {
 namespace {
 
@@ -23,30 +25,6 @@ void refuse_unless(bool serves, const Problem& problem) {
   throw std::invalid_argument(problem.name +
                               ": expected a static task with one contact and a given pose, whose "
                               "base follows from theta_r in closed form");
-}
-
-Wide entry(const Eigen::Matrix3d& R, int i, int j) { return static_cast<long double>(R(i, j)); }
-
-using WideMatrix = std::array<std::array<Wide, 3>, 3>;
-
-WideMatrix times(const WideMatrix& a, const WideMatrix& b) {
-  WideMatrix product{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      for (std::size_t k = 0; k < 3; ++k) product[i][j] += a[i][k] * b[k][j];
-    }
-  }
-  return product;
-}
-
-WideMatrix wide_matrix(const Eigen::Matrix3d& R) {
-  WideMatrix wide{};
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      wide[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = entry(R, i, j);
-    }
-  }
-  return wide;
 }
 
 Wide exact_product(double a, double b) { return Wide(a) * Wide(b); }
@@ -103,8 +81,8 @@ FormModel::Place FormModel::place_of(std::size_t joint) const {
     place.p = place.p + q * along;
     return place;
   }
-  const WideMatrix R = wide_matrix(at.placement.R), S = wide_matrix(skew(at.axis));
-  const WideMatrix RS = times(R, S), RSS = times(RS, S);
+  const WideRows R = to_wide(at.placement.R), S = to_wide(skew(at.axis));
+  const WideRows RS = R * S, RSS = RS * S;
   const CosSin<long double> turned = enclose_wide(rest);
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
@@ -343,54 +321,6 @@ FormVector FormModel::seen(int a, const Eigen::Vector3d& point, int b) const {
 
 FormVector FormModel::into(const Pose<double>& pose, const FormVector& x) const {
   return transposed(matrix(pose.R)) * (x - constant(pose.p));
-}
-
-/// The largest row sum of |R'R - 1| of each rotation, whatever the joint: with R = A + c B + s C it
-/// is a sum of matrices times 1, c, s, s^2 and cs, as c^2 = 1 - s^2.
-long double FormModel::shrinking() const {
-  const auto part = [&](const FormMatrix& R, int index) {
-    WideMatrix M{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 3; ++j) {
-        if (index >= 0) M[i][j] = R[i][j].coefficients()[static_cast<std::size_t>(index)];
-      }
-    }
-    return M;
-  };
-  const auto square = [](const WideMatrix& M, const WideMatrix& N) {
-    WideMatrix MT{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t j = 0; j < 3; ++j) MT[i][j] = M[j][i];
-    }
-    return times(MT, N);
-  };
-  const EndEffector& tip =
-      problem_.robot.end_effectors[static_cast<std::size_t>(problem_.end_effector)];
-  Wide shrinks;
-  const auto add = [&](const FormMatrix& R, int variable) {
-    const int stride = variable < 0 ? -1 : shape_.strides[static_cast<std::size_t>(variable)];
-    const bool turns = variable >= 0 && shape_.terms[static_cast<std::size_t>(variable)] == 3;
-    const WideMatrix A = part(R, 0), B = part(R, turns ? stride : -1),
-                     C = part(R, turns ? 2 * stride : -1);
-    const WideMatrix AA = square(A, A), BB = square(B, B), CC = square(C, C), AB = square(A, B),
-                     AC = square(A, C), BC = square(B, C);
-    long double most = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      Wide row;
-      for (std::size_t j = 0; j < 3; ++j) {
-        const Wide one(i == j ? 1.0L : 0.0L);
-        row += (AA[i][j] + BB[i][j] - one).magnitude() + (AB[i][j] + AB[j][i]).magnitude();
-        row += (AC[i][j] + AC[j][i]).magnitude() + (CC[i][j] - BB[i][j]).magnitude();
-        row += (BC[i][j] + BC[j][i]).magnitude();
-      }
-      most = std::max(most, row.high);
-    }
-    shrinks += Wide(most);
-  };
-  add(transposed(matrix(problem_.pose.R)), -1);
-  add(matrix(tip.placement.R), -1);
-  for (std::size_t i = 0; i < places_.size(); ++i) add(places_[i].R, variable_[i]);
-  return shrinks.high;
 }
 
 }  // namespace maxwrench

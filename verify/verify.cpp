@@ -14,6 +14,9 @@ namespace {
 using Node = CertificateTree::Node;
 using Reason = CertificateTree::Reason;
 
+/// Larger numbers are refused, so that no product of them overflows.
+constexpr double kLargest = 1e60;
+
 /// A node of the tree, its box, and a number that no value in the box of its parent exceeds.
 struct OpenBox {
   std::size_t node = 0;
@@ -23,12 +26,17 @@ struct OpenBox {
 
 /// Empty, or why the nodes are no tree of boxes: each that is cut is followed by two.
 std::string refuse_shape(const CertificateTree& tree, Eigen::Index axes, int width) {
-  if (tree.width != width && !tree.multipliers.empty()) return "multipliers of another length";
   std::size_t open = 1;
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     if (open == 0) return "boxes that belong to no other";
     if (tree.nodes[i].axis >= axes) return "a box is cut along no joint";
+    if (tree.nodes[i].reason == Reason::kMultiplier && tree.width != width) {
+      return "multipliers of another length";
+    }
     open += tree.nodes[i].axis < 0 ? std::size_t(-1) : 1;
+  }
+  for (const double x : tree.multipliers) {
+    if (!(std::abs(x) <= kLargest)) return "a multiplier is no number, or too large";
   }
   return open == 0 ? "" : "boxes are missing";
 }
@@ -138,12 +146,15 @@ std::string refuse_claims(const Problem& problem, const FormModel& model,
   if (proof.digest != digest(problem)) return "it is about another robot or task";
   const Eigen::Index n = problem.theta_r_min.size();
   if (proof.lower.size() != n || proof.upper.size() != n) return "its box has other joints";
-  if (!((proof.lower - problem.theta_r_min).maxCoeff() <= -kLimitTolerance / 2) ||
+  if (!proof.lower.allFinite() || !proof.upper.allFinite() ||
+      !((proof.lower - problem.theta_r_min).maxCoeff() <= -kLimitTolerance / 2) ||
       !((problem.theta_r_max - proof.upper).maxCoeff() <= -kLimitTolerance / 2) ||
       !((proof.upper - proof.lower).maxCoeff() < 100)) {
     return "its box does not contain the limits";
   }
-  if (!std::isfinite(proof.bound) || !std::isfinite(proof.gap)) return "its bound is no number";
+  for (const double x : {proof.bound, proof.gap, proof.value}) {
+    if (!(std::abs(x) <= kLargest)) return "its bound is no number, or too large";
+  }
   const double slack = 1e-9 * std::abs(proof.value);
   if (!(proof.bound <= proof.value + proof.gap * std::abs(proof.value) + slack)) {
     return "its gap is larger than it says";

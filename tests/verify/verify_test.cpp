@@ -215,6 +215,27 @@ TEST(Verify, RefusesFalseProofs) {
   refuse_all({"uvms/lift", "linf_polytope", Wrench::kPure, 1e-1}, 40 / kSampleDivisor);
 }
 
+/// What compares with nothing, or overflows, proves nothing.
+TEST(Verify, RefusesWhatIsNoNumber) {
+  const Certified at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double x : {nan, kInfinity, -kInfinity, 1e300}) {
+    std::vector<ProofCertificate> bad(7, at.proof);
+    for (double& each : bad[0].tree.multipliers) each = x;
+    bad[1].bound = x;
+    bad[2].value = x;
+    bad[3].lower[0] = std::isnan(x) ? x : std::abs(x);
+    bad[4].theta_r[0] = x;
+    bad[5].u[0] = x;
+    bad[6].upper[0] = std::isnan(x) ? x : -std::abs(x);
+    for (const ProofCertificate& each : bad) EXPECT_NE(at.refusal(each), "") << x;
+  }
+  ProofCertificate narrow = at.proof;
+  narrow.tree.width = 0;
+  narrow.tree.multipliers.clear();
+  EXPECT_NE(at.refusal(narrow), "");
+}
+
 /// Ten percent more of all efforts reach more, so the old bound is false, whatever the digest says.
 TEST(Verify, RefusesStrongerRobots) {
   Certified at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
