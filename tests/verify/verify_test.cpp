@@ -14,11 +14,12 @@ namespace maxwrench {
 namespace {
 
 /// A problem and what `certify` writes of it.
-struct Certified {
+struct WrittenProof {
   Problem problem;
   ProofCertificate proof;
 
-  Certified(const char* name, const char* measure, Wrench wrench, double gap, long boxes = 1000000)
+  WrittenProof(const char* name, const char* measure, Wrench wrench, double gap,
+               long boxes = 1000000)
       : problem(load_problem(name)) {
     Case c;
     c.problem = name;
@@ -41,7 +42,7 @@ struct Certified {
     }
     proof = recorder.certificate(problem, row, result, gap);
   }
-  Certified(const Certified&) = delete;
+  WrittenProof(const WrittenProof&) = delete;
 
   std::string refusal(const ProofCertificate& of) const { return verify(problem, of, 1).refusal; }
 };
@@ -67,7 +68,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_P(VerifyShipped, IsVerifiedAtAnyThreadCount) {
   const Shipped& shipped = GetParam();
-  const Certified at(shipped.problem, shipped.measure, shipped.wrench, shipped.gap);
+  const WrittenProof at(shipped.problem, shipped.measure, shipped.wrench, shipped.gap);
   for (const int threads : {1, 3}) {
     const Verification result = verify(at.problem, at.proof, threads);
     EXPECT_EQ(result.refusal, "");
@@ -79,7 +80,7 @@ TEST_P(VerifyShipped, IsVerifiedAtAnyThreadCount) {
 
 /// Where the boxes ran out the claim is smaller, and as true.
 TEST(Verify, AcceptsABracket) {
-  const Certified at("uvms/lift", "linf_polytope", Wrench::kPure, 1e-3, 500);
+  const WrittenProof at("uvms/lift", "linf_polytope", Wrench::kPure, 1e-3, 500);
   EXPECT_GT(at.proof.gap, 1e-3);
   EXPECT_EQ(at.refusal(at.proof), "");
 }
@@ -91,7 +92,7 @@ std::string file_of(const TemporaryFolder& folder, const std::string& text) {
 }
 
 TEST(Verify, ReadsWhatIsWritten) {
-  const Certified at("planar/force", "ellipsoid", Wrench::kPure, 1e-3);
+  const WrittenProof at("planar/force", "ellipsoid", Wrench::kPure, 1e-3);
   const TemporaryFolder folder;
   const std::string text = certificate_text(at.proof);
   const ProofCertificate read = read_certificate(file_of(folder, text));
@@ -103,7 +104,7 @@ TEST(Verify, ReadsWhatIsWritten) {
 
 /// Any byte that changes, and any end that is missing.
 TEST(Verify, RefusesDamagedFiles) {
-  const Certified at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
+  const WrittenProof at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
   const TemporaryFolder folder;
   const std::string text = certificate_text(at.proof);
   Random random(1);
@@ -134,7 +135,7 @@ std::size_t end_of(const Tree& tree, std::size_t node) {
 /// Proofs that have become false, each in its own way.
 class Tampering {
  public:
-  Tampering(const Certified& at, std::uint64_t seed) : at_(at), random_(seed) {}
+  Tampering(const WrittenProof& at, std::uint64_t seed) : at_(at), random_(seed) {}
 
   static constexpr int kWays = 8;
   ProofCertificate next(int way) {
@@ -196,13 +197,13 @@ class Tampering {
     proof.lower[axis] += share * (proof.upper[axis] - proof.lower[axis]);
   }
 
-  const Certified& at_;
+  const WrittenProof& at_;
   Random random_;
 };
 
 /// 1,000 in all, on three problems. None of them goes through a file, so no checksum helps.
 TEST(Verify, RefusesFalseProofs) {
-  const auto refuse_all = [](const Certified& at, int count) {
+  const auto refuse_all = [](const WrittenProof& at, int count) {
     ASSERT_EQ(at.refusal(at.proof), "");
     Tampering tampering(at, 7);
     for (int i = 0; i < count; ++i) {
@@ -217,7 +218,7 @@ TEST(Verify, RefusesFalseProofs) {
 
 /// What compares with nothing, or overflows, proves nothing.
 TEST(Verify, RefusesWhatIsNoNumber) {
-  const Certified at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
+  const WrittenProof at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double x : {nan, kInfinity, -kInfinity, 1e300}) {
     std::vector<ProofCertificate> bad(7, at.proof);
@@ -238,7 +239,7 @@ TEST(Verify, RefusesWhatIsNoNumber) {
 
 /// Ten percent more of all efforts reach more, so the old bound is false, whatever the digest says.
 TEST(Verify, RefusesStrongerRobots) {
-  Certified at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
+  WrittenProof at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
   at.problem.robot.actuation.u_max *= 1.1;
   at.problem.robot.actuation.u_min *= 1.1;
   EXPECT_NE(at.refusal(at.proof).find("another robot or task"), std::string::npos);
@@ -247,7 +248,7 @@ TEST(Verify, RefusesStrongerRobots) {
 }
 
 TEST(Verify, RefusesOtherTasks) {
-  Certified at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
+  WrittenProof at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
   at.problem = load_problem("uvms/lift");
   EXPECT_NE(at.refusal(at.proof), "");
   at.proof.digest = digest(at.problem);
