@@ -15,7 +15,7 @@ namespace {
 /// Boxes narrower than this [rad or m] are not cut.
 constexpr double kNarrowest = 1e-6;
 /// Boxes that are bounded beside each other: they see the same incumbent, at any thread count.
-constexpr std::size_t kRound = 64;
+constexpr std::size_t kRound = 256;
 /// The first rounds have fewer: at most this part of the boxes that wait.
 constexpr std::size_t kShare = 2;
 
@@ -56,15 +56,14 @@ class BranchAndBound {
     root->lower = objective.lower().array() - kLimitTolerance;
     root->upper = objective.upper().array() + kLimitTolerance;
     root->high = bound.ceiling();
-    children_.push_back(std::move(root));
+    bound_one(*root, target());
+    keep(std::move(root));
   }
 
   CertifyResult run() {
-    bound_children();
     while (!ended()) {
       take_parents();
       cut_parents();
-      bound_children();
     }
     result_.bound = std::max(top(), target());
     result_.seconds = seconds();
@@ -132,7 +131,7 @@ class BranchAndBound {
     return axis;
   }
 
-  void add_half(const CertifiedBox& parent, int axis, bool second) {
+  static std::unique_ptr<CertifiedBox> half(const CertifiedBox& parent, int axis, bool second) {
     auto child = std::make_unique<CertifiedBox>();
     child->lower = parent.lower;
     child->upper = parent.upper;
@@ -142,40 +141,43 @@ class BranchAndBound {
     child->proof.multiplier = parent.proof.multiplier;
     child->proof.basis = parent.proof.basis;
     child->depth = parent.depth + 1;
-    children_.push_back(std::move(child));
+    return child;
   }
 
+  /// All halves with the same aim, whatever the threads.
   void cut_parents() {
     improve(*parents_.front());
     for (auto& parent : parents_) {
-      const int axis = axis_of(*parent);
-      if (axis < 0) {
-        too_narrow_ = true;
-        push(std::move(parent));
-        continue;
-      }
-      parent->cut = true;
-      add_half(*parent, axis, false);
-      add_half(*parent, axis, true);
-      report(*parent);
+      parent->cut = axis_of(*parent) >= 0;
+      if (parent->cut) continue;
+      too_narrow_ = true;
+      push(std::move(parent));
     }
+    std::erase(parents_, nullptr);
+    children_.resize(2 * parents_.size());
+    const double low = target();
+    parallel_for(options_.threads, static_cast<long>(parents_.size()), [&](long i) {
+      const auto at = static_cast<std::size_t>(i);
+      const CertifiedBox& parent = *parents_[at];
+      for (const bool second : {false, true}) {
+        auto& child = children_[2 * at + (second ? 1 : 0)];
+        child = half(parent, axis_of(parent), second);
+        bound_one(*child, low);
+      }
+    });
+    for (const auto& parent : parents_) report(*parent);
+    for (auto& child : children_) keep(std::move(child));
   }
 
-  /// All of them with the same aim, whatever the threads.
-  void bound_children() {
-    const double low = target();
-    parallel_for(options_.threads, static_cast<long>(children_.size()),
-                 [&](long i) { bound_one(*children_[static_cast<std::size_t>(i)], low); });
-    for (auto& child : children_) {
-      ++result_.boxes;
-      if (child->proof.kind == BoxProof::Kind::kCollision) ++result_.colliding;
-      if (child->proof.high > child->low) {
-        push(std::move(child));
-      } else {
-        report(*child);
-      }
+  /// A box that was bounded waits, or is proven.
+  void keep(std::unique_ptr<CertifiedBox> box) {
+    ++result_.boxes;
+    if (box->proof.kind == BoxProof::Kind::kCollision) ++result_.colliding;
+    if (box->proof.high > box->low) {
+      push(std::move(box));
+    } else {
+      report(*box);
     }
-    children_.clear();
   }
 
   void bound_one(CertifiedBox& box, double low) {
