@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "benchmarks/proof_recorder.h"
 #include "benchmarks/row.h"
 #include "lib/math/random.h"
 #include "maxwrench/batch.h"
@@ -15,6 +16,7 @@
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"
 #include "solvers/certify/certify.h"
+#include "verify/verify.h"
 
 // What runs beside each other, in one small program: the thread sanitizer's build holds nothing
 // else. Everything is compared with what one thread alone gets.
@@ -93,10 +95,17 @@ TEST(Threads, CertifyProvesTheSame) {
   const Candidate incumbent{best.posture.theta_r, best.capability.beta};
   const CertifyResult one = certify(*objective, *bound, incumbent, options);
   options.threads = kThreads;
+  ProofRecorder recorder;
+  options.sink = [&](const CertifiedBox& box) { recorder.add(box); };
   const CertifyResult many = certify(*objective, *bound, incumbent, options);
   EXPECT_EQ(one.status, Status::kProven);
   EXPECT_EQ(one.bound, many.bound);
   EXPECT_EQ(one.boxes, many.boxes);
+  const Row row = evaluate(problem, method, many.best.theta_r);
+  const ProofCertificate proof = recorder.certificate(problem, row, many, options.gap);
+  const Verification verified = verify(problem, proof, kThreads);
+  EXPECT_EQ(verified.refusal, "");
+  EXPECT_EQ(verified.boxes, many.boxes);
 }
 
 class ThreadsInSearchOfPlans : public testing::TestWithParam<SearchEntry> {};
