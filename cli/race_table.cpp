@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "benchmarks/machine.h"
-#include "benchmarks/race_summary.h"
 #include "benchmarks/table.h"
 #include "maxwrench/version.h"
 
@@ -168,7 +167,7 @@ std::string race_table(const Comparison& comparison) {
   return text + verdict(comparison, ranked);
 }
 
-std::string summary_table(std::span<const Comparison> comparisons) {
+std::string summary_table(std::span<const Standing> rows, std::span<const Comparison> comparisons) {
   std::string head = "| search | typical | worst |", line = "|---|---|---|";
   for (const double share : kTargetShares) {
     head += fmt::format(" {:.6g} % |", 100 * share);
@@ -179,13 +178,14 @@ std::string summary_table(std::span<const Comparison> comparisons) {
     line += "---|";
   }
   std::string text = head + "\n" + line + "\n";
-  for (const Standing& standing : standings(comparisons)) {
+  for (const Standing& standing : rows) {
     const std::string name = fmt::format("`{}`", standing.search);
     text += fmt::format("| {} | {} | {} |", standing.is_default ? "**" + name + "**" : name,
                         brief(standing.typical), brief(standing.worst));
     for (const double share : standing.reached) text += fmt::format(" {:.0f} |", 100 * share);
-    for (const double seconds : standing.seconds)
-      text += fmt::format(" {} |", brief(1e3 * seconds));
+    for (std::size_t i = 0; i < comparisons.size(); ++i) {
+      text += fmt::format(" {} |", brief(1e3 * standing.seconds[i]));
+    }
     text += "\n";
   }
   return text;
