@@ -20,9 +20,9 @@ namespace {
 /// The joints that the task names, `count` of the chain's.
 std::vector<int> named_joints(const Block& theta_r, const Robot& robot,
                               const std::vector<int>& chain, int count) {
-  const std::string expected =
-      fmt::format("{} of the joints {}, each once (the other {} and the base follow)", count,
-                  names_of(robot, chain), static_cast<int>(chain.size()) - count);
+  const std::string expected = fmt::format(
+      "{} of the joints {}, each once (the other {}{} follow)", count, names_of(robot, chain),
+      static_cast<int>(chain.size()) - count, robot.base_axes.empty() ? "" : " and the base");
   if (count > 0 && !theta_r.has("joints")) theta_r.refuse_value("joints", expected);
   std::vector<int> joints;
   if (!theta_r.has("joints")) return joints;
@@ -137,11 +137,10 @@ bool follow_independently(const Problem& problem) {
     refuse_joints(task, problem, "it does not at the default: singular");
   }
   task.table("pose").refuse_value(
-      "xyz",
-      fmt::format("a pose that {} reach{} (from theta_r.guess at the default Newton's method "
-                  "stays {})",
-                  followers_of(problem), problem.motion ? " on the branch of the guess" : "",
-                  shown_gap(branch.start_gap())));
+      "xyz", fmt::format("a pose that {} reach{} (from {} at the default Newton's method stays {})",
+                         followers_of(problem), problem.motion ? " on the branch of the guess" : "",
+                         task.table("theta_r").has("guess") ? "theta_r.guess" : "zero",
+                         shown_gap(branch.start_gap())));
 }
 
 [[noreturn]] void refuse_default(const Block& task, const Problem& problem, bool heave) {
