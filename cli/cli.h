@@ -62,6 +62,7 @@ void add_list(CLI::App& app, int& exit_status);
 void add_check(CLI::App& app, int& exit_status);
 void add_eval(CLI::App& app, int& exit_status);
 void add_solve(CLI::App& app, int& exit_status);
+void add_certify(CLI::App& app, int& exit_status);
 void add_lp(CLI::App& app, int& exit_status);
 void add_run(CLI::App& app, int& exit_status);
 void add_simulate(CLI::App& app, int& exit_status);

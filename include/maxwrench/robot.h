@@ -90,6 +90,19 @@ struct Nearness {
   Eigen::Vector3d on_a, on_b;
 };
 
+/// A box (or a segment, or a point) on a link.
+struct Core {
+  int link = 0;
+  Pose<double> placement;                                ///< link -> box, centred at its origin
+  Eigen::Vector3d half_sizes = Eigen::Vector3d::Zero();  ///< m
+};
+
+/// Two bodies collide wherever their cores are closer than `reach` [m].
+struct CorePair {
+  Core a, b;
+  double reach = 0;
+};
+
 /// Decides whether a posture collides with itself. Const and shared between threads.
 class CollisionChecker {
  public:
@@ -103,6 +116,8 @@ class CollisionChecker {
                        Nearness& result) const = 0;
   /// The links of the URDF that a pair is about, such as "forearm and base".
   virtual std::string pair_name(int pair) const = 0;
+  /// Where a pair is sure to collide; false if nothing is known of that.
+  virtual bool cores(int /*pair*/, CorePair& /*result*/) const { return false; }
 };
 
 /// A tree of links on a base, with its actuators and limits. Const after loading and shared between

@@ -19,6 +19,8 @@ enum class Status {
   kValid,            ///< of a posture: it exists and violates nothing
   kBestFound,        ///< of a search: the best of what was evaluated
   kNoneFound,        ///< of a search: nothing that it evaluated has a value
+  kProven,           ///< of branch and bound: nothing exceeds the best that was found by more
+  kBracket,          ///< of branch and bound: the best that was found and a bound apart from it
   kReached           ///< of an integration: the last time, or a root
 };
 

@@ -22,6 +22,10 @@ const char* to_string(Status status) {
       return "best_found";
     case Status::kNoneFound:
       return "none_found";
+    case Status::kProven:
+      return "proven";
+    case Status::kBracket:
+      return "bracket";
     case Status::kReached:
       return "reached";
     case Status::kNumericalError:

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "lib/math/dual.h"
+#include "lib/math/extended.h"
 
 namespace maxwrench {
 
@@ -120,5 +121,6 @@ void Kinematics<T>::gravity_and_buoyancy(const Matrix3<T>& R_base, VectorX<T>& t
 
 template class Kinematics<double>;
 template class Kinematics<Dual<4>>;
+template class Kinematics<Extended>;
 
 }  // namespace maxwrench

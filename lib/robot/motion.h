@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "lib/robot/dynamics.h"
-#include "maxwrench/ode.h"
+#include "maxwrench/integrator.h"
 
 namespace maxwrench {
 

@@ -106,6 +106,21 @@ Between capsule_to_box(const Placed& at, const Shape& box, const Pose<double>& b
   return between;
 }
 
+/// A box of which all points within some radius, which is returned, belong to the shape; for a
+/// capsule and a box they are all of it.
+double core_of(const Shape& shape, Core& core) {
+  core.link = shape.link;
+  core.placement = shape.placement;
+  if (is(shape, Shape::Kind::kBox)) {
+    core.half_sizes = shape.half_sizes;
+    return 0;
+  }
+  const bool capsule = is(shape, Shape::Kind::kCapsule);
+  const double radius = capsule ? shape.radius : std::min(shape.radius, shape.half_length);
+  core.half_sizes = {0, 0, capsule ? shape.half_length : shape.half_length - radius};
+  return radius;
+}
+
 /// Two shapes on different links, with the FCL shapes if no exact test is at hand.
 struct Pair {
   int a, b;
@@ -197,6 +212,13 @@ class ShapePairs : public CollisionChecker {
   }
 
   int pairs() const override { return static_cast<int>(pairs_.size()); }
+
+  bool cores(int i, CorePair& result) const override {
+    const Pair& pair = pairs_[index(i)];
+    const double radius = core_of(shapes_[index(pair.a)], result.a);
+    result.reach = radius + core_of(shapes_[index(pair.b)], result.b) + margin_;
+    return true;
+  }
 
   std::string pair_name(int i) const override {
     const Pair& pair = pairs_[index(i)];

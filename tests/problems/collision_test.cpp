@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -206,6 +207,37 @@ TEST(CollisionChecker, SkipsPairsOnOneLinkAndIgnoredBodies) {
   EXPECT_EQ(some->pairs(), 1);
   EXPECT_FALSE(some->collides(together));
   EXPECT_EQ(make_collision_checker(shapes, {{"arm", "hull"}, {"hull", "tool"}}, 0), nullptr);
+}
+
+/// Shapes of all kinds: where some point of one core is within reach of the other, they collide.
+TEST(CollisionChecker, KnowsCoresThatCollide) {
+  Sampler sampler;
+  using Kind = Shape::Kind;
+  int within = 0;
+  for (int sample = 0; sample < 3000; ++sample) {
+    constexpr std::array kKinds = {Kind::kBox, Kind::kCapsule, Kind::kCylinder};
+    std::vector<Shape> shapes;
+    for (const int link : {0, 1}) {
+      shapes.push_back(
+          sampler.shape(kKinds[static_cast<std::size_t>(sample / (2 * link + 1) % 3)]));
+      shapes.back().link = link;
+      shapes.back().placement = sampler.pose(0.1);
+    }
+    const auto checker = make_collision_checker(shapes, {}, 0.01);
+    const std::vector<Pose<double>> links = {{}, sampler.pose(0.5)};
+    CorePair pair;
+    ASSERT_TRUE(checker->cores(0, pair));
+    const Pose<double> a = links[static_cast<std::size_t>(pair.a.link)] * pair.a.placement;
+    const Pose<double> b = links[static_cast<std::size_t>(pair.b.link)] * pair.b.placement;
+    const Vector3d in_a = sampler.point(1).cwiseProduct(pair.a.half_sizes);
+    const Pose<double> into = b.inverse() * a;
+    const Vector3d x = into.R * in_a + into.p;
+    const double apart = (x.cwiseAbs() - pair.b.half_sizes).cwiseMax(0).norm();
+    if (apart > pair.reach - 1e-6) continue;
+    ++within;
+    EXPECT_TRUE(checker->collides(links)) << sample;
+  }
+  EXPECT_GT(within, 300);
 }
 
 /// Along every direction a solid reaches as far as its shape: |h|'|R'd| for a box, half length

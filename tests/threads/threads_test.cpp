@@ -14,6 +14,7 @@
 #include "maxwrench/plan.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"
+#include "solvers/certify/certify.h"
 
 // What runs beside each other, in one small program: the thread sanitizer's build holds nothing
 // else. Everything is compared with what one thread alone gets.
@@ -79,6 +80,24 @@ TEST_P(ThreadsInSearch, FindsTheSame) {
 INSTANTIATE_TEST_SUITE_P(BetweenFacets, ThreadsInSearch,
                          testing::ValuesIn(facet_searches().begin(), facet_searches().end()),
                          [](const auto& entry) { return std::string(entry.param.name); });
+
+TEST(Threads, CertifyProvesTheSame) {
+  const Problem problem = load_problem("uvms/lift");
+  Case c{problem.name};
+  const Method method = resolve(problem, c);
+  const Row best = solve(problem, method, 1);
+  const auto bound = make_capability_bound(problem, c.measure, c.wrench);
+  const auto objective = make_objective(problem, method);
+  CertifyOptions options;
+  options.gap = 0.05;
+  const Candidate incumbent{best.posture.theta_r, best.capability.beta};
+  const CertifyResult one = certify(*objective, *bound, incumbent, options);
+  options.threads = kThreads;
+  const CertifyResult many = certify(*objective, *bound, incumbent, options);
+  EXPECT_EQ(one.status, Status::kProven);
+  EXPECT_EQ(one.bound, many.bound);
+  EXPECT_EQ(one.boxes, many.boxes);
+}
 
 class ThreadsInSearchOfPlans : public testing::TestWithParam<SearchEntry> {};
 

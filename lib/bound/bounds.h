@@ -1,0 +1,45 @@
+#pragma once
+
+#include <limits>
+
+#include "lib/bound/multi_affine.h"
+#include "maxwrench/bound.h"
+#include "maxwrench/problem.h"
+
+// The bounds of which that of a capability is made.
+
+namespace maxwrench {
+
+/// Control points may exceed values by this factor at most, on which terms of rounding rely.
+inline constexpr double kMostSpread = 16;
+
+/// A sum of products, each with a few factors, in some hundred steps: how far it may be off, as a
+/// share of the sum of its magnitudes.
+inline constexpr double kBoundRounding = 128 * std::numeric_limits<double>::epsilon();
+
+/// Bounds with W = c, of beta = max t subject to tau_d + t J'c in a convex set with the support s:
+///
+///     U(lambda) = s(lambda) + max over control points v and t in {low, high} of
+///                 t (1 - lambda'a_v) - lambda'tau_v
+///
+/// for any lambda, here minus the multiplier of the lower level, which the least U decides.
+/// The L-infinity polytope: {B u}; with `l2` the same program with (I, B^+ J'c, B^+ tau_d).
+std::unique_ptr<Bound> make_polytope_bound(const Problem& problem, bool l2);
+/// The ellipsoid |W_u B^+ tau| <= 1, lambda from the centre of the box.
+std::unique_ptr<Bound> make_ellipsoid_bound(const Problem& problem);
+
+/// With W as wide as the base has free axes: h follows from the forces u of the thrusters on the
+/// base, w = (J_b'W)^-1 (B_b u - tau_b). So beta = o_0 + o'u, and the joints exert tau_0 + A u.
+/// With mu a number per joint and s(mu) the support of the joints' limits,
+///
+///     U(mu) = s(mu) + max over control points v and u within limits of o_0 - mu'tau_0 + (o -
+///     A'mu)'u.
+std::unique_ptr<Bound> make_any_wrench_bound(const Problem& problem);
+
+/// -infinity for boxes in which two bodies collide throughout, else `high`. Of a pair, a point of
+/// one body's core moves along a multi-affine path in the axes of the other's link: if its control
+/// points are all within reach of the other's core, a convex set, so is the point. Null if the
+/// robot has no cores.
+std::unique_ptr<Bound> make_collision_bound(const Problem& problem);
+
+}  // namespace maxwrench

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "lib/math/extended.h"
+#include "maxwrench/types.h"
+
+namespace maxwrench {
+
+using ExtendedVector = VectorX<Extended>;
+
+/// How some coordinates of theta_r enter a `MultiAffine`.
+struct Coordinates {
+  std::vector<int> index;   ///< in theta_r
+  std::vector<char> turns;  ///< enters by cosine and sine; else itself
+  int count() const { return static_cast<int>(index.size()); }
+};
+
+/// Rows that are affine in (cos q_i, sin q_i) of each turning coordinate, and in q_i of each
+/// sliding one, while the others rest:
+///
+///     f(q) = sum over a of F_a prod_i e(q_i)_{a_i},   e = (1, cos q, sin q) or (1, q).
+///
+/// There are N coefficients F_a, N the product of 3 for each turning coordinate and 2 for each
+/// sliding one.
+class MultiAffine {
+ public:
+  /// The rows at values of all of theta_r.
+  using Sample = std::function<ExtendedVector(const ExtendedVector& theta_r)>;
+
+  /// Reads the coefficients off N samples, where cosines and sines are 0, 1 or -1; `theta_r` holds
+  /// the coordinates that rest.
+  MultiAffine(Coordinates coordinates, const Eigen::VectorXd& theta_r, const Sample& sample);
+
+  const Coordinates& coordinates() const { return coordinates_; }
+  int rows() const { return static_cast<int>(F_.rows()); }
+  int size() const { return static_cast<int>(F_.cols()); }  ///< N
+  /// rows×N, the first coordinate changes slowest. Rounded to double.
+  const Eigen::MatrixXd& coefficients() const { return F_; }
+  /// For each row the sum over a of |F_a| prod_i max |e(q_i)_{a_i}|, sliding coordinates up to
+  /// these limits: no sum of its terms is larger.
+  Eigen::VectorXd magnitudes(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) const;
+  Eigen::VectorXd evaluate(const Eigen::VectorXd& theta_r) const;
+
+ private:
+  Coordinates coordinates_;
+  Eigen::MatrixXd F_;
+};
+
+/// The factor by which control points may exceed values: prod_i 1/cos r_i over the turning
+/// coordinates, r_i half their widths; infinity from r_i = pi/2 on.
+double spread(const Coordinates& coordinates, const Eigen::VectorXd& lower,
+              const Eigen::VectorXd& upper);
+
+/// The control points of a `MultiAffine` over boxes. On [m - r, m + r], r < pi/2, the arc (cos,
+/// sin) lies in the triangle of its two ends and (cos m, sin m)/cos r, where their tangents meet;
+/// so the rows over a box lie, all together, in the convex hull of f at the N corners of the
+/// product of these triangles (and of the intervals of sliding coordinates). At corners of the box
+/// it is exact; its error falls with r^2.
+///
+/// Reuses its storage, and what a box shares with the one before in its first coordinates.
+class ControlPoints {
+ public:
+  /// Keeps a reference.
+  explicit ControlPoints(const MultiAffine& f);
+  explicit ControlPoints(const MultiAffine&&) = delete;
+
+  /// rows×N, for a box whose `spread` is finite.
+  const Eigen::MatrixXd& over(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
+
+ private:
+  void advance(int axis, double lower, double upper);
+
+  const MultiAffine& f_;
+  std::vector<Eigen::MatrixXd> levels_;  ///< with control points along the first so many axes
+  Eigen::VectorXd lower_, upper_;        ///< of the last box
+};
+
+}  // namespace maxwrench

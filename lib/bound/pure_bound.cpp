@@ -1,0 +1,275 @@
+#include <Eigen/Dense>
+#include <cmath>
+#include <stdexcept>
+
+#include "lib/bound/bounds.h"
+#include "lib/bound/exact_posture.h"
+#include "lib/bound/multiplier_program.h"
+#include "lib/measure/closed_form.h"
+
+namespace maxwrench {
+namespace {
+
+/// What boxes of W = c share: the rows, the sizes of their terms, and the ceiling.
+struct PureModel {
+  MultiAffine f;           ///< [tau; a], 2n
+  Eigen::VectorXd tau, a;  ///< magnitudes, n
+  double ceiling;
+};
+
+/// The rows of the base's free axes of one kind.
+std::vector<int> base_rows(const Robot& robot, bool angular) {
+  std::vector<int> rows;
+  for (std::size_t i = 0; i < robot.base_axes.size(); ++i) {
+    if ((robot.base_axes[i] >= 3) == angular) rows.push_back(static_cast<int>(i));
+  }
+  return rows;
+}
+
+/// |J'c| on these rows if it is the same in all postures, else zero.
+double constant_length(const MultiAffine& f, const std::vector<int>& rows) {
+  double shortest = kInfinity, longest = 0;
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(f.coordinates().count());
+  for (int sample = 0; sample < 32; ++sample) {
+    const Eigen::VectorXd all = f.evaluate(q);
+    const double length = all.tail(all.size() / 2)(rows).norm();
+    shortest = std::min(shortest, length);
+    longest = std::max(longest, length);
+    for (Eigen::Index i = 0; i < q.size(); ++i) q[i] += 0.7 + 0.31 * static_cast<double>(i);
+  }
+  return longest - shortest < 1e-9 * longest ? shortest : 0;
+}
+
+/// t <= (sum_k max |u_k| |B_k| + |tau_d|) / |J'c|, on the base's free axes of one kind, linear or
+/// angular, where |J'c| is the same in all postures.
+double pure_ceiling(const Problem& problem) {
+  const Zonotope& set = problem.robot.actuation;
+  const Eigen::Index n = set.dimension();
+  const MultiAffine f = pure_rows(problem, Eigen::MatrixXd::Identity(n, n));
+  const Eigen::VectorXd sizes = f.magnitudes(problem.theta_r_min, problem.theta_r_max);
+  double least = kInfinity;
+  for (const bool angular : {false, true}) {
+    const std::vector<int> rows = base_rows(problem.robot, angular);
+    const double length = rows.empty() ? 0 : constant_length(f, rows);
+    if (length == 0) continue;
+    double force = sizes.head(n)(rows).norm();
+    for (Eigen::Index k = 0; k < set.actuators(); ++k) {
+      force += std::max(std::abs(set.u_min[k]), std::abs(set.u_max[k])) * set.B.col(k)(rows).norm();
+    }
+    least = std::min(least, force / length * (1 + 1e-6));
+  }
+  if (std::isfinite(least)) return least;
+  throw std::invalid_argument(problem.name +
+                              ": wrench.c: got a direction that the base's free axes do not limit, "
+                              "expected one that they limit in all postures, for a proof");
+}
+
+std::shared_ptr<const PureModel> make_pure_model(const Problem& problem, const Eigen::MatrixXd& K) {
+  const double ceiling = pure_ceiling(problem);
+  MultiAffine f = pure_rows(problem, K);
+  const Eigen::VectorXd S = f.magnitudes(problem.theta_r_min, problem.theta_r_max);
+  return std::make_shared<PureModel>(
+      PureModel{std::move(f), S.head(K.rows()), S.tail(K.rows()), ceiling});
+}
+
+/// The control points of one box, and U without the support.
+class PureBox {
+ public:
+  explicit PureBox(const PureModel& model)
+      : model_(model), corners_(model.f), tau_(model.f.size(), model.tau.size()), a_(tau_) {}
+
+  /// False if the box is too large for control points.
+  bool set(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+    if (!(spread(model_.f.coordinates(), lower, upper) <= kMostSpread)) return false;
+    const Eigen::MatrixXd& P = corners_.over(lower, upper);
+    tau_ = P.topRows(tau_.cols()).transpose();
+    a_ = P.bottomRows(a_.cols()).transpose();
+    return true;
+  }
+
+  /// What lambda proves of t in [low, high] without the support, rounding included.
+  double most(const Eigen::VectorXd& lambda, double low, double high) {
+    g_.noalias() = tau_ * lambda;
+    h_.noalias() = a_ * lambda;
+    const double at_low = (low * (1 - h_.array()) - g_.array()).maxCoeff();
+    const double at_high = (high * (1 - h_.array()) - g_.array()).maxCoeff();
+    const double T = std::max(std::abs(low), std::abs(high));
+    const double off = lambda.cwiseAbs().dot(model_.tau + T * model_.a) + T;
+    return std::max(at_low, at_high) + kBoundRounding * kMostSpread * off;
+  }
+
+  const Eigen::MatrixXd& tau() const { return tau_; }  ///< N×n
+  const Eigen::MatrixXd& a() const { return a_; }
+
+ private:
+  const PureModel& model_;
+  ControlPoints corners_;
+  Eigen::MatrixXd tau_, a_;
+  Eigen::VectorXd g_, h_;
+};
+
+/// Takes over what a multiplier proves.
+void improve(double U, const Eigen::VectorXd& lambda, BoxProof& proof) {
+  if (!(U < proof.high)) return;
+  proof.kind = BoxProof::Kind::kMultiplier;
+  proof.high = U;
+  proof.multiplier = lambda;
+}
+
+class PolytopeBound final : public Bound {
+ public:
+  PolytopeBound(std::shared_ptr<const PureModel> model, const Zonotope& set, bool l2)
+      : model_(std::move(model)),
+        set_(set),
+        l2_(l2),
+        B_(l2 ? Eigen::MatrixXd::Identity(set.actuators(), set.actuators()) : set.B),
+        farthest_(set.u_min.cwiseAbs().cwiseMax(set.u_max.cwiseAbs())),
+        box_(*model_),
+        program_(B_, set.u_min, set.u_max, 2 * model_->f.size()) {}
+
+  double ceiling() const override { return model_->ceiling; }
+
+  void evaluate(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low, double high,
+                BoxProof& proof) override {
+    proof.kind = BoxProof::Kind::kNone;
+    proof.high = high;
+    proof.pair = -1;
+    if (!box_.set(lower, upper)) return;
+    if (proof.multiplier.size() == B_.rows()) {
+      lambda_ = proof.multiplier;
+      improve(value(low, high), lambda_, proof);
+      if (proof.high <= low) return;
+    }
+    const Eigen::Index corners = model_->f.size();
+    program_.set_points(2 * corners);
+    for (Eigen::Index j = 0; j < B_.rows(); ++j) {
+      program_.row(j).head(corners) = box_.tau().col(j) + low * box_.a().col(j);
+      program_.row(j).tail(corners) = box_.tau().col(j) + high * box_.a().col(j);
+    }
+    program_.costs().head(corners).setConstant(low);
+    program_.costs().tail(corners).setConstant(high);
+    program_.solve(low - kSlack * std::abs(low), kMostSteps, proof.basis, lambda_);
+    improve(value(low, high), lambda_, proof);
+  }
+
+  std::unique_ptr<Bound> clone() const override {
+    return std::make_unique<PolytopeBound>(model_, set_, l2_);
+  }
+
+ private:
+  static constexpr int kMostSteps = 100;
+  static constexpr double kSlack = 1e-9;  ///< what rounding may add to U, generously
+
+  double value(double low, double high) {
+    slope_.noalias() = B_.transpose() * lambda_;
+    double s = 0;
+    for (Eigen::Index k = 0; k < slope_.size(); ++k) {
+      s += slope_[k] * (slope_[k] > 0 ? set_.u_max[k] : set_.u_min[k]);
+    }
+    off_.noalias() = B_.cwiseAbs().transpose() * lambda_.cwiseAbs();
+    return s + kBoundRounding * off_.dot(farthest_) + box_.most(lambda_, low, high);
+  }
+
+  std::shared_ptr<const PureModel> model_;
+  const Zonotope& set_;
+  bool l2_;
+  Eigen::MatrixXd B_;
+  Eigen::VectorXd farthest_;
+  PureBox box_;
+  MultiplierProgram program_;
+  Eigen::VectorXd lambda_, slope_, off_;
+};
+
+/// Weights of control points whose sum is the centre of the box.
+void weigh_centre(const Coordinates& coordinates, const Eigen::VectorXd& lower,
+                  const Eigen::VectorXd& upper, Eigen::VectorXd& weights) {
+  Eigen::Index size = 1;
+  weights[0] = 1;
+  for (std::size_t i = 0; i < coordinates.index.size(); ++i) {
+    const int at = coordinates.index[i];
+    const double w = std::cos((upper[at] - lower[at]) / 2);
+    const double end = coordinates.turns[i] ? 0.5 / (1 + w) : 0.5;
+    const double part[3] = {end, 1 - 2 * end, end};
+    const Eigen::Index n = coordinates.turns[i] ? 3 : 2;
+    for (Eigen::Index k = size; k-- > 0;) {
+      for (Eigen::Index corner = n; corner-- > 0;) {
+        weights[k * n + corner] = weights[k] * (n == 2 ? end : part[corner]);
+      }
+    }
+    size *= n;
+  }
+}
+
+class EllipsoidBound final : public Bound {
+ public:
+  /// K = W_u B^+; its Q = K'K = L L', so that s(lambda) = |L^-1 lambda|.
+  EllipsoidBound(std::shared_ptr<const PureModel> model, const Eigen::MatrixXd& K)
+      : model_(std::move(model)), K_(K), box_(*model_), weights_(model_->f.size()) {
+    const MatrixX<Extended> wide = K.cast<Extended>();
+    const MatrixX<Extended> Q = wide.transpose() * wide;
+    const MatrixX<Extended> L = Q.llt().matrixL();
+    const MatrixX<Extended> one = MatrixX<Extended>::Identity(Q.rows(), Q.cols());
+    L_inverse_ = L.triangularView<Eigen::Lower>().solve(one).cast<double>();
+    Q_ = Q.cast<double>();
+  }
+
+  double ceiling() const override { return model_->ceiling; }
+
+  void evaluate(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low, double high,
+                BoxProof& proof) override {
+    proof.kind = BoxProof::Kind::kNone;
+    proof.high = high;
+    proof.pair = -1;
+    if (!box_.set(lower, upper)) return;
+    weigh_centre(model_->f.coordinates(), lower, upper, weights_);
+    tau_.noalias() = box_.tau().transpose() * weights_;
+    a_.noalias() = box_.a().transpose() * weights_;
+    aim(low);
+    reach_.noalias() = L_inverse_ * lambda_;
+    off_.noalias() = L_inverse_.cwiseAbs() * lambda_.cwiseAbs();
+    improve(reach_.norm() + kBoundRounding * off_.sum() + box_.most(lambda_, low, high), lambda_,
+            proof);
+  }
+
+  std::unique_ptr<Bound> clone() const override {
+    return std::make_unique<EllipsoidBound>(model_, K_);
+  }
+
+ private:
+  /// Along the normal Q (tau + t a) where the centre's ray leaves the ellipsoid, or, if `low` is
+  /// farther out, at `low`; scaled to lambda'a = 1.
+  void aim(double low) {
+    lambda_.noalias() = Q_ * a_;
+    off_.noalias() = Q_ * tau_;
+    const double aa = a_.dot(lambda_), at = tau_.dot(lambda_);
+    const double square = at * at - aa * (tau_.dot(off_) - 1);
+    const double t = std::max(low, (std::sqrt(std::max(square, kLeast * aa)) - at) / aa);
+    lambda_ = (off_ + t * lambda_) / std::max(at + t * aa, kLeast * std::sqrt(aa));
+  }
+
+  static constexpr double kLeast = 1e-6;
+
+  std::shared_ptr<const PureModel> model_;
+  Eigen::MatrixXd K_, Q_, L_inverse_;
+  PureBox box_;
+  Eigen::VectorXd weights_, tau_, a_, lambda_, reach_, off_;
+};
+
+}  // namespace
+
+std::unique_ptr<Bound> make_polytope_bound(const Problem& problem, bool l2) {
+  const Zonotope& set = problem.robot.actuation;
+  if (l2) require_full_row_rank(problem.robot, "l2_polytope");
+  const Eigen::MatrixXd K =
+      l2 ? set.B_pinv : Eigen::MatrixXd::Identity(set.dimension(), set.dimension());
+  return std::make_unique<PolytopeBound>(make_pure_model(problem, K), set, l2);
+}
+
+std::unique_ptr<Bound> make_ellipsoid_bound(const Problem& problem) {
+  const Eigen::MatrixXd K = weighted_inverse(problem.robot, "ellipsoid");
+  const Eigen::Index n = K.cols();
+  return std::make_unique<EllipsoidBound>(make_pure_model(problem, Eigen::MatrixXd::Identity(n, n)),
+                                          K);
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <functional>
+
+#include "maxwrench/bound.h"
+#include "maxwrench/objective.h"
+#include "maxwrench/search.h"
+
+namespace maxwrench {
+
+/// A box of theta_r that branch and bound was through with, and why: `proof` says that no value in
+/// it exceeds max(low, proof.high), given that none exceeds `high`, which the box that it was cut
+/// from proves.
+struct CertifiedBox {
+  Eigen::VectorXd lower, upper;
+  double low = 0, high = 0;
+  BoxProof proof;
+  int depth = 0;
+  bool cut = false;  ///< it is not proven, but its two halves come
+};
+
+struct CertifyOptions {
+  double gap = 1e-3;  ///< of |incumbent|, at least kLeastGap
+  double seconds = kInfinity;
+  long boxes = 20'000'000;
+  int threads = 1;  ///< changes the time, never the proof
+  std::function<bool()> interrupted;
+  /// Called now and then with the bound and the incumbent.
+  std::function<void(double bound, double incumbent)> progress;
+  /// Gets every box, in the same order at any thread count.
+  std::function<void(const CertifiedBox&)> sink;
+};
+
+/// Less than this is within what values are off by.
+inline constexpr double kLeastGap = 1e-8;
+
+/// kProven: no theta_r within the limits has a value above `bound`, which exceeds that at `best` by
+/// at most gap |value|. kBracket: `bound` is as true, but not so near; the reason says what ran
+/// out.
+struct CertifyResult : Verdict {
+  Candidate best;  ///< -infinity: none is known
+  double bound = kInfinity;
+  long boxes = 0;      ///< that were bounded
+  long colliding = 0;  ///< of them, pruned as they collide
+  double seconds = 0;
+};
+
+/// Branch and bound over the box of the objective: the box with the largest bound comes next, cut
+/// in two along the coordinate that its bound names, else its widest. `incumbent`, a point with its
+/// value, sets what is to be proven; better values at centres of boxes replace it. Boxes narrower
+/// than 1e-6 are not cut.
+CertifyResult certify(Objective& objective, const Bound& bound, const Candidate& incumbent,
+                      const CertifyOptions& options);
+
+}  // namespace maxwrench

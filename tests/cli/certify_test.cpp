@@ -1,0 +1,81 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/support.h"
+
+namespace maxwrench {
+namespace {
+
+using nlohmann::json;
+
+TEST(CertifyCommand, Proves) {
+  const CommandResult result = run_maxwrench("certify planar/force --gap 1e-4 --json");
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  const json proof = json::parse(result.out);
+  EXPECT_EQ(proof["status"], "proven");
+  EXPECT_EQ(proof["reason"], "");
+  EXPECT_EQ(proof["measure"], "linf_polytope");
+  const double beta = proof["beta"], bound = proof["bound"], gap = proof["gap"];
+  EXPECT_GE(bound, beta);
+  EXPECT_LE(gap, 1.0001e-4);
+  EXPECT_NEAR(gap, (bound - beta) / beta, 1e-12);
+  EXPECT_GT(proof["boxes"], 10);
+  EXPECT_LT(proof["residual"]["gap"], 1e-9);
+  const json best = json::parse(run_maxwrench("solve planar/force --json").out);
+  EXPECT_NEAR(proof["beta"], best["beta"], 1e-6);
+}
+
+TEST(CertifyCommand, SaysWhatItProves) {
+  const CommandResult result =
+      run_maxwrench("certify planar/force --measure ellipsoid --ignore-collision");
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  for (const char* text : {"planar/force  measure ellipsoid  wrench pure  collisions ignored\n",
+                           "\nproven\n", "\nbeta ", ": no posture has more\n", "\ngap  "}) {
+    EXPECT_NE(result.out.find(text), std::string::npos) << text << " in\n" << result.out;
+  }
+}
+
+/// Without time there is a bracket all the same.
+TEST(CertifyCommand, PrintsABracket) {
+  const CommandResult result = run_maxwrench("certify uvms/valve --time 0 --json");
+  EXPECT_EQ(result.exit_status, 1) << result.err;
+  const json proof = json::parse(result.out);
+  EXPECT_EQ(proof["status"], "bracket");
+  EXPECT_EQ(proof["reason"], "the time ran out");
+  EXPECT_GT(proof["bound"], proof["beta"]);
+  EXPECT_GT(proof["gap"], proof["asked"]);
+}
+
+TEST(CertifyCommand, EndsWithCtrlC) {
+  const CommandResult result = run_maxwrench(
+      "--version > /dev/null; timeout --foreground --preserve-status -s INT 1 '" MAXWRENCH_COMMAND
+      "' certify uvms/valve --gap 1e-7 --json");
+  EXPECT_EQ(result.exit_status, 1) << result.err;
+  const json proof = json::parse(result.out);
+  EXPECT_EQ(proof["status"], "bracket");
+  EXPECT_EQ(proof["reason"], "interrupted");
+  EXPECT_GT(proof["bound"], proof["beta"]);
+}
+
+TEST(CertifyCommand, RefusesInOneLine) {
+  const auto refused = [](const std::string& words, const char* mention) {
+    const CommandResult result = run_maxwrench("certify " + words);
+    EXPECT_EQ(result.exit_status, 2) << words;
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_NE(result.err.find(mention), std::string::npos) << result.err;
+  };
+  refused("uvms/valve_trajectory", "task in time");
+  refused("dual_arm/bar_wall", "second contact");
+  refused("fixed/push", "follow from theta_r");
+  refused("planar/force --measure volume", "--measure: got 'volume'");
+  refused("planar/force --measure ellipsoid --wrench any", "--wrench: got 'any'");
+  refused("planar/force --gap 1e-9", "--gap");
+  refused("planar/force --time soon", "--time");
+}
+
+}  // namespace
+}  // namespace maxwrench

@@ -1,0 +1,233 @@
+#include "solvers/certify/certify.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "maxwrench/load.h"
+#include "maxwrench/posture.h"
+#include "maxwrench/strategies.h"
+#include "tests/support/objectives.h"
+#include "tests/support/support.h"
+
+namespace maxwrench {
+namespace {
+
+/// A problem, a measure and what a search of it found.
+struct ProofCase {
+  Problem problem;
+  std::string measure;
+  Wrench wrench;
+  MeasureMaker make;
+
+  ProofCase(const char* name, const char* of, Wrench allowed)
+      : problem(load_problem(name)), measure(of), wrench(allowed) {
+    make = [this] {
+      const bool one = wrench == Wrench::kPure;
+      return find_measure(measure).make(problem, find_wrench_solver(one ? "facets" : "box").make());
+    };
+  }
+  ProofCase(const ProofCase&) = delete;
+
+  std::unique_ptr<Objective> objective() const {
+    return make_capability_objective(problem, wrench, make);
+  }
+  Candidate searched() const {
+    const auto f = objective();
+    SearchOptions options;
+    options.start = problem.theta_r_default;
+    const SearchResult found = find_search(default_search()).make()->maximize(*f, options);
+    return {found.theta_r, found.value};
+  }
+  CertifyResult prove(const Candidate& incumbent, const CertifyOptions& options) const {
+    const auto f = objective();
+    return certify(*f, *make_capability_bound(problem, measure, wrench), incumbent, options);
+  }
+};
+
+CertifyOptions to_gap(double gap) {
+  CertifyOptions options;
+  options.gap = gap;
+  return options;
+}
+
+struct KnownOptimum {
+  const char* problem;
+  const char* measure;
+  Wrench wrench;
+  double beta;
+  double gap;
+  bool collision = true;
+};
+
+class Certified : public testing::TestWithParam<KnownOptimum> {};
+
+/// Figures of another branch and bound, with other bounds.
+INSTANTIATE_TEST_SUITE_P(
+    Known, Certified,
+    testing::Values(KnownOptimum{"planar/force", "linf_polytope", Wrench::kPure, 3.4775, 1e-4},
+                    KnownOptimum{"planar/force", "linf_polytope", Wrench::kAny, 3.8806, 1e-4},
+                    KnownOptimum{"planar/force", "ellipsoid", Wrench::kPure, 1.9075, 1e-4},
+                    KnownOptimum{"uvms/lift", "linf_polytope", Wrench::kPure, 108.40954, 1e-3},
+                    KnownOptimum{"uvms/valve", "linf_polytope", Wrench::kPure, 35.40830, 1e-2},
+                    KnownOptimum{"uvms/lift", "linf_polytope", Wrench::kAny, 237.70153, 1e-3},
+                    KnownOptimum{"uvms/valve", "linf_polytope", Wrench::kAny, 96.78678, 1e-3},
+                    KnownOptimum{"uvms/lift", "ellipsoid", Wrench::kPure, 42.17966, 1e-2},
+                    KnownOptimum{"uvms/valve", "ellipsoid", Wrench::kPure, 16.58489, 1e-2},
+                    KnownOptimum{"uvms/lift", "linf_polytope", Wrench::kPure, 127.79, 1e-3, false},
+                    KnownOptimum{"uvms/valve", "linf_polytope", Wrench::kPure, 35.487, 1e-2,
+                                 false}));
+
+TEST_P(Certified, IsProven) {
+  const KnownOptimum& known = GetParam();
+  ProofCase at(known.problem, known.measure, known.wrench);
+  if (!known.collision) at.problem.robot.collision = nullptr;
+  const CertifyResult result = at.prove(at.searched(), to_gap(known.gap));
+  EXPECT_EQ(result.status, Status::kProven) << result.reason.c_str();
+  EXPECT_NEAR(result.best.value, known.beta, (1e-3 + known.gap) * known.beta);
+  EXPECT_GE(result.bound, result.best.value);
+  EXPECT_LE(result.bound, result.best.value * (1 + 1.000001 * known.gap));
+  EXPECT_EQ(at.objective()->evaluate(result.best.theta_r), result.best.value);
+}
+
+/// The L2 polytope lies in the L-infinity polytope.
+TEST(Certify, OrdersTheMeasures) {
+  ProofCase l2("planar/force", "l2_polytope", Wrench::kPure);
+  const CertifyResult result = l2.prove(l2.searched(), to_gap(1e-4));
+  EXPECT_EQ(result.status, Status::kProven);
+  EXPECT_LE(result.best.value, 3.4775);
+}
+
+/// A function of no values, as of one that could not be improved.
+class Frozen final : public Wrapped {
+ public:
+  using Wrapped::Wrapped;
+  double evaluate(const Eigen::VectorXd& /*x*/, Eigen::VectorXd* /*gradient*/) override {
+    return -kInfinity;
+  }
+  std::unique_ptr<Objective> clone() const override {
+    return std::make_unique<Frozen>(objective_->clone());
+  }
+};
+
+TEST(Certify, DoesNotProveWhatIsOnePercentTooLow) {
+  for (const char* measure : {"linf_polytope", "l2_polytope", "ellipsoid"}) {
+    ProofCase at("planar/force", measure, Wrench::kPure);
+    const Candidate best = at.searched();
+    Frozen frozen(at.objective());
+    const auto bound = make_capability_bound(at.problem, measure, Wrench::kPure);
+    CertifyOptions options = to_gap(1e-3);
+    options.boxes = 20000;
+    const CertifyResult result =
+        certify(frozen, *bound, {best.theta_r, 0.99 * best.value}, options);
+    EXPECT_EQ(result.status, Status::kBracket);
+    EXPECT_FALSE(result.reason.empty());
+    EXPECT_GE(result.bound, best.value);
+  }
+}
+
+/// The last one knows nothing at first, and finds it at centres of boxes.
+TEST(Certify, FindsWhatItIsNotGiven) {
+  ProofCase at("planar/force", "linf_polytope", Wrench::kPure);
+  for (const Candidate& start : {Candidate{at.problem.theta_r_default, 0.1}, Candidate{}}) {
+    const CertifyResult result = at.prove(start, to_gap(1e-2));
+    EXPECT_EQ(result.status, Status::kProven);
+    EXPECT_NEAR(result.best.value, 3.4775, 0.04);
+    EXPECT_GE(result.bound, 3.4774);
+  }
+}
+
+bool is_inside(const CertifiedBox& box, const Eigen::VectorXd& x) {
+  return (x.array() >= box.lower.array()).all() && (x.array() <= box.upper.array()).all();
+}
+
+/// 1,000 valid postures through a whole run: each lies in a box of the proof, none of which says
+/// that it collides or is worse than it is.
+TEST(Certify, HoldsForPosturesOneByOne) {
+  ProofCase at("uvms/lift", "linf_polytope", Wrench::kPure);
+  const auto objective = at.objective();
+  std::vector<Candidate> postures;
+  Random random(1);
+  while (postures.size() < 1000 / kSampleDivisor) {
+    const Eigen::VectorXd theta_r = random_theta_r(at.problem, random);
+    const double value = objective->evaluate(theta_r);
+    if (value > -kInfinity) postures.push_back({theta_r, value});
+  }
+  std::vector<int> leaves(postures.size(), 0);
+  CertifyOptions options = to_gap(1e-2);
+  options.sink = [&](const CertifiedBox& box) {
+    for (std::size_t i = 0; i < postures.size(); ++i) {
+      if (!is_inside(box, postures[i].theta_r)) continue;
+      EXPECT_NE(box.proof.kind, BoxProof::Kind::kCollision);
+      EXPECT_LE(postures[i].value, std::max(box.low, box.proof.high));
+      EXPECT_LE(postures[i].value, std::max(box.low, box.high));
+      leaves[i] += box.cut ? 0 : 1;
+    }
+  };
+  const Candidate best = at.searched();
+  const CertifyResult result = at.prove(best, options);
+  EXPECT_EQ(result.status, Status::kProven);
+  for (const int count : leaves) EXPECT_GE(count, 1);
+  for (const Candidate& posture : postures) EXPECT_LE(posture.value, result.bound);
+}
+
+/// What is cut is halved, what is not is proven, and the halves make up the whole.
+TEST(Certify, HandsOverATree) {
+  ProofCase at("planar/force", "ellipsoid", Wrench::kPure);
+  double volume = 0;
+  CertifyOptions options = to_gap(1e-3);
+  options.sink = [&](const CertifiedBox& box) {
+    if (box.cut) return;
+    EXPECT_LE(box.proof.high, box.low);
+    EXPECT_NE(box.proof.kind, BoxProof::Kind::kNone);
+    volume += (box.upper - box.lower).prod();
+  };
+  at.prove(at.searched(), options);
+  EXPECT_NEAR(volume, (at.problem.theta_r_max - at.problem.theta_r_min).prod(), 1e-9);
+}
+
+TEST(Certify, IsTheSameAtAnyThreadCount) {
+  ProofCase at("uvms/lift", "linf_polytope", Wrench::kPure);
+  const Candidate best = at.searched();
+  std::vector<std::vector<double>> highs;
+  for (const int threads : {1, 2, 8}) {
+    CertifyOptions options = to_gap(1e-2);
+    options.threads = threads;
+    auto& of_run = highs.emplace_back();
+    options.sink = [&](const CertifiedBox& box) {
+      of_run.push_back(box.proof.high);
+      of_run.push_back(box.lower.sum());
+    };
+    const CertifyResult result = at.prove(best, options);
+    of_run.push_back(result.bound);
+    of_run.push_back(static_cast<double>(result.boxes));
+  }
+  EXPECT_EQ(highs[0], highs[1]);
+  EXPECT_EQ(highs[0], highs[2]);
+}
+
+/// What is not finished is a true bound as well.
+TEST(Certify, EndsEarlyWithABracket) {
+  ProofCase at("uvms/valve", "linf_polytope", Wrench::kPure);
+  const Candidate best = at.searched();
+  CertifyOptions few = to_gap(1e-4), short_of_time = few, stopped = few;
+  few.boxes = 500;
+  short_of_time.seconds = 0;
+  stopped.interrupted = [] { return true; };
+  for (const auto& [options, reason] :
+       {std::pair(few, "boxes"), {short_of_time, "time"}, {stopped, "interrupted"}}) {
+    const CertifyResult result = at.prove(best, options);
+    EXPECT_EQ(result.status, Status::kBracket);
+    EXPECT_NE(result.reason.str().find(reason), std::string::npos) << result.reason.c_str();
+    EXPECT_GT(result.bound, 1.001 * best.value);
+    EXPECT_LE(result.boxes, 1000);
+  }
+}
+
+TEST(Certify, RefusesAGapBelowRounding) {
+  ProofCase at("planar/force", "ellipsoid", Wrench::kPure);
+  EXPECT_THROW(at.prove({}, to_gap(1e-9)), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace maxwrench
