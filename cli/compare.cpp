@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iterator>
 #include <memory>
+#include <stdexcept>
 
 #include "benchmarks/comparison.h"
 #include "benchmarks/machine.h"
@@ -74,6 +75,10 @@ std::vector<Comparison> attempt_all(const CompareOptions& options,
   std::vector<Problem> problems;
   std::vector<Case> cases;
   for (const std::string& name : options.problems) {
+    if (std::count(options.problems.begin(), options.problems.end(), name) > 1) {
+      throw std::invalid_argument(
+          fmt::format("problems: got '{}' twice, expected each once", name));
+    }
     Problem& problem = problems.emplace_back(load_problem(name));
     options.motion.change(problem);
     Case& c = cases.emplace_back(options.read_case());

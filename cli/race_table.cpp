@@ -148,9 +148,11 @@ std::string race_table(const Comparison& comparison) {
                                  comparison.interrupted ? ", interrupted" : "",
                                  number_or_dash(comparison.best(), "{:.5f}"), comparison.unit);
   if (reference != nullptr) {
-    text += fmt::format("the plain way, the better of {} here: {} through {}\n",
-                        comparison.peers.size() == 1 ? "one peer" : "the peers", reference->search,
-                        reference->lp);
+    const bool arrives = std::isfinite(reference->expected(comparison.target(), &Spent::seconds));
+    text += arrives ? fmt::format("the plain way, the better of {} here: {} through {}\n",
+                                  comparison.peers.size() == 1 ? "one peer" : "the peers",
+                                  reference->search, reference->lp)
+                    : fmt::format("the plain way, {}, never gets there\n", reference->search);
   }
   text += fmt::format(
       "{:46}-- expected ms to so far below --  -- expected evaluations to that --"
@@ -164,7 +166,7 @@ std::string race_table(const Comparison& comparison) {
   for (const Contender& peer : comparison.peers) {
     if (!peer.attempts.empty()) text += contender_line(comparison, peer);
   }
-  return text + verdict(comparison, ranked);
+  return comparison.interrupted ? text : text + verdict(comparison, ranked);
 }
 
 std::string summary_table(std::span<const Standing> rows, std::span<const Comparison> comparisons) {

@@ -160,14 +160,17 @@ bool follow_independently(const Problem& problem) {
 bool is_reached(const Posture& posture) { return posture.branches.found > 0; }
 
 /// A default that the task leaves open: the first place with a valid posture, or else where the
-/// pose is reached at all.
+/// pose is reached at all. First the joints move alone; then the coordinates of the pose and of a
+/// second contact leave their own defaults too.
 void find_default(PostureEvaluator& model, Problem& problem) {
   constexpr int kPlaces = 4000;
   Random random(3);
+  const auto joints = static_cast<Eigen::Index>(problem.redundant.size());
   Eigen::VectorXd place = problem.theta_r_default;
-  bool reached = false;
+  bool reached = is_reached(model.evaluate(place));
   for (int i = 0; i < kPlaces; ++i) {
-    for (Eigen::Index k = 0; k < place.size(); ++k) {
+    const Eigen::Index moving = i < kPlaces / 2 ? joints : place.size();
+    for (Eigen::Index k = 0; k < moving; ++k) {
       place[k] = random.uniform(problem.theta_r_min[k], problem.theta_r_max[k]);
     }
     const Posture& posture = model.evaluate(place);
@@ -177,6 +180,12 @@ void find_default(PostureEvaluator& model, Problem& problem) {
     reached = true;
     if (valid) return;
   }
+}
+
+void guess_from(const Posture& posture, Problem& problem) {
+  for (const int i : problem.dependent) problem.guess_q[i] = posture.q[i];
+  const Pose<double> base = problem.robot.mount.inverse() * posture.base;
+  problem.guess_base << base.p, std::atan2(base.R(1, 0), base.R(0, 0));
 }
 
 }  // namespace
@@ -242,10 +251,17 @@ void require_branch(const Block& task, Problem& problem) {
     if (DependentJoints(problem).has_start()) return;
     if (problem.motion) refuse_pose(task, problem);
   }
-  const Posture& posture = model.evaluate(problem.theta_r_default);
-  for (const int i : problem.dependent) problem.guess_q[i] = posture.q[i];
-  const Pose<double> base = problem.robot.mount.inverse() * posture.base;
-  problem.guess_base << base.p, std::atan2(base.R(1, 0), base.R(0, 0));
+  guess_from(model.evaluate(problem.theta_r_default), problem);
+}
+
+void reconsider_default(const Block& task, Problem& problem) {
+  const Block theta_r = task.table("theta_r");
+  if (problem.dependent.empty() || theta_r.has("default")) return;
+  PostureEvaluator model(problem);
+  if (model.evaluate(problem.theta_r_default).status == Status::kValid) return;
+  find_default(model, problem);
+  if (theta_r.has("guess") || theta_r.has("guess_base")) return;
+  guess_from(model.evaluate(problem.theta_r_default), problem);
 }
 
 }  // namespace maxwrench

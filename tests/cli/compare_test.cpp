@@ -9,6 +9,12 @@
 namespace maxwrench {
 namespace {
 
+TEST(Compare, RefusesAProblemTwice) {
+  const CommandResult result = run_maxwrench("compare planar/force uvms/lift planar/force");
+  EXPECT_EQ(result.exit_status, 2);
+  EXPECT_NE(result.err.find("problems: got 'planar/force' twice"), std::string::npos) << result.err;
+}
+
 /// A closed form has no use for GLPK, so there is nothing to relate times to.
 TEST(Compare, OfAClosedFormHasNoReference) {
   const TemporaryFolder folder;
