@@ -14,17 +14,25 @@ namespace {
 
 /// Boxes narrower than this [rad or m] are not cut.
 constexpr double kNarrowest = 1e-6;
-/// Boxes that are bounded beside each other: they see the same incumbent, at any thread count.
-constexpr std::size_t kRound = 64;
+/// Boxes that are bounded beside each other: they see the same incumbent, at
+/// any thread count.
+constexpr std::size_t kRound = 256;
 /// The first rounds have fewer: at most this part of the boxes that wait.
 constexpr std::size_t kShare = 2;
+
+/// How many boxes there are for one whose centre is evaluated, unless they are
+/// as small as this.
+constexpr std::size_t kSeldom = 32;
+constexpr double kSmallBox = 1e-3;
+/// Evaluations of a climb, about.
+constexpr int kClimbEvaluations = 500;
 
 using CertifiedBoxes = std::vector<std::unique_ptr<CertifiedBox>>;
 
 /// A bound for each thread that asks.
 class BoundPool {
  public:
-  explicit BoundPool(const Bound& bound) : bound_(bound) {}
+  explicit BoundPool(const Bound &bound) : bound_(bound) {}
   std::unique_ptr<Bound> take() {
     const std::lock_guard<std::mutex> guard(mutex_);
     if (free_.empty()) return bound_.clone();
@@ -38,15 +46,15 @@ class BoundPool {
   }
 
  private:
-  const Bound& bound_;
+  const Bound &bound_;
   std::mutex mutex_;
   std::vector<std::unique_ptr<Bound>> free_;
 };
 
 class BranchAndBound {
  public:
-  BranchAndBound(Objective& objective, const Bound& bound, const Candidate& incumbent,
-                 const CertifyOptions& options)
+  BranchAndBound(Objective &objective, const Bound &bound, const Candidate &incumbent,
+                 const CertifyOptions &options)
       : objective_(objective),
         options_(options),
         pool_(bound),
@@ -56,15 +64,14 @@ class BranchAndBound {
     root->lower = objective.lower().array() - kLimitTolerance;
     root->upper = objective.upper().array() + kLimitTolerance;
     root->high = bound.ceiling();
-    children_.push_back(std::move(root));
+    bound_one(*root, target());
+    keep(std::move(root));
   }
 
   CertifyResult run() {
-    bound_children();
     while (!ended()) {
       take_parents();
       cut_parents();
-      bound_children();
     }
     result_.bound = std::max(top(), target());
     result_.seconds = seconds();
@@ -72,8 +79,8 @@ class BranchAndBound {
   }
 
  private:
-  static bool comes_later(const std::unique_ptr<CertifiedBox>& a,
-                          const std::unique_ptr<CertifiedBox>& b) {
+  static bool comes_later(const std::unique_ptr<CertifiedBox> &a,
+                          const std::unique_ptr<CertifiedBox> &b) {
     return a->proof.high < b->proof.high;
   }
 
@@ -116,9 +123,9 @@ class BranchAndBound {
     }
   }
 
-  /// Where a box is cut: the coordinate that its bound names, else the widest; -1 if it is too
-  /// narrow.
-  int axis_of(const CertifiedBox& box) const {
+  /// Where a box is cut: the coordinate that its bound names, else the widest;
+  /// -1 if it is too narrow.
+  int axis_of(const CertifiedBox &box) const {
     int axis = -1;
     double most = kNarrowest;
     const int hint = box.proof.axis;
@@ -132,7 +139,7 @@ class BranchAndBound {
     return axis;
   }
 
-  void add_half(const CertifiedBox& parent, int axis, bool second) {
+  static std::unique_ptr<CertifiedBox> half(const CertifiedBox &parent, int axis, bool second) {
     auto child = std::make_unique<CertifiedBox>();
     child->lower = parent.lower;
     child->upper = parent.upper;
@@ -142,56 +149,89 @@ class BranchAndBound {
     child->proof.multiplier = parent.proof.multiplier;
     child->proof.basis = parent.proof.basis;
     child->depth = parent.depth + 1;
-    children_.push_back(std::move(child));
+    return child;
   }
 
+  /// All halves with the same aim, whatever the threads.
   void cut_parents() {
-    improve(*parents_.front());
-    for (auto& parent : parents_) {
-      const int axis = axis_of(*parent);
-      if (axis < 0) {
-        too_narrow_ = true;
-        push(std::move(parent));
-        continue;
-      }
-      parent->cut = true;
-      add_half(*parent, axis, false);
-      add_half(*parent, axis, true);
-      report(*parent);
+    improve();
+    for (auto &parent : parents_) {
+      parent->cut = axis_of(*parent) >= 0;
+      if (parent->cut) continue;
+      too_narrow_ = true;
+      push(std::move(parent));
     }
-  }
-
-  /// All of them with the same aim, whatever the threads.
-  void bound_children() {
+    std::erase(parents_, nullptr);
+    children_.resize(2 * parents_.size());
     const double low = target();
-    parallel_for(options_.threads, static_cast<long>(children_.size()),
-                 [&](long i) { bound_one(*children_[static_cast<std::size_t>(i)], low); });
-    for (auto& child : children_) {
-      ++result_.boxes;
-      if (child->proof.kind == BoxProof::Kind::kCollision) ++result_.colliding;
-      if (child->proof.high > child->low) {
-        push(std::move(child));
-      } else {
-        report(*child);
+    parallel_for(options_.threads, static_cast<long>(parents_.size()), [&](long i) {
+      const auto at = static_cast<std::size_t>(i);
+      const CertifiedBox &parent = *parents_[at];
+      for (const bool second : {false, true}) {
+        auto &child = children_[2 * at + (second ? 1 : 0)];
+        child = half(parent, axis_of(parent), second);
+        bound_one(*child, low);
       }
-    }
-    children_.clear();
+    });
+    for (const auto &parent : parents_) report(*parent);
+    for (auto &child : children_) keep(std::move(child));
   }
 
-  void bound_one(CertifiedBox& box, double low) {
+  /// A box that was bounded waits, or is proven.
+  void keep(std::unique_ptr<CertifiedBox> box) {
+    ++result_.boxes;
+    if (box->proof.kind == BoxProof::Kind::kCollision) ++result_.colliding;
+    if (box->proof.high > box->low) {
+      push(std::move(box));
+    } else {
+      report(*box);
+    }
+  }
+
+  void bound_one(CertifiedBox &box, double low) {
     std::unique_ptr<Bound> bound = pool_.take();
     box.low = std::max(low, -box.high);
     bound->evaluate(box.lower, box.upper, box.low, box.high, box.proof);
     pool_.give(std::move(bound));
   }
 
-  void improve(const CertifiedBox& box) {
-    const Eigen::VectorXd centre = (box.lower + box.upper) / 2;
-    const double value = evaluate_one(objective_, centre);
-    if (value > result_.best.value) result_.best = {centre, value};
+  /// Centres of boxes, of one in so many and of all small ones, may be better
+  /// than the best.
+  void improve() {
+    for (std::size_t i = 0; i < parents_.size(); ++i) {
+      const CertifiedBox &box = *parents_[i];
+      const double width = (box.upper - box.lower).maxCoeff();
+      if (i % kSeldom == 0 || width < kSmallBox) climb((box.lower + box.upper) / 2, width / 4);
+    }
   }
 
-  void report(const CertifiedBox& box) const {
+  /// Takes a point over if it is better, and then what is better still, one
+  /// coordinate at a time.
+  void climb(Eigen::VectorXd x, double step) {
+    if (!take_over(x)) return;
+    int evaluations = 0;
+    while (step > kNarrowest && evaluations < kClimbEvaluations) {
+      bool moved = false;
+      for (Eigen::Index i = 0; i < x.size(); ++i) {
+        for (const double by : {step, -step}) {
+          x = result_.best.theta_r;
+          x[i] = std::clamp(x[i] + by, objective_.lower()[i], objective_.upper()[i]);
+          moved |= take_over(x);
+          ++evaluations;
+        }
+      }
+      if (!moved) step /= 2;
+    }
+  }
+
+  bool take_over(const Eigen::VectorXd &x) {
+    const double value = evaluate_one(objective_, x);
+    if (!(value > result_.best.value)) return false;
+    result_.best = {x, value};
+    return true;
+  }
+
+  void report(const CertifiedBox &box) const {
     if (options_.sink) options_.sink(box);
   }
 
@@ -200,8 +240,8 @@ class BranchAndBound {
     std::push_heap(waiting_.begin(), waiting_.end(), comes_later);
   }
 
-  Objective& objective_;
-  const CertifyOptions& options_;
+  Objective &objective_;
+  const CertifyOptions &options_;
   BoundPool pool_;
   std::chrono::steady_clock::time_point start_;
   CertifiedBoxes waiting_;  ///< a heap
@@ -212,8 +252,8 @@ class BranchAndBound {
 
 }  // namespace
 
-CertifyResult certify(Objective& objective, const Bound& bound, const Candidate& incumbent,
-                      const CertifyOptions& options) {
+CertifyResult certify(Objective &objective, const Bound &bound, const Candidate &incumbent,
+                      const CertifyOptions &options) {
   if (!(options.gap >= kLeastGap)) {
     throw std::invalid_argument("gap: expected at least 1e-8");
   }

@@ -137,6 +137,18 @@ TEST(Certify, FindsWhatItIsNotGiven) {
   }
 }
 
+/// Where the incumbent is far below the best, centres of boxes and climbs from there lead to it.
+TEST(Certify, ImprovesAPoorIncumbent) {
+  ProofCase at("uvms/lift", "linf_polytope", Wrench::kPure);
+  const Eigen::VectorXd& start = at.problem.theta_r_default;
+  const double value = at.objective()->evaluate(start);
+  ASSERT_LT(value, 80);
+  const CertifyResult result = at.prove({start, value}, to_gap(1e-3));
+  EXPECT_EQ(result.status, Status::kProven) << result.reason.c_str();
+  EXPECT_GE(result.best.value, 108.40954 * (1 - 1e-3));
+  EXPECT_GE(result.bound, 108.40953);
+}
+
 bool is_inside(const CertifiedBox& box, const Eigen::VectorXd& x) {
   return (x.array() >= box.lower.array()).all() && (x.array() <= box.upper.array()).all();
 }
