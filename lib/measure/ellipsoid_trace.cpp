@@ -11,8 +11,9 @@ namespace maxwrench {
 namespace {
 
 /// The sum of the squared radii of the ellipsoid {z : |W_u B^+ J'W S z| <= 1}: wrenches W S z (W
-/// 6×k, the wrenches that the task allows at most) measured by the desired wrench, S = W' diag(s)
-/// W in the axes in which the task gives its wrenches. With G = W_u B^+ J'W (m×k) and Z = (G'G)^-1 S^-1,
+/// 6×k, the wrenches that the task allows at most) measured by the desired wrench, S = W' diag(s) W
+/// in the axes in which the task gives its wrenches. With G = W_u B^+ J'W (m×k) and
+/// Z = (G'G)^-1 S^-1,
 ///
 ///     T = trace(S^-1 Z),  d T = -2 <G Z Z', d G>.
 ///
