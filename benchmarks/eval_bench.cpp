@@ -1,11 +1,12 @@
 // Times theta_r -> beta (model, lower level, nothing else) for every measure, wrench and solver, on
 // random postures without collision checks; the parts of it; and KDL on the same chain. Ratios of
-// what was measured in this run follow at the end.
+// what was measured in this run follow at the end. Task files may be added to the command line.
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <kdl/chain.hpp>
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
@@ -15,6 +16,7 @@
 
 #include "benchmarks/case.h"
 #include "lib/math/random.h"
+#include "lib/robot/chain.h"
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/strategies.h"
@@ -75,6 +77,65 @@ void time_branches(benchmark::State& state, const Problem& problem) {
   }
 }
 
+/// Passes on and keeps where a search evaluates.
+class Recorder : public Objective {
+ public:
+  Recorder(std::unique_ptr<Objective> objective, std::vector<Eigen::VectorXd>& visited)
+      : objective_(std::move(objective)), visited_(visited) {}
+  const Eigen::VectorXd& lower() const override { return objective_->lower(); }
+  const Eigen::VectorXd& upper() const override { return objective_->upper(); }
+  double evaluate(const Eigen::VectorXd& theta_r, Eigen::VectorXd* gradient) override {
+    visited_.push_back(theta_r);
+    return objective_->evaluate(theta_r, gradient);
+  }
+  const Verdict& verdict() const override { return objective_->verdict(); }
+  std::unique_ptr<Objective> clone() const override {
+    return std::make_unique<Recorder>(objective_->clone(), visited_);
+  }
+
+ private:
+  std::unique_ptr<Objective> objective_;
+  std::vector<Eigen::VectorXd>& visited_;
+};
+
+std::vector<Eigen::VectorXd> postures_of_a_search(const Problem& problem) {
+  std::vector<Eigen::VectorXd> visited;
+  Recorder recorder(
+      make_capability_objective(problem, Wrench::kPure, resolve(problem, {}).make_measure, false),
+      visited);
+  SearchOptions options;
+  options.budget = 4 * kPostures;
+  find_search("crs2").make()->maximize(recorder, options);
+  return visited;
+}
+
+/// The places of a search, in its order: all postures that reach the pose. The counters are their
+/// number, and what each of them takes at the median place.
+void time_along_a_search(benchmark::State& state, const Problem& problem) {
+  using Clock = std::chrono::steady_clock;
+  const std::vector<Eigen::VectorXd> visited = postures_of_a_search(problem);
+  PostureEvaluator model(problem, false);
+  std::vector<double> each;
+  long found = 0, places = 0;
+  for (auto _ : state) {
+    for (const Eigen::VectorXd& theta_r : visited) {
+      const auto start = Clock::now();
+      const long here = model.evaluate(theta_r).branches.found;
+      for (int branch = 1; branch < model.branches(); ++branch) {
+        benchmark::DoNotOptimize(model.select(branch).J.data());
+      }
+      const std::chrono::duration<double, std::nano> spent = Clock::now() - start;
+      if (here > 0) each.push_back(spent.count() / static_cast<double>(here));
+      found += here;
+      ++places;
+    }
+  }
+  const auto middle = each.begin() + static_cast<std::ptrdiff_t>(each.size() / 2);
+  std::nth_element(each.begin(), middle, each.end());
+  state.counters["branches"] = static_cast<double>(found) / static_cast<double>(places);
+  state.counters["ns_per_branch"] = *middle;
+}
+
 /// The check alone, for link poses that are known.
 void time_collision(benchmark::State& state, const Problem& problem) {
   PostureEvaluator model(problem, false);
@@ -88,8 +149,7 @@ void time_collision(benchmark::State& state, const Problem& problem) {
   }
 }
 
-/// The chain from the base to the end effector with one segment for each joint, the fewest that KDL
-/// can do with.
+/// The chain of the arm with one segment for each joint, the fewest that KDL can do with.
 KDL::Chain kdl_chain(const Problem& problem) {
   const Robot& robot = problem.robot;
   const auto vector = [](const Eigen::Vector3d& v) { return KDL::Vector(v.x(), v.y(), v.z()); };
@@ -100,16 +160,16 @@ KDL::Chain kdl_chain(const Problem& problem) {
                       vector(pose.p));
   };
   KDL::Chain chain;
-  for (std::size_t i = 0; i < problem.redundant.size(); ++i) {
-    const Joint& joint = robot.joints[static_cast<std::size_t>(problem.redundant[i])];
-    const bool last = i + 1 == problem.redundant.size();
+  const std::vector<int> joints = chain_to(robot, problem.end_effector);
+  for (const int i : joints) {
+    const Joint& joint = robot.joints[static_cast<std::size_t>(i)];
     const EndEffector& tool = robot.end_effectors[static_cast<std::size_t>(problem.end_effector)];
     const auto type =
         joint.type == JointType::kRevolute ? KDL::Joint::RotAxis : KDL::Joint::TransAxis;
-    chain.addSegment(
-        KDL::Segment(KDL::Joint("joint", vector(joint.placement.p),
-                                vector(joint.placement.R * joint.axis), type),
-                     frame(last ? joint.placement * tool.placement : joint.placement)));
+    chain.addSegment(KDL::Segment(
+        KDL::Joint("joint", vector(joint.placement.p), vector(joint.placement.R * joint.axis),
+                   type),
+        frame(i == joints.back() ? joint.placement * tool.placement : joint.placement)));
   }
   return chain;
 }
@@ -119,10 +179,10 @@ void time_kdl(benchmark::State& state, const Problem& problem) {
   const KDL::Chain chain = kdl_chain(problem);
   KDL::ChainFkSolverPos_recursive forward(chain);
   KDL::ChainJntToJacSolver backward(chain);
-  std::vector<KDL::JntArray> postures;
-  for (const Eigen::VectorXd& theta_r : random_postures(problem)) {
-    postures.emplace_back(chain.getNrOfJoints());
-    postures.back().data = theta_r;
+  Random random(1);
+  std::vector<KDL::JntArray> postures(kPostures, KDL::JntArray(chain.getNrOfJoints()));
+  for (KDL::JntArray& posture : postures) {
+    for (double& q : posture.data) q = random.uniform(-1, 1);
   }
   KDL::Frame tip;
   KDL::Jacobian J(chain.getNrOfJoints());
@@ -141,10 +201,16 @@ void add_problem(const Problem& problem) {
   const auto add = [](const std::string& title, auto body) {
     benchmark::RegisterBenchmark(title.c_str(), body);
   };
-  add(name("kdl"), [&](benchmark::State& state) { time_kdl(state, problem); });
+  if (!chain_to(problem.robot, problem.end_effector).empty()) {
+    add(name("kdl"), [&](benchmark::State& state) { time_kdl(state, problem); });
+  }
   add(name("model"), [&](benchmark::State& state) { time_model(state, problem); });
   if (problem.contact) {
     add(name("model/branches"), [&](benchmark::State& state) { time_branches(state, problem); });
+  }
+  if (!problem.dependent.empty()) {
+    add(name("model/search"),
+        [&](benchmark::State& state) { time_along_a_search(state, problem); });
   }
   if (problem.robot.collision) {
     add(name("collision"), [&](benchmark::State& state) { time_collision(state, problem); });
@@ -166,7 +232,9 @@ class Keeper : public benchmark::ConsoleReporter {
     ConsoleReporter::ReportRuns(runs);
     for (const Run& run : runs) {
       if (run.run_type != Run::RT_Iteration) continue;
-      const double time = run.GetAdjustedCPUTime();
+      const auto counter = run.counters.find("ns_per_branch");
+      const double time =
+          counter == run.counters.end() ? run.GetAdjustedCPUTime() : double(counter->second);
       const auto [kept, added] = times_.try_emplace(run.run_name.function_name, time);
       if (!added) kept->second = std::min(kept->second, time);
     }
@@ -184,6 +252,10 @@ class Keeper : public benchmark::ConsoleReporter {
     if (model > 0 && kdl > 0) {
       fmt::print("{}: model (poses, J, tau_d) / KDL (pose, J) = {:.2f}\n", problem.name,
                  model / kdl);
+    }
+    if (time("model/search") > 0 && kdl > 0) {
+      fmt::print("{}: along a search, median of model / branch / KDL = {:.2f}\n", problem.name,
+                 time("model/search") / kdl);
     }
     if (value > 0 && gradient > 0) {
       fmt::print("{}: beta_2 with gradient / beta_2 = {:.2f}\n", problem.name, gradient / value);
@@ -203,9 +275,10 @@ class Keeper : public benchmark::ConsoleReporter {
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  std::vector<std::string> names = maxwrench::shipped_problems();
+  names.insert(names.end(), argv + 1, argv + argc);
   std::vector<std::unique_ptr<maxwrench::Problem>> problems;
-  for (const std::string& name : maxwrench::shipped_problems()) {
+  for (const std::string& name : names) {
     auto problem = std::make_unique<maxwrench::Problem>(maxwrench::load_problem(name));
     if (problem->motion) continue;
     problems.push_back(std::move(problem));

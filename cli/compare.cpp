@@ -4,7 +4,9 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <memory>
+#include <stdexcept>
 
 #include "benchmarks/comparison.h"
 #include "benchmarks/machine.h"
@@ -32,9 +34,10 @@ struct CompareOptions : CommonOptions {
   std::string out = "results";
 };
 
-/// Problems of so few coordinates get a fifth of the budget unless it is named.
+/// Problems of so few coordinates, and those with joints that follow, each evaluation of which
+/// costs twenty of others, get a fifth of the budget unless it is named.
 constexpr int kFewCoordinates = 2;
-constexpr long kFewShare = 5;
+constexpr long kLesserShare = 5;
 /// Searches with names in the figures.
 constexpr std::size_t kNamed = 8;
 
@@ -61,7 +64,8 @@ ConvergencePanel panel(const Comparison& comparison) {
 
 long usual_budget(const Problem& problem, long budget) {
   if (problem.motion) return kPlanBudget;
-  return problem.redundancy() > kFewCoordinates ? budget : budget / kFewShare;
+  const bool whole = problem.redundancy() > kFewCoordinates && problem.dependent.empty();
+  return whole ? budget : budget / kLesserShare;
 }
 
 /// Keeps what is finished; of an interrupted problem nothing, because each line depends on the best
@@ -71,6 +75,10 @@ std::vector<Comparison> attempt_all(const CompareOptions& options,
   std::vector<Problem> problems;
   std::vector<Case> cases;
   for (const std::string& name : options.problems) {
+    if (std::count(options.problems.begin(), options.problems.end(), name) > 1) {
+      throw std::invalid_argument(
+          fmt::format("problems: got '{}' twice, expected each once", name));
+    }
     Problem& problem = problems.emplace_back(load_problem(name));
     options.motion.change(problem);
     Case& c = cases.emplace_back(options.read_case());
@@ -140,38 +148,55 @@ void draw(std::span<const Comparison> comparisons, const std::filesystem::path& 
              draw_ecdf(ecdf_panels(comparisons, "all problems"), named, 1));
 }
 
-void print_summary(std::span<const Comparison> comparisons) {
-  fmt::print(
-      "\nAll problems together, best first, the default in bold. Of each problem the expected ms "
-      "to "
-      "0.1 %; typical and worst:\nhow many times the best search's that is, median and largest; "
-      "10 % ... 0.01 %: of all problems and seeds the share [%]\nthat came so near (what a search "
-      "does not serve counts as missed).\n\n{}",
-      summary_table(comparisons));
+/// The searches with names in the figures and the floor of every comparison, then all with the
+/// times of each problem.
+std::string summary(std::span<const Comparison> comparisons) {
+  const std::vector<Standing> all = standings(comparisons);
+  std::vector<std::string> named = leaders(all, kNamed);
+  named.push_back("sample");
+  std::vector<Standing> some;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(some), [&](const Standing& each) {
+    return std::find(named.begin(), named.end(), each.search) != named.end();
+  });
+  return fmt::format(
+      "\nAll problems together, best first, the default in bold. Typical and worst: how many times "
+      "the expected time to\n0.1 % of the best search of a problem that is, median and largest "
+      "over "
+      "the problems; 10 % ... 0.01 %: the share [%]\nof all problems and seeds that came so near "
+      "(what a search does not serve counts as missed).\n\n{}\n"
+      "All searches, with the expected ms to 0.1 % of each problem:\n\n{}",
+      summary_table(some), summary_table(all, comparisons));
+}
+
+/// All tables, the summary if nothing is missing.
+std::string race_text(std::span<const Comparison> comparisons, int seeds, bool whole) {
+  std::string text = fmt::format(
+      "Every search with {} seeds, each on one thread; time of the processor, best first, * the "
+      "default.\n",
+      seeds);
+  for (const Comparison& comparison : comparisons) text += "\n" + race_table(comparison);
+  return whole && comparisons.size() > 1 ? text + summary(comparisons) : text;
 }
 
 int compare_all(const CompareOptions& options) {
   const std::filesystem::path folder(options.out);
   const std::vector<Comparison> comparisons = attempt_all(options, folder);
-  fmt::print(
-      "Every search with {} seeds, each on one thread; time of the processor, best first, * the "
-      "default.\n",
-      options.seeds);
-  for (const Comparison& comparison : comparisons) fmt::print("\n{}", race_table(comparison));
-  if (!finished(options, comparisons)) {
-    remark("interrupted or without a value: no figure is drawn, no summary printed");
-    return kOtherStatus;
-  }
+  const bool whole = finished(options, comparisons);
   for (const bool in_time : {false, true}) {
     std::vector<Comparison> some;
-    for (const Comparison& comparison : comparisons) {
-      if (comparison.in_time == in_time) some.push_back(comparison);
-    }
+    std::copy_if(comparisons.begin(), comparisons.end(), std::back_inserter(some),
+                 [&](const Comparison& comparison) { return comparison.in_time == in_time; });
     if (some.empty()) continue;
-    if (some.size() > 1) print_summary(some);
-    draw(some, folder, in_time ? "plan" : "search");
+    const std::string text = race_text(some, options.seeds, whole);
+    fmt::print("{}", text);
+    if (!whole) continue;
+    const char* kind = in_time ? "plan" : "search";
+    write_file(folder / fmt::format("{}_comparison.txt", kind), text);
+    draw(some, folder, kind);
   }
-  return kAnswered;
+  if (!whole)
+    remark("interrupted or without a value: no figure is drawn, no summary printed, no table kept");
+  return whole ? kAnswered : kOtherStatus;
 }
 
 }  // namespace
@@ -183,9 +208,10 @@ void add_compare(CLI::App& app, int& exit_status) {
   command.add_option("problems", options->problems,
                      "shipped names or task files (default: all static ones)");
   options->add_choice(command);
-  options->add_budget(command,
-                      "evaluations of each search (default: a fifth with up to two "
-                      "coordinates, 5000 for tasks in time, and of these a fifth for Ipopt)");
+  options->add_budget(
+      command,
+      "evaluations of each search (default: a fifth with up to two "
+      "coordinates or joints that follow, 5000 for tasks in time, and of these a fifth for Ipopt)");
   options->add_threads(command);
   options->motion.add(command);
   command.add_option("--seeds", options->seeds, "seeds 1 to this")

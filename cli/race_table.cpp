@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "benchmarks/machine.h"
-#include "benchmarks/race_summary.h"
 #include "benchmarks/table.h"
 #include "maxwrench/version.h"
 
@@ -149,9 +148,11 @@ std::string race_table(const Comparison& comparison) {
                                  comparison.interrupted ? ", interrupted" : "",
                                  number_or_dash(comparison.best(), "{:.5f}"), comparison.unit);
   if (reference != nullptr) {
-    text += fmt::format("the plain way, the better of {} here: {} through {}\n",
-                        comparison.peers.size() == 1 ? "one peer" : "the peers", reference->search,
-                        reference->lp);
+    const bool arrives = std::isfinite(reference->expected(comparison.target(), &Spent::seconds));
+    text += arrives ? fmt::format("the plain way, the better of {} here: {} through {}\n",
+                                  comparison.peers.size() == 1 ? "one peer" : "the peers",
+                                  reference->search, reference->lp)
+                    : fmt::format("the plain way, {}, never gets there\n", reference->search);
   }
   text += fmt::format(
       "{:46}-- expected ms to so far below --  -- expected evaluations to that --"
@@ -165,10 +166,10 @@ std::string race_table(const Comparison& comparison) {
   for (const Contender& peer : comparison.peers) {
     if (!peer.attempts.empty()) text += contender_line(comparison, peer);
   }
-  return text + verdict(comparison, ranked);
+  return comparison.interrupted ? text : text + verdict(comparison, ranked);
 }
 
-std::string summary_table(std::span<const Comparison> comparisons) {
+std::string summary_table(std::span<const Standing> rows, std::span<const Comparison> comparisons) {
   std::string head = "| search | typical | worst |", line = "|---|---|---|";
   for (const double share : kTargetShares) {
     head += fmt::format(" {:.6g} % |", 100 * share);
@@ -179,13 +180,14 @@ std::string summary_table(std::span<const Comparison> comparisons) {
     line += "---|";
   }
   std::string text = head + "\n" + line + "\n";
-  for (const Standing& standing : standings(comparisons)) {
+  for (const Standing& standing : rows) {
     const std::string name = fmt::format("`{}`", standing.search);
     text += fmt::format("| {} | {} | {} |", standing.is_default ? "**" + name + "**" : name,
                         brief(standing.typical), brief(standing.worst));
     for (const double share : standing.reached) text += fmt::format(" {:.0f} |", 100 * share);
-    for (const double seconds : standing.seconds)
-      text += fmt::format(" {} |", brief(1e3 * seconds));
+    for (std::size_t i = 0; i < comparisons.size(); ++i) {
+      text += fmt::format(" {} |", brief(1e3 * standing.seconds[i]));
+    }
     text += "\n";
   }
   return text;

@@ -5,13 +5,16 @@
 #include <string>
 
 #include "benchmarks/comparison.h"
+#include "benchmarks/race_summary.h"
 
 namespace maxwrench {
 
 /// One problem, a line for each search, best first.
 std::string race_table(const Comparison& comparison);
-/// All problems together, a line for each search, best first, as Markdown.
-std::string summary_table(std::span<const Comparison> comparisons);
+/// All problems together, a line for each of `rows`, as Markdown; of each of `comparisons`, which
+/// may be none or must be those of the standings, the expected ms to a thousandth.
+std::string summary_table(std::span<const Standing> rows,
+                          std::span<const Comparison> comparisons = {});
 
 /// The values and, apart from them, the times of all attempts, as tables in a folder.
 void keep(const Comparison& comparison, const std::filesystem::path& folder);

@@ -105,7 +105,8 @@ std::string draw_ecdf(std::span<const EcdfPanel> panels, const std::vector<std::
       (kPageWidth - kEcdfLeft - kEcdfRight - (columns - 1) * kEcdfBetween) / columns;
   const double each = kEcdfTop + kEcdfHeight + kEcdfBottom;
   const auto count = static_cast<int>(panels.size());
-  const Point corner(kEcdfLeft, each * ((count + columns - 1) / columns));
+  const int rows = (count + columns - 1) / columns;
+  const Point corner(kEcdfLeft, each * rows);
   const double wide = kPageWidth - kEcdfLeft;
   Svg svg(kPageWidth, corner.y() + draw_legend(nullptr, legend, corner, wide) + 8);
   for (int i = 0; i < count; ++i) {

@@ -97,7 +97,8 @@ class PostureEvaluator {
   const Posture& select(int branch);
 
   /// gradient_k = tau_seed' d tau_d/d theta_r_k + <J_seed, d J/d theta_r_k>, exact, by reverse
-  /// accumulation; of wrenches that turn, d (R'J) R for d J, R the `turn`: what a value depends on. Cheapest after `evaluate` at the same theta_r, whose posture it keeps.
+  /// accumulation; of wrenches that turn, d (R'J) R for d J, R the `turn`: what a value depends on.
+  /// Cheapest after `evaluate` at the same theta_r, whose posture it keeps.
   void pull_back(const Eigen::VectorXd& theta_r, const Eigen::VectorXd& tau_seed,
                  const Matrix6Xd& J_seed, Eigen::VectorXd& gradient);
 

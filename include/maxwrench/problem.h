@@ -46,8 +46,10 @@ struct Problem {
   /// its wrenches can do work.
   Matrix6Xd W_any;
   double reference = 1;  ///< N or N m along c, of measures of efforts at a given wrench
-  /// What each axis of the wrench is measured by [N; N m], of measures of all axes at once.
+  /// What each axis of the wrench is measured by [N; N m], of measures of all axes at once, and the
+  /// world axes of these axes at `pose`: the end effector's if the task gives wrenches in them.
   Vector6d desired = Vector6d::Ones();
+  Eigen::Matrix3d wrench_axes = Eigen::Matrix3d::Identity();
   std::vector<int> redundant;  ///< the joints that theta_r holds
   /// The joints between base and end effector that theta_r does not hold. They follow from it as
   /// the base pose does (see lib/posture/dependent_joints.h). None: the base pose follows in closed

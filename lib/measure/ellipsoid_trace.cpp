@@ -11,17 +11,19 @@ namespace maxwrench {
 namespace {
 
 /// The sum of the squared radii of the ellipsoid {z : |W_u B^+ J'W S z| <= 1}: wrenches W S z (W
-/// 6×k, the wrenches that the task allows at most) measured by the desired wrench, S = W' diag(s)
-/// W. With G = W_u B^+ J'W (m×k) and Z = (G'G)^-1 S^-1,
+/// 6×k, the wrenches that the task allows at most) measured by the desired wrench, S = W' diag(s) W
+/// in the axes in which the task gives its wrenches. With G = W_u B^+ J'W (m×k) and
+/// Z = (G'G)^-1 S^-1,
 ///
 ///     T = trace(S^-1 Z),  d T = -2 <G Z Z', d G>.
 ///
 /// The offset by tau_d moves the centre only and does not occur.
 class EllipsoidTrace : public Measure {
  public:
-  EllipsoidTrace(Eigen::MatrixXd K, Matrix6Xd W, const Vector6d& desired)
-      : K_(std::move(K)), W_0_(std::move(W)) {
-    const SmallMatrix S = W_0_.transpose() * desired.asDiagonal() * W_0_;
+  EllipsoidTrace(Eigen::MatrixXd K, const Problem& problem)
+      : K_(std::move(K)), W_0_(problem.W_any) {
+    const Matrix6Xd W = rotated(problem.wrench_axes.transpose(), W_0_);
+    const SmallMatrix S = W.transpose() * problem.desired.asDiagonal() * W;
     S_inverse_ = S.inverse();
   }
 
@@ -62,7 +64,7 @@ class EllipsoidTrace : public Measure {
 
 std::unique_ptr<Measure> make_ellipsoid_trace(const Problem& problem) {
   return std::make_unique<EllipsoidTrace>(weighted_inverse(problem.robot, "ellipsoid_trace"),
-                                          problem.W_any, problem.desired);
+                                          problem);
 }
 
 }  // namespace maxwrench

@@ -145,9 +145,9 @@ bool BranchAtlas::serves(const Problem& problem) const {
          problem.theta_r_max.head(r) == theta_r_max_ && ToolChain(problem) == chain_;
 }
 
-/// Where y may be: any angle, joints within their limits, the base near the pose.
-void BranchAtlas::set_reach(const Problem& problem) {
-  const Eigen::Vector3d near = (problem.robot.mount.inverse() * pose_).p;
+/// Where y may be: any angle, joints within their limits, the base near the pose at theta_r.
+void BranchAtlas::set_reach(const Problem& problem, const Eigen::VectorXd& theta_r) {
+  const Eigen::Vector3d near = (problem.robot.mount.inverse() * pose_at(problem, theta_r)).p;
   for (int j = 0; j < chain_.unknowns(); ++j) {
     const auto k = static_cast<std::size_t>(j);
     const int z = chain_.place_in_z(j);
@@ -177,7 +177,7 @@ Six<double> BranchAtlas::random_y(Random& random) const {
 
 /// One at the default, from the guess or from anywhere, or else at any theta_r; then others there.
 void BranchAtlas::find_first(const Problem& problem) {
-  set_reach(problem);
+  set_reach(problem, problem.theta_r_default);
   FirstNewton newton(chain_, pose_);
   Continuation<double> correction(chain_);
   Random random(1);
@@ -190,13 +190,14 @@ void BranchAtlas::find_first(const Problem& problem) {
     y[static_cast<std::size_t>(j)] = z < 4 ? problem.guess_base[z] : problem.guess_q[z - 4];
   }
   for (int i = 0, after = 0; i < kFirstStarts && after < kRealStarts; ++i) {
-    if (i > 0) y = random_y(random);
     if (node.real.empty() && i > 0) {
       node.theta_r = at_default;
       for (Eigen::Index k = 0; k < at_default.size() && i % 2 == 0; ++k) {
         node.theta_r[k] = random.uniform(theta_r_min_[k], theta_r_max_[k]);
       }
+      set_reach(problem, node.theta_r);
     }
+    if (i > 0) y = random_y(random);
     after += node.real.empty() ? 0 : 1;
     if (!newton.run(node.theta_r, y) || !correction.correct(node.theta_r, pose_, y)) continue;
     if (correction.is_singular(kSingularSolution)) continue;

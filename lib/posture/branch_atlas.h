@@ -62,7 +62,7 @@ class BranchAtlas {
   };
 
   void find_first(const Problem& problem);
-  void set_reach(const Problem& problem);
+  void set_reach(const Problem& problem, const Eigen::VectorXd& theta_r);
   Six<double> random_y(Random& random) const;
   void seek_generic(Continuation<Complex>& continuation, Random& random);
   void find_generic();

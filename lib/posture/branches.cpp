@@ -81,14 +81,18 @@ bool Branches::go_around(const AtlasNode& from, double side) {
 }
 
 void Branches::sort() {
-  // On a lattice, so that rounding rarely changes the order; -pi and pi are one place.
-  const auto place = [](double y) {
-    return y < kEqual - std::numbers::pi ? std::numbers::pi / kEqual : std::round(y / kEqual);
+  // On a lattice, so that rounding rarely changes the order; -pi and pi of an angle are one place.
+  const ToolChain& chain = atlas_->chain();
+  const auto place = [&](const Six<double>& y, int i) {
+    const double y_i = y[static_cast<std::size_t>(i)];
+    const bool wraps = chain.turns(i) && y_i < kEqual - std::numbers::pi;
+    return std::round((wraps ? std::numbers::pi : y_i) / kEqual);
   };
   std::sort(node_.real.begin(), node_.real.end(), [&](const Six<double>& a, const Six<double>& b) {
-    return std::lexicographical_compare(
-        a.begin(), a.end(), b.begin(), b.end(),
-        [&](double a_i, double b_i) { return place(a_i) < place(b_i); });
+    for (int i = 0; i < chain.unknowns(); ++i) {
+      if (place(a, i) != place(b, i)) return place(a, i) < place(b, i);
+    }
+    return false;
   });
 }
 

@@ -19,7 +19,8 @@ constexpr double kCloseEnough = 1e-4;
 constexpr double kLastCorrection = 1e-13;
 /// One that may grow no smaller near a singular posture.
 constexpr double kSmallCorrection = 1e-6;
-/// [rad, or share of a metre and the distance of the pose] The error of an answer.
+/// The error of an answer [rad, m], as a share of the largest of 1, J_d and the distance of the
+/// pose.
 constexpr double kLeastError = 1e-12;
 constexpr int kMostCorrections = 8;
 /// A way in steps shorter than this share of what is left of it, or in more steps, fails: what lies
@@ -132,6 +133,12 @@ template <class T>
 double Continuation<T>::least_error() const {
   double far = 1;
   for (int i = 0; i < 3; ++i) far = std::max(far, magnitude(pose_.p[i]));
+  // Cosines of complex angles grow without bound.
+  for (int j = 0; j < d_; ++j) {
+    for (const T& entry : state_.J[static_cast<std::size_t>(j)]) {
+      far = std::max(far, magnitude(entry));
+    }
+  }
   return kLeastError * far;
 }
 

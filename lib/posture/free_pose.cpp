@@ -85,6 +85,7 @@ Problem held_at(const Problem& problem, const Eigen::VectorXd& theta_r) {
     const Eigen::Matrix3d turn = held.pose.R * problem.pose.R.transpose();
     held.c = rotated(turn, problem.c);
     held.W_any = rotated(turn, problem.W_any);
+    held.wrench_axes = turn * problem.wrench_axes;
   }
   held.free = {};
   for (Eigen::VectorXd* v : {&held.theta_r_min, &held.theta_r_max, &held.theta_r_default}) {

@@ -96,6 +96,7 @@ struct PostureEvaluator::Workspace {
   /// Goes through the solutions for the second arm, from where the base is.
   void try_second() {
     const int found = second->reach(model.base);
+    if (found == 0) blame(kUnreachableContact);
     for (int i = 0; i < found; ++i) {
       placed.second = i;
       if (!second->within_limits(i)) {
@@ -117,11 +118,15 @@ struct PostureEvaluator::Workspace {
     valid.push_back(placed);
   }
 
-  /// Counts the branch where the model is. Of all faults the gravest says what is wrong with a
-  /// theta_r without a valid posture.
+  /// Counts the branch where the model is.
   void turn_down(long& count, const Fault& why) {
     ++posture.branches.found;
     ++count;
+    blame(why);
+  }
+
+  /// Of all faults the gravest says what is wrong with a theta_r without a valid posture.
+  void blame(const Fault& why) {
     if (fault.reason && why.violation <= fault.violation) return;
     fault = why;
     shown = placed;

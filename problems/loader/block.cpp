@@ -32,7 +32,8 @@ std::string shown(const toml::node& node) {
 
 std::optional<double> finite_number(const toml::node& node) {
   if (!node.is_number()) return std::nullopt;
-  const double value = node.value<double>().value();
+  const toml::value<int64_t>* const whole = node.as_integer();  // lossless, value<double> says
+  const double value = whole ? static_cast<double>(whole->get()) : *node.value<double>();
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 

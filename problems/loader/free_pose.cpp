@@ -15,6 +15,8 @@
 namespace maxwrench {
 namespace {
 
+/// [m; rad] Limits beyond this would be lost in rounding.
+constexpr double kFarthest = 1e6;
 constexpr double kHalfTurn = std::numbers::pi;
 /// Part of a unit twist beyond the end effector's motions that is no rounding.
 constexpr double kApart = 1e-6;
@@ -47,6 +49,9 @@ Eigen::Vector2d read_range(const Block& pose, const char* axis, bool turns) {
   }
   const Eigen::VectorXd limits = range.numbers(axis, 2);
   if (!(limits[0] < limits[1])) range.refuse_value(axis, "[min, max] with min < max");
+  if (!(limits.cwiseAbs().maxCoeff() <= kFarthest)) {
+    range.refuse_value(axis, fmt::format("limits of at most {:g} m or rad", kFarthest));
+  }
   if (turns && limits[1] - limits[0] > 2 * kHalfTurn * (1 + 1e-12)) {
     range.refuse_value(axis, "an angle's range of at most 2 pi rad");
   }

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "lib/math/decompositions.h"
+#include "lib/math/rotated.h"
 #include "lib/posture/movable.h"
 #include "lib/robot/chain.h"
 #include "maxwrench/load.h"
@@ -65,14 +66,6 @@ int find_end_effector(const Block& task, const Robot& robot) {
                     fmt::format("an end effector of the robot: {}", fmt::join(names, ", ")));
 }
 
-/// From the axes in which the task gives its wrenches to the world's, as the path starts.
-Eigen::Matrix<double, 6, 6> wrench_axes(const Block& wrench, const Problem& problem) {
-  Eigen::Matrix<double, 6, 6> axes = Eigen::Matrix<double, 6, 6>::Identity();
-  if (wrench.text("frame", "world") == "world") return axes;
-  axes.topLeftCorner<3, 3>() = axes.bottomRightCorner<3, 3>() = problem.pose.R;
-  return axes;
-}
-
 void read_wrench(const Block& wrench, Problem& problem) {
   std::vector<std::string_view> keys = {"c", "any", "reference", "desired"};
   const bool heaves = problem.motion && problem.motion->impulse;
@@ -82,10 +75,11 @@ void read_wrench(const Block& wrench, Problem& problem) {
   if (frame != "world" && frame != "tool" && frame != "end_effector") {
     wrench.refuse_value("frame", "'world' or 'tool' (or 'end_effector', the same)");
   }
+  if (frame != "world") problem.wrench_axes = problem.pose.R;
   if (problem.motion) problem.motion->c_turns = frame != "world";
   const Eigen::VectorXd c = wrench.numbers("c", 6);
   if (c.stableNorm() < 1e-9) wrench.refuse_value("c", "a direction of nonzero length");
-  problem.c = wrench_axes(wrench, problem) * c.stableNormalized();
+  problem.c = rotated(problem.wrench_axes, c.stableNormalized());
   problem.reference = wrench.number("reference", problem.reference);
   if (!(problem.reference > 0)) wrench.refuse_value("reference", "a number > 0");
   if (!wrench.has("desired")) return;
@@ -106,7 +100,7 @@ void read_any(const Block& wrench, Problem& problem) {
     }
     problem.W_any(axis - kWrenchAxes.begin(), static_cast<Eigen::Index>(column)) = 1;
   }
-  problem.W_any = wrench_axes(wrench, problem) * problem.W_any;
+  problem.W_any = rotated(problem.wrench_axes, problem.W_any);
   const Vector6d outside = problem.c - problem.W_any * (problem.W_any.transpose() * problem.c);
   if (outside.norm() > 1e-12) {
     wrench.refuse_value("c", fmt::format("a direction within any = {}", fmt::join(any, ", ")));
@@ -191,7 +185,10 @@ Problem load_problem(const std::string& name) {
   require_branch(task, problem);
   require_free_motions(task, problem);
   choose_wrenches(task.table("wrench"), problem);
-  if (task.has("contact")) read_contact(task.table("contact"), problem);
+  if (task.has("contact")) {
+    read_contact(task.table("contact"), problem);
+    reconsider_default(task, problem);
+  }
   return problem;
 }
 

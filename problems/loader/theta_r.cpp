@@ -20,9 +20,9 @@ namespace {
 /// The joints that the task names, `count` of the chain's.
 std::vector<int> named_joints(const Block& theta_r, const Robot& robot,
                               const std::vector<int>& chain, int count) {
-  const std::string expected =
-      fmt::format("{} of the joints {}, each once (the other {} and the base follow)", count,
-                  names_of(robot, chain), static_cast<int>(chain.size()) - count);
+  const std::string expected = fmt::format(
+      "{} of the joints {}, each once (the other {}{} follow)", count, names_of(robot, chain),
+      static_cast<int>(chain.size()) - count, robot.base_axes.empty() ? "" : " and the base");
   if (count > 0 && !theta_r.has("joints")) theta_r.refuse_value("joints", expected);
   std::vector<int> joints;
   if (!theta_r.has("joints")) return joints;
@@ -137,11 +137,10 @@ bool follow_independently(const Problem& problem) {
     refuse_joints(task, problem, "it does not at the default: singular");
   }
   task.table("pose").refuse_value(
-      "xyz",
-      fmt::format("a pose that {} reach{} (from theta_r.guess at the default Newton's method "
-                  "stays {})",
-                  followers_of(problem), problem.motion ? " on the branch of the guess" : "",
-                  shown_gap(branch.start_gap())));
+      "xyz", fmt::format("a pose that {} reach{} (from {} at the default Newton's method stays {})",
+                         followers_of(problem), problem.motion ? " on the branch of the guess" : "",
+                         task.table("theta_r").has("guess") ? "theta_r.guess" : "zero",
+                         shown_gap(branch.start_gap())));
 }
 
 [[noreturn]] void refuse_default(const Block& task, const Problem& problem, bool heave) {
@@ -161,14 +160,17 @@ bool follow_independently(const Problem& problem) {
 bool is_reached(const Posture& posture) { return posture.branches.found > 0; }
 
 /// A default that the task leaves open: the first place with a valid posture, or else where the
-/// pose is reached at all.
+/// pose is reached at all. First the joints move alone; then the coordinates of the pose and of a
+/// second contact leave their own defaults too.
 void find_default(PostureEvaluator& model, Problem& problem) {
   constexpr int kPlaces = 4000;
   Random random(3);
+  const auto joints = static_cast<Eigen::Index>(problem.redundant.size());
   Eigen::VectorXd place = problem.theta_r_default;
-  bool reached = false;
+  bool reached = is_reached(model.evaluate(place));
   for (int i = 0; i < kPlaces; ++i) {
-    for (Eigen::Index k = 0; k < place.size(); ++k) {
+    const Eigen::Index moving = i < kPlaces / 2 ? joints : place.size();
+    for (Eigen::Index k = 0; k < moving; ++k) {
       place[k] = random.uniform(problem.theta_r_min[k], problem.theta_r_max[k]);
     }
     const Posture& posture = model.evaluate(place);
@@ -178,6 +180,12 @@ void find_default(PostureEvaluator& model, Problem& problem) {
     reached = true;
     if (valid) return;
   }
+}
+
+void guess_from(const Posture& posture, Problem& problem) {
+  for (const int i : problem.dependent) problem.guess_q[i] = posture.q[i];
+  const Pose<double> base = problem.robot.mount.inverse() * posture.base;
+  problem.guess_base << base.p, std::atan2(base.R(1, 0), base.R(0, 0));
 }
 
 }  // namespace
@@ -243,10 +251,17 @@ void require_branch(const Block& task, Problem& problem) {
     if (DependentJoints(problem).has_start()) return;
     if (problem.motion) refuse_pose(task, problem);
   }
-  const Posture& posture = model.evaluate(problem.theta_r_default);
-  for (const int i : problem.dependent) problem.guess_q[i] = posture.q[i];
-  const Pose<double> base = problem.robot.mount.inverse() * posture.base;
-  problem.guess_base << base.p, std::atan2(base.R(1, 0), base.R(0, 0));
+  guess_from(model.evaluate(problem.theta_r_default), problem);
+}
+
+void reconsider_default(const Block& task, Problem& problem) {
+  const Block theta_r = task.table("theta_r");
+  if (problem.dependent.empty() || theta_r.has("default")) return;
+  PostureEvaluator model(problem);
+  if (model.evaluate(problem.theta_r_default).status == Status::kValid) return;
+  find_default(model, problem);
+  if (theta_r.has("guess") || theta_r.has("guess_base")) return;
+  guess_from(model.evaluate(problem.theta_r_default), problem);
 }
 
 }  // namespace maxwrench

@@ -25,4 +25,8 @@ Eigen::VectorXd limited_theta_r(const Block& block, std::string_view key, const 
 /// fix the posture.
 void require_branch(const Block& task, Problem& problem);
 
+/// Of one whose second contact has been read since: looks again for a default that the task leaves
+/// open, if the second arm makes that which was found invalid.
+void reconsider_default(const Block& task, Problem& problem);
+
 }  // namespace maxwrench

@@ -49,7 +49,8 @@ void check_elements(const fs::path& file, const TiXmlElement& element, const std
 
 void check_shape(const fs::path& file, const TiXmlElement& collision, const std::string& key) {
   constexpr std::array<std::string_view, 3> kShapes = {"box", "cylinder", "sphere"};
-  const char* expected = "one box, cylinder or sphere here, or capsules in the robot's TOML";
+  const char* expected =
+      "one box, cylinder or sphere, or no <collision> here and capsules in the robot's TOML";
   const TiXmlElement* shape = collision.FirstChildElement("geometry")->FirstChildElement();
   const std::string geometry = key + ".geometry";
   if (shape == nullptr) refuse(file, geometry, "nothing", expected);

@@ -165,34 +165,6 @@ TEST(Command, WriteAndCompareTakeBoxWhereThereAreTooManyFacets) {
   EXPECT_NE(compare.out.find("\ngrid             box "), std::string::npos) << compare.out;
 }
 
-/// A closed form has no use for GLPK, so there is nothing to relate times to.
-TEST(Command, CompareOfAClosedFormHasNoReference) {
-  const TemporaryFolder folder;
-  const CommandResult result = run_maxwrench(
-      "compare planar/force --measure ellipsoid --budget 50 --seeds 1 --out .", folder.path());
-  EXPECT_EQ(result.exit_status, 0) << result.err;
-  EXPECT_EQ(result.out.find("glpk"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("\nnullspace        none "), std::string::npos) << result.out;
-}
-
-/// 25 m away nothing is reached: no value, no number.
-TEST(Command, CompareSaysThatNothingHasAValue) {
-  EditedCopy copy;
-  copy.replace("two_arms.toml", "xyz = [-0.02, -0.25, 0]", "xyz = [-0.02, -25, 0]");
-  const CommandResult result =
-      run_maxwrench("compare two_arms.toml --budget 20 --seeds 2 --out .", copy.path());
-  EXPECT_EQ(result.exit_status, 1) << result.err;
-  EXPECT_NE(result.out.find("best known - N"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("\ngrid             box            20   0 of 2         -       - "),
-            std::string::npos)
-      << result.out;
-  EXPECT_EQ(result.out.find("2 of 2"), std::string::npos) << result.out;
-  for (const char* word : {"inf ", "nan", "inf,"}) {
-    EXPECT_EQ(result.out.find(word), std::string::npos) << result.out;
-    EXPECT_EQ(read_text(copy.path() / "search_comparison.csv").find(word), std::string::npos);
-  }
-}
-
 TEST(Command, RunTakesTaskFiles) {
   const EditedCopy copy;
   std::filesystem::create_directory(copy.path() / "a=b");
@@ -327,27 +299,6 @@ TEST(Command, RunWritesTheSameValuesAtAnyThreadCount) {
     EXPECT_GT(std::count(values.begin(), values.end(), '\n'), 20);
     if (first.empty()) first = values;
     EXPECT_EQ(values, first) << threads << " threads";
-  }
-}
-
-TEST(Command, CompareWritesTheSameValuesAgain) {
-  std::string first;
-  for (int run = 0; run < 2; ++run) {
-    const TemporaryFolder folder;
-    const CommandResult result =
-        run_maxwrench("compare planar/force --budget 300 --seeds 2 --out .", folder.path());
-    ASSERT_EQ(result.exit_status, 0) << result.err;
-    EXPECT_NE(result.out.find("nullspace"), std::string::npos);
-    const std::string values = read_text(folder.path() / "search_comparison.csv");
-    EXPECT_GT(std::count(values.begin(), values.end(), '\n'), 18);
-    EXPECT_NE(read_text(folder.path() / "search_comparison.svg").find("<polyline"),
-              std::string::npos);
-    for (const char* file : {"search_times.csv", "search_ecdf.svg", "search_ecdf_problems.svg"}) {
-      EXPECT_TRUE(std::filesystem::exists(folder.path() / file)) << file;
-    }
-    EXPECT_NE(values.find(",evaluations_to_ten_thousandth,"), std::string::npos) << values;
-    if (run == 0) first = values;
-    EXPECT_EQ(values, first);
   }
 }
 

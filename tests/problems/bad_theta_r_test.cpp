@@ -96,7 +96,8 @@ const std::vector<BadInput> kBadThetaRs = {
       "1.6 m away along the world's z"}},
     {"joints_that_never_fix_the_rest",
      "push.toml",
-     "joints = [\"shoulder_yaw\", \"shoulder_pitch\"]",
+     "joints = [\"shoulder_yaw\", \"shoulder_pitch\"]\ndefault = [0, -1]\nguess = { elbow = 1, "
+     "wrist_pitch = 0, wrist_roll = 0 }",
      "joints = [\"elbow\", \"wrist_roll\"]",
      {"theta_r.joints", "in no posture: singular"}},
     {"base_on_short_position",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include "benchmarks/row.h"
 #include "maxwrench/load.h"
@@ -78,6 +79,27 @@ TEST(DualArm, SearchFindsTheBestPlaceOfADenseGrid) {
   }
   EXPECT_GE(found.capability.beta, best * (1 - 1e-9));
   EXPECT_GE(best, found.capability.beta * (kSampleDivisor > 1 ? 0.9 : 0.98));
+}
+
+/// Two arms on a base that neither rolls nor pitches, which follows with two joints of the left
+/// arm. At zero nothing is valid; the second arm, at rest, would collide everywhere.
+TEST(TwoArms, AnOpenDefaultIsValidWithTheSecondContact) {
+  const TemporaryFolder folder;
+  std::filesystem::copy(std::filesystem::path(MAXWRENCH_SOURCE_DIR) / "problems" / "dual_arm",
+                        folder.path());
+  const auto edit = [&](const char* file, const std::string& from, const std::string& to) {
+    std::string text = read_text(folder.path() / file);
+    const std::size_t at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from;
+    std::ofstream(folder.path() / file) << text.replace(at, from.size(), to);
+  };
+  edit("two_arms_robot.toml", "\"roll\", \"pitch\", ", "");
+  edit("two_arms.toml", ", \"left_q3_elbow\", \"left_q4_wrist_roll\"]", "]");
+  edit("two_arms.toml", "default = [3.141592653589793, 0.4, 1.9707963267948966, 0]", "");
+  const Problem problem = load_problem((folder.path() / "two_arms.toml").string());
+  PostureEvaluator model(problem);
+  const Posture& posture = model.evaluate(problem.theta_r_default);
+  EXPECT_EQ(posture.status, Status::kValid) << posture.reason.c_str();
 }
 
 }  // namespace

@@ -18,6 +18,27 @@
 namespace maxwrench {
 namespace {
 
+TEST(Mobile, AnOpenDefaultKeepsThePoseWhereItIsIfJointsAloneWillDo) {
+  const Problem problem = load_problem("mobile/push_any_height");
+  EXPECT_EQ(problem.theta_r_default.tail(2), Eigen::Vector2d::Zero());
+  EXPECT_EQ(PostureEvaluator(problem).evaluate(problem.theta_r_default).status, Status::kValid);
+}
+
+/// A base that drives anywhere follows a free coordinate anywhere: 100 m from X_0.
+TEST(Mobile, AFreeRangeMayLieFarAway) {
+  const TemporaryFolder folder;
+  std::filesystem::copy(std::filesystem::path(MAXWRENCH_SOURCE_DIR) / "problems" / "mobile",
+                        folder.path());
+  std::string text = read_text(folder.path() / "push_any_height.toml");
+  text.replace(text.find("range.z = [-0.4, 0.3]"), 21, "range.x = [100, 100.5]");
+  std::ofstream(folder.path() / "far.toml") << text;
+  const Problem problem = load_problem((folder.path() / "far.toml").string());
+  PostureEvaluator model(problem);
+  const Posture& posture = model.evaluate(problem.theta_r_default);
+  ASSERT_EQ(posture.status, Status::kValid) << posture.reason.c_str();
+  EXPECT_GT(posture.base.p.x(), 98);
+}
+
 TEST(Mobile, TwoJointsAreRedundantAndThreeFollow) {
   const Problem problem = load_problem("mobile/push");
   EXPECT_EQ(problem.redundant, (std::vector<int>{0, 1}));

@@ -6,6 +6,7 @@
 #include "benchmarks/row.h"
 #include "lib/posture/branch_atlas.h"
 #include "maxwrench/load.h"
+#include "tests/support/completeness.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {
@@ -36,6 +37,12 @@ class PublicRobots : public testing::Test {
 TEST_F(PublicRobots, HaveEightSolutions) {
   EXPECT_EQ(load("ur10/push.toml").atlas->solutions(), 8);
   EXPECT_EQ(load("panda/push.toml").atlas->solutions(), 8);
+}
+
+TEST_F(PublicRobots, BranchesAreAllThatRandomStartsFind) {
+  constexpr int kMany = 1000 / kSampleDivisor;
+  expect_complete(load("ur10/mob_ok.toml"), kMany, kMany, kMany);
+  expect_complete(load("panda/push.toml"), kMany, kMany, kMany);
 }
 
 /// Pushing forwards each wheel gives 150 N along its roller at 45 degrees, 600/sqrt 2 N in sum; the

@@ -13,6 +13,7 @@
 #include "maxwrench/measure.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/wrench_program.h"
+#include "tests/support/edited_copy.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {
@@ -192,6 +193,25 @@ TEST(Background, EllipsoidTraceIsTheTraceOfTheInverse) {
     EXPECT_NEAR(evaluate(doubled, "ellipsoid_trace", Wrench::kPure, posture).beta, expected / 4,
                 1e-9 * expected);
   });
+}
+
+/// A vehicle that turns freely in the plane measures the same whichever way the end effector is to
+/// point, if all wrenches are given in its axes.
+TEST(Background, DesiredWrenchesAreInTheAxesOfTheFrame) {
+  const Eigen::Vector2d theta_r(0.3, -0.7);
+  double first = 0;
+  for (const char* yaw : {"0", "0.7", "1.5707963267948966"}) {
+    EditedCopy copy;
+    copy.replace("force.toml", "0.17453292519943295", yaw);
+    copy.replace("force.toml", "\"tz\"]",
+                 "\"tz\"]\nframe = \"tool\"\ndesired = [10, 1, 1, 1, 1, 2]");
+    const Problem problem = load_problem((copy.path() / "force.toml").string());
+    PostureEvaluator model(problem, false);
+    const double trace =
+        evaluate(problem, "ellipsoid_trace", Wrench::kPure, model.evaluate(theta_r)).beta;
+    if (first == 0) first = trace;
+    EXPECT_NEAR(trace, first, 1e-9 * first) << yaw;
+  }
 }
 
 TEST(Background, RobotsWithoutTheRankOrTheLimitsAreRefused) {

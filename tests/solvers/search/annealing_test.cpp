@@ -11,8 +11,9 @@ namespace {
 using Eigen::Vector2d;
 
 TEST(AnnealingTest, SeedsDifferAndRepeat) {
-  Known known([](const Eigen::VectorXd& x) { return -x.squaredNorm(); }, Vector2d::Constant(-2),
-              Vector2d::Constant(2));
+  const Vector2d best(0.3, -0.5);
+  Known known([&](const Eigen::VectorXd& x) { return -(x - best).squaredNorm(); },
+              Vector2d::Constant(-2), Vector2d::Constant(2));
   SearchOptions options;
   options.budget = 100;
   const SearchResult one = make_annealing()->maximize(known, options);
