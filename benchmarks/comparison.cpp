@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "benchmarks/plan_row.h"
+#include "benchmarks/proof.h"
 #include "benchmarks/row.h"
 #include "lib/posture/branch_atlas.h"
 #include "maxwrench/batch.h"
@@ -106,10 +107,9 @@ void forget_beyond(double value, RaceRun& run) {
   }
 }
 
-/// From `start`; `found` gets the best point, if there is one.
 Attempt attempt_from(const Case& choice, const NamedSearch& named,
                      std::unique_ptr<Objective> objective, const Eigen::VectorXd& start,
-                     const Interruption* interruption, Eigen::VectorXd& found) {
+                     const Interruption* interruption) {
   Attempt attempt;
   attempt.choice = choice;
   const double begin = thread_seconds();
@@ -120,7 +120,7 @@ Attempt attempt_from(const Case& choice, const NamedSearch& named,
   attempt.run.interrupted = interruption != nullptr && interruption->noticed;
   attempt.value = result.value;
   forget_beyond(result.value, attempt.run);
-  found = result.theta_r;
+  attempt.found = result.theta_r;
   return attempt;
 }
 
@@ -137,6 +137,26 @@ int cost_of(const std::string& search) {
     cost = std::max(cost, stage->cost);
   }
   return cost;
+}
+
+/// Near enough to the best value for the lowest target to lie where it would below the best.
+constexpr double kProofGap = kTargetShares.back() / 3;
+constexpr long kProofBoxes = 1'000'000;
+
+/// The bound of the best posture of all attempts, if it comes so near.
+std::optional<double> proven_best(const Problem& problem, const Case& base,
+                                  const Comparison& comparison, int threads,
+                                  const Interruption* interruption) {
+  if (!comparison.has_value() || !has_bound(problem, base.measure, base.wrench)) return {};
+  CertifyOptions options;
+  options.gap = kProofGap;
+  options.boxes = kProofBoxes;
+  options.threads = threads;
+  options.interrupted = [&] { return interruption != nullptr && interruption->asked; };
+  const CertifyResult result =
+      prove(problem, resolve(problem, base), comparison.best_found(), options);
+  if (result.status != Status::kProven) return {};
+  return result.bound;
 }
 
 /// Who asks first for a node would pay for all.
@@ -175,12 +195,11 @@ void run_all(const Problem& problem, const Case& base, const RaceOptions& option
 }  // namespace
 
 Attempt attempt(const Problem& problem, const Method& method, Interruption* interruption) {
-  Eigen::VectorXd found;
   Attempt result = attempt_from(method.choice, *method.search,
                                 make_interruptible(make_objective(problem, method), interruption),
-                                problem.theta_r_default, interruption, found);
+                                problem.theta_r_default, interruption);
   // What a search of plans maximises has a value where only slack balances a posture, too.
-  if (result.value > -kInfinity && !evaluate(problem, method, found).has_value()) {
+  if (result.value > -kInfinity && !evaluate(problem, method, result.found).has_value()) {
     result.value = -kInfinity;
     result.run.rises.clear();
   }
@@ -193,10 +212,10 @@ Attempt attempt(const Problem& problem, const PlanMethod& method, Interruption* 
       method.choice, *method.search,
       make_interruptible(make_plan_objective(problem, method.choice.wrench, method.solver->make),
                          interruption),
-      stacked(constant_knots(problem, problem.theta_r_default)), interruption, found);
+      stacked(constant_knots(problem, problem.theta_r_default)), interruption);
   if (result.value > -kInfinity) {
     result.continuous =
-        evaluate_plan(problem, method, unstacked(found, knots_of(problem))).plan.continuous;
+        evaluate_plan(problem, method, unstacked(result.found, knots_of(problem))).plan.continuous;
   }
   return result;
 }
@@ -228,16 +247,19 @@ const Contender* Comparison::reference() const {
   return best == peers.end() ? nullptr : &*best;
 }
 
-double Comparison::best() const {
-  double best = best_known.value_or(-kInfinity);
-  if (best_known) return best;
+Candidate Comparison::best_found() const {
+  Candidate best;
   for (const auto* group : {&contenders, &peers}) {
     for (const Contender& contender : *group) {
-      for (const Attempt& each : contender.attempts) best = std::max(best, each.value);
+      for (const Attempt& each : contender.attempts) {
+        if (each.value > best.value) best = {each.found, each.value};
+      }
     }
   }
   return best;
 }
+
+double Comparison::best() const { return proven ? *proven : best_found().value; }
 
 Comparison compare(const Problem& problem, const Case& base, const RaceOptions& options,
                    Interruption* interruption) {
@@ -258,6 +280,7 @@ Comparison compare(const Problem& problem, const Case& base, const RaceOptions& 
   }
   if (problem.atlas) make_all_nodes(*problem.atlas, options.threads);
   run_all(problem, base, options, interruption, comparison);
+  comparison.proven = proven_best(problem, base, comparison, options.threads, interruption);
   comparison.interrupted = interruption != nullptr && interruption->asked;
   return comparison;
 }

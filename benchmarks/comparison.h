@@ -19,6 +19,7 @@ struct PlanMethod;
 struct Attempt {
   Case choice;
   double value = -kInfinity;
+  Eigen::VectorXd found;  ///< its point
   /// Of a plan, that between its instants (`Plan::continuous`); NaN: none.
   double continuous = std::numeric_limits<double>::quiet_NaN();
   RaceRun run;         ///< what was spent in the whole run as the search counts it
@@ -57,15 +58,17 @@ struct Comparison {
   bool in_time = false;        ///< a task in time
   long budget = 0;             ///< the largest of the contenders
   bool interrupted = false;    ///< attempts are missing
-  /// Replaces the best value of the attempts, such as a proven bound.
-  std::optional<double> best_known = std::nullopt;
+  /// No posture has more: a bound that is nearer to the best value than the lowest target, if one
+  /// was proven.
+  std::optional<double> proven = std::nullopt;
 
   /// Of `peers` the one from which every speed is a multiple: that with the least expected time to
   /// `target`, the first of equals; null: none.
   const Contender* reference() const;
-  bool has_value() const { return best() > -kInfinity; }
-  /// What targets lie below: `best_known`, or the best value of all attempts, -infinity if none has
-  /// one.
+  /// Of all attempts; -infinity if none has a value.
+  Candidate best_found() const;
+  bool has_value() const { return best_found().value > -kInfinity; }
+  /// What targets lie below: what is proven, or the best value of all attempts.
   double best() const;
   /// The target at a share below it.
   double target(double share) const { return target_below(best(), share); }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/proof.h"
 #include "benchmarks/proof_recorder.h"
 #include "benchmarks/write_file.h"
 #include "cli/cli.h"
@@ -69,7 +70,7 @@ class GapLine {
 /// Searches, then bounds. What was found while bounding is evaluated anew, too.
 Proof prove(const ProofOptions& options, const Problem& problem) {
   Case c = options.read_case();
-  const auto bound = make_capability_bound(problem, c.measure, c.wrench);
+  make_capability_bound(problem, c.measure, c.wrench);  // refuses before anything is computed
   c.search = best_search(problem, c.measure);
   const Method method = resolve(problem, c);
   CtrlC ctrl_c;
@@ -94,8 +95,7 @@ Proof prove(const ProofOptions& options, const Problem& problem) {
   if (proof.row.has_value()) {
     incumbent = {proof.row.posture.theta_r, proof.row.capability.beta};
   }
-  const auto objective = make_capability_objective(problem, c.wrench, method.make_measure);
-  proof.result = certify(*objective, *bound, incumbent, how);
+  proof.result = prove(problem, method, incumbent, how);
   const Candidate& best = proof.result.best;
   if (best.value > incumbent.value) proof.row = evaluate(problem, method, best.theta_r);
   if (best.value == -kInfinity) {

@@ -120,8 +120,10 @@ std::vector<std::string> race_columns(const std::vector<std::string>& before, co
 
 void keep_attempt(const Comparison& comparison, const Attempt& each, Table& values, Table& times) {
   std::vector<std::string> cells = {number_or_dash(each.value, "{:.17g}"),
-                                    number_or_dash(each.continuous, "{:.17g}"), comparison.unit,
+                                    number_or_dash(each.continuous, "{:.17g}"),
+                                    comparison.unit,
                                     number_or_dash(comparison.best(), "{:.17g}"),
+                                    comparison.proven ? "yes" : "no",
                                     number_or_dash(shortfall(comparison, each.value), "{:.3e}")};
   for (auto& cell : hit_cells(comparison, each, &Spent::evaluations, "{:.0f}")) {
     cells.push_back(std::move(cell));
@@ -144,8 +146,9 @@ std::string number_or_dash(double value, const char* format) {
 
 std::string race_table(const Comparison& comparison) {
   const Contender* reference = comparison.reference();
-  std::string text = fmt::format("{}{}: best known {} {}\n", comparison.problem,
+  std::string text = fmt::format("{}{}: {} {} {}\n", comparison.problem,
                                  comparison.interrupted ? ", interrupted" : "",
+                                 comparison.proven ? "proven bound" : "best known",
                                  number_or_dash(comparison.best(), "{:.5f}"), comparison.unit);
   if (reference != nullptr) {
     const bool arrives = std::isfinite(reference->expected(comparison.target(), &Spent::seconds));
@@ -196,8 +199,8 @@ std::string summary_table(std::span<const Standing> rows, std::span<const Compar
 void keep(const Comparison& comparison, const std::filesystem::path& folder) {
   const std::size_t keys = case_columns().size();
   Table values(folder / "search_comparison.csv",
-               race_columns({"beta", "continuous", "unit", "best_known", "below"}, "evaluations",
-                            {"evaluations"}),
+               race_columns({"beta", "continuous", "unit", "best_known", "proven", "below"},
+                            "evaluations", {"evaluations"}),
                keys);
   Table times(folder / "search_times.csv",
               race_columns({}, "seconds", {"seconds", "threads", "machine", "version"}), keys);

@@ -5,6 +5,8 @@
 #include <memory>
 
 #include "benchmarks/plan_row.h"
+#include "benchmarks/proof.h"
+#include "benchmarks/row.h"
 #include "cli/cli.h"
 
 namespace maxwrench {
@@ -30,6 +32,17 @@ int reproduce(const ReproduceOptions& options) {
 }
 
 }  // namespace
+
+double proven_bound(const Problem& problem, const Row& row, int threads) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  if (!row.has_value() || !has_bound(problem, row.choice.measure, row.choice.wrench)) return none;
+  CertifyOptions options;
+  options.boxes = 1'000'000;
+  options.threads = threads;
+  const CertifyResult result = prove(problem, resolve(problem, row.choice),
+                                     {row.posture.theta_r, row.capability.beta}, options);
+  return result.status == Status::kProven ? result.bound : none;
+}
 
 void add_reproduce(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<ReproduceOptions>();

@@ -107,7 +107,7 @@ TEST(Comparison, TargetsAndReference) {
   EXPECT_EQ(comparison.best(), 100);
   EXPECT_DOUBLE_EQ(comparison.target(), 99.9);
   EXPECT_EQ(comparison.reference()->lp, "clp");
-  comparison.best_known = 110;
+  comparison.proven = 110;
   EXPECT_DOUBLE_EQ(comparison.target(0.1), 99);
   EXPECT_EQ(comparison.peers[0].expected(comparison.target(), &Spent::seconds), kInfinity);
   EXPECT_EQ(comparison.reference()->lp, "glpk");  // neither gets there: the first

@@ -68,7 +68,7 @@ TEST(RaceSummary, RanksByExpectedTimeThenByMedianValue) {
 
 TEST(RaceSummary, PutsThoseThatNeverGetThereLast) {
   Comparison one = two_problems()[1];
-  one.best_known = 10.5;  // 4.8 % above what any attempt found
+  one.proven = 10.5;  // 4.8 % above what any attempt found
   EXPECT_EQ(names_of(ranking(one)).back(), "fast");
   EXPECT_EQ(one.contenders[1].expected(one.target(), &Spent::seconds), kInfinity);
 }
