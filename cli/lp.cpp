@@ -4,7 +4,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/exact_basis.h"
+#include "benchmarks/write_file.h"
 #include "cli/cli.h"
+#include "cli/lp_proof.h"
 #include "cli/output.h"
 #include "maxwrench/mps.h"
 #include "maxwrench/strategies.h"
@@ -19,6 +22,7 @@ struct LpOptions {
   std::string file;
   std::string lp = "simplex";
   bool json = false;
+  std::string certificate;
 };
 
 /// An answer with what was recomputed from the file's data.
@@ -111,12 +115,29 @@ void print_lp(const LpOptions& options, const MpsProgram& mps, const Checked& an
       r.balance, r.bounds, r.dual, r.gap, solution.iterations, answer.wall_s);
 }
 
+/// Proves the verdict in rational numbers; false if they do not confirm it.
+bool certify_verdict(const LpOptions& options, const MpsProgram& mps, const LpSolution& solution) {
+  const LpProof proof = exact_proof(mps.program, solution);
+  std::string refusal = refuse_lp_proof(mps.program, proof);
+  if (refusal.empty() && proof.status != solution.status) refusal = to_string(proof.status);
+  if (!refusal.empty()) {
+    remark(fmt::format("{}: not written, as rational numbers do not confirm '{}': {}",
+                       options.certificate, to_string(solution.status), refusal));
+    return false;
+  }
+  write_file(options.certificate, lp_proof_text(options.file, mps, proof));
+  return true;
+}
+
 int lp(const LpOptions& options) {
+  require_apart({{"file", options.file}}, {{"--certificate", options.certificate}});
   const LpEntry& solver = find_lp_solver(options.lp);
   const MpsProgram mps = read_mps(options.file);
   const Checked answer = solve(solver, mps.program);
+  const bool certified =
+      options.certificate.empty() || certify_verdict(options, mps, answer.solution);
   (options.json ? print_lp_object : print_lp)(options, mps, answer);
-  return answer.optimal() ? kAnswered : kOtherStatus;
+  return certified && answer.optimal() ? kAnswered : kOtherStatus;
 }
 
 }  // namespace
@@ -126,6 +147,10 @@ void add_lp(CLI::App& app, int& exit_status) {
   CLI::App& command = *app.add_subcommand("lp", "solves a linear program in an MPS file");
   command.add_option("file", options->file, "fixed or free MPS")->required();
   command.add_option("--lp", options->lp, "general solver")->capture_default_str();
+  command
+      .add_option("--certificate", options->certificate,
+                  "file for a proof in rational numbers, which 'verify' checks; up to 500 rows")
+      ->check(refuse_empty);
   command.add_flag("--json", options->json, "print one JSON object");
   command.callback([options, &exit_status] { exit_status = lp(*options); });
 }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/cli.h"
+#include "cli/lp_proof.h"
 #include "cli/output.h"
 #include "cli/pieces.h"
 #include "maxwrench/load.h"
@@ -56,7 +57,26 @@ void print_verified_object(const ProofCertificate& proof, const Problem& problem
   print_json(object);
 }
 
+int check_lp_file(const VerifyOptions& options) {
+  const LpVerification result = verify_lp(options.file, options.choice.problem);
+  const bool verified = result.refusal.empty();
+  if (options.json) {
+    print_json({{"file", result.mps_file},
+                {"status", verified ? "verified" : "refused"},
+                {"reason", result.refusal},
+                {"verdict", to_string(result.status)},
+                {"objective", result.objective}});
+  } else {
+    fmt::print("{}\n{}{}{}\n", result.mps_file, verified ? "verified" : "refused",
+               verified ? "" : ": ", result.refusal);
+    fmt::print("{} in rational numbers{}{}\n", to_string(result.status),
+               result.objective.empty() ? "" : ", objective ", result.objective);
+  }
+  return verified ? kAnswered : kOtherStatus;
+}
+
 int check_file(const VerifyOptions& options) {
+  if (is_lp_proof(options.file)) return check_lp_file(options);
   const auto start = std::chrono::steady_clock::now();
   const ProofCertificate proof = read_certificate(options.file);
   const std::string& other = options.choice.problem;
@@ -75,11 +95,12 @@ void add_verify(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<VerifyOptions>();
   options->choice.problem.clear();
   CLI::App& command = *app.add_subcommand(
-      "verify", "checks a certificate of 'certify' with no code of what made it");
+      "verify", "checks a certificate of 'certify' or 'lp' with no code of what made it");
   command.add_option("file", options->file, "certificate")->required()->check(refuse_empty);
   command
-      .add_option("--problem", options->choice.problem,
-                  "what it is to be about, shipped name or task file; default: what it says")
+      .add_option(
+          "--problem", options->choice.problem,
+          "what it is to be about, shipped name, task file or MPS file; default: what it says")
       ->check(refuse_empty);
   options->add_threads(command);
   options->add_json(command);
