@@ -91,7 +91,8 @@ TEST_P(BoundOf, NoPostureIsAbove) {
     if (value == -kInfinity) continue;
     if (pair % 2 == 0) proof = {};
     const double low = value - random.uniform(0, 1) * std::abs(value) - 1e-9;
-    const double high = std::min(bound->ceiling(), 10 + value * random.uniform(1, 3));
+    const double high =
+        std::min(bound->ceiling(), 10 + value + random.uniform(0, 2) * std::abs(value));
     bound->evaluate(box.lower, box.upper, low, high, proof);
     EXPECT_LE(proof.high, high);
     if (proof.kind == BoxProof::Kind::kCollision) {

@@ -156,7 +156,7 @@ TEST(FreePose, GradientEqualsDifferences) {
       const auto f =
           make_capability_objective(problem, c.wrench, resolve(problem, c).make_measure, false);
       int compared = 0, kinks = 0;
-      for (int sample = 0; sample < 40 / kSampleDivisor && compared < 60; ++sample) {
+      for (int sample = 0; sample < 100 && compared < 60 / kSampleDivisor; ++sample) {
         const Eigen::VectorXd theta_r = place_in(problem, random);
         Eigen::VectorXd gradient;
         const double value = f->evaluate(theta_r, &gradient);
