@@ -139,11 +139,12 @@ int cost_of(const std::string& search) {
   return cost;
 }
 
-/// Near enough to the best value for the lowest target to lie where it would below the best.
-constexpr double kProofGap = kTargetShares.back() / 3;
-constexpr long kProofBoxes = 1'000'000;
+/// What is nearer to the best value moves no target by more than a third of the lowest.
+constexpr double kNearBound = kTargetShares.back() / 3;
+constexpr double kProofGap = 1e-7;
+constexpr long kProofBoxes = 200'000;
 
-/// The bound of the best posture of all attempts, if it comes so near.
+/// A bound of all postures, if one comes so near to the best of all attempts.
 std::optional<double> proven_best(const Problem& problem, const Case& base,
                                   const Comparison& comparison, int threads,
                                   const Interruption* interruption) {
@@ -153,10 +154,10 @@ std::optional<double> proven_best(const Problem& problem, const Case& base,
   options.boxes = kProofBoxes;
   options.threads = threads;
   options.interrupted = [&] { return interruption != nullptr && interruption->asked; };
-  const CertifyResult result =
-      prove(problem, resolve(problem, base), comparison.best_found(), options);
-  if (result.status != Status::kProven) return {};
-  return result.bound;
+  const Candidate best = comparison.best_found();
+  const double bound = prove(problem, resolve(problem, base), best, options).bound;
+  if (!(bound - best.value <= kNearBound * std::abs(best.value))) return {};
+  return bound;
 }
 
 /// Who asks first for a node would pay for all.
