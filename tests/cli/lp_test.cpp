@@ -77,6 +77,58 @@ TEST(LpCommand, DualsAndConstantInTheFilesOwnSense) {
   EXPECT_NE(text.out.find("cost = 4.5"), std::string::npos) << text.out;
 }
 
+/// All files that come with the tests, by the rational numbers that `verify` checks.
+TEST_F(NetlibCommand, VerdictsAreProvenInRationalNumbers) {
+  const TemporaryFolder folder;
+  const std::string proof = (folder.path() / "proof.json").string();
+  int files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(MAXWRENCH_NETLIB_DIR)) {
+    if (entry.path().extension() != ".mps") continue;
+    ++files;
+    const CommandResult made =
+        run_maxwrench("lp '" + entry.path().string() + "' --certificate '" + proof + "'");
+    EXPECT_EQ(made.err, "");
+    const CommandResult checked = run_maxwrench("verify '" + proof + "'");
+    EXPECT_EQ(checked.exit_status, 0) << entry.path() << checked.out << checked.err;
+    std::filesystem::remove(proof);
+  }
+  EXPECT_GE(files, 22);
+}
+
+/// 9/2, see above; what is changed is refused, what is no certificate is bad input.
+TEST(LpCommand, CertificatesAreChecked) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "small.mps").string();
+  const std::string proof = (folder.path() / "proof.json").string();
+  std::ofstream(file) << kSmall;
+  EXPECT_EQ(run_maxwrench("lp '" + file + "' --certificate '" + proof + "'").exit_status, 0);
+  const json good = json::parse(run_maxwrench("verify --json '" + proof + "'").out);
+  EXPECT_EQ(good["status"], "verified");
+  EXPECT_EQ(good["objective"], "9/2");
+  const std::string text = read_text(proof);
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string other = text;
+    EXPECT_NE(other.find(from), other.npos) << from << " in " << other;
+    std::ofstream(proof) << other.replace(other.find(from), from.size(), to);
+    return run_maxwrench("verify '" + proof + "'");
+  };
+  EXPECT_EQ(changed("\"9/2\"", "\"4\"").exit_status, 1);
+  EXPECT_EQ(changed("\"5/2\"", "\"7/2\"").exit_status, 1);  // x
+  EXPECT_EQ(changed("optimal", "infeasible").exit_status, 1);
+  for (const auto& [from, to] :
+       std::vector<std::pair<std::string, std::string>>{{"\"5/2\"", "\"5/0\""},
+                                                        {"\"5/2\"", "\"2.5\""},
+                                                        {"\"5/2\"", "2.5"},
+                                                        {"\"lambda\"", "\"mu\""},
+                                                        {"optimal", "best"},
+                                                        {"lp proof 1", "lp proof 2"},
+                                                        {"{", "{{"}}) {
+    const CommandResult result = changed(from, to);
+    EXPECT_EQ(result.exit_status, 2) << to << result.out;
+    EXPECT_NE(result.err.find(proof), std::string::npos) << result.err;
+  }
+}
+
 TEST(LpCommand, BadInputExitsWithTwo) {
   for (const char* words : {"lp", "lp missing.mps", "lp README.md", "lp README.md --lp facets"}) {
     const CommandResult result = run_maxwrench(words);
