@@ -95,6 +95,9 @@ void print(const Problem& problem, const Row& row) {
   if (!answers(row.status)) {
     fmt::print("{}: {}, the best so far\n", to_string(row.status), row.reason.c_str());
   }
+  if (row.status == Status::kBestFound) {
+    fmt::print("{} by {}\n", to_string(row.status), c.search);
+  }
   const Capability& capability = row.capability;
   fmt::print("beta     {:>10.5f} {}\n", capability.beta, row.unit);
   fmt::print("yardstick{:>10.5f} {}\n", row.yardstick, problem.unit());

@@ -55,6 +55,12 @@ TEST(Command, OneEvaluationIsOne) {
             std::string::npos);
 }
 
+TEST(Command, SolveSaysThatItSearchedAndHow) {
+  const std::string out = run_maxwrench("solve planar/force --budget 20").out;
+  EXPECT_NE(out.find("\nbest_found by facet_sqp+cmaes\n"), std::string::npos) << out;
+  EXPECT_EQ(out.find("optimal"), std::string::npos) << out;
+}
+
 TEST(Command, EvalReportsTheSecondContact) {
   const CommandResult text = run_maxwrench("eval planar/two_arms");
   EXPECT_EQ(text.exit_status, 0) << text.err;
