@@ -49,8 +49,8 @@ std::string refuse_balance(const Problem& problem, const ProofCertificate& proof
                            const std::vector<Narrow>& tau, double tolerance) {
   const Zonotope& set = problem.robot.actuation;
   if (proof.u.size() != set.actuators()) return "the efforts are not as many as the actuators";
-  if (!((set.u_min - proof.u).maxCoeff() <= tolerance) ||
-      !((proof.u - set.u_max).maxCoeff() <= tolerance)) {
+  if (!((set.u_min - proof.u).array() <= tolerance).all() ||
+      !((proof.u - set.u_max).array() <= tolerance).all()) {
     return "an effort is beyond its limits";
   }
   for (Eigen::Index i = 0; i < set.dimension(); ++i) {
@@ -121,8 +121,8 @@ std::string refuse_incumbent(const Problem& problem, const FormModel& model,
   if (!theta_r.allFinite() || !proof.u.allFinite() || !proof.h.allFinite()) {
     return "its posture is no number";
   }
-  if (!((problem.theta_r_min - theta_r).maxCoeff() <= kLimitTolerance) ||
-      !((theta_r - problem.theta_r_max).maxCoeff() <= kLimitTolerance)) {
+  if (!((problem.theta_r_min - theta_r).array() <= kLimitTolerance).all() ||
+      !((theta_r - problem.theta_r_max).array() <= kLimitTolerance).all()) {
     return "its posture is beyond the limits";
   }
   if (problem.robot.collision && problem.robot.collision->collides(links_at(problem, theta_r))) {

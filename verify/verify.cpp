@@ -166,11 +166,11 @@ std::string refuse_claims(const Problem& problem, const FormModel& model,
   const Eigen::Index n = problem.theta_r_min.size();
   if (proof.lower.size() != n || proof.upper.size() != n) return "its box has other joints";
   if (!proof.lower.allFinite() || !proof.upper.allFinite() ||
-      !((proof.lower - problem.theta_r_min).maxCoeff() <= -kLimitTolerance / 2) ||
-      !((problem.theta_r_max - proof.upper).maxCoeff() <= -kLimitTolerance / 2)) {
+      !((proof.lower - problem.theta_r_min).array() <= -kLimitTolerance / 2).all() ||
+      !((problem.theta_r_max - proof.upper).array() <= -kLimitTolerance / 2).all()) {
     return "its box does not contain the limits";
   }
-  if (!((proof.upper - proof.lower).maxCoeff() <= kWidest)) return "its box is too wide";
+  if (!((proof.upper - proof.lower).array() <= kWidest).all()) return "its box is too wide";
   for (const double x : {proof.bound, proof.gap, proof.value, proof.h.lpNorm<Eigen::Infinity>()}) {
     if (!(std::abs(x) <= kLargest)) return "what it claims is no number, or too large";
   }
