@@ -88,23 +88,25 @@ TEST(Verify, AcceptsABracket) {
 /// A vehicle without an arm: one posture, and a box of no side.
 TEST(Verify, AcceptsAProofWithoutCoordinates) {
   Random random(3);
-  Problem problem = random_problem(random, 0);
-  problem.W_any = problem.c;
-  const auto bound = make_capability_bound(problem, "linf_polytope", Wrench::kPure);
-  Case c;
-  c.problem = "random";
-  c.search = "";
-  const Row row = evaluate(problem, resolve(problem, c), problem.theta_r_default);
-  ASSERT_TRUE(row.has_value());
-  ProofRecorder recorder;
-  CertifiedBox root;
-  root.low = row.capability.beta * (1 + 1e-6);
-  root.high = bound->ceiling();
-  bound->evaluate(root.lower, root.upper, root.low, root.high, root.proof);
-  recorder.add(root);
-  CertifyResult result;
-  result.bound = std::max(root.low, root.proof.high);
-  EXPECT_EQ(verify(problem, recorder.certificate(problem, row, result, 1e-3), 1).refusal, "");
+  const Problem problem = random_problem(random, 0);
+  for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
+    const auto bound = make_capability_bound(problem, "linf_polytope", wrench);
+    Case c;
+    c.problem = "random";
+    c.wrench = wrench;
+    c.search = "";
+    const Row row = evaluate(problem, resolve(problem, c), problem.theta_r_default);
+    ASSERT_TRUE(row.has_value());
+    ProofRecorder recorder;
+    CertifiedBox root;
+    root.low = row.capability.beta * (1 + 1e-6);
+    root.high = bound->ceiling();
+    bound->evaluate(root.lower, root.upper, root.low, root.high, root.proof);
+    recorder.add(root);
+    CertifyResult result;
+    result.bound = std::max(root.low, root.proof.high);
+    EXPECT_EQ(verify(problem, recorder.certificate(problem, row, result, 1e-3), 1).refusal, "");
+  }
 }
 
 std::string file_of(const TemporaryFolder& folder, const std::string& text) {
