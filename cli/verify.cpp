@@ -20,7 +20,7 @@ struct VerifyOptions : CommonOptions {
 
 void print_verified(const ProofCertificate& proof, const Problem& problem,
                     const Verification& result, double seconds) {
-  fmt::print("{}  measure {}  wrench {}{}\n", proof.problem, proof.measure, to_string(proof.wrench),
+  fmt::print("{}  measure {}  wrench {}{}\n", problem.name, proof.measure, to_string(proof.wrench),
              proof.collision ? "" : "  collisions ignored");
   fmt::print("{}{}{}\n", result.refusal.empty() ? "verified" : "refused",
              result.refusal.empty() ? "" : ": ", result.refusal);
@@ -36,7 +36,7 @@ void print_verified(const ProofCertificate& proof, const Problem& problem,
 
 void print_verified_object(const ProofCertificate& proof, const Problem& problem,
                            const Verification& result, double seconds) {
-  nlohmann::ordered_json object = {{"problem", proof.problem},
+  nlohmann::ordered_json object = {{"problem", problem.name},
                                    {"measure", proof.measure},
                                    {"wrench", to_string(proof.wrench)},
                                    {"status", result.refusal.empty() ? "verified" : "refused"},

@@ -67,9 +67,12 @@ class AnyProof final : public ValueProof {
     for (std::vector<Narrow>& g : g_) box_.over_box(g);
     double most = -kInfinity;
     for (std::size_t v = 0; v < size; ++v) {
-      most = std::max(most, (constant_[v] + thrust(v)).high);
+      const double at = (constant_[v] + thrust(v)).high;
+      if (!(at < kInfinity)) return high;  // or no number
+      most = std::max(most, at);
     }
-    return std::min(high, Narrow::above(most + joints(mu)));
+    const double U = Narrow::above(most + joints(mu));
+    return U < high ? U : high;
   }
 
   std::unique_ptr<ValueProof> clone() const override {

@@ -25,6 +25,7 @@ bool BoxForms::set_turning(Corners& corners) {
   if (!(Narrow::above(corners.upper - corners.lower) < kWidestArc)) return false;
   const CosSin<double> a = at(corners.lower), b = at(corners.upper);
   const Narrow below = Narrow(1.0) + a.c * b.c + a.s * b.s;
+  if (!(below.low > 0)) return false;  // angles so far off that no digit of them is left
   corners.first[0] = Term(a.c);
   corners.second[0] = Term(a.s);
   corners.first[1] = Term((a.c + b.c) / below);

@@ -17,7 +17,7 @@ class BoxForms {
   /// Keeps a reference.
   explicit BoxForms(const FormShape& shape) : shape_(shape), corners_(shape.terms.size()) {}
 
-  /// False if an arc is half a turn or more.
+  /// False if an arc is half a turn or more, or nothing is known of it.
   bool set(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
   /// Coefficients -> control points.
   void over_box(std::vector<Narrow>& values) const;

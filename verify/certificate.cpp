@@ -2,6 +2,7 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -12,8 +13,9 @@ namespace maxwrench {
 namespace {
 
 constexpr std::string_view kMagic = "maxwrench proof 1\n";
-/// zlib packs no tighter.
-constexpr std::uint64_t kMostPacked = 1100;
+/// Multipliers hardly pack, boxes without one 40 times. A small file must not fill the memory.
+constexpr std::uint64_t kMostPacked = 200;
+constexpr std::size_t kMostNodes = 50'000'000;
 
 void put_pose(ByteWriter& to, const Pose<double>& pose) {
   to.matrix(pose.R);
@@ -87,7 +89,9 @@ void put_tree(ByteWriter& to, const CertificateTree& tree) {
 bool take_tree(ByteReader& from, CertificateTree& tree) {
   const std::size_t width = from.count(sizeof(double));
   tree.width = static_cast<int>(width);
-  tree.nodes.resize(from.count(1));
+  const std::size_t nodes = from.count(1);
+  if (nodes > kMostNodes) return false;
+  tree.nodes.resize(nodes);
   for (CertificateTree::Node& node : tree.nodes) {
     const auto tag = static_cast<int>(from.whole(1));
     if (!from.good() || (tag & 3) > 2) return false;
@@ -103,13 +107,18 @@ bool take_tree(ByteReader& from, CertificateTree& tree) {
   return true;
 }
 
-std::string read_all(const std::string& file) {
+/// What follows the first line. That is looked at before the rest, which may have no end.
+std::string read_packed(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  std::string start(kMagic.size(), '\0');
+  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
   if (!stream.is_open() || stream.bad()) {
     throw std::invalid_argument(file + ": got nothing, expected a file that can be read");
   }
-  return text;
+  if (!stream || start != kMagic) {
+    throw std::invalid_argument(file + ": got something else, expected a certificate of 'certify'");
+  }
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
 std::uint64_t checksum(std::string_view text) {
@@ -119,7 +128,8 @@ std::uint64_t checksum(std::string_view text) {
 /// Empty if it is damaged.
 std::string unpack(std::string_view text) {
   ByteReader sum(text);
-  if (sum.whole(4) != checksum(text.substr(std::min<std::size_t>(4, text.size())))) return "";
+  const std::uint64_t claimed = sum.whole(4);
+  if (!sum.good() || claimed != checksum(text.substr(4))) return "";
   ByteReader head(text.substr(4));
   const std::uint64_t length = head.whole(8);
   if (!head.good()) return "";
@@ -130,6 +140,12 @@ std::string unpack(std::string_view text) {
   const int how = uncompress(reinterpret_cast<Bytef*>(raw.data()), &got,
                              reinterpret_cast<const Bytef*>(packed.data()), packed.size());
   return how == Z_OK && got == length ? raw : "";
+}
+
+/// What may be printed in a line.
+bool is_plain(const std::string& text) {
+  return std::none_of(text.begin(), text.end(),
+                      [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; });
 }
 
 }  // namespace
@@ -184,11 +200,7 @@ std::string certificate_text(const ProofCertificate& proof) {
 }
 
 ProofCertificate read_certificate(const std::string& file) {
-  const std::string text = read_all(file);
-  if (!std::string_view(text).starts_with(kMagic)) {
-    throw std::invalid_argument(file + ": got something else, expected a certificate of 'certify'");
-  }
-  const std::string raw = unpack(std::string_view(text).substr(kMagic.size()));
+  const std::string raw = unpack(read_packed(file));
   ByteReader from(raw);
   ProofCertificate proof;
   proof.version = from.words();
@@ -203,7 +215,8 @@ ProofCertificate read_certificate(const std::string& file) {
   const Eigen::VectorXd h = from.vector();
   proof.lower = from.vector();
   proof.upper = from.vector();
-  if (h.size() != 6 || !take_tree(from, proof.tree) || !from.at_end()) {
+  const bool plain = is_plain(proof.version) && is_plain(proof.problem) && is_plain(proof.measure);
+  if (!plain || h.size() != 6 || !take_tree(from, proof.tree) || !from.at_end()) {
     throw std::invalid_argument(file + ": got a damaged file, expected a whole certificate");
   }
   proof.h = h;

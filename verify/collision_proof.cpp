@@ -9,6 +9,7 @@ double beyond(const std::array<Narrow, 3>& x, const Eigen::Vector3d& half_sizes,
   Narrow square;
   for (std::size_t i = 0; i < 3; ++i) {
     const double out = Narrow::above(x[i].magnitude() - half_sizes[static_cast<Eigen::Index>(i)]);
+    if (!(out < kInfinity)) return kInfinity;  // or no number
     most = std::max(most, out);
     if (out > 0) square += Narrow(out) * Narrow(out);
   }
@@ -114,7 +115,8 @@ bool CollisionProof::is_close(const Movers& movers, const std::array<FormRow, 3>
     box_.over_box(x_[i]);
   }
   for (std::size_t v = 0; v < x_[0].size(); ++v) {
-    if (beyond({x_[0][v], x_[1][v], x_[2][v]}, movers.half_sizes, movers.reach) >= 0) return false;
+    const std::array<Narrow, 3> x = {x_[0][v], x_[1][v], x_[2][v]};
+    if (!(beyond(x, movers.half_sizes, movers.reach) < 0)) return false;
   }
   return true;
 }

@@ -49,8 +49,8 @@ std::string refuse_balance(const Problem& problem, const ProofCertificate& proof
                            const std::vector<Narrow>& tau, double tolerance) {
   const Zonotope& set = problem.robot.actuation;
   if (proof.u.size() != set.actuators()) return "the efforts are not as many as the actuators";
-  if (!((set.u_min - proof.u).maxCoeff() <= tolerance) ||
-      !((proof.u - set.u_max).maxCoeff() <= tolerance)) {
+  if (!((set.u_min - proof.u).array() <= tolerance).all() ||
+      !((proof.u - set.u_max).array() <= tolerance).all()) {
     return "an effort is beyond its limits";
   }
   for (Eigen::Index i = 0; i < set.dimension(); ++i) {
@@ -72,6 +72,25 @@ std::vector<Wide> efforts(const WideRows& K, const std::vector<Narrow>& tau) {
   return u;
 }
 
+/// |W_u B^+ tau|^2
+Wide square_of_effort(const Zonotope& set, const std::vector<Narrow>& tau) {
+  Wide square;
+  for (const Wide& x : efforts(weighted_pseudoinverse(set), tau)) square += x * x;
+  return square;
+}
+
+/// There is a value only where the ellipsoid holds tau_d. Then |W_u B^+ J'h| <= 2, so that a value
+/// that is off by a small share takes the square off by at most 4 times that share.
+std::string refuse_ellipsoid(const Problem& problem, const FormModel& model,
+                             const ProofCertificate& proof, const std::vector<Narrow>& tau) {
+  const Zonotope& set = problem.robot.actuation;
+  const std::vector<Narrow> tau_d = load(model, proof.theta_r, Vector6d::Zero());
+  if (!(square_of_effort(set, tau_d).low <= 1)) return "its posture has no value";
+  return square_of_effort(set, tau).low <= 1 + 4 * kIncumbentTolerance
+             ? ""
+             : "its efforts are outside the ellipsoid";
+}
+
 std::string refuse_value(const Problem& problem, const FormModel& model,
                          const ProofCertificate& proof, double tolerance) {
   const Zonotope& set = problem.robot.actuation;
@@ -82,11 +101,7 @@ std::string refuse_value(const Problem& problem, const FormModel& model,
   if (!(std::abs(problem.c.dot(h) - proof.value) <= tolerance)) return "its wrench is another one";
   const std::vector<Narrow> tau = load(model, proof.theta_r, h);
   if (polytope) return refuse_balance(problem, proof, tau, tolerance);
-  if (proof.measure == "ellipsoid") {
-    Wide square;
-    for (const Wide& x : efforts(weighted_pseudoinverse(set), tau)) square += x * x;
-    return square.low <= 1 + tolerance ? "" : "its efforts are outside the ellipsoid";
-  }
+  if (proof.measure == "ellipsoid") return refuse_ellipsoid(problem, model, proof, tau);
   const std::vector<Wide> u = efforts(enclose_pseudoinverse(set.B), tau);
   for (std::size_t k = 0; k < u.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(k);
@@ -106,8 +121,8 @@ std::string refuse_incumbent(const Problem& problem, const FormModel& model,
   if (!theta_r.allFinite() || !proof.u.allFinite() || !proof.h.allFinite()) {
     return "its posture is no number";
   }
-  if (!((problem.theta_r_min - theta_r).maxCoeff() <= kLimitTolerance) ||
-      !((theta_r - problem.theta_r_max).maxCoeff() <= kLimitTolerance)) {
+  if (!((problem.theta_r_min - theta_r).array() <= kLimitTolerance).all() ||
+      !((theta_r - problem.theta_r_max).array() <= kLimitTolerance).all()) {
     return "its posture is beyond the limits";
   }
   if (problem.robot.collision && problem.robot.collision->collides(links_at(problem, theta_r))) {

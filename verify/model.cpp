@@ -160,14 +160,9 @@ void FormModel::sum_total() {
   FormVector before = constant(Eigen::Vector3d::Zero());
   total_ = load_;
   for (std::size_t i = 1; i < mass_.size(); ++i) {
-    if (on_chain_[i]) {
-      before = inboard(i, before);
-      total_[i] = load_[i] + cross(before, pull_[i]);
-      continue;
-    }
-    const auto from = static_cast<std::size_t>(parent(i));
-    const FormVector weight = Form(shape_, carried_[0]) * pull_[from];
-    total_[i] = transposed(places_[i - 1].R) * (total_[from] - cross(places_[i - 1].p, weight));
+    if (!on_chain_[i]) continue;
+    before = inboard(i, before);
+    total_[i] = load_[i] + cross(before, pull_[i]);
   }
 }
 
@@ -178,13 +173,15 @@ std::vector<Form> FormModel::tau_d() const {
     const auto at = static_cast<std::size_t>(axis % 3);
     rows.push_back(axis < 3 ? -(Form(shape_, carried_[0]) * pull_[0][at]) : -load_[0][at]);
   }
-  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
-    const Joint& joint = robot.joints[i];
-    const FormVector weight = Form(shape_, carried_[i + 1]) * pull_[i + 1];
-    const bool turns = joint.type == JointType::kRevolute;
-    rows.push_back(-dot(constant(joint.axis), turns ? load_[i + 1] : weight));
-  }
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) rows.push_back(held_by(i));
   return rows;
+}
+
+Form FormModel::held_by(std::size_t joint) const {
+  const Joint& at = problem_.robot.joints[joint];
+  const FormVector weight = Form(shape_, carried_[joint + 1]) * pull_[joint + 1];
+  const bool turns = at.type == JointType::kRevolute;
+  return -dot(constant(at.axis), turns ? load_[joint + 1] : weight);
 }
 
 /// A force and its moment, or an angular velocity and a linear one, at a link's origin in its axes
@@ -272,6 +269,7 @@ std::array<FormVector, 2> FormModel::screw(std::size_t joint) const {
   const Joint& at = problem_.robot.joints[joint];
   const FormVector axis = constant(at.axis);
   const FormVector none = constant(Eigen::Vector3d::Zero());
+  if (!on_chain_[joint + 1]) return {none, none};  // it does not move the end effector
   const bool turns = at.type == JointType::kRevolute;
   const auto at_base =
       to_base(static_cast<int>(joint) + 1, turns ? axis : none, turns ? none : axis);
@@ -292,6 +290,7 @@ Form FormModel::weight_along_c() const {
 }
 
 Form FormModel::weight_at(std::size_t joint) const {
+  if (!on_chain_[joint + 1]) return held_by(joint);
   const Joint& at = problem_.robot.joints[joint];
   const FormVector axis = constant(at.axis);
   if (at.type == JointType::kRevolute) return dot(axis, total_[joint + 1] - load_[joint + 1]);

@@ -30,7 +30,8 @@ class FormModel {
   /// [linear; angular] of the base when the end effector moves by c as if they were one body: y
   /// with J_b y = c, so c'h = y'J_b'h.
   std::array<FormVector, 2> carrying() const;
-  /// The same of joint i: J_i = J_b K_i', so J_i'h = K_i J_b'h.
+  /// The same of joint i: J_i = J_b K_i', so J_i'h = K_i J_b'h; zero of one that does not move the
+  /// end effector.
   std::array<FormVector, 2> screw(std::size_t joint) const;
   /// c'h where the base exerts nothing, by the weight of all: -y'tau_b.
   Form weight_along_c() const;
@@ -57,6 +58,7 @@ class FormModel {
   void weigh();
   void weigh_links();
   void sum_total();
+  Form held_by(std::size_t joint) const;  ///< its row of tau_d
   FormVector inboard(std::size_t link, const FormVector& before) const;
   int parent(std::size_t link) const { return problem_.robot.joints[link - 1].parent; }
 
@@ -71,7 +73,7 @@ class FormModel {
   std::vector<Wide> carried_;       ///< kg, with all that a link carries
   std::vector<FormVector> pull_;    ///< gravity in link axes
   std::vector<FormVector> load_;    ///< moment of the carried weights about the link's origin
-  std::vector<FormVector> total_;   ///< of all weights
+  std::vector<FormVector> total_;   ///< of all weights, about links of the chain
 };
 
 }  // namespace maxwrench

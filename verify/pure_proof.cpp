@@ -91,9 +91,11 @@ class PureProof : public ValueProof {
     for (std::size_t v = 0; v < size; ++v) {
       const Narrow slope = Narrow(1.0) - a_[v];
       const Narrow at_low = Narrow(low) * slope - tau_[v], at_high = Narrow(high) * slope - tau_[v];
+      if (!(at_low.high < kInfinity && at_high.high < kInfinity)) return high;  // or no numbers
       most = std::max(most, std::max(at_low.high, at_high.high));
     }
-    return std::min(high, Narrow::above(support + most));
+    const double U = Narrow::above(support + most);
+    return U < high ? U : high;
   }
 
  protected:

@@ -17,6 +17,9 @@ using Reason = CertificateTree::Reason;
 /// Larger numbers are refused, so that no product of them overflows.
 constexpr double kLargest = 1e60;
 
+/// [rad or m]
+constexpr double kWidest = 1e6;
+
 /// A node of the tree, its box, and a number that no value in the box of its parent exceeds.
 struct OpenBox {
   std::size_t node = 0;
@@ -30,7 +33,9 @@ std::string refuse_shape(const CertificateTree& tree, Eigen::Index axes, int wid
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     if (open == 0) return "boxes that belong to no other";
     if (tree.nodes[i].axis >= axes) return "a box is cut along no joint";
-    if (tree.nodes[i].reason == Reason::kMultiplier && tree.width != width) {
+    if (tree.nodes[i].reason == Reason::kMultiplier &&
+        (tree.width != width ||
+         tree.nodes[i].multiplier + static_cast<std::size_t>(width) > tree.multipliers.size())) {
       return "multipliers of another length";
     }
     open += tree.nodes[i].axis < 0 ? std::size_t(-1) : 1;
@@ -86,8 +91,12 @@ class TreeWalk {
       box.high = value_->most(box.lower, box.upper, &tree().multipliers[node.multiplier],
                               proof_.bound, before);
     }
-    if (node.axis >= 0) return true;
-    if (!(box.high <= proof_.bound)) return refuse(box, node);
+    if (node.axis >= 0) return has_middle(box, node) || refuse(box, "is too narrow to be cut");
+    if (!(box.high <= proof_.bound)) {
+      return refuse(box, node.reason == Reason::kCollision
+                             ? "does not collide throughout"
+                             : "values up to " + std::to_string(box.high) + " are not excluded");
+    }
     if (before <= proof_.bound) {
       ++done.by_parent;
     } else {
@@ -98,7 +107,7 @@ class TreeWalk {
 
   void push_halves(const OpenBox& box, std::vector<OpenBox>& open) const {
     const int axis = tree().nodes[box.node].axis;
-    const double middle = (box.lower[axis] + box.upper[axis]) / 2;
+    const double middle = middle_of(box, axis);
     OpenBox half = box;
     half.node = second_[box.node];
     half.lower[axis] = middle;
@@ -115,12 +124,19 @@ class TreeWalk {
  private:
   const CertificateTree& tree() const { return proof_.tree; }
 
-  bool refuse(const OpenBox& box, const Node& node) {
+  /// So a tree is no deeper than a number has bits.
+  static bool has_middle(const OpenBox& box, const Node& node) {
+    const double middle = middle_of(box, node.axis);
+    return box.lower[node.axis] < middle && middle < box.upper[node.axis];
+  }
+
+  static double middle_of(const OpenBox& box, int axis) {
+    return (box.lower[axis] + box.upper[axis]) / 2;
+  }
+
+  bool refuse(const OpenBox& box, const std::string& why) {
     failed = box.node;
-    done.refusal = "box " + std::to_string(box.node) +
-                   (node.reason == Reason::kCollision
-                        ? ": does not collide throughout"
-                        : ": values up to " + std::to_string(box.high) + " are not excluded");
+    done.refusal = "box " + std::to_string(box.node) + ": " + why;
     return false;
   }
 
@@ -144,16 +160,19 @@ void add(const TreeWalk& part, Verification& sum, std::size_t& failed) {
 std::string refuse_claims(const Problem& problem, const FormModel& model,
                           const ProofCertificate& proof) {
   if (proof.digest != digest(problem)) return "it is about another robot or task";
+  if (proof.collision != (problem.robot.collision != nullptr)) {
+    return "postures that collide count otherwise";
+  }
   const Eigen::Index n = problem.theta_r_min.size();
   if (proof.lower.size() != n || proof.upper.size() != n) return "its box has other joints";
   if (!proof.lower.allFinite() || !proof.upper.allFinite() ||
-      !((proof.lower - problem.theta_r_min).maxCoeff() <= -kLimitTolerance / 2) ||
-      !((problem.theta_r_max - proof.upper).maxCoeff() <= -kLimitTolerance / 2) ||
-      !((proof.upper - proof.lower).maxCoeff() < 100)) {
+      !((proof.lower - problem.theta_r_min).array() <= -kLimitTolerance / 2).all() ||
+      !((problem.theta_r_max - proof.upper).array() <= -kLimitTolerance / 2).all()) {
     return "its box does not contain the limits";
   }
-  for (const double x : {proof.bound, proof.gap, proof.value}) {
-    if (!(std::abs(x) <= kLargest)) return "its bound is no number, or too large";
+  if (!((proof.upper - proof.lower).array() <= kWidest).all()) return "its box is too wide";
+  for (const double x : {proof.bound, proof.gap, proof.value, proof.h.lpNorm<Eigen::Infinity>()}) {
+    if (!(std::abs(x) <= kLargest)) return "what it claims is no number, or too large";
   }
   const double slack = 1e-9 * std::abs(proof.value);
   if (!(proof.bound <= proof.value + proof.gap * std::abs(proof.value) + slack)) {

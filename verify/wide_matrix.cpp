@@ -6,11 +6,13 @@
 namespace maxwrench {
 namespace {
 
+/// Infinite of what is no number.
 long double largest_row_sum(const WideRows& M) {
   long double most = 0;
   for (const std::vector<Wide>& row : M) {
     Wide sum;
     for (const Wide& x : row) sum += Wide(x.magnitude());
+    if (!(sum.high < kInfinity)) return kInfinity;
     most = std::max(most, sum.high);
   }
   return most;

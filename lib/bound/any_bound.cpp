@@ -42,6 +42,7 @@ MultiAffine any_rows(const Problem& problem, Eigen::Index b, Eigen::Index j) {
 
 /// Whether the rows are what the model says at other postures, too.
 bool reproduces(const Problem& problem, const MultiAffine& f, Eigen::Index b, Eigen::Index j) {
+  if (j == 0) return true;
   Eigen::VectorXd theta_r = problem.theta_r_default;
   ExactPosture posture(problem);
   const Matrix6X<Extended> W = problem.W_any.cast<Extended>();
@@ -54,7 +55,7 @@ bool reproduces(const Problem& problem, const MultiAffine& f, Eigen::Index b, Ei
     const Eigen::VectorXd rows = f.evaluate(theta_r);
     const Eigen::MatrixXd K = rows.tail(j * b).reshaped(j, b);
     const double off = (K * JtW.topRows(b) - JtW.bottomRows(j)).cwiseAbs().maxCoeff();
-    if (j > 0 && !(off < 1e-10 * (1 + JtW.cwiseAbs().maxCoeff()))) return false;
+    if (!(off < 1e-10 * (1 + JtW.cwiseAbs().maxCoeff()))) return false;
   }
   return true;
 }

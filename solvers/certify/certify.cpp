@@ -14,14 +14,12 @@ namespace {
 
 /// Boxes narrower than this [rad or m] are not cut.
 constexpr double kNarrowest = 1e-6;
-/// Boxes that are bounded beside each other: they see the same incumbent, at
-/// any thread count.
+/// Boxes that are bounded beside each other: they see the same incumbent, at any thread count.
 constexpr std::size_t kRound = 256;
 /// The first rounds have fewer: at most this part of the boxes that wait.
 constexpr std::size_t kShare = 2;
 
-/// How many boxes there are for one whose centre is evaluated, unless they are
-/// as small as this.
+/// How many boxes there are for one whose centre is evaluated, unless they are as small as this.
 constexpr std::size_t kSeldom = 32;
 constexpr double kSmallBox = 1e-3;
 /// Evaluations of a climb, about.
@@ -32,7 +30,7 @@ using CertifiedBoxes = std::vector<std::unique_ptr<CertifiedBox>>;
 /// A bound for each thread that asks.
 class BoundPool {
  public:
-  explicit BoundPool(const Bound &bound) : bound_(bound) {}
+  explicit BoundPool(const Bound& bound) : bound_(bound) {}
   std::unique_ptr<Bound> take() {
     const std::lock_guard<std::mutex> guard(mutex_);
     if (free_.empty()) return bound_.clone();
@@ -46,15 +44,15 @@ class BoundPool {
   }
 
  private:
-  const Bound &bound_;
+  const Bound& bound_;
   std::mutex mutex_;
   std::vector<std::unique_ptr<Bound>> free_;
 };
 
 class BranchAndBound {
  public:
-  BranchAndBound(Objective &objective, const Bound &bound, const Candidate &incumbent,
-                 const CertifyOptions &options)
+  BranchAndBound(Objective& objective, const Bound& bound, const Candidate& incumbent,
+                 const CertifyOptions& options)
       : objective_(objective),
         options_(options),
         pool_(bound),
@@ -75,13 +73,13 @@ class BranchAndBound {
     }
     result_.bound = std::max(top(), target());
     result_.seconds = seconds();
-    for (const auto &box : waiting_) report(*box);
+    for (const auto& box : waiting_) report(*box);
     return std::move(result_);
   }
 
  private:
-  static bool comes_later(const std::unique_ptr<CertifiedBox> &a,
-                          const std::unique_ptr<CertifiedBox> &b) {
+  static bool comes_later(const std::unique_ptr<CertifiedBox>& a,
+                          const std::unique_ptr<CertifiedBox>& b) {
     return a->proof.high < b->proof.high;
   }
 
@@ -124,9 +122,9 @@ class BranchAndBound {
     }
   }
 
-  /// Where a box is cut: the coordinate that its bound names, else the widest;
-  /// -1 if it is too narrow.
-  int axis_of(const CertifiedBox &box) const {
+  /// Where a box is cut: the coordinate that its bound names, else the widest; -1 if it is too
+  /// narrow.
+  int axis_of(const CertifiedBox& box) const {
     int axis = -1;
     double most = kNarrowest;
     const int hint = box.proof.axis;
@@ -140,7 +138,7 @@ class BranchAndBound {
     return axis;
   }
 
-  static std::unique_ptr<CertifiedBox> half(const CertifiedBox &parent, int axis, bool second) {
+  static std::unique_ptr<CertifiedBox> half(const CertifiedBox& parent, int axis, bool second) {
     auto child = std::make_unique<CertifiedBox>();
     child->lower = parent.lower;
     child->upper = parent.upper;
@@ -157,7 +155,7 @@ class BranchAndBound {
   /// All halves with the same aim, whatever the threads.
   void cut_parents() {
     improve();
-    for (auto &parent : parents_) {
+    for (auto& parent : parents_) {
       parent->cut_axis = axis_of(*parent);
       if (parent->cut_axis >= 0) continue;
       too_narrow_ = true;
@@ -168,18 +166,18 @@ class BranchAndBound {
     const double low = target();
     parallel_for(options_.threads, static_cast<long>(parents_.size()), [&](long i) {
       const auto at = static_cast<std::size_t>(i);
-      const CertifiedBox &parent = *parents_[at];
+      const CertifiedBox& parent = *parents_[at];
       for (const bool second : {false, true}) {
         const std::size_t place = 2 * at + (second ? 1 : 0);
-        auto &child = children_[place];
+        auto& child = children_[place];
         child = half(parent, parent.cut_axis, second);
         child->id = last_id_ + 1 + static_cast<long>(place);
         bound_one(*child, low);
       }
     });
     last_id_ += static_cast<long>(children_.size());
-    for (const auto &parent : parents_) report(*parent);
-    for (auto &child : children_) keep(std::move(child));
+    for (const auto& parent : parents_) report(*parent);
+    for (auto& child : children_) keep(std::move(child));
   }
 
   /// A box that was bounded waits, or is proven.
@@ -193,25 +191,23 @@ class BranchAndBound {
     }
   }
 
-  void bound_one(CertifiedBox &box, double low) {
+  void bound_one(CertifiedBox& box, double low) {
     std::unique_ptr<Bound> bound = pool_.take();
     box.low = std::max(low, -box.high);
     bound->evaluate(box.lower, box.upper, box.low, box.high, box.proof);
     pool_.give(std::move(bound));
   }
 
-  /// Centres of boxes, of one in so many and of all small ones, may be better
-  /// than the best.
+  /// Centres of boxes, of one in so many and of all small ones, may be better than the best.
   void improve() {
     for (std::size_t i = 0; i < parents_.size(); ++i) {
-      const CertifiedBox &box = *parents_[i];
+      const CertifiedBox& box = *parents_[i];
       const double width = (box.upper - box.lower).maxCoeff();
       if (i % kSeldom == 0 || width < kSmallBox) climb((box.lower + box.upper) / 2, width / 4);
     }
   }
 
-  /// Takes a point over if it is better, and then what is better still, one
-  /// coordinate at a time.
+  /// Takes a point over if it is better, and then what is better still, one coordinate at a time.
   void climb(Eigen::VectorXd x, double step) {
     if (!take_over(x)) return;
     int evaluations = 0;
@@ -229,14 +225,14 @@ class BranchAndBound {
     }
   }
 
-  bool take_over(const Eigen::VectorXd &x) {
+  bool take_over(const Eigen::VectorXd& x) {
     const double value = evaluate_one(objective_, x);
     if (!(value > result_.best.value)) return false;
     result_.best = {x, value};
     return true;
   }
 
-  void report(const CertifiedBox &box) const {
+  void report(const CertifiedBox& box) const {
     if (options_.sink) options_.sink(box);
   }
 
@@ -245,8 +241,8 @@ class BranchAndBound {
     std::push_heap(waiting_.begin(), waiting_.end(), comes_later);
   }
 
-  Objective &objective_;
-  const CertifyOptions &options_;
+  Objective& objective_;
+  const CertifyOptions& options_;
   BoundPool pool_;
   std::chrono::steady_clock::time_point start_;
   CertifiedBoxes waiting_;  ///< a heap
@@ -258,8 +254,8 @@ class BranchAndBound {
 
 }  // namespace
 
-CertifyResult certify(Objective &objective, const Bound &bound, const Candidate &incumbent,
-                      const CertifyOptions &options) {
+CertifyResult certify(Objective& objective, const Bound& bound, const Candidate& incumbent,
+                      const CertifyOptions& options) {
   if (!(options.gap >= kLeastGap)) {
     throw std::invalid_argument("gap: expected at least 1e-8");
   }

@@ -27,8 +27,7 @@ void expect_holds(const Narrow& x, long double value) {
   EXPECT_LT(x.high - x.low, 1e-12 * (1 + x.magnitude()));
 }
 
-TEST_P(FormModelOf, ContainsTheKinematics) {
-  const Problem problem = load_problem(GetParam());
+void expect_kinematics(const Problem& problem) {
   const FormModel model(problem);
   const std::vector<Form> tau_d = model.tau_d(), a = model.exerted(problem.c);
   ExactPosture exact(problem);
@@ -45,9 +44,10 @@ TEST_P(FormModelOf, ContainsTheKinematics) {
   }
 }
 
+TEST_P(FormModelOf, ContainsTheKinematics) { expect_kinematics(load_problem(GetParam())); }
+
 /// J_b y = c and J_b K_i' = J_i; and what is left of tau_d when the base exerts nothing.
-TEST_P(FormModelOf, CarriesMotionsToTheBase) {
-  const Problem problem = load_problem(GetParam());
+void expect_motions_carried(const Problem& problem) {
   const FormModel model(problem);
   const std::vector<int>& axes = problem.robot.base_axes;
   const auto b = static_cast<Eigen::Index>(axes.size());
@@ -77,6 +77,36 @@ TEST_P(FormModelOf, CarriesMotionsToTheBase) {
     const Eigen::VectorXd K = at_base(model.screw(i));
     EXPECT_LT((J.leftCols(b) * K - J.col(b + joint)).norm(), 1e-13);
     EXPECT_NEAR(middle(model.weight_at(i)), tau_d[b + joint] - K.dot(tau_d.head(b)), 1e-12);
+  }
+}
+
+TEST_P(FormModelOf, CarriesMotionsToTheBase) { expect_motions_carried(load_problem(GetParam())); }
+
+/// Joints 2, 4 and 5 do not move the end effector, and so have no part in wrenches at it.
+Problem with_side_branches(Random& random) {
+  Problem problem = random_problem(random, 6);
+  std::vector<Joint>& joints = problem.robot.joints;
+  joints[2].parent = 1;  // on the link of joint 0
+  joints[2].q_min = 0.4;
+  joints[3].parent = 2;  // on that of joint 1
+  joints[4].parent = 3;  // on that of joint 2
+  joints[5].parent = 0;
+  problem.robot.end_effectors[0].link = 4;
+  problem.redundant = {0, 1, 3};
+  for (Eigen::VectorXd* each :
+       {&problem.theta_r_min, &problem.theta_r_max, &problem.theta_r_default}) {
+    each->conservativeResize(3);
+  }
+  return problem;
+}
+
+TEST(FormModel, KnowsAnyTree) {
+  Random random(4);
+  for (int sample = 0; sample < 5; ++sample) {
+    for (const Problem& problem : {random_problem(random, 4), with_side_branches(random)}) {
+      expect_kinematics(problem);
+      expect_motions_carried(problem);
+    }
   }
 }
 
@@ -132,6 +162,7 @@ TEST(BoxForms, RefusesHalfATurn) {
   BoxForms box(shape);
   EXPECT_TRUE(box.set(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, 3)));
   EXPECT_FALSE(box.set(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, 3.2)));
+  EXPECT_FALSE(box.set(Eigen::VectorXd::Constant(1, 1e15), Eigen::VectorXd::Constant(1, 1e15 + 3)));
 }
 
 }  // namespace

@@ -85,6 +85,30 @@ TEST(Verify, AcceptsABracket) {
   EXPECT_EQ(at.refusal(at.proof), "");
 }
 
+/// A vehicle without an arm: one posture, and a box of no side.
+TEST(Verify, AcceptsAProofWithoutCoordinates) {
+  Random random(3);
+  const Problem problem = random_problem(random, 0);
+  for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
+    const auto bound = make_capability_bound(problem, "linf_polytope", wrench);
+    Case c;
+    c.problem = "random";
+    c.wrench = wrench;
+    c.search = "";
+    const Row row = evaluate(problem, resolve(problem, c), problem.theta_r_default);
+    ASSERT_TRUE(row.has_value());
+    ProofRecorder recorder;
+    CertifiedBox root;
+    root.low = row.capability.beta * (1 + 1e-6);
+    root.high = bound->ceiling();
+    bound->evaluate(root.lower, root.upper, root.low, root.high, root.proof);
+    recorder.add(root);
+    CertifyResult result;
+    result.bound = std::max(root.low, root.proof.high);
+    EXPECT_EQ(verify(problem, recorder.certificate(problem, row, result, 1e-3), 1).refusal, "");
+  }
+}
+
 std::string file_of(const TemporaryFolder& folder, const std::string& text) {
   const std::string file = folder.path() / "proof";
   std::ofstream(file, std::ios::binary) << text;
@@ -121,6 +145,24 @@ TEST(Verify, RefusesDamagedFiles) {
     EXPECT_THROW(read_certificate(file_of(folder, damaged)), std::invalid_argument);
   }
   EXPECT_THROW(read_certificate(folder.path() / "none"), std::invalid_argument);
+}
+
+/// Nor does a file that is cut off before its checksum pass, one that unpacks to far more than a
+/// proof does, or one with names that write more than a line.
+TEST(Verify, RefusesHostileFiles) {
+  const WrittenProof at("planar/force", "linf_polytope", Wrench::kPure, 1e-2);
+  const TemporaryFolder folder;
+  const std::string text = certificate_text(at.proof);
+  for (std::size_t size = 0; size < 32; ++size) {
+    EXPECT_THROW(read_certificate(file_of(folder, text.substr(0, size))), std::invalid_argument);
+  }
+  std::vector<ProofCertificate> bad(3, at.proof);
+  bad[0].tree.nodes.assign(1'000'000, {});
+  bad[1].problem = "planar/force\nverified";
+  bad[2].version += "\x1b[2J";
+  for (const ProofCertificate& each : bad) {
+    EXPECT_THROW(read_certificate(file_of(folder, certificate_text(each))), std::invalid_argument);
+  }
 }
 
 using Tree = CertificateTree;
@@ -235,6 +277,37 @@ TEST(Verify, RefusesWhatIsNoNumber) {
   narrow.tree.width = 0;
   narrow.tree.multipliers.clear();
   EXPECT_NE(at.refusal(narrow), "");
+}
+
+/// Cut after cut off one corner, a tree as deep as its file is long; no leaf of it has anything to
+/// prove.
+TEST(Verify, RefusesTreesWithoutEnd) {
+  const WrittenProof at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
+  ProofCertificate deep = at.proof;
+  deep.bound = 1e30;
+  deep.gap = 1e40;
+  constexpr std::size_t kCuts = 100000;
+  Tree::Node cut;
+  cut.axis = 1;
+  deep.tree.nodes.assign(kCuts, cut);
+  deep.tree.nodes.resize(2 * kCuts + 1);
+  EXPECT_NE(at.refusal(deep).find("too narrow to be cut"), std::string::npos);
+}
+
+TEST(Verify, RefusesOtherRulesOfCollision) {
+  const WrittenProof at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
+  ProofCertificate other = at.proof;
+  other.collision = false;
+  EXPECT_NE(at.refusal(other), "");
+}
+
+/// A thousand times heavier, the arm alone takes more than the ellipsoid holds, whatever a contact
+/// force would do for it.
+TEST(Verify, RefusesPosturesWithoutAValue) {
+  WrittenProof at("uvms/lift", "ellipsoid", Wrench::kPure, 1, 10);
+  at.problem.robot.gravity *= 1000;
+  at.proof.digest = digest(at.problem);
+  EXPECT_NE(at.refusal(at.proof).find("has no value"), std::string::npos);
 }
 
 /// Ten percent more of all efforts reach more, so the old bound is false, whatever the digest says.
