@@ -114,10 +114,9 @@ TEST(Floors, VerifyKnowsNoSolver) {
   for (const auto& [file, source] : sources()) {
     if (folder_of(file) != "verify") continue;
     for (const std::string& header : source.own) {
-      const bool plain = header == "include/maxwrench/types.h" ||
-                         header == "include/maxwrench/zonotope.h" ||
-                         header == "include/maxwrench/linear_program.h" ||
-                         header == "include/maxwrench/problem.h";
+      const bool plain =
+          header == "include/maxwrench/types.h" || header == "include/maxwrench/zonotope.h" ||
+          header == "include/maxwrench/linear_program.h" || header == "include/maxwrench/problem.h";
       EXPECT_TRUE(plain || header.starts_with("verify/")) << file << ": " << header;
     }
   }
