@@ -18,8 +18,6 @@ namespace {
 constexpr double kLeastShare = kLeastGap / kGapPart;
 /// Clusters that people get to see.
 constexpr std::size_t kPrinted = 20;
-/// Clusters with a colour of their own.
-constexpr std::size_t kColoured = 7;
 
 /// "1%", "1 %" or "0.01"; NaN if it is none.
 double parse_share(std::string text) {
@@ -110,7 +108,7 @@ std::string boxes_csv(const GoodPostures& good) {
 std::vector<BoxGroup> groups_of(const GoodPostures& good, const char* unit) {
   std::vector<BoxGroup> groups;
   const auto holds = static_cast<std::size_t>(holding(good));
-  const std::size_t coloured = std::min(holds, kColoured);
+  const std::size_t coloured = std::min(holds, kBoxColours);
   for (std::size_t i = 0; i < coloured; ++i) {
     const Candidate& best = good.clusters[i].best;
     groups.push_back(

@@ -22,6 +22,7 @@ constexpr double kNoWidth = 1e-6;  // an axis that is narrower is made wider by 
 constexpr double kSomeWidth = 0.05;
 constexpr int kMostPieces = 8;                      // of an axis, between ticks
 constexpr double kTickHeight = 20, kTickApart = 8;  // px
+constexpr std::size_t kStyles[kBoxColours] = {1, 2, 3, 4, 6, 7};
 const char* const kGreys[] = {"#9a9a9a", "#d4d4d4"};
 
 using Intervals = std::vector<std::pair<double, double>>;
@@ -161,17 +162,22 @@ class Triangle {
     }
   }
 
-  /// With its unit where there is room for it.
-  std::string name(int i) const {
-    const double room = (d_ == 1 ? size_.x() : size_.minCoeff()) + kTriangleGap;
-    const std::string full = axis(i).name + " [" + axis(i).unit + "]";
-    const bool fits = text_width(full, Font().size) <= room || !one_unit();
-    return fitted(fits ? full : axis(i).name, Font().size, room);
+  double room() const { return (d_ == 1 ? size_.x() : size_.minCoeff()) + kTriangleGap; }
+
+  static std::string with_unit(const BoxAxis& axis) { return axis.name + " [" + axis.unit + "]"; }
+
+  /// Whether one word at the top says the unit of all, as names with units have no room.
+  bool one_unit() const {
+    const bool same = std::all_of(axes_.begin(), axes_.end(), [this](const BoxAxis& each) {
+      return each.unit == axes_.front().unit;
+    });
+    return same && std::any_of(axes_.begin(), axes_.end(), [this](const BoxAxis& each) {
+             return text_width(with_unit(each), Font().size) > room();
+           });
   }
 
-  bool one_unit() const {
-    return std::all_of(axes_.begin(), axes_.end(),
-                       [this](const BoxAxis& each) { return each.unit == axes_.front().unit; });
+  std::string name(int i) const {
+    return fitted(one_unit() ? axis(i).name : with_unit(axis(i)), Font().size, room());
   }
 
   /// The largest first.
@@ -212,11 +218,11 @@ class Triangle {
     return {.stroke = colour, .width = 0.6, .fill = colour};
   }
 
-  /// Colours in the order of the groups that have one, none black.
+  /// Colours in the order of the groups that have one, none black, no mark twice.
   CurveStyle style_of(std::size_t i) const {
-    std::size_t place = 1;
+    std::size_t place = 0;
     for (std::size_t k = 0; k < i; ++k) place += groups_[k].grey ? 0 : 1;
-    return curve_style(place);
+    return curve_style(kStyles[place % std::size(kStyles)]);
   }
   const char* colour_of(std::size_t i) const {
     if (!groups_[i].grey) return style_of(i).colour;

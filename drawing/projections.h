@@ -7,6 +7,9 @@
 
 namespace maxwrench {
 
+/// So many groups have colours of their own; more would begin again.
+inline constexpr std::size_t kBoxColours = 6;
+
 struct BoxAxis {
   std::string name, unit;
   double lower = 0, upper = 0;  ///< limits of the coordinate
