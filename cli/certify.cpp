@@ -1,17 +1,17 @@
 #include "solvers/certify/certify.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "benchmarks/proof.h"
 #include "benchmarks/proof_recorder.h"
 #include "benchmarks/write_file.h"
 #include "cli/cli.h"
 #include "cli/ctrl_c.h"
+#include "cli/good_postures.h"
 #include "cli/output.h"
 #include "cli/pieces.h"
 #include "cli/progress.h"
@@ -26,6 +26,7 @@ struct ProofOptions : CommonOptions {
   double seconds = 60;
   bool ignore_collision = false;
   std::string certificate;
+  WithinOptions within;
 };
 
 /// What was proven of the best posture that was found.
@@ -33,39 +34,34 @@ struct Proof {
   Row row;  ///< of the posture, evaluated anew
   CertifyResult result;
   double search_s = 0;
-  ProofRecorder boxes;  ///< if there is to be a certificate
+  ProofRecorder boxes;               ///< if there is to be a certificate
+  std::optional<GoodPostures> good;  ///< if they were asked for, and there is a value
 
   /// Of |beta|; infinite without a posture.
   double gap() const {
     if (!row.has_value()) return kInfinity;
     return (result.bound - row.capability.beta) / std::abs(row.capability.beta);
   }
+  bool complete() const {
+    return result.status == Status::kProven && (!good || good->status == Status::kProven);
+  }
 };
 
-std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
-
-/// One line on stderr, only if that is a terminal and a second has passed.
-class GapLine {
- public:
-  void show(double bound, double beta) {
-    if (!enabled_ || std::chrono::steady_clock::now() < next_) return;
-    next_ = std::chrono::steady_clock::now() + std::chrono::milliseconds(100);
-    drawn_ = true;
-    std::fputs(fmt::format("\rcertify gap {}  {:.0f} s\x1b[K",
-                           percent((bound - beta) / std::abs(beta)), seconds_since(start_))
-                   .c_str(),
-               stderr);
-    std::fflush(stderr);
-  }
-  ~GapLine() {
-    if (drawn_) std::fputs("\r\x1b[K", stderr);
-  }
-
- private:
-  bool enabled_ = isatty(fileno(stderr)) != 0, drawn_ = false;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(),
-                                        next_ = start_ + std::chrono::seconds(1);
-};
+/// In the time that is left.
+GoodPostures list_good(const ProofOptions& options, const Problem& problem, const Method& method,
+                       const Bound& bound, const CertifyOptions& how, Proof& proof) {
+  ProgressLine line;
+  GoodOptions good;
+  good.within = options.within.share();
+  good.resolution = options.within.resolution;
+  good.seconds = how.seconds - proof.result.seconds;
+  good.threads = how.threads;
+  good.interrupted = how.interrupted;
+  good.progress = [&line](std::size_t waiting, std::size_t kept) {
+    line.show(fmt::format("within {} boxes kept, {} wait", kept, waiting));
+  };
+  return verified_good_postures(problem, method, bound, proof.result.bound, good, proof.row);
+}
 
 /// Searches, then bounds. What was found while bounding is evaluated anew, too.
 Proof prove(const ProofOptions& options, const Problem& problem) {
@@ -81,7 +77,7 @@ Proof prove(const ProofOptions& options, const Problem& problem) {
         solve(problem, method, options.thread_count(), progress.counter(), &ctrl_c.interruption);
   }
   proof.search_s = proof.row.wall_s;
-  GapLine line;
+  ProgressLine line;
   CertifyOptions how;
   how.gap = options.gap;
   how.seconds = options.seconds;
@@ -90,7 +86,9 @@ Proof prove(const ProofOptions& options, const Problem& problem) {
   if (!options.certificate.empty()) {
     how.sink = [&proof](const CertifiedBox& box) { proof.boxes.add(box); };
   }
-  how.progress = [&line](double most, double beta) { line.show(most, beta); };
+  how.progress = [&line](double most, double beta) {
+    line.show("certify gap " + percent((most - beta) / std::abs(beta)));
+  };
   Candidate incumbent;
   if (proof.row.has_value()) {
     incumbent = {proof.row.posture.theta_r, proof.row.capability.beta};
@@ -102,6 +100,9 @@ Proof prove(const ProofOptions& options, const Problem& problem) {
     if (proof.result.status == Status::kProven) proof.result.reason = "no posture has a value";
   } else if (!proof.row.has_value()) {
     static_cast<Verdict&>(proof.result) = proof.row;
+  }
+  if (options.within.asked() && proof.row.has_value()) {
+    proof.good = list_good(options, problem, method, *bound, how, proof);
   }
   return proof;
 }
@@ -149,11 +150,13 @@ void print_object(const ProofOptions& options, const Problem& problem, const Pro
   object["boxes"] = result.boxes;
   object["colliding"] = result.colliding;
   object["wall_s"] = result.seconds;
+  object["within"] = nullptr;
+  if (proof.good) object["within"] = to_json(*proof.good, options.within);
   object["version"] = version();
   print_json(object);
 }
 
-void print_text(const Problem& problem, const Proof& proof) {
+void print_text(const ProofOptions& options, const Problem& problem, const Proof& proof) {
   const Row& row = proof.row;
   const CertifyResult& result = proof.result;
   fmt::print("{}  measure {}  wrench {}{}\n", problem.name, row.choice.measure,
@@ -170,6 +173,7 @@ void print_text(const Problem& problem, const Proof& proof) {
   }
   fmt::print("boxes     {}, {} of them in collision, in {:.3g} s, after a search of {:.3g} s\n",
              result.boxes, result.colliding, result.seconds, proof.search_s);
+  if (proof.good) print_good(problem, *proof.good, options.within);
 }
 
 void add_proof_options(CLI::App& command, ProofOptions& options) {
@@ -194,6 +198,7 @@ void add_proof_options(CLI::App& command, ProofOptions& options) {
   command
       .add_option("--certificate", options.certificate, "file for the proof, which 'verify' checks")
       ->check(refuse_empty);
+  options.within.add(command);
   options.add_threads(command);
   options.add_json(command);
 }
@@ -206,18 +211,23 @@ void add_certify(CLI::App& app, int& exit_status) {
       "certify", "the largest capability, and a proof that no posture has more");
   add_proof_options(command, *options);
   command.callback([options, &exit_status] {
-    require_apart({{"problem", options->choice.problem}},
-                  {{"--certificate", options->certificate}});
+    require_apart({{"problem", options->choice.problem}}, {{"--certificate", options->certificate},
+                                                           {"--figure", options->within.figure},
+                                                           {"--boxes", options->within.boxes}});
+    if (options->within.asked()) {
+      options->gap = std::min(options->gap, kGapPart * options->within.share());
+    }
     Problem problem = load_problem(options->choice.problem);
     if (options->ignore_collision) problem.robot.collision = nullptr;
     const Proof proof = prove(*options, problem);
     write_certificate(*options, problem, proof);
+    if (proof.good) write_good(problem, proof.row, *proof.good, options->within);
     if (options->json) {
       print_object(*options, problem, proof);
     } else {
-      print_text(problem, proof);
+      print_text(*options, problem, proof);
     }
-    exit_status = proof.result.status == Status::kProven ? kAnswered : kOtherStatus;
+    exit_status = proof.complete() ? kAnswered : kOtherStatus;
   });
 }
 

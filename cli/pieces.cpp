@@ -70,6 +70,8 @@ nlohmann::ordered_json to_json(const std::vector<CallCount>& counts) {
   return array;
 }
 
+std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
+
 std::string line(long evaluations, double seconds) {
   return fmt::format("{} evaluation{} in {:.3g} s", evaluations, evaluations == 1 ? "" : "s",
                      seconds);

@@ -39,6 +39,9 @@ Eigen::Vector3d rpy(const Eigen::Matrix3d& R);
 std::string line(const Eigen::VectorXd& v);
 std::string line(const Residual& residual);
 
+/// "0.1 %"
+std::string percent(double share);
+
 /// "20 evaluations in 0.5 s"
 std::string line(long evaluations, double seconds);
 

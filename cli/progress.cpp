@@ -45,4 +45,25 @@ void Progress::finish() {
   drawn_ = false;
 }
 
+ProgressLine::ProgressLine()
+    : enabled_(isatty(fileno(stderr)) != 0),
+      start_(std::chrono::steady_clock::now()),
+      next_(start_ + kPatience) {}
+
+void ProgressLine::show(const std::string& text) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!enabled_ || now < next_) return;
+  next_ = now + kInterval;
+  drawn_ = true;
+  std::fputs(
+      fmt::format("\r{}  {:.0f} s\x1b[K", text, std::chrono::duration<double>(now - start_).count())
+          .c_str(),
+      stderr);
+  std::fflush(stderr);
+}
+
+ProgressLine::~ProgressLine() {
+  if (drawn_) std::fputs("\r\x1b[K", stderr);
+}
+
 }  // namespace maxwrench

@@ -30,4 +30,16 @@ class Progress {
   std::chrono::steady_clock::time_point start_, next_;
 };
 
+/// A line of words and seconds in its place, for work whose amount is not known. For one thread.
+class ProgressLine {
+ public:
+  ProgressLine();
+  ~ProgressLine();
+  void show(const std::string& text);
+
+ private:
+  bool enabled_, drawn_ = false;
+  std::chrono::steady_clock::time_point start_, next_;
+};
+
 }  // namespace maxwrench

@@ -51,6 +51,7 @@ void draw_x_axis(Svg& svg, const Axis& x, const Axis& y, const std::vector<Tick>
   for (const Tick& tick : ticks) {
     const double at = x(tick.value);
     svg.line({at, y.from}, {at, y.to}, faint());
+    if (tick.label.empty()) continue;
     svg.text({at, foot + 14}, tick.label, {.anchor = Anchor::kMiddle});
   }
   if (name.empty()) return;

@@ -3,51 +3,23 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <mutex>
 #include <stdexcept>
 
 #include "maxwrench/batch.h"
-#include "maxwrench/robot.h"
+#include "solvers/certify/halving.h"
 
 namespace maxwrench {
 namespace {
 
-/// Boxes narrower than this [rad or m] are not cut.
-constexpr double kNarrowest = 1e-6;
-/// Boxes that are bounded beside each other: they see the same incumbent, at any thread count.
-constexpr std::size_t kRound = 256;
 /// The first rounds have fewer: at most this part of the boxes that wait.
 constexpr std::size_t kShare = 2;
 
-/// How many boxes there are for one whose centre is evaluated, unless they are as small as this.
+/// How many boxes there are for one whose centre is evaluated, unless they are
+/// as small as this.
 constexpr std::size_t kSeldom = 32;
 constexpr double kSmallBox = 1e-3;
 /// Evaluations of a climb, about.
 constexpr int kClimbEvaluations = 500;
-
-using CertifiedBoxes = std::vector<std::unique_ptr<CertifiedBox>>;
-
-/// A bound for each thread that asks.
-class BoundPool {
- public:
-  explicit BoundPool(const Bound& bound) : bound_(bound) {}
-  std::unique_ptr<Bound> take() {
-    const std::lock_guard<std::mutex> guard(mutex_);
-    if (free_.empty()) return bound_.clone();
-    std::unique_ptr<Bound> one = std::move(free_.back());
-    free_.pop_back();
-    return one;
-  }
-  void give(std::unique_ptr<Bound> one) {
-    const std::lock_guard<std::mutex> guard(mutex_);
-    free_.push_back(std::move(one));
-  }
-
- private:
-  const Bound& bound_;
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<Bound>> free_;
-};
 
 class BranchAndBound {
  public:
@@ -55,15 +27,10 @@ class BranchAndBound {
                  const CertifyOptions& options)
       : objective_(objective),
         options_(options),
-        pool_(bound),
+        halving_(objective, bound, options.threads),
         start_(std::chrono::steady_clock::now()) {
     result_.best = incumbent;
-    auto root = std::make_unique<CertifiedBox>();
-    root->lower = objective.lower().array() - kLimitTolerance;
-    root->upper = objective.upper().array() + kLimitTolerance;
-    root->high = bound.ceiling();
-    bound_one(*root, target());
-    keep(std::move(root));
+    keep(halving_.root(target(), bound.ceiling()));
   }
 
   CertifyResult run() {
@@ -122,62 +89,18 @@ class BranchAndBound {
     }
   }
 
-  /// Where a box is cut: the coordinate that its bound names, else the widest; -1 if it is too
-  /// narrow.
-  int axis_of(const CertifiedBox& box) const {
-    int axis = -1;
-    double most = kNarrowest;
-    const int hint = box.proof.axis;
-    if (hint >= 0 && box.upper[hint] - box.lower[hint] > kNarrowest) return hint;
-    for (Eigen::Index i = 0; i < box.lower.size(); ++i) {
-      const double width = box.upper[i] - box.lower[i];
-      if (width <= most) continue;
-      most = width;
-      axis = static_cast<int>(i);
-    }
-    return axis;
-  }
-
-  static std::unique_ptr<CertifiedBox> half(const CertifiedBox& parent, int axis, bool second) {
-    auto child = std::make_unique<CertifiedBox>();
-    child->lower = parent.lower;
-    child->upper = parent.upper;
-    const double middle = (parent.lower[axis] + parent.upper[axis]) / 2;
-    (second ? child->lower : child->upper)[axis] = middle;
-    child->high = parent.proof.high;
-    child->proof.multiplier = parent.proof.multiplier;
-    child->proof.basis = parent.proof.basis;
-    child->depth = parent.depth + 1;
-    child->parent = parent.id;
-    return child;
-  }
-
-  /// All halves with the same aim, whatever the threads.
   void cut_parents() {
     improve();
     for (auto& parent : parents_) {
-      parent->cut_axis = axis_of(*parent);
+      parent->cut_axis = axis_to_cut(*parent, kNarrowestBox);
       if (parent->cut_axis >= 0) continue;
       too_narrow_ = true;
       push(std::move(parent));
     }
     std::erase(parents_, nullptr);
-    children_.resize(2 * parents_.size());
-    const double low = target();
-    parallel_for(options_.threads, static_cast<long>(parents_.size()), [&](long i) {
-      const auto at = static_cast<std::size_t>(i);
-      const CertifiedBox& parent = *parents_[at];
-      for (const bool second : {false, true}) {
-        const std::size_t place = 2 * at + (second ? 1 : 0);
-        auto& child = children_[place];
-        child = half(parent, parent.cut_axis, second);
-        child->id = last_id_ + 1 + static_cast<long>(place);
-        bound_one(*child, low);
-      }
-    });
-    last_id_ += static_cast<long>(children_.size());
+    CertifiedBoxes children = halving_.halves(parents_, target());
     for (const auto& parent : parents_) report(*parent);
-    for (auto& child : children_) keep(std::move(child));
+    for (auto& child : children) keep(std::move(child));
   }
 
   /// A box that was bounded waits, or is proven.
@@ -191,13 +114,6 @@ class BranchAndBound {
     }
   }
 
-  void bound_one(CertifiedBox& box, double low) {
-    std::unique_ptr<Bound> bound = pool_.take();
-    box.low = std::max(low, -box.high);
-    bound->evaluate(box.lower, box.upper, box.low, box.high, box.proof);
-    pool_.give(std::move(bound));
-  }
-
   /// Centres of boxes, of one in so many and of all small ones, may be better than the best.
   void improve() {
     for (std::size_t i = 0; i < parents_.size(); ++i) {
@@ -207,11 +123,12 @@ class BranchAndBound {
     }
   }
 
-  /// Takes a point over if it is better, and then what is better still, one coordinate at a time.
+  /// Takes a point over if it is better, and then what is better still, one
+  /// coordinate at a time.
   void climb(Eigen::VectorXd x, double step) {
     if (!take_over(x)) return;
     int evaluations = 0;
-    while (step > kNarrowest && evaluations < kClimbEvaluations) {
+    while (step > kNarrowestBox && evaluations < kClimbEvaluations) {
       bool moved = false;
       for (Eigen::Index i = 0; i < x.size(); ++i) {
         for (const double by : {step, -step}) {
@@ -243,12 +160,11 @@ class BranchAndBound {
 
   Objective& objective_;
   const CertifyOptions& options_;
-  BoundPool pool_;
+  Halving halving_;
   std::chrono::steady_clock::time_point start_;
   CertifiedBoxes waiting_;  ///< a heap
-  CertifiedBoxes parents_, children_;
+  CertifiedBoxes parents_;
   bool too_narrow_ = false;
-  long last_id_ = 0;  ///< the root's
   CertifyResult result_;
 };
 

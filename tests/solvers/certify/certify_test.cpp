@@ -7,6 +7,7 @@
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/strategies.h"
+#include "tests/support/hills.h"
 #include "tests/support/objectives.h"
 #include "tests/support/support.h"
 
@@ -235,6 +236,18 @@ TEST(Certify, EndsEarlyWithABracket) {
     EXPECT_GT(result.bound, 1.001 * best.value);
     EXPECT_LE(result.boxes, 1000);
   }
+}
+
+/// Where no posture can do what is asked without help, the best value is negative.
+TEST(Certify, ProvesWhatIsBelowZero) {
+  const auto at = [](double x) { return Eigen::VectorXd::Constant(1, x).eval(); };
+  const Hills hills = {at(-1), at(1), {at(0.3)}, -1};
+  HillsObjective objective(hills);
+  const CertifyResult result =
+      certify(objective, HillsBound(hills), {at(-0.5), -1.8}, to_gap(1e-3));
+  EXPECT_EQ(result.status, Status::kProven);
+  EXPECT_GE(result.bound, -1);
+  EXPECT_NEAR(result.best.value, -1, 1e-3);
 }
 
 TEST(Certify, RefusesAGapBelowRounding) {

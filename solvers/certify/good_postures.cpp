@@ -1,0 +1,301 @@
+#include "solvers/certify/good_postures.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#include "maxwrench/batch.h"
+#include "solvers/certify/box_tree.h"
+#include "solvers/certify/halving.h"
+#include "solvers/search/makers.h"
+
+namespace maxwrench {
+namespace {
+
+/// A side that is longer by rounding only is short enough.
+constexpr double kSideRounding = 1 + 1e-9;
+/// Of a cluster's boxes, the centres of so many are evaluated at most.
+constexpr std::size_t kCentres = 1000;
+/// Evaluations of the search that follows.
+constexpr long kSearchBudget = 2000;
+
+/// The branching: boxes are cut in the order in which they were made, so that those of an early end
+/// are about as large as each other.
+class GoodBoxes {
+ public:
+  GoodBoxes(const Objective& objective, const Bound& bound, double high, const GoodOptions& options,
+            GoodPostures& result)
+      : objective_(objective),
+        options_(options),
+        result_(result),
+        halving_(objective, bound, options.threads),
+        low_(std::nextafter(result.least, -kInfinity)),
+        start_(std::chrono::steady_clock::now()) {
+    keep(halving_.root(low_, high));
+  }
+
+  void run() {
+    while (!ended()) cut_some();
+    for (const auto& box : waiting_) list(*box);
+    result_.seconds = seconds();
+  }
+
+ private:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+  bool ended() {
+    if (waiting_.empty()) {
+      result_.conclude(Status::kProven);
+    } else if (options_.interrupted && options_.interrupted()) {
+      result_.conclude(Status::kBracket, "interrupted");
+    } else if (seconds() > options_.seconds) {
+      result_.conclude(Status::kBracket, "the time ran out");
+    } else if (result_.bounded >= options_.boxes) {
+      result_.conclude(Status::kBracket, "the boxes ran out");
+    } else {
+      if (options_.progress) options_.progress(waiting_.size(), result_.boxes.size());
+      return false;
+    }
+    return true;
+  }
+
+  void cut_some() {
+    CertifiedBoxes parents;
+    while (parents.size() < kRound && !waiting_.empty()) {
+      parents.push_back(std::move(waiting_.front()));
+      waiting_.pop_front();
+    }
+    for (auto& child : halving_.halves(parents, low_)) keep(std::move(child));
+  }
+
+  void keep(std::unique_ptr<CertifiedBox> box) {
+    ++result_.bounded;
+    if (box->proof.high <= low_) return;
+    box->cut_axis = axis_to_cut(*box, options_.resolution * kSideRounding);
+    if (box->cut_axis < 0) {
+      list(*box);
+    } else {
+      waiting_.push_back(std::move(box));
+    }
+  }
+
+  void list(const CertifiedBox& box) {
+    result_.boxes.push_back({box.lower.cwiseMax(objective_.lower()),
+                             box.upper.cwiseMin(objective_.upper()), box.proof.high, 0});
+  }
+
+  const Objective& objective_;
+  const GoodOptions& options_;
+  GoodPostures& result_;
+  Halving halving_;
+  double low_;  ///< just below what counts
+  std::chrono::steady_clock::time_point start_;
+  std::deque<std::unique_ptr<CertifiedBox>> waiting_;
+};
+
+/// Of arcs [a, b] within [lower, upper], whose ends are one place, the shortest arc around all: the
+/// complement of the longest gap.
+std::pair<double, double> around(std::vector<std::pair<double, double>> arcs, double lower,
+                                 double upper) {
+  std::sort(arcs.begin(), arcs.end());
+  double end = arcs.front().second, gap = 0;
+  std::pair<double, double> found;
+  for (const auto& [a, b] : arcs) {
+    if (a - end > gap) {
+      gap = a - end;
+      found = {a, end + (upper - lower)};
+    }
+    end = std::max(end, b);
+  }
+  const double outer = arcs.front().first - lower + upper - end;
+  return gap > outer ? found : std::pair(arcs.front().first, end);
+}
+
+/// The objective where `inside` says so.
+class PartOf final : public Objective {
+ public:
+  using Inside = std::function<bool(const Eigen::VectorXd&)>;
+  PartOf(std::unique_ptr<Objective> objective, Eigen::VectorXd lower, Eigen::VectorXd upper,
+         Inside inside)
+      : objective_(std::move(objective)),
+        lower_(std::move(lower)),
+        upper_(std::move(upper)),
+        inside_(std::move(inside)) {}
+
+  const Eigen::VectorXd& lower() const override { return lower_; }
+  const Eigen::VectorXd& upper() const override { return upper_; }
+  double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* /*gradient*/) override {
+    return inside_(x) ? evaluate_one(*objective_, x) : -kInfinity;
+  }
+  const Verdict& verdict() const override { return objective_->verdict(); }
+  std::unique_ptr<Objective> clone() const override {
+    return std::make_unique<PartOf>(objective_->clone(), lower_, upper_, inside_);
+  }
+
+ private:
+  std::unique_ptr<Objective> objective_;
+  Eigen::VectorXd lower_, upper_;
+  Inside inside_;
+};
+
+/// What hangs together, and the best that is found in each.
+class Clusters {
+ public:
+  Clusters(const Objective& objective, const Candidate& best, const GoodOptions& options,
+           GoodPostures& result)
+      : objective_(objective),
+        best_(best),
+        options_(options),
+        result_(result),
+        tree_(result.boxes, objective.lower(), objective.upper(), options.turns) {}
+
+  void run() {
+    number(tree_.connect());
+    measure();
+    const auto count = static_cast<long>(result_.clusters.size());
+    parallel_for(options_.threads, count, [this](long i) {
+      represent(result_.clusters[static_cast<std::size_t>(i)],
+                members_[static_cast<std::size_t>(i)]);
+    });
+    sort();
+  }
+
+ private:
+  GoodBox& box(int i) { return result_.boxes[static_cast<std::size_t>(i)]; }
+
+  void number(const std::vector<int>& clusters) {
+    for (std::size_t i = 0; i < clusters.size(); ++i) {
+      const auto cluster = static_cast<std::size_t>(clusters[i]);
+      result_.boxes[i].cluster = clusters[i];
+      if (cluster >= members_.size()) members_.emplace_back();
+      members_[cluster].push_back(static_cast<int>(i));
+    }
+  }
+
+  void measure() {
+    const Eigen::VectorXd& lower = objective_.lower();
+    const Eigen::VectorXd size = objective_.upper() - lower;
+    for (const std::vector<int>& members : members_) {
+      Cluster& cluster = result_.clusters.emplace_back();
+      cluster.boxes = static_cast<long>(members.size());
+      cluster.lower = box(members.front()).lower;
+      cluster.upper = box(members.front()).upper;
+      cluster.high = -kInfinity;
+      for (const int i : members) {
+        cluster.lower = cluster.lower.cwiseMin(box(i).lower);
+        cluster.upper = cluster.upper.cwiseMax(box(i).upper);
+        cluster.high = std::max(cluster.high, box(i).high);
+        // A coordinate that cannot move has no part in it.
+        cluster.share += (size.array() > 0)
+                             .select((box(i).upper - box(i).lower).array() / size.array(), 1)
+                             .prod();
+      }
+      for (std::size_t axis = 0; axis < options_.turns.size(); ++axis) {
+        if (options_.turns[axis] != 0) turn(cluster, members, static_cast<Eigen::Index>(axis));
+      }
+    }
+  }
+
+  void turn(Cluster& cluster, const std::vector<int>& members, Eigen::Index axis) {
+    const double lower = objective_.lower()[axis], upper = objective_.upper()[axis];
+    if (cluster.lower[axis] > lower || cluster.upper[axis] < upper) return;
+    std::vector<std::pair<double, double>> arcs;
+    for (const int i : members) arcs.emplace_back(box(i).lower[axis], box(i).upper[axis]);
+    std::tie(cluster.lower[axis], cluster.upper[axis]) = around(std::move(arcs), lower, upper);
+  }
+
+  int cluster_at(const Eigen::VectorXd& x) const {
+    const int found = tree_.find(x);
+    return found < 0 ? -1 : result_.boxes[static_cast<std::size_t>(found)].cluster;
+  }
+
+  /// The best known posture, or the best centre and what a search from there finds.
+  void represent(Cluster& cluster, std::vector<int>& members) {
+    const int number = box(members.front()).cluster;
+    if (cluster_at(best_.theta_r) == number) cluster.best = best_;
+    if (options_.interrupted && options_.interrupted()) return;
+    const auto objective = objective_.clone();
+    const auto more = static_cast<long>(std::min(kCentres, members.size()));
+    std::partial_sort(members.begin(), members.begin() + more, members.end(), [this](int a, int b) {
+      return box(a).high > box(b).high || (box(a).high == box(b).high && a < b);
+    });
+    const double known = cluster.best.value;
+    for (long i = 0; i < more; ++i) {
+      const GoodBox& at = box(members[static_cast<std::size_t>(i)]);
+      const Eigen::VectorXd centre = (at.lower + at.upper) / 2;
+      const double value = evaluate_one(*objective, centre);
+      if (value > cluster.best.value) cluster.best = {centre, value};
+    }
+    if (cluster.best.value > known) improve(cluster, number);
+  }
+
+  void improve(Cluster& cluster, int number) const {
+    const Eigen::VectorXd& upper = objective_.upper();
+    const bool around = (cluster.upper.array() > upper.array()).any();
+    PartOf part(objective_.clone(), around ? objective_.lower() : cluster.lower,
+                around ? upper : cluster.upper,
+                [this, number](const Eigen::VectorXd& x) { return cluster_at(x) == number; });
+    SearchOptions search;
+    search.budget = kSearchBudget;
+    search.starts = {cluster.best};
+    const SearchResult found = make_cmaes()->maximize(part, search);
+    if (found.value > cluster.best.value) cluster.best = {found.theta_r, found.value};
+  }
+
+  void sort() {
+    std::vector<int> order(result_.clusters.size()), place(order.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [this](int i, int j) {
+      const Cluster& a = result_.clusters[static_cast<std::size_t>(i)];
+      const Cluster& b = result_.clusters[static_cast<std::size_t>(j)];
+      return std::tuple(-a.best.value, -a.high, i) < std::tuple(-b.best.value, -b.high, j);
+    });
+    std::vector<Cluster> sorted;
+    for (const int i : order) {
+      place[static_cast<std::size_t>(i)] = static_cast<int>(sorted.size());
+      sorted.push_back(std::move(result_.clusters[static_cast<std::size_t>(i)]));
+    }
+    result_.clusters = std::move(sorted);
+    for (GoodBox& each : result_.boxes)
+      each.cluster = place[static_cast<std::size_t>(each.cluster)];
+  }
+
+  const Objective& objective_;
+  const Candidate& best_;
+  const GoodOptions& options_;
+  GoodPostures& result_;
+  BoxTree tree_;
+  std::vector<std::vector<int>> members_;  ///< the boxes of each
+};
+
+}  // namespace
+
+double good_from(double best, double within) { return best - within * std::abs(best); }
+
+GoodPostures find_good_postures(Objective& objective, const Bound& bound, const Candidate& best,
+                                double high, const GoodOptions& options) {
+  if (!(options.within > 0 && options.within <= 1)) {
+    throw std::invalid_argument("within: expected above 0, at most 1");
+  }
+  if (!(options.resolution >= kLeastResolution)) {
+    throw std::invalid_argument("resolution: expected at least 1e-6");
+  }
+  if (!std::isfinite(best.value)) {
+    throw std::invalid_argument("best: expected a posture with a value");
+  }
+  const Box refuses_infinite_limits(objective);
+  GoodPostures result;
+  result.least = good_from(best.value, options.within);
+  result.sure = good_from(high, options.within);
+  GoodBoxes(objective, bound, high, options, result).run();
+  Clusters(objective, best, options, result).run();
+  return result;
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,88 @@
+#include "solvers/certify/halving.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "maxwrench/batch.h"
+#include "maxwrench/robot.h"
+
+namespace maxwrench {
+namespace {
+
+std::unique_ptr<CertifiedBox> half(const CertifiedBox& parent, bool second) {
+  auto child = std::make_unique<CertifiedBox>();
+  child->lower = parent.lower;
+  child->upper = parent.upper;
+  const int axis = parent.cut_axis;
+  const double middle = (parent.lower[axis] + parent.upper[axis]) / 2;
+  (second ? child->lower : child->upper)[axis] = middle;
+  child->high = parent.proof.high;
+  child->proof.multiplier = parent.proof.multiplier;
+  child->proof.basis = parent.proof.basis;
+  child->depth = parent.depth + 1;
+  child->parent = parent.id;
+  return child;
+}
+
+}  // namespace
+
+Halving::Halving(const Objective& objective, const Bound& bound, int threads)
+    : objective_(objective), bound_(bound), threads_(threads) {}
+
+std::unique_ptr<CertifiedBox> Halving::root(double low, double high) {
+  auto root = std::make_unique<CertifiedBox>();
+  root->lower = objective_.lower().array() - kLimitTolerance;
+  root->upper = objective_.upper().array() + kLimitTolerance;
+  root->high = high;
+  bound_one(*root, low);
+  return root;
+}
+
+CertifiedBoxes Halving::halves(const CertifiedBoxes& parents, double low) {
+  CertifiedBoxes children(2 * parents.size());
+  parallel_for(threads_, static_cast<long>(parents.size()), [&](long i) {
+    const auto at = static_cast<std::size_t>(i);
+    for (const bool second : {false, true}) {
+      const std::size_t place = 2 * at + (second ? 1 : 0);
+      auto& child = children[place];
+      child = half(*parents[at], second);
+      child->id = last_id_ + 1 + static_cast<long>(place);
+      bound_one(*child, low);
+    }
+  });
+  last_id_ += static_cast<long>(children.size());
+  return children;
+}
+
+void Halving::bound_one(CertifiedBox& box, double low) {
+  std::unique_ptr<Bound> bound;
+  {
+    const std::lock_guard<std::mutex> guard(mutex_);
+    if (!free_.empty()) {
+      bound = std::move(free_.back());
+      free_.pop_back();
+    }
+  }
+  if (!bound) bound = bound_.clone();
+  // Without a value yet, what no value is below: a ceiling holds for both signs.
+  box.low = std::isfinite(low) ? low : -bound_.ceiling();
+  bound->evaluate(box.lower, box.upper, box.low, box.high, box.proof);
+  const std::lock_guard<std::mutex> guard(mutex_);
+  free_.push_back(std::move(bound));
+}
+
+int axis_to_cut(const CertifiedBox& box, double narrowest) {
+  int axis = -1;
+  double most = narrowest;
+  const int hint = box.proof.axis;
+  if (hint >= 0 && box.upper[hint] - box.lower[hint] > narrowest) return hint;
+  for (Eigen::Index i = 0; i < box.lower.size(); ++i) {
+    const double width = box.upper[i] - box.lower[i];
+    if (width <= most) continue;
+    most = width;
+    axis = static_cast<int>(i);
+  }
+  return axis;
+}
+
+}  // namespace maxwrench
