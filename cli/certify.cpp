@@ -66,7 +66,7 @@ GoodPostures list_good(const ProofOptions& options, const Problem& problem, cons
 /// Searches, then bounds. What was found while bounding is evaluated anew, too.
 Proof prove(const ProofOptions& options, const Problem& problem) {
   Case c = options.read_case();
-  make_capability_bound(problem, c.measure, c.wrench);  // refuses before anything is computed
+  const auto bound = make_capability_bound(problem, c.measure, c.wrench);  // or refuses, first
   c.search = best_search(problem, c.measure);
   const Method method = resolve(problem, c);
   CtrlC ctrl_c;

@@ -33,7 +33,8 @@ Row at_default(RowWriter& writer, const Problem& problem) {
   return writer.evaluate(problem, pure(problem, ""), problem.theta_r_default);
 }
 
-std::string line(const char* name, const Row& row, double one, double tank, double tank_one) {
+std::string contact_line(const char* name, const Row& row, double one, double tank,
+                         double tank_one) {
   if (!row.has_value()) return fmt::format("{:<16} no value: {}\n", name, row.reason.c_str());
   const double w_2 = row.capability.h_2.head<3>().norm();
   return fmt::format("{:<16} {:>8.3f}  {:>7.1f}  {:>+8.1f} %  {:>+6.1f} %  {:>8.2f}  [{:.4f}]\n",
@@ -63,9 +64,9 @@ PaperTable reproduce_dual(const std::filesystem::path& folder, int threads) {
       "wall,\nN m ({}). tank: measured in the paper; push: force on the wall, "
       "N.\n\n                     ours     tank  ours gain  tank gain  push    regrasp [m]\n",
       wall.label);
-  text += line("one contact", one, reference, tank.one, tank.one);
-  text += line("default contact", chosen, reference, tank.chosen, tank.one);
-  text += line("best contact", best, reference, tank.best, tank.one);
+  text += contact_line("one contact", one, reference, tank.one, tank.one);
+  text += contact_line("default contact", chosen, reference, tank.chosen, tank.one);
+  text += contact_line("best contact", best, reference, tank.best, tank.one);
   const Sampled contacts = sample_postures(wall, kSamples);
   text += fmt::format("  {} random contacts, {} of them valid; {}\n", kSamples, contacts.valid,
                       describe(contacts.postures));

@@ -43,7 +43,8 @@ struct Rows {
   bool all_solved = true;
 };
 
-std::string line(const Problem& problem, const PaperValue& value, const Row& row, double bound) {
+std::string planar_line(const Problem& problem, const PaperValue& value, const Row& row,
+                        double bound) {
   return fmt::format(
       "{}  {:>6.2f}  {:>8.4f}  {:>8.4f}  {:>+8.2f} %  {:<7}  {:<15}  {:>11}   {:.1e}  {}\n",
       value.symbol, value.paper, row.capability.beta, bound,
@@ -79,7 +80,7 @@ Rows solve_planar(const Problem& problem, const std::filesystem::path& folder, i
       }
     }
     const double bound = proven_bound(problem, of_value.front(), threads);
-    for (const Row& row : of_value) rows.text += line(problem, value, row, bound);
+    for (const Row& row : of_value) rows.text += planar_line(problem, value, row, bound);
     rows.best.push_back(of_value.front());
   }
   rows.all_solved = writer.finish();

@@ -176,8 +176,8 @@ std::string wrench_bars(const Problem& problem, const Row& row, double tank) {
 
 /// One line for an optimum. For beta_3 the tank measured the torque while its sensor took any other
 /// component, so the own value is the one to compare, otherwise the pure one.
-std::string line(const Task& task, const Measured& measured, const Best& best, const Row& pure,
-                 const std::string& virtual_tank, double reference) {
+std::string optimum_line(const Task& task, const Measured& measured, const Best& best,
+                         const Row& pure, const std::string& virtual_tank, double reference) {
   const Row& compared = measured.wrench == Wrench::kAny ? best.row : pure;
   const double gain = compared.capability.beta / reference;
   const double tank_gain = measured.tank / task.tank_default;
@@ -244,7 +244,8 @@ std::string table(RowWriter& writer, const Task& task, const std::filesystem::pa
     const bool any_wrench = measured.wrench == Wrench::kAny;
     experiments.push_back(
         simulated(problem, task, measured.symbol, best.row, any_wrench ? best.row : at_best));
-    text += line(task, measured, best, at_best, experiments.back().cell, pure.capability.beta);
+    text +=
+        optimum_line(task, measured, best, at_best, experiments.back().cell, pure.capability.beta);
     if (any_wrench) notes += describe_orthogonal(problem, best.row);
     digits += fmt::format(", {} {:.3f}", measured.symbol, best.row.capability.beta);
     optima.push_back(best.row);
