@@ -52,7 +52,7 @@ TEST(CertifyCommand, PrintsABracket) {
 TEST(CertifyCommand, EndsWithCtrlC) {
   const CommandResult result = run_maxwrench(
       "--version > /dev/null; timeout --foreground --preserve-status -s INT 1 '" MAXWRENCH_COMMAND
-      "' certify uvms/valve --gap 1e-7 --json");
+      "' certify uvms/lift --measure ellipsoid --gap 1e-8 --json");
   EXPECT_EQ(result.exit_status, 1) << result.err;
   const json proof = json::parse(result.out);
   EXPECT_EQ(proof["status"], "bracket");
