@@ -15,7 +15,8 @@ struct BoxProof {
   enum class Kind {
     kNone,        ///< nothing is known: the box is too large for a bound
     kMultiplier,  ///< U(multiplier) <= high
-    kCollision    ///< all of it collides, the bodies of `pair`; high is -infinity
+    kCollision,   ///< all of it collides, the bodies of `pair`; high is -infinity
+    kNoPosture    ///< what follows from theta_r does not get there; high is -infinity
   };
   Kind kind = Kind::kNone;
   double high = kInfinity;     ///< [N or N m]
@@ -32,6 +33,19 @@ struct BoxProof {
 class Bound {
  public:
   virtual ~Bound() = default;
+
+  /// Boxes may have more coordinates than theta_r, x = [theta_r; what follows]: turns the limits of
+  /// theta_r into those of x, which hold at least one of all postures of each value.
+  virtual void extend(Eigen::VectorXd& lower, Eigen::VectorXd& upper) const {
+    static_cast<void>(lower);
+    static_cast<void>(upper);
+  }
+  /// Cuts off parts of a box without a posture; false: it has none.
+  virtual bool shrink(Eigen::VectorXd& lower, Eigen::VectorXd& upper) {
+    static_cast<void>(lower);
+    static_cast<void>(upper);
+    return true;
+  }
 
   /// No value is larger, at any theta_r within its limits.
   virtual double ceiling() const = 0;

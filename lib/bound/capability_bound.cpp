@@ -23,6 +23,13 @@ class CapabilityBound final : public Bound {
     measure_->evaluate(lower, upper, low, high, proof);
   }
 
+  void extend(Eigen::VectorXd& lower, Eigen::VectorXd& upper) const override {
+    measure_->extend(lower, upper);
+  }
+  bool shrink(Eigen::VectorXd& lower, Eigen::VectorXd& upper) override {
+    return measure_->shrink(lower, upper);
+  }
+
   std::unique_ptr<Bound> clone() const override {
     return std::make_unique<CapabilityBound>(measure_->clone(),
                                              collision_ ? collision_->clone() : nullptr);
@@ -35,7 +42,9 @@ class CapabilityBound final : public Bound {
 std::unique_ptr<Bound> measure_bound(const Problem& problem, const std::string& measure,
                                      Wrench wrench) {
   const bool any = wrench == Wrench::kAny;
+  const bool follows = !problem.dependent.empty();
   if (measure == "linf_polytope") {
+    if (follows && !any) return make_loop_bound(problem, false);
     return any ? make_any_wrench_bound(problem) : make_polytope_bound(problem, false);
   }
   if (measure != "l2_polytope" && measure != "ellipsoid") {
@@ -46,6 +55,7 @@ std::unique_ptr<Bound> measure_bound(const Problem& problem, const std::string& 
     throw std::invalid_argument("wrench: got 'any', expected pure for a proof of measure " +
                                 measure);
   }
+  if (follows && measure == "l2_polytope") return make_loop_bound(problem, true);
   return measure == "ellipsoid" ? make_ellipsoid_bound(problem)
                                 : make_polytope_bound(problem, true);
 }

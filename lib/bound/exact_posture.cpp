@@ -1,5 +1,6 @@
 #include "lib/bound/exact_posture.h"
 
+#include <cmath>
 #include <numeric>
 #include <stdexcept>
 
@@ -20,9 +21,45 @@ void ExactPosture::set(const ExtendedVector& theta_r) {
   }
   kinematics_.set_joints(q_);
   const Matrix3<Extended> R_e = kinematics_.end_effector(tip).R;
-  const Matrix3<Extended> R_base = problem_.pose.R.cast<Extended>() * R_e.transpose();
+  const Pose<Extended> pose = exact_pose(problem_, theta_r);
+  const Matrix3<Extended> R_base = pose.R * R_e.transpose();
   kinematics_.jacobian(tip, R_base, J_);
   kinematics_.gravity_and_buoyancy(R_base, tau_d_);
+  c_ = exact_direction(problem_, pose);
+}
+
+Pose<Extended> exact_pose(const Problem& problem, const ExtendedVector& x) {
+  using std::cos;
+  using std::sin;
+  const Matrix3<Extended> R_0 = problem.pose.R.cast<Extended>();
+  Vector3<Extended> shift = Vector3<Extended>::Zero();
+  Matrix3<Extended> turn = Matrix3<Extended>::Identity();
+  auto next = static_cast<Eigen::Index>(problem.redundant.size());
+  for (const int axis : problem.free.axes) {
+    const Extended s = x[next++];
+    if (axis < 3) {
+      shift[axis] = s;
+      continue;
+    }
+    const int i = (axis + 1) % 3, j = (axis + 2) % 3;  // roll first, yaw last
+    Matrix3<Extended> one = Matrix3<Extended>::Identity();
+    one(i, i) = one(j, j) = cos(s);
+    one(j, i) = sin(s);
+    one(i, j) = -one(j, i);
+    turn = one * turn;
+  }
+  const Matrix3<Extended> R = R_0 * turn;
+  const Matrix3<Extended>& along = problem.free.along_tool ? R : R_0;
+  return {R, problem.pose.p.cast<Extended>() + along * shift};
+}
+
+Vector6<Extended> exact_direction(const Problem& problem, const Pose<Extended>& pose) {
+  Vector6<Extended> c = problem.c.cast<Extended>();
+  if (!problem.free.wrench_turns) return c;
+  const Matrix3<Extended> turn = pose.R * problem.pose.R.cast<Extended>().transpose();
+  const Vector3<Extended> force = turn * c.head<3>(), torque = turn * c.tail<3>();
+  c << force, torque;
+  return c;
 }
 
 Coordinates all_coordinates(const Problem& problem) {
@@ -32,6 +69,10 @@ Coordinates all_coordinates(const Problem& problem) {
   for (const int joint : problem.redundant) {
     const Joint& at = problem.robot.joints[static_cast<std::size_t>(joint)];
     all.turns.push_back(at.type == JointType::kRevolute);
+  }
+  for (const int axis : problem.free.axes) {
+    all.index.push_back(all.count());
+    all.turns.push_back(axis >= 3);
   }
   return all;
 }
@@ -44,19 +85,16 @@ void require_closed_form(const Problem& problem) {
   };
   if (problem.motion) refuse(std::string("a task in time (") + problem.type() + ")");
   if (problem.contact) refuse("a second contact");
-  if (problem.free.count() > 0) refuse("free coordinates of the pose");
-  if (!problem.dependent.empty()) refuse("joints that follow from theta_r");
 }
 
 MultiAffine pure_rows(const Problem& problem, const Eigen::MatrixXd& K) {
   ExactPosture posture(problem);
-  const Vector6<Extended> c = problem.c.cast<Extended>();
   const MatrixX<Extended> into = K.cast<Extended>();
   return {all_coordinates(problem), problem.theta_r_default, [&](const ExtendedVector& theta_r) {
             posture.set(theta_r);
             ExtendedVector rows(2 * K.rows());
             rows.head(K.rows()).noalias() = into * posture.tau_d();
-            const ExtendedVector a = posture.J().transpose() * c;
+            const ExtendedVector a = posture.J().transpose() * posture.c();
             rows.tail(K.rows()).noalias() = into * a;
             return rows;
           }};

@@ -8,7 +8,8 @@ namespace maxwrench {
 
 /// J and tau_d at theta_r with the digits of `Extended`, of a static task with one contact whose
 /// base pose follows in closed form. There both are, in base axes, multi-affine: what a pose of the
-/// end effector fixes turns from link to link towards the base, once about each joint.
+/// end effector fixes turns from link to link towards the base, once about each joint, as it does
+/// about each free coordinate of that pose before.
 class ExactPosture {
  public:
   /// Keeps a reference to the problem.
@@ -18,6 +19,7 @@ class ExactPosture {
   void set(const ExtendedVector& theta_r);
   const Matrix6X<Extended>& J() const { return J_; }      ///< 6×n
   const ExtendedVector& tau_d() const { return tau_d_; }  ///< n
+  const Vector6<Extended>& c() const { return c_; }       ///< as it is there
   /// Relative to the base.
   const std::vector<Pose<Extended>>& links() const { return kinematics_.links(); }
 
@@ -25,8 +27,14 @@ class ExactPosture {
   const Problem& problem_;
   Kinematics<Extended> kinematics_;
   ExtendedVector q_, tau_d_;
+  Vector6<Extended> c_;
   Matrix6X<Extended> J_;
 };
+
+/// The pose of the end effector at theta_r, of which x may have more behind it, and the direction
+/// of the wrench there.
+Pose<Extended> exact_pose(const Problem& problem, const ExtendedVector& x);
+Vector6<Extended> exact_direction(const Problem& problem, const Pose<Extended>& pose);
 
 /// All of theta_r.
 Coordinates all_coordinates(const Problem& problem);

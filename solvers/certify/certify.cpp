@@ -63,6 +63,7 @@ class BranchAndBound {
     auto root = std::make_unique<CertifiedBox>();
     root->lower = objective.lower().array() - kLimitTolerance;
     root->upper = objective.upper().array() + kLimitTolerance;
+    bound.extend(root->lower, root->upper);
     root->high = bound.ceiling();
     bound_one(*root, target());
     keep(std::move(root));
@@ -196,7 +197,12 @@ class BranchAndBound {
   void bound_one(CertifiedBox &box, double low) {
     std::unique_ptr<Bound> bound = pool_.take();
     box.low = std::max(low, -box.high);
-    bound->evaluate(box.lower, box.upper, box.low, box.high, box.proof);
+    if (bound->shrink(box.lower, box.upper)) {
+      bound->evaluate(box.lower, box.upper, box.low, box.high, box.proof);
+    } else {
+      box.proof.kind = BoxProof::Kind::kNoPosture;
+      box.proof.high = -kInfinity;
+    }
     pool_.give(std::move(bound));
   }
 
@@ -206,7 +212,8 @@ class BranchAndBound {
     for (std::size_t i = 0; i < parents_.size(); ++i) {
       const CertifiedBox &box = *parents_[i];
       const double width = (box.upper - box.lower).maxCoeff();
-      if (i % kSeldom == 0 || width < kSmallBox) climb((box.lower + box.upper) / 2, width / 4);
+      if (i % kSeldom == 0 || width < kSmallBox)
+        climb((box.lower + box.upper).head(objective_.dimension()) / 2, width / 4);
     }
   }
 
