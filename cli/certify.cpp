@@ -66,6 +66,16 @@ class GapLine {
                                         next_ = start_ + std::chrono::seconds(1);
 };
 
+/// What checks a certificate evaluates postures of a given pose whose base follows in closed form.
+void refuse_certificate(const std::string& file, const Problem& problem) {
+  const bool given = problem.dependent.empty() && !problem.contact && problem.free.count() == 0;
+  if (file.empty() || given) return;
+  throw std::invalid_argument(
+      "--certificate: got a task with joints that follow from theta_r, a "
+      "second contact or free coordinates of the pose, expected one "
+      "without");
+}
+
 /// Searches, then bounds. What was found while bounding is evaluated anew, too.
 Proof prove(const ProofOptions& options, const Problem& problem) {
   Case c = options.read_case();
@@ -209,6 +219,7 @@ void add_certify(CLI::App& app, int& exit_status) {
     require_apart({{"problem", options->choice.problem}},
                   {{"--certificate", options->certificate}});
     Problem problem = load_problem(options->choice.problem);
+    refuse_certificate(options->certificate, problem);
     if (options->ignore_collision) problem.robot.collision = nullptr;
     const Proof proof = prove(*options, problem);
     write_certificate(*options, problem, proof);

@@ -63,7 +63,8 @@ class Bound {
 /// Of the value of a measure, linf_polytope, l2_polytope or ellipsoid, over postures of a problem,
 /// which outlives it. Throws std::invalid_argument, in one line, for what it does not serve: other
 /// measures; any wrenches but with linf_polytope and a base whose free axes are as many as they;
-/// tasks in time, second contacts, joints that follow, free coordinates of the pose.
+/// tasks in time; where joints follow from theta_r or there is a second contact the ellipsoid, any
+/// wrenches, contact forces that nothing limits, and chains that are too long.
 std::unique_ptr<Bound> make_capability_bound(const Problem& problem, const std::string& measure,
                                              Wrench wrench);
 std::unique_ptr<Bound> make_capability_bound(const Problem&&, const std::string&, Wrench) = delete;

@@ -34,15 +34,11 @@ class LoopBox {
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const LoopPart& part = model_.parts[i];
       const Eigen::MatrixXd& P = *points_[i];
-      if (part.equations) {
-        sum_.noalias() = P.transpose() * nu;
-        spread_out(part, sum_, g_);
-        continue;
-      }
       const auto count = static_cast<Eigen::Index>(part.rows.size());
-      own_ = lambda(part.rows);
+      own_ = (part.kind == LoopPart::Kind::kEquations ? nu : lambda)(part.rows);
       sum_.noalias() = P.topRows(count).transpose() * own_;
       spread_out(part, sum_, g_);
+      if (part.kind != LoopPart::Kind::kLoads) continue;
       sum_.noalias() = P.bottomRows(count).transpose() * own_;
       spread_out(part, sum_, h_);
     }
@@ -53,16 +49,14 @@ class LoopBox {
   /// All rows at one of them.
   void read(Eigen::Index v) {
     f_.setZero();
+    tau_.setZero();
+    a_.setZero();
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const LoopPart& part = model_.parts[i];
       const auto P = points_[i]->col(v / part.repeat % part.f.size());
-      if (part.equations) {
-        f_ += P;
-        continue;
-      }
       const auto count = static_cast<Eigen::Index>(part.rows.size());
-      tau_(part.rows) = P.head(count);
-      a_(part.rows) = P.tail(count);
+      (part.kind == LoopPart::Kind::kEquations ? f_ : tau_)(part.rows) += P.head(count);
+      if (part.kind == LoopPart::Kind::kLoads) a_(part.rows) += P.tail(count);
     }
   }
   const Eigen::VectorXd& tau() const { return tau_; }
@@ -100,7 +94,7 @@ class LoopBound final : public Bound {
         set_(set),
         K_(K),
         l2_(l2),
-        most_rank_(std::min<Eigen::Index>(6, model_->m)),
+        most_rank_(std::min<Eigen::Index>(model_->m, model_->coordinates.chain.count())),
         B_(l2 ? Eigen::MatrixXd::Identity(set.actuators(), set.actuators()) : set.B),
         farthest_(set.u_min.cwiseAbs().cwiseMax(set.u_max.cwiseAbs())),
         box_(*model_),

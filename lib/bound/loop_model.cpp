@@ -3,11 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <stdexcept>
+#include <string>
 
 #include "lib/bound/bounds.h"
 
 namespace maxwrench {
 namespace {
+
+/// More of them would take too long for a box.
+constexpr Eigen::Index kMostControlPoints = 50'000;
 
 int values_along(const Coordinates& chain, int axis) {
   return chain.turns[static_cast<std::size_t>(axis)] ? 3 : 2;
@@ -22,85 +28,120 @@ Coordinates stretch(const Coordinates& chain, int from, int to) {
 
 }  // namespace
 
-LoopModel::LoopModel(const Problem& problem) : coordinates(problem), n(problem.robot.velocities()) {
+LoopModel::LoopModel(const Problem& problem)
+    : coordinates(problem), n(problem.robot.velocities()), problem_(problem) {
   for (int i = 0; i < coordinates.chain.count(); ++i) size *= values_along(coordinates.chain, i);
+  if (size > kMostControlPoints) {
+    throw std::invalid_argument(problem.name + ": got " +
+                                std::to_string(coordinates.chain.count()) +
+                                " coordinates with all that follows, expected fewer, for a proof");
+  }
   tau = a = Eigen::VectorXd::Zero(n);
-  add_loads(problem);
-  add_equations(problem);
+  LoopPosture posture(problem, coordinates);
+  add_loads(posture);
+  add_joints(posture);
+  add_equations(posture);
 }
 
-void LoopModel::add_part(LoopPart part) {
-  for (int i = part.to; i < coordinates.chain.count(); ++i) {
+void LoopModel::add_part(Kind kind, int from, int to, const std::vector<int>& rows,
+                         const MultiAffine::Sample& sample) {
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(coordinates.lower.size());
+  LoopPart part{kind, MultiAffine(stretch(coordinates.chain, from, to), rest, sample), from, to,
+                rows};
+  for (int i = to; i < coordinates.chain.count(); ++i) {
     part.repeat *= values_along(coordinates.chain, i);
   }
   const Eigen::VectorXd S = part.f.magnitudes(coordinates.lower, coordinates.upper);
-  if (part.equations) {
-    f = f.size() == 0 ? S : Eigen::VectorXd(f + S);
-    m = f.size();
-  }
-  const auto count = static_cast<Eigen::Index>(part.rows.size());
-  for (Eigen::Index i = 0; i < count; ++i) {
-    tau[part.rows[static_cast<std::size_t>(i)]] = S[i];
-    a[part.rows[static_cast<std::size_t>(i)]] = S[count + i];
+  const auto count = static_cast<Eigen::Index>(rows.size());
+  if (kind == Kind::kEquations) {
+    f(rows) += S;
+  } else {
+    tau(rows) += S.head(count);
+    if (kind == Kind::kLoads) a(rows) += S.tail(count);
   }
   parts.push_back(std::move(part));
 }
 
-/// The base and what is not of the chain depend on all; a joint of it on what is behind it.
-void LoopModel::add_loads(const Problem& problem) {
-  LoopPosture posture(problem, coordinates);
-  const auto add = [&](int from, int to, const std::vector<int>& rows) {
-    if (rows.empty()) return;
-    const MultiAffine::Sample sample = [&](const ExtendedVector& x) {
-      posture.set(x);
-      const auto count = static_cast<Eigen::Index>(rows.size());
-      ExtendedVector values(2 * count);
-      values.head(count) = posture.loads().head(n)(rows);
-      values.tail(count) = posture.loads().tail(n)(rows);
-      return values;
-    };
-    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(coordinates.lower.size());
-    add_part({MultiAffine(stretch(coordinates.chain, from, to), rest, sample), from, to, rows});
-  };
-  const auto axes = static_cast<int>(problem.robot.base_axes.size());
-  const int all = coordinates.chain.count();
+/// The base and what is not of the chain depend on all.
+void LoopModel::add_loads(LoopPosture& posture) {
+  const Robot& robot = problem_.robot;
+  const auto axes = static_cast<int>(robot.base_axes.size());
   std::vector<int> pushed, others;
   for (int i = 0; i < static_cast<int>(n); ++i) {
-    if (i < axes && problem.robot.base_axes[static_cast<std::size_t>(i)] < 3) {
+    const bool slides = i < axes && robot.base_axes[static_cast<std::size_t>(i)] < 3;
+    if (slides && !coordinates.base_follows) {
       pushed.push_back(i);
     } else if (std::find(coordinates.joints.begin(), coordinates.joints.end(), i - axes) ==
                coordinates.joints.end()) {
       others.push_back(i);
     }
   }
-  add(0, problem.free.wrench_turns ? all : coordinates.first, pushed);
-  add(0, all, others);
-  for (std::size_t i = 0; i < coordinates.joints.size(); ++i) {
-    add(coordinates.first + static_cast<int>(i) + 1, all, {axes + coordinates.joints[i]});
+  const auto add = [&](int from, int to, const std::vector<int>& rows) {
+    if (rows.empty()) return;
+    add_part(Kind::kLoads, from, to, rows, [&](const ExtendedVector& x) {
+      posture.set(x);
+      ExtendedVector values(2 * static_cast<Eigen::Index>(rows.size()));
+      values << posture.loads().head(n)(rows), posture.loads().tail(n)(rows);
+      return values;
+    });
+  };
+  const auto& yaw = coordinates.yaw;
+  add(yaw.from, problem_.free.wrench_turns ? coordinates.free.to : yaw.to, pushed);
+  add(0, coordinates.free.to, others);
+  if (coordinates.shares.count() == 0) return;
+  pushed.insert(pushed.end(), others.begin(), others.end());
+  add_part(Kind::kForces, 0, coordinates.shares.to, pushed, [&](const ExtendedVector& x) {
+    posture.set(x);
+    return ExtendedVector(posture.forces()(pushed));
+  });
+}
+
+/// A joint of the chain depends on what is behind it.
+void LoopModel::add_joints(LoopPosture& posture) {
+  const auto axes = static_cast<int>(problem_.robot.base_axes.size());
+  for (int i = coordinates.first.from; i < coordinates.first.to; ++i) {
+    const int row = axes + coordinates.joints[static_cast<std::size_t>(i - coordinates.first.from)];
+    add_part(Kind::kLoads, i + 1, coordinates.free.to, {row}, [&](const ExtendedVector& x) {
+      posture.set(x);
+      ExtendedVector values(2);
+      values << posture.loads()[row], posture.loads()[n + row];
+      return values;
+    });
   }
 }
 
-/// Left and right of the middle of the chain.
-void LoopModel::add_equations(const Problem& problem) {
-  LoopPosture posture(problem, coordinates);
-  const int all = coordinates.chain.count();
-  const int k = std::max(0, all / 2 - coordinates.first);
-  const int cut = coordinates.first + k;
-  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(coordinates.lower.size());
-  const auto side = [&](bool left) -> MultiAffine::Sample {
-    return [&posture, k, left](const ExtendedVector& x) {
+std::vector<int> LoopModel::new_equations(Eigen::Index count) {
+  std::vector<int> rows(static_cast<std::size_t>(count));
+  std::iota(rows.begin(), rows.end(), static_cast<int>(m));
+  m += count;
+  f.conservativeResize(m);
+  f.tail(count).setZero();
+  return rows;
+}
+
+/// Left and right of the middle of the chain; the second arm and what it touches.
+void LoopModel::add_equations(LoopPosture& posture) {
+  using Side = std::function<ExtendedVector()>;
+  posture.set(ExtendedVector::Zero(coordinates.lower.size()));
+  const auto add = [&](int from, int to, const std::vector<int>& rows, const Side& side) {
+    add_part(Kind::kEquations, from, to, rows, [&](const ExtendedVector& x) {
       posture.set(x);
-      return left ? posture.left(k) : ExtendedVector(-posture.right(k));
-    };
+      return side();
+    });
   };
-  const auto add = [&](int from, int to, bool left) {
-    LoopPart part{
-        MultiAffine(stretch(coordinates.chain, from, to), rest, side(left)), from, to, {}};
-    part.equations = true;
-    add_part(std::move(part));
-  };
-  add(0, cut, true);
-  add(cut, all, false);
+  if (!coordinates.base_follows) {
+    const int from = coordinates.yaw.from, to = coordinates.free.to;
+    const int k = std::max(0, (from + to) / 2 - coordinates.first.from);
+    const int cut = coordinates.first.from + k;
+    const std::vector<int> rows = new_equations(posture.left(k).size());
+    add(from, cut, rows, [&] { return posture.left(k); });
+    add(cut, to, rows, [&] { return ExtendedVector(-posture.right(k)); });
+  }
+  if (!problem_.contact) return;
+  const std::vector<int> rows = new_equations(posture.touching().size());
+  add(0, coordinates.second.to, rows, [&] { return posture.touching(); });
+  add(coordinates.first.from, coordinates.regrasp.to, rows,
+      [&] { return ExtendedVector(-posture.touched()); });
 }
 
 LoopLinear::LoopLinear(const LoopModel& model) : model_(model) {
@@ -142,17 +183,17 @@ void LoopLinear::centre(const LoopPart& part, const Eigen::VectorXd& lower,
       weights_[first + 2 * step] *= r < std::numbers::pi / 2 ? std::sin(r) : 1;
     }
   }
-  f_0_ += coefficients_.col(0);
+  f_0_(part.rows) += coefficients_.col(0);
   weights_[0] = 0;
   step = coefficients_.cols();
   for (int i = 0; i < along.count(); ++i) {
     const int terms = along.turns[static_cast<std::size_t>(i)] != 0 ? 3 : 2;
     step /= terms;
     const Eigen::Index linear = (terms - 1) * step;
-    D_.col(part.from + i) += coefficients_.col(linear);
+    D_.col(part.from + i)(part.rows) += coefficients_.col(linear);
     weights_[linear] = 0;
   }
-  rho_.noalias() += coefficients_.cwiseAbs() * weights_;
+  rho_(part.rows) += coefficients_.cwiseAbs() * weights_;
 }
 
 void LoopLinear::expand(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
@@ -160,7 +201,7 @@ void LoopLinear::expand(const Eigen::VectorXd& lower, const Eigen::VectorXd& upp
   D_.setZero();
   rho_ = kBoundRounding * kMostSpread * model_.f;
   for (const LoopPart& part : model_.parts) {
-    if (part.equations) centre(part, lower, upper);
+    if (part.kind == LoopPart::Kind::kEquations) centre(part, lower, upper);
   }
   const Coordinates& chain = model_.coordinates.chain;
   for (int i = 0; i < chain.count(); ++i) {

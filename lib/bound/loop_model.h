@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "lib/bound/loop_posture.h"
@@ -11,15 +10,21 @@ namespace maxwrench {
 /// points of all, of which the first coordinate changes slowest, point v of all is point
 /// (v / repeat) mod f.size() of these.
 struct LoopPart {
+  enum class Kind {
+    kLoads,     ///< f = [rows of tau; the same rows of a]
+    kForces,    ///< f = rows of tau
+    kEquations  ///< f = rows of the equations
+  };
+  Kind kind;
   MultiAffine f;
-  int from, to;            ///< the stretch
-  std::vector<int> rows;   ///< of tau_d and J'c, that f gives one after the other
-  bool equations = false;  ///< instead the rows of the equations
+  int from, to;  ///< the stretch
+  std::vector<int> rows;
   Eigen::Index repeat = 1;
 };
 
-/// tau_d, a = J'c and the equations f(x) = 0 as sums of parts.
+/// tau = tau_d + J_2'C_2 w_2, a = J'c and the equations f(x) = 0 as sums of parts.
 struct LoopModel {
+  /// Keeps a reference. Throws std::invalid_argument, in one line, if there are too many.
   explicit LoopModel(const Problem& problem);
 
   LoopCoordinates coordinates;
@@ -30,9 +35,16 @@ struct LoopModel {
   Eigen::VectorXd tau, a, f;  ///< magnitudes
 
  private:
-  void add_loads(const Problem& problem);
-  void add_equations(const Problem& problem);
-  void add_part(LoopPart part);
+  using Kind = LoopPart::Kind;
+
+  void add_loads(LoopPosture& posture);
+  void add_joints(LoopPosture& posture);
+  void add_equations(LoopPosture& posture);
+  void add_part(Kind kind, int from, int to, const std::vector<int>& rows,
+                const MultiAffine::Sample& sample);
+  std::vector<int> new_equations(Eigen::Index count);
+
+  const Problem& problem_;
 };
 
 /// The equations over a box, about its centre m: with s_i = sin(x_i - m_i) of turning coordinates,
