@@ -3,94 +3,36 @@
 #include <cmath>
 
 #include "lib/bound/bounds.h"
-#include "lib/bound/loop_model.h"
+#include "lib/bound/loop_box.h"
+#include "lib/bound/loop_linear.h"
 #include "lib/bound/multiplier_program.h"
 #include "lib/measure/closed_form.h"
 
 namespace maxwrench {
 namespace {
 
-/// The control points of one box.
-class LoopBox {
- public:
-  explicit LoopBox(const LoopModel& model) : model_(model), points_(model.parts.size()) {
-    for (const LoopPart& part : model.parts) corners_.emplace_back(part.f);
-    tau_ = a_ = Eigen::VectorXd::Zero(model.n);
-    f_ = Eigen::VectorXd::Zero(model.m);
-    g_ = h_ = Eigen::VectorXd::Zero(model.size);
+/// Where the base follows from the joints, c on its linear axes, or a torque on the angular ones,
+/// is as long in all postures; so the base's forces limit t. Else infinite.
+double loop_ceiling(const Problem& problem, const LoopModel& model) {
+  if (!model.coordinates.base_follows) return kInfinity;
+  const Zonotope& set = problem.robot.actuation;
+  const bool pushes = problem.c.head<3>().norm() > 0;
+  const Eigen::Index row = pushes ? 0 : 3;
+  double most = model.tau.segment<3>(row).norm();
+  for (Eigen::Index k = 0; k < set.actuators(); ++k) {
+    const double u = std::max(std::abs(set.u_min[k]), std::abs(set.u_max[k]));
+    most += u * set.B.col(k).segment<3>(row).norm();
   }
-
-  /// False if the box is too large for control points.
-  bool set(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
-    if (!(spread(model_.coordinates.chain, lower, upper) <= kMostSpread)) return false;
-    for (std::size_t i = 0; i < points_.size(); ++i) points_[i] = &corners_[i].over(lower, upper);
-    return true;
-  }
-
-  /// g = lambda'tau + nu'f and h = lambda'a at all of them.
-  void weigh(const Eigen::VectorXd& lambda, const Eigen::VectorXd& nu) {
-    g_.setZero();
-    h_.setZero();
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const LoopPart& part = model_.parts[i];
-      const Eigen::MatrixXd& P = *points_[i];
-      const auto count = static_cast<Eigen::Index>(part.rows.size());
-      own_ = (part.kind == LoopPart::Kind::kEquations ? nu : lambda)(part.rows);
-      sum_.noalias() = P.topRows(count).transpose() * own_;
-      spread_out(part, sum_, g_);
-      if (part.kind != LoopPart::Kind::kLoads) continue;
-      sum_.noalias() = P.bottomRows(count).transpose() * own_;
-      spread_out(part, sum_, h_);
-    }
-  }
-  const Eigen::VectorXd& g() const { return g_; }
-  const Eigen::VectorXd& h() const { return h_; }
-
-  /// All rows at one of them.
-  void read(Eigen::Index v) {
-    f_.setZero();
-    tau_.setZero();
-    a_.setZero();
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const LoopPart& part = model_.parts[i];
-      const auto P = points_[i]->col(v / part.repeat % part.f.size());
-      const auto count = static_cast<Eigen::Index>(part.rows.size());
-      (part.kind == LoopPart::Kind::kEquations ? f_ : tau_)(part.rows) += P.head(count);
-      if (part.kind == LoopPart::Kind::kLoads) a_(part.rows) += P.tail(count);
-    }
-  }
-  const Eigen::VectorXd& tau() const { return tau_; }
-  const Eigen::VectorXd& a() const { return a_; }
-  const Eigen::VectorXd& f() const { return f_; }
-
- private:
-  /// Adds a part's values where they belong on the grid of all.
-  static void spread_out(const LoopPart& part, const Eigen::VectorXd& values,
-                         Eigen::VectorXd& all) {
-    const Eigen::Index size = values.size(), repeat = part.repeat;
-    for (Eigen::Index first = 0; first < all.size(); first += size * repeat) {
-      if (repeat == 1) {
-        all.segment(first, size) += values;
-        continue;
-      }
-      for (Eigen::Index i = 0; i < size; ++i) {
-        all.segment(first + i * repeat, repeat).array() += values[i];
-      }
-    }
-  }
-
-  const LoopModel& model_;
-  std::vector<ControlPoints> corners_;
-  std::vector<const Eigen::MatrixXd*> points_;
-  Eigen::VectorXd g_, h_, sum_, own_, tau_, a_, f_;
-};
+  return most / problem.c.segment<3>(row).norm() * (1 + 1e-6);
+}
 
 /// As `make_polytope_bound`, with nu'f added to the rows.
 class LoopBound final : public Bound {
  public:
-  LoopBound(std::shared_ptr<const LoopModel> model, const Zonotope& set, const Eigen::MatrixXd& K,
-            bool l2)
+  LoopBound(std::shared_ptr<const LoopModel> model, double ceiling, const Zonotope& set,
+            const Eigen::MatrixXd& K, bool l2)
       : model_(std::move(model)),
+        ceiling_(ceiling),
         set_(set),
         K_(K),
         l2_(l2),
@@ -103,7 +45,7 @@ class LoopBound final : public Bound {
     entries_.resize(B_.rows() + most_rank_);
   }
 
-  double ceiling() const override { return kInfinity; }
+  double ceiling() const override { return ceiling_; }
 
   void extend(Eigen::VectorXd& lower, Eigen::VectorXd& upper) const override {
     lower = model_->coordinates.lower.array() - kLimitTolerance;
@@ -140,7 +82,7 @@ class LoopBound final : public Bound {
   }
 
   std::unique_ptr<Bound> clone() const override {
-    return std::make_unique<LoopBound>(model_, set_, K_, l2_);
+    return std::make_unique<LoopBound>(model_, ceiling_, set_, K_, l2_);
   }
 
  private:
@@ -306,6 +248,7 @@ class LoopBound final : public Bound {
   }
 
   std::shared_ptr<const LoopModel> model_;
+  const double ceiling_;
   const Zonotope& set_;
   const Eigen::MatrixXd K_;
   const bool l2_;
@@ -328,7 +271,9 @@ class LoopBound final : public Bound {
 std::unique_ptr<Bound> make_loop_bound(const Problem& problem, bool l2) {
   const Zonotope& set = problem.robot.actuation;
   if (l2) require_full_row_rank(problem.robot, "l2_polytope");
-  return std::make_unique<LoopBound>(std::make_shared<LoopModel>(problem), set,
+  auto model = std::make_shared<LoopModel>(problem);
+  const double ceiling = loop_ceiling(problem, *model);
+  return std::make_unique<LoopBound>(std::move(model), ceiling, set,
                                      l2 ? set.B_pinv : Eigen::MatrixXd(), l2);
 }
 

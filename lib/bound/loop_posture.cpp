@@ -27,8 +27,8 @@ void limit_to_a_turn(double& lower, double& upper) {
 }
 
 /// Where a joint stands in a list, or its size.
-Eigen::Index place_in(const std::vector<int>& list, int joint) {
-  return std::find(list.begin(), list.end(), joint) - list.begin();
+int place_in(const std::vector<int>& list, int joint) {
+  return static_cast<int>(std::find(list.begin(), list.end(), joint) - list.begin());
 }
 
 Pose<Extended> exact_contact(const Contact& contact, const Extended* s) {
@@ -63,41 +63,23 @@ double most_force(const Problem& problem) {
 
 }  // namespace
 
-LoopCoordinates::LoopCoordinates(const Problem& problem) {
-  const Robot& robot = problem.robot;
+LoopCoordinates::LoopCoordinates(const Problem& problem)
+    : base_follows(problem.robot.base_axes.size() == 6) {
   const auto own = static_cast<int>(problem.redundancy());
-  const auto add = [&](int at, bool turns, double low, double high) {
-    if (lower.size() <= at) {
-      lower.conservativeResize(at + 1);
-      upper.conservativeResize(at + 1);
-    }
-    lower[at] = low;
-    upper[at] = high;
-    chain.index.push_back(at);
-    chain.turns.push_back(turns);
-    if (turns) limit_to_a_turn(lower[at], upper[at]);
-  };
-  const auto add_joint = [&](int at, int joint) {
-    const Joint& of = robot.joints[static_cast<std::size_t>(joint)];
-    const bool given = at < own;
-    add(at, of.type == JointType::kRevolute, given ? problem.theta_r_min[at] : of.q_min,
-        given ? problem.theta_r_max[at] : of.q_max);
-  };
-  base_follows = robot.base_axes.size() == 6;
   int next = own + static_cast<int>(problem.dependent.size());
   if (problem.contact) {
-    for (const int joint : problem.contact->follow) add_joint(next++, joint);
+    for (const int joint : problem.contact->follow) add_joint(problem, next++, joint);
   }
   second = {0, chain.count()};
-  if (!base_follows && is_free_axis(robot, 5)) {
+  if (!base_follows && is_free_axis(problem.robot, 5)) {
     add(next++, true, -std::numbers::pi, std::numbers::pi);
   }
   yaw = {second.to, chain.count()};
-  joints = chain_to(robot, problem.end_effector);
+  joints = chain_to(problem.robot, problem.end_effector);
   for (const int joint : joints) {
-    const auto at = static_cast<int>(place_in(problem.redundant, joint));
+    const int at = place_in(problem.redundant, joint);
     const bool given = at < static_cast<int>(problem.redundant.size());
-    add_joint(given ? at : own + static_cast<int>(place_in(problem.dependent, joint)), joint);
+    add_joint(problem, given ? at : own + place_in(problem.dependent, joint), joint);
   }
   first = {yaw.to, chain.count()};
   auto at = static_cast<int>(problem.redundant.size());
@@ -112,6 +94,25 @@ LoopCoordinates::LoopCoordinates(const Problem& problem) {
   if (problem.contact) limit_forces(problem);
   for (Eigen::Index k = 0; k < w_min.size(); ++k) add(next++, false, 0, 1);
   shares = {regrasp.to, chain.count()};
+}
+
+void LoopCoordinates::add(int at, bool turns, double low, double high) {
+  if (lower.size() <= at) {
+    lower.conservativeResize(at + 1);
+    upper.conservativeResize(at + 1);
+  }
+  lower[at] = low;
+  upper[at] = high;
+  chain.index.push_back(at);
+  chain.turns.push_back(turns);
+  if (turns) limit_to_a_turn(lower[at], upper[at]);
+}
+
+void LoopCoordinates::add_joint(const Problem& problem, int at, int joint) {
+  const Joint& of = problem.robot.joints[static_cast<std::size_t>(joint)];
+  const bool given = at < problem.redundancy();
+  add(at, of.type == JointType::kRevolute, given ? problem.theta_r_min[at] : of.q_min,
+      given ? problem.theta_r_max[at] : of.q_max);
 }
 
 void LoopCoordinates::limit_forces(const Problem& problem) {
@@ -144,8 +145,7 @@ LoopPosture::LoopPosture(const Problem& problem, const LoopCoordinates& coordina
 void LoopPosture::set(const ExtendedVector& x) {
   using std::cos;
   using std::sin;
-  const auto& chain = coordinates_.chain.index;
-  const auto at = [&](int i) { return x[chain[static_cast<std::size_t>(i)]]; };
+  const auto at = [&](int i) { return x[coordinates_.chain.index[static_cast<std::size_t>(i)]]; };
   const auto& first = coordinates_.first;
   for (int i = first.from; i < first.to; ++i) {
     q_[coordinates_.joints[static_cast<std::size_t>(i - first.from)]] = at(i);
@@ -162,12 +162,15 @@ void LoopPosture::set(const ExtendedVector& x) {
   const Pose<Extended> mount{problem_.robot.mount.R.cast<Extended>(),
                              problem_.robot.mount.p.cast<Extended>()};
   target_ = mount.inverse() * pose_;
-  if (problem_.contact) set_contact(x);
-
-  // From the pose for the joints of the chain, from the base for all others.
-  const Vector6<Extended> c = exact_turned(problem_, pose_, problem_.c);
   const Matrix3<Extended> from_tip = pose_.R * kinematics_.end_effector(tip_).R.transpose();
   R_base_ = coordinates_.base_follows ? from_tip : Matrix3<Extended>(mount.R * yaw_.R);
+  if (problem_.contact) set_contact(x);
+  set_loads(from_tip);
+}
+
+/// From the pose for the joints of the chain, from the base for all others.
+void LoopPosture::set_loads(const Matrix3<Extended>& from_tip) {
+  const Vector6<Extended> c = exact_turned(problem_, pose_, problem_.c);
   const Eigen::Index n = problem_.robot.velocities();
   const auto axes = static_cast<Eigen::Index>(problem_.robot.base_axes.size());
   loads_.resize(2 * n);

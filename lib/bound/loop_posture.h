@@ -34,6 +34,8 @@ struct LoopCoordinates {
   Eigen::VectorXd w_min, w_max;  ///< of the second contact, finite
 
  private:
+  void add(int at, bool turns, double low, double high);
+  void add_joint(const Problem& problem, int at, int joint);
   void limit_forces(const Problem& problem);
 };
 
@@ -70,6 +72,7 @@ class LoopPosture {
   ExtendedVector contact_rows(const Pose<Extended>& pose) const;
   Pose<Extended> link(int k) const;
   void set_contact(const ExtendedVector& x);
+  void set_loads(const Matrix3<Extended>& from_tip);
 
   const Problem& problem_;
   const LoopCoordinates& coordinates_;
