@@ -142,16 +142,19 @@ int cost_of(const std::string& search) {
 /// What is nearer to the best value moves no target by more than a third of the lowest.
 constexpr double kNearBound = kTargetShares.back() / 3;
 constexpr double kProofGap = 1e-7;
-constexpr long kProofBoxes = 200'000;
+/// Boxes of more coordinates than theta_r are dearer; of many, nothing comes of so few.
+constexpr long kProofBoxes = 200'000, kFewerBoxes = 50'000;
+constexpr Eigen::Index kMostBoxed = 8;
 
 /// A bound of all postures, if one comes so near to the best of all attempts.
 std::optional<double> proven_best(const Problem& problem, const Case& base,
                                   const Comparison& comparison, int threads,
                                   const Interruption* interruption) {
-  if (!comparison.has_value() || !has_bound(problem, base.measure, base.wrench)) return {};
+  const Eigen::Index boxed = boxed_coordinates(problem, base.measure, base.wrench);
+  if (!comparison.has_value() || boxed == 0 || boxed > kMostBoxed) return {};
   CertifyOptions options;
   options.gap = kProofGap;
-  options.boxes = kProofBoxes;
+  options.boxes = boxed > problem.redundancy() ? kFewerBoxes : kProofBoxes;
   options.threads = threads;
   options.interrupted = [&] { return interruption != nullptr && interruption->asked; };
   const Candidate best = comparison.best_found();

@@ -7,12 +7,13 @@
 
 namespace maxwrench {
 
-bool has_bound(const Problem& problem, const std::string& measure, Wrench wrench) {
+Eigen::Index boxed_coordinates(const Problem& problem, const std::string& measure, Wrench wrench) {
   try {
-    make_capability_bound(problem, measure, wrench);
-    return true;
+    Eigen::VectorXd lower = problem.theta_r_min, upper = problem.theta_r_max;
+    make_capability_bound(problem, measure, wrench)->extend(lower, upper);
+    return lower.size();
   } catch (const std::invalid_argument&) {
-    return false;
+    return 0;
   }
 }
 

@@ -9,8 +9,9 @@ namespace maxwrench {
 struct Method;
 struct Problem;
 
-/// Whether `make_capability_bound` serves.
-bool has_bound(const Problem& problem, const std::string& measure, Wrench wrench);
+/// Of how many coordinates the boxes are that `make_capability_bound` bounds: theta_r and what
+/// follows; 0: it does not serve.
+Eigen::Index boxed_coordinates(const Problem& problem, const std::string& measure, Wrench wrench);
 
 /// Branch and bound over theta_r with the measure and wrench of a method, from what a search found:
 /// no posture has more than the bound of the result. Its best is evaluated, but not verified.

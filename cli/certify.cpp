@@ -63,6 +63,22 @@ GoodPostures list_good(const ProofOptions& options, const Problem& problem, cons
   return verified_good_postures(problem, method, bound, proof.result.bound, good, proof.row);
 }
 
+/// What checks a certificate evaluates postures of a given pose whose base follows in closed form;
+/// the list of good postures is one of boxes of theta_r alone.
+void refuse_what_follows(const ProofOptions& options, const Problem& problem) {
+  const bool follows = !problem.dependent.empty() || problem.contact;
+  if (!options.certificate.empty() && (follows || problem.free.count() > 0)) {
+    throw std::invalid_argument(
+        "--certificate: got a task with joints that follow from theta_r, a second contact or free "
+        "coordinates of the pose, expected one without");
+  }
+  if (options.within.asked() && follows) {
+    throw std::invalid_argument(
+        "--within: got a task with joints that follow from theta_r or a second contact, expected "
+        "one without");
+  }
+}
+
 /// Searches, then bounds. What was found while bounding is evaluated anew, too.
 Proof prove(const ProofOptions& options, const Problem& problem) {
   Case c = options.read_case();
@@ -218,6 +234,7 @@ void add_certify(CLI::App& app, int& exit_status) {
       options->gap = std::min(options->gap, kGapPart * options->within.share());
     }
     Problem problem = load_problem(options->choice.problem);
+    refuse_what_follows(*options, problem);
     if (options->ignore_collision) problem.robot.collision = nullptr;
     const Proof proof = prove(*options, problem);
     write_certificate(*options, problem, proof);

@@ -15,7 +15,8 @@ struct BoxProof {
   enum class Kind {
     kNone,        ///< nothing is known: the box is too large for a bound
     kMultiplier,  ///< U(multiplier) <= high
-    kCollision    ///< all of it collides, the bodies of `pair`; high is -infinity
+    kCollision,   ///< all of it collides, the bodies of `pair`; high is -infinity
+    kNoPosture    ///< what follows from theta_r does not get there; high is -infinity
   };
   Kind kind = Kind::kNone;
   double high = kInfinity;     ///< [N or N m]
@@ -33,6 +34,19 @@ class Bound {
  public:
   virtual ~Bound() = default;
 
+  /// Boxes may have more coordinates than theta_r, x = [theta_r; what follows]: turns the limits of
+  /// theta_r into those of x, which hold at least one of all postures of each value.
+  virtual void extend(Eigen::VectorXd& lower, Eigen::VectorXd& upper) const {
+    static_cast<void>(lower);
+    static_cast<void>(upper);
+  }
+  /// Cuts off parts of a box without a posture; false: it has none.
+  virtual bool shrink(Eigen::VectorXd& lower, Eigen::VectorXd& upper) {
+    static_cast<void>(lower);
+    static_cast<void>(upper);
+    return true;
+  }
+
   /// No value is larger, at any theta_r within its limits.
   virtual double ceiling() const = 0;
 
@@ -49,7 +63,8 @@ class Bound {
 /// Of the value of a measure, linf_polytope, l2_polytope or ellipsoid, over postures of a problem,
 /// which outlives it. Throws std::invalid_argument, in one line, for what it does not serve: other
 /// measures; any wrenches but with linf_polytope and a base whose free axes are as many as they;
-/// tasks in time, second contacts, joints that follow, free coordinates of the pose.
+/// tasks in time; where joints follow from theta_r or there is a second contact the ellipsoid, any
+/// wrenches, contact forces that nothing limits, and chains that are too long.
 std::unique_ptr<Bound> make_capability_bound(const Problem& problem, const std::string& measure,
                                              Wrench wrench);
 std::unique_ptr<Bound> make_capability_bound(const Problem&&, const std::string&, Wrench) = delete;

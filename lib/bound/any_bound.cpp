@@ -23,12 +23,12 @@ struct AnyModel {
 
 MultiAffine any_rows(const Problem& problem, Eigen::Index b, Eigen::Index j) {
   ExactPosture posture(problem);
-  const Matrix6X<Extended> W = problem.W_any.cast<Extended>();
-  const ExtendedVector c_w = W.transpose() * problem.c.cast<Extended>();
+  const ExtendedVector c_w =
+      problem.W_any.cast<Extended>().transpose() * problem.c.cast<Extended>();
   return {
       all_coordinates(problem), problem.theta_r_default, [&](const ExtendedVector& theta_r) {
         posture.set(theta_r);
-        const MatrixX<Extended> JtW = posture.J().transpose() * W;
+        const MatrixX<Extended> JtW = posture.J().transpose() * posture.turned(problem.W_any);
         const Eigen::FullPivLU<MatrixX<Extended>> lu(MatrixX<Extended>(JtW.topRows(b).transpose()));
         const ExtendedVector y = lu.solve(c_w);
         const MatrixX<Extended> K =
@@ -45,13 +45,13 @@ bool reproduces(const Problem& problem, const MultiAffine& f, Eigen::Index b, Ei
   if (j == 0) return true;
   Eigen::VectorXd theta_r = problem.theta_r_default;
   ExactPosture posture(problem);
-  const Matrix6X<Extended> W = problem.W_any.cast<Extended>();
   for (int sample = 0; sample < 16; ++sample) {
     for (Eigen::Index i = 0; i < theta_r.size(); ++i) {
       theta_r[i] += 0.37 + 0.19 * static_cast<double>(i);
     }
     posture.set(theta_r.cast<Extended>());
-    const Eigen::MatrixXd JtW = (posture.J().transpose() * W).cast<double>();
+    const Eigen::MatrixXd JtW =
+        (posture.J().transpose() * posture.turned(problem.W_any)).cast<double>();
     const Eigen::VectorXd rows = f.evaluate(theta_r);
     const Eigen::MatrixXd K = rows.tail(j * b).reshaped(j, b);
     const double off = (K * JtW.topRows(b) - JtW.bottomRows(j)).cwiseAbs().maxCoeff();

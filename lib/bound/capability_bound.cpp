@@ -1,7 +1,7 @@
 #include <stdexcept>
 
 #include "lib/bound/bounds.h"
-#include "lib/bound/exact_posture.h"
+#include "maxwrench/problem.h"
 
 namespace maxwrench {
 namespace {
@@ -23,6 +23,13 @@ class CapabilityBound final : public Bound {
     measure_->evaluate(lower, upper, low, high, proof);
   }
 
+  void extend(Eigen::VectorXd& lower, Eigen::VectorXd& upper) const override {
+    measure_->extend(lower, upper);
+  }
+  bool shrink(Eigen::VectorXd& lower, Eigen::VectorXd& upper) override {
+    return measure_->shrink(lower, upper);
+  }
+
   std::unique_ptr<Bound> clone() const override {
     return std::make_unique<CapabilityBound>(measure_->clone(),
                                              collision_ ? collision_->clone() : nullptr);
@@ -34,27 +41,34 @@ class CapabilityBound final : public Bound {
 
 std::unique_ptr<Bound> measure_bound(const Problem& problem, const std::string& measure,
                                      Wrench wrench) {
-  const bool any = wrench == Wrench::kAny;
-  if (measure == "linf_polytope") {
-    return any ? make_any_wrench_bound(problem) : make_polytope_bound(problem, false);
-  }
-  if (measure != "l2_polytope" && measure != "ellipsoid") {
+  const bool any = wrench == Wrench::kAny, l2 = measure == "l2_polytope";
+  if (measure != "linf_polytope" && !l2 && measure != "ellipsoid") {
     throw std::invalid_argument("measure: got '" + measure +
                                 "', expected linf_polytope, l2_polytope or ellipsoid for a proof");
   }
-  if (any) {
+  if (any && measure != "linf_polytope") {
     throw std::invalid_argument("wrench: got 'any', expected pure for a proof of measure " +
                                 measure);
   }
-  return measure == "ellipsoid" ? make_ellipsoid_bound(problem)
-                                : make_polytope_bound(problem, true);
+  if (problem.contact || !problem.dependent.empty()) {
+    if (!any && measure != "ellipsoid") return make_loop_bound(problem, l2);
+    throw std::invalid_argument(problem.name + ": " +
+                                (any ? "wrench: got 'any'" : "measure: got 'ellipsoid'") +
+                                ", expected pure wrenches of linf_polytope or l2_polytope for a "
+                                "proof where joints follow from theta_r");
+  }
+  if (any) return make_any_wrench_bound(problem);
+  return measure == "ellipsoid" ? make_ellipsoid_bound(problem) : make_polytope_bound(problem, l2);
 }
 
 }  // namespace
 
 std::unique_ptr<Bound> make_capability_bound(const Problem& problem, const std::string& measure,
                                              Wrench wrench) {
-  require_closed_form(problem);
+  if (problem.motion) {
+    throw std::invalid_argument(problem.name + ": got a task in time (" + problem.type() +
+                                "), expected a static task for a proof");
+  }
   return std::make_unique<CapabilityBound>(measure_bound(problem, measure, wrench),
                                            make_collision_bound(problem));
 }

@@ -11,7 +11,7 @@ namespace {
 /// How deep [m] all of a box must be within reach: more than what checks of collisions round off.
 constexpr double kDepth = 1e-6;
 
-/// The coordinates of theta_r between two links.
+/// The coordinates of a posture between two links.
 Coordinates between_links(const Problem& problem, int a, int b) {
   std::vector<char> carries(problem.robot.joints.size(), 0);
   for (const int from : {a, b}) {
@@ -20,13 +20,14 @@ Coordinates between_links(const Problem& problem, int a, int b) {
       carries[static_cast<std::size_t>(link - 1)] ^= 1;
     }
   }
-  const Coordinates all = all_coordinates(problem);
+  const std::vector<int> joints = moved_joints(problem);
   Coordinates some;
-  for (int i = 0; i < all.count(); ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    if (!carries[static_cast<std::size_t>(problem.redundant[at])]) continue;
-    some.index.push_back(i);
-    some.turns.push_back(all.turns[at]);
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const int joint = joints[i];
+    if (joint < 0 || !carries[static_cast<std::size_t>(joint)]) continue;
+    some.index.push_back(static_cast<int>(i));
+    some.turns.push_back(problem.robot.joints[static_cast<std::size_t>(joint)].type ==
+                         JointType::kRevolute);
   }
   return some;
 }
@@ -34,7 +35,9 @@ Coordinates between_links(const Problem& problem, int a, int b) {
 /// The rows of (R, p) of link a in the axes of b, column by column, 12.
 MultiAffine relative_pose(const Problem& problem, int a, int b) {
   ExactPosture posture(problem);
-  return {between_links(problem, a, b), problem.theta_r_default, [&](const ExtendedVector& at) {
+  const Eigen::VectorXd rest =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(moved_joints(problem).size()));
+  return {between_links(problem, a, b), rest, [&](const ExtendedVector& at) {
             posture.set(at);
             const auto& links = posture.links();
             const Pose<Extended> pose =
@@ -101,9 +104,10 @@ class CollisionBound final : public Bound {
  public:
   CollisionBound(const Problem& problem, std::shared_ptr<const Movers> movers)
       : problem_(problem),
+        joints_(moved_joints(problem)),
         movers_(std::move(movers)),
         centre_(problem.robot),
-        q_(resting_joints(problem.robot)) {
+        q_(problem.contact ? problem.contact->q_rest : resting_joints(problem.robot)) {
     for (const Mover& mover : *movers_) corners_.emplace_back(mover.path);
   }
 
@@ -133,9 +137,9 @@ class CollisionBound final : public Bound {
  private:
   /// To the centre of a box.
   void place(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
-    for (std::size_t i = 0; i < problem_.redundant.size(); ++i) {
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
       const auto at = static_cast<Eigen::Index>(i);
-      q_[problem_.redundant[i]] = (lower[at] + upper[at]) / 2;
+      if (joints_[i] >= 0) q_[joints_[i]] = (lower[at] + upper[at]) / 2;
     }
     centre_.set_joints(q_);
   }
@@ -204,6 +208,7 @@ class CollisionBound final : public Bound {
   static constexpr double kThinnest = 0.1;
 
   const Problem& problem_;
+  const std::vector<int> joints_;
   std::shared_ptr<const Movers> movers_;
   std::vector<ControlPoints> corners_;
   Kinematics<double> centre_;

@@ -26,6 +26,8 @@ class MultiplierProgram {
 
   void set_points(Eigen::Index count) { points_ = count; }
   Eigen::Index points() const { return points_; }
+  /// What a basis calls the first of them.
+  int first_point() const { return static_cast<int>(first_); }
   /// Numbers p_ij of all points, j fixed, and c_i.
   auto row(Eigen::Index j) { return A_.col(j).segment(first_, points_); }
   auto costs() { return c_.segment(first_, points_); }

@@ -119,7 +119,8 @@ class BranchAndBound {
     for (std::size_t i = 0; i < parents_.size(); ++i) {
       const CertifiedBox& box = *parents_[i];
       const double width = (box.upper - box.lower).maxCoeff();
-      if (i % kSeldom == 0 || width < kSmallBox) climb((box.lower + box.upper) / 2, width / 4);
+      if (i % kSeldom == 0 || width < kSmallBox)
+        climb((box.lower + box.upper).head(objective_.dimension()) / 2, width / 4);
     }
   }
 

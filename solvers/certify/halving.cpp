@@ -33,6 +33,7 @@ std::unique_ptr<CertifiedBox> Halving::root(double low, double high) {
   auto root = std::make_unique<CertifiedBox>();
   root->lower = objective_.lower().array() - kLimitTolerance;
   root->upper = objective_.upper().array() + kLimitTolerance;
+  bound_.extend(root->lower, root->upper);
   root->high = high;
   bound_one(*root, low);
   return root;
@@ -66,7 +67,12 @@ void Halving::bound_one(CertifiedBox& box, double low) {
   if (!bound) bound = bound_.clone();
   // Without a value yet, what no value is below: a ceiling holds for both signs.
   box.low = std::isfinite(low) ? low : -bound_.ceiling();
-  bound->evaluate(box.lower, box.upper, box.low, box.high, box.proof);
+  if (bound->shrink(box.lower, box.upper)) {
+    bound->evaluate(box.lower, box.upper, box.low, box.high, box.proof);
+  } else {
+    box.proof.kind = BoxProof::Kind::kNoPosture;
+    box.proof.high = -kInfinity;
+  }
   const std::lock_guard<std::mutex> guard(mutex_);
   free_.push_back(std::move(bound));
 }

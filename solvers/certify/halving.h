@@ -17,7 +17,8 @@ class Halving {
  public:
   Halving(const Objective& objective, const Bound& bound, int threads);
 
-  /// All of theta_r, widened by the tolerance of its limits, given that no value exceeds `high`.
+  /// All of theta_r and of what follows, widened by the tolerance of limits, given that no value
+  /// exceeds `high`.
   std::unique_ptr<CertifiedBox> root(double low, double high);
 
   /// The halves of boxes, each cut along its `cut_axis`, the lower one first. All have the same

@@ -28,6 +28,14 @@ TEST(CertifyCommand, Proves) {
   EXPECT_NEAR(proof["beta"], best["beta"], 1e-6);
 }
 
+TEST(CertifyCommand, ProvesWhereJointsFollow) {
+  for (const char* name : {"mobile/push", "dual_arm/bar_wall"}) {
+    const CommandResult result = run_maxwrench(std::string("certify --json ") + name);
+    EXPECT_EQ(result.exit_status, 0) << result.err;
+    EXPECT_LE(json::parse(result.out)["gap"], 1.0001e-3);
+  }
+}
+
 TEST(CertifyCommand, SaysWhatItProves) {
   const CommandResult result =
       run_maxwrench("certify planar/force --measure ellipsoid --ignore-collision");
@@ -69,8 +77,10 @@ TEST(CertifyCommand, RefusesInOneLine) {
     EXPECT_NE(result.err.find(mention), std::string::npos) << result.err;
   };
   refused("uvms/valve_trajectory", "task in time");
-  refused("dual_arm/bar_wall", "second contact");
-  refused("fixed/push", "follow from theta_r");
+  refused("dual_arm/bar_wall --measure ellipsoid", "got 'ellipsoid'");
+  refused("fixed/push --wrench any", "follow from theta_r");
+  refused("mobile/push --certificate proof.bin",
+          "--certificate: got a task with joints that follow");
   refused("planar/force --measure volume", "--measure: got 'volume'");
   refused("planar/force --measure ellipsoid --wrench any", "--wrench: got 'any'");
   refused("planar/force --gap 1e-9", "--gap");

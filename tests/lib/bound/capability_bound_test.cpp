@@ -8,6 +8,7 @@
 #include "maxwrench/objective.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/strategies.h"
+#include "tests/support/free_poses.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {
@@ -24,11 +25,12 @@ const std::vector<BoundForm> kBoundForms = {{"linf_polytope", Wrench::kPure},
                                             {"ellipsoid", Wrench::kPure}};
 
 const std::vector<const char*> kBoundProblems = {"planar/force", "uvms/valve", "uvms/lift",
-                                                 "random"};
+                                                 "random", "free"};
 
-/// A shipped problem, or one with a sliding joint.
+/// A shipped problem, or one with a sliding joint, or with a pose that is partly free.
 Problem bounded_problem(const std::string& name) {
   Random random(8);
+  if (name == "free") return with_free_pose(random_problem(random, 2), {{1, 3, 5}, true, true});
   return name == "random" ? random_problem(random, 4) : load_problem(name);
 }
 
@@ -357,9 +359,9 @@ TEST(CapabilityBound, RefusesWhatItDoesNotServe) {
     EXPECT_EQ(text.find('\n'), std::string::npos) << text;
   };
   refused("uvms/valve_trajectory", "linf_polytope", Wrench::kPure, "task in time");
-  refused("dual_arm/bar_wall", "linf_polytope", Wrench::kPure, "second contact");
-  refused("fixed/push", "linf_polytope", Wrench::kPure, "follow from theta_r");
-  refused("mobile/push_any_height", "linf_polytope", Wrench::kPure, "free coordinates");
+  refused("dual_arm/bar_wall", "ellipsoid", Wrench::kPure, "ellipsoid");
+  refused("fixed/push", "linf_polytope", Wrench::kAny, "any");
+  refused("planar/two_arms", "linf_polytope", Wrench::kPure, "without limits");
   refused("planar/force", "manipulability", Wrench::kPure, "manipulability");
   refused("planar/force", "ellipsoid", Wrench::kAny, "any");
   EXPECT_EQ(refusal("planar/force", "ellipsoid", Wrench::kPure), "");

@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/strategies.h"
 #include "tests/support/hills.h"
+#include "tests/support/loops.h"
 #include "tests/support/objectives.h"
 #include "tests/support/support.h"
 
@@ -24,7 +26,7 @@ struct ProofCase {
   ProofCase(const char* name, const char* of, Wrench allowed)
       : problem(load_problem(name)), measure(of), wrench(allowed) {
     make = [this] {
-      const bool one = wrench == Wrench::kPure;
+      const bool one = wrench == Wrench::kPure && !problem.contact;
       return find_measure(measure).make(problem, find_wrench_solver(one ? "facets" : "box").make());
     };
   }
@@ -75,6 +77,9 @@ INSTANTIATE_TEST_SUITE_P(
                     KnownOptimum{"uvms/valve", "linf_polytope", Wrench::kAny, 96.78678, 1e-3},
                     KnownOptimum{"uvms/lift", "ellipsoid", Wrench::kPure, 42.17966, 1e-2},
                     KnownOptimum{"uvms/valve", "ellipsoid", Wrench::kPure, 16.58489, 1e-2},
+                    // The wheels, at 45 degrees to the push, give all they have.
+                    KnownOptimum{"mobile/push_any_height", "linf_polytope", Wrench::kPure,
+                                 4 * 135 / std::numbers::sqrt2, 1e-3},
                     KnownOptimum{"uvms/lift", "linf_polytope", Wrench::kPure, 127.79, 1e-3, false},
                     KnownOptimum{"uvms/valve", "linf_polytope", Wrench::kPure, 35.487, 1e-2,
                                  false}));
@@ -184,6 +189,56 @@ TEST(Certify, HoldsForPosturesOneByOne) {
   for (const Candidate& posture : postures) EXPECT_LE(posture.value, result.bound);
 }
 
+/// The same where joints follow: no branch of the postures is cut off from the boxes.
+TEST(Certify, HoldsForPosturesWhoseJointsFollow) {
+  for (const char* name : {"mobile/push", "dual_arm/bar_wall"}) {
+    ProofCase at(name, "linf_polytope", Wrench::kPure);
+    PostureSource source(at.problem, at.measure);
+    std::vector<ValuedPosture> postures;
+    Random random(1);
+    while (postures.size() < 1000 / kSampleDivisor) {
+      const ValuedPosture* const posture = source.draw(random);
+      if (posture != nullptr) postures.push_back(*posture);
+    }
+    std::vector<int> leaves(postures.size(), 0);
+    CertifyOptions options = to_gap(1e-4);
+    options.sink = [&](const CertifiedBox& box) {
+      for (std::size_t i = 0; i < postures.size(); ++i) {
+        const Eigen::ArrayXd x = postures[i].x;
+        if ((x < box.lower.array() - 1e-9).any() || (x > box.upper.array() + 1e-9).any()) continue;
+        const double value = postures[i].value - 1e-8 * std::abs(postures[i].value);
+        if (box.cut_axis < 0 && value <= std::max(box.low, box.proof.high)) ++leaves[i];
+      }
+    };
+    const CertifyResult result = at.prove(at.searched(), options);
+    EXPECT_EQ(result.status, Status::kProven) << name;
+    for (const int count : leaves) EXPECT_GE(count, 1) << name;
+    for (const ValuedPosture& posture : postures) EXPECT_LE(posture.value, result.bound) << name;
+  }
+}
+
+/// Against all postures at points of a grid, in all branches.
+TEST(Certify, IsNearTheBestOfAGrid) {
+  for (const char* name : {"mobile/push", "dual_arm/bar_wall", "dual_arm/bar_alone"}) {
+    ProofCase at(name, "linf_polytope", Wrench::kPure);
+    const auto f = at.objective();
+    const int points = kSampleDivisor == 1 ? 100 : 20;
+    double best = -kInfinity;
+    for (int i = 0; i <= points; ++i) {
+      for (int j = 0; j <= points; ++j) {
+        const Eigen::Array2d share(static_cast<double>(i) / points,
+                                   static_cast<double>(j) / points);
+        best = std::max(
+            best, f->evaluate(f->lower().array() + share * (f->upper() - f->lower()).array()));
+      }
+    }
+    const CertifyResult result = at.prove(at.searched(), to_gap(1e-3));
+    EXPECT_EQ(result.status, Status::kProven) << name;
+    EXPECT_GE(result.bound, best) << name;
+    EXPECT_LE(result.best.value, best * (kSampleDivisor == 1 ? 1.02 : 1.2)) << name;
+  }
+}
+
 /// What is cut is halved, what is not is proven, and the halves make up the whole.
 TEST(Certify, HandsOverATree) {
   ProofCase at("planar/force", "ellipsoid", Wrench::kPure);
@@ -201,23 +256,25 @@ TEST(Certify, HandsOverATree) {
 }
 
 TEST(Certify, IsTheSameAtAnyThreadCount) {
-  ProofCase at("uvms/lift", "linf_polytope", Wrench::kPure);
-  const Candidate best = at.searched();
-  std::vector<std::vector<double>> highs;
-  for (const int threads : {1, 2, 8}) {
-    CertifyOptions options = to_gap(1e-2);
-    options.threads = threads;
-    auto& of_run = highs.emplace_back();
-    options.sink = [&](const CertifiedBox& box) {
-      of_run.push_back(box.proof.high);
-      of_run.push_back(box.lower.sum());
-    };
-    const CertifyResult result = at.prove(best, options);
-    of_run.push_back(result.bound);
-    of_run.push_back(static_cast<double>(result.boxes));
+  for (const char* name : {"uvms/lift", "mobile/push"}) {
+    ProofCase at(name, "linf_polytope", Wrench::kPure);
+    const Candidate best = at.searched();
+    std::vector<std::vector<double>> highs;
+    for (const int threads : {1, 2, 8}) {
+      CertifyOptions options = to_gap(1e-2);
+      options.threads = threads;
+      auto& of_run = highs.emplace_back();
+      options.sink = [&](const CertifiedBox& box) {
+        of_run.push_back(box.proof.high);
+        of_run.push_back(box.lower.sum());
+      };
+      const CertifyResult result = at.prove(best, options);
+      of_run.push_back(result.bound);
+      of_run.push_back(static_cast<double>(result.boxes));
+    }
+    EXPECT_EQ(highs[0], highs[1]) << name;
+    EXPECT_EQ(highs[0], highs[2]) << name;
   }
-  EXPECT_EQ(highs[0], highs[1]);
-  EXPECT_EQ(highs[0], highs[2]);
 }
 
 /// What is not finished is a true bound as well.

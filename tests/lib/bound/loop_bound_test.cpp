@@ -1,0 +1,87 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "maxwrench/bound.h"
+#include "maxwrench/load.h"
+#include "tests/support/loops.h"
+
+namespace maxwrench {
+namespace {
+
+class LoopBoundOf : public testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(Problems, LoopBoundOf, testing::ValuesIn(kLoopProblems), loop_name);
+
+/// Pairs of a box and a posture in it.
+constexpr int kLoopPairs = 200;
+
+struct LoopBoxOf {
+  Eigen::VectorXd lower, upper;
+};
+
+/// A box of any size about x, now and then with x in its faces.
+LoopBoxOf box_about(const Eigen::VectorXd& x, const LoopCoordinates& coordinates, Random& random) {
+  LoopBoxOf box{x, x};
+  const double size = std::pow(10, -random.uniform(0, 4));
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const double own = random.uniform(0, 1) < 0.2 ? size : size * random.uniform(0, 1);
+    const double where = random.uniform(0, 1);
+    if (where > 0.1) box.lower[i] -= own * random.uniform(0, 1);
+    if (where < 0.9) box.upper[i] += own * random.uniform(0, 1);
+    box.lower[i] = std::max(box.lower[i], std::min(x[i], coordinates.lower[i] - 1e-12));
+    box.upper[i] = std::min(box.upper[i], std::max(x[i], coordinates.upper[i] + 1e-12));
+  }
+  return box;
+}
+
+bool holds(const LoopBoxOf& box, const Eigen::VectorXd& x) {
+  constexpr double kRounding = 1e-11;  // of what other code has solved
+  return (x.array() >= box.lower.array() - kRounding).all() &&
+         (x.array() <= box.upper.array() + kRounding).all();
+}
+
+void test_pairs(const Problem& problem, const std::string& measure) {
+  const auto bound = make_capability_bound(problem, measure, Wrench::kPure);
+  PostureSource source(problem, measure);
+  Random random(4);
+  BoxProof proof;
+  int bounded = 0, finite = 0;
+  for (int pair = 0; pair < kLoopPairs / kSampleDivisor; ++pair) {
+    const ValuedPosture* const at = source.draw(random);
+    if (at == nullptr) continue;
+    LoopBoxOf box = box_about(at->x, source.coordinates(), random);
+    for (Eigen::Index i = 0; i < at->x.size(); ++i) {  // room for the rounding of the posture
+      box.lower[i] -= 1e-9;
+      box.upper[i] += 1e-9;
+    }
+    ASSERT_TRUE(bound->shrink(box.lower, box.upper)) << at->x.transpose();
+    ASSERT_TRUE(holds(box, at->x)) << at->x.transpose();
+    if (pair % 3 == 0) proof = {};
+    const double low =
+        pair % 5 == 0 ? -kInfinity : at->value - random.uniform(0, 1) * std::abs(at->value) - 1e-9;
+    const double high = pair % 7 == 0 ? kInfinity : 10 + std::abs(at->value) * random.uniform(1, 3);
+    bound->evaluate(box.lower, box.upper, low, high, proof);
+    EXPECT_NE(proof.kind, BoxProof::Kind::kCollision);
+    EXPECT_LE(proof.high, high);
+    EXPECT_GE(std::max(low, proof.high), at->value - 1e-7 * (1 + std::abs(at->value)))
+        << at->x.transpose();
+    ++bounded;
+    finite += std::isfinite(proof.high) ? 1 : 0;
+  }
+  EXPECT_GT(bounded, kLoopPairs / kSampleDivisor / 20);
+  EXPECT_GT(finite, bounded / 2);
+}
+
+TEST_P(LoopBoundOf, NoPostureIsAboveOrCutOff) {
+  test_pairs(loop_problem(GetParam()), "linf_polytope");
+}
+
+TEST(LoopBound, ServesTheL2Polytope) {
+  for (const char* name : {"mobile/push", "fixed/push"}) {
+    test_pairs(load_problem(name), "l2_polytope");
+  }
+}
+
+}  // namespace
+}  // namespace maxwrench

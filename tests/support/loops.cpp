@@ -1,0 +1,86 @@
+#include "tests/support/loops.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "maxwrench/load.h"
+#include "maxwrench/strategies.h"
+#include "tests/support/dependents.h"
+#include "tests/support/free_poses.h"
+
+namespace maxwrench {
+
+Problem loop_problem(const std::string& name) {
+  if (name.rfind("random, ", 0) != 0) return load_problem(name);
+  Random random(3);
+  if (name == "random, fixed") {
+    Problem problem = problem_with_dependents(random, {}, 1);
+    for (Joint& joint : problem.robot.joints) joint.effort_max *= 20;  // it bears its weight
+    complete_actuation(problem.robot);
+    return problem;
+  }
+  if (name == "random, x") return problem_with_dependents(random, {0}, 1);
+  if (name == "random, yaw") return problem_with_dependents(random, {5}, 1);
+  if (name == "random, x y z yaw") return problem_with_dependents(random, {0, 1, 2, 5}, 2);
+  const Problem problem = problem_with_dependents(random, {0, 1, 5}, 2);
+  if (name == "random, x y yaw") return problem;
+  return with_free_pose(problem, {{1, 3, 5}, true, true});
+}
+
+std::string loop_name(const testing::TestParamInfo<const char*>& of) {
+  std::string name = of.param;
+  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  return name;
+}
+
+Eigen::VectorXd loop_coordinates(const Problem& problem, const LoopCoordinates& coordinates,
+                                 const Posture& posture, const Eigen::VectorXd& w) {
+  Eigen::VectorXd x(coordinates.lower.size());
+  Eigen::Index next = problem.redundancy();
+  x.head(next) = posture.theta_r;
+  for (const int joint : problem.dependent) x[next++] = posture.q[joint];
+  if (problem.contact) {
+    for (const int joint : problem.contact->follow) x[next++] = posture.q[joint];
+  }
+  if (coordinates.yaw.count() > 0) {
+    const Eigen::Matrix3d R = problem.robot.mount.R.transpose() * posture.base.R;
+    x[next++] = std::atan2(R(1, 0), R(0, 0));
+  }
+  for (Eigen::Index k = 0; k < coordinates.w_min.size(); ++k) {
+    const double low = coordinates.w_min[k], high = coordinates.w_max[k];
+    x[next++] = (w[k] - low) / (high - low);
+  }
+  constexpr double kTurn = 2 * std::numbers::pi;
+  for (int i = 0; i < coordinates.chain.count(); ++i) {
+    if (!coordinates.chain.turns[static_cast<std::size_t>(i)]) continue;
+    double& angle = x[coordinates.chain.index[static_cast<std::size_t>(i)]];
+    const int at = coordinates.chain.index[static_cast<std::size_t>(i)];
+    if (angle < coordinates.lower[at] - 1e-9) angle += kTurn;
+    if (angle > coordinates.upper[at] + 1e-9) angle -= kTurn;
+  }
+  return x;
+}
+
+PostureSource::PostureSource(const Problem& problem, const std::string& measure)
+    : problem_(problem),
+      coordinates_(problem),
+      model_(problem),
+      program_(make_wrench_program(problem, Wrench::kPure)),
+      measure_(find_measure(measure).make(
+          problem, find_wrench_solver(problem.contact ? "box" : "facets").make())) {}
+
+const ValuedPosture* PostureSource::draw(Random& random) {
+  model_.evaluate(random_theta_r(problem_, random));
+  if (model_.branches() == 0) return nullptr;
+  const auto branch = static_cast<int>(random.uniform(0, model_.branches()));
+  const Posture& posture = model_.select(branch);
+  set_posture(posture, program_);
+  measure_->evaluate(posture, program_, true, capability_);
+  if (capability_.status != Status::kOptimal) return nullptr;
+  posture_.value = capability_.beta;
+  posture_.x = loop_coordinates(problem_, coordinates_, posture,
+                                capability_.w.tail(problem_.contact_columns()));
+  return &posture_;
+}
+
+}  // namespace maxwrench
