@@ -207,7 +207,7 @@ TEST(GoodPostures, OfTheWholePlaneAreListed) {
   EXPECT_EQ(good.status, Status::kProven);
   expect_sound(*at.objective, good, options);
   EXPECT_TRUE(good.holds(good.clusters.front()));
-  const int steps = 1000 / kSampleDivisor;
+  const int steps = kSampleDivisor > 1 ? 400 : 1000;
   int found = 0;
   for (int i = 0; i <= steps; ++i) {
     for (int j = 0; j <= steps; ++j) {
@@ -219,7 +219,7 @@ TEST(GoodPostures, OfTheWholePlaneAreListed) {
       EXPECT_GE(cluster_at(good, x), 0) << x.transpose();
     }
   }
-  EXPECT_GT(found, kSampleDivisor > 1 ? 0 : 20);
+  EXPECT_GT(found, steps / 50);
 }
 
 /// Random walks through what is within 1 % never leave the boxes; they begin where climbs by random
@@ -251,7 +251,7 @@ TEST(GoodPostures, OfAVehicleAreListed) {
     }
     arrived += value >= good.least ? 1 : 0;
   }
-  EXPECT_GE(arrived, 3);
+  EXPECT_GE(arrived, kSampleDivisor > 1 ? 1 : 3);
   EXPECT_GE(found, 1000 / kSampleDivisor);
 }
 
