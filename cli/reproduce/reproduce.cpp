@@ -35,7 +35,8 @@ int reproduce(const ReproduceOptions& options) {
 
 double proven_bound(const Problem& problem, const Row& row, int threads) {
   const double none = std::numeric_limits<double>::quiet_NaN();
-  if (!row.has_value() || boxed_coordinates(problem, row.choice.measure, row.choice.wrench) == 0) return none;
+  if (!row.has_value() || boxed_coordinates(problem, row.choice.measure, row.choice.wrench) == 0)
+    return none;
   CertifyOptions options;
   options.boxes = 1'000'000;
   options.threads = threads;
