@@ -174,6 +174,14 @@ function results.print_csv(digits, ...)
   tex.sprint(show(string.format("%." .. digits .. "f", number(results.csv(...), "results/" .. (...)))))
 end
 
+-- What stands behind KEY in a file of lines "KEY VALUE".
+function results.print_line(file, key)
+  for _, line in ipairs(lines_of(file)) do
+    if line:sub(1, #key + 1) == key .. " " then return tex.sprint((line:sub(#key + 2):gsub("%(R%)", ""))) end
+  end
+  fail("results/" .. file .. ": no line '" .. key .. "'")
+end
+
 -- What the claims are written in: numbers of cells, of rows, of races.
 local claims = setmetatable({
   cell = function(...) return number(results.cell(...), "results/" .. (...)) end,
