@@ -5,11 +5,11 @@ local results = {}
 local folder = os.getenv("MAXWRENCH_RESULTS")
 
 local function fail(message)
-  io.stderr:write("paper: " .. message .. "\n")
+  io.stderr:write("\npaper: " .. message .. "\n")
   os.exit(1)
 end
 
--- A line before `goal` of results/FILE, read once.
+-- The lines of results/FILE, read once.
 local files = {}
 local function lines_of(file)
   if files[file] then return files[file] end
@@ -55,11 +55,11 @@ local function word_below(line, first, last)
 end
 
 local function starts_with_words(line, words)
-  local flat = line:gsub("%s+", " "):gsub("^ ", "") .. " "
+  local flat = line:gsub("%s+", " ") .. " "
   return flat:sub(1, #words + 1) == words .. " "
 end
 
--- The cell of a table with right-aligned columns: the first row below the line "SECTION:" that begins with the words ROW,
+-- The cell of a table with right-aligned columns: the first row (not indented) below the line "SECTION:" that begins with the words ROW,
 -- under the nearest head above it that has COLUMN ("tank@2": the second of that name).
 function results.cell(file, section, row, column)
   local where = "results/" .. file .. ": " .. (section ~= "" and section .. ", " or "")
@@ -69,6 +69,7 @@ function results.cell(file, section, row, column)
   local begin = section == "" and 1 or nil
   for i, line in ipairs(lines) do
     if not begin and line:sub(1, #section + 1) == section .. ":" then begin = i end
+    if begin and i > begin and line:find("^[%w_]+/[%w_]+:") then break end
     if begin and i > begin and starts_with_words(line, row) then
       for j = i - 1, begin, -1 do
         local first, last = find_word(lines[j], name, n)
@@ -274,6 +275,15 @@ function claims.seeds()
   for _, row in ipairs(table_of("search_comparison.csv").rows) do seeds[row.seed] = true end
   local n = 0
   for _ in pairs(seeds) do n = n + 1 end
+  return n
+end
+
+-- How many lines of a file have the words.
+function claims.lines(file, words)
+  local n = 0
+  for _, line in ipairs(lines_of(file)) do
+    if line:find(words, 1, true) then n = n + 1 end
+  end
   return n
 end
 
