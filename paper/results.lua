@@ -198,7 +198,7 @@ function results.holds(claim)
   claim = code_of(claim)
   local check = load("return " .. claim, claim, "t", claims)
   if not check then fail("the claim is not understood: " .. claim) end
-  if not check() then fail("no longer true, so is a sentence of the text: " .. claim) end
+  if not check() then fail("a sentence of the text is no longer true: " .. claim) end
 end
 
 -- The value of an expression in Lua, with so many digits behind the point.
@@ -338,11 +338,12 @@ end
 -- Each task of the race: its best value, whether it is proven, and what one evaluation takes through three solvers.
 function results.task_rows(coordinates)
   for _, problem in ipairs(problems()) do
+    if not coordinates[problem] then fail("the text does not say the coordinates of " .. problem) end
     local row = rows_of("search_comparison.csv", "problem=" .. problem)[1]
     local ours, solver = microseconds(problem, "annealing")
     local glpk = microseconds(problem, "annealing+cmaes", "glpk")
     local clp = microseconds(problem, "annealing+cmaes", "clp")
-    tex.sprint(table.concat({code(problem), coordinates[problem] or "?",
+    tex.sprint(table.concat({code(problem), coordinates[problem],
                              string.format("%.2f", number(row.best_known, "best known")) .. "\\," .. row.unit:gsub(" ", "\\,"),
                              row.proven == "yes" and "yes" or "--", code(solver), three_digits(ours), three_digits(glpk),
                              three_digits(clp), three_digits(math.min(glpk, clp) / ours)}, " & ") .. "\\\\")
