@@ -14,7 +14,7 @@ using Point = Eigen::Vector2d;
 
 // px
 constexpr double kEcdfLeft = 52, kEcdfTop = 24, kEcdfHeight = 150, kEcdfBottom = 40,
-                 kEcdfBetween = 34, kEcdfRight = 10;
+                 kEcdfBetween = 34, kEcdfRight = 14;
 constexpr double kLowestDecade = -6, kHighestDecade = 12;
 
 /// The decades that hold all steps of a panel.
@@ -66,7 +66,7 @@ class SharePanel {
       shares.push_back({percent / 100.0, std::to_string(percent) + " %"});
     }
     draw_x_axis(svg_, x_, y_, decades, panel_.axis);
-    if (first) draw_y_axis(svg_, x_, y_, shares, "targets reached");
+    if (first) draw_y_axis(svg_, x_, y_, shares, panel_.shares);
     if (!first) draw_y_lines(svg_, x_, y_, shares);
     draw_frame(svg_, x_, y_);
   }

@@ -19,6 +19,7 @@ struct EcdfPanel {
   std::string title;
   std::string axis;  ///< what is spent: its axis is logarithmic
   std::vector<EcdfCurve> curves;
+  std::string shares = "targets reached";  ///< what is shared
 };
 
 /// Panels in rows of `columns` as SVG. The curves of `named` have styles and names in one legend,

@@ -12,4 +12,9 @@ inline std::recursive_mutex& ipopt_lock() {
   return lock;
 }
 
+/// `mumps_pivot_order` of whoever runs Ipopt: approximate minimum fill, which MUMPS takes for small
+/// matrices by itself. For large ones it would take Scotch, whose random numbers go on from one
+/// call to the next, so that the last digits would depend on what the process solved before.
+inline constexpr int kMumpsOrdering = 2;
+
 }  // namespace maxwrench

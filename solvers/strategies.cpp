@@ -267,6 +267,11 @@ std::span<const Absent> not_built_in() {
   static const std::vector<Absent> kAbsent = make_absent();
   return kAbsent;
 }
+bool one_at_a_time(std::string_view name) {
+  return std::any_of(std::begin(kOptional), std::end(kOptional), [&](const auto& optional) {
+    return optional.entry.name == name && optional.entry.library == std::string_view("Ipopt");
+  });
+}
 
 const MeasureEntry& find_measure(std::string_view name) {
   return find(measures(), "measure", name);

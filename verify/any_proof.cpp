@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "verify/box_forms.h"
+#include "verify/model.h"
 #include "verify/value_proof.h"
 #include "verify/weighted.h"
 
@@ -117,6 +119,11 @@ class AnyProof final : public ValueProof {
 }  // namespace
 
 std::unique_ptr<ValueProof> make_any_proof(const Problem& problem, const FormModel& model) {
+  if (!model.coordinates().base_follows) {
+    throw std::invalid_argument(problem.name +
+                                ": wrench: got 'any', expected pure: the base does "
+                                "not follow in closed form");
+  }
   const Eigen::MatrixXd& B = problem.robot.actuation.B;
   const auto joints = static_cast<Eigen::Index>(problem.robot.joints.size());
   if (!B.bottomRightCorner(joints, joints).isIdentity(0) ||
@@ -129,8 +136,9 @@ std::unique_ptr<ValueProof> make_any_proof(const Problem& problem, const FormMod
 }
 
 std::unique_ptr<ValueProof> make_value_proof(const Problem& problem, const FormModel& model,
-                                             const std::string& measure, Wrench wrench) {
-  if (wrench == Wrench::kPure) return make_pure_proof(problem, model, measure);
+                                             const Equations& equations, const std::string& measure,
+                                             Wrench wrench) {
+  if (wrench == Wrench::kPure) return make_pure_proof(problem, model, equations, measure);
   if (measure == "linf_polytope") return make_any_proof(problem, model);
   throw std::invalid_argument("wrench: got 'any', expected pure with measure " + measure);
 }

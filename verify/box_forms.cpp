@@ -6,6 +6,9 @@ namespace {
 /// Arcs as wide are not enclosed: below pi.
 constexpr double kWidestArc = 3.1;
 
+/// Angles that are remembered.
+constexpr std::size_t kMostKnown = 10000;
+
 CosSin<double> enclose(double x) {
   const CosSin<long double> at = enclose_wide(x);
   return {narrow(at.c), narrow(at.s)};
@@ -14,6 +17,7 @@ CosSin<double> enclose(double x) {
 }  // namespace
 
 const CosSin<double>& BoxForms::at(double angle) {
+  if (known_.size() > kMostKnown) known_.clear();
   const auto found = known_.find(angle);
   return found != known_.end() ? found->second
                                : known_.emplace(angle, enclose(angle)).first->second;
@@ -59,7 +63,7 @@ Narrow BoxForms::combine(const Narrow& f0, const Narrow& f1, const Narrow& f2, c
 bool BoxForms::set(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
   bool narrow_enough = true;
   for (std::size_t i = 0; i < corners_.size(); ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
+    const int k = shape_.coordinates[i];
     Corners& corners = corners_[i];
     if (corners.lower == lower[k] && corners.upper == upper[k]) continue;
     corners.lower = lower[k];
@@ -100,15 +104,19 @@ void BoxForms::over_box(std::vector<Narrow>& values) const {
 
 Narrow BoxForms::at_point(const FormShape& shape, const FormRow& row, const Eigen::VectorXd& q) {
   Narrow sum;
+  std::vector<double> x;
   std::vector<CosSin<double>> known;
-  for (const double x : q) known.push_back(enclose(x));
+  for (const int at : shape.coordinates) {
+    x.push_back(q[at]);
+    known.push_back(enclose(x.back()));
+  }
   for (std::size_t k = 0; k < row.index.size(); ++k) {
     Narrow term = row.coefficient[k];
     for (std::size_t i = 0; i < known.size(); ++i) {
       const int digit = shape.digit(row.index[k], i);
       if (digit == 0) continue;
       const Narrow turning = digit == 1 ? known[i].c : known[i].s;
-      term = term * (shape.terms[i] == 2 ? Narrow(q[static_cast<Eigen::Index>(i)]) : turning);
+      term = term * (shape.terms[i] == 2 ? Narrow(x[i]) : turning);
     }
     sum += term;
   }

@@ -8,10 +8,10 @@
 
 namespace maxwrench {
 
-/// A box of theta_r, corner by corner of what encloses it: of a turning joint the triangle of the
-/// ends of its arc and the point where their tangents meet, of a sliding one its interval. A form's
-/// values over the box lie in the hull of its values at products of these corners: its control
-/// points, one for each coefficient.
+/// A box of coordinates, corner by corner of what encloses it: of a turning joint the triangle of
+/// the ends of its arc and the point where their tangents meet, of a sliding one its interval. A
+/// form's values over the box lie in the hull of its values at products of these corners: its
+/// control points, one for each coefficient.
 class BoxForms {
  public:
   /// Keeps a reference.

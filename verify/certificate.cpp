@@ -12,7 +12,7 @@
 namespace maxwrench {
 namespace {
 
-constexpr std::string_view kMagic = "maxwrench proof 1\n";
+constexpr std::string_view kMagic = "maxwrench proof 2\n";
 /// Multipliers hardly pack, boxes without one 40 times. A small file must not fill the memory.
 constexpr std::uint64_t kMostPacked = 200;
 constexpr std::size_t kMostNodes = 50'000'000;
@@ -68,41 +68,67 @@ void put_robot(ByteWriter& to, const Robot& robot) {
   put_collision(to, robot.collision.get());
 }
 
+void put_end_effector(ByteWriter& to, const Robot& robot, int index) {
+  const EndEffector& tip = robot.end_effectors[static_cast<std::size_t>(index)];
+  to.count(tip.link);
+  put_pose(to, tip.placement);
+}
+
+void put_contact(ByteWriter& to, const Robot& robot, const Contact& contact) {
+  put_end_effector(to, robot, contact.end_effector);
+  to.count(static_cast<int>(contact.surface));
+  put_pose(to, contact.frame);
+  to.real(contact.radius);
+  for (const Eigen::MatrixXd& each :
+       {Eigen::MatrixXd(contact.C), Eigen::MatrixXd(contact.w_min), Eigen::MatrixXd(contact.w_max),
+        Eigen::MatrixXd(contact.q_rest)}) {
+    to.matrix(each);
+  }
+  to.whole(contact.holds_axes ? 1 : 0, 1);
+  to.real(contact.length_scale);
+  to.real(contact.sigma_min);
+  for (const int joint : contact.follow) to.count(joint);
+}
+
+/// Two bits of the reason, five of the axis (a box of 31 coordinates has 3^31 control points), and
+/// whether it is cut elsewhere than at its middle.
+constexpr int kElsewhere = 128;
+
 void put_tree(ByteWriter& to, const CertificateTree& tree) {
   to.count(tree.width);
+  to.count(tree.equations);
   to.count(static_cast<Eigen::Index>(tree.nodes.size()));
   for (const CertificateTree::Node& node : tree.nodes) {
-    to.whole(static_cast<std::uint64_t>(node.reason) | static_cast<std::uint64_t>(node.axis + 1)
-                                                           << 2,
-             1);
+    const int tag = static_cast<int>(node.reason) | (node.axis + 1) << 2;
+    to.whole(static_cast<std::uint64_t>(tag | (node.at ? kElsewhere : 0)), 1);
+    if (node.at) to.real(*node.at);
     if (node.reason == CertificateTree::Reason::kCollision) {
       to.whole(static_cast<std::uint64_t>(node.pair), 4);
     }
-    if (node.reason != CertificateTree::Reason::kMultiplier) continue;
-    for (int i = 0; i < tree.width; ++i) {
-      to.real(tree.multipliers[node.multiplier + static_cast<std::size_t>(i)]);
+    for (std::size_t i = 0; i < tree.numbers(node); ++i) {
+      to.real(tree.multipliers[node.multiplier + i]);
     }
   }
 }
 
 /// False if it is none.
 bool take_tree(ByteReader& from, CertificateTree& tree) {
-  const std::size_t width = from.count(sizeof(double));
-  tree.width = static_cast<int>(width);
+  tree.width = static_cast<int>(from.count(sizeof(double)));
+  tree.equations = static_cast<int>(from.count(sizeof(double)));
   const std::size_t nodes = from.count(1);
   if (nodes > kMostNodes) return false;
   tree.nodes.resize(nodes);
   for (CertificateTree::Node& node : tree.nodes) {
     const auto tag = static_cast<int>(from.whole(1));
-    if (!from.good() || (tag & 3) > 2) return false;
+    if (!from.good()) return false;
     node.reason = static_cast<CertificateTree::Reason>(tag & 3);
-    node.axis = (tag >> 2) - 1;
+    node.axis = (tag % kElsewhere >> 2) - 1;
+    if ((tag & kElsewhere) != 0) node.at = from.real();
     if (node.reason == CertificateTree::Reason::kCollision) {
       node.pair = static_cast<int>(from.whole(4));
     }
-    if (node.reason != CertificateTree::Reason::kMultiplier) continue;
     node.multiplier = tree.multipliers.size();
-    for (std::size_t i = 0; i < width; ++i) tree.multipliers.push_back(from.real());
+    for (std::size_t i = 0; i < tree.numbers(node); ++i) tree.multipliers.push_back(from.real());
   }
   return true;
 }
@@ -153,14 +179,16 @@ bool is_plain(const std::string& text) {
 std::uint64_t digest(const Problem& problem) {
   ByteWriter all;
   put_robot(all, problem.robot);
-  const EndEffector& tip =
-      problem.robot.end_effectors[static_cast<std::size_t>(problem.end_effector)];
-  all.count(tip.link);
-  put_pose(all, tip.placement);
+  put_end_effector(all, problem.robot, problem.end_effector);
   put_pose(all, problem.pose);
   all.matrix(problem.c);
   all.matrix(problem.W_any);
   for (const int joint : problem.redundant) all.count(joint);
+  for (const int joint : problem.dependent) all.count(joint);
+  put_pose(all, problem.robot.mount);
+  for (const int axis : problem.free.axes) all.count(axis);
+  all.whole((problem.free.along_tool ? 1 : 0) + (problem.free.wrench_turns ? 2 : 0), 1);
+  if (problem.contact) put_contact(all, problem.robot, *problem.contact);
   all.matrix(problem.theta_r_min);
   all.matrix(problem.theta_r_max);
   std::uint64_t hash = 0xcbf29ce484222325U;
@@ -180,7 +208,7 @@ std::string certificate_text(const ProofCertificate& proof) {
   raw.whole(proof.digest, 8);
   for (const double x : {proof.bound, proof.gap, proof.value}) raw.real(x);
   for (const Eigen::VectorXd& v :
-       {proof.theta_r, proof.u, Eigen::VectorXd(proof.h), proof.lower, proof.upper}) {
+       {proof.x, proof.u, Eigen::VectorXd(proof.h), proof.lower, proof.upper}) {
     raw.matrix(v);
   }
   put_tree(raw, proof.tree);
@@ -210,7 +238,7 @@ ProofCertificate read_certificate(const std::string& file) {
   proof.collision = from.whole(1) == 1;
   proof.digest = from.whole(8);
   for (double* x : {&proof.bound, &proof.gap, &proof.value}) *x = from.real();
-  proof.theta_r = from.vector();
+  proof.x = from.vector();
   proof.u = from.vector();
   const Eigen::VectorXd h = from.vector();
   proof.lower = from.vector();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,17 +9,29 @@
 
 namespace maxwrench {
 
-/// A proof of how large a capability can be: a tree of boxes of theta_r, each with the reason why
-/// no value in it is larger, if there is one yet.
+/// A proof of how large a capability can be: a tree of boxes of a posture's coordinates x, as in
+/// `PostureCoordinates`, each with the reason why no value in it is larger, if there is one yet.
 struct CertificateTree {
-  enum class Reason : std::uint8_t { kNone, kMultiplier, kCollision };
+  enum class Reason : std::uint8_t {
+    kNone,
+    kMultiplier,  ///< of the measure's program and the equations, [lambda; nu]
+    kCollision,
+    kNoPosture  ///< nu of the equations: nu'f > 0
+  };
   struct Node {
     Reason reason = Reason::kNone;
-    int axis = -1;  ///< cut in two at its middle along this one; its halves follow. -1: a leaf
-    int pair = -1;  ///< that collides
-    std::size_t multiplier = 0;  ///< where it begins among `multipliers`
+    int axis = -1;  ///< cut in two along this one; its halves follow. -1: a leaf
+    std::optional<double> at = std::nullopt;  ///< where it is cut, unless at its middle
+    int pair = -1;                            ///< that collides
+    std::size_t multiplier = 0;               ///< where it begins among `multipliers`
   };
-  int width = 0;  ///< numbers of a multiplier
+  /// How many numbers of `multipliers` a node has.
+  std::size_t numbers(const Node& node) const {
+    if (node.reason == Reason::kNoPosture) return static_cast<std::size_t>(equations);
+    return node.reason == Reason::kMultiplier ? static_cast<std::size_t>(width) : 0;
+  }
+  int width = 0;      ///< numbers of a multiplier
+  int equations = 0;  ///< of them, the last, nu
   std::vector<double> multipliers;
   std::vector<Node> nodes;  ///< a node, then its lower half, then its upper half
 };
@@ -34,7 +47,7 @@ struct ProofCertificate {
   double gap = 0;            ///< bound <= value + gap |value|
   // A posture, its value, and for the L-infinity polytope the efforts and the wrench (world axes)
   // with which it is reached.
-  Eigen::VectorXd theta_r;
+  Eigen::VectorXd x;
   double value = 0;
   Eigen::VectorXd u;
   Vector6d h = Vector6d::Zero();
@@ -45,7 +58,7 @@ struct ProofCertificate {
 /// All numbers of robot and task that a proof rests upon, as one number (FNV-1a).
 std::uint64_t digest(const Problem& problem);
 
-/// A file: "maxwrench proof 1\n", the CRC-32 of all that follows, the length of the certificate,
+/// A file: "maxwrench proof 2\n", the CRC-32 of all that follows, the length of the certificate,
 /// and that, packed by zlib; little endian.
 std::string certificate_text(const ProofCertificate& certificate);
 

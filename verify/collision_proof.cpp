@@ -20,7 +20,7 @@ double beyond(const std::array<Narrow, 3>& x, const Eigen::Vector3d& half_sizes,
 void set_products(const FormShape& shape, const Eigen::VectorXd& q, std::vector<double>& terms) {
   terms.assign(1, 1.0);
   for (std::size_t i = 0; i < shape.terms.size(); ++i) {
-    const double x = q[static_cast<Eigen::Index>(i)];
+    const double x = q[shape.coordinates[i]];
     const bool turns = shape.terms[i] == 3;
     std::vector<double> more;
     for (const double term : terms) {
@@ -86,7 +86,7 @@ CollisionProof::Movers CollisionProof::movers(const Core& core, const Core& othe
   Movers result{other.half_sizes, reach - kHair, {}};
   for (const Eigen::Vector3d& at : points_of(core)) {
     const Eigen::Vector3d in_link = core.placement.R * at + core.placement.p;
-    const FormVector x = model_.seen(core.link, in_link, other.link);
+    const FormVector x = model_.seen(core.link, model_.constant(in_link), other.link);
     const FormVector in_core = model_.into(other.placement, x);
     const std::vector<double>& far = model_.far();
     result.points.push_back(

@@ -8,7 +8,7 @@
 
 namespace maxwrench {
 
-/// Shows that two bodies collide throughout a box of theta_r: a point of one core is, at all
+/// Shows that two bodies collide throughout a box of coordinates: a point of one core is, at all
 /// control points of its path in the axes of the other core, closer to that than the reach; points
 /// that are so close are a convex set. One object serves one thread.
 class CollisionProof {

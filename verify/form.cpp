@@ -1,15 +1,22 @@
 #include "verify/form.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace maxwrench {
 
-FormShape::FormShape(std::vector<int> terms_of) : terms(std::move(terms_of)) {
+FormShape::FormShape(std::vector<int> terms_of, std::vector<int> coordinates_of)
+    : terms(std::move(terms_of)), coordinates(std::move(coordinates_of)) {
   strides.resize(terms.size());
   for (std::size_t i = terms.size(); i-- > 0;) {
     strides[i] = size;
     size *= terms[i];
   }
+}
+
+FormShape FormShape::stretch(int from, int to) const {
+  return {{terms.begin() + from, terms.begin() + to},
+          {coordinates.begin() + from, coordinates.begin() + to}};
 }
 
 Form::Form(const FormShape& shape, const Wide& constant)
@@ -55,25 +62,29 @@ Form Form::operator-() const {
   return result;
 }
 
-/// Where the product of two products of terms stands.
-int Form::product(int a, int b) const {
-  for (std::size_t i = 0; i < shape_->terms.size(); ++i) {
-    if (shape_->digit(a, i) != 0 && shape_->digit(b, i) != 0) {
-      throw std::logic_error("a product of functions of the same joint");
-    }
+std::vector<int> Form::nonzero() const {
+  std::vector<int> index;
+  for (int k = 0; k < shape_->size; ++k) {
+    if (!c_[static_cast<std::size_t>(k)].is_zero()) index.push_back(k);
   }
-  return a + b;
+  return index;
 }
 
+/// Of no variable in common, two products of terms stand at the sum of where they stood.
 Form operator*(const Form& a, const Form& b) {
+  const std::vector<int> of_a = a.nonzero(), of_b = b.nonzero();
+  for (std::size_t i = 0; i < a.shape_->terms.size(); ++i) {
+    const auto has = [&](int k) { return a.shape_->digit(k, i) != 0; };
+    if (std::any_of(of_a.begin(), of_a.end(), has) && std::any_of(of_b.begin(), of_b.end(), has)) {
+      throw std::logic_error("a product of functions of the same variable");
+    }
+  }
   Form result(*a.shape_);
-  for (int i = 0; i < a.shape_->size; ++i) {
+  for (const int i : of_a) {
     const Wide& x = a.c_[static_cast<std::size_t>(i)];
-    if (x.is_zero()) continue;
-    for (int j = 0; j < a.shape_->size; ++j) {
+    for (const int j : of_b) {
       const Wide& y = b.c_[static_cast<std::size_t>(j)];
-      if (y.is_zero()) continue;
-      Wide& to = result.c_[static_cast<std::size_t>(a.product(i, j))];
+      Wide& to = result.c_[static_cast<std::size_t>(i + j)];
       to = to.is_zero() ? x * y : to + x * y;
     }
   }
@@ -96,6 +107,11 @@ FormVector operator*(const Form& a, const FormVector& b) { return {a * b[0], a *
 
 FormVector operator*(const FormMatrix& a, const FormVector& b) {
   return {dot(a[0], b), dot(a[1], b), dot(a[2], b)};
+}
+
+FormMatrix operator*(const FormMatrix& a, const FormMatrix& b) {
+  const FormMatrix columns = transposed(b);
+  return transposed({a * columns[0], a * columns[1], a * columns[2]});
 }
 
 FormVector cross(const FormVector& a, const FormVector& b) {

@@ -7,13 +7,16 @@
 
 namespace maxwrench {
 
-/// The variables of a `Form`: a turning joint q has the terms 1, cos q, sin q, a sliding one 1, q.
+/// The variables of a `Form`: a turning one q has the terms 1, cos q, sin q, a sliding one 1, q.
 struct FormShape {
-  std::vector<int> terms;    ///< 3 or 2 for each variable
-  std::vector<int> strides;  ///< of a variable's terms among all, the last one's 1
-  int size = 1;              ///< of all products of terms
+  std::vector<int> terms;        ///< 3 or 2 for each variable
+  std::vector<int> coordinates;  ///< which side of a box each variable is
+  std::vector<int> strides;      ///< of a variable's terms among all, the last one's 1
+  int size = 1;                  ///< of all products of terms
 
-  explicit FormShape(std::vector<int> terms_of);
+  FormShape(std::vector<int> terms_of, std::vector<int> coordinates_of);
+  /// Of the variables from one to before another.
+  FormShape stretch(int from, int to) const;
   int digit(int index, std::size_t variable) const {
     return index / strides[variable] % terms[variable];
   }
@@ -42,7 +45,7 @@ class Form {
   friend Form operator*(const Form& a, const Form& b);
 
  private:
-  int product(int a, int b) const;
+  std::vector<int> nonzero() const;
 
   const FormShape* shape_;
   std::vector<Wide> c_;
@@ -56,6 +59,7 @@ FormVector operator+(const FormVector& a, const FormVector& b);
 FormVector operator-(const FormVector& a, const FormVector& b);
 FormVector operator*(const Form& a, const FormVector& b);
 FormVector operator*(const FormMatrix& a, const FormVector& b);
+FormMatrix operator*(const FormMatrix& a, const FormMatrix& b);
 FormVector cross(const FormVector& a, const FormVector& b);
 FormMatrix transposed(const FormMatrix& a);
 

@@ -3,7 +3,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "verify/box_forms.h"
+#include "verify/equations.h"
+#include "verify/gain.h"
+#include "verify/model.h"
 #include "verify/weighted.h"
 
 namespace maxwrench {
@@ -11,13 +13,18 @@ namespace {
 
 constexpr double kIncumbentTolerance = 1e-8;
 
+/// [m; 1] Near a stretched arm, joints that are off by the root of this fulfil the equations.
+constexpr double kOffEquations = 1e-10;
+
 /// Poses of all links relative to the base.
-std::vector<Pose<double>> links_at(const Problem& problem, const Eigen::VectorXd& theta_r) {
+std::vector<Pose<double>> links_at(const Problem& problem, const PostureCoordinates& coordinates,
+                                   const Eigen::VectorXd& x) {
   const Robot& robot = problem.robot;
   std::vector<double> q;
-  for (const Joint& joint : robot.joints) q.push_back(std::clamp(0.0, joint.q_min, joint.q_max));
-  for (std::size_t i = 0; i < problem.redundant.size(); ++i) {
-    q[static_cast<std::size_t>(problem.redundant[i])] = theta_r[static_cast<Eigen::Index>(i)];
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    const int at = coordinates.of_joint[i];
+    q.push_back(at < 0 ? rest_of(problem, i)
+                       : x[coordinates.variables[static_cast<std::size_t>(at)].coordinate]);
   }
   std::vector<Pose<double>> links(1);
   for (std::size_t i = 0; i < q.size(); ++i) {
@@ -33,14 +40,43 @@ std::vector<Pose<double>> links_at(const Problem& problem, const Eigen::VectorXd
   return links;
 }
 
-/// tau_d + J'h at theta_r.
-std::vector<Narrow> load(const FormModel& model, const Eigen::VectorXd& theta_r,
-                         const Vector6d& h) {
+/// Whether the base, where its pose follows in closed form, is where its free axes bring it.
+bool base_gets_there(const Problem& problem, const FormModel& model, const Eigen::VectorXd& x,
+                     const std::vector<Pose<double>>& links) {
+  const Robot& robot = problem.robot;
+  if (!model.coordinates().base_follows || robot.base_axes.size() == 6) return true;
+  const auto at = [&](const Form& form) {
+    return BoxForms::at_point(model.shape(), FormRow(form, model.far()), x).low;
+  };
+  const FormVector place = model.pose_place();
+  Pose<double> pose;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    pose.p[i] = at(place[row]);
+    for (Eigen::Index j = 0; j < 3; ++j) {
+      pose.R(i, j) = at(model.pose_turn()[row][static_cast<std::size_t>(j)]);
+    }
+  }
+  const EndEffector& tip = robot.end_effectors[static_cast<std::size_t>(problem.end_effector)];
+  const Pose<double> own = links[static_cast<std::size_t>(tip.link)] * tip.placement;
+  const Pose<double> base = robot.mount.inverse() * (pose * own.inverse());
+  Eigen::Vector3d p = base.p;
+  bool turns = false;
+  for (const int axis : robot.base_axes) {
+    if (axis < 3) p[axis] = 0;
+    turns = turns || axis == 5;
+  }
+  const double tilt = turns ? base.R(2, 2) - 1 : (base.R.diagonal().array() - 1).minCoeff();
+  return p.norm() <= kIncumbentTolerance && std::abs(tilt) <= kIncumbentTolerance;
+}
+
+/// tau_d + J'h at x.
+std::vector<Narrow> load(const FormModel& model, const Eigen::VectorXd& x, const Vector6d& h) {
   const std::vector<Form> tau_d = model.tau_d(), exerted = model.exerted(h);
   std::vector<Narrow> sum;
   for (std::size_t i = 0; i < tau_d.size(); ++i) {
     sum.push_back(
-        BoxForms::at_point(model.shape(), FormRow(tau_d[i] + exerted[i], model.far()), theta_r));
+        BoxForms::at_point(model.shape(), FormRow(tau_d[i] + exerted[i], model.far()), x));
   }
   return sum;
 }
@@ -84,7 +120,7 @@ Wide square_of_effort(const Zonotope& set, const std::vector<Narrow>& tau) {
 std::string refuse_ellipsoid(const Problem& problem, const FormModel& model,
                              const ProofCertificate& proof, const std::vector<Narrow>& tau) {
   const Zonotope& set = problem.robot.actuation;
-  const std::vector<Narrow> tau_d = load(model, proof.theta_r, Vector6d::Zero());
+  const std::vector<Narrow> tau_d = load(model, proof.x, Vector6d::Zero());
   if (!(square_of_effort(set, tau_d).low <= 1)) return "its posture has no value";
   return square_of_effort(set, tau).low <= 1 + 4 * kIncumbentTolerance
              ? ""
@@ -99,7 +135,7 @@ std::string refuse_value(const Problem& problem, const FormModel& model,
   const Eigen::MatrixXd& W = problem.W_any;
   if (!((h - W * (W.transpose() * h)).norm() <= tolerance)) return "its wrench is not allowed";
   if (!(std::abs(problem.c.dot(h) - proof.value) <= tolerance)) return "its wrench is another one";
-  const std::vector<Narrow> tau = load(model, proof.theta_r, h);
+  const std::vector<Narrow> tau = load(model, proof.x, h);
   if (polytope) return refuse_balance(problem, proof, tau, tolerance);
   if (proof.measure == "ellipsoid") return refuse_ellipsoid(problem, model, proof, tau);
   const std::vector<Wide> u = efforts(enclose_pseudoinverse(set.B), tau);
@@ -112,20 +148,32 @@ std::string refuse_value(const Problem& problem, const FormModel& model,
   return "";
 }
 
+bool is_within(const PostureCoordinates& coordinates, const Eigen::VectorXd& x) {
+  return std::all_of(coordinates.variables.begin(), coordinates.variables.end(),
+                     [&x](const PostureCoordinates::Variable& each) {
+                       return x[each.coordinate] >= each.lower - kLimitTolerance &&
+                              x[each.coordinate] <= each.upper + kLimitTolerance;
+                     });
+}
+
 }  // namespace
 
 std::string refuse_incumbent(const Problem& problem, const FormModel& model,
-                             const ProofCertificate& proof) {
-  const Eigen::VectorXd& theta_r = proof.theta_r;
-  if (theta_r.size() != problem.theta_r_min.size()) return "its posture has other joints";
-  if (!theta_r.allFinite() || !proof.u.allFinite() || !proof.h.allFinite()) {
+                             const Equations& equations, const ProofCertificate& proof) {
+  const Eigen::VectorXd& x = proof.x;
+  if (x.size() != model.coordinates().count()) return "its posture has other joints";
+  if (!x.allFinite() || !proof.u.allFinite() || !proof.h.allFinite()) {
     return "its posture is no number";
   }
-  if (!((problem.theta_r_min - theta_r).array() <= kLimitTolerance).all() ||
-      !((theta_r - problem.theta_r_max).array() <= kLimitTolerance).all()) {
-    return "its posture is beyond the limits";
+  if (!is_within(model.coordinates(), x)) return "its posture is beyond the limits";
+  if (!(equations.residual(x) <= kOffEquations)) return "its joints do not get there";
+  const std::vector<Pose<double>> links = links_at(problem, model.coordinates(), x);
+  if (!base_gets_there(problem, model, x, links)) return "its base is off its free axes";
+  if (problem.contact &&
+      !(contact_gain(problem, links) >= problem.contact->sigma_min * (1 - kIncumbentTolerance))) {
+    return "its posture is singular";
   }
-  if (problem.robot.collision && problem.robot.collision->collides(links_at(problem, theta_r))) {
+  if (problem.robot.collision && problem.robot.collision->collides(links)) {
     return "its posture collides";
   }
   return refuse_value(problem, model, proof, kIncumbentTolerance * (1 + std::abs(proof.value)));

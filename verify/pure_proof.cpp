@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "verify/equations.h"
+#include "verify/model.h"
 #include "verify/value_proof.h"
 #include "verify/weighted.h"
 
@@ -20,8 +22,10 @@ std::vector<FormRow> to_rows(const std::vector<Form>& forms, const std::vector<d
 
 /// t <= (sum_k max |u_k| |B_k| + |tau_d|) / |J'c|, on the base's free axes, linear ones for a force
 /// and angular ones for a torque. There |J'c| is |c|, but for the share that rotations of rounded
-/// numbers may take, less what is along axes that are not free.
+/// numbers may take, less what is along axes that are not free. Infinite where the base does not
+/// follow in closed form, as then other axes may hold.
 double pure_ceiling(const Problem& problem, const FormModel& model) {
+  if (!model.coordinates().base_follows) return kInfinity;
   const Zonotope& set = problem.robot.actuation;
   const bool pushes = !problem.c.head<3>().isZero(0);
   const std::vector<Form> tau = model.tau_d();
@@ -65,19 +69,23 @@ double pure_ceiling(const Problem& problem, const FormModel& model) {
 /// The part that all sets share.
 class PureProof : public ValueProof {
  public:
-  PureProof(const Problem& problem, const FormModel& model, std::shared_ptr<const PureRows> rows)
+  PureProof(const Problem& problem, const FormModel& model, const Equations& equations,
+            std::shared_ptr<const PureRows> rows)
       : problem_(problem),
         model_(model),
+        equations_(equations),
         rows_(std::move(rows)),
         box_(model.shape()),
+        off_postures_(equations),
         factors_(rows_->tau.size()) {}
 
+  int width() const override { return own_width() + equations_.count(); }
   double ceiling() const override { return rows_->ceiling; }
 
-  double most(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, const double* lambda,
+  double most(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, const double* multiplier,
               double low, double high) override {
-    if (high <= low || !box_.set(lower, upper)) return high;
-    const double support = reach(lambda, factors_);
+    if (high <= low || !box_.set(lower, upper) || !off_postures_.set(lower, upper)) return high;
+    const double support = reach(multiplier, factors_);
     const auto size = static_cast<std::size_t>(model_.shape().size);
     tau_.assign(size, 0.0);
     a_.assign(size, 0.0);
@@ -87,27 +95,48 @@ class PureProof : public ValueProof {
     }
     box_.over_box(tau_);
     box_.over_box(a_);
-    double most = -kInfinity;
-    for (std::size_t v = 0; v < size; ++v) {
-      const Narrow slope = Narrow(1.0) - a_[v];
-      const Narrow at_low = Narrow(low) * slope - tau_[v], at_high = Narrow(high) * slope - tau_[v];
-      if (!(at_low.high < kInfinity && at_high.high < kInfinity)) return high;  // or no numbers
-      most = std::max(most, std::max(at_low.high, at_high.high));
-    }
-    const double U = Narrow::above(support + most);
+    off_postures_.add_to(tau_, multiplier + own_width());
+    double U = by_ends(support, low, high);
+    if (equations_.count() > 0) U = std::min(U, by_ratio(support));
     return U < high ? U : high;
   }
 
  protected:
+  /// Numbers of lambda.
+  virtual int own_width() const = 0;
   /// The support, not below it; `factors`: of the n rows.
   virtual double reach(const double* lambda, std::vector<Narrow>& factors) = 0;
 
   const Problem& problem_;
   const FormModel& model_;
+  const Equations& equations_;
   std::shared_ptr<const PureRows> rows_;
 
  private:
+  double by_ends(double support, double low, double high) const {
+    double most = -kInfinity;
+    for (std::size_t v = 0; v < tau_.size(); ++v) {
+      const Narrow slope = Narrow(1.0) - a_[v];
+      const Narrow at_low = Narrow(low) * slope - tau_[v], at_high = Narrow(high) * slope - tau_[v];
+      if (!(at_low.high < kInfinity && at_high.high < kInfinity)) return kInfinity;  // or no number
+      most = std::max(most, std::max(at_low.high, at_high.high));
+    }
+    return Narrow::above(support + most);
+  }
+
+  double by_ratio(double support) const {
+    double most = -kInfinity;
+    for (std::size_t v = 0; v < tau_.size(); ++v) {
+      if (!(a_[v].low > 0)) return kInfinity;
+      const Narrow ratio = (Narrow(support) - tau_[v]) / a_[v];
+      if (!(ratio.high < kInfinity)) return kInfinity;
+      most = std::max(most, ratio.high);
+    }
+    return most;
+  }
+
   BoxForms box_;
+  EquationsOverBox off_postures_;
   std::vector<Narrow> factors_, tau_, a_;
 };
 
@@ -115,12 +144,12 @@ class PureProof : public ValueProof {
 class PolytopeProof final : public PureProof {
  public:
   using PureProof::PureProof;
-  int width() const override { return problem_.robot.actuation.dimension(); }
   std::unique_ptr<ValueProof> clone() const override {
-    return std::make_unique<PolytopeProof>(problem_, model_, rows_);
+    return std::make_unique<PolytopeProof>(problem_, model_, equations_, rows_);
   }
 
  private:
+  int own_width() const override { return problem_.robot.actuation.dimension(); }
   double reach(const double* lambda, std::vector<Narrow>& factors) override {
     const Zonotope& set = problem_.robot.actuation;
     Narrow sum;
@@ -140,16 +169,16 @@ class PolytopeProof final : public PureProof {
 /// lambda_k.
 class SmallestEffortProof final : public PureProof {
  public:
-  SmallestEffortProof(const Problem& problem, const FormModel& model,
+  SmallestEffortProof(const Problem& problem, const FormModel& model, const Equations& equations,
                       std::shared_ptr<const PureRows> rows)
-      : PureProof(problem, model, std::move(rows)),
+      : PureProof(problem, model, equations, std::move(rows)),
         B_pinv_(enclose_pseudoinverse(problem.robot.actuation.B)) {}
-  int width() const override { return problem_.robot.actuation.actuators(); }
   std::unique_ptr<ValueProof> clone() const override {
-    return std::make_unique<SmallestEffortProof>(problem_, model_, rows_);
+    return std::make_unique<SmallestEffortProof>(problem_, model_, equations_, rows_);
   }
 
  private:
+  int own_width() const override { return problem_.robot.actuation.actuators(); }
   double reach(const double* lambda, std::vector<Narrow>& factors) override {
     const Zonotope& set = problem_.robot.actuation;
     std::vector<Wide> rows(factors.size());
@@ -169,18 +198,18 @@ class SmallestEffortProof final : public PureProof {
 /// {tau: |W_u B^+ tau| <= 1}: s = sqrt(lambda'Q^-1 lambda), Q = (W_u B^+)'(W_u B^+).
 class EllipsoidProof final : public PureProof {
  public:
-  EllipsoidProof(const Problem& problem, const FormModel& model,
+  EllipsoidProof(const Problem& problem, const FormModel& model, const Equations& equations,
                  std::shared_ptr<const PureRows> rows)
-      : PureProof(problem, model, std::move(rows)) {
+      : PureProof(problem, model, equations, std::move(rows)) {
     const WideRows K = weighted_pseudoinverse(problem.robot.actuation);
     Q_inverse_ = enclose_inverse(transposed(K) * K);
   }
-  int width() const override { return problem_.robot.actuation.dimension(); }
   std::unique_ptr<ValueProof> clone() const override {
-    return std::make_unique<EllipsoidProof>(problem_, model_, rows_);
+    return std::make_unique<EllipsoidProof>(problem_, model_, equations_, rows_);
   }
 
  private:
+  int own_width() const override { return problem_.robot.actuation.dimension(); }
   double reach(const double* lambda, std::vector<Narrow>& factors) override {
     Wide square;
     for (std::size_t i = 0; i < factors.size(); ++i) {
@@ -198,13 +227,20 @@ class EllipsoidProof final : public PureProof {
 }  // namespace
 
 std::unique_ptr<ValueProof> make_pure_proof(const Problem& problem, const FormModel& model,
+                                            const Equations& equations,
                                             const std::string& measure) {
   const auto rows = std::make_shared<const PureRows>(
       PureRows{to_rows(model.tau_d(), model.far()), to_rows(model.exerted(problem.c), model.far()),
                pure_ceiling(problem, model)});
-  if (measure == "linf_polytope") return std::make_unique<PolytopeProof>(problem, model, rows);
-  if (measure == "l2_polytope") return std::make_unique<SmallestEffortProof>(problem, model, rows);
-  if (measure == "ellipsoid") return std::make_unique<EllipsoidProof>(problem, model, rows);
+  if (measure == "linf_polytope") {
+    return std::make_unique<PolytopeProof>(problem, model, equations, rows);
+  }
+  if (measure == "l2_polytope") {
+    return std::make_unique<SmallestEffortProof>(problem, model, equations, rows);
+  }
+  if (measure == "ellipsoid") {
+    return std::make_unique<EllipsoidProof>(problem, model, equations, rows);
+  }
   throw std::invalid_argument("measure: got '" + measure +
                               "', expected linf_polytope, l2_polytope or ellipsoid");
 }

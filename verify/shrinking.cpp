@@ -52,7 +52,7 @@ long double FormModel::shrinking() const {
   const auto tip = static_cast<std::size_t>(problem_.end_effector);
   add(transposed(matrix(problem_.pose.R)), -1);
   add(matrix(problem_.robot.end_effectors[tip].placement.R), -1);
-  for (std::size_t i = 0; i < places_.size(); ++i) add(places_[i].R, variable_[i]);
+  for (std::size_t i = 0; i < places_.size(); ++i) add(places_[i].R, coordinates_.of_joint[i]);
   return sum.high;
 }
 

@@ -1,10 +1,12 @@
 #include "verify/verify.h"
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <thread>
 
 #include "verify/collision_proof.h"
+#include "verify/equations.h"
 #include "verify/incumbent.h"
 #include "verify/value_proof.h"
 
@@ -20,23 +22,36 @@ constexpr double kLargest = 1e60;
 /// [rad or m]
 constexpr double kWidest = 1e6;
 
+/// A bit more than a whole turn.
+constexpr double kWholeTurn = 6.2831853071795872;
+
+/// Cuts above a box at most: halves are far fewer, but what has no posture is cut off slice by
+/// slice.
+constexpr int kDeepest = 100'000;
+
 /// A node of the tree, its box, and a number that no value in the box of its parent exceeds.
 struct OpenBox {
   std::size_t node = 0;
   Eigen::VectorXd lower, upper;
   double high = kInfinity;
+  int depth = 0;
 };
 
 /// Empty, or why the nodes are no tree of boxes: each that is cut is followed by two.
-std::string refuse_shape(const CertificateTree& tree, Eigen::Index axes, int width) {
+std::string refuse_shape(const CertificateTree& tree, Eigen::Index axes, int width, int equations) {
   std::size_t open = 1;
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     if (open == 0) return "boxes that belong to no other";
     if (tree.nodes[i].axis >= axes) return "a box is cut along no joint";
-    if (tree.nodes[i].reason == Reason::kMultiplier &&
-        (tree.width != width ||
-         tree.nodes[i].multiplier + static_cast<std::size_t>(width) > tree.multipliers.size())) {
+    if (const std::size_t numbers = tree.numbers(tree.nodes[i]);
+        numbers > 0 && tree.nodes[i].multiplier + numbers > tree.multipliers.size()) {
       return "multipliers of another length";
+    }
+    if (tree.nodes[i].reason == Reason::kMultiplier && tree.width != width) {
+      return "multipliers of another length";
+    }
+    if (tree.nodes[i].reason == Reason::kNoPosture && tree.equations != equations) {
+      return "multipliers of other equations";
     }
     open += tree.nodes[i].axis < 0 ? std::size_t(-1) : 1;
   }
@@ -60,14 +75,19 @@ std::vector<std::size_t> upper_halves(const CertificateTree& tree) {
 /// Walks through parts of the tree. The induction: no value in a node's box exceeds max(bound,
 /// high), `high` proven of its parent's box, which contains it (at the root: the ceiling of all
 /// postures). With t in [bound, high] the node's own multiplier then proves max(bound, high') with
-/// high' <= high, for its halves; a collision, that there is no value. Nothing of the file's is
-/// believed: neither that a multiplier is good nor what it was good for. A leaf needs high' <=
-/// bound. The two halves of a box are cut at the same number and so cover it.
+/// high' <= high, for its halves; a collision, or nu'f > 0, that there is no value. Nothing of the
+/// file's is believed: neither that a multiplier is good nor what it was good for. A leaf needs
+/// high' <= bound. The two halves of a box are cut at the same number and so cover it.
 class TreeWalk {
  public:
-  TreeWalk(const Problem& problem, const FormModel& model, const ProofCertificate& proof,
-           const std::vector<std::size_t>& second, std::unique_ptr<ValueProof> value)
-      : proof_(proof), second_(second), value_(std::move(value)), collision_(problem, model) {}
+  TreeWalk(const Problem& problem, const FormModel& model, const Equations& equations,
+           const ProofCertificate& proof, const std::vector<std::size_t>& second,
+           std::unique_ptr<ValueProof> value)
+      : proof_(proof),
+        second_(second),
+        value_(std::move(value)),
+        collision_(problem, model),
+        off_postures_(equations) {}
 
   /// All below a node; stops where the proof fails.
   void walk(OpenBox top) {
@@ -87,28 +107,25 @@ class TreeWalk {
     const double before = box.high;
     if (node.reason == Reason::kCollision) {
       if (collision_.collides(box.lower, box.upper, node.pair)) box.high = -kInfinity;
+    } else if (node.reason == Reason::kNoPosture) {
+      if (off_postures_.set(box.lower, box.upper) && off_postures_.excluded(multiplier(node))) {
+        box.high = -kInfinity;
+      }
     } else if (node.reason == Reason::kMultiplier) {
-      box.high = value_->most(box.lower, box.upper, &tree().multipliers[node.multiplier],
-                              proof_.bound, before);
+      box.high = value_->most(box.lower, box.upper, multiplier(node), proof_.bound, before);
     }
-    if (node.axis >= 0) return has_middle(box, node) || refuse(box, "is too narrow to be cut");
-    if (!(box.high <= proof_.bound)) {
-      return refuse(box, node.reason == Reason::kCollision
-                             ? "does not collide throughout"
-                             : "values up to " + std::to_string(box.high) + " are not excluded");
-    }
-    if (before <= proof_.bound) {
-      ++done.by_parent;
-    } else {
-      ++(node.reason == Reason::kCollision ? done.by_collision : done.by_multiplier);
-    }
+    if (node.axis >= 0) return is_cut(box, node);
+    if (!(box.high <= proof_.bound)) return refuse(box, what_is_open(box, node));
+    count(node, before <= proof_.bound);
     return false;
   }
 
   void push_halves(const OpenBox& box, std::vector<OpenBox>& open) const {
-    const int axis = tree().nodes[box.node].axis;
-    const double middle = middle_of(box, axis);
+    const Node& node = tree().nodes[box.node];
+    const int axis = node.axis;
+    const double middle = place_of_cut(box, node);
     OpenBox half = box;
+    ++half.depth;
     half.node = second_[box.node];
     half.lower[axis] = middle;
     open.push_back(half);
@@ -123,15 +140,38 @@ class TreeWalk {
 
  private:
   const CertificateTree& tree() const { return proof_.tree; }
-
-  /// So a tree is no deeper than a number has bits.
-  static bool has_middle(const OpenBox& box, const Node& node) {
-    const double middle = middle_of(box, node.axis);
-    return box.lower[node.axis] < middle && middle < box.upper[node.axis];
+  const double* multiplier(const Node& node) const {
+    return tree().multipliers.data() + node.multiplier;
   }
 
-  static double middle_of(const OpenBox& box, int axis) {
-    return (box.lower[axis] + box.upper[axis]) / 2;
+  bool is_cut(const OpenBox& box, const Node& node) {
+    const double at = place_of_cut(box, node);
+    if (!(box.lower[node.axis] < at && at < box.upper[node.axis])) {
+      return refuse(box, "is too narrow to be cut");
+    }
+    return box.depth < kDeepest || refuse(box, "is too deep in the tree");
+  }
+
+  static double place_of_cut(const OpenBox& box, const Node& node) {
+    return node.at ? *node.at : (box.lower[node.axis] + box.upper[node.axis]) / 2;
+  }
+
+  static std::string what_is_open(const OpenBox& box, const Node& node) {
+    if (node.reason == Reason::kCollision) return "does not collide throughout";
+    if (node.reason == Reason::kNoPosture) return "may have postures";
+    return "values up to " + std::to_string(box.high) + " are not excluded";
+  }
+
+  void count(const Node& leaf, bool by_parent) {
+    if (by_parent) {
+      ++done.by_parent;
+    } else if (leaf.reason == Reason::kCollision) {
+      ++done.by_collision;
+    } else if (leaf.reason == Reason::kNoPosture) {
+      ++done.by_equations;
+    } else {
+      ++done.by_multiplier;
+    }
   }
 
   bool refuse(const OpenBox& box, const std::string& why) {
@@ -144,41 +184,55 @@ class TreeWalk {
   const std::vector<std::size_t>& second_;
   std::unique_ptr<ValueProof> value_;
   CollisionProof collision_;
+  EquationsOverBox off_postures_;
 };
 
 void add(const TreeWalk& part, Verification& sum, std::size_t& failed) {
   sum.boxes += part.done.boxes;
   sum.by_multiplier += part.done.by_multiplier;
   sum.by_collision += part.done.by_collision;
+  sum.by_equations += part.done.by_equations;
   sum.by_parent += part.done.by_parent;
   if (part.failed >= failed) return;
   failed = part.failed;
   sum.refusal = part.done.refusal;
 }
 
+/// Whether a box holds every posture within limits, or the same with whole turns of a joint.
+bool holds_all(const PostureCoordinates& coordinates, const ProofCertificate& proof) {
+  return std::all_of(
+      coordinates.variables.begin(), coordinates.variables.end(),
+      [&proof](const PostureCoordinates::Variable& each) {
+        const double lower = proof.lower[each.coordinate];
+        const double upper = proof.upper[each.coordinate];
+        return (lower <= each.lower - kLimitTolerance && upper >= each.upper + kLimitTolerance) ||
+               (each.turns && upper - lower >= kWholeTurn);
+      });
+}
+
 /// What does not ask for the boxes.
 std::string refuse_claims(const Problem& problem, const FormModel& model,
-                          const ProofCertificate& proof) {
+                          const Equations& equations, const ProofCertificate& proof) {
   if (proof.digest != digest(problem)) return "it is about another robot or task";
   if (proof.collision != (problem.robot.collision != nullptr)) {
     return "postures that collide count otherwise";
   }
-  const Eigen::Index n = problem.theta_r_min.size();
+  const int n = model.coordinates().count();
   if (proof.lower.size() != n || proof.upper.size() != n) return "its box has other joints";
   if (!proof.lower.allFinite() || !proof.upper.allFinite() ||
-      !((proof.lower - problem.theta_r_min).array() <= -kLimitTolerance / 2).all() ||
-      !((problem.theta_r_max - proof.upper).array() <= -kLimitTolerance / 2).all()) {
+      !holds_all(model.coordinates(), proof)) {
     return "its box does not contain the limits";
   }
   if (!((proof.upper - proof.lower).array() <= kWidest).all()) return "its box is too wide";
   for (const double x : {proof.bound, proof.gap, proof.value, proof.h.lpNorm<Eigen::Infinity>()}) {
     if (!(std::abs(x) <= kLargest)) return "what it claims is no number, or too large";
   }
+  if (!(proof.bound >= proof.value)) return "its bound is below its value";
   const double slack = 1e-9 * std::abs(proof.value);
   if (!(proof.bound <= proof.value + proof.gap * std::abs(proof.value) + slack)) {
     return "its gap is larger than it says";
   }
-  return refuse_incumbent(problem, model, proof);
+  return refuse_incumbent(problem, model, equations, proof);
 }
 
 /// The first boxes one by one, until there are enough to share out.
@@ -199,16 +253,18 @@ std::vector<OpenBox> first_boxes(TreeWalk& walk, OpenBox root) {
 
 Verification verify(const Problem& problem, const ProofCertificate& proof, int threads) {
   const FormModel model(problem);
-  const auto value = make_value_proof(problem, model, proof.measure, proof.wrench);
+  const Equations equations(problem, model);
+  const auto value = make_value_proof(problem, model, equations, proof.measure, proof.wrench);
   Verification result;
   result.ceiling = value->ceiling();
-  result.refusal = refuse_claims(problem, model, proof);
+  result.refusal = refuse_claims(problem, model, equations, proof);
   if (result.refusal.empty()) {
-    result.refusal = refuse_shape(proof.tree, proof.lower.size(), value->width());
+    result.refusal =
+        refuse_shape(proof.tree, proof.lower.size(), value->width(), equations.count());
   }
   if (!result.refusal.empty()) return result;
   const std::vector<std::size_t> second = upper_halves(proof.tree);
-  TreeWalk first(problem, model, proof, second, value->clone());
+  TreeWalk first(problem, model, equations, proof, second, value->clone());
   const std::vector<OpenBox> open =
       first_boxes(first, {0, proof.lower, proof.upper, result.ceiling});
   std::size_t failed = std::size_t(-1);
@@ -216,7 +272,7 @@ Verification verify(const Problem& problem, const ProofCertificate& proof, int t
   std::atomic<std::size_t> next = 0;
   std::mutex mutex;
   const auto work = [&] {
-    TreeWalk walk(problem, model, proof, second, value->clone());
+    TreeWalk walk(problem, model, equations, proof, second, value->clone());
     for (std::size_t i = next++; i < open.size(); i = next++) {
       walk.walk(open[i]);
       const std::lock_guard<std::mutex> guard(mutex);

@@ -8,10 +8,10 @@ namespace maxwrench {
 
 /// What was checked of a certificate.
 struct Verification {
-  std::string refusal;                                      ///< empty: it is verified
-  long boxes = 0;                                           ///< of the tree
-  long by_multiplier = 0, by_collision = 0, by_parent = 0;  ///< leaves
-  double ceiling = kInfinity;                               ///< of all postures, before any box
+  std::string refusal;  ///< empty: it is verified
+  long boxes = 0;       ///< of the tree
+  long by_multiplier = 0, by_collision = 0, by_equations = 0, by_parent = 0;  ///< leaves
+  double ceiling = kInfinity;  ///< of all postures, before any box
 };
 
 /// Checks that a certificate proves what it claims of the problem: no posture within the limits has

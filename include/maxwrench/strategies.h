@@ -102,6 +102,10 @@ struct Absent {
 };
 std::span<const Absent> not_built_in();
 
+/// Whether the strategy with this name needs a library that only one thread may use at once, so
+/// that cases with it wait for each other.
+bool one_at_a_time(std::string_view name);
+
 /// The entry with this name; throws std::invalid_argument that names the alternatives, and the
 /// library that is missing if this build leaves the entry out.
 const MeasureEntry& find_measure(std::string_view name);

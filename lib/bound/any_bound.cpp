@@ -83,9 +83,7 @@ class AnyWrenchBound final : public Bound {
 
   void evaluate(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low, double high,
                 BoxProof& proof) override {
-    proof.kind = BoxProof::Kind::kNone;
-    proof.high = high;
-    proof.pair = -1;
+    proof.forget(high);
     if (!(spread(model_->f.coordinates(), lower, upper) <= kMostSpread)) return;
     P_ = box_.over(lower, upper).transpose();
     mu_ = proof.multiplier;
@@ -93,7 +91,7 @@ class AnyWrenchBound final : public Bound {
     points_ = 0;
     double least = -kInfinity;
     for (int round = 0;; ++round) {
-      improve_any(value(), proof);
+      proof.improve(value(), mu_);
       if (proof.high <= low || round == kMostRounds) return;
       if (proof.high - least <= kClose * (proof.high - low)) return;
       add_points(least, round == 0);
@@ -110,13 +108,6 @@ class AnyWrenchBound final : public Bound {
   static constexpr double kBelow = 1e-9;  ///< what rounding may add to U, generously
   /// Of what U is above `low`: nearer to the least U of the points so far is not worth a round.
   static constexpr double kClose = 0.01;
-
-  void improve_any(double U, BoxProof& proof) const {
-    if (!(U < proof.high)) return;
-    proof.kind = BoxProof::Kind::kMultiplier;
-    proof.high = U;
-    proof.multiplier = mu_;
-  }
 
   /// U(mu), rounding included; leaves o - A'mu of all control points in d_.
   double value() {

@@ -28,15 +28,17 @@ std::unique_ptr<Bound> make_polytope_bound(const Problem& problem, bool l2);
 /// The ellipsoid |W_u B^+ tau| <= 1, lambda from the centre of the box.
 std::unique_ptr<Bound> make_ellipsoid_bound(const Problem& problem);
 
-/// The L-infinity or L2 polytope, where joints follow from theta_r: of all coordinates x of the
-/// posture, `LoopCoordinates`, with equations f(x) = 0,
+enum class LoopMeasure { kPolytope, kSmallestEffort, kEllipsoid };
+
+/// The L-infinity or L2 polytope or the ellipsoid, where joints follow from theta_r: of all
+/// coordinates x of the posture, `LoopCoordinates`, with equations f(x) = 0,
 ///
 ///     U(lambda, nu) = s(lambda) + max over control points v and t in {low, high} of
 ///                     t (1 - lambda'a_v) - lambda'tau_v - nu'f_v
 ///
 /// for any lambda and nu; the multiplier is [lambda; nu]. Where lambda'a_v > 0 at all control
 /// points, the largest (s(lambda) - lambda'tau_v - nu'f_v)/lambda'a_v is a bound, too.
-std::unique_ptr<Bound> make_loop_bound(const Problem& problem, bool l2);
+std::unique_ptr<Bound> make_loop_bound(const Problem& problem, LoopMeasure measure);
 
 /// With W as wide as the base has free axes: h follows from the forces u of the thrusters on the
 /// base, w = (J_b'W)^-1 (B_b u - tau_b). So beta = o_0 + o'u, and the joints exert tau_0 + A u.

@@ -26,8 +26,8 @@ class CapabilityBound final : public Bound {
   void extend(Eigen::VectorXd& lower, Eigen::VectorXd& upper) const override {
     measure_->extend(lower, upper);
   }
-  bool shrink(Eigen::VectorXd& lower, Eigen::VectorXd& upper) override {
-    return measure_->shrink(lower, upper);
+  bool shrink(Eigen::VectorXd& lower, Eigen::VectorXd& upper, std::vector<BoxCut>* cuts) override {
+    return measure_->shrink(lower, upper, cuts);
   }
 
   std::unique_ptr<Bound> clone() const override {
@@ -51,11 +51,18 @@ std::unique_ptr<Bound> measure_bound(const Problem& problem, const std::string& 
                                 measure);
   }
   if (problem.contact || !problem.dependent.empty()) {
-    if (!any && measure != "ellipsoid") return make_loop_bound(problem, l2);
-    throw std::invalid_argument(problem.name + ": " +
-                                (any ? "wrench: got 'any'" : "measure: got 'ellipsoid'") +
-                                ", expected pure wrenches of linf_polytope or l2_polytope for a "
-                                "proof where joints follow from theta_r");
+    const bool ellipsoid = measure == "ellipsoid";
+    if (any || (ellipsoid && problem.contact_columns() > 0)) {
+      throw std::invalid_argument(
+          problem.name + ": " +
+          (any ? "wrench: got 'any', expected pure for a proof where joints "
+                 "follow from theta_r"
+               : "measure: got 'ellipsoid', expected linf_polytope for a "
+                 "proof with forces of a second contact"));
+    }
+    return make_loop_bound(problem, ellipsoid ? LoopMeasure::kEllipsoid
+                                    : l2      ? LoopMeasure::kSmallestEffort
+                                              : LoopMeasure::kPolytope);
   }
   if (any) return make_any_wrench_bound(problem);
   return measure == "ellipsoid" ? make_ellipsoid_bound(problem) : make_polytope_bound(problem, l2);

@@ -1,8 +1,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "lib/bound/bounds.h"
+#include "lib/bound/box_support.h"
+#include "lib/bound/ellipsoid_support.h"
 #include "lib/bound/loop_box.h"
 #include "lib/bound/loop_linear.h"
 #include "lib/bound/multiplier_program.h"
@@ -12,9 +15,10 @@ namespace maxwrench {
 namespace {
 
 /// Where the base follows from the joints, c on its linear axes, or a torque on the angular ones,
-/// is as long in all postures; so the base's forces limit t. Else infinite.
+/// is as long in all postures; so the base's forces limit t. Else infinite, also where the second
+/// contact may bear t c in the base's place.
 double loop_ceiling(const Problem& problem, const LoopModel& model) {
-  if (!model.coordinates.base_follows) return kInfinity;
+  if (!model.coordinates.base_follows || model.coordinates.forces_grow()) return kInfinity;
   const Zonotope& set = problem.robot.actuation;
   const bool pushes = problem.c.head<3>().norm() > 0;
   const Eigen::Index row = pushes ? 0 : 3;
@@ -29,20 +33,23 @@ double loop_ceiling(const Problem& problem, const LoopModel& model) {
 /// As `make_polytope_bound`, with nu'f added to the rows.
 class LoopBound final : public Bound {
  public:
+  /// K: of the L2 polytope, B^+; of the ellipsoid, W_u B^+; else it does not matter.
   LoopBound(std::shared_ptr<const LoopModel> model, double ceiling, const Zonotope& set,
-            const Eigen::MatrixXd& K, bool l2)
+            const Eigen::MatrixXd& K, LoopMeasure measure)
       : model_(std::move(model)),
         ceiling_(ceiling),
         set_(set),
         K_(K),
-        l2_(l2),
+        measure_(measure),
+        l2_(measure == LoopMeasure::kSmallestEffort),
         most_rank_(std::min<Eigen::Index>(model_->m, model_->coordinates.chain.count())),
-        B_(l2 ? Eigen::MatrixXd::Identity(set.actuators(), set.actuators()) : set.B),
-        farthest_(set.u_min.cwiseAbs().cwiseMax(set.u_max.cwiseAbs())),
+        support_(set, l2_),
         box_(*model_),
         linear_(*model_),
-        program_(extended_B(), set.u_min, set.u_max, kMostPoints) {
-    entries_.resize(B_.rows() + most_rank_);
+        program_(extended_B(), set.u_min.head(found_by_program() ? set.actuators() : 0),
+                 set.u_max.head(found_by_program() ? set.actuators() : 0), kMostPoints) {
+    if (!found_by_program()) ellipsoid_.emplace(K);
+    entries_.resize(free_rows() + most_rank_);
   }
 
   double ceiling() const override { return ceiling_; }
@@ -52,20 +59,34 @@ class LoopBound final : public Bound {
     upper = model_->coordinates.upper.array() + kLimitTolerance;
   }
 
-  bool shrink(Eigen::VectorXd& lower, Eigen::VectorXd& upper) override {
-    return linear_.shrink(lower, upper);
+  bool shrink(Eigen::VectorXd& lower, Eigen::VectorXd& upper, std::vector<BoxCut>* cuts) override {
+    return linear_.shrink(lower, upper, cuts);
   }
 
   void evaluate(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low, double high,
                 BoxProof& proof) override {
-    proof.kind = BoxProof::Kind::kNone;
-    proof.high = high;
-    proof.pair = -1;
+    proof.forget(high);
     if (!box_.set(lower, upper)) return;
+    if (model_->coordinates.forces_grow() && low < 0) {  // t >= 0 alone is known
+      if (!(high > 0)) return;
+      bound_from(lower, upper, 0, high, proof);
+      proof.high = std::max(proof.high, 0.0);
+      return;
+    }
+    bound_from(lower, upper, low, high, proof);
+  }
+
+  std::unique_ptr<Bound> clone() const override {
+    return std::make_unique<LoopBound>(model_, ceiling_, set_, K_, measure_);
+  }
+
+ private:
+  void bound_from(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low,
+                  double high, BoxProof& proof) {
     least_t_ = std::isfinite(low) ? low : std::min(-kWide, -2 * std::abs(high));
     if (!std::isfinite(least_t_)) least_t_ = -kWide;
     most_t_ = std::isfinite(high) ? high : kWide * std::max(1.0, std::abs(least_t_));
-    const Eigen::Index rows = B_.rows();
+    const Eigen::Index rows = this->rows();
     if (proof.multiplier.size() == rows + model_->m) {
       lambda_ = proof.multiplier.head(rows);
       nu_ = proof.multiplier.tail(model_->m);
@@ -78,14 +99,10 @@ class LoopBound final : public Bound {
     }
     linear_.precondition(lower, upper);
     rank_ = std::min<Eigen::Index>(linear_.rank(), most_rank_);
+    if (ellipsoid_) aim(lower, upper, low, high);
     improve_by_rounds(low, high, proof);
   }
 
-  std::unique_ptr<Bound> clone() const override {
-    return std::make_unique<LoopBound>(model_, ceiling_, set_, K_, l2_);
-  }
-
- private:
   static constexpr Eigen::Index kMostPoints = 1024;
   static constexpr int kMostRounds = 24;
   static constexpr std::size_t kMostAdded = 24;
@@ -94,39 +111,51 @@ class LoopBound final : public Bound {
   static constexpr double kClose = 0.02;
   static constexpr double kWide = 1e3;
 
+  /// Of lambda.
+  Eigen::Index rows() const { return support_.B().rows(); }
+
+  /// The lambda of the ellipsoid is its normal at the centre of the box; the program finds nu.
+  bool found_by_program() const { return measure_ != LoopMeasure::kEllipsoid; }
+  Eigen::Index free_rows() const { return found_by_program() ? rows() : 0; }
+
   Eigen::MatrixXd extended_B() const {
-    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(B_.rows() + most_rank_, B_.cols());
-    all.topRows(B_.rows()) = B_;
+    const Eigen::Index columns = found_by_program() ? support_.B().cols() : 0;
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(free_rows() + most_rank_, columns);
+    all.topRows(free_rows()) = support_.B().leftCols(columns).topRows(free_rows());
     return all;
   }
 
-  void take(double U, BoxProof& proof) const {
-    if (!(U < proof.high)) return;
-    proof.kind = BoxProof::Kind::kMultiplier;
-    proof.high = U;
-    proof.multiplier.resize(lambda_.size() + nu_.size());
-    proof.multiplier << lambda_, nu_;
+  /// And takes its U, without nu, to begin with.
+  void aim(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low, double high) {
+    box_.evaluate((lower + upper) / 2);
+    ellipsoid_->aim(box_.tau(), box_.a(), low, lambda_);
+    nu_.setZero();
+    value(low, high);
+  }
+
+  void take(double U, BoxProof& proof) {
+    both_.resize(lambda_.size() + nu_.size());
+    both_ << lambda_, nu_;
+    proof.improve(U, both_);
   }
 
   /// U(lambda, nu), rounding included; what is violated is left in at_low_ and at_high_.
   double value(double low, double high) {
-    slope_.noalias() = B_.transpose() * lambda_;
-    double s = 0;
-    for (Eigen::Index k = 0; k < slope_.size(); ++k) {
-      s += slope_[k] * (slope_[k] > 0 ? set_.u_max[k] : set_.u_min[k]);
+    const double s = ellipsoid_ ? ellipsoid_->of(lambda_) : support_.of(lambda_);
+    if (l2_) {
+      reach_.noalias() = K_.transpose() * lambda_;
+      sizes_.noalias() = K_.cwiseAbs().transpose() * lambda_.cwiseAbs();
+    } else {
+      reach_ = lambda_;
+      sizes_ = lambda_.cwiseAbs();
     }
-    reach_ = l2_ ? Eigen::VectorXd(K_.transpose() * lambda_) : lambda_;
     box_.weigh(reach_, nu_);
-    sizes_.noalias() = B_.cwiseAbs().transpose() * lambda_.cwiseAbs();
-    own_sizes_ = l2_ ? Eigen::VectorXd(K_.cwiseAbs().transpose() * lambda_.cwiseAbs())
-                     : Eigen::VectorXd(lambda_.cwiseAbs());
     const double T = std::max(std::abs(least_t_), std::abs(most_t_));
-    const double by_a = own_sizes_.dot(model_->a);
-    const double off =
-        kBoundRounding * (sizes_.dot(farthest_) + kMostSpread * (own_sizes_.dot(model_->tau) +
-                                                                 nu_.cwiseAbs().dot(model_->f)));
-    const double off_a = kBoundRounding * kMostSpread * by_a;
-    support_ = s;
+    const double share = kBoundRounding * kMostSpread;
+    const double off = (ellipsoid_ ? ellipsoid_->rounding() : support_.rounding()) +
+                       share * (sizes_.dot(model_->tau) + nu_.cwiseAbs().dot(model_->f));
+    const double off_a = share * sizes_.dot(model_->a);
+    s_ = s;
     at_low_ = least_t_ * (1 - box_.h().array()) - box_.g().array();
     at_high_ = most_t_ * (1 - box_.h().array()) - box_.g().array();
     double U = kInfinity;
@@ -149,11 +178,11 @@ class LoopBound final : public Bound {
     for (int round = 0; round < kMostRounds; ++round) {
       const double least =
           program_.solve(least_t_ - kBelow * std::abs(least_t_), kMostSteps, local_, solved_);
-      lambda_ = solved_.head(B_.rows());
-      nu_.noalias() = linear_.M().topRows(rank_).transpose() * solved_.segment(B_.rows(), rank_);
+      if (!ellipsoid_) lambda_ = solved_.head(rows());
+      nu_.noalias() = linear_.M().topRows(rank_).transpose() * solved_.segment(free_rows(), rank_);
       take(value(low, high), proof);
       if (proof.high <= low) break;
-      const double now = support_ + std::max(at_low_.maxCoeff(), at_high_.maxCoeff());
+      const double now = s_ + std::max(at_low_.maxCoeff(), at_high_.maxCoeff());
       if (now - least <= kClose * std::max(proof.high - least_t_, 0.0)) break;
       if (!add_points(least)) break;
     }
@@ -199,9 +228,12 @@ class LoopBound final : public Bound {
     const bool high = id >= model_->size;
     const double t = high ? most_t_ : least_t_;
     box_.read(high ? id - model_->size : id);
-    const Eigen::Index rows = B_.rows();
+    const Eigen::Index rows = free_rows();
     load_ = box_.tau() + t * box_.a();
-    if (l2_) {
+    double cost = t;
+    if (ellipsoid_) {
+      cost -= lambda_.dot(load_);
+    } else if (l2_) {
       entries_.head(rows).noalias() = K_ * load_;
     } else {
       entries_.head(rows) = load_;
@@ -209,7 +241,7 @@ class LoopBound final : public Bound {
     entries_.tail(most_rank_).setZero();
     entries_.segment(rows, rank_).noalias() = linear_.M().topRows(rank_) * box_.f();
     for (Eigen::Index j = 0; j < entries_.size(); ++j) program_.row(j)[i] = entries_[j];
-    program_.costs()[i] = t;
+    program_.costs()[i] = cost;
   }
 
   /// False if there is none, or no room.
@@ -218,7 +250,7 @@ class LoopBound final : public Bound {
     const Eigen::Index N = model_->size;
     const auto at = [&](Eigen::Index id) { return id < N ? at_low_[id] : at_high_[id - N]; };
     for (Eigen::Index id = 0; id < 2 * N; ++id) {
-      if (support_ + at(id) > least) order_.push_back(id);
+      if (s_ + at(id) > least) order_.push_back(id);
     }
     if (order_.size() > kMostAdded) {
       std::nth_element(order_.begin(), order_.begin() + kMostAdded, order_.end(),
@@ -251,30 +283,35 @@ class LoopBound final : public Bound {
   const double ceiling_;
   const Zonotope& set_;
   const Eigen::MatrixXd K_;
+  const LoopMeasure measure_;
   const bool l2_;
   const Eigen::Index most_rank_;
-  const Eigen::MatrixXd B_;
-  const Eigen::VectorXd farthest_;
+  BoxSupport support_;
+  std::optional<EllipsoidSupport> ellipsoid_;
   LoopBox box_;
   LoopLinear linear_;
   MultiplierProgram program_;
   Eigen::Index rank_ = 0;
-  double least_t_ = 0, most_t_ = 0, support_ = 0;
-  Eigen::VectorXd lambda_, nu_, solved_, slope_, reach_, sizes_, own_sizes_, at_low_, at_high_,
-      entries_, load_;
+  double least_t_ = 0, most_t_ = 0, s_ = 0;
+  Eigen::VectorXd lambda_, nu_, solved_, both_, reach_, sizes_, at_low_, at_high_, entries_, load_;
   std::vector<int> ids_, local_;
   std::vector<Eigen::Index> order_;
 };
 
 }  // namespace
 
-std::unique_ptr<Bound> make_loop_bound(const Problem& problem, bool l2) {
-  const Zonotope& set = problem.robot.actuation;
-  if (l2) require_full_row_rank(problem.robot, "l2_polytope");
+std::unique_ptr<Bound> make_loop_bound(const Problem& problem, LoopMeasure measure) {
+  Eigen::MatrixXd K;
+  if (measure == LoopMeasure::kSmallestEffort) {
+    require_full_row_rank(problem.robot, "l2_polytope");
+    K = problem.robot.actuation.B_pinv;
+  } else if (measure == LoopMeasure::kEllipsoid) {
+    K = weighted_inverse(problem.robot, "ellipsoid");
+  }
   auto model = std::make_shared<LoopModel>(problem);
   const double ceiling = loop_ceiling(problem, *model);
-  return std::make_unique<LoopBound>(std::move(model), ceiling, set,
-                                     l2 ? set.B_pinv : Eigen::MatrixXd(), l2);
+  return std::make_unique<LoopBound>(std::move(model), ceiling, problem.robot.actuation, K,
+                                     measure);
 }
 
 }  // namespace maxwrench

@@ -50,17 +50,28 @@ void LoopBox::weigh(const Eigen::VectorXd& lambda, const Eigen::VectorXd& nu) {
   }
 }
 
-void LoopBox::read(Eigen::Index v) {
+template <class Values>
+void LoopBox::collect(const Values& values_of) {
   f_.setZero();
   tau_.setZero();
   a_.setZero();
-  for (std::size_t i = 0; i < points_.size(); ++i) {
+  for (std::size_t i = 0; i < model_.parts.size(); ++i) {
     const LoopPart& part = model_.parts[i];
-    const auto P = points_[i]->col(v / part.repeat % part.f.size());
+    const auto& values = values_of(i);
     const auto count = static_cast<Eigen::Index>(part.rows.size());
-    (part.kind == LoopPart::Kind::kEquations ? f_ : tau_)(part.rows) += P.head(count);
-    if (part.kind == LoopPart::Kind::kLoads) a_(part.rows) += P.tail(count);
+    (part.kind == LoopPart::Kind::kEquations ? f_ : tau_)(part.rows) += values.head(count);
+    if (part.kind == LoopPart::Kind::kLoads) a_(part.rows) += values.tail(count);
   }
+}
+
+void LoopBox::read(Eigen::Index v) {
+  collect([&](std::size_t i) {
+    return points_[i]->col(v / model_.parts[i].repeat % model_.parts[i].f.size());
+  });
+}
+
+void LoopBox::evaluate(const Eigen::VectorXd& x) {
+  collect([&](std::size_t i) { return model_.parts[i].f.evaluate(x); });
 }
 
 }  // namespace maxwrench

@@ -21,11 +21,17 @@ class LoopBox {
 
   /// All rows at one of them.
   void read(Eigen::Index v);
+  /// The same at x.
+  void evaluate(const Eigen::VectorXd& x);
   const Eigen::VectorXd& tau() const { return tau_; }
   const Eigen::VectorXd& a() const { return a_; }
   const Eigen::VectorXd& f() const { return f_; }
 
  private:
+  /// Adds up the values of all parts.
+  template <class Values>
+  void collect(const Values& values_of);
+
   const LoopModel& model_;
   std::vector<ControlPoints> corners_;
   std::vector<const Eigen::MatrixXd*> points_;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "lib/bound/bounds.h"
+#include "lib/bound/loop_model.h"
 
 namespace maxwrench {
 namespace {
@@ -14,7 +15,7 @@ double largest_sine(double r) { return r < std::numbers::pi / 2 ? std::sin(r) : 
 
 }  // namespace
 
-LoopLinear::LoopLinear(const LoopModel& model) : model_(model) {
+LoopLinear::LoopLinear(const LoopModel& model) : model_(model), points_(model) {
   const auto d = static_cast<Eigen::Index>(model.coordinates.chain.count());
   f_0_ = rho_ = e_ = reduced_rho_ = Eigen::VectorXd::Zero(model.m);
   D_ = A_ = Eigen::MatrixXd::Zero(model.m, d);
@@ -127,12 +128,22 @@ void LoopLinear::precondition(const Eigen::VectorXd& lower, const Eigen::VectorX
   eliminate();
 }
 
+void LoopLinear::limit(const Limit& by, double value) {
+  double& old = by.upper ? high_[by.axis] : low_[by.axis];
+  if (by.upper ? value >= old : value <= old) return;
+  old = value;
+  const auto known = std::find(limits_.begin(), limits_.end(), by);
+  if (known != limits_.end()) limits_.erase(known);
+  limits_.push_back(by);
+}
+
 /// Each row e + A u + rest = 0, |rest| <= rho, limits each u_j, within [low, high]; false: it
 /// cannot be.
 bool LoopLinear::propagate(const Eigen::MatrixXd& A, const Eigen::VectorXd& e,
-                           const Eigen::VectorXd& rho) {
+                           const Eigen::VectorXd& rho, int first_row) {
   constexpr double kLeast = 1e-6;
   for (Eigen::Index i = 0; i < A.rows(); ++i) {
+    refuted_ = first_row + static_cast<int>(i);
     double least = e[i] - rho[i], most = e[i] + rho[i];
     for (Eigen::Index j = 0; j < A.cols(); ++j) {
       const double at_low = A(i, j) * low_[j], at_high = A(i, j) * high_[j];
@@ -146,9 +157,8 @@ bool LoopLinear::propagate(const Eigen::MatrixXd& A, const Eigen::VectorXd& e,
       const double at_low = slope * low_[j], at_high = slope * high_[j];
       // slope u_j in [-(most - its part), -(least - its part)]
       const double from = std::max(at_low, at_high) - most, to = std::min(at_low, at_high) - least;
-      const double old_low = low_[j], old_high = high_[j];
-      low_[j] = std::max(old_low, std::min(from / slope, to / slope) - 1e-12);
-      high_[j] = std::min(old_high, std::max(from / slope, to / slope) + 1e-12);
+      limit({static_cast<int>(j), refuted_, false}, std::min(from / slope, to / slope) - 1e-12);
+      limit({static_cast<int>(j), refuted_, true}, std::max(from / slope, to / slope) + 1e-12);
       if (low_[j] > high_[j]) return false;
       const double new_low = slope * low_[j], new_high = slope * high_[j];
       least += std::min(new_low, new_high) - std::min(at_low, at_high);
@@ -158,46 +168,87 @@ bool LoopLinear::propagate(const Eigen::MatrixXd& A, const Eigen::VectorXd& e,
   return true;
 }
 
-/// The box of what is left of u; remembers the largest gain.
-bool LoopLinear::narrow(Eigen::VectorXd& lower, Eigen::VectorXd& upper) {
+/// By the equations, then by combinations of them that have few u_j.
+bool LoopLinear::propagate_all() {
+  low_.setConstant(-1);
+  high_.setConstant(1);
+  limits_.clear();
+  if (!propagate(D_, f_0_, rho_, 0)) return false;
+  eliminate();
+  e_.noalias() = M_ * f_0_;
+  reduced_rho_.noalias() = M_.cwiseAbs() * rho_;
+  return propagate(A_, e_, reduced_rho_, static_cast<int>(model_.m));
+}
+
+/// With the digits of a float, which are enough and pack better.
+void LoopLinear::set_multiplier(int row) {
+  const auto m = static_cast<int>(model_.m);
+  if (row < m) {
+    cut_.multiplier = Eigen::VectorXd::Unit(m, row);
+  } else {
+    cut_.multiplier = M_.row(row - m).cast<float>().cast<double>();
+  }
+}
+
+/// Whether the row shows that a box has no x with f(x) = 0; if so, it is one of `cuts`.
+bool LoopLinear::excludes(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, int row,
+                          int axis, std::vector<BoxCut>* cuts) {
+  set_multiplier(row);
+  const int sign = points_.sign(lower, upper, cut_.multiplier);
+  if (sign == 0) return false;
+  cut_.multiplier *= sign;
+  cut_.axis = axis;
+  if (cuts != nullptr) cuts->push_back(cut_);
+  return true;
+}
+
+/// Cuts off what is beyond a limit, or the outer half of that; false: it is all of the box.
+bool LoopLinear::slice(const Limit& by, Eigen::VectorXd& lower, Eigen::VectorXd& upper,
+                       std::vector<BoxCut>* cuts) {
   constexpr double kOutward = 1e-12;
-  constexpr double kSteep = 0.999;  ///< sines near 1 tell little of their angles
-  gain_ = 0;
+  constexpr double kSteep = 0.999;    ///< sines near 1 tell little of their angles
+  constexpr double kThinnest = 0.01;  ///< of the box
+  constexpr int kTries = 3;
   const Coordinates& chain = model_.coordinates.chain;
-  for (int i = 0; i < chain.count(); ++i) {
-    const int at = chain.index[static_cast<std::size_t>(i)];
-    const double mid = (lower[at] + upper[at]) / 2, r = (upper[at] - lower[at]) / 2;
-    const bool turns = chain.turns[static_cast<std::size_t>(i)] != 0;
-    if (turns && r >= std::numbers::pi / 2) continue;
-    const auto offset = [&](double u) {
-      const double s = u * w_[i];
-      if (std::abs(u) >= 1 || (turns && std::abs(s) > kSteep)) return u > 0 ? r : -r;
-      return turns ? std::asin(s) : s;
-    };
-    const double from = mid + offset(low_[i]) - kOutward, to = mid + offset(high_[i]) + kOutward;
-    if (from > upper[at] || to < lower[at]) return false;
-    const double kept = std::min(to, upper[at]) - std::max(from, lower[at]);
-    if (r > 1e-7) gain_ = std::max(gain_, 1 - kept / (2 * r));
-    lower[at] = std::max(from, lower[at]);
-    upper[at] = std::min(to, upper[at]);
+  const bool turns = chain.turns[static_cast<std::size_t>(by.axis)] != 0;
+  const int axis = chain.index[static_cast<std::size_t>(by.axis)];
+  const double mid = centre_[axis], r = radius_[axis];
+  const double sine = (by.upper ? high_ : low_)[by.axis] * w_[by.axis];
+  if (turns && (std::abs(sine) > kSteep || r >= std::numbers::pi / 2)) return true;
+  cut_.upper = by.upper;
+  cut_.at = mid + (turns ? std::asin(sine) : sine) + (by.upper ? kOutward : -kOutward);
+  if (by.upper ? cut_.at <= lower[axis] : cut_.at >= upper[axis]) {
+    return !excludes(lower, upper, by.row, -1, cuts);
+  }
+  double& end = by.upper ? upper[axis] : lower[axis];
+  for (int i = 0; i < kTries; ++i, cut_.at = (cut_.at + end) / 2) {
+    const double thickness = by.upper ? end - cut_.at : cut_.at - end;
+    if (!(thickness > kThinnest * 2 * r)) break;
+    slice_lower_ = lower;
+    slice_upper_ = upper;
+    (by.upper ? slice_lower_ : slice_upper_)[axis] = cut_.at;
+    cut_.end = end;
+    if (!excludes(slice_lower_, slice_upper_, by.row, axis, cuts)) continue;
+    gain_ = std::max(gain_, thickness / (2 * r));
+    end = cut_.at;
+    break;
   }
   return true;
 }
 
-bool LoopLinear::shrink(Eigen::VectorXd& lower, Eigen::VectorXd& upper) {
+bool LoopLinear::shrink(Eigen::VectorXd& lower, Eigen::VectorXd& upper, std::vector<BoxCut>* cuts) {
   constexpr int kMostRounds = 8;
   constexpr double kWorthwhile = 0.1;
   for (int round = 0; round < kMostRounds; ++round) {
     expand(lower, upper);
-    low_.setConstant(-1);
-    high_.setConstant(1);
-    if (!propagate(D_, f_0_, rho_)) return false;
-    eliminate();
-    e_.noalias() = M_ * f_0_;
-    reduced_rho_.noalias() = M_.cwiseAbs() * rho_;
-    // What is computed of M D is off by rounding, which rho_ holds many times.
-    if (!propagate(A_, e_, reduced_rho_)) return false;
-    if (!narrow(lower, upper)) return false;
+    centre_ = (lower + upper) / 2;
+    radius_ = (upper - lower) / 2;
+    gain_ = 0;
+    const bool possible = propagate_all();
+    for (const Limit& limit : limits_) {
+      if (!slice(limit, lower, upper, cuts)) return false;
+    }
+    if (!possible && excludes(lower, upper, refuted_, -1, cuts)) return false;
     if (gain_ < kWorthwhile) break;
   }
   return true;

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "lib/bound/loop_model.h"
+#include "lib/bound/equation_points.h"
+#include "maxwrench/bound.h"
 
 namespace maxwrench {
 
@@ -15,8 +16,9 @@ class LoopLinear {
  public:
   explicit LoopLinear(const LoopModel& model);
 
-  /// Cuts off what no x with f(x) = 0 of the box has; false: it has none.
-  bool shrink(Eigen::VectorXd& lower, Eigen::VectorXd& upper);
+  /// Cuts off what no x with f(x) = 0 of the box has, one slice after another; false: it has none.
+  /// What the expansion says is proven of each slice by control points. `cuts` may be null.
+  bool shrink(Eigen::VectorXd& lower, Eigen::VectorXd& upper, std::vector<BoxCut>* cuts);
   /// Rows M f, the first `rank` of which are some s_i/w_i and a linear combination of others, and
   /// the others next to zero.
   void precondition(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
@@ -28,12 +30,30 @@ class LoopLinear {
   void turn(const MultiAffine& f, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
   void gather(const LoopPart& part);
   void eliminate();
-  bool propagate(const Eigen::MatrixXd& A, const Eigen::VectorXd& e, const Eigen::VectorXd& rho);
-  bool narrow(Eigen::VectorXd& lower, Eigen::VectorXd& upper);
+  /// A limit of one u_j, and the row that it follows from: of f, or, m more, of M f.
+  struct Limit {
+    int axis = 0, row = 0;
+    bool upper = false;
+    bool operator==(const Limit& o) const { return axis == o.axis && upper == o.upper; }
+  };
+  bool propagate(const Eigen::MatrixXd& A, const Eigen::VectorXd& e, const Eigen::VectorXd& rho,
+                 int first_row);
+  void limit(const Limit& by, double value);
+  bool propagate_all();
+  void set_multiplier(int row);
+  bool excludes(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, int row, int axis,
+                std::vector<BoxCut>* cuts);
+  bool slice(const Limit& by, Eigen::VectorXd& lower, Eigen::VectorXd& upper,
+             std::vector<BoxCut>* cuts);
 
   const LoopModel& model_;
   Eigen::MatrixXd coefficients_, D_, A_, M_;
   Eigen::VectorXd weights_, turned_, f_0_, rho_, w_, low_, high_, e_, reduced_rho_;
+  EquationPoints points_;
+  std::vector<Limit> limits_;  ///< in the order in which they were found
+  BoxCut cut_;
+  Eigen::VectorXd centre_, radius_, slice_lower_, slice_upper_;
+  int refuted_ = 0;  ///< the row that no u of the box fulfils
   int rank_ = 0;
   double gain_ = 0;
 };

@@ -86,10 +86,16 @@ void LoopModel::add_loads(LoopPosture& posture) {
   add(0, coordinates.free.to, others);
   if (coordinates.shares.count() == 0) return;
   pushed.insert(pushed.end(), others.begin(), others.end());
-  add_part(Kind::kForces, 0, coordinates.shares.to, pushed, [&](const ExtendedVector& x) {
-    posture.set(x);
-    return ExtendedVector(posture.forces()(pushed));
-  });
+  const bool grow = coordinates.forces_grow();
+  add_part(grow ? Kind::kLoads : Kind::kForces, 0, coordinates.shares.to, pushed,
+           [&](const ExtendedVector& x) {
+             posture.set(x);
+             const ExtendedVector forces = posture.forces()(pushed);
+             if (!grow) return forces;
+             ExtendedVector both(2 * forces.size());
+             both << forces, posture.forces_by_t()(pushed);
+             return both;
+           });
 }
 
 /// A joint of the chain depends on what is behind it.
@@ -127,7 +133,8 @@ void LoopModel::add_equations(LoopPosture& posture) {
   };
   if (!coordinates.base_follows) {
     const int from = coordinates.yaw.from, to = coordinates.free.to;
-    const int k = std::max(0, (from + to) / 2 - coordinates.first.from);
+    const int k =
+        std::clamp((from + to) / 2 - coordinates.first.from, 0, coordinates.first.count());
     const int cut = coordinates.first.from + k;
     const std::vector<int> rows = new_equations(posture.left(k).size());
     add(from, cut, rows, [&] { return posture.left(k); });

@@ -22,7 +22,8 @@ struct LoopPart {
   Eigen::Index repeat = 1;
 };
 
-/// tau = tau_d + J_2'C_2 w_2, a = J'c and the equations f(x) = 0 as sums of parts.
+/// tau = tau_d + J_2'C_2 w_2 at t = 0, a = J'c and what t adds to w_2, and the equations f(x) = 0
+/// as sums of parts.
 struct LoopModel {
   /// Keeps a reference. Throws std::invalid_argument, in one line, if there are too many.
   explicit LoopModel(const Problem& problem);

@@ -1,5 +1,6 @@
 #include "lib/bound/loop_posture.h"
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -46,8 +47,7 @@ Pose<Extended> exact_contact(const Contact& contact, const Extended* s) {
   return pose;
 }
 
-/// [N] What the base's thrusters bear at most beside the weight, while the first end effector
-/// exerts no force and all linear axes of the base are free.
+/// [N] What the base's thrusters bear at most beside the weight and the first end effector's force.
 double most_force(const Problem& problem) {
   const Robot& robot = problem.robot;
   const Zonotope& set = robot.actuation;
@@ -59,6 +59,21 @@ double most_force(const Problem& problem) {
         std::max(std::abs(set.u_min[k]), std::abs(set.u_max[k])) * set.B.col(k).head<3>().norm();
   }
   return most * (1 + 1e-9);
+}
+
+/// The least |force on the base's free linear axes| for a w of length 1; zero if not known.
+double least_force(const Problem& problem) {
+  const Contact& contact = *problem.contact;
+  const auto moves = [&](int axis) { return is_free_axis(problem.robot, axis); };
+  if (!moves(0) || !moves(1) || contact.C.cols() > 3) return 0;
+  Eigen::MatrixXd forces =
+      problem.robot.mount.R.transpose() * contact.frame.R * contact.C.topRows<3>();
+  if (!moves(2)) {  // the yaw turns the first two alone
+    if (contact.surface == Surface::kCircle) return 0;
+    forces = forces.topRows(2).eval();
+  }
+  if (forces.cols() > forces.rows()) return 0;
+  return forces.jacobiSvd().singularValues().minCoeff();
 }
 
 }  // namespace
@@ -115,23 +130,28 @@ void LoopCoordinates::add_joint(const Problem& problem, int at, int joint) {
       given ? problem.theta_r_max[at] : of.q_max);
 }
 
+/// The base's free linear axes bear the weight, t c and the second contact's force alone, so |w| <=
+/// (most_force + t |force of c|)/least_force.
 void LoopCoordinates::limit_forces(const Problem& problem) {
-  const Contact& contact = *problem.contact;
-  w_min = contact.w_min;
-  w_max = contact.w_max;
+  w_min = problem.contact->w_min;
+  w_max = problem.contact->w_max;
+  v_min = v_max = Eigen::VectorXd::Zero(w_min.size());
   if (w_min.allFinite() && w_max.allFinite()) return;
-  const Eigen::MatrixXd C_f = contact.C.topRows<3>();
-  const Eigen::MatrixXd gram = C_f.transpose() * C_f;
-  const bool moves = is_free_axis(problem.robot, 0) && is_free_axis(problem.robot, 1) &&
-                     is_free_axis(problem.robot, 2);
-  if (!moves || problem.c.head<3>().norm() > 0 || !gram.isIdentity(1e-9)) {
+  const double least = least_force(problem);
+  if (!(least > 1e-6)) {
     throw std::invalid_argument(problem.name +
                                 ": contact.forces: got forces without limits, expected limits, or "
-                                "a base that moves freely and a torque for wrench.c, for a proof");
+                                "a base whose free axes bear them, for a proof");
   }
-  const double most = most_force(problem);
-  w_min = w_min.cwiseMax(-most);
-  w_max = w_max.cwiseMin(most);
+  const double most = most_force(problem) / least, by_t = problem.c.head<3>().norm() / least;
+  for (Eigen::Index k = 0; k < w_min.size(); ++k) {
+    if (std::isfinite(w_min[k]) && std::isfinite(w_max[k])) continue;
+    const double low = w_min[k] >= 0 ? 0 : -1, high = w_max[k] <= 0 ? 0 : 1;
+    w_min[k] = low * most;
+    w_max[k] = high * most;
+    v_min[k] = low * by_t * (1 + 1e-9);
+    v_max[k] = high * by_t * (1 + 1e-9);
+  }
 }
 
 LoopPosture::LoopPosture(const Problem& problem, const LoopCoordinates& coordinates)
@@ -190,16 +210,18 @@ void LoopPosture::set_contact(const ExtendedVector& x) {
   const Contact& contact = *problem_.contact;
   const Eigen::Index own = problem_.redundancy();
   contact_ = exact_contact(contact, x.data() + (own - contact.coordinates()));
-  w_.resize(coordinates_.w_min.size());
-  for (Eigen::Index k = 0; k < w_.size(); ++k) {
-    const Extended low = coordinates_.w_min[k], high = coordinates_.w_max[k];
-    w_[k] = low + x[x.size() - w_.size() + k] * (high - low);
-  }
+  const Eigen::Index l = coordinates_.w_min.size();
+  const auto at_shares = [&](const Eigen::VectorXd& low, const Eigen::VectorXd& high) {
+    const ExtendedVector from = low.cast<Extended>();
+    return ExtendedVector(from + x.tail(l).cwiseProduct(high.cast<Extended>() - from));
+  };
+  w_ = at_shares(coordinates_.w_min, coordinates_.w_max);
+  v_ = at_shares(coordinates_.v_min, coordinates_.v_max);
 }
 
-ExtendedVector LoopPosture::forces() const {
+ExtendedVector LoopPosture::forces(const ExtendedVector& w) const {
   const Contact& contact = *problem_.contact;
-  const Vector6<Extended> h = contact.C.cast<Extended>() * w_;
+  const Vector6<Extended> h = contact.C.cast<Extended>() * w;
   Vector6<Extended> turned;
   turned << contact_.R * h.head<3>(), contact_.R * h.tail<3>();
   Matrix6X<Extended> J_2;

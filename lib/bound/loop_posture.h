@@ -11,7 +11,12 @@ namespace maxwrench {
 ///     x = [theta_r; dependent joints; joints of a second arm; yaw; shares of contact forces].
 ///
 /// The yaw is the base's, if that is free but not all of it. A share omega in [0, 1] of a component
-/// of the second contact's wrench stands for w = w_min + omega (w_max - w_min).
+/// of the second contact's wrench stands for
+///
+///     w = w_min + omega (w_max - w_min) + t (v_min + omega (v_max - v_min)),
+///
+/// t the value, at least zero if v is not zero: what has no limit of its own is not more than the
+/// base's linear axes bear, which share t c.
 ///
 /// The chain puts them in order: the second arm's joints; from the world to the end effector, the
 /// yaw, the joints from the base outward and the free coordinates of the pose; the regrasp
@@ -32,6 +37,8 @@ struct LoopCoordinates {
   bool base_follows = false;     ///< all of it, from the joints: it has six free axes
   Eigen::VectorXd lower, upper;  ///< limits of x
   Eigen::VectorXd w_min, w_max;  ///< of the second contact, finite
+  Eigen::VectorXd v_min, v_max;  ///< its further limits for each unit of t
+  bool forces_grow() const { return (v_min.array() != v_max.array()).any(); }
 
  private:
   void add(int at, bool turns, double low, double high);
@@ -58,8 +65,9 @@ class LoopPosture {
 
   /// [tau_d; J'c], 2n.
   const ExtendedVector& loads() const { return loads_; }
-  /// J_2'C_2 w_2, n.
-  ExtendedVector forces() const;
+  /// J_2'C_2 w_2, n, at t = 0; and what each unit of t adds.
+  ExtendedVector forces() const { return forces(w_); }
+  ExtendedVector forces_by_t() const { return forces(v_); }
   /// The rows of either side of the equations of the base, k joints on the left.
   ExtendedVector left(int k) const;
   ExtendedVector right(int k) const;
@@ -70,6 +78,7 @@ class LoopPosture {
  private:
   ExtendedVector rows_of(const Pose<Extended>& pose) const;
   ExtendedVector contact_rows(const Pose<Extended>& pose) const;
+  ExtendedVector forces(const ExtendedVector& w) const;
   Pose<Extended> link(int k) const;
   void set_contact(const ExtendedVector& x);
   void set_loads(const Matrix3<Extended>& from_tip);
@@ -81,7 +90,7 @@ class LoopPosture {
   Pose<Extended> yaw_, pose_, target_;  ///< of the base; X(s); mount^-1 X(s)
   Pose<Extended> contact_;              ///< F(s_2)
   Matrix3<Extended> R_base_;
-  ExtendedVector q_, loads_, tau_, w_;
+  ExtendedVector q_, loads_, tau_, w_, v_;
   Matrix6X<Extended> J_;
 };
 

@@ -3,6 +3,8 @@
 #include <stdexcept>
 
 #include "lib/bound/bounds.h"
+#include "lib/bound/box_support.h"
+#include "lib/bound/ellipsoid_support.h"
 #include "lib/bound/exact_posture.h"
 #include "lib/bound/multiplier_program.h"
 #include "lib/measure/closed_form.h"
@@ -108,48 +110,37 @@ class PureBox {
   Eigen::VectorXd g_, h_;
 };
 
-/// Takes over what a multiplier proves.
-void improve(double U, const Eigen::VectorXd& lambda, BoxProof& proof) {
-  if (!(U < proof.high)) return;
-  proof.kind = BoxProof::Kind::kMultiplier;
-  proof.high = U;
-  proof.multiplier = lambda;
-}
-
 class PolytopeBound final : public Bound {
  public:
   PolytopeBound(std::shared_ptr<const PureModel> model, const Zonotope& set, bool l2)
       : model_(std::move(model)),
         set_(set),
         l2_(l2),
-        B_(l2 ? Eigen::MatrixXd::Identity(set.actuators(), set.actuators()) : set.B),
-        farthest_(set.u_min.cwiseAbs().cwiseMax(set.u_max.cwiseAbs())),
+        support_(set, l2),
         box_(*model_),
-        program_(B_, set.u_min, set.u_max, 2 * model_->f.size()) {}
+        program_(support_.B(), set.u_min, set.u_max, 2 * model_->f.size()) {}
 
   double ceiling() const override { return model_->ceiling; }
 
   void evaluate(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low, double high,
                 BoxProof& proof) override {
-    proof.kind = BoxProof::Kind::kNone;
-    proof.high = high;
-    proof.pair = -1;
+    proof.forget(high);
     if (!box_.set(lower, upper)) return;
-    if (proof.multiplier.size() == B_.rows()) {
+    if (proof.multiplier.size() == support_.B().rows()) {
       lambda_ = proof.multiplier;
-      improve(value(low, high), lambda_, proof);
+      proof.improve(value(low, high), lambda_);
       if (proof.high <= low) return;
     }
     const Eigen::Index corners = model_->f.size();
     program_.set_points(2 * corners);
-    for (Eigen::Index j = 0; j < B_.rows(); ++j) {
+    for (Eigen::Index j = 0; j < support_.B().rows(); ++j) {
       program_.row(j).head(corners) = box_.tau().col(j) + low * box_.a().col(j);
       program_.row(j).tail(corners) = box_.tau().col(j) + high * box_.a().col(j);
     }
     program_.costs().head(corners).setConstant(low);
     program_.costs().tail(corners).setConstant(high);
     program_.solve(low - kSlack * std::abs(low), kMostSteps, proof.basis, lambda_);
-    improve(value(low, high), lambda_, proof);
+    proof.improve(value(low, high), lambda_);
   }
 
   std::unique_ptr<Bound> clone() const override {
@@ -161,23 +152,17 @@ class PolytopeBound final : public Bound {
   static constexpr double kSlack = 1e-9;  ///< what rounding may add to U, generously
 
   double value(double low, double high) {
-    slope_.noalias() = B_.transpose() * lambda_;
-    double s = 0;
-    for (Eigen::Index k = 0; k < slope_.size(); ++k) {
-      s += slope_[k] * (slope_[k] > 0 ? set_.u_max[k] : set_.u_min[k]);
-    }
-    off_.noalias() = B_.cwiseAbs().transpose() * lambda_.cwiseAbs();
-    return s + kBoundRounding * off_.dot(farthest_) + box_.most(lambda_, low, high);
+    const double s = support_.of(lambda_);
+    return s + support_.rounding() + box_.most(lambda_, low, high);
   }
 
   std::shared_ptr<const PureModel> model_;
   const Zonotope& set_;
   bool l2_;
-  Eigen::MatrixXd B_;
-  Eigen::VectorXd farthest_;
+  BoxSupport support_;
   PureBox box_;
   MultiplierProgram program_;
-  Eigen::VectorXd lambda_, slope_, off_;
+  Eigen::VectorXd lambda_;
 };
 
 /// Weights of control points whose sum is the centre of the box.
@@ -202,33 +187,21 @@ void weigh_centre(const Coordinates& coordinates, const Eigen::VectorXd& lower,
 
 class EllipsoidBound final : public Bound {
  public:
-  /// K = W_u B^+; its Q = K'K = L L', so that s(lambda) = |L^-1 lambda|.
   EllipsoidBound(std::shared_ptr<const PureModel> model, const Eigen::MatrixXd& K)
-      : model_(std::move(model)), K_(K), box_(*model_), weights_(model_->f.size()) {
-    const MatrixX<Extended> wide = K.cast<Extended>();
-    const MatrixX<Extended> Q = wide.transpose() * wide;
-    const MatrixX<Extended> L = Q.llt().matrixL();
-    const MatrixX<Extended> one = MatrixX<Extended>::Identity(Q.rows(), Q.cols());
-    L_inverse_ = L.triangularView<Eigen::Lower>().solve(one).cast<double>();
-    Q_ = Q.cast<double>();
-  }
+      : model_(std::move(model)), K_(K), set_(K), box_(*model_), weights_(model_->f.size()) {}
 
   double ceiling() const override { return model_->ceiling; }
 
   void evaluate(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low, double high,
                 BoxProof& proof) override {
-    proof.kind = BoxProof::Kind::kNone;
-    proof.high = high;
-    proof.pair = -1;
+    proof.forget(high);
     if (!box_.set(lower, upper)) return;
     weigh_centre(model_->f.coordinates(), lower, upper, weights_);
     tau_.noalias() = box_.tau().transpose() * weights_;
     a_.noalias() = box_.a().transpose() * weights_;
-    aim(low);
-    reach_.noalias() = L_inverse_ * lambda_;
-    off_.noalias() = L_inverse_.cwiseAbs() * lambda_.cwiseAbs();
-    improve(reach_.norm() + kBoundRounding * off_.sum() + box_.most(lambda_, low, high), lambda_,
-            proof);
+    set_.aim(tau_, a_, low, lambda_);
+    const double s = set_.of(lambda_);
+    proof.improve(s + set_.rounding() + box_.most(lambda_, low, high), lambda_);
   }
 
   std::unique_ptr<Bound> clone() const override {
@@ -236,23 +209,11 @@ class EllipsoidBound final : public Bound {
   }
 
  private:
-  /// Along the normal Q (tau + t a) where the centre's ray leaves the ellipsoid, or, if `low` is
-  /// farther out, at `low`; scaled to lambda'a = 1.
-  void aim(double low) {
-    lambda_.noalias() = Q_ * a_;
-    off_.noalias() = Q_ * tau_;
-    const double aa = a_.dot(lambda_), at = tau_.dot(lambda_);
-    const double square = at * at - aa * (tau_.dot(off_) - 1);
-    const double t = std::max(low, (std::sqrt(std::max(square, kLeast * aa)) - at) / aa);
-    lambda_ = (off_ + t * lambda_) / std::max(at + t * aa, kLeast * std::sqrt(aa));
-  }
-
-  static constexpr double kLeast = 1e-6;
-
   std::shared_ptr<const PureModel> model_;
-  Eigen::MatrixXd K_, Q_, L_inverse_;
+  Eigen::MatrixXd K_;
+  EllipsoidSupport set_;
   PureBox box_;
-  Eigen::VectorXd weights_, tau_, a_, lambda_, reach_, off_;
+  Eigen::VectorXd weights_, tau_, a_, lambda_;
 };
 
 }  // namespace

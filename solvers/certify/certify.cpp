@@ -14,8 +14,7 @@ namespace {
 /// The first rounds have fewer: at most this part of the boxes that wait.
 constexpr std::size_t kShare = 2;
 
-/// How many boxes there are for one whose centre is evaluated, unless they are
-/// as small as this.
+/// How many boxes there are for one whose centre is evaluated, unless they are as small as this.
 constexpr std::size_t kSeldom = 32;
 constexpr double kSmallBox = 1e-3;
 /// Evaluations of a climb, about.
@@ -27,7 +26,7 @@ class BranchAndBound {
                  const CertifyOptions& options)
       : objective_(objective),
         options_(options),
-        halving_(objective, bound, options.threads),
+        halving_(objective, bound, options.threads, options.sink != nullptr),
         start_(std::chrono::steady_clock::now()) {
     result_.best = incumbent;
     keep(halving_.root(target(), bound.ceiling()));
@@ -90,7 +89,6 @@ class BranchAndBound {
   }
 
   void cut_parents() {
-    improve();
     for (auto& parent : parents_) {
       parent->cut_axis = axis_to_cut(*parent, kNarrowestBox);
       if (parent->cut_axis >= 0) continue;
@@ -98,6 +96,7 @@ class BranchAndBound {
       push(std::move(parent));
     }
     std::erase(parents_, nullptr);
+    improve();
     CertifiedBoxes children = halving_.halves(parents_, target());
     for (const auto& parent : parents_) report(*parent);
     for (auto& child : children) keep(std::move(child));
@@ -124,8 +123,7 @@ class BranchAndBound {
     }
   }
 
-  /// Takes a point over if it is better, and then what is better still, one
-  /// coordinate at a time.
+  /// Takes a point over if it is better, and then what is better still, one coordinate at a time.
   void climb(Eigen::VectorXd x, double step) {
     if (!take_over(x)) return;
     int evaluations = 0;

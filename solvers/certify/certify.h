@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "maxwrench/bound.h"
 #include "maxwrench/objective.h"
@@ -14,6 +15,8 @@ namespace maxwrench {
 struct CertifiedBox {
   Eigen::VectorXd lower, upper;
   double low = 0, high = 0;
+  /// What was cut off before the rest was bounded, if somebody asks for boxes.
+  std::vector<BoxCut> cuts;
   BoxProof proof;
   int depth = 0;
   long id = 0, parent = -1;  ///< in the order in which boxes were made, the lower half first

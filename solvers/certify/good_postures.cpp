@@ -32,7 +32,7 @@ class GoodBoxes {
       : objective_(objective),
         options_(options),
         result_(result),
-        halving_(objective, bound, options.threads),
+        halving_(objective, bound, options.threads, false),
         low_(std::nextafter(result.least, -kInfinity)),
         start_(std::chrono::steady_clock::now()) {
     keep(halving_.root(low_, high));

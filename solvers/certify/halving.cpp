@@ -26,8 +26,8 @@ std::unique_ptr<CertifiedBox> half(const CertifiedBox& parent, bool second) {
 
 }  // namespace
 
-Halving::Halving(const Objective& objective, const Bound& bound, int threads)
-    : objective_(objective), bound_(bound), threads_(threads) {}
+Halving::Halving(const Objective& objective, const Bound& bound, int threads, bool records)
+    : objective_(objective), bound_(bound), threads_(threads), records_(records) {}
 
 std::unique_ptr<CertifiedBox> Halving::root(double low, double high) {
   auto root = std::make_unique<CertifiedBox>();
@@ -67,7 +67,7 @@ void Halving::bound_one(CertifiedBox& box, double low) {
   if (!bound) bound = bound_.clone();
   // Without a value yet, what no value is below: a ceiling holds for both signs.
   box.low = std::isfinite(low) ? low : -bound_.ceiling();
-  if (bound->shrink(box.lower, box.upper)) {
+  if (bound->shrink(box.lower, box.upper, records_ ? &box.cuts : nullptr)) {
     bound->evaluate(box.lower, box.upper, box.low, box.high, box.proof);
   } else {
     box.proof.kind = BoxProof::Kind::kNoPosture;

@@ -15,7 +15,8 @@ using CertifiedBoxes = std::vector<std::unique_ptr<CertifiedBox>>;
 /// Makes boxes by halves and bounds them on several threads, each with a bound of its own.
 class Halving {
  public:
-  Halving(const Objective& objective, const Bound& bound, int threads);
+  /// `records`: boxes keep what was cut off them.
+  Halving(const Objective& objective, const Bound& bound, int threads, bool records);
 
   /// All of theta_r and of what follows, widened by the tolerance of limits, given that no value
   /// exceeds `high`.
@@ -31,6 +32,7 @@ class Halving {
   const Objective& objective_;
   const Bound& bound_;
   int threads_;
+  bool records_;
   long last_id_ = 0;  ///< the root's
   std::mutex mutex_;
   std::vector<std::unique_ptr<Bound>> free_;

@@ -162,6 +162,7 @@ class IpoptSolver : public LpSolver {
     options->SetStringValue("jac_c_constant", "yes");
     options->SetStringValue("hessian_constant", "yes");
     options->SetIntegerValue("max_iter", 500);
+    options->SetIntegerValue("mumps_pivot_order", kMumpsOrdering);
     application_->Initialize("");
   }
 

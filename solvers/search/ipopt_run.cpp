@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "solvers/ipopt_lock.h"
 #include "solvers/search/climbs.h"
 
 namespace maxwrench {
@@ -16,6 +17,7 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> make_ipopt_application(
   options->SetStringValue("hessian_approximation", "limited-memory");
   options->SetNumericValue("bound_relax_factor", 0);
   options->SetIntegerValue("max_iter", iterations);
+  options->SetIntegerValue("mumps_pivot_order", kMumpsOrdering);
   if (more) more(*options);
   if (application->Initialize("") != Ipopt::Solve_Succeeded) {
     throw std::runtime_error(std::string(search) + ": Ipopt does not take its options");

@@ -34,7 +34,7 @@ std::string loop_name(const testing::TestParamInfo<const char*>& of) {
 }
 
 Eigen::VectorXd loop_coordinates(const Problem& problem, const LoopCoordinates& coordinates,
-                                 const Posture& posture, const Eigen::VectorXd& w) {
+                                 const Posture& posture, const Eigen::VectorXd& w, double t) {
   Eigen::VectorXd x(coordinates.lower.size());
   Eigen::Index next = problem.redundancy();
   x.head(next) = posture.theta_r;
@@ -47,7 +47,8 @@ Eigen::VectorXd loop_coordinates(const Problem& problem, const LoopCoordinates& 
     x[next++] = std::atan2(R(1, 0), R(0, 0));
   }
   for (Eigen::Index k = 0; k < coordinates.w_min.size(); ++k) {
-    const double low = coordinates.w_min[k], high = coordinates.w_max[k];
+    const double low = coordinates.w_min[k] + t * coordinates.v_min[k];
+    const double high = coordinates.w_max[k] + t * coordinates.v_max[k];
     x[next++] = (w[k] - low) / (high - low);
   }
   constexpr double kTurn = 2 * std::numbers::pi;
@@ -79,7 +80,7 @@ const ValuedPosture* PostureSource::draw(Random& random) {
   if (capability_.status != Status::kOptimal) return nullptr;
   posture_.value = capability_.beta;
   posture_.x = loop_coordinates(problem_, coordinates_, posture,
-                                capability_.w.tail(problem_.contact_columns()));
+                                capability_.w.tail(problem_.contact_columns()), posture_.value);
   return &posture_;
 }
 

@@ -17,10 +17,9 @@
 namespace maxwrench {
 
 inline const std::vector<const char*> kLoopProblems = {
-    "mobile/push",       "fixed/push",         "mobile/push_any_height",
-    "dual_arm/bar_wall", "dual_arm/bar_alone", "random, fixed",
-    "random, x",         "random, yaw",        "random, x y yaw",
-    "random, x y z yaw", "random, free tool"};
+    "mobile/push",        "fixed/push",      "mobile/push_any_height", "dual_arm/bar_wall",
+    "dual_arm/bar_alone", "planar/two_arms", "random, fixed",          "random, x",
+    "random, yaw",        "random, x y yaw", "random, x y z yaw",      "random, free tool"};
 
 /// A shipped problem, or a random one with these free axes of the base.
 Problem loop_problem(const std::string& name);
@@ -28,10 +27,10 @@ Problem loop_problem(const std::string& name);
 /// The name of a parameter of kLoopProblems as one of a test.
 std::string loop_name(const testing::TestParamInfo<const char*>& of);
 
-/// The coordinates x of a posture, with w of the second contact, within the limits of x as far as
-/// whole turns bring them there.
+/// The coordinates x of a posture, with w of the second contact at the value t, within the limits
+/// of x as far as whole turns bring them there.
 Eigen::VectorXd loop_coordinates(const Problem& problem, const LoopCoordinates& coordinates,
-                                 const Posture& posture, const Eigen::VectorXd& w);
+                                 const Posture& posture, const Eigen::VectorXd& w, double t);
 
 /// A posture that is valid, with its coordinates and its value.
 struct ValuedPosture {

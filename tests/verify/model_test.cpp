@@ -150,15 +150,15 @@ TEST_P(FormModelOf, HasItsValuesBetweenControlPoints) {
   }
 }
 
-TEST(FormModel, RefusesWhatIsNotMultiAffine) {
-  for (const char* name : {"fixed/push", "dual_arm/bar_wall", "uvms/valve_trajectory"}) {
+TEST(FormModel, RefusesForcesOfASecondContactAndTasksInTime) {
+  for (const char* name : {"dual_arm/bar_wall", "uvms/valve_trajectory"}) {
     const Problem problem = load_problem(name);
     EXPECT_THROW(FormModel{problem}, std::invalid_argument) << name;
   }
 }
 
 TEST(BoxForms, RefusesHalfATurn) {
-  const FormShape shape({3});
+  const FormShape shape({3}, {0});
   BoxForms box(shape);
   EXPECT_TRUE(box.set(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, 3)));
   EXPECT_FALSE(box.set(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, 3.2)));

@@ -64,7 +64,13 @@ INSTANTIATE_TEST_SUITE_P(
                     Shipped{"planar/force", "l2_polytope", Wrench::kPure, 1e-4},
                     Shipped{"planar/force", "ellipsoid", Wrench::kPure, 1e-4},
                     Shipped{"uvms/lift", "linf_polytope", Wrench::kPure, 1e-2},
-                    Shipped{"uvms/lift", "linf_polytope", Wrench::kAny, 1e-2}));
+                    Shipped{"uvms/lift", "linf_polytope", Wrench::kAny, 1e-2},
+                    Shipped{"mobile/push", "linf_polytope", Wrench::kPure, 1e-3},
+                    Shipped{"mobile/push", "l2_polytope", Wrench::kPure, 1e-2},
+                    Shipped{"mobile/push", "ellipsoid", Wrench::kPure, 1e-2},
+                    Shipped{"mobile/push_any_height", "linf_polytope", Wrench::kPure, 1e-3},
+                    Shipped{"fixed/push", "linf_polytope", Wrench::kPure, 1e-1},
+                    Shipped{"dual_arm/bar_alone", "linf_polytope", Wrench::kPure, 1e-3}));
 
 TEST_P(VerifyShipped, IsVerifiedAtAnyThreadCount) {
   const Shipped& shipped = GetParam();
@@ -73,8 +79,9 @@ TEST_P(VerifyShipped, IsVerifiedAtAnyThreadCount) {
     const Verification result = verify(at.problem, at.proof, threads);
     EXPECT_EQ(result.refusal, "");
     EXPECT_EQ(result.boxes, static_cast<long>(at.proof.tree.nodes.size()));
-    EXPECT_EQ(2 * (result.by_multiplier + result.by_collision + result.by_parent),
-              result.boxes + 1);  // leaves of a tree in which each other box has two halves
+    const long leaves =
+        result.by_multiplier + result.by_collision + result.by_equations + result.by_parent;
+    EXPECT_EQ(2 * leaves, result.boxes + 1);  // of a tree in which each other box has two parts
   }
 }
 
@@ -122,7 +129,7 @@ TEST(Verify, ReadsWhatIsWritten) {
   const ProofCertificate read = read_certificate(file_of(folder, text));
   EXPECT_EQ(certificate_text(read), text);
   EXPECT_EQ(at.refusal(read), "");
-  EXPECT_EQ(read.theta_r, at.proof.theta_r);
+  EXPECT_EQ(read.x, at.proof.x);
   EXPECT_EQ(read.bound, at.proof.bound);
 }
 
@@ -225,10 +232,10 @@ class Tampering {
     Tree& tree = proof.tree;
     for (;;) {
       const Tree::Node& node = tree.nodes[draw(tree, true)];
-      if (node.reason != Tree::Reason::kMultiplier) continue;
+      if (tree.numbers(node) == 0) continue;
       const double factor = -random_.uniform(0, 1);
-      for (int i = 0; i < tree.width; ++i) {
-        tree.multipliers[node.multiplier + static_cast<std::size_t>(i)] *= factor;
+      for (std::size_t i = 0; i < tree.numbers(node); ++i) {
+        tree.multipliers[node.multiplier + i] *= factor;
       }
       return;
     }
@@ -243,7 +250,7 @@ class Tampering {
   Random random_;
 };
 
-/// 1,000 in all, on three problems. None of them goes through a file, so no checksum helps.
+/// 1,000 in all, on four problems. None of them goes through a file, so no checksum helps.
 TEST(Verify, RefusesFalseProofs) {
   const auto refuse_all = [](const WrittenProof& at, int count) {
     ASSERT_EQ(at.refusal(at.proof), "");
@@ -253,8 +260,9 @@ TEST(Verify, RefusesFalseProofs) {
       EXPECT_NE(at.refusal(tampering.next(way)), "") << "way " << way << ", tampering " << i;
     }
   };
-  refuse_all({"planar/force", "linf_polytope", Wrench::kPure, 1e-3}, 480 / kSampleDivisor);
-  refuse_all({"planar/force", "ellipsoid", Wrench::kPure, 1e-2}, 480 / kSampleDivisor);
+  refuse_all({"planar/force", "linf_polytope", Wrench::kPure, 1e-3}, 400 / kSampleDivisor);
+  refuse_all({"planar/force", "ellipsoid", Wrench::kPure, 1e-2}, 400 / kSampleDivisor);
+  refuse_all({"mobile/push", "linf_polytope", Wrench::kPure, 1e-2}, 160 / kSampleDivisor);
   refuse_all({"uvms/lift", "linf_polytope", Wrench::kPure, 1e-1}, 40 / kSampleDivisor);
 }
 
@@ -268,7 +276,7 @@ TEST(Verify, RefusesWhatIsNoNumber) {
     bad[1].bound = x;
     bad[2].value = x;
     bad[3].lower[0] = std::isnan(x) ? x : std::abs(x);
-    bad[4].theta_r[0] = x;
+    bad[4].x[0] = x;
     bad[5].u[0] = x;
     bad[6].upper[0] = std::isnan(x) ? x : -std::abs(x);
     for (const ProofCertificate& each : bad) EXPECT_NE(at.refusal(each), "") << x;
@@ -318,6 +326,77 @@ TEST(Verify, RefusesStrongerRobots) {
   EXPECT_NE(at.refusal(at.proof).find("another robot or task"), std::string::npos);
   at.proof.digest = digest(at.problem);
   EXPECT_NE(at.refusal(at.proof).find("not excluded"), std::string::npos);
+}
+
+/// Joints that do not reach the pose, by more than rounding.
+TEST(Verify, RefusesPosturesThatDoNotGetThere) {
+  const WrittenProof at("mobile/push", "linf_polytope", Wrench::kPure, 1e-1);
+  for (Eigen::Index i = at.problem.redundancy(); i < at.proof.x.size(); ++i) {
+    ProofCertificate moved = at.proof;
+    moved.x[i] += 1e-6;
+    EXPECT_NE(at.refusal(moved).find("do not get there"), std::string::npos) << i;
+  }
+}
+
+/// Gains below the contact's threshold are of no valid posture.
+TEST(Verify, RefusesSingularPostures) {
+  WrittenProof at("dual_arm/bar_alone", "linf_polytope", Wrench::kPure, 1e-1);
+  ASSERT_EQ(at.refusal(at.proof), "");
+  at.problem.contact->sigma_min = 10;
+  EXPECT_NE(at.refusal(at.proof).find("another robot or task"), std::string::npos);
+  at.proof.digest = digest(at.problem);
+  EXPECT_NE(at.refusal(at.proof).find("singular"), std::string::npos);
+}
+
+/// A vehicle that stays in its plane does not get to a pose above it, whatever its arm does.
+TEST(Verify, RefusesABaseOffItsFreeAxes) {
+  WrittenProof at("planar/force", "linf_polytope", Wrench::kPure, 1e-1);
+  at.problem.pose.p.z() += 0.5;
+  at.proof.digest = digest(at.problem);
+  EXPECT_NE(at.refusal(at.proof).find("off its free axes"), std::string::npos);
+}
+
+/// The value of a posture that is off by what is tolerated, above the bound of all.
+TEST(Verify, RefusesABoundBelowItsValue) {
+  const WrittenProof at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
+  ProofCertificate below = at.proof;
+  below.value = std::nextafter(below.bound, kInfinity);
+  EXPECT_NE(at.refusal(below).find("below its value"), std::string::npos);
+}
+
+/// Postures up to the tolerance of limits count, and each needs its box.
+TEST(Verify, RefusesARootThatLeavesOutALimit) {
+  for (const char* name : {"planar/force", "dual_arm/bar_alone"}) {
+    const WrittenProof at(name, "linf_polytope", Wrench::kPure, 1e-2);
+    for (Eigen::Index i = 0; i < at.proof.lower.size(); ++i) {
+      if (at.proof.upper[i] - at.proof.lower[i] > 6) continue;  // a whole turn
+      ProofCertificate less = at.proof;
+      less.lower[i] += 2e-13;
+      EXPECT_NE(at.refusal(less).find("does not contain the limits"), std::string::npos);
+      less = at.proof;
+      less.upper[i] -= 2e-13;
+      EXPECT_NE(at.refusal(less).find("does not contain the limits"), std::string::npos);
+    }
+  }
+}
+
+/// A cut elsewhere than at the middle must be within the box.
+TEST(Verify, RefusesOtherCuts) {
+  const WrittenProof at("mobile/push", "linf_polytope", Wrench::kPure, 1e-2);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const int enough = std::max(2, 20 / kSampleDivisor);
+  int seen = 0;
+  for (std::size_t i = 0; i < at.proof.tree.nodes.size() && seen < enough; ++i) {
+    const Tree::Node& node = at.proof.tree.nodes[i];
+    if (!node.at) continue;
+    ++seen;
+    for (const double x : {nan, 1e9, -1e9}) {
+      ProofCertificate other = at.proof;
+      other.tree.nodes[i].at = x;
+      EXPECT_NE(at.refusal(other), "") << x;
+    }
+  }
+  EXPECT_EQ(seen, enough);
 }
 
 TEST(Verify, RefusesOtherTasks) {

@@ -55,7 +55,7 @@ void test_pairs(const Problem& problem, const std::string& measure) {
       box.lower[i] -= 1e-9;
       box.upper[i] += 1e-9;
     }
-    ASSERT_TRUE(bound->shrink(box.lower, box.upper)) << at->x.transpose();
+    ASSERT_TRUE(bound->shrink(box.lower, box.upper, nullptr)) << at->x.transpose();
     ASSERT_TRUE(holds(box, at->x)) << at->x.transpose();
     if (pair % 3 == 0) proof = {};
     const double low =
@@ -77,10 +77,46 @@ TEST_P(LoopBoundOf, NoPostureIsAboveOrCutOff) {
   test_pairs(loop_problem(GetParam()), "linf_polytope");
 }
 
-TEST(LoopBound, ServesTheL2Polytope) {
-  for (const char* name : {"mobile/push", "fixed/push"}) {
-    test_pairs(load_problem(name), "l2_polytope");
+TEST(LoopBound, ServesOtherMeasures) {
+  for (const char* measure : {"l2_polytope", "ellipsoid"}) {
+    for (const char* name : {"mobile/push", "fixed/push", "mobile/push_any_height"}) {
+      test_pairs(load_problem(name), measure);
+    }
   }
+}
+
+/// A vehicle that braces itself: the second arm's contact is in line with c, so it bears what the
+/// thrusters do not, and strong joints push with far more than those.
+Problem braced() {
+  Problem problem = load_problem("dual_arm/bar_wall");
+  Contact& contact = *problem.contact;
+  const Eigen::Vector3d touched = contact_pose(contact, problem.theta_r_default.data()).p;
+  problem.c << (touched - problem.pose.p).normalized(), 0, 0, 0;
+  problem.W_any = problem.c;
+  contact.C = Matrix6Xd::Identity(6, 3);
+  contact.w_min = Eigen::VectorXd::Constant(3, -kInfinity);
+  contact.w_max = Eigen::VectorXd::Constant(3, kInfinity);
+  for (Joint& joint : problem.robot.joints) joint.effort_max *= 1000;
+  complete_actuation(problem.robot);
+  return problem;
+}
+
+TEST(LoopBound, IsNoCeilingOfWhatBracesItself) {
+  const Problem problem = braced();
+  test_pairs(problem, "linf_polytope");
+  const auto bound = make_capability_bound(problem, "linf_polytope", Wrench::kPure);
+  PostureSource source(problem, "linf_polytope");
+  Random random(1);
+  double thrust = 0, most = -kInfinity;
+  for (const Thruster& each : problem.robot.thrusters) {
+    thrust += std::max(-each.force_min, each.force_max);
+  }
+  for (int sample = 0; sample < 1000 / kSampleDivisor; ++sample) {
+    const ValuedPosture* const at = source.draw(random);
+    if (at != nullptr) most = std::max(most, at->value);
+  }
+  EXPECT_GT(most, 2 * thrust);
+  EXPECT_GE(bound->ceiling(), most);
 }
 
 }  // namespace

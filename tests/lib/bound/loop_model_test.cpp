@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/loops.h"
 
 namespace maxwrench {
@@ -11,11 +13,17 @@ class LoopModelOf : public testing::TestWithParam<const char*> {};
 
 INSTANTIATE_TEST_SUITE_P(Problems, LoopModelOf, testing::ValuesIn(kLoopProblems), loop_name);
 
-/// The equations at the middle of the chain.
-Eigen::VectorXd some_cut(const LoopPosture& loop, const LoopModel& model) {
+/// The equations of the base, at the middle of the chain, and of the contact.
+Eigen::VectorXd all_equations(const Problem& problem, const LoopPosture& loop,
+                              const LoopModel& model) {
   const LoopCoordinates& all = model.coordinates;
-  const int k = std::max(0, (all.yaw.from + all.free.to) / 2 - all.first.from);
-  return (loop.left(k) - loop.right(k)).cast<double>();
+  const int k = std::clamp((all.yaw.from + all.free.to) / 2 - all.first.from, 0, all.first.count());
+  Eigen::VectorXd base, contact;
+  if (!all.base_follows) base = (loop.left(k) - loop.right(k)).cast<double>();
+  if (problem.contact) contact = (loop.touching() - loop.touched()).cast<double>();
+  Eigen::VectorXd both(base.size() + contact.size());
+  both << base, contact;
+  return both;
 }
 
 /// The sum of the parts is the model, wherever x is.
@@ -42,12 +50,14 @@ TEST_P(LoopModelOf, IsASumOfMultiAffineParts) {
     }
     loop.set(x.cast<Extended>());
     Eigen::VectorXd expected = loop.loads().cast<double>();
-    if (problem.contact_columns() > 0) expected.head(model.n) += loop.forces().cast<double>();
+    if (problem.contact_columns() > 0) {
+      expected.head(model.n) += loop.forces().cast<double>();
+      expected.tail(model.n) += loop.forces_by_t().cast<double>();
+    }
     EXPECT_LT((loads - expected).cwiseAbs().maxCoeff(),
               1e-9 * (1 + expected.cwiseAbs().maxCoeff()));
-    const Eigen::VectorXd gap =
-        problem.contact ? Eigen::VectorXd((loop.touching() - loop.touched()).cast<double>())
-                        : some_cut(loop, model);
+    const Eigen::VectorXd gap = all_equations(problem, loop, model);
+    ASSERT_EQ(f.size(), gap.size());
     EXPECT_LT((f - gap).cwiseAbs().maxCoeff(), 1e-9);
   }
 }

@@ -30,7 +30,7 @@ TEST_P(LoopPostureOf, IsThePosture) {
     Eigen::VectorXd expected = program.tau_d;
     const Eigen::Index l = problem.contact_columns();
     if (l > 0) {
-      tau += loop.forces().cast<double>();
+      tau += (loop.forces() + at->value * loop.forces_by_t()).cast<double>();
       expected += program.JtW.rightCols(l) * source.capability().w.tail(l);
     }
     const double size = 1 + expected.cwiseAbs().maxCoeff();

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "benchmarks/case.h"
+#include "benchmarks/product.h"
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/strategies.h"

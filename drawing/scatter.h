@@ -1,0 +1,26 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "maxwrench/types.h"
+
+namespace maxwrench {
+
+/// Points of one kind.
+struct ScatterSet {
+  std::string name;
+  std::vector<Eigen::Vector2d> points;
+};
+
+struct ScatterPanel {
+  std::string x_axis, y_axis;
+  std::vector<ScatterSet> sets;
+};
+
+/// A panel as SVG, both axes logarithmic; sets differ in mark and colour. Points that are not
+/// positive and finite are left out; throws std::invalid_argument if none is left.
+std::string draw_scatter(const ScatterPanel& panel);
+
+}  // namespace maxwrench

@@ -1,0 +1,83 @@
+#include "verify/coordinates.h"
+
+#include <algorithm>
+#include <numbers>
+#include <stdexcept>
+
+namespace maxwrench {
+namespace {
+
+void refuse_unless(bool serves, const Problem& problem) {
+  if (serves) return;
+  throw std::invalid_argument(problem.name +
+                              ": expected a static task in which a second contact, if there is "
+                              "one, exerts nothing, and joints that move the end effector");
+}
+
+std::vector<int> joints_between(const Problem& problem) {
+  const Robot& robot = problem.robot;
+  std::vector<int> joints;
+  for (int link = robot.end_effectors[static_cast<std::size_t>(problem.end_effector)].link;
+       link > 0; link = robot.joints[static_cast<std::size_t>(link - 1)].parent) {
+    joints.insert(joints.begin(), link - 1);
+  }
+  return joints;
+}
+
+int place_of(const std::vector<int>& list, int joint) {
+  return static_cast<int>(std::find(list.begin(), list.end(), joint) - list.begin());
+}
+
+}  // namespace
+
+PostureCoordinates::PostureCoordinates(const Problem& problem)
+    : of_joint(problem.robot.joints.size(), -1), chain(joints_between(problem)) {
+  refuse_unless(!problem.motion && problem.contact_columns() == 0, problem);
+  const Robot& robot = problem.robot;
+  const int own = problem.redundancy(), given = static_cast<int>(problem.redundant.size());
+  const auto add_joint = [&](int joint, int coordinate) {
+    const Joint& at = robot.joints[static_cast<std::size_t>(joint)];
+    of_joint[static_cast<std::size_t>(joint)] = count();
+    variables.push_back({at.type == JointType::kRevolute, coordinate, at.q_min, at.q_max});
+  };
+  int next = own + static_cast<int>(problem.dependent.size());
+  if (problem.contact) {
+    for (const int joint : problem.contact->follow) add_joint(joint, next++);
+  }
+  yaw = count();
+  const std::vector<int>& axes = robot.base_axes;
+  base_follows = axes.size() == 6 || (problem.dependent.empty() && !problem.contact);
+  if (!base_follows && place_of(axes, 5) < static_cast<int>(axes.size())) {
+    variables.push_back({true, next++, -std::numbers::pi, std::numbers::pi});
+  }
+  first = count();
+  for (const int joint : chain) {
+    const int at = place_of(problem.redundant, joint);
+    if (at < given) {
+      add_joint(joint, at);
+    } else if (const int follows = place_of(problem.dependent, joint);
+               follows < static_cast<int>(problem.dependent.size())) {
+      add_joint(joint, own + follows);
+    }
+  }
+  free = count();
+  int at = given;
+  for (const int axis : problem.free.axes) variables.push_back({axis >= 3, at++, 0, 0});
+  regrasp = count();
+  const bool around = problem.contact && problem.contact->surface == Surface::kCircle;
+  while (at < own) variables.push_back({around, at++, 0, 0});
+  refuse_unless(count() == next, problem);
+  for (Variable& variable : variables) {
+    if (variable.coordinate >= own) continue;
+    variable.lower = problem.theta_r_min[variable.coordinate];
+    variable.upper = problem.theta_r_max[variable.coordinate];
+  }
+}
+
+double rest_of(const Problem& problem, std::size_t joint) {
+  if (problem.contact) return problem.contact->q_rest[static_cast<Eigen::Index>(joint)];
+  const Joint& at = problem.robot.joints[joint];
+  return std::clamp(0.0, at.q_min, at.q_max);
+}
+
+}  // namespace maxwrench
