@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <stdexcept>
 
 #include "lib/search/facet_program.h"
@@ -75,33 +74,10 @@ bool limited(const Contact& contact) {
          std::any_of(contact.w_max.begin(), contact.w_max.end(), counts);
 }
 
-/// The schemes that a task in time can have; the spline needs two knots.
-std::vector<std::string> schemes_of(const MotionTask& task) {
-  std::vector<std::string> names = scheme_names(task.impulse);
-  if (task.k < 2) std::erase(names, to_string(Scheme::kSpline));
-  return names;
-}
-
-std::vector<Case> plan_product(const Problem& problem, std::uint64_t seed, long budget) {
-  std::vector<Case> cases;
-  for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
-    for (const std::string& scheme : schemes_of(*problem.motion)) {
-      Case c{problem.name, Case().measure, wrench, "", plan_searches().front().name,
-             seed,         budget,         scheme};
-      for (const PlanSolverEntry& solver : plan_solvers()) {
-        c.lp = solver.name;
-        cases.push_back(c);
-      }
-      c.lp = plan_solvers().front().name;
-      for (const auto& table : {plan_searches().subspan(1), searches()}) {
-        for (const SearchEntry& search : table) {
-          c.search = search.name;
-          cases.push_back(c);
-        }
-      }
-    }
-  }
-  return cases;
+/// Closed forms that know free columns only serve no contact with limits.
+bool serves_limits(const MeasureEntry& measure, const Problem& problem) {
+  const bool closed_form = !measure.needs_solver && measure.serves_any;
+  return !(closed_form && problem.contact && limited(*problem.contact));
 }
 
 }  // namespace
@@ -118,6 +94,34 @@ bool serves_as_plan(const Problem& problem, const std::string& measure) {
 
 bool serves_between_facets(const Problem& problem, const std::string& measure) {
   return measure == Case().measure && has_facet_program(problem);
+}
+
+std::vector<std::string> served_solvers(const Problem& problem, const std::string& measure,
+                                        Wrench wrench) {
+  std::vector<std::string> names;
+  const MeasureEntry& entry = find_measure(measure);
+  if (problem.motion) {
+    if (measure != Case().measure) return names;
+    for (const PlanSolverEntry& solver : plan_solvers()) names.emplace_back(solver.name);
+    return names;
+  }
+  if (!serves_limits(entry, problem)) return names;
+  for (const WrenchSolverEntry* solver : solvers_for(entry, problem, wrench)) {
+    names.emplace_back(name_of(solver));
+  }
+  return names;
+}
+
+std::vector<std::string> served_searches(const Problem& problem, const std::string& measure) {
+  std::vector<std::string> names;
+  const auto add = [&](std::span<const SearchEntry> table) {
+    for (const SearchEntry& search : table) names.emplace_back(search.name);
+  };
+  if (problem.motion) add(plan_searches());
+  add(searches());
+  if (!problem.motion && serves_as_plan(problem, measure)) add(plan_searches());
+  if (serves_between_facets(problem, measure)) add(facet_searches());
+  return names;
 }
 
 std::string best_search(const Problem& problem, const std::string& measure) {
@@ -149,8 +153,7 @@ Method resolve(const Problem& problem, const Case& c) {
   const WrenchSolverEntry* solver = choose_solver(served, problem, c);
   method.choice.lp = name_of(solver);
   if (method.search) method.plan_solver = plan_solver_of(problem, method.choice);
-  const bool closed_form = !measure.needs_solver && measure.serves_any;
-  if (closed_form && problem.contact && limited(*problem.contact)) {
+  if (!serves_limits(measure, problem)) {
     throw std::invalid_argument("measure: got " + c.measure +
                                 ", expected one with a solver: a closed form serves no limits of "
                                 "contact.basis but zero and infinity");
@@ -192,65 +195,12 @@ void set_scheme(const char* key, const std::string& scheme, Problem& problem) {
                                             scheme, fmt::join(served, " "),
                                             task.impulse ? "an" : "a", problem.type()));
   }
-  task.scheme = parse_scheme(scheme);
-  if (task.scheme == Scheme::kSpline && task.k < 2) {
+  const Scheme parsed = parse_scheme(scheme);
+  if (parsed == Scheme::kSpline && task.k < 2) {
     throw std::invalid_argument(
         fmt::format("{}: got '{}', expected another one for k = 1", key, scheme));
   }
-}
-
-std::vector<Case> product(const Problem& problem, std::uint64_t seed, long budget) {
-  if (problem.motion) return plan_product(problem, seed, budget);
-  std::vector<Case> cases;
-  for (const MeasureEntry& measure : measures()) {
-    for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
-      const auto served = solvers_for(measure, problem, wrench);
-      for (const WrenchSolverEntry* solver : served) {
-        const bool first = solver == served.front();
-        const long share = std::max(1L, budget / (solver ? solver->cost : 1));
-        const auto add = [&](const char* search) {
-          cases.push_back(
-              {problem.name, measure.name, wrench, name_of(solver), search, seed, share});
-        };
-        add(default_search());
-        add("grid+cmaes");
-        if (!first) continue;
-        for (const SearchEntry& search : searches()) add(search.name);
-        if (serves_as_plan(problem, measure.name)) {
-          for (const SearchEntry& search : plan_searches()) add(search.name);
-        }
-        if (!serves_between_facets(problem, measure.name)) continue;
-        for (const SearchEntry& search : facet_searches()) add(search.name);
-      }
-    }
-  }
-  return cases;
-}
-
-std::vector<Case> select(std::vector<Case> cases,
-                         const std::map<std::string, std::string>& filter) {
-  const std::vector<std::string>& columns = case_columns();
-  for (const auto& entry : filter) {
-    const std::string& column = entry.first;
-    const std::string& value = entry.second;
-    const auto found = std::find(columns.begin(), columns.end(), column);
-    if (found == columns.end()) {
-      throw std::invalid_argument(
-          fmt::format("column: got '{}', expected one of {}", column, fmt::join(columns, " ")));
-    }
-    if (column == "seed" || column == "budget") continue;
-    const auto index = static_cast<std::size_t>(found - columns.begin());
-    std::set<std::string> existing;
-    for (const Case& c : cases) existing.insert(case_values(c)[index]);
-    std::erase_if(cases, [&](const Case& c) { return case_values(c)[index] != value; });
-    if (cases.empty()) {
-      throw std::invalid_argument(
-          fmt::format("{}: got '{}', expected one that the product has together with the other "
-                      "choices: {}",
-                      column, value, fmt::join(existing, " ")));
-    }
-  }
-  return cases;
+  task.scheme = parsed;
 }
 
 }  // namespace maxwrench

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +16,9 @@ struct Problem;
 
 /// The name of the lower-level solver of a closed-form measure.
 inline constexpr const char* kNoSolver = "none";
+
+/// More evaluations than anyone waits for: a grid keeps all their values.
+inline constexpr int kMostBudget = 100'000'000;
 
 /// A choice of names: everything that decides a result.
 struct Case {
@@ -56,6 +58,14 @@ bool serves_as_plan(const Problem& problem, const std::string& measure);
 /// Whether searches between facets serve: linf_polytope of a static task, few facets.
 bool serves_between_facets(const Problem& problem, const std::string& measure);
 
+/// The names of the lower-level solvers that serve a measure and a wrench, `kNoSolver` of a closed
+/// form; none if they mean nothing together. The first one is the default.
+std::vector<std::string> served_solvers(const Problem& problem, const std::string& measure,
+                                        Wrench wrench);
+
+/// The methods alone that serve a measure, those of a task in time first.
+std::vector<std::string> served_searches(const Problem& problem, const std::string& measure);
+
 /// Throws std::invalid_argument on a name that does not exist and on a choice without meaning, such
 /// as `facets` for several wrench columns or for actuators with too many facets, or a solver for a
 /// closed form.
@@ -74,16 +84,5 @@ std::string best_search(const Problem& problem, const std::string& measure);
 /// The columns that select a case, `problem measure wrench lp search seed budget scheme`, as text.
 const std::vector<std::string>& case_columns();
 std::vector<std::string> case_values(const Case& c);
-
-/// On a problem, in the order of the tables: every meaningful measure × wrench × lp with the
-/// default search and with `grid+cmaes` (what a solver is worth does not depend on the search), and
-/// with the first lp that serves every method alone, those of plans and between facets too where
-/// they serve. The budget is divided by the cost of the solver. Of a task in time: wrench × scheme
-/// × lp with the first search, and × search with the first lp.
-std::vector<Case> product(const Problem& problem, std::uint64_t seed, long budget);
-
-/// Of `cases`, those whose columns have the given values (column -> value); `seed` and `budget` are
-/// no filters. Throws std::invalid_argument on an unknown column, or if no case is left.
-std::vector<Case> select(std::vector<Case> cases, const std::map<std::string, std::string>& filter);
 
 }  // namespace maxwrench

@@ -81,20 +81,12 @@ std::vector<std::string> peers_of(const Problem& problem, const Case& base) {
   return names;
 }
 
-/// The searches that serve a problem: of a task in time those of plans first, of a static one the
-/// default first and the tables that serve it last.
+/// The searches that serve a problem, of a static one the default first.
 std::vector<std::string> searches_of(const Problem& problem, const Case& base) {
-  std::vector<std::string> served;
-  const auto add = [&](std::span<const SearchEntry> table) {
-    for (const SearchEntry& search : table) {
-      if (problem.motion || search.name != base.search) served.emplace_back(search.name);
-    }
-  };
-  if (!problem.motion) served.push_back(base.search);
-  if (problem.motion) add(plan_searches());
-  add(searches());
-  if (!problem.motion && serves_as_plan(problem, base.measure)) add(plan_searches());
-  if (serves_between_facets(problem, base.measure)) add(facet_searches());
+  std::vector<std::string> served = served_searches(problem, base.measure);
+  if (problem.motion) return served;
+  std::erase(served, base.search);
+  served.insert(served.begin(), base.search);
   return served;
 }
 
@@ -150,15 +142,17 @@ constexpr Eigen::Index kMostBoxed = 8;
 std::optional<double> proven_best(const Problem& problem, const Case& base,
                                   const Comparison& comparison, int threads,
                                   const Interruption* interruption) {
-  const Eigen::Index boxed = boxed_coordinates(problem, base.measure, base.wrench);
-  if (!comparison.has_value() || boxed == 0 || boxed > kMostBoxed) return {};
+  if (!comparison.has_value()) return {};
+  const auto bounds = find_bound(problem, base.measure, base.wrench);
+  const Eigen::Index boxed = bounds ? boxed_coordinates(problem, *bounds) : 0;
+  if (!bounds || boxed > kMostBoxed) return {};
   CertifyOptions options;
   options.gap = kProofGap;
   options.boxes = boxed > problem.redundancy() ? kFewerBoxes : kProofBoxes;
   options.threads = threads;
   options.interrupted = [&] { return interruption != nullptr && interruption->asked; };
   const Candidate best = comparison.best_found();
-  const double bound = prove(problem, resolve(problem, base), best, options).bound;
+  const double bound = prove(problem, resolve(problem, base), *bounds, best, options).bound;
   if (!(bound - best.value <= kNearBound * std::abs(best.value))) return {};
   return bound;
 }

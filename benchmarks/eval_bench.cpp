@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "benchmarks/case.h"
+#include "benchmarks/product.h"
 #include "lib/math/random.h"
 #include "lib/robot/chain.h"
 #include "maxwrench/load.h"

@@ -1,99 +1,17 @@
 #include "benchmarks/exact_basis.h"
 
 #include <algorithm>
-#include <map>
 #include <optional>
-#include <set>
 #include <stdexcept>
 #include <string>
+
+#include "benchmarks/rational_elimination.h"
+#include "lib/math/farkas.h"
 
 namespace maxwrench {
 namespace {
 
 constexpr int kMostPivots = 1000;
-constexpr double kInfiniteBound = 1e20;
-
-using SparseRow = std::map<int, mpq_class>;
-
-/// Solves M x = rhs, M given by rows, square and regular. Pivots are where a row has the fewest
-/// entries.
-class RationalElimination {
- public:
-  RationalElimination(std::vector<SparseRow> rows, RationalVector rhs)
-      : rows_(std::move(rows)), rhs_(std::move(rhs)), users_(rows_.size()) {
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      for (const auto& entry : rows_[i]) users_[at(entry.first)].insert(static_cast<int>(i));
-    }
-  }
-
-  /// None if M is singular.
-  std::optional<RationalVector> solve() {
-    std::vector<std::pair<int, int>> pivots;
-    std::vector<char> done(rows_.size());
-    for (std::size_t step = 0; step < rows_.size(); ++step) {
-      int row = -1;
-      for (std::size_t i = 0; i < rows_.size(); ++i) {
-        if (done[i]) continue;
-        if (row < 0 || rows_[i].size() < rows_[at(row)].size()) row = static_cast<int>(i);
-      }
-      if (rows_[at(row)].empty()) return {};
-      const int column = rarest(rows_[at(row)]);
-      done[at(row)] = 1;
-      pivots.emplace_back(row, column);
-      eliminate(row, column, done);
-    }
-    return substitute(pivots);
-  }
-
- private:
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-  int rarest(const SparseRow& row) const {
-    return std::min_element(row.begin(), row.end(),
-                            [&](const auto& a, const auto& b) {
-                              return users_[at(a.first)].size() < users_[at(b.first)].size();
-                            })
-        ->first;
-  }
-
-  void eliminate(int row, int column, const std::vector<char>& done) {
-    const SparseRow& pivot = rows_[at(row)];
-    for (const auto& entry : pivot) users_[at(entry.first)].erase(row);
-    const std::set<int> others = users_[at(column)];
-    for (const int other : others) {
-      if (done[at(other)]) continue;
-      const mpq_class factor = rows_[at(other)][column] / pivot.at(column);
-      for (const auto& [j, value] : pivot) {
-        mpq_class& to = rows_[at(other)][j];
-        to -= factor * value;
-        if (to == 0) {
-          rows_[at(other)].erase(j);
-          users_[at(j)].erase(other);
-        } else {
-          users_[at(j)].insert(other);
-        }
-      }
-      rhs_[at(other)] -= factor * rhs_[at(row)];
-    }
-  }
-
-  RationalVector substitute(const std::vector<std::pair<int, int>>& pivots) const {
-    RationalVector x(rows_.size());
-    for (auto it = pivots.rbegin(); it != pivots.rend(); ++it) {
-      const auto& [row, column] = *it;
-      mpq_class sum = rhs_[at(row)];
-      for (const auto& [j, value] : rows_[at(row)]) {
-        if (j != column) sum -= value * x[at(j)];
-      }
-      x[at(column)] = sum / rows_[at(row)].at(column);
-    }
-    return x;
-  }
-
-  std::vector<SparseRow> rows_;
-  RationalVector rhs_;
-  std::vector<std::set<int>> users_;  ///< of each column, the rows left that have it
-};
 
 /// max c'x, A x + s = b with logical variables s fixed at zero, behind the columns.
 class ExactSimplex {
@@ -102,18 +20,7 @@ class ExactSimplex {
       : p_(program), m_(program.rows()), n_(program.cols()), states_(solution.basis) {
     const auto basics = std::count(states_.begin(), states_.end(), VariableState::kBasic);
     if (states_.size() != static_cast<std::size_t>(m_ + n_) || basics != m_) start_cold();
-    for (int j = 0; j < n_ + m_; ++j) {
-      VariableState& state = states_[at(j)];
-      if (state == VariableState::kBasic) {
-        basis_.push_back(j);
-        continue;
-      }
-      if (state == VariableState::kAtUpper && !has_upper(j)) state = VariableState::kAtLower;
-      if (state == VariableState::kAtLower && !has_lower(j)) {
-        state = has_upper(j) ? VariableState::kAtUpper : VariableState::kFree;
-      }
-      if (state == VariableState::kFree) state = resting(j);
-    }
+    settle();
   }
 
   LpProof run() {
@@ -121,7 +28,7 @@ class ExactSimplex {
       if (p_.l[j] > p_.u[j]) return verdict(Status::kInfeasible, RationalVector(at(m_)));
     }
     for (int pivot = 0; pivot < kMostPivots; ++pivot) {
-      if (!solve_basis()) return {};
+      if (!solve_basis() && !restart()) return {};
       const int violated = first_violated();
       const int improving = first_improving();
       if (violated < 0 && improving < 0) return verdict(Status::kOptimal, {});
@@ -155,6 +62,30 @@ class ExactSimplex {
     for (int j = 0; j < n_ + m_; ++j) states_[at(j)] = j < n_ ? resting(j) : VariableState::kBasic;
   }
 
+  /// Which are basic, and where the others rest.
+  void settle() {
+    basis_.clear();
+    for (int j = 0; j < n_ + m_; ++j) {
+      VariableState& state = states_[at(j)];
+      if (state == VariableState::kBasic) {
+        basis_.push_back(j);
+        continue;
+      }
+      if (state == VariableState::kAtUpper && !has_upper(j)) state = VariableState::kAtLower;
+      if (state == VariableState::kAtLower && !has_lower(j)) {
+        state = has_upper(j) ? VariableState::kAtUpper : VariableState::kFree;
+      }
+      if (state == VariableState::kFree) state = resting(j);
+    }
+  }
+
+  /// A basis that was regular in decimals only is given up for the logical variables'.
+  bool restart() {
+    start_cold();
+    settle();
+    return solve_basis();
+  }
+
   /// A column of [A I].
   SparseRow column(int j) const {
     if (j >= n_) return {{j - n_, 1}};
@@ -177,14 +108,14 @@ class ExactSimplex {
     for (int k = 0; k < m_; ++k) {
       for (const auto& [row, value] : column(basis_[at(k)])) rows[at(row)][k] = value;
     }
-    return RationalElimination(std::move(rows), rhs).solve();
+    return solve_rational(std::move(rows), rhs);
   }
 
   /// B'y = rhs.
   std::optional<RationalVector> solve_rows(const RationalVector& rhs) const {
     std::vector<SparseRow> rows;
     for (const int j : basis_) rows.push_back(column(j));
-    return RationalElimination(std::move(rows), rhs).solve();
+    return solve_rational(std::move(rows), rhs);
   }
 
   bool solve_basis() {

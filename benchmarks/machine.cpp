@@ -1,9 +1,12 @@
 #include "benchmarks/machine.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <sys/utsname.h>
 
+#include <ctime>
 #include <fstream>
+#include <sstream>
 #include <thread>
 
 #include "maxwrench/version.h"
@@ -19,12 +22,22 @@ std::string processor_name() {
   return "unknown";
 }
 
+std::string build_line() {
+  std::istringstream lines(describe_build());
+  std::string text, line;
+  std::getline(lines, line);  // the version and
+  std::getline(lines, line);  // the sources, which are columns of their own
+  while (std::getline(lines, line)) text += (text.empty() ? "" : "; ") + line;
+  return text;
+}
+
 std::string describe_machine() {
   utsname system{};
   uname(&system);
-  return describe_build() + fmt::format("processor {}\ncores {}\nsystem {} {}\n", processor_name(),
-                                        std::thread::hardware_concurrency(), system.sysname,
-                                        system.machine);
+  return describe_build() + fmt::format("processor {}\ncores {}\nsystem {} {}\ndate {:%F} UTC\n",
+                                        processor_name(), std::thread::hardware_concurrency(),
+                                        system.sysname, system.machine,
+                                        fmt::gmtime(std::time(nullptr)));
 }
 
 }  // namespace maxwrench

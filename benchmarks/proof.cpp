@@ -7,22 +7,26 @@
 
 namespace maxwrench {
 
-Eigen::Index boxed_coordinates(const Problem& problem, const std::string& measure, Wrench wrench) {
+std::unique_ptr<Bound> find_bound(const Problem& problem, const std::string& measure,
+                                  Wrench wrench) {
   try {
-    Eigen::VectorXd lower = problem.theta_r_min, upper = problem.theta_r_max;
-    make_capability_bound(problem, measure, wrench)->extend(lower, upper);
-    return lower.size();
+    return make_capability_bound(problem, measure, wrench);
   } catch (const std::invalid_argument&) {
-    return 0;
+    return nullptr;
   }
 }
 
-CertifyResult prove(const Problem& problem, const Method& method, const Candidate& incumbent,
-                    const CertifyOptions& options) {
-  const auto bound = make_capability_bound(problem, method.choice.measure, method.choice.wrench);
+Eigen::Index boxed_coordinates(const Problem& problem, const Bound& bound) {
+  Eigen::VectorXd lower = problem.theta_r_min, upper = problem.theta_r_max;
+  bound.extend(lower, upper);
+  return lower.size();
+}
+
+CertifyResult prove(const Problem& problem, const Method& method, const Bound& bound,
+                    const Candidate& incumbent, const CertifyOptions& options) {
   const auto objective =
       make_capability_objective(problem, method.choice.wrench, method.make_measure);
-  return certify(*objective, *bound, incumbent, options);
+  return certify(*objective, bound, incumbent, options);
 }
 
 }  // namespace maxwrench

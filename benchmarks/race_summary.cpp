@@ -19,23 +19,6 @@ const Contender* contender_of(const Comparison& comparison, const std::string& s
   return nullptr;
 }
 
-/// Of one problem; `kNever` for each seed where the search does not serve.
-std::vector<Spent> hits_of(const Comparison& comparison, const std::string& search, double share) {
-  std::vector<Spent> hits;
-  if (const Contender* contender = contender_of(comparison, search)) {
-    for (const Attempt& each : contender->attempts) {
-      hits.push_back(first_hit(each.run, comparison.target(share)));
-    }
-    return hits;
-  }
-  std::size_t seeds = 1;
-  for (const Contender& other : comparison.contenders) {
-    seeds = std::max(seeds, other.attempts.size());
-  }
-  hits.assign(seeds, kNever);
-  return hits;
-}
-
 double median_value(const Contender& contender) {
   std::vector<double> values;
   for (const Attempt& each : contender.attempts) values.push_back(each.value);
@@ -80,6 +63,22 @@ Standing standing_of(std::span<const Comparison> comparisons, const std::string&
 }
 
 }  // namespace
+
+std::vector<Spent> hits_of(const Comparison& comparison, const std::string& search, double share) {
+  std::vector<Spent> hits;
+  if (const Contender* contender = contender_of(comparison, search)) {
+    for (const Attempt& each : contender->attempts) {
+      hits.push_back(first_hit(each.run, comparison.target(share)));
+    }
+    return hits;
+  }
+  std::size_t seeds = 1;
+  for (const Contender& other : comparison.contenders) {
+    seeds = std::max(seeds, other.attempts.size());
+  }
+  hits.assign(seeds, kNever);
+  return hits;
+}
 
 std::vector<const Contender*> ranking(const Comparison& comparison) {
   std::vector<std::tuple<double, double, const Contender*>> keyed;

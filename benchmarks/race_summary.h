@@ -15,6 +15,10 @@ namespace maxwrench {
 /// values stays below. Those without attempts are left out.
 std::vector<const Contender*> ranking(const Comparison& comparison);
 
+/// What a search had spent on one problem when it came to a share below the best, for each seed;
+/// `kNever` for each where it does not serve.
+std::vector<Spent> hits_of(const Comparison& comparison, const std::string& search, double share);
+
 /// Whether a search is plain: one method of postures that knows no more than values and gradients.
 bool is_plain(const std::string& search);
 

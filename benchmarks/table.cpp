@@ -1,42 +1,17 @@
 #include "benchmarks/table.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cerrno>
 #include <fstream>
 #include <stdexcept>
 #include <system_error>
 
+#include "benchmarks/csv.h"
 #include "benchmarks/write_file.h"
 
 namespace maxwrench {
 namespace {
-
-std::string quoted(const std::string& field) {
-  if (field.find_first_of(",\"\n\r") == std::string::npos) return field;
-  std::string text = "\"";
-  for (const char c : field) {
-    if (c == '"') text += '"';
-    text += c == '\n' || c == '\r' ? ' ' : c;
-  }
-  return text + '"';
-}
-
-std::vector<std::string> split(const std::string& line) {
-  std::vector<std::string> fields(1);
-  bool inside = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"') {
-      const bool doubled = inside && i + 1 < line.size() && line[i + 1] == '"';
-      if (doubled) fields.back() += line[++i];
-      if (!doubled) inside = !inside;
-    } else if (line[i] == ',' && !inside) {
-      fields.emplace_back();
-    } else {
-      fields.back() += line[i];
-    }
-  }
-  return fields;
-}
 
 /// Whether there is a file to read. One that cannot be read must not be mistaken for none: writing
 /// would lose its rows.
@@ -56,52 +31,101 @@ bool is_there(const std::filesystem::path& file) {
 }  // namespace
 
 Table::Table(std::filesystem::path file, std::vector<std::string> columns, std::size_t key_columns)
-    : file_(std::move(file)), key_columns_(key_columns), lines_{std::move(columns)} {
-  if (!is_there(file_)) return;
-  std::ifstream in(file_);
+    : file_(std::move(file)),
+      journal_file_(file_.string() + ".part"),
+      columns_(std::move(columns)),
+      key_columns_(key_columns) {
+  read(file_);
+  left_over_ = read(journal_file_);
+}
+
+bool Table::read(const std::filesystem::path& file) {
+  if (!is_there(file)) return false;
+  std::ifstream in(file);
   std::string line;
-  if (!std::getline(in, line)) return;
-  const std::vector<std::string> before = split(line);
+  if (!std::getline(in, line) || in.eof()) return true;
+  const std::vector<std::string> before = split_csv(line);
   const std::vector<std::size_t> places = places_of(before);
-  if (places.empty()) return;
-  while (std::getline(in, line)) {
-    const std::vector<std::string> fields = split(line);
+  if (places.empty()) return true;
+  const bool same = before == columns_;
+  std::vector<std::string> row(columns_.size());
+  while (std::getline(in, line) && !in.eof()) {  // a last line without its break is torn
+    const std::vector<std::string> fields = split_csv(line);
     if (fields.size() != before.size()) continue;
-    lines_.emplace_back(lines_.front().size());
-    for (std::size_t i = 0; i < places.size(); ++i) lines_.back()[places[i]] = fields[i];
+    for (std::size_t i = 0; i < places.size(); ++i) row[places[i]] = fields[i];
+    lines_[order_of(row)] = same ? line : join_csv(row);
   }
+  return true;
 }
 
 std::vector<std::size_t> Table::places_of(const std::vector<std::string>& before) const {
-  const std::vector<std::string>& now = lines_.front();
   const auto keys = static_cast<std::ptrdiff_t>(key_columns_);
-  if (before.size() < key_columns_ || !std::equal(now.begin(), now.begin() + keys, before.begin()))
+  if (before.size() < key_columns_ ||
+      !std::equal(columns_.begin(), columns_.begin() + keys, before.begin()))
     return {};
   std::vector<std::size_t> places;
   for (const std::string& column : before) {
-    const auto found = std::find(now.begin(), now.end(), column);
-    if (found == now.end()) return {};
-    places.push_back(static_cast<std::size_t>(found - now.begin()));
+    const auto found = std::find(columns_.begin(), columns_.end(), column);
+    if (found == columns_.end()) return {};
+    places.push_back(static_cast<std::size_t>(found - columns_.begin()));
   }
   return places;
 }
 
-void Table::put(const std::vector<std::string>& row) {
-  const auto key_end = static_cast<std::ptrdiff_t>(key_columns_);
-  const auto found = std::find_if(lines_.begin() + 1, lines_.end(), [&](const auto& other) {
-    return std::equal(row.begin(), row.begin() + key_end, other.begin());
-  });
-  if (found != lines_.end()) {
-    *found = row;
-  } else {
-    lines_.push_back(row);
-  }
+/// Texts whose alphabetical order is that of the rows: before a whole number its length.
+std::string Table::order_of(const std::vector<std::string>& row) const {
   std::string text;
-  for (const auto& line : lines_) {
-    for (std::size_t i = 0; i < line.size(); ++i) text += (i ? "," : "") + quoted(line[i]);
-    text += '\n';
+  for (std::size_t i = 0; i < key_columns_; ++i) {
+    const bool whole = row[i].find_first_not_of("0123456789") == std::string::npos;
+    if (whole) text += static_cast<char>(1 + std::min<std::size_t>(row[i].size(), 30));
+    text += one_line(row[i]) + '\0';
   }
+  return text;
+}
+
+void Table::put(const std::vector<std::string>& row) {
+  if (left_over_) write();
+  if (!journal_) {
+    journal_ = std::make_unique<Journal>(journal_file_);
+    journal_->begin(join_csv(columns_));
+  }
+  journal_->add(join_csv(row));
+  add(row);
+}
+
+void Table::add(const std::vector<std::string>& row) {
+  lines_[order_of(row)] = join_csv(row);
+  changed_ = true;
+}
+
+void Table::write() {
+  if (!left_over_ && !changed_) return;
+  if (!journal_) journal_ = std::make_unique<Journal>(journal_file_);
+  std::string text = join_csv(columns_) + '\n';
+  std::size_t size = text.size();
+  for (const auto& [key, line] : lines_) size += line.size() + 1;
+  text.reserve(size);
+  for (const auto& [key, line] : lines_) text += line + '\n';
   write_file(file_, text);
+  journal_->remove();
+  journal_.reset();
+  left_over_ = changed_ = false;
+}
+
+std::optional<std::vector<std::string>> Table::find(const std::vector<std::string>& row) const {
+  const auto found = lines_.find(order_of(row));
+  if (found == lines_.end()) return std::nullopt;
+  return split_csv(found->second);
+}
+
+void Table::each(const std::function<void(const std::vector<std::string>&)>& see) const {
+  for (const auto& [key, line] : lines_) see(split_csv(line));
+}
+
+std::size_t Table::column(const std::string& name) const {
+  const auto found = std::find(columns_.begin(), columns_.end(), name);
+  assert(found != columns_.end());
+  return static_cast<std::size_t>(found - columns_.begin());
 }
 
 }  // namespace maxwrench

@@ -8,8 +8,9 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
-#include <string_view>
 #include <system_error>
 
 namespace maxwrench {
@@ -19,22 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr int kMostLinks = 40;  // as the kernel
 constexpr mode_t kNewFile = 0666;
-
-[[noreturn]] void refuse_output(const fs::path& file, int error) {
-  throw std::invalid_argument(fmt::format("{}: got '{}', expected a file that can be written",
-                                          file.string(), std::generic_category().message(error)));
-}
-
-/// Zero or the error.
-int write_all(int descriptor, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t written = ::write(descriptor, text.data(), text.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return errno;
-    text.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return 0;
-}
 
 /// The stream of ours that writes to this file already, or -1. A second way into the file would
 /// overwrite what it has printed.
@@ -102,6 +87,21 @@ void replace(const fs::path& file, const fs::path& target, const struct stat* fo
 
 }  // namespace
 
+void refuse_output(const fs::path& file, int error) {
+  throw std::invalid_argument(fmt::format("{}: got '{}', expected a file that can be written",
+                                          file.string(), std::generic_category().message(error)));
+}
+
+int write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(descriptor, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
 void write_file(const fs::path& file, const std::string& text) {
   struct stat found {};
   const bool exists = stat(file.c_str(), &found) == 0;
@@ -115,6 +115,11 @@ void write_file(const fs::path& file, const std::string& text) {
   if (target.has_parent_path()) fs::create_directories(target.parent_path(), error);
   if (error) refuse_output(file, error.value());
   replace(file, target, exists ? &found : nullptr, text);
+}
+
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 }  // namespace maxwrench

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace maxwrench {
 
@@ -14,5 +15,13 @@ namespace maxwrench {
 /// for. Throws std::invalid_argument with one line that names the file and the system's reason;
 /// nothing is left behind then.
 void write_file(const std::filesystem::path& file, const std::string& text);
+
+/// All of a file; empty if there is none, or it cannot be read.
+std::string text_of(const std::filesystem::path& file);
+
+/// The line that `write_file` throws, for an `errno`.
+[[noreturn]] void refuse_output(const std::filesystem::path& file, int error);
+/// All of a text to an open file; zero or the `errno`.
+int write_all(int descriptor, std::string_view text);
 
 }  // namespace maxwrench

@@ -63,16 +63,14 @@ GoodPostures list_good(const ProofOptions& options, const Problem& problem, cons
   return verified_good_postures(problem, method, bound, proof.result.bound, good, proof.row);
 }
 
-/// What checks a certificate evaluates postures of a given pose whose base follows in closed form;
-/// the list of good postures is one of boxes of theta_r alone.
+/// What checks a certificate knows no forces of a second contact; the list of good postures is one
+/// of boxes of theta_r alone.
 void refuse_what_follows(const ProofOptions& options, const Problem& problem) {
-  const bool follows = !problem.dependent.empty() || problem.contact;
-  if (!options.certificate.empty() && (follows || problem.free.count() > 0)) {
+  if (!options.certificate.empty() && problem.contact_columns() > 0) {
     throw std::invalid_argument(
-        "--certificate: got a task with joints that follow from theta_r, a second contact or free "
-        "coordinates of the pose, expected one without");
+        "--certificate: got a task with forces of a second contact, expected one without");
   }
-  if (options.within.asked() && follows) {
+  if (options.within.asked() && (!problem.dependent.empty() || problem.contact)) {
     throw std::invalid_argument(
         "--within: got a task with joints that follow from theta_r or a second contact, expected "
         "one without");
@@ -109,7 +107,7 @@ Proof prove(const ProofOptions& options, const Problem& problem) {
   if (proof.row.has_value()) {
     incumbent = {proof.row.posture.theta_r, proof.row.capability.beta};
   }
-  proof.result = prove(problem, method, incumbent, how);
+  proof.result = prove(problem, method, *bound, incumbent, how);
   const Candidate& best = proof.result.best;
   if (best.value > incumbent.value) proof.row = evaluate(problem, method, best.theta_r);
   if (best.value == -kInfinity) {

@@ -40,8 +40,9 @@ int parse_and_run(int argc, const char* const* argv) {
   });
   app.require_subcommand(1);
   int exit_status = kAnswered;
-  for (const auto add : {add_list, add_check, add_eval, add_solve, add_certify, add_verify, add_lp,
-                         add_run, add_simulate, add_plot, add_compare, add_reproduce, add_manual}) {
+  for (const auto add :
+       {add_list, add_check, add_eval, add_solve, add_certify, add_verify, add_lp, add_run,
+        add_merge, add_simulate, add_plot, add_compare, add_report, add_reproduce, add_manual}) {
     add(app, exit_status);
   }
   try {
@@ -127,7 +128,7 @@ void CommonOptions::add_search(CLI::App& app) {
 void CommonOptions::add_budget(CLI::App& app, const char* what) {
   app.add_option("--budget", choice.budget, what)
       ->capture_default_str()
-      ->check(CLI::Range(1L, kMostBudget));
+      ->check(CLI::Range(1L, long{kMostBudget}));
 }
 
 void require_static(const Problem& problem, const char* command) {

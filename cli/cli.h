@@ -39,9 +39,6 @@ struct CommonOptions {
 /// Numbers separated by commas; throws std::invalid_argument that names the option.
 Eigen::VectorXd parse_numbers(const std::string& option, const std::string& text);
 
-/// More evaluations than anyone waits for: a grid keeps all their values.
-inline constexpr long kMostBudget = 100'000'000;
-
 /// The posture that `--theta-r` names; without it that of the task.
 Eigen::VectorXd theta_r_of(const Problem& problem, const std::optional<std::string>& text);
 
@@ -66,9 +63,11 @@ void add_certify(CLI::App& app, int& exit_status);
 void add_verify(CLI::App& app, int& exit_status);
 void add_lp(CLI::App& app, int& exit_status);
 void add_run(CLI::App& app, int& exit_status);
+void add_merge(CLI::App& app, int& exit_status);
 void add_simulate(CLI::App& app, int& exit_status);
 void add_plot(CLI::App& app, int& exit_status);
 void add_compare(CLI::App& app, int& exit_status);
+void add_report(CLI::App& app, int& exit_status);
 void add_reproduce(CLI::App& app, int& exit_status);
 void add_manual(CLI::App& app, int& exit_status);
 

@@ -18,6 +18,7 @@
 #include "cli/motion_options.h"
 #include "cli/output.h"
 #include "cli/progress.h"
+#include "cli/race_figures.h"
 #include "cli/race_table.h"
 #include "drawing/convergence.h"
 #include "drawing/ecdf.h"
@@ -111,23 +112,6 @@ bool finished(const CompareOptions& options, const std::vector<Comparison>& comp
          std::all_of(comparisons.begin(), comparisons.end(), [](const Comparison& comparison) {
            return comparison.has_value() && !comparison.interrupted;
          });
-}
-
-/// Of each of the problems, or of all together as one.
-std::vector<EcdfPanel> ecdf_panels(std::span<const Comparison> comparisons,
-                                   const std::string& title) {
-  std::vector<EcdfPanel> panels = {{title, "evaluations", {}}, {title, "ms", {}}};
-  const Cost costs[] = {&Spent::evaluations, &Spent::seconds};
-  for (const Standing& standing : standings(comparisons)) {
-    for (std::size_t i = 0; i < panels.size(); ++i) {
-      EcdfCurve& curve = panels[i].curves.emplace_back(EcdfCurve{standing.search, {}});
-      const double unit = i == 0 ? 1 : 1e3;
-      for (const EcdfStep& step : target_ecdf(comparisons, standing.search, costs[i])) {
-        curve.steps.emplace_back(unit * step.spent, step.share);
-      }
-    }
-  }
-  return panels;
 }
 
 /// `kind` is "search" or "plan".

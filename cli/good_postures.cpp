@@ -84,7 +84,9 @@ void print_cluster(const Problem& problem, const GoodPostures& good, std::size_t
 /// The longest side.
 double widest(const GoodPostures& good) {
   double most = 0;
-  for (const GoodBox& box : good.boxes) most = std::max(most, (box.upper - box.lower).maxCoeff());
+  for (const GoodBox& box : good.boxes) {
+    for (const double side : box.upper - box.lower) most = std::max(most, side);
+  }
   return most;
 }
 

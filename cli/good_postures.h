@@ -31,7 +31,7 @@ struct WithinOptions {
 inline constexpr double kGapPart = 0.1;
 
 /// All postures that are within the share of the best; `row` holds the best that is known, whose
-/// value is at most `bound`. Those that are found are verified as any; a better one becomes `row`.
+/// value is at most `high`. Those that are found are verified as any; a better one becomes `row`.
 GoodPostures verified_good_postures(const Problem& problem, const Method& method,
                                     const Bound& bound, double high, GoodOptions options, Row& row);
 

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "benchmarks/write_file.h"
 #include "maxwrench/version.h"
 
 namespace maxwrench {
@@ -66,13 +66,6 @@ Status read_status(const std::string& file, const std::string& name) {
   refuse(file, fmt::format("status: got '{:.40}'", name));
 }
 
-std::string read_all(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) throw std::invalid_argument(file + ": cannot be read, expected a certificate");
-  return text;
-}
-
 }  // namespace
 
 std::string lp_proof_text(const std::string& mps_file, const MpsProgram& mps,
@@ -94,7 +87,7 @@ bool is_lp_proof(const std::string& file) {
 }
 
 LpVerification verify_lp(const std::string& file, const std::string& mps_file) {
-  const ordered_json object = ordered_json::parse(read_all(file), nullptr, false);
+  const ordered_json object = ordered_json::parse(text_of(file), nullptr, false);
   LpVerification result;
   LpProof proof;
   try {

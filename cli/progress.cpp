@@ -15,26 +15,28 @@ constexpr int kCharacters = 40;
 
 }  // namespace
 
-Progress::Progress(std::string what, long total)
+Progress::Progress(std::string what, double total)
     : what_(std::move(what)),
-      total_(std::max(total, 1L)),
+      total_(std::max(total, 1e-9)),
       enabled_(isatty(fileno(stderr)) != 0),
       start_(std::chrono::steady_clock::now()),
       next_(start_ + kPatience) {}
 
-void Progress::show(long done) {
+void Progress::show(double done) {
   if (!enabled_) return;
   const std::lock_guard<std::mutex> guard(mutex_);
   const auto now = std::chrono::steady_clock::now();
   if (now < next_) return;
   next_ = now + kInterval;
   drawn_ = true;
-  const double share = std::min(1.0, static_cast<double>(done) / static_cast<double>(total_));
+  const double share = std::min(1.0, done / total_);
   const int filled = static_cast<int>(share * kCharacters);
   // Not fmt::print, which throws if the terminal is gone: the caller may be a C library.
-  std::fputs(fmt::format("\r{} [{:=<{}}{:<{}}] {:3.0f} %  {:.0f} s\x1b[K", what_, "", filled, "",
-                         kCharacters - filled, 100 * share,
-                         std::chrono::duration<double>(now - start_).count())
+  const double spent = std::chrono::duration<double>(now - start_).count();
+  const std::string left =
+      share > 0 ? fmt::format(", {:.0f} s left", spent / share - spent) : std::string();
+  std::fputs(fmt::format("\r{} [{:=<{}}{:<{}}] {:3.0f} %  {:.0f} s{}\x1b[K", what_, "", filled, "",
+                         kCharacters - filled, 100 * share, spent, left)
                  .c_str(),
              stderr);
   std::fflush(stderr);

@@ -7,23 +7,24 @@
 
 namespace maxwrench {
 
-/// A progress bar on stderr, only if that is a terminal and the work takes longer than a second.
+/// A progress bar with the time left on stderr, only if that is a terminal and the work takes
+/// longer than a second.
 class Progress {
  public:
-  Progress(std::string what, long total);
+  Progress(std::string what, double total);
   ~Progress() { finish(); }
 
   /// To be called with the work done so far, from any thread.
-  void show(long done);
+  void show(double done);
   std::function<void(long)> counter() {
-    return [this](long done) { show(done); };
+    return [this](long done) { show(static_cast<double>(done)); };
   }
   /// Removes the bar.
   void finish();
 
  private:
   std::string what_;
-  long total_;
+  double total_;
   bool enabled_;
   bool drawn_ = false;
   std::mutex mutex_;

@@ -5,14 +5,12 @@
 #include <cmath>
 
 #include "benchmarks/machine.h"
+#include "benchmarks/race_file.h"
 #include "benchmarks/table.h"
 #include "maxwrench/version.h"
 
 namespace maxwrench {
 namespace {
-
-constexpr const char* kTargetNames[] = {"tenth", "hundredth", "thousandth", "ten_thousandth"};
-static_assert(std::size(kTargetNames) == kTargetShares.size());
 
 /// How far a value stays below the best, as a share of it; NaN if there is none.
 double shortfall(const Comparison& comparison, double value) {
@@ -98,12 +96,17 @@ void put(Table& table, const Attempt& each, const std::vector<std::string>& more
   table.put(cells);
 }
 
+/// Of a table: empty for what is not finite, so that programs read a column of numbers.
+std::string number_cell(double value, const char* format) {
+  return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "";
+}
+
 /// One cell for each target: what was spent when it was reached.
 std::vector<std::string> hit_cells(const Comparison& comparison, const Attempt& each, Cost cost,
                                    const char* format) {
   std::vector<std::string> cells;
   for (const double share : kTargetShares) {
-    cells.push_back(number_or_dash(first_hit(each.run, comparison.target(share)).*cost, format));
+    cells.push_back(number_cell(first_hit(each.run, comparison.target(share)).*cost, format));
   }
   return cells;
 }
@@ -119,19 +122,19 @@ std::vector<std::string> race_columns(const std::vector<std::string>& before, co
 }
 
 void keep_attempt(const Comparison& comparison, const Attempt& each, Table& values, Table& times) {
-  std::vector<std::string> cells = {number_or_dash(each.value, "{:.17g}"),
-                                    number_or_dash(each.continuous, "{:.17g}"),
+  std::vector<std::string> cells = {number_cell(each.value, "{:.17g}"),
+                                    number_cell(each.continuous, "{:.17g}"),
                                     comparison.unit,
-                                    number_or_dash(comparison.best(), "{:.17g}"),
+                                    number_cell(comparison.best(), "{:.17g}"),
                                     comparison.proven ? "yes" : "no",
-                                    number_or_dash(shortfall(comparison, each.value), "{:.3e}")};
+                                    number_cell(shortfall(comparison, each.value), "{:.3e}")};
   for (auto& cell : hit_cells(comparison, each, &Spent::evaluations, "{:.0f}")) {
     cells.push_back(std::move(cell));
   }
   cells.push_back(fmt::format("{:.0f}", each.run.spent.evaluations));
   put(values, each, cells);
   cells = hit_cells(comparison, each, &Spent::seconds, "{:.4g}");
-  for (auto& cell : {number_or_dash(each.run.spent.seconds, "{:.4g}"), std::string("1"),
+  for (auto& cell : {number_cell(each.run.spent.seconds, "{:.4g}"), std::string("1"),
                      processor_name(), std::string(version())}) {
     cells.push_back(cell);
   }
@@ -209,6 +212,8 @@ void keep(const Comparison& comparison, const std::filesystem::path& folder) {
       for (const Attempt& each : contender.attempts) keep_attempt(comparison, each, values, times);
     }
   }
+  values.write();
+  times.write();
 }
 
 }  // namespace maxwrench

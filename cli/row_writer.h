@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <mutex>
 #include <string>
 
 #include "benchmarks/row.h"
@@ -12,33 +14,59 @@ namespace maxwrench {
 struct PlanMethod;
 struct PlanRow;
 
-/// Solves cases one after the other and keeps their rows in values.csv and times.csv of a folder,
-/// each written as soon as it is known; describes the machine in machine.txt. Each time says on how
-/// many threads, on which processor and by which version it was measured, because a table may grow
-/// on several. Shows its progress.
+/// The tables of a folder: values.csv and times.csv.
+Table values_table(const std::filesystem::path& folder);
+Table times_table(const std::filesystem::path& folder);
+
+/// The rows of a folder as they are.
+class RowsThere {
+ public:
+  explicit RowsThere(const std::filesystem::path& folder);
+
+  /// Whether that of a complete case was made by the present sources and version.
+  bool has(const Case& c) const;
+  /// Whether those of all these cases are there and have a value.
+  bool all_solved(const std::vector<Case>& cases) const;
+
+ private:
+  Table values_, times_;
+};
+
+/// Solves cases and keeps their rows in the tables of a folder, each as soon as it is known;
+/// describes the machine in machine.txt. Each time says on how many threads, on which processor and
+/// by which build it was measured, because a table may grow on several. Shows its progress.
 class RowWriter {
  public:
-  /// `rows`: how many are expected, for the progress bar.
+  /// `threads`: of each case; `work`: of all of them together, for the progress bar.
   RowWriter(const std::string& command, const std::filesystem::path& folder, int threads,
-            long rows);
+            double work);
 
   Row solve(const Problem& problem, const Method& method);
   PlanRow solve(const Problem& problem, const PlanMethod& method);
   Row evaluate(const Problem& problem, const Method& method, const Eigen::VectorXd& theta_r);
   PlanRow evaluate(const Problem& problem, const PlanMethod& method, const Eigen::MatrixXd& knots);
 
-  /// Removes the progress bar; whether every row has a value.
+  /// Of any task, from any thread; what is thrown on the way makes a row without a value, with the
+  /// reason.
+  void solve_case(const Problem& problem, const Case& c, double work);
+
+  /// Removes the progress bar and writes the tables; whether every row has a value.
   bool finish();
 
  private:
   /// Of a `Row` or `PlanRow`.
   template <class AnyRow>
-  AnyRow kept(const Problem& problem, AnyRow row, int threads);
+  AnyRow kept(const Problem& problem, int threads, const std::function<AnyRow()>& make,
+              double work = 1);
+  /// The row of a method, or of what kept it from having one.
+  template <class AnyRow>
+  AnyRow attempted(const Case& c, const std::function<AnyRow()>& make) const;
 
   Table values_, times_;
+  std::mutex mutex_;
   int threads_;
   Progress progress_;
-  long done_ = 0;
+  double done_ = 0;
   bool all_solved_ = true;
 };
 

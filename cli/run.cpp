@@ -5,17 +5,25 @@
 #include <map>
 #include <memory>
 
+#include "benchmarks/cost.h"
+#include "benchmarks/plan_file.h"
 #include "benchmarks/plan_row.h"
+#include "benchmarks/product.h"
+#include "benchmarks/write_file.h"
 #include "cli/cli.h"
 #include "cli/row_writer.h"
+#include "cli/workers.h"
 #include "maxwrench/load.h"
 
 namespace maxwrench {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct RunOptions : CommonOptions {
   std::vector<std::string> words;
-  std::string out = "results";
+  std::string out = "results", shard = "1/1";
+  bool dry = false, commands = false, again = false;
 };
 
 /// What the words of the command line choose.
@@ -39,7 +47,7 @@ Choice read_words(const std::vector<std::string>& words) {
       choice.problems.push_back(word);
     } else if (equals == std::string::npos) {
       throw std::invalid_argument(fmt::format(
-          "run: got '{}', expected column=value, a shipped problem or a task file", word));
+          "run: got '{}', expected column=value, a shipped problem, a task file or a plan", word));
     } else if (!choice.filter.emplace(word.substr(0, equals), word.substr(equals + 1)).second) {
       throw std::invalid_argument(fmt::format("run: got '{}', expected each column once", word));
     }
@@ -76,19 +84,6 @@ long read_budget(const std::map<std::string, std::string>& filter, bool in_time)
   return value;
 }
 
-/// The chosen cases of the problems.
-std::vector<Case> choose(const std::map<std::string, Problem>& problems,
-                         const std::map<std::string, std::string>& filter) {
-  const std::uint64_t seed = read_seed(filter);
-  std::vector<Case> cases;
-  for (const auto& named : problems) {
-    const long budget = read_budget(filter, named.second.motion.has_value());
-    const std::vector<Case> more = product(named.second, seed, budget);
-    cases.insert(cases.end(), more.begin(), more.end());
-  }
-  return select(std::move(cases), filter);
-}
-
 /// Those named, or all shipped static ones.
 std::map<std::string, Problem> load_chosen(const std::vector<std::string>& named) {
   std::map<std::string, Problem> problems;
@@ -100,27 +95,109 @@ std::map<std::string, Problem> load_chosen(const std::vector<std::string>& named
   return problems;
 }
 
-/// On a copy, whose scheme is that of the case.
-void solve_case(RowWriter& writer, Problem problem, const Case& c) {
-  if (!problem.motion) {
-    writer.solve(problem, resolve(problem, c));
-    return;
+Workload choose(const Choice& choice) {
+  const std::uint64_t seed = read_seed(choice.filter);
+  Workload work{load_chosen(choice.problems), {}, {}};
+  for (const auto& named : work.problems) {
+    const long budget = read_budget(choice.filter, named.second.motion.has_value());
+    const std::vector<Case> more = product(named.second, seed, budget);
+    work.cases.insert(work.cases.end(), more.begin(), more.end());
   }
-  set_scheme("scheme", c.scheme, problem);
-  writer.solve(problem, resolve_plan(problem, c));
+  work.cases = select(std::move(work.cases), choice.filter);
+  sort_cases(work.cases);
+  return work;
+}
+
+/// A plan, which stands alone, or what the words choose.
+Workload read_work(const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(word, ignored) || is_task(word)) continue;
+    if (words.size() == 1) return read_plan_file(word);
+    throw std::invalid_argument(fmt::format("run: got {} words beside '{}', expected a plan alone",
+                                            words.size() - 1, word));
+  }
+  return choose(read_words(words));
+}
+
+/// The cases of "I/N".
+std::vector<Case> take_shard(const std::string& text, const Workload& work) {
+  const std::size_t slash = text.find('/');
+  const auto number = [](const std::string& digits) {
+    const bool whole = !digits.empty() && digits.size() < 7 &&
+                       digits.find_first_not_of("0123456789") == std::string::npos;
+    return whole ? std::stoi(digits) : 0;
+  };
+  const int index = number(text.substr(0, slash));
+  const int count = slash == std::string::npos ? 0 : number(text.substr(slash + 1));
+  if (index < 1 || index > count) {
+    throw std::invalid_argument(
+        fmt::format("shard: got '{}', expected I/N such as 2/4, with I of 1 to N", text));
+  }
+  if (count == 1) return work.cases;
+  std::vector<double> costs;
+  for (const Case& c : work.cases) {
+    costs.push_back(usual_seconds(work.problems.at(c.problem), c));
+  }
+  return shard(work.cases, costs, index - 1, count);
+}
+
+std::string quoted_word(const std::string& word) {
+  const bool plain = word.find_first_not_of(
+                         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                         "_-+./=") == std::string::npos;
+  if (plain) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+/// What gives the same row.
+std::string command_of(const Case& c) {
+  return fmt::format(
+      "maxwrench solve {} --measure {} --wrench {}{} --search {} --seed {} --budget {}{}",
+      quoted_word(c.problem), c.measure, to_string(c.wrench),
+      c.lp == kNoSolver ? "" : " --lp " + c.lp, c.search, c.seed, c.budget,
+      c.scheme.empty() ? "" : " --scheme " + c.scheme);
+}
+
+int print_forecast(const RunOptions& options, const Workload& work, const std::vector<Case>& all,
+                   const std::vector<Case>& todo) {
+  const Forecast forecast(times_table(options.out));
+  double seconds = 0, in_a_row = 0;
+  for (const Case& c : todo) {
+    const double each = forecast.seconds(work.problems.at(c.problem), c);
+    seconds += each;
+    if (waits_for_others(c)) in_a_row += each;
+  }
+  const int threads = options.thread_count();
+  fmt::print("{} rows, {} of them to do, in about {:.0f} s on {} thread{}\n", all.size(),
+             todo.size(), std::max(seconds / threads, in_a_row), threads, threads == 1 ? "" : "s");
+  return kAnswered;
+}
+
+std::vector<Case> still_to_do(std::vector<Case> cases, const std::string& folder) {
+  const RowsThere there(folder);
+  std::erase_if(cases, [&](const Case& c) { return there.has(c); });
+  return cases;
 }
 
 int run(const RunOptions& options) {
-  const Choice choice = read_words(options.words);
-  const std::map<std::string, Problem> problems = load_chosen(choice.problems);
-  const std::vector<Case> cases = choose(problems, choice.filter);
-  const std::filesystem::path folder(options.out);
-  RowWriter writer("run", folder, options.thread_count(), static_cast<long>(cases.size()));
-  for (const Case& c : cases) {
-    solve_case(writer, problems.at(c.problem), c);
+  const Workload work = read_work(options.words);
+  const std::vector<Case> cases = take_shard(options.shard, work);
+  if (options.commands) {
+    for (const Case& c : cases) fmt::print("{}\n", command_of(c));
+    return kAnswered;
   }
-  const bool all_solved = writer.finish();
-  fmt::print("{} rows in {}\n", cases.size(), (folder / "values.csv").string());
+  const std::vector<Case> todo = options.again ? cases : still_to_do(cases, options.out);
+  if (options.dry) return print_forecast(options, work, cases, todo);
+  if (!work.plan.empty()) write_file(fs::path(options.out) / "plan.toml", work.plan);
+  solve_cases(work, todo, options.out, options.thread_count());
+  const bool all_solved = RowsThere(options.out).all_solved(cases);
+  const fs::path file = fs::path(options.out) / "values.csv";
+  fmt::print("{} rows in {}", cases.size(), file.string());
+  if (todo.size() < cases.size()) fmt::print(", {} of them were there", cases.size() - todo.size());
+  fmt::print("\n");
   return all_solved ? kAnswered : kOtherStatus;
 }
 
@@ -132,11 +209,16 @@ void add_run(CLI::App& app, int& exit_status) {
       "run", "every meaningful combination of measure, wrench, scheme, solver, search");
   command.add_option(
       "words", options->words,
-      "problems, shipped or task files (default: all static ones shipped), and column=value: "
-      "only these rows (seed and budget are set, not filtered)");
+      "a plan (TOML), or problems, shipped or task files (default: all static ones shipped), and "
+      "column=value: only these rows (seed and budget are set, not filtered)");
   command.add_option("--out", options->out, "folder of values.csv, times.csv and machine.txt")
       ->capture_default_str()
       ->check(refuse_empty);
+  command.add_flag("--dry", options->dry, "only counts the rows and predicts the time");
+  command.add_flag("--commands", options->commands, "only prints the command of each row");
+  command.add_flag("--again", options->again, "rows that are there are computed again, too");
+  command.add_option("--shard", options->shard, "I/N: part I of N, the same whoever asks")
+      ->capture_default_str();
   options->add_threads(command);
   command.callback([options, &exit_status] { exit_status = run(*options); });
 }

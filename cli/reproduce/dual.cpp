@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::array<const char*, 2> kSearches = {"grid+cmaes", "annealing+cmaes"};
 constexpr long kDualBudget = 20000;
-constexpr int kSamples = 2000;
+constexpr int kRandomContacts = 2000;
 
 struct Tank {
   double one = 23, chosen = 26, best = 30;  ///< N m, measured in the paper
@@ -70,9 +70,9 @@ PaperTable reproduce_dual(const std::filesystem::path& folder, int threads) {
   text += contact_line("default contact", chosen, reference, tank.chosen, tank.one);
   text += contact_line("best contact", best, reference, tank.best, tank.one,
                        fmt::format("{:.3f}", proven_bound(wall, best, threads)));
-  const Sampled contacts = sample_postures(wall, kSamples);
-  text += fmt::format("  {} random contacts, {} of them valid; {}\n", kSamples, contacts.valid,
-                      describe(contacts.postures));
+  const Sampled contacts = sample_postures(wall, kRandomContacts);
+  text += fmt::format("  {} random contacts, {} of them valid; {}\n", kRandomContacts,
+                      contacts.valid, describe(contacts.postures));
   if (best.has_value()) {
     write_file(folder / "dual_postures.svg",
                posture_figure(wall, {{"default contact", wall.theta_r_default},

@@ -35,12 +35,13 @@ int reproduce(const ReproduceOptions& options) {
 
 double proven_bound(const Problem& problem, const Row& row, int threads) {
   const double none = std::numeric_limits<double>::quiet_NaN();
-  if (!row.has_value() || boxed_coordinates(problem, row.choice.measure, row.choice.wrench) == 0)
-    return none;
+  if (!row.has_value()) return none;
+  const auto bound = find_bound(problem, row.choice.measure, row.choice.wrench);
+  if (!bound) return none;
   CertifyOptions options;
   options.boxes = 1'000'000;
   options.threads = threads;
-  const CertifyResult result = prove(problem, resolve(problem, row.choice),
+  const CertifyResult result = prove(problem, resolve(problem, row.choice), *bound,
                                      {row.posture.theta_r, row.capability.beta}, options);
   return result.status == Status::kProven ? result.bound : none;
 }

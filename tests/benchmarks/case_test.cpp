@@ -7,6 +7,7 @@
 #include <string>
 
 #include "benchmarks/plan_row.h"
+#include "benchmarks/product.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
 

@@ -114,7 +114,7 @@ TEST(Comparison, TargetsAndReference) {
 }
 
 /// Branch and bound closes on the planar optimum, which is proven elsewhere: 3.4775 to four digits.
-/// A second contact has no bound.
+/// Eleven coordinates are too many to be tried.
 TEST(Comparison, TargetsLieBelowAProvenBound) {
   const RaceOptions one{1, 2, true, {}};
   Case c{"planar/force", "linf_polytope", Wrench::kPure, "", "facet_sqp+cmaes", 1, 500};
@@ -124,7 +124,7 @@ TEST(Comparison, TargetsLieBelowAProvenBound) {
   EXPECT_GE(*proven.proven, proven.best_found().value);
   EXPECT_LT(*proven.proven, proven.best_found().value * (1 + 4e-5));
   EXPECT_NEAR(*proven.proven, 3.4775, 1e-4);
-  c.problem = "planar/two_arms";
+  c.problem = "dual_arm/two_arms";
   EXPECT_FALSE(compare(load_problem(c.problem), c, one).proven);
 }
 

@@ -52,6 +52,24 @@ TEST(ExactBasis, ProvesTheProgramOfDoubles) {
   EXPECT_LT(proof.x[0], 1);
 }
 
+/// Two columns that are the same make no basis: it is begun anew. max x + 2 y + z, x + y + z = 2,
+/// 2 x + 2 y - z = 1, so z = 1 and x + y = 1, best y = 1: the objective is 3.
+TEST(ExactBasis, SingularStartsAreGivenUp) {
+  LinearProgram program;
+  program.A = (Eigen::MatrixXd(2, 3) << 1, 1, 1, 2, 2, -1).finished().sparseView();
+  program.b = Eigen::Vector2d(2, 1);
+  program.c = Eigen::Vector3d(1, 2, 1);
+  program.l.setZero(3);
+  program.u.setConstant(3, kInfinity);
+  LpSolution start;
+  using enum VariableState;
+  start.basis = {kBasic, kBasic, kAtLower, kAtLower, kAtLower};
+  const LpProof proof = exact_proof(program, start);
+  ASSERT_EQ(proof.status, Status::kOptimal);
+  EXPECT_EQ(refuse_lp_proof(program, proof), "");
+  EXPECT_EQ(exact_objective(program, proof.x), 3);
+}
+
 TEST(ExactBasis, LargeProgramsAreRefused) {
   LinearProgram program;
   const int rows = kMostExactRows + 1;

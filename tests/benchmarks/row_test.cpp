@@ -11,6 +11,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "benchmarks/product.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
 #include "tests/reference_models/static_task.h"

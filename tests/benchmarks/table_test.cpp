@@ -9,6 +9,11 @@
 namespace maxwrench {
 namespace {
 
+void put_row(Table table, const std::vector<std::string>& row) {
+  table.put(row);
+  table.write();
+}
+
 TEST(Table, ReplacesRowsByKeyAndKeepsTheRest) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "sub" / "t.csv";
@@ -16,28 +21,56 @@ TEST(Table, ReplacesRowsByKeyAndKeepsTheRest) {
     Table table(file, {"a", "b", "value"}, 2);
     table.put({"1", "x", "first, with \"quotes\""});
     table.put({"2", "x", "second"});
+    table.write();
   }
-  Table(file, {"a", "b", "value"}, 2).put({"2", "x", "third"});
+  put_row(Table(file, {"a", "b", "value"}, 2), {"2", "x", "third"});
   EXPECT_EQ(read_text(file), "a,b,value\n1,x,\"first, with \"\"quotes\"\"\"\n2,x,third\n");
   // Other columns: the old rows would mean something else, the file starts anew.
-  Table(file, {"a", "value"}, 1).put({"9", "new"});
+  put_row(Table(file, {"a", "value"}, 1), {"9", "new"});
   EXPECT_EQ(read_text(file), "a,value\n9,new\n");
 }
 
 TEST(Table, NewColumnsAreEmptyInOldRows) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "t.csv";
-  Table(file, {"a", "b", "seconds"}, 2).put({"1", "x", "0.5"});
-  Table(file, {"a", "b", "threads", "seconds"}, 2).put({"2", "x", "8", "0.1"});
+  put_row(Table(file, {"a", "b", "seconds"}, 2), {"1", "x", "0.5"});
+  put_row(Table(file, {"a", "b", "threads", "seconds"}, 2), {"2", "x", "8", "0.1"});
   EXPECT_EQ(read_text(file), "a,b,threads,seconds\n1,x,,0.5\n2,x,8,0.1\n");
 }
 
 TEST(Table, LineBreaksBecomeBlanks) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "t.csv";
-  Table(file, {"a", "value"}, 1).put({"two\nlines", "1"});
-  Table(file, {"a", "value"}, 1).put({"other", "2"});
-  EXPECT_EQ(read_text(file), "a,value\ntwo lines,1\nother,2\n");
+  put_row(Table(file, {"a", "value"}, 1), {"two\nlines", "1"});
+  put_row(Table(file, {"a", "value"}, 1), {"other", "2"});
+  EXPECT_EQ(read_text(file), "a,value\nother,2\ntwo lines,1\n");
+}
+
+TEST(Table, RowsAreInTheOrderOfTheirKeys) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "t.csv";
+  Table table(file, {"a", "b", "value"}, 2);
+  for (const char* a : {"x", "", "w"}) {
+    for (const char* b : {"10", "9", "100"}) table.put({a, b, "v"});
+  }
+  table.write();
+  EXPECT_EQ(read_text(file),
+            "a,b,value\n,9,v\n,10,v\n,100,v\nw,9,v\nw,10,v\nw,100,v\nx,9,v\nx,10,v\nx,100,v\n");
+}
+
+TEST(Table, WhoIsKilledLeavesAJournal) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "t.csv";
+  put_row(Table(file, {"a", "value"}, 1), {"1", "old"});
+  { Table(file, {"a", "value"}, 1).put({"2", "new"}); }  // never written
+  EXPECT_EQ(read_text(file), "a,value\n1,old\n");
+  Table table(file, {"a", "value"}, 1);
+  EXPECT_EQ(table.size(), 2U);
+  EXPECT_EQ(table.find({"2"})->back(), "new");
+  EXPECT_FALSE(table.find({"3"}));
+  table.write();
+  EXPECT_EQ(read_text(file), "a,value\n1,old\n2,new\n");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "t.csv.part"));
 }
 
 /// Taken for an empty table, it would be lost with the next row.

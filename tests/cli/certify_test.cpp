@@ -79,8 +79,8 @@ TEST(CertifyCommand, RefusesInOneLine) {
   refused("uvms/valve_trajectory", "task in time");
   refused("dual_arm/bar_wall --measure ellipsoid", "got 'ellipsoid'");
   refused("fixed/push --wrench any", "follow from theta_r");
-  refused("mobile/push --certificate proof.bin",
-          "--certificate: got a task with joints that follow");
+  refused("dual_arm/bar_wall --certificate proof.bin",
+          "--certificate: got a task with forces of a second contact");
   refused("planar/force --measure volume", "--measure: got 'volume'");
   refused("planar/force --measure ellipsoid --wrench any", "--wrench: got 'any'");
   refused("planar/force --gap 1e-9", "--gap");

@@ -81,5 +81,34 @@ TEST(CertifyCommand, WritesNoCertificateWithoutABound) {
   EXPECT_FALSE(std::filesystem::exists(file));
 }
 
+/// The rows of the project's own run; and one that claims a tenth more is refused by its name.
+TEST_F(VerifyCommand, ChecksRowsOfARun) {
+  const std::string rows = MAXWRENCH_SOURCE_DIR "/results/values.csv";
+  const json good = json::parse(run_maxwrench("verify --json --sample 200 " + rows).out);
+  EXPECT_EQ(good["status"], "verified") << good["refused"];
+  EXPECT_EQ(good["checked"], 200);
+  EXPECT_GT(good["values"], 100);
+  EXPECT_LT(good["deviation"], 1e-6);
+  const std::string file = folder_.path() / "values.csv";
+  const CommandResult run = run_maxwrench(
+      "run planar/force measure=linf_polytope lp=facets search=crs2 budget=500 --out " +
+      folder_.path().string());
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  EXPECT_EQ(run_maxwrench("verify " + file).exit_status, 0);
+  std::string text = read_text(file);
+  const std::size_t beta = text.find("best_found,3.") + std::string("best_found,").size();
+  ASSERT_LT(beta, text.size());
+  std::ofstream(file) << text.replace(beta, 3, "3.9");
+  const CommandResult other = run_maxwrench("verify " + file);
+  EXPECT_EQ(other.exit_status, 1);
+  EXPECT_NE(other.out.find("refused: planar/force,linf_polytope,pure,facets,crs2,1,500"),
+            std::string::npos)
+      << other.out;
+  std::ofstream(file, std::ios::app) << "planar/force,linf_polytope\n";
+  const CommandResult torn = run_maxwrench("verify " + file);
+  EXPECT_EQ(torn.exit_status, 2);
+  EXPECT_NE(torn.err.find("got 2 fields, expected"), std::string::npos) << torn.err;
+}
+
 }  // namespace
 }  // namespace maxwrench

@@ -14,6 +14,7 @@
 #include "drawing/ecdf.h"
 #include "drawing/legend.h"
 #include "drawing/postures.h"
+#include "drawing/scatter.h"
 #include "maxwrench/load.h"
 
 namespace maxwrench {
@@ -139,6 +140,18 @@ TEST_F(FiguresTest, EcdfNamesAFew) {
   EXPECT_EQ(count(draw_ecdf({panels, 1}, {"a", "b", "none"}, 1), ">all others<"), 0);
   const EcdfPanel wild{"p", "ms", {{"a", {{kInfinity, 1}}}}};
   EXPECT_THROW(draw_ecdf({&wild, 1}, {}, 1), std::invalid_argument);
+}
+
+/// A mark for each point that stands on a logarithmic axis, and one in the legend for each set.
+TEST_F(FiguresTest, ScatterLeavesOutWhatHasNoLogarithm) {
+  ScatterPanel panel{
+      "coordinates", "us", {{"ours", {{1, 2}, {10, 300}, {0, 5}}}, {"peer", {{2, 9}}}}};
+  const std::string svg = draw_scatter(panel);
+  EXPECT_EQ(count(svg, "<circle"), 2 + 1);  // the first style's mark
+  EXPECT_NE(svg.find(">coordinates</text>"), std::string::npos);
+  EXPECT_NE(svg.find(">peer</text>"), std::string::npos);
+  panel.sets = {{"none", {{0, 0}}}};
+  EXPECT_THROW(draw_scatter(panel), std::invalid_argument);
 }
 
 TEST_F(FiguresTest, BarsThatCannotBeDrawnAreRefused) {

@@ -1,0 +1,53 @@
+#include "benchmarks/case_file.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+namespace maxwrench {
+namespace {
+
+template <class Integer>
+Integer whole_number(const CsvFile& csv, std::size_t row, const std::string& column) {
+  const std::string& cell = csv.text(row, column);
+  Integer value = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error == std::errc() && end == cell.data() + cell.size() && value >= 0) return value;
+  csv.refuse(row, column, "a whole number");
+}
+
+}  // namespace
+
+std::vector<std::string> with_case_columns(const std::vector<std::string>& more) {
+  std::vector<std::string> columns = case_columns();
+  columns.insert(columns.end(), more.begin(), more.end());
+  return columns;
+}
+
+Case case_of(const CsvFile& csv, std::size_t row) {
+  Case c;
+  c.problem = csv.text(row, "problem");
+  c.measure = csv.text(row, "measure");
+  const std::string& wrench = csv.text(row, "wrench");
+  if (wrench != "pure" && wrench != "any") csv.refuse(row, "wrench", "pure or any");
+  c.wrench = parse_wrench(wrench);
+  c.lp = csv.text(row, "lp");
+  c.search = csv.text(row, "search");
+  c.seed = whole_number<std::uint64_t>(csv, row, "seed");
+  c.budget = whole_number<long>(csv, row, "budget");
+  c.scheme = csv.text(row, "scheme");
+  return c;
+}
+
+std::map<std::vector<std::string>, std::size_t> rows_of_cases(const CsvFile& csv) {
+  std::map<std::vector<std::string>, std::size_t> places;
+  for (std::size_t i = 0; i < csv.rows.size(); ++i) {
+    const auto [place, is_new] = places.emplace(case_values(case_of(csv, i)), i);
+    if (is_new) continue;
+    csv.refuse(i, "problem",
+               fmt::format("each case once: line {} has it, too", line_of(place->second)));
+  }
+  return places;
+}
+
+}  // namespace maxwrench

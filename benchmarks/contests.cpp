@@ -1,0 +1,106 @@
+#include "benchmarks/contests.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+namespace maxwrench {
+namespace {
+
+/// Rows of one instance by their solver.
+using ByMethod = std::map<std::string, const ResultRow*>;
+
+bool belongs(const ResultRow& row, bool in_time, Wrench wrench) {
+  return row.choice.scheme.empty() != in_time && (in_time || row.choice.wrench == wrench);
+}
+
+std::map<std::vector<std::string>, ByMethod> instances_of(const std::vector<ResultRow>& rows,
+                                                          bool in_time, Wrench wrench) {
+  std::map<std::vector<std::string>, ByMethod> instances;
+  for (const ResultRow& row : rows) {
+    const Case& c = row.choice;
+    if (c.lp == kNoSolver || !row.us || !belongs(row, in_time, wrench)) continue;
+    const ResultRow*& kept = instances[{c.problem, c.measure, to_string(c.wrench), c.search,
+                                        std::to_string(c.seed), c.scheme}][c.lp];
+    if (kept == nullptr || kept->choice.budget < c.budget) kept = &row;
+  }
+  std::erase_if(instances, [](const auto& instance) { return instance.second.size() < 2; });
+  return instances;
+}
+
+Contest solver_contest(const std::vector<ResultRow>& rows, bool in_time, Wrench wrench) {
+  Contest contest;
+  contest.title =
+      in_time ? "tasks in time" : fmt::format("static tasks, wrench {}", to_string(wrench));
+  contest.unit = "us";
+  const auto instances = instances_of(rows, in_time, wrench);
+  std::set<std::string> solvers;
+  for (const auto& [key, by_solver] : instances) {
+    for (const auto& [solver, row] : by_solver) solvers.insert(solver);
+  }
+  for (const std::string& solver : solvers) {
+    contest.methods.push_back(solver);
+    std::vector<double>& costs = contest.cost.emplace_back();
+    for (const auto& [key, by_solver] : instances) {
+      const auto found = by_solver.find(solver);
+      const bool has = found != by_solver.end() && found->second->solved();
+      costs.push_back(has ? *found->second->us : kInfinity);
+    }
+  }
+  return contest;
+}
+
+std::string family_of(const std::string& problem) {
+  const std::size_t slash = problem.rfind('/');
+  return slash == std::string::npos ? problem : problem.substr(0, slash);
+}
+
+}  // namespace
+
+std::vector<Contest> solver_contests(const std::vector<ResultRow>& rows) {
+  std::vector<Contest> contests;
+  for (const auto& [in_time, wrench] :
+       {std::pair{false, Wrench::kPure}, {false, Wrench::kAny}, {true, Wrench::kPure}}) {
+    Contest contest = solver_contest(rows, in_time, wrench);
+    if (contest.instances() > 0) contests.push_back(std::move(contest));
+  }
+  return contests;
+}
+
+std::vector<RaceGroup> race_groups(const std::vector<Comparison>& races) {
+  RaceGroup statics{"all static tasks", {}}, in_time{"tasks in time", {}};
+  std::map<std::string, RaceGroup> families;
+  for (const Comparison& race : races) {
+    (race.in_time ? in_time : statics).races.push_back(race);
+    if (race.in_time) continue;
+    RaceGroup& family = families[family_of(race.problem)];
+    family.title = family_of(race.problem);
+    family.races.push_back(race);
+  }
+  std::vector<RaceGroup> groups;
+  if (!statics.races.empty()) groups.push_back(std::move(statics));
+  if (families.size() > 1) {
+    for (auto& [name, family] : families) groups.push_back(std::move(family));
+  }
+  if (!in_time.races.empty()) groups.push_back(std::move(in_time));
+  return groups;
+}
+
+Contest search_contest(const RaceGroup& group) {
+  Contest contest{group.title, "ms", {}, {}, group.races.front().default_search};
+  for (const Standing& standing : standings(group.races)) {
+    contest.methods.push_back(standing.search);
+    std::vector<double>& costs = contest.cost.emplace_back();
+    for (const Comparison& race : group.races) {
+      for (const Spent& hit : hits_of(race, standing.search, 1e-3)) {
+        costs.push_back(1e3 * hit.seconds);
+      }
+    }
+  }
+  return contest;
+}
+
+}  // namespace maxwrench

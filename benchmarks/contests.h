@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "benchmarks/performance_profile.h"
+#include "benchmarks/race_summary.h"
+#include "benchmarks/results.h"
+
+namespace maxwrench {
+
+/// Lower-level solvers by the microseconds of an evaluation: one contest for static tasks with each
+/// wrench, and one for tasks in time. Its instances are all that differ in problem, measure,
+/// wrench, search, seed or scheme and were tried with two solvers at least (of several budgets the
+/// largest, for a budget is divided by what a solver costs). What has no value has failed, and what
+/// a solver does not serve counts as failed.
+std::vector<Contest> solver_contests(const std::vector<ResultRow>& rows);
+
+/// Races that belong together.
+struct RaceGroup {
+  std::string title;
+  std::vector<Comparison> races;
+};
+/// All static tasks, then those of each family (the folder of the task) if there are several, then
+/// all tasks in time.
+std::vector<RaceGroup> race_groups(const std::vector<Comparison>& races);
+
+/// Searches by the milliseconds to 0.1 % below the best known value; instances are problems and
+/// seeds, the default search is the reference. The group has a race.
+Contest search_contest(const RaceGroup& group);
+
+}  // namespace maxwrench

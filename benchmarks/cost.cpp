@@ -1,0 +1,121 @@
+#include "benchmarks/cost.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <numeric>
+#include <queue>
+
+#include "benchmarks/table.h"
+#include "maxwrench/problem.h"
+#include "maxwrench/strategies.h"
+
+namespace maxwrench {
+namespace {
+
+// Measured on two cores at 2.1 GHz, microseconds of one evaluation of a static task,
+constexpr double kPosture = 8;
+constexpr double kSecondContact = 12;
+constexpr double kFollowingJoints = 50;
+/// more for each unit of `WrenchSolverEntry::cost`,
+constexpr double kSolver = 12;
+constexpr double kIpopt = 3300;
+/// and of one instant of a task in time.
+constexpr double kInstant = 10;
+// Of one evaluation more in a search by Ipopt.
+constexpr double kIpoptInPosture = 80;
+constexpr double kIpoptInTime = 3000;
+
+/// Seconds of a row of a task in time, whatever its budget: most is the program between the
+/// instants. For kActuators actuators and a pure wrench.
+constexpr double kActuators = 12;
+constexpr struct {
+  const char* lp;
+  double seconds;
+} kBetween[] = {{"simplex", 20}, {"ipopt", 8}, {"glpk", 1.2}, {"clp", 0.4}};
+constexpr double kAnyWrench = 4;  ///< times as much
+
+bool searches_by_ipopt(const Case& c) {
+  const std::vector<const SearchEntry*> stages = find_plan_search(c.search).stages;
+  return std::any_of(stages.begin(), stages.end(),
+                     [](const SearchEntry* stage) { return one_at_a_time(stage->name); });
+}
+
+double in_time_seconds(const Problem& problem, const Case& c) {
+  double us = kInstant * problem.motion->k;
+  if (searches_by_ipopt(c)) us += kIpoptInTime;
+  double between = 0.02;
+  for (const auto& entry : kBetween) {
+    if (entry.lp == c.lp) between = entry.seconds;
+  }
+  const double size = std::pow(problem.robot.actuators() / kActuators, 3);
+  const double more = c.wrench == Wrench::kAny ? kAnyWrench : 1;
+  return between * more * size + 1e-6 * us * static_cast<double>(c.budget);
+}
+
+double static_seconds(const Problem& problem, const Case& c) {
+  double us = problem.contact ? kSecondContact : kPosture;
+  if (!problem.dependent.empty()) us = std::max(us, kFollowingJoints);
+  if (searches_by_ipopt(c)) us += kIpoptInPosture;
+  if (one_at_a_time(c.lp)) {
+    us += kIpopt;
+  } else if (c.lp != kNoSolver) {
+    us += kSolver * (find_wrench_solver(c.lp).cost - 1);
+  }
+  return 1e-6 * us * static_cast<double>(c.budget);
+}
+
+std::string without_seed_and_budget(const std::vector<std::string>& row) {
+  std::string text;
+  for (std::size_t i = 0; i < case_columns().size(); ++i) {
+    if (case_columns()[i] != "seed" && case_columns()[i] != "budget") text += row[i] + '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+bool waits_for_others(const Case& c) { return one_at_a_time(c.lp) || searches_by_ipopt(c); }
+
+double usual_seconds(const Problem& problem, const Case& c) {
+  return problem.motion ? in_time_seconds(problem, c) : static_seconds(problem, c);
+}
+
+Forecast::Forecast(const Table& times) {
+  const std::size_t budget = times.column("budget");
+  const std::size_t cpu_s = times.column("cpu_s");
+  times.each([&](const std::vector<std::string>& row) {
+    if (row[cpu_s].empty()) return;  // of an earlier version
+    Sum& sum = measured_[without_seed_and_budget(row)];
+    sum.budget += std::strtod(row[budget].c_str(), nullptr);
+    sum.seconds += std::strtod(row[cpu_s].c_str(), nullptr);
+  });
+}
+
+double Forecast::seconds(const Problem& problem, const Case& c) const {
+  const auto found = measured_.find(without_seed_and_budget(case_values(c)));
+  if (found == measured_.end() || found->second.budget == 0) return usual_seconds(problem, c);
+  return found->second.seconds / found->second.budget * static_cast<double>(c.budget);
+}
+
+std::vector<Case> shard(const std::vector<Case>& cases, const std::vector<double>& costs, int index,
+                        int count) {
+  std::vector<std::size_t> order(cases.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return costs[a] > costs[b]; });
+  using Part = std::pair<double, int>;  // its cost so far
+  std::priority_queue<Part, std::vector<Part>, std::greater<>> parts;
+  for (int i = 0; i < count; ++i) parts.emplace(0.0, i);
+  std::vector<Case> chosen;
+  for (const std::size_t i : order) {
+    const Part least = parts.top();
+    parts.pop();
+    if (least.second == index) chosen.push_back(cases[i]);
+    parts.emplace(least.first + costs[i], least.second);
+  }
+  return chosen;
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace maxwrench {
+
+/// One line of a CSV file without its break. Fields with a comma or a quote are quoted; a line
+/// break in a field becomes a blank.
+std::string join_csv(const std::vector<std::string>& fields);
+std::vector<std::string> split_csv(const std::string& line);
+/// Without line breaks: as it stands in a file.
+std::string one_line(std::string field);
+
+/// Columns of a table as they are read for analysis.
+struct CsvFile {
+  std::filesystem::path file;
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+
+  bool has(const std::string& column) const;
+  /// A cell by the name of its column, which exists.
+  const std::string& text(std::size_t row, const std::string& column) const;
+  /// Nothing for an empty cell or "-". Throws std::invalid_argument on what is no finite number.
+  std::optional<double> number(std::size_t row, const std::string& column) const;
+  /// A line that names file, line, column and cell.
+  [[noreturn]] void refuse(std::size_t row, const std::string& column,
+                           const std::string& expected) const;
+};
+
+/// The line of a row in its file, where the first one is the header.
+std::size_t line_of(std::size_t row);
+
+/// Reads the columns that are `required`, and of `others` those that are there. Throws
+/// std::invalid_argument with one line on a file that cannot be read, that lacks one of `required`,
+/// or with a line of another length.
+CsvFile read_csv(const std::filesystem::path& file, const std::vector<std::string>& required,
+                 const std::vector<std::string>& others = {});
+
+}  // namespace maxwrench

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "benchmarks/case.h"
+#include "maxwrench/problem.h"
+
+namespace maxwrench {
+
+/// What a run is to solve: complete cases in the order of their rows, and their problems by name.
+struct Workload {
+  std::map<std::string, Problem> problems;
+  std::vector<Case> cases;
+  std::string plan;  ///< the text of the file, if it was one
+};
+
+/// Reads a plan: a TOML file with one `[[product]]` or more, each with `problem` and any of
+/// `measure wrench lp search scheme` (a name, a list of names, or "all"), `seeds` (1 to that) and
+/// `budget`. Task files are found from the folder of the plan. Throws std::invalid_argument with
+/// one line that names file, key, value and what was expected.
+Workload read_plan_file(const std::filesystem::path& file);
+
+}  // namespace maxwrench

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "benchmarks/case.h"
+#include "benchmarks/comparison.h"
+
+namespace maxwrench {
+
+/// One row of values.csv with its time: what an analysis asks for.
+struct ResultRow {
+  Case choice;
+  std::string status, unit, reason;
+  std::optional<double> beta;  ///< none: the row has no value
+  double evaluations = 0;
+  /// Microseconds of an evaluation, of the processor where they were measured, else of the wall;
+  /// none without a row of times.
+  std::optional<double> us;
+
+  /// Has a value that is what was asked for: an interrupted search has failed.
+  bool solved() const;
+};
+
+/// What a run, a race or both left in a folder.
+struct Results {
+  std::filesystem::path folder;
+  std::vector<ResultRow> rows;
+  std::vector<Comparison> races;  ///< of search_comparison.csv, if it is there
+  std::string machine;            ///< machine.txt, if it is there
+  std::string plan;               ///< plan.toml, if it is there
+};
+
+/// Reads values.csv, which must be there, times.csv, and the files of a race. Throws
+/// std::invalid_argument with one line on a file that is no such table: a column that is missing, a
+/// cell that is no finite number, a case that appears twice.
+Results read_results(const std::filesystem::path& folder);
+
+}  // namespace maxwrench

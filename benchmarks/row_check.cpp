@@ -1,0 +1,116 @@
+#include "benchmarks/row_check.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "benchmarks/case_file.h"
+#include "benchmarks/plan_row.h"
+#include "benchmarks/row.h"
+#include "maxwrench/problem.h"
+#include "maxwrench/wrench_program.h"
+
+namespace maxwrench {
+namespace {
+
+/// A row of a file.
+struct RowOf {
+  const CsvFile& csv;
+  std::size_t row;
+
+  const std::string& text(const char* column) const { return csv.text(row, column); }
+  /// Numbers that are separated by blanks.
+  Eigen::VectorXd vector(const char* column) const {
+    std::istringstream words(text(column));
+    std::vector<double> all;
+    for (std::string word; words >> word;) {
+      double value = 0;
+      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+      if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
+        csv.refuse(row, column, "finite numbers");
+      }
+      all.push_back(value);
+    }
+    return Eigen::Map<Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+  }
+};
+
+/// Its own efforts, wrench and multipliers.
+std::string refuse_own(const Problem& problem, const Row& anew, const RowOf& claim, double beta) {
+  WrenchProgram program = make_wrench_program(problem, anew.choice.wrench);
+  set_posture(anew.posture, program);
+  const Eigen::VectorXd h = claim.vector("h");
+  const double tolerance = kRowTolerance * (1 + std::abs(beta));
+  if (h.size() != 6) return "h: expected six numbers";
+  const Eigen::VectorXd w = program.W.transpose() * h;
+  if (!((h - program.W * w).norm() <= tolerance)) return "its wrench is not allowed";
+  if (!(std::abs(program.c_w.dot(w) - beta) <= tolerance)) return "its wrench has another value";
+  const Residual own = recheck(program, claim.vector("u"), w, claim.vector("lambda"));
+  if (own.within(tolerance)) return "";
+  return fmt::format(
+      "its efforts do not satisfy its program: balance {:.2g}, bounds {:.2g}, dual {:.2g}, gap "
+      "{:.2g}",
+      own.balance, own.bounds, own.dual, own.gap);
+}
+
+RowCheck compare(const Verdict& anew, double value, double beta) {
+  RowCheck check;
+  check.has_value = true;
+  check.deviation = std::abs(value - beta) / (1 + std::abs(beta));
+  if (anew.status != Status::kOptimal) {
+    check.refusal = fmt::format("its posture has no value: {}", anew.reason.str());
+  } else if (!(check.deviation <= kRowTolerance)) {
+    check.refusal = fmt::format("its posture has the value {:.9g}", value);
+  }
+  return check;
+}
+
+RowCheck check_posture(const Problem& problem, const Case& c, const RowOf& claim, double beta) {
+  const Eigen::VectorXd theta_r = claim.vector("theta_r");
+  if (theta_r.size() != problem.redundancy()) {
+    throw std::invalid_argument(
+        fmt::format("theta_r: got {} numbers, expected {}", theta_r.size(), problem.redundancy()));
+  }
+  const Row anew = evaluate(problem, resolve(problem, c), theta_r);
+  RowCheck check = compare(anew, anew.capability.beta, beta);
+  if (check.refusal.empty() && c.measure == "linf_polytope" && !problem.contact) {
+    check.refusal = refuse_own(problem, anew, claim, beta);
+  }
+  return check;
+}
+
+RowCheck check_plan(const Problem& problem, const Case& c, const RowOf& claim, double value) {
+  Problem changed = problem;
+  set_scheme("scheme", c.scheme, changed);
+  const Eigen::VectorXd x = claim.vector("theta_r");
+  const int r = problem.redundancy();
+  if (x.size() == 0 || r == 0 || x.size() % r != 0) {
+    throw std::invalid_argument(
+        fmt::format("theta_r: got {} numbers, expected some times {}", x.size(), r));
+  }
+  const PlanRow anew = evaluate_plan(changed, resolve_plan(changed, c), unstacked(x, x.size() / r));
+  return compare(anew, anew.plan.value, value);
+}
+
+}  // namespace
+
+RowCheck check_row(const Problem& problem, const CsvFile& csv, std::size_t row) {
+  try {
+    const RowOf claim{csv, row};
+    const std::optional<double> beta = csv.number(row, "beta");
+    if (!beta) {
+      RowCheck none;
+      if (claim.text("reason").empty()) none.refusal = "it has no value and no reason why";
+      return none;
+    }
+    const auto check = problem.motion ? check_plan : check_posture;
+    return check(problem, case_of(csv, row), claim, *beta);
+  } catch (const std::invalid_argument& error) {
+    return {error.what(), true, 0};
+  }
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,184 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include "benchmarks/contests.h"
+#include "benchmarks/summaries.h"
+#include "cli/report/sections.h"
+#include "drawing/scatter.h"
+#include "maxwrench/load.h"
+#include "maxwrench/wrench_program.h"
+
+namespace maxwrench {
+namespace {
+
+double or_none(const std::optional<double>& value) { return value.value_or(NAN); }
+
+ReportSection task_section(const std::vector<ResultRow>& rows) {
+  ReportTable table{
+      "tasks",
+      "Tasks",
+      "Every problem with each measure and wrench: how many rows have a value, and the "
+      "largest one with the names that gave it.",
+      {"problem", "measure", "wrench", "scheme", "rows", "solved", "best", "unit", "lp", "search",
+       "seed"},
+      {}};
+  for (const TaskSummary& task : summarise_tasks(rows)) {
+    const Case& c = task.choice;
+    table.rows.push_back({c.problem, c.measure, to_string(c.wrench), c.scheme,
+                          static_cast<double>(task.rows), static_cast<double>(task.solved),
+                          or_none(task.best), task.unit, c.lp, c.search,
+                          static_cast<double>(c.seed)});
+  }
+  return {table, {}};
+}
+
+ReportSection solver_section(const std::vector<ResultRow>& rows) {
+  const std::vector<Contest> contests = solver_contests(rows);
+  ReportTable table = contest_table(contests, "us");
+  table.name = "solvers";
+  table.title = "Lower-level solvers";
+  table.note =
+      "Performance profiles (Dolan and Moré) of the time of an evaluation on the same problem, "
+      "measure, wrench, search and seed. Rows without a value, and what a solver does not serve, "
+      "count as never solved. Times are those of the reference, the best at twice the cheapest: a "
+      "median with its bootstrap interval of 95 %, and Wilcoxon's signed "
+      "rank "
+      "test, corrected by Holm.";
+  return {table, draw_profiles(contests)};
+}
+
+ReportSection search_section(const std::vector<ResultRow>& rows) {
+  ReportTable table{
+      "searches",
+      "Searches in the run",
+      "Over all rows, whatever their budget: how many have a value, how many come "
+      "within 0.1 % of the best row of their task, and how far the median stays below "
+      "it.",
+      {"search", "rows", "solved", "near", "median_below", "us"},
+      {}};
+  for (const SearchSummary& each : summarise_searches(rows)) {
+    table.rows.push_back({each.search, static_cast<double>(each.rows),
+                          static_cast<double>(each.solved), static_cast<double>(each.near),
+                          each.below, each.us});
+  }
+  return {table, {}};
+}
+
+/// Coordinates, instants, actuators and columns of a problem; none of one that is not here.
+std::vector<ReportCell> sizes_of(const CostSummary& cost) {
+  try {
+    const Problem problem = load_problem(cost.problem);
+    const int k = problem.motion ? problem.motion->k : 1;
+    return {static_cast<double>(problem.redundancy()) * k, static_cast<double>(k),
+            static_cast<double>(problem.robot.actuation.u_min.size()),
+            static_cast<double>(make_wrench_program(problem, cost.wrench).columns())};
+  } catch (const std::exception&) {
+    return {NAN, NAN, NAN, NAN};
+  }
+}
+
+/// A set of points for each solver: one of the sizes in a line of the table of costs, and its time;
+/// nothing unless sizes differ. `in_time`: of tasks in time, else of static ones.
+std::vector<std::string> draw_costs(const ReportTable& table, const std::string& size,
+                                    bool in_time) {
+  const auto place = [&](const std::string& column) {
+    return std::find(table.columns.begin(), table.columns.end(), column) - table.columns.begin();
+  };
+  const auto x = place(size), us = place("us"), lp = place("lp"), scheme = place("scheme");
+  std::map<std::string, std::vector<Eigen::Vector2d>> sets;
+  std::set<double> sizes;
+  for (const auto& line : table.rows) {
+    if (std::get<std::string>(line[scheme]).empty() == in_time) continue;
+    const Eigen::Vector2d point(std::get<double>(line[x]), std::get<double>(line[us]));
+    if (!point.allFinite() || point.minCoeff() <= 0) continue;
+    sets[std::get<std::string>(line[lp])].push_back(point);
+    sizes.insert(point.x());
+  }
+  if (sizes.size() < 2) return {};
+  ScatterPanel panel{
+      size + (in_time ? ", tasks in time" : ", static tasks"), "us of an evaluation", {}};
+  for (auto& [name, points] : sets) panel.sets.push_back({name, std::move(points)});
+  return {draw_scatter(panel)};
+}
+
+ReportSection cost_section(const std::vector<ResultRow>& rows) {
+  ReportTable table{
+      "costs",
+      "Cost against dimension",
+      "What an evaluation of a search costs, beside the sizes of the problem: searched "
+      "coordinates, instants, actuators, columns of the wrench.",
+      {"problem", "scheme", "wrench", "lp", "coordinates", "instants", "actuators", "columns",
+       "rows", "us", "us_low", "us_high"},
+      {}};
+  std::map<std::pair<std::string, Wrench>, std::vector<ReportCell>> sizes;
+  for (const CostSummary& cost : summarise_costs(rows)) {
+    auto& size = sizes[{cost.problem, cost.wrench}];
+    if (size.empty()) size = sizes_of(cost);
+    auto& line = table.rows.emplace_back(
+        std::vector<ReportCell>{cost.problem, cost.scheme, to_string(cost.wrench), cost.lp});
+    line.insert(line.end(), size.begin(), size.end());
+    line.insert(line.end(), {static_cast<double>(cost.rows), cost.us, cost.us_low, cost.us_high});
+  }
+  std::vector<std::string> figures;
+  for (const auto& [size, in_time] : {std::pair{"coordinates", false},
+                                      {"columns", false},
+                                      {"coordinates", true},
+                                      {"instants", true}}) {
+    for (std::string& figure : draw_costs(table, size, in_time)) figures.push_back(figure);
+  }
+  return {table, figures};
+}
+
+ReportSection failure_section(const std::vector<ResultRow>& rows) {
+  ReportTable table{"failures",
+                    "Failures",
+                    "Rows without a value by their reason, the most frequent first; each of them "
+                    "stands in the table of all rows.",
+                    {"rows", "status", "reason", "problem", "scheme", "lp"},
+                    {}};
+  for (const FailureSummary& each : summarise_failures(rows)) {
+    table.rows.push_back({static_cast<double>(each.rows), each.status, each.reason, each.problem,
+                          each.scheme, each.lp});
+  }
+  return {table, {}};
+}
+
+ReportSection row_section(const std::vector<ResultRow>& rows) {
+  ReportTable table{
+      "rows", "All rows", "What values.csv and times.csv hold, without vectors.", {}, {}};
+  table.columns = case_columns();
+  table.columns.insert(table.columns.end(),
+                       {"status", "beta", "unit", "evaluations", "us", "reason"});
+  for (const ResultRow& row : rows) {
+    auto& line = table.rows.emplace_back(case_cells(row.choice));
+    line.insert(line.end(), {row.status, or_none(row.beta), row.unit, row.evaluations,
+                             or_none(row.us), row.reason});
+  }
+  return {table, {}, false};
+}
+
+}  // namespace
+
+std::vector<ReportCell> case_cells(const Case& c) {
+  return {c.problem,
+          c.measure,
+          to_string(c.wrench),
+          c.lp,
+          c.search,
+          static_cast<double>(c.seed),
+          static_cast<double>(c.budget),
+          c.scheme};
+}
+
+std::vector<ReportSection> run_sections(const Results& results) {
+  const std::vector<ResultRow>& rows = results.rows;
+  return {task_section(rows), solver_section(rows),  search_section(rows),
+          cost_section(rows), failure_section(rows), row_section(rows)};
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/report/report_table.h"
+
+namespace maxwrench {
+
+struct Case;
+struct Comparison;
+struct Contest;
+struct Results;
+
+/// One table of a report with the figures above it, as SVG.
+struct ReportSection {
+  ReportTable table;
+  std::vector<std::string> figures;
+  bool printed = true;  ///< on the terminal, too
+};
+
+/// What the rows of a run tell: tasks, solvers, searches, costs, failures, the rows themselves.
+std::vector<ReportSection> run_sections(const Results& results);
+/// What its races tell: groups of tasks, significance, expected running times; none without races.
+std::vector<ReportSection> race_sections(const std::vector<Comparison>& races);
+/// What differs between two folders.
+std::vector<ReportSection> change_sections(const Results& a, const Results& b);
+/// Every column with its unit and meaning.
+ReportSection dictionary_section();
+
+/// Performance profiles, a figure for each contest: `performance_ratios` as shares of instances.
+std::vector<std::string> draw_profiles(const std::vector<Contest>& contests);
+/// The columns of a case.
+std::vector<ReportCell> case_cells(const Case& c);
+/// A line for each method of each contest; `cost` is the column of its costs.
+ReportTable contest_table(const std::vector<Contest>& contests, const std::string& cost);
+
+}  // namespace maxwrench

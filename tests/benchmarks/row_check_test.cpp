@@ -1,0 +1,107 @@
+#include "benchmarks/row_check.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "benchmarks/plan_row.h"
+#include "benchmarks/row.h"
+#include "maxwrench/load.h"
+#include "tests/support/support.h"
+
+namespace maxwrench {
+namespace {
+
+using Cells = std::vector<std::string>;
+
+Cells row_of(const Problem& problem, const char* measure, Wrench wrench) {
+  Case c;
+  c.problem = problem.name;
+  c.measure = measure;
+  c.wrench = wrench;
+  c.search = "";
+  return values(problem, evaluate(problem, resolve(problem, c), problem.theta_r_default));
+}
+
+std::string& cell(Cells& row, const char* column) {
+  const Cells columns = value_columns();
+  return row[static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column) -
+                                      columns.begin())];
+}
+
+RowCheck check(const Problem& problem, const Cells& row) {
+  return check_row(problem, {"values.csv", value_columns(), {row}}, 0);
+}
+
+std::string scaled(const std::string& numbers, double factor) {
+  return exact_text(std::stod(numbers) * factor) +
+         numbers.substr(std::min(numbers.find(' '), numbers.size()));
+}
+
+TEST(CheckRow, AcceptsWhatWasEvaluated) {
+  for (const char* name : {"planar/force", "uvms/valve", "mobile/push", "dual_arm/bar_wall"}) {
+    const Problem problem = load_problem(name);
+    for (const char* measure : {"linf_polytope", "l2_polytope", "ellipsoid"}) {
+      if (problem.contact && measure != std::string("linf_polytope")) continue;
+      const RowCheck found = check(problem, row_of(problem, measure, Wrench::kPure));
+      EXPECT_EQ(found.refusal, "") << name << " " << measure;
+      EXPECT_TRUE(found.has_value);
+    }
+  }
+}
+
+/// Each claim by itself: the value, the posture, the efforts, the wrench, the multipliers.
+TEST(CheckRow, RefusesWhatDoesNotFollow) {
+  const Problem problem = load_problem("uvms/lift");
+  const Cells good = row_of(problem, "linf_polytope", Wrench::kPure);
+  for (const char* column : {"beta", "theta_r", "u", "h", "lambda"}) {
+    Cells row = good;
+    std::string& text = cell(row, column);
+    text = column == std::string("h") ? "1 2 3 4 5 6" : scaled(text, 1.001);
+    EXPECT_NE(check(problem, row).refusal, "") << column;
+  }
+}
+
+TEST(CheckRow, RefusesWhatCannotBeRead) {
+  const Problem problem = load_problem("planar/force");
+  const Cells good = row_of(problem, "linf_polytope", Wrench::kPure);
+  for (const char* column : {"beta", "theta_r", "u", "h", "lambda", "seed"}) {
+    for (const char* text : {"nan", "inf", "1 x", "1e999", "0 0 0 0 0 0 0 0 0 0 0"}) {
+      Cells row = good;
+      cell(row, column) = text;
+      EXPECT_NE(check(problem, row).refusal, "") << column << " " << text;
+    }
+  }
+  Cells row = good;
+  cell(row, "wrench") = "some";
+  EXPECT_NE(check(problem, row).refusal.find("some"), std::string::npos);
+}
+
+TEST(CheckRow, AsksForAReasonWhereThereIsNoValue) {
+  const Problem problem = load_problem("planar/force");
+  Cells row = row_of(problem, "linf_polytope", Wrench::kPure);
+  cell(row, "beta") = "";
+  EXPECT_NE(check(problem, row).refusal, "");
+  cell(row, "reason") = "the time ran out";
+  EXPECT_EQ(check(problem, row).refusal, "");
+  EXPECT_FALSE(check(problem, row).has_value);
+}
+
+TEST(CheckRow, EvaluatesPlans) {
+  const Problem problem = load_problem("planar/trajectory");
+  Case c;
+  c.problem = problem.name;
+  c.search = "";
+  Problem changed = problem;
+  const PlanMethod method = resolve_plan(changed, c);
+  const PlanRow row =
+      evaluate_plan(changed, method, constant_knots(changed, changed.theta_r_default));
+  ASSERT_TRUE(row.has_value());
+  Cells cells = values(changed, row);
+  EXPECT_EQ(check(problem, cells).refusal, "");
+  cell(cells, "beta") = scaled(cell(cells, "beta"), 1.01);
+  EXPECT_NE(check(problem, cells).refusal.find("has the value"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace maxwrench

@@ -1,0 +1,169 @@
+#include "benchmarks/summaries.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "benchmarks/changes.h"
+#include "benchmarks/contests.h"
+
+namespace maxwrench {
+namespace {
+
+ResultRow row(const std::string& problem, const std::string& lp, const std::string& search,
+              std::optional<double> beta, double us, std::uint64_t seed = 1) {
+  ResultRow row;
+  row.choice.problem = problem;
+  row.choice.lp = lp;
+  row.choice.search = search;
+  row.choice.seed = seed;
+  row.status = beta ? "best_found" : "infeasible";
+  row.unit = "N";
+  row.reason = beta ? "" : "why";
+  row.beta = beta;
+  row.us = us;
+  return row;
+}
+
+/// Two tasks with two solvers each; one row has no value, one comes from a search of its own.
+std::vector<ResultRow> five_rows() {
+  return {row("f/a", "ours", "s", 10, 1), row("f/a", "peer", "s", 9.995, 4),
+          row("g/b", "ours", "s", -2, 2), row("g/b", "peer", "s", {}, 6),
+          row("g/b", "ours", "t", -4, 2)};
+}
+
+TEST(Summaries, Tasks) {
+  const std::vector<TaskSummary> tasks = summarise_tasks(five_rows());
+  ASSERT_EQ(tasks.size(), 2U);
+  EXPECT_EQ(tasks[1].choice.problem, "g/b");
+  EXPECT_EQ(tasks[1].rows, 3);
+  EXPECT_EQ(tasks[1].solved, 2);
+  EXPECT_EQ(tasks[1].best, -2);
+  EXPECT_EQ(tasks[1].choice.search, "s");
+}
+
+/// s: 10 and -2 are best, 9.995 is 0.05 % below, one fails. t: -4 is 100 % below -2.
+TEST(Summaries, Searches) {
+  const std::vector<SearchSummary> all = summarise_searches(five_rows());
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].search, "s");
+  EXPECT_EQ(all[0].rows, 4);
+  EXPECT_EQ(all[0].solved, 3);
+  EXPECT_EQ(all[0].near, 3);
+  EXPECT_NEAR(all[0].below, 2.5e-4, 1e-12);  // of 0, 0, 5e-4 and infinity
+  EXPECT_DOUBLE_EQ(all[0].us, 3);
+  EXPECT_EQ(all[1].below, 1);
+}
+
+TEST(Summaries, CostsAndFailures) {
+  const std::vector<CostSummary> costs = summarise_costs(five_rows());
+  ASSERT_EQ(costs.size(), 4U);
+  EXPECT_EQ(costs[2].problem, "g/b");
+  EXPECT_EQ(costs[2].rows, 2);
+  EXPECT_EQ(costs[2].us, 2);
+  EXPECT_TRUE(std::isnan(costs[2].us_low));
+  const std::vector<FailureSummary> failures = summarise_failures(five_rows());
+  ASSERT_EQ(failures.size(), 1U);
+  EXPECT_EQ(failures[0].reason, "why");
+  EXPECT_EQ(failures[0].rows, 1);
+}
+
+TEST(Summaries, OfNothing) {
+  EXPECT_TRUE(summarise_tasks({}).empty());
+  EXPECT_TRUE(summarise_searches({}).empty());
+  EXPECT_TRUE(summarise_costs({}).empty());
+  EXPECT_TRUE(summarise_failures({}).empty());
+  EXPECT_TRUE(solver_contests({}).empty());
+  EXPECT_TRUE(race_groups({}).empty());
+}
+
+/// An interrupted search has a value and has failed.
+TEST(Summaries, InterruptedIsNotSolved) {
+  ResultRow interrupted = row("f/a", "ours", "s", 10, 1);
+  interrupted.status = "budget_exhausted";
+  EXPECT_FALSE(interrupted.solved());
+  EXPECT_EQ(summarise_failures({interrupted}).size(), 1U);
+}
+
+/// The search t has one solver only and is no contest; the peer fails on the second instance.
+TEST(Contests, SolversOnTheSameInstances) {
+  const std::vector<Contest> contests = solver_contests(five_rows());
+  ASSERT_EQ(contests.size(), 1U);
+  EXPECT_EQ(contests[0].methods, (std::vector<std::string>{"ours", "peer"}));
+  EXPECT_EQ(contests[0].cost[0], (std::vector<double>{1, 2}));
+  EXPECT_EQ(contests[0].cost[1], (std::vector<double>{4, kInfinity}));
+}
+
+TEST(Contests, TheLargestBudgetCounts) {
+  std::vector<ResultRow> rows = five_rows();
+  rows.push_back(row("f/a", "peer", "s", 10, 3));
+  rows.back().choice.budget = 40000;
+  EXPECT_EQ(solver_contests(rows)[0].cost[1][0], 3);
+}
+
+Comparison race(const std::string& problem, bool in_time, double first, double second) {
+  Comparison race{problem, "N", {}, {}, "a", in_time, 100};
+  for (const auto& [search, ms] : {std::pair{"a", first}, {"b", second}}) {
+    Contender contender{search, "ours", 100, {}};
+    Attempt attempt;
+    attempt.value = 1;
+    attempt.run.rises = {{{10, 1e-3 * ms}, 1}};
+    attempt.run.spent = {100, 1};
+    contender.attempts = {attempt};
+    race.contenders.push_back(contender);
+  }
+  return race;
+}
+
+TEST(Contests, RacesByFamily) {
+  const std::vector<RaceGroup> groups =
+      race_groups({race("f/a", false, 1, 2), race("f/b", false, 4, 2), race("g/a", false, 1, 3),
+                   race("f/turn", true, 1, 1)});
+  ASSERT_EQ(groups.size(), 4U);
+  EXPECT_EQ(groups[0].races.size(), 3U);
+  EXPECT_EQ(groups[1].title, "f");
+  EXPECT_EQ(groups[1].races.size(), 2U);
+  EXPECT_EQ(groups[3].title, "tasks in time");
+  const Contest contest = search_contest(groups[1]);
+  ASSERT_EQ(contest.methods.size(), 2U);
+  const std::size_t a = contest.methods[0] == "a" ? 0 : 1;
+  EXPECT_EQ(contest.cost[a], (std::vector<double>{1, 4}));
+}
+
+TEST(Changes, ValuesTimesAndRowsOfOneSide) {
+  Results a, b;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    a.rows.push_back(row("f/a", "ours", "s", 10, 1, seed));
+    b.rows.push_back(row("f/a", "ours", "s", 10, 2, seed));
+  }
+  b.rows[0].beta = 10 + 1e-12;
+  b.rows[1].beta = 10.1;
+  b.rows[2].beta = {};
+  a.rows.push_back(row("f/a", "ours", "old", 1, 1));
+  b.rows.push_back(row("f/a", "ours", "new", 1, 1));
+  const Changes changes = find_changes(a, b);
+  EXPECT_EQ(changes.same, 5);
+  EXPECT_EQ(changes.rounded, 1);
+  ASSERT_EQ(changes.changed.size(), 2U);
+  EXPECT_EQ(changes.changed[0].b->beta, 10.1);
+  ASSERT_EQ(changes.only_a.size(), 1U);
+  EXPECT_EQ(changes.only_a[0]->choice.search, "old");
+  ASSERT_EQ(changes.only_b.size(), 1U);
+  ASSERT_EQ(changes.times.size(), 4U);  // all rows, one solver, one search, one problem
+  EXPECT_EQ(changes.times[0].rows, 8);
+  EXPECT_EQ(changes.times[0].times, 2);
+  EXPECT_TRUE(changes.times[0].is_change());  // p is 4 times 2/2^8
+  EXPECT_DOUBLE_EQ(changes.times[0].p, 4 * 2.0 / 256);
+}
+
+TEST(Changes, AFolderAndItself) {
+  Results a;
+  a.rows = five_rows();
+  const Changes changes = find_changes(a, a);
+  EXPECT_EQ(changes.same, 5);
+  EXPECT_TRUE(changes.changed.empty());
+  for (const TimeChange& time : changes.times) EXPECT_FALSE(time.is_change());
+}
+
+}  // namespace
+}  // namespace maxwrench

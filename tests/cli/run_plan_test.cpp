@@ -1,0 +1,137 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "tests/support/support.h"
+
+namespace maxwrench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSmallPlan = R"(
+[[product]]
+problem = ["planar/force", "dual_arm/bar_wall"]
+wrench = "all"
+lp = "all"
+search = ["sample", "crs2+cmaes"]
+seeds = 2
+budget = 200
+[[product]]
+problem = "planar/trajectory"
+search = ["sample", "slp"]
+budget = 20
+)";
+
+class RunPlan : public testing::Test {
+ protected:
+  RunPlan() { std::ofstream(folder_.path() / "plan.toml") << kSmallPlan; }
+  CommandResult run(const std::string& words) {
+    return run_maxwrench("run plan.toml " + words, folder_.path());
+  }
+  std::string read(const std::string& file) const { return read_text(folder_.path() / file); }
+  /// What one thread writes without being disturbed.
+  std::string undisturbed() {
+    EXPECT_LT(run("--threads 1 --out one").exit_status, 2);  // 1: a row has no value
+    return read("one/values.csv");
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(RunPlan, GivesTheSameValuesAtAnyThreadCount) {
+  const std::string one = undisturbed();
+  for (const char* threads : {"2", "8"}) {
+    ASSERT_LT(run(fmt::format("--threads {} --out {}", threads, threads)).exit_status, 2);
+    EXPECT_EQ(read(threads + std::string("/values.csv")), one);
+  }
+}
+
+TEST_F(RunPlan, GoesOnAfterItWasKilled) {
+  const std::string one = undisturbed();
+  for (int kill = 0; kill < 10; ++kill) {
+    run_maxwrench(fmt::format("--version > /dev/null; timeout -s KILL {:.2f} '" MAXWRENCH_COMMAND
+                              "' run plan.toml --threads 2 --out killed",
+                              0.03 + 0.017 * kill),
+                  folder_.path());
+  }
+  EXPECT_LT(run("--out killed").exit_status, 2);
+  EXPECT_EQ(read("killed/values.csv"), one);
+  EXPECT_FALSE(fs::exists(folder_.path() / "killed/values.csv.part"));
+}
+
+/// A torn line is no row; what is whole is not computed again.
+TEST_F(RunPlan, KeepsTheRowsOfAJournal) {
+  const std::string one = undisturbed();
+  fs::rename(folder_.path() / "one/values.csv", folder_.path() / "one/values.csv.part");
+  fs::resize_file(folder_.path() / "one/values.csv.part", one.size() - 5);
+  const auto rows = std::count(one.begin(), one.end(), '\n') - 1;
+  const CommandResult dry = run("--dry --out one");
+  EXPECT_NE(dry.out.find(fmt::format("{} rows, 1 of them to do", rows)), std::string::npos)
+      << dry.out;
+  EXPECT_NE(run("--out one").out.find(fmt::format("{} of them were there", rows - 1)),
+            std::string::npos);
+  EXPECT_EQ(read("one/values.csv"), one);
+  EXPECT_EQ(run("--again --out one").out, fmt::format("{} rows in one/values.csv\n", rows));
+  EXPECT_EQ(read("one/values.csv"), one);
+}
+
+TEST_F(RunPlan, ShardsMergeToOneRun) {
+  const std::string one = undisturbed();
+  for (const char* index : {"1", "2", "3"}) {
+    ASSERT_LT(run(fmt::format("--shard {0}/3 --out part{0}", index)).exit_status, 2);
+  }
+  const CommandResult merged = run_maxwrench("merge all part3 part1 part2", folder_.path());
+  ASSERT_EQ(merged.exit_status, 0) << merged.err;
+  EXPECT_EQ(read("all/values.csv"), one);
+  EXPECT_EQ(read("all/plan.toml"), kSmallPlan);
+  const std::string times = read("all/times.csv");
+  EXPECT_EQ(std::count(times.begin(), times.end(), '\n'), std::count(one.begin(), one.end(), '\n'));
+}
+
+TEST_F(RunPlan, ContradictionsAreNotMerged) {
+  ASSERT_LT(run("--out one").exit_status, 2);
+  fs::copy(folder_.path() / "one", folder_.path() / "two");
+  std::string changed = read("two/values.csv");
+  changed.replace(changed.find(",best_found,") + 12, 1, "9");
+  std::ofstream(folder_.path() / "two/values.csv") << changed;
+  const CommandResult result = run_maxwrench("merge all one two", folder_.path());
+  EXPECT_EQ(result.exit_status, 2);
+  EXPECT_NE(result.err.find("two/values.csv: got another row of dual_arm/bar_wall,"),
+            std::string::npos)
+      << result.err;
+  EXPECT_FALSE(fs::exists(folder_.path() / "all"));
+  EXPECT_EQ(run_maxwrench("merge all nowhere", folder_.path()).exit_status, 2);
+}
+
+TEST_F(RunPlan, CountsAndNamesItsRows) {
+  const std::string commands = run("--commands").out;
+  const auto rows = std::count(commands.begin(), commands.end(), '\n');
+  EXPECT_NE(run("--dry").out.find(fmt::format("{} rows, {} of them to do", rows, rows)),
+            std::string::npos);
+  const std::string one = undisturbed();
+  EXPECT_EQ(std::count(one.begin(), one.end(), '\n') - 1, rows);
+  const std::string first = commands.substr(10, commands.find('\n') - 10);  // after "maxwrench "
+  const CommandResult again = run_maxwrench(first + " --json");
+  EXPECT_EQ(again.exit_status, 0) << again.err;
+  const std::size_t row = one.find('\n') + 1;
+  const std::size_t beta = again.out.find("\"beta\":") + 7;
+  EXPECT_NE(one.substr(row, one.find('\n', row) - row).find(again.out.substr(beta, 12)),
+            std::string::npos)
+      << again.out;
+}
+
+TEST_F(RunPlan, BadWordsAreRefused) {
+  for (const char* words : {"seed=1", "--shard 0/3", "--shard 4/3", "--shard 1", "--shard a/b"}) {
+    const CommandResult result = run(words);
+    EXPECT_EQ(result.exit_status, 2) << words;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  }
+}
+
+}  // namespace
+}  // namespace maxwrench
