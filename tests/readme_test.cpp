@@ -104,6 +104,8 @@ class Docs : public testing::TestWithParam<std::string> {};
 TEST_P(Docs, EveryCommandWorks) {
   const TemporaryFolder folder;
   fs::copy(kRoot / "problems", folder.path() / "problems", fs::copy_options::recursive);
+  fs::create_directory(folder.path() / "benchmarks");
+  fs::copy(kRoot / "benchmarks/plans", folder.path() / "benchmarks/plans");
   fs::create_directory(folder.path() / "results");
   fs::copy(kRoot / "results/plans", folder.path() / "results/plans");
   static const std::regex kPath("# ([a-z_/]+\\.toml)");
