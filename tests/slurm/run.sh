@@ -10,12 +10,23 @@ work=$(mktemp -d)
 chmod 755 "$work"  # munge refuses a socket that not all can reach
 daemons=()
 
+# end_daemons: by word, and after ten seconds by force, since a daemon that waits for another one may never go.
+end_daemons() {
+  [ ${#daemons[@]} -ne 0 ] || return 0
+  kill "${daemons[@]}" 2> /dev/null || true
+  for _ in {1..100}; do
+    kill -0 "${daemons[@]}" 2> /dev/null || break
+    sleep 0.1
+  done
+  kill -KILL "${daemons[@]}" 2> /dev/null || true
+  wait
+}
+
 finish() {
   local status=$?
   if [ $status -ne 0 ]; then tail -n 30 "$work"/*.log "$work"/out/*.log "$work"/out/shards/*.log >&2 || true; fi
-  scancel --quiet --user=root || true
-  [ ${#daemons[@]} -eq 0 ] || kill "${daemons[@]}" || true
-  wait
+  timeout 20 scancel --quiet --user=root || true
+  end_daemons
   rm -rf "$work"
 }
 trap finish EXIT
