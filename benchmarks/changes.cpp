@@ -32,7 +32,7 @@ TimeChange time_change(const std::string& column, const std::string& name,
                        const std::vector<double>& ratios) {
   std::vector<double> logarithms;
   for (const double ratio : ratios) logarithms.push_back(std::log(ratio));
-  const Interval interval = median_interval(ratios);
+  const ConfidenceInterval interval = median_interval(ratios);
   return {column,       name,          static_cast<long>(ratios.size()), median(ratios),
           interval.low, interval.high, wilcoxon_signed_rank(logarithms)};
 }

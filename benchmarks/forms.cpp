@@ -111,8 +111,8 @@ Reduced eliminate_w(const WrenchProgram& program, const DirectDrives& drives) {
 
 }  // namespace
 
-const char* to_string(Form form) {
-  return form == Form::kPaper ? "F1" : form == Form::kSubstituted ? "F2" : "F3";
+const char* to_string(ProgramForm form) {
+  return form == ProgramForm::kPaper ? "F1" : form == ProgramForm::kSubstituted ? "F2" : "F3";
 }
 
 Reduced reduce(const WrenchProgram& program) {
@@ -127,9 +127,9 @@ Reduced reduce(const WrenchProgram& program) {
   return {assemble(program), 0};
 }
 
-LinearProgram make_form(const WrenchProgram& program, Form form) {
-  if (form == Form::kPaper) return paper_form(program);
-  return form == Form::kSubstituted ? assemble(program) : reduce(program).program;
+LinearProgram make_form(const WrenchProgram& program, ProgramForm form) {
+  if (form == ProgramForm::kPaper) return paper_form(program);
+  return form == ProgramForm::kSubstituted ? assemble(program) : reduce(program).program;
 }
 
 }  // namespace maxwrench

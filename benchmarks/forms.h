@@ -5,14 +5,14 @@
 namespace maxwrench {
 
 /// Three ways to hand one wrench program to a general solver; all have the same optimum.
-enum class Form {
+enum class ProgramForm {
   kPaper,        ///< F1: columns (u, h), and the rows (W W^+ - I) h = 0, some redundant
   kSubstituted,  ///< F2: columns (u, w), as `assemble` gives it
   kReduced,      ///< F3: the smallest, see `reduce`
 };
-const char* to_string(Form form);
+const char* to_string(ProgramForm form);
 
-LinearProgram make_form(const WrenchProgram& program, Form form);
+LinearProgram make_form(const WrenchProgram& program, ProgramForm form);
 
 /// F3. A directly driven joint j is known from w, u_j = (tau_d + J'W w)_i / B_ij. With one column
 /// its limits are bounds on w; with several it is a row between two limits (whose logical column

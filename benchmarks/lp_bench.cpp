@@ -40,7 +40,7 @@ struct Set {
   const Problem* problem = nullptr;
   std::vector<Eigen::VectorXd> theta_r;
   std::vector<WrenchProgram> programs;
-  std::map<Form, std::vector<LinearProgram>> forms;
+  std::map<ProgramForm, std::vector<LinearProgram>> forms;
 };
 
 std::vector<Eigen::VectorXd> postures(const Problem& problem, bool walk) {
@@ -94,7 +94,8 @@ std::unique_ptr<Set> make_set(const Problem& problem, Wrench wrench, bool walk, 
     if (overloaded && set->programs.size() % 2 == 0) {
       overload(set->programs.back(), *judge, random);
     }
-    for (const Form form : {Form::kPaper, Form::kSubstituted, Form::kReduced}) {
+    for (const ProgramForm form :
+         {ProgramForm::kPaper, ProgramForm::kSubstituted, ProgramForm::kReduced}) {
       set->forms[form].push_back(make_form(set->programs.back(), form));
     }
   }

@@ -23,7 +23,7 @@ std::vector<double> paired_ratios(const std::vector<double>& method,
 
 void set_beside(const std::vector<double>& ratios, MethodStanding& standing) {
   standing.times = median(ratios);
-  const Interval interval = median_interval(ratios);
+  const ConfidenceInterval interval = median_interval(ratios);
   standing.times_low = interval.low;
   standing.times_high = interval.high;
   std::vector<double> logarithms;

@@ -17,7 +17,7 @@
 namespace maxwrench {
 namespace {
 
-using Names = Columns::Names;
+using Names = ProductColumns::Names;
 
 constexpr const char* kStatic = "static";
 constexpr const char* kInTime = "in_time";
@@ -67,7 +67,7 @@ void read_searches(const Block& block, Names& names) {
   }
 }
 
-Columns read_columns(const Block& block) {
+ProductColumns read_columns(const Block& block) {
   Names known_measures, known_solvers = {kNoSolver}, known_schemes = scheme_names(false);
   add_names(measures(), known_measures);
   add_names(wrench_solvers(), known_solvers);
@@ -77,7 +77,7 @@ Columns read_columns(const Block& block) {
       known_schemes.push_back(name);
     }
   }
-  Columns columns;
+  ProductColumns columns;
   read_names(block, "measure", known_measures, columns.measure);
   read_names(block, "wrench", {"pure", "any"}, columns.wrench);
   read_names(block, "lp", known_solvers, columns.lp);
@@ -130,7 +130,7 @@ Workload read_plan_file(const std::filesystem::path& file) {
   if (root.list("product").empty()) root.refuse_value("product", "one [[product]] or more");
   for (const Block& block : root.list("product")) {
     block.allow_only({"problem", "measure", "wrench", "lp", "search", "scheme", "seeds", "budget"});
-    const Columns columns = read_columns(block);
+    const ProductColumns columns = read_columns(block);
     const std::size_t before = work.cases.size();
     for (const std::string& name : read_problems(block)) {
       if (!work.problems.contains(name)) work.problems.emplace(name, load_problem(name));

@@ -50,7 +50,11 @@ PlanRow evaluate_plan(const Problem& problem, const PlanMethod& method,
   row.evaluations = 1;
   PlanEvaluator evaluator(problem, method.choice.wrench, method.solver->make, check_collision);
   const Plan& plan = evaluator.evaluate(knots);
-  if (plan.status != Status::kInvalidPosture) evaluator.evaluate_continuous();
+  if (plan.status != Status::kInvalidPosture) {
+    // A check, the same for all rows: a solver that takes minutes for its instants tells no more.
+    const auto checker = plan_solvers().front().make();
+    evaluator.evaluate_continuous(checker.get());
+  }
   static_cast<Verdict&>(row) = plan;
   row.plan = plan;
   row.clearance = evaluator.least_clearance();

@@ -15,7 +15,7 @@
 namespace maxwrench {
 namespace {
 
-using Names = Columns::Names;
+using Names = ProductColumns::Names;
 
 bool has(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -75,7 +75,7 @@ Names all_measures() {
 
 }  // namespace
 
-std::vector<Case> product(const Problem& problem, const Columns& columns) {
+std::vector<Case> product(const Problem& problem, const ProductColumns& columns) {
   std::vector<Case> cases;
   for (const std::string& measure : wanted(columns.measure, all_measures())) {
     for (const std::string& wrench : wanted(columns.wrench, {"pure", "any"})) {
@@ -102,8 +102,9 @@ std::vector<Case> product(const Problem& problem, const Columns& columns) {
 std::vector<Case> product(const Problem& problem, std::uint64_t seed, long budget) {
   const Names all = {kAll};
   const Names few = problem.motion ? Names{""} : Names{default_search(), "grid+cmaes"};
-  std::vector<Case> cases = product(problem, Columns{all, all, all, few, all, {seed}, budget});
-  for (const Case& c : product(problem, Columns{all, all, {""}, all, all, {seed}, budget})) {
+  std::vector<Case> cases =
+      product(problem, ProductColumns{all, all, all, few, all, {seed}, budget});
+  for (const Case& c : product(problem, ProductColumns{all, all, {""}, all, all, {seed}, budget})) {
     cases.push_back(c);
   }
   sort_cases(cases);

@@ -13,7 +13,7 @@ namespace maxwrench {
 inline constexpr const char* kAll = "all";
 
 /// Names column by column; an empty name is the default, `kAll` alone every one.
-struct Columns {
+struct ProductColumns {
   using Names = std::vector<std::string>;
   Names measure = {Case().measure}, wrench = {"pure"}, lp = {""}, search = {""}, scheme = {""};
   std::vector<std::uint64_t> seed = {Case().seed};
@@ -23,7 +23,7 @@ struct Columns {
 
 /// Every combination of the columns that has a meaning on a problem, none if none has. All searches
 /// are the default and every method alone.
-std::vector<Case> product(const Problem& problem, const Columns& columns);
+std::vector<Case> product(const Problem& problem, const ProductColumns& columns);
 
 /// Every measure × wrench × lp with two searches, `default_search` and `grid+cmaes` (what a solver
 /// is worth does not depend on the search), and × search with the first lp. Of a task in time:

@@ -84,7 +84,7 @@ double normal_p(const std::vector<int>& ranks, double sum) {
 
 }  // namespace
 
-Interval median_interval(std::vector<double> values, double confidence) {
+ConfidenceInterval median_interval(std::vector<double> values, double confidence) {
   const auto n = static_cast<int>(values.size());
   if (n < kLeastSample) return {NAN, NAN};
   std::sort(values.begin(), values.end());

@@ -7,7 +7,7 @@
 
 namespace maxwrench {
 
-struct Interval {
+struct ConfidenceInterval {
   double low = 0, high = 0;
 };
 
@@ -22,7 +22,7 @@ struct Interval {
 /// upper of the two middle places, which are one if n is odd (then it is the interval of endless
 /// resampling; else it holds it). NaN of less than `kLeastSample` values: too few to say anything
 /// at 95 %.
-Interval median_interval(std::vector<double> values, double confidence = 0.95);
+ConfidenceInterval median_interval(std::vector<double> values, double confidence = 0.95);
 inline constexpr int kLeastSample = 6;
 
 /// The two-sided p of Wilcoxon's signed rank test that paired differences are symmetric about zero.

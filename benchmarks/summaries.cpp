@@ -87,7 +87,7 @@ std::vector<CostSummary> summarise_costs(const std::vector<ResultRow>& rows) {
   std::vector<CostSummary> costs;
   for (const auto& [key, us] : samples) {
     const auto& [problem, scheme, wrench, lp] = key;
-    const Interval interval = median_interval(us);
+    const ConfidenceInterval interval = median_interval(us);
     costs.push_back({problem, scheme, lp, wrench, static_cast<long>(us.size()), median(us),
                      interval.low, interval.high});
   }

@@ -140,7 +140,7 @@ void write_certificate(const ProofOptions& options, const Problem& problem, cons
                                       problem, proof.row, proof.result, options.gap)));
 }
 
-void print_object(const ProofOptions& options, const Problem& problem, const Proof& proof) {
+void print_proof_object(const ProofOptions& options, const Problem& problem, const Proof& proof) {
   const Row& row = proof.row;
   const CertifyResult& result = proof.result;
   const bool found = row.has_value();
@@ -170,7 +170,7 @@ void print_object(const ProofOptions& options, const Problem& problem, const Pro
   print_json(object);
 }
 
-void print_text(const ProofOptions& options, const Problem& problem, const Proof& proof) {
+void print_proof_text(const ProofOptions& options, const Problem& problem, const Proof& proof) {
   const Row& row = proof.row;
   const CertifyResult& result = proof.result;
   fmt::print("{}  measure {}  wrench {}{}\n", problem.name, row.choice.measure,
@@ -238,9 +238,9 @@ void add_certify(CLI::App& app, int& exit_status) {
     write_certificate(*options, problem, proof);
     if (proof.good) write_good(problem, proof.row, *proof.good, options->within);
     if (options->json) {
-      print_object(*options, problem, proof);
+      print_proof_object(*options, problem, proof);
     } else {
-      print_text(*options, problem, proof);
+      print_proof_text(*options, problem, proof);
     }
     exit_status = proof.complete() ? kAnswered : kOtherStatus;
   });

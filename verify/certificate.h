@@ -31,7 +31,7 @@ struct CertificateTree {
     return node.reason == Reason::kMultiplier ? static_cast<std::size_t>(width) : 0;
   }
   int width = 0;      ///< numbers of a multiplier
-  int equations = 0;  ///< of them, the last, nu
+  int equations = 0;  ///< numbers of a nu, if there is one
   std::vector<double> multipliers;
   std::vector<Node> nodes;  ///< a node, then its lower half, then its upper half
 };

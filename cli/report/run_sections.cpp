@@ -46,9 +46,8 @@ ReportSection solver_section(const std::vector<ResultRow>& rows) {
       "Performance profiles (Dolan and Moré) of the time of an evaluation on the same problem, "
       "measure, wrench, search and seed. Rows without a value, and what a solver does not serve, "
       "count as never solved. Times are those of the reference, the best at twice the cheapest: a "
-      "median with its bootstrap interval of 95 %, and Wilcoxon's signed "
-      "rank "
-      "test, corrected by Holm.";
+      "median with its bootstrap interval of 95 %, and Wilcoxon's signed rank test, corrected by "
+      "Holm.";
   return {table, draw_profiles(contests)};
 }
 
@@ -56,9 +55,8 @@ ReportSection search_section(const std::vector<ResultRow>& rows) {
   ReportTable table{
       "searches",
       "Searches in the run",
-      "Over all rows, whatever their budget: how many have a value, how many come "
-      "within 0.1 % of the best row of their task, and how far the median stays below "
-      "it.",
+      "Over all rows, whatever their budget: how many have a value, how many come within 0.1 % of "
+      "the best row of their task, and how far the median stays below it.",
       {"search", "rows", "solved", "near", "median_below", "us"},
       {}};
   for (const SearchSummary& each : summarise_searches(rows)) {

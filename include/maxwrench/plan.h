@@ -88,8 +88,9 @@ class PlanEvaluator {
   /// std::invalid_argument if the table has the wrong size or is not finite.
   const Plan& evaluate(const Eigen::MatrixXd& knots);
 
-  /// The value of the last plan on the clamped cubic spline through its knots, see `Plan`.
-  void evaluate_continuous();
+  /// The value of the last plan on the clamped cubic spline through its knots, see `Plan`. `by`:
+  /// instead of the evaluator's solver, which may be made for fewer instants.
+  void evaluate_continuous(PlanSolver* by = nullptr);
 
   /// The least of all pairs of bodies on that spline, at the instants of `continuous`, the earliest
   /// of several within 1e-9 m. A pair of which only a test is known counts where it collides, as 0.

@@ -41,9 +41,8 @@ class LoopBound final : public Bound {
         set_(set),
         K_(K),
         measure_(measure),
-        l2_(measure == LoopMeasure::kSmallestEffort),
         most_rank_(std::min<Eigen::Index>(model_->m, model_->coordinates.chain.count())),
-        support_(set, l2_),
+        support_(set, by_effort()),
         box_(*model_),
         linear_(*model_),
         program_(extended_B(), set.u_min.head(found_by_program() ? set.actuators() : 0),
@@ -116,6 +115,7 @@ class LoopBound final : public Bound {
 
   /// The lambda of the ellipsoid is its normal at the centre of the box; the program finds nu.
   bool found_by_program() const { return measure_ != LoopMeasure::kEllipsoid; }
+  bool by_effort() const { return measure_ == LoopMeasure::kSmallestEffort; }
   Eigen::Index free_rows() const { return found_by_program() ? rows() : 0; }
 
   Eigen::MatrixXd extended_B() const {
@@ -142,7 +142,7 @@ class LoopBound final : public Bound {
   /// U(lambda, nu), rounding included; what is violated is left in at_low_ and at_high_.
   double value(double low, double high) {
     const double s = ellipsoid_ ? ellipsoid_->of(lambda_) : support_.of(lambda_);
-    if (l2_) {
+    if (by_effort()) {
       reach_.noalias() = K_.transpose() * lambda_;
       sizes_.noalias() = K_.cwiseAbs().transpose() * lambda_.cwiseAbs();
     } else {
@@ -233,7 +233,7 @@ class LoopBound final : public Bound {
     double cost = t;
     if (ellipsoid_) {
       cost -= lambda_.dot(load_);
-    } else if (l2_) {
+    } else if (by_effort()) {
       entries_.head(rows).noalias() = K_ * load_;
     } else {
       entries_.head(rows) = load_;
@@ -284,7 +284,6 @@ class LoopBound final : public Bound {
   const Zonotope& set_;
   const Eigen::MatrixXd K_;
   const LoopMeasure measure_;
-  const bool l2_;
   const Eigen::Index most_rank_;
   BoxSupport support_;
   std::optional<EllipsoidSupport> ellipsoid_;

@@ -239,8 +239,9 @@ const Plan& PlanEvaluator::evaluate(const Eigen::MatrixXd& knots) {
   return plan;
 }
 
-void PlanEvaluator::evaluate_continuous() {
+void PlanEvaluator::evaluate_continuous(PlanSolver* by) {
   Workspace& ws = *workspace_;
+  PlanSolver& solver = by ? *by : *ws.elastic_solver;
   Plan& plan = ws.plan;
   const MotionTask& task = ws.task;
   if (ws.Q.rows() < 2) {
@@ -264,10 +265,10 @@ void PlanEvaluator::evaluate_continuous() {
   }
   if (task.impulse) program.peak = ws.block_of(maps, plan.t_h);
   PlanSolution solution;
-  ws.elastic_solver->solve(program, solution);
+  solver.solve(program, solution);
   if (solution.status != Status::kOptimal) {  // perhaps slack is cheaper than a wrench
     program.rho = kInfinity;
-    ws.elastic_solver->solve(program, solution);
+    solver.solve(program, solution);
   }
   if (solution.status != Status::kOptimal) {
     plan.continuous_reason = solution.reason;

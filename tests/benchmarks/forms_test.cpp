@@ -23,13 +23,14 @@ TEST(Forms, HaveTheSameOptimumAndVerdict) {
         for (double& t : program.tau_d) t += (sample % 2 == 0 ? 0.1 : 100) * random.normal();
         Capability expected;
         find_wrench_solver("box").make()->solve(program, false, expected);
-        for (const Form form : {Form::kPaper, Form::kSubstituted, Form::kReduced}) {
+        for (const ProgramForm form :
+             {ProgramForm::kPaper, ProgramForm::kSubstituted, ProgramForm::kReduced}) {
           LpSolution solution;
           simplex->solve(make_form(program, form), solution);
           ASSERT_STREQ(to_string(solution.status), to_string(expected.status))
               << name << " " << to_string(form);
           if (expected.status != Status::kOptimal) continue;
-          const double offset = form == Form::kReduced ? reduce(program).offset : 0;
+          const double offset = form == ProgramForm::kReduced ? reduce(program).offset : 0;
           EXPECT_NEAR(solution.objective + offset, expected.beta,
                       1e-8 * (1 + std::abs(expected.beta)))
               << name << " " << to_string(form);

@@ -46,7 +46,7 @@ TEST(Significance, MedianIntervalIsThatOfEveryResample) {
     const std::vector<double> low = places_by_enumeration(n, (n + 1) / 2);
     const std::vector<double> high = places_by_enumeration(n, n / 2 + 1);
     for (const double confidence : {0.5, 0.8, 0.95, 0.99}) {
-      const Interval interval = median_interval(places, confidence);
+      const ConfidenceInterval interval = median_interval(places, confidence);
       EXPECT_EQ(interval.low, quantile_of(low, (1 - confidence) / 2)) << n << " " << confidence;
       EXPECT_EQ(interval.high, quantile_of(high, (1 + confidence) / 2)) << n << " " << confidence;
     }
@@ -65,7 +65,7 @@ TEST(Significance, MedianIntervalIsThatOfManyResamples) {
     std::nth_element(again.begin(), again.begin() + kValues / 2, again.end());
     medians.push_back(again[kValues / 2]);
   }
-  const Interval interval = median_interval(values);
+  const ConfidenceInterval interval = median_interval(values);
   const auto share = [&](auto counts) {
     return std::count_if(medians.begin(), medians.end(), counts) / double(kDraws);
   };
@@ -80,13 +80,15 @@ TEST(Significance, MedianIntervalIsThatOfManyResamples) {
 TEST(Significance, FewOrEndlessValues) {
   EXPECT_TRUE(std::isnan(median_interval({}).low));
   EXPECT_TRUE(std::isnan(median_interval({1, 2, 3, 4, 5}).high));
-  const Interval most = median_interval({1, 2, 3, kInfinity, kInfinity, kInfinity, kInfinity});
+  const ConfidenceInterval most =
+      median_interval({1, 2, 3, kInfinity, kInfinity, kInfinity, kInfinity});
   EXPECT_EQ(most.low, 2);  // P(Binomial(7, 1/7) >= 4) = 0.010, P(Binomial(7, 2/7) >= 4) = 0.10
   EXPECT_EQ(most.high, kInfinity);
-  const Interval equal = median_interval(std::vector<double>(30, 4.0));
+  const ConfidenceInterval equal = median_interval(std::vector<double>(30, 4.0));
   EXPECT_EQ(equal.low, 4);
   EXPECT_EQ(equal.high, 4);
-  const Interval many = median_interval(std::vector<double>(5000, 4.0));  // no power underflows
+  const ConfidenceInterval many =
+      median_interval(std::vector<double>(5000, 4.0));  // no power underflows
   EXPECT_EQ(many.low, 4);
   std::vector<double> places(100'000);  // normal: the middle and 1.96 * sqrt(n)/2 on each side
   std::iota(places.begin(), places.end(), 1);

@@ -184,16 +184,16 @@ TEST_P(BadMotionTest, IsRefusedInOneLine) { expect_refused(GetParam().input, Get
 INSTANTIATE_TEST_SUITE_P(Loader, BadMotionTest, testing::ValuesIn(kBadMotions),
                          [](const auto& test) { return std::string(test.param.input.name); });
 
-struct BadTable {
+struct BadMotionTable {
   const char* name;
   const char* text;
   std::vector<std::string> message;
 };
 
-void PrintTo(const BadTable& bad, std::ostream* out) { *out << bad.name; }
+void PrintTo(const BadMotionTable& bad, std::ostream* out) { *out << bad.name; }
 
 /// Files of poses.
-const std::vector<BadTable> kBadTables = {
+const std::vector<BadMotionTable> kBadTables = {
     {"empty", "", {"poses.csv: rows: got 0", "two"}},
     {"header_only", "t,x,y,z,roll,pitch,yaw\n", {"rows: got 0"}},
     {"one_row", "0,0,0,0,0,0,0\n", {"rows: got 1", "two"}},
@@ -231,7 +231,7 @@ void follow_poses(EditedCopy& copy) {
                "kind = \"poses\"\nfile = \"poses.csv\"");
 }
 
-class BadPosesTest : public testing::TestWithParam<BadTable> {};
+class BadPosesTest : public testing::TestWithParam<BadMotionTable> {};
 
 TEST_P(BadPosesTest, AreRefusedInOneLineThatNamesTheTable) {
   EditedCopy copy;

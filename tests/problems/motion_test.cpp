@@ -114,7 +114,7 @@ TEST(Motion, WhatATrajectoryMayChoose) {
   EXPECT_NEAR(motion.path.at(1).twist[5], M_PI / 2 / 10, 1e-15);
 }
 
-constexpr const char* kHeave = R"(type = "impulse"
+constexpr const char* kHeaveText = R"(type = "impulse"
 robot = "vehicle.toml"
 end_effector = "tool"
 label = "test"
@@ -128,7 +128,7 @@ theta_r = { joints = ["shoulder", "elbow"] }
 
 TEST(Motion, DefaultsOfAHeave) {
   EditedCopy copy;
-  std::ofstream(copy.path() / "heave.toml") << kHeave;
+  std::ofstream(copy.path() / "heave.toml") << kHeaveText;
   const Problem problem = load(copy, "heave.toml");
   EXPECT_EQ(problem.motion->t_h, 0);  // the best one
   EXPECT_EQ(problem.motion->scheme, Scheme::kSpline);
@@ -139,7 +139,7 @@ TEST(Motion, DefaultsOfAHeave) {
 
 TEST(Motion, WhatAHeaveMayChoose) {
   EditedCopy copy;
-  std::ofstream(copy.path() / "heave.toml") << kHeave;
+  std::ofstream(copy.path() / "heave.toml") << kHeaveText;
   copy.replace("heave.toml", "k = 3", "k = 1, scheme = \"backward_stop\", t_h = \"best\"");
   copy.replace("heave.toml", "0.2]", "0.2], kind = \"free\"");
   const Problem problem = load(copy, "heave.toml");

@@ -7,7 +7,6 @@
 #include <kdl/chaindynparam.hpp>
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
-#include <numbers>
 #include <string>
 
 #include "benchmarks/row.h"
@@ -20,8 +19,6 @@
 
 namespace maxwrench {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 class Uvms : public testing::Test {
  protected:
@@ -40,7 +37,7 @@ TEST_F(Uvms, TasksShareRobotPoseAndDefaultPosture) {
     EXPECT_TRUE(problem->pose.p.isZero());
     EXPECT_EQ(problem->W_any.cols(), 6);
     EXPECT_TRUE(
-        problem->theta_r_default.isApprox(Eigen::Vector4d(kPi, 0.4, 0.4 + kPi / 2, 0), 1e-15));
+        problem->theta_r_default.isApprox(Eigen::Vector4d(M_PI, 0.4, 0.4 + M_PI / 2, 0), 1e-15));
   }
 }
 
@@ -92,7 +89,7 @@ TEST_F(Uvms, VehicleIsUprightAndFreeOfCollisionAtTheDefaultPosture) {
   PostureEvaluator model(valve_);
   EXPECT_EQ(model.evaluate(valve_.theta_r_default).status, Status::kValid);
   for (const double q2 : {0.1, 0.4, 1.0, 1.6}) {
-    const Posture& posture = model.evaluate(Eigen::Vector4d(kPi, q2, q2 + kPi / 2, 0));
+    const Posture& posture = model.evaluate(Eigen::Vector4d(M_PI, q2, q2 + M_PI / 2, 0));
     EXPECT_TRUE(posture.base.R.isIdentity(1e-10));
     EXPECT_LT(posture.base.p.x(), -0.3);
     EXPECT_NEAR(posture.base.p.y(), 0, 1e-10);
@@ -122,21 +119,22 @@ KDL::Chain arm() {
     Vector com;
   };
   const Row rows[] = {
-      {Rotation::RPY(0, 0, kPi), Vector(0, 0, 0), 0.16, Vector(0.006, 0, 0.0301)},
-      {Rotation::RPY(kPi / 2, mount, 0), Vector(0.02, 0, 0.0462), 0.38, Vector(0.0746, 0.00055, 0)},
-      {Rotation::RPY(kPi, 0, mount), Vector(0.1507053085, 0, 0), 0.14, Vector(0.01, -0.017, 0)},
-      {Rotation::RPY(-kPi / 2, kPi / 2, 0), Vector(0.02, 0, 0), 0.36, Vector(0, 0, -0.1195)}};
+      {Rotation::RPY(0, 0, M_PI), Vector(0, 0, 0), 0.16, Vector(0.006, 0, 0.0301)},
+      {Rotation::RPY(M_PI / 2, mount, 0), Vector(0.02, 0, 0.0462), 0.38,
+       Vector(0.0746, 0.00055, 0)},
+      {Rotation::RPY(M_PI, 0, mount), Vector(0.1507053085, 0, 0), 0.14, Vector(0.01, -0.017, 0)},
+      {Rotation::RPY(-M_PI / 2, M_PI / 2, 0), Vector(0.02, 0, 0), 0.36, Vector(0, 0, -0.1195)}};
   KDL::Chain chain;
   const auto fixed = [&chain](const Rotation& R, const Vector& p) {
     chain.addSegment(Segment(Joint(Joint::None), Frame(R, p)));
   };
-  fixed(Rotation::RPY(kPi, 0, 0), Vector(0.203, 0, -0.1317));
+  fixed(Rotation::RPY(M_PI, 0, 0), Vector(0.203, 0, -0.1317));
   for (const Row& row : rows) {
     fixed(row.R, row.p);
     chain.addSegment(
         Segment(Joint(Joint::RotZ), Frame::Identity(), KDL::RigidBodyInertia(row.mass, row.com)));
   }
-  fixed(Rotation::RPY(kPi / 2, kPi / 2, 0), Vector(0, 0, -0.18));
+  fixed(Rotation::RPY(M_PI / 2, M_PI / 2, 0), Vector(0, 0, -0.18));
   return chain;
 }
 

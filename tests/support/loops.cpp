@@ -51,13 +51,13 @@ Eigen::VectorXd loop_coordinates(const Problem& problem, const LoopCoordinates& 
     const double high = coordinates.w_max[k] + t * coordinates.v_max[k];
     x[next++] = (w[k] - low) / (high - low);
   }
-  constexpr double kTurn = 2 * std::numbers::pi;
+  constexpr double kWholeTurn = 2 * std::numbers::pi;
   for (int i = 0; i < coordinates.chain.count(); ++i) {
     if (!coordinates.chain.turns[static_cast<std::size_t>(i)]) continue;
     double& angle = x[coordinates.chain.index[static_cast<std::size_t>(i)]];
     const int at = coordinates.chain.index[static_cast<std::size_t>(i)];
-    if (angle < coordinates.lower[at] - 1e-9) angle += kTurn;
-    if (angle > coordinates.upper[at] + 1e-9) angle -= kTurn;
+    if (angle < coordinates.lower[at] - 1e-9) angle += kWholeTurn;
+    if (angle > coordinates.upper[at] + 1e-9) angle -= kWholeTurn;
   }
   return x;
 }

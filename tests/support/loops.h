@@ -17,9 +17,13 @@
 namespace maxwrench {
 
 inline const std::vector<const char*> kLoopProblems = {
-    "mobile/push",        "fixed/push",      "mobile/push_any_height", "dual_arm/bar_wall",
-    "dual_arm/bar_alone", "planar/two_arms", "random, fixed",          "random, x",
-    "random, yaw",        "random, x y yaw", "random, x y z yaw",      "random, free tool"};
+    "mobile/push",        "fixed/push",      "mobile/push_any_height",
+    "dual_arm/bar_alone", "random, fixed",   "random, x",
+    "random, yaw",        "random, x y yaw", "random, x y z yaw",
+    "random, free tool",  "planar/two_arms", "dual_arm/bar_wall"};
+
+/// The last, whose second contact bears forces.
+constexpr std::ptrdiff_t kLoopProblemsWithForces = 2;
 
 /// A shipped problem, or a random one with these free axes of the base.
 Problem loop_problem(const std::string& name);

@@ -2,50 +2,15 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-
+#include "benchmarks/case.h"
 #include "benchmarks/proof_recorder.h"
-#include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
 #include "solvers/certify/certify.h"
 #include "tests/support/support.h"
+#include "tests/support/written_proof.h"
 
 namespace maxwrench {
 namespace {
-
-/// A problem and what `certify` writes of it.
-struct WrittenProof {
-  Problem problem;
-  ProofCertificate proof;
-
-  WrittenProof(const char* name, const char* measure, Wrench wrench, double gap,
-               long boxes = 1000000)
-      : problem(load_problem(name)) {
-    Case c;
-    c.problem = name;
-    c.measure = measure;
-    c.wrench = wrench;
-    c.search = best_search(problem, measure);
-    const Method method = resolve(problem, c);
-    Row row = solve(problem, method, 1);
-    ProofRecorder recorder;
-    CertifyOptions options;
-    options.gap = gap;
-    options.boxes = boxes;
-    options.sink = [&](const CertifiedBox& box) { recorder.add(box); };
-    const auto objective = make_capability_objective(problem, wrench, method.make_measure);
-    const auto bound = make_capability_bound(problem, measure, wrench);
-    const CertifyResult result =
-        certify(*objective, *bound, {row.posture.theta_r, row.capability.beta}, options);
-    if (result.best.value > row.capability.beta) {
-      row = evaluate(problem, method, result.best.theta_r);
-    }
-    proof = recorder.certificate(problem, row, result, gap);
-  }
-  WrittenProof(const WrittenProof&) = delete;
-
-  std::string refusal(const ProofCertificate& of) const { return verify(problem, of, 1).refusal; }
-};
 
 struct Shipped {
   const char* problem;
@@ -113,62 +78,6 @@ TEST(Verify, AcceptsAProofWithoutCoordinates) {
     CertifyResult result;
     result.bound = std::max(root.low, root.proof.high);
     EXPECT_EQ(verify(problem, recorder.certificate(problem, row, result, 1e-3), 1).refusal, "");
-  }
-}
-
-std::string file_of(const TemporaryFolder& folder, const std::string& text) {
-  const std::string file = folder.path() / "proof";
-  std::ofstream(file, std::ios::binary) << text;
-  return file;
-}
-
-TEST(Verify, ReadsWhatIsWritten) {
-  const WrittenProof at("planar/force", "ellipsoid", Wrench::kPure, 1e-3);
-  const TemporaryFolder folder;
-  const std::string text = certificate_text(at.proof);
-  const ProofCertificate read = read_certificate(file_of(folder, text));
-  EXPECT_EQ(certificate_text(read), text);
-  EXPECT_EQ(at.refusal(read), "");
-  EXPECT_EQ(read.x, at.proof.x);
-  EXPECT_EQ(read.bound, at.proof.bound);
-}
-
-/// Any byte that changes, and any end that is missing.
-TEST(Verify, RefusesDamagedFiles) {
-  const WrittenProof at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
-  const TemporaryFolder folder;
-  const std::string text = certificate_text(at.proof);
-  Random random(1);
-  const auto below = [&](std::size_t n) {
-    return static_cast<std::size_t>(random.uniform(0, 1) * static_cast<double>(n));
-  };
-  for (int i = 0; i < 1000 / kSampleDivisor; ++i) {
-    std::string damaged = text;
-    if (i % 4 == 0) {
-      damaged.resize(below(text.size()));
-    } else {
-      damaged[below(text.size())] ^= static_cast<char>(1 << below(8));
-    }
-    EXPECT_THROW(read_certificate(file_of(folder, damaged)), std::invalid_argument);
-  }
-  EXPECT_THROW(read_certificate(folder.path() / "none"), std::invalid_argument);
-}
-
-/// Nor does a file that is cut off before its checksum pass, one that unpacks to far more than a
-/// proof does, or one with names that write more than a line.
-TEST(Verify, RefusesHostileFiles) {
-  const WrittenProof at("planar/force", "linf_polytope", Wrench::kPure, 1e-2);
-  const TemporaryFolder folder;
-  const std::string text = certificate_text(at.proof);
-  for (std::size_t size = 0; size < 32; ++size) {
-    EXPECT_THROW(read_certificate(file_of(folder, text.substr(0, size))), std::invalid_argument);
-  }
-  std::vector<ProofCertificate> bad(3, at.proof);
-  bad[0].tree.nodes.assign(1'000'000, {});
-  bad[1].problem = "planar/force\nverified";
-  bad[2].version += "\x1b[2J";
-  for (const ProofCertificate& each : bad) {
-    EXPECT_THROW(read_certificate(file_of(folder, certificate_text(each))), std::invalid_argument);
   }
 }
 
@@ -309,15 +218,6 @@ TEST(Verify, RefusesOtherRulesOfCollision) {
   EXPECT_NE(at.refusal(other), "");
 }
 
-/// A thousand times heavier, the arm alone takes more than the ellipsoid holds, whatever a contact
-/// force would do for it.
-TEST(Verify, RefusesPosturesWithoutAValue) {
-  WrittenProof at("uvms/lift", "ellipsoid", Wrench::kPure, 1, 10);
-  at.problem.robot.gravity *= 1000;
-  at.proof.digest = digest(at.problem);
-  EXPECT_NE(at.refusal(at.proof).find("has no value"), std::string::npos);
-}
-
 /// Ten percent more of all efforts reach more, so the old bound is false, whatever the digest says.
 TEST(Verify, RefusesStrongerRobots) {
   WrittenProof at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
@@ -326,34 +226,6 @@ TEST(Verify, RefusesStrongerRobots) {
   EXPECT_NE(at.refusal(at.proof).find("another robot or task"), std::string::npos);
   at.proof.digest = digest(at.problem);
   EXPECT_NE(at.refusal(at.proof).find("not excluded"), std::string::npos);
-}
-
-/// Joints that do not reach the pose, by more than rounding.
-TEST(Verify, RefusesPosturesThatDoNotGetThere) {
-  const WrittenProof at("mobile/push", "linf_polytope", Wrench::kPure, 1e-1);
-  for (Eigen::Index i = at.problem.redundancy(); i < at.proof.x.size(); ++i) {
-    ProofCertificate moved = at.proof;
-    moved.x[i] += 1e-6;
-    EXPECT_NE(at.refusal(moved).find("do not get there"), std::string::npos) << i;
-  }
-}
-
-/// Gains below the contact's threshold are of no valid posture.
-TEST(Verify, RefusesSingularPostures) {
-  WrittenProof at("dual_arm/bar_alone", "linf_polytope", Wrench::kPure, 1e-1);
-  ASSERT_EQ(at.refusal(at.proof), "");
-  at.problem.contact->sigma_min = 10;
-  EXPECT_NE(at.refusal(at.proof).find("another robot or task"), std::string::npos);
-  at.proof.digest = digest(at.problem);
-  EXPECT_NE(at.refusal(at.proof).find("singular"), std::string::npos);
-}
-
-/// A vehicle that stays in its plane does not get to a pose above it, whatever its arm does.
-TEST(Verify, RefusesABaseOffItsFreeAxes) {
-  WrittenProof at("planar/force", "linf_polytope", Wrench::kPure, 1e-1);
-  at.problem.pose.p.z() += 0.5;
-  at.proof.digest = digest(at.problem);
-  EXPECT_NE(at.refusal(at.proof).find("off its free axes"), std::string::npos);
 }
 
 /// The value of a posture that is off by what is tolerated, above the bound of all.

@@ -14,7 +14,7 @@ namespace {
 constexpr double kDuration = 3;
 constexpr Timing kTimings[] = {Timing::kCubic, Timing::kQuintic, Timing::kLinear};
 
-struct Named {
+struct NamedPath {
   std::string name;
   Path path;
 };
@@ -23,19 +23,19 @@ Pose<double> random_pose(Random& random) {
   return {random_rotation(random), random_vector(random)};
 }
 
-const std::vector<double> kTimes = {0, 0.5, 1.2, 2, kDuration};
+const std::vector<double> kPathTimes = {0, 0.5, 1.2, 2, kDuration};
 
 std::vector<Pose<double>> random_poses(Random& random) {
   std::vector<Pose<double>> poses;
-  for (std::size_t i = 0; i < kTimes.size(); ++i) poses.push_back(random_pose(random));
+  for (std::size_t i = 0; i < kPathTimes.size(); ++i) poses.push_back(random_pose(random));
   return poses;
 }
 
 /// Turns, lines, arcs and screws with every timing, and a spline.
-std::vector<Named> paths() {
+std::vector<NamedPath> paths() {
   Random random(1);
   const Eigen::Vector3d none = Eigen::Vector3d::Zero();
-  std::vector<Named> all;
+  std::vector<NamedPath> all;
   for (const Timing timing : kTimings) {
     const Pose<double> start = random_pose(random);
     const Eigen::Vector3d axis = random_vector(random).normalized();
@@ -48,7 +48,7 @@ std::vector<Named> paths() {
     all.push_back({"screw" + suffix, Path::screw(start, axis, centre, 7, step, timing, kDuration)});
   }
   all.push_back({"constant", Path::constant(random_pose(random), kDuration)});
-  all.push_back({"spline", Path::spline(kTimes, random_poses(random))});
+  all.push_back({"spline", Path::spline(kPathTimes, random_poses(random))});
   return all;
 }
 
@@ -142,13 +142,13 @@ TEST(Path, AnArcTurnsWithItsRadius) {
 TEST(Path, ASplinePassesItsPoses) {
   Random random(3);
   const std::vector<Pose<double>> poses = random_poses(random);
-  const Path path = Path::spline(kTimes, poses);
+  const Path path = Path::spline(kPathTimes, poses);
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    EXPECT_TRUE(path.pose(kTimes[i]).p.isApprox(poses[i].p, 1e-12));
-    EXPECT_TRUE(path.pose(kTimes[i]).R.isApprox(poses[i].R, 1e-12));
+    EXPECT_TRUE(path.pose(kPathTimes[i]).p.isApprox(poses[i].p, 1e-12));
+    EXPECT_TRUE(path.pose(kPathTimes[i]).R.isApprox(poses[i].R, 1e-12));
   }
   EXPECT_EQ(path.angle(), 0);
-  EXPECT_EQ(path.duration(), kTimes.back());
+  EXPECT_EQ(path.duration(), kPathTimes.back());
 }
 
 /// From pose to pose it takes the shorter way round, whatever the signs of the quaternions: here
@@ -182,7 +182,7 @@ TEST(Path, SplinesThatAreNoneAreRefused) {
 }
 
 template <class F>
-std::string message_of(F f) {
+std::string thrown_by(F f) {
   try {
     f();
   } catch (const std::invalid_argument& error) {
@@ -202,10 +202,10 @@ TEST(Scheme, NamesAreReadAsTheyAreWritten) {
 }
 
 TEST(Scheme, UnknownNamesAreRefusedWithTheAlternatives) {
-  EXPECT_EQ(message_of([] { parse_scheme("central"); }),
+  EXPECT_EQ(thrown_by([] { parse_scheme("central"); }),
             "scheme: got 'central', expected one of forward, ends, spline, backward, "
             "backward_stop");
-  EXPECT_EQ(message_of([] { parse_start(""); }),
+  EXPECT_EQ(thrown_by([] { parse_start(""); }),
             "start: got '', expected one of static, rest, zero, free");
 }
 

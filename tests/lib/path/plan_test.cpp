@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "benchmarks/plan_row.h"
 #include "benchmarks/row.h"
 #include "maxwrench/load.h"
 #include "maxwrench/problem.h"
@@ -14,30 +15,26 @@
 namespace maxwrench {
 namespace {
 
-Eigen::MatrixXd constant(const Problem& problem, const Eigen::VectorXd& theta_r) {
-  return theta_r.transpose().replicate(problem.motion->k, 1);
-}
-
 PlanSolverMaker solver(const char* name = "ipm") { return find_plan_solver(name).make; }
 
 /// Values of an independent model of the same robot (N m): `uvms/valve` turned by pi in 5 s.
-struct Known {
+struct KnownTurn {
   Scheme scheme;
   Wrench wrench;
   double value;
 };
-constexpr Known kKnown[] = {{Scheme::kForward, Wrench::kPure, 34.17591},
-                            {Scheme::kEnds, Wrench::kPure, 34.36105},
-                            {Scheme::kSpline, Wrench::kPure, 34.30190},
-                            {Scheme::kEnds, Wrench::kAny, 40.78087}};
+constexpr KnownTurn kKnownTurns[] = {{Scheme::kForward, Wrench::kPure, 34.17591},
+                                     {Scheme::kEnds, Wrench::kPure, 34.36105},
+                                     {Scheme::kSpline, Wrench::kPure, 34.30190},
+                                     {Scheme::kEnds, Wrench::kAny, 40.78087}};
 
 TEST(Plan, OfAFixedPostureIsThatOfAnIndependentModel) {
   Problem problem = load_problem("uvms/valve_trajectory");
-  for (const Known& known : kKnown) {
+  for (const KnownTurn& known : kKnownTurns) {
     problem.motion->scheme = known.scheme;
     PlanEvaluator evaluator(problem, known.wrench, solver());
-    const Plan& plan =
-        evaluator.evaluate(constant(problem, Eigen::Vector4d(3.0643, 0.6895, 0.4288, -3.0278)));
+    const Plan& plan = evaluator.evaluate(
+        constant_knots(problem, Eigen::Vector4d(3.0643, 0.6895, 0.4288, -3.0278)));
     ASSERT_EQ(plan.status, Status::kOptimal) << plan.reason.c_str();
     EXPECT_NEAR(plan.value, known.value, 1e-5);
     EXPECT_TRUE(plan.solution.residual.within(1e-7));
@@ -58,7 +55,7 @@ TEST(Plan, OfOneKnotIsTheStaticValue) {
     problem.motion->scheme = scheme;
     for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
       PlanEvaluator evaluator(problem, wrench, solver());
-      const Plan& plan = evaluator.evaluate(constant(problem, theta_r));
+      const Plan& plan = evaluator.evaluate(constant_knots(problem, theta_r));
       Case c;
       c.search.clear();
       c.wrench = wrench;
@@ -78,7 +75,7 @@ TEST(Plan, WithoutRatesIsTheLeastOfItsInstants) {
   Problem problem = load_problem("uvms/valve_trajectory");
   problem.motion->rates = false;
   PlanEvaluator evaluator(problem, Wrench::kPure, solver());
-  const Plan plan = evaluator.evaluate(constant(problem, problem.theta_r_default));
+  const Plan plan = evaluator.evaluate(constant_knots(problem, problem.theta_r_default));
   ASSERT_EQ(plan.status, Status::kOptimal);
   double least = kInfinity;
   const auto alone = find_plan_solver("simplex").make();
@@ -103,7 +100,7 @@ TEST(Plan, OfAHeaveAtRestIsTheStaticValue) {
     Problem problem = load_problem("uvms/valve_impulse");
     problem.motion->scheme = scheme;
     PlanEvaluator evaluator(problem, Wrench::kPure, solver());
-    const Plan& plan = evaluator.evaluate(constant(problem, problem.theta_r_default));
+    const Plan& plan = evaluator.evaluate(constant_knots(problem, problem.theta_r_default));
     ASSERT_EQ(plan.status, Status::kOptimal) << plan.reason.c_str();
     EXPECT_NEAR(plan.value, 35.4083, 1e-4);
     EXPECT_EQ(plan.instants.front().v.norm(), 0);
@@ -115,7 +112,7 @@ TEST(Plan, BestKnotOfAHeaveIsTheBestOfAll) {
   Problem problem = load_problem("uvms/valve_impulse");
   problem.motion->scheme = Scheme::kBackward;
   Random random(3);
-  Eigen::MatrixXd knots = constant(problem, problem.theta_r_default);
+  Eigen::MatrixXd knots = constant_knots(problem, problem.theta_r_default);
   for (double& q : knots.reshaped()) q += random.uniform(-0.05, 0.05);
   problem.robot.collision = nullptr;
   double best = -kInfinity;
@@ -142,7 +139,7 @@ TEST(Plan, StartsOfAHeaveAreOrdered) {
   const auto value = [&](Start start) {
     problem.motion->start = start;
     PlanEvaluator evaluator(problem, Wrench::kPure, solver());
-    return evaluator.evaluate(constant(problem, problem.theta_r_default)).value;
+    return evaluator.evaluate(constant_knots(problem, problem.theta_r_default)).value;
   };
   const double still = value(Start::kStatic), rest = value(Start::kRest),
                zero = value(Start::kZero), free = value(Start::kFree);
@@ -155,7 +152,7 @@ TEST(Plan, StartsOfAHeaveAreOrdered) {
 TEST(Plan, ElasticValueIsTheHardOneWhereThatExists) {
   const Problem problem = load_problem("uvms/valve_trajectory");
   PlanEvaluator evaluator(problem, Wrench::kPure, solver());
-  const Eigen::MatrixXd knots = constant(problem, problem.theta_r_default);
+  const Eigen::MatrixXd knots = constant_knots(problem, problem.theta_r_default);
   const double hard = evaluator.evaluate(knots).value;
   EXPECT_NEAR(evaluator.evaluate_elastic(knots, nullptr), hard, 1e-7);
   // Turned three times as fast the fixed posture has no answer, but an elastic one.
@@ -172,12 +169,12 @@ TEST(Plan, ElasticValueIsTheHardOneWhereThatExists) {
 TEST(Plan, InvalidTablesNameKnotsAndJoint) {
   const Problem problem = load_problem("uvms/valve_trajectory");
   PlanEvaluator evaluator(problem, Wrench::kPure, solver());
-  Eigen::MatrixXd knots = constant(problem, problem.theta_r_default);
+  Eigen::MatrixXd knots = constant_knots(problem, problem.theta_r_default);
   knots(3, 1) = 4;
   EXPECT_EQ(evaluator.evaluate(knots).status, Status::kInvalidPosture);
   EXPECT_NE(evaluator.plan().reason.str().find("knot 4: q2_shoulder_pitch at 4"), std::string::npos)
       << evaluator.plan().reason.c_str();
-  knots = constant(problem, problem.theta_r_default);
+  knots = constant_knots(problem, problem.theta_r_default);
   knots(5, 0) += 0.5;  // 0.9 rad/s over 5/9 s, 0.5 allowed
   EXPECT_EQ(evaluator.evaluate(knots).status, Status::kInvalidPosture);
   EXPECT_NE(evaluator.plan().reason.str().find("speed limit: knots 5 and 6: q1_shoulder_yaw"),
@@ -194,14 +191,14 @@ TEST(Plan, KnotsThatCollideAreReportedAndAvoided) {
   Eigen::VectorXd folded = problem.theta_r_default;
   folded[2] = problem.theta_r_min[2];
   PlanEvaluator evaluator(problem, Wrench::kPure, solver());
-  const Plan& plan = evaluator.evaluate(constant(problem, folded));
+  const Plan& plan = evaluator.evaluate(constant_knots(problem, folded));
   EXPECT_NE(plan.status, Status::kInvalidPosture);
   EXPECT_NE(plan.collision.str().find("self-collision: knot 1: "), std::string::npos)
       << plan.collision.c_str();
-  EXPECT_EQ(evaluator.evaluate_elastic(constant(problem, folded), nullptr), -kInfinity);
+  EXPECT_EQ(evaluator.evaluate_elastic(constant_knots(problem, folded), nullptr), -kInfinity);
   EXPECT_EQ(evaluator.plan().status, Status::kInvalidPosture);
   PlanEvaluator blind(problem, Wrench::kPure, solver(), false);
-  EXPECT_TRUE(blind.evaluate(constant(problem, folded)).collision.empty());
+  EXPECT_TRUE(blind.evaluate(constant_knots(problem, folded)).collision.empty());
 }
 
 TEST(Plan, ServesNoSecondContact) {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "tests/support/support.h"
@@ -11,14 +10,12 @@
 namespace maxwrench {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 MotionTask turn(Scheme scheme, int k) {
   MotionTask task;
   task.T = 5;
   task.k = k;
   task.scheme = scheme;
-  task.path = Path::screw({}, {0, 0, 1}, {0, 0, 0}, kPi, {0, 0, 0}, Timing::kCubic, task.T);
+  task.path = Path::screw({}, {0, 0, 1}, {0, 0, 0}, M_PI, {0, 0, 0}, Timing::kCubic, task.T);
   return task;
 }
 
@@ -79,9 +76,9 @@ TEST(Scheme, ForwardTakesItsTimesAndPosesFromDifferentGrids) {
     const auto at = static_cast<std::size_t>(i);
     EXPECT_NEAR(maps.t[at], i * 5.0 / 6, 1e-15);
     // The angle of the pose, and the difference of two by dt = T/k.
-    const double angle = kPi * phi(i / 5.0);
+    const double angle = M_PI * phi(i / 5.0);
     EXPECT_NEAR(maps.x[at].pose.R(1, 0), std::sin(angle), 1e-14);
-    const double rate = i == 5 ? 0 : (kPi * phi((i + 1) / 5.0) - angle) / (5.0 / 6);
+    const double rate = i == 5 ? 0 : (M_PI * phi((i + 1) / 5.0) - angle) / (5.0 / 6);
     EXPECT_TRUE(maps.x[at].twist.isApprox(rate * Vector6d::Unit(5), 1e-12) || rate == 0);
   }
   EXPECT_EQ(maps.moves, (Eigen::VectorXd(6) << 1, 1, 1, 1, 1, 0).finished());

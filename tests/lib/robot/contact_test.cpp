@@ -237,8 +237,8 @@ TEST(Contact, MoreFreedomNeverLowersTheValue) {
   }
 }
 
-/// The stacked J of the docstring.
-Eigen::MatrixXd stacked(const Problem& problem, const Posture& posture) {
+/// The stacked_jacobian J of the docstring.
+Eigen::MatrixXd stacked_jacobian(const Problem& problem, const Posture& posture) {
   const Contact& contact = *problem.contact;
   const Eigen::Index base = static_cast<Eigen::Index>(problem.robot.base_axes.size());
   Eigen::MatrixXd J(6 + contact.rows(), posture.J.cols());
@@ -265,7 +265,7 @@ TEST(Contact, PivotsTellNearSingularPostures) {
     for (int sample = 0; sample < 10; ++sample) {
       const Posture& posture = model.evaluate(near_default(problem, random));
       Contact contact = *problem.contact;
-      const double gain = singular_values(stacked(problem, posture))[contact.rank - 1];
+      const double gain = singular_values(stacked_jacobian(problem, posture))[contact.rank - 1];
       EXPECT_NEAR(smallest_gain(problem.robot, contact, posture.J, posture.J_2), gain, 1e-9);
       for (const double part : {0.0, 1e-7, 0.5, 1 - 1e-7, 1 + 1e-7, 2.0}) {
         contact.sigma_min = part * gain;

@@ -29,29 +29,30 @@ Eigen::VectorXd draw_theta_r(const Problem& problem, Random& random) {
   return theta_r;
 }
 
-struct Kind {
+struct ProgramKind {
   const char* problem;
   Wrench wrench;
   FreePose free = {};
 };
 
-Problem load(const Kind& kind) {
+Problem load(const ProgramKind& kind) {
   const Problem problem = load_problem(kind.problem);
   return kind.free.count() > 0 ? with_free_pose(problem, kind.free) : problem;
 }
 
-class FacetRows : public testing::TestWithParam<Kind> {};
+class FacetRows : public testing::TestWithParam<ProgramKind> {};
 
 INSTANTIATE_TEST_SUITE_P(
     All, FacetRows,
-    testing::Values(Kind{"planar/force", Wrench::kPure}, Kind{"planar/two_arms", Wrench::kAny},
-                    Kind{"uvms/valve", Wrench::kPure}, Kind{"uvms/lift", Wrench::kAny},
-                    Kind{"dual_arm/bar_wall", Wrench::kPure},
-                    Kind{"dual_arm/two_arms", Wrench::kAny}, Kind{"mobile/push", Wrench::kPure},
-                    Kind{"fixed/push", Wrench::kAny},
-                    Kind{"uvms/valve", Wrench::kAny, {{0, 4, 5}, true, true}},
-                    Kind{"fixed/push", Wrench::kPure, {{2, 4}, false, true}},
-                    Kind{"dual_arm/two_arms", Wrench::kAny, {{1, 3}, false, true}}),
+    testing::Values(
+        ProgramKind{"planar/force", Wrench::kPure}, ProgramKind{"planar/two_arms", Wrench::kAny},
+        ProgramKind{"uvms/valve", Wrench::kPure}, ProgramKind{"uvms/lift", Wrench::kAny},
+        ProgramKind{"dual_arm/bar_wall", Wrench::kPure},
+        ProgramKind{"dual_arm/two_arms", Wrench::kAny}, ProgramKind{"mobile/push", Wrench::kPure},
+        ProgramKind{"fixed/push", Wrench::kAny},
+        ProgramKind{"uvms/valve", Wrench::kAny, {{0, 4, 5}, true, true}},
+        ProgramKind{"fixed/push", Wrench::kPure, {{2, 4}, false, true}},
+        ProgramKind{"dual_arm/two_arms", Wrench::kAny, {{1, 3}, false, true}}),
     [](const auto& each) {
       std::string name = each.param.problem;
       if (each.param.free.count() > 0) name += "_free";

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "benchmarks/case.h"
+#include "benchmarks/plan_row.h"
 #include "benchmarks/row.h"
 #include "maxwrench/load.h"
 #include "maxwrench/plan.h"
@@ -28,10 +29,6 @@ const double kBackward[4][4] = {{3.070, 0.772, 0.453, -2.983},
                                 {3.046, 0.550, 0.615, -3.008},
                                 {3.156, 0.709, 0.477, -3.048},
                                 {3.035, 0.656, 0.474, -2.968}};
-
-MatrixXd constant(const Problem& problem, const Eigen::VectorXd& theta_r) {
-  return theta_r.transpose().replicate(problem.motion->k, 1);
-}
 
 TankScript script_of(const Problem& problem, const MatrixXd& knots, ScriptOptions options = {},
                      Wrench wrench = Wrench::kPure) {
@@ -62,7 +59,7 @@ void expect_within_limits(const TankRun& tank) {
 /// 34.30164 is `continuous` of the fixed posture in an independent model.
 TEST(TankMotion, ASplineTurnReadsWhatIsAskedForAllAlong) {
   const Problem problem = turn_of(Scheme::kSpline);
-  const TankScript script = script_of(problem, constant(problem, kStill));
+  const TankScript script = script_of(problem, constant_knots(problem, kStill));
   ASSERT_EQ(script.status, Status::kOptimal);
   EXPECT_NEAR(script.planned, 34.30164, 1e-4);
   EXPECT_LT(script.slack, 1e-9);
@@ -83,8 +80,8 @@ TEST(TankMotion, ASplineTurnReadsWhatIsAskedForAllAlong) {
 TEST(TankMotion, EachSchemesTurnAtRestIsHeld) {
   for (const Scheme scheme : {Scheme::kForward, Scheme::kEnds}) {
     const Problem problem = turn_of(scheme);
-    const TankScript script =
-        script_of(problem, constant(problem, kStill), {.interpolation = Interpolation::kLinear});
+    const TankScript script = script_of(problem, constant_knots(problem, kStill),
+                                        {.interpolation = Interpolation::kLinear});
     EXPECT_EQ(script.instants.size(), 10U);
     EXPECT_EQ(script.instants.back().t, 5);
     const TankRun tank = run(problem, script);
@@ -96,7 +93,7 @@ TEST(TankMotion, EachSchemesTurnAtRestIsHeld) {
 /// The elbow and the wrist of the wheeled base follow from theta_r, here on a curve.
 TEST(TankMotion, ADoorIsPushedWithJointsThatFollow) {
   const Problem problem = load_problem("mobile/trajectory");
-  MatrixXd knots = constant(problem, problem.theta_r_default);
+  MatrixXd knots = constant_knots(problem, problem.theta_r_default);
   for (Eigen::Index i = 0; i < knots.rows(); ++i) {
     knots.row(i) += 0.05 * static_cast<double>(i) * Eigen::RowVector2d(1, -1);
   }
@@ -113,7 +110,7 @@ TEST(TankMotion, ADoorIsPushedWithJointsThatFollow) {
 /// Only c'h is fixed; the cell takes the rest.
 TEST(TankMotion, FreeComponentsAreLeftToTheCell) {
   const Problem problem = turn_of(Scheme::kSpline);
-  const TankScript script = script_of(problem, constant(problem, kStill), {}, Wrench::kAny);
+  const TankScript script = script_of(problem, constant_knots(problem, kStill), {}, Wrench::kAny);
   EXPECT_GT(script.planned, 40);
   for (const Instant& instant : script.instants) {
     EXPECT_NEAR(instant.beta(), (1 - script.margin) * script.planned, 1e-9);
@@ -126,7 +123,7 @@ TEST(TankMotion, FreeComponentsAreLeftToTheCell) {
 
 TEST(TankMotion, ASplineHeaveReadsItsPeak) {
   const Problem problem = load_problem("uvms/valve_impulse");
-  const TankScript script = script_of(problem, constant(problem, problem.motion->theta_0));
+  const TankScript script = script_of(problem, constant_knots(problem, problem.motion->theta_0));
   EXPECT_NEAR(script.t_h, 2.5 * 3 / 4, 1e-12);
   const TankRun tank = run(problem, script);
   expect_within_limits(tank);
@@ -160,7 +157,7 @@ TEST(TankMotion, ABackwardHeaveDoesNotReachItsPeak) {
 TEST(TankMotion, OneKnotIsTheStaticTank) {
   Problem problem = turn_of(Scheme::kEnds);
   problem.motion->k = 1;
-  const TankScript script = script_of(problem, constant(problem, kStill));
+  const TankScript script = script_of(problem, constant_knots(problem, kStill));
   const TankRun tank = run(problem, script);
   expect_within_limits(tank);
   const Problem still = load_problem("uvms/valve");
@@ -183,8 +180,8 @@ TEST(TankMotion, ATaskTurnedAboutTheVerticalReadsTheSame) {
   turned.pose.R = Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   turned.motion->path = Path::screw(turned.pose, Eigen::Vector3d::UnitZ(), turned.pose.p, pi,
                                     {0, 0, 0}, Timing::kCubic, problem.motion->T);
-  const TankRun a = run(problem, script_of(problem, constant(problem, kStill)));
-  const TankRun b = run(turned, script_of(turned, constant(turned, kStill)));
+  const TankRun a = run(problem, script_of(problem, constant_knots(problem, kStill)));
+  const TankRun b = run(turned, script_of(turned, constant_knots(turned, kStill)));
   ASSERT_EQ(a.samples.size(), b.samples.size());
   for (std::size_t i = 0; i < a.samples.size(); i += 50) {
     EXPECT_NEAR(a.samples[i].reading, b.samples[i].reading, 1e-3);
@@ -202,7 +199,7 @@ bool same_samples(const TankRun& a, const TankRun& b) {
 
 TEST(TankMotion, RepeatsBitForBitAndNoiseBySeed) {
   const Problem problem = load_problem("uvms/valve_impulse");
-  const TankScript script = script_of(problem, constant(problem, problem.motion->theta_0));
+  const TankScript script = script_of(problem, constant_knots(problem, problem.motion->theta_0));
   TankOptions options;
   const TankRun perfect = run(problem, script, options);
   options.imperfections.seed = 4;
@@ -218,7 +215,7 @@ TEST(TankMotion, ALastPeriodEndsWithTheTask) {
   const Problem problem = turn_of(Scheme::kSpline);
   TankOptions options;
   options.period = 0.03;  // 166 periods and 2/3
-  const TankRun tank = run(problem, script_of(problem, constant(problem, kStill)), options);
+  const TankRun tank = run(problem, script_of(problem, constant_knots(problem, kStill)), options);
   expect_within_limits(tank);
   EXPECT_EQ(tank.samples.size(), 167U);
   EXPECT_EQ(tank.samples.back().t, 5);
@@ -226,7 +223,7 @@ TEST(TankMotion, ALastPeriodEndsWithTheTask) {
 
 TEST(TankMotion, SaysWhyThereIsNothingToRun) {
   const Problem problem = turn_of(Scheme::kSpline);
-  const TankScript beyond = script_of(problem, constant(problem, Vector4d(9, 0, 0, 0)));
+  const TankScript beyond = script_of(problem, constant_knots(problem, Vector4d(9, 0, 0, 0)));
   EXPECT_EQ(beyond.status, Status::kInvalidPosture);
   EXPECT_FALSE(beyond.reason.empty());
   EXPECT_THROW(run(problem, beyond), std::invalid_argument);

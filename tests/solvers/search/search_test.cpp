@@ -16,7 +16,7 @@ namespace {
 
 Eigen::VectorXd constant(int d, double value) { return Eigen::VectorXd::Constant(d, value); }
 
-struct Example {
+struct Landscape {
   const char* name;
   Known objective;
   Eigen::VectorXd maximum;
@@ -62,7 +62,7 @@ double bowl(const Eigen::VectorXd& x) {
   return value;
 }
 
-std::vector<Example> examples() {
+std::vector<Landscape> landscapes() {
   const Eigen::VectorXd one = constant(2, 1), two = constant(2, 2);
   const auto V = [](double a, double b) { return Eigen::VectorXd(Eigen::Vector2d(a, b)); };
   const double s = std::sqrt(0.5);
@@ -125,7 +125,7 @@ void expect_equal(const SearchResult& one, const SearchResult& other) {
 
 TEST_P(CompositionTest, FindsKnownMaxima) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    for (Example& example : examples()) {
+    for (Landscape& example : landscapes()) {
       SCOPED_TRACE(example.name + std::string(", seed ") + std::to_string(seed));
       SearchOptions options;
       options.seed = seed;
@@ -141,7 +141,7 @@ TEST_P(CompositionTest, FindsKnownMaxima) {
 
 TEST_P(CompositionTest, NeedsLittleForAThousandth) {
   if (GetParam() == "grid+cmaes") GTEST_SKIP() << "little is left after the grid";
-  for (Example& example : examples()) {
+  for (Landscape& example : landscapes()) {
     if (example.maximum.size() > 2) continue;
     // With so little a few seeds in a hundred settle on the second of many peaks.
     const std::uint64_t allowed = example.name == std::string("peaks") ? 2 : 0;
@@ -207,7 +207,7 @@ TEST_P(SearchTest, GoesOnFromStarts) {
 }
 
 TEST_P(SearchTest, ThreadsChangeNothing) {
-  for (Example& example : examples()) {
+  for (Landscape& example : landscapes()) {
     SCOPED_TRACE(example.name);
     SearchOptions options;
     options.budget = 4000;
@@ -220,7 +220,7 @@ TEST_P(SearchTest, ThreadsChangeNothing) {
 }
 
 TEST_P(SearchTest, KeepsTheBudgetAndCountsExactly) {
-  for (Example& example : examples()) {
+  for (Landscape& example : landscapes()) {
     for (const long budget : {1, 2, 3, 7, 50, 1000}) {
       SCOPED_TRACE(example.name + std::string(", budget ") + std::to_string(budget));
       SearchOptions options;
@@ -286,7 +286,7 @@ TEST_P(SearchTest, TakesNotANumberForNoValue) {
 }
 
 TEST_P(SearchTest, KeepsTheHistoryOfItsImprovements) {
-  for (Example& example : examples()) {
+  for (Landscape& example : landscapes()) {
     SCOPED_TRACE(example.name);
     SearchOptions options;
     options.budget = 1500;

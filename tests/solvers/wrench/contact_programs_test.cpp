@@ -11,14 +11,14 @@
 namespace maxwrench {
 namespace {
 
-constexpr int kBase = 6, kThrusters = 8, kJoints = 4;  // of each of two arms
+constexpr int kBase = 6, kThrusters = 8, kArmJoints = 4;  // of each of two arms
 
 /// A vehicle with two arms.
 Zonotope random_vehicle(Random& random) {
-  const int rows = kBase + 2 * kJoints;
-  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(rows, kThrusters + 2 * kJoints);
+  const int rows = kBase + 2 * kArmJoints;
+  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(rows, kThrusters + 2 * kArmJoints);
   for (double& b : B.topLeftCorner(kBase, kThrusters).reshaped()) b = random.normal();
-  B.bottomRightCorner(2 * kJoints, 2 * kJoints).setIdentity();
+  B.bottomRightCorner(2 * kArmJoints, 2 * kArmJoints).setIdentity();
   Eigen::VectorXd u_min(B.cols()), u_max(B.cols());
   for (Eigen::Index j = 0; j < B.cols(); ++j) {
     u_min[j] = random.uniform(-4, -1);
@@ -47,8 +47,8 @@ WrenchProgram random_program(Random& random, const Zonotope& set) {
     if (kind > 0.95) program.w_min[j] = program.w_max[j] = 0;
   }
   program.JtW = Eigen::MatrixXd::NullaryExpr(n, own + l, [&] { return random.normal(); });
-  program.JtW.topLeftCorner(n, own).bottomRows(kJoints).setZero();
-  program.JtW.rightCols(l).middleRows(kBase, kJoints).setZero();
+  program.JtW.topLeftCorner(n, own).bottomRows(kArmJoints).setZero();
+  program.JtW.rightCols(l).middleRows(kBase, kArmJoints).setZero();
   const double load = random.uniform() < 0.3 ? 4 : 1;
   program.tau_d = Eigen::VectorXd::NullaryExpr(n, [&] { return load * random.normal(); });
   return program;

@@ -1,0 +1,39 @@
+#include "tests/support/written_proof.h"
+
+#include "benchmarks/proof.h"
+#include "benchmarks/proof_recorder.h"
+#include "maxwrench/strategies.h"
+#include "tests/support/support.h"
+#include "verify/verify.h"
+
+namespace maxwrench {
+
+WrittenProof::WrittenProof(const char* name, const char* measure, Wrench wrench, double gap,
+                           long boxes)
+    : problem(load_problem(name)) {
+  Case c;
+  c.problem = name;
+  c.measure = measure;
+  c.wrench = wrench;
+  c.search = best_search(problem, measure);
+  const Method method = resolve(problem, c);
+  Row row = solve(problem, method, 1);
+  ProofRecorder recorder;
+  CertifyOptions options;
+  options.gap = gap;
+  options.boxes = boxes;
+  options.sink = [&](const CertifiedBox& box) { recorder.add(box); };
+  const auto bound = make_capability_bound(problem, measure, wrench);
+  const CertifyResult result =
+      prove(problem, method, *bound, {row.posture.theta_r, row.capability.beta}, options);
+  if (result.best.value > row.capability.beta) {
+    row = evaluate(problem, method, result.best.theta_r);
+  }
+  proof = recorder.certificate(problem, row, result, gap);
+}
+
+std::string WrittenProof::refusal(const ProofCertificate& of) const {
+  return verify(problem, of, 1).refusal;
+}
+
+}  // namespace maxwrench
