@@ -69,12 +69,12 @@ TEST(Compare, WritesTheSameValuesAgain) {
 TEST(Compare, SumsUpOverAllProblems) {
   const TemporaryFolder folder;
   const CommandResult result = run_maxwrench(
-      "compare planar/force planar/two_arms --budget 2000 --seeds 1 --out .", folder.path());
+      "compare planar/force uvms/lift --budget 2000 --seeds 1 --out .", folder.path());
   ASSERT_EQ(result.exit_status, 0) << result.err;
   EXPECT_EQ(read_text(folder.path() / "search_comparison.txt"), result.out);
   const std::size_t all = result.out.find(
       "\n| search | typical | worst | 10 % | 1 % | 0.1 % | 0.01 % "
-      "| planar/force | planar/two_arms |\n");
+      "| planar/force | uvms/lift |\n");
   ASSERT_NE(all, std::string::npos) << result.out;
   std::istringstream lines(result.out.substr(all + 1));
   std::string line;

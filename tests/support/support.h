@@ -23,6 +23,9 @@ inline constexpr int kSampleDivisor = 20;
 inline constexpr int kSampleDivisor = 1;
 #endif
 
+/// Of a search whose find the test takes for the best: the default, and what suffices for it.
+inline constexpr long kSearchBudget = kSampleDivisor == 1 ? 20000 : 2000;
+
 /// Heap allocations of this process so far; always zero under sanitizers.
 long allocation_count();
 

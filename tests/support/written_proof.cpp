@@ -16,6 +16,7 @@ WrittenProof::WrittenProof(const char* name, const char* measure, Wrench wrench,
   c.measure = measure;
   c.wrench = wrench;
   c.search = best_search(problem, measure);
+  c.budget = kSearchBudget;
   const Method method = resolve(problem, c);
   Row row = solve(problem, method, 1);
   ProofRecorder recorder;

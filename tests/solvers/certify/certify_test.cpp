@@ -39,6 +39,7 @@ struct ProofCase {
     const auto f = objective();
     SearchOptions options;
     options.start = problem.theta_r_default;
+    options.budget = kSearchBudget;
     const SearchResult found = find_search(default_search()).make()->maximize(*f, options);
     return {found.theta_r, found.value};
   }
@@ -222,7 +223,7 @@ TEST(Certify, IsNearTheBestOfAGrid) {
   for (const char* name : {"mobile/push", "dual_arm/bar_wall", "dual_arm/bar_alone"}) {
     ProofCase at(name, "linf_polytope", Wrench::kPure);
     const auto f = at.objective();
-    const int points = kSampleDivisor == 1 ? 100 : 20;
+    const int points = kSampleDivisor == 1 ? 100 : 12;
     double best = -kInfinity;
     for (int i = 0; i <= points; ++i) {
       for (int j = 0; j <= points; ++j) {
@@ -235,7 +236,7 @@ TEST(Certify, IsNearTheBestOfAGrid) {
     const CertifyResult result = at.prove(at.searched(), to_gap(1e-3));
     EXPECT_EQ(result.status, Status::kProven) << name;
     EXPECT_GE(result.bound, best) << name;
-    EXPECT_LE(result.best.value, best * (kSampleDivisor == 1 ? 1.02 : 1.2)) << name;
+    EXPECT_LE(result.best.value, best * (kSampleDivisor == 1 ? 1.02 : 1.3)) << name;
   }
 }
 
@@ -261,7 +262,7 @@ TEST(Certify, IsTheSameAtAnyThreadCount) {
     const Candidate best = at.searched();
     std::vector<std::vector<double>> highs;
     for (const int threads : {1, 2, 8}) {
-      CertifyOptions options = to_gap(1e-2);
+      CertifyOptions options = to_gap(kSampleDivisor == 1 ? 1e-2 : 1e-1);
       options.threads = threads;
       auto& of_run = highs.emplace_back();
       options.sink = [&](const CertifiedBox& box) {
