@@ -78,7 +78,7 @@ class PlanarModel {
 double planar_optimum(const Case& c) {
   const PlanarModel model(c);
   const Value value = [&](const Eigen::Vector2d& q) { return model(q); };
-  const auto coarse = grid(value, {0, 0}, kReach, 41);
+  const auto coarse = grid(value, {0, 0}, kReach, kSampleDivisor == 1 ? 41 : 21);
   double best = -kInfinity;
   for (std::size_t start = 0; start < 5; ++start) {
     auto [beta, q] = coarse[start];

@@ -39,6 +39,9 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_P(VerifyShipped, IsVerifiedAtAnyThreadCount) {
   const Shipped& shipped = GetParam();
+  if (kSampleDivisor > 1 && shipped.problem == std::string("fixed/push")) {
+    GTEST_SKIP() << "half a million leaves take minutes under sanitizers";
+  }
   const WrittenProof at(shipped.problem, shipped.measure, shipped.wrench, shipped.gap);
   for (const int threads : {1, 3}) {
     const Verification result = verify(at.problem, at.proof, threads);
