@@ -80,7 +80,8 @@ double planar_optimum(const Case& c) {
   const Value value = [&](const Eigen::Vector2d& q) { return model(q); };
   const auto coarse = grid(value, {0, 0}, kReach, kSampleDivisor == 1 ? 41 : 21);
   double best = -kInfinity;
-  for (std::size_t start = 0; start < 5; ++start) {
+  const std::size_t starts = kSampleDivisor == 1 ? 5 : 2;
+  for (std::size_t start = 0; start < starts; ++start) {
     auto [beta, q] = coarse[start];
     for (double width = kReach / 20; width > 1e-5; width /= 3) {
       std::tie(beta, q) = grid(value, q, width, 7).front();
