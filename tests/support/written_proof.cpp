@@ -2,6 +2,7 @@
 
 #include "benchmarks/proof.h"
 #include "benchmarks/proof_recorder.h"
+#include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
 #include "tests/support/support.h"
 #include "verify/verify.h"

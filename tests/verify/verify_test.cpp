@@ -4,6 +4,7 @@
 
 #include "benchmarks/case.h"
 #include "benchmarks/proof_recorder.h"
+#include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
 #include "solvers/certify/certify.h"
 #include "tests/support/support.h"

@@ -10,6 +10,7 @@
 #include "maxwrench/strategies.h"
 #include "solvers/search/makers.h"
 #include "tests/support/known.h"
+#include "tests/support/support.h"
 
 namespace maxwrench {
 namespace {
