@@ -16,7 +16,6 @@
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"
 #include "solvers/certify/certify.h"
-#include "tests/support/support.h"
 #include "verify/verify.h"
 
 // What runs beside each other, in one small program: the thread sanitizer's build holds nothing
@@ -121,7 +120,7 @@ TEST_P(ThreadsInSearchOfPlans, FindsTheSame) {
     const Problem problem = load_problem(name);
     const auto objective = make_plan_objective(problem, Wrench::kPure, plan_solvers().front().make);
     SearchOptions options;
-    options.budget = kSampleDivisor > 1 ? 60 : 300;
+    options.budget = 100;
     options.start = problem.theta_r_default.replicate(knots_of(problem), 1);
     options.threads = 1;
     const SearchResult one = GetParam().make()->maximize(*objective, options);
