@@ -148,7 +148,8 @@ class JointNlpSearch : public Search {
       const auto later = static_cast<long>(std::min(starts.size(), kJointStarts) - i);
       const long before = found.trace.evaluations(), left = options.budget - before;
       if (left < kFewestOfClimb || objective.ended()) break;
-      climb(objective, starts[i], before + std::max(kFewestOfClimb, left / later), found);
+      // A climb of its own copy: its path is that of what it evaluates, not of what was before.
+      climb(*objective.clone(), starts[i], before + std::max(kFewestOfClimb, left / later), found);
       progress.add(found.trace.evaluations() - before);
     }
     return make_result(found);

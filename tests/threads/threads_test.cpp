@@ -120,7 +120,7 @@ TEST_P(ThreadsInSearchOfPlans, FindsTheSame) {
     const Problem problem = load_problem(name);
     const auto objective = make_plan_objective(problem, Wrench::kPure, plan_solvers().front().make);
     SearchOptions options;
-    options.budget = 300;
+    options.budget = 100;
     options.start = problem.theta_r_default.replicate(knots_of(problem), 1);
     options.threads = 1;
     const SearchResult one = GetParam().make()->maximize(*objective, options);
