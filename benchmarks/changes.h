@@ -37,7 +37,7 @@ struct TimeChange {
 /// What differs between two folders.
 struct Changes {
   std::vector<RowPair> changed;  ///< in status, in having a value, or by more than `kSameValue`
-  long same = 0;                 ///< bit by bit
+  long same = 0;                 ///< status and value, bit by bit
   long rounded = 0;              ///< within `kSameValue`
   std::vector<const ResultRow*> only_a, only_b;
   std::vector<TimeChange> times;  ///< all rows, then by lp, search and problem

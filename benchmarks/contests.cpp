@@ -17,17 +17,36 @@ bool belongs(const ResultRow& row, bool in_time, Wrench wrench) {
   return row.choice.scheme.empty() != in_time && (in_time || row.choice.wrench == wrench);
 }
 
-std::map<std::vector<std::string>, ByMethod> instances_of(const std::vector<ResultRow>& rows,
-                                                          bool in_time, Wrench wrench) {
-  std::map<std::vector<std::string>, ByMethod> instances;
+using Instances = std::map<std::vector<std::string>, ByMethod>;
+
+/// Leaves out what was not tried with each solver that has rows of the same problem, measure and
+/// wrench.
+void keep_tried_by_all(Instances& instances) {
+  constexpr std::ptrdiff_t kTask = 3;  // columns of a key
+  std::map<std::vector<std::string>, std::set<std::string>> serving;
+  const auto task_of = [](const std::vector<std::string>& key) {
+    return std::vector<std::string>(key.begin(), key.begin() + kTask);
+  };
+  for (const auto& [key, by_solver] : instances) {
+    for (const auto& [solver, row] : by_solver) serving[task_of(key)].insert(solver);
+  }
+  std::erase_if(instances, [&](const auto& instance) {
+    return instance.second.size() <
+           std::max<std::size_t>(2, serving.at(task_of(instance.first)).size());
+  });
+}
+
+Instances instances_of(const std::vector<ResultRow>& rows, bool in_time, Wrench wrench) {
+  Instances instances;
   for (const ResultRow& row : rows) {
     const Case& c = row.choice;
-    if (c.lp == kNoSolver || !row.us || !belongs(row, in_time, wrench)) continue;
+    if (c.lp == kNoSolver || !belongs(row, in_time, wrench)) continue;
+    if (row.solved() && !row.us) continue;  // was not measured
     const ResultRow*& kept = instances[{c.problem, c.measure, to_string(c.wrench), c.search,
                                         std::to_string(c.seed), c.scheme}][c.lp];
     if (kept == nullptr || kept->choice.budget < c.budget) kept = &row;
   }
-  std::erase_if(instances, [](const auto& instance) { return instance.second.size() < 2; });
+  keep_tried_by_all(instances);
   return instances;
 }
 
@@ -51,6 +70,29 @@ Contest solver_contest(const std::vector<ResultRow>& rows, bool in_time, Wrench 
     }
   }
   return contest;
+}
+
+/// Milliseconds of a search to the target on each seed of a race, infinity where it has none.
+std::map<std::uint64_t, double> times_to_target(const Comparison& race, const std::string& search) {
+  std::map<std::uint64_t, double> ms;
+  for (const Contender& contender : race.contenders) {
+    for (const Attempt& each : contender.attempts) {
+      const double here =
+          contender.search == search ? 1e3 * first_hit(each.run, race.target()).seconds : kInfinity;
+      double& least = ms.try_emplace(each.choice.seed, kInfinity).first->second;
+      least = std::min(least, here);
+    }
+  }
+  return ms;
+}
+
+/// The default search of all races; empty if they differ.
+std::string common_default(const std::vector<Comparison>& races) {
+  const std::string& first = races.front().default_search;
+  const bool same = std::all_of(races.begin(), races.end(), [&](const Comparison& race) {
+    return race.default_search == first;
+  });
+  return same ? first : "";
 }
 
 std::string family_of(const std::string& problem) {
@@ -90,14 +132,12 @@ std::vector<RaceGroup> race_groups(const std::vector<Comparison>& races) {
 }
 
 Contest search_contest(const RaceGroup& group) {
-  Contest contest{group.title, "ms", {}, {}, group.races.front().default_search};
+  Contest contest{group.title, "ms", {}, {}, common_default(group.races)};
   for (const Standing& standing : standings(group.races)) {
     contest.methods.push_back(standing.search);
     std::vector<double>& costs = contest.cost.emplace_back();
     for (const Comparison& race : group.races) {
-      for (const Spent& hit : hits_of(race, standing.search, 1e-3)) {
-        costs.push_back(1e3 * hit.seconds);
-      }
+      for (const auto& [seed, ms] : times_to_target(race, standing.search)) costs.push_back(ms);
     }
   }
   return contest;

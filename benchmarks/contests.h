@@ -11,9 +11,10 @@ namespace maxwrench {
 
 /// Lower-level solvers by the microseconds of an evaluation: one contest for static tasks with each
 /// wrench, and one for tasks in time. Its instances are all that differ in problem, measure,
-/// wrench, search, seed or scheme and were tried with two solvers at least (of several budgets the
-/// largest, for a budget is divided by what a solver costs). What has no value has failed, and what
-/// a solver does not serve counts as failed.
+/// wrench, search, seed or scheme and were tried with all solvers, two at least, that have rows of
+/// their problem, measure and wrench (of several budgets the largest, for a budget is divided by
+/// what a solver costs). What has no value has failed; a solver without such rows does not serve,
+/// which counts as failed.
 std::vector<Contest> solver_contests(const std::vector<ResultRow>& rows);
 
 /// Races that belong together.
@@ -26,7 +27,7 @@ struct RaceGroup {
 std::vector<RaceGroup> race_groups(const std::vector<Comparison>& races);
 
 /// Searches by the milliseconds to 0.1 % below the best known value; instances are problems and
-/// seeds, the default search is the reference. The group has a race.
+/// seeds. The default search is the reference if all have the same. The group has a race.
 Contest search_contest(const RaceGroup& group);
 
 }  // namespace maxwrench

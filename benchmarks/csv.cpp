@@ -107,6 +107,13 @@ CsvFile read_csv(const std::filesystem::path& file, const std::vector<std::strin
                  const std::vector<std::string>& others) {
   CsvFile csv{file, {}, {}};
   std::error_code error;
+  const std::filesystem::path journal = file.string() + ".part";
+  if (std::filesystem::file_size(journal, error) > 0 && !error) {
+    throw std::invalid_argument(
+        fmt::format("{}: got rows that are not in {} yet, expected a run that has ended: run it "
+                    "again to its end",
+                    journal.string(), file.filename().string()));
+  }
   std::ifstream in;
   if (!std::filesystem::is_directory(file, error)) in.open(file);
   std::string line;

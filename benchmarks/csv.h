@@ -35,7 +35,7 @@ std::size_t line_of(std::size_t row);
 
 /// Reads the columns that are `required`, and of `others` those that are there. Throws
 /// std::invalid_argument with one line on a file that cannot be read, that lacks one of `required`,
-/// or with a line of another length.
+/// with a line of another length, or beside a journal of rows that are not in it yet.
 CsvFile read_csv(const std::filesystem::path& file, const std::vector<std::string>& required,
                  const std::vector<std::string>& others = {});
 

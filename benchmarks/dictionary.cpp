@@ -47,6 +47,7 @@ constexpr ColumnMeaning kDictionary[] = {
     // search_comparison.csv and search_times.csv
     {"best_known", "unit", "what targets lie below: the proven bound, else the best of all runs"},
     {"proven", "", "yes: best_known is a proven bound"},
+    {"role", "", "default: the search of solve; contender; peer: through a solver of others"},
     {"below", "", "how far beta stays below the best value of its task, as a share of it"},
     {"evaluations_to_tenth", "", "evaluations until 10 % below best_known; empty: never"},
     {"evaluations_to_hundredth", "", "evaluations until 1 % below"},
@@ -63,8 +64,7 @@ constexpr ColumnMeaning kDictionary[] = {
     {"best", "unit", "largest beta of the solved rows"},
     {"near", "", "rows within 0.1 % of the best of their task"},
     {"median_below", "", "median of below; failures count as infinite, then empty"},
-    {"us", "us",
-     "median processor (else wall) time of an evaluation; in a contest failures are infinite"},
+    {"us", "us", "median processor time of an evaluation; in a contest failures are infinite"},
     {"us_low", "us", "lower end of its bootstrap interval of 95 %; empty: fewer than 6 rows"},
     {"us_high", "us", "upper end"},
     {"coordinates", "", "d: numbers of theta_r that are searched, of all knots"},

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -10,15 +11,28 @@
 #include "benchmarks/write_file.h"
 
 namespace maxwrench {
+namespace {
+
+bool was_removed(int descriptor) {
+  struct stat status {};
+  return fstat(descriptor, &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink == 0;
+}
+
+}  // namespace
+
 Journal::Journal(std::filesystem::path file) : file_(std::move(file)) {
   std::error_code error;
   if (file_.has_parent_path()) std::filesystem::create_directories(file_.parent_path(), error);
   if (error) refuse_output(file_, error.value());
-  descriptor_ = open(file_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) refuse_output(file_, errno);
-  if (flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-  close(descriptor_);
-  refuse_output(file_, EBUSY);
+  do {
+    if (descriptor_ >= 0) close(descriptor_);
+    descriptor_ = open(file_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) refuse_output(file_, errno);
+    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      close(descriptor_);
+      refuse_output(file_, EBUSY);
+    }
+  } while (was_removed(descriptor_));  // by who held it until now
 }
 
 void Journal::begin(const std::string& line) {
@@ -26,11 +40,27 @@ void Journal::begin(const std::string& line) {
   add(line);
 }
 
-Journal::~Journal() { close(descriptor_); }
+Journal::~Journal() {
+  struct stat status {};
+  if (fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode) && status.st_size == 0) remove();
+  close(descriptor_);
+}
 
 void Journal::add(const std::string& line) {
+  const off_t before = lseek(descriptor_, 0, SEEK_END);
   const int error = write_all(descriptor_, line + '\n');
-  if (error != 0) refuse_output(file_, error);
+  if (error == 0) return;
+  const bool taken_back = before >= 0 && ftruncate(descriptor_, before) == 0;
+  if (!taken_back) static_cast<void>(write_all(descriptor_, "\n"));  // the torn line stays alone
+  refuse_output(file_, error);
+}
+
+bool Journal::is_held(const std::filesystem::path& file) {
+  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool held = flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  close(descriptor);
+  return held;
 }
 
 void Journal::remove() {

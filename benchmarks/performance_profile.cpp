@@ -1,6 +1,7 @@
 #include "benchmarks/performance_profile.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <tuple>
 
@@ -62,6 +63,7 @@ std::vector<MethodStanding> profiles_in_order(const Contest& contest) {
 
 std::vector<std::vector<double>> performance_ratios(const Contest& contest) {
   std::vector<std::vector<double>> ratios = contest.cost;
+  for (const auto& costs : contest.cost) assert(costs.size() == contest.instances());
   for (std::size_t j = 0; j < contest.instances(); ++j) {
     double least = kInfinity;
     for (const auto& costs : contest.cost) least = std::min(least, costs[j]);
@@ -73,7 +75,9 @@ std::vector<std::vector<double>> performance_ratios(const Contest& contest) {
 std::vector<MethodStanding> stand(const Contest& contest) {
   std::vector<MethodStanding> all = profiles_in_order(contest);
   if (all.empty()) return all;
-  const std::string reference = contest.reference.empty() ? all.front().method : contest.reference;
+  const bool has_reference = std::find(contest.methods.begin(), contest.methods.end(),
+                                       contest.reference) != contest.methods.end();
+  const std::string reference = has_reference ? contest.reference : all.front().method;
   std::vector<double> p;
   for (MethodStanding& standing : all) {
     standing.reference = reference;

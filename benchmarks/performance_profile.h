@@ -14,7 +14,8 @@ struct Contest {
   std::string unit;  ///< of the costs
   std::vector<std::string> methods;
   std::vector<std::vector<double>> cost;
-  std::string reference = "";  ///< what `stand` compares with; empty: the first in its order
+  std::string reference =
+      "";  ///< what `stand` compares with; empty or none of them: the first in its order
 
   std::size_t instances() const { return cost.empty() ? 0 : cost.front().size(); }
 };

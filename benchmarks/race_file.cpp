@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include "benchmarks/case_file.h"
@@ -19,6 +20,13 @@ std::vector<std::string> race_file_columns(std::vector<std::string> more, const 
   return with_case_columns(more);
 }
 
+/// All that an attempt took.
+double spent_of(const CsvFile& csv, std::size_t row, const char* column) {
+  const std::optional<double> spent = csv.number(row, column);
+  if (!spent || *spent < 0) csv.refuse(row, column, "a number of 0 or more");
+  return *spent;
+}
+
 /// The attempt of a row of values and that of times.
 Attempt attempt_of(const CsvFile& values, std::size_t row, const CsvFile& times,
                    std::size_t time_row, double best) {
@@ -26,8 +34,7 @@ Attempt attempt_of(const CsvFile& values, std::size_t row, const CsvFile& times,
   attempt.choice = case_of(values, row);
   attempt.value = values.number(row, "beta").value_or(-kInfinity);
   attempt.continuous = values.number(row, "continuous").value_or(attempt.continuous);
-  attempt.run.spent = {values.number(row, "evaluations").value_or(0),
-                       times.number(time_row, "seconds").value_or(0)};
+  attempt.run.spent = {spent_of(values, row, "evaluations"), spent_of(times, time_row, "seconds")};
   for (std::size_t i = 0; i < kTargetShares.size(); ++i) {
     const auto evaluations = values.number(row, fmt::format("evaluations_to_{}", kTargetNames[i]));
     const auto seconds = times.number(time_row, fmt::format("seconds_to_{}", kTargetNames[i]));
@@ -37,22 +44,35 @@ Attempt attempt_of(const CsvFile& values, std::size_t row, const CsvFile& times,
   return attempt;
 }
 
-/// The solver that most rows have.
-std::string usual_solver(const CsvFile& values, const Rows& rows) {
-  std::map<std::string, int> counts;
-  for (const std::size_t row : rows) ++counts[values.text(row, "lp")];
-  return std::max_element(counts.begin(), counts.end(),
-                          [](const auto& a, const auto& b) { return a.second < b.second; })
-      ->first;
+/// Where an attempt belongs by its role.
+std::vector<Contender>& group_of(const CsvFile& values, std::size_t row, Comparison& comparison) {
+  const std::string& role = values.text(row, "role");
+  if (role == kPeerRole) return comparison.peers;
+  if (role == kDefaultRole) {
+    comparison.default_search = values.text(row, "search");
+  } else if (role != kContenderRole) {
+    values.refuse(row, "role",
+                  fmt::format("{}, {} or {}", kDefaultRole, kContenderRole, kPeerRole));
+  }
+  return comparison.contenders;
 }
 
-/// The searches of a table of one solver: the default is the one that has stages, in time the first
-/// of the searches of plans.
-std::string default_of(const Comparison& comparison) {
-  for (const Contender& contender : comparison.contenders) {
-    if (contender.search.find('+') != std::string::npos) return contender.search;
+/// Refuses what two races left in one table.
+void require_one_race(const CsvFile& values, const Rows& rows) {
+  std::set<std::vector<std::string>> attempts;
+  for (const std::size_t row : rows) {
+    for (const char* column : {"best_known", "proven"}) {
+      if (values.text(row, column) == values.text(rows.front(), column)) continue;
+      values.refuse(row, column,
+                    fmt::format("{} as in line {}, of the same race",
+                                values.text(rows.front(), column), line_of(rows.front())));
+    }
+    if (!attempts
+             .insert({values.text(row, "search"), values.text(row, "lp"), values.text(row, "seed")})
+             .second) {
+      values.refuse(row, "budget", "one of each search, solver and seed in a race");
+    }
   }
-  return comparison.in_time ? "slp" : "";
 }
 
 Comparison comparison_of(const CsvFile& values, const Rows& rows, const CsvFile& times,
@@ -67,14 +87,14 @@ Comparison comparison_of(const CsvFile& values, const Rows& rows, const CsvFile&
                         0};
   const double best = values.number(first, "best_known").value_or(-kInfinity);
   if (values.text(first, "proven") == "yes") comparison.proven = best;
-  const std::string usual = usual_solver(values, rows);
+  require_one_race(values, rows);
   for (const std::size_t row : rows) {
     const Case c = case_of(values, row);
     const auto time = time_rows.find(case_values(c));
     if (time == time_rows.end()) {
       values.refuse(row, "search", "a row of the same case in search_times.csv");
     }
-    auto& group = c.lp == usual ? comparison.contenders : comparison.peers;
+    auto& group = group_of(values, row, comparison);
     auto contender = std::find_if(group.begin(), group.end(), [&](const Contender& each) {
       return each.search == c.search && each.lp == c.lp;
     });
@@ -84,7 +104,6 @@ Comparison comparison_of(const CsvFile& values, const Rows& rows, const CsvFile&
     contender->attempts.push_back(attempt_of(values, row, times, time->second, best));
     comparison.budget = std::max(comparison.budget, c.budget);
   }
-  comparison.default_search = default_of(comparison);
   return comparison;
 }
 
@@ -94,8 +113,8 @@ std::vector<Comparison> read_races(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "search_comparison.csv";
   if (!std::filesystem::exists(file)) return {};
   const CsvFile values = read_csv(
-      file,
-      race_file_columns({"beta", "continuous", "unit", "best_known", "proven"}, "evaluations"));
+      file, race_file_columns({"beta", "continuous", "unit", "best_known", "proven", "role"},
+                              "evaluations"));
   const CsvFile times = read_csv(folder / "search_times.csv", race_file_columns({}, "seconds"));
   rows_of_cases(values);  // each once
   const auto time_rows = rows_of_cases(times);

@@ -15,13 +15,15 @@ namespace {
 std::map<std::vector<std::string>, double> read_times(const std::filesystem::path& file) {
   std::map<std::vector<std::string>, double> us;
   if (!std::filesystem::exists(file)) return us;
-  const CsvFile csv = read_csv(file, with_case_columns({"evaluations", "wall_s"}), {"cpu_s"});
-  for (std::size_t i = 0; i < csv.rows.size(); ++i) {
+  const CsvFile csv = read_csv(file, with_case_columns({"evaluations"}), {"cpu_s"});
+  if (!csv.has("cpu_s")) return us;  // of an earlier version
+  for (const auto& [key, i] : rows_of_cases(csv)) {
     const auto evaluations = csv.number(i, "evaluations");
-    const auto wall = csv.number(i, "wall_s");
-    const auto cpu = csv.has("cpu_s") ? csv.number(i, "cpu_s") : std::nullopt;
-    if (!evaluations || !wall || *evaluations <= 0) continue;
-    us[case_values(case_of(csv, i))] = 1e6 * cpu.value_or(*wall) / *evaluations;
+    const auto seconds = csv.number(i, "cpu_s");
+    if (!evaluations || !seconds || *evaluations == 0) continue;
+    if (*evaluations < 0) csv.refuse(i, "evaluations", "a number of 0 or more");
+    if (*seconds <= 0) csv.refuse(i, "cpu_s", "a number above 0");
+    us[key] = 1e6 * *seconds / *evaluations;
   }
   return us;
 }
@@ -37,15 +39,7 @@ ResultRow row_of(const CsvFile& csv, std::size_t i) {
   return row;
 }
 
-}  // namespace
-
-bool ResultRow::solved() const {
-  return beta && (status == to_string(Status::kOptimal) || status == to_string(Status::kBestFound));
-}
-
-Results read_results(const std::filesystem::path& folder) {
-  Results results;
-  results.folder = folder;
+void read_rows(const std::filesystem::path& folder, Results& results) {
   const CsvFile values =
       read_csv(folder / "values.csv",
                with_case_columns({"status", "beta", "unit", "evaluations", "reason"}));
@@ -56,7 +50,21 @@ Results read_results(const std::filesystem::path& folder) {
     const auto time = us.find(case_values(row.choice));
     if (time != us.end()) row.us = time->second;
   }
+}
+
+}  // namespace
+
+bool ResultRow::solved() const {
+  return beta && (status == to_string(Status::kOptimal) || status == to_string(Status::kBestFound));
+}
+
+Results read_results(const std::filesystem::path& folder) {
+  Results results;
+  results.folder = folder;
   results.races = read_races(folder);
+  if (results.races.empty() || std::filesystem::exists(folder / "values.csv")) {
+    read_rows(folder, results);
+  }
   results.machine = text_of(folder / "machine.txt");
   results.plan = text_of(folder / "plan.toml");
   return results;

@@ -16,8 +16,7 @@ struct ResultRow {
   std::string status, unit, reason;
   std::optional<double> beta;  ///< none: the row has no value
   double evaluations = 0;
-  /// Microseconds of an evaluation, of the processor where they were measured, else of the wall;
-  /// none without a row of times.
+  /// Microseconds of an evaluation, of the processor; none where they were not measured.
   std::optional<double> us;
 
   /// Has a value that is what was asked for: an interrupted search has failed.
@@ -33,9 +32,9 @@ struct Results {
   std::string plan;               ///< plan.toml, if it is there
 };
 
-/// Reads values.csv, which must be there, times.csv, and the files of a race. Throws
-/// std::invalid_argument with one line on a file that is no such table: a column that is missing, a
-/// cell that is no finite number, a case that appears twice.
+/// Reads values.csv, which must be there unless a race is, times.csv, and the files of a race.
+/// Throws std::invalid_argument with one line on a file that is no such table: a column that is
+/// missing, a cell that is no finite number, a case that appears twice.
 Results read_results(const std::filesystem::path& folder);
 
 }  // namespace maxwrench

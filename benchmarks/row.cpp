@@ -118,7 +118,8 @@ std::vector<std::string> times(const Case& c, long evaluations, double wall_s) {
   std::vector<std::string> cells = case_values(c);
   cells.push_back(fmt::format("{}", evaluations));
   cells.push_back(fmt::format("{:.4g}", wall_s));
-  cells.push_back(fmt::format("{:.4g}", 1e6 * wall_s / static_cast<double>(evaluations)));
+  const double us = 1e6 * wall_s / static_cast<double>(evaluations);
+  cells.push_back(evaluations > 0 ? fmt::format("{:.4g}", us) : "");
   return cells;
 }
 

@@ -56,6 +56,30 @@ std::string refuse_own(const Problem& problem, const Row& anew, const RowOf& cla
       own.balance, own.bounds, own.dual, own.gap);
 }
 
+/// A number beside the value, such as its yardstick, which may be none.
+std::string refuse_other(const RowOf& claim, const char* column, double anew) {
+  const std::optional<double> claimed = claim.csv.number(claim.row, column);
+  const bool same = std::isfinite(anew) ? claimed && std::abs(*claimed - anew) <=
+                                                         kRowTolerance * (1 + std::abs(anew))
+                                        : !claimed;
+  if (same) return "";
+  return std::isfinite(anew) ? fmt::format("{}: its posture has {:.9g}", column, anew)
+                             : fmt::format("{}: its posture has none", column);
+}
+
+/// What its words say: whether a row of this status can have a value, and its unit.
+std::string refuse_words(const RowOf& claim, bool has_value) {
+  const std::string& status = claim.text("status");
+  const bool answered =
+      status == to_string(Status::kOptimal) || status == to_string(Status::kBestFound);
+  if (has_value && !answered && status != to_string(Status::kBudgetExhausted)) {
+    return fmt::format("status: got '{}' beside a value", status);
+  }
+  if (has_value) return "";
+  if (answered) return fmt::format("status: got '{}' without a value", status);
+  return claim.text("reason").empty() ? "it has no value and no reason why" : "";
+}
+
 RowCheck compare(const Verdict& anew, double value, double beta) {
   RowCheck check;
   check.has_value = true;
@@ -76,6 +100,10 @@ RowCheck check_posture(const Problem& problem, const Case& c, const RowOf& claim
   }
   const Row anew = evaluate(problem, resolve(problem, c), theta_r);
   RowCheck check = compare(anew, anew.capability.beta, beta);
+  if (check.refusal.empty() && anew.unit != claim.text("unit")) {
+    check.refusal = fmt::format("unit: expected '{}'", anew.unit);
+  }
+  if (check.refusal.empty()) check.refusal = refuse_other(claim, "yardstick", anew.yardstick);
   if (check.refusal.empty() && c.measure == "linf_polytope" && !problem.contact) {
     check.refusal = refuse_own(problem, anew, claim, beta);
   }
@@ -92,7 +120,10 @@ RowCheck check_plan(const Problem& problem, const Case& c, const RowOf& claim, d
         fmt::format("theta_r: got {} numbers, expected some times {}", x.size(), r));
   }
   const PlanRow anew = evaluate_plan(changed, resolve_plan(changed, c), unstacked(x, x.size() / r));
-  return compare(anew, anew.plan.value, value);
+  RowCheck check = compare(anew, anew.plan.value, value);
+  if (check.refusal.empty())
+    check.refusal = refuse_other(claim, "continuous", anew.plan.continuous);
+  return check;
 }
 
 }  // namespace
@@ -101,11 +132,8 @@ RowCheck check_row(const Problem& problem, const CsvFile& csv, std::size_t row) 
   try {
     const RowOf claim{csv, row};
     const std::optional<double> beta = csv.number(row, "beta");
-    if (!beta) {
-      RowCheck none;
-      if (claim.text("reason").empty()) none.refusal = "it has no value and no reason why";
-      return none;
-    }
+    const std::string words = refuse_words(claim, beta.has_value());
+    if (!beta || !words.empty()) return {words, beta.has_value(), 0};
     const auto check = problem.motion ? check_plan : check_posture;
     return check(problem, case_of(csv, row), claim, *beta);
   } catch (const std::invalid_argument& error) {

@@ -1,5 +1,7 @@
 #include "benchmarks/table.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cerrno>
@@ -35,39 +37,54 @@ Table::Table(std::filesystem::path file, std::vector<std::string> columns, std::
       journal_file_(file_.string() + ".part"),
       columns_(std::move(columns)),
       key_columns_(key_columns) {
-  read(file_);
-  left_over_ = read(journal_file_);
+  read_all();
 }
 
-bool Table::read(const std::filesystem::path& file) {
+void Table::read_all() {
+  lines_.clear();
+  read(file_, true);
+  left_over_ = read(journal_file_, false);
+}
+
+bool Table::read(const std::filesystem::path& file, bool whole) {
   if (!is_there(file)) return false;
   std::ifstream in(file);
   std::string line;
-  if (!std::getline(in, line) || in.eof()) return true;
+  if (!std::getline(in, line)) return false;
+  if (in.eof() && !whole) return false;  // torn
   const std::vector<std::string> before = split_csv(line);
-  const std::vector<std::size_t> places = places_of(before);
-  if (places.empty()) return true;
+  const std::vector<std::size_t> places = places_of(file, before);
   const bool same = before == columns_;
   std::vector<std::string> row(columns_.size());
-  while (std::getline(in, line) && !in.eof()) {  // a last line without its break is torn
+  bool any = false;
+  for (std::size_t number = 2; std::getline(in, line); ++number) {
     const std::vector<std::string> fields = split_csv(line);
-    if (fields.size() != before.size()) continue;
+    if (in.eof() || fields.size() != before.size()) {
+      if (!whole) continue;
+      throw std::invalid_argument(fmt::format(
+          "{}: line {}: got {} fields{}, expected {} and a break", file.string(), number,
+          fields.size(), in.eof() ? " without a line break" : "", before.size()));
+    }
     for (std::size_t i = 0; i < places.size(); ++i) row[places[i]] = fields[i];
     lines_[order_of(row)] = same ? line : join_csv(row);
+    any = true;
   }
-  return true;
+  return any;
 }
 
-std::vector<std::size_t> Table::places_of(const std::vector<std::string>& before) const {
-  const auto keys = static_cast<std::ptrdiff_t>(key_columns_);
-  if (before.size() < key_columns_ ||
-      !std::equal(columns_.begin(), columns_.begin() + keys, before.begin()))
-    return {};
+std::vector<std::size_t> Table::places_of(const std::filesystem::path& file,
+                                          const std::vector<std::string>& before) const {
   std::vector<std::size_t> places;
-  for (const std::string& column : before) {
+  for (std::size_t i = 0; i < std::max(before.size(), key_columns_); ++i) {
+    const std::string& column = i < before.size() ? before[i] : "";
     const auto found = std::find(columns_.begin(), columns_.end(), column);
-    if (found == columns_.end()) return {};
-    places.push_back(static_cast<std::size_t>(found - columns_.begin()));
+    const auto place = static_cast<std::size_t>(found - columns_.begin());
+    if (found == columns_.end() || (i < key_columns_ && place != i)) {
+      throw std::invalid_argument(fmt::format(
+          "{}: line 1: got column '{}', expected a table of this version, or another folder",
+          file.string(), column));
+    }
+    places.push_back(place);
   }
   return places;
 }
@@ -83,11 +100,18 @@ std::string Table::order_of(const std::vector<std::string>& row) const {
   return text;
 }
 
+void Table::hold() {
+  if (journal_) return;
+  journal_ = std::make_unique<Journal>(journal_file_);
+  if (!changed_) read_all();
+}
+
 void Table::put(const std::vector<std::string>& row) {
-  if (left_over_) write();
-  if (!journal_) {
-    journal_ = std::make_unique<Journal>(journal_file_);
+  hold();
+  if (!begun_) {
+    if (left_over_) write_rows();
     journal_->begin(join_csv(columns_));
+    begun_ = true;
   }
   journal_->add(join_csv(row));
   add(row);
@@ -98,17 +122,30 @@ void Table::add(const std::vector<std::string>& row) {
   changed_ = true;
 }
 
+void Table::drop(const std::function<bool(const std::vector<std::string>&)>& which) {
+  const std::size_t dropped =
+      std::erase_if(lines_, [&](const auto& entry) { return which(split_csv(entry.second)); });
+  changed_ = changed_ || dropped > 0;
+}
+
 void Table::write() {
-  if (!left_over_ && !changed_) return;
-  if (!journal_) journal_ = std::make_unique<Journal>(journal_file_);
+  if (left_over_ || changed_ || !is_there(file_)) {
+    hold();
+    write_rows();
+  }
+  if (!journal_) return;
+  journal_->remove();
+  journal_.reset();
+  begun_ = false;
+}
+
+void Table::write_rows() {
   std::string text = join_csv(columns_) + '\n';
   std::size_t size = text.size();
   for (const auto& [key, line] : lines_) size += line.size() + 1;
   text.reserve(size);
   for (const auto& [key, line] : lines_) text += line + '\n';
   write_file(file_, text);
-  journal_->remove();
-  journal_.reset();
   left_over_ = changed_ = false;
 }
 

@@ -18,12 +18,21 @@ struct MergeOptions {
   std::vector<std::string> folders;
 };
 
+/// Whether `run` wrote there and has ended.
+void require_ended(const fs::path& folder) {
+  const fs::path file = folder / "values.csv", journal = folder / "values.csv.part";
+  if (!fs::exists(file) && !fs::exists(journal)) {
+    throw std::invalid_argument(
+        fmt::format("{}: got no table, expected one that `run` wrote", file.string()));
+  }
+  if (Journal::is_held(journal)) {
+    throw std::invalid_argument(
+        fmt::format("{}: is being written, expected a run that has ended", journal.string()));
+  }
+}
+
 /// Every row of `more`; one that is there already must be the same.
 void add_values(const Table& more, const fs::path& from, Table& all, const fs::path& out) {
-  if (more.size() == 0 && !fs::exists(from / "machine.txt")) {  // a part may be empty
-    throw std::invalid_argument(
-        fmt::format("{}: got no rows, expected a folder that `run` wrote", from.string()));
-  }
   more.each([&](const std::vector<std::string>& row) {
     const auto there = all.find(row);
     if (there && *there != row) {
@@ -37,17 +46,27 @@ void add_values(const Table& more, const fs::path& from, Table& all, const fs::p
   });
 }
 
-/// Of a row that was measured more than once the first time stays.
-void add_times(const Table& more, Table& all) {
-  more.each([&](const std::vector<std::string>& row) {
-    if (!all.find(row)) all.add(row);
-  });
+/// The times of all folders; of a row that was measured in several the first.
+void add_times(const std::vector<std::string>& folders, Table& all) {
+  for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) {
+    times_table(*folder).each([&](const std::vector<std::string>& row) { all.add(row); });
+  }
+}
+
+/// That of the first folder that has one.
+void take_over(const char* name, const MergeOptions& options) {
+  for (const std::string& folder : options.folders) {
+    const std::string text = text_of(fs::path(folder) / name);
+    if (!text.empty()) return write_file(fs::path(options.out) / name, text);
+  }
 }
 
 int merge(const MergeOptions& options) {
+  for (const std::string& folder : options.folders) require_ended(folder);
   std::size_t rows = 0;
   {  // one table after the other: a million rows fill a gigabyte
     Table values = values_table(options.out);
+    values.hold();
     for (const std::string& folder : options.folders) {
       add_values(
           values_table(folder), folder, values,
@@ -57,10 +76,11 @@ int merge(const MergeOptions& options) {
     rows = values.size();
   }
   Table times = times_table(options.out);
-  for (const std::string& folder : options.folders) add_times(times_table(folder), times);
+  times.hold();
+  add_times(options.folders, times);
   times.write();
-  const std::string plan = text_of(fs::path(options.folders.front()) / "plan.toml");
-  if (!plan.empty()) write_file(fs::path(options.out) / "plan.toml", plan);
+  take_over("plan.toml", options);
+  take_over("machine.txt", options);
   fmt::print("{} rows in {}\n", rows, (fs::path(options.out) / "values.csv").string());
   return kAnswered;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "benchmarks/machine.h"
 #include "benchmarks/race_file.h"
@@ -121,13 +122,15 @@ std::vector<std::string> race_columns(const std::vector<std::string>& before, co
   return names;
 }
 
-void keep_attempt(const Comparison& comparison, const Attempt& each, Table& values, Table& times) {
+void keep_attempt(const Comparison& comparison, const Attempt& each, const char* role,
+                  Table& values, Table& times) {
   std::vector<std::string> cells = {number_cell(each.value, "{:.17g}"),
                                     number_cell(each.continuous, "{:.17g}"),
                                     comparison.unit,
                                     number_cell(comparison.best(), "{:.17g}"),
                                     comparison.proven ? "yes" : "no",
-                                    number_cell(shortfall(comparison, each.value), "{:.3e}")};
+                                    number_cell(shortfall(comparison, each.value), "{:.3e}"),
+                                    role};
   for (auto& cell : hit_cells(comparison, each, &Spent::evaluations, "{:.0f}")) {
     cells.push_back(std::move(cell));
   }
@@ -139,6 +142,22 @@ void keep_attempt(const Comparison& comparison, const Attempt& each, Table& valu
     cells.push_back(cell);
   }
   put(times, each, cells);
+}
+
+void keep_attempts(const Comparison& comparison, const Contender& contender, const char* role,
+                   Table& values, Table& times) {
+  for (const Attempt& each : contender.attempts) {
+    keep_attempt(comparison, each, role, values, times);
+  }
+}
+
+/// The rows of an earlier race of the same task: their best value was another one.
+void drop_race(const Comparison& comparison, Table& table) {
+  const auto task_of = [](const std::vector<std::string>& cells) {
+    return std::tuple(cells[0], cells[1], cells[2], cells[7]);  // problem, measure, wrench, scheme
+  };
+  const auto task = task_of(case_values(comparison.contenders.front().attempts.front().choice));
+  table.drop([&](const std::vector<std::string>& row) { return task_of(row) == task; });
 }
 
 }  // namespace
@@ -202,15 +221,19 @@ std::string summary_table(std::span<const Standing> rows, std::span<const Compar
 void keep(const Comparison& comparison, const std::filesystem::path& folder) {
   const std::size_t keys = case_columns().size();
   Table values(folder / "search_comparison.csv",
-               race_columns({"beta", "continuous", "unit", "best_known", "proven", "below"},
+               race_columns({"beta", "continuous", "unit", "best_known", "proven", "below", "role"},
                             "evaluations", {"evaluations"}),
                keys);
   Table times(folder / "search_times.csv",
               race_columns({}, "seconds", {"seconds", "threads", "machine", "version"}), keys);
-  for (const auto* group : {&comparison.contenders, &comparison.peers}) {
-    for (const Contender& contender : *group) {
-      for (const Attempt& each : contender.attempts) keep_attempt(comparison, each, values, times);
-    }
+  drop_race(comparison, values);
+  drop_race(comparison, times);
+  for (const Contender& contender : comparison.contenders) {
+    const bool is_default = contender.search == comparison.default_search;
+    keep_attempts(comparison, contender, is_default ? kDefaultRole : kContenderRole, values, times);
+  }
+  for (const Contender& peer : comparison.peers) {
+    keep_attempts(comparison, peer, kPeerRole, values, times);
   }
   values.write();
   times.write();

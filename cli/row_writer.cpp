@@ -62,7 +62,10 @@ RowWriter::RowWriter(const std::string& command, const std::filesystem::path& fo
       times_(times_table(folder)),
       threads_(threads),
       progress_(command, work) {
-  write_file(folder / "machine.txt", describe_machine());
+  values_.hold();
+  times_.hold();
+  const std::filesystem::path machine = folder / "machine.txt";
+  if (work > 0 || !std::filesystem::exists(machine)) write_file(machine, describe_machine());
 }
 
 template <class AnyRow>

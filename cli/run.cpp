@@ -9,7 +9,6 @@
 #include "benchmarks/plan_file.h"
 #include "benchmarks/plan_row.h"
 #include "benchmarks/product.h"
-#include "benchmarks/write_file.h"
 #include "cli/cli.h"
 #include "cli/row_writer.h"
 #include "cli/workers.h"
@@ -191,7 +190,6 @@ int run(const RunOptions& options) {
   }
   const std::vector<Case> todo = options.again ? cases : still_to_do(cases, options.out);
   if (options.dry) return print_forecast(options, work, cases, todo);
-  if (!work.plan.empty()) write_file(fs::path(options.out) / "plan.toml", work.plan);
   solve_cases(work, todo, options.out, options.thread_count());
   const bool all_solved = RowsThere(options.out).all_solved(cases);
   const fs::path file = fs::path(options.out) / "values.csv";

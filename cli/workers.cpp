@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "benchmarks/cost.h"
+#include "benchmarks/write_file.h"
 #include "cli/row_writer.h"
 #include "maxwrench/batch.h"
 
@@ -64,6 +65,7 @@ void solve_cases(const Workload& work, const std::vector<Case>& cases,
     seconds += all.back().seconds;
   }
   RowWriter writer("run", folder, 1, seconds);
+  if (!work.plan.empty()) write_file(folder / "plan.toml", work.plan);
   Jobs jobs(std::move(all));
   parallel_for(threads, threads, [&](long) {
     try {

@@ -369,14 +369,37 @@ function claims.proven()
   return n
 end
 
--- One measure by one solver on the planar task: time of an evaluation, its value and how far it may be from optimal.
-function results.solver_row(measure, wrench, lp)
-  local selector = "problem=planar/force measure=" .. measure .. " wrench=" .. wrench .. " lp=" .. lp ..
-                       " search=crs2+cmaes seed=1"
-  tex.sprint(table.concat({code(lp), three_digits(number(results.csv("times.csv", selector, "us_per_evaluation"), "time")),
-                           string.format("%.4f", number(results.csv("values.csv", selector, "beta"), "beta")),
-                           (string.format("$%.0e}$", math.max(number(results.csv("values.csv", selector, "gap"), "gap"), 1e-16))
-                                :gsub("e(%-?)0*(%d+)", "\\cdot 10^{%1%2"))}, " & ") .. "\\\\")
+-- The sum of a column.
+function claims.total(file, column)
+  local sum = 0
+  for _, row in ipairs(rows_of(file, "")) do sum = sum + number(row[column] or "", "results/" .. file .. ": " .. column) end
+  return sum
+end
+
+-- A column of one solver in a contest of the report.
+function claims.solver(contest, lp, column)
+  for _, row in ipairs(rows_of("report/solvers.csv", "lp=" .. lp)) do
+    if row.contest == contest then return number(row[column], "results/report/solvers.csv: " .. column) end
+  end
+  fail("results/report/solvers.csv: no " .. lp .. " in '" .. contest .. "'")
+end
+
+-- The solvers of a contest of the report, best first.
+function results.solver_rows(contest)
+  local found = false
+  for _, row in ipairs(table_of("report/solvers.csv").rows) do
+    if row.contest == contest then
+      found = true
+      local function digits(column)
+        return row[column] == "" and "--" or three_digits(number(row[column], "results/report/solvers.csv: " .. column))
+      end
+      local times = row.times_low == "" and digits("times")
+                    or digits("times") .. " [" .. digits("times_low") .. ", " .. digits("times_high") .. "]"
+      tex.sprint(table.concat({code(row.lp), row.solved, row.instances, digits("us"),
+                               string.format("%.0f", 100 * tonumber(row.share_double)), times}, " & ") .. "\\\\")
+    end
+  end
+  if not found then fail("results/report/solvers.csv: no contest '" .. contest .. "'") end
 end
 
 return results

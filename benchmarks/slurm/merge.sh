@@ -2,5 +2,7 @@
 #SBATCH --job-name=maxwrench-merge
 # merge.sh OUT N: the rows of all parts in one folder.
 set -eu
-set -- "$1" $(seq -f "$1/shards/%g" "$2")
-exec "${MAXWRENCH:-maxwrench}" merge "$@"
+out=$1 parts=$2
+set --
+for part in $(seq "$parts"); do set -- "$@" "$out/shards/$part"; done
+exec "${MAXWRENCH:-maxwrench}" merge "$out" "$@"

@@ -2,6 +2,7 @@
 # submit.sh PLAN OUT N: runs a plan as N parts on Slurm and merges their rows into OUT when all are done.
 # Options of sbatch for the parts, such as a partition or a time, come from the environment (SBATCH_PARTITION, SBATCH_TIMELIMIT, ...).
 # Without Slurm: seq N | parallel maxwrench run PLAN --shard {}/N --threads 1 --out OUT/shards/{}; maxwrench merge OUT OUT/shards/*
+# and maxwrench run PLAN --dry --out OUT, which counts what is missing.
 set -eu
 [ $# -eq 3 ] || { echo "submit.sh: got $# words, expected PLAN OUT N" >&2; exit 2; }
 plan=$1 out=$2 parts=$3

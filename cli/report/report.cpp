@@ -70,6 +70,9 @@ void write_report(const std::filesystem::path& folder, const std::string& page,
                   const PageHead& head, const std::vector<ReportSection>& sections) {
   for (const ReportSection& section : sections) {
     write_file(folder / (section.table.name + ".csv"), csv_of_table(section.table));
+    for (std::size_t i = 0; i < section.figures.size(); ++i) {
+      write_file(folder / fmt::format("{}_{}.svg", section.table.name, i + 1), section.figures[i]);
+    }
   }
   write_file(folder / page, html_page(head, sections));
   fmt::print("{}\n", (folder / page).string());

@@ -11,7 +11,8 @@
 namespace maxwrench {
 namespace {
 
-bool is_whole(double value) { return value == std::round(value) && std::abs(value) < 1e9; }
+/// Above 2^53 not all whole numbers are doubles.
+bool is_whole(double value) { return value == std::round(value) && std::abs(value) < 9e15; }
 
 /// Whether a column holds values of tasks.
 bool is_value(const std::string& column) { return column == "best" || column.starts_with("beta"); }

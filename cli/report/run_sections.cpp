@@ -18,6 +18,12 @@ namespace {
 
 double or_none(const std::optional<double>& value) { return value.value_or(NAN); }
 
+/// A seed may have more digits than a double.
+ReportCell seed_cell(std::uint64_t seed) {
+  const bool fits = seed <= std::uint64_t{1} << 53;
+  return fits ? ReportCell(static_cast<double>(seed)) : ReportCell(std::to_string(seed));
+}
+
 ReportSection task_section(const std::vector<ResultRow>& rows) {
   ReportTable table{
       "tasks",
@@ -31,8 +37,7 @@ ReportSection task_section(const std::vector<ResultRow>& rows) {
     const Case& c = task.choice;
     table.rows.push_back({c.problem, c.measure, to_string(c.wrench), c.scheme,
                           static_cast<double>(task.rows), static_cast<double>(task.solved),
-                          or_none(task.best), task.unit, c.lp, c.search,
-                          static_cast<double>(c.seed)});
+                          or_none(task.best), task.unit, c.lp, c.search, seed_cell(c.seed)});
   }
   return {table, {}};
 }
@@ -44,8 +49,9 @@ ReportSection solver_section(const std::vector<ResultRow>& rows) {
   table.title = "Lower-level solvers";
   table.note =
       "Performance profiles (Dolan and Moré) of the time of an evaluation on the same problem, "
-      "measure, wrench, search and seed. Rows without a value, and what a solver does not serve, "
-      "count as never solved. Times are those of the reference, the best at twice the cheapest: a "
+      "measure, wrench, search and seed, where all solvers that serve were tried. Rows without a "
+      "value, and what a solver does not serve, count as never solved. Times are those of the "
+      "reference, the best at twice the cheapest: a "
       "median with its bootstrap interval of 95 %, and Wilcoxon's signed rank test, corrected by "
       "Holm.";
   return {table, draw_profiles(contests)};
@@ -163,14 +169,8 @@ ReportSection row_section(const std::vector<ResultRow>& rows) {
 }  // namespace
 
 std::vector<ReportCell> case_cells(const Case& c) {
-  return {c.problem,
-          c.measure,
-          to_string(c.wrench),
-          c.lp,
-          c.search,
-          static_cast<double>(c.seed),
-          static_cast<double>(c.budget),
-          c.scheme};
+  return {c.problem, c.measure,         to_string(c.wrench),           c.lp,
+          c.search,  seed_cell(c.seed), static_cast<double>(c.budget), c.scheme};
 }
 
 std::vector<ReportSection> run_sections(const Results& results) {

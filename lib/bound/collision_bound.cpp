@@ -119,7 +119,7 @@ class CollisionBound final : public Bound {
     proof.axis = -1;
     place(lower, upper);
     nearest_ = -1;
-    near_ = kLever * (upper - lower).maxCoeff();
+    near_ = upper.size() == 0 ? 0 : kLever * (upper - lower).maxCoeff();
     for (int i = 0; i < static_cast<int>(movers_->size()); ++i) {
       if (!collides(i, lower, upper)) continue;
       proof.kind = BoxProof::Kind::kCollision;

@@ -98,7 +98,8 @@ class LoopBound final : public Bound {
     }
     linear_.precondition(lower, upper);
     rank_ = std::min<Eigen::Index>(linear_.rank(), most_rank_);
-    if (ellipsoid_) aim(lower, upper, low, high);
+    if (ellipsoid_) aim(lower, upper, low, high, proof);
+    if (proof.high <= low) return;
     improve_by_rounds(low, high, proof);
   }
 
@@ -126,11 +127,12 @@ class LoopBound final : public Bound {
   }
 
   /// And takes its U, without nu, to begin with.
-  void aim(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low, double high) {
+  void aim(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low, double high,
+           BoxProof& proof) {
     box_.evaluate((lower + upper) / 2);
     ellipsoid_->aim(box_.tau(), box_.a(), low, lambda_);
     nu_.setZero();
-    value(low, high);
+    take(value(low, high), proof);
   }
 
   void take(double U, BoxProof& proof) {
@@ -183,7 +185,8 @@ class LoopBound final : public Bound {
       take(value(low, high), proof);
       if (proof.high <= low) break;
       const double now = s_ + std::max(at_low_.maxCoeff(), at_high_.maxCoeff());
-      if (now - least <= kClose * std::max(proof.high - least_t_, 0.0)) break;
+      const bool finite = std::isfinite(proof.high);
+      if (finite && now - least <= kClose * std::max(proof.high - least_t_, 0.0)) break;
       if (!add_points(least)) break;
     }
     keep_basis(proof.basis);
@@ -232,7 +235,7 @@ class LoopBound final : public Bound {
     load_ = box_.tau() + t * box_.a();
     double cost = t;
     if (ellipsoid_) {
-      cost -= lambda_.dot(load_);
+      cost += s_ - lambda_.dot(load_);  // lambda and its support stay
     } else if (by_effort()) {
       entries_.head(rows).noalias() = K_ * load_;
     } else {

@@ -37,9 +37,11 @@ class BranchAndBound {
       take_parents();
       cut_parents();
     }
-    result_.bound = std::max(top(), target());
+    result_.bound = std::max({top(), narrow_top(), target()});
     result_.seconds = seconds();
-    for (const auto& box : waiting_) report(*box);
+    for (const auto* boxes : {&waiting_, &narrow_}) {
+      for (const auto& box : *boxes) report(*box);
+    }
     return std::move(result_);
   }
 
@@ -55,12 +57,17 @@ class BranchAndBound {
     return std::isfinite(best) ? best + options_.gap * std::abs(best) : best;
   }
   double top() const { return waiting_.empty() ? -kInfinity : waiting_.front()->proof.high; }
+  double narrow_top() const {
+    double top = -kInfinity;
+    for (const auto& box : narrow_) top = std::max(top, box->proof.high);
+    return top;
+  }
   double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
 
   bool ended() {
-    if (top() <= target()) {
+    if (std::max(top(), narrow_top()) <= target()) {
       result_.conclude(Status::kProven);
     } else if (options_.interrupted && options_.interrupted()) {
       result_.conclude(Status::kBracket, "interrupted");
@@ -68,7 +75,7 @@ class BranchAndBound {
       result_.conclude(Status::kBracket, "the time ran out");
     } else if (result_.boxes >= options_.boxes) {
       result_.conclude(Status::kBracket, "the boxes ran out");
-    } else if (too_narrow_) {
+    } else if (top() <= std::max(narrow_top(), target())) {
       result_.conclude(Status::kBracket, "a box is too narrow to be cut");
     } else {
       if (options_.progress) options_.progress(top(), result_.best.value);
@@ -91,9 +98,7 @@ class BranchAndBound {
   void cut_parents() {
     for (auto& parent : parents_) {
       parent->cut_axis = axis_to_cut(*parent, kNarrowestBox);
-      if (parent->cut_axis >= 0) continue;
-      too_narrow_ = true;
-      push(std::move(parent));
+      if (parent->cut_axis < 0) narrow_.push_back(std::move(parent));
     }
     std::erase(parents_, nullptr);
     improve();
@@ -163,7 +168,7 @@ class BranchAndBound {
   std::chrono::steady_clock::time_point start_;
   CertifiedBoxes waiting_;  ///< a heap
   CertifiedBoxes parents_;
-  bool too_narrow_ = false;
+  CertifiedBoxes narrow_;  ///< those that cannot be cut
   CertifyResult result_;
 };
 

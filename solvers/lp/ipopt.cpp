@@ -159,9 +159,11 @@ class IpoptSolver : public LpSolver {
     options->SetNumericValue("tol", 1e-10);
     options->SetNumericValue("bound_relax_factor", 0);
     options->SetStringValue("mehrotra_algorithm", "yes");
+    // Its restoration phase has no affine step to correct, and would follow a null pointer.
+    options->SetStringValue("resto.mehrotra_algorithm", "no");
     options->SetStringValue("jac_c_constant", "yes");
     options->SetStringValue("hessian_constant", "yes");
-    options->SetIntegerValue("max_iter", 500);
+    options->SetIntegerValue("max_iter", 150);  // Netlib's programs take 10 to 55
     options->SetIntegerValue("mumps_pivot_order", kMumpsOrdering);
     application_->Initialize("");
   }

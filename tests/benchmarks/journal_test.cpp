@@ -17,8 +17,10 @@ TEST(Journal, GrowsByLinesAndBelongsToOne) {
   journal.add("second");
   EXPECT_EQ(read_text(file), "first\nsecond\n");
   EXPECT_THROW(Journal{file}, std::invalid_argument);
+  EXPECT_TRUE(Journal::is_held(file));
   journal.remove();
   EXPECT_FALSE(std::filesystem::exists(file));
+  EXPECT_FALSE(Journal::is_held(file));
 }
 
 }  // namespace

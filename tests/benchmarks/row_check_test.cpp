@@ -83,8 +83,22 @@ TEST(CheckRow, AsksForAReasonWhereThereIsNoValue) {
   cell(row, "beta") = "";
   EXPECT_NE(check(problem, row).refusal, "");
   cell(row, "reason") = "the time ran out";
+  EXPECT_NE(check(problem, row).refusal.find("without a value"), std::string::npos);
+  cell(row, "status") = "none_found";
   EXPECT_EQ(check(problem, row).refusal, "");
   EXPECT_FALSE(check(problem, row).has_value);
+}
+
+/// What stands beside the value.
+TEST(CheckRow, RefusesOtherWords) {
+  const Problem problem = load_problem("uvms/lift");
+  const Cells good = row_of(problem, "linf_polytope", Wrench::kPure);
+  for (const auto& [column, text] :
+       {std::pair{"status", "infeasible"}, {"unit", "lb"}, {"yardstick", "1"}, {"yardstick", ""}}) {
+    Cells row = good;
+    cell(row, column) = text;
+    EXPECT_EQ(check(problem, row).refusal.find(column), 0U) << column << " " << text;
+  }
 }
 
 TEST(CheckRow, EvaluatesPlans) {
@@ -99,6 +113,9 @@ TEST(CheckRow, EvaluatesPlans) {
   ASSERT_TRUE(row.has_value());
   Cells cells = values(changed, row);
   EXPECT_EQ(check(problem, cells).refusal, "");
+  Cells other = cells;
+  cell(other, "continuous") = scaled(cell(other, "continuous"), 1.01);
+  EXPECT_EQ(check(problem, other).refusal.find("continuous"), 0U);
   cell(cells, "beta") = scaled(cell(cells, "beta"), 1.01);
   EXPECT_NE(check(problem, cells).refusal.find("has the value"), std::string::npos);
 }

@@ -94,6 +94,29 @@ TEST(Contests, SolversOnTheSameInstances) {
   EXPECT_EQ(contests[0].cost[1], (std::vector<double>{4, kInfinity}));
 }
 
+/// A third solver was not tried on the search t of f/a, which therefore is no instance; that it has
+/// no row of g/b at all is its failure.
+TEST(Contests, WhatWasNotTriedIsNoFailure) {
+  std::vector<ResultRow> rows = five_rows();
+  rows.push_back(row("f/a", "third", "s", 10, 9));
+  rows.push_back(row("f/a", "ours", "t", 10, 9));
+  rows.push_back(row("f/a", "peer", "t", 10, 9));
+  const std::vector<Contest> contests = solver_contests(rows);
+  ASSERT_EQ(contests[0].methods.size(), 3U);
+  EXPECT_EQ(contests[0].cost[0], (std::vector<double>{1, 2}));
+  EXPECT_EQ(contests[0].cost[1], (std::vector<double>{4, kInfinity}));
+  EXPECT_EQ(contests[0].cost[2], (std::vector<double>{9, kInfinity}));
+}
+
+/// A solver that throws has no time, and has failed.
+TEST(Contests, AFailureNeedsNoTime) {
+  std::vector<ResultRow> rows = five_rows();
+  rows[3].us = std::nullopt;
+  EXPECT_EQ(solver_contests(rows)[0].cost[1], (std::vector<double>{4, kInfinity}));
+  rows[1].us = std::nullopt;  // has a value and was not measured: no instance
+  EXPECT_EQ(solver_contests(rows)[0].cost[1], (std::vector<double>{kInfinity}));
+}
+
 TEST(Contests, TheLargestBudgetCounts) {
   std::vector<ResultRow> rows = five_rows();
   rows.push_back(row("f/a", "peer", "s", 10, 3));
@@ -113,6 +136,22 @@ Comparison race(const std::string& problem, bool in_time, double first, double s
     race.contenders.push_back(contender);
   }
   return race;
+}
+
+/// What has fewer seeds than others failed on the rest; several defaults are no reference.
+TEST(Contests, RacesOfDifferentSeeds) {
+  std::vector<Comparison> races = {race("f/a", false, 1, 2), race("f/b", false, 4, 2)};
+  for (const std::uint64_t seed : {2, 3}) {
+    races[0].contenders[0].attempts.push_back(races[0].contenders[0].attempts[0]);
+    races[0].contenders[0].attempts.back().choice.seed = seed;
+  }
+  races[1].default_search = "b";
+  const Contest contest = search_contest({"f", races});
+  const std::size_t a = contest.methods[0] == "a" ? 0 : 1;
+  EXPECT_EQ(contest.cost[a], (std::vector<double>{1, 1, 1, 4}));
+  EXPECT_EQ(contest.cost[1 - a], (std::vector<double>{2, kInfinity, kInfinity, 2}));
+  EXPECT_EQ(contest.reference, "");
+  EXPECT_EQ(stand(contest).size(), 2U);
 }
 
 TEST(Contests, RacesByFamily) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <stdexcept>
 
 #include "tests/support/support.h"
@@ -25,9 +26,6 @@ TEST(Table, ReplacesRowsByKeyAndKeepsTheRest) {
   }
   put_row(Table(file, {"a", "b", "value"}, 2), {"2", "x", "third"});
   EXPECT_EQ(read_text(file), "a,b,value\n1,x,\"first, with \"\"quotes\"\"\"\n2,x,third\n");
-  // Other columns: the old rows would mean something else, the file starts anew.
-  put_row(Table(file, {"a", "value"}, 1), {"9", "new"});
-  EXPECT_EQ(read_text(file), "a,value\n9,new\n");
 }
 
 TEST(Table, NewColumnsAreEmptyInOldRows) {
@@ -71,6 +69,63 @@ TEST(Table, WhoIsKilledLeavesAJournal) {
   table.write();
   EXPECT_EQ(read_text(file), "a,value\n1,old\n2,new\n");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "t.csv.part"));
+}
+
+TEST(Table, BelongsToWhoHoldsIt) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "t.csv";
+  Table early(file, {"a", "value"}, 1);
+  {
+    Table first(file, {"a", "value"}, 1);
+    first.hold();
+    EXPECT_THROW(early.hold(), std::invalid_argument);
+    EXPECT_THROW(early.put({"0", "x"}), std::invalid_argument);
+    first.put({"1", "x"});
+    first.write();
+  }
+  early.hold();  // sees what was written since it was read
+  early.put({"2", "y"});
+  EXPECT_EQ(read_text(file), "a,value\n1,x\n");
+  early.write();
+  EXPECT_EQ(read_text(file), "a,value\n1,x\n2,y\n");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "t.csv.part"));
+}
+
+TEST(Table, MayBeHeldInVain) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "t.csv";
+  { Table(file, {"a", "value"}, 1).hold(); }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  Table table(file, {"a", "value"}, 1);
+  table.hold();
+  table.write();
+  EXPECT_EQ(read_text(file), "a,value\n");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "t.csv.part"));
+}
+
+TEST(Table, ForgetsWhatIsDropped) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "t.csv";
+  Table table(file, {"a", "value"}, 1);
+  for (const char* a : {"1", "2", "3"}) table.put({a, "x"});
+  table.drop([](const std::vector<std::string>& row) { return row[0] == "2"; });
+  table.write();
+  EXPECT_EQ(read_text(file), "a,value\n1,x\n3,x\n");
+}
+
+/// Rows that are not understood would be lost with the next one. Of a journal they are what a
+/// killed process left.
+TEST(Table, RowsThatAreNotUnderstoodAreRefused) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "t.csv";
+  for (const char* text : {"a,gone,value\n1,2,3\n", "b,a,value\n1,2,3\n", "a\n1\n",
+                           "a,b,value\n1,2\n", "a,b,value\n1,2,3", "a,b,value\r\n1,2,3\r\n"}) {
+    std::ofstream(file) << text;
+    EXPECT_THROW(Table(file, {"a", "b", "value"}, 2), std::invalid_argument) << text;
+  }
+  std::filesystem::remove(file);
+  std::ofstream(folder.path() / "t.csv.part") << "a,b,value\n1,2,3\n1,2\n2,2,torn";
+  EXPECT_EQ(Table(file, {"a", "b", "value"}, 2).size(), 1U);
 }
 
 /// Taken for an empty table, it would be lost with the next row.

@@ -51,6 +51,7 @@ TEST(Report, EveryColumnIsInTheDictionary) {
   }
   EXPECT_EQ(files, 4 + 13);
   EXPECT_TRUE(fs::exists(out / "report.html"));
+  EXPECT_TRUE(fs::exists(out / "solvers_1.svg"));
   EXPECT_TRUE(fs::exists(out / "changes.html"));
 }
 
