@@ -157,11 +157,6 @@ std::optional<double> proven_best(const Problem& problem, const Case& base,
   return bound;
 }
 
-/// Who asks first for a node would pay for all.
-void make_all_nodes(const BranchAtlas& atlas, int threads) {
-  parallel_for(threads, atlas.nodes(), [&](long i) { atlas.node(static_cast<int>(i)); });
-}
-
 /// Seed by seed, so that attempts of one search, which may wait for each other, do not run side by
 /// side.
 void run_all(const Problem& problem, const Case& base, const RaceOptions& options,
@@ -276,11 +271,17 @@ Comparison compare(const Problem& problem, const Case& base, const RaceOptions& 
   for (const std::string& lp : peers_of(problem, base)) {
     comparison.peers.push_back(enter(plain_search(problem), lp));
   }
-  if (problem.atlas) make_all_nodes(*problem.atlas, options.threads);
+  prepare(problem, options.threads);
   run_all(problem, base, options, interruption, comparison);
   comparison.proven = proven_best(problem, base, comparison, options.threads, interruption);
   comparison.interrupted = interruption != nullptr && interruption->asked;
   return comparison;
+}
+
+void prepare(const Problem& problem, int threads) {
+  if (!problem.atlas) return;
+  parallel_for(threads, problem.atlas->nodes(),
+               [&](long i) { problem.atlas->node(static_cast<int>(i)); });
 }
 
 long attempt_count(const Problem& problem, const Case& base, int seeds) {

@@ -85,9 +85,12 @@ struct RaceOptions {
   std::function<void()> done;  ///< called after each attempt, from any thread; may be empty
 };
 
+/// Makes what all searches on a problem share (`BranchAtlas`), outside of any clock: who asks first
+/// would pay for all.
+void prepare(const Problem& problem, int threads);
+
 /// Runs every search that serves the problem with seeds 1 to `seeds`; `base` holds measure, wrench,
-/// lp, budget and the default search. What all attempts share of the problem (`BranchAtlas`) is
-/// made before, outside the clock. After an interruption no attempt begins. The values do not
+/// lp, budget and the default search. After an interruption no attempt begins. The values do not
 /// depend on the threads.
 Comparison compare(const Problem& problem, const Case& base, const RaceOptions& options,
                    Interruption* interruption = nullptr);

@@ -1,11 +1,12 @@
 #include "benchmarks/cost.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <numeric>
 #include <queue>
+#include <string_view>
 
 #include "benchmarks/table.h"
 #include "maxwrench/problem.h"
@@ -18,23 +19,24 @@ namespace {
 constexpr double kPosture = 8;
 constexpr double kSecondContact = 12;
 constexpr double kFollowingJoints = 50;
-/// more for each unit of `WrenchSolverEntry::cost`,
+/// more for each unit of `WrenchSolverEntry::cost`.
 constexpr double kSolver = 12;
 constexpr double kIpopt = 3300;
-/// and of one instant of a task in time.
-constexpr double kInstant = 10;
 // Of one evaluation more in a search by Ipopt.
 constexpr double kIpoptInPosture = 80;
-constexpr double kIpoptInTime = 3000;
 
-/// Seconds of a row of a task in time, whatever its budget: most is the program between the
-/// instants. For kActuators actuators and a pure wrench.
+/// Of a task in time with kActuators actuators and a pure wrench: one evaluation, most of which end
+/// at an instant without balance, and the programs in the knots of a hundred evaluations of `slp`.
 constexpr double kActuators = 12;
 constexpr struct {
   const char* lp;
-  double seconds;
-} kBetween[] = {{"simplex", 20}, {"ipopt", 8}, {"glpk", 1.2}, {"clp", 0.4}};
-constexpr double kAnyWrench = 4;  ///< times as much
+  double us, slp_s;
+} kInTime[] = {{"simplex", 1000, 5}, {"ipopt", 8000, 8}, {"glpk", 300, 0.4}, {"clp", 200, 0.2}};
+constexpr double kOursInTime_us = 100;
+constexpr double kOursSlp_s = 0.12;
+/// Times as much: `slp` with any wrench, an evaluation where most have a value (by Ipopt).
+constexpr double kAnyWrench = 4;
+constexpr double kGoodPlans = 10;
 
 bool searches_by_ipopt(const Case& c) {
   const std::vector<const SearchEntry*> stages = find_plan_search(c.search).stages;
@@ -42,16 +44,25 @@ bool searches_by_ipopt(const Case& c) {
                      [](const SearchEntry* stage) { return one_at_a_time(stage->name); });
 }
 
+bool searches_by_slp(const Case& c) {
+  const std::vector<const SearchEntry*> stages = find_plan_search(c.search).stages;
+  return std::any_of(stages.begin(), stages.end(), [](const SearchEntry* stage) {
+    return stage->name == std::string_view("slp");
+  });
+}
+
 double in_time_seconds(const Problem& problem, const Case& c) {
-  double us = kInstant * problem.motion->k;
-  if (searches_by_ipopt(c)) us += kIpoptInTime;
-  double between = 0.02;
-  for (const auto& entry : kBetween) {
-    if (entry.lp == c.lp) between = entry.seconds;
+  double us = kOursInTime_us, slp_s = kOursSlp_s;
+  for (const auto& entry : kInTime) {
+    if (entry.lp != c.lp) continue;
+    us = entry.us;
+    slp_s = entry.slp_s;
   }
+  if (searches_by_ipopt(c)) us *= kGoodPlans;
   const double size = std::pow(problem.robot.actuators() / kActuators, 3);
   const double more = c.wrench == Wrench::kAny ? kAnyWrench : 1;
-  return between * more * size + 1e-6 * us * static_cast<double>(c.budget);
+  if (searches_by_slp(c)) us += 1e4 * slp_s * more;
+  return 1e-6 * us * static_cast<double>(c.budget) * size;
 }
 
 double static_seconds(const Problem& problem, const Case& c) {
@@ -74,6 +85,14 @@ std::string without_seed_and_budget(const std::vector<std::string>& row) {
   return text;
 }
 
+/// Zero for what is no positive number.
+double positive(const std::string& cell) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  const bool whole = error == std::errc() && end == cell.data() + cell.size();
+  return whole && std::isfinite(value) && value > 0 ? value : 0;
+}
+
 }  // namespace
 
 bool waits_for_others(const Case& c) { return one_at_a_time(c.lp) || searches_by_ipopt(c); }
@@ -86,10 +105,11 @@ Forecast::Forecast(const Table& times) {
   const std::size_t budget = times.column("budget");
   const std::size_t cpu_s = times.column("cpu_s");
   times.each([&](const std::vector<std::string>& row) {
-    if (row[cpu_s].empty()) return;  // of an earlier version
+    const double evaluations = positive(row[budget]), seconds = positive(row[cpu_s]);
+    if (evaluations == 0 || seconds == 0) return;  // of an earlier version
     Sum& sum = measured_[without_seed_and_budget(row)];
-    sum.budget += std::strtod(row[budget].c_str(), nullptr);
-    sum.seconds += std::strtod(row[cpu_s].c_str(), nullptr);
+    sum.budget += evaluations;
+    sum.seconds += seconds;
   });
 }
 

@@ -4,7 +4,9 @@
 #include <deque>
 #include <mutex>
 #include <optional>
+#include <set>
 
+#include "benchmarks/comparison.h"
 #include "benchmarks/cost.h"
 #include "benchmarks/write_file.h"
 #include "cli/row_writer.h"
@@ -63,6 +65,10 @@ void solve_cases(const Workload& work, const std::vector<Case>& cases,
   for (const Case& c : cases) {
     all.push_back({c, forecast.seconds(work.problems.at(c.problem), c), waits_for_others(c)});
     seconds += all.back().seconds;
+  }
+  std::set<std::string> named;
+  for (const Case& c : cases) {
+    if (named.insert(c.problem).second) prepare(work.problems.at(c.problem), threads);
   }
   RowWriter writer("run", folder, 1, seconds);
   if (!work.plan.empty()) write_file(folder / "plan.toml", work.plan);

@@ -82,6 +82,16 @@ TEST(PlanSolve, ServesAStaticTaskToo) {
   }
 }
 
+/// On the way are programs in whose restoration phase Ipopt, with the corrector of Mehrotra,
+/// follows a null pointer.
+TEST(PlanSolve, IpoptSurvivesItsRestoration) {
+  const std::string words = "solve planar/trajectory --search annealing --budget 40 --json --lp ";
+  const CommandResult ipopt = run_maxwrench(words + "ipopt");
+  ASSERT_EQ(ipopt.exit_status, 0) << ipopt.err;
+  const CommandResult clp = run_maxwrench(words + "clp");
+  EXPECT_NEAR(json::parse(ipopt.out)["value"], json::parse(clp.out)["value"], 1e-6);
+}
+
 /// Of the product, what the words choose; a scheme of its own each.
 TEST(PlanRun, WritesTheSameValuesAtAnyThreadCount) {
   std::string first;
