@@ -78,6 +78,19 @@ TEST(Report, SaysTheSameAgain) {
   }
 }
 
+/// The tables that stand beside our results, which the paper reads, are of these results. (Times of
+/// `reproduce`, which may have run here, are in neither.)
+TEST(Report, TablesOfOurResultsAreOfThem) {
+  const fs::path results = fs::path(MAXWRENCH_SOURCE_DIR) / "results";
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_maxwrench("report " + results.string() + " --out new", folder.path()).exit_status,
+            0);
+  for (const char* file : {"solvers.csv", "failures.csv", "race_standings.csv"}) {
+    EXPECT_EQ(read_text(folder.path() / "new" / file), read_text(results / "report" / file))
+        << file;
+  }
+}
+
 /// Two runs of the same sources differ in their times at most.
 TEST(Report, ComparesFolders) {
   const CommandResult result = run_maxwrench("report --compare run again", small_run());
