@@ -31,14 +31,19 @@ constexpr double kActuators = 12;
 constexpr struct {
   const char* lp;
   double us, slp_s;
-} kInTime[] = {{"simplex", 1000, 5}, {"ipopt", 8000, 8}, {"glpk", 300, 0.4}, {"clp", 200, 0.2}};
+} kPlanCosts[] = {{"simplex", 1000, 5}, {"ipopt", 8000, 8}, {"glpk", 300, 0.4}, {"clp", 200, 0.2}};
 constexpr double kOursInTime_us = 100;
 constexpr double kOursSlp_s = 0.12;
 /// Times as much: `slp` with any wrench, an evaluation where most have a value (by Ipopt).
 constexpr double kAnyWrench = 4;
 constexpr double kGoodPlans = 10;
 
+/// Seconds of an experiment in the virtual tank.
+constexpr double kExperiment_s = 0.5;
+constexpr double kExperimentByIda_s = 4;
+
 bool searches_by_ipopt(const Case& c) {
+  if (c.search.empty()) return false;
   const std::vector<const SearchEntry*> stages = find_plan_search(c.search).stages;
   return std::any_of(stages.begin(), stages.end(),
                      [](const SearchEntry* stage) { return one_at_a_time(stage->name); });
@@ -53,7 +58,7 @@ bool searches_by_slp(const Case& c) {
 
 double in_time_seconds(const Problem& problem, const Case& c) {
   double us = kOursInTime_us, slp_s = kOursSlp_s;
-  for (const auto& entry : kInTime) {
+  for (const auto& entry : kPlanCosts) {
     if (entry.lp != c.lp) continue;
     us = entry.us;
     slp_s = entry.slp_s;
@@ -98,6 +103,8 @@ double positive(const std::string& cell) {
 bool waits_for_others(const Case& c) { return one_at_a_time(c.lp) || searches_by_ipopt(c); }
 
 double usual_seconds(const Problem& problem, const Case& c) {
+  if (c.integrator == "ida") return kExperimentByIda_s;
+  if (!c.integrator.empty()) return kExperiment_s;
   return problem.motion ? in_time_seconds(problem, c) : static_seconds(problem, c);
 }
 
