@@ -66,8 +66,10 @@ bool base_gets_there(const Problem& problem, const FormModel& model, const Eigen
     if (axis < 3) p[axis] = 0;
     turns = turns || axis == 5;
   }
-  const double tilt = turns ? base.R(2, 2) - 1 : (base.R.diagonal().array() - 1).minCoeff();
-  return p.norm() <= kIncumbentTolerance && std::abs(tilt) <= kIncumbentTolerance;
+  Eigen::Matrix3d upright = Eigen::Matrix3d::Identity();
+  if (turns) upright.topLeftCorner<2, 2>() = base.R.topLeftCorner<2, 2>();
+  const double tilt = (base.R - upright).cwiseAbs().maxCoeff();  // its sine, not its cosine
+  return p.norm() <= kIncumbentTolerance && tilt <= kIncumbentTolerance;
 }
 
 /// tau_d + J'h at x.

@@ -38,12 +38,21 @@ TEST(Incumbent, RefusesSingularPostures) {
   EXPECT_NE(at.refusal(at.proof).find("singular"), std::string::npos);
 }
 
-/// A vehicle that stays in its plane does not get to a pose above it, whatever its arm does.
+/// A vehicle that stays in its plane does not get to a pose above it, or to one that is tilted by a
+/// second of arc, whatever its arm does.
 TEST(Incumbent, RefusesABaseOffItsFreeAxes) {
   WrittenProof at("planar/force", "linf_polytope", Wrench::kPure, 1e-1);
-  at.problem.pose.p.z() += 0.5;
-  at.proof.digest = digest(at.problem);
-  EXPECT_NE(at.refusal(at.proof).find("off its free axes"), std::string::npos);
+  const auto expect_refused = [&at](const Pose<double>& pose) {
+    at.problem.pose = pose;
+    at.proof.digest = digest(at.problem);
+    EXPECT_NE(at.refusal(at.proof).find("off its free axes"), std::string::npos);
+  };
+  const Pose<double> level = at.problem.pose;
+  Pose<double> above = level, tilted = level;
+  above.p.z() += 0.5;
+  tilted.R = Eigen::AngleAxisd(5e-6, Eigen::Vector3d::UnitX()) * level.R;
+  expect_refused(above);
+  expect_refused(tilted);
 }
 
 }  // namespace
