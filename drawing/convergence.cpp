@@ -87,13 +87,11 @@ class DecadePanel {
 std::string draw_convergence(std::span<const ConvergencePanel> panels,
                              const std::vector<std::string>& named) {
   const NamedCurves styles(named);
-  bool others = false;
+  std::set<std::string> drawn;
   for (const ConvergencePanel& panel : panels) {
-    for (const ConvergenceCurve& curve : panel.curves) {
-      others = others || styles.place(curve.name) < 0;
-    }
+    for (const ConvergenceCurve& curve : panel.curves) drawn.insert(curve.name);
   }
-  const std::vector<LegendEntry> legend = styles.legend(others);
+  const std::vector<LegendEntry> legend = styles.legend(drawn);
   const double each = kPanelTop + kPanelHeight + kPanelBottom;
   const Point corner(kPanelLeft, each * static_cast<double>(panels.size()));
   const double width = kPageWidth - kPanelLeft;

@@ -96,11 +96,13 @@ class SharePanel {
 std::string draw_ecdf(std::span<const EcdfPanel> panels, const std::vector<std::string>& named,
                       int columns) {
   const NamedCurves styles(named);
-  bool others = false;
+  std::set<std::string> drawn;
   for (const EcdfPanel& panel : panels) {
-    for (const EcdfCurve& curve : panel.curves) others = others || styles.place(curve.name) < 0;
+    for (const EcdfCurve& curve : panel.curves) {
+      if (!curve.steps.empty()) drawn.insert(curve.name);
+    }
   }
-  const std::vector<LegendEntry> legend = styles.legend(others);
+  const std::vector<LegendEntry> legend = styles.legend(drawn);
   const double width =
       (kPageWidth - kEcdfLeft - kEcdfRight - (columns - 1) * kEcdfBetween) / columns;
   const double each = kEcdfTop + kEcdfHeight + kEcdfBottom;

@@ -37,12 +37,12 @@ void NamedCurves::draw(Svg& svg, const std::string& name,
   }
 }
 
-std::vector<LegendEntry> NamedCurves::legend(bool others) const {
+std::vector<LegendEntry> NamedCurves::legend(const std::set<std::string>& drawn) const {
   std::vector<LegendEntry> entries;
   for (std::size_t i = 0; i < named_.size(); ++i) {
-    entries.push_back(legend_entry(named_[i], curve_style(i)));
+    if (drawn.contains(named_[i])) entries.push_back(legend_entry(named_[i], curve_style(i)));
   }
-  if (!others) return entries;
+  if (entries.size() == drawn.size()) return entries;
   entries.push_back({"all others", [](Svg& svg, const Eigen::Vector2d& left) {
                        svg.line(left, left + Eigen::Vector2d(kLegendMark, 0), kOthers);
                      }});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,8 @@ class NamedCurves {
   /// In px; with marks about a `decade` of px apart from `left`, in places of its own.
   void draw(Svg& svg, const std::string& name, const std::vector<Eigen::Vector2d>& points,
             double left, double decade) const;
-  /// The grey entry only if there are `others`.
-  std::vector<LegendEntry> legend(bool others) const;
+  /// Of the curves that are `drawn`.
+  std::vector<LegendEntry> legend(const std::set<std::string>& drawn) const;
 
  private:
   std::vector<std::string> named_;

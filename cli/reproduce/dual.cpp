@@ -74,9 +74,9 @@ PaperTable reproduce_dual(const std::filesystem::path& folder, int threads) {
   text += fmt::format("  {} random contacts, {} of them valid; {}\n", kRandomContacts,
                       contacts.valid, describe(contacts.postures));
   if (best.has_value()) {
-    write_file(folder / "dual_postures.svg",
-               posture_figure(wall, {{"default contact", wall.theta_r_default},
-                                     {"best contact", best.posture.theta_r}}));
+    write_file(
+        folder / "dual_postures.svg",
+        posture_figure(wall, {{"default", wall.theta_r_default}, {"best", best.posture.theta_r}}));
   }
   const bool all_solved = writer.finish();
   write_file(folder / "dual.txt", text);
