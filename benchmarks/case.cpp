@@ -171,8 +171,8 @@ Method resolve(const Problem& problem, const Case& c) {
 }
 
 const std::vector<std::string>& case_columns() {
-  static const std::vector<std::string> kColumns = {"problem", "measure", "wrench", "lp",
-                                                    "search",  "seed",    "budget", "scheme"};
+  static const std::vector<std::string> kColumns = {
+      "problem", "measure", "wrench", "lp", "search", "seed", "budget", "scheme", "integrator"};
   return kColumns;
 }
 
@@ -184,7 +184,8 @@ std::vector<std::string> case_values(const Case& c) {
           c.search,
           fmt::format("{}", c.seed),
           fmt::format("{}", c.budget),
-          c.scheme};
+          c.scheme,
+          c.integrator};
 }
 
 void set_scheme(const char* key, const std::string& scheme, Problem& problem) {

@@ -32,6 +32,8 @@ struct Case {
   long budget = 20000;  ///< evaluations of a search
   /// Of a task in time, how knots become motion; empty: as the task says, or a static one.
   std::string scheme = "";
+  /// Of the virtual tank, which tries the default posture or plan; empty: no experiment.
+  std::string integrator = "";
 };
 
 /// "pure" or "any"; throws std::invalid_argument otherwise.
@@ -81,7 +83,8 @@ void set_scheme(const char* key, const std::string& scheme, Problem& problem);
 /// pairs of which only a test is known), else that of any objective.
 std::string best_search(const Problem& problem, const std::string& measure);
 
-/// The columns that select a case, `problem measure wrench lp search seed budget scheme`, as text.
+/// The columns that select a case, `problem measure wrench lp search seed budget scheme
+/// integrator`, as text.
 const std::vector<std::string>& case_columns();
 std::vector<std::string> case_values(const Case& c);
 

@@ -36,6 +36,7 @@ Case case_of(const CsvFile& csv, std::size_t row) {
   c.seed = whole_number<std::uint64_t>(csv, row, "seed");
   c.budget = whole_number<long>(csv, row, "budget");
   c.scheme = csv.text(row, "scheme");
+  c.integrator = csv.text(row, "integrator");
   return c;
 }
 

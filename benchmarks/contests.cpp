@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <set>
 #include <tuple>
@@ -40,7 +41,7 @@ Instances instances_of(const std::vector<ResultRow>& rows, bool in_time, Wrench 
   Instances instances;
   for (const ResultRow& row : rows) {
     const Case& c = row.choice;
-    if (c.lp == kNoSolver || !belongs(row, in_time, wrench)) continue;
+    if (row.is_experiment() || c.lp == kNoSolver || !belongs(row, in_time, wrench)) continue;
     if (row.solved() && !row.us) continue;  // was not measured
     const ResultRow*& kept = instances[{c.problem, c.measure, to_string(c.wrench), c.search,
                                         std::to_string(c.seed), c.scheme}][c.lp];
@@ -50,23 +51,23 @@ Instances instances_of(const std::vector<ResultRow>& rows, bool in_time, Wrench 
   return instances;
 }
 
-Contest solver_contest(const std::vector<ResultRow>& rows, bool in_time, Wrench wrench) {
+/// Every method on all instances; `cost` is that of a row that has a value.
+Contest contest_of(const std::string& title, const std::string& unit, const Instances& instances,
+                   const std::function<double(const ResultRow&)>& cost) {
   Contest contest;
-  contest.title =
-      in_time ? "tasks in time" : fmt::format("static tasks, wrench {}", to_string(wrench));
-  contest.unit = "us";
-  const auto instances = instances_of(rows, in_time, wrench);
-  std::set<std::string> solvers;
-  for (const auto& [key, by_solver] : instances) {
-    for (const auto& [solver, row] : by_solver) solvers.insert(solver);
+  contest.title = title;
+  contest.unit = unit;
+  std::set<std::string> methods;
+  for (const auto& [key, by_method] : instances) {
+    for (const auto& [method, row] : by_method) methods.insert(method);
   }
-  for (const std::string& solver : solvers) {
-    contest.methods.push_back(solver);
+  for (const std::string& method : methods) {
+    contest.methods.push_back(method);
     std::vector<double>& costs = contest.cost.emplace_back();
-    for (const auto& [key, by_solver] : instances) {
-      const auto found = by_solver.find(solver);
-      const bool has = found != by_solver.end() && found->second->solved();
-      costs.push_back(has ? *found->second->us : kInfinity);
+    for (const auto& [key, by_method] : instances) {
+      const auto found = by_method.find(method);
+      const bool has = found != by_method.end() && found->second->solved();
+      costs.push_back(has ? cost(*found->second) : kInfinity);
     }
   }
   return contest;
@@ -106,10 +107,24 @@ std::vector<Contest> solver_contests(const std::vector<ResultRow>& rows) {
   std::vector<Contest> contests;
   for (const auto& [in_time, wrench] :
        {std::pair{false, Wrench::kPure}, {false, Wrench::kAny}, {true, Wrench::kPure}}) {
-    Contest contest = solver_contest(rows, in_time, wrench);
+    Contest contest = contest_of(
+        in_time ? "tasks in time" : fmt::format("static tasks, wrench {}", to_string(wrench)), "us",
+        instances_of(rows, in_time, wrench), [](const ResultRow& row) { return *row.us; });
     if (contest.instances() > 0) contests.push_back(std::move(contest));
   }
   return contests;
+}
+
+std::vector<Contest> integrator_contests(const std::vector<ResultRow>& rows) {
+  Instances instances;
+  for (const ResultRow& row : rows) {
+    const Case& c = row.choice;
+    if (!row.is_experiment() || (row.solved() && !row.us)) continue;
+    instances[{c.problem, c.measure, to_string(c.wrench), c.lp, c.scheme}][c.integrator] = &row;
+  }
+  if (instances.empty()) return {};
+  return {contest_of("virtual tank", "ms", instances,
+                     [](const ResultRow& row) { return *row.experiment_ms(); })};
 }
 
 std::vector<RaceGroup> race_groups(const std::vector<Comparison>& races) {

@@ -17,6 +17,11 @@ namespace maxwrench {
 /// which counts as failed.
 std::vector<Contest> solver_contests(const std::vector<ResultRow>& rows);
 
+/// Integrators by the milliseconds of an experiment in the virtual tank: one contest, none without
+/// experiments. Its instances are those that differ in problem, measure, wrench, solver or scheme;
+/// an experiment without a reading has failed.
+std::vector<Contest> integrator_contests(const std::vector<ResultRow>& rows);
+
 /// Races that belong together.
 struct RaceGroup {
   std::string title;

@@ -67,6 +67,19 @@ void read_searches(const Block& block, Names& names) {
   }
 }
 
+/// Experiments search nothing.
+void read_integrators(const Block& block, Names& names) {
+  if (!block.has("integrator")) return;
+  Names known;
+  for (const IntegratorEntry& entry : integrators()) {
+    if (entry.stiff) known.emplace_back(entry.name);
+  }
+  read_names(block, "integrator", known, names);
+  for (const char* key : {"search", "seeds", "budget"}) {
+    if (block.has(key)) block.refuse_value(key, "no such key beside integrator");
+  }
+}
+
 ProductColumns read_columns(const Block& block) {
   Names known_measures, known_solvers = {kNoSolver}, known_schemes = scheme_names(false);
   add_names(measures(), known_measures);
@@ -83,6 +96,7 @@ ProductColumns read_columns(const Block& block) {
   read_names(block, "lp", known_solvers, columns.lp);
   read_names(block, "scheme", known_schemes, columns.scheme);
   read_searches(block, columns.search);
+  read_integrators(block, columns.integrator);
   columns.seed.resize(static_cast<std::size_t>(block.whole("seeds", 1, kMostSeeds, 1)));
   std::iota(columns.seed.begin(), columns.seed.end(), 1);
   if (block.has("budget")) columns.budget = block.whole("budget", 1, kMostBudget);
@@ -129,7 +143,8 @@ Workload read_plan_file(const std::filesystem::path& file) {
   Workload work;
   if (root.list("product").empty()) root.refuse_value("product", "one [[product]] or more");
   for (const Block& block : root.list("product")) {
-    block.allow_only({"problem", "measure", "wrench", "lp", "search", "scheme", "seeds", "budget"});
+    block.allow_only({"problem", "measure", "wrench", "lp", "search", "scheme", "seeds", "budget",
+                      "integrator"});
     const ProductColumns columns = read_columns(block);
     const std::size_t before = work.cases.size();
     for (const std::string& name : read_problems(block)) {

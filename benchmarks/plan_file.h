@@ -19,8 +19,9 @@ struct Workload {
 
 /// Reads a plan: a TOML file with one `[[product]]` or more, each with `problem` and any of
 /// `measure wrench lp search scheme` (a name, a list of names, or "all"), `seeds` (1 to that) and
-/// `budget`. Task files are found from the folder of the plan. Throws std::invalid_argument with
-/// one line that names file, key, value and what was expected.
+/// `budget`, or with `integrator` in the place of `search`, `seeds` and `budget`. Task files are
+/// found from the folder of the plan. Throws std::invalid_argument with one line that names file,
+/// key, value and what was expected.
 Workload read_plan_file(const std::filesystem::path& file);
 
 }  // namespace maxwrench

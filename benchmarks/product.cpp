@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "benchmarks/plan_row.h"
+#include "benchmarks/tank_row.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
 
@@ -73,6 +74,28 @@ Names all_measures() {
   return names;
 }
 
+/// Those of a measure, wrench, solver and scheme: with every search and seed, or experiment.
+void add_cases(const Problem& problem, const ProductColumns& columns, Case c,
+               std::vector<Case>& cases) {
+  if (!columns.integrator.empty()) {
+    c.search.clear();
+    for (const std::string& integrator :
+         wanted(columns.integrator, served_integrators(problem, c.measure))) {
+      c.integrator = integrator;
+      cases.push_back(c);
+    }
+    return;
+  }
+  c.budget = budget_of(problem, c.lp, columns.budget);
+  for (const std::string& search : wanted_searches(columns.search, problem, c.measure)) {
+    c.search = search;
+    for (const std::uint64_t seed : columns.seed) {
+      c.seed = seed;
+      cases.push_back(c);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Case> product(const Problem& problem, const ProductColumns& columns) {
@@ -82,16 +105,9 @@ std::vector<Case> product(const Problem& problem, const ProductColumns& columns)
       Case c{problem.name, measure, parse_wrench(wrench)};
       for (const std::string& lp : wanted(columns.lp, served_solvers(problem, measure, c.wrench))) {
         c.lp = lp;
-        c.budget = budget_of(problem, lp, columns.budget);
         for (const std::string& scheme : wanted(columns.scheme, schemes_of(problem))) {
           c.scheme = scheme;
-          for (const std::string& search : wanted_searches(columns.search, problem, measure)) {
-            c.search = search;
-            for (const std::uint64_t seed : columns.seed) {
-              c.seed = seed;
-              cases.push_back(c);
-            }
-          }
+          add_cases(problem, columns, c, cases);
         }
       }
     }
@@ -140,7 +156,7 @@ std::vector<Case> select(std::vector<Case> cases,
 void sort_cases(std::vector<Case>& cases) {
   const auto key = [](const Case& c) {
     return std::tuple(c.problem, c.measure, std::string(to_string(c.wrench)), c.lp, c.search,
-                      c.seed, c.budget, c.scheme);
+                      c.seed, c.budget, c.scheme, c.integrator);
   };
   std::sort(cases.begin(), cases.end(),
             [&](const Case& a, const Case& b) { return key(a) < key(b); });

@@ -19,6 +19,8 @@ struct ProductColumns {
   std::vector<std::uint64_t> seed = {Case().seed};
   /// Evaluations, divided by the cost of the solver for a static task; none: what is usual.
   std::optional<long> budget = std::nullopt;
+  /// None: searches; else experiments in the virtual tank, which search nothing.
+  Names integrator = {};
 };
 
 /// Every combination of the columns that has a meaning on a problem, none if none has. All searches

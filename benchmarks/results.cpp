@@ -35,6 +35,7 @@ ResultRow row_of(const CsvFile& csv, std::size_t i) {
   row.unit = csv.text(i, "unit");
   row.reason = csv.text(i, "reason");
   row.beta = csv.number(i, "beta");
+  row.yardstick = csv.number(i, "yardstick");
   row.evaluations = csv.number(i, "evaluations").value_or(0);
   return row;
 }
@@ -42,7 +43,7 @@ ResultRow row_of(const CsvFile& csv, std::size_t i) {
 void read_rows(const std::filesystem::path& folder, Results& results) {
   const CsvFile values =
       read_csv(folder / "values.csv",
-               with_case_columns({"status", "beta", "unit", "evaluations", "reason"}));
+               with_case_columns({"status", "beta", "unit", "yardstick", "evaluations", "reason"}));
   const auto us = read_times(folder / "times.csv");
   rows_of_cases(values);  // each once
   for (std::size_t i = 0; i < values.rows.size(); ++i) {
@@ -55,7 +56,12 @@ void read_rows(const std::filesystem::path& folder, Results& results) {
 }  // namespace
 
 bool ResultRow::solved() const {
-  return beta && (status == to_string(Status::kOptimal) || status == to_string(Status::kBestFound));
+  return beta && (status == to_string(Status::kOptimal) ||
+                  status == to_string(Status::kBestFound) || status == to_string(Status::kReached));
+}
+
+std::optional<double> ResultRow::experiment_ms() const {
+  return us ? std::optional(1e-3 * *us * evaluations) : std::nullopt;
 }
 
 Results read_results(const std::filesystem::path& folder) {

@@ -14,13 +14,17 @@ namespace maxwrench {
 struct ResultRow {
   Case choice;
   std::string status, unit, reason;
-  std::optional<double> beta;  ///< none: the row has no value
+  std::optional<double> beta;       ///< none: the row has no value
+  std::optional<double> yardstick;  ///< of an experiment, what was planned
   double evaluations = 0;
   /// Microseconds of an evaluation, of the processor; none where they were not measured.
   std::optional<double> us;
 
   /// Has a value that is what was asked for: an interrupted search has failed.
   bool solved() const;
+  bool is_experiment() const { return !choice.integrator.empty(); }
+  /// All that an experiment took, of the processor; none where it was not measured.
+  std::optional<double> experiment_ms() const;
 };
 
 /// What a run, a race or both left in a folder.

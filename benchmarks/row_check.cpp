@@ -10,6 +10,7 @@
 #include "benchmarks/case_file.h"
 #include "benchmarks/plan_row.h"
 #include "benchmarks/row.h"
+#include "benchmarks/tank_row.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/wrench_program.h"
 
@@ -38,10 +39,11 @@ struct RowOf {
   }
 };
 
-/// Its own efforts, wrench and multipliers.
-std::string refuse_own(const Problem& problem, const Row& anew, const RowOf& claim, double beta) {
-  WrenchProgram program = make_wrench_program(problem, anew.choice.wrench);
-  set_posture(anew.posture, program);
+/// Its own efforts, wrench and multipliers, in a posture.
+std::string refuse_efforts(const Problem& problem, Wrench wrench, const Posture& posture,
+                           const RowOf& claim, double beta) {
+  WrenchProgram program = make_wrench_program(problem, wrench);
+  set_posture(posture, program);
   const Eigen::VectorXd h = claim.vector("h");
   const double tolerance = kRowTolerance * (1 + std::abs(beta));
   if (h.size() != 6) return "h: expected six numbers";
@@ -54,6 +56,20 @@ std::string refuse_own(const Problem& problem, const Row& anew, const RowOf& cla
       "its efforts do not satisfy its program: balance {:.2g}, bounds {:.2g}, dual {:.2g}, gap "
       "{:.2g}",
       own.balance, own.bounds, own.dual, own.gap);
+}
+
+/// The same in the best posture at theta_r, or in another one: which of two that are worth the same
+/// is chosen hangs on rounding.
+std::string refuse_own(const Problem& problem, const Row& anew, const RowOf& claim, double beta) {
+  const Wrench wrench = anew.choice.wrench;
+  const std::string why = refuse_efforts(problem, wrench, anew.posture, claim, beta);
+  if (why.empty()) return why;
+  PostureEvaluator model(problem);
+  model.evaluate(anew.posture.theta_r);
+  for (int branch = 0; branch < model.branches(); ++branch) {
+    if (refuse_efforts(problem, wrench, model.select(branch), claim, beta).empty()) return "";
+  }
+  return why;
 }
 
 /// A number beside the value, such as its yardstick, which may be none.
@@ -71,7 +87,9 @@ std::string refuse_other(const RowOf& claim, const char* column, double anew) {
 std::string refuse_words(const RowOf& claim, bool has_value) {
   const std::string& status = claim.text("status");
   const bool answered =
-      status == to_string(Status::kOptimal) || status == to_string(Status::kBestFound);
+      claim.text("integrator").empty()
+          ? status == to_string(Status::kOptimal) || status == to_string(Status::kBestFound)
+          : status == to_string(Status::kReached);
   if (has_value && !answered && status != to_string(Status::kBudgetExhausted)) {
     return fmt::format("status: got '{}' beside a value", status);
   }
@@ -126,6 +144,30 @@ RowCheck check_plan(const Problem& problem, const Case& c, const RowOf& claim, d
   return check;
 }
 
+/// By the experiment again, of whose steps a reading depends to their tolerance.
+RowCheck check_experiment(const Problem& problem, const Case& c, const RowOf& claim,
+                          double reading) {
+  constexpr double kTolerance = 1e-4;
+  Problem changed = problem;
+  if (problem.motion) set_scheme("scheme", c.scheme, changed);
+  const TankRow anew = run_experiment(changed, c);
+  RowCheck check;
+  check.has_value = true;
+  check.deviation = std::abs(anew.reading - reading) / (1 + std::abs(reading));
+  if (!anew.has_value()) {
+    check.refusal = fmt::format("its experiment has no reading: {}", anew.reason.str());
+  } else if (!(check.deviation <= kTolerance)) {
+    check.refusal = fmt::format("its experiment has the reading {:.9g}", anew.reading);
+  } else if (anew.unit != claim.text("unit")) {
+    check.refusal = fmt::format("unit: expected '{}'", anew.unit);
+  } else if (anew.reason.str().empty() != claim.text("reason").empty()) {
+    check.refusal = fmt::format("reason: expected '{}'", anew.reason.str());
+  } else {
+    check.refusal = refuse_other(claim, "yardstick", anew.planned);
+  }
+  return check;
+}
+
 }  // namespace
 
 RowCheck check_row(const Problem& problem, const CsvFile& csv, std::size_t row) {
@@ -134,8 +176,9 @@ RowCheck check_row(const Problem& problem, const CsvFile& csv, std::size_t row) 
     const std::optional<double> beta = csv.number(row, "beta");
     const std::string words = refuse_words(claim, beta.has_value());
     if (!beta || !words.empty()) return {words, beta.has_value(), 0};
-    const auto check = problem.motion ? check_plan : check_posture;
-    return check(problem, case_of(csv, row), claim, *beta);
+    const Case c = case_of(csv, row);
+    const auto of_search = problem.motion ? check_plan : check_posture;
+    return (c.integrator.empty() ? of_search : check_experiment)(problem, c, claim, *beta);
   } catch (const std::invalid_argument& error) {
     return {error.what(), true, 0};
   }

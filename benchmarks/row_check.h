@@ -20,8 +20,9 @@ struct RowCheck {
 /// lower level is solved anew and its answer verified from the problem's data, as that of any row.
 /// And of the L-infinity polytope with one contact, whether the row's own efforts, wrench and
 /// multipliers do: balance, limits, and a gap that proves them optimal. Unit, yardstick and
-/// `continuous` are compared, too, and the status must be one that has a value, or has none. What
-/// cannot be read is a refusal.
+/// `continuous` are compared, too, and the status must be one that has a value, or has none. An
+/// experiment is carried out again: its reading, to 1e-4, what was planned, and whether it was
+/// held. What cannot be read is a refusal.
 RowCheck check_row(const Problem& problem, const CsvFile& csv, std::size_t row);
 
 }  // namespace maxwrench

@@ -18,6 +18,7 @@ TaskKey task_of(const Case& c) { return {c.problem, c.measure, c.wrench, c.schem
 std::map<TaskKey, TaskSummary> tasks_by_key(const std::vector<ResultRow>& rows) {
   std::map<TaskKey, TaskSummary> tasks;
   for (const ResultRow& row : rows) {
+    if (row.is_experiment()) continue;
     TaskSummary& task = tasks[task_of(row.choice)];
     if (task.rows++ == 0) task.choice = row.choice;
     if (task.unit.empty()) task.unit = row.unit;
@@ -51,6 +52,7 @@ std::vector<SearchSummary> summarise_searches(const std::vector<ResultRow>& rows
   const std::map<TaskKey, TaskSummary> tasks = tasks_by_key(rows);
   std::map<std::string, Sample> samples;
   for (const ResultRow& row : rows) {
+    if (row.is_experiment()) continue;
     Sample& sample = samples[row.choice.search];
     ++sample.summary.rows;
     if (row.us) sample.us.push_back(*row.us);

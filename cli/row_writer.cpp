@@ -7,6 +7,8 @@
 
 #include "benchmarks/machine.h"
 #include "benchmarks/plan_row.h"
+#include "benchmarks/tank_row.h"
+
 #include "benchmarks/write_file.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/version.h"
@@ -106,6 +108,14 @@ PlanRow RowWriter::solve(const Problem& problem, const PlanMethod& method) {
 }
 
 void RowWriter::solve_case(const Problem& problem, const Case& c, double work) {
+  if (!c.integrator.empty()) {
+    Problem changed = problem;
+    if (problem.motion) set_scheme("scheme", c.scheme, changed);
+    const auto make = [&] { return run_experiment(changed, c); };
+    kept<TankRow>(
+        changed, 1, [&] { return attempted<TankRow>(c, make); }, work);
+    return;
+  }
   if (!problem.motion) {
     const auto make = [&] { return maxwrench::solve(problem, resolve(problem, c), threads_); };
     kept<Row>(

@@ -54,7 +54,7 @@ class RowWriter {
   bool finish();
 
  private:
-  /// Of a `Row` or `PlanRow`.
+  /// Of a `Row`, `PlanRow` or `TankRow`.
   template <class AnyRow>
   AnyRow kept(const Problem& problem, int threads, const std::function<AnyRow()>& make,
               double work = 1);

@@ -153,10 +153,13 @@ std::string quoted_word(const std::string& word) {
 
 /// What gives the same row.
 std::string command_of(const Case& c) {
+  const bool experiment = !c.integrator.empty();
   return fmt::format(
-      "maxwrench solve {} --measure {} --wrench {}{} --search {} --seed {} --budget {}{}",
+      "maxwrench {} {} --measure {} --wrench {}{}{}{}", experiment ? "simulate" : "solve",
       quoted_word(c.problem), c.measure, to_string(c.wrench),
-      c.lp == kNoSolver ? "" : " --lp " + c.lp, c.search, c.seed, c.budget,
+      c.lp == kNoSolver ? "" : " --lp " + c.lp,
+      experiment ? " --integrator " + c.integrator
+                 : fmt::format(" --search {} --seed {} --budget {}", c.search, c.seed, c.budget),
       c.scheme.empty() ? "" : " --scheme " + c.scheme);
 }
 

@@ -38,9 +38,9 @@ std::vector<std::string> draw_profiles(const std::vector<Contest>& contests) {
   return figures;
 }
 
-ReportTable contest_table(const std::vector<Contest>& contests, const std::string& cost) {
+ReportTable contest_table(const std::vector<Contest>& contests, const std::string& method,
+                          const std::string& cost) {
   ReportTable table;
-  const std::string method = cost == "us" ? "lp" : "search";
   table.columns = {"contest", method,      "solved", "instances", "share_best", "share_double",
                    cost,      "reference", "times",  "times_low", "times_high", "p"};
   for (const Contest& contest : contests) {

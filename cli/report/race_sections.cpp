@@ -58,7 +58,7 @@ ReportSection standing_section(const std::vector<RaceGroup>& groups) {
 ReportSection race_contest_section(const std::vector<RaceGroup>& groups) {
   std::vector<Contest> contests;
   for (const RaceGroup& group : groups) contests.push_back(search_contest(group));
-  ReportTable table = contest_table(contests, "median_ms");
+  ReportTable table = contest_table(contests, "search", "median_ms");
   table.name = "race_significance";
   table.title = "The race: profiles and significance";
   table.note =

@@ -44,7 +44,7 @@ ReportSection task_section(const std::vector<ResultRow>& rows) {
 
 ReportSection solver_section(const std::vector<ResultRow>& rows) {
   const std::vector<Contest> contests = solver_contests(rows);
-  ReportTable table = contest_table(contests, "us");
+  ReportTable table = contest_table(contests, "lp", "us");
   table.name = "solvers";
   table.title = "Lower-level solvers";
   table.note =
@@ -138,6 +138,35 @@ ReportSection cost_section(const std::vector<ResultRow>& rows) {
   return {table, figures};
 }
 
+ReportSection integrator_section(const std::vector<ResultRow>& rows) {
+  const std::vector<Contest> contests = integrator_contests(rows);
+  ReportTable table = contest_table(contests, "integrator", "experiment_ms");
+  table.name = "integrators";
+  table.title = "Integrators of the virtual tank";
+  table.note =
+      "Performance profiles of the processor time of an experiment with the default posture or "
+      "plan, at the same tolerances. Experiments without a reading count as never solved.";
+  return {table, draw_profiles(contests)};
+}
+
+ReportSection experiment_section(const std::vector<ResultRow>& rows) {
+  ReportTable table{"experiments",
+                    "Experiments in the virtual tank",
+                    "What the load cell reads of the default posture or plan, without "
+                    "imperfections, beside what was planned.",
+                    {"problem", "wrench", "lp", "scheme", "integrator", "planned", "reading",
+                     "unit", "experiment_ms", "evaluations", "reason"},
+                    {}};
+  for (const ResultRow& row : rows) {
+    const Case& c = row.choice;
+    if (!row.is_experiment()) continue;
+    table.rows.push_back({c.problem, to_string(c.wrench), c.lp, c.scheme, c.integrator,
+                          or_none(row.yardstick), or_none(row.beta), row.unit,
+                          or_none(row.experiment_ms()), row.evaluations, row.reason});
+  }
+  return {table, {}};
+}
+
 ReportSection failure_section(const std::vector<ResultRow>& rows) {
   ReportTable table{"failures",
                     "Failures",
@@ -169,14 +198,23 @@ ReportSection row_section(const std::vector<ResultRow>& rows) {
 }  // namespace
 
 std::vector<ReportCell> case_cells(const Case& c) {
-  return {c.problem, c.measure,         to_string(c.wrench),           c.lp,
-          c.search,  seed_cell(c.seed), static_cast<double>(c.budget), c.scheme};
+  return {c.problem,   c.measure,         to_string(c.wrench),           c.lp,
+          c.search,    seed_cell(c.seed), static_cast<double>(c.budget), c.scheme,
+          c.integrator};
 }
 
 std::vector<ReportSection> run_sections(const Results& results) {
   const std::vector<ResultRow>& rows = results.rows;
-  return {task_section(rows), solver_section(rows),  search_section(rows),
-          cost_section(rows), failure_section(rows), row_section(rows)};
+  std::vector<ReportSection> sections = {task_section(rows), solver_section(rows),
+                                         search_section(rows), cost_section(rows)};
+  ReportSection integrators = integrator_section(rows);
+  if (!integrators.table.rows.empty()) {
+    sections.push_back(std::move(integrators));
+    sections.push_back(experiment_section(rows));
+  }
+  sections.push_back(failure_section(rows));
+  sections.push_back(row_section(rows));
+  return sections;
 }
 
 }  // namespace maxwrench

@@ -19,7 +19,8 @@ struct ReportSection {
   bool printed = true;  ///< on the terminal, too
 };
 
-/// What the rows of a run tell: tasks, solvers, searches, costs, failures, the rows themselves.
+/// What the rows of a run tell: tasks, solvers, searches, costs, experiments in the virtual tank if
+/// there are any, failures, the rows themselves.
 std::vector<ReportSection> run_sections(const Results& results);
 /// What its races tell: groups of tasks, significance, expected running times; none without races.
 std::vector<ReportSection> race_sections(const std::vector<Comparison>& races);
@@ -32,7 +33,9 @@ ReportSection dictionary_section();
 std::vector<std::string> draw_profiles(const std::vector<Contest>& contests);
 /// The columns of a case.
 std::vector<ReportCell> case_cells(const Case& c);
-/// A line for each method of each contest; `cost` is the column of its costs.
-ReportTable contest_table(const std::vector<Contest>& contests, const std::string& cost);
+/// A line for each method of each contest; `method` and `cost` are the columns of its name and
+/// costs.
+ReportTable contest_table(const std::vector<Contest>& contests, const std::string& method,
+                          const std::string& cost);
 
 }  // namespace maxwrench

@@ -49,6 +49,21 @@ TEST(PlanFile, EachRowStandsOnce) {
   EXPECT_EQ(read_plan_text(product + product).cases.size(), read_plan_text(product).cases.size());
 }
 
+/// Of two wrenches two integrators each, without a search; a second contact has no experiment, nor
+/// has a measure that is no wrench.
+TEST(PlanFile, ExperimentsSearchNothing) {
+  const Workload work = read_plan_text(
+      "[[product]]\nproblem = ['planar/force', 'dual_arm/bar_wall']\nwrench = 'all'\n"
+      "measure = ['linf_polytope', 'manipulability']\nintegrator = ['cvode', 'ida']\n");
+  ASSERT_EQ(work.cases.size(), 4U);
+  for (const Case& c : work.cases) {
+    EXPECT_EQ(c.problem, "planar/force");
+    EXPECT_EQ(c.measure, "linf_polytope");
+    EXPECT_EQ(c.search, "");
+    EXPECT_TRUE(c.integrator == "cvode" || c.integrator == "ida");
+  }
+}
+
 struct BadPlanFile {
   const char *text, *complaint;
 };
@@ -80,6 +95,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadPlanFile{"[[product]]\nproblem='all'\nlp=[]", "product[0].lp: got []"},
         BadPlanFile{"[[product]]\nproblem='all'\nsearch='x'", "product[0].search: got 'x'"},
         BadPlanFile{"[[product]]\nproblem='all'\nscheme=3", "product[0].scheme: got 3"},
+        BadPlanFile{"[[product]]\nproblem='all'\nintegrator='arkode'",
+                    "product[0].integrator: got 'arkode', expected \"all\" or some of cvode ida"},
+        BadPlanFile{"[[product]]\nproblem='all'\nintegrator='ida'\nsearch='grid'",
+                    "product[0].search: got 'grid', expected no such key beside integrator"},
+        BadPlanFile{"[[product]]\nproblem='dual_arm/two_arms'\nintegrator='ida'",
+                    "mean nothing together"},
         BadPlanFile{"[[product]]\nproblem='all'\nseeds=0", "product[0].seeds: got 0"},
         BadPlanFile{"[[product]]\nproblem='all'\nbudget=1.5", "product[0].budget: got 1.5"},
         BadPlanFile{"[[product]]\nproblem='all'\ncolour='x'", "product[0].colour: got an unknown"},

@@ -139,13 +139,13 @@ class ResultsFolder : public testing::Test {
     return "";
   }
 
-  const std::string kKeys = "problem,measure,wrench,lp,search,seed,budget,scheme";
-  const std::string kHeader = kKeys + ",status,beta,unit,evaluations,reason\n";
+  const std::string kKeys = "problem,measure,wrench,lp,search,seed,budget,scheme,integrator";
+  const std::string kHeader = kKeys + ",status,beta,unit,yardstick,evaluations,reason\n";
   const std::string kTimesHeader = kKeys + ",evaluations,wall_s,cpu_s\n";
-  const std::string kCase = "f/a,linf_polytope,pure,facets,cmaes,1,100,";
-  const std::string kFirst = kCase + ",best_found,2.5,N,100,\n";
+  const std::string kCase = "f/a,linf_polytope,pure,facets,cmaes,1,100,,";
+  const std::string kFirst = kCase + ",best_found,2.5,N,,100,\n";
   const std::string kSecond =
-      "f/a,linf_polytope,any,box,cmaes,2,100,,infeasible,,N,100,\"no, never\"\n";
+      "f/a,linf_polytope,any,box,cmaes,2,100,,,infeasible,,N,,100,\"no, never\"\n";
   TemporaryFolder folder_;
 };
 
@@ -177,12 +177,13 @@ TEST_F(ResultsFolder, NamesWhatIsWrong) {
   write("values.csv", kHeader + kFirst + kFirst);
   EXPECT_EQ(complaint(),
             "values.csv: line 3: problem: got 'f/a', expected each case once: line 2 has it, too");
-  write("values.csv", kHeader + kCase + ",best_found,nan,N,100,\n");
+  write("values.csv", kHeader + kCase + ",best_found,nan,N,,100,\n");
   EXPECT_EQ(complaint(),
             "values.csv: line 2: beta: got 'nan', expected a finite number or nothing");
-  write("values.csv", kHeader + "f/a,linf_polytope,pure,facets,cmaes,-1,100,,best_found,1,N,1,\n");
+  write("values.csv",
+        kHeader + "f/a,linf_polytope,pure,facets,cmaes,-1,100,,,best_found,1,N,,1,\n");
   EXPECT_EQ(complaint(), "values.csv: line 2: seed: got '-1', expected a whole number");
-  write("values.csv", kHeader + "f/a,linf_polytope,both,facets,cmaes,1,100,,best_found,1,N,1,\n");
+  write("values.csv", kHeader + "f/a,linf_polytope,both,facets,cmaes,1,100,,,best_found,1,N,,1,\n");
   EXPECT_EQ(complaint(), "values.csv: line 2: wrench: got 'both', expected pure or any");
   write("values.csv", kKeys + ",status\n");
   EXPECT_EQ(complaint(), "values.csv: line 1: got no column 'beta', expected one");

@@ -6,7 +6,9 @@
 
 #include "benchmarks/plan_row.h"
 #include "benchmarks/row.h"
+#include "benchmarks/tank_row.h"
 #include "maxwrench/load.h"
+#include "maxwrench/wrench_program.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {
@@ -98,6 +100,51 @@ TEST(CheckRow, RefusesOtherWords) {
     Cells row = good;
     cell(row, column) = text;
     EXPECT_EQ(check(problem, row).refusal.find(column), 0U) << column << " " << text;
+  }
+}
+
+/// Efforts of any posture at theta_r that is worth as much: here the wrist may be turned over.
+TEST(CheckRow, AcceptsPosturesThatTie) {
+  const Problem problem = load_problem("fixed/push");
+  Case c;
+  c.problem = problem.name;
+  c.search = "";
+  const Method method = resolve(problem, c);
+  const Row best = evaluate(problem, method, problem.theta_r_default);
+  PostureEvaluator model(problem);
+  model.evaluate(problem.theta_r_default);
+  int ties = 0;
+  for (int branch = 0; branch < model.branches(); ++branch) {
+    Row row = best;
+    row.posture = model.select(branch);
+    WrenchProgram program = make_wrench_program(problem, c.wrench);
+    set_posture(row.posture, program);
+    method.make_measure()->evaluate(row.posture, program, true, row.capability);
+    const bool same = std::abs(row.capability.beta - best.capability.beta) < 1e-7;
+    EXPECT_EQ(check(problem, values(problem, row)).refusal.empty(), same) << branch;
+    ties += same ? 1 : 0;
+  }
+  EXPECT_GT(ties, 1);
+}
+
+/// Static, and in time; of another reading, or one that was not planned so.
+TEST(CheckRow, CarriesOutExperiments) {
+  for (const auto& [name, scheme] :
+       {std::pair{"uvms/lift", ""}, {"uvms/valve_impulse", "spline"}}) {
+    const Problem problem = load_problem(name);
+    Case c;
+    c.problem = name;
+    c.search = "";
+    c.scheme = scheme;
+    c.integrator = "cvode";
+    const Cells good = values(problem, run_experiment(problem, c));
+    EXPECT_EQ(check(problem, good).refusal, "") << name;
+    for (const char* column : {"beta", "yardstick", "unit", "status", "reason", "integrator"}) {
+      Cells row = good;
+      std::string& text = cell(row, column);
+      text = text.empty() || text.front() > '9' ? "x" : scaled(text, 1.001);
+      EXPECT_NE(check(problem, row).refusal, "") << name << " " << column;
+    }
   }
 }
 

@@ -96,6 +96,25 @@ TEST(Contests, SolversOnTheSameInstances) {
 
 /// A third solver was not tried on the search t of f/a, which therefore is no instance; that it has
 /// no row of g/b at all is its failure.
+/// Experiments are no searches, and their times are those of all their evaluations.
+TEST(Contests, ExperimentsStandApart) {
+  std::vector<ResultRow> rows = five_rows();
+  for (const auto& [integrator, us] : {std::pair{"cvode", 2.0}, {"ida", 0.5}}) {
+    ResultRow& more = rows.emplace_back(row("f/a", "ours", "", 20, us));
+    more.choice.integrator = integrator;
+    more.status = "reached";
+    more.evaluations = integrator == std::string("ida") ? 8000 : 1000;
+  }
+  const std::vector<Contest> contests = integrator_contests(rows);
+  ASSERT_EQ(contests.size(), 1U);
+  EXPECT_EQ(contests[0].methods, (std::vector<std::string>{"cvode", "ida"}));
+  EXPECT_EQ(contests[0].cost, (std::vector<std::vector<double>>{{2}, {4}}));
+  EXPECT_TRUE(integrator_contests(five_rows()).empty());
+  EXPECT_EQ(summarise_tasks(rows)[0].best, 10);
+  EXPECT_EQ(summarise_searches(rows).size(), 2U);
+  EXPECT_EQ(solver_contests(rows)[0].instances(), solver_contests(five_rows())[0].instances());
+}
+
 TEST(Contests, WhatWasNotTriedIsNoFailure) {
   std::vector<ResultRow> rows = five_rows();
   rows.push_back(row("f/a", "third", "s", 10, 9));

@@ -85,7 +85,8 @@ TEST(Report, TablesOfOurResultsAreOfThem) {
   const TemporaryFolder folder;
   ASSERT_EQ(run_maxwrench("report " + results.string() + " --out new", folder.path()).exit_status,
             0);
-  for (const char* file : {"solvers.csv", "failures.csv", "race_standings.csv"}) {
+  for (const char* file :
+       {"solvers.csv", "failures.csv", "experiments.csv", "race_standings.csv"}) {
     EXPECT_EQ(read_text(folder.path() / "new" / file), read_text(results / "report" / file))
         << file;
   }
@@ -111,9 +112,11 @@ TEST(Report, ComparesFolders) {
 TEST(Report, ListsFailures) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "values.csv")
-      << "problem,measure,wrench,lp,search,seed,budget,scheme,status,beta,unit,evaluations,reason\n"
-         "f/a,m,pure,facets,s,1,9,,infeasible,,N,9,\"<b>\"\"too\"\" weak & old\"\n"
-         "f/a,m,pure,facets,s,2,9,,infeasible,,N,9,\"<b>\"\"too\"\" weak & old\"\n";
+      << "problem,measure,wrench,lp,search,seed,budget,scheme,integrator,status,beta,unit,"
+         "yardstick,"
+         "evaluations,reason\n"
+         "f/a,m,pure,facets,s,1,9,,,infeasible,,N,,9,\"<b>\"\"too\"\" weak & old\"\n"
+         "f/a,m,pure,facets,s,2,9,,,infeasible,,N,,9,\"<b>\"\"too\"\" weak & old\"\n";
   const CommandResult result = run_maxwrench("report .", folder.path());
   ASSERT_EQ(result.exit_status, 0) << result.err;
   EXPECT_NE(result.out.find("   2  infeasible  <b>\"too\" weak & old  f/a"), std::string::npos)

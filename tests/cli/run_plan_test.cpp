@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
+#include "benchmarks/csv.h"
 #include "benchmarks/row.h"
 #include "benchmarks/table.h"
 #include "tests/support/support.h"
@@ -149,6 +152,31 @@ TEST_F(RunPlan, CountsAndNamesItsRows) {
   EXPECT_NE(one.substr(row, one.find('\n', row) - row).find(again.out.substr(beta, 12)),
             std::string::npos)
       << again.out;
+}
+
+/// Experiments of a static task and of one in time: the same rows on two threads, and the reading
+/// of the command that stands for each.
+TEST_F(RunPlan, CarriesOutExperiments) {
+  std::ofstream(folder_.path() / "plan.toml")
+      << "[[product]]\nproblem = ['uvms/lift', 'uvms/lift_impulse']\nintegrator = 'cvode'\n";
+  ASSERT_EQ(run("--threads 1 --out one").exit_status, 0);
+  ASSERT_EQ(run("--threads 2 --out two").exit_status, 0);
+  EXPECT_EQ(read("one/values.csv"), read("two/values.csv"));
+  const CsvFile csv = read_csv(folder_.path() / "one/values.csv", value_columns());
+  ASSERT_EQ(csv.rows.size(), 2U);
+  std::istringstream commands(run("--commands").out);
+  const char* const readings[] = {"mean", "at_t_h"};
+  for (std::size_t i = 0; i < 2; ++i) {
+    std::string command;
+    std::getline(commands, command);
+    ASSERT_TRUE(command.starts_with("maxwrench simulate ")) << command;
+    const auto said = nlohmann::json::parse(run_maxwrench(command.substr(10) + " --json").out);
+    EXPECT_EQ(said[readings[i]], csv.number(i, "beta")) << command;
+    EXPECT_EQ(said["planned"], csv.number(i, "yardstick")) << command;
+  }
+  const CommandResult report = run_maxwrench("report one", folder_.path());
+  EXPECT_NE(report.out.find("Integrators of the virtual tank"), std::string::npos);
+  EXPECT_EQ(run_maxwrench("verify one/values.csv", folder_.path()).exit_status, 0);
 }
 
 TEST_F(RunPlan, BadWordsAreRefused) {
