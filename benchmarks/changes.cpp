@@ -21,7 +21,8 @@ void compare_values(const RowPair& pair, Changes& changes) {
   const ResultRow &a = *pair.a, &b = *pair.b;
   const bool comparable = a.status == b.status && a.beta.has_value() == b.beta.has_value();
   const double away = comparable && a.beta ? std::abs(*a.beta - *b.beta) : 0;
-  if (!comparable || away > kSameValue * (1 + std::abs(a.beta.value_or(0)))) {
+  const double rounding = a.is_experiment() ? kSameReading : kSameValue;
+  if (!comparable || away > rounding * (1 + std::abs(a.beta.value_or(0)))) {
     changes.changed.push_back(pair);
   } else {
     ++(away == 0 ? changes.same : changes.rounded);
@@ -40,12 +41,19 @@ TimeChange time_change(const std::string& column, const std::string& name,
 std::vector<TimeChange> time_changes(const std::vector<RowPair>& pairs) {
   std::map<std::pair<int, std::string>, std::vector<double>> ratios;
   for (const RowPair& pair : pairs) {
-    if (!pair.a->us || !pair.b->us || *pair.a->us <= 0 || *pair.b->us <= 0) continue;
+    const bool experiment = pair.a->is_experiment();
+    const std::optional<double> a = experiment ? pair.a->ms() : pair.a->us;
+    const std::optional<double> b = experiment ? pair.b->ms() : pair.b->us;
+    if (!a || !b || *a <= 0 || *b <= 0) continue;
     const Case& c = pair.a->choice;
-    const std::string names[] = {"rows", c.lp, c.search, c.problem};
-    for (int i = 0; i < 4; ++i) ratios[{i, names[i]}].push_back(*pair.b->us / *pair.a->us);
+    const std::string names[] = {"rows", c.lp, c.search, c.problem, c.integrator};
+    for (int i = 0; i < 5; ++i) {
+      const bool of_searches = i == 1 || i == 2;
+      if (experiment ? of_searches : names[i].empty()) continue;
+      ratios[{i, names[i]}].push_back(*b / *a);
+    }
   }
-  static const char* const kColumns[] = {"all", "lp", "search", "problem"};
+  static const char* const kColumns[] = {"all", "lp", "search", "problem", "integrator"};
   std::vector<TimeChange> changes;
   std::vector<double> p;
   for (const auto& [key, sample] : ratios) {

@@ -36,11 +36,14 @@ struct TimeChange {
 
 /// What differs between two folders.
 struct Changes {
-  std::vector<RowPair> changed;  ///< in status, in having a value, or by more than `kSameValue`
-  long same = 0;                 ///< status and value, bit by bit
-  long rounded = 0;              ///< within `kSameValue`
+  /// In status, in having a value, or by more than `kSameValue`, of experiments `kSameReading`.
+  std::vector<RowPair> changed;
+  long same = 0;     ///< status and value, bit by bit
+  long rounded = 0;  ///< less than `changed`
   std::vector<const ResultRow*> only_a, only_b;
-  std::vector<TimeChange> times;  ///< all rows, then by lp, search and problem
+  /// All rows, then by lp, search, problem and integrator; of searches the time of an evaluation,
+  /// of experiments all of it.
+  std::vector<TimeChange> times;
 };
 
 /// The folders outlive the answer.

@@ -20,7 +20,7 @@ bool belongs(const ResultRow& row, bool in_time, Wrench wrench) {
 
 using Instances = std::map<std::vector<std::string>, ByMethod>;
 
-/// Leaves out what was not tried with each solver that has rows of the same problem, measure and
+/// Leaves out what was not tried with each method that has rows of the same problem, measure and
 /// wrench.
 void keep_tried_by_all(Instances& instances) {
   constexpr std::ptrdiff_t kTask = 3;  // columns of a key
@@ -122,9 +122,10 @@ std::vector<Contest> integrator_contests(const std::vector<ResultRow>& rows) {
     if (!row.is_experiment() || (row.solved() && !row.us)) continue;
     instances[{c.problem, c.measure, to_string(c.wrench), c.lp, c.scheme}][c.integrator] = &row;
   }
+  keep_tried_by_all(instances);
   if (instances.empty()) return {};
-  return {contest_of("virtual tank", "ms", instances,
-                     [](const ResultRow& row) { return *row.experiment_ms(); })};
+  return {
+      contest_of("virtual tank", "ms", instances, [](const ResultRow& row) { return *row.ms(); })};
 }
 
 std::vector<RaceGroup> race_groups(const std::vector<Comparison>& races) {

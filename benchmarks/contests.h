@@ -18,8 +18,8 @@ namespace maxwrench {
 std::vector<Contest> solver_contests(const std::vector<ResultRow>& rows);
 
 /// Integrators by the milliseconds of an experiment in the virtual tank: one contest, none without
-/// experiments. Its instances are those that differ in problem, measure, wrench, solver or scheme;
-/// an experiment without a reading has failed.
+/// experiments by two. Its instances are those that differ in problem, measure, wrench, solver or
+/// scheme and were tried with all; an experiment without a reading has failed.
 std::vector<Contest> integrator_contests(const std::vector<ResultRow>& rows);
 
 /// Races that belong together.

@@ -70,11 +70,7 @@ void read_searches(const Block& block, Names& names) {
 /// Experiments search nothing.
 void read_integrators(const Block& block, Names& names) {
   if (!block.has("integrator")) return;
-  Names known;
-  for (const IntegratorEntry& entry : integrators()) {
-    if (entry.stiff) known.emplace_back(entry.name);
-  }
-  read_names(block, "integrator", known, names);
+  read_names(block, "integrator", stiff_integrators(), names);
   for (const char* key : {"search", "seeds", "budget"}) {
     if (block.has(key)) block.refuse_value(key, "no such key beside integrator");
   }
@@ -152,7 +148,8 @@ Workload read_plan_file(const std::filesystem::path& file) {
       const std::vector<Case> cases = product(work.problems.at(name), columns);
       work.cases.insert(work.cases.end(), cases.begin(), cases.end());
     }
-    if (work.cases.size() == before) {
+    const bool none_built_in = columns.integrator == Names{kAll} && stiff_integrators().empty();
+    if (work.cases.size() == before && !none_built_in) {
       block.refuse_value("problem", "columns that mean nothing together",
                          "at least one row of the product");
     }

@@ -141,7 +141,10 @@ std::vector<Case> select(std::vector<Case> cases,
     if (column == "seed" || column == "budget") continue;
     const auto index = static_cast<std::size_t>(found - columns.begin());
     std::set<std::string> existing;
-    for (const Case& c : cases) existing.insert(case_values(c)[index]);
+    for (const Case& c : cases) {
+      const std::string name = case_values(c)[index];
+      existing.insert(name.empty() ? "none" : name);
+    }
     std::erase_if(cases, [&](const Case& c) { return case_values(c)[index] != value; });
     if (cases.empty()) {
       throw std::invalid_argument(

@@ -60,7 +60,7 @@ bool ResultRow::solved() const {
                   status == to_string(Status::kBestFound) || status == to_string(Status::kReached));
 }
 
-std::optional<double> ResultRow::experiment_ms() const {
+std::optional<double> ResultRow::ms() const {
   return us ? std::optional(1e-3 * *us * evaluations) : std::nullopt;
 }
 

@@ -10,6 +10,10 @@
 
 namespace maxwrench {
 
+/// Readings of an experiment count as the same up to this, relative to 1 + |reading|: they hang on
+/// the steps of its integrator.
+inline constexpr double kSameReading = 1e-4;
+
 /// One row of values.csv with its time: what an analysis asks for.
 struct ResultRow {
   Case choice;
@@ -23,8 +27,8 @@ struct ResultRow {
   /// Has a value that is what was asked for: an interrupted search has failed.
   bool solved() const;
   bool is_experiment() const { return !choice.integrator.empty(); }
-  /// All that an experiment took, of the processor; none where it was not measured.
-  std::optional<double> experiment_ms() const;
+  /// All that the row took, of the processor; none where it was not measured.
+  std::optional<double> ms() const;
 };
 
 /// What a run, a race or both left in a folder.

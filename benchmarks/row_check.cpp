@@ -9,6 +9,7 @@
 
 #include "benchmarks/case_file.h"
 #include "benchmarks/plan_row.h"
+#include "benchmarks/results.h"
 #include "benchmarks/row.h"
 #include "benchmarks/tank_row.h"
 #include "maxwrench/problem.h"
@@ -90,7 +91,9 @@ std::string refuse_words(const RowOf& claim, bool has_value) {
       claim.text("integrator").empty()
           ? status == to_string(Status::kOptimal) || status == to_string(Status::kBestFound)
           : status == to_string(Status::kReached);
-  if (has_value && !answered && status != to_string(Status::kBudgetExhausted)) {
+  const bool interrupted =
+      claim.text("integrator").empty() && status == to_string(Status::kBudgetExhausted);
+  if (has_value && !answered && !interrupted) {
     return fmt::format("status: got '{}' beside a value", status);
   }
   if (has_value) return "";
@@ -147,21 +150,23 @@ RowCheck check_plan(const Problem& problem, const Case& c, const RowOf& claim, d
 /// By the experiment again, of whose steps a reading depends to their tolerance.
 RowCheck check_experiment(const Problem& problem, const Case& c, const RowOf& claim,
                           double reading) {
-  constexpr double kTolerance = 1e-4;
   Problem changed = problem;
   if (problem.motion) set_scheme("scheme", c.scheme, changed);
   const TankRow anew = run_experiment(changed, c);
+  const Eigen::VectorXd theta_r = claim.vector("theta_r");
   RowCheck check;
   check.has_value = true;
   check.deviation = std::abs(anew.reading - reading) / (1 + std::abs(reading));
   if (!anew.has_value()) {
     check.refusal = fmt::format("its experiment has no reading: {}", anew.reason.str());
-  } else if (!(check.deviation <= kTolerance)) {
+  } else if (!(check.deviation <= kSameReading)) {
     check.refusal = fmt::format("its experiment has the reading {:.9g}", anew.reading);
   } else if (anew.unit != claim.text("unit")) {
     check.refusal = fmt::format("unit: expected '{}'", anew.unit);
-  } else if (anew.reason.str().empty() != claim.text("reason").empty()) {
-    check.refusal = fmt::format("reason: expected '{}'", anew.reason.str());
+  } else if (anew.missed.empty() != claim.text("reason").empty()) {
+    check.refusal = fmt::format("reason: expected '{}'", anew.missed);
+  } else if (theta_r.size() != anew.theta_r.size() || theta_r != anew.theta_r) {
+    check.refusal = "theta_r: expected the default of the task";
   } else {
     check.refusal = refuse_other(claim, "yardstick", anew.planned);
   }

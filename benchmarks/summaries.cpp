@@ -101,11 +101,13 @@ std::vector<FailureSummary> summarise_failures(const std::vector<ResultRow>& row
   for (const ResultRow& row : rows) {
     if (row.solved()) continue;
     const Case& c = row.choice;
-    FailureSummary& failure = failures[{c.problem, c.scheme, c.lp, row.status, row.reason}];
+    FailureSummary& failure =
+        failures[{c.problem, c.scheme, c.lp, c.integrator, row.status, row.reason}];
     ++failure.rows;
     failure.problem = c.problem;
     failure.scheme = c.scheme;
     failure.lp = c.lp;
+    failure.integrator = c.integrator;
     failure.status = row.status;
     failure.reason = row.reason;
   }

@@ -42,7 +42,7 @@ std::vector<CostSummary> summarise_costs(const std::vector<ResultRow>& rows);
 
 /// Rows without a value that ended alike, whatever measure, wrench, search and seed.
 struct FailureSummary {
-  std::string problem, scheme, lp, status, reason;
+  std::string problem, scheme, lp, integrator, status, reason;
   long rows = 0;
 };
 /// The most frequent first.

@@ -25,11 +25,12 @@ void conclude_experiment(const TankRun& run, TankRow& row) {
   static_cast<Verdict&>(row) = run;
   row.evaluations = run.evaluations;
   if (run.status != Status::kReached) return;
-  row.reading = reading_of(run.summary);
-  if (!std::isfinite(row.reading)) {
-    row.conclude(Status::kNoneFound, "no reading: " + run.summary.missed);
-  } else if (!run.summary.held) {
-    row.conclude(Status::kReached, "not held: " + run.summary.missed);
+  row.missed = run.summary.missed;
+  const double reading = reading_of(run.summary);
+  if (std::isfinite(reading) && run.summary.drift < kLost) {
+    row.reading = reading;
+  } else {
+    row.conclude(Status::kNoneFound, "the posture was lost before the end");
   }
 }
 
@@ -71,12 +72,8 @@ void carry_out_plan(const Problem& problem, TankRow& row) {
 }  // namespace
 
 std::vector<std::string> served_integrators(const Problem& problem, const std::string& measure) {
-  std::vector<std::string> names;
-  if (problem.contact || measure != Case().measure) return names;
-  for (const IntegratorEntry& entry : integrators()) {
-    if (entry.stiff) names.emplace_back(entry.name);
-  }
-  return names;
+  const bool serves = !problem.contact && measure == Case().measure;
+  return serves ? stiff_integrators() : std::vector<std::string>();
 }
 
 TankRow run_experiment(const Problem& problem, const Case& c) {
@@ -101,7 +98,8 @@ std::vector<std::string> values(const Problem& problem, const TankRow& row) {
   cells.insert(cells.end(),
                {to_string(row.status), row.has_value() ? exact_text(row.reading) : "", "", row.unit,
                 known(row.planned), problem.unit(), problem.label, exact_text(row.theta_r), "", "",
-                "", "", "", "", "", fmt::format("{}", row.evaluations), row.reason.str(), ""});
+                "", "", "", "", "", fmt::format("{}", row.evaluations),
+                row.has_value() ? row.missed : row.reason.str(), ""});
   return cells;
 }
 

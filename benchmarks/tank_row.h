@@ -14,14 +14,15 @@ namespace maxwrench {
 std::vector<std::string> served_integrators(const Problem& problem, const std::string& measure);
 
 /// `Row` of a case with an integrator: what the virtual tank, without imperfections, makes of the
-/// task's default posture or, held throughout, plan. kReached with a reading, whether or not it was
-/// held; `reason` says what it missed.
+/// task's default posture, which a task in time holds throughout. kReached with a reading, whether
+/// or not it was held; kNoneFound if the posture was lost.
 struct TankRow : Verdict {
   Case choice;
   const char* unit = "";                                      ///< of both
   double planned = std::numeric_limits<double>::quiet_NaN();  ///< c'h that the posture or plan has
   /// c'h_e of the load cell: the mean of the hold, the least along a path, that at t_h of a heave.
   double reading = std::numeric_limits<double>::quiet_NaN();
+  std::string missed;       ///< why it was not held; empty: it was
   Eigen::VectorXd theta_r;  ///< of a plan knot by knot
   long evaluations = 0;     ///< of the derivatives
   double wall_s = 0;

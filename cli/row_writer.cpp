@@ -8,7 +8,6 @@
 #include "benchmarks/machine.h"
 #include "benchmarks/plan_row.h"
 #include "benchmarks/tank_row.h"
-
 #include "benchmarks/write_file.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/version.h"

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -107,17 +108,14 @@ TankRun simulate_row(const Problem& problem, const SimulateOptions& options, con
 }
 
 void require_stiff(const std::string& name) {
-  std::string stiff;
-  for (const IntegratorEntry& entry : integrators()) {
-    if (!entry.stiff) continue;
-    if (entry.name == name) return;
-    stiff += std::string(" ") + entry.name;
-  }
+  const std::vector<std::string> stiff = stiff_integrators();
+  if (std::find(stiff.begin(), stiff.end(), name) != stiff.end()) return;
   for (const Absent& absent : not_built_in()) {
     if (absent.name == name) find_integrator(name);  // says what is missing
   }
-  throw std::invalid_argument("--integrator: got " + name + ", expected one for stiff systems:" +
-                              (stiff.empty() ? " none is built in" : stiff));
+  throw std::invalid_argument(
+      fmt::format("--integrator: got {}, expected one for stiff systems: {}", name,
+                  stiff.empty() ? "none is built in" : fmt::format("{}", fmt::join(stiff, " "))));
 }
 
 int simulate_static(const Problem& task, const SimulateOptions& options) {

@@ -384,6 +384,28 @@ function claims.solver(contest, lp, column)
   fail("results/report/solvers.csv: no " .. lp .. " in '" .. contest .. "'")
 end
 
+-- A column of one integrator of the virtual tank.
+function claims.integrator(name, column)
+  local row = rows_of("report/integrators.csv", "integrator=" .. name)[1]
+  return number(row[column], "results/report/integrators.csv: " .. column)
+end
+
+-- By how much the readings of one experiment differ at most between integrators [%].
+function claims.readings_apart()
+  local least, most, apart = {}, {}, 0
+  for _, row in ipairs(rows_of("report/experiments.csv", "")) do
+    local reading = tonumber(row.reading)
+    if reading then
+      local key = table.concat({row.problem, row.wrench, row.lp, row.scheme}, " ")
+      least[key] = math.min(least[key] or reading, reading)
+      most[key] = math.max(most[key] or reading, reading)
+      local size = math.max(math.abs(most[key]), math.abs(least[key]))
+      apart = math.max(apart, 100 * (most[key] - least[key]) / size)
+    end
+  end
+  return apart
+end
+
 -- The solvers of a contest of the report, best first.
 function results.solver_rows(contest)
   local found = false

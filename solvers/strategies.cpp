@@ -263,6 +263,14 @@ std::span<const SearchEntry> facet_searches() {
   return kFacetSearches;
 }
 std::span<const IntegratorEntry> integrators() { return kIntegrators; }
+
+std::vector<std::string> stiff_integrators() {
+  std::vector<std::string> names;
+  for (const IntegratorEntry& entry : kIntegrators) {
+    if (entry.stiff) names.emplace_back(entry.name);
+  }
+  return names;
+}
 std::span<const Absent> not_built_in() {
   static const std::vector<Absent> kAbsent = make_absent();
   return kAbsent;

@@ -15,8 +15,9 @@ ReportSection value_section(const Changes& changes) {
   table.title = fmt::format("Values that differ; {} are the same, {} within rounding", changes.same,
                             changes.rounded);
   table.note = fmt::format(
-      "In status, or by more than {:g} of 1 + |beta|; what differs less is within rounding.",
-      kSameValue);
+      "In status, or by more than {:g} of 1 + |beta|, of experiments {:g}; what differs less is "
+      "within rounding.",
+      kSameValue, kSameReading);
   table.columns = case_columns();
   table.columns.insert(table.columns.end(), {"status_a", "status_b", "beta_a", "beta_b", "unit"});
   for (const RowPair& pair : changes.changed) {

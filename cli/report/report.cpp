@@ -37,12 +37,14 @@ std::string fact_of(const Results& results, const std::string& start) {
 
 /// How many different names the rows have in each column that a plan chooses.
 std::string extent_of(const std::vector<ResultRow>& rows) {
-  std::set<std::string> problems, measures, lps, searches;
+  std::set<std::string> problems, measures, lps, searches, integrators;
   std::set<std::uint64_t> seeds;
   for (const ResultRow& row : rows) {
     problems.insert(row.choice.problem);
     measures.insert(row.choice.measure);
     lps.insert(row.choice.lp);
+    if (row.is_experiment()) integrators.insert(row.choice.integrator);
+    if (row.is_experiment()) continue;
     searches.insert(row.choice.search);
     seeds.insert(row.choice.seed);
   }
@@ -50,9 +52,9 @@ std::string extent_of(const std::vector<ResultRow>& rows) {
       std::count_if(rows.begin(), rows.end(), [](const ResultRow& row) { return !row.solved(); });
   return fmt::format(
       "{}, of which {} without a value; problems {}, measures {}, lower-level solvers {}, searches "
-      "{}, seeds {}",
+      "{}, seeds {}, integrators {}",
       rows.size(), failed, problems.size(), measures.size(), lps.size(), searches.size(),
-      seeds.size());
+      seeds.size(), integrators.size());
 }
 
 /// What a page says of one folder; `mark` stands behind the names of facts.

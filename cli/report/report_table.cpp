@@ -15,7 +15,10 @@ namespace {
 bool is_whole(double value) { return value == std::round(value) && std::abs(value) < 9e15; }
 
 /// Whether a column holds values of tasks.
-bool is_value(const std::string& column) { return column == "best" || column.starts_with("beta"); }
+bool is_value(const std::string& column) {
+  return column == "best" || column == "planned" || column == "reading" ||
+         column.starts_with("beta");
+}
 
 /// For people: values of tasks with eight digits, other numbers with four; `none` for what is none.
 std::string shown(const std::string& column, const ReportCell& cell, const char* none) {

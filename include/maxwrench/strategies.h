@@ -3,7 +3,9 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "maxwrench/integrator.h"
 #include "maxwrench/lp_solver.h"
@@ -93,6 +95,8 @@ std::span<const SearchEntry> plan_searches();
 /// Searches of static tasks by linf_polytope, of robots whose actuators have few facets.
 std::span<const SearchEntry> facet_searches();
 std::span<const IntegratorEntry> integrators();
+/// The names of those that serve the virtual tank, whose load cell is stiff.
+std::vector<std::string> stiff_integrators();
 
 /// A strategy that this build leaves out. `family` is that of its table: lp, search or integrator.
 struct Absent {

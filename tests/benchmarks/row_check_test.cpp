@@ -139,12 +139,16 @@ TEST(CheckRow, CarriesOutExperiments) {
     c.integrator = "cvode";
     const Cells good = values(problem, run_experiment(problem, c));
     EXPECT_EQ(check(problem, good).refusal, "") << name;
-    for (const char* column : {"beta", "yardstick", "unit", "status", "reason", "integrator"}) {
+    for (const char* column :
+         {"beta", "yardstick", "unit", "status", "reason", "integrator", "theta_r"}) {
       Cells row = good;
       std::string& text = cell(row, column);
       text = text.empty() || text.front() > '9' ? "x" : scaled(text, 1.001);
       EXPECT_NE(check(problem, row).refusal, "") << name << " " << column;
     }
+    Cells row = good;
+    cell(row, "status") = "budget_exhausted";
+    EXPECT_NE(check(problem, row).refusal, "") << name;
   }
 }
 

@@ -94,8 +94,6 @@ TEST(Contests, SolversOnTheSameInstances) {
   EXPECT_EQ(contests[0].cost[1], (std::vector<double>{4, kInfinity}));
 }
 
-/// A third solver was not tried on the search t of f/a, which therefore is no instance; that it has
-/// no row of g/b at all is its failure.
 /// Experiments are no searches, and their times are those of all their evaluations.
 TEST(Contests, ExperimentsStandApart) {
   std::vector<ResultRow> rows = five_rows();
@@ -115,6 +113,8 @@ TEST(Contests, ExperimentsStandApart) {
   EXPECT_EQ(solver_contests(rows)[0].instances(), solver_contests(five_rows())[0].instances());
 }
 
+/// A third solver was not tried on the search t of f/a, which therefore is no instance; that it has
+/// no row of g/b at all is its failure.
 TEST(Contests, WhatWasNotTriedIsNoFailure) {
   std::vector<ResultRow> rows = five_rows();
   rows.push_back(row("f/a", "third", "s", 10, 9));

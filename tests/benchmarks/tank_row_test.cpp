@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <tuple>
 
 #include "benchmarks/row.h"
 #include "maxwrench/load.h"
@@ -20,18 +21,20 @@ Case experiment(const char* problem, const char* integrator, const char* scheme 
   return c;
 }
 
-/// Two integrators agree, on 0.5 % less than was planned: of a posture, a turn and a heave.
+/// Two integrators agree, on 0.5 % less than was planned: of a posture, a turn and a heave, which
+/// peaks while thrusters lag behind.
 TEST(TankRow, IntegratorsReadTheSame) {
-  for (const auto& [name, scheme] :
-       {std::pair{"uvms/valve", ""}, {"mobile/trajectory", "spline"}, {"uvms/valve_impulse", ""}}) {
+  for (const auto& [name, scheme, lag] : {std::tuple{"uvms/valve", "", 1e-4},
+                                          {"uvms/valve_trajectory", "spline", 1e-3},
+                                          {"uvms/valve_impulse", "", 0.02}}) {
     const Problem problem = load_problem(name);
     const TankRow a = run_experiment(problem, experiment(name, "cvode", scheme));
     const TankRow b = run_experiment(problem, experiment(name, "ida", scheme));
     for (const TankRow* row : {&a, &b}) {
       ASSERT_TRUE(row->has_value()) << name << " " << row->reason.str();
       EXPECT_EQ(row->status, Status::kReached);
-      EXPECT_EQ(row->reason.str(), "");
-      EXPECT_NEAR(row->reading, 0.995 * row->planned, 0.02 * row->planned) << name;
+      EXPECT_EQ(row->missed, "");
+      EXPECT_NEAR(row->reading, 0.995 * row->planned, lag * row->planned) << name;
       EXPECT_GT(row->evaluations, 1000);
     }
     EXPECT_EQ(a.planned, b.planned);

@@ -85,8 +85,9 @@ TEST(Report, TablesOfOurResultsAreOfThem) {
   const TemporaryFolder folder;
   ASSERT_EQ(run_maxwrench("report " + results.string() + " --out new", folder.path()).exit_status,
             0);
-  for (const char* file :
-       {"solvers.csv", "failures.csv", "experiments.csv", "race_standings.csv"}) {
+  for (const char* file : {"tasks.csv", "solvers.csv", "failures.csv", "integrators.csv",
+                           "experiments.csv", "race_standings.csv"}) {
+    expect_known_columns(results / "report" / file);
     EXPECT_EQ(read_text(folder.path() / "new" / file), read_text(results / "report" / file))
         << file;
   }

@@ -175,7 +175,7 @@ TEST_F(RunPlan, CarriesOutExperiments) {
     EXPECT_EQ(said["planned"], csv.number(i, "yardstick")) << command;
   }
   const CommandResult report = run_maxwrench("report one", folder_.path());
-  EXPECT_NE(report.out.find("Integrators of the virtual tank"), std::string::npos);
+  EXPECT_NE(report.out.find("Experiments in the virtual tank"), std::string::npos);
   EXPECT_EQ(run_maxwrench("verify one/values.csv", folder_.path()).exit_status, 0);
 }
 

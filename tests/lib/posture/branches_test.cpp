@@ -47,7 +47,7 @@ TEST(Branches, AreAsManyAsTheoryHas) {
 
 TEST(Branches, OfRandomChainsReachThePose) {
   Random random(2);
-  for (int sample = 0; sample < 28; ++sample) {
+  for (int sample = 0; sample<28; sample += kSampleDivisor> 1 ? 3 : 1) {
     const auto& axes = kIntegrableAxes[static_cast<std::size_t>(sample) % kIntegrableAxes.size()];
     const Problem problem = problem_with_dependents(random, axes, 1 + sample % 4);
     expect_complete(problem, 10 / std::min(10, kSampleDivisor) + 1, 20, -1);
