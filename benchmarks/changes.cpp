@@ -19,7 +19,9 @@ RowsByCase rows_by_case(const Results& results) {
 
 void compare_values(const RowPair& pair, Changes& changes) {
   const ResultRow &a = *pair.a, &b = *pair.b;
-  const bool comparable = a.status == b.status && a.beta.has_value() == b.beta.has_value();
+  const bool as_held = !a.is_experiment() || a.reason.empty() == b.reason.empty();
+  const bool comparable =
+      as_held && a.status == b.status && a.beta.has_value() == b.beta.has_value();
   const double away = comparable && a.beta ? std::abs(*a.beta - *b.beta) : 0;
   const double rounding = a.is_experiment() ? kSameReading : kSameValue;
   if (!comparable || away > rounding * (1 + std::abs(a.beta.value_or(0)))) {

@@ -36,7 +36,8 @@ struct TimeChange {
 
 /// What differs between two folders.
 struct Changes {
-  /// In status, in having a value, or by more than `kSameValue`, of experiments `kSameReading`.
+  /// In status, in having a value, or by more than `kSameValue`; of experiments by `kSameReading`,
+  /// or in being held.
   std::vector<RowPair> changed;
   long same = 0;     ///< status and value, bit by bit
   long rounded = 0;  ///< less than `changed`

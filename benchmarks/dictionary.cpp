@@ -17,7 +17,8 @@ constexpr ColumnMeaning kDictionary[] = {
     {"scheme", "", "how knots of a task in time become motion; empty: a static task"},
     {"integrator", "", "of the virtual tank that tried the default posture or plan; empty: none"},
     // values.csv
-    {"status", "", "best_found, of an experiment reached, or why there is no value"},
+    {"status", "",
+     "best_found, of a given posture optimal, of an experiment reached, or why there is no value"},
     {"beta", "unit", "the largest value that was found; of an experiment the reading; empty: none"},
     {"continuous", "unit", "of a plan, the value between its instants, too"},
     {"unit", "", "of beta"},
@@ -50,7 +51,7 @@ constexpr ColumnMeaning kDictionary[] = {
     {"best_known", "unit", "what targets lie below: the proven bound, else the best of all runs"},
     {"proven", "", "yes: best_known is a proven bound"},
     {"role", "", "default: the search of solve; contender; peer: through a solver of others"},
-    {"below", "", "how far beta stays below the best value of its task, as a share of it"},
+    {"below", "", "how far beta stays below the proven bound or the best value, as a share of it"},
     {"evaluations_to_tenth", "", "evaluations until 10 % below best_known; empty: never"},
     {"evaluations_to_hundredth", "", "evaluations until 1 % below"},
     {"evaluations_to_thousandth", "", "evaluations until 0.1 % below"},

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -17,6 +18,11 @@
 
 namespace maxwrench {
 namespace {
+
+/// How a row without a value may have ended.
+constexpr Status kNoValue[] = {Status::kInfeasible,      Status::kUnbounded,
+                               Status::kBudgetExhausted, Status::kInvalidPosture,
+                               Status::kNumericalError,  Status::kNoneFound};
 
 /// A row of a file.
 struct RowOf {
@@ -84,8 +90,12 @@ std::string refuse_other(const RowOf& claim, const char* column, double anew) {
                              : fmt::format("{}: its posture has none", column);
 }
 
-/// What its words say: whether a row of this status can have a value, and its unit.
-std::string refuse_words(const RowOf& claim, bool has_value) {
+/// What its words say: whether a row of this status can have a value, and what belongs to its task.
+std::string refuse_words(const Problem& problem, const RowOf& claim, bool has_value) {
+  if (claim.text("label") != problem.label) return "label: expected '" + problem.label + "'";
+  if (claim.text("yardstick_unit") != problem.unit()) {
+    return fmt::format("yardstick_unit: expected '{}'", problem.unit());
+  }
   const std::string& status = claim.text("status");
   const bool answered =
       claim.text("integrator").empty()
@@ -97,7 +107,9 @@ std::string refuse_words(const RowOf& claim, bool has_value) {
     return fmt::format("status: got '{}' beside a value", status);
   }
   if (has_value) return "";
-  if (answered) return fmt::format("status: got '{}' without a value", status);
+  const bool known = std::any_of(std::begin(kNoValue), std::end(kNoValue),
+                                 [&](Status each) { return status == to_string(each); });
+  if (!known) return fmt::format("status: got '{}' without a value", status);
   return claim.text("reason").empty() ? "it has no value and no reason why" : "";
 }
 
@@ -142,8 +154,15 @@ RowCheck check_plan(const Problem& problem, const Case& c, const RowOf& claim, d
   }
   const PlanRow anew = evaluate_plan(changed, resolve_plan(changed, c), unstacked(x, x.size() / r));
   RowCheck check = compare(anew, anew.plan.value, value);
-  if (check.refusal.empty())
+  if (check.refusal.empty() && anew.unit != claim.text("unit")) {
+    check.refusal = fmt::format("unit: expected '{}'", anew.unit);
+  }
+  if (check.refusal.empty() && !claim.text("yardstick").empty()) {
+    check.refusal = "yardstick: expected none of a plan";
+  }
+  if (check.refusal.empty()) {
     check.refusal = refuse_other(claim, "continuous", anew.plan.continuous);
+  }
   return check;
 }
 
@@ -173,17 +192,39 @@ RowCheck check_experiment(const Problem& problem, const Case& c, const RowOf& cl
   return check;
 }
 
+/// Whether a row that says why it has no value is right. A search is not made again: that it found
+/// nothing is its own word.
+std::string refuse_failure(const Problem& problem, const Case& c, const RowOf& claim) {
+  Problem changed = problem;
+  if (problem.motion) set_scheme("scheme", c.scheme, changed);
+  if (!c.integrator.empty()) {
+    const TankRow anew = run_experiment(changed, c);
+    if (anew.has_value()) return fmt::format("its experiment has the reading {:.9g}", anew.reading);
+    return to_string(anew.status) == claim.text("status") ? ""
+                                                          : "status: its experiment has another";
+  }
+  complete(changed, c);  // its names mean something together
+  const Eigen::VectorXd theta_r = claim.vector("theta_r");
+  if (!c.search.empty() || problem.motion || theta_r.size() != problem.redundancy()) return "";
+  const Row anew = evaluate(problem, resolve(problem, c), theta_r);
+  return anew.has_value() ? fmt::format("its posture has the value {:.9g}", anew.capability.beta)
+                          : "";
+}
+
+RowCheck checked(const Problem& problem, const Case& c, const RowOf& claim) {
+  const std::optional<double> beta = claim.csv.number(claim.row, "beta");
+  std::string refusal = refuse_words(problem, claim, beta.has_value());
+  if (refusal.empty() && !beta) refusal = refuse_failure(problem, c, claim);
+  if (!beta || !refusal.empty()) return {refusal, beta.has_value(), 0};
+  const auto of_search = problem.motion ? check_plan : check_posture;
+  return (c.integrator.empty() ? of_search : check_experiment)(problem, c, claim, *beta);
+}
+
 }  // namespace
 
 RowCheck check_row(const Problem& problem, const CsvFile& csv, std::size_t row) {
   try {
-    const RowOf claim{csv, row};
-    const std::optional<double> beta = csv.number(row, "beta");
-    const std::string words = refuse_words(claim, beta.has_value());
-    if (!beta || !words.empty()) return {words, beta.has_value(), 0};
-    const Case c = case_of(csv, row);
-    const auto of_search = problem.motion ? check_plan : check_posture;
-    return (c.integrator.empty() ? of_search : check_experiment)(problem, c, claim, *beta);
+    return checked(problem, case_of(csv, row), {csv, row});
   } catch (const std::invalid_argument& error) {
     return {error.what(), true, 0};
   }

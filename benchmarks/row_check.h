@@ -22,7 +22,8 @@ struct RowCheck {
 /// multipliers do: balance, limits, and a gap that proves them optimal. Unit, yardstick and
 /// `continuous` are compared, too, and the status must be one that has a value, or has none. An
 /// experiment is carried out again: its reading, to 1e-4, what was planned, and whether it was
-/// held. What cannot be read is a refusal.
+/// held. Of a row without a value the names and the status must be known, and experiments and
+/// evaluations are made again; searches are not. What cannot be read is a refusal.
 RowCheck check_row(const Problem& problem, const CsvFile& csv, std::size_t row);
 
 }  // namespace maxwrench

@@ -52,7 +52,7 @@ std::vector<SearchSummary> summarise_searches(const std::vector<ResultRow>& rows
   const std::map<TaskKey, TaskSummary> tasks = tasks_by_key(rows);
   std::map<std::string, Sample> samples;
   for (const ResultRow& row : rows) {
-    if (row.is_experiment()) continue;
+    if (row.choice.search.empty()) continue;
     Sample& sample = samples[row.choice.search];
     ++sample.summary.rows;
     if (row.us) sample.us.push_back(*row.us);

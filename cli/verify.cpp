@@ -103,6 +103,10 @@ int check_lp_file(const VerifyOptions& options) {
 
 int check_file(const VerifyOptions& options) {
   if (is_values_file(options.file)) {
+    if (!options.choice.problem.empty()) {
+      throw std::invalid_argument("--problem: got '" + options.choice.problem +
+                                  "', expected none: rows name their problems");
+    }
     return verify_rows(options.file, options.sample, options.choice.seed, options.thread_count(),
                        options.json);
   }
@@ -136,7 +140,8 @@ void add_verify(CLI::App& app, int& exit_status) {
           "what it is to be about, shipped name, task file or MPS file; default: what it says")
       ->check(refuse_empty);
   command.add_option("--sample", options->sample, "so many rows of values.csv (0: all)")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(CLI::NonNegativeNumber);
   command.add_option("--seed", options->choice.seed, "draws them")
       ->capture_default_str()
       ->check(refuse_seed);

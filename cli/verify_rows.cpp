@@ -40,15 +40,23 @@ std::vector<std::size_t> draw(std::size_t all, std::size_t sample, std::uint64_t
 std::vector<RowCheck> check_all(const CsvFile& csv, const std::vector<std::size_t>& rows,
                                 int threads) {
   std::map<std::string, Problem> problems;
+  std::map<std::string, std::string> unknown;  // with what is wrong
   for (const std::size_t row : rows) {
     const std::string& name = csv.text(row, "problem");
-    if (!problems.contains(name)) problems.emplace(name, load_problem(name));
+    if (problems.contains(name) || unknown.contains(name)) continue;
+    try {
+      problems.emplace(name, load_problem(name));
+    } catch (const std::invalid_argument& error) {
+      unknown.emplace(name, error.what());
+    }
   }
   std::vector<RowCheck> checks(rows.size());
   parallel_for(threads, static_cast<long>(rows.size()), [&](long i) {
     const std::size_t row = rows[static_cast<std::size_t>(i)];
+    const std::string& name = csv.text(row, "problem");
+    const auto wrong = unknown.find(name);
     checks[static_cast<std::size_t>(i)] =
-        check_row(problems.at(csv.text(row, "problem")), csv, row);
+        wrong != unknown.end() ? RowCheck{wrong->second} : check_row(problems.at(name), csv, row);
   });
   return checks;
 }
@@ -90,8 +98,10 @@ int verify_rows(const std::string& file, std::size_t sample, std::uint64_t seed,
                 {"deviation", deviation},
                 {"refused", refused}});
   } else {
-    fmt::print("{}\n{}: {} of {} rows, {} of them with a value, {} with the reason why not\n", file,
-               refused.empty() ? "verified" : "refused", rows.size(), all, values,
+    fmt::print("{}\n", file);
+    if (!refused.empty()) fmt::print("refused: {} of the rows that were checked\n", refused.size());
+    fmt::print("{}: {} of {} rows, {} of them with a value, {} with the reason why not\n",
+               refused.empty() ? "verified" : "checked", rows.size(), all, values,
                static_cast<long>(rows.size()) - values);
     fmt::print("largest deviation {:.2g} of 1 + |beta|\n", deviation);
     for (const std::string& each : refused) fmt::print("refused: {}\n", each);

@@ -20,8 +20,6 @@ EcdfPanel profile_panel(const Contest& contest) {
   return panel;
 }
 
-}  // namespace
-
 std::vector<std::string> draw_profiles(const std::vector<Contest>& contests) {
   std::vector<std::string> named;
   for (const Contest& contest : contests) {
@@ -38,9 +36,10 @@ std::vector<std::string> draw_profiles(const std::vector<Contest>& contests) {
   return figures;
 }
 
-ReportTable contest_table(const std::vector<Contest>& contests, const std::string& method,
-                          const std::string& cost) {
-  ReportTable table;
+}  // namespace
+
+ReportSection contest_section(ReportTable table, const std::vector<Contest>& contests,
+                              const std::string& method, const std::string& cost) {
   table.columns = {"contest", method,      "solved", "instances", "share_best", "share_double",
                    cost,      "reference", "times",  "times_low", "times_high", "p"};
   for (const Contest& contest : contests) {
@@ -51,7 +50,7 @@ ReportTable contest_table(const std::vector<Contest>& contests, const std::strin
                             each.p});
     }
   }
-  return table;
+  return {std::move(table), draw_profiles(contests)};
 }
 
 }  // namespace maxwrench

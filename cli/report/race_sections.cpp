@@ -58,15 +58,16 @@ ReportSection standing_section(const std::vector<RaceGroup>& groups) {
 ReportSection race_contest_section(const std::vector<RaceGroup>& groups) {
   std::vector<Contest> contests;
   for (const RaceGroup& group : groups) contests.push_back(search_contest(group));
-  ReportTable table = contest_table(contests, "search", "median_ms");
-  table.name = "race_significance";
-  table.title = "The race: profiles and significance";
-  table.note =
+  ReportTable table{
+      "race_significance",
+      "The race: profiles and significance",
       "Performance profiles of the processor time to 0.1 % below the best known value; instances "
       "are tasks and seeds, and an attempt that never got there has failed. Times are "
       "those of the default search: a median with its bootstrap interval of 95 %, and "
-      "Wilcoxon's signed rank test, corrected by Holm.";
-  return {table, draw_profiles(contests)};
+      "Wilcoxon's signed rank test, corrected by Holm.",
+      {},
+      {}};
+  return contest_section(std::move(table), contests, "search", "median_ms");
 }
 
 ReportSection expected_section(const std::vector<Comparison>& races) {

@@ -42,10 +42,9 @@ std::string extent_of(const std::vector<ResultRow>& rows) {
   for (const ResultRow& row : rows) {
     problems.insert(row.choice.problem);
     measures.insert(row.choice.measure);
-    lps.insert(row.choice.lp);
+    if (row.choice.lp != kNoSolver) lps.insert(row.choice.lp);
     if (row.is_experiment()) integrators.insert(row.choice.integrator);
-    if (row.is_experiment()) continue;
-    searches.insert(row.choice.search);
+    if (!row.choice.search.empty()) searches.insert(row.choice.search);
     seeds.insert(row.choice.seed);
   }
   const auto failed =

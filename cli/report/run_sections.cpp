@@ -43,18 +43,18 @@ ReportSection task_section(const std::vector<ResultRow>& rows) {
 }
 
 ReportSection solver_section(const std::vector<ResultRow>& rows) {
-  const std::vector<Contest> contests = solver_contests(rows);
-  ReportTable table = contest_table(contests, "lp", "us");
-  table.name = "solvers";
-  table.title = "Lower-level solvers";
-  table.note =
+  ReportTable table{
+      "solvers",
+      "Lower-level solvers",
       "Performance profiles (Dolan and Moré) of the time of an evaluation on the same problem, "
       "measure, wrench, search and seed, where all solvers that serve were tried. Rows without a "
       "value, and what a solver does not serve, count as never solved. Times are those of the "
       "reference, the best at twice the cheapest: a "
       "median with its bootstrap interval of 95 %, and Wilcoxon's signed rank test, corrected by "
-      "Holm.";
-  return {table, draw_profiles(contests)};
+      "Holm.",
+      {},
+      {}};
+  return contest_section(std::move(table), solver_contests(rows), "lp", "us");
 }
 
 ReportSection search_section(const std::vector<ResultRow>& rows) {
@@ -139,15 +139,16 @@ ReportSection cost_section(const std::vector<ResultRow>& rows) {
 }
 
 ReportSection integrator_section(const std::vector<ResultRow>& rows) {
-  const std::vector<Contest> contests = integrator_contests(rows);
-  ReportTable table = contest_table(contests, "integrator", "experiment_ms");
-  table.name = "integrators";
-  table.title = "Integrators of the virtual tank";
-  table.note =
+  ReportTable table{
+      "integrators",
+      "Integrators of the virtual tank",
       "Performance profiles of the processor time of an experiment, with the evaluation of what it "
       "tries, where all integrators that serve were tried, at the same tolerances. Experiments "
-      "without a reading count as never solved.";
-  return {table, draw_profiles(contests)};
+      "without a reading count as never solved.",
+      {},
+      {}};
+  return contest_section(std::move(table), integrator_contests(rows), "integrator",
+                         "experiment_ms");
 }
 
 ReportSection experiment_section(const std::vector<ResultRow>& rows) {
@@ -183,8 +184,11 @@ ReportSection failure_section(const std::vector<ResultRow>& rows) {
 }
 
 ReportSection row_section(const std::vector<ResultRow>& rows) {
-  ReportTable table{
-      "rows", "All rows", "What values.csv and times.csv hold, without vectors.", {}, {}};
+  ReportTable table{"rows",
+                    "All rows",
+                    "Case, status, value, evaluations, time and reason of every row.",
+                    {},
+                    {}};
   table.columns = case_columns();
   table.columns.insert(table.columns.end(),
                        {"status", "beta", "unit", "evaluations", "us", "reason"});

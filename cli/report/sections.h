@@ -29,13 +29,12 @@ std::vector<ReportSection> change_sections(const Results& a, const Results& b);
 /// Every column with its unit and meaning.
 ReportSection dictionary_section();
 
-/// Performance profiles, a figure for each contest: `performance_ratios` as shares of instances.
-std::vector<std::string> draw_profiles(const std::vector<Contest>& contests);
 /// The columns of a case.
 std::vector<ReportCell> case_cells(const Case& c);
-/// A line for each method of each contest; `method` and `cost` are the columns of its name and
-/// costs.
-ReportTable contest_table(const std::vector<Contest>& contests, const std::string& method,
-                          const std::string& cost);
+/// Fills a table that has its name, title and note with a line for each method of each contest;
+/// `method` and `cost` are the columns of its name and costs. Performance profiles, a figure for
+/// each contest: `performance_ratios` as shares of instances.
+ReportSection contest_section(ReportTable table, const std::vector<Contest>& contests,
+                              const std::string& method, const std::string& cost);
 
 }  // namespace maxwrench

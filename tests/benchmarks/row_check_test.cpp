@@ -86,7 +86,13 @@ TEST(CheckRow, AsksForAReasonWhereThereIsNoValue) {
   EXPECT_NE(check(problem, row).refusal, "");
   cell(row, "reason") = "the time ran out";
   EXPECT_NE(check(problem, row).refusal.find("without a value"), std::string::npos);
+  for (const char* status : {"proven", "reached", "x", ""}) {
+    cell(row, "status") = status;
+    EXPECT_NE(check(problem, row).refusal.find("without a value"), std::string::npos) << status;
+  }
   cell(row, "status") = "none_found";
+  EXPECT_NE(check(problem, row).refusal.find("has the value"), std::string::npos);
+  cell(row, "search") = "grid";
   EXPECT_EQ(check(problem, row).refusal, "");
   EXPECT_FALSE(check(problem, row).has_value);
 }
@@ -150,6 +156,26 @@ TEST(CheckRow, CarriesOutExperiments) {
     cell(row, "status") = "budget_exhausted";
     EXPECT_NE(check(problem, row).refusal, "") << name;
   }
+}
+
+/// Of rows that say that they have no value.
+TEST(CheckRow, RefusesNamesAndFailuresThatAreNot) {
+  const Problem problem = load_problem("uvms/lift");
+  Cells good = row_of(problem, "linf_polytope", Wrench::kPure);
+  cell(good, "search") = "grid";
+  cell(good, "beta") = "";
+  cell(good, "status") = "none_found";
+  cell(good, "reason") = "the time ran out";
+  EXPECT_EQ(check(problem, good).refusal, "");
+  for (const char* column :
+       {"measure", "lp", "search", "scheme", "integrator", "theta_r", "label", "yardstick_unit"}) {
+    Cells row = good;
+    cell(row, column) = "x";
+    EXPECT_NE(check(problem, row).refusal, "") << column;
+  }
+  cell(good, "search") = "";
+  cell(good, "integrator") = "cvode";
+  EXPECT_NE(check(problem, good).refusal.find("has the reading"), std::string::npos);
 }
 
 TEST(CheckRow, EvaluatesPlans) {

@@ -25,7 +25,7 @@ Case experiment(const char* problem, const char* integrator, const char* scheme 
 /// peaks while thrusters lag behind.
 TEST(TankRow, IntegratorsReadTheSame) {
   for (const auto& [name, scheme, lag] : {std::tuple{"uvms/valve", "", 1e-4},
-                                          {"uvms/valve_trajectory", "spline", 1e-3},
+                                          {"mobile/trajectory", "spline", 1e-3},
                                           {"uvms/valve_impulse", "", 0.02}}) {
     const Problem problem = load_problem(name);
     const TankRow a = run_experiment(problem, experiment(name, "cvode", scheme));

@@ -267,7 +267,7 @@ TEST_F(UvmsReference, SearchReachesWhatARandomSearchOfAnotherModelReaches) {
         Choice{lift_, "linf_polytope", Wrench::kPure}}) {
     SCOPED_TRACE(choice.problem.name + " " + choice.measure);
     Case c{choice.problem.name, choice.measure, choice.wrench};
-    c.budget = kSampleDivisor > 1 ? 5000 : 20000;
+    c.budget = 20000;
     const Row row = solve(choice.problem, resolve(choice.problem, c), 2);
     ASSERT_TRUE(row.has_value()) << row.reason.c_str();
     const double found = row.capability.beta;
