@@ -11,13 +11,15 @@
 namespace maxwrench {
 namespace {
 
-/// Microseconds of an evaluation by the cases of a table of times.
-std::map<std::vector<std::string>, double> read_times(const std::filesystem::path& file) {
+/// Microseconds of an evaluation by the cases of a table of times; counts the rows of each version.
+std::map<std::vector<std::string>, double> read_times(const std::filesystem::path& file,
+                                                      std::map<std::string, long>& versions) {
   std::map<std::vector<std::string>, double> us;
   if (!std::filesystem::exists(file)) return us;
-  const CsvFile csv = read_csv(file, with_case_columns({"evaluations"}), {"cpu_s"});
+  const CsvFile csv = read_csv(file, with_case_columns({"evaluations"}), {"cpu_s", "version"});
   if (!csv.has("cpu_s")) return us;  // of an earlier version
   for (const auto& [key, i] : rows_of_cases(csv)) {
+    if (csv.has("version")) ++versions[csv.text(i, "version")];
     const auto evaluations = csv.number(i, "evaluations");
     const auto seconds = csv.number(i, "cpu_s");
     if (!evaluations || !seconds || *evaluations == 0) continue;
@@ -44,7 +46,7 @@ void read_rows(const std::filesystem::path& folder, Results& results) {
   const CsvFile values =
       read_csv(folder / "values.csv",
                with_case_columns({"status", "beta", "unit", "yardstick", "evaluations", "reason"}));
-  const auto us = read_times(folder / "times.csv");
+  const auto us = read_times(folder / "times.csv", results.versions);
   rows_of_cases(values);  // each once
   for (std::size_t i = 0; i < values.rows.size(); ++i) {
     ResultRow& row = results.rows.emplace_back(row_of(values, i));

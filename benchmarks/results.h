@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,8 +37,10 @@ struct Results {
   std::filesystem::path folder;
   std::vector<ResultRow> rows;
   std::vector<Comparison> races;  ///< of search_comparison.csv, if it is there
-  std::string machine;            ///< machine.txt, if it is there
-  std::string plan;               ///< plan.toml, if it is there
+  /// How many rows of times.csv each version made.
+  std::map<std::string, long> versions;
+  std::string machine;  ///< machine.txt, if it is there
+  std::string plan;     ///< plan.toml, if it is there
 };
 
 /// Reads values.csv, which must be there unless a race is, times.csv, and the files of a race.

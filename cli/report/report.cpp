@@ -56,10 +56,20 @@ std::string extent_of(const std::vector<ResultRow>& rows) {
       seeds.size(), integrators.size());
 }
 
+/// The versions that made the rows, with their numbers of rows; of a race that of the folder.
+std::string versions_of(const Results& results) {
+  if (results.versions.empty()) return fact_of(results, "maxwrench");
+  std::vector<std::string> versions;
+  for (const auto& [version, rows] : results.versions) {
+    versions.push_back(fmt::format("{} ({} rows)", version, rows));
+  }
+  return fmt::format("{}", fmt::join(versions, ", "));
+}
+
 /// What a page says of one folder; `mark` stands behind the names of facts.
 void describe(const Results& results, const std::string& mark, PageHead& head) {
   head.facts.emplace_back("folder" + mark, results.folder.string());
-  head.facts.emplace_back("version" + mark, fact_of(results, "maxwrench"));
+  head.facts.emplace_back("version" + mark, versions_of(results));
   head.facts.emplace_back("machine" + mark, fact_of(results, "processor") + ", " +
                                                 fact_of(results, "cores") + " cores");
   head.facts.emplace_back("rows" + mark, extent_of(results.rows));

@@ -136,7 +136,7 @@ TEST(CheckRow, AcceptsPosturesThatTie) {
 /// Static, and in time; of another reading, or one that was not planned so.
 TEST(CheckRow, CarriesOutExperiments) {
   for (const auto& [name, scheme] :
-       {std::pair{"uvms/lift", ""}, {"uvms/valve_impulse", "spline"}}) {
+       {std::pair{"mobile/push", ""}, {"mobile/trajectory", "spline"}}) {
     const Problem problem = load_problem(name);
     Case c;
     c.problem = name;

@@ -265,6 +265,7 @@ TEST_F(UvmsReference, SearchReachesWhatARandomSearchOfAnotherModelReaches) {
        {Choice{valve_, "ellipsoid", Wrench::kPure}, Choice{valve_, "linf_polytope", Wrench::kPure},
         Choice{valve_, "linf_polytope", Wrench::kAny}, Choice{lift_, "ellipsoid", Wrench::kPure},
         Choice{lift_, "linf_polytope", Wrench::kPure}}) {
+    if (kSampleDivisor > 1 && &choice.problem == &valve_) continue;  // minutes
     SCOPED_TRACE(choice.problem.name + " " + choice.measure);
     Case c{choice.problem.name, choice.measure, choice.wrench};
     c.budget = 20000;

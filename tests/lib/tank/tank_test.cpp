@@ -155,8 +155,8 @@ TEST(Tank, ImperfectionsAreOffAndRepeatBySeed) {
   const Problem problem = load_problem("uvms/valve");
   const Row row = planned(problem, Wrench::kPure, kBeta1, "ellipsoid");
   TankOptions options;
-  options.ramp = 2;
-  options.hold = 1;
+  options.ramp = 1;
+  options.hold = 0.2;
   options.until_hold = true;
   const TankRun perfect = run(problem, row, 0, options);
   options.imperfections.seed = 4;

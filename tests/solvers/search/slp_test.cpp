@@ -93,7 +93,7 @@ TEST(Slp, KeepsTheSpeedLimitOfADependentJoint) {
     for (const Instant& at : plan.instants) rate = std::max(rate, std::abs(at.v[axes + elbow]));
     return rate;
   };
-  const long budget = kSampleDivisor > 1 ? 600 : 2000;
+  const long budget = kSampleDivisor > 1 ? 200 : 2000;
   const Plan free = plan_of(problem, search(problem, budget));
   ASSERT_EQ(free.status, Status::kOptimal) << free.reason.c_str();
   const double limit = fastest(free) / 2;
