@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <stdexcept>
 #include <system_error>
 
 #include "benchmarks/write_file.h"
@@ -30,7 +31,8 @@ Journal::Journal(std::filesystem::path file) : file_(std::move(file)) {
     if (descriptor_ < 0) refuse_output(file_, errno);
     if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       close(descriptor_);
-      refuse_output(file_, EBUSY);
+      throw std::invalid_argument(file_.string() +
+                                  ": is being written, expected one run at a time");
     }
   } while (was_removed(descriptor_));  // by who held it until now
 }

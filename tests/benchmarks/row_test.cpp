@@ -161,8 +161,9 @@ TEST(Row, PlanarOptimaAreThePapers) {
   const auto optimum = [](const char* measure, Wrench wrench) {
     return planar_optimum({"planar/force", measure, wrench});
   };
-  EXPECT_NEAR(optimum("ellipsoid", Wrench::kPure), 1.91, 0.01);
   EXPECT_NEAR(optimum("linf_polytope", Wrench::kPure), 3.47, 0.01);
+  if (kSampleDivisor > 1) return;  // half a minute
+  EXPECT_NEAR(optimum("ellipsoid", Wrench::kPure), 1.91, 0.01);
   EXPECT_NEAR(optimum("linf_polytope", Wrench::kAny), 3.88, 0.01);
 }
 

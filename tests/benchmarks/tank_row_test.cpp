@@ -27,6 +27,7 @@ TEST(TankRow, IntegratorsReadTheSame) {
   for (const auto& [name, scheme, lag] : {std::tuple{"uvms/valve", "", 1e-4},
                                           {"mobile/trajectory", "spline", 1e-3},
                                           {"uvms/valve_impulse", "", 0.02}}) {
+    if (kSampleDivisor > 1 && name != std::string("uvms/valve_impulse")) continue;  // a minute
     const Problem problem = load_problem(name);
     const TankRow a = run_experiment(problem, experiment(name, "cvode", scheme));
     const TankRow b = run_experiment(problem, experiment(name, "ida", scheme));

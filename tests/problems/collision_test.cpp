@@ -12,6 +12,7 @@
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
 #include "problems/loader/distance.h"
+#include "tests/support/support.h"
 
 namespace maxwrench {
 namespace {
