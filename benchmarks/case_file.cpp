@@ -37,6 +37,9 @@ Case case_of(const CsvFile& csv, std::size_t row) {
   c.budget = whole_number<long>(csv, row, "budget");
   c.scheme = csv.text(row, "scheme");
   c.integrator = csv.text(row, "integrator");
+  if (!c.integrator.empty() && !c.search.empty()) {
+    csv.refuse(row, "search", "none beside an integrator");
+  }
   return c;
 }
 

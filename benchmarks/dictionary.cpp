@@ -114,6 +114,8 @@ constexpr ColumnMeaning kDictionary[] = {
     {"status_b", "", "status in the second folder"},
     {"beta_a", "unit", "beta in the first folder"},
     {"beta_b", "unit", "beta in the second folder"},
+    {"reason_a", "", "reason in the first folder"},
+    {"reason_b", "", "reason in the second folder"},
     {"what", "", "the column in which the rows of a line agree"},
     {"name", "", "its value"},
     {"change", "", "slower or faster if the whole interval is 5 % from 1 and p < 0.05; else empty"},

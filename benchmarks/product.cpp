@@ -140,12 +140,13 @@ std::vector<Case> select(std::vector<Case> cases,
     }
     if (column == "seed" || column == "budget") continue;
     const auto index = static_cast<std::size_t>(found - columns.begin());
-    std::set<std::string> existing;
-    for (const Case& c : cases) {
+    const auto name_of = [&](const Case& c) {
       const std::string name = case_values(c)[index];
-      existing.insert(name.empty() ? "none" : name);
-    }
-    std::erase_if(cases, [&](const Case& c) { return case_values(c)[index] != value; });
+      return name.empty() ? "none" : name;
+    };
+    std::set<std::string> existing;
+    for (const Case& c : cases) existing.insert(name_of(c));
+    std::erase_if(cases, [&](const Case& c) { return name_of(c) != value; });
     if (cases.empty()) {
       throw std::invalid_argument(
           fmt::format("{}: got '{}', expected one that the product has together with the other "

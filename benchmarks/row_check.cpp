@@ -125,13 +125,35 @@ RowCheck compare(const Verdict& anew, double value, double beta) {
   return check;
 }
 
-RowCheck check_posture(const Problem& problem, const Case& c, const RowOf& claim, double beta) {
+Problem with_scheme(const Problem& problem, const Case& c) {
+  Problem changed = problem;
+  if (problem.motion) set_scheme("scheme", c.scheme, changed);
+  return changed;
+}
+
+/// The posture of a row, evaluated.
+Row posture_again(const Problem& problem, const Case& c, const RowOf& claim) {
   const Eigen::VectorXd theta_r = claim.vector("theta_r");
   if (theta_r.size() != problem.redundancy()) {
     throw std::invalid_argument(
         fmt::format("theta_r: got {} numbers, expected {}", theta_r.size(), problem.redundancy()));
   }
-  const Row anew = evaluate(problem, resolve(problem, c), theta_r);
+  return evaluate(problem, resolve(problem, c), theta_r);
+}
+
+/// The knots of a row, evaluated.
+PlanRow plan_again(const Problem& problem, const Case& c, const RowOf& claim) {
+  const Eigen::VectorXd x = claim.vector("theta_r");
+  const int r = problem.redundancy();
+  if (x.size() == 0 || r == 0 || x.size() % r != 0) {
+    throw std::invalid_argument(
+        fmt::format("theta_r: got {} numbers, expected some times {}", x.size(), r));
+  }
+  return evaluate_plan(problem, resolve_plan(problem, c), unstacked(x, x.size() / r));
+}
+
+RowCheck check_posture(const Problem& problem, const Case& c, const RowOf& claim, double beta) {
+  const Row anew = posture_again(problem, c, claim);
   RowCheck check = compare(anew, anew.capability.beta, beta);
   if (check.refusal.empty() && anew.unit != claim.text("unit")) {
     check.refusal = fmt::format("unit: expected '{}'", anew.unit);
@@ -144,15 +166,8 @@ RowCheck check_posture(const Problem& problem, const Case& c, const RowOf& claim
 }
 
 RowCheck check_plan(const Problem& problem, const Case& c, const RowOf& claim, double value) {
-  Problem changed = problem;
-  set_scheme("scheme", c.scheme, changed);
-  const Eigen::VectorXd x = claim.vector("theta_r");
-  const int r = problem.redundancy();
-  if (x.size() == 0 || r == 0 || x.size() % r != 0) {
-    throw std::invalid_argument(
-        fmt::format("theta_r: got {} numbers, expected some times {}", x.size(), r));
-  }
-  const PlanRow anew = evaluate_plan(changed, resolve_plan(changed, c), unstacked(x, x.size() / r));
+  const Problem changed = with_scheme(problem, c);
+  const PlanRow anew = plan_again(changed, c, claim);
   RowCheck check = compare(anew, anew.plan.value, value);
   if (check.refusal.empty() && anew.unit != claim.text("unit")) {
     check.refusal = fmt::format("unit: expected '{}'", anew.unit);
@@ -169,9 +184,7 @@ RowCheck check_plan(const Problem& problem, const Case& c, const RowOf& claim, d
 /// By the experiment again, of whose steps a reading depends to their tolerance.
 RowCheck check_experiment(const Problem& problem, const Case& c, const RowOf& claim,
                           double reading) {
-  Problem changed = problem;
-  if (problem.motion) set_scheme("scheme", c.scheme, changed);
-  const TankRow anew = run_experiment(changed, c);
+  const TankRow anew = run_experiment(with_scheme(problem, c), c);
   const Eigen::VectorXd theta_r = claim.vector("theta_r");
   RowCheck check;
   check.has_value = true;
@@ -192,23 +205,29 @@ RowCheck check_experiment(const Problem& problem, const Case& c, const RowOf& cl
   return check;
 }
 
+/// Of a row without a value that was made again.
+std::string refuse_status(const Verdict& anew, bool has_value, const RowOf& claim) {
+  if (!has_value && to_string(anew.status) == claim.text("status")) return "";
+  return fmt::format("status: expected '{}'", to_string(anew.status));
+}
+
 /// Whether a row that says why it has no value is right. A search is not made again: that it found
 /// nothing is its own word.
 std::string refuse_failure(const Problem& problem, const Case& c, const RowOf& claim) {
-  Problem changed = problem;
-  if (problem.motion) set_scheme("scheme", c.scheme, changed);
+  const Problem changed = with_scheme(problem, c);
   if (!c.integrator.empty()) {
     const TankRow anew = run_experiment(changed, c);
-    if (anew.has_value()) return fmt::format("its experiment has the reading {:.9g}", anew.reading);
-    return to_string(anew.status) == claim.text("status") ? ""
-                                                          : "status: its experiment has another";
+    return refuse_status(anew, anew.has_value(), claim);
   }
-  complete(changed, c);  // its names mean something together
-  const Eigen::VectorXd theta_r = claim.vector("theta_r");
-  if (!c.search.empty() || problem.motion || theta_r.size() != problem.redundancy()) return "";
-  const Row anew = evaluate(problem, resolve(problem, c), theta_r);
-  return anew.has_value() ? fmt::format("its posture has the value {:.9g}", anew.capability.beta)
-                          : "";
+  complete(changed, c);                        // its names mean something together
+  static_cast<void>(claim.vector("theta_r"));  // numbers, if any
+  if (!c.search.empty()) return "";
+  if (problem.motion) {
+    const PlanRow anew = plan_again(changed, c, claim);
+    return refuse_status(anew, anew.has_value(), claim);
+  }
+  const Row anew = posture_again(problem, c, claim);
+  return refuse_status(anew, anew.has_value(), claim);
 }
 
 RowCheck checked(const Problem& problem, const Case& c, const RowOf& claim) {
@@ -226,7 +245,7 @@ RowCheck check_row(const Problem& problem, const CsvFile& csv, std::size_t row) 
   try {
     return checked(problem, case_of(csv, row), {csv, row});
   } catch (const std::invalid_argument& error) {
-    return {error.what(), true, 0};
+    return {error.what(), !csv.text(row, "beta").empty(), 0};
   }
 }
 

@@ -27,7 +27,7 @@ void conclude_experiment(const TankRun& run, TankRow& row) {
   if (run.status != Status::kReached) return;
   row.missed = run.summary.missed;
   const double reading = reading_of(run.summary);
-  if (std::isfinite(reading) && run.summary.drift < kLost) {
+  if (std::isfinite(reading) && !run.summary.lost) {
     row.reading = reading;
   } else {
     row.conclude(Status::kNoneFound, "the posture was lost before the end");

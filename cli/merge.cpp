@@ -25,9 +25,10 @@ void require_ended(const fs::path& folder) {
     throw std::invalid_argument(
         fmt::format("{}: got no table, expected one that `run` wrote", file.string()));
   }
-  if (Journal::is_held(journal)) {
+  for (const fs::path& each : {journal, folder / "times.csv.part"}) {
+    if (!Journal::is_held(each)) continue;
     throw std::invalid_argument(
-        fmt::format("{}: is being written, expected a run that has ended", journal.string()));
+        fmt::format("{}: is being written, expected a run that has ended", each.string()));
   }
 }
 

@@ -56,7 +56,8 @@ std::vector<RowCheck> check_all(const CsvFile& csv, const std::vector<std::size_
     const std::string& name = csv.text(row, "problem");
     const auto wrong = unknown.find(name);
     checks[static_cast<std::size_t>(i)] =
-        wrong != unknown.end() ? RowCheck{wrong->second} : check_row(problems.at(name), csv, row);
+        wrong != unknown.end() ? RowCheck{wrong->second, !csv.text(row, "beta").empty()}
+                               : check_row(problems.at(name), csv, row);
   });
   return checks;
 }

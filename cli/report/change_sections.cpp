@@ -15,15 +15,18 @@ ReportSection value_section(const Changes& changes) {
   table.title = fmt::format("Values that differ; {} are the same, {} within rounding", changes.same,
                             changes.rounded);
   table.note = fmt::format(
-      "In status, or by more than {:g} of 1 + |beta|, of experiments {:g}; what differs less is "
-      "within rounding.",
+      "In status, or by more than {:g} of 1 + |beta|; of experiments by more than {:g}, or in "
+      "being "
+      "held, which those without a reason were. What differs less is within rounding.",
       kSameValue, kSameReading);
   table.columns = case_columns();
-  table.columns.insert(table.columns.end(), {"status_a", "status_b", "beta_a", "beta_b", "unit"});
+  table.columns.insert(table.columns.end(), {"status_a", "status_b", "beta_a", "beta_b", "unit",
+                                             "reason_a", "reason_b"});
   for (const RowPair& pair : changes.changed) {
     auto& line = table.rows.emplace_back(case_cells(pair.a->choice));
-    line.insert(line.end(), {pair.a->status, pair.b->status, pair.a->beta.value_or(NAN),
-                             pair.b->beta.value_or(NAN), pair.a->unit});
+    line.insert(line.end(),
+                {pair.a->status, pair.b->status, pair.a->beta.value_or(NAN),
+                 pair.b->beta.value_or(NAN), pair.a->unit, pair.a->reason, pair.b->reason});
   }
   return {table, {}};
 }

@@ -94,6 +94,7 @@ void judge_posture(double moved, TankSummary& summary) {
 
 /// Last: held is what missed nothing to its end.
 void conclude(const TankRun& run, bool lost, TankSummary& summary) {
+  summary.lost = lost;
   if (lost) summary.missed = "the posture was lost";
   if (run.status != Status::kReached && summary.missed.empty()) summary.missed = run.reason.str();
   summary.held = run.status == Status::kReached && summary.missed.empty();

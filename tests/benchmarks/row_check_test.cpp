@@ -92,7 +92,7 @@ TEST(CheckRow, AsksForAReasonWhereThereIsNoValue) {
     EXPECT_NE(check(problem, row).refusal.find("without a value"), std::string::npos) << status;
   }
   cell(row, "status") = "none_found";
-  EXPECT_NE(check(problem, row).refusal.find("has the value"), std::string::npos);
+  EXPECT_EQ(check(problem, row).refusal, "status: expected 'optimal'");
   cell(row, "search") = "grid";
   EXPECT_EQ(check(problem, row).refusal, "");
   EXPECT_FALSE(check(problem, row).has_value);
@@ -177,7 +177,33 @@ TEST(CheckRow, RefusesNamesAndFailuresThatAreNot) {
   }
   cell(good, "search") = "";
   cell(good, "integrator") = "cvode";
-  EXPECT_NE(check(problem, good).refusal.find("has the reading"), std::string::npos);
+  EXPECT_EQ(check(problem, good).refusal, "status: expected 'reached'");
+}
+
+/// A posture and knots beyond the limits, evaluated: why there is no value is looked at, too.
+TEST(CheckRow, EvaluatesWhatHasNoValue) {
+  for (const char* name : {"uvms/lift", "planar/trajectory"}) {
+    const Problem problem = load_problem(name);
+    Case c;
+    c.problem = problem.name;
+    c.search = "";
+    const Eigen::VectorXd far = 2 * problem.theta_r_max;
+    Cells row;
+    if (problem.motion) {
+      const Eigen::MatrixXd knots = far.transpose().replicate(knots_of(problem), 1);
+      row = values(problem, evaluate_plan(problem, resolve_plan(problem, c), knots));
+    } else {
+      row = values(problem, evaluate(problem, resolve(problem, c), far));
+    }
+    ASSERT_EQ(cell(row, "beta"), "") << name;
+    EXPECT_EQ(check(problem, row).refusal, "") << name;
+    const std::string status = cell(row, "status");
+    cell(row, "status") = "unbounded";
+    EXPECT_EQ(check(problem, row).refusal, "status: expected '" + status + "'");
+    cell(row, "status") = status;
+    cell(row, "theta_r") = "";
+    EXPECT_NE(check(problem, row).refusal.find("theta_r"), std::string::npos) << name;
+  }
 }
 
 TEST(CheckRow, EvaluatesPlans) {

@@ -214,6 +214,29 @@ TEST(Changes, ValuesTimesAndRowsOfOneSide) {
   EXPECT_DOUBLE_EQ(changes.times[0].p, 4 * 2.0 / 256);
 }
 
+/// Readings hang on steps; that one was held and the other was not is a change at any reading.
+TEST(Changes, Experiments) {
+  Results a;
+  for (const char* problem : {"f/a", "g/b", "h/c"}) {
+    a.rows.push_back(row(problem, "ours", "", 100, 1));
+    a.rows.back().choice.integrator = "cvode";
+    a.rows.back().status = "reached";
+    a.rows.back().evaluations = 1000;
+  }
+  Results b = a;
+  b.rows[0].beta = 100.005;  // 5e-5 of 101
+  b.rows[1].beta = 100.02;   // 2e-4
+  b.rows[2].reason = "reading off by 3";
+  const Changes changes = find_changes(a, b);
+  EXPECT_EQ(changes.same, 0);
+  EXPECT_EQ(changes.rounded, 1);
+  ASSERT_EQ(changes.changed.size(), 2U);
+  EXPECT_EQ(changes.changed[0].b->beta, 100.02);
+  EXPECT_EQ(changes.changed[1].b->reason, "reading off by 3");
+  ASSERT_FALSE(changes.times.empty());
+  EXPECT_EQ(changes.times.back().name, "cvode");
+}
+
 TEST(Changes, AFolderAndItself) {
   Results a;
   a.rows = five_rows();

@@ -61,6 +61,16 @@ TEST(TankRow, WhatHasNoPlanHasNoReading) {
   EXPECT_NE(row.reason.str(), "");
 }
 
+/// Thrusters and joints that hardly change let go of the posture while the wrench still grows.
+TEST(TankRow, ALostPostureHasNoReading) {
+  Problem problem = load_problem("uvms/valve");
+  problem.robot.u_rate_max.setConstant(0.1);
+  const TankRow row = run_experiment(problem, experiment("uvms/valve", "cvode"));
+  EXPECT_EQ(row.status, Status::kNoneFound);
+  EXPECT_FALSE(row.has_value());
+  EXPECT_EQ(row.reason.str(), "the posture was lost before the end");
+}
+
 TEST(TankRow, RefusesWhatDoesNotServe) {
   const Problem wall = load_problem("dual_arm/bar_wall"), valve = load_problem("uvms/valve");
   EXPECT_TRUE(served_integrators(wall, "linf_polytope").empty());

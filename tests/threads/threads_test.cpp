@@ -9,6 +9,7 @@
 
 #include "benchmarks/proof_recorder.h"
 #include "benchmarks/row.h"
+#include "benchmarks/tank_row.h"
 #include "lib/math/random.h"
 #include "maxwrench/batch.h"
 #include "maxwrench/load.h"
@@ -46,6 +47,27 @@ TEST(Threads, ParallelForCallsEachOnceAndWhatFollowsSeesIt) {
     parallel_for(kThreads, 500, [&](long i) { calls[static_cast<std::size_t>(i)] += round; });
     for (const int count : calls) sum += count;
     EXPECT_EQ(sum, 500 * round);
+  }
+}
+
+/// A posture in the virtual tank, and a heave.
+TEST(Threads, ShareTheTank) {
+  for (const char* name : {"fixed/push", "uvms/valve_impulse"}) {
+    const Problem problem = load_problem(name);
+    Case c;
+    c.problem = problem.name;
+    c.search = "";
+    c.scheme = problem.motion ? "spline" : "";
+    c.integrator = "cvode";
+    const TankRow one = run_experiment(problem, c);
+    ASSERT_TRUE(one.has_value()) << name;
+    std::vector<TankRow> rows(kThreads);
+    at_once([&](int t) { rows[static_cast<std::size_t>(t)] = run_experiment(problem, c); });
+    for (const TankRow& row : rows) {
+      EXPECT_EQ(row.status, one.status);
+      EXPECT_EQ(row.reading, one.reading) << name;
+      EXPECT_EQ(row.evaluations, one.evaluations) << name;
+    }
   }
 }
 
