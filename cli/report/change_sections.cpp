@@ -16,8 +16,7 @@ ReportSection value_section(const Changes& changes) {
                             changes.rounded);
   table.note = fmt::format(
       "In status, or by more than {:g} of 1 + |beta|; of experiments by more than {:g}, or in "
-      "being "
-      "held, which those without a reason were. What differs less is within rounding.",
+      "being held, which those without a reason were. What differs less is within rounding.",
       kSameValue, kSameReading);
   table.columns = case_columns();
   table.columns.insert(table.columns.end(), {"status_a", "status_b", "beta_a", "beta_b", "unit",

@@ -106,7 +106,7 @@ struct TankSummary {
   double violation = 0;                ///< largest of the whole experiment
   double saturated = 0, relaxed = 0;   ///< shares of the periods
   double shortfall = 0;                ///< mean [N, N m]
-  bool lost = false;                   ///< it ended before its time
+  bool lost = false;                   ///< it ended there, see kLost
   bool held = false;
   std::string missed;                   ///< why not, each value with what is allowed
   std::optional<MotionSummary> motion;  ///< of a task in time, whose hold is all of it

@@ -135,6 +135,7 @@ TEST(Case, SelectKeepsWhatMatches) {
     EXPECT_EQ(c.wrench, Wrench::kAny);
   }
   EXPECT_EQ(select(cases, {{"seed", "5"}}).size(), cases.size());
+  EXPECT_EQ(select(cases, {{"scheme", "none"}, {"integrator", "none"}}).size(), cases.size());
   EXPECT_THROW(select(cases, {{"colour", "red"}}), std::invalid_argument);
   EXPECT_THROW(select(cases, {{"measure", "ellipsoid"}, {"lp", "facets"}}), std::invalid_argument);
 }

@@ -35,6 +35,7 @@ RowCheck check(const Problem& problem, const Cells& row) {
   return check_row(problem, {"values.csv", value_columns(), {row}}, 0);
 }
 
+/// Its first number times `factor`; a zero becomes the factor.
 std::string scaled(const std::string& numbers, double factor) {
   const double first = std::stod(numbers);
   return exact_text(first == 0 ? factor : first * factor) +
@@ -140,11 +141,7 @@ TEST(CheckRow, CarriesOutExperiments) {
        {std::pair{"mobile/push", ""}, {"mobile/trajectory", "spline"}}) {
     if (kSampleDivisor > 1 && *scheme == '\0') continue;  // too slow twice
     const Problem problem = load_problem(name);
-    Case c;
-    c.problem = name;
-    c.search = "";
-    c.scheme = scheme;
-    c.integrator = "cvode";
+    const Case c{.problem = name, .search = "", .scheme = scheme, .integrator = "cvode"};
     const Cells good = values(problem, run_experiment(problem, c));
     EXPECT_EQ(check(problem, good).refusal, "") << name;
     for (const char* column :
@@ -184,9 +181,7 @@ TEST(CheckRow, RefusesNamesAndFailuresThatAreNot) {
 TEST(CheckRow, EvaluatesWhatHasNoValue) {
   for (const char* name : {"uvms/lift", "planar/trajectory"}) {
     const Problem problem = load_problem(name);
-    Case c;
-    c.problem = problem.name;
-    c.search = "";
+    const Case c{.problem = name, .search = ""};
     const Eigen::VectorXd far = 2 * problem.theta_r_max;
     Cells row;
     if (problem.motion) {
@@ -208,9 +203,7 @@ TEST(CheckRow, EvaluatesWhatHasNoValue) {
 
 TEST(CheckRow, EvaluatesPlans) {
   const Problem problem = load_problem("planar/trajectory");
-  Case c;
-  c.problem = problem.name;
-  c.search = "";
+  const Case c{.problem = problem.name, .search = ""};
   Problem changed = problem;
   const PlanMethod method = resolve_plan(changed, c);
   const PlanRow row =

@@ -13,12 +13,7 @@ namespace maxwrench {
 namespace {
 
 Case experiment(const char* problem, const char* integrator, const char* scheme = "") {
-  Case c;
-  c.problem = problem;
-  c.search = "";
-  c.scheme = scheme;
-  c.integrator = integrator;
-  return c;
+  return {.problem = problem, .search = "", .scheme = scheme, .integrator = integrator};
 }
 
 /// Two integrators agree, on 0.5 % less than was planned: of a posture, a turn and a heave, which

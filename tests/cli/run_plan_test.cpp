@@ -9,6 +9,7 @@
 #include <string>
 
 #include "benchmarks/csv.h"
+#include "benchmarks/journal.h"
 #include "benchmarks/row.h"
 #include "benchmarks/table.h"
 #include "tests/support/support.h"
@@ -135,6 +136,13 @@ TEST_F(RunPlan, ContradictionsAreNotMerged) {
       << result.err;
   EXPECT_TRUE(fs::is_empty(folder_.path() / "all"));
   EXPECT_EQ(run_maxwrench("merge all nowhere", folder_.path()).exit_status, 2);
+  for (const char* journal : {"one/values.csv.part", "one/times.csv.part"}) {
+    const Journal held(folder_.path() / journal);
+    const CommandResult early = run_maxwrench("merge all one", folder_.path());
+    EXPECT_EQ(early.exit_status, 2);
+    EXPECT_EQ(early.err.find(fmt::format("maxwrench: {}: is being written", journal)), 0U)
+        << early.err;
+  }
 }
 
 TEST_F(RunPlan, CountsAndNamesItsRows) {

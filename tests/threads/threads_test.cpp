@@ -54,11 +54,8 @@ TEST(Threads, ParallelForCallsEachOnceAndWhatFollowsSeesIt) {
 TEST(Threads, ShareTheTank) {
   for (const char* name : {"fixed/push", "uvms/valve_impulse"}) {
     const Problem problem = load_problem(name);
-    Case c;
-    c.problem = problem.name;
-    c.search = "";
-    c.scheme = problem.motion ? "spline" : "";
-    c.integrator = "cvode";
+    const char* const scheme = problem.motion ? "spline" : "";
+    const Case c{.problem = name, .search = "", .scheme = scheme, .integrator = "cvode"};
     const TankRow one = run_experiment(problem, c);
     ASSERT_TRUE(one.has_value()) << name;
     std::vector<TankRow> rows(kThreads);
