@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/case.h"
+#include "solvers/solve/case.h"
 #include "benchmarks/csv.h"
 
 // Tables whose first columns are those of a case.

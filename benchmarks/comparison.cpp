@@ -5,9 +5,9 @@
 #include <ctime>
 #include <memory>
 
-#include "benchmarks/plan_row.h"
+#include "solvers/solve/plan_row.h"
 #include "benchmarks/proof.h"
-#include "benchmarks/row.h"
+#include "solvers/solve/row.h"
 #include "lib/posture/branch_atlas.h"
 #include "maxwrench/batch.h"
 #include "maxwrench/problem.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/case.h"
-#include "benchmarks/interruption.h"
+#include "solvers/solve/case.h"
+#include "solvers/solve/interruption.h"
 #include "benchmarks/race_statistics.h"
 
 namespace maxwrench {

@@ -14,7 +14,7 @@
 #include <memory>
 #include <vector>
 
-#include "benchmarks/case.h"
+#include "solvers/solve/case.h"
 #include "benchmarks/product.h"
 #include "lib/math/random.h"
 #include "lib/robot/chain.h"

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "benchmarks/case.h"
+#include "solvers/solve/case.h"
 #include "lib/math/random.h"
 #include "lib/search/facet_program.h"
 #include "maxwrench/load.h"

@@ -7,10 +7,10 @@
 #include <chrono>
 #include <cmath>
 
-#include "benchmarks/case.h"
-#include "benchmarks/plan_row.h"
-#include "benchmarks/row.h"
-#include "benchmarks/tank_experiment.h"
+#include "solvers/solve/case.h"
+#include "solvers/solve/plan_row.h"
+#include "solvers/solve/row.h"
+#include "solvers/solve/tank_experiment.h"
 #include "lib/robot/motion.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/case.h"
+#include "solvers/solve/case.h"
 #include "maxwrench/problem.h"
 
 namespace maxwrench {

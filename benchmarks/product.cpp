@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "benchmarks/plan_row.h"
-#include "benchmarks/tank_row.h"
+#include "solvers/solve/plan_row.h"
+#include "solvers/solve/tank_row.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
 

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "benchmarks/case.h"
+#include "solvers/solve/case.h"
 #include "maxwrench/problem.h"
 
 namespace maxwrench {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "benchmarks/row.h"
+#include "solvers/solve/row.h"
 #include "solvers/certify/certify.h"
 #include "verify/certificate.h"
 

@@ -5,7 +5,7 @@
 #include "benchmarks/case_file.h"
 #include "benchmarks/csv.h"
 #include "benchmarks/race_file.h"
-#include "benchmarks/searched.h"
+#include "solvers/solve/searched.h"
 #include "benchmarks/write_file.h"
 
 namespace maxwrench {

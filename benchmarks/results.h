@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/case.h"
+#include "solvers/solve/case.h"
 #include "benchmarks/comparison.h"
 
 namespace maxwrench {

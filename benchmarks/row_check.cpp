@@ -9,10 +9,10 @@
 #include <stdexcept>
 
 #include "benchmarks/case_file.h"
-#include "benchmarks/plan_row.h"
+#include "solvers/solve/plan_row.h"
 #include "benchmarks/results.h"
-#include "benchmarks/row.h"
-#include "benchmarks/tank_row.h"
+#include "solvers/solve/row.h"
+#include "solvers/solve/tank_row.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/wrench_program.h"
 

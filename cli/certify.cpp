@@ -13,7 +13,7 @@
 #include "cli/ctrl_c.h"
 #include "cli/good_postures.h"
 #include "cli/output.h"
-#include "cli/pieces.h"
+#include "solvers/solve/pieces.h"
 #include "cli/progress.h"
 #include "maxwrench/load.h"
 #include "maxwrench/version.h"

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "cli/cli.h"
-#include "cli/pieces.h"
+#include "solvers/solve/pieces.h"
 #include "lib/posture/dependent_joints.h"
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"

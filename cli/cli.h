@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "benchmarks/case.h"
+#include "solvers/solve/case.h"
 
 namespace maxwrench {
 

@@ -10,7 +10,7 @@
 
 #include "benchmarks/comparison.h"
 #include "benchmarks/machine.h"
-#include "benchmarks/plan_row.h"
+#include "solvers/solve/plan_row.h"
 #include "benchmarks/race_summary.h"
 #include "benchmarks/write_file.h"
 #include "cli/cli.h"

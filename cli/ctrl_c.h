@@ -1,6 +1,6 @@
 #pragma once
 
-#include "benchmarks/interruption.h"
+#include "solvers/solve/interruption.h"
 
 namespace maxwrench {
 

@@ -1,8 +1,8 @@
 #include <memory>
 #include <stdexcept>
 
-#include "benchmarks/plan_row.h"
-#include "benchmarks/row.h"
+#include "solvers/solve/plan_row.h"
+#include "solvers/solve/row.h"
 #include "benchmarks/write_file.h"
 #include "cli/cli.h"
 #include "cli/motion_options.h"

@@ -9,7 +9,7 @@
 
 #include "benchmarks/write_file.h"
 #include "cli/cli.h"
-#include "cli/pieces.h"
+#include "solvers/solve/pieces.h"
 #include "drawing/projections.h"
 
 namespace maxwrench {

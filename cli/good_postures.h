@@ -3,7 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "benchmarks/row.h"
+#include "solvers/solve/row.h"
 #include "solvers/certify/certify.h"
 #include "solvers/certify/good_postures.h"
 

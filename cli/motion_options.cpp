@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "benchmarks/plan_row.h"
+#include "solvers/solve/plan_row.h"
 #include "cli/cli.h"
 #include "maxwrench/load.h"
 #include "maxwrench/plan.h"

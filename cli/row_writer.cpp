@@ -6,8 +6,8 @@
 #include <ctime>
 
 #include "benchmarks/machine.h"
-#include "benchmarks/plan_row.h"
-#include "benchmarks/tank_row.h"
+#include "solvers/solve/plan_row.h"
+#include "solvers/solve/tank_row.h"
 #include "benchmarks/write_file.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/version.h"

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <string>
 
-#include "benchmarks/row.h"
+#include "solvers/solve/row.h"
 #include "benchmarks/table.h"
 #include "cli/progress.h"
 

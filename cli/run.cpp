@@ -7,7 +7,7 @@
 
 #include "benchmarks/cost.h"
 #include "benchmarks/plan_file.h"
-#include "benchmarks/plan_row.h"
+#include "solvers/solve/plan_row.h"
 #include "benchmarks/product.h"
 #include "cli/cli.h"
 #include "cli/row_writer.h"

@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "benchmarks/row.h"
-#include "benchmarks/tank_experiment.h"
+#include "solvers/solve/row.h"
+#include "solvers/solve/tank_experiment.h"
 #include "benchmarks/write_file.h"
 #include "cli/output.h"
 #include "maxwrench/figures.h"

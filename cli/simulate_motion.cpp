@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "benchmarks/tank_experiment.h"
+#include "solvers/solve/tank_experiment.h"
 #include "benchmarks/write_file.h"
 #include "cli/output.h"
 #include "cli/simulate.h"

@@ -1,7 +1,7 @@
 #include <memory>
 
-#include "benchmarks/plan_row.h"
-#include "benchmarks/row.h"
+#include "solvers/solve/plan_row.h"
+#include "solvers/solve/row.h"
 #include "benchmarks/write_file.h"
 #include "cli/cli.h"
 #include "cli/ctrl_c.h"

@@ -6,7 +6,7 @@
 
 #include "cli/cli.h"
 #include "cli/output.h"
-#include "cli/pieces.h"
+#include "solvers/solve/pieces.h"
 #include "lib/robot/dynamics.h"
 #include "maxwrench/load.h"
 #include "maxwrench/version.h"

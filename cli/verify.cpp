@@ -8,7 +8,7 @@
 #include "cli/cli.h"
 #include "cli/lp_proof.h"
 #include "cli/output.h"
-#include "cli/pieces.h"
+#include "solvers/solve/pieces.h"
 #include "cli/verify_rows.h"
 #include "maxwrench/load.h"
 

@@ -11,11 +11,11 @@
 #include <stdexcept>
 
 #include "benchmarks/case_file.h"
-#include "benchmarks/row.h"
+#include "solvers/solve/row.h"
 #include "benchmarks/row_check.h"
 #include "cli/cli.h"
 #include "cli/output.h"
-#include "cli/pieces.h"
+#include "solvers/solve/pieces.h"
 #include "lib/math/random.h"
 #include "maxwrench/batch.h"
 #include "maxwrench/load.h"

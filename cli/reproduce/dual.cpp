@@ -6,7 +6,7 @@
 
 #include "benchmarks/write_file.h"
 #include "cli/cli.h"
-#include "cli/pieces.h"
+#include "solvers/solve/pieces.h"
 #include "cli/reproduce/reproduce.h"
 #include "cli/row_writer.h"
 #include "maxwrench/figures.h"

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <vector>
 
-#include "benchmarks/plan_row.h"
-#include "benchmarks/tank_experiment.h"
+#include "solvers/solve/plan_row.h"
+#include "solvers/solve/tank_experiment.h"
 #include "benchmarks/write_file.h"
 #include "cli/motion_options.h"
-#include "cli/plan_limits.h"
+#include "solvers/solve/plan_limits.h"
 #include "cli/reproduce/reproduce.h"
 #include "cli/row_writer.h"
 #include "maxwrench/figures.h"

@@ -4,9 +4,9 @@
 
 #include <memory>
 
-#include "benchmarks/plan_row.h"
+#include "solvers/solve/plan_row.h"
 #include "benchmarks/proof.h"
-#include "benchmarks/row.h"
+#include "solvers/solve/row.h"
 #include "cli/cli.h"
 
 namespace maxwrench {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "benchmarks/tank_experiment.h"
+#include "solvers/solve/tank_experiment.h"
 #include "benchmarks/write_file.h"
 #include "cli/cli.h"
 #include "cli/reproduce/reproduce.h"

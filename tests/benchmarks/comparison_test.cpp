@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "benchmarks/plan_row.h"
+#include "solvers/solve/plan_row.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "benchmarks/plan_row.h"
-#include "benchmarks/row.h"
-#include "benchmarks/tank_row.h"
+#include "solvers/solve/plan_row.h"
+#include "solvers/solve/row.h"
+#include "solvers/solve/tank_row.h"
 #include "maxwrench/load.h"
 #include "maxwrench/wrench_program.h"
 #include "tests/support/support.h"

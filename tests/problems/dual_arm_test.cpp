@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "benchmarks/row.h"
+#include "solvers/solve/row.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
 #include "tests/reference_models/static_task.h"

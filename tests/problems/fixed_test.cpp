@@ -5,7 +5,7 @@
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
 
-#include "benchmarks/row.h"
+#include "solvers/solve/row.h"
 #include "lib/math/decompositions.h"
 #include "lib/robot/kinematics.h"
 #include "maxwrench/load.h"

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "benchmarks/row.h"
+#include "solvers/solve/row.h"
 #include "maxwrench/load.h"
 #include "maxwrench/plan.h"
 #include "maxwrench/posture.h"

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "benchmarks/row.h"
+#include "solvers/solve/row.h"
 #include "lib/posture/branch_atlas.h"
 #include "maxwrench/load.h"
 #include "tests/support/completeness.h"

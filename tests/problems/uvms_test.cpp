@@ -9,7 +9,7 @@
 #include <kdl/chainjnttojacsolver.hpp>
 #include <string>
 
-#include "benchmarks/row.h"
+#include "solvers/solve/row.h"
 #include "lib/robot/kinematics.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "benchmarks/proof_recorder.h"
-#include "benchmarks/row.h"
-#include "benchmarks/tank_row.h"
+#include "solvers/solve/row.h"
+#include "solvers/solve/tank_row.h"
 #include "lib/math/random.h"
 #include "maxwrench/batch.h"
 #include "maxwrench/load.h"

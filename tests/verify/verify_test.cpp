@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/case.h"
+#include "solvers/solve/case.h"
 #include "benchmarks/proof_recorder.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <vector>
 
-#include "benchmarks/plan_row.h"
+#include "solvers/solve/plan_row.h"
 #include "cli/reproduce/reproduce.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"

@@ -7,7 +7,7 @@
 #include <functional>
 #include <stdexcept>
 
-#include "benchmarks/case.h"
+#include "solvers/solve/case.h"
 #include "lib/math/decompositions.h"
 #include "maxwrench/load.h"
 #include "maxwrench/measure.h"

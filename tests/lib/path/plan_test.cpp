@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/plan_row.h"
-#include "benchmarks/row.h"
+#include "solvers/solve/plan_row.h"
+#include "solvers/solve/row.h"
 #include "maxwrench/load.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"

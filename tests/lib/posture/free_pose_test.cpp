@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/row.h"
+#include "solvers/solve/row.h"
 #include "lib/posture/redundancy.h"
 #include "maxwrench/load.h"
 #include "maxwrench/objective.h"

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/case.h"
-#include "benchmarks/plan_row.h"
-#include "benchmarks/row.h"
+#include "solvers/solve/case.h"
+#include "solvers/solve/plan_row.h"
+#include "solvers/solve/row.h"
 #include "maxwrench/load.h"
 #include "maxwrench/plan.h"
 #include "maxwrench/strategies.h"

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <span>
 
-#include "benchmarks/case.h"
-#include "benchmarks/row.h"
+#include "solvers/solve/case.h"
+#include "solvers/solve/row.h"
 #include "lib/robot/motion.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"

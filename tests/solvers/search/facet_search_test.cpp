@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "benchmarks/case.h"
+#include "solvers/solve/case.h"
 #include "lib/search/facet_program.h"
 #include "maxwrench/load.h"
 #include "maxwrench/plan.h"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "benchmarks/case.h"
+#include "solvers/solve/case.h"
 #include "lib/posture/redundancy.h"
 #include "lib/robot/kinematics.h"
 #include "maxwrench/load.h"

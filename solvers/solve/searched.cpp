@@ -1,4 +1,4 @@
-#include "benchmarks/searched.h"
+#include "solvers/solve/searched.h"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,11 @@
-#include "benchmarks/plan_row.h"
+#include "solvers/solve/plan_row.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <stdexcept>
 
-#include "benchmarks/row.h"
+#include "solvers/solve/row.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
 

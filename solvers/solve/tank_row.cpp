@@ -1,4 +1,4 @@
-#include "benchmarks/tank_row.h"
+#include "solvers/solve/tank_row.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "benchmarks/plan_row.h"
-#include "benchmarks/row.h"
-#include "benchmarks/tank_experiment.h"
+#include "solvers/solve/plan_row.h"
+#include "solvers/solve/row.h"
+#include "solvers/solve/tank_experiment.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
 

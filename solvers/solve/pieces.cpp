@@ -1,4 +1,4 @@
-#include "cli/pieces.h"
+#include "solvers/solve/pieces.h"
 
 #include <fmt/format.h>
 

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "benchmarks/row.h"
+#include "solvers/solve/row.h"
 #include "cli/cli.h"
 #include "cli/output.h"
-#include "cli/pieces.h"
+#include "solvers/solve/pieces.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/version.h"
 

@@ -2,8 +2,8 @@
 
 #include <chrono>
 
-#include "benchmarks/case.h"
-#include "benchmarks/interruption.h"
+#include "solvers/solve/case.h"
+#include "solvers/solve/interruption.h"
 #include "maxwrench/search.h"
 
 namespace maxwrench {

@@ -1,4 +1,4 @@
-#include "benchmarks/interruption.h"
+#include "solvers/solve/interruption.h"
 
 #include <limits>
 

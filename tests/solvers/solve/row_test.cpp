@@ -1,4 +1,4 @@
-#include "benchmarks/row.h"
+#include "solvers/solve/row.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "cli/plan_limits.h"
+#include "solvers/solve/plan_limits.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "benchmarks/plan_row.h"
-#include "cli/pieces.h"
+#include "solvers/solve/plan_row.h"
+#include "solvers/solve/pieces.h"
 
 namespace maxwrench {
 namespace {

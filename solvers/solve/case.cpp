@@ -1,4 +1,4 @@
-#include "benchmarks/case.h"
+#include "solvers/solve/case.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
-#include "benchmarks/plan_row.h"
+#include "solvers/solve/plan_row.h"
 #include "cli/cli.h"
 #include "cli/motion_options.h"
 #include "cli/output.h"
-#include "cli/pieces.h"
-#include "cli/plan_limits.h"
+#include "solvers/solve/pieces.h"
+#include "solvers/solve/plan_limits.h"
 #include "maxwrench/version.h"
 
 namespace maxwrench {

@@ -1,4 +1,4 @@
-#include "benchmarks/case.h"
+#include "solvers/solve/case.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "benchmarks/plan_row.h"
+#include "solvers/solve/plan_row.h"
 #include "benchmarks/product.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"

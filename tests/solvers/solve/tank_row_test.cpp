@@ -1,11 +1,11 @@
-#include "benchmarks/tank_row.h"
+#include "solvers/solve/tank_row.h"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 #include <tuple>
 
-#include "benchmarks/row.h"
+#include "solvers/solve/row.h"
 #include "maxwrench/load.h"
 #include "tests/support/support.h"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/case.h"
-#include "benchmarks/searched.h"
+#include "solvers/solve/case.h"
+#include "solvers/solve/searched.h"
 #include "maxwrench/measure.h"
 #include "maxwrench/posture.h"
 

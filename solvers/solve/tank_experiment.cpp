@@ -1,4 +1,4 @@
-#include "benchmarks/tank_experiment.h"
+#include "solvers/solve/tank_experiment.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "benchmarks/row.h"
+#include "solvers/solve/row.h"
 #include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"

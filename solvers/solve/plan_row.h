@@ -1,6 +1,6 @@
 #pragma once
 
-#include "benchmarks/searched.h"
+#include "solvers/solve/searched.h"
 #include "maxwrench/plan.h"
 
 namespace maxwrench {

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "benchmarks/searched.h"
+#include "solvers/solve/searched.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/status.h"

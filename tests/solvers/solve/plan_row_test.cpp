@@ -1,11 +1,11 @@
-#include "benchmarks/plan_row.h"
+#include "solvers/solve/plan_row.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <sstream>
 
-#include "benchmarks/row.h"
+#include "solvers/solve/row.h"
 #include "maxwrench/load.h"
 
 namespace maxwrench {
