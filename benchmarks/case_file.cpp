@@ -4,6 +4,8 @@
 
 #include <charconv>
 
+#include "benchmarks/row.h"
+
 namespace maxwrench {
 namespace {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "solvers/solve/case.h"
 #include "benchmarks/csv.h"
+#include "solvers/solve/method.h"
 
 // Tables whose first columns are those of a case.
 

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "benchmarks/race_statistics.h"
+#include "benchmarks/row.h"
 #include "benchmarks/significance.h"
 
 namespace maxwrench {

@@ -5,13 +5,13 @@
 #include <ctime>
 #include <memory>
 
-#include "solvers/solve/plan_row.h"
 #include "benchmarks/proof.h"
-#include "solvers/solve/row.h"
 #include "lib/posture/branch_atlas.h"
 #include "maxwrench/batch.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
+#include "solvers/solve/interruption.h"
+#include "solvers/solve/method.h"
 
 namespace maxwrench {
 namespace {
@@ -81,12 +81,17 @@ std::vector<std::string> peers_of(const Problem& problem, const Case& base) {
   return names;
 }
 
-/// The searches that serve a problem, of a static one the default first.
+std::string default_of(const Problem& problem, const Case& base) {
+  const bool named = !problem.motion && !base.search.empty();
+  return named ? base.search : default_search(problem, base.measure);
+}
+
+/// The searches that serve a problem, the default first.
 std::vector<std::string> searches_of(const Problem& problem, const Case& base) {
   std::vector<std::string> served = served_searches(problem, base.measure);
-  if (problem.motion) return served;
-  std::erase(served, base.search);
-  served.insert(served.begin(), base.search);
+  const std::string first = default_of(problem, base);
+  std::erase(served, first);
+  served.insert(served.begin(), first);
   return served;
 }
 
@@ -99,33 +104,10 @@ void forget_beyond(double value, RaceRun& run) {
   }
 }
 
-Attempt attempt_from(const Case& choice, const NamedSearch& named,
-                     std::unique_ptr<Objective> objective, const Eigen::VectorXd& start,
-                     const Interruption* interruption) {
-  Attempt attempt;
-  attempt.choice = choice;
-  const double begin = thread_seconds();
-  Stopwatch watch(std::move(objective), attempt.run, begin);
-  const SearchResult result = search(choice, named, watch, start, 1, {});
-  attempt.counted = attempt.run.spent.evaluations;
-  attempt.run.spent = {static_cast<double>(result.evaluations), thread_seconds() - begin};
-  attempt.run.interrupted = interruption != nullptr && interruption->noticed;
-  attempt.value = result.value;
-  forget_beyond(result.value, attempt.run);
-  attempt.found = result.theta_r;
-  return attempt;
-}
-
-/// Of a case on its problem.
-Attempt attempt_case(const Problem& problem, const Case& c, Interruption* interruption) {
-  return problem.motion ? attempt(problem, resolve_plan(problem, c), interruption)
-                        : attempt(problem, resolve(problem, c), interruption);
-}
-
 /// Of the dearest stage.
 int cost_of(const std::string& search) {
   int cost = 1;
-  for (const SearchEntry* stage : find_plan_search(search).stages) {
+  for (const SearchEntry* stage : find_search(search).stages) {
     cost = std::max(cost, stage->cost);
   }
   return cost;
@@ -140,8 +122,7 @@ constexpr Eigen::Index kMostBoxed = 8;
 
 /// A bound of all postures, if one comes so near to the best of all attempts.
 std::optional<double> proven_best(const Problem& problem, const Case& base,
-                                  const Comparison& comparison, int threads,
-                                  const Interruption* interruption) {
+                                  const Comparison& comparison, const RaceOptions& race) {
   if (!comparison.has_value()) return {};
   const auto bounds = find_bound(problem, base.measure, base.wrench);
   const Eigen::Index boxed = bounds ? boxed_coordinates(problem, *bounds) : 0;
@@ -149,8 +130,8 @@ std::optional<double> proven_best(const Problem& problem, const Case& base,
   CertifyOptions options;
   options.gap = kProofGap;
   options.boxes = boxed > problem.redundancy() ? kFewerBoxes : kProofBoxes;
-  options.threads = threads;
-  options.interrupted = [&] { return interruption != nullptr && interruption->asked; };
+  options.threads = race.threads;
+  options.interrupted = race.interrupted;
   const Candidate best = comparison.best_found();
   const double bound = prove(problem, resolve(problem, base), *bounds, best, options).bound;
   if (!(bound - best.value <= kNearBound * std::abs(best.value))) return {};
@@ -160,7 +141,7 @@ std::optional<double> proven_best(const Problem& problem, const Case& base,
 /// Seed by seed, so that attempts of one search, which may wait for each other, do not run side by
 /// side.
 void run_all(const Problem& problem, const Case& base, const RaceOptions& options,
-             Interruption* interruption, Comparison& comparison) {
+             Comparison& comparison) {
   std::vector<Contender*> all;
   for (auto* group : {&comparison.contenders, &comparison.peers}) {
     for (Contender& contender : *group) all.push_back(&contender);
@@ -169,7 +150,7 @@ void run_all(const Problem& problem, const Case& base, const RaceOptions& option
   std::vector<std::optional<Attempt>> attempts(all.size() *
                                                static_cast<std::size_t>(options.seeds));
   parallel_for(options.threads, count * options.seeds, [&](long i) {
-    if (interruption != nullptr && interruption->asked) return;
+    if (options.interrupted && options.interrupted()) return;
     const Contender& contender = *all[static_cast<std::size_t>(i % count)];
     Case c = base;
     c.problem = problem.name;
@@ -177,7 +158,8 @@ void run_all(const Problem& problem, const Case& base, const RaceOptions& option
     c.lp = contender.lp;
     c.seed = static_cast<std::uint64_t>(i / count + 1);
     c.budget = contender.budget;
-    attempts[static_cast<std::size_t>(i)] = attempt_case(problem, c, interruption);
+    attempts[static_cast<std::size_t>(i)] =
+        attempt(problem, resolve(problem, c), options.interrupted);
     if (options.done) options.done();
   });
   for (std::size_t i = 0; i < attempts.size(); ++i) {
@@ -187,30 +169,31 @@ void run_all(const Problem& problem, const Case& base, const RaceOptions& option
 
 }  // namespace
 
-Attempt attempt(const Problem& problem, const Method& method, Interruption* interruption) {
-  Attempt result = attempt_from(method.choice, *method.search,
-                                make_interruptible(make_objective(problem, method), interruption),
-                                problem.theta_r_default, interruption);
+Attempt attempt(const Problem& problem, const Method& method,
+                const std::function<bool()>& interrupted) {
+  Attempt attempt;
+  attempt.choice = method.choice;
+  Interruption interruption{interrupted};
+  const double begin = thread_seconds();
+  Stopwatch watch(make_interruptible(make_objective(problem, method), interruption), attempt.run,
+                  begin);
+  const SearchResult result = run_search(problem, method, watch, 1);
+  attempt.counted = attempt.run.spent.evaluations;
+  attempt.run.spent = {static_cast<double>(result.evaluations), thread_seconds() - begin};
+  attempt.run.interrupted = interruption.noticed;
+  attempt.value = result.value;
+  forget_beyond(result.value, attempt.run);
+  attempt.found = result.theta_r;
+  if (attempt.value == -kInfinity) return attempt;
+  const Answer answer =
+      evaluate(problem, unstacked(attempt.found, knots_of(problem)), Options{method.choice});
+  attempt.continuous = answer.plan.continuous;
   // What a search of plans maximises has a value where only slack balances a posture, too.
-  if (result.value > -kInfinity && !evaluate(problem, method, result.found).has_value()) {
-    result.value = -kInfinity;
-    result.run.rises.clear();
+  if (!problem.motion && !answer.has_value()) {
+    attempt.value = -kInfinity;
+    attempt.run.rises.clear();
   }
-  return result;
-}
-
-Attempt attempt(const Problem& problem, const PlanMethod& method, Interruption* interruption) {
-  Eigen::VectorXd found;
-  Attempt result = attempt_from(
-      method.choice, *method.search,
-      make_interruptible(make_plan_objective(problem, method.choice.wrench, method.solver->make),
-                         interruption),
-      stacked(constant_knots(problem, problem.theta_r_default)), interruption);
-  if (result.value > -kInfinity) {
-    result.continuous =
-        evaluate_plan(problem, method, unstacked(result.found, knots_of(problem))).plan.continuous;
-  }
-  return result;
+  return attempt;
 }
 
 std::vector<RaceRun> Contender::runs() const {
@@ -254,27 +237,25 @@ Candidate Comparison::best_found() const {
 
 double Comparison::best() const { return proven ? *proven : best_found().value; }
 
-Comparison compare(const Problem& problem, const Case& base, const RaceOptions& options,
-                   Interruption* interruption) {
-  const Case whole = complete(problem, base);
-  const char* unit = problem.motion ? problem.unit() : resolve(problem, base).unit;
-  Comparison comparison{problem.name, unit, {}, {}, base.search, problem.motion.has_value(),
-                        base.budget};
-  if (problem.motion) comparison.default_search = plan_searches().front().name;
+Comparison compare(const Problem& problem, const Case& base, const RaceOptions& options) {
+  const Method whole = resolve(problem, base);
+  Comparison comparison{
+      problem.name, whole.unit, {}, {}, default_of(problem, base), problem.motion.has_value(),
+      base.budget};
   const auto enter = [&](const std::string& search, const std::string& lp) {
     const long share = options.shares_budget ? cost_of(search) : 1;
     return Contender{search, lp, std::max(1L, base.budget / share), {}};
   };
   for (const std::string& search : searches_of(problem, base)) {
-    comparison.contenders.push_back(enter(search, whole.lp));
+    comparison.contenders.push_back(enter(search, whole.choice.lp));
   }
   for (const std::string& lp : peers_of(problem, base)) {
     comparison.peers.push_back(enter(plain_search(problem), lp));
   }
   prepare(problem, options.threads);
-  run_all(problem, base, options, interruption, comparison);
-  comparison.proven = proven_best(problem, base, comparison, options.threads, interruption);
-  comparison.interrupted = interruption != nullptr && interruption->asked;
+  run_all(problem, base, options, comparison);
+  comparison.proven = proven_best(problem, base, comparison, options);
+  comparison.interrupted = options.interrupted && options.interrupted();
   return comparison;
 }
 

@@ -5,13 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "solvers/solve/case.h"
-#include "solvers/solve/interruption.h"
 #include "benchmarks/race_statistics.h"
+#include "maxwrench/search.h"
+#include "maxwrench/solve.h"
+#include "solvers/solve/method.h"
 
 namespace maxwrench {
 
-struct PlanMethod;
+struct Method;
 
 /// One run of a search on one thread, with the time of that thread's processor: what other programs
 /// and other attempts use does not count. Evaluations and seconds are those of the same order, in
@@ -27,9 +28,8 @@ struct Attempt {
 };
 
 /// The answer is checked from the problem's data outside the clock; one that fails is none.
-Attempt attempt(const Problem& problem, const Method& method, Interruption* interruption = nullptr);
-Attempt attempt(const Problem& problem, const PlanMethod& method,
-                Interruption* interruption = nullptr);
+Attempt attempt(const Problem& problem, const Method& method,
+                const std::function<bool()>& interrupted = {});
 
 /// All attempts of one search through one lower-level solver.
 struct Contender {
@@ -83,6 +83,8 @@ struct RaceOptions {
   /// Of searches whose evaluations are dear (`SearchEntry::cost`) the budget is divided by that.
   bool shares_budget = true;
   std::function<void()> done;  ///< called after each attempt, from any thread; may be empty
+  /// Once it says true, no attempt begins and those that run end early. May be empty.
+  std::function<bool()> interrupted;
 };
 
 /// Makes what all searches on a problem share (`BranchAtlas`), outside of any clock: who asks first
@@ -90,10 +92,8 @@ struct RaceOptions {
 void prepare(const Problem& problem, int threads);
 
 /// Runs every search that serves the problem with seeds 1 to `seeds`; `base` holds measure, wrench,
-/// lp, budget and the default search. After an interruption no attempt begins. The values do not
-/// depend on the threads.
-Comparison compare(const Problem& problem, const Case& base, const RaceOptions& options,
-                   Interruption* interruption = nullptr);
+/// lp, budget and the default search. The values do not depend on the threads.
+Comparison compare(const Problem& problem, const Case& base, const RaceOptions& options);
 /// How many attempts that makes.
 long attempt_count(const Problem& problem, const Case& base, int seeds);
 

@@ -8,6 +8,7 @@
 #include <queue>
 #include <string_view>
 
+#include "benchmarks/row.h"
 #include "benchmarks/table.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
@@ -44,13 +45,13 @@ constexpr double kExperimentByIda_s = 4;
 
 bool searches_by_ipopt(const Case& c) {
   if (c.search.empty()) return false;
-  const std::vector<const SearchEntry*> stages = find_plan_search(c.search).stages;
+  const std::vector<const SearchEntry*> stages = find_search(c.search).stages;
   return std::any_of(stages.begin(), stages.end(),
                      [](const SearchEntry* stage) { return one_at_a_time(stage->name); });
 }
 
 bool searches_by_slp(const Case& c) {
-  const std::vector<const SearchEntry*> stages = find_plan_search(c.search).stages;
+  const std::vector<const SearchEntry*> stages = find_search(c.search).stages;
   return std::any_of(stages.begin(), stages.end(), [](const SearchEntry* stage) {
     return stage->name == std::string_view("slp");
   });

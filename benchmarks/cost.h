@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "solvers/solve/case.h"
+#include "solvers/solve/method.h"
 
 namespace maxwrench {
 

@@ -14,7 +14,6 @@
 #include <memory>
 #include <vector>
 
-#include "solvers/solve/case.h"
 #include "benchmarks/product.h"
 #include "lib/math/random.h"
 #include "lib/robot/chain.h"
@@ -22,6 +21,7 @@
 #include "maxwrench/posture.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"
+#include "solvers/solve/method.h"
 
 namespace maxwrench {
 namespace {
@@ -217,7 +217,7 @@ void add_problem(const Problem& problem) {
     add(name("collision"), [&](benchmark::State& state) { time_collision(state, problem); });
   }
   for (const Case& c : product(problem, 1, 1)) {
-    if (c.search != default_search()) continue;
+    if (c.search != general_search()) continue;
     const std::string title = name(fmt::format("{}/{}/{}", c.measure, to_string(c.wrench), c.lp));
     add(title,
         [&problem, c](benchmark::State& state) { time_objective(state, problem, c, false); });

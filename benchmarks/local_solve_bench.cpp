@@ -7,7 +7,6 @@
 #include <memory>
 #include <vector>
 
-#include "solvers/solve/case.h"
 #include "lib/math/random.h"
 #include "lib/search/facet_program.h"
 #include "maxwrench/load.h"
@@ -16,6 +15,7 @@
 #include "solvers/search/facet_nlp.h"
 #include "solvers/search/facet_sqp.h"
 #include "solvers/search/multistart.h"
+#include "solvers/solve/method.h"
 
 namespace maxwrench {
 namespace {

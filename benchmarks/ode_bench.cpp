@@ -7,14 +7,12 @@
 #include <chrono>
 #include <cmath>
 
-#include "solvers/solve/case.h"
-#include "solvers/solve/plan_row.h"
-#include "solvers/solve/row.h"
-#include "solvers/solve/tank_experiment.h"
 #include "lib/robot/motion.h"
 #include "maxwrench/load.h"
+#include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/tank.h"
+#include "solvers/solve/tank.h"
 
 namespace maxwrench {
 namespace {
@@ -105,22 +103,20 @@ void print_shares(const char* what, const Problem& problem, const Experiment& ex
 }
 
 void print_static_shares(const Problem& problem) {
-  const Row row = evaluate(problem, resolve(problem, {problem.name}), problem.theta_r_default);
+  const Answer answer = evaluate(problem, problem.theta_r_default);
   print_shares("static experiment of 15 s at the default posture, 1500 control periods", problem,
                [&](const char* integrator) {
-                 return simulate_tank(problem, row, problem.c.dot(row.capability.h), integrator,
-                                      {});
+                 return simulate_posture(answer, problem.c.dot(answer.capability.h), integrator,
+                                         {});
                });
 }
 
 void print_turn_shares(const Problem& problem) {
-  const PlanMethod method = resolve_plan(problem, {problem.name});
-  const PlanRow row =
-      evaluate_plan(problem, method, constant_knots(problem, problem.theta_r_default));
+  const Answer answer = evaluate(problem, problem.theta_r_default);
   print_shares("tracked turn of 5 s with the default posture throughout, 500 control periods",
                problem, [&](const char* integrator) {
-                 return simulate_plan(problem, row.plan, method.choice.wrench, *method.solver, {},
-                                      integrator, {})
+                 return simulate_plan(problem, answer.plan, Wrench::kPure, plan_solvers().front(),
+                                      {}, integrator, {})
                      .run;
                });
 }

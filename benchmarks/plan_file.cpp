@@ -57,7 +57,7 @@ void read_searches(const Block& block, Names& names) {
   if (names == Names{kAll}) return;
   for (const std::string& name : names) {
     try {
-      find_plan_search(name);
+      find_search(name);
     } catch (const std::invalid_argument& error) {
       const std::string why = error.what();
       const std::size_t expected = why.find("expected ");

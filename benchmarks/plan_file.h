@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "solvers/solve/case.h"
 #include "maxwrench/problem.h"
+#include "solvers/solve/method.h"
 
 namespace maxwrench {
 

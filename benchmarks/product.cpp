@@ -8,10 +8,10 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "solvers/solve/plan_row.h"
-#include "solvers/solve/tank_row.h"
+#include "benchmarks/row.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
+#include "solvers/solve/tank.h"
 
 namespace maxwrench {
 namespace {
@@ -35,14 +35,14 @@ Names wanted(const Names& column, const Names& served) {
 /// Those of a column all of whose stages serve.
 Names wanted_searches(const Names& column, const Problem& problem, const std::string& measure) {
   const Names alone = served_searches(problem, measure);
-  const std::string usual = problem.motion ? alone.front() : best_search(problem, measure);
+  const std::string usual = default_search(problem, measure);
   Names names = alone;
   std::erase(names, usual);
   names.insert(names.begin(), usual);
   if (column == Names{kAll}) return names;
   for (const std::string& name : column) {
     if (name.empty() || has(names, name)) continue;
-    const std::vector<const SearchEntry*> stages = find_plan_search(name).stages;
+    const std::vector<const SearchEntry*> stages = find_search(name).stages;
     const bool serves = std::all_of(stages.begin(), stages.end(), [&](const SearchEntry* stage) {
       return has(alone, stage->name);
     });
@@ -117,7 +117,7 @@ std::vector<Case> product(const Problem& problem, const ProductColumns& columns)
 
 std::vector<Case> product(const Problem& problem, std::uint64_t seed, long budget) {
   const Names all = {kAll};
-  const Names few = problem.motion ? Names{""} : Names{default_search(), "grid+cmaes"};
+  const Names few = problem.motion ? Names{""} : Names{general_search(), "grid+cmaes"};
   std::vector<Case> cases =
       product(problem, ProductColumns{all, all, all, few, all, {seed}, budget});
   for (const Case& c : product(problem, ProductColumns{all, all, {""}, all, all, {seed}, budget})) {

@@ -5,12 +5,16 @@
 #include <string>
 #include <vector>
 
-#include "solvers/solve/case.h"
+#include "solvers/solve/method.h"
 
 namespace maxwrench {
 
 /// What a column of a product lists to mean everything that has a meaning there.
 inline constexpr const char* kAll = "all";
+
+/// What is usual for a search of plans: one evaluation costs about a thousand times that of a
+/// posture.
+inline constexpr long kPlanBudget = 5000;
 
 /// Names column by column; an empty name is the default, `kAll` alone every one.
 struct ProductColumns {
@@ -27,7 +31,7 @@ struct ProductColumns {
 /// are the default and every method alone.
 std::vector<Case> product(const Problem& problem, const ProductColumns& columns);
 
-/// Every measure × wrench × lp with two searches, `default_search` and `grid+cmaes` (what a solver
+/// Every measure × wrench × lp with two searches, `general_search` and `grid+cmaes` (what a solver
 /// is worth does not depend on the search), and × search with the first lp. Of a task in time:
 /// wrench × scheme × lp with the first search, and × search with the first lp.
 std::vector<Case> product(const Problem& problem, std::uint64_t seed, long budget);

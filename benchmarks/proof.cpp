@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
-#include "solvers/solve/case.h"
 #include "maxwrench/problem.h"
+#include "solvers/solve/method.h"
 
 namespace maxwrench {
 

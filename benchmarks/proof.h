@@ -4,6 +4,7 @@
 #include <string>
 
 #include "solvers/certify/certify.h"
+#include "solvers/solve/method.h"
 
 namespace maxwrench {
 

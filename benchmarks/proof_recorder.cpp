@@ -118,21 +118,22 @@ CertificateTree ProofRecorder::tree() const {
   return tree;
 }
 
-ProofCertificate ProofRecorder::certificate(const Problem& problem, const Row& row,
-                                            const CertifyResult& result, double gap) const {
+ProofCertificate ProofRecorder::certificate(const Answer& answer, const CertifyResult& result,
+                                            double gap) const {
+  const Problem& problem = *answer.task;
   ProofCertificate proof;
   proof.version = version();
-  proof.problem = row.choice.problem;
-  proof.measure = row.choice.measure;
-  proof.wrench = row.choice.wrench;
+  proof.problem = answer.choice.problem;
+  proof.measure = answer.choice.measure;
+  proof.wrench = answer.choice.wrench;
   proof.collision = problem.robot.collision != nullptr;
   proof.digest = digest(problem);
   proof.bound = result.bound;
-  proof.x = coordinates_of(problem, PostureCoordinates(problem), row.posture);
-  proof.value = row.capability.beta;
+  proof.x = coordinates_of(problem, PostureCoordinates(problem), answer.posture);
+  proof.value = answer.capability.beta;
   proof.gap = std::max(gap, (proof.bound - proof.value) / std::abs(proof.value));
-  proof.u = row.capability.u;
-  proof.h = row.capability.h;
+  proof.u = answer.capability.u;
+  proof.h = answer.capability.h;
   proof.lower = lower_;
   proof.upper = upper_;
   proof.tree = tree();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solvers/solve/row.h"
+#include "maxwrench/solve.h"
 #include "solvers/certify/certify.h"
 #include "verify/certificate.h"
 
@@ -12,9 +12,8 @@ class ProofRecorder {
   /// For `CertifyOptions::sink`.
   void add(const CertifiedBox& box);
 
-  /// What was proven of the posture of a row, which has a value. `gap`: what was asked for.
-  ProofCertificate certificate(const Problem& problem, const Row& row, const CertifyResult& result,
-                               double gap) const;
+  /// What was proven of the posture of an answer, which has a value. `gap`: what was asked for.
+  ProofCertificate certificate(const Answer& answer, const CertifyResult& result, double gap) const;
 
  private:
   /// What was cut off a box: a leaf, and where.

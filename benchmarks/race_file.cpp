@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "benchmarks/case_file.h"
+#include "benchmarks/row.h"
 
 namespace maxwrench {
 namespace {

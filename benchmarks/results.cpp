@@ -5,8 +5,9 @@
 #include "benchmarks/case_file.h"
 #include "benchmarks/csv.h"
 #include "benchmarks/race_file.h"
-#include "solvers/solve/searched.h"
+#include "benchmarks/row.h"
 #include "benchmarks/write_file.h"
+#include "solvers/solve/method.h"
 
 namespace maxwrench {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "solvers/solve/case.h"
 #include "benchmarks/comparison.h"
+#include "solvers/solve/method.h"
 
 namespace maxwrench {
 

@@ -9,12 +9,11 @@
 #include <stdexcept>
 
 #include "benchmarks/case_file.h"
-#include "solvers/solve/plan_row.h"
 #include "benchmarks/results.h"
-#include "solvers/solve/row.h"
-#include "solvers/solve/tank_row.h"
+#include "benchmarks/row.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/wrench_program.h"
+#include "solvers/solve/method.h"
 
 namespace maxwrench {
 namespace {
@@ -52,7 +51,7 @@ std::string refuse_efforts(const Problem& problem, Wrench wrench, const Posture&
   WrenchProgram program = make_wrench_program(problem, wrench);
   set_posture(posture, program);
   const Eigen::VectorXd h = claim.vector("h");
-  const double tolerance = kRowTolerance * (1 + std::abs(beta));
+  const double tolerance = kAnswerTolerance * (1 + std::abs(beta));
   if (h.size() != 6) return "h: expected six numbers";
   const Eigen::VectorXd w = program.W.transpose() * h;
   if (!((h - program.W * w).norm() <= tolerance)) return "its wrench is not allowed";
@@ -67,7 +66,8 @@ std::string refuse_efforts(const Problem& problem, Wrench wrench, const Posture&
 
 /// The same in the best posture at theta_r, or in another one: which of two that are worth the same
 /// is chosen hangs on rounding.
-std::string refuse_own(const Problem& problem, const Row& anew, const RowOf& claim, double beta) {
+std::string refuse_own(const Problem& problem, const Answer& anew, const RowOf& claim,
+                       double beta) {
   const Wrench wrench = anew.choice.wrench;
   const std::string why = refuse_efforts(problem, wrench, anew.posture, claim, beta);
   if (why.empty()) return why;
@@ -83,7 +83,7 @@ std::string refuse_own(const Problem& problem, const Row& anew, const RowOf& cla
 std::string refuse_other(const RowOf& claim, const char* column, double anew) {
   const std::optional<double> claimed = claim.csv.number(claim.row, column);
   const bool same = std::isfinite(anew) ? claimed && std::abs(*claimed - anew) <=
-                                                         kRowTolerance * (1 + std::abs(anew))
+                                                         kAnswerTolerance * (1 + std::abs(anew))
                                         : !claimed;
   if (same) return "";
   return std::isfinite(anew) ? fmt::format("{}: its posture has {:.9g}", column, anew)
@@ -119,7 +119,7 @@ RowCheck compare(const Verdict& anew, double value, double beta) {
   check.deviation = std::abs(value - beta) / (1 + std::abs(beta));
   if (anew.status != Status::kOptimal) {
     check.refusal = fmt::format("its posture has no value: {}", anew.reason.str());
-  } else if (!(check.deviation <= kRowTolerance)) {
+  } else if (!(check.deviation <= kAnswerTolerance)) {
     check.refusal = fmt::format("its posture has the value {:.9g}", value);
   }
   return check;
@@ -132,28 +132,28 @@ Problem with_scheme(const Problem& problem, const Case& c) {
 }
 
 /// The posture of a row, evaluated.
-Row posture_again(const Problem& problem, const Case& c, const RowOf& claim) {
+Answer posture_again(const Problem& problem, const Case& c, const RowOf& claim) {
   const Eigen::VectorXd theta_r = claim.vector("theta_r");
   if (theta_r.size() != problem.redundancy()) {
     throw std::invalid_argument(
         fmt::format("theta_r: got {} numbers, expected {}", theta_r.size(), problem.redundancy()));
   }
-  return evaluate(problem, resolve(problem, c), theta_r);
+  return evaluate(problem, theta_r, {c});
 }
 
 /// The knots of a row, evaluated.
-PlanRow plan_again(const Problem& problem, const Case& c, const RowOf& claim) {
+Answer plan_again(const Problem& problem, const Case& c, const RowOf& claim) {
   const Eigen::VectorXd x = claim.vector("theta_r");
   const int r = problem.redundancy();
   if (x.size() == 0 || r == 0 || x.size() % r != 0) {
     throw std::invalid_argument(
         fmt::format("theta_r: got {} numbers, expected some times {}", x.size(), r));
   }
-  return evaluate_plan(problem, resolve_plan(problem, c), unstacked(x, x.size() / r));
+  return evaluate(problem, unstacked(x, x.size() / r), {c});
 }
 
 RowCheck check_posture(const Problem& problem, const Case& c, const RowOf& claim, double beta) {
-  const Row anew = posture_again(problem, c, claim);
+  const Answer anew = posture_again(problem, c, claim);
   RowCheck check = compare(anew, anew.capability.beta, beta);
   if (check.refusal.empty() && anew.unit != claim.text("unit")) {
     check.refusal = fmt::format("unit: expected '{}'", anew.unit);
@@ -167,7 +167,7 @@ RowCheck check_posture(const Problem& problem, const Case& c, const RowOf& claim
 
 RowCheck check_plan(const Problem& problem, const Case& c, const RowOf& claim, double value) {
   const Problem changed = with_scheme(problem, c);
-  const PlanRow anew = plan_again(changed, c, claim);
+  const Answer anew = plan_again(changed, c, claim);
   RowCheck check = compare(anew, anew.plan.value, value);
   if (check.refusal.empty() && anew.unit != claim.text("unit")) {
     check.refusal = fmt::format("unit: expected '{}'", anew.unit);
@@ -184,23 +184,23 @@ RowCheck check_plan(const Problem& problem, const Case& c, const RowOf& claim, d
 /// By the experiment again, of whose steps a reading depends to their tolerance.
 RowCheck check_experiment(const Problem& problem, const Case& c, const RowOf& claim,
                           double reading) {
-  const TankRow anew = run_experiment(with_scheme(problem, c), c);
+  const Answer anew = experiment(with_scheme(problem, c), {c});
   const Eigen::VectorXd theta_r = claim.vector("theta_r");
   RowCheck check;
   check.has_value = true;
-  check.deviation = std::abs(anew.reading - reading) / (1 + std::abs(reading));
+  check.deviation = std::abs(anew.beta() - reading) / (1 + std::abs(reading));
   if (!anew.has_value()) {
     check.refusal = fmt::format("its experiment has no reading: {}", anew.reason.str());
   } else if (!(check.deviation <= kSameReading)) {
-    check.refusal = fmt::format("its experiment has the reading {:.9g}", anew.reading);
+    check.refusal = fmt::format("its experiment has the reading {:.9g}", anew.beta());
   } else if (anew.unit != claim.text("unit")) {
     check.refusal = fmt::format("unit: expected '{}'", anew.unit);
   } else if (anew.missed.empty() != claim.text("reason").empty()) {
     check.refusal = fmt::format("reason: expected '{}'", anew.missed);
-  } else if (theta_r.size() != anew.theta_r.size() || theta_r != anew.theta_r) {
+  } else if (theta_r.size() != anew.plan.knots.size() || theta_r != stacked(anew.plan.knots)) {
     check.refusal = "theta_r: expected the default of the task";
   } else {
-    check.refusal = refuse_other(claim, "yardstick", anew.planned);
+    check.refusal = refuse_other(claim, "yardstick", anew.yardstick);
   }
   return check;
 }
@@ -215,8 +215,8 @@ std::string refuse_status(const Verdict& anew, const RowOf& claim) {
 /// nothing is its own word.
 std::string refuse_failure(const Problem& problem, const Case& c, const RowOf& claim) {
   const Problem changed = with_scheme(problem, c);
-  if (!c.integrator.empty()) return refuse_status(run_experiment(changed, c), claim);
-  complete(changed, c);                        // its names mean something together
+  if (!c.integrator.empty()) return refuse_status(experiment(changed, {c}), claim);
+  resolve(changed, c);                         // its names mean something together
   static_cast<void>(claim.vector("theta_r"));  // numbers, if any
   if (!c.search.empty()) return "";
   if (problem.motion) return refuse_status(plan_again(changed, c, claim), claim);

@@ -16,9 +16,9 @@ struct RowCheck {
 };
 
 /// Whether the table of theta_r of a row of values.csv, with all `value_columns`, has the value
-/// that it claims, within its limits and without collisions, up to kRowTolerance (1 + |value|): the
-/// lower level is solved anew and its answer verified from the problem's data, as that of any row.
-/// And of the L-infinity polytope with one contact, whether the row's own efforts, wrench and
+/// that it claims, within its limits and without collisions, up to kAnswerTolerance (1 + |value|):
+/// the lower level is solved anew and its answer verified from the problem's data, as that of any
+/// row. And of the L-infinity polytope with one contact, whether the row's own efforts, wrench and
 /// multipliers do: balance, limits, and a gap that proves them optimal. Unit, yardstick and
 /// `continuous` are compared, too, and the status must be one that has a value, or has none. An
 /// experiment is carried out again: its reading, to 1e-4, what was planned, and whether it was

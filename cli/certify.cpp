@@ -13,10 +13,11 @@
 #include "cli/ctrl_c.h"
 #include "cli/good_postures.h"
 #include "cli/output.h"
-#include "solvers/solve/pieces.h"
 #include "cli/progress.h"
 #include "maxwrench/load.h"
 #include "maxwrench/version.h"
+#include "solvers/solve/method.h"
+#include "solvers/solve/pieces.h"
 
 namespace maxwrench {
 namespace {
@@ -31,7 +32,8 @@ struct ProofOptions : CommonOptions {
 
 /// What was proven of the best posture that was found.
 struct Proof {
-  Row row;  ///< of the posture, evaluated anew
+  Answer row;  ///< of the posture, evaluated anew
+  std::string search;
   CertifyResult result;
   double search_s = 0;
   ProofRecorder boxes;               ///< if there is to be a certificate
@@ -79,16 +81,17 @@ void refuse_what_follows(const ProofOptions& options, const Problem& problem) {
 
 /// Searches, then bounds. What was found while bounding is evaluated anew, too.
 Proof prove(const ProofOptions& options, const Problem& problem) {
-  Case c = options.read_case();
+  Options c = options.read_options();
   const auto bound = make_capability_bound(problem, c.measure, c.wrench);  // or refuses, first
-  c.search = best_search(problem, c.measure);
   const Method method = resolve(problem, c);
   CtrlC ctrl_c;
   Proof proof;
   {
     Progress progress("search", method.choice.budget);
-    proof.row =
-        solve(problem, method, options.thread_count(), progress.counter(), &ctrl_c.interruption);
+    c.progress = progress.counter();
+    c.interrupted = ctrl_c.asked();
+    proof.row = solve(problem, c);
+    proof.search = proof.row.choice.search;
   }
   proof.search_s = proof.row.wall_s;
   ProgressLine line;
@@ -96,7 +99,7 @@ Proof prove(const ProofOptions& options, const Problem& problem) {
   how.gap = options.gap;
   how.seconds = options.seconds;
   how.threads = options.thread_count();
-  how.interrupted = [&ctrl_c] { return ctrl_c.interruption.asked.load(); };
+  how.interrupted = ctrl_c.asked();
   if (!options.certificate.empty()) {
     how.sink = [&proof](const CertifiedBox& box) { proof.boxes.add(box); };
   }
@@ -109,7 +112,7 @@ Proof prove(const ProofOptions& options, const Problem& problem) {
   }
   proof.result = prove(problem, method, *bound, incumbent, how);
   const Candidate& best = proof.result.best;
-  if (best.value > incumbent.value) proof.row = evaluate(problem, method, best.theta_r);
+  if (best.value > incumbent.value) proof.row = evaluate(problem, best.theta_r, c);
   if (best.value == -kInfinity) {
     if (proof.result.status == Status::kProven) proof.result.reason = "no posture has a value";
   } else if (!proof.row.has_value()) {
@@ -130,18 +133,18 @@ std::string refuse_gap(const std::string& text) {
 }
 
 /// Without a posture of a value, or a bound, there is nothing to certify.
-void write_certificate(const ProofOptions& options, const Problem& problem, const Proof& proof) {
+void write_certificate(const ProofOptions& options, const Proof& proof) {
   if (options.certificate.empty()) return;
   if (!proof.row.has_value() || !std::isfinite(proof.result.bound)) {
     remark(options.certificate + ": not written, as there is no value or no bound");
     return;
   }
-  write_file(options.certificate, certificate_text(proof.boxes.certificate(
-                                      problem, proof.row, proof.result, options.gap)));
+  write_file(options.certificate,
+             certificate_text(proof.boxes.certificate(proof.row, proof.result, options.gap)));
 }
 
 void print_proof_object(const ProofOptions& options, const Problem& problem, const Proof& proof) {
-  const Row& row = proof.row;
+  const Answer& row = proof.row;
   const CertifyResult& result = proof.result;
   const bool found = row.has_value();
   nlohmann::ordered_json object = {{"problem", options.choice.problem},
@@ -159,7 +162,7 @@ void print_proof_object(const ProofOptions& options, const Problem& problem, con
   object["theta"] = nullptr;
   if (found) object["theta"] = theta(problem.robot, row.posture.base, row.posture.q);
   object["residual"] = known(found, to_json(row.capability.residual));
-  object["search"] = row.choice.search;
+  object["search"] = proof.search;
   object["search_s"] = proof.search_s;
   object["boxes"] = result.boxes;
   object["colliding"] = result.colliding;
@@ -171,7 +174,7 @@ void print_proof_object(const ProofOptions& options, const Problem& problem, con
 }
 
 void print_proof_text(const ProofOptions& options, const Problem& problem, const Proof& proof) {
-  const Row& row = proof.row;
+  const Answer& row = proof.row;
   const CertifyResult& result = proof.result;
   fmt::print("{}  measure {}  wrench {}{}\n", problem.name, row.choice.measure,
              to_string(row.choice.wrench), problem.robot.collision ? "" : "  collisions ignored");
@@ -235,8 +238,8 @@ void add_certify(CLI::App& app, int& exit_status) {
     refuse_what_follows(*options, problem);
     if (options->ignore_collision) problem.robot.collision = nullptr;
     const Proof proof = prove(*options, problem);
-    write_certificate(*options, problem, proof);
-    if (proof.good) write_good(problem, proof.row, *proof.good, options->within);
+    write_certificate(*options, proof);
+    if (proof.good) write_good(proof.row, *proof.good, options->within);
     if (options->json) {
       print_proof_object(*options, problem, proof);
     } else {

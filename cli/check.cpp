@@ -6,10 +6,10 @@
 #include <memory>
 
 #include "cli/cli.h"
-#include "solvers/solve/pieces.h"
 #include "lib/posture/dependent_joints.h"
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
+#include "solvers/solve/pieces.h"
 
 namespace maxwrench {
 namespace {

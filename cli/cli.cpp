@@ -14,6 +14,7 @@
 #include "cli/output.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/version.h"
+#include "solvers/solve/method.h"
 
 namespace maxwrench {
 namespace {
@@ -142,6 +143,11 @@ Eigen::VectorXd theta_r_of(const Problem& problem, const std::optional<std::stri
   return text ? parse_numbers("--theta-r", *text) : problem.theta_r_default;
 }
 
+int report(const Answer& answer, bool json) {
+  fmt::print("{}", json ? to_json(answer) + "\n" : summary(answer));
+  return answer.answered() ? kAnswered : kOtherStatus;
+}
+
 void CommonOptions::add_json(CLI::App& app) {
   app.add_flag("--json", json, "print one JSON object");
 }
@@ -152,10 +158,10 @@ void CommonOptions::add_threads(CLI::App& app) {
       ->check(CLI::Range(0, 1024));
 }
 
-Case CommonOptions::read_case() const {
-  Case c = choice;
-  c.wrench = parse_wrench(wrench);
-  return c;
+Options CommonOptions::read_options() const {
+  Options options{choice, threads};
+  options.wrench = parse_wrench(wrench);
+  return options;
 }
 
 int CommonOptions::thread_count() const {

@@ -4,12 +4,11 @@
 #include <optional>
 #include <string>
 
-#include "solvers/solve/case.h"
+#include "maxwrench/solve.h"
 
 namespace maxwrench {
 
 struct Problem;
-struct Row;
 
 /// Exit statuses of the command.
 enum ExitStatus { kAnswered = 0, kOtherStatus = 1, kBadInput = 2 };
@@ -32,7 +31,7 @@ struct CommonOptions {
   void add_json(CLI::App& app);
   void add_threads(CLI::App& app);
 
-  Case read_case() const;
+  Options read_options() const;  ///< with all but callbacks
   int thread_count() const;
 };
 
@@ -51,8 +50,8 @@ std::string refuse_seed(const std::string& text);
 /// Empty, or why the text names no file or folder.
 std::string refuse_empty(const std::string& text);
 
-/// A row for people or, with `json`, as one object; returns the exit status that it deserves.
-int report(const Problem& problem, const Row& row, bool json);
+/// An answer for people or, with `json`, as one object; returns the exit status that it deserves.
+int report(const Answer& answer, bool json);
 
 // One function for each subcommand: adds it to the command line; its callback sets `exit_status`.
 void add_list(CLI::App& app, int& exit_status);

@@ -10,7 +10,7 @@
 
 #include "benchmarks/comparison.h"
 #include "benchmarks/machine.h"
-#include "solvers/solve/plan_row.h"
+#include "benchmarks/product.h"
 #include "benchmarks/race_summary.h"
 #include "benchmarks/write_file.h"
 #include "cli/cli.h"
@@ -23,6 +23,7 @@
 #include "drawing/convergence.h"
 #include "drawing/ecdf.h"
 #include "maxwrench/load.h"
+#include "solvers/solve/method.h"
 
 namespace maxwrench {
 namespace {
@@ -82,10 +83,9 @@ std::vector<Comparison> attempt_all(const CompareOptions& options,
     }
     Problem& problem = problems.emplace_back(load_problem(name));
     options.motion.change(problem);
-    Case& c = cases.emplace_back(options.read_case());
-    if (!problem.motion) c.search = best_search(problem, c.measure);
+    Case& c = cases.emplace_back(options.read_options());
     if (!options.names_budget) c.budget = usual_budget(problem, c.budget);
-    complete(problem, c);  // refuses before anything is computed
+    resolve(problem, c);  // refuses before anything is computed
   }
   write_file(folder / "machine.txt", describe_machine());
   long total = 0;
@@ -95,11 +95,12 @@ std::vector<Comparison> attempt_all(const CompareOptions& options,
   }
   Progress progress("compare", total);
   CtrlC ctrl_c;
+  const std::function<bool()> asked = ctrl_c.asked();
   std::vector<Comparison> comparisons;
-  for (std::size_t i = 0; i < problems.size() && !ctrl_c.interruption.asked; ++i) {
+  for (std::size_t i = 0; i < problems.size() && !asked(); ++i) {
     const RaceOptions race{options.seeds, options.thread_count(), !options.names_budget,
-                           [&] { progress.show(++done); }};
-    comparisons.push_back(compare(problems[i], cases[i], race, &ctrl_c.interruption));
+                           [&] { progress.show(++done); }, asked};
+    comparisons.push_back(compare(problems[i], cases[i], race));
     if (!comparisons.back().interrupted) keep(comparisons.back(), folder);
   }
   progress.finish();

@@ -1,24 +1,20 @@
 #include "cli/ctrl_c.h"
 
-#include <cassert>
+#include <atomic>
 #include <csignal>
 
 namespace maxwrench {
 namespace {
 
-std::atomic<Interruption*> g_interrupted = nullptr;
-static_assert(std::atomic<Interruption*>::is_always_lock_free &&
-              std::atomic<bool>::is_always_lock_free);  // for use in a signal handler
+std::atomic<bool> g_asked = false;
+static_assert(std::atomic<bool>::is_always_lock_free);  // for use in a signal handler
 
-void ask_to_end(int) {
-  if (Interruption* interruption = g_interrupted) interruption->asked = true;
-}
+void ask_to_end(int) { g_asked = true; }
 
 }  // namespace
 
 CtrlC::CtrlC() {
-  assert(g_interrupted == nullptr);
-  g_interrupted = &interruption;
+  g_asked = false;
   struct sigaction before {};
   if (sigaction(SIGINT, nullptr, &before) != 0 || before.sa_handler == SIG_IGN) return;
   struct sigaction handler {};
@@ -32,7 +28,10 @@ CtrlC::~CtrlC() {
   if (sigaction(SIGINT, nullptr, &now) == 0 && now.sa_handler == ask_to_end) {
     std::signal(SIGINT, SIG_DFL);
   }
-  g_interrupted = nullptr;
+}
+
+std::function<bool()> CtrlC::asked() const {
+  return [] { return g_asked.load(std::memory_order_relaxed); };
 }
 
 }  // namespace maxwrench

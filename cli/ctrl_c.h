@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solvers/solve/interruption.h"
+#include <functional>
 
 namespace maxwrench {
 
@@ -13,7 +13,8 @@ class CtrlC {
   CtrlC(const CtrlC&) = delete;
   CtrlC& operator=(const CtrlC&) = delete;
 
-  Interruption interruption;
+  /// Whether it was pressed since.
+  std::function<bool()> asked() const;
 };
 
 }  // namespace maxwrench

@@ -1,16 +1,15 @@
 #include <memory>
 #include <stdexcept>
 
-#include "solvers/solve/plan_row.h"
-#include "solvers/solve/row.h"
 #include "benchmarks/write_file.h"
 #include "cli/cli.h"
 #include "cli/motion_options.h"
 #include "cli/output.h"
 #include "cli/state.h"
 #include "maxwrench/load.h"
-#include "maxwrench/measure.h"
 #include "maxwrench/mps.h"
+#include "maxwrench/solve.h"
+#include "maxwrench/wrench_program.h"
 
 namespace maxwrench {
 namespace {
@@ -22,34 +21,23 @@ struct EvalOptions : CommonOptions {
   MotionOptions motion;
 };
 
-/// Writes the program of the posture, if there is one.
-void write_program(const EvalOptions& options, const Problem& problem, const Method& method,
-                   const Eigen::VectorXd& theta_r) {
-  if (method.choice.measure != "linf_polytope") {
-    throw std::invalid_argument("--write: got measure " + method.choice.measure +
-                                ", expected linf_polytope");
+/// Writes the program of the posture or plan, if there is one.
+void write_program(const EvalOptions& options, const Answer& answer) {
+  const Problem& problem = *answer.task;
+  if (answer.status == Status::kInvalidPosture) return;
+  if (problem.motion) {
+    write_file(options.write, plan_program_mps(problem, answer.program));
+    return;
   }
-  PostureEvaluator model(problem, !options.ignore_collision);
-  WrenchProgram program = make_wrench_program(problem, method.choice.wrench);
-  Capability capability;
-  const Posture& posture =
-      evaluate_best(model, theta_r, *method.make_measure(), false, program, capability);
-  if (posture.status != Status::kValid) return;
-  set_posture(posture, program);
+  WrenchProgram program = make_wrench_program(problem, answer.choice.wrench);
+  set_posture(answer.posture, program);
   write_file(options.write, wrench_program_mps(problem, program));
 }
 
-int eval_plan(const EvalOptions& options, const Problem& problem, const Case& c) {
-  require_apart(
-      {{"path.file", problem.motion->path_file}, {"--theta-r", options.theta_r.value_or("")}},
-      {{"--write", options.write}});
-  const PlanMethod method = resolve_plan(problem, c);
-  const PlanRow row =
-      evaluate_plan(problem, method, knots_of(problem, options.theta_r), !options.ignore_collision);
-  if (!options.write.empty() && row.status != Status::kInvalidPosture) {
-    write_file(options.write, plan_program_mps(problem, row.program));
-  }
-  return report(problem, row, options.json);
+void require_program(const Options& options) {
+  if (options.measure == "linf_polytope") return;
+  throw std::invalid_argument("--write: got measure " + options.measure +
+                              ", expected linf_polytope");
 }
 
 int eval(const EvalOptions& options) {
@@ -59,14 +47,23 @@ int eval(const EvalOptions& options) {
   }
   Problem problem = load_problem(options.choice.problem);
   options.motion.change(problem);
-  Case c = options.read_case();
-  c.search.clear();  // none is used
-  if (problem.motion) return eval_plan(options, problem, c);
-  const Method method = resolve(problem, c);
-  const Eigen::VectorXd theta_r = theta_r_of(problem, options.theta_r);
-  if (!options.write.empty()) write_program(options, problem, method, theta_r);
-  return report(problem, evaluate(problem, method, theta_r, !options.ignore_collision),
-                options.json);
+  Options how = options.read_options();
+  how.check_collision = !options.ignore_collision;
+  if (problem.motion) {
+    require_apart(
+        {{"path.file", problem.motion->path_file}, {"--theta-r", options.theta_r.value_or("")}},
+        {{"--write", options.write}});
+  }
+  if (!options.write.empty()) require_program(how);
+  Eigen::MatrixXd theta_r;
+  if (problem.motion) {
+    theta_r = knots_of(problem, options.theta_r);
+  } else {
+    theta_r = theta_r_of(problem, options.theta_r);
+  }
+  const Answer answer = evaluate(problem, theta_r, how);
+  if (!options.write.empty()) write_program(options, answer);
+  return report(answer, options.json);
 }
 
 }  // namespace

@@ -9,8 +9,9 @@
 
 #include "benchmarks/write_file.h"
 #include "cli/cli.h"
-#include "solvers/solve/pieces.h"
 #include "drawing/projections.h"
+#include "solvers/solve/method.h"
+#include "solvers/solve/pieces.h"
 
 namespace maxwrench {
 namespace {
@@ -129,8 +130,8 @@ std::vector<BoxGroup> groups_of(const GoodPostures& good, const char* unit) {
   return groups;
 }
 
-std::string draw_good(const Problem& problem, const Row& row, const GoodPostures& good,
-                      const WithinOptions& options) {
+std::string draw_good(const Answer& row, const GoodPostures& good, const WithinOptions& options) {
+  const Problem& problem = *row.task;
   std::vector<BoxAxis> axes;
   for (int i = 0; i < problem.redundancy(); ++i) {
     axes.push_back({problem.theta_r_name(i), problem.theta_r_unit(i), problem.theta_r_min[i],
@@ -138,7 +139,7 @@ std::string draw_good(const Problem& problem, const Row& row, const GoodPostures
   }
   const std::string title = fmt::format("{}: within {} of {:.5g} {}", problem.name,
                                         percent(options.share()), row.capability.beta, row.unit);
-  return draw_projections(title, axes, groups_of(good, row.unit));
+  return draw_projections(title, axes, groups_of(good, row.unit.c_str()));
 }
 
 }  // namespace
@@ -162,14 +163,14 @@ double WithinOptions::share() const { return parse_share(within); }
 
 GoodPostures verified_good_postures(const Problem& problem, const Method& method,
                                     const Bound& bound, double high, GoodOptions options,
-                                    Row& row) {
+                                    Answer& row) {
   options.turns = turning(problem);
   const auto objective = make_capability_objective(problem, row.choice.wrench, method.make_measure);
   GoodPostures good = find_good_postures(*objective, bound,
                                          {row.posture.theta_r, row.capability.beta}, high, options);
   for (Cluster& cluster : good.clusters) {
     if (cluster.best.value == -kInfinity) continue;
-    const Row found = evaluate(problem, method, cluster.best.theta_r);
+    const Answer found = evaluate(problem, cluster.best.theta_r, {method.choice});
     if (!found.has_value()) {
       cluster.best = {};
     } else if (found.capability.beta > row.capability.beta) {
@@ -217,10 +218,9 @@ nlohmann::ordered_json to_json(const GoodPostures& good, const WithinOptions& op
           {"wall_s", good.seconds},           {"clusters", clusters}};
 }
 
-void write_good(const Problem& problem, const Row& row, const GoodPostures& good,
-                const WithinOptions& options) {
+void write_good(const Answer& row, const GoodPostures& good, const WithinOptions& options) {
   if (!options.boxes.empty()) write_file(options.boxes, boxes_csv(good));
-  if (!options.figure.empty()) write_file(options.figure, draw_good(problem, row, good, options));
+  if (!options.figure.empty()) write_file(options.figure, draw_good(row, good, options));
 }
 
 }  // namespace maxwrench

@@ -3,9 +3,10 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "solvers/solve/row.h"
+#include "maxwrench/solve.h"
 #include "solvers/certify/certify.h"
 #include "solvers/certify/good_postures.h"
+#include "solvers/solve/method.h"
 
 namespace CLI {
 class App;
@@ -13,6 +14,7 @@ class App;
 
 namespace maxwrench {
 
+struct Method;
 struct Problem;
 
 /// The options of `certify --within`.
@@ -33,7 +35,8 @@ inline constexpr double kGapPart = 0.1;
 /// All postures that are within the share of the best; `row` holds the best that is known, whose
 /// value is at most `high`. Those that are found are verified as any; a better one becomes `row`.
 GoodPostures verified_good_postures(const Problem& problem, const Method& method,
-                                    const Bound& bound, double high, GoodOptions options, Row& row);
+                                    const Bound& bound, double high, GoodOptions options,
+                                    Answer& row);
 
 /// For people, after what was proven of the best.
 void print_good(const Problem& problem, const GoodPostures& good, const WithinOptions& options);
@@ -41,7 +44,6 @@ void print_good(const Problem& problem, const GoodPostures& good, const WithinOp
 nlohmann::ordered_json to_json(const GoodPostures& good, const WithinOptions& options);
 
 /// The files that were asked for.
-void write_good(const Problem& problem, const Row& row, const GoodPostures& good,
-                const WithinOptions& options);
+void write_good(const Answer& row, const GoodPostures& good, const WithinOptions& options);
 
 }  // namespace maxwrench

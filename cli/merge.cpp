@@ -4,6 +4,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "benchmarks/row.h"
 #include "benchmarks/write_file.h"
 #include "cli/cli.h"
 #include "cli/row_writer.h"

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "solvers/solve/plan_row.h"
 #include "cli/cli.h"
 #include "maxwrench/load.h"
 #include "maxwrench/plan.h"
+#include "solvers/solve/method.h"
 
 namespace maxwrench {
 namespace {

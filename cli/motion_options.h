@@ -10,7 +10,6 @@
 namespace maxwrench {
 
 struct Plan;
-struct PlanRow;
 
 /// Options of tasks in time.
 struct MotionOptions {
@@ -31,8 +30,5 @@ Eigen::MatrixXd knots_of(const Problem& problem, const std::optional<std::string
 /// When postures tell most [s]: at the start, in the middle (of a heave at its peak) and at the
 /// end.
 std::vector<double> telling_times(const MotionTask& task, const Plan& plan);
-
-/// A plan for people or, with `json`, as one object; returns the exit status that it deserves.
-int report(const Problem& problem, const PlanRow& row, bool json);
 
 }  // namespace maxwrench

@@ -21,8 +21,7 @@ void remark(const std::string& text);
 /// if stdout refused it.
 int flush_output(int exit_status);
 
-/// One object on one line. JSON knows UTF-8 only: text in another encoding is read as Latin-1, so
-/// that names stay apart.
+/// One object on one line, see `in_one_line`.
 void print_json(const nlohmann::ordered_json& object);
 
 /// A file that an option or argument of the command names; empty: none.

@@ -7,6 +7,7 @@
 
 #include "benchmarks/machine.h"
 #include "benchmarks/race_file.h"
+#include "benchmarks/row.h"
 #include "benchmarks/table.h"
 #include "maxwrench/version.h"
 

@@ -6,11 +6,11 @@
 #include <ctime>
 
 #include "benchmarks/machine.h"
-#include "solvers/solve/plan_row.h"
-#include "solvers/solve/tank_row.h"
+#include "benchmarks/row.h"
 #include "benchmarks/write_file.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/version.h"
+#include "solvers/solve/method.h"
 
 namespace maxwrench {
 namespace {
@@ -69,73 +69,45 @@ RowWriter::RowWriter(const std::string& command, const std::filesystem::path& fo
   if (work > 0 || !std::filesystem::exists(machine)) write_file(machine, describe_machine());
 }
 
-template <class AnyRow>
-AnyRow RowWriter::kept(const Problem& problem, int threads, const std::function<AnyRow()>& make,
-                       double work) {
+Answer RowWriter::kept(int threads, const std::function<Answer()>& make, double work) {
   const double start = processor_seconds(threads);
-  AnyRow row = make();
+  Answer answer = make();
   const double used = processor_seconds(threads) - start;
-  std::vector<std::string> measured = times(row.choice, row.evaluations, row.wall_s);
+  std::vector<std::string> measured = times(answer);
   measured.insert(measured.end(), {fmt::format("{:.4g}", used), std::to_string(threads),
                                    processor_name(), build_line(), sources_id(), version()});
   const std::lock_guard guard(mutex_);
-  values_.put(values(problem, row));
+  values_.put(values(answer));
   times_.put(measured);
-  all_solved_ = all_solved_ && row.has_value();
+  all_solved_ = all_solved_ && answer.has_value();
   progress_.show(done_ += work);
-  return row;
+  return answer;
 }
 
-template <class AnyRow>
-AnyRow RowWriter::attempted(const Case& c, const std::function<AnyRow()>& make) const {
-  try {
-    return make();
-  } catch (const std::exception& error) {
-    AnyRow row;
-    row.choice = c;
-    row.conclude(Status::kNumericalError, error.what());
-    return row;
-  }
+Answer RowWriter::solve(const Problem& problem, const Case& c) {
+  return kept(threads_, [&] { return maxwrench::solve(problem, {c, threads_}); });
 }
 
-Row RowWriter::solve(const Problem& problem, const Method& method) {
-  return kept<Row>(problem, threads_, [&] { return maxwrench::solve(problem, method, threads_); });
+Answer RowWriter::evaluate(const Problem& problem, const Case& c, const Eigen::MatrixXd& theta_r) {
+  return kept(1, [&] { return maxwrench::evaluate(problem, theta_r, {c}); });
 }
 
-PlanRow RowWriter::solve(const Problem& problem, const PlanMethod& method) {
-  return kept<PlanRow>(problem, threads_, [&] { return solve_plan(problem, method, threads_); });
-}
-
-void RowWriter::solve_case(const Problem& problem, const Case& c, double work) {
-  if (!c.integrator.empty()) {
-    Problem changed = problem;
-    if (problem.motion) set_scheme("scheme", c.scheme, changed);
-    const auto make = [&] { return run_experiment(changed, c); };
-    kept<TankRow>(
-        changed, 1, [&] { return attempted<TankRow>(c, make); }, work);
-    return;
-  }
-  if (!problem.motion) {
-    const auto make = [&] { return maxwrench::solve(problem, resolve(problem, c), threads_); };
-    kept<Row>(
-        problem, threads_, [&] { return attempted<Row>(c, make); }, work);
-    return;
-  }
-  Problem changed = problem;
-  set_scheme("scheme", c.scheme, changed);
-  const auto make = [&] { return solve_plan(changed, resolve_plan(changed, c), threads_); };
-  kept<PlanRow>(
-      changed, threads_, [&] { return attempted<PlanRow>(c, make); }, work);
-}
-
-Row RowWriter::evaluate(const Problem& problem, const Method& method,
-                        const Eigen::VectorXd& theta_r) {
-  return kept<Row>(problem, 1, [&] { return maxwrench::evaluate(problem, method, theta_r); });
-}
-
-PlanRow RowWriter::evaluate(const Problem& problem, const PlanMethod& method,
-                            const Eigen::MatrixXd& knots) {
-  return kept<PlanRow>(problem, 1, [&] { return evaluate_plan(problem, method, knots); });
+void RowWriter::carry_out(const Problem& problem, const Case& c, double work) {
+  const bool searches = c.integrator.empty();
+  const auto make = [&] {
+    try {
+      Problem changed = problem;
+      if (problem.motion) set_scheme("scheme", c.scheme, changed);
+      return searches ? maxwrench::solve(changed, {c, threads_}) : experiment(changed, {c});
+    } catch (const std::exception& error) {
+      Answer answer;
+      answer.task = std::make_shared<const Problem>(problem);
+      answer.choice = c;
+      answer.conclude(Status::kNumericalError, error.what());
+      return answer;
+    }
+  };
+  kept(searches ? threads_ : 1, make, work);
 }
 
 bool RowWriter::finish() {

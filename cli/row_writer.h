@@ -5,14 +5,11 @@
 #include <mutex>
 #include <string>
 
-#include "solvers/solve/row.h"
+#include "benchmarks/row.h"
 #include "benchmarks/table.h"
 #include "cli/progress.h"
 
 namespace maxwrench {
-
-struct PlanMethod;
-struct PlanRow;
 
 /// The tables of a folder: values.csv and times.csv.
 Table values_table(const std::filesystem::path& folder);
@@ -41,26 +38,19 @@ class RowWriter {
   RowWriter(const std::string& command, const std::filesystem::path& folder, int threads,
             double work);
 
-  Row solve(const Problem& problem, const Method& method);
-  PlanRow solve(const Problem& problem, const PlanMethod& method);
-  Row evaluate(const Problem& problem, const Method& method, const Eigen::VectorXd& theta_r);
-  PlanRow evaluate(const Problem& problem, const PlanMethod& method, const Eigen::MatrixXd& knots);
+  Answer solve(const Problem& problem, const Case& c);
+  Answer evaluate(const Problem& problem, const Case& c, const Eigen::MatrixXd& theta_r);
 
-  /// Of any task, from any thread; what is thrown on the way makes a row without a value, with the
-  /// reason.
-  void solve_case(const Problem& problem, const Case& c, double work);
+  /// A search or an experiment, from any thread; what is thrown on the way makes a row without a
+  /// value, with the reason.
+  void carry_out(const Problem& problem, const Case& c, double work);
 
   /// Removes the progress bar and writes the tables; whether every row has a value.
   bool finish();
 
  private:
-  /// Of a `Row`, `PlanRow` or `TankRow`.
-  template <class AnyRow>
-  AnyRow kept(const Problem& problem, int threads, const std::function<AnyRow()>& make,
-              double work = 1);
-  /// The row of a method, or of what kept it from having one.
-  template <class AnyRow>
-  AnyRow attempted(const Case& c, const std::function<AnyRow()>& make) const;
+  /// Keeps the row of what is made, and measures the time of the processor.
+  Answer kept(int threads, const std::function<Answer()>& make, double work = 1);
 
   Table values_, times_;
   std::mutex mutex_;

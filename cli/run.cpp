@@ -7,12 +7,12 @@
 
 #include "benchmarks/cost.h"
 #include "benchmarks/plan_file.h"
-#include "solvers/solve/plan_row.h"
 #include "benchmarks/product.h"
 #include "cli/cli.h"
 #include "cli/row_writer.h"
 #include "cli/workers.h"
 #include "maxwrench/load.h"
+#include "solvers/solve/method.h"
 
 namespace maxwrench {
 namespace {

@@ -10,14 +10,14 @@
 #include <stdexcept>
 #include <utility>
 
-#include "solvers/solve/row.h"
-#include "solvers/solve/tank_experiment.h"
 #include "benchmarks/write_file.h"
 #include "cli/output.h"
 #include "maxwrench/figures.h"
 #include "maxwrench/load.h"
+#include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/version.h"
+#include "solvers/solve/tank.h"
 
 namespace maxwrench {
 namespace {
@@ -86,25 +86,27 @@ void print_text(const Problem& problem, const SimulateOptions& options, const Ta
   print_end(run);
 }
 
-int print_heaviest(const Problem& problem, const SimulateOptions& options, const Row& row) {
-  const int mass = heaviest_load(problem, row, options.integrator, options.tank);
+int print_heaviest(const SimulateOptions& options, const Answer& answer) {
+  const std::string& problem = answer.task->name;
+  const int mass = heaviest_load(answer, options.integrator, options.tank);
   if (options.json) {
-    print_json({{"problem", problem.name}, {"heaviest", mass}});
+    print_json({{"problem", problem}, {"heaviest", mass}});
   } else {
-    fmt::print("{}  virtual tank  heaviest load {} kg\n", problem.name, mass);
+    fmt::print("{}  virtual tank  heaviest load {} kg\n", problem, mass);
   }
   return kAnswered;
 }
 
-TankRun simulate_row(const Problem& problem, const SimulateOptions& options, const Row& row) {
+TankRun simulate_answer(const SimulateOptions& options, const Answer& answer) {
   const TankOptions& tank = options.tank;
-  if (tank.load > 0) return simulate_load(problem, row, tank.load, options.integrator, tank);
-  const double planned = options.planned > 0 ? options.planned : problem.c.dot(row.capability.h);
+  if (tank.load > 0) return simulate_load(answer, tank.load, options.integrator, tank);
+  const double planned =
+      options.planned > 0 ? options.planned : answer.task->c.dot(answer.capability.h);
   if (planned <= 0) {
     throw std::invalid_argument(
         fmt::format("--planned: got {}, expected a value > 0: none is possible here", planned));
   }
-  return simulate_tank(problem, row, planned, options.integrator, tank);
+  return simulate_posture(answer, planned, options.integrator, tank);
 }
 
 void require_stiff(const std::string& name) {
@@ -119,18 +121,17 @@ void require_stiff(const std::string& name) {
 }
 
 int simulate_static(const Problem& task, const SimulateOptions& options) {
-  Case c = options.read_case();
-  c.search.clear();  // none is used
   // The controller holds the end effector where theta_r has it.
   const Eigen::VectorXd theta_r = theta_r_of(task, options.theta_r);
   const Problem problem = held_at(task, theta_r);
-  const Row row = evaluate(problem, resolve(problem, c), held_theta_r(task, theta_r));
-  if (!row.has_value()) return report(problem, row, options.json);
-  if (row.capability.u.size() == 0 || row.capability.w.size() == 0) {
-    throw std::invalid_argument("--measure: got " + c.measure + ", expected one with a wrench");
+  const Answer answer = evaluate(problem, held_theta_r(task, theta_r), options.read_options());
+  if (!answer.has_value()) return report(answer, options.json);
+  if (answer.capability.u.size() == 0 || answer.capability.w.size() == 0) {
+    throw std::invalid_argument("--measure: got " + answer.choice.measure +
+                                ", expected one with a wrench");
   }
-  if (options.heaviest) return print_heaviest(problem, options, row);
-  const TankRun run = simulate_row(problem, options, row);
+  if (options.heaviest) return print_heaviest(options, answer);
+  const TankRun run = simulate_answer(options, answer);
   if (!options.out.empty()) write_file(options.out, tank_csv(problem, run));
   (options.json ? print_object : print_text)(problem, options, run);
   // Last: it refuses an experiment without samples, whose answer stands even so.

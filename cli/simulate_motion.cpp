@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "solvers/solve/tank_experiment.h"
 #include "benchmarks/write_file.h"
 #include "cli/output.h"
 #include "cli/simulate.h"
@@ -13,6 +12,7 @@
 #include "maxwrench/strategies.h"
 #include "maxwrench/tank.h"
 #include "maxwrench/version.h"
+#include "solvers/solve/tank.h"
 
 namespace maxwrench {
 namespace {
@@ -44,7 +44,7 @@ Interpolation interpolation_of(const Problem& problem, const SimulateOptions& op
 }
 
 MotionAnswer answer_of(const Problem& problem, const SimulateOptions& options) {
-  const Wrench wrench = options.read_case().wrench;
+  const Wrench wrench = options.read_options().wrench;
   const PlanSolverEntry& lp =
       options.choice.lp.empty() ? plan_solvers().front() : find_plan_solver(options.choice.lp);
   ScriptOptions script;

@@ -1,7 +1,7 @@
+#include "maxwrench/solve.h"
+
 #include <memory>
 
-#include "solvers/solve/plan_row.h"
-#include "solvers/solve/row.h"
 #include "benchmarks/write_file.h"
 #include "cli/cli.h"
 #include "cli/ctrl_c.h"
@@ -9,47 +9,27 @@
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "maxwrench/load.h"
-#include "maxwrench/strategies.h"
 
 namespace maxwrench {
 namespace {
 
 struct SolveOptions : CommonOptions {
   MotionOptions motion;
-  bool names_search = false;
   std::string out;
 };
 
-/// The posture as a table, or the plan.
-void write_table(const SolveOptions& options, const Problem& problem, const Eigen::MatrixXd& knots,
-                 bool found) {
-  if (!options.out.empty() && found) write_file(options.out, knots_csv(problem, knots));
-}
-
-int solve_posture(const SolveOptions& options, const Problem& problem) {
-  Case c = options.read_case();
-  if (!options.names_search) c.search = best_search(problem, c.measure);
-  const Method method = resolve(problem, c);
-  Progress progress("solve", method.choice.budget);
+int solve(const SolveOptions& options, const Problem& problem) {
+  Options how = options.read_options();
+  Progress progress("solve", static_cast<double>(how.budget));
   CtrlC ctrl_c;
-  const Row row =
-      solve(problem, method, options.thread_count(), progress.counter(), &ctrl_c.interruption);
+  how.progress = progress.counter();
+  how.interrupted = ctrl_c.asked();
+  const Answer answer = solve(problem, how);
   progress.finish();
-  write_table(options, problem, row.posture.theta_r.transpose(), row.has_posture());
-  return report(problem, row, options.json);
-}
-
-int solve_motion(const SolveOptions& options, const Problem& problem) {
-  Case c = options.read_case();
-  if (!options.names_search) c.search = plan_searches().front().name;
-  const PlanMethod method = resolve_plan(problem, c);
-  Progress progress("solve", method.choice.budget);
-  CtrlC ctrl_c;
-  const PlanRow row =
-      solve_plan(problem, method, options.thread_count(), progress.counter(), &ctrl_c.interruption);
-  progress.finish();
-  write_table(options, problem, row.plan.knots, row.has_plan());
-  return report(problem, row, options.json);
+  if (!options.out.empty() && answer.has_posture()) {
+    write_file(options.out, knots_csv(problem, answer.plan.knots));
+  }
+  return report(answer, options.json);
 }
 
 }  // namespace
@@ -65,15 +45,13 @@ void add_solve(CLI::App& app, int& exit_status) {
   options->add_json(command);
   command.add_option("--out", options->out, "table of theta_r to write, as a CSV file")
       ->check(refuse_empty);
-  command.callback([options, &command, &exit_status] {
+  command.callback([options, &exit_status] {
     Problem problem = load_problem(options->choice.problem);
     options->motion.change(problem);
     require_apart({{"problem", options->choice.problem},
                    {"path.file", problem.motion ? problem.motion->path_file : ""}},
                   {{"--out", options->out}});
-    options->names_search = command.count("--search") > 0;
-    exit_status =
-        problem.motion ? solve_motion(*options, problem) : solve_posture(*options, problem);
+    exit_status = solve(*options, problem);
   });
 }
 

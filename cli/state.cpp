@@ -6,10 +6,10 @@
 
 #include "cli/cli.h"
 #include "cli/output.h"
-#include "solvers/solve/pieces.h"
 #include "lib/robot/dynamics.h"
 #include "maxwrench/load.h"
 #include "maxwrench/version.h"
+#include "solvers/solve/pieces.h"
 
 namespace maxwrench {
 namespace {

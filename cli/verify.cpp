@@ -8,9 +8,9 @@
 #include "cli/cli.h"
 #include "cli/lp_proof.h"
 #include "cli/output.h"
-#include "solvers/solve/pieces.h"
 #include "cli/verify_rows.h"
 #include "maxwrench/load.h"
+#include "solvers/solve/pieces.h"
 
 namespace maxwrench {
 namespace {

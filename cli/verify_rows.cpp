@@ -11,14 +11,14 @@
 #include <stdexcept>
 
 #include "benchmarks/case_file.h"
-#include "solvers/solve/row.h"
+#include "benchmarks/row.h"
 #include "benchmarks/row_check.h"
 #include "cli/cli.h"
 #include "cli/output.h"
-#include "solvers/solve/pieces.h"
 #include "lib/math/random.h"
 #include "maxwrench/batch.h"
 #include "maxwrench/load.h"
+#include "solvers/solve/pieces.h"
 
 namespace maxwrench {
 namespace {

@@ -76,7 +76,7 @@ void solve_cases(const Workload& work, const std::vector<Case>& cases,
   parallel_for(threads, threads, [&](long) {
     try {
       while (const auto job = jobs.next()) {
-        writer.solve_case(work.problems.at(job->choice.problem), job->choice, job->seconds);
+        writer.carry_out(work.problems.at(job->choice.problem), job->choice, job->seconds);
         jobs.finished(*job);
       }
     } catch (...) {

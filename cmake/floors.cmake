@@ -68,7 +68,8 @@ target_compile_definitions(maxwrench_problems PRIVATE
   MAXWRENCH_PROBLEMS_INSTALLED="${CMAKE_INSTALL_FULL_DATADIR}/maxwrench/problems"
   TOML_HEADER_ONLY=0 TOML_SHARED_LIB=1)
 
-add_core_floor(solvers TBB::tbb fmt::fmt)
+find_package(nlohmann_json REQUIRED)
+add_core_floor(solvers TBB::tbb fmt::fmt nlohmann_json::nlohmann_json)
 foreach(library IPOPT CLP GLPK NLOPT PAGMO SUNDIALS)
   target_compile_definitions(maxwrench_solvers PRIVATE MAXWRENCH_WITH_${library}=$<BOOL:${MAXWRENCH_WITH_${library}}>)
   if(NOT MAXWRENCH_WITH_${library})
@@ -121,7 +122,6 @@ endif()
 
 if(MAXWRENCH_BUILD_COMMAND)
   find_package(CLI11 REQUIRED)
-  find_package(nlohmann_json REQUIRED)
   add_floor(cli STATIC)
   target_link_libraries(maxwrench_cli PUBLIC maxwrench_benchmarks maxwrench_drawing
     PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json fmt::fmt)

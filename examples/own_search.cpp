@@ -51,7 +51,7 @@ int main() {
   const SearchResult best = compass.maximize(*objective, options);
   std::printf("compass  %.6f %s after %ld evaluations\n", best.value, problem.unit(),
               best.evaluations);
-  const SearchResult other = find_search(default_search()).make()->maximize(*objective, options);
+  const SearchResult other = find_search(general_search()).make()->maximize(*objective, options);
   std::printf("grid     %.6f %s after %ld evaluations\n", other.value, problem.unit(),
               other.evaluations);
 }

@@ -21,7 +21,7 @@ int main(int argc, char** argv) try {
               problem.unit());
 
   const SearchResult best =
-      find_search(default_search()).make()->maximize(*objective, SearchOptions());
+      find_search(general_search()).make()->maximize(*objective, SearchOptions());
   std::printf("best posture     %.6f %s, %s\n", best.value, problem.unit(), to_string(best.status));
   if (best.status != Status::kBestFound) return 1;
 

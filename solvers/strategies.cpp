@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "maxwrench/problem.h"
+#include "maxwrench/solve.h"
 #include "solvers/integrator/makers.h"
 #include "solvers/lp/makers.h"
 #include "solvers/plan/makers.h"
@@ -221,7 +222,7 @@ const Entry& find(std::span<const Entry> table, const char* family, std::string_
       fmt::format("{}: got '{}'{}, expected one of {}", family, name, why, fmt::join(names, " ")));
 }
 
-/// Stages of a name, of one table.
+/// Stages of a name.
 NamedSearch find_stages(std::span<const SearchEntry* const> table, std::string_view name) {
   NamedSearch search{std::string(name), {}, true};
   for (std::size_t begin = 0; begin <= name.size();) {
@@ -291,13 +292,8 @@ const WrenchSolverEntry& find_wrench_solver(std::string_view name) {
 const PlanSolverEntry& find_plan_solver(std::string_view name) {
   return find(plan_solvers(), "lp", name);
 }
-const char* default_search() { return MAXWRENCH_WITH_NLOPT ? "crs2+cmaes" : "annealing+cmaes"; }
+const char* general_search() { return MAXWRENCH_WITH_NLOPT ? "crs2+cmaes" : "annealing+cmaes"; }
 NamedSearch find_search(std::string_view name) {
-  std::vector<const SearchEntry*> table;
-  for (const SearchEntry& entry : kSearches) table.push_back(&entry);
-  return find_stages(table, name);
-}
-NamedSearch find_plan_search(std::string_view name) {
   std::vector<const SearchEntry*> table;
   for (const SearchEntry& entry : kPlanSearches) table.push_back(&entry);
   for (const SearchEntry& entry : kSearches) table.push_back(&entry);

@@ -4,6 +4,7 @@
 
 #include "benchmarks/changes.h"
 #include "benchmarks/dictionary.h"
+#include "benchmarks/row.h"
 #include "cli/report/sections.h"
 
 namespace maxwrench {

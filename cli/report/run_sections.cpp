@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "benchmarks/contests.h"
+#include "benchmarks/row.h"
 #include "benchmarks/summaries.h"
 #include "cli/report/sections.h"
 #include "drawing/scatter.h"

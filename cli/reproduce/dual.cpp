@@ -6,11 +6,11 @@
 
 #include "benchmarks/write_file.h"
 #include "cli/cli.h"
-#include "solvers/solve/pieces.h"
 #include "cli/reproduce/reproduce.h"
 #include "cli/row_writer.h"
 #include "maxwrench/figures.h"
 #include "maxwrench/load.h"
+#include "solvers/solve/pieces.h"
 
 namespace maxwrench {
 namespace {
@@ -24,17 +24,16 @@ struct Tank {
 };
 
 /// Of the measure beta_2: pure torque at the bar.
-Method pure(const Problem& problem, const char* search) {
-  return resolve(problem,
-                 {problem.name, "linf_polytope", Wrench::kPure, "", search, 1, kDualBudget});
+Case pure(const char* search) {
+  return {"", "linf_polytope", Wrench::kPure, "", search, 1, kDualBudget};
 }
 
-Row at_default(RowWriter& writer, const Problem& problem) {
-  return writer.evaluate(problem, pure(problem, ""), problem.theta_r_default);
+Answer at_default(RowWriter& writer, const Problem& problem) {
+  return writer.evaluate(problem, pure(""), problem.theta_r_default);
 }
 
-std::string contact_line(const char* name, const Row& row, double one, double tank, double tank_one,
-                         const std::string& proven = "") {
+std::string contact_line(const char* name, const Answer& row, double one, double tank,
+                         double tank_one, const std::string& proven = "") {
   if (!row.has_value()) return fmt::format("{:<16} no value: {}\n", name, row.reason.c_str());
   const double w_2 = row.capability.h_2.head<3>().norm();
   return fmt::format(
@@ -51,11 +50,11 @@ PaperTable reproduce_dual(const std::filesystem::path& folder, int threads) {
   for (const Problem* problem : {&alone, &wall}) require_static(*problem, "reproduce");
   RowWriter writer("reproduce dual", folder, threads, 2 + static_cast<long>(kSearches.size()));
   const Tank tank;
-  const Row one = at_default(writer, alone);
-  const Row chosen = at_default(writer, wall);
-  Row best;
+  const Answer one = at_default(writer, alone);
+  const Answer chosen = at_default(writer, wall);
+  Answer best;
   for (const char* search : kSearches) {
-    const Row row = writer.solve(wall, pure(wall, search));
+    const Answer row = writer.solve(wall, pure(search));
     if (!row.has_value()) continue;
     if (!best.has_value() || row.capability.beta > best.capability.beta) best = row;
   }
@@ -69,7 +68,7 @@ PaperTable reproduce_dual(const std::filesystem::path& folder, int threads) {
   text += contact_line("one contact", one, reference, tank.one, tank.one);
   text += contact_line("default contact", chosen, reference, tank.chosen, tank.one);
   text += contact_line("best contact", best, reference, tank.best, tank.one,
-                       fmt::format("{:.3f}", proven_bound(wall, best, threads)));
+                       fmt::format("{:.3f}", proven_bound(best, threads)));
   const Sampled contacts = sample_postures(wall, kRandomContacts);
   text += fmt::format("  {} random contacts, {} of them valid; {}\n", kRandomContacts,
                       contacts.valid, describe(contacts.postures));

@@ -4,16 +4,16 @@
 #include <cmath>
 #include <vector>
 
-#include "solvers/solve/plan_row.h"
-#include "solvers/solve/tank_experiment.h"
 #include "benchmarks/write_file.h"
 #include "cli/motion_options.h"
-#include "solvers/solve/plan_limits.h"
 #include "cli/reproduce/reproduce.h"
 #include "cli/row_writer.h"
 #include "maxwrench/figures.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
+#include "solvers/solve/method.h"
+#include "solvers/solve/plan_limits.h"
+#include "solvers/solve/tank.h"
 
 namespace maxwrench {
 namespace {
@@ -39,7 +39,7 @@ constexpr double kWide = 0.5;  // m: bodies this far apart are not near each oth
 struct Moved {
   const Problem& problem;
   std::string name;
-  PlanRow row;
+  Answer row;
   PlanExperiment tank;
 
   double reading() const {
@@ -58,8 +58,7 @@ std::string in_column(double value, int width = 8, int digits = 2) {
 std::string rise(const Moved& moved, const MotionTask& other) {
   Problem problem = moved.problem;
   problem.motion = other;
-  const PlanMethod method = resolve_plan(problem, moved.row.choice);
-  const Plan plan = evaluate_plan(problem, method, moved.row.plan.knots).plan;
+  const Plan plan = evaluate(problem, moved.row.plan.knots, {moved.row.choice}).plan;
   const double risen = std::round(1000 * (plan.value - moved.row.plan.value)) / 1000;
   return std::isfinite(risen) ? fmt::format("{:>+8.3f}", risen + 0.0)
                               : in_column(risen);  // no zero below zero
@@ -84,7 +83,7 @@ std::string limits_line(const Moved& moved) {
                      moved.name, rise(moved, no_rates),
                      free_start.impulse ? rise(moved, free_start) : fmt::format("{:>8}", "-"),
                      clearance(moved), fastest_joint(robot, moved.row.plan),
-                     dearest_efforts(robot, moved.row));
+                     dearest_efforts(moved.row));
 }
 
 /// What the virtual tank was asked for and what came of it.
@@ -115,22 +114,18 @@ std::string value_line(const MotionTable& table, const Moved& moved, const Moved
 /// The constant default and the plan that the search finds, each in the virtual tank.
 std::vector<Moved> solve_scheme(RowWriter& writer, const MotionTable& table, const Problem& problem,
                                 const std::filesystem::path& folder, long budget) {
-  Case c{.problem = problem.name, .search = "", .budget = budget};
+  const Case c{.budget = budget};
   std::vector<Moved> rows;
-  const auto add = [&](const char* name, const PlanMethod& method, const PlanRow& row) {
+  const auto add = [&](const char* name, const Answer& row) {
     Moved& moved = rows.emplace_back(Moved{problem, name, row, {}});
     const ScriptOptions script{.interpolation = usual_interpolation(problem)};
-    moved.tank =
-        simulate_plan(problem, row.plan, Wrench::kPure, *method.solver, script, "cvode", {});
+    moved.tank = simulate_plan(problem, row.plan, Wrench::kPure, find_plan_solver(row.choice.lp),
+                               script, "cvode", {});
   };
-  const PlanMethod given = resolve_plan(problem, c);
-  const Eigen::MatrixXd constant = constant_knots(problem, problem.theta_r_default);
-  add(table.constant, given, writer.evaluate(problem, given, constant));
-  c.search = plan_searches().front().name;
-  const PlanMethod searched = resolve_plan(problem, c);
-  const PlanRow found = writer.solve(problem, searched);
+  add(table.constant, writer.evaluate(problem, c, problem.theta_r_default));
+  const Answer found = writer.solve(problem, c);
   if (!found.has_value()) return rows;
-  add(table.moving, searched, found);
+  add(table.moving, found);
   std::string file = fmt::format("{}_{}.csv", problem.name, to_string(problem.motion->scheme));
   std::replace(file.begin(), file.end(), '/', '_');
   write_file(folder / "plans" / file, knots_csv(problem, found.plan.knots));

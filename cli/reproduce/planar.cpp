@@ -38,12 +38,12 @@ long budget_of(const std::string& search, const std::string& solver) {
 }
 
 struct Rows {
-  std::string text;       ///< the table
-  std::vector<Row> best;  ///< for each paper value the first row
+  std::string text;          ///< the table
+  std::vector<Answer> best;  ///< for each paper value the first row
   bool all_solved = true;
 };
 
-std::string planar_line(const Problem& problem, const PaperValue& value, const Row& row,
+std::string planar_line(const Problem& problem, const PaperValue& value, const Answer& row,
                         double bound) {
   return fmt::format(
       "{}  {:>6.2f}  {:>8.4f}  {:>8.4f}  {:>+8.2f} %  {:<7}  {:<15}  {:>11}   {:.1e}  {}\n",
@@ -66,7 +66,7 @@ Rows solve_planar(const Problem& problem, const std::filesystem::path& folder, i
       "    label\n",
       problem.name, problem.label);
   for (const PaperValue& value : planar_values()) {
-    std::vector<Row> of_value;
+    std::vector<Answer> of_value;
     for (const char* solver : value.solvers) {
       for (const char* search : {"grid+cmaes", "annealing+cmaes"}) {
         const Case c{problem.name,
@@ -76,11 +76,11 @@ Rows solve_planar(const Problem& problem, const std::filesystem::path& folder, i
                      search,
                      1,
                      budget_of(search, solver)};
-        of_value.push_back(writer.solve(problem, resolve(problem, c)));
+        of_value.push_back(writer.solve(problem, c));
       }
     }
-    const double bound = proven_bound(problem, of_value.front(), threads);
-    for (const Row& row : of_value) rows.text += planar_line(problem, value, row, bound);
+    const double bound = proven_bound(of_value.front(), threads);
+    for (const Answer& row : of_value) rows.text += planar_line(problem, value, row, bound);
     rows.best.push_back(of_value.front());
   }
   rows.all_solved = writer.finish();

@@ -4,10 +4,10 @@
 
 #include <memory>
 
-#include "solvers/solve/plan_row.h"
+#include "benchmarks/product.h"
 #include "benchmarks/proof.h"
-#include "solvers/solve/row.h"
 #include "cli/cli.h"
+#include "solvers/solve/method.h"
 
 namespace maxwrench {
 namespace {
@@ -33,16 +33,17 @@ int reproduce(const ReproduceOptions& options) {
 
 }  // namespace
 
-double proven_bound(const Problem& problem, const Row& row, int threads) {
+double proven_bound(const Answer& answer, int threads) {
   const double none = std::numeric_limits<double>::quiet_NaN();
-  if (!row.has_value()) return none;
-  const auto bound = find_bound(problem, row.choice.measure, row.choice.wrench);
+  if (!answer.has_value()) return none;
+  const Problem& problem = *answer.task;
+  const auto bound = find_bound(problem, answer.choice.measure, answer.choice.wrench);
   if (!bound) return none;
   CertifyOptions options;
   options.boxes = 1'000'000;
   options.threads = threads;
-  const CertifyResult result = prove(problem, resolve(problem, row.choice), *bound,
-                                     {row.posture.theta_r, row.capability.beta}, options);
+  const CertifyResult result = prove(problem, resolve(problem, answer.choice), *bound,
+                                     {answer.posture.theta_r, answer.beta()}, options);
   return result.status == Status::kProven ? result.bound : none;
 }
 

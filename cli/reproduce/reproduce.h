@@ -5,8 +5,7 @@
 
 namespace maxwrench {
 
-struct Problem;
-struct Row;
+struct Answer;
 
 /// One of the paper's tables beside ours.
 struct PaperTable {
@@ -14,9 +13,9 @@ struct PaperTable {
   bool all_solved = true;
 };
 
-/// What branch and bound proves from the posture of a row on, to 0.1 %: no posture has more. NaN
-/// where no bound serves or none comes so near.
-double proven_bound(const Problem& problem, const Row& row, int threads);
+/// What branch and bound proves from the posture of an answer on, to 0.1 %: no posture has more.
+/// NaN where no bound serves or none comes so near.
+double proven_bound(const Answer& answer, int threads);
 
 // Each solves its cases into values.csv and times.csv of the folder and writes its table, and
 // figures if it has any, beside them.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "solvers/solve/tank_experiment.h"
 #include "benchmarks/write_file.h"
 #include "cli/cli.h"
 #include "cli/reproduce/reproduce.h"
@@ -12,6 +11,7 @@
 #include "drawing/bars.h"
 #include "maxwrench/figures.h"
 #include "maxwrench/load.h"
+#include "solvers/solve/tank.h"
 
 namespace maxwrench {
 namespace {
@@ -65,7 +65,7 @@ constexpr long kStaticBudget = 200000;
 
 /// The row of the best search, by which share the worst one stays below, and `proven_bound`.
 struct Best {
-  Row row;
+  Answer row;
   double lag = 0, bound = 0;
 };
 
@@ -75,7 +75,7 @@ Best search(RowWriter& writer, const Problem& problem, const Measured& measured,
   for (const Attempt& attempt : kAttempts) {
     const Case c{problem.name,   measured.measure, measured.wrench, "",
                  attempt.search, attempt.seed,     kStaticBudget};
-    const Row row = writer.solve(problem, resolve(problem, c));
+    const Answer row = writer.solve(problem, c);
     if (!row.has_value()) continue;
     worst = std::min(worst, row.capability.beta);
     const bool better =
@@ -83,16 +83,14 @@ Best search(RowWriter& writer, const Problem& problem, const Measured& measured,
     if (better) best.row = row;  // within rounding the first one stays
   }
   if (best.row.has_value()) best.lag = 1 - worst / best.row.capability.beta;
-  best.bound = proven_bound(problem, best.row, threads);
+  best.bound = proven_bound(best.row, threads);
   return best;
 }
 
 /// What the actuators can do at a posture: the common yardstick of all measures.
-Method yardstick(const Problem& problem, Wrench wrench) {
-  return resolve(problem, {problem.name, "linf_polytope", wrench, "", ""});
-}
+Case yardstick(Wrench wrench) { return {.measure = "linf_polytope", .wrench = wrench}; }
 
-std::string cell(const Row& row, double unit) {
+std::string cell(const Answer& row, double unit) {
   return row.has_value() ? fmt::format("{:>8.2f}", row.capability.beta / unit)
                          : fmt::format("{:>8}", "none");
 }
@@ -106,18 +104,17 @@ struct Simulated {
 };
 
 /// `reach`: what any efforts exert at the posture with the wrenches of `own`.
-Simulated simulated(const Problem& problem, const Task& task, const char* name, const Row& own,
-                    const Row& reach) {
+Simulated simulated(const Task& task, const char* name, const Answer& own, const Answer& reach) {
   Simulated result;
   result.name = name;
   if (task.unit == kKilogram) {
-    result.cell = fmt::format("{:>8}", heaviest_load(problem, reach, "cvode", {}));
+    result.cell = fmt::format("{:>8}", heaviest_load(reach, "cvode", {}));
     return result;
   }
-  result.run = simulate_tank(problem, own, own.capability.beta, "cvode", {});
+  result.run = simulate_posture(own, own.capability.beta, "cvode", {});
   const TankSummary& summary = result.run.summary;
   result.cell = summary.held ? fmt::format("{:>8.2f}", summary.mean) : "    lost";
-  const TankRun beyond = simulate_tank(problem, reach, reach.capability.beta + 1, "cvode", {});
+  const TankRun beyond = simulate_posture(reach, reach.capability.beta + 1, "cvode", {});
   result.beyond = fmt::format(
       "    {:<8} {:>5.2f}: {}, mean reading {:.2f}, drift {:.2f} rad{}\n", name,
       beyond.summary.planned, beyond.summary.held ? "held" : "not held", beyond.summary.mean,
@@ -134,7 +131,7 @@ std::string describe_beyond(const Task& task, const std::vector<Simulated>& expe
   return text;
 }
 
-std::string posture(const Row& row) {
+std::string posture(const Answer& row) {
   std::string text;
   if (row.has_value()) {
     for (const double angle : row.posture.theta_r) text += fmt::format(" {:>7.4f}", angle);
@@ -145,12 +142,13 @@ std::string posture(const Row& row) {
 /// What the environment must take besides the wrench along c, and about what it took in the tank.
 constexpr double kTankForce = 80, kTankTorque = 50;
 
-Vector6d orthogonal(const Problem& problem, const Row& row) {
+Vector6d orthogonal(const Answer& row) {
+  const Problem& problem = *row.task;
   return row.capability.h - problem.c * problem.c.dot(row.capability.h);
 }
 
-std::string describe_orthogonal(const Problem& problem, const Row& row) {
-  const Vector6d h = orthogonal(problem, row);
+std::string describe_orthogonal(const Answer& row) {
+  const Vector6d h = orthogonal(row);
   return fmt::format(
       "  orthogonal to c at the beta_3 optimum: force [{:.1f}] N (tank: around {} N), torque "
       "[{:.1f}] N m (tank: around {} N m)\n",
@@ -159,7 +157,7 @@ std::string describe_orthogonal(const Problem& problem, const Row& row) {
 
 /// All components of the wrench at the beta_3 optimum. The paper gives no axes and no signs of the
 /// orthogonal ones.
-std::string wrench_bars(const Problem& problem, const Row& row, double tank) {
+std::string wrench_bars(const Problem& problem, const Answer& row, double tank) {
   static constexpr const char* kNames[] = {"f_x", "f_y", "f_z", "n_x", "n_y", "n_z"};
   std::vector<BarGroup> groups = {{"force [N]", {}}, {"torque [N m]", {}}};
   for (int i = 0; i < 6; ++i) {
@@ -177,8 +175,8 @@ std::string wrench_bars(const Problem& problem, const Row& row, double tank) {
 /// One line for an optimum. For beta_3 the tank measured the torque while its sensor took any other
 /// component, so the own value is the one to compare, otherwise the pure one.
 std::string optimum_line(const Task& task, const Measured& measured, const Best& best,
-                         const Row& pure, const std::string& virtual_tank, double reference) {
-  const Row& compared = measured.wrench == Wrench::kAny ? best.row : pure;
+                         const Answer& pure, const std::string& virtual_tank, double reference) {
+  const Answer& compared = measured.wrench == Wrench::kAny ? best.row : pure;
   const double gain = compared.capability.beta / reference;
   const double tank_gain = measured.tank / task.tank_default;
   return fmt::format(
@@ -190,7 +188,7 @@ std::string optimum_line(const Task& task, const Measured& measured, const Best&
 
 /// The paper's figures of a task: its postures, and the wrench of beta_3.
 void write_figures(const std::filesystem::path& folder, const Problem& problem, const Task& task,
-                   const std::vector<Row>& best) {
+                   const std::vector<Answer>& best) {
   std::vector<Panel> panels = {{"default", problem.theta_r_default}};
   for (std::size_t i = 0; i < best.size(); ++i) {
     panels.push_back({task.optima[i].symbol, best[i].posture.theta_r});
@@ -218,10 +216,10 @@ std::string table(RowWriter& writer, const Task& task, const std::filesystem::pa
   const Problem problem = load_problem(task.problem);
   require_static(problem, "reproduce");
   const auto at_default = [&](Wrench wrench) {
-    return writer.evaluate(problem, yardstick(problem, wrench), problem.theta_r_default);
+    return writer.evaluate(problem, yardstick(wrench), problem.theta_r_default);
   };
-  const Row pure = at_default(Wrench::kPure), any = at_default(Wrench::kAny);
-  std::vector<Simulated> experiments = {simulated(problem, task, "default", pure, pure)};
+  const Answer pure = at_default(Wrench::kPure), any = at_default(Wrench::kAny);
+  std::vector<Simulated> experiments = {simulated(task, "default", pure, pure)};
   std::string text = fmt::format(
       "{}: {} ({})\n"
       "                                               ------- gain -------\n"
@@ -232,21 +230,20 @@ std::string table(RowWriter& writer, const Task& task, const std::filesystem::pa
       experiments.front().cell, task.tank_default, 1.0, 1.0, 1.0, "", posture(pure));
   std::string notes = fmt::format("  default posture with any wrench:{}\n", cell(any, task.unit));
   std::string digits = fmt::format("  in {}: default {:.3f}", problem.unit(), pure.capability.beta);
-  std::vector<Row> optima;
+  std::vector<Answer> optima;
   for (const Measured& measured : task.optima) {
     const Best best = search(writer, problem, measured, threads);
     if (!best.row.has_value()) {
       text += fmt::format("{:<8} no posture found\n", measured.symbol);
       continue;
     }
-    const Row at_best =
-        evaluate(problem, yardstick(problem, Wrench::kPure), best.row.posture.theta_r);
+    const Answer at_best = evaluate(problem, best.row.posture.theta_r, {yardstick(Wrench::kPure)});
     const bool any_wrench = measured.wrench == Wrench::kAny;
     experiments.push_back(
-        simulated(problem, task, measured.symbol, best.row, any_wrench ? best.row : at_best));
+        simulated(task, measured.symbol, best.row, any_wrench ? best.row : at_best));
     text +=
         optimum_line(task, measured, best, at_best, experiments.back().cell, pure.capability.beta);
-    if (any_wrench) notes += describe_orthogonal(problem, best.row);
+    if (any_wrench) notes += describe_orthogonal(best.row);
     digits += fmt::format(", {} {:.3f}", measured.symbol, best.row.capability.beta);
     optima.push_back(best.row);
   }

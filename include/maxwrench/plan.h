@@ -156,6 +156,9 @@ Eigen::VectorXd theta_r_at(const Problem& problem, const Instant& instant);
 /// k; one of a static problem.
 int knots_of(const Problem& problem);
 
+/// One theta_r throughout, k×r.
+Eigen::MatrixXd constant_knots(const Problem& problem, const Eigen::VectorXd& theta_r);
+
 /// The table of stacked knots, so many rows, and the other way round.
 Eigen::MatrixXd unstacked(const Eigen::VectorXd& x, Eigen::Index knots);
 Eigen::VectorXd stacked(const Eigen::MatrixXd& knots);

@@ -78,7 +78,4 @@ struct NamedSearch {
   std::unique_ptr<Search> make() const;
 };
 
-/// The search of postures that is best in general, of those that are built in.
-const char* default_search();
-
 }  // namespace maxwrench

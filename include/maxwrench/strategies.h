@@ -116,10 +116,8 @@ const MeasureEntry& find_measure(std::string_view name);
 const LpEntry& find_lp_solver(std::string_view name);
 const WrenchSolverEntry& find_wrench_solver(std::string_view name);
 const PlanSolverEntry& find_plan_solver(std::string_view name);
-/// Also throws if a later stage cannot go on.
+/// A method of any table, or stages joined by '+'. Also throws if a later stage cannot go on.
 NamedSearch find_search(std::string_view name);
-/// Stages of all tables.
-NamedSearch find_plan_search(std::string_view name);
 const IntegratorEntry& find_integrator(std::string_view name);
 
 }  // namespace maxwrench

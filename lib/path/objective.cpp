@@ -57,6 +57,10 @@ Eigen::VectorXd theta_r_at(const Problem& problem, const Instant& instant) {
 
 int knots_of(const Problem& problem) { return problem.motion ? problem.motion->k : 1; }
 
+Eigen::MatrixXd constant_knots(const Problem& problem, const Eigen::VectorXd& theta_r) {
+  return theta_r.transpose().replicate(knots_of(problem), 1);
+}
+
 Eigen::MatrixXd unstacked(const Eigen::VectorXd& x, Eigen::Index knots) {
   return x.reshaped<Eigen::RowMajor>(knots, x.size() / knots);
 }

@@ -16,8 +16,9 @@ class Interruptible final : public Objective {
   const Eigen::VectorXd& upper() const override { return objective_->upper(); }
   const Verdict& verdict() const override { return skipped_ ? end_ : objective_->verdict(); }
   bool ended() const override {
-    if (interruption_.asked) interruption_.noticed = true;
-    return interruption_.asked;
+    const bool asked = interruption_.asked();
+    if (asked) interruption_.noticed = true;
+    return asked;
   }
   void spend(long evaluations) override { objective_->spend(evaluations); }
   PlanEvaluator* plans() override { return objective_->plans(); }
@@ -26,7 +27,7 @@ class Interruptible final : public Objective {
     objective_->metric(theta_r, M);
   }
   double evaluate(const Eigen::VectorXd& theta_r, Eigen::VectorXd* gradient) override {
-    skipped_ = interruption_.asked.load(std::memory_order_relaxed);
+    skipped_ = interruption_.asked();
     if (!skipped_) return objective_->evaluate(theta_r, gradient);
     interruption_.noticed = true;
     ++interruption_.skipped;
@@ -47,9 +48,9 @@ class Interruptible final : public Objective {
 }  // namespace
 
 std::unique_ptr<Objective> make_interruptible(std::unique_ptr<Objective> objective,
-                                              Interruption* interruption) {
-  if (interruption == nullptr) return objective;
-  return std::make_unique<Interruptible>(std::move(objective), *interruption);
+                                              Interruption& interruption) {
+  if (!interruption.asked) return objective;
+  return std::make_unique<Interruptible>(std::move(objective), interruption);
 }
 
 }  // namespace maxwrench

@@ -107,6 +107,10 @@ std::string describe(const BranchCounts& branches) {
           : "");
 }
 
+int instants_per_interval(const MotionTask& task) {
+  return task.scheme == Scheme::kSpline ? task.instants_per_interval : 1;
+}
+
 const std::string& actuator_name(const Robot& robot, Eigen::Index i) {
   const auto at = static_cast<std::size_t>(i);
   const std::size_t thrusters = robot.thrusters.size();

@@ -3,12 +3,12 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "solvers/solve/searched.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/problem.h"
+#include "maxwrench/solve.h"
 #include "maxwrench/status.h"
 
-// Pieces of what commands print.
+// Pieces of what is printed of an answer.
 
 namespace maxwrench {
 
@@ -31,6 +31,10 @@ nlohmann::ordered_json to_json(const Residual& residual);
 
 /// An array of objects.
 nlohmann::ordered_json to_json(const std::vector<CallCount>& counts);
+
+/// The object on one line. JSON knows UTF-8 only: text in another encoding is read as Latin-1, so
+/// that names stay apart.
+std::string in_one_line(const nlohmann::ordered_json& object);
 
 /// Roll, pitch, yaw with R = Rz(yaw) Ry(pitch) Rx(roll).
 Eigen::Vector3d rpy(const Eigen::Matrix3d& R);
@@ -55,6 +59,9 @@ Sampled sample_postures(const Problem& problem, int samples);
 
 /// "postures: 3 valid, ..."
 std::string describe(const BranchCounts& branches);
+
+/// Instants from knot to knot.
+int instants_per_interval(const MotionTask& task);
 
 /// Thrusters, then joints.
 const std::string& actuator_name(const Robot& robot, Eigen::Index i);

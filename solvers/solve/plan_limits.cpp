@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solvers/solve/plan_row.h"
+#include "maxwrench/solve.h"
 #include "solvers/solve/pieces.h"
 
 namespace maxwrench {
@@ -38,8 +38,9 @@ std::vector<BindingLimit> dearest_first(std::vector<BindingLimit> limits) {
   return limits;
 }
 
-std::vector<BindingLimit> limits_at(const Robot& robot, const PlanRow& row, Eigen::Index i) {
-  const PlanSolution& solution = row.plan.solution;
+std::vector<BindingLimit> limits_at(const Answer& answer, Eigen::Index i) {
+  const Robot& robot = answer.task->robot;
+  const PlanSolution& solution = answer.plan.solution;
   const Zonotope& set = robot.actuation;
   std::vector<BindingLimit> limits;
   const Eigen::VectorXd prices = effort_prices(robot, solution, i);
@@ -52,7 +53,7 @@ std::vector<BindingLimit> limits_at(const Robot& robot, const PlanRow& row, Eige
   for (const Eigen::Index pair : {i - 1, i}) {
     if (pair < 0 || pair >= solution.mu.cols()) continue;
     for (Eigen::Index j = 0; j < prices.size(); ++j) {
-      const double width = 2 * row.program.du_max(j, pair);
+      const double width = 2 * answer.program.du_max(j, pair);
       if (!(width < kInfinity)) continue;
       limits.push_back(
           {std::abs(solution.mu(j, pair)) * width,
@@ -74,8 +75,8 @@ std::string describe(const std::vector<BindingLimit>& limits) {
 
 }  // namespace
 
-std::vector<std::string> binding_limits(const Robot& robot, const PlanRow& row) {
-  const Eigen::VectorXd& pi = row.plan.solution.pi;
+std::vector<std::string> binding_limits(const Answer& answer) {
+  const Eigen::VectorXd& pi = answer.plan.solution.pi;
   std::vector<Eigen::Index> worst;
   for (Eigen::Index i = 0; i < pi.size(); ++i) {
     if (pi[i] > kCounts) worst.push_back(i);
@@ -84,23 +85,24 @@ std::vector<std::string> binding_limits(const Robot& robot, const PlanRow& row) 
                    [&](Eigen::Index a, Eigen::Index b) { return pi[a] > pi[b]; });
   if (worst.size() > kMostInstants) worst.resize(kMostInstants);
   std::sort(worst.begin(), worst.end());
-  const auto skipped = static_cast<Eigen::Index>(row.plan.instants.size()) - pi.size();
+  const auto skipped = static_cast<Eigen::Index>(answer.plan.instants.size()) - pi.size();
   std::vector<std::string> lines;
   for (const Eigen::Index i : worst) {
     lines.push_back(fmt::format("binds at {:.4f} s: {}",
-                                row.plan.instants[static_cast<std::size_t>(i + skipped)].t,
-                                describe(limits_at(robot, row, i))));
+                                answer.plan.instants[static_cast<std::size_t>(i + skipped)].t,
+                                describe(limits_at(answer, i))));
   }
   return lines;
 }
 
-std::string dearest_efforts(const Robot& robot, const PlanRow& row) {
+std::string dearest_efforts(const Answer& answer) {
+  const Robot& robot = answer.task->robot;
   const Zonotope& set = robot.actuation;
   std::vector<BindingLimit> limits;
   for (Eigen::Index j = 0; j < set.u_min.size(); ++j)
     limits.push_back({0, actuator_name(robot, j)});
-  for (Eigen::Index i = 0; i < row.plan.solution.lambda.cols(); ++i) {
-    const Eigen::VectorXd prices = effort_prices(robot, row.plan.solution, i);
+  for (Eigen::Index i = 0; i < answer.plan.solution.lambda.cols(); ++i) {
+    const Eigen::VectorXd prices = effort_prices(robot, answer.plan.solution, i);
     for (Eigen::Index j = 0; j < prices.size(); ++j) {
       if (std::abs(prices[j]) < 1e-9) continue;  // it may have no limits
       limits[static_cast<std::size_t>(j)].worth +=

@@ -5,9 +5,10 @@
 #include <string>
 #include <utility>
 
-#include "solvers/solve/plan_row.h"
+#include "benchmarks/row.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
+#include "solvers/solve/method.h"
 
 namespace maxwrench {
 namespace {
@@ -136,14 +137,14 @@ TEST(Comparison, ClockSeesThePlanThatWasChosen) {
   for (const char* name : {"slp", "annealing"}) {
     SCOPED_TRACE(name);
     const Case c{problem.name, "linf_polytope", Wrench::kPure, "", name, 1, 80};
-    const PlanMethod method = resolve_plan(problem, c);
+    const Method method = resolve(problem, c);
     const Attempt run = attempt(problem, method);
     EXPECT_EQ(run.choice.scheme, "spline");
     ASSERT_FALSE(run.run.rises.empty());
     EXPECT_EQ(run.run.rises.back().value, run.value);
     EXPECT_LE(run.run.rises.back().at.seconds, run.run.spent.seconds);
     EXPECT_LE(run.run.spent.evaluations, 80);
-    const PlanRow row = solve_plan(problem, method, 2);
+    const Answer row = solve(problem, {method.choice, 2});
     EXPECT_EQ(run.run.spent.evaluations, static_cast<double>(row.evaluations));
     EXPECT_NEAR(run.value, row.plan.value, 1e-6);  // the elastic value of a feasible plan
     EXPECT_EQ(run.continuous, row.plan.continuous);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "benchmarks/row.h"
 #include "benchmarks/table.h"
 #include "maxwrench/load.h"
 #include "maxwrench/problem.h"

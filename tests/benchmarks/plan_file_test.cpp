@@ -24,7 +24,7 @@ TEST(PlanFile, ColumnsThatAreMissingAreTheDefaults) {
   EXPECT_EQ(c.measure, "linf_polytope");
   EXPECT_EQ(c.wrench, Wrench::kPure);
   EXPECT_EQ(c.lp, "facets");
-  EXPECT_EQ(c.search, best_search(work.problems.at("planar/force"), c.measure));
+  EXPECT_EQ(c.search, default_search(work.problems.at("planar/force"), c.measure));
   EXPECT_EQ(c.seed, 1U);
   EXPECT_EQ(c.budget, Case().budget);
 }

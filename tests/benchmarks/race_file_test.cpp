@@ -47,7 +47,7 @@ void expect_same_contenders(const Comparison& race, const std::vector<Contender>
 Comparison small_race(const Problem& problem, long budget) {
   Case base;
   base.problem = problem.name;
-  base.search = best_search(problem, base.measure);
+  base.search = default_search(problem, base.measure);
   base.budget = budget;
   RaceOptions options;
   options.seeds = 3;

@@ -4,11 +4,12 @@
 
 #include <algorithm>
 
-#include "solvers/solve/plan_row.h"
-#include "solvers/solve/row.h"
-#include "solvers/solve/tank_row.h"
+#include "benchmarks/row.h"
 #include "maxwrench/load.h"
+#include "maxwrench/measure.h"
 #include "maxwrench/wrench_program.h"
+#include "solvers/solve/method.h"
+#include "solvers/solve/tank.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {
@@ -22,7 +23,7 @@ Cells row_of(const Problem& problem, const char* measure, Wrench wrench) {
   c.measure = measure;
   c.wrench = wrench;
   c.search = "";
-  return values(problem, evaluate(problem, resolve(problem, c), problem.theta_r_default));
+  return values(evaluate(problem, problem.theta_r_default, {c}));
 }
 
 std::string& cell(Cells& row, const char* column) {
@@ -118,18 +119,18 @@ TEST(CheckRow, AcceptsPosturesThatTie) {
   c.problem = problem.name;
   c.search = "";
   const Method method = resolve(problem, c);
-  const Row best = evaluate(problem, method, problem.theta_r_default);
+  const Answer best = evaluate(problem, problem.theta_r_default, {method.choice});
   PostureEvaluator model(problem);
   model.evaluate(problem.theta_r_default);
   int ties = 0;
   for (int branch = 0; branch < model.branches(); ++branch) {
-    Row row = best;
+    Answer row = best;
     row.posture = model.select(branch);
     WrenchProgram program = make_wrench_program(problem, c.wrench);
     set_posture(row.posture, program);
     method.make_measure()->evaluate(row.posture, program, true, row.capability);
     const bool same = std::abs(row.capability.beta - best.capability.beta) < 1e-7;
-    EXPECT_EQ(check(problem, values(problem, row)).refusal.empty(), same) << branch;
+    EXPECT_EQ(check(problem, values(row)).refusal.empty(), same) << branch;
     ties += same ? 1 : 0;
   }
   EXPECT_GT(ties, 1);
@@ -142,7 +143,7 @@ TEST(CheckRow, CarriesOutExperiments) {
     if (kSampleDivisor > 1 && *scheme == '\0') continue;  // too slow twice
     const Problem problem = load_problem(name);
     const Case c{.problem = name, .search = "", .scheme = scheme, .integrator = "cvode"};
-    const Cells good = values(problem, run_experiment(problem, c));
+    const Cells good = values(experiment(problem, {c}));
     EXPECT_EQ(check(problem, good).refusal, "") << name;
     for (const char* column :
          {"beta", "yardstick", "unit", "status", "reason", "integrator", "theta_r"}) {
@@ -186,9 +187,9 @@ TEST(CheckRow, EvaluatesWhatHasNoValue) {
     Cells row;
     if (problem.motion) {
       const Eigen::MatrixXd knots = far.transpose().replicate(knots_of(problem), 1);
-      row = values(problem, evaluate_plan(problem, resolve_plan(problem, c), knots));
+      row = values(evaluate(problem, knots, {c}));
     } else {
-      row = values(problem, evaluate(problem, resolve(problem, c), far));
+      row = values(evaluate(problem, far, {c}));
     }
     ASSERT_EQ(cell(row, "beta"), "") << name;
     EXPECT_EQ(check(problem, row).refusal, "") << name;
@@ -205,11 +206,11 @@ TEST(CheckRow, EvaluatesPlans) {
   const Problem problem = load_problem("planar/trajectory");
   const Case c{.problem = problem.name, .search = ""};
   Problem changed = problem;
-  const PlanMethod method = resolve_plan(changed, c);
-  const PlanRow row =
-      evaluate_plan(changed, method, constant_knots(changed, changed.theta_r_default));
+  const Method method = resolve(changed, c);
+  const Answer row =
+      evaluate(changed, constant_knots(changed, changed.theta_r_default), {method.choice});
   ASSERT_TRUE(row.has_value());
-  Cells cells = values(changed, row);
+  Cells cells = values(row);
   EXPECT_EQ(check(problem, cells).refusal, "");
   Cells other = cells;
   cell(other, "continuous") = scaled(cell(other, "continuous"), 1.01);

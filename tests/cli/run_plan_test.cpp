@@ -10,7 +10,7 @@
 
 #include "benchmarks/csv.h"
 #include "benchmarks/journal.h"
-#include "solvers/solve/row.h"
+#include "benchmarks/row.h"
 #include "benchmarks/table.h"
 #include "tests/support/support.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "solvers/solve/row.h"
+#include "benchmarks/row.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
 #include "tests/reference_models/static_task.h"
@@ -14,14 +14,13 @@
 namespace maxwrench {
 namespace {
 
-Method pure_torque(const Problem& problem, const char* lp = "") {
-  Case c;
-  c.problem = problem.name;
-  c.measure = "linf_polytope";
-  c.lp = lp;
-  c.search = "grid+cmaes";
-  c.budget = kSampleDivisor > 1 ? 500 : 5000;
-  return resolve(problem, c);
+Options pure_torque(const char* lp = "") {
+  Options options;
+  options.lp = lp;
+  options.search = "grid+cmaes";
+  options.budget = kSampleDivisor > 1 ? 500 : 5000;
+  options.threads = 1;
+  return options;
 }
 
 /// beta of a posture of the arm, by a model of its own: the bar's end is held at the origin, and
@@ -44,13 +43,13 @@ double independent_beta(const Posture& posture, const Eigen::Vector2d& s, bool p
 TEST(DualArm, WallHelpsAndABetterPlaceHelpsMore) {
   const Problem alone = load_problem("dual_arm/bar_alone");
   const Problem wall = load_problem("dual_arm/bar_wall");
-  const Row one = evaluate(alone, pure_torque(alone), alone.theta_r_default);
-  const Row chosen = evaluate(wall, pure_torque(wall), wall.theta_r_default);
-  const Row best = solve(wall, pure_torque(wall), 1);
+  const Answer one = evaluate(alone, alone.theta_r_default, pure_torque());
+  const Answer chosen = evaluate(wall, wall.theta_r_default, pure_torque());
+  const Answer best = solve(wall, pure_torque());
   ASSERT_TRUE(one.has_value() && chosen.has_value() && best.has_value());
   EXPECT_GT(chosen.capability.beta, 1.1 * one.capability.beta);
   EXPECT_GT(best.capability.beta, 1.02 * chosen.capability.beta);
-  for (const Row* row : {&one, &chosen, &best}) {
+  for (const Answer* row : {&one, &chosen, &best}) {
     const double expected = independent_beta(row->posture, row->posture.theta_r, row != &one);
     EXPECT_NEAR(row->capability.beta, expected, 1e-8 * expected);
   }
@@ -63,9 +62,9 @@ TEST(DualArm, WallHelpsAndABetterPlaceHelpsMore) {
 /// the search finds, and one is nearly as good.
 TEST(DualArm, SearchFindsTheBestPlaceOfADenseGrid) {
   const Problem wall = load_problem("dual_arm/bar_wall");
-  const Row found = solve(wall, pure_torque(wall), 1);
+  const Answer found = solve(wall, pure_torque());
   ASSERT_TRUE(found.has_value());
-  const Method by_simplex = pure_torque(wall, "simplex");
+  const Options by_simplex = pure_torque("simplex");
   constexpr int kPlaces = kSampleDivisor > 1 ? 11 : 61;
   double best = 0;
   for (int i = 0; i < kPlaces; ++i) {
@@ -73,7 +72,7 @@ TEST(DualArm, SearchFindsTheBestPlaceOfADenseGrid) {
       const Eigen::Vector2d share(i / (kPlaces - 1.0), k / (kPlaces - 1.0));
       const Eigen::VectorXd place =
           wall.theta_r_min + share.cwiseProduct(wall.theta_r_max - wall.theta_r_min);
-      const Row row = evaluate(wall, by_simplex, place);
+      const Answer row = evaluate(wall, place, by_simplex);
       if (row.has_value()) best = std::max(best, row.capability.beta);
     }
   }

@@ -5,7 +5,7 @@
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
 
-#include "solvers/solve/row.h"
+#include "benchmarks/row.h"
 #include "lib/math/decompositions.h"
 #include "lib/robot/kinematics.h"
 #include "maxwrench/load.h"
@@ -167,13 +167,12 @@ TEST(FixedArm, SearchFindsTheBestOfAllPostures) {
   c.problem = "fixed/push";
   c.search = "grid+cmaes";
   c.budget = kSampleDivisor > 1 ? 1000 : 4000;
-  const Row row = solve(problem, resolve(problem, c), 1);
+  const Answer row = solve(problem, {c, 1});
   ASSERT_EQ(row.status, Status::kBestFound);
   // The optimum is a kink; half a step of the walk away from it little is lost.
   EXPECT_NEAR(row.capability.beta, best, 2 * kStep * best);
   EXPECT_GE(row.capability.beta, best - 1e-9 * best);
-  EXPECT_GT(row.capability.beta,
-            evaluate(problem, resolve(problem, c), problem.theta_r_default).capability.beta);
+  EXPECT_GT(row.capability.beta, evaluate(problem, problem.theta_r_default, {c}).capability.beta);
   EXPECT_NEAR(kdl.capability(row.posture.q), row.capability.beta, 1e-9 * best);
 }
 

@@ -5,12 +5,13 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "solvers/solve/row.h"
+#include "benchmarks/row.h"
 #include "maxwrench/load.h"
 #include "maxwrench/plan.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"
+#include "solvers/solve/method.h"
 #include "tests/reference_models/vertices.h"
 #include "tests/support/mechanics.h"
 #include "tests/support/support.h"
@@ -150,7 +151,7 @@ TEST(Mobile, SearchFindsTheBestOfAGrid) {
   c.problem = "mobile/push";
   c.search = "annealing+cmaes";
   c.budget = kSampleDivisor > 1 ? 2000 : 6000;
-  const Row row = solve(problem, resolve(problem, c), 1);
+  const Answer row = solve(problem, {c, 1});
   ASSERT_EQ(row.status, Status::kBestFound);
   const auto objective =
       make_capability_objective(problem, c.wrench, resolve(problem, c).make_measure);
@@ -178,7 +179,7 @@ TEST(Mobile, DoorPushedAnywhereTakesAllThatTheWheelsGive) {
   EXPECT_EQ(problem.theta_r_name(3), "pose_yaw");
   Case c;
   c.problem = problem.name;
-  const Row row = solve(problem, resolve(problem, c), 1);
+  const Answer row = solve(problem, {c, 1});
   const double most = 4 * 135 / std::sqrt(2);
   EXPECT_LE(row.capability.beta, most + 1e-9);
   EXPECT_GE(row.capability.beta, 0.999 * most);
@@ -197,12 +198,12 @@ TEST(Mobile, TwoWheelsAreRankDeficient) {
   for (const char* measure : {"ellipsoid", "l2_polytope"}) {
     c.measure = measure;
     c.lp.clear();
-    EXPECT_THROW(evaluate(problem, resolve(problem, c), theta_r), std::invalid_argument) << measure;
+    EXPECT_THROW(evaluate(problem, theta_r, {c}), std::invalid_argument) << measure;
   }
   c.measure = "linf_polytope";
   c.wrench = Wrench::kAny;
   c.lp = "simplex";
-  EXPECT_EQ(evaluate(problem, resolve(problem, c), theta_r).status, Status::kOptimal);
+  EXPECT_EQ(evaluate(problem, theta_r, {c}).status, Status::kOptimal);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "solvers/solve/row.h"
+#include "benchmarks/row.h"
 #include "lib/posture/branch_atlas.h"
 #include "maxwrench/load.h"
 #include "tests/support/completeness.h"
@@ -22,11 +22,11 @@ class PublicRobots : public testing::Test {
   }
   Problem load(const char* task) const { return load_problem((folder_ / task).string()); }
 
-  static Row search(const Problem& problem, std::uint64_t seed) {
+  static Answer search(const Problem& problem, std::uint64_t seed) {
     Case c{problem.name};
     c.seed = seed;
     c.budget = 20000 / kSampleDivisor;
-    return solve(problem, resolve(problem, c), 1);
+    return solve(problem, {c, 1});
   }
 
   const fs::path folder_ = MAXWRENCH_ROBOTS_DIR;
@@ -50,7 +50,7 @@ TEST_F(PublicRobots, BranchesAreAllThatRandomStartsFind) {
 TEST_F(PublicRobots, TheWheelsLimitThePushOfTheBestBranch) {
   const Problem problem = load("ur10/mob_ok.toml");
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const Row row = search(problem, seed);
+    const Answer row = search(problem, seed);
     EXPECT_LE(row.capability.beta, 600 / std::sqrt(2) * (1 + 1e-9));
     EXPECT_GT(row.capability.beta, 600 / std::sqrt(2) * (kSampleDivisor > 1 ? 0.7 : 1 - 1e-6));
     EXPECT_EQ(row.branches.most, 4);

@@ -9,7 +9,7 @@
 #include <kdl/chainjnttojacsolver.hpp>
 #include <string>
 
-#include "solvers/solve/row.h"
+#include "benchmarks/row.h"
 #include "lib/robot/kinematics.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
@@ -169,7 +169,7 @@ TEST_F(Uvms, ArmAgreesWithKdl) {
 
 double capability(const Problem& problem, const char* measure, Wrench wrench) {
   const Case c{problem.name, measure, wrench};
-  const Row row = evaluate(problem, resolve(problem, c), problem.theta_r_default);
+  const Answer row = evaluate(problem, problem.theta_r_default, {c});
   EXPECT_TRUE(row.has_value()) << row.reason.c_str();
   return row.capability.beta;
 }
@@ -269,7 +269,7 @@ TEST_F(UvmsReference, SearchReachesWhatARandomSearchOfAnotherModelReaches) {
     SCOPED_TRACE(choice.problem.name + " " + choice.measure);
     Case c{choice.problem.name, choice.measure, choice.wrench};
     c.budget = 20000;
-    const Row row = solve(choice.problem, resolve(choice.problem, c), 2);
+    const Answer row = solve(choice.problem, {c, 2});
     ASSERT_TRUE(row.has_value()) << row.reason.c_str();
     const double found = row.capability.beta;
     EXPECT_NEAR(found, beta(choice.problem, choice.measure, choice.wrench, row.posture.theta_r),

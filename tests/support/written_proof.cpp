@@ -4,6 +4,7 @@
 #include "benchmarks/proof_recorder.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
+#include "solvers/solve/method.h"
 #include "tests/support/support.h"
 #include "verify/verify.h"
 
@@ -16,10 +17,10 @@ WrittenProof::WrittenProof(const char* name, const char* measure, Wrench wrench,
   c.problem = name;
   c.measure = measure;
   c.wrench = wrench;
-  c.search = best_search(problem, measure);
+  c.search = default_search(problem, measure);
   c.budget = kSearchBudget;
   const Method method = resolve(problem, c);
-  Row row = solve(problem, method, 1);
+  Answer row = solve(problem, {method.choice, 1});
   ProofRecorder recorder;
   CertifyOptions options;
   options.gap = gap;
@@ -29,9 +30,9 @@ WrittenProof::WrittenProof(const char* name, const char* measure, Wrench wrench,
   const CertifyResult result =
       prove(problem, method, *bound, {row.posture.theta_r, row.capability.beta}, options);
   if (result.best.value > row.capability.beta) {
-    row = evaluate(problem, method, result.best.theta_r);
+    row = evaluate(problem, result.best.theta_r, {method.choice});
   }
-  proof = recorder.certificate(problem, row, result, gap);
+  proof = recorder.certificate(row, result, gap);
 }
 
 std::string WrittenProof::refusal(const ProofCertificate& of) const {

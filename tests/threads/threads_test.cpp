@@ -8,8 +8,7 @@
 #include <vector>
 
 #include "benchmarks/proof_recorder.h"
-#include "solvers/solve/row.h"
-#include "solvers/solve/tank_row.h"
+#include "benchmarks/row.h"
 #include "lib/math/random.h"
 #include "maxwrench/batch.h"
 #include "maxwrench/load.h"
@@ -17,6 +16,8 @@
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"
 #include "solvers/certify/certify.h"
+#include "solvers/solve/method.h"
+#include "solvers/solve/tank.h"
 #include "verify/verify.h"
 
 // What runs beside each other, in one small program: the thread sanitizer's build holds nothing
@@ -56,13 +57,13 @@ TEST(Threads, ShareTheTank) {
     const Problem problem = load_problem(name);
     const char* const scheme = problem.motion ? "spline" : "";
     const Case c{.problem = name, .search = "", .scheme = scheme, .integrator = "cvode"};
-    const TankRow one = run_experiment(problem, c);
+    const Answer one = experiment(problem, {c});
     ASSERT_TRUE(one.has_value()) << name;
-    std::vector<TankRow> rows(kThreads);
-    at_once([&](int t) { rows[static_cast<std::size_t>(t)] = run_experiment(problem, c); });
-    for (const TankRow& row : rows) {
+    std::vector<Answer> rows(kThreads);
+    at_once([&](int t) { rows[static_cast<std::size_t>(t)] = experiment(problem, {c}); });
+    for (const Answer& row : rows) {
       EXPECT_EQ(row.status, one.status);
-      EXPECT_EQ(row.reading, one.reading) << name;
+      EXPECT_EQ(row.beta(), one.beta()) << name;
       EXPECT_EQ(row.evaluations, one.evaluations) << name;
     }
   }
@@ -88,7 +89,8 @@ TEST_P(ThreadsInSearch, FindsTheSame) {
     c.search = GetParam().name;
     c.budget = 400;
     const Method method = resolve(problem, c);
-    const Row one = solve(problem, method, 1), many = solve(problem, method, kThreads);
+    const Answer one = solve(problem, {method.choice, 1}),
+                 many = solve(problem, {method.choice, kThreads});
     EXPECT_EQ(one.status, many.status);
     EXPECT_EQ(one.evaluations, many.evaluations);
     EXPECT_EQ(one.branches.found, many.branches.found);
@@ -106,7 +108,7 @@ TEST(Threads, CertifyProvesTheSame) {
   const Problem problem = load_problem("uvms/lift");
   Case c{problem.name};
   const Method method = resolve(problem, c);
-  const Row best = solve(problem, method, 1);
+  const Answer best = solve(problem, {method.choice, 1});
   const auto bound = make_capability_bound(problem, c.measure, c.wrench);
   const auto objective = make_objective(problem, method);
   CertifyOptions options;
@@ -120,8 +122,8 @@ TEST(Threads, CertifyProvesTheSame) {
   EXPECT_EQ(one.status, Status::kProven);
   EXPECT_EQ(one.bound, many.bound);
   EXPECT_EQ(one.boxes, many.boxes);
-  const Row row = evaluate(problem, method, many.best.theta_r);
-  const ProofCertificate proof = recorder.certificate(problem, row, many, options.gap);
+  const Answer row = evaluate(problem, many.best.theta_r, {method.choice});
+  const ProofCertificate proof = recorder.certificate(row, many, options.gap);
   const Verification verified = verify(problem, proof, kThreads);
   EXPECT_EQ(verified.refusal, "");
   EXPECT_EQ(verified.boxes, many.boxes);

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "solvers/solve/case.h"
 #include "benchmarks/proof_recorder.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
 #include "solvers/certify/certify.h"
+#include "solvers/solve/method.h"
 #include "tests/support/support.h"
 #include "tests/support/written_proof.h"
 
@@ -71,7 +71,7 @@ TEST(Verify, AcceptsAProofWithoutCoordinates) {
     c.problem = "random";
     c.wrench = wrench;
     c.search = "";
-    const Row row = evaluate(problem, resolve(problem, c), problem.theta_r_default);
+    const Answer row = evaluate(problem, problem.theta_r_default, {c});
     ASSERT_TRUE(row.has_value());
     ProofRecorder recorder;
     CertifiedBox root;
@@ -81,7 +81,7 @@ TEST(Verify, AcceptsAProofWithoutCoordinates) {
     recorder.add(root);
     CertifyResult result;
     result.bound = std::max(root.low, root.proof.high);
-    EXPECT_EQ(verify(problem, recorder.certificate(problem, row, result, 1e-3), 1).refusal, "");
+    EXPECT_EQ(verify(problem, recorder.certificate(row, result, 1e-3), 1).refusal, "");
   }
 }
 

@@ -5,10 +5,12 @@
 #include <sstream>
 #include <vector>
 
-#include "solvers/solve/plan_row.h"
+#include "benchmarks/product.h"
+#include "benchmarks/row.h"
 #include "cli/reproduce/reproduce.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
+#include "solvers/solve/method.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {
@@ -49,9 +51,7 @@ int expect_plans(const std::filesystem::path& folder, const std::string& text, l
     if (!of_the_table || !std::filesystem::exists(folder / "plans" / file)) continue;
     Problem problem = load_problem(problem_name);
     set_scheme("scheme", scheme, problem);
-    const PlanRow plan =
-        evaluate_plan(problem, resolve_plan(problem, {.problem = problem_name, .search = ""}),
-                      load_knots(folder / "plans" / file, problem));
+    const Answer plan = evaluate(problem, load_knots(folder / "plans" / file, problem), {});
     EXPECT_TRUE(plan.plan.collision.empty()) << file;
     EXPECT_NEAR(plan.plan.value, std::stod(at(row, "beta")), 1e-6) << file;
     EXPECT_NE(text.find(fmt::format("{:>8.2f}", plan.plan.value)), std::string::npos) << file;

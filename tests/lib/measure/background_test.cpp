@@ -7,12 +7,12 @@
 #include <functional>
 #include <stdexcept>
 
-#include "solvers/solve/case.h"
 #include "lib/math/decompositions.h"
 #include "maxwrench/load.h"
 #include "maxwrench/measure.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/wrench_program.h"
+#include "solvers/solve/method.h"
 #include "tests/support/edited_copy.h"
 #include "tests/support/support.h"
 

@@ -9,6 +9,7 @@
 #include "maxwrench/objective.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"
+#include "solvers/solve/method.h"
 #include "tests/support/contacts.h"
 
 namespace maxwrench {
@@ -18,7 +19,7 @@ namespace {
 std::vector<Case> cases_of(const Problem& problem, const std::vector<std::string>& solvers) {
   std::vector<Case> cases = product(problem, 1, 1);
   std::erase_if(cases, [&](const Case& c) {
-    return c.search != default_search() ||
+    return c.search != general_search() ||
            (c.lp != kNoSolver && std::find(solvers.begin(), solvers.end(), c.lp) == solvers.end());
   });
   return cases;

@@ -11,6 +11,7 @@
 #include "maxwrench/posture.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"
+#include "solvers/solve/method.h"
 #include "solvers/wrench/makers.h"
 #include "tests/reference_models/vertices.h"
 #include "tests/support/support.h"
@@ -51,7 +52,7 @@ class Evaluator {
 /// Every closed form, and every measure with every solver that serves the wrench.
 std::vector<Case> all_cases(const std::string& problem) {
   std::vector<Case> cases = product(load_problem(problem), 1, 1);
-  std::erase_if(cases, [](const Case& c) { return c.search != default_search(); });
+  std::erase_if(cases, [](const Case& c) { return c.search != general_search(); });
   return cases;
 }
 

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "solvers/solve/plan_row.h"
-#include "solvers/solve/row.h"
+#include "benchmarks/row.h"
 #include "maxwrench/load.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
@@ -59,10 +58,10 @@ TEST(Plan, OfOneKnotIsTheStaticValue) {
       Case c;
       c.search.clear();
       c.wrench = wrench;
-      const Row row = evaluate(still, resolve(still, c), theta_r);
+      const Answer row = evaluate(still, theta_r, {c});
       ASSERT_EQ(plan.status, Status::kOptimal);
       EXPECT_NEAR(plan.value, row.capability.beta, 1e-8);
-      EXPECT_TRUE(plan.gradient.transpose().isApprox(row.gradient, 1e-5));
+      EXPECT_TRUE(plan.gradient.isApprox(row.plan.gradient, 1e-5));
     }
   }
   // So is a static task.

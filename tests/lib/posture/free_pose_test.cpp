@@ -5,11 +5,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "solvers/solve/row.h"
+#include "benchmarks/row.h"
 #include "lib/posture/redundancy.h"
 #include "maxwrench/load.h"
 #include "maxwrench/objective.h"
 #include "maxwrench/posture.h"
+#include "solvers/solve/method.h"
 #include "tests/support/contacts.h"
 #include "tests/support/dependents.h"
 #include "tests/support/free_poses.h"
@@ -241,7 +242,7 @@ TEST(FreePose, BestIsThatOfAGridOfFixedPoses) {
     c.problem = problem.name;
     c.search = "crs2";
     c.budget = 4000;
-    return solve(problem, resolve(problem, c), 1).capability.beta;
+    return solve(problem, {c, 1}).capability.beta;
   };
   const double found = best(with_free_pose(fixed, {{5}, false, false}));
   double most = 0;

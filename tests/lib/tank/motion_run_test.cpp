@@ -5,13 +5,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "solvers/solve/case.h"
-#include "solvers/solve/plan_row.h"
-#include "solvers/solve/row.h"
+#include "benchmarks/row.h"
 #include "maxwrench/load.h"
 #include "maxwrench/plan.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/tank.h"
+#include "solvers/solve/method.h"
 
 namespace maxwrench {
 namespace {
@@ -161,7 +160,7 @@ TEST(TankMotion, OneKnotIsTheStaticTank) {
   const TankRun tank = run(problem, script);
   expect_within_limits(tank);
   const Problem still = load_problem("uvms/valve");
-  const Row row = evaluate(still, resolve(still, {still.name, "linf_polytope"}), kStill);
+  const Answer row = evaluate(still, kStill, {{still.name, "linf_polytope"}});
   EXPECT_NEAR(script.planned, row.capability.beta, 1e-6);
   const TankRun held =
       run_tank(still, row.posture, {row.capability.h, row.capability.u, Wrench::kPure},

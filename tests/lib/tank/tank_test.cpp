@@ -7,11 +7,11 @@
 #include <cmath>
 #include <span>
 
-#include "solvers/solve/case.h"
-#include "solvers/solve/row.h"
+#include "benchmarks/row.h"
 #include "lib/robot/motion.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
+#include "solvers/solve/method.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {
@@ -38,13 +38,13 @@ const Experiment kExperiments[] = {
 };
 
 /// What any efforts reach at a posture; with `measure` another plan.
-Row planned(const Problem& problem, Wrench wrench, const VectorXd& theta_r,
-            const char* measure = "linf_polytope") {
-  return evaluate(problem, resolve(problem, {problem.name, measure, wrench}), theta_r);
+Answer planned(const Problem& problem, Wrench wrench, const VectorXd& theta_r,
+               const char* measure = "linf_polytope") {
+  return evaluate(problem, theta_r, {{problem.name, measure, wrench}});
 }
 
-TankRun run(const Problem& problem, const Row& row, double extra, const TankOptions& options = {},
-            const char* integrator = "cvode") {
+TankRun run(const Problem& problem, const Answer& row, double extra,
+            const TankOptions& options = {}, const char* integrator = "cvode") {
   const TankPlan plan{row.capability.h + extra * problem.c, row.capability.u, row.choice.wrench};
   return run_tank(problem, row.posture, plan, *find_integrator(integrator).make(), options);
 }
@@ -96,7 +96,7 @@ TEST(Tank, RandomPosturesHoldWhatIsPlannedAndNoMore) {
   Random random(5);
   for (int found = 0; found < std::max(1, 10 / kSampleDivisor);) {
     const Wrench wrench = found % 2 == 0 ? Wrench::kPure : Wrench::kAny;
-    const Row row = planned(problem, wrench, random_theta_r(problem, random));
+    const Answer row = planned(problem, wrench, random_theta_r(problem, random));
     if (!row.has_value() || row.capability.beta <= 1) continue;
     SCOPED_TRACE(testing::Message() << found << ": " << row.posture.theta_r.transpose());
     expect_held(run(problem, row, 0, options));
@@ -110,7 +110,7 @@ TEST(Tank, TheEllipsoidsPlanAndOneNewtonMetreMoreAreHeld) {
   const Problem problem = load_problem("uvms/valve");
   TankOptions options;
   options.until_hold = true;
-  const Row row = planned(problem, Wrench::kPure, kBeta1, "ellipsoid");
+  const Answer row = planned(problem, Wrench::kPure, kBeta1, "ellipsoid");
   expect_held(run(problem, row, 0, options));
   expect_held(run(problem, row, 1, options));
 }
@@ -119,7 +119,7 @@ TEST(Tank, TheEllipsoidsPlanAndOneNewtonMetreMoreAreHeld) {
 /// (the size of the state) displaces the cell by as much, and steps add up.
 TEST(Tank, IdaAndCvodeGiveTheSameWrench) {
   const Problem problem = load_problem("uvms/valve");
-  const Row row = planned(problem, kExperiments[2].wrench, kExperiments[2].theta_r);
+  const Answer row = planned(problem, kExperiments[2].wrench, kExperiments[2].theta_r);
   TankOptions options;
   options.ramp = 2;
   options.hold = 0.2;
@@ -153,7 +153,7 @@ bool same_rows(const TankRun& a, const TankRun& b) {
 
 TEST(Tank, ImperfectionsAreOffAndRepeatBySeed) {
   const Problem problem = load_problem("uvms/valve");
-  const Row row = planned(problem, Wrench::kPure, kBeta1, "ellipsoid");
+  const Answer row = planned(problem, Wrench::kPure, kBeta1, "ellipsoid");
   TankOptions options;
   options.ramp = 1;
   options.hold = 0.2;
@@ -178,7 +178,7 @@ TEST(Tank, ALoadIsAPartOfTheRobot) {
   const EndEffector& tool = robot.end_effectors[static_cast<std::size_t>(problem.end_effector)];
   add_body(robot.links[static_cast<std::size_t>(tool.link)], mass, tool.placement.p,
            Eigen::Matrix3d::Zero());
-  const Row row = planned(problem, Wrench::kPure, kDefault);
+  const Answer row = planned(problem, Wrench::kPure, kDefault);
   Dynamics bare(problem.robot), carrying(robot);
   Eigen::MatrixXd M_bare, M;
   VectorXd g_bare(problem.robot.velocities()), g(g_bare.size());
@@ -202,7 +202,7 @@ TEST(Tank, CarriesWhatThePolytopeAllows) {
   TankOptions options;
   options.until_hold = true;
   for (const Eigen::Vector4d& theta_r : std::span(postures, kSampleDivisor > 1 ? 1 : 3)) {
-    const Row row = planned(problem, Wrench::kPure, theta_r);
+    const Answer row = planned(problem, Wrench::kPure, theta_r);
     const double most = std::floor(row.capability.beta / problem.robot.gravity);
     for (const double mass : {most, most + 1}) {
       options.load = mass;

@@ -40,7 +40,7 @@ struct ProofCase {
     SearchOptions options;
     options.start = problem.theta_r_default;
     options.budget = kSearchBudget;
-    const SearchResult found = find_search(default_search()).make()->maximize(*f, options);
+    const SearchResult found = find_search(general_search()).make()->maximize(*f, options);
     return {found.theta_r, found.value};
   }
   CertifyResult prove(const Candidate& incumbent, const CertifyOptions& options) const {

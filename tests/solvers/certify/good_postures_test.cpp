@@ -185,7 +185,7 @@ struct Listed {
     });
     SearchOptions search;
     search.start = problem.theta_r_default;
-    const SearchResult found = find_search(default_search()).make()->maximize(*objective, search);
+    const SearchResult found = find_search(general_search()).make()->maximize(*objective, search);
     CertifyOptions options;
     proof = certify(*objective, *bound(), {found.theta_r, found.value}, options);
   }

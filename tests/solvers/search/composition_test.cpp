@@ -105,8 +105,8 @@ TEST(Composition, RefusesWhatIsNoStage) {
               std::string::npos)
         << name << ": " << refusal(name);
   }
-  EXPECT_THROW(find_plan_search("sample+slp"), std::invalid_argument);
-  EXPECT_NO_THROW(find_plan_search("slp+cmaes"));
+  EXPECT_THROW(find_search("sample+slp"), std::invalid_argument);
+  EXPECT_NO_THROW(find_search("slp+cmaes"));
 }
 
 TEST(Composition, IsLocalIfAllItsStagesAre) {

@@ -2,12 +2,12 @@
 
 #include <string>
 
-#include "solvers/solve/case.h"
 #include "lib/search/facet_program.h"
 #include "maxwrench/load.h"
 #include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
+#include "solvers/solve/method.h"
 #include "tests/support/objectives.h"
 #include "tests/support/support.h"
 

@@ -12,7 +12,7 @@ namespace {
 SearchResult search(const Problem& problem, const SearchOptions& options) {
   const auto objective =
       make_plan_objective(problem, Wrench::kPure, find_plan_solver("structured").make);
-  return find_plan_search("joint_nlp").make()->maximize(*objective, options);
+  return find_search("joint_nlp").make()->maximize(*objective, options);
 }
 
 SearchOptions options_of(const Problem& problem, long budget) {
@@ -36,7 +36,7 @@ TEST(JointNlp, FindsWhatTheLowerLevelConfirms) {
   const auto objective =
       make_plan_objective(problem, Wrench::kPure, find_plan_solver("structured").make);
   const SearchResult slp =
-      find_plan_search("slp").make()->maximize(*objective, options_of(problem, 2000));
+      find_search("slp").make()->maximize(*objective, options_of(problem, 2000));
   EXPECT_GE(result.value, 0.99 * slp.value);
 }
 
@@ -54,8 +54,7 @@ TEST(JointNlp, RefusesObjectivesWithoutPlans) {
   const auto objective = make_capability_objective(problem, Wrench::kPure, [&] {
     return find_measure("linf_polytope").make(problem, find_wrench_solver("facets").make());
   });
-  EXPECT_THROW(find_plan_search("joint_nlp").make()->maximize(*objective, {}),
-               std::invalid_argument);
+  EXPECT_THROW(find_search("joint_nlp").make()->maximize(*objective, {}), std::invalid_argument);
 }
 
 }  // namespace

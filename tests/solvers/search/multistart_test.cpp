@@ -19,8 +19,7 @@ TEST(Multistart, ClimbsPlansWithinTheirRows) {
     options.budget = 200;
     options.start = problem.theta_r_default.replicate(problem.motion->k, 1);
     const double start = objective->evaluate(options.start);
-    const SearchResult result =
-        find_plan_search("multistart").make()->maximize(*objective, options);
+    const SearchResult result = find_search("multistart").make()->maximize(*objective, options);
     ASSERT_EQ(result.status, Status::kBestFound) << name;
     EXPECT_LE(result.evaluations, options.budget);
     EXPECT_GT(result.value, start + 0.01 * std::abs(start)) << name;

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "solvers/solve/case.h"
 #include "lib/posture/redundancy.h"
 #include "lib/robot/kinematics.h"
 #include "maxwrench/load.h"
@@ -10,6 +9,7 @@
 #include "maxwrench/wrench_program.h"
 #include "solvers/integrator/makers.h"
 #include "solvers/search/makers.h"
+#include "solvers/solve/method.h"
 #include "tests/support/known.h"
 #include "tests/support/support.h"
 

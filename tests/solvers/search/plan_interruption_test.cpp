@@ -19,7 +19,7 @@ TEST(PlanInterruption, EndsASearchSoonWithWhatItHas) {
       SearchOptions options;
       options.budget = 200;
       options.start = problem.theta_r_default.replicate(problem.motion->k, 1);
-      const SearchResult result = find_plan_search(name).make()->maximize(objective, options);
+      const SearchResult result = find_search(name).make()->maximize(objective, options);
       EXPECT_EQ(result.status, evaluations == 0 ? Status::kNoneFound : Status::kBestFound)
           << name << ' ' << evaluations;
       EXPECT_LE(result.evaluations, options.budget);

@@ -19,7 +19,7 @@ SearchResult search(const Problem& problem, long budget, int threads = 2, std::u
   options.seed = seed;
   options.threads = threads;
   options.start = problem.theta_r_default.replicate(problem.motion->k, 1);
-  return find_plan_search("slp").make()->maximize(*objective, options);
+  return find_search("slp").make()->maximize(*objective, options);
 }
 
 Plan plan_of(const Problem& problem, const SearchResult& result) {
@@ -117,7 +117,7 @@ TEST(Slp, ServesAStaticProblemAsAPlanOfOneKnot) {
   SearchOptions options;
   options.budget = 5000;
   options.start = problem.theta_r_default;
-  const SearchResult result = find_plan_search("slp").make()->maximize(*objective, options);
+  const SearchResult result = find_search("slp").make()->maximize(*objective, options);
   ASSERT_EQ(result.status, Status::kBestFound);
   EXPECT_EQ(result.theta_r.size(), problem.redundancy());
   EXPECT_GE(result.value, 35.407);
@@ -129,7 +129,7 @@ TEST(Slp, RefusesObjectivesWithoutPlans) {
   const auto objective = make_capability_objective(problem, Wrench::kPure, [&] {
     return find_measure("linf_polytope").make(problem, find_wrench_solver("facets").make());
   });
-  EXPECT_THROW(find_plan_search("slp").make()->maximize(*objective, {}), std::invalid_argument);
+  EXPECT_THROW(find_search("slp").make()->maximize(*objective, {}), std::invalid_argument);
 }
 
 }  // namespace

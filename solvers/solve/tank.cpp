@@ -1,4 +1,4 @@
-#include "solvers/solve/tank_experiment.h"
+#include "solvers/solve/tank.h"
 
 #include <fmt/format.h>
 
@@ -6,22 +6,23 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "solvers/solve/row.h"
 #include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
+#include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"
 
 namespace maxwrench {
 namespace {
 
-/// Throws unless the row's wrench is one that a hanging mass asks for.
-void require_weight(const Problem& problem, const Row& row) {
+/// Throws unless the wrench is one that a hanging mass asks for.
+void require_weight(const Answer& answer) {
+  const Problem& problem = *answer.task;
   if (!problem.c.isApprox(Vector6d::Unit(2), 1e-9)) {
     throw std::invalid_argument(
         "--load, --heaviest: got a task whose wrench is not the force upwards, which a "
         "weight asks for; expected one such as uvms/lift");
   }
-  if (row.choice.wrench != Wrench::kPure) {
+  if (answer.choice.wrench != Wrench::kPure) {
     throw std::invalid_argument("--wrench: got any, expected pure: a load has a weight alone");
   }
   if (!(problem.robot.gravity > 0)) {
@@ -31,33 +32,33 @@ void require_weight(const Problem& problem, const Row& row) {
 
 }  // namespace
 
-TankRun simulate_tank(const Problem& problem, const Row& row, double planned,
-                      const std::string& integrator, const TankOptions& options) {
-  const Capability& capability = row.capability;
+TankRun simulate_posture(const Answer& answer, double planned, const std::string& integrator,
+                         const TankOptions& options) {
+  const Problem& problem = *answer.task;
+  const Capability& capability = answer.capability;
   // Beyond the capability only the component along c grows; below it all of them shrink, which the
   // convex set of efforts allows.
   const double share = std::clamp(planned / problem.c.dot(capability.h), 0.0, 1.0);
-  TankPlan plan{share * capability.h, share * capability.u, row.choice.wrench};
+  TankPlan plan{share * capability.h, share * capability.u, answer.choice.wrench};
   plan.h += (planned - problem.c.dot(plan.h)) * problem.c;
-  return run_tank(problem, row.posture, plan, *find_integrator(integrator).make(), options);
+  return run_tank(problem, answer.posture, plan, *find_integrator(integrator).make(), options);
 }
 
-TankRun simulate_load(const Problem& problem, const Row& row, double load,
-                      const std::string& integrator, TankOptions options) {
-  require_weight(problem, row);
+TankRun simulate_load(const Answer& answer, double load, const std::string& integrator,
+                      TankOptions options) {
+  require_weight(answer);
   options.load = load;
-  return simulate_tank(problem, row, load * problem.robot.gravity, integrator, options);
+  return simulate_posture(answer, load * answer.task->robot.gravity, integrator, options);
 }
 
-int heaviest_load(const Problem& problem, const Row& row, const std::string& integrator,
-                  TankOptions options) {
-  require_weight(problem, row);
+int heaviest_load(const Answer& answer, const std::string& integrator, TankOptions options) {
+  require_weight(answer);
   options.until_hold = true;
   int held = 0;
-  int lost = std::max(1, static_cast<int>(row.yardstick / problem.robot.gravity) + 2);
+  int lost = std::max(1, static_cast<int>(answer.yardstick / answer.task->robot.gravity) + 2);
   while (lost - held > 1) {
     const int mass = (held + lost) / 2;
-    const TankRun run = simulate_load(problem, row, mass, integrator, options);
+    const TankRun run = simulate_load(answer, mass, integrator, options);
     (run.summary.held ? held : lost) = mass;
   }
   return held;

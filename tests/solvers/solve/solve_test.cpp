@@ -1,5 +1,3 @@
-#include "solvers/solve/row.h"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -12,8 +10,10 @@
 #include <tuple>
 
 #include "benchmarks/product.h"
+#include "benchmarks/row.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
+#include "solvers/solve/method.h"
 #include "tests/reference_models/static_task.h"
 #include "tests/support/support.h"
 
@@ -131,7 +131,7 @@ TEST_P(PlanarOptimum, IsFoundByEverySolverAndSearch) {
     GTEST_SKIP() << "thousands of solves by a library take too long under sanitizers";
   }
   const Problem problem = load_problem("planar/force");
-  const Row row = solve(problem, resolve(problem, GetParam()), 2);
+  const Answer row = solve(problem, {GetParam(), 2});
   ASSERT_EQ(row.status, Status::kBestFound) << row.reason.c_str();
   EXPECT_NEAR(PlanarModel(GetParam())(row.posture.theta_r), row.capability.beta,
               GetParam().lp == "ipopt" ? 1e-6 : 1e-8);
@@ -144,7 +144,7 @@ TEST_P(PlanarOptimum, IsFoundByEverySolverAndSearch) {
   const std::string& search = GetParam().search;
   // Methods alone that come near only: two take what their points meet, one stops at kinks.
   const bool coarse = search == "sample" || search == "grid" || search == "mma";
-  if (coarse || find_plan_search(search).local) {
+  if (coarse || find_search(search).local) {
     EXPECT_LT(row.capability.beta, optimum + tolerance);
     if (coarse && !slow) {
       EXPECT_GT(row.capability.beta, 0.99 * optimum);
@@ -153,11 +153,12 @@ TEST_P(PlanarOptimum, IsFoundByEverySolverAndSearch) {
     EXPECT_NEAR(row.capability.beta, optimum, tolerance);
   }
   EXPECT_LE(row.evaluations, GetParam().budget);
-  EXPECT_TRUE(row.capability.residual.within(kRowTolerance * (1 + std::abs(row.capability.beta))));
+  EXPECT_TRUE(
+      row.capability.residual.within(kAnswerTolerance * (1 + std::abs(row.capability.beta))));
 }
 
 /// The geometry was identified by the numbers that the paper prints [N].
-TEST(Row, PlanarOptimaAreThePapers) {
+TEST(Solve, PlanarOptimaAreThePapers) {
   const auto optimum = [](const char* measure, Wrench wrench) {
     return planar_optimum({"planar/force", measure, wrench});
   };
@@ -167,34 +168,34 @@ TEST(Row, PlanarOptimaAreThePapers) {
   EXPECT_NEAR(optimum("linf_polytope", Wrench::kAny), 3.88, 0.01);
 }
 
-TEST(Row, SearchByIpoptMayEvaluateByIpopt) {
+TEST(Solve, SearchByIpoptMayEvaluateByIpopt) {
   if (kSampleDivisor > 1) GTEST_SKIP() << "interior point solves take too long under sanitizers";
   const Problem problem = load_problem("planar/force");
   const Case c{problem.name, "linf_polytope", Wrench::kPure, "ipopt", "multistart", 1, 200};
-  const Row row = solve(problem, resolve(problem, c), 2);
+  const Answer row = solve(problem, {c, 2});
   EXPECT_EQ(row.status, Status::kBestFound) << row.reason.c_str();
   EXPECT_LE(row.evaluations, 200);
 }
 
 /// So heavy that no posture can be held: what a search of plans finds has a value with slack alone.
-TEST(Row, ASearchOfPlansFindsNothingWhereOnlySlackBalances) {
+TEST(Solve, ASearchOfPlansFindsNothingWhereOnlySlackBalances) {
   Problem problem = load_problem("uvms/valve");
   add_body(problem.robot.links[0], 1000, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero());
   for (const SearchEntry& search : plan_searches()) {
     const Case c{problem.name, "linf_polytope", Wrench::kPure, "", search.name, 1, 60};
-    const Row row = solve(problem, resolve(problem, c), 2);
+    const Answer row = solve(problem, {c, 2});
     EXPECT_EQ(row.status, Status::kNoneFound) << search.name;
     EXPECT_FALSE(row.has_value());
     EXPECT_LE(row.evaluations, 60);
   }
 }
 
-TEST(Row, ASearchOfPlansRefusesWhatIsNone) {
+TEST(Solve, ASearchOfPlansRefusesWhatIsNone) {
   for (const auto& [name, measure] :
        {std::pair("planar/force", "ellipsoid"), std::pair("planar/two_arms", "linf_polytope")}) {
     const Problem problem = load_problem(name);
     const Case c{problem.name, measure, Wrench::kPure, "", "slp", 1, 60};
-    EXPECT_THROW(solve(problem, resolve(problem, c), 1), std::invalid_argument) << name;
+    EXPECT_THROW(solve(problem, {c, 1}), std::invalid_argument) << name;
   }
 }
 
@@ -217,15 +218,15 @@ Problem stretched(const std::string& reach) {
 /// A straight arm pushes harder than any weight of slack, and a limit of a joint that follows
 /// binds: what a search of plans finds is a posture all the same, little worse than what a search
 /// of postures finds, which sees the elbow bent to the other side too.
-TEST(Row, SearchesOfPlansFindPosturesOfAStraightArm) {
+TEST(Solve, SearchesOfPlansFindPosturesOfAStraightArm) {
   for (const char* reach : {"1.0299", "1.027"}) {
     const Problem problem = stretched(reach);
     const Case c{problem.name, "linf_polytope", Wrench::kPure, "", "cobyla", 1, 600};
-    const Row cobyla = solve(problem, resolve(problem, c), 2);
+    const Answer cobyla = solve(problem, {c, 2});
     ASSERT_TRUE(cobyla.has_value());
     for (const SearchEntry& search : plan_searches()) {
       const Case each{problem.name, "linf_polytope", Wrench::kPure, "", search.name, 1, 600};
-      const Row row = solve(problem, resolve(problem, each), 2);
+      const Answer row = solve(problem, {each, 2});
       ASSERT_TRUE(row.has_value()) << search.name << ' ' << reach << ": " << row.reason.c_str();
       EXPECT_GT(row.posture.theta_r.size(), 0);
       EXPECT_GE(row.capability.beta, 0.995 * cobyla.capability.beta) << search.name << ' ' << reach;
@@ -234,7 +235,7 @@ TEST(Row, SearchesOfPlansFindPosturesOfAStraightArm) {
 }
 
 /// Without a choice there is one posture, whose value is that of the default.
-TEST(Row, SearchesOfPlansWithNothingToChoose) {
+TEST(Solve, SearchesOfPlansWithNothingToChoose) {
   Problem problem = load_problem("planar/force");
   problem.redundant.clear();
   for (Eigen::VectorXd* part :
@@ -244,54 +245,55 @@ TEST(Row, SearchesOfPlansWithNothingToChoose) {
   for (const SearchEntry& search : plan_searches()) {
     const Case c{problem.name, "linf_polytope", Wrench::kPure, "", search.name, 1, 60};
     const Method method = resolve(problem, c);
-    const Row row = solve(problem, method, 2);
+    const Answer row = solve(problem, {method.choice, 2});
     ASSERT_TRUE(row.has_value()) << search.name;
-    EXPECT_EQ(row.capability.beta, evaluate(problem, method, Eigen::VectorXd()).capability.beta);
+    EXPECT_EQ(row.capability.beta,
+              evaluate(problem, Eigen::VectorXd(), {method.choice}).capability.beta);
   }
 }
 
-TEST(Row, SelfCollisionDoesNotChangeThePlanarOptima) {
+TEST(Solve, SelfCollisionDoesNotChangeThePlanarOptima) {
   const Problem checked = load_problem("planar/force");
   Problem unchecked = checked;
   unchecked.robot.collision = nullptr;
   ASSERT_TRUE(checked.robot.collision != nullptr);
   for (const char* measure : {"ellipsoid", "linf_polytope"}) {
     const Case c{checked.name, measure, Wrench::kPure};
-    const Row with = solve(checked, resolve(checked, c), 1);
-    const Row without = solve(unchecked, resolve(unchecked, c), 1);
+    const Answer with = solve(checked, {c, 1});
+    const Answer without = solve(unchecked, {c, 1});
     EXPECT_NEAR(with.capability.beta, without.capability.beta, 1e-9);
   }
 }
 
-TEST(Row, EveryMeasureIsReadBesideTheSameYardstick) {
+TEST(Solve, EveryMeasureIsReadBesideTheSameYardstick) {
   const Problem problem = load_problem("uvms/valve");
   const Eigen::Vector4d theta_r(3, 1.2, 1.1, 0.4);
   for (Case c : product(problem, 1, 1)) {
     c.search.clear();
     const Case common{problem.name, "linf_polytope", c.wrench, "simplex"};
-    const Row row = evaluate(problem, resolve(problem, c), theta_r);
+    const Answer row = evaluate(problem, theta_r, {c});
     ASSERT_TRUE(row.has_value()) << c.measure << ": " << row.reason.c_str();
-    EXPECT_EQ(row.yardstick, evaluate(problem, resolve(problem, common), theta_r).capability.beta);
-    EXPECT_EQ(values(problem, row).size(), value_columns().size());
+    EXPECT_EQ(row.yardstick, evaluate(problem, theta_r, {common}).capability.beta);
+    EXPECT_EQ(values(row).size(), value_columns().size());
     const bool wrench = find_measure(c.measure).unit == nullptr;
-    EXPECT_STREQ(row.unit, wrench ? "N m" : find_measure(c.measure).unit);
+    EXPECT_EQ(row.unit, wrench ? "N m" : find_measure(c.measure).unit);
   }
   // A posture that does not exist has none.
-  const Row none = evaluate(problem, resolve(problem, {problem.name}), Eigen::Vector4d(9, 9, 9, 9));
+  const Answer none = evaluate(problem, Eigen::Vector4d(9, 9, 9, 9), {{problem.name}});
   EXPECT_TRUE(std::isnan(none.yardstick));
 }
 
-TEST(Row, KeepsStatusAndReasonOfWhatHasNoValue) {
+TEST(Solve, KeepsStatusAndReasonOfWhatHasNoValue) {
   Random random(1);
   Problem problem = random_problem(random, 2);
   problem.robot.gravity = 1000;  // nothing can hold this
   const Case c{problem.name, "linf_polytope", Wrench::kPure, "simplex", "grid", 1, 50};
-  const Row row = solve(problem, resolve(problem, c), 1);
+  const Answer row = solve(problem, {c, 1});
   EXPECT_EQ(row.status, Status::kNoneFound);
   EXPECT_FALSE(row.reason.empty());
   EXPECT_FALSE(row.has_posture());
-  EXPECT_EQ(values(problem, row).size(), value_columns().size());
-  EXPECT_EQ(times(row.choice, row.evaluations, row.wall_s).size(), time_columns().size());
+  EXPECT_EQ(values(row).size(), value_columns().size());
+  EXPECT_EQ(times(row).size(), time_columns().size());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "solvers/solve/case.h"
+#include "solvers/solve/method.h"
 
 #include <gtest/gtest.h>
 
@@ -6,15 +6,15 @@
 #include <stdexcept>
 #include <string>
 
-#include "solvers/solve/plan_row.h"
 #include "benchmarks/product.h"
+#include "benchmarks/row.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
 
 namespace maxwrench {
 namespace {
 
-TEST(Case, DefaultsToTheFirstSolverThatServes) {
+TEST(Method, DefaultsToTheFirstSolverThatServes) {
   Problem problem = load_problem("planar/force");
   const auto lp = [&](const char* measure, Wrench wrench) {
     return resolve(problem, {problem.name, measure, wrench}).choice.lp;
@@ -26,7 +26,7 @@ TEST(Case, DefaultsToTheFirstSolverThatServes) {
   EXPECT_EQ(lp("linf_polytope", Wrench::kPure), "box");
 }
 
-TEST(Case, RefusesChoicesWithoutMeaning) {
+TEST(Method, RefusesChoicesWithoutMeaning) {
   Problem problem = load_problem("planar/force");
   const auto refused = [&](const Case& c) {
     EXPECT_THROW(resolve(problem, c), std::invalid_argument) << c.measure << " " << c.lp;
@@ -44,14 +44,14 @@ TEST(Case, RefusesChoicesWithoutMeaning) {
   refused({"p", "linf_polytope", Wrench::kPure, "facets"});
 }
 
-TEST(Case, KeepsNoProblemThatGoesAway) {
+TEST(Method, KeepsNoProblemThatGoesAway) {
   static_assert(
       !std::is_invocable_v<decltype([](auto&& p) -> decltype(resolve(std::forward<decltype(p)>(p),
                                                                      Case{})) {}),
                            Problem>);
 }
 
-TEST(Case, ClosedFormsRefuseLimitedContacts) {
+TEST(Method, ClosedFormsRefuseLimitedContacts) {
   Problem problem = load_problem("planar/two_arms");
   const auto made = [&](const char* measure) {
     resolve(problem, {problem.name, measure}).make_measure();
@@ -64,7 +64,7 @@ TEST(Case, ClosedFormsRefuseLimitedContacts) {
   EXPECT_NO_THROW(made("manipulability"));
 }
 
-TEST(Case, ProductHoldsEachMeaningfulCombinationOnce) {
+TEST(Method, ProductHoldsEachMeaningfulCombinationOnce) {
   const Problem problem = load_problem("planar/force");
   const std::vector<Case> cases = product(problem, 3, 100);
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -73,17 +73,17 @@ TEST(Case, ProductHoldsEachMeaningfulCombinationOnce) {
   }
 }
 
-TEST(Case, ProductCrossesEverySearchAndEverySolverWithoutCrossingBoth) {
+TEST(Method, ProductCrossesEverySearchAndEverySolverWithoutCrossingBoth) {
   const std::vector<Case> cases = product(load_problem("planar/force"), 1, 100);
   for (const SearchEntry& search : searches())
     EXPECT_FALSE(select(cases, {{"search", search.name}, {"lp", "facets"}}).empty());
   for (const WrenchSolverEntry& solver : wrench_solvers())
-    EXPECT_FALSE(select(cases, {{"search", default_search()}, {"lp", solver.name}}).empty());
+    EXPECT_FALSE(select(cases, {{"search", general_search()}, {"lp", solver.name}}).empty());
   EXPECT_THROW(select(cases, {{"search", "multistart"}, {"lp", "ipopt"}}), std::invalid_argument);
 }
 
 /// As plans of one knot, by the solver of the same name if there is one.
-TEST(Case, SearchesOfPlansServeStaticTasksByLinfPolytope) {
+TEST(Method, SearchesOfPlansServeStaticTasksByLinfPolytope) {
   const Problem problem = load_problem("planar/force");
   const auto solver = [&](const char* measure, Wrench wrench, const char* lp, const char* search) {
     const PlanSolverEntry* entry =
@@ -110,7 +110,7 @@ TEST(Case, SearchesOfPlansServeStaticTasksByLinfPolytope) {
                std::invalid_argument);
 }
 
-TEST(Case, SearchesBetweenFacetsServeLinfPolytopeWithFewFacets) {
+TEST(Method, SearchesBetweenFacetsServeLinfPolytopeWithFewFacets) {
   for (const char* name : {"planar/force", "planar/two_arms", "mobile/push"}) {
     const Problem problem = load_problem(name);
     EXPECT_TRUE(serves_between_facets(problem, "linf_polytope")) << name;
@@ -128,7 +128,7 @@ TEST(Case, SearchesBetweenFacetsServeLinfPolytopeWithFewFacets) {
   EXPECT_FALSE(serves_between_facets(load_problem("planar/trajectory"), "linf_polytope"));
 }
 
-TEST(Case, SelectKeepsWhatMatches) {
+TEST(Method, SelectKeepsWhatMatches) {
   const std::vector<Case> cases = product(load_problem("planar/force"), 1, 100);
   for (const Case& c : select(cases, {{"measure", "ellipsoid"}, {"wrench", "any"}})) {
     EXPECT_EQ(c.measure, "ellipsoid");
@@ -140,7 +140,7 @@ TEST(Case, SelectKeepsWhatMatches) {
   EXPECT_THROW(select(cases, {{"measure", "ellipsoid"}, {"lp", "facets"}}), std::invalid_argument);
 }
 
-TEST(Case, SchemesAreThoseOfTheTask) {
+TEST(Method, SchemesAreThoseOfTheTask) {
   Problem turn = load_problem("planar/trajectory");
   set_scheme("scheme", "ends", turn);
   EXPECT_EQ(turn.motion->scheme, Scheme::kEnds);
@@ -153,13 +153,13 @@ TEST(Case, SchemesAreThoseOfTheTask) {
 }
 
 /// Each row of the product of a task in time is another case, which its problem resolves to itself.
-TEST(Case, ProductOfATaskInTimeCrossesItsSchemes) {
+TEST(Method, ProductOfATaskInTimeCrossesItsSchemes) {
   Problem heave = load_problem("uvms/valve_impulse");
   const std::vector<Case> cases = product(heave, 3, 100);
   std::set<std::vector<std::string>> different;
   for (const Case& c : cases) {
     set_scheme("scheme", c.scheme, heave);
-    EXPECT_EQ(case_values(complete(heave, c)), case_values(c));
+    EXPECT_EQ(case_values(resolve(heave, c).choice), case_values(c));
     different.insert(case_values(c));
   }
   EXPECT_EQ(different.size(), cases.size());

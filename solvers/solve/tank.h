@@ -7,25 +7,27 @@
 
 namespace maxwrench {
 
+struct Answer;
 struct PlanSolverEntry;
 struct Problem;
-struct Row;
 
-/// The simulated experiment at a row's posture with the wrench and the efforts of its capability;
-/// `planned`: c'h instead of the capability's own [N, N m].
-TankRun simulate_tank(const Problem& problem, const Row& row, double planned,
-                      const std::string& integrator, const TankOptions& options);
+/// The names of the integrators that serve the virtual tank on a problem; none if there is no
+/// experiment, as with a second contact or a measure that is no wrench of the polytope.
+std::vector<std::string> served_integrators(const Problem& problem, const std::string& measure);
+
+/// The simulated experiment at the posture of a static task with the wrench and the efforts of its
+/// capability; `planned`: c'h instead of the capability's own [N, N m].
+TankRun simulate_posture(const Answer& answer, double planned, const std::string& integrator,
+                         const TankOptions& options);
 
 /// The same with a mass of `load` kg instead of a load cell. Throws std::invalid_argument unless c
 /// is the force upwards.
-TankRun simulate_load(const Problem& problem, const Row& row, double load,
-                      const std::string& integrator, TankOptions options);
+TankRun simulate_load(const Answer& answer, double load, const std::string& integrator,
+                      TankOptions options);
 
 /// The heaviest whole number of kilograms that an end effector that nothing else holds carries for
-/// the whole hold at the row's posture, by bisection between nothing and one more than the
-/// capability.
-int heaviest_load(const Problem& problem, const Row& row, const std::string& integrator,
-                  TankOptions options);
+/// the whole hold at the posture, by bisection between nothing and one more than the capability.
+int heaviest_load(const Answer& answer, const std::string& integrator, TankOptions options);
 
 /// What the tank was asked for along a plan, and what came of it.
 struct PlanExperiment {

@@ -1,4 +1,4 @@
-#include "solvers/solve/case.h"
+#include "solvers/solve/method.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "lib/search/facet_program.h"
+#include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
 
@@ -58,7 +59,7 @@ const PlanSolverEntry* plan_solver_of(const Problem& problem, const Case& c) {
     return std::find_if(table.begin(), table.end(),
                         [&](const auto& entry) { return entry.name == name; });
   };
-  const std::vector<const SearchEntry*> stages = find_plan_search(c.search).stages;
+  const std::vector<const SearchEntry*> stages = find_search(c.search).stages;
   const bool of_plans = std::any_of(stages.begin(), stages.end(), [&](const SearchEntry* stage) {
     return named(plan_searches(), stage->name) != plan_searches().end();
   });
@@ -78,6 +79,62 @@ bool limited(const Contact& contact) {
 bool serves_limits(const MeasureEntry& measure, const Problem& problem) {
   const bool closed_form = !measure.needs_solver && measure.serves_any;
   return !(closed_form && problem.contact && limited(*problem.contact));
+}
+
+Method resolve_static(const Problem& problem, const Case& c) {
+  if (!c.scheme.empty()) {
+    throw std::invalid_argument(fmt::format("scheme: got '{}', expected none: {} is a static task",
+                                            c.scheme, problem.name));
+  }
+  Method method;
+  method.choice = c;
+  const MeasureEntry& measure = find_measure(c.measure);
+  method.measure = &measure;
+  if (!c.search.empty()) method.search = find_search(c.search);
+  const auto served = solvers_for(measure, problem, c.wrench);
+  if (served.empty()) {
+    throw std::invalid_argument(fmt::format(
+        "wrench: got 'any', which means nothing to measure {}, expected pure", c.measure));
+  }
+  const WrenchSolverEntry* solver = choose_solver(served, problem, c);
+  method.choice.lp = name_of(solver);
+  if (method.search) method.plan_solver = plan_solver_of(problem, method.choice);
+  if (!serves_limits(measure, problem)) {
+    throw std::invalid_argument("measure: got " + c.measure +
+                                ", expected one with a solver: a closed form serves no limits of "
+                                "contact.basis but zero and infinity");
+  }
+  method.unit = measure.unit ? measure.unit : problem.unit();
+  method.make_measure = [&problem, &measure, solver] {
+    return measure.make(problem, solver ? solver->make() : nullptr);
+  };
+  const MeasureEntry& yardstick = find_measure("linf_polytope");
+  const WrenchSolverEntry& reference = find_wrench_solver("simplex");
+  method.make_yardstick = [&problem, &yardstick, &reference] {
+    return yardstick.make(problem, reference.make());
+  };
+  return method;
+}
+
+Method resolve_in_time(const Problem& problem, const Case& c) {
+  const char* scheme = to_string(problem.motion->scheme);
+  if (!c.scheme.empty() && c.scheme != scheme) {
+    throw std::invalid_argument(
+        fmt::format("scheme: got '{}', expected {}, that of the task", c.scheme, scheme));
+  }
+  Method method;
+  method.choice = c;
+  method.measure = &find_measure(c.measure);
+  if (c.measure != Case().measure) {
+    throw std::invalid_argument("measure: got '" + c.measure + "', expected " + Case().measure +
+                                ": a task in time has no other");
+  }
+  method.plan_solver = c.lp.empty() ? &plan_solvers().front() : &find_plan_solver(c.lp);
+  method.choice.lp = method.plan_solver->name;
+  method.choice.scheme = scheme;
+  if (!c.search.empty()) method.search = find_search(c.search);
+  method.unit = problem.unit();
+  return method;
 }
 
 }  // namespace
@@ -124,68 +181,22 @@ std::vector<std::string> served_searches(const Problem& problem, const std::stri
   return names;
 }
 
-std::string best_search(const Problem& problem, const std::string& measure) {
+std::string default_search(const Problem& task, const std::string& measure) {
+  if (task.motion) return plan_searches().front().name;
   const bool has_sqp =
       std::any_of(facet_searches().begin(), facet_searches().end(),
                   [](const SearchEntry& entry) { return entry.name == std::string("facet_sqp"); });
-  const bool serves = has_sqp && serves_between_facets(problem, measure);
-  return serves ? "facet_sqp+cmaes" : default_search();
+  const bool serves = has_sqp && serves_between_facets(task, measure);
+  return serves ? "facet_sqp+cmaes" : general_search();
 }
 
 Method resolve(const Problem& problem, const Case& c) {
-  if (!c.scheme.empty()) {
-    throw std::invalid_argument(fmt::format("scheme: got '{}', expected none: {} is a static task",
-                                            c.scheme, problem.name));
-  }
-  Method method;
-  method.choice = c;
-  const MeasureEntry& measure = find_measure(c.measure);
-  method.measure = &measure;
-  if (!c.search.empty()) method.search = find_plan_search(c.search);
   if (c.budget < 1) {
     throw std::invalid_argument(fmt::format("budget: got {}, expected at least 1", c.budget));
   }
-  const auto served = solvers_for(measure, problem, c.wrench);
-  if (served.empty()) {
-    throw std::invalid_argument(fmt::format(
-        "wrench: got 'any', which means nothing to measure {}, expected pure", c.measure));
-  }
-  const WrenchSolverEntry* solver = choose_solver(served, problem, c);
-  method.choice.lp = name_of(solver);
-  if (method.search) method.plan_solver = plan_solver_of(problem, method.choice);
-  if (!serves_limits(measure, problem)) {
-    throw std::invalid_argument("measure: got " + c.measure +
-                                ", expected one with a solver: a closed form serves no limits of "
-                                "contact.basis but zero and infinity");
-  }
-  method.unit = measure.unit ? measure.unit : problem.unit();
-  method.make_measure = [&problem, &measure, solver] {
-    return measure.make(problem, solver ? solver->make() : nullptr);
-  };
-  const MeasureEntry& yardstick = find_measure("linf_polytope");
-  const WrenchSolverEntry& reference = find_wrench_solver("simplex");
-  method.make_yardstick = [&problem, &yardstick, &reference] {
-    return yardstick.make(problem, reference.make());
-  };
+  Method method = problem.motion ? resolve_in_time(problem, c) : resolve_static(problem, c);
+  method.choice.problem = problem.name;
   return method;
-}
-
-const std::vector<std::string>& case_columns() {
-  static const std::vector<std::string> kColumns = {
-      "problem", "measure", "wrench", "lp", "search", "seed", "budget", "scheme", "integrator"};
-  return kColumns;
-}
-
-std::vector<std::string> case_values(const Case& c) {
-  return {c.problem,
-          c.measure,
-          to_string(c.wrench),
-          c.lp,
-          c.search,
-          fmt::format("{}", c.seed),
-          fmt::format("{}", c.budget),
-          c.scheme,
-          c.integrator};
 }
 
 void set_scheme(const char* key, const std::string& scheme, Problem& problem) {
@@ -202,6 +213,24 @@ void set_scheme(const char* key, const std::string& scheme, Problem& problem) {
         fmt::format("{}: got '{}', expected another one for k = 1", key, scheme));
   }
   task.scheme = parsed;
+}
+
+std::unique_ptr<Objective> make_objective(const Problem& problem, const Method& method,
+                                          std::shared_ptr<Tally> tally) {
+  const Wrench wrench = method.choice.wrench;
+  if (method.plan_solver) return make_plan_objective(problem, wrench, method.plan_solver->make);
+  return make_capability_objective(problem, wrench, method.make_measure, true, std::move(tally));
+}
+
+SearchResult run_search(const Problem& problem, const Method& method, Objective& objective,
+                        int threads, const std::function<void(long)>& progress) {
+  SearchOptions options;
+  options.seed = method.choice.seed;
+  options.budget = method.choice.budget;
+  options.threads = threads;
+  options.progress = progress;
+  options.start = stacked(constant_knots(problem, problem.theta_r_default));
+  return method.search->make()->maximize(objective, options);
 }
 
 }  // namespace maxwrench

@@ -1,79 +1,78 @@
-#include "solvers/solve/tank_row.h"
-
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 #include <tuple>
 
-#include "solvers/solve/row.h"
+#include "benchmarks/row.h"
 #include "maxwrench/load.h"
+#include "solvers/solve/method.h"
+#include "solvers/solve/tank.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {
 namespace {
 
-Case experiment(const char* problem, const char* integrator, const char* scheme = "") {
-  return {.problem = problem, .search = "", .scheme = scheme, .integrator = integrator};
+Options tried(const char* problem, const char* integrator, const char* scheme = "") {
+  return {{.problem = problem, .scheme = scheme, .integrator = integrator}};
 }
 
 /// Two integrators agree, on 0.5 % less than was planned: of a posture, a turn and a heave, which
 /// peaks while thrusters lag behind.
-TEST(TankRow, IntegratorsReadTheSame) {
+TEST(Experiment, IntegratorsReadTheSame) {
   for (const auto& [name, scheme, lag] : {std::tuple{"uvms/valve", "", 1e-4},
                                           {"mobile/trajectory", "spline", 1e-3},
                                           {"uvms/valve_impulse", "", 0.02}}) {
     if (kSampleDivisor > 1 && name != std::string("uvms/valve_impulse")) continue;  // a minute
     const Problem problem = load_problem(name);
-    const TankRow a = run_experiment(problem, experiment(name, "cvode", scheme));
-    const TankRow b = run_experiment(problem, experiment(name, "ida", scheme));
-    for (const TankRow* row : {&a, &b}) {
+    const Answer a = experiment(problem, tried(name, "cvode", scheme));
+    const Answer b = experiment(problem, tried(name, "ida", scheme));
+    for (const Answer* row : {&a, &b}) {
       ASSERT_TRUE(row->has_value()) << name << " " << row->reason.str();
       EXPECT_EQ(row->status, Status::kReached);
       EXPECT_EQ(row->missed, "");
-      EXPECT_NEAR(row->reading, 0.995 * row->planned, lag * row->planned) << name;
+      EXPECT_NEAR(row->beta(), 0.995 * row->yardstick, lag * row->yardstick) << name;
       EXPECT_GT(row->evaluations, 1000);
     }
-    EXPECT_EQ(a.planned, b.planned);
-    EXPECT_NEAR(a.reading, b.reading, 1e-3 * a.reading) << name;
-    EXPECT_EQ(values(problem, a).size(), value_columns().size());
+    EXPECT_EQ(a.yardstick, b.yardstick);
+    EXPECT_NEAR(a.beta(), b.beta(), 1e-3 * a.beta()) << name;
+    EXPECT_EQ(values(a).size(), value_columns().size());
   }
 }
 
 /// The default posture of the valve loads the first joint alone, whose limit is 9 N m.
-TEST(TankRow, PlansWhatThePostureHas) {
-  const TankRow row = run_experiment(load_problem("uvms/valve"), experiment("uvms/valve", "cvode"));
-  EXPECT_NEAR(row.planned, 9, 1e-6);
+TEST(Experiment, PlansWhatThePostureHas) {
+  const Answer row = experiment(load_problem("uvms/valve"), tried("uvms/valve", "cvode"));
+  EXPECT_NEAR(row.yardstick, 9, 1e-6);
 }
 
 /// A turn in 1.5 s has no efforts that balance it at its knots.
-TEST(TankRow, WhatHasNoPlanHasNoReading) {
+TEST(Experiment, WhatHasNoPlanHasNoReading) {
   const char* name = "uvms/valve_trajectory_fast";
   Problem problem = load_problem(name);
   set_scheme("scheme", "ends", problem);
-  const TankRow row = run_experiment(problem, experiment(name, "cvode", "ends"));
+  const Answer row = experiment(problem, tried(name, "cvode", "ends"));
   EXPECT_EQ(row.status, Status::kInfeasible);
   EXPECT_FALSE(row.has_value());
   EXPECT_NE(row.reason.str(), "");
 }
 
 /// Thrusters and joints that hardly change let go of the posture while the wrench still grows.
-TEST(TankRow, ALostPostureHasNoReading) {
+TEST(Experiment, ALostPostureHasNoReading) {
   Problem problem = load_problem("uvms/valve");
   problem.robot.u_rate_max.setConstant(0.1);
-  const TankRow row = run_experiment(problem, experiment("uvms/valve", "cvode"));
+  const Answer row = experiment(problem, tried("uvms/valve", "cvode"));
   EXPECT_EQ(row.status, Status::kNoneFound);
   EXPECT_FALSE(row.has_value());
   EXPECT_EQ(row.reason.str(), "the posture was lost before the end");
 }
 
-TEST(TankRow, RefusesWhatDoesNotServe) {
+TEST(Experiment, RefusesWhatDoesNotServe) {
   const Problem wall = load_problem("dual_arm/bar_wall"), valve = load_problem("uvms/valve");
   EXPECT_TRUE(served_integrators(wall, "linf_polytope").empty());
   EXPECT_TRUE(served_integrators(valve, "ellipsoid").empty());
-  EXPECT_THROW(run_experiment(wall, experiment("dual_arm/bar_wall", "cvode")),
-               std::invalid_argument);
+  EXPECT_THROW(experiment(wall, tried("dual_arm/bar_wall", "cvode")), std::invalid_argument);
   for (const char* name : {"arkode", "x", ""}) {
-    EXPECT_THROW(run_experiment(valve, experiment("uvms/valve", name)), std::invalid_argument);
+    EXPECT_THROW(experiment(valve, tried("uvms/valve", name)), std::invalid_argument);
   }
 }
 

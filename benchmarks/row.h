@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "maxwrench/solve.h"
+
+// An answer as one line of CSV.
+
+namespace maxwrench {
+
+/// The columns that select a case, `problem measure wrench lp search seed budget scheme
+/// integrator`, as text.
+const std::vector<std::string>& case_columns();
+std::vector<std::string> case_values(const Case& c);
+
+/// The case comes first, then values; times are not values and stand in a table of their own. Of a
+/// task in time beta is the value, theta_r the table row by row; of an experiment beta is the
+/// reading, yardstick what was planned.
+std::vector<std::string> value_columns();
+std::vector<std::string> values(const Answer& answer);
+std::vector<std::string> time_columns();
+std::vector<std::string> times(const Answer& answer);
+
+/// "slsqp xtol_reached 12 340; slsqp failure 1 20": calls and evaluations.
+std::string describe(const std::vector<CallCount>& counts);
+
+/// Numbers with all their digits, separated by blanks.
+std::string exact_text(double value);
+std::string exact_text(const Eigen::VectorXd& v);
+
+}  // namespace maxwrench

@@ -1,0 +1,173 @@
+#include <cmath>
+
+#include "maxwrench/solve.h"
+#include "maxwrench/version.h"
+#include "solvers/solve/pieces.h"
+
+namespace maxwrench {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json to_json(const BranchCounts& branches) {
+  return {{"valid", branches.valid()},           {"most", branches.most},
+          {"unreachable", branches.unreachable}, {"beyond_limit", branches.beyond_limit},
+          {"singular", branches.singular},       {"collision", branches.collision},
+          {"incomplete", branches.incomplete}};
+}
+
+bool is_turn_in_place(const Path& path) {
+  const Eigen::Vector3d p = path.pose(0).p;
+  for (const double s : {0.3, 0.5, 1.0}) {
+    if ((path.pose(s * path.duration()).p - p).norm() > 1e-12) return false;
+  }
+  return path.angle() != 0;
+}
+
+ordered_json path_json(const Path& path) {
+  return {{"start", to_json(path.pose(0))},
+          {"end", to_json(path.pose(path.duration()))},
+          {"angle", path.angle()}};
+}
+
+ordered_json task_json(const Answer& answer) {
+  const Problem& problem = *answer.task;
+  const MotionTask& task = *problem.motion;
+  const int t_h = task.t_h > 0 ? task.t_h : answer.plan.t_h;
+  ordered_json object;
+  object["kind"] = problem.type();
+  object["scheme"] = to_string(task.scheme);
+  object["k"] = task.k;
+  object["T"] = task.T;
+  object["c"] = array(problem.c);
+  object["rates"] = task.rates;
+  object["wrench"] = to_string(answer.choice.wrench);
+  object["t_h"] = known(task.impulse && t_h > 0, t_h);
+  object["u0"] = known(task.impulse, to_string(task.start));
+  object["theta0"] = known(task.impulse, array(task.theta_0));
+  object["collision"] = answer.collision;
+  if (is_turn_in_place(task.path)) {
+    object["angle"] = task.path.angle();
+  } else {
+    object["path"] = path_json(task.path);
+  }
+  object["sub"] = instants_per_interval(task);
+  return object;
+}
+
+/// In the order of u; `rate` is null where it has no limit.
+ordered_json actuators_json(const Robot& robot) {
+  ordered_json list = ordered_json::array();
+  for (Eigen::Index i = 0; i < robot.actuators(); ++i) {
+    const double rate = robot.u_rate_max[i];
+    list.push_back({{"name", actuator_name(robot, i)},
+                    {"min", robot.actuation.u_min[i]},
+                    {"max", robot.actuation.u_max[i]},
+                    {"rate", known(rate < kInfinity, rate)}});
+  }
+  return list;
+}
+
+ordered_json instant_json(const Robot& robot, const Instant& instant, bool solved) {
+  ordered_json object;
+  object["t"] = instant.t;
+  object["theta"] = theta(robot, instant.base, instant.q);
+  object["velocity"] = array(instant.v);
+  object["acceleration"] = array(instant.v_dot);
+  object["tau_d"] = array(instant.tau_d);
+  object["c"] = array(instant.c);
+  object["h"] = known(solved, array(instant.h));
+  object["u"] = known(solved, array(instant.u));
+  object["beta"] = known(solved, instant.beta());
+  return object;
+}
+
+ordered_json clearance_json(const std::optional<Clearance>& clearance) {
+  if (!clearance) return nullptr;
+  return {{"least", clearance->least}, {"t", clearance->t}, {"pair", clearance->pair}};
+}
+
+/// What was asked, and how it ended.
+ordered_json choice_json(const Answer& answer) {
+  const Case& c = answer.choice;
+  ordered_json object;
+  object["problem"] = c.problem;
+  object["measure"] = c.measure;
+  object["wrench"] = to_string(c.wrench);
+  object["lp"] = known(c.lp != kNoSolver, c.lp);
+  object["search"] = known(!c.search.empty(), c.search);
+  object["seed"] = known(!c.search.empty(), c.seed);
+  object["status"] = to_string(answer.status);
+  object["reason"] = known(!answer.reason.empty(), answer.reason.str());
+  object["beta"] = known(answer.has_value(), answer.beta());
+  object["unit"] = answer.unit;
+  return object;
+}
+
+/// Where, and with which efforts, a static task has its value.
+void add_posture(const Answer& answer, ordered_json& object) {
+  const Problem& problem = *answer.task;
+  const Posture& posture = answer.posture;
+  const Capability& capability = answer.capability;
+  const bool there = answer.has_posture(), solved = answer.has_value();
+  const bool has_wrench = solved && capability.w.size() > 0;
+  object["yardstick"] = known(std::isfinite(answer.yardstick), answer.yardstick);
+  object["yardstick_unit"] = problem.unit();
+  object["theta_r"] = known(there, array(posture.theta_r));
+  object["theta"] = there ? theta(problem.robot, posture.base, posture.q) : ordered_json(nullptr);
+  if (problem.free.count() > 0) {
+    object["pose"] = there ? to_json(pose_at(problem, posture.theta_r)) : ordered_json(nullptr);
+  }
+  object["w"] = known(has_wrench, array(capability.w));
+  object["h"] = known(has_wrench, array(capability.h));
+  if (problem.contact) object["h_2"] = known(has_wrench, array(capability.h_2));
+  object["u"] = known(solved && capability.u.size() > 0, array(capability.u));
+  object["lambda"] = known(solved, array(capability.lambda));
+  object["gradient"] = known(solved, array(answer.plan.gradient.transpose()));
+}
+
+/// The plan of a task in time; its efforts and wrenches stand by its instants.
+void add_plan(const Answer& answer, ordered_json& object) {
+  const bool solved = answer.has_value();
+  object["theta_r"] = known(answer.has_posture(), rows(answer.plan.knots));
+  for (const char* key : {"theta", "w", "h", "u", "lambda"}) object[key] = nullptr;
+  object["gradient"] = known(solved, rows(answer.plan.gradient));
+}
+
+void add_instants(const Answer& answer, ordered_json& object) {
+  const Plan& plan = answer.plan;
+  const Robot& robot = answer.task->robot;
+  object["task"] = task_json(answer);
+  object["value"] = known(answer.has_value(), plan.value);
+  object["continuous"] = plan.continuous;
+  object["continuous_reason"] =
+      known(!plan.continuous_reason.empty(), plan.continuous_reason.str());
+  object["collision"] = known(!plan.collision.empty(), plan.collision.str());
+  object["clearance"] = clearance_json(answer.clearance);
+  object["actuators"] = actuators_json(robot);
+  object["instants"] = ordered_json::array();
+  for (const Instant& instant : plan.instants) {
+    object["instants"].push_back(instant_json(robot, instant, answer.has_value()));
+  }
+}
+
+}  // namespace
+
+std::string to_json(const Answer& answer) {
+  const bool in_time = answer.task->motion.has_value();
+  ordered_json object = choice_json(answer);
+  (in_time ? add_plan : add_posture)(answer, object);
+  object["residual"] = known(answer.has_value(), to_json(answer.residual()));
+  object["evaluations"] = answer.evaluations;
+  object["calls"] = known(!answer.choice.search.empty(), to_json(answer.calls));
+  if (!in_time) {
+    object["undecided"] = answer.undecided;
+    object["branches"] = to_json(answer.branches);
+  }
+  object["wall_s"] = answer.wall_s;
+  object["version"] = version();
+  if (in_time) add_instants(answer, object);
+  return in_one_line(object);
+}
+
+}  // namespace maxwrench

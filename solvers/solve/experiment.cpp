@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "maxwrench/solve.h"
+#include "maxwrench/strategies.h"
+#include "solvers/solve/method.h"
+#include "solvers/solve/tank.h"
+
+namespace maxwrench {
+namespace {
+
+double reading_of(const TankSummary& summary) {
+  if (!summary.motion) return summary.mean;
+  return std::isfinite(summary.motion->at_peak) ? summary.motion->at_peak : summary.low;
+}
+
+void conclude_experiment(const TankRun& run, Answer& answer) {
+  static_cast<Verdict&>(answer) = run;
+  answer.evaluations = run.evaluations;
+  if (run.status != Status::kReached) return;
+  answer.missed = run.summary.missed;
+  const double reading = reading_of(run.summary);
+  if (std::isfinite(reading) && !run.summary.lost) {
+    answer.plan.value = reading;
+  } else {
+    answer.conclude(Status::kNoneFound, "the posture was lost before the end");
+  }
+}
+
+void carry_out_posture(const Case& c, Answer& answer) {
+  const Problem& task = *answer.task;
+  // The controller holds the end effector where theta_r has it.
+  const Problem held = held_at(task, task.theta_r_default);
+  const Answer posture = evaluate(held, held_theta_r(task, task.theta_r_default), {c});
+  answer.plan.knots = task.theta_r_default.transpose();
+  static_cast<Verdict&>(answer) = posture;
+  if (!posture.has_value()) return;
+  answer.yardstick = held.c.dot(posture.capability.h);
+  if (answer.yardstick > 0) {
+    conclude_experiment(simulate_posture(posture, answer.yardstick, c.integrator, TankOptions()),
+                        answer);
+  } else {
+    answer.conclude(Status::kNoneFound, "the default posture exerts nothing along c");
+  }
+}
+
+void carry_out_plan(const Method& method, Answer& answer) {
+  const Problem& task = *answer.task;
+  answer.plan.knots = constant_knots(task, task.theta_r_default);
+  PlanEvaluator evaluator(task, method.choice.wrench, method.plan_solver->make);
+  static_cast<Verdict&>(answer) = evaluator.evaluate(answer.plan.knots);
+  if (evaluator.plan().status != Status::kOptimal) return;
+  evaluator.evaluate_continuous();
+  ScriptOptions script;
+  script.interpolation = usual_interpolation(task);
+  script.margin = TankOptions().margin;
+  const PlanExperiment experiment =
+      simulate_plan(task, evaluator.plan(), method.choice.wrench, *method.plan_solver, script,
+                    method.choice.integrator, TankOptions());
+  answer.yardstick = experiment.script.planned;
+  conclude_experiment(experiment.run, answer);
+}
+
+}  // namespace
+
+std::vector<std::string> served_integrators(const Problem& problem, const std::string& measure) {
+  const bool serves = !problem.contact && measure == Case().measure;
+  return serves ? stiff_integrators() : std::vector<std::string>();
+}
+
+Answer experiment(const Problem& task, const Options& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<std::string> served = served_integrators(task, options.measure);
+  if (std::find(served.begin(), served.end(), options.integrator) == served.end()) {
+    throw std::invalid_argument(
+        fmt::format("integrator: got '{}', expected one that serves measure {} of {}: {}",
+                    options.integrator, options.measure, task.name, fmt::join(served, " ")));
+  }
+  Answer answer;
+  answer.task = std::make_shared<const Problem>(task);
+  const Method method = resolve(*answer.task, options);
+  answer.choice = method.choice;
+  answer.unit = task.unit();
+  if (task.motion) {
+    carry_out_plan(method, answer);
+  } else {
+    carry_out_posture(method.choice, answer);
+  }
+  answer.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return answer;
+}
+
+}  // namespace maxwrench

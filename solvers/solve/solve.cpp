@@ -1,0 +1,208 @@
+#include "maxwrench/solve.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <thread>
+
+#include "maxwrench/measure.h"
+#include "maxwrench/strategies.h"
+#include "maxwrench/wrench_program.h"
+#include "solvers/solve/interruption.h"
+#include "solvers/solve/method.h"
+
+namespace maxwrench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Without a value so far.
+Answer begin(std::shared_ptr<const Problem> task, const Method& method) {
+  Answer answer;
+  answer.task = std::move(task);
+  answer.choice = method.choice;
+  answer.unit = method.unit;
+  return answer;
+}
+
+double yardstick(const Problem& task, const Method& method, const Posture& posture) {
+  WrenchProgram program = make_wrench_program(task, method.choice.wrench);
+  set_posture(posture, program);
+  Capability capability;
+  method.make_yardstick()->evaluate(posture, program, false, capability);
+  return capability.status == Status::kOptimal ? capability.beta
+                                               : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// A static task as one in time of one instant.
+Plan one_instant(const Problem& task, const Posture& posture, const Capability& capability,
+                 const Eigen::VectorXd& gradient) {
+  Plan plan;
+  static_cast<Verdict&>(plan) =
+      posture.status == Status::kValid ? Verdict(capability) : Verdict(posture);
+  plan.knots = posture.theta_r.transpose();
+  plan.gradient = gradient.transpose();
+  Instant instant;
+  instant.end_effector = pose_at(task, posture.theta_r);
+  instant.base = posture.base;
+  instant.q = posture.q;
+  instant.v = instant.v_dot = Eigen::VectorXd::Zero(posture.tau_d.size());
+  instant.tau_d = posture.tau_d;
+  instant.J = posture.J;
+  instant.c << posture.turn * task.c.head<3>(), posture.turn * task.c.tail<3>();
+  if (plan.status == Status::kOptimal) {
+    plan.value = capability.beta;
+    if (capability.w.size() > 0) instant.h = capability.h;
+    instant.u = capability.u;
+  }
+  plan.instants.push_back(std::move(instant));
+  return plan;
+}
+
+void evaluate_posture(const Method& method, const Eigen::VectorXd& theta_r, Answer& answer) {
+  const auto start = Clock::now();
+  const Problem& task = *answer.task;
+  PostureEvaluator model(task, answer.collision);
+  WrenchProgram program = make_wrench_program(task, method.choice.wrench);
+  answer.posture =
+      evaluate_best(model, theta_r, *method.make_measure(), true, program, answer.capability);
+  answer.branches = answer.posture.branches;
+  const bool valid = answer.posture.status == Status::kValid;
+  static_cast<Verdict&>(answer) = valid ? Verdict(answer.capability) : Verdict(answer.posture);
+  if (!valid) answer.reason = describe_violation(task, answer.posture);
+  Eigen::VectorXd gradient;
+  if (answer.status == Status::kOptimal) {
+    model.pull_back(theta_r, answer.capability, gradient);
+    const double beta = answer.capability.beta;
+    if (!answer.capability.residual.within(kAnswerTolerance * (1 + std::abs(beta)))) {
+      answer.conclude(Status::kNumericalError, "the answer does not satisfy its program");
+    }
+  }
+  answer.plan = one_instant(task, answer.posture, answer.capability, gradient);
+  answer.wall_s = seconds_since(start);
+  if (valid) answer.yardstick = yardstick(task, method, answer.posture);
+}
+
+void evaluate_plan(const Method& method, const Eigen::MatrixXd& knots, Answer& answer) {
+  const auto start = Clock::now();
+  PlanEvaluator evaluator(*answer.task, method.choice.wrench, method.plan_solver->make,
+                          answer.collision);
+  const Plan& plan = evaluator.evaluate(knots);
+  if (plan.status != Status::kInvalidPosture) {
+    // A check, the same for all rows: a solver that takes minutes for its instants tells no more.
+    const auto checker = plan_solvers().front().make();
+    evaluator.evaluate_continuous(checker.get());
+  }
+  static_cast<Verdict&>(answer) = plan;
+  answer.plan = plan;
+  answer.clearance = evaluator.least_clearance();
+  answer.program = evaluator.program();
+  answer.wall_s = seconds_since(start);
+}
+
+Answer evaluate(std::shared_ptr<const Problem> task, const Method& method,
+                const Eigen::MatrixXd& theta_r, bool check_collision) {
+  Answer answer = begin(std::move(task), method);
+  answer.collision = check_collision && answer.task->robot.collision != nullptr;
+  answer.evaluations = 1;
+  if (answer.task->motion) {
+    const bool throughout = theta_r.size() == answer.task->redundancy();
+    evaluate_plan(method, throughout ? constant_knots(*answer.task, stacked(theta_r)) : theta_r,
+                  answer);
+  } else {
+    evaluate_posture(method, stacked(theta_r), answer);
+  }
+  return answer;
+}
+
+std::vector<CallCount> count_calls(const std::vector<Call>& calls) {
+  std::vector<CallCount> counts;
+  for (const Call& call : calls) {
+    const auto same = std::find_if(counts.begin(), counts.end(), [&](const CallCount& count) {
+      return count.method == call.method && count.status == call.status;
+    });
+    CallCount& count = same != counts.end()
+                           ? *same
+                           : counts.emplace_back(CallCount{call.method, call.status, 0, 0});
+    ++count.calls;
+    count.evaluations += call.evaluations;
+  }
+  return counts;
+}
+
+/// Makes the answer of a posture, or plan, that a search found the answer of that search: what it
+/// took, and its word, for `optimal` is one of the lower level.
+void conclude_search(const SearchResult& result, const Interruption& interruption, Answer& answer) {
+  answer.evaluations = result.evaluations;
+  answer.calls = count_calls(result.calls);
+  if (answer.status == Status::kOptimal) answer.conclude(Status::kBestFound);
+  if (answer.status == Status::kInfeasible) {  // true of what was found, not of the task
+    answer.conclude(Status::kNoneFound, "of the best that was found: " + answer.reason.str());
+  }
+  if (!interruption.noticed) return;
+  answer.evaluations -= interruption.skipped;
+  if (answer.status != Status::kNumericalError) {
+    answer.conclude(Status::kBudgetExhausted, "interrupted");
+  }
+}
+
+int thread_count(int threads) {
+  if (threads < 0) {
+    throw std::invalid_argument("threads: got " + std::to_string(threads) +
+                                ", expected 0 for one on each core, or more");
+  }
+  return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+}  // namespace
+
+bool Answer::has_value() const {
+  return answered() || (status == Status::kBudgetExhausted && plan.status == Status::kOptimal);
+}
+
+bool Answer::answered() const {
+  return status == Status::kOptimal || status == Status::kBestFound || status == Status::kReached;
+}
+
+const Residual& Answer::residual() const {
+  return task && task->motion ? plan.solution.residual : capability.residual;
+}
+
+Answer evaluate(const Problem& task, const Eigen::MatrixXd& theta_r, const Options& options) {
+  const auto kept = std::make_shared<const Problem>(task);
+  Case c = options;
+  c.search.clear();  // none is used
+  return evaluate(kept, resolve(*kept, c), theta_r, options.check_collision);
+}
+
+Answer solve(const Problem& task, const Options& options) {
+  const int threads = thread_count(options.threads);
+  const auto kept = std::make_shared<const Problem>(task);
+  Case c = options;
+  if (c.search.empty()) c.search = default_search(task, c.measure);
+  const Method method = resolve(*kept, c);
+  const auto start = Clock::now();
+  const auto tally = std::make_shared<Tally>();
+  Interruption interruption{options.interrupted};
+  const auto objective = make_interruptible(make_objective(*kept, method, tally), interruption);
+  const SearchResult result = run_search(*kept, method, *objective, threads, options.progress);
+  const double search_s = seconds_since(start);
+  Answer answer = begin(kept, method);
+  if (result.status == Status::kBestFound) {
+    answer = evaluate(kept, method, unstacked(result.theta_r, knots_of(*kept)), true);
+  } else {
+    static_cast<Verdict&>(answer) = result;
+  }
+  conclude_search(result, interruption, answer);
+  answer.undecided = tally->undecided();
+  answer.branches = tally->sum();
+  answer.wall_s += search_s;
+  return answer;
+}
+
+}  // namespace maxwrench

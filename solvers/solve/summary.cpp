@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "maxwrench/solve.h"
+#include "solvers/solve/pieces.h"
+#include "solvers/solve/plan_limits.h"
+
+namespace maxwrench {
+namespace {
+
+constexpr int kMostLines = 21;  ///< of the table of instants
+
+template <class... Values>
+void add(std::string& text, fmt::format_string<Values...> format, Values&&... values) {
+  fmt::format_to(std::back_inserter(text), format, std::forward<Values>(values)...);
+}
+
+/// Some of the instants at knots.
+void add_instants(const Answer& answer, std::string& text) {
+  const Problem& problem = *answer.task;
+  const auto& instants = answer.plan.instants;
+  const auto count = static_cast<int>(instants.size());
+  const int per_knot = instants_per_interval(*problem.motion);
+  const int step = per_knot * ((count - 1) / per_knot / kMostLines + 1);
+  add(text, "    t [s]  {:>9}  {:<{}}  nearest limit of an effort\n", "beta", " theta_r",
+      10 * problem.redundancy());
+  for (int i = 0; i < count; i += step) {
+    const Instant& instant = instants[static_cast<std::size_t>(i)];
+    const std::string beta = answer.has_value() ? fmt::format("{:.5f}", instant.beta()) : "-";
+    add(text, "{:>9.4f}  {:>9}  {}  {}\n", instant.t, beta, line(instant.q(problem.redundant)),
+        answer.has_value() ? nearest_limit(problem.robot, instant.u) : "");
+  }
+}
+
+void add_value(const Answer& answer, std::string& text) {
+  const Plan& plan = answer.plan;
+  add(text, "value    {:>10.5f} {}\n", plan.value, answer.unit);
+  if (plan.continuous_reason.empty()) {
+    add(text, "continuous {:>8.5f} {}\n", plan.continuous, answer.unit);
+  } else {
+    add(text, "continuous none: {}\n", plan.continuous_reason.c_str());
+  }
+  if (!plan.collision.empty()) add(text, "collides: {}\n", plan.collision.c_str());
+}
+
+std::string plan_summary(const Answer& answer) {
+  const Problem& problem = *answer.task;
+  std::string text;
+  const MotionTask& task = *problem.motion;
+  const Plan& plan = answer.plan;
+  add(text, "{}  measure {}  wrench {}  lp {}\n", answer.choice.problem, answer.choice.measure,
+      to_string(answer.choice.wrench), answer.choice.lp);
+  add(text, "{} of {:g} s, {} knots, scheme {}", problem.type(), task.T, task.k,
+      to_string(task.scheme));
+  if (answer.has_posture()) add(text, ", {} instants", plan.instants.size());
+  if (!task.impulse && task.scheme == Scheme::kForward && task.k > 1) {
+    add(text, " T/k apart at poses T/(k-1) apart");
+  }
+  if (task.impulse && plan.t_h > 0) add(text, ", peak at knot {}", plan.t_h);
+  add(text, "\n{}{}{}\n", to_string(answer.status), answer.reason.empty() ? "" : ": ",
+      answer.reason.c_str());
+  if (answer.has_value()) {
+    add_value(answer, text);
+    for (const std::string& limit : binding_limits(answer)) add(text, "{}\n", limit);
+  }
+  if (answer.clearance) {
+    add(text, "clearance {:>9.5f} m at {:.4f} s: {}\n", answer.clearance->least,
+        answer.clearance->t, answer.clearance->pair);
+  }
+  if (answer.has_posture()) add_instants(answer, text);
+  if (answer.has_value()) add(text, "residual {}; ", line(plan.solution.residual));
+  add(text, "{}\n", line(answer.evaluations, answer.wall_s));
+  return text;
+}
+
+void add_following(const Answer& answer, const std::vector<int>& joints, std::string& text) {
+  for (const int i : joints) {
+    add(text, "follows  {:>10.5f}  {}\n", answer.posture.q[i], answer.task->robot.joints[i].name);
+  }
+}
+
+/// The value with the wrench, efforts, gradient and residual.
+void add_capability(const Answer& answer, std::string& text) {
+  const Problem& problem = *answer.task;
+  const Capability& capability = answer.capability;
+  add(text, "beta     {:>10.5f} {}\n", capability.beta, answer.unit);
+  add(text, "yardstick{:>10.5f} {}\n", answer.yardstick, problem.unit());
+  if (capability.w.size() > 0) add(text, "h        {}\n", line(capability.h));
+  if (problem.contact) add(text, "h_2      {}\n", line(capability.h_2));
+  for (Eigen::Index i = 0; i < capability.u.size(); ++i) {
+    add(text, "u {:>17.5f}  of {:g} .. {:g}  {}\n", capability.u[i],
+        problem.robot.actuation.u_min[i], problem.robot.actuation.u_max[i],
+        actuator_name(problem.robot, i));
+  }
+  add(text, "gradient {}\n", line(answer.plan.gradient.transpose()));
+  if (answer.undecided > 0) {
+    add(text, "undecided {} (evaluations without a verdict)\n", answer.undecided);
+  }
+  add(text, "residual {}; {}\n", line(capability.residual),
+      line(answer.evaluations, answer.wall_s));
+}
+
+std::string posture_summary(const Answer& answer) {
+  const Problem& problem = *answer.task;
+  std::string text;
+  const Case& c = answer.choice;
+  add(text, "{}  measure {}  wrench {}  lp {}\n", c.problem, c.measure, to_string(c.wrench), c.lp);
+  if (answer.has_posture()) {
+    add(text, "theta_r  {}\n", line(answer.posture.theta_r));
+    add(text, "base xyz {}\nbase rpy {}\n", line(answer.posture.base.p),
+        line(rpy(answer.posture.base.R)));
+    add_following(answer, problem.dependent, text);
+    if (problem.free.count() > 0) {
+      const Pose<double> pose = pose_at(problem, answer.posture.theta_r);
+      add(text, "tool xyz {}\ntool rpy {}\n", line(pose.p), line(rpy(pose.R)));
+    }
+  }
+  if (problem.contact && answer.has_posture()) {
+    add_following(answer, problem.contact->follow, text);
+  }
+  if (answer.branches.found + answer.branches.unreachable > 0) {
+    add(text, "{}\n", describe(answer.branches));
+  }
+  if (!answer.has_value()) {
+    add(text, "{}: {}\n", to_string(answer.status), answer.reason.c_str());
+    return text;
+  }
+  if (!answer.answered()) {
+    add(text, "{}: {}, the best so far\n", to_string(answer.status), answer.reason.c_str());
+  }
+  if (answer.status == Status::kBestFound) {
+    add(text, "{} by {}\n", to_string(answer.status), c.search);
+  }
+  add_capability(answer, text);
+  return text;
+}
+
+}  // namespace
+
+std::string summary(const Answer& answer) {
+  return answer.task->motion ? plan_summary(answer) : posture_summary(answer);
+}
+
+}  // namespace maxwrench
