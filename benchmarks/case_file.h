@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "benchmarks/csv.h"
-#include "solvers/solve/method.h"
+#include "maxwrench/solve.h"
 
 // Tables whose first columns are those of a case.
 

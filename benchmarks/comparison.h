@@ -8,7 +8,6 @@
 #include "benchmarks/race_statistics.h"
 #include "maxwrench/search.h"
 #include "maxwrench/solve.h"
-#include "solvers/solve/method.h"
 
 namespace maxwrench {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "solvers/solve/method.h"
+#include "maxwrench/solve.h"
 
 namespace maxwrench {
 

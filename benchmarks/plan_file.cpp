@@ -13,6 +13,7 @@
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
 #include "problems/loader/block.h"
+#include "solvers/solve/method.h"
 
 namespace maxwrench {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "maxwrench/problem.h"
-#include "solvers/solve/method.h"
+#include "maxwrench/solve.h"
 
 namespace maxwrench {
 

@@ -11,6 +11,7 @@
 #include "benchmarks/row.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
+#include "solvers/solve/method.h"
 #include "solvers/solve/tank.h"
 
 namespace maxwrench {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "solvers/solve/method.h"
+#include "maxwrench/solve.h"
 
 namespace maxwrench {
 

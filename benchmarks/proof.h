@@ -4,7 +4,6 @@
 #include <string>
 
 #include "solvers/certify/certify.h"
-#include "solvers/solve/method.h"
 
 namespace maxwrench {
 

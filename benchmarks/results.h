@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "benchmarks/comparison.h"
-#include "solvers/solve/method.h"
+#include "maxwrench/solve.h"
 
 namespace maxwrench {
 

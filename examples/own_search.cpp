@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "maxwrench/load.h"
+#include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"
 
 using namespace maxwrench;
@@ -52,6 +53,6 @@ int main() {
   std::printf("compass  %.6f %s after %ld evaluations\n", best.value, problem.unit(),
               best.evaluations);
   const SearchResult other = find_search(general_search()).make()->maximize(*objective, options);
-  std::printf("grid     %.6f %s after %ld evaluations\n", other.value, problem.unit(),
+  std::printf("default  %.6f %s after %ld evaluations\n", other.value, problem.unit(),
               other.evaluations);
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <array>
 #include <limits>
+#include <string>
 
 namespace maxwrench {
 
@@ -36,6 +37,8 @@ using Matrix6Xd = Matrix6X<double>;
 /// or any (beta_3).
 enum class Wrench { kPure, kAny };
 const char* to_string(Wrench wrench);
+/// "pure" or "any"; throws std::invalid_argument otherwise.
+Wrench parse_wrench(const std::string& name);
 
 /// The axes of a twist or of the base, and of a wrench, as they are called in files.
 inline constexpr std::array<const char*, 6> kTwistAxes = {"x", "y", "z", "roll", "pitch", "yaw"};

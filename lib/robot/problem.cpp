@@ -1,8 +1,16 @@
 #include "maxwrench/problem.h"
 
+#include <stdexcept>
+
 namespace maxwrench {
 
 const char* to_string(Wrench wrench) { return wrench == Wrench::kPure ? "pure" : "any"; }
+
+Wrench parse_wrench(const std::string& name) {
+  if (name == "pure") return Wrench::kPure;
+  if (name == "any") return Wrench::kAny;
+  throw std::invalid_argument("wrench: got '" + name + "', expected pure or any");
+}
 
 const char* Problem::unit() const {
   if (c.tail<3>().isZero()) return "N";

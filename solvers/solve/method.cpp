@@ -139,12 +139,6 @@ Method resolve_in_time(const Problem& problem, const Case& c) {
 
 }  // namespace
 
-Wrench parse_wrench(const std::string& name) {
-  if (name == "pure") return Wrench::kPure;
-  if (name == "any") return Wrench::kAny;
-  throw std::invalid_argument(fmt::format("wrench: got '{}', expected pure or any", name));
-}
-
 bool serves_as_plan(const Problem& problem, const std::string& measure) {
   return measure == Case().measure && !problem.contact && problem.free.count() == 0;
 }

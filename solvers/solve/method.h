@@ -32,9 +32,6 @@ struct Method {
   MeasureMaker make_yardstick;
 };
 
-/// "pure" or "any"; throws std::invalid_argument otherwise.
-Wrench parse_wrench(const std::string& name);
-
 /// Whether searches of plans serve a static task, which is a plan of one knot: by linf_polytope,
 /// without a second contact.
 bool serves_as_plan(const Problem& problem, const std::string& measure);
