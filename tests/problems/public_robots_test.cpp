@@ -17,9 +17,6 @@ namespace fs = std::filesystem;
 /// A Franka Panda, and a UR10 that stands or rides on a made-up mecanum base.
 class PublicRobots : public testing::Test {
  protected:
-  void SetUp() override {
-    if (!fs::is_directory(folder_)) GTEST_SKIP() << "no folder " << folder_;
-  }
   Problem load(const char* task) const { return load_problem((folder_ / task).string()); }
 
   static Answer search(const Problem& problem, std::uint64_t seed) {
@@ -29,7 +26,7 @@ class PublicRobots : public testing::Test {
     return solve(problem, {c, 1});
   }
 
-  const fs::path folder_ = MAXWRENCH_ROBOTS_DIR;
+  const fs::path folder_ = MAXWRENCH_SOURCE_DIR "/tests/data/robots";
 };
 
 /// Both have eight solutions where six joints follow: three parallel axes (UR10), and the last of

@@ -2,6 +2,8 @@
 
 namespace maxwrench {
 
+inline constexpr const char* kNetlibFolder = MAXWRENCH_SOURCE_DIR "/tests/data/netlib";
+
 struct NetlibOptimum {
   const char* name;
   double value;

@@ -12,18 +12,12 @@
 namespace maxwrench {
 namespace {
 
-class Netlib : public testing::Test {
- protected:
-  void SetUp() override {
-    if (!std::filesystem::is_directory(folder_)) GTEST_SKIP() << "no folder " << folder_;
-  }
-  const std::filesystem::path folder_ = MAXWRENCH_NETLIB_DIR;
-};
+const std::filesystem::path kFolder = kNetlibFolder;
 
-TEST_F(Netlib, OptimaToEightDigits) {
+TEST(Netlib, OptimaToEightDigits) {
   const auto simplex = make_simplex();
   for (const auto& [name, optimum] : kNetlibOptima) {
-    const MpsProgram mps = read_mps(folder_ / (std::string(name) + ".mps"));
+    const MpsProgram mps = read_mps(kFolder / (std::string(name) + ".mps"));
     LpSolution solution;
     simplex->solve(mps.program, solution);
     EXPECT_EQ(solution.status, Status::kOptimal) << name;
@@ -37,17 +31,17 @@ TEST_F(Netlib, OptimaToEightDigits) {
   }
 }
 
-TEST_F(Netlib, InfeasibleWithProof) {
+TEST(Netlib, InfeasibleWithProof) {
   for (const char* name : kNetlibInfeasible) {
-    const MpsProgram mps = read_mps(folder_ / "infeasible" / (std::string(name) + ".mps"));
+    const MpsProgram mps = read_mps(kFolder / "infeasible" / (std::string(name) + ".mps"));
     const LpSolution solution = solve_with_simplex(mps.program);
     EXPECT_EQ(solution.status, Status::kInfeasible) << name;
     expect_verified(mps.program, solution);
   }
 }
 
-TEST_F(Netlib, UnboundedWithRay) {
-  const MpsProgram mps = read_mps(folder_ / "unbounded/gas11.mps");
+TEST(Netlib, UnboundedWithRay) {
+  const MpsProgram mps = read_mps(kFolder / "unbounded/gas11.mps");
   const LpSolution solution = solve_with_simplex(mps.program);
   EXPECT_EQ(solution.status, Status::kUnbounded);
   expect_verified(mps.program, solution);

@@ -225,11 +225,8 @@ TEST_P(EveryLpSolver, AgreesWithSimplexOnFiles) {
 
 TEST_P(EveryLpSolver, AgreesWithSimplexOnNetlib) {
   if (interior()) GTEST_SKIP() << "awkward programs are no task for an interior point";
-  if (!std::filesystem::is_directory(MAXWRENCH_NETLIB_DIR)) {
-    GTEST_SKIP() << "no folder " << MAXWRENCH_NETLIB_DIR;
-  }
   // GLPK gives up on klein1 and gas11.
-  EXPECT_LE(compare_on_files(*GetParam().make(), MAXWRENCH_NETLIB_DIR),
+  EXPECT_LE(compare_on_files(*GetParam().make(), kNetlibFolder),
             std::string_view(GetParam().name) == "glpk" ? 2 : 0);
 }
 
