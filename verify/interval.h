@@ -1,8 +1,22 @@
 #pragma once
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <limits>
+
+// Every enclosure below rests on IEEE 754 arithmetic that rounds to nearest. Where the compiler does
+// not keep to it, the build stops here.
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "verify: the interval arithmetic needs IEEE 754: build without -ffast-math"
+#endif
+static_assert(FLT_EVAL_METHOD == 0,
+              "verify: the interval arithmetic needs doubles without excess precision");
+static_assert(std::numeric_limits<double>::is_iec559 && std::numeric_limits<double>::digits == 53,
+              "verify: the interval arithmetic needs IEEE 754 doubles");
+static_assert(std::numeric_limits<long double>::is_iec559 &&
+                  std::numeric_limits<long double>::digits == 64,
+              "verify: the interval arithmetic needs a long double of 64 digits, as x86 has");
 
 namespace maxwrench {
 

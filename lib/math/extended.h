@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
 // Numbers of more digits than double, for what a proof is made of: model functions are templates on
 // the scalar, and multiply by constants in double.
@@ -8,6 +9,9 @@
 namespace maxwrench {
 
 using Extended = long double;
+static_assert(std::numeric_limits<Extended>::is_iec559 &&
+                  std::numeric_limits<Extended>::digits == 64,
+              "bounds: the terms of rounding need a long double of 64 digits, as x86 has");
 
 }  // namespace maxwrench
 

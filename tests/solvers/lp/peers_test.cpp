@@ -8,6 +8,7 @@
 #include "maxwrench/strategies.h"
 #include "solvers/lp/elastic.h"
 #include "solvers/lp/makers.h"
+#include "tests/support/netlib.h"
 #include "tests/support/programs.h"
 
 namespace maxwrench {
