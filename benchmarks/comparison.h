@@ -83,7 +83,7 @@ struct RaceOptions {
   bool shares_budget = true;
   std::function<void()> done;  ///< called after each attempt, from any thread; may be empty
   /// Once it says true, no attempt begins and those that run end early. May be empty.
-  std::function<bool()> interrupted;
+  std::function<bool()> interrupted = {};
 };
 
 /// Makes what all searches on a problem share (`BranchAtlas`), outside of any clock: who asks first

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "maxwrench/load.h"
 #include "maxwrench/posture.h"
 #include "tests/support/contacts.h"
 #include "tests/support/support.h"

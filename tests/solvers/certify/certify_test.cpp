@@ -7,6 +7,7 @@
 
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
+#include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"
 #include "tests/support/hills.h"
 #include "tests/support/loops.h"
