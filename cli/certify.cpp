@@ -184,9 +184,15 @@ void print_proof_text(const ProofOptions& options, const Problem& problem, const
     fmt::print("theta_r   {}\n", line(row.posture.theta_r));
     fmt::print("beta      {:>9.5f} {}\n", row.capability.beta, row.unit);
   }
-  fmt::print("bound     {:>9.5f} {}: no posture has more\n", result.bound, row.unit);
+  if (std::isfinite(result.bound)) {
+    fmt::print("bound     {:>9.5f} {}: no posture has more\n", result.bound, row.unit);
+  } else {
+    fmt::print("bound     none was proven\n");
+  }
   if (row.has_value()) {
-    fmt::print("gap       {}\nresidual {}\n", percent(proof.gap()), line(row.capability.residual));
+    fmt::print("gap       {}\nresidual {}\n",
+               std::isfinite(proof.gap()) ? percent(proof.gap()) : "unknown",
+               line(row.capability.residual));
   }
   fmt::print("boxes     {}, {} of them in collision, in {:.3g} s, after a search of {:.3g} s\n",
              result.boxes, result.colliding, result.seconds, proof.search_s);

@@ -10,6 +10,7 @@ namespace maxwrench {
 namespace {
 
 struct AnyRows {
+  double ceiling;
   FormRow o_0;
   std::vector<FormRow> tau_0;           ///< of each joint
   std::vector<FormRow> y;               ///< of each free base axis
@@ -26,8 +27,26 @@ std::vector<FormRow> on_free_axes(const Problem& problem, const FormModel& model
   return rows;
 }
 
+/// What the thrusters exert along c at most: |o_0| + sum over axes |y| sum_k |B_k| max |u_k|.
+double any_ceiling(const Problem& problem, const FormModel& model) {
+  const Zonotope& set = problem.robot.actuation;
+  Wide most(model.weight_along_c().magnitude(model.far()));
+  const std::array<FormVector, 2> y = model.carrying();
+  for (std::size_t i = 0; i < problem.robot.base_axes.size(); ++i) {
+    const auto axis = static_cast<std::size_t>(problem.robot.base_axes[i]);
+    Wide force;
+    for (Eigen::Index k = 0; k < static_cast<Eigen::Index>(problem.robot.thrusters.size()); ++k) {
+      force += Wide(std::abs(set.B(static_cast<Eigen::Index>(i), k))) *
+               Wide(std::max(std::abs(set.u_min[k]), std::abs(set.u_max[k])));
+    }
+    most += Wide(y[axis / 3][axis % 3].magnitude(model.far())) * force;
+  }
+  return narrow(most).high;
+}
+
 std::shared_ptr<const AnyRows> any_rows(const Problem& problem, const FormModel& model) {
-  AnyRows rows{FormRow(model.weight_along_c(), model.far()),
+  AnyRows rows{any_ceiling(problem, model),
+               FormRow(model.weight_along_c(), model.far()),
                {},
                on_free_axes(problem, model, model.carrying()),
                {}};
@@ -48,7 +67,7 @@ class AnyProof final : public ValueProof {
         g_(rows_->y.size()) {}
 
   int width() const override { return static_cast<int>(rows_->tau_0.size()); }
-  double ceiling() const override { return kInfinity; }
+  double ceiling() const override { return rows_->ceiling; }
 
   double most(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, const double* mu,
               double low, double high) override {

@@ -13,8 +13,10 @@ namespace maxwrench {
 namespace {
 
 constexpr std::string_view kMagic = "maxwrench proof 2\n";
-/// Multipliers hardly pack, boxes without one 40 times. A small file must not fill the memory.
-constexpr std::uint64_t kMostPacked = 200;
+/// A file has at least a byte for so many of what it holds, and so of the nodes of its tree: a
+/// small file cannot fill the memory. What packs better, boxes without a multiplier, is stored as
+/// it is.
+constexpr std::uint64_t kMostPacked = 16;
 constexpr std::size_t kMostNodes = 50'000'000;
 
 void put_pose(ByteWriter& to, const Pose<double>& pose) {
@@ -151,6 +153,17 @@ std::uint64_t checksum(std::string_view text) {
   return crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size());
 }
 
+std::string pack(const std::string& text, int level) {
+  std::string packed(compressBound(text.size()), '\0');
+  uLongf length = packed.size();
+  if (compress2(reinterpret_cast<Bytef*>(packed.data()), &length,
+                reinterpret_cast<const Bytef*>(text.data()), text.size(), level) != Z_OK) {
+    throw std::runtime_error("zlib: got no memory");
+  }
+  packed.resize(length);
+  return packed;
+}
+
 /// Empty if it is damaged.
 std::string unpack(std::string_view text) {
   ByteReader sum(text);
@@ -213,15 +226,11 @@ std::string certificate_text(const ProofCertificate& proof) {
   }
   put_tree(raw, proof.tree);
   const std::string& text = raw.text();
-  const auto* bytes = reinterpret_cast<const Bytef*>(text.data());
-  std::string packed(compressBound(text.size()), '\0');
-  uLongf length = packed.size();
-  if (compress2(reinterpret_cast<Bytef*>(packed.data()), &length, bytes, text.size(), 1) != Z_OK) {
-    throw std::runtime_error("zlib: got no memory");
-  }
+  std::string packed = pack(text, Z_BEST_SPEED);
+  if (text.size() / kMostPacked > packed.size()) packed = pack(text, Z_NO_COMPRESSION);
   ByteWriter head;
   head.whole(text.size(), 8);
-  const std::string all = head.text() + packed.substr(0, length);
+  const std::string all = head.text() + packed;
   ByteWriter sum;
   sum.whole(checksum(all), 4);
   return std::string(kMagic) + sum.text() + all;

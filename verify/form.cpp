@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 
 namespace maxwrench {
 
@@ -11,6 +12,12 @@ FormShape::FormShape(std::vector<int> terms_of, std::vector<int> coordinates_of)
   for (std::size_t i = terms.size(); i-- > 0;) {
     strides[i] = size;
     size *= terms[i];
+    if (size > kMostTerms) {
+      throw std::invalid_argument(
+          "got " + std::to_string(terms.size()) +
+          " coordinates of a posture, expected at most 9 that turn: a proof looks at 3 points for "
+          "each, multiplied");
+    }
   }
 }
 

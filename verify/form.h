@@ -12,8 +12,12 @@ struct FormShape {
   std::vector<int> terms;        ///< 3 or 2 for each variable
   std::vector<int> coordinates;  ///< which side of a box each variable is
   std::vector<int> strides;      ///< of a variable's terms among all, the last one's 1
-  int size = 1;                  ///< of all products of terms
+  int size = 1;                  ///< of all products of terms, at most kMostTerms
 
+  /// More products of terms than this take too long for a box, and too much memory.
+  static constexpr int kMostTerms = 20'000;
+
+  /// Throws std::invalid_argument, in one line, if there are more.
   FormShape(std::vector<int> terms_of, std::vector<int> coordinates_of);
   /// Of the variables from one to before another.
   FormShape stretch(int from, int to) const;

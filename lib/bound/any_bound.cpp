@@ -79,7 +79,8 @@ class AnyWrenchBound final : public Bound {
              model_->j_min.cwiseAbs().cwiseMax(model_->j_max.cwiseAbs());
   }
 
-  double ceiling() const override { return kInfinity; }
+  /// What the thrusters exert along c at most, with the largest lever that a posture can have.
+  double ceiling() const override { return fixed_ * (1 + kCeilingRounding); }
 
   void evaluate(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low, double high,
                 BoxProof& proof) override {
@@ -189,9 +190,11 @@ std::unique_ptr<Bound> make_any_wrench_bound(const Problem& problem) {
                                 "whose free axes are as many as the wrenches");
   };
   if (problem.W_any.cols() != b) refuse();
+  require_few_control_points(problem.name, all_coordinates(problem));
   MultiAffine f = any_rows(problem, b, j);
   if (!f.coefficients().allFinite() || !reproduces(problem, f, b, j)) refuse();
-  const Eigen::VectorXd sizes = f.magnitudes(problem.theta_r_min, problem.theta_r_max);
+  const Eigen::VectorXd sizes = f.magnitudes(problem.theta_r_min.array() - kCeilingMargin,
+                                             problem.theta_r_max.array() + kCeilingMargin);
   const Zonotope& set = robot.actuation;
   return std::make_unique<AnyWrenchBound>(std::make_shared<AnyModel>(
       AnyModel{std::move(f), sizes, set.B.topLeftCorner(b, thrusters), set.u_min.head(thrusters),

@@ -17,6 +17,11 @@ inline constexpr double kMostSpread = 16;
 /// share of the sum of its magnitudes.
 inline constexpr double kBoundRounding = 128 * std::numeric_limits<double>::epsilon();
 
+/// How far a ceiling may be off, as a share of it: rotations of rounded numbers are not quite that.
+inline constexpr double kCeilingRounding = 1e-6;
+/// [m] A ceiling holds so far beyond the limits of sliding coordinates, as that of `verify` does.
+inline constexpr double kCeilingMargin = 1;
+
 /// Bounds with W = c, of beta = max t subject to tau_d + t J'c in a convex set with the support s:
 ///
 ///     U(lambda) = s(lambda) + max over control points v and t in {low, high} of

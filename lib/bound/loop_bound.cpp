@@ -27,7 +27,7 @@ double loop_ceiling(const Problem& problem, const LoopModel& model) {
     const double u = std::max(std::abs(set.u_min[k]), std::abs(set.u_max[k]));
     most += u * set.B.col(k).segment<3>(row).norm();
   }
-  return most / problem.c.segment<3>(row).norm() * (1 + 1e-6);
+  return most / problem.c.segment<3>(row).norm() * (1 + kCeilingRounding);
 }
 
 /// As `make_polytope_bound`, with nu'f added to the rows.

@@ -8,9 +8,6 @@
 namespace maxwrench {
 namespace {
 
-/// More of them would take too long for a box.
-constexpr Eigen::Index kMostControlPoints = 50'000;
-
 int values_along(const Coordinates& chain, int axis) {
   return chain.turns[static_cast<std::size_t>(axis)] ? 3 : 2;
 }
@@ -26,12 +23,8 @@ Coordinates part_of_chain(const Coordinates& chain, int from, int to) {
 
 LoopModel::LoopModel(const Problem& problem)
     : coordinates(problem), n(problem.robot.velocities()), problem_(problem) {
+  require_few_control_points(problem.name, coordinates.chain);
   for (int i = 0; i < coordinates.chain.count(); ++i) size *= values_along(coordinates.chain, i);
-  if (size > kMostControlPoints) {
-    throw std::invalid_argument(problem.name + ": got " +
-                                std::to_string(coordinates.chain.count()) +
-                                " coordinates with all that follows, expected fewer, for a proof");
-  }
   tau = a = Eigen::VectorXd::Zero(n);
   LoopPosture posture(problem, coordinates);
   add_loads(posture);

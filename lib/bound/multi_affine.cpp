@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 
 namespace maxwrench {
 namespace {
@@ -45,6 +46,17 @@ void read_off(const Coordinates& coordinates, int axis, ExtendedMatrix& F) {
 }
 
 }  // namespace
+
+void require_few_control_points(const std::string& task, const Coordinates& coordinates) {
+  Eigen::Index points = 1;
+  for (int i = 0; i < coordinates.count() && points <= kMostControlPoints; ++i) {
+    points *= terms(coordinates, i);
+  }
+  if (points <= kMostControlPoints) return;
+  throw std::invalid_argument(task + ": got " + std::to_string(coordinates.count()) +
+                              " coordinates of a posture, expected at most 9 that turn, for a "
+                              "proof: a bound looks at 3 points for each, multiplied");
+}
 
 MultiAffine::MultiAffine(Coordinates coordinates, const Eigen::VectorXd& theta_r,
                          const Sample& sample)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "lib/math/extended.h"
@@ -16,6 +17,13 @@ struct Coordinates {
   std::vector<char> turns;  ///< enters by cosine and sine; else itself
   int count() const { return static_cast<int>(index.size()); }
 };
+
+/// More control points than this take too long for a box, and too much memory.
+inline constexpr Eigen::Index kMostControlPoints = 20'000;
+
+/// Throws std::invalid_argument, in one line that names the task, if a `MultiAffine` of all of
+/// these coordinates has more coefficients than that.
+void require_few_control_points(const std::string& task, const Coordinates& coordinates);
 
 /// Rows that are affine in (cos q_i, sin q_i) of each turning coordinate, and in q_i of each
 /// sliding one, while the others rest:

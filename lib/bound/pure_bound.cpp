@@ -19,54 +19,47 @@ struct PureModel {
   double ceiling;
 };
 
-/// The rows of the base's free axes of one kind.
-std::vector<int> base_rows(const Robot& robot, bool angular) {
-  std::vector<int> rows;
-  for (std::size_t i = 0; i < robot.base_axes.size(); ++i) {
-    if ((robot.base_axes[i] >= 3) == angular) rows.push_back(static_cast<int>(i));
-  }
-  return rows;
+/// J'c and tau_d on the six axes of the base, free or not: [tau; a], 12.
+MultiAffine base_rows(Problem problem) {
+  problem.robot.base_axes = {0, 1, 2, 3, 4, 5};
+  return pure_rows(problem, Eigen::MatrixXd::Identity(6, problem.robot.velocities()));
 }
 
-/// |J'c| on these rows if it is the same in all postures, else zero.
-double constant_length(const MultiAffine& f, const std::vector<int>& rows) {
-  double shortest = kInfinity, longest = 0;
-  Eigen::VectorXd q = Eigen::VectorXd::Zero(f.coordinates().count());
-  for (int sample = 0; sample < 32; ++sample) {
-    const Eigen::VectorXd all = f.evaluate(q);
-    const double length = all.tail(all.size() / 2)(rows).norm();
-    shortest = std::min(shortest, length);
-    longest = std::max(longest, length);
-    for (Eigen::Index i = 0; i < q.size(); ++i) q[i] += 0.7 + 0.31 * static_cast<double>(i);
-  }
-  return longest - shortest < 1e-9 * longest ? shortest : 0;
-}
-
-/// t <= (sum_k max |u_k| |B_k| + |tau_d|) / |J'c|, on the base's free axes of one kind, linear or
-/// angular, where |J'c| is the same in all postures.
+/// t <= (sum_k max |u_k| |B_k| + |tau_d|) / |J'c|, all on the base's free axes, linear ones for a
+/// force and angular ones for a torque. On the three axes of that kind |J'c| is the length of the
+/// force or torque of c; of its square goes what axes that are not free can take.
 double pure_ceiling(const Problem& problem) {
+  constexpr double kLeastLength2 = 1e-6;
   const Zonotope& set = problem.robot.actuation;
-  const Eigen::Index n = set.dimension();
-  const MultiAffine f = pure_rows(problem, Eigen::MatrixXd::Identity(n, n));
-  const Eigen::VectorXd sizes = f.magnitudes(problem.theta_r_min, problem.theta_r_max);
-  double least = kInfinity;
-  for (const bool angular : {false, true}) {
-    const std::vector<int> rows = base_rows(problem.robot, angular);
-    const double length = rows.empty() ? 0 : constant_length(f, rows);
-    if (length == 0) continue;
-    double force = sizes.head(n)(rows).norm();
-    for (Eigen::Index k = 0; k < set.actuators(); ++k) {
-      force += std::max(std::abs(set.u_min[k]), std::abs(set.u_max[k])) * set.B.col(k)(rows).norm();
-    }
-    least = std::min(least, force / length * (1 + 1e-6));
+  const bool pushes = !problem.c.head<3>().isZero(0);
+  const Eigen::Index kind = pushes ? 0 : 3;
+  const Eigen::VectorXd sizes = base_rows(problem).magnitudes(
+      problem.theta_r_min.array() - kCeilingMargin, problem.theta_r_max.array() + kCeilingMargin);
+  std::vector<int> rows;
+  Eigen::Array3d taken = sizes.segment<3>(6 + kind).array().square();
+  double load2 = 0;
+  for (std::size_t i = 0; i < problem.robot.base_axes.size(); ++i) {
+    const Eigen::Index axis = problem.robot.base_axes[i] - kind;
+    if (axis < 0 || axis >= 3) continue;
+    rows.push_back(static_cast<int>(i));
+    taken[axis] = 0;
+    load2 += sizes[kind + axis] * sizes[kind + axis];
   }
-  if (std::isfinite(least)) return least;
-  throw std::invalid_argument(problem.name +
-                              ": wrench.c: got a direction that the base's free axes do not limit, "
-                              "expected one that they limit in all postures, for a proof");
+  const double length2 = problem.c.segment<3>(kind).squaredNorm() - taken.sum();
+  if (rows.empty() || !(length2 > kLeastLength2)) {
+    throw std::invalid_argument(problem.name +
+                                ": wrench.c: got a direction that the base's free axes do not "
+                                "limit, expected one that they limit in all postures, for a proof");
+  }
+  double force = std::sqrt(load2);
+  for (Eigen::Index k = 0; k < set.actuators(); ++k) {
+    force += std::max(std::abs(set.u_min[k]), std::abs(set.u_max[k])) * set.B.col(k)(rows).norm();
+  }
+  return force / std::sqrt(length2) * (1 + kCeilingRounding);
 }
 
 std::shared_ptr<const PureModel> make_pure_model(const Problem& problem, const Eigen::MatrixXd& K) {
+  require_few_control_points(problem.name, all_coordinates(problem));
   const double ceiling = pure_ceiling(problem);
   MultiAffine f = pure_rows(problem, K);
   const Eigen::VectorXd S = f.magnitudes(problem.theta_r_min, problem.theta_r_max);

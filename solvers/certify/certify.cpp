@@ -66,6 +66,10 @@ class BranchAndBound {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
 
+  bool is_late() const {
+    return seconds() > options_.seconds || (options_.interrupted && options_.interrupted());
+  }
+
   bool ended() {
     if (std::max(top(), narrow_top()) <= target()) {
       result_.conclude(Status::kProven);
@@ -102,7 +106,7 @@ class BranchAndBound {
     }
     std::erase(parents_, nullptr);
     improve();
-    CertifiedBoxes children = halving_.halves(parents_, target());
+    CertifiedBoxes children = halving_.halves(parents_, target(), [this] { return is_late(); });
     for (const auto& parent : parents_) report(*parent);
     for (auto& child : children) keep(std::move(child));
   }

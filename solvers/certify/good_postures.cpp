@@ -49,6 +49,10 @@ class GoodBoxes {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
 
+  bool is_late() const {
+    return seconds() > options_.seconds || (options_.interrupted && options_.interrupted());
+  }
+
   bool ended() {
     if (waiting_.empty()) {
       result_.conclude(Status::kProven);
@@ -71,7 +75,8 @@ class GoodBoxes {
       parents.push_back(std::move(waiting_.front()));
       waiting_.pop_front();
     }
-    for (auto& child : halving_.halves(parents, low_)) keep(std::move(child));
+    CertifiedBoxes children = halving_.halves(parents, low_, [this] { return is_late(); });
+    for (auto& child : children) keep(std::move(child));
   }
 
   void keep(std::unique_ptr<CertifiedBox> box) {

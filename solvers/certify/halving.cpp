@@ -39,7 +39,8 @@ std::unique_ptr<CertifiedBox> Halving::root(double low, double high) {
   return root;
 }
 
-CertifiedBoxes Halving::halves(const CertifiedBoxes& parents, double low) {
+CertifiedBoxes Halving::halves(const CertifiedBoxes& parents, double low,
+                               const std::function<bool()>& ended) {
   CertifiedBoxes children(2 * parents.size());
   parallel_for(threads_, static_cast<long>(parents.size()), [&](long i) {
     const auto at = static_cast<std::size_t>(i);
@@ -48,7 +49,12 @@ CertifiedBoxes Halving::halves(const CertifiedBoxes& parents, double low) {
       auto& child = children[place];
       child = half(*parents[at], second);
       child->id = last_id_ + 1 + static_cast<long>(place);
-      bound_one(*child, low);
+      if (ended()) {
+        child->low = parents[at]->low;
+        child->proof.forget(child->high);
+      } else {
+        bound_one(*child, low);
+      }
     }
   });
   last_id_ += static_cast<long>(children.size());

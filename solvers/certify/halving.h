@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -23,8 +24,10 @@ class Halving {
   std::unique_ptr<CertifiedBox> root(double low, double high);
 
   /// The halves of boxes, each cut along its `cut_axis`, the lower one first. All have the same
-  /// aim, and their numbers in the same order, whatever the threads.
-  CertifiedBoxes halves(const CertifiedBoxes& parents, double low);
+  /// aim, and their numbers in the same order, whatever the threads. Once `ended` says so, from any
+  /// thread, those that are left have what is known of their parents.
+  CertifiedBoxes halves(const CertifiedBoxes& parents, double low,
+                        const std::function<bool()>& ended);
 
  private:
   void bound_one(CertifiedBox& box, double low);

@@ -75,8 +75,10 @@ TEST(CertifyCommand, WritesNoCertificateWithoutABound) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "proof.mwc";
   const CommandResult result =
-      run_maxwrench("certify uvms/valve --wrench any --time 0 --certificate " + file);
+      run_maxwrench("certify mobile/push_any_height --time 0 --certificate " + file);
   EXPECT_EQ(result.exit_status, 1);
+  EXPECT_NE(result.out.find("\nbound     none was proven\ngap       unknown\n"), std::string::npos)
+      << result.out;
   EXPECT_NE(result.err.find("not written"), std::string::npos) << result.err;
   EXPECT_FALSE(std::filesystem::exists(file));
 }

@@ -71,6 +71,7 @@ TEST_P(BoundOf, NoPostureIsAbove) {
     const RandomBox box = random_box(problem, random);
     const double value = objective->evaluate(box.inside);
     if (value == -kInfinity) continue;
+    EXPECT_GE(bound->ceiling(), value);
     if (pair % 2 == 0) proof = {};
     const double low = value - random.uniform(0, 1) * std::abs(value) - 1e-9;
     const double high =
@@ -133,6 +134,31 @@ TEST(CapabilityBound, RefusesWhatItDoesNotServe) {
   refused("planar/force", "manipulability", Wrench::kPure, "manipulability");
   refused("planar/force", "ellipsoid", Wrench::kAny, "any");
   EXPECT_EQ(refusal("planar/force", "ellipsoid", Wrench::kPure), "");
+}
+
+/// A base that does not turn limits no torque, and one without z no force that joints may turn to
+/// z.
+TEST(CapabilityBound, RefusesWhatTheFreeAxesDoNotLimit) {
+  Random random(3);
+  Problem problem = random_problem(random, 4);
+  const auto refuses = [&problem](const std::vector<int>& axes, const Vector6d& c) {
+    problem.robot.base_axes = axes;
+    complete_actuation(problem.robot);
+    problem.c = c;
+    try {
+      make_capability_bound(problem, "linf_polytope", Wrench::kPure);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what()).find("free axes do not limit") != std::string::npos;
+    }
+    return false;
+  };
+  const Vector6d force = Vector6d::Unit(0), torque = Vector6d::Unit(3);
+  EXPECT_FALSE(refuses({0, 1, 2, 3, 4, 5}, force));
+  EXPECT_FALSE(refuses({0, 1, 2}, force));
+  EXPECT_TRUE(refuses({0, 1, 2}, torque));
+  EXPECT_TRUE(refuses({0, 1, 3, 4, 5}, force));
+  EXPECT_FALSE(refuses({3, 4, 5}, torque));
+  EXPECT_TRUE(refuses({3, 4, 5}, force));
 }
 
 /// A torque at the second contact is in no balance of forces of the base.
