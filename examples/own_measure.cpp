@@ -12,8 +12,8 @@ using namespace maxwrench;
 
 class Ease : public Measure {
  public:
-  void evaluate(const Posture& posture, const WrenchProgram&, bool,
-                Capability& capability) override {
+  void evaluate_well_formed(const Posture& posture, const WrenchProgram&, bool,
+                            Capability& capability) override {
     capability.conclude(Status::kOptimal);
     capability.beta = -posture.tau_d.squaredNorm();
     capability.lambda = -2 * posture.tau_d;          // d beta / d tau_d

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-// Every enclosure below rests on IEEE 754 arithmetic that rounds to nearest. Where the compiler does
-// not keep to it, the build stops here.
+// Every enclosure below rests on IEEE 754 arithmetic that rounds to nearest. Where the compiler
+// does not keep to it, the build stops here.
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error "verify: the interval arithmetic needs IEEE 754: build without -ffast-math"
 #endif

@@ -26,6 +26,9 @@ struct Capability : Verdict {
   /// (ellipsoid: ||W_u u| - 1|); dual, on the columns without bounds; gap [N or N m]. An answer
   /// counts if they are within a tolerance times 1 + |beta|.
   Residual residual;
+
+  /// No verdict, and zero in all numbers. Sizes stay, so that nothing is allocated again.
+  void clear();
 };
 
 }  // namespace maxwrench

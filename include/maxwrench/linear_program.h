@@ -49,6 +49,10 @@ struct LpScratch {
 /// a bound excludes every number (l = +infinity, u = -infinity).
 void validate(const LinearProgram& program);
 
+/// What solvers answer to a program that no solver should have been given.
+inline constexpr const char* kMalformed =
+    "the program is malformed: sizes disagree or an entry is not finite";
+
 /// Figures recomputed from the program's data, never taken from a solver's word: balance A x - b,
 /// bounds of x, dual: sign violations of d = c - A'lambda where the bound is infinite, gap
 /// |lambda'b + sup {d'x : l <= x <= u} - c'x|. Each is scaled by one plus the largest magnitude of

@@ -18,11 +18,17 @@ class Measure {
  public:
   virtual ~Measure() = default;
   /// `program` is that of the posture (JtW and tau_d set). Fills everything; u only if `efforts` is
-  /// set.
-  virtual void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
-                        Capability& capability) = 0;
+  /// set. Of a program that is not `well_formed`, or if the value is not finite, the status is
+  /// kNumericalError, from any measure.
+  void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
+                Capability& capability);
   /// Whether its value is the optimum of that program itself.
   virtual bool solves_program() const { return false; }
+
+ private:
+  /// Gets a `clear` capability: what it does not fill is zero, and the status kNumericalError.
+  virtual void evaluate_well_formed(const Posture& posture, const WrenchProgram& program,
+                                    bool efforts, Capability& capability) = 0;
 };
 
 /// The capability at theta_r: of the valid branches of the second arm the one with the best value,

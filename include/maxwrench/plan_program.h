@@ -59,11 +59,19 @@ struct PlanSolution : Verdict {
   std::vector<VariableState> basis;  ///< of a solver that keeps one; empty: cold start
 };
 
+/// Whether there is an instant, all sizes agree, and all numbers are finite but for limits, which
+/// may be infinite on their own side, and rho.
+bool well_formed(const PlanProgram& program);
+
 /// Solves plan programs. Not shared between threads.
 class PlanSolver {
  public:
   virtual ~PlanSolver() = default;
-  virtual void solve(const PlanProgram& program, PlanSolution& solution) = 0;
+  /// Of a program that is not `well_formed` the status is kNumericalError, from any solver.
+  void solve(const PlanProgram& program, PlanSolution& solution);
+
+ private:
+  virtual void solve_well_formed(const PlanProgram& program, PlanSolution& solution) = 0;
 };
 
 /// The same program for general solvers; `update` rewrites the numbers of one that `assemble` made

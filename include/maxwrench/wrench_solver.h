@@ -13,7 +13,12 @@ struct WrenchProgram;
 class WrenchSolver {
  public:
   virtual ~WrenchSolver() = default;
-  virtual void solve(const WrenchProgram& program, bool efforts, Capability& capability) = 0;
+  /// Of a program that is not `well_formed` the status is kNumericalError, from any solver.
+  void solve(const WrenchProgram& program, bool efforts, Capability& capability);
+
+ private:
+  virtual void solve_well_formed(const WrenchProgram& program, bool efforts,
+                                 Capability& capability) = 0;
 };
 
 }  // namespace maxwrench

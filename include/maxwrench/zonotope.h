@@ -29,7 +29,7 @@ struct Zonotope {
 /// Completes a zonotope from B and the limits. The facets are enumerated block by block (rows and
 /// columns of B that no entry connects are independent), in each block over all subsets of rank - 1
 /// columns; beyond `max_subsets` of them the zonotope has no facets. Throws std::invalid_argument
-/// if the sizes disagree or u_min > u_max.
+/// if the sizes disagree, an entry of B is not finite, or not u_min <= u_max.
 Zonotope make_zonotope(Eigen::MatrixXd B, Eigen::VectorXd u_min, Eigen::VectorXd u_max,
                        long max_subsets = 20000);
 

@@ -142,8 +142,9 @@ Zonotope make_zonotope(MatrixXd B, VectorXd u_min, VectorXd u_max, long max_subs
     throw std::invalid_argument("zonotope: B has " + std::to_string(B.cols()) +
                                 " columns, expected as many as limits");
   }
+  if (!B.allFinite()) throw std::invalid_argument("zonotope: an entry of B is not finite");
   for (Eigen::Index j = 0; j < u_min.size(); ++j) {
-    if (!(u_min[j] <= u_max[j])) {
+    if (!(u_min[j] <= u_max[j] && u_min[j] < kInfinity && u_max[j] > -kInfinity)) {
       throw std::invalid_argument("zonotope: limit " + std::to_string(u_min[j]) + " .. " +
                                   std::to_string(u_max[j]) + " of actuator " + std::to_string(j) +
                                   ", expected min <= max");

@@ -20,8 +20,8 @@ class Ellipsoid : public Measure {
   Ellipsoid(Eigen::MatrixXd K, Eigen::MatrixXd B_pinv)
       : B_pinv_(std::move(B_pinv)), K_(std::move(K)) {}
 
-  void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
-                Capability& capability) override {
+  void evaluate_well_formed(const Posture& posture, const WrenchProgram& program, bool efforts,
+                            Capability& capability) override {
     capability.iterations = 0;
     G_.noalias() = K_.lazyProduct(program.JtW);
     g_.noalias() = K_.lazyProduct(program.tau_d);

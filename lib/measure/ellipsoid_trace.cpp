@@ -27,8 +27,8 @@ class EllipsoidTrace : public Measure {
     S_inverse_ = S.inverse();
   }
 
-  void evaluate(const Posture& posture, const WrenchProgram& /*program*/, bool efforts,
-                Capability& capability) override {
+  void evaluate_well_formed(const Posture& posture, const WrenchProgram& /*program*/, bool efforts,
+                            Capability& capability) override {
     rotate_into(posture.turn, W_0_, W_);
     JtW_.noalias() = posture.J.transpose().lazyProduct(W_);
     G_.noalias() = K_.lazyProduct(JtW_);

@@ -20,8 +20,8 @@ class LeastEffort : public Measure {
   LeastEffort(Eigen::MatrixXd B_pinv, double reference)
       : B_pinv_(std::move(B_pinv)), reference_(reference) {}
 
-  void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
-                Capability& capability) override {
+  void evaluate_well_formed(const Posture& posture, const WrenchProgram& program, bool efforts,
+                            Capability& capability) override {
     capability.iterations = 0;
     capability.reason = "";
     G_.noalias() = B_pinv_.lazyProduct(program.JtW);

@@ -16,8 +16,8 @@ class Manipulability : public Measure {
  public:
   explicit Manipulability(Matrix6Xd W) : W_0_(std::move(W)) {}
 
-  void evaluate(const Posture& posture, const WrenchProgram& /*program*/, bool efforts,
-                Capability& capability) override {
+  void evaluate_well_formed(const Posture& posture, const WrenchProgram& /*program*/, bool efforts,
+                            Capability& capability) override {
     rotate_into(posture.turn, W_0_, W_);
     A_.noalias() = W_.transpose().lazyProduct(posture.J);
     gram_.noalias() = A_.lazyProduct(A_.transpose());

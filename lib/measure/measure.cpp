@@ -1,8 +1,35 @@
 #include "maxwrench/measure.h"
+
+#include <cmath>
+
 #include "maxwrench/posture.h"
 #include "maxwrench/wrench_program.h"
 
 namespace maxwrench {
+
+void Capability::clear() {
+  conclude(Status::kNumericalError, "nothing was computed");
+  beta = 0;
+  for (Eigen::VectorXd* each : {&w, &u, &lambda}) each->setZero();
+  h.setZero();
+  h_2.setZero();
+  for (Matrix6Xd* each : {&beta_J, &beta_J2, &beta_C2}) each->setZero();
+  iterations = 0;
+  residual = {};
+}
+
+void Measure::evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
+                       Capability& capability) {
+  capability.clear();
+  if (!well_formed(program)) {
+    capability.conclude(Status::kNumericalError, kMalformed);
+    return;
+  }
+  evaluate_well_formed(posture, program, efforts, capability);
+  if (capability.status == Status::kOptimal && !std::isfinite(capability.beta)) {
+    capability.conclude(Status::kNumericalError, "the value is not finite");
+  }
+}
 
 const Posture& evaluate_best(PostureEvaluator& model, const Eigen::VectorXd& theta_r,
                              Measure& measure, bool efforts, WrenchProgram& program,

@@ -22,8 +22,8 @@ class OneSided : public Measure {
     add_form();
   }
 
-  void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
-                Capability& capability) override {
+  void evaluate_well_formed(const Posture& posture, const WrenchProgram& program, bool efforts,
+                            Capability& capability) override {
     sort_columns(program);
     if (!supported_) {
       without_answer(

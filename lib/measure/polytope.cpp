@@ -18,8 +18,8 @@ class LinfPolytope : public Measure {
  public:
   explicit LinfPolytope(std::unique_ptr<WrenchSolver> solver) : solver_(std::move(solver)) {}
 
-  void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
-                Capability& capability) override {
+  void evaluate_well_formed(const Posture& posture, const WrenchProgram& program, bool efforts,
+                            Capability& capability) override {
     solver_->solve(program, efforts, capability);
     if (efforts) confirm_infeasible(program, capability.lambda, capability);
     if (capability.status != Status::kOptimal) return;
@@ -44,8 +44,8 @@ class L2Polytope : public Measure {
                            actuation.u_min, actuation.u_max)),
         solver_(std::move(solver)) {}
 
-  void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
-                Capability& capability) override {
+  void evaluate_well_formed(const Posture& posture, const WrenchProgram& program, bool efforts,
+                            Capability& capability) override {
     program_.actuation = &box_;
     program_.W = program.W;
     program_.c_w = program.c_w;

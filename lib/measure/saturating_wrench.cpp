@@ -25,8 +25,8 @@ class SaturatingWrench : public Measure {
     K_ = limit.asDiagonal() * pseudo_inverse(scaled);
   }
 
-  void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
-                Capability& capability) override {
+  void evaluate_well_formed(const Posture& posture, const WrenchProgram& program, bool efforts,
+                            Capability& capability) override {
     capability.iterations = 0;
     load_.noalias() = K_.lazyProduct(program.tau_d);
     slope_.noalias() = K_.lazyProduct(program.JtW.col(0));

@@ -18,8 +18,8 @@ class TransmissionRatio : public Measure {
   TransmissionRatio(Eigen::MatrixXd K, Eigen::MatrixXd B_pinv)
       : K_(std::move(K)), B_pinv_(std::move(B_pinv)) {}
 
-  void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
-                Capability& capability) override {
+  void evaluate_well_formed(const Posture& posture, const WrenchProgram& program, bool efforts,
+                            Capability& capability) override {
     capability.iterations = 0;
     capability.reason = "";
     G_.noalias() = K_.lazyProduct(program.JtW);

@@ -7,6 +7,7 @@
 #include "lib/math/rotated.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/problem.h"
+#include "maxwrench/wrench_solver.h"
 
 namespace maxwrench {
 namespace {
@@ -23,6 +24,25 @@ double outside(const Eigen::VectorXd& x, const Eigen::VectorXd& low, const Eigen
 }
 
 }  // namespace
+
+bool well_formed(const WrenchProgram& program) {
+  const Eigen::Index n = program.tau_d.size(), k = program.c_w.size();
+  if (program.actuation == nullptr || program.actuation->dimension() != n) return false;
+  if (program.JtW.rows() != n || program.JtW.cols() != k) return false;
+  if (program.w_min.size() != k || program.w_max.size() != k) return false;
+  // A product with zero is zero of finite numbers only.
+  const auto zero = [](const auto& x) { return (x.array() * 0).sum(); };
+  if (!(zero(program.JtW) + zero(program.tau_d) + zero(program.c_w) == 0)) return false;
+  for (Eigen::Index j = 0; j < k; ++j) {
+    if (!(program.w_min[j] < kInfinity && program.w_max[j] > -kInfinity)) return false;
+  }
+  return true;
+}
+
+void WrenchSolver::solve(const WrenchProgram& program, bool efforts, Capability& capability) {
+  if (well_formed(program)) return solve_well_formed(program, efforts, capability);
+  capability.conclude(Status::kNumericalError, kMalformed);
+}
 
 WrenchProgram make_wrench_program(const Problem& problem, Wrench wrench) {
   WrenchProgram program;

@@ -1,5 +1,6 @@
 #include "maxwrench/plan_program.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace maxwrench {
@@ -160,6 +161,39 @@ struct Numbers {
 };
 
 }  // namespace
+
+bool well_formed(const PlanProgram& program) {
+  const int N = program.size();
+  if (N == 0 || program.peak >= N || !(program.rho > 0)) return false;
+  const Zonotope* const set = program.instants.front().actuation;
+  for (const WrenchProgram& at : program.instants) {
+    if (at.actuation != set || !well_formed(at)) return false;
+  }
+  const Eigen::Index m = set->actuators(), p = program.border(), rows = program.R.rows();
+  const auto limits = [](const Eigen::VectorXd& low, const Eigen::VectorXd& high,
+                         Eigen::Index size) {
+    return low.size() == size && high.size() == size && (low.array() < kInfinity).all() &&
+           (high.array() > -kInfinity).all();
+  };
+  if (!limits(program.first_min, program.first_max, m)) return false;
+  if (program.du_max.rows() != m || program.du_max.cols() != N - 1) return false;
+  if (!(program.du_max.array() >= 0).all()) return false;
+  if (!limits(program.y_min, program.y_max, p) || !limits(program.r_min, program.r_max, rows)) {
+    return false;
+  }
+  if (rows > 0 && (program.R.cols() != p || !(program.R * Eigen::VectorXd::Zero(p)).isZero(0))) {
+    return false;  // a product with zero is zero of finite numbers only
+  }
+  if (p > 0 && program.G.size() != program.instants.size()) return false;
+  return std::all_of(program.G.begin(), program.G.end(), [&](const Eigen::MatrixXd& each) {
+    return each.rows() == set->dimension() && each.cols() == p && each.allFinite();
+  });
+}
+
+void PlanSolver::solve(const PlanProgram& program, PlanSolution& solution) {
+  if (well_formed(program)) return solve_well_formed(program, solution);
+  solution.conclude(Status::kNumericalError, kMalformed);
+}
 
 LinearProgram assemble(const PlanProgram& program) {
   assert(program.size() > 0);

@@ -24,7 +24,7 @@ class Simplex final : public LpSolver {
     solution.iterations = solution.cold_restarts = 0;
     solution.objective = 0;
     if (!engine_.model.load(program)) {
-      fail(program, solution, "the program is malformed: sizes disagree or an entry is not finite");
+      fail(program, solution, kMalformed);
       return;
     }
     engine_.options = options_;

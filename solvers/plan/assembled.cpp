@@ -10,7 +10,7 @@ class AssembledPlan : public PlanSolver {
   AssembledPlan(std::unique_ptr<LpSolver> solver, bool warm)
       : solver_(std::move(solver)), warm_(warm) {}
 
-  void solve(const PlanProgram& program, PlanSolution& solution) override {
+  void solve_well_formed(const PlanProgram& program, PlanSolution& solution) override {
     if (!same_shape(program)) {
       lp_ = assemble(program);
       keep_shape(program);

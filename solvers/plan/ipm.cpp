@@ -13,7 +13,7 @@ class Ipm : public PlanSolver {
  public:
   explicit Ipm(double tolerance) : tolerance_(tolerance) {}
 
-  void solve(const PlanProgram& program, PlanSolution& solution) override {
+  void solve_well_formed(const PlanProgram& program, PlanSolution& solution) override {
     solution.basis.clear();
     solution.iterations = 0;
     bool rates = !(program.du_max.array() < kInfiniteBound).any();

@@ -12,7 +12,7 @@ constexpr double kConfirmed = 1e-9;
 
 class Structured : public PlanSolver {
  public:
-  void solve(const PlanProgram& program, PlanSolution& solution) override {
+  void solve_well_formed(const PlanProgram& program, PlanSolution& solution) override {
     solution.basis.clear();
     solution.iterations = 0;
     if (suits(program) && instant_by_instant(program, solution)) return;

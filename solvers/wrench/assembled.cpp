@@ -9,7 +9,8 @@ class Assembled : public WrenchSolver {
   Assembled(std::unique_ptr<LpSolver> solver, bool warm)
       : solver_(std::move(solver)), warm_(warm) {}
 
-  void solve(const WrenchProgram& program, bool efforts, Capability& capability) override {
+  void solve_well_formed(const WrenchProgram& program, bool efforts,
+                         Capability& capability) override {
     const int m = program.actuation->actuators();
     if (actuation_ != program.actuation || columns_ != program.columns()) {
       lp_ = assemble(program);

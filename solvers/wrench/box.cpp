@@ -12,7 +12,8 @@ namespace {
 
 class BoxSolver : public WrenchSolver {
  public:
-  void solve(const WrenchProgram& program, bool efforts, Capability& capability) override {
+  void solve_well_formed(const WrenchProgram& program, bool efforts,
+                         Capability& capability) override {
     capability.iterations = 0;
     const bool eliminated = elimination_.load(program, tableau_);
     if (!eliminated && (!program.actuation->has_facets || program.columns() == 0)) {

@@ -95,7 +95,8 @@ class Ray {
 
 class Facets : public WrenchSolver {
  public:
-  void solve(const WrenchProgram& program, bool efforts, Capability& capability) override {
+  void solve_well_formed(const WrenchProgram& program, bool efforts,
+                         Capability& capability) override {
     if (program.columns() != 1) {
       throw std::invalid_argument("solver facets: got " + std::to_string(program.columns()) +
                                   " wrench columns, expected one (wrench pure)");

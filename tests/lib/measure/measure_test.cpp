@@ -293,8 +293,8 @@ TEST(Measure, UnloadedWrenchIsUnboundedAndDeadRobotInfeasible) {
 /// Gives up on every second posture.
 class GivesUp : public Measure {
  public:
-  void evaluate(const Posture& /*posture*/, const WrenchProgram& program, bool /*efforts*/,
-                Capability& capability) override {
+  void evaluate_well_formed(const Posture& /*posture*/, const WrenchProgram& program,
+                            bool /*efforts*/, Capability& capability) override {
     capability.w.setZero(program.columns());
     capability.status = ++calls_ % 2 == 0 ? Status::kNumericalError : Status::kInfeasible;
     capability.reason = "made up";

@@ -106,8 +106,8 @@ class Counting : public Measure {
  public:
   Counting(std::unique_ptr<Measure> measure, long& count)
       : measure_(std::move(measure)), count_(count) {}
-  void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
-                Capability& capability) override {
+  void evaluate_well_formed(const Posture& posture, const WrenchProgram& program, bool efforts,
+                            Capability& capability) override {
     ++count_;
     measure_->evaluate(posture, program, efforts, capability);
   }
