@@ -73,7 +73,9 @@ std::string complaint_of(const std::exception_ptr& thrown) {
     return fmt::format("stdout: got '{}', expected a stream that takes the answer",
                        error.code().message());
   } catch (const std::bad_alloc&) {
-    return "got no memory for so much, expected a smaller --budget";
+    return "got no memory for so much, expected a smaller task or fewer evaluations, boxes, times "
+           "or "
+           "threads";
   } catch (const std::exception& error) {
     return error.what();
   } catch (...) {

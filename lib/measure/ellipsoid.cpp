@@ -53,8 +53,12 @@ class Ellipsoid : public Measure {
     direction_ = ldlt_.solve(c_w_);
     e_ = g_;
     e_.noalias() += G_.lazyProduct(capability.w);
-    const double rho = std::sqrt(1 - e_.squaredNorm());  // |e| <= |g| < 1
-    const double s = std::sqrt(program.c_w.dot(direction_));
+    // |e| <= |g| < 1 and (G'G)^-1 is positive definite, but for rounding.
+    const double rho2 = 1 - e_.squaredNorm(), s2 = program.c_w.dot(direction_);
+    if (!(rho2 > 0 && s2 > 0)) {
+      return without_answer(Status::kNumericalError, "tau_d lies on the ellipsoid", capability);
+    }
+    const double rho = std::sqrt(rho2), s = std::sqrt(s2);
     capability.beta = program.c_w.dot(capability.w) + rho * s;
     capability.w += (rho / s) * direction_;
     e_.noalias() += (rho / s) * G_.lazyProduct(direction_);

@@ -5,6 +5,7 @@
 #include <sunmatrix/sunmatrix_dense.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace maxwrench::sundials {
 
@@ -18,7 +19,9 @@ void be_silent(int /*code*/, const char* /*module*/, const char* /*function*/, c
 Session::Session(Ode& ode, const IntegratorOptions& options)
     : ode_(ode), y_(ode.initial()), y_dot_(y_.size()), options_(options) {
   SUNContext context = nullptr;
-  SUNContext_Create(nullptr, &context);
+  if (SUNContext_Create(nullptr, &context) != 0) {
+    throw std::runtime_error("SUNDIALS: got no context, expected one");
+  }
   context_ = {context, [](SUNContext c) { SUNContext_Free(&c); }};
   state_ = {new_vector(), N_VDestroy};
   view(state_.get()) = y_;

@@ -24,18 +24,18 @@ class Chain {
  public:
   Chain(Probe& probe, const Box& box, Random random) : probe_(probe), box_(box), random_(random) {}
 
-  /// Uses all evaluations of the probe.
+  /// Uses all evaluations of the probe, unless the rest is worth nothing.
   void run(const Eigen::VectorXd* start) {
     const long budget = probe_.left();
     const long scouts = std::max(1L, budget / 10);
-    for (long i = 0; i < scouts; ++i) {
+    for (long i = 0; i < scouts && !probe_.ended(); ++i) {
       if (i == 0 && start != nullptr)
         scout(box_.unit(*start), *start);
       else
         scout(uniform());
     }
     const long steps = budget - scouts;
-    for (long k = 0; k < steps; ++k) {
+    for (long k = 0; k < steps && !probe_.ended(); ++k) {
       const double progress = static_cast<double>(k) / static_cast<double>(steps);
       if (value_ == -kInfinity)
         scout(uniform());

@@ -96,18 +96,19 @@ FacetEnd solve_facets_by_slsqp(FacetView& view) {
     if (high < kInfinity) session.wide.push_back({j, 1, high});
     if (low > -kInfinity) session.wide.push_back({j, -1, -low});
   }
-  nlopt_set_lower_bounds(opt.get(), view.lower().data());
-  nlopt_set_upper_bounds(opt.get(), view.upper().data());
-  nlopt_set_max_objective(opt.get(), wrench, &session);
+  // SLSQP takes no more equations than unknowns: where nothing is left to choose, the start stays.
+  if (static_cast<Eigen::Index>(session.flat.size()) > y.size()) return {y, "too_many_equations"};
+  const auto take = [](nlopt_result result) { require_taken(result, "facet_sqp"); };
+  take(nlopt_set_lower_bounds(opt.get(), view.lower().data()));
+  take(nlopt_set_upper_bounds(opt.get(), view.upper().data()));
+  take(nlopt_set_max_objective(opt.get(), wrench, &session));
   const std::vector<double> tolerance(session.wide.size() + session.flat.size(), kRowTolerance);
-  nlopt_add_inequality_mconstraint(opt.get(), static_cast<unsigned>(session.wide.size()), limits,
-                                   &session, tolerance.data());
-  if (!session.flat.empty()) {
-    nlopt_add_equality_mconstraint(opt.get(), static_cast<unsigned>(session.flat.size()), balance,
-                                   &session, tolerance.data());
-  }
-  nlopt_set_xtol_abs1(opt.get(), kYTolerance);
-  nlopt_set_maxeval(opt.get(), kSqpPoints);
+  take(nlopt_add_inequality_mconstraint(opt.get(), static_cast<unsigned>(session.wide.size()),
+                                        limits, &session, tolerance.data()));
+  take(nlopt_add_equality_mconstraint(opt.get(), static_cast<unsigned>(session.flat.size()),
+                                      balance, &session, tolerance.data()));
+  take(nlopt_set_xtol_abs1(opt.get(), kYTolerance));
+  take(nlopt_set_maxeval(opt.get(), kSqpPoints));
   double value = 0;
   const nlopt_result result = nlopt_optimize(opt.get(), y.data(), &value);
   session.caught.rethrow();

@@ -88,7 +88,7 @@ class BoundedNlp : public Ipopt::TNLP {
   bool intermediate_callback(Ipopt::AlgorithmMode, Index, Number, Number, Number, Number, Number,
                              Number, Number, Number, Index, const Ipopt::IpoptData*,
                              Ipopt::IpoptCalculatedQuantities*) override {
-    return probe_.left() > 0 && !caught_.any();
+    return probe_.left() > 0 && !probe_.ended() && !caught_.any();
   }
   void finalize_solution(Ipopt::SolverReturn, Index, const Number*, const Number*, const Number*,
                          Index, const Number*, const Number*, Number, const Ipopt::IpoptData*,
@@ -108,7 +108,7 @@ class BoundedNlp : public Ipopt::TNLP {
   bool evaluate(Index n, const Number* x) {
     const Eigen::Map<const Eigen::VectorXd> point(x, n);
     if (x_.size() != n || x_ != point) {
-      if (probe_.left() == 0) return false;
+      if (probe_.left() == 0 || probe_.ended() || !point.allFinite()) return false;
       x_ = point;
       value_ = probe_.evaluate(box_.theta_r(x_), &gradient_);
       slope_ = box_.slope(gradient_);
@@ -177,7 +177,7 @@ class Multistart final : public Search {
     Probe probe(objective, 0, progress, options.peaks > 0 ? &box : nullptr);
     for (const Candidate& start : starts) {
       const long left = options.budget - found.trace.evaluations();
-      if (left <= 0) break;
+      if (left <= 0 || probe.ended()) break;
       probe.grant(left);
       Call call{"multistart", "", left};
       call.status =

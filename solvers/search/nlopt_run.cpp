@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <stdexcept>
 
 #include "solvers/caught.h"
 
@@ -51,11 +52,12 @@ double objective(unsigned n, const double* x, double* slope, void* data) {
 
 OwnedOptimizer make(nlopt_algorithm algorithm, const NloptOptions& options, unsigned n) {
   OwnedOptimizer opt(nlopt_create(algorithm, n), nlopt_destroy);
-  nlopt_set_lower_bounds1(opt.get(), 0);
-  nlopt_set_upper_bounds1(opt.get(), 1);
-  nlopt_set_xtol_abs1(opt.get(), options.x_tolerance);
-  nlopt_set_ftol_rel(opt.get(), options.f_tolerance);
-  if (options.initial_step > 0) nlopt_set_initial_step1(opt.get(), options.initial_step);
+  const auto take = [&](nlopt_result result) { require_taken(result, options.method); };
+  take(nlopt_set_lower_bounds1(opt.get(), 0));
+  take(nlopt_set_upper_bounds1(opt.get(), 1));
+  take(nlopt_set_xtol_abs1(opt.get(), options.x_tolerance));
+  take(nlopt_set_ftol_rel(opt.get(), options.f_tolerance));
+  if (options.initial_step > 0) take(nlopt_set_initial_step1(opt.get(), options.initial_step));
   return opt;
 }
 
@@ -64,11 +66,12 @@ std::string climb_by_nlopt(const NloptOptions& options, Probe& probe, const Box&
   const auto n = static_cast<unsigned>(box.free());
   const OwnedOptimizer opt = make(options.algorithm, options, n);
   Session session{probe, box, std::max(1.0, std::abs(start.value)), opt.get(), {}, {}};
-  nlopt_set_max_objective(opt.get(), objective, &session);
-  nlopt_set_maxeval(opt.get(), static_cast<int>(probe.left()));
+  const auto take = [&](nlopt_result result) { require_taken(result, options.method); };
+  take(nlopt_set_max_objective(opt.get(), objective, &session));
+  take(nlopt_set_maxeval(opt.get(), static_cast<int>(probe.left())));
   if (options.local != NLOPT_NUM_ALGORITHMS) {
-    nlopt_set_local_optimizer(opt.get(), make(options.local, options, n).get());
-    nlopt_set_xtol_abs1(opt.get(), 0);
+    take(nlopt_set_local_optimizer(opt.get(), make(options.local, options, n).get()));
+    take(nlopt_set_xtol_abs1(opt.get(), 0));
   }
   nlopt_srand(static_cast<unsigned long>(random.next()));
   Eigen::VectorXd x = box.unit(start.theta_r);
@@ -100,6 +103,11 @@ class NloptSearch final : public Search {
 };
 
 }  // namespace
+
+void require_taken(nlopt_result result, const char* search) {
+  if (result >= 0) return;
+  throw std::runtime_error(std::string(search) + ": NLopt says " + word_of(result));
+}
 
 std::string word_of(nlopt_result result) {
   std::string word = nlopt_result_to_string(result);

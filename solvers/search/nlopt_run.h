@@ -19,6 +19,9 @@ struct NloptOptions {
   long most = 8;            ///< see `Climbing`
 };
 
+/// Throws std::runtime_error, with the search's name, unless NLopt took what it was told.
+void require_taken(nlopt_result result, const char* search);
+
 /// NLopt's word for how it ended, without the shouting: "xtol_reached".
 std::string word_of(nlopt_result result);
 

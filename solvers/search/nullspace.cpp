@@ -138,7 +138,7 @@ class Nullspace final : public Search {
     options.absolute_tolerance = 1e-8;
     options.max_steps = kStepsPerInterval;
     const std::unique_ptr<Integrator> integrator = make_cvode();
-    while (speed > 0) {
+    while (speed > 0 && std::isnormal(length)) {
       const double before = probe.found().best.value;
       const Status status =
           integrator->integrate(flow, options, std::array{0.0, length}, trajectory);

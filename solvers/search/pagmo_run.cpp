@@ -14,8 +14,11 @@
 namespace maxwrench {
 namespace {
 
-/// Thrown out of a run of pagmo when the probe has no evaluation left, as pagmo counts generations.
-struct BudgetUsed {};
+/// Thrown out of a run of pagmo, which counts generations: the probe has no evaluation left, or the
+/// run has lost its numbers.
+struct Stop {
+  const char* why;
+};
 
 /// -f over the unit cube. pagmo minimises, and these methods ask only which of two values is less:
 /// a point without a value gets the largest number.
@@ -23,8 +26,9 @@ struct UnitCube {
   Probe* probe = nullptr;
   const Box* box = nullptr;
   pagmo::vector_double fitness(const pagmo::vector_double& x) const {
-    if (probe->left() == 0 || probe->ended()) throw BudgetUsed();
+    if (probe->left() == 0 || probe->ended()) throw Stop{kBudgetUsed};
     const Eigen::Map<const Eigen::VectorXd> point(x.data(), static_cast<Eigen::Index>(x.size()));
+    if (!point.allFinite()) throw Stop{"not_finite"};
     const double value = probe->evaluate(box->theta_r(point));
     return {value == -kInfinity ? std::numeric_limits<double>::max() : -value};
   }
@@ -66,8 +70,8 @@ SearchResult search_by_pagmo(const char* method, int members, double reach, Obje
     const auto seed = static_cast<unsigned>(random.next() >> 32U);
     try {
       make(generations, seed).evolve(make_population({&probe, &box}, start, size, reach, random));
-    } catch (const BudgetUsed&) {
-      return kBudgetUsed;
+    } catch (const Stop& stop) {
+      return stop.why;
     }
     return "converged";
   };
