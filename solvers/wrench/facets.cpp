@@ -119,9 +119,8 @@ class Facets : public WrenchSolver {
       capability.reason = "no actuator efforts balance the posture";
       fill_contradiction(program, ray, capability.lambda);
       if (proves_infeasible(program, capability.lambda)) return;
-      capability.status = Status::kNumericalError;
-      capability.reason = "no proof that the program is infeasible holds";
-      return;
+      // The ray misses the set by 1e-9 or so of its length: too little for a proof by two facets.
+      return assembled_->solve(program, efforts, capability);
     }
     if (!std::isfinite(x)) {
       capability.status = Status::kUnbounded;
@@ -174,6 +173,7 @@ class Facets : public WrenchSolver {
 
   Ray ray_;
   std::unique_ptr<LpSolver> simplex_ = make_simplex();
+  std::unique_ptr<WrenchSolver> assembled_ = make_assembled(make_simplex(), false);
 };
 
 }  // namespace
