@@ -66,7 +66,7 @@ Names schemes_of(const Problem& problem) {
 long budget_of(const Problem& problem, const std::string& lp, const std::optional<long>& budget) {
   if (problem.motion) return budget.value_or(kPlanBudget);
   const int cost = lp == kNoSolver ? 1 : find_wrench_solver(lp).cost;
-  return std::max(1L, budget.value_or(Case().budget) / cost);
+  return std::max(1L, budget.value_or(kUsualBudget) / cost);
 }
 
 Names all_measures() {

@@ -82,6 +82,7 @@ void refuse_what_follows(const ProofOptions& options, const Problem& problem) {
 /// Searches, then bounds. What was found while bounding is evaluated anew, too.
 Proof prove(const ProofOptions& options, const Problem& problem) {
   Options c = options.read_options();
+  c.budget = kUsualBudget;
   const auto bound = make_capability_bound(problem, c.measure, c.wrench);  // or refuses, first
   const Method method = resolve(problem, c);
   CtrlC ctrl_c;

@@ -121,17 +121,16 @@ std::string refuse_empty(const std::string& text) {
 void CommonOptions::add_search(CLI::App& app) {
   app.add_option("--search", choice.search,
                  "search over theta_r, or stages joined by + (default: facet_sqp+cmaes where it "
-                 "serves, else crs2+cmaes; of a task in time slp)");
+                 "serves, else crs2+cmaes, restarted until more is pointless or by --budget; of a "
+                 "task in time slp)");
   app.add_option("--seed", choice.seed, "of the random numbers")
       ->capture_default_str()
       ->check(refuse_seed);
-  add_budget(app, "evaluations");
+  add_budget(app, "evaluations (default: 20000; 200000 at most of a default search)");
 }
 
 void CommonOptions::add_budget(CLI::App& app, const char* what) {
-  app.add_option("--budget", choice.budget, what)
-      ->capture_default_str()
-      ->check(CLI::Range(1L, long{kMostBudget}));
+  app.add_option("--budget", choice.budget, what)->check(CLI::Range(1L, long{kMostBudget}));
 }
 
 void require_static(const Problem& problem, const char* command) {

@@ -68,7 +68,7 @@ std::uint64_t read_seed(const std::map<std::string, std::string>& filter) {
 
 long read_budget(const std::map<std::string, std::string>& filter, bool in_time) {
   const auto found = filter.find("budget");
-  if (found == filter.end()) return in_time ? kPlanBudget : Case().budget;
+  if (found == filter.end()) return in_time ? kPlanBudget : kUsualBudget;
   std::size_t used = 0;
   long value = 0;
   try {

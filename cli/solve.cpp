@@ -20,6 +20,7 @@ struct SolveOptions : CommonOptions {
 
 int solve(const SolveOptions& options, const Problem& problem) {
   Options how = options.read_options();
+  static_cast<Case&>(how) = with_search(problem, how);
   Progress progress("solve", static_cast<double>(how.budget));
   CtrlC ctrl_c;
   how.progress = progress.counter();

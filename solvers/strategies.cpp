@@ -14,6 +14,7 @@
 #include "solvers/plan/makers.h"
 #include "solvers/search/composition.h"
 #include "solvers/search/makers.h"
+#include "solvers/search/restart.h"
 #include "solvers/wrench/makers.h"
 
 namespace maxwrench {
@@ -224,7 +225,8 @@ const Entry& find(std::span<const Entry> table, const char* family, std::string_
 
 /// Stages of a name.
 NamedSearch find_stages(std::span<const SearchEntry* const> table, std::string_view name) {
-  NamedSearch search{std::string(name), {}, true};
+  NamedSearch search{std::string(name), name.starts_with(kRestarted), {}, true};
+  if (search.restarts) name.remove_prefix(kRestarted.size());
   for (std::size_t begin = 0; begin <= name.size();) {
     const std::size_t end = std::min(name.find('+', begin), name.size());
     const SearchEntry& stage = *find(table, "search", name.substr(begin, end - begin));
@@ -301,6 +303,7 @@ NamedSearch find_search(std::string_view name) {
   return find_stages(table, name);
 }
 std::unique_ptr<Search> NamedSearch::make() const {
+  if (restarts) return make_restart({name, false, stages, local});
   return stages.size() == 1 ? stages.front()->make() : make_composition(stages);
 }
 const IntegratorEntry& find_integrator(std::string_view name) {

@@ -60,7 +60,12 @@ struct SearchResult : Verdict {
   /// Points for a search that goes on, best first and apart from each other.
   std::vector<Candidate> peaks;
   std::vector<Call> calls;  ///< of a method that runs more than once, or in a library; in order
+  /// Why the search ended with evaluations left; empty if it does not say.
+  std::string stopped;
 };
+
+/// What `SearchResult::stopped` says where the evaluations were used.
+inline constexpr const char* kBudgetSpent = "the evaluations ran out";
 
 /// Maximises an objective over its bounds.
 class Search {
@@ -70,9 +75,11 @@ class Search {
 };
 
 /// What the name of a search says: an entry's, or several joined by '+', such as "crs2+cmaes":
-/// stages, each of which goes on where the earlier ones have been.
+/// stages, each of which goes on where the earlier ones have been. "restart:" before it runs it
+/// from random starts again and again, until another optimum is unlikely.
 struct NamedSearch {
   std::string name;
+  bool restarts = false;
   std::vector<const SearchEntry*> stages;
   bool local = false;  ///< all stages are
   std::unique_ptr<Search> make() const;

@@ -23,16 +23,22 @@ struct Case {
   /// Of the lower level. Empty: the first solver that serves the task and the wrench. "none": the
   /// measure is a closed form.
   std::string lp = "";
-  /// A method alone, or stages joined by '+'. Empty: `default_search`; of a posture or plan that is
-  /// given, none.
+  /// A method alone, or stages joined by '+'. Empty: `default_search`, which a static task without
+  /// a budget restarts until more is pointless; of a posture or plan that is given, none.
   std::string search = "";
   std::uint64_t seed = 1;
-  long budget = 20000;  ///< evaluations of the search, never exceeded
+  /// Evaluations of the search, never exceeded. 0: `kUsualBudget`, of a restarted search
+  /// `kMostOfRestarts`, which it seldom needs.
+  long budget = 0;
   /// Of a task in time: how knots become motion. Empty: as the task says.
   std::string scheme = "";
   /// Of the virtual tank, which tries the default posture or plan. Empty: no experiment.
   std::string integrator = "";
 };
+
+/// Evaluations if nobody says how many.
+inline constexpr long kUsualBudget = 20'000;
+inline constexpr long kMostOfRestarts = 200'000;
 
 /// The solver of a closed form.
 inline constexpr const char* kNoSolver = "none";
@@ -87,6 +93,7 @@ struct Answer : Verdict {
   std::string missed;
   long evaluations = 0;
   std::vector<CallCount> calls;  ///< of the methods of the search
+  std::string stopped;           ///< why the search ended
   /// Of a static task, over all evaluations but those of searches of plans: how many ended without
   /// a verdict that the data confirm, and what became of the postures.
   long undecided = 0;
@@ -107,6 +114,9 @@ struct Answer : Verdict {
 /// where it serves, going on by `cmaes` from where it has been (its ends may collide, and it is
 /// blind to pairs of which only a test is known), else that of any measure, `general_search`.
 std::string default_search(const Problem& task, const std::string& measure);
+
+/// The case with the search and the budget that `solve` gives it if it names none.
+Case with_search(const Problem& task, Case c);
 
 /// The search of postures that is best in general for a measure about which nothing is known, of
 /// those that are built in.

@@ -117,6 +117,7 @@ const LpEntry& find_lp_solver(std::string_view name);
 const WrenchSolverEntry& find_wrench_solver(std::string_view name);
 const PlanSolverEntry& find_plan_solver(std::string_view name);
 /// A method of any table, or stages joined by '+'. Also throws if a later stage cannot go on.
+inline constexpr std::string_view kRestarted = "restart:";
 NamedSearch find_search(std::string_view name);
 const IntegratorEntry& find_integrator(std::string_view name);
 

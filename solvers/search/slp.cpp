@@ -54,8 +54,9 @@ SlpOutcome compete(const Objective& objective, std::vector<Candidate> starts, lo
 }
 
 /// Without the values above that of the plan that was chosen.
-SearchResult make_result(const SlpOutcome& outcome) {
+SearchResult make_result(const SlpOutcome& outcome, bool idle) {
   SearchResult result = make_result(outcome.found);
+  result.stopped = idle ? "three batches of starts brought nothing better" : kBudgetSpent;
   std::erase_if(result.history, [&](const Improvement& i) { return i.value > result.value; });
   const bool complete = !result.history.empty() && result.history.back().value == result.value;
   if (result.status == Status::kBestFound && !complete) {
@@ -93,7 +94,8 @@ class Slp : public Search {
     }
     long kicks = 0;  // batches
     if (objective.dimension() == 0) starts.clear();
-    for (int idle = 0; idle < kIdleBatches && !starts.empty() && !objective.ended();) {
+    int idle = 0;  // batches
+    while (idle < kIdleBatches && !starts.empty() && !objective.ended()) {
       const long left = options.budget - best.found.trace.evaluations();
       const auto size = static_cast<std::ptrdiff_t>(std::min(kBatch, starts.size()));
       if (left < (kJudged + kFewestOfClimb) * size) break;
@@ -108,7 +110,7 @@ class Slp : public Search {
         starts = kick(objective, options, kicks++, best, progress);
       }
     }
-    return make_result(best);
+    return make_result(best, idle == kIdleBatches);
   }
 };
 

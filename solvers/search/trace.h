@@ -10,6 +10,11 @@ namespace maxwrench {
 /// What a search, or a part of one, has seen: how many values, and each that was above all before.
 class Trace {
  public:
+  Trace() = default;
+  /// What a search has seen.
+  Trace(std::vector<Improvement> improvements, long evaluations)
+      : evaluations_(evaluations), improvements_(std::move(improvements)) {}
+
   /// One more value, -infinity if there was none.
   void add(double value);
 

@@ -159,6 +159,7 @@ std::string to_json(const Answer& answer) {
   (in_time ? add_plan : add_posture)(answer, object);
   object["residual"] = known(answer.has_value(), to_json(answer.residual()));
   object["evaluations"] = answer.evaluations;
+  object["stopped"] = known(!answer.stopped.empty(), answer.stopped);
   object["calls"] = known(!answer.choice.search.empty(), to_json(answer.calls));
   if (!in_time) {
     object["undecided"] = answer.undecided;

@@ -184,12 +184,22 @@ std::string default_search(const Problem& task, const std::string& measure) {
   return serves ? "facet_sqp+cmaes" : general_search();
 }
 
+Case with_search(const Problem& task, Case c) {
+  if (c.search.empty()) {
+    c.search = default_search(task, c.measure);
+    if (c.budget == 0 && !task.motion) c.search.insert(0, kRestarted);
+  }
+  if (c.budget == 0) c.budget = find_search(c.search).restarts ? kMostOfRestarts : kUsualBudget;
+  return c;
+}
+
 Method resolve(const Problem& problem, const Case& c) {
-  if (c.budget < 1) {
+  if (c.budget < 0) {
     throw std::invalid_argument(fmt::format("budget: got {}, expected at least 1", c.budget));
   }
   Method method = problem.motion ? resolve_in_time(problem, c) : resolve_static(problem, c);
   method.choice.problem = problem.name;
+  if (c.budget == 0) method.choice.budget = kUsualBudget;
   return method;
 }
 

@@ -140,6 +140,10 @@ std::vector<CallCount> count_calls(const std::vector<Call>& calls) {
 void conclude_search(const SearchResult& result, const Interruption& interruption, Answer& answer) {
   answer.evaluations = result.evaluations;
   answer.calls = count_calls(result.calls);
+  answer.stopped = interruption.noticed                        ? "interrupted"
+                   : !result.stopped.empty()                   ? result.stopped
+                   : result.evaluations < answer.choice.budget ? "the method came to its end"
+                                                               : kBudgetSpent;
   if (answer.status == Status::kOptimal) answer.conclude(Status::kBestFound);
   if (answer.status == Status::kInfeasible) {  // true of what was found, not of the task
     answer.conclude(Status::kNoneFound, "of the best that was found: " + answer.reason.str());
@@ -183,9 +187,7 @@ Answer evaluate(const Problem& task, const Eigen::MatrixXd& theta_r, const Optio
 Answer solve(const Problem& task, const Options& options) {
   const int threads = thread_count(options.threads);
   const auto kept = std::make_shared<const Problem>(task);
-  Case c = options;
-  if (c.search.empty()) c.search = default_search(task, c.measure);
-  const Method method = resolve(*kept, c);
+  const Method method = resolve(*kept, with_search(task, options));
   const auto start = Clock::now();
   const auto tally = std::make_shared<Tally>();
   Interruption interruption{options.interrupted};

@@ -60,6 +60,7 @@ std::string plan_summary(const Answer& answer) {
   if (task.impulse && plan.t_h > 0) add(text, ", peak at knot {}", plan.t_h);
   add(text, "\n{}{}{}\n", to_string(answer.status), answer.reason.empty() ? "" : ": ",
       answer.reason.c_str());
+  if (answer.status == Status::kBestFound) add(text, "stopped   {}\n", answer.stopped);
   if (answer.has_value()) {
     add_value(answer, text);
     for (const std::string& limit : binding_limits(answer)) add(text, "{}\n", limit);
@@ -130,7 +131,7 @@ std::string posture_summary(const Answer& answer) {
     add(text, "{}: {}, the best so far\n", to_string(answer.status), answer.reason.c_str());
   }
   if (answer.status == Status::kBestFound) {
-    add(text, "{} by {}\n", to_string(answer.status), c.search);
+    add(text, "{} by {}: {}\n", to_string(answer.status), c.search, answer.stopped);
   }
   add_capability(answer, text);
   return text;

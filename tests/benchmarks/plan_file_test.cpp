@@ -26,7 +26,7 @@ TEST(PlanFile, ColumnsThatAreMissingAreTheDefaults) {
   EXPECT_EQ(c.lp, "facets");
   EXPECT_EQ(c.search, default_search(work.problems.at("planar/force"), c.measure));
   EXPECT_EQ(c.seed, 1U);
-  EXPECT_EQ(c.budget, Case().budget);
+  EXPECT_EQ(c.budget, kUsualBudget);
 }
 
 /// pure: every solver; any: all but the one of one column. Budgets are divided by the cost.

@@ -1,0 +1,111 @@
+#include "solvers/search/restart.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "maxwrench/batch.h"
+#include "maxwrench/objective.h"
+#include "solvers/search/probe.h"
+
+namespace maxwrench {
+namespace {
+
+constexpr long kSideBySide = 8;  // runs between two looks at the rule
+constexpr double kSameOptimum = 1e-6;
+
+/// Of a run, which all but the first begin at a random point.
+SearchOptions options_of(const SearchOptions& whole, const Box& box, long run) {
+  SearchOptions own = whole;
+  own.threads = 1;
+  if (run == 0) return own;
+  Random random(whole.seed, RandomUse::kRestart, static_cast<std::uint64_t>(run));
+  own.seed = random.next();
+  own.start = random_point(box, random);
+  return own;
+}
+
+/// How many values differ. Runs without a value have ended in one place, too.
+long count_optima(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  long optima = 1;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const double low = values[i - 1], high = values[i];
+    optima += low != high && !(high - low <= kSameOptimum * (1 + std::abs(high))) ? 1 : 0;
+  }
+  return optima;
+}
+
+class Restart final : public Search {
+ public:
+  explicit Restart(const NamedSearch& of) : of_(of) {}
+
+  SearchResult maximize(Objective& objective, const SearchOptions& options) override {
+    check(options);
+    const Box box(objective);
+    SearchResult whole;
+    Trace trace;
+    std::vector<double> ends;
+    const long size = restart_budget(objective.dimension());
+    EvaluationCounter progress(options.progress);
+    while (trace.evaluations() < options.budget && !objective.ended()) {
+      const long left = options.budget - trace.evaluations();
+      const long count = std::clamp(left / size, 1L, kSideBySide);
+      std::vector<SearchResult> results(static_cast<std::size_t>(count));
+      std::vector<std::unique_ptr<Objective>> objectives;
+      for (long i = 0; i < count; ++i) objectives.push_back(objective.clone());
+      parallel_for(options.threads, count, [&](long i) {
+        SearchOptions own = options_of(options, box, static_cast<long>(ends.size()) + i);
+        own.budget = std::min(size, left);
+        own.progress = [&, before = 0L](long evaluations) mutable {
+          progress.add(evaluations - std::exchange(before, evaluations));
+        };
+        const auto at = static_cast<std::size_t>(i);
+        results[at] = of_.make()->maximize(*objectives[at], own);
+      });
+      join(std::move(results), trace, ends, whole);
+      const long optima = count_optima(ends);
+      if (!enough_restarts(static_cast<long>(ends.size()), optima)) continue;
+      whole.stopped = fmt::format("{} restarts ended in {} optim{}, another one is unlikely",
+                                  ends.size(), optima, optima == 1 ? "um" : "a");
+      break;
+    }
+    whole.peaks = select_apart(box, std::move(whole.peaks), kApart, options.peaks);
+    whole.evaluations = trace.evaluations();
+    whole.history = trace.improvements();
+    return whole;
+  }
+
+ private:
+  static void join(std::vector<SearchResult> results, Trace& trace, std::vector<double>& ends,
+                   SearchResult& whole) {
+    std::vector<Trace> traces;
+    for (SearchResult& result : results) {
+      traces.emplace_back(result.history, result.evaluations);
+      ends.push_back(result.value);
+      whole.calls.insert(whole.calls.end(), result.calls.begin(), result.calls.end());
+      whole.peaks.insert(whole.peaks.end(), result.peaks.begin(), result.peaks.end());
+      if (result.value <= whole.value) continue;
+      static_cast<Verdict&>(whole) = result;
+      whole.theta_r = std::move(result.theta_r);
+      whole.value = result.value;
+    }
+    trace.append(traces);
+  }
+
+  NamedSearch of_;
+};
+
+}  // namespace
+
+bool enough_restarts(long runs, long optima) {
+  return runs > optima + 2 && optima * (runs - 1) < (optima + 0.5) * (runs - optima - 2);
+}
+
+std::unique_ptr<Search> make_restart(const NamedSearch& of) {
+  return std::make_unique<Restart>(of);
+}
+
+}  // namespace maxwrench
