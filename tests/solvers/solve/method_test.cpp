@@ -37,7 +37,7 @@ TEST(Method, RefusesChoicesWithoutMeaning) {
   refused({"p", "manipulability", Wrench::kAny});
   refused({"p", "volume", Wrench::kPure});
   refused({"p", "ellipsoid", Wrench::kPure, "", "magic"});
-  refused({"p", "ellipsoid", Wrench::kPure, "", "grid", 1, 0});
+  refused({"p", "ellipsoid", Wrench::kPure, "", "grid", 1, -1});
   EXPECT_THROW(parse_wrench("both"), std::invalid_argument);
   // An explicit choice is never replaced.
   problem.robot.actuation.has_facets = false;
