@@ -2,23 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-
 #include "benchmarks/row.h"
 
 namespace maxwrench {
-namespace {
-
-template <class Integer>
-Integer whole_number(const CsvFile& csv, std::size_t row, const std::string& column) {
-  const std::string& cell = csv.text(row, column);
-  Integer value = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error == std::errc() && end == cell.data() + cell.size() && value >= 0) return value;
-  csv.refuse(row, column, "a whole number");
-}
-
-}  // namespace
 
 std::vector<std::string> with_case_columns(const std::vector<std::string>& more) {
   std::vector<std::string> columns = case_columns();
@@ -35,8 +21,8 @@ Case case_of(const CsvFile& csv, std::size_t row) {
   c.wrench = parse_wrench(wrench);
   c.lp = csv.text(row, "lp");
   c.search = csv.text(row, "search");
-  c.seed = whole_number<std::uint64_t>(csv, row, "seed");
-  c.budget = whole_number<long>(csv, row, "budget");
+  c.seed = csv.whole<std::uint64_t>(row, "seed");
+  c.budget = csv.whole<long>(row, "budget");
   c.scheme = csv.text(row, "scheme");
   c.integrator = csv.text(row, "integrator");
   if (!c.integrator.empty() && !c.search.empty()) {

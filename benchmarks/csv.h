@@ -1,5 +1,6 @@
 #pragma once
 
+#include <charconv>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -25,6 +26,17 @@ struct CsvFile {
   const std::string& text(std::size_t row, const std::string& column) const;
   /// Nothing for an empty cell or "-". Throws std::invalid_argument on what is no finite number.
   std::optional<double> number(std::size_t row, const std::string& column) const;
+  /// Throws std::invalid_argument on what is no whole number of zero or more.
+  template <class Integer>
+  Integer whole(std::size_t row, const std::string& column) const {
+    const std::string& cell = text(row, column);
+    Integer value = 0;
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+    if (error != std::errc() || end != cell.data() + cell.size() || value < 0) {
+      refuse(row, column, "a whole number");
+    }
+    return value;
+  }
   /// A line that names file, line, column and cell.
   [[noreturn]] void refuse(std::size_t row, const std::string& column,
                            const std::string& expected) const;

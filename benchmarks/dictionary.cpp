@@ -38,6 +38,7 @@ constexpr ColumnMeaning kDictionary[] = {
     {"evaluations", "", "evaluations that were spent, of an experiment those of its derivatives"},
     {"reason", "", "why there is no value, or what was remarkable"},
     {"calls", "", "how local methods ended: name, end, calls, evaluations"},
+    {"task_digest", "", "of the bytes of the files of task, robot, URDF and path: FNV-1a, 64 bits"},
     // times.csv
     {"wall_s", "s", "wall time of the case"},
     {"us_per_evaluation", "us", "wall time of an evaluation"},

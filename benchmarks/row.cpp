@@ -33,10 +33,10 @@ std::vector<std::string> case_values(const Case& c) {
 
 std::vector<std::string> value_columns() {
   std::vector<std::string> columns = case_columns();
-  columns.insert(
-      columns.end(),
-      {"status", "beta", "continuous", "unit", "yardstick", "yardstick_unit", "label", "theta_r",
-       "h", "u", "lambda", "balance", "bounds", "dual", "gap", "evaluations", "reason", "calls"});
+  columns.insert(columns.end(),
+                 {"status", "beta", "continuous", "unit", "yardstick", "yardstick_unit", "label",
+                  "theta_r", "h", "u", "lambda", "balance", "bounds", "dual", "gap", "evaluations",
+                  "reason", "calls", "task_digest"});
   return columns;
 }
 
@@ -59,7 +59,7 @@ std::vector<std::string> values(const Answer& answer) {
        known(solved, residual.bounds), known(solved, residual.dual), known(solved, residual.gap),
        fmt::format("{}", answer.evaluations),
        answer.has_value() && experiment ? answer.missed : answer.reason.str(),
-       describe(answer.calls)});
+       describe(answer.calls), answer.task->digest});
   return cells;
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <initializer_list>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -90,23 +92,95 @@ std::string refuse_other(const RowOf& claim, const char* column, double anew) {
                              : fmt::format("{}: its posture has none", column);
 }
 
+/// Numbers that are those of the same posture evaluated anew.
+std::string refuse_numbers(const RowOf& claim, const char* column, const Eigen::VectorXd& anew) {
+  const Eigen::VectorXd claimed = claim.vector(column);
+  if (claimed.size() != anew.size()) {
+    return fmt::format("{}: got {} numbers, expected {}", column, claimed.size(), anew.size());
+  }
+  if (anew.size() == 0) return "";
+  const double size = 1 + anew.lpNorm<Eigen::Infinity>();
+  const bool same = (claimed - anew).lpNorm<Eigen::Infinity>() <= kAnswerTolerance * size;
+  return same ? "" : fmt::format("{}: its posture has others", column);
+}
+
+/// The residual that the row claims is that of its answer, up to rounding.
+std::string refuse_residual(const RowOf& claim, const Residual& anew, double beta) {
+  const std::pair<const char*, double> all[] = {
+      {"balance", anew.balance}, {"bounds", anew.bounds}, {"dual", anew.dual}, {"gap", anew.gap}};
+  const double tolerance = kAnswerTolerance * (1 + std::abs(beta));
+  for (const auto& [column, value] : all) {
+    const std::optional<double> claimed = claim.csv.number(claim.row, column);
+    if (!claimed) return fmt::format("{}: got none, expected a number", column);
+    if (!(*claimed >= 0 && std::abs(*claimed - value) <= tolerance)) {
+      return fmt::format("{}: expected about {:.2g}", column, value);
+    }
+  }
+  return "";
+}
+
+/// That these cells are empty.
+std::string refuse_filled(const RowOf& claim, std::initializer_list<const char*> columns) {
+  for (const char* column : columns) {
+    if (!claim.text(column).empty()) return fmt::format("{}: expected none", column);
+  }
+  return "";
+}
+
+/// The evaluations of a search are its own word, but for its budget, and those of its methods are
+/// among them.
+std::string refuse_effort(const Case& c, const RowOf& claim) {
+  const auto evaluations = claim.csv.whole<long>(claim.row, "evaluations");
+  if (!c.integrator.empty()) return evaluations >= 0 ? "" : "evaluations: expected none below zero";
+  if (c.search.empty()) {
+    return evaluations == 1 && claim.text("calls").empty()
+               ? ""
+               : "evaluations: expected 1, and no calls, of what is given";
+  }
+  if (evaluations < 0 || evaluations > c.budget) {
+    return fmt::format("evaluations: expected at most {}", c.budget);
+  }
+  long called = 0;
+  std::istringstream calls(claim.text("calls"));
+  for (std::string call; std::getline(calls, call, ';');) {
+    std::istringstream words(call);
+    std::string method, status;
+    long count = 0, spent = 0;
+    if (!(words >> method >> status >> count >> spent) || count < 1 || spent < 0) {
+      return "calls: expected a method, how it ended, how often, and its evaluations";
+    }
+    called += spent;
+  }
+  return called <= evaluations ? "" : "calls: expected no more evaluations than there are in all";
+}
+
 /// What its words say: whether a row of this status can have a value, and what belongs to its task.
-std::string refuse_words(const Problem& problem, const RowOf& claim, bool has_value) {
+std::string refuse_words(const Problem& problem, const Case& c, const RowOf& claim,
+                         bool has_value) {
+  if (claim.text("task_digest") != problem.digest) {
+    return "task_digest: expected '" + problem.digest + "', the digest of its files";
+  }
   if (claim.text("label") != problem.label) return "label: expected '" + problem.label + "'";
   if (claim.text("yardstick_unit") != problem.unit()) {
     return fmt::format("yardstick_unit: expected '{}'", problem.unit());
   }
   const std::string& status = claim.text("status");
-  const bool answered =
-      claim.text("integrator").empty()
-          ? status == to_string(Status::kOptimal) || status == to_string(Status::kBestFound)
-          : status == to_string(Status::kReached);
-  const bool interrupted =
-      claim.text("integrator").empty() && status == to_string(Status::kBudgetExhausted);
-  if (has_value && !answered && !interrupted) {
-    return fmt::format("status: got '{}' beside a value", status);
+  const Status of_value = !c.integrator.empty() ? Status::kReached
+                          : c.search.empty()    ? Status::kOptimal
+                                                : Status::kBestFound;
+  const bool interrupted = !c.search.empty() && claim.text("reason") == "interrupted" &&
+                           status == to_string(Status::kBudgetExhausted);
+  if (has_value && status != to_string(of_value) && !interrupted) {
+    return fmt::format("status: got '{}', expected '{}' beside a value", status,
+                       to_string(of_value));
+  }
+  if (has_value && c.integrator.empty() && !interrupted && !claim.text("reason").empty()) {
+    return "reason: expected none beside a value";
   }
   if (has_value) return "";
+  const std::string filled =
+      refuse_filled(claim, {"h", "u", "lambda", "balance", "bounds", "dual", "gap"});
+  if (!filled.empty()) return filled;
   const bool known = std::any_of(std::begin(kNoValue), std::end(kNoValue),
                                  [&](Status each) { return status == to_string(each); });
   if (!known) return fmt::format("status: got '{}' without a value", status);
@@ -159,7 +233,19 @@ RowCheck check_posture(const Problem& problem, const Case& c, const RowOf& claim
     check.refusal = fmt::format("unit: expected '{}'", anew.unit);
   }
   if (check.refusal.empty()) check.refusal = refuse_other(claim, "yardstick", anew.yardstick);
-  if (check.refusal.empty() && c.measure == "linf_polytope" && !problem.contact) {
+  if (check.refusal.empty()) check.refusal = refuse_filled(claim, {"continuous"});
+  if (check.refusal.empty()) check.refusal = refuse_residual(claim, anew.residual(), beta);
+  if (!check.refusal.empty()) return check;
+  const Capability& capability = anew.capability;
+  const Eigen::VectorXd h =
+      capability.w.size() > 0 ? Eigen::VectorXd(capability.h) : Eigen::VectorXd();
+  for (const auto& [column, numbers] : {std::pair<const char*, const Eigen::VectorXd&>("h", h),
+                                        {"u", capability.u},
+                                        {"lambda", capability.lambda}}) {
+    if (check.refusal.empty()) check.refusal = refuse_numbers(claim, column, numbers);
+  }
+  // Which of several efforts and multipliers are optimal hangs on rounding: these prove themselves.
+  if (!check.refusal.empty() && c.measure == "linf_polytope" && !problem.contact) {
     check.refusal = refuse_own(problem, anew, claim, beta);
   }
   return check;
@@ -178,6 +264,8 @@ RowCheck check_plan(const Problem& problem, const Case& c, const RowOf& claim, d
   if (check.refusal.empty()) {
     check.refusal = refuse_other(claim, "continuous", anew.plan.continuous);
   }
+  if (check.refusal.empty()) check.refusal = refuse_filled(claim, {"h", "u", "lambda"});
+  if (check.refusal.empty()) check.refusal = refuse_residual(claim, anew.residual(), value);
   return check;
 }
 
@@ -202,6 +290,10 @@ RowCheck check_experiment(const Problem& problem, const Case& c, const RowOf& cl
   } else {
     check.refusal = refuse_other(claim, "yardstick", anew.yardstick);
   }
+  if (check.refusal.empty()) {
+    check.refusal = refuse_filled(
+        claim, {"continuous", "h", "u", "lambda", "balance", "bounds", "dual", "gap", "calls"});
+  }
   return check;
 }
 
@@ -218,14 +310,22 @@ std::string refuse_failure(const Problem& problem, const Case& c, const RowOf& c
   if (!c.integrator.empty()) return refuse_status(experiment(changed, {c}), claim);
   resolve(changed, c);                         // its names mean something together
   static_cast<void>(claim.vector("theta_r"));  // numbers, if any
-  if (!c.search.empty()) return "";
+  if (!c.search.empty() && (!problem.motion || claim.text("theta_r").empty())) {
+    return refuse_filled(claim, {"continuous"});
+  }
+  if (!c.search.empty()) {  // what it found, and could not confirm
+    const Answer anew = plan_again(changed, c, claim);
+    if (anew.has_value()) return fmt::format("beta: its plan has the value {:.9g}", anew.beta());
+    return refuse_other(claim, "continuous", anew.plan.continuous);
+  }
   if (problem.motion) return refuse_status(plan_again(changed, c, claim), claim);
   return refuse_status(posture_again(changed, c, claim), claim);
 }
 
 RowCheck checked(const Problem& problem, const Case& c, const RowOf& claim) {
   const std::optional<double> beta = claim.csv.number(claim.row, "beta");
-  std::string refusal = refuse_words(problem, claim, beta.has_value());
+  std::string refusal = refuse_words(problem, c, claim, beta.has_value());
+  if (refusal.empty()) refusal = refuse_effort(c, claim);
   if (refusal.empty() && !beta) refusal = refuse_failure(problem, c, claim);
   if (!beta || !refusal.empty()) return {refusal, beta.has_value(), 0};
   const auto of_search = problem.motion ? check_plan : check_posture;

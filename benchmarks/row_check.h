@@ -8,6 +8,9 @@ namespace maxwrench {
 
 struct Problem;
 
+inline constexpr const char* kOwnWord =
+    "evaluations and calls but for the budget, and the reason why a search has no value";
+
 /// What was checked of a row of values.csv.
 struct RowCheck {
   std::string refusal;     ///< empty: what it claims follows from the problem's data
@@ -15,15 +18,18 @@ struct RowCheck {
   double deviation = 0;    ///< of the value, as a share of 1 + |value|
 };
 
-/// Whether the table of theta_r of a row of values.csv, with all `value_columns`, has the value
-/// that it claims, within its limits and without collisions, up to kAnswerTolerance (1 + |value|):
-/// the lower level is solved anew and its answer verified from the problem's data, as that of any
-/// row. And of the L-infinity polytope with one contact, whether the row's own efforts, wrench and
-/// multipliers do: balance, limits, and a gap that proves them optimal. Unit, yardstick and
-/// `continuous` are compared, too, and the status must be one that has a value, or has none. An
-/// experiment is carried out again: its reading, to 1e-4, what was planned, and whether it was
-/// held. Of a row without a value the names and the status must be known, and experiments and
-/// evaluations are made again; searches are not. What cannot be read is a refusal.
+/// Whether a row of values.csv, with all `value_columns`, follows from the files of its task, whose
+/// digest it carries. Its posture or plan is evaluated anew and verified from the problem's data,
+/// as that of any row: value, yardstick and `continuous` within kAnswerTolerance (1 + |value|),
+/// limits and collisions kept; h, u, lambda and the residuals of the same posture. Of the
+/// L-infinity polytope with one contact other efforts and multipliers do as well, if they prove
+/// themselves: balance, limits, and a gap. An experiment is carried out again: its reading, to
+/// 1e-4, what was planned, and whether it was held. Status, unit and label are those that belong to
+/// such a row, evaluations and calls within the budget. Of a row without a value experiments and
+/// evaluations are made again, and the plan that a search could not confirm. What cannot be read is
+/// a refusal.
+///
+/// Searches are not made again: `kOwnWord` says what is taken as it stands.
 RowCheck check_row(const Problem& problem, const CsvFile& csv, std::size_t row);
 
 }  // namespace maxwrench

@@ -11,7 +11,7 @@
 namespace maxwrench {
 namespace {
 
-using Options = std::vector<const CLI::Option*>;
+using CommandOptions = std::vector<const CLI::Option*>;
 
 std::vector<const CLI::App*> shown_subcommands(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
@@ -20,7 +20,7 @@ std::vector<const CLI::App*> shown_subcommands(const CLI::App& app) {
 bool is_flag(const CLI::Option& option) { return option.get_items_expected_max() == 0; }
 
 /// The named options of a command, or its positional arguments.
-Options options_of(const CLI::App& command, bool positional) {
+CommandOptions options_of(const CLI::App& command, bool positional) {
   return command.get_options([positional](const CLI::Option* option) {
     return option->get_positional() == positional && !option->get_group().empty();
   });

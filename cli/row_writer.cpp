@@ -9,7 +9,6 @@
 #include "benchmarks/row.h"
 #include "benchmarks/write_file.h"
 #include "maxwrench/problem.h"
-#include "maxwrench/version.h"
 #include "solvers/solve/method.h"
 
 namespace maxwrench {
@@ -39,14 +38,16 @@ Table times_table(const std::filesystem::path& folder) {
   return {folder / "times.csv", measured_columns(), case_columns().size()};
 }
 
-RowsThere::RowsThere(const std::filesystem::path& folder)
-    : values_(values_table(folder)), times_(times_table(folder)) {}
+RowsThere::RowsThere(const std::filesystem::path& folder, std::string version)
+    : values_(values_table(folder)), times_(times_table(folder)), version_(std::move(version)) {}
 
-bool RowsThere::has(const Case& c) const {
+bool RowsThere::has(const Problem& problem, const Case& c) const {
+  if (version_.ends_with(".dirty")) return false;
   const auto measured = times_.find(case_values(c));
-  const std::vector<std::string> present = {sources_id(), version()};
-  return measured && std::equal(present.begin(), present.end(), measured->end() - 2) &&
-         values_.find(case_values(c));
+  const auto values = values_.find(case_values(c));
+  return measured && values && values->at(values_.column("task_digest")) == problem.digest &&
+         measured->at(times_.column("sources")) == sources_id() &&
+         measured->at(times_.column("version")) == version_;
 }
 
 bool RowsThere::all_solved(const std::vector<Case>& cases) const {

@@ -8,8 +8,11 @@
 #include "benchmarks/row.h"
 #include "benchmarks/table.h"
 #include "cli/progress.h"
+#include "maxwrench/version.h"
 
 namespace maxwrench {
+
+struct Problem;
 
 /// The tables of a folder: values.csv and times.csv.
 Table values_table(const std::filesystem::path& folder);
@@ -18,15 +21,19 @@ Table times_table(const std::filesystem::path& folder);
 /// The rows of a folder as they are.
 class RowsThere {
  public:
-  explicit RowsThere(const std::filesystem::path& folder);
+  explicit RowsThere(const std::filesystem::path& folder,
+                     std::string version = maxwrench::version());
 
-  /// Whether that of a complete case was made by the present sources and version.
-  bool has(const Case& c) const;
+  /// Whether the folder holds the row of a complete case, made from the files that the task was
+  /// read from, by the present sources and version. A version of changed sources (".dirty") does
+  /// not name them, so none of its rows counts.
+  bool has(const Problem& problem, const Case& c) const;
   /// Whether those of all these cases are there and have a value.
   bool all_solved(const std::vector<Case>& cases) const;
 
  private:
   Table values_, times_;
+  std::string version_;
 };
 
 /// Solves cases and keeps their rows in the tables of a folder, each as soon as it is known;

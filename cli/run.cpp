@@ -12,6 +12,7 @@
 #include "cli/row_writer.h"
 #include "cli/workers.h"
 #include "maxwrench/load.h"
+#include "maxwrench/version.h"
 #include "solvers/solve/method.h"
 
 namespace maxwrench {
@@ -178,9 +179,14 @@ int print_forecast(const RunOptions& options, const Workload& work, const std::v
   return kAnswered;
 }
 
-std::vector<Case> still_to_do(std::vector<Case> cases, const std::string& folder) {
+std::vector<Case> still_to_do(const Workload& work, std::vector<Case> cases,
+                              const std::string& folder) {
+  if (std::string_view(version()).ends_with(".dirty")) {
+    fmt::print(stderr, "run: {} is built from changed sources: no row that is there counts\n",
+               version());
+  }
   const RowsThere there(folder);
-  std::erase_if(cases, [&](const Case& c) { return there.has(c); });
+  std::erase_if(cases, [&](const Case& c) { return there.has(work.problems.at(c.problem), c); });
   return cases;
 }
 
@@ -191,7 +197,7 @@ int run(const RunOptions& options) {
     for (const Case& c : cases) fmt::print("{}\n", command_of(c));
     return kAnswered;
   }
-  const std::vector<Case> todo = options.again ? cases : still_to_do(cases, options.out);
+  const std::vector<Case> todo = options.again ? cases : still_to_do(work, cases, options.out);
   if (options.dry) return print_forecast(options, work, cases, todo);
   solve_cases(work, todo, options.out, options.thread_count());
   const bool all_solved = RowsThere(options.out).all_solved(cases);

@@ -97,6 +97,7 @@ int verify_rows(const std::string& file, std::size_t sample, std::uint64_t seed,
                 {"checked", rows.size()},
                 {"values", values},
                 {"deviation", deviation},
+                {"not_checked", kOwnWord},
                 {"refused", refused}});
   } else {
     fmt::print("{}\n", file);
@@ -104,7 +105,7 @@ int verify_rows(const std::string& file, std::size_t sample, std::uint64_t seed,
     fmt::print("{}: {} of {} rows, {} of them with a value, {} with the reason why not\n",
                refused.empty() ? "verified" : "checked", rows.size(), all, values,
                static_cast<long>(rows.size()) - values);
-    fmt::print("largest deviation {:.2g} of 1 + |beta|\n", deviation);
+    fmt::print("largest deviation {:.2g} of 1 + |beta|\nnot checked: {}\n", deviation, kOwnWord);
     for (const std::string& each : refused) fmt::print("refused: {}\n", each);
   }
   return refused.empty() ? kAnswered : kOtherStatus;

@@ -35,6 +35,9 @@ struct Problem {
   std::string name;   ///< as on the command line, such as "planar/force"
   std::string label;  ///< how far the numbers are to be trusted, such as "identified"
   std::string source;
+  /// Of all the bytes of the files that task and robot were read from, 16 hexadecimal digits of
+  /// FNV-1a; empty if they were not read from files.
+  std::string digest;
   Robot robot;
   int end_effector = 0;
   Pose<double> pose;  ///< of the end effector in the world; where a path starts

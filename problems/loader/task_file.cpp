@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 
 #include "lib/math/decompositions.h"
@@ -160,6 +161,23 @@ void choose_wrenches(const Block& wrench, Problem& problem) {
                          fmt::join(idle, ", ")));
 }
 
+/// FNV-1a of the sizes and the bytes of files, in 16 hexadecimal digits.
+std::string digest_of(const std::vector<fs::path>& files) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  const auto add = [&hash](std::string_view text) {
+    for (const char byte : text) {
+      hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
+    }
+  };
+  for (const fs::path& file : files) {
+    std::ifstream stream = open_file(file, "a file that was read before");
+    const std::string text(std::istreambuf_iterator<char>(stream), {});
+    add(fmt::format("{}:", text.size()));
+    add(text);
+  }
+  return fmt::format("{:016x}", hash);
+}
+
 }  // namespace
 
 Problem load_problem(const std::string& name) {
@@ -189,6 +207,12 @@ Problem load_problem(const std::string& name) {
     read_contact(task.table("contact"), problem);
     reconsider_default(task, problem);
   }
+  const fs::path urdf = robot.parent_path() / Block::read(robot).text("urdf");
+  std::vector<fs::path> files = {file, robot, urdf};
+  if (problem.motion && !problem.motion->path_file.empty()) {
+    files.emplace_back(problem.motion->path_file);
+  }
+  problem.digest = digest_of(files);
   return problem;
 }
 

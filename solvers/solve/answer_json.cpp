@@ -166,6 +166,7 @@ std::string to_json(const Answer& answer) {
     object["branches"] = to_json(answer.branches);
   }
   object["wall_s"] = answer.wall_s;
+  object["task_digest"] = answer.task->digest;
   object["version"] = version();
   if (in_time) add_instants(answer, object);
   return in_one_line(object);

@@ -55,16 +55,56 @@ TEST(CheckRow, AcceptsWhatWasEvaluated) {
   }
 }
 
-/// Each claim by itself: the value, the posture, the efforts, the wrench, the multipliers.
+/// Each claim by itself: the value, the posture, the efforts, the wrench, the multipliers, how well
+/// they balance, the evaluations. What two measures prove themselves, the others have evaluated.
 TEST(CheckRow, RefusesWhatDoesNotFollow) {
   const Problem problem = load_problem("uvms/lift");
-  const Cells good = row_of(problem, "linf_polytope", Wrench::kPure);
-  for (const char* column : {"beta", "theta_r", "u", "h", "lambda"}) {
+  for (const char* measure : {"linf_polytope", "l2_polytope", "ellipsoid", "least_effort"}) {
+    const Cells good = row_of(problem, measure, Wrench::kPure);
+    ASSERT_EQ(check(problem, good).refusal, "") << measure;
+    for (const char* column : {"beta", "theta_r", "u", "h", "lambda", "balance", "bounds", "dual",
+                               "gap", "evaluations"}) {
+      Cells row = good;
+      std::string& text = cell(row, column);
+      if (text.empty()) continue;
+      const bool residual = std::stod(text) < 1e-6 && text.find(' ') == std::string::npos;
+      text = column == std::string("h") ? "1 2 3 4 5 6" : residual ? "0.001" : scaled(text, 2);
+      EXPECT_NE(check(problem, row).refusal, "") << measure << " " << column;
+    }
     Cells row = good;
-    std::string& text = cell(row, column);
-    text = column == std::string("h") ? "1 2 3 4 5 6" : scaled(text, 1.001);
-    EXPECT_NE(check(problem, row).refusal, "") << column;
+    cell(row, "continuous") = cell(row, "beta");
+    EXPECT_EQ(check(problem, row).refusal, "continuous: expected none") << measure;
   }
+}
+
+/// What a search says of its own effort: at most the budget, and its methods at most all of it.
+TEST(CheckRow, RefusesMoreEvaluationsThanTheBudget) {
+  const Problem problem = load_problem("planar/force");
+  Case c = with_search(problem, {.problem = problem.name, .search = "slsqp", .budget = 300});
+  Cells good = values(solve(problem, {c}));
+  ASSERT_EQ(check(problem, good).refusal, "");
+  ASSERT_NE(cell(good, "calls"), "");
+  for (const auto& [column, text] : {std::pair{"evaluations", "301"},
+                                     {"evaluations", "-1"},
+                                     {"evaluations", "1"},
+                                     {"calls", "slsqp"},
+                                     {"calls", "slsqp success 1 301"},
+                                     {"status", "optimal"},
+                                     {"status", "budget_exhausted"},
+                                     {"reason", "interrupted"}}) {
+    Cells row = good;
+    cell(row, column) = text;
+    EXPECT_NE(check(problem, row).refusal, "") << column << " " << text;
+  }
+}
+
+/// A row belongs to the files of its task as they were.
+TEST(CheckRow, RefusesRowsOfAnotherTask) {
+  const Problem problem = load_problem("planar/force");
+  Cells row = row_of(problem, "linf_polytope", Wrench::kPure);
+  EXPECT_EQ(cell(row, "task_digest").size(), 16U);
+  cell(row, "task_digest")[0] ^= 1;
+  EXPECT_EQ(check(problem, row).refusal.find("task_digest: "), 0U);
 }
 
 TEST(CheckRow, RefusesWhatCannotBeRead) {

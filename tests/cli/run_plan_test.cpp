@@ -8,10 +8,15 @@
 #include <sstream>
 #include <string>
 
+#include "benchmarks/case_file.h"
 #include "benchmarks/csv.h"
 #include "benchmarks/journal.h"
 #include "benchmarks/row.h"
 #include "benchmarks/table.h"
+#include "cli/row_writer.h"
+#include "maxwrench/load.h"
+#include "maxwrench/version.h"
+#include "tests/support/edited_copy.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {
@@ -88,17 +93,24 @@ TEST_F(RunPlan, AFolderHasOneRunAtATime) {
   EXPECT_EQ(read("one/values.csv"), one);
 }
 
-/// A torn line is no row; what is whole is not computed again.
+/// Whether this build's version names its sources, so that rows of it are kept.
+bool keeps_rows() { return !std::string_view(version()).ends_with(".dirty"); }
+
+/// A torn line is no row; what is whole is not computed again, unless the sources were changed.
 TEST_F(RunPlan, KeepsTheRowsOfAJournal) {
   const std::string one = undisturbed();
   fs::rename(folder_.path() / "one/values.csv", folder_.path() / "one/values.csv.part");
   fs::resize_file(folder_.path() / "one/values.csv.part", one.size() - 5);
   const auto rows = std::count(one.begin(), one.end(), '\n') - 1;
   const CommandResult dry = run("--dry --out one");
-  EXPECT_NE(dry.out.find(fmt::format("{} rows, 1 of them to do", rows)), std::string::npos)
+  EXPECT_NE(dry.out.find(fmt::format("{} rows, {} of them to do", rows, keeps_rows() ? 1 : rows)),
+            std::string::npos)
       << dry.out;
-  EXPECT_NE(run("--out one").out.find(fmt::format("{} of them were there", rows - 1)),
-            std::string::npos);
+  EXPECT_EQ(dry.err.find("built from changed sources") == std::string::npos, keeps_rows());
+  const std::string more = run("--out one").out;
+  EXPECT_EQ(more.find(fmt::format(", {} of them were there", rows - 1)) != std::string::npos,
+            keeps_rows())
+      << more;
   EXPECT_EQ(read("one/values.csv"), one);
   EXPECT_EQ(run("--again --out one").out, fmt::format("{} rows in one/values.csv\n", rows));
   EXPECT_EQ(read("one/values.csv"), one);
@@ -117,10 +129,42 @@ TEST_F(RunPlan, ShardsMergeToOneRun) {
   const auto rows = std::count(one.begin(), one.end(), '\n') - 1;
   EXPECT_EQ(less.out.find(fmt::format("{} rows", rows)), std::string::npos) << less.out;
   EXPECT_EQ(run("--dry --out less").out.find(", 0 of them to do"), std::string::npos);
-  EXPECT_NE(run("--dry --out all").out.find(fmt::format("{} rows, 0 of them to do", rows)),
+  EXPECT_NE(run("--dry --out all")
+                .out.find(fmt::format("{} rows, {} of them to do", rows, keeps_rows() ? 0 : rows)),
             std::string::npos);
   const std::string times = read("all/times.csv");
   EXPECT_EQ(std::count(times.begin(), times.end(), '\n'), std::count(one.begin(), one.end(), '\n'));
+}
+
+/// Rows are of the files of their task and of one version; ".dirty" is none.
+TEST_F(RunPlan, RowsOfEditedTasksAndOtherVersionsAreNotThere) {
+  EditedCopy robot;
+  const std::string task = robot.path() / "force.toml";
+  std::ofstream(folder_.path() / "plan.toml")
+      << "[[product]]\nproblem = '" << task << "'\nsearch = 'sample'\nbudget = 20\n";
+  ASSERT_EQ(run("--out one").exit_status, 0);
+  const fs::path one = folder_.path() / "one";
+  const CsvFile csv = read_csv(one / "values.csv", value_columns());
+  const Case c = case_of(csv, 0);
+  const Problem problem = load_problem(task);
+  EXPECT_EQ(RowsThere(one).has(problem, c), keeps_rows());
+  EXPECT_FALSE(RowsThere(one, "another").has(problem, c));
+  for (const auto& [kept, known] : {std::pair{"1.0", true}, {"1.0.dirty", false}}) {
+    std::string times = read("one/times.csv");
+    const std::size_t comma = times.rfind(',');
+    std::ofstream(one / "times.csv") << times.replace(comma + 1, times.size(), kept) << '\n';
+    EXPECT_EQ(RowsThere(one, kept).has(problem, c), known) << kept;
+  }
+  std::ofstream(one / "times.csv")
+      << read("one/times.csv")
+             .replace(read("one/times.csv").rfind(',') + 1, std::string::npos, "1.0\n");
+  ASSERT_TRUE(RowsThere(one, "1.0").has(problem, c));
+  for (const char* file : {"force.toml", "vehicle.toml", "vehicle.urdf"}) {
+    std::ofstream(robot.path() / file, std::ios::app) << " \n";
+    EXPECT_FALSE(RowsThere(one, "1.0").has(load_problem(task), c)) << file;
+    fs::resize_file(robot.path() / file, fs::file_size(robot.path() / file) - 2);
+    EXPECT_TRUE(RowsThere(one, "1.0").has(load_problem(task), c)) << file;
+  }
 }
 
 TEST_F(RunPlan, ContradictionsAreNotMerged) {

@@ -16,13 +16,13 @@ std::filesystem::path data(const std::string& name) {
   return std::filesystem::path(MAXWRENCH_SOURCE_DIR) / "tests/data/lp" / (name + ".mps");
 }
 
-struct Answer {
+struct ClpAnswer {
   MpsProgram mps;
   LpSolution solution;
 };
 
-Answer solve(const std::filesystem::path& file) {
-  Answer answer{read_mps(file), {}};
+ClpAnswer solve(const std::filesystem::path& file) {
+  ClpAnswer answer{read_mps(file), {}};
   validate(answer.mps.program);
   make_simplex()->solve(answer.mps.program, answer.solution);
   EXPECT_TRUE(verified(answer.mps.program, answer.solution)) << file;
@@ -37,7 +37,7 @@ TEST(Mps, HandWrittenFilesHaveTheirOptima) {
       {"minus_infinity", 10}, {"ranges", -6},    {"several", 17},
       {"empty", -4},          {"zero_width", 3}, {"blanks_in_names", 11}};
   for (const auto& [name, optimum] : optima) {
-    const Answer answer = solve(data(name));
+    const ClpAnswer answer = solve(data(name));
     EXPECT_EQ(answer.solution.status, Status::kOptimal) << name;
     EXPECT_NEAR(answer.mps.objective(answer.solution), optimum, 1e-9 * (1 + std::abs(optimum)))
         << name;
@@ -76,14 +76,14 @@ TEST(Mps, RangesAsWritten) {
 
 /// max 2 x + 3 y + 7, x + y <= 4, y <= 2: one more unit of the right-hand side is worth 2.
 TEST(Mps, DualsAndConstantInTheFilesOwnSense) {
-  const Answer answer = solve(data("several"));
+  const ClpAnswer answer = solve(data("several"));
   EXPECT_FALSE(answer.mps.minimize);
   EXPECT_EQ(answer.mps.constant, 7);
   EXPECT_EQ(answer.mps.objective_name, "GAIN");
   EXPECT_EQ(answer.mps.name, "SEVERAL");
   EXPECT_NEAR(answer.mps.duals(answer.solution)[0], 2, 1e-12);
   // min x, x - s = 0, s >= -7 - y and so on: raising R1's right-hand side costs 1.
-  const Answer other = solve(data("negative_upper"));
+  const ClpAnswer other = solve(data("negative_upper"));
   EXPECT_TRUE(other.mps.minimize);
   EXPECT_NEAR(other.mps.duals(other.solution)[0], 1, 1e-12);
   EXPECT_NEAR(other.mps.point(other.solution)[0], -10, 1e-12);
@@ -141,7 +141,7 @@ TEST(Mps, UnusualButLegalFiles) {
          "    X  COST  1.5D+0  R1  1\n    M1 'MARKER' 'INTORG'\n"
          "\tY\tCOST\t1\tR2\t1\n    M2 'MARKER' 'INTEND'\n"
          "BOUNDS\n LO BND X 2\n LO BND Y 3\nRANGES\n RNG R1 10\nENDATA\nleft over\n";
-  const Answer answer = solve(file);
+  const ClpAnswer answer = solve(file);
   EXPECT_EQ(answer.solution.status, Status::kOptimal);
   EXPECT_NEAR(answer.mps.objective(answer.solution), 6, 1e-12);
 }
