@@ -28,6 +28,7 @@ class RowsThere {
   /// read from, by the present sources and version. A version of changed sources (".dirty") does
   /// not name them, so none of its rows counts.
   bool has(const Problem& problem, const Case& c) const;
+  bool empty() const { return values_.size() == 0; }
   /// Whether those of all these cases are there and have a value.
   bool all_solved(const std::vector<Case>& cases) const;
 
