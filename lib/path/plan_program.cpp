@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace maxwrench {
 namespace {
@@ -160,6 +161,15 @@ struct Numbers {
   void entry(int /*row*/, double number) { *value++ = number; }
 };
 
+bool is_finite(const Eigen::SparseMatrix<double>& R) {
+  for (Eigen::Index col = 0; col < R.outerSize(); ++col) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(R, col); entry; ++entry) {
+      if (!std::isfinite(entry.value())) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 bool well_formed(const PlanProgram& program) {
@@ -181,9 +191,7 @@ bool well_formed(const PlanProgram& program) {
   if (!limits(program.y_min, program.y_max, p) || !limits(program.r_min, program.r_max, rows)) {
     return false;
   }
-  if (rows > 0 && (program.R.cols() != p || !(program.R * Eigen::VectorXd::Zero(p)).isZero(0))) {
-    return false;  // a product with zero is zero of finite numbers only
-  }
+  if (rows > 0 && (program.R.cols() != p || !is_finite(program.R))) return false;
   if (p > 0 && program.G.size() != program.instants.size()) return false;
   return std::all_of(program.G.begin(), program.G.end(), [&](const Eigen::MatrixXd& each) {
     return each.rows() == set->dimension() && each.cols() == p && each.allFinite();

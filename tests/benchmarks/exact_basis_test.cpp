@@ -16,7 +16,7 @@ TEST(ExactBasis, VerdictsAreThoseOfAPeer) {
   Random random(71);
   const auto simplex = find_lp_solver("simplex").make(), clp = find_lp_solver("clp").make();
   std::map<Status, int> seen;
-  for (int sample = 0; sample < 300 / kSampleDivisor; ++sample) {
+  for (int sample = 0; sample < samples(300); ++sample) {
     const int m = 1 + sample % 6;
     const LinearProgram program = random_program(random, m, m + sample % 5, sample % 2 == 0);
     LpSolution peer, ours;

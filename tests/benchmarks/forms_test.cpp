@@ -18,7 +18,7 @@ TEST(Forms, HaveTheSameOptimumAndVerdict) {
       WrenchProgram program = make_wrench_program(problem, wrench);
       Random random(1);
       const auto simplex = find_lp_solver("simplex").make();
-      for (int sample = 0; sample < 100 / kSampleDivisor; ++sample) {
+      for (int sample = 0; sample < samples(100); ++sample) {
         set_posture(model.evaluate(random_theta_r(problem, random)), program);
         for (double& t : program.tau_d) t += (sample % 2 == 0 ? 0.1 : 100) * random.normal();
         Capability expected;

@@ -192,7 +192,6 @@ TEST(CheckRow, AcceptsPosturesThatTie) {
 TEST(CheckRow, CarriesOutExperiments) {
   for (const auto& [name, scheme] :
        {std::pair{"mobile/push", ""}, {"mobile/trajectory", "spline"}}) {
-    if (kSampleDivisor > 1 && *scheme == '\0') continue;  // too slow twice
     const Problem problem = load_problem(name);
     const Case c{.problem = name, .search = "", .scheme = scheme, .integrator = "cvode"};
     const Cells good = values(experiment(problem, {c}));

@@ -304,7 +304,7 @@ TEST(Command, RunWritesTheSameValuesAtAnyThreadCount) {
     const TemporaryFolder folder;
     const CommandResult result =
         run_maxwrench(fmt::format("run problem=planar/force budget={} --out . --threads {}",
-                                  std::max(400 / kSampleDivisor, 40), threads),
+                                  std::max(samples(400), 40), threads),
                       folder.path());
     ASSERT_EQ(result.exit_status, 0) << result.err;
     const std::string values = read_text(folder.path() / "values.csv");

@@ -84,8 +84,7 @@ TEST(PlanSolve, ServesAStaticTaskToo) {
 
 /// On the way are programs in whose restoration phase Ipopt, with the corrector of Mehrotra,
 /// follows a null pointer.
-TEST(PlanSolve, IpoptSurvivesItsRestoration) {
-  if (kSampleDivisor > 1) GTEST_SKIP() << "interior point solves take too long under sanitizers";
+TEST(PlanSolve, SLOW_IpoptSurvivesItsRestoration) {
   const std::string words = "solve planar/trajectory --search annealing --budget 40 --json --lp ";
   const CommandResult ipopt = run_maxwrench(words + "ipopt");
   ASSERT_EQ(ipopt.exit_status, 0) << ipopt.err;

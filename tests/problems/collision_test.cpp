@@ -93,7 +93,7 @@ class CapsuleAgainst : public testing::TestWithParam<Shape::Kind> {};
 TEST_P(CapsuleAgainst, AgreesWithAnIndependentDistance) {
   Sampler sampler;
   int close = 0;
-  for (int i = 0; i < 20000 / kSampleDivisor; ++i) {
+  for (int i = 0; i < samples(20000); ++i) {
     const Shape capsule = sampler.shape(Shape::Kind::kCapsule);
     const Shape other = sampler.shape(GetParam());
     const Pose<double> a = sampler.pose(0.7), b = sampler.pose(0.7);
@@ -104,7 +104,7 @@ TEST_P(CapsuleAgainst, AgreesWithAnIndependentDistance) {
     ASSERT_EQ(closer_than(capsule, a, other, b, margin), distance < margin) << i << " " << distance;
     ASSERT_EQ(closer_than(other, b, capsule, a, margin), distance < margin) << i << " " << distance;
   }
-  EXPECT_GT(close, 1000 / kSampleDivisor);
+  EXPECT_GT(close, samples(1000));
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, CapsuleAgainst,

@@ -145,17 +145,17 @@ TEST(FixedArm, SolversEqualTheEnumerationOfAllBases) {
   expect_solvers_equal_enumeration("fixed/push");
 }
 
-TEST(Mobile, SearchFindsTheBestOfAGrid) {
+TEST(Mobile, SLOW_SearchFindsTheBestOfAGrid) {
   const Problem problem = load_problem("mobile/push");
   Case c;
   c.problem = "mobile/push";
   c.search = "annealing+cmaes";
-  c.budget = kSampleDivisor > 1 ? 2000 : 6000;
+  c.budget = 6000;
   const Answer row = solve(problem, {c, 1});
   ASSERT_EQ(row.status, Status::kBestFound);
   const auto objective =
       make_capability_objective(problem, c.wrench, resolve(problem, c).make_measure);
-  constexpr int kPoints = kSampleDivisor > 1 ? 30 : 120;
+  constexpr int kPoints = 120;
   double best = 0;
   for (int i = 0; i < kPoints; ++i) {
     for (int j = 0; j < kPoints; ++j) {

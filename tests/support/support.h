@@ -16,17 +16,23 @@ namespace maxwrench {
 #endif
 #endif
 
-/// Sanitizers slow everything down twentyfold; statistical tests then draw fewer samples.
+/// How many samples a statistical test draws. Sanitizers slow everything down twentyfold: there it
+/// is a twentieth, rounded up.
+constexpr int samples(int all) {
 #if defined(MAXWRENCH_SANITIZED)
-inline constexpr int kSampleDivisor = 20;
+  return (all + 19) / 20;
 #else
-inline constexpr int kSampleDivisor = 1;
+  return all;
 #endif
+}
 
-/// Of a search whose find the test takes for the best: the default, and what suffices for it.
-inline constexpr long kSearchBudget = kSampleDivisor == 1 ? 20000 : 2000;
-
-/// Heap allocations of this process so far; always zero under sanitizers.
+/// Heap allocations of this process so far. Sanitizers need malloc for themselves: there none is
+/// counted.
+#if defined(MAXWRENCH_SANITIZED)
+inline constexpr bool kAllocationsAreCounted = false;
+#else
+inline constexpr bool kAllocationsAreCounted = true;
+#endif
 long allocation_count();
 
 /// A vehicle on six axes with eight thrusters of asymmetric limits and an arm of `joints` joints

@@ -18,7 +18,7 @@ WrittenProof::WrittenProof(const char* name, const char* measure, Wrench wrench,
   c.measure = measure;
   c.wrench = wrench;
   c.search = default_search(problem, measure);
-  c.budget = kSearchBudget;
+  c.budget = 2000;
   const Method method = resolve(problem, c);
   Answer row = solve(problem, {method.choice, 1});
   ProofRecorder recorder;

@@ -56,7 +56,7 @@ TEST(Certificate, RefusesDamagedFiles) {
   const auto below = [&](std::size_t n) {
     return static_cast<std::size_t>(random.uniform(0, 1) * static_cast<double>(n));
   };
-  for (int i = 0; i < 1000 / kSampleDivisor; ++i) {
+  for (int i = 0; i < samples(1000); ++i) {
     std::string damaged = text;
     if (i % 4 == 0) {
       damaged.resize(below(text.size()));

@@ -13,7 +13,7 @@
 namespace maxwrench {
 namespace {
 
-constexpr int kDraws = 20'000 / kSampleDivisor;
+constexpr int kDraws = samples(20'000);
 constexpr mpfr_prec_t kBits = 400;  // a product of two long doubles has 128
 
 /// An interval of MPFI, far narrower than one of a long double.

@@ -60,8 +60,7 @@ int expect_plans(const std::filesystem::path& folder, const std::string& text, l
   return plans;
 }
 
-TEST(ReproduceMotion, FillsTheTablesAlikeAtAnyThreadCount) {
-  if (kSampleDivisor > 1) GTEST_SKIP() << "six searches of plans take too long";
+TEST(ReproduceMotion, SLOW_FillsTheTablesAlikeAtAnyThreadCount) {
   std::string first;
   for (const int threads : {1, 2}) {
     const TemporaryFolder folder;

@@ -67,7 +67,7 @@ TEST_P(BoundOf, NoPostureIsAbove) {
   Random random(1);
   BoxProof proof;
   int bounded = 0;
-  for (int pair = 0; pair < 25000 / kSampleDivisor; ++pair) {
+  for (int pair = 0; pair < samples(10000); ++pair) {
     const RandomBox box = random_box(problem, random);
     const double value = objective->evaluate(box.inside);
     if (value == -kInfinity) continue;
@@ -87,7 +87,7 @@ TEST_P(BoundOf, NoPostureIsAbove) {
     ++bounded;
     EXPECT_GE(std::max(low, proof.high), value) << box.lower << '\n' << box.upper;
   }
-  EXPECT_GT(bounded, 2000 / kSampleDivisor);
+  EXPECT_GT(bounded, samples(800));
 }
 
 /// A box of no width is its posture: the bound is the value.

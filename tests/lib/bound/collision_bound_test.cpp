@@ -28,7 +28,7 @@ TEST(CollisionBound, TurnsDownNothingValid) {
   PostureEvaluator model(problem);
   Random random(6);
   int turned_down = 0, cuts = 0;
-  for (int sample = 0; sample < 3000 / kSampleDivisor; ++sample) {
+  for (int sample = 0; sample < samples(3000); ++sample) {
     RandomBox box = random_box(problem, random);
     BoxProof proof;
     bound->evaluate(box.lower, box.upper, 0, bound->ceiling(), proof);
@@ -46,8 +46,8 @@ TEST(CollisionBound, TurnsDownNothingValid) {
       EXPECT_EQ(model.evaluate(q).violation, Violation::kCollision);
     }
   }
-  EXPECT_GT(turned_down, 300 / kSampleDivisor);
-  EXPECT_GT(cuts, 20 / kSampleDivisor);
+  EXPECT_GT(turned_down, samples(300));
+  EXPECT_GT(cuts, samples(20));
 }
 
 }  // namespace

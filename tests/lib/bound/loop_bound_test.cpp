@@ -47,7 +47,7 @@ void test_pairs(const Problem& problem, const std::string& measure) {
   Random random(4);
   BoxProof proof;
   int bounded = 0, finite = 0;
-  for (int pair = 0; pair < kLoopPairs / kSampleDivisor; ++pair) {
+  for (int pair = 0; pair < samples(kLoopPairs); ++pair) {
     const ValuedPosture* const at = source.draw(random);
     if (at == nullptr) continue;
     LoopBoxOf box = box_about(at->x, source.coordinates(), random);
@@ -69,7 +69,7 @@ void test_pairs(const Problem& problem, const std::string& measure) {
     ++bounded;
     finite += std::isfinite(proof.high) ? 1 : 0;
   }
-  EXPECT_GT(bounded, kLoopPairs / kSampleDivisor / 20);
+  EXPECT_GT(bounded, samples(kLoopPairs) / 20);
   EXPECT_GT(finite, bounded / 2);
 }
 
@@ -111,7 +111,7 @@ TEST(LoopBound, IsNoCeilingOfWhatBracesItself) {
   for (const Thruster& each : problem.robot.thrusters) {
     thrust += std::max(-each.force_min, each.force_max);
   }
-  for (int sample = 0; sample < 1000 / kSampleDivisor; ++sample) {
+  for (int sample = 0; sample < samples(1000); ++sample) {
     const ValuedPosture* const at = source.draw(random);
     if (at != nullptr) most = std::max(most, at->value);
   }

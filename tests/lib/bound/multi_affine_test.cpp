@@ -83,7 +83,7 @@ TEST(ControlPoints, Enclose) {
     const MultiAffine f = own_rows(problem);
     ControlPoints corners(f);
     Random random(2);
-    for (int sample = 0; sample < 200 / kSampleDivisor; ++sample) {
+    for (int sample = 0; sample < samples(200); ++sample) {
       const SampledBox box = box_around(problem, std::pow(10, -random.uniform(0, 2)), random);
       const Eigen::MatrixXd P = corners.over(box.lower, box.upper);
       EXPECT_TRUE(P.col(0).isApprox(f.evaluate(box.lower), 1e-12));

@@ -63,7 +63,7 @@ TEST(PolytopeBound, RoundsUpAndByLittle) {
     problem.robot.collision = nullptr;
     const auto bound = make_capability_bound(problem, "linf_polytope", Wrench::kPure);
     Random random(3);
-    for (int sample = 0; sample < 100 / kSampleDivisor; ++sample) {
+    for (int sample = 0; sample < samples(100); ++sample) {
       const RandomBox box = random_box(problem, random);
       BoxProof proof;
       bound->evaluate(box.lower, box.upper, 1, bound->ceiling(), proof);
@@ -162,7 +162,7 @@ TEST(PolytopeBound, StandsBesideThatOfIntervals) {
   const MultiAffine f = pure_rows(problem, Eigen::MatrixXd::Identity(n, n));
   Random random(5);
   double ours = 0, theirs = 0;
-  for (int sample = 0; sample < 200 / kSampleDivisor; ++sample) {
+  for (int sample = 0; sample < samples(200); ++sample) {
     RandomBox box = random_box(problem, random);
     box.lower = box.inside.array() - 0.05;
     box.upper = box.inside.array() + 0.05;

@@ -226,7 +226,7 @@ TEST(ContactMeasure, GradientEqualsDifferences) {
         const auto f =
             make_capability_objective(problem, c.wrench, resolve(problem, c).make_measure, false);
         int compared = 0, kinks = 0;
-        for (int sample = 0; sample < 40 / kSampleDivisor; ++sample) {
+        for (int sample = 0; sample < samples(40); ++sample) {
           const Eigen::VectorXd theta_r = near_default(problem, random);
           Eigen::VectorXd gradient;
           const double value = f->evaluate(theta_r, &gradient);

@@ -149,9 +149,9 @@ TEST(LeastClearance, IsThatOfAMuchDenserCurve) {
   const int k = problem.motion->k;
   PlanEvaluator evaluator = evaluator_of(problem);
   Random random(5);
-  const int samples = kSampleDivisor == 1 ? 60 : 20;
+  const int count = samples(60);
   int clear = 0, between = 0;
-  for (int sample = 0; sample < samples; ++sample) {
+  for (int sample = 0; sample < count; ++sample) {
     Eigen::MatrixXd knots = problem.theta_r_default.transpose().replicate(k, 1);
     knots.col(2).array() += 0.25;  // away from where the forearm meets the base
     for (double& q : knots.reshaped()) q += random.uniform(-0.3, 0.3);

@@ -176,7 +176,7 @@ TEST_P(PlanGradient, IsThatOfCentralDifferences) {
   };
   Random random(11);
   Eigen::VectorXd gradient;
-  const int wanted = std::max(4, 200 / kSampleDivisor);
+  const int wanted = std::max(4, samples(200));
   const Eigen::VectorXd start = problem.theta_r_default.replicate(problem.motion->k, 1);
   int compared = 0, kinks = 0;
   for (int sample = 0; compared < wanted && sample < 6 * wanted; ++sample) {

@@ -19,7 +19,7 @@ namespace {
 class BranchesOf : public testing::TestWithParam<const char*> {};
 
 TEST_P(BranchesOf, AreAllThatRandomStartsFind) {
-  constexpr int kMany = 1000 / kSampleDivisor;
+  constexpr int kMany = samples(200);
   expect_complete(load_problem(GetParam()), kMany, kMany, kMany);
 }
 
@@ -47,10 +47,10 @@ TEST(Branches, AreAsManyAsTheoryHas) {
 
 TEST(Branches, OfRandomChainsReachThePose) {
   Random random(2);
-  for (int sample = 0; sample<28; sample += kSampleDivisor> 1 ? 3 : 1) {
+  for (int sample = 0; sample < std::max(8, samples(28)); ++sample) {
     const auto& axes = kIntegrableAxes[static_cast<std::size_t>(sample) % kIntegrableAxes.size()];
     const Problem problem = problem_with_dependents(random, axes, 1 + sample % 4);
-    expect_complete(problem, 10 / std::min(10, kSampleDivisor) + 1, 20, -1);
+    expect_complete(problem, samples(11), 20, -1);
     PostureEvaluator model(problem, false);
     for (int place = 0; place < 10; ++place) {
       model.evaluate(random_theta_r(problem, random));

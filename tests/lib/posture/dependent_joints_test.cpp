@@ -46,7 +46,7 @@ TEST(DependentJoints, MotionsOfTheEndEffector) {
 TEST(DependentJoints, PoseAndDerivativeAtRandomPostures) {
   Random random(2);
   int valid = 0;
-  for (int sample = 0; sample < 280 / std::min(kSampleDivisor, 10); ++sample) {
+  for (int sample = 0; sample < samples(280); ++sample) {
     const auto& axes = kIntegrableAxes[static_cast<std::size_t>(sample) % kIntegrableAxes.size()];
     const Problem problem = problem_with_dependents(random, axes, 1 + sample % 5);
     PostureEvaluator model(problem, false);
@@ -74,7 +74,7 @@ TEST(DependentJoints, PoseAndDerivativeAtRandomPostures) {
     ++valid;
     EXPECT_LT((gradient - differences).norm(), 1e-6 * (1 + differences.norm())) << sample;
   }
-  EXPECT_GE(valid, 170 / std::min(kSampleDivisor, 10));
+  EXPECT_GE(valid, samples(160));
 }
 
 /// Of a path: from the guess along the straight line.
@@ -100,7 +100,7 @@ TEST(DependentJoints, FollowDependsOnThetaRAlone) {
 TEST(DependentJoints, GoesOnAlongAMotion) {
   Random random(7);
   int arrived = 0;
-  for (int sample = 0; sample < 400 / kSampleDivisor; ++sample) {
+  for (int sample = 0; sample < samples(400); ++sample) {
     const auto& axes = kIntegrableAxes[static_cast<std::size_t>(sample) % kIntegrableAxes.size()];
     Problem problem = problem_with_dependents(random, axes, 1 + sample % 5);
     const Pose<double> start = problem.pose;
@@ -133,7 +133,7 @@ TEST(DependentJoints, GoesOnAlongAMotion) {
     EXPECT_TRUE(reached);
     EXPECT_LT((branch.z() - z).norm(), 1e-8 * (1 + z.norm()));
   }
-  EXPECT_GT(arrived, 200 / kSampleDivisor);
+  EXPECT_GT(arrived, samples(200));
 }
 
 TEST(DependentJoints, AllocatesNothingAfterTheFirstCall) {

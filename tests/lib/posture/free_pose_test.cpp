@@ -132,7 +132,7 @@ TEST(FreePose, ValueIsThatOfTheFixedPose) {
             ->evaluate(theta_r, nullptr);
       };
       int compared = 0;
-      for (int sample = 0; sample < 100 && compared < (kSampleDivisor > 1 ? 1 : 4); ++sample) {
+      for (int sample = 0; sample < 100 && compared < samples(4); ++sample) {
         const Eigen::VectorXd theta_r = place_in(problem, random);
         const double free = value(problem, theta_r);
         if (!std::isfinite(free)) continue;
@@ -157,7 +157,7 @@ TEST(FreePose, GradientEqualsDifferences) {
       const auto f =
           make_capability_objective(problem, c.wrench, resolve(problem, c).make_measure, false);
       int compared = 0, kinks = 0;
-      for (int sample = 0; sample < 100 && compared < 60 / kSampleDivisor; ++sample) {
+      for (int sample = 0; sample < 100 && compared < samples(60); ++sample) {
         const Eigen::VectorXd theta_r = place_in(problem, random);
         Eigen::VectorXd gradient;
         const double value = f->evaluate(theta_r, &gradient);

@@ -84,7 +84,7 @@ Driven random_motion(Random& random) {
 /// what is missing by about 16, so it is the integrator's.
 TEST(DynamicsMotion, EnergyGrowsByTheWorkDone) {
   Random random(31);
-  for (int sample = 0; sample < std::max(1, 5 / kSampleDivisor); ++sample) {
+  for (int sample = 0; sample < samples(5); ++sample) {
     Simulation simulation(random_wet_robot(random, kJoints));
     const VectorXd amplitude =
         VectorXd::NullaryExpr(kVelocities, [&] { return 2 * random.normal(); });
@@ -106,7 +106,7 @@ TEST(DynamicsMotion, EnergyGrowsByTheWorkDone) {
 /// world's origin, keeps its value whatever the joints do.
 TEST(DynamicsMotion, JointForcesLeaveTheMomentumAsItIs) {
   Random random(32);
-  for (int sample = 0; sample < std::max(1, 5 / kSampleDivisor); ++sample) {
+  for (int sample = 0; sample < samples(5); ++sample) {
     Robot robot = random_wet_robot(random, kJoints);
     robot.gravity = 0;
     for (Link& link : robot.links) {

@@ -134,7 +134,7 @@ TEST(EffortTracking, InsideTheLimitsItIsTheWeightedPseudoInverse) {
 TEST(EffortTracking, AgreesWithAllActiveSetsTriedOut) {
   Random random(2);
   int at_bounds = 0;
-  for (int sample = 0; sample < std::max(8, 80 / kSampleDivisor); ++sample) {
+  for (int sample = 0; sample < std::max(8, samples(80)); ++sample) {
     TrackingCase c = small(random, sample % 4);
     c.request.u_star = c.inside(random, 3);
     VectorXd feasible = c.inside(random, 1);
@@ -162,7 +162,7 @@ TEST(EffortTracking, AgreesWithAllActiveSetsTriedOut) {
 /// Beyond the limits: what is missing is the least possible, in the stated norm.
 TEST(EffortTracking, WhatCannotBeHadIsMissedByTheLeastEffort) {
   Random random(3);
-  for (int sample = 0; sample < std::max(8, 80 / kSampleDivisor); ++sample) {
+  for (int sample = 0; sample < std::max(8, samples(80)); ++sample) {
     TrackingCase c = small(random, sample % 4);
     c.request.u_star = c.inside(random, 0.5);
     const VectorXd reach = c.request.B.cwiseAbs() * c.request.upper.cwiseMax(-c.request.lower);
@@ -186,7 +186,7 @@ TEST(EffortTracking, WhatCannotBeHadIsMissedByTheLeastEffort) {
 TEST(EffortTracking, AgreesWithIpoptOnTheVehicle) {
   Random random(4);
   int at_limits = 0;
-  for (int sample = 0; sample < std::max(2, 30 / kSampleDivisor); ++sample) {
+  for (int sample = 0; sample < std::max(2, samples(30)); ++sample) {
     TrackingCase c = on_vehicle(random);
     c.request.u_star = c.inside(random, 3);
     c.request.tau_c = c.request.B * c.inside(random, 0.99);
@@ -207,7 +207,7 @@ TEST(EffortTracking, AgreesWithIpoptOnTheVehicle) {
 /// The relaxed program as it is documented, over u within the bounds and v without.
 TEST(EffortTracking, AgreesWithIpoptOnWhatCannotBeHad) {
   Random random(5);
-  for (int sample = 0; sample < std::max(2, 30 / kSampleDivisor); ++sample) {
+  for (int sample = 0; sample < std::max(2, samples(30)); ++sample) {
     TrackingCase c = on_vehicle(random);
     const Eigen::Index m = c.Q.size(), n = c.request.B.rows();
     c.request.u_star = c.inside(random, 0.5);

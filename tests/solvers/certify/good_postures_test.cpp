@@ -201,14 +201,14 @@ struct Listed {
 };
 
 /// Every posture of a fine grid that is within 1 % lies in a box.
-TEST(GoodPostures, OfTheWholePlaneAreListed) {
+TEST(GoodPostures, SLOW_OfTheWholePlaneAreListed) {
   const Listed at("planar/force");
   const GoodOptions options;
   const GoodPostures good = at.list(options);
   EXPECT_EQ(good.status, Status::kProven);
   expect_sound(*at.objective, good, options);
   EXPECT_TRUE(good.holds(good.clusters.front()));
-  const int steps = kSampleDivisor > 1 ? 400 : 1000;
+  const int steps = 1000;
   int found = 0;
   for (int i = 0; i <= steps; ++i) {
     for (int j = 0; j <= steps; ++j) {
@@ -225,7 +225,7 @@ TEST(GoodPostures, OfTheWholePlaneAreListed) {
 
 /// Random walks through what is within 1 % never leave the boxes; they begin where climbs by random
 /// steps come that near.
-TEST(GoodPostures, OfAVehicleAreListed) {
+TEST(GoodPostures, SLOW_OfAVehicleAreListed) {
   const Listed at("uvms/lift");
   GoodOptions options;
   options.resolution = 0.1;
@@ -234,7 +234,7 @@ TEST(GoodPostures, OfAVehicleAreListed) {
   expect_sound(*at.objective, good, options);
   Random random(7);
   int arrived = 0, found = 0;
-  for (int start = 0; start < 200 / kSampleDivisor; ++start) {
+  for (int start = 0; start < samples(200); ++start) {
     Eigen::VectorXd x = start == 0 ? at.proof.best.theta_r : random_theta_r(at.problem, random);
     double value = at.objective->evaluate(x);
     for (int step = 0; step < 2000; ++step) {
@@ -252,8 +252,8 @@ TEST(GoodPostures, OfAVehicleAreListed) {
     }
     arrived += value >= good.least ? 1 : 0;
   }
-  EXPECT_GE(arrived, kSampleDivisor > 1 ? 1 : 3);
-  EXPECT_GE(found, 1000 / kSampleDivisor);
+  EXPECT_GE(arrived, 3);
+  EXPECT_GE(found, samples(1000));
 }
 
 TEST(GoodPostures, AreTheSameAtAnyThreadCount) {

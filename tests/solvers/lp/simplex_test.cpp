@@ -14,7 +14,7 @@ namespace {
 TEST(Simplex, AgreesWithGlpk) {
   Random random(1);
   const auto simplex = make_simplex();
-  for (int k = 0; k < 4000 / kSampleDivisor; ++k) {
+  for (int k = 0; k < samples(4000); ++k) {
     const int m = static_cast<int>(random.next() % 20),
               n = 1 + static_cast<int>(random.next() % 30);
     const LinearProgram p = random_program(random, m, n, k % 2 == 0);
@@ -62,7 +62,7 @@ TEST(Simplex, AgreesWithEnumerationOfBases) {
   Random random(2);
   const auto simplex = make_simplex();
   int compared = 0;
-  for (int k = 0; k < 600 / kSampleDivisor; ++k) {
+  for (int k = 0; k < samples(600); ++k) {
     const LinearProgram p = random_program(random, 1 + k % 3, 4 + k % 4, true);
     if (Eigen::FullPivLU<Eigen::MatrixXd>(Eigen::MatrixXd(p.A)).rank() < p.rows()) continue;
     LpSolution solution;
@@ -74,13 +74,13 @@ TEST(Simplex, AgreesWithEnumerationOfBases) {
     if (!std::isfinite(best)) continue;
     EXPECT_NEAR(solution.objective, best, 1e-10 * (1 + std::abs(best)));
   }
-  EXPECT_GT(compared, 200 / kSampleDivisor);
+  EXPECT_GT(compared, samples(200));
 }
 
 /// max x + y + z over pyramids whose apex (1, ..., 1) lies on many facets: every vertex ties.
 TEST(Simplex, EndsOnHighlyDegeneratePrograms) {
   Random random(6);
-  for (int k = 0; k < 30 / kSampleDivisor + 1; ++k) {
+  for (int k = 0; k < samples(30); ++k) {
     const int n = 20, m = 60;
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(m, n + m);
     A.leftCols(n) = Eigen::MatrixXd::NullaryExpr(
@@ -150,7 +150,7 @@ TEST(Simplex, AnyBasisIsAcceptedAsAWarmStart) {
   const VariableState states[] = {VariableState::kAtLower, VariableState::kAtUpper,
                                   VariableState::kFree, VariableState::kBasic};
   int restarts = 0;
-  for (int k = 0; k < 2000 / kSampleDivisor; ++k) {
+  for (int k = 0; k < samples(2000); ++k) {
     const LinearProgram p = random_program(random, 6, 10, k % 2 == 0);
     LpSolution cold, warm;
     simplex->solve(p, cold);
@@ -185,7 +185,7 @@ TEST(Simplex, SameProgramAndBasisGiveTheSameBits) {
 /// Rows and columns scaled by powers of ten from 1e-5 to 1e5 leave the value alone.
 TEST(Simplex, BadlyScaledProgramsKeepTheirValue) {
   Random random(11);
-  for (int k = 0; k < 300 / kSampleDivisor; ++k) {
+  for (int k = 0; k < samples(300); ++k) {
     LinearProgram p = random_program(random, 8, 14, k % 2 == 0);
     const LpSolution plain = solve_with_simplex(p);
     Eigen::MatrixXd A = p.A;

@@ -59,7 +59,7 @@ TEST(Simplex, WarmWalksEqualColdSolvesWithoutAllocation) {
   Random random(3);
   const auto simplex = make_simplex(), other = make_simplex();
   int optima = 0;
-  for (int k = 0; k < 200 / kSampleDivisor + 1; ++k) {
+  for (int k = 0; k < samples(200); ++k) {
     Walk walk(random, 4, 1 + k % 6);
     LpSolution warm;
     simplex->solve(walk.program, warm);
@@ -107,7 +107,7 @@ TEST(Simplex, MultipliersAreDerivativesOfTheValue) {
 TEST(Simplex, DegenerateWrenchProgramsAgreeWithGlpk) {
   Random random(5);
   const auto simplex = make_simplex();
-  for (int k = 0; k < 400 / kSampleDivisor; ++k) {
+  for (int k = 0; k < samples(400); ++k) {
     Walk walk(random, 4, 1 + k % 3);
     LinearProgram& p = walk.program;
     Eigen::MatrixXd A = p.A;

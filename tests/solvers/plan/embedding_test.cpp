@@ -47,7 +47,7 @@ TEST(Embedding, AgreesWithGlpkWhateverItHasSolvedBefore) {
   Random random(1);
   Embedding embedding;
   int optimal = 0, infeasible = 0;
-  for (int sample = 0; sample < 120 / kSampleDivisor; ++sample) {
+  for (int sample = 0; sample < samples(120); ++sample) {
     const PlanProgram program = random_plan(problem, recipe_of(sample), random);
     const PlanSolution reference = plan_by_glpk(program);
     PlanSolution solution;
@@ -69,8 +69,8 @@ TEST(Embedding, AgreesWithGlpkWhateverItHasSolvedBefore) {
     EXPECT_EQ(fresh.lambda, solution.lambda);
     ++optimal;
   }
-  EXPECT_GT(optimal, 60 / kSampleDivisor);
-  EXPECT_GT(infeasible, 5 / kSampleDivisor);
+  EXPECT_GT(optimal, samples(60));
+  EXPECT_GT(infeasible, samples(5));
 }
 
 /// Without rates it answers only if its answer keeps them: then it has the value with rates too.
@@ -79,7 +79,7 @@ TEST(Embedding, SaysWhenItNeedsTheRates) {
   const Problem problem = load_problem("uvms/valve");
   Random random(2);
   int needed = 0, kept = 0;
-  for (int sample = 0; sample < 60 / kSampleDivisor; ++sample) {
+  for (int sample = 0; sample < samples(60); ++sample) {
     PlanRecipe recipe;
     recipe.instants = 4;
     recipe.load = 0.03;
@@ -104,8 +104,8 @@ TEST(Embedding, SaysWhenItNeedsTheRates) {
     if (without.status != Status::kOptimal || reference.status != Status::kOptimal) continue;
     EXPECT_GE(without.value, reference.value - 1e-9);
   }
-  EXPECT_GT(needed, 10 / kSampleDivisor);
-  EXPECT_GT(kept, 10 / kSampleDivisor);
+  EXPECT_GT(needed, samples(10));
+  EXPECT_GT(kept, samples(10));
 }
 
 /// A load that no efforts balance: without slacks the elastic program has no answer.

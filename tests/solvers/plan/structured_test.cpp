@@ -55,7 +55,7 @@ TEST(PlanStructured, IsTheInteriorPointMethodsAnswer) {
   const Problem problem = load_problem("uvms/valve");
   Random random(2);
   int attempts = 0, infeasible = 0;
-  for (int sample = 0; sample < 200 / kSampleDivisor; ++sample) {
+  for (int sample = 0; sample < samples(200); ++sample) {
     PlanRecipe recipe;
     recipe.instants = 1 + sample % 8;
     recipe.wrench = sample % 5 == 0 ? Wrench::kAny : Wrench::kPure;
@@ -81,8 +81,8 @@ TEST(PlanStructured, IsTheInteriorPointMethodsAnswer) {
     EXPECT_NEAR(fast.value - fast.price, value, 1e-8 * size) << sample;
     EXPECT_TRUE(recheck(program, fast).within(1e-9 * size)) << sample;
   }
-  EXPECT_GT(attempts, 30 / kSampleDivisor);
-  EXPECT_GT(infeasible, 10 / kSampleDivisor);
+  EXPECT_GT(attempts, samples(30));
+  EXPECT_GT(infeasible, samples(10));
 }
 
 TEST(PlanStructured, SlowMotionsNeedNoIteration) {

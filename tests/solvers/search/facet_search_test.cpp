@@ -39,8 +39,7 @@ INSTANTIATE_TEST_SUITE_P(All, FacetSearch,
 
 /// The optima that the paper's numbers [N] and all other searches agree on. Without choosing starts
 /// by a sample, and with no refinement.
-TEST_P(FacetSearch, ReachesTheBestKnownOfPlanarForce) {
-  if (kSampleDivisor > 1) GTEST_SKIP() << "thousands of evaluations take too long";
+TEST_P(FacetSearch, SLOW_ReachesTheBestKnownOfPlanarForce) {
   const Problem problem = load_problem("planar/force");
   const auto pure = objective_of(problem), any = objective_of(problem, Wrench::kAny);
   const SearchResult found = maximize(*pure, options_of(2000));
@@ -51,8 +50,7 @@ TEST_P(FacetSearch, ReachesTheBestKnownOfPlanarForce) {
 }
 
 /// The best posture of the valve touches itself: random ones are all worse by a thousandth.
-TEST_P(FacetSearch, ReachesTheBestKnownOfTheValve) {
-  if (kSampleDivisor > 1) GTEST_SKIP() << "thousands of evaluations take too long";
+TEST_P(FacetSearch, SLOW_ReachesTheBestKnownOfTheValve) {
   const Problem problem = load_problem("uvms/valve");
   const auto objective = objective_of(problem);
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
@@ -61,8 +59,7 @@ TEST_P(FacetSearch, ReachesTheBestKnownOfTheValve) {
 }
 
 /// The second contact's wrenches and the limits of its arm are in the program.
-TEST_P(FacetSearch, ReachesTheBestKnownWithASecondContact) {
-  if (kSampleDivisor > 1) GTEST_SKIP() << "thousands of evaluations take too long";
+TEST_P(FacetSearch, SLOW_ReachesTheBestKnownWithASecondContact) {
   const Problem problem = load_problem("dual_arm/bar_wall");
   const auto objective = objective_of(problem);
   EXPECT_GE(maximize(*objective, options_of(3000)).value, 0.999 * 37.94392);
@@ -111,12 +108,11 @@ TEST_P(FacetSearch, PassesStartsWithoutAPosture) {
   EXPECT_LE(result.evaluations, 400);
 }
 
-TEST_P(FacetSearch, KeepsTheBudgetAndReportsIt) {
+TEST_P(FacetSearch, SLOW_KeepsTheBudgetAndReportsIt) {
   for (const char* name : {"planar/force", "dual_arm/two_arms"}) {
     const Problem problem = load_problem(name);
     const auto objective = objective_of(problem);
     for (const long budget : {1, 2, 3, 4, 7, 50, 1000}) {
-      if (budget > 50 && kSampleDivisor > 1) continue;
       SearchOptions options = options_of(budget);
       options.start = problem.theta_r_default;
       std::atomic<long> reported = 0;
@@ -132,11 +128,11 @@ TEST_P(FacetSearch, KeepsTheBudgetAndReportsIt) {
   }
 }
 
-TEST_P(FacetSearch, ThreadsChangeNothing) {
+TEST_P(FacetSearch, SLOW_ThreadsChangeNothing) {
   for (const char* name : {"planar/force", "dual_arm/two_arms"}) {
     const Problem problem = load_problem(name);
     const auto objective = objective_of(problem, Wrench::kAny);
-    SearchOptions options = options_of(kSampleDivisor > 1 ? 400 : 2500);
+    SearchOptions options = options_of(2500);
     const SearchResult one = maximize(*objective, options);
     for (const int threads : {2, 8}) {
       options.threads = threads;

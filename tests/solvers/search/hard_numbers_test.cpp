@@ -44,7 +44,7 @@ TEST(HardNumbers, EndNoSearch) {
       if (!looks_at_start && function.name == std::string("nearly nowhere")) continue;
       Known objective(function.f, low, high);
       SearchOptions options;
-      options.budget = 3000 / kSampleDivisor;
+      options.budget = samples(3000);
       options.start = Eigen::VectorXd::Zero(3);
       const SearchResult result = find_search(entry.name).make()->maximize(objective, options);
       EXPECT_EQ(result.status, Status::kBestFound);

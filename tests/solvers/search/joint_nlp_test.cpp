@@ -22,8 +22,7 @@ SearchOptions options_of(const Problem& problem, long budget) {
   return options;
 }
 
-TEST(JointNlp, FindsWhatTheLowerLevelConfirms) {
-  if (kSampleDivisor > 1) GTEST_SKIP() << "hundreds of factorisations take too long";
+TEST(JointNlp, SLOW_FindsWhatTheLowerLevelConfirms) {
   const Problem problem = load_problem("planar/trajectory");
   const SearchResult result = search(problem, options_of(problem, 2000));
   ASSERT_EQ(result.status, Status::kBestFound);

@@ -198,8 +198,7 @@ TEST(KnotClimber, KnotsThatMoveAlikeKeepTheNearestBound) {
 }
 
 /// A fixed posture is too slow for this turn: slack makes up for it, until the climb needs none.
-TEST(KnotClimber, LeavesSlackBehind) {
-  if (kSampleDivisor > 1) GTEST_SKIP() << "a hundred linear programs take too long";
+TEST(KnotClimber, SLOW_LeavesSlackBehind) {
   Problem problem = load_problem("uvms/valve_trajectory_fast");
   problem.motion->scheme = Scheme::kEnds;
   KnotClimber climber = climber_from(elastic_value(problem), default_table(problem));

@@ -114,8 +114,7 @@ TEST(Restart, IsTheDefaultOfStaticTasksWithoutABudget) {
 
 /// What anybody gets who asks for nothing in particular: 0.1 % below the best of all seeds at most,
 /// which for planar/force is the maximum that is proven elsewhere.
-TEST(Restart, DefaultsReachTheBestOnEveryStaticTask) {
-  if (kSampleDivisor > 1) GTEST_SKIP() << "millions of evaluations take too long";
+TEST(Restart, SLOW_DefaultsReachTheBestOnEveryStaticTask) {
   for (const std::string& name : shipped_problems()) {
     const Problem task = load_problem(name);
     if (task.motion) continue;

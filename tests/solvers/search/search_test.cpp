@@ -211,7 +211,7 @@ TEST_P(SearchTest, ThreadsChangeNothing) {
   for (Landscape& example : landscapes()) {
     SCOPED_TRACE(example.name);
     SearchOptions options;
-    options.budget = kSampleDivisor == 1 ? 4000 : 800;
+    options.budget = 800;
     const SearchResult one = maximize(example.objective, options);
     for (const int threads : {1, 2, 8}) {
       options.threads = threads;

@@ -194,7 +194,7 @@ TEST(Agreement, EverySolverGivesTheSameAnswerOnRandomWrenchPrograms) {
   Random random(1);
   int sample = 0;
   Tally total;
-  for (int robot = 0; robot < 2000 / kSampleDivisor; ++robot) {
+  for (int robot = 0; robot < samples(2000); ++robot) {
     const Kind kind = static_cast<Kind>(robot % static_cast<int>(Kind::kCount));
     const Zonotope set = random_actuation(random, kind);
     Agreement agreement;
@@ -213,7 +213,7 @@ TEST(Agreement, EverySolverGivesTheSameAnswerOnRandomWrenchPrograms) {
 TEST(Agreement, AnswersSatisfyTheirPrograms) {
   Random random(2);
   std::map<std::string, int> optimal;
-  for (int robot = 0; robot < 200 / kSampleDivisor; ++robot) {
+  for (int robot = 0; robot < samples(200); ++robot) {
     const Kind kind = static_cast<Kind>(robot % static_cast<int>(Kind::kCount));
     const Zonotope set = random_actuation(random, kind);
     const WrenchProgram program = random_program(random, kind, set);
@@ -239,7 +239,7 @@ TEST(Agreement, InfeasibleIsProvedWithOrWithoutEfforts) {
   // it by its multipliers, also in the loop of a search, which asks for no efforts.
   Random random(8);
   std::map<std::string, int> infeasible, undecided;
-  for (int sample = 0; sample < 20000 / kSampleDivisor; ++sample) {
+  for (int sample = 0; sample < samples(20000); ++sample) {
     const Kind kind = sample % 2 == 0 ? Kind::kHeavy : Kind::kNearBoundary;
     const Zonotope set = random_actuation(random, kind);
     const WrenchProgram program = random_program(random, kind, set);
@@ -255,7 +255,7 @@ TEST(Agreement, InfeasibleIsProvedWithOrWithoutEfforts) {
   }
   for (const auto& [name, count] : infeasible) {
     fmt::print("{}: {} infeasible, {} undecided\n", name, count, undecided[name]);
-    EXPECT_GT(count, 2000 / kSampleDivisor) << name;
+    EXPECT_GT(count, samples(2000)) << name;
     EXPECT_LE(undecided[name], count / 200) << name;
   }
 }
@@ -264,7 +264,7 @@ TEST(Box, OneSidedAndBoundedColumns) {
   // A push-only column w >= 0, and one between two limits, against the general simplex.
   Random random(3);
   int at_bound = 0;
-  for (int sample = 0; sample < 2000 / kSampleDivisor; ++sample) {
+  for (int sample = 0; sample < samples(2000); ++sample) {
     const Zonotope set = random_actuation(random, Kind::kPlain);
     WrenchProgram program = random_program(random, Kind::kPlain, set);
     const int k = program.columns();
@@ -279,7 +279,7 @@ TEST(Box, OneSidedAndBoundedColumns) {
     EXPECT_NEAR(a.beta, b.beta, 1e-9 * (1 + std::abs(b.beta))) << sample;
     at_bound += a.beta > 0.5 - 1e-12;
   }
-  EXPECT_GT(at_bound, 10 / kSampleDivisor);
+  EXPECT_GT(at_bound, samples(10));
 }
 
 TEST(Box, WithoutFacetsAndWithoutLoad) {

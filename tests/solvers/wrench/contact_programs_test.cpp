@@ -58,7 +58,7 @@ WrenchProgram random_program(Random& random, const Zonotope& set) {
 TEST(ContactPrograms, EverySolverGivesTheSameAnswer) {
   Random random(7);
   int infeasible = 0, compared = 0, undecided = 0;
-  for (int robot = 0; robot < 100 / kSampleDivisor; ++robot) {
+  for (int robot = 0; robot < samples(100); ++robot) {
     const Zonotope set = random_vehicle(random);
     std::vector<std::pair<std::string, std::unique_ptr<WrenchSolver>>> solvers;
     for (const char* name : {"box", "simplex", "clp", "glpk", "ipopt"}) {
