@@ -45,7 +45,8 @@ class EvaluationCounter {
   std::atomic<long> count_{0};
 };
 
-/// Calls body(0) ... body(count - 1) on up to `threads` threads, in any order.
+/// Calls body(0) ... body(count - 1) on up to `threads` threads, in any order; on fewer if the
+/// process has fewer, as whoever set TBB's global_control or made the arena around the call wants.
 void parallel_for(int threads, long count, const std::function<void(long)>& body);
 
 /// The values of `count` points. They are cut into chunks whose size depends on `count` only, and a

@@ -1,6 +1,5 @@
 #include "maxwrench/batch.h"
 
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -72,8 +71,6 @@ void parallel_for(int threads, long count, const std::function<void(long)>& body
     for (long i = 0; i < count; ++i) body(i);
     return;
   }
-  // Threads beyond the processors only slow down, but whoever asks for them gets them.
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
   tbb::task_arena arena(threads);
   // What the caller wrote before is seen by every body, and what they wrote by the caller after:
   // TBB sees to it, but a thread sanitizer does not see that, so it is said once more.
