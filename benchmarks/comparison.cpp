@@ -6,11 +6,11 @@
 #include <memory>
 
 #include "benchmarks/proof.h"
+#include "lib/math/require.h"
 #include "lib/posture/branch_atlas.h"
 #include "maxwrench/batch.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
-#include "solvers/solve/interruption.h"
 #include "solvers/solve/method.h"
 
 namespace maxwrench {
@@ -27,44 +27,6 @@ double thread_seconds() {
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
-
-/// An objective that notes what was spent when its best value rises, over all clones. For one
-/// thread.
-class Stopwatch final : public Objective {
- public:
-  Stopwatch(std::unique_ptr<Objective> objective, RaceRun& run, double start)
-      : objective_(std::move(objective)), run_(run), start_(start) {}
-
-  const Eigen::VectorXd& lower() const override { return objective_->lower(); }
-  const Eigen::VectorXd& upper() const override { return objective_->upper(); }
-  const Verdict& verdict() const override { return objective_->verdict(); }
-  bool ended() const override { return objective_->ended(); }
-  PlanEvaluator* plans() override { return objective_->plans(); }
-  FacetProgram* facets() override { return objective_->facets(); }
-  void metric(const Eigen::VectorXd& theta_r, Eigen::MatrixXd& M) override {
-    objective_->metric(theta_r, M);
-  }
-  void spend(long evaluations) override {
-    run_.spent.evaluations += static_cast<double>(evaluations);
-    objective_->spend(evaluations);
-  }
-  double evaluate(const Eigen::VectorXd& theta_r, Eigen::VectorXd* gradient) override {
-    const double value = objective_->evaluate(theta_r, gradient);
-    ++run_.spent.evaluations;
-    if (value > (run_.rises.empty() ? -kInfinity : run_.rises.back().value)) {
-      run_.rises.push_back({{run_.spent.evaluations, thread_seconds() - start_}, value});
-    }
-    return value;
-  }
-  std::unique_ptr<Objective> clone() const override {
-    return std::make_unique<Stopwatch>(objective_->clone(), run_, start_);
-  }
-
- private:
-  std::unique_ptr<Objective> objective_;
-  RaceRun& run_;
-  double start_;
-};
 
 /// The solvers of `Comparison::peers`.
 std::vector<std::string> peers_of(const Problem& problem, const Case& base) {
@@ -93,15 +55,6 @@ std::vector<std::string> searches_of(const Problem& problem, const Case& base) {
   std::erase(served, first);
   served.insert(served.begin(), first);
   return served;
-}
-
-/// What was noted while the search looked beyond the plan that it chose (`slp` leaves out those
-/// that are worth less between their instants) is no rise of its answer.
-void forget_beyond(double value, RaceRun& run) {
-  std::erase_if(run.rises, [value](const Rise& rise) { return rise.value > value; });
-  if (value > (run.rises.empty() ? -kInfinity : run.rises.back().value)) {
-    run.rises.push_back({run.spent, value});
-  }
 }
 
 /// Of the dearest stage.
@@ -173,16 +126,22 @@ Attempt attempt(const Problem& problem, const Method& method,
                 const std::function<bool()>& interrupted) {
   Attempt attempt;
   attempt.choice = method.choice;
-  Interruption interruption{interrupted};
+  Method by_instants = method;
+  by_instants.plan_value = PlanValue::kAtInstants;
   const double begin = thread_seconds();
-  Stopwatch watch(make_interruptible(make_objective(problem, method), interruption), attempt.run,
-                  begin);
-  const SearchResult result = run_search(problem, method, watch, 1);
-  attempt.counted = attempt.run.spent.evaluations;
+  SearchOptions how;
+  how.interrupted = interrupted;
+  how.evaluated = [&, best = -kInfinity](double value) mutable {
+    ++attempt.counted;
+    if (!(value > best)) return;
+    best = value;
+    attempt.run.rises.push_back({{attempt.counted, thread_seconds() - begin}, value});
+  };
+  const auto objective = make_objective(problem, by_instants);
+  const SearchResult result = run_search(problem, by_instants, *objective, std::move(how));
   attempt.run.spent = {static_cast<double>(result.evaluations), thread_seconds() - begin};
-  attempt.run.interrupted = interruption.noticed;
+  attempt.run.interrupted = result.interrupted;
   attempt.value = result.value;
-  forget_beyond(result.value, attempt.run);
   attempt.found = result.theta_r;
   if (attempt.value == -kInfinity) return attempt;
   const Answer answer =
@@ -238,6 +197,8 @@ Candidate Comparison::best_found() const {
 double Comparison::best() const { return proven ? *proven : best_found().value; }
 
 Comparison compare(const Problem& problem, const Case& base, const RaceOptions& options) {
+  require(options.seeds >= 1, "seeds", options.seeds, "at least 1");
+  require_threads(options.threads);
   const Method whole = resolve(problem, base);
   Comparison comparison{
       problem.name, whole.unit, {}, {}, default_of(problem, base), problem.motion.has_value(),

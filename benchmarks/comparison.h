@@ -26,7 +26,9 @@ struct Attempt {
   double counted = 0;  ///< evaluations that the clock saw: as many
 };
 
-/// The answer is checked from the problem's data outside the clock; one that fails is none.
+/// All searches of a task in time maximise the same, the value at the instants
+/// (`PlanValue::kAtInstants`). The answer is checked from the problem's data outside the clock; one
+/// that fails is none.
 Attempt attempt(const Problem& problem, const Method& method,
                 const std::function<bool()>& interrupted = {});
 

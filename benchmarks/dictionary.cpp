@@ -37,7 +37,8 @@ constexpr ColumnMeaning kDictionary[] = {
     {"gap", "unit", "difference of the primal and dual value, recomputed"},
     {"evaluations", "", "evaluations that were spent, of an experiment those of its derivatives"},
     {"reason", "", "why there is no value, or what was remarkable"},
-    {"calls", "", "how local methods ended: name, end, calls, evaluations"},
+    {"calls", "",
+     "how local methods ended: name, end (of slp, what solved the step), calls, evaluations"},
     {"task_digest", "", "of the bytes of the files of task, robot, URDF and path: FNV-1a, 64 bits"},
     // times.csv
     {"wall_s", "s", "wall time of the case"},

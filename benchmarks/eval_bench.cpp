@@ -17,6 +17,7 @@
 #include "benchmarks/product.h"
 #include "lib/math/random.h"
 #include "lib/robot/chain.h"
+#include "lib/search/forwarding.h"
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/strategies.h"
@@ -79,23 +80,19 @@ void time_branches(benchmark::State& state, const Problem& problem) {
 }
 
 /// Passes on and keeps where a search evaluates.
-class Recorder : public Objective {
+class Recorder : public ForwardingObjective {
  public:
   Recorder(std::unique_ptr<Objective> objective, std::vector<Eigen::VectorXd>& visited)
-      : objective_(std::move(objective)), visited_(visited) {}
-  const Eigen::VectorXd& lower() const override { return objective_->lower(); }
-  const Eigen::VectorXd& upper() const override { return objective_->upper(); }
+      : ForwardingObjective(std::move(objective)), visited_(visited) {}
   double evaluate(const Eigen::VectorXd& theta_r, Eigen::VectorXd* gradient) override {
     visited_.push_back(theta_r);
     return objective_->evaluate(theta_r, gradient);
   }
-  const Verdict& verdict() const override { return objective_->verdict(); }
   std::unique_ptr<Objective> clone() const override {
     return std::make_unique<Recorder>(objective_->clone(), visited_);
   }
 
  private:
-  std::unique_ptr<Objective> objective_;
   std::vector<Eigen::VectorXd>& visited_;
 };
 

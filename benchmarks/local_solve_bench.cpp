@@ -40,20 +40,23 @@ struct LocalStart {
 };
 
 /// One local solve; the best value that it evaluated.
-using LocalSolve = double (*)(Probe& probe, const Box& box, const LocalStart& start);
+using LocalSolve = double (*)(Probe& probe, FacetProgram& program, const Box& box,
+                              const LocalStart& start);
 
 template <FacetEnd (*solve)(FacetView&)>
-double between_facets(Probe& probe, const Box& box, const LocalStart& start) {
-  return solve_from(probe, box, box.theta_r(start.x), start.branch, solve);
+double between_facets(Probe& probe, FacetProgram& program, const Box& box,
+                      const LocalStart& start) {
+  return solve_from(probe, program, box, box.theta_r(start.x), start.branch, solve);
 }
 
-double bilevel(Probe& probe, const Box& box, const LocalStart& start) {
+double bilevel(Probe& probe, FacetProgram& /*program*/, const Box& box, const LocalStart& start) {
   climb_by_ipopt(probe, box, box.theta_r(start.x));
   return probe.found().best.value;
 }
 
 /// `every_branch`: each as a start of its own.
-std::vector<LocalStart> random_starts(Objective& objective, bool every_branch) {
+std::vector<LocalStart> random_starts(Objective& objective, FacetProgram& program,
+                                      bool every_branch) {
   const Box box(objective);
   Random random(1);
   std::vector<LocalStart> starts;
@@ -63,7 +66,7 @@ std::vector<LocalStart> random_starts(Objective& objective, bool every_branch) {
     const Eigen::VectorXd theta_r = box.theta_r(start.x);
     if (evaluate_one(objective, theta_r) == -kInfinity) continue;
     ++found;
-    const int branches = every_branch ? objective.facets()->branches(theta_r) : 1;
+    const int branches = every_branch ? program.branches(theta_r) : 1;
     for (start.branch = 0; start.branch < branches; ++start.branch) starts.push_back(start);
   }
   return starts;
@@ -72,16 +75,18 @@ std::vector<LocalStart> random_starts(Objective& objective, bool every_branch) {
 void time_solves(benchmark::State& state, const Target& target, LocalSolve solve,
                  bool every_branch) {
   const Problem problem = load_problem(target.problem);
-  const auto objective = make_capability_objective(
-      problem, Wrench::kPure, resolve(problem, Case{problem.name}).make_measure);
-  const std::vector<LocalStart> starts = random_starts(*objective, every_branch);
+  const MeasureMaker make = resolve(problem, Case{problem.name}).make_measure;
+  const auto objective = make_capability_objective(problem, Wrench::kPure, make);
+  FacetProgram program(problem, Wrench::kPure, make);
+  const std::vector<LocalStart> starts = random_starts(*objective, program, every_branch);
   const Box box(*objective);
-  EvaluationCounter progress({});
+  const SearchOptions options;
+  SearchRun run(options);
   long reached = 0, evaluations = 0;
   for (auto _ : state) {
     for (const LocalStart& start : starts) {
-      Probe probe(*objective, kMostEvaluations, progress);
-      reached += solve(probe, box, start) >= (1 - kShort) * target.best;
+      Probe probe(*objective, kMostEvaluations, run);
+      reached += solve(probe, program, box, start) >= (1 - kShort) * target.best;
       evaluations += probe.found().trace.evaluations();
     }
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -56,7 +57,7 @@ GoodPostures list_good(const ProofOptions& options, const Problem& problem, cons
   GoodOptions good;
   good.within = options.within.share();
   good.resolution = options.within.resolution;
-  good.seconds = how.seconds - proof.result.seconds;
+  good.seconds = std::max(0.0, how.seconds - proof.result.seconds);
   good.threads = how.threads;
   good.interrupted = how.interrupted;
   good.progress = [&line](std::size_t waiting, std::size_t kept) {

@@ -15,7 +15,8 @@ class Compass : public Search {
     SearchResult best;
     const Eigen::VectorXd start = 0.5 * (objective.lower() + objective.upper());
     const auto attempt = [&](const Eigen::VectorXd& theta_r) {
-      if (best.evaluations == options.budget) return false;
+      const bool ended = options.interrupted && options.interrupted();
+      if (ended || best.evaluations == options.budget) return false;
       ++best.evaluations;
       const double value = objective.evaluate(theta_r);
       if (!(value > best.value)) return false;

@@ -105,7 +105,7 @@ const SearchEntry kSearches[] = {
 
 const SearchEntry kPlanSearches[] = {
     {"slp", "sequential linear programs in knots, efforts and wrenches, from many starts", false,
-     make_slp},
+     make_slp, false, 0, 1, true},
 #if MAXWRENCH_WITH_IPOPT
     {"joint_nlp", "Ipopt in knots, efforts and wrenches at once, from the starts of slp", false,
      make_joint_nlp, false, 0, 5},

@@ -48,6 +48,10 @@ struct IntegratorOptions {
   double step = 1e-3;      ///< of methods with a fixed step, which ignore the tolerances
 };
 
+/// Throws std::invalid_argument, with one line, unless absolute tolerance and step are positive,
+/// the relative tolerance is not negative, all are finite, and there is at least one step.
+void check(const IntegratorOptions& options);
+
 /// The points y[i] = y(t[i]) that an integration has passed.
 struct Trajectory : Verdict {
   std::vector<double> t;
@@ -67,8 +71,7 @@ class Integrator {
   /// the initial value. kReached: all times were reached, or a root was, which is then the last
   /// point. kBudgetExhausted: max_steps did not suffice. kNumericalError: no step was short enough.
   /// After these two the last point is the last one that was reached. Throws std::invalid_argument
-  /// unless the times increase and are at least two, absolute tolerance and step are positive and
-  /// the relative tolerance is not negative.
+  /// unless the times increase and are at least two, and as `check`.
   virtual Status integrate(Ode& ode, const IntegratorOptions& options,
                            std::span<const double> times, Trajectory& trajectory) = 0;
 };

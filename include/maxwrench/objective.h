@@ -8,10 +8,9 @@
 
 namespace maxwrench {
 
-class FacetProgram;
 class Tally;
 class Measure;
-class PlanEvaluator;
+struct KnotRows;
 struct Problem;
 
 /// A function f(theta_r) that a `Search` maximises over lower() <= theta_r <= upper(). One object
@@ -26,6 +25,8 @@ class Objective {
   /// `gradient`, if given, gets d f/d theta_r (at a kink one of several one-sided derivatives), NaN
   /// where f has no value.
   virtual double evaluate(const Eigen::VectorXd& theta_r, Eigen::VectorXd* gradient = nullptr) = 0;
+  /// Rows on theta_r beside its bounds; null: there are none.
+  virtual const KnotRows* rows() const { return nullptr; }
   /// M(theta_r), d×d, positive definite where f has a value: how far a step really moves,
   /// |d theta|^2 = d theta_r' M d theta_r. Identity unless the objective knows better. At the point
   /// of the last evaluation it costs none; anywhere else it may cost one, which no budget counts.
@@ -34,19 +35,6 @@ class Objective {
   }
   /// Of the last evaluation: kOptimal, or why there is no value.
   virtual const Verdict& verdict() const = 0;
-  /// Whether no evaluation will have a value any more: a search should come to its end.
-  virtual bool ended() const { return false; }
-
-  /// Called by a search that counts `evaluations` of something else than f (a linear program, the
-  /// rows of a smooth one) when it made them, so that who watches knows what was spent by when.
-  virtual void spend(long evaluations) { static_cast<void>(evaluations); }
-
-  /// The evaluator of plans behind f, for searches that solve linear programs in the knots; null if
-  /// there is none.
-  virtual PlanEvaluator* plans() { return nullptr; }
-  /// f as a smooth program, for searches that solve it; null if there is none: f is no optimum of
-  /// the wrench program, or {B u} has too many facets.
-  virtual FacetProgram* facets() { return nullptr; }
 
   /// An independent copy without memory of earlier evaluations (no warm start), so that what it
   /// returns depends on its own calls only.

@@ -141,14 +141,39 @@ class PlanEvaluator {
   std::unique_ptr<Workspace> workspace_;
 };
 
-/// f(x) of the stacked knots x (k r numbers, row by row): the elastic value of the plan, which is
-/// the value of the hard program where that has one. No value where the knots violate limits, speed
-/// limits or the reach, or collide. A static problem is one of k = 1. Throws as `PlanEvaluator`.
-std::unique_ptr<Objective> make_plan_objective(const Problem& problem, Wrench wrench,
-                                               const PlanSolverMaker& make,
-                                               bool check_collision = true);
-std::unique_ptr<Objective> make_plan_objective(const Problem&&, Wrench, const PlanSolverMaker&,
-                                               bool = true) = delete;
+/// What counts of a plan.
+enum class PlanValue {
+  /// The elastic value, which is that of the hard program where that has one.
+  kAtInstants,
+  /// The lesser of that and of what is possible between the instants (`Plan::continuous`): no value
+  /// where the hard program has none, or nothing is possible there. Of schemes other than `spline`,
+  /// which do not say what happens there, kAtInstants.
+  kThroughout
+};
+
+/// f(x) of the stacked knots x (k r numbers, row by row). No value where the knots violate limits,
+/// speed limits or the reach, or collide. The gradient is that at the instants; NaN where less is
+/// possible between them. Searches that solve linear programs in the knots ask for the rest.
+class PlanObjective : public Objective {
+ public:
+  /// Its evaluator, which knows what was evaluated last.
+  virtual PlanEvaluator& plans() = 0;
+  virtual PlanValue counts() const = 0;
+  /// Of kThroughout: f(x) where the value at the instants is known. Solves two programs.
+  virtual double evaluate_throughout(const Eigen::VectorXd& x, double at_instants) = 0;
+  /// A clone to which this counts.
+  virtual std::unique_ptr<PlanObjective> copy(PlanValue counts) const = 0;
+  std::unique_ptr<Objective> clone() const final { return copy(counts()); }
+};
+
+/// A static problem is one of k = 1. Throws as `PlanEvaluator`.
+std::unique_ptr<PlanObjective> make_plan_objective(const Problem& problem, Wrench wrench,
+                                                   const PlanSolverMaker& make,
+                                                   bool check_collision = true,
+                                                   PlanValue counts = PlanValue::kAtInstants);
+std::unique_ptr<PlanObjective> make_plan_objective(const Problem&&, Wrench, const PlanSolverMaker&,
+                                                   bool = true,
+                                                   PlanValue = PlanValue::kAtInstants) = delete;
 
 /// theta_r at an instant.
 Eigen::VectorXd theta_r_at(const Problem& problem, const Instant& instant);

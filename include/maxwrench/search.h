@@ -30,8 +30,14 @@ struct SearchOptions {
   /// there, and only then where it would begin by itself.
   std::vector<Candidate> starts;
   long peaks = 0;  ///< how many points the result shall hold, at most, for a search that goes on
-  std::function<void(long evaluations)>
-      progress;  ///< called now and then, from any thread; may be empty
+  // From any thread; each may be empty.
+  std::function<void(long evaluations)> progress = {};  ///< called now and then
+  /// Asked before each evaluation. Once it says true, the search makes no more and returns the best
+  /// so far.
+  std::function<bool()> interrupted = {};
+  /// Called after each evaluation that the budget counts, by the thread that made it: -infinity if
+  /// the objective had no value, or something else than the objective was evaluated.
+  std::function<void(double value)> evaluated = {};
 };
 
 /// After so many evaluations the best value so far rose to `value`.
@@ -62,6 +68,7 @@ struct SearchResult : Verdict {
   std::vector<Call> calls;  ///< of a method that runs more than once, or in a library; in order
   /// Why the search ended with evaluations left; empty if it does not say.
   std::string stopped;
+  bool interrupted = false;  ///< it ended as `SearchOptions::interrupted` said so
 };
 
 /// What `SearchResult::stopped` says where the evaluations were used.

@@ -73,6 +73,8 @@ struct SearchEntry {
   /// About how much dearer an evaluation is with it than with others; the race's budgets are
   /// divided by it.
   int cost = 1;
+  /// Of tasks in time: `solve` lets it maximise `PlanValue::kThroughout`, which it asks for seldom.
+  bool throughout = false;
 };
 
 struct IntegratorEntry {

@@ -56,6 +56,11 @@ struct TankOptions {
   IntegratorOptions integrator{1e-6, 1e-8, 100000, 1e-4};
 };
 
+/// Throws std::invalid_argument, with one line that names the key, unless all times, the lag and
+/// the stiffness are positive (the hold may be zero), nothing is negative, infinite or NaN, the
+/// margin is below 1, and the experiment has at most ten million periods.
+void check(const TankOptions& options);
+
 /// What the robot is to exert.
 struct TankPlan {
   Vector6d h;                     ///< [N; N m] in world axes; with a load its weight
@@ -148,7 +153,7 @@ inline constexpr double kLost = 0.5;
 ///
 /// A load is part of the robot's mass matrix and weight from the start; what holds it up lets go in
 /// the ramp. Then a = omega^2 e - 2 omega v acts on all velocities, e the errors of base and
-/// joints.
+/// joints. Throws as `check`.
 TankRun run_tank(const Problem& problem, const Posture& posture, const TankPlan& plan,
                  Integrator& integrator, const TankOptions& options);
 
@@ -181,6 +186,9 @@ struct ScriptOptions {
   double planned = 0;     ///< zero: value, or `continuous` on the spline
   double margin = 0.005;  ///< as in TankOptions
 };
+/// Throws std::invalid_argument unless `planned` is finite and not negative and the margin is from
+/// 0 to below 1.
+void check(const ScriptOptions& options);
 
 /// Efforts for exactly the wrench that is asked for: along a path c'h = (1 - margin) planned at all
 /// instants, in a heave at t_h, by the elastic program of the plan,
@@ -189,7 +197,7 @@ struct ScriptOptions {
 ///
 /// `plan` was evaluated, on the spline as well. Knots of `forward` along a path are T/(k-1) apart
 /// here as their poses are; one knot is held where the path starts. kInfeasible: the plan has no
-/// value to ask for, and none was given.
+/// value to ask for, and none was given. Throws as `check`.
 TankScript make_script(const Problem& problem, const Plan& plan, Wrench wrench, PlanSolver& solver,
                        const ScriptOptions& options);
 
@@ -211,7 +219,7 @@ inline constexpr double kFollowedMoved = 0.02;  ///< rad, m: twice that of a hol
 ///
 /// where a is the acceleration of all velocities that keeps the end effector on the path with that
 /// theta_r_ddot, e the errors of theta_r and omega the bandwidth. Of the options ramp, hold,
-/// margin, load and until_hold mean nothing here. Throws std::invalid_argument unless the script
+/// margin, load and until_hold mean nothing here. Throws as `check`, and unless the script
 /// has at least two instants with efforts.
 TankRun run_tank(const Problem& problem, const TankScript& script, Integrator& integrator,
                  const TankOptions& options);

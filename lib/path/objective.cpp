@@ -1,42 +1,61 @@
 #include "maxwrench/objective.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
 
 namespace maxwrench {
 namespace {
 
-class PlanObjective : public Objective {
+class ObjectiveOfPlans final : public PlanObjective {
  public:
-  PlanObjective(const Problem& problem, Wrench wrench, PlanSolverMaker make, bool check)
+  ObjectiveOfPlans(const Problem& problem, Wrench wrench, PlanSolverMaker make, bool check,
+                   PlanValue counts)
       : problem_(problem),
         wrench_(wrench),
         make_(std::move(make)),
         check_(check),
         evaluator_(problem, wrench, make_, check),
+        counts_(evaluator_.smooth() ? counts : PlanValue::kAtInstants),
         lower_(problem.theta_r_min.replicate(evaluator_.knots(), 1)),
         upper_(problem.theta_r_max.replicate(evaluator_.knots(), 1)) {}
 
   const Eigen::VectorXd& lower() const override { return lower_; }
   const Eigen::VectorXd& upper() const override { return upper_; }
-  const Verdict& verdict() const override { return evaluator_.plan(); }
-  PlanEvaluator* plans() override { return &evaluator_; }
+  const Verdict& verdict() const override { return verdict_; }
+  const KnotRows* rows() const override { return &evaluator_.rows(); }
+  PlanEvaluator& plans() override { return evaluator_; }
+  PlanValue counts() const override { return counts_; }
 
   double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) override {
-    const double value = evaluator_.evaluate_elastic(unstacked(x, evaluator_.knots()),
-                                                     gradient ? &gradient_ : nullptr);
-    if (gradient) {
-      if (value == -kInfinity) {
-        gradient->setConstant(x.size(), std::numeric_limits<double>::quiet_NaN());
-      } else {
-        *gradient = stacked(gradient_);
-      }
+    const double at_instants = evaluator_.evaluate_elastic(unstacked(x, evaluator_.knots()),
+                                                           gradient ? &gradient_ : nullptr);
+    verdict_ = evaluator_.plan();
+    const bool enough = at_instants == -kInfinity || counts_ == PlanValue::kAtInstants;
+    const double value = enough ? at_instants : evaluate_throughout(x, at_instants);
+    if (!gradient) return value;
+    if (value > -kInfinity && value == at_instants) {
+      *gradient = stacked(gradient_);
+    } else {
+      gradient->setConstant(x.size(), std::numeric_limits<double>::quiet_NaN());
     }
     return value;
   }
 
-  std::unique_ptr<Objective> clone() const override {
-    return make_plan_objective(problem_, wrench_, make_, check_);
+  double evaluate_throughout(const Eigen::VectorXd& x, double at_instants) override {
+    const Plan& plan = evaluator_.evaluate(unstacked(x, evaluator_.knots()));
+    verdict_ = plan;
+    if (plan.status != Status::kOptimal) return -kInfinity;
+    evaluator_.evaluate_continuous();
+    if (!std::isnan(plan.continuous)) return std::min(at_instants, plan.continuous);
+    verdict_.conclude(Status::kInfeasible, plan.continuous_reason.c_str());
+    return -kInfinity;
+  }
+
+  std::unique_ptr<PlanObjective> copy(PlanValue counts) const override {
+    return make_plan_objective(problem_, wrench_, make_, check_, counts);
   }
 
  private:
@@ -45,8 +64,10 @@ class PlanObjective : public Objective {
   PlanSolverMaker make_;
   bool check_;
   PlanEvaluator evaluator_;
+  PlanValue counts_;
   Eigen::VectorXd lower_, upper_;
   Eigen::MatrixXd gradient_;
+  Verdict verdict_;
 };
 
 }  // namespace
@@ -67,9 +88,10 @@ Eigen::MatrixXd unstacked(const Eigen::VectorXd& x, Eigen::Index knots) {
 
 Eigen::VectorXd stacked(const Eigen::MatrixXd& knots) { return knots.reshaped<Eigen::RowMajor>(); }
 
-std::unique_ptr<Objective> make_plan_objective(const Problem& problem, Wrench wrench,
-                                               const PlanSolverMaker& make, bool check_collision) {
-  return std::make_unique<PlanObjective>(problem, wrench, make, check_collision);
+std::unique_ptr<PlanObjective> make_plan_objective(const Problem& problem, Wrench wrench,
+                                                   const PlanSolverMaker& make,
+                                                   bool check_collision, PlanValue counts) {
+  return std::make_unique<ObjectiveOfPlans>(problem, wrench, make, check_collision, counts);
 }
 
 }  // namespace maxwrench

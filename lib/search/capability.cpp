@@ -11,7 +11,7 @@
 namespace maxwrench {
 namespace {
 
-class CapabilityObjective : public Objective {
+class CapabilityObjective final : public FacetObjective {
  public:
   CapabilityObjective(const Problem& problem, Wrench wrench, MeasureMaker make, bool check,
                       std::shared_ptr<Tally> tally)
@@ -52,11 +52,9 @@ class CapabilityObjective : public Objective {
     M.noalias() = A_r_.transpose() * A_r_;
   }
 
-  FacetProgram* facets() override {
+  std::unique_ptr<FacetProgram> make_facet_program() const override {
     if (!measure_->solves_program() || !has_facet_program(problem_)) return nullptr;
-    if (!facets_)
-      facets_ = std::make_unique<FacetProgram>(problem_, wrench_, make_, check_collision_);
-    return facets_.get();
+    return std::make_unique<FacetProgram>(problem_, wrench_, make_, check_collision_);
   }
 
   std::unique_ptr<Objective> clone() const override {
@@ -71,7 +69,6 @@ class CapabilityObjective : public Objective {
   PostureEvaluator model_;
   WrenchProgram program_;
   std::unique_ptr<Measure> measure_;
-  std::unique_ptr<FacetProgram> facets_;  ///< once asked for
   std::shared_ptr<Tally> tally_;
   Capability capability_;
   const Posture* posture_ = nullptr;  ///< of the last evaluation, at theta_r_

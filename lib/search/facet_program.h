@@ -58,6 +58,13 @@ class FacetProgram {
   std::unique_ptr<Workspace> workspace_;
 };
 
+/// An objective of postures, which may have such a program, for searches that solve it.
+class FacetObjective : public Objective {
+ public:
+  /// A new one; null: f is no optimum of the wrench program, or {B u} has too many facets.
+  virtual std::unique_ptr<FacetProgram> make_facet_program() const = 0;
+};
+
 /// Whether a static problem has such a program, of the size that solvers with dense matrices take
 /// well: at most 200 facet pairs.
 bool has_facet_program(const Problem& problem);

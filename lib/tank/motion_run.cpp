@@ -228,6 +228,7 @@ class MotionExperiment {
 
 TankRun run_tank(const Problem& problem, const TankScript& script, Integrator& integrator,
                  const TankOptions& options) {
+  check(options);
   return MotionExperiment(problem, script, integrator, options).run();
 }
 

@@ -104,6 +104,7 @@ Interpolation parse_interpolation(const std::string& name) {
 
 TankScript make_script(const Problem& problem, const Plan& plan, Wrench wrench, PlanSolver& solver,
                        const ScriptOptions& options) {
+  check(options);
   const MotionTask& task = *problem.motion;
   TankScript script;
   script.interpolation = options.interpolation;

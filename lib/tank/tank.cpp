@@ -144,6 +144,7 @@ class Experiment {
 
 TankRun run_tank(const Problem& problem, const Posture& posture, const TankPlan& plan,
                  Integrator& integrator, const TankOptions& options) {
+  check(options);
   return Experiment(problem, posture, plan, integrator, options).run();
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <stdexcept>
 
+#include "lib/math/require.h"
 #include "maxwrench/batch.h"
 #include "solvers/certify/halving.h"
 
@@ -180,9 +180,12 @@ class BranchAndBound {
 
 CertifyResult certify(Objective& objective, const Bound& bound, const Candidate& incumbent,
                       const CertifyOptions& options) {
-  if (!(options.gap >= kLeastGap)) {
-    throw std::invalid_argument("gap: expected at least 1e-8");
-  }
+  require(options.gap >= kLeastGap && std::isfinite(options.gap), "gap", options.gap,
+          "a finite number of at least 1e-8");
+  require(options.seconds >= 0, "seconds", options.seconds, "at least 0");
+  require(options.boxes >= 1, "boxes", static_cast<double>(options.boxes), "at least 1");
+  require_threads(options.threads);
+  require(!std::isnan(incumbent.value), "incumbent", incumbent.value, "a value, or -infinity");
   const Box refuses_infinite_limits(objective);
   return BranchAndBound(objective, bound, incumbent, options).run();
 }

@@ -6,8 +6,9 @@
 #include <deque>
 #include <limits>
 #include <numeric>
-#include <stdexcept>
 
+#include "lib/math/require.h"
+#include "lib/search/forwarding.h"
 #include "maxwrench/batch.h"
 #include "solvers/certify/box_tree.h"
 #include "solvers/certify/halving.h"
@@ -123,12 +124,12 @@ std::pair<double, double> around(std::vector<std::pair<double, double>> arcs, do
 }
 
 /// The objective where `inside` says so.
-class PartOf final : public Objective {
+class PartOf final : public ForwardingObjective {
  public:
   using Inside = std::function<bool(const Eigen::VectorXd&)>;
   PartOf(std::unique_ptr<Objective> objective, Eigen::VectorXd lower, Eigen::VectorXd upper,
          Inside inside)
-      : objective_(std::move(objective)),
+      : ForwardingObjective(std::move(objective)),
         lower_(std::move(lower)),
         upper_(std::move(upper)),
         inside_(std::move(inside)) {}
@@ -138,13 +139,11 @@ class PartOf final : public Objective {
   double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* /*gradient*/) override {
     return inside_(x) ? evaluate_one(*objective_, x) : -kInfinity;
   }
-  const Verdict& verdict() const override { return objective_->verdict(); }
   std::unique_ptr<Objective> clone() const override {
     return std::make_unique<PartOf>(objective_->clone(), lower_, upper_, inside_);
   }
 
  private:
-  std::unique_ptr<Objective> objective_;
   Eigen::VectorXd lower_, upper_;
   Inside inside_;
 };
@@ -249,6 +248,7 @@ class Clusters {
     SearchOptions search;
     search.budget = kSearchBudget;
     search.starts = {cluster.best};
+    search.interrupted = options_.interrupted;
     const SearchResult found = make_cmaes()->maximize(part, search);
     if (found.value > cluster.best.value) cluster.best = {found.theta_r, found.value};
   }
@@ -285,15 +285,18 @@ double good_from(double best, double within) { return best - within * std::abs(b
 
 GoodPostures find_good_postures(Objective& objective, const Bound& bound, const Candidate& best,
                                 double high, const GoodOptions& options) {
-  if (!(options.within > 0 && options.within <= 1)) {
-    throw std::invalid_argument("within: expected above 0, at most 1");
-  }
-  if (!(options.resolution >= kLeastResolution)) {
-    throw std::invalid_argument("resolution: expected at least 1e-6");
-  }
-  if (!std::isfinite(best.value)) {
-    throw std::invalid_argument("best: expected a posture with a value");
-  }
+  require(options.within > 0 && options.within <= 1, "within", options.within,
+          "above 0, at most 1");
+  require(options.resolution >= kLeastResolution && std::isfinite(options.resolution), "resolution",
+          options.resolution, "a finite number of at least 1e-6");
+  require(options.seconds >= 0, "seconds", options.seconds, "at least 0");
+  require(options.boxes >= 1, "boxes", static_cast<double>(options.boxes), "at least 1");
+  require_threads(options.threads);
+  const std::size_t turns = options.turns.size();
+  require(turns == 0 || turns == static_cast<std::size_t>(objective.dimension()), "turns",
+          static_cast<double>(turns), "one for each coordinate, or none");
+  require(std::isfinite(best.value), "best", best.value, "a posture with a value");
+  require(!std::isnan(high), "high", high, "a bound of all values");
   const Box refuses_infinite_limits(objective);
   GoodPostures result;
   result.least = good_from(best.value, options.within);

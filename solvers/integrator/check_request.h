@@ -19,9 +19,7 @@ inline void check_request(const IntegratorOptions& options, std::span<const doub
       std::all_of(times.begin(), times.end(), [](double t) { return std::isfinite(t); });
   if (times.size() < 2 || !increase || !finite)
     throw std::invalid_argument("integrator times: expected at least two, finite and increasing");
-  if (!(options.relative_tolerance >= 0) || !(options.absolute_tolerance > 0))
-    throw std::invalid_argument("integrator tolerances: expected relative >= 0, absolute > 0");
-  if (!(options.step > 0)) throw std::invalid_argument("integrator step: expected > 0");
+  check(options);
 }
 
 }  // namespace maxwrench

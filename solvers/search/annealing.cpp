@@ -24,18 +24,18 @@ class Chain {
  public:
   Chain(Probe& probe, const Box& box, Random random) : probe_(probe), box_(box), random_(random) {}
 
-  /// Uses all evaluations of the probe, unless the rest is worth nothing.
+  /// Uses all evaluations of the probe.
   void run(const Eigen::VectorXd* start) {
     const long budget = probe_.left();
     const long scouts = std::max(1L, budget / 10);
-    for (long i = 0; i < scouts && !probe_.ended(); ++i) {
+    for (long i = 0; i < scouts && probe_.left() > 0; ++i) {
       if (i == 0 && start != nullptr)
         scout(box_.unit(*start), *start);
       else
         scout(uniform());
     }
     const long steps = budget - scouts;
-    for (long k = 0; k < steps && !probe_.ended(); ++k) {
+    for (long k = 0; k < steps && probe_.left() > 0; ++k) {
       const double progress = static_cast<double>(k) / static_cast<double>(steps);
       if (value_ == -kInfinity)
         scout(uniform());
@@ -116,9 +116,9 @@ class Chain {
 class Annealing final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {
-    check(options);
+    check(options, objective);
     const Box box(objective);
-    EvaluationCounter progress(options.progress);
+    SearchRun run(options);
     const long walking = box.free() == 0 ? 1 : options.budget;
     const long wanted = std::lround(std::sqrt(static_cast<double>(walking) / 180));
     const long chains = std::min(walking, std::clamp(wanted, 1L, 32L));
@@ -128,7 +128,7 @@ class Annealing final : public Search {
     std::vector<Part> parts(chains);
     parallel_for(options.threads, chains, [&](long i) {
       const long length = walking / chains + (i < walking % chains ? 1 : 0);
-      Probe probe(objective, length, progress, options.peaks > 0 ? &box : nullptr);
+      Probe probe(objective, length, run, options.peaks > 0 ? &box : nullptr);
       const bool given = i < static_cast<long>(starts.size());
       Chain(probe, box, Random(options.seed, RandomUse::kClimb, i))
           .run(given ? &starts[i] : nullptr);
@@ -136,7 +136,7 @@ class Annealing final : public Search {
     });
     Part found;
     join(parts, found);
-    return make_result(std::move(found), box, options);
+    return make_result(std::move(found), box, options, run);
   }
 };
 

@@ -1,14 +1,16 @@
 #include "maxwrench/batch.h"
 
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
+
+#include "lib/math/require.h"
 
 namespace maxwrench {
 
@@ -60,10 +62,6 @@ Eigen::VectorXd Box::slope(const Eigen::VectorXd& gradient) const {
 
 Eigen::VectorXd Box::start(const Eigen::VectorXd& start) const {
   if (start.size() == 0) return lower_ + (upper_ - lower_) / 2;
-  if (start.size() != lower_.size())
-    throw std::invalid_argument("search start: got " + std::to_string(start.size()) +
-                                " numbers, expected " + std::to_string(lower_.size()));
-  if (!start.allFinite()) throw std::invalid_argument("search start: expected finite numbers");
   return start.cwiseMax(lower_).cwiseMin(upper_);
 }
 
@@ -72,8 +70,6 @@ void parallel_for(int threads, long count, const std::function<void(long)>& body
     for (long i = 0; i < count; ++i) body(i);
     return;
   }
-  // Threads beyond the processors only slow down, but whoever asks for them gets them.
-  const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
   tbb::task_arena arena(threads);
   // What the caller wrote before is seen by every body, and what they wrote by the caller after:
   // TBB sees to it, but a thread sanitizer does not see that, so it is said once more.
@@ -94,16 +90,20 @@ void parallel_for(int threads, long count, const std::function<void(long)>& body
 
 std::vector<double> evaluate_all(const Objective& objective, long count,
                                  const std::function<Eigen::VectorXd(long)>& point, int threads,
-                                 EvaluationCounter& progress) {
+                                 SearchRun& run, bool guides) {
   // Large enough to pay for a clone, small enough to share the work evenly.
   const long chunk = std::clamp(count / 64, 64L, 4096L);
-  std::vector<double> values(count);
+  std::vector<double> values(count, std::numeric_limits<double>::quiet_NaN());
   parallel_for(threads, (count + chunk - 1) / chunk, [&](long c) {
     const std::unique_ptr<Objective> local = objective.clone();
     const long first = c * chunk;
     const long last = std::min(count, first + chunk);
-    for (long i = first; i < last; ++i) values[i] = evaluate_one(*local, point(i));
-    progress.add(last - first);
+    long i = first;
+    for (; i < last && !run.ended(); ++i) {
+      values[i] = evaluate_one(*local, point(i));
+      run.show(guides ? -kInfinity : values[i]);
+    }
+    if (i > first) run.add(i - first);
   });
   return values;
 }
@@ -114,9 +114,43 @@ double evaluate_one(Objective& objective, const Eigen::VectorXd& theta_r,
   return std::isnan(value) ? -kInfinity : value;
 }
 
-void check(const SearchOptions& options) {
-  if (options.budget < 1) throw std::invalid_argument("budget: expected at least 1 evaluation");
-  if (options.threads < 1) throw std::invalid_argument("threads: expected at least 1");
+double SearchRun::evaluate(Objective& objective, const Eigen::VectorXd& theta_r,
+                           Eigen::VectorXd* gradient) {
+  const double value = evaluate_one(objective, theta_r, gradient);
+  show(value);
+  return value;
+}
+
+void require_threads(int threads) {
+  require(threads >= 1 && threads <= kMostThreads, "threads", threads, "1 to 1024");
+}
+
+namespace {
+
+void require_point(const char* key, const Eigen::VectorXd& point, int dimension) {
+  if (point.size() != dimension) {
+    throw std::invalid_argument(std::string(key) + ": got " + std::to_string(point.size()) +
+                                " numbers, expected " + std::to_string(dimension));
+  }
+  for (const double number : point) {
+    require(std::isfinite(number), key, number, "finite numbers");
+  }
+}
+
+}  // namespace
+
+void check(const SearchOptions& options, const Objective& objective) {
+  require(options.budget >= 1, "budget", static_cast<double>(options.budget),
+          "at least 1 evaluation");
+  require_threads(options.threads);
+  require(options.peaks >= 0, "peaks", static_cast<double>(options.peaks), "at least 0");
+  if (options.start.size() > 0) {
+    require_point("search start", options.start, objective.dimension());
+  }
+  for (const Candidate& start : options.starts) {
+    require_point("search starts", start.theta_r, objective.dimension());
+    require(std::isfinite(start.value), "search starts", start.value, "finite values");
+  }
 }
 
 }  // namespace maxwrench

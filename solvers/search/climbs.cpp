@@ -14,7 +14,7 @@ Candidate draw_start(Probe& probe, const Box& box, const SearchOptions& options,
     start = {theta_r, probe.evaluate(theta_r)};
   };
   if (climb == 0 && options.starts.empty()) evaluate(box.start(options.start));
-  while (start.value == -kInfinity && probe.left() > 0 && !probe.ended()) {
+  while (start.value == -kInfinity && probe.left() > 0) {
     evaluate(random_point(box, random));
   }
   return start;
@@ -28,11 +28,12 @@ Part climb_once(Probe& probe, const Box& box, const SearchOptions& options,
   const Candidate start = number < options.starts.size()
                               ? options.starts[number]
                               : draw_start(probe, box, options, climb, random);
-  Call call{climbing.method, kBudgetUsed, probe.left()};
+  Call call{climbing.method, kBudgetUsed};
+  const long drawn = probe.found().trace.evaluations();
   if (start.value > -kInfinity && probe.left() > 0)
     call.status = climbing.climb(probe, box, start, random);
-  call.evaluations -= probe.left();
   Part part = probe.take();
+  call.evaluations = part.trace.evaluations() - drawn;
   if (call.evaluations > 0) part.calls.push_back(call);
   return part;
 }
@@ -40,16 +41,16 @@ Part climb_once(Probe& probe, const Box& box, const SearchOptions& options,
 }  // namespace
 
 void climb_from_starts(const Objective& objective, const Box& box, const SearchOptions& options,
-                       const Climbing& climbing, EvaluationCounter& progress, Part& found) {
+                       const Climbing& climbing, SearchRun& run, Part& found) {
   std::vector<std::unique_ptr<Probe>> probes;
-  for (long begun = 0; begun < climbing.starts && !objective.ended();) {
+  for (long begun = 0; begun < climbing.starts && !run.ended();) {
     const long left = options.budget - found.trace.evaluations();
     if (left <= 0) return;
     const long most = std::min(climbing.most, climbing.starts - begun);
     const long count = std::clamp(left / climbing.reach, 1L, most);
     while (static_cast<long>(probes.size()) < count) {
       probes.push_back(
-          std::make_unique<Probe>(objective, 0, progress, options.peaks > 0 ? &box : nullptr));
+          std::make_unique<Probe>(objective, 0, run, options.peaks > 0 ? &box : nullptr));
     }
     std::vector<Part> parts(static_cast<std::size_t>(count));
     parallel_for(options.threads, count, [&](long i) {
@@ -63,18 +64,18 @@ void climb_from_starts(const Objective& objective, const Box& box, const SearchO
 
 SearchResult search_by_climbs(Objective& objective, const SearchOptions& options,
                               const Climbing& climbing) {
-  check(options);
+  check(options, objective);
   const Box box(objective);
-  EvaluationCounter progress(options.progress);
+  SearchRun run(options);
   Part found;
   if (box.free() == 0) {
-    Probe probe(objective, 1, progress);
+    Probe probe(objective, 1, run);
     probe.evaluate(box.start(options.start));
     found = probe.take();
   } else {
-    climb_from_starts(objective, box, options, climbing, progress, found);
+    climb_from_starts(objective, box, options, climbing, run, found);
   }
-  return make_result(std::move(found), box, options);
+  return make_result(std::move(found), box, options, run);
 }
 
 }  // namespace maxwrench

@@ -30,7 +30,7 @@ struct Climbing {
 /// they did not use goes to the next ones, so their numbers and shares do not depend on threads.
 /// Continues `found`, which may have used some of the budget.
 void climb_from_starts(const Objective& objective, const Box& box, const SearchOptions& options,
-                       const Climbing& climbing, EvaluationCounter& progress, Part& found);
+                       const Climbing& climbing, SearchRun& run, Part& found);
 
 /// A search that does nothing else.
 SearchResult search_by_climbs(Objective& objective, const SearchOptions& options,

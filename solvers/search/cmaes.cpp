@@ -105,7 +105,7 @@ class Ascent {
   /// Spends the evaluations of the probe, or fewer.
   void run(double step, double tolerance) {
     int idle = 0;
-    for (int start = 0; probe_.left() > 0 && !probe_.ended() && idle < 2; ++start) {
+    for (int start = 0; probe_.left() > 0 && idle < 2; ++start) {
       const double before = best_.value;
       climb(start % 2 == 0 ? step : step / 100, tolerance);
       // Rounding alone, as on a flat maximum, is no progress.
@@ -116,7 +116,7 @@ class Ascent {
  private:
   void climb(double step, double tolerance) {
     Evolution evolution(rates_, box_.unit(best_.theta_r), step);
-    while (probe_.left() > 0 && !probe_.ended() && evolution.reach() > tolerance)
+    while (probe_.left() > 0 && evolution.reach() > tolerance)
       generation(std::min<long>(rates_.lambda, probe_.left()), evolution);
   }
 
@@ -163,18 +163,18 @@ constexpr long kMostAscents = 24;    // from points of an earlier search
 /// budget gives 120 (d + 1) evaluations each, share one half of it; the best of their results gets
 /// the rest.
 void ascend_from(const Objective& objective, const Box& box, const SearchOptions& options,
-                 EvaluationCounter& progress, Part& found) {
+                 SearchRun& run, Part& found) {
   const long half = options.budget / 2;
   const auto known = static_cast<long>(options.starts.size());
   const long count =
       std::min(known, std::clamp(half / (120L * (box.free() + 1)), 1L, kMostAscents));
   const auto ascend = [&](const Candidate& start, long budget, std::uint64_t stream) {
-    Probe probe(objective, budget, progress, options.peaks > 0 ? &box : nullptr);
+    Probe probe(objective, budget, run, options.peaks > 0 ? &box : nullptr);
     Random random(options.seed, RandomUse::kRefine, stream);
     Ascent(probe, box, start, random).run(kNearStep, kTolerance);
-    const long left = probe.left();
+    const char* const word = probe.left() > 0 ? "converged" : kBudgetUsed;
     Part part = probe.take();
-    part.calls.push_back({"cmaes", left > 0 ? "converged" : kBudgetUsed, budget - left});
+    part.calls.push_back({"cmaes", word, part.trace.evaluations()});
     return part;
   };
   const long share = count == 1 ? 0 : half / count;
@@ -206,15 +206,15 @@ class Cmaes final : public Search {
       return probe.left() > 0 ? "converged" : kBudgetUsed;
     };
     if (options.starts.empty()) return search_by_climbs(objective, options, climbing);
-    check(options);
+    check(options, objective);
     const Box box(objective);
-    EvaluationCounter progress(options.progress);
+    SearchRun run(options);
     Part found;
-    if (box.free() > 0) ascend_from(objective, box, options, progress, found);
+    if (box.free() > 0) ascend_from(objective, box, options, run, found);
     SearchOptions anew = options;
     anew.starts.clear();
-    if (box.free() > 0) climb_from_starts(objective, box, anew, climbing, progress, found);
-    return make_result(std::move(found), box, options);
+    if (box.free() > 0) climb_from_starts(objective, box, anew, climbing, run, found);
+    return make_result(std::move(found), box, options, run);
   }
 };
 

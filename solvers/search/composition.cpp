@@ -17,11 +17,12 @@ class Composition final : public Search {
       : stages_(stages.begin(), stages.end()) {}
 
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {
-    check(options);
+    check(options, objective);
     const Box box(objective);
     SearchResult whole;
     std::vector<Candidate> peaks = options.starts;
-    for (std::size_t i = 0; i < stages_.size() && whole.evaluations < options.budget; ++i) {
+    for (std::size_t i = 0;
+         i < stages_.size() && whole.evaluations < options.budget && !whole.interrupted; ++i) {
       SearchOptions own = options;
       own.budget = share(i, options.budget - whole.evaluations);
       own.starts = peaks;
@@ -57,6 +58,7 @@ class Composition final : public Search {
       whole.history.push_back({whole.evaluations + rise.evaluations, rise.value});
     }
     whole.evaluations += result.evaluations;
+    whole.interrupted = result.interrupted;
     whole.calls.insert(whole.calls.end(), result.calls.begin(), result.calls.end());
     if (result.value <= whole.value) return;
     static_cast<Verdict&>(whole) = result;

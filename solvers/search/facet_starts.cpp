@@ -19,26 +19,34 @@ constexpr long kFewest = 3;
 long facet_parts_of(long budget) { return std::clamp(budget / 200, 1L, 8L); }
 
 /// From each branch of theta_r; appends how each solve ended.
-void solve_all(Probe& probe, const Box& box, const Eigen::VectorXd& theta_r, const char* name,
-               const FacetSolve& solve, std::vector<Call>& calls) {
+void solve_all(Probe& probe, FacetProgram& program, const Box& box, const Eigen::VectorXd& theta_r,
+               const char* name, const FacetSolve& solve, std::vector<Call>& calls) {
+  const auto spent = [&] { return probe.found().trace.evaluations(); };
   probe.spend();
-  const int branches = probe.facets()->branches(theta_r);
-  for (int k = 0; k < branches && probe.left() >= kFewest && !probe.ended(); ++k) {
-    Call call{name, "", probe.left()};
-    solve_from(probe, box, theta_r, k, solve, &call.status);
-    call.evaluations -= probe.left();
+  const int branches = program.branches(theta_r);
+  for (int k = 0; k < branches && probe.left() >= kFewest; ++k) {
+    const long before = spent();
+    Call call{name, ""};
+    solve_from(probe, program, box, theta_r, k, solve, &call.status);
+    call.evaluations = spent() - before;
     calls.push_back(std::move(call));
   }
 }
 
+/// The one place that asks whether an objective has facets. Throws unless it does.
+std::unique_ptr<FacetProgram> require_facets(const Objective& objective, const char* search) {
+  const auto* of_postures = dynamic_cast<const FacetObjective*>(&objective);
+  auto program = of_postures ? of_postures->make_facet_program() : nullptr;
+  if (program) return program;
+  throw std::invalid_argument(std::string("search: got '") + search +
+                              "', which serves linf_polytope of a static task where the actuators "
+                              "have few facets, expected another search");
+}
+
 }  // namespace
 
-FacetView::FacetView(Probe& probe, const Box& box)
-    : probe_(probe),
-      box_(box),
-      program_(*probe.facets()),
-      d_(box.free()),
-      unit_(program_.row_unit()) {
+FacetView::FacetView(Probe& probe, FacetProgram& program, const Box& box)
+    : probe_(probe), box_(box), program_(program), d_(box.free()), unit_(program_.row_unit()) {
   row_min_ = program_.row_min().cwiseQuotient(unit_);
   row_max_ = program_.row_max().cwiseQuotient(unit_);
 }
@@ -98,9 +106,10 @@ const FacetView::Jacobian& FacetView::jacobian() {
   return jacobian_;
 }
 
-double solve_from(Probe& probe, const Box& box, const Eigen::VectorXd& theta_r, int branch,
-                  const FacetSolve& solve, std::string* status) {
-  FacetView view(probe, box);
+double solve_from(Probe& probe, FacetProgram& program, const Box& box,
+                  const Eigen::VectorXd& theta_r, int branch, const FacetSolve& solve,
+                  std::string* status) {
+  FacetView view(probe, program, box);
   if (!view.set_out(theta_r, branch)) return -kInfinity;
   const FacetEnd end = solve(view);
   if (status) *status = view.ended() ? kBudgetUsed : end.status;
@@ -110,38 +119,35 @@ double solve_from(Probe& probe, const Box& box, const Eigen::VectorXd& theta_r, 
 SearchResult search_from_facet_starts(const char* name, Objective& objective,
                                       const SearchOptions& options, const FacetSolve& solve,
                                       long most) {
-  check(options);
-  if (objective.facets() == nullptr) {
-    throw std::invalid_argument(std::string("search: got '") + name +
-                                "', which serves linf_polytope of a static task where the "
-                                "actuators have few facets, expected another search");
-  }
+  check(options, objective);
+  require_facets(objective, name);
   const Box box(objective);
   const Eigen::VectorXd start = box.start(options.start);
   const long givens = std::max<long>(1, static_cast<long>(options.starts.size()));
   const auto given = [&](long i) -> const Eigen::VectorXd& {
     return options.starts.empty() ? start : options.starts[static_cast<std::size_t>(i)].theta_r;
   };
-  EvaluationCounter progress(options.progress);
+  SearchRun run(options);
   const long parts = facet_parts_of(options.budget);
   std::vector<Part> found(static_cast<std::size_t>(parts));
   parallel_for(options.threads, parts, [&](long part) {
-    Probe probe(objective, options.budget / parts + (part < options.budget % parts ? 1 : 0),
-                progress, options.peaks > 0 ? &box : nullptr);
+    Probe probe(objective, options.budget / parts + (part < options.budget % parts ? 1 : 0), run,
+                options.peaks > 0 ? &box : nullptr);
+    const std::unique_ptr<FacetProgram> program = require_facets(objective, name);
     if (part == 0) probe.evaluate(given(0));
     std::vector<Call> calls;
     const auto enough = [&] { return static_cast<long>(calls.size()) > most / parts; };
-    for (long i = part; box.free() > 0 && probe.left() > 0 && !probe.ended() && !enough();
-         i += parts) {
+    for (long i = part; box.free() > 0 && probe.left() > 0 && !enough(); i += parts) {
       Random random(options.seed, RandomUse::kClimb, static_cast<std::uint64_t>(i));
-      solve_all(probe, box, i < givens ? given(i) : random_point(box, random), name, solve, calls);
+      solve_all(probe, *program, box, i < givens ? given(i) : random_point(box, random), name,
+                solve, calls);
     }
     found[static_cast<std::size_t>(part)] = probe.take();
     found[static_cast<std::size_t>(part)].calls = std::move(calls);
   });
   Part all;
   join(found, all);
-  return make_result(std::move(all), box, options);
+  return make_result(std::move(all), box, options, run);
 }
 
 }  // namespace maxwrench

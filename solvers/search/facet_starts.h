@@ -18,8 +18,8 @@ namespace maxwrench {
 /// keeps one for the end.
 class FacetView {
  public:
-  /// All outlive this; the probe has facets.
-  FacetView(Probe& probe, const Box& box);
+  /// All outlive this.
+  FacetView(Probe& probe, FacetProgram& program, const Box& box);
 
   /// Sets out at one of the branches of theta_r, which counts as an evaluation; false if there are
   /// no more so many.
@@ -31,8 +31,8 @@ class FacetView {
   const Eigen::VectorXd& row_min() const { return row_min_; }
   const Eigen::VectorXd& row_max() const { return row_max_; }
 
-  /// Whether no evaluation is left, or none worth while.
-  bool ended() const { return probe_.left() < 2 || probe_.ended(); }
+  /// Whether no evaluation is left but the one for the end.
+  bool ended() const { return probe_.left() < 2; }
   /// Evaluates the rows at y, once for each y in a row. False where there is no posture, or
   /// `ended`.
   bool look(const Eigen::VectorXd& y);
@@ -80,7 +80,8 @@ SearchResult search_from_facet_starts(const char* name, Objective& objective,
 /// One of these local solves, from a branch of theta_r (`FacetProgram::branches`): the value at its
 /// end, -infinity if there is none. At least three evaluations are left. `status`, if given, gets
 /// the library's word.
-double solve_from(Probe& probe, const Box& box, const Eigen::VectorXd& theta_r, int branch,
-                  const FacetSolve& solve, std::string* status = nullptr);
+double solve_from(Probe& probe, FacetProgram& program, const Box& box,
+                  const Eigen::VectorXd& theta_r, int branch, const FacetSolve& solve,
+                  std::string* status = nullptr);
 
 }  // namespace maxwrench

@@ -69,21 +69,19 @@ class Lattice {
 class Grid final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {
-    check(options);
+    check(options, objective);
     const Box box(objective);
     const Lattice lattice(box.free(), options.budget);
-    EvaluationCounter progress(options.progress);
+    SearchRun run(options);
     auto point = [&](long i) { return box.theta_r(lattice.point(i)); };
-    const std::vector<double> values =
-        evaluate_all(objective, lattice.size(), point, options.threads, progress);
+    std::vector<double> values =
+        evaluate_all(objective, lattice.size(), point, options.threads, run);
     Part found;
-    for (long i = 0; i < lattice.size(); ++i) {
-      found.trace.add(values[i]);
-      if (values[i] > found.best.value) found.best = {point(i), values[i]};
-      if (options.peaks > 0 && lattice.is_peak(values, i))
-        found.peaks.push_back({point(i), values[i]});
+    add(values, point, found);
+    for (long i = 0; options.peaks > 0 && i < lattice.size(); ++i) {
+      if (lattice.is_peak(values, i)) found.peaks.push_back({point(i), values[i]});
     }
-    return make_result(std::move(found), box, options);
+    return make_result(std::move(found), box, options, run);
   }
 };
 

@@ -22,8 +22,8 @@ constexpr int kJointIterations = 200;
 /// one of these or one of the rows; the rows are computed once more after each of the former.
 class JointNlp : public Ipopt::TNLP {
  public:
-  JointNlp(Objective& objective, JointProgram& program, long budget, Part& found)
-      : objective_(objective), program_(program), budget_(budget), found_(found) {}
+  JointNlp(Objective& objective, JointProgram& program, long budget, SearchRun& run, Part& found)
+      : objective_(objective), program_(program), budget_(budget), run_(run), found_(found) {}
 
   bool get_nlp_info(Index& n, Index& m, Index& nnz_jac, Index& nnz_hessian,
                     IndexStyleEnum& style) override {
@@ -72,7 +72,7 @@ class JointNlp : public Ipopt::TNLP {
   bool intermediate_callback(Ipopt::AlgorithmMode, Index, Number, Number, Number, Number, Number,
                              Number, Number, Number, Index, const Ipopt::IpoptData*,
                              Ipopt::IpoptCalculatedQuantities*) override {
-    return left() >= 2 && !caught_.any() && !objective_.ended();
+    return left() >= 2 && !caught_.any();
   }
   void finalize_solution(Ipopt::SolverReturn, Index, const Number*, const Number*, const Number*,
                          Index, const Number*, const Number*, Number, const Ipopt::IpoptData*,
@@ -86,7 +86,7 @@ class JointNlp : public Ipopt::TNLP {
   static void copy(const Eigen::VectorXd& from, Number* to) {
     std::copy_n(from.data(), from.size(), to);
   }
-  long left() const { return budget_ - found_.trace.evaluations(); }
+  long left() const { return run_.ended() ? 0 : budget_ - found_.trace.evaluations(); }
 
   void fill_pattern(Index* rows, Index* cols) const {
     const Eigen::SparseMatrix<double>& jacobian = program_.jacobian();
@@ -102,11 +102,11 @@ class JointNlp : public Ipopt::TNLP {
     return caught_.run(false, [&] {
       const Eigen::Map<const Eigen::VectorXd> point(x, n);
       if (X_.size() == n && X_ == point) return true;
-      if (left() == 0 || objective_.ended()) return false;
+      if (left() == 0) return false;
       X_ = point;
       program_.evaluate(X_);
       found_.trace.add(-kInfinity);
-      objective_.spend(1);
+      run_.show();
       return true;
     });
   }
@@ -116,7 +116,7 @@ class JointNlp : public Ipopt::TNLP {
     return caught_.run(false, [&] {
       if (left() == 0) return false;
       const Eigen::VectorXd x = program_.knots(X_);
-      const double value = evaluate_one(objective_, x);
+      const double value = run_.evaluate(objective_, x);
       found_.trace.add(value);
       if (value > found_.best.value) found_.best = {x, value};
       program_.evaluate(X_);  // the lower level has moved the evaluator's motion
@@ -127,6 +127,7 @@ class JointNlp : public Ipopt::TNLP {
   Objective& objective_;
   JointProgram& program_;
   long budget_;
+  SearchRun& run_;
   Part& found_;
   Eigen::VectorXd X_;
   Caught caught_;
@@ -137,37 +138,39 @@ class JointNlp : public Ipopt::TNLP {
 /// lock. It does not see collisions: a plan that collides counts for nothing.
 class JointNlpSearch : public Search {
  public:
-  SearchResult maximize(Objective& objective, const SearchOptions& options) override {
-    check(options);
-    require_plans(objective, "joint_nlp");
-    EvaluationCounter progress(options.progress);
+  SearchResult maximize(Objective& given, const SearchOptions& options) override {
+    check(options, given);
+    PlanObjective& objective = require_plans(given, "joint_nlp");
+    SearchRun run(options);
     Part found;
-    std::vector<Candidate> starts = find_knot_starts(objective, options, progress, found);
+    std::vector<Candidate> starts = find_knot_starts(objective, options, run, found);
     if (objective.dimension() == 0) starts.clear();
     for (std::size_t i = 0; i < std::min(starts.size(), kJointStarts); ++i) {
       const auto later = static_cast<long>(std::min(starts.size(), kJointStarts) - i);
       const long before = found.trace.evaluations(), left = options.budget - before;
-      if (left < kFewestOfClimb || objective.ended()) break;
+      if (left < kFewestOfClimb || run.ended()) break;
       // A climb of its own copy: its path is that of what it evaluates, not of what was before.
-      climb(*objective.clone(), starts[i], before + std::max(kFewestOfClimb, left / later), found);
-      progress.add(found.trace.evaluations() - before);
+      climb(*objective.copy(objective.counts()), starts[i],
+            before + std::max(kFewestOfClimb, left / later), run, found);
+      run.add(found.trace.evaluations() - before);
     }
-    return make_result(found);
+    return make_result(found, run);
   }
 
  private:
-  static void climb(Objective& objective, const Candidate& start, long until, Part& found) {
-    const double value = evaluate_one(objective, start.theta_r);
+  static void climb(PlanObjective& objective, const Candidate& start, long until, SearchRun& run,
+                    Part& found) {
+    const double value = run.evaluate(objective, start.theta_r);
     found.trace.add(value);
     if (value == -kInfinity) return;
-    JointProgram program(*objective.plans(), objective.lower(), objective.upper());
+    JointProgram program(objective.plans(), objective.lower(), objective.upper());
     const std::lock_guard guard(ipopt_lock());
     const auto application =
         make_ipopt_application("joint_nlp", kJointIterations, [](Ipopt::OptionsList& options) {
           options.SetStringValue("mu_strategy", "adaptive");
           options.SetNumericValue("tol", 1e-7);
         });
-    const Ipopt::SmartPtr<JointNlp> nlp = new JointNlp(objective, program, until, found);
+    const Ipopt::SmartPtr<JointNlp> nlp = new JointNlp(objective, program, until, run, found);
     application->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(nlp)));
     nlp->rethrow();
   }

@@ -18,14 +18,16 @@ constexpr double kConverged = 1e-9;      // predicted, relative to 1 + |f|
 
 }  // namespace
 
-KnotClimber::KnotClimber(std::unique_ptr<Objective> objective, Candidate start, bool alike)
-    : objective_(std::move(objective)),
-      plans_(*objective_->plans()),
+KnotClimber::KnotClimber(const PlanObjective& objective, Candidate start, SearchRun& run,
+                         bool alike)
+    : objective_(objective.copy(objective.counts())),
+      plans_(objective_->plans()),
+      run_(run),
       solver_(make_plan_ipm(kStepTolerance)),
       at_(std::move(start)),
+      best_(at_),
       radius_(kFirstRadius),
       reach_(plans_.rows().R.cwiseAbs() * Eigen::VectorXd::Ones(at_.theta_r.size())) {
-  found_.best = at_;
   if (!alike) return;
   const Eigen::Index r = at_.theta_r.size() / plans_.knots();
   shared_ = Eigen::MatrixXd::Identity(r, r).replicate(plans_.knots(), 1);
@@ -41,15 +43,16 @@ PlanProgram* KnotClimber::linearize() {
 
 void KnotClimber::climb(long evaluations) {
   const auto left = [&] { return evaluations - found_.trace.evaluations(); };
-  while (!done_ && left() >= 3) {
+  while (!done_ && left() >= 3 && !run_.ended()) {
     if (program_ == nullptr) {
-      // Its efforts are what the program is linearised about; an objective that has ended has none.
+      // Its efforts are what the program is linearised about.
       done_ = evaluate(at_.theta_r) == -kInfinity;
       if (done_) return;
       program_ = linearize();
     }
+    if (run_.ended()) return;
     if (try_step()) program_ = linearize();
-    done_ = done_ || !(radius_ > kSmallestRadius) || objective_->ended();
+    done_ = done_ || !(radius_ > kSmallestRadius);
   }
 }
 
@@ -80,12 +83,22 @@ bool KnotClimber::try_step() {
   return true;
 }
 
+/// The value at the instants; none, at no cost, once the run has ended.
 double KnotClimber::evaluate(const Eigen::VectorXd& x) {
-  const double value = evaluate_one(*objective_, x);
-  found_.trace.add(value);
+  if (run_.ended()) return -kInfinity;
+  double value = plans_.evaluate_elastic(unstacked(x, plans_.knots()), nullptr);
+  if (std::isnan(value)) value = -kInfinity;
+  note(x, objective_->counts() == PlanValue::kAtInstants ? value : -kInfinity);
   if (value > -kInfinity) coupled_ = plans_.coupled();
-  if (value > found_.best.value) found_.best = {x, value};
+  if (value > best_.value) best_ = {x, value};
   return value;
+}
+
+/// An evaluation: a value of the objective, or of something else.
+void KnotClimber::note(const Eigen::VectorXd& x, double value) {
+  found_.trace.add(value);
+  run_.show(value);
+  if (value > found_.best.value) found_.best = {x, value};
 }
 
 Eigen::VectorXd KnotClimber::inside(const Eigen::VectorXd& x) const {
@@ -93,15 +106,12 @@ Eigen::VectorXd KnotClimber::inside(const Eigen::VectorXd& x) const {
 }
 
 double KnotClimber::worth(const Candidate& plan) {
-  if (!plans_.smooth()) return plan.value;
-  for (int solved = 0; solved < kJudgement; ++solved) found_.trace.add(-kInfinity);
-  objective_->spend(kJudgement);
+  if (objective_->counts() == PlanValue::kAtInstants) return plan.value;
   done_ = true;
-  const Eigen::MatrixXd knots = unstacked(plan.theta_r, plans_.knots());
-  if (plans_.evaluate(knots).status != Status::kOptimal) return -kInfinity;
-  plans_.evaluate_continuous();
-  const double continuous = plans_.plan().continuous;
-  return std::isnan(continuous) ? -kInfinity : std::min(plan.value, continuous);
+  const double worth = objective_->evaluate_throughout(plan.theta_r, plan.value);
+  for (int before = 1; before < kJudgement; ++before) note(plan.theta_r, -kInfinity);
+  note(plan.theta_r, worth);
+  return worth;
 }
 
 /// The radius, and what is left to the bounds: of a step that knots share to the nearest one.
@@ -118,12 +128,12 @@ void KnotClimber::set_bounds() {
 bool KnotClimber::solve() {
   set_bounds();
   set_rows();
-  found_.trace.add(-kInfinity);
-  objective_->spend(1);
+  note(at_.theta_r, -kInfinity);
   solution_.price = 0;
-  if (!coupled_ && BorderedFacets::suits(*program_) && uncoupled_.solve(*program_, solution_)) {
-    return true;
-  }
+  const bool by_facets =
+      !coupled_ && BorderedFacets::suits(*program_) && uncoupled_.solve(*program_, solution_);
+  found_.calls.push_back({"slp", by_facets ? "facets" : "ipm", 1});
+  if (by_facets) return true;
   solver_->solve(*program_, solution_);
   return solution_.status == Status::kOptimal;
 }

@@ -23,30 +23,35 @@ namespace maxwrench {
 /// collide after a step are moved apart.
 class KnotClimber {
  public:
-  /// Keeps an objective of its own, with plans. `start` has a value. `alike`: all knots take the
-  /// same step, a program in the coordinates of one.
-  KnotClimber(std::unique_ptr<Objective> objective, Candidate start, bool alike = false);
+  /// Takes a clone of the objective. `start` has a value at its instants, by which it climbs.
+  /// `alike`: all knots take the same step, a program in the coordinates of one.
+  KnotClimber(const PlanObjective& objective, Candidate start, SearchRun& run, bool alike = false);
 
   /// Goes on until it has converged or has used so many evaluations; a linear program counts as
   /// one.
   void climb(long evaluations);
 
-  /// What `worth` costs: the program at the instants, and that between them.
+  /// What `worth` costs at most: the program at the instants, and that between them.
   static constexpr int kJudgement = 2;
-  /// The value of a plan, or what it is worth between its instants if that is less
-  /// (`Plan::continuous`); -infinity if it is worth nothing there. Schemes other than `spline` do
-  /// not say what happens there. Ends the climb.
+  /// What the objective makes of a plan with this value at its instants, which is the value itself
+  /// where nothing else counts. Ends the climb otherwise.
   double worth(const Candidate& plan);
 
   /// One evaluation elsewhere, which the climb does not follow.
   Candidate look(const Eigen::VectorXd& x) { return {x, evaluate(x)}; }
 
+  // Values at the instants.
   double value() const { return at_.value; }
   const Candidate& at() const { return at_; }
+  const Candidate& best() const { return best_; }  ///< of what was evaluated, the start included
+
+  /// Values of the objective, and how its linear programs were solved: a call "facets" or "ipm" of
+  /// slp for each.
   const Part& found() const { return found_; }
 
  private:
   double evaluate(const Eigen::VectorXd& x);
+  void note(const Eigen::VectorXd& x, double value);
   PlanProgram* linearize();
   bool try_step();
   bool solve();
@@ -57,13 +62,14 @@ class KnotClimber {
   Eigen::VectorXd inside(const Eigen::VectorXd& x) const;
   Eigen::VectorXd apart(Eigen::VectorXd x);
 
-  std::unique_ptr<Objective> objective_;
+  std::unique_ptr<PlanObjective> objective_;
   PlanEvaluator& plans_;
+  SearchRun& run_;
   Eigen::MatrixXd shared_;  ///< the step of the knots by that of one; empty: each its own
   BorderedFacets uncoupled_;
   std::unique_ptr<PlanSolver> solver_;
   bool coupled_ = true;  ///< at the last point with a value
-  Candidate at_;
+  Candidate at_, best_;
   double radius_;
   Eigen::VectorXd reach_;  ///< of each row of the knots: sum of the magnitudes of its entries
   bool done_ = false;

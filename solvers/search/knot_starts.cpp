@@ -115,11 +115,12 @@ std::vector<Candidate> spread(std::vector<Candidate> starts) {
   return ordered;
 }
 
-/// The best of each family that is worth a climb of its own.
-std::vector<Candidate> families(std::vector<Candidate> starts, const Candidate& best) {
+/// The best of each family that is worth a climb of its own; `known` is the best value so far.
+std::vector<Candidate> families(std::vector<Candidate> starts, double known) {
   std::stable_sort(starts.begin(), starts.end(),
                    [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
-  const double least = best.value - (1 - kHopeful) * (1 + std::abs(best.value));
+  const double best = starts.empty() ? known : std::max(known, starts.front().value);
+  const double least = best - (1 - kHopeful) * (1 + std::abs(best));
   std::vector<Candidate> heads;
   for (Candidate& start : starts) {
     if (start.value >= least && !is_near(start, heads, kSame)) heads.push_back(std::move(start));
@@ -128,100 +129,102 @@ std::vector<Candidate> families(std::vector<Candidate> starts, const Candidate& 
 }
 
 /// Those of `count` tables that have a value.
-std::vector<Candidate> with_value(const Objective& objective, const SearchOptions& options,
+std::vector<Candidate> with_value(const PlanObjective& objective, const SearchOptions& options,
                                   long count, const std::function<Eigen::VectorXd(long)>& table,
-                                  EvaluationCounter& progress, Part& found) {
-  const std::vector<double> values =
-      evaluate_all(objective, count, table, options.threads, progress);
+                                  SearchRun& run, Part& found) {
+  const bool guides = objective.counts() != PlanValue::kAtInstants;
+  const auto at_instants = guides ? objective.copy(PlanValue::kAtInstants) : nullptr;
+  std::vector<double> values = evaluate_all(at_instants ? *at_instants : objective, count, table,
+                                            options.threads, run, guides);
+  Part seen;
+  add(values, table, seen);
+  join({guides ? Part{{}, Trace({}, seen.trace.evaluations())} : seen}, found);
   std::vector<Candidate> valued;
   for (long i = 0; i < count; ++i) {
     const double value = values[static_cast<std::size_t>(i)];
-    found.trace.add(value);
-    if (value == -kInfinity) continue;
-    valued.push_back({table(i), value});
-    if (value > found.best.value) found.best = valued.back();
+    if (value > -kInfinity) valued.push_back({table(i), value});
   }
   return valued;
 }
 
 /// The start and the drawn tables that have a value.
-std::vector<Candidate> sample(const Objective& objective, const SearchOptions& options,
-                              const Drawing& drawing, const Eigen::VectorXd& start,
-                              EvaluationCounter& progress, Part& found) {
+std::vector<Candidate> sample(const PlanObjective& objective, const SearchOptions& options,
+                              const Drawing& drawing, const Eigen::VectorXd& start, SearchRun& run,
+                              Part& found) {
   const auto table = [&](long i) {
     if (i == 0) return start;
     const auto stream = static_cast<std::uint64_t>(i);
     return drawing.draw(Random(options.seed, RandomUse::kSample, stream), i % kNearOf == 1);
   };
   const long count = std::clamp(options.budget / 10, 1L, kSamples + 1);
-  return with_value(objective, options, count, table, progress, found);
+  return with_value(objective, options, count, table, run, found);
 }
 
 /// The ends of climbs with all knots alike.
-std::vector<Candidate> climb_alike(const Objective& objective, const SearchOptions& options,
-                                   std::span<const Candidate> starts, EvaluationCounter& progress,
-                                   Part& found) {
+std::vector<Candidate> climb_alike(const PlanObjective& objective, const SearchOptions& options,
+                                   std::span<const Candidate> starts, SearchRun& run, Part& found) {
   const long count = std::min(static_cast<long>(starts.size()),
                               std::min(kAlike, options.budget / 5 / kAlikeSteps));
   std::vector<std::unique_ptr<KnotClimber>> climbers;
   for (long i = 0; i < count; ++i) {
-    climbers.push_back(std::make_unique<KnotClimber>(objective.clone(),
-                                                     starts[static_cast<std::size_t>(i)], true));
+    climbers.push_back(
+        std::make_unique<KnotClimber>(objective, starts[static_cast<std::size_t>(i)], run, true));
   }
   parallel_for(options.threads, count, [&](long i) {
     KnotClimber& climber = *climbers[static_cast<std::size_t>(i)];
     climber.climb(kAlikeSteps);
-    progress.add(climber.found().trace.evaluations());
+    run.add(climber.found().trace.evaluations());
   });
   std::vector<Candidate> ends;
-  std::vector<Trace> traces;
+  std::vector<Part> parts;
   for (const auto& climber : climbers) {
     ends.push_back(climber->at());
-    traces.push_back(climber->found().trace);
-    if (ends.back().value > found.best.value) found.best = ends.back();
+    parts.push_back(climber->found());
   }
-  found.trace.append(traces);
+  join(parts, found);
   return ends;
 }
 
 }  // namespace
 
-void require_plans(Objective& objective, const char* search) {
-  if (objective.plans() != nullptr) return;
+PlanObjective* as_plans(Objective& objective) { return dynamic_cast<PlanObjective*>(&objective); }
+
+PlanObjective& require_plans(Objective& objective, const char* search) {
+  if (PlanObjective* plans = as_plans(objective)) return *plans;
   throw std::invalid_argument(std::string("search: got '") + search +
                               "', which serves linf_polytope at a fixed pose without a second "
                               "contact, expected another one");
 }
 
-std::vector<Candidate> draw_knot_starts(Objective& objective, const SearchOptions& options,
-                                        EvaluationCounter& progress, Part& found) {
+std::vector<Candidate> draw_knot_starts(PlanObjective& objective, const SearchOptions& options,
+                                        SearchRun& run, Part& found) {
   const Eigen::VectorXd start = Box(objective).start(options.start);
   if (start.size() == 0) {  // nothing to choose
     return with_value(
-        objective, options, 1, [&](long) { return start; }, progress, found);
+        objective, options, 1, [&](long) { return start; }, run, found);
   }
-  const Drawing drawing(objective, *objective.plans(), start);
-  return spread(sample(objective, options, drawing, start, progress, found));
+  const Drawing drawing(objective, objective.plans(), start);
+  return spread(sample(objective, options, drawing, start, run, found));
 }
 
-std::vector<Candidate> kick_knots(Objective& objective, const SearchOptions& options,
-                                  const Candidate& best, long first, long count,
-                                  EvaluationCounter& progress, Part& found) {
-  const Drawing drawing(objective, *objective.plans(), best.theta_r);
+std::vector<Candidate> kick_knots(PlanObjective& objective, const SearchOptions& options,
+                                  const Candidate& best, long first, long count, SearchRun& run,
+                                  Part& found) {
+  const Drawing drawing(objective, objective.plans(), best.theta_r);
   const auto table = [&](long i) {
     const auto number = static_cast<std::uint64_t>(first + i);
     return drawing.kick(Random(options.seed, RandomUse::kKick, number),
                         kKickReach[number / 2 % std::size(kKickReach)], number % 2 == 0);
   };
-  return with_value(objective, options, count, table, progress, found);
+  return with_value(objective, options, count, table, run, found);
 }
 
-std::vector<Candidate> find_knot_starts(Objective& objective, const SearchOptions& options,
-                                        EvaluationCounter& progress, Part& found) {
-  const std::vector<Candidate> starts = draw_knot_starts(objective, options, progress, found);
-  if (starts.empty() || objective.dimension() == 0 || objective.plans()->starts()) return starts;
+std::vector<Candidate> find_knot_starts(PlanObjective& objective, const SearchOptions& options,
+                                        SearchRun& run, Part& found) {
+  const std::vector<Candidate> starts = draw_knot_starts(objective, options, run, found);
+  if (starts.empty() || objective.dimension() == 0 || objective.plans().starts()) return starts;
   std::vector<Candidate> ordered =
-      families(climb_alike(objective, options, starts, progress, found), found.best);
+      families(climb_alike(objective, options, starts, run, found), starts.front().value);
   ordered.insert(ordered.end(), starts.begin(), starts.end());
   return ordered;
 }

@@ -88,7 +88,7 @@ class BoundedNlp : public Ipopt::TNLP {
   bool intermediate_callback(Ipopt::AlgorithmMode, Index, Number, Number, Number, Number, Number,
                              Number, Number, Number, Index, const Ipopt::IpoptData*,
                              Ipopt::IpoptCalculatedQuantities*) override {
-    return probe_.left() > 0 && !probe_.ended() && !caught_.any();
+    return probe_.left() > 0 && !caught_.any();
   }
   void finalize_solution(Ipopt::SolverReturn, Index, const Number*, const Number*, const Number*,
                          Index, const Number*, const Number*, Number, const Ipopt::IpoptData*,
@@ -108,7 +108,7 @@ class BoundedNlp : public Ipopt::TNLP {
   bool evaluate(Index n, const Number* x) {
     const Eigen::Map<const Eigen::VectorXd> point(x, n);
     if (x_.size() != n || x_ != point) {
-      if (probe_.left() == 0 || probe_.ended() || !point.allFinite()) return false;
+      if (probe_.left() == 0 || !point.allFinite()) return false;
       x_ = point;
       value_ = probe_.evaluate(box_.theta_r(x_), &gradient_);
       slope_ = box_.slope(gradient_);
@@ -155,7 +155,7 @@ namespace {
 class Multistart final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {
-    if (objective.plans() != nullptr) return maximize_plan(objective, options);
+    if (auto* plans = as_plans(objective)) return maximize_plan(*plans, options);
     Climbing climbing{"multistart"};
     climbing.starts = std::clamp(options.budget / 500, 1L, 64L);
     climbing.most = 1;
@@ -166,27 +166,25 @@ class Multistart final : public Search {
   }
 
  private:
-  static SearchResult maximize_plan(Objective& objective, const SearchOptions& options) {
-    check(options);
-    EvaluationCounter progress(options.progress);
+  static SearchResult maximize_plan(PlanObjective& objective, const SearchOptions& options) {
+    check(options, objective);
+    SearchRun run(options);
     Part found;
     const std::vector<Candidate> starts =
-        options.starts.empty() ? draw_knot_starts(objective, options, progress, found)
-                               : options.starts;
+        options.starts.empty() ? draw_knot_starts(objective, options, run, found) : options.starts;
     const Box box(objective);
-    Probe probe(objective, 0, progress, options.peaks > 0 ? &box : nullptr);
+    Probe probe(objective, 0, run, options.peaks > 0 ? &box : nullptr);
     for (const Candidate& start : starts) {
       const long left = options.budget - found.trace.evaluations();
-      if (left <= 0 || probe.ended()) break;
+      if (left <= 0 || run.ended()) break;
       probe.grant(left);
-      Call call{"multistart", "", left};
-      call.status =
-          solve_by_ipopt(probe, box, start.theta_r, kPlanIterations, &objective.plans()->rows());
-      call.evaluations -= probe.left();
-      join({probe.take()}, found);
-      found.calls.push_back(call);
+      const std::string word =
+          solve_by_ipopt(probe, box, start.theta_r, kPlanIterations, objective.rows());
+      const Part part = probe.take();
+      join({part}, found);
+      found.calls.push_back({"multistart", word, part.trace.evaluations()});
     }
-    return make_result(std::move(found), box, options);
+    return make_result(std::move(found), box, options, run);
   }
 };
 

@@ -25,7 +25,7 @@ double look(Session& s, unsigned n, const double* x, double* slope) {
   double value = -kInfinity;
   const Eigen::Map<const Eigen::VectorXd> point(x, n);
   // Some methods take seconds to spend a large budget in vain, and some leave the numbers.
-  if (s.probe.left() == 0 || s.probe.ended() || !point.allFinite()) {
+  if (s.probe.left() == 0 || !point.allFinite()) {
     nlopt_force_stop(s.opt);
   } else {
     value = s.probe.evaluate(s.box.theta_r(point), slope ? &s.gradient : nullptr);

@@ -104,10 +104,10 @@ class Flow final : public Ode {
 class Nullspace final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {
-    check(options);
+    check(options, objective);
     const Box box(objective);
-    EvaluationCounter progress(options.progress);
-    Probe probe(objective, options.budget, progress, options.peaks > 0 ? &box : nullptr);
+    SearchRun run(options);
+    Probe probe(objective, options.budget, run, options.peaks > 0 ? &box : nullptr);
     Eigen::VectorXd start = box.start(options.start);
     if (!options.starts.empty()) {
       start = options.starts.front().theta_r;
@@ -119,7 +119,7 @@ class Nullspace final : public Search {
       } while (probe.left() > 0 && probe.evaluate(start) == -kInfinity);
     }
     follow(probe, objective, start);
-    return make_result(probe.take(), box, options);
+    return make_result(probe.take(), box, options, run);
   }
 
  private:

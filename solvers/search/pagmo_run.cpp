@@ -26,7 +26,7 @@ struct UnitCube {
   Probe* probe = nullptr;
   const Box* box = nullptr;
   pagmo::vector_double fitness(const pagmo::vector_double& x) const {
-    if (probe->left() == 0 || probe->ended()) throw Stop{kBudgetUsed};
+    if (probe->left() == 0) throw Stop{kBudgetUsed};
     const Eigen::Map<const Eigen::VectorXd> point(x.data(), static_cast<Eigen::Index>(x.size()));
     if (!point.allFinite()) throw Stop{"not_finite"};
     const double value = probe->evaluate(box->theta_r(point));

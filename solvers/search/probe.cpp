@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace maxwrench {
@@ -12,8 +14,8 @@ constexpr long kReportEvery = 256;
 
 }  // namespace
 
-Probe::Probe(const Objective& objective, long budget, EvaluationCounter& progress, const Box* box)
-    : box_(box), objective_(objective.clone()), budget_(budget), progress_(progress) {}
+Probe::Probe(const Objective& objective, long budget, SearchRun& run, const Box* box)
+    : box_(box), objective_(objective.clone()), budget_(budget), run_(run) {}
 
 Probe::~Probe() {
   try {
@@ -23,8 +25,12 @@ Probe::~Probe() {
 }
 
 double Probe::evaluate(const Eigen::VectorXd& theta_r, Eigen::VectorXd* gradient) {
-  assert(left() > 0);
-  const double value = evaluate_one(*objective_, theta_r, gradient);
+  if (run_.ended()) {
+    if (gradient) gradient->setConstant(theta_r.size(), std::numeric_limits<double>::quiet_NaN());
+    return -kInfinity;
+  }
+  assert(granted() > 0);
+  const double value = run_.evaluate(*objective_, theta_r, gradient);
   last_ = theta_r;
   found_.trace.add(value);
   if (value > found_.best.value) found_.best = {theta_r, value};
@@ -37,9 +43,9 @@ double Probe::evaluate(const Eigen::VectorXd& theta_r, Eigen::VectorXd* gradient
 }
 
 void Probe::spend() {
-  assert(left() > 0);
+  assert(granted() > 0);
   found_.trace.add(-kInfinity);
-  objective_->spend(1);
+  run_.show();
   if (found_.trace.evaluations() - reported_ >= kReportEvery) report();
 }
 
@@ -63,7 +69,7 @@ void Probe::report() {
   const long evaluations = found_.trace.evaluations();
   const long news = evaluations - reported_;
   reported_ = evaluations;
-  if (news > 0) progress_.add(news);
+  if (news > 0) run_.add(news);
 }
 
 void join(const std::vector<Part>& parts, Part& found) {
@@ -98,8 +104,21 @@ std::vector<Candidate> select_apart(const Box& box, std::vector<Candidate> candi
   return selected;
 }
 
-SearchResult make_result(const Part& found) {
+void add(std::vector<double>& values, const std::function<Eigen::VectorXd(long)>& point,
+         Part& found) {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isnan(values[i])) {
+      values[i] = -kInfinity;
+      continue;
+    }
+    found.trace.add(values[i]);
+    if (values[i] > found.best.value) found.best = {point(static_cast<long>(i)), values[i]};
+  }
+}
+
+SearchResult make_result(const Part& found, const SearchRun& run) {
   SearchResult result;
+  result.interrupted = run.interrupted();
   result.evaluations = found.trace.evaluations();
   result.calls = found.calls;
   if (found.best.value == -kInfinity) return result;
@@ -110,8 +129,9 @@ SearchResult make_result(const Part& found) {
   return result;
 }
 
-SearchResult make_result(Part found, const Box& box, const SearchOptions& options) {
-  SearchResult result = make_result(found);
+SearchResult make_result(Part found, const Box& box, const SearchOptions& options,
+                         const SearchRun& run) {
+  SearchResult result = make_result(found, run);
   if (options.peaks == 0) return result;
   found.peaks.insert(found.peaks.begin(), found.best);
   result.peaks = select_apart(box, std::move(found.peaks), kApart, options.peaks);

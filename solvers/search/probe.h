@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <vector>
@@ -25,8 +26,7 @@ class Probe {
  public:
   /// With `box`, also keeps the best point of each of its cells: an eighth of the bounds wide in
   /// every coordinate.
-  Probe(const Objective& objective, long budget, EvaluationCounter& progress,
-        const Box* box = nullptr);
+  Probe(const Objective& objective, long budget, SearchRun& run, const Box* box = nullptr);
   ~Probe();
   Probe(const Probe&) = delete;
   Probe& operator=(const Probe&) = delete;
@@ -37,19 +37,14 @@ class Probe {
   /// What was found since the last time; leaves no budget.
   Part take();
 
-  /// Evaluations that are left.
-  long left() const { return budget_ - found_.trace.evaluations(); }
-
-  /// Whether the rest of the evaluations is worth nothing.
-  bool ended() const { return objective_->ended(); }
+  /// Evaluations that are left: none once the run has ended.
+  long left() const { return run_.ended() ? 0 : granted(); }
 
   /// The value at theta_r, -infinity where there is none; costs one evaluation, with a gradient
-  /// too. There must be one left.
+  /// too, one of which must have been left. Once the run has ended: no value, and no cost.
   double evaluate(const Eigen::VectorXd& theta_r, Eigen::VectorXd* gradient = nullptr);
 
-  /// The objective's smooth program, or null. What it is asked is counted by `spend`.
-  FacetProgram* facets() { return objective_->facets(); }
-  /// Counts an evaluation of something else than the objective's value; there must be one left.
+  /// Counts an evaluation of something else than the objective's value; one must have been left.
   void spend();
 
   /// The metric at the point of the last evaluation, which costs nothing.
@@ -57,6 +52,7 @@ class Probe {
   const Part& found() const { return found_; }
 
  private:
+  long granted() const { return budget_ - found_.trace.evaluations(); }
   void report();
   std::uint64_t cell(const Eigen::VectorXd& theta_r) const;
 
@@ -64,7 +60,7 @@ class Probe {
   std::map<std::uint64_t, Candidate> cells_;
   std::unique_ptr<Objective> objective_;
   long budget_;
-  EvaluationCounter& progress_;
+  SearchRun& run_;
   long reported_ = 0;
   Part found_;
   Eigen::VectorXd last_;
@@ -85,8 +81,14 @@ inline constexpr double kApart = 0.05;
 std::vector<Candidate> select_apart(const Box& box, std::vector<Candidate> candidates,
                                     double separation, long count);
 
-SearchResult make_result(const Part& found);
+/// Adds what `evaluate_all` found at points to what a search has found. Those to which it did not
+/// come have no value from then on.
+void add(std::vector<double>& values, const std::function<Eigen::VectorXd(long)>& point,
+         Part& found);
+
+SearchResult make_result(const Part& found, const SearchRun& run);
 /// With the peaks that `options` ask for.
-SearchResult make_result(Part found, const Box& box, const SearchOptions& options);
+SearchResult make_result(Part found, const Box& box, const SearchOptions& options,
+                         const SearchRun& run);
 
 }  // namespace maxwrench

@@ -43,14 +43,14 @@ class Restart final : public Search {
   explicit Restart(const NamedSearch& of) : of_(of) {}
 
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {
-    check(options);
+    check(options, objective);
     const Box box(objective);
     SearchResult whole;
     Trace trace;
     std::vector<double> ends;
     const long size = restart_budget(objective.dimension());
-    EvaluationCounter progress(options.progress);
-    while (trace.evaluations() < options.budget && !objective.ended()) {
+    SearchRun run(options);
+    while (trace.evaluations() < options.budget && !whole.interrupted) {
       const long left = options.budget - trace.evaluations();
       const long count = std::clamp(left / size, 1L, kSideBySide);
       std::vector<SearchResult> results(static_cast<std::size_t>(count));
@@ -60,7 +60,7 @@ class Restart final : public Search {
         SearchOptions own = options_of(options, box, static_cast<long>(ends.size()) + i);
         own.budget = std::min(size, left);
         own.progress = [&, before = 0L](long evaluations) mutable {
-          progress.add(evaluations - std::exchange(before, evaluations));
+          run.add(evaluations - std::exchange(before, evaluations));
         };
         const auto at = static_cast<std::size_t>(i);
         results[at] = of_.make()->maximize(*objectives[at], own);
@@ -85,6 +85,7 @@ class Restart final : public Search {
     for (SearchResult& result : results) {
       traces.emplace_back(result.history, result.evaluations);
       ends.push_back(result.value);
+      whole.interrupted = whole.interrupted || result.interrupted;
       whole.calls.insert(whole.calls.end(), result.calls.begin(), result.calls.end());
       whole.peaks.insert(whole.peaks.end(), result.peaks.begin(), result.peaks.end());
       if (result.value <= whole.value) continue;

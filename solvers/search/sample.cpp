@@ -15,28 +15,26 @@ constexpr long kBlock = 1L << 16U;
 class Sample final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {
-    check(options);
+    check(options, objective);
     const Box box(objective);
-    EvaluationCounter progress(options.progress);
+    SearchRun run(options);
     const auto point = [&](long i) {
       Random random(options.seed, RandomUse::kSample, static_cast<std::uint64_t>(i));
       return random_point(box, random);
     };
     const long count = box.free() == 0 ? 1 : options.budget;
     Part found;
-    for (long first = 0; first < count && !objective.ended(); first += kBlock) {
+    for (long first = 0; first < count && !run.ended(); first += kBlock) {
       const long size = std::min(kBlock, count - first);
-      const std::vector<double> values = evaluate_all(
-          objective, size, [&](long i) { return point(first + i); }, options.threads, progress);
-      for (long i = 0; i < size; ++i) {
-        found.trace.add(values[i]);
-        if (values[i] > found.best.value) found.best = {point(first + i), values[i]};
-        if (options.peaks > 0 && values[i] > -kInfinity)
-          found.peaks.push_back({point(first + i), values[i]});
+      const auto of_block = [&](long i) { return point(first + i); };
+      std::vector<double> values = evaluate_all(objective, size, of_block, options.threads, run);
+      add(values, of_block, found);
+      for (long i = 0; options.peaks > 0 && i < size; ++i) {
+        if (values[i] > -kInfinity) found.peaks.push_back({of_block(i), values[i]});
       }
       found.peaks = select_apart(box, std::move(found.peaks), kApart, options.peaks);
     }
-    return make_result(std::move(found), box, options);
+    return make_result(std::move(found), box, options, run);
   }
 };
 

@@ -11,17 +11,17 @@ const long kJudged = KnotClimber::kJudgement + std::size(kRetreats) * (1 + KnotC
 
 bool SlpOutcome::improves(double its_worth, double its_value, double margin) const {
   const bool nothing = worth == -kInfinity && its_worth == -kInfinity;
-  const double mine = nothing ? found.best.value : worth;
+  const double mine = nothing ? plan.value : worth;
   const double other = nothing ? its_value : its_worth;
   return mine == -kInfinity ? other > mine : other > mine + margin * (1 + std::abs(mine));
 }
 
-void judge(KnotClimber& climber, EvaluationCounter& progress, SlpOutcome& outcome) {
+void judge(KnotClimber& climber, SearchRun& run, SlpOutcome& outcome) {
   const long before = climber.found().trace.evaluations();
-  Candidate plan = climber.found().best;
+  Candidate plan = climber.best();
   double worth = climber.worth(plan);
   if (worth == -kInfinity && outcome.worth > -kInfinity) {
-    const Eigen::VectorXd base = outcome.found.best.theta_r, way = plan.theta_r - base;
+    const Eigen::VectorXd base = outcome.plan.theta_r, way = plan.theta_r - base;
     for (const double share : kRetreats) {
       const Candidate between = climber.look(base + share * way);
       if (!(between.value > outcome.worth)) continue;
@@ -30,10 +30,10 @@ void judge(KnotClimber& climber, EvaluationCounter& progress, SlpOutcome& outcom
       if (worth > outcome.worth) break;
     }
   }
-  progress.add(climber.found().trace.evaluations() - before);
+  run.add(climber.found().trace.evaluations() - before);
   if (!outcome.improves(worth, plan.value, 0)) return;
   outcome.worth = worth;
-  outcome.found.best = plan;
+  outcome.plan = plan;
 }
 
 }  // namespace maxwrench

@@ -11,10 +11,11 @@ inline constexpr double kRetreats[] = {0.97, 0.9, 0.75, 0.5};
 /// Evaluations of one judgement, at most.
 extern const long kJudged;
 
-/// What `slp` has found, and what its best plan is worth, see `KnotClimber::worth`.
+/// What `slp` has found by its objective, and the plan from which it goes on.
 struct SlpOutcome {
   Part found;
-  double worth = -kInfinity;
+  Candidate plan;             ///< with its value at the instants
+  double worth = -kInfinity;  ///< what the objective makes of it, see `KnotClimber::worth`
 
   /// Whether a plan is better, by more than `margin` relative to 1 + |what counts|; of two that are
   /// worth nothing the one of higher value.
@@ -23,7 +24,7 @@ struct SlpOutcome {
 
 /// Makes the best plan of a climber the outcome's if it is worth more. One that is worth nothing
 /// goes back some of the way from the outcome's. Takes at most `kJudged` evaluations, which stand
-/// in the climber's trace.
-void judge(KnotClimber& climber, EvaluationCounter& progress, SlpOutcome& outcome);
+/// in what the climber has found.
+void judge(KnotClimber& climber, SearchRun& run, SlpOutcome& outcome);
 
 }  // namespace maxwrench

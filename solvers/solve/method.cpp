@@ -132,7 +132,13 @@ Method resolve_in_time(const Problem& problem, const Case& c) {
   method.plan_solver = c.lp.empty() ? &plan_solvers().front() : &find_plan_solver(c.lp);
   method.choice.lp = method.plan_solver->name;
   method.choice.scheme = scheme;
-  if (!c.search.empty()) method.search = find_search(c.search);
+  if (!c.search.empty()) {
+    method.search = find_search(c.search);
+    const auto& stages = method.search->stages;
+    const bool throughout = std::all_of(stages.begin(), stages.end(),
+                                        [](const SearchEntry* entry) { return entry->throughout; });
+    if (throughout) method.plan_value = PlanValue::kThroughout;
+  }
   method.unit = problem.unit();
   return method;
 }
@@ -194,8 +200,9 @@ Case with_search(const Problem& task, Case c) {
 }
 
 Method resolve(const Problem& problem, const Case& c) {
-  if (c.budget < 0) {
-    throw std::invalid_argument(fmt::format("budget: got {}, expected at least 1", c.budget));
+  if (c.budget < 0 || c.budget > kMostBudget) {
+    throw std::invalid_argument(
+        fmt::format("budget: got {}, expected 1 to {}, or 0 for the usual", c.budget, kMostBudget));
   }
   Method method = problem.motion ? resolve_in_time(problem, c) : resolve_static(problem, c);
   method.choice.problem = problem.name;
@@ -222,17 +229,16 @@ void set_scheme(const char* key, const std::string& scheme, Problem& problem) {
 std::unique_ptr<Objective> make_objective(const Problem& problem, const Method& method,
                                           std::shared_ptr<Tally> tally) {
   const Wrench wrench = method.choice.wrench;
-  if (method.plan_solver) return make_plan_objective(problem, wrench, method.plan_solver->make);
+  if (method.plan_solver) {
+    return make_plan_objective(problem, wrench, method.plan_solver->make, true, method.plan_value);
+  }
   return make_capability_objective(problem, wrench, method.make_measure, true, std::move(tally));
 }
 
 SearchResult run_search(const Problem& problem, const Method& method, Objective& objective,
-                        int threads, const std::function<void(long)>& progress) {
-  SearchOptions options;
+                        SearchOptions options) {
   options.seed = method.choice.seed;
   options.budget = method.choice.budget;
-  options.threads = threads;
-  options.progress = progress;
   options.start = stacked(constant_knots(problem, problem.theta_r_default));
   return method.search->make()->maximize(objective, options);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "maxwrench/objective.h"
+#include "maxwrench/plan.h"
 #include "maxwrench/search.h"
 #include "maxwrench/solve.h"
 
@@ -25,7 +26,8 @@ struct Method {
   /// Of a task in time. Of a static one: the search is one of plans and gets those of one knot,
   /// solved by this one; null: it gets postures.
   const PlanSolverEntry* plan_solver = nullptr;
-  const char* unit = "";  ///< of the value
+  PlanValue plan_value = PlanValue::kAtInstants;  ///< what the search of a task in time maximises
+  const char* unit = "";                          ///< of the value
   /// Of a static task.
   MeasureMaker make_measure;
   /// linf_polytope with the same wrenches by the reference solver, see `Answer::yardstick`.
@@ -63,8 +65,9 @@ std::unique_ptr<Objective> make_objective(const Problem& problem, const Method& 
 std::unique_ptr<Objective> make_objective(const Problem&&, const Method&,
                                           std::shared_ptr<Tally> = nullptr) = delete;
 
-/// Runs the search of a method from the default of the task.
+/// Runs the search of a method from the default of the task: seed, budget and start of the options
+/// are the method's.
 SearchResult run_search(const Problem& problem, const Method& method, Objective& objective,
-                        int threads, const std::function<void(long)>& progress = {});
+                        SearchOptions options);
 
 }  // namespace maxwrench

@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <thread>
 
+#include "maxwrench/batch.h"
 #include "maxwrench/measure.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"
-#include "solvers/solve/interruption.h"
 #include "solvers/solve/method.h"
 
 namespace maxwrench {
@@ -137,10 +137,10 @@ std::vector<CallCount> count_calls(const std::vector<Call>& calls) {
 
 /// Makes the answer of a posture, or plan, that a search found the answer of that search: what it
 /// took, and its word, for `optimal` is one of the lower level.
-void conclude_search(const SearchResult& result, const Interruption& interruption, Answer& answer) {
+void conclude_search(const SearchResult& result, Answer& answer) {
   answer.evaluations = result.evaluations;
   answer.calls = count_calls(result.calls);
-  answer.stopped = interruption.noticed                        ? "interrupted"
+  answer.stopped = result.interrupted                          ? "interrupted"
                    : !result.stopped.empty()                   ? result.stopped
                    : result.evaluations < answer.choice.budget ? "the method came to its end"
                                                                : kBudgetSpent;
@@ -148,17 +148,15 @@ void conclude_search(const SearchResult& result, const Interruption& interruptio
   if (answer.status == Status::kInfeasible) {  // true of what was found, not of the task
     answer.conclude(Status::kNoneFound, "of the best that was found: " + answer.reason.str());
   }
-  if (!interruption.noticed) return;
-  answer.evaluations -= interruption.skipped;
-  if (answer.status != Status::kNumericalError) {
+  if (result.interrupted && answer.status != Status::kNumericalError) {
     answer.conclude(Status::kBudgetExhausted, "interrupted");
   }
 }
 
 int thread_count(int threads) {
-  if (threads < 0) {
-    throw std::invalid_argument("threads: got " + std::to_string(threads) +
-                                ", expected 0 for one on each core, or more");
+  if (threads < 0 || threads > kMostThreads) {
+    throw std::invalid_argument("threads: got " + std::to_string(threads) + ", expected 1 to " +
+                                std::to_string(kMostThreads) + ", or 0 for one on each core");
   }
   return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
@@ -190,9 +188,12 @@ Answer solve(const Problem& task, const Options& options) {
   const Method method = resolve(*kept, with_search(task, options));
   const auto start = Clock::now();
   const auto tally = std::make_shared<Tally>();
-  Interruption interruption{options.interrupted};
-  const auto objective = make_interruptible(make_objective(*kept, method, tally), interruption);
-  const SearchResult result = run_search(*kept, method, *objective, threads, options.progress);
+  const auto objective = make_objective(*kept, method, tally);
+  SearchOptions how;
+  how.threads = threads;
+  how.progress = options.progress;
+  how.interrupted = options.interrupted;
+  const SearchResult result = run_search(*kept, method, *objective, std::move(how));
   const double search_s = seconds_since(start);
   Answer answer = begin(kept, method);
   if (result.status == Status::kBestFound) {
@@ -200,7 +201,7 @@ Answer solve(const Problem& task, const Options& options) {
   } else {
     static_cast<Verdict&>(answer) = result;
   }
-  conclude_search(result, interruption, answer);
+  conclude_search(result, answer);
   answer.undecided = tally->undecided();
   answer.branches = tally->sum();
   answer.wall_s += search_s;

@@ -1,68 +1,60 @@
 #pragma once
 
-#include <limits>
+#include <atomic>
 #include <memory>
 #include <utility>
 
-#include "maxwrench/objective.h"
-
-// Objectives that differ from another one in a single thing.
+#include "maxwrench/batch.h"
+#include "maxwrench/plan.h"
 
 namespace maxwrench {
 
-/// The other one, with its plans and facets.
-class Wrapped : public Objective {
+/// A run of a search that nobody watches.
+inline SearchRun& quiet_run() {
+  static const SearchOptions options;
+  static SearchRun run(options);
+  return run;
+}
+
+/// Interrupts a search after so many evaluations.
+class Interruption {
  public:
-  explicit Wrapped(std::unique_ptr<Objective> objective) : objective_(std::move(objective)) {}
-
-  const Eigen::VectorXd& lower() const override { return objective_->lower(); }
-  const Eigen::VectorXd& upper() const override { return objective_->upper(); }
-  const Verdict& verdict() const override { return objective_->verdict(); }
-  bool ended() const override { return objective_->ended(); }
-  PlanEvaluator* plans() override { return objective_->plans(); }
-  FacetProgram* facets() override { return objective_->facets(); }
-  double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) override {
-    return objective_->evaluate(x, gradient);
+  Interruption(long evaluations, SearchOptions& options) : left_(evaluations) {
+    options.interrupted = [this] { return left_ <= 0; };
+    options.evaluated = [this](double) { --left_; };
   }
-
- protected:
-  std::unique_ptr<Objective> objective_;
-};
-
-/// Has no value any more after so many evaluations of all its clones together, as one that somebody
-/// interrupts.
-class Ending final : public Wrapped {
- public:
-  Ending(std::unique_ptr<Objective> objective, std::shared_ptr<long> left)
-      : Wrapped(std::move(objective)), left_(std::move(left)) {}
-
-  bool ended() const override { return *left_ <= 0; }
-  double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) override {
-    if (--*left_ >= 0) return objective_->evaluate(x, gradient);
-    if (gradient) gradient->setConstant(x.size(), std::numeric_limits<double>::quiet_NaN());
-    return -kInfinity;
-  }
-  std::unique_ptr<Objective> clone() const override {
-    return std::make_unique<Ending>(objective_->clone(), left_);
-  }
+  /// Negative: so many more were made.
+  long left() const { return left_; }
 
  private:
-  std::shared_ptr<long> left_;
+  std::atomic<long> left_;
 };
 
-/// Has other bounds.
-class OtherBounds final : public Wrapped {
+/// Plans within other bounds.
+class OtherBounds final : public PlanObjective {
  public:
-  OtherBounds(std::unique_ptr<Objective> objective, Eigen::VectorXd lower, Eigen::VectorXd upper)
-      : Wrapped(std::move(objective)), lower_(std::move(lower)), upper_(std::move(upper)) {}
+  OtherBounds(std::unique_ptr<PlanObjective> objective, Eigen::VectorXd lower,
+              Eigen::VectorXd upper)
+      : objective_(std::move(objective)), lower_(std::move(lower)), upper_(std::move(upper)) {}
 
   const Eigen::VectorXd& lower() const override { return lower_; }
   const Eigen::VectorXd& upper() const override { return upper_; }
-  std::unique_ptr<Objective> clone() const override {
-    return std::make_unique<OtherBounds>(objective_->clone(), lower_, upper_);
+  const Verdict& verdict() const override { return objective_->verdict(); }
+  const KnotRows* rows() const override { return objective_->rows(); }
+  PlanEvaluator& plans() override { return objective_->plans(); }
+  PlanValue counts() const override { return objective_->counts(); }
+  double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) override {
+    return objective_->evaluate(x, gradient);
+  }
+  double evaluate_throughout(const Eigen::VectorXd& x, double at_instants) override {
+    return objective_->evaluate_throughout(x, at_instants);
+  }
+  std::unique_ptr<PlanObjective> copy(PlanValue counts) const override {
+    return std::make_unique<OtherBounds>(objective_->copy(counts), lower_, upper_);
   }
 
  private:
+  std::unique_ptr<PlanObjective> objective_;
   Eigen::VectorXd lower_, upper_;
 };
 

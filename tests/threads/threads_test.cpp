@@ -160,12 +160,13 @@ TEST(Threads, BatchesOfEvaluationsShareNothing) {
   const auto objective =
       make_capability_objective(problem, c.wrench, resolve(problem, c).make_measure, true);
   const auto values = [&](int threads) {
-    EvaluationCounter counter({});
+    const SearchOptions options;
+    SearchRun run(options);
     const auto point = [&](long i) {
       Random random(1, static_cast<std::uint64_t>(i));
       return anywhere(problem, random);
     };
-    const std::vector<double> result = evaluate_all(*objective, 1000, point, threads, counter);
+    const std::vector<double> result = evaluate_all(*objective, 1000, point, threads, run);
     return result;
   };
   EXPECT_EQ(values(1), values(kThreads));

@@ -162,7 +162,7 @@ TEST_P(PlanGradient, IsThatOfCentralDifferences) {
   // here that keeps it, so tables are drawn in its null space.
   const auto objective =
       make_plan_objective(problem, GetParam().wrench, find_plan_solver("structured").make, false);
-  const KnotRows& rows = objective->plans()->rows();
+  const KnotRows& rows = *objective->rows();
   const Eigen::MatrixXd R = rows.R;
   std::vector<Eigen::Index> equations;
   for (Eigen::Index i = 0; i < rows.r_min.size(); ++i) {

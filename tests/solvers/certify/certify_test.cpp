@@ -5,13 +5,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "lib/search/forwarding.h"
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"
 #include "tests/support/hills.h"
 #include "tests/support/loops.h"
-#include "tests/support/objectives.h"
+#include "tests/support/refusals.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {
@@ -107,9 +108,9 @@ TEST(Certify, OrdersTheMeasures) {
 }
 
 /// A function of no values, as of one that could not be improved.
-class Frozen final : public Wrapped {
+class Frozen final : public ForwardingObjective {
  public:
-  using Wrapped::Wrapped;
+  using ForwardingObjective::ForwardingObjective;
   double evaluate(const Eigen::VectorXd& /*x*/, Eigen::VectorXd* /*gradient*/) override {
     return -kInfinity;
   }
@@ -309,9 +310,24 @@ TEST(Certify, ProvesWhatIsBelowZero) {
   EXPECT_NEAR(result.best.value, -1, 1e-3);
 }
 
-TEST(Certify, RefusesAGapBelowRounding) {
+TEST(Certify, RefusesOptionsOutOfRange) {
   ProofCase at("planar/force", "ellipsoid", Wrench::kPure);
-  EXPECT_THROW(at.prove({}, to_gap(1e-9)), std::invalid_argument);
+  const auto refused = [&](const char* key, const auto& spoil, double value = -kInfinity) {
+    CertifyOptions options = to_gap(1e-3);
+    spoil(options);
+    expect_refused(key, [&] { at.prove({at.problem.theta_r_default, value}, options); });
+  };
+  for (const double gap : {1e-9, -1.0, kInfinity, std::nan("")}) {
+    refused("gap", [&](CertifyOptions& options) { options.gap = gap; });
+  }
+  for (const double seconds : {-1.0, -kInfinity, std::nan("")}) {
+    refused("seconds", [&](CertifyOptions& options) { options.seconds = seconds; });
+  }
+  refused("boxes", [](CertifyOptions& options) { options.boxes = 0; });
+  refused("threads", [](CertifyOptions& options) { options.threads = 0; });
+  refused("threads", [](CertifyOptions& options) { options.threads = 1025; });
+  refused(
+      "incumbent", [](CertifyOptions&) {}, std::nan(""));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "maxwrench/strategies.h"
 #include "solvers/certify/certify.h"
 #include "tests/support/hills.h"
+#include "tests/support/refusals.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {
@@ -123,7 +124,7 @@ TEST(GoodPostures, EndEarlyWithLargerBoxes) {
   HillsObjective objective(hills);
   GoodOptions few, late, stopped;
   few.boxes = 20;
-  late.seconds = -1;
+  late.seconds = 0;
   stopped.interrupted = [] { return true; };
   for (const auto& [options, reason] :
        {std::pair(few, "boxes"), {late, "time"}, {stopped, "interrupted"}}) {
@@ -145,19 +146,27 @@ TEST(GoodPostures, RefuseOptionsOutOfRange) {
   const Hills hills = hills_at({Eigen::VectorXd::Constant(1, 0.2)});
   HillsObjective objective(hills);
   const HillsBound bound(hills);
-  const auto refused = [&](double within, double resolution, double value) {
+  const auto refused = [&](const char* key, const auto& spoil, double value = 1, double high = 1) {
     GoodOptions options;
-    options.within = within;
-    options.resolution = resolution;
-    EXPECT_THROW(find_good_postures(objective, bound, {hills.peaks[0], value}, 1, options),
-                 std::invalid_argument);
+    spoil(options);
+    expect_refused(key, [&] {
+      find_good_postures(objective, bound, {hills.peaks[0], value}, high, options);
+    });
   };
-  refused(0, 0.1, 1);
-  refused(1.1, 0.1, 1);
-  refused(std::nan(""), 0.1, 1);
-  refused(0.1, 0, 1);
-  refused(0.1, std::nan(""), 1);
-  refused(0.1, 0.1, -kInfinity);
+  const auto none = [](GoodOptions&) {};
+  for (const double bad : {0.0, -1.0, std::nan(""), kInfinity, -kInfinity}) {
+    refused("within", [&](GoodOptions& options) { options.within = bad; });
+    refused("resolution", [&](GoodOptions& options) { options.resolution = bad; });
+    if (bad < 0 || std::isnan(bad)) {
+      refused("seconds", [&](GoodOptions& options) { options.seconds = bad; });
+    }
+    if (!std::isfinite(bad)) refused("best", none, bad);
+  }
+  refused("within", [](GoodOptions& options) { options.within = 1.1; });
+  refused("boxes", [](GoodOptions& options) { options.boxes = 0; });
+  refused("threads", [](GoodOptions& options) { options.threads = 0; });
+  refused("turns", [](GoodOptions& options) { options.turns = {1, 1}; });
+  refused("high", none, 1, std::nan(""));
 }
 
 /// The value may be below zero.

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "maxwrench/strategies.h"
+#include "tests/support/refusals.h"
 
 namespace maxwrench {
 namespace {
@@ -210,12 +211,15 @@ TEST_P(IntegratorTest, RefusesOptionsOfNoIntegration) {
   for (double IntegratorOptions::*option :
        {&IntegratorOptions::relative_tolerance, &IntegratorOptions::absolute_tolerance,
         &IntegratorOptions::step}) {
-    for (const double value : {-1.0, kNan}) {
+    for (const double value : {-1.0, kNan, kInfinity}) {
       options = {};
       options.*option = value;
-      EXPECT_THROW(integrate(still, {0, 1}), std::invalid_argument) << value;
+      expect_refused("integrator ", [&] { integrate(still, {0, 1}); });
     }
   }
+  options = {};
+  options.max_steps = 0;
+  expect_refused("integrator max_steps", [&] { integrate(still, {0, 1}); });
 }
 
 TEST(Ode, ResidualIsThatOfTheExplicitForm) {

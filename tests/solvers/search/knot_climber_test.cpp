@@ -17,7 +17,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-std::unique_ptr<Objective> elastic_value(const Problem& problem, Wrench wrench = Wrench::kPure) {
+std::unique_ptr<PlanObjective> elastic_value(const Problem& problem,
+                                             Wrench wrench = Wrench::kPure) {
   return make_plan_objective(problem, wrench, find_plan_solver("structured").make);
 }
 
@@ -26,10 +27,9 @@ VectorXd default_table(const Problem& problem) {
   return problem.theta_r_default.replicate(problem.motion->k, 1);
 }
 
-KnotClimber climber_from(std::unique_ptr<Objective> objective, const VectorXd& x,
+KnotClimber climber_from(const std::unique_ptr<PlanObjective>& objective, const VectorXd& x,
                          bool alike = false) {
-  const double value = evaluate_one(*objective, x);
-  return {std::move(objective), {x, value}, alike};
+  return {*objective, {x, evaluate_one(*objective, x)}, quiet_run(), alike};
 }
 
 /// The hard program of a table, by a general solver.
@@ -40,7 +40,7 @@ Plan confirmed_plan(const Problem& problem, const VectorXd& x, Wrench wrench = W
 
 /// How far a table is beyond its bounds and rows.
 double table_violation(Objective& objective, const VectorXd& x) {
-  const KnotRows& rows = objective.plans()->rows();
+  const KnotRows& rows = *objective.rows();
   const VectorXd at = rows.R * x;
   return std::max({0.0, (x - objective.upper()).maxCoeff(), (objective.lower() - x).maxCoeff(),
                    (at - rows.r_max).maxCoeff(), (rows.r_min - at).maxCoeff()});
@@ -59,7 +59,7 @@ TEST(KnotClimber, RisesWithinItsShare) {
         EXPECT_EQ(climber.found().trace.evaluations(), 0);
       }
       EXPECT_GE(climber.value(), std::max(start, before)) << share;
-      EXPECT_EQ(climber.found().best.value, climber.value());
+      EXPECT_EQ(climber.best().value, climber.value());
       before = climber.value();
     }
     KnotClimber climber = climber_from(elastic_value(problem, wrench), default_table(problem));
@@ -129,8 +129,8 @@ TEST(KnotClimber, KeepsSpeedLimits) {
   climber.climb(60);
   const VectorXd& x = climber.at().theta_r;
   EXPECT_LE(table_violation(*objective, x), 1e-9);
-  const VectorXd at = objective->plans()->rows().R * x;
-  EXPECT_LT((objective->plans()->rows().r_max - at).minCoeff(), 1e-6);
+  const VectorXd at = objective->rows()->R * x;
+  EXPECT_LT((objective->rows()->r_max - at).minCoeff(), 1e-6);
   EXPECT_EQ(confirmed_plan(problem, x).status, Status::kOptimal);
 }
 
@@ -184,7 +184,7 @@ TEST(KnotClimber, KnotsThatMoveAlikeKeepTheNearestBound) {
     (step[j] > 0 ? upper : lower)[fourth + j] = start[fourth + j] + 0.1 * step[j];
     start[last + j] += 0.05;
   }
-  const auto bounded = [&] {
+  const auto bounded = [&]() -> std::unique_ptr<PlanObjective> {
     return std::make_unique<OtherBounds>(elastic_value(problem), lower, upper);
   };
   KnotClimber climber = climber_from(bounded(), start, true);
@@ -213,16 +213,33 @@ TEST(KnotClimber, EndsAtOnceWhereThereIsNoValue) {
   const Problem problem = load_problem("planar/trajectory");
   VectorXd jump = default_table(problem);
   jump[2] = 1e3;  // no joint gets there
-  KnotClimber climber(elastic_value(problem), {jump, 1});
+  KnotClimber climber(*elastic_value(problem), {jump, 1}, quiet_run());
   climber.climb(50);
   EXPECT_EQ(climber.found().trace.evaluations(), 1);
   EXPECT_EQ(climber.at().theta_r, jump);
-  const auto left = std::make_shared<long>(5);
-  KnotClimber interrupted(std::make_unique<Ending>(elastic_value(problem), left),
-                          {default_table(problem), 0});
+  SearchOptions options;
+  const Interruption interruption(5, options);
+  SearchRun run(options);
+  KnotClimber interrupted(*elastic_value(problem), {default_table(problem), 0}, run);
   interrupted.climb(50);
-  EXPECT_LE(interrupted.found().trace.evaluations(), 13);  // a linear program beside each
-  EXPECT_EQ(*left, 0);
+  EXPECT_EQ(interrupted.found().trace.evaluations(), 5 - interruption.left());
+  EXPECT_GE(interruption.left(), -1);  // a linear program follows an evaluation
+}
+
+/// Each step's linear program is a call, and an evaluation without a value.
+TEST(KnotClimber, SaysWhoseLinearProgramsItsStepsUsed) {
+  const Problem problem = load_problem("uvms/valve_trajectory");
+  KnotClimber climber = climber_from(elastic_value(problem), default_table(problem));
+  climber.climb(30);
+  long by_facets = 0, by_ipm = 0;
+  for (const Call& call : climber.found().calls) {
+    EXPECT_EQ(call.method, "slp");
+    EXPECT_EQ(call.evaluations, 1);
+    ++(call.status == "facets" ? by_facets : by_ipm);
+    EXPECT_TRUE(call.status == "facets" || call.status == "ipm") << call.status;
+  }
+  EXPECT_GT(by_facets + by_ipm, 5);
+  EXPECT_LT(by_facets + by_ipm, 30);
 }
 
 TEST(KnotClimber, APlanIsWorthTheLessOfItsInstantsAndWhatIsBetweenThem) {
@@ -232,15 +249,20 @@ TEST(KnotClimber, APlanIsWorthTheLessOfItsInstantsAndWhatIsBetweenThem) {
   plans.evaluate(unstacked(plan.theta_r, knots_of(problem)));
   plans.evaluate_continuous();
   const double between = plans.plan().continuous;
-  KnotClimber climber = climber_from(elastic_value(problem), plan.theta_r);
+  const auto throughout = [&] { return elastic_value(problem)->copy(PlanValue::kThroughout); };
+  KnotClimber climber(*throughout(), plan, quiet_run());
   EXPECT_NEAR(climber.worth(plan), between, 1e-7);
   EXPECT_EQ(climber.worth({plan.theta_r, between / 2}), between / 2);
+  EXPECT_NEAR(climber.found().best.value, between, 1e-7);
+  EXPECT_NEAR(throughout()->evaluate(plan.theta_r), between, 1e-7);  // at its instants it has more
   EXPECT_EQ(climber.found().trace.evaluations(), 2 * KnotClimber::kJudgement);
   climber.climb(50);  // it has ended
   EXPECT_EQ(climber.found().trace.evaluations(), 2 * KnotClimber::kJudgement);
-  // The other schemes do not say what happens between their instants.
+  // To another objective nothing counts between them; and other schemes do not say what is there.
+  KnotClimber at_instants = climber_from(elastic_value(problem), plan.theta_r);
+  EXPECT_EQ(at_instants.worth(plan), 7);
   problem.motion->scheme = Scheme::kEnds;
-  KnotClimber coarse = climber_from(elastic_value(problem), plan.theta_r);
+  KnotClimber coarse(*throughout(), plan, quiet_run());
   EXPECT_EQ(coarse.worth(plan), 7);
   EXPECT_EQ(coarse.found().trace.evaluations(), 0);
 }

@@ -19,7 +19,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-std::unique_ptr<Objective> plans_to_draw(const Problem& problem) {
+std::unique_ptr<PlanObjective> plans_to_draw(const Problem& problem) {
   return make_plan_objective(problem, Wrench::kPure, find_plan_solver("structured").make);
 }
 
@@ -33,10 +33,11 @@ SearchOptions draw_options(const Problem& problem, long budget, int threads = 2)
 
 /// What was drawn, and what that took.
 struct Drawn {
-  using Draw = std::vector<Candidate>(Objective&, const SearchOptions&, EvaluationCounter&, Part&);
-  Drawn(Draw* draw, Objective& objective, const SearchOptions& options) {
-    EvaluationCounter progress([this](long count) { shown = std::max<long>(shown, count); });
-    starts = draw(objective, options, progress, found);
+  using Draw = std::vector<Candidate>(PlanObjective&, const SearchOptions&, SearchRun&, Part&);
+  Drawn(Draw* draw, PlanObjective& objective, SearchOptions options) {
+    options.progress = [this](long count) { shown = std::max<long>(shown, count); };
+    SearchRun run(options);
+    starts = draw(objective, options, run, found);
   }
   std::vector<Candidate> starts;
   Part found;
@@ -65,7 +66,7 @@ TEST_P(KnotStartsOf, AreTablesWithAValueWithinAllLimits) {
   EXPECT_LE(drawn.starts.size(), 30U);
   EXPECT_TRUE(std::any_of(drawn.starts.begin(), drawn.starts.end(),
                           [&](const Candidate& c) { return c.theta_r == options.start; }));
-  const KnotRows& rows = objective->plans()->rows();
+  const KnotRows& rows = objective->plans().rows();
   double best = -kInfinity;
   for (const Candidate& start : drawn.starts) {
     EXPECT_NEAR(objective->evaluate(start.theta_r), start.value, 1e-9);
@@ -170,10 +171,9 @@ TEST_P(KnotStartsOf, KicksStayNearThePlanAndWithinAllLimits) {
   const auto objective = plans_to_draw(problem);
   const SearchOptions options = draw_options(problem, 300);
   const Candidate plan = {options.start, objective->evaluate(options.start)};
-  const KnotRows& rows = objective->plans()->rows();
-  EvaluationCounter progress(nullptr);
+  const KnotRows& rows = objective->plans().rows();
   Part found;
-  const auto kicks = kick_knots(*objective, options, plan, 0, 16, progress, found);
+  const auto kicks = kick_knots(*objective, options, plan, 0, 16, quiet_run(), found);
   EXPECT_EQ(found.trace.evaluations(), 16);
   ASSERT_GT(kicks.size(), 2U);  // many collide
   for (const Candidate& kick : kicks) {
@@ -188,19 +188,41 @@ TEST_P(KnotStartsOf, KicksStayNearThePlanAndWithinAllLimits) {
     EXPECT_LE(moved, 0.8 * std::sqrt(static_cast<double>(plan.theta_r.size())));
   }
   // Others of the series differ, the same ones do not.
-  const auto again = kick_knots(*objective, options, plan, 0, 16, progress, found);
-  const auto later = kick_knots(*objective, options, plan, 16, 16, progress, found);
+  const auto again = kick_knots(*objective, options, plan, 0, 16, quiet_run(), found);
+  const auto later = kick_knots(*objective, options, plan, 16, 16, quiet_run(), found);
   EXPECT_EQ(again.front().theta_r, kicks.front().theta_r);
   EXPECT_NE(later.front().theta_r, kicks.front().theta_r);
 }
 
-TEST(KnotStarts, NoneWhereNothingHasAValue) {
+TEST(KnotStarts, NoneOnceTheRunHasEnded) {
   const Problem problem = load_problem("planar/trajectory");
-  Ending objective(plans_to_draw(problem), std::make_shared<long>(0));
-  const Drawn drawn(find_knot_starts, objective, draw_options(problem, 500));
+  SearchOptions options = draw_options(problem, 500);
+  options.interrupted = [] { return true; };
+  const Drawn drawn(find_knot_starts, *plans_to_draw(problem), options);
   EXPECT_TRUE(drawn.starts.empty());
   EXPECT_EQ(drawn.found.best.value, -kInfinity);
-  EXPECT_EQ(drawn.found.trace.evaluations(), 50);
+  EXPECT_EQ(drawn.found.trace.evaluations(), 0);
+}
+
+/// To an objective to which more counts, their values are guides: none is its own.
+TEST(KnotStarts, AreTheSameWhateverCounts) {
+  const Problem problem = load_problem("planar/trajectory");
+  const auto objective = plans_to_draw(problem);
+  const auto throughout = objective->copy(PlanValue::kThroughout);
+  std::atomic<long> values = 0;
+  SearchOptions options = draw_options(problem, 600);
+  const Drawn by_instants(find_knot_starts, *objective, options);
+  options.evaluated = [&](double value) { values += value > -kInfinity ? 1 : 0; };
+  const Drawn guided(find_knot_starts, *throughout, options);
+  ASSERT_EQ(guided.starts.size(), by_instants.starts.size());
+  for (std::size_t i = 0; i < guided.starts.size(); ++i) {
+    EXPECT_EQ(guided.starts[i].theta_r, by_instants.starts[i].theta_r);
+    EXPECT_EQ(guided.starts[i].value, by_instants.starts[i].value);
+  }
+  EXPECT_EQ(guided.found.trace.evaluations(), by_instants.found.trace.evaluations());
+  EXPECT_TRUE(guided.found.trace.improvements().empty());
+  EXPECT_EQ(guided.found.best.value, -kInfinity);
+  EXPECT_EQ(values, 0);
 }
 
 TEST(KnotStarts, OneEvaluationIsTheStart) {

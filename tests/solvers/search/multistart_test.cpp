@@ -23,7 +23,7 @@ TEST(Multistart, ClimbsPlansWithinTheirRows) {
     ASSERT_EQ(result.status, Status::kBestFound) << name;
     EXPECT_LE(result.evaluations, options.budget);
     EXPECT_GT(result.value, start + 0.01 * std::abs(start)) << name;
-    const KnotRows& rows = objective->plans()->rows();
+    const KnotRows& rows = *objective->rows();
     const Eigen::VectorXd at = rows.R * result.theta_r;
     EXPECT_LE((at - rows.r_max).maxCoeff(), 1e-6) << name;
     EXPECT_LE((rows.r_min - at).maxCoeff(), 1e-6) << name;

@@ -12,6 +12,7 @@
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
 #include "solvers/search/knot_climber.h"
+#include "tests/support/objectives.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {
@@ -33,21 +34,22 @@ double worth_of(const Problem& problem, const Eigen::VectorXd& x) {
 struct Loose {
   explicit Loose(const char* name, long climbed) : problem(load_problem(name)) {
     problem.motion->instants_per_interval = 1;
-    objective = make_plan_objective(problem, Wrench::kPure, find_plan_solver("structured").make);
+    objective = make_plan_objective(problem, Wrench::kPure, find_plan_solver("structured").make,
+                                    true, PlanValue::kThroughout);
     start.theta_r = problem.theta_r_default.replicate(problem.motion->k, 1);
-    start.value = objective->evaluate(start.theta_r);
-    climber = std::make_unique<KnotClimber>(objective->clone(), start);
+    start.value = objective->copy(PlanValue::kAtInstants)->evaluate(start.theta_r);
+    climber = std::make_unique<KnotClimber>(*objective, start, quiet_run());
     climber->climb(climbed);
   }
   /// The start, which is worth something.
   SlpOutcome outcome() const {
     SlpOutcome outcome;
-    outcome.found.best = start;
+    outcome.plan = start;
     outcome.worth = worth_of(problem, start.theta_r);
     return outcome;
   }
   Problem problem;
-  std::unique_ptr<Objective> objective;
+  std::unique_ptr<PlanObjective> objective;
   Candidate start;
   std::unique_ptr<KnotClimber> climber;
 };
@@ -65,20 +67,22 @@ TEST(SlpOutcome, SLOW_APlanWorthNothingGoesBackSomeOfTheWay) {
     const Loose task(name, climbed);
     SlpOutcome outcome = task.outcome();
     const double before = outcome.worth;
-    const Eigen::VectorXd end = task.climber->found().best.theta_r;
+    const Eigen::VectorXd end = task.climber->best().theta_r;
     ASSERT_GT(before, -kInfinity);
     ASSERT_EQ(worth_of(task.problem, end), -kInfinity) << name;
     ASSERT_GT(task.climber->value(), before);
     const long spent = task.climber->found().trace.evaluations();
     long shown = 0;
-    EvaluationCounter progress([&](long count) { shown = count; });
-    judge(*task.climber, progress, outcome);
+    SearchOptions options;
+    options.progress = [&](long count) { shown = count; };
+    SearchRun run(options);
+    judge(*task.climber, run, outcome);
     EXPECT_LE(shown, kJudged);
     EXPECT_EQ(task.climber->found().trace.evaluations(), spent + shown);
     EXPECT_GT(outcome.worth, before) << name;
-    EXPECT_NEAR(worth_of(task.problem, outcome.found.best.theta_r), outcome.worth, 1e-6) << name;
+    EXPECT_NEAR(worth_of(task.problem, outcome.plan.theta_r), outcome.worth, 1e-6) << name;
     // As far as it can go: from further on the way nothing more is worth than before.
-    const double share = share_of_way(outcome.found.best.theta_r, task.start.theta_r, end);
+    const double share = share_of_way(outcome.plan.theta_r, task.start.theta_r, end);
     bool listed = false;
     for (const double retreat : kRetreats) {
       listed = listed || std::abs(share - retreat) < 1e-12;
@@ -93,22 +97,20 @@ TEST(SlpOutcome, SLOW_APlanWorthNothingGoesBackSomeOfTheWay) {
 TEST(SlpOutcome, NothingOnTheWayIsWorthAsMuch) {
   const Loose task("planar/trajectory", 100);
   SlpOutcome outcome = task.outcome();
-  outcome.worth = outcome.found.best.value = 100;  // no plan exerts that
-  EvaluationCounter progress({});
-  judge(*task.climber, progress, outcome);
+  outcome.worth = outcome.plan.value = 100;  // no plan exerts that
+  judge(*task.climber, quiet_run(), outcome);
   EXPECT_EQ(outcome.worth, 100);
-  EXPECT_EQ(outcome.found.best.theta_r, task.start.theta_r);
+  EXPECT_EQ(outcome.plan.theta_r, task.start.theta_r);
 }
 
 TEST(SlpOutcome, APlanWorthSomethingStaysWhereItIs) {
   const Loose task("planar/trajectory", 20);
   SlpOutcome outcome = task.outcome();
-  const Eigen::VectorXd end = task.climber->found().best.theta_r;
+  const Eigen::VectorXd end = task.climber->best().theta_r;
   const double worth = worth_of(task.problem, end);
   ASSERT_GT(worth, outcome.worth);
-  EvaluationCounter progress({});
-  judge(*task.climber, progress, outcome);
-  EXPECT_EQ(outcome.found.best.theta_r, end);
+  judge(*task.climber, quiet_run(), outcome);
+  EXPECT_EQ(outcome.plan.theta_r, end);
   EXPECT_NEAR(outcome.worth, worth, 1e-6);
 }
 
@@ -116,15 +118,14 @@ TEST(SlpOutcome, APlanWorthSomethingStaysWhereItIs) {
 TEST(SlpOutcome, WhereNothingIsWorthAnythingTheValueCounts) {
   const Loose task("planar/trajectory", 100);
   SlpOutcome outcome;
-  EvaluationCounter progress({});
-  judge(*task.climber, progress, outcome);
+  judge(*task.climber, quiet_run(), outcome);
   EXPECT_EQ(outcome.worth, -kInfinity);
-  EXPECT_EQ(outcome.found.best.theta_r, task.climber->found().best.theta_r);
+  EXPECT_EQ(outcome.plan.theta_r, task.climber->best().theta_r);
 }
 
 TEST(SlpOutcome, WhatIsWorthMoreImproves) {
   SlpOutcome outcome;
-  outcome.found.best.value = 3;
+  outcome.plan.value = 3;
   outcome.worth = 2;
   EXPECT_TRUE(outcome.improves(2.1, 2.1, 0));
   EXPECT_FALSE(outcome.improves(2, 9, 0));            // its value does not count
@@ -135,7 +136,7 @@ TEST(SlpOutcome, WhatIsWorthMoreImproves) {
   EXPECT_TRUE(outcome.improves(-9, 0, 0));            // worth something, at whatever value
   EXPECT_TRUE(outcome.improves(-kInfinity, 3.1, 0));  // neither is: the higher value
   EXPECT_FALSE(outcome.improves(-kInfinity, 3, 0));
-  outcome.found.best.value = -kInfinity;  // nothing found so far
+  outcome.plan.value = -kInfinity;  // nothing found so far
   EXPECT_TRUE(outcome.improves(-kInfinity, -9, 1));
   EXPECT_FALSE(outcome.improves(-kInfinity, -kInfinity, 0));
 }

@@ -1,0 +1,50 @@
+#include <cmath>
+
+#include "lib/math/require.h"
+#include "maxwrench/tank.h"
+
+namespace maxwrench {
+namespace {
+
+constexpr double kMostPeriods = 1e7;
+
+void require_positive(const char* key, double value) {
+  require(value > 0 && std::isfinite(value), key, value, "a finite number > 0");
+}
+
+void require_not_negative(const char* key, double value) {
+  require(value >= 0 && std::isfinite(value), key, value, "a finite number >= 0");
+}
+
+void require_margin(double margin) {
+  require(margin >= 0 && margin < 1, "margin", margin, "a share from 0 to below 1");
+}
+
+}  // namespace
+
+void check(const TankOptions& options) {
+  require_positive("ramp", options.ramp);
+  require_not_negative("hold", options.hold);
+  require_positive("period", options.period);
+  const double periods = (2 * options.ramp + options.hold) / options.period;
+  require(periods <= kMostPeriods, "period", options.period,
+          "at most ten million of them in the experiment");
+  require_positive("thruster_lag", options.thruster_lag);
+  require_not_negative("bandwidth", options.bandwidth);
+  require_margin(options.margin);
+  require_not_negative("load", options.load);
+  require_positive("cell.stiffness_linear", options.cell.stiffness_linear);
+  require_positive("cell.stiffness_angular", options.cell.stiffness_angular);
+  require_not_negative("cell.damping_linear", options.cell.damping_linear);
+  require_not_negative("cell.damping_angular", options.cell.damping_angular);
+  require_not_negative("imperfections.thrust_efficiency", options.imperfections.thrust_efficiency);
+  require_not_negative("imperfections.thrust_noise", options.imperfections.thrust_noise);
+  check(options.integrator);
+}
+
+void check(const ScriptOptions& options) {
+  require_not_negative("planned", options.planned);
+  require_margin(options.margin);
+}
+
+}  // namespace maxwrench
