@@ -4,6 +4,10 @@
 // and GLPK, all on the program assembled for free; then prints how many times faster ours are than
 // the best peer of the same run. Every answer is checked, as everywhere else.
 //
+// Robots: the underwater vehicle of uvms/valve, the planar one, the wheeled one, and the underwater
+// one with nine joints. Beside each row stand the variables of an instant in the interior point
+// method, and whether code for this number is compiled in.
+//
 // The primal simplex of Clp takes minutes for 1,000 instants and is left out there, as is GLPK.
 
 #include <benchmark/benchmark.h>
@@ -19,6 +23,8 @@
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
 #include "solvers/lp/makers.h"
+#include "solvers/plan/blocks.h"
+#include "solvers/plan/forms.h"
 #include "solvers/plan/makers.h"
 
 namespace maxwrench {
@@ -27,17 +33,64 @@ namespace {
 constexpr double kDuration = 5;  // s
 constexpr const char* kOwn[] = {"ipm", "structured"};
 
-/// Programs of one size.
+struct TimedRobot {
+  std::string name;
+  Problem problem;
+};
+
+/// With the arm's chain of joints behind itself until there are `joints`.
+Problem lengthened(Problem problem, std::size_t joints) {
+  Robot& robot = problem.robot;
+  const std::size_t arm = robot.joints.size();
+  for (std::size_t i = arm; i < joints; ++i) {
+    Joint joint = robot.joints[i - arm];
+    joint.parent = static_cast<int>(i);
+    robot.joints.push_back(joint);
+    robot.links.push_back(robot.links[i - arm + 1]);
+    problem.redundant.push_back(static_cast<int>(i));
+  }
+  robot.end_effectors[static_cast<std::size_t>(problem.end_effector)].link =
+      static_cast<int>(joints);
+  robot.collision = nullptr;
+  complete_actuation(robot);
+  for (Eigen::VectorXd* v :
+       {&problem.theta_r_min, &problem.theta_r_max, &problem.theta_r_default}) {
+    const Eigen::VectorXd of_arm = *v;
+    *v = Eigen::VectorXd::NullaryExpr(static_cast<Eigen::Index>(joints),
+                                      [&](Eigen::Index j) { return of_arm[j % of_arm.size()]; });
+  }
+  return problem;
+}
+
+std::vector<TimedRobot> timed_robots() {
+  std::vector<TimedRobot> robots;
+  for (const char* name : {"uvms/valve", "planar/trajectory", "mobile/trajectory"}) {
+    robots.push_back({name, load_problem(name)});
+  }
+  robots.push_back({"nine_joints", lengthened(robots.front().problem, 9)});
+  return robots;
+}
+
+/// Programs of one robot and size.
 struct Set {
+  std::string robot;
   Wrench wrench;
   int instants;
   std::vector<PlanProgram> programs;
   std::vector<LinearProgram> assembled;
-  std::string title() const { return fmt::format("{}/{}", to_string(wrench), instants); }
+  std::string title() const { return fmt::format("{}/{}/{}", robot, to_string(wrench), instants); }
+  /// The size of an instant's block in the normal equations of `ipm`.
+  std::string path() const {
+    Forms forms;
+    forms.build(programs.front(), true, false);
+    const int d = forms.stages.front().d;
+    return fmt::format("{} {}", d, is_compiled(d) ? "compiled" : "generic");
+  }
 };
 
-std::unique_ptr<Set> make_set(const Problem& problem, Wrench wrench, int instants) {
-  auto set = std::make_unique<Set>(Set{wrench, instants, {}, {}});
+std::unique_ptr<Set> make_set(const TimedRobot& robot, Wrench wrench, int instants) {
+  const Problem& problem = robot.problem;
+  auto set = std::make_unique<Set>(Set{robot.name, wrench, instants, {}, {}});
   Random random(7);
   const auto judge = find_plan_solver("ipm").make();
   PlanSolution solution;
@@ -134,8 +187,8 @@ double look_up(const std::map<std::string, double>& values, const std::string& n
 }
 
 void print_ratios(const Medians& medians, const std::vector<std::unique_ptr<Set>>& sets) {
-  fmt::print("\n{:<10} {:<11} {:>10} {:>11} {:>13} {:>15} {:>13}\n", "programs", "solver", "us",
-             "iterations", "us/iteration", "best peer [us]", "times faster");
+  fmt::print("\n{:<26} {:<11} {:<11} {:>10} {:>11} {:>13} {:>15} {:>13}\n", "programs", "block",
+             "solver", "us", "iterations", "us/iteration", "best peer [us]", "times faster");
   for (const auto& set : sets) {
     double best = NAN;
     for (const Peer& peer : kPeers) {
@@ -145,8 +198,10 @@ void print_ratios(const Medians& medians, const std::vector<std::unique_ptr<Set>
     for (const char* name : {kOwn[0], kOwn[1], "simplex"}) {
       const double own = look_up(medians.times, set->title() + "/" + name);
       const double iterations = look_up(medians.iterations, set->title() + "/" + name);
-      fmt::print("{:<10} {:<11} {:>10.1f} {:>11.1f} {:>13.2f} {:>15.1f} {:>13.1f}\n", set->title(),
-                 name, own, iterations, own / iterations, best, best / own);
+      if (std::isnan(own)) continue;
+      fmt::print("{:<26} {:<11} {:<11} {:>10.1f} {:>11.1f} {:>13.2f} {:>15.1f} {:>13.1f}\n",
+                 set->title(), set->path(), name, own, iterations, own / iterations, best,
+                 best / own);
     }
   }
 }
@@ -158,12 +213,14 @@ int main(int argc, char** argv) {
   using namespace maxwrench;
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  const Problem problem = load_problem("uvms/valve");
+  const std::vector<TimedRobot> robots = timed_robots();
   std::vector<std::unique_ptr<Set>> sets;
-  for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
-    for (const int instants : {10, 100, 1000}) {
-      sets.push_back(make_set(problem, wrench, instants));
-      add_set(*sets.back());
+  for (const TimedRobot& robot : robots) {
+    for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
+      for (const int instants : {10, 100, 1000}) {
+        sets.push_back(make_set(robot, wrench, instants));
+        add_set(*sets.back());
+      }
     }
   }
   Medians medians;

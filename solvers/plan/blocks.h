@@ -9,20 +9,32 @@ namespace maxwrench {
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Columns = Eigen::Ref<Eigen::MatrixXd>;
 
-/// Calls body with the number of a stage's variables, known to the compiler where it is that of the
-/// robots with eight thrusters and six base axes.
+/// Calls body with the number of a stage's variables, known to the compiler where it is that of a
+/// pure wrench or of any on a vehicle with eight thrusters and six base axes (3, 8), on one with
+/// four in the plane (2, 4), or of a pure wrench where no actuator is to spare (1).
 template <class Body>
 void with_dimension(int d, Body&& body) {
   switch (d) {
     case 1:
       return body.template operator()<1>();
+    case 2:
+      return body.template operator()<2>();
     case 3:
       return body.template operator()<3>();
+    case 4:
+      return body.template operator()<4>();
     case 8:
       return body.template operator()<8>();
     default:
       return body.template operator()<Eigen::Dynamic>();
   }
+}
+
+/// Whether `with_dimension` knows d.
+inline bool is_compiled(int d) {
+  bool compiled = false;
+  with_dimension(d, [&]<int D>() { compiled = D != Eigen::Dynamic; });
+  return compiled;
 }
 
 }  // namespace maxwrench
