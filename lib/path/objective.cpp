@@ -1,5 +1,8 @@
 #include "maxwrench/objective.h"
 
+#include <stdexcept>
+#include <string>
+
 #include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
 
@@ -23,6 +26,11 @@ class PlanObjective : public Objective {
   PlanEvaluator* plans() override { return &evaluator_; }
 
   double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) override {
+    if (x.size() != lower_.size()) {
+      throw std::invalid_argument("theta_r: got " + std::to_string(x.size()) +
+                                  " numbers, expected " + std::to_string(lower_.size()) + " for " +
+                                  problem_.name);
+    }
     const double value = evaluator_.evaluate_elastic(unstacked(x, evaluator_.knots()),
                                                      gradient ? &gradient_ : nullptr);
     if (gradient) {
