@@ -80,6 +80,7 @@ void add_cases(const Problem& problem, const ProductColumns& columns, Case c,
                std::vector<Case>& cases) {
   if (!columns.integrator.empty()) {
     c.search.clear();
+    c.budget = kUsualBudget;  // of no meaning, but of the row's key
     for (const std::string& integrator :
          wanted(columns.integrator, served_integrators(problem, c.measure))) {
       c.integrator = integrator;
