@@ -181,8 +181,9 @@ int print_forecast(const RunOptions& options, const Workload& work, const std::v
 
 std::vector<Case> still_to_do(const Workload& work, std::vector<Case> cases,
                               const std::string& folder) {
-  if (std::string_view(version()).ends_with(".dirty")) {
-    fmt::print(stderr, "run: {} is built from changed sources: no row that is there counts\n",
+  if (!names_sources(version())) {
+    fmt::print(stderr,
+               "run: {} is built from changed or unknown sources: no row that is there counts\n",
                version());
   }
   const RowsThere there(folder);
