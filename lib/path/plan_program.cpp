@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace maxwrench {
 namespace {
@@ -181,8 +182,11 @@ bool well_formed(const PlanProgram& program) {
   if (!limits(program.y_min, program.y_max, p) || !limits(program.r_min, program.r_max, rows)) {
     return false;
   }
-  if (rows > 0 && (program.R.cols() != p || !(program.R * Eigen::VectorXd::Zero(p)).isZero(0))) {
-    return false;  // a product with zero is zero of finite numbers only
+  if (rows > 0 && program.R.cols() != p) return false;
+  for (Eigen::Index j = 0; j < program.R.outerSize(); ++j) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(program.R, j); it; ++it) {
+      if (!std::isfinite(it.value())) return false;
+    }
   }
   if (p > 0 && program.G.size() != program.instants.size()) return false;
   return std::all_of(program.G.begin(), program.G.end(), [&](const Eigen::MatrixXd& each) {
