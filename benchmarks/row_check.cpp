@@ -14,16 +14,17 @@
 #include "benchmarks/results.h"
 #include "benchmarks/row.h"
 #include "maxwrench/problem.h"
+#include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"
 #include "solvers/solve/method.h"
 
 namespace maxwrench {
 namespace {
 
-/// How a row without a value may have ended.
-constexpr Status kNoValue[] = {Status::kInfeasible,      Status::kUnbounded,
-                               Status::kBudgetExhausted, Status::kInvalidPosture,
-                               Status::kNumericalError,  Status::kNoneFound};
+/// How a row without a value may have ended; that of a search not by a verdict of the lower level.
+constexpr Status kNoValue[] = {Status::kInfeasible,     Status::kUnbounded,
+                               Status::kInvalidPosture, Status::kNumericalError,
+                               Status::kNoneFound,      Status::kBudgetExhausted};
 
 /// A row of a file.
 struct RowOf {
@@ -131,27 +132,43 @@ std::string refuse_filled(const RowOf& claim, std::initializer_list<const char*>
 /// among them.
 std::string refuse_effort(const Case& c, const RowOf& claim) {
   const auto evaluations = claim.csv.whole<long>(claim.row, "evaluations");
-  if (!c.integrator.empty()) return evaluations >= 0 ? "" : "evaluations: expected none below zero";
+  if (!c.integrator.empty()) return "";
   if (c.search.empty()) {
     return evaluations == 1 && claim.text("calls").empty()
                ? ""
                : "evaluations: expected 1, and no calls, of what is given";
   }
-  if (evaluations < 0 || evaluations > c.budget) {
-    return fmt::format("evaluations: expected at most {}", c.budget);
+  const long least = claim.text("beta").empty() ? 0 : 1;
+  if (evaluations < least || evaluations > c.budget) {
+    return fmt::format("evaluations: expected {} to {}", least, c.budget);
   }
   long called = 0;
   std::istringstream calls(claim.text("calls"));
   for (std::string call; std::getline(calls, call, ';');) {
     std::istringstream words(call);
-    std::string method, status;
+    std::string method, status, more;
     long count = 0, spent = 0;
-    if (!(words >> method >> status >> count >> spent) || count < 1 || spent < 0) {
+    if (!(words >> method >> status >> count >> spent) || words >> more || count < 1 || spent < 0) {
       return "calls: expected a method, how it ended, how often, and its evaluations";
     }
     called += spent;
   }
   return called <= evaluations ? "" : "calls: expected no more evaluations than there are in all";
+}
+
+/// That its names are complete, exist and mean something together.
+std::string refuse_names(const Problem& problem, const Case& c) {
+  const Case complete = resolve(problem, c).choice;
+  if (complete.lp != c.lp) return fmt::format("lp: expected '{}'", complete.lp);
+  if (c.budget != complete.budget) return "budget: expected at least 1";
+  if (c.search.empty()) return "";
+  const std::vector<std::string> served = served_searches(problem, c.measure);
+  for (const SearchEntry* stage : find_search(c.search).stages) {
+    if (std::find(served.begin(), served.end(), stage->name) == served.end()) {
+      return fmt::format("search: got '{}', expected one that serves the task", stage->name);
+    }
+  }
+  return "";
 }
 
 /// What its words say: whether a row of this status can have a value, and what belongs to its task.
@@ -168,9 +185,9 @@ std::string refuse_words(const Problem& problem, const Case& c, const RowOf& cla
   const Status of_value = !c.integrator.empty() ? Status::kReached
                           : c.search.empty()    ? Status::kOptimal
                                                 : Status::kBestFound;
-  const bool interrupted = !c.search.empty() && claim.text("reason") == "interrupted" &&
-                           status == to_string(Status::kBudgetExhausted);
-  if (has_value && status != to_string(of_value) && !interrupted) {
+  const bool interrupted = !c.search.empty() && claim.text("reason") == "interrupted";
+  const bool exhausted = status == to_string(Status::kBudgetExhausted);
+  if (has_value && !(interrupted ? exhausted : status == to_string(of_value))) {
     return fmt::format("status: got '{}', expected '{}' beside a value", status,
                        to_string(of_value));
   }
@@ -183,7 +200,10 @@ std::string refuse_words(const Problem& problem, const Case& c, const RowOf& cla
   if (!filled.empty()) return filled;
   const bool known = std::any_of(std::begin(kNoValue), std::end(kNoValue),
                                  [&](Status each) { return status == to_string(each); });
-  if (!known) return fmt::format("status: got '{}' without a value", status);
+  const bool of_search = status != to_string(Status::kInfeasible) && interrupted == exhausted;
+  if (!known || (!c.search.empty() && !of_search)) {
+    return fmt::format("status: got '{}' without a value", status);
+  }
   return claim.text("reason").empty() ? "it has no value and no reason why" : "";
 }
 
@@ -252,8 +272,7 @@ RowCheck check_posture(const Problem& problem, const Case& c, const RowOf& claim
 }
 
 RowCheck check_plan(const Problem& problem, const Case& c, const RowOf& claim, double value) {
-  const Problem changed = with_scheme(problem, c);
-  const Answer anew = plan_again(changed, c, claim);
+  const Answer anew = plan_again(problem, c, claim);
   RowCheck check = compare(anew, anew.plan.value, value);
   if (check.refusal.empty() && anew.unit != claim.text("unit")) {
     check.refusal = fmt::format("unit: expected '{}'", anew.unit);
@@ -272,7 +291,7 @@ RowCheck check_plan(const Problem& problem, const Case& c, const RowOf& claim, d
 /// By the experiment again, of whose steps a reading depends to their tolerance.
 RowCheck check_experiment(const Problem& problem, const Case& c, const RowOf& claim,
                           double reading) {
-  const Answer anew = experiment(with_scheme(problem, c), {c});
+  const Answer anew = experiment(problem, {c});
   const Eigen::VectorXd theta_r = claim.vector("theta_r");
   RowCheck check;
   check.has_value = true;
@@ -297,39 +316,60 @@ RowCheck check_experiment(const Problem& problem, const Case& c, const RowOf& cl
   return check;
 }
 
-/// Of a row without a value that was made again; no status of such a row is one of a value.
-std::string refuse_status(const Verdict& anew, const RowOf& claim) {
+/// Of a row without a value whose posture, plan or experiment was made again; no status of such a
+/// row is one of a value.
+std::string refuse_again(const Answer& anew, const RowOf& claim) {
   const std::string status = to_string(anew.status);
-  return status == claim.text("status") ? "" : "status: expected '" + status + "'";
+  if (status != claim.text("status")) return "status: expected '" + status + "'";
+  if (anew.reason.str() != claim.text("reason")) {
+    return "reason: expected '" + anew.reason.str() + "'";
+  }
+  const Eigen::VectorXd theta_r = claim.vector("theta_r"), knots = stacked(anew.plan.knots);
+  if (theta_r.size() != knots.size() || theta_r != knots) {
+    return "theta_r: expected '" + exact_text(knots) + "'";
+  }
+  return refuse_filled(claim, {"calls"});
+}
+
+/// What stands beside the value that there is not. Of a search that found nothing there is nothing.
+std::string refuse_beside(const Answer& anew, const RowOf& claim) {
+  if (anew.unit != claim.text("unit")) return fmt::format("unit: expected '{}'", anew.unit);
+  const std::string why = refuse_other(claim, "yardstick", anew.yardstick);
+  return !why.empty() ? why : refuse_other(claim, "continuous", anew.plan.continuous);
 }
 
 /// Whether a row that says why it has no value is right. A search is not made again: that it found
-/// nothing is its own word.
-std::string refuse_failure(const Problem& problem, const Case& c, const RowOf& claim) {
-  const Problem changed = with_scheme(problem, c);
-  if (!c.integrator.empty()) return refuse_status(experiment(changed, {c}), claim);
-  resolve(changed, c);                         // its names mean something together
-  static_cast<void>(claim.vector("theta_r"));  // numbers, if any
-  if (!c.search.empty() && (!problem.motion || claim.text("theta_r").empty())) {
-    return refuse_filled(claim, {"continuous"});
+/// nothing is its own word, but what it names as the best has no value indeed.
+std::string refuse_failure(const Problem& changed, const Case& c, const RowOf& claim) {
+  Answer anew;
+  if (!c.integrator.empty()) {
+    anew = experiment(changed, {c});
+  } else if (!c.search.empty() && claim.text("theta_r").empty()) {
+    // A search that an error ended knows no unit.
+    const bool failed = claim.text("status") == to_string(Status::kNumericalError);
+    anew.unit = failed && claim.text("unit").empty() ? "" : resolve(changed, c).unit;
+  } else {
+    anew = (changed.motion ? plan_again : posture_again)(changed, c, claim);
   }
-  if (!c.search.empty()) {  // what it found, and could not confirm
-    const Answer anew = plan_again(changed, c, claim);
-    if (anew.has_value()) return fmt::format("beta: its plan has the value {:.9g}", anew.beta());
-    return refuse_other(claim, "continuous", anew.plan.continuous);
+  std::string why;
+  if (c.search.empty()) {
+    why = refuse_again(anew, claim);
+  } else if (anew.has_value()) {
+    why = fmt::format("beta: what it found has the value {:.9g}", anew.beta());
   }
-  if (problem.motion) return refuse_status(plan_again(changed, c, claim), claim);
-  return refuse_status(posture_again(changed, c, claim), claim);
+  return !why.empty() ? why : refuse_beside(anew, claim);
 }
 
 RowCheck checked(const Problem& problem, const Case& c, const RowOf& claim) {
   const std::optional<double> beta = claim.csv.number(claim.row, "beta");
-  std::string refusal = refuse_words(problem, c, claim, beta.has_value());
+  const Problem changed = with_scheme(problem, c);
+  std::string refusal = refuse_words(changed, c, claim, beta.has_value());
+  if (refusal.empty()) refusal = refuse_names(changed, c);
   if (refusal.empty()) refusal = refuse_effort(c, claim);
-  if (refusal.empty() && !beta) refusal = refuse_failure(problem, c, claim);
+  if (refusal.empty() && !beta) refusal = refuse_failure(changed, c, claim);
   if (!beta || !refusal.empty()) return {refusal, beta.has_value(), 0};
   const auto of_search = problem.motion ? check_plan : check_posture;
-  return (c.integrator.empty() ? of_search : check_experiment)(problem, c, claim, *beta);
+  return (c.integrator.empty() ? of_search : check_experiment)(changed, c, claim, *beta);
 }
 
 }  // namespace

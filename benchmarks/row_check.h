@@ -9,7 +9,8 @@ namespace maxwrench {
 struct Problem;
 
 inline constexpr const char* kOwnWord =
-    "evaluations and calls but for the budget, and the reason why a search has no value";
+    "that this search found it from this seed, its evaluations and calls but for the budget, the "
+    "status and the reason why it has no value, and the evaluations of an experiment";
 
 /// What was checked of a row of values.csv.
 struct RowCheck {
@@ -25,9 +26,9 @@ struct RowCheck {
 /// L-infinity polytope with one contact other efforts and multipliers do as well, if they prove
 /// themselves: balance, limits, and a gap. An experiment is carried out again: its reading, to
 /// 1e-4, what was planned, and whether it was held. Status, unit and label are those that belong to
-/// such a row, evaluations and calls within the budget. Of a row without a value experiments and
-/// evaluations are made again, and the plan that a search could not confirm. What cannot be read is
-/// a refusal.
+/// such a row, its names complete, evaluations and calls within the budget. Of a row without a
+/// value experiments and evaluations are made again, and what a search found and could not confirm.
+/// What cannot be read is a refusal.
 ///
 /// Searches are not made again: `kOwnWord` says what is taken as it stands.
 RowCheck check_row(const Problem& problem, const CsvFile& csv, std::size_t row);

@@ -188,7 +188,7 @@ void print_proof_text(const ProofOptions& options, const Problem& problem, const
   }
   if (std::isfinite(result.bound)) {
     fmt::print("bound     {:>9.5f} {}: no posture has more\n", result.bound, row.unit);
-  } else {
+  } else if (result.status != Status::kProven) {
     fmt::print("bound     none was proven\n");
   }
   if (row.has_value()) {

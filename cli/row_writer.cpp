@@ -41,8 +41,12 @@ Table times_table(const std::filesystem::path& folder) {
 RowsThere::RowsThere(const std::filesystem::path& folder, std::string version)
     : values_(values_table(folder)), times_(times_table(folder)), version_(std::move(version)) {}
 
+bool names_sources(std::string_view version) {
+  return !version.ends_with(".dirty") && !version.ends_with("+unknown");
+}
+
 bool RowsThere::has(const Problem& problem, const Case& c) const {
-  if (version_.ends_with(".dirty")) return false;
+  if (!names_sources(version_)) return false;
   const auto measured = times_.find(case_values(c));
   const auto values = values_.find(case_values(c));
   return measured && values && values->at(values_.column("task_digest")) == problem.digest &&

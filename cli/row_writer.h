@@ -4,6 +4,7 @@
 #include <functional>
 #include <mutex>
 #include <string>
+#include <string_view>
 
 #include "benchmarks/row.h"
 #include "benchmarks/table.h"
@@ -18,6 +19,9 @@ struct Problem;
 Table values_table(const std::filesystem::path& folder);
 Table times_table(const std::filesystem::path& folder);
 
+/// Whether a version tells from which sources it was built: those of a commit, with no change.
+bool names_sources(std::string_view version);
+
 /// The rows of a folder as they are.
 class RowsThere {
  public:
@@ -25,8 +29,7 @@ class RowsThere {
                      std::string version = maxwrench::version());
 
   /// Whether the folder holds the row of a complete case, made from the files that the task was
-  /// read from, by the present sources and version. A version of changed sources (".dirty") does
-  /// not name them, so none of its rows counts.
+  /// read from, by the present sources and version; none if that does not name its sources.
   bool has(const Problem& problem, const Case& c) const;
   bool empty() const { return values_.size() == 0; }
   /// Whether those of all these cases are there and have a value.

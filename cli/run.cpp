@@ -182,8 +182,8 @@ int print_forecast(const RunOptions& options, const Workload& work, const std::v
 std::vector<Case> still_to_do(const Workload& work, std::vector<Case> cases,
                               const std::string& folder) {
   const RowsThere there(folder);
-  if (!there.empty() && std::string_view(version()).ends_with(".dirty")) {
-    fmt::print(stderr, "run: {} is built from changed sources, so all rows are made anew\n",
+  if (!there.empty() && !names_sources(version())) {
+    fmt::print(stderr, "run: {} is built from changed or unknown sources: all rows are made anew\n",
                version());
   }
   std::erase_if(cases, [&](const Case& c) { return there.has(work.problems.at(c.problem), c); });

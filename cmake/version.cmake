@@ -1,5 +1,5 @@
 # Writes OUTPUT, a source with the version of the tree in SOURCE: RELEASE where the tag vRELEASE stands on a clean tree, else
-# RELEASE+COMMIT, with .dirty behind it if a tracked source has changed. What git archive exports knows its commit as well. A commit may
+# RELEASE+COMMIT, with .dirty behind it if a tracked source has changed or there is another .cpp or .h. What git archive exports knows its commit as well. A commit may
 # be rewritten into another one with the same files, so beside it stands what those were: SHA1 of the list of all but results/.
 set(commit "unknown")
 set(sources "unknown")
@@ -28,9 +28,10 @@ if(root AND root STREQUAL source)
   string(SUBSTRING ${sources} 0 10 sources)
   git(tags tag --points-at HEAD)
   git(changed status --porcelain --untracked-files=no -- . :!results)
+  git(added ls-files --others --exclude-standard -- *.cpp *.h)
 endif()
 set(version "${RELEASE}+${commit}")
-if(changed)
+if(changed OR added)
   string(APPEND version ".dirty")
 elseif("${tags}" MATCHES "(^|\n)v${RELEASE}(\n|$)")
   set(version ${RELEASE})

@@ -29,9 +29,9 @@ struct WrenchProgram {
   int columns() const { return static_cast<int>(c_w.size()); }
 };
 
-/// Whether all sizes agree, JtW, tau_d and c_w are finite, and limits of w are numbers that leave
-/// something between them or cross (-infinity and infinity are none). The actuation is taken as
-/// `make_zonotope` made it. Allocates nothing.
+/// Whether all sizes agree, W, C_2, JtW, tau_d and c_w are finite, and limits of w are numbers that
+/// leave something between them or cross (-infinity and infinity are none). The actuation is taken
+/// as `make_zonotope` made it. Allocates nothing.
 bool well_formed(const WrenchProgram& program);
 
 /// The program of `problem`, which outlives it, before the first posture: W = c or W_any, w_1 free.

@@ -48,6 +48,7 @@ class L2Polytope : public Measure {
                             Capability& capability) override {
     program_.actuation = &box_;
     program_.W = program.W;
+    program_.C_2 = program.C_2;
     program_.c_w = program.c_w;
     program_.w_min = program.w_min;
     program_.w_max = program.w_max;

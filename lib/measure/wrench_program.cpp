@@ -30,9 +30,11 @@ bool well_formed(const WrenchProgram& program) {
   if (program.actuation == nullptr || program.actuation->dimension() != n) return false;
   if (program.JtW.rows() != n || program.JtW.cols() != k) return false;
   if (program.w_min.size() != k || program.w_max.size() != k) return false;
+  if (program.W.cols() + program.C_2.cols() != k) return false;
   // A product with zero is zero of finite numbers only.
   const auto zero = [](const auto& x) { return (x.array() * 0).sum(); };
-  if (!(zero(program.JtW) + zero(program.tau_d) + zero(program.c_w) == 0)) return false;
+  const double wrenches = zero(program.W) + zero(program.C_2);
+  if (!(wrenches + zero(program.JtW) + zero(program.tau_d) + zero(program.c_w) == 0)) return false;
   for (Eigen::Index j = 0; j < k; ++j) {
     if (!(program.w_min[j] < kInfinity && program.w_max[j] > -kInfinity)) return false;
   }
@@ -40,8 +42,14 @@ bool well_formed(const WrenchProgram& program) {
 }
 
 void WrenchSolver::solve(const WrenchProgram& program, bool efforts, Capability& capability) {
-  if (well_formed(program)) return solve_well_formed(program, efforts, capability);
-  capability.conclude(Status::kNumericalError, kMalformed);
+  if (!well_formed(program)) {
+    capability.conclude(Status::kNumericalError, kMalformed);
+    return;
+  }
+  solve_well_formed(program, efforts, capability);
+  if (capability.status == Status::kOptimal && !std::isfinite(capability.beta)) {
+    capability.conclude(Status::kNumericalError, "the value is not finite");
+  }
 }
 
 WrenchProgram make_wrench_program(const Problem& problem, Wrench wrench) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
@@ -30,6 +32,11 @@ class ObjectiveOfPlans final : public PlanObjective {
   PlanValue counts() const override { return counts_; }
 
   double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) override {
+    if (x.size() != lower_.size()) {
+      throw std::invalid_argument("theta_r: got " + std::to_string(x.size()) +
+                                  " numbers, expected " + std::to_string(lower_.size()) + " for " +
+                                  problem_.name);
+    }
     const double at_instants = evaluator_.evaluate_elastic(unstacked(x, evaluator_.knots()),
                                                            gradient ? &gradient_ : nullptr);
     verdict_ = evaluator_.plan();

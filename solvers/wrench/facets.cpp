@@ -123,6 +123,9 @@ class Facets : public WrenchSolver {
       return assembled_->solve(program, efforts, capability);
     }
     if (!std::isfinite(x)) {
+      const double size = program.JtW.squaredNorm();
+      // Too large or too small for what stands above, which tells no more then.
+      if (size != 0 && !std::isnormal(size)) return assembled_->solve(program, efforts, capability);
       capability.status = Status::kUnbounded;
       capability.reason = "the wrench does not load any actuator";
       return;

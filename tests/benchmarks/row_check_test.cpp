@@ -100,7 +100,14 @@ TEST(CheckRow, RefusesMoreEvaluationsThanTheBudget) {
   for (const auto& [column, text] : {std::pair{"evaluations", "301"},
                                      {"evaluations", "-1"},
                                      {"evaluations", "1"},
+                                     {"evaluations", "0"},
+                                     {"budget", "0"},
+                                     {"lp", ""},
+                                     {"lp", "ellipsoid"},
+                                     {"search", "slsqpx"},
+                                     {"search", "slsqp+facet"},
                                      {"calls", "slsqp"},
+                                     {"calls", "slsqp success 1 100 more"},
                                      {"calls", "slsqp success 1 301"},
                                      {"status", "optimal"},
                                      {"status", "budget_exhausted"},
@@ -148,6 +155,8 @@ TEST(CheckRow, AsksForAReasonWhereThereIsNoValue) {
   cell(row, "status") = "none_found";
   EXPECT_EQ(check(problem, row).refusal, "status: expected 'optimal'");
   cell(row, "search") = "grid";
+  EXPECT_EQ(check(problem, row).refusal.find("beta: what it found has the value "), 0U);
+  cell(row, "theta_r") = cell(row, "yardstick") = "";
   EXPECT_EQ(check(problem, row).refusal, "");
   EXPECT_FALSE(check(problem, row).has_value);
 }
@@ -214,9 +223,28 @@ TEST(CheckRow, RefusesNamesAndFailuresThatAreNot) {
   const Problem problem = load_problem("uvms/lift");
   Cells good = without_value(row_of(problem, "linf_polytope", Wrench::kPure));
   cell(good, "search") = "grid";
+  cell(good, "theta_r") = cell(good, "yardstick") = "";
   cell(good, "status") = "none_found";
   cell(good, "reason") = "the time ran out";
   EXPECT_EQ(check(problem, good).refusal, "");
+  for (const auto& [column, text] : {std::pair{"status", "infeasible"},
+                                     {"status", "budget_exhausted"},
+                                     {"reason", "interrupted"},
+                                     {"reason", ""},
+                                     {"unit", "N m"},
+                                     {"unit", ""},
+                                     {"yardstick", "1"},
+                                     {"continuous", "1"},
+                                     {"h", "0 0 0 0 0 0"},
+                                     {"gap", "0"},
+                                     {"search", "slp+grid"},
+                                     {"search", "joint"},
+                                     {"evaluations", "-3"},
+                                     {"calls", "grid ended 1 30000"}}) {
+    Cells row = good;
+    cell(row, column) = text;
+    EXPECT_NE(check(problem, row).refusal, "") << column << " " << text;
+  }
   for (const char* column :
        {"measure", "lp", "search", "scheme", "integrator", "theta_r", "label", "yardstick_unit"}) {
     Cells row = good;
@@ -247,8 +275,40 @@ TEST(CheckRow, EvaluatesWhatHasNoValue) {
     cell(row, "status") = "unbounded";
     EXPECT_EQ(check(problem, row).refusal, "status: expected '" + status + "'");
     cell(row, "status") = status;
+    for (const auto& [column, text] : {std::pair{"reason", "joint limit of another"},
+                                       {"unit", "lb"},
+                                       {"yardstick", "1"},
+                                       {"continuous", "1"},
+                                       {"lp", ""}}) {
+      Cells other = row;
+      cell(other, column) = text;
+      EXPECT_EQ(check(problem, other).refusal.find(column), 0U) << name << " " << column;
+    }
     cell(row, "theta_r") = "";
     EXPECT_NE(check(problem, row).refusal.find("theta_r"), std::string::npos) << name;
+  }
+}
+
+/// An experiment that cannot begin: its task has no efforts to begin with.
+TEST(CheckRow, CarriesOutExperimentsWithoutAReading) {
+  const Problem problem = load_problem("uvms/valve_trajectory_fast");
+  const Case c{.problem = problem.name, .search = "", .scheme = "ends", .integrator = "cvode"};
+  Problem changed = problem;
+  set_scheme("scheme", c.scheme, changed);
+  Cells good = values(experiment(changed, {c}));
+  ASSERT_EQ(cell(good, "beta"), "");
+  EXPECT_EQ(check(problem, good).refusal, "");
+  for (const auto& [column, text] : {std::pair{"continuous", "1"},
+                                     {"unit", "lb"},
+                                     {"yardstick", "1"},
+                                     {"theta_r", ""},
+                                     {"reason", "interrupted"},
+                                     {"status", "none_found"},
+                                     {"lp", ""},
+                                     {"calls", "x"}}) {
+    Cells row = good;
+    cell(row, column) = text;
+    EXPECT_EQ(check(problem, row).refusal.find(column), 0U) << column << " " << text;
   }
 }
 

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
 
+#include "tests/support/snake.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {
@@ -55,6 +58,18 @@ TEST(CertifyCommand, PrintsABracket) {
   EXPECT_EQ(proof["reason"], "the time ran out");
   EXPECT_GT(proof["bound"], proof["beta"]);
   EXPECT_GT(proof["gap"], proof["asked"]);
+}
+
+/// Where nothing has a value, that is what is proven, and no bound is missing. Arms that are too
+/// weak to hold themselves up.
+TEST(CertifyCommand, ProvesThatNothingHasAValue) {
+  const Snake snake(2);
+  const std::string urdf = snake.path() / "robot.urdf";
+  const std::string text = read_text(urdf);
+  std::ofstream(urdf) << std::regex_replace(text, std::regex("effort=\"9\""), "effort=\"0.001\"");
+  const CommandResult result = run_maxwrench("certify " + snake.task());
+  EXPECT_NE(result.out.find("\nproven: no posture has a value\nboxes "), std::string::npos)
+      << result.out;
 }
 
 TEST(CertifyCommand, EndsWithCtrlC) {

@@ -31,7 +31,20 @@ TEST(LongChain, BeyondTheProofsIsRefusedInOneLine) {
     }
     const Problem problem = load_problem(snake.task());
     EXPECT_THROW(FormModel{problem}, std::invalid_argument);
-    EXPECT_THROW(make_capability_bound(problem, "ellipsoid", Wrench::kPure), std::invalid_argument);
+    // Thrusters of full rank, without which there is no ellipsoid to begin with.
+    Problem strong = problem;
+    Zonotope& set = strong.robot.actuation;
+    Eigen::MatrixXd B = set.B;
+    B(5, 0) += 0.4;
+    set = make_zonotope(B, set.u_min, set.u_max);
+    for (const char* measure : {"linf_polytope", "l2_polytope", "ellipsoid"}) {
+      try {
+        make_capability_bound(strong, measure, Wrench::kPure);
+        ADD_FAILURE() << measure;
+      } catch (const std::invalid_argument& error) {
+        EXPECT_NE(std::string(error.what()).find("coordinates"), std::string::npos) << error.what();
+      }
+    }
   }
 }
 

@@ -94,8 +94,7 @@ TEST_F(RunPlan, AFolderHasOneRunAtATime) {
   EXPECT_EQ(read("one/values.csv"), one);
 }
 
-/// Whether this build's version names its sources, so that rows of it are kept.
-bool keeps_rows() { return !std::string_view(version()).ends_with(".dirty"); }
+bool keeps_rows() { return names_sources(version()); }
 
 /// A torn line is no row; what is whole is not computed again, unless the sources were changed.
 TEST_F(RunPlan, KeepsTheRowsOfAJournal) {
@@ -137,7 +136,8 @@ TEST_F(RunPlan, ShardsMergeToOneRun) {
   EXPECT_EQ(std::count(times.begin(), times.end(), '\n'), std::count(one.begin(), one.end(), '\n'));
 }
 
-/// Rows are of the files of their task and of one version; ".dirty" is none.
+/// Rows are of the files of their task and of one version; ".dirty" is none, nor is what no commit
+/// is known of.
 TEST_F(RunPlan, RowsOfEditedTasksAndOtherVersionsAreNotThere) {
   EditedCopy robot;
   const std::string task = robot.path() / "force.toml";
@@ -150,7 +150,8 @@ TEST_F(RunPlan, RowsOfEditedTasksAndOtherVersionsAreNotThere) {
   const Problem problem = load_problem(task);
   EXPECT_EQ(RowsThere(one).has(problem, c), keeps_rows());
   EXPECT_FALSE(RowsThere(one, "another").has(problem, c));
-  for (const auto& [kept, known] : {std::pair{"1.0.dirty", false}, {"1.0", true}}) {
+  for (const auto& [kept, known] :
+       {std::pair{"1.0.dirty", false}, {"1.0+unknown", false}, {"1.0", true}}) {
     std::string times = read("one/times.csv");
     times.replace(times.rfind(',') + 1, std::string::npos, kept + std::string("\n"));
     std::ofstream(one / "times.csv") << times;

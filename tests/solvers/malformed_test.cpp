@@ -6,10 +6,13 @@
 
 #include "maxwrench/load.h"
 #include "maxwrench/lp_solver.h"
+#include "maxwrench/objective.h"
+#include "maxwrench/plan.h"
 #include "maxwrench/plan_program.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"
+#include "solvers/solve/method.h"
 #include "tests/support/plans.h"
 #include "tests/support/support.h"
 
@@ -45,22 +48,28 @@ std::vector<std::function<void(WrenchProgram&)>> spoilers(const WrenchProgram& p
     for (Eigen::Index i = 0; i < program.c_w.size(); ++i) {
       all.emplace_back([=](WrenchProgram& p) { p.c_w[i] = x; });
     }
+    all.emplace_back([=](WrenchProgram& p) { p.W(3, 0) = x; });
+    if (program.C_2.size() > 0) all.emplace_back([=](WrenchProgram& p) { p.C_2(1, 0) = x; });
     if (x != -kInfinity) all.emplace_back([=](WrenchProgram& p) { p.w_min[0] = x; });
     if (x != kInfinity) all.emplace_back([=](WrenchProgram& p) { p.w_max[0] = x; });
   }
   all.emplace_back([](WrenchProgram& p) { p.tau_d.conservativeResize(p.tau_d.size() - 1); });
   all.emplace_back([](WrenchProgram& p) { p.JtW.conservativeResize(p.JtW.rows() - 1, 1); });
   all.emplace_back([](WrenchProgram& p) { p.w_max.resize(0); });
+  all.emplace_back([](WrenchProgram& p) { p.W.resize(6, 0); });
+  all.emplace_back([](WrenchProgram& p) { p.C_2 = Matrix6Xd::Zero(6, 5); });
   return all;
 }
 
 /// A solver that was fed such a program answers the next as if nothing had been.
 TEST(Malformed, WrenchSolversGiveNoVerdict) {
-  for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
-    const AtDefault at("uvms/valve", wrench);
+  for (const auto& [name, wrench] : {std::pair{"uvms/valve", Wrench::kPure},
+                                     {"uvms/valve", Wrench::kAny},
+                                     {"planar/two_arms", Wrench::kPure}}) {
+    const AtDefault at(name, wrench);
     for (const WrenchSolverEntry& entry : wrench_solvers()) {
-      if (entry.one_column_only && wrench == Wrench::kAny) continue;
-      SCOPED_TRACE(entry.name);
+      if (entry.one_column_only && at.program.columns() > 1) continue;
+      SCOPED_TRACE(std::string(entry.name) + " on " + name);
       const auto solver = entry.make();
       Capability capability;
       solver->solve(at.program, true, capability);
@@ -78,6 +87,58 @@ TEST(Malformed, WrenchSolversGiveNoVerdict) {
       EXPECT_EQ(capability.status, Status::kOptimal);
       EXPECT_NEAR(capability.beta, beta, 1e-9 * std::abs(beta));
     }
+  }
+}
+
+/// Numbers whose squares or products no double holds: whoever has a verdict has one of numbers, and
+/// the efforts do load what moves.
+TEST(Malformed, WhatLeavesTheRangeOfDoublesHasNoValueWithoutEnd) {
+  for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
+    const AtDefault at("uvms/valve", wrench);
+    for (const WrenchSolverEntry& entry : wrench_solvers()) {
+      if (entry.one_column_only && wrench == Wrench::kAny) continue;
+      for (const double size : {1e-308, 1e-200, 1e200, 1e306}) {
+        SCOPED_TRACE(std::string(entry.name) + " " + std::to_string(std::log10(size)));
+        WrenchProgram program = at.program;
+        program.JtW *= size;
+        Capability capability;
+        entry.make()->solve(program, true, capability);
+        EXPECT_FALSE(size > 1 && capability.status == Status::kUnbounded);
+        if (capability.status != Status::kOptimal) continue;
+        EXPECT_TRUE(std::isfinite(capability.beta)) << capability.beta;
+      }
+      WrenchProgram program = at.program;
+      program.c_w *= 1e308;
+      Capability capability;
+      entry.make()->solve(program, true, capability);
+      EXPECT_TRUE(capability.status != Status::kOptimal || std::isfinite(capability.beta));
+    }
+  }
+}
+
+/// A point that is none, of the right size or another: whoever asks made a mistake.
+TEST(Malformed, ObjectivesRefuseThePoint) {
+  for (const char* name :
+       {"planar/force", "mobile/push_any_height", "planar/two_arms", "planar/trajectory"}) {
+    SCOPED_TRACE(name);
+    const Problem problem = load_problem(name);
+    const auto objective = make_objective(problem, resolve(problem, {problem.name}));
+    const Eigen::VectorXd start = stacked(constant_knots(problem, problem.theta_r_default));
+    const double value = objective->evaluate(start);
+    for (const double x : {kNaN, kInfinity, -kInfinity}) {
+      Eigen::VectorXd bad = start;
+      bad[bad.size() - 1] = x;
+      EXPECT_THROW(objective->evaluate(bad), std::invalid_argument);
+    }
+    for (const Eigen::Index size : {Eigen::Index{0}, start.size() - 1, start.size() + 1}) {
+      Eigen::VectorXd bad = start;
+      bad.conservativeResize(size);
+      EXPECT_THROW(
+          objective->evaluate(bad.size() > start.size() ? Eigen::VectorXd::Zero(size) : bad),
+          std::invalid_argument)
+          << size;
+    }
+    EXPECT_EQ(objective->evaluate(start), value);
   }
 }
 

@@ -11,7 +11,8 @@ namespace maxwrench {
 namespace {
 
 /// Two commits with the same sources but other results and another message, and a third with other
-/// sources, as cmake/version.cmake describes them; then what the manual says of the last.
+/// sources, as cmake/version.cmake describes them; then what the manual says of the last; then that
+/// with other results, with another source beside it, and with a changed one.
 constexpr const char* kScript = R"sh(
 set -e
 git init -q .
@@ -22,8 +23,11 @@ echo 1 > source
 describe() {
   git add source results
   git commit -q "$@"
-  cmake -D SOURCE="$PWD" -D RELEASE=1.0 -D OUTPUT="$PWD/version.cpp" -P "$VERSION" 1>&2
-  sed -n 's/.*return "\(.*\)".*/\1/p' version.cpp
+  look
+}
+look() {
+  cmake -D SOURCE="$PWD" -D RELEASE=1.0 -D OUTPUT="$PWD/.git/version.cpp" -P "$VERSION" 1>&2
+  sed -n 's/.*return "\(.*\)".*/\1/p' .git/version.cpp
 }
 echo 1 > results/table
 describe -m first
@@ -32,6 +36,14 @@ describe --amend -m rewritten
 echo 2 > source
 describe -m third
 git ls-tree -r HEAD | grep -vP '\tresults/' | sha1sum | cut -c -10
+echo 3 > results/table
+look
+mkdir lib
+echo 1 > lib/more.cpp
+look
+rm lib/more.cpp
+echo 3 > source
+look
 )sh";
 
 TEST(Version, NamesItsSourcesAlsoWhereTheCommitIsRewritten) {
@@ -50,6 +62,12 @@ TEST(Version, NamesItsSourcesAlsoWhereTheCommitIsRewritten) {
   EXPECT_EQ(sources[0], sources[1]);
   EXPECT_NE(sources[1], sources[2]);
   EXPECT_EQ(sources[2], manual);
+  for (const char* more : {"", ".dirty", ".dirty"}) {
+    std::string looked, of;
+    words >> looked >> of;
+    EXPECT_EQ(looked, version[2] + more);
+    EXPECT_EQ(of, manual);
+  }
 }
 
 TEST(Version, DescribesTheBuild) {

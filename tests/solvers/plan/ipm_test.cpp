@@ -307,6 +307,8 @@ TEST(PlanIpm, LoadsABitBeyondWhatCanBeBalancedAreProvedSo) {
     for (WrenchProgram& at : held.instants) {
       at.JtW.conservativeResize(Eigen::NoChange, 2);
       at.JtW.col(1) = at.tau_d;
+      at.W.conservativeResize(Eigen::NoChange, 2);
+      at.W.col(1).setZero();
       at.tau_d.setZero();
       at.c_w = Eigen::Vector2d(0, 1);
       at.w_min = Eigen::Vector2d(-kInfinity, 0);

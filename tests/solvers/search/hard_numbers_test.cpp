@@ -102,5 +102,35 @@ TEST(HardNumbers, EveryMethodRepeatsItselfInOneProcess) {
   }
 }
 
+/// Ipopt and the MUMPS below it keep nothing from one program to the next, nor does the objective:
+/// `joint_nlp` takes the same path again, after itself, after other searches by Ipopt, with other
+/// threads, and from an objective that has been elsewhere.
+TEST(HardNumbers, SLOW_JointNlpRepeatsItself) {
+  for (const char* name : {"uvms/valve", "uvms/valve_trajectory", "mobile/trajectory"}) {
+    const Problem problem = load_problem(name);
+    const Case c{.problem = problem.name, .search = "joint_nlp"};
+    const auto objective = make_objective(problem, resolve(problem, c));
+    for (const long budget : {50, 100, 200}) {
+      SCOPED_TRACE(std::string(name) + ' ' + std::to_string(budget));
+      SearchOptions options;
+      options.budget = budget;
+      options.start = stacked(constant_knots(problem, problem.theta_r_default));
+      const auto run = [&](const char* search, Objective& of, int threads) {
+        options.threads = threads;
+        return find_search(search).make()->maximize(of, options);
+      };
+      const SearchResult first = run("joint_nlp", *objective->clone(), 1);
+      ASSERT_EQ(first.status, Status::kBestFound);
+      for (int again = 0; again < 3; ++again) {
+        run(again == 0 ? "multistart" : "slp", *objective, 1);
+        const SearchResult next = run("joint_nlp", *objective, 1 + again);
+        EXPECT_EQ(next.value, first.value);
+        EXPECT_EQ(next.theta_r, first.theta_r);
+        EXPECT_EQ(next.evaluations, first.evaluations);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace maxwrench
