@@ -246,6 +246,43 @@ Answer plan_again(const Problem& problem, const Case& c, const RowOf& claim) {
   return evaluate(problem, unstacked(x, x.size() / r), {c});
 }
 
+std::string refuse_capability(const RowOf& claim, const Capability& capability) {
+  const Eigen::VectorXd h =
+      capability.w.size() > 0 ? Eigen::VectorXd(capability.h) : Eigen::VectorXd();
+  for (const auto& [column, numbers] : {std::pair<const char*, const Eigen::VectorXd&>("h", h),
+                                        {"u", capability.u},
+                                        {"lambda", capability.lambda}}) {
+    const std::string refusal = refuse_numbers(claim, column, numbers);
+    if (!refusal.empty()) return refusal;
+  }
+  return "";
+}
+
+/// Whether another posture at theta_r is worth as much, with the wrench, efforts and multipliers of
+/// the row: which of those that tie is taken hangs on rounding.
+bool has_tie(const Problem& problem, const Case& c, const RowOf& claim, const Answer& anew) {
+  PostureEvaluator model(problem);
+  const Eigen::VectorXd theta_r = claim.vector("theta_r");
+  model.evaluate(theta_r);
+  if (model.branches() < 2) return false;
+  const auto measure = resolve(problem, c).make_measure();
+  WrenchProgram program = make_wrench_program(problem, c.wrench);
+  Capability capability;
+  for (int branch = 0; branch < model.branches(); ++branch) {
+    const Posture& posture = model.select(branch);
+    if (posture.status != Status::kValid) continue;
+    set_posture(posture, program);
+    measure->evaluate(posture, program, true, capability);
+    const double off = std::abs(capability.beta - anew.beta());
+    if (capability.status == Status::kOptimal &&
+        off <= kAnswerTolerance * (1 + std::abs(anew.beta())) &&
+        refuse_capability(claim, capability).empty()) {
+      return true;
+    }
+  }
+  return false;
+}
+
 RowCheck check_posture(const Problem& problem, const Case& c, const RowOf& claim, double beta) {
   const Answer anew = posture_again(problem, c, claim);
   RowCheck check = compare(anew, anew.capability.beta, beta);
@@ -256,14 +293,8 @@ RowCheck check_posture(const Problem& problem, const Case& c, const RowOf& claim
   if (check.refusal.empty()) check.refusal = refuse_filled(claim, {"continuous"});
   if (check.refusal.empty()) check.refusal = refuse_residual(claim, anew.residual(), beta);
   if (!check.refusal.empty()) return check;
-  const Capability& capability = anew.capability;
-  const Eigen::VectorXd h =
-      capability.w.size() > 0 ? Eigen::VectorXd(capability.h) : Eigen::VectorXd();
-  for (const auto& [column, numbers] : {std::pair<const char*, const Eigen::VectorXd&>("h", h),
-                                        {"u", capability.u},
-                                        {"lambda", capability.lambda}}) {
-    if (check.refusal.empty()) check.refusal = refuse_numbers(claim, column, numbers);
-  }
+  check.refusal = refuse_capability(claim, anew.capability);
+  if (!check.refusal.empty() && has_tie(problem, c, claim, anew)) check.refusal.clear();
   // Which of several efforts and multipliers are optimal hangs on rounding: these prove themselves.
   if (!check.refusal.empty() && c.measure == "linf_polytope" && !problem.contact) {
     check.refusal = refuse_own(problem, anew, claim, beta);
