@@ -37,7 +37,7 @@ TEST_F(PublicRobots, HaveEightSolutions) {
 }
 
 TEST_F(PublicRobots, BranchesAreAllThatRandomStartsFind) {
-  constexpr int kMany = samples(200);
+  constexpr int kMany = std::max(50, samples(200));
   expect_complete(load("ur10/mob_ok.toml"), kMany, kMany, kMany);
   expect_complete(load("panda/push.toml"), kMany, kMany, kMany);
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "maxwrench/load.h"
@@ -149,7 +150,7 @@ TEST(LeastClearance, IsThatOfAMuchDenserCurve) {
   const int k = problem.motion->k;
   PlanEvaluator evaluator = evaluator_of(problem);
   Random random(5);
-  const int count = samples(60);
+  const int count = std::max(20, samples(60));
   int clear = 0, between = 0;
   for (int sample = 0; sample < count; ++sample) {
     Eigen::MatrixXd knots = problem.theta_r_default.transpose().replicate(k, 1);

@@ -19,7 +19,7 @@ namespace {
 class BranchesOf : public testing::TestWithParam<const char*> {};
 
 TEST_P(BranchesOf, AreAllThatRandomStartsFind) {
-  constexpr int kMany = samples(200);
+  constexpr int kMany = std::max(50, samples(200));
   expect_complete(load_problem(GetParam()), kMany, kMany, kMany);
 }
 
