@@ -69,8 +69,8 @@ TEST(Embedding, AgreesWithGlpkWhateverItHasSolvedBefore) {
     EXPECT_EQ(fresh.lambda, solution.lambda);
     ++optimal;
   }
-  EXPECT_GT(optimal, samples(60));
-  EXPECT_GT(infeasible, samples(5));
+  EXPECT_GE(optimal, samples(60));
+  EXPECT_GE(infeasible, samples(5));
 }
 
 /// Without rates it answers only if its answer keeps them: then it has the value with rates too.
@@ -104,8 +104,8 @@ TEST(Embedding, SaysWhenItNeedsTheRates) {
     if (without.status != Status::kOptimal || reference.status != Status::kOptimal) continue;
     EXPECT_GE(without.value, reference.value - 1e-9);
   }
-  EXPECT_GT(needed, samples(10));
-  EXPECT_GT(kept, samples(10));
+  EXPECT_GE(needed, samples(10));
+  EXPECT_GE(kept, samples(10));
 }
 
 /// A load that no efforts balance: without slacks the elastic program has no answer.
