@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "problems/loader/path_table.h"
-#include "problems/loader/theta_r.h"
+#include "problems/make/theta_r.h"
 
 namespace maxwrench {
 namespace {

@@ -14,10 +14,10 @@
 #include "maxwrench/load.h"
 #include "problems/loader/bad_input.h"
 #include "problems/loader/block.h"
-#include "problems/loader/contact.h"
-#include "problems/loader/free_pose.h"
+#include "problems/make/contact.h"
+#include "problems/make/free_pose.h"
 #include "problems/loader/motion.h"
-#include "problems/loader/theta_r.h"
+#include "problems/make/theta_r.h"
 #include "problems/loader/urdf_tree.h"
 
 namespace maxwrench {

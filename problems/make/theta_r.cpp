@@ -1,4 +1,4 @@
-#include "problems/loader/theta_r.h"
+#include "problems/make/theta_r.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

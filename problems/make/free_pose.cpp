@@ -1,4 +1,4 @@
-#include "problems/loader/free_pose.h"
+#include "problems/make/free_pose.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "problems/loader/contact.h"
+#include "problems/make/contact.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "lib/posture/dependent_joints.h"
 #include "lib/posture/movable.h"
 #include "lib/robot/chain.h"
-#include "problems/loader/theta_r.h"
+#include "problems/make/theta_r.h"
 #include "problems/loader/urdf_tree.h"
 
 namespace maxwrench {
