@@ -1,12 +1,13 @@
 #pragma once
 
-#include "maxwrench/problem.h"
-#include "problems/loader/block.h"
+#include "maxwrench/task.h"
 
 namespace maxwrench {
 
 /// Fills contact, and adds the regrasp coordinates to theta_r, which the joints have filled.
-/// Nothing if the task has no such table.
-void read_contact(const Block& contact, Problem& problem);
+void set_contact(const ContactSpec& spec, Problem& problem);
+
+/// The index of an end effector by its name.
+int find_end_effector(std::string_view key, const std::string& name, const Robot& robot);
 
 }  // namespace maxwrench

@@ -11,6 +11,7 @@
 #include "lib/posture/free_pose.h"
 #include "lib/posture/movable.h"
 #include "maxwrench/posture.h"
+#include "problems/make/bad_value.h"
 
 namespace maxwrench {
 namespace {
@@ -25,43 +26,52 @@ bool names(const std::vector<std::string>& list, const char* axis) {
   return std::find(list.begin(), list.end(), axis) != list.end();
 }
 
-/// The axes of `free`, each a known one and once.
-std::vector<std::string> read_axes(const Block& pose) {
-  if (!pose.has("free")) return {};
-  std::vector<std::string> free = pose.texts("free");
-  for (std::size_t i = 0; i < free.size(); ++i) {
-    const bool known = std::find(kTwistAxes.begin(), kTwistAxes.end(), free[i]) != kTwistAxes.end();
-    const auto here = free.begin() + static_cast<std::ptrdiff_t>(i);
-    if (known && std::find(free.begin(), here, free[i]) == here) continue;
-    pose.refuse_value("free", fmt::format("some of {}, each once", fmt::join(kTwistAxes, ", ")));
+/// Refuses axes that do not exist or stand twice.
+void require_axes(const TaskSpec& task) {
+  const auto known = [](const std::string& axis) {
+    return std::find(kTwistAxes.begin(), kTwistAxes.end(), axis) != kTwistAxes.end();
+  };
+  for (std::size_t i = 0; i < task.free.size(); ++i) {
+    const auto here = task.free.begin() + static_cast<std::ptrdiff_t>(i);
+    if (known(*here) && std::find(task.free.begin(), here, *here) == here) continue;
+    throw BadValue("pose.free", shown(task.free),
+                   fmt::format("some of {}, each once", fmt::join(kTwistAxes, ", ")));
   }
-  return free;
+  for (const auto& [axis, limits] : task.range) {
+    if (known(axis)) continue;
+    throw BadValue("pose.range." + axis, "an unknown key",
+                   fmt::format("one of {}", fmt::join(kTwistAxes, ", ")));
+  }
+}
+
+std::string shown_range(const std::array<double, 2>& range) {
+  return fmt::format("[{}, {}]", range[0], range[1]);
 }
 
 /// [min, max] of an axis [m; rad].
-Eigen::Vector2d read_range(const Block& pose, const char* axis, bool turns) {
-  const Block range = pose.table("range");
-  if (!range.has(axis)) {
+std::array<double, 2> range_of(const TaskSpec& task, const char* axis, bool turns) {
+  const auto found = task.range.find(axis);
+  if (found == task.range.end()) {
     if (turns) return {-kHalfTurn, kHalfTurn};
-    pose.refuse_value("free", fmt::format("a range of {} too, as pose.range.{} = [min, max]: a "
-                                          "translation needs one",
-                                          axis, axis));
+    throw BadValue("pose.free", shown(task.free),
+                   fmt::format("a range of {} too, as pose.range.{} = [min, max]: a translation "
+                               "needs one",
+                               axis, axis));
   }
-  const Eigen::VectorXd limits = range.numbers(axis, 2);
-  if (!(limits[0] < limits[1])) range.refuse_value(axis, "[min, max] with min < max");
-  if (!(limits.cwiseAbs().maxCoeff() <= kFarthest)) {
-    range.refuse_value(axis, fmt::format("limits of at most {:g} m or rad", kFarthest));
+  const std::string key = fmt::format("pose.range.{}", axis);
+  const std::array<double, 2>& limits = found->second;
+  const auto refuse_range = [&](const std::string& expected) {
+    throw BadValue(key, shown_range(limits), expected);
+  };
+  require_numbers(key, Eigen::Map<const Eigen::VectorXd>(limits.data(), 2), 2);
+  if (!(limits[0] < limits[1])) refuse_range("[min, max] with min < max");
+  if (!(std::max(std::abs(limits[0]), std::abs(limits[1])) <= kFarthest)) {
+    refuse_range(fmt::format("limits of at most {:g} m or rad", kFarthest));
   }
   if (turns && limits[1] - limits[0] > 2 * kHalfTurn * (1 + 1e-12)) {
-    range.refuse_value(axis, "an angle's range of at most 2 pi rad");
+    refuse_range("an angle's range of at most 2 pi rad");
   }
-  return {limits[0], limits[1]};
-}
-
-bool read_along_tool(const Block& pose) {
-  const std::string axes = pose.text("axes", "pose");
-  if (axes != "pose" && axes != "tool") pose.refuse_value("axes", "'pose' or 'tool'");
-  return axes == "tool";
+  return limits;
 }
 
 void append(Eigen::VectorXd& all, double value) {
@@ -82,43 +92,40 @@ bool contains(const Matrix6Xd& T, const Matrix6Xd& twists) {
   return (twists - T * (T.transpose() * twists)).norm() < kApart * std::max(1.0, twists.norm());
 }
 
-[[noreturn]] void refuse_axis(const Block& pose, const char* axis, const char* why) {
-  const Block range = pose.table("range");
-  const bool ranged = range.has(axis);
-  (ranged ? range : pose)
-      .refuse_value(ranged ? axis : "free", fmt::format("{} ({} is none)", why, axis));
+[[noreturn]] void refuse_axis(const TaskSpec& task, const char* axis, const char* why) {
+  const std::string expected = fmt::format("{} ({} is none)", why, axis);
+  const auto range = task.range.find(axis);
+  if (range == task.range.end()) throw BadValue("pose.free", shown(task.free), expected);
+  throw BadValue(fmt::format("pose.range.{}", axis), shown_range(range->second), expected);
 }
 
 }  // namespace
 
-void read_free_pose(const Block& task, Problem& problem) {
-  if (problem.motion) return;
-  const Block pose = task.table("pose");
-  const std::vector<std::string> free = read_axes(pose);
-  const Block range = pose.table("range");
-  range.allow_only({kTwistAxes.begin(), kTwistAxes.end()});
+void set_free_pose(const TaskSpec& task, Problem& problem) {
+  if (problem.motion) {
+    if (task.free.empty() && task.range.empty()) return;
+    throw BadValue(task.free.empty() ? "pose.range" : "pose.free",
+                   task.free.empty() ? "a table" : shown(task.free),
+                   "no such key, but for static tasks: in time the pose is given");
+  }
+  require_axes(task);
   for (int i = 0; i < 6; ++i) {
     const char* axis = kTwistAxes[static_cast<std::size_t>(i)];
-    if (!names(free, axis) && !range.has(axis)) continue;
-    const Eigen::Vector2d limits = read_range(pose, axis, i >= 3);
+    if (!names(task.free, axis) && !task.range.contains(axis)) continue;
+    const std::array<double, 2> limits = range_of(task, axis, i >= 3);
     problem.free.axes.push_back(i);
     append(problem.theta_r_min, limits[0]);
     append(problem.theta_r_max, limits[1]);
     append(problem.theta_r_default, std::clamp(0.0, limits[0], limits[1]));
   }
-  problem.free.along_tool = read_along_tool(pose);
+  problem.free.along_tool = task.along_tool;
   const std::vector<int>& axes = problem.free.axes;
-  if (axes.empty() && pose.has("axes")) {
-    pose.refuse_value("axes", "no such key, but beside pose.free or pose.range");
-  }
-  const std::string frame = task.table("wrench").text("frame", "world");
-  problem.free.wrench_turns = frame != "world" && !axes.empty() && axes.back() >= 3;
+  problem.free.wrench_turns = task.wrench_in_tool && !axes.empty() && axes.back() >= 3;
 }
 
-void require_free_motions(const Block& task, const Problem& problem) {
+void require_free_motions(const TaskSpec& task, const Problem& problem) {
   if (problem.free.count() == 0) return;
   constexpr int kPlaces = 20;
-  const Block pose = task.table("pose");
   PostureEvaluator model(problem, false);
   Random random(4);
   Eigen::VectorXd theta_r = problem.theta_r_default;
@@ -128,15 +135,15 @@ void require_free_motions(const Block& task, const Problem& problem) {
     const Eigen::Matrix3d turn = pose_at(problem, theta_r).R * problem.pose.R.transpose();
     for (int i = 0; i < problem.free.count() && T.cols() > 0; ++i) {
       if (contains(T, free_twist(problem, theta_r, i))) continue;
-      refuse_axis(pose, kTwistAxes[static_cast<std::size_t>(problem.free.axes[i])],
+      refuse_axis(task, kTwistAxes[static_cast<std::size_t>(problem.free.axes[i])],
                   "axes along which the end effector can move");
     }
     const Matrix6Xd here = problem.free.wrench_turns ? rotated(turn.transpose(), T) : T;
     if (place == 0) T_0 = here;
     if (here.cols() > 0 && !contains(T_0, here)) {
-      pose.refuse_value("free",
-                        "axes along which the end effector can move in the same ways "
-                        "everywhere, so that the same wrenches do work");
+      throw BadValue("pose.free", task.free.empty() ? "nothing" : shown(task.free),
+                     "axes along which the end effector can move in the same ways everywhere, so "
+                     "that the same wrenches do work");
     }
     for (Eigen::Index k = 0; k < theta_r.size(); ++k) {
       theta_r[k] = random.uniform(problem.theta_r_min[k], problem.theta_r_max[k]);

@@ -77,10 +77,12 @@ MAXWRENCH_PROBLEMS=$(pkg-config --variable=problems maxwrench)
 export MAXWRENCH_PROBLEMS
 [ "$MAXWRENCH_PROBLEMS" -ef "$prefix/share/maxwrench/problems" ] || fail "maxwrench.pc names $MAXWRENCH_PROBLEMS"
 for how in cmake make; do
-  for name in solve own_measure own_search lp; do "$how/$name" > "$how.$name" 2> "$log" || fail "$how/$name fails"; done
+  for name in solve in_code own_measure own_search lp; do "$how/$name" > "$how.$name" 2> "$log" || fail "$how/$name fails"; done
   # The command says the same.
   "$prefix/bin/maxwrench" solve planar/force --json > solve
   same "$how/solve" "$(awk '/^default/ {print $5}' $how.solve)" "$(sed 's/.*"beta":\([0-9.]*\).*/\1/' solve | xargs printf %.6f)"
+  # The robot and the task in code are those of the file, but for collisions, which do not bind.
+  same "$how/in_code" "$(grep '^beta ' $how.in_code)" "$(grep '^beta ' $how.solve)"
   # The gradient by the seeds is that by differences.
   same "$how/own_measure" "$(awk '/^gradient/ {print $2}' $how.own_measure)" "$(awk '/^slope/ {print $2}' $how.own_measure)"
   # Both searches find the paper's optimum, 1.91 N.
