@@ -1,9 +1,21 @@
 # One target for each folder. The order is the order of the floors: a folder links only those before it. lib, problems and solvers are
 # one library for others, maxwrench::maxwrench; drawing stands apart.
 
-# How Eigen aligns and frees memory is part of the interface: vectors that one side allocates are freed by the other. These are the values
-# of x86-64 without further flags; a user with -march=native or AddressSanitizer would get others. types.h refuses them.
-set(eigen_interface EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MAX_STATIC_ALIGN_BYTES=16 EIGEN_MALLOC_ALREADY_ALIGNED=1)
+# How Eigen allocates memory is part of the interface: vectors that one side allocates are freed by the other. It depends on the compiler's
+# flags: without AVX Eigen takes malloc, with AVX (-march=native) blocks that it aligns itself. Whoever links the library keeps Eigen's own
+# values; types.h compares them. Here they are fixed, so that AddressSanitizer changes nothing. 64 bytes serve AVX-512 and AVX.
+option(MAXWRENCH_AVX "Build the library for programs that are compiled for AVX, such as with -march=native" OFF)
+if(MAXWRENCH_AVX AND MAXWRENCH_WITH_PAGMO)
+  message(FATAL_ERROR "MAXWRENCH_AVX needs -D MAXWRENCH_WITH_PAGMO=OFF: what libpagmo allocates without AVX would be freed with it")
+endif()
+if(MAXWRENCH_AVX)
+  set(avx 1)
+  add_compile_definitions(EIGEN_MAX_ALIGN_BYTES=64 EIGEN_MAX_STATIC_ALIGN_BYTES=64 EIGEN_MALLOC_ALREADY_ALIGNED=0)
+else()
+  set(avx 0)
+  add_compile_definitions(EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MAX_STATIC_ALIGN_BYTES=16 EIGEN_MALLOC_ALREADY_ALIGNED=1)
+endif()
+add_compile_definitions(MAXWRENCH_AVX=${avx})
 
 # Of a folder's sources, those that need a library which is left out: they include its headers or what stands on them. A source that asks
 # for MAXWRENCH_WITH_... knows itself what to do.
@@ -44,7 +56,6 @@ endfunction()
 function(add_core_floor name)
   add_floor(${name} OBJECT)
   target_include_directories(maxwrench_${name} PRIVATE ${PROJECT_SOURCE_DIR}/include)
-  target_compile_definitions(maxwrench_${name} PRIVATE ${eigen_interface})
   target_link_libraries(maxwrench_${name} PRIVATE Eigen3::Eigen ${ARGN})
   if(BUILD_SHARED_LIBS)
     set_target_properties(maxwrench_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
@@ -97,7 +108,7 @@ add_library(maxwrench::maxwrench ALIAS maxwrench_core)
 add_dependencies(maxwrench_core maxwrench_version)
 set_target_properties(maxwrench_core PROPERTIES OUTPUT_NAME maxwrench EXPORT_NAME maxwrench)
 target_compile_features(maxwrench_core PUBLIC cxx_std_20)
-target_compile_definitions(maxwrench_core PUBLIC ${eigen_interface})
+target_compile_definitions(maxwrench_core INTERFACE MAXWRENCH_AVX=${avx})
 target_include_directories(maxwrench_core PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>)
 target_link_libraries(maxwrench_core PUBLIC Eigen3::Eigen PRIVATE ${maxwrench_libraries})
 
@@ -111,7 +122,6 @@ if(MAXWRENCH_BUILD_COMMAND OR MAXWRENCH_BUILD_BENCHMARKS)
   find_package(ZLIB REQUIRED)
   add_floor(verify STATIC)
   target_include_directories(maxwrench_verify PRIVATE ${PROJECT_SOURCE_DIR}/include)
-  target_compile_definitions(maxwrench_verify PRIVATE ${eigen_interface})
   target_compile_options(maxwrench_verify PRIVATE -ffp-contract=off)
   pkg_check_modules(GMPXX REQUIRED QUIET IMPORTED_TARGET gmpxx)
   target_link_libraries(maxwrench_verify PRIVATE Eigen3::Eigen ZLIB::ZLIB PUBLIC PkgConfig::GMPXX)

@@ -10,7 +10,7 @@ install(TARGETS maxwrench_core maxwrench_drawing EXPORT maxwrench
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/problems/ DESTINATION ${CMAKE_INSTALL_DATADIR}/maxwrench/problems COMPONENT command
   FILES_MATCHING PATTERN "*.toml" PATTERN "*.urdf" PATTERN "README.md"
-  PATTERN loader EXCLUDE PATTERN mps EXCLUDE)
+  PATTERN loader EXCLUDE PATTERN make EXCLUDE PATTERN mps EXCLUDE)
 
 install(EXPORT maxwrench NAMESPACE maxwrench:: FILE maxwrenchTargets.cmake DESTINATION ${package} COMPONENT development)
 set(problems_folder ${CMAKE_INSTALL_DATADIR}/maxwrench/problems)
@@ -60,8 +60,6 @@ if(NOT BUILD_SHARED_LIBS)
   link_flags(link_needs ${maxwrench_libraries})
   list(JOIN link_needs " " link_needs)
 endif()
-list(TRANSFORM eigen_interface PREPEND -D OUTPUT_VARIABLE eigen_flags)
-list(JOIN eigen_flags " " eigen_flags)
 file(RELATIVE_PATH from_pc_to_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 foreach(pc maxwrench maxwrench_drawing)
   configure_file(${PROJECT_SOURCE_DIR}/cmake/${pc}.pc.in ${generated}/${pc}.pc @ONLY)

@@ -7,12 +7,23 @@
 
 namespace maxwrench {
 
+// Memory that one side allocates is freed by the other, so Eigen must allocate here as in the
+// library. MAXWRENCH_AVX, 0 or 1, comes with maxwrench::maxwrench and pkg-config --cflags
+// maxwrench.
+#ifdef MAXWRENCH_AVX
+inline constexpr bool kForAvx = MAXWRENCH_AVX;
+#else
+inline constexpr bool kForAvx = false;
+#endif
 static_assert(
-    EIGEN_MAX_ALIGN_BYTES == 16 && EIGEN_MAX_STATIC_ALIGN_BYTES == 16 &&
-        EIGEN_MALLOC_ALREADY_ALIGNED == 1,
-    "maxwrench: Eigen must align to 16 bytes as in the library, or memory that one side "
-    "allocates is freed wrongly by the other: take the definitions of maxwrench::maxwrench "
-    "or of pkg-config --cflags maxwrench");
+    kForAvx ? EIGEN_MALLOC_ALREADY_ALIGNED == 0 && EIGEN_MAX_ALIGN_BYTES > 16 &&
+                  EIGEN_MAX_STATIC_ALIGN_BYTES > 16
+            : EIGEN_MALLOC_ALREADY_ALIGNED == 1 && EIGEN_MAX_ALIGN_BYTES == 16 &&
+                  EIGEN_MAX_STATIC_ALIGN_BYTES == 16 && EIGEN_DEFAULT_ALIGN_BYTES == 16,
+    "maxwrench: Eigen allocates memory here in another way than in the library. A program that is "
+    "compiled for AVX (such as with -march=native) needs a maxwrench that was built with -D "
+    "MAXWRENCH_AVX=ON; one without AVX needs one built without that option, and with "
+    "AddressSanitizer also -D EIGEN_MALLOC_ALREADY_ALIGNED=1. See docs/install.md");
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 

@@ -16,13 +16,13 @@ namespace maxwrench {
 namespace {
 
 /// Nearly as the user wrote it. (toml++ prints 0.3 with 17 digits.)
-std::string shown(const toml::node& node) {
+std::string as_written(const toml::node& node) {
   if (node.is_table()) return "a table";
   if (node.is_string()) return fmt::format("'{}'", node.as_string()->get());
   if (node.is_floating_point()) return fmt::format("{}", node.as_floating_point()->get());
   if (const toml::array* array = node.as_array()) {
     std::vector<std::string> parts;
-    for (const toml::node& part : *array) parts.push_back(shown(part));
+    for (const toml::node& part : *array) parts.push_back(as_written(part));
     return fmt::format("[{}]", fmt::join(parts, ", "));
   }
   std::ostringstream out;
@@ -71,7 +71,7 @@ void collect_sources(const toml::table& table, const Block& root, const std::str
   for (const char* key : {"source", "status"}) {
     const toml::node* node = table.get(key);
     if (node != nullptr && !node->is_string()) {
-      refuse(root.file(), path.empty() ? key : path + "." + key, shown(*node), "a string");
+      refuse(root.file(), path.empty() ? key : path + "." + key, as_written(*node), "a string");
     }
   }
   const toml::node* source = table.get("source");
@@ -141,7 +141,7 @@ void Block::allow_only(const std::vector<std::string_view>& keys) const {
 
 void Block::refuse_value(std::string_view key, std::string_view expected) const {
   const toml::node* node = table_ == nullptr ? nullptr : table_->get(key);
-  refuse_value(key, node == nullptr ? "nothing" : shown(*node), expected);
+  refuse_value(key, node == nullptr ? "nothing" : as_written(*node), expected);
 }
 
 void Block::refuse_value(std::string_view key, std::string_view got,
@@ -182,19 +182,21 @@ double Block::number(std::string_view key, double fallback) const {
   return has(key) ? number(key) : fallback;
 }
 
-double Block::non_negative(std::string_view key, double fallback) const {
-  const double value = number(key, fallback);
-  if (value < 0) refuse_value(key, "a number >= 0");
-  return value;
-}
-
 Eigen::VectorXd Block::numbers(std::string_view key, int size) const {
   const std::string expected =
       fmt::format("a list of {} finite number{}", size, size == 1 ? "" : "s");
+  if (static_cast<int>(array(key, expected).size()) != size) refuse_value(key, expected);
+  return listed(key, expected);
+}
+
+Eigen::VectorXd Block::any_numbers(std::string_view key) const {
+  return has(key) ? listed(key, "a list of finite numbers") : Eigen::VectorXd();
+}
+
+Eigen::VectorXd Block::listed(std::string_view key, std::string_view expected) const {
   const toml::array& values = array(key, expected);
-  if (static_cast<int>(values.size()) != size) refuse_value(key, expected);
-  Eigen::VectorXd result(size);
-  for (int i = 0; i < size; ++i) {
+  Eigen::VectorXd result(static_cast<Eigen::Index>(values.size()));
+  for (Eigen::Index i = 0; i < result.size(); ++i) {
     const auto value = finite_number(*values.get(static_cast<std::size_t>(i)));
     if (!value) refuse_value(key, expected);
     result[i] = *value;
@@ -248,7 +250,7 @@ std::vector<std::pair<std::string, std::string>> Block::text_pairs(std::string_v
   std::vector<std::pair<std::string, std::string>> result;
   for (const toml::node& node : array(key, expected)) {
     const auto pair = node.is_array() ? all_texts(*node.as_array()) : std::nullopt;
-    if (!pair || pair->size() != 2) refuse_value(key, shown(node), expected);
+    if (!pair || pair->size() != 2) refuse_value(key, as_written(node), expected);
     result.emplace_back((*pair)[0], (*pair)[1]);
   }
   return result;
@@ -283,6 +285,16 @@ std::vector<std::pair<std::string, Block>> Block::named(std::string_view key) co
   const auto line = [](const auto& entry) { return entry.second.table_->source().begin.line; };
   std::stable_sort(result.begin(), result.end(),
                    [line](const auto& a, const auto& b) { return line(a) < line(b); });
+  return result;
+}
+
+std::map<std::string, double> Block::numbers_by_name() const {
+  std::map<std::string, double> result;
+  if (table_ == nullptr) return result;
+  for (const auto& [key, node] : *table_) {
+    if (key.str() == "source" || key.str() == "status") continue;
+    result.emplace(key.str(), number(key.str()));
+  }
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <toml++/impl/forward_declarations.h>
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -34,10 +35,10 @@ class Block {
   double number(std::string_view key) const;
   double number(std::string_view key, double fallback) const;
   Eigen::VectorXd numbers(std::string_view key, int size) const;
+  Eigen::VectorXd any_numbers(std::string_view key) const;  ///< of any size; none without the key
   Eigen::Vector3d vector(std::string_view key) const;
   Eigen::Vector3d vector(std::string_view key, const Eigen::Vector3d& fallback) const;
   Eigen::Vector3d direction(std::string_view key) const;  ///< normalised; zero is refused
-  double non_negative(std::string_view key, double fallback) const;
   int whole(std::string_view key, int low, int high) const;
   int whole(std::string_view key, int low, int high, int fallback) const;
   bool truth(std::string_view key, bool fallback) const;
@@ -50,6 +51,8 @@ class Block {
   Block table(std::string_view key) const;
   std::vector<Block> list(std::string_view key) const;
   std::vector<std::pair<std::string, Block>> named(std::string_view key) const;
+  /// All keys of this table, each a number.
+  std::map<std::string, double> numbers_by_name() const;
 
   /// (block, its `source` and, in brackets, its `status`) of this table and all below it, in the
   /// order of the file.
@@ -62,6 +65,7 @@ class Block {
   std::string path_of(std::string_view key) const;
   const toml::node& require(std::string_view key, std::string_view expected) const;
   const toml::array& array(std::string_view key, std::string_view expected) const;
+  Eigen::VectorXd listed(std::string_view key, std::string_view expected) const;
 
   std::filesystem::path file_;
   std::string path_;                         ///< of this table, empty for the root

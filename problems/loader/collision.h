@@ -5,22 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "maxwrench/robot.h"
+#include "maxwrench/task.h"
 
 namespace maxwrench {
-
-/// A collision shape, fixed to a link of the robot.
-struct Shape {
-  enum class Kind { kCapsule, kBox, kCylinder };
-  std::string body;  ///< the URDF link that carries it
-  int link = 0;      ///< the link of the robot that this body is part of
-  Kind kind = Kind::kCapsule;
-  /// Link -> shape. The shape is centred at its origin; the axis of capsule and cylinder is z.
-  Pose<double> placement;
-  double radius = 0;       ///< m, capsule and cylinder
-  double half_length = 0;  ///< m, of the axis; a capsule of half length 0 is a sphere
-  Eigen::Vector3d half_sizes = Eigen::Vector3d::Zero();  ///< m, box
-};
 
 /// Checks all pairs of shapes on different links, except those whose bodies are named in `ignore`:
 /// a posture collides if two shapes of a pair are closer than `margin` [m]. Null if there is no

@@ -1,27 +1,12 @@
 #include "problems/loader/motion.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <algorithm>
 #include <filesystem>
 
 #include "problems/loader/path_table.h"
-#include "problems/loader/theta_r.h"
+#include "problems/make/motion.h"
 
 namespace maxwrench {
 namespace {
-
-constexpr int kMostKnots = 1000, kMostInstants = 100;
-constexpr double kShortest = 1e-3, kLongest = 1e6;  // s
-
-double read_duration(const Block& motion) {
-  const double T = motion.number("T");
-  if (!(T >= kShortest && T <= kLongest)) {
-    motion.refuse_value("T", fmt::format("a number of {:g} to {:g}, > 0", kShortest, kLongest));
-  }
-  return T;
-}
 
 Timing read_timing(const Block& path) {
   const std::string name = path.text("timing", "cubic");
@@ -62,29 +47,23 @@ Path read_path(const Block& path, const Pose<double>& start, double T) {
   path.refuse_value("kind", "rotation, line, arc or poses");
 }
 
-void read_table(const Block& task, Problem& problem) {
+void read_table(const Block& task, TaskSpec& spec) {
   const Block path = task.table("path"), motion = task.table("motion");
   path.allow_only({"kind", "file"});
   if (task.has("pose")) task.refuse_value("pose", "none: a path through poses starts at the first");
   if (motion.has("T")) motion.refuse_value("T", "none: it is the last t of the poses");
   const std::filesystem::path file = task.file().parent_path() / path.text("file");
-  problem.motion->path = read_path_table(file);
-  problem.motion->path_file = file.string();
-  problem.motion->T = problem.motion->path.duration();
-  problem.pose = problem.motion->path.pose(0);
+  spec.motion->path = read_path_table(file);
+  spec.motion->path_file = file.string();
+  spec.pose = spec.motion->path.pose(0);
 }
 
 void read_scheme(const Block& block, MotionTask& motion) {
-  const std::vector<std::string> names = scheme_names(motion.impulse);
   const std::string name = block.text("scheme", "spline");
-  if (std::find(names.begin(), names.end(), name) == names.end()) {
-    block.refuse_value("scheme", fmt::format("one of {}", fmt::join(names, ", ")));
-  }
+  require_scheme(name, motion.impulse);
   motion.scheme = parse_scheme(name);
-  const bool spline = motion.scheme == Scheme::kSpline;
   motion.k = block.whole("k", 1, kMostKnots);
-  if (spline && motion.k < 2) block.refuse_value("k", "2 or more for the scheme spline");
-  if (block.has("instants_per_interval") && !spline) {
+  if (block.has("instants_per_interval") && motion.scheme != Scheme::kSpline) {
     block.refuse_value("instants_per_interval", "no such key, but for the scheme spline");
   }
   motion.instants_per_interval =
@@ -93,11 +72,12 @@ void read_scheme(const Block& block, MotionTask& motion) {
 
 /// A knot, or 0 for the best one.
 int read_peak(const Block& block, int k) {
-  const std::string expected = fmt::format("a knot of 1 to k = {}, or 'best'", k);
+  const std::string expected = peak_range(k);
   if (block.is_text("t_h") && block.text("t_h") != "best") block.refuse_value("t_h", expected);
   if (!block.has("t_h") || block.is_text("t_h")) return 0;
   const double t_h = block.number("t_h");
-  if (!(t_h >= 1 && t_h <= k) || t_h != static_cast<int>(t_h)) block.refuse_value("t_h", expected);
+  if (!(t_h >= 1 && t_h <= kMostKnots) || t_h != static_cast<int>(t_h))
+    block.refuse_value("t_h", expected);
   return static_cast<int>(t_h);
 }
 
@@ -116,10 +96,10 @@ bool follows_poses(const Block& task) {
   return path.is_text("kind") && path.text("kind") == "poses";
 }
 
-void read_motion(const Block& task, Problem& problem) {
+void read_motion(const Block& task, TaskSpec& spec) {
   const std::string type = task.text("type");
   if (type == "static") return;
-  MotionTask& motion = problem.motion.emplace();
+  MotionTask& motion = spec.motion.emplace();
   motion.impulse = type == "impulse";
   const Block block = task.table("motion");
   std::vector<std::string_view> keys = {"T", "k", "scheme", "instants_per_interval", "rates"};
@@ -127,28 +107,18 @@ void read_motion(const Block& task, Problem& problem) {
   block.allow_only(keys);
   read_scheme(block, motion);
   motion.rates = block.truth("rates", true);
-  if (follows_poses(task)) return read_table(task, problem);
-  motion.T = read_duration(block);
-  motion.path = motion.impulse ? Path::constant(problem.pose, motion.T)
-                               : read_path(task.table("path"), problem.pose, motion.T);
-  if (motion.impulse) motion.t_h = read_peak(block, motion.k);
-}
-
-void read_start(const Block& task, Problem& problem) {
-  if (!problem.motion) return;
-  if (task.has("contact")) {
-    task.refuse_value("contact",
-                      "none: a second contact is served in static tasks only, not yet in time");
+  if (follows_poses(task)) return read_table(task, spec);
+  motion.T = block.number("T");
+  require_duration(motion.T);
+  if (!motion.impulse) {
+    motion.path = read_path(task.table("path"), spec.pose, motion.T);
+    return;
   }
-  if (!problem.motion->impulse) return;
-  const Block start = task.table("start"), theta_r = task.table("theta_r");
+  motion.t_h = read_peak(block, motion.k);
+  const Block start = task.table("start");
   start.allow_only({"theta_r", "kind"});
-  problem.motion->start = read_start_kind(start);
-  if (theta_r.has("default")) {
-    theta_r.refuse_value("default", "none: the default of a heave is start.theta_r");
-  }
-  problem.motion->theta_0 = limited_theta_r(start, "theta_r", problem);
-  problem.theta_r_default = problem.motion->theta_0;
+  motion.start = read_start_kind(start);
+  motion.theta_0 = start.any_numbers("theta_r");
 }
 
 }  // namespace maxwrench

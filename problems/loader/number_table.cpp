@@ -44,7 +44,7 @@ std::optional<double> as_number(const std::string& cell) {
   return value;
 }
 
-std::string shown(const std::vector<Columns>& choices) {
+std::string shown_columns(const std::vector<Columns>& choices) {
   std::vector<std::string> texts;
   for (const Columns& columns : choices) {
     texts.push_back(fmt::format("{} ({})", columns.size(), fmt::join(columns, ",")));
@@ -90,14 +90,14 @@ NumberTable read_numbers(const std::filesystem::path& file, const std::vector<Co
       });
       if (chosen == choices.end()) {
         refuse(file, where, got,
-               fmt::format("{} columns, with or without this header", shown(choices)));
+               fmt::format("{} columns, with or without this header", shown_columns(choices)));
       }
       table.columns = *chosen;
       if (is_header(cells)) continue;
     }
     const auto row = as_row(cells);
     if (!row || row->size() != table.columns.size()) {
-      refuse(file, where, got, fmt::format("{} finite numbers", shown({table.columns})));
+      refuse(file, where, got, fmt::format("{} finite numbers", shown_columns({table.columns})));
     }
     table.rows.push_back(*row);
     table.lines.push_back(number);

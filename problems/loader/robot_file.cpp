@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 #include "maxwrench/load.h"
 #include "problems/loader/bad_input.h"
 #include "problems/loader/block.h"
-#include "problems/loader/collision.h"
 #include "problems/loader/urdf_tree.h"
+#include "problems/make/robot.h"
 
 namespace maxwrench {
 namespace {
@@ -42,19 +41,11 @@ void read_base(const Block& base, const UrdfTree& tree, Robot& robot) {
   for (const std::string& name : base.texts("axes")) {
     robot.base_axes.push_back(find_named(axes, name, base, "axes", "only these axes"));
   }
-  auto& free = robot.base_axes;
-  std::sort(free.begin(), free.end());
-  const bool twice = std::adjacent_find(free.begin(), free.end()) != free.end();
-  if (twice || !base_axes_are_integrable(free)) {
-    base.refuse_value("axes",
-                      "one of [], [x], [x,y], [x,y,z], [yaw], [x,y,yaw], [x,y,z,yaw] or all six "
-                      "(others do not integrate to poses)");
-  }
   if (base.text("link", tree.root) != tree.root) {
     base.refuse_value("link", fmt::format("the root link '{}' of the URDF", tree.root));
   }
   robot.mount = read_placement(base);
-  if (free.size() < 6) return;
+  if (robot.base_axes.size() < 6) return;
   for (const char* key : {"xyz", "rpy"}) {
     if (base.has(key)) base.refuse_value(key, "no such key: a base on all six axes starts nowhere");
   }
@@ -62,33 +53,16 @@ void read_base(const Block& base, const UrdfTree& tree, Robot& robot) {
 
 void read_thrusters(const Block& thrusters, Robot& robot) {
   thrusters.allow_only({"force_min", "force_max", "force_rate_max", "list"});
-  std::set<std::string> names;
   for (const Block& block : thrusters.list("list")) {
     block.allow_only({"name", "position", "direction", "force_min", "force_max", "force_rate_max"});
     const auto holder = [&](std::string_view key) { return block.has(key) ? block : thrusters; };
-    Thruster thruster;
-    thruster.name = block.text("name");
-    const bool is_joint =
-        std::any_of(robot.joints.begin(), robot.joints.end(),
-                    [&](const Joint& joint) { return joint.name == thruster.name; });
-    if (is_joint || !names.insert(thruster.name).second) {
-      block.refuse_value("name", "a name of its own");
-    }
-    thruster.position = block.vector("position");
-    thruster.direction = block.direction("direction");
-    thruster.force_min = holder("force_min").number("force_min");
-    thruster.force_max = holder("force_max").number("force_max");
-    if (thruster.force_min > thruster.force_max) {
-      if (block.has("force_max")) {
-        block.refuse_value("force_max", fmt::format("at least force_min = {}", thruster.force_min));
-      }
-      holder("force_min")
-          .refuse_value("force_min", fmt::format("at most force_max = {}", thruster.force_max));
-    }
-    const Block rate = holder("force_rate_max");
-    thruster.force_rate_max = rate.number("force_rate_max", kInfinity);
-    if (!(thruster.force_rate_max > 0)) rate.refuse_value("force_rate_max", "a number > 0");
-    robot.thrusters.push_back(std::move(thruster));
+    robot.thrusters.push_back(
+        {.name = block.text("name"),
+         .position = block.vector("position"),
+         .direction = block.vector("direction"),
+         .force_min = holder("force_min").number("force_min"),
+         .force_max = holder("force_max").number("force_max"),
+         .force_rate_max = holder("force_rate_max").number("force_rate_max", kInfinity)});
   }
 }
 
@@ -107,7 +81,7 @@ void read_buoyancy(const Block& root, const UrdfTree& tree, Robot& robot) {
     block.allow_only({"volume", "cob"});
     const Body& body = find_body(tree, all, name, name);
     const double volume = block.number("volume");
-    if (volume < 0) block.refuse_value("volume", "a number >= 0");
+    require_non_negative(fmt::format("buoyancy.{}.volume", name), volume);
     const Eigen::Vector3d cob = body.placement.R * block.vector("cob") + body.placement.p;
     Link& link = robot.links[static_cast<std::size_t>(body.link)];
     link.volume += volume;
@@ -122,48 +96,36 @@ void read_trim(const Block& root, Robot& robot) {
   robot.trim = {trim.number("buoyancy_mass"), trim.vector("position")};
 }
 
-Vector6d coefficients(const Block& block, std::string_view key) {
-  const Vector6d values = block.numbers(key, 6);
-  if (values.minCoeff() < 0) block.refuse_value(key, "6 numbers >= 0");
-  return values;
-}
-
 /// Bodies on one link stay apart; only their frames are turned into those of the link.
 void read_hydrodynamics(const Block& root, const UrdfTree& tree, Robot& robot) {
   const Block all = root.table("hydrodynamics");
   for (const auto& [name, block] : root.named("hydrodynamics")) {
     block.allow_only({"center", "added_mass", "damping_linear", "damping_quadratic"});
     const Body& body = find_body(tree, all, name, name);
+    const auto coefficients = [&name = name, &block = block](std::string_view key) {
+      const Vector6d values = block.numbers(key, 6);
+      require_coefficients(fmt::format("hydrodynamics.{}.{}", name, key), values);
+      return values;
+    };
     HydrodynamicBody water;
     water.frame = body.placement;
     water.frame.p += body.placement.R * block.vector("center", Eigen::Vector3d::Zero());
-    water.added_mass = coefficients(block, "added_mass");
-    water.damping_linear = coefficients(block, "damping_linear");
-    water.damping_quadratic = coefficients(block, "damping_quadratic");
+    water.added_mass = coefficients("added_mass");
+    water.damping_linear = coefficients("damping_linear");
+    water.damping_quadratic = coefficients("damping_quadratic");
     robot.links[static_cast<std::size_t>(body.link)].hydrodynamics.push_back(water);
   }
 }
 
-/// What displaces water moves water: once one body has added mass, each body with a volume needs
-/// its own, if only zeros. A forgotten one would go unnoticed. Added mass and drag are those of
-/// water, so there must be some.
-void require_hydrodynamics(const Block& root, const Robot& robot) {
-  const Block water = root.table("hydrodynamics");
-  const auto known = root.named("hydrodynamics");
-  if (known.empty()) return;
+/// Body by body: the robot knows links only, on which bodies stand together.
+void require_water(const Block& root, const Robot& robot) {
+  std::vector<InWater> bodies;
+  for (const auto& [name, block] : root.named("hydrodynamics")) bodies.push_back({name, 0, true});
+  const Block known = root.table("hydrodynamics");
   for (const auto& [name, block] : root.named("buoyancy")) {
-    if (block.number("volume") == 0 || water.has(name)) continue;
-    water.refuse_value(name, "nothing",
-                       fmt::format("added mass and drag, perhaps zeros: this body displaces water "
-                                   "as '{}' does",
-                                   known.front().first));
+    bodies.push_back({name, block.number("volume"), known.has(name)});
   }
-  if (robot.water_density > 0) return;
-  root.table("environment")
-      .refuse_value("water_density", fmt::format("{:g}", robot.water_density),
-                    fmt::format("a density > 0: '{}' has added mass and drag, which are those "
-                                "of water",
-                                known.front().first));
+  require_hydrodynamics(bodies, robot.water_density);
 }
 
 Shape read_capsule(const Block& block, const UrdfTree& tree) {
@@ -187,20 +149,40 @@ Shape read_capsule(const Block& block, const UrdfTree& tree) {
   return shape;
 }
 
-void read_collision(const Block& collision, UrdfTree& tree, Robot& robot) {
-  collision.allow_only({"margin", "ignore", "capsules"});
-  for (const Block& block : collision.list("capsules")) {
-    tree.shapes.push_back(read_capsule(block, tree));
+Collision read_collision(const Block& block, const UrdfTree& tree) {
+  block.allow_only({"margin", "ignore", "capsules"});
+  Collision collision;
+  collision.shapes = tree.shapes;
+  for (const Block& capsule : block.list("capsules")) {
+    collision.shapes.push_back(read_capsule(capsule, tree));
   }
-  std::vector<std::pair<std::string, std::string>> ignore;
-  if (collision.has("ignore")) ignore = collision.text_pairs("ignore");
-  for (const auto& [a, b] : ignore) {
-    find_body(tree, collision, "ignore", a);
-    find_body(tree, collision, "ignore", b);
+  if (block.has("ignore")) collision.ignore = block.text_pairs("ignore");
+  for (const auto& [a, b] : collision.ignore) {
+    find_body(tree, block, "ignore", a);
+    find_body(tree, block, "ignore", b);
   }
-  for (const Shape& shape : tree.shapes) robot.solids.push_back(to_solid(shape));
-  robot.collision =
-      make_collision_checker(tree.shapes, ignore, collision.non_negative("margin", 0));
+  // A body without a shape meets nothing, and the robot does not know it.
+  const auto has_shape = [&collision](const std::string& body) {
+    return std::any_of(collision.shapes.begin(), collision.shapes.end(),
+                       [&body](const Shape& shape) { return shape.body == body; });
+  };
+  std::erase_if(collision.ignore, [&](const auto& pair) {
+    return !has_shape(pair.first) || !has_shape(pair.second);
+  });
+  collision.margin = block.number("margin", 0);
+  return collision;
+}
+
+/// What a thruster does not say, all thrusters share.
+std::string thruster_key(const Block& thrusters, const std::string& key) {
+  const std::vector<Block> list = thrusters.list("list");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string own = fmt::format("thrusters.list[{}].", i);
+    if (!key.starts_with(own)) continue;
+    const std::string name = key.substr(own.size());
+    return list[i].has(name) ? key : "thrusters." + name;
+  }
+  return key;
 }
 
 }  // namespace
@@ -216,26 +198,29 @@ Robot load_robot(const std::filesystem::path& file) {
   if (!is_file(urdf)) {
     root.refuse_value("urdf", fmt::format("a file beside this one ({} is none)", urdf.string()));
   }
-  UrdfTree tree = read_urdf(urdf);
-  robot.links = tree.links;
-  robot.joints = tree.joints;
-  read_base(root.table("base"), tree, robot);
-  for (std::size_t i = robot.base_axes.empty() ? 1 : 0; i < robot.links.size(); ++i) {
-    require_inertia(urdf, robot.links[i]);
-  }
-  const Block environment = root.table("environment");
-  environment.allow_only({"gravity", "water_density"});
-  robot.gravity = environment.non_negative("gravity", robot.gravity);
-  robot.water_density = environment.non_negative("water_density", robot.water_density);
-  read_thrusters(root.table("thrusters"), robot);
-  read_end_effectors(root, tree, robot);
-  read_buoyancy(root, tree, robot);
-  read_hydrodynamics(root, tree, robot);
-  require_hydrodynamics(root, robot);
-  read_trim(root, robot);
-  read_collision(root.table("collision"), tree, robot);
-  complete_actuation(robot);
-  return robot;
+  const Block thrusters = root.table("thrusters");
+  const auto file_of = [&](std::string& key) {
+    if (key.starts_with("link") || key.starts_with("joint")) return urdf;
+    key = thruster_key(thrusters, key);
+    return file;
+  };
+  return in_files(file_of, [&] {
+    const UrdfTree tree = read_urdf(urdf);
+    robot.links = tree.links;
+    robot.joints = tree.joints;
+    read_base(root.table("base"), tree, robot);
+    const Block environment = root.table("environment");
+    environment.allow_only({"gravity", "water_density"});
+    robot.gravity = environment.number("gravity", robot.gravity);
+    robot.water_density = environment.number("water_density", robot.water_density);
+    read_thrusters(thrusters, robot);
+    read_end_effectors(root, tree, robot);
+    read_buoyancy(root, tree, robot);
+    read_hydrodynamics(root, tree, robot);
+    require_water(root, robot);
+    read_trim(root, robot);
+    return finalize(robot, read_collision(root.table("collision"), tree));
+  });
 }
 
 }  // namespace maxwrench

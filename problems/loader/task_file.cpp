@@ -7,17 +7,12 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "lib/math/decompositions.h"
-#include "lib/math/rotated.h"
-#include "lib/posture/movable.h"
-#include "lib/robot/chain.h"
 #include "maxwrench/load.h"
+#include "maxwrench/task.h"
 #include "problems/loader/bad_input.h"
 #include "problems/loader/block.h"
-#include "problems/loader/contact.h"
-#include "problems/loader/free_pose.h"
+#include "problems/loader/contact_table.h"
 #include "problems/loader/motion.h"
-#include "problems/loader/theta_r.h"
 #include "problems/loader/urdf_tree.h"
 
 namespace maxwrench {
@@ -56,56 +51,28 @@ fs::path find_task(const std::string& name) {
          fmt::format("the path of a task or one of {}", fmt::join(shipped_problems(), ", ")));
 }
 
-int find_end_effector(const Block& task, const Robot& robot) {
-  const std::string wanted = task.text("end_effector");
-  std::vector<std::string> names;
-  for (const EndEffector& candidate : robot.end_effectors) {
-    if (candidate.name == wanted) return static_cast<int>(names.size());
-    names.push_back(candidate.name);
-  }
-  task.refuse_value("end_effector",
-                    fmt::format("an end effector of the robot: {}", fmt::join(names, ", ")));
-}
-
-void read_wrench(const Block& wrench, Problem& problem) {
+void read_wrench(const Block& wrench, TaskSpec& spec) {
   std::vector<std::string_view> keys = {"c", "any", "reference", "desired"};
-  const bool heaves = problem.motion && problem.motion->impulse;
+  const bool heaves = spec.motion && spec.motion->impulse;
   if (!heaves) keys.emplace_back("frame");
   wrench.allow_only(keys);
   const std::string frame = wrench.text("frame", "world");
   if (frame != "world" && frame != "tool" && frame != "end_effector") {
     wrench.refuse_value("frame", "'world' or 'tool' (or 'end_effector', the same)");
   }
-  if (frame != "world") problem.wrench_axes = problem.pose.R;
-  if (problem.motion) problem.motion->c_turns = frame != "world";
-  const Eigen::VectorXd c = wrench.numbers("c", 6);
-  if (c.stableNorm() < 1e-9) wrench.refuse_value("c", "a direction of nonzero length");
-  problem.c = rotated(problem.wrench_axes, c.stableNormalized());
-  problem.reference = wrench.number("reference", problem.reference);
-  if (!(problem.reference > 0)) wrench.refuse_value("reference", "a number > 0");
-  if (!wrench.has("desired")) return;
-  problem.desired = wrench.numbers("desired", 6);
-  if (!(problem.desired.array() > 0).all()) wrench.refuse_value("desired", "numbers > 0");
+  spec.wrench_in_tool = frame != "world";
+  spec.c = wrench.numbers("c", 6);
+  if (wrench.has("any")) spec.any = wrench.texts("any");
+  spec.reference = wrench.number("reference", spec.reference);
+  if (wrench.has("desired")) spec.desired = wrench.numbers("desired", 6);
 }
 
-void read_any(const Block& wrench, Problem& problem) {
-  const std::vector<std::string> any = wrench.texts("any");
-  problem.W_any.setZero(6, static_cast<Eigen::Index>(any.size()));
-  for (std::size_t column = 0; column < any.size(); ++column) {
-    const auto axis = std::find(kWrenchAxes.begin(), kWrenchAxes.end(), any[column]);
-    const bool twice = std::find(any.begin(), any.begin() + static_cast<std::ptrdiff_t>(column),
-                                 any[column]) != any.begin() + static_cast<std::ptrdiff_t>(column);
-    if (axis == kWrenchAxes.end() || twice) {
-      wrench.refuse_value("any",
-                          fmt::format("some of {}, each once", fmt::join(kWrenchAxes, ", ")));
-    }
-    problem.W_any(axis - kWrenchAxes.begin(), static_cast<Eigen::Index>(column)) = 1;
-  }
-  problem.W_any = rotated(problem.wrench_axes, problem.W_any);
-  const Vector6d outside = problem.c - problem.W_any * (problem.W_any.transpose() * problem.c);
-  if (outside.norm() > 1e-12) {
-    wrench.refuse_value("c", fmt::format("a direction within any = {}", fmt::join(any, ", ")));
-  }
+void read_theta_r(const Block& theta_r, TaskSpec& spec) {
+  theta_r.allow_only({"joints", "default", "guess", "guess_base"});
+  if (theta_r.has("joints")) spec.joints = theta_r.texts("joints");
+  spec.theta_r_default = theta_r.any_numbers("default");
+  spec.guess = theta_r.table("guess").numbers_by_name();
+  spec.guess_base = theta_r.table("guess_base").numbers_by_name();
 }
 
 /// What a task of this type may hold.
@@ -123,8 +90,25 @@ void allow_keys(const Block& task) {
   task.allow_only(keys);
 }
 
+void read_free_pose(const Block& pose, TaskSpec& spec) {
+  if (pose.has("free")) spec.free = pose.texts("free");
+  const Block range = pose.table("range");
+  range.allow_only({kTwistAxes.begin(), kTwistAxes.end()});
+  for (const char* axis : kTwistAxes) {
+    if (!range.has(axis)) continue;
+    const Eigen::VectorXd limits = range.numbers(axis, 2);
+    spec.range.insert({axis, {limits[0], limits[1]}});
+  }
+  const std::string axes = pose.text("axes", "pose");
+  if (axes != "pose" && axes != "tool") pose.refuse_value("axes", "'pose' or 'tool'");
+  if (pose.has("axes") && spec.free.empty() && spec.range.empty()) {
+    pose.refuse_value("axes", "no such key, but beside pose.free or pose.range");
+  }
+  spec.along_tool = axes == "tool";
+}
+
 /// A path through the poses of a table brings its own.
-void read_pose(const Block& task, Problem& problem) {
+void read_pose(const Block& task, TaskSpec& spec) {
   if (follows_poses(task)) return;
   const Block pose = task.table("pose");
   pose.allow_only({"xyz", "rpy", "free", "range", "axes"});
@@ -133,32 +117,8 @@ void read_pose(const Block& task, Problem& problem) {
       pose.refuse_value(key, "no such key, but for static tasks: in time the pose is given");
     }
   }
-  problem.pose = pose_from_xyz_rpy(pose.vector("xyz"), pose.vector("rpy"));
-}
-
-/// W_any, of wrenches that do work: with T the twists with which the end effector can leave its
-/// pose, all of T, or those across c beside c where c has a part that the structure takes. What the
-/// task names itself must not hold a wrench h with T'h = 0: nothing bounds it.
-void choose_wrenches(const Block& wrench, Problem& problem) {
-  const Matrix6Xd T = motions_at_pose(problem);
-  const Eigen::VectorXd c_T = T.transpose() * problem.c;
-  if (c_T.norm() < kRankTolerance) {
-    wrench.refuse_value("c", "a direction that does work: the end effector can move along it");
-  }
-  if (!wrench.has("any")) {
-    problem.W_any = T;
-    if (c_T.norm() > 1 - kRankTolerance) return;
-    problem.W_any << problem.c, T * split(c_T).complement;
-    return;
-  }
-  read_any(wrench, problem);
-  const Split works = split(problem.W_any.transpose() * T, kRankTolerance);
-  if (works.complement.cols() == 0) return;
-  const Vector6d idle = tidy_range(problem.W_any * works.complement).col(0);
-  wrench.refuse_value(
-      "any", fmt::format("axes of which every wrench does work ([{:.3g}] does none, as the end "
-                         "effector cannot move along it)",
-                         fmt::join(idle, ", ")));
+  spec.pose = pose_from_xyz_rpy(pose.vector("xyz"), pose.vector("rpy"));
+  read_free_pose(pose, spec);
 }
 
 /// FNV-1a of the sizes and the bytes of files, in 16 hexadecimal digits.
@@ -184,34 +144,27 @@ Problem load_problem(const std::string& name) {
   const fs::path file = find_task(name);
   const Block task = Block::read(file);
   allow_keys(task);
-  Problem problem;
-  problem.name = name;
-  problem.label = task.text("label");
-  problem.source = task.text("source");
+  TaskSpec spec;
+  spec.name = name;
+  spec.label = task.text("label");
+  spec.source = task.text("source");
   const fs::path robot = file.parent_path() / task.text("robot");
   if (!is_file(robot)) {
     task.refuse_value("robot", fmt::format("the path of a robot ({} is none)", robot.string()));
   }
-  problem.robot = load_robot(robot);
-  problem.end_effector = find_end_effector(task, problem.robot);
-  read_pose(task, problem);
-  read_motion(task, problem);
-  read_wrench(task.table("wrench"), problem);
-  read_theta_r(task.table("theta_r"), problem);
-  read_free_pose(task, problem);
-  read_start(task, problem);
-  require_branch(task, problem);
-  require_free_motions(task, problem);
-  choose_wrenches(task.table("wrench"), problem);
-  if (task.has("contact")) {
-    read_contact(task.table("contact"), problem);
-    reconsider_default(task, problem);
-  }
+  spec.robot = load_robot(robot);
+  spec.end_effector = task.text("end_effector");
+  Problem problem = in_file(file, [&] {
+    read_pose(task, spec);
+    read_motion(task, spec);
+    read_wrench(task.table("wrench"), spec);
+    read_theta_r(task.table("theta_r"), spec);
+    if (task.has("contact")) spec.contact = read_contact(task.table("contact"));
+    return make_problem(spec);
+  });
   const fs::path urdf = robot.parent_path() / Block::read(robot).text("urdf");
   std::vector<fs::path> files = {file, robot, urdf};
-  if (problem.motion && !problem.motion->path_file.empty()) {
-    files.emplace_back(problem.motion->path_file);
-  }
+  if (spec.motion && !spec.motion->path_file.empty()) files.emplace_back(spec.motion->path_file);
   problem.digest = digest_of(files);
   return problem;
 }

@@ -28,10 +28,6 @@ struct UrdfTree {
 /// Links and joints in depth-first order from the root, siblings in the order of the file.
 UrdfTree read_urdf(const std::filesystem::path& file);
 
-/// Refuses a link, all that is fixed to it included, without mass or with an inertia that is not
-/// positive definite: what moves needs both, or its motion has no equation.
-void require_inertia(const std::filesystem::path& file, const Link& link);
-
 /// R and p of an URDF origin: rotations about the fixed axes x, y, z, in this order.
 Pose<double> pose_from_xyz_rpy(const Eigen::Vector3d& xyz, const Eigen::Vector3d& rpy);
 

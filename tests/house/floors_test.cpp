@@ -21,9 +21,9 @@ const std::vector<std::vector<std::string>> kFloors = {{"lib"},
 
 /// Public headers stand on the floor of their implementation.
 const std::map<std::string, std::string> kImplementedIn = {
-    {"strategies.h", "solvers"}, {"batch.h", "solvers"}, {"version.h", "solvers"},
-    {"solve.h", "solvers"},      {"load.h", "problems"}, {"mps.h", "problems"},
-    {"figures.h", "drawing"}};
+    {"strategies.h", "solvers"}, {"batch.h", "solvers"},  {"version.h", "solvers"},
+    {"solve.h", "solvers"},      {"load.h", "problems"},  {"mps.h", "problems"},
+    {"task.h", "problems"},      {"figures.h", "drawing"}};
 
 /// How deep a chain of our own includes may go.
 constexpr int kMostIncludeDepth = 9;
@@ -138,7 +138,7 @@ TEST(Floors, PublicHeadersIncludeNothingPrivate) {
     }
   }
   EXPECT_GE(headers, 20);
-  EXPECT_LE(headers, 28);
+  EXPECT_LE(headers, 29);
 }
 
 int depth(const std::string& file, std::map<std::string, int>& known) {

@@ -5,6 +5,8 @@
 #include "maxwrench/objective.h"
 #include "maxwrench/strategies.h"
 
+double plain(int size);
+
 /// Memory changes hands in both directions: what the library allocated is freed and resized here,
 /// and the other way round.
 int main() {
@@ -23,9 +25,9 @@ int main() {
     if (gradient.size() != problem.redundancy()) return 1;
     gradient.resize(size);
   }
-  result = find_search("grid+cmaes").make()->maximize(*objective, options);
+  result = find_search("grid+annealing").make()->maximize(*objective, options);
   Problem copy = load_problem("uvms/lift");
   copy = problem;
   const std::string svg = posture_figure(copy, {{"beta", result.theta_r}});
-  std::printf("native %.6f %d\n", result.value, svg.ends_with("</svg>\n"));
+  std::printf("native %.6f %d %.0f\n", result.value, svg.ends_with("</svg>\n"), plain(600));
 }

@@ -1,10 +1,9 @@
-#include "problems/loader/theta_r.h"
+#include "problems/make/theta_r.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -13,48 +12,54 @@
 #include "lib/posture/dependent_joints.h"
 #include "lib/robot/chain.h"
 #include "maxwrench/posture.h"
+#include "problems/make/bad_value.h"
 
 namespace maxwrench {
 namespace {
 
+[[noreturn]] void refuse_names(const TaskSpec& task, const std::string& expected) {
+  throw BadValue("theta_r.joints", task.joints ? shown(*task.joints) : "nothing", expected);
+}
+
 /// The joints that the task names, `count` of the chain's.
-std::vector<int> named_joints(const Block& theta_r, const Robot& robot,
-                              const std::vector<int>& chain, int count) {
+std::vector<int> named_joints(const TaskSpec& task, const std::vector<int>& chain, int count) {
+  const Robot& robot = task.robot;
   const std::string expected = fmt::format(
       "{} of the joints {}, each once (the other {}{} follow)", count, names_of(robot, chain),
       static_cast<int>(chain.size()) - count, robot.base_axes.empty() ? "" : " and the base");
-  if (count > 0 && !theta_r.has("joints")) theta_r.refuse_value("joints", expected);
   std::vector<int> joints;
-  if (!theta_r.has("joints")) return joints;
-  for (const std::string& name : theta_r.texts("joints")) {
+  for (const std::string& name : task.joints.value_or(std::vector<std::string>())) {
     const auto found = std::find_if(chain.begin(), chain.end(), [&](int i) {
       return robot.joints[static_cast<std::size_t>(i)].name == name;
     });
     const bool known = found != chain.end();
     if (!known || std::find(joints.begin(), joints.end(), *found) != joints.end()) {
-      theta_r.refuse_value("joints", expected);
+      refuse_names(task, expected);
     }
     joints.push_back(*found);
   }
-  if (static_cast<int>(joints.size()) != count) theta_r.refuse_value("joints", expected);
+  if (static_cast<int>(joints.size()) != count) refuse_names(task, expected);
   return joints;
 }
 
 /// All joints of the chain are redundant: the task may repeat them.
-void require_chain(const Block& theta_r, const Robot& robot, const std::vector<int>& chain) {
+void require_chain(const TaskSpec& task, const std::vector<int>& chain) {
   std::vector<std::string> names;
-  for (const int i : chain) names.push_back(robot.joints[static_cast<std::size_t>(i)].name);
-  if (theta_r.has("joints") && theta_r.texts("joints") != names) {
-    theta_r.refuse_value("joints", fmt::format("all joints from the base to the end effector, in "
-                                               "this order: {}",
-                                               fmt::join(names, ", ")));
+  for (const int i : chain) names.push_back(task.robot.joints[static_cast<std::size_t>(i)].name);
+  if (task.joints.value_or(names) != names) {
+    refuse_names(task, fmt::format("all joints from the base to the end effector, in this order: "
+                                   "{}",
+                                   fmt::join(names, ", ")));
   }
-  for (const char* key : {"guess", "guess_base"}) {
-    if (theta_r.has(key)) theta_r.refuse_value(key, "no such key: the base pose follows alone");
+  for (const auto& [key, guess] :
+       {std::pair("guess", &task.guess), std::pair("guess_base", &task.guess_base)}) {
+    if (guess->empty()) continue;
+    throw BadValue(fmt::format("theta_r.{}", key), "a table",
+                   "no such key: the base pose follows alone");
   }
 }
 
-void read_default(const Block& theta_r, Problem& problem) {
+void set_default(const TaskSpec& task, Problem& problem) {
   const int size = static_cast<int>(problem.redundant.size());
   problem.theta_r_min.resize(size);
   problem.theta_r_max.resize(size);
@@ -65,39 +70,50 @@ void read_default(const Block& theta_r, Problem& problem) {
   }
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(size);
   problem.theta_r_default = zero.cwiseMax(problem.theta_r_min).cwiseMin(problem.theta_r_max);
-  if (!theta_r.has("default")) return;
-  problem.theta_r_default = limited_theta_r(theta_r, "default", problem);
+  if (task.theta_r_default.size() == 0) return;
+  require_theta_r_within("theta_r.default", task.theta_r_default, problem);
+  problem.theta_r_default = task.theta_r_default;
 }
 
 /// Zero, moved into the limits, where the task guesses nothing.
-void read_guess(const Block& theta_r, Problem& problem) {
+void set_guess(const TaskSpec& task, Problem& problem) {
   const Robot& robot = problem.robot;
-  std::vector<std::string> names;
-  problem.guess_q.resize(static_cast<Eigen::Index>(robot.joints.size()));
-  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
-    problem.guess_q[static_cast<Eigen::Index>(i)] =
-        std::clamp(0.0, robot.joints[i].q_min, robot.joints[i].q_max);
-  }
-  const Block guess = theta_r.table("guess");
-  for (const int i : problem.dependent) {
-    const Joint& joint = robot.joints[static_cast<std::size_t>(i)];
-    names.push_back(joint.name);
-    const double value = guess.number(joint.name, problem.guess_q[i]);
-    if (value < joint.q_min || value > joint.q_max) {
-      guess.refuse_value(joint.name,
-                         fmt::format("a number within {} .. {}", joint.q_min, joint.q_max));
+  problem.guess_q = resting_joints(robot);
+  for (const auto& [name, value] : task.guess) {
+    const std::string key = "theta_r.guess." + name;
+    require_finite(key, value);
+    const auto found = std::find_if(
+        problem.dependent.begin(), problem.dependent.end(), [&, &wanted = name](int i) {
+          return robot.joints[static_cast<std::size_t>(i)].name == wanted;
+        });
+    if (found == problem.dependent.end()) {
+      throw BadValue(key, "an unknown key",
+                     fmt::format("one of {}", names_of(robot, problem.dependent)));
     }
-    problem.guess_q[i] = value;
+    const Joint& joint = robot.joints[static_cast<std::size_t>(*found)];
+    if (value < joint.q_min || value > joint.q_max) {
+      throw BadValue(key, shown(value),
+                     fmt::format("a number within {} .. {}", joint.q_min, joint.q_max));
+    }
+    problem.guess_q[*found] = value;
   }
-  guess.allow_only({names.begin(), names.end()});
-  const Block base = theta_r.table("guess_base");
-  std::vector<std::string_view> axes;
+  std::vector<std::string> axes;
   for (const int axis : robot.base_axes) {
     axes.emplace_back(kTwistAxes[static_cast<std::size_t>(axis)]);
-    problem.guess_base[std::min(axis, 3)] = base.number(axes.back(), 0);
   }
-  base.allow_only(axes);
+  for (const auto& [name, value] : task.guess_base) {
+    const std::string key = "theta_r.guess_base." + name;
+    require_finite(key, value);
+    const auto found = std::find(axes.begin(), axes.end(), name);
+    if (found == axes.end()) {
+      throw BadValue(key, "an unknown key", fmt::format("one of {}", fmt::join(axes, ", ")));
+    }
+    const int axis = robot.base_axes[static_cast<std::size_t>(found - axes.begin())];
+    problem.guess_base[std::min(axis, 3)] = value;
+  }
 }
+
+bool is_guessed(const TaskSpec& task) { return !task.guess.empty() || !task.guess_base.empty(); }
 
 /// Of a twist [m; rad], the coordinate that is largest.
 std::string shown_gap(const Vector6d& gap) {
@@ -114,10 +130,9 @@ std::string followers_of(const Problem& problem) {
          (problem.robot.base_axes.empty() ? "" : " and the base");
 }
 
-[[noreturn]] void refuse_joints(const Block& task, const Problem& problem, const char* why) {
-  task.table("theta_r").refuse_value(
-      "joints",
-      fmt::format("joints without which the pose fixes {} ({})", followers_of(problem), why));
+[[noreturn]] void refuse_joints(const TaskSpec& task, const Problem& problem, const char* why) {
+  refuse_names(
+      task, fmt::format("joints without which the pose fixes {} ({})", followers_of(problem), why));
 }
 
 /// Whether base and dependent joints move the end effector in as many ways as they are, in almost
@@ -131,27 +146,27 @@ bool follow_independently(const Problem& problem) {
          static_cast<int>(velocities.size());
 }
 
-[[noreturn]] void refuse_pose(const Block& task, const Problem& problem) {
+[[noreturn]] void refuse_pose(const TaskSpec& task, const Problem& problem) {
   const DependentJoints branch(problem);
   if (branch.has_start() && branch.start_is_singular()) {
     refuse_joints(task, problem, "it does not at the default: singular");
   }
-  task.table("pose").refuse_value(
-      "xyz", fmt::format("a pose that {} reach{} (from {} at the default Newton's method stays {})",
-                         followers_of(problem), problem.motion ? " on the branch of the guess" : "",
-                         task.table("theta_r").has("guess") ? "theta_r.guess" : "zero",
-                         shown_gap(branch.start_gap())));
+  throw BadValue(
+      "pose.xyz", shown(problem.pose.p),
+      fmt::format("a pose that {} reach{} (from {} at the default Newton's method stays {})",
+                  followers_of(problem), problem.motion ? " on the branch of the guess" : "",
+                  task.guess.empty() ? "zero" : "theta_r.guess", shown_gap(branch.start_gap())));
 }
 
-[[noreturn]] void refuse_default(const Block& task, const Problem& problem, bool heave) {
+[[noreturn]] void refuse_default(const TaskSpec& task, const Problem& problem, bool heave) {
   const std::string followers = followers_of(problem);
   if (heave) {
-    task.table("start").refuse_value(
-        "theta_r",
+    throw BadValue(
+        "start.theta_r", shown(problem.theta_r_default),
         fmt::format("theta_r at which {} reach the pose (they do elsewhere)", followers));
   }
-  task.table("theta_r").refuse_value(
-      "default", fmt::format("theta_r at which {} reach the pose (they do elsewhere: without this "
+  throw BadValue("theta_r.default", shown(task.theta_r_default),
+                 fmt::format("theta_r at which {} reach the pose (they do elsewhere: without this "
                              "key a place is found)",
                              followers));
 }
@@ -196,71 +211,68 @@ std::string names_of(const Robot& robot, const std::vector<int>& joints) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-Eigen::VectorXd limited_theta_r(const Block& block, std::string_view key, const Problem& problem) {
+void require_theta_r_within(std::string_view key, const Eigen::VectorXd& values,
+                            const Problem& problem) {
   const int size = problem.redundancy();
-  Eigen::VectorXd values = block.numbers(key, size);
+  require_numbers(key, values, size);
   for (int i = 0; i < size; ++i) {
     if (values[i] >= problem.theta_r_min[i] && values[i] <= problem.theta_r_max[i]) continue;
-    block.refuse_value(key, fmt::format("{} within {} .. {}", problem.theta_r_name(i),
-                                        problem.theta_r_min[i], problem.theta_r_max[i]));
+    throw BadValue(key, shown(values),
+                   fmt::format("{} within {} .. {}", problem.theta_r_name(i),
+                               problem.theta_r_min[i], problem.theta_r_max[i]));
   }
-  return values;
 }
 
-void read_theta_r(const Block& theta_r, Problem& problem) {
-  theta_r.allow_only({"joints", "default", "guess", "guess_base"});
+void set_joints(const TaskSpec& task, Problem& problem) {
   const Robot& robot = problem.robot;
   const std::vector<int> chain = chain_to(robot, problem.end_effector);
   const int axes = static_cast<int>(robot.base_axes.size());
   const int dependent = motions_of(robot, problem.end_effector) - axes;
   problem.redundant = chain;
   if (dependent == 0) {
-    require_chain(theta_r, robot, chain);
-    read_default(theta_r, problem);
+    require_chain(task, chain);
+    set_default(task, problem);
     return;
   }
-  problem.redundant =
-      named_joints(theta_r, robot, chain, static_cast<int>(chain.size()) - dependent);
+  problem.redundant = named_joints(task, chain, static_cast<int>(chain.size()) - dependent);
   for (const int joint : chain) {
     const auto& redundant = problem.redundant;
     if (std::find(redundant.begin(), redundant.end(), joint) == redundant.end()) {
       problem.dependent.push_back(joint);
     }
   }
-  read_default(theta_r, problem);
-  read_guess(theta_r, problem);
+  set_default(task, problem);
+  set_guess(task, problem);
 }
 
-void require_branch(const Block& task, Problem& problem) {
+void require_branch(const TaskSpec& task, Problem& problem) {
   if (problem.dependent.empty()) return;
   if (!follow_independently(problem)) {
     refuse_joints(task, problem, "it does in no posture: singular");
   }
   prepare_branches(problem);
   if (!problem.atlas->reaches()) refuse_pose(task, problem);
-  const Block theta_r = task.table("theta_r");
   PostureEvaluator model(problem);
   const Posture& at_default = model.evaluate(problem.theta_r_default);
   const bool heave = problem.motion && problem.motion->impulse;
-  const bool open = !theta_r.has("default") && !heave;
+  const bool open = task.theta_r_default.size() == 0 && !heave;
   if (open ? at_default.status != Status::kValid : !is_reached(at_default)) {
     if (!open) refuse_default(task, problem, heave);
     find_default(model, problem);
   }
-  if (theta_r.has("guess") || theta_r.has("guess_base")) {
+  if (is_guessed(task)) {
     if (DependentJoints(problem).has_start()) return;
     if (problem.motion) refuse_pose(task, problem);
   }
   guess_from(model.evaluate(problem.theta_r_default), problem);
 }
 
-void reconsider_default(const Block& task, Problem& problem) {
-  const Block theta_r = task.table("theta_r");
-  if (problem.dependent.empty() || theta_r.has("default")) return;
+void reconsider_default(const TaskSpec& task, Problem& problem) {
+  if (problem.dependent.empty() || task.theta_r_default.size() > 0) return;
   PostureEvaluator model(problem);
   if (model.evaluate(problem.theta_r_default).status == Status::kValid) return;
   find_default(model, problem);
-  if (theta_r.has("guess") || theta_r.has("guess_base")) return;
+  if (is_guessed(task)) return;
   guess_from(model.evaluate(problem.theta_r_default), problem);
 }
 

@@ -1,0 +1,82 @@
+#include "problems/make/motion.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "problems/make/bad_value.h"
+#include "problems/make/theta_r.h"
+
+namespace maxwrench {
+namespace {
+
+void require_whole(std::string_view key, int value, int most) {
+  if (value >= 1 && value <= most) return;
+  throw BadValue(key, fmt::format("{}", value), fmt::format("a whole number of 1 to {}", most));
+}
+
+/// A path is finite throughout and starts at the task's pose.
+void require_path(const Path& path, const Pose<double>& pose) {
+  constexpr double kRounding = 1e-9;
+  for (const double s : {0.0, 0.5, 1.0}) require_pose("path", path.pose(s * path.duration()));
+  const Pose<double> start = path.pose(0);
+  if ((start.p - pose.p).norm() < kRounding && (start.R - pose.R).norm() < kRounding) return;
+  throw BadValue(
+      "pose.xyz", shown(pose.p),
+      fmt::format("the place and rotation at which the path starts, here {}", shown(start.p)));
+}
+
+}  // namespace
+
+void require_duration(double T) {
+  constexpr double kShortest = 1e-3, kLongest = 1e6;
+  if (T >= kShortest && T <= kLongest) return;
+  throw BadValue("motion.T", shown(T),
+                 fmt::format("a number of {:g} to {:g}, > 0", kShortest, kLongest));
+}
+
+void require_scheme(const std::string& name, bool impulse) {
+  const std::vector<std::string> names = scheme_names(impulse);
+  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  throw BadValue("motion.scheme", shown(name), fmt::format("one of {}", fmt::join(names, ", ")));
+}
+
+std::string peak_range(int k) { return fmt::format("a knot of 1 to k = {}, or 'best'", k); }
+
+void set_motion(const TaskSpec& task, Problem& problem) {
+  if (!task.motion) return;
+  MotionTask& motion = problem.motion.emplace(*task.motion);
+  motion.c_turns = task.wrench_in_tool;
+  if (!motion.impulse) motion.T = motion.path.duration();
+  require_duration(motion.T);
+  require_scheme(to_string(motion.scheme), motion.impulse);
+  require_whole("motion.k", motion.k, kMostKnots);
+  if (motion.scheme == Scheme::kSpline && motion.k < 2) {
+    throw BadValue("motion.k", fmt::format("{}", motion.k), "2 or more for the scheme spline");
+  }
+  require_whole("motion.instants_per_interval", motion.instants_per_interval, kMostInstants);
+  if (motion.impulse) {
+    motion.path = Path::constant(problem.pose, motion.T);
+    if (motion.t_h >= 0 && motion.t_h <= motion.k) return;
+    throw BadValue("motion.t_h", fmt::format("{}", motion.t_h), peak_range(motion.k));
+  }
+  require_path(motion.path, problem.pose);
+}
+
+void set_start(const TaskSpec& task, Problem& problem) {
+  if (!problem.motion) return;
+  if (task.contact) {
+    throw BadValue("contact", "a table",
+                   "none: a second contact is served in static tasks only, not yet in time");
+  }
+  if (!problem.motion->impulse) return;
+  if (task.theta_r_default.size() > 0) {
+    throw BadValue("theta_r.default", shown(task.theta_r_default),
+                   "none: the default of a heave is start.theta_r");
+  }
+  require_theta_r_within("start.theta_r", problem.motion->theta_0, problem);
+  problem.theta_r_default = problem.motion->theta_0;
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,268 @@
+#include "problems/make/robot.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+
+#include "problems/loader/collision.h"
+#include "problems/make/bad_value.h"
+
+namespace maxwrench {
+namespace {
+
+/// In increasing order.
+Eigen::Vector3d principal_moments(const Eigen::Matrix3d& inertia) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly)
+      .eigenvalues();
+}
+
+[[noreturn]] void refuse_moments(const std::string& link, const Eigen::Vector3d& moments,
+                                 std::string_view expected) {
+  throw BadValue(
+      fmt::format("link[{}].inertial.inertia", link),
+      fmt::format("principal moments {:.6g}, {:.6g}, {:.6g}", moments[0], moments[1], moments[2]),
+      expected);
+}
+
+/// Refuses names that are empty or stand twice.
+template <class Named>
+void require_names(const std::vector<Named>& all, const std::string& noun) {
+  std::set<std::string> names;
+  for (const Named& each : all) {
+    if (each.name.empty()) throw BadValue(noun + ".name", "''", "a name");
+    if (names.insert(each.name).second) continue;
+    throw BadValue(fmt::format("{}[{}]", noun, each.name), "two of this name",
+                   "names of their own");
+  }
+}
+
+void check_base(Robot& robot) {
+  auto& free = robot.base_axes;
+  std::sort(free.begin(), free.end());
+  if (!base_axes_are_integrable(free)) {
+    std::vector<std::string> names;
+    for (const int axis : free) {
+      const bool known = axis >= 0 && axis < 6;
+      names.push_back(known ? shown(std::string(kTwistAxes[static_cast<std::size_t>(axis)]))
+                            : fmt::format("{}", axis));
+    }
+    throw BadValue("base.axes", fmt::format("[{}]", fmt::join(names, ", ")),
+                   "one of [], [x], [x,y], [x,y,z], [yaw], [x,y,yaw], [x,y,z,yaw] or all six "
+                   "(others do not integrate to poses)");
+  }
+  require_pose("base", robot.mount);
+}
+
+/// What moves needs mass and moments, or its motion has no equation.
+void require_inertia(const Link& link) {
+  const char* moves = "of this link and what is fixed to it, because it moves";
+  if (!(link.mass > 0)) {
+    throw BadValue(fmt::format("link[{}].inertial.mass", link.name), shown(link.mass),
+                   fmt::format("a mass > 0 {}", moves));
+  }
+  const Eigen::Vector3d moments = principal_moments(link.inertia);
+  if (moments[0] > 1e-9 * moments[2]) return;
+  refuse_moments(link.name, moments, fmt::format("moments > 0 {}", moves));
+}
+
+void check_links(const Robot& robot) {
+  if (robot.links.size() != robot.joints.size() + 1) {
+    throw BadValue("link", fmt::format("{} links", robot.links.size()),
+                   fmt::format("{}: the base, and one for each joint", robot.joints.size() + 1));
+  }
+  require_names(robot.links, "link");
+  for (const Link& link : robot.links) {
+    require_body(link.name, link.mass, link.inertia);
+    require_numbers(fmt::format("link[{}].inertial.origin.xyz", link.name), link.com, 3);
+    require_non_negative(fmt::format("buoyancy.{}.volume", link.name), link.volume);
+    require_numbers(fmt::format("buoyancy.{}.cob", link.name), link.cob, 3);
+    const std::string water = fmt::format("hydrodynamics.{}", link.name);
+    for (const HydrodynamicBody& body : link.hydrodynamics) {
+      require_pose(water, body.frame);
+      require_coefficients(water + ".added_mass", body.added_mass);
+      require_coefficients(water + ".damping_linear", body.damping_linear);
+      require_coefficients(water + ".damping_quadratic", body.damping_quadratic);
+    }
+    const bool rests = robot.base_axes.empty() && &link == robot.links.data();
+    if (!rests) require_inertia(link);
+  }
+}
+
+void check_limits(const std::string& key, const Joint& joint) {
+  require_finite(key + ".lower", joint.q_min);
+  require_finite(key + ".upper", joint.q_max);
+  if (joint.q_min > joint.q_max) {
+    throw BadValue(key + ".lower", shown(joint.q_min),
+                   fmt::format("at most upper = {}", joint.q_max));
+  }
+  require_non_negative(key + ".effort", joint.effort_max);
+  require_positive(key + ".velocity", joint.velocity_max);
+}
+
+void check_joints(Robot& robot) {
+  require_names(robot.joints, "joint");
+  int carried = 1;  // the link that the joint moves
+  for (Joint& joint : robot.joints) {
+    const std::string key = fmt::format("joint[{}]", joint.name);
+    if (joint.parent < 0 || joint.parent >= carried) {
+      throw BadValue(key + ".parent", fmt::format("{}", joint.parent),
+                     fmt::format("an earlier link than the joint's own, which is {}", carried));
+    }
+    ++carried;
+    require_pose(key + ".origin", joint.placement);
+    joint.axis = direction_of(key + ".axis.xyz", joint.axis);
+    check_limits(key + ".limit", joint);
+  }
+}
+
+void check_thrusters(Robot& robot) {
+  std::set<std::string> names;
+  for (const Joint& joint : robot.joints) names.insert(joint.name);
+  int i = 0;
+  for (Thruster& thruster : robot.thrusters) {
+    const std::string key = fmt::format("thrusters.list[{}].", i++);
+    if (thruster.name.empty() || !names.insert(thruster.name).second) {
+      throw BadValue(key + "name", shown(thruster.name), "a name of its own");
+    }
+    require_numbers(key + "position", thruster.position, 3);
+    thruster.direction = direction_of(key + "direction", thruster.direction);
+    require_finite(key + "force_min", thruster.force_min);
+    require_finite(key + "force_max", thruster.force_max);
+    if (thruster.force_min > thruster.force_max) {
+      throw BadValue(key + "force_max", shown(thruster.force_max),
+                     fmt::format("at least force_min = {}", thruster.force_min));
+    }
+    require_positive(key + "force_rate_max", thruster.force_rate_max);
+  }
+}
+
+void require_link(const std::string& key, const Robot& robot, int link) {
+  if (link >= 0 && link < static_cast<int>(robot.links.size())) return;
+  throw BadValue(key, fmt::format("{}", link),
+                 fmt::format("a link: 0 to {}", robot.links.size() - 1));
+}
+
+void check_end_effectors(const Robot& robot) {
+  require_names(robot.end_effectors, "end_effectors");
+  for (const EndEffector& tip : robot.end_effectors) {
+    const std::string key = fmt::format("end_effectors.{}", tip.name);
+    require_link(key + ".link", robot, tip.link);
+    require_pose(key, tip.placement);
+  }
+}
+
+void check_environment(const Robot& robot) {
+  require_non_negative("environment.gravity", robot.gravity);
+  require_non_negative("environment.water_density", robot.water_density);
+  require_finite("trim.buoyancy_mass", robot.trim.buoyancy_mass);
+  require_numbers("trim.position", robot.trim.position, 3);
+  std::vector<InWater> bodies;
+  for (const Link& link : robot.links) {
+    bodies.push_back({link.name, link.volume, !link.hydrodynamics.empty()});
+  }
+  require_hydrodynamics(bodies, robot.water_density);
+}
+
+void check_shape(const Shape& shape) {
+  const std::string key = fmt::format("link[{}].collision.geometry.", shape.body);
+  const char* length = "a length > 0";
+  require_pose(fmt::format("link[{}].collision.origin", shape.body), shape.placement);
+  switch (shape.kind) {
+    case Shape::Kind::kCapsule:
+      require_positive(key + (shape.half_length == 0 ? "sphere" : "capsule") + ".radius",
+                       shape.radius, length);
+      require_non_negative(key + "capsule.length", 2 * shape.half_length);
+      break;
+    case Shape::Kind::kBox:
+      require_numbers(key + "box.size", 2 * shape.half_sizes, 3);
+      require_positive(key + "box.size", 2 * shape.half_sizes.minCoeff(), length);
+      break;
+    case Shape::Kind::kCylinder:
+      require_positive(key + "cylinder.radius", shape.radius, length);
+      require_positive(key + "cylinder.length", 2 * shape.half_length, length);
+      break;
+  }
+  require_finite(key + "radius", shape.radius);
+}
+
+void set_collision(Robot& robot, const Collision& collision) {
+  std::vector<Shape> shapes = collision.shapes;
+  std::set<std::string> names;
+  for (const Link& link : robot.links) names.insert(link.name);
+  robot.solids.clear();
+  for (Shape& shape : shapes) {
+    require_link("collision.link", robot, shape.link);
+    if (shape.body.empty()) shape.body = robot.links[static_cast<std::size_t>(shape.link)].name;
+    names.insert(shape.body);
+    check_shape(shape);
+    robot.solids.push_back(to_solid(shape));
+  }
+  for (const auto& [a, b] : collision.ignore) {
+    for (const std::string& body : {a, b}) {
+      if (names.contains(body)) continue;
+      throw BadValue("collision.ignore", shown(body),
+                     fmt::format("a link: {}", fmt::join(names, ", ")));
+    }
+  }
+  require_non_negative("collision.margin", collision.margin);
+  robot.collision = make_collision_checker(std::move(shapes), collision.ignore, collision.margin);
+}
+
+}  // namespace
+
+void require_body(const std::string& link, double mass, const Eigen::Matrix3d& inertia) {
+  const std::string key = fmt::format("link[{}].inertial.", link);
+  if (!(mass >= 0 && mass < kInfinity)) throw BadValue(key + "mass", shown(mass), "a mass >= 0");
+  const double largest = inertia.cwiseAbs().maxCoeff();
+  if (!inertia.allFinite() || (inertia - inertia.transpose()).norm() > 1e-9 * largest) {
+    const Eigen::VectorXd numbers = Eigen::Map<const Eigen::VectorXd>(inertia.data(), 9);
+    throw BadValue(key + "inertia", shown(numbers), "9 finite numbers of a symmetric matrix");
+  }
+  const Eigen::Vector3d moments = principal_moments(inertia);
+  const double slack = 1e-9 * std::abs(moments[2]);
+  if (moments[0] < -slack || moments[0] + moments[1] < moments[2] - slack) {
+    refuse_moments(link, moments, "moments >= 0, none above the sum of the other two");
+  }
+  if (mass == 0 && moments[2] > 0) {
+    refuse_moments(link, moments, "no moments where the mass is zero");
+  }
+}
+
+void require_hydrodynamics(const std::vector<InWater>& bodies, double water_density) {
+  const auto known = std::find_if(bodies.begin(), bodies.end(),
+                                  [](const InWater& body) { return body.has_hydrodynamics; });
+  if (known == bodies.end()) return;
+  for (const InWater& body : bodies) {
+    if (body.volume == 0 || body.has_hydrodynamics) continue;
+    throw BadValue(fmt::format("hydrodynamics.{}", body.name), "nothing",
+                   fmt::format("added mass and drag, perhaps zeros: this body displaces water as "
+                               "'{}' does",
+                               known->name));
+  }
+  if (water_density > 0) return;
+  throw BadValue("environment.water_density", fmt::format("{:g}", water_density),
+                 fmt::format("a density > 0: '{}' has added mass and drag, which are those of "
+                             "water",
+                             known->name));
+}
+
+void require_coefficients(const std::string& key, const Vector6d& values) {
+  require_numbers(key, values, 6);
+  if (values.minCoeff() < 0) throw BadValue(key, shown(values), "6 numbers >= 0");
+}
+
+Robot finalize(Robot robot, const Collision& collision) {
+  check_base(robot);
+  check_joints(robot);
+  check_links(robot);
+  check_thrusters(robot);
+  check_end_effectors(robot);
+  check_environment(robot);
+  set_collision(robot, collision);
+  complete_actuation(robot);
+  return robot;
+}
+
+}  // namespace maxwrench
