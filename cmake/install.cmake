@@ -95,7 +95,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_NAME maxwrench)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libmaxwrench-dev)
-set(development_packages libeigen3-dev libfmt-dev libtbb-dev libfcl-dev libtomlplusplus-dev libtinyxml-dev liburdfdom-dev
+set(development_packages libeigen3-dev libfmt-dev libtbb-dev libfcl-dev libtomlplusplus-dev libtinyxml2-dev
   coinor-libcoinutils-dev pkg-config)
 foreach(pair IPOPT:coinor-libipopt-dev CLP:coinor-libclp-dev GLPK:libglpk-dev NLOPT:libnlopt-dev PAGMO:libpagmo-dev SUNDIALS:libsundials-dev)
   string(REPLACE ":" ";" pair ${pair})
