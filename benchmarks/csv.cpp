@@ -6,9 +6,12 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
+
+#include "benchmarks/write_file.h"
+#include "verify/packed.h"
 
 namespace maxwrench {
 namespace {
@@ -22,6 +25,30 @@ std::string quoted_field(const std::string& field) {
     text += c;
   }
   return text + '"';
+}
+
+constexpr std::uint64_t kMostRatio = 256;  // of a table to its packed file
+constexpr int kPackingLevel = 6;           // a third of the time of 9 for a hundredth more bytes
+
+/// The name of a table without the ending of a packed one.
+std::filesystem::path plain_name(std::filesystem::path file) {
+  if (file.extension() == kPackedEnding) file.replace_extension();
+  return file;
+}
+
+/// What editors and spreadsheets do to a table; what else they changed in it, nobody knows.
+void refuse_edited(const std::filesystem::path& file, const std::string& text) {
+  for (const char* mark : {"\xef\xbb\xbf", "\xff\xfe", "\xfe\xff"}) {
+    if (!text.starts_with(mark)) continue;
+    throw std::invalid_argument(file.string() +
+                                ": line 1: got a byte order mark, expected UTF-8 without one");
+  }
+  const std::size_t at = text.find('\r');
+  if (at == std::string::npos) return;
+  const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(at), '\n');
+  throw std::invalid_argument(fmt::format(
+      "{}: line {}: got a carriage return, expected line breaks of Unix (LF, not CR LF)",
+      file.string(), line));
 }
 
 /// Where the columns that are to be read stand.
@@ -103,21 +130,49 @@ void CsvFile::refuse(std::size_t row, const std::string& column,
                                           line_of(row), column, text(row, column), expected));
 }
 
+std::filesystem::path table_file(const std::filesystem::path& file) {
+  const std::filesystem::path packed = file.string() + kPackedEnding;
+  std::error_code error;
+  if (!std::filesystem::exists(std::filesystem::symlink_status(file, error))) return packed;
+  if (!std::filesystem::exists(packed, error)) return file;
+  throw std::invalid_argument(fmt::format("{}: got {} beside it, expected one of them",
+                                          file.string(), packed.filename().string()));
+}
+
+std::string packed_csv(const std::string& text) {
+  return pack(text, Wrapping::kGzip, kPackingLevel, kMostRatio);
+}
+
+std::string csv_text(const std::filesystem::path& file) {
+  std::error_code error;
+  std::string text = std::filesystem::is_directory(file, error) ? "" : text_of(file);
+  if (is_gzip(text)) {
+    std::optional<std::string> unpacked = unpack(text, Wrapping::kGzip, kMostRatio);
+    if (!unpacked) {
+      throw std::invalid_argument(fmt::format(
+          "{}: got a damaged file, expected a whole one packed by gzip, at most {} times smaller",
+          file.string(), kMostRatio));
+    }
+    text = std::move(*unpacked);
+  }
+  refuse_edited(file, text);
+  return text;
+}
+
 CsvFile read_csv(const std::filesystem::path& file, const std::vector<std::string>& required,
                  const std::vector<std::string>& others) {
   CsvFile csv{file, {}, {}};
   std::error_code error;
-  const std::filesystem::path journal = file.string() + ".part";
+  const std::filesystem::path journal = plain_name(file).string() + ".part";
   if (std::filesystem::file_size(journal, error) > 0 && !error) {
     throw std::invalid_argument(
         fmt::format("{}: got rows that are not in {} yet, expected a run that has ended: run it "
                     "again to its end",
                     journal.string(), file.filename().string()));
   }
-  std::ifstream in;
-  if (!std::filesystem::is_directory(file, error)) in.open(file);
+  std::istringstream in(csv_text(file));
   std::string line;
-  if (!in.is_open() || !std::getline(in, line)) {
+  if (!std::getline(in, line)) {
     throw std::invalid_argument(file.string() +
                                 ": got no table, expected one that `run` or `compare` wrote");
   }

@@ -111,12 +111,13 @@ Comparison comparison_of(const CsvFile& values, const Rows& rows, const CsvFile&
 }  // namespace
 
 std::vector<Comparison> read_races(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / "search_comparison.csv";
+  const std::filesystem::path file = table_file(folder / "search_comparison.csv");
   if (!std::filesystem::exists(file)) return {};
   const CsvFile values = read_csv(
       file, race_file_columns({"beta", "continuous", "unit", "best_known", "proven", "role"},
                               "evaluations"));
-  const CsvFile times = read_csv(folder / "search_times.csv", race_file_columns({}, "seconds"));
+  const CsvFile times =
+      read_csv(table_file(folder / "search_times.csv"), race_file_columns({}, "seconds"));
   rows_of_cases(values);  // each once
   const auto time_rows = rows_of_cases(times);
   using Race = std::tuple<std::string, std::string, std::string, std::string>;

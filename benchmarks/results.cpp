@@ -45,9 +45,9 @@ ResultRow row_of(const CsvFile& csv, std::size_t i) {
 
 void read_rows(const std::filesystem::path& folder, Results& results) {
   const CsvFile values =
-      read_csv(folder / "values.csv",
+      read_csv(table_file(folder / "values.csv"),
                with_case_columns({"status", "beta", "unit", "yardstick", "evaluations", "reason"}));
-  const auto us = read_times(folder / "times.csv", results.versions);
+  const auto us = read_times(table_file(folder / "times.csv"), results.versions);
   rows_of_cases(values);  // each once
   for (std::size_t i = 0; i < values.rows.size(); ++i) {
     ResultRow& row = results.rows.emplace_back(row_of(values, i));
@@ -71,7 +71,7 @@ Results read_results(const std::filesystem::path& folder) {
   Results results;
   results.folder = folder;
   results.races = read_races(folder);
-  if (results.races.empty() || std::filesystem::exists(folder / "values.csv")) {
+  if (results.races.empty() || std::filesystem::exists(table_file(folder / "values.csv"))) {
     read_rows(folder, results);
   }
   results.machine = text_of(folder / "machine.txt");

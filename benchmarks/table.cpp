@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cerrno>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <system_error>
 
@@ -42,13 +43,13 @@ Table::Table(std::filesystem::path file, std::vector<std::string> columns, std::
 
 void Table::read_all() {
   lines_.clear();
-  read(file_, true);
+  read(table_file(file_), true);
   left_over_ = read(journal_file_, false);
 }
 
 bool Table::read(const std::filesystem::path& file, bool whole) {
   if (!is_there(file)) return false;
-  std::ifstream in(file);
+  std::istringstream in(csv_text(file));
   std::string line;
   if (!std::getline(in, line)) return false;
   if (in.eof() && !whole) return false;  // torn
@@ -129,7 +130,7 @@ void Table::drop(const std::function<bool(const std::vector<std::string>&)>& whi
 }
 
 void Table::write() {
-  if (left_over_ || changed_ || !is_there(file_)) {
+  if (left_over_ || changed_ || !is_there(table_file(file_))) {
     hold();
     write_rows();
   }
@@ -145,7 +146,8 @@ void Table::write_rows() {
   for (const auto& [key, line] : lines_) size += line.size() + 1;
   text.reserve(size);
   for (const auto& [key, line] : lines_) text += line + '\n';
-  write_file(file_, text);
+  write_file(file_.string() + kPackedEnding, packed_csv(text));
+  std::filesystem::remove(file_);
   left_over_ = changed_ = false;
 }
 

@@ -14,11 +14,11 @@ namespace maxwrench {
 
 /// A CSV file whose first `key_columns` columns name a row, in the order of these, column by column
 /// (whole numbers by their value). Fields with a comma or a quote are quoted; a line break in a
-/// field becomes a blank.
+/// field becomes a blank. It is written as FILE.gz, packed; FILE alone is read, too, and replaced.
 ///
-/// Rows go to a journal beside the file, FILE.part, and into the file in the end, so that a row
-/// costs the same however many there are. Who is killed leaves the journal; it counts as part of
-/// the file.
+/// Rows go to a journal beside the file, FILE.part, which is not packed, and into the file in the
+/// end, so that a row costs the same however many there are. Who is killed leaves the journal; it
+/// counts as part of the file.
 class Table {
  public:
   /// Keeps the rows of an existing file; they are empty in columns that are new. Writes nothing.
@@ -58,7 +58,7 @@ class Table {
                                      const std::vector<std::string>& before) const;
   std::string order_of(const std::vector<std::string>& row) const;
 
-  std::filesystem::path file_, journal_file_;
+  std::filesystem::path file_, journal_file_;  ///< without .gz
   std::vector<std::string> columns_;
   std::size_t key_columns_;
   std::map<std::string, std::string> lines_;  ///< by `order_of`

@@ -4,6 +4,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "benchmarks/csv.h"
 #include "benchmarks/row.h"
 #include "benchmarks/write_file.h"
 #include "cli/cli.h"
@@ -21,7 +22,7 @@ struct MergeOptions {
 
 /// Whether `run` wrote there and has ended.
 void require_ended(const fs::path& folder) {
-  const fs::path file = folder / "values.csv", journal = folder / "values.csv.part";
+  const fs::path file = table_file(folder / "values.csv"), journal = folder / "values.csv.part";
   if (!fs::exists(file) && !fs::exists(journal)) {
     throw std::invalid_argument(
         fmt::format("{}: got no table, expected one that `run` wrote", file.string()));
@@ -41,7 +42,7 @@ void add_values(const Table& more, const fs::path& from, Table& all, const fs::p
       const auto end = row.begin() + static_cast<std::ptrdiff_t>(case_columns().size());
       throw std::invalid_argument(
           fmt::format("{}: got another row of {} than {} has, expected the same",
-                      (from / "values.csv").string(),
+                      table_file(from / "values.csv").string(),
                       fmt::join(std::vector<std::string>(row.begin(), end), ","), out.string()));
     }
     all.add(row);
@@ -83,7 +84,7 @@ int merge(const MergeOptions& options) {
   times.write();
   take_over("plan.toml", options);
   take_over("machine.txt", options);
-  fmt::print("{} rows in {}\n", rows, (fs::path(options.out) / "values.csv").string());
+  fmt::print("{} rows in {}\n", rows, table_file(fs::path(options.out) / "values.csv").string());
   return kAnswered;
 }
 

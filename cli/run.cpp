@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "benchmarks/cost.h"
+#include "benchmarks/csv.h"
 #include "benchmarks/plan_file.h"
 #include "benchmarks/product.h"
 #include "cli/cli.h"
@@ -201,7 +202,7 @@ int run(const RunOptions& options) {
   if (options.dry) return print_forecast(options, work, cases, todo);
   solve_cases(work, todo, options.out, options.thread_count());
   const bool all_solved = RowsThere(options.out).all_solved(cases);
-  const fs::path file = fs::path(options.out) / "values.csv";
+  const fs::path file = table_file(fs::path(options.out) / "values.csv");
   fmt::print("{} rows in {}", cases.size(), file.string());
   if (todo.size() < cases.size()) fmt::print(", {} of them were there", cases.size() - todo.size());
   fmt::print("\n");
@@ -218,7 +219,8 @@ void add_run(CLI::App& app, int& exit_status) {
       "words", options->words,
       "a plan (TOML), or problems, shipped or task files (default: all static ones shipped), and "
       "column=value: only these rows (seed and budget are set, not filtered)");
-  command.add_option("--out", options->out, "folder of values.csv, times.csv and machine.txt")
+  command
+      .add_option("--out", options->out, "folder of values.csv.gz, times.csv.gz and machine.txt")
       ->capture_default_str()
       ->check(refuse_empty);
   command.add_flag("--dry", options->dry, "only counts the rows and predicts the time");

@@ -131,7 +131,7 @@ void add_verify(CLI::App& app, int& exit_status) {
   CLI::App& command = *app.add_subcommand(
       "verify",
       "checks a certificate of 'certify' or 'lp' with no code of what made it, or rows of 'run'");
-  command.add_option("file", options->file, "certificate, or values.csv")
+  command.add_option("file", options->file, "certificate, or values.csv.gz")
       ->required()
       ->check(refuse_empty);
   command
@@ -139,7 +139,7 @@ void add_verify(CLI::App& app, int& exit_status) {
           "--problem", options->choice.problem,
           "what it is to be about, shipped name, task file or MPS file; default: what it says")
       ->check(refuse_empty);
-  command.add_option("--sample", options->sample, "so many rows of values.csv (0: all)")
+  command.add_option("--sample", options->sample, "so many rows of values.csv.gz (0: all)")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   command.add_option("--seed", options->choice.seed, "draws them")

@@ -19,6 +19,7 @@
 #include "maxwrench/batch.h"
 #include "maxwrench/load.h"
 #include "solvers/solve/pieces.h"
+#include "verify/packed.h"
 
 namespace maxwrench {
 namespace {
@@ -69,7 +70,7 @@ bool is_values_file(const std::string& file) {
   std::string line(start.size(), '\0');
   std::ifstream stream(file, std::ios::binary);
   stream.read(line.data(), static_cast<std::streamsize>(line.size()));
-  return line == start;
+  return is_gzip(line) || line == start;
 }
 
 int verify_rows(const std::string& file, std::size_t sample, std::uint64_t seed, int threads,

@@ -9,11 +9,11 @@ local function fail(message)
   os.exit(1)
 end
 
--- The lines of results/FILE, read once.
+-- The lines of results/FILE, or of results/FILE.gz, read once. LuaTeX's gzip reads both, whatever their names.
 local files = {}
 local function lines_of(file)
   if files[file] then return files[file] end
-  local input = io.open(folder .. "/" .. file)
+  local input = gzip.open(folder .. "/" .. file) or gzip.open(folder .. "/" .. file .. ".gz")
   if not input then fail("results/" .. file .. ": is missing") end
   local lines = {}
   for line in input:lines() do lines[#lines + 1] = line end

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "verify/bytes.h"
+#include "verify/packed.h"
 
 namespace maxwrench {
 namespace {
@@ -153,32 +154,16 @@ std::uint64_t checksum(std::string_view text) {
   return crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size());
 }
 
-std::string pack(const std::string& text, int level) {
-  std::string packed(compressBound(text.size()), '\0');
-  uLongf length = packed.size();
-  if (compress2(reinterpret_cast<Bytef*>(packed.data()), &length,
-                reinterpret_cast<const Bytef*>(text.data()), text.size(), level) != Z_OK) {
-    throw std::runtime_error("zlib: got no memory");
-  }
-  packed.resize(length);
-  return packed;
-}
-
 /// Empty if it is damaged.
-std::string unpack(std::string_view text) {
+std::string unpacked(std::string_view text) {
   ByteReader sum(text);
   const std::uint64_t claimed = sum.whole(4);
   if (!sum.good() || claimed != checksum(text.substr(4))) return "";
   ByteReader head(text.substr(4));
   const std::uint64_t length = head.whole(8);
   if (!head.good()) return "";
-  const std::string_view packed = text.substr(12);
-  if (length / kMostPacked > packed.size()) return "";
-  std::string raw(length, '\0');
-  uLongf got = length;
-  const int how = uncompress(reinterpret_cast<Bytef*>(raw.data()), &got,
-                             reinterpret_cast<const Bytef*>(packed.data()), packed.size());
-  return how == Z_OK && got == length ? raw : "";
+  const auto raw = unpack(text.substr(12), Wrapping::kZlib, kMostPacked);
+  return raw && raw->size() == length ? *raw : "";
 }
 
 /// What may be printed in a line.
@@ -226,18 +211,16 @@ std::string certificate_text(const ProofCertificate& proof) {
   }
   put_tree(raw, proof.tree);
   const std::string& text = raw.text();
-  std::string packed = pack(text, Z_BEST_SPEED);
-  if (text.size() / kMostPacked > packed.size()) packed = pack(text, Z_NO_COMPRESSION);
   ByteWriter head;
   head.whole(text.size(), 8);
-  const std::string all = head.text() + packed;
+  const std::string all = head.text() + pack(text, Wrapping::kZlib, Z_BEST_SPEED, kMostPacked);
   ByteWriter sum;
   sum.whole(checksum(all), 4);
   return std::string(kMagic) + sum.text() + all;
 }
 
 ProofCertificate read_certificate(const std::string& file) {
-  const std::string raw = unpack(read_packed(file));
+  const std::string raw = unpacked(read_packed(file));
   ByteReader from(raw);
   ProofCertificate proof;
   proof.version = from.words();

@@ -147,7 +147,7 @@ void add_report(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<ReportOptions>();
   CLI::App& command = *app.add_subcommand(
       "report", "tables, performance profiles and significance of what run and compare wrote");
-  command.add_option("folders", options->folders, "folder with values.csv; two with --compare")
+  command.add_option("folders", options->folders, "folder with values.csv.gz; two with --compare")
       ->required();
   command.add_flag("--compare", options->compare,
                    "what changed between two folders: values, times beyond noise, missing rows");

@@ -38,8 +38,9 @@ struct MpsProgram {
 /// objective's RHS entry; the first N row is the objective and others are dropped; a negative upper
 /// bound without a lower one makes the column free below; MI leaves the upper bound at +infinity; a
 /// range R on an equality row gives [rhs - |R|, rhs] for R < 0 and [rhs, rhs + R] otherwise; of
-/// several RHS, RANGES or BOUNDS sets the first counts; integrality is ignored. Throws
-/// std::invalid_argument that names the file, the line and what was expected there.
+/// several RHS, RANGES or BOUNDS sets the first counts; a lower bound below -1e25 or an upper one
+/// above 1e25 is none; integrality is ignored. Throws std::invalid_argument that names the file,
+/// the line and what was expected there, also on a number that is given twice.
 MpsProgram read_mps(const std::string& path);
 
 /// A wrench program of `problem` as the text of an MPS file with physical names: a row for each

@@ -16,6 +16,8 @@ namespace {
 
 using Columns = std::vector<std::string>;
 
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // spreadsheets begin with it
+
 std::string trimmed(const std::string& text) {
   constexpr const char* kSpace = " \t\r";
   const std::size_t begin = text.find_first_not_of(kSpace);
@@ -81,6 +83,7 @@ NumberTable read_numbers(const std::filesystem::path& file, const std::vector<Co
   int number = 0;
   for (std::string line; std::getline(stream, line);) {
     ++number;
+    if (number == 1 && line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
     if (trimmed(line).empty()) continue;
     const Columns cells = cells_of(line);
     const std::string where = fmt::format("line {}", number), got = fmt::format("'{}'", line);

@@ -1,22 +1,31 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
+#include <vector>
 
-class TiXmlElement;
+#include "problems/loader/urdf_element.h"
 
 namespace maxwrench {
 
-// What urdfdom would pass over in silence or fall over: it takes the first of two elements where
-// one belongs, drops shapes that it does not know and all but the last parent of a link, and calls
-// itself for every link of a chain.
+/// A URDF file as a tree of links.
+struct UrdfStructure {
+  std::string root;
+  std::map<std::string, UrdfElement> links;
+  /// From each link to its children, in the order of the file.
+  std::map<std::string, std::vector<UrdfElement>> joints_from;
+};
 
-/// Refuses XML whose elements are nested so deep that its parser would overrun the stack.
-void require_shallow(const std::filesystem::path& file, const std::string& text);
+/// Of a link or joint of the structure.
+std::string name_of(const UrdfElement& element);
 
-/// Refuses links and joints without a name of their own, elements that are missing or given twice,
-/// collision shapes other than boxes, cylinders and spheres, and what is not one tree of at most
-/// 1000 links.
-void check_structure(const std::filesystem::path& file, const TiXmlElement& robot);
+/// The link at one end of a joint: `parent` or `child`.
+std::string end_of(const UrdfElement& joint, const char* end);
+
+/// Refuses what is not XML, elements that are nested deeper than the parser goes, another version
+/// of URDF than 1.0, links and joints without a name of their own, and what is not one tree of at
+/// most 1000 links. `document` holds the elements that the answer refers to, as it does to `file`.
+UrdfStructure read_structure(const std::filesystem::path& file, tinyxml2::XMLDocument& document);
 
 }  // namespace maxwrench

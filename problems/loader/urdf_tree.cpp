@@ -2,151 +2,141 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <cassert>
-#include <cmath>
 #include <numbers>
 
 #include "problems/loader/bad_input.h"
-#include "problems/loader/urdf_document.h"
+#include "problems/loader/urdf_structure.h"
 #include "problems/make/robot.h"
 
 namespace maxwrench {
 namespace {
 
-Eigen::Vector3d vector(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
-
-Pose<double> pose(const urdf::Pose& origin) {
-  const urdf::Rotation& q = origin.rotation;
-  return {Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized().toRotationMatrix(),
-          vector(origin.position)};
+/// Where `origin` puts it; the rotation by way of a quaternion of half angles.
+Pose<double> origin_of(const UrdfElement& element) {
+  const std::optional<UrdfElement> origin = element.child_if_any("origin");
+  if (!origin) return {};
+  const Eigen::Vector3d half = origin->vector("rpy", Eigen::Vector3d::Zero()) / 2;
+  const Eigen::Array3d c = half.array().cos(), s = half.array().sin();
+  const Eigen::Quaterniond q(
+      c[0] * c[1] * c[2] + s[0] * s[1] * s[2], s[0] * c[1] * c[2] - c[0] * s[1] * s[2],
+      c[0] * s[1] * c[2] + s[0] * c[1] * s[2], c[0] * c[1] * s[2] - s[0] * s[1] * c[2]);
+  return {q.normalized().toRotationMatrix(), origin->vector("xyz", Eigen::Vector3d::Zero())};
 }
 
 /// One file being flattened.
 struct Reading {
-  const std::filesystem::path& file;
-  const UrdfDocument& document;
+  const UrdfStructure& structure;
   UrdfTree tree;
 };
 
-Eigen::Matrix3d inertia_of(const urdf::Inertial& given) {
+Eigen::Matrix3d inertia_of(const UrdfElement& given) {
+  const auto value = [&](const char* name) { return given.number(name); };
+  const double xy = value("ixy"), xz = value("ixz"), yz = value("iyz");
   Eigen::Matrix3d inertia;
-  inertia << given.ixx, given.ixy, given.ixz, given.ixy, given.iyy, given.iyz, given.ixz, given.iyz,
-      given.izz;
+  inertia << value("ixx"), xy, xz, xy, value("iyy"), yz, xz, yz, value("izz");
   return inertia;
 }
 
 /// Adds a body to the link that carries it.
-void add_inertial(Link& link, const urdf::Inertial& given, const Pose<double>& body) {
-  if (given.mass == 0) return;
-  const Pose<double> frame = body * pose(given.origin);
-  add_body(link, given.mass, frame.p, frame.R * inertia_of(given) * frame.R.transpose());
+void add_inertial(Link& carrier, const std::string& name, const UrdfElement& inertial,
+                  const Pose<double>& body) {
+  const Pose<double> frame = body * origin_of(inertial);
+  const double mass = inertial.child("mass").number("value");
+  const Eigen::Matrix3d inertia = inertia_of(inertial.child("inertia"));
+  require_body(name, mass, inertia);
+  if (mass > 0) add_body(carrier, mass, frame.p, frame.R * inertia * frame.R.transpose());
 }
 
-void add_shape(Reading& reading, const urdf::Link& link, const urdf::Collision& collision) {
-  assert(collision.geometry != nullptr);  // refused in urdf_structure.cpp, as meshes
-  const Body& body = reading.tree.bodies.at(link.name);
-  Shape shape{
-      .body = link.name, .link = body.link, .placement = body.placement * pose(collision.origin)};
-  switch (collision.geometry->type) {
-    case urdf::Geometry::SPHERE:
-      shape.radius = static_cast<const urdf::Sphere&>(*collision.geometry).radius;
-      break;
-    case urdf::Geometry::BOX:
-      shape.kind = Shape::Kind::kBox;
-      shape.half_sizes = vector(static_cast<const urdf::Box&>(*collision.geometry).dim) / 2;
-      break;
-    case urdf::Geometry::CYLINDER: {
-      const auto& cylinder = static_cast<const urdf::Cylinder&>(*collision.geometry);
-      shape.kind = Shape::Kind::kCylinder;
-      shape.radius = cylinder.radius;
-      shape.half_length = cylinder.length / 2;
-      break;
-    }
-    default:
-      assert(false);
+Shape shape_of(const UrdfElement& collision) {
+  const char* expected =
+      "one box, cylinder or sphere, or no <collision> here and capsules in the robot's TOML";
+  const UrdfElement geometry = collision.child("geometry");
+  const std::vector<UrdfElement> shapes = geometry.children();
+  if (shapes.empty()) geometry.refuse("", "nothing", expected);
+  const UrdfElement& given = shapes[0];
+  const std::string tag = given.tag();
+  const bool round = tag == "cylinder" || tag == "sphere";
+  if (!round && tag != "box") geometry.refuse("", fmt::format("<{}>", tag), expected);
+  if (shapes.size() > 1) {
+    geometry.refuse("", fmt::format("<{}> and <{}>", tag, shapes[1].tag()), expected);
   }
-  reading.tree.shapes.push_back(std::move(shape));
-}
-
-void add_body(Reading& reading, const urdf::Link& link, const Body& body) {
-  reading.tree.bodies.emplace(link.name, body);
-  Link& carrier = reading.tree.links[static_cast<std::size_t>(body.link)];
-  if (link.inertial != nullptr) {
-    require_body(link.name, link.inertial->mass, inertia_of(*link.inertial));
-    add_inertial(carrier, *link.inertial, body.placement);
+  Shape shape;
+  if (round) shape.radius = given.number("radius");
+  if (tag == "box") {
+    shape.kind = Shape::Kind::kBox;
+    shape.half_sizes = given.vector("size") / 2;
+  } else if (tag == "cylinder") {
+    shape.kind = Shape::Kind::kCylinder;
+    shape.half_length = given.number("length") / 2;
   }
-  for (const auto& collision : link.collision_array) add_shape(reading, link, *collision);
+  return shape;
 }
 
-JointType joint_type(const Reading& reading, const urdf::Joint& joint) {
-  const std::string key = fmt::format("joint[{}].type", joint.name);
-  const char* known = "revolute, continuous, prismatic or fixed";
-  switch (joint.type) {
-    case urdf::Joint::REVOLUTE:
-    case urdf::Joint::CONTINUOUS:
-      return JointType::kRevolute;
-    case urdf::Joint::PRISMATIC:
-      return JointType::kPrismatic;
-    case urdf::Joint::FLOATING:
-    case urdf::Joint::PLANAR:
-      refuse(reading.file, key, joint.type == urdf::Joint::PLANAR ? "planar" : "floating",
-             fmt::format("{} (the base moves by base.axes in the robot's TOML)", known));
-    default:
-      refuse(reading.file, key, "an unknown type", known);
+void add_link(Reading& reading, const UrdfElement& link, const Body& body) {
+  const std::string name = name_of(link);
+  reading.tree.bodies.emplace(name, body);
+  if (const auto inertial = link.child_if_any("inertial")) {
+    add_inertial(reading.tree.links[static_cast<std::size_t>(body.link)], name, *inertial,
+                 body.placement);
+  }
+  for (const UrdfElement& collision : link.children("collision")) {
+    Shape shape = shape_of(collision);
+    shape.body = name;
+    shape.link = body.link;
+    shape.placement = body.placement * origin_of(collision);
+    reading.tree.shapes.push_back(std::move(shape));
   }
 }
 
-void set_limits(const Reading& reading, const urdf::Joint& from, Joint& joint) {
-  if (from.limits == nullptr) {
-    refuse(reading.file, fmt::format("joint[{}].limit", from.name), "nothing",
-           "effort and velocity");
-  }
-  const urdf::JointLimits& limits = *from.limits;
-  joint.q_min = limits.lower;
-  joint.q_max = limits.upper;
-  if (from.type == urdf::Joint::CONTINUOUS) {
-    joint.q_min = -std::numbers::pi;
-    joint.q_max = std::numbers::pi;
-  }
-  joint.effort_max = limits.effort;
-  joint.velocity_max = limits.velocity;
+void set_limits(const UrdfElement& from, bool continuous, Joint& joint) {
+  const std::optional<UrdfElement> limit = from.child_if_any("limit");
+  if (!limit) from.refuse("limit", "nothing", "effort and velocity");
+  joint.effort_max = limit->number("effort");
+  joint.velocity_max = limit->number("velocity");
+  joint.q_min = continuous ? -std::numbers::pi : limit->number("lower", 0);
+  joint.q_max = continuous ? std::numbers::pi : limit->number("upper", 0);
 }
 
-/// Adds a moving joint and returns the index of the link that it moves.
-int add_joint(Reading& reading, const urdf::Joint& from, const Body& parent) {
+/// A joint that moves.
+Joint joint_of(const UrdfElement& from, const std::string& type, const Body& parent) {
   Joint joint;
-  joint.name = from.name;
-  joint.type = joint_type(reading, from);
+  joint.name = name_of(from);
   joint.parent = parent.link;
-  joint.placement = parent.placement * pose(from.parent_to_joint_origin_transform);
-  joint.axis = vector(from.axis);
-  set_limits(reading, from, joint);
-  if (from.mimic != nullptr) {
-    refuse(reading.file, fmt::format("joint[{}].mimic", from.name),
-           fmt::format("'{}'", from.mimic->joint_name), "a joint that moves on its own");
+  joint.type = type == "prismatic" ? JointType::kPrismatic : JointType::kRevolute;
+  if (type != "revolute" && type != "continuous" && type != "prismatic") {
+    const bool of_base = type == "floating" || type == "planar";
+    from.refuse("type", of_base ? type : fmt::format("'{}'", type),
+                fmt::format("revolute, continuous, prismatic or fixed{}",
+                            of_base ? " (the base moves by base.axes in the robot's TOML)" : ""));
   }
-  reading.tree.joints.push_back(joint);
-  reading.tree.links.push_back(Link{.name = from.child_link_name});
-  return static_cast<int>(reading.tree.joints.size());
+  joint.placement = parent.placement * origin_of(from);
+  const std::optional<UrdfElement> axis = from.child_if_any("axis");
+  joint.axis = axis ? axis->vector("xyz") : Eigen::Vector3d::UnitX();
+  set_limits(from, type == "continuous", joint);
+  if (const auto mimic = from.child_if_any("mimic")) {
+    from.refuse("mimic", fmt::format("'{}'", mimic->attribute("joint").value_or("")),
+                "a joint that moves on its own");
+  }
+  return joint;
 }
 
-void visit(Reading& reading, const urdf::Link& link, const Body& body) {
-  add_body(reading, link, body);
-  auto children = link.child_joints;
-  const auto& order = reading.document.joint_order;
-  std::sort(children.begin(), children.end(), [&order](const auto& a, const auto& b) {
-    return order.at(a->name) < order.at(b->name);
-  });
-  for (const auto& joint : children) {
-    Body child;
-    if (joint->type == urdf::Joint::FIXED) {
-      child = {body.link, body.placement * pose(joint->parent_to_joint_origin_transform)};
+void visit(Reading& reading, const std::string& name, const Body& body) {
+  add_link(reading, reading.structure.links.at(name), body);
+  const auto joints = reading.structure.joints_from.find(name);
+  if (joints == reading.structure.joints_from.end()) return;
+  for (const UrdfElement& joint : joints->second) {
+    const std::string child = end_of(joint, "child");
+    const std::optional<std::string> type = joint.attribute("type");
+    if (!type) joint.refuse("type", "nothing", "revolute, continuous, prismatic or fixed");
+    Body moved;
+    if (*type == "fixed") {
+      moved = {body.link, body.placement * origin_of(joint)};
     } else {
-      child = {add_joint(reading, *joint, body), {}};
+      reading.tree.joints.push_back(joint_of(joint, *type, body));
+      reading.tree.links.push_back(Link{.name = child});
+      moved.link = static_cast<int>(reading.tree.joints.size());
     }
-    visit(reading, *reading.document.model->getLink(joint->child_link_name), child);
+    visit(reading, child, moved);
   }
 }
 
@@ -162,12 +152,12 @@ Pose<double> pose_from_xyz_rpy(const Eigen::Vector3d& xyz, const Eigen::Vector3d
 }
 
 UrdfTree read_urdf(const std::filesystem::path& file) {
-  const UrdfDocument document = read_urdf_document(file);
-  Reading reading{file, document, {}};
-  const urdf::Link& root = *document.model->getRoot();
-  reading.tree.root = root.name;
-  reading.tree.links.push_back(Link{.name = root.name});
-  visit(reading, root, Body{});
+  tinyxml2::XMLDocument document;
+  const UrdfStructure structure = read_structure(file, document);
+  Reading reading{structure, {}};
+  reading.tree.root = structure.root;
+  reading.tree.links.push_back(Link{.name = structure.root});
+  visit(reading, structure.root, Body{});
   return std::move(reading.tree);
 }
 

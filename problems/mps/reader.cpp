@@ -1,127 +1,370 @@
-#include <unistd.h>
+#include <fmt/format.h>
 
-#include <CoinMpsIO.hpp>
-#include <CoinPackedMatrix.hpp>
-#include <cstdlib>
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 
 #include "maxwrench/mps.h"
-#include "problems/mps/cards.h"
 
 namespace maxwrench {
 namespace {
 
-/// Keeps the reader's first complaint instead of printing it.
-class Quiet final : public CoinMessageHandler {
- public:
-  int print() override {
-    if (first.empty() && currentMessage().severity() != 'I') first = messageBuffer();
-    return 0;
-  }
-  CoinMessageHandler* clone() const override { return new Quiet(*this); }
-  std::string first;
-};
+using Fields = std::vector<std::string>;
 
-/// CoinMpsIO reads files only.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::string& text) {
-    path = (std::filesystem::temp_directory_path() / "maxwrench-mps-XXXXXX").string();
-    const int descriptor = mkstemp(path.data());
-    if (descriptor < 0) throw std::runtime_error("cannot create " + path);
-    close(descriptor);
-    std::ofstream out(path);
-    out << text;
-    out.close();
-    if (out) return;
-    unlink(path.c_str());
-    throw std::runtime_error("cannot write " + path);
+/// What is no finite number is none. Fortran writes 1.5D+3.
+std::optional<double> as_finite(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == 'd' || c == 'D'; }, 'e');
+  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  const char* end = text.data() + text.size();
+  double value = 0;
+  const auto [rest, error] = std::from_chars(begin, end, value);
+  if (begin == end || rest != end || error != std::errc() || !std::isfinite(value)) {
+    return std::nullopt;
   }
-  ~TemporaryFile() { unlink(path.c_str()); }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  std::string path;
-};
-
-double to_infinity(const CoinMpsIO& reader, double bound) {
-  if (bound >= reader.getInfinity()) return kInfinity;
-  return bound <= -reader.getInfinity() ? -kInfinity : bound;
+  return value;
 }
 
-void read(const std::string& path, const std::string& text, CoinMpsIO& reader) {
-  Quiet quiet;
-  quiet.setLogLevel(1);
-  reader.passInMessageHandler(&quiet);
-  reader.setSmallElementValue(0);
-  const TemporaryFile file(text);
-  const int errors = reader.readMps(file.path.c_str(), "");
-  int crossing = 0;  // counted as errors, but they are merely infeasible
-  for (int j = 0; errors > 0 && errors < 100000 && j < reader.getNumCols(); ++j) {
-    crossing += reader.getColLower()[j] > reader.getColUpper()[j];
+Fields split(const std::string& line) {
+  std::istringstream stream(line);
+  Fields fields;
+  for (std::string field; stream >> field;) fields.push_back(field);
+  return fields;
+}
+
+/// One name of several words: the format allows blanks.
+std::string join(const Fields& words, std::size_t first = 0) {
+  std::string name;
+  for (std::size_t k = first; k < words.size(); ++k) {
+    if (k > first) name += '_';
+    name += words[k];
   }
-  if (errors < 0 || errors > crossing) {
-    throw std::invalid_argument(path +
-                                ": expected an MPS file without contradictions: " + quiet.first);
+  return name;
+}
+
+/// The fixed columns 2-3, 5-12, 15-22, 25-36, 40-47, 50-61.
+Fields split_fixed(const std::string& line) {
+  constexpr std::array<std::array<std::size_t, 2>, 6> kColumns{
+      {{1, 2}, {4, 8}, {14, 8}, {24, 12}, {39, 8}, {49, 12}}};
+  Fields fields;
+  for (const auto& [begin, length] : kColumns) {
+    fields.push_back(begin < line.size() ? join(split(line.substr(begin, length))) : "");
+  }
+  while (!fields.empty() && fields.back().empty()) fields.pop_back();
+  return fields;
+}
+
+struct MpsRow {
+  std::string name;
+  char type;             ///< N (the objective), E, L, G, or '-' for one that does not count
+  int last_column = -1;  ///< that has an entry here
+  std::optional<double> rhs = {}, range = {};
+};
+
+struct MpsColumn {
+  std::string name;
+  double cost = 0, l = 0, u = kInfinity;
+  bool has_lower = false, has_upper = false;  ///< given by a card
+};
+
+constexpr double kLargestBound = 1e25;  // beyond it, a file means none
+
+/// The cards of one file.
+class Cards {
+ public:
+  explicit Cards(const std::string& path) : path_(path) { read(); }
+  MpsProgram program() const;
+
+ private:
+  /// A column or set, "" where a set has no name, and its number in each of one or two rows.
+  struct NamedPairs {
+    std::string name;
+    std::vector<std::pair<int, double>> pairs;
+  };
+
+  [[noreturn]] void fail(const std::string& expected) const;
+  void read();
+  void begin_section(const Fields& fields);
+  void read_card(const std::string& line);
+  void read_sense(const std::string& word);
+  void read_row(const Fields& fields);
+  std::optional<NamedPairs> as_pairs(const Fields& fields) const;
+  NamedPairs read_pairs(const std::string& line, bool may_lack_name) const;
+  void read_column(const std::string& line);
+  void read_set(const std::string& line);
+  void read_bound(const std::string& line);
+  bool try_bound(Fields fields);
+  bool of_first_set(const std::string& set);
+
+  std::string path_, section_, name_, set_name_;
+  int number_ = 0;
+  bool minimize_ = true, ended_ = false, set_started_ = false, has_objective_ = false;
+  std::set<std::string> seen_;
+  std::vector<MpsRow> rows_;
+  std::vector<MpsColumn> columns_;
+  std::map<std::string, int> row_of_, column_of_;
+  std::vector<Eigen::Triplet<double>> entries_;
+};
+
+void Cards::fail(const std::string& expected) const {
+  throw std::invalid_argument(fmt::format("{}, line {}: expected {} in section {}", path_, number_,
+                                          expected, section_.empty() ? "NAME" : section_));
+}
+
+void Cards::read() {
+  std::ifstream file(path_);
+  if (!file || std::filesystem::is_directory(path_)) {
+    throw std::invalid_argument(path_ + ": expected a readable MPS file");
+  }
+  std::string line;
+  while (!ended_ && std::getline(file, line)) {
+    ++number_;
+    for (char& c : line) c = c == '\t' || c == '\r' ? ' ' : c;
+    if (line.find('\0') != std::string::npos) fail("text");
+    const Fields fields = split(line);
+    if (fields.empty() || line[0] == '*') continue;
+    for (const std::string& field : fields) {
+      if (field.size() > 100) fail("fields of at most 100 characters");
+    }
+    if (line[0] != ' ') {
+      begin_section(fields);
+    } else {
+      read_card(line);
+    }
+  }
+  if (!ended_) fail("ENDATA at the end of the file");
+  if (!seen_.count("ROWS") || !seen_.count("COLUMNS")) fail("ROWS and COLUMNS before ENDATA");
+}
+
+void Cards::begin_section(const Fields& fields) {
+  static const std::set<std::string> kSections{"NAME",   "ROWS",   "COLUMNS",  "RHS",
+                                               "RANGES", "BOUNDS", "OBJSENSE", "ENDATA"};
+  const std::string& title = fields[0];
+  if (!kSections.count(title)) {
+    fail(
+        "NAME, OBJSENSE, ROWS, COLUMNS, RHS, RANGES, BOUNDS or ENDATA (no integer, quadratic or "
+        "SOS sections) instead of " +
+        title);
+  }
+  if (!seen_.insert(title).second) fail("section " + title + " only once");
+  section_ = title;
+  set_started_ = false;
+  if (title == "NAME" && fields.size() > 1) name_ = fields[1];
+  if (title == "OBJSENSE" && fields.size() > 1) read_sense(fields[1]);
+  if (title == "COLUMNS" && !seen_.count("ROWS")) fail("ROWS before COLUMNS");
+  if ((title == "RHS" || title == "RANGES" || title == "BOUNDS") && !seen_.count("COLUMNS")) {
+    fail("COLUMNS first");
+  }
+  ended_ = title == "ENDATA";
+}
+
+void Cards::read_card(const std::string& line) {
+  if (section_ == "OBJSENSE") return read_sense(split(line)[0]);
+  if (section_ == "ROWS") return read_row(split(line));
+  if (section_ == "COLUMNS") return read_column(line);
+  if (section_ == "RHS" || section_ == "RANGES") return read_set(line);
+  if (section_ == "BOUNDS") return read_bound(line);
+  fail("a section title");
+}
+
+void Cards::read_sense(const std::string& word) {
+  std::string upper;
+  for (const char c : word) upper += static_cast<char>(std::toupper(c));
+  if (upper == "MAX" || upper == "MAXIMIZE" || upper == "MAXIMISE") {
+    minimize_ = false;
+  } else if (upper == "MIN" || upper == "MINIMIZE" || upper == "MINIMISE") {
+    minimize_ = true;
+  } else {
+    fail("MIN or MAX");
   }
 }
 
-LinearProgram to_program(const CoinMpsIO& reader, bool minimize) {
-  const int m = reader.getNumRows(), n = reader.getNumCols();
-  LinearProgram p;
+void Cards::read_row(const Fields& fields) {
+  if (fields.size() < 2 || fields[0].size() != 1 ||
+      std::string("NELG").find(fields[0]) == std::string::npos) {
+    fail("a type N, E, L or G and a name");
+  }
+  MpsRow row{.name = join(fields, 1), .type = fields[0][0]};
+  const int place = static_cast<int>(rows_.size());
+  if (!row_of_.emplace(row.name, place).second) fail("row " + row.name + " only once");
+  if (row.type == 'N') {
+    if (has_objective_) row.type = '-';
+    has_objective_ = true;
+  }
+  rows_.push_back(row);
+}
+
+/// Of the fields [name, row, value] or [name, row, value, row, value].
+std::optional<Cards::NamedPairs> Cards::as_pairs(const Fields& fields) const {
+  if (fields.size() != 3 && fields.size() != 5) return std::nullopt;
+  NamedPairs result{fields[0], {}};
+  for (std::size_t k = 1; k < fields.size(); k += 2) {
+    const auto row = row_of_.find(fields[k]);
+    const std::optional<double> value = as_finite(fields[k + 1]);
+    if (row == row_of_.end() || !value) return std::nullopt;
+    result.pairs.emplace_back(row->second, *value);
+  }
+  return result;
+}
+
+Cards::NamedPairs Cards::read_pairs(const std::string& line, bool may_lack_name) const {
+  Fields fields = split(line);
+  if (const auto found = as_pairs(fields)) return *found;
+  if (may_lack_name) {
+    fields.insert(fields.begin(), "");
+    if (const auto found = as_pairs(fields)) return *found;
+  }
+  fields = split_fixed(line);
+  if (!fields.empty()) fields.erase(fields.begin());
+  const auto found = as_pairs(fields);
+  if (found && (may_lack_name || !found->name.empty())) return *found;
+  fail("a name and one or two pairs of a known row and a number");
+}
+
+void Cards::read_column(const std::string& line) {
+  if (line.find("'MARKER'") != std::string::npos) {
+    if (line.find("'SOS") != std::string::npos) fail("no SOS marker");
+    return;  // the relaxation is read
+  }
+  const auto [name, pairs] = read_pairs(line, false);
+  if (columns_.empty() || columns_.back().name != name) {
+    const bool is_new = column_of_.emplace(name, static_cast<int>(columns_.size())).second;
+    if (!is_new) fail("the cards of column " + name + " together");
+    columns_.push_back({.name = name});
+  }
+  const int column = static_cast<int>(columns_.size()) - 1;
+  for (const auto& [place, value] : pairs) {
+    MpsRow& row = rows_[static_cast<std::size_t>(place)];
+    if (row.type == '-') continue;
+    if (row.last_column == column) fail("row " + row.name + " once in column " + name);
+    row.last_column = column;
+    if (row.type == 'N') columns_.back().cost = value;
+    if (row.type != 'N' && value != 0) entries_.emplace_back(place, column, value);
+  }
+}
+
+bool Cards::of_first_set(const std::string& set) {
+  if (!set_started_) set_name_ = set;
+  set_started_ = true;
+  return set == set_name_;
+}
+
+void Cards::read_set(const std::string& line) {
+  const auto [set, pairs] = read_pairs(line, true);
+  if (!of_first_set(set)) return;
+  const bool ranges = section_ == "RANGES";
+  for (const auto& [place, value] : pairs) {
+    MpsRow& row = rows_[static_cast<std::size_t>(place)];
+    if (row.type == '-' || (ranges && row.type == 'N')) continue;
+    std::optional<double>& number = ranges ? row.range : row.rhs;
+    if (number) fail("row " + row.name + " only once");
+    number = value;
+  }
+}
+
+void Cards::read_bound(const std::string& line) {
+  if (try_bound(split(line)) || try_bound(split_fixed(line))) return;
+  fail(
+      "a type UP, LO, FX, FR, MI, PL, BV, LI or UI, a known column and, if it needs one, a number");
+}
+
+bool Cards::try_bound(Fields f) {
+  static const std::set<std::string> kWithValue{"UP", "LO", "FX", "UI", "LI"};
+  static const std::set<std::string> kWithout{"FR", "MI", "PL", "BV"};
+  if (f.empty()) return false;
+  const std::string type = f[0];
+  const bool with_value = kWithValue.count(type) > 0;
+  if (!with_value && !kWithout.count(type)) return false;
+  const std::size_t size = with_value ? 4 : 3;
+  const bool named = f.size() >= size && column_of_.count(f[2]);
+  if (!named) {
+    if (f.size() < 2 || !column_of_.count(f[1])) return false;
+    f.insert(f.begin() + 1, "");
+  }
+  if (f.size() < size || f.size() > 4) return false;
+  const std::optional<double> value = with_value ? as_finite(f[3]) : 0;
+  if (!value) return false;
+  if (!of_first_set(f[1])) return true;
+  MpsColumn& column = columns_[static_cast<std::size_t>(column_of_.at(f[2]))];
+  const bool upper = type == "UP" || type == "UI" || type == "PL";
+  const bool lower = type == "LO" || type == "LI" || type == "MI";
+  if ((!upper && column.has_lower) || (!lower && column.has_upper)) {
+    fail("one lower and one upper bound of column " + column.name);
+  }
+  const bool alone = !column.has_lower;
+  column.has_lower = column.has_lower || !upper;
+  column.has_upper = column.has_upper || !lower;
+  if (type == "FR" || type == "MI") column.l = -kInfinity;
+  if (type == "BV") column.u = 1;
+  if (!with_value) return true;
+  if (!lower) column.u = upper && *value > kLargestBound ? kInfinity : *value;
+  if (!upper) column.l = lower && *value < -kLargestBound ? -kInfinity : *value;
+  if (upper && alone && *value < 0) column.l = -kInfinity;
+  return true;
+}
+
+/// The least and the largest value of a row.
+std::pair<double, double> range_of(const MpsRow& row) {
+  const double rhs = row.rhs.value_or(0), range = row.range.value_or(0);
+  if (row.type == 'E') return {rhs + std::min(range, 0.0), rhs + std::max(range, 0.0)};
+  const double width = row.range ? std::abs(range) : kInfinity;
+  return row.type == 'L' ? std::pair(rhs - width, rhs) : std::pair(rhs, rhs + width);
+}
+
+MpsProgram Cards::program() const {
+  MpsProgram result;
+  result.name = name_;
+  result.minimize = minimize_;
+  result.file_cols = static_cast<int>(columns_.size());
+  LinearProgram& p = result.program;
+  std::vector<MpsColumn> columns = columns_;
+  std::vector<int> places(rows_.size());
   std::vector<Eigen::Triplet<double>> entries;
-  const CoinPackedMatrix& matrix = *reader.getMatrixByCol();
-  for (int j = 0; j < n; ++j) {
-    const CoinBigIndex begin = matrix.getVectorStarts()[j];
-    for (CoinBigIndex k = begin; k < begin + matrix.getVectorLengths()[j]; ++k) {
-      entries.emplace_back(matrix.getIndices()[k], j, matrix.getElements()[k]);
+  std::vector<double> b;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const MpsRow& row = rows_[i];
+    places[i] = static_cast<int>(b.size());
+    if (row.type == 'N') {
+      result.objective_name = row.name;
+      result.constant = 0 - row.rhs.value_or(0);
     }
-    p.col_names.emplace_back(reader.columnName(j));
+    if (row.type == 'N' || row.type == '-') continue;
+    p.row_names.push_back(row.name);
+    const auto [low, high] = range_of(row);
+    b.push_back(low == high ? low : 0);
+    if (low == high) continue;
+    entries.emplace_back(places[i], static_cast<int>(columns.size()), -1.0);
+    columns.push_back({.name = row.name, .l = low, .u = high});
   }
-  p.b.setZero(m);
-  std::vector<double> l(reader.getColLower(), reader.getColLower() + n);
-  std::vector<double> u(reader.getColUpper(), reader.getColUpper() + n);
-  for (int i = 0; i < m; ++i) {
-    p.row_names.emplace_back(reader.rowName(i));
-    const double low = reader.getRowLower()[i], high = reader.getRowUpper()[i];
-    if (low == high) {
-      p.b[i] = low;
-      continue;
-    }
-    entries.emplace_back(i, static_cast<int>(l.size()), -1.0);
-    l.push_back(low);
-    u.push_back(high);
-    p.col_names.push_back(p.row_names.back());
+  for (const auto& entry : entries_) {
+    entries.emplace_back(places[static_cast<std::size_t>(entry.row())], entry.col(), entry.value());
   }
-  const int cols = static_cast<int>(l.size());
-  p.A.resize(m, cols);
+  const auto cols = static_cast<Eigen::Index>(columns.size());
+  p.b = Eigen::Map<const Eigen::VectorXd>(b.data(), static_cast<Eigen::Index>(b.size()));
+  p.A.resize(p.b.size(), cols);
   p.A.setFromTriplets(entries.begin(), entries.end());
-  p.l.resize(cols);
-  p.u.resize(cols);
-  p.c.setZero(cols);
-  for (int j = 0; j < cols; ++j) {
-    p.l[j] = to_infinity(reader, l[j]);
-    p.u[j] = to_infinity(reader, u[j]);
-    if (j < n) p.c[j] = (minimize ? -1 : 1) * reader.getObjCoefficients()[j];
+  for (Eigen::VectorXd* v : {&p.c, &p.l, &p.u}) v->resize(cols);
+  for (Eigen::Index j = 0; j < cols; ++j) {
+    const MpsColumn& column = columns[static_cast<std::size_t>(j)];
+    p.c[j] = (minimize_ ? -1 : 1) * column.cost;
+    p.l[j] = column.l;
+    p.u[j] = column.u;
+    p.col_names.push_back(column.name);
   }
-  return p;
+  return result;
 }
 
 }  // namespace
 
-MpsProgram read_mps(const std::string& path) {
-  const mps::Cards cards(path);
-  CoinMpsIO reader;
-  read(path, cards.text(), reader);
-  MpsProgram result;
-  result.program = to_program(reader, cards.minimize);
-  result.name = cards.name;
-  result.objective_name = reader.getObjectiveName();
-  result.minimize = cards.minimize;
-  result.constant = 0 - reader.objectiveOffset();
-  result.file_cols = reader.getNumCols();
-  return result;
-}
+MpsProgram read_mps(const std::string& path) { return Cards(path).program(); }
 
 }  // namespace maxwrench

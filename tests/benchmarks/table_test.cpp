@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "tests/support/support.h"
+#include "tests/support/table.h"
 
 namespace maxwrench {
 namespace {
@@ -25,7 +26,22 @@ TEST(Table, ReplacesRowsByKeyAndKeepsTheRest) {
     table.write();
   }
   put_row(Table(file, {"a", "b", "value"}, 2), {"2", "x", "third"});
-  EXPECT_EQ(read_text(file), "a,b,value\n1,x,\"first, with \"\"quotes\"\"\"\n2,x,third\n");
+  EXPECT_EQ(read_table(file), "a,b,value\n1,x,\"first, with \"\"quotes\"\"\"\n2,x,third\n");
+}
+
+/// What another version wrote as plain text is packed with the next write.
+TEST(Table, IsOnePackedFile) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "t.csv";
+  std::ofstream(file) << "a,value\n1,old\n";
+  put_row(Table(file, {"a", "value"}, 1), {"2", "new"});
+  EXPECT_FALSE(std::filesystem::exists(file));
+  const std::string packed = read_text(folder.path() / "t.csv.gz");
+  EXPECT_EQ(packed, packed_csv("a,value\n1,old\n2,new\n"));
+  Table(file, {"a", "value"}, 1).write();
+  EXPECT_EQ(read_text(folder.path() / "t.csv.gz"), packed);
+  std::ofstream(folder.path() / "t.csv.gz") << packed.substr(0, packed.size() / 2);
+  EXPECT_THROW(Table(file, {"a", "value"}, 1), std::invalid_argument);
 }
 
 TEST(Table, NewColumnsAreEmptyInOldRows) {
@@ -33,7 +49,7 @@ TEST(Table, NewColumnsAreEmptyInOldRows) {
   const auto file = folder.path() / "t.csv";
   put_row(Table(file, {"a", "b", "seconds"}, 2), {"1", "x", "0.5"});
   put_row(Table(file, {"a", "b", "threads", "seconds"}, 2), {"2", "x", "8", "0.1"});
-  EXPECT_EQ(read_text(file), "a,b,threads,seconds\n1,x,,0.5\n2,x,8,0.1\n");
+  EXPECT_EQ(read_table(file), "a,b,threads,seconds\n1,x,,0.5\n2,x,8,0.1\n");
 }
 
 TEST(Table, LineBreaksBecomeBlanks) {
@@ -41,7 +57,7 @@ TEST(Table, LineBreaksBecomeBlanks) {
   const auto file = folder.path() / "t.csv";
   put_row(Table(file, {"a", "value"}, 1), {"two\nlines", "1"});
   put_row(Table(file, {"a", "value"}, 1), {"other", "2"});
-  EXPECT_EQ(read_text(file), "a,value\nother,2\ntwo lines,1\n");
+  EXPECT_EQ(read_table(file), "a,value\nother,2\ntwo lines,1\n");
 }
 
 TEST(Table, RowsAreInTheOrderOfTheirKeys) {
@@ -52,7 +68,7 @@ TEST(Table, RowsAreInTheOrderOfTheirKeys) {
     for (const char* b : {"10", "9", "100"}) table.put({a, b, "v"});
   }
   table.write();
-  EXPECT_EQ(read_text(file),
+  EXPECT_EQ(read_table(file),
             "a,b,value\n,9,v\n,10,v\n,100,v\nw,9,v\nw,10,v\nw,100,v\nx,9,v\nx,10,v\nx,100,v\n");
 }
 
@@ -61,13 +77,13 @@ TEST(Table, WhoIsKilledLeavesAJournal) {
   const auto file = folder.path() / "t.csv";
   put_row(Table(file, {"a", "value"}, 1), {"1", "old"});
   { Table(file, {"a", "value"}, 1).put({"2", "new"}); }  // never written
-  EXPECT_EQ(read_text(file), "a,value\n1,old\n");
+  EXPECT_EQ(read_table(file), "a,value\n1,old\n");
   Table table(file, {"a", "value"}, 1);
   EXPECT_EQ(table.size(), 2U);
   EXPECT_EQ(table.find({"2"})->back(), "new");
   EXPECT_FALSE(table.find({"3"}));
   table.write();
-  EXPECT_EQ(read_text(file), "a,value\n1,old\n2,new\n");
+  EXPECT_EQ(read_table(file), "a,value\n1,old\n2,new\n");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "t.csv.part"));
 }
 
@@ -85,9 +101,9 @@ TEST(Table, BelongsToWhoHoldsIt) {
   }
   early.hold();  // sees what was written since it was read
   early.put({"2", "y"});
-  EXPECT_EQ(read_text(file), "a,value\n1,x\n");
+  EXPECT_EQ(read_table(file), "a,value\n1,x\n");
   early.write();
-  EXPECT_EQ(read_text(file), "a,value\n1,x\n2,y\n");
+  EXPECT_EQ(read_table(file), "a,value\n1,x\n2,y\n");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "t.csv.part"));
 }
 
@@ -99,7 +115,7 @@ TEST(Table, MayBeHeldInVain) {
   Table table(file, {"a", "value"}, 1);
   table.hold();
   table.write();
-  EXPECT_EQ(read_text(file), "a,value\n");
+  EXPECT_EQ(read_table(file), "a,value\n");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "t.csv.part"));
 }
 
@@ -110,7 +126,7 @@ TEST(Table, ForgetsWhatIsDropped) {
   for (const char* a : {"1", "2", "3"}) table.put({a, "x"});
   table.drop([](const std::vector<std::string>& row) { return row[0] == "2"; });
   table.write();
-  EXPECT_EQ(read_text(file), "a,value\n1,x\n3,x\n");
+  EXPECT_EQ(read_table(file), "a,value\n1,x\n3,x\n");
 }
 
 /// Rows that are not understood would be lost with the next one. Of a journal they are what a

@@ -11,6 +11,7 @@
 #include "maxwrench/version.h"
 #include "tests/support/edited_copy.h"
 #include "tests/support/support.h"
+#include "tests/support/table.h"
 
 namespace maxwrench {
 namespace {
@@ -185,7 +186,7 @@ TEST(Command, RunTakesTaskFiles) {
       "run a=b/force.toml two_arms.toml measure=ellipsoid search=grid wrench=pure budget=9 --out .",
       copy.path());
   ASSERT_EQ(result.exit_status, 0) << result.err;
-  const std::string values = read_text(copy.path() / "values.csv");
+  const std::string values = read_table(copy.path() / "values.csv");
   EXPECT_EQ(std::count(values.begin(), values.end(), '\n'), 3) << values;
   EXPECT_NE(values.find("\na=b/force.toml,ellipsoid,pure,none,grid,1,9,"), std::string::npos);
   EXPECT_NE(values.find("\ntwo_arms.toml,ellipsoid,pure,none,grid,1,9,"), std::string::npos);
@@ -216,7 +217,7 @@ TEST(Command, RunTakesAllStaticTasks) {
   const CommandResult result = run_maxwrench(
       "run measure=manipulability search=grid wrench=pure budget=5 --out .", folder.path());
   EXPECT_LT(result.exit_status, 2) << result.err;  // not every grid so small has a valid posture
-  const std::string values = read_text(folder.path() / "values.csv");
+  const std::string values = read_table(folder.path() / "values.csv");
   EXPECT_NE(values.find("\nuvms/valve,"), std::string::npos);
   EXPECT_EQ(values.find("trajectory"), std::string::npos);
   EXPECT_EQ(values.find("impulse"), std::string::npos);
@@ -227,7 +228,7 @@ TEST(Command, TimesSayOnWhichMachine) {
   const TemporaryFolder folder;
   const std::string words = "run planar/force measure=ellipsoid search=grid wrench=pure budget=9 ";
   ASSERT_EQ(run_maxwrench(words + "--out . --threads 2", folder.path()).exit_status, 0);
-  std::istringstream times(read_text(folder.path() / "times.csv"));
+  std::istringstream times(read_table(folder.path() / "times.csv"));
   std::string header, row;
   ASSERT_TRUE(std::getline(times, header) && std::getline(times, row));
   EXPECT_NE(header.find(",wall_s,us_per_evaluation,cpu_s,threads,machine,build,sources,version"),
@@ -307,8 +308,8 @@ TEST(Command, RunWritesTheSameValuesAtAnyThreadCount) {
                                   std::max(samples(400), 40), threads),
                       folder.path());
     ASSERT_EQ(result.exit_status, 0) << result.err;
-    const std::string values = read_text(folder.path() / "values.csv");
-    EXPECT_TRUE(std::filesystem::exists(folder.path() / "times.csv"));
+    const std::string values = read_table(folder.path() / "values.csv");
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "times.csv.gz"));
     EXPECT_GT(std::count(values.begin(), values.end(), '\n'), 20);
     if (first.empty()) first = values;
     EXPECT_EQ(values, first) << threads << " threads";

@@ -6,6 +6,7 @@
 
 #include "tests/support/edited_copy.h"
 #include "tests/support/support.h"
+#include "tests/support/table.h"
 
 namespace maxwrench {
 namespace {
@@ -40,7 +41,7 @@ TEST(Compare, SaysThatNothingHasAValue) {
   EXPECT_EQ(result.out.find("2 of 2"), std::string::npos) << result.out;
   for (const char* word : {"inf ", "nan", "inf,"}) {
     EXPECT_EQ(result.out.find(word), std::string::npos) << result.out;
-    EXPECT_EQ(read_text(copy.path() / "search_comparison.csv").find(word), std::string::npos);
+    EXPECT_EQ(read_table(copy.path() / "search_comparison.csv").find(word), std::string::npos);
   }
 }
 
@@ -52,11 +53,12 @@ TEST(Compare, WritesTheSameValuesAgain) {
         run_maxwrench("compare planar/force --budget 300 --seeds 2 --out .", folder.path());
     ASSERT_EQ(result.exit_status, 0) << result.err;
     EXPECT_NE(result.out.find("nullspace"), std::string::npos);
-    const std::string values = read_text(folder.path() / "search_comparison.csv");
+    const std::string values = read_table(folder.path() / "search_comparison.csv");
     EXPECT_GT(std::count(values.begin(), values.end(), '\n'), 18);
     EXPECT_NE(read_text(folder.path() / "search_comparison.svg").find("<polyline"),
               std::string::npos);
-    for (const char* file : {"search_times.csv", "search_ecdf.svg", "search_ecdf_problems.svg"}) {
+    for (const char* file :
+         {"search_times.csv.gz", "search_ecdf.svg", "search_ecdf_problems.svg"}) {
       EXPECT_TRUE(std::filesystem::exists(folder.path() / file)) << file;
     }
     EXPECT_NE(values.find(",evaluations_to_ten_thousandth,"), std::string::npos) << values;

@@ -80,7 +80,7 @@ TEST(CtrlC, ComparePrintsWhatItHas) {
       << result.out;
   EXPECT_NE(result.out.find("\nfacet_sqp+cmaes*"), std::string::npos) << result.out;
   EXPECT_EQ(result.out.find("planar/force"), std::string::npos) << result.out;
-  EXPECT_FALSE(std::filesystem::exists(folder.path() / "search_comparison.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "search_comparison.csv.gz"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "search_comparison.svg"));
 }
 

@@ -7,6 +7,7 @@
 #include "maxwrench/strategies.h"
 #include "tests/support/edited_copy.h"
 #include "tests/support/support.h"
+#include "tests/support/table.h"
 
 namespace maxwrench {
 namespace {
@@ -102,7 +103,7 @@ TEST(PlanRun, WritesTheSameValuesAtAnyThreadCount) {
             std::string(threads),
         folder.path());
     ASSERT_EQ(result.exit_status, 0) << result.err;
-    const std::string values = read_text(folder.path() / "values.csv");
+    const std::string values = read_table(folder.path() / "values.csv");
     EXPECT_EQ(std::count(values.begin(), values.end(), '\n'), 4) << values;
     for (const char* scheme : {"forward", "ends", "spline"}) {
       EXPECT_NE(values.find(",60," + std::string(scheme) + ",,best_found,"), std::string::npos);
@@ -124,7 +125,7 @@ TEST(PlanCompare, RacesEverySearchOfPlans) {
         EXPECT_NE(result.out.find("\n" + std::string(search.name)), std::string::npos);
       }
     }
-    const std::string values = read_text(folder.path() / "search_comparison.csv");
+    const std::string values = read_table(folder.path() / "search_comparison.csv");
     EXPECT_NE(values.find(",slp,1,20,ends,"), std::string::npos) << values;
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "plan_comparison.svg"));
     if (run == 0) first = values;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "benchmarks/dictionary.h"
 #include "cli/report/page.h"
 #include "tests/support/support.h"
+#include "tests/support/table.h"
 
 namespace maxwrench {
 namespace {
@@ -34,7 +36,7 @@ const fs::path& small_run() {
 }
 
 std::vector<std::string> columns_of(const fs::path& file) {
-  std::ifstream in(file);
+  std::istringstream in(csv_text(file));
   std::string header;
   EXPECT_TRUE(std::getline(in, header)) << file;
   return split_csv(header);
@@ -53,7 +55,8 @@ TEST(Report, EveryColumnIsInTheDictionary) {
   int files = 0;
   for (const fs::path& folder : {small_run() / "run", out}) {
     for (const auto& entry : fs::directory_iterator(folder)) {
-      if (entry.path().extension() != ".csv") continue;
+      const std::string name = entry.path().filename();
+      if (!name.ends_with(".csv") && !name.ends_with(".csv.gz")) continue;
       expect_known_columns(entry.path());
       ++files;
     }
@@ -80,7 +83,7 @@ TEST(Report, SaysTheSameAgain) {
   const CommandResult second = run_maxwrench("report run --out second", small_run());
   ASSERT_EQ(first.exit_status, 0) << first.err;
   EXPECT_NE(first.out.find("Lower-level solvers"), std::string::npos);
-  const std::string values = read_text(small_run() / "run/values.csv");
+  const std::string values = read_table(small_run() / "run/values.csv");
   const auto made = fmt::format(" ({} rows)", std::count(values.begin(), values.end(), '\n') - 1);
   EXPECT_NE(read_text(small_run() / "first/report.html").find(made), std::string::npos) << made;
   EXPECT_NE(first.out.find("The race: profiles and significance"), std::string::npos);
@@ -145,7 +148,7 @@ TEST(Report, ComparesFolders) {
   EXPECT_NE(result.out.find(" are the same, 0 within rounding\nnone\n"), std::string::npos)
       << result.out;
   EXPECT_NE(result.out.find("Rows that only one folder has\nnone\n"), std::string::npos);
-  std::string changed = read_text(small_run() / "again/values.csv");
+  std::string changed = read_table(small_run() / "again/values.csv");
   changed.replace(changed.find(",best_found,") + 12, 1, "9");
   fs::create_directories(small_run() / "changed");
   std::ofstream(small_run() / "changed/values.csv") << changed;
@@ -181,8 +184,9 @@ TEST(Report, RefusesWhatIsNoResult) {
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
     EXPECT_EQ(result.out, "") << words;
   }
-  EXPECT_NE(run_maxwrench("report nowhere", folder.path()).err.find("nowhere/values.csv: got no"),
-            std::string::npos);
+  EXPECT_NE(
+      run_maxwrench("report nowhere", folder.path()).err.find("nowhere/values.csv.gz: got no"),
+      std::string::npos);
 }
 
 TEST(Report, TablesForPeopleAndPrograms) {

@@ -19,6 +19,7 @@
 #include "maxwrench/version.h"
 #include "tests/support/edited_copy.h"
 #include "tests/support/support.h"
+#include "tests/support/table.h"
 
 namespace maxwrench {
 namespace {
@@ -47,10 +48,11 @@ class RunPlan : public testing::Test {
     return run_maxwrench("run plan.toml " + words, folder_.path());
   }
   std::string read(const std::string& file) const { return read_text(folder_.path() / file); }
+  std::string table(const std::string& file) const { return read_table(folder_.path() / file); }
   /// What one thread writes without being disturbed.
   std::string undisturbed() {
     EXPECT_LT(run("--threads 1 --out one").exit_status, 2);  // 1: a row has no value
-    return read("one/values.csv");
+    return table("one/values.csv");
   }
 
   TemporaryFolder folder_;
@@ -60,7 +62,8 @@ TEST_F(RunPlan, GivesTheSameValuesAtAnyThreadCount) {
   const std::string one = undisturbed();
   for (const char* threads : {"2", "8"}) {
     ASSERT_LT(run(fmt::format("--threads {} --out {}", threads, threads)).exit_status, 2);
-    EXPECT_EQ(read(threads + std::string("/values.csv")), one);
+    EXPECT_EQ(table(threads + std::string("/values.csv")), one);
+    EXPECT_EQ(read(threads + std::string("/values.csv.gz")), read("one/values.csv.gz"));
   }
 }
 
@@ -77,7 +80,7 @@ TEST_F(RunPlan, GoesOnAfterItWasKilled) {
   }
   EXPECT_TRUE(had_rows);
   EXPECT_LT(run("--out killed").exit_status, 2);
-  EXPECT_EQ(read("killed/values.csv"), one);
+  EXPECT_EQ(table("killed/values.csv"), one);
   EXPECT_FALSE(fs::exists(folder_.path() / "killed/values.csv.part"));
 }
 
@@ -91,7 +94,7 @@ TEST_F(RunPlan, AFolderHasOneRunAtATime) {
   EXPECT_EQ(std::count(second.err.begin(), second.err.end(), '\n'), 1) << second.err;
   EXPECT_NE(second.err.find("values.csv.part"), std::string::npos) << second.err;
   EXPECT_FALSE(fs::exists(folder_.path() / "one/plan.toml"));
-  EXPECT_EQ(read("one/values.csv"), one);
+  EXPECT_EQ(table("one/values.csv"), one);
 }
 
 bool keeps_rows() { return names_sources(version()); }
@@ -99,8 +102,8 @@ bool keeps_rows() { return names_sources(version()); }
 /// A torn line is no row; what is whole is not computed again, unless the sources were changed.
 TEST_F(RunPlan, KeepsTheRowsOfAJournal) {
   const std::string one = undisturbed();
-  fs::rename(folder_.path() / "one/values.csv", folder_.path() / "one/values.csv.part");
-  fs::resize_file(folder_.path() / "one/values.csv.part", one.size() - 5);
+  fs::remove(folder_.path() / "one/values.csv.gz");
+  std::ofstream(folder_.path() / "one/values.csv.part") << one.substr(0, one.size() - 5);
   const auto rows = std::count(one.begin(), one.end(), '\n') - 1;
   const CommandResult dry = run("--dry --out one");
   EXPECT_NE(dry.out.find(fmt::format("{} rows, {} of them to do", rows, keeps_rows() ? 1 : rows)),
@@ -111,9 +114,9 @@ TEST_F(RunPlan, KeepsTheRowsOfAJournal) {
   EXPECT_EQ(more.find(fmt::format(", {} of them were there", rows - 1)) != std::string::npos,
             keeps_rows())
       << more;
-  EXPECT_EQ(read("one/values.csv"), one);
-  EXPECT_EQ(run("--again --out one").out, fmt::format("{} rows in one/values.csv\n", rows));
-  EXPECT_EQ(read("one/values.csv"), one);
+  EXPECT_EQ(table("one/values.csv"), one);
+  EXPECT_EQ(run("--again --out one").out, fmt::format("{} rows in one/values.csv.gz\n", rows));
+  EXPECT_EQ(table("one/values.csv"), one);
 }
 
 TEST_F(RunPlan, ShardsMergeToOneRun) {
@@ -123,7 +126,7 @@ TEST_F(RunPlan, ShardsMergeToOneRun) {
   }
   const CommandResult merged = run_maxwrench("merge all part3 part1 part2", folder_.path());
   ASSERT_EQ(merged.exit_status, 0) << merged.err;
-  EXPECT_EQ(read("all/values.csv"), one);
+  EXPECT_EQ(read("all/values.csv.gz"), read("one/values.csv.gz"));
   EXPECT_EQ(read("all/plan.toml"), kSmallPlan);
   const CommandResult less = run_maxwrench("merge less part3 part1", folder_.path());
   const auto rows = std::count(one.begin(), one.end(), '\n') - 1;
@@ -132,7 +135,7 @@ TEST_F(RunPlan, ShardsMergeToOneRun) {
   EXPECT_NE(run("--dry --out all")
                 .out.find(fmt::format("{} rows, {} of them to do", rows, keeps_rows() ? 0 : rows)),
             std::string::npos);
-  const std::string times = read("all/times.csv");
+  const std::string times = table("all/times.csv");
   EXPECT_EQ(std::count(times.begin(), times.end(), '\n'), std::count(one.begin(), one.end(), '\n'));
 }
 
@@ -145,16 +148,16 @@ TEST_F(RunPlan, RowsOfEditedTasksAndOtherVersionsAreNotThere) {
       << "[[product]]\nproblem = '" << task << "'\nsearch = 'sample'\nbudget = 20\n";
   ASSERT_EQ(run("--out one").exit_status, 0);
   const fs::path one = folder_.path() / "one";
-  const CsvFile csv = read_csv(one / "values.csv", value_columns());
+  const CsvFile csv = read_csv(one / "values.csv.gz", value_columns());
   const Case c = case_of(csv, 0);
   const Problem problem = load_problem(task);
   EXPECT_EQ(RowsThere(one).has(problem, c), keeps_rows());
   EXPECT_FALSE(RowsThere(one, "another").has(problem, c));
   for (const auto& [kept, known] :
        {std::pair{"1.0.dirty", false}, {"1.0+unknown", false}, {"1.0", true}}) {
-    std::string times = read("one/times.csv");
-    times.replace(times.rfind(',') + 1, std::string::npos, kept + std::string("\n"));
-    std::ofstream(one / "times.csv") << times;
+    std::string times = table("one/times.csv");
+    const std::size_t comma = times.rfind(',');
+    std::ofstream(one / "times.csv.gz") << times.replace(comma + 1, times.size(), kept) << '\n';
     EXPECT_EQ(RowsThere(one, kept).has(problem, c), known) << kept;
   }
   for (const char* file : {"force.toml", "vehicle.toml", "vehicle.urdf"}) {
@@ -168,12 +171,12 @@ TEST_F(RunPlan, RowsOfEditedTasksAndOtherVersionsAreNotThere) {
 TEST_F(RunPlan, ContradictionsAreNotMerged) {
   ASSERT_LT(run("--out one").exit_status, 2);
   fs::copy(folder_.path() / "one", folder_.path() / "two");
-  std::string changed = read("two/values.csv");
+  std::string changed = table("two/values.csv");
   changed.replace(changed.find(",best_found,") + 12, 1, "9");
-  std::ofstream(folder_.path() / "two/values.csv") << changed;
+  std::ofstream(folder_.path() / "two/values.csv.gz") << changed;
   const CommandResult result = run_maxwrench("merge all one two", folder_.path());
   EXPECT_EQ(result.exit_status, 2);
-  EXPECT_NE(result.err.find("two/values.csv: got another row of dual_arm/bar_wall,"),
+  EXPECT_NE(result.err.find("two/values.csv.gz: got another row of dual_arm/bar_wall,"),
             std::string::npos)
       << result.err;
   EXPECT_TRUE(fs::is_empty(folder_.path() / "all"));
@@ -211,8 +214,8 @@ TEST_F(RunPlan, CarriesOutExperiments) {
       << "[[product]]\nproblem = ['uvms/lift', 'uvms/lift_impulse']\nintegrator = 'cvode'\n";
   ASSERT_EQ(run("--threads 1 --out one").exit_status, 0);
   ASSERT_EQ(run("--threads 2 --out two").exit_status, 0);
-  EXPECT_EQ(read("one/values.csv"), read("two/values.csv"));
-  const CsvFile csv = read_csv(folder_.path() / "one/values.csv", value_columns());
+  EXPECT_EQ(read("one/values.csv.gz"), read("two/values.csv.gz"));
+  const CsvFile csv = read_csv(folder_.path() / "one/values.csv.gz", value_columns());
   ASSERT_EQ(csv.rows.size(), 2U);
   std::istringstream commands(run("--commands").out);
   const char* const readings[] = {"mean", "at_t_h"};
@@ -226,7 +229,7 @@ TEST_F(RunPlan, CarriesOutExperiments) {
   }
   const CommandResult report = run_maxwrench("report one", folder_.path());
   EXPECT_NE(report.out.find("Experiments in the virtual tank"), std::string::npos);
-  EXPECT_EQ(run_maxwrench("verify one/values.csv", folder_.path()).exit_status, 0);
+  EXPECT_EQ(run_maxwrench("verify one/values.csv.gz", folder_.path()).exit_status, 0);
 }
 
 TEST_F(RunPlan, BadWordsAreRefused) {

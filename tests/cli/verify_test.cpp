@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/csv.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {
@@ -85,19 +86,19 @@ TEST(CertifyCommand, WritesNoCertificateWithoutABound) {
 
 /// The rows of the project's own run; and one that claims a tenth more is refused by its name.
 TEST_F(VerifyCommand, ChecksRowsOfARun) {
-  const std::string rows = MAXWRENCH_SOURCE_DIR "/results/values.csv";
+  const std::string rows = MAXWRENCH_SOURCE_DIR "/results/values.csv.gz";
   const json good = json::parse(run_maxwrench("verify --json --sample 200 " + rows).out);
   EXPECT_EQ(good["status"], "verified") << good["refused"];
   EXPECT_EQ(good["checked"], 200);
   EXPECT_GT(good["values"], 100);
   EXPECT_LT(good["deviation"], 1e-6);
-  const std::string file = folder_.path() / "values.csv";
+  const std::string file = folder_.path() / "values.csv.gz";
   const CommandResult run = run_maxwrench(
       "run planar/force measure=linf_polytope lp=facets search=crs2 budget=500 --out " +
       folder_.path().string());
   ASSERT_EQ(run.exit_status, 0) << run.err;
   EXPECT_EQ(run_maxwrench("verify " + file).exit_status, 0);
-  std::string text = read_text(file);
+  std::string text = csv_text(file);
   const std::size_t beta = text.find("best_found,3.") + std::string("best_found,").size();
   ASSERT_LT(beta, text.size());
   std::ofstream(file) << text.replace(beta, 3, "3.9");

@@ -17,7 +17,7 @@ constexpr const char* kFirstLink = "<link name=\"link_1\">";
 constexpr const char* kToFirstLink = "<child link=\"link_1\"/>";
 constexpr const char* kFromHull = "<parent link=\"hull\"/>";
 
-/// What urdfdom passes over in silence, or dies of.
+/// What is XML, and no tree of links with one of each part.
 const std::vector<BadInput> kBadStructures = {
     {"second_parent",
      kUrdf,
@@ -166,7 +166,7 @@ std::string refusal(const std::string& urdf) {
   return "accepted";
 }
 
-/// urdfdom and we call ourselves for every link of a chain.
+/// We call ourselves for every link of a chain.
 TEST(BadStructure, ChainOfTooManyLinks) {
   std::string urdf = "<robot name='chain'><link name='0'/>";
   for (int i = 1; i < 20000; ++i) {
@@ -176,6 +176,11 @@ TEST(BadStructure, ChainOfTooManyLinks) {
   }
   EXPECT_THAT(refusal(urdf + "</robot>"),
               testing::EndsWith("vehicle.urdf: link: got 20000 links, expected at most 1000"));
+}
+
+TEST(BadStructure, XmlThatIsNoRobot) {
+  EXPECT_THAT(refusal("<model/>"),
+              testing::EndsWith("vehicle.urdf: robot: got nothing, expected an element <robot>"));
 }
 
 /// As the parser of XML does for every element within an element. Comments do not count.

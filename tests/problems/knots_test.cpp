@@ -46,6 +46,15 @@ TEST_F(KnotsTest, AreNotHeldToLimits) {
   EXPECT_EQ(read("1,2,3,4\n1,2,3,4\n1,2,3,4\n99,-2e1, 3 ,4\r\n")(3, 1), -20);
 }
 
+/// As spreadsheets save "CSV UTF-8".
+TEST_F(KnotsTest, MayComeFromASpreadsheet) {
+  const std::string header = "q1_shoulder_yaw,q2_shoulder_pitch,q3_elbow,q4_wrist_roll\r\n";
+  for (const std::string& start : {header, std::string()}) {
+    EXPECT_EQ(read("\xef\xbb\xbf" + start + "1,2,3,4\r\n1,2,3,4\r\n1,2,3,4\r\n9,8,7,6\r\n").row(3),
+              Eigen::RowVector4d(9, 8, 7, 6));
+  }
+}
+
 TEST_F(KnotsTest, OfAStaticProblemAreOneRow) {
   std::ofstream(file_) << "elbow,shoulder\n1,2\n";
   const Problem problem = load_problem("planar/force");

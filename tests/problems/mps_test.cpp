@@ -89,6 +89,18 @@ TEST(Mps, DualsAndConstantInTheFilesOwnSense) {
   EXPECT_NEAR(other.mps.point(other.solution)[0], -10, 1e-12);
 }
 
+/// Bounds of 1e30 are how files write none, and a negative upper bound keeps a lower one.
+TEST(Mps, LargeBoundsAreNone) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "large.mps";
+  std::ofstream(file) << "NAME X FREE\nROWS\n N COST\nCOLUMNS\n X COST 1\n Y COST 1\n Z COST 1\n"
+                         "BOUNDS\n UP BND X 1e30\n LO BND Y -1e30\n UP BND Y -2\n"
+                         " LO BND Z -1e24\n UP BND Z -3\nENDATA\n";
+  const LinearProgram p = read_mps(file).program;
+  EXPECT_EQ(p.l, Eigen::Vector3d(0, -kInfinity, -1e24));
+  EXPECT_EQ(p.u, Eigen::Vector3d(kInfinity, -2, -3));
+}
+
 TEST(Mps, ReadingIsSilent) {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
@@ -111,7 +123,11 @@ TEST(Mps, BadFilesAreRefusedByName) {
       {head + "BOUNDS\n SC BND X 4\nENDATA\n", "type"},
       {head + "QUADOBJ\n X X 1\nENDATA\n", "QUADOBJ"},
       {head + " M1 'MARKER' 'SOSORG'\nENDATA\n", "SOS"},
-      {head + " X R1 2\nENDATA\n", "contradictions"},
+      {head + " X R1 2\nENDATA\n", "row R1 once in column X"},
+      {head + " Y COST 1 COST 2\nENDATA\n", "row COST once in column Y"},
+      {head + "RHS\n RHS R1 4\n RHS R1 5\nENDATA\n", "row R1 only once"},
+      {head + "BOUNDS\n UP BND X 4\n FX BND X 5\nENDATA\n",
+       "one lower and one upper bound of column X"},
       {head + " Y COST 1\n X R1 2\nENDATA\n", "column X together"},
       {"NAME X\nROWS\n N COST\n K R1\nENDATA\n", "line 4"},
       {"NAME X\nOBJSENSE\n    SIDEWAYS\nROWS\n N COST\n", "MIN or MAX"},

@@ -1,6 +1,6 @@
 #include "tests/reference_models/robot_files.h"
 
-#include <tinyxml.h>
+#include <tinyxml2.h>
 #include <toml++/toml.h>
 
 #include <map>
@@ -10,7 +10,8 @@
 namespace maxwrench::reference {
 namespace {
 
-Eigen::Vector3d three(const TiXmlElement* element, const char* attribute, Eigen::Vector3d value) {
+Eigen::Vector3d three(const tinyxml2::XMLElement* element, const char* attribute,
+                      Eigen::Vector3d value) {
   const char* text = element ? element->Attribute(attribute) : nullptr;
   if (!text) return value;
   std::istringstream in(text);
@@ -18,7 +19,7 @@ Eigen::Vector3d three(const TiXmlElement* element, const char* attribute, Eigen:
   return value;
 }
 
-double number(const TiXmlElement* element, const char* attribute) {
+double number(const tinyxml2::XMLElement* element, const char* attribute) {
   double value = 0;
   if (element) element->QueryDoubleAttribute(attribute, &value);
   return value;
@@ -30,18 +31,18 @@ Eigen::VectorXd numbers(const toml::node_view<const toml::node>& node, int size)
   return values;
 }
 
-Body read_link(const TiXmlElement* link) {
+Body read_link(const tinyxml2::XMLElement* link) {
   Body body;
   body.name = link->Attribute("name");
-  const TiXmlElement* inertial = link->FirstChildElement("inertial");
+  const tinyxml2::XMLElement* inertial = link->FirstChildElement("inertial");
   if (!inertial) return body;
-  const TiXmlElement* origin = inertial->FirstChildElement("origin");
+  const tinyxml2::XMLElement* origin = inertial->FirstChildElement("origin");
   if (!three(origin, "rpy", Eigen::Vector3d::Zero()).isZero()) {
     throw std::runtime_error(body.name + ": turned inertia");
   }
   body.com = three(origin, "xyz", Eigen::Vector3d::Zero());
   body.mass = number(inertial->FirstChildElement("mass"), "value");
-  const TiXmlElement* I = inertial->FirstChildElement("inertia");
+  const tinyxml2::XMLElement* I = inertial->FirstChildElement("inertia");
   const double xy = number(I, "ixy"), xz = number(I, "ixz"), yz = number(I, "iyz");
   body.inertia << number(I, "ixx"), xy, xz, xy, number(I, "iyy"), yz, xz, yz, number(I, "izz");
   return body;
@@ -49,9 +50,10 @@ Body read_link(const TiXmlElement* link) {
 
 /// The joints in the order of the file, whose parents come before their children.
 std::vector<Body> read_urdf(const std::filesystem::path& file, std::vector<std::string>& joints) {
-  TiXmlDocument document(file.string());
-  if (!document.LoadFile()) throw std::runtime_error("cannot read " + file.string());
-  const TiXmlElement* robot = document.RootElement();
+  tinyxml2::XMLDocument document;
+  if (document.LoadFile(file.c_str()) != tinyxml2::XML_SUCCESS)
+    throw std::runtime_error("cannot read " + file.string());
+  const tinyxml2::XMLElement* robot = document.RootElement();
   std::map<std::string, Body> links;
   const auto* link = robot->FirstChildElement("link");
   const std::string root = link->Attribute("name");

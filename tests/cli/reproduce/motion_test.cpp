@@ -12,6 +12,7 @@
 #include "maxwrench/strategies.h"
 #include "solvers/solve/method.h"
 #include "tests/support/support.h"
+#include "tests/support/table.h"
 
 namespace maxwrench {
 namespace {
@@ -21,7 +22,7 @@ constexpr long kSmallBudget = 40;
 /// The fields of the lines of a table without line breaks and quotes in what is asked for.
 std::vector<std::vector<std::string>> fields(const std::filesystem::path& file) {
   std::vector<std::vector<std::string>> rows;
-  std::istringstream text(read_text(file));
+  std::istringstream text(read_table(file));
   for (std::string line; std::getline(text, line);) {
     std::istringstream cells(line);
     auto& row = rows.emplace_back();

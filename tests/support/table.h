@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "benchmarks/csv.h"
+
+namespace maxwrench {
+
+/// The text of a table such as FOLDER/values.csv, which is packed or not; empty if there is none.
+inline std::string read_table(const std::filesystem::path& file) {
+  return csv_text(table_file(file));
+}
+
+}  // namespace maxwrench
