@@ -4,14 +4,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "benchmarks/exact_basis.h"
-#include "benchmarks/write_file.h"
+#include "benchmarks/tables/write_file.h"
 #include "cli/cli.h"
-#include "cli/lp_proof.h"
 #include "cli/output.h"
+#include "cli/proof/lp_proof.h"
 #include "maxwrench/mps.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/version.h"
+#include "solvers/lp/exact/exact_basis.h"
 
 namespace maxwrench {
 namespace {

@@ -11,10 +11,10 @@
 #include "maxwrench/solve.h"
 #include "solvers/integrator/makers.h"
 #include "solvers/lp/makers.h"
-#include "solvers/plan/makers.h"
 #include "solvers/search/composition.h"
 #include "solvers/search/makers.h"
 #include "solvers/search/restart.h"
+#include "solvers/trajectory/makers.h"
 #include "solvers/wrench/makers.h"
 
 namespace maxwrench {

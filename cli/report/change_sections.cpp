@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "benchmarks/changes.h"
-#include "benchmarks/dictionary.h"
-#include "benchmarks/row.h"
+#include "benchmarks/report/changes.h"
+#include "benchmarks/tables/dictionary.h"
 #include "cli/report/sections.h"
+#include "solvers/solve/row.h"
 
 namespace maxwrench {
 namespace {

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "benchmarks/contests.h"
+#include "benchmarks/report/contests.h"
 #include "cli/report/sections.h"
 #include "drawing/ecdf.h"
 

@@ -1,7 +1,7 @@
-#include "benchmarks/contests.h"
-#include "benchmarks/race_file.h"
-#include "cli/race_figures.h"
+#include "benchmarks/race/race_file.h"
+#include "benchmarks/report/contests.h"
 #include "cli/report/sections.h"
+#include "cli/suite/race_figures.h"
 
 namespace maxwrench {
 namespace {

@@ -9,8 +9,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "benchmarks/results.h"
-#include "benchmarks/write_file.h"
+#include "benchmarks/suite/results.h"
+#include "benchmarks/tables/write_file.h"
 #include "cli/cli.h"
 #include "cli/report/page.h"
 

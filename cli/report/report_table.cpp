@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "benchmarks/csv.h"
-#include "benchmarks/dictionary.h"
+#include "benchmarks/tables/csv.h"
+#include "benchmarks/tables/dictionary.h"
 
 namespace maxwrench {
 namespace {

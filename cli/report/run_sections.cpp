@@ -6,13 +6,13 @@
 #include <set>
 #include <stdexcept>
 
-#include "benchmarks/contests.h"
-#include "benchmarks/row.h"
-#include "benchmarks/summaries.h"
+#include "benchmarks/report/contests.h"
+#include "benchmarks/report/summaries.h"
 #include "cli/report/sections.h"
 #include "drawing/scatter.h"
 #include "maxwrench/load.h"
 #include "maxwrench/wrench_program.h"
+#include "solvers/solve/row.h"
 
 namespace maxwrench {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "benchmarks/write_file.h"
-#include "cli/motion_options.h"
+#include "benchmarks/tables/write_file.h"
 #include "cli/reproduce/reproduce.h"
-#include "cli/row_writer.h"
+#include "cli/suite/row_writer.h"
+#include "cli/task/motion_options.h"
 #include "maxwrench/figures.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"

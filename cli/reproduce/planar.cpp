@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "benchmarks/write_file.h"
+#include "benchmarks/tables/write_file.h"
 #include "cli/cli.h"
 #include "cli/reproduce/reproduce.h"
-#include "cli/row_writer.h"
+#include "cli/suite/row_writer.h"
 #include "maxwrench/figures.h"
 #include "maxwrench/load.h"
 

@@ -4,9 +4,9 @@
 
 #include <memory>
 
-#include "benchmarks/product.h"
-#include "benchmarks/proof.h"
+#include "benchmarks/suite/product.h"
 #include "cli/cli.h"
+#include "solvers/certify/proof.h"
 #include "solvers/solve/method.h"
 
 namespace maxwrench {

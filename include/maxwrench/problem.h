@@ -55,8 +55,8 @@ struct Problem {
   Eigen::Matrix3d wrench_axes = Eigen::Matrix3d::Identity();
   std::vector<int> redundant;  ///< the joints that theta_r holds
   /// The joints between base and end effector that theta_r does not hold. They follow from it as
-  /// the base pose does (see lib/posture/dependent_joints.h). None: the base pose follows in closed
-  /// form.
+  /// the base pose does (see lib/posture/ik/dependent_joints.h). None: the base pose follows in
+  /// closed form.
   std::vector<int> dependent;
   /// A posture near one at theta_r_default, if there are dependent joints: all joints, and [x, y,
   /// z, yaw] of the base. A task in time begins on its branch; of a static one all branches count.

@@ -5,11 +5,11 @@
 #include <optional>
 #include <stdexcept>
 
-#include "lib/posture/dependent_joints.h"
+#include "lib/posture/ik/dependent_joints.h"
+#include "lib/posture/ik/primary_branches.h"
+#include "lib/posture/ik/second_arm.h"
 #include "lib/posture/posture_state.h"
-#include "lib/posture/primary_branches.h"
 #include "lib/posture/pull_back.h"
-#include "lib/posture/second_arm.h"
 #include "maxwrench/capability.h"
 
 namespace maxwrench {

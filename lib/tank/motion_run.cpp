@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/path/follow.h"
 #include "lib/tank/control_loop.h"
 #include "lib/tank/controller.h"
 #include "lib/tank/ode.h"
 #include "lib/tank/reference.h"
 #include "lib/tank/stopwatch.h"
 #include "lib/tank/summary.h"
+#include "lib/trajectory/follow.h"
 #include "maxwrench/plan.h"
 
 namespace maxwrench {

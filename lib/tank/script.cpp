@@ -3,8 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "lib/path/motion.h"
-#include "lib/path/program.h"
+#include "lib/trajectory/motion.h"
+#include "lib/trajectory/program.h"
 #include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/tank.h"

@@ -8,8 +8,8 @@
 #include <numeric>
 
 #include "lib/math/random.h"
-#include "lib/posture/branch_atlas.h"
-#include "lib/posture/dependent_joints.h"
+#include "lib/posture/ik/branch_atlas.h"
+#include "lib/posture/ik/dependent_joints.h"
 #include "lib/robot/chain.h"
 #include "maxwrench/posture.h"
 #include "problems/make/bad_value.h"

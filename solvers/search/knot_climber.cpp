@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "solvers/plan/makers.h"
+#include "solvers/trajectory/makers.h"
 
 namespace maxwrench {
 namespace {

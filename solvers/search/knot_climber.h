@@ -5,8 +5,8 @@
 
 #include "maxwrench/batch.h"
 #include "maxwrench/plan.h"
-#include "solvers/plan/bordered_facets.h"
 #include "solvers/search/probe.h"
+#include "solvers/trajectory/bordered_facets.h"
 
 namespace maxwrench {
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "cli/row_writer.h"
+#include "cli/suite/row_writer.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/version.h"
 #include "tests/support/edited_copy.h"

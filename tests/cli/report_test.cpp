@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "benchmarks/csv.h"
-#include "benchmarks/dictionary.h"
+#include "benchmarks/tables/csv.h"
+#include "benchmarks/tables/dictionary.h"
 #include "cli/report/page.h"
 #include "tests/support/support.h"
 #include "tests/support/table.h"

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <fstream>
 
-#include "benchmarks/row.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
+#include "solvers/solve/row.h"
 #include "tests/reference_models/static_task.h"
 #include "tests/reference_models/vertices.h"
 #include "tests/support/support.h"

@@ -5,11 +5,11 @@
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
 
-#include "benchmarks/row.h"
 #include "lib/math/decompositions.h"
 #include "lib/robot/kinematics.h"
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
+#include "solvers/solve/row.h"
 #include "tests/support/kdl_chain.h"
 #include "tests/support/support.h"
 

@@ -5,13 +5,13 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "benchmarks/row.h"
 #include "maxwrench/load.h"
 #include "maxwrench/plan.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"
 #include "solvers/solve/method.h"
+#include "solvers/solve/row.h"
 #include "tests/reference_models/vertices.h"
 #include "tests/support/mechanics.h"
 #include "tests/support/support.h"

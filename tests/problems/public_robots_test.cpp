@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "benchmarks/row.h"
-#include "lib/posture/branch_atlas.h"
+#include "lib/posture/ik/branch_atlas.h"
 #include "maxwrench/load.h"
+#include "solvers/solve/row.h"
 #include "tests/support/completeness.h"
 #include "tests/support/support.h"
 

@@ -9,10 +9,10 @@
 #include <kdl/chainjnttojacsolver.hpp>
 #include <string>
 
-#include "benchmarks/row.h"
 #include "lib/robot/kinematics.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
+#include "solvers/solve/row.h"
 #include "tests/reference_models/static_task.h"
 #include "tests/support/mechanics.h"
 #include "tests/support/support.h"

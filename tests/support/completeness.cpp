@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "lib/math/decompositions.h"
-#include "lib/posture/branch_atlas.h"
-#include "lib/posture/branches.h"
+#include "lib/posture/ik/branch_atlas.h"
+#include "lib/posture/ik/branches.h"
 #include "lib/robot/chain.h"
 #include "lib/robot/kinematics.h"
 #include "tests/support/support.h"

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "lib/bound/loop_posture.h"
 #include "maxwrench/measure.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/wrench_program.h"
+#include "solvers/certify/bound/loop_posture.h"
 #include "tests/support/support.h"
 
 // Postures whose joints follow by equations.

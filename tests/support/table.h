@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "benchmarks/csv.h"
+#include "benchmarks/tables/csv.h"
 
 namespace maxwrench {
 

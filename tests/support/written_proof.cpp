@@ -1,9 +1,9 @@
 #include "tests/support/written_proof.h"
 
-#include "benchmarks/proof.h"
-#include "benchmarks/proof_recorder.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
+#include "solvers/certify/proof.h"
+#include "solvers/certify/proof_recorder.h"
 #include "solvers/solve/method.h"
 #include "tests/support/support.h"
 #include "verify/verify.h"

@@ -7,8 +7,6 @@
 #include <thread>
 #include <vector>
 
-#include "benchmarks/proof_recorder.h"
-#include "benchmarks/row.h"
 #include "lib/math/random.h"
 #include "maxwrench/batch.h"
 #include "maxwrench/load.h"
@@ -16,7 +14,9 @@
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"
 #include "solvers/certify/certify.h"
+#include "solvers/certify/proof_recorder.h"
 #include "solvers/solve/method.h"
+#include "solvers/solve/row.h"
 #include "solvers/solve/tank.h"
 #include "verify/verify.h"
 

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "lib/bound/exact_posture.h"
 #include "maxwrench/load.h"
+#include "solvers/certify/bound/exact_posture.h"
 #include "tests/support/support.h"
 #include "verify/box_forms.h"
 

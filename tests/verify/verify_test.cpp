@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "benchmarks/proof_recorder.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
 #include "solvers/certify/certify.h"
+#include "solvers/certify/proof_recorder.h"
 #include "solvers/solve/method.h"
 #include "tests/support/support.h"
 #include "tests/support/written_proof.h"

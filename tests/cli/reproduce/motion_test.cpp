@@ -5,12 +5,12 @@
 #include <sstream>
 #include <vector>
 
-#include "benchmarks/product.h"
-#include "benchmarks/row.h"
+#include "benchmarks/suite/product.h"
 #include "cli/reproduce/reproduce.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
 #include "solvers/solve/method.h"
+#include "solvers/solve/row.h"
 #include "tests/support/support.h"
 #include "tests/support/table.h"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "benchmarks/product.h"
+#include "benchmarks/suite/product.h"
 #include "lib/posture/redundancy.h"
 #include "maxwrench/load.h"
 #include "maxwrench/measure.h"

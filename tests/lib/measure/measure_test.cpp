@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "benchmarks/product.h"
+#include "benchmarks/suite/product.h"
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/strategies.h"

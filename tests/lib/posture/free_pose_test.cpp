@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/row.h"
 #include "lib/posture/redundancy.h"
 #include "maxwrench/load.h"
 #include "maxwrench/objective.h"
 #include "maxwrench/posture.h"
 #include "solvers/solve/method.h"
+#include "solvers/solve/row.h"
 #include "tests/support/contacts.h"
 #include "tests/support/dependents.h"
 #include "tests/support/free_poses.h"

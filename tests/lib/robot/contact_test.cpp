@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "lib/math/decompositions.h"
-#include "lib/posture/contact_arm.h"
+#include "lib/posture/ik/contact_arm.h"
 #include "maxwrench/load.h"
 #include "maxwrench/measure.h"
 #include "maxwrench/posture.h"

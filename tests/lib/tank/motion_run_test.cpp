@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/row.h"
 #include "maxwrench/load.h"
 #include "maxwrench/plan.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/tank.h"
 #include "solvers/solve/method.h"
+#include "solvers/solve/row.h"
 
 namespace maxwrench {
 namespace {

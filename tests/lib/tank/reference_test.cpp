@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "lib/path/motion.h"
 #include "lib/robot/kinematics.h"
 #include "lib/tank/ode.h"
+#include "lib/trajectory/motion.h"
 #include "maxwrench/load.h"
 #include "maxwrench/plan.h"
 #include "maxwrench/posture.h"

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <span>
 
-#include "benchmarks/row.h"
 #include "lib/robot/motion.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
 #include "solvers/solve/method.h"
+#include "solvers/solve/row.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {

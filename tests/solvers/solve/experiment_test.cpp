@@ -3,9 +3,9 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "benchmarks/row.h"
 #include "maxwrench/load.h"
 #include "solvers/solve/method.h"
+#include "solvers/solve/row.h"
 #include "solvers/solve/tank.h"
 #include "tests/support/support.h"
 

@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "benchmarks/product.h"
-#include "benchmarks/row.h"
+#include "benchmarks/suite/product.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
+#include "solvers/solve/row.h"
 
 namespace maxwrench {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <sstream>
 
-#include "benchmarks/row.h"
 #include "maxwrench/load.h"
 #include "solvers/solve/method.h"
+#include "solvers/solve/row.h"
 
 namespace maxwrench {
 namespace {

@@ -10,11 +10,11 @@
 #include <numbers>
 #include <tuple>
 
-#include "benchmarks/product.h"
-#include "benchmarks/row.h"
+#include "benchmarks/suite/product.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
 #include "solvers/solve/method.h"
+#include "solvers/solve/row.h"
 #include "tests/reference_models/static_task.h"
 #include "tests/support/support.h"
 

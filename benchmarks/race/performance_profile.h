@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "benchmarks/race/race_statistics.h"
+
+namespace maxwrench {
+
+/// Several methods on the same instances: `cost[i][j]` is what method i paid for instance j,
+/// infinity if it failed or does not serve.
+struct Contest {
+  std::string title;
+  std::string unit;  ///< of the costs
+  std::vector<std::string> methods;
+  std::vector<std::vector<double>> cost;
+  std::string reference =
+      "";  ///< what `stand` compares with; empty or none of them: the first in its order
+
+  std::size_t instances() const { return cost.empty() ? 0 : cost.front().size(); }
+};
+
+/// How many times the cheapest method of each instance a method took,
+///
+///     r_ij = cost_ij / min_i' cost_i'j,
+///
+/// infinity where it failed: methods×instances. Their distribution is the performance profile of
+/// the method, rho_i(tau) = |{j : r_ij <= tau}| / instances (Dolan, More: Benchmarking optimization
+/// software with performance profiles, 2002): `ecdf` of a line of these. An instance that no method
+/// solves counts in the denominator.
+std::vector<std::vector<double>> performance_ratios(const Contest& contest);
+
+/// One method of a contest, and how it fares beside the reference.
+struct MethodStanding {
+  std::string method, reference;
+  long solved = 0, instances = 0;
+  double share_best = 0;    ///< rho(1)
+  double share_double = 0;  ///< rho(2)
+  double cost = kInfinity;  ///< the median over all instances
+  /// The median over the instances that at least one of both solved of how many times the cost of
+  /// the reference it took, and its bootstrap interval of 95 %; NaN for the reference.
+  double times = kInfinity, times_low = kInfinity, times_high = kInfinity;
+  /// Wilcoxon's signed rank test of the logarithms of these, corrected by Holm for all methods of
+  /// the contest; NaN for the reference.
+  double p = 1;
+};
+
+/// Best first: by rho(2), then by rho(1), then by the median of the costs.
+std::vector<MethodStanding> stand(const Contest& contest);
+
+}  // namespace maxwrench

@@ -1,0 +1,416 @@
+#include "benchmarks/suite/row_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <initializer_list>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+#include "benchmarks/suite/results.h"
+#include "benchmarks/tables/case_file.h"
+#include "maxwrench/problem.h"
+#include "maxwrench/strategies.h"
+#include "maxwrench/wrench_program.h"
+#include "solvers/solve/method.h"
+#include "solvers/solve/row.h"
+
+namespace maxwrench {
+namespace {
+
+/// How a row without a value may have ended; that of a search not by a verdict of the lower level.
+constexpr Status kNoValue[] = {Status::kInfeasible,     Status::kUnbounded,
+                               Status::kInvalidPosture, Status::kNumericalError,
+                               Status::kNoneFound,      Status::kBudgetExhausted};
+
+/// A row of a file.
+struct RowOf {
+  const CsvFile& csv;
+  std::size_t row;
+
+  const std::string& text(const char* column) const { return csv.text(row, column); }
+  /// Numbers that are separated by blanks.
+  Eigen::VectorXd vector(const char* column) const {
+    std::istringstream words(text(column));
+    std::vector<double> all;
+    for (std::string word; words >> word;) {
+      double value = 0;
+      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+      if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
+        csv.refuse(row, column, "finite numbers");
+      }
+      all.push_back(value);
+    }
+    return Eigen::Map<Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
+  }
+};
+
+/// Its own efforts, wrench and multipliers, in a posture.
+std::string refuse_efforts(const Problem& problem, Wrench wrench, const Posture& posture,
+                           const RowOf& claim, double beta) {
+  WrenchProgram program = make_wrench_program(problem, wrench);
+  set_posture(posture, program);
+  const Eigen::VectorXd h = claim.vector("h");
+  const double tolerance = kAnswerTolerance * (1 + std::abs(beta));
+  if (h.size() != 6) return "h: expected six numbers";
+  const Eigen::VectorXd w = program.W.transpose() * h;
+  if (!((h - program.W * w).norm() <= tolerance)) return "its wrench is not allowed";
+  if (!(std::abs(program.c_w.dot(w) - beta) <= tolerance)) return "its wrench has another value";
+  const Residual own = recheck(program, claim.vector("u"), w, claim.vector("lambda"));
+  if (own.within(tolerance)) return "";
+  return fmt::format(
+      "its efforts do not satisfy its program: balance {:.2g}, bounds {:.2g}, dual {:.2g}, gap "
+      "{:.2g}",
+      own.balance, own.bounds, own.dual, own.gap);
+}
+
+/// The same in the best posture at theta_r, or in another one: which of two that are worth the same
+/// is chosen hangs on rounding.
+std::string refuse_own(const Problem& problem, const Answer& anew, const RowOf& claim,
+                       double beta) {
+  const Wrench wrench = anew.choice.wrench;
+  const std::string why = refuse_efforts(problem, wrench, anew.posture, claim, beta);
+  if (why.empty()) return why;
+  PostureEvaluator model(problem);
+  model.evaluate(anew.posture.theta_r);
+  for (int branch = 0; branch < model.branches(); ++branch) {
+    if (refuse_efforts(problem, wrench, model.select(branch), claim, beta).empty()) return "";
+  }
+  return why;
+}
+
+/// A number beside the value, such as its yardstick, which may be none.
+std::string refuse_other(const RowOf& claim, const char* column, double anew) {
+  const std::optional<double> claimed = claim.csv.number(claim.row, column);
+  const bool same = std::isfinite(anew) ? claimed && std::abs(*claimed - anew) <=
+                                                         kAnswerTolerance * (1 + std::abs(anew))
+                                        : !claimed;
+  if (same) return "";
+  return std::isfinite(anew) ? fmt::format("{}: its posture has {:.9g}", column, anew)
+                             : fmt::format("{}: its posture has none", column);
+}
+
+/// Numbers that are those of the same posture evaluated anew.
+std::string refuse_numbers(const RowOf& claim, const char* column, const Eigen::VectorXd& anew) {
+  const Eigen::VectorXd claimed = claim.vector(column);
+  if (claimed.size() != anew.size()) {
+    return fmt::format("{}: got {} numbers, expected {}", column, claimed.size(), anew.size());
+  }
+  if (anew.size() == 0) return "";
+  const double size = 1 + anew.lpNorm<Eigen::Infinity>();
+  const bool same = (claimed - anew).lpNorm<Eigen::Infinity>() <= kAnswerTolerance * size;
+  return same ? "" : fmt::format("{}: its posture has others", column);
+}
+
+/// The residual that the row claims is that of its answer, up to rounding.
+std::string refuse_residual(const RowOf& claim, const Residual& anew, double beta) {
+  const std::pair<const char*, double> all[] = {
+      {"balance", anew.balance}, {"bounds", anew.bounds}, {"dual", anew.dual}, {"gap", anew.gap}};
+  const double tolerance = kAnswerTolerance * (1 + std::abs(beta));
+  for (const auto& [column, value] : all) {
+    const std::optional<double> claimed = claim.csv.number(claim.row, column);
+    if (!claimed) return fmt::format("{}: got none, expected a number", column);
+    if (!(*claimed >= 0 && std::abs(*claimed - value) <= tolerance)) {
+      return fmt::format("{}: expected about {:.2g}", column, value);
+    }
+  }
+  return "";
+}
+
+/// That these cells are empty.
+std::string refuse_filled(const RowOf& claim, std::initializer_list<const char*> columns) {
+  for (const char* column : columns) {
+    if (!claim.text(column).empty()) return fmt::format("{}: expected none", column);
+  }
+  return "";
+}
+
+/// The evaluations of a search are its own word, but for its budget, and those of its methods are
+/// among them.
+std::string refuse_effort(const Case& c, const RowOf& claim) {
+  const auto evaluations = claim.csv.whole<long>(claim.row, "evaluations");
+  if (!c.integrator.empty()) return "";
+  if (c.search.empty()) {
+    return evaluations == 1 && claim.text("calls").empty()
+               ? ""
+               : "evaluations: expected 1, and no calls, of what is given";
+  }
+  const long least = claim.text("beta").empty() ? 0 : 1;
+  if (evaluations < least || evaluations > c.budget) {
+    return fmt::format("evaluations: expected {} to {}", least, c.budget);
+  }
+  long called = 0;
+  std::istringstream calls(claim.text("calls"));
+  for (std::string call; std::getline(calls, call, ';');) {
+    std::istringstream words(call);
+    std::string method, status, more;
+    long count = 0, spent = 0;
+    if (!(words >> method >> status >> count >> spent) || words >> more || count < 1 || spent < 0) {
+      return "calls: expected a method, how it ended, how often, and its evaluations";
+    }
+    called += spent;
+  }
+  return called <= evaluations ? "" : "calls: expected no more evaluations than there are in all";
+}
+
+/// That its names are complete, exist and mean something together.
+std::string refuse_names(const Problem& problem, const Case& c) {
+  const Case complete = resolve(problem, c).choice;
+  if (complete.lp != c.lp) return fmt::format("lp: expected '{}'", complete.lp);
+  if (c.budget != complete.budget) return "budget: expected at least 1";
+  if (c.search.empty()) return "";
+  const std::vector<std::string> served = served_searches(problem, c.measure);
+  for (const SearchEntry* stage : find_search(c.search).stages) {
+    if (std::find(served.begin(), served.end(), stage->name) == served.end()) {
+      return fmt::format("search: got '{}', expected one that serves the task", stage->name);
+    }
+  }
+  return "";
+}
+
+/// What its words say: whether a row of this status can have a value, and what belongs to its task.
+std::string refuse_words(const Problem& problem, const Case& c, const RowOf& claim,
+                         bool has_value) {
+  if (claim.text("task_digest") != problem.digest) {
+    return "task_digest: expected '" + problem.digest + "', the digest of its files";
+  }
+  if (claim.text("label") != problem.label) return "label: expected '" + problem.label + "'";
+  if (claim.text("yardstick_unit") != problem.unit()) {
+    return fmt::format("yardstick_unit: expected '{}'", problem.unit());
+  }
+  const std::string& status = claim.text("status");
+  const Status of_value = !c.integrator.empty() ? Status::kReached
+                          : c.search.empty()    ? Status::kOptimal
+                                                : Status::kBestFound;
+  const bool interrupted = !c.search.empty() && claim.text("reason") == "interrupted";
+  const bool exhausted = status == to_string(Status::kBudgetExhausted);
+  if (has_value && !(interrupted ? exhausted : status == to_string(of_value))) {
+    return fmt::format("status: got '{}', expected '{}' beside a value", status,
+                       to_string(of_value));
+  }
+  if (has_value && c.integrator.empty() && !interrupted && !claim.text("reason").empty()) {
+    return "reason: expected none beside a value";
+  }
+  if (has_value) return "";
+  const std::string filled =
+      refuse_filled(claim, {"h", "u", "lambda", "balance", "bounds", "dual", "gap"});
+  if (!filled.empty()) return filled;
+  const bool known = std::any_of(std::begin(kNoValue), std::end(kNoValue),
+                                 [&](Status each) { return status == to_string(each); });
+  const bool of_search = status != to_string(Status::kInfeasible) && interrupted == exhausted;
+  if (!known || (!c.search.empty() && !of_search)) {
+    return fmt::format("status: got '{}' without a value", status);
+  }
+  return claim.text("reason").empty() ? "it has no value and no reason why" : "";
+}
+
+RowCheck compare(const Verdict& anew, double value, double beta) {
+  RowCheck check;
+  check.has_value = true;
+  check.deviation = std::abs(value - beta) / (1 + std::abs(beta));
+  if (anew.status != Status::kOptimal) {
+    check.refusal = fmt::format("its posture has no value: {}", anew.reason.str());
+  } else if (!(check.deviation <= kAnswerTolerance)) {
+    check.refusal = fmt::format("its posture has the value {:.9g}", value);
+  }
+  return check;
+}
+
+Problem with_scheme(const Problem& problem, const Case& c) {
+  Problem changed = problem;
+  if (problem.motion) set_scheme("scheme", c.scheme, changed);
+  return changed;
+}
+
+/// The posture of a row, evaluated.
+Answer posture_again(const Problem& problem, const Case& c, const RowOf& claim) {
+  const Eigen::VectorXd theta_r = claim.vector("theta_r");
+  if (theta_r.size() != problem.redundancy()) {
+    throw std::invalid_argument(
+        fmt::format("theta_r: got {} numbers, expected {}", theta_r.size(), problem.redundancy()));
+  }
+  return evaluate(problem, theta_r, {c});
+}
+
+/// The knots of a row, evaluated.
+Answer plan_again(const Problem& problem, const Case& c, const RowOf& claim) {
+  const Eigen::VectorXd x = claim.vector("theta_r");
+  const int r = problem.redundancy();
+  if (x.size() == 0 || r == 0 || x.size() % r != 0) {
+    throw std::invalid_argument(
+        fmt::format("theta_r: got {} numbers, expected some times {}", x.size(), r));
+  }
+  return evaluate(problem, unstacked(x, x.size() / r), {c});
+}
+
+std::string refuse_capability(const RowOf& claim, const Capability& capability) {
+  const Eigen::VectorXd h =
+      capability.w.size() > 0 ? Eigen::VectorXd(capability.h) : Eigen::VectorXd();
+  for (const auto& [column, numbers] : {std::pair<const char*, const Eigen::VectorXd&>("h", h),
+                                        {"u", capability.u},
+                                        {"lambda", capability.lambda}}) {
+    const std::string refusal = refuse_numbers(claim, column, numbers);
+    if (!refusal.empty()) return refusal;
+  }
+  return "";
+}
+
+/// Whether another posture at theta_r is worth as much, with the wrench, efforts and multipliers of
+/// the row: which of those that tie is taken hangs on rounding.
+bool has_tie(const Problem& problem, const Case& c, const RowOf& claim, const Answer& anew) {
+  PostureEvaluator model(problem);
+  const Eigen::VectorXd theta_r = claim.vector("theta_r");
+  model.evaluate(theta_r);
+  if (model.branches() < 2) return false;
+  const auto measure = resolve(problem, c).make_measure();
+  WrenchProgram program = make_wrench_program(problem, c.wrench);
+  Capability capability;
+  for (int branch = 0; branch < model.branches(); ++branch) {
+    const Posture& posture = model.select(branch);
+    if (posture.status != Status::kValid) continue;
+    set_posture(posture, program);
+    measure->evaluate(posture, program, true, capability);
+    const double off = std::abs(capability.beta - anew.beta());
+    if (capability.status == Status::kOptimal &&
+        off <= kAnswerTolerance * (1 + std::abs(anew.beta())) &&
+        refuse_capability(claim, capability).empty()) {
+      return true;
+    }
+  }
+  return false;
+}
+
+RowCheck check_posture(const Problem& problem, const Case& c, const RowOf& claim, double beta) {
+  const Answer anew = posture_again(problem, c, claim);
+  RowCheck check = compare(anew, anew.capability.beta, beta);
+  if (check.refusal.empty() && anew.unit != claim.text("unit")) {
+    check.refusal = fmt::format("unit: expected '{}'", anew.unit);
+  }
+  if (check.refusal.empty()) check.refusal = refuse_other(claim, "yardstick", anew.yardstick);
+  if (check.refusal.empty()) check.refusal = refuse_filled(claim, {"continuous"});
+  if (check.refusal.empty()) check.refusal = refuse_residual(claim, anew.residual(), beta);
+  if (!check.refusal.empty()) return check;
+  check.refusal = refuse_capability(claim, anew.capability);
+  if (!check.refusal.empty() && has_tie(problem, c, claim, anew)) check.refusal.clear();
+  // Which of several efforts and multipliers are optimal hangs on rounding: these prove themselves.
+  if (!check.refusal.empty() && c.measure == "linf_polytope" && !problem.contact) {
+    check.refusal = refuse_own(problem, anew, claim, beta);
+  }
+  return check;
+}
+
+RowCheck check_plan(const Problem& problem, const Case& c, const RowOf& claim, double value) {
+  const Answer anew = plan_again(problem, c, claim);
+  RowCheck check = compare(anew, anew.plan.value, value);
+  if (check.refusal.empty() && anew.unit != claim.text("unit")) {
+    check.refusal = fmt::format("unit: expected '{}'", anew.unit);
+  }
+  if (check.refusal.empty() && !claim.text("yardstick").empty()) {
+    check.refusal = "yardstick: expected none of a plan";
+  }
+  if (check.refusal.empty()) {
+    check.refusal = refuse_other(claim, "continuous", anew.plan.continuous);
+  }
+  if (check.refusal.empty()) check.refusal = refuse_filled(claim, {"h", "u", "lambda"});
+  if (check.refusal.empty()) check.refusal = refuse_residual(claim, anew.residual(), value);
+  return check;
+}
+
+/// By the experiment again, of whose steps a reading depends to their tolerance.
+RowCheck check_experiment(const Problem& problem, const Case& c, const RowOf& claim,
+                          double reading) {
+  const Answer anew = experiment(problem, {c});
+  const Eigen::VectorXd theta_r = claim.vector("theta_r");
+  RowCheck check;
+  check.has_value = true;
+  check.deviation = std::abs(anew.beta() - reading) / (1 + std::abs(reading));
+  if (!anew.has_value()) {
+    check.refusal = fmt::format("its experiment has no reading: {}", anew.reason.str());
+  } else if (!(check.deviation <= kSameReading)) {
+    check.refusal = fmt::format("its experiment has the reading {:.9g}", anew.beta());
+  } else if (anew.unit != claim.text("unit")) {
+    check.refusal = fmt::format("unit: expected '{}'", anew.unit);
+  } else if (anew.missed.empty() != claim.text("reason").empty()) {
+    check.refusal = fmt::format("reason: expected '{}'", anew.missed);
+  } else if (theta_r.size() != anew.plan.knots.size() || theta_r != stacked(anew.plan.knots)) {
+    check.refusal = "theta_r: expected the default of the task";
+  } else {
+    check.refusal = refuse_other(claim, "yardstick", anew.yardstick);
+  }
+  if (check.refusal.empty()) {
+    check.refusal = refuse_filled(
+        claim, {"continuous", "h", "u", "lambda", "balance", "bounds", "dual", "gap", "calls"});
+  }
+  return check;
+}
+
+/// Of a row without a value whose posture, plan or experiment was made again; no status of such a
+/// row is one of a value.
+std::string refuse_again(const Answer& anew, const RowOf& claim) {
+  const std::string status = to_string(anew.status);
+  if (status != claim.text("status")) return "status: expected '" + status + "'";
+  if (anew.reason.str() != claim.text("reason")) {
+    return "reason: expected '" + anew.reason.str() + "'";
+  }
+  const Eigen::VectorXd theta_r = claim.vector("theta_r"), knots = stacked(anew.plan.knots);
+  if (theta_r.size() != knots.size() || theta_r != knots) {
+    return "theta_r: expected '" + exact_text(knots) + "'";
+  }
+  return refuse_filled(claim, {"calls"});
+}
+
+/// What stands beside the value that there is not. Of a search that found nothing there is nothing.
+std::string refuse_beside(const Answer& anew, const RowOf& claim) {
+  if (anew.unit != claim.text("unit")) return fmt::format("unit: expected '{}'", anew.unit);
+  const std::string why = refuse_other(claim, "yardstick", anew.yardstick);
+  return !why.empty() ? why : refuse_other(claim, "continuous", anew.plan.continuous);
+}
+
+/// Whether a row that says why it has no value is right. A search is not made again: that it found
+/// nothing is its own word, but what it names as the best has no value indeed.
+std::string refuse_failure(const Problem& changed, const Case& c, const RowOf& claim) {
+  Answer anew;
+  if (!c.integrator.empty()) {
+    anew = experiment(changed, {c});
+  } else if (!c.search.empty() && claim.text("theta_r").empty()) {
+    // A search that an error ended knows no unit.
+    const bool failed = claim.text("status") == to_string(Status::kNumericalError);
+    anew.unit = failed && claim.text("unit").empty() ? "" : resolve(changed, c).unit;
+  } else {
+    anew = (changed.motion ? plan_again : posture_again)(changed, c, claim);
+  }
+  std::string why;
+  if (c.search.empty()) {
+    why = refuse_again(anew, claim);
+  } else if (anew.has_value()) {
+    why = fmt::format("beta: what it found has the value {:.9g}", anew.beta());
+  }
+  return !why.empty() ? why : refuse_beside(anew, claim);
+}
+
+RowCheck checked(const Problem& problem, const Case& c, const RowOf& claim) {
+  const std::optional<double> beta = claim.csv.number(claim.row, "beta");
+  const Problem changed = with_scheme(problem, c);
+  std::string refusal = refuse_words(changed, c, claim, beta.has_value());
+  if (refusal.empty()) refusal = refuse_names(changed, c);
+  if (refusal.empty()) refusal = refuse_effort(c, claim);
+  if (refusal.empty() && !beta) refusal = refuse_failure(changed, c, claim);
+  if (!beta || !refusal.empty()) return {refusal, beta.has_value(), 0};
+  const auto of_search = problem.motion ? check_plan : check_posture;
+  return (c.integrator.empty() ? of_search : check_experiment)(changed, c, claim, *beta);
+}
+
+}  // namespace
+
+RowCheck check_row(const Problem& problem, const CsvFile& csv, std::size_t row) {
+  try {
+    return checked(problem, case_of(csv, row), {csv, row});
+  } catch (const std::invalid_argument& error) {
+    return {error.what(), !csv.text(row, "beta").empty(), 0};
+  }
+}
+
+}  // namespace maxwrench

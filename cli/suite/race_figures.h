@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "benchmarks/race/comparison.h"
+#include "drawing/ecdf.h"
+
+namespace maxwrench {
+
+/// The share of targets that each search reached, against evaluations and against ms: of one
+/// problem, or of several together as one.
+std::vector<EcdfPanel> ecdf_panels(std::span<const Comparison> comparisons,
+                                   const std::string& title);
+
+}  // namespace maxwrench

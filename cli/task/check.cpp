@@ -1,0 +1,198 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "cli/cli.h"
+#include "lib/posture/ik/dependent_joints.h"
+#include "maxwrench/load.h"
+#include "maxwrench/posture.h"
+#include "solvers/solve/pieces.h"
+
+namespace maxwrench {
+namespace {
+
+constexpr int kSamples = 1000;
+
+std::string base_axes(const Robot& robot) {
+  std::vector<std::string> names;
+  for (const int axis : robot.base_axes) names.emplace_back(kTwistAxes[axis]);
+  return fmt::format("{{{}}}", fmt::join(names, ", "));
+}
+
+void print(const Robot& robot) {
+  const Zonotope& set = robot.actuation;
+  fmt::print("robot {}\n", robot.name);
+  fmt::print("  degrees of freedom {}: base {}, {} joints\n", robot.velocities(), base_axes(robot),
+             robot.joints.size());
+  fmt::print("  actuators {}: {} thrusters, {} joints\n", robot.actuators(), robot.thrusters.size(),
+             robot.joints.size());
+  fmt::print("  rank of B {} of {}\n", set.rank, set.dimension());
+  if (set.has_facets) {
+    fmt::print("  facet pairs of {{B u}} {}\n", set.facet_pairs());
+  } else {
+    fmt::print("  facet pairs of {{B u}} not enumerated: too many\n");
+  }
+  fmt::print("  end effectors");
+  for (const EndEffector& e : robot.end_effectors) {
+    fmt::print(" {} (on {})", e.name, robot.links[e.link].name);
+  }
+  fmt::print("\n  collision pairs {}\n", robot.collision ? robot.collision->pairs() : 0);
+  for (const Link& link : robot.links) {
+    fmt::print("  link {:<20} {:g} kg, displaces {:g} m^3", link.name, link.mass, link.volume);
+    const std::size_t bodies = link.hydrodynamics.size();
+    if (bodies > 0)
+      fmt::print(", added mass and drag of {} {}", bodies, bodies > 1 ? "bodies" : "body");
+    fmt::print("\n");
+  }
+  if (robot.trim.buoyancy_mass != 0) {
+    fmt::print("  trim lifts {:g} kg at [{:g}] m\n", robot.trim.buoyancy_mass,
+               fmt::join(robot.trim.position, ", "));
+  }
+  for (const Thruster& t : robot.thrusters) {
+    fmt::print("  thruster {:<16} {:g} .. {:g} N, {:g} N/s\n", t.name, t.force_min, t.force_max,
+               t.force_rate_max);
+  }
+  for (const Joint& j : robot.joints) {
+    const bool turns = j.type == JointType::kRevolute;
+    fmt::print("  joint {:<19} {:g} .. {:g} {}, effort {:g} {}\n", j.name, j.q_min, j.q_max,
+               turns ? "rad" : "m", j.effort_max, turns ? "N m" : "N");
+  }
+  for (const auto& [block, source] : robot.sources)
+    fmt::print("  source of {}: {}\n", block, source);
+}
+
+/// The base pose and the dependent joints, at the default of theta_r.
+void print_what_follows(const Problem& problem) {
+  PostureEvaluator model(problem);
+  const Posture& posture = model.evaluate(problem.theta_r_default);
+  Eigen::VectorXd q = posture.q;
+  if (problem.motion && !problem.dependent.empty()) {  // a plan begins on the guess's branch
+    DependentJoints branch(problem);
+    branch.follow(problem.theta_r_default);
+    q = branch.z().tail(q.size());
+  }
+  for (const int i : problem.dependent) {
+    const Joint& joint = problem.robot.joints[i];
+    const bool inside =
+        q[i] >= joint.q_min - kLimitTolerance && q[i] <= joint.q_max + kLimitTolerance;
+    fmt::print("  follows {:<17} {:g} .. {:g}, at the default {:g}{}\n", joint.name, joint.q_min,
+               joint.q_max, q[i], inside ? "" : ", beyond its limits");
+  }
+  fmt::print("  {}\n", problem.robot.base_axes.empty()
+                           ? "the base stands, these joints follow in all ways that reach the pose"
+                       : problem.dependent.empty()
+                           ? "the base pose follows in closed form"
+                           : "the base pose follows with these joints, in all ways that reach it");
+  fmt::print("  default posture: {}\n",
+             posture.status == Status::kValid ? "exists" : describe_violation(problem, posture));
+  const Sampled sampled = sample_postures(problem, kSamples);
+  fmt::print("  {} of {} random theta_r are valid; {}\n", sampled.valid, kSamples,
+             describe(sampled.postures));
+}
+
+std::string bounds(double low, double high) {
+  if (low == -kInfinity && high == kInfinity) return "any amount";
+  return fmt::format("{:g} .. {:g}", low, high);
+}
+
+void print(const Robot& robot, const Contact& contact) {
+  static constexpr std::array<const char*, 4> kSurfaces = {"point", "line", "plane", "circle"};
+  const EndEffector& tip = robot.end_effectors[static_cast<std::size_t>(contact.end_effector)];
+  std::vector<std::string> joints;
+  for (const int i : contact.follow)
+    joints.push_back(robot.joints[static_cast<std::size_t>(i)].name);
+  const Eigen::Vector3d inward = (1e9 * contact.frame.R.col(2)).array().round() / 1e9 + 0.0;
+  fmt::print(
+      "  second contact {}: {} at [{:g}] m, into the environment along [{:.3g}]; {} follow\n",
+      tip.name, kSurfaces[static_cast<std::size_t>(contact.surface)],
+      fmt::join(contact.frame.p, ", "), fmt::join(inward, ", "), fmt::join(joints, ", "));
+  if (contact.C.cols() == 0) fmt::print("  second contact exerts nothing\n");
+  for (Eigen::Index i = 0; i < contact.C.cols(); ++i) {
+    fmt::print("  second contact exerts [{:g}], {}\n",
+               fmt::join(Eigen::VectorXd(contact.C.col(i)), ", "),
+               bounds(contact.w_min[i], contact.w_max[i]));
+  }
+}
+
+std::string at_pose(const Pose<double>& pose) {
+  const Eigen::Vector3d turn = logarithm(pose.R);
+  const auto tidy = [](const Eigen::Vector3d& a) {
+    return Eigen::Vector3d((1e9 * a).array().round() / 1e9 + 0.0);
+  };
+  return fmt::format("[{:.6g}] m, rotation vector [{:.6g}] rad", fmt::join(tidy(pose.p), ", "),
+                     fmt::join(tidy(turn), ", "));
+}
+
+/// Of a task in time.
+void print(const MotionTask& motion) {
+  fmt::print("  {} of {:g} s, {} knots of theta_r, scheme {}",
+             motion.impulse ? "impulse" : "trajectory", motion.T, motion.k,
+             to_string(motion.scheme));
+  if (motion.scheme == Scheme::kSpline) {
+    fmt::print(", {} instants per interval", motion.instants_per_interval);
+  }
+  fmt::print("; the limits of the rates of efforts {}\n", motion.rates ? "hold" : "do not hold");
+  if (motion.impulse) {
+    fmt::print("  peak at knot {}, start {} at theta_r [{:g}]\n",
+               motion.t_h > 0 ? fmt::format("{}", motion.t_h) : "best", to_string(motion.start),
+               fmt::join(motion.theta_0, ", "));
+    return;
+  }
+  fmt::print("  path from {}\n       to   {}", at_pose(motion.path.pose(0)),
+             at_pose(motion.path.pose(motion.T)));
+  if (motion.path.angle() != 0) fmt::print(", turned by {:g} rad", motion.path.angle());
+  fmt::print("\n  c {}\n", motion.c_turns ? "turns with the end effector" : "stays in the world");
+}
+
+void print(const Problem& problem) {
+  fmt::print("task {}{}\n", problem.name,
+             problem.label.empty() ? "" : fmt::format(" ({})", problem.label));
+  fmt::print("  end effector {}, c = [{:g}] in [force; torque], beta in {}\n",
+             problem.robot.end_effectors[problem.end_effector].name, fmt::join(problem.c, ", "),
+             problem.unit());
+  if (problem.motion) print(*problem.motion);
+  if (problem.free.count() > 0) {
+    fmt::print("  pose free along {}; c {}\n",
+               problem.free.along_tool ? "the end effector's axes" : "its own axes",
+               problem.free.wrench_turns ? "turns with the end effector" : "stays in the world");
+  }
+  fmt::print("  wrench any: {} columns; reference {:g} {}, desired [{:g}]\n", problem.W_any.cols(),
+             problem.reference, problem.unit(), fmt::join(problem.desired, ", "));
+  fmt::print("  redundancy {}\n", problem.redundancy());
+  for (int i = 0; i < problem.redundancy(); ++i) {
+    fmt::print("  theta_r {:<17} {:g} .. {:g}, default {:g}\n", problem.theta_r_name(i),
+               problem.theta_r_min[i], problem.theta_r_max[i], problem.theta_r_default[i]);
+  }
+  print_what_follows(problem);
+  if (problem.contact) print(problem.robot, *problem.contact);
+  if (!problem.source.empty()) fmt::print("  source: {}\n", problem.source);
+  print(problem.robot);
+}
+
+/// FILE is a robot file, a task file or the name of a shipped problem.
+void check(const std::string& file) {
+  const std::vector<std::string> shipped = shipped_problems();
+  if (std::find(shipped.begin(), shipped.end(), file) != shipped.end() || is_task(file)) {
+    print(load_problem(file));
+  } else {
+    print(load_robot(file));
+  }
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, int& exit_status) {
+  auto file = std::make_shared<std::string>();
+  CLI::App& command =
+      *app.add_subcommand("check", "what a robot or task file says, or what is wrong");
+  command.add_option("file", *file, "robot or task file, or a shipped problem")->required();
+  command.callback([file, &exit_status] {
+    check(*file);
+    exit_status = kAnswered;
+  });
+}
+
+}  // namespace maxwrench

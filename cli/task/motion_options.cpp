@@ -1,0 +1,86 @@
+#include "cli/task/motion_options.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <filesystem>
+#include <stdexcept>
+
+#include "cli/cli.h"
+#include "maxwrench/load.h"
+#include "maxwrench/plan.h"
+#include "solvers/solve/method.h"
+
+namespace maxwrench {
+namespace {
+
+[[noreturn]] void refuse_option(const char* option, const std::string& got,
+                                const std::string& expected) {
+  throw std::invalid_argument(fmt::format("{}: got '{}', expected {}", option, got, expected));
+}
+
+void change_peak(const Problem& problem, const std::string& text, MotionTask& task) {
+  if (!task.impulse) {
+    refuse_option("--t-h", text, fmt::format("none for a {}: it has no peak", problem.type()));
+  }
+  int knot = 0;
+  const char* end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, knot);
+  const bool whole = read.ec == std::errc() && read.ptr == end;
+  if (text != "best" && !(whole && knot >= 1 && knot <= task.k)) {
+    refuse_option("--t-h", text, fmt::format("a knot of 1 to k = {}, or best", task.k));
+  }
+  task.t_h = knot;
+}
+
+/// Whether the text begins as a number does, and no name of a file.
+bool is_number(const std::string& text) {
+  const std::size_t first = text.find_first_not_of("+-.");
+  return text.empty() || text.find(',') != std::string::npos ||
+         (first != std::string::npos && text.find_first_not_of("0123456789.+-eE") > text.size());
+}
+
+}  // namespace
+
+void MotionOptions::add(CLI::App& app) {
+  app.add_option("--scheme", scheme, "how knots become motion, of a task in time");
+  app.add_option("--t-h", t_h, "the knot of a heave's peak, or best");
+}
+
+void MotionOptions::change(Problem& problem) const {
+  if (problem.motion) {
+    if (scheme) set_scheme("--scheme", *scheme, problem);
+    if (t_h) change_peak(problem, *t_h, *problem.motion);
+    return;
+  }
+  const std::string expected = fmt::format("none: {} is a static task", problem.name);
+  if (scheme) refuse_option("--scheme", *scheme, expected);
+  if (t_h) refuse_option("--t-h", *t_h, expected);
+}
+
+void add_theta_r(CLI::App& app, std::optional<std::string>& theta_r) {
+  app.add_option("--theta-r", theta_r,
+                 "redundant coordinates, separated by commas (default: those of the task); of a "
+                 "task in time they hold throughout, or a CSV file has a row for each knot");
+}
+
+Eigen::MatrixXd knots_of(const Problem& problem, const std::optional<std::string>& text) {
+  std::error_code ignored;
+  const bool numbers = text && !std::filesystem::exists(*text, ignored) && is_number(*text);
+  if (text && !numbers) return load_knots(*text, problem);
+  const Eigen::VectorXd theta_r = theta_r_of(problem, text);
+  if (theta_r.size() != problem.redundancy()) {
+    refuse_option("--theta-r", *text,
+                  fmt::format("{} numbers or a file of k = {} rows", problem.redundancy(),
+                              problem.motion->k));
+  }
+  return constant_knots(problem, theta_r);
+}
+
+std::vector<double> telling_times(const MotionTask& task, const Plan& plan) {
+  const int t_h = task.t_h > 0 ? task.t_h : plan.t_h;
+  const double middle = task.impulse && t_h > 0 ? task.T * t_h / task.k : task.T / 2;
+  return {0, middle, task.T};
+}
+
+}  // namespace maxwrench

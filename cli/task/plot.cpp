@@ -1,0 +1,78 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "benchmarks/tables/write_file.h"
+#include "cli/cli.h"
+#include "cli/output.h"
+#include "cli/task/motion_options.h"
+#include "maxwrench/figures.h"
+#include "maxwrench/load.h"
+#include "maxwrench/plan.h"
+#include "maxwrench/posture.h"
+#include "maxwrench/strategies.h"
+
+namespace maxwrench {
+namespace {
+
+struct PlotOptions {
+  std::string problem, out;
+  std::optional<std::string> theta_r;
+  MotionOptions motion;
+};
+
+/// Nothing, with a line on stderr, if there is no such posture.
+std::optional<std::string> draw_static(const Problem& problem, const PlotOptions& options) {
+  const Eigen::VectorXd theta_r = theta_r_of(problem, options.theta_r);
+  PostureEvaluator model(problem);
+  const Posture& posture = model.evaluate(theta_r);
+  if (posture.status != Status::kValid) {
+    fmt::print(stderr, "{}: {}\n", to_string(posture.status), describe_violation(problem, posture));
+    return {};
+  }
+  return figure(problem, {{problem.name, theta_r}});
+}
+
+/// The same of a plan: its start, its middle (of a heave the peak) and its end.
+std::optional<std::string> draw_plan(const Problem& problem, const PlotOptions& options) {
+  PlanEvaluator evaluator(problem, Wrench::kPure, plan_solvers().front().make);
+  const Plan& plan = evaluator.evaluate(knots_of(problem, options.theta_r));
+  if (plan.status == Status::kInvalidPosture) {
+    fmt::print(stderr, "{}: {}\n", to_string(plan.status), plan.reason.c_str());
+    return {};
+  }
+  return plan_figure(problem, plan, telling_times(*problem.motion, plan));
+}
+
+/// Status 1 if there is no such posture: another one in its place would mislead.
+int plot(const PlotOptions& options) {
+  require_apart({{"problem", options.problem}, {"--theta-r", options.theta_r.value_or("")}},
+                {{"--out", options.out}});
+  Problem problem = load_problem(options.problem);
+  options.motion.change(problem);
+  const std::optional<std::string> drawn =
+      problem.motion ? draw_plan(problem, options) : draw_static(problem, options);
+  if (!drawn) return kOtherStatus;
+  const std::string& svg = *drawn;
+  if (options.out.empty()) {
+    fmt::print("{}", svg);
+  } else {
+    write_file(options.out, svg);
+  }
+  return kAnswered;
+}
+
+}  // namespace
+
+void add_plot(CLI::App& app, int& exit_status) {
+  auto options = std::make_shared<PlotOptions>();
+  CLI::App& command = *app.add_subcommand(
+      "plot", "draw a posture with its wrench sets, or the postures of a plan, as SVG");
+  command.add_option("problem", options->problem, "shipped name or task file")->required();
+  add_theta_r(command, options->theta_r);
+  options->motion.add(command);
+  command.add_option("--out", options->out, "file to write (default: stdout)")->check(refuse_empty);
+  command.callback([options, &exit_status] { exit_status = plot(*options); });
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,161 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "benchmarks/tables/write_file.h"
+#include "cli/output.h"
+#include "cli/task/simulate.h"
+#include "maxwrench/figures.h"
+#include "maxwrench/plan.h"
+#include "maxwrench/strategies.h"
+#include "maxwrench/tank.h"
+#include "maxwrench/version.h"
+#include "solvers/solve/tank.h"
+
+namespace maxwrench {
+namespace {
+
+/// The plan, and its experiment.
+struct MotionAnswer : PlanExperiment {
+  Plan plan;
+};
+
+void require_motion_options(const Problem& problem, const SimulateOptions& options) {
+  for (const char* option : {"--ramp", "--hold", "--load", "--heaviest"}) {
+    if (options.command->get_option(option)->count() == 0) continue;
+    throw std::invalid_argument(fmt::format("{}: got {} {}, expected a static task", option,
+                                            problem.motion->impulse ? "an" : "a", problem.type()));
+  }
+  if (options.choice.measure != "linf_polytope") {
+    throw std::invalid_argument("--measure: got " + options.choice.measure +
+                                ", expected linf_polytope for a task in time");
+  }
+}
+
+Interpolation interpolation_of(const Problem& problem, const SimulateOptions& options) {
+  if (!options.interpolation) return usual_interpolation(problem);
+  const Interpolation chosen = parse_interpolation(*options.interpolation);
+  if (chosen == Interpolation::kSpline && problem.motion->k < 2 && !problem.motion->impulse) {
+    throw std::invalid_argument("--interpolation: got spline for k = 1, expected linear");
+  }
+  return chosen;
+}
+
+MotionAnswer answer_of(const Problem& problem, const SimulateOptions& options) {
+  const Wrench wrench = options.read_options().wrench;
+  const PlanSolverEntry& lp =
+      options.choice.lp.empty() ? plan_solvers().front() : find_plan_solver(options.choice.lp);
+  ScriptOptions script;
+  script.interpolation = interpolation_of(problem, options);
+  script.planned = options.planned;
+  script.margin = options.tank.margin;
+  PlanEvaluator evaluator(problem, wrench, lp.make);
+  evaluator.evaluate(knots_of(problem, options.theta_r));
+  if (evaluator.plan().status == Status::kOptimal) evaluator.evaluate_continuous();
+  const Plan& plan = evaluator.plan();
+  return {simulate_plan(problem, plan, wrench, lp, script, options.integrator, options.tank), plan};
+}
+
+/// What was measured; null where nothing was.
+void add_measured(const TankRun& run, nlohmann::ordered_json& object) {
+  const bool ran = !run.samples.empty();
+  const TankSummary& s = run.summary;
+  const MotionSummary m = s.motion.value_or(MotionSummary{});
+  for (const auto& [key, value] :
+       {std::pair("mean", s.mean), std::pair("low", s.low), std::pair("t_low", m.t_low),
+        std::pair("high", s.high), std::pair("t_high", m.t_high), std::pair("at_t_h", m.at_peak),
+        std::pair("deviation", m.deviation), std::pair("stray_force", m.stray_force),
+        std::pair("stray_torque", m.stray_torque), std::pair("drift", s.drift),
+        std::pair("moved", s.moved), std::pair("position_error", s.position_error),
+        std::pair("displaced", s.displaced), std::pair("saturated", s.saturated),
+        std::pair("relaxed", s.relaxed), std::pair("shortfall", s.shortfall),
+        std::pair("violation", s.violation), std::pair("speed", m.speed)}) {
+    object[key] = ran ? value : std::nan("");
+  }
+  object["violations"] = m.violations;
+  object["held"] = s.held;
+  object["missed"] = s.missed;
+  object["end"] = ran ? run.samples.back().t : 0;
+}
+
+void print_motion_object(const Problem& problem, const SimulateOptions& options,
+                         const MotionAnswer& answer) {
+  nlohmann::ordered_json object = {{"problem", problem.name},
+                                   {"integrator", options.integrator},
+                                   {"status", to_string(answer.run.status)},
+                                   {"reason", answer.run.reason.str()},
+                                   {"unit", problem.unit()},
+                                   {"scheme", to_string(problem.motion->scheme)},
+                                   {"interpolation", to_string(answer.script.interpolation)},
+                                   {"wrench", to_string(answer.script.wrench)},
+                                   {"value", answer.plan.value},
+                                   {"continuous", answer.plan.continuous},
+                                   {"planned", answer.script.planned},
+                                   {"asked", (1 - answer.script.margin) * answer.script.planned},
+                                   {"slack", answer.script.slack},
+                                   {"t_h", answer.script.t_h}};
+  add_measured(answer.run, object);
+  object["wall_s"] = answer.run.total_s;
+  object["version"] = version();
+  print_json(object);
+}
+
+void print_motion_reading(const MotionAnswer& answer) {
+  const TankSummary& s = answer.run.summary;
+  const MotionSummary& m = *s.motion;
+  if (std::isfinite(answer.script.t_h)) {
+    fmt::print("peak        {:.5f} at t_h = {:g} s, highest {:.5f} at {:g} s\n", m.at_peak,
+               answer.script.t_h, s.high, m.t_high);
+  } else {
+    fmt::print("reading     {:.5f}, least {:.5f} at {:g} s, most {:.5f} at {:g} s\n", s.mean, s.low,
+               m.t_low, s.high, m.t_high);
+  }
+  fmt::print("deviation   {:.3g} along c, {:.2g} N and {:.2g} N m across\n", m.deviation,
+             m.stray_force, m.stray_torque);
+  fmt::print("drift       {:.2g} rad from theta_r, {:.2g} of all joints and the base\n", s.drift,
+             s.moved);
+  fmt::print("displaced   {:.2g} m or rad from where the end effector is held\n", s.displaced);
+  fmt::print("efforts     saturated {:.0f} %, request relaxed {:.0f} % of the time, lack {:.2g}\n",
+             100 * s.saturated, 100 * s.relaxed, s.shortfall);
+  fmt::print("limits      left by {:.2g}, those of joint speeds by {:.2g}; {} of {} samples\n",
+             s.violation, m.speed, m.violations, answer.run.samples.size());
+}
+
+void print_motion_text(const Problem& problem, const SimulateOptions& options,
+                       const MotionAnswer& answer) {
+  const TankRun& run = answer.run;
+  fmt::print("{}  virtual tank  integrator {}  scheme {}  interpolation {}\n", problem.name,
+             options.integrator, to_string(problem.motion->scheme),
+             to_string(answer.script.interpolation));
+  if (std::isfinite(answer.plan.value)) {
+    fmt::print("plan        value {:.5f}, continuous {}\n", answer.plan.value,
+               std::isfinite(answer.plan.continuous)
+                   ? fmt::format("{:.5f} {}", answer.plan.continuous, problem.unit())
+                   : "none: " + answer.plan.continuous_reason.str());
+  }
+  if (std::isfinite(answer.script.planned)) {
+    fmt::print("planned     {:.5f} {}\n", answer.script.planned, problem.unit());
+  }
+  if (!run.samples.empty()) print_motion_reading(answer);
+  print_end(run);
+}
+
+}  // namespace
+
+int simulate_motion(const Problem& problem, const SimulateOptions& options) {
+  require_motion_options(problem, options);
+  const MotionAnswer answer = answer_of(problem, options);
+  if (!options.out.empty() && answer.script.status == Status::kOptimal) {
+    write_file(options.out, tank_csv(problem, answer.run));
+  }
+  (options.json ? print_motion_object : print_motion_text)(problem, options, answer);
+  // Last: it refuses an experiment without samples, whose answer stands even so.
+  if (!options.figure.empty() && answer.script.status == Status::kOptimal) {
+    write_file(options.figure, motion_figure(problem, {{problem.name, &answer.run}}));
+  }
+  return answer.run.status == Status::kReached ? kAnswered : kOtherStatus;
+}
+
+}  // namespace maxwrench

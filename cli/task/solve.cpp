@@ -1,0 +1,59 @@
+#include "maxwrench/solve.h"
+
+#include <memory>
+
+#include "benchmarks/tables/write_file.h"
+#include "cli/cli.h"
+#include "cli/ctrl_c.h"
+#include "cli/output.h"
+#include "cli/progress.h"
+#include "cli/task/motion_options.h"
+#include "maxwrench/load.h"
+
+namespace maxwrench {
+namespace {
+
+struct SolveOptions : CommonOptions {
+  MotionOptions motion;
+  std::string out;
+};
+
+int solve(const SolveOptions& options, const Problem& problem) {
+  Options how = options.read_options();
+  static_cast<Case&>(how) = with_search(problem, how);
+  Progress progress("solve", static_cast<double>(how.budget));
+  CtrlC ctrl_c;
+  how.progress = progress.counter();
+  how.interrupted = ctrl_c.asked();
+  const Answer answer = solve(problem, how);
+  progress.finish();
+  if (!options.out.empty() && answer.has_posture()) {
+    write_file(options.out, knots_csv(problem, answer.plan.knots));
+  }
+  return report(answer, options.json);
+}
+
+}  // namespace
+
+void add_solve(CLI::App& app, int& exit_status) {
+  auto options = std::make_shared<SolveOptions>();
+  CLI::App& command =
+      *app.add_subcommand("solve", "search the posture or plan with the largest capability");
+  options->add_case(command);
+  options->add_search(command);
+  options->motion.add(command);
+  options->add_threads(command);
+  options->add_json(command);
+  command.add_option("--out", options->out, "table of theta_r to write, as a CSV file")
+      ->check(refuse_empty);
+  command.callback([options, &exit_status] {
+    Problem problem = load_problem(options->choice.problem);
+    options->motion.change(problem);
+    require_apart({{"problem", options->choice.problem},
+                   {"path.file", problem.motion ? problem.motion->path_file : ""}},
+                  {{"--out", options->out}});
+    exit_status = solve(*options, problem);
+  });
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,253 @@
+#include "lib/posture/ik/continuation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "lib/math/complex.h"
+
+namespace maxwrench {
+namespace {
+
+/// The first correction after a step [rad or m]: at most, and what the next step should meet.
+constexpr double kLongestCorrection = 0.1;
+constexpr double kGoodCorrection = 0.02;
+/// A further correction is this share of the one before at most.
+constexpr double kContraction = 0.25;
+/// Corrections below this end Newton's method on the way, and at its end.
+constexpr double kCloseEnough = 1e-4;
+constexpr double kLastCorrection = 1e-13;
+/// One that may grow no smaller near a singular posture.
+constexpr double kSmallCorrection = 1e-6;
+/// The error of an answer [rad, m], as a share of the largest of 1, J_d and the distance of the
+/// pose.
+constexpr double kLeastError = 1e-12;
+constexpr int kMostCorrections = 8;
+/// A way in steps shorter than this share of what is left of it, or in more steps, fails: what lies
+/// just beyond its end does not hold it up, as the fold beyond which a pair of postures is gone.
+constexpr double kShortestShare = 1e-5;
+constexpr int kMostWaySteps = 2000;
+constexpr double kLongestShare = 0.5;
+/// Where a solution counts as gone to infinity: an imaginary part of an angle [rad], whose sinh is
+/// beyond all use, or a distance [m].
+constexpr double kInfiniteAngle = 20;
+constexpr double kInfinitePlace = 1e6;
+
+}  // namespace
+
+template <class T>
+double largest(const Six<T>& y, int d) {
+  double most = 0;
+  for (int i = 0; i < d; ++i) {
+    const double size = magnitude(y[static_cast<std::size_t>(i)]);
+    if (std::isnan(size)) return size;
+    most = std::max(most, size);
+  }
+  return most;
+}
+
+template <class T>
+void Elimination<T>::factor(const Six<Vector6<T>>& J_d, int d) {
+  d_ = d;
+  smallest_ = kInfinity;
+  largest_ = 0;
+  for (int i = 0; i < 6; ++i) {
+    from_[i] = i;
+    for (int j = 0; j < d; ++j) rows_[i][j] = J_d[j][i];
+  }
+  for (int k = 0; k < d; ++k) {
+    int best = k;
+    for (int i = k + 1; i < 6; ++i) {
+      if (magnitude(rows_[i][k]) > magnitude(rows_[best][k])) best = i;
+    }
+    std::swap(rows_[k], rows_[best]);
+    std::swap(from_[k], from_[best]);
+    const double pivot = magnitude(rows_[k][k]);
+    smallest_ = std::min(smallest_, pivot);
+    largest_ = std::max(largest_, pivot);
+    inverse_pivots_[k] = T(1.0) / rows_[k][k];
+    for (int i = k + 1; i < 6; ++i) {
+      const T factor = rows_[i][k] * inverse_pivots_[k];
+      rows_[i][k] = factor;
+      for (int j = k + 1; j < d; ++j) rows_[i][j] -= factor * rows_[k][j];
+    }
+  }
+}
+
+template <class T>
+Six<T> Elimination<T>::solve(const Vector6<T>& b) const {
+  Six<T> y{};
+  for (int i = 0; i < d_; ++i) {
+    T sum = b[from_[i]];
+    for (int j = 0; j < i; ++j) sum -= rows_[i][j] * y[j];
+    y[i] = sum;
+  }
+  for (int i = d_ - 1; i >= 0; --i) {
+    for (int j = i + 1; j < d_; ++j) y[i] -= rows_[i][j] * y[j];
+    y[i] *= inverse_pivots_[i];
+  }
+  return y;
+}
+
+template <class T>
+Continuation<T>::Continuation(const ToolChain& chain)
+    : chain_(chain), d_(chain.unknowns()), r_(chain.parameters()), theta_r_(r_), rate_(r_) {}
+
+/// theta_r, X and their rates at s.
+template <class T>
+void Continuation<T>::place(const Way<T>& way, double s) {
+  for (int k = 0; k < r_; ++k) {
+    const T length = way.to[k] - way.from[k];
+    theta_r_[k] = way.from[k] + length * s + way.bend[k] * (s * (1 - s));
+    rate_[k] = length + way.bend[k] * (1 - 2 * s);
+    if (s == 1) theta_r_[k] = way.to[k];
+  }
+  if (!way.moves_pose) return;
+  Six<T> y{}, y_rate{};
+  for (int i = 0; i < d_; ++i) {
+    y_rate[i] = way.y_to[i] - way.y_from[i];
+    y[i] = s == 1 ? way.y_to[i] : way.y_from[i] + y_rate[i] * s;
+  }
+  chain_.evaluate(theta_r_.data(), y.data(), rate_.data(), y_rate.data(), reference_);
+  pose_ = reference_.pose;
+  twist_ = reference_.twist;
+}
+
+/// Fills state_, error_ and J_d_ at y; the largest of the error.
+template <class T>
+double Continuation<T>::linearise(const Six<T>& y) {
+  chain_.evaluate(theta_r_.data(), y.data(), rate_.data(), static_cast<const T*>(nullptr), state_);
+  error_.template head<3>() = pose_.p - state_.pose.p;
+  Vector3<T> turn;
+  turn.setConstant(T(0.0));
+  for (int k = 0; k < 3; ++k) turn += state_.pose.R.col(k).cross(pose_.R.col(k));
+  error_.template tail<3>() = turn * 0.5;
+  J_d_.factor(state_.J, d_);
+  Six<T> error;
+  std::copy(error_.begin(), error_.end(), error.begin());
+  return largest(error, 6);
+}
+
+/// What rounding leaves of the error.
+template <class T>
+double Continuation<T>::least_error() const {
+  double far = 1;
+  for (int i = 0; i < 3; ++i) far = std::max(far, magnitude(pose_.p[i]));
+  // Cosines of complex angles grow without bound.
+  for (int j = 0; j < d_; ++j) {
+    for (const T& entry : state_.J[static_cast<std::size_t>(j)]) {
+      far = std::max(far, magnitude(entry));
+    }
+  }
+  return kLeastError * far;
+}
+
+/// Newton's method from y; `first` is the length of its first correction.
+template <class T>
+bool Continuation<T>::contract(Six<T>& y, bool exact, double& first) {
+  double last = kInfinity;
+  for (int i = 0; i < kMostCorrections; ++i) {
+    linearise(y);
+    const Six<T> dy = J_d_.solve(error_);
+    const double length = largest(dy, d_);
+    if (i == 0) first = length;
+    if (!(length <= kLongestCorrection)) return false;
+    if (i > 0 && length > std::max(kContraction * last, kLastCorrection)) {
+      // At rounding nothing contracts any more.
+      return exact && last <= kSmallCorrection && linearise(y) <= least_error();
+    }
+    for (int j = 0; j < d_; ++j) y[j] += dy[j];
+    last = length;
+    if (!exact && length <= kCloseEnough) return true;
+    if (length <= kLastCorrection) return linearise(y) <= least_error();
+  }
+  return false;
+}
+
+/// dy/ds where `linearise` saw y last.
+template <class T>
+Six<T> Continuation<T>::tangent() {
+  return J_d_.solve(twist_ - state_.twist);
+}
+
+template <class T>
+bool Continuation<T>::is_finite(const Six<T>& y) const {
+  for (int i = 0; i < d_; ++i) {
+    const bool inside = chain_.turns(i) ? std::abs(imaginary_part(y[i])) < kInfiniteAngle
+                                        : magnitude(y[i]) < kInfinitePlace;
+    if (!inside) return false;
+  }
+  return true;
+}
+
+template <class T>
+bool Continuation<T>::follow(const Way<T>& way, Six<T>& y) {
+  twist_.setConstant(T(0.0));
+  pose_ = way.pose;
+  place(way, 0);
+  linearise(y);
+  Six<T> slope = tangent(), before{};
+  double s = 0, step = 0.1, last_step = 0;
+  for (int i = 0; i < kMostWaySteps; ++i) {
+    const double next = s + step > 1 - 1e-9 ? 1 : s + step;
+    const double h = next - s;
+    const double curve = last_step > 0 ? h / (2 * last_step) : 0;
+    Six<T> trial{};
+    for (int j = 0; j < d_; ++j) {
+      trial[j] = y[j] + (slope[j] + (slope[j] - before[j]) * curve) * h;
+    }
+    place(way, next);
+    double first = kInfinity;
+    const bool arrived = contract(trial, next == 1, first) && is_finite(trial);
+    if (!arrived) {
+      step = h / 4;
+      if (step < kShortestShare * (1 - s)) return false;
+      continue;
+    }
+    y = trial;
+    if (next == 1) return true;
+    before = slope;
+    slope = tangent();
+    s = next;
+    last_step = h;
+    const double growth = std::cbrt(kGoodCorrection / std::max(first, 1e-9));
+    step = std::min(kLongestShare, h * std::clamp(growth, 0.5, 3.0));
+  }
+  return false;
+}
+
+template <class T>
+bool Continuation<T>::correct(const VectorX<T>& theta_r, const Pose<T>& pose, Six<T>& y) {
+  theta_r_ = theta_r;
+  rate_.setConstant(T(0.0));
+  pose_ = pose;
+  double first = 0;
+  return contract(y, true, first);
+}
+
+template <class T>
+bool Continuation<T>::seek(const VectorX<T>& theta_r, const Pose<T>& pose, Six<T>& y) {
+  constexpr int kMostSeekSteps = 50;
+  constexpr double kLongest = 0.5;
+  theta_r_ = theta_r;
+  rate_.setConstant(T(0.0));
+  pose_ = pose;
+  for (int i = 0; i < kMostSeekSteps && is_finite(y); ++i) {
+    linearise(y);
+    const Six<T> dy = J_d_.solve(error_);
+    const double length = largest(dy, d_);
+    const double share = length > kLongest ? kLongest / length : 1;
+    for (int j = 0; j < d_; ++j) y[j] += dy[j] * share;
+    if (length < kCloseEnough) return correct(theta_r, pose, y);
+  }
+  return false;
+}
+
+template class Elimination<double>;
+template class Elimination<Complex>;
+template class Continuation<double>;
+template class Continuation<Complex>;
+template double largest(const Six<double>&, int);
+template double largest(const Six<Complex>&, int);
+
+}  // namespace maxwrench

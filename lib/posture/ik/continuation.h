@@ -1,0 +1,75 @@
+#pragma once
+
+#include "lib/posture/ik/tool_chain.h"
+
+namespace maxwrench {
+
+/// J_d y = b for J_d 6×d of full rank and b in its range, by elimination with exchanges of rows.
+template <class T>
+class Elimination {
+ public:
+  void factor(const Six<Vector6<T>>& J_d, int d);
+  /// Whether a pivot is smaller than this share of the largest.
+  bool is_singular(double threshold) const { return !(smallest_ > threshold * largest_); }
+  Six<T> solve(const Vector6<T>& b) const;
+
+ private:
+  std::array<Six<T>, 6> rows_;  ///< L below the diagonal, U on it and above
+  std::array<int, 6> from_;     ///< where each row stood
+  Six<T> inverse_pivots_;
+  int d_ = 0;
+  double smallest_ = 0, largest_ = 0;
+};
+
+/// A way of (theta_r, X), 0 <= s <= 1: theta_r(s) = from + s (to - from) + s (1 - s) bend, and X(s)
+/// either stays or is where the end effector is at theta_r(s) and y_from + s (y_to - y_from).
+template <class T>
+struct Way {
+  VectorX<T> from, to, bend;
+  bool moves_pose = false;
+  Pose<T> pose;  ///< unless it moves
+  Six<T> y_from{}, y_to{};
+};
+
+/// Carries a solution y of X_e(theta_r, y) = X along a way: a step along the polynomial of second
+/// order through the last two tangents, then Newton's method, whose first correction must be small
+/// and whose next ones must contract, else the step is quartered.
+template <class T>
+class Continuation {
+ public:
+  /// The chain outlives this.
+  explicit Continuation(const ToolChain& chain);
+  explicit Continuation(const ToolChain&&) = delete;
+
+  /// Carries y from s = 0 to 1, to rounding; false if that would need too short steps, as where
+  /// solutions meet or go to infinity.
+  bool follow(const Way<T>& way, Six<T>& y);
+  /// Newton's method at a place, from close by: whether it arrives.
+  bool correct(const VectorX<T>& theta_r, const Pose<T>& pose, Six<T>& y);
+  /// Newton's method from anywhere.
+  bool seek(const VectorX<T>& theta_r, const Pose<T>& pose, Six<T>& y);
+  /// Whether J_d is singular where the last success ended.
+  bool is_singular(double threshold) const { return J_d_.is_singular(threshold); }
+
+ private:
+  void place(const Way<T>& way, double s);
+  double linearise(const Six<T>& y);
+  bool contract(Six<T>& y, bool exact, double& first);
+  Six<T> tangent();
+  bool is_finite(const Six<T>& y) const;
+  double least_error() const;
+
+  const ToolChain& chain_;
+  const int d_, r_;
+  VectorX<T> theta_r_, rate_;
+  Pose<T> pose_;
+  Vector6<T> twist_, error_;
+  ToolState<T> state_, reference_;
+  Elimination<T> J_d_;
+};
+
+/// The largest magnitude of a y_i.
+template <class T>
+double largest(const Six<T>& y, int d);
+
+}  // namespace maxwrench

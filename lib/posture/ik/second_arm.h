@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+
+#include "lib/posture/ik/contact_arm.h"
+#include "maxwrench/posture.h"
+
+namespace maxwrench {
+
+/// The second arm of a problem with a second contact: the branches that reach the contact, and how
+/// f(theta_r) changes through them.
+class SecondArm {
+ public:
+  /// Keeps a reference to the problem.
+  explicit SecondArm(const Problem& problem);
+  explicit SecondArm(const Problem&& problem) = delete;
+
+  /// The contact at the regrasp coordinates at the end of theta_r.
+  void touch(const Eigen::VectorXd& theta_r);
+  /// All branches that reach it from the base. Returns their number.
+  int reach(const Pose<double>& base);
+  /// Whether branch i is within the limits of its joints.
+  bool within_limits(int i) const;
+  /// Writes branch i into q.
+  void place(int i, Eigen::VectorXd& q) const;
+
+  const Pose<double>& contact() const { return pose_; }
+  const Matrix6Xd& C_2() const { return C_2_; }
+
+  /// Seeds of all velocities about the first end effector, at p_e in the world: J_seed for the
+  /// velocities that move it, and the seed [a; b] of a column of J_2, at r = p_2 - p_e, counts as
+  /// [a; b + r × a].
+  const Matrix6Xd& shifted_seeds(const Eigen::Vector3d& p_e, const Matrix6Xd& J_seed,
+                                 const Matrix6Xd& J2_seed);
+
+  /// Turns the derivatives by all joints, with the contact point where it is, into those along the
+  /// contact: what the joints that follow contribute moves to the joints of the first chain (in
+  /// `q_gradient`) and to the regrasp coordinates (the end of `gradient`).
+  void follow(const Eigen::Vector3d& p_e, const Matrix6Xd& J, const Matrix6Xd& J_2,
+              const Matrix6Xd& J2_seed, const Matrix6Xd& C2_seed, Eigen::VectorXd& q_gradient,
+              Eigen::VectorXd& gradient);
+
+  /// By the twist of the first end effector, at joints of its chain that rest: what the second
+  /// arm's answer adds. After `follow`.
+  Vector6d by_twist(const Eigen::Vector3d& p_e) const;
+
+ private:
+  const Problem& problem_;
+  const Contact& contact_;
+  ContactArm arm_;
+  std::vector<char> first_, second_;  ///< whether a velocity moves the end effector
+  std::array<double, 2> s_{};
+  Pose<double> pose_;
+  Matrix6Xd C_2_, seeds_;
+  Vector6d mu_ = Vector6d::Zero();  ///< J_f' mu = the slopes of the joints that follow
+};
+
+}  // namespace maxwrench

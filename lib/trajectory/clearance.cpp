@@ -1,0 +1,91 @@
+#include "lib/trajectory/clearance.h"
+
+#include "lib/robot/opening.h"
+#include "lib/trajectory/motion.h"
+#include "maxwrench/problem.h"
+
+namespace maxwrench {
+namespace {
+
+/// m: less is rounding, which shall not choose among instants at which nothing moved.
+constexpr double kNearer = 1e-9;
+
+}  // namespace
+
+void find_near_pairs(const Problem& problem, const Kinematics<double>& kinematics, int knot,
+                     double within, std::vector<NearPair>& pairs, const Eigen::MatrixXd& slopes) {
+  const CollisionChecker& checker = *problem.robot.collision;
+  Nearness near;
+  for (int pair = 0; pair < checker.pairs(); ++pair) {
+    if (!checker.nearest(kinematics.links(), pair, near) || near.clearance > within) continue;
+    if (near.on_a == near.on_b) continue;  // no derivative
+    NearPair& added = pairs.emplace_back();
+    added.knot = knot;
+    added.clearance = near.clearance;
+    added.gradient.resize(problem.redundancy());
+    const auto opens = [&](int joint) {
+      return opening(problem.robot, kinematics.links(), near, joint);
+    };
+    for (Eigen::Index k = 0; k < added.gradient.size(); ++k) {
+      added.gradient[k] = opens(problem.redundant[static_cast<std::size_t>(k)]);
+    }
+    for (const int joint : problem.dependent) {
+      added.gradient += opens(joint) * slopes.row(4 + joint).transpose();
+    }
+  }
+}
+
+void find_near_pairs(const Problem& problem, MotionEvaluator& motion, const Eigen::MatrixXd& Q,
+                     double within, Kinematics<double>& kinematics, std::vector<NearPair>& pairs) {
+  const SchemeMaps& maps = motion.maps();
+  std::size_t next = maps.starts ? 1 : 0;
+  motion.visit(Q, [&](int instant, const Eigen::VectorXd& q, const Eigen::MatrixXd& slopes) {
+    if (next == maps.knot_at.size() || instant != maps.knot_at[next]) return;
+    kinematics.set_joints(q);
+    const int knot = static_cast<int>(next++) - (maps.starts ? 1 : 0);
+    find_near_pairs(problem, kinematics, knot, within, pairs, slopes);
+  });
+}
+
+std::string knot_collision(const Problem& problem, const MotionEvaluator& motion,
+                           const std::vector<Instant>& instants, Kinematics<double>& kinematics) {
+  const SchemeMaps& maps = motion.maps();
+  const int first = maps.starts ? 0 : 1;
+  for (std::size_t knot = maps.starts ? 1 : 0; knot < maps.knot_at.size(); ++knot) {
+    const int instant = maps.knot_at[knot];
+    if (motion.lost() >= 0 && instant >= motion.lost()) break;
+    kinematics.set_joints(instants[static_cast<std::size_t>(instant)].q);
+    const int pair = problem.robot.collision->colliding_pair(kinematics.links());
+    if (pair < 0) continue;
+    return "self-collision: knot " + std::to_string(first + static_cast<int>(knot)) + ": " +
+           problem.robot.collision->pair_name(pair);
+  }
+  return {};
+}
+
+std::optional<Clearance> find_least_clearance(const Problem& problem, MotionEvaluator& motion,
+                                              const Eigen::MatrixXd& Q,
+                                              Kinematics<double>& kinematics) {
+  const CollisionChecker& checker = *problem.robot.collision;
+  Clearance found{kInfinity, 0, ""};
+  int nearest = -1;
+  Nearness near;
+  const bool all = motion.visit(Q, [&](int i, const Eigen::VectorXd& q, const Eigen::MatrixXd&) {
+    kinematics.set_joints(q);
+    const int colliding = checker.colliding_pair(kinematics.links());
+    for (int pair = 0; pair < checker.pairs(); ++pair) {
+      const bool known = checker.nearest(kinematics.links(), pair, near);
+      if (!known && pair != colliding) continue;
+      const double clearance = known ? near.clearance : 0;
+      if (!(clearance < found.least - kNearer)) continue;
+      found.least = clearance;
+      found.t = motion.maps().t[static_cast<std::size_t>(i)];
+      nearest = pair;
+    }
+  });
+  if (!all || nearest < 0) return {};
+  found.pair = checker.pair_name(nearest);
+  return found;
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "lib/math/decompositions.h"
+#include "lib/math/dual.h"
+#include "lib/posture/ik/dependent_joints.h"
+#include "lib/robot/kinematics.h"
+#include "maxwrench/path.h"
+#include "maxwrench/problem.h"
+
+namespace maxwrench {
+
+/// The whole robot's motion from that of theta_r and of the end effector (eq:redundantJacobian,
+/// v = J_e x_dot + A_r theta_r_dot) and its derivative. Of a problem without a second contact.
+/// Joints beside the chain from base to end effector rest. A template on the scalar as Kinematics.
+///
+/// Where theta_r holds all joints of the chain, in closed form: along it the motion relative to the
+/// base follows from the joints, and what is left of the end effector's is the base's.
+///
+/// Where joints are dependent (`DependentJoints`), from a posture that reaches the pose: with J_d
+/// the columns of J for the free base axes and the dependent joints, J_r those of theta_r,
+///
+///     J_d v_d = x_dot - J_r theta_r_dot,   J_d v_dot_d = x_ddot - J_dot v - J_r theta_r_ddot,
+///
+/// d <= 6 numbers by least squares. Derivatives of what solves F(y, p) = 0 are those of one step
+/// y - J_d^+ F in dual numbers, by the values of J_d.
+template <class T>
+class Follower {
+ public:
+  /// The problem outlives this.
+  explicit Follower(const Problem& problem);
+  explicit Follower(const Problem&&) = delete;
+
+  /// theta_r and its derivatives in time, r each.
+  void set(const PathPoint& x, const VectorX<T>& theta_r, const VectorX<T>& rate,
+           const VectorX<T>& acceleration);
+  /// The same with dependent joints: `base` and all joints q bring the end effector to x with the
+  /// values of theta_r.
+  void set(const PathPoint& x, const Pose<double>& base, const Eigen::VectorXd& q,
+           const VectorX<T>& theta_r, const VectorX<T>& rate, const VectorX<T>& acceleration);
+
+  const VectorX<T>& q() const { return q_; }
+  const Pose<T>& base() const { return base_; }
+  /// n each: base twist in base axes on the free axes, joint rates; and their derivatives.
+  const VectorX<T>& v() const { return v_; }
+  const VectorX<T>& v_dot() const { return v_dot_; }
+  /// With dependent joints: how much of x_dot, and of x_ddot, no motion of the robot has [m/s,
+  /// rad/s; m/s^2, rad/s^2], the largest of six.
+  double twist_missed() const { return twist_missed_; }
+  double acceleration_missed() const { return acceleration_missed_; }
+
+ private:
+  /// Of a body relative to the base, in base axes: twist at its origin, and derivatives there.
+  struct Relative {
+    Vector3<T> v = Vector3<T>::Zero(), w = Vector3<T>::Zero();
+    Vector3<T> v_dot = Vector3<T>::Zero(), w_dot = Vector3<T>::Zero();
+  };
+  Relative along_chain(const Vector3<T>& p_e) const;
+  const EndEffector& tool() const;
+  void set_theta_r(const VectorX<T>& values, Eigen::Index first, VectorX<T>& all) const;
+  void read_jacobian();
+  void correct(const Pose<double>& x);
+  Vector6<T> acceleration() const;
+  double solve(const Vector6<T>& twist, VectorX<T>& velocities) const;
+
+  const Problem* problem_;
+  Kinematics<T> kinematics_;
+  std::vector<int> chain_;  ///< joints, from the base outward
+  VectorX<T> q_, v_, v_dot_;
+  Pose<T> base_;
+  // With dependent joints.
+  std::vector<int> columns_;  ///< of J_d
+  Matrix6X<T> J_;
+  LeastSquares6 J_d_;  ///< of the values
+  double twist_missed_ = 0, acceleration_missed_ = 0;
+};
+
+/// A `Follower` of instants one after the other: dependent joints begin on the branch of the guess,
+/// at theta_r_default and the problem's pose, and go on from each instant to the next.
+class BranchFollower {
+ public:
+  /// The problem outlives this.
+  explicit BranchFollower(const Problem& problem);
+  explicit BranchFollower(const Problem&&) = delete;
+
+  /// The next instant is the first one, at the pose where the path starts.
+  void restart() { started_ = false; }
+  /// Goes to an instant; null, or why dependent joints do not get there: then they are where they
+  /// came to.
+  const char* place(const Pose<double>& x, const Eigen::VectorXd& theta_r);
+  /// `place`, and the motion there.
+  const char* set(const PathPoint& x, const Eigen::VectorXd& theta_r, const Eigen::VectorXd& rate,
+                  const Eigen::VectorXd& acceleration);
+  const Follower<double>& motion() const { return follower_; }
+  /// With dependent joints, after `place`: z = [x, y, z, yaw of the base; all joints] and its
+  /// derivative by theta_r.
+  const DependentJoints& branch() const { return *branch_; }
+
+ private:
+  const Problem& problem_;
+  Follower<double> follower_;
+  std::optional<DependentJoints> branch_;
+  Eigen::VectorXd q_;
+  bool started_ = false;
+};
+
+}  // namespace maxwrench

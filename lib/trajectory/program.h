@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "lib/trajectory/scheme.h"
+#include "maxwrench/plan.h"
+#include "maxwrench/problem.h"
+
+namespace maxwrench {
+
+/// Weight of the slack per N and N m of elastic programs.
+inline constexpr double kElasticWeight = 100;
+
+/// The program of a task's instants, before the first motion. A start that balances
+/// (`Start::kStatic`, `kRest`) is its first block; otherwise the blocks begin after it.
+PlanProgram make_plan_program(const Problem& problem, const MotionTask& task, Wrench wrench,
+                              const SchemeMaps& maps);
+
+/// Whether the start of a heave is a block of the program.
+bool start_is_block(const MotionTask& task, const SchemeMaps& maps);
+
+/// Sets tau_d and J'W of all blocks and c of the instants, W and c turned with the end effector
+/// where the task says so.
+void set_instants(const Problem& problem, const MotionTask& task, Wrench wrench,
+                  const SchemeMaps& maps, std::vector<Instant>& instants, PlanProgram& program);
+
+/// u and h of the instants from an answer. Without a block of its own the start has u_0 = 0, or
+/// what u_1 is where it is free.
+void read_efforts(const Problem& problem, const MotionTask& task, const PlanProgram& program,
+                  const PlanSolution& solution, std::vector<Instant>& instants);
+
+}  // namespace maxwrench

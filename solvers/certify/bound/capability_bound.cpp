@@ -1,0 +1,83 @@
+#include <stdexcept>
+
+#include "maxwrench/problem.h"
+#include "solvers/certify/bound/bounds.h"
+
+namespace maxwrench {
+namespace {
+
+/// Either bound; where all of a box collides there is no value.
+class CapabilityBound final : public Bound {
+ public:
+  CapabilityBound(std::unique_ptr<Bound> measure, std::unique_ptr<Bound> collision)
+      : measure_(std::move(measure)), collision_(std::move(collision)) {}
+
+  double ceiling() const override { return measure_->ceiling(); }
+
+  void evaluate(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low, double high,
+                BoxProof& proof) override {
+    if (collision_) {
+      collision_->evaluate(lower, upper, low, high, proof);
+      if (proof.kind == BoxProof::Kind::kCollision) return;
+    }
+    measure_->evaluate(lower, upper, low, high, proof);
+  }
+
+  void extend(Eigen::VectorXd& lower, Eigen::VectorXd& upper) const override {
+    measure_->extend(lower, upper);
+  }
+  bool shrink(Eigen::VectorXd& lower, Eigen::VectorXd& upper, std::vector<BoxCut>* cuts) override {
+    return measure_->shrink(lower, upper, cuts);
+  }
+
+  std::unique_ptr<Bound> clone() const override {
+    return std::make_unique<CapabilityBound>(measure_->clone(),
+                                             collision_ ? collision_->clone() : nullptr);
+  }
+
+ private:
+  std::unique_ptr<Bound> measure_, collision_;
+};
+
+std::unique_ptr<Bound> measure_bound(const Problem& problem, const std::string& measure,
+                                     Wrench wrench) {
+  const bool any = wrench == Wrench::kAny, l2 = measure == "l2_polytope";
+  if (measure != "linf_polytope" && !l2 && measure != "ellipsoid") {
+    throw std::invalid_argument("measure: got '" + measure +
+                                "', expected linf_polytope, l2_polytope or ellipsoid for a proof");
+  }
+  if (any && measure != "linf_polytope") {
+    throw std::invalid_argument("wrench: got 'any', expected pure for a proof of measure " +
+                                measure);
+  }
+  if (problem.contact || !problem.dependent.empty()) {
+    const bool ellipsoid = measure == "ellipsoid";
+    if (any || (ellipsoid && problem.contact_columns() > 0)) {
+      throw std::invalid_argument(
+          problem.name + ": " +
+          (any ? "wrench: got 'any', expected pure for a proof where joints "
+                 "follow from theta_r"
+               : "measure: got 'ellipsoid', expected linf_polytope for a "
+                 "proof with forces of a second contact"));
+    }
+    return make_loop_bound(problem, ellipsoid ? LoopMeasure::kEllipsoid
+                                    : l2      ? LoopMeasure::kSmallestEffort
+                                              : LoopMeasure::kPolytope);
+  }
+  if (any) return make_any_wrench_bound(problem);
+  return measure == "ellipsoid" ? make_ellipsoid_bound(problem) : make_polytope_bound(problem, l2);
+}
+
+}  // namespace
+
+std::unique_ptr<Bound> make_capability_bound(const Problem& problem, const std::string& measure,
+                                             Wrench wrench) {
+  if (problem.motion) {
+    throw std::invalid_argument(problem.name + ": got a task in time (" + problem.type() +
+                                "), expected a static task for a proof");
+  }
+  return std::make_unique<CapabilityBound>(measure_bound(problem, measure, wrench),
+                                           make_collision_bound(problem));
+}
+
+}  // namespace maxwrench

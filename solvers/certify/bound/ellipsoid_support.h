@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "lib/math/extended.h"
+#include "solvers/certify/bound/bounds.h"
+
+namespace maxwrench {
+
+/// |K tau| <= 1 with K = W_u B^+; its Q = K'K = L L', so that its support is s(lambda) = |L^-1
+/// lambda|.
+class EllipsoidSupport {
+ public:
+  explicit EllipsoidSupport(const Eigen::MatrixXd& K) {
+    const MatrixX<Extended> wide = K.cast<Extended>();
+    const MatrixX<Extended> Q = wide.transpose() * wide;
+    const MatrixX<Extended> L = Q.llt().matrixL();
+    const MatrixX<Extended> one = MatrixX<Extended>::Identity(Q.rows(), Q.cols());
+    L_inverse_ = L.triangularView<Eigen::Lower>().solve(one).cast<double>();
+    Q_ = Q.cast<double>();
+  }
+
+  double of(const Eigen::VectorXd& lambda) {
+    reach_.noalias() = L_inverse_ * lambda;
+    sizes_.noalias() = L_inverse_.cwiseAbs() * lambda.cwiseAbs();
+    return reach_.norm();
+  }
+  /// How far the last one may be off.
+  double rounding() const { return kBoundRounding * sizes_.sum(); }
+
+  /// The normal Q (tau + t a) where the ray leaves the ellipsoid, or, if `low` is farther out, at
+  /// `low`; scaled to lambda'a = 1.
+  void aim(const Eigen::VectorXd& tau, const Eigen::VectorXd& a, double low,
+           Eigen::VectorXd& lambda) {
+    constexpr double kLeast = 1e-6;
+    lambda.noalias() = Q_ * a;
+    sizes_.noalias() = Q_ * tau;
+    const double aa = a.dot(lambda), at = tau.dot(lambda);
+    const double square = at * at - aa * (tau.dot(sizes_) - 1);
+    const double t = std::max(low, (std::sqrt(std::max(square, kLeast * aa)) - at) / aa);
+    lambda = (sizes_ + t * lambda) / std::max(at + t * aa, kLeast * std::sqrt(aa));
+  }
+
+ private:
+  Eigen::MatrixXd Q_, L_inverse_;
+  Eigen::VectorXd reach_, sizes_;
+};
+
+}  // namespace maxwrench

@@ -1,0 +1,106 @@
+#include "solvers/certify/bound/exact_posture.h"
+
+#include <cmath>
+#include <numeric>
+
+#include "lib/robot/chain.h"
+
+namespace maxwrench {
+
+ExactPosture::ExactPosture(const Problem& problem)
+    : problem_(problem),
+      joints_(moved_joints(problem)),
+      kinematics_(problem.robot),
+      q_((problem.contact ? problem.contact->q_rest : resting_joints(problem.robot))
+             .cast<Extended>()) {}
+
+void ExactPosture::set(const ExtendedVector& theta_r) {
+  const EndEffector& tip =
+      problem_.robot.end_effectors[static_cast<std::size_t>(problem_.end_effector)];
+  for (Eigen::Index i = 0; i < std::min<Eigen::Index>(theta_r.size(), joints_.size()); ++i) {
+    const int joint = joints_[static_cast<std::size_t>(i)];
+    if (joint >= 0) q_[joint] = theta_r[i];
+  }
+  kinematics_.set_joints(q_);
+  const Matrix3<Extended> R_e = kinematics_.end_effector(tip).R;
+  pose_ = exact_pose(problem_, theta_r);
+  const Matrix3<Extended> R_base = pose_.R * R_e.transpose();
+  kinematics_.jacobian(tip, R_base, J_);
+  kinematics_.gravity_and_buoyancy(R_base, tau_d_);
+}
+
+std::vector<int> moved_joints(const Problem& problem) {
+  std::vector<int> joints = problem.redundant;
+  joints.resize(static_cast<std::size_t>(problem.redundancy()), -1);
+  joints.insert(joints.end(), problem.dependent.begin(), problem.dependent.end());
+  if (problem.contact) {
+    const std::vector<int>& follow = problem.contact->follow;
+    joints.insert(joints.end(), follow.begin(), follow.end());
+  }
+  return joints;
+}
+
+Pose<Extended> exact_pose(const Problem& problem, const ExtendedVector& x) {
+  using std::cos;
+  using std::sin;
+  const Matrix3<Extended> R_0 = problem.pose.R.cast<Extended>();
+  Vector3<Extended> shift = Vector3<Extended>::Zero();
+  Matrix3<Extended> turn = Matrix3<Extended>::Identity();
+  auto next = static_cast<Eigen::Index>(problem.redundant.size());
+  for (const int axis : problem.free.axes) {
+    const Extended s = x[next++];
+    if (axis < 3) {
+      shift[axis] = s;
+      continue;
+    }
+    const int i = (axis + 1) % 3, j = (axis + 2) % 3;  // roll first, yaw last
+    Matrix3<Extended> one = Matrix3<Extended>::Identity();
+    one(i, i) = one(j, j) = cos(s);
+    one(j, i) = sin(s);
+    one(i, j) = -one(j, i);
+    turn = one * turn;
+  }
+  const Matrix3<Extended> R = R_0 * turn;
+  const Matrix3<Extended>& along = problem.free.along_tool ? R : R_0;
+  return {R, problem.pose.p.cast<Extended>() + along * shift};
+}
+
+Matrix6X<Extended> exact_turned(const Problem& problem, const Pose<Extended>& pose,
+                                const Matrix6Xd& wrenches) {
+  const Matrix6X<Extended> given = wrenches.cast<Extended>();
+  if (!problem.free.wrench_turns) return given;
+  const Matrix3<Extended> turn = pose.R * problem.pose.R.cast<Extended>().transpose();
+  Matrix6X<Extended> turned(6, given.cols());
+  turned << turn * given.topRows<3>(), turn * given.bottomRows<3>();
+  return turned;
+}
+
+Coordinates all_coordinates(const Problem& problem) {
+  Coordinates all;
+  all.index.resize(problem.redundant.size());
+  std::iota(all.index.begin(), all.index.end(), 0);
+  for (const int joint : problem.redundant) {
+    const Joint& at = problem.robot.joints[static_cast<std::size_t>(joint)];
+    all.turns.push_back(at.type == JointType::kRevolute);
+  }
+  for (const int axis : problem.free.axes) {
+    all.index.push_back(all.count());
+    all.turns.push_back(axis >= 3);
+  }
+  return all;
+}
+
+MultiAffine pure_rows(const Problem& problem, const Eigen::MatrixXd& K) {
+  ExactPosture posture(problem);
+  const MatrixX<Extended> into = K.cast<Extended>();
+  return {all_coordinates(problem), problem.theta_r_default, [&](const ExtendedVector& theta_r) {
+            posture.set(theta_r);
+            ExtendedVector rows(2 * K.rows());
+            rows.head(K.rows()).noalias() = into * posture.tau_d();
+            const ExtendedVector a = posture.J().transpose() * posture.turned(problem.c);
+            rows.tail(K.rows()).noalias() = into * a;
+            return rows;
+          }};
+}
+
+}  // namespace maxwrench

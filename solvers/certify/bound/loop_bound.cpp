@@ -1,0 +1,319 @@
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "lib/measure/closed_form.h"
+#include "solvers/certify/bound/bounds.h"
+#include "solvers/certify/bound/box_support.h"
+#include "solvers/certify/bound/ellipsoid_support.h"
+#include "solvers/certify/bound/loop_box.h"
+#include "solvers/certify/bound/loop_linear.h"
+#include "solvers/certify/bound/multiplier_program.h"
+
+namespace maxwrench {
+namespace {
+
+/// Where the base follows from the joints, c on its linear axes, or a torque on the angular ones,
+/// is as long in all postures; so the base's forces limit t. Else infinite, also where the second
+/// contact may bear t c in the base's place.
+double loop_ceiling(const Problem& problem, const LoopModel& model) {
+  if (!model.coordinates.base_follows || model.coordinates.forces_grow()) return kInfinity;
+  const Zonotope& set = problem.robot.actuation;
+  const bool pushes = problem.c.head<3>().norm() > 0;
+  const Eigen::Index row = pushes ? 0 : 3;
+  double most = model.tau.segment<3>(row).norm();
+  for (Eigen::Index k = 0; k < set.actuators(); ++k) {
+    const double u = std::max(std::abs(set.u_min[k]), std::abs(set.u_max[k]));
+    most += u * set.B.col(k).segment<3>(row).norm();
+  }
+  return most / problem.c.segment<3>(row).norm() * (1 + kCeilingRounding);
+}
+
+/// As `make_polytope_bound`, with nu'f added to the rows.
+class LoopBound final : public Bound {
+ public:
+  /// K: of the L2 polytope, B^+; of the ellipsoid, W_u B^+; else it does not matter.
+  LoopBound(std::shared_ptr<const LoopModel> model, double ceiling, const Zonotope& set,
+            const Eigen::MatrixXd& K, LoopMeasure measure)
+      : model_(std::move(model)),
+        ceiling_(ceiling),
+        set_(set),
+        K_(K),
+        measure_(measure),
+        most_rank_(std::min<Eigen::Index>(model_->m, model_->coordinates.chain.count())),
+        support_(set, by_effort()),
+        box_(*model_),
+        linear_(*model_),
+        program_(extended_B(), set.u_min.head(found_by_program() ? set.actuators() : 0),
+                 set.u_max.head(found_by_program() ? set.actuators() : 0), kMostPoints) {
+    if (!found_by_program()) ellipsoid_.emplace(K);
+    entries_.resize(free_rows() + most_rank_);
+  }
+
+  double ceiling() const override { return ceiling_; }
+
+  void extend(Eigen::VectorXd& lower, Eigen::VectorXd& upper) const override {
+    lower = model_->coordinates.lower.array() - kLimitTolerance;
+    upper = model_->coordinates.upper.array() + kLimitTolerance;
+  }
+
+  bool shrink(Eigen::VectorXd& lower, Eigen::VectorXd& upper, std::vector<BoxCut>* cuts) override {
+    return linear_.shrink(lower, upper, cuts);
+  }
+
+  void evaluate(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low, double high,
+                BoxProof& proof) override {
+    proof.forget(high);
+    if (!box_.set(lower, upper)) return;
+    if (model_->coordinates.forces_grow() && low < 0) {  // t >= 0 alone is known
+      if (!(high > 0)) return;
+      bound_from(lower, upper, 0, high, proof);
+      proof.high = std::max(proof.high, 0.0);
+      return;
+    }
+    bound_from(lower, upper, low, high, proof);
+  }
+
+  std::unique_ptr<Bound> clone() const override {
+    return std::make_unique<LoopBound>(model_, ceiling_, set_, K_, measure_);
+  }
+
+ private:
+  void bound_from(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low,
+                  double high, BoxProof& proof) {
+    least_t_ = std::isfinite(low) ? low : std::min(-kWide, -2 * std::abs(high));
+    if (!std::isfinite(least_t_)) least_t_ = -kWide;
+    most_t_ = std::isfinite(high) ? high : kWide * std::max(1.0, std::abs(least_t_));
+    const Eigen::Index rows = this->rows();
+    if (proof.multiplier.size() == rows + model_->m) {
+      lambda_ = proof.multiplier.head(rows);
+      nu_ = proof.multiplier.tail(model_->m);
+      take(value(low, high), proof);
+      if (proof.high <= low) return;
+    } else {
+      lambda_.setZero(rows);
+      nu_.setZero(model_->m);
+      value(low, high);
+    }
+    linear_.precondition(lower, upper);
+    rank_ = std::min<Eigen::Index>(linear_.rank(), most_rank_);
+    if (ellipsoid_) aim(lower, upper, low, high, proof);
+    if (proof.high <= low) return;
+    improve_by_rounds(low, high, proof);
+  }
+
+  static constexpr Eigen::Index kMostPoints = 1024;
+  static constexpr int kMostRounds = 24;
+  static constexpr std::size_t kMostAdded = 24;
+  static constexpr int kMostSteps = 120;
+  static constexpr double kBelow = 1e-9;
+  static constexpr double kClose = 0.02;
+  static constexpr double kWide = 1e3;
+
+  /// Of lambda.
+  Eigen::Index rows() const { return support_.B().rows(); }
+
+  /// The lambda of the ellipsoid is its normal at the centre of the box; the program finds nu.
+  bool found_by_program() const { return measure_ != LoopMeasure::kEllipsoid; }
+  bool by_effort() const { return measure_ == LoopMeasure::kSmallestEffort; }
+  Eigen::Index free_rows() const { return found_by_program() ? rows() : 0; }
+
+  Eigen::MatrixXd extended_B() const {
+    const Eigen::Index columns = found_by_program() ? support_.B().cols() : 0;
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(free_rows() + most_rank_, columns);
+    all.topRows(free_rows()) = support_.B().leftCols(columns).topRows(free_rows());
+    return all;
+  }
+
+  /// And takes its U, without nu, to begin with.
+  void aim(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low, double high,
+           BoxProof& proof) {
+    box_.evaluate((lower + upper) / 2);
+    ellipsoid_->aim(box_.tau(), box_.a(), low, lambda_);
+    nu_.setZero();
+    take(value(low, high), proof);
+  }
+
+  void take(double U, BoxProof& proof) {
+    both_.resize(lambda_.size() + nu_.size());
+    both_ << lambda_, nu_;
+    proof.improve(U, both_);
+  }
+
+  /// U(lambda, nu), rounding included; what is violated is left in at_low_ and at_high_.
+  double value(double low, double high) {
+    const double s = ellipsoid_ ? ellipsoid_->of(lambda_) : support_.of(lambda_);
+    if (by_effort()) {
+      reach_.noalias() = K_.transpose() * lambda_;
+      sizes_.noalias() = K_.cwiseAbs().transpose() * lambda_.cwiseAbs();
+    } else {
+      reach_ = lambda_;
+      sizes_ = lambda_.cwiseAbs();
+    }
+    box_.weigh(reach_, nu_);
+    const double T = std::max(std::abs(least_t_), std::abs(most_t_));
+    const double share = kBoundRounding * kMostSpread;
+    const double off = (ellipsoid_ ? ellipsoid_->rounding() : support_.rounding()) +
+                       share * (sizes_.dot(model_->tau) + nu_.cwiseAbs().dot(model_->f));
+    const double off_a = share * sizes_.dot(model_->a);
+    s_ = s;
+    at_low_ = least_t_ * (1 - box_.h().array()) - box_.g().array();
+    at_high_ = most_t_ * (1 - box_.h().array()) - box_.g().array();
+    double U = kInfinity;
+    if (std::isfinite(low) && std::isfinite(high)) {
+      U = s + std::max(at_low_.maxCoeff(), at_high_.maxCoeff()) + off +
+          T * (off_a + kBoundRounding);
+    }
+    // t <= (s - g)/h by convexity, where h > 0 at all points.
+    if (box_.h().minCoeff() > 2 * off_a) {
+      const double ratio = ((s + off - box_.g().array()) /
+                            (box_.h().array() - (s + off - box_.g().array()).sign() * off_a))
+                               .maxCoeff();
+      U = std::min(U, ratio + 1e-14 * std::abs(ratio));
+    }
+    return U;
+  }
+
+  void improve_by_rounds(double low, double high, BoxProof& proof) {
+    begin_points(proof.basis);
+    for (int round = 0; round < kMostRounds; ++round) {
+      const double least =
+          program_.solve(least_t_ - kBelow * std::abs(least_t_), kMostSteps, local_, solved_);
+      if (!ellipsoid_) lambda_ = solved_.head(rows());
+      nu_.noalias() = linear_.M().topRows(rank_).transpose() * solved_.segment(free_rows(), rank_);
+      take(value(low, high), proof);
+      if (proof.high <= low) break;
+      const double now = s_ + std::max(at_low_.maxCoeff(), at_high_.maxCoeff());
+      const bool finite = std::isfinite(proof.high);
+      if (finite && now - least <= kClose * std::max(proof.high - least_t_, 0.0)) break;
+      if (!add_points(least)) break;
+    }
+    keep_basis(proof.basis);
+  }
+
+  /// Those of the basis of a larger box, and those that are worst at its multiplier; without one
+  /// the corners of the box.
+  void begin_points(const std::vector<int>& basis) {
+    ids_.clear();
+    const auto first = program_.first_point();
+    local_ = basis;
+    for (int& column : local_) {
+      if (column < first) continue;
+      ids_.push_back(column - first);
+      column = first + static_cast<int>(ids_.size()) - 1;
+    }
+    if (basis.empty()) add_corners();
+    program_.set_points(static_cast<Eigen::Index>(ids_.size()));
+    for (std::size_t i = 0; i < ids_.size(); ++i) write_point(static_cast<Eigen::Index>(i));
+    if (!basis.empty()) add_points(-kInfinity);
+  }
+
+  void add_corners() {
+    const Coordinates& chain = model_->coordinates.chain;
+    for (Eigen::Index v = 0; v < model_->size && ids_.size() + 2 <= kMostPoints / 2; ++v) {
+      Eigen::Index rest = v;
+      bool corner = true;
+      for (int i = chain.count(); i-- > 0;) {
+        const int values = chain.turns[static_cast<std::size_t>(i)] != 0 ? 3 : 2;
+        corner = corner && (values == 2 || rest % 3 != 1);
+        rest /= values;
+      }
+      if (!corner) continue;
+      ids_.push_back(static_cast<int>(v));
+      ids_.push_back(static_cast<int>(v + model_->size));
+    }
+  }
+
+  /// Point v at least_t_, or v + size at most_t_.
+  void write_point(Eigen::Index i) {
+    const Eigen::Index id = ids_[static_cast<std::size_t>(i)];
+    const bool high = id >= model_->size;
+    const double t = high ? most_t_ : least_t_;
+    box_.read(high ? id - model_->size : id);
+    const Eigen::Index rows = free_rows();
+    load_ = box_.tau() + t * box_.a();
+    double cost = t;
+    if (ellipsoid_) {
+      cost += s_ - lambda_.dot(load_);  // lambda and its support stay
+    } else if (by_effort()) {
+      entries_.head(rows).noalias() = K_ * load_;
+    } else {
+      entries_.head(rows) = load_;
+    }
+    entries_.tail(most_rank_).setZero();
+    entries_.segment(rows, rank_).noalias() = linear_.M().topRows(rank_) * box_.f();
+    for (Eigen::Index j = 0; j < entries_.size(); ++j) program_.row(j)[i] = entries_[j];
+    program_.costs()[i] = cost;
+  }
+
+  /// False if there is none, or no room.
+  bool add_points(double least) {
+    order_.clear();
+    const Eigen::Index N = model_->size;
+    const auto at = [&](Eigen::Index id) { return id < N ? at_low_[id] : at_high_[id - N]; };
+    for (Eigen::Index id = 0; id < 2 * N; ++id) {
+      if (s_ + at(id) > least) order_.push_back(id);
+    }
+    if (order_.size() > kMostAdded) {
+      std::nth_element(order_.begin(), order_.begin() + kMostAdded, order_.end(),
+                       [&](Eigen::Index i, Eigen::Index j) { return at(i) > at(j); });
+      order_.resize(kMostAdded);
+    }
+    const std::size_t before = ids_.size();
+    for (const Eigen::Index id : order_) {
+      const int one = static_cast<int>(id);
+      if (std::find(ids_.begin(), ids_.end(), one) == ids_.end()) ids_.push_back(one);
+    }
+    if (ids_.size() == before || ids_.size() > static_cast<std::size_t>(kMostPoints)) {
+      ids_.resize(before);
+      return false;
+    }
+    program_.set_points(static_cast<Eigen::Index>(ids_.size()));
+    for (std::size_t i = before; i < ids_.size(); ++i) write_point(static_cast<Eigen::Index>(i));
+    return true;
+  }
+
+  void keep_basis(std::vector<int>& basis) const {
+    basis = local_;
+    const auto first = program_.first_point();
+    for (int& column : basis) {
+      if (column >= first) column = first + ids_[static_cast<std::size_t>(column - first)];
+    }
+  }
+
+  std::shared_ptr<const LoopModel> model_;
+  const double ceiling_;
+  const Zonotope& set_;
+  const Eigen::MatrixXd K_;
+  const LoopMeasure measure_;
+  const Eigen::Index most_rank_;
+  BoxSupport support_;
+  std::optional<EllipsoidSupport> ellipsoid_;
+  LoopBox box_;
+  LoopLinear linear_;
+  MultiplierProgram program_;
+  Eigen::Index rank_ = 0;
+  double least_t_ = 0, most_t_ = 0, s_ = 0;
+  Eigen::VectorXd lambda_, nu_, solved_, both_, reach_, sizes_, at_low_, at_high_, entries_, load_;
+  std::vector<int> ids_, local_;
+  std::vector<Eigen::Index> order_;
+};
+
+}  // namespace
+
+std::unique_ptr<Bound> make_loop_bound(const Problem& problem, LoopMeasure measure) {
+  Eigen::MatrixXd K;
+  if (measure == LoopMeasure::kSmallestEffort) {
+    require_full_row_rank(problem.robot, "l2_polytope");
+    K = problem.robot.actuation.B_pinv;
+  } else if (measure == LoopMeasure::kEllipsoid) {
+    K = weighted_inverse(problem.robot, "ellipsoid");
+  }
+  auto model = std::make_shared<LoopModel>(problem);
+  const double ceiling = loop_ceiling(problem, *model);
+  return std::make_unique<LoopBound>(std::move(model), ceiling, problem.robot.actuation, K,
+                                     measure);
+}
+
+}  // namespace maxwrench

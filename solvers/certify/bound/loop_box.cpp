@@ -1,0 +1,77 @@
+#include "solvers/certify/bound/loop_box.h"
+
+#include "solvers/certify/bound/bounds.h"
+
+namespace maxwrench {
+namespace {
+
+/// Adds a part's values where they belong on the grid of all.
+void spread_out(const LoopPart& part, const Eigen::VectorXd& values, Eigen::VectorXd& all) {
+  const Eigen::Index size = values.size(), repeat = part.repeat;
+  for (Eigen::Index first = 0; first < all.size(); first += size * repeat) {
+    if (repeat == 1) {
+      all.segment(first, size) += values;
+      continue;
+    }
+    for (Eigen::Index i = 0; i < size; ++i) {
+      all.segment(first + i * repeat, repeat).array() += values[i];
+    }
+  }
+}
+
+}  // namespace
+
+LoopBox::LoopBox(const LoopModel& model) : model_(model), points_(model.parts.size()) {
+  for (const LoopPart& part : model.parts) corners_.emplace_back(part.f);
+  tau_ = a_ = Eigen::VectorXd::Zero(model.n);
+  f_ = Eigen::VectorXd::Zero(model.m);
+  g_ = h_ = Eigen::VectorXd::Zero(model.size);
+}
+
+bool LoopBox::set(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+  if (!(spread(model_.coordinates.chain, lower, upper) <= kMostSpread)) return false;
+  for (std::size_t i = 0; i < points_.size(); ++i) points_[i] = &corners_[i].over(lower, upper);
+  return true;
+}
+
+void LoopBox::weigh(const Eigen::VectorXd& lambda, const Eigen::VectorXd& nu) {
+  g_.setZero();
+  h_.setZero();
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const LoopPart& part = model_.parts[i];
+    const Eigen::MatrixXd& P = *points_[i];
+    const auto count = static_cast<Eigen::Index>(part.rows.size());
+    own_ = (part.kind == LoopPart::Kind::kEquations ? nu : lambda)(part.rows);
+    sum_.noalias() = P.topRows(count).transpose() * own_;
+    spread_out(part, sum_, g_);
+    if (part.kind != LoopPart::Kind::kLoads) continue;
+    sum_.noalias() = P.bottomRows(count).transpose() * own_;
+    spread_out(part, sum_, h_);
+  }
+}
+
+template <class Values>
+void LoopBox::collect(const Values& values_of) {
+  f_.setZero();
+  tau_.setZero();
+  a_.setZero();
+  for (std::size_t i = 0; i < model_.parts.size(); ++i) {
+    const LoopPart& part = model_.parts[i];
+    const auto& values = values_of(i);
+    const auto count = static_cast<Eigen::Index>(part.rows.size());
+    (part.kind == LoopPart::Kind::kEquations ? f_ : tau_)(part.rows) += values.head(count);
+    if (part.kind == LoopPart::Kind::kLoads) a_(part.rows) += values.tail(count);
+  }
+}
+
+void LoopBox::read(Eigen::Index v) {
+  collect([&](std::size_t i) {
+    return points_[i]->col(v / model_.parts[i].repeat % model_.parts[i].f.size());
+  });
+}
+
+void LoopBox::evaluate(const Eigen::VectorXd& x) {
+  collect([&](std::size_t i) { return model_.parts[i].f.evaluate(x); });
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "solvers/certify/bound/loop_model.h"
+
+namespace maxwrench {
+
+/// The control points of one box of a `LoopModel`, on the grid of all coordinates.
+class LoopBox {
+ public:
+  /// Keeps a reference.
+  explicit LoopBox(const LoopModel& model);
+  explicit LoopBox(const LoopModel&&) = delete;
+
+  /// False if the box is too large for control points.
+  bool set(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
+
+  /// g = lambda'tau + nu'f and h = lambda'a at all of them.
+  void weigh(const Eigen::VectorXd& lambda, const Eigen::VectorXd& nu);
+  const Eigen::VectorXd& g() const { return g_; }
+  const Eigen::VectorXd& h() const { return h_; }
+
+  /// All rows at one of them.
+  void read(Eigen::Index v);
+  /// The same at x.
+  void evaluate(const Eigen::VectorXd& x);
+  const Eigen::VectorXd& tau() const { return tau_; }
+  const Eigen::VectorXd& a() const { return a_; }
+  const Eigen::VectorXd& f() const { return f_; }
+
+ private:
+  /// Adds up the values of all parts.
+  template <class Values>
+  void collect(const Values& values_of);
+
+  const LoopModel& model_;
+  std::vector<ControlPoints> corners_;
+  std::vector<const Eigen::MatrixXd*> points_;
+  Eigen::VectorXd g_, h_, sum_, own_, tau_, a_, f_;
+};
+
+}  // namespace maxwrench

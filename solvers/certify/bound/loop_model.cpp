@@ -1,0 +1,143 @@
+#include "solvers/certify/bound/loop_model.h"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+namespace maxwrench {
+namespace {
+
+int values_along(const Coordinates& chain, int axis) {
+  return chain.turns[static_cast<std::size_t>(axis)] ? 3 : 2;
+}
+
+Coordinates part_of_chain(const Coordinates& chain, int from, int to) {
+  Coordinates some;
+  some.index.assign(chain.index.begin() + from, chain.index.begin() + to);
+  some.turns.assign(chain.turns.begin() + from, chain.turns.begin() + to);
+  return some;
+}
+
+}  // namespace
+
+LoopModel::LoopModel(const Problem& problem)
+    : coordinates(problem), n(problem.robot.velocities()), problem_(problem) {
+  require_few_control_points(problem.name, coordinates.chain);
+  for (int i = 0; i < coordinates.chain.count(); ++i) size *= values_along(coordinates.chain, i);
+  tau = a = Eigen::VectorXd::Zero(n);
+  LoopPosture posture(problem, coordinates);
+  add_loads(posture);
+  add_joints(posture);
+  add_equations(posture);
+}
+
+void LoopModel::add_part(Kind kind, int from, int to, const std::vector<int>& rows,
+                         const MultiAffine::Sample& sample) {
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(coordinates.lower.size());
+  LoopPart part{kind, MultiAffine(part_of_chain(coordinates.chain, from, to), rest, sample), from,
+                to, rows};
+  for (int i = to; i < coordinates.chain.count(); ++i) {
+    part.repeat *= values_along(coordinates.chain, i);
+  }
+  const Eigen::VectorXd S = part.f.magnitudes(coordinates.lower, coordinates.upper);
+  const auto count = static_cast<Eigen::Index>(rows.size());
+  if (kind == Kind::kEquations) {
+    f(rows) += S;
+  } else {
+    tau(rows) += S.head(count);
+    if (kind == Kind::kLoads) a(rows) += S.tail(count);
+  }
+  parts.push_back(std::move(part));
+}
+
+/// The base and what is not of the chain depend on all.
+void LoopModel::add_loads(LoopPosture& posture) {
+  const Robot& robot = problem_.robot;
+  const auto axes = static_cast<int>(robot.base_axes.size());
+  std::vector<int> pushed, others;
+  for (int i = 0; i < static_cast<int>(n); ++i) {
+    const bool slides = i < axes && robot.base_axes[static_cast<std::size_t>(i)] < 3;
+    if (slides && !coordinates.base_follows) {
+      pushed.push_back(i);
+    } else if (std::find(coordinates.joints.begin(), coordinates.joints.end(), i - axes) ==
+               coordinates.joints.end()) {
+      others.push_back(i);
+    }
+  }
+  const auto add = [&](int from, int to, const std::vector<int>& rows) {
+    if (rows.empty()) return;
+    add_part(Kind::kLoads, from, to, rows, [&](const ExtendedVector& x) {
+      posture.set(x);
+      ExtendedVector values(2 * static_cast<Eigen::Index>(rows.size()));
+      values << posture.loads().head(n)(rows), posture.loads().tail(n)(rows);
+      return values;
+    });
+  };
+  const auto& yaw = coordinates.yaw;
+  add(yaw.from, problem_.free.wrench_turns ? coordinates.free.to : yaw.to, pushed);
+  add(0, coordinates.free.to, others);
+  if (coordinates.shares.count() == 0) return;
+  pushed.insert(pushed.end(), others.begin(), others.end());
+  const bool grow = coordinates.forces_grow();
+  add_part(grow ? Kind::kLoads : Kind::kForces, 0, coordinates.shares.to, pushed,
+           [&](const ExtendedVector& x) {
+             posture.set(x);
+             const ExtendedVector forces = posture.forces()(pushed);
+             if (!grow) return forces;
+             ExtendedVector both(2 * forces.size());
+             both << forces, posture.forces_by_t()(pushed);
+             return both;
+           });
+}
+
+/// A joint of the chain depends on what is behind it.
+void LoopModel::add_joints(LoopPosture& posture) {
+  const auto axes = static_cast<int>(problem_.robot.base_axes.size());
+  for (int i = coordinates.first.from; i < coordinates.first.to; ++i) {
+    const int row = axes + coordinates.joints[static_cast<std::size_t>(i - coordinates.first.from)];
+    add_part(Kind::kLoads, i + 1, coordinates.free.to, {row}, [&](const ExtendedVector& x) {
+      posture.set(x);
+      ExtendedVector values(2);
+      values << posture.loads()[row], posture.loads()[n + row];
+      return values;
+    });
+  }
+}
+
+std::vector<int> LoopModel::new_equations(Eigen::Index count) {
+  std::vector<int> rows(static_cast<std::size_t>(count));
+  std::iota(rows.begin(), rows.end(), static_cast<int>(m));
+  m += count;
+  f.conservativeResize(m);
+  f.tail(count).setZero();
+  return rows;
+}
+
+/// Left and right of the middle of the chain; the second arm and what it touches.
+void LoopModel::add_equations(LoopPosture& posture) {
+  using Side = std::function<ExtendedVector()>;
+  posture.set(ExtendedVector::Zero(coordinates.lower.size()));
+  const auto add = [&](int from, int to, const std::vector<int>& rows, const Side& side) {
+    add_part(Kind::kEquations, from, to, rows, [&](const ExtendedVector& x) {
+      posture.set(x);
+      return side();
+    });
+  };
+  if (!coordinates.base_follows) {
+    const int from = coordinates.yaw.from, to = coordinates.free.to;
+    const int k =
+        std::clamp((from + to) / 2 - coordinates.first.from, 0, coordinates.first.count());
+    const int cut = coordinates.first.from + k;
+    const std::vector<int> rows = new_equations(posture.left(k).size());
+    add(from, cut, rows, [&] { return posture.left(k); });
+    add(cut, to, rows, [&] { return ExtendedVector(-posture.right(k)); });
+  }
+  if (!problem_.contact) return;
+  const std::vector<int> rows = new_equations(posture.touching().size());
+  add(0, coordinates.second.to, rows, [&] { return posture.touching(); });
+  add(coordinates.first.from, coordinates.regrasp.to, rows,
+      [&] { return ExtendedVector(-posture.touched()); });
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vector>
+
+#include "solvers/certify/bound/loop_posture.h"
+
+namespace maxwrench {
+
+/// Rows that depend on a stretch of the chain of coordinates alone. On the grid of the control
+/// points of all, of which the first coordinate changes slowest, point v of all is point
+/// (v / repeat) mod f.size() of these.
+struct LoopPart {
+  enum class Kind {
+    kLoads,     ///< f = [rows of tau; the same rows of a]
+    kForces,    ///< f = rows of tau
+    kEquations  ///< f = rows of the equations
+  };
+  Kind kind;
+  MultiAffine f;
+  int from, to;  ///< the stretch
+  std::vector<int> rows;
+  Eigen::Index repeat = 1;
+};
+
+/// tau = tau_d + J_2'C_2 w_2 at t = 0, a = J'c and what t adds to w_2, and the equations f(x) = 0
+/// as sums of parts.
+struct LoopModel {
+  /// Keeps a reference. Throws std::invalid_argument, in one line, if there are too many.
+  explicit LoopModel(const Problem& problem);
+
+  LoopCoordinates coordinates;
+  std::vector<LoopPart> parts;
+  Eigen::Index n = 0;         ///< rows of tau_d
+  Eigen::Index m = 0;         ///< of the equations
+  Eigen::Index size = 1;      ///< control points
+  Eigen::VectorXd tau, a, f;  ///< magnitudes
+
+ private:
+  using Kind = LoopPart::Kind;
+
+  void add_loads(LoopPosture& posture);
+  void add_joints(LoopPosture& posture);
+  void add_equations(LoopPosture& posture);
+  void add_part(Kind kind, int from, int to, const std::vector<int>& rows,
+                const MultiAffine::Sample& sample);
+  std::vector<int> new_equations(Eigen::Index count);
+
+  const Problem& problem_;
+};
+
+}  // namespace maxwrench

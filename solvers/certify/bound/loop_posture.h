@@ -1,0 +1,97 @@
+#pragma once
+
+#include "lib/robot/kinematics.h"
+#include "maxwrench/problem.h"
+#include "solvers/certify/bound/multi_affine.h"
+
+namespace maxwrench {
+
+/// All coordinates x of a posture whose joints follow by equations:
+///
+///     x = [theta_r; dependent joints; joints of a second arm; yaw; shares of contact forces].
+///
+/// The yaw is the base's, if that is free but not all of it. A share omega in [0, 1] of a component
+/// of the second contact's wrench stands for
+///
+///     w = w_min + omega (w_max - w_min) + t (v_min + omega (v_max - v_min)),
+///
+/// t the value, at least zero if v is not zero: what has no limit of its own is not more than the
+/// base's linear axes bear, which share t c.
+///
+/// The chain puts them in order: the second arm's joints; from the world to the end effector, the
+/// yaw, the joints from the base outward and the free coordinates of the pose; the regrasp
+/// coordinates; the shares. Angles are within one turn.
+struct LoopCoordinates {
+  /// A stretch of the chain.
+  struct Stretch {
+    int from = 0, to = 0;
+    int count() const { return to - from; }
+  };
+
+  /// Throws std::invalid_argument, in one line, if forces of a second contact have no limits.
+  explicit LoopCoordinates(const Problem& problem);
+
+  Coordinates chain;  ///< as indices of x
+  Stretch second, yaw, first, free, regrasp, shares;
+  std::vector<int> joints;       ///< of the robot, in `first`
+  bool base_follows = false;     ///< all of it, from the joints: it has six free axes
+  Eigen::VectorXd lower, upper;  ///< limits of x
+  Eigen::VectorXd w_min, w_max;  ///< of the second contact, finite
+  Eigen::VectorXd v_min, v_max;  ///< its further limits for each unit of t
+  bool forces_grow() const { return (v_min.array() != v_max.array()).any(); }
+
+ private:
+  void add(int at, bool turns, double low, double high);
+  void add_joint(const Problem& problem, int at, int joint);
+  void limit_forces(const Problem& problem);
+};
+
+/// What a posture is made of at any x, with the digits of `Extended`. All of it is multi-affine:
+/// weight and contact force load joint i through the joints behind it alone, turned once by each,
+/// from the end effector's pose; and the base through its yaw.
+///
+/// Where x is a posture, the pose of the base in its mount is, unless all of it is free,
+///
+///     Rz(yaw) T_1(q_1) ... T_k(q_k) = mount^-1 X(s) (T_k+1(q_k+1) ... T_n(q_n))^-1
+///
+/// in all rows of the rotation, and those of the position that no free axis moves. And the second
+/// end effector is at the contact, T_e2(q_2) = T_e1(q_1) X(s)^-1 F(s_2), in position or in all.
+class LoopPosture {
+ public:
+  /// Keeps references.
+  LoopPosture(const Problem& problem, const LoopCoordinates& coordinates);
+
+  void set(const ExtendedVector& x);
+
+  /// [tau_d; J'c], 2n.
+  const ExtendedVector& loads() const { return loads_; }
+  /// J_2'C_2 w_2, n, at t = 0; and what each unit of t adds.
+  ExtendedVector forces() const { return forces(w_); }
+  ExtendedVector forces_by_t() const { return forces(v_); }
+  /// The rows of either side of the equations of the base, k joints on the left.
+  ExtendedVector left(int k) const;
+  ExtendedVector right(int k) const;
+  /// Those of the second contact: the arm's, and the pose's.
+  ExtendedVector touching() const;
+  ExtendedVector touched() const;
+
+ private:
+  ExtendedVector rows_of(const Pose<Extended>& pose) const;
+  ExtendedVector contact_rows(const Pose<Extended>& pose) const;
+  ExtendedVector forces(const ExtendedVector& w) const;
+  Pose<Extended> link(int k) const;
+  void set_contact(const ExtendedVector& x);
+  void set_loads(const Matrix3<Extended>& from_tip);
+
+  const Problem& problem_;
+  const LoopCoordinates& coordinates_;
+  const EndEffector& tip_;
+  Kinematics<Extended> kinematics_;
+  Pose<Extended> yaw_, pose_, target_;  ///< of the base; X(s); mount^-1 X(s)
+  Pose<Extended> contact_;              ///< F(s_2)
+  Matrix3<Extended> R_base_;
+  ExtendedVector q_, loads_, tau_, w_, v_;
+  Matrix6X<Extended> J_;
+};
+
+}  // namespace maxwrench

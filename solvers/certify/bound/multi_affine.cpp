@@ -1,0 +1,171 @@
+#include "solvers/certify/bound/multi_affine.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+namespace maxwrench {
+namespace {
+
+using ExtendedMatrix = MatrixX<Extended>;
+
+int terms(const Coordinates& coordinates, int axis) {
+  return coordinates.turns[static_cast<std::size_t>(axis)] ? 3 : 2;
+}
+
+/// How far apart neighbours along an axis are, in columns.
+Eigen::Index stride(const Coordinates& coordinates, int axis) {
+  Eigen::Index columns = 1;
+  for (int i = axis + 1; i < coordinates.count(); ++i) columns *= terms(coordinates, i);
+  return columns;
+}
+
+/// Where a turning coordinate is sampled, 0, pi/2 and pi, or a sliding one, 0 and 1.
+Extended place(bool turns, int i) {
+  return turns ? std::numbers::pi_v<Extended> / 2 * i : Extended(i);
+}
+
+/// Values at the places -> coefficients, along one axis.
+void read_off(const Coordinates& coordinates, int axis, ExtendedMatrix& F) {
+  const Eigen::Index step = stride(coordinates, axis);
+  const int n = terms(coordinates, axis);
+  for (Eigen::Index first = 0; first < F.cols(); ++first) {
+    if (first / step % n != 0) continue;
+    const ExtendedVector at_0 = F.col(first), at_1 = F.col(first + step);
+    if (n == 2) {
+      F.col(first + step) = at_1 - at_0;
+    } else {
+      const ExtendedVector at_2 = F.col(first + 2 * step);
+      F.col(first) = (at_0 + at_2) / 2;
+      F.col(first + step) = (at_0 - at_2) / 2;
+      F.col(first + 2 * step) = at_1 - F.col(first);
+    }
+  }
+}
+
+}  // namespace
+
+void require_few_control_points(const std::string& task, const Coordinates& coordinates) {
+  Eigen::Index points = 1;
+  for (int i = 0; i < coordinates.count() && points <= kMostControlPoints; ++i) {
+    points *= terms(coordinates, i);
+  }
+  if (points <= kMostControlPoints) return;
+  throw std::invalid_argument(task + ": got " + std::to_string(coordinates.count()) +
+                              " coordinates of a posture, expected at most 9 that turn, for a "
+                              "proof: a bound looks at 3 points for each, multiplied");
+}
+
+MultiAffine::MultiAffine(Coordinates coordinates, const Eigen::VectorXd& theta_r,
+                         const Sample& sample)
+    : coordinates_(std::move(coordinates)) {
+  Eigen::Index size = 1;
+  for (int i = 0; i < coordinates_.count(); ++i) size *= terms(coordinates_, i);
+  ExtendedVector at = theta_r.cast<Extended>();
+  ExtendedMatrix F;
+  for (Eigen::Index a = 0; a < size; ++a) {
+    for (int i = 0; i < coordinates_.count(); ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const auto digit = a / stride(coordinates_, i) % terms(coordinates_, i);
+      at[coordinates_.index[k]] = place(coordinates_.turns[k] != 0, static_cast<int>(digit));
+    }
+    const ExtendedVector values = sample(at);
+    if (a == 0) F.resize(values.size(), size);
+    F.col(a) = values;
+  }
+  for (int i = 0; i < coordinates_.count(); ++i) read_off(coordinates_, i, F);
+  F_ = F.cast<double>();
+}
+
+Eigen::VectorXd MultiAffine::magnitudes(const Eigen::VectorXd& lower,
+                                        const Eigen::VectorXd& upper) const {
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(F_.rows());
+  for (Eigen::Index a = 0; a < F_.cols(); ++a) {
+    double factor = 1;
+    for (int i = 0; i < coordinates_.count(); ++i) {
+      const int at = coordinates_.index[static_cast<std::size_t>(i)];
+      if (terms(coordinates_, i) == 3 || a / stride(coordinates_, i) % 2 == 0) continue;
+      factor *= std::max(std::abs(lower[at]), std::abs(upper[at]));
+    }
+    sums += factor * F_.col(a).cwiseAbs();
+  }
+  return sums;
+}
+
+Eigen::VectorXd MultiAffine::evaluate(const Eigen::VectorXd& theta_r) const {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(F_.rows());
+  for (Eigen::Index a = 0; a < F_.cols(); ++a) {
+    double factor = 1;
+    for (int i = 0; i < coordinates_.count(); ++i) {
+      const auto digit = a / stride(coordinates_, i) % terms(coordinates_, i);
+      const double q = theta_r[coordinates_.index[static_cast<std::size_t>(i)]];
+      if (digit == 2) factor *= std::sin(q);
+      if (digit == 1) factor *= terms(coordinates_, i) == 3 ? std::cos(q) : q;
+    }
+    sum += factor * F_.col(a);
+  }
+  return sum;
+}
+
+double spread(const Coordinates& coordinates, const Eigen::VectorXd& lower,
+              const Eigen::VectorXd& upper) {
+  double factor = 1;
+  for (std::size_t i = 0; i < coordinates.index.size(); ++i) {
+    if (!coordinates.turns[i]) continue;
+    const double r = (upper[coordinates.index[i]] - lower[coordinates.index[i]]) / 2;
+    if (!(r < std::numbers::pi / 2)) return kInfinity;
+    factor /= std::cos(r);
+  }
+  return factor;
+}
+
+ControlPoints::ControlPoints(const MultiAffine& f) : f_(f) {
+  const int axes = f.coordinates().count();
+  levels_.assign(static_cast<std::size_t>(axes) + 1, f.coefficients());
+  lower_ = upper_ = Eigen::VectorXd::Constant(axes, std::numeric_limits<double>::quiet_NaN());
+}
+
+const Eigen::MatrixXd& ControlPoints::over(const Eigen::VectorXd& lower,
+                                           const Eigen::VectorXd& upper) {
+  bool changed = false;
+  for (int axis = 0; axis < f_.coordinates().count(); ++axis) {
+    const int at = f_.coordinates().index[static_cast<std::size_t>(axis)];
+    changed |= !(lower_[axis] == lower[at] && upper_[axis] == upper[at]);
+    if (changed) advance(axis, lower_[axis] = lower[at], upper_[axis] = upper[at]);
+  }
+  return levels_.back();
+}
+
+/// One axis from coefficients to control points.
+void ControlPoints::advance(int axis, double lower, double upper) {
+  const int n = terms(f_.coordinates(), axis);
+  const Eigen::Index length = stride(f_.coordinates(), axis) * f_.rows();
+  const Eigen::Index total = f_.coefficients().size();
+  std::array<double, 3> c{}, s{};
+  if (n == 3) {
+    const double m = (lower + upper) / 2, stretch = 1 / std::cos((upper - lower) / 2);
+    c = {std::cos(lower), stretch * std::cos(m), std::cos(upper)};
+    s = {std::sin(lower), stretch * std::sin(m), std::sin(upper)};
+  }
+  const double* from = levels_[static_cast<std::size_t>(axis)].data();
+  double* to = levels_[static_cast<std::size_t>(axis) + 1].data();
+  for (Eigen::Index first = 0; first < total; first += n * length) {
+    using Part = Eigen::Map<Eigen::ArrayXd>;
+    using ConstPart = Eigen::Map<const Eigen::ArrayXd>;
+    const ConstPart f0(from + first, length), f1(from + first + length, length);
+    if (n == 2) {
+      Part(to + first, length) = f0 + lower * f1;
+      Part(to + first + length, length) = f0 + upper * f1;
+      continue;
+    }
+    const ConstPart f2(from + first + 2 * length, length);
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const auto at = first + static_cast<Eigen::Index>(corner) * length;
+      Part(to + at, length) = f0 + c[corner] * f1 + s[corner] * f2;
+    }
+  }
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,143 @@
+#include "solvers/certify/proof_recorder.h"
+
+#include <cmath>
+
+#include "maxwrench/version.h"
+#include "verify/coordinates.h"
+
+namespace maxwrench {
+
+namespace {
+
+using Node = CertificateTree::Node;
+
+/// [theta_r; dependent joints; joints of a second arm; yaw of the base], as `PostureCoordinates`
+/// has them.
+Eigen::VectorXd coordinates_of(const Problem& problem, const PostureCoordinates& coordinates,
+                               const Posture& posture) {
+  Eigen::VectorXd x(coordinates.count());
+  for (std::size_t i = 0; i < coordinates.of_joint.size(); ++i) {
+    const int at = coordinates.of_joint[i];
+    if (at < 0) continue;
+    x[coordinates.variables[static_cast<std::size_t>(at)].coordinate] =
+        posture.q[static_cast<Eigen::Index>(i)];
+  }
+  if (coordinates.has_yaw()) {
+    const Eigen::Matrix3d R = problem.robot.mount.R.transpose() * posture.base.R;
+    const auto at = static_cast<std::size_t>(coordinates.yaw);
+    x[coordinates.variables[at].coordinate] = std::atan2(R(1, 0), R(0, 0));
+  }
+  x.head(posture.theta_r.size()) = posture.theta_r;
+  return x;
+}
+
+}  // namespace
+
+ProofRecorder::Box& ProofRecorder::box(std::size_t id) {
+  if (boxes_.size() <= id) boxes_.resize(id + 1);
+  return boxes_[id];
+}
+
+std::size_t ProofRecorder::keep(const Eigen::VectorXd& multiplier) {
+  multipliers_.insert(multipliers_.end(), multiplier.begin(), multiplier.end());
+  return multipliers_.size() - static_cast<std::size_t>(multiplier.size());
+}
+
+void ProofRecorder::add(const CertifiedBox& given) {
+  const auto id = static_cast<std::size_t>(given.id);
+  Box& own = box(id);
+  for (const BoxCut& cut : given.cuts) {
+    equations_ = static_cast<int>(cut.multiplier.size());
+    Slice slice{{}, cut.axis, cut.upper, cut.at};
+    slice.leaf.reason = CertificateTree::Reason::kNoPosture;
+    slice.leaf.multiplier = keep(cut.multiplier);
+    own.slices.push_back(slice);
+  }
+  own.node.axis = given.cut_axis;
+  if (given.proof.kind == BoxProof::Kind::kCollision) {
+    own.node.reason = CertificateTree::Reason::kCollision;
+    own.node.pair = given.proof.pair;
+  } else if (given.proof.kind == BoxProof::Kind::kMultiplier) {
+    own.node.reason = CertificateTree::Reason::kMultiplier;
+    own.node.multiplier = keep(given.proof.multiplier);
+    width_ = static_cast<int>(given.proof.multiplier.size());
+  }
+  if (given.parent >= 0) {  // ids of halves are one apart, the lower one's is odd
+    box(static_cast<std::size_t>(given.parent)).lower_half = id % 2 == 1 ? id : id - 1;
+    return;
+  }
+  lower_ = given.lower;
+  upper_ = given.upper;
+  for (auto cut = given.cuts.rbegin(); cut != given.cuts.rend(); ++cut) {
+    if (cut->axis >= 0) (cut->upper ? upper_ : lower_)[cut->axis] = cut->end;
+  }
+}
+
+void ProofRecorder::write(const Node& node, CertificateTree& tree) const {
+  tree.nodes.push_back(node);
+  const auto from = multipliers_.begin() + static_cast<std::ptrdiff_t>(node.multiplier);
+  tree.nodes.back().multiplier = tree.multipliers.size();
+  tree.multipliers.insert(tree.multipliers.end(), from,
+                          from + static_cast<std::ptrdiff_t>(tree.numbers(node)));
+}
+
+void ProofRecorder::write(const Part& part, std::vector<Part>& open, CertificateTree& tree) const {
+  const Box& of = boxes_[part.box];
+  if (part.slices == of.slices.size()) {
+    write(of.node, tree);
+    if (of.node.axis < 0) return;
+    open.push_back({of.lower_half + 1});
+    open.push_back({of.lower_half});
+    return;
+  }
+  const Slice& slice = of.slices[part.slices];
+  if (part.is_slice || slice.axis < 0) {
+    write(slice.leaf, tree);
+    return;
+  }
+  Node cut;
+  cut.axis = slice.axis;
+  cut.at = slice.at;
+  write(cut, tree);
+  Part upper{part.box, part.slices, true}, lower{part.box, part.slices + 1};
+  if (!slice.upper) std::swap(upper, lower);
+  open.push_back(upper);
+  open.push_back(lower);
+}
+
+CertificateTree ProofRecorder::tree() const {
+  CertificateTree tree;
+  tree.width = width_;
+  tree.equations = equations_;
+  std::vector<Part> open = {{}};
+  while (!open.empty()) {
+    const Part part = open.back();
+    open.pop_back();
+    write(part, open, tree);
+  }
+  return tree;
+}
+
+ProofCertificate ProofRecorder::certificate(const Answer& answer, const CertifyResult& result,
+                                            double gap) const {
+  const Problem& problem = *answer.task;
+  ProofCertificate proof;
+  proof.version = version();
+  proof.problem = answer.choice.problem;
+  proof.measure = answer.choice.measure;
+  proof.wrench = answer.choice.wrench;
+  proof.collision = problem.robot.collision != nullptr;
+  proof.digest = digest(problem);
+  proof.bound = result.bound;
+  proof.x = coordinates_of(problem, PostureCoordinates(problem), answer.posture);
+  proof.value = answer.capability.beta;
+  proof.gap = std::max(gap, (proof.bound - proof.value) / std::abs(proof.value));
+  proof.u = answer.capability.u;
+  proof.h = answer.capability.h;
+  proof.lower = lower_;
+  proof.upper = upper_;
+  proof.tree = tree();
+  return proof;
+}
+
+}  // namespace maxwrench

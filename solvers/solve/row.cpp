@@ -1,0 +1,98 @@
+#include "solvers/solve/row.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+namespace maxwrench {
+namespace {
+
+std::string known(bool is, double value) { return is ? exact_text(value) : ""; }
+std::string known(bool is, const Eigen::VectorXd& v) { return is ? exact_text(v) : ""; }
+
+}  // namespace
+
+const std::vector<std::string>& case_columns() {
+  static const std::vector<std::string> kColumns = {
+      "problem", "measure", "wrench", "lp", "search", "seed", "budget", "scheme", "integrator"};
+  return kColumns;
+}
+
+std::vector<std::string> case_values(const Case& c) {
+  return {c.problem,
+          c.measure,
+          to_string(c.wrench),
+          c.lp,
+          c.search,
+          fmt::format("{}", c.seed),
+          fmt::format("{}", c.budget),
+          c.scheme,
+          c.integrator};
+}
+
+std::vector<std::string> value_columns() {
+  std::vector<std::string> columns = case_columns();
+  columns.insert(columns.end(),
+                 {"status", "beta", "continuous", "unit", "yardstick", "yardstick_unit", "label",
+                  "theta_r", "h", "u", "lambda", "balance", "bounds", "dual", "gap", "evaluations",
+                  "reason", "calls", "task_digest"});
+  return columns;
+}
+
+std::vector<std::string> values(const Answer& answer) {
+  const Plan& plan = answer.plan;
+  const Capability& capability = answer.capability;
+  const Residual& residual = answer.residual();
+  const bool experiment = !answer.choice.integrator.empty();
+  const bool solved = answer.has_value() && !experiment;
+  const bool posture = solved && !answer.task->motion;  // the efforts of a plan are not in its row
+  std::vector<std::string> cells = case_values(answer.choice);
+  cells.insert(
+      cells.end(),
+      {to_string(answer.status), known(answer.has_value(), answer.beta()),
+       known(std::isfinite(plan.continuous), plan.continuous), answer.unit,
+       known(std::isfinite(answer.yardstick), answer.yardstick), answer.task->unit(),
+       answer.task->label, exact_text(stacked(plan.knots)),
+       known(posture && capability.w.size() > 0, capability.h), known(posture, capability.u),
+       known(posture, capability.lambda), known(solved, residual.balance),
+       known(solved, residual.bounds), known(solved, residual.dual), known(solved, residual.gap),
+       fmt::format("{}", answer.evaluations),
+       answer.has_value() && experiment ? answer.missed : answer.reason.str(),
+       describe(answer.calls), answer.task->digest});
+  return cells;
+}
+
+std::vector<std::string> time_columns() {
+  std::vector<std::string> columns = case_columns();
+  columns.insert(columns.end(), {"evaluations", "wall_s", "us_per_evaluation"});
+  return columns;
+}
+
+std::vector<std::string> times(const Answer& answer) {
+  std::vector<std::string> cells = case_values(answer.choice);
+  cells.push_back(fmt::format("{}", answer.evaluations));
+  cells.push_back(fmt::format("{:.4g}", answer.wall_s));
+  const double us = 1e6 * answer.wall_s / static_cast<double>(answer.evaluations);
+  cells.push_back(answer.evaluations > 0 ? fmt::format("{:.4g}", us) : "");
+  return cells;
+}
+
+std::string describe(const std::vector<CallCount>& counts) {
+  std::string text;
+  for (const CallCount& count : counts) {
+    text += fmt::format("{}{} {} {} {}", text.empty() ? "" : "; ", count.method, count.status,
+                        count.calls, count.evaluations);
+  }
+  return text;
+}
+
+std::string exact_text(double value) { return fmt::format("{:.17g}", value); }
+
+std::string exact_text(const Eigen::VectorXd& v) {
+  std::vector<std::string> texts;
+  for (const double value : v) texts.push_back(exact_text(value));
+  return fmt::format("{}", fmt::join(texts, " "));
+}
+
+}  // namespace maxwrench

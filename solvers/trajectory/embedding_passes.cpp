@@ -1,0 +1,198 @@
+#include <algorithm>
+
+#include "solvers/trajectory/embedding.h"
+
+// What the embedding does to all forms, each in one pass.
+
+namespace maxwrench {
+namespace {
+
+/// An equation's weight in the normal equations; what this leaves of it vanishes with the steps.
+constexpr double kEquation = 1e8;
+
+}  // namespace
+
+/// Takes the step; residuals of the embedding and right-hand sides at the point where it ends.
+void Embedding::measure(double step) {
+  if (step > 0) advance(step);
+  LaneSum<> dual, products;
+  const Eigen::VectorXd& phi_l = phi_low();
+  for_lanes(forms_.size, [&]<int L>(Eigen::Index i) {
+    const auto hi = lanes<L>(&forms_.hi[i]), lo = lanes<L>(&forms_.lo[i]);
+    const auto y_h = lanes<L>(&high_.y[i]), y_l = lanes<L>(&low_.y[i]);
+    products.add(high_.measure<L>(i) + low_.measure<L>(i));
+    dual.add(hi * y_h - lo * y_l);
+    const Lanes<L> theta_h = high_.theta_of<L>(i), theta_l = low_.theta_of<L>(i);
+    lanes<L>(&weight_[i]) = theta_h + theta_l;
+    lanes<L>(&G_(i, kTau)) = theta_h * hi + theta_l * lo;
+    lanes<L>(&G_(i, kDual)) = y_l - y_h;
+    lanes<L>(&G_(i, kStep)) = low_.push_of<L>(1, lanes<L>(&phi_l[i]), tau_, i) -
+                              high_.push_of<L>(1, lanes<L>(&phi_[i]), tau_, i);
+  });
+  dual_value_ = dual.value();
+  measure_equations();
+  measure_slacks();
+  primal_value_ = forms_.cost.dot(X_) - rho_ * sigma_.sum();
+  gap_residual_ = kappa_ + dual_value_ - primal_value_;
+  mu_ = (products.value() + tau_ * kappa_) / (count_ + 1);
+}
+
+void Embedding::advance(double step) {
+  X_ += step * (D_X_.col(kStep) + d_tau_ * D_X_.col(kTau));
+  sigma_ += step * (D_sigma_.col(kStep) + d_tau_ * D_sigma_.col(kTau));
+  equation_y_ += step * equation_dy_;
+  tau_ += step * d_tau_;
+  kappa_ += step * d_kappa_;
+  for_lanes(forms_.size, [&]<int L>(Eigen::Index i) {
+    high_.advance<L>(step, i);
+    low_.advance<L>(step, i);
+    lanes<L>(&phi_[i]) += step * (lanes<L>(&G_(i, kStep)) + d_tau_ * lanes<L>(&G_(i, kTau)));
+    if (!split()) return;
+    lanes<L>(&phi_low_[i]) +=
+        step * (lanes<L>(&G_low_(i, kStep)) + d_tau_ * lanes<L>(&G_low_(i, kTau)));
+  });
+}
+
+/// An equation has a weight and a multiplier of any sign.
+void Embedding::measure_equations() {
+  for (std::size_t e = 0; e < forms_.equations.size(); ++e) {
+    const int f = forms_.equations[e];
+    const double y = equation_y_[static_cast<Eigen::Index>(e)];
+    dual_value_ += forms_.hi[f] * y;
+    weight_[f] = kEquation;
+    G_(f, kTau) = kEquation * forms_.hi[f];
+    G_(f, kDual) = -y;
+    G_(f, kStep) = kEquation * (forms_.hi[f] * tau_ - phi_[f]);
+  }
+}
+
+/// The columns of sigma are eliminated: what is left of a slack's weight.
+void Embedding::measure_slacks() {
+  for (std::size_t i = 0; i < forms_.slacks.size(); ++i) {
+    const int f = forms_.slacks[i];
+    const double h = high_.theta(f), l = low_.theta(f);
+    s_diagonal_[i] = h + l;
+    s_phi_[i] = l - h;
+    weight_[f] = 4 * h * l / (h + l);
+    D_sigma_(i, kTau) = -rho_;
+  }
+}
+
+/// What the predictor's pushes do to tau; and what is left of the limits along the direction of
+/// tau: sums of squares, which do not cancel.
+double Embedding::sum_pushes() {
+  LaneSum<> squares, pushes;
+  const Eigen::VectorXd& phi_l = phi_low();
+  const Eigen::MatrixXd& G_l = G_low();
+  for_lanes(forms_.size, [&]<int L>(Eigen::Index i) {
+    const Lanes<L> h = high_.drift_of<L>(lanes<L>(&G_(i, kTau)), i);
+    const Lanes<L> l = low_.drift_of<L>(lanes<L>(&G_l(i, kTau)), i);
+    squares.add(high_.theta_of<L>(i) * h.square() + low_.theta_of<L>(i) * l.square());
+    pushes.add(h * high_.push_of<L>(1, lanes<L>(&phi_[i]), tau_, i) +
+               l * low_.push_of<L>(1, lanes<L>(&phi_l[i]), tau_, i));
+  });
+  tau_pivot_ = kappa_ / tau_ + squares.value();
+  double sum = pushes.value();
+  for (const int f : forms_.equations) {
+    const double drift = forms_.hi[f] - G_(f, kTau);
+    tau_pivot_ += kEquation * drift * drift;
+    sum -= drift * kEquation * (forms_.hi[f] * tau_ - phi_[f]);
+  }
+  return sum;
+}
+
+/// The predictor's steps, for the corrector's centres.
+void Embedding::foresee() {
+  LaneMost most;
+  const Eigen::VectorXd& phi_l = phi_low();
+  const Eigen::MatrixXd& G_l = G_low();
+  for_lanes(forms_.size, [&]<int L>(Eigen::Index i) {
+    const auto tau_h = lanes<L>(&G_(i, kTau)), step_h = lanes<L>(&G_(i, kStep));
+    const auto tau_l = lanes<L>(&G_l(i, kTau)), step_l = lanes<L>(&G_l(i, kStep));
+    const Lanes<L> h = high_.change<L>(1, d_tau_, tau_, lanes<L>(&phi_[i]), tau_h, step_h, i);
+    const Lanes<L> l = low_.change<L>(1, d_tau_, tau_, lanes<L>(&phi_l[i]), tau_l, step_l, i);
+    most.add(high_.predict<L>(h, i).max(low_.predict<L>(l, i)));
+  });
+  falls_ = most.value();
+}
+
+/// Raises the centres; what pushes the forms; returns what that does to tau.
+double Embedding::push(double share, double raise) {
+  LaneSum<> pushes;
+  const Eigen::VectorXd& phi_l = phi_low();
+  const Eigen::MatrixXd& G_l = G_low();
+  for_lanes(forms_.size, [&]<int L>(Eigen::Index i) {
+    lanes<L>(&high_.centre[i]) += raise;
+    lanes<L>(&low_.centre[i]) += raise;
+    const Lanes<L> h = high_.push_of<L>(share, lanes<L>(&phi_[i]), tau_, i);
+    const Lanes<L> l = low_.push_of<L>(share, lanes<L>(&phi_l[i]), tau_, i);
+    pushes.add(high_.drift_of<L>(lanes<L>(&G_(i, kTau)), i) * h +
+               low_.drift_of<L>(lanes<L>(&G_l(i, kTau)), i) * l);
+    lanes<L>(&G_(i, kStep)) = l - h;
+  });
+  double sum = pushes.value();
+  for (const int f : forms_.equations) {
+    G_(f, kStep) = share * kEquation * (forms_.hi[f] * tau_ - phi_[f]);
+    sum -= (forms_.hi[f] - G_(f, kTau)) * G_(f, kStep);
+  }
+  for (std::size_t i = 0; i < forms_.slacks.size(); ++i) {
+    const int f = forms_.slacks[i];
+    D_sigma_(i, kStep) = share * (high_.y[f] + low_.y[f] - rho_ * tau_) +
+                         high_.push(share, phi_[f], tau_, f) +
+                         low_.push(share, phi_low_[f], tau_, f);
+  }
+  return sum;
+}
+
+/// What the step does to the limits along the direction of tau.
+double Embedding::sum_moves() const {
+  LaneSum<> moves;
+  const Eigen::MatrixXd& G_l = G_low();
+  for_lanes(forms_.size, [&]<int L>(Eigen::Index i) {
+    const Lanes<L> h = high_.drift_of<L>(lanes<L>(&G_(i, kTau)), i) * high_.theta_of<L>(i);
+    const Lanes<L> l = low_.drift_of<L>(lanes<L>(&G_l(i, kTau)), i) * low_.theta_of<L>(i);
+    moves.add(h * lanes<L>(&G_(i, kStep)) - l * lanes<L>(&G_l(i, kStep)));
+  });
+  double sum = moves.value();
+  for (const int f : forms_.equations) {
+    sum += (forms_.hi[f] - G_(f, kTau)) * kEquation * G_(f, kStep);
+  }
+  return sum;
+}
+
+/// The steps of all slacks and multipliers.
+void Embedding::finish(double share) {
+  LaneMost most;
+  const Eigen::VectorXd& phi_l = phi_low();
+  const Eigen::MatrixXd& G_l = G_low();
+  for_lanes(forms_.size, [&]<int L>(Eigen::Index i) {
+    const auto tau_h = lanes<L>(&G_(i, kTau)), step_h = lanes<L>(&G_(i, kStep));
+    const auto tau_l = lanes<L>(&G_l(i, kTau)), step_l = lanes<L>(&G_l(i, kStep));
+    const Lanes<L> h = high_.change<L>(share, d_tau_, tau_, lanes<L>(&phi_[i]), tau_h, step_h, i);
+    const Lanes<L> l = low_.change<L>(share, d_tau_, tau_, lanes<L>(&phi_l[i]), tau_l, step_l, i);
+    most.add(high_.finish<L>(h, i).max(low_.finish<L>(l, i)));
+  });
+  falls_ = most.value();
+  for (std::size_t e = 0; e < forms_.equations.size(); ++e) {
+    const int f = forms_.equations[e];
+    equation_dy_[static_cast<Eigen::Index>(e)] =
+        kEquation * (G_(f, kStep) + d_tau_ * (G_(f, kTau) - forms_.hi[f]) -
+                     share * (forms_.hi[f] * tau_ - phi_[f]));
+  }
+}
+
+/// A change of all forms, without tau, to steps that are there.
+void Embedding::add_change() {
+  LaneMost most;
+  const Eigen::MatrixXd& G_l = G_low();
+  for_lanes(forms_.size, [&]<int L>(Eigen::Index i) {
+    most.add(
+        high_.add<L>(lanes<L>(&G_(i, kStep)), i).max(low_.add<L>(lanes<L>(&G_l(i, kStep)), i)));
+  });
+  falls_ = most.value();
+  for (std::size_t e = 0; e < forms_.equations.size(); ++e) {
+    equation_dy_[static_cast<Eigen::Index>(e)] += kEquation * G_(forms_.equations[e], kStep);
+  }
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,108 @@
+#include <cmath>
+
+#include "solvers/trajectory/by_facets.h"
+#include "solvers/trajectory/even_efforts.h"
+#include "solvers/trajectory/makers.h"
+#include "solvers/wrench/makers.h"
+
+namespace maxwrench {
+namespace {
+
+constexpr double kConfirmed = 1e-9;
+
+class Structured : public PlanSolver {
+ public:
+  void solve_well_formed(const PlanProgram& program, PlanSolution& solution) override {
+    solution.basis.clear();
+    solution.iterations = 0;
+    if (suits(program) && instant_by_instant(program, solution)) return;
+    ipm_->solve(program, solution);
+  }
+
+ private:
+  /// Of an elastic program the hard one is tried.
+  bool suits(const PlanProgram& program) {
+    return program.border() == 0 && bounded_by_facets(program) &&
+           efforts_.prepare(*program.instants.front().actuation);
+  }
+
+  /// True if the worst instant alone decides and `recheck` or a proof confirms it.
+  bool instant_by_instant(const PlanProgram& program, PlanSolution& solution) {
+    int worst = 0;
+    solution.value = kInfinity;
+    for (int i = 0; i < program.size(); ++i) {
+      facets_->solve(program.instants[i], false, capability_);
+      if (capability_.status == Status::kInfeasible) {
+        return !slackens(program) && prove(program, i, solution);
+      }
+      if (capability_.status != Status::kOptimal) return false;
+      if (capability_.beta >= solution.value) continue;
+      solution.value = capability_.beta;
+      lambda_ = capability_.lambda;
+      worst = i;
+    }
+    clear_multipliers(program, solution);
+    solution.lambda.col(worst) = lambda_;
+    solution.pi[worst] = 1;
+    solution.y.resize(0);
+    return confirm(program, solution);
+  }
+
+  /// Where a slack would be cheaper, or efforts within the rates are not found, `recheck` fails.
+  bool confirm(const PlanProgram& program, PlanSolution& solution) {
+    if (!fill_efforts(program, solution)) return false;
+    solution.residual = recheck(program, solution);
+    if (!solution.residual.within(kConfirmed * (1 + std::abs(solution.value)))) return false;
+    solution.conclude(Status::kOptimal);
+    return true;
+  }
+
+  static bool slackens(const PlanProgram& program) {
+    return program.elastic() && program.first_elastic < program.size();
+  }
+
+  static void clear_multipliers(const PlanProgram& program, PlanSolution& solution) {
+    const Zonotope& set = *program.instants.front().actuation;
+    solution.lambda.setZero(set.dimension(), program.size());
+    solution.mu.setZero(set.actuators(), program.size() - 1);
+    solution.pi.setZero(program.size());
+    solution.nu.setZero(program.R.rows());
+  }
+
+  bool prove(const PlanProgram& program, int i, PlanSolution& solution) {
+    clear_multipliers(program, solution);
+    solution.lambda.col(i) = capability_.lambda;
+    if (!proves_infeasible(program, solution)) return false;
+    solution.conclude(Status::kInfeasible, "no actuator efforts balance an instant");
+    return true;
+  }
+
+  /// All instants exert the value, with the efforts that change least abruptly.
+  bool fill_efforts(const PlanProgram& program, PlanSolution& solution) {
+    const Zonotope& set = *program.instants.front().actuation;
+    const int N = program.size();
+    solution.u.resize(set.actuators(), N);
+    solution.s.setZero(set.dimension(), N);
+    solution.w.resize(N);
+    solution.price = 0;
+    for (int i = 0; i < N; ++i) {
+      const WrenchProgram& at = program.instants[i];
+      solution.w[i].setConstant(1, solution.value / at.c_w[0]);
+      tau_ = at.tau_d + at.JtW.col(0) * solution.w[i][0];
+      if (!efforts_.solve(tau_, solution.u.col(i))) return false;
+    }
+    return true;
+  }
+
+  std::unique_ptr<WrenchSolver> facets_ = make_facets();
+  std::unique_ptr<PlanSolver> ipm_ = make_plan_ipm();
+  EvenEfforts efforts_;
+  Capability capability_;
+  Eigen::VectorXd lambda_, tau_;
+};
+
+}  // namespace
+
+std::unique_ptr<PlanSolver> make_plan_structured() { return std::make_unique<Structured>(); }
+
+}  // namespace maxwrench

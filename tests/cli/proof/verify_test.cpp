@@ -1,0 +1,117 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/tables/csv.h"
+#include "tests/support/support.h"
+
+namespace maxwrench {
+namespace {
+
+using nlohmann::json;
+
+class VerifyCommand : public testing::Test {
+ protected:
+  std::string certificate(const std::string& words) const {
+    const std::string file = folder_.path() / "proof.mwc";
+    const CommandResult result = run_maxwrench("certify " + words + " --certificate " + file);
+    EXPECT_EQ(result.exit_status, 0) << result.err;
+    return file;
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(VerifyCommand, Verifies) {
+  const std::string file = certificate("planar/force --measure ellipsoid");
+  const CommandResult text = run_maxwrench("verify " + file);
+  EXPECT_EQ(text.exit_status, 0) << text.err;
+  for (const char* line : {"planar/force  measure ellipsoid  wrench pure\nverified\n",
+                           ": no posture has more\n", " by a multiplier, "}) {
+    EXPECT_NE(text.out.find(line), std::string::npos) << line << " in\n" << text.out;
+  }
+  const json object = json::parse(run_maxwrench("verify --json " + file).out);
+  EXPECT_EQ(object["status"], "verified");
+  EXPECT_EQ(object["reason"], "");
+  EXPECT_GE(object["bound"], object["beta"]);
+  EXPECT_GE(object["ceiling"], object["bound"]);
+  EXPECT_TRUE(object["collision"]);
+}
+
+TEST_F(VerifyCommand, KnowsWhetherCollisionsCounted) {
+  const std::string file = certificate("uvms/lift --ignore-collision --gap 0.1");
+  const CommandResult result = run_maxwrench("verify " + file);
+  EXPECT_EQ(result.exit_status, 0) << result.out;
+  EXPECT_NE(result.out.find("collisions ignored"), std::string::npos);
+}
+
+TEST_F(VerifyCommand, RefusesAnotherTask) {
+  const std::string file = certificate("planar/force");
+  const CommandResult result = run_maxwrench("verify --problem uvms/valve " + file);
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_NE(result.out.find("\nrefused: it is about another robot or task\n"), std::string::npos)
+      << result.out;
+}
+
+TEST_F(VerifyCommand, RefusesOtherFilesInOneLine) {
+  const auto refused = [](const std::string& words, const char* mention) {
+    const CommandResult result = run_maxwrench("verify " + words);
+    EXPECT_EQ(result.exit_status, 2) << words;
+    EXPECT_EQ(result.out, "");
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_NE(result.err.find(mention), std::string::npos) << result.err;
+  };
+  refused("README.md", "README.md: got something else");
+  refused("no_such_file", "no_such_file: got nothing");
+  const std::string file = certificate("planar/force");
+  std::string text = read_text(file);
+  text[text.size() / 2] ^= 1;
+  std::ofstream(file, std::ios::binary) << text;
+  refused(file, "damaged");
+}
+
+/// A certificate of nothing is none.
+TEST(CertifyCommand, WritesNoCertificateWithoutABound) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "proof.mwc";
+  const CommandResult result =
+      run_maxwrench("certify mobile/push_any_height --time 0 --certificate " + file);
+  EXPECT_EQ(result.exit_status, 1);
+  EXPECT_NE(result.out.find("\nbound     none was proven\ngap       unknown\n"), std::string::npos)
+      << result.out;
+  EXPECT_NE(result.err.find("not written"), std::string::npos) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+/// The rows of the project's own run; and one that claims a tenth more is refused by its name.
+TEST_F(VerifyCommand, ChecksRowsOfARun) {
+  const std::string rows = MAXWRENCH_SOURCE_DIR "/results/values.csv.gz";
+  const json good = json::parse(run_maxwrench("verify --json --sample 200 " + rows).out);
+  EXPECT_EQ(good["status"], "verified") << good["refused"];
+  EXPECT_EQ(good["checked"], 200);
+  EXPECT_GT(good["values"], 100);
+  EXPECT_LT(good["deviation"], 1e-6);
+  const std::string file = folder_.path() / "values.csv.gz";
+  const CommandResult run = run_maxwrench(
+      "run planar/force measure=linf_polytope lp=facets search=crs2 budget=500 --out " +
+      folder_.path().string());
+  ASSERT_EQ(run.exit_status, 0) << run.err;
+  EXPECT_EQ(run_maxwrench("verify " + file).exit_status, 0);
+  std::string text = csv_text(file);
+  const std::size_t beta = text.find("best_found,3.") + std::string("best_found,").size();
+  ASSERT_LT(beta, text.size());
+  std::ofstream(file) << text.replace(beta, 3, "3.9");
+  const CommandResult other = run_maxwrench("verify " + file);
+  EXPECT_EQ(other.exit_status, 1);
+  EXPECT_NE(other.out.find("refused: planar/force,linf_polytope,pure,facets,crs2,1,500"),
+            std::string::npos)
+      << other.out;
+  std::ofstream(file, std::ios::app) << "planar/force,linf_polytope\n";
+  const CommandResult torn = run_maxwrench("verify " + file);
+  EXPECT_EQ(torn.exit_status, 2);
+  EXPECT_NE(torn.err.find("got 2 fields, expected"), std::string::npos) << torn.err;
+}
+
+}  // namespace
+}  // namespace maxwrench
