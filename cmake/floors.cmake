@@ -17,37 +17,12 @@ else()
 endif()
 add_compile_definitions(MAXWRENCH_AVX=${avx})
 
-# Of a folder's sources, those that need a library which is left out: they include its headers or what stands on them. A source that asks
-# for MAXWRENCH_WITH_... knows itself what to do.
-set(needs_IPOPT "#include (<Ip|\".*/(facet_nlp|ipopt_run|multistart).h)")
-set(needs_CLP "#include <Clp")
-set(needs_GLPK "#include <glpk")
-set(needs_NLOPT "#include (<nlopt|\".*/(facet_sqp|nlopt_run).h)")
-set(needs_PAGMO "#include <pagmo")
-set(needs_SUNDIALS "#include (<arkode|<cvode|<ida|<sundials|\".*/sundials.h)|= make_cvode\\(\\)")
-function(leave_out_absent variable)
-  set(kept)
-  foreach(source IN LISTS ${variable})
-    file(STRINGS ${source} asks REGEX MAXWRENCH_WITH_)
-    set(missing)
-    foreach(library IN LISTS maxwrench_absent)
-      file(STRINGS ${source} needs REGEX "${needs_${library}}")
-      list(APPEND missing ${needs})
-    endforeach()
-    if(asks OR NOT missing)
-      list(APPEND kept ${source})
-    endif()
-  endforeach()
-  set(${variable} ${kept} PARENT_SCOPE)
-endfunction()
-
-# Presets join eight files of a folder to one unit, which is built in a third of the time: names in an unnamed namespace are unique in
-# their folder.
+# The sources of a folder are listed in its sources.cmake. Presets join several of them to one unit, which is built in a third of the
+# time: names in an unnamed namespace are unique in their folder, and the compiler says where they are not.
 function(add_floor name)
-  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${name}/*.cpp)
-  list(FILTER sources EXCLUDE REGEX "(_bench|/main)\\.cpp$")
-  leave_out_absent(sources)
-  add_library(maxwrench_${name} ${ARGN} ${sources})
+  include(${PROJECT_SOURCE_DIR}/${name}/sources.cmake)
+  list(TRANSFORM maxwrench_${name}_sources PREPEND ${PROJECT_SOURCE_DIR}/${name}/)
+  add_library(maxwrench_${name} ${ARGN} ${maxwrench_${name}_sources})
   target_include_directories(maxwrench_${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_precompile_headers(maxwrench_${name} PRIVATE <Eigen/Dense> <Eigen/Sparse> <string> <vector>)
 endfunction()
@@ -63,6 +38,11 @@ function(add_core_floor name)
 endfunction()
 
 add_core_floor(lib)
+
+# It checks proofs and shares no code with what finds them: what it includes of the other folders is plain data.
+add_core_floor(verify ZLIB::ZLIB PkgConfig::GMPXX)
+target_compile_options(maxwrench_verify PRIVATE -ffp-contract=off)
+
 # The way from theta_r to J and tau_d, and the collision check, stay out of joined units: in a large one GCC no longer inlines products
 # of 3x3 matrices, which costs a tenth of an evaluation.
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
@@ -80,7 +60,7 @@ target_compile_definitions(maxwrench_problems PRIVATE
   TOML_HEADER_ONLY=0 TOML_SHARED_LIB=1)
 
 find_package(nlohmann_json REQUIRED)
-add_core_floor(solvers TBB::tbb fmt::fmt nlohmann_json::nlohmann_json)
+add_core_floor(solvers TBB::tbb fmt::fmt nlohmann_json::nlohmann_json PkgConfig::GMPXX)
 foreach(library IPOPT CLP GLPK NLOPT PAGMO SUNDIALS)
   target_compile_definitions(maxwrench_solvers PRIVATE MAXWRENCH_WITH_${library}=$<BOOL:${MAXWRENCH_WITH_${library}}>)
   if(NOT MAXWRENCH_WITH_${library})
@@ -103,7 +83,8 @@ add_custom_target(maxwrench_version
   BYPRODUCTS ${PROJECT_BINARY_DIR}/generated/version.cpp VERBATIM)
 
 add_library(maxwrench_core ${PROJECT_BINARY_DIR}/generated/version.cpp
-  $<TARGET_OBJECTS:maxwrench_lib> $<TARGET_OBJECTS:maxwrench_problems> $<TARGET_OBJECTS:maxwrench_solvers>)
+  $<TARGET_OBJECTS:maxwrench_lib> $<TARGET_OBJECTS:maxwrench_verify> $<TARGET_OBJECTS:maxwrench_problems>
+  $<TARGET_OBJECTS:maxwrench_solvers>)
 add_library(maxwrench::maxwrench ALIAS maxwrench_core)
 add_dependencies(maxwrench_core maxwrench_version)
 set_target_properties(maxwrench_core PROPERTIES OUTPUT_NAME maxwrench EXPORT_NAME maxwrench)
@@ -118,16 +99,8 @@ set_target_properties(maxwrench_drawing PROPERTIES EXPORT_NAME drawing)
 target_link_libraries(maxwrench_drawing PUBLIC maxwrench_core PRIVATE fmt::fmt)
 
 if(MAXWRENCH_BUILD_COMMAND OR MAXWRENCH_BUILD_BENCHMARKS)
-  # It links none of the floors: what it takes of theirs is plain data.
-  find_package(ZLIB REQUIRED)
-  add_floor(verify STATIC)
-  target_include_directories(maxwrench_verify PRIVATE ${PROJECT_SOURCE_DIR}/include)
-  target_compile_options(maxwrench_verify PRIVATE -ffp-contract=off)
-  pkg_check_modules(GMPXX REQUIRED QUIET IMPORTED_TARGET gmpxx)
-  target_link_libraries(maxwrench_verify PRIVATE Eigen3::Eigen ZLIB::ZLIB PUBLIC PkgConfig::GMPXX)
-
   add_floor(benchmarks STATIC)
-  target_link_libraries(maxwrench_benchmarks PUBLIC maxwrench_core maxwrench_verify PRIVATE TBB::tbb fmt::fmt)
+  target_link_libraries(maxwrench_benchmarks PUBLIC maxwrench_core PkgConfig::GMPXX PRIVATE TBB::tbb fmt::fmt ZLIB::ZLIB)
 endif()
 
 if(MAXWRENCH_BUILD_COMMAND)
@@ -156,12 +129,13 @@ endif()
 if(MAXWRENCH_BUILD_BENCHMARKS)
   find_package(benchmark REQUIRED)
   find_package(orocos_kdl REQUIRED)
-  file(GLOB benches CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/benchmarks/*_bench.cpp)
-  leave_out_absent(benches)
+  set(benches eval_bench lp_bench ode_bench plan_bench)
+  if(MAXWRENCH_WITH_IPOPT AND MAXWRENCH_WITH_NLOPT)
+    list(APPEND benches local_solve_bench)
+  endif()
   foreach(bench IN LISTS benches)
-    get_filename_component(name ${bench} NAME_WE)
-    add_executable(${name} ${bench})
-    target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR} ${orocos_kdl_INCLUDE_DIRS})
-    target_link_libraries(${name} PRIVATE maxwrench_benchmarks benchmark::benchmark ${orocos_kdl_LIBRARIES})
+    add_executable(${bench} ${PROJECT_SOURCE_DIR}/benchmarks/timing/${bench}.cpp)
+    target_include_directories(${bench} PRIVATE ${PROJECT_SOURCE_DIR} ${orocos_kdl_INCLUDE_DIRS})
+    target_link_libraries(${bench} PRIVATE maxwrench_benchmarks benchmark::benchmark ${orocos_kdl_LIBRARIES})
   endforeach()
 endif()

@@ -1,0 +1,10 @@
+set(maxwrench_cli_sources
+  cli.cpp ctrl_c.cpp lp.cpp manual.cpp output.cpp progress.cpp
+  proof/certify.cpp proof/good_postures.cpp proof/lp_proof.cpp proof/verify.cpp proof/verify_rows.cpp
+  report/change_sections.cpp report/contest_section.cpp report/page.cpp report/race_sections.cpp report/report.cpp
+  report/report_table.cpp report/run_sections.cpp
+  reproduce/dual.cpp reproduce/motion.cpp reproduce/planar.cpp reproduce/reproduce.cpp reproduce/uvms.cpp
+  suite/compare.cpp suite/merge.cpp suite/race_figures.cpp suite/race_table.cpp suite/row_writer.cpp suite/run.cpp
+  suite/workers.cpp
+  task/check.cpp task/eval.cpp task/list.cpp task/motion_options.cpp task/plot.cpp task/simulate.cpp task/simulate_motion.cpp
+  task/solve.cpp task/state.cpp)

@@ -1,0 +1,3 @@
+set(maxwrench_drawing_sources
+  axes.cpp bars.cpp convergence.cpp direction.cpp ecdf.cpp figures.cpp force_set.cpp layout.cpp legend.cpp motion_curves.cpp
+  named_curves.cpp panel.cpp posture_legend.cpp postures.cpp projections.cpp scatter.cpp svg.cpp tank_curves.cpp)

@@ -1,0 +1,51 @@
+set(maxwrench_solvers_sources
+  certify/bound/any_bound.cpp certify/bound/capability_bound.cpp certify/bound/collision_bound.cpp
+  certify/bound/equation_points.cpp certify/bound/exact_posture.cpp certify/bound/loop_bound.cpp certify/bound/loop_box.cpp
+  certify/bound/loop_linear.cpp certify/bound/loop_model.cpp certify/bound/loop_posture.cpp certify/bound/multi_affine.cpp
+  certify/bound/multiplier_program.cpp certify/bound/pure_bound.cpp
+  certify/box_tree.cpp certify/certify.cpp certify/good_postures.cpp certify/halving.cpp certify/proof.cpp
+  certify/proof_recorder.cpp
+  integrator/runge_kutta.cpp
+  lp/elastic.cpp
+  lp/exact/exact_basis.cpp lp/exact/rational_elimination.cpp
+  lp/simplex.cpp
+  lp/simplex/dual.cpp lp/simplex/engine.cpp lp/simplex/factor.cpp lp/simplex/inverse.cpp lp/simplex/model.cpp
+  lp/simplex/primal.cpp
+  search/annealing.cpp search/batch.cpp search/climbs.cpp search/cmaes.cpp search/composition.cpp search/facet_starts.cpp
+  search/grid.cpp search/joint_program.cpp search/knot_climber.cpp search/knot_starts.cpp search/probe.cpp search/restart.cpp
+  search/sample.cpp search/slp.cpp search/slp_outcome.cpp search/trace.cpp
+  solve/answer_json.cpp solve/experiment.cpp solve/json_line.cpp solve/method.cpp solve/pieces.cpp solve/plan_limits.cpp
+  solve/row.cpp solve/solve.cpp solve/summary.cpp solve/tank.cpp
+  strategies.cpp
+  trajectory/assembled.cpp trajectory/bordered_facets.cpp trajectory/by_facets.cpp trajectory/embedding.cpp
+  trajectory/embedding_passes.cpp trajectory/even_efforts.cpp trajectory/forms.cpp trajectory/forms_answer.cpp
+  trajectory/forms_order.cpp trajectory/ipm.cpp trajectory/normal_matrix.cpp trajectory/structured.cpp
+  version.cpp
+  wrench/assembled.cpp wrench/box.cpp wrench/efforts.cpp wrench/elimination.cpp wrench/facets.cpp wrench/tableau.cpp
+  wrench/tableau/verdict.cpp)
+if(MAXWRENCH_WITH_SUNDIALS)
+  list(APPEND maxwrench_solvers_sources
+    integrator/arkode.cpp integrator/cvode.cpp integrator/ida.cpp integrator/sundials.cpp
+    search/nullspace.cpp)
+endif()
+if(MAXWRENCH_WITH_CLP)
+  list(APPEND maxwrench_solvers_sources
+    lp/clp.cpp)
+endif()
+if(MAXWRENCH_WITH_GLPK)
+  list(APPEND maxwrench_solvers_sources
+    lp/glpk.cpp)
+endif()
+if(MAXWRENCH_WITH_IPOPT)
+  list(APPEND maxwrench_solvers_sources
+    lp/ipopt.cpp
+    search/facet_nlp.cpp search/ipopt_run.cpp search/joint_nlp.cpp search/multistart.cpp)
+endif()
+if(MAXWRENCH_WITH_NLOPT)
+  list(APPEND maxwrench_solvers_sources
+    search/facet_sqp.cpp search/nlopt_run.cpp search/nlopt_searches.cpp)
+endif()
+if(MAXWRENCH_WITH_PAGMO)
+  list(APPEND maxwrench_solvers_sources
+    search/pagmo_run.cpp)
+endif()
