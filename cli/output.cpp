@@ -14,7 +14,7 @@
 #include <system_error>
 
 #include "cli/cli.h"
-#include "solvers/solve/pieces.h"
+#include "solvers/solve/format.h"
 
 namespace maxwrench {
 namespace {

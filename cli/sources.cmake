@@ -1,7 +1,7 @@
 set(maxwrench_cli_sources
   cli.cpp ctrl_c.cpp lp.cpp manual.cpp output.cpp progress.cpp
   proof/certify.cpp proof/good_postures.cpp proof/lp_proof.cpp proof/verify.cpp proof/verify_rows.cpp
-  report/change_sections.cpp report/contest_section.cpp report/page.cpp report/race_sections.cpp report/report.cpp
+  report/benchmark_set_section.cpp report/difference_sections.cpp report/page.cpp report/race_sections.cpp report/report.cpp
   report/report_table.cpp report/run_sections.cpp
   reproduce/dual.cpp reproduce/motion.cpp reproduce/planar.cpp reproduce/reproduce.cpp reproduce/uvms.cpp
   suite/compare.cpp suite/merge.cpp suite/race_figures.cpp suite/race_table.cpp suite/row_writer.cpp suite/run.cpp

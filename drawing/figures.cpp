@@ -13,9 +13,9 @@
 #include "drawing/postures.h"
 #include "drawing/svg.h"
 #include "maxwrench/measure.h"
-#include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
+#include "maxwrench/trajectory.h"
 #include "maxwrench/wrench_program.h"
 #include "maxwrench/wrench_solver.h"
 

@@ -5,8 +5,8 @@ set(maxwrench_lib_sources
   measure/measure.cpp measure/one_sided.cpp measure/polytope.cpp measure/saturating_wrench.cpp measure/transmission_ratio.cpp
   measure/wrench_program.cpp
   posture/free_pose.cpp
-  posture/ik/branch_atlas.cpp posture/ik/branches.cpp posture/ik/carrier.cpp posture/ik/contact_arm.cpp
-  posture/ik/continuation.cpp posture/ik/dependent_joints.cpp posture/ik/primary_branches.cpp posture/ik/second_arm.cpp
+  posture/ik/contact_arm.cpp posture/ik/continuation.cpp posture/ik/dependent_joints.cpp posture/ik/ik_solver.cpp
+  posture/ik/ik_start_system.cpp posture/ik/path_tracker.cpp posture/ik/primary_ik.cpp posture/ik/second_arm.cpp
   posture/ik/tool_chain.cpp
   posture/movable.cpp posture/posture.cpp posture/pull_back.cpp posture/redundancy.cpp posture/violation.cpp
   robot/chain.cpp robot/contact.cpp robot/dynamics.cpp robot/dynamics_slopes.cpp robot/kinematics.cpp robot/motion.cpp
@@ -14,6 +14,6 @@ set(maxwrench_lib_sources
   search/capability.cpp search/facet_program.cpp
   tank/control_loop.cpp tank/controller.cpp tank/effort_tracking.cpp tank/motion_run.cpp tank/ode.cpp tank/options.cpp
   tank/reference.cpp tank/script.cpp tank/summary.cpp tank/tank.cpp
-  trajectory/clearance.cpp trajectory/follow.cpp trajectory/limits.cpp trajectory/motion.cpp trajectory/objective.cpp
-  trajectory/path.cpp trajectory/plan.cpp trajectory/plan_program.cpp trajectory/plan_residual.cpp trajectory/program.cpp
-  trajectory/scheme.cpp)
+  trajectory/clearance.cpp trajectory/limits.cpp trajectory/motion.cpp trajectory/objective.cpp trajectory/path.cpp
+  trajectory/program.cpp trajectory/robot_motion.cpp trajectory/scheme.cpp trajectory/trajectory.cpp
+  trajectory/trajectory_program.cpp trajectory/trajectory_residual.cpp)

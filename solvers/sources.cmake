@@ -11,17 +11,17 @@ set(maxwrench_solvers_sources
   lp/simplex.cpp
   lp/simplex/dual.cpp lp/simplex/engine.cpp lp/simplex/factor.cpp lp/simplex/inverse.cpp lp/simplex/model.cpp
   lp/simplex/primal.cpp
-  search/annealing.cpp search/batch.cpp search/climbs.cpp search/cmaes.cpp search/composition.cpp search/facet_starts.cpp
-  search/grid.cpp search/joint_program.cpp search/knot_climber.cpp search/knot_starts.cpp search/probe.cpp search/restart.cpp
-  search/sample.cpp search/slp.cpp search/slp_outcome.cpp search/trace.cpp
-  solve/answer_json.cpp solve/experiment.cpp solve/json_line.cpp solve/method.cpp solve/pieces.cpp solve/plan_limits.cpp
+  search/annealing.cpp search/batch.cpp search/cmaes.cpp search/composition.cpp search/facet_starts.cpp search/grid.cpp
+  search/joint_program.cpp search/knot_starts.cpp search/local_search.cpp search/probe.cpp search/restart.cpp search/sample.cpp
+  search/slp.cpp search/slp_outcome.cpp search/slp_run.cpp search/trace.cpp
+  solve/active_limits.cpp solve/answer_json.cpp solve/experiment.cpp solve/format.cpp solve/json_line.cpp solve/method.cpp
   solve/row.cpp solve/solve.cpp solve/summary.cpp solve/tank.cpp
   strategies.cpp
   trajectory/assembled.cpp trajectory/bordered_facets.cpp trajectory/by_facets.cpp trajectory/embedding.cpp
-  trajectory/embedding_passes.cpp trajectory/even_efforts.cpp trajectory/forms.cpp trajectory/forms_answer.cpp
-  trajectory/forms_order.cpp trajectory/ipm.cpp trajectory/normal_matrix.cpp trajectory/structured.cpp
+  trajectory/embedding_passes.cpp trajectory/even_efforts.cpp trajectory/facets_or_ipm.cpp trajectory/forms.cpp
+  trajectory/forms_answer.cpp trajectory/forms_order.cpp trajectory/ipm.cpp trajectory/normal_matrix.cpp
   version.cpp
-  wrench/assembled.cpp wrench/box.cpp wrench/efforts.cpp wrench/elimination.cpp wrench/facets.cpp wrench/tableau.cpp
+  wrench/assembled.cpp wrench/condensed.cpp wrench/efforts.cpp wrench/elimination.cpp wrench/facets.cpp wrench/tableau.cpp
   wrench/tableau/verdict.cpp)
 if(MAXWRENCH_WITH_SUNDIALS)
   list(APPEND maxwrench_solvers_sources

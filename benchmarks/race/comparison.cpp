@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "lib/math/require.h"
-#include "lib/posture/ik/branch_atlas.h"
+#include "lib/posture/ik/ik_start_system.h"
 #include "maxwrench/batch.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"

@@ -17,8 +17,8 @@
 #include "maxwrench/version.h"
 #include "solvers/certify/proof.h"
 #include "solvers/certify/proof_recorder.h"
+#include "solvers/solve/format.h"
 #include "solvers/solve/method.h"
-#include "solvers/solve/pieces.h"
 
 namespace maxwrench {
 namespace {

@@ -10,8 +10,8 @@
 #include "benchmarks/tables/write_file.h"
 #include "cli/cli.h"
 #include "drawing/projections.h"
+#include "solvers/solve/format.h"
 #include "solvers/solve/method.h"
-#include "solvers/solve/pieces.h"
 
 namespace maxwrench {
 namespace {

@@ -10,7 +10,7 @@
 #include "cli/proof/lp_proof.h"
 #include "cli/proof/verify_rows.h"
 #include "maxwrench/load.h"
-#include "solvers/solve/pieces.h"
+#include "solvers/solve/format.h"
 
 namespace maxwrench {
 namespace {

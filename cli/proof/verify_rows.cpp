@@ -17,7 +17,7 @@
 #include "lib/math/random.h"
 #include "maxwrench/batch.h"
 #include "maxwrench/load.h"
-#include "solvers/solve/pieces.h"
+#include "solvers/solve/format.h"
 #include "solvers/solve/row.h"
 #include "verify/packed.h"
 

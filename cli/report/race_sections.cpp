@@ -1,5 +1,5 @@
 #include "benchmarks/race/race_file.h"
-#include "benchmarks/report/contests.h"
+#include "benchmarks/report/benchmark_sets.h"
 #include "cli/report/sections.h"
 #include "cli/suite/race_figures.h"
 

@@ -6,8 +6,8 @@
 #include <set>
 #include <stdexcept>
 
-#include "benchmarks/report/contests.h"
-#include "benchmarks/report/summaries.h"
+#include "benchmarks/report/benchmark_sets.h"
+#include "benchmarks/report/row_statistics.h"
 #include "cli/report/sections.h"
 #include "drawing/scatter.h"
 #include "maxwrench/load.h"

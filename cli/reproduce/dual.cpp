@@ -10,7 +10,7 @@
 #include "cli/suite/row_writer.h"
 #include "maxwrench/figures.h"
 #include "maxwrench/load.h"
-#include "solvers/solve/pieces.h"
+#include "solvers/solve/format.h"
 
 namespace maxwrench {
 namespace {

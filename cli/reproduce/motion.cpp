@@ -11,8 +11,8 @@
 #include "maxwrench/figures.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
+#include "solvers/solve/active_limits.h"
 #include "solvers/solve/method.h"
-#include "solvers/solve/plan_limits.h"
 #include "solvers/solve/tank.h"
 
 namespace maxwrench {

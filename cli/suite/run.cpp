@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "benchmarks/suite/cost.h"
-#include "benchmarks/suite/plan_file.h"
 #include "benchmarks/suite/product.h"
+#include "benchmarks/suite/suite_file.h"
 #include "benchmarks/tables/csv.h"
 #include "cli/cli.h"
 #include "cli/suite/row_writer.h"

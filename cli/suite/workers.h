@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "benchmarks/suite/plan_file.h"
+#include "benchmarks/suite/suite_file.h"
 
 namespace maxwrench {
 

@@ -9,7 +9,7 @@
 #include "lib/posture/ik/dependent_joints.h"
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
-#include "solvers/solve/pieces.h"
+#include "solvers/solve/format.h"
 
 namespace maxwrench {
 namespace {

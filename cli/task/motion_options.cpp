@@ -8,7 +8,7 @@
 
 #include "cli/cli.h"
 #include "maxwrench/load.h"
-#include "maxwrench/plan.h"
+#include "maxwrench/trajectory.h"
 #include "solvers/solve/method.h"
 
 namespace maxwrench {

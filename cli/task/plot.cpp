@@ -8,9 +8,9 @@
 #include "cli/task/motion_options.h"
 #include "maxwrench/figures.h"
 #include "maxwrench/load.h"
-#include "maxwrench/plan.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/strategies.h"
+#include "maxwrench/trajectory.h"
 
 namespace maxwrench {
 namespace {

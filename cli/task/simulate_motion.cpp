@@ -8,9 +8,9 @@
 #include "cli/output.h"
 #include "cli/task/simulate.h"
 #include "maxwrench/figures.h"
-#include "maxwrench/plan.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/tank.h"
+#include "maxwrench/trajectory.h"
 #include "maxwrench/version.h"
 #include "solvers/solve/tank.h"
 

@@ -9,7 +9,7 @@
 #include "lib/robot/dynamics.h"
 #include "maxwrench/load.h"
 #include "maxwrench/version.h"
-#include "solvers/solve/pieces.h"
+#include "solvers/solve/format.h"
 
 namespace maxwrench {
 namespace {

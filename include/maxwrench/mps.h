@@ -3,7 +3,7 @@
 #include <string>
 
 #include "maxwrench/linear_program.h"
-#include "maxwrench/plan_program.h"
+#include "maxwrench/trajectory_program.h"
 #include "maxwrench/wrench_program.h"
 
 namespace maxwrench {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "maxwrench/capability.h"
-#include "maxwrench/plan.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/problem.h"
+#include "maxwrench/trajectory.h"
 
 namespace maxwrench {
 

@@ -11,8 +11,8 @@
 #include "maxwrench/lp_solver.h"
 #include "maxwrench/measure.h"
 #include "maxwrench/objective.h"
-#include "maxwrench/plan_program.h"
 #include "maxwrench/search.h"
+#include "maxwrench/trajectory_program.h"
 #include "maxwrench/wrench_solver.h"
 
 namespace maxwrench {

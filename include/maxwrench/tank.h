@@ -169,7 +169,7 @@ Interpolation parse_interpolation(const std::string& name);
 
 /// What the tank carries out: a plan joined in time. Not all of a plan: a wrench is asked for that
 /// is smaller by the margin, and the efforts are those that the lower level finds for it. Its use
-/// needs maxwrench/plan.h.
+/// needs maxwrench/trajectory.h.
 struct TankScript : Verdict {
   Path path = Path::constant({}, 1);  ///< of what holds the end effector
   std::vector<Instant> instants;      ///< t from 0 to T; u and h as asked for

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "lib/posture/ik/dependent_joints.h"
-#include "lib/posture/ik/primary_branches.h"
+#include "lib/posture/ik/primary_ik.h"
 #include "lib/posture/ik/second_arm.h"
 #include "lib/posture/posture_state.h"
 #include "lib/posture/pull_back.h"

@@ -7,8 +7,8 @@
 #include "lib/tank/reference.h"
 #include "lib/tank/stopwatch.h"
 #include "lib/tank/summary.h"
-#include "lib/trajectory/follow.h"
-#include "maxwrench/plan.h"
+#include "lib/trajectory/robot_motion.h"
+#include "maxwrench/trajectory.h"
 
 namespace maxwrench {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "maxwrench/plan.h"
+#include "maxwrench/trajectory.h"
 
 namespace maxwrench {
 ScriptReader::ScriptReader(const Problem& problem, const TankScript& script)

@@ -5,9 +5,9 @@
 
 #include "lib/trajectory/motion.h"
 #include "lib/trajectory/program.h"
-#include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/tank.h"
+#include "maxwrench/trajectory.h"
 
 namespace maxwrench {
 namespace {

@@ -7,8 +7,8 @@
 #include <limits>
 #include <string>
 
-#include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
+#include "maxwrench/trajectory.h"
 
 namespace maxwrench {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "lib/robot/kinematics.h"
-#include "maxwrench/plan.h"
+#include "maxwrench/trajectory.h"
 
 namespace maxwrench {
 

@@ -5,9 +5,9 @@
 
 #include "lib/robot/dynamics.h"
 #include "lib/robot/dynamics_slopes.h"
-#include "lib/trajectory/follow.h"
+#include "lib/trajectory/robot_motion.h"
 #include "lib/trajectory/scheme.h"
-#include "maxwrench/plan.h"
+#include "maxwrench/trajectory.h"
 
 namespace maxwrench {
 

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
+#include "maxwrench/trajectory.h"
 
 namespace maxwrench {
 namespace {

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "lib/trajectory/scheme.h"
-#include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
+#include "maxwrench/trajectory.h"
 
 namespace maxwrench {
 

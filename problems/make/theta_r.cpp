@@ -8,8 +8,8 @@
 #include <numeric>
 
 #include "lib/math/random.h"
-#include "lib/posture/ik/branch_atlas.h"
 #include "lib/posture/ik/dependent_joints.h"
+#include "lib/posture/ik/ik_start_system.h"
 #include "lib/robot/chain.h"
 #include "maxwrench/posture.h"
 #include "problems/make/bad_value.h"

@@ -4,7 +4,7 @@
 
 #include "lib/math/decompositions.h"
 #include "lib/math/random.h"
-#include "solvers/search/climbs.h"
+#include "solvers/search/local_search.h"
 #include "solvers/search/makers.h"
 
 namespace maxwrench {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "lib/math/random.h"
-#include "solvers/search/climbs.h"
+#include "solvers/search/local_search.h"
 
 namespace maxwrench {
 namespace {

@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "solvers/ipopt_lock.h"
-#include "solvers/search/climbs.h"
+#include "solvers/search/local_search.h"
 
 namespace maxwrench {
 

@@ -3,7 +3,7 @@
 #include <Eigen/Sparse>
 #include <vector>
 
-#include "maxwrench/plan.h"
+#include "maxwrench/trajectory.h"
 
 namespace maxwrench {
 

@@ -9,7 +9,7 @@
 
 #include "lib/math/decompositions.h"
 #include "lib/math/random.h"
-#include "solvers/search/knot_climber.h"
+#include "solvers/search/slp_run.h"
 
 namespace maxwrench {
 namespace {

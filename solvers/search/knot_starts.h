@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "maxwrench/plan.h"
+#include "maxwrench/trajectory.h"
 #include "solvers/search/probe.h"
 
 namespace maxwrench {

@@ -5,9 +5,9 @@
 
 #include "solvers/caught.h"
 #include "solvers/ipopt_lock.h"
-#include "solvers/search/climbs.h"
 #include "solvers/search/ipopt_run.h"
 #include "solvers/search/knot_starts.h"
+#include "solvers/search/local_search.h"
 #include "solvers/search/makers.h"
 
 namespace maxwrench {

@@ -2,7 +2,7 @@
 
 #include <nlopt.h>
 
-#include "solvers/search/climbs.h"
+#include "solvers/search/local_search.h"
 
 namespace maxwrench {
 

@@ -6,7 +6,7 @@
 #include <pagmo/population.hpp>
 #include <pagmo/problem.hpp>
 
-#include "solvers/search/climbs.h"
+#include "solvers/search/local_search.h"
 #include "solvers/search/makers.h"
 
 // The methods of pagmo (Biscani, Izzo 2020). Its headers are heavy: they are included here only.

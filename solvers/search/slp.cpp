@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <span>
 
-#include "solvers/search/knot_climber.h"
 #include "solvers/search/knot_starts.h"
 #include "solvers/search/makers.h"
 #include "solvers/search/slp_outcome.h"
+#include "solvers/search/slp_run.h"
 
 namespace maxwrench {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "solvers/search/knot_climber.h"
+#include "solvers/search/slp_run.h"
 
 namespace maxwrench {
 

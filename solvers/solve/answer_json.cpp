@@ -2,7 +2,7 @@
 
 #include "maxwrench/solve.h"
 #include "maxwrench/version.h"
-#include "solvers/solve/pieces.h"
+#include "solvers/solve/format.h"
 
 namespace maxwrench {
 namespace {

@@ -1,6 +1,6 @@
 #include <nlohmann/json.hpp>
 
-#include "solvers/solve/pieces.h"
+#include "solvers/solve/format.h"
 
 namespace maxwrench {
 namespace {

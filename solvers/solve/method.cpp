@@ -8,9 +8,9 @@
 #include <stdexcept>
 
 #include "lib/search/facet_program.h"
-#include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
+#include "maxwrench/trajectory.h"
 
 namespace maxwrench {
 namespace {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "maxwrench/objective.h"
-#include "maxwrench/plan.h"
 #include "maxwrench/search.h"
 #include "maxwrench/solve.h"
+#include "maxwrench/trajectory.h"
 
 namespace maxwrench {
 

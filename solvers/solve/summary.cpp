@@ -3,8 +3,8 @@
 #include <iterator>
 
 #include "maxwrench/solve.h"
-#include "solvers/solve/pieces.h"
-#include "solvers/solve/plan_limits.h"
+#include "solvers/solve/active_limits.h"
+#include "solvers/solve/format.h"
 
 namespace maxwrench {
 namespace {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"
+#include "maxwrench/trajectory.h"
 
 namespace maxwrench {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "maxwrench/plan_program.h"
+#include "maxwrench/trajectory_program.h"
 #include "solvers/wrench/tableau.h"
 
 namespace maxwrench {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "maxwrench/plan_program.h"
+#include "maxwrench/trajectory_program.h"
 
 namespace maxwrench {
 

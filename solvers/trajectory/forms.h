@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "lib/math/farkas.h"
-#include "maxwrench/plan_program.h"
+#include "maxwrench/trajectory_program.h"
 #include "solvers/trajectory/blocks.h"
 
 namespace maxwrench {

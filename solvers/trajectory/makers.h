@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "maxwrench/lp_solver.h"
-#include "maxwrench/plan_program.h"
+#include "maxwrench/trajectory_program.h"
 
 // Solvers of the programs of plans: one that knows the structure, and any other on the assembled
 // program.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solvers/trajectory/lanes.h"
+#include "solvers/trajectory/simd_pack.h"
 
 namespace maxwrench {
 

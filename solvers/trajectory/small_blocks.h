@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "solvers/trajectory/blocks.h"
-#include "solvers/trajectory/lanes.h"
+#include "solvers/trajectory/simd_pack.h"
 
 // Algebra on the blocks of stages, whose sizes are known to the compiler: D is a number, or
 // Eigen::Dynamic.

@@ -105,9 +105,9 @@ TEST_P(Docs, EveryCommandWorks) {
   const TemporaryFolder folder;
   fs::copy(kRoot / "problems", folder.path() / "problems", fs::copy_options::recursive);
   fs::create_directory(folder.path() / "benchmarks");
-  fs::copy(kRoot / "benchmarks/plans", folder.path() / "benchmarks/plans");
+  fs::copy(kRoot / "benchmarks/suites", folder.path() / "benchmarks/suites");
   fs::create_directory(folder.path() / "results");
-  fs::copy(kRoot / "results/plans", folder.path() / "results/plans");
+  fs::copy(kRoot / "results/trajectories", folder.path() / "results/trajectories");
   static const std::regex kPath("# ([a-z_/]+\\.toml)");
   for (const DocumentBlock& block : document_blocks(GetParam())) {
     if (block.kind == "console") run_block(block, folder.path());

@@ -6,9 +6,9 @@
 #include <stdexcept>
 
 #include "maxwrench/load.h"
-#include "maxwrench/plan.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/strategies.h"
+#include "maxwrench/trajectory.h"
 #include "maxwrench/wrench_program.h"
 #include "solvers/solve/method.h"
 #include "solvers/solve/row.h"

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "lib/posture/ik/branch_atlas.h"
+#include "lib/posture/ik/ik_start_system.h"
 #include "maxwrench/load.h"
 #include "solvers/solve/row.h"
 #include "tests/support/completeness.h"

@@ -7,14 +7,14 @@
 #include "maxwrench/load.h"
 #include "maxwrench/lp_solver.h"
 #include "maxwrench/objective.h"
-#include "maxwrench/plan.h"
-#include "maxwrench/plan_program.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/strategies.h"
+#include "maxwrench/trajectory.h"
+#include "maxwrench/trajectory_program.h"
 #include "maxwrench/wrench_program.h"
 #include "solvers/solve/method.h"
-#include "tests/support/plans.h"
 #include "tests/support/support.h"
+#include "tests/support/trajectories.h"
 
 // Whoever uses the library may hand over anything: NaN and infinities get no verdict.
 

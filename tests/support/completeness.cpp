@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "lib/math/decompositions.h"
-#include "lib/posture/ik/branch_atlas.h"
-#include "lib/posture/ik/branches.h"
+#include "lib/posture/ik/ik_solver.h"
+#include "lib/posture/ik/ik_start_system.h"
 #include "lib/robot/chain.h"
 #include "lib/robot/kinematics.h"
 #include "tests/support/support.h"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "maxwrench/batch.h"
-#include "maxwrench/plan.h"
+#include "maxwrench/trajectory.h"
 
 namespace maxwrench {
 

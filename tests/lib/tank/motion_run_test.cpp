@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "maxwrench/load.h"
-#include "maxwrench/plan.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/tank.h"
+#include "maxwrench/trajectory.h"
 #include "solvers/solve/method.h"
 #include "solvers/solve/row.h"
 

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "maxwrench/load.h"
-#include "maxwrench/plan.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/tank.h"
+#include "maxwrench/trajectory.h"
 #include "tests/support/refusals.h"
 
 namespace maxwrench {

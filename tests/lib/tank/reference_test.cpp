@@ -6,8 +6,8 @@
 #include "lib/tank/ode.h"
 #include "lib/trajectory/motion.h"
 #include "maxwrench/load.h"
-#include "maxwrench/plan.h"
 #include "maxwrench/posture.h"
+#include "maxwrench/trajectory.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {

@@ -10,8 +10,8 @@
 #include "maxwrench/posture.h"
 #include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"
-#include "tests/support/hills.h"
 #include "tests/support/loops.h"
+#include "tests/support/multimodal.h"
 #include "tests/support/refusals.h"
 #include "tests/support/support.h"
 

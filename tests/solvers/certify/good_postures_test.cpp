@@ -10,7 +10,7 @@
 #include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"
 #include "solvers/certify/certify.h"
-#include "tests/support/hills.h"
+#include "tests/support/multimodal.h"
 #include "tests/support/refusals.h"
 #include "tests/support/support.h"
 

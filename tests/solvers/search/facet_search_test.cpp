@@ -4,9 +4,9 @@
 
 #include "lib/search/facet_program.h"
 #include "maxwrench/load.h"
-#include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
+#include "maxwrench/trajectory.h"
 #include "solvers/solve/method.h"
 #include "tests/support/objectives.h"
 #include "tests/support/support.h"

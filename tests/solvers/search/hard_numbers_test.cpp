@@ -5,9 +5,9 @@
 #include <string_view>
 
 #include "maxwrench/load.h"
-#include "maxwrench/plan.h"
 #include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"
+#include "maxwrench/trajectory.h"
 #include "solvers/solve/method.h"
 #include "tests/support/known.h"
 #include "tests/support/objectives.h"

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include "maxwrench/load.h"
-#include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
+#include "maxwrench/trajectory.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {

@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "maxwrench/load.h"
-#include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
-#include "solvers/search/knot_climber.h"
+#include "maxwrench/trajectory.h"
+#include "solvers/search/slp_run.h"
 #include "tests/support/objectives.h"
 #include "tests/support/support.h"
 

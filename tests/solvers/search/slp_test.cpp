@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "maxwrench/load.h"
-#include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
+#include "maxwrench/trajectory.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {

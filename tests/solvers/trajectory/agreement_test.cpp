@@ -5,12 +5,12 @@
 #include <map>
 #include <string>
 
-#include "benchmarks/timing/slow_plan.h"
+#include "benchmarks/timing/slow_trajectory.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
 #include "solvers/trajectory/makers.h"
-#include "tests/support/plans.h"
 #include "tests/support/support.h"
+#include "tests/support/trajectories.h"
 
 namespace maxwrench {
 namespace {

@@ -4,9 +4,9 @@
 
 #include "lib/math/random.h"
 #include "maxwrench/load.h"
-#include "maxwrench/plan.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
+#include "maxwrench/trajectory.h"
 #include "solvers/trajectory/makers.h"
 
 namespace maxwrench {

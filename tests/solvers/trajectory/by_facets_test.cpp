@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "maxwrench/load.h"
-#include "tests/support/plans.h"
+#include "tests/support/trajectories.h"
 
 namespace maxwrench {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
-#include "tests/support/plans.h"
 #include "tests/support/support.h"
+#include "tests/support/trajectories.h"
 
 namespace maxwrench {
 namespace {

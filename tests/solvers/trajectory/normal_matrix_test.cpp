@@ -9,7 +9,7 @@
 
 #include "maxwrench/load.h"
 #include "solvers/trajectory/forms.h"
-#include "tests/support/plans.h"
+#include "tests/support/trajectories.h"
 
 namespace maxwrench {
 namespace {

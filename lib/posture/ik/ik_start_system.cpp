@@ -1,0 +1,319 @@
+#include "lib/posture/ik/ik_start_system.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "lib/math/decompositions.h"
+#include "lib/math/random.h"
+#include "lib/posture/ik/path_tracker.h"
+#include "maxwrench/problem.h"
+
+namespace maxwrench {
+namespace {
+
+/// Newton's method starts from so many places for the first solution.
+constexpr int kFirstStarts = 4000;
+/// So many loops without a new solution end the search for them.
+constexpr int kIdleLoops = 10;
+constexpr int kMostLoops = 300;
+/// No chain of six joints has more than 16; the bound only ends what went wrong.
+constexpr std::size_t kMostSolutions = 64;
+/// Newton's method starts from so many places for further real, and for complex, solutions.
+constexpr int kRealStarts = 100;
+constexpr int kComplexStarts = 200;
+/// J_d of a solution that others fall together with at every theta_r.
+constexpr double kSingularSolution = 1e-6;
+constexpr double kPi = std::numbers::pi;
+
+/// A stop of a loop: theta_r and y of the end effector that shows where X goes.
+struct Stop {
+  VectorX<Complex> theta_r;
+  Six<Complex> y{};
+};
+
+/// Somewhere, not near the real numbers.
+Stop random_stop(const ToolChain& chain, const Stop& around, Random& random) {
+  constexpr double kImaginary = 0.7;
+  Stop stop = around;
+  const auto moved = [&](double middle, double reach) {
+    return Complex(middle + random.uniform(-reach, reach), random.uniform(-kImaginary, kImaginary));
+  };
+  for (Complex& theta : stop.theta_r) theta = moved(theta.re, 2);
+  for (int i = 0; i < chain.unknowns(); ++i) {
+    Complex& y = stop.y[static_cast<std::size_t>(i)];
+    y = moved(y.re, chain.turns(i) ? 2 : 0.5);
+  }
+  return stop;
+}
+
+Way<Complex> between(const Stop& from, const Stop& to) {
+  Way<Complex> way;
+  way.from = from.theta_r;
+  way.to = to.theta_r;
+  way.bend.setConstant(way.from.size(), Complex(0.0));
+  way.moves_pose = true;
+  way.y_from = from.y;
+  way.y_to = to.y;
+  return way;
+}
+
+VectorX<Complex> complex_of(const Eigen::VectorXd& theta_r) {
+  VectorX<Complex> result;
+  assign(theta_r, result);
+  return result;
+}
+
+/// The damped Newton's method of Levenberg and Marquardt for y at theta_r; whether it arrives.
+class FirstNewton {
+ public:
+  FirstNewton(const ToolChain& chain, const Pose<double>& pose)
+      : chain_(chain), pose_(pose), J_(6, chain.unknowns()), error_(6) {}
+
+  bool run(const Eigen::VectorXd& theta_r, Six<double>& y) {
+    constexpr int kMostNewtonSteps = 100;
+    constexpr double kMostDamping = 1e6, kLongest = 0.5;
+    double damping = 1e-2;
+    linearise(theta_r, y);
+    for (int step = 0; step < kMostNewtonSteps && error_.norm() > kArrived; ++step) {
+      const double before = error_.norm();
+      Vector6N dy = damped_step(J_, error_, damping);
+      double longest = 0;  // of the angles; translations are linear
+      for (Eigen::Index i = 0; i < dy.size(); ++i) {
+        if (chain_.turns(static_cast<int>(i))) longest = std::max(longest, std::abs(dy[i]));
+      }
+      if (longest > kLongest) dy *= kLongest / longest;
+      Six<double> trial = y;
+      for (Eigen::Index i = 0; i < dy.size(); ++i) trial[static_cast<std::size_t>(i)] += dy[i];
+      linearise(theta_r, trial);
+      if (error_.norm() < before) {
+        y = trial;
+        damping /= 8;
+        continue;
+      }
+      linearise(theta_r, y);
+      damping *= 8;
+      if (damping > kMostDamping) return false;
+    }
+    return error_.norm() <= kArrived;
+  }
+
+ private:
+  void linearise(const Eigen::VectorXd& theta_r, const Six<double>& y) {
+    const double* const none = nullptr;
+    chain_.evaluate(theta_r.data(), y.data(), none, none, state_);
+    for (int i = 0; i < chain_.unknowns(); ++i) J_.col(i) = state_.J[static_cast<std::size_t>(i)];
+    error_.head<3>() = pose_.p - state_.pose.p;
+    error_.tail<3>() = logarithm(pose_.R * state_.pose.R.transpose());
+  }
+
+  const ToolChain& chain_;
+  const Pose<double>& pose_;
+  ToolState<double> state_;
+  Matrix6N J_;
+  Vector6N error_;
+};
+
+/// The i-th number of the sequence of van der Corput to a base.
+double radical_inverse(int i, int base) {
+  double result = 0, digit = 1.0 / base;
+  for (; i > 0; i /= base, digit /= base) result += digit * (i % base);
+  return result;
+}
+
+}  // namespace
+
+BranchAtlas::BranchAtlas(const Problem& problem)
+    : chain_(problem),
+      pose_(problem.pose),
+      theta_r_min_(problem.theta_r_min.head(chain_.parameters())),
+      theta_r_max_(problem.theta_r_max.head(chain_.parameters())) {
+  find_first(problem);
+  if (!first_) return;
+  find_generic();
+  if (generic_.empty()) {
+    first_.reset();
+    return;
+  }
+  spread();
+}
+
+bool BranchAtlas::serves(const Problem& problem) const {
+  const auto r = chain_.parameters();
+  return problem.redundancy() >= r && problem.pose.p == pose_.p && problem.pose.R == pose_.R &&
+         problem.theta_r_min.head(r) == theta_r_min_ &&
+         problem.theta_r_max.head(r) == theta_r_max_ && ToolChain(problem) == chain_;
+}
+
+/// Where y may be: any angle, joints within their limits, the base near the pose at theta_r.
+void BranchAtlas::set_reach(const Problem& problem, const Eigen::VectorXd& theta_r) {
+  const Eigen::Vector3d near = (problem.robot.mount.inverse() * pose_at(problem, theta_r)).p;
+  for (int j = 0; j < chain_.unknowns(); ++j) {
+    const auto k = static_cast<std::size_t>(j);
+    const int z = chain_.place_in_z(j);
+    middle_[k] = 0;
+    reach_[k] = chain_.turns(j) ? kPi : 1;
+    if (chain_.turns(j)) continue;
+    if (z < 4) {
+      middle_[k] = near[z];
+      continue;
+    }
+    const Joint& joint = problem.robot.joints[static_cast<std::size_t>(z - 4)];
+    if (!std::isfinite(joint.q_min) || !std::isfinite(joint.q_max)) continue;
+    middle_[k] = (joint.q_min + joint.q_max) / 2;
+    reach_[k] = (joint.q_max - joint.q_min) / 2;
+  }
+}
+
+/// Somewhere, in real numbers.
+Six<double> BranchAtlas::random_y(Random& random) const {
+  Six<double> y{};
+  for (int j = 0; j < chain_.unknowns(); ++j) {
+    y[static_cast<std::size_t>(j)] = middle_[static_cast<std::size_t>(j)] +
+                                     reach_[static_cast<std::size_t>(j)] * random.uniform(-1, 1);
+  }
+  return y;
+}
+
+/// One at the default, from the guess or from anywhere, or else at any theta_r; then others there.
+void BranchAtlas::find_first(const Problem& problem) {
+  set_reach(problem, problem.theta_r_default);
+  FirstNewton newton(chain_, pose_);
+  Continuation<double> correction(chain_);
+  Random random(1);
+  AtlasNode node;
+  node.theta_r = problem.theta_r_default.head(chain_.parameters());
+  const Eigen::VectorXd at_default = node.theta_r;
+  Six<double> y{};
+  for (int j = 0; j < chain_.unknowns(); ++j) {
+    const int z = chain_.place_in_z(j);
+    y[static_cast<std::size_t>(j)] = z < 4 ? problem.guess_base[z] : problem.guess_q[z - 4];
+  }
+  for (int i = 0, after = 0; i < kFirstStarts && after < kRealStarts; ++i) {
+    if (node.real.empty() && i > 0) {
+      node.theta_r = at_default;
+      for (Eigen::Index k = 0; k < at_default.size() && i % 2 == 0; ++k) {
+        node.theta_r[k] = random.uniform(theta_r_min_[k], theta_r_max_[k]);
+      }
+      set_reach(problem, node.theta_r);
+    }
+    if (i > 0) y = random_y(random);
+    after += node.real.empty() ? 0 : 1;
+    if (!newton.run(node.theta_r, y) || !correction.correct(node.theta_r, pose_, y)) continue;
+    if (correction.is_singular(kSingularSolution)) continue;
+    wrap(chain_, y);
+    if (!contains(chain_, node.real, y)) node.real.push_back(y);
+  }
+  if (!node.real.empty()) first_ = node;
+}
+
+/// Adds y to the solutions if it is new.
+bool BranchAtlas::keep(Six<Complex> y) {
+  wrap(chain_, y);
+  if (generic_.size() >= kMostSolutions || contains(chain_, generic_, y)) return false;
+  generic_.push_back(y);
+  return true;
+}
+
+/// Those that are carried from the first, and those that Newton's method finds.
+void BranchAtlas::seek_generic(Continuation<Complex>& continuation, Random& random) {
+  const Pose<Complex> pose = complex_of(pose_);
+  Stop base{complex_of(first_->theta_r), complex_of(first_->real[0])};
+  for (int attempt = 0; attempt < 20 && generic_.empty(); ++attempt) {
+    Way<Complex> way;
+    way.from = base.theta_r;
+    way.to = random_stop(chain_, base, random).theta_r;
+    way.bend.setConstant(way.from.size(), Complex(0.0));
+    way.pose = pose;
+    generic_theta_r_ = way.to;
+    for (const Six<double>& y : first_->real) {
+      Six<Complex> end = complex_of(y);
+      if (continuation.follow(way, end)) keep(end);
+    }
+  }
+  for (int start = 0; start < kComplexStarts; ++start) {
+    Six<Complex> y = random_stop(chain_, base, random).y;
+    for (int i = 0; i < chain_.unknowns(); ++i) {
+      if (chain_.turns(i)) y[static_cast<std::size_t>(i)].re = random.uniform(-kPi, kPi);
+    }
+    const bool arrived = continuation.seek(generic_theta_r_, pose, y);
+    if (arrived && !continuation.is_singular(kSingularSolution)) keep(y);
+  }
+}
+
+/// Carries all that are known around loops. Every other loop moves X too, with one of them; it
+/// comes back to itself.
+void BranchAtlas::find_generic() {
+  Continuation<Complex> continuation(chain_);
+  Random random(2);
+  seek_generic(continuation, random);
+  if (generic_.empty()) return;
+  for (int loop = 0, idle = 0; loop < kMostLoops && idle < kIdleLoops; ++loop, ++idle) {
+    const auto reference =
+        static_cast<std::size_t>(random.uniform() * static_cast<double>(generic_.size()));
+    const Stop base{generic_theta_r_, generic_[reference]};
+    const Stop first = random_stop(chain_, base, random);
+    const Stop second = random_stop(chain_, base, random);
+    std::array<Way<Complex>, 3> ways = {between(base, first), between(first, second),
+                                        between(second, base)};
+    for (Way<Complex>& way : ways) {
+      way.moves_pose = loop % 2 == 0;
+      way.pose = complex_of(pose_);
+    }
+    const std::size_t known = generic_.size();
+    for (std::size_t i = 0; i < known; ++i) {
+      Six<Complex> y = generic_[i];
+      const bool arrived = std::all_of(ways.begin(), ways.end(), [&](const Way<Complex>& way) {
+        return continuation.follow(way, y);
+      });
+      if (arrived && !continuation.is_singular(kSingularSolution) && keep(y)) idle = -1;
+    }
+  }
+}
+
+void BranchAtlas::spread() {
+  static constexpr std::array<int, 10> kPrimes = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29};
+  const auto r = static_cast<Eigen::Index>(chain_.parameters());
+  const int count = r == 0 ? 1 : 32 << std::min<Eigen::Index>(r, 4);
+  for (int i = 0; i < count; ++i) {
+    Eigen::VectorXd place(r);
+    for (Eigen::Index k = 0; k < r; ++k) {
+      const double share = radical_inverse(i + 1, kPrimes[static_cast<std::size_t>(k) % 10]);
+      place[k] = theta_r_min_[k] + share * (theta_r_max_[k] - theta_r_min_[k]);
+    }
+    places_.push_back(place);
+  }
+  lazy_ = std::make_unique<Lazy[]>(places_.size());
+}
+
+const AtlasNode& BranchAtlas::node(int i) const {
+  Lazy& lazy = lazy_[static_cast<std::size_t>(i)];
+  std::call_once(lazy.once, [&] {
+    Carrier carrier(chain_, pose_);
+    go_from_generic(place(i), carrier, lazy.node);
+  });
+  return lazy.node;
+}
+
+void BranchAtlas::go_from_generic(const Eigen::VectorXd& theta_r, Carrier& carrier,
+                                  AtlasNode& node) const {
+  Way<Complex>& way = carrier.way();
+  way.from = generic_theta_r_;
+  assign(theta_r, way.to);
+  way.bend.setConstant(Complex(0.0));
+  carrier.begin();
+  for (const Six<Complex>& y : generic_) carrier.carry(y);
+  node.theta_r = theta_r;
+  node.complete = carrier.finish(solutions(), node);
+}
+
+std::shared_ptr<const BranchAtlas> serving_atlas(const Problem& problem) {
+  if (problem.atlas && problem.atlas->serves(problem)) return problem.atlas;
+  return std::make_shared<const BranchAtlas>(problem);
+}
+
+void prepare_branches(Problem& problem) {
+  if (!problem.dependent.empty()) problem.atlas = serving_atlas(problem);
+}
+
+}  // namespace maxwrench

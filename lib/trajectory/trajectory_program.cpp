@@ -1,0 +1,281 @@
+#include "maxwrench/trajectory_program.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace maxwrench {
+namespace {
+
+/// Where things stand in the assembled program: its columns are those of the instants, of the
+/// rates, t and the slack columns, y and the activities of R; its rows are the balances, the rates,
+/// those of t and of R.
+class Layout {
+ public:
+  explicit Layout(const PlanProgram& program)
+      : program_(program),
+        n_(program.instants.front().actuation->dimension()),
+        m_(program.instants.front().actuation->actuators()) {
+    for (int i = 0; i + 1 < program.size(); ++i) {
+      for (int j = 0; j < m_; ++j) rates_ += program.du_max(j, i) < kInfinity;
+    }
+  }
+
+  int n() const { return n_; }
+  int m() const { return m_; }
+  int rates() const { return rates_; }
+  bool max_min() const { return program_.peak < 0; }
+  bool elastic(int i) const { return program_.elastic() && i >= program_.first_elastic; }
+  bool limited(int j, int i) const {
+    return i >= 0 && i + 1 < program_.size() && program_.du_max(j, i) < kInfinity;
+  }
+  int columns(int i) const {
+    return m_ + program_.instants[i].columns() + (elastic(i) ? 2 * n_ : 0);
+  }
+  int first_rate_row() const { return n_ * program_.size(); }
+  int first_t_row() const { return first_rate_row() + rates_; }
+  int first_r_row() const { return first_t_row() + (max_min() ? program_.size() : 0); }
+  int r_rows() const { return static_cast<int>(program_.R.rows()); }
+  int rows() const { return first_r_row() + r_rows(); }
+  int cols() const {
+    int count = rates_ + (max_min() ? 1 + program_.size() : 0) + program_.border() + r_rows();
+    for (int i = 0; i < program_.size(); ++i) count += columns(i);
+    return count;
+  }
+
+ private:
+  const PlanProgram& program_;
+  int n_, m_;
+  int rates_ = 0;
+};
+
+/// Calls sink.column(cost, low, high) for each column of the assembled program and
+/// sink.entry(row, value) for the entries that follow it, in increasing rows. The pattern depends
+/// on the shape alone.
+template <class Sink>
+class Walk {
+ public:
+  Walk(const PlanProgram& program, Sink& sink) : program_(program), layout_(program), sink_(sink) {}
+
+  void run() {
+    for (int i = 0; i < program_.size(); ++i) instant(i);
+    for (int row = 0, i = 0; i + 1 < program_.size(); ++i) {
+      for (int j = 0; j < layout_.m(); ++j) {
+        if (!layout_.limited(j, i)) continue;
+        sink_.column(0, -program_.du_max(j, i), program_.du_max(j, i));
+        sink_.entry(layout_.first_rate_row() + row++, -1);
+      }
+    }
+    if (layout_.max_min()) lowest();
+    for (int j = 0; j < program_.border(); ++j) border(j);
+    for (int row = 0; row < layout_.r_rows(); ++row) {
+      sink_.column(0, program_.r_min[row], program_.r_max[row]);
+      sink_.entry(layout_.first_r_row() + row, -1);
+    }
+  }
+
+ private:
+  void instant(int i) {
+    const WrenchProgram& at = program_.instants[i];
+    const int row = i * layout_.n();
+    efforts(i, row);
+    const bool peak = i == program_.peak;
+    for (int j = 0; j < at.columns(); ++j) {
+      sink_.column(peak ? at.c_w[j] : 0, at.w_min[j], at.w_max[j]);
+      for (int r = 0; r < layout_.n(); ++r) sink_.entry(row + r, -at.JtW(r, j));
+      if (layout_.max_min()) sink_.entry(layout_.first_t_row() + i, at.c_w[j]);
+    }
+    if (!layout_.elastic(i)) return;
+    for (const double sign : {1.0, -1.0}) {
+      for (int r = 0; r < layout_.n(); ++r) {
+        sink_.column(-program_.rho, 0, kInfinity);
+        sink_.entry(row + r, sign);
+      }
+    }
+  }
+
+  void efforts(int i, int row) {
+    const Zonotope& set = *program_.instants[i].actuation;
+    int behind = layout_.first_rate_row() + rates_before_;
+    int ahead = behind;
+    for (int j = 0; j < layout_.m(); ++j) ahead += layout_.limited(j, i - 1);
+    rates_before_ = ahead - layout_.first_rate_row();
+    for (int j = 0; j < layout_.m(); ++j) {
+      sink_.column(0, i == 0 ? program_.first_min[j] : set.u_min[j],
+                   i == 0 ? program_.first_max[j] : set.u_max[j]);
+      for (int r = 0; r < layout_.n(); ++r) {
+        if (set.B(r, j) != 0) sink_.entry(row + r, set.B(r, j));
+      }
+      if (layout_.limited(j, i - 1)) sink_.entry(behind++, 1);
+      if (layout_.limited(j, i)) sink_.entry(ahead++, -1);
+    }
+  }
+
+  /// t and what each c_w'w has above it.
+  void lowest() {
+    sink_.column(1, -kInfinity, kInfinity);
+    for (int i = 0; i < program_.size(); ++i) sink_.entry(layout_.first_t_row() + i, -1);
+    for (int i = 0; i < program_.size(); ++i) {
+      sink_.column(0, 0, kInfinity);
+      sink_.entry(layout_.first_t_row() + i, -1);
+    }
+  }
+
+  void border(int j) {
+    sink_.column(0, program_.y_min[j], program_.y_max[j]);
+    for (int i = 0; i < program_.size(); ++i) {
+      for (int r = 0; r < layout_.n(); ++r) {
+        sink_.entry(i * layout_.n() + r, program_.G[i](r, j));
+      }
+    }
+    if (layout_.r_rows() == 0) return;
+    for (Eigen::SparseMatrix<double>::InnerIterator it(program_.R, j); it; ++it) {
+      sink_.entry(layout_.first_r_row() + static_cast<int>(it.row()), it.value());
+    }
+  }
+
+  const PlanProgram& program_;
+  Layout layout_;
+  Sink& sink_;
+  int rates_before_ = 0;
+};
+
+/// Builds the pattern.
+struct Pattern {
+  std::vector<Eigen::Triplet<double>> entries;
+  int col = -1;
+  void column(double /*cost*/, double /*low*/, double /*high*/) { ++col; }
+  void entry(int row, double /*value*/) { entries.emplace_back(row, col, 0.0); }
+};
+
+/// Writes the numbers.
+struct Numbers {
+  LinearProgram& lp;
+  int col = 0;
+  double* value;
+  void column(double cost, double low, double high) {
+    lp.c[col] = cost;
+    lp.l[col] = low;
+    lp.u[col++] = high;
+  }
+  void entry(int /*row*/, double number) { *value++ = number; }
+};
+
+bool is_finite(const Eigen::SparseMatrix<double>& R) {
+  for (Eigen::Index col = 0; col < R.outerSize(); ++col) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(R, col); entry; ++entry) {
+      if (!std::isfinite(entry.value())) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool well_formed(const PlanProgram& program) {
+  const int N = program.size();
+  if (N == 0 || program.peak >= N || !(program.rho > 0)) return false;
+  const Zonotope* const set = program.instants.front().actuation;
+  for (const WrenchProgram& at : program.instants) {
+    if (at.actuation != set || !well_formed(at)) return false;
+  }
+  const Eigen::Index m = set->actuators(), p = program.border(), rows = program.R.rows();
+  const auto limits = [](const Eigen::VectorXd& low, const Eigen::VectorXd& high,
+                         Eigen::Index size) {
+    return low.size() == size && high.size() == size && (low.array() < kInfinity).all() &&
+           (high.array() > -kInfinity).all();
+  };
+  if (!limits(program.first_min, program.first_max, m)) return false;
+  if (program.du_max.rows() != m || program.du_max.cols() != N - 1) return false;
+  if (!(program.du_max.array() >= 0).all()) return false;
+  if (!limits(program.y_min, program.y_max, p) || !limits(program.r_min, program.r_max, rows)) {
+    return false;
+  }
+  if (rows > 0 && (program.R.cols() != p || !is_finite(program.R))) return false;
+  if (p > 0 && program.G.size() != program.instants.size()) return false;
+  return std::all_of(program.G.begin(), program.G.end(), [&](const Eigen::MatrixXd& each) {
+    return each.rows() == set->dimension() && each.cols() == p && each.allFinite();
+  });
+}
+
+void PlanSolver::solve(const PlanProgram& program, PlanSolution& solution) {
+  if (well_formed(program)) return solve_well_formed(program, solution);
+  solution.conclude(Status::kNumericalError, kMalformed);
+}
+
+LinearProgram assemble(const PlanProgram& program) {
+  assert(program.size() > 0);
+  const Layout layout(program);
+  LinearProgram lp;
+  Pattern pattern;
+  Walk<Pattern>(program, pattern).run();
+  lp.A.resize(layout.rows(), layout.cols());
+  lp.A.setFromTriplets(pattern.entries.begin(), pattern.entries.end());
+  lp.b.setZero(layout.rows());
+  lp.c.resize(layout.cols());
+  lp.l.resize(layout.cols());
+  lp.u.resize(layout.cols());
+  update(program, lp);
+  return lp;
+}
+
+void update(const PlanProgram& program, LinearProgram& assembled) {
+  Numbers numbers{assembled, 0, assembled.A.valuePtr()};
+  Walk<Numbers>(program, numbers).run();
+  assert(numbers.value == assembled.A.valuePtr() + assembled.A.nonZeros());
+  const Eigen::Index n = program.instants.front().actuation->dimension();
+  for (int i = 0; i < program.size(); ++i) {
+    assembled.b.segment(i * n, n) = program.instants[i].tau_d;
+  }
+}
+
+void read(const PlanProgram& program, const LpSolution& answer, PlanSolution& solution) {
+  const Layout layout(program);
+  const int N = program.size();
+  const bool proof = answer.status == Status::kInfeasible;
+  solution.status = answer.status;
+  solution.reason = answer.reason;
+  solution.iterations = answer.iterations;
+  const Eigen::VectorXd& rows = proof ? answer.certificate : answer.lambda;
+  if (answer.status != Status::kOptimal && !proof) return;
+  if (rows.size() != layout.rows()) return;
+  // A proof is y of the assembled program: mu and nu have the opposite sign there.
+  const double sign = proof ? -1 : 1;
+  solution.lambda.resize(layout.n(), N);
+  solution.mu.setZero(layout.m(), N - 1);
+  solution.pi.setZero(N);
+  for (int i = 0; i < N; ++i) solution.lambda.col(i) = rows.segment(i * layout.n(), layout.n());
+  for (int row = layout.first_rate_row(), i = 0; i + 1 < N; ++i) {
+    for (int j = 0; j < layout.m(); ++j) {
+      if (layout.limited(j, i)) solution.mu(j, i) = sign * rows[row++];
+    }
+  }
+  // The row c_w'w - t - z = b: to raise b by one lowers the value by pi.
+  if (layout.max_min()) solution.pi = -rows.segment(layout.first_t_row(), N);
+  if (!layout.max_min()) solution.pi[program.peak] = 1;
+  solution.nu = sign * rows.tail(layout.r_rows());
+  if (proof) return;
+  solution.u.resize(layout.m(), N);
+  solution.w.resize(N);
+  solution.s.setZero(layout.n(), N);
+  solution.price = 0;
+  for (int col = 0, i = 0; i < N; ++i) {
+    const int k = program.instants[i].columns();
+    solution.u.col(i) = answer.x.segment(col, layout.m());
+    solution.w[i] = answer.x.segment(col + layout.m(), k);
+    col += layout.columns(i);
+    if (!layout.elastic(i)) continue;
+    const auto slacks = answer.x.segment(col - 2 * layout.n(), 2 * layout.n());
+    solution.s.col(i) = slacks.head(layout.n()) - slacks.tail(layout.n());
+    solution.price += program.rho * solution.s.col(i).lpNorm<1>();
+  }
+  solution.y =
+      answer.x.segment(layout.cols() - layout.r_rows() - program.border(), program.border());
+  const auto along = [&](int i) { return program.instants[i].c_w.dot(solution.w[i]); };
+  solution.value = along(layout.max_min() ? 0 : program.peak);
+  for (int i = 1; layout.max_min() && i < N; ++i) {
+    solution.value = std::min(solution.value, along(i));
+  }
+}
+
+}  // namespace maxwrench

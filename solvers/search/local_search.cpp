@@ -1,0 +1,81 @@
+#include "solvers/search/local_search.h"
+
+#include <algorithm>
+
+namespace maxwrench {
+namespace {
+
+/// Of climb number `climb` where the earlier search has left no start: `options.start` for the
+/// first of all, then random points. No value if the evaluations of the probe run out before.
+Candidate draw_start(Probe& probe, const Box& box, const SearchOptions& options, long climb,
+                     Random& random) {
+  Candidate start;
+  const auto evaluate = [&](const Eigen::VectorXd& theta_r) {
+    start = {theta_r, probe.evaluate(theta_r)};
+  };
+  if (climb == 0 && options.starts.empty()) evaluate(box.start(options.start));
+  while (start.value == -kInfinity && probe.left() > 0) {
+    evaluate(random_point(box, random));
+  }
+  return start;
+}
+
+/// Climb number `climb`, with all that the probe has left.
+Part climb_once(Probe& probe, const Box& box, const SearchOptions& options,
+                const Climbing& climbing, long climb) {
+  Random random(options.seed, RandomUse::kClimb, static_cast<std::uint64_t>(climb));
+  const auto number = static_cast<std::size_t>(climb);
+  const Candidate start = number < options.starts.size()
+                              ? options.starts[number]
+                              : draw_start(probe, box, options, climb, random);
+  Call call{climbing.method, kBudgetUsed};
+  const long drawn = probe.found().trace.evaluations();
+  if (start.value > -kInfinity && probe.left() > 0)
+    call.status = climbing.climb(probe, box, start, random);
+  Part part = probe.take();
+  call.evaluations = part.trace.evaluations() - drawn;
+  if (call.evaluations > 0) part.calls.push_back(call);
+  return part;
+}
+
+}  // namespace
+
+void climb_from_starts(const Objective& objective, const Box& box, const SearchOptions& options,
+                       const Climbing& climbing, SearchRun& run, Part& found) {
+  std::vector<std::unique_ptr<Probe>> probes;
+  for (long begun = 0; begun < climbing.starts && !run.ended();) {
+    const long left = options.budget - found.trace.evaluations();
+    if (left <= 0) return;
+    const long most = std::min(climbing.most, climbing.starts - begun);
+    const long count = std::clamp(left / climbing.reach, 1L, most);
+    while (static_cast<long>(probes.size()) < count) {
+      probes.push_back(
+          std::make_unique<Probe>(objective, 0, run, options.peaks > 0 ? &box : nullptr));
+    }
+    std::vector<Part> parts(static_cast<std::size_t>(count));
+    parallel_for(options.threads, count, [&](long i) {
+      probes[i]->grant(left / count + (i < left % count ? 1 : 0));
+      parts[i] = climb_once(*probes[i], box, options, climbing, begun + i);
+    });
+    begun += count;
+    join(parts, found);
+  }
+}
+
+SearchResult search_by_climbs(Objective& objective, const SearchOptions& options,
+                              const Climbing& climbing) {
+  check(options, objective);
+  const Box box(objective);
+  SearchRun run(options);
+  Part found;
+  if (box.free() == 0) {
+    Probe probe(objective, 1, run);
+    probe.evaluate(box.start(options.start));
+    found = probe.take();
+  } else {
+    climb_from_starts(objective, box, options, climbing, run, found);
+  }
+  return make_result(std::move(found), box, options, run);
+}
+
+}  // namespace maxwrench

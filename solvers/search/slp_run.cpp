@@ -1,0 +1,206 @@
+#include "solvers/search/slp_run.h"
+
+#include <cmath>
+
+#include "solvers/trajectory/makers.h"
+
+namespace maxwrench {
+namespace {
+
+constexpr double kFirstRadius = 0.1;  // rad or m
+constexpr double kSmallestRadius = 1e-7;
+constexpr double kAccept = 0.05, kShrink = 0.25, kGrow = 0.7;  // of what was predicted
+constexpr double kNearing = 2;           // m per radius: how far bodies may come nearer in a step
+constexpr double kSpare = 1e-9;          // m, beyond the margin where knots are moved apart
+constexpr int kApartRounds = 5;          // of moving them apart
+constexpr double kStepTolerance = 1e-6;  // of a linear program, whose answer is only a step
+constexpr double kConverged = 1e-9;      // predicted, relative to 1 + |f|
+
+}  // namespace
+
+KnotClimber::KnotClimber(const PlanObjective& objective, Candidate start, SearchRun& run,
+                         bool alike)
+    : objective_(objective.copy(objective.counts())),
+      plans_(objective_->plans()),
+      run_(run),
+      solver_(make_plan_ipm(kStepTolerance)),
+      at_(std::move(start)),
+      best_(at_),
+      radius_(kFirstRadius),
+      reach_(plans_.rows().R.cwiseAbs() * Eigen::VectorXd::Ones(at_.theta_r.size())) {
+  if (!alike) return;
+  const Eigen::Index r = at_.theta_r.size() / plans_.knots();
+  shared_ = Eigen::MatrixXd::Identity(r, r).replicate(plans_.knots(), 1);
+}
+
+PlanProgram* KnotClimber::linearize() {
+  PlanProgram& program = plans_.linearize();
+  if (shared_.size() > 0) {
+    for (Eigen::MatrixXd& G : program.G) G = G * shared_;
+  }
+  return &program;
+}
+
+void KnotClimber::climb(long evaluations) {
+  const auto left = [&] { return evaluations - found_.trace.evaluations(); };
+  while (!done_ && left() >= 3 && !run_.ended()) {
+    if (program_ == nullptr) {
+      // Its efforts are what the program is linearised about.
+      done_ = evaluate(at_.theta_r) == -kInfinity;
+      if (done_) return;
+      program_ = linearize();
+    }
+    if (run_.ended()) return;
+    if (try_step()) program_ = linearize();
+    done_ = done_ || !(radius_ > kSmallestRadius);
+  }
+}
+
+/// Whether it moved, and `plans_` stands at the new point.
+bool KnotClimber::try_step() {
+  if (!solve()) {
+    done_ = true;
+    return false;
+  }
+  const double predicted = solution_.value - solution_.price - at_.value;
+  if (!(predicted > kConverged * (1 + std::abs(at_.value)))) {
+    done_ = true;
+    return false;
+  }
+  const bool alike = shared_.size() > 0;
+  const Eigen::VectorXd step = alike ? shared_ * solution_.y : solution_.y;
+  Eigen::VectorXd trial = inside(at_.theta_r + step);
+  if (!alike) trial = apart(std::move(trial));
+  const double size = solution_.y.lpNorm<Eigen::Infinity>();
+  const double value = evaluate(trial), risen = value - at_.value;
+  if (!(risen >= kShrink * predicted)) {
+    radius_ = 0.4 * size;
+  } else if (risen > kGrow * predicted && size > 0.9 * radius_) {
+    radius_ *= 2;
+  }
+  if (!(risen >= kAccept * predicted)) return false;
+  at_ = {trial, value};
+  return true;
+}
+
+/// The value at the instants; none, at no cost, once the run has ended.
+double KnotClimber::evaluate(const Eigen::VectorXd& x) {
+  if (run_.ended()) return -kInfinity;
+  double value = plans_.evaluate_elastic(unstacked(x, plans_.knots()), nullptr);
+  if (std::isnan(value)) value = -kInfinity;
+  note(x, objective_->counts() == PlanValue::kAtInstants ? value : -kInfinity);
+  if (value > -kInfinity) coupled_ = plans_.coupled();
+  if (value > best_.value) best_ = {x, value};
+  return value;
+}
+
+/// An evaluation: a value of the objective, or of something else.
+void KnotClimber::note(const Eigen::VectorXd& x, double value) {
+  found_.trace.add(value);
+  run_.show(value);
+  if (value > found_.best.value) found_.best = {x, value};
+}
+
+Eigen::VectorXd KnotClimber::inside(const Eigen::VectorXd& x) const {
+  return x.cwiseMax(objective_->lower()).cwiseMin(objective_->upper());
+}
+
+double KnotClimber::worth(const Candidate& plan) {
+  if (objective_->counts() == PlanValue::kAtInstants) return plan.value;
+  done_ = true;
+  const double worth = objective_->evaluate_throughout(plan.theta_r, plan.value);
+  for (int before = 1; before < kJudgement; ++before) note(plan.theta_r, -kInfinity);
+  note(plan.theta_r, worth);
+  return worth;
+}
+
+/// The radius, and what is left to the bounds: of a step that knots share to the nearest one.
+void KnotClimber::set_bounds() {
+  const Eigen::Index size = at_.theta_r.size();
+  const Eigen::Index moved = shared_.size() > 0 ? shared_.cols() : size;
+  const Eigen::MatrixXd low = (objective_->lower() - at_.theta_r).reshaped(moved, size / moved);
+  const Eigen::MatrixXd high = (objective_->upper() - at_.theta_r).reshaped(moved, size / moved);
+  program_->y_min = low.rowwise().maxCoeff().cwiseMax(-radius_);
+  program_->y_max = high.rowwise().minCoeff().cwiseMin(radius_);
+}
+
+/// Solves for a step; whether there is an answer.
+bool KnotClimber::solve() {
+  set_bounds();
+  set_rows();
+  note(at_.theta_r, -kInfinity);
+  solution_.price = 0;
+  const bool by_facets =
+      !coupled_ && BorderedFacets::suits(*program_) && uncoupled_.solve(*program_, solution_);
+  found_.calls.push_back({"slp", by_facets ? "facets" : "ipm", 1});
+  if (by_facets) return true;
+  solver_->solve(*program_, solution_);
+  return solution_.status == Status::kOptimal;
+}
+
+/// low <= R y <= high, without rows that no step of this radius reaches; `reach` sums the
+/// magnitudes of each row.
+void KnotClimber::add_rows(const Eigen::SparseMatrix<double>& R, const Eigen::VectorXd& reach,
+                           const Eigen::VectorXd& low, const Eigen::VectorXd& high) {
+  row_of_.assign(static_cast<std::size_t>(R.rows()), -1);
+  for (Eigen::Index i = 0; i < R.rows(); ++i) {
+    if (low[i] < -radius_ * reach[i] && high[i] > radius_ * reach[i]) continue;
+    row_of_[static_cast<std::size_t>(i)] = static_cast<int>(low_.size());
+    // What rounding left outside is no reason to fail.
+    low_.push_back(std::min(low[i], 0.0));
+    high_.push_back(std::max(high[i], 0.0));
+  }
+  for (int column = 0; column < R.outerSize(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator it(R, column); it; ++it) {
+      const int row = row_of_[static_cast<std::size_t>(it.row())];
+      if (row >= 0) entries_.emplace_back(row, it.col(), it.value());
+    }
+  }
+}
+
+/// Limits of the knots; to first order those of dependent joints, and no pair of bodies nearer than
+/// its margin.
+void KnotClimber::set_rows() {
+  const KnotRows& rows = plans_.rows();
+  const FollowingRows& following = plans_.following_rows();
+  const Eigen::VectorXd& x = at_.theta_r;
+  const Eigen::Index r = x.size() / plans_.knots();
+  const Eigen::VectorXd at = rows.R * x, ones = Eigen::VectorXd::Ones(x.size());
+  entries_.clear();
+  low_.clear();
+  high_.clear();
+  add_rows(rows.R, reach_, rows.r_min - at, rows.r_max - at);
+  add_rows(following.R, following.R.cwiseAbs() * ones, following.r_min - following.at,
+           following.r_max - following.at);
+  for (const NearPair& pair : plans_.near_pairs(unstacked(x, plans_.knots()), kNearing * radius_)) {
+    for (Eigen::Index j = 0; j < r; ++j) {
+      entries_.emplace_back(low_.size(), pair.knot * r + j, pair.gradient[j]);
+    }
+    low_.push_back(std::min(0.0, -pair.clearance));
+    high_.push_back(kInfinity);
+  }
+  const auto count = static_cast<Eigen::Index>(low_.size());
+  program_->r_min = Eigen::Map<Eigen::VectorXd>(low_.data(), count);
+  program_->r_max = Eigen::Map<Eigen::VectorXd>(high_.data(), count);
+  program_->R.resize(count, x.size());
+  program_->R.setFromTriplets(entries_.begin(), entries_.end());
+  if (shared_.size() > 0) program_->R = (program_->R * shared_).sparseView();
+}
+
+/// x with colliding knots moved apart by Newton's method along the gradients of the clearance.
+Eigen::VectorXd KnotClimber::apart(Eigen::VectorXd x) {
+  const Eigen::Index r = x.size() / plans_.knots();
+  for (int round = 0; round < kApartRounds; ++round) {
+    const auto& near = plans_.near_pairs(unstacked(x, plans_.knots()), 0);
+    if (near.empty()) break;
+    for (const NearPair& pair : near) {
+      const double squared = pair.gradient.squaredNorm();
+      if (!(squared > 0)) continue;
+      x.segment(pair.knot * r, r) += (kSpare - pair.clearance) / squared * pair.gradient;
+    }
+    x = inside(x);
+  }
+  return x;
+}
+
+}  // namespace maxwrench

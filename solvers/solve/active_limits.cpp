@@ -1,0 +1,146 @@
+#include "solvers/solve/active_limits.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "maxwrench/solve.h"
+#include "solvers/solve/format.h"
+
+namespace maxwrench {
+namespace {
+
+constexpr double kCounts = 1e-3;  ///< a multiplier: of the largest, or of their sum
+constexpr std::size_t kMostLimits = 6, kMostInstants = 6;
+
+struct BindingLimit {
+  double worth;  ///< multiplier times the width of the limits [N or N m]
+  std::string text;
+};
+
+/// What raising the limits of u_j at block i is worth, per unit (positive: the upper one).
+Eigen::VectorXd effort_prices(const Robot& robot, const PlanSolution& solution, Eigen::Index i) {
+  Eigen::VectorXd prices = -robot.actuation.B.transpose() * solution.lambda.col(i);
+  if (i > 0) prices -= solution.mu.col(i - 1);
+  if (i < solution.mu.cols()) prices += solution.mu.col(i);
+  return prices;
+}
+
+/// Those that count, the dearest first.
+std::vector<BindingLimit> dearest_first(std::vector<BindingLimit> limits) {
+  std::stable_sort(limits.begin(), limits.end(),
+                   [](const auto& a, const auto& b) { return a.worth > b.worth; });
+  std::erase_if(limits, [most = limits.front().worth](const BindingLimit& limit) {
+    return !(limit.worth > kCounts * most);
+  });
+  return limits;
+}
+
+std::vector<BindingLimit> limits_at(const Answer& answer, Eigen::Index i) {
+  const Robot& robot = answer.task->robot;
+  const PlanSolution& solution = answer.plan.solution;
+  const Zonotope& set = robot.actuation;
+  std::vector<BindingLimit> limits;
+  const Eigen::VectorXd prices = effort_prices(robot, solution, i);
+  for (Eigen::Index j = 0; j < prices.size(); ++j) {
+    const bool upper = prices[j] > 0;
+    limits.push_back(
+        {std::abs(prices[j]) * (set.u_max[j] - set.u_min[j]),
+         fmt::format("{} at {:g}", actuator_name(robot, j), upper ? set.u_max[j] : set.u_min[j])});
+  }
+  for (const Eigen::Index pair : {i - 1, i}) {
+    if (pair < 0 || pair >= solution.mu.cols()) continue;
+    for (Eigen::Index j = 0; j < prices.size(); ++j) {
+      const double width = 2 * answer.program.du_max(j, pair);
+      if (!(width < kInfinity)) continue;
+      limits.push_back(
+          {std::abs(solution.mu(j, pair)) * width,
+           fmt::format("rate of {} {}", actuator_name(robot, j), pair < i ? "before" : "after")});
+    }
+  }
+  return dearest_first(std::move(limits));
+}
+
+std::string describe(const std::vector<BindingLimit>& limits) {
+  std::vector<std::string> texts;
+  for (const BindingLimit& limit : limits) {
+    if (texts.size() < kMostLimits) texts.push_back(limit.text);
+  }
+  const std::size_t more = limits.size() - texts.size();
+  return fmt::format("{}{}", fmt::join(texts, ", "),
+                     more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
+}  // namespace
+
+std::vector<std::string> binding_limits(const Answer& answer) {
+  const Eigen::VectorXd& pi = answer.plan.solution.pi;
+  std::vector<Eigen::Index> worst;
+  for (Eigen::Index i = 0; i < pi.size(); ++i) {
+    if (pi[i] > kCounts) worst.push_back(i);
+  }
+  std::stable_sort(worst.begin(), worst.end(),
+                   [&](Eigen::Index a, Eigen::Index b) { return pi[a] > pi[b]; });
+  if (worst.size() > kMostInstants) worst.resize(kMostInstants);
+  std::sort(worst.begin(), worst.end());
+  const auto skipped = static_cast<Eigen::Index>(answer.plan.instants.size()) - pi.size();
+  std::vector<std::string> lines;
+  for (const Eigen::Index i : worst) {
+    lines.push_back(fmt::format("binds at {:.4f} s: {}",
+                                answer.plan.instants[static_cast<std::size_t>(i + skipped)].t,
+                                describe(limits_at(answer, i))));
+  }
+  return lines;
+}
+
+std::string dearest_efforts(const Answer& answer) {
+  const Robot& robot = answer.task->robot;
+  const Zonotope& set = robot.actuation;
+  std::vector<BindingLimit> limits;
+  for (Eigen::Index j = 0; j < set.u_min.size(); ++j)
+    limits.push_back({0, actuator_name(robot, j)});
+  for (Eigen::Index i = 0; i < answer.plan.solution.lambda.cols(); ++i) {
+    const Eigen::VectorXd prices = effort_prices(robot, answer.plan.solution, i);
+    for (Eigen::Index j = 0; j < prices.size(); ++j) {
+      if (std::abs(prices[j]) < 1e-9) continue;  // it may have no limits
+      limits[static_cast<std::size_t>(j)].worth +=
+          std::abs(prices[j]) * (set.u_max[j] - set.u_min[j]);
+    }
+  }
+  return describe(dearest_first(std::move(limits)));
+}
+
+std::string fastest_joint(const Robot& robot, const Plan& plan) {
+  double most = 0;
+  const std::string* name = nullptr;
+  for (const Instant& instant : plan.instants) {
+    const auto rates = instant.v.tail(static_cast<Eigen::Index>(robot.joints.size()));
+    for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+      const double share =
+          std::abs(rates[static_cast<Eigen::Index>(j)]) / robot.joints[j].velocity_max;
+      if (!(share > most + 1e-9)) continue;
+      most = share;
+      name = &robot.joints[j].name;
+    }
+  }
+  return name == nullptr ? "none moves" : fmt::format("{:.0f} % {}", 100 * most, *name);
+}
+
+std::string nearest_limit(const Robot& robot, const Eigen::VectorXd& u) {
+  const Zonotope& set = robot.actuation;
+  double most = -1;
+  Eigen::Index at = 0;
+  for (Eigen::Index j = 0; j < u.size(); ++j) {
+    const double limit = u[j] > 0 ? set.u_max[j] : -set.u_min[j];
+    const double share = limit > 0 ? std::abs(u[j]) / limit : 0;
+    if (share > most + 1e-9) {
+      most = share;
+      at = j;
+    }
+  }
+  return u.size() == 0 ? "" : fmt::format("{:.0f} % {}", 100 * most, actuator_name(robot, at));
+}
+
+}  // namespace maxwrench
