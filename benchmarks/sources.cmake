@@ -4,4 +4,4 @@ set(maxwrench_benchmarks_sources
   report/benchmark_sets.cpp report/differences.cpp report/row_statistics.cpp
   suite/cost.cpp suite/journal.cpp suite/machine.cpp suite/product.cpp suite/results.cpp suite/row_check.cpp suite/suite_file.cpp
   tables/case_file.cpp tables/csv.cpp tables/dictionary.cpp tables/table.cpp tables/write_file.cpp
-  timing/forms.cpp timing/slow_trajectory.cpp)
+  timing/lp_forms.cpp timing/slow_trajectory.cpp)

@@ -19,7 +19,8 @@
 namespace maxwrench {
 namespace {
 
-/// What was refused by the name of its key, such as "lp: got ", by that of its option, "--lp: got
+/// What was rejected by the name of its key, such as "solver: got ", by that of its option,
+/// "--solver: got
 /// ".
 std::string as_option(const CLI::App& app, const std::string& message) {
   std::string key = message.substr(0, message.find(": got "));
@@ -105,16 +106,16 @@ void CommonOptions::add_choice(CLI::App& app) {
   app.add_option("--measure", choice.measure, "capability measure")->capture_default_str();
   app.add_option("--wrench", wrench, "pure: only along c; any: other components are free")
       ->capture_default_str();
-  app.add_option("--lp", choice.lp, "lower-level solver (default: the first that serves)");
+  app.add_option("--solver", choice.solver, "lower-level solver (default: the first that serves)");
 }
 
-std::string refuse_seed(const std::string& text) {
+std::string reject_seed(const std::string& text) {
   const bool whole = !text.empty() && text.size() < 20 &&
                      text.find_first_not_of("0123456789") == std::string::npos;
   return whole ? "" : "got '" + text + "', expected a whole number of 0 to 10^19 - 1";
 }
 
-std::string refuse_empty(const std::string& text) {
+std::string reject_empty(const std::string& text) {
   return text.empty() ? "got '', expected a name" : "";
 }
 
@@ -125,7 +126,7 @@ void CommonOptions::add_search(CLI::App& app) {
                  "task in time slp)");
   app.add_option("--seed", choice.seed, "of the random numbers")
       ->capture_default_str()
-      ->check(refuse_seed);
+      ->check(reject_seed);
   add_budget(app, "evaluations (default: 20000; 200000 at most of a default search)");
 }
 

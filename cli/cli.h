@@ -45,10 +45,10 @@ Eigen::VectorXd theta_r_of(const Problem& problem, const std::optional<std::stri
 void require_static(const Problem& problem, const char* command);
 
 /// Empty, or why the text is no seed of random numbers.
-std::string refuse_seed(const std::string& text);
+std::string reject_seed(const std::string& text);
 
 /// Empty, or why the text names no file or folder.
-std::string refuse_empty(const std::string& text);
+std::string reject_empty(const std::string& text);
 
 /// An answer for people or, with `json`, as one object; returns the exit status that it deserves.
 int report(const Answer& answer, bool json);

@@ -118,11 +118,11 @@ void print_lp(const LpOptions& options, const MpsProgram& mps, const Checked& an
 /// Proves the verdict in rational numbers; false if they do not confirm it.
 bool certify_verdict(const LpOptions& options, const MpsProgram& mps, const LpSolution& solution) {
   const LpProof proof = exact_proof(mps.program, solution);
-  std::string refusal = refuse_lp_proof(mps.program, proof);
-  if (refusal.empty() && proof.status != solution.status) refusal = to_string(proof.status);
-  if (!refusal.empty()) {
+  std::string rejection = reject_lp_proof(mps.program, proof);
+  if (rejection.empty() && proof.status != solution.status) rejection = to_string(proof.status);
+  if (!rejection.empty()) {
     remark(fmt::format("{}: not written, as rational numbers do not confirm '{}': {}",
-                       options.certificate, to_string(solution.status), refusal));
+                       options.certificate, to_string(solution.status), rejection));
     return false;
   }
   write_file(options.certificate, lp_proof_text(options.file, mps, proof));
@@ -146,11 +146,11 @@ void add_lp(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<LpOptions>();
   CLI::App& command = *app.add_subcommand("lp", "solves a linear program in an MPS file");
   command.add_option("file", options->file, "fixed or free MPS")->required();
-  command.add_option("--lp", options->lp, "general solver")->capture_default_str();
+  command.add_option("--solver", options->lp, "general solver")->capture_default_str();
   command
       .add_option("--certificate", options->certificate,
                   "file for a proof in rational numbers, which 'verify' checks; up to 500 rows")
-      ->check(refuse_empty);
+      ->check(reject_empty);
   command.add_flag("--json", options->json, "print one JSON object");
   command.callback([options, &exit_status] { exit_status = lp(*options); });
 }

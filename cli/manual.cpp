@@ -84,13 +84,13 @@ std::string choices(const std::string& option) {
     }
   };
   if (option == "--measure") add(measures());
-  if (option == "--lp") {
+  if (option == "--solver") {
     add(wrench_solvers());
-    add(plan_solvers());
+    add(trajectory_solvers());
   }
   if (option == "--search") {
     add(searches());
-    add(plan_searches());
+    add(trajectory_searches());
     add(facet_searches());
   }
   if (option == "--integrator") add(integrators());
@@ -152,7 +152,7 @@ std::string bash_completion(const CLI::App& app) {
     names.push_back(command->get_name());
     commands += completions(*command);
   }
-  for (const char* option : {"--measure", "--lp", "--search", "--integrator", "--wrench"}) {
+  for (const char* option : {"--measure", "--solver", "--search", "--integrator", "--wrench"}) {
     values += fmt::format("    {}) COMPREPLY=($(compgen -W '{}' -- \"$current\")); return ;;\n",
                           option, choices(option));
   }

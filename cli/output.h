@@ -6,7 +6,7 @@
 
 namespace maxwrench {
 
-/// Closed standard streams get a place holder that refuses every write, so that no file that is
+/// Closed standard streams get a place holder that rejects every write, so that no file that is
 /// opened later takes their number and receives what was meant for them. A file that grows beyond
 /// the limit of the process (ulimit -f) becomes an error instead of a deadly signal.
 void prepare_streams();
@@ -18,7 +18,7 @@ void complain(const std::string& text);
 void remark(const std::string& text);
 
 /// What a command printed must have arrived: the exit status, or that of bad input with a complaint
-/// if stdout refused it.
+/// if stdout rejected it.
 int flush_output(int exit_status);
 
 /// One object on one line, see `in_one_line`.

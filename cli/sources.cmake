@@ -3,7 +3,7 @@ set(maxwrench_cli_sources
   proof/certify.cpp proof/good_postures.cpp proof/lp_proof.cpp proof/verify.cpp proof/verify_rows.cpp
   report/benchmark_set_section.cpp report/difference_sections.cpp report/page.cpp report/race_sections.cpp report/report.cpp
   report/report_table.cpp report/run_sections.cpp
-  reproduce/dual.cpp reproduce/motion.cpp reproduce/planar.cpp reproduce/reproduce.cpp reproduce/uvms.cpp
+  reproduce/dual_arm.cpp reproduce/motion.cpp reproduce/planar.cpp reproduce/reproduce.cpp reproduce/uvms.cpp
   suite/compare.cpp suite/merge.cpp suite/race_figures.cpp suite/race_table.cpp suite/row_writer.cpp suite/run.cpp
   suite/workers.cpp
   task/check.cpp task/eval.cpp task/list.cpp task/motion_options.cpp task/plot.cpp task/simulate.cpp task/simulate_motion.cpp

@@ -51,7 +51,7 @@ class GroupWriter {
   }
 
  private:
-  /// Infinite for what is no number, which the axis refuses.
+  /// Infinite for what is no number, which the axis rejects.
   static double size(double value) { return std::isnan(value) ? kInfinity : std::abs(value); }
 
   void bar(const Bar& bar, double centre) {

@@ -48,9 +48,9 @@ DrawnPosture draw_robot(const Problem& problem, PostureEvaluator& model, const P
   DrawnPosture drawn;
   drawn.title = with_letters(panel.title);
   drawn.problem = &problem;
-  // Of several branches of a second arm the best one is drawn.
+  // Of several IK solutions of a second arm the best one is drawn.
   WrenchProgram program = make_wrench_program(problem, Wrench::kPure);
-  const auto measure = make_linf_polytope(problem.robot, find_wrench_solver("box").make());
+  const auto measure = make_linf_polytope(problem.robot, find_wrench_solver("condensed").make());
   Capability capability;
   drawn.posture = evaluate_best(model, panel.theta_r, *measure, false, program, capability);
   if (drawn.posture.status == Status::kInvalidPosture) {
@@ -83,12 +83,12 @@ Problem at_instant(const Problem& problem, const Instant& instant) {
 }
 
 /// Of a path that turns the angle, else the time.
-std::string title_of(const Problem& problem, const Plan& plan, const Instant& instant) {
+std::string title_of(const Problem& problem, const Trajectory& trajectory, const Instant& instant) {
   const double angle = problem.motion->path.angle();
   // A rotation by more than half a turn cannot be read from where it has arrived.
   if (angle == 0 || std::abs(angle) > std::numbers::pi * (1 + 1e-12))
     return fmt::format("{:.4g} s", instant.t);
-  const Eigen::AngleAxisd turned(plan.instants.front().end_effector.R.transpose() *
+  const Eigen::AngleAxisd turned(trajectory.instants.front().end_effector.R.transpose() *
                                  instant.end_effector.R);
   return fmt::format("{:.3g}\u00b0", turned.angle() * 180 / std::numbers::pi);
 }
@@ -111,19 +111,19 @@ std::string posture_figure(const Problem& problem, const std::vector<Panel>& pan
   return draw_both_views(drawn);
 }
 
-std::string plan_figure(const Problem& problem, const Plan& plan,
-                        const std::vector<double>& times) {
+std::string trajectory_figure(const Problem& problem, const Trajectory& trajectory,
+                              const std::vector<double>& times) {
   std::deque<Problem> problems;  // whose elements stay where they are
   std::vector<DrawnPosture> drawn;
   for (const double time : times) {
-    const auto& instant = *std::min_element(plan.instants.begin(), plan.instants.end(),
+    const auto& instant = *std::min_element(trajectory.instants.begin(), trajectory.instants.end(),
                                             [time](const Instant& a, const Instant& b) {
                                               return std::abs(a.t - time) < std::abs(b.t - time);
                                             });
     const Problem& still = problems.emplace_back(at_instant(problem, instant));
     PostureEvaluator model(still, false);
-    drawn.push_back(
-        draw_robot(still, model, {title_of(problem, plan, instant), theta_r_at(problem, instant)}));
+    drawn.push_back(draw_robot(
+        still, model, {title_of(problem, trajectory, instant), theta_r_at(problem, instant)}));
   }
   return draw_both_views(drawn);
 }

@@ -31,7 +31,7 @@ Eigen::Vector3d line_of_sight(View view) {
   return view == View::kTop ? Eigen::Vector3d(0, 0, -1) : Eigen::Vector3d(0, 1, 0);
 }
 
-Silhouette silhouette(const Solid& solid, const DrawnPosture& panel, View view) {
+Silhouette silhouette(const ConvexBody& solid, const DrawnPosture& panel, View view) {
   constexpr int kRound = 24;
   const Pose<double> link =
       panel.posture.base * panel.posture.links[static_cast<std::size_t>(solid.link)];
@@ -52,7 +52,7 @@ Silhouette silhouette(const Solid& solid, const DrawnPosture& panel, View view) 
 }
 
 void add_bodies(const DrawnPosture& panel, View view, Scene& scene) {
-  for (const Solid& solid : panel.problem->robot.solids) {
+  for (const ConvexBody& solid : panel.problem->robot.convex_bodies) {
     scene.bodies.push_back(silhouette(solid, panel, view));
   }
   std::stable_sort(scene.bodies.begin(), scene.bodies.end(),
@@ -63,7 +63,7 @@ void add_bodies(const DrawnPosture& panel, View view, Scene& scene) {
 std::vector<bool> bare_links(const DrawnPosture& panel) {
   std::vector<bool> bare(panel.posture.links.size(), true);
   if (!panel.hull.empty()) return bare;
-  for (const Solid& solid : panel.problem->robot.solids) {
+  for (const ConvexBody& solid : panel.problem->robot.convex_bodies) {
     bare[static_cast<std::size_t>(solid.link)] = false;
   }
   return bare;
@@ -99,13 +99,13 @@ void add_mounts_and_links(const DrawnPosture& panel, View view, Scene& scene) {
   }
 }
 
-Touch touch_of(const DrawnPosture& panel, View view) {
+ContactMark contact_of(const DrawnPosture& panel, View view) {
   constexpr int kPieces = 24;
   const Problem& problem = *panel.problem;
   const Contact& contact = *problem.contact;
   const Eigen::VectorXd low = problem.theta_r_min.tail(contact.coordinates());
   const Eigen::VectorXd range = problem.theta_r_max.tail(contact.coordinates()) - low;
-  Touch touch{
+  ContactMark touch{
       axes(view) * panel.posture.contact.p, axes(view) * panel.posture.contact.R.col(2), {}};
   const auto add = [&](const Eigen::VectorXd& share) {
     const Eigen::VectorXd s = low + share.cwiseProduct(range);
@@ -149,7 +149,7 @@ Scene project(const DrawnPosture& panel, View view) {
   scene.c_towards = -line_of_sight(view).dot(c.head<3>());
   scene.c_torque = P * c.tail<3>();
   scene.c_turn = -line_of_sight(view).dot(c.tail<3>());
-  if (panel.problem->contact) scene.touch = touch_of(panel, view);
+  if (panel.problem->contact) scene.touch = contact_of(panel, view);
   return scene;
 }
 

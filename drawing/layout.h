@@ -20,7 +20,7 @@ struct Silhouette {
 };
 
 /// The second contact of a robot.
-struct Touch {
+struct ContactMark {
   Eigen::Vector2d place;
   Eigen::Vector2d into;                 // the environment: the contact frame's z axis
   std::vector<Eigen::Vector2d> places;  // a line along or around all places within the limits
@@ -40,7 +40,7 @@ struct Scene {
   double c_towards = 0;      // the part of c that is a force towards the viewer
   Eigen::Vector2d c_torque;  // the part of c that turns about an axis in the plane
   double c_turn = 0;         // and about the line of sight, positive counterclockwise
-  std::optional<Touch> touch;
+  std::optional<ContactMark> touch;
 };
 
 /// Everything that all panels share.

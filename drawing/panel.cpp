@@ -15,7 +15,7 @@ using Point = Eigen::Vector2d;
 
 // px
 constexpr double kTitle = 22, kTicks = 34, kValue = 82, kValueLine = 15, kPanelFoot = 6,
-                 kTouch = 20;
+                 kContactArrow = 20;
 
 /// Values of beta beside each other.
 std::size_t values_per_row(const Layout& layout) {
@@ -118,11 +118,11 @@ class PanelWriter {
   /// The second contact and, dashed, the places that it may have.
   void touch() {
     if (!scene_.touch) return;
-    const Touch& touch = *scene_.touch;
+    const ContactMark& touch = *scene_.touch;
     if (!touch.places.empty()) svg_.polyline(to_px_(touch.places), kPaintPlaces);
     const Point place = to_px_(touch.place);
-    svg_.arrow(place, place + kTouch * on_paper(touch.into), kPaintTouch, 7);
-    svg_.mark(place, Mark::kSquare, 3, kPaintTouch);
+    svg_.arrow(place, place + kContactArrow * on_paper(touch.into), kPaintContact, 7);
+    svg_.mark(place, Mark::kSquare, 3, kPaintContact);
   }
 
   void outlines() {

@@ -11,7 +11,7 @@ inline constexpr const char* kSteel = "#5b6770";
 inline constexpr const char* kBaseFill = "#dfe5ea";
 inline constexpr const char* kArmFill = "#b4bfc7";
 inline const Paint kPaintC{.stroke = "#C24A00", .width = 2};
-inline const Paint kPaintTouch{.stroke = "#6A3D9A", .width = 1.6, .fill = "#6A3D9A"};
+inline const Paint kPaintContact{.stroke = "#6A3D9A", .width = 1.6, .fill = "#6A3D9A"};
 inline const Paint kPaintPlaces{.stroke = "#6A3D9A", .width = 1.4, .dash = "4 3"};
 inline const Paint kPaintThrust{.stroke = kSteel, .width = 1.3};
 

@@ -94,8 +94,8 @@ void add_direction(const Layout& layout, Entries& entries) {
 void add_touch(const Layout& layout, Entries& entries) {
   if (!any_scene(layout, [](const Scene& s) { return s.touch.has_value(); })) return;
   entries.push_back({"second contact, into wall", [](Svg& svg, const Point& left) {
-                       svg.arrow(left + Point(3, 0), left + kEnd, kPaintTouch, 7);
-                       svg.mark(left + Point(3, 0), Mark::kSquare, 3, kPaintTouch);
+                       svg.arrow(left + Point(3, 0), left + kEnd, kPaintContact, 7);
+                       svg.mark(left + Point(3, 0), Mark::kSquare, 3, kPaintContact);
                      }});
   if (!any_scene(layout, [](const Scene& s) { return s.touch && s.touch->places.size() > 1; }))
     return;

@@ -17,9 +17,9 @@ using Point = Eigen::Vector2d;
 constexpr double kCurvesLeft = 54, kCurvesTop = 12, kCurvesHeight = 220, kCurvesBelow = 44,
                  kCurvesRight = 12;  // px
 constexpr int kMarks = 8;            // on each curve
-const Paint& plan_paint() {
-  static const Paint kPlan{.stroke = "#888888", .width = 1, .dash = "2 2"};
-  return kPlan;
+const Paint& trajectory_paint() {
+  static const Paint kTrajectory{.stroke = "#888888", .width = 1, .dash = "2 2"};
+  return kTrajectory;
 }
 
 struct TankAxes {
@@ -52,7 +52,7 @@ TankAxes axes_of(const std::vector<TankCurve>& curves) {
           make_axis(low, low + 1.05 * std::max(high - low, 1e-9), foot, kCurvesTop, "readings")};
 }
 
-/// The reading and the plan of one run, with marks in places of its own.
+/// The reading and the trajectory of one run, with marks in places of its own.
 void draw_run(Svg& svg, const TankAxes& axes, const TankCurve& curve, std::size_t index,
               std::size_t count) {
   const CurveStyle style = curve_style(index);
@@ -61,7 +61,7 @@ void draw_run(Svg& svg, const TankAxes& axes, const TankCurve& curve, std::size_
     planned.push_back(axes(sample.t, sample.planned));
     reading.push_back(axes(sample.t, sample.reading));
   }
-  svg.polyline(planned, plan_paint());
+  svg.polyline(planned, trajectory_paint());
   svg.polyline(reading, {.stroke = style.colour, .width = 1.6, .dash = style.dash});
   const double length = axes.time.high / kMarks;
   const double offset = static_cast<double>(index + 1) / static_cast<double>(count + 1);
@@ -89,8 +89,8 @@ std::string tank_figure(const Problem& problem, const std::vector<TankCurve>& cu
   for (std::size_t i = 0; i < curves.size(); ++i) {
     legend.push_back(entry_of(problem, curves[i], i));
   }
-  legend.push_back({"plan; numbers: mean of the hold", [](Svg& svg, const Point& left) {
-                      svg.line(left, left + Point(kLegendMark, 0), plan_paint());
+  legend.push_back({"trajectory; numbers: mean of the hold", [](Svg& svg, const Point& left) {
+                      svg.line(left, left + Point(kLegendMark, 0), trajectory_paint());
                     }});
   const Point corner(kCurvesLeft, kCurvesTop + kCurvesHeight + kCurvesBelow - 6);
   const double width = kPageWidth - kCurvesLeft;

@@ -1,6 +1,6 @@
 set(maxwrench_lib_sources
-  math/cubic_spline.cpp math/decompositions.cpp math/direct_drives.cpp math/linear_program.cpp math/polygon.cpp math/random.cpp
-  math/status.cpp math/zonotope.cpp
+  math/cubic_spline.cpp math/decompositions.cpp math/direct_drives.cpp math/linear_program.cpp math/ode_solution.cpp
+  math/polygon.cpp math/random.cpp math/status.cpp math/zonotope.cpp
   measure/closed_form.cpp measure/ellipsoid.cpp measure/ellipsoid_trace.cpp measure/least_effort.cpp measure/manipulability.cpp
   measure/measure.cpp measure/one_sided.cpp measure/polytope.cpp measure/saturating_wrench.cpp measure/transmission_ratio.cpp
   measure/wrench_program.cpp
@@ -9,11 +9,11 @@ set(maxwrench_lib_sources
   posture/ik/ik_start_system.cpp posture/ik/path_tracker.cpp posture/ik/primary_ik.cpp posture/ik/second_arm.cpp
   posture/ik/tool_chain.cpp
   posture/movable.cpp posture/posture.cpp posture/pull_back.cpp posture/redundancy.cpp posture/violation.cpp
-  robot/chain.cpp robot/contact.cpp robot/dynamics.cpp robot/dynamics_slopes.cpp robot/kinematics.cpp robot/motion.cpp
-  robot/opening.cpp robot/problem.cpp robot/robot.cpp robot/trajectory.cpp
+  robot/chain.cpp robot/clearance_slope.cpp robot/contact.cpp robot/dynamics.cpp robot/dynamics_slopes.cpp robot/free_motion.cpp
+  robot/kinematics.cpp robot/problem.cpp robot/robot.cpp
   search/capability.cpp search/facet_program.cpp
   tank/control_loop.cpp tank/controller.cpp tank/effort_tracking.cpp tank/motion_run.cpp tank/ode.cpp tank/options.cpp
   tank/reference.cpp tank/script.cpp tank/summary.cpp tank/tank.cpp
-  trajectory/clearance.cpp trajectory/limits.cpp trajectory/motion.cpp trajectory/objective.cpp trajectory/path.cpp
+  trajectory/clearance.cpp trajectory/limits.cpp trajectory/motion_evaluator.cpp trajectory/objective.cpp trajectory/path.cpp
   trajectory/program.cpp trajectory/robot_motion.cpp trajectory/scheme.cpp trajectory/trajectory.cpp
   trajectory/trajectory_program.cpp trajectory/trajectory_residual.cpp)

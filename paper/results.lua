@@ -120,7 +120,7 @@ local function has_column(file, name)
   return false
 end
 
--- All rows with the values of SELECTOR ("problem=planar/force lp=facets"), at least one.
+-- All rows with the values of SELECTOR ("problem=planar/force solver=facets"), at least one.
 local function rows_of(file, selector)
   local wanted = {}
   for key, value in selector:gmatch("(%S+)=(%S*)") do
@@ -319,14 +319,14 @@ end
 
 -- Microseconds of the processor for one evaluation of a search by annealing, the median over its seeds, and by which solver.
 local function microseconds(problem, search, lp)
-  local selector = "problem=" .. problem .. " search=" .. search .. (lp and " lp=" .. lp or "")
+  local selector = "problem=" .. problem .. " search=" .. search .. (lp and " solver=" .. lp or "")
   local evaluations, times, solver = {}, {}, nil
   for _, row in ipairs(rows_of("search_comparison.csv", selector)) do evaluations[row.seed] = row.evaluations end
   for _, row in ipairs(rows_of("search_times.csv", selector)) do
     local n = evaluations[row.seed]
     if not n then fail("results/search_comparison.csv: no row with " .. selector .. " seed=" .. row.seed) end
     times[#times + 1] = 1e6 * number(row.seconds, "results/search_times.csv") / number(n, "evaluations")
-    solver = row.lp
+    solver = row.solver
   end
   return median(times), solver
 end
@@ -376,12 +376,12 @@ function claims.total(file, column)
   return sum
 end
 
--- A column of one solver in a contest of the report.
-function claims.solver(contest, lp, column)
-  for _, row in ipairs(rows_of("report/solvers.csv", "lp=" .. lp)) do
-    if row.contest == contest then return number(row[column], "results/report/solvers.csv: " .. column) end
+-- A column of one solver in a benchmark set of the report.
+function claims.solver(benchmark set, lp, column)
+  for _, row in ipairs(rows_of("report/solvers.csv", "solver=" .. lp)) do
+    if row.benchmark set == benchmark set then return number(row[column], "results/report/solvers.csv: " .. column) end
   end
-  fail("results/report/solvers.csv: no " .. lp .. " in '" .. contest .. "'")
+  fail("results/report/solvers.csv: no " .. lp .. " in '" .. benchmark set .. "'")
 end
 
 -- A column of one integrator of the virtual tank.
@@ -396,7 +396,7 @@ function claims.readings_apart()
   for _, row in ipairs(rows_of("report/experiments.csv", "")) do
     local reading = tonumber(row.reading)
     if reading then
-      local key = table.concat({row.problem, row.wrench, row.lp, row.scheme}, " ")
+      local key = table.concat({row.problem, row.wrench, row.solver, row.scheme}, " ")
       least[key] = math.min(least[key] or reading, reading)
       most[key] = math.max(most[key] or reading, reading)
       local size = math.max(math.abs(most[key]), math.abs(least[key]))
@@ -406,22 +406,22 @@ function claims.readings_apart()
   return apart
 end
 
--- The solvers of a contest of the report, best first.
-function results.solver_rows(contest)
+-- The solvers of a benchmark set of the report, best first.
+function results.solver_rows(benchmark set)
   local found = false
   for _, row in ipairs(table_of("report/solvers.csv").rows) do
-    if row.contest == contest then
+    if row.benchmark set == benchmark set then
       found = true
       local function digits(column)
         return row[column] == "" and "--" or three_digits(number(row[column], "results/report/solvers.csv: " .. column))
       end
       local times = row.times_low == "" and digits("times")
                     or digits("times") .. " [" .. digits("times_low") .. ", " .. digits("times_high") .. "]"
-      tex.sprint(table.concat({code(row.lp), row.solved, row.instances, digits("us"),
+      tex.sprint(table.concat({code(row.solver), row.solved, row.instances, digits("us"),
                                string.format("%.0f", 100 * tonumber(row.share_double)), times}, " & ") .. "\\\\")
     end
   end
-  if not found then fail("results/report/solvers.csv: no contest '" .. contest .. "'") end
+  if not found then fail("results/report/solvers.csv: no benchmark set '" .. benchmark set .. "'") end
 end
 
 return results

@@ -103,7 +103,7 @@ const SearchEntry kSearches[] = {
 #endif
 };
 
-const SearchEntry kPlanSearches[] = {
+const SearchEntry kTrajectorySearches[] = {
     {"slp", "sequential linear programs in knots, efforts and wrenches, from many starts", false,
      make_slp, false, 0, 1, true},
 #if MAXWRENCH_WITH_IPOPT
@@ -127,9 +127,9 @@ constexpr struct {
   bool built_in;
   Absent entry;
 } kOptional[] = {
-    {MAXWRENCH_WITH_CLP, {"lp", "clp", "Clp"}},
-    {MAXWRENCH_WITH_GLPK, {"lp", "glpk", "GLPK"}},
-    {MAXWRENCH_WITH_IPOPT, {"lp", "ipopt", "Ipopt"}},
+    {MAXWRENCH_WITH_CLP, {"solver", "clp", "Clp"}},
+    {MAXWRENCH_WITH_GLPK, {"solver", "glpk", "GLPK"}},
+    {MAXWRENCH_WITH_IPOPT, {"solver", "ipopt", "Ipopt"}},
     {MAXWRENCH_WITH_IPOPT, {"search", "multistart", "Ipopt"}},
     {MAXWRENCH_WITH_IPOPT, {"search", "joint_nlp", "Ipopt"}},
     {MAXWRENCH_WITH_IPOPT, {"search", "facet_nlp", "Ipopt"}},
@@ -178,8 +178,8 @@ std::vector<WrenchSolverEntry> make_wrench_solvers() {
   std::vector<WrenchSolverEntry> table = {
       {"facets", "ray shooting through the facets of {B u}, one wrench column", true, true, 1,
        make_facets},
-      {"box", "dual simplex in the wrench alone, between the facets of {B u}", false, false, 1,
-       make_box},
+      {"condensed", "dual simplex in the wrench alone, between the facets of {B u}", false, false,
+       1, make_condensed},
   };
   for (const LpEntry& lp : kLpSolvers) {
     table.push_back({lp.name, lp.summary, false, false, lp.cost,
@@ -188,15 +188,15 @@ std::vector<WrenchSolverEntry> make_wrench_solvers() {
   return table;
 }
 
-std::vector<PlanSolverEntry> make_plan_solvers() {
-  std::vector<PlanSolverEntry> table = {
-      {"structured", "the worst instant by its facets if efforts follow, else ipm",
-       make_plan_structured},
+std::vector<TrajectorySolverEntry> make_trajectory_solvers() {
+  std::vector<TrajectorySolverEntry> table = {
+      {"facets_or_ipm", "the worst instant by its facets if efforts follow, else ipm",
+       make_facets_or_ipm},
       {"ipm", "own interior point method, linear in the number of instants",
-       [] { return make_plan_ipm(); }}};
+       [] { return make_trajectory_ipm(); }}};
   for (const LpEntry& lp : kLpSolvers) {
     table.push_back(
-        {lp.name, lp.summary, [make = lp.make] { return make_assembled_plan(make()); }});
+        {lp.name, lp.summary, [make = lp.make] { return make_assembled_trajectory(make()); }});
   }
   return table;
 }
@@ -230,10 +230,10 @@ NamedSearch find_stages(std::span<const SearchEntry* const> table, std::string_v
   for (std::size_t begin = 0; begin <= name.size();) {
     const std::size_t end = std::min(name.find('+', begin), name.size());
     const SearchEntry& stage = *find(table, "search", name.substr(begin, end - begin));
-    if (begin > 0 && !stage.goes_on) {
+    if (begin > 0 && !stage.accepts_starts) {
       std::vector<std::string_view> others;
       for (const SearchEntry* entry : table) {
-        if (entry->goes_on) others.emplace_back(entry->name);
+        if (entry->accepts_starts) others.emplace_back(entry->name);
       }
       throw std::invalid_argument(
           fmt::format("search: got '{}', where {} begins by itself, expected as a later stage one "
@@ -255,12 +255,12 @@ std::span<const WrenchSolverEntry> wrench_solvers() {
   static const std::vector<WrenchSolverEntry> kTable = make_wrench_solvers();
   return kTable;
 }
-std::span<const PlanSolverEntry> plan_solvers() {
-  static const std::vector<PlanSolverEntry> kPlanSolvers = make_plan_solvers();
-  return kPlanSolvers;
+std::span<const TrajectorySolverEntry> trajectory_solvers() {
+  static const std::vector<TrajectorySolverEntry> kTrajectorySolvers = make_trajectory_solvers();
+  return kTrajectorySolvers;
 }
 std::span<const SearchEntry> searches() { return kSearches; }
-std::span<const SearchEntry> plan_searches() { return kPlanSearches; }
+std::span<const SearchEntry> trajectory_searches() { return kTrajectorySearches; }
 std::span<const SearchEntry> facet_searches() {
   static const std::vector<SearchEntry> kFacetSearches = make_facet_searches();
   return kFacetSearches;
@@ -287,17 +287,17 @@ bool one_at_a_time(std::string_view name) {
 const MeasureEntry& find_measure(std::string_view name) {
   return find(measures(), "measure", name);
 }
-const LpEntry& find_lp_solver(std::string_view name) { return find(lp_solvers(), "lp", name); }
+const LpEntry& find_lp_solver(std::string_view name) { return find(lp_solvers(), "solver", name); }
 const WrenchSolverEntry& find_wrench_solver(std::string_view name) {
-  return find(wrench_solvers(), "lp", name);
+  return find(wrench_solvers(), "solver", name);
 }
-const PlanSolverEntry& find_plan_solver(std::string_view name) {
-  return find(plan_solvers(), "lp", name);
+const TrajectorySolverEntry& find_trajectory_solver(std::string_view name) {
+  return find(trajectory_solvers(), "solver", name);
 }
 const char* general_search() { return MAXWRENCH_WITH_NLOPT ? "crs2+cmaes" : "annealing+cmaes"; }
 NamedSearch find_search(std::string_view name) {
   std::vector<const SearchEntry*> table;
-  for (const SearchEntry& entry : kPlanSearches) table.push_back(&entry);
+  for (const SearchEntry& entry : kTrajectorySearches) table.push_back(&entry);
   for (const SearchEntry& entry : kSearches) table.push_back(&entry);
   for (const SearchEntry& entry : facet_searches()) table.push_back(&entry);
   return find_stages(table, name);

@@ -138,7 +138,7 @@ class AnyProof final : public ValueProof {
 }  // namespace
 
 std::unique_ptr<ValueProof> make_any_proof(const Problem& problem, const FormModel& model) {
-  if (!model.coordinates().base_follows) {
+  if (!model.coordinates().base_is_dependent) {
     throw std::invalid_argument(problem.name +
                                 ": wrench: got 'any', expected pure: the base does "
                                 "not follow in closed form");

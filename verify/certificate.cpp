@@ -25,7 +25,7 @@ void put_pose(ByteWriter& to, const Pose<double>& pose) {
   to.matrix(pose.p);
 }
 
-void put_core(ByteWriter& to, const Core& core) {
+void put_core(ByteWriter& to, const InscribedBox& core) {
   to.count(core.link);
   put_pose(to, core.placement);
   to.matrix(core.half_sizes);
@@ -35,8 +35,8 @@ void put_collision(ByteWriter& to, const CollisionChecker* checker) {
   const int pairs = checker == nullptr ? 0 : checker->pairs();
   to.count(pairs);
   for (int i = 0; i < pairs; ++i) {
-    CorePair pair;
-    const bool known = checker->cores(i, pair);
+    InscribedBoxPair pair;
+    const bool known = checker->inscribed_boxes(i, pair);
     to.whole(known ? 1 : 0, 1);
     if (!known) continue;
     put_core(to, pair.a);
@@ -185,7 +185,7 @@ std::uint64_t digest(const Problem& problem) {
   for (const int joint : problem.dependent) all.count(joint);
   put_pose(all, problem.robot.mount);
   for (const int axis : problem.free.axes) all.count(axis);
-  all.whole((problem.free.along_tool ? 1 : 0) + (problem.free.wrench_turns ? 2 : 0), 1);
+  all.whole((problem.free.along_end_effector ? 1 : 0) + (problem.free.wrench_turns ? 2 : 0), 1);
   if (problem.contact) put_contact(all, problem.robot, *problem.contact);
   all.matrix(problem.theta_r_min);
   all.matrix(problem.theta_r_max);

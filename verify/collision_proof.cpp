@@ -32,10 +32,10 @@ void set_products(const FormShape& shape, const Eigen::VectorXd& q, std::vector<
   }
 }
 
-bool is_thin(const Core& core) { return (core.half_sizes.array() > 0).count() <= 1; }
+bool is_thin(const InscribedBox& core) { return (core.half_sizes.array() > 0).count() <= 1; }
 
 /// Corners of a box and points midway; of a segment its quarters.
-std::vector<Eigen::Vector3d> points_of(const Core& core) {
+std::vector<Eigen::Vector3d> points_of(const InscribedBox& core) {
   const int steps = is_thin(core) ? 2 : 1;
   const auto most = [&](int axis) { return core.half_sizes[axis] > 0 ? steps : 0; };
   std::vector<Eigen::Vector3d> points;
@@ -73,15 +73,15 @@ const std::vector<CollisionProof::Movers>& CollisionProof::movers(int pair) {
   const auto found = known_.find(pair);
   if (found != known_.end()) return found->second;
   std::vector<Movers>& both = known_[pair];
-  CorePair cores;
-  if (problem_.robot.collision->cores(pair, cores)) {
-    both.push_back(movers(cores.a, cores.b, cores.reach));
-    both.push_back(movers(cores.b, cores.a, cores.reach));
+  InscribedBoxPair inscribed_boxes;
+  if (problem_.robot.collision->inscribed_boxes(pair, inscribed_boxes)) {
+    both.push_back(movers(inscribed_boxes.a, inscribed_boxes.b, inscribed_boxes.reach));
+    both.push_back(movers(inscribed_boxes.b, inscribed_boxes.a, inscribed_boxes.reach));
   }
   return both;
 }
 
-CollisionProof::Movers CollisionProof::movers(const Core& core, const Core& other,
+CollisionProof::Movers CollisionProof::movers(const InscribedBox& core, const InscribedBox& other,
                                               double reach) const {
   Movers result{other.half_sizes, reach - kHair, {}};
   for (const Eigen::Vector3d& at : points_of(core)) {

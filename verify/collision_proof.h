@@ -28,7 +28,7 @@ class CollisionProof {
     std::vector<std::array<FormRow, 3>> points;
   };
   const std::vector<Movers>& movers(int pair);
-  Movers movers(const Core& core, const Core& other, double reach) const;
+  Movers movers(const InscribedBox& core, const InscribedBox& other, double reach) const;
   bool is_close(const Movers& movers, const std::array<FormRow, 3>& point);
   bool may_be_close(const Movers& movers, const std::array<FormRow, 3>& point) const;
 

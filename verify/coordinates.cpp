@@ -7,7 +7,7 @@
 namespace maxwrench {
 namespace {
 
-void refuse_unless(bool serves, const Problem& problem) {
+void throw_unless_served(bool serves, const Problem& problem) {
   if (serves) return;
   throw std::invalid_argument(problem.name +
                               ": expected a static task in which a second contact, if there is "
@@ -32,7 +32,7 @@ int place_of(const std::vector<int>& list, int joint) {
 
 PostureCoordinates::PostureCoordinates(const Problem& problem)
     : of_joint(problem.robot.joints.size(), -1), chain(joints_between(problem)) {
-  refuse_unless(!problem.motion && problem.contact_columns() == 0, problem);
+  throw_unless_served(!problem.motion && problem.contact_columns() == 0, problem);
   const Robot& robot = problem.robot;
   const int own = problem.redundancy(), given = static_cast<int>(problem.redundant.size());
   const auto add_joint = [&](int joint, int coordinate) {
@@ -46,8 +46,8 @@ PostureCoordinates::PostureCoordinates(const Problem& problem)
   }
   yaw = count();
   const std::vector<int>& axes = robot.base_axes;
-  base_follows = axes.size() == 6 || (problem.dependent.empty() && !problem.contact);
-  if (!base_follows && place_of(axes, 5) < static_cast<int>(axes.size())) {
+  base_is_dependent = axes.size() == 6 || (problem.dependent.empty() && !problem.contact);
+  if (!base_is_dependent && place_of(axes, 5) < static_cast<int>(axes.size())) {
     variables.push_back({true, next++, -std::numbers::pi, std::numbers::pi});
   }
   first = count();
@@ -66,7 +66,7 @@ PostureCoordinates::PostureCoordinates(const Problem& problem)
   regrasp = count();
   const bool around = problem.contact && problem.contact->surface == Surface::kCircle;
   while (at < own) variables.push_back({around, at++, 0, 0});
-  refuse_unless(count() == next, problem);
+  throw_unless_served(count() == next, problem);
   for (Variable& variable : variables) {
     if (variable.coordinate >= own) continue;
     variable.lower = problem.theta_r_min[variable.coordinate];

@@ -29,7 +29,7 @@ struct PostureCoordinates {
   std::vector<int> chain;     ///< the joints that move the end effector, from the base outward
   int yaw = 0;                ///< where each stretch of variables begins
   int first = 0, free = 0, regrasp = 0;
-  bool base_follows = false;  ///< its pose, in closed form; else by equations
+  bool base_is_dependent = false;  ///< its pose, in closed form; else by equations
 
   int count() const { return static_cast<int>(variables.size()); }
   bool has_yaw() const { return first > yaw; }

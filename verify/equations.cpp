@@ -80,7 +80,7 @@ std::vector<Form> opposite(std::vector<Form> rows) {
 }  // namespace
 
 Equations::Equations(const Problem& problem, const FormModel& model) {
-  if (!model.coordinates().base_follows) add_base(problem, model);
+  if (!model.coordinates().base_is_dependent) add_base(problem, model);
   if (problem.contact) add_contact(problem, model);
 }
 

@@ -44,7 +44,7 @@ std::vector<Pose<double>> links_at(const Problem& problem, const PostureCoordina
 bool base_gets_there(const Problem& problem, const FormModel& model, const Eigen::VectorXd& x,
                      const std::vector<Pose<double>>& links) {
   const Robot& robot = problem.robot;
-  if (!model.coordinates().base_follows || robot.base_axes.size() == 6) return true;
+  if (!model.coordinates().base_is_dependent || robot.base_axes.size() == 6) return true;
   const auto at = [&](const Form& form) {
     return BoxForms::at_point(model.shape(), FormRow(form, model.far()), x).low;
   };
@@ -83,7 +83,7 @@ std::vector<Narrow> load(const FormModel& model, const Eigen::VectorXd& x, const
   return sum;
 }
 
-std::string refuse_balance(const Problem& problem, const ProofCertificate& proof,
+std::string reject_balance(const Problem& problem, const ProofCertificate& proof,
                            const std::vector<Narrow>& tau, double tolerance) {
   const Zonotope& set = problem.robot.actuation;
   if (proof.u.size() != set.actuators()) return "the efforts are not as many as the actuators";
@@ -119,7 +119,7 @@ Wide square_of_effort(const Zonotope& set, const std::vector<Narrow>& tau) {
 
 /// There is a value only where the ellipsoid holds tau_d. Then |W_u B^+ J'h| <= 2, so that a value
 /// that is off by a small share takes the square off by at most 4 times that share.
-std::string refuse_ellipsoid(const Problem& problem, const FormModel& model,
+std::string reject_ellipsoid(const Problem& problem, const FormModel& model,
                              const ProofCertificate& proof, const std::vector<Narrow>& tau) {
   const Zonotope& set = problem.robot.actuation;
   const std::vector<Narrow> tau_d = load(model, proof.x, Vector6d::Zero());
@@ -129,7 +129,7 @@ std::string refuse_ellipsoid(const Problem& problem, const FormModel& model,
              : "its efforts are outside the ellipsoid";
 }
 
-std::string refuse_value(const Problem& problem, const FormModel& model,
+std::string reject_value(const Problem& problem, const FormModel& model,
                          const ProofCertificate& proof, double tolerance) {
   const Zonotope& set = problem.robot.actuation;
   const bool polytope = proof.measure == "linf_polytope";
@@ -138,8 +138,8 @@ std::string refuse_value(const Problem& problem, const FormModel& model,
   if (!((h - W * (W.transpose() * h)).norm() <= tolerance)) return "its wrench is not allowed";
   if (!(std::abs(problem.c.dot(h) - proof.value) <= tolerance)) return "its wrench is another one";
   const std::vector<Narrow> tau = load(model, proof.x, h);
-  if (polytope) return refuse_balance(problem, proof, tau, tolerance);
-  if (proof.measure == "ellipsoid") return refuse_ellipsoid(problem, model, proof, tau);
+  if (polytope) return reject_balance(problem, proof, tau, tolerance);
+  if (proof.measure == "ellipsoid") return reject_ellipsoid(problem, model, proof, tau);
   const std::vector<Wide> u = efforts(enclose_pseudoinverse(set.B), tau);
   for (std::size_t k = 0; k < u.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(k);
@@ -160,7 +160,7 @@ bool is_within(const PostureCoordinates& coordinates, const Eigen::VectorXd& x) 
 
 }  // namespace
 
-std::string refuse_incumbent(const Problem& problem, const FormModel& model,
+std::string reject_incumbent(const Problem& problem, const FormModel& model,
                              const Equations& equations, const ProofCertificate& proof) {
   const Eigen::VectorXd& x = proof.x;
   if (x.size() != model.coordinates().count()) return "its posture has other joints";
@@ -178,7 +178,7 @@ std::string refuse_incumbent(const Problem& problem, const FormModel& model,
   if (problem.robot.collision && problem.robot.collision->collides(links)) {
     return "its posture collides";
   }
-  return refuse_value(problem, model, proof, kIncumbentTolerance * (1 + std::abs(proof.value)));
+  return reject_value(problem, model, proof, kIncumbentTolerance * (1 + std::abs(proof.value)));
 }
 
 }  // namespace maxwrench

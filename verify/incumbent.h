@@ -14,7 +14,7 @@ class FormModel;
 /// second contact is below its sigma_min, it collides, or the value is not reached with efforts
 /// within their limits, up to 1e-8 (1 + |value|) in each row and limit. No program is solved: the
 /// certificate holds the efforts, or they follow.
-std::string refuse_incumbent(const Problem& problem, const FormModel& model,
+std::string reject_incumbent(const Problem& problem, const FormModel& model,
                              const Equations& equations, const ProofCertificate& proof);
 
 }  // namespace maxwrench

@@ -4,7 +4,7 @@
 
 namespace maxwrench {
 
-/// Gravity and what it does, from the end effector to the base and into other branches.
+/// Gravity and what it does, from the end effector to the base and into other IK solutions.
 void FormModel::weigh() {
   const Robot& robot = problem_.robot;
   const FormVector nothing = constant(Eigen::Vector3d::Zero());
@@ -21,7 +21,7 @@ void FormModel::weigh() {
   for (std::size_t i = 0; i < robot.links.size(); ++i) {
     if (on_chain_[i]) {
       load_[i] = cross(moment_[i], pull_[i]);
-    } else if (coordinates_.base_follows) {
+    } else if (coordinates_.base_is_dependent) {
       pull_[i] = transposed(places_[i - 1].R) * pull_[static_cast<std::size_t>(parent(i))];
       load_[i] = cross(moment_[i], pull_[i]);
     }
@@ -41,7 +41,7 @@ FormVector FormModel::from_world(const FormVector& x) const {
   return transposed(R) * x;
 }
 
-/// The base and side branches anew, as the base stands.
+/// The base and side IK solutions anew, as the base stands.
 void FormModel::weigh_from_base() {
   const Robot& robot = problem_.robot;
   std::vector<FormVector> pull = {from_world(constant({0, 0, -robot.gravity}))};
@@ -113,7 +113,7 @@ std::vector<Form> FormModel::exerted(const Vector6d& h) const {
     force = places_[i - 1].R * force;
     moment = places_[i - 1].R * moment + cross(places_[i - 1].p, force);
   }
-  if (!coordinates_.base_follows) {
+  if (!coordinates_.base_is_dependent) {
     exert_on_base(h, rows);
     return rows;
   }

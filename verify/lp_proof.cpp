@@ -42,7 +42,7 @@ bool is_zero(const RationalVector& v) {
   return true;
 }
 
-std::string refuse_point(const LinearProgram& p, const RationalVector& x) {
+std::string reject_point(const LinearProgram& p, const RationalVector& x) {
   if (!is_zero(balance(p, x, &p.b))) return "A x = b does not hold";
   for (int j = 0; j < p.cols(); ++j) {
     const mpq_class& at = x[static_cast<std::size_t>(j)];
@@ -53,7 +53,7 @@ std::string refuse_point(const LinearProgram& p, const RationalVector& x) {
   return "";
 }
 
-std::string refuse_optimum(const LinearProgram& p, const LpProof& proof) {
+std::string reject_optimum(const LinearProgram& p, const LpProof& proof) {
   for (int j = 0; j < p.cols(); ++j) {
     const mpq_class d = p.c[j] - column_times(p, j, proof.lambda);
     const mpq_class& at = proof.x[static_cast<std::size_t>(j)];
@@ -64,7 +64,7 @@ std::string refuse_optimum(const LinearProgram& p, const LpProof& proof) {
   return "";
 }
 
-std::string refuse_contradiction(const LinearProgram& p, const RationalVector& y) {
+std::string reject_contradiction(const LinearProgram& p, const RationalVector& y) {
   for (int j = 0; j < p.cols(); ++j) {
     if (p.l[j] > p.u[j]) return "";
   }
@@ -80,7 +80,7 @@ std::string refuse_contradiction(const LinearProgram& p, const RationalVector& y
   return most < right ? "" : "y'A x may be y'b";
 }
 
-std::string refuse_ray(const LinearProgram& p, const RationalVector& r) {
+std::string reject_ray(const LinearProgram& p, const RationalVector& r) {
   if (!is_zero(balance(p, r, nullptr))) return "A r = 0 does not hold";
   for (int j = 0; j < p.cols(); ++j) {
     const mpq_class& along = r[static_cast<std::size_t>(j)];
@@ -99,7 +99,7 @@ mpq_class exact_objective(const LinearProgram& program, const RationalVector& x)
   return sum;
 }
 
-std::string refuse_lp_proof(const LinearProgram& program, const LpProof& proof) {
+std::string reject_lp_proof(const LinearProgram& program, const LpProof& proof) {
   const auto rows = static_cast<std::size_t>(program.rows());
   const auto cols = static_cast<std::size_t>(program.cols());
   const bool infeasible = proof.status == Status::kInfeasible;
@@ -110,10 +110,10 @@ std::string refuse_lp_proof(const LinearProgram& program, const LpProof& proof) 
                        (optimal ? proof.lambda.size() != rows : proof.certificate.size() != cols)) {
     return "its sizes are not those of the program";
   }
-  if (infeasible) return refuse_contradiction(program, proof.certificate);
-  const std::string refusal = refuse_point(program, proof.x);
-  if (!refusal.empty()) return refusal;
-  return optimal ? refuse_optimum(program, proof) : refuse_ray(program, proof.certificate);
+  if (infeasible) return reject_contradiction(program, proof.certificate);
+  const std::string rejection = reject_point(program, proof.x);
+  if (!rejection.empty()) return rejection;
+  return optimal ? reject_optimum(program, proof) : reject_ray(program, proof.certificate);
 }
 
 }  // namespace maxwrench

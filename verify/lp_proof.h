@@ -25,7 +25,7 @@ struct LpProof {
 /// positive only where x = u, negative only where x = l. Infeasible: sup {y'A x : l <= x <= u} <
 /// y'b, or some l > u. Unbounded: x is feasible, A r = 0, r leaves no bound, c'r > 0. Bounds from
 /// 1e20 on count as infinite.
-std::string refuse_lp_proof(const LinearProgram& program, const LpProof& proof);
+std::string reject_lp_proof(const LinearProgram& program, const LpProof& proof);
 
 /// c'x.
 mpq_class exact_objective(const LinearProgram& program, const RationalVector& x);

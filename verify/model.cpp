@@ -36,7 +36,7 @@ FormModel::FormModel(const Problem& problem)
   for (std::size_t i = 0; i < problem.robot.joints.size(); ++i) places_.push_back(place_of(i));
   weigh_links();
   weigh();
-  if (coordinates_.base_follows) {
+  if (coordinates_.base_is_dependent) {
     sum_total();
   } else {
     weigh_from_base();
@@ -78,7 +78,7 @@ void FormModel::set_pose() {
 }
 
 FormVector FormModel::pose_place() const {
-  const FormMatrix along = problem_.free.along_tool ? pose_R_ : matrix(problem_.pose.R);
+  const FormMatrix along = problem_.free.along_end_effector ? pose_R_ : matrix(problem_.pose.R);
   return constant(problem_.pose.p) + along * shift_;
 }
 
@@ -86,7 +86,7 @@ FormVector FormModel::pose_place() const {
 FormVector FormModel::into_pose(const FormVector& x, bool point) const {
   const FormMatrix back = transposed(pose_R_);
   if (!point) return back * x;
-  if (problem_.free.along_tool) return back * (x - constant(problem_.pose.p)) - shift_;
+  if (problem_.free.along_end_effector) return back * (x - constant(problem_.pose.p)) - shift_;
   return back * (x - pose_place());
 }
 
@@ -116,14 +116,14 @@ FormModel::Place FormModel::place_of(std::size_t joint) const {
   return place;
 }
 
-/// What hangs on side branches counts to the link of the chain that carries it.
+/// What hangs on side IK solutions counts to the link of the chain that carries it.
 void FormModel::weigh_links() {
   const Robot& robot = problem_.robot;
   for (const Link& link : robot.links) {
-    const Wide displaced = exact_product(robot.water_density, link.volume);
-    mass_.push_back(Wide(link.mass) - displaced);
+    const Wide deflection_error = exact_product(robot.water_density, link.volume);
+    mass_.push_back(Wide(link.mass) - deflection_error);
     moment_.push_back(Form(shape_, Wide(link.mass)) * constant(link.com) -
-                      Form(shape_, displaced) * constant(link.cob));
+                      Form(shape_, deflection_error) * constant(link.cob));
   }
   const Wide lift(robot.trim.buoyancy_mass);
   mass_[0] -= lift;

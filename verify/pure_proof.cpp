@@ -25,7 +25,7 @@ std::vector<FormRow> to_rows(const std::vector<Form>& forms, const std::vector<d
 /// numbers may take, less what is along axes that are not free. Infinite where the base does not
 /// follow in closed form, as then other axes may hold.
 double pure_ceiling(const Problem& problem, const FormModel& model) {
-  if (!model.coordinates().base_follows) return kInfinity;
+  if (!model.coordinates().base_is_dependent) return kInfinity;
   const Zonotope& set = problem.robot.actuation;
   const bool pushes = !problem.c.head<3>().isZero(0);
   const std::vector<Form> tau = model.tau_d();

@@ -16,7 +16,7 @@ namespace {
 using Node = CertificateTree::Node;
 using Reason = CertificateTree::Reason;
 
-/// Larger numbers are refused, so that no product of them overflows.
+/// Larger numbers are rejected, so that no product of them overflows.
 constexpr double kLargest = 1e60;
 
 /// [rad or m]
@@ -38,7 +38,7 @@ struct OpenBox {
 };
 
 /// Empty, or why the nodes are no tree of boxes: each that is cut is followed by two.
-std::string refuse_shape(const CertificateTree& tree, Eigen::Index axes, int width, int equations) {
+std::string reject_shape(const CertificateTree& tree, Eigen::Index axes, int width, int equations) {
   std::size_t open = 1;
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     if (open == 0) return "boxes that belong to no other";
@@ -93,7 +93,7 @@ class TreeWalk {
   void walk(OpenBox top) {
     std::vector<OpenBox> open;
     open.push_back(std::move(top));
-    while (!open.empty() && done.refusal.empty()) {
+    while (!open.empty() && done.rejection.empty()) {
       OpenBox box = std::move(open.back());
       open.pop_back();
       if (check(box)) push_halves(box, open);
@@ -115,7 +115,7 @@ class TreeWalk {
       box.high = value_->most(box.lower, box.upper, multiplier(node), proof_.bound, before);
     }
     if (node.axis >= 0) return is_cut(box, node);
-    if (!(box.high <= proof_.bound)) return refuse(box, what_is_open(box, node));
+    if (!(box.high <= proof_.bound)) return reject(box, what_is_open(box, node));
     count(node, before <= proof_.bound);
     return false;
   }
@@ -147,9 +147,9 @@ class TreeWalk {
   bool is_cut(const OpenBox& box, const Node& node) {
     const double at = place_of_cut(box, node);
     if (!(box.lower[node.axis] < at && at < box.upper[node.axis])) {
-      return refuse(box, "is too narrow to be cut");
+      return reject(box, "is too narrow to be cut");
     }
-    return box.depth < kDeepest || refuse(box, "is too deep in the tree");
+    return box.depth < kDeepest || reject(box, "is too deep in the tree");
   }
 
   static double place_of_cut(const OpenBox& box, const Node& node) {
@@ -174,9 +174,9 @@ class TreeWalk {
     }
   }
 
-  bool refuse(const OpenBox& box, const std::string& why) {
+  bool reject(const OpenBox& box, const std::string& why) {
     failed = box.node;
-    done.refusal = "box " + std::to_string(box.node) + ": " + why;
+    done.rejection = "box " + std::to_string(box.node) + ": " + why;
     return false;
   }
 
@@ -195,7 +195,7 @@ void add(const TreeWalk& part, Verification& sum, std::size_t& failed) {
   sum.by_parent += part.done.by_parent;
   if (part.failed >= failed) return;
   failed = part.failed;
-  sum.refusal = part.done.refusal;
+  sum.rejection = part.done.rejection;
 }
 
 /// Whether a box holds every posture within limits, or the same with whole turns of a joint.
@@ -211,7 +211,7 @@ bool holds_all(const PostureCoordinates& coordinates, const ProofCertificate& pr
 }
 
 /// What does not ask for the boxes.
-std::string refuse_claims(const Problem& problem, const FormModel& model,
+std::string reject_claims(const Problem& problem, const FormModel& model,
                           const Equations& equations, const ProofCertificate& proof) {
   if (proof.digest != digest(problem)) return "it is about another robot or task";
   if (proof.collision != (problem.robot.collision != nullptr)) {
@@ -232,7 +232,7 @@ std::string refuse_claims(const Problem& problem, const FormModel& model,
   if (!(proof.bound <= proof.value + proof.gap * std::abs(proof.value) + slack)) {
     return "its gap is larger than it says";
   }
-  return refuse_incumbent(problem, model, equations, proof);
+  return reject_incumbent(problem, model, equations, proof);
 }
 
 /// The first boxes one by one, until there are enough to share out.
@@ -241,7 +241,8 @@ std::vector<OpenBox> first_boxes(TreeWalk& walk, OpenBox root) {
   std::vector<OpenBox> open;
   open.push_back(std::move(root));
   std::size_t next = 0;
-  for (; next < open.size() && open.size() - next < kEnough && walk.done.refusal.empty(); ++next) {
+  for (; next < open.size() && open.size() - next < kEnough && walk.done.rejection.empty();
+       ++next) {
     OpenBox box = open[next];
     if (walk.check(box)) walk.push_halves(box, open);
   }
@@ -257,12 +258,12 @@ Verification verify(const Problem& problem, const ProofCertificate& proof, int t
   const auto value = make_value_proof(problem, model, equations, proof.measure, proof.wrench);
   Verification result;
   result.ceiling = value->ceiling();
-  result.refusal = refuse_claims(problem, model, equations, proof);
-  if (result.refusal.empty()) {
-    result.refusal =
-        refuse_shape(proof.tree, proof.lower.size(), value->width(), equations.count());
+  result.rejection = reject_claims(problem, model, equations, proof);
+  if (result.rejection.empty()) {
+    result.rejection =
+        reject_shape(proof.tree, proof.lower.size(), value->width(), equations.count());
   }
-  if (!result.refusal.empty()) return result;
+  if (!result.rejection.empty()) return result;
   const std::vector<std::size_t> second = upper_halves(proof.tree);
   TreeWalk first(problem, model, equations, proof, second, value->clone());
   const std::vector<OpenBox> open =

@@ -8,8 +8,8 @@ namespace maxwrench {
 
 /// What was checked of a certificate.
 struct Verification {
-  std::string refusal;  ///< empty: it is verified
-  long boxes = 0;       ///< of the tree
+  std::string rejection;  ///< empty: it is verified
+  long boxes = 0;         ///< of the tree
   long by_multiplier = 0, by_collision = 0, by_equations = 0, by_parent = 0;  ///< leaves
   double ceiling = kInfinity;  ///< of all postures, before any box
 };

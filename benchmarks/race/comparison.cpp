@@ -108,7 +108,7 @@ void run_all(const Problem& problem, const Case& base, const RaceOptions& option
     Case c = base;
     c.problem = problem.name;
     c.search = contender.search;
-    c.lp = contender.lp;
+    c.solver = contender.solver;
     c.seed = static_cast<std::uint64_t>(i / count + 1);
     c.budget = contender.budget;
     attempts[static_cast<std::size_t>(i)] =
@@ -127,7 +127,7 @@ Attempt attempt(const Problem& problem, const Method& method,
   Attempt attempt;
   attempt.choice = method.choice;
   Method by_instants = method;
-  by_instants.plan_value = PlanValue::kAtInstants;
+  by_instants.trajectory_value = TrajectoryValue::kAtInstants;
   const double begin = thread_seconds();
   SearchOptions how;
   how.interrupted = interrupted;
@@ -146,8 +146,8 @@ Attempt attempt(const Problem& problem, const Method& method,
   if (attempt.value == -kInfinity) return attempt;
   const Answer answer =
       evaluate(problem, unstacked(attempt.found, knots_of(problem)), Options{method.choice});
-  attempt.continuous = answer.plan.continuous;
-  // What a search of plans maximises has a value where only slack balances a posture, too.
+  attempt.value_between_knots = answer.trajectory.value_between_knots;
+  // What a trajectory search maximises has a value where only slack balances a posture, too.
   if (!problem.motion && !answer.has_value()) {
     attempt.value = -kInfinity;
     attempt.run.rises.clear();
@@ -203,15 +203,15 @@ Comparison compare(const Problem& problem, const Case& base, const RaceOptions& 
   Comparison comparison{
       problem.name, whole.unit, {}, {}, default_of(problem, base), problem.motion.has_value(),
       base.budget};
-  const auto enter = [&](const std::string& search, const std::string& lp) {
+  const auto enter = [&](const std::string& search, const std::string& solver) {
     const long share = options.shares_budget ? cost_of(search) : 1;
-    return Contender{search, lp, std::max(1L, base.budget / share), {}};
+    return Contender{search, solver, std::max(1L, base.budget / share), {}};
   };
   for (const std::string& search : searches_of(problem, base)) {
-    comparison.contenders.push_back(enter(search, whole.choice.lp));
+    comparison.contenders.push_back(enter(search, whole.choice.solver));
   }
-  for (const std::string& lp : peers_of(problem, base)) {
-    comparison.peers.push_back(enter(plain_search(problem), lp));
+  for (const std::string& solver : peers_of(problem, base)) {
+    comparison.peers.push_back(enter(plain_search(problem), solver));
   }
   prepare(problem, options.threads);
   run_all(problem, base, options, comparison);
@@ -221,9 +221,9 @@ Comparison compare(const Problem& problem, const Case& base, const RaceOptions& 
 }
 
 void prepare(const Problem& problem, int threads) {
-  if (!problem.atlas) return;
-  parallel_for(threads, problem.atlas->nodes(),
-               [&](long i) { problem.atlas->node(static_cast<int>(i)); });
+  if (!problem.start_system) return;
+  parallel_for(threads, problem.start_system->nodes(),
+               [&](long i) { problem.start_system->node(static_cast<int>(i)); });
 }
 
 long attempt_count(const Problem& problem, const Case& base, int seeds) {

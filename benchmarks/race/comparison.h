@@ -20,21 +20,21 @@ struct Attempt {
   Case choice;
   double value = -kInfinity;
   Eigen::VectorXd found;  ///< its point
-  /// Of a plan, that between its instants (`Plan::continuous`); NaN: none.
-  double continuous = std::numeric_limits<double>::quiet_NaN();
+  /// Of a trajectory, that between its instants (`Trajectory::value_between_knots`); NaN: none.
+  double value_between_knots = std::numeric_limits<double>::quiet_NaN();
   RaceRun run;         ///< what was spent in the whole run as the search counts it
   double counted = 0;  ///< evaluations that the clock saw: as many
 };
 
 /// All searches of a task in time maximise the same, the value at the instants
-/// (`PlanValue::kAtInstants`). The answer is checked from the problem's data outside the clock; one
-/// that fails is none.
+/// (`TrajectoryValue::kAtInstants`). The answer is checked from the problem's data outside the
+/// clock; one that fails is none.
 Attempt attempt(const Problem& problem, const Method& method,
                 const std::function<bool()>& interrupted = {});
 
 /// All attempts of one search through one lower-level solver.
 struct Contender {
-  std::string search, lp;
+  std::string search, solver;
   long budget = 0;                ///< evaluations of each attempt
   std::vector<Attempt> attempts;  ///< seeds 1, 2, ...; of a problem that was interrupted, those
                                   ///< that had begun
@@ -88,12 +88,12 @@ struct RaceOptions {
   std::function<bool()> interrupted = {};
 };
 
-/// Makes what all searches on a problem share (`BranchAtlas`), outside of any clock: who asks first
-/// would pay for all.
+/// Makes what all searches on a problem share (`IkStartSystem`), outside of any clock: who asks
+/// first would pay for all.
 void prepare(const Problem& problem, int threads);
 
 /// Runs every search that serves the problem with seeds 1 to `seeds`; `base` holds measure, wrench,
-/// lp, budget and the default search. The values do not depend on the threads.
+/// solver, budget and the default search. The values do not depend on the threads.
 Comparison compare(const Problem& problem, const Case& base, const RaceOptions& options);
 /// How many attempts that makes.
 long attempt_count(const Problem& problem, const Case& base, int seeds);

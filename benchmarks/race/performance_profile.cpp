@@ -32,25 +32,25 @@ void set_beside(const std::vector<double>& ratios, MethodStanding& standing) {
   standing.p = wilcoxon_signed_rank(logarithms);
 }
 
-const std::vector<double>& costs_of(const Contest& contest, const std::string& method) {
-  const auto found = std::find(contest.methods.begin(), contest.methods.end(), method);
-  return contest.cost[static_cast<std::size_t>(found - contest.methods.begin())];
+const std::vector<double>& costs_of(const BenchmarkSet& benchmark_set, const std::string& method) {
+  const auto found = std::find(benchmark_set.methods.begin(), benchmark_set.methods.end(), method);
+  return benchmark_set.cost[static_cast<std::size_t>(found - benchmark_set.methods.begin())];
 }
 
 /// What the profiles tell, best first.
-std::vector<MethodStanding> profiles_in_order(const Contest& contest) {
-  const std::vector<std::vector<double>> ratios = performance_ratios(contest);
+std::vector<MethodStanding> profiles_in_order(const BenchmarkSet& benchmark_set) {
+  const std::vector<std::vector<double>> ratios = performance_ratios(benchmark_set);
   std::vector<MethodStanding> all;
   for (std::size_t i = 0; i < ratios.size(); ++i) {
     MethodStanding& standing = all.emplace_back();
-    standing.method = contest.methods[i];
+    standing.method = benchmark_set.methods[i];
     standing.instances = static_cast<long>(ratios[i].size());
     const std::vector<EcdfStep> profile = ecdf(ratios[i]);
     standing.share_best = share_reached(profile, 1);
     standing.share_double = share_reached(profile, 2);
     standing.solved = std::count_if(ratios[i].begin(), ratios[i].end(),
                                     [](double ratio) { return std::isfinite(ratio); });
-    standing.cost = median(contest.cost[i]);
+    standing.cost = median(benchmark_set.cost[i]);
   }
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
     return std::tuple(-a.share_double, -a.share_best, a.cost) <
@@ -61,23 +61,23 @@ std::vector<MethodStanding> profiles_in_order(const Contest& contest) {
 
 }  // namespace
 
-std::vector<std::vector<double>> performance_ratios(const Contest& contest) {
-  std::vector<std::vector<double>> ratios = contest.cost;
-  for (const auto& costs : contest.cost) assert(costs.size() == contest.instances());
-  for (std::size_t j = 0; j < contest.instances(); ++j) {
+std::vector<std::vector<double>> performance_ratios(const BenchmarkSet& benchmark_set) {
+  std::vector<std::vector<double>> ratios = benchmark_set.cost;
+  for (const auto& costs : benchmark_set.cost) assert(costs.size() == benchmark_set.instances());
+  for (std::size_t j = 0; j < benchmark_set.instances(); ++j) {
     double least = kInfinity;
-    for (const auto& costs : contest.cost) least = std::min(least, costs[j]);
+    for (const auto& costs : benchmark_set.cost) least = std::min(least, costs[j]);
     for (auto& line : ratios) line[j] = std::isfinite(line[j]) ? line[j] / least : kInfinity;
   }
   return ratios;
 }
 
-std::vector<MethodStanding> stand(const Contest& contest) {
-  std::vector<MethodStanding> all = profiles_in_order(contest);
+std::vector<MethodStanding> stand(const BenchmarkSet& benchmark_set) {
+  std::vector<MethodStanding> all = profiles_in_order(benchmark_set);
   if (all.empty()) return all;
-  const bool has_reference = std::find(contest.methods.begin(), contest.methods.end(),
-                                       contest.reference) != contest.methods.end();
-  const std::string reference = has_reference ? contest.reference : all.front().method;
+  const bool has_reference = std::find(benchmark_set.methods.begin(), benchmark_set.methods.end(),
+                                       benchmark_set.reference) != benchmark_set.methods.end();
+  const std::string reference = has_reference ? benchmark_set.reference : all.front().method;
   std::vector<double> p;
   for (MethodStanding& standing : all) {
     standing.reference = reference;
@@ -85,8 +85,9 @@ std::vector<MethodStanding> stand(const Contest& contest) {
       standing.times = standing.times_low = standing.times_high = standing.p = NAN;
       continue;
     }
-    set_beside(paired_ratios(costs_of(contest, standing.method), costs_of(contest, reference)),
-               standing);
+    set_beside(
+        paired_ratios(costs_of(benchmark_set, standing.method), costs_of(benchmark_set, reference)),
+        standing);
     p.push_back(standing.p);
   }
   p = holm(p);

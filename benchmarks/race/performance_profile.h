@@ -9,7 +9,7 @@ namespace maxwrench {
 
 /// Several methods on the same instances: `cost[i][j]` is what method i paid for instance j,
 /// infinity if it failed or does not serve.
-struct Contest {
+struct BenchmarkSet {
   std::string title;
   std::string unit;  ///< of the costs
   std::vector<std::string> methods;
@@ -28,9 +28,9 @@ struct Contest {
 /// the method, rho_i(tau) = |{j : r_ij <= tau}| / instances (Dolan, More: Benchmarking optimization
 /// software with performance profiles, 2002): `ecdf` of a line of these. An instance that no method
 /// solves counts in the denominator.
-std::vector<std::vector<double>> performance_ratios(const Contest& contest);
+std::vector<std::vector<double>> performance_ratios(const BenchmarkSet& benchmark_set);
 
-/// One method of a contest, and how it fares beside the reference.
+/// One method of a benchmark set, and how it fares beside the reference.
 struct MethodStanding {
   std::string method, reference;
   long solved = 0, instances = 0;
@@ -41,11 +41,11 @@ struct MethodStanding {
   /// the reference it took, and its bootstrap interval of 95 %; NaN for the reference.
   double times = kInfinity, times_low = kInfinity, times_high = kInfinity;
   /// Wilcoxon's signed rank test of the logarithms of these, corrected by Holm for all methods of
-  /// the contest; NaN for the reference.
+  /// the benchmark set; NaN for the reference.
   double p = 1;
 };
 
 /// Best first: by rho(2), then by rho(1), then by the median of the costs.
-std::vector<MethodStanding> stand(const Contest& contest);
+std::vector<MethodStanding> stand(const BenchmarkSet& benchmark_set);
 
 }  // namespace maxwrench

@@ -24,7 +24,7 @@ std::vector<std::string> race_file_columns(std::vector<std::string> more, const 
 /// All that an attempt took.
 double spent_of(const CsvFile& csv, std::size_t row, const char* column) {
   const std::optional<double> spent = csv.number(row, column);
-  if (!spent || *spent < 0) csv.refuse(row, column, "a number of 0 or more");
+  if (!spent || *spent < 0) csv.throw_bad_cell(row, column, "a number of 0 or more");
   return *spent;
 }
 
@@ -34,7 +34,8 @@ Attempt attempt_of(const CsvFile& values, std::size_t row, const CsvFile& times,
   Attempt attempt;
   attempt.choice = case_of(values, row);
   attempt.value = values.number(row, "beta").value_or(-kInfinity);
-  attempt.continuous = values.number(row, "continuous").value_or(attempt.continuous);
+  attempt.value_between_knots =
+      values.number(row, "value_between_knots").value_or(attempt.value_between_knots);
   attempt.run.spent = {spent_of(values, row, "evaluations"), spent_of(times, time_row, "seconds")};
   for (std::size_t i = 0; i < kTargetShares.size(); ++i) {
     const auto evaluations = values.number(row, fmt::format("evaluations_to_{}", kTargetNames[i]));
@@ -52,26 +53,27 @@ std::vector<Contender>& group_of(const CsvFile& values, std::size_t row, Compari
   if (role == kDefaultRole) {
     comparison.default_search = values.text(row, "search");
   } else if (role != kContenderRole) {
-    values.refuse(row, "role",
-                  fmt::format("{}, {} or {}", kDefaultRole, kContenderRole, kPeerRole));
+    values.throw_bad_cell(row, "role",
+                          fmt::format("{}, {} or {}", kDefaultRole, kContenderRole, kPeerRole));
   }
   return comparison.contenders;
 }
 
-/// Refuses what two races left in one table.
+/// Rejects what two races left in one table.
 void require_one_race(const CsvFile& values, const Rows& rows) {
   std::set<std::vector<std::string>> attempts;
   for (const std::size_t row : rows) {
     for (const char* column : {"best_known", "proven"}) {
       if (values.text(row, column) == values.text(rows.front(), column)) continue;
-      values.refuse(row, column,
-                    fmt::format("{} as in line {}, of the same race",
-                                values.text(rows.front(), column), line_of(rows.front())));
+      values.throw_bad_cell(row, column,
+                            fmt::format("{} as in line {}, of the same race",
+                                        values.text(rows.front(), column), line_of(rows.front())));
     }
     if (!attempts
-             .insert({values.text(row, "search"), values.text(row, "lp"), values.text(row, "seed")})
+             .insert(
+                 {values.text(row, "search"), values.text(row, "solver"), values.text(row, "seed")})
              .second) {
-      values.refuse(row, "budget", "one of each search, solver and seed in a race");
+      values.throw_bad_cell(row, "budget", "one of each search, solver and seed in a race");
     }
   }
 }
@@ -93,14 +95,14 @@ Comparison comparison_of(const CsvFile& values, const Rows& rows, const CsvFile&
     const Case c = case_of(values, row);
     const auto time = time_rows.find(case_values(c));
     if (time == time_rows.end()) {
-      values.refuse(row, "search", "a row of the same case in search_times.csv");
+      values.throw_bad_cell(row, "search", "a row of the same case in search_times.csv");
     }
     auto& group = group_of(values, row, comparison);
     auto contender = std::find_if(group.begin(), group.end(), [&](const Contender& each) {
-      return each.search == c.search && each.lp == c.lp;
+      return each.search == c.search && each.solver == c.solver;
     });
     if (contender == group.end()) {
-      contender = group.insert(group.end(), Contender{c.search, c.lp, c.budget, {}});
+      contender = group.insert(group.end(), Contender{c.search, c.solver, c.budget, {}});
     }
     contender->attempts.push_back(attempt_of(values, row, times, time->second, best));
     comparison.budget = std::max(comparison.budget, c.budget);
@@ -113,9 +115,9 @@ Comparison comparison_of(const CsvFile& values, const Rows& rows, const CsvFile&
 std::vector<Comparison> read_races(const std::filesystem::path& folder) {
   const std::filesystem::path file = table_file(folder / "search_comparison.csv");
   if (!std::filesystem::exists(file)) return {};
-  const CsvFile values = read_csv(
-      file, race_file_columns({"beta", "continuous", "unit", "best_known", "proven", "role"},
-                              "evaluations"));
+  const CsvFile values = read_csv(file, race_file_columns({"beta", "value_between_knots", "unit",
+                                                           "best_known", "proven", "role"},
+                                                          "evaluations"));
   const CsvFile times =
       read_csv(table_file(folder / "search_times.csv"), race_file_columns({}, "seconds"));
   rows_of_cases(values);  // each once

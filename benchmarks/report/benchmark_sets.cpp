@@ -41,10 +41,10 @@ Instances instances_of(const std::vector<ResultRow>& rows, bool in_time, Wrench 
   Instances instances;
   for (const ResultRow& row : rows) {
     const Case& c = row.choice;
-    if (row.is_experiment() || c.lp == kNoSolver || !belongs(row, in_time, wrench)) continue;
+    if (row.is_experiment() || c.solver == kNoSolver || !belongs(row, in_time, wrench)) continue;
     if (row.solved() && !row.us) continue;  // was not measured
     const ResultRow*& kept = instances[{c.problem, c.measure, to_string(c.wrench), c.search,
-                                        std::to_string(c.seed), c.scheme}][c.lp];
+                                        std::to_string(c.seed), c.scheme}][c.solver];
     if (kept == nullptr || kept->choice.budget < c.budget) kept = &row;
   }
   keep_tried_by_all(instances);
@@ -52,25 +52,26 @@ Instances instances_of(const std::vector<ResultRow>& rows, bool in_time, Wrench 
 }
 
 /// Every method on all instances; `cost` is that of a row that has a value.
-Contest contest_of(const std::string& title, const std::string& unit, const Instances& instances,
-                   const std::function<double(const ResultRow&)>& cost) {
-  Contest contest;
-  contest.title = title;
-  contest.unit = unit;
+BenchmarkSet benchmark_set_of(const std::string& title, const std::string& unit,
+                              const Instances& instances,
+                              const std::function<double(const ResultRow&)>& cost) {
+  BenchmarkSet benchmark_set;
+  benchmark_set.title = title;
+  benchmark_set.unit = unit;
   std::set<std::string> methods;
   for (const auto& [key, by_method] : instances) {
     for (const auto& [method, row] : by_method) methods.insert(method);
   }
   for (const std::string& method : methods) {
-    contest.methods.push_back(method);
-    std::vector<double>& costs = contest.cost.emplace_back();
+    benchmark_set.methods.push_back(method);
+    std::vector<double>& costs = benchmark_set.cost.emplace_back();
     for (const auto& [key, by_method] : instances) {
       const auto found = by_method.find(method);
       const bool has = found != by_method.end() && found->second->solved();
       costs.push_back(has ? cost(*found->second) : kInfinity);
     }
   }
-  return contest;
+  return benchmark_set;
 }
 
 /// Milliseconds of a search to the target on each seed of a race, infinity where it has none.
@@ -103,29 +104,29 @@ std::string family_of(const std::string& problem) {
 
 }  // namespace
 
-std::vector<Contest> solver_contests(const std::vector<ResultRow>& rows) {
-  std::vector<Contest> contests;
+std::vector<BenchmarkSet> solver_benchmark_sets(const std::vector<ResultRow>& rows) {
+  std::vector<BenchmarkSet> benchmark_sets;
   for (const auto& [in_time, wrench] :
        {std::pair{false, Wrench::kPure}, {false, Wrench::kAny}, {true, Wrench::kPure}}) {
-    Contest contest = contest_of(
+    BenchmarkSet benchmark_set = benchmark_set_of(
         in_time ? "tasks in time" : fmt::format("static tasks, wrench {}", to_string(wrench)), "us",
         instances_of(rows, in_time, wrench), [](const ResultRow& row) { return *row.us; });
-    if (contest.instances() > 0) contests.push_back(std::move(contest));
+    if (benchmark_set.instances() > 0) benchmark_sets.push_back(std::move(benchmark_set));
   }
-  return contests;
+  return benchmark_sets;
 }
 
-std::vector<Contest> integrator_contests(const std::vector<ResultRow>& rows) {
+std::vector<BenchmarkSet> integrator_benchmark_sets(const std::vector<ResultRow>& rows) {
   Instances instances;
   for (const ResultRow& row : rows) {
     const Case& c = row.choice;
     if (!row.is_experiment() || (row.solved() && !row.us)) continue;
-    instances[{c.problem, c.measure, to_string(c.wrench), c.lp, c.scheme}][c.integrator] = &row;
+    instances[{c.problem, c.measure, to_string(c.wrench), c.solver, c.scheme}][c.integrator] = &row;
   }
   keep_tried_by_all(instances);
   if (instances.empty()) return {};
-  return {
-      contest_of("virtual tank", "ms", instances, [](const ResultRow& row) { return *row.ms(); })};
+  return {benchmark_set_of("virtual tank", "ms", instances,
+                           [](const ResultRow& row) { return *row.ms(); })};
 }
 
 std::vector<RaceGroup> race_groups(const std::vector<Comparison>& races) {
@@ -147,16 +148,16 @@ std::vector<RaceGroup> race_groups(const std::vector<Comparison>& races) {
   return groups;
 }
 
-Contest search_contest(const RaceGroup& group) {
-  Contest contest{group.title, "ms", {}, {}, common_default(group.races)};
+BenchmarkSet search_benchmark_set(const RaceGroup& group) {
+  BenchmarkSet benchmark_set{group.title, "ms", {}, {}, common_default(group.races)};
   for (const Standing& standing : standings(group.races)) {
-    contest.methods.push_back(standing.search);
-    std::vector<double>& costs = contest.cost.emplace_back();
+    benchmark_set.methods.push_back(standing.search);
+    std::vector<double>& costs = benchmark_set.cost.emplace_back();
     for (const Comparison& race : group.races) {
       for (const auto& [seed, ms] : times_to_target(race, standing.search)) costs.push_back(ms);
     }
   }
-  return contest;
+  return benchmark_set;
 }
 
 }  // namespace maxwrench

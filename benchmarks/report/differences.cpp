@@ -18,7 +18,7 @@ RowsByCase rows_by_case(const Results& results) {
   return rows;
 }
 
-void compare_values(const RowPair& pair, Changes& changes) {
+void compare_values(const RowPair& pair, Differences& changes) {
   const ResultRow &a = *pair.a, &b = *pair.b;
   const bool as_held = !a.is_experiment() || a.reason.empty() == b.reason.empty();
   const bool comparable =
@@ -32,8 +32,8 @@ void compare_values(const RowPair& pair, Changes& changes) {
   }
 }
 
-TimeChange time_change(const std::string& column, const std::string& name,
-                       const std::vector<double>& ratios) {
+TimeRatio time_change(const std::string& column, const std::string& name,
+                      const std::vector<double>& ratios) {
   std::vector<double> logarithms;
   for (const double ratio : ratios) logarithms.push_back(std::log(ratio));
   const ConfidenceInterval interval = median_interval(ratios);
@@ -41,7 +41,7 @@ TimeChange time_change(const std::string& column, const std::string& name,
           interval.low, interval.high, wilcoxon_signed_rank(logarithms)};
 }
 
-std::vector<TimeChange> time_changes(const std::vector<RowPair>& pairs) {
+std::vector<TimeRatio> time_changes(const std::vector<RowPair>& pairs) {
   std::map<std::pair<int, std::string>, std::vector<double>> ratios;
   for (const RowPair& pair : pairs) {
     const bool experiment = pair.a->is_experiment();
@@ -49,15 +49,15 @@ std::vector<TimeChange> time_changes(const std::vector<RowPair>& pairs) {
     const std::optional<double> b = experiment ? pair.b->ms() : pair.b->us;
     if (!a || !b || *a <= 0 || *b <= 0) continue;
     const Case& c = pair.a->choice;
-    const std::string names[] = {"rows", c.lp, c.search, c.problem, c.integrator};
+    const std::string names[] = {"rows", c.solver, c.search, c.problem, c.integrator};
     for (int i = 0; i < 5; ++i) {
       const bool of_searches = i == 1 || i == 2;
       if (experiment ? of_searches : names[i].empty()) continue;
       ratios[{i, names[i]}].push_back(*b / *a);
     }
   }
-  static const char* const kColumns[] = {"all", "lp", "search", "problem", "integrator"};
-  std::vector<TimeChange> changes;
+  static const char* const kColumns[] = {"all", "solver", "search", "problem", "integrator"};
+  std::vector<TimeRatio> changes;
   std::vector<double> p;
   for (const auto& [key, sample] : ratios) {
     changes.push_back(time_change(kColumns[key.first], key.second, sample));
@@ -70,12 +70,12 @@ std::vector<TimeChange> time_changes(const std::vector<RowPair>& pairs) {
 
 }  // namespace
 
-bool TimeChange::is_change() const {
+bool TimeRatio::is_significant() const {
   return p < 0.05 && (times_low > 1 + kDrift || times_high < 1 / (1 + kDrift));
 }
 
-Changes find_changes(const Results& a, const Results& b) {
-  Changes changes;
+Differences find_differences(const Results& a, const Results& b) {
+  Differences changes;
   const RowsByCase before = rows_by_case(a), after = rows_by_case(b);
   std::vector<RowPair> pairs;
   for (const auto& [key, row] : before) {

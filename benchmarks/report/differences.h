@@ -22,7 +22,7 @@ struct RowPair {
 };
 
 /// How many times as long the second folder took, over pairs of rows that agree in a column.
-struct TimeChange {
+struct TimeRatio {
   std::string column, name;
   long rows = 0;
   double times = 1;  ///< the median of the ratios row by row
@@ -31,25 +31,25 @@ struct TimeChange {
   double p = 1;  ///< Wilcoxon of the logarithms, corrected by Holm for all lines
 
   /// Beyond noise: the whole interval lies further than `kDrift` from 1, and p < 0.05.
-  bool is_change() const;
+  bool is_significant() const;
 };
 
 /// What differs between two folders.
-struct Changes {
+struct Differences {
   /// In status, in having a value, or by more than `kSameValue`; of experiments by `kSameReading`,
   /// or in being held.
   std::vector<RowPair> changed;
   long same = 0;     ///< status and value, bit by bit
   long rounded = 0;  ///< less than `changed`
   std::vector<const ResultRow*> only_a, only_b;
-  /// All rows, then by lp, search, problem and integrator; of searches the time of an evaluation,
-  /// of experiments all of it.
-  std::vector<TimeChange> times;
+  /// All rows, then by solver, search, problem and integrator; of searches the time of an
+  /// evaluation, of experiments all of it.
+  std::vector<TimeRatio> times;
 };
 
 /// The folders outlive the answer.
-Changes find_changes(const Results& a, const Results& b);
-Changes find_changes(const Results&&, const Results&) = delete;
-Changes find_changes(const Results&, const Results&&) = delete;
+Differences find_differences(const Results& a, const Results& b);
+Differences find_differences(const Results&&, const Results&) = delete;
+Differences find_differences(const Results&, const Results&&) = delete;
 
 }  // namespace maxwrench

@@ -84,13 +84,13 @@ std::vector<CostSummary> summarise_costs(const std::vector<ResultRow>& rows) {
   for (const ResultRow& row : rows) {
     const Case& c = row.choice;
     if (row.us && !c.search.empty())
-      samples[{c.problem, c.scheme, c.wrench, c.lp}].push_back(*row.us);
+      samples[{c.problem, c.scheme, c.wrench, c.solver}].push_back(*row.us);
   }
   std::vector<CostSummary> costs;
   for (const auto& [key, us] : samples) {
-    const auto& [problem, scheme, wrench, lp] = key;
+    const auto& [problem, scheme, wrench, solver] = key;
     const ConfidenceInterval interval = median_interval(us);
-    costs.push_back({problem, scheme, lp, wrench, static_cast<long>(us.size()), median(us),
+    costs.push_back({problem, scheme, solver, wrench, static_cast<long>(us.size()), median(us),
                      interval.low, interval.high});
   }
   return costs;
@@ -102,11 +102,11 @@ std::vector<FailureSummary> summarise_failures(const std::vector<ResultRow>& row
     if (row.solved()) continue;
     const Case& c = row.choice;
     FailureSummary& failure =
-        failures[{c.problem, c.scheme, c.lp, c.integrator, row.status, row.reason}];
+        failures[{c.problem, c.scheme, c.solver, c.integrator, row.status, row.reason}];
     ++failure.rows;
     failure.problem = c.problem;
     failure.scheme = c.scheme;
-    failure.lp = c.lp;
+    failure.solver = c.solver;
     failure.integrator = c.integrator;
     failure.status = row.status;
     failure.reason = row.reason;

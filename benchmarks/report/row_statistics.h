@@ -32,7 +32,7 @@ std::vector<SearchSummary> summarise_searches(const std::vector<ResultRow>& rows
 
 /// What an evaluation of a search costs with one lower-level solver on one problem.
 struct CostSummary {
-  std::string problem, scheme, lp;
+  std::string problem, scheme, solver;
   Wrench wrench = Wrench::kPure;
   long rows = 0;
   double us = kInfinity;  ///< median, with its bootstrap interval of 95 %
@@ -42,7 +42,7 @@ std::vector<CostSummary> summarise_costs(const std::vector<ResultRow>& rows);
 
 /// Rows without a value that ended alike, whatever measure, wrench, search and seed.
 struct FailureSummary {
-  std::string problem, scheme, lp, integrator, status, reason;
+  std::string problem, scheme, solver, integrator, status, reason;
   long rows = 0;
 };
 /// The most frequent first.

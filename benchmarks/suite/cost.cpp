@@ -19,7 +19,7 @@ namespace {
 // Measured on two cores at 2.1 GHz, microseconds of one evaluation of a static task,
 constexpr double kPosture = 8;
 constexpr double kSecondContact = 12;
-constexpr double kFollowingJoints = 50;
+constexpr double kDependentJoints = 50;
 /// more for each unit of `WrenchSolverEntry::cost`.
 constexpr double kSolver = 12;
 constexpr double kIpopt = 3300;
@@ -30,14 +30,15 @@ constexpr double kIpoptInPosture = 80;
 /// at an instant without balance, and the programs in the knots of a hundred evaluations of `slp`.
 constexpr double kActuators = 12;
 constexpr struct {
-  const char* lp;
+  const char* solver;
   double us, slp_s;
-} kPlanCosts[] = {{"simplex", 1000, 5}, {"ipopt", 8000, 8}, {"glpk", 300, 0.4}, {"clp", 200, 0.2}};
+} kTrajectoryCosts[] = {
+    {"simplex", 1000, 5}, {"ipopt", 8000, 8}, {"glpk", 300, 0.4}, {"clp", 200, 0.2}};
 constexpr double kOursInTime_us = 100;
 constexpr double kOursSlp_s = 0.12;
 /// Times as much: `slp` with any wrench, an evaluation where most have a value (by Ipopt).
 constexpr double kAnyWrench = 4;
-constexpr double kGoodPlans = 10;
+constexpr double kGoodTrajectories = 10;
 
 /// Seconds of an experiment in the virtual tank.
 constexpr double kExperiment_s = 0.5;
@@ -59,12 +60,12 @@ bool searches_by_slp(const Case& c) {
 
 double in_time_seconds(const Problem& problem, const Case& c) {
   double us = kOursInTime_us, slp_s = kOursSlp_s;
-  for (const auto& entry : kPlanCosts) {
-    if (entry.lp != c.lp) continue;
+  for (const auto& entry : kTrajectoryCosts) {
+    if (entry.solver != c.solver) continue;
     us = entry.us;
     slp_s = entry.slp_s;
   }
-  if (searches_by_ipopt(c)) us *= kGoodPlans;
+  if (searches_by_ipopt(c)) us *= kGoodTrajectories;
   const double size = std::pow(problem.robot.actuators() / kActuators, 3);
   const double more = c.wrench == Wrench::kAny ? kAnyWrench : 1;
   if (searches_by_slp(c)) us += 1e4 * slp_s * more;
@@ -73,12 +74,12 @@ double in_time_seconds(const Problem& problem, const Case& c) {
 
 double static_seconds(const Problem& problem, const Case& c) {
   double us = problem.contact ? kSecondContact : kPosture;
-  if (!problem.dependent.empty()) us = std::max(us, kFollowingJoints);
+  if (!problem.dependent.empty()) us = std::max(us, kDependentJoints);
   if (searches_by_ipopt(c)) us += kIpoptInPosture;
-  if (one_at_a_time(c.lp)) {
+  if (one_at_a_time(c.solver)) {
     us += kIpopt;
-  } else if (c.lp != kNoSolver) {
-    us += kSolver * (find_wrench_solver(c.lp).cost - 1);
+  } else if (c.solver != kNoSolver) {
+    us += kSolver * (find_wrench_solver(c.solver).cost - 1);
   }
   return 1e-6 * us * static_cast<double>(c.budget);
 }
@@ -101,7 +102,7 @@ double positive(const std::string& cell) {
 
 }  // namespace
 
-bool waits_for_others(const Case& c) { return one_at_a_time(c.lp) || searches_by_ipopt(c); }
+bool waits_for_others(const Case& c) { return one_at_a_time(c.solver) || searches_by_ipopt(c); }
 
 double usual_seconds(const Problem& problem, const Case& c) {
   if (c.integrator == "ida") return kExperimentByIda_s;

@@ -24,11 +24,11 @@ bool was_removed(int descriptor) {
 Journal::Journal(std::filesystem::path file) : file_(std::move(file)) {
   std::error_code error;
   if (file_.has_parent_path()) std::filesystem::create_directories(file_.parent_path(), error);
-  if (error) refuse_output(file_, error.value());
+  if (error) throw_output_error(file_, error.value());
   do {
     if (descriptor_ >= 0) close(descriptor_);
     descriptor_ = open(file_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-    if (descriptor_ < 0) refuse_output(file_, errno);
+    if (descriptor_ < 0) throw_output_error(file_, errno);
     if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       close(descriptor_);
       throw std::invalid_argument(file_.string() +
@@ -38,7 +38,7 @@ Journal::Journal(std::filesystem::path file) : file_(std::move(file)) {
 }
 
 void Journal::begin(const std::string& line) {
-  if (ftruncate(descriptor_, 0) != 0) refuse_output(file_, errno);
+  if (ftruncate(descriptor_, 0) != 0) throw_output_error(file_, errno);
   add(line);
 }
 
@@ -54,7 +54,7 @@ void Journal::add(const std::string& line) {
   if (error == 0) return;
   const bool taken_back = before >= 0 && ftruncate(descriptor_, before) == 0;
   if (!taken_back) static_cast<void>(write_all(descriptor_, "\n"));  // the torn line stays alone
-  refuse_output(file_, error);
+  throw_output_error(file_, error);
 }
 
 bool Journal::is_held(const std::filesystem::path& file) {

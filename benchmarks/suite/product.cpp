@@ -63,9 +63,10 @@ Names schemes_of(const Problem& problem) {
   return names;
 }
 
-long budget_of(const Problem& problem, const std::string& lp, const std::optional<long>& budget) {
-  if (problem.motion) return budget.value_or(kPlanBudget);
-  const int cost = lp == kNoSolver ? 1 : find_wrench_solver(lp).cost;
+long budget_of(const Problem& problem, const std::string& solver,
+               const std::optional<long>& budget) {
+  if (problem.motion) return budget.value_or(kTrajectoryBudget);
+  const int cost = solver == kNoSolver ? 1 : find_wrench_solver(solver).cost;
   return std::max(1L, budget.value_or(kUsualBudget) / cost);
 }
 
@@ -88,7 +89,7 @@ void add_cases(const Problem& problem, const ProductColumns& columns, Case c,
     }
     return;
   }
-  c.budget = budget_of(problem, c.lp, columns.budget);
+  c.budget = budget_of(problem, c.solver, columns.budget);
   for (const std::string& search : wanted_searches(columns.search, problem, c.measure)) {
     c.search = search;
     for (const std::uint64_t seed : columns.seed) {
@@ -105,8 +106,9 @@ std::vector<Case> product(const Problem& problem, const ProductColumns& columns)
   for (const std::string& measure : wanted(columns.measure, all_measures())) {
     for (const std::string& wrench : wanted(columns.wrench, {"pure", "any"})) {
       Case c{problem.name, measure, parse_wrench(wrench)};
-      for (const std::string& lp : wanted(columns.lp, served_solvers(problem, measure, c.wrench))) {
-        c.lp = lp;
+      for (const std::string& solver :
+           wanted(columns.solver, served_solvers(problem, measure, c.wrench))) {
+        c.solver = solver;
         for (const std::string& scheme : wanted(columns.scheme, schemes_of(problem))) {
           c.scheme = scheme;
           add_cases(problem, columns, c, cases);
@@ -161,7 +163,7 @@ std::vector<Case> select(std::vector<Case> cases,
 
 void sort_cases(std::vector<Case>& cases) {
   const auto key = [](const Case& c) {
-    return std::tuple(c.problem, c.measure, std::string(to_string(c.wrench)), c.lp, c.search,
+    return std::tuple(c.problem, c.measure, std::string(to_string(c.wrench)), c.solver, c.search,
                       c.seed, c.budget, c.scheme, c.integrator);
   };
   std::sort(cases.begin(), cases.end(),

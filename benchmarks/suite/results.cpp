@@ -24,8 +24,8 @@ std::map<std::vector<std::string>, double> read_times(const std::filesystem::pat
     const auto evaluations = csv.number(i, "evaluations");
     const auto seconds = csv.number(i, "cpu_s");
     if (!evaluations || !seconds || *evaluations == 0) continue;
-    if (*evaluations < 0) csv.refuse(i, "evaluations", "a number of 0 or more");
-    if (*seconds <= 0) csv.refuse(i, "cpu_s", "a number above 0");
+    if (*evaluations < 0) csv.throw_bad_cell(i, "evaluations", "a number of 0 or more");
+    if (*seconds <= 0) csv.throw_bad_cell(i, "cpu_s", "a number above 0");
     us[key] = 1e6 * *seconds / *evaluations;
   }
   return us;
@@ -38,7 +38,7 @@ ResultRow row_of(const CsvFile& csv, std::size_t i) {
   row.unit = csv.text(i, "unit");
   row.reason = csv.text(i, "reason");
   row.beta = csv.number(i, "beta");
-  row.yardstick = csv.number(i, "yardstick");
+  row.beta_linf = csv.number(i, "beta_linf");
   row.evaluations = csv.number(i, "evaluations").value_or(0);
   return row;
 }
@@ -46,7 +46,7 @@ ResultRow row_of(const CsvFile& csv, std::size_t i) {
 void read_rows(const std::filesystem::path& folder, Results& results) {
   const CsvFile values =
       read_csv(table_file(folder / "values.csv"),
-               with_case_columns({"status", "beta", "unit", "yardstick", "evaluations", "reason"}));
+               with_case_columns({"status", "beta", "unit", "beta_linf", "evaluations", "reason"}));
   const auto us = read_times(table_file(folder / "times.csv"), results.versions);
   rows_of_cases(values);  // each once
   for (std::size_t i = 0; i < values.rows.size(); ++i) {
@@ -75,7 +75,7 @@ Results read_results(const std::filesystem::path& folder) {
     read_rows(folder, results);
   }
   results.machine = text_of(folder / "machine.txt");
-  results.plan = text_of(folder / "plan.toml");
+  results.suite = text_of(folder / "suite.toml");
   return results;
 }
 

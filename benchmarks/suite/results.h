@@ -20,7 +20,7 @@ struct ResultRow {
   Case choice;
   std::string status, unit, reason;
   std::optional<double> beta;       ///< none: the row has no value
-  std::optional<double> yardstick;  ///< of an experiment, what was planned
+  std::optional<double> beta_linf;  ///< of an experiment, what was planned
   double evaluations = 0;
   /// Microseconds of an evaluation, of the processor; none where they were not measured.
   std::optional<double> us;
@@ -40,7 +40,7 @@ struct Results {
   /// How many rows of times.csv each version made.
   std::map<std::string, long> versions;
   std::string machine;  ///< machine.txt, if it is there
-  std::string plan;     ///< plan.toml, if it is there
+  std::string suite;    ///< plan.toml, if it is there
 };
 
 /// Reads values.csv, which must be there unless a race is, times.csv, and the files of a race.

@@ -40,7 +40,7 @@ struct RowOf {
       double value = 0;
       const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
       if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
-        csv.refuse(row, column, "finite numbers");
+        csv.throw_bad_cell(row, column, "finite numbers");
       }
       all.push_back(value);
     }
@@ -49,7 +49,7 @@ struct RowOf {
 };
 
 /// Its own efforts, wrench and multipliers, in a posture.
-std::string refuse_efforts(const Problem& problem, Wrench wrench, const Posture& posture,
+std::string reject_efforts(const Problem& problem, Wrench wrench, const Posture& posture,
                            const RowOf& claim, double beta) {
   WrenchProgram program = make_wrench_program(problem, wrench);
   set_posture(posture, program);
@@ -69,21 +69,21 @@ std::string refuse_efforts(const Problem& problem, Wrench wrench, const Posture&
 
 /// The same in the best posture at theta_r, or in another one: which of two that are worth the same
 /// is chosen hangs on rounding.
-std::string refuse_own(const Problem& problem, const Answer& anew, const RowOf& claim,
+std::string reject_own(const Problem& problem, const Answer& anew, const RowOf& claim,
                        double beta) {
   const Wrench wrench = anew.choice.wrench;
-  const std::string why = refuse_efforts(problem, wrench, anew.posture, claim, beta);
+  const std::string why = reject_efforts(problem, wrench, anew.posture, claim, beta);
   if (why.empty()) return why;
   PostureEvaluator model(problem);
   model.evaluate(anew.posture.theta_r);
-  for (int branch = 0; branch < model.branches(); ++branch) {
-    if (refuse_efforts(problem, wrench, model.select(branch), claim, beta).empty()) return "";
+  for (int ik_solution = 0; ik_solution < model.ik_solutions(); ++ik_solution) {
+    if (reject_efforts(problem, wrench, model.select(ik_solution), claim, beta).empty()) return "";
   }
   return why;
 }
 
-/// A number beside the value, such as its yardstick, which may be none.
-std::string refuse_other(const RowOf& claim, const char* column, double anew) {
+/// A number beside the value, such as its beta_linf, which may be none.
+std::string reject_other(const RowOf& claim, const char* column, double anew) {
   const std::optional<double> claimed = claim.csv.number(claim.row, column);
   const bool same = std::isfinite(anew) ? claimed && std::abs(*claimed - anew) <=
                                                          kAnswerTolerance * (1 + std::abs(anew))
@@ -94,7 +94,7 @@ std::string refuse_other(const RowOf& claim, const char* column, double anew) {
 }
 
 /// Numbers that are those of the same posture evaluated anew.
-std::string refuse_numbers(const RowOf& claim, const char* column, const Eigen::VectorXd& anew) {
+std::string reject_numbers(const RowOf& claim, const char* column, const Eigen::VectorXd& anew) {
   const Eigen::VectorXd claimed = claim.vector(column);
   if (claimed.size() != anew.size()) {
     return fmt::format("{}: got {} numbers, expected {}", column, claimed.size(), anew.size());
@@ -106,7 +106,7 @@ std::string refuse_numbers(const RowOf& claim, const char* column, const Eigen::
 }
 
 /// The residual that the row claims is that of its answer, up to rounding.
-std::string refuse_residual(const RowOf& claim, const Residual& anew, double beta) {
+std::string reject_residual(const RowOf& claim, const Residual& anew, double beta) {
   const std::pair<const char*, double> all[] = {
       {"balance", anew.balance}, {"bounds", anew.bounds}, {"dual", anew.dual}, {"gap", anew.gap}};
   const double tolerance = kAnswerTolerance * (1 + std::abs(beta));
@@ -121,7 +121,7 @@ std::string refuse_residual(const RowOf& claim, const Residual& anew, double bet
 }
 
 /// That these cells are empty.
-std::string refuse_filled(const RowOf& claim, std::initializer_list<const char*> columns) {
+std::string reject_filled(const RowOf& claim, std::initializer_list<const char*> columns) {
   for (const char* column : columns) {
     if (!claim.text(column).empty()) return fmt::format("{}: expected none", column);
   }
@@ -130,7 +130,7 @@ std::string refuse_filled(const RowOf& claim, std::initializer_list<const char*>
 
 /// The evaluations of a search are its own word, but for its budget, and those of its methods are
 /// among them.
-std::string refuse_effort(const Case& c, const RowOf& claim) {
+std::string reject_effort(const Case& c, const RowOf& claim) {
   const auto evaluations = claim.csv.whole<long>(claim.row, "evaluations");
   if (!c.integrator.empty()) return "";
   if (c.search.empty()) {
@@ -157,9 +157,9 @@ std::string refuse_effort(const Case& c, const RowOf& claim) {
 }
 
 /// That its names are complete, exist and mean something together.
-std::string refuse_names(const Problem& problem, const Case& c) {
+std::string reject_names(const Problem& problem, const Case& c) {
   const Case complete = resolve(problem, c).choice;
-  if (complete.lp != c.lp) return fmt::format("lp: expected '{}'", complete.lp);
+  if (complete.solver != c.solver) return fmt::format("solver: expected '{}'", complete.solver);
   if (c.budget != complete.budget) return "budget: expected at least 1";
   if (c.search.empty()) return "";
   const std::vector<std::string> served = served_searches(problem, c.measure);
@@ -172,14 +172,14 @@ std::string refuse_names(const Problem& problem, const Case& c) {
 }
 
 /// What its words say: whether a row of this status can have a value, and what belongs to its task.
-std::string refuse_words(const Problem& problem, const Case& c, const RowOf& claim,
+std::string reject_words(const Problem& problem, const Case& c, const RowOf& claim,
                          bool has_value) {
   if (claim.text("task_digest") != problem.digest) {
     return "task_digest: expected '" + problem.digest + "', the digest of its files";
   }
   if (claim.text("label") != problem.label) return "label: expected '" + problem.label + "'";
-  if (claim.text("yardstick_unit") != problem.unit()) {
-    return fmt::format("yardstick_unit: expected '{}'", problem.unit());
+  if (claim.text("beta_linf_unit") != problem.unit()) {
+    return fmt::format("beta_linf_unit: expected '{}'", problem.unit());
   }
   const std::string& status = claim.text("status");
   const Status of_value = !c.integrator.empty() ? Status::kReached
@@ -196,7 +196,7 @@ std::string refuse_words(const Problem& problem, const Case& c, const RowOf& cla
   }
   if (has_value) return "";
   const std::string filled =
-      refuse_filled(claim, {"h", "u", "lambda", "balance", "bounds", "dual", "gap"});
+      reject_filled(claim, {"h", "u", "lambda", "balance", "bounds", "dual", "gap"});
   if (!filled.empty()) return filled;
   const bool known = std::any_of(std::begin(kNoValue), std::end(kNoValue),
                                  [&](Status each) { return status == to_string(each); });
@@ -212,9 +212,9 @@ RowCheck compare(const Verdict& anew, double value, double beta) {
   check.has_value = true;
   check.deviation = std::abs(value - beta) / (1 + std::abs(beta));
   if (anew.status != Status::kOptimal) {
-    check.refusal = fmt::format("its posture has no value: {}", anew.reason.str());
+    check.rejection = fmt::format("its posture has no value: {}", anew.reason.str());
   } else if (!(check.deviation <= kAnswerTolerance)) {
-    check.refusal = fmt::format("its posture has the value {:.9g}", value);
+    check.rejection = fmt::format("its posture has the value {:.9g}", value);
   }
   return check;
 }
@@ -236,7 +236,7 @@ Answer posture_again(const Problem& problem, const Case& c, const RowOf& claim) 
 }
 
 /// The knots of a row, evaluated.
-Answer plan_again(const Problem& problem, const Case& c, const RowOf& claim) {
+Answer trajectory_again(const Problem& problem, const Case& c, const RowOf& claim) {
   const Eigen::VectorXd x = claim.vector("theta_r");
   const int r = problem.redundancy();
   if (x.size() == 0 || r == 0 || x.size() % r != 0) {
@@ -246,14 +246,14 @@ Answer plan_again(const Problem& problem, const Case& c, const RowOf& claim) {
   return evaluate(problem, unstacked(x, x.size() / r), {c});
 }
 
-std::string refuse_capability(const RowOf& claim, const Capability& capability) {
+std::string reject_capability(const RowOf& claim, const Capability& capability) {
   const Eigen::VectorXd h =
       capability.w.size() > 0 ? Eigen::VectorXd(capability.h) : Eigen::VectorXd();
   for (const auto& [column, numbers] : {std::pair<const char*, const Eigen::VectorXd&>("h", h),
                                         {"u", capability.u},
                                         {"lambda", capability.lambda}}) {
-    const std::string refusal = refuse_numbers(claim, column, numbers);
-    if (!refusal.empty()) return refusal;
+    const std::string rejection = reject_numbers(claim, column, numbers);
+    if (!rejection.empty()) return rejection;
   }
   return "";
 }
@@ -264,19 +264,19 @@ bool has_tie(const Problem& problem, const Case& c, const RowOf& claim, const An
   PostureEvaluator model(problem);
   const Eigen::VectorXd theta_r = claim.vector("theta_r");
   model.evaluate(theta_r);
-  if (model.branches() < 2) return false;
+  if (model.ik_solutions() < 2) return false;
   const auto measure = resolve(problem, c).make_measure();
   WrenchProgram program = make_wrench_program(problem, c.wrench);
   Capability capability;
-  for (int branch = 0; branch < model.branches(); ++branch) {
-    const Posture& posture = model.select(branch);
+  for (int ik_solution = 0; ik_solution < model.ik_solutions(); ++ik_solution) {
+    const Posture& posture = model.select(ik_solution);
     if (posture.status != Status::kValid) continue;
     set_posture(posture, program);
     measure->evaluate(posture, program, true, capability);
     const double off = std::abs(capability.beta - anew.beta());
     if (capability.status == Status::kOptimal &&
         off <= kAnswerTolerance * (1 + std::abs(anew.beta())) &&
-        refuse_capability(claim, capability).empty()) {
+        reject_capability(claim, capability).empty()) {
       return true;
     }
   }
@@ -286,36 +286,37 @@ bool has_tie(const Problem& problem, const Case& c, const RowOf& claim, const An
 RowCheck check_posture(const Problem& problem, const Case& c, const RowOf& claim, double beta) {
   const Answer anew = posture_again(problem, c, claim);
   RowCheck check = compare(anew, anew.capability.beta, beta);
-  if (check.refusal.empty() && anew.unit != claim.text("unit")) {
-    check.refusal = fmt::format("unit: expected '{}'", anew.unit);
+  if (check.rejection.empty() && anew.unit != claim.text("unit")) {
+    check.rejection = fmt::format("unit: expected '{}'", anew.unit);
   }
-  if (check.refusal.empty()) check.refusal = refuse_other(claim, "yardstick", anew.yardstick);
-  if (check.refusal.empty()) check.refusal = refuse_filled(claim, {"continuous"});
-  if (check.refusal.empty()) check.refusal = refuse_residual(claim, anew.residual(), beta);
-  if (!check.refusal.empty()) return check;
-  check.refusal = refuse_capability(claim, anew.capability);
-  if (!check.refusal.empty() && has_tie(problem, c, claim, anew)) check.refusal.clear();
+  if (check.rejection.empty()) check.rejection = reject_other(claim, "beta_linf", anew.beta_linf);
+  if (check.rejection.empty()) check.rejection = reject_filled(claim, {"value_between_knots"});
+  if (check.rejection.empty()) check.rejection = reject_residual(claim, anew.residual(), beta);
+  if (!check.rejection.empty()) return check;
+  check.rejection = reject_capability(claim, anew.capability);
+  if (!check.rejection.empty() && has_tie(problem, c, claim, anew)) check.rejection.clear();
   // Which of several efforts and multipliers are optimal hangs on rounding: these prove themselves.
-  if (!check.refusal.empty() && c.measure == "linf_polytope" && !problem.contact) {
-    check.refusal = refuse_own(problem, anew, claim, beta);
+  if (!check.rejection.empty() && c.measure == "linf_polytope" && !problem.contact) {
+    check.rejection = reject_own(problem, anew, claim, beta);
   }
   return check;
 }
 
-RowCheck check_plan(const Problem& problem, const Case& c, const RowOf& claim, double value) {
-  const Answer anew = plan_again(problem, c, claim);
-  RowCheck check = compare(anew, anew.plan.value, value);
-  if (check.refusal.empty() && anew.unit != claim.text("unit")) {
-    check.refusal = fmt::format("unit: expected '{}'", anew.unit);
+RowCheck check_trajectory(const Problem& problem, const Case& c, const RowOf& claim, double value) {
+  const Answer anew = trajectory_again(problem, c, claim);
+  RowCheck check = compare(anew, anew.trajectory.value, value);
+  if (check.rejection.empty() && anew.unit != claim.text("unit")) {
+    check.rejection = fmt::format("unit: expected '{}'", anew.unit);
   }
-  if (check.refusal.empty() && !claim.text("yardstick").empty()) {
-    check.refusal = "yardstick: expected none of a plan";
+  if (check.rejection.empty() && !claim.text("beta_linf").empty()) {
+    check.rejection = "beta_linf: expected none of a trajectory";
   }
-  if (check.refusal.empty()) {
-    check.refusal = refuse_other(claim, "continuous", anew.plan.continuous);
+  if (check.rejection.empty()) {
+    check.rejection =
+        reject_other(claim, "value_between_knots", anew.trajectory.value_between_knots);
   }
-  if (check.refusal.empty()) check.refusal = refuse_filled(claim, {"h", "u", "lambda"});
-  if (check.refusal.empty()) check.refusal = refuse_residual(claim, anew.residual(), value);
+  if (check.rejection.empty()) check.rejection = reject_filled(claim, {"h", "u", "lambda"});
+  if (check.rejection.empty()) check.rejection = reject_residual(claim, anew.residual(), value);
   return check;
 }
 
@@ -328,50 +329,53 @@ RowCheck check_experiment(const Problem& problem, const Case& c, const RowOf& cl
   check.has_value = true;
   check.deviation = std::abs(anew.beta() - reading) / (1 + std::abs(reading));
   if (!anew.has_value()) {
-    check.refusal = fmt::format("its experiment has no reading: {}", anew.reason.str());
+    check.rejection = fmt::format("its experiment has no reading: {}", anew.reason.str());
   } else if (!(check.deviation <= kSameReading)) {
-    check.refusal = fmt::format("its experiment has the reading {:.9g}", anew.beta());
+    check.rejection = fmt::format("its experiment has the reading {:.9g}", anew.beta());
   } else if (anew.unit != claim.text("unit")) {
-    check.refusal = fmt::format("unit: expected '{}'", anew.unit);
+    check.rejection = fmt::format("unit: expected '{}'", anew.unit);
   } else if (anew.missed.empty() != claim.text("reason").empty()) {
-    check.refusal = fmt::format("reason: expected '{}'", anew.missed);
-  } else if (theta_r.size() != anew.plan.knots.size() || theta_r != stacked(anew.plan.knots)) {
-    check.refusal = "theta_r: expected the default of the task";
+    check.rejection = fmt::format("reason: expected '{}'", anew.missed);
+  } else if (theta_r.size() != anew.trajectory.knots.size() ||
+             theta_r != stacked(anew.trajectory.knots)) {
+    check.rejection = "theta_r: expected the default of the task";
   } else {
-    check.refusal = refuse_other(claim, "yardstick", anew.yardstick);
+    check.rejection = reject_other(claim, "beta_linf", anew.beta_linf);
   }
-  if (check.refusal.empty()) {
-    check.refusal = refuse_filled(
-        claim, {"continuous", "h", "u", "lambda", "balance", "bounds", "dual", "gap", "calls"});
+  if (check.rejection.empty()) {
+    check.rejection = reject_filled(claim, {"value_between_knots", "h", "u", "lambda", "balance",
+                                            "bounds", "dual", "gap", "calls"});
   }
   return check;
 }
 
-/// Of a row without a value whose posture, plan or experiment was made again; no status of such a
-/// row is one of a value.
-std::string refuse_again(const Answer& anew, const RowOf& claim) {
+/// Of a row without a value whose posture, trajectory or experiment was made again; no status of
+/// such a row is one of a value.
+std::string reject_again(const Answer& anew, const RowOf& claim) {
   const std::string status = to_string(anew.status);
   if (status != claim.text("status")) return "status: expected '" + status + "'";
   if (anew.reason.str() != claim.text("reason")) {
     return "reason: expected '" + anew.reason.str() + "'";
   }
-  const Eigen::VectorXd theta_r = claim.vector("theta_r"), knots = stacked(anew.plan.knots);
+  const Eigen::VectorXd theta_r = claim.vector("theta_r"), knots = stacked(anew.trajectory.knots);
   if (theta_r.size() != knots.size() || theta_r != knots) {
     return "theta_r: expected '" + exact_text(knots) + "'";
   }
-  return refuse_filled(claim, {"calls"});
+  return reject_filled(claim, {"calls"});
 }
 
 /// What stands beside the value that there is not. Of a search that found nothing there is nothing.
-std::string refuse_beside(const Answer& anew, const RowOf& claim) {
+std::string reject_beside(const Answer& anew, const RowOf& claim) {
   if (anew.unit != claim.text("unit")) return fmt::format("unit: expected '{}'", anew.unit);
-  const std::string why = refuse_other(claim, "yardstick", anew.yardstick);
-  return !why.empty() ? why : refuse_other(claim, "continuous", anew.plan.continuous);
+  const std::string why = reject_other(claim, "beta_linf", anew.beta_linf);
+  return !why.empty()
+             ? why
+             : reject_other(claim, "value_between_knots", anew.trajectory.value_between_knots);
 }
 
 /// Whether a row that says why it has no value is right. A search is not made again: that it found
 /// nothing is its own word, but what it names as the best has no value indeed.
-std::string refuse_failure(const Problem& changed, const Case& c, const RowOf& claim) {
+std::string reject_failure(const Problem& changed, const Case& c, const RowOf& claim) {
   Answer anew;
   if (!c.integrator.empty()) {
     anew = experiment(changed, {c});
@@ -380,26 +384,26 @@ std::string refuse_failure(const Problem& changed, const Case& c, const RowOf& c
     const bool failed = claim.text("status") == to_string(Status::kNumericalError);
     anew.unit = failed && claim.text("unit").empty() ? "" : resolve(changed, c).unit;
   } else {
-    anew = (changed.motion ? plan_again : posture_again)(changed, c, claim);
+    anew = (changed.motion ? trajectory_again : posture_again)(changed, c, claim);
   }
   std::string why;
   if (c.search.empty()) {
-    why = refuse_again(anew, claim);
+    why = reject_again(anew, claim);
   } else if (anew.has_value()) {
     why = fmt::format("beta: what it found has the value {:.9g}", anew.beta());
   }
-  return !why.empty() ? why : refuse_beside(anew, claim);
+  return !why.empty() ? why : reject_beside(anew, claim);
 }
 
 RowCheck checked(const Problem& problem, const Case& c, const RowOf& claim) {
   const std::optional<double> beta = claim.csv.number(claim.row, "beta");
   const Problem changed = with_scheme(problem, c);
-  std::string refusal = refuse_words(changed, c, claim, beta.has_value());
-  if (refusal.empty()) refusal = refuse_names(changed, c);
-  if (refusal.empty()) refusal = refuse_effort(c, claim);
-  if (refusal.empty() && !beta) refusal = refuse_failure(changed, c, claim);
-  if (!beta || !refusal.empty()) return {refusal, beta.has_value(), 0};
-  const auto of_search = problem.motion ? check_plan : check_posture;
+  std::string rejection = reject_words(changed, c, claim, beta.has_value());
+  if (rejection.empty()) rejection = reject_names(changed, c);
+  if (rejection.empty()) rejection = reject_effort(c, claim);
+  if (rejection.empty() && !beta) rejection = reject_failure(changed, c, claim);
+  if (!beta || !rejection.empty()) return {rejection, beta.has_value(), 0};
+  const auto of_search = problem.motion ? check_trajectory : check_posture;
   return (c.integrator.empty() ? of_search : check_experiment)(changed, c, claim, *beta);
 }
 

@@ -26,7 +26,7 @@ constexpr int kMostSeeds = 1'000'000;
 
 Names texts_of(const Block& block, const char* key) {
   const Names names = block.is_text(key) ? Names{block.text(key)} : block.texts(key);
-  if (names.empty()) block.refuse_value(key, "a name, a list of names, or \"all\"");
+  if (names.empty()) block.throw_bad_value(key, "a name, a list of names, or \"all\"");
   return names;
 }
 
@@ -37,8 +37,8 @@ void read_names(const Block& block, const char* key, const Names& known, Names& 
   if (names == Names{kAll}) return;
   for (const std::string& name : names) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    block.refuse_value(key, "'" + name + "'",
-                       fmt::format("\"all\" or some of {}", fmt::join(known, " ")));
+    block.throw_bad_value(key, "'" + name + "'",
+                          fmt::format("\"all\" or some of {}", fmt::join(known, " ")));
   }
 }
 
@@ -62,8 +62,8 @@ void read_searches(const Block& block, Names& names) {
     } catch (const std::invalid_argument& error) {
       const std::string why = error.what();
       const std::size_t expected = why.find("expected ");
-      block.refuse_value("search", "'" + name + "'",
-                         expected == std::string::npos ? why : why.substr(expected + 9));
+      block.throw_bad_value("search", "'" + name + "'",
+                            expected == std::string::npos ? why : why.substr(expected + 9));
     }
   }
 }
@@ -73,7 +73,7 @@ void read_integrators(const Block& block, Names& names) {
   if (!block.has("integrator")) return;
   read_names(block, "integrator", stiff_integrators(), names);
   for (const char* key : {"search", "seeds", "budget"}) {
-    if (block.has(key)) block.refuse_value(key, "no such key beside integrator");
+    if (block.has(key)) block.throw_bad_value(key, "no such key beside integrator");
   }
 }
 
@@ -81,7 +81,7 @@ ProductColumns read_columns(const Block& block) {
   Names known_measures, known_solvers = {kNoSolver}, known_schemes = scheme_names(false);
   add_names(measures(), known_measures);
   add_names(wrench_solvers(), known_solvers);
-  add_names(plan_solvers(), known_solvers);
+  add_names(trajectory_solvers(), known_solvers);
   for (const std::string& name : scheme_names(true)) {
     if (std::count(known_schemes.begin(), known_schemes.end(), name) == 0) {
       known_schemes.push_back(name);
@@ -90,7 +90,7 @@ ProductColumns read_columns(const Block& block) {
   ProductColumns columns;
   read_names(block, "measure", known_measures, columns.measure);
   read_names(block, "wrench", {"pure", "any"}, columns.wrench);
-  read_names(block, "lp", known_solvers, columns.lp);
+  read_names(block, "solver", known_solvers, columns.solver);
   read_names(block, "scheme", known_schemes, columns.scheme);
   read_searches(block, columns.search);
   read_integrators(block, columns.integrator);
@@ -122,9 +122,9 @@ Names read_problems(const Block& block) {
     } else {
       const auto path = (block.file().parent_path() / word).lexically_normal();
       if (!std::filesystem::is_regular_file(path)) {
-        block.refuse_value("problem", "'" + word + "'",
-                           fmt::format("all, static, in_time, a task file or some of {}",
-                                       fmt::join(shipped, " ")));
+        block.throw_bad_value("problem", "'" + word + "'",
+                              fmt::format("all, static, in_time, a task file or some of {}",
+                                          fmt::join(shipped, " ")));
       }
       names.push_back(path.string());
     }
@@ -134,14 +134,14 @@ Names read_problems(const Block& block) {
 
 }  // namespace
 
-Workload read_plan_file(const std::filesystem::path& file) {
+Workload read_suite_file(const std::filesystem::path& file) {
   const Block root = Block::read(file);
   root.allow_only({"product"});
   Workload work;
-  if (root.list("product").empty()) root.refuse_value("product", "one [[product]] or more");
+  if (root.list("product").empty()) root.throw_bad_value("product", "one [[product]] or more");
   for (const Block& block : root.list("product")) {
-    block.allow_only({"problem", "measure", "wrench", "lp", "search", "scheme", "seeds", "budget",
-                      "integrator"});
+    block.allow_only({"problem", "measure", "wrench", "solver", "search", "scheme", "seeds",
+                      "budget", "integrator"});
     const ProductColumns columns = read_columns(block);
     const std::size_t before = work.cases.size();
     for (const std::string& name : read_problems(block)) {
@@ -151,12 +151,12 @@ Workload read_plan_file(const std::filesystem::path& file) {
     }
     const bool none_built_in = columns.integrator == Names{kAll} && stiff_integrators().empty();
     if (work.cases.size() == before && !none_built_in) {
-      block.refuse_value("problem", "columns that mean nothing together",
-                         "at least one row of the product");
+      block.throw_bad_value("problem", "columns that mean nothing together",
+                            "at least one row of the product");
     }
   }
   sort_cases(work.cases);
-  work.plan = text_of(file);
+  work.suite = text_of(file);
   return work;
 }
 

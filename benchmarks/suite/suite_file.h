@@ -14,14 +14,14 @@ namespace maxwrench {
 struct Workload {
   std::map<std::string, Problem> problems;
   std::vector<Case> cases;
-  std::string plan;  ///< the text of the file, if it was one
+  std::string suite;  ///< the text of the file, if it was one
 };
 
-/// Reads a plan: a TOML file with one `[[product]]` or more, each with `problem` and any of
-/// `measure wrench lp search scheme` (a name, a list of names, or "all"), `seeds` (1 to that) and
-/// `budget`, or with `integrator` in the place of `search`, `seeds` and `budget`. Task files are
-/// found from the folder of the plan. Throws std::invalid_argument with one line that names file,
-/// key, value and what was expected.
-Workload read_plan_file(const std::filesystem::path& file);
+/// Reads a suite: a TOML file with one `[[product]]` or more, each with `problem` and any of
+/// `measure wrench solver search scheme` (a name, a list of names, or "all"), `seeds` (1 to that)
+/// and `budget`, or with `integrator` in the place of `search`, `seeds` and `budget`. Task files
+/// are found from the folder of the suite. Throws std::invalid_argument with one line that names
+/// file, key, value and what was expected.
+Workload read_suite_file(const std::filesystem::path& file);
 
 }  // namespace maxwrench

@@ -17,16 +17,16 @@ Case case_of(const CsvFile& csv, std::size_t row) {
   c.problem = csv.text(row, "problem");
   c.measure = csv.text(row, "measure");
   const std::string& wrench = csv.text(row, "wrench");
-  if (wrench != "pure" && wrench != "any") csv.refuse(row, "wrench", "pure or any");
+  if (wrench != "pure" && wrench != "any") csv.throw_bad_cell(row, "wrench", "pure or any");
   c.wrench = parse_wrench(wrench);
-  c.lp = csv.text(row, "lp");
+  c.solver = csv.text(row, "solver");
   c.search = csv.text(row, "search");
   c.seed = csv.whole<std::uint64_t>(row, "seed");
   c.budget = csv.whole<long>(row, "budget");
   c.scheme = csv.text(row, "scheme");
   c.integrator = csv.text(row, "integrator");
   if (!c.integrator.empty() && !c.search.empty()) {
-    csv.refuse(row, "search", "none beside an integrator");
+    csv.throw_bad_cell(row, "search", "none beside an integrator");
   }
   return c;
 }
@@ -36,8 +36,8 @@ std::map<std::vector<std::string>, std::size_t> rows_of_cases(const CsvFile& csv
   for (std::size_t i = 0; i < csv.rows.size(); ++i) {
     const auto [place, is_new] = places.emplace(case_values(case_of(csv, i)), i);
     if (is_new) continue;
-    csv.refuse(i, "problem",
-               fmt::format("each case once: line {} has it, too", line_of(place->second)));
+    csv.throw_bad_cell(i, "problem",
+                       fmt::format("each case once: line {} has it, too", line_of(place->second)));
   }
   return places;
 }

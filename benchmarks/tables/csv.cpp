@@ -37,7 +37,7 @@ std::filesystem::path plain_name(std::filesystem::path file) {
 }
 
 /// What editors and spreadsheets do to a table; what else they changed in it, nobody knows.
-void refuse_edited(const std::filesystem::path& file, const std::string& text) {
+void throw_if_edited(const std::filesystem::path& file, const std::string& text) {
   for (const char* mark : {"\xef\xbb\xbf", "\xff\xfe", "\xfe\xff"}) {
     if (!text.starts_with(mark)) continue;
     throw std::invalid_argument(file.string() +
@@ -121,11 +121,11 @@ std::optional<double> CsvFile::number(std::size_t row, const std::string& column
   if (error == std::errc() && end == cell.data() + cell.size() && std::isfinite(value)) {
     return value;
   }
-  refuse(row, column, "a finite number or nothing");
+  throw_bad_cell(row, column, "a finite number or nothing");
 }
 
-void CsvFile::refuse(std::size_t row, const std::string& column,
-                     const std::string& expected) const {
+void CsvFile::throw_bad_cell(std::size_t row, const std::string& column,
+                             const std::string& expected) const {
   throw std::invalid_argument(fmt::format("{}: line {}: {}: got '{}', expected {}", file.string(),
                                           line_of(row), column, text(row, column), expected));
 }
@@ -155,7 +155,7 @@ std::string csv_text(const std::filesystem::path& file) {
     }
     text = std::move(*unpacked);
   }
-  refuse_edited(file, text);
+  throw_if_edited(file, text);
   return text;
 }
 

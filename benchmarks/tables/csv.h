@@ -46,13 +46,13 @@ struct CsvFile {
     Integer value = 0;
     const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     if (error != std::errc() || end != cell.data() + cell.size() || value < 0) {
-      refuse(row, column, "a whole number");
+      throw_bad_cell(row, column, "a whole number");
     }
     return value;
   }
   /// A line that names file, line, column and cell.
-  [[noreturn]] void refuse(std::size_t row, const std::string& column,
-                           const std::string& expected) const;
+  [[noreturn]] void throw_bad_cell(std::size_t row, const std::string& column,
+                                   const std::string& expected) const;
 };
 
 /// The line of a row in its file, where the first one is the header.

@@ -39,10 +39,10 @@ int stream_to(const struct stat& file) {
 void write_stream(const fs::path& file, const struct stat& found, const std::string& text) {
   const int own = stream_to(found);
   const int descriptor = own >= 0 ? own : open(file.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
-  if (descriptor < 0) refuse_output(file, errno);
+  if (descriptor < 0) throw_output_error(file, errno);
   int error = write_all(descriptor, text);
   if (own < 0 && close(descriptor) != 0 && error == 0) error = errno;
-  if (error != 0) refuse_output(file, error);
+  if (error != 0) throw_output_error(file, error);
 }
 
 /// Where a chain of symbolic links ends, which need not exist.
@@ -50,9 +50,9 @@ fs::path follow_links(const fs::path& file) {
   fs::path target = file;
   std::error_code error;
   for (int links = 0; fs::is_symlink(fs::symlink_status(target, error)); ++links) {
-    if (links == kMostLinks) refuse_output(file, ELOOP);
+    if (links == kMostLinks) throw_output_error(file, ELOOP);
     target = target.parent_path() / fs::read_symlink(target, error);
-    if (error) refuse_output(file, error.value());
+    if (error) throw_output_error(file, error.value());
   }
   return target;
 }
@@ -71,10 +71,10 @@ int open_beside(const fs::path& target, fs::path& temporary) {
 /// `found`: what `target` was before, if it exists.
 void replace(const fs::path& file, const fs::path& target, const struct stat* found,
              const std::string& text) {
-  if (found != nullptr && access(target.c_str(), W_OK) != 0) refuse_output(file, errno);
+  if (found != nullptr && access(target.c_str(), W_OK) != 0) throw_output_error(file, errno);
   fs::path temporary;
   const int descriptor = open_beside(target, temporary);
-  if (descriptor < 0) refuse_output(file, errno);
+  if (descriptor < 0) throw_output_error(file, errno);
   int error = 0;
   if (found != nullptr && fchmod(descriptor, found->st_mode & 07777) != 0) error = errno;
   if (error == 0) error = write_all(descriptor, text);
@@ -82,12 +82,12 @@ void replace(const fs::path& file, const fs::path& target, const struct stat* fo
   if (error == 0 && std::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
   if (error == 0) return;
   unlink(temporary.c_str());
-  refuse_output(file, error);
+  throw_output_error(file, error);
 }
 
 }  // namespace
 
-void refuse_output(const fs::path& file, int error) {
+void throw_output_error(const fs::path& file, int error) {
   throw std::invalid_argument(fmt::format("{}: got '{}', expected a file that can be written",
                                           file.string(), std::generic_category().message(error)));
 }
@@ -105,15 +105,15 @@ int write_all(int descriptor, std::string_view text) {
 void write_file(const fs::path& file, const std::string& text) {
   struct stat found {};
   const bool exists = stat(file.c_str(), &found) == 0;
-  if (!exists && errno != ENOENT) refuse_output(file, errno);
-  if (exists && S_ISDIR(found.st_mode)) refuse_output(file, EISDIR);
+  if (!exists && errno != ENOENT) throw_output_error(file, errno);
+  if (exists && S_ISDIR(found.st_mode)) throw_output_error(file, EISDIR);
   if (exists && (!S_ISREG(found.st_mode) || stream_to(found) >= 0)) {
     return write_stream(file, found, text);
   }
   const fs::path target = follow_links(file);
   std::error_code error;
   if (target.has_parent_path()) fs::create_directories(target.parent_path(), error);
-  if (error) refuse_output(file, error.value());
+  if (error) throw_output_error(file, error.value());
   replace(file, target, exists ? &found : nullptr, text);
 }
 

@@ -20,7 +20,7 @@ void write_file(const std::filesystem::path& file, const std::string& text);
 std::string text_of(const std::filesystem::path& file);
 
 /// The line that `write_file` throws, for an `errno`.
-[[noreturn]] void refuse_output(const std::filesystem::path& file, int error);
+[[noreturn]] void throw_output_error(const std::filesystem::path& file, int error);
 /// All of a text to an open file; zero or the `errno`.
 int write_all(int descriptor, std::string_view text);
 

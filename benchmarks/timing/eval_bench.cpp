@@ -61,9 +61,9 @@ void time_model(benchmark::State& state, const Problem& problem) {
   }
 }
 
-/// What a search asks of a model with a second contact where that is reached: all valid branches,
-/// collision checked.
-void time_branches(benchmark::State& state, const Problem& problem) {
+/// What a search asks of a model with a second contact where that is reached: all valid IK
+/// solutions, collision checked.
+void time_ik_solutions(benchmark::State& state, const Problem& problem) {
   PostureEvaluator model(problem);
   std::vector<Eigen::VectorXd> postures;
   for (Eigen::VectorXd& theta_r : random_postures(problem)) {
@@ -73,8 +73,8 @@ void time_branches(benchmark::State& state, const Problem& problem) {
   for (auto _ : state) {
     if (i == postures.size()) i = 0;
     benchmark::DoNotOptimize(model.evaluate(postures[i++]).J.data());
-    for (int branch = 1; branch < model.branches(); ++branch) {
-      benchmark::DoNotOptimize(model.select(branch).J_2.data());
+    for (int ik_solution = 1; ik_solution < model.ik_solutions(); ++ik_solution) {
+      benchmark::DoNotOptimize(model.select(ik_solution).J_2.data());
     }
   }
 }
@@ -118,9 +118,9 @@ void time_along_a_search(benchmark::State& state, const Problem& problem) {
   for (auto _ : state) {
     for (const Eigen::VectorXd& theta_r : visited) {
       const auto start = Clock::now();
-      const long here = model.evaluate(theta_r).branches.found;
-      for (int branch = 1; branch < model.branches(); ++branch) {
-        benchmark::DoNotOptimize(model.select(branch).J.data());
+      const long here = model.evaluate(theta_r).ik_solutions.found;
+      for (int ik_solution = 1; ik_solution < model.ik_solutions(); ++ik_solution) {
+        benchmark::DoNotOptimize(model.select(ik_solution).J.data());
       }
       const std::chrono::duration<double, std::nano> spent = Clock::now() - start;
       if (here > 0) each.push_back(spent.count() / static_cast<double>(here));
@@ -130,8 +130,8 @@ void time_along_a_search(benchmark::State& state, const Problem& problem) {
   }
   const auto middle = each.begin() + static_cast<std::ptrdiff_t>(each.size() / 2);
   std::nth_element(each.begin(), middle, each.end());
-  state.counters["branches"] = static_cast<double>(found) / static_cast<double>(places);
-  state.counters["ns_per_branch"] = *middle;
+  state.counters["ik_solutions"] = static_cast<double>(found) / static_cast<double>(places);
+  state.counters["ns_per_ik_solution"] = *middle;
 }
 
 /// The check alone, for link poses that are known.
@@ -204,7 +204,8 @@ void add_problem(const Problem& problem) {
   }
   add(name("model"), [&](benchmark::State& state) { time_model(state, problem); });
   if (problem.contact) {
-    add(name("model/branches"), [&](benchmark::State& state) { time_branches(state, problem); });
+    add(name("model/IK solutions"),
+        [&](benchmark::State& state) { time_ik_solutions(state, problem); });
   }
   if (!problem.dependent.empty()) {
     add(name("model/search"),
@@ -215,7 +216,8 @@ void add_problem(const Problem& problem) {
   }
   for (const Case& c : product(problem, 1, 1)) {
     if (c.search != general_search()) continue;
-    const std::string title = name(fmt::format("{}/{}/{}", c.measure, to_string(c.wrench), c.lp));
+    const std::string title =
+        name(fmt::format("{}/{}/{}", c.measure, to_string(c.wrench), c.solver));
     add(title,
         [&problem, c](benchmark::State& state) { time_objective(state, problem, c, false); });
     add(title + "+gradient",
@@ -230,7 +232,7 @@ class Keeper : public benchmark::ConsoleReporter {
     ConsoleReporter::ReportRuns(runs);
     for (const Run& run : runs) {
       if (run.run_type != Run::RT_Iteration) continue;
-      const auto counter = run.counters.find("ns_per_branch");
+      const auto counter = run.counters.find("ns_per_ik_solution");
       const double time =
           counter == run.counters.end() ? run.GetAdjustedCPUTime() : double(counter->second);
       const auto [kept, added] = times_.try_emplace(run.run_name.function_name, time);
@@ -252,7 +254,7 @@ class Keeper : public benchmark::ConsoleReporter {
                  model / kdl);
     }
     if (time("model/search") > 0 && kdl > 0) {
-      fmt::print("{}: along a search, median of model / branch / KDL = {:.2f}\n", problem.name,
+      fmt::print("{}: along a search, median of model / IK solution / KDL = {:.2f}\n", problem.name,
                  time("model/search") / kdl);
     }
     if (value > 0 && gradient > 0) {

@@ -1,6 +1,6 @@
 // Single local solves of beta_2 from the same random postures that have a value: what share reaches
 // the best known value within 0.1 %, the evaluations and the time of one. Where a second arm has
-// several branches, the solves between facets begin at each.
+// several IK solutions, the solves between facets begin at each.
 
 #include <benchmark/benchmark.h>
 
@@ -33,10 +33,10 @@ constexpr Target kTargets[] = {
     {"dual_arm/bar_wall", 37.94392}, {"dual_arm/two_arms", 87.85696},
 };
 
-/// A start: x in the unit cube of the bounds, and a branch.
+/// A start: x in the unit cube of the bounds, and an IK solution.
 struct LocalStart {
   Eigen::VectorXd x;
-  int branch = 0;
+  int ik_solution = 0;
 };
 
 /// One local solve; the best value that it evaluated.
@@ -46,17 +46,17 @@ using LocalSolve = double (*)(Probe& probe, FacetProgram& program, const Box& bo
 template <FacetEnd (*solve)(FacetView&)>
 double between_facets(Probe& probe, FacetProgram& program, const Box& box,
                       const LocalStart& start) {
-  return solve_from(probe, program, box, box.theta_r(start.x), start.branch, solve);
+  return solve_from(probe, program, box, box.theta_r(start.x), start.ik_solution, solve);
 }
 
 double bilevel(Probe& probe, FacetProgram& /*program*/, const Box& box, const LocalStart& start) {
-  climb_by_ipopt(probe, box, box.theta_r(start.x));
+  optimise_by_ipopt(probe, box, box.theta_r(start.x));
   return probe.found().best.value;
 }
 
-/// `every_branch`: each as a start of its own.
+/// `every_ik_solution`: each as a start of its own.
 std::vector<LocalStart> random_starts(Objective& objective, FacetProgram& program,
-                                      bool every_branch) {
+                                      bool every_ik_solution) {
   const Box box(objective);
   Random random(1);
   std::vector<LocalStart> starts;
@@ -66,19 +66,20 @@ std::vector<LocalStart> random_starts(Objective& objective, FacetProgram& progra
     const Eigen::VectorXd theta_r = box.theta_r(start.x);
     if (evaluate_one(objective, theta_r) == -kInfinity) continue;
     ++found;
-    const int branches = every_branch ? program.branches(theta_r) : 1;
-    for (start.branch = 0; start.branch < branches; ++start.branch) starts.push_back(start);
+    const int ik_solutions = every_ik_solution ? program.ik_solutions(theta_r) : 1;
+    for (start.ik_solution = 0; start.ik_solution < ik_solutions; ++start.ik_solution)
+      starts.push_back(start);
   }
   return starts;
 }
 
 void time_solves(benchmark::State& state, const Target& target, LocalSolve solve,
-                 bool every_branch) {
+                 bool every_ik_solution) {
   const Problem problem = load_problem(target.problem);
   const MeasureMaker make = resolve(problem, Case{problem.name}).make_measure;
   const auto objective = make_capability_objective(problem, Wrench::kPure, make);
   FacetProgram program(problem, Wrench::kPure, make);
-  const std::vector<LocalStart> starts = random_starts(*objective, program, every_branch);
+  const std::vector<LocalStart> starts = random_starts(*objective, program, every_ik_solution);
   const Box box(*objective);
   const SearchOptions options;
   SearchRun run(options);
@@ -97,10 +98,11 @@ void time_solves(benchmark::State& state, const Target& target, LocalSolve solve
 }
 
 void add_target(const Target& target) {
-  const auto add = [&](const char* name, LocalSolve solve, bool every_branch) {
-    benchmark::RegisterBenchmark(
-        (std::string(target.problem) + "/" + name).c_str(),
-        [=, &target](benchmark::State& state) { time_solves(state, target, solve, every_branch); })
+  const auto add = [&](const char* name, LocalSolve solve, bool every_ik_solution) {
+    benchmark::RegisterBenchmark((std::string(target.problem) + "/" + name).c_str(),
+                                 [=, &target](benchmark::State& state) {
+                                   time_solves(state, target, solve, every_ik_solution);
+                                 })
         ->Iterations(1)
         ->Unit(benchmark::kMillisecond);
   };

@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/timing/forms.h"
+#include "benchmarks/timing/lp_forms.h"
 #include "lib/math/random.h"
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
@@ -86,7 +86,7 @@ std::unique_ptr<Set> make_set(const Problem& problem, Wrench wrench, bool walk, 
   set->theta_r = postures(problem, walk);
   PostureEvaluator model(problem, false);
   WrenchProgram program = make_wrench_program(problem, wrench);
-  const auto judge = find_wrench_solver("box").make();
+  const auto judge = find_wrench_solver("condensed").make();
   Random random(2);
   for (const Eigen::VectorXd& theta_r : set->theta_r) {
     set_posture(model.evaluate(theta_r), program);
@@ -151,7 +151,7 @@ void time_general(benchmark::State& state, const std::vector<LinearProgram>& pro
   }
 }
 
-const char* own_solver(const Set& set) { return set.pure ? "facets" : "box"; }
+const char* own_solver(const Set& set) { return set.pure ? "facets" : "condensed"; }
 
 void add_set(const Set& set) {
   const auto add = [&](const std::string& rest, auto body) {
@@ -161,7 +161,7 @@ void add_set(const Set& set) {
         ->Repetitions(5)
         ->ReportAggregatesOnly();
   };
-  for (const char* name : {"facets", "box"}) {
+  for (const char* name : {"facets", "condensed"}) {
     if (!set.pure && find_wrench_solver(name).one_column_only) continue;
     for (const bool efforts : {false, true}) {
       add(std::string(name) + (efforts ? "+u" : ""),

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "lib/robot/motion.h"
+#include "lib/robot/free_motion.h"
 #include "maxwrench/load.h"
 #include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"
@@ -55,7 +55,7 @@ FreeMotion swing(const Problem& problem) {
 void print_work_and_precision(const Problem& problem) {
   FreeMotion motion = swing(problem);
   const std::array<double, 2> times = {0, 1};
-  Trajectory trajectory;
+  OdeSolution trajectory;
   IntegratorOptions options;
   options.max_steps = 1000000;
   options.step = 5e-5;
@@ -115,8 +115,8 @@ void print_turn_shares(const Problem& problem) {
   const Answer answer = evaluate(problem, problem.theta_r_default);
   print_shares("tracked turn of 5 s with the default posture throughout, 500 control periods",
                problem, [&](const char* integrator) {
-                 return simulate_plan(problem, answer.plan, Wrench::kPure, plan_solvers().front(),
-                                      {}, integrator, {})
+                 return simulate_trajectory(problem, answer.trajectory, Wrench::kPure,
+                                            trajectory_solvers().front(), {}, integrator, {})
                      .run;
                });
 }

@@ -15,10 +15,10 @@ Eigen::VectorXd drawn(const Problem& problem, Random& random) {
 
 }  // namespace
 
-PlanProgram slow_plan(const Problem& problem, Wrench wrench, int instants, double duration,
-                      Random& random) {
+TrajectoryProgram slow_trajectory(const Problem& problem, Wrench wrench, int instants,
+                                  double duration, Random& random) {
   const Zonotope& set = problem.robot.actuation;
-  PlanProgram program;
+  TrajectoryProgram program;
   program.first_min = set.u_min;
   program.first_max = set.u_max;
   program.du_max.resize(set.actuators(), instants - 1);

@@ -9,7 +9,7 @@ namespace maxwrench {
 /// A slow motion of `problem`, which outlives it: postures go straight from a random theta_r a
 /// fifth of the way to another, statically loaded, with the robot's effort rates over `duration`
 /// [s].
-PlanProgram slow_plan(const Problem& problem, Wrench wrench, int instants, double duration,
-                      Random& random);
+TrajectoryProgram slow_trajectory(const Problem& problem, Wrench wrench, int instants,
+                                  double duration, Random& random);
 
 }  // namespace maxwrench

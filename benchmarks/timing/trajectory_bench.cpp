@@ -31,7 +31,7 @@ namespace maxwrench {
 namespace {
 
 constexpr double kDuration = 5;  // s
-constexpr const char* kOwn[] = {"ipm", "structured"};
+constexpr const char* kOwn[] = {"ipm", "facets_or_ipm"};
 
 struct TimedRobot {
   std::string name;
@@ -76,7 +76,7 @@ struct Set {
   std::string robot;
   Wrench wrench;
   int instants;
-  std::vector<PlanProgram> programs;
+  std::vector<TrajectoryProgram> programs;
   std::vector<LinearProgram> assembled;
   std::string title() const { return fmt::format("{}/{}/{}", robot, to_string(wrench), instants); }
   /// The size of an instant's block in the normal equations of `ipm`.
@@ -92,11 +92,11 @@ std::unique_ptr<Set> make_set(const TimedRobot& robot, Wrench wrench, int instan
   const Problem& problem = robot.problem;
   auto set = std::make_unique<Set>(Set{robot.name, wrench, instants, {}, {}});
   Random random(7);
-  const auto judge = find_plan_solver("ipm").make();
-  PlanSolution solution;
+  const auto judge = find_trajectory_solver("ipm").make();
+  TrajectorySolution solution;
   const std::size_t count = instants < 1000 ? 5 : 1;
   while (set->programs.size() < count) {
-    PlanProgram program = slow_plan(problem, wrench, instants, kDuration, random);
+    TrajectoryProgram program = slow_trajectory(problem, wrench, instants, kDuration, random);
     judge->solve(program, solution);
     if (solution.status != Status::kOptimal) continue;
     set->assembled.push_back(assemble(program));
@@ -106,8 +106,8 @@ std::unique_ptr<Set> make_set(const TimedRobot& robot, Wrench wrench, int instan
 }
 
 void time_own(benchmark::State& state, const Set& set, const char* name) {
-  const auto solver = find_plan_solver(name).make();
-  PlanSolution solution;
+  const auto solver = find_trajectory_solver(name).make();
+  TrajectorySolution solution;
   std::size_t i = 0;
   long iterations = 0;
   for (auto _ : state) {

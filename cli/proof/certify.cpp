@@ -68,7 +68,7 @@ GoodPostures list_good(const ProofOptions& options, const Problem& problem, cons
 
 /// What checks a certificate knows no forces of a second contact; the list of good postures is one
 /// of boxes of theta_r alone.
-void refuse_what_follows(const ProofOptions& options, const Problem& problem) {
+void throw_on_dependents(const ProofOptions& options, const Problem& problem) {
   if (!options.certificate.empty() && problem.contact_columns() > 0) {
     throw std::invalid_argument(
         "--certificate: got a task with forces of a second contact, expected one without");
@@ -84,7 +84,7 @@ void refuse_what_follows(const ProofOptions& options, const Problem& problem) {
 Proof prove(const ProofOptions& options, const Problem& problem) {
   Options c = options.read_options();
   c.budget = kUsualBudget;
-  const auto bound = make_capability_bound(problem, c.measure, c.wrench);  // or refuses, first
+  const auto bound = make_capability_bound(problem, c.measure, c.wrench);  // or rejects, first
   const Method method = resolve(problem, c);
   CtrlC ctrl_c;
   Proof proof;
@@ -127,7 +127,7 @@ Proof prove(const ProofOptions& options, const Problem& problem) {
 }
 
 /// Empty, or why the text is no gap.
-std::string refuse_gap(const std::string& text) {
+std::string reject_gap(const std::string& text) {
   double gap = 0;
   const bool read = CLI::detail::lexical_cast(text, gap);
   if (read && gap >= kLeastGap && gap <= 1) return "";
@@ -214,7 +214,7 @@ void add_proof_options(CLI::App& command, ProofOptions& options) {
       ->capture_default_str();
   command.add_option("--gap", options.gap, "of the bound to beta that is to be reached")
       ->capture_default_str()
-      ->check(refuse_gap);
+      ->check(reject_gap);
   command.add_option("--time", options.seconds, "s, after which a bracket is printed")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1e9));
@@ -222,7 +222,7 @@ void add_proof_options(CLI::App& command, ProofOptions& options) {
                    "count postures that collide, too");
   command
       .add_option("--certificate", options.certificate, "file for the proof, which 'verify' checks")
-      ->check(refuse_empty);
+      ->check(reject_empty);
   options.within.add(command);
   options.add_threads(command);
   options.add_json(command);
@@ -243,7 +243,7 @@ void add_certify(CLI::App& app, int& exit_status) {
       options->gap = std::min(options->gap, kGapPart * options->within.share());
     }
     Problem problem = load_problem(options->choice.problem);
-    refuse_what_follows(*options, problem);
+    throw_on_dependents(*options, problem);
     if (options->ignore_collision) problem.robot.collision = nullptr;
     const Proof proof = prove(*options, problem);
     write_certificate(*options, proof);

@@ -33,14 +33,14 @@ double parse_share(std::string text) {
   return read ? unit * number : std::nan("");
 }
 
-std::string refuse_share(const std::string& text) {
+std::string reject_share(const std::string& text) {
   const double share = parse_share(text);
   if (share >= kLeastShare && share <= 1) return "";
   return fmt::format("got '{}', expected a share of {:g} to 1, or of {:g}% to 100%", text,
                      kLeastShare, 100 * kLeastShare);
 }
 
-std::string refuse_resolution(const std::string& text) {
+std::string reject_resolution(const std::string& text) {
   double side = 0;
   const bool read = CLI::detail::lexical_cast(text, side);
   if (read && side >= kLeastResolution && side < kInfinity) return "";
@@ -148,15 +148,15 @@ void WithinOptions::add(CLI::App& command) {
   CLI::Option* const asked =
       command
           .add_option("--within", within, "list all postures that are this near to the best: 1%")
-          ->check(refuse_share);
+          ->check(reject_share);
   command.add_option("--resolution", resolution, "longest side of the boxes of the list, rad or m")
       ->capture_default_str()
-      ->check(refuse_resolution)
+      ->check(reject_resolution)
       ->needs(asked);
   command.add_option("--figure", figure, "SVG file for the projections of the boxes")
-      ->check(refuse_empty)
+      ->check(reject_empty)
       ->needs(asked);
-  command.add_option("--boxes", boxes, "CSV file for the boxes")->check(refuse_empty)->needs(asked);
+  command.add_option("--boxes", boxes, "CSV file for the boxes")->check(reject_empty)->needs(asked);
 }
 
 double WithinOptions::share() const { return parse_share(within); }

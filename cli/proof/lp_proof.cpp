@@ -43,7 +43,7 @@ bool is_fraction(const std::string& text) {
          below.find_first_not_of('0') != below.npos;
 }
 
-[[noreturn]] void refuse(const std::string& file, const std::string& why) {
+[[noreturn]] void throw_bad_input(const std::string& file, const std::string& why) {
   throw std::invalid_argument(file + ": " + why + ", expected what 'lp --certificate' wrote");
 }
 
@@ -52,7 +52,7 @@ RationalVector read_fractions(const std::string& file, const ordered_json& objec
   RationalVector all;
   for (const auto& each : object.at(key)) {
     const auto text = each.get<std::string>();
-    if (!is_fraction(text)) refuse(file, fmt::format("{}: got '{:.40}'", key, text));
+    if (!is_fraction(text)) throw_bad_input(file, fmt::format("{}: got '{:.40}'", key, text));
     all.emplace_back(text);
     all.back().canonicalize();
   }
@@ -63,7 +63,7 @@ Status read_status(const std::string& file, const std::string& name) {
   for (const Status status : {Status::kOptimal, Status::kInfeasible, Status::kUnbounded}) {
     if (name == to_string(status)) return status;
   }
-  refuse(file, fmt::format("status: got '{:.40}'", name));
+  throw_bad_input(file, fmt::format("status: got '{:.40}'", name));
 }
 
 }  // namespace
@@ -91,7 +91,7 @@ LpVerification verify_lp(const std::string& file, const std::string& mps_file) {
   LpVerification result;
   LpProof proof;
   try {
-    if (object.at("maxwrench") != kFormat) refuse(file, "maxwrench: got another format");
+    if (object.at("maxwrench") != kFormat) throw_bad_input(file, "maxwrench: got another format");
     result.mps_file = mps_file.empty() ? object.at("file").get<std::string>() : mps_file;
     result.objective = object.at("objective").get<std::string>();
     proof.status = result.status = read_status(file, object.at("status").get<std::string>());
@@ -99,12 +99,12 @@ LpVerification verify_lp(const std::string& file, const std::string& mps_file) {
     proof.lambda = read_fractions(file, object, "lambda");
     proof.certificate = read_fractions(file, object, "certificate");
   } catch (const nlohmann::json::exception&) {
-    refuse(file, "a key is missing or of another kind");
+    throw_bad_input(file, "a key is missing or of another kind");
   }
   const MpsProgram mps = read_mps(result.mps_file);
-  result.refusal = refuse_lp_proof(mps.program, proof);
-  if (result.refusal.empty() && result.objective != file_objective(mps, proof)) {
-    result.refusal = "the objective is " + file_objective(mps, proof);
+  result.rejection = reject_lp_proof(mps.program, proof);
+  if (result.rejection.empty() && result.objective != file_objective(mps, proof)) {
+    result.rejection = "the objective is " + file_objective(mps, proof);
   }
   return result;
 }

@@ -17,7 +17,7 @@ bool is_lp_proof(const std::string& file);
 
 /// What was checked of such a file.
 struct LpVerification {
-  std::string mps_file, refusal;  ///< empty: verified
+  std::string mps_file, rejection;  ///< empty: verified
   Status status = Status::kNumericalError;
   std::string objective;  ///< as claimed; empty without an optimum
 };

@@ -29,13 +29,13 @@ void print_verified(const ProofCertificate& proof, const Problem& problem,
                     const Verification& result, double seconds) {
   fmt::print("{}  measure {}  wrench {}{}\n", problem.name, proof.measure, to_string(proof.wrench),
              proof.collision ? "" : "  collisions ignored");
-  fmt::print("{}{}{}\n", result.refusal.empty() ? "verified" : "refused",
-             result.refusal.empty() ? "" : ": ", result.refusal);
+  fmt::print("{}{}{}\n", result.rejection.empty() ? "verified" : "rejected",
+             result.rejection.empty() ? "" : ": ", result.rejection);
   const Eigen::VectorXd theta_r = theta_r_of(proof, problem);
   if (theta_r.size() > 0) fmt::print("theta_r   {}\n", line(theta_r));
   fmt::print("beta      {:>9.5f} {}\n", proof.value, problem.unit());
   fmt::print("bound     {:>9.5f} {}{}\n", proof.bound, problem.unit(),
-             result.refusal.empty() ? ": no posture has more" : ", as it claims");
+             result.rejection.empty() ? ": no posture has more" : ", as it claims");
   fmt::print("gap       {:.3g} %\n", 100 * (proof.bound - proof.value) / std::abs(proof.value));
   fmt::print(
       "boxes     {}: {} leaves by a multiplier, {} in collision, {} without a posture, {} by "
@@ -50,8 +50,8 @@ void print_verified_object(const ProofCertificate& proof, const Problem& problem
   nlohmann::ordered_json object = {{"problem", problem.name},
                                    {"measure", proof.measure},
                                    {"wrench", to_string(proof.wrench)},
-                                   {"status", result.refusal.empty() ? "verified" : "refused"},
-                                   {"reason", result.refusal},
+                                   {"status", result.rejection.empty() ? "verified" : "rejected"},
+                                   {"reason", result.rejection},
                                    {"beta", proof.value},
                                    {"bound", proof.bound},
                                    {"unit", problem.unit()},
@@ -78,8 +78,8 @@ std::string readable(const std::string& fraction) {
 
 void print_lp(const LpVerification& result) {
   fmt::print("{}\n", result.mps_file);
-  if (!result.refusal.empty()) {
-    fmt::print("refused: {}\n", result.refusal);
+  if (!result.rejection.empty()) {
+    fmt::print("rejected: {}\n", result.rejection);
     return;
   }
   fmt::print("verified\n{} in rational numbers{}{}\n", to_string(result.status),
@@ -88,11 +88,11 @@ void print_lp(const LpVerification& result) {
 
 int check_lp_file(const VerifyOptions& options) {
   const LpVerification result = verify_lp(options.file, options.choice.problem);
-  const bool verified = result.refusal.empty();
+  const bool verified = result.rejection.empty();
   if (options.json) {
     print_json({{"file", result.mps_file},
-                {"status", verified ? "verified" : "refused"},
-                {"reason", result.refusal},
+                {"status", verified ? "verified" : "rejected"},
+                {"reason", result.rejection},
                 {"verdict", to_string(result.status)},
                 {"objective", result.objective}});
   } else {
@@ -120,7 +120,7 @@ int check_file(const VerifyOptions& options) {
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   (options.json ? print_verified_object : print_verified)(proof, problem, result, seconds);
-  return result.refusal.empty() ? kAnswered : kOtherStatus;
+  return result.rejection.empty() ? kAnswered : kOtherStatus;
 }
 
 }  // namespace
@@ -133,18 +133,18 @@ void add_verify(CLI::App& app, int& exit_status) {
       "checks a certificate of 'certify' or 'lp' with no code of what made it, or rows of 'run'");
   command.add_option("file", options->file, "certificate, or values.csv.gz")
       ->required()
-      ->check(refuse_empty);
+      ->check(reject_empty);
   command
       .add_option(
           "--problem", options->choice.problem,
           "what it is to be about, shipped name, task file or MPS file; default: what it says")
-      ->check(refuse_empty);
+      ->check(reject_empty);
   command.add_option("--sample", options->sample, "so many rows of values.csv.gz (0: all)")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   command.add_option("--seed", options->choice.seed, "draws them")
       ->capture_default_str()
-      ->check(refuse_seed);
+      ->check(reject_seed);
   options->add_threads(command);
   options->add_json(command);
   command.callback([options, &exit_status] { exit_status = check_file(*options); });

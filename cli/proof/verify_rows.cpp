@@ -82,34 +82,35 @@ int verify_rows(const std::string& file, std::size_t sample, std::uint64_t seed,
   const std::vector<std::size_t> rows = draw(all, sample, seed);
   const std::vector<RowCheck> checks = check_all(csv, rows, threads);
   double deviation = 0;
-  std::vector<std::string> refused;
+  std::vector<std::string> rejected;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     deviation = std::max(deviation, checks[i].deviation);
-    if (checks[i].refusal.empty()) continue;
-    refused.push_back(fmt::format("{}: {}", fmt::join(case_values(case_of(csv, rows[i])), ","),
-                                  checks[i].refusal));
+    if (checks[i].rejection.empty()) continue;
+    rejected.push_back(fmt::format("{}: {}", fmt::join(case_values(case_of(csv, rows[i])), ","),
+                                   checks[i].rejection));
   }
   const auto values = std::count_if(checks.begin(), checks.end(),
                                     [](const RowCheck& each) { return each.has_value; });
   if (json) {
     print_json({{"file", file},
-                {"status", refused.empty() ? "verified" : "refused"},
+                {"status", rejected.empty() ? "verified" : "rejected"},
                 {"rows", all},
                 {"checked", rows.size()},
                 {"values", values},
                 {"deviation", deviation},
                 {"not_checked", kOwnWord},
-                {"refused", refused}});
+                {"rejected", rejected}});
   } else {
     fmt::print("{}\n", file);
-    if (!refused.empty()) fmt::print("refused: {} of the rows that were checked\n", refused.size());
+    if (!rejected.empty())
+      fmt::print("rejected: {} of the rows that were checked\n", rejected.size());
     fmt::print("{}: {} of {} rows, {} of them with a value, {} with the reason why not\n",
-               refused.empty() ? "verified" : "checked", rows.size(), all, values,
+               rejected.empty() ? "verified" : "checked", rows.size(), all, values,
                static_cast<long>(rows.size()) - values);
     fmt::print("largest deviation {:.2g} of 1 + |beta|\nnot checked: {}\n", deviation, kOwnWord);
-    for (const std::string& each : refused) fmt::print("refused: {}\n", each);
+    for (const std::string& each : rejected) fmt::print("rejected: {}\n", each);
   }
-  return refused.empty() ? kAnswered : kOtherStatus;
+  return rejected.empty() ? kAnswered : kOtherStatus;
 }
 
 }  // namespace maxwrench

@@ -10,7 +10,7 @@
 namespace maxwrench {
 namespace {
 
-ReportSection value_section(const Changes& changes) {
+ReportSection value_section(const Differences& changes) {
   ReportTable table;
   table.name = "changed_values";
   table.title = fmt::format("Values that differ; {} are the same, {} within rounding", changes.same,
@@ -31,7 +31,7 @@ ReportSection value_section(const Changes& changes) {
   return {table, {}};
 }
 
-ReportSection time_section(const Changes& changes) {
+ReportSection time_section(const Differences& changes) {
   ReportTable table{
       "changed_times",
       "Times: how many times as long b took as a",
@@ -43,15 +43,15 @@ ReportSection time_section(const Changes& changes) {
           100 * kDrift),
       {"what", "name", "rows", "times", "times_low", "times_high", "p", "change"},
       {}};
-  for (const TimeChange& each : changes.times) {
-    const std::string change = !each.is_change() ? "" : each.times > 1 ? "slower" : "faster";
+  for (const TimeRatio& each : changes.times) {
+    const std::string change = !each.is_significant() ? "" : each.times > 1 ? "slower" : "faster";
     table.rows.push_back({each.column, each.name, static_cast<double>(each.rows), each.times,
                           each.times_low, each.times_high, each.p, change});
   }
   return {table, {}};
 }
 
-ReportSection missing_section(const Changes& changes) {
+ReportSection missing_section(const Differences& changes) {
   ReportTable table{"missing_rows", "Rows that only one folder has", "", {"folder"}, {}};
   const std::vector<std::string>& columns = case_columns();
   table.columns.insert(table.columns.end(), columns.begin(), columns.end());
@@ -69,7 +69,7 @@ ReportSection missing_section(const Changes& changes) {
 }  // namespace
 
 std::vector<ReportSection> change_sections(const Results& a, const Results& b) {
-  const Changes changes = find_changes(a, b);
+  const Differences changes = find_differences(a, b);
   return {value_section(changes), time_section(changes), missing_section(changes)};
 }
 

@@ -55,9 +55,9 @@ ReportSection standing_section(const std::vector<RaceGroup>& groups) {
   return section;
 }
 
-ReportSection race_contest_section(const std::vector<RaceGroup>& groups) {
-  std::vector<Contest> contests;
-  for (const RaceGroup& group : groups) contests.push_back(search_contest(group));
+ReportSection race_benchmark_set_section(const std::vector<RaceGroup>& groups) {
+  std::vector<BenchmarkSet> benchmark_sets;
+  for (const RaceGroup& group : groups) benchmark_sets.push_back(search_benchmark_set(group));
   ReportTable table{
       "race_significance",
       "The race: profiles and significance",
@@ -67,7 +67,7 @@ ReportSection race_contest_section(const std::vector<RaceGroup>& groups) {
       "Wilcoxon's signed rank test, corrected by Holm.",
       {},
       {}};
-  return contest_section(std::move(table), contests, "search", "median_ms");
+  return benchmark_set_section(std::move(table), benchmark_sets, "search", "median_ms");
 }
 
 ReportSection expected_section(const std::vector<Comparison>& races) {
@@ -76,7 +76,7 @@ ReportSection expected_section(const std::vector<Comparison>& races) {
       "The race: expected running times",
       "COCO's expected running time of a search that is started again until it gets so near: all "
       "that was spent, over the number of runs that got there.",
-      {"problem", "measure", "wrench", "scheme", "search", "lp", "runs", "solved"},
+      {"problem", "measure", "wrench", "scheme", "search", "solver", "runs", "solved"},
       {}};
   add_target_columns("ert_ms_", table.columns);
   add_target_columns("ert_evaluations_", table.columns);
@@ -86,7 +86,7 @@ ReportSection expected_section(const std::vector<Comparison>& races) {
         const std::vector<RaceRun> runs = contender.runs();
         const Case& c = contender.attempts.front().choice;
         auto& line = table.rows.emplace_back(std::vector<ReportCell>{
-            c.problem, c.measure, to_string(c.wrench), c.scheme, c.search, c.lp,
+            c.problem, c.measure, to_string(c.wrench), c.scheme, c.search, c.solver,
             static_cast<double>(runs.size()), static_cast<double>(reached(runs, race.target()))});
         for (const double share : kTargetShares) {
           line.emplace_back(1e3 * contender.expected(race.target(share), &Spent::seconds));
@@ -105,7 +105,7 @@ ReportSection expected_section(const std::vector<Comparison>& races) {
 std::vector<ReportSection> race_sections(const std::vector<Comparison>& races) {
   if (races.empty()) return {};
   const std::vector<RaceGroup> groups = race_groups(races);
-  return {standing_section(groups), race_contest_section(groups), expected_section(races)};
+  return {standing_section(groups), race_benchmark_set_section(groups), expected_section(races)};
 }
 
 }  // namespace maxwrench

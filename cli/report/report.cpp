@@ -35,14 +35,14 @@ std::string fact_of(const Results& results, const std::string& start) {
   return "unknown";
 }
 
-/// How many different names the rows have in each column that a plan chooses.
+/// How many different names the rows have in each column that a suite chooses.
 std::string extent_of(const std::vector<ResultRow>& rows) {
   std::set<std::string> problems, measures, lps, searches, integrators;
   std::set<std::uint64_t> seeds;
   for (const ResultRow& row : rows) {
     problems.insert(row.choice.problem);
     measures.insert(row.choice.measure);
-    if (row.choice.lp != kNoSolver) lps.insert(row.choice.lp);
+    if (row.choice.solver != kNoSolver) lps.insert(row.choice.solver);
     if (row.is_experiment()) integrators.insert(row.choice.integrator);
     if (!row.choice.search.empty()) searches.insert(row.choice.search);
     seeds.insert(row.choice.seed);
@@ -71,9 +71,9 @@ void describe(const Results& results, const std::string& mark, PageHead& head) {
   head.facts.emplace_back("folder" + mark, results.folder.string());
   head.facts.emplace_back("version" + mark, versions_of(results));
   head.facts.emplace_back("machine" + mark, fact_of(results, "processor") + ", " +
-                                                fact_of(results, "cores") + " cores");
+                                                fact_of(results, "inscribed_boxes") + " cores");
   head.facts.emplace_back("rows" + mark, extent_of(results.rows));
-  if (!results.plan.empty()) head.texts.emplace_back("plan" + mark, results.plan);
+  if (!results.suite.empty()) head.texts.emplace_back("suite" + mark, results.suite);
   if (!results.machine.empty()) head.texts.emplace_back("machine.txt" + mark, results.machine);
 }
 
@@ -155,7 +155,7 @@ void add_report(CLI::App& app, int& exit_status) {
       .add_option("--out", options->out,
                   "folder for report.html and its tables as CSV (default: report in the folder; "
                   "with --compare none)")
-      ->check(refuse_empty);
+      ->check(reject_empty);
   command.callback([options, &exit_status] { exit_status = make_report(*options); });
 }
 

@@ -31,14 +31,14 @@ ReportSection task_section(const std::vector<ResultRow>& rows) {
       "Tasks",
       "Every problem with each measure and wrench: how many rows have a value, and the "
       "largest one with the names that gave it.",
-      {"problem", "measure", "wrench", "scheme", "rows", "solved", "best", "unit", "lp", "search",
-       "seed"},
+      {"problem", "measure", "wrench", "scheme", "rows", "solved", "best", "unit", "solver",
+       "search", "seed"},
       {}};
   for (const TaskSummary& task : summarise_tasks(rows)) {
     const Case& c = task.choice;
     table.rows.push_back({c.problem, c.measure, to_string(c.wrench), c.scheme,
                           static_cast<double>(task.rows), static_cast<double>(task.solved),
-                          or_none(task.best), task.unit, c.lp, c.search, seed_cell(c.seed)});
+                          or_none(task.best), task.unit, c.solver, c.search, seed_cell(c.seed)});
   }
   return {table, {}};
 }
@@ -55,7 +55,7 @@ ReportSection solver_section(const std::vector<ResultRow>& rows) {
       "Holm.",
       {},
       {}};
-  return contest_section(std::move(table), solver_contests(rows), "lp", "us");
+  return benchmark_set_section(std::move(table), solver_benchmark_sets(rows), "solver", "us");
 }
 
 ReportSection search_section(const std::vector<ResultRow>& rows) {
@@ -94,7 +94,7 @@ std::vector<std::string> draw_costs(const ReportTable& table, const std::string&
   const auto place = [&](const std::string& column) {
     return std::find(table.columns.begin(), table.columns.end(), column) - table.columns.begin();
   };
-  const auto x = place(size), us = place("us"), lp = place("lp"), scheme = place("scheme");
+  const auto x = place(size), us = place("us"), lp = place("solver"), scheme = place("scheme");
   std::map<std::string, std::vector<Eigen::Vector2d>> sets;
   std::set<double> sizes;
   for (const auto& line : table.rows) {
@@ -117,7 +117,7 @@ ReportSection cost_section(const std::vector<ResultRow>& rows) {
       "Cost against dimension",
       "What an evaluation of a search costs, beside the sizes of the problem: searched "
       "coordinates, instants, actuators, columns of the wrench.",
-      {"problem", "scheme", "wrench", "lp", "coordinates", "instants", "actuators", "columns",
+      {"problem", "scheme", "wrench", "solver", "coordinates", "instants", "actuators", "columns",
        "rows", "us", "us_low", "us_high"},
       {}};
   std::map<std::pair<std::string, Wrench>, std::vector<ReportCell>> sizes;
@@ -125,7 +125,7 @@ ReportSection cost_section(const std::vector<ResultRow>& rows) {
     auto& size = sizes[{cost.problem, cost.wrench}];
     if (size.empty()) size = sizes_of(cost);
     auto& line = table.rows.emplace_back(
-        std::vector<ReportCell>{cost.problem, cost.scheme, to_string(cost.wrench), cost.lp});
+        std::vector<ReportCell>{cost.problem, cost.scheme, to_string(cost.wrench), cost.solver});
     line.insert(line.end(), size.begin(), size.end());
     line.insert(line.end(), {static_cast<double>(cost.rows), cost.us, cost.us_low, cost.us_high});
   }
@@ -148,8 +148,8 @@ ReportSection integrator_section(const std::vector<ResultRow>& rows) {
       "without a reading count as never solved.",
       {},
       {}};
-  return contest_section(std::move(table), integrator_contests(rows), "integrator",
-                         "experiment_ms");
+  return benchmark_set_section(std::move(table), integrator_benchmark_sets(rows), "integrator",
+                               "experiment_ms");
 }
 
 ReportSection experiment_section(const std::vector<ResultRow>& rows) {
@@ -157,14 +157,14 @@ ReportSection experiment_section(const std::vector<ResultRow>& rows) {
                     "Experiments in the virtual tank",
                     "What the load cell reads of the default posture, which a task in time holds "
                     "throughout, beside what was planned.",
-                    {"problem", "wrench", "lp", "scheme", "integrator", "planned", "reading",
+                    {"problem", "wrench", "solver", "scheme", "integrator", "planned", "reading",
                      "unit", "experiment_ms", "evaluations", "reason"},
                     {}};
   for (const ResultRow& row : rows) {
     const Case& c = row.choice;
     if (!row.is_experiment()) continue;
-    table.rows.push_back({c.problem, to_string(c.wrench), c.lp, c.scheme, c.integrator,
-                          or_none(row.yardstick), or_none(row.beta), row.unit, or_none(row.ms()),
+    table.rows.push_back({c.problem, to_string(c.wrench), c.solver, c.scheme, c.integrator,
+                          or_none(row.beta_linf), or_none(row.beta), row.unit, or_none(row.ms()),
                           row.evaluations, row.reason});
   }
   return {table, {}};
@@ -175,11 +175,11 @@ ReportSection failure_section(const std::vector<ResultRow>& rows) {
                     "Failures",
                     "Rows without a value by their reason, the most frequent first; each of them "
                     "stands in the table of all rows.",
-                    {"rows", "status", "reason", "problem", "scheme", "lp", "integrator"},
+                    {"rows", "status", "reason", "problem", "scheme", "solver", "integrator"},
                     {}};
   for (const FailureSummary& each : summarise_failures(rows)) {
     table.rows.push_back({static_cast<double>(each.rows), each.status, each.reason, each.problem,
-                          each.scheme, each.lp, each.integrator});
+                          each.scheme, each.solver, each.integrator});
   }
   return {table, {}};
 }
@@ -204,7 +204,7 @@ ReportSection row_section(const std::vector<ResultRow>& rows) {
 }  // namespace
 
 std::vector<ReportCell> case_cells(const Case& c) {
-  return {c.problem,   c.measure,         to_string(c.wrench),           c.lp,
+  return {c.problem,   c.measure,         to_string(c.wrench),           c.solver,
           c.search,    seed_cell(c.seed), static_cast<double>(c.budget), c.scheme,
           c.integrator};
 }

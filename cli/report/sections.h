@@ -9,7 +9,7 @@ namespace maxwrench {
 
 struct Case;
 struct Comparison;
-struct Contest;
+struct BenchmarkSet;
 struct Results;
 
 /// One table of a report with the figures above it, as SVG.
@@ -31,10 +31,11 @@ ReportSection dictionary_section();
 
 /// The columns of a case.
 std::vector<ReportCell> case_cells(const Case& c);
-/// Fills a table that has its name, title and note with a line for each method of each contest;
-/// `method` and `cost` are the columns of its name and costs. Performance profiles, a figure for
-/// each contest: `performance_ratios` as shares of instances.
-ReportSection contest_section(ReportTable table, const std::vector<Contest>& contests,
-                              const std::string& method, const std::string& cost);
+/// Fills a table that has its name, title and note with a line for each method of each benchmark
+/// set; `method` and `cost` are the columns of its name and costs. Performance profiles, a figure
+/// for each benchmark set: `performance_ratios` as shares of instances.
+ReportSection benchmark_set_section(ReportTable table,
+                                    const std::vector<BenchmarkSet>& benchmark_sets,
+                                    const std::string& method, const std::string& cost);
 
 }  // namespace maxwrench

@@ -30,7 +30,8 @@ struct MotionTable {
 constexpr MotionTable kMotionTables[] = {
     {"uvms/valve_trajectory", "torque throughout a turn by 180 degrees in 5 s", "fixed",
      "optimised", 16, 19, "least"},
-    {"uvms/valve_impulse", "peak torque in a heave of 2.5 s", "static", "heave", 25, 35, "at t_h"},
+    {"uvms/valve_impulse", "peak torque in an impulse of 2.5 s", "static", "impulse", 25, 35,
+     "at t_h"},
 };
 
 constexpr double kWide = 0.5;  // m: bodies this far apart are not near each other
@@ -40,7 +41,7 @@ struct Moved {
   const Problem& problem;
   std::string name;
   Answer row;
-  PlanExperiment tank;
+  TrajectoryExperiment tank;
 
   double reading() const {
     const TankSummary& summary = tank.run.summary;
@@ -58,17 +59,18 @@ std::string in_column(double value, int width = 8, int digits = 2) {
 std::string rise(const Moved& moved, const MotionTask& other) {
   Problem problem = moved.problem;
   problem.motion = other;
-  const Plan plan = evaluate(problem, moved.row.plan.knots, {moved.row.choice}).plan;
-  const double risen = std::round(1000 * (plan.value - moved.row.plan.value)) / 1000;
+  const Trajectory trajectory =
+      evaluate(problem, moved.row.trajectory.knots, {moved.row.choice}).trajectory;
+  const double risen = std::round(1000 * (trajectory.value - moved.row.trajectory.value)) / 1000;
   return std::isfinite(risen) ? fmt::format("{:>+8.3f}", risen + 0.0)
                               : in_column(risen);  // no zero below zero
 }
 
 /// How much is left between the bodies of the robot at the knots, beyond their margin.
 std::string clearance(const Moved& moved) {
-  PlanEvaluator evaluator(moved.problem, Wrench::kPure, plan_solvers().front().make);
+  TrajectoryEvaluator evaluator(moved.problem, Wrench::kPure, trajectory_solvers().front().make);
   double least = kWide;
-  for (const NearPair& pair : evaluator.near_pairs(moved.row.plan.knots, kWide)) {
+  for (const NearPair& pair : evaluator.near_pairs(moved.row.trajectory.knots, kWide)) {
     least = std::min(least, pair.clearance);
   }
   return least < kWide ? fmt::format("{:>7.3f}", least + 0.0) : fmt::format("{:>7}", "far");
@@ -82,7 +84,7 @@ std::string limits_line(const Moved& moved) {
   return fmt::format("{:<9} {:<9} {} {} {}  {:<24} {}\n", to_string(moved.problem.motion->scheme),
                      moved.name, rise(moved, no_rates),
                      free_start.impulse ? rise(moved, free_start) : fmt::format("{:>8}", "-"),
-                     clearance(moved), fastest_joint(robot, moved.row.plan),
+                     clearance(moved), fastest_joint(robot, moved.row.trajectory),
                      dearest_efforts(moved.row));
 }
 
@@ -92,26 +94,26 @@ std::string tank_cells(const Moved& moved) {
   const TankSummary& summary = moved.tank.run.summary;
   const std::string asked = in_column((1 - script.margin) * script.planned);
   if (!moved.ran()) return fmt::format("{} {} {:>6} {:>4}", asked, in_column(NAN), "-", "-");
-  const char* held = summary.held ? "yes" : summary.drift < kLost ? "no" : "lost";
-  return fmt::format("{} {} {:>6.3f} {:>4}", asked, in_column(moved.reading()), summary.moved,
-                     held);
+  const char* held = summary.held ? "yes" : summary.theta_r_error < kLost ? "no" : "lost";
+  return fmt::format("{} {} {:>6.3f} {:>4}", asked, in_column(moved.reading()),
+                     summary.configuration_error, held);
 }
 
 /// `constant`: the row of the same scheme that the gain refers to.
 std::string value_line(const MotionTable& table, const Moved& moved, const Moved& constant) {
-  const Plan& plan = moved.row.plan;
+  const Trajectory& trajectory = moved.row.trajectory;
   const bool found = &moved != &constant;
   const bool both = moved.ran() && constant.ran();
   return fmt::format("{:<9} {:<9} {} {}   {}  {:>5.1f}  {} {} {:>6.2f}\n",
-                     to_string(moved.problem.motion->scheme), moved.name, in_column(plan.value),
-                     in_column(plan.continuous), tank_cells(moved),
-                     found ? table.tank_moving : table.tank_constant,
-                     in_column(plan.value / constant.row.plan.value, 6),
+                     to_string(moved.problem.motion->scheme), moved.name,
+                     in_column(trajectory.value), in_column(trajectory.value_between_knots),
+                     tank_cells(moved), found ? table.tank_moving : table.tank_constant,
+                     in_column(trajectory.value / constant.row.trajectory.value, 6),
                      in_column(both ? moved.reading() / constant.reading() : NAN, 7),
                      found ? table.tank_moving / table.tank_constant : 1);
 }
 
-/// The constant default and the plan that the search finds, each in the virtual tank.
+/// The constant default and the trajectory that the search finds, each in the virtual tank.
 std::vector<Moved> solve_scheme(RowWriter& writer, const MotionTable& table, const Problem& problem,
                                 const std::filesystem::path& folder, long budget) {
   const Case c{.budget = budget};
@@ -119,8 +121,9 @@ std::vector<Moved> solve_scheme(RowWriter& writer, const MotionTable& table, con
   const auto add = [&](const char* name, const Answer& row) {
     Moved& moved = rows.emplace_back(Moved{problem, name, row, {}});
     const ScriptOptions script{.interpolation = usual_interpolation(problem)};
-    moved.tank = simulate_plan(problem, row.plan, Wrench::kPure, find_plan_solver(row.choice.lp),
-                               script, "cvode", {});
+    moved.tank =
+        simulate_trajectory(problem, row.trajectory, Wrench::kPure,
+                            find_trajectory_solver(row.choice.solver), script, "cvode", {});
   };
   add(table.constant, writer.evaluate(problem, c, problem.theta_r_default));
   const Answer found = writer.solve(problem, c);
@@ -128,7 +131,7 @@ std::vector<Moved> solve_scheme(RowWriter& writer, const MotionTable& table, con
   add(table.moving, found);
   std::string file = fmt::format("{}_{}.csv", problem.name, to_string(problem.motion->scheme));
   std::replace(file.begin(), file.end(), '/', '_');
-  write_file(folder / "plans" / file, knots_csv(problem, found.plan.knots));
+  write_file(folder / "trajectories" / file, knots_csv(problem, found.trajectory.knots));
   return rows;
 }
 
@@ -146,11 +149,11 @@ void write_motion_figures(const MotionTable& table, const std::vector<Moved>& ro
     write_file(folder / (name + ".svg"), motion_figure(found.problem, curves));
   }
   write_file(folder / (name + "_postures.svg"),
-             plan_figure(found.problem, found.row.plan,
-                         telling_times(*found.problem.motion, found.row.plan)));
+             trajectory_figure(found.problem, found.row.trajectory,
+                               telling_times(*found.problem.motion, found.row.trajectory)));
 }
 
-/// Those of the table: for a heave without the one that ends at rest, which nobody has measured.
+/// Those of the table: for an impulse without the one that ends at rest, which nobody has measured.
 std::vector<std::string> schemes_of_table(const Problem& problem) {
   std::vector<std::string> schemes = scheme_names(problem.motion->impulse);
   std::erase(schemes, to_string(Scheme::kBackwardStop));
@@ -164,12 +167,12 @@ std::string motion_table(RowWriter& writer, const MotionTable& table,
       "{}: {}, {} ({})\n"
       "                                       ------ virtual tank ------   paper  ------- gain "
       "-------\n"
-      "scheme    plan         value  contin.      asked {:>8}  drift held   tank   value reading   "
+      "scheme    found by     value between      asked {:>8}  error held   tank   value reading   "
       "tank\n",
       problem.name, table.title, problem.unit(), problem.label, table.reading);
   std::string limits =
-      "  what limits the plan:\n"
-      "scheme    plan      no rates   start  clear.  fastest joint            efforts at their "
+      "  what limits the trajectory:\n"
+      "scheme    found by  no rates   start  clear.  fastest joint            efforts at their "
       "limits, the dearest first\n";
   for (const std::string& scheme : schemes_of_table(problem)) {
     set_scheme("scheme", scheme, problem);
@@ -178,7 +181,7 @@ std::string motion_table(RowWriter& writer, const MotionTable& table,
       text += value_line(table, row, rows.front());
       if (row.row.has_value()) limits += limits_line(row);
     }
-    if (rows.size() < 2) text += fmt::format("{:<9} no plan found\n", scheme);
+    if (rows.size() < 2) text += fmt::format("{:<9} no trajectory found\n", scheme);
     if (scheme == to_string(Scheme::kSpline)) write_motion_figures(table, rows, folder);
   }
   return text + limits;
@@ -193,26 +196,24 @@ PaperTable reproduce_motion(const std::filesystem::path& folder, int threads, lo
   }
   RowWriter writer("reproduce motion", folder, threads, rows);
   std::string text = fmt::format(
-      "The underwater vehicle along a path and in a heave. Values are those of a model of public\n"
-      "data, nothing is tuned to the tank; tank: measured in the paper. fixed, static: the "
-      "default\n"
-      "posture of the task held throughout, which is the best static one of uvms/valve; the\n"
-      "others: the best plan that search {} found with seed {} and at most {} evaluations, which\n"
-      "stands in plans/TASK_SCHEME.csv. contin.: the value on the spline through the knots, none\n"
-      "where no efforts follow it. The virtual tank is asked for {:g} % less than the plan is "
-      "worth\n"
-      "and joins its instants as the scheme does (spline: with the efforts of contin.); drift: of\n"
-      "all joints and the base from the plan, rad or m; held: the reading within {:g} % of the "
-      "plan\n"
-      "all along the path or at t_h, drift and limits kept; lost: drift ended the experiment.\n"
+      "The underwater vehicle along a path and in an impulse. Values are those of a model of\n"
+      "public data, nothing is tuned to the tank; tank: measured in the paper. fixed, static: the\n"
+      "default posture of the task throughout, which is the best static one of uvms/valve; the\n"
+      "others: the best trajectory that search {} found with seed {} and at most {} evaluations\n"
+      "(trajectories/TASK_SCHEME.csv). between: the value on the spline through the knots, none\n"
+      "where no efforts achieve it. The virtual tank is asked for {:g} % less than the value and\n"
+      "joins the instants as the scheme does (spline: with the efforts of between); error: of all\n"
+      "joints and the base from the trajectory, rad or m; held: the reading within {:g} % of the\n"
+      "trajectory all along the path or at t_h, error and limits kept; lost: the error ended the\n"
+      "experiment.\n"
       "gain: over the constant posture of the same scheme, of the value, of the virtual tank's\n"
       "reading, and of the paper's tank. no rates, start: by what the value at the same knots\n"
       "rises without limits of effort rates, and from any efforts at the start; clear.: least\n"
       "distance of bodies at knots beyond their margin, m; fastest joint: share of its speed "
       "limit\n"
       "at an instant.\n",
-      plan_searches().front().name, Case().seed, budget, 100 * TankOptions().margin,
-      100 * kFollowedShare);
+      trajectory_searches().front().name, Case().seed, budget, 100 * TankOptions().margin,
+      100 * kTrackedWrenchError);
   for (const MotionTable& table : kMotionTables) {
     text += "\n" + motion_table(writer, table, folder, budget);
   }

@@ -48,7 +48,7 @@ std::string planar_line(const Problem& problem, const PaperValue& value, const A
   return fmt::format(
       "{}  {:>6.2f}  {:>8.4f}  {:>8.4f}  {:>+8.2f} %  {:<7}  {:<15}  {:>11}   {:.1e}  {}\n",
       value.symbol, value.paper, row.capability.beta, bound,
-      100 * (row.capability.beta / value.paper - 1), row.choice.lp, row.choice.search,
+      100 * (row.capability.beta / value.paper - 1), row.choice.solver, row.choice.search,
       row.evaluations, row.capability.residual.gap, problem.label);
 }
 

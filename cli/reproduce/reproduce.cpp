@@ -19,7 +19,7 @@ struct ReproduceOptions : CommonOptions {
 int reproduce(const ReproduceOptions& options) {
   bool all_solved = true;
   const auto motion = [](const std::filesystem::path& folder, int threads) {
-    return reproduce_motion(folder, threads, kPlanBudget);
+    return reproduce_motion(folder, threads, kTrajectoryBudget);
   };
   for (PaperTable (*const table)(const std::filesystem::path&, int) :
        {reproduce_planar, reproduce_uvms, reproduce_dual, +motion}) {
@@ -53,7 +53,7 @@ void add_reproduce(CLI::App& app, int& exit_status) {
       *app.add_subcommand("reproduce", "the paper's tables and figures beside ours");
   command.add_option("--out", options->out, "folder of the results")
       ->capture_default_str()
-      ->check(refuse_empty);
+      ->check(reject_empty);
   options->add_threads(command);
   command.callback([options, &exit_status] { exit_status = reproduce(*options); });
 }

@@ -22,8 +22,8 @@ double proven_bound(const Answer& answer, int threads);
 PaperTable reproduce_planar(const std::filesystem::path& folder, int threads);
 PaperTable reproduce_uvms(const std::filesystem::path& folder, int threads);
 PaperTable reproduce_dual(const std::filesystem::path& folder, int threads);
-/// Each plan that was found becomes a table plans/TASK_SCHEME.csv of the folder. `budget` is that
-/// of each search.
+/// Each trajectory that was found becomes a table trajectories/TASK_SCHEME.csv of the folder.
+/// `budget` is that of each search.
 PaperTable reproduce_motion(const std::filesystem::path& folder, int threads, long budget);
 
 }  // namespace maxwrench

@@ -65,7 +65,7 @@ ConvergencePanel panel(const Comparison& comparison) {
 }
 
 long usual_budget(const Problem& problem, long budget) {
-  if (problem.motion) return kPlanBudget;
+  if (problem.motion) return kTrajectoryBudget;
   const bool whole = problem.redundancy() > kFewCoordinates && problem.dependent.empty();
   return whole ? budget : budget / kLesserShare;
 }
@@ -85,7 +85,7 @@ std::vector<Comparison> attempt_all(const CompareOptions& options,
     options.motion.change(problem);
     Case& c = cases.emplace_back(options.read_options());
     if (!options.names_budget) c.budget = usual_budget(problem, c.budget);
-    resolve(problem, c);  // refuses before anything is computed
+    resolve(problem, c);  // rejects before anything is computed
   }
   write_file(folder / "machine.txt", describe_machine());
   long total = 0;
@@ -115,7 +115,7 @@ bool finished(const CompareOptions& options, const std::vector<Comparison>& comp
          });
 }
 
-/// `kind` is "search" or "plan".
+/// `kind` is "search" or "trajectory".
 void draw(std::span<const Comparison> comparisons, const std::filesystem::path& folder,
           const std::string& kind) {
   const std::vector<std::string> named = leaders(standings(comparisons), kNamed);
@@ -175,7 +175,7 @@ int compare_all(const CompareOptions& options) {
     const std::string text = race_text(some, options.seeds, whole);
     fmt::print("{}", text);
     if (!whole) continue;
-    const char* kind = in_time ? "plan" : "search";
+    const char* kind = in_time ? "trajectory" : "search";
     write_file(folder / fmt::format("{}_comparison.txt", kind), text);
     draw(some, folder, kind);
   }
@@ -204,7 +204,7 @@ void add_compare(CLI::App& app, int& exit_status) {
       ->check(CLI::Range(1, 1000));
   command.add_option("--out", options->out, "folder of the results")
       ->capture_default_str()
-      ->check(refuse_empty);
+      ->check(reject_empty);
   command.callback([options, &command, &exit_status] {
     options->names_budget = command.count("--budget") > 0;
     if (options->problems.empty()) options->problems = static_problems();

@@ -82,7 +82,7 @@ int merge(const MergeOptions& options) {
   times.hold();
   add_times(options.folders, times);
   times.write();
-  take_over("plan.toml", options);
+  take_over("suite.toml", options);
   take_over("machine.txt", options);
   fmt::print("{} rows in {}\n", rows, table_file(fs::path(options.out) / "values.csv").string());
   return kAnswered;
@@ -96,7 +96,7 @@ void add_merge(CLI::App& app, int& exit_status) {
       *app.add_subcommand("merge", "one folder of rows from several, such as those of shards");
   command.add_option("out", options->out, "folder that they go to; what it holds stays")
       ->required()
-      ->check(refuse_empty);
+      ->check(reject_empty);
   command.add_option("folders", options->folders, "folders that `run` wrote")->required();
   command.callback([options, &exit_status] { exit_status = merge(*options); });
 }

@@ -56,12 +56,12 @@ std::string contender_line(const Comparison& comparison, const Contender& conten
   const bool marked = contender.search == comparison.default_search;
   std::string text = fmt::format(
       "{:<17}{:<10} {:>6} {:>3} of {:<3}{}  {:>7} {:>7} {:>7} {:>8}",
-      contender.search + (marked ? "*" : ""), contender.lp, contender.budget, reached(runs, target),
-      runs.size(), expected_cells(comparison, contender), brief(ms.low), brief(ms.median),
-      brief(ms.high),
+      contender.search + (marked ? "*" : ""), contender.solver, contender.budget,
+      reached(runs, target), runs.size(), expected_cells(comparison, contender), brief(ms.low),
+      brief(ms.median), brief(ms.high),
       number_or_dash(100 * shortfall(comparison, median_of(contender, &Attempt::value)), "{:.4f}"));
   if (comparison.in_time) {
-    const double continuous = median_of(contender, &Attempt::continuous);
+    const double continuous = median_of(contender, &Attempt::value_between_knots);
     text += fmt::format(" {:>10}", number_or_dash(continuous, "{:.4f}"));
   }
   const Contender* reference = comparison.reference();
@@ -126,7 +126,7 @@ std::vector<std::string> race_columns(const std::vector<std::string>& before, co
 void keep_attempt(const Comparison& comparison, const Attempt& each, const char* role,
                   Table& values, Table& times) {
   std::vector<std::string> cells = {number_cell(each.value, "{:.17g}"),
-                                    number_cell(each.continuous, "{:.17g}"),
+                                    number_cell(each.value_between_knots, "{:.17g}"),
                                     comparison.unit,
                                     number_cell(comparison.best(), "{:.17g}"),
                                     comparison.proven ? "yes" : "no",
@@ -177,7 +177,7 @@ std::string race_table(const Comparison& comparison) {
     const bool arrives = std::isfinite(reference->expected(comparison.target(), &Spent::seconds));
     text += arrives ? fmt::format("the plain way, the better of {} here: {} through {}\n",
                                   comparison.peers.size() == 1 ? "one peer" : "the peers",
-                                  reference->search, reference->lp)
+                                  reference->search, reference->solver)
                     : fmt::format("the plain way, {}, never gets there\n", reference->search);
   }
   text += fmt::format(
@@ -185,8 +185,8 @@ std::string race_table(const Comparison& comparison) {
       " ---- ms to 0.1 % ----   median{}{}\n"
       "{:<17}{:<10} budget to 0.1 %    10 %     1 %   0.1 %  0.01 %     10 %     1 %   0.1 %"
       "  0.01 %  quarter  median quarter  below %{}{}\n",
-      "", comparison.in_time ? "     median" : "", reference ? "  of the" : "", "search", "lp",
-      comparison.in_time ? " continuous" : "", reference ? "   plain" : "");
+      "", comparison.in_time ? "     median" : "", reference ? "  of the" : "", "search", "solver",
+      comparison.in_time ? "    between" : "", reference ? "   plain" : "");
   const std::vector<const Contender*> ranked = ranking(comparison);
   for (const Contender* contender : ranked) text += contender_line(comparison, *contender);
   for (const Contender& peer : comparison.peers) {
@@ -221,10 +221,11 @@ std::string summary_table(std::span<const Standing> rows, std::span<const Compar
 
 void keep(const Comparison& comparison, const std::filesystem::path& folder) {
   const std::size_t keys = case_columns().size();
-  Table values(folder / "search_comparison.csv",
-               race_columns({"beta", "continuous", "unit", "best_known", "proven", "below", "role"},
-                            "evaluations", {"evaluations"}),
-               keys);
+  Table values(
+      folder / "search_comparison.csv",
+      race_columns({"beta", "value_between_knots", "unit", "best_known", "proven", "below", "role"},
+                   "evaluations", {"evaluations"}),
+      keys);
   Table times(folder / "search_times.csv",
               race_columns({}, "seconds", {"seconds", "threads", "machine", "version"}), keys);
   drop_race(comparison, values);

@@ -48,7 +48,7 @@ Choice read_words(const std::vector<std::string>& words) {
       choice.problems.push_back(word);
     } else if (equals == std::string::npos) {
       throw std::invalid_argument(fmt::format(
-          "run: got '{}', expected column=value, a shipped problem, a task file or a plan", word));
+          "run: got '{}', expected column=value, a shipped problem, a task file or a suite", word));
     } else if (!choice.filter.emplace(word.substr(0, equals), word.substr(equals + 1)).second) {
       throw std::invalid_argument(fmt::format("run: got '{}', expected each column once", word));
     }
@@ -63,14 +63,14 @@ Choice read_words(const std::vector<std::string>& words) {
 std::uint64_t read_seed(const std::map<std::string, std::string>& filter) {
   const auto found = filter.find("seed");
   if (found == filter.end()) return Case().seed;
-  const std::string why = refuse_seed(found->second);
+  const std::string why = reject_seed(found->second);
   if (!why.empty()) throw std::invalid_argument("seed: " + why);
   return std::stoull(found->second);
 }
 
 long read_budget(const std::map<std::string, std::string>& filter, bool in_time) {
   const auto found = filter.find("budget");
-  if (found == filter.end()) return in_time ? kPlanBudget : kUsualBudget;
+  if (found == filter.end()) return in_time ? kTrajectoryBudget : kUsualBudget;
   std::size_t used = 0;
   long value = 0;
   try {
@@ -109,13 +109,13 @@ Workload choose(const Choice& choice) {
   return work;
 }
 
-/// A plan, which stands alone, or what the words choose.
+/// A suite, which stands alone, or what the words choose.
 Workload read_work(const std::vector<std::string>& words) {
   for (const std::string& word : words) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(word, ignored) || is_task(word)) continue;
-    if (words.size() == 1) return read_plan_file(word);
-    throw std::invalid_argument(fmt::format("run: got {} words beside '{}', expected a plan alone",
+    if (words.size() == 1) return read_suite_file(word);
+    throw std::invalid_argument(fmt::format("run: got {} words beside '{}', expected a suite alone",
                                             words.size() - 1, word));
   }
   return choose(read_words(words));
@@ -159,7 +159,7 @@ std::string command_of(const Case& c) {
   return fmt::format(
       "maxwrench {} {} --measure {} --wrench {}{}{}{}", experiment ? "simulate" : "solve",
       quoted_word(c.problem), c.measure, to_string(c.wrench),
-      c.lp == kNoSolver ? "" : " --lp " + c.lp,
+      c.solver == kNoSolver ? "" : " --solver " + c.solver,
       experiment ? " --integrator " + c.integrator
                  : fmt::format(" --search {} --seed {} --budget {}", c.search, c.seed, c.budget),
       c.scheme.empty() ? "" : " --scheme " + c.scheme);
@@ -217,12 +217,12 @@ void add_run(CLI::App& app, int& exit_status) {
       "run", "every meaningful combination of measure, wrench, scheme, solver, search");
   command.add_option(
       "words", options->words,
-      "a plan (TOML), or problems, shipped or task files (default: all static ones shipped), and "
+      "a suite (TOML), or problems, shipped or task files (default: all static ones shipped), and "
       "column=value: only these rows (seed and budget are set, not filtered)");
   command
       .add_option("--out", options->out, "folder of values.csv.gz, times.csv.gz and machine.txt")
       ->capture_default_str()
-      ->check(refuse_empty);
+      ->check(reject_empty);
   command.add_flag("--dry", options->dry, "only counts the rows and predicts the time");
   command.add_flag("--commands", options->commands, "only prints the command of each row");
   command.add_flag("--again", options->again, "rows that are there are computed again, too");

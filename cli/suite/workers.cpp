@@ -71,7 +71,7 @@ void solve_cases(const Workload& work, const std::vector<Case>& cases,
     if (named.insert(c.problem).second) prepare(work.problems.at(c.problem), threads);
   }
   RowWriter writer("run", folder, 1, seconds);
-  if (!work.plan.empty()) write_file(folder / "plan.toml", work.plan);
+  if (!work.suite.empty()) write_file(folder / "suite.toml", work.suite);
   Jobs jobs(std::move(all));
   parallel_for(threads, threads, [&](long) {
     try {

@@ -65,14 +65,15 @@ void print(const Robot& robot) {
 }
 
 /// The base pose and the dependent joints, at the default of theta_r.
-void print_what_follows(const Problem& problem) {
+void print_dependents(const Problem& problem) {
   PostureEvaluator model(problem);
   const Posture& posture = model.evaluate(problem.theta_r_default);
   Eigen::VectorXd q = posture.q;
-  if (problem.motion && !problem.dependent.empty()) {  // a plan begins on the guess's branch
-    DependentJoints branch(problem);
-    branch.follow(problem.theta_r_default);
-    q = branch.z().tail(q.size());
+  if (problem.motion &&
+      !problem.dependent.empty()) {  // a trajectory begins on the guess's IK solution
+    DependentJoints ik_solution(problem);
+    ik_solution.follow(problem.theta_r_default);
+    q = ik_solution.z().tail(q.size());
   }
   for (const int i : problem.dependent) {
     const Joint& joint = problem.robot.joints[i];
@@ -156,7 +157,7 @@ void print(const Problem& problem) {
   if (problem.motion) print(*problem.motion);
   if (problem.free.count() > 0) {
     fmt::print("  pose free along {}; c {}\n",
-               problem.free.along_tool ? "the end effector's axes" : "its own axes",
+               problem.free.along_end_effector ? "the end effector's axes" : "its own axes",
                problem.free.wrench_turns ? "turns with the end effector" : "stays in the world");
   }
   fmt::print("  wrench any: {} columns; reference {:g} {}, desired [{:g}]\n", problem.W_any.cols(),
@@ -166,7 +167,7 @@ void print(const Problem& problem) {
     fmt::print("  theta_r {:<17} {:g} .. {:g}, default {:g}\n", problem.theta_r_name(i),
                problem.theta_r_min[i], problem.theta_r_max[i], problem.theta_r_default[i]);
   }
-  print_what_follows(problem);
+  print_dependents(problem);
   if (problem.contact) print(problem.robot, *problem.contact);
   if (!problem.source.empty()) fmt::print("  source: {}\n", problem.source);
   print(problem.robot);

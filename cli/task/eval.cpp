@@ -21,12 +21,12 @@ struct EvalOptions : CommonOptions {
   MotionOptions motion;
 };
 
-/// Writes the program of the posture or plan, if there is one.
+/// Writes the program of the posture or trajectory, if there is one.
 void write_program(const EvalOptions& options, const Answer& answer) {
   const Problem& problem = *answer.task;
   if (answer.status == Status::kInvalidPosture) return;
   if (problem.motion) {
-    write_file(options.write, plan_program_mps(problem, answer.program));
+    write_file(options.write, trajectory_program_mps(problem, answer.program));
     return;
   }
   WrenchProgram program = make_wrench_program(problem, answer.choice.wrench);
@@ -70,19 +70,19 @@ int eval(const EvalOptions& options) {
 
 void add_eval(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<EvalOptions>();
-  CLI::App& command = *app.add_subcommand("eval", "the capability of one posture or plan");
+  CLI::App& command = *app.add_subcommand("eval", "the capability of one posture or trajectory");
   options->add_case(command);
   options->add_json(command);
   add_theta_r(command, options->theta_r);
   options->motion.add(command);
   command.add_option("--write", options->write, "the linear program, as an MPS file")
-      ->check(refuse_empty);
+      ->check(reject_empty);
   command.add_flag("--ignore-collision", options->ignore_collision,
-                   "evaluate a posture that collides too; of a plan, look for no collisions");
+                   "evaluate a posture that collides too; of a trajectory, look for no collisions");
   CLI::Option& state =
       *command.add_option("--state", options->state,
                           "M, tau_d and J at the motion in this file, instead of a capability");
-  for (const char* other : {"--theta-r", "--measure", "--wrench", "--lp", "--write",
+  for (const char* other : {"--theta-r", "--measure", "--wrench", "--solver", "--write",
                             "--ignore-collision", "--scheme", "--t-h"}) {
     state.excludes(command.get_option(other));
   }

@@ -40,11 +40,11 @@ int list() {
     }
   }
   print_table("measures", measures());
-  print_table("lower-level solvers (--lp)", wrench_solvers());
-  print_table("lower-level solvers of tasks in time (--lp)", plan_solvers());
+  print_table("lower-level solvers (--solver)", wrench_solvers());
+  print_table("lower-level solvers of tasks in time (--solver)", trajectory_solvers());
   print_table("searches", searches());
-  print_table("searches of plans: of tasks in time, and by linf_polytope of static ones",
-              plan_searches());
+  print_table("trajectory searches: of tasks in time, and by linf_polytope of static ones",
+              trajectory_searches());
   print_table("searches between facets: of static tasks by linf_polytope, few facets",
               facet_searches());
   print_table("integrators", integrators());

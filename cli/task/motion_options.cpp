@@ -14,21 +14,21 @@
 namespace maxwrench {
 namespace {
 
-[[noreturn]] void refuse_option(const char* option, const std::string& got,
-                                const std::string& expected) {
+[[noreturn]] void throw_bad_option(const char* option, const std::string& got,
+                                   const std::string& expected) {
   throw std::invalid_argument(fmt::format("{}: got '{}', expected {}", option, got, expected));
 }
 
 void change_peak(const Problem& problem, const std::string& text, MotionTask& task) {
   if (!task.impulse) {
-    refuse_option("--t-h", text, fmt::format("none for a {}: it has no peak", problem.type()));
+    throw_bad_option("--t-h", text, fmt::format("none for a {}: it has no peak", problem.type()));
   }
   int knot = 0;
   const char* end = text.data() + text.size();
   const auto read = std::from_chars(text.data(), end, knot);
   const bool whole = read.ec == std::errc() && read.ptr == end;
   if (text != "best" && !(whole && knot >= 1 && knot <= task.k)) {
-    refuse_option("--t-h", text, fmt::format("a knot of 1 to k = {}, or best", task.k));
+    throw_bad_option("--t-h", text, fmt::format("a knot of 1 to k = {}, or best", task.k));
   }
   task.t_h = knot;
 }
@@ -44,7 +44,7 @@ bool is_number(const std::string& text) {
 
 void MotionOptions::add(CLI::App& app) {
   app.add_option("--scheme", scheme, "how knots become motion, of a task in time");
-  app.add_option("--t-h", t_h, "the knot of a heave's peak, or best");
+  app.add_option("--t-h", t_h, "the knot of an impulse's peak, or best");
 }
 
 void MotionOptions::change(Problem& problem) const {
@@ -54,8 +54,8 @@ void MotionOptions::change(Problem& problem) const {
     return;
   }
   const std::string expected = fmt::format("none: {} is a static task", problem.name);
-  if (scheme) refuse_option("--scheme", *scheme, expected);
-  if (t_h) refuse_option("--t-h", *t_h, expected);
+  if (scheme) throw_bad_option("--scheme", *scheme, expected);
+  if (t_h) throw_bad_option("--t-h", *t_h, expected);
 }
 
 void add_theta_r(CLI::App& app, std::optional<std::string>& theta_r) {
@@ -70,15 +70,15 @@ Eigen::MatrixXd knots_of(const Problem& problem, const std::optional<std::string
   if (text && !numbers) return load_knots(*text, problem);
   const Eigen::VectorXd theta_r = theta_r_of(problem, text);
   if (theta_r.size() != problem.redundancy()) {
-    refuse_option("--theta-r", *text,
-                  fmt::format("{} numbers or a file of k = {} rows", problem.redundancy(),
-                              problem.motion->k));
+    throw_bad_option("--theta-r", *text,
+                     fmt::format("{} numbers or a file of k = {} rows", problem.redundancy(),
+                                 problem.motion->k));
   }
   return constant_knots(problem, theta_r);
 }
 
-std::vector<double> telling_times(const MotionTask& task, const Plan& plan) {
-  const int t_h = task.t_h > 0 ? task.t_h : plan.t_h;
+std::vector<double> telling_times(const MotionTask& task, const Trajectory& trajectory) {
+  const int t_h = task.t_h > 0 ? task.t_h : trajectory.t_h;
   const double middle = task.impulse && t_h > 0 ? task.T * t_h / task.k : task.T / 2;
   return {0, middle, task.T};
 }

@@ -9,7 +9,7 @@
 
 namespace maxwrench {
 
-struct Plan;
+struct Trajectory;
 
 /// Options of tasks in time.
 struct MotionOptions {
@@ -27,8 +27,8 @@ void add_theta_r(CLI::App& app, std::optional<std::string>& theta_r);
 /// constant default of the task.
 Eigen::MatrixXd knots_of(const Problem& problem, const std::optional<std::string>& text);
 
-/// When postures tell most [s]: at the start, in the middle (of a heave at its peak) and at the
+/// When postures tell most [s]: at the start, in the middle (of an impulse at its peak) and at the
 /// end.
-std::vector<double> telling_times(const MotionTask& task, const Plan& plan);
+std::vector<double> telling_times(const MotionTask& task, const Trajectory& trajectory);
 
 }  // namespace maxwrench

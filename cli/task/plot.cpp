@@ -33,15 +33,15 @@ std::optional<std::string> draw_static(const Problem& problem, const PlotOptions
   return figure(problem, {{problem.name, theta_r}});
 }
 
-/// The same of a plan: its start, its middle (of a heave the peak) and its end.
-std::optional<std::string> draw_plan(const Problem& problem, const PlotOptions& options) {
-  PlanEvaluator evaluator(problem, Wrench::kPure, plan_solvers().front().make);
-  const Plan& plan = evaluator.evaluate(knots_of(problem, options.theta_r));
-  if (plan.status == Status::kInvalidPosture) {
-    fmt::print(stderr, "{}: {}\n", to_string(plan.status), plan.reason.c_str());
+/// The same of a trajectory: its start, its middle (of an impulse the peak) and its end.
+std::optional<std::string> draw_trajectory(const Problem& problem, const PlotOptions& options) {
+  TrajectoryEvaluator evaluator(problem, Wrench::kPure, trajectory_solvers().front().make);
+  const Trajectory& trajectory = evaluator.evaluate(knots_of(problem, options.theta_r));
+  if (trajectory.status == Status::kInvalidPosture) {
+    fmt::print(stderr, "{}: {}\n", to_string(trajectory.status), trajectory.reason.c_str());
     return {};
   }
-  return plan_figure(problem, plan, telling_times(*problem.motion, plan));
+  return trajectory_figure(problem, trajectory, telling_times(*problem.motion, trajectory));
 }
 
 /// Status 1 if there is no such posture: another one in its place would mislead.
@@ -51,7 +51,7 @@ int plot(const PlotOptions& options) {
   Problem problem = load_problem(options.problem);
   options.motion.change(problem);
   const std::optional<std::string> drawn =
-      problem.motion ? draw_plan(problem, options) : draw_static(problem, options);
+      problem.motion ? draw_trajectory(problem, options) : draw_static(problem, options);
   if (!drawn) return kOtherStatus;
   const std::string& svg = *drawn;
   if (options.out.empty()) {
@@ -67,11 +67,11 @@ int plot(const PlotOptions& options) {
 void add_plot(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<PlotOptions>();
   CLI::App& command = *app.add_subcommand(
-      "plot", "draw a posture with its wrench sets, or the postures of a plan, as SVG");
+      "plot", "draw a posture with its wrench sets, or the postures of a trajectory, as SVG");
   command.add_option("problem", options->problem, "shipped name or task file")->required();
   add_theta_r(command, options->theta_r);
   options->motion.add(command);
-  command.add_option("--out", options->out, "file to write (default: stdout)")->check(refuse_empty);
+  command.add_option("--out", options->out, "file to write (default: stdout)")->check(reject_empty);
   command.callback([options, &exit_status] { exit_status = plot(*options); });
 }
 

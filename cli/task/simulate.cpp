@@ -36,10 +36,10 @@ void print_object(const Problem& problem, const SimulateOptions& options, const 
       {"low", s.low},
       {"high", s.high},
       {"across", std::vector<double>(s.across.begin(), s.across.end())},
-      {"drift", s.drift},
-      {"moved", s.moved},
+      {"theta_r_error", s.theta_r_error},
+      {"configuration_error", s.configuration_error},
       {"position_error", s.position_error},
-      {"displaced", s.displaced},
+      {"deflection_error", s.deflection_error},
       {"saturated", s.saturated},
       {"relaxed", s.relaxed},
       {"shortfall", s.shortfall},
@@ -56,7 +56,7 @@ void print_reading(const SimulateOptions& options, const TankSummary& s) {
   if (options.tank.load > 0) fmt::print("load        {:g} kg\n", options.tank.load);
   if (!std::isfinite(s.mean)) {
     fmt::print("reading     none, the {} before the hold\n",
-               std::isfinite(s.drift) ? "posture was lost" : "experiment ended");
+               std::isfinite(s.theta_r_error) ? "posture was lost" : "experiment ended");
     return;
   }
   fmt::print("{}     {:.5f}, between {:.5f} and {:.5f}\n",
@@ -72,14 +72,15 @@ void print_text(const Problem& problem, const SimulateOptions& options, const Ta
   fmt::print("{}  virtual tank  integrator {}\n", problem.name, options.integrator);
   fmt::print("planned     {:.5f} {}\n", s.planned, problem.unit());
   print_reading(options, s);
-  if (std::isfinite(s.drift)) {
-    fmt::print("drift       {:.2g} rad from theta_r, {:.2g} of all joints and the base\n", s.drift,
-               s.moved);
-    fmt::print("displaced   {:.2g} m or rad from where the end effector is held\n", s.displaced);
+  if (std::isfinite(s.theta_r_error)) {
+    fmt::print("error       {:.2g} rad of theta_r, {:.2g} of all joints and the base\n",
+               s.theta_r_error, s.configuration_error);
+    fmt::print("deflection  {:.2g} m or rad off the expected place of the end effector\n",
+               s.deflection_error);
   }
   if (std::isfinite(s.saturated)) {
     fmt::print(
-        "efforts     saturated {:.0f} %, request relaxed {:.0f} % of the hold, lack {:.2g}\n",
+        "efforts     saturated {:.0f} %, request relaxed {:.0f} % of the hold, shortfall {:.2g}\n",
         100 * s.saturated, 100 * s.relaxed, s.shortfall);
   }
   fmt::print("limits      left by {:.2g}\n", s.violation);
@@ -134,7 +135,7 @@ int simulate_static(const Problem& task, const SimulateOptions& options) {
   const TankRun run = simulate_answer(options, answer);
   if (!options.out.empty()) write_file(options.out, tank_csv(problem, run));
   (options.json ? print_object : print_text)(problem, options, run);
-  // Last: it refuses an experiment without samples, whose answer stands even so.
+  // Last: it rejects an experiment without samples, whose answer stands even so.
   if (!options.figure.empty()) {
     write_file(options.figure, tank_figure(problem, {{problem.name, &run}}));
   }
@@ -190,15 +191,15 @@ void add_imperfections(CLI::App& command, Imperfections& imperfections) {
       ->check(number(not_negative, "a number >= 0"));
   command.add_option("--seed", imperfections.seed, "of the noise")
       ->capture_default_str()
-      ->check(refuse_seed);
+      ->check(reject_seed);
 }
 
 /// Of what is carried out.
-void add_plan_options(CLI::App& command, SimulateOptions& options) {
+void add_trajectory_options(CLI::App& command, SimulateOptions& options) {
   add_theta_r(command, options.theta_r);
   options.motion.add(command);
   command.add_option("--interpolation", options.interpolation,
-                     "what joins the instants of a plan: linear or spline");
+                     "what joins the instants of a trajectory: linear or spline");
 }
 
 void add_times(CLI::App& command, TankOptions& tank) {
@@ -227,15 +228,15 @@ void add_simulate(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<SimulateOptions>();
   CLI::App& command = *app.add_subcommand(
       "simulate",
-      "the experiment on the simulated robot: ramp, hold, ramp, or a plan of a task in time");
+      "the experiment on the simulated robot: ramp, hold, ramp, or a trajectory of a task in time");
   options->command = &command;
   options->add_case(command);
   options->add_json(command);
-  add_plan_options(command, *options);
+  add_trajectory_options(command, *options);
   CLI::Option* planned =
       command
           .add_option("--planned", options->planned,
-                      "wrench along c (default: the capability, or what the plan is worth)")
+                      "wrench along c (default: the capability, or what the trajectory is worth)")
           ->check(number(positive, "a number > 0"));
   CLI::Option* load = command
                           .add_option("--load", options->tank.load,

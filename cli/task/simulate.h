@@ -12,7 +12,7 @@ namespace maxwrench {
 struct SimulateOptions : CommonOptions {
   std::optional<std::string> theta_r, interpolation;
   std::string out, figure, integrator = "cvode";
-  double planned = 0;  ///< zero: the capability, or what the plan is worth
+  double planned = 0;  ///< zero: the capability, or what the trajectory is worth
   bool heaviest = false;
   MotionOptions motion;
   TankOptions tank;

@@ -17,9 +17,9 @@
 namespace maxwrench {
 namespace {
 
-/// The plan, and its experiment.
-struct MotionAnswer : PlanExperiment {
-  Plan plan;
+/// The trajectory, and its experiment.
+struct MotionAnswer : TrajectoryExperiment {
+  Trajectory trajectory;
 };
 
 void require_motion_options(const Problem& problem, const SimulateOptions& options) {
@@ -45,17 +45,20 @@ Interpolation interpolation_of(const Problem& problem, const SimulateOptions& op
 
 MotionAnswer answer_of(const Problem& problem, const SimulateOptions& options) {
   const Wrench wrench = options.read_options().wrench;
-  const PlanSolverEntry& lp =
-      options.choice.lp.empty() ? plan_solvers().front() : find_plan_solver(options.choice.lp);
+  const TrajectorySolverEntry& lp = options.choice.solver.empty()
+                                        ? trajectory_solvers().front()
+                                        : find_trajectory_solver(options.choice.solver);
   ScriptOptions script;
   script.interpolation = interpolation_of(problem, options);
   script.planned = options.planned;
   script.margin = options.tank.margin;
-  PlanEvaluator evaluator(problem, wrench, lp.make);
+  TrajectoryEvaluator evaluator(problem, wrench, lp.make);
   evaluator.evaluate(knots_of(problem, options.theta_r));
-  if (evaluator.plan().status == Status::kOptimal) evaluator.evaluate_continuous();
-  const Plan& plan = evaluator.plan();
-  return {simulate_plan(problem, plan, wrench, lp, script, options.integrator, options.tank), plan};
+  if (evaluator.trajectory().status == Status::kOptimal) evaluator.evaluate_between_knots();
+  const Trajectory& trajectory = evaluator.trajectory();
+  return {simulate_trajectory(problem, trajectory, wrench, lp, script, options.integrator,
+                              options.tank),
+          trajectory};
 }
 
 /// What was measured; null where nothing was.
@@ -66,10 +69,12 @@ void add_measured(const TankRun& run, nlohmann::ordered_json& object) {
   for (const auto& [key, value] :
        {std::pair("mean", s.mean), std::pair("low", s.low), std::pair("t_low", m.t_low),
         std::pair("high", s.high), std::pair("t_high", m.t_high), std::pair("at_t_h", m.at_peak),
-        std::pair("deviation", m.deviation), std::pair("stray_force", m.stray_force),
-        std::pair("stray_torque", m.stray_torque), std::pair("drift", s.drift),
-        std::pair("moved", s.moved), std::pair("position_error", s.position_error),
-        std::pair("displaced", s.displaced), std::pair("saturated", s.saturated),
+        std::pair("deviation", m.deviation), std::pair("off_axis_force", m.off_axis_force),
+        std::pair("off_axis_torque", m.off_axis_torque),
+        std::pair("theta_r_error", s.theta_r_error),
+        std::pair("configuration_error", s.configuration_error),
+        std::pair("position_error", s.position_error),
+        std::pair("deflection_error", s.deflection_error), std::pair("saturated", s.saturated),
         std::pair("relaxed", s.relaxed), std::pair("shortfall", s.shortfall),
         std::pair("violation", s.violation), std::pair("speed", m.speed)}) {
     object[key] = ran ? value : std::nan("");
@@ -90,8 +95,8 @@ void print_motion_object(const Problem& problem, const SimulateOptions& options,
                                    {"scheme", to_string(problem.motion->scheme)},
                                    {"interpolation", to_string(answer.script.interpolation)},
                                    {"wrench", to_string(answer.script.wrench)},
-                                   {"value", answer.plan.value},
-                                   {"continuous", answer.plan.continuous},
+                                   {"value", answer.trajectory.value},
+                                   {"value_between_knots", answer.trajectory.value_between_knots},
                                    {"planned", answer.script.planned},
                                    {"asked", (1 - answer.script.margin) * answer.script.planned},
                                    {"slack", answer.script.slack},
@@ -113,12 +118,14 @@ void print_motion_reading(const MotionAnswer& answer) {
                m.t_low, s.high, m.t_high);
   }
   fmt::print("deviation   {:.3g} along c, {:.2g} N and {:.2g} N m across\n", m.deviation,
-             m.stray_force, m.stray_torque);
-  fmt::print("drift       {:.2g} rad from theta_r, {:.2g} of all joints and the base\n", s.drift,
-             s.moved);
-  fmt::print("displaced   {:.2g} m or rad from where the end effector is held\n", s.displaced);
-  fmt::print("efforts     saturated {:.0f} %, request relaxed {:.0f} % of the time, lack {:.2g}\n",
-             100 * s.saturated, 100 * s.relaxed, s.shortfall);
+             m.off_axis_force, m.off_axis_torque);
+  fmt::print("error       {:.2g} rad of theta_r, {:.2g} of all joints and the base\n",
+             s.theta_r_error, s.configuration_error);
+  fmt::print("deflection  {:.2g} m or rad off the expected place of the end effector\n",
+             s.deflection_error);
+  fmt::print(
+      "efforts     saturated {:.0f} %, request relaxed {:.0f} % of the time, shortfall {:.2g}\n",
+      100 * s.saturated, 100 * s.relaxed, s.shortfall);
   fmt::print("limits      left by {:.2g}, those of joint speeds by {:.2g}; {} of {} samples\n",
              s.violation, m.speed, m.violations, answer.run.samples.size());
 }
@@ -129,11 +136,11 @@ void print_motion_text(const Problem& problem, const SimulateOptions& options,
   fmt::print("{}  virtual tank  integrator {}  scheme {}  interpolation {}\n", problem.name,
              options.integrator, to_string(problem.motion->scheme),
              to_string(answer.script.interpolation));
-  if (std::isfinite(answer.plan.value)) {
-    fmt::print("plan        value {:.5f}, continuous {}\n", answer.plan.value,
-               std::isfinite(answer.plan.continuous)
-                   ? fmt::format("{:.5f} {}", answer.plan.continuous, problem.unit())
-                   : "none: " + answer.plan.continuous_reason.str());
+  if (std::isfinite(answer.trajectory.value)) {
+    fmt::print("trajectory  value {:.5f}, between knots {}\n", answer.trajectory.value,
+               std::isfinite(answer.trajectory.value_between_knots)
+                   ? fmt::format("{:.5f} {}", answer.trajectory.value_between_knots, problem.unit())
+                   : "none: " + answer.trajectory.between_knots_reason.str());
   }
   if (std::isfinite(answer.script.planned)) {
     fmt::print("planned     {:.5f} {}\n", answer.script.planned, problem.unit());
@@ -151,7 +158,7 @@ int simulate_motion(const Problem& problem, const SimulateOptions& options) {
     write_file(options.out, tank_csv(problem, answer.run));
   }
   (options.json ? print_motion_object : print_motion_text)(problem, options, answer);
-  // Last: it refuses an experiment without samples, whose answer stands even so.
+  // Last: it rejects an experiment without samples, whose answer stands even so.
   if (!options.figure.empty() && answer.script.status == Status::kOptimal) {
     write_file(options.figure, motion_figure(problem, {{problem.name, &answer.run}}));
   }

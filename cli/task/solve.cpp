@@ -28,7 +28,7 @@ int solve(const SolveOptions& options, const Problem& problem) {
   const Answer answer = solve(problem, how);
   progress.finish();
   if (!options.out.empty() && answer.has_posture()) {
-    write_file(options.out, knots_csv(problem, answer.plan.knots));
+    write_file(options.out, knots_csv(problem, answer.trajectory.knots));
   }
   return report(answer, options.json);
 }
@@ -38,14 +38,14 @@ int solve(const SolveOptions& options, const Problem& problem) {
 void add_solve(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<SolveOptions>();
   CLI::App& command =
-      *app.add_subcommand("solve", "search the posture or plan with the largest capability");
+      *app.add_subcommand("solve", "search the posture or trajectory with the largest capability");
   options->add_case(command);
   options->add_search(command);
   options->motion.add(command);
   options->add_threads(command);
   options->add_json(command);
   command.add_option("--out", options->out, "table of theta_r to write, as a CSV file")
-      ->check(refuse_empty);
+      ->check(reject_empty);
   command.callback([options, &exit_status] {
     Problem problem = load_problem(options->choice.problem);
     options->motion.change(problem);

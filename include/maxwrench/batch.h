@@ -86,8 +86,8 @@ double evaluate_one(Objective& objective, const Eigen::VectorXd& theta_r,
                     Eigen::VectorXd* gradient = nullptr);
 
 /// Throws std::invalid_argument, with one line, unless budget and threads are at least 1, threads
-/// at most `kMostThreads`, `peaks` is not negative, and start and starts are finite points of the
-/// objective's size, starts with a value.
+/// at most `kMostThreads`, `starts_wanted` is not negative, and start and starts are finite points
+/// of the objective's size, starts with a value.
 void check(const SearchOptions& options, const Objective& objective);
 
 }  // namespace maxwrench

@@ -73,6 +73,6 @@ int stacked_rank(const Robot& robot, int end_effector, const Contact& contact);
 /// In how many independent ways the joints that follow move the second end effector, as far as the
 /// contact fixes it: the largest rank of J_f (3 or 6)×d over all postures. With fewer than d the
 /// contact leaves them free.
-int following_rank(const Robot& robot, const Contact& contact);
+int dependent_rank(const Robot& robot, const Contact& contact);
 
 }  // namespace maxwrench

@@ -8,7 +8,7 @@
 
 namespace maxwrench {
 
-struct Plan;
+struct Trajectory;
 struct Problem;
 
 /// One posture of a figure.
@@ -28,7 +28,7 @@ std::string figure(const Problem& problem, const std::vector<Panel>& panels);
 /// The postures alone, from two sides, as SVG. Titles as above.
 std::string posture_figure(const Problem& problem, const std::vector<Panel>& panels);
 
-/// One curve of c'h_e over time with the plan dashed.
+/// One curve of c'h_e over time with the trajectory dashed.
 struct TankCurve {
   std::string name;
   const TankRun* run;
@@ -37,14 +37,15 @@ struct TankCurve {
 /// without samples, or with readings that are not finite.
 std::string tank_figure(const Problem& problem, const std::vector<TankCurve>& curves);
 
-/// Runs of a task in time as SVG, all over time: the angle of the end effector (not of a heave,
-/// where it rests), the readings along c and the plans, and of each run the thruster forces with
-/// their limits and theta_r. Throws as `tank_figure`.
+/// Runs of a task in time as SVG, all over time: the angle of the end effector (not of an impulse,
+/// where it rests), the readings along c and the trajectories, and of each run the thruster forces
+/// with their limits and theta_r. Throws as `tank_figure`.
 std::string motion_figure(const Problem& problem, const std::vector<TankCurve>& curves);
 
-/// The robot at the instants of a plan that are next to `times` [s], from two sides, as SVG; titles
-/// say how far the end effector has turned, or when it is. The plan has instants, as one that is no
-/// invalid posture.
-std::string plan_figure(const Problem& problem, const Plan& plan, const std::vector<double>& times);
+/// The robot at the instants of a trajectory that are next to `times` [s], from two sides, as SVG;
+/// titles say how far the end effector has turned, or when it is. The trajectory has instants, as
+/// one that is no invalid posture.
+std::string trajectory_figure(const Problem& problem, const Trajectory& trajectory,
+                              const std::vector<double>& times);
 
 }  // namespace maxwrench

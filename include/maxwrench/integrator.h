@@ -53,7 +53,7 @@ struct IntegratorOptions {
 void check(const IntegratorOptions& options);
 
 /// The points y[i] = y(t[i]) that an integration has passed.
-struct Trajectory : Verdict {
+struct OdeSolution : Verdict {
   std::vector<double> t;
   std::vector<Eigen::VectorXd> y;
   int root = -1;  ///< the component of g that ended the integration at the last point, or -1
@@ -73,7 +73,7 @@ class Integrator {
   /// After these two the last point is the last one that was reached. Throws std::invalid_argument
   /// unless the times increase and are at least two, and as `check`.
   virtual Status integrate(Ode& ode, const IntegratorOptions& options,
-                           std::span<const double> times, Trajectory& trajectory) = 0;
+                           std::span<const double> times, OdeSolution& trajectory) = 0;
 };
 
 }  // namespace maxwrench

@@ -22,7 +22,7 @@ Problem load_problem(const std::string& name);
 bool is_task(const std::filesystem::path& file);
 
 /// The tasks in a folder and below it by path, without their ending, sorted. A broken file counts:
-/// it is refused when it is loaded.
+/// it is rejected when it is loaded.
 std::vector<std::string> tasks_in(const std::filesystem::path& folder);
 
 /// The folder of the shipped problems: the environment variable MAXWRENCH_PROBLEMS, else
@@ -34,9 +34,9 @@ std::filesystem::path problems_folder();
 /// The names of the problems in that folder, sorted.
 std::vector<std::string> shipped_problems();
 
-/// Reads knots of theta_r from CSV: k rows of r numbers [rad or m], without knot 0 of a heave; one
-/// row for a static problem. A first line with the names of the coordinates may stand before them.
-/// Errors as `load_robot`; limits are not looked at.
+/// Reads knots of theta_r from CSV: k rows of r numbers [rad or m], without knot 0 of an impulse;
+/// one row for a static problem. A first line with the names of the coordinates may stand before
+/// them. Errors as `load_robot`; limits are not looked at.
 Eigen::MatrixXd load_knots(const std::filesystem::path& file, const Problem& problem);
 
 /// Knots k×r as such a table, each number with all its digits.

@@ -48,9 +48,9 @@ MpsProgram read_mps(const std::string& path);
 /// where it is along an axis, w_c where it is along c).
 std::string wrench_program_mps(const Problem& problem, const WrenchProgram& program);
 
-/// The same of a plan program: names end with the number of the instant, counted from 0, such as
-/// base_x.3. Besides, `t`; a row and a column `above_t` for each t <= c_w'w, and `rate.NAME` from
-/// instant to instant.
-std::string plan_program_mps(const Problem& problem, const PlanProgram& program);
+/// The same of a trajectory program: names end with the number of the instant, counted from 0, such
+/// as base_x.3. Besides, `t`; a row and a column `above_t` for each t <= c_w'w, and `rate.NAME`
+/// from instant to instant.
+std::string trajectory_program_mps(const Problem& problem, const TrajectoryProgram& program);
 
 }  // namespace maxwrench

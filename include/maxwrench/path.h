@@ -59,15 +59,15 @@ class Path {
 };
 
 /// How knots of theta_r become motion at instants. `ends` serves paths only, `backward` and
-/// `backward_stop` heaves only.
+/// `backward_stop` impulses only.
 enum class Scheme { kForward, kEnds, kSpline, kBackward, kBackwardStop };
 const char* to_string(Scheme scheme);
 /// By its name, such as "backward_stop". Throws std::invalid_argument that names all.
 Scheme parse_scheme(const std::string& name);
-/// The names of those that serve a heave, or a path.
+/// The names of those that serve an impulse, or a path.
 std::vector<std::string> scheme_names(bool impulse);
 
-/// What a heave begins with: efforts u_0 and a wrench w_0 >= 0 along c at theta_0.
+/// What an impulse begins with: efforts u_0 and a wrench w_0 >= 0 along c at theta_0.
 enum class Start {
   kStatic,  ///< in balance, w_0 at most the static capability
   kRest,    ///< in balance, w_0 = 0
@@ -79,19 +79,19 @@ const char* to_string(Start start);
 Start parse_start(const std::string& name);
 
 /// A task in time: a wrench along a path ("Wrench Maximisation over a Trajectory"), or a peak
-/// wrench in a heave at a pose ("Maximum Wrench Impulse").
+/// wrench in an impulse at a pose ("Maximum Wrench Impulse").
 struct MotionTask {
   bool impulse = false;
-  Path path = Path::constant({}, 1);  ///< of a heave: at rest
+  Path path = Path::constant({}, 1);  ///< of an impulse: at rest
   std::string path_file;              ///< of its poses, if it was read from one
   double T = 1;                       ///< s
-  int k = 1;                          ///< knots of theta_r, without knot 0 of a heave
+  int k = 1;                          ///< knots of theta_r, without knot 0 of an impulse
   Scheme scheme = Scheme::kSpline;
-  int instants_per_interval = 4;  ///< of `spline`; 16 in a heave
+  int instants_per_interval = 4;  ///< of `spline`; 16 in an impulse
   bool rates = true;              ///< limits of the rates of efforts hold
   /// c and W_any turn with the end effector; those of the problem hold at the start.
   bool c_turns = false;
-  // Of a heave.
+  // Of an impulse.
   int t_h = 0;  ///< the knot of the peak, 1 .. k; 0: the best one
   Start start = Start::kStatic;
   Eigen::VectorXd theta_0;  ///< r

@@ -15,7 +15,7 @@ struct Problem;
 
 /// What became of the postures that reach the pose, and the second contact, at one theta_r or in
 /// sum over several: one for each solution of the inverse kinematics of what follows from theta_r.
-struct BranchCounts {
+struct IkCounts {
   long unreachable = 0;   ///< how many theta_r have none
   long most = 0;          ///< how many one theta_r has at most
   long found = 0;         ///< all of them
@@ -30,8 +30,8 @@ struct BranchCounts {
 /// how often the lower level ended without a verdict that the data confirm.
 class Tally {
  public:
-  void add(const BranchCounts& counts);
-  BranchCounts sum() const;
+  void add(const IkCounts& counts);
+  IkCounts sum() const;
   void add_undecided() { ++undecided_; }
   long undecided() const { return undecided_; }
 
@@ -68,7 +68,7 @@ struct Posture : Verdict {
   Matrix6Xd J_2;          ///< 6×n, as J: the twist of the second end effector at the contact point
   Matrix6Xd C_2;          ///< 6×l, basis of its wrenches in world axes
   Pose<double> contact;   ///< the contact frame in the world
-  BranchCounts branches;  ///< the postures at this theta_r, of which this is one
+  IkCounts ik_solutions;  ///< the postures at this theta_r, of which this is one
   Eigen::VectorXd tau_d;  ///< n [N, N m], what the actuators must exert at rest without contact
 };
 
@@ -93,8 +93,8 @@ class PostureEvaluator {
   /// How many valid postures the last theta_r has: one for each solution of the inverse kinematics
   /// of dependent joints and of the second arm, at most one without either. `select` turns to one
   /// of them.
-  int branches() const;
-  const Posture& select(int branch);
+  int ik_solutions() const;
+  const Posture& select(int ik_solution);
 
   /// gradient_k = tau_seed' d tau_d/d theta_r_k + <J_seed, d J/d theta_r_k>, exact, by reverse
   /// accumulation; of wrenches that turn, d (R'J) R for d J, R the `turn`: what a value depends on.
@@ -102,8 +102,8 @@ class PostureEvaluator {
   void pull_back(const Eigen::VectorXd& theta_r, const Eigen::VectorXd& tau_seed,
                  const Matrix6Xd& J_seed, Eigen::VectorXd& gradient);
 
-  /// The gradient of beta from its seeds. With a second contact, on the branch of the posture: its
-  /// joints q_2 follow by the implicit function theorem. With S_k the twist of the second end
+  /// The gradient of beta from its seeds. With a second contact, on the IK solution of the posture:
+  /// its joints q_2 follow by the implicit function theorem. With S_k the twist of the second end
   /// effector at the contact point along joint k and t_i that of the contact frame along s_i,
   ///
   ///     J_f dq_2 = sum_i t_i ds_i - sum_k S_k dq_k,

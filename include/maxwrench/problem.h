@@ -11,7 +11,7 @@
 
 namespace maxwrench {
 
-class BranchAtlas;
+class IkStartSystem;
 
 /// What a static task leaves free of the end effector's pose: with X_0 = `Problem::pose` and the
 /// coordinates s, those that are not free zero,
@@ -23,7 +23,7 @@ class BranchAtlas;
 /// X_0, whose distance it keeps.
 struct FreePose {
   std::vector<int> axes;  ///< of s, in increasing order: numbers of kTwistAxes [m; rad]
-  bool along_tool = false;
+  bool along_end_effector = false;
   /// c and the other wrenches turn with the end effector, from where they are at X_0.
   bool wrench_turns = false;
   int count() const { return static_cast<int>(axes.size()); }
@@ -59,12 +59,13 @@ struct Problem {
   /// closed form.
   std::vector<int> dependent;
   /// A posture near one at theta_r_default, if there are dependent joints: all joints, and [x, y,
-  /// z, yaw] of the base. A task in time begins on its branch; of a static one all branches count.
+  /// z, yaw] of the base. A task in time begins on its IK solution; of a static one all IK
+  /// solutions count.
   Eigen::VectorXd guess_q;
   Eigen::Vector4d guess_base = Eigen::Vector4d::Zero();
-  /// What finds all branches, shared by those that evaluate postures; null, or of another robot,
-  /// task or limits: each of them makes its own, which takes some hundredths of a second.
-  std::shared_ptr<const BranchAtlas> atlas;
+  /// What finds all IK solutions, shared by those that evaluate postures; null, or of another
+  /// robot, task or limits: each of them makes its own, which takes some hundredths of a second.
+  std::shared_ptr<const IkStartSystem> start_system;
   /// What a second end effector does, if there is one. Only the first is scored.
   std::optional<Contact> contact;
   /// theta_r: the joints that are free while the end effector keeps its pose, then the coordinates
@@ -94,7 +95,7 @@ Problem held_at(const Problem& problem, const Eigen::VectorXd& theta_r);
 /// Those coordinates of theta_r.
 Eigen::VectorXd held_theta_r(const Problem& problem, const Eigen::VectorXd& theta_r);
 
-/// Fills `atlas` of a problem with dependent joints.
-void prepare_branches(Problem& problem);
+/// Fills `start_system` of a problem with dependent joints.
+void prepare_ik_solutions(Problem& problem);
 
 }  // namespace maxwrench

@@ -74,14 +74,14 @@ struct EndEffector {
 
 /// A convex body on a link, for pictures: all points within `radius` of the hull of `points`, in
 /// link axes.
-struct Solid {
+struct ConvexBody {
   int link = 0;
   std::vector<Eigen::Vector3d> points;  ///< m
   double radius = 0;                    ///< m
 };
 
 /// How near two bodies on different links are.
-struct Nearness {
+struct ClosestPoints {
   /// m, what is left of the distance beyond the margin; negative: collision. It grows no deeper
   /// where the points fall together.
   double clearance = 0;
@@ -91,15 +91,15 @@ struct Nearness {
 };
 
 /// A box (or a segment, or a point) on a link.
-struct Core {
+struct InscribedBox {
   int link = 0;
   Pose<double> placement;                                ///< link -> box, centred at its origin
   Eigen::Vector3d half_sizes = Eigen::Vector3d::Zero();  ///< m
 };
 
 /// Two bodies collide wherever their cores are closer than `reach` [m].
-struct CorePair {
-  Core a, b;
+struct InscribedBoxPair {
+  InscribedBox a, b;
   double reach = 0;
 };
 
@@ -113,11 +113,11 @@ class CollisionChecker {
   virtual int pairs() const = 0;
   /// How near a pair is; false if only a test is known of it.
   virtual bool nearest(const std::vector<Pose<double>>& links, int pair,
-                       Nearness& result) const = 0;
+                       ClosestPoints& result) const = 0;
   /// The links of the URDF that a pair is about, such as "forearm and base".
   virtual std::string pair_name(int pair) const = 0;
   /// Where a pair is sure to collide; false if nothing is known of that.
-  virtual bool cores(int /*pair*/, CorePair& /*result*/) const { return false; }
+  virtual bool inscribed_boxes(int /*pair*/, InscribedBoxPair& /*result*/) const { return false; }
 };
 
 /// A tree of links on a base, with its actuators and limits. Const after loading and shared between
@@ -143,7 +143,7 @@ struct Robot {
   Zonotope actuation;                                 ///< n×m
   Eigen::VectorXd u_rate_max;                         ///< m, per second; infinite for joints
   std::shared_ptr<const CollisionChecker> collision;  ///< null: nothing to check
-  std::vector<Solid> solids;                          ///< its shapes
+  std::vector<ConvexBody> convex_bodies;              ///< its shapes
 
   /// n: free base axes, then joints.
   int velocities() const { return static_cast<int>(base_axes.size() + joints.size()); }

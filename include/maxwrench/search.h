@@ -29,7 +29,8 @@ struct SearchOptions {
   /// What an earlier search has found, best first, each with a value: a search that goes on begins
   /// there, and only then where it would begin by itself.
   std::vector<Candidate> starts;
-  long peaks = 0;  ///< how many points the result shall hold, at most, for a search that goes on
+  long starts_wanted =
+      0;  ///< how many points the result shall hold, at most, for a search that goes on
   // From any thread; each may be empty.
   std::function<void(long evaluations)> progress = {};  ///< called now and then
   /// Asked before each evaluation. Once it says true, the search makes no more and returns the best
@@ -46,7 +47,7 @@ struct Improvement {
   double value = -kInfinity;
 };
 
-/// One run of a method, such as one climb of "slsqp" that ended with "xtol_reached".
+/// One run of a method, such as one local search of "slsqp" that ended with "xtol_reached".
 struct Call {
   std::string method;  ///< the search's name
   std::string status;  ///< the word of the library; "budget" where its evaluations ran out
@@ -64,7 +65,7 @@ struct SearchResult : Verdict {
   /// if they took turns, one evaluation each, so the history is the same at any thread count.
   std::vector<Improvement> history;
   /// Points for a search that goes on, best first and apart from each other.
-  std::vector<Candidate> peaks;
+  std::vector<Candidate> starts;
   std::vector<Call> calls;  ///< of a method that runs more than once, or in a library; in order
   /// Why the search ended with evaluations left; empty if it does not say.
   std::string stopped;

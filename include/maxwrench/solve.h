@@ -22,9 +22,9 @@ struct Case {
   Wrench wrench = Wrench::kPure;
   /// Of the lower level. Empty: the first solver that serves the task and the wrench. "none": the
   /// measure is a closed form.
-  std::string lp = "";
+  std::string solver = "";
   /// A method alone, or stages joined by '+'. Empty: `default_search`, which a static task without
-  /// a budget restarts until more is pointless; of a posture or plan that is given, none.
+  /// a budget restarts until more is pointless; of a posture or trajectory that is given, none.
   std::string search = "";
   std::uint64_t seed = 1;
   /// Evaluations of the search, never exceeded. 0: `kUsualBudget`, of a restarted search
@@ -32,7 +32,7 @@ struct Case {
   long budget = 0;
   /// Of a task in time: how knots become motion. Empty: as the task says.
   std::string scheme = "";
-  /// Of the virtual tank, which tries the default posture or plan. Empty: no experiment.
+  /// Of the virtual tank, which tries the default posture or trajectory. Empty: no experiment.
   std::string integrator = "";
 };
 
@@ -64,8 +64,8 @@ struct CallCount {
   long calls = 0, evaluations = 0;
 };
 
-/// What a posture or a plan is worth, with everything that is known there. A static task is a task
-/// in time of one instant: its plan has one knot.
+/// What a posture or a trajectory is worth, with everything that is known there. A static task is a
+/// task in time of one instant: its trajectory has one knot.
 ///
 /// The status is kOptimal (of `evaluate`: the lower level is solved, and verified from the data of
 /// the task), kBestFound (of `solve`), kBudgetExhausted (of an interrupted `solve`, which may have
@@ -77,35 +77,35 @@ struct Answer : Verdict {
   bool collision = true;                ///< whether collisions were looked for
   /// Knots k×r, instants, value, gradient k×r. Of a static task the value is beta, and `solution`
   /// is empty.
-  Plan plan;
+  Trajectory trajectory;
   /// Of a static task: the posture, and what the measure says there with h, u, lambda.
   Posture posture;
   Capability capability;
   /// Of a static task: beta of linf_polytope at the posture with the same wrenches, which makes the
   /// postures of different measures comparable [N or N m]. Of an experiment: what was planned. NaN:
   /// none.
-  double yardstick = std::numeric_limits<double>::quiet_NaN();
+  double beta_linf = std::numeric_limits<double>::quiet_NaN();
   /// Of a task in time: the least distance of two bodies, between knots too, and the program whose
   /// optimum is the value. It refers to `task`.
   std::optional<Clearance> clearance;
-  PlanProgram program;
+  TrajectoryProgram program;
   /// Of an experiment: why the wrench was not held. Empty: it was.
   std::string missed;
   long evaluations = 0;
   std::vector<CallCount> calls;  ///< of the methods of the search
   std::string stopped;           ///< why the search ended
-  /// Of a static task, over all evaluations but those of searches of plans: how many ended without
-  /// a verdict that the data confirm, and what became of the postures.
+  /// Of a static task, over all evaluations but those of trajectory searches: how many ended
+  /// without a verdict that the data confirm, and what became of the postures.
   long undecided = 0;
-  BranchCounts branches;
-  double wall_s = 0;  ///< without the yardstick
+  IkCounts ik_solutions;
+  double wall_s = 0;  ///< without the beta_linf
 
-  bool has_posture() const { return plan.knots.rows() > 0; }
+  bool has_posture() const { return trajectory.knots.rows() > 0; }
   /// An interrupted search may have one, too.
   bool has_value() const;
   /// Whether it is what was asked for: optimal, best found, or carried out.
   bool answered() const;
-  double beta() const { return plan.value; }
+  double beta() const { return trajectory.value; }
   /// Recomputed from the data of the task.
   const Residual& residual() const;
 };
@@ -127,11 +127,11 @@ const char* general_search();
 /// another size or is not finite, a name does not exist, or the choice has no meaning.
 Answer evaluate(const Problem& task, const Eigen::MatrixXd& theta_r, const Options& options = {});
 
-/// The best posture or plan that a search finds, evaluated anew. The same at any thread count.
-/// Throws as `evaluate`.
+/// The best posture or trajectory that a search finds, evaluated anew. The same at any thread
+/// count. Throws as `evaluate`.
 Answer solve(const Problem& task, const Options& options = {});
 
-/// The default posture or plan in the virtual tank, by `Case::integrator`: kReached with the
+/// The default posture or trajectory in the virtual tank, by `Case::integrator`: kReached with the
 /// reading as value, whether or not the wrench was held; kNoneFound if the posture was lost. Throws
 /// as `evaluate`.
 Answer experiment(const Problem& task, const Options& options);

@@ -25,7 +25,7 @@ struct MeasureEntry {
   const char* name;
   const char* summary;
   bool needs_solver;
-  bool serves_any;   ///< false: refuses Wrench::kAny, which would mean nothing
+  bool serves_any;   ///< false: rejects Wrench::kAny, which would mean nothing
   const char* unit;  ///< of its value; null: that of the wrench along c
   std::unique_ptr<Measure> (*make)(const Problem&, std::unique_ptr<WrenchSolver>);
 };
@@ -40,40 +40,41 @@ struct LpEntry {
   std::unique_ptr<LpSolver> (*make)();
 };
 
-/// A lower-level solver, the `--lp` of the command line: one that knows the structure, or a general
-/// one on the assembled program.
+/// A lower-level solver, the `--solver` of the command line: one that knows the structure, or a
+/// general one on the assembled program.
 struct WrenchSolverEntry {
   const char* name;
   const char* summary;
-  bool one_column_only;  ///< true: refuses Wrench::kAny and second contacts
-  bool needs_facets;     ///< true: refuses actuators with too many facets to enumerate
+  bool one_column_only;  ///< true: rejects Wrench::kAny and second contacts
+  bool needs_facets;     ///< true: rejects actuators with too many facets to enumerate
   int cost;              ///< as LpEntry
   std::function<std::unique_ptr<WrenchSolver>()> make;
 };
 
-/// A solver of the programs of plans: one that knows the structure, or a general one on the
+/// A solver of the programs of trajectories: one that knows the structure, or a general one on the
 /// assembled program.
-struct PlanSolverEntry {
+struct TrajectorySolverEntry {
   const char* name;
   const char* summary;
-  std::function<std::unique_ptr<PlanSolver>()> make;
+  std::function<std::unique_ptr<TrajectorySolver>()> make;
 };
 
 /// One method alone.
 struct SearchEntry {
   const char* name;
   const char* summary;
-  bool local;  ///< true: climbs from one posture, and finds no better maximum elsewhere
+  bool local;  ///< true: local searches from one posture, and finds no better maximum elsewhere
   std::unique_ptr<Search> (*make)();
   /// Whether it begins where an earlier search has been (`SearchOptions::starts`), so that it can
   /// be a later stage.
-  bool goes_on = false;
+  bool accepts_starts = false;
   /// Of the budget, as a stage that others follow; 0: one part for each stage that is left.
-  double share = 0;
+  double budget_fraction = 0;
   /// About how much dearer an evaluation is with it than with others; the race's budgets are
   /// divided by it.
   int cost = 1;
-  /// Of tasks in time: `solve` lets it maximise `PlanValue::kThroughout`, which it asks for seldom.
+  /// Of tasks in time: `solve` lets it maximise `TrajectoryValue::kThroughout`, which it asks for
+  /// seldom.
   bool throughout = false;
 };
 
@@ -85,15 +86,15 @@ struct IntegratorEntry {
 };
 
 /// The tables: every strategy that exists, once. The wrench solvers begin with those that know the
-/// structure, the LP solvers follow; so do the plan solvers.
+/// structure, the LP solvers follow; so do the trajectory solvers.
 std::span<const MeasureEntry> measures();
 std::span<const LpEntry> lp_solvers();
 std::span<const WrenchSolverEntry> wrench_solvers();
-std::span<const PlanSolverEntry> plan_solvers();
+std::span<const TrajectorySolverEntry> trajectory_solvers();
 std::span<const SearchEntry> searches();
-/// Searches of plans alone: of tasks in time, and of static ones by linf_polytope, which are plans
-/// of one knot. Those of postures serve stacked knots too.
-std::span<const SearchEntry> plan_searches();
+/// Searches of trajectories alone: of tasks in time, and of static ones by linf_polytope, which are
+/// trajectories of one knot. Those of postures serve stacked knots too.
+std::span<const SearchEntry> trajectory_searches();
 /// Searches of static tasks by linf_polytope, of robots whose actuators have few facets.
 std::span<const SearchEntry> facet_searches();
 std::span<const IntegratorEntry> integrators();
@@ -117,7 +118,7 @@ bool one_at_a_time(std::string_view name);
 const MeasureEntry& find_measure(std::string_view name);
 const LpEntry& find_lp_solver(std::string_view name);
 const WrenchSolverEntry& find_wrench_solver(std::string_view name);
-const PlanSolverEntry& find_plan_solver(std::string_view name);
+const TrajectorySolverEntry& find_trajectory_solver(std::string_view name);
 /// A method of any table, or stages joined by '+'. Also throws if a later stage cannot go on.
 inline constexpr std::string_view kRestarted = "restart:";
 NamedSearch find_search(std::string_view name);

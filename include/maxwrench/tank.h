@@ -12,9 +12,9 @@
 
 namespace maxwrench {
 
-class PlanSolver;
+class TrajectorySolver;
 struct Instant;
-struct Plan;
+struct Trajectory;
 struct Posture;
 struct Problem;
 
@@ -44,7 +44,7 @@ struct TankOptions {
   /// 1/thruster_lag.
   double bandwidth = 2;
   /// Share of the planned wrench that is not asked for, so that efforts are left to hold the
-  /// posture: a quarter of kHeldShare.
+  /// posture: a quarter of kHeldWrenchError.
   double margin = 0.005;
   /// kg. Positive: nothing holds the end effector, which carries this point mass. It displaces no
   /// water.
@@ -62,7 +62,7 @@ struct TankOptions {
 void check(const TankOptions& options);
 
 /// What the robot is to exert.
-struct TankPlan {
+struct TargetWrench {
   Vector6d h;                     ///< [N; N m] in world axes; with a load its weight
   Eigen::VectorXd u;              ///< m, efforts to stay close to at the full share
   Wrench wrench = Wrench::kPure;  ///< kAny: the cell may take any of W_any across c
@@ -71,32 +71,34 @@ struct TankPlan {
 /// One instant, at the end of a control period or where the integrator gave up within one.
 struct TankSample {
   double t = 0;          ///< s
-  double planned = 0;    ///< c'h of the plan [N, N m]
+  double planned = 0;    ///< c'h of the trajectory [N, N m]
   double reading = 0;    ///< c'h_e
   Vector6d h_e;          ///< the cell's reading, or what carries and accelerates the load
   Eigen::VectorXd u;     ///< m, efforts before the imperfections
   double shortfall = 0;  ///< see EffortAnswer
   bool saturated = false, relaxed = false;
-  double drift = 0;           ///< max |theta_r - its reference| [rad, m]
-  double moved = 0;           ///< the same of all joints, and of the base [rad, m]
-  double position_error = 0;  ///< of the end effector [m]
-  double displaced = 0;       ///< likewise [m, rad], from where the plan bends the cell to
-  double violation = 0;       ///< how far efforts or rates leave their limits [N, N m, N/s]
+  double theta_r_error = 0;        ///< max |theta_r - its reference| [rad, m]
+  double configuration_error = 0;  ///< the same of all joints, and of the base [rad, m]
+  double position_error = 0;       ///< of the end effector [m]
+  double deflection_error = 0;  ///< likewise [m, rad], from where the trajectory bends the cell to
+  double violation = 0;         ///< how far efforts or rates leave their limits [N, N m, N/s]
   // Of a task in time only.
-  double stray_force = 0, stray_torque = 0;  ///< of h_e across c, from the plan [N, N m]
-  double speed = 0;         ///< how far joints are beyond their speed limits [rad/s, m/s]
-  double angle = 0;         ///< that the end effector has turned by [rad]
-  Eigen::VectorXd theta_r;  ///< r
+  double off_axis_force = 0,
+         off_axis_torque = 0;  ///< of h_e across c, from the trajectory [N, N m]
+  double speed = 0;            ///< how far joints are beyond their speed limits [rad/s, m/s]
+  double angle = 0;            ///< that the end effector has turned by [rad]
+  Eigen::VectorXd theta_r;     ///< r
 };
 
 /// What a task in time was like; times are those of samples [s].
 struct MotionSummary {
-  double t_low = 0, t_high = 0;              ///< of the lowest and the highest reading
-  double at_peak = 0;                        ///< of a heave: the reading at t_h; else NaN
-  double deviation = 0;                      ///< largest of the reading from the plan [N, N m]
-  double stray_force = 0, stray_torque = 0;  ///< largest across c from the plan, if not free
-  double speed = 0;                          ///< largest of the samples [rad/s, m/s]
-  int violations = 0;                        ///< samples beyond a limit of effort, rate or speed
+  double t_low = 0, t_high = 0;  ///< of the lowest and the highest reading
+  double at_peak = 0;            ///< of an impulse: the reading at t_h; else NaN
+  double deviation = 0;          ///< largest of the reading from the trajectory [N, N m]
+  double off_axis_force = 0,
+         off_axis_torque = 0;  ///< largest across c from the trajectory, if not free
+  double speed = 0;            ///< largest of the samples [rad/s, m/s]
+  int violations = 0;          ///< samples beyond a limit of effort, rate or speed
 };
 
 /// What the hold was like; NaN where there was no hold. If the posture was lost, how far it is from
@@ -105,13 +107,13 @@ struct TankSummary {
   double planned = 0;                  ///< c'h [N, N m]
   double mean = 0, low = 0, high = 0;  ///< c'h_e
   Vector6d across;                     ///< mean of h_e less its part along c [N; N m]
-  double drift = 0, moved = 0;         ///< largest [rad, m]
-  double position_error = 0;           ///< largest [m]
-  double displaced = 0;                ///< largest [m, rad]
-  double violation = 0;                ///< largest of the whole experiment
-  double saturated = 0, relaxed = 0;   ///< shares of the periods
-  double shortfall = 0;                ///< mean [N, N m]
-  bool lost = false;                   ///< it ended there, see kLost
+  double theta_r_error = 0, configuration_error = 0;  ///< largest [rad, m]
+  double position_error = 0;                          ///< largest [m]
+  double deflection_error = 0;                        ///< largest [m, rad]
+  double violation = 0;                               ///< largest of the whole experiment
+  double saturated = 0, relaxed = 0;                  ///< shares of the periods
+  double shortfall = 0;                               ///< mean [N, N m]
+  bool lost = false;                                  ///< it ended there, see kLost
   bool held = false;
   std::string missed;                   ///< why not, each value with what is allowed
   std::optional<MotionSummary> motion;  ///< of a task in time, whose hold is all of it
@@ -126,15 +128,15 @@ struct TankRun : Verdict {
   double model_s = 0, controller_s = 0, qp_s = 0, total_s = 0;
 };
 
-/// Held is a wrench whose mean over the hold is this close to the plan, along c and, unless the
-/// task leaves them to the environment, in all components across c, while the whole posture stays
-/// this close to its reference, the end effector this close to where the plan bends the cell to,
-/// and efforts and rates within their limits. Of a load the wrench is what carries and accelerates
-/// it: what falls is not held.
-inline constexpr double kHeldShare = 0.02;      ///< of the planned c'h
-inline constexpr double kHeldDrift = 0.01;      ///< rad, m: 0.6 degrees
-inline constexpr double kHeldPosition = 0.01;   ///< m, rad
-inline constexpr double kHeldViolation = 1e-3;  ///< N, N m, N/s: of what the integrator leaves
+/// Held is a wrench whose mean over the hold is this close to the trajectory, along c and, unless
+/// the task leaves them to the environment, in all components across c, while the whole posture
+/// stays this close to its reference, the end effector this close to where the trajectory bends the
+/// cell to, and efforts and rates within their limits. Of a load the wrench is what carries and
+/// accelerates it: what falls is not held.
+inline constexpr double kHeldWrenchError = 0.02;  ///< of the planned c'h
+inline constexpr double kHeldThetaRError = 0.01;  ///< rad, m: 0.6 degrees
+inline constexpr double kHeldPosition = 0.01;     ///< m, rad
+inline constexpr double kHeldViolation = 1e-3;    ///< N, N m, N/s: of what the integrator leaves
 /// m: beside a planned force a torque counts as the force at this lever, about the size of a hand,
 /// and beside a planned torque a force as the torque that it has there.
 inline constexpr double kHeldLever = 0.1;
@@ -142,48 +144,49 @@ inline constexpr double kHeldLever = 0.1;
 inline constexpr double kLost = 0.5;
 
 /// The experiment at `posture`: a share s of the wrench grows from zero to one in the ramp, stays,
-/// and shrinks. Efforts follow the plan u* = (1 - s) u_0 + s u, u_0 those at rest, by the tracking
-/// program (see EffortTracker) for
+/// and shrinks. Efforts follow the trajectory u* = (1 - s) u_0 + s u, u_0 those at rest, by the
+/// tracking program (see EffortTracker) for
 ///
 ///     tau_c = C v + D v + g + s J'h + M a,   a = A_r (omega^2 e_r - 2 omega theta_r_dot)
 ///
 /// where e_r are the errors of theta_r and omega the bandwidth; what A_r accelerates leaves the end
-/// effector alone, so the reading is that of the plan. With kAny the rows of the balance are those
-/// combinations in which the wrenches across c have no part.
+/// effector alone, so the reading is that of the trajectory. With kAny the rows of the balance are
+/// those combinations in which the wrenches across c have no part.
 ///
 /// A load is part of the robot's mass matrix and weight from the start; what holds it up lets go in
 /// the ramp. Then a = omega^2 e - 2 omega v acts on all velocities, e the errors of base and
 /// joints. Throws as `check`.
-TankRun run_tank(const Problem& problem, const Posture& posture, const TankPlan& plan,
+TankRun run_tank(const Problem& problem, const Posture& posture, const TargetWrench& trajectory,
                  Integrator& integrator, const TankOptions& options);
 
-/// What joins the instants of a plan.
+/// What joins the instants of a trajectory.
 enum class Interpolation {
   kLinear,  ///< the scheme's own instants; theta_r and efforts are linear in between, as in the
             ///< paper
-  kSpline   ///< the clamped spline through the knots, with efforts at the instants of `continuous`
+  kSpline   ///< the clamped spline through the knots, with efforts at the instants of
+            ///< `value_between_knots`
 };
 const char* to_string(Interpolation interpolation);
 /// By its name. Throws std::invalid_argument that names both.
 Interpolation parse_interpolation(const std::string& name);
 
-/// What the tank carries out: a plan joined in time. Not all of a plan: a wrench is asked for that
-/// is smaller by the margin, and the efforts are those that the lower level finds for it. Its use
-/// needs maxwrench/trajectory.h.
+/// What the tank carries out: a trajectory joined in time. Not all of a trajectory: a wrench is
+/// asked for that is smaller by the margin, and the efforts are those that the lower level finds
+/// for it. Its use needs maxwrench/trajectory.h.
 struct TankScript : Verdict {
   Path path = Path::constant({}, 1);  ///< of what holds the end effector
   std::vector<Instant> instants;      ///< t from 0 to T; u and h as asked for
   Interpolation interpolation = Interpolation::kSpline;
   Wrench wrench = Wrench::kPure;
-  double planned = 0;                                     ///< along c, of a heave at t_h [N, N m]
-  double margin = 0;                                      ///< share of it that is not asked for
-  double t_h = std::numeric_limits<double>::quiet_NaN();  ///< s, of a heave
+  double planned = 0;  ///< along c, of an impulse at t_h [N, N m]
+  double margin = 0;   ///< share of it that is not asked for
+  double t_h = std::numeric_limits<double>::quiet_NaN();  ///< s, of an impulse
   double slack = 0;  ///< largest of the balance of the efforts [N, N m]: 0 if they reach it
 };
 
 struct ScriptOptions {
   Interpolation interpolation = Interpolation::kSpline;
-  double planned = 0;     ///< zero: value, or `continuous` on the spline
+  double planned = 0;     ///< zero: value, or `value_between_knots` on the spline
   double margin = 0.005;  ///< as in TankOptions
 };
 /// Throws std::invalid_argument unless `planned` is finite and not negative and the margin is from
@@ -191,22 +194,22 @@ struct ScriptOptions {
 void check(const ScriptOptions& options);
 
 /// Efforts for exactly the wrench that is asked for: along a path c'h = (1 - margin) planned at all
-/// instants, in a heave at t_h, by the elastic program of the plan,
+/// instants, in an impulse at t_h, by the elastic program of the trajectory,
 ///
 ///     B u_i - J_i'h_i (+ s_i) = tau_d,i,   u_min <= u_i <= u_max,   |u_i+1 - u_i| <= du_max dt.
 ///
-/// `plan` was evaluated, on the spline as well. Knots of `forward` along a path are T/(k-1) apart
-/// here as their poses are; one knot is held where the path starts. kInfeasible: the plan has no
-/// value to ask for, and none was given. Throws as `check`.
-TankScript make_script(const Problem& problem, const Plan& plan, Wrench wrench, PlanSolver& solver,
-                       const ScriptOptions& options);
+/// `trajectory` was evaluated, on the spline as well. Knots of `forward` along a path are T/(k-1)
+/// apart here as their poses are; one knot is held where the path starts. kInfeasible: the
+/// trajectory has no value to ask for, and none was given. Throws as `check`.
+TankScript make_script(const Problem& problem, const Trajectory& trajectory, Wrench wrench,
+                       TrajectorySolver& solver, const ScriptOptions& options);
 
-/// As held counts a reading in time that is this close to the plan, all along a path or at t_h,
-/// while the whole posture stays this close to its reference, no sample is beyond a limit of
-/// effort, rate or joint speed, and the end effector is as close as in a hold to where the plan
-/// bends the cell to.
-inline constexpr double kFollowedShare = 0.03;  ///< of the planned c'h
-inline constexpr double kFollowedMoved = 0.02;  ///< rad, m: twice that of a hold
+/// As held counts a reading in time that is this close to the trajectory, all along a path or at
+/// t_h, while the whole posture stays this close to its reference, no sample is beyond a limit of
+/// effort, rate or joint speed, and the end effector is as close as in a hold to where the
+/// trajectory bends the cell to.
+inline constexpr double kTrackedWrenchError = 0.03;         ///< of the planned c'h
+inline constexpr double kTrackedConfigurationError = 0.02;  ///< rad, m: twice that of a hold
 
 /// The experiment along a script, of its duration. What holds the end effector moves along the path
 /// and reads the wrench, in axes that turn with it and are those of the world at the start. At the

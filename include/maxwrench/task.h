@@ -37,8 +37,8 @@ struct Collision {
 };
 
 /// Checks a robot and derives what follows from it: `actuation`, `u_rate_max`, `collision` and
-/// `solids`, whatever they were. The caller fills the other members; directions and axes may have
-/// any length but zero. Throws std::invalid_argument.
+/// `convex_bodies`, whatever they were. The caller fills the other members; directions and axes may
+/// have any length but zero. Throws std::invalid_argument.
 Robot finalize(Robot robot, const Collision& collision = {});
 
 /// What a second end effector does (the table `[contact]` of a file).
@@ -76,30 +76,30 @@ struct TaskSpec {
   /// free. Along the end effector's own axes, or those of `pose`.
   std::vector<std::string> free = {};
   std::map<std::string, std::array<double, 2>> range = {};
-  bool along_tool = false;
+  bool along_end_effector = false;
   Vector6d c = Vector6d::Zero();  ///< [force; torque], of any length but zero
   /// c, `any` and `desired` are in the axes of the end effector and turn with it; else the world's.
-  bool wrench_in_tool = false;
+  bool wrench_in_end_effector = false;
   /// What wrenches `Wrench::kAny` allows, by names in kWrenchAxes; none: all that do work.
   std::optional<std::vector<std::string>> any = {};
   double reference = 1;                     ///< as in `Problem`
   std::optional<Vector6d> desired = {};     ///< as in `Problem`
   std::optional<ContactSpec> contact = {};  ///< of static tasks
-  /// Of a task in time. T follows from the path; a heave gives T and its path is constant. c_turns
-  /// follows from `wrench_in_tool`.
+  /// Of a task in time. T follows from the path; an impulse gives T and its path is constant.
+  /// c_turns follows from `wrench_in_end_effector`.
   std::optional<MotionTask> motion = {};
   /// The redundant joints, where others than the base follow; else all of the chain.
   std::optional<std::vector<std::string>> joints = {};
   /// Of the redundant joints [rad or m]; empty: zero within the limits, or where the pose is
-  /// reached. Of a heave it is `MotionTask::theta_0`.
+  /// reached. Of an impulse it is `MotionTask::theta_0`.
   Eigen::VectorXd theta_r_default = {};
-  /// A posture near one at the default, which names the branch: dependent joints by name, and free
-  /// base axes by theirs. Empty: a branch is found.
+  /// A posture near one at the default, which names the IK solution: dependent joints by name, and
+  /// free base axes by theirs. Empty: an IK solution is found.
   std::map<std::string, double> guess = {}, guess_base = {};
 };
 
-/// Checks a task and derives the rest: dependent joints and their branches, the limits of theta_r
-/// and a default, W_any, the contact's basis and rank. Throws std::invalid_argument.
+/// Checks a task and derives the rest: dependent joints and their IK solutions, the limits of
+/// theta_r and a default, W_any, the contact's basis and rank. Throws std::invalid_argument.
 Problem make_problem(const TaskSpec& spec);
 
 }  // namespace maxwrench

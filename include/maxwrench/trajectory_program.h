@@ -21,11 +21,11 @@ namespace maxwrench {
 ///
 /// A bordered program has variables y (p) beside: + G_i y in the balance, y_min <= y <= y_max and
 /// r_min <= R y <= r_max, for searches that move the postures in the same linear program.
-struct PlanProgram {
+struct TrajectoryProgram {
   std::vector<WrenchProgram> instants;   ///< all with the same actuation
   Eigen::VectorXd first_min, first_max;  ///< m
   Eigen::MatrixXd du_max;                ///< m×(N-1), infinite where there is no limit
-  int peak = -1;                         ///< of a heave; -1: max-min
+  int peak = -1;                         ///< of an impulse; -1: max-min
   double rho = kInfinity;                ///< per N and N m; infinite: no slack
   int first_elastic = 0;
 
@@ -40,7 +40,7 @@ struct PlanProgram {
 };
 
 /// The answer, its storage and its warm start.
-struct PlanSolution : Verdict {
+struct TrajectorySolution : Verdict {
   double value = 0;                ///< t, without the price of the slack
   double price = 0;                ///< rho sum |s_i|_1
   Eigen::MatrixXd u;               ///< m×N
@@ -61,31 +61,32 @@ struct PlanSolution : Verdict {
 
 /// Whether there is an instant, all sizes agree, and all numbers are finite but for limits, which
 /// may be infinite on their own side, and rho.
-bool well_formed(const PlanProgram& program);
+bool well_formed(const TrajectoryProgram& program);
 
-/// Solves plan programs. Not shared between threads.
-class PlanSolver {
+/// Solves trajectory programs. Not shared between threads.
+class TrajectorySolver {
  public:
-  virtual ~PlanSolver() = default;
+  virtual ~TrajectorySolver() = default;
   /// Of a program that is not `well_formed` the status is kNumericalError, from any solver.
-  void solve(const PlanProgram& program, PlanSolution& solution);
+  void solve(const TrajectoryProgram& program, TrajectorySolution& solution);
 
  private:
-  virtual void solve_well_formed(const PlanProgram& program, PlanSolution& solution) = 0;
+  virtual void solve_well_formed(const TrajectoryProgram& program,
+                                 TrajectorySolution& solution) = 0;
 };
 
 /// The same program for general solvers; `update` rewrites the numbers of one that `assemble` made
-/// for the same shape and allocates nothing. `read` takes a plan solution from its answer.
-LinearProgram assemble(const PlanProgram& program);
-void update(const PlanProgram& program, LinearProgram& assembled);
-void read(const PlanProgram& program, const LpSolution& answer, PlanSolution& solution);
+/// for the same shape and allocates nothing. `read` takes a trajectory solution from its answer.
+LinearProgram assemble(const TrajectoryProgram& program);
+void update(const TrajectoryProgram& program, LinearProgram& assembled);
+void read(const TrajectoryProgram& program, const LpSolution& answer, TrajectorySolution& solution);
 
 /// Recomputed from the data: balance max |B u_i - (J'W)_i w_i + s_i + G_i y - tau_d,i|; bounds of
 /// u, w, y, rates, R y and of t <= c_w,i'w_i; dual, on what has no limits, |lambda| beyond rho, and
 /// |1 - sum pi|; gap, dual objective less (value - price). What cannot be computed is infinite.
-Residual recheck(const PlanProgram& program, const PlanSolution& solution);
+Residual recheck(const TrajectoryProgram& program, const TrajectorySolution& solution);
 
 /// Whether lambda, mu and nu prove that the program has no answer, as `verified` judges it.
-bool proves_infeasible(const PlanProgram& program, const PlanSolution& solution);
+bool proves_infeasible(const TrajectoryProgram& program, const TrajectorySolution& solution);
 
 }  // namespace maxwrench

@@ -6,7 +6,7 @@ namespace maxwrench {
 
 /// What the streams of one seed are for. Uses do not share streams, and neither do seeds: nothing
 /// is derived from a seed but by naming a use.
-enum class RandomUse : std::uint64_t { kRefine, kSample, kClimb, kKick, kRestart };
+enum class RandomUse : std::uint64_t { kRefine, kSample, kLocalSearch, kKick, kRestart };
 
 /// One stream of random numbers per (seed, stream): SplitMix64 (Steele, Lea, Flood 2014). The
 /// mapping to doubles is ours, so the same numbers come out on every machine and at any thread

@@ -41,21 +41,21 @@ const Posture& evaluate_best(PostureEvaluator& model, const Eigen::VectorXd& the
     measure.evaluate(posture, program, fill_efforts, capability);
     return capability.status == Status::kOptimal ? capability.beta : -kInfinity;
   };
-  const int branches = model.branches();
-  if (branches == 1) {
+  const int ik_solutions = model.ik_solutions();
+  if (ik_solutions == 1) {
     value(first, efforts);
     return first;
   }
   int best = 0;
   double most = -kInfinity;
-  for (int i = 0; i < branches; ++i) {
+  for (int i = 0; i < ik_solutions; ++i) {
     const double beta = value(model.select(i), false);
     if (beta <= most) continue;
     most = beta;
     best = i;
   }
   const Posture& posture = model.select(best);
-  if (efforts || best != branches - 1) value(posture, efforts);
+  if (efforts || best != ik_solutions - 1) value(posture, efforts);
   return posture;
 }
 

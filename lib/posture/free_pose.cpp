@@ -41,7 +41,7 @@ Pose<double> pose_at(const Problem& problem, const Eigen::VectorXd& theta_r) {
   if (problem.free.axes.empty()) return pose;
   const Vector6d s = coordinates_at(problem, theta_r);
   const Eigen::Matrix3d R = problem.pose.R * turned(s);
-  pose.p += (problem.free.along_tool ? R : problem.pose.R) * s.head<3>();
+  pose.p += (problem.free.along_end_effector ? R : problem.pose.R) * s.head<3>();
   pose.R = R;
   return pose;
 }
@@ -51,9 +51,10 @@ Vector6d free_twist(const Problem& problem, const Eigen::VectorXd& theta_r, int 
   const Vector6d s = coordinates_at(problem, theta_r);
   Vector6d twist = Vector6d::Zero();
   if (axis < 3) {
-    const bool along_tool = problem.free.along_tool;
+    const bool along_end_effector = problem.free.along_end_effector;
     const Eigen::Matrix3d& R_0 = problem.pose.R;
-    twist.head<3>() = along_tool ? Eigen::Vector3d(R_0 * turned(s).col(axis)) : R_0.col(axis);
+    twist.head<3>() =
+        along_end_effector ? Eigen::Vector3d(R_0 * turned(s).col(axis)) : R_0.col(axis);
     return twist;
   }
   // About which axis: z, then y turned by the yaw, then x turned by the pitch too.
@@ -61,7 +62,7 @@ Vector6d free_twist(const Problem& problem, const Eigen::VectorXd& theta_r, int 
   for (int j = axis + 1; j < 6; ++j) outer[j] = s[j];
   const Eigen::Vector3d w = problem.pose.R * turned(outer).col(axis - 3);
   twist.tail<3>() = w;
-  if (problem.free.along_tool) {
+  if (problem.free.along_end_effector) {
     twist.head<3>() = w.cross(Eigen::Vector3d(problem.pose.R * (turned(s) * s.head<3>())));
   }
   return twist;
@@ -91,7 +92,7 @@ Problem held_at(const Problem& problem, const Eigen::VectorXd& theta_r) {
   for (Eigen::VectorXd* v : {&held.theta_r_min, &held.theta_r_max, &held.theta_r_default}) {
     *v = held_theta_r(problem, *v);
   }
-  held.atlas.reset();
+  held.start_system.reset();
   return held;
 }
 

@@ -34,9 +34,9 @@ constexpr Fault kBaseOffItsAxes{Violation::kBase,
 constexpr Fault kSelfCollision{Violation::kCollision, "self-collision"};
 
 /// A posture at one theta_r: the numbers of the solutions for what follows, and for the second arm.
-struct Branch {
+struct IkSolution {
   int primary = -1, second = -1;
-  bool operator==(const Branch&) const = default;
+  bool operator==(const IkSolution&) const = default;
 };
 
 }  // namespace
@@ -88,9 +88,9 @@ struct PostureEvaluator::Workspace {
     if (second) second->reach(model.base);
   }
 
-  void place(const Branch& branch) {
-    if (branch.primary != placed.primary) place_primary(branch.primary);
-    if (branch.second != placed.second) place_second(branch.second);
+  void place(const IkSolution& ik_solution) {
+    if (ik_solution.primary != placed.primary) place_primary(ik_solution.primary);
+    if (ik_solution.second != placed.second) place_second(ik_solution.second);
   }
 
   /// Goes through the solutions for the second arm, from where the base is.
@@ -100,12 +100,12 @@ struct PostureEvaluator::Workspace {
     for (int i = 0; i < found; ++i) {
       placed.second = i;
       if (!second->within_limits(i)) {
-        turn_down(posture.branches.beyond_limit, kBeyondSecondArm);
+        turn_down(posture.ik_solutions.beyond_limit, kBeyondSecondArm);
         continue;
       }
       place_second(i);
       if (near_singular(problem.robot, *problem.contact, model.J, model.J_2)) {
-        turn_down(posture.branches.singular, kSingularContacts);
+        turn_down(posture.ik_solutions.singular, kSingularContacts);
       } else {
         try_collision();
       }
@@ -113,14 +113,14 @@ struct PostureEvaluator::Workspace {
   }
 
   void try_collision() {
-    if (collides()) return turn_down(posture.branches.collision, kSelfCollision);
-    ++posture.branches.found;
+    if (collides()) return turn_down(posture.ik_solutions.collision, kSelfCollision);
+    ++posture.ik_solutions.found;
     valid.push_back(placed);
   }
 
-  /// Counts the branch where the model is.
+  /// Counts the IK solution where the model is.
   void turn_down(long& count, const Fault& why) {
-    ++posture.branches.found;
+    ++posture.ik_solutions.found;
     ++count;
     blame(why);
   }
@@ -143,12 +143,12 @@ struct PostureEvaluator::Workspace {
     for (int i = 0; i < found; ++i) {
       placed = {i, -1};
       if (!primary->place(i)) {
-        turn_down(posture.branches.beyond_limit, kBeyondDependent);
+        turn_down(posture.ik_solutions.beyond_limit, kBeyondDependent);
         continue;
       }
       model.evaluate_at(theta_r, primary->z());
       if (primary->is_singular(model.J)) {
-        turn_down(posture.branches.singular, kSingularPosture);
+        turn_down(posture.ik_solutions.singular, kSingularPosture);
       } else if (second) {
         try_second();
       } else {
@@ -159,11 +159,11 @@ struct PostureEvaluator::Workspace {
 
   /// Fills `valid` and, if there is none, `fault`; the model shows the first valid posture, or what
   /// is wrong.
-  void find_branches(const Eigen::VectorXd& theta_r) {
+  void find_ik_solutions(const Eigen::VectorXd& theta_r) {
     valid.clear();
     fault = {};
     shown = placed = {};
-    posture.branches = {};
+    posture.ik_solutions = {};
     if (second) {
       model.q = problem.contact->q_rest;
       second->touch(theta_r);
@@ -180,7 +180,7 @@ struct PostureEvaluator::Workspace {
         try_collision();
       }
     }
-    BranchCounts& counts = posture.branches;
+    IkCounts& counts = posture.ik_solutions;
     counts.most = counts.found;
     counts.unreachable = counts.found == 0;
     counts.incomplete = primary && !primary->complete();
@@ -214,7 +214,7 @@ struct PostureEvaluator::Workspace {
 
   /// All of `PostureEvaluator::evaluate`.
   void run(const Eigen::VectorXd& theta_r) {
-    find_branches(theta_r);
+    find_ik_solutions(theta_r);
     if (const Fault beyond = find_beyond(theta_r); beyond.reason) {
       fault = beyond;
       valid.clear();
@@ -233,7 +233,7 @@ struct PostureEvaluator::Workspace {
                  Eigen::VectorXd& gradient) {
     if (model.theta_r != theta_r) {
       if (second || primary) {
-        run(theta_r);  // chooses a branch
+        run(theta_r);  // chooses an IK solution
       } else {
         model.evaluate(theta_r);
       }
@@ -278,12 +278,12 @@ struct PostureEvaluator::Workspace {
   PostureState model;
   PullBack reverse;
   Eigen::VectorXd q_gradient;
-  std::optional<PrimaryBranches> primary;  ///< if joints are dependent
-  std::optional<SecondArm> second;         ///< if there is a second contact
-  std::vector<Branch> valid;
-  Fault fault;           ///< if none is valid,
-  Branch shown, placed;  ///< and where it is; where the model is
-  const Matrix6Xd none;  ///< no seeds
+  std::optional<PrimaryIk> primary;  ///< if joints are dependent
+  std::optional<SecondArm> second;   ///< if there is a second contact
+  std::vector<IkSolution> valid;
+  Fault fault;               ///< if none is valid,
+  IkSolution shown, placed;  ///< and where it is; where the model is
+  const Matrix6Xd none;      ///< no seeds
   Posture posture;
 };
 
@@ -298,12 +298,12 @@ const Posture& PostureEvaluator::evaluate(const Eigen::VectorXd& theta_r) {
   return ws.posture;
 }
 
-int PostureEvaluator::branches() const { return static_cast<int>(workspace_->valid.size()); }
+int PostureEvaluator::ik_solutions() const { return static_cast<int>(workspace_->valid.size()); }
 
-const Posture& PostureEvaluator::select(int branch) {
+const Posture& PostureEvaluator::select(int ik_solution) {
   Workspace& ws = *workspace_;
-  assert(branch >= 0 && branch < branches());
-  const Branch& chosen = ws.valid[static_cast<std::size_t>(branch)];
+  assert(ik_solution >= 0 && ik_solution < ik_solutions());
+  const IkSolution& chosen = ws.valid[static_cast<std::size_t>(ik_solution)];
   if (chosen == ws.placed) return ws.posture;
   ws.place(chosen);
   ws.read_model(ws.model.theta_r);

@@ -74,7 +74,7 @@ struct PostureState {
   const Problem& problem;
   Pose<double> pose;  ///< of the end effector, X(s)
   Kinematics<double> kinematics;
-  std::vector<int> second;  ///< the joints that move with a second arm's branch
+  std::vector<int> second;  ///< the joints that move with a second arm's IK solution
   std::vector<int> first;   ///< all others
   Eigen::VectorXd theta_r, q;
   Pose<double> base;

@@ -150,7 +150,7 @@ int stacked_rank(const Robot& robot, int end_effector, const Contact& contact) {
   });
 }
 
-int following_rank(const Robot& robot, const Contact& contact) {
+int dependent_rank(const Robot& robot, const Contact& contact) {
   Matrix6Xd J_2(6, robot.velocities());
   Eigen::MatrixXd J_f(contact.rows(), contact.follow.size());
   return generic_rank(robot, [&](const Kinematics<double>& kinematics) {

@@ -20,7 +20,7 @@ namespace maxwrench {
 /// The water is at rest, so a body and the water that it moves have one momentum, linear in the
 /// body's twist (Kirchhoff): added mass is an inertia that differs between axes, with Coriolis
 /// terms of its own. Added mass and drag act as given, whatever the water's density; the loader
-/// refuses them in air. Joints have no friction, motors no inertia.
+/// rejects them in air. Joints have no friction, motors no inertia.
 class Dynamics {
  public:
   /// The robot outlives this.

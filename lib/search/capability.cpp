@@ -33,7 +33,7 @@ class CapabilityObjective final : public FacetObjective {
         evaluate_best(model_, theta_r, *measure_, false, program_, capability_);
     posture_ = &posture;
     theta_r_ = theta_r;
-    if (tally_) tally_->add(posture.branches);
+    if (tally_) tally_->add(posture.ik_solutions);
     const bool valid = posture.status == Status::kValid;
     verdict_ = valid ? Verdict(capability_) : Verdict(posture);
     if (tally_ && verdict_.status == Status::kNumericalError) tally_->add_undecided();
@@ -78,22 +78,6 @@ class CapabilityObjective final : public FacetObjective {
 };
 
 }  // namespace
-
-void Tally::add(const BranchCounts& counts) {
-  unreachable_ += counts.unreachable;
-  long most = most_.load();
-  while (most < counts.most && !most_.compare_exchange_weak(most, counts.most)) {
-  }
-  found_ += counts.found;
-  beyond_limit_ += counts.beyond_limit;
-  singular_ += counts.singular;
-  collision_ += counts.collision;
-  incomplete_ += counts.incomplete;
-}
-
-BranchCounts Tally::sum() const {
-  return {unreachable_, most_, found_, beyond_limit_, singular_, collision_, incomplete_};
-}
 
 std::unique_ptr<Objective> make_capability_objective(const Problem& problem, Wrench wrench,
                                                      MeasureMaker make, bool check_collision,

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "lib/posture/redundancy.h"
-#include "lib/robot/opening.h"
+#include "lib/robot/clearance_slope.h"
 #include "maxwrench/measure.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/problem.h"
@@ -25,14 +25,14 @@ std::vector<int> known_pairs(const Problem& problem, bool check_collision) {
   const CollisionChecker* checker = problem.robot.collision.get();
   if (!check_collision || checker == nullptr) return known;
   const std::vector<Pose<double>> links(problem.robot.links.size());
-  Nearness near;
+  ClosestPoints near;
   for (int pair = 0; pair < checker->pairs(); ++pair) {
     if (checker->nearest(links, pair, near)) known.push_back(pair);
   }
   return known;
 }
 
-std::vector<int> following_joints(const Problem& problem) {
+std::vector<int> all_dependent_joints(const Problem& problem) {
   std::vector<int> following = problem.dependent;
   if (problem.contact) {
     following.insert(following.end(), problem.contact->follow.begin(),
@@ -50,7 +50,7 @@ struct FacetProgram::Workspace {
         program(make_wrench_program(p, wrench)),
         measure(make()),
         pairs(known_pairs(p, check_collision)),
-        following(following_joints(p)),
+        following(all_dependent_joints(p)),
         slopes(p.robot.velocities(), p.redundancy()) {
     set_bounds();
     const Eigen::Index count = row_min.size();
@@ -86,7 +86,7 @@ struct FacetProgram::Workspace {
     if (posture && posture->theta_r == theta_r) return posture->status == Status::kValid;
     posture = &model.evaluate(theta_r);
     if (posture->status != Status::kValid) return false;
-    if (model.branches() > 1) choose_nearest();
+    if (model.ik_solutions() > 1) choose_nearest();
     set_posture(*posture, program);
     return true;
   }
@@ -103,11 +103,11 @@ struct FacetProgram::Workspace {
     return sum;
   }
 
-  /// Turns to the branch nearest to `anchor`, the first of equal ones.
+  /// Turns to the IK solution nearest to `anchor`, the first of equal ones.
   void choose_nearest() {
     int nearest = 0;
     double least = kInfinity;
-    for (int i = 0; i < model.branches(); ++i) {
+    for (int i = 0; i < model.ik_solutions(); ++i) {
       const double distance = away(model.select(i).q);
       if (distance >= least) continue;
       least = distance;
@@ -139,7 +139,8 @@ struct FacetProgram::Workspace {
       slope_of_pair.setZero();
       if (near.on_a == near.on_b) continue;  // no derivative
       for (Eigen::Index joint = 0; joint < turns.rows(); ++joint) {
-        const double opens = opening(problem.robot, posture->links, near, static_cast<int>(joint));
+        const double opens =
+            clearance_slope(problem.robot, posture->links, near, static_cast<int>(joint));
         if (opens != 0) slope_of_pair += opens * turns.row(joint);
       }
     }
@@ -165,11 +166,11 @@ struct FacetProgram::Workspace {
   std::unique_ptr<Measure> measure;
   const std::vector<int> pairs, following;
   const Posture* posture = nullptr;
-  Eigen::VectorXd anchor;  ///< joints of the branch
+  Eigen::VectorXd anchor;  ///< joints of the IK solution
   Capability capability, seeds;
   Eigen::VectorXd w, f, slope;
   Eigen::MatrixXd slopes;  ///< n×r
-  Nearness near;
+  ClosestPoints near;
   Eigen::MatrixXd A_r;  ///< n×r
   Eigen::VectorXd rows, row_min, row_max, row_unit;
   Eigen::MatrixXd by_theta_r, by_w;
@@ -192,16 +193,16 @@ const Eigen::VectorXd& FacetProgram::row_min() const { return workspace_->row_mi
 const Eigen::VectorXd& FacetProgram::row_max() const { return workspace_->row_max; }
 const Eigen::VectorXd& FacetProgram::row_unit() const { return workspace_->row_unit; }
 
-int FacetProgram::branches(const Eigen::VectorXd& theta_r) {
+int FacetProgram::ik_solutions(const Eigen::VectorXd& theta_r) {
   Workspace& ws = *workspace_;
   ws.posture = &ws.model.evaluate(theta_r);
-  return ws.posture->status == Status::kValid ? ws.model.branches() : 0;
+  return ws.posture->status == Status::kValid ? ws.model.ik_solutions() : 0;
 }
 
-bool FacetProgram::set_out(const Eigen::VectorXd& theta_r, int branch, Eigen::VectorXd& w) {
+bool FacetProgram::set_out(const Eigen::VectorXd& theta_r, int ik_solution, Eigen::VectorXd& w) {
   Workspace& ws = *workspace_;
-  if (branch >= branches(theta_r)) return false;
-  ws.posture = &ws.model.select(branch);
+  if (ik_solution >= ik_solutions(theta_r)) return false;
+  ws.posture = &ws.model.select(ik_solution);
   ws.anchor = ws.posture->q;
   set_posture(*ws.posture, ws.program);
   ws.measure->evaluate(*ws.posture, ws.program, false, ws.capability);

@@ -8,8 +8,8 @@ namespace maxwrench {
 
 struct Problem;
 
-/// The value of `linf_polytope` at all theta_r as one smooth program, on one branch of what follows
-/// from theta_r: with the facets b_min <= N'tau <= b_max of {B u},
+/// The value of `linf_polytope` at all theta_r as one smooth program, on one IK solution of what
+/// follows from theta_r: with the facets b_min <= N'tau <= b_max of {B u},
 ///
 ///     max c_w'w   over theta_r and w, subject to
 ///     b_min <= N'(tau_d(theta_r) + J'W(theta_r) w) <= b_max,   w_min <= w <= w_max,
@@ -36,19 +36,19 @@ class FacetProgram {
   const Eigen::VectorXd& row_unit() const;  ///< much for a row: half the width of its bounds, 0.1 m
 
   /// How many postures theta_r has that are valid but for collisions.
-  int branches(const Eigen::VectorXd& theta_r);
+  int ik_solutions(const Eigen::VectorXd& theta_r);
   /// Sets out from one of these; w gets the lower level's answer there, or, where it has none, what
   /// is nearest to zero within the limits.
   /// False if there are no more so many, which may happen where postures appear or end.
-  bool set_out(const Eigen::VectorXd& theta_r, int branch, Eigen::VectorXd& w);
+  bool set_out(const Eigen::VectorXd& theta_r, int ik_solution, Eigen::VectorXd& w);
 
-  /// The rows at (theta_r, w): on the branch whose joints are nearest to those of the last
+  /// The rows at (theta_r, w): on the IK solution whose joints are nearest to those of the last
   /// `linearize`, or of `set_out` if that came later. False if theta_r has no valid posture.
   bool evaluate(const Eigen::VectorXd& theta_r, const Eigen::VectorXd& w);
   const Eigen::VectorXd& rows() const;
 
   /// The derivatives of the rows at the point of the last `evaluate`, which was true. Exact; on
-  /// its branch.
+  /// its IK solution.
   void linearize();
   const Eigen::MatrixXd& by_theta_r() const;  ///< rows×r
   const Eigen::MatrixXd& by_w() const;        ///< rows×k

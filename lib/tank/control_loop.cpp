@@ -72,7 +72,7 @@ double ControlLoop::violation(double dt, const Eigen::VectorXd& u) const {
 bool ControlLoop::lost() const {
   if (run.samples.empty()) return false;
   const TankSample& now = run.samples.back();
-  return now.drift > kLost || now.position_error > kLost;
+  return now.theta_r_error > kLost || now.position_error > kLost;
 }
 
 TankRun& ControlLoop::finish() {

@@ -33,7 +33,7 @@ class ControlLoop {
 
   /// Of the last sample: the posture was lost (see kLost).
   bool lost() const;
-  bool goes_on() const { return run.status == Status::kReached && !lost(); }
+  bool accepts_starts() const { return run.status == Status::kReached && !lost(); }
 
   /// The run with what it took, but without its summary.
   TankRun& finish();
@@ -50,7 +50,7 @@ class ControlLoop {
   Random random_;
   Eigen::VectorXd u_0_;
   EffortAnswer answer_;
-  Trajectory path_;
+  OdeSolution path_;
 };
 
 }  // namespace maxwrench

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lib/robot/motion.h"
+#include "lib/robot/free_motion.h"
 #include "lib/tank/effort_tracking.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/tank.h"

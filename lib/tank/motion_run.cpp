@@ -88,15 +88,16 @@ class MotionExperiment {
       x.pose = reference_.x.pose;
       follower_.restart();
     }
-    const auto& follower =
+    const auto& robot_motion =
         follow(x, reference_.theta_r, linear ? none : reference_.rate, reference_.acceleration);
-    a_ = follower.v_dot();
-    return {follower.base(), follower.q(), follower.v()};
+    a_ = robot_motion.v_dot();
+    return {robot_motion.base(), robot_motion.q(), robot_motion.v()};
   }
 
   /// The robot at x. Where dependent joints do not get there the experiment ends.
-  const Follower<double>& follow(const PathPoint& x, const Eigen::VectorXd& theta_r,
-                                 const Eigen::VectorXd& rate, const Eigen::VectorXd& acceleration) {
+  const RobotMotion<double>& follow(const PathPoint& x, const Eigen::VectorXd& theta_r,
+                                    const Eigen::VectorXd& rate,
+                                    const Eigen::VectorXd& acceleration) {
     if (const char* const reason = follower_.set(x, theta_r, rate, acceleration)) lost_ = reason;
     return follower_.motion();
   }
@@ -119,7 +120,7 @@ class MotionExperiment {
   void run_all() {
     const double T = script_.instants.back().t;
     const long periods = static_cast<long>(std::ceil(T / options_.period - 1e-9));
-    for (long k = 0; k < periods && loop_.goes_on() && !lost_; ++k) {
+    for (long k = 0; k < periods && loop_.accepts_starts() && !lost_; ++k) {
       period(static_cast<double>(k) * options_.period,
              std::min(T, static_cast<double>(k + 1) * options_.period));
     }
@@ -154,7 +155,7 @@ class MotionExperiment {
     const Vector6d displacement = ode_.displacement(t, motion_);
     sample.position_error = displacement.head<3>().norm();
     const Vector6d rest = displacement - bend();
-    sample.displaced = std::max(rest.head<3>().norm(), rest.tail<3>().norm());
+    sample.deflection_error = std::max(rest.head<3>().norm(), rest.tail<3>().norm());
     compare(sample);
     sample.speed = speeding();
     loop_.run.samples.push_back(std::move(sample));
@@ -169,22 +170,22 @@ class MotionExperiment {
     if (script_.wrench == Wrench::kAny) {
       stray -= problem_.W_any * (problem_.W_any.transpose() * stray);  // orthonormal
     }
-    sample.stray_force = stray.head<3>().norm();
-    sample.stray_torque = stray.tail<3>().norm();
+    sample.off_axis_force = stray.head<3>().norm();
+    sample.off_axis_torque = stray.tail<3>().norm();
     const Eigen::Matrix3d turn = reference_.x.pose.R * script_.path.pose(0).R.transpose();
     sample.h_e = rotated(turn.transpose(), h_e);
   }
 
   /// With the posture that the script asks for.
   void compare(TankSample& sample) {
-    const auto& follower =
+    const auto& robot_motion =
         follow(reference_.x, reference_.theta_r, reference_.rate, reference_.acceleration);
     sample.theta_r = motion_.q(problem_.redundant);
-    sample.drift = (sample.theta_r - reference_.theta_r).lpNorm<Eigen::Infinity>();
-    const Pose<double>& base = follower.base();
-    sample.moved = std::max({(motion_.q - follower.q()).lpNorm<Eigen::Infinity>(),
-                             (motion_.base.p - base.p).norm(),
-                             logarithm(motion_.base.R * base.R.transpose()).norm()});
+    sample.theta_r_error = (sample.theta_r - reference_.theta_r).lpNorm<Eigen::Infinity>();
+    const Pose<double>& base = robot_motion.base();
+    sample.configuration_error = std::max({(motion_.q - robot_motion.q()).lpNorm<Eigen::Infinity>(),
+                                           (motion_.base.p - base.p).norm(),
+                                           logarithm(motion_.base.R * base.R.transpose()).norm()});
     // About the axis that the cell turns about, or did last.
     const Eigen::Vector3d spin = reference_.x.twist.tail<3>();
     if (spin.norm() > kSpins) axis_ = spin.normalized();
@@ -211,7 +212,7 @@ class MotionExperiment {
   const TankOptions& options_;
   const TankScript& script_;
   const ScriptReader reader_;
-  BranchFollower follower_;
+  RobotMotionTracker follower_;
   const char* lost_ = nullptr;
   Reference reference_;
   Eigen::VectorXd a_, theta_r_, rate_, bend_;

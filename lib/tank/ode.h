@@ -1,12 +1,12 @@
 #pragma once
 
-#include "lib/robot/motion.h"
+#include "lib/robot/free_motion.h"
 #include "maxwrench/path.h"
 #include "maxwrench/tank.h"
 
 namespace maxwrench {
 
-/// The robot in the tank. State: its motion (see lib/robot/motion.h), then the thrust of each
+/// The robot in the tank. State: its motion (see lib/robot/free_motion.h), then the thrust of each
 /// thruster [N], which follows its command with a first-order lag, never faster than its rate
 /// limit. Joint torques are those commanded. Efforts are asked for linearly between two instants;
 /// the command of a thruster leads by its lag times the slope, within its limits, so that away from

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "lib/trajectory/motion.h"
+#include "lib/trajectory/motion_evaluator.h"
 #include "lib/trajectory/program.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/tank.h"
@@ -15,7 +15,7 @@ namespace {
 SchemeMaps maps_of(const MotionTask& task, Interpolation interpolation) {
   const bool rests = task.k == 1 && !task.impulse;
   if (rests || interpolation == Interpolation::kLinear) return make_scheme(task);
-  return make_continuous(task, task.impulse ? kContinuousHeave : kContinuousPath);
+  return make_dense_spline(task, task.impulse ? kDenseImpulse : kDensePath);
 }
 
 /// Fixes c'h of a block: its columns turned so that the first one is c, which all of W's span
@@ -47,19 +47,20 @@ void rest(const MotionTask& task, std::vector<Instant>& instants) {
   instants.back().t = task.T;
 }
 
-double worth(const Plan& plan, const ScriptOptions& options) {
+double worth(const Trajectory& trajectory, const ScriptOptions& options) {
   if (options.planned > 0) return options.planned;
-  return options.interpolation == Interpolation::kSpline ? plan.continuous : plan.value;
+  return options.interpolation == Interpolation::kSpline ? trajectory.value_between_knots
+                                                         : trajectory.value;
 }
 
 /// Concludes why not.
-bool askable(const Plan& plan, TankScript& script) {
-  if (plan.status == Status::kInvalidPosture) {
-    script.conclude(plan.status, plan.reason.c_str());
+bool askable(const Trajectory& trajectory, TankScript& script) {
+  if (trajectory.status == Status::kInvalidPosture) {
+    script.conclude(trajectory.status, trajectory.reason.c_str());
   } else if (!std::isfinite(script.planned)) {
-    const bool spline = plan.status == Status::kOptimal;
-    script.conclude(spline ? Status::kInfeasible : plan.status,
-                    (spline ? plan.continuous_reason : plan.reason).c_str());
+    const bool spline = trajectory.status == Status::kOptimal;
+    script.conclude(spline ? Status::kInfeasible : trajectory.status,
+                    (spline ? trajectory.between_knots_reason : trajectory.reason).c_str());
   } else if (!(script.planned > 0)) {
     script.conclude(Status::kInfeasible, "no wrench > 0 along c is possible");
   } else {
@@ -69,9 +70,11 @@ bool askable(const Plan& plan, TankScript& script) {
 }
 
 /// The program of the instants with the wrench that is asked for.
-PlanProgram asking(const Problem& problem, const SchemeMaps& maps, int t_h, TankScript& script) {
+TrajectoryProgram asking(const Problem& problem, const SchemeMaps& maps, int t_h,
+                         TankScript& script) {
   const MotionTask& task = *problem.motion;
-  PlanProgram program = make_plan_program(problem, *problem.motion, script.wrench, maps);
+  TrajectoryProgram program =
+      make_trajectory_program(problem, *problem.motion, script.wrench, maps);
   set_instants(problem, *problem.motion, script.wrench, maps, script.instants, program);
   program.rho = kElasticWeight;
   const double asked = (1 - script.margin) * script.planned;
@@ -102,26 +105,26 @@ Interpolation parse_interpolation(const std::string& name) {
   throw std::invalid_argument("interpolation: got " + name + ", expected linear or spline");
 }
 
-TankScript make_script(const Problem& problem, const Plan& plan, Wrench wrench, PlanSolver& solver,
-                       const ScriptOptions& options) {
+TankScript make_script(const Problem& problem, const Trajectory& trajectory, Wrench wrench,
+                       TrajectorySolver& solver, const ScriptOptions& options) {
   check(options);
   const MotionTask& task = *problem.motion;
   TankScript script;
   script.interpolation = options.interpolation;
   script.wrench = wrench;
   script.margin = options.margin;
-  script.planned = worth(plan, options);
-  if (!askable(plan, script)) return script;
+  script.planned = worth(trajectory, options);
+  if (!askable(trajectory, script)) return script;
   script.path = task.impulse || task.k == 1 ? Path::constant(task.path.pose(0), task.T) : task.path;
   MotionEvaluator motion(problem, maps_of(task, options.interpolation));
   const SchemeMaps& maps = motion.maps();
-  motion.evaluate(all_knots(task, plan.knots), script.instants);
+  motion.evaluate(all_knots(task, trajectory.knots), script.instants);
   if (motion.lost() >= 0) {
     script.conclude(Status::kInvalidPosture, motion.lost_reason());
     return script;
   }
-  const PlanProgram program = asking(problem, maps, plan.t_h, script);
-  PlanSolution solution;
+  const TrajectoryProgram program = asking(problem, maps, trajectory.t_h, script);
+  TrajectorySolution solution;
   solver.solve(program, solution);
   script.conclude(solution.status, solution.reason.c_str());
   if (script.status != Status::kOptimal) return script;

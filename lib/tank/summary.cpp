@@ -17,10 +17,10 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// The furthest from the reference that the summary or the sample was.
 void reach(const TankSample& sample, TankSummary& summary) {
-  summary.drift = std::max(summary.drift, sample.drift);
-  summary.moved = std::max(summary.moved, sample.moved);
+  summary.theta_r_error = std::max(summary.theta_r_error, sample.theta_r_error);
+  summary.configuration_error = std::max(summary.configuration_error, sample.configuration_error);
   summary.position_error = std::max(summary.position_error, sample.position_error);
-  summary.displaced = std::max(summary.displaced, sample.displaced);
+  summary.deflection_error = std::max(summary.deflection_error, sample.deflection_error);
 }
 
 void forget(TankSummary& summary, bool lost) {
@@ -30,13 +30,14 @@ void forget(TankSummary& summary, bool lost) {
     *value = kNone;
   }
   if (lost) return;
-  summary.drift = summary.moved = summary.position_error = summary.displaced = kNone;
+  summary.theta_r_error = summary.configuration_error = summary.position_error =
+      summary.deflection_error = kNone;
 }
 
 /// The part of the wrench across c that the task does not leave to the environment.
-Vector6d unasked(const Problem& problem, const TankPlan& plan, const TankOptions& options,
+Vector6d unasked(const Problem& problem, const TargetWrench& target, const TankOptions& options,
                  const Vector6d& across) {
-  if (plan.wrench == Wrench::kPure || options.load > 0) return across;
+  if (target.wrench == Wrench::kPure || options.load > 0) return across;
   return across - problem.W_any * (problem.W_any.transpose() * across);  // orthonormal
 }
 
@@ -59,8 +60,8 @@ void add_sample(const TankSample& sample, TankSummary& summary) {
   summary.high = std::max(summary.high, sample.reading);
   summary.mean += sample.reading;
   motion.deviation = std::max(motion.deviation, std::abs(sample.reading - sample.planned));
-  motion.stray_force = std::max(motion.stray_force, sample.stray_force);
-  motion.stray_torque = std::max(motion.stray_torque, sample.stray_torque);
+  motion.off_axis_force = std::max(motion.off_axis_force, sample.off_axis_force);
+  motion.off_axis_torque = std::max(motion.off_axis_torque, sample.off_axis_torque);
   reach(sample, summary);
   summary.shortfall += sample.shortfall;
   summary.saturated += sample.saturated;
@@ -76,11 +77,11 @@ void allow(double most, const char* what, double value, TankSummary& summary) {
   summary.missed += text.data();
 }
 
-void judge_reading(const Problem& problem, const TankPlan& plan, const TankOptions& options,
+void judge_reading(const Problem& problem, const TargetWrench& target, const TankOptions& options,
                    TankSummary& summary) {
-  const double room = kHeldShare * std::abs(summary.planned);
+  const double room = kHeldWrenchError * std::abs(summary.planned);
   const double force = problem.c.head<3>().norm(), torque = problem.c.tail<3>().norm();
-  const Vector6d across = unasked(problem, plan, options, summary.across);
+  const Vector6d across = unasked(problem, target, options, summary.across);
   allow(room, "reading off by", std::abs(summary.mean - summary.planned), summary);
   allow(room * (force + torque / kHeldLever), "force across c", across.head<3>().norm(), summary);
   allow(room * (torque + force * kHeldLever), "torque across c", across.tail<3>().norm(), summary);
@@ -88,8 +89,8 @@ void judge_reading(const Problem& problem, const TankPlan& plan, const TankOptio
 
 /// `moved`: how far the posture may be from its reference.
 void judge_posture(double moved, TankSummary& summary) {
-  allow(moved, "posture off by", summary.moved, summary);
-  allow(kHeldPosition, "end effector displaced by", summary.displaced, summary);
+  allow(moved, "posture off by", summary.configuration_error, summary);
+  allow(kHeldPosition, "end effector displaced by", summary.deflection_error, summary);
 }
 
 /// Last: held is what missed nothing to its end.
@@ -102,10 +103,10 @@ void conclude(const TankRun& run, bool lost, TankSummary& summary) {
 
 }  // namespace
 
-TankSummary summarise(const Problem& problem, const TankPlan& plan, const TankOptions& options,
-                      const TankRun& run, bool lost) {
+TankSummary summarise(const Problem& problem, const TargetWrench& target,
+                      const TankOptions& options, const TankRun& run, bool lost) {
   TankSummary summary;
-  summary.planned = problem.c.dot(plan.h);
+  summary.planned = problem.c.dot(target.h);
   summary.across.setZero();
   int count = 0;
   for (const TankSample& sample : run.samples) {
@@ -130,8 +131,8 @@ TankSummary summarise(const Problem& problem, const TankPlan& plan, const TankOp
   } else {
     take_means(count, summary);
     allow(kHeldViolation, "efforts or rates beyond their limits by", summary.violation, summary);
-    judge_posture(kHeldDrift, summary);
-    judge_reading(problem, plan, options, summary);
+    judge_posture(kHeldThetaRError, summary);
+    judge_reading(problem, target, options, summary);
   }
   conclude(run, lost, summary);
   return summary;
@@ -162,8 +163,8 @@ TankSummary summarise(const TankScript& script, const TankRun& run, bool lost) {
   const double missed =
       std::isfinite(script.t_h) ? std::abs(motion.at_peak - script.planned) : motion.deviation;
   allow(0, "samples beyond a limit of effort, rate or joint speed:", motion.violations, summary);
-  judge_posture(kFollowedMoved, summary);
-  allow(kFollowedShare * std::abs(script.planned), "reading off by", missed, summary);
+  judge_posture(kTrackedConfigurationError, summary);
+  allow(kTrackedWrenchError * std::abs(script.planned), "reading off by", missed, summary);
   conclude(run, lost, summary);
   return summary;
 }

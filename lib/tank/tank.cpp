@@ -33,13 +33,13 @@ Problem loaded(Problem problem, double load) {
 /// One experiment in steps of the control period.
 class Experiment {
  public:
-  Experiment(const Problem& problem, const Posture& posture, const TankPlan& plan,
+  Experiment(const Problem& problem, const Posture& posture, const TargetWrench& target,
              Integrator& integrator, const TankOptions& options)
       : problem_(loaded(problem, options.load)),
         options_(options),
-        plan_(plan),
+        target_(target),
         ode_(problem_, posture, options),
-        controller_(problem_, posture, plan.wrench, options),
+        controller_(problem_, posture, target.wrench, options),
         loop_(problem_, options, integrator, ode_, controller_.tracker()) {
     begin(posture);
   }
@@ -49,17 +49,17 @@ class Experiment {
       const Stopwatch watch(loop_.run.total_s);
       const double length = (options_.until_hold ? 1 : 2) * options_.ramp + options_.hold;
       const long periods = std::lround(length / options_.period);
-      for (long k = 0; k < periods && loop_.goes_on(); ++k) period(k);
+      for (long k = 0; k < periods && loop_.accepts_starts(); ++k) period(k);
     }
     TankRun& run = loop_.finish();
-    run.summary = summarise(problem_, plan_, options_, run, loop_.lost());
+    run.summary = summarise(problem_, target_, options_, run, loop_.lost());
     return std::move(run);
   }
 
  private:
   void begin(const Posture& posture) {
     motion_ = {posture.base, posture.q, Eigen::VectorXd::Zero(problem_.robot.velocities())};
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(plan_.u.size());
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(target_.u.size());
     EffortAnswer answer;
     controller_.request(motion_, exerted(0), none, none, kInfinity, loop_.request);
     controller_.tracker().solve(loop_.request, answer);
@@ -67,9 +67,11 @@ class Experiment {
     ode_.start(motion_, u_0_);
   }
 
-  /// What the robot exerts on its environment at a share of the plan: on what holds the load up,
-  /// the weight that it does not carry itself.
-  Vector6d exerted(double share) const { return (options_.load > 0 ? share - 1 : share) * plan_.h; }
+  /// What the robot exerts on its environment at a share of the trajectory: on what holds the load
+  /// up, the weight that it does not carry itself.
+  Vector6d exerted(double share) const {
+    return (options_.load > 0 ? share - 1 : share) * target_.h;
+  }
 
   /// The share that is asked for. A load is what it is.
   double asked(double share) const {
@@ -91,7 +93,7 @@ class Experiment {
   void request(const Eigen::VectorXd& u, double s) {
     const Stopwatch watch(loop_.run.controller_s);
     controller_.request(advanced(problem_.robot, motion_, options_.period), exerted(asked(s)),
-                        u_0_ + asked(s) * (plan_.u - u_0_), u, options_.period, loop_.request);
+                        u_0_ + asked(s) * (target_.u - u_0_), u, options_.period, loop_.request);
   }
 
   /// What accelerates the load since the last sample.
@@ -104,34 +106,34 @@ class Experiment {
     return force;
   }
 
-  /// The displacement of the end effector in the cell at a share of the plan.
+  /// The displacement of the end effector in the cell at a share of the trajectory.
   Vector6d bend(double share) const {
     Vector6d displacement = Vector6d::Zero();
     if (options_.load > 0) return displacement;
-    displacement << plan_.h.head<3>() / options_.cell.stiffness_linear,
-        plan_.h.tail<3>() / options_.cell.stiffness_angular;
+    displacement << target_.h.head<3>() / options_.cell.stiffness_linear,
+        target_.h.tail<3>() / options_.cell.stiffness_angular;
     return share * displacement;
   }
 
   void keep(double t_0, double t) {
     ode_.read(ode_.initial(), motion_);
     TankSample sample = loop_.sample(t_0, t);
-    sample.planned = profile(t, options_) * problem_.c.dot(plan_.h);
+    sample.planned = profile(t, options_) * problem_.c.dot(target_.h);
     sample.h_e = ode_.wrench(t, motion_);
-    if (options_.load > 0) sample.h_e += plan_.h + inertia_force(t);
+    if (options_.load > 0) sample.h_e += target_.h + inertia_force(t);
     sample.reading = problem_.c.dot(sample.h_e);
-    sample.drift = controller_.drift(motion_);
-    sample.moved = controller_.moved(motion_);
+    sample.theta_r_error = controller_.drift(motion_);
+    sample.configuration_error = controller_.moved(motion_);
     const Vector6d displacement = ode_.displacement(t, motion_);
     sample.position_error = displacement.head<3>().norm();
     const Vector6d rest = displacement - bend(profile(t, options_));
-    sample.displaced = std::max(rest.head<3>().norm(), rest.tail<3>().norm());
+    sample.deflection_error = std::max(rest.head<3>().norm(), rest.tail<3>().norm());
     loop_.run.samples.push_back(std::move(sample));
   }
 
   const Problem problem_;
   const TankOptions& options_;
-  const TankPlan& plan_;
+  const TargetWrench& target_;
   TankOde ode_;
   PostureController controller_;
   ControlLoop loop_;
@@ -142,10 +144,10 @@ class Experiment {
 
 }  // namespace
 
-TankRun run_tank(const Problem& problem, const Posture& posture, const TankPlan& plan,
+TankRun run_tank(const Problem& problem, const Posture& posture, const TargetWrench& target,
                  Integrator& integrator, const TankOptions& options) {
   check(options);
-  return Experiment(problem, posture, plan, integrator, options).run();
+  return Experiment(problem, posture, target, integrator, options).run();
 }
 
 }  // namespace maxwrench

@@ -1,7 +1,7 @@
 #include "lib/trajectory/clearance.h"
 
-#include "lib/robot/opening.h"
-#include "lib/trajectory/motion.h"
+#include "lib/robot/clearance_slope.h"
+#include "lib/trajectory/motion_evaluator.h"
 #include "maxwrench/problem.h"
 
 namespace maxwrench {
@@ -15,7 +15,7 @@ constexpr double kNearer = 1e-9;
 void find_near_pairs(const Problem& problem, const Kinematics<double>& kinematics, int knot,
                      double within, std::vector<NearPair>& pairs, const Eigen::MatrixXd& slopes) {
   const CollisionChecker& checker = *problem.robot.collision;
-  Nearness near;
+  ClosestPoints near;
   for (int pair = 0; pair < checker.pairs(); ++pair) {
     if (!checker.nearest(kinematics.links(), pair, near) || near.clearance > within) continue;
     if (near.on_a == near.on_b) continue;  // no derivative
@@ -24,7 +24,7 @@ void find_near_pairs(const Problem& problem, const Kinematics<double>& kinematic
     added.clearance = near.clearance;
     added.gradient.resize(problem.redundancy());
     const auto opens = [&](int joint) {
-      return opening(problem.robot, kinematics.links(), near, joint);
+      return clearance_slope(problem.robot, kinematics.links(), near, joint);
     };
     for (Eigen::Index k = 0; k < added.gradient.size(); ++k) {
       added.gradient[k] = opens(problem.redundant[static_cast<std::size_t>(k)]);
@@ -69,7 +69,7 @@ std::optional<Clearance> find_least_clearance(const Problem& problem, MotionEval
   const CollisionChecker& checker = *problem.robot.collision;
   Clearance found{kInfinity, 0, ""};
   int nearest = -1;
-  Nearness near;
+  ClosestPoints near;
   const bool all = motion.visit(Q, [&](int i, const Eigen::VectorXd& q, const Eigen::MatrixXd&) {
     kinematics.set_joints(q);
     const int colliding = checker.colliding_pair(kinematics.links());

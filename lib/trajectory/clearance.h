@@ -18,8 +18,8 @@ void find_near_pairs(const Problem& problem, const Kinematics<double>& kinematic
                      double within, std::vector<NearPair>& pairs,
                      const Eigen::MatrixXd& slopes = Eigen::MatrixXd());
 
-/// The same at the knots of a table Q (K×r, theta_0 of a heave first, which is left out), from 0,
-/// as far as dependent joints get. Leaves the links there.
+/// The same at the knots of a table Q (K×r, theta_0 of an impulse first, which is left out), from
+/// 0, as far as dependent joints get. Leaves the links there.
 void find_near_pairs(const Problem& problem, MotionEvaluator& motion, const Eigen::MatrixXd& Q,
                      double within, Kinematics<double>& kinematics, std::vector<NearPair>& pairs);
 
@@ -28,8 +28,8 @@ void find_near_pairs(const Problem& problem, MotionEvaluator& motion, const Eige
 std::string knot_collision(const Problem& problem, const MotionEvaluator& motion,
                            const std::vector<Instant>& instants, Kinematics<double>& kinematics);
 
-/// The least clearance at the instants of a table Q, see `PlanEvaluator::least_clearance`. Leaves
-/// the links at the last instant.
+/// The least clearance at the instants of a table Q, see `TrajectoryEvaluator::least_clearance`.
+/// Leaves the links at the last instant.
 std::optional<Clearance> find_least_clearance(const Problem& problem, MotionEvaluator& motion,
                                               const Eigen::MatrixXd& Q,
                                               Kinematics<double>& kinematics);

@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "lib/robot/chain.h"
-#include "lib/trajectory/motion.h"
+#include "lib/trajectory/motion_evaluator.h"
 
 namespace maxwrench {
 namespace {
@@ -56,9 +56,9 @@ std::string reason_at(const std::string& reason, double t) {
 
 /// What is limited of a dependent joint: its position and its rate at instants, and how far it goes
 /// from knot to knot by dt.
-class FollowingJoint {
+class DependentJoint {
  public:
-  FollowingJoint(const Problem& problem, const SchemeMaps& maps,
+  DependentJoint(const Problem& problem, const SchemeMaps& maps,
                  const std::vector<Instant>& instants, int joint)
       : joint_(problem.robot.joints[static_cast<std::size_t>(joint)]),
         maps_(maps),
@@ -112,7 +112,7 @@ class FollowingJoint {
   double tolerance_;
 };
 
-/// Collects `FollowingRows`.
+/// Collects `DependentRows`.
 class RowCollector {
  public:
   RowCollector(Eigen::Index r, const SchemeMaps& maps) : r_(r), skipped_(maps.starts ? 1 : 0) {}
@@ -134,9 +134,9 @@ class RowCollector {
       }
     }
   }
-  FollowingRows finish(Eigen::Index columns) const {
+  DependentRows finish(Eigen::Index columns) const {
     const auto count = static_cast<Eigen::Index>(at_.size());
-    FollowingRows rows;
+    DependentRows rows;
     rows.at = Eigen::Map<const Eigen::VectorXd>(at_.data(), count);
     rows.r_min = Eigen::Map<const Eigen::VectorXd>(low_.data(), count);
     rows.r_max = Eigen::Map<const Eigen::VectorXd>(high_.data(), count);
@@ -199,13 +199,13 @@ std::string motion_violation(const Problem& problem, const MotionEvaluator& moti
     return reason_at("unreachable pose: the base would leave its free axes", instant.t);
   }
   for (const int joint : problem.dependent) {
-    std::string violation = FollowingJoint(problem, motion.maps(), instants, joint).violation();
+    std::string violation = DependentJoint(problem, motion.maps(), instants, joint).violation();
     if (!violation.empty()) return violation;
   }
   return {};
 }
 
-FollowingRows make_following_rows(const Problem& problem, const MotionEvaluator& motion,
+DependentRows make_dependent_rows(const Problem& problem, const MotionEvaluator& motion,
                                   const std::vector<Instant>& instants,
                                   const std::vector<MotionSlopes>& slopes) {
   const SchemeMaps& maps = motion.maps();
@@ -213,7 +213,7 @@ FollowingRows make_following_rows(const Problem& problem, const MotionEvaluator&
   const auto at = [&](int i) -> const auto& { return slopes[static_cast<std::size_t>(i)]; };
   const double spare = problem.motion ? 0 : kSpareOfPosture;
   for (const int number : problem.dependent) {
-    const FollowingJoint following(problem, maps, instants, number);
+    const DependentJoint following(problem, maps, instants, number);
     const Joint& joint = following.joint();
     const double speed = joint.velocity_max;
     for (int i = maps.starts ? 1 : 0; i < maps.instants(); ++i) {

@@ -15,8 +15,8 @@ struct MotionSlopes;
 /// How far a table may lie beyond limits, speed limits (rad/s, m/s) and rows that must vanish.
 inline constexpr double kTableTolerance = 1e-6;
 
-/// Empty, or which knots and joint of the table Q (K×r, theta_0 of a heave first) leave the limits
-/// of theta_r, of its rate, or what must vanish.
+/// Empty, or which knots and joint of the table Q (K×r, theta_0 of an impulse first) leave the
+/// limits of theta_r, of its rate, or what must vanish.
 std::string knots_violation(const Problem& problem, const SchemeMaps& maps,
                             const Eigen::MatrixXd& Q);
 
@@ -27,8 +27,8 @@ std::string motion_violation(const Problem& problem, const MotionEvaluator& moti
                              const std::vector<Instant>& instants);
 
 /// The limits of dependent joints and of their rates at all instants but the start, as functions of
-/// the knots (k r, without theta_0 of a heave): values at an evaluated motion, and derivatives.
-FollowingRows make_following_rows(const Problem& problem, const MotionEvaluator& motion,
+/// the knots (k r, without theta_0 of an impulse): values at an evaluated motion, and derivatives.
+DependentRows make_dependent_rows(const Problem& problem, const MotionEvaluator& motion,
                                   const std::vector<Instant>& instants,
                                   const std::vector<MotionSlopes>& slopes);
 

@@ -11,16 +11,16 @@
 namespace maxwrench {
 namespace {
 
-class ObjectiveOfPlans final : public PlanObjective {
+class ObjectiveOfTrajectories final : public TrajectoryObjective {
  public:
-  ObjectiveOfPlans(const Problem& problem, Wrench wrench, PlanSolverMaker make, bool check,
-                   PlanValue counts)
+  ObjectiveOfTrajectories(const Problem& problem, Wrench wrench, TrajectorySolverMaker make,
+                          bool check, TrajectoryValue counts)
       : problem_(problem),
         wrench_(wrench),
         make_(std::move(make)),
         check_(check),
         evaluator_(problem, wrench, make_, check),
-        counts_(evaluator_.smooth() ? counts : PlanValue::kAtInstants),
+        counts_(evaluator_.smooth() ? counts : TrajectoryValue::kAtInstants),
         lower_(problem.theta_r_min.replicate(evaluator_.knots(), 1)),
         upper_(problem.theta_r_max.replicate(evaluator_.knots(), 1)) {}
 
@@ -28,8 +28,8 @@ class ObjectiveOfPlans final : public PlanObjective {
   const Eigen::VectorXd& upper() const override { return upper_; }
   const Verdict& verdict() const override { return verdict_; }
   const KnotRows* rows() const override { return &evaluator_.rows(); }
-  PlanEvaluator& plans() override { return evaluator_; }
-  PlanValue counts() const override { return counts_; }
+  TrajectoryEvaluator& trajectories() override { return evaluator_; }
+  TrajectoryValue counts() const override { return counts_; }
 
   double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) override {
     if (x.size() != lower_.size()) {
@@ -39,8 +39,8 @@ class ObjectiveOfPlans final : public PlanObjective {
     }
     const double at_instants = evaluator_.evaluate_elastic(unstacked(x, evaluator_.knots()),
                                                            gradient ? &gradient_ : nullptr);
-    verdict_ = evaluator_.plan();
-    const bool enough = at_instants == -kInfinity || counts_ == PlanValue::kAtInstants;
+    verdict_ = evaluator_.trajectory();
+    const bool enough = at_instants == -kInfinity || counts_ == TrajectoryValue::kAtInstants;
     const double value = enough ? at_instants : evaluate_throughout(x, at_instants);
     if (!gradient) return value;
     if (value > -kInfinity && value == at_instants) {
@@ -52,26 +52,27 @@ class ObjectiveOfPlans final : public PlanObjective {
   }
 
   double evaluate_throughout(const Eigen::VectorXd& x, double at_instants) override {
-    const Plan& plan = evaluator_.evaluate(unstacked(x, evaluator_.knots()));
-    verdict_ = plan;
-    if (plan.status != Status::kOptimal) return -kInfinity;
-    evaluator_.evaluate_continuous();
-    if (!std::isnan(plan.continuous)) return std::min(at_instants, plan.continuous);
-    verdict_.conclude(Status::kInfeasible, plan.continuous_reason.c_str());
+    const Trajectory& trajectory = evaluator_.evaluate(unstacked(x, evaluator_.knots()));
+    verdict_ = trajectory;
+    if (trajectory.status != Status::kOptimal) return -kInfinity;
+    evaluator_.evaluate_between_knots();
+    if (!std::isnan(trajectory.value_between_knots))
+      return std::min(at_instants, trajectory.value_between_knots);
+    verdict_.conclude(Status::kInfeasible, trajectory.between_knots_reason.c_str());
     return -kInfinity;
   }
 
-  std::unique_ptr<PlanObjective> copy(PlanValue counts) const override {
-    return make_plan_objective(problem_, wrench_, make_, check_, counts);
+  std::unique_ptr<TrajectoryObjective> copy(TrajectoryValue counts) const override {
+    return make_trajectory_objective(problem_, wrench_, make_, check_, counts);
   }
 
  private:
   const Problem& problem_;
   Wrench wrench_;
-  PlanSolverMaker make_;
+  TrajectorySolverMaker make_;
   bool check_;
-  PlanEvaluator evaluator_;
-  PlanValue counts_;
+  TrajectoryEvaluator evaluator_;
+  TrajectoryValue counts_;
   Eigen::VectorXd lower_, upper_;
   Eigen::MatrixXd gradient_;
   Verdict verdict_;
@@ -95,10 +96,12 @@ Eigen::MatrixXd unstacked(const Eigen::VectorXd& x, Eigen::Index knots) {
 
 Eigen::VectorXd stacked(const Eigen::MatrixXd& knots) { return knots.reshaped<Eigen::RowMajor>(); }
 
-std::unique_ptr<PlanObjective> make_plan_objective(const Problem& problem, Wrench wrench,
-                                                   const PlanSolverMaker& make,
-                                                   bool check_collision, PlanValue counts) {
-  return std::make_unique<ObjectiveOfPlans>(problem, wrench, make, check_collision, counts);
+std::unique_ptr<TrajectoryObjective> make_trajectory_objective(const Problem& problem,
+                                                               Wrench wrench,
+                                                               const TrajectorySolverMaker& make,
+                                                               bool check_collision,
+                                                               TrajectoryValue counts) {
+  return std::make_unique<ObjectiveOfTrajectories>(problem, wrench, make, check_collision, counts);
 }
 
 }  // namespace maxwrench

@@ -18,12 +18,12 @@ bool start_is_block(const MotionTask& task, const SchemeMaps& maps) {
   return maps.starts && (task.start == Start::kStatic || task.start == Start::kRest);
 }
 
-PlanProgram make_plan_program(const Problem& problem, const MotionTask& task, Wrench wrench,
-                              const SchemeMaps& maps) {
+TrajectoryProgram make_trajectory_program(const Problem& problem, const MotionTask& task,
+                                          Wrench wrench, const SchemeMaps& maps) {
   const bool block = start_is_block(task, maps);
   const int skipped = maps.starts && !block ? 1 : 0;
   const int N = maps.instants() - skipped, m = problem.robot.actuators();
-  PlanProgram program;
+  TrajectoryProgram program;
   program.instants.assign(static_cast<std::size_t>(N), make_wrench_program(problem, wrench));
   program.du_max = Eigen::MatrixXd::Constant(m, std::max(N - 1, 0), kInfinity);
   program.first_min = problem.robot.actuation.u_min;
@@ -49,7 +49,8 @@ PlanProgram make_plan_program(const Problem& problem, const MotionTask& task, Wr
 }
 
 void set_instants(const Problem& problem, const MotionTask& task, Wrench wrench,
-                  const SchemeMaps& maps, std::vector<Instant>& instants, PlanProgram& program) {
+                  const SchemeMaps& maps, std::vector<Instant>& instants,
+                  TrajectoryProgram& program) {
   const std::size_t skipped = instants.size() - program.instants.size();
   const Eigen::Matrix3d back = maps.x.front().pose.R.transpose();
   const auto turn = [&](const Instant& instant) -> Eigen::Matrix3d {
@@ -67,8 +68,8 @@ void set_instants(const Problem& problem, const MotionTask& task, Wrench wrench,
   }
 }
 
-void read_efforts(const Problem& problem, const MotionTask& task, const PlanProgram& program,
-                  const PlanSolution& solution, std::vector<Instant>& instants) {
+void read_efforts(const Problem& problem, const MotionTask& task, const TrajectoryProgram& program,
+                  const TrajectorySolution& solution, std::vector<Instant>& instants) {
   const std::size_t skipped = instants.size() - program.instants.size();
   for (std::size_t i = 0; i < program.instants.size(); ++i) {
     Instant& instant = instants[i + skipped];

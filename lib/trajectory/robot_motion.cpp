@@ -31,7 +31,7 @@ Vector6d along(const Vector6<Dual<N>>& x, std::size_t direction) {
 }  // namespace
 
 template <class T>
-Follower<T>::Follower(const Problem& problem)
+RobotMotion<T>::RobotMotion(const Problem& problem)
     : problem_(&problem),
       kinematics_(problem.robot),
       chain_(chain_to(problem.robot, problem.end_effector)),
@@ -46,13 +46,14 @@ Follower<T>::Follower(const Problem& problem)
 }
 
 template <class T>
-const EndEffector& Follower<T>::tool() const {
+const EndEffector& RobotMotion<T>::tool() const {
   return problem_->robot.end_effectors[static_cast<std::size_t>(problem_->end_effector)];
 }
 
 /// Into a vector whose joints begin at `first`.
 template <class T>
-void Follower<T>::set_theta_r(const VectorX<T>& values, Eigen::Index first, VectorX<T>& all) const {
+void RobotMotion<T>::set_theta_r(const VectorX<T>& values, Eigen::Index first,
+                                 VectorX<T>& all) const {
   for (std::size_t k = 0; k < problem_->redundant.size(); ++k) {
     all[first + problem_->redundant[k]] = values[static_cast<Eigen::Index>(k)];
   }
@@ -63,7 +64,7 @@ void Follower<T>::set_theta_r(const VectorX<T>& values, Eigen::Index first, Vect
 ///     v += w x r (+ a q_dot),   v_dot += w_dot x r + w x (w x r) (+ 2 w x a q_dot + a q_ddot),
 ///     w += a q_dot,             w_dot += w x a q_dot + a q_ddot.
 template <class T>
-auto Follower<T>::along_chain(const Vector3<T>& p_e) const -> Relative {
+auto RobotMotion<T>::along_chain(const Vector3<T>& p_e) const -> Relative {
   const Robot& robot = problem_->robot;
   const auto axes = static_cast<Eigen::Index>(robot.base_axes.size());
   Relative body;
@@ -95,8 +96,8 @@ auto Follower<T>::along_chain(const Vector3<T>& p_e) const -> Relative {
 }
 
 template <class T>
-void Follower<T>::set(const PathPoint& x, const VectorX<T>& theta_r, const VectorX<T>& rate,
-                      const VectorX<T>& acceleration) {
+void RobotMotion<T>::set(const PathPoint& x, const VectorX<T>& theta_r, const VectorX<T>& rate,
+                         const VectorX<T>& acceleration) {
   const Robot& robot = problem_->robot;
   const auto axes = static_cast<Eigen::Index>(robot.base_axes.size());
   set_theta_r(theta_r, 0, q_);
@@ -126,7 +127,7 @@ void Follower<T>::set(const PathPoint& x, const VectorX<T>& theta_r, const Vecto
 
 /// J at q_ and base_.
 template <class T>
-void Follower<T>::read_jacobian() {
+void RobotMotion<T>::read_jacobian() {
   kinematics_.set_joints(q_);
   kinematics_.jacobian(tool(), base_.R, J_);
 }
@@ -134,7 +135,7 @@ void Follower<T>::read_jacobian() {
 /// The derivatives of base and dependent joints, which the gap between a pose of values and that of
 /// the end effector has as long as they are constants.
 template <class T>
-void Follower<T>::correct(const Pose<double>& x) {
+void RobotMotion<T>::correct(const Pose<double>& x) {
   const Robot& robot = problem_->robot;
   const Pose<T> e = base_ * kinematics_.end_effector(tool());
   const Matrix3<T> S = x.R * e.R.transpose();  // the identity, and derivatives [turn]x
@@ -156,7 +157,7 @@ void Follower<T>::correct(const Pose<double>& x) {
 
 /// The derivative of the end effector's twist at v_ and v_dot_, in the world.
 template <class T>
-Vector6<T> Follower<T>::acceleration() const {
+Vector6<T> RobotMotion<T>::acceleration() const {
   const auto& axes = problem_->robot.base_axes;
   Vector6<T> base = Vector6<T>::Constant(T(0.0)), rate = base, result;
   for (std::size_t i = 0; i < axes.size(); ++i) {
@@ -176,7 +177,7 @@ Vector6<T> Follower<T>::acceleration() const {
 
 /// Sets the dependent velocities to J_d^+ twist; the largest entry of twist that is left.
 template <class T>
-double Follower<T>::solve(const Vector6<T>& twist, VectorX<T>& velocities) const {
+double RobotMotion<T>::solve(const Vector6<T>& twist, VectorX<T>& velocities) const {
   const Vector6N values = J_d_.solve(values_of(twist));
   Vector6<T> left = twist;
   for (std::size_t c = 0; c < columns_.size(); ++c) {
@@ -196,9 +197,9 @@ double Follower<T>::solve(const Vector6<T>& twist, VectorX<T>& velocities) const
 }
 
 template <class T>
-void Follower<T>::set(const PathPoint& x, const Pose<double>& base, const Eigen::VectorXd& q,
-                      const VectorX<T>& theta_r, const VectorX<T>& rate,
-                      const VectorX<T>& acceleration) {
+void RobotMotion<T>::set(const PathPoint& x, const Pose<double>& base, const Eigen::VectorXd& q,
+                         const VectorX<T>& theta_r, const VectorX<T>& rate,
+                         const VectorX<T>& acceleration) {
   const auto axes = static_cast<Eigen::Index>(problem_->robot.base_axes.size());
   base_ = {base.R.cast<T>(), base.p.cast<T>()};
   q_ = q.cast<T>();
@@ -221,33 +222,34 @@ void Follower<T>::set(const PathPoint& x, const Pose<double>& base, const Eigen:
   acceleration_missed_ = solve(Vector6<T>(x.acceleration - this->acceleration()), v_dot_);
 }
 
-template class Follower<double>;
-template class Follower<Dual<4>>;
+template class RobotMotion<double>;
+template class RobotMotion<Dual<4>>;
 
-BranchFollower::BranchFollower(const Problem& problem)
+RobotMotionTracker::RobotMotionTracker(const Problem& problem)
     : problem_(problem), follower_(problem), q_(problem.robot.joints.size()) {
-  if (!problem.dependent.empty()) branch_.emplace(problem);
+  if (!problem.dependent.empty()) ik_solution_.emplace(problem);
 }
 
-const char* BranchFollower::place(const Pose<double>& x, const Eigen::VectorXd& theta_r) {
-  if (!branch_) return nullptr;
+const char* RobotMotionTracker::place(const Pose<double>& x, const Eigen::VectorXd& theta_r) {
+  if (!ik_solution_) return nullptr;
   if (!started_) {
     started_ = true;
-    const char* const reason = branch_->follow(theta_r);
+    const char* const reason = ik_solution_->follow(theta_r);
     if (reason || (x.p == problem_.pose.p && x.R == problem_.pose.R)) return reason;
   }
-  return branch_->go_on(theta_r, x);
+  return ik_solution_->go_on(theta_r, x);
 }
 
-const char* BranchFollower::set(const PathPoint& x, const Eigen::VectorXd& theta_r,
-                                const Eigen::VectorXd& rate, const Eigen::VectorXd& acceleration) {
-  if (!branch_) {
+const char* RobotMotionTracker::set(const PathPoint& x, const Eigen::VectorXd& theta_r,
+                                    const Eigen::VectorXd& rate,
+                                    const Eigen::VectorXd& acceleration) {
+  if (!ik_solution_) {
     follower_.set(x, theta_r, rate, acceleration);
     return nullptr;
   }
   const char* const reason = place(x.pose, theta_r);
-  q_ = branch_->z().tail(q_.size());
-  const Pose<double> base = base_pose(problem_.robot, branch_->z().head<4>());
+  q_ = ik_solution_->z().tail(q_.size());
+  const Pose<double> base = base_pose(problem_.robot, ik_solution_->z().head<4>());
   follower_.set(x, base, q_, theta_r, rate, acceleration);
   return reason;
 }

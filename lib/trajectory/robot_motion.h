@@ -27,11 +27,11 @@ namespace maxwrench {
 /// d <= 6 numbers by least squares. Derivatives of what solves F(y, p) = 0 are those of one step
 /// y - J_d^+ F in dual numbers, by the values of J_d.
 template <class T>
-class Follower {
+class RobotMotion {
  public:
   /// The problem outlives this.
-  explicit Follower(const Problem& problem);
-  explicit Follower(const Problem&&) = delete;
+  explicit RobotMotion(const Problem& problem);
+  explicit RobotMotion(const Problem&&) = delete;
 
   /// theta_r and its derivatives in time, r each.
   void set(const PathPoint& x, const VectorX<T>& theta_r, const VectorX<T>& rate,
@@ -77,13 +77,13 @@ class Follower {
   double twist_missed_ = 0, acceleration_missed_ = 0;
 };
 
-/// A `Follower` of instants one after the other: dependent joints begin on the branch of the guess,
-/// at theta_r_default and the problem's pose, and go on from each instant to the next.
-class BranchFollower {
+/// A `RobotMotion` of instants one after the other: dependent joints begin on the IK solution of
+/// the guess, at theta_r_default and the problem's pose, and go on from each instant to the next.
+class RobotMotionTracker {
  public:
   /// The problem outlives this.
-  explicit BranchFollower(const Problem& problem);
-  explicit BranchFollower(const Problem&&) = delete;
+  explicit RobotMotionTracker(const Problem& problem);
+  explicit RobotMotionTracker(const Problem&&) = delete;
 
   /// The next instant is the first one, at the pose where the path starts.
   void restart() { started_ = false; }
@@ -93,15 +93,15 @@ class BranchFollower {
   /// `place`, and the motion there.
   const char* set(const PathPoint& x, const Eigen::VectorXd& theta_r, const Eigen::VectorXd& rate,
                   const Eigen::VectorXd& acceleration);
-  const Follower<double>& motion() const { return follower_; }
+  const RobotMotion<double>& motion() const { return follower_; }
   /// With dependent joints, after `place`: z = [x, y, z, yaw of the base; all joints] and its
   /// derivative by theta_r.
-  const DependentJoints& branch() const { return *branch_; }
+  const DependentJoints& ik_solution() const { return *ik_solution_; }
 
  private:
   const Problem& problem_;
-  Follower<double> follower_;
-  std::optional<DependentJoints> branch_;
+  RobotMotion<double> follower_;
+  std::optional<DependentJoints> ik_solution_;
   Eigen::VectorXd q_;
   bool started_ = false;
 };

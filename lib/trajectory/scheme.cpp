@@ -124,8 +124,8 @@ SchemeMaps make_differences(const MotionTask& task) {
   return maps;
 }
 
-/// `forward`, `backward` and `backward_stop` of a heave: instants are the knots.
-SchemeMaps make_heave_differences(const MotionTask& task) {
+/// `forward`, `backward` and `backward_stop` of an impulse: instants are the knots.
+SchemeMaps make_impulse_differences(const MotionTask& task) {
   SchemeMaps maps;
   const int knots = task.k + 1, last = task.k;
   resize(maps, knots, knots);
@@ -165,12 +165,12 @@ SchemeMaps make_scheme(const MotionTask& task) {
   if (task.scheme == Scheme::kSpline) return make_spline(task, task.instants_per_interval, true);
   const bool backward = task.scheme == Scheme::kBackward || task.scheme == Scheme::kBackwardStop;
   if (task.impulse ? task.scheme == Scheme::kEnds : backward) {
-    throw std::invalid_argument(std::string("scheme: got ") + to_string(task.scheme) +
-                                ", expected one of " +
-                                (task.impulse ? "spline forward backward backward_stop of a heave"
-                                              : "spline forward ends of a path"));
+    throw std::invalid_argument(
+        std::string("scheme: got ") + to_string(task.scheme) + ", expected one of " +
+        (task.impulse ? "spline forward backward backward_stop of an impulse"
+                      : "spline forward ends of a path"));
   }
-  return task.impulse ? make_heave_differences(task) : make_differences(task);
+  return task.impulse ? make_impulse_differences(task) : make_differences(task);
 }
 
 Eigen::MatrixXd all_knots(const MotionTask& task, const Eigen::MatrixXd& table) {
@@ -180,7 +180,7 @@ Eigen::MatrixXd all_knots(const MotionTask& task, const Eigen::MatrixXd& table) 
   return all;
 }
 
-SchemeMaps make_continuous(const MotionTask& task, int instants_per_interval) {
+SchemeMaps make_dense_spline(const MotionTask& task, int instants_per_interval) {
   return make_spline(task, instants_per_interval, false);
 }
 

@@ -6,8 +6,8 @@
 
 namespace maxwrench {
 
-/// What a scheme makes of a table Q of knots (K×r): linear maps to N instants. Of a heave the first
-/// of the K = k + 1 knots is theta_0 and the first instant, if `starts`, is at rest there.
+/// What a scheme makes of a table Q of knots (K×r): linear maps to N instants. Of an impulse the
+/// first of the K = k + 1 knots is theta_0 and the first instant, if `starts`, is at rest there.
 ///
 ///     theta_r = P Q,   theta_r_dot = V Q,   v = moves (J_e x_dot + A_r theta_r_dot)
 ///     `spline`: theta_r_ddot = A Q and v_dot exact;   else: v_dot = D v
@@ -20,7 +20,7 @@ struct SchemeMaps {
   Eigen::MatrixXd P, V, A;   ///< N×K; A of `spline`, else empty
   Eigen::MatrixXd D;         ///< N×N; empty of `spline`
   Eigen::VectorXd moves;     ///< N of 1, or 0 where v is zero by the scheme
-  bool starts = false;       ///< the first instant is the start of a heave
+  bool starts = false;       ///< the first instant is the start of an impulse
   double dt = 0;             ///< between neighbouring knots [s]; 0 if k = 1
   /// Rows on each coordinate of theta_r over its K knots: limits of its rate (speed Q within
   /// +-q_dot_max), of its value (place Q within the limits, beyond those of the knots), and what
@@ -35,14 +35,15 @@ struct SchemeMaps {
 /// Throws std::invalid_argument if the scheme does not serve the task.
 SchemeMaps make_scheme(const MotionTask& task);
 
-/// Instants per interval of `continuous`, along a path and in a heave.
-inline constexpr int kContinuousPath = 25, kContinuousHeave = 50;
+/// Instants per interval of `value_between_knots`, along a path and in an impulse.
+inline constexpr int kDensePath = 25, kDenseImpulse = 50;
 
-/// The knots that a scheme maps: those of a table, of a heave with theta_0 before them.
+/// The knots that a scheme maps: those of a table, of an impulse with theta_0 before them.
 Eigen::MatrixXd all_knots(const MotionTask& task, const Eigen::MatrixXd& table);
 
 /// The clamped cubic spline through the knots of a task, whatever its scheme, with this many
-/// instants an interval: what `continuous` is judged by. Of a heave it begins with the start.
-SchemeMaps make_continuous(const MotionTask& task, int instants_per_interval);
+/// instants an interval: what `value_between_knots` is judged by. Of an impulse it begins with the
+/// start.
+SchemeMaps make_dense_spline(const MotionTask& task, int instants_per_interval);
 
 }  // namespace maxwrench

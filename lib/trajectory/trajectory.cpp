@@ -6,14 +6,14 @@
 
 #include "lib/trajectory/clearance.h"
 #include "lib/trajectory/limits.h"
-#include "lib/trajectory/motion.h"
+#include "lib/trajectory/motion_evaluator.h"
 #include "lib/trajectory/program.h"
 #include "maxwrench/problem.h"
 
 namespace maxwrench {
 namespace {
 
-/// The slack [N, N m] that `continuous` forgives.
+/// The slack [N, N m] that `value_between_knots` forgives.
 constexpr double kSlackForgiven = 0.05;
 /// Less is rounding of an interior point.
 constexpr double kNoPrice = 1e-7, kNoMultiplier = 1e-7;
@@ -39,14 +39,14 @@ MotionTask task_of(const Problem& problem) {
 
 }  // namespace
 
-struct PlanEvaluator::Workspace {
-  Workspace(const Problem& p, Wrench w, const PlanSolverMaker& make, bool check)
+struct TrajectoryEvaluator::Workspace {
+  Workspace(const Problem& p, Wrench w, const TrajectorySolverMaker& make, bool check)
       : problem(p),
         task(task_of(p)),
         wrench(w),
         check_collision(check && p.robot.collision != nullptr),
         motion(p, make_scheme(task)),
-        program(make_plan_program(p, task, w, motion.maps())),
+        program(make_trajectory_program(p, task, w, motion.maps())),
         elastic(program),
         solver(make()),
         elastic_solver(make()),
@@ -57,24 +57,24 @@ struct PlanEvaluator::Workspace {
   }
 
   /// w_0 is at most the static capability at theta_0.
-  void bound_start(const PlanSolverMaker& make) {
+  void bound_start(const TrajectorySolverMaker& make) {
     Q = all_knots(task, task.theta_0.transpose().replicate(task.k, 1));
-    motion.evaluate(Q, plan.instants);
-    set_instants(problem, task, wrench, motion.maps(), plan.instants, program);
-    PlanProgram start = program;
+    motion.evaluate(Q, trajectory.instants);
+    set_instants(problem, task, wrench, motion.maps(), trajectory.instants, program);
+    TrajectoryProgram start = program;
     start.instants.resize(1);
     start.instants[0].w_min.setConstant(-kInfinity);
     start.instants[0].w_max.setConstant(kInfinity);
     start.du_max.resize(start.du_max.rows(), 0);
     start.peak = 0;
-    PlanSolution best;
+    TrajectorySolution best;
     make()->solve(start, best);
     if (best.status != Status::kOptimal || !(best.value >= 0)) {
       throw std::invalid_argument(problem.name +
                                   ": start.theta_r: got a posture that cannot hold " +
                                   "itself, expected one with a static capability");
     }
-    for (PlanProgram* each : {&program, &elastic}) {
+    for (TrajectoryProgram* each : {&program, &elastic}) {
       each->instants[0].w_max.setConstant(best.value);
     }
   }
@@ -94,31 +94,31 @@ struct PlanEvaluator::Workspace {
   /// Empty, or why the knots or their motion are no answer.
   std::string violation() const {
     const std::string of_knots = knots_violation(problem, motion.maps(), Q);
-    return of_knots.empty() ? motion_violation(problem, motion, plan.instants) : of_knots;
+    return of_knots.empty() ? motion_violation(problem, motion, trajectory.instants) : of_knots;
   }
 
   /// Empty, or the first knot that collides.
   std::string collision() {
-    return check_collision ? knot_collision(problem, motion, plan.instants, links) : "";
+    return check_collision ? knot_collision(problem, motion, trajectory.instants, links) : "";
   }
 
   /// On the clamped spline through the knots, of which there are at least two.
   MotionEvaluator& on_spline() {
     if (!fine) {
-      fine.emplace(problem,
-                   make_continuous(task, task.impulse ? kContinuousHeave : kContinuousPath));
+      fine.emplace(problem, make_dense_spline(task, task.impulse ? kDenseImpulse : kDensePath));
     }
     return *fine;
   }
 
-  /// The block of a knot of a heave.
+  /// The block of a knot of an impulse.
   int block_of(const SchemeMaps& maps, int knot) const {
     const int instant = maps.smooth() ? knot * ((maps.instants() - 1) / task.k) : knot;
     return instant - (start_is_block(task, maps) ? 0 : 1);
   }
 
   /// Solves for the task's t_h, or for each one and keeps the best.
-  void solve_best(PlanProgram& p, PlanSolver& with, PlanSolution& best, int& t_h) {
+  void solve_best(TrajectoryProgram& p, TrajectorySolver& with, TrajectorySolution& best,
+                  int& t_h) {
     if (!task.impulse) {
       with.solve(p, best);
       return;
@@ -126,7 +126,7 @@ struct PlanEvaluator::Workspace {
     const int from = task.t_h > 0 ? task.t_h : 1, to = task.t_h > 0 ? task.t_h : task.k;
     for (int knot = from; knot <= to; ++knot) {
       p.peak = block_of(motion.maps(), knot);
-      PlanSolution& each = knot == from ? best : other;
+      TrajectorySolution& each = knot == from ? best : other;
       with.solve(p, each);
       if (knot == from) {
         t_h = knot;
@@ -148,21 +148,22 @@ struct PlanEvaluator::Workspace {
   void solve_elastic() {
     const bool several = task.impulse && task.t_h == 0;
     if (!several && solve_hard()) return;
-    solve_best(elastic, *elastic_solver, elastic_solution, plan.t_h);
+    solve_best(elastic, *elastic_solver, elastic_solution, trajectory.t_h);
     if (several && elastic_solution.status != Status::kOptimal) solve_hard();
   }
 
   bool solve_hard() {
     elastic.rho = kInfinity;
-    solve_best(elastic, *solver, elastic_solution, plan.t_h);
+    solve_best(elastic, *solver, elastic_solution, trajectory.t_h);
     elastic.rho = kElasticWeight;
     return elastic_solution.status == Status::kOptimal;
   }
 
-  void pull_back(const PlanProgram& p, const PlanSolution& solution, Eigen::MatrixXd& gradient) {
-    motion.linearize(plan.instants, slopes);
+  void pull_back(const TrajectoryProgram& p, const TrajectorySolution& solution,
+                 Eigen::MatrixXd& gradient) {
+    motion.linearize(trajectory.instants, slopes);
     const Eigen::Index skipped =
-        static_cast<Eigen::Index>(plan.instants.size()) - static_cast<Eigen::Index>(p.size());
+        static_cast<Eigen::Index>(trajectory.instants.size()) - static_cast<Eigen::Index>(p.size());
     lambda.setZero(problem.robot.velocities(), motion.maps().instants());
     lambda.rightCols(lambda.cols() - skipped) = solution.lambda;
     motion.pull_back(slopes, lambda, all_gradient);
@@ -174,26 +175,26 @@ struct PlanEvaluator::Workspace {
   const Wrench wrench;
   const bool check_collision;
   MotionEvaluator motion;
-  PlanProgram program, elastic, bordered;
-  std::unique_ptr<PlanSolver> solver, elastic_solver;
+  TrajectoryProgram program, elastic, bordered;
+  std::unique_ptr<TrajectorySolver> solver, elastic_solver;
   Kinematics<double> links;
   std::vector<NearPair> near;
   KnotRows rows;
-  FollowingRows following;
+  DependentRows following;
   std::vector<MotionSlopes> slopes;
-  PlanSolution elastic_solution, other;
+  TrajectorySolution elastic_solution, other;
   Eigen::MatrixXd Q, lambda, all_gradient, G;
   std::optional<MotionEvaluator> fine;
-  Plan plan;
+  Trajectory trajectory;
 };
 
-PlanEvaluator::PlanEvaluator(const Problem& problem, Wrench wrench, const PlanSolverMaker& make,
-                             bool check_collision)
+TrajectoryEvaluator::TrajectoryEvaluator(const Problem& problem, Wrench wrench,
+                                         const TrajectorySolverMaker& make, bool check_collision)
     : workspace_(std::make_unique<Workspace>(problem, wrench, make, check_collision)) {}
-PlanEvaluator::~PlanEvaluator() = default;
+TrajectoryEvaluator::~TrajectoryEvaluator() = default;
 
-const std::vector<NearPair>& PlanEvaluator::near_pairs(const Eigen::MatrixXd& knots,
-                                                       double within) {
+const std::vector<NearPair>& TrajectoryEvaluator::near_pairs(const Eigen::MatrixXd& knots,
+                                                             double within) {
   Workspace& ws = *workspace_;
   ws.near.clear();
   if (!ws.check_collision) return ws.near;
@@ -201,61 +202,61 @@ const std::vector<NearPair>& PlanEvaluator::near_pairs(const Eigen::MatrixXd& kn
   return ws.near;
 }
 
-const Plan& PlanEvaluator::plan() const { return workspace_->plan; }
-const PlanProgram& PlanEvaluator::program() const { return workspace_->program; }
-const KnotRows& PlanEvaluator::rows() const { return workspace_->rows; }
-const FollowingRows& PlanEvaluator::following_rows() const { return workspace_->following; }
-int PlanEvaluator::knots() const { return workspace_->task.k; }
-bool PlanEvaluator::smooth() const { return workspace_->motion.maps().smooth(); }
-bool PlanEvaluator::starts() const { return workspace_->motion.maps().starts; }
+const Trajectory& TrajectoryEvaluator::trajectory() const { return workspace_->trajectory; }
+const TrajectoryProgram& TrajectoryEvaluator::program() const { return workspace_->program; }
+const KnotRows& TrajectoryEvaluator::rows() const { return workspace_->rows; }
+const DependentRows& TrajectoryEvaluator::dependent_rows() const { return workspace_->following; }
+int TrajectoryEvaluator::knots() const { return workspace_->task.k; }
+bool TrajectoryEvaluator::smooth() const { return workspace_->motion.maps().smooth(); }
+bool TrajectoryEvaluator::starts() const { return workspace_->motion.maps().starts; }
 
-const Plan& PlanEvaluator::evaluate(const Eigen::MatrixXd& knots) {
+const Trajectory& TrajectoryEvaluator::evaluate(const Eigen::MatrixXd& knots) {
   Workspace& ws = *workspace_;
-  Plan& plan = ws.plan;
+  Trajectory& trajectory = ws.trajectory;
   ws.require_table(knots);
-  plan.knots = knots;
-  plan.value = plan.continuous = std::numeric_limits<double>::quiet_NaN();
-  plan.continuous_reason = "";
+  trajectory.knots = knots;
+  trajectory.value = trajectory.value_between_knots = std::numeric_limits<double>::quiet_NaN();
+  trajectory.between_knots_reason = "";
   ws.Q = all_knots(ws.task, knots);
-  ws.motion.evaluate(ws.Q, plan.instants);
+  ws.motion.evaluate(ws.Q, trajectory.instants);
   const std::string violation = ws.violation();
-  set_instants(ws.problem, ws.task, ws.wrench, ws.motion.maps(), plan.instants, ws.program);
-  plan.collision = ws.collision();
+  set_instants(ws.problem, ws.task, ws.wrench, ws.motion.maps(), trajectory.instants, ws.program);
+  trajectory.collision = ws.collision();
   if (!violation.empty()) {
-    plan.conclude(Status::kInvalidPosture, violation);
-    return plan;
+    trajectory.conclude(Status::kInvalidPosture, violation);
+    return trajectory;
   }
-  ws.solve_best(ws.program, *ws.solver, plan.solution, plan.t_h);
-  plan.conclude(plan.solution.status, plan.solution.reason.c_str());
-  if (plan.status != Status::kOptimal) return plan;
-  plan.value = plan.solution.value;
-  plan.solution.residual = recheck(ws.program, plan.solution);
-  if (!plan.solution.residual.within(kVerified * (1 + std::abs(plan.value)))) {
-    plan.conclude(Status::kNumericalError, "the answer does not satisfy its program");
-    return plan;
+  ws.solve_best(ws.program, *ws.solver, trajectory.solution, trajectory.t_h);
+  trajectory.conclude(trajectory.solution.status, trajectory.solution.reason.c_str());
+  if (trajectory.status != Status::kOptimal) return trajectory;
+  trajectory.value = trajectory.solution.value;
+  trajectory.solution.residual = recheck(ws.program, trajectory.solution);
+  if (!trajectory.solution.residual.within(kVerified * (1 + std::abs(trajectory.value)))) {
+    trajectory.conclude(Status::kNumericalError, "the answer does not satisfy its program");
+    return trajectory;
   }
-  read_efforts(ws.problem, ws.task, ws.program, plan.solution, plan.instants);
-  ws.pull_back(ws.program, plan.solution, plan.gradient);
-  return plan;
+  read_efforts(ws.problem, ws.task, ws.program, trajectory.solution, trajectory.instants);
+  ws.pull_back(ws.program, trajectory.solution, trajectory.gradient);
+  return trajectory;
 }
 
-void PlanEvaluator::evaluate_continuous(PlanSolver* by) {
+void TrajectoryEvaluator::evaluate_between_knots(TrajectorySolver* by) {
   Workspace& ws = *workspace_;
-  PlanSolver& solver = by ? *by : *ws.elastic_solver;
-  Plan& plan = ws.plan;
+  TrajectorySolver& solver = by ? *by : *ws.elastic_solver;
+  Trajectory& trajectory = ws.trajectory;
   const MotionTask& task = ws.task;
   if (ws.Q.rows() < 2) {
-    plan.continuous = plan.value;
-    plan.continuous_reason = plan.reason;
+    trajectory.value_between_knots = trajectory.value;
+    trajectory.between_knots_reason = trajectory.reason;
     return;
   }
   MotionEvaluator& fine = ws.on_spline();
   const SchemeMaps& maps = fine.maps();
-  PlanProgram program = make_plan_program(ws.problem, task, ws.wrench, maps);
+  TrajectoryProgram program = make_trajectory_program(ws.problem, task, ws.wrench, maps);
   std::vector<Instant> instants;
   fine.evaluate(ws.Q, instants);
   if (fine.lost() >= 0) {
-    plan.continuous_reason = motion_violation(ws.problem, fine, instants);
+    trajectory.between_knots_reason = motion_violation(ws.problem, fine, instants);
     return;
   }
   set_instants(ws.problem, ws.task, ws.wrench, maps, instants, program);
@@ -263,86 +264,90 @@ void PlanEvaluator::evaluate_continuous(PlanSolver* by) {
   if (task.impulse && task.start == Start::kStatic) {
     program.instants[0].w_max = ws.program.instants[0].w_max;
   }
-  if (task.impulse) program.peak = ws.block_of(maps, plan.t_h);
-  PlanSolution solution;
+  if (task.impulse) program.peak = ws.block_of(maps, trajectory.t_h);
+  TrajectorySolution solution;
   solver.solve(program, solution);
   if (solution.status != Status::kOptimal) {  // perhaps slack is cheaper than a wrench
     program.rho = kInfinity;
     solver.solve(program, solution);
   }
   if (solution.status != Status::kOptimal) {
-    plan.continuous_reason = solution.reason;
+    trajectory.between_knots_reason = solution.reason;
     return;
   }
   const double slack = solution.s.size() == 0 ? 0 : solution.s.cwiseAbs().maxCoeff();
   if (!(slack <= kSlackForgiven)) {
-    plan.continuous_reason =
+    trajectory.between_knots_reason =
         "a balance on the spline through the knots lacks " + std::to_string(slack) + " N or N m";
     return;
   }
-  plan.continuous = solution.value;
+  trajectory.value_between_knots = solution.value;
 }
 
-std::optional<Clearance> PlanEvaluator::least_clearance() {
+std::optional<Clearance> TrajectoryEvaluator::least_clearance() {
   Workspace& ws = *workspace_;
   if (!ws.check_collision) return {};
   MotionEvaluator& motion = ws.Q.rows() < 2 ? ws.motion : ws.on_spline();
   return find_least_clearance(ws.problem, motion, ws.Q, ws.links);
 }
 
-double PlanEvaluator::evaluate_elastic(const Eigen::MatrixXd& knots, Eigen::MatrixXd* gradient) {
+double TrajectoryEvaluator::evaluate_elastic(const Eigen::MatrixXd& knots,
+                                             Eigen::MatrixXd* gradient) {
   Workspace& ws = *workspace_;
-  Plan& plan = ws.plan;
+  Trajectory& trajectory = ws.trajectory;
   ws.require_table(knots);
-  plan.knots = knots;
+  trajectory.knots = knots;
   ws.Q = all_knots(ws.task, knots);
-  ws.motion.evaluate(ws.Q, plan.instants);
+  ws.motion.evaluate(ws.Q, trajectory.instants);
   std::string violation = ws.violation();
   if (violation.empty()) violation = ws.collision();
   if (!violation.empty()) {
-    plan.conclude(Status::kInvalidPosture, violation);
+    trajectory.conclude(Status::kInvalidPosture, violation);
     return -kInfinity;
   }
-  set_instants(ws.problem, ws.task, ws.wrench, ws.motion.maps(), plan.instants, ws.elastic);
+  set_instants(ws.problem, ws.task, ws.wrench, ws.motion.maps(), trajectory.instants, ws.elastic);
   ws.solve_elastic();
-  const PlanSolution& solution = ws.elastic_solution;
-  plan.conclude(solution.status, solution.reason.c_str());
+  const TrajectorySolution& solution = ws.elastic_solution;
+  trajectory.conclude(solution.status, solution.reason.c_str());
   if (solution.status != Status::kOptimal) return -kInfinity;
-  read_efforts(ws.problem, ws.task, ws.elastic, solution, plan.instants);
+  read_efforts(ws.problem, ws.task, ws.elastic, solution, trajectory.instants);
   if (gradient) ws.pull_back(ws.elastic, solution, *gradient);
   return solution.value - solution.price;
 }
 
-bool PlanEvaluator::coupled() const {
-  const PlanSolution& solution = workspace_->elastic_solution;
+bool TrajectoryEvaluator::coupled() const {
+  const TrajectorySolution& solution = workspace_->elastic_solution;
   return solution.price > kNoPrice || (solution.mu.array().abs() > kNoMultiplier).any();
 }
 
-const PlanSolution& PlanEvaluator::elastic_solution() const { return workspace_->elastic_solution; }
+const TrajectorySolution& TrajectoryEvaluator::elastic_solution() const {
+  return workspace_->elastic_solution;
+}
 
-PlanProgram& PlanEvaluator::linearize(const Eigen::MatrixXd& knots,
-                                      const std::vector<Eigen::VectorXd>& w) {
+TrajectoryProgram& TrajectoryEvaluator::linearize(const Eigen::MatrixXd& knots,
+                                                  const std::vector<Eigen::VectorXd>& w) {
   Workspace& ws = *workspace_;
   ws.require_table(knots);
   ws.Q = all_knots(ws.task, knots);
-  ws.motion.evaluate(ws.Q, ws.plan.instants);
-  set_instants(ws.problem, ws.task, ws.wrench, ws.motion.maps(), ws.plan.instants, ws.elastic);
+  ws.motion.evaluate(ws.Q, ws.trajectory.instants);
+  set_instants(ws.problem, ws.task, ws.wrench, ws.motion.maps(), ws.trajectory.instants,
+               ws.elastic);
   ws.other.u.setZero(ws.problem.robot.actuators(), ws.elastic.size());
   ws.other.w = w;
-  read_efforts(ws.problem, ws.task, ws.elastic, ws.other, ws.plan.instants);
+  read_efforts(ws.problem, ws.task, ws.elastic, ws.other, ws.trajectory.instants);
   return linearize();
 }
 
-PlanProgram& PlanEvaluator::linearize() {
+TrajectoryProgram& TrajectoryEvaluator::linearize() {
   Workspace& ws = *workspace_;
-  if (ws.plan.instants.size() < ws.elastic.instants.size()) {
-    throw std::logic_error("linearize: got no plan, expected one that was evaluated");
+  if (ws.trajectory.instants.size() < ws.elastic.instants.size()) {
+    throw std::logic_error("linearize: got no trajectory, expected one that was evaluated");
   }
-  PlanProgram& program = ws.bordered;
+  TrajectoryProgram& program = ws.bordered;
   program = ws.elastic;
-  const std::size_t skipped = ws.plan.instants.size() - program.instants.size();
-  ws.motion.linearize(ws.plan.instants, ws.slopes);
-  ws.following = make_following_rows(ws.problem, ws.motion, ws.plan.instants, ws.slopes);
+  const std::size_t skipped = ws.trajectory.instants.size() - program.instants.size();
+  ws.motion.linearize(ws.trajectory.instants, ws.slopes);
+  ws.following = make_dependent_rows(ws.problem, ws.motion, ws.trajectory.instants, ws.slopes);
   program.G.resize(program.instants.size());
   const Eigen::Index r = ws.problem.redundancy();
   for (std::size_t i = 0; i < program.instants.size(); ++i) {

@@ -12,7 +12,7 @@ namespace {
 /// those of t and of R.
 class Layout {
  public:
-  explicit Layout(const PlanProgram& program)
+  explicit Layout(const TrajectoryProgram& program)
       : program_(program),
         n_(program.instants.front().actuation->dimension()),
         m_(program.instants.front().actuation->actuators()) {
@@ -44,7 +44,7 @@ class Layout {
   }
 
  private:
-  const PlanProgram& program_;
+  const TrajectoryProgram& program_;
   int n_, m_;
   int rates_ = 0;
 };
@@ -55,7 +55,8 @@ class Layout {
 template <class Sink>
 class Walk {
  public:
-  Walk(const PlanProgram& program, Sink& sink) : program_(program), layout_(program), sink_(sink) {}
+  Walk(const TrajectoryProgram& program, Sink& sink)
+      : program_(program), layout_(program), sink_(sink) {}
 
   void run() {
     for (int i = 0; i < program_.size(); ++i) instant(i);
@@ -134,7 +135,7 @@ class Walk {
     }
   }
 
-  const PlanProgram& program_;
+  const TrajectoryProgram& program_;
   Layout layout_;
   Sink& sink_;
   int rates_before_ = 0;
@@ -172,7 +173,7 @@ bool is_finite(const Eigen::SparseMatrix<double>& R) {
 
 }  // namespace
 
-bool well_formed(const PlanProgram& program) {
+bool well_formed(const TrajectoryProgram& program) {
   const int N = program.size();
   if (N == 0 || program.peak >= N || !(program.rho > 0)) return false;
   const Zonotope* const set = program.instants.front().actuation;
@@ -198,12 +199,12 @@ bool well_formed(const PlanProgram& program) {
   });
 }
 
-void PlanSolver::solve(const PlanProgram& program, PlanSolution& solution) {
+void TrajectorySolver::solve(const TrajectoryProgram& program, TrajectorySolution& solution) {
   if (well_formed(program)) return solve_well_formed(program, solution);
   solution.conclude(Status::kNumericalError, kMalformed);
 }
 
-LinearProgram assemble(const PlanProgram& program) {
+LinearProgram assemble(const TrajectoryProgram& program) {
   assert(program.size() > 0);
   const Layout layout(program);
   LinearProgram lp;
@@ -219,7 +220,7 @@ LinearProgram assemble(const PlanProgram& program) {
   return lp;
 }
 
-void update(const PlanProgram& program, LinearProgram& assembled) {
+void update(const TrajectoryProgram& program, LinearProgram& assembled) {
   Numbers numbers{assembled, 0, assembled.A.valuePtr()};
   Walk<Numbers>(program, numbers).run();
   assert(numbers.value == assembled.A.valuePtr() + assembled.A.nonZeros());
@@ -229,7 +230,8 @@ void update(const PlanProgram& program, LinearProgram& assembled) {
   }
 }
 
-void read(const PlanProgram& program, const LpSolution& answer, PlanSolution& solution) {
+void read(const TrajectoryProgram& program, const LpSolution& answer,
+          TrajectorySolution& solution) {
   const Layout layout(program);
   const int N = program.size();
   const bool proof = answer.status == Status::kInfeasible;

@@ -12,10 +12,10 @@ void raise_to(double& worst, double value) {
   if (!(value <= worst)) worst = std::isnan(value) ? kInfinity : value;
 }
 
-/// A plan program and multipliers of it, for both kinds of proof.
+/// A trajectory program and multipliers of it, for both kinds of proof.
 class Multipliers {
  public:
-  Multipliers(const PlanProgram& program, const PlanSolution& solution)
+  Multipliers(const TrajectoryProgram& program, const TrajectorySolution& solution)
       : program_(program),
         solution_(solution),
         set_(*program.instants.front().actuation),
@@ -89,13 +89,13 @@ class Multipliers {
     return slope;
   }
 
-  const PlanProgram& program_;
-  const PlanSolution& solution_;
+  const TrajectoryProgram& program_;
+  const TrajectorySolution& solution_;
   const Zonotope& set_;
   int n_, m_;
 };
 
-bool primal_fits(const PlanProgram& program, const PlanSolution& solution) {
+bool primal_fits(const TrajectoryProgram& program, const TrajectorySolution& solution) {
   const Zonotope& set = *program.instants.front().actuation;
   const int N = program.size();
   const bool sizes = solution.u.rows() == set.actuators() && solution.u.cols() == N &&
@@ -111,7 +111,7 @@ bool primal_fits(const PlanProgram& program, const PlanSolution& solution) {
   return std::isfinite(solution.value) && std::isfinite(solution.price);
 }
 
-double worst_balance(const PlanProgram& program, const PlanSolution& solution,
+double worst_balance(const TrajectoryProgram& program, const TrajectorySolution& solution,
                      bool& price_is_right) {
   double worst = 0, price = 0;
   for (int i = 0; i < program.size(); ++i) {
@@ -133,7 +133,7 @@ double worst_balance(const PlanProgram& program, const PlanSolution& solution,
   return worst;
 }
 
-double outside_limits(const PlanProgram& program, const PlanSolution& solution,
+double outside_limits(const TrajectoryProgram& program, const TrajectorySolution& solution,
                       const Multipliers& data) {
   double worst = 0;
   const auto check = [&](double x, double low, double high) {
@@ -161,7 +161,7 @@ double outside_limits(const PlanProgram& program, const PlanSolution& solution,
 }
 
 /// Of R y, one row after the other in the storage of `activity`.
-double outside_rows(const PlanProgram& program, const PlanSolution& solution) {
+double outside_rows(const TrajectoryProgram& program, const TrajectorySolution& solution) {
   double worst = 0;
   if (program.R.rows() == 0) return worst;
   thread_local Eigen::VectorXd activity;
@@ -178,8 +178,8 @@ double outside_rows(const PlanProgram& program, const PlanSolution& solution) {
   return worst;
 }
 
-void add_dual(const PlanProgram& program, const PlanSolution& solution, const Multipliers& data,
-              Residual& residual) {
+void add_dual(const TrajectoryProgram& program, const TrajectorySolution& solution,
+              const Multipliers& data, Residual& residual) {
   double objective = 0;
   const auto add = [&](const TermSum& slope, double low, double high) {
     if (std::abs(slope.value) <= kRounding * slope.magnitudes) return;
@@ -210,7 +210,7 @@ void add_dual(const PlanProgram& program, const PlanSolution& solution, const Mu
 }
 
 /// Whether limits exclude each other, which is a proof without multipliers.
-bool limits_cross(const PlanProgram& program) {
+bool limits_cross(const TrajectoryProgram& program) {
   const Zonotope& set = *program.instants.front().actuation;
   const auto crosses = [](const auto& low, const auto& high) {
     return (low.array() > high.array()).any();
@@ -226,7 +226,7 @@ bool limits_cross(const PlanProgram& program) {
 
 }  // namespace
 
-Residual recheck(const PlanProgram& program, const PlanSolution& solution) {
+Residual recheck(const TrajectoryProgram& program, const TrajectorySolution& solution) {
   Residual residual{kInfinity, kInfinity, kInfinity, kInfinity};
   const Multipliers data(program, solution);
   if (!primal_fits(program, solution)) return residual;
@@ -240,7 +240,7 @@ Residual recheck(const PlanProgram& program, const PlanSolution& solution) {
   return residual;
 }
 
-bool proves_infeasible(const PlanProgram& program, const PlanSolution& solution) {
+bool proves_infeasible(const TrajectoryProgram& program, const TrajectorySolution& solution) {
   if (limits_cross(program)) return true;
   const Multipliers data(program, solution);
   if (!data.fit()) return false;

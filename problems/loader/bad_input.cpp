@@ -5,8 +5,8 @@
 
 namespace maxwrench {
 
-void refuse(const std::filesystem::path& file, std::string_view key, std::string_view got,
-            std::string_view expected) {
+void throw_bad_input(const std::filesystem::path& file, std::string_view key, std::string_view got,
+                     std::string_view expected) {
   throw std::invalid_argument(one_line(file.string() + ": " + bad_value_line(key, got, expected)));
 }
 
@@ -18,7 +18,7 @@ bool is_file(const std::filesystem::path& path) {
 std::ifstream open_file(const std::filesystem::path& file, std::string_view expected) {
   std::ifstream stream;
   if (is_file(file)) stream.open(file, std::ios::binary);
-  if (!stream.is_open()) refuse(file, "file", "nothing that can be read", expected);
+  if (!stream.is_open()) throw_bad_input(file, "file", "nothing that can be read", expected);
   return stream;
 }
 

@@ -10,10 +10,10 @@
 namespace maxwrench {
 
 /// Throws std::invalid_argument with one line: `<file>: <key>: got <got>, expected <expected>`.
-[[noreturn]] void refuse(const std::filesystem::path& file, std::string_view key,
-                         std::string_view got, std::string_view expected);
+[[noreturn]] void throw_bad_input(const std::filesystem::path& file, std::string_view key,
+                                  std::string_view got, std::string_view expected);
 
-/// What `function` returns. Where it refuses a value, `file_of` names the file that holds the key,
+/// What `function` returns. Where it rejects a value, `file_of` names the file that holds the key,
 /// and puts the key as it stands there.
 template <class FileOf, class Function>
 auto in_files(const FileOf& file_of, const Function& function) {
@@ -22,7 +22,7 @@ auto in_files(const FileOf& file_of, const Function& function) {
   } catch (const BadValue& bad) {
     std::string key = bad.key();
     const std::filesystem::path file = file_of(key);
-    refuse(file, key, bad.got(), bad.expected());
+    throw_bad_input(file, key, bad.got(), bad.expected());
   }
 }
 /// The same where one file holds all keys.
@@ -35,7 +35,7 @@ auto in_file(const std::filesystem::path& file, const Function& function) {
 /// none.
 bool is_file(const std::filesystem::path& path);
 
-/// Opens a regular file, or refuses what is none or cannot be read.
+/// Opens a regular file, or rejects what is none or cannot be read.
 std::ifstream open_file(const std::filesystem::path& file, std::string_view expected);
 
 }  // namespace maxwrench

@@ -56,7 +56,8 @@ void require_short_keys(const std::filesystem::path& file, const std::string& te
     if (c == '.') ++dots;
     if (c != '.' && !in_key) dots = 0;
     if (dots > kMostDots) {
-      refuse(file, "file", fmt::format("a key of more than {} parts", kMostDots), "shorter keys");
+      throw_bad_input(file, "file", fmt::format("a key of more than {} parts", kMostDots),
+                      "shorter keys");
     }
   }
 }
@@ -71,7 +72,8 @@ void collect_sources(const toml::table& table, const Block& root, const std::str
   for (const char* key : {"source", "status"}) {
     const toml::node* node = table.get(key);
     if (node != nullptr && !node->is_string()) {
-      refuse(root.file(), path.empty() ? key : path + "." + key, as_written(*node), "a string");
+      throw_bad_input(root.file(), path.empty() ? key : path + "." + key, as_written(*node),
+                      "a string");
     }
   }
   const toml::node* source = table.get("source");
@@ -113,8 +115,8 @@ Block Block::read(const std::filesystem::path& file) {
     std::istringstream lines(text);
     std::string line;
     for (toml::source_index i = 0; i < row; ++i) std::getline(lines, line);
-    refuse(file, fmt::format("line {}", row), fmt::format("'{}'", line),
-           fmt::format("valid TOML ({})", error.description()));
+    throw_bad_input(file, fmt::format("line {}", row), fmt::format("'{}'", line),
+                    fmt::format("valid TOML ({})", error.description()));
   }
 }
 
@@ -134,37 +136,37 @@ void Block::allow_only(const std::vector<std::string_view>& keys) const {
   known.insert(known.end(), {"source", "status"});
   for (const auto& [key, node] : *table_) {
     if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
-    refuse(file_, path_of(key.str()), "an unknown key",
-           fmt::format("one of {}", fmt::join(known, ", ")));
+    throw_bad_input(file_, path_of(key.str()), "an unknown key",
+                    fmt::format("one of {}", fmt::join(known, ", ")));
   }
 }
 
-void Block::refuse_value(std::string_view key, std::string_view expected) const {
+void Block::throw_bad_value(std::string_view key, std::string_view expected) const {
   const toml::node* node = table_ == nullptr ? nullptr : table_->get(key);
-  refuse_value(key, node == nullptr ? "nothing" : as_written(*node), expected);
+  throw_bad_value(key, node == nullptr ? "nothing" : as_written(*node), expected);
 }
 
-void Block::refuse_value(std::string_view key, std::string_view got,
-                         std::string_view expected) const {
-  refuse(file_, path_of(key), got, expected);
+void Block::throw_bad_value(std::string_view key, std::string_view got,
+                            std::string_view expected) const {
+  throw_bad_input(file_, path_of(key), got, expected);
 }
 
 const toml::node& Block::require(std::string_view key, std::string_view expected) const {
   const toml::node* node = table_ == nullptr ? nullptr : table_->get(key);
-  if (node == nullptr) refuse_value(key, expected);
+  if (node == nullptr) throw_bad_value(key, expected);
   return *node;
 }
 
 const toml::array& Block::array(std::string_view key, std::string_view expected) const {
   const toml::node& node = require(key, expected);
-  if (!node.is_array()) refuse_value(key, expected);
+  if (!node.is_array()) throw_bad_value(key, expected);
   return *node.as_array();
 }
 
 std::string Block::text(std::string_view key) const {
   const toml::node& node = require(key, "a string");
-  if (!node.is_string()) refuse_value(key, "a string");
-  if (node.as_string()->get().empty()) refuse_value(key, "a string that is not empty");
+  if (!node.is_string()) throw_bad_value(key, "a string");
+  if (node.as_string()->get().empty()) throw_bad_value(key, "a string that is not empty");
   return node.as_string()->get();
 }
 
@@ -174,7 +176,7 @@ std::string Block::text(std::string_view key, std::string_view fallback) const {
 
 double Block::number(std::string_view key) const {
   const auto value = finite_number(require(key, "a finite number"));
-  if (!value) refuse_value(key, "a finite number");
+  if (!value) throw_bad_value(key, "a finite number");
   return *value;
 }
 
@@ -185,7 +187,7 @@ double Block::number(std::string_view key, double fallback) const {
 Eigen::VectorXd Block::numbers(std::string_view key, int size) const {
   const std::string expected =
       fmt::format("a list of {} finite number{}", size, size == 1 ? "" : "s");
-  if (static_cast<int>(array(key, expected).size()) != size) refuse_value(key, expected);
+  if (static_cast<int>(array(key, expected).size()) != size) throw_bad_value(key, expected);
   return listed(key, expected);
 }
 
@@ -198,7 +200,7 @@ Eigen::VectorXd Block::listed(std::string_view key, std::string_view expected) c
   Eigen::VectorXd result(static_cast<Eigen::Index>(values.size()));
   for (Eigen::Index i = 0; i < result.size(); ++i) {
     const auto value = finite_number(*values.get(static_cast<std::size_t>(i)));
-    if (!value) refuse_value(key, expected);
+    if (!value) throw_bad_value(key, expected);
     result[i] = *value;
   }
   return result;
@@ -212,14 +214,14 @@ Eigen::Vector3d Block::vector(std::string_view key, const Eigen::Vector3d& fallb
 
 Eigen::Vector3d Block::direction(std::string_view key) const {
   const Eigen::Vector3d value = vector(key);
-  if (value.stableNorm() < 1e-9) refuse_value(key, "a direction of nonzero length");
+  if (value.stableNorm() < 1e-9) throw_bad_value(key, "a direction of nonzero length");
   return value.stableNormalized();
 }
 
 int Block::whole(std::string_view key, int low, int high) const {
   const double value = number(key);
   if (value < low || value > high || value != std::floor(value)) {
-    refuse_value(key, fmt::format("a whole number of {} to {}", low, high));
+    throw_bad_value(key, fmt::format("a whole number of {} to {}", low, high));
   }
   return static_cast<int>(value);
 }
@@ -231,7 +233,7 @@ int Block::whole(std::string_view key, int low, int high, int fallback) const {
 bool Block::truth(std::string_view key, bool fallback) const {
   if (!has(key)) return fallback;
   const toml::node& node = require(key, "true or false");
-  if (!node.is_boolean()) refuse_value(key, "true or false");
+  if (!node.is_boolean()) throw_bad_value(key, "true or false");
   return node.as_boolean()->get();
 }
 
@@ -241,7 +243,7 @@ bool Block::is_text(std::string_view key) const {
 
 std::vector<std::string> Block::texts(std::string_view key) const {
   auto result = all_texts(array(key, "a list of strings"));
-  if (!result) refuse_value(key, "a list of strings");
+  if (!result) throw_bad_value(key, "a list of strings");
   return *result;
 }
 
@@ -250,7 +252,7 @@ std::vector<std::pair<std::string, std::string>> Block::text_pairs(std::string_v
   std::vector<std::pair<std::string, std::string>> result;
   for (const toml::node& node : array(key, expected)) {
     const auto pair = node.is_array() ? all_texts(*node.as_array()) : std::nullopt;
-    if (!pair || pair->size() != 2) refuse_value(key, as_written(node), expected);
+    if (!pair || pair->size() != 2) throw_bad_value(key, as_written(node), expected);
     result.emplace_back((*pair)[0], (*pair)[1]);
   }
   return result;
@@ -259,7 +261,7 @@ std::vector<std::pair<std::string, std::string>> Block::text_pairs(std::string_v
 Block Block::table(std::string_view key) const {
   if (!has(key)) return Block(file_, path_of(key), root_, nullptr);
   const toml::table* table = table_->get(key)->as_table();
-  if (table == nullptr) refuse_value(key, fmt::format("a table [{}], not a list", path_of(key)));
+  if (table == nullptr) throw_bad_value(key, fmt::format("a table [{}], not a list", path_of(key)));
   return inner(path_of(key), *table);
 }
 
@@ -267,7 +269,7 @@ std::vector<Block> Block::list(std::string_view key) const {
   std::vector<Block> result;
   if (!has(key)) return result;
   for (const toml::node& node : array(key, "a list of tables")) {
-    if (!node.is_table()) refuse_value(key, "a list of tables");
+    if (!node.is_table()) throw_bad_value(key, "a list of tables");
     result.push_back(inner(fmt::format("{}[{}]", path_of(key), result.size()), *node.as_table()));
   }
   return result;
@@ -279,7 +281,7 @@ std::vector<std::pair<std::string, Block>> Block::named(std::string_view key) co
   if (outer.table_ == nullptr) return result;
   for (const auto& [name, node] : *outer.table_) {
     if (name.str() == "source" || name.str() == "status") continue;
-    if (!node.is_table()) outer.refuse_value(name.str(), "a table");
+    if (!node.is_table()) outer.throw_bad_value(name.str(), "a table");
     result.emplace_back(name.str(), outer.inner(outer.path_of(name.str()), *node.as_table()));
   }
   const auto line = [](const auto& entry) { return entry.second.table_->source().begin.line; };

@@ -18,16 +18,16 @@ namespace maxwrench {
 /// All numbers that it hands out are finite. `source` and `status` are allowed in every table.
 class Block {
  public:
-  /// Reads the file; the result is its root table. A missing file or a syntax error is refused.
+  /// Reads the file; the result is its root table. A missing file or a syntax error is rejected.
   static Block read(const std::filesystem::path& file);
 
   const std::filesystem::path& file() const { return file_; }
   bool has(std::string_view key) const;
-  /// Refuses every key that is not in the list.
+  /// Rejects every key that is not in the list.
   void allow_only(const std::vector<std::string_view>& keys) const;
-  [[noreturn]] void refuse_value(std::string_view key, std::string_view expected) const;
-  [[noreturn]] void refuse_value(std::string_view key, std::string_view got,
-                                 std::string_view expected) const;
+  [[noreturn]] void throw_bad_value(std::string_view key, std::string_view expected) const;
+  [[noreturn]] void throw_bad_value(std::string_view key, std::string_view got,
+                                    std::string_view expected) const;
 
   // Values. Without a fallback the key must be there.
   std::string text(std::string_view key) const;
@@ -38,7 +38,7 @@ class Block {
   Eigen::VectorXd any_numbers(std::string_view key) const;  ///< of any size; none without the key
   Eigen::Vector3d vector(std::string_view key) const;
   Eigen::Vector3d vector(std::string_view key, const Eigen::Vector3d& fallback) const;
-  Eigen::Vector3d direction(std::string_view key) const;  ///< normalised; zero is refused
+  Eigen::Vector3d direction(std::string_view key) const;  ///< normalised; zero is rejected
   int whole(std::string_view key, int low, int high) const;
   int whole(std::string_view key, int low, int high, int fallback) const;
   bool truth(std::string_view key, bool fallback) const;

@@ -108,7 +108,7 @@ Between capsule_to_box(const Placed& at, const Shape& box, const Pose<double>& b
 
 /// A box of which all points within some radius, which is returned, belong to the shape; for a
 /// capsule and a box they are all of it.
-double core_of(const Shape& shape, Core& core) {
+double core_of(const Shape& shape, InscribedBox& core) {
   core.link = shape.link;
   core.placement = shape.placement;
   if (is(shape, Shape::Kind::kBox)) {
@@ -191,7 +191,8 @@ class ShapePairs : public CollisionChecker {
     return found == pairs_.end() ? -1 : static_cast<int>(found - pairs_.begin());
   }
 
-  bool nearest(const std::vector<Pose<double>>& links, int i, Nearness& result) const override {
+  bool nearest(const std::vector<Pose<double>>& links, int i,
+               ClosestPoints& result) const override {
     const Pair& pair = pairs_[index(i)];
     if (pair.geometry_a) return false;
     const bool box_first = is(shapes_[index(pair.a)], Shape::Kind::kBox);
@@ -213,7 +214,7 @@ class ShapePairs : public CollisionChecker {
 
   int pairs() const override { return static_cast<int>(pairs_.size()); }
 
-  bool cores(int i, CorePair& result) const override {
+  bool inscribed_boxes(int i, InscribedBoxPair& result) const override {
     const Pair& pair = pairs_[index(i)];
     const double radius = core_of(shapes_[index(pair.a)], result.a);
     result.reach = radius + core_of(shapes_[index(pair.b)], result.b) + margin_;
@@ -237,8 +238,8 @@ class ShapePairs : public CollisionChecker {
 
 }  // namespace
 
-Solid to_solid(const Shape& shape) {
-  Solid solid;
+ConvexBody to_convex_body(const Shape& shape) {
+  ConvexBody solid;
   solid.link = shape.link;
   const auto add = [&](double x, double y, double z) {
     solid.points.emplace_back(shape.placement.R * Eigen::Vector3d(x, y, z) + shape.placement.p);

@@ -23,6 +23,6 @@ std::shared_ptr<const CollisionChecker> make_collision_checker(
     double margin);
 
 /// The shape as a convex body; a cylinder as a prism of 32 faces.
-Solid to_solid(const Shape& shape);
+ConvexBody to_convex_body(const Shape& shape);
 
 }  // namespace maxwrench

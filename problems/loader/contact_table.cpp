@@ -11,7 +11,7 @@ Surface read_surface(const Block& block) {
   if (name == "line") return Surface::kLine;
   if (name == "plane") return Surface::kPlane;
   if (name == "circle") return Surface::kCircle;
-  block.refuse_value("surface", "point, line, plane or circle");
+  block.throw_bad_value("surface", "point, line, plane or circle");
 }
 
 ContactSpec::Direction read_direction(const Block& block) {

@@ -32,10 +32,11 @@ Eigen::MatrixXd load_knots(const std::filesystem::path& file, const Problem& pro
   const NumberTable table = read_numbers(file, {coordinate_names(problem)});
   const std::size_t k = problem.motion ? static_cast<std::size_t>(problem.motion->k) : 1;
   if (table.rows.size() != k) {
-    refuse(file, "rows", fmt::format("{}", table.rows.size()),
-           fmt::format(
-               "{}, one for each knot of theta_r{}", k,
-               problem.motion && problem.motion->impulse ? " after knot 0, which is given" : ""));
+    throw_bad_input(
+        file, "rows", fmt::format("{}", table.rows.size()),
+        fmt::format(
+            "{}, one for each knot of theta_r{}", k,
+            problem.motion && problem.motion->impulse ? " after knot 0, which is given" : ""));
   }
   Eigen::MatrixXd knots(static_cast<Eigen::Index>(k), problem.redundancy());
   for (std::size_t i = 0; i < k; ++i) {

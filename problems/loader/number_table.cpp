@@ -72,9 +72,9 @@ std::optional<std::vector<double>> as_row(const Columns& cells) {
 
 }  // namespace
 
-void NumberTable::refuse_row(std::size_t row, const std::string& expected) const {
-  refuse(file, fmt::format("line {}", lines[row]), fmt::format("'{}'", fmt::join(rows[row], ",")),
-         expected);
+void NumberTable::throw_bad_row(std::size_t row, const std::string& expected) const {
+  throw_bad_input(file, fmt::format("line {}", lines[row]),
+                  fmt::format("'{}'", fmt::join(rows[row], ",")), expected);
 }
 
 NumberTable read_numbers(const std::filesystem::path& file, const std::vector<Columns>& choices) {
@@ -92,15 +92,17 @@ NumberTable read_numbers(const std::filesystem::path& file, const std::vector<Co
         return is_header(cells) ? columns == cells : columns.size() == cells.size();
       });
       if (chosen == choices.end()) {
-        refuse(file, where, got,
-               fmt::format("{} columns, with or without this header", shown_columns(choices)));
+        throw_bad_input(
+            file, where, got,
+            fmt::format("{} columns, with or without this header", shown_columns(choices)));
       }
       table.columns = *chosen;
       if (is_header(cells)) continue;
     }
     const auto row = as_row(cells);
     if (!row || row->size() != table.columns.size()) {
-      refuse(file, where, got, fmt::format("{} finite numbers", shown_columns({table.columns})));
+      throw_bad_input(file, where, got,
+                      fmt::format("{} finite numbers", shown_columns({table.columns})));
     }
     table.rows.push_back(*row);
     table.lines.push_back(number);

@@ -12,14 +12,14 @@ struct NumberTable {
   std::vector<std::vector<double>> rows;
   std::vector<int> lines;  ///< of the file, in which the rows stand
 
-  /// Refuses a row by its line.
-  [[noreturn]] void refuse_row(std::size_t row, const std::string& expected) const;
+  /// Rejects a row by its line.
+  [[noreturn]] void throw_bad_row(std::size_t row, const std::string& expected) const;
 
   std::filesystem::path file;
 };
 
 /// Reads a CSV file with one of several choices of columns, which differ in number. The first line
-/// may be their names. Blank lines count for nothing. Anything else is refused in one line.
+/// may be their names. Blank lines count for nothing. Anything else is rejected in one line.
 NumberTable read_numbers(const std::filesystem::path& file,
                          const std::vector<std::vector<std::string>>& choices);
 

@@ -20,7 +20,7 @@ Pose<double> pose_of(const NumberTable& table, std::size_t row) {
   if (table.columns.size() == 7) return pose_from_xyz_rpy(p, {n[4], n[5], n[6]});
   const Eigen::Quaterniond e(n[4], n[5], n[6], n[7]);
   if (!(std::abs(e.norm() - 1) < kLengthTolerance)) {
-    table.refuse_row(row, "a quaternion of length 1");
+    table.throw_bad_row(row, "a quaternion of length 1");
   }
   return {e.normalized().toRotationMatrix(), p};
 }
@@ -28,13 +28,13 @@ Pose<double> pose_of(const NumberTable& table, std::size_t row) {
 void require_order(const NumberTable& table, const std::vector<Pose<double>>& poses) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const double t = table.rows[i][0];
-    if (i == 0 && t != 0) table.refuse_row(i, "t = 0 in the first row");
+    if (i == 0 && t != 0) table.throw_bad_row(i, "t = 0 in the first row");
     if (i == 0) continue;
     if (t - table.rows[i - 1][0] < kShortestTime) {
-      table.refuse_row(i, "a t that rises from row to row, by 1e-6 s or more");
+      table.throw_bad_row(i, "a t that rises from row to row, by 1e-6 s or more");
     }
     if (logarithm(poses[i - 1].R.transpose() * poses[i].R).norm() > kLargestTurn) {
-      table.refuse_row(i, "a pose turned by at most 3 rad from the row before");
+      table.throw_bad_row(i, "a pose turned by at most 3 rad from the row before");
     }
   }
 }
@@ -45,7 +45,7 @@ Path read_path_table(const std::filesystem::path& file) {
   const NumberTable table = read_numbers(file, {{"t", "x", "y", "z", "roll", "pitch", "yaw"},
                                                 {"t", "x", "y", "z", "qw", "qx", "qy", "qz"}});
   if (table.rows.size() < 2) {
-    refuse(file, "rows", std::to_string(table.rows.size()), "two poses or more");
+    throw_bad_input(file, "rows", std::to_string(table.rows.size()), "two poses or more");
   }
   std::vector<double> times;
   std::vector<Pose<double>> poses;

@@ -20,8 +20,8 @@ const Value& find_named(const std::map<std::string, Value>& values, const std::s
   if (found != values.end()) return found->second;
   std::vector<std::string> names;
   for (const auto& entry : values) names.push_back(entry.first);
-  block.refuse_value(key, fmt::format("'{}'", name),
-                     fmt::format("{}: {}", noun, fmt::join(names, ", ")));
+  block.throw_bad_value(key, fmt::format("'{}'", name),
+                        fmt::format("{}: {}", noun, fmt::join(names, ", ")));
 }
 
 const Body& find_body(const UrdfTree& tree, const Block& block, std::string_view key,
@@ -42,12 +42,13 @@ void read_base(const Block& base, const UrdfTree& tree, Robot& robot) {
     robot.base_axes.push_back(find_named(axes, name, base, "axes", "only these axes"));
   }
   if (base.text("link", tree.root) != tree.root) {
-    base.refuse_value("link", fmt::format("the root link '{}' of the URDF", tree.root));
+    base.throw_bad_value("link", fmt::format("the root link '{}' of the URDF", tree.root));
   }
   robot.mount = read_placement(base);
   if (robot.base_axes.size() < 6) return;
   for (const char* key : {"xyz", "rpy"}) {
-    if (base.has(key)) base.refuse_value(key, "no such key: a base on all six axes starts nowhere");
+    if (base.has(key))
+      base.throw_bad_value(key, "no such key: a base on all six axes starts nowhere");
   }
 }
 
@@ -135,7 +136,7 @@ Shape read_capsule(const Block& block, const UrdfTree& tree) {
   const Body& body = find_body(tree, block, "link", shape.body);
   shape.link = body.link;
   shape.radius = block.number("radius");
-  if (!(shape.radius > 0)) block.refuse_value("radius", "a number > 0");
+  if (!(shape.radius > 0)) block.throw_bad_value("radius", "a number > 0");
   const Eigen::Vector3d p0 = block.vector("p0"), p1 = block.vector("p1");
   shape.half_length = (p1 - p0).norm() / 2;
   shape.placement.p = (p0 + p1) / 2;
@@ -196,7 +197,7 @@ Robot load_robot(const std::filesystem::path& file) {
   robot.sources = root.sources("robot");
   const std::filesystem::path urdf = file.parent_path() / root.text("urdf");
   if (!is_file(urdf)) {
-    root.refuse_value("urdf", fmt::format("a file beside this one ({} is none)", urdf.string()));
+    root.throw_bad_value("urdf", fmt::format("a file beside this one ({} is none)", urdf.string()));
   }
   const Block thrusters = root.table("thrusters");
   const auto file_of = [&](std::string& key) {

@@ -23,10 +23,11 @@ void require_free_axes(const Block& theta, const Pose<double>& base, const Robot
     const bool fixed = std::find(free.begin(), free.end(), i) == free.end();
     if (!fixed || std::abs(along[i]) <= kRounding) continue;
     const char* name = kTwistAxes[static_cast<std::size_t>(i)];
-    theta.refuse_value(i < 3 ? "position" : "rpy",
-                       fmt::format("{} = 0 from where the base is mounted, because {} is not among "
-                                   "its axes",
-                                   name, name));
+    theta.throw_bad_value(
+        i < 3 ? "position" : "rpy",
+        fmt::format("{} = 0 from where the base is mounted, because {} is not among "
+                    "its axes",
+                    name, name));
   }
 }
 

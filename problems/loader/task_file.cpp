@@ -12,7 +12,7 @@
 #include "problems/loader/bad_input.h"
 #include "problems/loader/block.h"
 #include "problems/loader/contact_table.h"
-#include "problems/loader/motion.h"
+#include "problems/loader/motion_table.h"
 #include "problems/loader/urdf_tree.h"
 
 namespace maxwrench {
@@ -47,20 +47,21 @@ fs::path find_task(const std::string& name) {
   const fs::path shipped = folder / (name + ".toml");
   if (!folder.empty() && is_file(shipped) && is_task(shipped)) return shipped;
   if (is_file(name)) return name;
-  refuse(name, "problem", "no such file",
-         fmt::format("the path of a task or one of {}", fmt::join(shipped_problems(), ", ")));
+  throw_bad_input(
+      name, "problem", "no such file",
+      fmt::format("the path of a task or one of {}", fmt::join(shipped_problems(), ", ")));
 }
 
 void read_wrench(const Block& wrench, TaskSpec& spec) {
   std::vector<std::string_view> keys = {"c", "any", "reference", "desired"};
-  const bool heaves = spec.motion && spec.motion->impulse;
-  if (!heaves) keys.emplace_back("frame");
+  const bool impulses = spec.motion && spec.motion->impulse;
+  if (!impulses) keys.emplace_back("frame");
   wrench.allow_only(keys);
   const std::string frame = wrench.text("frame", "world");
-  if (frame != "world" && frame != "tool" && frame != "end_effector") {
-    wrench.refuse_value("frame", "'world' or 'tool' (or 'end_effector', the same)");
+  if (frame != "world" && frame != "end_effector") {
+    wrench.throw_bad_value("frame", "'world' or 'end_effector'");
   }
-  spec.wrench_in_tool = frame != "world";
+  spec.wrench_in_end_effector = frame != "world";
   spec.c = wrench.numbers("c", 6);
   if (wrench.has("any")) spec.any = wrench.texts("any");
   spec.reference = wrench.number("reference", spec.reference);
@@ -85,7 +86,7 @@ void allow_keys(const Block& task) {
   } else if (type == "impulse") {
     keys.insert(keys.end(), {"motion", "start"});
   } else if (type != "static") {
-    task.refuse_value("type", "'static', 'trajectory' or 'impulse'");
+    task.throw_bad_value("type", "'static', 'trajectory' or 'impulse'");
   }
   task.allow_only(keys);
 }
@@ -99,22 +100,24 @@ void read_free_pose(const Block& pose, TaskSpec& spec) {
     const Eigen::VectorXd limits = range.numbers(axis, 2);
     spec.range.insert({axis, {limits[0], limits[1]}});
   }
-  const std::string axes = pose.text("axes", "pose");
-  if (axes != "pose" && axes != "tool") pose.refuse_value("axes", "'pose' or 'tool'");
-  if (pose.has("axes") && spec.free.empty() && spec.range.empty()) {
-    pose.refuse_value("axes", "no such key, but beside pose.free or pose.range");
+  const std::string frame = pose.text("frame", "pose");
+  if (frame != "pose" && frame != "end_effector") {
+    pose.throw_bad_value("frame", "'pose' or 'end_effector'");
   }
-  spec.along_tool = axes == "tool";
+  if (pose.has("frame") && spec.free.empty() && spec.range.empty()) {
+    pose.throw_bad_value("frame", "no such key, but beside pose.free or pose.range");
+  }
+  spec.along_end_effector = frame == "end_effector";
 }
 
 /// A path through the poses of a table brings its own.
 void read_pose(const Block& task, TaskSpec& spec) {
   if (follows_poses(task)) return;
   const Block pose = task.table("pose");
-  pose.allow_only({"xyz", "rpy", "free", "range", "axes"});
-  for (const char* key : {"free", "range", "axes"}) {
+  pose.allow_only({"xyz", "rpy", "free", "range", "frame"});
+  for (const char* key : {"free", "range", "frame"}) {
     if (task.text("type") != "static" && pose.has(key)) {
-      pose.refuse_value(key, "no such key, but for static tasks: in time the pose is given");
+      pose.throw_bad_value(key, "no such key, but for static tasks: in time the pose is given");
     }
   }
   spec.pose = pose_from_xyz_rpy(pose.vector("xyz"), pose.vector("rpy"));
@@ -150,7 +153,7 @@ Problem load_problem(const std::string& name) {
   spec.source = task.text("source");
   const fs::path robot = file.parent_path() / task.text("robot");
   if (!is_file(robot)) {
-    task.refuse_value("robot", fmt::format("the path of a robot ({} is none)", robot.string()));
+    task.throw_bad_value("robot", fmt::format("the path of a robot ({} is none)", robot.string()));
   }
   spec.robot = load_robot(robot);
   spec.end_effector = task.text("end_effector");

@@ -13,22 +13,23 @@ namespace maxwrench {
 UrdfElement UrdfElement::with_name() const {
   const std::optional<std::string> name = attribute("name");
   if (name && !name->empty()) return {*file_, *xml_, fmt::format("{}[{}]", tag(), *name)};
-  maxwrench::refuse(*file_, fmt::format("line {}: {}.name", xml_->GetLineNum(), tag()),
-                    name ? "''" : "nothing", "a name");
+  maxwrench::throw_bad_input(*file_, fmt::format("line {}: {}.name", xml_->GetLineNum(), tag()),
+                             name ? "''" : "nothing", "a name");
 }
 
 UrdfElement UrdfElement::child(const char* tag) const {
   const std::vector<UrdfElement> all = children(tag);
   if (all.size() == 1) return all.front();
-  refuse(tag, all.empty() ? "nothing" : fmt::format("{} elements", all.size()),
-         fmt::format("one <{}>", tag));
+  throw_bad_input(tag, all.empty() ? "nothing" : fmt::format("{} elements", all.size()),
+                  fmt::format("one <{}>", tag));
 }
 
 std::optional<UrdfElement> UrdfElement::child_if_any(const char* tag) const {
   const std::vector<UrdfElement> all = children(tag);
   if (all.empty()) return std::nullopt;
   if (all.size() == 1) return all.front();
-  refuse(tag, fmt::format("{} elements", all.size()), fmt::format("one <{}> at most", tag));
+  throw_bad_input(tag, fmt::format("{} elements", all.size()),
+                  fmt::format("one <{}> at most", tag));
 }
 
 std::vector<UrdfElement> UrdfElement::children(const char* tag) const {
@@ -64,14 +65,14 @@ Eigen::VectorXd UrdfElement::numbers(const char* name, int count) const {
   bool good = true;
   for (double& value : values) good = good && stream >> value && std::isfinite(value);
   if (good && (stream >> std::ws).eof()) return values;
-  refuse(name, text ? fmt::format("'{}'", *text) : "nothing",
-         count == 1 ? "a finite number" : fmt::format("{} finite numbers", count));
+  throw_bad_input(name, text ? fmt::format("'{}'", *text) : "nothing",
+                  count == 1 ? "a finite number" : fmt::format("{} finite numbers", count));
 }
 
-void UrdfElement::refuse(std::string_view attribute, std::string_view got,
-                         std::string_view expected) const {
+void UrdfElement::throw_bad_input(std::string_view attribute, std::string_view got,
+                                  std::string_view expected) const {
   const std::string key = attribute.empty() ? key_ : fmt::format("{}.{}", key_, attribute);
-  maxwrench::refuse(*file_, key, got, expected);
+  maxwrench::throw_bad_input(*file_, key, got, expected);
 }
 
 }  // namespace maxwrench

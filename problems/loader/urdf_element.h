@@ -20,19 +20,19 @@ class UrdfElement {
 
   std::string tag() const { return xml_->Name(); }
 
-  /// A link or joint with its name in the key, `link[hull]`. Refuses one without a name.
+  /// A link or joint with its name in the key, `link[hull]`. Rejects one without a name.
   UrdfElement with_name() const;
 
-  /// The only child with this tag. Refuses none and several.
+  /// The only child with this tag. Rejects none and several.
   UrdfElement child(const char* tag) const;
-  /// Nothing if there is none. Refuses several.
+  /// Nothing if there is none. Rejects several.
   std::optional<UrdfElement> child_if_any(const char* tag) const;
   /// All children, or those with this tag, in the order of the file.
   std::vector<UrdfElement> children(const char* tag = nullptr) const;
 
   /// The text of an attribute, or nothing.
   std::optional<std::string> attribute(const char* name) const;
-  /// Refuses all but a finite number, and an attribute that is not there unless there is a value to
+  /// Rejects all but a finite number, and an attribute that is not there unless there is a value to
   /// take instead.
   double number(const char* name, std::optional<double> otherwise = {}) const;
   /// The same of three numbers.
@@ -40,8 +40,8 @@ class UrdfElement {
                          const std::optional<Eigen::Vector3d>& otherwise = {}) const;
 
   /// Throws the line of `bad_input.h` about this element or, if it is named, an attribute.
-  [[noreturn]] void refuse(std::string_view attribute, std::string_view got,
-                           std::string_view expected) const;
+  [[noreturn]] void throw_bad_input(std::string_view attribute, std::string_view got,
+                                    std::string_view expected) const;
 
  private:
   Eigen::VectorXd numbers(const char* name, int count) const;

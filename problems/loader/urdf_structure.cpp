@@ -19,18 +19,19 @@ UrdfElement parse(const fs::path& file, tinyxml2::XMLDocument& document) {
   document.Parse(text.c_str());
   if (document.Error()) {
     const bool deep = document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED;
-    refuse(file, fmt::format("line {}", document.ErrorLineNum()),
-           deep ? fmt::format("an element within {} others", TINYXML2_MAX_ELEMENT_DEPTH)
-                : fmt::format("'{}'", document.ErrorName()),
-           deep ? "a file that is nested less" : "valid XML");
+    throw_bad_input(file, fmt::format("line {}", document.ErrorLineNum()),
+                    deep ? fmt::format("an element within {} others", TINYXML2_MAX_ELEMENT_DEPTH)
+                         : fmt::format("'{}'", document.ErrorName()),
+                    deep ? "a file that is nested less" : "valid XML");
   }
   const tinyxml2::XMLElement* xml = document.FirstChildElement("robot");
-  if (xml == nullptr) refuse(file, "robot", "nothing", "an element <robot>");
-  if (xml->NextSiblingElement("robot") != nullptr) refuse(file, "robot", "two", "one robot");
+  if (xml == nullptr) throw_bad_input(file, "robot", "nothing", "an element <robot>");
+  if (xml->NextSiblingElement("robot") != nullptr)
+    throw_bad_input(file, "robot", "two", "one robot");
   const UrdfElement robot(file, *xml, "robot");
-  if (!robot.attribute("name")) robot.refuse("name", "nothing", "a name");
+  if (!robot.attribute("name")) robot.throw_bad_input("name", "nothing", "a name");
   const std::string version = robot.attribute("version").value_or("1.0");
-  if (version != "1.0") robot.refuse("version", fmt::format("'{}'", version), "1.0");
+  if (version != "1.0") robot.throw_bad_input("version", fmt::format("'{}'", version), "1.0");
   return robot;
 }
 
@@ -40,7 +41,7 @@ std::map<std::string, UrdfElement> named_elements(const UrdfElement& robot, cons
   for (const UrdfElement& each : robot.children(tag)) {
     const UrdfElement element = each.with_name();
     if (found.emplace(name_of(element), element).second) continue;
-    element.refuse("", "two of this name", "names of their own");
+    element.throw_bad_input("", "two of this name", "names of their own");
   }
   return found;
 }
@@ -52,12 +53,12 @@ std::map<std::string, std::string> find_parents(const std::map<std::string, Urdf
   for (const auto& [name, joint] : joints) {
     for (const char* end : {"parent", "child"}) {
       if (links.contains(end_of(joint, end))) continue;
-      joint.child(end).refuse("link", fmt::format("'{}'", end_of(joint, end)),
-                              "a link of this file");
+      joint.child(end).throw_bad_input("link", fmt::format("'{}'", end_of(joint, end)),
+                                       "a link of this file");
     }
     const std::string child = end_of(joint, "child");
     if (!parents.emplace(child, end_of(joint, "parent")).second) {
-      joint.child("child").refuse(
+      joint.child("child").throw_bad_input(
           "link", fmt::format("'{}'", child),
           fmt::format("a link that no other joint leads to ('{}' does)", joint_to.at(child)));
     }
@@ -66,7 +67,7 @@ std::map<std::string, std::string> find_parents(const std::map<std::string, Urdf
   return parents;
 }
 
-/// The link without a parent. Refuses links that it does not lead to.
+/// The link without a parent. Rejects links that it does not lead to.
 std::string find_root(const fs::path& file, const std::map<std::string, UrdfElement>& links,
                       const std::map<std::string, std::string>& parents) {
   std::vector<std::string> roots;
@@ -74,7 +75,7 @@ std::string find_root(const fs::path& file, const std::map<std::string, UrdfElem
     if (!parents.contains(name)) roots.push_back(name);
   }
   if (roots.size() != 1) {
-    refuse(
+    throw_bad_input(
         file, "link",
         roots.empty() ? "a joint to every link" : fmt::format("roots {}", fmt::join(roots, ", ")),
         "one root: one link that no joint leads to");
@@ -84,8 +85,8 @@ std::string find_root(const fs::path& file, const std::map<std::string, UrdfElem
     std::string at = name;
     for (std::size_t steps = 0; at != root && steps < links.size(); ++steps) at = parents.at(at);
     if (at == root) continue;
-    link.refuse("", "a loop of joints",
-                fmt::format("a tree: joints that lead here from the root '{}'", root));
+    link.throw_bad_input("", "a loop of joints",
+                         fmt::format("a tree: joints that lead here from the root '{}'", root));
   }
   return root;
 }
@@ -97,7 +98,7 @@ std::string name_of(const UrdfElement& element) { return element.attribute("name
 std::string end_of(const UrdfElement& joint, const char* end) {
   const UrdfElement element = joint.child(end);
   const std::optional<std::string> link = element.attribute("link");
-  if (!link) element.refuse("link", "nothing", "a link of this file");
+  if (!link) element.throw_bad_input("link", "nothing", "a link of this file");
   return *link;
 }
 
@@ -107,9 +108,10 @@ UrdfStructure read_structure(const fs::path& file, tinyxml2::XMLDocument& docume
   UrdfStructure structure;
   structure.links = named_elements(robot, "link");
   const std::size_t count = structure.links.size();
-  if (count == 0) refuse(file, "link", "nothing", "one link or more");
+  if (count == 0) throw_bad_input(file, "link", "nothing", "one link or more");
   if (count > kMostLinks) {
-    refuse(file, "link", fmt::format("{} links", count), fmt::format("at most {}", kMostLinks));
+    throw_bad_input(file, "link", fmt::format("{} links", count),
+                    fmt::format("at most {}", kMostLinks));
   }
   const auto joints = named_elements(robot, "joint");
   structure.root = find_root(file, structure.links, find_parents(structure.links, joints));

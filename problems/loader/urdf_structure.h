@@ -23,7 +23,7 @@ std::string name_of(const UrdfElement& element);
 /// The link at one end of a joint: `parent` or `child`.
 std::string end_of(const UrdfElement& joint, const char* end);
 
-/// Refuses what is not XML, elements that are nested deeper than the parser goes, another version
+/// Rejects what is not XML, elements that are nested deeper than the parser goes, another version
 /// of URDF than 1.0, links and joints without a name of their own, and what is not one tree of at
 /// most 1000 links. `document` holds the elements that the answer refers to, as it does to `file`.
 UrdfStructure read_structure(const std::filesystem::path& file, tinyxml2::XMLDocument& document);

@@ -38,13 +38,13 @@ Eigen::Matrix3d inertia_of(const UrdfElement& given) {
 }
 
 /// Adds a body to the link that carries it.
-void add_inertial(Link& carrier, const std::string& name, const UrdfElement& inertial,
+void add_inertial(Link& tracker, const std::string& name, const UrdfElement& inertial,
                   const Pose<double>& body) {
   const Pose<double> frame = body * origin_of(inertial);
   const double mass = inertial.child("mass").number("value");
   const Eigen::Matrix3d inertia = inertia_of(inertial.child("inertia"));
   require_body(name, mass, inertia);
-  if (mass > 0) add_body(carrier, mass, frame.p, frame.R * inertia * frame.R.transpose());
+  if (mass > 0) add_body(tracker, mass, frame.p, frame.R * inertia * frame.R.transpose());
 }
 
 Shape shape_of(const UrdfElement& collision) {
@@ -52,13 +52,13 @@ Shape shape_of(const UrdfElement& collision) {
       "one box, cylinder or sphere, or no <collision> here and capsules in the robot's TOML";
   const UrdfElement geometry = collision.child("geometry");
   const std::vector<UrdfElement> shapes = geometry.children();
-  if (shapes.empty()) geometry.refuse("", "nothing", expected);
+  if (shapes.empty()) geometry.throw_bad_input("", "nothing", expected);
   const UrdfElement& given = shapes[0];
   const std::string tag = given.tag();
   const bool round = tag == "cylinder" || tag == "sphere";
-  if (!round && tag != "box") geometry.refuse("", fmt::format("<{}>", tag), expected);
+  if (!round && tag != "box") geometry.throw_bad_input("", fmt::format("<{}>", tag), expected);
   if (shapes.size() > 1) {
-    geometry.refuse("", fmt::format("<{}> and <{}>", tag, shapes[1].tag()), expected);
+    geometry.throw_bad_input("", fmt::format("<{}> and <{}>", tag, shapes[1].tag()), expected);
   }
   Shape shape;
   if (round) shape.radius = given.number("radius");
@@ -90,7 +90,7 @@ void add_link(Reading& reading, const UrdfElement& link, const Body& body) {
 
 void set_limits(const UrdfElement& from, bool continuous, Joint& joint) {
   const std::optional<UrdfElement> limit = from.child_if_any("limit");
-  if (!limit) from.refuse("limit", "nothing", "effort and velocity");
+  if (!limit) from.throw_bad_input("limit", "nothing", "effort and velocity");
   joint.effort_max = limit->number("effort");
   joint.velocity_max = limit->number("velocity");
   joint.q_min = continuous ? -std::numbers::pi : limit->number("lower", 0);
@@ -105,17 +105,18 @@ Joint joint_of(const UrdfElement& from, const std::string& type, const Body& par
   joint.type = type == "prismatic" ? JointType::kPrismatic : JointType::kRevolute;
   if (type != "revolute" && type != "continuous" && type != "prismatic") {
     const bool of_base = type == "floating" || type == "planar";
-    from.refuse("type", of_base ? type : fmt::format("'{}'", type),
-                fmt::format("revolute, continuous, prismatic or fixed{}",
-                            of_base ? " (the base moves by base.axes in the robot's TOML)" : ""));
+    from.throw_bad_input(
+        "type", of_base ? type : fmt::format("'{}'", type),
+        fmt::format("revolute, continuous, prismatic or fixed{}",
+                    of_base ? " (the base moves by base.axes in the robot's TOML)" : ""));
   }
   joint.placement = parent.placement * origin_of(from);
   const std::optional<UrdfElement> axis = from.child_if_any("axis");
   joint.axis = axis ? axis->vector("xyz") : Eigen::Vector3d::UnitX();
   set_limits(from, type == "continuous", joint);
   if (const auto mimic = from.child_if_any("mimic")) {
-    from.refuse("mimic", fmt::format("'{}'", mimic->attribute("joint").value_or("")),
-                "a joint that moves on its own");
+    from.throw_bad_input("mimic", fmt::format("'{}'", mimic->attribute("joint").value_or("")),
+                         "a joint that moves on its own");
   }
   return joint;
 }
@@ -127,7 +128,7 @@ void visit(Reading& reading, const std::string& name, const Body& body) {
   for (const UrdfElement& joint : joints->second) {
     const std::string child = end_of(joint, "child");
     const std::optional<std::string> type = joint.attribute("type");
-    if (!type) joint.refuse("type", "nothing", "revolute, continuous, prismatic or fixed");
+    if (!type) joint.throw_bad_input("type", "nothing", "revolute, continuous, prismatic or fixed");
     Body moved;
     if (*type == "fixed") {
       moved = {body.link, body.placement * origin_of(joint)};

@@ -33,10 +33,10 @@ std::string shown(const std::string& text);
 std::string shown(const std::vector<std::string>& texts);
 std::string shown(const Eigen::VectorXd& numbers);
 
-/// Refuses all but `size` finite numbers.
+/// Rejects all but `size` finite numbers.
 void require_numbers(std::string_view key, const Eigen::VectorXd& numbers, Eigen::Index size);
 void require_finite(std::string_view key, double value);
-/// Refuses numbers that are not finite, and an R that is no rotation.
+/// Rejects numbers that are not finite, and an R that is no rotation.
 void require_pose(std::string_view key, const Pose<double>& pose);
 /// > 0.
 void require_positive(std::string_view key, double value,

@@ -88,7 +88,7 @@ void set_forces(const ContactSpec& spec, Contact& contact) {
 }
 
 /// The directions of `basis` that may be pulled and pushed without limit: none of their sums may be
-/// free of work, or zero, because nothing would bound it. One alone that does no work is refused
+/// free of work, or zero, because nothing would bound it. One alone that does no work is rejected
 /// whatever its limits.
 void require_work(const Eigen::MatrixXd& works, const Contact& contact) {
   std::vector<Eigen::Index> free;
@@ -163,7 +163,7 @@ void set_rest(const ContactSpec& spec, const std::vector<int>& chain, Problem& p
                  fmt::format("one of {}", names_of(robot, resting)));
 }
 
-[[noreturn]] void refuse_followers(const ContactSpec& spec, const std::string& expected) {
+[[noreturn]] void throw_bad_dependents(const ContactSpec& spec, const std::string& expected) {
   throw BadValue("contact.joints", spec.joints.empty() ? "nothing" : shown(spec.joints), expected);
 }
 
@@ -185,7 +185,7 @@ void set_arm(const ContactSpec& spec, Problem& problem, Contact& contact) {
     const auto found = std::find_if(chain.begin(), chain.end(), [&](int joint) {
       return robot.joints[static_cast<std::size_t>(joint)].name == name;
     });
-    if (found == chain.end()) refuse_followers(spec, "some of " + names);
+    if (found == chain.end()) throw_bad_dependents(spec, "some of " + names);
     contact.follow.push_back(*found);
   }
   const bool ordered =
@@ -193,15 +193,15 @@ void set_arm(const ContactSpec& spec, Problem& problem, Contact& contact) {
       std::adjacent_find(contact.follow.begin(), contact.follow.end()) == contact.follow.end();
   const auto most = static_cast<std::size_t>(contact.rows());
   if (!ordered || contact.follow.empty() || contact.follow.size() > most) {
-    refuse_followers(spec, fmt::format("at most {} of {}, in this order", most, names));
+    throw_bad_dependents(spec, fmt::format("at most {} of {}, in this order", most, names));
   }
   if (contact.holds_axes && contact.follow.size() != most) {
-    refuse_followers(spec, "six joints: a firm grasp needs them");
+    throw_bad_dependents(spec, "six joints: a firm grasp needs them");
   }
-  const int ways = following_rank(robot, contact);
+  const int ways = dependent_rank(robot, contact);
   if (ways < static_cast<int>(contact.follow.size())) {
-    refuse_followers(spec, fmt::format("joints that the contact fixes: of these {} it fixes {}",
-                                       contact.follow.size(), ways));
+    throw_bad_dependents(spec, fmt::format("joints that the contact fixes: of these {} it fixes {}",
+                                           contact.follow.size(), ways));
   }
   set_rest(spec, chain, problem, contact);
 }

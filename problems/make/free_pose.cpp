@@ -26,7 +26,7 @@ bool names(const std::vector<std::string>& list, const char* axis) {
   return std::find(list.begin(), list.end(), axis) != list.end();
 }
 
-/// Refuses axes that do not exist or stand twice.
+/// Rejects axes that do not exist or stand twice.
 void require_axes(const TaskSpec& task) {
   const auto known = [](const std::string& axis) {
     return std::find(kTwistAxes.begin(), kTwistAxes.end(), axis) != kTwistAxes.end();
@@ -60,16 +60,16 @@ std::array<double, 2> range_of(const TaskSpec& task, const char* axis, bool turn
   }
   const std::string key = fmt::format("pose.range.{}", axis);
   const std::array<double, 2>& limits = found->second;
-  const auto refuse_range = [&](const std::string& expected) {
+  const auto throw_bad_range = [&](const std::string& expected) {
     throw BadValue(key, shown_range(limits), expected);
   };
   require_numbers(key, Eigen::Map<const Eigen::VectorXd>(limits.data(), 2), 2);
-  if (!(limits[0] < limits[1])) refuse_range("[min, max] with min < max");
+  if (!(limits[0] < limits[1])) throw_bad_range("[min, max] with min < max");
   if (!(std::max(std::abs(limits[0]), std::abs(limits[1])) <= kFarthest)) {
-    refuse_range(fmt::format("limits of at most {:g} m or rad", kFarthest));
+    throw_bad_range(fmt::format("limits of at most {:g} m or rad", kFarthest));
   }
   if (turns && limits[1] - limits[0] > 2 * kHalfTurn * (1 + 1e-12)) {
-    refuse_range("an angle's range of at most 2 pi rad");
+    throw_bad_range("an angle's range of at most 2 pi rad");
   }
   return limits;
 }
@@ -85,14 +85,14 @@ Matrix6Xd motions_at(const Problem& problem, PostureEvaluator& model,
                      const Eigen::VectorXd& theta_r) {
   if (problem.dependent.empty()) return motions_at_pose(held_at(problem, theta_r));
   const Posture& posture = model.evaluate(theta_r);
-  return posture.branches.found > 0 ? Matrix6Xd(tidy_range(posture.J)) : Matrix6Xd(6, 0);
+  return posture.ik_solutions.found > 0 ? Matrix6Xd(tidy_range(posture.J)) : Matrix6Xd(6, 0);
 }
 
 bool contains(const Matrix6Xd& T, const Matrix6Xd& twists) {
   return (twists - T * (T.transpose() * twists)).norm() < kApart * std::max(1.0, twists.norm());
 }
 
-[[noreturn]] void refuse_axis(const TaskSpec& task, const char* axis, const char* why) {
+[[noreturn]] void throw_bad_axis(const TaskSpec& task, const char* axis, const char* why) {
   const std::string expected = fmt::format("{} ({} is none)", why, axis);
   const auto range = task.range.find(axis);
   if (range == task.range.end()) throw BadValue("pose.free", shown(task.free), expected);
@@ -118,9 +118,9 @@ void set_free_pose(const TaskSpec& task, Problem& problem) {
     append(problem.theta_r_max, limits[1]);
     append(problem.theta_r_default, std::clamp(0.0, limits[0], limits[1]));
   }
-  problem.free.along_tool = task.along_tool;
+  problem.free.along_end_effector = task.along_end_effector;
   const std::vector<int>& axes = problem.free.axes;
-  problem.free.wrench_turns = task.wrench_in_tool && !axes.empty() && axes.back() >= 3;
+  problem.free.wrench_turns = task.wrench_in_end_effector && !axes.empty() && axes.back() >= 3;
 }
 
 void require_free_motions(const TaskSpec& task, const Problem& problem) {
@@ -135,8 +135,8 @@ void require_free_motions(const TaskSpec& task, const Problem& problem) {
     const Eigen::Matrix3d turn = pose_at(problem, theta_r).R * problem.pose.R.transpose();
     for (int i = 0; i < problem.free.count() && T.cols() > 0; ++i) {
       if (contains(T, free_twist(problem, theta_r, i))) continue;
-      refuse_axis(task, kTwistAxes[static_cast<std::size_t>(problem.free.axes[i])],
-                  "axes along which the end effector can move");
+      throw_bad_axis(task, kTwistAxes[static_cast<std::size_t>(problem.free.axes[i])],
+                     "axes along which the end effector can move");
     }
     const Matrix6Xd here = problem.free.wrench_turns ? rotated(turn.transpose(), T) : T;
     if (place == 0) T_0 = here;

@@ -18,15 +18,15 @@ Eigen::Vector3d principal_moments(const Eigen::Matrix3d& inertia) {
       .eigenvalues();
 }
 
-[[noreturn]] void refuse_moments(const std::string& link, const Eigen::Vector3d& moments,
-                                 std::string_view expected) {
+[[noreturn]] void throw_bad_moments(const std::string& link, const Eigen::Vector3d& moments,
+                                    std::string_view expected) {
   throw BadValue(
       fmt::format("link[{}].inertial.inertia", link),
       fmt::format("principal moments {:.6g}, {:.6g}, {:.6g}", moments[0], moments[1], moments[2]),
       expected);
 }
 
-/// Refuses names that are empty or stand twice.
+/// Rejects names that are empty or stand twice.
 template <class Named>
 void require_names(const std::vector<Named>& all, const std::string& noun) {
   std::set<std::string> names;
@@ -64,7 +64,7 @@ void require_inertia(const Link& link) {
   }
   const Eigen::Vector3d moments = principal_moments(link.inertia);
   if (moments[0] > 1e-9 * moments[2]) return;
-  refuse_moments(link.name, moments, fmt::format("moments > 0 {}", moves));
+  throw_bad_moments(link.name, moments, fmt::format("moments > 0 {}", moves));
 }
 
 void check_links(const Robot& robot) {
@@ -191,13 +191,13 @@ void set_collision(Robot& robot, const Collision& collision) {
   std::vector<Shape> shapes = collision.shapes;
   std::set<std::string> names;
   for (const Link& link : robot.links) names.insert(link.name);
-  robot.solids.clear();
+  robot.convex_bodies.clear();
   for (Shape& shape : shapes) {
     require_link("collision.link", robot, shape.link);
     if (shape.body.empty()) shape.body = robot.links[static_cast<std::size_t>(shape.link)].name;
     names.insert(shape.body);
     check_shape(shape);
-    robot.solids.push_back(to_solid(shape));
+    robot.convex_bodies.push_back(to_convex_body(shape));
   }
   for (const auto& [a, b] : collision.ignore) {
     for (const std::string& body : {a, b}) {
@@ -223,10 +223,10 @@ void require_body(const std::string& link, double mass, const Eigen::Matrix3d& i
   const Eigen::Vector3d moments = principal_moments(inertia);
   const double slack = 1e-9 * std::abs(moments[2]);
   if (moments[0] < -slack || moments[0] + moments[1] < moments[2] - slack) {
-    refuse_moments(link, moments, "moments >= 0, none above the sum of the other two");
+    throw_bad_moments(link, moments, "moments >= 0, none above the sum of the other two");
   }
   if (mass == 0 && moments[2] > 0) {
-    refuse_moments(link, moments, "no moments where the mass is zero");
+    throw_bad_moments(link, moments, "no moments where the mass is zero");
   }
 }
 

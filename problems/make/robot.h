@@ -7,7 +7,7 @@
 
 namespace maxwrench {
 
-/// Refuses a mass that is negative and moments that no body has. A mass point, a thin rod and a
+/// Rejects a mass that is negative and moments that no body has. A mass point, a thin rod and a
 /// frame without mass are fine as long as they are a part of a link.
 void require_body(const std::string& link, double mass, const Eigen::Matrix3d& inertia);
 
@@ -23,7 +23,7 @@ struct InWater {
 /// water, so there must be some.
 void require_hydrodynamics(const std::vector<InWater>& bodies, double water_density);
 
-/// Refuses negative or infinite coefficients.
+/// Rejects negative or infinite coefficients.
 void require_coefficients(const std::string& key, const Vector6d& values);
 
 }  // namespace maxwrench

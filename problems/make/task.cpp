@@ -12,7 +12,7 @@
 #include "problems/make/bad_value.h"
 #include "problems/make/contact.h"
 #include "problems/make/free_pose.h"
-#include "problems/make/motion.h"
+#include "problems/make/motion_task.h"
 #include "problems/make/theta_r.h"
 
 namespace maxwrench {
@@ -29,10 +29,10 @@ void require_final(const Robot& robot) {
 }
 
 void set_wrench(const TaskSpec& task, Problem& problem) {
-  if (task.wrench_in_tool && problem.motion && problem.motion->impulse) {
-    throw BadValue("wrench.frame", "'tool'", "'world': in a heave the pose stays");
+  if (task.wrench_in_end_effector && problem.motion && problem.motion->impulse) {
+    throw BadValue("wrench.frame", "'tool'", "'world': in an impulse the pose stays");
   }
-  if (task.wrench_in_tool) problem.wrench_axes = problem.pose.R;
+  if (task.wrench_in_end_effector) problem.wrench_axes = problem.pose.R;
   const Eigen::VectorXd c = task.c;
   require_numbers("wrench.c", c, 6);
   if (c.stableNorm() < 1e-9) {
@@ -122,7 +122,7 @@ Problem make_problem(const TaskSpec& task) {
   set_joints(task, problem);
   set_free_pose(task, problem);
   set_start(task, problem);
-  require_branch(task, problem);
+  require_ik_solution(task, problem);
   require_free_motions(task, problem);
   choose_wrenches(task, problem);
   if (task.contact) {

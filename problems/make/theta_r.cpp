@@ -17,7 +17,7 @@
 namespace maxwrench {
 namespace {
 
-[[noreturn]] void refuse_names(const TaskSpec& task, const std::string& expected) {
+[[noreturn]] void throw_bad_names(const TaskSpec& task, const std::string& expected) {
   throw BadValue("theta_r.joints", task.joints ? shown(*task.joints) : "nothing", expected);
 }
 
@@ -34,11 +34,11 @@ std::vector<int> named_joints(const TaskSpec& task, const std::vector<int>& chai
     });
     const bool known = found != chain.end();
     if (!known || std::find(joints.begin(), joints.end(), *found) != joints.end()) {
-      refuse_names(task, expected);
+      throw_bad_names(task, expected);
     }
     joints.push_back(*found);
   }
-  if (static_cast<int>(joints.size()) != count) refuse_names(task, expected);
+  if (static_cast<int>(joints.size()) != count) throw_bad_names(task, expected);
   return joints;
 }
 
@@ -47,9 +47,10 @@ void require_chain(const TaskSpec& task, const std::vector<int>& chain) {
   std::vector<std::string> names;
   for (const int i : chain) names.push_back(task.robot.joints[static_cast<std::size_t>(i)].name);
   if (task.joints.value_or(names) != names) {
-    refuse_names(task, fmt::format("all joints from the base to the end effector, in this order: "
-                                   "{}",
-                                   fmt::join(names, ", ")));
+    throw_bad_names(task,
+                    fmt::format("all joints from the base to the end effector, in this order: "
+                                "{}",
+                                fmt::join(names, ", ")));
   }
   for (const auto& [key, guess] :
        {std::pair("guess", &task.guess), std::pair("guess_base", &task.guess_base)}) {
@@ -125,14 +126,14 @@ std::string shown_gap(const Vector6d& gap) {
 }
 
 /// "elbow, wrist and the base"
-std::string followers_of(const Problem& problem) {
+std::string dependents_of(const Problem& problem) {
   return names_of(problem.robot, problem.dependent) +
          (problem.robot.base_axes.empty() ? "" : " and the base");
 }
 
-[[noreturn]] void refuse_joints(const TaskSpec& task, const Problem& problem, const char* why) {
-  refuse_names(
-      task, fmt::format("joints without which the pose fixes {} ({})", followers_of(problem), why));
+[[noreturn]] void throw_bad_joints(const TaskSpec& task, const Problem& problem, const char* why) {
+  throw_bad_names(task, fmt::format("joints without which the pose fixes {} ({})",
+                                    dependents_of(problem), why));
 }
 
 /// Whether base and dependent joints move the end effector in as many ways as they are, in almost
@@ -146,33 +147,34 @@ bool follow_independently(const Problem& problem) {
          static_cast<int>(velocities.size());
 }
 
-[[noreturn]] void refuse_pose(const TaskSpec& task, const Problem& problem) {
-  const DependentJoints branch(problem);
-  if (branch.has_start() && branch.start_is_singular()) {
-    refuse_joints(task, problem, "it does not at the default: singular");
+[[noreturn]] void throw_bad_pose(const TaskSpec& task, const Problem& problem) {
+  const DependentJoints ik_solution(problem);
+  if (ik_solution.has_start() && ik_solution.start_is_singular()) {
+    throw_bad_joints(task, problem, "it does not at the default: singular");
   }
   throw BadValue(
       "pose.xyz", shown(problem.pose.p),
       fmt::format("a pose that {} reach{} (from {} at the default Newton's method stays {})",
-                  followers_of(problem), problem.motion ? " on the branch of the guess" : "",
-                  task.guess.empty() ? "zero" : "theta_r.guess", shown_gap(branch.start_gap())));
+                  dependents_of(problem), problem.motion ? " on the IK solution of the guess" : "",
+                  task.guess.empty() ? "zero" : "theta_r.guess",
+                  shown_gap(ik_solution.start_gap())));
 }
 
-[[noreturn]] void refuse_default(const TaskSpec& task, const Problem& problem, bool heave) {
-  const std::string followers = followers_of(problem);
-  if (heave) {
+[[noreturn]] void throw_bad_default(const TaskSpec& task, const Problem& problem, bool impulse) {
+  const std::string dependents = dependents_of(problem);
+  if (impulse) {
     throw BadValue(
         "start.theta_r", shown(problem.theta_r_default),
-        fmt::format("theta_r at which {} reach the pose (they do elsewhere)", followers));
+        fmt::format("theta_r at which {} reach the pose (they do elsewhere)", dependents));
   }
   throw BadValue("theta_r.default", shown(task.theta_r_default),
                  fmt::format("theta_r at which {} reach the pose (they do elsewhere: without this "
                              "key a place is found)",
-                             followers));
+                             dependents));
 }
 
 /// Whether the pose is reached, in a posture that may yet collide.
-bool is_reached(const Posture& posture) { return posture.branches.found > 0; }
+bool is_reached(const Posture& posture) { return posture.ik_solutions.found > 0; }
 
 /// A default that the task leaves open: the first place with a valid posture, or else where the
 /// pose is reached at all. First the joints move alone; then the coordinates of the pose and of a
@@ -245,24 +247,24 @@ void set_joints(const TaskSpec& task, Problem& problem) {
   set_guess(task, problem);
 }
 
-void require_branch(const TaskSpec& task, Problem& problem) {
+void require_ik_solution(const TaskSpec& task, Problem& problem) {
   if (problem.dependent.empty()) return;
   if (!follow_independently(problem)) {
-    refuse_joints(task, problem, "it does in no posture: singular");
+    throw_bad_joints(task, problem, "it does in no posture: singular");
   }
-  prepare_branches(problem);
-  if (!problem.atlas->reaches()) refuse_pose(task, problem);
+  prepare_ik_solutions(problem);
+  if (!problem.start_system->reaches()) throw_bad_pose(task, problem);
   PostureEvaluator model(problem);
   const Posture& at_default = model.evaluate(problem.theta_r_default);
-  const bool heave = problem.motion && problem.motion->impulse;
-  const bool open = task.theta_r_default.size() == 0 && !heave;
+  const bool impulse = problem.motion && problem.motion->impulse;
+  const bool open = task.theta_r_default.size() == 0 && !impulse;
   if (open ? at_default.status != Status::kValid : !is_reached(at_default)) {
-    if (!open) refuse_default(task, problem, heave);
+    if (!open) throw_bad_default(task, problem, impulse);
     find_default(model, problem);
   }
   if (is_guessed(task)) {
     if (DependentJoints(problem).has_start()) return;
-    if (problem.motion) refuse_pose(task, problem);
+    if (problem.motion) throw_bad_pose(task, problem);
   }
   guess_from(model.evaluate(problem.theta_r_default), problem);
 }

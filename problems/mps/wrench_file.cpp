@@ -34,10 +34,10 @@ std::vector<std::string> effort_names(const Robot& robot) {
   return names;
 }
 
-/// Names of the rows and columns of an assembled plan program, in its order.
-class PlanNames {
+/// Names of the rows and columns of an assembled trajectory program, in its order.
+class TrajectoryNames {
  public:
-  PlanNames(const Problem& problem, const PlanProgram& program)
+  TrajectoryNames(const Problem& problem, const TrajectoryProgram& program)
       : problem_(problem),
         program_(program),
         balances_(balance_names(problem.robot)),
@@ -83,7 +83,7 @@ class PlanNames {
   }
 
   const Problem& problem_;
-  const PlanProgram& program_;
+  const TrajectoryProgram& program_;
   std::vector<std::string> balances_, efforts_;
 };
 
@@ -99,9 +99,9 @@ std::string wrench_program_mps(const Problem& problem, const WrenchProgram& prog
   return mps_text(lp, problem.name);
 }
 
-std::string plan_program_mps(const Problem& problem, const PlanProgram& program) {
+std::string trajectory_program_mps(const Problem& problem, const TrajectoryProgram& program) {
   LinearProgram lp = assemble(program);
-  PlanNames(problem, program).write(lp);
+  TrajectoryNames(problem, program).write(lp);
   return mps_text(lp, problem.name);
 }
 

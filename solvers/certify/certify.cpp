@@ -17,8 +17,8 @@ constexpr std::size_t kShare = 2;
 /// How many boxes there are for one whose centre is evaluated, unless they are as small as this.
 constexpr std::size_t kSeldom = 32;
 constexpr double kSmallBox = 1e-3;
-/// Evaluations of a climb, about.
-constexpr int kClimbEvaluations = 500;
+/// Evaluations of a local search, about.
+constexpr int kLocalSearchEvaluations = 500;
 
 class BranchAndBound {
  public:
@@ -128,15 +128,15 @@ class BranchAndBound {
       const CertifiedBox& box = *parents_[i];
       const double width = (box.upper - box.lower).maxCoeff();
       if (i % kSeldom == 0 || width < kSmallBox)
-        climb((box.lower + box.upper).head(objective_.dimension()) / 2, width / 4);
+        local_search((box.lower + box.upper).head(objective_.dimension()) / 2, width / 4);
     }
   }
 
   /// Takes a point over if it is better, and then what is better still, one coordinate at a time.
-  void climb(Eigen::VectorXd x, double step) {
+  void local_search(Eigen::VectorXd x, double step) {
     if (!take_over(x)) return;
     int evaluations = 0;
-    while (step > kNarrowestBox && evaluations < kClimbEvaluations) {
+    while (step > kNarrowestBox && evaluations < kLocalSearchEvaluations) {
       bool moved = false;
       for (Eigen::Index i = 0; i < x.size(); ++i) {
         for (const double by : {step, -step}) {
@@ -186,7 +186,7 @@ CertifyResult certify(Objective& objective, const Bound& bound, const Candidate&
   require(options.boxes >= 1, "boxes", static_cast<double>(options.boxes), "at least 1");
   require_threads(options.threads);
   require(!std::isnan(incumbent.value), "incumbent", incumbent.value, "a value, or -infinity");
-  const Box refuses_infinite_limits(objective);
+  const Box rejects_infinite_limits(objective);
   return BranchAndBound(objective, bound, incumbent, options).run();
 }
 

@@ -54,8 +54,8 @@ struct CertifyResult : Verdict {
 
 /// Branch and bound over the box of the objective: the box with the largest bound comes next, cut
 /// in two along the coordinate that its bound names, else its widest. `incumbent`, a point with its
-/// value, sets what is to be proven; a better value at the centre of a box, and what a short climb
-/// from there finds, replaces it. Boxes narrower than 1e-6 are not cut. Throws
+/// value, sets what is to be proven; a better value at the centre of a box, and what a short local
+/// search from there finds, replaces it. Boxes narrower than 1e-6 are not cut. Throws
 /// std::invalid_argument, with one line, for options out of range.
 CertifyResult certify(Objective& objective, const Bound& bound, const Candidate& incumbent,
                       const CertifyOptions& options);

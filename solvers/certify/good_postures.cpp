@@ -297,7 +297,7 @@ GoodPostures find_good_postures(Objective& objective, const Bound& bound, const 
           static_cast<double>(turns), "one for each coordinate, or none");
   require(std::isfinite(best.value), "best", best.value, "a posture with a value");
   require(!std::isnan(high), "high", high, "a bound of all values");
-  const Box refuses_infinite_limits(objective);
+  const Box rejects_infinite_limits(objective);
   GoodPostures result;
   result.least = good_from(best.value, options.within);
   result.sure = good_from(high, options.within);

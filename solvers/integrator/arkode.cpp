@@ -55,7 +55,7 @@ class ArkodeSession : public sundials::Session {
 class Arkode final : public Integrator {
  public:
   Status integrate(Ode& ode, const IntegratorOptions& options, std::span<const double> times,
-                   Trajectory& trajectory) override {
+                   OdeSolution& trajectory) override {
     check_request(options, times);
     trajectory.start(times[0], ode.initial());
     ArkodeSession session(ode, options, times[0]);

@@ -87,7 +87,7 @@ class Cvode final : public Integrator {
   explicit Cvode(int method) : method_(method) {}
 
   Status integrate(Ode& ode, const IntegratorOptions& options, std::span<const double> times,
-                   Trajectory& trajectory) override {
+                   OdeSolution& trajectory) override {
     check_request(options, times);
     trajectory.start(times[0], ode.initial());
     CvodeSession session(ode, options, times[0], method_);

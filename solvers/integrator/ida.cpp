@@ -69,7 +69,7 @@ class IdaSession : public sundials::Session {
 class Ida final : public Integrator {
  public:
   Status integrate(Ode& ode, const IntegratorOptions& options, std::span<const double> times,
-                   Trajectory& trajectory) override {
+                   OdeSolution& trajectory) override {
     check_request(options, times);
     trajectory.start(times[0], ode.initial());
     Eigen::VectorXd y_dot(ode.dimension());

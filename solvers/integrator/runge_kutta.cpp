@@ -81,7 +81,7 @@ class Walk {
 class RungeKutta final : public Integrator {
  public:
   Status integrate(Ode& ode, const IntegratorOptions& options, std::span<const double> times,
-                   Trajectory& trajectory) override {
+                   OdeSolution& trajectory) override {
     check_request(options, times);
     trajectory.start(times[0], ode.initial());
     Walk walk(ode, times[0]);
@@ -105,7 +105,7 @@ class RungeKutta final : public Integrator {
 
  private:
   static Status advance(Walk& walk, double begin, double length, long steps, long& left,
-                        Trajectory& trajectory) {
+                        OdeSolution& trajectory) {
     const double h = length / static_cast<double>(steps);
     for (long k = 0; k < steps; ++k) {
       if (left-- <= 0) {

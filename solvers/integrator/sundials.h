@@ -71,7 +71,7 @@ class Session {
 ///   void rethrow()  what the callbacks threw;
 ///   Eigen::VectorXd state() const;   int found_root() const;   std::string words(int flag) const.
 template <class S>
-Status run(S& session, std::span<const double> times, Trajectory& trajectory) {
+Status run(S& session, std::span<const double> times, OdeSolution& trajectory) {
   for (const double t : times.subspan(1)) {
     double reached = trajectory.t.back();
     const int flag = session.advance(t, times.back(), reached);

@@ -47,7 +47,7 @@ class Clp : public LpSolver {
       : keep_model_(keep_model), method_(method) {}
 
   void solve(const LinearProgram& program, LpSolution& solution) override {
-    if (refused(program, solution)) return;
+    if (rejected(program, solution)) return;
     // Scaling costs more than a small program. The dual simplex bounds free columns by 1e10 for a
     // while, which can leave columns 1e-6 off their bounds, or free ones out there where any value
     // would do, with rows that balance to 1e-6 only. What fails is tried again with scaling and the

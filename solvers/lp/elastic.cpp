@@ -69,7 +69,7 @@ void solve_by_attempts(const LinearProgram& program, const LpAttempt& attempt,
   prove_no_optimum(program, run, solution);
 }
 
-bool refused(const LinearProgram& program, LpSolution& solution) {
+bool rejected(const LinearProgram& program, LpSolution& solution) {
   solution.iterations = solution.cold_restarts = 0;
   solution.objective = 0;
   solution.certificate.resize(0);
@@ -82,7 +82,7 @@ bool refused(const LinearProgram& program, LpSolution& solution) {
   }
   const auto too_large = [](const auto& v) { return (v.array().abs() >= kInfiniteBound).any(); };
   if (too_large(program.b) || too_large(program.c) || too_large(program.A.coeffs())) {
-    give_up(solution, Status::kNumericalError, "an entry is beyond 1e20, which libraries refuse");
+    give_up(solution, Status::kNumericalError, "an entry is beyond 1e20, which libraries reject");
     return true;
   }
   if (!(program.l.array() > program.u.array()).any()) return false;

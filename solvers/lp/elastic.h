@@ -32,7 +32,7 @@ void prove_no_optimum(const LinearProgram& program, const LpRun& run, LpSolution
 
 /// Whether the program is not for a library: malformed data or entries beyond 1e20
 /// (kNumericalError) or crossing bounds (kInfeasible), which fill `solution`.
-bool refused(const LinearProgram& program, LpSolution& solution);
+bool rejected(const LinearProgram& program, LpSolution& solution);
 
 /// The verdict without optimum, its reason, and no certificate yet.
 void give_up(LpSolution& solution, Status status, const char* reason);

@@ -94,7 +94,7 @@ bool guarded(int (*call)(glp_prob*, const glp_smcp*), glp_prob* problem, const g
   return true;
 }
 
-/// With scaling GLPK refuses factors out of range, by a failed assertion too.
+/// With scaling GLPK rejects factors out of range, by a failed assertion too.
 int prepare(glp_prob* problem, const glp_smcp* /*options*/) {
   glp_scale_prob(problem, GLP_SF_AUTO);
   glp_adv_basis(problem, 0);
@@ -144,7 +144,7 @@ class Glpk : public LpSolver {
   explicit Glpk(bool keep_model) : keep_model_(keep_model) {}
 
   void solve(const LinearProgram& program, LpSolution& solution) override {
-    if (refused(program, solution)) return;
+    if (rejected(program, solution)) return;
     environment().open();
     const Quiet quiet;
     // Scaling costs more than a small program; what fails without it is tried again with it.

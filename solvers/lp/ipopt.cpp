@@ -116,7 +116,7 @@ class IpoptSolver : public LpSolver {
 
   void solve(const LinearProgram& program, LpSolution& solution) override {
     const std::lock_guard guard(ipopt_lock());
-    if (refused(program, solution)) return;
+    if (rejected(program, solution)) return;
     solution.basis.clear();
     if (run(program, solution)) {
       solution.status = Status::kOptimal;

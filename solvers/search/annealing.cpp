@@ -128,9 +128,9 @@ class Annealing final : public Search {
     std::vector<Part> parts(chains);
     parallel_for(options.threads, chains, [&](long i) {
       const long length = walking / chains + (i < walking % chains ? 1 : 0);
-      Probe probe(objective, length, run, options.peaks > 0 ? &box : nullptr);
+      Probe probe(objective, length, run, options.starts_wanted > 0 ? &box : nullptr);
       const bool given = i < static_cast<long>(starts.size());
-      Chain(probe, box, Random(options.seed, RandomUse::kClimb, i))
+      Chain(probe, box, Random(options.seed, RandomUse::kLocalSearch, i))
           .run(given ? &starts[i] : nullptr);
       parts[i] = probe.take();
     });

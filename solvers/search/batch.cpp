@@ -143,7 +143,8 @@ void check(const SearchOptions& options, const Objective& objective) {
   require(options.budget >= 1, "budget", static_cast<double>(options.budget),
           "at least 1 evaluation");
   require_threads(options.threads);
-  require(options.peaks >= 0, "peaks", static_cast<double>(options.peaks), "at least 0");
+  require(options.starts_wanted >= 0, "starts_wanted", static_cast<double>(options.starts_wanted),
+          "at least 0");
   if (options.start.size() > 0) {
     require_point("search start", options.start, objective.dimension());
   }

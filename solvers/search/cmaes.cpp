@@ -97,9 +97,9 @@ class Evolution {
 };
 
 /// One ascent of one candidate, with its own random numbers.
-class Ascent {
+class CmaesRun {
  public:
-  Ascent(Probe& probe, const Box& box, const Candidate& start, Random random)
+  CmaesRun(Probe& probe, const Box& box, const Candidate& start, Random random)
       : probe_(probe), box_(box), rates_(box.free()), best_(start), random_(random) {}
 
   /// Spends the evaluations of the probe, or fewer.
@@ -107,14 +107,14 @@ class Ascent {
     int idle = 0;
     for (int start = 0; probe_.left() > 0 && idle < 2; ++start) {
       const double before = best_.value;
-      climb(start % 2 == 0 ? step : step / 100, tolerance);
+      optimise(start % 2 == 0 ? step : step / 100, tolerance);
       // Rounding alone, as on a flat maximum, is no progress.
       idle = best_.value > before + 1e-13 * std::abs(before) ? 0 : idle + 1;
     }
   }
 
  private:
-  void climb(double step, double tolerance) {
+  void optimise(double step, double tolerance) {
     Evolution evolution(rates_, box_.unit(best_.theta_r), step);
     while (probe_.left() > 0 && evolution.reach() > tolerance)
       generation(std::min<long>(rates_.lambda, probe_.left()), evolution);
@@ -154,10 +154,10 @@ class Ascent {
   Random random_;
 };
 
-constexpr double kFirstStep = 0.3;   // from a random point, as a share of the bounds
-constexpr double kNearStep = 0.02;   // from where an earlier search has been
-constexpr double kTolerance = 1e-9;  // an ascent ends when it looks less far than this
-constexpr long kMostAscents = 24;    // from points of an earlier search
+constexpr double kFirstStep = 0.3;       // from a random point, as a share of the bounds
+constexpr double kNearStep = 0.02;       // from where an earlier search has been
+constexpr double kTolerance = 1e-9;      // an ascent ends when it looks less far than this
+constexpr long kMostLocalSearches = 24;  // from points of an earlier search
 
 /// Goes on from the best points of an earlier search: up to 24, best first and no more than the
 /// budget gives 120 (d + 1) evaluations each, share one half of it; the best of their results gets
@@ -167,11 +167,11 @@ void ascend_from(const Objective& objective, const Box& box, const SearchOptions
   const long half = options.budget / 2;
   const auto known = static_cast<long>(options.starts.size());
   const long count =
-      std::min(known, std::clamp(half / (120L * (box.free() + 1)), 1L, kMostAscents));
+      std::min(known, std::clamp(half / (120L * (box.free() + 1)), 1L, kMostLocalSearches));
   const auto ascend = [&](const Candidate& start, long budget, std::uint64_t stream) {
-    Probe probe(objective, budget, run, options.peaks > 0 ? &box : nullptr);
+    Probe probe(objective, budget, run, options.starts_wanted > 0 ? &box : nullptr);
     Random random(options.seed, RandomUse::kRefine, stream);
-    Ascent(probe, box, start, random).run(kNearStep, kTolerance);
+    CmaesRun(probe, box, start, random).run(kNearStep, kTolerance);
     const char* const word = probe.left() > 0 ? "converged" : kBudgetUsed;
     Part part = probe.take();
     part.calls.push_back({"cmaes", word, part.trace.evaluations()});
@@ -199,13 +199,14 @@ void ascend_from(const Objective& objective, const Box& box, const SearchOptions
 class Cmaes final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {
-    Climbing climbing{"cmaes"};
-    climbing.reach = 5000;
-    climbing.climb = [](Probe& probe, const Box& box, const Candidate& start, Random& random) {
-      Ascent(probe, box, start, random).run(kFirstStep, kTolerance);
+    LocalSearch local_search{"cmaes"};
+    local_search.evaluations_per_run = 5000;
+    local_search.optimise = [](Probe& probe, const Box& box, const Candidate& start,
+                               Random& random) {
+      CmaesRun(probe, box, start, random).run(kFirstStep, kTolerance);
       return probe.left() > 0 ? "converged" : kBudgetUsed;
     };
-    if (options.starts.empty()) return search_by_climbs(objective, options, climbing);
+    if (options.starts.empty()) return multistart_search(objective, options, local_search);
     check(options, objective);
     const Box box(objective);
     SearchRun run(options);
@@ -213,7 +214,7 @@ class Cmaes final : public Search {
     if (box.free() > 0) ascend_from(objective, box, options, run, found);
     SearchOptions anew = options;
     anew.starts.clear();
-    if (box.free() > 0) climb_from_starts(objective, box, anew, climbing, run, found);
+    if (box.free() > 0) multistart_from(objective, box, anew, local_search, run, found);
     return make_result(std::move(found), box, options, run);
   }
 };

@@ -20,33 +20,34 @@ class Composition final : public Search {
     check(options, objective);
     const Box box(objective);
     SearchResult whole;
-    std::vector<Candidate> peaks = options.starts;
+    std::vector<Candidate> starts = options.starts;
     for (std::size_t i = 0;
          i < stages_.size() && whole.evaluations < options.budget && !whole.interrupted; ++i) {
       SearchOptions own = options;
       own.budget = share(i, options.budget - whole.evaluations);
-      own.starts = peaks;
-      own.peaks = i + 1 < stages_.size() ? kHandedOn : options.peaks;
+      own.starts = starts;
+      own.starts_wanted = i + 1 < stages_.size() ? kHandedOn : options.starts_wanted;
       if (options.progress) {
         own.progress = [&options, before = whole.evaluations](long evaluations) {
           options.progress(before + evaluations);
         };
       }
       SearchResult result = stages_[i]->make()->maximize(objective, own);
-      if (result.peaks.empty() && result.status == Status::kBestFound)
-        result.peaks.push_back({result.theta_r, result.value});
-      peaks.insert(peaks.end(), result.peaks.begin(), result.peaks.end());
-      if (own.peaks > 0) peaks = select_apart(box, std::move(peaks), kApart, own.peaks);
+      if (result.starts.empty() && result.status == Status::kBestFound)
+        result.starts.push_back({result.theta_r, result.value});
+      starts.insert(starts.end(), result.starts.begin(), result.starts.end());
+      if (own.starts_wanted > 0)
+        starts = select_apart(box, std::move(starts), kApart, own.starts_wanted);
       append(std::move(result), whole);
     }
-    if (options.peaks > 0) whole.peaks = std::move(peaks);
+    if (options.starts_wanted > 0) whole.starts = std::move(starts);
     return whole;
   }
 
  private:
   long share(std::size_t i, long left) const {
     const auto behind = static_cast<double>(stages_.size() - i);
-    const double own = stages_[i]->share > 0 ? stages_[i]->share : 1 / behind;
+    const double own = stages_[i]->budget_fraction > 0 ? stages_[i]->budget_fraction : 1 / behind;
     if (i + 1 == stages_.size()) return left;
     return std::max(1L, std::lround(own * static_cast<double>(left)));
   }

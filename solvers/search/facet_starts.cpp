@@ -18,13 +18,13 @@ constexpr long kFewest = 3;
 
 long facet_parts_of(long budget) { return std::clamp(budget / 200, 1L, 8L); }
 
-/// From each branch of theta_r; appends how each solve ended.
+/// From each IK solution of theta_r; appends how each solve ended.
 void solve_all(Probe& probe, FacetProgram& program, const Box& box, const Eigen::VectorXd& theta_r,
                const char* name, const FacetSolve& solve, std::vector<Call>& calls) {
   const auto spent = [&] { return probe.found().trace.evaluations(); };
   probe.spend();
-  const int branches = program.branches(theta_r);
-  for (int k = 0; k < branches && probe.left() >= kFewest; ++k) {
+  const int ik_solutions = program.ik_solutions(theta_r);
+  for (int k = 0; k < ik_solutions && probe.left() >= kFewest; ++k) {
     const long before = spent();
     Call call{name, ""};
     solve_from(probe, program, box, theta_r, k, solve, &call.status);
@@ -51,10 +51,10 @@ FacetView::FacetView(Probe& probe, FacetProgram& program, const Box& box)
   row_max_ = program_.row_max().cwiseQuotient(unit_);
 }
 
-bool FacetView::set_out(const Eigen::VectorXd& theta_r, int branch) {
+bool FacetView::set_out(const Eigen::VectorXd& theta_r, int ik_solution) {
   probe_.spend();
   Eigen::VectorXd w;
-  if (!program_.set_out(theta_r, branch, w) || !program_.evaluate(theta_r, w)) return false;
+  if (!program_.set_out(theta_r, ik_solution, w) || !program_.evaluate(theta_r, w)) return false;
   program_.linearize();
   scale(w);
   start_.resize(d_ + w.size());
@@ -107,10 +107,10 @@ const FacetView::Jacobian& FacetView::jacobian() {
 }
 
 double solve_from(Probe& probe, FacetProgram& program, const Box& box,
-                  const Eigen::VectorXd& theta_r, int branch, const FacetSolve& solve,
+                  const Eigen::VectorXd& theta_r, int ik_solution, const FacetSolve& solve,
                   std::string* status) {
   FacetView view(probe, program, box);
-  if (!view.set_out(theta_r, branch)) return -kInfinity;
+  if (!view.set_out(theta_r, ik_solution)) return -kInfinity;
   const FacetEnd end = solve(view);
   if (status) *status = view.ended() ? kBudgetUsed : end.status;
   return probe.evaluate(view.theta_r(end.y));
@@ -132,13 +132,13 @@ SearchResult search_from_facet_starts(const char* name, Objective& objective,
   std::vector<Part> found(static_cast<std::size_t>(parts));
   parallel_for(options.threads, parts, [&](long part) {
     Probe probe(objective, options.budget / parts + (part < options.budget % parts ? 1 : 0), run,
-                options.peaks > 0 ? &box : nullptr);
+                options.starts_wanted > 0 ? &box : nullptr);
     const std::unique_ptr<FacetProgram> program = require_facets(objective, name);
     if (part == 0) probe.evaluate(given(0));
     std::vector<Call> calls;
     const auto enough = [&] { return static_cast<long>(calls.size()) > most / parts; };
     for (long i = part; box.free() > 0 && probe.left() > 0 && !enough(); i += parts) {
-      Random random(options.seed, RandomUse::kClimb, static_cast<std::uint64_t>(i));
+      Random random(options.seed, RandomUse::kLocalSearch, static_cast<std::uint64_t>(i));
       solve_all(probe, *program, box, i < givens ? given(i) : random_point(box, random), name,
                 solve, calls);
     }

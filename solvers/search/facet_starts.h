@@ -21,9 +21,9 @@ class FacetView {
   /// All outlive this.
   FacetView(Probe& probe, FacetProgram& program, const Box& box);
 
-  /// Sets out at one of the branches of theta_r, which counts as an evaluation; false if there are
-  /// no more so many.
-  bool set_out(const Eigen::VectorXd& theta_r, int branch);
+  /// Sets out at one of the IK solutions of theta_r, which counts as an evaluation; false if there
+  /// are no more so many.
+  bool set_out(const Eigen::VectorXd& theta_r, int ik_solution);
   const Eigen::VectorXd& start() const { return start_; }
   const Eigen::VectorXd& lower() const { return lower_; }
   const Eigen::VectorXd& upper() const { return upper_; }
@@ -67,21 +67,21 @@ struct FacetEnd {
 using FacetSolve = std::function<FacetEnd(FacetView& view)>;
 
 /// Local solves from many postures, first `options.starts`, or without any `options.start`, then
-/// random ones: from each of the branches of one. The objective is evaluated at the end of each,
-/// and that alone counts as found. Each start counts as an evaluation, with or without a posture,
-/// and so does each of its branches, each point at which a solve asks for rows, and each end. Runs
-/// in up to eight parts side by side, one for each 200 evaluations of the budget, and ends after
-/// `most` solves or a few more. Throws std::invalid_argument, with `name`, if the objective has no
-/// facets.
+/// random ones: from each of the IK solutions of one. The objective is evaluated at the end of
+/// each, and that alone counts as found. Each start counts as an evaluation, with or without a
+/// posture, and so does each of its IK solutions, each point at which a solve asks for rows, and
+/// each end. Runs in up to eight parts side by side, one for each 200 evaluations of the budget,
+/// and ends after `most` solves or a few more. Throws std::invalid_argument, with `name`, if the
+/// objective has no facets.
 SearchResult search_from_facet_starts(const char* name, Objective& objective,
                                       const SearchOptions& options, const FacetSolve& solve,
                                       long most = std::numeric_limits<long>::max());
 
-/// One of these local solves, from a branch of theta_r (`FacetProgram::branches`): the value at its
-/// end, -infinity if there is none. At least three evaluations are left. `status`, if given, gets
-/// the library's word.
+/// One of these local solves, from an IK solution of theta_r (`FacetProgram::ik_solutions`): the
+/// value at its end, -infinity if there is none. At least three evaluations are left. `status`, if
+/// given, gets the library's word.
 double solve_from(Probe& probe, FacetProgram& program, const Box& box,
-                  const Eigen::VectorXd& theta_r, int branch, const FacetSolve& solve,
+                  const Eigen::VectorXd& theta_r, int ik_solution, const FacetSolve& solve,
                   std::string* status = nullptr);
 
 }  // namespace maxwrench

@@ -78,8 +78,8 @@ class Grid final : public Search {
         evaluate_all(objective, lattice.size(), point, options.threads, run);
     Part found;
     add(values, point, found);
-    for (long i = 0; options.peaks > 0 && i < lattice.size(); ++i) {
-      if (lattice.is_peak(values, i)) found.peaks.push_back({point(i), values[i]});
+    for (long i = 0; options.starts_wanted > 0 && i < lattice.size(); ++i) {
+      if (lattice.is_peak(values, i)) found.starts.push_back({point(i), values[i]});
     }
     return make_result(std::move(found), box, options, run);
   }

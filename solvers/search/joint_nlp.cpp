@@ -133,14 +133,14 @@ class JointNlp : public Ipopt::TNLP {
   Caught caught_;
 };
 
-/// The plan, its efforts and its wrenches in one nonlinear program (`JointProgram`) by Ipopt with
-/// exact sparse first derivatives, from the starts of `slp`, one after the other behind Ipopt's
-/// lock. It does not see collisions: a plan that collides counts for nothing.
+/// The trajectory, its efforts and its wrenches in one nonlinear program (`JointProgram`) by Ipopt
+/// with exact sparse first derivatives, from the starts of `slp`, one after the other behind
+/// Ipopt's lock. It does not see collisions: a trajectory that collides counts for nothing.
 class JointNlpSearch : public Search {
  public:
   SearchResult maximize(Objective& given, const SearchOptions& options) override {
     check(options, given);
-    PlanObjective& objective = require_plans(given, "joint_nlp");
+    TrajectoryObjective& objective = require_trajectories(given, "joint_nlp");
     SearchRun run(options);
     Part found;
     std::vector<Candidate> starts = find_knot_starts(objective, options, run, found);
@@ -148,22 +148,23 @@ class JointNlpSearch : public Search {
     for (std::size_t i = 0; i < std::min(starts.size(), kJointStarts); ++i) {
       const auto later = static_cast<long>(std::min(starts.size(), kJointStarts) - i);
       const long before = found.trace.evaluations(), left = options.budget - before;
-      if (left < kFewestOfClimb || run.ended()) break;
-      // A climb of its own copy: its path is that of what it evaluates, not of what was before.
-      climb(*objective.copy(objective.counts()), starts[i],
-            before + std::max(kFewestOfClimb, left / later), run, found);
+      if (left < kFewestOfLocalSearch || run.ended()) break;
+      // A local search of its own copy: its path is that of what it evaluates, not of what was
+      // before.
+      optimise(*objective.copy(objective.counts()), starts[i],
+               before + std::max(kFewestOfLocalSearch, left / later), run, found);
       run.add(found.trace.evaluations() - before);
     }
     return make_result(found, run);
   }
 
  private:
-  static void climb(PlanObjective& objective, const Candidate& start, long until, SearchRun& run,
-                    Part& found) {
+  static void optimise(TrajectoryObjective& objective, const Candidate& start, long until,
+                       SearchRun& run, Part& found) {
     const double value = run.evaluate(objective, start.theta_r);
     found.trace.add(value);
     if (value == -kInfinity) return;
-    JointProgram program(objective.plans(), objective.lower(), objective.upper());
+    JointProgram program(objective.trajectories(), objective.lower(), objective.upper());
     const std::lock_guard guard(ipopt_lock());
     const auto application =
         make_ipopt_application("joint_nlp", kJointIterations, [](Ipopt::OptionsList& options) {

@@ -2,13 +2,15 @@
 
 namespace maxwrench {
 
-JointProgram::JointProgram(PlanEvaluator& plans, const Eigen::VectorXd& x_min,
+JointProgram::JointProgram(TrajectoryEvaluator& trajectories, const Eigen::VectorXd& x_min,
                            const Eigen::VectorXd& x_max)
-    : plans_(plans), p_(static_cast<int>(x_min.size())), r_(p_ / plans.knots()) {
-  const PlanSolution& plan = plans.elastic_solution();
-  w_ = plan.w;
-  const Eigen::VectorXd x = stacked(plans.plan().knots);
-  const PlanProgram& program = plans.linearize();
+    : trajectories_(trajectories),
+      p_(static_cast<int>(x_min.size())),
+      r_(p_ / trajectories.knots()) {
+  const TrajectorySolution& trajectory = trajectories.elastic_solution();
+  w_ = trajectory.w;
+  const Eigen::VectorXd x = stacked(trajectories.trajectory().knots);
+  const TrajectoryProgram& program = trajectories.linearize();
   m_ = program.instants.front().actuation->actuators();
   n_ = program.instants.front().actuation->dimension();
   N_ = program.size();
@@ -18,21 +20,21 @@ JointProgram::JointProgram(PlanEvaluator& plans, const Eigen::VectorXd& x_min,
     next += m_ + at.columns();
   }
   start_.resize(next);
-  start_ << x, plan.value, Eigen::VectorXd::Zero(next - p_ - 1);
+  start_ << x, trajectory.value, Eigen::VectorXd::Zero(next - p_ - 1);
   lower_ = Eigen::VectorXd::Constant(next, -kInfinity);
   upper_ = Eigen::VectorXd::Constant(next, kInfinity);
   lower_.head(p_) = x_min;
   upper_.head(p_) = x_max;
   objective_.setZero(next);
   for (int i = 0; i < N_; ++i) {
-    start_.segment(u0(i), m_) = plan.u.col(i);
+    start_.segment(u0(i), m_) = trajectory.u.col(i);
     start_.segment(w0(i), w_[static_cast<std::size_t>(i)].size()) = w_[static_cast<std::size_t>(i)];
   }
-  set_limits(program, plans.rows(), plans.following_rows());
+  set_limits(program, trajectories.rows(), trajectories.dependent_rows());
   evaluate(start_);
 }
 
-void JointProgram::set_limits(const PlanProgram& program, const KnotRows& rows,
+void JointProgram::set_limits(const TrajectoryProgram& program, const KnotRows& rows,
                               const KnotRows& following) {
   const Zonotope& set = *program.instants.front().actuation;
   for (int i = 0; i < N_; ++i) {
@@ -73,7 +75,8 @@ void JointProgram::evaluate(const Eigen::VectorXd& X) {
     Eigen::VectorXd& w = w_[static_cast<std::size_t>(i)];
     w = X.segment(w0(i), w.size());
   }
-  const PlanProgram& program = plans_.linearize(unstacked(X.head(p_), plans_.knots()), w_);
+  const TrajectoryProgram& program =
+      trajectories_.linearize(unstacked(X.head(p_), trajectories_.knots()), w_);
   fill(program);
   rows_.noalias() = jacobian_ * X;
   // The knots move the balance in another way than their derivative times themselves.
@@ -81,10 +84,10 @@ void JointProgram::evaluate(const Eigen::VectorXd& X) {
     const auto at = static_cast<std::size_t>(i);
     rows_.segment(n_ * i, n_) -= program.G[at] * X.head(p_) + program.instants[at].tau_d;
   }
-  rows_.tail(plans_.following_rows().at.size()) = plans_.following_rows().at;
+  rows_.tail(trajectories_.dependent_rows().at.size()) = trajectories_.dependent_rows().at;
 }
 
-void JointProgram::fill(const PlanProgram& program) {
+void JointProgram::fill(const TrajectoryProgram& program) {
   entries_.clear();
   for (int i = 0; i < N_; ++i) fill_block(program, i);
   fill_linear(program);
@@ -93,7 +96,7 @@ void JointProgram::fill(const PlanProgram& program) {
 }
 
 /// The balance of one instant. Of a robot's zeros in B none is an entry; of J'W and G all are.
-void JointProgram::fill_block(const PlanProgram& program, int i) {
+void JointProgram::fill_block(const TrajectoryProgram& program, int i) {
   const WrenchProgram& at = program.instants[static_cast<std::size_t>(i)];
   const Eigen::MatrixXd& B = at.actuation->B;
   const Eigen::MatrixXd& G = program.G[static_cast<std::size_t>(i)];
@@ -108,7 +111,7 @@ void JointProgram::fill_block(const PlanProgram& program, int i) {
   }
 }
 
-void JointProgram::fill_linear(const PlanProgram& program) {
+void JointProgram::fill_linear(const TrajectoryProgram& program) {
   int row = n_ * N_;
   if (program.peak < 0) {
     for (int i = 0; i < N_; ++i, ++row) {
@@ -121,8 +124,9 @@ void JointProgram::fill_linear(const PlanProgram& program) {
     entries_.emplace_back(row, u0(i + 1) + j, 1);
     entries_.emplace_back(row++, u0(i) + j, -1);
   }
-  fill_rows(plans_.rows().R, row);
-  fill_rows(plans_.following_rows().R, row + static_cast<int>(plans_.rows().R.rows()));
+  fill_rows(trajectories_.rows().R, row);
+  fill_rows(trajectories_.dependent_rows().R,
+            row + static_cast<int>(trajectories_.rows().R.rows()));
 }
 
 /// Rows on the knots, from `first` on.

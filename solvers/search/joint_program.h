@@ -7,10 +7,10 @@
 
 namespace maxwrench {
 
-/// The whole of a plan as one nonlinear program in X = (x, t, u_i and w_i of all blocks), x the
-/// stacked knots:
+/// The whole of a trajectory as one nonlinear program in X = (x, t, u_i and w_i of all blocks), x
+/// the stacked knots:
 ///
-///     max t (of a heave c_w,p'w_p)   subject to
+///     max t (of an impulse c_w,p'w_p)   subject to
 ///     B u_i - J_i(x)'W_i(x) w_i - tau_d,i(x) = 0,   t - c_w,i'w_i <= 0,   the rates,   R x,
 ///     positions and rates of dependent joints (x)
 ///
@@ -18,10 +18,12 @@ namespace maxwrench {
 /// not in it.
 class JointProgram {
  public:
-  /// About the plan that `plans` has evaluated last by `evaluate_elastic`; keeps a reference.
-  JointProgram(PlanEvaluator& plans, const Eigen::VectorXd& x_min, const Eigen::VectorXd& x_max);
+  /// About the trajectory that `trajectories` has evaluated last by `evaluate_elastic`; keeps a
+  /// reference.
+  JointProgram(TrajectoryEvaluator& trajectories, const Eigen::VectorXd& x_min,
+               const Eigen::VectorXd& x_max);
 
-  /// X of that plan.
+  /// X of that trajectory.
   const Eigen::VectorXd& start() const { return start_; }
   const Eigen::VectorXd& lower() const { return lower_; }
   const Eigen::VectorXd& upper() const { return upper_; }
@@ -38,13 +40,14 @@ class JointProgram {
  private:
   int u0(int i) const { return first_[static_cast<std::size_t>(i)]; }
   int w0(int i) const { return u0(i) + m_; }
-  void set_limits(const PlanProgram& program, const KnotRows& rows, const KnotRows& following);
-  void fill(const PlanProgram& program);
-  void fill_block(const PlanProgram& program, int i);
-  void fill_linear(const PlanProgram& program);
+  void set_limits(const TrajectoryProgram& program, const KnotRows& rows,
+                  const KnotRows& following);
+  void fill(const TrajectoryProgram& program);
+  void fill_block(const TrajectoryProgram& program, int i);
+  void fill_linear(const TrajectoryProgram& program);
   void fill_rows(const Eigen::SparseMatrix<double>& R, int first);
 
-  PlanEvaluator& plans_;
+  TrajectoryEvaluator& trajectories_;
   int p_, r_, m_, n_, N_;
   std::vector<int> first_;  ///< of u_i
   std::vector<std::pair<int, int>> rated_;

@@ -19,7 +19,7 @@ constexpr long kNearOf = 4;       // every so many of them is near the start,
 constexpr double kNear = 0.5;     // by so much [rad or m]
 constexpr double kFar = 0.8;      // rad or m, between starts of the same round
 constexpr double kSame = 0.1;     // rad or m: closer ones are of one family
-constexpr long kAlike = 48;       // climbs with all knots alike, at most,
+constexpr long kAlike = 48;       // local searches with all knots alike, at most,
 constexpr long kAlikeSteps = 30;  // of so many evaluations; a fifth of the budget, at most
 constexpr double kKickReach[] = {0.05, 0.15, 0.4, 0.8};  // rad or m
 constexpr double kHopeful = 0.8;  // a family is less than 1 - this of 1 + |best| below the best
@@ -27,8 +27,12 @@ constexpr double kHopeful = 0.8;  // a family is less than 1 - this of 1 + |best
 /// Tables around the start that keep the rows of the limits.
 class Drawing {
  public:
-  Drawing(const Objective& objective, const PlanEvaluator& plans, const Eigen::VectorXd& start)
-      : objective_(objective), rows_(plans.rows()), start_(start), alike_(!plans.starts()) {
+  Drawing(const Objective& objective, const TrajectoryEvaluator& trajectories,
+          const Eigen::VectorXd& start)
+      : objective_(objective),
+        rows_(trajectories.rows()),
+        start_(start),
+        alike_(!trajectories.starts()) {
     std::vector<Eigen::Index> equations;
     for (Eigen::Index row = 0; row < rows_.r_min.size(); ++row) {
       if (rows_.r_min[row] == rows_.r_max[row]) equations.push_back(row);
@@ -36,7 +40,7 @@ class Drawing {
     const Eigen::MatrixXd R = rows_.R;
     equations_ = R(equations, Eigen::all);
     if (!equations.empty()) inverse_ = pseudo_inverse(equations_);
-    const Eigen::Index moved = alike_ ? start.size() / plans.knots() : start.size();
+    const Eigen::Index moved = alike_ ? start.size() / trajectories.knots() : start.size();
     const Eigen::Index times = start.size() / moved;
     down_ = (objective.lower() - start).reshaped(moved, times).rowwise().maxCoeff();
     up_ = (objective.upper() - start).reshaped(moved, times).rowwise().minCoeff();
@@ -115,7 +119,8 @@ std::vector<Candidate> spread(std::vector<Candidate> starts) {
   return ordered;
 }
 
-/// The best of each family that is worth a climb of its own; `known` is the best value so far.
+/// The best of each family that is worth a local search of its own; `known` is the best value so
+/// far.
 std::vector<Candidate> families(std::vector<Candidate> starts, double known) {
   std::stable_sort(starts.begin(), starts.end(),
                    [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
@@ -129,11 +134,12 @@ std::vector<Candidate> families(std::vector<Candidate> starts, double known) {
 }
 
 /// Those of `count` tables that have a value.
-std::vector<Candidate> with_value(const PlanObjective& objective, const SearchOptions& options,
-                                  long count, const std::function<Eigen::VectorXd(long)>& table,
-                                  SearchRun& run, Part& found) {
-  const bool guides = objective.counts() != PlanValue::kAtInstants;
-  const auto at_instants = guides ? objective.copy(PlanValue::kAtInstants) : nullptr;
+std::vector<Candidate> with_value(const TrajectoryObjective& objective,
+                                  const SearchOptions& options, long count,
+                                  const std::function<Eigen::VectorXd(long)>& table, SearchRun& run,
+                                  Part& found) {
+  const bool guides = objective.counts() != TrajectoryValue::kAtInstants;
+  const auto at_instants = guides ? objective.copy(TrajectoryValue::kAtInstants) : nullptr;
   std::vector<double> values = evaluate_all(at_instants ? *at_instants : objective, count, table,
                                             options.threads, run, guides);
   Part seen;
@@ -148,7 +154,7 @@ std::vector<Candidate> with_value(const PlanObjective& objective, const SearchOp
 }
 
 /// The start and the drawn tables that have a value.
-std::vector<Candidate> sample(const PlanObjective& objective, const SearchOptions& options,
+std::vector<Candidate> sample(const TrajectoryObjective& objective, const SearchOptions& options,
                               const Drawing& drawing, const Eigen::VectorXd& start, SearchRun& run,
                               Part& found) {
   const auto table = [&](long i) {
@@ -160,26 +166,28 @@ std::vector<Candidate> sample(const PlanObjective& objective, const SearchOption
   return with_value(objective, options, count, table, run, found);
 }
 
-/// The ends of climbs with all knots alike.
-std::vector<Candidate> climb_alike(const PlanObjective& objective, const SearchOptions& options,
-                                   std::span<const Candidate> starts, SearchRun& run, Part& found) {
+/// The ends of local searches with all knots alike.
+std::vector<Candidate> optimise_alike(const TrajectoryObjective& objective,
+                                      const SearchOptions& options,
+                                      std::span<const Candidate> starts, SearchRun& run,
+                                      Part& found) {
   const long count = std::min(static_cast<long>(starts.size()),
                               std::min(kAlike, options.budget / 5 / kAlikeSteps));
-  std::vector<std::unique_ptr<KnotClimber>> climbers;
+  std::vector<std::unique_ptr<SlpRun>> slp_runs;
   for (long i = 0; i < count; ++i) {
-    climbers.push_back(
-        std::make_unique<KnotClimber>(objective, starts[static_cast<std::size_t>(i)], run, true));
+    slp_runs.push_back(
+        std::make_unique<SlpRun>(objective, starts[static_cast<std::size_t>(i)], run, true));
   }
   parallel_for(options.threads, count, [&](long i) {
-    KnotClimber& climber = *climbers[static_cast<std::size_t>(i)];
-    climber.climb(kAlikeSteps);
-    run.add(climber.found().trace.evaluations());
+    SlpRun& slp_run = *slp_runs[static_cast<std::size_t>(i)];
+    slp_run.optimise(kAlikeSteps);
+    run.add(slp_run.found().trace.evaluations());
   });
   std::vector<Candidate> ends;
   std::vector<Part> parts;
-  for (const auto& climber : climbers) {
-    ends.push_back(climber->at());
-    parts.push_back(climber->found());
+  for (const auto& slp_run : slp_runs) {
+    ends.push_back(slp_run->at());
+    parts.push_back(slp_run->found());
   }
   join(parts, found);
   return ends;
@@ -187,30 +195,32 @@ std::vector<Candidate> climb_alike(const PlanObjective& objective, const SearchO
 
 }  // namespace
 
-PlanObjective* as_plans(Objective& objective) { return dynamic_cast<PlanObjective*>(&objective); }
+TrajectoryObjective* as_trajectories(Objective& objective) {
+  return dynamic_cast<TrajectoryObjective*>(&objective);
+}
 
-PlanObjective& require_plans(Objective& objective, const char* search) {
-  if (PlanObjective* plans = as_plans(objective)) return *plans;
+TrajectoryObjective& require_trajectories(Objective& objective, const char* search) {
+  if (TrajectoryObjective* trajectories = as_trajectories(objective)) return *trajectories;
   throw std::invalid_argument(std::string("search: got '") + search +
                               "', which serves linf_polytope at a fixed pose without a second "
                               "contact, expected another one");
 }
 
-std::vector<Candidate> draw_knot_starts(PlanObjective& objective, const SearchOptions& options,
-                                        SearchRun& run, Part& found) {
+std::vector<Candidate> draw_knot_starts(TrajectoryObjective& objective,
+                                        const SearchOptions& options, SearchRun& run, Part& found) {
   const Eigen::VectorXd start = Box(objective).start(options.start);
   if (start.size() == 0) {  // nothing to choose
     return with_value(
         objective, options, 1, [&](long) { return start; }, run, found);
   }
-  const Drawing drawing(objective, objective.plans(), start);
+  const Drawing drawing(objective, objective.trajectories(), start);
   return spread(sample(objective, options, drawing, start, run, found));
 }
 
-std::vector<Candidate> kick_knots(PlanObjective& objective, const SearchOptions& options,
+std::vector<Candidate> kick_knots(TrajectoryObjective& objective, const SearchOptions& options,
                                   const Candidate& best, long first, long count, SearchRun& run,
                                   Part& found) {
-  const Drawing drawing(objective, objective.plans(), best.theta_r);
+  const Drawing drawing(objective, objective.trajectories(), best.theta_r);
   const auto table = [&](long i) {
     const auto number = static_cast<std::uint64_t>(first + i);
     return drawing.kick(Random(options.seed, RandomUse::kKick, number),
@@ -219,12 +229,13 @@ std::vector<Candidate> kick_knots(PlanObjective& objective, const SearchOptions&
   return with_value(objective, options, count, table, run, found);
 }
 
-std::vector<Candidate> find_knot_starts(PlanObjective& objective, const SearchOptions& options,
-                                        SearchRun& run, Part& found) {
+std::vector<Candidate> find_knot_starts(TrajectoryObjective& objective,
+                                        const SearchOptions& options, SearchRun& run, Part& found) {
   const std::vector<Candidate> starts = draw_knot_starts(objective, options, run, found);
-  if (starts.empty() || objective.dimension() == 0 || objective.plans().starts()) return starts;
+  if (starts.empty() || objective.dimension() == 0 || objective.trajectories().starts())
+    return starts;
   std::vector<Candidate> ordered =
-      families(climb_alike(objective, options, starts, run, found), starts.front().value);
+      families(optimise_alike(objective, options, starts, run, found), starts.front().value);
   ordered.insert(ordered.end(), starts.begin(), starts.end());
   return ordered;
 }

@@ -5,33 +5,34 @@
 namespace maxwrench {
 namespace {
 
-/// Of climb number `climb` where the earlier search has left no start: `options.start` for the
-/// first of all, then random points. No value if the evaluations of the probe run out before.
-Candidate draw_start(Probe& probe, const Box& box, const SearchOptions& options, long climb,
+/// Of local search number `optimise` where the earlier search has left no start: `options.start`
+/// for the first of all, then random points. No value if the evaluations of the probe run out
+/// before.
+Candidate draw_start(Probe& probe, const Box& box, const SearchOptions& options, long optimise,
                      Random& random) {
   Candidate start;
   const auto evaluate = [&](const Eigen::VectorXd& theta_r) {
     start = {theta_r, probe.evaluate(theta_r)};
   };
-  if (climb == 0 && options.starts.empty()) evaluate(box.start(options.start));
+  if (optimise == 0 && options.starts.empty()) evaluate(box.start(options.start));
   while (start.value == -kInfinity && probe.left() > 0) {
     evaluate(random_point(box, random));
   }
   return start;
 }
 
-/// Climb number `climb`, with all that the probe has left.
-Part climb_once(Probe& probe, const Box& box, const SearchOptions& options,
-                const Climbing& climbing, long climb) {
-  Random random(options.seed, RandomUse::kClimb, static_cast<std::uint64_t>(climb));
-  const auto number = static_cast<std::size_t>(climb);
+/// Climb number `optimise`, with all that the probe has left.
+Part optimise_once(Probe& probe, const Box& box, const SearchOptions& options,
+                   const LocalSearch& local_search, long optimise) {
+  Random random(options.seed, RandomUse::kLocalSearch, static_cast<std::uint64_t>(optimise));
+  const auto number = static_cast<std::size_t>(optimise);
   const Candidate start = number < options.starts.size()
                               ? options.starts[number]
-                              : draw_start(probe, box, options, climb, random);
-  Call call{climbing.method, kBudgetUsed};
+                              : draw_start(probe, box, options, optimise, random);
+  Call call{local_search.method, kBudgetUsed};
   const long drawn = probe.found().trace.evaluations();
   if (start.value > -kInfinity && probe.left() > 0)
-    call.status = climbing.climb(probe, box, start, random);
+    call.status = local_search.optimise(probe, box, start, random);
   Part part = probe.take();
   call.evaluations = part.trace.evaluations() - drawn;
   if (call.evaluations > 0) part.calls.push_back(call);
@@ -40,30 +41,30 @@ Part climb_once(Probe& probe, const Box& box, const SearchOptions& options,
 
 }  // namespace
 
-void climb_from_starts(const Objective& objective, const Box& box, const SearchOptions& options,
-                       const Climbing& climbing, SearchRun& run, Part& found) {
+void multistart_from(const Objective& objective, const Box& box, const SearchOptions& options,
+                     const LocalSearch& local_search, SearchRun& run, Part& found) {
   std::vector<std::unique_ptr<Probe>> probes;
-  for (long begun = 0; begun < climbing.starts && !run.ended();) {
+  for (long begun = 0; begun < local_search.starts && !run.ended();) {
     const long left = options.budget - found.trace.evaluations();
     if (left <= 0) return;
-    const long most = std::min(climbing.most, climbing.starts - begun);
-    const long count = std::clamp(left / climbing.reach, 1L, most);
+    const long most = std::min(local_search.max_parallel, local_search.starts - begun);
+    const long count = std::clamp(left / local_search.evaluations_per_run, 1L, most);
     while (static_cast<long>(probes.size()) < count) {
       probes.push_back(
-          std::make_unique<Probe>(objective, 0, run, options.peaks > 0 ? &box : nullptr));
+          std::make_unique<Probe>(objective, 0, run, options.starts_wanted > 0 ? &box : nullptr));
     }
     std::vector<Part> parts(static_cast<std::size_t>(count));
     parallel_for(options.threads, count, [&](long i) {
       probes[i]->grant(left / count + (i < left % count ? 1 : 0));
-      parts[i] = climb_once(*probes[i], box, options, climbing, begun + i);
+      parts[i] = optimise_once(*probes[i], box, options, local_search, begun + i);
     });
     begun += count;
     join(parts, found);
   }
 }
 
-SearchResult search_by_climbs(Objective& objective, const SearchOptions& options,
-                              const Climbing& climbing) {
+SearchResult multistart_search(Objective& objective, const SearchOptions& options,
+                               const LocalSearch& local_search) {
   check(options, objective);
   const Box box(objective);
   SearchRun run(options);
@@ -73,7 +74,7 @@ SearchResult search_by_climbs(Objective& objective, const SearchOptions& options
     probe.evaluate(box.start(options.start));
     found = probe.take();
   } else {
-    climb_from_starts(objective, box, options, climbing, run, found);
+    multistart_from(objective, box, options, local_search, run, found);
   }
   return make_result(std::move(found), box, options, run);
 }

@@ -10,33 +10,34 @@
 namespace maxwrench {
 
 /// A method that begins at a point and ends somewhere, and begins anew until the budget is used.
-struct Climbing {
+struct LocalSearch {
   const char* method;  ///< the search's name
-  /// How many evaluations a climb should be able to use: so many climbs run side by side.
-  long reach = 1000;
-  long most = 8;                                   ///< at most so many side by side
-  long starts = std::numeric_limits<long>::max();  ///< climbs, at most
-  /// One climb in the unit cube: from a point with a value, until it has converged or the probe has
-  /// no evaluation left. Returns how it ended. `random` is its own stream.
-  using Climb = std::string(Probe& probe, const Box& box, const Candidate& start, Random& random);
-  std::function<Climb> climb = {};
+  /// How many evaluations a local search should be able to use: so many local searches run side by
+  /// side.
+  long evaluations_per_run = 1000;
+  long max_parallel = 8;                           ///< at most so many side by side
+  long starts = std::numeric_limits<long>::max();  ///< local searches, at most
+  /// One local search in the unit cube: from a point with a value, until it has converged or the
+  /// probe has no evaluation left. Returns how it ended. `random` is its own stream.
+  using Run = std::string(Probe& probe, const Box& box, const Candidate& start, Random& random);
+  std::function<Run> optimise = {};
 };
 
-/// Climbs from `options.starts`, best first, or without any from `options.start`; then from
+/// Local searches from `options.starts`, best first, or without any from `options.start`; then from
 /// uniformly random points, each the first one with a value of those drawn. Drawing costs
-/// evaluations; no other points than those are evaluated but by the climbs.
+/// evaluations; no other points than those are evaluated but by the local searches.
 ///
-/// Up to `most` climbs run side by side, each with its share of the evaluations that are left. What
-/// they did not use goes to the next ones, so their numbers and shares do not depend on threads.
-/// Continues `found`, which may have used some of the budget.
-void climb_from_starts(const Objective& objective, const Box& box, const SearchOptions& options,
-                       const Climbing& climbing, SearchRun& run, Part& found);
+/// Up to `max_parallel` local searches run side by side, each with its share of the evaluations
+/// that are left. What they did not use goes to the next ones, so their numbers and shares do not
+/// depend on threads. Continues `found`, which may have used some of the budget.
+void multistart_from(const Objective& objective, const Box& box, const SearchOptions& options,
+                     const LocalSearch& local_search, SearchRun& run, Part& found);
 
 /// A search that does nothing else.
-SearchResult search_by_climbs(Objective& objective, const SearchOptions& options,
-                              const Climbing& climbing);
+SearchResult multistart_search(Objective& objective, const SearchOptions& options,
+                               const LocalSearch& local_search);
 
-/// Of a climb of a library.
+/// Of a local search of a library.
 inline constexpr const char* kBudgetUsed = "budget";
 
 }  // namespace maxwrench

@@ -17,10 +17,10 @@ using Ipopt::Index;
 using Ipopt::Number;
 
 constexpr int kPostureIterations = 40;
-constexpr int kPlanIterations = 200;
+constexpr int kTrajectoryIterations = 200;
 
-/// min -f(theta_r(x)) subject to 0 <= x <= 1, with the exact gradient, and of a plan to the rows of
-/// its knots. Where f has no value, Ipopt is told so and shortens its step.
+/// min -f(theta_r(x)) subject to 0 <= x <= 1, with the exact gradient, and of a trajectory to the
+/// rows of its knots. Where f has no value, Ipopt is told so and shortens its step.
 class BoundedNlp : public Ipopt::TNLP {
  public:
   BoundedNlp(Probe& probe, const Box& box, Eigen::VectorXd start, const KnotRows* rows = nullptr)
@@ -119,7 +119,7 @@ class BoundedNlp : public Ipopt::TNLP {
   Probe& probe_;
   const Box& box_;
   const Eigen::VectorXd start_;
-  Eigen::SparseMatrix<double> R_;  ///< rows on x; none unless of a plan
+  Eigen::SparseMatrix<double> R_;  ///< rows on x; none unless of a trajectory
   Eigen::VectorXd r_min_, r_max_;
   Eigen::VectorXd x_, gradient_, slope_;
   double value_ = -kInfinity;
@@ -139,7 +139,7 @@ std::string solve_by_ipopt(Probe& probe, const Box& box, const Eigen::VectorXd& 
 
 }  // namespace
 
-void climb_by_ipopt(Probe& probe, const Box& box, const Eigen::VectorXd& theta_r) {
+void optimise_by_ipopt(Probe& probe, const Box& box, const Eigen::VectorXd& theta_r) {
   solve_by_ipopt(probe, box, theta_r, kPostureIterations);
 }
 
@@ -150,36 +150,39 @@ namespace {
 /// budget and at most 64, for a start costs far more time than its evaluations; they run one after
 /// the other behind one lock. Where the objective has a kink the line search gives up.
 ///
-/// Of a plan it is the paper's bilevel method: from the best of the drawn tables, or where an
+/// Of a trajectory it is the paper's bilevel method: from the best of the drawn tables, or where an
 /// earlier search has been, one start after the other, subject to the rows of the knots.
 class Multistart final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {
-    if (auto* plans = as_plans(objective)) return maximize_plan(*plans, options);
-    Climbing climbing{"multistart"};
-    climbing.starts = std::clamp(options.budget / 500, 1L, 64L);
-    climbing.most = 1;
-    climbing.climb = [](Probe& probe, const Box& box, const Candidate& start, Random& /*random*/) {
+    if (auto* trajectories = as_trajectories(objective))
+      return maximize_trajectory(*trajectories, options);
+    LocalSearch local_search{"multistart"};
+    local_search.starts = std::clamp(options.budget / 500, 1L, 64L);
+    local_search.max_parallel = 1;
+    local_search.optimise = [](Probe& probe, const Box& box, const Candidate& start,
+                               Random& /*random*/) {
       return solve_by_ipopt(probe, box, start.theta_r, kPostureIterations);
     };
-    return search_by_climbs(objective, options, climbing);
+    return multistart_search(objective, options, local_search);
   }
 
  private:
-  static SearchResult maximize_plan(PlanObjective& objective, const SearchOptions& options) {
+  static SearchResult maximize_trajectory(TrajectoryObjective& objective,
+                                          const SearchOptions& options) {
     check(options, objective);
     SearchRun run(options);
     Part found;
     const std::vector<Candidate> starts =
         options.starts.empty() ? draw_knot_starts(objective, options, run, found) : options.starts;
     const Box box(objective);
-    Probe probe(objective, 0, run, options.peaks > 0 ? &box : nullptr);
+    Probe probe(objective, 0, run, options.starts_wanted > 0 ? &box : nullptr);
     for (const Candidate& start : starts) {
       const long left = options.budget - found.trace.evaluations();
       if (left <= 0 || run.ended()) break;
       probe.grant(left);
       const std::string word =
-          solve_by_ipopt(probe, box, start.theta_r, kPlanIterations, objective.rows());
+          solve_by_ipopt(probe, box, start.theta_r, kTrajectoryIterations, objective.rows());
       const Part part = probe.take();
       join({part}, found);
       found.calls.push_back({"multistart", word, part.trace.evaluations()});

@@ -30,11 +30,11 @@ double look(Session& s, unsigned n, const double* x, double* slope) {
   } else {
     value = s.probe.evaluate(s.box.theta_r(point), slope ? &s.gradient : nullptr);
   }
-  const bool climbs = slope && value > -kInfinity && s.gradient.allFinite();
-  if (slope && !climbs) std::fill(slope, slope + n, 0.0);
+  const bool local_searches = slope && value > -kInfinity && s.gradient.allFinite();
+  if (slope && !local_searches) std::fill(slope, slope + n, 0.0);
   if (value == -kInfinity) return -1;
   const double reach = s.scale + std::abs(value);
-  if (climbs) {
+  if (local_searches) {
     Eigen::Map<Eigen::VectorXd>(slope, n) = s.scale / (reach * reach) * s.box.slope(s.gradient);
   }
   return value / reach;
@@ -61,8 +61,8 @@ OwnedOptimizer make(nlopt_algorithm algorithm, const NloptOptions& options, unsi
   return opt;
 }
 
-std::string climb_by_nlopt(const NloptOptions& options, Probe& probe, const Box& box,
-                           const Candidate& start, Random& random) {
+std::string optimise_by_nlopt(const NloptOptions& options, Probe& probe, const Box& box,
+                              const Candidate& start, Random& random) {
   const auto n = static_cast<unsigned>(box.free());
   const OwnedOptimizer opt = make(options.algorithm, options, n);
   Session session{probe, box, std::max(1.0, std::abs(start.value)), opt.get(), {}, {}};
@@ -87,15 +87,15 @@ class NloptSearch final : public Search {
   explicit NloptSearch(const NloptOptions& method) : method_(method) {}
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {
     NloptOptions method = method_;
-    if (options.peaks > 0 && method.x_rough > 0) method.x_tolerance = method.x_rough;
-    Climbing climbing{method.method};
-    climbing.reach = method.reach;
-    climbing.most = method.most;
-    climbing.climb = [&method](Probe& probe, const Box& box, const Candidate& start,
-                               Random& random) {
-      return climb_by_nlopt(method, probe, box, start, random);
+    if (options.starts_wanted > 0 && method.x_rough > 0) method.x_tolerance = method.x_rough;
+    LocalSearch local_search{method.method};
+    local_search.evaluations_per_run = method.evaluations_per_run;
+    local_search.max_parallel = method.max_parallel;
+    local_search.optimise = [&method](Probe& probe, const Box& box, const Candidate& start,
+                                      Random& random) {
+      return optimise_by_nlopt(method, probe, box, start, random);
     };
-    return search_by_climbs(objective, options, climbing);
+    return multistart_search(objective, options, local_search);
   }
 
  private:

@@ -15,8 +15,8 @@ struct NloptOptions {
   double x_tolerance = 0;   ///< share of the bounds; 0: runs until the budget is used
   double f_tolerance = 0;   ///< relative, of phi(f)
   double x_rough = 0;       ///< in place of x_tolerance where another search goes on; 0: none
-  long reach = 1000;        ///< see `Climbing`
-  long most = 8;            ///< see `Climbing`
+  long evaluations_per_run = 1000;  ///< see `LocalSearch`
+  long max_parallel = 8;            ///< see `LocalSearch`
 };
 
 /// Throws std::runtime_error, with the search's name, unless NLopt took what it was told.
@@ -32,8 +32,8 @@ std::string word_of(nlopt_result result);
 /// increasing, so the maxima stay where they are, and inside (-1, 1), so that -1, the value of
 /// postures without one, lies below every value. There the gradient is zero.
 ///
-/// NLopt's random numbers live in a state of its own for each thread, which the climb's stream
-/// seeds anew for each run: the result depends on the stream only.
+/// NLopt's random numbers live in a state of its own for each thread, which the local search's
+/// stream seeds anew for each run: the result depends on the stream only.
 std::unique_ptr<Search> make_nlopt_search(const NloptOptions& method);
 
 }  // namespace maxwrench

@@ -6,14 +6,14 @@
 namespace maxwrench {
 namespace {
 
-NloptOptions gradient_climb(const char* method, nlopt_algorithm algorithm) {
+NloptOptions gradient_search(const char* method, nlopt_algorithm algorithm) {
   NloptOptions options{method, algorithm};
   options.x_tolerance = 1e-7;
   options.f_tolerance = 1e-10;
   return options;
 }
 
-NloptOptions model_climb(const char* method, nlopt_algorithm algorithm) {
+NloptOptions model_search(const char* method, nlopt_algorithm algorithm) {
   NloptOptions options{method, algorithm};
   options.initial_step = 0.1;
   options.x_tolerance = 1e-6;
@@ -24,27 +24,27 @@ NloptOptions model_climb(const char* method, nlopt_algorithm algorithm) {
 
 /// Sequential quadratic programs with a dense quasi-Newton matrix (Kraft 1994).
 std::unique_ptr<Search> make_slsqp() {
-  return make_nlopt_search(gradient_climb("slsqp", NLOPT_LD_SLSQP));
+  return make_nlopt_search(gradient_search("slsqp", NLOPT_LD_SLSQP));
 }
 
 /// Moving asymptotes: separable convex models (Svanberg 2002).
 std::unique_ptr<Search> make_mma() {
-  return make_nlopt_search(gradient_climb("mma", NLOPT_LD_MMA));
+  return make_nlopt_search(gradient_search("mma", NLOPT_LD_MMA));
 }
 
 /// Limited-memory quasi-Newton method with bounds (Liu, Nocedal 1989; Luksan's code).
 std::unique_ptr<Search> make_lbfgs() {
-  return make_nlopt_search(gradient_climb("lbfgs", NLOPT_LD_LBFGS));
+  return make_nlopt_search(gradient_search("lbfgs", NLOPT_LD_LBFGS));
 }
 
 /// Quadratic models without derivatives (Powell 2009).
 std::unique_ptr<Search> make_bobyqa() {
-  return make_nlopt_search(model_climb("bobyqa", NLOPT_LN_BOBYQA));
+  return make_nlopt_search(model_search("bobyqa", NLOPT_LN_BOBYQA));
 }
 
 /// Linear models on a simplex without derivatives (Powell 1994).
 std::unique_ptr<Search> make_cobyla() {
-  return make_nlopt_search(model_climb("cobyla", NLOPT_LN_COBYLA));
+  return make_nlopt_search(model_search("cobyla", NLOPT_LN_COBYLA));
 }
 
 /// Controlled random search with local mutation (Price 1983; Kaelo, Ali 2006): a population, the
@@ -54,7 +54,7 @@ std::unique_ptr<Search> make_crs2() {
   NloptOptions options{"crs2", NLOPT_GN_CRS2_LM};
   options.x_tolerance = 1e-7;
   options.x_rough = 1e-2;
-  options.reach = 2500;
+  options.evaluations_per_run = 2500;
   return make_nlopt_search(options);
 }
 
@@ -62,16 +62,16 @@ std::unique_ptr<Search> make_crs2() {
 /// population. Runs until the budget is used.
 std::unique_ptr<Search> make_isres() {
   NloptOptions options{"isres", NLOPT_GN_ISRES};
-  options.reach = 10000;
+  options.evaluations_per_run = 10000;
   return make_nlopt_search(options);
 }
 
-/// Multi-level single-linkage (Rinnooy Kan, Timmer 1987): climbs by L-BFGS from random points, at
-/// most one for each cluster of points.
+/// Multi-level single-linkage (Rinnooy Kan, Timmer 1987): local searches by L-BFGS from random
+/// points, at most one for each cluster of points.
 std::unique_ptr<Search> make_mlsl() {
   NloptOptions options{"mlsl", NLOPT_G_MLSL, NLOPT_LD_LBFGS};
   options.x_tolerance = 1e-7;
-  options.most = 1;
+  options.max_parallel = 1;
   return make_nlopt_search(options);
 }
 
@@ -80,7 +80,7 @@ std::unique_ptr<Search> make_mlsl() {
 /// start says which s of phi it sees, and else is one point more.
 std::unique_ptr<Search> make_direct_l() {
   NloptOptions options{"direct_l", NLOPT_GN_DIRECT_L};
-  options.most = 1;
+  options.max_parallel = 1;
   return make_nlopt_search(options);
 }
 

@@ -107,7 +107,7 @@ class Nullspace final : public Search {
     check(options, objective);
     const Box box(objective);
     SearchRun run(options);
-    Probe probe(objective, options.budget, run, options.peaks > 0 ? &box : nullptr);
+    Probe probe(objective, options.budget, run, options.starts_wanted > 0 ? &box : nullptr);
     Eigen::VectorXd start = box.start(options.start);
     if (!options.starts.empty()) {
       start = options.starts.front().theta_r;
@@ -132,7 +132,7 @@ class Nullspace final : public Search {
     double speed = flow.choose();
     if (speed == 0) return;
     double length = kFirstReach / speed;
-    Trajectory trajectory;
+    OdeSolution trajectory;
     IntegratorOptions options;
     options.relative_tolerance = 1e-6;
     options.absolute_tolerance = 1e-8;

@@ -57,14 +57,15 @@ pagmo::population make_population(const UnitCube& cube, const Candidate& start, 
 }
 
 /// Runs of an algorithm of pagmo from a population until it converges or its evaluations are used.
-/// Its random numbers come from a seed of the climb's stream; nothing asks for pagmo's own.
+/// Its random numbers come from a seed of the local search's stream; nothing asks for pagmo's own.
 /// `make(generations, seed)` makes the algorithm.
 template <class Make>
 SearchResult search_by_pagmo(const char* method, int members, double reach, Objective& objective,
                              const SearchOptions& options, const Make& make) {
-  Climbing climbing{method};
-  climbing.reach = 5000;
-  climbing.climb = [&](Probe& probe, const Box& box, const Candidate& start, Random& random) {
+  LocalSearch local_search{method};
+  local_search.evaluations_per_run = 5000;
+  local_search.optimise = [&](Probe& probe, const Box& box, const Candidate& start,
+                              Random& random) {
     const long size = 10 + members * box.free();
     const auto generations = static_cast<unsigned>(probe.left() / size + 1);
     const auto seed = static_cast<unsigned>(random.next() >> 32U);
@@ -75,7 +76,7 @@ SearchResult search_by_pagmo(const char* method, int members, double reach, Obje
     }
     return "converged";
   };
-  return search_by_climbs(objective, options, climbing);
+  return multistart_search(objective, options, local_search);
 }
 
 /// CMA-ES of pagmo: the restarts are ours, the samples are clamped to the bounds.

@@ -51,7 +51,7 @@ void Probe::spend() {
 
 Part Probe::take() {
   report();
-  for (const auto& [cell, best] : cells_) found_.peaks.push_back(best);
+  for (const auto& [cell, best] : cells_) found_.starts.push_back(best);
   cells_.clear();
   reported_ = budget_ = 0;
   return std::exchange(found_, {});
@@ -77,7 +77,7 @@ void join(const std::vector<Part>& parts, Part& found) {
   for (const Part& part : parts) {
     traces.push_back(part.trace);
     if (part.best.value > found.best.value) found.best = part.best;
-    found.peaks.insert(found.peaks.end(), part.peaks.begin(), part.peaks.end());
+    found.starts.insert(found.starts.end(), part.starts.begin(), part.starts.end());
     found.calls.insert(found.calls.end(), part.calls.begin(), part.calls.end());
   }
   found.trace.append(traces);
@@ -132,9 +132,9 @@ SearchResult make_result(const Part& found, const SearchRun& run) {
 SearchResult make_result(Part found, const Box& box, const SearchOptions& options,
                          const SearchRun& run) {
   SearchResult result = make_result(found, run);
-  if (options.peaks == 0) return result;
-  found.peaks.insert(found.peaks.begin(), found.best);
-  result.peaks = select_apart(box, std::move(found.peaks), kApart, options.peaks);
+  if (options.starts_wanted == 0) return result;
+  found.starts.insert(found.starts.begin(), found.best);
+  result.starts = select_apart(box, std::move(found.starts), kApart, options.starts_wanted);
   return result;
 }
 

@@ -16,7 +16,7 @@ namespace maxwrench {
 struct Part {
   Candidate best;
   Trace trace;
-  std::vector<Candidate> peaks = {};
+  std::vector<Candidate> starts = {};
   std::vector<Call> calls = {};
 };
 
@@ -24,8 +24,8 @@ struct Part {
 /// the best point so far.
 class Probe {
  public:
-  /// With `box`, also keeps the best point of each of its cells: an eighth of the bounds wide in
-  /// every coordinate.
+  /// With `condensed`, also keeps the best point of each of its cells: an eighth of the bounds wide
+  /// in every coordinate.
   Probe(const Objective& objective, long budget, SearchRun& run, const Box* box = nullptr);
   ~Probe();
   Probe(const Probe&) = delete;

@@ -72,7 +72,7 @@ class Restart final : public Search {
                                   ends.size(), optima, optima == 1 ? "um" : "a");
       break;
     }
-    whole.peaks = select_apart(box, std::move(whole.peaks), kApart, options.peaks);
+    whole.starts = select_apart(box, std::move(whole.starts), kApart, options.starts_wanted);
     whole.evaluations = trace.evaluations();
     whole.history = trace.improvements();
     return whole;
@@ -87,7 +87,7 @@ class Restart final : public Search {
       ends.push_back(result.value);
       whole.interrupted = whole.interrupted || result.interrupted;
       whole.calls.insert(whole.calls.end(), result.calls.begin(), result.calls.end());
-      whole.peaks.insert(whole.peaks.end(), result.peaks.begin(), result.peaks.end());
+      whole.starts.insert(whole.starts.end(), result.starts.begin(), result.starts.end());
       if (result.value <= whole.value) continue;
       static_cast<Verdict&>(whole) = result;
       whole.theta_r = std::move(result.theta_r);

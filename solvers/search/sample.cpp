@@ -29,10 +29,10 @@ class Sample final : public Search {
       const auto of_block = [&](long i) { return point(first + i); };
       std::vector<double> values = evaluate_all(objective, size, of_block, options.threads, run);
       add(values, of_block, found);
-      for (long i = 0; options.peaks > 0 && i < size; ++i) {
-        if (values[i] > -kInfinity) found.peaks.push_back({of_block(i), values[i]});
+      for (long i = 0; options.starts_wanted > 0 && i < size; ++i) {
+        if (values[i] > -kInfinity) found.starts.push_back({of_block(i), values[i]});
       }
-      found.peaks = select_apart(box, std::move(found.peaks), kApart, options.peaks);
+      found.starts = select_apart(box, std::move(found.starts), kApart, options.starts_wanted);
     }
     return make_result(std::move(found), box, options, run);
   }

@@ -18,30 +18,29 @@ constexpr double kConverged = 1e-9;      // predicted, relative to 1 + |f|
 
 }  // namespace
 
-KnotClimber::KnotClimber(const PlanObjective& objective, Candidate start, SearchRun& run,
-                         bool alike)
+SlpRun::SlpRun(const TrajectoryObjective& objective, Candidate start, SearchRun& run, bool alike)
     : objective_(objective.copy(objective.counts())),
-      plans_(objective_->plans()),
+      trajectories_(objective_->trajectories()),
       run_(run),
-      solver_(make_plan_ipm(kStepTolerance)),
+      solver_(make_trajectory_ipm(kStepTolerance)),
       at_(std::move(start)),
       best_(at_),
       radius_(kFirstRadius),
-      reach_(plans_.rows().R.cwiseAbs() * Eigen::VectorXd::Ones(at_.theta_r.size())) {
+      reach_(trajectories_.rows().R.cwiseAbs() * Eigen::VectorXd::Ones(at_.theta_r.size())) {
   if (!alike) return;
-  const Eigen::Index r = at_.theta_r.size() / plans_.knots();
-  shared_ = Eigen::MatrixXd::Identity(r, r).replicate(plans_.knots(), 1);
+  const Eigen::Index r = at_.theta_r.size() / trajectories_.knots();
+  shared_ = Eigen::MatrixXd::Identity(r, r).replicate(trajectories_.knots(), 1);
 }
 
-PlanProgram* KnotClimber::linearize() {
-  PlanProgram& program = plans_.linearize();
+TrajectoryProgram* SlpRun::linearize() {
+  TrajectoryProgram& program = trajectories_.linearize();
   if (shared_.size() > 0) {
     for (Eigen::MatrixXd& G : program.G) G = G * shared_;
   }
   return &program;
 }
 
-void KnotClimber::climb(long evaluations) {
+void SlpRun::optimise(long evaluations) {
   const auto left = [&] { return evaluations - found_.trace.evaluations(); };
   while (!done_ && left() >= 3 && !run_.ended()) {
     if (program_ == nullptr) {
@@ -56,8 +55,8 @@ void KnotClimber::climb(long evaluations) {
   }
 }
 
-/// Whether it moved, and `plans_` stands at the new point.
-bool KnotClimber::try_step() {
+/// Whether it moved, and `trajectories_` stands at the new point.
+bool SlpRun::try_step() {
   if (!solve()) {
     done_ = true;
     return false;
@@ -84,38 +83,38 @@ bool KnotClimber::try_step() {
 }
 
 /// The value at the instants; none, at no cost, once the run has ended.
-double KnotClimber::evaluate(const Eigen::VectorXd& x) {
+double SlpRun::evaluate(const Eigen::VectorXd& x) {
   if (run_.ended()) return -kInfinity;
-  double value = plans_.evaluate_elastic(unstacked(x, plans_.knots()), nullptr);
+  double value = trajectories_.evaluate_elastic(unstacked(x, trajectories_.knots()), nullptr);
   if (std::isnan(value)) value = -kInfinity;
-  note(x, objective_->counts() == PlanValue::kAtInstants ? value : -kInfinity);
-  if (value > -kInfinity) coupled_ = plans_.coupled();
+  note(x, objective_->counts() == TrajectoryValue::kAtInstants ? value : -kInfinity);
+  if (value > -kInfinity) coupled_ = trajectories_.coupled();
   if (value > best_.value) best_ = {x, value};
   return value;
 }
 
 /// An evaluation: a value of the objective, or of something else.
-void KnotClimber::note(const Eigen::VectorXd& x, double value) {
+void SlpRun::note(const Eigen::VectorXd& x, double value) {
   found_.trace.add(value);
   run_.show(value);
   if (value > found_.best.value) found_.best = {x, value};
 }
 
-Eigen::VectorXd KnotClimber::inside(const Eigen::VectorXd& x) const {
+Eigen::VectorXd SlpRun::inside(const Eigen::VectorXd& x) const {
   return x.cwiseMax(objective_->lower()).cwiseMin(objective_->upper());
 }
 
-double KnotClimber::worth(const Candidate& plan) {
-  if (objective_->counts() == PlanValue::kAtInstants) return plan.value;
+double SlpRun::worth(const Candidate& trajectory) {
+  if (objective_->counts() == TrajectoryValue::kAtInstants) return trajectory.value;
   done_ = true;
-  const double worth = objective_->evaluate_throughout(plan.theta_r, plan.value);
-  for (int before = 1; before < kJudgement; ++before) note(plan.theta_r, -kInfinity);
-  note(plan.theta_r, worth);
+  const double worth = objective_->evaluate_throughout(trajectory.theta_r, trajectory.value);
+  for (int before = 1; before < kJudgement; ++before) note(trajectory.theta_r, -kInfinity);
+  note(trajectory.theta_r, worth);
   return worth;
 }
 
 /// The radius, and what is left to the bounds: of a step that knots share to the nearest one.
-void KnotClimber::set_bounds() {
+void SlpRun::set_bounds() {
   const Eigen::Index size = at_.theta_r.size();
   const Eigen::Index moved = shared_.size() > 0 ? shared_.cols() : size;
   const Eigen::MatrixXd low = (objective_->lower() - at_.theta_r).reshaped(moved, size / moved);
@@ -125,7 +124,7 @@ void KnotClimber::set_bounds() {
 }
 
 /// Solves for a step; whether there is an answer.
-bool KnotClimber::solve() {
+bool SlpRun::solve() {
   set_bounds();
   set_rows();
   note(at_.theta_r, -kInfinity);
@@ -140,8 +139,8 @@ bool KnotClimber::solve() {
 
 /// low <= R y <= high, without rows that no step of this radius reaches; `reach` sums the
 /// magnitudes of each row.
-void KnotClimber::add_rows(const Eigen::SparseMatrix<double>& R, const Eigen::VectorXd& reach,
-                           const Eigen::VectorXd& low, const Eigen::VectorXd& high) {
+void SlpRun::add_rows(const Eigen::SparseMatrix<double>& R, const Eigen::VectorXd& reach,
+                      const Eigen::VectorXd& low, const Eigen::VectorXd& high) {
   row_of_.assign(static_cast<std::size_t>(R.rows()), -1);
   for (Eigen::Index i = 0; i < R.rows(); ++i) {
     if (low[i] < -radius_ * reach[i] && high[i] > radius_ * reach[i]) continue;
@@ -160,11 +159,11 @@ void KnotClimber::add_rows(const Eigen::SparseMatrix<double>& R, const Eigen::Ve
 
 /// Limits of the knots; to first order those of dependent joints, and no pair of bodies nearer than
 /// its margin.
-void KnotClimber::set_rows() {
-  const KnotRows& rows = plans_.rows();
-  const FollowingRows& following = plans_.following_rows();
+void SlpRun::set_rows() {
+  const KnotRows& rows = trajectories_.rows();
+  const DependentRows& following = trajectories_.dependent_rows();
   const Eigen::VectorXd& x = at_.theta_r;
-  const Eigen::Index r = x.size() / plans_.knots();
+  const Eigen::Index r = x.size() / trajectories_.knots();
   const Eigen::VectorXd at = rows.R * x, ones = Eigen::VectorXd::Ones(x.size());
   entries_.clear();
   low_.clear();
@@ -172,7 +171,8 @@ void KnotClimber::set_rows() {
   add_rows(rows.R, reach_, rows.r_min - at, rows.r_max - at);
   add_rows(following.R, following.R.cwiseAbs() * ones, following.r_min - following.at,
            following.r_max - following.at);
-  for (const NearPair& pair : plans_.near_pairs(unstacked(x, plans_.knots()), kNearing * radius_)) {
+  for (const NearPair& pair :
+       trajectories_.near_pairs(unstacked(x, trajectories_.knots()), kNearing * radius_)) {
     for (Eigen::Index j = 0; j < r; ++j) {
       entries_.emplace_back(low_.size(), pair.knot * r + j, pair.gradient[j]);
     }
@@ -188,10 +188,10 @@ void KnotClimber::set_rows() {
 }
 
 /// x with colliding knots moved apart by Newton's method along the gradients of the clearance.
-Eigen::VectorXd KnotClimber::apart(Eigen::VectorXd x) {
-  const Eigen::Index r = x.size() / plans_.knots();
+Eigen::VectorXd SlpRun::apart(Eigen::VectorXd x) {
+  const Eigen::Index r = x.size() / trajectories_.knots();
   for (int round = 0; round < kApartRounds; ++round) {
-    const auto& near = plans_.near_pairs(unstacked(x, plans_.knots()), 0);
+    const auto& near = trajectories_.near_pairs(unstacked(x, trajectories_.knots()), 0);
     if (near.empty()) break;
     for (const NearPair& pair : near) {
       const double squared = pair.gradient.squaredNorm();

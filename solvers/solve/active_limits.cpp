@@ -21,7 +21,8 @@ struct BindingLimit {
 };
 
 /// What raising the limits of u_j at block i is worth, per unit (positive: the upper one).
-Eigen::VectorXd effort_prices(const Robot& robot, const PlanSolution& solution, Eigen::Index i) {
+Eigen::VectorXd effort_prices(const Robot& robot, const TrajectorySolution& solution,
+                              Eigen::Index i) {
   Eigen::VectorXd prices = -robot.actuation.B.transpose() * solution.lambda.col(i);
   if (i > 0) prices -= solution.mu.col(i - 1);
   if (i < solution.mu.cols()) prices += solution.mu.col(i);
@@ -40,7 +41,7 @@ std::vector<BindingLimit> dearest_first(std::vector<BindingLimit> limits) {
 
 std::vector<BindingLimit> limits_at(const Answer& answer, Eigen::Index i) {
   const Robot& robot = answer.task->robot;
-  const PlanSolution& solution = answer.plan.solution;
+  const TrajectorySolution& solution = answer.trajectory.solution;
   const Zonotope& set = robot.actuation;
   std::vector<BindingLimit> limits;
   const Eigen::VectorXd prices = effort_prices(robot, solution, i);
@@ -76,7 +77,7 @@ std::string describe(const std::vector<BindingLimit>& limits) {
 }  // namespace
 
 std::vector<std::string> binding_limits(const Answer& answer) {
-  const Eigen::VectorXd& pi = answer.plan.solution.pi;
+  const Eigen::VectorXd& pi = answer.trajectory.solution.pi;
   std::vector<Eigen::Index> worst;
   for (Eigen::Index i = 0; i < pi.size(); ++i) {
     if (pi[i] > kCounts) worst.push_back(i);
@@ -85,11 +86,11 @@ std::vector<std::string> binding_limits(const Answer& answer) {
                    [&](Eigen::Index a, Eigen::Index b) { return pi[a] > pi[b]; });
   if (worst.size() > kMostInstants) worst.resize(kMostInstants);
   std::sort(worst.begin(), worst.end());
-  const auto skipped = static_cast<Eigen::Index>(answer.plan.instants.size()) - pi.size();
+  const auto skipped = static_cast<Eigen::Index>(answer.trajectory.instants.size()) - pi.size();
   std::vector<std::string> lines;
   for (const Eigen::Index i : worst) {
     lines.push_back(fmt::format("binds at {:.4f} s: {}",
-                                answer.plan.instants[static_cast<std::size_t>(i + skipped)].t,
+                                answer.trajectory.instants[static_cast<std::size_t>(i + skipped)].t,
                                 describe(limits_at(answer, i))));
   }
   return lines;
@@ -101,8 +102,8 @@ std::string dearest_efforts(const Answer& answer) {
   std::vector<BindingLimit> limits;
   for (Eigen::Index j = 0; j < set.u_min.size(); ++j)
     limits.push_back({0, actuator_name(robot, j)});
-  for (Eigen::Index i = 0; i < answer.plan.solution.lambda.cols(); ++i) {
-    const Eigen::VectorXd prices = effort_prices(robot, answer.plan.solution, i);
+  for (Eigen::Index i = 0; i < answer.trajectory.solution.lambda.cols(); ++i) {
+    const Eigen::VectorXd prices = effort_prices(robot, answer.trajectory.solution, i);
     for (Eigen::Index j = 0; j < prices.size(); ++j) {
       if (std::abs(prices[j]) < 1e-9) continue;  // it may have no limits
       limits[static_cast<std::size_t>(j)].worth +=
@@ -112,10 +113,10 @@ std::string dearest_efforts(const Answer& answer) {
   return describe(dearest_first(std::move(limits)));
 }
 
-std::string fastest_joint(const Robot& robot, const Plan& plan) {
+std::string fastest_joint(const Robot& robot, const Trajectory& trajectory) {
   double most = 0;
   const std::string* name = nullptr;
-  for (const Instant& instant : plan.instants) {
+  for (const Instant& instant : trajectory.instants) {
     const auto rates = instant.v.tail(static_cast<Eigen::Index>(robot.joints.size()));
     for (std::size_t j = 0; j < robot.joints.size(); ++j) {
       const double share =

@@ -9,11 +9,11 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json to_json(const BranchCounts& branches) {
-  return {{"valid", branches.valid()},           {"most", branches.most},
-          {"unreachable", branches.unreachable}, {"beyond_limit", branches.beyond_limit},
-          {"singular", branches.singular},       {"collision", branches.collision},
-          {"incomplete", branches.incomplete}};
+ordered_json to_json(const IkCounts& ik_solutions) {
+  return {{"valid", ik_solutions.valid()},           {"most", ik_solutions.most},
+          {"unreachable", ik_solutions.unreachable}, {"beyond_limit", ik_solutions.beyond_limit},
+          {"singular", ik_solutions.singular},       {"collision", ik_solutions.collision},
+          {"incomplete", ik_solutions.incomplete}};
 }
 
 bool is_turn_in_place(const Path& path) {
@@ -33,7 +33,7 @@ ordered_json path_json(const Path& path) {
 ordered_json task_json(const Answer& answer) {
   const Problem& problem = *answer.task;
   const MotionTask& task = *problem.motion;
-  const int t_h = task.t_h > 0 ? task.t_h : answer.plan.t_h;
+  const int t_h = task.t_h > 0 ? task.t_h : answer.trajectory.t_h;
   ordered_json object;
   object["kind"] = problem.type();
   object["scheme"] = to_string(task.scheme);
@@ -94,7 +94,7 @@ ordered_json choice_json(const Answer& answer) {
   object["problem"] = c.problem;
   object["measure"] = c.measure;
   object["wrench"] = to_string(c.wrench);
-  object["lp"] = known(c.lp != kNoSolver, c.lp);
+  object["solver"] = known(c.solver != kNoSolver, c.solver);
   object["search"] = known(!c.search.empty(), c.search);
   object["seed"] = known(!c.search.empty(), c.seed);
   object["status"] = to_string(answer.status);
@@ -111,8 +111,8 @@ void add_posture(const Answer& answer, ordered_json& object) {
   const Capability& capability = answer.capability;
   const bool there = answer.has_posture(), solved = answer.has_value();
   const bool has_wrench = solved && capability.w.size() > 0;
-  object["yardstick"] = known(std::isfinite(answer.yardstick), answer.yardstick);
-  object["yardstick_unit"] = problem.unit();
+  object["beta_linf"] = known(std::isfinite(answer.beta_linf), answer.beta_linf);
+  object["beta_linf_unit"] = problem.unit();
   object["theta_r"] = known(there, array(posture.theta_r));
   object["theta"] = there ? theta(problem.robot, posture.base, posture.q) : ordered_json(nullptr);
   if (problem.free.count() > 0) {
@@ -123,30 +123,30 @@ void add_posture(const Answer& answer, ordered_json& object) {
   if (problem.contact) object["h_2"] = known(has_wrench, array(capability.h_2));
   object["u"] = known(solved && capability.u.size() > 0, array(capability.u));
   object["lambda"] = known(solved, array(capability.lambda));
-  object["gradient"] = known(solved, array(answer.plan.gradient.transpose()));
+  object["gradient"] = known(solved, array(answer.trajectory.gradient.transpose()));
 }
 
-/// The plan of a task in time; its efforts and wrenches stand by its instants.
-void add_plan(const Answer& answer, ordered_json& object) {
+/// The trajectory of a task in time; its efforts and wrenches stand by its instants.
+void add_trajectory(const Answer& answer, ordered_json& object) {
   const bool solved = answer.has_value();
-  object["theta_r"] = known(answer.has_posture(), rows(answer.plan.knots));
+  object["theta_r"] = known(answer.has_posture(), rows(answer.trajectory.knots));
   for (const char* key : {"theta", "w", "h", "u", "lambda"}) object[key] = nullptr;
-  object["gradient"] = known(solved, rows(answer.plan.gradient));
+  object["gradient"] = known(solved, rows(answer.trajectory.gradient));
 }
 
 void add_instants(const Answer& answer, ordered_json& object) {
-  const Plan& plan = answer.plan;
+  const Trajectory& trajectory = answer.trajectory;
   const Robot& robot = answer.task->robot;
   object["task"] = task_json(answer);
-  object["value"] = known(answer.has_value(), plan.value);
-  object["continuous"] = plan.continuous;
-  object["continuous_reason"] =
-      known(!plan.continuous_reason.empty(), plan.continuous_reason.str());
-  object["collision"] = known(!plan.collision.empty(), plan.collision.str());
+  object["value"] = known(answer.has_value(), trajectory.value);
+  object["value_between_knots"] = trajectory.value_between_knots;
+  object["between_knots_reason"] =
+      known(!trajectory.between_knots_reason.empty(), trajectory.between_knots_reason.str());
+  object["collision"] = known(!trajectory.collision.empty(), trajectory.collision.str());
   object["clearance"] = clearance_json(answer.clearance);
   object["actuators"] = actuators_json(robot);
   object["instants"] = ordered_json::array();
-  for (const Instant& instant : plan.instants) {
+  for (const Instant& instant : trajectory.instants) {
     object["instants"].push_back(instant_json(robot, instant, answer.has_value()));
   }
 }
@@ -156,14 +156,14 @@ void add_instants(const Answer& answer, ordered_json& object) {
 std::string to_json(const Answer& answer) {
   const bool in_time = answer.task->motion.has_value();
   ordered_json object = choice_json(answer);
-  (in_time ? add_plan : add_posture)(answer, object);
+  (in_time ? add_trajectory : add_posture)(answer, object);
   object["residual"] = known(answer.has_value(), to_json(answer.residual()));
   object["evaluations"] = answer.evaluations;
   object["stopped"] = known(!answer.stopped.empty(), answer.stopped);
   object["calls"] = known(!answer.choice.search.empty(), to_json(answer.calls));
   if (!in_time) {
     object["undecided"] = answer.undecided;
-    object["branches"] = to_json(answer.branches);
+    object["ik_solutions"] = to_json(answer.ik_solutions);
   }
   object["wall_s"] = answer.wall_s;
   object["task_digest"] = answer.task->digest;

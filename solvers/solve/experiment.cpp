@@ -26,7 +26,7 @@ void conclude_experiment(const TankRun& run, Answer& answer) {
   answer.missed = run.summary.missed;
   const double reading = reading_of(run.summary);
   if (std::isfinite(reading) && !run.summary.lost) {
-    answer.plan.value = reading;
+    answer.trajectory.value = reading;
   } else {
     answer.conclude(Status::kNoneFound, "the posture was lost before the end");
   }
@@ -37,32 +37,32 @@ void carry_out_posture(const Case& c, Answer& answer) {
   // The controller holds the end effector where theta_r has it.
   const Problem held = held_at(task, task.theta_r_default);
   const Answer posture = evaluate(held, held_theta_r(task, task.theta_r_default), {c});
-  answer.plan.knots = task.theta_r_default.transpose();
+  answer.trajectory.knots = task.theta_r_default.transpose();
   static_cast<Verdict&>(answer) = posture;
   if (!posture.has_value()) return;
-  answer.yardstick = held.c.dot(posture.capability.h);
-  if (answer.yardstick > 0) {
-    conclude_experiment(simulate_posture(posture, answer.yardstick, c.integrator, TankOptions()),
+  answer.beta_linf = held.c.dot(posture.capability.h);
+  if (answer.beta_linf > 0) {
+    conclude_experiment(simulate_posture(posture, answer.beta_linf, c.integrator, TankOptions()),
                         answer);
   } else {
     answer.conclude(Status::kNoneFound, "the default posture exerts nothing along c");
   }
 }
 
-void carry_out_plan(const Method& method, Answer& answer) {
+void carry_out_trajectory(const Method& method, Answer& answer) {
   const Problem& task = *answer.task;
-  answer.plan.knots = constant_knots(task, task.theta_r_default);
-  PlanEvaluator evaluator(task, method.choice.wrench, method.plan_solver->make);
-  static_cast<Verdict&>(answer) = evaluator.evaluate(answer.plan.knots);
-  if (evaluator.plan().status != Status::kOptimal) return;
-  evaluator.evaluate_continuous();
+  answer.trajectory.knots = constant_knots(task, task.theta_r_default);
+  TrajectoryEvaluator evaluator(task, method.choice.wrench, method.trajectory_solver->make);
+  static_cast<Verdict&>(answer) = evaluator.evaluate(answer.trajectory.knots);
+  if (evaluator.trajectory().status != Status::kOptimal) return;
+  evaluator.evaluate_between_knots();
   ScriptOptions script;
   script.interpolation = usual_interpolation(task);
   script.margin = TankOptions().margin;
-  const PlanExperiment experiment =
-      simulate_plan(task, evaluator.plan(), method.choice.wrench, *method.plan_solver, script,
-                    method.choice.integrator, TankOptions());
-  answer.yardstick = experiment.script.planned;
+  const TrajectoryExperiment experiment = simulate_trajectory(
+      task, evaluator.trajectory(), method.choice.wrench, *method.trajectory_solver, script,
+      method.choice.integrator, TankOptions());
+  answer.beta_linf = experiment.script.planned;
   conclude_experiment(experiment.run, answer);
 }
 
@@ -87,7 +87,7 @@ Answer experiment(const Problem& task, const Options& options) {
   answer.choice = method.choice;
   answer.unit = task.unit();
   if (task.motion) {
-    carry_out_plan(method, answer);
+    carry_out_trajectory(method, answer);
   } else {
     carry_out_posture(method.choice, answer);
   }

@@ -89,21 +89,21 @@ Sampled sample_postures(const Problem& problem, int samples) {
     }
     const Posture& posture = model.evaluate(theta_r);
     result.valid += posture.status == Status::kValid ? 1 : 0;
-    tally.add(posture.branches);
+    tally.add(posture.ik_solutions);
   }
   result.postures = tally.sum();
   return result;
 }
 
-std::string describe(const BranchCounts& branches) {
+std::string describe(const IkCounts& ik_solutions) {
   return fmt::format(
       "postures: {} valid, {} beyond a joint's limit, {} near singular, {} in collision; none at "
       "{} "
       "theta_r, at most {} at one{}",
-      branches.valid(), branches.beyond_limit, branches.singular, branches.collision,
-      branches.unreachable, branches.most,
-      branches.incomplete > 0
-          ? fmt::format(", some perhaps missing at {} theta_r", branches.incomplete)
+      ik_solutions.valid(), ik_solutions.beyond_limit, ik_solutions.singular,
+      ik_solutions.collision, ik_solutions.unreachable, ik_solutions.most,
+      ik_solutions.incomplete > 0
+          ? fmt::format(", some perhaps missing at {} theta_r", ik_solutions.incomplete)
           : "");
 }
 

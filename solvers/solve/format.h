@@ -53,12 +53,12 @@ std::string line(long evaluations, double seconds);
 /// what became of all postures there.
 struct Sampled {
   int valid = 0;
-  BranchCounts postures;
+  IkCounts postures;
 };
 Sampled sample_postures(const Problem& problem, int samples);
 
 /// "postures: 3 valid, ..."
-std::string describe(const BranchCounts& branches);
+std::string describe(const IkCounts& ik_solutions);
 
 /// Instants from knot to knot.
 int instants_per_interval(const MotionTask& task);

@@ -38,34 +38,36 @@ const char* name_of(const WrenchSolverEntry* solver) { return solver ? solver->n
 /// The solver with this name, or the first one of those that serve. Throws if it is none of them.
 const WrenchSolverEntry* choose_solver(const std::vector<const WrenchSolverEntry*>& served,
                                        const Problem& problem, const Case& c) {
-  if (c.lp.empty()) return served.front();
-  if (c.lp != kNoSolver) find_wrench_solver(c.lp);
+  if (c.solver.empty()) return served.front();
+  if (c.solver != kNoSolver) find_wrench_solver(c.solver);
   std::vector<std::string> names;
   for (const WrenchSolverEntry* solver : served) {
-    if (c.lp == name_of(solver)) return solver;
+    if (c.solver == name_of(solver)) return solver;
     names.emplace_back(name_of(solver));
   }
   const bool many = served.front() && !problem.robot.actuation.has_facets;
   throw std::invalid_argument(fmt::format(
-      "lp: got '{}', which does not serve measure {} with wrench {}{}{}, expected one of {}", c.lp,
-      c.measure, to_string(c.wrench), problem.contact_columns() > 0 ? " and a second contact" : "",
+      "solver: got '{}', which does not serve measure {} with wrench {}{}{}, expected one of {}",
+      c.solver, c.measure, to_string(c.wrench),
+      problem.contact_columns() > 0 ? " and a second contact" : "",
       many ? " and too many facets" : "", fmt::join(names, " ")));
 }
 
-/// For a search of plans, which it asks, the solver of the same name; `facets` and `box` are
-/// `structured` there.
-const PlanSolverEntry* plan_solver_of(const Problem& problem, const Case& c) {
+/// For a trajectory search, which it asks, the solver of the same name; `facets` and `condensed`
+/// are `facets_or_ipm` there.
+const TrajectorySolverEntry* trajectory_solver_of(const Problem& problem, const Case& c) {
   const auto named = [](const auto& table, const std::string& name) {
     return std::find_if(table.begin(), table.end(),
                         [&](const auto& entry) { return entry.name == name; });
   };
   const std::vector<const SearchEntry*> stages = find_search(c.search).stages;
-  const bool of_plans = std::any_of(stages.begin(), stages.end(), [&](const SearchEntry* stage) {
-    return named(plan_searches(), stage->name) != plan_searches().end();
-  });
-  if (!of_plans || !serves_as_plan(problem, c.measure)) return nullptr;
-  const auto same = named(plan_solvers(), c.lp);
-  return same == plan_solvers().end() ? &plan_solvers().front() : &*same;
+  const bool of_trajectories =
+      std::any_of(stages.begin(), stages.end(), [&](const SearchEntry* stage) {
+        return named(trajectory_searches(), stage->name) != trajectory_searches().end();
+      });
+  if (!of_trajectories || !serves_as_trajectory(problem, c.measure)) return nullptr;
+  const auto same = named(trajectory_solvers(), c.solver);
+  return same == trajectory_solvers().end() ? &trajectory_solvers().front() : &*same;
 }
 
 /// Whether a force of the contact ends at a limit other than zero.
@@ -97,8 +99,8 @@ Method resolve_static(const Problem& problem, const Case& c) {
         "wrench: got 'any', which means nothing to measure {}, expected pure", c.measure));
   }
   const WrenchSolverEntry* solver = choose_solver(served, problem, c);
-  method.choice.lp = name_of(solver);
-  if (method.search) method.plan_solver = plan_solver_of(problem, method.choice);
+  method.choice.solver = name_of(solver);
+  if (method.search) method.trajectory_solver = trajectory_solver_of(problem, method.choice);
   if (!serves_limits(measure, problem)) {
     throw std::invalid_argument("measure: got " + c.measure +
                                 ", expected one with a solver: a closed form serves no limits of "
@@ -108,10 +110,10 @@ Method resolve_static(const Problem& problem, const Case& c) {
   method.make_measure = [&problem, &measure, solver] {
     return measure.make(problem, solver ? solver->make() : nullptr);
   };
-  const MeasureEntry& yardstick = find_measure("linf_polytope");
+  const MeasureEntry& beta_linf = find_measure("linf_polytope");
   const WrenchSolverEntry& reference = find_wrench_solver("simplex");
-  method.make_yardstick = [&problem, &yardstick, &reference] {
-    return yardstick.make(problem, reference.make());
+  method.make_beta_linf = [&problem, &beta_linf, &reference] {
+    return beta_linf.make(problem, reference.make());
   };
   return method;
 }
@@ -129,15 +131,16 @@ Method resolve_in_time(const Problem& problem, const Case& c) {
     throw std::invalid_argument("measure: got '" + c.measure + "', expected " + Case().measure +
                                 ": a task in time has no other");
   }
-  method.plan_solver = c.lp.empty() ? &plan_solvers().front() : &find_plan_solver(c.lp);
-  method.choice.lp = method.plan_solver->name;
+  method.trajectory_solver =
+      c.solver.empty() ? &trajectory_solvers().front() : &find_trajectory_solver(c.solver);
+  method.choice.solver = method.trajectory_solver->name;
   method.choice.scheme = scheme;
   if (!c.search.empty()) {
     method.search = find_search(c.search);
     const auto& stages = method.search->stages;
     const bool throughout = std::all_of(stages.begin(), stages.end(),
                                         [](const SearchEntry* entry) { return entry->throughout; });
-    if (throughout) method.plan_value = PlanValue::kThroughout;
+    if (throughout) method.trajectory_value = TrajectoryValue::kThroughout;
   }
   method.unit = problem.unit();
   return method;
@@ -145,7 +148,7 @@ Method resolve_in_time(const Problem& problem, const Case& c) {
 
 }  // namespace
 
-bool serves_as_plan(const Problem& problem, const std::string& measure) {
+bool serves_as_trajectory(const Problem& problem, const std::string& measure) {
   return measure == Case().measure && !problem.contact && problem.free.count() == 0;
 }
 
@@ -159,7 +162,8 @@ std::vector<std::string> served_solvers(const Problem& problem, const std::strin
   const MeasureEntry& entry = find_measure(measure);
   if (problem.motion) {
     if (measure != Case().measure) return names;
-    for (const PlanSolverEntry& solver : plan_solvers()) names.emplace_back(solver.name);
+    for (const TrajectorySolverEntry& solver : trajectory_solvers())
+      names.emplace_back(solver.name);
     return names;
   }
   if (!serves_limits(entry, problem)) return names;
@@ -174,15 +178,15 @@ std::vector<std::string> served_searches(const Problem& problem, const std::stri
   const auto add = [&](std::span<const SearchEntry> table) {
     for (const SearchEntry& search : table) names.emplace_back(search.name);
   };
-  if (problem.motion) add(plan_searches());
+  if (problem.motion) add(trajectory_searches());
   add(searches());
-  if (!problem.motion && serves_as_plan(problem, measure)) add(plan_searches());
+  if (!problem.motion && serves_as_trajectory(problem, measure)) add(trajectory_searches());
   if (serves_between_facets(problem, measure)) add(facet_searches());
   return names;
 }
 
 std::string default_search(const Problem& task, const std::string& measure) {
-  if (task.motion) return plan_searches().front().name;
+  if (task.motion) return trajectory_searches().front().name;
   const bool has_sqp =
       std::any_of(facet_searches().begin(), facet_searches().end(),
                   [](const SearchEntry& entry) { return entry.name == std::string("facet_sqp"); });
@@ -229,8 +233,9 @@ void set_scheme(const char* key, const std::string& scheme, Problem& problem) {
 std::unique_ptr<Objective> make_objective(const Problem& problem, const Method& method,
                                           std::shared_ptr<Tally> tally) {
   const Wrench wrench = method.choice.wrench;
-  if (method.plan_solver) {
-    return make_plan_objective(problem, wrench, method.plan_solver->make, true, method.plan_value);
+  if (method.trajectory_solver) {
+    return make_trajectory_objective(problem, wrench, method.trajectory_solver->make, true,
+                                     method.trajectory_value);
   }
   return make_capability_objective(problem, wrench, method.make_measure, true, std::move(tally));
 }

@@ -13,7 +13,7 @@
 namespace maxwrench {
 
 struct MeasureEntry;
-struct PlanSolverEntry;
+struct TrajectorySolverEntry;
 
 /// More evaluations than anyone waits for: a grid keeps all their values.
 inline constexpr int kMostBudget = 100'000'000;
@@ -22,21 +22,22 @@ inline constexpr int kMostBudget = 100'000'000;
 struct Method {
   Case choice;  ///< complete: nothing is left to defaults
   const MeasureEntry* measure = nullptr;
-  std::optional<NamedSearch> search;  ///< none: the posture or plan is given
-  /// Of a task in time. Of a static one: the search is one of plans and gets those of one knot,
-  /// solved by this one; null: it gets postures.
-  const PlanSolverEntry* plan_solver = nullptr;
-  PlanValue plan_value = PlanValue::kAtInstants;  ///< what the search of a task in time maximises
-  const char* unit = "";                          ///< of the value
+  std::optional<NamedSearch> search;  ///< none: the posture or trajectory is given
+  /// Of a task in time. Of a static one: the search is one of trajectories and gets those of one
+  /// knot, solved by this one; null: it gets postures.
+  const TrajectorySolverEntry* trajectory_solver = nullptr;
+  TrajectoryValue trajectory_value =
+      TrajectoryValue::kAtInstants;  ///< what the search of a task in time maximises
+  const char* unit = "";             ///< of the value
   /// Of a static task.
   MeasureMaker make_measure;
-  /// linf_polytope with the same wrenches by the reference solver, see `Answer::yardstick`.
-  MeasureMaker make_yardstick;
+  /// linf_polytope with the same wrenches by the reference solver, see `Answer::beta_linf`.
+  MeasureMaker make_beta_linf;
 };
 
-/// Whether searches of plans serve a static task, which is a plan of one knot: by linf_polytope,
-/// without a second contact.
-bool serves_as_plan(const Problem& problem, const std::string& measure);
+/// Whether trajectory searches serve a static task, which is a trajectory of one knot: by
+/// linf_polytope, without a second contact.
+bool serves_as_trajectory(const Problem& problem, const std::string& measure);
 
 /// Whether searches between facets serve: linf_polytope of a static task, few facets.
 bool serves_between_facets(const Problem& problem, const std::string& measure);

@@ -8,14 +8,14 @@
 namespace maxwrench {
 namespace {
 
-std::string known(bool is, double value) { return is ? exact_text(value) : ""; }
-std::string known(bool is, const Eigen::VectorXd& v) { return is ? exact_text(v) : ""; }
+std::string cell_if(bool is, double value) { return is ? exact_text(value) : ""; }
+std::string cell_if(bool is, const Eigen::VectorXd& v) { return is ? exact_text(v) : ""; }
 
 }  // namespace
 
 const std::vector<std::string>& case_columns() {
   static const std::vector<std::string> kColumns = {
-      "problem", "measure", "wrench", "lp", "search", "seed", "budget", "scheme", "integrator"};
+      "problem", "measure", "wrench", "solver", "search", "seed", "budget", "scheme", "integrator"};
   return kColumns;
 }
 
@@ -23,7 +23,7 @@ std::vector<std::string> case_values(const Case& c) {
   return {c.problem,
           c.measure,
           to_string(c.wrench),
-          c.lp,
+          c.solver,
           c.search,
           fmt::format("{}", c.seed),
           fmt::format("{}", c.budget),
@@ -34,30 +34,31 @@ std::vector<std::string> case_values(const Case& c) {
 std::vector<std::string> value_columns() {
   std::vector<std::string> columns = case_columns();
   columns.insert(columns.end(),
-                 {"status", "beta", "continuous", "unit", "yardstick", "yardstick_unit", "label",
-                  "theta_r", "h", "u", "lambda", "balance", "bounds", "dual", "gap", "evaluations",
-                  "reason", "calls", "task_digest"});
+                 {"status", "beta", "value_between_knots", "unit", "beta_linf", "beta_linf_unit",
+                  "label", "theta_r", "h", "u", "lambda", "balance", "bounds", "dual", "gap",
+                  "evaluations", "reason", "calls", "task_digest"});
   return columns;
 }
 
 std::vector<std::string> values(const Answer& answer) {
-  const Plan& plan = answer.plan;
+  const Trajectory& trajectory = answer.trajectory;
   const Capability& capability = answer.capability;
   const Residual& residual = answer.residual();
   const bool experiment = !answer.choice.integrator.empty();
   const bool solved = answer.has_value() && !experiment;
-  const bool posture = solved && !answer.task->motion;  // the efforts of a plan are not in its row
+  const bool posture =
+      solved && !answer.task->motion;  // the efforts of a trajectory are not in its row
   std::vector<std::string> cells = case_values(answer.choice);
   cells.insert(
       cells.end(),
-      {to_string(answer.status), known(answer.has_value(), answer.beta()),
-       known(std::isfinite(plan.continuous), plan.continuous), answer.unit,
-       known(std::isfinite(answer.yardstick), answer.yardstick), answer.task->unit(),
-       answer.task->label, exact_text(stacked(plan.knots)),
-       known(posture && capability.w.size() > 0, capability.h), known(posture, capability.u),
-       known(posture, capability.lambda), known(solved, residual.balance),
-       known(solved, residual.bounds), known(solved, residual.dual), known(solved, residual.gap),
-       fmt::format("{}", answer.evaluations),
+      {to_string(answer.status), cell_if(answer.has_value(), answer.beta()),
+       cell_if(std::isfinite(trajectory.value_between_knots), trajectory.value_between_knots),
+       answer.unit, cell_if(std::isfinite(answer.beta_linf), answer.beta_linf), answer.task->unit(),
+       answer.task->label, exact_text(stacked(trajectory.knots)),
+       cell_if(posture && capability.w.size() > 0, capability.h), cell_if(posture, capability.u),
+       cell_if(posture, capability.lambda), cell_if(solved, residual.balance),
+       cell_if(solved, residual.bounds), cell_if(solved, residual.dual),
+       cell_if(solved, residual.gap), fmt::format("{}", answer.evaluations),
        answer.has_value() && experiment ? answer.missed : answer.reason.str(),
        describe(answer.calls), answer.task->digest});
   return cells;

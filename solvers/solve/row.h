@@ -16,7 +16,7 @@ std::vector<std::string> case_values(const Case& c);
 
 /// The case comes first, then values; times are not values and stand in a table of their own. Of a
 /// task in time beta is the value, theta_r the table row by row; of an experiment beta is the
-/// reading, yardstick what was planned. `task_digest` is that of the task's files.
+/// reading, beta_linf what was planned. `task_digest` is that of the task's files.
 std::vector<std::string> value_columns();
 std::vector<std::string> values(const Answer& answer);
 std::vector<std::string> time_columns();

@@ -30,23 +30,23 @@ Answer begin(std::shared_ptr<const Problem> task, const Method& method) {
   return answer;
 }
 
-double yardstick(const Problem& task, const Method& method, const Posture& posture) {
+double beta_linf(const Problem& task, const Method& method, const Posture& posture) {
   WrenchProgram program = make_wrench_program(task, method.choice.wrench);
   set_posture(posture, program);
   Capability capability;
-  method.make_yardstick()->evaluate(posture, program, false, capability);
+  method.make_beta_linf()->evaluate(posture, program, false, capability);
   return capability.status == Status::kOptimal ? capability.beta
                                                : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// A static task as one in time of one instant.
-Plan one_instant(const Problem& task, const Posture& posture, const Capability& capability,
-                 const Eigen::VectorXd& gradient) {
-  Plan plan;
-  static_cast<Verdict&>(plan) =
+Trajectory one_instant(const Problem& task, const Posture& posture, const Capability& capability,
+                       const Eigen::VectorXd& gradient) {
+  Trajectory trajectory;
+  static_cast<Verdict&>(trajectory) =
       posture.status == Status::kValid ? Verdict(capability) : Verdict(posture);
-  plan.knots = posture.theta_r.transpose();
-  plan.gradient = gradient.transpose();
+  trajectory.knots = posture.theta_r.transpose();
+  trajectory.gradient = gradient.transpose();
   Instant instant;
   instant.end_effector = pose_at(task, posture.theta_r);
   instant.base = posture.base;
@@ -55,13 +55,13 @@ Plan one_instant(const Problem& task, const Posture& posture, const Capability& 
   instant.tau_d = posture.tau_d;
   instant.J = posture.J;
   instant.c << posture.turn * task.c.head<3>(), posture.turn * task.c.tail<3>();
-  if (plan.status == Status::kOptimal) {
-    plan.value = capability.beta;
+  if (trajectory.status == Status::kOptimal) {
+    trajectory.value = capability.beta;
     if (capability.w.size() > 0) instant.h = capability.h;
     instant.u = capability.u;
   }
-  plan.instants.push_back(std::move(instant));
-  return plan;
+  trajectory.instants.push_back(std::move(instant));
+  return trajectory;
 }
 
 void evaluate_posture(const Method& method, const Eigen::VectorXd& theta_r, Answer& answer) {
@@ -71,7 +71,7 @@ void evaluate_posture(const Method& method, const Eigen::VectorXd& theta_r, Answ
   WrenchProgram program = make_wrench_program(task, method.choice.wrench);
   answer.posture =
       evaluate_best(model, theta_r, *method.make_measure(), true, program, answer.capability);
-  answer.branches = answer.posture.branches;
+  answer.ik_solutions = answer.posture.ik_solutions;
   const bool valid = answer.posture.status == Status::kValid;
   static_cast<Verdict&>(answer) = valid ? Verdict(answer.capability) : Verdict(answer.posture);
   if (!valid) answer.reason = describe_violation(task, answer.posture);
@@ -83,23 +83,23 @@ void evaluate_posture(const Method& method, const Eigen::VectorXd& theta_r, Answ
       answer.conclude(Status::kNumericalError, "the answer does not satisfy its program");
     }
   }
-  answer.plan = one_instant(task, answer.posture, answer.capability, gradient);
+  answer.trajectory = one_instant(task, answer.posture, answer.capability, gradient);
   answer.wall_s = seconds_since(start);
-  if (valid) answer.yardstick = yardstick(task, method, answer.posture);
+  if (valid) answer.beta_linf = beta_linf(task, method, answer.posture);
 }
 
-void evaluate_plan(const Method& method, const Eigen::MatrixXd& knots, Answer& answer) {
+void evaluate_trajectory(const Method& method, const Eigen::MatrixXd& knots, Answer& answer) {
   const auto start = Clock::now();
-  PlanEvaluator evaluator(*answer.task, method.choice.wrench, method.plan_solver->make,
-                          answer.collision);
-  const Plan& plan = evaluator.evaluate(knots);
-  if (plan.status != Status::kInvalidPosture) {
+  TrajectoryEvaluator evaluator(*answer.task, method.choice.wrench, method.trajectory_solver->make,
+                                answer.collision);
+  const Trajectory& trajectory = evaluator.evaluate(knots);
+  if (trajectory.status != Status::kInvalidPosture) {
     // A check, the same for all rows: a solver that takes minutes for its instants tells no more.
-    const auto checker = plan_solvers().front().make();
-    evaluator.evaluate_continuous(checker.get());
+    const auto checker = trajectory_solvers().front().make();
+    evaluator.evaluate_between_knots(checker.get());
   }
-  static_cast<Verdict&>(answer) = plan;
-  answer.plan = plan;
+  static_cast<Verdict&>(answer) = trajectory;
+  answer.trajectory = trajectory;
   answer.clearance = evaluator.least_clearance();
   answer.program = evaluator.program();
   answer.wall_s = seconds_since(start);
@@ -112,8 +112,8 @@ Answer evaluate(std::shared_ptr<const Problem> task, const Method& method,
   answer.evaluations = 1;
   if (answer.task->motion) {
     const bool throughout = theta_r.size() == answer.task->redundancy();
-    evaluate_plan(method, throughout ? constant_knots(*answer.task, stacked(theta_r)) : theta_r,
-                  answer);
+    evaluate_trajectory(
+        method, throughout ? constant_knots(*answer.task, stacked(theta_r)) : theta_r, answer);
   } else {
     evaluate_posture(method, stacked(theta_r), answer);
   }
@@ -135,8 +135,8 @@ std::vector<CallCount> count_calls(const std::vector<Call>& calls) {
   return counts;
 }
 
-/// Makes the answer of a posture, or plan, that a search found the answer of that search: what it
-/// took, and its word, for `optimal` is one of the lower level.
+/// Makes the answer of a posture, or trajectory, that a search found the answer of that search:
+/// what it took, and its word, for `optimal` is one of the lower level.
 void conclude_search(const SearchResult& result, Answer& answer) {
   answer.evaluations = result.evaluations;
   answer.calls = count_calls(result.calls);
@@ -164,7 +164,8 @@ int thread_count(int threads) {
 }  // namespace
 
 bool Answer::has_value() const {
-  return answered() || (status == Status::kBudgetExhausted && plan.status == Status::kOptimal);
+  return answered() ||
+         (status == Status::kBudgetExhausted && trajectory.status == Status::kOptimal);
 }
 
 bool Answer::answered() const {
@@ -172,7 +173,7 @@ bool Answer::answered() const {
 }
 
 const Residual& Answer::residual() const {
-  return task && task->motion ? plan.solution.residual : capability.residual;
+  return task && task->motion ? trajectory.solution.residual : capability.residual;
 }
 
 Answer evaluate(const Problem& task, const Eigen::MatrixXd& theta_r, const Options& options) {
@@ -203,7 +204,7 @@ Answer solve(const Problem& task, const Options& options) {
   }
   conclude_search(result, answer);
   answer.undecided = tally->undecided();
-  answer.branches = tally->sum();
+  answer.ik_solutions = tally->sum();
   answer.wall_s += search_s;
   return answer;
 }

@@ -19,7 +19,7 @@ void add(std::string& text, fmt::format_string<Values...> format, Values&&... va
 /// Some of the instants at knots.
 void add_instants(const Answer& answer, std::string& text) {
   const Problem& problem = *answer.task;
-  const auto& instants = answer.plan.instants;
+  const auto& instants = answer.trajectory.instants;
   const auto count = static_cast<int>(instants.size());
   const int per_knot = instants_per_interval(*problem.motion);
   const int step = per_knot * ((count - 1) / per_knot / kMostLines + 1);
@@ -34,30 +34,30 @@ void add_instants(const Answer& answer, std::string& text) {
 }
 
 void add_value(const Answer& answer, std::string& text) {
-  const Plan& plan = answer.plan;
-  add(text, "value    {:>10.5f} {}\n", plan.value, answer.unit);
-  if (plan.continuous_reason.empty()) {
-    add(text, "continuous {:>8.5f} {}\n", plan.continuous, answer.unit);
+  const Trajectory& trajectory = answer.trajectory;
+  add(text, "value    {:>10.5f} {}\n", trajectory.value, answer.unit);
+  if (trajectory.between_knots_reason.empty()) {
+    add(text, "value_between_knots {:.5f} {}\n", trajectory.value_between_knots, answer.unit);
   } else {
-    add(text, "continuous none: {}\n", plan.continuous_reason.c_str());
+    add(text, "value_between_knots none: {}\n", trajectory.between_knots_reason.c_str());
   }
-  if (!plan.collision.empty()) add(text, "collides: {}\n", plan.collision.c_str());
+  if (!trajectory.collision.empty()) add(text, "collides: {}\n", trajectory.collision.c_str());
 }
 
-std::string plan_summary(const Answer& answer) {
+std::string trajectory_summary(const Answer& answer) {
   const Problem& problem = *answer.task;
   std::string text;
   const MotionTask& task = *problem.motion;
-  const Plan& plan = answer.plan;
-  add(text, "{}  measure {}  wrench {}  lp {}\n", answer.choice.problem, answer.choice.measure,
-      to_string(answer.choice.wrench), answer.choice.lp);
+  const Trajectory& trajectory = answer.trajectory;
+  add(text, "{}  measure {}  wrench {}  solver {}\n", answer.choice.problem, answer.choice.measure,
+      to_string(answer.choice.wrench), answer.choice.solver);
   add(text, "{} of {:g} s, {} knots, scheme {}", problem.type(), task.T, task.k,
       to_string(task.scheme));
-  if (answer.has_posture()) add(text, ", {} instants", plan.instants.size());
+  if (answer.has_posture()) add(text, ", {} instants", trajectory.instants.size());
   if (!task.impulse && task.scheme == Scheme::kForward && task.k > 1) {
     add(text, " T/k apart at poses T/(k-1) apart");
   }
-  if (task.impulse && plan.t_h > 0) add(text, ", peak at knot {}", plan.t_h);
+  if (task.impulse && trajectory.t_h > 0) add(text, ", peak at knot {}", trajectory.t_h);
   add(text, "\n{}{}{}\n", to_string(answer.status), answer.reason.empty() ? "" : ": ",
       answer.reason.c_str());
   if (answer.status == Status::kBestFound) add(text, "stopped   {}\n", answer.stopped);
@@ -70,14 +70,14 @@ std::string plan_summary(const Answer& answer) {
         answer.clearance->t, answer.clearance->pair);
   }
   if (answer.has_posture()) add_instants(answer, text);
-  if (answer.has_value()) add(text, "residual {}; ", line(plan.solution.residual));
+  if (answer.has_value()) add(text, "residual {}; ", line(trajectory.solution.residual));
   add(text, "{}\n", line(answer.evaluations, answer.wall_s));
   return text;
 }
 
-void add_following(const Answer& answer, const std::vector<int>& joints, std::string& text) {
+void add_dependent(const Answer& answer, const std::vector<int>& joints, std::string& text) {
   for (const int i : joints) {
-    add(text, "follows  {:>10.5f}  {}\n", answer.posture.q[i], answer.task->robot.joints[i].name);
+    add(text, "dependent{:>10.5f}  {}\n", answer.posture.q[i], answer.task->robot.joints[i].name);
   }
 }
 
@@ -86,7 +86,7 @@ void add_capability(const Answer& answer, std::string& text) {
   const Problem& problem = *answer.task;
   const Capability& capability = answer.capability;
   add(text, "beta     {:>10.5f} {}\n", capability.beta, answer.unit);
-  add(text, "yardstick{:>10.5f} {}\n", answer.yardstick, problem.unit());
+  add(text, "beta_linf{:>10.5f} {}\n", answer.beta_linf, problem.unit());
   if (capability.w.size() > 0) add(text, "h        {}\n", line(capability.h));
   if (problem.contact) add(text, "h_2      {}\n", line(capability.h_2));
   for (Eigen::Index i = 0; i < capability.u.size(); ++i) {
@@ -94,7 +94,7 @@ void add_capability(const Answer& answer, std::string& text) {
         problem.robot.actuation.u_min[i], problem.robot.actuation.u_max[i],
         actuator_name(problem.robot, i));
   }
-  add(text, "gradient {}\n", line(answer.plan.gradient.transpose()));
+  add(text, "gradient {}\n", line(answer.trajectory.gradient.transpose()));
   if (answer.undecided > 0) {
     add(text, "undecided {} (evaluations without a verdict)\n", answer.undecided);
   }
@@ -106,22 +106,23 @@ std::string posture_summary(const Answer& answer) {
   const Problem& problem = *answer.task;
   std::string text;
   const Case& c = answer.choice;
-  add(text, "{}  measure {}  wrench {}  lp {}\n", c.problem, c.measure, to_string(c.wrench), c.lp);
+  add(text, "{}  measure {}  wrench {}  solver {}\n", c.problem, c.measure, to_string(c.wrench),
+      c.solver);
   if (answer.has_posture()) {
     add(text, "theta_r  {}\n", line(answer.posture.theta_r));
     add(text, "base xyz {}\nbase rpy {}\n", line(answer.posture.base.p),
         line(rpy(answer.posture.base.R)));
-    add_following(answer, problem.dependent, text);
+    add_dependent(answer, problem.dependent, text);
     if (problem.free.count() > 0) {
       const Pose<double> pose = pose_at(problem, answer.posture.theta_r);
       add(text, "tool xyz {}\ntool rpy {}\n", line(pose.p), line(rpy(pose.R)));
     }
   }
   if (problem.contact && answer.has_posture()) {
-    add_following(answer, problem.contact->follow, text);
+    add_dependent(answer, problem.contact->follow, text);
   }
-  if (answer.branches.found + answer.branches.unreachable > 0) {
-    add(text, "{}\n", describe(answer.branches));
+  if (answer.ik_solutions.found + answer.ik_solutions.unreachable > 0) {
+    add(text, "{}\n", describe(answer.ik_solutions));
   }
   if (!answer.has_value()) {
     add(text, "{}: {}\n", to_string(answer.status), answer.reason.c_str());
@@ -140,7 +141,7 @@ std::string posture_summary(const Answer& answer) {
 }  // namespace
 
 std::string summary(const Answer& answer) {
-  return answer.task->motion ? plan_summary(answer) : posture_summary(answer);
+  return answer.task->motion ? trajectory_summary(answer) : posture_summary(answer);
 }
 
 }  // namespace maxwrench

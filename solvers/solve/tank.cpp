@@ -39,9 +39,10 @@ TankRun simulate_posture(const Answer& answer, double planned, const std::string
   // Beyond the capability only the component along c grows; below it all of them shrink, which the
   // convex set of efforts allows.
   const double share = std::clamp(planned / problem.c.dot(capability.h), 0.0, 1.0);
-  TankPlan plan{share * capability.h, share * capability.u, answer.choice.wrench};
-  plan.h += (planned - problem.c.dot(plan.h)) * problem.c;
-  return run_tank(problem, answer.posture, plan, *find_integrator(integrator).make(), options);
+  TargetWrench trajectory{share * capability.h, share * capability.u, answer.choice.wrench};
+  trajectory.h += (planned - problem.c.dot(trajectory.h)) * problem.c;
+  return run_tank(problem, answer.posture, trajectory, *find_integrator(integrator).make(),
+                  options);
 }
 
 TankRun simulate_load(const Answer& answer, double load, const std::string& integrator,
@@ -55,7 +56,7 @@ int heaviest_load(const Answer& answer, const std::string& integrator, TankOptio
   require_weight(answer);
   options.until_hold = true;
   int held = 0;
-  int lost = std::max(1, static_cast<int>(answer.yardstick / answer.task->robot.gravity) + 2);
+  int lost = std::max(1, static_cast<int>(answer.beta_linf / answer.task->robot.gravity) + 2);
   while (lost - held > 1) {
     const int mass = (held + lost) / 2;
     const TankRun run = simulate_load(answer, mass, integrator, options);
@@ -64,11 +65,12 @@ int heaviest_load(const Answer& answer, const std::string& integrator, TankOptio
   return held;
 }
 
-PlanExperiment simulate_plan(const Problem& problem, const Plan& plan, Wrench wrench,
-                             const PlanSolverEntry& lp, const ScriptOptions& script,
-                             const std::string& integrator, const TankOptions& options) {
-  PlanExperiment experiment;
-  experiment.script = make_script(problem, plan, wrench, *lp.make(), script);
+TrajectoryExperiment simulate_trajectory(const Problem& problem, const Trajectory& trajectory,
+                                         Wrench wrench, const TrajectorySolverEntry& lp,
+                                         const ScriptOptions& script, const std::string& integrator,
+                                         const TankOptions& options) {
+  TrajectoryExperiment experiment;
+  experiment.script = make_script(problem, trajectory, wrench, *lp.make(), script);
   experiment.run.conclude(experiment.script.status, experiment.script.reason.c_str());
   if (experiment.script.status == Status::kOptimal) {
     experiment.run =
@@ -86,7 +88,7 @@ std::string tank_csv(const Problem& problem, const TankRun& run) {
   std::string text = "t,planned,reading,f_x,f_y,f_z,n_x,n_y,n_z";
   for (const Thruster& thruster : problem.robot.thrusters) text += "," + thruster.name;
   for (const Joint& joint : problem.robot.joints) text += "," + joint.name;
-  text += ",saturated,relaxed,shortfall,drift,position_error";
+  text += ",saturated,relaxed,shortfall,theta_r_error,position_error";
   for (int i = 0; run.summary.motion && i < problem.redundancy(); ++i) {
     text += ",theta_r_" + problem.theta_r_name(i);
   }
@@ -96,7 +98,7 @@ std::string tank_csv(const Problem& problem, const TankRun& run) {
     for (const double value : sample.h_e) text += fmt::format(",{:.6g}", value);
     for (const double value : sample.u) text += fmt::format(",{:.6g}", value);
     text += fmt::format(",{},{},{:.3g},{:.3g},{:.3g}", int{sample.saturated}, int{sample.relaxed},
-                        sample.shortfall, sample.drift, sample.position_error);
+                        sample.shortfall, sample.theta_r_error, sample.position_error);
     for (const double value : sample.theta_r) text += fmt::format(",{:.6g}", value);
     text += run.summary.motion ? fmt::format(",{:.6g}\n", sample.angle) : "\n";
   }

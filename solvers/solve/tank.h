@@ -8,7 +8,7 @@
 namespace maxwrench {
 
 struct Answer;
-struct PlanSolverEntry;
+struct TrajectorySolverEntry;
 struct Problem;
 
 /// The names of the integrators that serve the virtual tank on a problem; none if there is no
@@ -29,16 +29,17 @@ TankRun simulate_load(const Answer& answer, double load, const std::string& inte
 /// the whole hold at the posture, by bisection between nothing and one more than the capability.
 int heaviest_load(const Answer& answer, const std::string& integrator, TankOptions options);
 
-/// What the tank was asked for along a plan, and what came of it.
-struct PlanExperiment {
+/// What the tank was asked for along a trajectory, and what came of it.
+struct TrajectoryExperiment {
   TankScript script;
   TankRun run;  ///< without samples and with the script's status if there is nothing to ask for
 };
 
-/// The simulated experiment along a plan that was evaluated, on the spline as well.
-PlanExperiment simulate_plan(const Problem& problem, const Plan& plan, Wrench wrench,
-                             const PlanSolverEntry& lp, const ScriptOptions& script,
-                             const std::string& integrator, const TankOptions& options);
+/// The simulated experiment along a trajectory that was evaluated, on the spline as well.
+TrajectoryExperiment simulate_trajectory(const Problem& problem, const Trajectory& trajectory,
+                                         Wrench wrench, const TrajectorySolverEntry& lp,
+                                         const ScriptOptions& script, const std::string& integrator,
+                                         const TankOptions& options);
 
 /// What joins the instants of a task's scheme unless another is asked for.
 Interpolation usual_interpolation(const Problem& problem);

@@ -5,12 +5,12 @@
 namespace maxwrench {
 namespace {
 
-class AssembledPlan : public PlanSolver {
+class AssembledTrajectory : public TrajectorySolver {
  public:
-  AssembledPlan(std::unique_ptr<LpSolver> solver, bool warm)
+  AssembledTrajectory(std::unique_ptr<LpSolver> solver, bool warm)
       : solver_(std::move(solver)), warm_(warm) {}
 
-  void solve_well_formed(const PlanProgram& program, PlanSolution& solution) override {
+  void solve_well_formed(const TrajectoryProgram& program, TrajectorySolution& solution) override {
     if (!same_shape(program)) {
       lp_ = assemble(program);
       keep_shape(program);
@@ -39,7 +39,7 @@ class AssembledPlan : public PlanSolver {
     Eigen::SparseMatrix<double> R;
   };
 
-  bool same_shape(const PlanProgram& program) const {
+  bool same_shape(const TrajectoryProgram& program) const {
     const Shape& s = shape_;
     bool same = s.actuation == program.instants.front().actuation &&
                 s.columns.size() == program.instants.size() && s.border == program.border() &&
@@ -58,7 +58,7 @@ class AssembledPlan : public PlanSolver {
            equal(s.R.innerIndexPtr(), program.R.innerIndexPtr(), s.R.nonZeros());
   }
 
-  void keep_shape(const PlanProgram& program) {
+  void keep_shape(const TrajectoryProgram& program) {
     shape_.actuation = program.instants.front().actuation;
     shape_.columns.clear();
     for (const WrenchProgram& at : program.instants) shape_.columns.push_back(at.columns());
@@ -79,8 +79,9 @@ class AssembledPlan : public PlanSolver {
 
 }  // namespace
 
-std::unique_ptr<PlanSolver> make_assembled_plan(std::unique_ptr<LpSolver> solver, bool warm) {
-  return std::make_unique<AssembledPlan>(std::move(solver), warm);
+std::unique_ptr<TrajectorySolver> make_assembled_trajectory(std::unique_ptr<LpSolver> solver,
+                                                            bool warm) {
+  return std::make_unique<AssembledTrajectory>(std::move(solver), warm);
 }
 
 }  // namespace maxwrench

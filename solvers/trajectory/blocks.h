@@ -2,7 +2,8 @@
 
 #include <Eigen/Core>
 
-// How the interior point method of plans keeps its numbers: small blocks, one for each instant.
+// How the interior point method of trajectories keeps its numbers: small blocks, one for each
+// instant.
 
 namespace maxwrench {
 

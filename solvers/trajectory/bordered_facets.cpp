@@ -17,11 +17,11 @@ constexpr int kRowsAtOnce = 32;  // the tableau grows by so many rows, the last 
 
 }  // namespace
 
-bool BorderedFacets::suits(const PlanProgram& program) {
+bool BorderedFacets::suits(const TrajectoryProgram& program) {
   return program.border() > 0 && program.border() <= kMostColumns && bounded_by_facets(program);
 }
 
-bool BorderedFacets::solve(const PlanProgram& program, PlanSolution& solution) {
+bool BorderedFacets::solve(const TrajectoryProgram& program, TrajectorySolution& solution) {
   collect(program);
   if (!std::isfinite(most_)) return false;
   choose();
@@ -38,31 +38,31 @@ bool BorderedFacets::solve(const PlanProgram& program, PlanSolution& solution) {
   return false;
 }
 
-void BorderedFacets::collect(const PlanProgram& program) {
+void BorderedFacets::collect(const TrajectoryProgram& program) {
   const int pairs = program.instants.front().actuation->facet_pairs();
   const Eigen::Index facets = static_cast<Eigen::Index>(pairs) * program.size();
   rows_.clear();
-  pulls_.resize(program.border(), facets + program.R.rows());
+  y_slopes_.resize(program.border(), facets + program.R.rows());
   for (int i = 0; i < program.size(); ++i) add_facets(program, i);
-  pulls_.rightCols(program.R.rows()) = program.R.transpose();
+  y_slopes_.rightCols(program.R.rows()) = program.R.transpose();
   for (int i = 0; i < program.R.rows(); ++i) {
     rows_.push_back({.index = i, .low = program.r_min[i], .high = program.r_max[i]});
   }
   const Eigen::VectorXd range = program.y_min.cwiseAbs().cwiseMax(program.y_max.cwiseAbs());
-  pulled_.noalias() = pulls_.cwiseAbs().transpose() * range;
+  y_values_.noalias() = y_slopes_.cwiseAbs().transpose() * range;
   most_ = kInfinity;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     Row& row = rows_[i];
-    row.reach = pulled_[static_cast<Eigen::Index>(i)];
+    row.reach = y_values_[static_cast<Eigen::Index>(i)];
     if (row.side != 0) most_ = std::min(most_, (row.high + row.reach) / row.slope);
   }
 }
 
-void BorderedFacets::add_facets(const PlanProgram& program, int instant) {
+void BorderedFacets::add_facets(const TrajectoryProgram& program, int instant) {
   const Zonotope& set = *program.instants.front().actuation;
   const WrenchProgram& at = program.instants[instant];
-  auto pulls = pulls_.middleCols(static_cast<Eigen::Index>(rows_.size()), set.facet_pairs());
-  pulls.noalias() = -program.G[instant].transpose() * set.N;
+  auto y_slopes = y_slopes_.middleCols(static_cast<Eigen::Index>(rows_.size()), set.facet_pairs());
+  y_slopes.noalias() = -program.G[instant].transpose() * set.N;
   const double flat = kFlat * at.JtW.norm() / at.c_w[0];
   for (int j = 0; j < set.facet_pairs(); ++j) {
     const double s = set.N.col(j).dot(at.JtW.col(0)) / at.c_w[0];
@@ -75,7 +75,7 @@ void BorderedFacets::add_facets(const PlanProgram& program, int instant) {
       row.slope = std::abs(s);
       if (s < 0) {
         row.high = -row.low;
-        pulls.col(j) *= -1;
+        y_slopes.col(j) *= -1;
       }
       row.low = -kInfinity;
     }
@@ -99,12 +99,12 @@ void BorderedFacets::choose() {
 
 /// Whether there were any at (t, y).
 bool BorderedFacets::add_violated(const Eigen::VectorXd& x) {
-  pulled_.noalias() = pulls_.transpose() * x.tail(pulls_.rows());
+  y_values_.noalias() = y_slopes_.transpose() * x.tail(y_slopes_.rows());
   bool any = false;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     Row& row = rows_[i];
     if (row.used) continue;
-    const double value = row.slope * x[0] + pulled_[static_cast<Eigen::Index>(i)];
+    const double value = row.slope * x[0] + y_values_[static_cast<Eigen::Index>(i)];
     const double slack = kMissed * (1 + std::abs(value));
     row.used = value > row.high + slack || value < row.low - slack;
     any |= row.used;
@@ -112,7 +112,7 @@ bool BorderedFacets::add_violated(const Eigen::VectorXd& x) {
   return any;
 }
 
-void BorderedFacets::load(const PlanProgram& program) {
+void BorderedFacets::load(const TrajectoryProgram& program) {
   const int p = program.border();
   const auto used = static_cast<int>(
       std::count_if(rows_.begin(), rows_.end(), [](const Row& row) { return row.used; }));
@@ -123,8 +123,8 @@ void BorderedFacets::load(const PlanProgram& program) {
     const Row& row = rows_[i];
     if (!row.used) continue;
     tableau_.entry(line, 0) = row.slope;
-    const auto pull = pulls_.col(static_cast<Eigen::Index>(i));
-    std::copy(pull.data(), pull.data() + p, tableau_.row(line) + 1);
+    const auto center_products = y_slopes_.col(static_cast<Eigen::Index>(i));
+    std::copy(center_products.data(), center_products.data() + p, tableau_.row(line) + 1);
     tableau_.low[line] = row.low;
     tableau_.high[line] = row.high;
     ++line;
@@ -143,7 +143,7 @@ void BorderedFacets::load(const PlanProgram& program) {
 }
 
 /// Multiplier m of a facet's row: d t/d tau_d,i = -sigma m n_j, and it carries m |s| of the t.
-void BorderedFacets::read(const PlanProgram& program, PlanSolution& solution) const {
+void BorderedFacets::read(const TrajectoryProgram& program, TrajectorySolution& solution) const {
   const Zonotope& set = *program.instants.front().actuation;
   solution.value = tableau_.x[0];
   solution.y = tableau_.x.tail(program.border());

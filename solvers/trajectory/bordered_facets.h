@@ -20,10 +20,10 @@ namespace maxwrench {
 class BorderedFacets {
  public:
   /// Whether the program is of this kind; it may have rates and slacks, which are left out.
-  static bool suits(const PlanProgram& program);
+  static bool suits(const TrajectoryProgram& program);
   /// Sets value, y and the multipliers lambda, pi, nu, whose limits and signs are verified; no
   /// efforts. False if there is no verified optimum.
-  bool solve(const PlanProgram& program, PlanSolution& solution);
+  bool solve(const TrajectoryProgram& program, TrajectorySolution& solution);
 
  private:
   /// low <= slope t + pull'y <= high.
@@ -37,16 +37,16 @@ class BorderedFacets {
     bool used = false;
   };
 
-  void collect(const PlanProgram& program);
-  void add_facets(const PlanProgram& program, int instant);
+  void collect(const TrajectoryProgram& program);
+  void add_facets(const TrajectoryProgram& program, int instant);
   void choose();
   bool add_violated(const Eigen::VectorXd& x);
-  void load(const PlanProgram& program);
-  void read(const PlanProgram& program, PlanSolution& solution) const;
+  void load(const TrajectoryProgram& program);
+  void read(const TrajectoryProgram& program, TrajectorySolution& solution) const;
 
   std::vector<Row> rows_;
-  Eigen::MatrixXd pulls_;  ///< p×(rows)
-  Eigen::VectorXd pulled_;
+  Eigen::MatrixXd y_slopes_;  ///< p×(rows)
+  Eigen::VectorXd y_values_;
   Tableau tableau_;
   double most_ = 0;  ///< no y allows more t
 };

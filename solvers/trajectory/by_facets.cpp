@@ -4,7 +4,7 @@
 
 namespace maxwrench {
 
-bool bounded_by_facets(const PlanProgram& program) {
+bool bounded_by_facets(const TrajectoryProgram& program) {
   const auto single = [](const WrenchProgram& at) {
     return at.columns() == 1 && at.c_w[0] > 0 && at.w_min[0] == -kInfinity &&
            at.w_max[0] == kInfinity;

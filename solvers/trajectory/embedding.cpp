@@ -28,8 +28,8 @@ constexpr double kRefine = 1e-6;
 
 }  // namespace
 
-Embedding::End Embedding::run(const PlanProgram& program, bool rates, bool slacks, double tolerance,
-                              PlanSolution& solution) {
+Embedding::End Embedding::run(const TrajectoryProgram& program, bool rates, bool slacks,
+                              double tolerance, TrajectorySolution& solution) {
   forms_.build(program, rates, slacks);
   matrix_.reserve(forms_);
   start(program);
@@ -52,7 +52,7 @@ Embedding::End Embedding::run(const PlanProgram& program, bool rates, bool slack
   }
 }
 
-void Embedding::start(const PlanProgram& program) {
+void Embedding::start(const TrajectoryProgram& program) {
   const int size = forms_.size;
   const auto slacks = static_cast<Eigen::Index>(forms_.slacks.size());
   G_.resize(size, 3);
@@ -89,7 +89,8 @@ void Embedding::start(const PlanProgram& program) {
 }
 
 /// Whether the present point is a verdict that the data confirm.
-bool Embedding::settled(const PlanProgram& program, double tolerance, PlanSolution& solution) {
+bool Embedding::settled(const TrajectoryProgram& program, double tolerance,
+                        TrajectorySolution& solution) {
   if (!std::isfinite(mu_)) return false;
   const double size = tau_ + std::abs(primal_value_);
   const double gap = tolerance < kStepOnly ? kClosed * tolerance : tolerance;
@@ -126,19 +127,20 @@ void Embedding::iterate() {
   predict();
   const double rest = 1 - std::min(1.0, reach());
   const double gamma = std::max(rest * rest * std::min(rest, 0.5), 1e-12);
-  const double share = 1 - gamma;
+  const double reduction = 1 - gamma;
   const double tau_centre = gamma * mu_ - tau_ * kappa_ - d_tau_ * d_kappa_;
-  direct(share, tau_centre, gamma * mu_);
-  if (forms_.p > 0) centralise(share, tau_centre);
-  if (dual_value_ - primal_value_ < kRefine * (tau_ + std::abs(primal_value_))) refine(share);
+  direct(reduction, tau_centre, gamma * mu_);
+  if (forms_.p > 0) centralise(reduction, tau_centre);
+  if (dual_value_ - primal_value_ < kRefine * (tau_ + std::abs(primal_value_))) refine(reduction);
 }
 
 /// The directions of tau and of the predictor, at once.
 void Embedding::predict() {
   for (std::size_t i = 0; i < forms_.slacks.size(); ++i) {
     const int f = forms_.slacks[i];
-    D_sigma_(i, kStep) = high_.y[f] + low_.y[f] - rho_ * tau_ + high_.push(1, phi_[f], tau_, f) +
-                         low_.push(1, phi_low_[f], tau_, f);
+    D_sigma_(i, kStep) = high_.y[f] + low_.y[f] - rho_ * tau_ +
+                         high_.newton_rhs(1, phi_[f], tau_, f) +
+                         low_.newton_rhs(1, phi_low_[f], tau_, f);
   }
   D_X_.col(kTau) = forms_.cost;
   D_X_.col(kStep).setZero();
@@ -147,8 +149,8 @@ void Embedding::predict() {
   forms_.add_transposed(G_, D_X_);
   D_X_.col(kStep) += D_X_.col(kDual);
   solve_normal(kTau, 2);
-  aim(1, -tau_ * kappa_, sum_pushes());
-  foresee();
+  combine_directions(1, -tau_ * kappa_, affine_rhs());
+  predict_affine();
 }
 
 /// The right-hand sides without the columns of sigma.
@@ -181,27 +183,27 @@ void Embedding::solve_normal(int first, int count) {
 
 /// The direction for the present centres, raised by `raise`, and the share of the residuals that
 /// goes.
-void Embedding::direct(double share, double tau_centre, double raise) {
-  const double pushes = push(share, raise);
-  D_X_.col(kStep) = share * D_X_.col(kDual);
+void Embedding::direct(double reduction, double tau_centre, double raise) {
+  const double rhs = newton_rhs(reduction, raise);
+  D_X_.col(kStep) = reduction * D_X_.col(kDual);
   eliminate_slacks(kStep, 1);
   forms_.add_transposed(G_.col(kStep), D_X_.col(kStep));
   solve_normal(kStep, 1);
-  aim(share, tau_centre, pushes);
-  finish(share);
+  combine_directions(reduction, tau_centre, rhs);
+  finish(reduction);
 }
 
 /// d tau and d kappa. What the step does to the limits along the direction of tau is
 /// (c, -rho)'(X, sigma) of the step by symmetry of H; slacks, whose weights differ most, lose too
 /// much to rounding by it.
-void Embedding::aim(double share, double tau_centre, double pushes) {
+void Embedding::combine_directions(double reduction, double tau_centre, double rhs) {
   double dual = D_X_.col(kTau).dot(D_X_.col(kDual));
   for (std::size_t i = 0; i < forms_.slacks.size(); ++i) {
     const int f = forms_.slacks[i];
     dual += D_sigma_(i, kTau) * (high_.y[f] + low_.y[f] - rho_ * tau_);
   }
   const double along = forms_.cost.dot(D_X_.col(kStep)) - rho_ * D_sigma_.col(kStep).sum();
-  const double right = share * (gap_residual_ + dual) + tau_centre / tau_ + pushes - along +
+  const double right = reduction * (gap_residual_ + dual) + tau_centre / tau_ + rhs - along +
                        (split() ? sum_moves() : -along);
   d_tau_ = right / tau_pivot_;
   d_kappa_ = (tau_centre - kappa_ * d_tau_) / tau_;
@@ -209,21 +211,21 @@ void Embedding::aim(double share, double tau_centre, double pushes) {
 
 /// Gondzio's corrections: products that a longer step would leave far from mu are pulled back. One
 /// that does not lengthen the step is taken back.
-void Embedding::centralise(double share, double tau_centre) {
+void Embedding::centralise(double reduction, double tau_centre) {
   double step = reach();
   for (int count = 0; count < kCorrections && step < 0.9; ++count) {
     const double trial = std::min(1.0, step + 0.2);
-    const double mu = (1 - trial * share) * mu_;
-    for_lanes(forms_.size, [&]<int L>(Eigen::Index i) {
-      high_.pull<L>(trial, mu, i);
-      low_.pull<L>(trial, mu, i);
+    const double mu = (1 - trial * reduction) * mu_;
+    for_packs(forms_.size, [&]<int L>(Eigen::Index i) {
+      high_.center_products<L>(trial, mu, i);
+      low_.center_products<L>(trial, mu, i);
     });
-    direct(share, tau_centre, 0);
+    direct(reduction, tau_centre, 0);
     const double longer = reach();
     if (longer < step + kLonger) {
       high_.centre -= high_.correction;
       low_.centre -= low_.correction;
-      direct(share, tau_centre, 0);
+      direct(reduction, tau_centre, 0);
       return;
     }
     step = longer;
@@ -231,20 +233,20 @@ void Embedding::centralise(double share, double tau_centre) {
 }
 
 /// Takes from the multipliers' steps what rounding of the normal equations left in A'dy.
-void Embedding::refine(double share) {
+void Embedding::refine(double reduction) {
   kept_X_ = D_X_.col(kStep);
   kept_G_ = G_.col(kStep);
   kept_sigma_ = D_sigma_.col(kStep);
   if (split()) kept_low_ = G_low_.col(kStep);
-  D_X_.col(kStep) = share * D_X_.col(kDual) + d_tau_ * forms_.cost;
+  D_X_.col(kStep) = reduction * D_X_.col(kDual) + d_tau_ * forms_.cost;
   G_.col(kStep) = low_.dy - high_.dy;
   for (std::size_t e = 0; e < forms_.equations.size(); ++e) {
     G_(forms_.equations[e], kStep) = -equation_dy_[static_cast<Eigen::Index>(e)];
   }
   for (std::size_t i = 0; i < forms_.slacks.size(); ++i) {
     const int f = forms_.slacks[i];
-    D_sigma_(i, kStep) =
-        share * (high_.y[f] + low_.y[f] - rho_ * tau_) - d_tau_ * rho_ + high_.dy[f] + low_.dy[f];
+    D_sigma_(i, kStep) = reduction * (high_.y[f] + low_.y[f] - rho_ * tau_) - d_tau_ * rho_ +
+                         high_.dy[f] + low_.dy[f];
   }
   eliminate_slacks(kStep, 1);
   forms_.add_transposed(G_.col(kStep), D_X_.col(kStep));

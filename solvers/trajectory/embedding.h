@@ -6,8 +6,8 @@
 
 namespace maxwrench {
 
-/// The homogeneous self-dual embedding (Xu, Hung, Ye) of a plan program in its forms: with the
-/// slacks s of the limits and multipliers y >= 0,
+/// The homogeneous self-dual embedding (Xu, Hung, Ye) of a trajectory program in its forms: with
+/// the slacks s of the limits and multipliers y >= 0,
 ///
 ///     hi tau - phi(X) - s_hi = 0,  phi(X) - lo tau - s_lo = 0,  c tau = map'(y_hi - y_lo),
 ///     kappa = c'X - hi'y_hi + lo'y_lo,   s y = tau kappa = 0.
@@ -21,8 +21,8 @@ class Embedding {
 
   /// Without rates or slacks it ends as soon as these are needed. Counts on in
   /// `solution.iterations`; a verdict is one that the data confirm to `tolerance`.
-  End run(const PlanProgram& program, bool rates, bool slacks, double tolerance,
-          PlanSolution& solution);
+  End run(const TrajectoryProgram& program, bool rates, bool slacks, double tolerance,
+          TrajectorySolution& solution);
   /// Why there is no verdict.
   const char* reason() const;
 
@@ -30,17 +30,17 @@ class Embedding {
   /// Columns of the directions: of tau, of the step without it, of the residual of c tau.
   static constexpr int kTau = 0, kStep = 1, kDual = 2;
 
-  void start(const PlanProgram& program);
-  bool settled(const PlanProgram& program, double tolerance, PlanSolution& solution);
+  void start(const TrajectoryProgram& program);
+  bool settled(const TrajectoryProgram& program, double tolerance, TrajectorySolution& solution);
   void collect_multipliers();
   void iterate();
   void predict();
   void eliminate_slacks(int first, int count);
   void solve_normal(int first, int count);
-  void direct(double share, double tau_centre, double raise);
-  void aim(double share, double tau_centre, double pushes);
-  void centralise(double share, double tau_centre);
-  void refine(double share);
+  void direct(double reduction, double tau_centre, double raise);
+  void combine_directions(double reduction, double tau_centre, double rhs);
+  void centralise(double reduction, double tau_centre);
+  void refine(double reduction);
   double left() const;
   double reach() const;
 
@@ -49,11 +49,11 @@ class Embedding {
   void advance(double step);
   void measure_equations();
   void measure_slacks();
-  double sum_pushes();
-  void foresee();
-  double push(double share, double raise);
+  double affine_rhs();
+  void predict_affine();
+  double newton_rhs(double reduction, double raise);
   double sum_moves() const;
-  void finish(double share);
+  void finish(double reduction);
   void add_change();
 
   bool split() const { return !forms_.slacks.empty(); }

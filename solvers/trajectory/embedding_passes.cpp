@@ -15,19 +15,19 @@ constexpr double kEquation = 1e8;
 /// Takes the step; residuals of the embedding and right-hand sides at the point where it ends.
 void Embedding::measure(double step) {
   if (step > 0) advance(step);
-  LaneSum<> dual, products;
+  PackSum<> dual, products;
   const Eigen::VectorXd& phi_l = phi_low();
-  for_lanes(forms_.size, [&]<int L>(Eigen::Index i) {
-    const auto hi = lanes<L>(&forms_.hi[i]), lo = lanes<L>(&forms_.lo[i]);
-    const auto y_h = lanes<L>(&high_.y[i]), y_l = lanes<L>(&low_.y[i]);
+  for_packs(forms_.size, [&]<int L>(Eigen::Index i) {
+    const auto hi = pack<L>(&forms_.hi[i]), lo = pack<L>(&forms_.lo[i]);
+    const auto y_h = pack<L>(&high_.y[i]), y_l = pack<L>(&low_.y[i]);
     products.add(high_.measure<L>(i) + low_.measure<L>(i));
     dual.add(hi * y_h - lo * y_l);
-    const Lanes<L> theta_h = high_.theta_of<L>(i), theta_l = low_.theta_of<L>(i);
-    lanes<L>(&weight_[i]) = theta_h + theta_l;
-    lanes<L>(&G_(i, kTau)) = theta_h * hi + theta_l * lo;
-    lanes<L>(&G_(i, kDual)) = y_l - y_h;
-    lanes<L>(&G_(i, kStep)) = low_.push_of<L>(1, lanes<L>(&phi_l[i]), tau_, i) -
-                              high_.push_of<L>(1, lanes<L>(&phi_[i]), tau_, i);
+    const SimdPack<L> theta_h = high_.theta_of<L>(i), theta_l = low_.theta_of<L>(i);
+    pack<L>(&weight_[i]) = theta_h + theta_l;
+    pack<L>(&G_(i, kTau)) = theta_h * hi + theta_l * lo;
+    pack<L>(&G_(i, kDual)) = y_l - y_h;
+    pack<L>(&G_(i, kStep)) = low_.newton_rhs_of<L>(1, pack<L>(&phi_l[i]), tau_, i) -
+                             high_.newton_rhs_of<L>(1, pack<L>(&phi_[i]), tau_, i);
   });
   dual_value_ = dual.value();
   measure_equations();
@@ -43,13 +43,13 @@ void Embedding::advance(double step) {
   equation_y_ += step * equation_dy_;
   tau_ += step * d_tau_;
   kappa_ += step * d_kappa_;
-  for_lanes(forms_.size, [&]<int L>(Eigen::Index i) {
+  for_packs(forms_.size, [&]<int L>(Eigen::Index i) {
     high_.advance<L>(step, i);
     low_.advance<L>(step, i);
-    lanes<L>(&phi_[i]) += step * (lanes<L>(&G_(i, kStep)) + d_tau_ * lanes<L>(&G_(i, kTau)));
+    pack<L>(&phi_[i]) += step * (pack<L>(&G_(i, kStep)) + d_tau_ * pack<L>(&G_(i, kTau)));
     if (!split()) return;
-    lanes<L>(&phi_low_[i]) +=
-        step * (lanes<L>(&G_low_(i, kStep)) + d_tau_ * lanes<L>(&G_low_(i, kTau)));
+    pack<L>(&phi_low_[i]) +=
+        step * (pack<L>(&G_low_(i, kStep)) + d_tau_ * pack<L>(&G_low_(i, kTau)));
   });
 }
 
@@ -80,19 +80,19 @@ void Embedding::measure_slacks() {
 
 /// What the predictor's pushes do to tau; and what is left of the limits along the direction of
 /// tau: sums of squares, which do not cancel.
-double Embedding::sum_pushes() {
-  LaneSum<> squares, pushes;
+double Embedding::affine_rhs() {
+  PackSum<> squares, rhs;
   const Eigen::VectorXd& phi_l = phi_low();
   const Eigen::MatrixXd& G_l = G_low();
-  for_lanes(forms_.size, [&]<int L>(Eigen::Index i) {
-    const Lanes<L> h = high_.drift_of<L>(lanes<L>(&G_(i, kTau)), i);
-    const Lanes<L> l = low_.drift_of<L>(lanes<L>(&G_l(i, kTau)), i);
+  for_packs(forms_.size, [&]<int L>(Eigen::Index i) {
+    const SimdPack<L> h = high_.tau_slope_of<L>(pack<L>(&G_(i, kTau)), i);
+    const SimdPack<L> l = low_.tau_slope_of<L>(pack<L>(&G_l(i, kTau)), i);
     squares.add(high_.theta_of<L>(i) * h.square() + low_.theta_of<L>(i) * l.square());
-    pushes.add(h * high_.push_of<L>(1, lanes<L>(&phi_[i]), tau_, i) +
-               l * low_.push_of<L>(1, lanes<L>(&phi_l[i]), tau_, i));
+    rhs.add(h * high_.newton_rhs_of<L>(1, pack<L>(&phi_[i]), tau_, i) +
+            l * low_.newton_rhs_of<L>(1, pack<L>(&phi_l[i]), tau_, i));
   });
   tau_pivot_ = kappa_ / tau_ + squares.value();
-  double sum = pushes.value();
+  double sum = rhs.value();
   for (const int f : forms_.equations) {
     const double drift = forms_.hi[f] - G_(f, kTau);
     tau_pivot_ += kEquation * drift * drift;
@@ -102,56 +102,56 @@ double Embedding::sum_pushes() {
 }
 
 /// The predictor's steps, for the corrector's centres.
-void Embedding::foresee() {
-  LaneMost most;
+void Embedding::predict_affine() {
+  PackMax most;
   const Eigen::VectorXd& phi_l = phi_low();
   const Eigen::MatrixXd& G_l = G_low();
-  for_lanes(forms_.size, [&]<int L>(Eigen::Index i) {
-    const auto tau_h = lanes<L>(&G_(i, kTau)), step_h = lanes<L>(&G_(i, kStep));
-    const auto tau_l = lanes<L>(&G_l(i, kTau)), step_l = lanes<L>(&G_l(i, kStep));
-    const Lanes<L> h = high_.change<L>(1, d_tau_, tau_, lanes<L>(&phi_[i]), tau_h, step_h, i);
-    const Lanes<L> l = low_.change<L>(1, d_tau_, tau_, lanes<L>(&phi_l[i]), tau_l, step_l, i);
+  for_packs(forms_.size, [&]<int L>(Eigen::Index i) {
+    const auto tau_h = pack<L>(&G_(i, kTau)), step_h = pack<L>(&G_(i, kStep));
+    const auto tau_l = pack<L>(&G_l(i, kTau)), step_l = pack<L>(&G_l(i, kStep));
+    const SimdPack<L> h = high_.change<L>(1, d_tau_, tau_, pack<L>(&phi_[i]), tau_h, step_h, i);
+    const SimdPack<L> l = low_.change<L>(1, d_tau_, tau_, pack<L>(&phi_l[i]), tau_l, step_l, i);
     most.add(high_.predict<L>(h, i).max(low_.predict<L>(l, i)));
   });
   falls_ = most.value();
 }
 
 /// Raises the centres; what pushes the forms; returns what that does to tau.
-double Embedding::push(double share, double raise) {
-  LaneSum<> pushes;
+double Embedding::newton_rhs(double reduction, double raise) {
+  PackSum<> rhs;
   const Eigen::VectorXd& phi_l = phi_low();
   const Eigen::MatrixXd& G_l = G_low();
-  for_lanes(forms_.size, [&]<int L>(Eigen::Index i) {
-    lanes<L>(&high_.centre[i]) += raise;
-    lanes<L>(&low_.centre[i]) += raise;
-    const Lanes<L> h = high_.push_of<L>(share, lanes<L>(&phi_[i]), tau_, i);
-    const Lanes<L> l = low_.push_of<L>(share, lanes<L>(&phi_l[i]), tau_, i);
-    pushes.add(high_.drift_of<L>(lanes<L>(&G_(i, kTau)), i) * h +
-               low_.drift_of<L>(lanes<L>(&G_l(i, kTau)), i) * l);
-    lanes<L>(&G_(i, kStep)) = l - h;
+  for_packs(forms_.size, [&]<int L>(Eigen::Index i) {
+    pack<L>(&high_.centre[i]) += raise;
+    pack<L>(&low_.centre[i]) += raise;
+    const SimdPack<L> h = high_.newton_rhs_of<L>(reduction, pack<L>(&phi_[i]), tau_, i);
+    const SimdPack<L> l = low_.newton_rhs_of<L>(reduction, pack<L>(&phi_l[i]), tau_, i);
+    rhs.add(high_.tau_slope_of<L>(pack<L>(&G_(i, kTau)), i) * h +
+            low_.tau_slope_of<L>(pack<L>(&G_l(i, kTau)), i) * l);
+    pack<L>(&G_(i, kStep)) = l - h;
   });
-  double sum = pushes.value();
+  double sum = rhs.value();
   for (const int f : forms_.equations) {
-    G_(f, kStep) = share * kEquation * (forms_.hi[f] * tau_ - phi_[f]);
+    G_(f, kStep) = reduction * kEquation * (forms_.hi[f] * tau_ - phi_[f]);
     sum -= (forms_.hi[f] - G_(f, kTau)) * G_(f, kStep);
   }
   for (std::size_t i = 0; i < forms_.slacks.size(); ++i) {
     const int f = forms_.slacks[i];
-    D_sigma_(i, kStep) = share * (high_.y[f] + low_.y[f] - rho_ * tau_) +
-                         high_.push(share, phi_[f], tau_, f) +
-                         low_.push(share, phi_low_[f], tau_, f);
+    D_sigma_(i, kStep) = reduction * (high_.y[f] + low_.y[f] - rho_ * tau_) +
+                         high_.newton_rhs(reduction, phi_[f], tau_, f) +
+                         low_.newton_rhs(reduction, phi_low_[f], tau_, f);
   }
   return sum;
 }
 
 /// What the step does to the limits along the direction of tau.
 double Embedding::sum_moves() const {
-  LaneSum<> moves;
+  PackSum<> moves;
   const Eigen::MatrixXd& G_l = G_low();
-  for_lanes(forms_.size, [&]<int L>(Eigen::Index i) {
-    const Lanes<L> h = high_.drift_of<L>(lanes<L>(&G_(i, kTau)), i) * high_.theta_of<L>(i);
-    const Lanes<L> l = low_.drift_of<L>(lanes<L>(&G_l(i, kTau)), i) * low_.theta_of<L>(i);
-    moves.add(h * lanes<L>(&G_(i, kStep)) - l * lanes<L>(&G_l(i, kStep)));
+  for_packs(forms_.size, [&]<int L>(Eigen::Index i) {
+    const SimdPack<L> h = high_.tau_slope_of<L>(pack<L>(&G_(i, kTau)), i) * high_.theta_of<L>(i);
+    const SimdPack<L> l = low_.tau_slope_of<L>(pack<L>(&G_l(i, kTau)), i) * low_.theta_of<L>(i);
+    moves.add(h * pack<L>(&G_(i, kStep)) - l * pack<L>(&G_l(i, kStep)));
   });
   double sum = moves.value();
   for (const int f : forms_.equations) {
@@ -161,15 +161,17 @@ double Embedding::sum_moves() const {
 }
 
 /// The steps of all slacks and multipliers.
-void Embedding::finish(double share) {
-  LaneMost most;
+void Embedding::finish(double reduction) {
+  PackMax most;
   const Eigen::VectorXd& phi_l = phi_low();
   const Eigen::MatrixXd& G_l = G_low();
-  for_lanes(forms_.size, [&]<int L>(Eigen::Index i) {
-    const auto tau_h = lanes<L>(&G_(i, kTau)), step_h = lanes<L>(&G_(i, kStep));
-    const auto tau_l = lanes<L>(&G_l(i, kTau)), step_l = lanes<L>(&G_l(i, kStep));
-    const Lanes<L> h = high_.change<L>(share, d_tau_, tau_, lanes<L>(&phi_[i]), tau_h, step_h, i);
-    const Lanes<L> l = low_.change<L>(share, d_tau_, tau_, lanes<L>(&phi_l[i]), tau_l, step_l, i);
+  for_packs(forms_.size, [&]<int L>(Eigen::Index i) {
+    const auto tau_h = pack<L>(&G_(i, kTau)), step_h = pack<L>(&G_(i, kStep));
+    const auto tau_l = pack<L>(&G_l(i, kTau)), step_l = pack<L>(&G_l(i, kStep));
+    const SimdPack<L> h =
+        high_.change<L>(reduction, d_tau_, tau_, pack<L>(&phi_[i]), tau_h, step_h, i);
+    const SimdPack<L> l =
+        low_.change<L>(reduction, d_tau_, tau_, pack<L>(&phi_l[i]), tau_l, step_l, i);
     most.add(high_.finish<L>(h, i).max(low_.finish<L>(l, i)));
   });
   falls_ = most.value();
@@ -177,17 +179,16 @@ void Embedding::finish(double share) {
     const int f = forms_.equations[e];
     equation_dy_[static_cast<Eigen::Index>(e)] =
         kEquation * (G_(f, kStep) + d_tau_ * (G_(f, kTau) - forms_.hi[f]) -
-                     share * (forms_.hi[f] * tau_ - phi_[f]));
+                     reduction * (forms_.hi[f] * tau_ - phi_[f]));
   }
 }
 
 /// A change of all forms, without tau, to steps that are there.
 void Embedding::add_change() {
-  LaneMost most;
+  PackMax most;
   const Eigen::MatrixXd& G_l = G_low();
-  for_lanes(forms_.size, [&]<int L>(Eigen::Index i) {
-    most.add(
-        high_.add<L>(lanes<L>(&G_(i, kStep)), i).max(low_.add<L>(lanes<L>(&G_l(i, kStep)), i)));
+  for_packs(forms_.size, [&]<int L>(Eigen::Index i) {
+    most.add(high_.add<L>(pack<L>(&G_(i, kStep)), i).max(low_.add<L>(pack<L>(&G_l(i, kStep)), i)));
   });
   falls_ = most.value();
   for (std::size_t e = 0; e < forms_.equations.size(); ++e) {

@@ -10,9 +10,9 @@ namespace {
 
 constexpr double kConfirmed = 1e-9;
 
-class Structured : public PlanSolver {
+class FacetsOrIpm : public TrajectorySolver {
  public:
-  void solve_well_formed(const PlanProgram& program, PlanSolution& solution) override {
+  void solve_well_formed(const TrajectoryProgram& program, TrajectorySolution& solution) override {
     solution.basis.clear();
     solution.iterations = 0;
     if (suits(program) && instant_by_instant(program, solution)) return;
@@ -21,13 +21,13 @@ class Structured : public PlanSolver {
 
  private:
   /// Of an elastic program the hard one is tried.
-  bool suits(const PlanProgram& program) {
+  bool suits(const TrajectoryProgram& program) {
     return program.border() == 0 && bounded_by_facets(program) &&
            efforts_.prepare(*program.instants.front().actuation);
   }
 
   /// True if the worst instant alone decides and `recheck` or a proof confirms it.
-  bool instant_by_instant(const PlanProgram& program, PlanSolution& solution) {
+  bool instant_by_instant(const TrajectoryProgram& program, TrajectorySolution& solution) {
     int worst = 0;
     solution.value = kInfinity;
     for (int i = 0; i < program.size(); ++i) {
@@ -49,7 +49,7 @@ class Structured : public PlanSolver {
   }
 
   /// Where a slack would be cheaper, or efforts within the rates are not found, `recheck` fails.
-  bool confirm(const PlanProgram& program, PlanSolution& solution) {
+  bool confirm(const TrajectoryProgram& program, TrajectorySolution& solution) {
     if (!fill_efforts(program, solution)) return false;
     solution.residual = recheck(program, solution);
     if (!solution.residual.within(kConfirmed * (1 + std::abs(solution.value)))) return false;
@@ -57,11 +57,11 @@ class Structured : public PlanSolver {
     return true;
   }
 
-  static bool slackens(const PlanProgram& program) {
+  static bool slackens(const TrajectoryProgram& program) {
     return program.elastic() && program.first_elastic < program.size();
   }
 
-  static void clear_multipliers(const PlanProgram& program, PlanSolution& solution) {
+  static void clear_multipliers(const TrajectoryProgram& program, TrajectorySolution& solution) {
     const Zonotope& set = *program.instants.front().actuation;
     solution.lambda.setZero(set.dimension(), program.size());
     solution.mu.setZero(set.actuators(), program.size() - 1);
@@ -69,7 +69,7 @@ class Structured : public PlanSolver {
     solution.nu.setZero(program.R.rows());
   }
 
-  bool prove(const PlanProgram& program, int i, PlanSolution& solution) {
+  bool prove(const TrajectoryProgram& program, int i, TrajectorySolution& solution) {
     clear_multipliers(program, solution);
     solution.lambda.col(i) = capability_.lambda;
     if (!proves_infeasible(program, solution)) return false;
@@ -78,7 +78,7 @@ class Structured : public PlanSolver {
   }
 
   /// All instants exert the value, with the efforts that change least abruptly.
-  bool fill_efforts(const PlanProgram& program, PlanSolution& solution) {
+  bool fill_efforts(const TrajectoryProgram& program, TrajectorySolution& solution) {
     const Zonotope& set = *program.instants.front().actuation;
     const int N = program.size();
     solution.u.resize(set.actuators(), N);
@@ -95,7 +95,7 @@ class Structured : public PlanSolver {
   }
 
   std::unique_ptr<WrenchSolver> facets_ = make_facets();
-  std::unique_ptr<PlanSolver> ipm_ = make_plan_ipm();
+  std::unique_ptr<TrajectorySolver> ipm_ = make_trajectory_ipm();
   EvenEfforts efforts_;
   Capability capability_;
   Eigen::VectorXd lambda_, tau_;
@@ -103,6 +103,6 @@ class Structured : public PlanSolver {
 
 }  // namespace
 
-std::unique_ptr<PlanSolver> make_plan_structured() { return std::make_unique<Structured>(); }
+std::unique_ptr<TrajectorySolver> make_facets_or_ipm() { return std::make_unique<FacetsOrIpm>(); }
 
 }  // namespace maxwrench

@@ -14,7 +14,7 @@ constexpr double kWidth = 1e-11;
 
 }  // namespace
 
-void Forms::build(const PlanProgram& program, bool with_rates, bool with_slacks) {
+void Forms::build(const TrajectoryProgram& program, bool with_rates, bool with_slacks) {
   const Zonotope& set = *program.instants.front().actuation;
   actuation_ = &set;
   if (B_.rows() != set.B.rows() || B_.cols() != set.B.cols() || B_ != set.B) {
@@ -28,7 +28,7 @@ void Forms::build(const PlanProgram& program, bool with_rates, bool with_slacks)
   fill(program);
 }
 
-void Forms::shape(const PlanProgram& program, bool with_rates, bool with_slacks) {
+void Forms::shape(const TrajectoryProgram& program, bool with_rates, bool with_slacks) {
   const int m = actuation_->actuators();
   const int n = actuation_->dimension();
   N = program.size();
@@ -69,7 +69,7 @@ void Forms::shape(const PlanProgram& program, bool with_rates, bool with_slacks)
   cost.setZero(variables);
 }
 
-void Forms::fill(const PlanProgram& program) {
+void Forms::fill(const TrajectoryProgram& program) {
   slacks.clear();
   equations.clear();
   for (int i = 0; i < N; ++i) fill_stage(program, i);
@@ -95,7 +95,7 @@ void Forms::limit(int form, double low, double high, double offset) {
   if (has_lo[form] != 0 && has_hi[form] != 0) scale[form] = 0.5 * (high - low);
 }
 
-void Forms::fill_stage(const PlanProgram& program, int i) {
+void Forms::fill_stage(const TrajectoryProgram& program, int i) {
   const Stage& at = stages[i];
   const WrenchProgram& data = program.instants[i];
   Eigen::Map<Eigen::MatrixXd> F_i(F.data() + at.F0, at.count, at.d);
@@ -128,7 +128,7 @@ void Forms::fill_stage(const PlanProgram& program, int i) {
 }
 
 /// u = B^+ (tau_d + J'W w - G y - s) + Z v.
-void Forms::fill_efforts(const PlanProgram& program, int i) {
+void Forms::fill_efforts(const TrajectoryProgram& program, int i) {
   const Stage& at = stages[i];
   const WrenchProgram& data = program.instants[i];
   Eigen::Map<Eigen::MatrixXd> F_i(F.data() + at.F0, at.count, at.d);
@@ -144,7 +144,7 @@ void Forms::fill_efforts(const PlanProgram& program, int i) {
 }
 
 /// What B does not reach: P'(J'W w - G y - s) = -P'tau_d.
-void Forms::fill_unreached(const PlanProgram& program, int i) {
+void Forms::fill_unreached(const TrajectoryProgram& program, int i) {
   const Stage& at = stages[i];
   const WrenchProgram& data = program.instants[i];
   Eigen::Map<Eigen::MatrixXd> F_i(F.data() + at.F0, at.count, at.d);
@@ -159,7 +159,7 @@ void Forms::fill_unreached(const PlanProgram& program, int i) {
   }
 }
 
-void Forms::fill_rates(const PlanProgram& program) {
+void Forms::fill_rates(const TrajectoryProgram& program) {
   for (int i = 0; i + 1 < N; ++i) {
     for (int r = 0; r < rated; ++r) {
       const int j = order[r];
@@ -171,7 +171,7 @@ void Forms::fill_rates(const PlanProgram& program) {
   }
 }
 
-void Forms::fill_border(const PlanProgram& program) {
+void Forms::fill_border(const TrajectoryProgram& program) {
   for (int j = 0; j < p; ++j) limit(border0 + j, program.y_min[j], program.y_max[j], 0);
   for (int r = 0; r < R->rows(); ++r) {
     limit(border0 + p + r, program.r_min[r], program.r_max[r], 0);
@@ -223,7 +223,8 @@ void Forms::add_transposed(Columns g, Columns X) const {
   }
 }
 
-bool Forms::keeps_rates(const PlanProgram& program, const Eigen::VectorXd& phi, double tau) const {
+bool Forms::keeps_rates(const TrajectoryProgram& program, const Eigen::VectorXd& phi,
+                        double tau) const {
   const int m = static_cast<int>(order.size()) - lone;
   for (int i = 0; i + 1 < N; ++i) {
     const int from = stages[i].f0, to = stages[i + 1].f0;

@@ -8,7 +8,7 @@
 
 namespace maxwrench {
 
-/// A plan program as linear forms of free variables, between limits:
+/// A trajectory program as linear forms of free variables, between limits:
 ///
 ///     max c'X   subject to   lo <= phi(X) <= hi,
 ///
@@ -18,15 +18,15 @@ namespace maxwrench {
 /// elastic instant x = (s, w, v), its slacks s are taken from tau_d, and they are forms that cost
 /// rho |s|: what weighs most in the end is a diagonal block.
 ///
-/// Most programs of plans have an answer within their rates and without slack even if neither is
-/// asked for: each may be left out, and the answer without is one with (`keeps_rates`).
+/// Most programs of trajectories have an answer within their rates and without slack even if
+/// neither is asked for: each may be left out, and the answer without is one with (`keeps_rates`).
 ///
 /// Forms of an instant, phi = F x + D y (less t in the last one): efforts, those with rates first;
 /// the one w in the place of efforts that nothing else moves; w with limits; slacks or equations;
 /// c_w'w - t >= 0. Then follow the rates, which are differences of the instants' first forms, y,
 /// and R y. Constant parts are in lo and hi.
 struct Forms {
-  void build(const PlanProgram& program, bool with_rates = true, bool with_slacks = true);
+  void build(const TrajectoryProgram& program, bool with_rates = true, bool with_slacks = true);
 
   int N = 0;
   int t = 0;      ///< 1 for max-min
@@ -71,39 +71,39 @@ struct Forms {
   void add_transposed(Columns g, Columns X) const;
 
   /// Whether the efforts at X (phi = phi(X)) keep the rates.
-  bool keeps_rates(const PlanProgram& program, const Eigen::VectorXd& phi, double tau) const;
+  bool keeps_rates(const TrajectoryProgram& program, const Eigen::VectorXd& phi, double tau) const;
   /// u, w, s, y, value and price.
-  void read_primal(const PlanProgram& program, const Eigen::VectorXd& X, double tau,
-                   PlanSolution& solution) const;
+  void read_primal(const TrajectoryProgram& program, const Eigen::VectorXd& X, double tau,
+                   TrajectorySolution& solution) const;
   /// lambda, mu, pi and nu from the forms' multipliers (positive at hi), divided by tau; with
   /// `proof` as in a proof of infeasibility. What rounding would leave on w, which may have no
   /// limits to pay for it, is taken from lambda.
-  void read_dual(const PlanProgram& program, const Eigen::VectorXd& multipliers, double tau,
-                 bool proof, PlanSolution& solution);
+  void read_dual(const TrajectoryProgram& program, const Eigen::VectorXd& multipliers, double tau,
+                 bool proof, TrajectorySolution& solution);
 
  private:
-  void shape(const PlanProgram& program, bool with_rates, bool with_slacks);
-  void order_actuators(const PlanProgram& program, bool with_rates);
-  void merge(const PlanProgram& program, int i);
-  double end_of_w(const PlanProgram& program, int i, int r, bool high) const;
+  void shape(const TrajectoryProgram& program, bool with_rates, bool with_slacks);
+  void order_actuators(const TrajectoryProgram& program, bool with_rates);
+  void merge(const TrajectoryProgram& program, int i);
+  double end_of_w(const TrajectoryProgram& program, int i, int r, bool high) const;
   double effort_multiplier(const Eigen::VectorXd& multipliers, int i, int r) const;
-  void fill(const PlanProgram& program);
-  void fill_stage(const PlanProgram& program, int i);
-  void fill_efforts(const PlanProgram& program, int i);
-  void fill_unreached(const PlanProgram& program, int i);
-  void fill_rates(const PlanProgram& program);
-  void fill_border(const PlanProgram& program);
-  void level(const PlanProgram& program, const Eigen::VectorXd& multipliers, double tau, int i,
-             PlanSolution& solution);
-  void sign_proof(PlanSolution& solution) const;
+  void fill(const TrajectoryProgram& program);
+  void fill_stage(const TrajectoryProgram& program, int i);
+  void fill_efforts(const TrajectoryProgram& program, int i);
+  void fill_unreached(const TrajectoryProgram& program, int i);
+  void fill_rates(const TrajectoryProgram& program);
+  void fill_border(const TrajectoryProgram& program);
+  void level(const TrajectoryProgram& program, const Eigen::VectorXd& multipliers, double tau,
+             int i, TrajectorySolution& solution);
+  void sign_proof(TrajectorySolution& solution) const;
   void limit(int form, double low, double high, double offset);
   static bool has_limits(const WrenchProgram& at, int j) {
     return at.w_min[j] > -kInfiniteBound || at.w_max[j] < kInfiniteBound;
   }
-  const Eigen::VectorXd& u_min(const PlanProgram& program, int i) const {
+  const Eigen::VectorXd& u_min(const TrajectoryProgram& program, int i) const {
     return i == 0 ? program.first_min : actuation_->u_min;
   }
-  const Eigen::VectorXd& u_max(const PlanProgram& program, int i) const {
+  const Eigen::VectorXd& u_max(const TrajectoryProgram& program, int i) const {
     return i == 0 ? program.first_max : actuation_->u_max;
   }
 

@@ -3,7 +3,7 @@
 
 #include "solvers/trajectory/forms.h"
 
-// The answer of a plan program, from that of its forms.
+// The answer of a trajectory program, from that of its forms.
 
 namespace maxwrench {
 namespace {
@@ -17,8 +17,8 @@ constexpr double kRest = 1e-12;
 
 }  // namespace
 
-void Forms::read_primal(const PlanProgram& program, const Eigen::VectorXd& X, double tau,
-                        PlanSolution& solution) const {
+void Forms::read_primal(const TrajectoryProgram& program, const Eigen::VectorXd& X, double tau,
+                        TrajectorySolution& solution) const {
   const int m = actuation_->actuators();
   const int n = actuation_->dimension();
   solution.u.resize(m, N);
@@ -53,8 +53,8 @@ void Forms::read_primal(const PlanProgram& program, const Eigen::VectorXd& X, do
   }
 }
 
-void Forms::read_dual(const PlanProgram& program, const Eigen::VectorXd& multipliers, double tau,
-                      bool proof, PlanSolution& solution) {
+void Forms::read_dual(const TrajectoryProgram& program, const Eigen::VectorXd& multipliers,
+                      double tau, bool proof, TrajectorySolution& solution) {
   const int m = actuation_->actuators();
   solution.lambda.setZero(actuation_->dimension(), N);
   solution.mu.setZero(m, N - 1);
@@ -90,7 +90,7 @@ void Forms::read_dual(const PlanProgram& program, const Eigen::VectorXd& multipl
 }
 
 /// The sign that a proof of infeasibility has, without what is rounding.
-void Forms::sign_proof(PlanSolution& solution) const {
+void Forms::sign_proof(TrajectorySolution& solution) const {
   const double largest = solution.lambda.lpNorm<Eigen::Infinity>();
   for (int i = 0; i < N; ++i) {
     auto lambda = solution.lambda.col(i);
@@ -102,8 +102,8 @@ void Forms::sign_proof(PlanSolution& solution) const {
 }
 
 /// lambda -= J'W (W'J J'W)^-1 (pi c_w + W'J lambda - multipliers of w).
-void Forms::level(const PlanProgram& program, const Eigen::VectorXd& multipliers, double tau, int i,
-                  PlanSolution& solution) {
+void Forms::level(const TrajectoryProgram& program, const Eigen::VectorXd& multipliers, double tau,
+                  int i, TrajectorySolution& solution) {
   const WrenchProgram& data = program.instants[i];
   auto lambda = solution.lambda.col(i);
   gram_.resize(data.columns(), data.columns());

@@ -16,7 +16,7 @@ constexpr double kSlight = 1e-6;
 }  // namespace
 
 /// Those with rates first, last those that are without and that the null space of B leaves alone.
-void Forms::order_actuators(const PlanProgram& program, bool with_rates) {
+void Forms::order_actuators(const TrajectoryProgram& program, bool with_rates) {
   const int m = actuation_->actuators();
   const auto has_rate = [&](int j) {
     for (int i = 0; i + 1 < N; ++i) {
@@ -46,7 +46,7 @@ void Forms::order_actuators(const PlanProgram& program, bool with_rates) {
 }
 
 /// At which w the effort of a row reaches the limit that holds w from above or from below.
-double Forms::end_of_w(const PlanProgram& program, int i, int r, bool high) const {
+double Forms::end_of_w(const TrajectoryProgram& program, int i, int r, bool high) const {
   const int j = order[r];
   const double slope = slopes_(r, i);
   const Eigen::VectorXd& limits = high == (slope > 0) ? u_max(program, i) : u_min(program, i);
@@ -55,7 +55,7 @@ double Forms::end_of_w(const PlanProgram& program, int i, int r, bool high) cons
 
 /// Offsets, slopes and, if w is all that moves the lone efforts, which of them limit it. Where
 /// their limits exclude each other they stay apart, for the proof.
-void Forms::merge(const PlanProgram& program, int i) {
+void Forms::merge(const TrajectoryProgram& program, int i) {
   Stage& at = stages[i];
   const WrenchProgram& data = program.instants[i];
   offsets_.col(i).noalias() = actuation_->B_pinv.lazyProduct(data.tau_d);

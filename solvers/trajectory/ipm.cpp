@@ -9,11 +9,11 @@ namespace {
 constexpr double kLeast = 1e-9;
 
 /// Leaves out rates and slacks until the embedding asks for them.
-class Ipm : public PlanSolver {
+class Ipm : public TrajectorySolver {
  public:
   explicit Ipm(double tolerance) : tolerance_(tolerance) {}
 
-  void solve_well_formed(const PlanProgram& program, PlanSolution& solution) override {
+  void solve_well_formed(const TrajectoryProgram& program, TrajectorySolution& solution) override {
     solution.basis.clear();
     solution.iterations = 0;
     bool rates = !(program.du_max.array() < kInfiniteBound).any();
@@ -36,9 +36,9 @@ class Ipm : public PlanSolver {
   /// Programs that miss an answer by little are hard to tell from those that hit one. The least sum
   /// of slacks that balances all instants is a program with an answer; if it is not zero, its
   /// multipliers prove that there is none without slack.
-  bool lacks_balance(const PlanProgram& program, PlanSolution& solution) {
+  bool lacks_balance(const TrajectoryProgram& program, TrajectorySolution& solution) {
     if (program.elastic()) return false;
-    PlanProgram least = program;
+    TrajectoryProgram least = program;
     least.rho = 1;
     least.first_elastic = 0;
     least.peak = 0;
@@ -57,7 +57,7 @@ class Ipm : public PlanSolver {
 
 }  // namespace
 
-std::unique_ptr<PlanSolver> make_plan_ipm(double tolerance) {
+std::unique_ptr<TrajectorySolver> make_trajectory_ipm(double tolerance) {
   return std::make_unique<Ipm>(tolerance);
 }
 

@@ -8,8 +8,8 @@ namespace maxwrench {
 
 struct Forms;
 
-/// H = sum_f theta_f phi_f phi_f' over the forms of a plan, factored by stages: its blocks K_i of
-/// the instants are coupled only by the rates (K_i+1,i), and the border z = (t, y) is last.
+/// H = sum_f theta_f phi_f phi_f' over the forms of a trajectory, factored by stages: its blocks
+/// K_i of the instants are coupled only by the rates (K_i+1,i), and the border z = (t, y) is last.
 ///
 /// A pivot below the share `least_pivot` of its diagonal is a direction that no form sees: it is
 /// left out.

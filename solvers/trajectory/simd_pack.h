@@ -10,30 +10,30 @@
 namespace maxwrench {
 
 template <int L>
-using Lanes = Eigen::Array<double, L, 1>;
-inline constexpr int kLaneCount = 4;
+using SimdPack = Eigen::Array<double, L, 1>;
+inline constexpr int kPackSize = 4;
 
 template <int L>
-Eigen::Map<const Lanes<L>> lanes(const double* x) {
-  return Eigen::Map<const Lanes<L>>(x);
+Eigen::Map<const SimdPack<L>> pack(const double* x) {
+  return Eigen::Map<const SimdPack<L>>(x);
 }
 template <int L>
-Eigen::Map<Lanes<L>> lanes(double* x) {
-  return Eigen::Map<Lanes<L>>(x);
+Eigen::Map<SimdPack<L>> pack(double* x) {
+  return Eigen::Map<SimdPack<L>>(x);
 }
 
 /// Calls body<L>(i) for the `size` numbers, L of them from i on.
-template <int Most = kLaneCount, class Body>
-EIGEN_ALWAYS_INLINE void for_lanes(Eigen::Index size, Body&& body) {
+template <int Most = kPackSize, class Body>
+EIGEN_ALWAYS_INLINE void for_packs(Eigen::Index size, Body&& body) {
   Eigen::Index i = 0;
   for (; i + Most <= size; i += Most) body.template operator()<Most>(i);
   for (; i < size; ++i) body.template operator()<1>(i);
 }
 
 /// A sum, and the largest of numbers. What does not fill the lanes is apart: registers again.
-template <int Most = kLaneCount>
-struct LaneSum {
-  Lanes<Most> sums = Lanes<Most>::Zero();
+template <int Most = kPackSize>
+struct PackSum {
+  SimdPack<Most> sums = SimdPack<Most>::Zero();
   double rest = 0;
   template <class X>
   void add(const X& x) {
@@ -45,12 +45,12 @@ struct LaneSum {
   }
   double value() const { return sums.sum() + rest; }
 };
-struct LaneMost {
-  Lanes<kLaneCount> most = Lanes<kLaneCount>::Constant(-std::numeric_limits<double>::max());
+struct PackMax {
+  SimdPack<kPackSize> most = SimdPack<kPackSize>::Constant(-std::numeric_limits<double>::max());
   double rest = -std::numeric_limits<double>::max();
   template <class X>
   void add(const X& x) {
-    if constexpr (X::RowsAtCompileTime == kLaneCount) {
+    if constexpr (X::RowsAtCompileTime == kPackSize) {
       most = most.max(x);
     } else {
       rest = std::max(rest, x.value());

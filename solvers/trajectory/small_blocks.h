@@ -79,12 +79,12 @@ template <int R, int C>
 EIGEN_STRONG_INLINE void product_block(const double* A, Eigen::Index a, const double* B,
                                        Eigen::Index b, const double* weight, Eigen::Index count,
                                        double sign, double* out, Eigen::Index d) {
-  LaneSum<2> sums[R][C];
-  for_lanes<2>(count, [&]<int L>(Eigen::Index i) {
-    const auto w = lanes<L>(weight + i);
+  PackSum<2> sums[R][C];
+  for_packs<2>(count, [&]<int L>(Eigen::Index i) {
+    const auto w = pack<L>(weight + i);
     for (int c = 0; c < C; ++c) {
-      const Lanes<L> weighted = w * lanes<L>(B + c * b + i);
-      for (int r = 0; r < R; ++r) sums[r][c].add(lanes<L>(A + r * a + i) * weighted);
+      const SimdPack<L> weighted = w * pack<L>(B + c * b + i);
+      for (int r = 0; r < R; ++r) sums[r][c].add(pack<L>(A + r * a + i) * weighted);
     }
   });
   for (int c = 0; c < C; ++c) {
@@ -150,10 +150,10 @@ EIGEN_STRONG_INLINE void map_stage(const Eigen::Map<const Eigen::MatrixXd>& F, c
         F.lazyProduct(Eigen::Map<const Eigen::VectorXd>(x, F.cols()));
   } else {
     const double* const data = F.data();
-    for_lanes<2>(count, [&]<int L>(Eigen::Index i) {
-      Lanes<L> sum = lanes<L>(data + i) * x[0];
-      for (int c = 1; c < d; ++c) sum += lanes<L>(data + c * count + i) * x[c];
-      lanes<L>(phi + i) = sum;
+    for_packs<2>(count, [&]<int L>(Eigen::Index i) {
+      SimdPack<L> sum = pack<L>(data + i) * x[0];
+      for (int c = 1; c < d; ++c) sum += pack<L>(data + c * count + i) * x[c];
+      pack<L>(phi + i) = sum;
     });
   }
 }
@@ -165,11 +165,11 @@ EIGEN_STRONG_INLINE void add_transposed_stage(const Eigen::Map<const Eigen::Matr
     Eigen::Map<Eigen::VectorXd>(x, F.cols()) +=
         F.transpose().lazyProduct(Eigen::Map<const Eigen::VectorXd>(g, count));
   } else {
-    LaneSum<2> sums[d];
+    PackSum<2> sums[d];
     const double* const data = F.data();
-    for_lanes<2>(count, [&]<int L>(Eigen::Index i) {
-      const Lanes<L> g_i = lanes<L>(g + i);
-      for (int c = 0; c < d; ++c) sums[c].add(lanes<L>(data + c * count + i) * g_i);
+    for_packs<2>(count, [&]<int L>(Eigen::Index i) {
+      const SimdPack<L> g_i = pack<L>(g + i);
+      for (int c = 0; c < d; ++c) sums[c].add(pack<L>(data + c * count + i) * g_i);
     });
     for (int c = 0; c < d; ++c) x[c] += sums[c].value();
   }

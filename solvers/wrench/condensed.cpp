@@ -10,7 +10,7 @@
 namespace maxwrench {
 namespace {
 
-class BoxSolver : public WrenchSolver {
+class Condensed : public WrenchSolver {
  public:
   void solve_well_formed(const WrenchProgram& program, bool efforts,
                          Capability& capability) override {
@@ -73,7 +73,7 @@ class BoxSolver : public WrenchSolver {
         double tau = 0;
         for_normal(set, i, [&](Eigen::Index row, double a) {
           const double* const load = &loads_(column, row);
-          for (int lane = 0; lane < kLanes<Length>; ++lane) sum[lane] += a * load[lane];
+          for (int pack = 0; pack < kLanes<Length>; ++pack) sum[pack] += a * load[pack];
           tau += a * program.tau_d[row];
         });
         std::copy(sum, sum + kLanes<Length>, tableau_.row(i) + column);
@@ -125,6 +125,6 @@ class BoxSolver : public WrenchSolver {
 
 }  // namespace
 
-std::unique_ptr<WrenchSolver> make_box() { return std::make_unique<BoxSolver>(); }
+std::unique_ptr<WrenchSolver> make_condensed() { return std::make_unique<Condensed>(); }
 
 }  // namespace maxwrench

@@ -74,8 +74,8 @@ bool Elimination::invert(const WrenchProgram& program) {
     for (int i = step; i < 6; ++i) best = std::max(best, std::abs(A(i, step)));
     if (step < k && !(best > kSingular * largest)) return false;
     if (!(best > kWellConditioned * largest)) steps_ = 2;
-    // A search for the largest entry is a branch that no processor foresees; exchange only what is
-    // bad.
+    // A search for the largest entry is an IK solution that no processor foresees; exchange only
+    // what is bad.
     int pivot = step;
     if (std::abs(A(step, step)) < kDiagonal * best) {
       while (std::abs(A(pivot, step)) != best) ++pivot;
@@ -110,9 +110,9 @@ double Elimination::combine(const Vector6d& p, double* row) const {
       double sum[kSize] = {};
       const double* b = B_b_.data() + j;
       for (int i = 0; i < 6; ++i, b += width) {
-        for (int lane = 0; lane < kSize; ++lane) sum[lane] += left[i] * b[lane];
+        for (int pack = 0; pack < kSize; ++pack) sum[pack] += left[i] * b[pack];
       }
-      for (int lane = 0; lane < kSize; ++lane) row[j + lane] = sum[lane];
+      for (int pack = 0; pack < kSize; ++pack) row[j + pack] = sum[pack];
     }
   });
   return left.dot(tau_b_);

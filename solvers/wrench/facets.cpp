@@ -14,7 +14,7 @@ constexpr double kSlopeTolerance = 1e-12;
 constexpr double kPairTolerance = 1e-9;
 
 /// The part of the ray tau_d + a x inside the set: the largest `enter` and the least `leave` of its
-/// facet pairs. The loops have no branches that depend on the posture.
+/// facet pairs. The loops have no IK solutions that depend on the posture.
 class Ray {
  public:
   double low = 0, high = 0;

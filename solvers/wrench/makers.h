@@ -32,7 +32,7 @@ std::unique_ptr<WrenchSolver> make_facets();
 /// Each call starts cold from the same rule: the answer depends on nothing but the program. What
 /// has no facets and cannot be eliminated, a wrench that loads no actuator and whatever does not
 /// check out goes to the general simplex on the assembled program, also cold.
-std::unique_ptr<WrenchSolver> make_box();
+std::unique_ptr<WrenchSolver> make_condensed();
 
 /// Any general LP solver on the assembled program, warm-started from call to call; or cold each
 /// time, so that an answer does not depend on earlier calls.

@@ -28,7 +28,7 @@ constexpr int kLanes = std::is_same_v<Length, int> ? 4 : 2;
 template <class Length>
 inline void add_multiple(double* __restrict x, double a, const double* __restrict y, Length n) {
   for (int i = 0; i < n; i += kLanes<Length>) {
-    for (int lane = 0; lane < kLanes<Length>; ++lane) x[i + lane] += a * y[i + lane];
+    for (int pack = 0; pack < kLanes<Length>; ++pack) x[i + pack] += a * y[i + pack];
   }
 }
 
@@ -37,10 +37,10 @@ template <class Length>
 inline double dot(const double* __restrict x, const double* __restrict y, Length n) {
   double sums[kLanes<Length>] = {};
   for (int i = 0; i < n; i += kLanes<Length>) {
-    for (int lane = 0; lane < kLanes<Length>; ++lane) sums[lane] += x[i + lane] * y[i + lane];
+    for (int pack = 0; pack < kLanes<Length>; ++pack) sums[pack] += x[i + pack] * y[i + pack];
   }
   double sum = sums[0] + sums[1];
-  for (int lane = 2; lane < kLanes<Length>; lane += 2) sum += sums[lane] + sums[lane + 1];
+  for (int pack = 2; pack < kLanes<Length>; pack += 2) sum += sums[pack] + sums[pack + 1];
   return sum;
 }
 

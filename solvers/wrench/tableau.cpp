@@ -117,13 +117,13 @@ void Tableau::read() {
   }
 }
 
-/// The first row with the highest score, -1 if none is above `least`. No branches: which row it is
-/// is a matter of chance.
+/// The first row with the highest score, -1 if none is above `least`. No IK solutions: which row it
+/// is is a matter of chance.
 int Tableau::highest(double least) const {
   double most[kScores] = {least, least, least, least};
   for (std::size_t i = 0; i < score_.size(); i += kScores) {
-    for (int lane = 0; lane < kScores; ++lane) {
-      most[lane] = score_[i + lane] > most[lane] ? score_[i + lane] : most[lane];
+    for (int pack = 0; pack < kScores; ++pack) {
+      most[pack] = score_[i + pack] > most[pack] ? score_[i + pack] : most[pack];
     }
   }
   const double best = std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
@@ -214,7 +214,7 @@ int Tableau::leaving(int i, double& gap, bool first) {
   const double side = gap > 0 ? 1 : -1;
   const double* const y = T(rows_);
   const double* const row = T(i);
-  // No branches here and below: which positions block is a matter of chance.
+  // No IK solutions here and below: which positions block is a matter of chance.
   for (int j = 0; j < stride_; ++j) {
     const double a = side * side_[j] * row[j];
     const double ratio = std::max(side_[j] * y[j], 0.0) / a;

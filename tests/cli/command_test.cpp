@@ -76,8 +76,8 @@ TEST(Command, EvalReportsTheSecondContact) {
   EXPECT_EQ(away.exit_status, 1);
   const json object = json::parse(away.out);
   EXPECT_EQ(object["status"], "invalid_posture");
-  EXPECT_EQ(object["branches"]["valid"], 0);
-  EXPECT_EQ(object["branches"]["unreachable"], 1);
+  EXPECT_EQ(object["ik_solutions"]["valid"], 0);
+  EXPECT_EQ(object["ik_solutions"]["unreachable"], 1);
   EXPECT_TRUE(object["h_2"].is_null());
   // A search counts over all its evaluations.
   const json best =
@@ -85,8 +85,8 @@ TEST(Command, EvalReportsTheSecondContact) {
   EXPECT_EQ(best["status"], "best_found");
   EXPECT_EQ(best["theta_r"].size(), 2);
   EXPECT_EQ(best["h_2"].size(), 6);
-  EXPECT_GT(best["branches"]["valid"], 10);
-  EXPECT_GT(best["branches"]["collision"], 10);
+  EXPECT_GT(best["ik_solutions"]["valid"], 10);
+  EXPECT_GT(best["ik_solutions"]["collision"], 10);
 }
 
 /// Only the direction of c counts.
@@ -112,13 +112,13 @@ TEST(Command, SolveSaysThatTheSecondArmDoesNotReach) {
 
 TEST(Command, EvalPrintsOneObjectWithEverything) {
   const CommandResult result = run_maxwrench(
-      "eval planar/force --theta-r 0.3,-0.7 --measure linf_polytope --wrench any --lp simplex "
+      "eval planar/force --theta-r 0.3,-0.7 --measure linf_polytope --wrench any --solver simplex "
       "--json");
   ASSERT_EQ(result.exit_status, 0) << result.err;
   EXPECT_EQ(result.err, "");
   const json object = json::parse(result.out);
   for (const char* key :
-       {"yardstick", "yardstick_unit", "problem",     "measure",   "wrench", "lp",
+       {"beta_linf", "beta_linf_unit", "problem",     "measure",   "wrench", "solver",
         "search",    "seed",           "status",      "reason",    "beta",   "unit",
         "theta_r",   "theta",          "w",           "h",         "u",      "lambda",
         "gradient",  "residual",       "evaluations", "undecided", "wall_s", "version"}) {
@@ -153,12 +153,12 @@ TEST(Command, BoxTakesOverWhereThereAreTooManyFacets) {
   ASSERT_EQ(many.exit_status, 0) << many.err;
   // Who asks for facets is told, not served by another.
   const CommandResult asked =
-      run_maxwrench("eval force.toml --theta-r 0.3,-0.7 --lp facets", copy.path());
+      run_maxwrench("eval force.toml --theta-r 0.3,-0.7 --solver facets", copy.path());
   EXPECT_EQ(asked.exit_status, 2);
   EXPECT_NE(asked.err.find("too many facets"), std::string::npos) << asked.err;
   const json a = json::parse(few.out), b = json::parse(many.out);
-  EXPECT_EQ(a["lp"], "facets");
-  EXPECT_EQ(b["lp"], "box");
+  EXPECT_EQ(a["solver"], "facets");
+  EXPECT_EQ(b["solver"], "condensed");
   EXPECT_NEAR(a["beta"], b["beta"], 1e-9);
 }
 
@@ -205,9 +205,9 @@ TEST(Command, CheckAndListDescribeTasksInTime) {
         "path from [0, 0, 0] m", "turned by 1.5708 rad", "c turns with the end effector"}) {
     EXPECT_NE(jet.out.find(part), std::string::npos) << part << jet.out;
   }
-  const CommandResult heave = run_maxwrench("check uvms/lift_impulse");
+  const CommandResult impulse = run_maxwrench("check uvms/lift_impulse");
   for (const char* part : {"impulse of 2.5 s, 4 knots", "peak at knot 3, start static at"})
-    EXPECT_NE(heave.out.find(part), std::string::npos) << part << heave.out;
+    EXPECT_NE(impulse.out.find(part), std::string::npos) << part << impulse.out;
   EXPECT_NE(run_maxwrench("list").out.find("impulse of 2.5 s, redundancy 4"), std::string::npos);
 }
 
@@ -245,7 +245,7 @@ TEST(Command, TimesSayOnWhichMachine) {
 TEST(Command, RowsThatWereFinishedAreKept) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "limited") << "ulimit -f 4\nexec '" MAXWRENCH_COMMAND "' \"$@\"\n";
-  const std::string words = "run planar/force lp=none budget=50 --out .";
+  const std::string words = "run planar/force solver=none budget=50 --out .";
   const CommandResult result =
       run_maxwrench("--version > /dev/null; sh limited " + words, folder.path());
   EXPECT_EQ(result.exit_status, 2);
@@ -269,8 +269,8 @@ TEST(Command, EveryMeasureHasAValueAtAnOrdinaryPosture) {
     EXPECT_EQ(object["status"], "optimal") << measure.name;
     EXPECT_EQ(object["gradient"].size(), 4U);
     EXPECT_EQ(object["unit"], measure.unit ? measure.unit : "N m");
-    EXPECT_EQ(object["yardstick_unit"], "N m");
-    EXPECT_GT(object["yardstick"], 0);
+    EXPECT_EQ(object["beta_linf_unit"], "N m");
+    EXPECT_GT(object["beta_linf"], 0);
   }
   const json score =
       json::parse(run_maxwrench("eval planar/force --measure manipulability --json").out);

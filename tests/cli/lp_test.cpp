@@ -57,7 +57,7 @@ TEST(LpCommand, DualsAndConstantInTheFilesOwnSense) {
   const std::string file = (folder.path() / "small.mps").string();
   std::ofstream(file) << kSmall;
   for (const char* lp : {"simplex", "clp", "glpk"}) {
-    const json answer = solve(file, 0, std::string("--lp ") + lp);
+    const json answer = solve(file, 0, std::string("--solver ") + lp);
     EXPECT_NEAR(answer["objective"], 4.5, 1e-9) << lp;
     EXPECT_NEAR(answer["x"]["x"], 2.5, 1e-9) << lp;
     EXPECT_NEAR(answer["duals"]["sum"], 2.5, 1e-9) << lp;
@@ -86,7 +86,7 @@ TEST(NetlibCommand, VerdictsAreProvenInRationalNumbers) {
   EXPECT_GE(files, 22);
 }
 
-/// 9/2, see above; what is changed is refused, what is no certificate is bad input.
+/// 9/2, see above; what is changed is rejected, what is no certificate is bad input.
 TEST(LpCommand, CertificatesAreChecked) {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "small.mps").string();
@@ -121,7 +121,8 @@ TEST(LpCommand, CertificatesAreChecked) {
 }
 
 TEST(LpCommand, BadInputExitsWithTwo) {
-  for (const char* words : {"lp", "lp missing.mps", "lp README.md", "lp README.md --lp facets"}) {
+  for (const char* words :
+       {"lp", "lp missing.mps", "lp README.md", "lp README.md --solver facets"}) {
     const CommandResult result = run_maxwrench(words);
     EXPECT_EQ(result.exit_status, 2) << words;
     EXPECT_EQ(result.out, "") << words;

@@ -125,12 +125,12 @@ TEST(Report, TablesOfOurResultsAreOfThem) {
   for (const auto& [file, columns] :
        {std::pair{"tasks.csv", Columns{"problem", "measure", "wrench", "scheme", "rows", "solved",
                                        "best", "unit"}},
-        {"solvers.csv", {"contest", "lp", "solved", "instances"}},
+        {"solvers.csv", {"benchmark_set", "solver", "solved", "instances"}},
         {"searches.csv", {"search", "rows", "solved", "near"}},
         {"failures.csv", {}},
-        {"integrators.csv", {"contest", "integrator", "solved", "instances"}},
+        {"integrators.csv", {"benchmark_set", "integrator", "solved", "instances"}},
         {"experiments.csv",
-         {"problem", "wrench", "lp", "scheme", "integrator", "planned", "reading", "unit",
+         {"problem", "wrench", "solver", "scheme", "integrator", "planned", "reading", "unit",
           "evaluations", "reason"}},
         {"dictionary.csv", {}},
         {"race_standings.csv", {}}}) {
@@ -161,8 +161,8 @@ TEST(Report, ComparesFolders) {
 TEST(Report, ListsFailures) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "values.csv")
-      << "problem,measure,wrench,lp,search,seed,budget,scheme,integrator,status,beta,unit,"
-         "yardstick,"
+      << "problem,measure,wrench,solver,search,seed,budget,scheme,integrator,status,beta,unit,"
+         "beta_linf,"
          "evaluations,reason\n"
          "f/a,m,pure,facets,s,1,9,,,infeasible,,N,,9,\"<b>\"\"too\"\" weak & old\"\n"
          "f/a,m,pure,facets,s,2,9,,,infeasible,,N,,9,\"<b>\"\"too\"\" weak & old\"\n";
@@ -175,7 +175,7 @@ TEST(Report, ListsFailures) {
   EXPECT_EQ(page.find("http://", page.find("<body>")), std::string::npos);  // no figure either
 }
 
-TEST(Report, RefusesWhatIsNoResult) {
+TEST(Report, RejectsWhatIsNoResult) {
   const TemporaryFolder folder;
   for (const char* words : {"report nowhere", "report --compare . .", "report . .", "report",
                             "report --compare .", "report . --out ''"}) {

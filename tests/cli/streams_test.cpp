@@ -50,7 +50,7 @@ TEST(Streams, PathsInLatin1ComeOutAsUtf8) {
   EXPECT_EQ(json::parse(result.out)["problem"], "f\u00E9.toml");
 }
 
-/// Paths that the system itself refuses.
+/// Paths that the system itself rejects.
 TEST(Streams, ImpossiblePathsAreOneLine) {
   const TemporaryFolder folder;
   fs::create_symlink("circle", folder.path() / "circle");
@@ -146,7 +146,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Clash{"eval force.toml --write ''", "--write"},
                     Clash{"run force.toml budget=1 --out ''", "--out"}));
 
-TEST_P(OutputOnInput, IsRefusedBeforeAnythingIsWritten) {
+TEST_P(OutputOnInput, IsRejectedBeforeAnythingIsWritten) {
   const EditedCopy copy;
   fs::create_symlink("force.toml", copy.path() / "link.toml");
   const auto files = [&] {

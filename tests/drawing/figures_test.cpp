@@ -77,7 +77,7 @@ class FiguresTest : public testing::Test {
   const Problem problem_ = load_problem("planar/force");
 };
 
-TEST_F(FiguresTest, TankCurvesThatCannotBeDrawnAreRefused) {
+TEST_F(FiguresTest, TankCurvesThatCannotBeDrawnAreRejected) {
   const double huge = 1e308;
   EXPECT_THROW(tank({}), std::invalid_argument);
   EXPECT_THROW(tank({1, std::nan("")}), std::invalid_argument);
@@ -156,7 +156,7 @@ TEST_F(FiguresTest, ScatterLeavesOutWhatHasNoLogarithm) {
   EXPECT_THROW(draw_scatter(panel), std::invalid_argument);
 }
 
-TEST_F(FiguresTest, BarsThatCannotBeDrawnAreRefused) {
+TEST_F(FiguresTest, BarsThatCannotBeDrawnAreRejected) {
   const auto bars = [](double value) {
     return draw_bars("t", {{"N", {{"a", 1, {value}}, {"b", 2, {}}}}, {"N m", {}}}, "tank");
   };
@@ -165,7 +165,7 @@ TEST_F(FiguresTest, BarsThatCannotBeDrawnAreRefused) {
   expect_legible(bars(-1e3));
 }
 
-TEST_F(FiguresTest, AxesHaveFewTicksAndRefuseWhatHasNone) {
+TEST_F(FiguresTest, AxesHaveFewTicksAndRejectWhatHasNone) {
   for (const double size : {1e-90, 0.3, 7.0, 1e90}) {
     for (const double low : {-size, 0.0, 0.999 * size}) {
       const Axis axis = make_axis(low, size, 0, 1, "x");
@@ -221,7 +221,7 @@ TEST(MotionFigure, ComparesRuns) {
   const std::string svg = motion_figure(problem, {{"fixed", &runs[0]}, {"best", &runs[1]}});
   expect_legible(svg);
   std::vector<std::string> names = {"limits", "time [s]"};
-  for (const char* curve : {"reading, ", "plan, ", "end effector, "}) {
+  for (const char* curve : {"reading, ", "trajectory, ", "end effector, "}) {
     for (const char* run : {"fixed", "best"}) names.push_back(std::string(curve) + run);
   }
   for (const Thruster& thruster : problem.robot.thrusters) names.push_back(thruster.name);
@@ -250,11 +250,11 @@ TEST_F(FiguresTest, LinksWithoutSolidsAreLines) {
   };
   const int joints = static_cast<int>(problem.robot.joints.size());
   EXPECT_EQ(links(), 0);  // all have solids
-  const std::vector<Solid> solids = problem.robot.solids;
-  problem.robot.solids.clear();
+  const std::vector<ConvexBody> convex_bodies = problem.robot.convex_bodies;
+  problem.robot.convex_bodies.clear();
   EXPECT_EQ(links(), 2 * (joints + 1) + 1);  // two views and the legend
-  for (const Solid& solid : solids) {
-    if (solid.link != 2) problem.robot.solids.push_back(solid);
+  for (const ConvexBody& solid : convex_bodies) {
+    if (solid.link != 2) problem.robot.convex_bodies.push_back(solid);
   }
   EXPECT_EQ(links(), 2);  // the legend's mark of a link is that of a solid
 }

@@ -160,7 +160,7 @@ TEST_F(ForceSetTest, EllipsoidLiesOnItsQuadric) {
   }
 }
 
-TEST_F(ForceSetTest, RefusesTorques) {
+TEST_F(ForceSetTest, RejectsTorques) {
   problem_.c << 0, 0, 0, 0, 0, 1;
   const auto measure = make_ellipsoid(problem_.robot);
   EXPECT_THROW(set(*measure, Wrench::kPure), std::invalid_argument);
@@ -212,9 +212,9 @@ TEST_F(ForceSetTest, DrawsPanels) {
 }
 
 TEST_F(ForceSetTest, DrawsSolidsFromTwoSides) {
-  problem_.robot.solids = {{0, {{0.3, 0.2, 0.1}, {-0.3, 0.2, 0}, {0, -0.2, -0.1}}, 0},
-                           {1, {{0, 0, 0}, {0.1, 0, 0}}, 0.01},
-                           {2, {{0, 0, 0}}, 0.02}};
+  problem_.robot.convex_bodies = {{0, {{0.3, 0.2, 0.1}, {-0.3, 0.2, 0}, {0, -0.2, -0.1}}, 0},
+                                  {1, {{0, 0, 0}, {0.1, 0, 0}}, 0.01},
+                                  {2, {{0, 0, 0}}, 0.02}};
   const DrawnPosture panel{
       .title = "a", .problem = &problem_, .posture = posture_, .sets = {}, .hull = {}, .u = {}};
   const std::vector<DrawnPosture> two(2, panel);
@@ -277,7 +277,7 @@ TEST(SvgTest, RoundSteps) {
   EXPECT_DOUBLE_EQ(round_step(73), 50);
 }
 
-TEST(SvgTest, RefusesPointsThatAreNoPoints) {
+TEST(SvgTest, RejectsPointsThatAreNoPoints) {
   Svg svg(10, 10);
   for (const double x : {std::nan(""), kInfinity, 1e9}) {
     EXPECT_THROW(svg.line({0, 0}, {x, 0}, {}), std::invalid_argument);

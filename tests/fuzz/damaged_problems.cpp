@@ -36,7 +36,7 @@ void write(const fs::path& file, const std::string& text) {
 std::string answer(const Problem& problem) {
   if (problem.motion) return problem.type();
   const auto objective = make_capability_objective(problem, Wrench::kPure, [&] {
-    return find_measure("linf_polytope").make(problem, find_wrench_solver("box").make());
+    return find_measure("linf_polytope").make(problem, find_wrench_solver("condensed").make());
   });
   objective->evaluate(problem.theta_r_default);
   if (objective->verdict().status != Status::kOptimal && objective->verdict().reason.empty()) {
@@ -81,9 +81,9 @@ std::string DamagedProblems::read(const Target& target) {
   } catch (const std::invalid_argument& error) {
     const std::string line = error.what();
     if (line.empty() || line.find('\n') != std::string::npos) {
-      throw std::logic_error("refused in not one line: '" + line + "'");
+      throw std::logic_error("rejected in not one line: '" + line + "'");
     }
-    return "refused";
+    return "rejected";
   }
 }
 

@@ -16,7 +16,7 @@ class DamagedProblems {
 
   /// Damages a file, reads the problem that it belongs to and evaluates its default posture, as the
   /// command would: what came of it. Throws std::logic_error if that is neither an answer nor one
-  /// line of refusal.
+  /// line of rejection.
   std::string step(Random& random);
 
  private:

@@ -1,5 +1,5 @@
-// Feeds random and damaged input to the readers and the solvers: no crash, no hang, no refusal that
-// is not one line, no verdict that the data do not confirm, and of our own solvers hardly any
+// Feeds random and damaged input to the readers and the solvers: no crash, no hang, no rejection
+// that is not one line, no verdict that the data do not confirm, and of our own solvers hardly any
 // without a verdict. Run it under the sanitizers:
 //
 //     maxwrench_fuzz [SECONDS [SEED]]
@@ -32,7 +32,7 @@ constexpr double kHang = 60;
 constexpr double kUndecided = 1e-3;
 
 bool own(std::string_view solver) {
-  return solver == "simplex" || solver == "box" || solver == "facets";
+  return solver == "simplex" || solver == "condensed" || solver == "facets";
 }
 
 class Fuzzer {
@@ -222,7 +222,7 @@ class Fuzzer {
       timed("mps, simplex", [&] { solvers_.front().second->solve(mps.program, solution); });
       judge("mps, simplex", mps.program, solution);
     } catch (const std::invalid_argument&) {
-      ++tally_["mps, refused"];
+      ++tally_["mps, rejected"];
     }
   }
 

@@ -99,8 +99,8 @@ void run_block(const DocumentBlock& block, const fs::path& folder) {
 
 class Docs : public testing::TestWithParam<std::string> {};
 
-/// In a folder with copies of the shipped problems and plans and the files of the document: TOML
-/// blocks that begin with their path as a comment.
+/// In a folder with copies of the shipped problems and trajectories and the files of the document:
+/// TOML blocks that begin with their path as a comment.
 TEST_P(Docs, EveryCommandWorks) {
   const TemporaryFolder folder;
   fs::copy(kRoot / "problems", folder.path() / "problems", fs::copy_options::recursive);
@@ -207,15 +207,15 @@ const PaperRow kPaperRows[] = {
      "uvms/valve_trajectory",
      "spline    optimised",
      {6, 0, 9, 7, 3, 5}},
-    {"peak torque in a heave of 2.5 s, N m: static",
+    {"peak torque in an impulse of 2.5 s, N m: static",
      "uvms_motion.txt",
      "uvms/valve_impulse",
      "spline    static",
      {6, 0, 9, 7, 3, 5}},
-    {"heave: best trajectory",
+    {"impulse: best trajectory",
      "uvms_motion.txt",
      "uvms/valve_impulse",
-     "spline    heave",
+     "spline    impulse",
      {6, 0, 9, 7, 3, 5}},
     {"torque with a rigid bar, N m: one contact", "dual.txt", "", "one contact", {1, 0}},
     {"rigid bar: the arm pushes on a wall at the default place",
@@ -329,7 +329,7 @@ TEST(DocsLinks, LeadSomewhere) {
 /// Files that are named by their path from the root; what is in capitals stands for a name.
 TEST(DocsPaths, Exist) {
   static const std::regex kFile(
-      "`((include|lib|solvers|problems|drawing|benchmarks|cli|examples|tests|results|docs|paper)/"
+      "`((include|lib|solvers|problems|drawing|benchmarks|cli|examples|tests|results|docs|paper)`"
       "[a-z0-9_/.]*)`");
   std::vector<std::string> files = documents();
   files.emplace_back("CONTRIBUTING.md");

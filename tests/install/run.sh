@@ -37,8 +37,8 @@ holds list "$prefix/share/maxwrench/problems" planar/force uvms/valve grid
 holds version "maxwrench 0." build libraries Eigen
 "$prefix/bin/maxwrench" eval planar/force --json > eval
 same "the version of a result" "$(sed 's/.*"version":"\([^"]*\)".*/\1/' eval)" "$(sed -n 's/^maxwrench //p' version)"
-! MAXWRENCH_PROBLEMS=/nowhere "$prefix/bin/maxwrench" list > /dev/null 2> refusal || fail "a wrong MAXWRENCH_PROBLEMS is taken"
-same "refusal" "$(cat refusal)" "maxwrench: MAXWRENCH_PROBLEMS: got '/nowhere', expected a folder with problems"
+! MAXWRENCH_PROBLEMS=/nowhere "$prefix/bin/maxwrench" list > /dev/null 2> rejection || fail "a wrong MAXWRENCH_PROBLEMS is taken"
+same "rejection" "$(cat rejection)" "maxwrench: MAXWRENCH_PROBLEMS: got '/nowhere', expected a folder with problems"
 
 # The manual and the completion know the command.
 page=$prefix/share/man/man1/maxwrench.1
@@ -65,7 +65,7 @@ same "completion" "$(complete_words maxwrench solve --thr)" --threads
 same "completion" "$(complete_words maxwrench solve mobile/push_)" mobile/push_any_height
 same "completion" "$(complete_words maxwrench solve uvms/valve --search ann)" annealing
 same "completion" "$(complete_words maxwrench solve uvms/valve --search slp)" slp
-same "completion" "$(complete_words maxwrench eval uvms/valve_trajectory --lp s)" "simplex structured"
+same "completion" "$(complete_words maxwrench eval uvms/valve_trajectory --solver s)" "simplex"
 
 # The examples, by CMake and by pkg-config.
 cp -r "$source/examples" "$source/tests/install/native" .
@@ -89,12 +89,12 @@ for how in cmake make; do
   same "$how/own_search" "$(awk '{printf "%.2f ", $2}' $how.own_search)" "1.91 1.91 "
   # A textbook's program (Wyndor Glass): 36 at (2, 6), the last two rows are worth 3/2 and 1.
   wyndor="optimal 36.0000 at (2.0000, 6.0000), multipliers 0.0000 1.5000 1.0000, verified"
-  same "$how/lp" "$(sed -n 's/-0\.0000/0.0000/g; s/^simplex  *//p' $how.lp)" "$wyndor"
+  same "$how/lp" "$(sed -n 's/-0\.0000/0.0000/g; s/^simplex  *//p' $how.solver)" "$wyndor"
 done
 
-# Nobody who links us gets a word of Eigen's. Whose Eigen allocates in another way is refused; such are programs for this processor, if it
+# Nobody who links us gets a word of Eigen's. Whose Eigen allocates in another way is rejected; such are programs for this processor, if it
 # has AVX.
-refused() {
+rejected() {
   ! "$compiler" -std=c++20 -fsyntax-only "$@" "$source/tests/install/parent/parent.cpp" 2> "$log" || fail "$* is taken"
   holds "$log" "Eigen allocates memory here in another way than in the library"
 }
@@ -102,13 +102,13 @@ read -ra flags <<< "$(pkg-config --cflags maxwrench)"
 [[ ${flags[*]} != *EIGEN* ]] || fail "maxwrench.pc sets Eigen's macros: ${flags[*]}"
 ! grep -q EIGEN_ "$prefix"/lib*/cmake/maxwrench/maxwrenchTargets.cmake || fail "the target sets Eigen's macros"
 "$compiler" -std=c++20 -fsyntax-only "${flags[@]}" "$source/tests/install/parent/parent.cpp"
-refused "${flags[@]}" -DEIGEN_MALLOC_ALREADY_ALIGNED=0
+rejected "${flags[@]}" -DEIGEN_MALLOC_ALREADY_ALIGNED=0
 avx=OFF
-if "$compiler" -march=native -dM -E -x c++ /dev/null | grep -q __AVX__; then
+if [[ $("$compiler" -march=native -dM -E -x c++ /dev/null) == *__AVX__* ]]; then  # grep -q would break the pipe
   avx=ON
-  refused "${flags[@]}" -march=native
-  refused "${flags[@]}" -march=native -DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MALLOC_ALREADY_ALIGNED=1  # Eigen's products would crash
-  refused -I"$prefix/include" -I"$(pkg-config --variable=prefix eigen3)/include/eigen3" -march=native
+  rejected "${flags[@]}" -march=native
+  rejected "${flags[@]}" -march=native -DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MALLOC_ALREADY_ALIGNED=1  # Eigen's products would crash
+  rejected -I"$prefix/include" -I"$(pkg-config --variable=prefix eigen3)/include/eigen3" -march=native
   ! cmake -S "$source/tests/install/parent" -B none -D MAXWRENCH="$source" -D CMAKE_CXX_COMPILER="$compiler" -D MAXWRENCH_AVX=ON \
     2> "$log" > none.out || fail "MAXWRENCH_AVX is taken with pagmo"
   holds "$log" MAXWRENCH_WITH_PAGMO=OFF

@@ -7,7 +7,7 @@ namespace {
 
 constexpr const char* kTable = "[contact]\n";
 constexpr const char* kForces = "forces = \"basis\"";
-constexpr const char* kFollowers = "joints = [\"shoulder_2\", \"elbow_2\"]";
+constexpr const char* kDependents = "joints = [\"shoulder_2\", \"elbow_2\"]";
 
 /// The planar vehicle whose second arm pushes on a wall.
 const std::vector<BadInput> kBadContacts = {
@@ -145,15 +145,15 @@ const std::vector<BadInput> kBadContacts = {
      "max = [0.12]\ndefault = [0]",
      "max = [0.12]\ndefault = [1]",
      {"contact.default: got [1]", "within min .. max"}},
-    {"joints_missing", "two_arms.toml", kFollowers, "", {"contact.joints: got nothing"}},
+    {"joints_missing", "two_arms.toml", kDependents, "", {"contact.joints: got nothing"}},
     {"joint_unknown",
      "two_arms.toml",
-     kFollowers,
+     kDependents,
      "joints = [\"shoulder_2\", \"wrist_2\"]",
      {"contact.joints: got ['shoulder_2', 'wrist_2']", "shoulder_2, elbow_2"}},
     {"joints_inwards",
      "two_arms.toml",
-     kFollowers,
+     kDependents,
      "joints = [\"elbow_2\", \"shoulder_2\"]",
      {"contact.joints: got ['elbow_2', 'shoulder_2']", "in this order"}},
     {"grasp_with_two_joints",
@@ -163,17 +163,17 @@ const std::vector<BadInput> kBadContacts = {
      {"contact.joints: got", "six joints"}},
     {"rest_of_a_joint_that_follows",
      "two_arms.toml",
-     kFollowers,
+     kDependents,
      "joints = [\"shoulder_2\", \"elbow_2\"]\nrest = { elbow_2 = 0 }",
      {"contact.rest.elbow_2"}},
     {"rest_beyond_the_limit",
      "two_arms.toml",
-     kFollowers,
+     kDependents,
      "joints = [\"shoulder_2\"]\nrest = { elbow_2 = 9 }",
      {"contact.rest.elbow_2: got 9", "within"}},
     {"rest_no_table",
      "two_arms.toml",
-     kFollowers,
+     kDependents,
      "joints = [\"shoulder_2\"]\nrest = 1",
      {"contact.rest: got 1", "a table"}},
     {"length_scale",
@@ -205,14 +205,14 @@ const BadInput kBadArms[] = {
 
 class BadContact : public testing::TestWithParam<BadInput> {};
 
-TEST_P(BadContact, IsRefusedInOneLineThatNamesFileKeyAndValue) {
-  expect_refused(GetParam(), "planar/two_arms");
+TEST_P(BadContact, IsRejectedInOneLineThatNamesFileKeyAndValue) {
+  expect_rejected(GetParam(), "planar/two_arms");
 }
 
 class BadSecondArm : public testing::TestWithParam<BadInput> {};
 
-TEST_P(BadSecondArm, IsRefusedInOneLineThatNamesFileKeyAndValue) {
-  expect_refused(GetParam(), "dual_arm/bar_wall");
+TEST_P(BadSecondArm, IsRejectedInOneLineThatNamesFileKeyAndValue) {
+  expect_rejected(GetParam(), "dual_arm/bar_wall");
 }
 
 INSTANTIATE_TEST_SUITE_P(Loader, BadSecondArm, testing::ValuesIn(kBadArms),

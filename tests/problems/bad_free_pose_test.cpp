@@ -72,12 +72,12 @@ const std::vector<BadInput> kBadFreePoses = {
     {"axes_unknown",
      "force.toml",
      kPose,
-     "xyz = [0, 0, 0]\nfree = [\"yaw\"]\naxes = \"world\"",
+     "xyz = [0, 0, 0]\nfree = [\"yaw\"]\nframe = \"world\"",
      {"pose.axes: got 'world'", "'pose' or 'tool'"}},
     {"axes_of_nothing",
      "force.toml",
      kPose,
-     "xyz = [0, 0, 0]\naxes = \"tool\"",
+     "xyz = [0, 0, 0]\nframe = \"end_effector\"",
      {"pose.axes: got 'tool'", "beside pose.free or pose.range"}},
     {"immovable_translation",
      "force.toml",
@@ -101,7 +101,7 @@ class BadFreePose : public testing::TestWithParam<BadInput> {};
 INSTANTIATE_TEST_SUITE_P(All, BadFreePose, testing::ValuesIn(kBadFreePoses),
                          [](const auto& each) { return std::string(each.param.name); });
 
-TEST_P(BadFreePose, IsRefused) { expect_refused(GetParam()); }
+TEST_P(BadFreePose, IsRejected) { expect_rejected(GetParam()); }
 
 }  // namespace
 }  // namespace maxwrench

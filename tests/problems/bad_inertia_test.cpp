@@ -63,7 +63,7 @@ const std::vector<BadInput> kBadInertia = {
 
 class BadInertiaTest : public testing::TestWithParam<BadInput> {};
 
-TEST_P(BadInertiaTest, IsRefused) { expect_refused(GetParam()); }
+TEST_P(BadInertiaTest, IsRejected) { expect_rejected(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(Loader, BadInertiaTest, testing::ValuesIn(kBadInertia),
                          [](const auto& test) { return std::string(test.param.name); });

@@ -31,7 +31,7 @@ const std::vector<BadInput> kBadInputs = {
      "source = [\"a\"]",
      {"collision.source", "a string"}},
     {"missing_urdf", "vehicle.toml", "vehicle.urdf", "boat.urdf", {": urdf: got", "boat.urdf"}},
-    {"refused_axes", "vehicle.toml", "\"y\", \"yaw\"", "\"yaw\"", {"base.axes", "[x,y,yaw]"}},
+    {"rejected_axes", "vehicle.toml", "\"y\", \"yaw\"", "\"yaw\"", {"base.axes", "[x,y,yaw]"}},
     {"unknown_axis", "vehicle.toml", "\"yaw\"", "\"heading\"", {"base.axes", "heading", "yaw"}},
     {"axis_twice", "vehicle.toml", "\"x\", \"y\"", "\"x\", \"x\"", {"base.axes", "x"}},
     {"axes_not_a_list",
@@ -297,7 +297,7 @@ const std::vector<BadInput> kBadInputs = {
 
 class BadInputTest : public testing::TestWithParam<BadInput> {};
 
-TEST_P(BadInputTest, IsRefusedInOneLineThatNamesFileKeyAndValue) { expect_refused(GetParam()); }
+TEST_P(BadInputTest, IsRejectedInOneLineThatNamesFileKeyAndValue) { expect_rejected(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(Loader, BadInputTest, testing::ValuesIn(kBadInputs),
                          [](const auto& test) { return std::string(test.param.name); });

@@ -8,7 +8,7 @@
 #include "tests/support/bad_input.h"
 #include "tests/support/edited_copy.h"
 
-// Tasks in time that are refused.
+// Tasks in time that are rejected.
 
 namespace maxwrench {
 namespace {
@@ -22,8 +22,8 @@ void PrintTo(const BadMotion& bad, std::ostream* out) { *out << bad.input.name; 
 
 constexpr const char* kTurn = "uvms/valve_trajectory";
 constexpr const char* kTurnFile = "valve_trajectory.toml";
-constexpr const char* kHeave = "uvms/valve_impulse";
-constexpr const char* kHeaveFile = "valve_impulse.toml";
+constexpr const char* kImpulse = "uvms/valve_impulse";
+constexpr const char* kImpulseFile = "valve_impulse.toml";
 
 /// A static task that is made to move.
 constexpr const char* kMoves =
@@ -49,7 +49,7 @@ const std::vector<BadMotion> kBadMotions = {
       "\"central\"",
       {"motion.scheme: got 'central'", "one of forward, ends, spline"}}},
     {kTurn,
-     {"scheme_of_a_heave",
+     {"scheme_of_a_impulse",
       kTurnFile,
       "\"spline\"",
       "\"backward\"",
@@ -121,43 +121,44 @@ const std::vector<BadMotion> kBadMotions = {
       "kind = \"rotation\"\naxis = [0, 0, 1]\nangle = 3.141592653589793",
       "kind = \"line\"\ndisplacement = [0, 0, 0]",
       {"path.displacement: got [0, 0, 0]", "nonzero length"}}},
-    {kHeave, {"t_h_beyond_k", kHeaveFile, "t_h = 3", "t_h = 5", {"motion.t_h: got 5", "k = 4"}}},
-    {kHeave, {"t_h_zero", kHeaveFile, "t_h = 3", "t_h = 0", {"motion.t_h: got 0", "'best'"}}},
-    {kHeave, {"t_h_broken", kHeaveFile, "t_h = 3", "t_h = 1.5", {"motion.t_h: got 1.5"}}},
-    {kHeave, {"t_h_text", kHeaveFile, "t_h = 3", "t_h = \"last\"", {"motion.t_h: got 'last'"}}},
-    {kHeave, {"heave_k_one", kHeaveFile, "k = 4", "k = 1", {"motion.k: got 1", "2 or more"}}},
-    {kHeave,
+    {kImpulse,
+     {"t_h_beyond_k", kImpulseFile, "t_h = 3", "t_h = 5", {"motion.t_h: got 5", "k = 4"}}},
+    {kImpulse, {"t_h_zero", kImpulseFile, "t_h = 3", "t_h = 0", {"motion.t_h: got 0", "'best'"}}},
+    {kImpulse, {"t_h_broken", kImpulseFile, "t_h = 3", "t_h = 1.5", {"motion.t_h: got 1.5"}}},
+    {kImpulse, {"t_h_text", kImpulseFile, "t_h = 3", "t_h = \"last\"", {"motion.t_h: got 'last'"}}},
+    {kImpulse, {"impulse_k_one", kImpulseFile, "k = 4", "k = 1", {"motion.k: got 1", "2 or more"}}},
+    {kImpulse,
      {"scheme_of_a_turn",
-      kHeaveFile,
+      kImpulseFile,
       "\"spline\"",
       "\"ends\"",
       {"motion.scheme: got 'ends'", "forward, backward, backward_stop, spline"}}},
-    {kHeave,
-     {"unknown_start", kHeaveFile, "\"static\"", "\"calm\"", {"start.kind: got 'calm'", "free"}}},
-    {kHeave, {"no_start", kHeaveFile, "theta_r = [3", "# [3", {"start.theta_r: got nothing"}}},
-    {kHeave,
+    {kImpulse,
+     {"unknown_start", kImpulseFile, "\"static\"", "\"calm\"", {"start.kind: got 'calm'", "free"}}},
+    {kImpulse, {"no_start", kImpulseFile, "theta_r = [3", "# [3", {"start.theta_r: got nothing"}}},
+    {kImpulse,
      {"short_start",
-      kHeaveFile,
+      kImpulseFile,
       "[3.064281330005719, ",
       "[",
       {"start.theta_r: got [0.689", "4 finite numbers"}}},
-    {kHeave,
+    {kImpulse,
      {"start_beyond_limits",
-      kHeaveFile,
+      kImpulseFile,
       "[3.064281330005719, ",
       "[30, ",
       {"start.theta_r: got [30, ", "q1_shoulder_yaw within"}}},
-    {kHeave,
-     {"default_of_a_heave",
-      kHeaveFile,
+    {kImpulse,
+     {"default_of_a_impulse",
+      kImpulseFile,
       "joints =",
       "default = [3, 0.7, 0.4, -3]\njoints =",
       {"theta_r.default: got [3, ", "start.theta_r"}}},
-    {kHeave,
-     {"path_of_a_heave", kHeaveFile, "[motion]", "[path]\n[motion]", {"path", "unknown key"}}},
-    {kHeave,
-     {"frame_of_a_heave",
-      kHeaveFile,
+    {kImpulse,
+     {"path_of_a_impulse", kImpulseFile, "[motion]", "[path]\n[motion]", {"path", "unknown key"}}},
+    {kImpulse,
+     {"frame_of_a_impulse",
+      kImpulseFile,
       "[wrench]",
       "[wrench]\nframe = \"world\"",
       {"wrench.frame", "unknown key"}}},
@@ -179,7 +180,9 @@ const std::vector<BadMotion> kBadMotions = {
 
 class BadMotionTest : public testing::TestWithParam<BadMotion> {};
 
-TEST_P(BadMotionTest, IsRefusedInOneLine) { expect_refused(GetParam().input, GetParam().problem); }
+TEST_P(BadMotionTest, IsRejectedInOneLine) {
+  expect_rejected(GetParam().input, GetParam().problem);
+}
 
 INSTANTIATE_TEST_SUITE_P(Loader, BadMotionTest, testing::ValuesIn(kBadMotions),
                          [](const auto& test) { return std::string(test.param.input.name); });
@@ -233,7 +236,7 @@ void follow_poses(EditedCopy& copy) {
 
 class BadPosesTest : public testing::TestWithParam<BadMotionTable> {};
 
-TEST_P(BadPosesTest, AreRefusedInOneLineThatNamesTheTable) {
+TEST_P(BadPosesTest, AreRejectedInOneLineThatNamesTheTable) {
   EditedCopy copy;
   follow_poses(copy);
   const std::string task = read_text(copy.path() / "trajectory.toml");

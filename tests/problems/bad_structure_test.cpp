@@ -150,12 +150,12 @@ const std::vector<BadInput> kBadStructures = {
 
 class BadStructure : public testing::TestWithParam<BadInput> {};
 
-TEST_P(BadStructure, IsRefusedInOneLineThatNamesFileKeyAndValue) { expect_refused(GetParam()); }
+TEST_P(BadStructure, IsRejectedInOneLineThatNamesFileKeyAndValue) { expect_rejected(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(Loader, BadStructure, testing::ValuesIn(kBadStructures),
                          [](const auto& test) { return std::string(test.param.name); });
 
-std::string refusal(const std::string& urdf) {
+std::string rejection(const std::string& urdf) {
   const EditedCopy copy;
   std::ofstream(copy.path() / "vehicle.urdf") << urdf;
   try {
@@ -174,12 +174,12 @@ TEST(BadStructure, ChainOfTooManyLinks) {
     urdf += "<link name='" + name + "'/><joint type='fixed' name='" + name + "'><parent link='" +
             std::to_string(i - 1) + "'/><child link='" + name + "'/></joint>";
   }
-  EXPECT_THAT(refusal(urdf + "</robot>"),
+  EXPECT_THAT(rejection(urdf + "</robot>"),
               testing::EndsWith("vehicle.urdf: link: got 20000 links, expected at most 1000"));
 }
 
 TEST(BadStructure, XmlThatIsNoRobot) {
-  EXPECT_THAT(refusal("<model/>"),
+  EXPECT_THAT(rejection("<model/>"),
               testing::EndsWith("vehicle.urdf: robot: got nothing, expected an element <robot>"));
 }
 
@@ -187,7 +187,8 @@ TEST(BadStructure, XmlThatIsNoRobot) {
 TEST(BadStructure, ElementsNestedTooDeep) {
   std::string urdf = "<robot name='nest'>\n<!-- <a> '-->";
   for (int i = 0; i < 300000; ++i) urdf += "<a b='>'>";
-  EXPECT_THAT(refusal(urdf), testing::HasSubstr("vehicle.urdf: line 2: got an element within 100"));
+  EXPECT_THAT(rejection(urdf),
+              testing::HasSubstr("vehicle.urdf: line 2: got an element within 100"));
 }
 
 }  // namespace

@@ -114,8 +114,8 @@ const std::vector<BadInput> kBadThetaRs = {
 
 class BadThetaR : public testing::TestWithParam<BadInput> {};
 
-TEST_P(BadThetaR, IsRefusedInOneLineThatNamesFileKeyAndValue) {
-  expect_refused(GetParam(), "mobile/push");
+TEST_P(BadThetaR, IsRejectedInOneLineThatNamesFileKeyAndValue) {
+  expect_rejected(GetParam(), "mobile/push");
 }
 
 INSTANTIATE_TEST_SUITE_P(Loader, BadThetaR, testing::ValuesIn(kBadThetaRs),
@@ -139,7 +139,7 @@ const std::vector<BadInput> kBadClosedForm = {
 
 class BadClosedForm : public testing::TestWithParam<BadInput> {};
 
-TEST_P(BadClosedForm, IsRefusedInOneLineThatNamesFileKeyAndValue) { expect_refused(GetParam()); }
+TEST_P(BadClosedForm, IsRejectedInOneLineThatNamesFileKeyAndValue) { expect_rejected(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(Loader, BadClosedForm, testing::ValuesIn(kBadClosedForm),
                          [](const auto& test) { return std::string(test.param.name); });

@@ -74,7 +74,7 @@ const std::vector<BadInput> kBadWater = {
 
 class BadWaterTest : public testing::TestWithParam<BadInput> {};
 
-TEST_P(BadWaterTest, IsRefused) { expect_refused(GetParam()); }
+TEST_P(BadWaterTest, IsRejected) { expect_rejected(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(Loader, BadWaterTest, testing::ValuesIn(kBadWater),
                          [](const auto& test) { return std::string(test.param.name); });

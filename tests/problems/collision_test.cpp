@@ -226,8 +226,8 @@ TEST(CollisionChecker, KnowsCoresThatCollide) {
     }
     const auto checker = make_collision_checker(shapes, {}, 0.01);
     const std::vector<Pose<double>> links = {{}, sampler.pose(0.5)};
-    CorePair pair;
-    ASSERT_TRUE(checker->cores(0, pair));
+    InscribedBoxPair pair;
+    ASSERT_TRUE(checker->inscribed_boxes(0, pair));
     const Pose<double> a = links[static_cast<std::size_t>(pair.a.link)] * pair.a.placement;
     const Pose<double> b = links[static_cast<std::size_t>(pair.b.link)] * pair.b.placement;
     const Vector3d in_a = sampler.point(1).cwiseProduct(pair.a.half_sizes);
@@ -244,7 +244,7 @@ TEST(CollisionChecker, KnowsCoresThatCollide) {
 /// Along every direction a solid reaches as far as its shape: |h|'|R'd| for a box, half length
 /// |z'd| plus the radius for a capsule, plus its share across the axis for a cylinder, less what a
 /// prism of 32 faces misses.
-TEST(Solid, ReachesAsFarAsItsShape) {
+TEST(ConvexBody, ReachesAsFarAsItsShape) {
   Sampler sampler;
   for (const auto kind : {Shape::Kind::kBox, Shape::Kind::kCapsule, Shape::Kind::kCylinder}) {
     for (int i = 0; i < 100; ++i) {
@@ -254,7 +254,7 @@ TEST(Solid, ReachesAsFarAsItsShape) {
       shape.radius = 0.2;
       shape.half_length = 0.5;
       shape.half_sizes = {0.1, 0.2, 0.3};
-      const Solid solid = to_solid(shape);
+      const ConvexBody solid = to_convex_body(shape);
       const Vector3d d = sampler.pose(1).R.col(0), local = shape.placement.R.transpose() * d;
       double reach = -1e9;
       for (const Vector3d& p : solid.points) {

@@ -16,7 +16,7 @@ namespace {
 
 Options pure_torque(const char* lp = "") {
   Options options;
-  options.lp = lp;
+  options.solver = lp;
   options.search = "grid+cmaes";
   options.budget = 5000;
   options.threads = 1;

@@ -137,8 +137,8 @@ TEST(FixedArm, OneJointIsRedundantAndSixFollow) {
   }
 }
 
-/// Walks along all postures of the pose by KDL's null motion, in both directions from each branch
-/// at the default, and compares the best with what the search finds.
+/// Walks along all postures of the pose by KDL's null motion, in both directions from each IK
+/// solution at the default, and compares the best with what the search finds.
 TEST(FixedArm, SLOW_SearchFindsTheBestOfAllPostures) {
   const Problem problem = load_problem("fixed/push");
   PostureEvaluator model(problem);
@@ -159,9 +159,9 @@ TEST(FixedArm, SLOW_SearchFindsTheBestOfAllPostures) {
       if (kdl.within_limits(q) && !collides) best = std::max(best, kdl.capability(q));
     }
   };
-  ASSERT_GT(model.branches(), 1);
-  for (int branch = 0; branch < model.branches(); ++branch) {
-    for (const double direction : {-1.0, 1.0}) walk(model.select(branch).q, direction);
+  ASSERT_GT(model.ik_solutions(), 1);
+  for (int ik_solution = 0; ik_solution < model.ik_solutions(); ++ik_solution) {
+    for (const double direction : {-1.0, 1.0}) walk(model.select(ik_solution).q, direction);
   }
   Case c;
   c.problem = "fixed/push";

@@ -109,7 +109,7 @@ void expect_same(const Problem& coded, const Problem& loaded) {
       ASSERT_EQ(a.status, b.status) << a.reason.c_str() << b.reason.c_str();
       EXPECT_EQ(a.status, Status::kOptimal);
       EXPECT_EQ(a.beta(), b.beta());
-      EXPECT_EQ(a.plan.gradient, b.plan.gradient);
+      EXPECT_EQ(a.trajectory.gradient, b.trajectory.gradient);
     }
   }
 }
@@ -121,7 +121,7 @@ TEST(InCode, RobotAndTaskAreThoseOfTheFile) {
   EXPECT_EQ(coded.robot.u_rate_max, loaded.robot.u_rate_max);
   ASSERT_EQ(coded.robot.collision->pairs(), 1);
   EXPECT_EQ(coded.robot.collision->pair_name(0), loaded.robot.collision->pair_name(0));
-  EXPECT_EQ(coded.robot.solids.size(), 3u);
+  EXPECT_EQ(coded.robot.convex_bodies.size(), 3u);
   expect_same(coded, loaded);
 }
 
@@ -219,13 +219,13 @@ TaskSpec push_on_the_way() {
   return task;
 }
 
-TEST(InCode, Trajectory) {
+TEST(InCode, OdeSolution) {
   const Problem coded = make_problem(push_on_the_way());
   EXPECT_EQ(coded.motion->T, 10);
   expect_same(coded, load_problem("planar/trajectory"));
 }
 
-TaskSpec heave() {
+TaskSpec impulse() {
   const Problem loaded = load_problem("uvms/valve_impulse");
   TaskSpec task{.robot = loaded.robot, .end_effector = "tool"};
   task.c = along(5);
@@ -240,13 +240,13 @@ TaskSpec heave() {
   return task;
 }
 
-TEST(InCode, Heave) {
-  const Problem coded = make_problem(heave()), loaded = load_problem("uvms/valve_impulse");
+TEST(InCode, Impulse) {
+  const Problem coded = make_problem(impulse()), loaded = load_problem("uvms/valve_impulse");
   const Eigen::MatrixXd theta_r = coded.theta_r_default.transpose();
   const Answer a = evaluate(coded, theta_r), b = evaluate(loaded, theta_r);
   EXPECT_EQ(a.status, Status::kOptimal);
   EXPECT_EQ(a.beta(), b.beta());
-  EXPECT_EQ(a.plan.gradient, b.plan.gradient);
+  EXPECT_EQ(a.trajectory.gradient, b.trajectory.gradient);
 }
 
 /// Directions have any length; what was derived before counts for nothing.
@@ -257,13 +257,13 @@ TEST(InCode, FinalizeDerivesAnew) {
   weaker.thrusters[0].force_max = 0.5;
   weaker = finalize(weaker);
   EXPECT_EQ(weaker.collision, nullptr);
-  EXPECT_TRUE(weaker.solids.empty());
+  EXPECT_TRUE(weaker.convex_bodies.empty());
   EXPECT_EQ(weaker.actuation.u_max[0], 0.5);
   EXPECT_LT((weaker.actuation.B - robot.actuation.B).norm(), 1e-15);
 }
 
 template <class Function>
-std::string refusal(const Function& function) {
+std::string rejection(const Function& function) {
   try {
     function();
   } catch (const std::invalid_argument& error) {
@@ -388,11 +388,11 @@ const std::vector<BadRobot> kBadRobots = {
 
 class BadRobotInCode : public testing::TestWithParam<BadRobot> {};
 
-TEST_P(BadRobotInCode, IsRefused) {
+TEST_P(BadRobotInCode, IsRejected) {
   Robot robot = vehicle();
   Collision collision = vehicle_shapes();
   GetParam().spoil(robot, collision);
-  EXPECT_THAT(refusal([&] { finalize(robot, collision); }), HasSubstr(GetParam().message));
+  EXPECT_THAT(rejection([&] { finalize(robot, collision); }), HasSubstr(GetParam().message));
 }
 
 INSTANTIATE_TEST_SUITE_P(InCode, BadRobotInCode, testing::ValuesIn(kBadRobots),
@@ -534,25 +534,25 @@ const std::vector<BadTask> kBadTasks = {
      "motion.k: got 1, expected 2 or more for the scheme spline"},
     {"instants", push_on_the_way, [](TaskSpec& t) { t.motion->instants_per_interval = 0; },
      "motion.instants_per_interval: got 0, expected a whole number of 1 to 100"},
-    {"scheme_of_a_heave", push_on_the_way,
+    {"scheme_of_a_impulse", push_on_the_way,
      [](TaskSpec& t) { t.motion->scheme = Scheme::kBackward; },
      "motion.scheme: got 'backward', expected one of forward, ends, spline"},
-    {"t_h", heave, [](TaskSpec& t) { t.motion->t_h = 5; },
+    {"t_h", impulse, [](TaskSpec& t) { t.motion->t_h = 5; },
      "motion.t_h: got 5, expected a knot of 1 to k = 4, or 'best'"},
-    {"theta_0_short", heave, [](TaskSpec& t) { t.motion->theta_0.resize(0); },
+    {"theta_0_short", impulse, [](TaskSpec& t) { t.motion->theta_0.resize(0); },
      "start.theta_r: got nothing, expected a list of 4 finite numbers"},
-    {"default_of_a_heave", heave, [](TaskSpec& t) { t.theta_r_default = t.motion->theta_0; },
-     "expected none: the default of a heave is start.theta_r"},
-    {"heave_in_tool_axes", heave, [](TaskSpec& t) { t.wrench_in_tool = true; },
+    {"default_of_a_impulse", impulse, [](TaskSpec& t) { t.theta_r_default = t.motion->theta_0; },
+     "expected none: the default of an impulse is start.theta_r"},
+    {"impulse_in_tool_axes", impulse, [](TaskSpec& t) { t.wrench_in_end_effector = true; },
      "wrench.frame: got 'tool', expected 'world'"},
 };
 
 class BadTaskInCode : public testing::TestWithParam<BadTask> {};
 
-TEST_P(BadTaskInCode, IsRefused) {
+TEST_P(BadTaskInCode, IsRejected) {
   TaskSpec task = GetParam().make();
   GetParam().spoil(task);
-  EXPECT_THAT(refusal([&] { make_problem(task); }), HasSubstr(GetParam().message));
+  EXPECT_THAT(rejection([&] { make_problem(task); }), HasSubstr(GetParam().message));
 }
 
 INSTANTIATE_TEST_SUITE_P(InCode, BadTaskInCode, testing::ValuesIn(kBadTasks),
@@ -564,7 +564,7 @@ TEST(InCode, JointsThatFollowWrongly) {
                 .end_effector = "tool"};
   task.pose.p = {0, 0, 2.9};
   task.c = along(0);
-  const auto message = [&] { return refusal([&] { make_problem(task); }); };
+  const auto message = [&] { return rejection([&] { make_problem(task); }); };
   EXPECT_THAT(message(), HasSubstr("theta_r.joints: got nothing, expected 2 of the joints"));
   task.joints = {"elbow", "wrist_roll"};
   EXPECT_THAT(message(), HasSubstr("in no posture: singular"));
@@ -591,7 +591,7 @@ TEST(InCode, ImpossibleDefaultAndRank) {
   task.c = along(0);
   task.joints = {"shoulder_yaw", "shoulder_pitch"};
   task.theta_r_default = Eigen::Vector2d(0, 1.9);
-  EXPECT_THAT(refusal([&] { make_problem(task); }),
+  EXPECT_THAT(rejection([&] { make_problem(task); }),
               HasSubstr("theta_r.default: got [0, 1.9], expected theta_r at which elbow"));
   TaskSpec bar{.robot = load_robot(problems_folder() / "dual_arm/bar.toml"),
                .end_effector = "bar_end"};
@@ -599,7 +599,7 @@ TEST(InCode, ImpossibleDefaultAndRank) {
   bar.contact = {.end_effector = "right_tool", .forces = "point"};
   bar.contact->frame.p = {-0.2, -0.5, 0};
   bar.contact->joints = {"right_q2_shoulder_pitch", "right_q3_elbow", "right_q4_wrist_roll"};
-  EXPECT_THAT(refusal([&] { make_problem(bar); }),
+  EXPECT_THAT(rejection([&] { make_problem(bar); }),
               HasSubstr("expected joints that the contact fixes: of these 3 it fixes 2"));
 }
 

@@ -17,7 +17,7 @@ class KnotsTest : public testing::Test {
     std::ofstream(file_) << text;
     return load_knots(file_, problem_);
   }
-  std::string refusal(const std::string& text) {
+  std::string rejection(const std::string& text) {
     try {
       read(text);
     } catch (const std::invalid_argument& error) {
@@ -70,7 +70,7 @@ TEST_F(KnotsTest, NamesThatACsvCannotHoldAreLeftOut) {
   EXPECT_EQ(knots_csv(problem, Eigen::RowVector2d(1, -0.5)), "1,-0.5\n");
 }
 
-TEST_F(KnotsTest, WrongTablesAreRefusedInOneLine) {
+TEST_F(KnotsTest, WrongTablesAreRejectedInOneLine) {
   const std::string row = "1,2,3,4\n";
   const std::pair<std::string, std::string> tables[] = {
       {"", "rows: got 0, expected 4, one for each knot of theta_r"},
@@ -84,7 +84,7 @@ TEST_F(KnotsTest, WrongTablesAreRefusedInOneLine) {
       {"a,b,c,d\n" + row, "line 1: got 'a,b,c,d', expected 4 (q1_shoulder_yaw,"},
   };
   for (const auto& [text, expected] : tables) {
-    const std::string message = refusal(text);
+    const std::string message = rejection(text);
     EXPECT_EQ(message.find(file_.string() + ": " + expected), 0u) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos);
   }

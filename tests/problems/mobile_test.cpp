@@ -49,7 +49,8 @@ TEST(Mobile, TwoJointsAreRedundantAndThreeFollow) {
 
 /// The arm moves in a vertical plane that contains the tool's axis, so elbow and wrist follow from
 /// heights alone: with a = -q_pitch and f = a - q_elbow the angles of upper arm and forearm to the
-/// ground, 0.5 + 0.45 sin a + 0.4 sin f = 0.9, f increasing on the branch of the guess (elbow up).
+/// ground, 0.5 + 0.45 sin a + 0.4 sin f = 0.9, f increasing on the IK solution of the guess (elbow
+/// up).
 TEST(Mobile, ArmFollowsFromHeights) {
   const Problem problem = load_problem("mobile/push");
   PostureEvaluator model(problem, false);
@@ -73,9 +74,9 @@ TEST(Mobile, ArmFollowsFromHeights) {
   }
 }
 
-/// Elbow and wrist of a heave follow at its start: at the default of other tasks, zero, the
+/// Elbow and wrist of an impulse follow at its start: at the default of other tasks, zero, the
 /// stretched arm would be singular.
-TEST(Mobile, AHeaveFollowsFromItsStart) {
+TEST(Mobile, AImpulseFollowsFromItsStart) {
   TemporaryFolder folder;
   const auto shipped = std::filesystem::path(MAXWRENCH_SOURCE_DIR) / "problems" / "mobile";
   std::string text = read_text(shipped / "push.toml");
@@ -88,19 +89,20 @@ TEST(Mobile, AHeaveFollowsFromItsStart) {
           "start = { theta_r = [0.5, -1.2] }");
   replace("default = [0, -1]\n", "");
   replace("rover.toml", (shipped / "rover.toml").string());
-  std::ofstream(folder.path() / "heave.toml") << text;
-  const Problem problem = load_problem((folder.path() / "heave.toml").string());
+  std::ofstream(folder.path() / "impulse.toml") << text;
+  const Problem problem = load_problem((folder.path() / "impulse.toml").string());
   EXPECT_EQ(problem.theta_r_default, Eigen::Vector2d(0.5, -1.2));
-  PlanEvaluator evaluator(problem, Wrench::kPure, plan_solvers().front().make);
-  const Plan& plan = evaluator.evaluate(problem.theta_r_default.transpose().replicate(4, 1));
-  ASSERT_EQ(plan.status, Status::kOptimal) << plan.reason.c_str();
+  TrajectoryEvaluator evaluator(problem, Wrench::kPure, trajectory_solvers().front().make);
+  const Trajectory& trajectory =
+      evaluator.evaluate(problem.theta_r_default.transpose().replicate(4, 1));
+  ASSERT_EQ(trajectory.status, Status::kOptimal) << trajectory.reason.c_str();
   // At rest throughout, no effort rates: the static capability.
   PostureEvaluator model(problem);
   WrenchProgram program = make_wrench_program(problem, Wrench::kPure);
   set_posture(model.evaluate(problem.theta_r_default), program);
   const std::optional<double> best = brute_force(program);
   ASSERT_TRUE(best);
-  EXPECT_NEAR(plan.value, *best, 1e-7 * *best);
+  EXPECT_NEAR(trajectory.value, *best, 1e-7 * *best);
 }
 
 /// The ground carries the weight: it loads the arm's joints and no axis of the base.
@@ -185,7 +187,7 @@ TEST(Mobile, DoorPushedAnywhereTakesAllThatTheWheelsGive) {
   EXPECT_GE(row.capability.beta, 0.999 * most);
 }
 
-/// Two wheels cannot hold the base in all its axes: what divides by B refuses, the polytope does
+/// Two wheels cannot hold the base in all its axes: what divides by B rejects, the polytope does
 /// not.
 TEST(Mobile, TwoWheelsAreRankDeficient) {
   Problem problem = load_problem("mobile/push");
@@ -197,12 +199,12 @@ TEST(Mobile, TwoWheelsAreRankDeficient) {
   const Eigen::VectorXd theta_r = problem.theta_r_default;
   for (const char* measure : {"ellipsoid", "l2_polytope"}) {
     c.measure = measure;
-    c.lp.clear();
+    c.solver.clear();
     EXPECT_THROW(evaluate(problem, theta_r, {c}), std::invalid_argument) << measure;
   }
   c.measure = "linf_polytope";
   c.wrench = Wrench::kAny;
-  c.lp = "simplex";
+  c.solver = "simplex";
   EXPECT_EQ(evaluate(problem, theta_r, {c}).status, Status::kOptimal);
 }
 

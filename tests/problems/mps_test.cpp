@@ -109,7 +109,7 @@ TEST(Mps, ReadingIsSilent) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-TEST(Mps, BadFilesAreRefusedByName) {
+TEST(Mps, BadFilesAreRejectedByName) {
   const std::string head = "NAME X FREE\nROWS\n N COST\n L R1\nCOLUMNS\n X COST 1 R1 1\n";
   const std::vector<std::pair<std::string, std::string>> bad = {
       {"", "ENDATA"},

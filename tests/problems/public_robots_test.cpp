@@ -33,25 +33,25 @@ class PublicRobots : public testing::Test {
 /// Both have eight solutions where six joints follow: three parallel axes (UR10), and the last of
 /// the Panda's joints fixed, which leaves a spherical shoulder.
 TEST_F(PublicRobots, HaveEightSolutions) {
-  EXPECT_EQ(load("ur10/push.toml").atlas->solutions(), 8);
-  EXPECT_EQ(load("panda/push.toml").atlas->solutions(), 8);
+  EXPECT_EQ(load("ur10/push.toml").start_system->solutions(), 8);
+  EXPECT_EQ(load("panda/push.toml").start_system->solutions(), 8);
 }
 
-TEST_F(PublicRobots, BranchesAreAllThatRandomStartsFind) {
+TEST_F(PublicRobots, IkSolutionsAreAllThatRandomStartsFind) {
   constexpr int kMany = std::max(50, samples(200));
   expect_complete(load("ur10/mob_ok.toml"), kMany, kMany, kMany);
   expect_complete(load("panda/push.toml"), kMany, kMany, kMany);
 }
 
 /// Pushing forwards each wheel gives 150 N along its roller at 45 degrees, 600/sqrt 2 N in sum; the
-/// branch near the guess bends the arm so that a joint gives way at 323 N.
-TEST_F(PublicRobots, SLOW_TheWheelsLimitThePushOfTheBestBranch) {
+/// IK solution near the guess bends the arm so that a joint gives way at 323 N.
+TEST_F(PublicRobots, SLOW_TheWheelsLimitThePushOfTheBestIkSolution) {
   const Problem problem = load("ur10/mob_ok.toml");
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const Answer row = search(problem, seed);
     EXPECT_LE(row.capability.beta, 600 / std::sqrt(2) * (1 + 1e-9));
     EXPECT_GT(row.capability.beta, 600 / std::sqrt(2) * (1 - 1e-6));
-    EXPECT_EQ(row.branches.most, 4);
+    EXPECT_EQ(row.ik_solutions.most, 4);
   }
 }
 

@@ -76,7 +76,7 @@ const std::vector<BadState> kBadStates = {
 
 class BadStateTest : public testing::TestWithParam<BadState> {};
 
-TEST_P(BadStateTest, IsRefusedInOneLineThatNamesFileKeyAndValue) {
+TEST_P(BadStateTest, IsRejectedInOneLineThatNamesFileKeyAndValue) {
   std::string text = kGood;
   const std::size_t at = text.find(GetParam().from);
   ASSERT_NE(at, std::string::npos);
@@ -98,7 +98,7 @@ TEST_P(BadStateTest, IsRefusedInOneLineThatNamesFileKeyAndValue) {
 INSTANTIATE_TEST_SUITE_P(Loader, BadStateTest, testing::ValuesIn(kBadStates),
                          [](const auto& test) { return std::string(test.param.name); });
 
-TEST(State, MissingFileIsRefused) {
+TEST(State, MissingFileIsRejected) {
   const Robot robot = load_problem("planar/force").robot;
   EXPECT_THROW(load_state("no/such/state.toml", robot), std::invalid_argument);
 }

@@ -52,7 +52,7 @@ TEST_F(Uvms, ActuatorsHaveThePapersLimits) {
   EXPECT_EQ(robot.actuation.u_min.tail(4), -Eigen::Vector4d(9, 9, 9, 2));
   EXPECT_TRUE((robot.u_rate_max.head(8).array() == 50).all());
   EXPECT_TRUE((robot.u_rate_max.tail(4).array() == kInfinity).all());
-  // Heave: each of four vertical thrusters pushes the vehicle down at positive thrust.
+  // Impulse: each of four vertical thrusters pushes the vehicle down at positive thrust.
   EXPECT_EQ(robot.actuation.B.row(2).head(8),
             (Eigen::VectorXd(8) << 0, 0, 0, 0, -1, -1, -1, -1).finished().transpose());
 }
@@ -72,13 +72,13 @@ TEST_F(Uvms, EveryBlockKeepsItsSource) {
 /// 0.065 kg of buoyancy are left, which the thrusters hold down with 0.636 N.
 TEST_F(Uvms, TrimLeavesLittleBuoyancy) {
   const Robot& robot = valve_.robot;
-  double mass = 0, displaced = 0;
+  double mass = 0, deflection_error = 0;
   for (const Link& link : robot.links) {
     mass += link.mass;
-    displaced += robot.water_density * link.volume;
+    deflection_error += robot.water_density * link.volume;
   }
   EXPECT_NEAR(mass, 15.77, 1e-12);
-  EXPECT_NEAR(displaced + robot.trim.buoyancy_mass - mass, 0.065, 5e-4);
+  EXPECT_NEAR(deflection_error + robot.trim.buoyancy_mass - mass, 0.065, 5e-4);
   PostureEvaluator model(valve_);
   const Posture& posture = model.evaluate(valve_.theta_r_default);
   EXPECT_NEAR(posture.tau_d[2], -(998 * 0.01505696 + 0.808 - 15.77) * 9.81, 1e-11);

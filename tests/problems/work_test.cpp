@@ -87,7 +87,7 @@ const std::vector<BadInput> kIdleWrenches = {
 
 class IdleWrench : public testing::TestWithParam<BadInput> {};
 
-TEST_P(IdleWrench, IsRefused) { expect_refused(GetParam()); }
+TEST_P(IdleWrench, IsRejected) { expect_rejected(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(Work, IdleWrench, testing::ValuesIn(kIdleWrenches),
                          [](const auto& test) { return std::string(test.param.name); });
@@ -115,7 +115,7 @@ const std::vector<BadInput> kIdleContacts = {
 
 class IdleContact : public testing::TestWithParam<BadInput> {};
 
-TEST_P(IdleContact, IsRefused) { expect_refused(GetParam(), "planar/two_arms"); }
+TEST_P(IdleContact, IsRejected) { expect_rejected(GetParam(), "planar/two_arms"); }
 
 INSTANTIATE_TEST_SUITE_P(Work, IdleContact, testing::ValuesIn(kIdleContacts),
                          [](const auto& test) { return std::string(test.param.name); });

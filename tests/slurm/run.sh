@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# run.sh MAXWRENCH [PLAN]: a plan in 4 parts on a Slurm of one node, which this starts and ends itself, as plain daemons. The process of one part is killed
+# run.sh MAXWRENCH [PLAN]: a suite in 4 parts on a Slurm of one node, which this starts and ends itself, as plain daemons. The process of one part is killed
 # once. The merged rows must be those of one machine, byte for byte.
 set -euo pipefail
 [ "$(id -u)" -eq 0 ] || { echo "skipped: Slurm's daemons need root"; exit 0; }
 command=$(realpath "$1")
 here=$(cd "$(dirname "$0")" && pwd)
 slurm=$here/../../benchmarks/slurm
-plan=$(realpath "${2:-$here/plan.toml}")
+suite=$(realpath "${2:-$here/suite.toml}")
 work=$(mktemp -d)
-chmod 755 "$work"  # munge refuses a socket that not all can reach
+chmod 755 "$work"  # munge rejects a socket that not all can reach
 daemons=()
 
 # end_daemons: by word, and after ten seconds by force, since a daemon that waits for another one may never go.
@@ -111,8 +111,8 @@ start slurmctld -D
 start slurmd -D
 wait_for 60 node_is_idle
 
-"$slurm/submit.sh" "$plan" "$work/out" 4
-"$command" run "$plan" --threads 2 --out "$work/one" > "$work/one.log" || [ $? -eq 1 ]  # some row has no value
+"$slurm/submit.sh" "$suite" "$work/out" 4
+"$command" run "$suite" --threads 2 --out "$work/one" > "$work/one.log" || [ $? -eq 1 ]  # some row has no value
 wait_for 5400 queue_is_empty
 [ -s "$work/died" ] || { echo "part 2 was not killed" >&2; exit 1; }
 cmp "$work/one/values.csv.gz" "$work/out/values.csv.gz"

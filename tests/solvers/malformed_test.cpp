@@ -117,7 +117,7 @@ TEST(Malformed, WhatLeavesTheRangeOfDoublesHasNoValueWithoutEnd) {
 }
 
 /// A point that is none, of the right size or another: whoever asks made a mistake.
-TEST(Malformed, ObjectivesRefuseThePoint) {
+TEST(Malformed, ObjectivesRejectThePoint) {
   for (const char* name :
        {"planar/force", "mobile/push_any_height", "planar/two_arms", "planar/trajectory"}) {
     SCOPED_TRACE(name);
@@ -215,44 +215,44 @@ TEST(Malformed, MeasuresOfOnesOwnGetAClearedCapability) {
   EXPECT_EQ(capability.beta, 0);
 }
 
-TEST(Malformed, PlanSolversGiveNoVerdict) {
+TEST(Malformed, TrajectorySolversGiveNoVerdict) {
   const Problem problem = load_problem("uvms/valve");
   Random random(4);
-  PlanRecipe recipe;
+  TrajectoryRecipe recipe;
   recipe.border = 2;
   for (const bool bordered : {false, true}) {
     recipe.border = bordered ? 2 : 0;
-    const PlanProgram good = random_plan(problem, recipe, random);
+    const TrajectoryProgram good = random_trajectory(problem, recipe, random);
     ASSERT_TRUE(well_formed(good));
-    std::vector<std::function<void(PlanProgram&)>> all;
+    std::vector<std::function<void(TrajectoryProgram&)>> all;
     for (const auto& spoil : spoilers(good.instants[1])) {
-      all.emplace_back([spoil](PlanProgram& p) { spoil(p.instants[1]); });
+      all.emplace_back([spoil](TrajectoryProgram& p) { spoil(p.instants[1]); });
     }
     for (const double x : {kNaN, kInfinity}) {
-      all.emplace_back([x](PlanProgram& p) { p.first_min[0] = x; });
-      all.emplace_back([x](PlanProgram& p) { p.first_max[1] = -x; });
-      all.emplace_back([x](PlanProgram& p) { p.du_max(0, 1) = -x; });
-      all.emplace_back([x](PlanProgram& p) { p.rho = -x; });
+      all.emplace_back([x](TrajectoryProgram& p) { p.first_min[0] = x; });
+      all.emplace_back([x](TrajectoryProgram& p) { p.first_max[1] = -x; });
+      all.emplace_back([x](TrajectoryProgram& p) { p.du_max(0, 1) = -x; });
+      all.emplace_back([x](TrajectoryProgram& p) { p.rho = -x; });
       if (!bordered) continue;
-      all.emplace_back([x](PlanProgram& p) { p.y_min[0] = x; });
-      all.emplace_back([x](PlanProgram& p) { p.y_max[0] = -x; });
-      all.emplace_back([x](PlanProgram& p) { p.G[2](1, 1) = x; });
-      all.emplace_back([x](PlanProgram& p) { p.R.coeffRef(0, 0) = x; });
-      all.emplace_back([x](PlanProgram& p) { p.r_max[0] = -x; });
+      all.emplace_back([x](TrajectoryProgram& p) { p.y_min[0] = x; });
+      all.emplace_back([x](TrajectoryProgram& p) { p.y_max[0] = -x; });
+      all.emplace_back([x](TrajectoryProgram& p) { p.G[2](1, 1) = x; });
+      all.emplace_back([x](TrajectoryProgram& p) { p.R.coeffRef(0, 0) = x; });
+      all.emplace_back([x](TrajectoryProgram& p) { p.r_max[0] = -x; });
     }
-    all.emplace_back([](PlanProgram& p) { p.instants.clear(); });
-    all.emplace_back([](PlanProgram& p) { p.peak = p.size(); });
-    all.emplace_back([](PlanProgram& p) { p.du_max.resize(0, 0); });
-    for (const PlanSolverEntry& entry : plan_solvers()) {
+    all.emplace_back([](TrajectoryProgram& p) { p.instants.clear(); });
+    all.emplace_back([](TrajectoryProgram& p) { p.peak = p.size(); });
+    all.emplace_back([](TrajectoryProgram& p) { p.du_max.resize(0, 0); });
+    for (const TrajectorySolverEntry& entry : trajectory_solvers()) {
       SCOPED_TRACE(entry.name);
       const auto solver = entry.make();
-      PlanSolution solution;
+      TrajectorySolution solution;
       solver->solve(good, solution);
       const Status status = solution.status;
       const double value = solution.value;
       EXPECT_TRUE(status == Status::kOptimal || status == Status::kInfeasible);
       for (std::size_t i = 0; i < all.size(); ++i) {
-        PlanProgram program = good;
+        TrajectoryProgram program = good;
         all[i](program);
         EXPECT_FALSE(well_formed(program)) << i;
         solver->solve(program, solution);
@@ -292,7 +292,7 @@ TEST(Malformed, LpSolversGiveNoVerdict) {
   }
 }
 
-TEST(Malformed, ZonotopesRefuseIt) {
+TEST(Malformed, ZonotopesRejectIt) {
   const Eigen::VectorXd low = Eigen::VectorXd::Constant(2, -1), high = -low;
   EXPECT_NO_THROW(make_zonotope(Eigen::MatrixXd::Identity(2, 2), low, high));
   for (const double x : {kNaN, kInfinity, -kInfinity}) {

@@ -17,7 +17,7 @@ struct BadInput {
 
 inline void PrintTo(const BadInput& input, std::ostream* out) { *out << input.name; }
 
-/// The loader must refuse it in one line that names file, key and value, and print nothing.
-void expect_refused(const BadInput& input, const std::string& problem = "planar/force");
+/// The loader must reject it in one line that names file, key and value, and print nothing.
+void expect_rejected(const BadInput& input, const std::string& problem = "planar/force");
 
 }  // namespace maxwrench

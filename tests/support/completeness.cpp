@@ -97,17 +97,17 @@ class RandomNewton {
   Vector6N error_;
 };
 
-/// Whether base and joints are those of one of the branches, up to whole turns.
-bool is_listed(const Problem& problem, const Branches& branches, const Eigen::Vector4d& base,
+/// Whether base and joints are those of one of the IK solutions, up to whole turns.
+bool is_listed(const Problem& problem, const IkSolver& ik_solutions, const Eigen::Vector4d& base,
                const Eigen::VectorXd& q) {
-  const ToolChain& chain = branches.atlas().chain();
+  const ToolChain& chain = ik_solutions.start_system().chain();
   Six<double> y{};
   for (int i = 0; i < chain.unknowns(); ++i) {
     const int z = chain.place_in_z(i);
     y[static_cast<std::size_t>(i)] = z < 4 ? base[z] : q[z - 4];
   }
-  for (int i = 0; i < branches.count(); ++i) {
-    if (apart(chain, branches.y(i), y) < 1e-4) return true;
+  for (int i = 0; i < ik_solutions.count(); ++i) {
+    if (apart(chain, ik_solutions.y(i), y) < 1e-4) return true;
   }
   return problem.dependent.empty();
 }
@@ -115,20 +115,20 @@ bool is_listed(const Problem& problem, const Branches& branches, const Eigen::Ve
 }  // namespace
 
 void expect_complete(const Problem& problem, int places, int starts, int least_found) {
-  const auto atlas = std::make_shared<const BranchAtlas>(problem);
-  ASSERT_TRUE(atlas->reaches());
-  Branches branches(atlas);
+  const auto start_system = std::make_shared<const IkStartSystem>(problem);
+  ASSERT_TRUE(start_system->reaches());
+  IkSolver ik_solutions(start_system);
   RandomNewton newton(problem);
   Random random(1);
   int found = 0;
   for (int place = 0; place < places; ++place) {
     const Eigen::VectorXd theta_r = random_theta_r(problem, random);
-    branches.solve(theta_r);
-    ASSERT_TRUE(branches.complete()) << theta_r.transpose();
+    ik_solutions.solve(theta_r);
+    ASSERT_TRUE(ik_solutions.complete()) << theta_r.transpose();
     for (int start = 0; start < starts; ++start) {
       if (!newton.run(theta_r, random)) continue;
       ++found;
-      ASSERT_TRUE(is_listed(problem, branches, newton.base, newton.q))
+      ASSERT_TRUE(is_listed(problem, ik_solutions, newton.base, newton.q))
           << theta_r.transpose() << " has " << newton.q.transpose();
     }
   }

@@ -73,12 +73,12 @@ double pose_error(const Problem& problem, const Posture& posture) {
   return std::max((pose.p - problem.pose.p).norm(), (pose.R - problem.pose.R).norm());
 }
 
-const Posture& nearest_branch(PostureEvaluator& model, const Eigen::VectorXd& theta_r,
-                              const Eigen::VectorXd& q) {
+const Posture& nearest_ik_solution(PostureEvaluator& model, const Eigen::VectorXd& theta_r,
+                                   const Eigen::VectorXd& q) {
   model.evaluate(theta_r);
   int nearest = -1;
   double least = kInfinity;
-  for (int i = 0; i < model.branches(); ++i) {
+  for (int i = 0; i < model.ik_solutions(); ++i) {
     const double away = (model.select(i).q - q).norm();
     if (away >= least) continue;
     least = away;

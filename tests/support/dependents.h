@@ -26,7 +26,7 @@ Problem four_bars();
 double pose_error(const Problem& problem, const Posture& posture);
 
 /// Of the postures at theta_r, that whose joints are nearest to q.
-const Posture& nearest_branch(PostureEvaluator& model, const Eigen::VectorXd& theta_r,
-                              const Eigen::VectorXd& q);
+const Posture& nearest_ik_solution(PostureEvaluator& model, const Eigen::VectorXd& theta_r,
+                                   const Eigen::VectorXd& q);
 
 }  // namespace maxwrench

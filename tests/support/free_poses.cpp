@@ -15,7 +15,7 @@ Problem with_free_pose(Problem problem, const FreePose& free) {
   insert(0.3, problem.theta_r_max);
   insert(0, problem.theta_r_default);
   problem.free = free;
-  problem.atlas.reset();
+  problem.start_system.reset();
   return problem;
 }
 

@@ -68,13 +68,13 @@ PostureSource::PostureSource(const Problem& problem, const std::string& measure)
       model_(problem),
       program_(make_wrench_program(problem, Wrench::kPure)),
       measure_(find_measure(measure).make(
-          problem, find_wrench_solver(problem.contact ? "box" : "facets").make())) {}
+          problem, find_wrench_solver(problem.contact ? "condensed" : "facets").make())) {}
 
 const ValuedPosture* PostureSource::draw(Random& random) {
   model_.evaluate(random_theta_r(problem_, random));
-  if (model_.branches() == 0) return nullptr;
-  const auto branch = static_cast<int>(random.uniform(0, model_.branches()));
-  const Posture& posture = model_.select(branch);
+  if (model_.ik_solutions() == 0) return nullptr;
+  const auto ik_solution = static_cast<int>(random.uniform(0, model_.ik_solutions()));
+  const Posture& posture = model_.select(ik_solution);
   set_posture(posture, program_);
   measure_->evaluate(posture, program_, true, capability_);
   if (capability_.status != Status::kOptimal) return nullptr;

@@ -42,7 +42,7 @@ struct ValuedPosture {
   double value = -kInfinity;
 };
 
-/// Draws postures of a problem, which outlives it, in all branches.
+/// Draws postures of a problem, which outlives it, in all IK solutions.
 class PostureSource {
  public:
   PostureSource(const Problem& problem, const std::string& measure);

@@ -14,7 +14,7 @@ namespace maxwrench {
 
 /// top - the distance to the nearest peak, the largest coordinate of the difference; where `turns`,
 /// around the corner too.
-struct Hills {
+struct Multimodal {
   Eigen::VectorXd lower, upper;
   std::vector<Eigen::VectorXd> peaks;
   double top = 1;
@@ -43,39 +43,41 @@ struct Hills {
   }
 };
 
-class HillsObjective final : public Objective {
+class MultimodalObjective final : public Objective {
  public:
-  explicit HillsObjective(const Hills& hills) : hills_(hills) {
+  explicit MultimodalObjective(const Multimodal& multimodal) : multimodal_(multimodal) {
     verdict_.conclude(Status::kOptimal);
   }
-  const Eigen::VectorXd& lower() const override { return hills_.lower; }
-  const Eigen::VectorXd& upper() const override { return hills_.upper; }
+  const Eigen::VectorXd& lower() const override { return multimodal_.lower; }
+  const Eigen::VectorXd& upper() const override { return multimodal_.upper; }
   double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* /*gradient*/) override {
-    return hills_.highest(x, x);
+    return multimodal_.highest(x, x);
   }
   const Verdict& verdict() const override { return verdict_; }
   std::unique_ptr<Objective> clone() const override {
-    return std::make_unique<HillsObjective>(hills_);
+    return std::make_unique<MultimodalObjective>(multimodal_);
   }
 
  private:
-  const Hills& hills_;
+  const Multimodal& multimodal_;
   Verdict verdict_;
 };
 
-class HillsBound final : public Bound {
+class MultimodalBound final : public Bound {
  public:
-  explicit HillsBound(const Hills& hills) : hills_(hills) {}
-  double ceiling() const override { return std::abs(hills_.top) + 4; }
+  explicit MultimodalBound(const Multimodal& multimodal) : multimodal_(multimodal) {}
+  double ceiling() const override { return std::abs(multimodal_.top) + 4; }
   void evaluate(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double /*low*/,
                 double high, BoxProof& proof) override {
     proof.kind = BoxProof::Kind::kMultiplier;
-    proof.high = std::min(high, hills_.highest(lower, upper));
+    proof.high = std::min(high, multimodal_.highest(lower, upper));
   }
-  std::unique_ptr<Bound> clone() const override { return std::make_unique<HillsBound>(hills_); }
+  std::unique_ptr<Bound> clone() const override {
+    return std::make_unique<MultimodalBound>(multimodal_);
+  }
 
  private:
-  const Hills& hills_;
+  const Multimodal& multimodal_;
 };
 
 }  // namespace maxwrench

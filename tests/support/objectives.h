@@ -30,10 +30,10 @@ class Interruption {
   std::atomic<long> left_;
 };
 
-/// Plans within other bounds.
-class OtherBounds final : public PlanObjective {
+/// Trajectories within other bounds.
+class OtherBounds final : public TrajectoryObjective {
  public:
-  OtherBounds(std::unique_ptr<PlanObjective> objective, Eigen::VectorXd lower,
+  OtherBounds(std::unique_ptr<TrajectoryObjective> objective, Eigen::VectorXd lower,
               Eigen::VectorXd upper)
       : objective_(std::move(objective)), lower_(std::move(lower)), upper_(std::move(upper)) {}
 
@@ -41,20 +41,20 @@ class OtherBounds final : public PlanObjective {
   const Eigen::VectorXd& upper() const override { return upper_; }
   const Verdict& verdict() const override { return objective_->verdict(); }
   const KnotRows* rows() const override { return objective_->rows(); }
-  PlanEvaluator& plans() override { return objective_->plans(); }
-  PlanValue counts() const override { return objective_->counts(); }
+  TrajectoryEvaluator& trajectories() override { return objective_->trajectories(); }
+  TrajectoryValue counts() const override { return objective_->counts(); }
   double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* gradient) override {
     return objective_->evaluate(x, gradient);
   }
   double evaluate_throughout(const Eigen::VectorXd& x, double at_instants) override {
     return objective_->evaluate_throughout(x, at_instants);
   }
-  std::unique_ptr<PlanObjective> copy(PlanValue counts) const override {
+  std::unique_ptr<TrajectoryObjective> copy(TrajectoryValue counts) const override {
     return std::make_unique<OtherBounds>(objective_->copy(counts), lower_, upper_);
   }
 
  private:
-  std::unique_ptr<PlanObjective> objective_;
+  std::unique_ptr<TrajectoryObjective> objective_;
   Eigen::VectorXd lower_, upper_;
 };
 

@@ -10,10 +10,10 @@ namespace maxwrench {
 /// Expects std::invalid_argument with one line that names the key first, then what it got and what
 /// was expected.
 template <class Call>
-void expect_refused(const char* key, const Call& call) {
+void expect_rejected(const char* key, const Call& call) {
   try {
     call();
-    ADD_FAILURE() << key << ": not refused";
+    ADD_FAILURE() << key << ": not rejected";
   } catch (const std::invalid_argument& error) {
     const std::string line = error.what();
     EXPECT_EQ(line.find(key), 0U) << line;

@@ -13,16 +13,16 @@ Eigen::VectorXd any_theta_r(const Problem& problem, Random& random) {
   return theta_r;
 }
 
-PlanProgram empty_plan(const Problem& problem, int instants) {
+TrajectoryProgram empty_trajectory(const Problem& problem, int instants) {
   const Zonotope& set = problem.robot.actuation;
-  PlanProgram program;
+  TrajectoryProgram program;
   program.first_min = set.u_min;
   program.first_max = set.u_max;
   program.du_max = Eigen::MatrixXd::Constant(set.actuators(), instants - 1, kInfinity);
   return program;
 }
 
-void add_border(const Problem& problem, int p, Random& random, PlanProgram& program) {
+void add_border(const Problem& problem, int p, Random& random, TrajectoryProgram& program) {
   const int n = problem.robot.velocities();
   for (int i = 0; i < program.size(); ++i) {
     program.G.push_back(
@@ -42,8 +42,9 @@ void add_border(const Problem& problem, int p, Random& random, PlanProgram& prog
 
 }  // namespace
 
-PlanProgram random_plan(const Problem& problem, const PlanRecipe& recipe, Random& random) {
-  PlanProgram program = empty_plan(problem, recipe.instants);
+TrajectoryProgram random_trajectory(const Problem& problem, const TrajectoryRecipe& recipe,
+                                    Random& random) {
+  TrajectoryProgram program = empty_trajectory(problem, recipe.instants);
   const Zonotope& set = problem.robot.actuation;
   WrenchProgram at = make_wrench_program(problem, recipe.wrench);
   PostureEvaluator model(problem, false);

@@ -4,12 +4,12 @@
 #include "maxwrench/problem.h"
 #include "maxwrench/trajectory_program.h"
 
-// Programs of plans, for tests and benchmarks.
+// Programs of trajectories, for tests and benchmarks.
 
 namespace maxwrench {
 
-/// What a random plan program is made of.
-struct PlanRecipe {
+/// What a random trajectory program is made of.
+struct TrajectoryRecipe {
   int instants = 3;
   Wrench wrench = Wrench::kPure;
   bool rates = true;
@@ -21,6 +21,7 @@ struct PlanRecipe {
 };
 
 /// Instants at random postures of `problem` (which outlives it), tau_d perturbed.
-PlanProgram random_plan(const Problem& problem, const PlanRecipe& recipe, Random& random);
+TrajectoryProgram random_trajectory(const Problem& problem, const TrajectoryRecipe& recipe,
+                                    Random& random);
 
 }  // namespace maxwrench

@@ -35,8 +35,8 @@ WrittenProof::WrittenProof(const char* name, const char* measure, Wrench wrench,
   proof = recorder.certificate(row, result, gap);
 }
 
-std::string WrittenProof::refusal(const ProofCertificate& of) const {
-  return verify(problem, of, 1).refusal;
+std::string WrittenProof::rejection(const ProofCertificate& of) const {
+  return verify(problem, of, 1).rejection;
 }
 
 }  // namespace maxwrench

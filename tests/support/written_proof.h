@@ -17,7 +17,7 @@ struct WrittenProof {
   WrittenProof(const WrittenProof&) = delete;
 
   /// Why `verify` does not accept a certificate of the problem; empty if it does.
-  std::string refusal(const ProofCertificate& of) const;
+  std::string rejection(const ProofCertificate& of) const;
 };
 
 }  // namespace maxwrench

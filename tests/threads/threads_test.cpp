@@ -51,7 +51,7 @@ TEST(Threads, ParallelForCallsEachOnceAndWhatFollowsSeesIt) {
   }
 }
 
-/// A posture in the virtual tank, and a heave.
+/// A posture in the virtual tank, and an impulse.
 TEST(Threads, ShareTheTank) {
   for (const char* name : {"fixed/push", "uvms/valve_impulse"}) {
     const Problem problem = load_problem(name);
@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(All, ThreadsInSearch,
                            return name;
                          });
 
-/// uvms/valve has self-collision of boxes and capsules, dual_arm/bar_wall branches that are
+/// uvms/valve has self-collision of boxes and capsules, dual_arm/bar_wall IK solutions that are
 /// counted.
 TEST_P(ThreadsInSearch, FindsTheSame) {
   for (const char* name : {"uvms/valve", "dual_arm/bar_wall"}) {
@@ -93,7 +93,7 @@ TEST_P(ThreadsInSearch, FindsTheSame) {
                  many = solve(problem, {method.choice, kThreads});
     EXPECT_EQ(one.status, many.status);
     EXPECT_EQ(one.evaluations, many.evaluations);
-    EXPECT_EQ(one.branches.found, many.branches.found);
+    EXPECT_EQ(one.ik_solutions.found, many.ik_solutions.found);
     if (one.has_value()) {
       EXPECT_EQ(one.posture.theta_r, many.posture.theta_r);
     }
@@ -125,23 +125,25 @@ TEST(Threads, CertifyProvesTheSame) {
   const Answer row = evaluate(problem, many.best.theta_r, {method.choice});
   const ProofCertificate proof = recorder.certificate(row, many, options.gap);
   const Verification verified = verify(problem, proof, kThreads);
-  EXPECT_EQ(verified.refusal, "");
+  EXPECT_EQ(verified.rejection, "");
   EXPECT_EQ(verified.boxes, many.boxes);
 }
 
-class ThreadsInSearchOfPlans : public testing::TestWithParam<SearchEntry> {};
+class ThreadsInSearchOfTrajectories : public testing::TestWithParam<SearchEntry> {};
 
-INSTANTIATE_TEST_SUITE_P(All, ThreadsInSearchOfPlans,
-                         testing::ValuesIn(plan_searches().begin(), plan_searches().end()),
+INSTANTIATE_TEST_SUITE_P(All, ThreadsInSearchOfTrajectories,
+                         testing::ValuesIn(trajectory_searches().begin(),
+                                           trajectory_searches().end()),
                          [](const auto& entry) { return std::string(entry.param.name); });
 
-/// A posture, a plan, and one with joints that follow.
-TEST_P(ThreadsInSearchOfPlans, FindsTheSame) {
+/// A posture, a trajectory, and one with joints that follow.
+TEST_P(ThreadsInSearchOfTrajectories, FindsTheSame) {
   for (const char* name : {"uvms/valve", "uvms/valve_trajectory", "mobile/trajectory"}) {
     const Problem problem = load_problem(name);
-    const auto objective = make_plan_objective(problem, Wrench::kPure, plan_solvers().front().make);
+    const auto objective =
+        make_trajectory_objective(problem, Wrench::kPure, trajectory_solvers().front().make);
     SearchOptions options;
-    // slp's climbs side by side need this; joint_nlp has one climb after the other.
+    // slp's local searches side by side need this; joint_nlp has one local search after the other.
     options.budget = std::string_view(GetParam().name) == "joint_nlp" ? 100 : 300;
     options.start = problem.theta_r_default.replicate(knots_of(problem), 1);
     options.threads = 1;
@@ -249,7 +251,7 @@ TEST(Threads, EveryIntegratorServesSeveralAtOnce) {
   for (const IntegratorEntry& entry : integrators()) {
     at_once([&](int) {
       Decay decay;
-      Trajectory trajectory;
+      OdeSolution trajectory;
       const double times[] = {0, 0.5, 1};
       EXPECT_EQ(entry.make()->integrate(decay, {}, times, trajectory), Status::kReached);
       EXPECT_NEAR(trajectory.y.back()[0], std::exp(-1), 1e-5) << entry.name;

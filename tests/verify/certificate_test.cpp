@@ -42,13 +42,13 @@ TEST(Certificate, ReadsWhatIsWritten) {
   const std::string text = certificate_text(at.proof);
   const ProofCertificate read = read_certificate(proof_file(folder, text));
   EXPECT_EQ(certificate_text(read), text);
-  EXPECT_EQ(at.refusal(read), "");
+  EXPECT_EQ(at.rejection(read), "");
   EXPECT_EQ(read.x, at.proof.x);
   EXPECT_EQ(read.bound, at.proof.bound);
 }
 
 /// Any byte that changes, and any end that is missing.
-TEST(Certificate, RefusesDamagedFiles) {
+TEST(Certificate, RejectsDamagedFiles) {
   const WrittenProof at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
   const TemporaryFolder folder;
   const std::string text = certificate_text(at.proof);
@@ -70,7 +70,7 @@ TEST(Certificate, RefusesDamagedFiles) {
 
 /// Nor does a file that is cut off before its checksum pass, one that unpacks to far more than a
 /// proof does, or one with names that write more than a line.
-TEST(Certificate, RefusesHostileFiles) {
+TEST(Certificate, RejectsHostileFiles) {
   const WrittenProof at("planar/force", "linf_polytope", Wrench::kPure, 1e-2);
   const TemporaryFolder folder;
   const std::string text = certificate_text(at.proof);

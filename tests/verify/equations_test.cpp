@@ -78,7 +78,7 @@ ExtendedVector rows_at(const Problem& problem, const LoopPosture& at, int middle
   const auto add = [&](const ExtendedVector& left, const ExtendedVector& right) {
     for (Eigen::Index i = 0; i < left.size(); ++i) rows.push_back(left[i] - right[i]);
   };
-  if (!PostureCoordinates(problem).base_follows) add(at.left(middle), at.right(middle));
+  if (!PostureCoordinates(problem).base_is_dependent) add(at.left(middle), at.right(middle));
   if (problem.contact) add(at.touching(), at.touched());
   return Eigen::Map<const ExtendedVector>(rows.data(), static_cast<Eigen::Index>(rows.size()));
 }

@@ -174,7 +174,7 @@ TEST(WideMatrix, EnclosesAnInverse) {
 }
 
 /// A singular matrix has none.
-TEST(WideMatrix, RefusesSingularMatrices) {
+TEST(WideMatrix, RejectsSingularMatrices) {
   EXPECT_THROW(enclose_inverse(to_wide(Eigen::MatrixXd::Ones(2, 2))), std::invalid_argument);
 }
 

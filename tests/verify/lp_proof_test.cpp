@@ -24,40 +24,40 @@ LpProof proof_of_third() { return {Status::kOptimal, {mpq_class(1, 3), 0}, {mpq_
 
 TEST(LpProof, AnOptimumThatIsNoDouble) {
   const LpProof proof = proof_of_third();
-  EXPECT_EQ(refuse_lp_proof(third(), proof), "");
+  EXPECT_EQ(reject_lp_proof(third(), proof), "");
   EXPECT_EQ(exact_objective(third(), proof.x), mpq_class(1, 3));
 }
 
-TEST(LpProof, OptimaAreRefusedForTheLeastChange) {
+TEST(LpProof, OptimaAreRejectedForTheLeastChange) {
   const mpq_class tiny = mpq_class(1) / (mpz_class(1) << 200);
   LpProof proof = proof_of_third();
   proof.x[0] += tiny;
-  EXPECT_EQ(refuse_lp_proof(third(), proof), "A x = b does not hold");
+  EXPECT_EQ(reject_lp_proof(third(), proof), "A x = b does not hold");
   proof.x[1] -= tiny;  // balanced again, but below zero
-  EXPECT_EQ(refuse_lp_proof(third(), proof), "x leaves a bound");
+  EXPECT_EQ(reject_lp_proof(third(), proof), "x leaves a bound");
   for (const int sign : {-1, 1}) {
     proof = proof_of_third();
     proof.lambda[0] += sign * tiny;
-    EXPECT_EQ(refuse_lp_proof(third(), proof), "a reduced cost improves x");
+    EXPECT_EQ(reject_lp_proof(third(), proof), "a reduced cost improves x");
   }
   proof = proof_of_third();
   proof.x.pop_back();
-  EXPECT_EQ(refuse_lp_proof(third(), proof), "its sizes are not those of the program");
+  EXPECT_EQ(reject_lp_proof(third(), proof), "its sizes are not those of the program");
   proof = proof_of_third();
   proof.status = Status::kBestFound;
-  EXPECT_EQ(refuse_lp_proof(third(), proof), "it is no verdict");
+  EXPECT_EQ(reject_lp_proof(third(), proof), "it is no verdict");
 }
 
 /// x + y = 3 with x, y <= 1: sup of y'A x = 2 < 3. With x, y <= 1.5 they meet.
 TEST(LpProof, Contradictions) {
   const LpProof proof = {Status::kInfeasible, {}, {}, {1}};
-  EXPECT_EQ(refuse_lp_proof(one_row({1, 1}, 3, {0, 0}, {0, 0}, {1, 1}), proof), "");
-  EXPECT_EQ(refuse_lp_proof(one_row({1, 1}, 3, {0, 0}, {0, 0}, {1.5, 1.5}), proof),
+  EXPECT_EQ(reject_lp_proof(one_row({1, 1}, 3, {0, 0}, {0, 0}, {1, 1}), proof), "");
+  EXPECT_EQ(reject_lp_proof(one_row({1, 1}, 3, {0, 0}, {0, 0}, {1.5, 1.5}), proof),
             "y'A x may be y'b");
-  EXPECT_EQ(refuse_lp_proof(one_row({1, 1}, 3, {0, 0}, {0, 0}, {1, 1e20}), proof),
+  EXPECT_EQ(reject_lp_proof(one_row({1, 1}, 3, {0, 0}, {0, 0}, {1, 1e20}), proof),
             "y'A x has no supremum");
   // Bounds that cross are a contradiction, whatever y is.
-  EXPECT_EQ(refuse_lp_proof(one_row({1, 1}, 3, {0, 0}, {0, 2}, {1, 1}),
+  EXPECT_EQ(reject_lp_proof(one_row({1, 1}, 3, {0, 0}, {0, 2}, {1, 1}),
                             {Status::kInfeasible, {}, {}, {0}}),
             "");
 }
@@ -66,14 +66,14 @@ TEST(LpProof, Contradictions) {
 TEST(LpProof, Rays) {
   const LpProof proof = {Status::kUnbounded, {0, 0}, {}, {1, 1}};
   const double none = kInfinity;
-  EXPECT_EQ(refuse_lp_proof(one_row({1, -1}, 0, {1, 1}, {0, 0}, {none, none}), proof), "");
-  EXPECT_EQ(refuse_lp_proof(one_row({1, -1}, 0, {-1, 1}, {0, 0}, {none, none}), proof),
+  EXPECT_EQ(reject_lp_proof(one_row({1, -1}, 0, {1, 1}, {0, 0}, {none, none}), proof), "");
+  EXPECT_EQ(reject_lp_proof(one_row({1, -1}, 0, {-1, 1}, {0, 0}, {none, none}), proof),
             "the ray does not improve");
-  EXPECT_EQ(refuse_lp_proof(one_row({1, -1}, 0, {1, 1}, {0, 0}, {none, 1}), proof),
+  EXPECT_EQ(reject_lp_proof(one_row({1, -1}, 0, {1, 1}, {0, 0}, {none, 1}), proof),
             "the ray leaves a bound");
-  EXPECT_EQ(refuse_lp_proof(one_row({1, 1}, 0, {1, 1}, {0, 0}, {none, none}), proof),
+  EXPECT_EQ(reject_lp_proof(one_row({1, 1}, 0, {1, 1}, {0, 0}, {none, none}), proof),
             "A r = 0 does not hold");
-  EXPECT_EQ(refuse_lp_proof(one_row({1, -1}, 1, {1, 1}, {0, 0}, {none, none}), proof),
+  EXPECT_EQ(reject_lp_proof(one_row({1, -1}, 1, {1, 1}, {0, 0}, {none, none}), proof),
             "A x = b does not hold");
 }
 

@@ -83,7 +83,7 @@ void expect_motions_carried(const Problem& problem) {
 TEST_P(FormModelOf, CarriesMotionsToTheBase) { expect_motions_carried(load_problem(GetParam())); }
 
 /// Joints 2, 4 and 5 do not move the end effector, and so have no part in wrenches at it.
-Problem with_side_branches(Random& random) {
+Problem with_side_ik_solutions(Random& random) {
   Problem problem = random_problem(random, 6);
   std::vector<Joint>& joints = problem.robot.joints;
   joints[2].parent = 1;  // on the link of joint 0
@@ -103,7 +103,7 @@ Problem with_side_branches(Random& random) {
 TEST(FormModel, KnowsAnyTree) {
   Random random(4);
   for (int sample = 0; sample < 5; ++sample) {
-    for (const Problem& problem : {random_problem(random, 4), with_side_branches(random)}) {
+    for (const Problem& problem : {random_problem(random, 4), with_side_ik_solutions(random)}) {
       expect_kinematics(problem);
       expect_motions_carried(problem);
     }
@@ -150,14 +150,14 @@ TEST_P(FormModelOf, HasItsValuesBetweenControlPoints) {
   }
 }
 
-TEST(FormModel, RefusesForcesOfASecondContactAndTasksInTime) {
+TEST(FormModel, RejectsForcesOfASecondContactAndTasksInTime) {
   for (const char* name : {"dual_arm/bar_wall", "uvms/valve_trajectory"}) {
     const Problem problem = load_problem(name);
     EXPECT_THROW(FormModel{problem}, std::invalid_argument) << name;
   }
 }
 
-TEST(BoxForms, RefusesHalfATurn) {
+TEST(BoxForms, RejectsHalfATurn) {
   const FormShape shape({3}, {0});
   BoxForms box(shape);
   EXPECT_TRUE(box.set(Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(1, 3)));

@@ -46,7 +46,7 @@ TEST_P(VerifyShipped, IsVerifiedAtAnyThreadCount) {
   const WrittenProof at(shipped.problem, shipped.measure, shipped.wrench, shipped.gap);
   for (const int threads : {1, 3}) {
     const Verification result = verify(at.problem, at.proof, threads);
-    EXPECT_EQ(result.refusal, "");
+    EXPECT_EQ(result.rejection, "");
     EXPECT_EQ(result.boxes, static_cast<long>(at.proof.tree.nodes.size()));
     const long leaves =
         result.by_multiplier + result.by_collision + result.by_equations + result.by_parent;
@@ -58,7 +58,7 @@ TEST_P(VerifyShipped, IsVerifiedAtAnyThreadCount) {
 TEST(Verify, AcceptsABracket) {
   const WrittenProof at("uvms/lift", "linf_polytope", Wrench::kPure, 1e-3, 500);
   EXPECT_GT(at.proof.gap, 1e-3);
-  EXPECT_EQ(at.refusal(at.proof), "");
+  EXPECT_EQ(at.rejection(at.proof), "");
 }
 
 /// A vehicle without an arm: one posture, and a box of no side.
@@ -81,7 +81,7 @@ TEST(Verify, AcceptsAProofWithoutCoordinates) {
     recorder.add(root);
     CertifyResult result;
     result.bound = std::max(root.low, root.proof.high);
-    EXPECT_EQ(verify(problem, recorder.certificate(row, result, 1e-3), 1).refusal, "");
+    EXPECT_EQ(verify(problem, recorder.certificate(row, result, 1e-3), 1).rejection, "");
   }
 }
 
@@ -164,23 +164,23 @@ class Tampering {
 };
 
 /// 1,000 in all, on four problems. None of them goes through a file, so no checksum helps.
-TEST(Verify, RefusesFalseProofs) {
-  const auto refuse_all = [](const WrittenProof& at, int count) {
-    ASSERT_EQ(at.refusal(at.proof), "");
+TEST(Verify, RejectsFalseProofs) {
+  const auto reject_all = [](const WrittenProof& at, int count) {
+    ASSERT_EQ(at.rejection(at.proof), "");
     Tampering tampering(at, 7);
     for (int i = 0; i < count; ++i) {
       const int way = i % Tampering::kWays;
-      EXPECT_NE(at.refusal(tampering.next(way)), "") << "way " << way << ", tampering " << i;
+      EXPECT_NE(at.rejection(tampering.next(way)), "") << "way " << way << ", tampering " << i;
     }
   };
-  refuse_all({"planar/force", "linf_polytope", Wrench::kPure, 1e-3}, samples(400));
-  refuse_all({"planar/force", "ellipsoid", Wrench::kPure, 1e-2}, samples(400));
-  refuse_all({"mobile/push", "linf_polytope", Wrench::kPure, 1e-2}, samples(160));
-  refuse_all({"uvms/lift", "linf_polytope", Wrench::kPure, 1e-1}, samples(40));
+  reject_all({"planar/force", "linf_polytope", Wrench::kPure, 1e-3}, samples(400));
+  reject_all({"planar/force", "ellipsoid", Wrench::kPure, 1e-2}, samples(400));
+  reject_all({"mobile/push", "linf_polytope", Wrench::kPure, 1e-2}, samples(160));
+  reject_all({"uvms/lift", "linf_polytope", Wrench::kPure, 1e-1}, samples(40));
 }
 
 /// What compares with nothing, or overflows, proves nothing.
-TEST(Verify, RefusesWhatIsNoNumber) {
+TEST(Verify, RejectsWhatIsNoNumber) {
   const WrittenProof at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double x : {nan, kInfinity, -kInfinity, 1e300}) {
@@ -192,17 +192,17 @@ TEST(Verify, RefusesWhatIsNoNumber) {
     bad[4].x[0] = x;
     bad[5].u[0] = x;
     bad[6].upper[0] = std::isnan(x) ? x : -std::abs(x);
-    for (const ProofCertificate& each : bad) EXPECT_NE(at.refusal(each), "") << x;
+    for (const ProofCertificate& each : bad) EXPECT_NE(at.rejection(each), "") << x;
   }
   ProofCertificate narrow = at.proof;
   narrow.tree.width = 0;
   narrow.tree.multipliers.clear();
-  EXPECT_NE(at.refusal(narrow), "");
+  EXPECT_NE(at.rejection(narrow), "");
 }
 
 /// Cut after cut off one corner, a tree as deep as its file is long; no leaf of it has anything to
 /// prove.
-TEST(Verify, RefusesTreesWithoutEnd) {
+TEST(Verify, RejectsTreesWithoutEnd) {
   const WrittenProof at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
   ProofCertificate deep = at.proof;
   deep.bound = 1e30;
@@ -212,52 +212,52 @@ TEST(Verify, RefusesTreesWithoutEnd) {
   cut.axis = 1;
   deep.tree.nodes.assign(kCuts, cut);
   deep.tree.nodes.resize(2 * kCuts + 1);
-  EXPECT_NE(at.refusal(deep).find("too narrow to be cut"), std::string::npos);
+  EXPECT_NE(at.rejection(deep).find("too narrow to be cut"), std::string::npos);
 }
 
-TEST(Verify, RefusesOtherRulesOfCollision) {
+TEST(Verify, RejectsOtherRulesOfCollision) {
   const WrittenProof at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
   ProofCertificate other = at.proof;
   other.collision = false;
-  EXPECT_NE(at.refusal(other), "");
+  EXPECT_NE(at.rejection(other), "");
 }
 
 /// Ten percent more of all efforts reach more, so the old bound is false, whatever the digest says.
-TEST(Verify, RefusesStrongerRobots) {
+TEST(Verify, RejectsStrongerRobots) {
   WrittenProof at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
   at.problem.robot.actuation.u_max *= 1.1;
   at.problem.robot.actuation.u_min *= 1.1;
-  EXPECT_NE(at.refusal(at.proof).find("another robot or task"), std::string::npos);
+  EXPECT_NE(at.rejection(at.proof).find("another robot or task"), std::string::npos);
   at.proof.digest = digest(at.problem);
-  EXPECT_NE(at.refusal(at.proof).find("not excluded"), std::string::npos);
+  EXPECT_NE(at.rejection(at.proof).find("not excluded"), std::string::npos);
 }
 
 /// The value of a posture that is off by what is tolerated, above the bound of all.
-TEST(Verify, RefusesABoundBelowItsValue) {
+TEST(Verify, RejectsABoundBelowItsValue) {
   const WrittenProof at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
   ProofCertificate below = at.proof;
   below.value = std::nextafter(below.bound, kInfinity);
-  EXPECT_NE(at.refusal(below).find("below its value"), std::string::npos);
+  EXPECT_NE(at.rejection(below).find("below its value"), std::string::npos);
 }
 
 /// Postures up to the tolerance of limits count, and each needs its box.
-TEST(Verify, RefusesARootThatLeavesOutALimit) {
+TEST(Verify, RejectsARootThatLeavesOutALimit) {
   for (const char* name : {"planar/force", "dual_arm/bar_alone"}) {
     const WrittenProof at(name, "linf_polytope", Wrench::kPure, 1e-2);
     for (Eigen::Index i = 0; i < at.proof.lower.size(); ++i) {
       if (at.proof.upper[i] - at.proof.lower[i] > 6) continue;  // a whole turn
       ProofCertificate less = at.proof;
       less.lower[i] += 2e-13;
-      EXPECT_NE(at.refusal(less).find("does not contain the limits"), std::string::npos);
+      EXPECT_NE(at.rejection(less).find("does not contain the limits"), std::string::npos);
       less = at.proof;
       less.upper[i] -= 2e-13;
-      EXPECT_NE(at.refusal(less).find("does not contain the limits"), std::string::npos);
+      EXPECT_NE(at.rejection(less).find("does not contain the limits"), std::string::npos);
     }
   }
 }
 
 /// A cut elsewhere than at the middle must be within the box.
-TEST(Verify, RefusesOtherCuts) {
+TEST(Verify, RejectsOtherCuts) {
   const WrittenProof at("mobile/push", "linf_polytope", Wrench::kPure, 1e-2);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const int enough = std::max(2, samples(20));
@@ -269,18 +269,18 @@ TEST(Verify, RefusesOtherCuts) {
     for (const double x : {nan, 1e9, -1e9}) {
       ProofCertificate other = at.proof;
       other.tree.nodes[i].at = x;
-      EXPECT_NE(at.refusal(other), "") << x;
+      EXPECT_NE(at.rejection(other), "") << x;
     }
   }
   EXPECT_EQ(seen, enough);
 }
 
-TEST(Verify, RefusesOtherTasks) {
+TEST(Verify, RejectsOtherTasks) {
   WrittenProof at("planar/force", "linf_polytope", Wrench::kPure, 1e-3);
   at.problem = load_problem("uvms/lift");
-  EXPECT_NE(at.refusal(at.proof), "");
+  EXPECT_NE(at.rejection(at.proof), "");
   at.proof.digest = digest(at.problem);
-  EXPECT_NE(at.refusal(at.proof), "");
+  EXPECT_NE(at.rejection(at.proof), "");
 }
 
 }  // namespace

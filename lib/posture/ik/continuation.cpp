@@ -47,7 +47,7 @@ double largest(const Six<T>& y, int d) {
 }
 
 template <class T>
-void Elimination<T>::factor(const Six<Vector6<T>>& J_d, int d) {
+void PivotedLu<T>::factor(const Six<Vector6<T>>& J_d, int d) {
   d_ = d;
   smallest_ = kInfinity;
   largest_ = 0;
@@ -75,7 +75,7 @@ void Elimination<T>::factor(const Six<Vector6<T>>& J_d, int d) {
 }
 
 template <class T>
-Six<T> Elimination<T>::solve(const Vector6<T>& b) const {
+Six<T> PivotedLu<T>::solve(const Vector6<T>& b) const {
   Six<T> y{};
   for (int i = 0; i < d_; ++i) {
     T sum = b[from_[i]];
@@ -95,18 +95,18 @@ Continuation<T>::Continuation(const ToolChain& chain)
 
 /// theta_r, X and their rates at s.
 template <class T>
-void Continuation<T>::place(const Way<T>& way, double s) {
+void Continuation<T>::place(const HomotopyPath<T>& path, double s) {
   for (int k = 0; k < r_; ++k) {
-    const T length = way.to[k] - way.from[k];
-    theta_r_[k] = way.from[k] + length * s + way.bend[k] * (s * (1 - s));
-    rate_[k] = length + way.bend[k] * (1 - 2 * s);
-    if (s == 1) theta_r_[k] = way.to[k];
+    const T length = path.to[k] - path.from[k];
+    theta_r_[k] = path.from[k] + length * s + path.bend[k] * (s * (1 - s));
+    rate_[k] = length + path.bend[k] * (1 - 2 * s);
+    if (s == 1) theta_r_[k] = path.to[k];
   }
-  if (!way.moves_pose) return;
+  if (!path.moves_pose) return;
   Six<T> y{}, y_rate{};
   for (int i = 0; i < d_; ++i) {
-    y_rate[i] = way.y_to[i] - way.y_from[i];
-    y[i] = s == 1 ? way.y_to[i] : way.y_from[i] + y_rate[i] * s;
+    y_rate[i] = path.y_to[i] - path.y_from[i];
+    y[i] = s == 1 ? path.y_to[i] : path.y_from[i] + y_rate[i] * s;
   }
   chain_.evaluate(theta_r_.data(), y.data(), rate_.data(), y_rate.data(), reference_);
   pose_ = reference_.pose;
@@ -181,10 +181,10 @@ bool Continuation<T>::is_finite(const Six<T>& y) const {
 }
 
 template <class T>
-bool Continuation<T>::follow(const Way<T>& way, Six<T>& y) {
+bool Continuation<T>::track(const HomotopyPath<T>& path, Six<T>& y) {
   twist_.setConstant(T(0.0));
-  pose_ = way.pose;
-  place(way, 0);
+  pose_ = path.pose;
+  place(path, 0);
   linearise(y);
   Six<T> slope = tangent(), before{};
   double s = 0, step = 0.1, last_step = 0;
@@ -196,7 +196,7 @@ bool Continuation<T>::follow(const Way<T>& way, Six<T>& y) {
     for (int j = 0; j < d_; ++j) {
       trial[j] = y[j] + (slope[j] + (slope[j] - before[j]) * curve) * h;
     }
-    place(way, next);
+    place(path, next);
     double first = kInfinity;
     const bool arrived = contract(trial, next == 1, first) && is_finite(trial);
     if (!arrived) {
@@ -243,8 +243,8 @@ bool Continuation<T>::seek(const VectorX<T>& theta_r, const Pose<T>& pose, Six<T
   return false;
 }
 
-template class Elimination<double>;
-template class Elimination<Complex>;
+template class PivotedLu<double>;
+template class PivotedLu<Complex>;
 template class Continuation<double>;
 template class Continuation<Complex>;
 template double largest(const Six<double>&, int);

@@ -6,7 +6,7 @@ namespace maxwrench {
 
 /// J_d y = b for J_d 6×d of full rank and b in its range, by elimination with exchanges of rows.
 template <class T>
-class Elimination {
+class PivotedLu {
  public:
   void factor(const Six<Vector6<T>>& J_d, int d);
   /// Whether a pivot is smaller than this share of the largest.
@@ -24,7 +24,7 @@ class Elimination {
 /// A way of (theta_r, X), 0 <= s <= 1: theta_r(s) = from + s (to - from) + s (1 - s) bend, and X(s)
 /// either stays or is where the end effector is at theta_r(s) and y_from + s (y_to - y_from).
 template <class T>
-struct Way {
+struct HomotopyPath {
   VectorX<T> from, to, bend;
   bool moves_pose = false;
   Pose<T> pose;  ///< unless it moves
@@ -43,7 +43,7 @@ class Continuation {
 
   /// Carries y from s = 0 to 1, to rounding; false if that would need too short steps, as where
   /// solutions meet or go to infinity.
-  bool follow(const Way<T>& way, Six<T>& y);
+  bool track(const HomotopyPath<T>& path, Six<T>& y);
   /// Newton's method at a place, from close by: whether it arrives.
   bool correct(const VectorX<T>& theta_r, const Pose<T>& pose, Six<T>& y);
   /// Newton's method from anywhere.
@@ -52,7 +52,7 @@ class Continuation {
   bool is_singular(double threshold) const { return J_d_.is_singular(threshold); }
 
  private:
-  void place(const Way<T>& way, double s);
+  void place(const HomotopyPath<T>& path, double s);
   double linearise(const Six<T>& y);
   bool contract(Six<T>& y, bool exact, double& first);
   Six<T> tangent();
@@ -65,7 +65,7 @@ class Continuation {
   Pose<T> pose_;
   Vector6<T> twist_, error_;
   ToolState<T> state_, reference_;
-  Elimination<T> J_d_;
+  PivotedLu<T> J_d_;
 };
 
 /// The largest magnitude of a y_i.

@@ -22,11 +22,11 @@ constexpr int kMostPathSteps = 2000;
 int coordinate(int axis) { return std::min(axis, 3); }
 
 /// A share of the way [m; rad] from a pose.
-Pose<double> between(const Pose<double>& start, const Vector6d& way, double share) {
-  const Eigen::Vector3d turn = share * way.tail<3>();
+Pose<double> between(const Pose<double>& start, const Vector6d& path, double share) {
+  const Eigen::Vector3d turn = share * path.tail<3>();
   const double angle = turn.norm();
   Pose<double> pose = start;
-  pose.p += share * way.head<3>();
+  pose.p += share * path.head<3>();
   if (angle > 0) pose.R = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() * start.R;
   return pose;
 }

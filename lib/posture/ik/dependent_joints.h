@@ -22,8 +22,9 @@ inline constexpr const char* kSingularReason = "singular: the dependent joints d
 /// (where coordinates of X are free, that of theta_r_default). At theta_r_default it is found by
 /// Newton's method, damped, from the guess. From there it is carried along the straight line to
 /// theta_r: a step along the tangent, then Newton, which must contract at once, else the step is
-/// halved. So y is a function of theta_r alone, and it stays on the branch of the guess (elbow up
-/// or down). By the implicit function theorem, with J_d and J_r the columns of J for y and theta_r,
+/// halved. So y is a function of theta_r alone, and it stays on the IK solution of the guess (elbow
+/// up or down). By the implicit function theorem, with J_d and J_r the columns of J for y and
+/// theta_r,
 ///
 ///     dy/dtheta_r = -J_d^+ J_r,     J_d 6×d, J_r 6×r.
 ///

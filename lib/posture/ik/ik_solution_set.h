@@ -9,7 +9,7 @@ namespace maxwrench {
 
 /// A place of theta_r and the solutions y there: those that are real, and one of each pair of
 /// conjugate ones.
-struct AtlasNode {
+struct IkSolutionSet {
   Eigen::VectorXd theta_r;
   std::vector<Six<double>> real;
   std::vector<Six<Complex>> pairs;

@@ -10,7 +10,7 @@
 namespace maxwrench {
 namespace {
 
-/// [rad or m] From so near no place of the atlas is looked for.
+/// [rad or m] From so near no place of the start system is looked for.
 constexpr double kNear = 0.2;
 /// How far a way around leads off the real numbers, as a share of its length.
 constexpr double kSidestep = 0.4;
@@ -23,66 +23,67 @@ double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 
 }  // namespace
 
-Branches::Branches(std::shared_ptr<const BranchAtlas> atlas)
-    : atlas_(std::move(atlas)), carrier_(atlas_->chain(), atlas_->pose()) {}
+IkSolver::IkSolver(std::shared_ptr<const IkStartSystem> start_system)
+    : start_system_(std::move(start_system)),
+      tracker_(start_system_->chain(), start_system_->pose()) {}
 
-int Branches::solve(const Eigen::VectorXd& theta_r) {
-  if (!atlas_->reaches()) return 0;
+int IkSolver::solve(const Eigen::VectorXd& theta_r) {
+  if (!start_system_->reaches()) return 0;
   if (node_.theta_r.size() == theta_r.size() && node_.theta_r == theta_r && node_.complete) {
     return count();
   }
   next_.theta_r = theta_r;
-  const AtlasNode& from = nearest(theta_r);
+  const IkSolutionSet& from = nearest(theta_r);
   next_.complete =
-      from.complete && (go_straight(from) || go_around(from, 1) || go_around(from, -1));
-  if (!next_.complete) atlas_->go_from_generic(theta_r, carrier_, next_);
+      from.complete && (track_straight(from) || track_detour(from, 1) || track_detour(from, -1));
+  if (!next_.complete) start_system_->go_from_generic(theta_r, tracker_, next_);
   std::swap(node_, next_);
   if (node_.complete) last_ = node_;
   sort();
   return count();
 }
 
-const AtlasNode& Branches::nearest(const Eigen::VectorXd& theta_r) {
+const IkSolutionSet& IkSolver::nearest(const Eigen::VectorXd& theta_r) {
   double best = last_.complete ? distance(last_.theta_r, theta_r) : kInfinity;
   if (best < kNear) return last_;
   int place = -1;
-  for (int i = 0; i < atlas_->nodes(); ++i) {
-    const double way = distance(atlas_->place(i), theta_r);
-    if (way >= best) continue;
-    best = way;
+  for (int i = 0; i < start_system_->nodes(); ++i) {
+    const double path = distance(start_system_->place(i), theta_r);
+    if (path >= best) continue;
+    best = path;
     place = i;
   }
-  if (place < 0 || !atlas_->node(place).complete) return last_;
-  return atlas_->node(place);
+  if (place < 0 || !start_system_->node(place).complete) return last_;
+  return start_system_->node(place);
 }
 
-bool Branches::go_straight(const AtlasNode& from) {
+bool IkSolver::track_straight(const IkSolutionSet& from) {
   next_.real = from.real;
   next_.pairs = from.pairs;
-  return carrier_.go_straight(from.theta_r, next_);
+  return tracker_.track_straight(from.theta_r, next_);
 }
 
-bool Branches::go_around(const AtlasNode& from, double side) {
-  Way<Complex>& way = carrier_.way();
-  assign(from.theta_r, way.from);
-  assign(next_.theta_r, way.to);
-  for (Eigen::Index k = 0; k < way.bend.size(); ++k) {
-    way.bend[k] = Complex(0, side * 4 * kSidestep * (next_.theta_r[k] - from.theta_r[k]));
+bool IkSolver::track_detour(const IkSolutionSet& from, double side) {
+  HomotopyPath<Complex>& path = tracker_.path();
+  assign(from.theta_r, path.from);
+  assign(next_.theta_r, path.to);
+  for (Eigen::Index k = 0; k < path.bend.size(); ++k) {
+    path.bend[k] = Complex(0, side * 4 * kSidestep * (next_.theta_r[k] - from.theta_r[k]));
   }
-  carrier_.begin();
-  for (const Six<double>& y : from.real) carrier_.carry(complex_of(y));
+  tracker_.begin();
+  for (const Six<double>& y : from.real) tracker_.carry(complex_of(y));
   for (const Six<Complex>& y : from.pairs) {
-    carrier_.carry(y);
+    tracker_.carry(y);
     Six<Complex> conjugate = y;
     for (Complex& y_i : conjugate) y_i.im = -y_i.im;
-    carrier_.carry(conjugate);
+    tracker_.carry(conjugate);
   }
-  return carrier_.finish(atlas_->solutions(), next_);
+  return tracker_.finish(start_system_->solutions(), next_);
 }
 
-void Branches::sort() {
+void IkSolver::sort() {
   // On a lattice, so that rounding rarely changes the order; -pi and pi of an angle are one place.
-  const ToolChain& chain = atlas_->chain();
+  const ToolChain& chain = start_system_->chain();
   const auto place = [&](const Six<double>& y, int i) {
     const double y_i = y[static_cast<std::size_t>(i)];
     const bool wraps = chain.turns(i) && y_i < kEqual - std::numbers::pi;

@@ -7,16 +7,16 @@
 
 namespace maxwrench {
 
-class BranchAtlas;
+class IkStartSystem;
 
 /// Of one thread: all postures that reach the pose at one theta_r after the other. Solutions are
-/// carried from the last theta_r, or from the nearest place of the atlas: real ones along the
-/// straight line, in real numbers; if solutions meet on it, all of them along a complex way around.
-/// Each is exact to rounding, so the list depends on theta_r alone, but for the last digits.
-/// Allocates nothing after the first call near by.
-class Branches {
+/// carried from the last theta_r, or from the nearest place of the start system: real ones along
+/// the straight line, in real numbers; if solutions meet on it, all of them along a complex way
+/// around. Each is exact to rounding, so the list depends on theta_r alone, but for the last
+/// digits. Allocates nothing after the first call near by.
+class IkSolver {
  public:
-  explicit Branches(std::shared_ptr<const BranchAtlas> atlas);
+  explicit IkSolver(std::shared_ptr<const IkStartSystem> start_system);
 
   /// Solves at the joints of theta_r; the number of postures.
   int solve(const Eigen::VectorXd& theta_r);
@@ -25,17 +25,18 @@ class Branches {
   const Six<double>& y(int i) const { return node_.real[static_cast<std::size_t>(i)]; }
   /// Whether all solutions are accounted for; else postures near a singular one may be missing.
   bool complete() const { return node_.complete; }
-  const BranchAtlas& atlas() const { return *atlas_; }
+  const IkStartSystem& start_system() const { return *start_system_; }
 
  private:
-  const AtlasNode& nearest(const Eigen::VectorXd& theta_r);
-  bool go_straight(const AtlasNode& from);
-  bool go_around(const AtlasNode& from, double side);
+  const IkSolutionSet& nearest(const Eigen::VectorXd& theta_r);
+  bool track_straight(const IkSolutionSet& from);
+  bool track_detour(const IkSolutionSet& from, double side);
   void sort();
 
-  std::shared_ptr<const BranchAtlas> atlas_;
-  Carrier carrier_;
-  AtlasNode node_, next_, last_;  ///< of the last theta_r; the one in the making; the last complete
+  std::shared_ptr<const IkStartSystem> start_system_;
+  PathTracker tracker_;
+  IkSolutionSet node_, next_,
+      last_;  ///< of the last theta_r; the one in the making; the last complete
 };
 
 }  // namespace maxwrench

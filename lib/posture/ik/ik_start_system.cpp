@@ -47,15 +47,15 @@ Stop random_stop(const ToolChain& chain, const Stop& around, Random& random) {
   return stop;
 }
 
-Way<Complex> between(const Stop& from, const Stop& to) {
-  Way<Complex> way;
-  way.from = from.theta_r;
-  way.to = to.theta_r;
-  way.bend.setConstant(way.from.size(), Complex(0.0));
-  way.moves_pose = true;
-  way.y_from = from.y;
-  way.y_to = to.y;
-  return way;
+HomotopyPath<Complex> between(const Stop& from, const Stop& to) {
+  HomotopyPath<Complex> path;
+  path.from = from.theta_r;
+  path.to = to.theta_r;
+  path.bend.setConstant(path.from.size(), Complex(0.0));
+  path.moves_pose = true;
+  path.y_from = from.y;
+  path.y_to = to.y;
+  return path;
 }
 
 VectorX<Complex> complex_of(const Eigen::VectorXd& theta_r) {
@@ -123,7 +123,7 @@ double radical_inverse(int i, int base) {
 
 }  // namespace
 
-BranchAtlas::BranchAtlas(const Problem& problem)
+IkStartSystem::IkStartSystem(const Problem& problem)
     : chain_(problem),
       pose_(problem.pose),
       theta_r_min_(problem.theta_r_min.head(chain_.parameters())),
@@ -138,7 +138,7 @@ BranchAtlas::BranchAtlas(const Problem& problem)
   spread();
 }
 
-bool BranchAtlas::serves(const Problem& problem) const {
+bool IkStartSystem::serves(const Problem& problem) const {
   const auto r = chain_.parameters();
   return problem.redundancy() >= r && problem.pose.p == pose_.p && problem.pose.R == pose_.R &&
          problem.theta_r_min.head(r) == theta_r_min_ &&
@@ -146,7 +146,7 @@ bool BranchAtlas::serves(const Problem& problem) const {
 }
 
 /// Where y may be: any angle, joints within their limits, the base near the pose at theta_r.
-void BranchAtlas::set_reach(const Problem& problem, const Eigen::VectorXd& theta_r) {
+void IkStartSystem::set_reach(const Problem& problem, const Eigen::VectorXd& theta_r) {
   const Eigen::Vector3d near = (problem.robot.mount.inverse() * pose_at(problem, theta_r)).p;
   for (int j = 0; j < chain_.unknowns(); ++j) {
     const auto k = static_cast<std::size_t>(j);
@@ -166,7 +166,7 @@ void BranchAtlas::set_reach(const Problem& problem, const Eigen::VectorXd& theta
 }
 
 /// Somewhere, in real numbers.
-Six<double> BranchAtlas::random_y(Random& random) const {
+Six<double> IkStartSystem::random_y(Random& random) const {
   Six<double> y{};
   for (int j = 0; j < chain_.unknowns(); ++j) {
     y[static_cast<std::size_t>(j)] = middle_[static_cast<std::size_t>(j)] +
@@ -176,12 +176,12 @@ Six<double> BranchAtlas::random_y(Random& random) const {
 }
 
 /// One at the default, from the guess or from anywhere, or else at any theta_r; then others there.
-void BranchAtlas::find_first(const Problem& problem) {
+void IkStartSystem::find_first(const Problem& problem) {
   set_reach(problem, problem.theta_r_default);
   FirstNewton newton(chain_, pose_);
   Continuation<double> correction(chain_);
   Random random(1);
-  AtlasNode node;
+  IkSolutionSet node;
   node.theta_r = problem.theta_r_default.head(chain_.parameters());
   const Eigen::VectorXd at_default = node.theta_r;
   Six<double> y{};
@@ -208,7 +208,7 @@ void BranchAtlas::find_first(const Problem& problem) {
 }
 
 /// Adds y to the solutions if it is new.
-bool BranchAtlas::keep(Six<Complex> y) {
+bool IkStartSystem::keep(Six<Complex> y) {
   wrap(chain_, y);
   if (generic_.size() >= kMostSolutions || contains(chain_, generic_, y)) return false;
   generic_.push_back(y);
@@ -216,19 +216,19 @@ bool BranchAtlas::keep(Six<Complex> y) {
 }
 
 /// Those that are carried from the first, and those that Newton's method finds.
-void BranchAtlas::seek_generic(Continuation<Complex>& continuation, Random& random) {
+void IkStartSystem::seek_generic(Continuation<Complex>& continuation, Random& random) {
   const Pose<Complex> pose = complex_of(pose_);
   Stop base{complex_of(first_->theta_r), complex_of(first_->real[0])};
   for (int attempt = 0; attempt < 20 && generic_.empty(); ++attempt) {
-    Way<Complex> way;
-    way.from = base.theta_r;
-    way.to = random_stop(chain_, base, random).theta_r;
-    way.bend.setConstant(way.from.size(), Complex(0.0));
-    way.pose = pose;
-    generic_theta_r_ = way.to;
+    HomotopyPath<Complex> path;
+    path.from = base.theta_r;
+    path.to = random_stop(chain_, base, random).theta_r;
+    path.bend.setConstant(path.from.size(), Complex(0.0));
+    path.pose = pose;
+    generic_theta_r_ = path.to;
     for (const Six<double>& y : first_->real) {
       Six<Complex> end = complex_of(y);
-      if (continuation.follow(way, end)) keep(end);
+      if (continuation.track(path, end)) keep(end);
     }
   }
   for (int start = 0; start < kComplexStarts; ++start) {
@@ -243,7 +243,7 @@ void BranchAtlas::seek_generic(Continuation<Complex>& continuation, Random& rand
 
 /// Carries all that are known around loops. Every other loop moves X too, with one of them; it
 /// comes back to itself.
-void BranchAtlas::find_generic() {
+void IkStartSystem::find_generic() {
   Continuation<Complex> continuation(chain_);
   Random random(2);
   seek_generic(continuation, random);
@@ -254,24 +254,24 @@ void BranchAtlas::find_generic() {
     const Stop base{generic_theta_r_, generic_[reference]};
     const Stop first = random_stop(chain_, base, random);
     const Stop second = random_stop(chain_, base, random);
-    std::array<Way<Complex>, 3> ways = {between(base, first), between(first, second),
-                                        between(second, base)};
-    for (Way<Complex>& way : ways) {
-      way.moves_pose = loop % 2 == 0;
-      way.pose = complex_of(pose_);
+    std::array<HomotopyPath<Complex>, 3> ways = {between(base, first), between(first, second),
+                                                 between(second, base)};
+    for (HomotopyPath<Complex>& path : ways) {
+      path.moves_pose = loop % 2 == 0;
+      path.pose = complex_of(pose_);
     }
     const std::size_t known = generic_.size();
     for (std::size_t i = 0; i < known; ++i) {
       Six<Complex> y = generic_[i];
-      const bool arrived = std::all_of(ways.begin(), ways.end(), [&](const Way<Complex>& way) {
-        return continuation.follow(way, y);
-      });
+      const bool arrived = std::all_of(
+          ways.begin(), ways.end(),
+          [&](const HomotopyPath<Complex>& path) { return continuation.track(path, y); });
       if (arrived && !continuation.is_singular(kSingularSolution) && keep(y)) idle = -1;
     }
   }
 }
 
-void BranchAtlas::spread() {
+void IkStartSystem::spread() {
   static constexpr std::array<int, 10> kPrimes = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29};
   const auto r = static_cast<Eigen::Index>(chain_.parameters());
   const int count = r == 0 ? 1 : 32 << std::min<Eigen::Index>(r, 4);
@@ -286,34 +286,34 @@ void BranchAtlas::spread() {
   lazy_ = std::make_unique<Lazy[]>(places_.size());
 }
 
-const AtlasNode& BranchAtlas::node(int i) const {
+const IkSolutionSet& IkStartSystem::node(int i) const {
   Lazy& lazy = lazy_[static_cast<std::size_t>(i)];
   std::call_once(lazy.once, [&] {
-    Carrier carrier(chain_, pose_);
-    go_from_generic(place(i), carrier, lazy.node);
+    PathTracker tracker(chain_, pose_);
+    go_from_generic(place(i), tracker, lazy.node);
   });
   return lazy.node;
 }
 
-void BranchAtlas::go_from_generic(const Eigen::VectorXd& theta_r, Carrier& carrier,
-                                  AtlasNode& node) const {
-  Way<Complex>& way = carrier.way();
-  way.from = generic_theta_r_;
-  assign(theta_r, way.to);
-  way.bend.setConstant(Complex(0.0));
-  carrier.begin();
-  for (const Six<Complex>& y : generic_) carrier.carry(y);
+void IkStartSystem::go_from_generic(const Eigen::VectorXd& theta_r, PathTracker& tracker,
+                                    IkSolutionSet& node) const {
+  HomotopyPath<Complex>& path = tracker.path();
+  path.from = generic_theta_r_;
+  assign(theta_r, path.to);
+  path.bend.setConstant(Complex(0.0));
+  tracker.begin();
+  for (const Six<Complex>& y : generic_) tracker.carry(y);
   node.theta_r = theta_r;
-  node.complete = carrier.finish(solutions(), node);
+  node.complete = tracker.finish(solutions(), node);
 }
 
-std::shared_ptr<const BranchAtlas> serving_atlas(const Problem& problem) {
-  if (problem.atlas && problem.atlas->serves(problem)) return problem.atlas;
-  return std::make_shared<const BranchAtlas>(problem);
+std::shared_ptr<const IkStartSystem> serving_start_system(const Problem& problem) {
+  if (problem.start_system && problem.start_system->serves(problem)) return problem.start_system;
+  return std::make_shared<const IkStartSystem>(problem);
 }
 
-void prepare_branches(Problem& problem) {
-  if (!problem.dependent.empty()) problem.atlas = serving_atlas(problem);
+void prepare_ik_solutions(Problem& problem) {
+  if (!problem.dependent.empty()) problem.start_system = serving_start_system(problem);
 }
 
 }  // namespace maxwrench

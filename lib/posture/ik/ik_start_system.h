@@ -9,7 +9,7 @@
 
 namespace maxwrench {
 
-class Carrier;
+class PathTracker;
 class Random;
 template <class T>
 class Continuation;
@@ -31,9 +31,9 @@ struct Problem;
 /// have changed places, and some stand at new ones. The set {(theta_r, y)} that the equations
 /// describe for all X together is connected, as it is a product of lines, so loops lead from each
 /// solution to each other one. When many loops in a row found nothing the list counts as complete.
-class BranchAtlas {
+class IkStartSystem {
  public:
-  explicit BranchAtlas(const Problem& problem);
+  explicit IkStartSystem(const Problem& problem);
 
   /// Whether it is that of this problem: chain, pose and limits of theta_r are the same.
   bool serves(const Problem& problem) const;
@@ -43,22 +43,23 @@ class BranchAtlas {
   /// Whether a posture is known that reaches the pose.
   bool reaches() const { return first_.has_value(); }
   /// theta_r and y of the posture that all others come from.
-  const AtlasNode& first() const { return *first_; }
+  const IkSolutionSet& first() const { return *first_; }
   /// How many solutions there are, real or not.
   int solutions() const { return static_cast<int>(generic_.size()); }
 
   /// All solutions at theta_r, by ways from the place in general position.
-  void go_from_generic(const Eigen::VectorXd& theta_r, Carrier& carrier, AtlasNode& node) const;
+  void go_from_generic(const Eigen::VectorXd& theta_r, PathTracker& tracker,
+                       IkSolutionSet& node) const;
   /// The real places, spread evenly over the limits of theta_r; each is computed when it is asked
   /// for first, by any thread.
   int nodes() const { return static_cast<int>(places_.size()); }
   const Eigen::VectorXd& place(int i) const { return places_[static_cast<std::size_t>(i)]; }
-  const AtlasNode& node(int i) const;
+  const IkSolutionSet& node(int i) const;
 
  private:
   struct Lazy {
     std::once_flag once;
-    AtlasNode node;
+    IkSolutionSet node;
   };
 
   void find_first(const Problem& problem);
@@ -73,7 +74,7 @@ class BranchAtlas {
   Pose<double> pose_;
   Eigen::VectorXd theta_r_min_, theta_r_max_;
   Six<double> middle_{}, reach_{};  ///< where y is looked for
-  std::optional<AtlasNode> first_;
+  std::optional<IkSolutionSet> first_;
   VectorX<Complex> generic_theta_r_;
   std::vector<Six<Complex>> generic_;
   std::vector<Eigen::VectorXd> places_;
@@ -81,6 +82,6 @@ class BranchAtlas {
 };
 
 /// That of the problem if it serves, else a new one.
-std::shared_ptr<const BranchAtlas> serving_atlas(const Problem& problem);
+std::shared_ptr<const IkStartSystem> serving_start_system(const Problem& problem);
 
 }  // namespace maxwrench

@@ -38,20 +38,20 @@ bool has_twins(const ToolChain& chain, const std::vector<Six<T>>& list) {
 
 }  // namespace
 
-Carrier::Carrier(const ToolChain& chain, const Pose<double>& pose)
+PathTracker::PathTracker(const ToolChain& chain, const Pose<double>& pose)
     : chain_(chain), real_(chain), complex_(chain) {
   line_.pose = pose;
   line_.bend.setZero(chain.parameters());
-  way_.pose = complex_of(pose);
-  way_.bend.resize(chain.parameters());
+  path_.pose = complex_of(pose);
+  path_.bend.resize(chain.parameters());
 }
 
-void Carrier::carry(const Six<Complex>& y) {
+void PathTracker::carry(const Six<Complex>& y) {
   Six<Complex> end = y;
-  if (complex_.follow(way_, end)) ends_.push_back(end);
+  if (complex_.track(path_, end)) ends_.push_back(end);
 }
 
-bool Carrier::finish(int count, AtlasNode& node) {
+bool PathTracker::finish(int count, IkSolutionSet& node) {
   node.real.clear();
   node.pairs.clear();
   seen_.clear();
@@ -74,18 +74,18 @@ bool Carrier::finish(int count, AtlasNode& node) {
   return static_cast<int>(seen_.size()) == count && below == static_cast<int>(node.pairs.size());
 }
 
-bool Carrier::go_straight(const Eigen::VectorXd& from, AtlasNode& node) {
+bool PathTracker::track_straight(const Eigen::VectorXd& from, IkSolutionSet& node) {
   line_.from = from;
   line_.to = node.theta_r;
   for (Six<double>& y : node.real) {
-    if (!real_.follow(line_, y)) return false;
+    if (!real_.track(line_, y)) return false;
     wrap(chain_, y);
   }
-  assign(from, way_.from);
-  assign(node.theta_r, way_.to);
-  way_.bend.setConstant(Complex(0.0));
+  assign(from, path_.from);
+  assign(node.theta_r, path_.to);
+  path_.bend.setConstant(Complex(0.0));
   for (Six<Complex>& y : node.pairs) {
-    if (!complex_.follow(way_, y) || largest_imaginary(y) < kTwice) return false;
+    if (!complex_.track(path_, y) || largest_imaginary(y) < kTwice) return false;
     wrap(chain_, y);
   }
   return !has_twins(chain_, node.real) && !has_twins(chain_, node.pairs);

@@ -8,29 +8,29 @@
 namespace maxwrench {
 
 /// What carries solutions along ways to a real theta_r; of one thread.
-class Carrier {
+class PathTracker {
  public:
   /// The chain outlives this.
-  Carrier(const ToolChain& chain, const Pose<double>& pose);
-  Carrier(const ToolChain&&, const Pose<double>&) = delete;
+  PathTracker(const ToolChain& chain, const Pose<double>& pose);
+  PathTracker(const ToolChain&&, const Pose<double>&) = delete;
 
-  Way<Complex>& way() { return way_; }
+  HomotopyPath<Complex>& path() { return path_; }
   void begin() { ends_.clear(); }
   /// Carries a solution along the way.
   void carry(const Six<Complex>& y);
   /// Sorts the ends into real solutions, exact to rounding, and pairs; whether they are `count`
   /// different ones, all accounted for.
-  bool finish(int count, AtlasNode& node);
+  bool finish(int count, IkSolutionSet& node);
   /// The same without a detour: a real solution stays real, and pairs stay apart; false: they do
   /// not. At the start `node` holds the solutions of another theta_r.
-  bool go_straight(const Eigen::VectorXd& from, AtlasNode& node);
+  bool track_straight(const Eigen::VectorXd& from, IkSolutionSet& node);
 
  private:
   const ToolChain& chain_;
   Continuation<double> real_;
   Continuation<Complex> complex_;
-  Way<double> line_;
-  Way<Complex> way_;
+  HomotopyPath<double> line_;
+  HomotopyPath<Complex> path_;
   std::vector<Six<Complex>> ends_, seen_;
 };
 

@@ -5,9 +5,9 @@
 
 namespace maxwrench {
 
-PrimaryBranches::PrimaryBranches(const Problem& problem)
+PrimaryIk::PrimaryIk(const Problem& problem)
     : problem_(problem),
-      branches_(serving_atlas(problem)),
+      ik_solutions_(serving_start_system(problem)),
       own_(static_cast<Eigen::Index>(problem.redundant.size()) + problem.free.count()),
       z_(4 + problem.guess_q.size()) {
   const int axes = static_cast<int>(problem.robot.base_axes.size());
@@ -20,26 +20,26 @@ PrimaryBranches::PrimaryBranches(const Problem& problem)
   place_guess();
 }
 
-int PrimaryBranches::solve(const Eigen::VectorXd& theta_r) {
+int PrimaryIk::solve(const Eigen::VectorXd& theta_r) {
   own_ = theta_r.head(own_.size());
-  return branches_.solve(own_);
+  return ik_solutions_.solve(own_);
 }
 
-void PrimaryBranches::place_guess() {
+void PrimaryIk::place_guess() {
   z_ << problem_.guess_base, problem_.guess_q;
   for (std::size_t k = 0; k < problem_.redundant.size(); ++k) {
     z_[4 + problem_.redundant[k]] = own_[static_cast<Eigen::Index>(k)];
   }
 }
 
-bool PrimaryBranches::place(int i) {
+bool PrimaryIk::place(int i) {
   place_guess();
-  const ToolChain& chain = branches_.atlas().chain();
+  const ToolChain& chain = ik_solutions_.start_system().chain();
   bool inside = true;
   for (int k = 0; k < chain.unknowns(); ++k) {
     const int place = chain.place_in_z(k);
     double& value = z_[place];
-    value = branches_.y(i)[static_cast<std::size_t>(k)];
+    value = ik_solutions_.y(i)[static_cast<std::size_t>(k)];
     if (place < 4) continue;
     const Joint& joint = problem_.robot.joints[static_cast<std::size_t>(place - 4)];
     value = turned_into_limits(joint, value);
@@ -48,20 +48,20 @@ bool PrimaryBranches::place(int i) {
   return inside;
 }
 
-void PrimaryBranches::decompose(const Matrix6Xd& J) {
+void PrimaryIk::decompose(const Matrix6Xd& J) {
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     J_d_.col(static_cast<Eigen::Index>(i)) = J.col(columns_[i]);
   }
   qr_.compute(J_d_);
 }
 
-bool PrimaryBranches::is_singular(const Matrix6Xd& J) {
+bool PrimaryIk::is_singular(const Matrix6Xd& J) {
   decompose(J);
   return qr_.is_singular(kSingularShare);
 }
 
-void PrimaryBranches::follow(const Matrix6Xd& J, const Eigen::VectorXd& q_gradient,
-                             Eigen::VectorXd& gradient) {
+void PrimaryIk::follow(const Matrix6Xd& J, const Eigen::VectorXd& q_gradient,
+                       Eigen::VectorXd& gradient) {
   decompose(J);
   const auto axes = static_cast<Eigen::Index>(problem_.robot.base_axes.size());
   for (Eigen::Index i = axes; i < seed_.size(); ++i) {

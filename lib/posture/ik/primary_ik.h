@@ -9,16 +9,16 @@ struct Problem;
 
 /// The joints of the first arm, and the base, that follow from theta_r: every posture that reaches
 /// the pose, and how f(theta_r) changes through what follows.
-class PrimaryBranches {
+class PrimaryIk {
  public:
-  /// Keeps a reference to the problem, whose `atlas` it takes if it serves.
-  explicit PrimaryBranches(const Problem& problem);
-  explicit PrimaryBranches(const Problem&& problem) = delete;
+  /// Keeps a reference to the problem, whose `start_system` it takes if it serves.
+  explicit PrimaryIk(const Problem& problem);
+  explicit PrimaryIk(const Problem&& problem) = delete;
 
   /// All postures at theta_r, of which regrasp coordinates do not count; returns their number.
   int solve(const Eigen::VectorXd& theta_r);
-  /// Whether that are all of them (`Branches::complete`).
-  bool complete() const { return branches_.complete(); }
+  /// Whether that are all of them (`IkSolver::complete`).
+  bool complete() const { return ik_solutions_.complete(); }
   /// Writes posture i into z = [x, y, z, yaw of the base; all joints]; whether the dependent joints
   /// are within their limits, into which they are turned by whole turns.
   bool place(int i);
@@ -41,7 +41,7 @@ class PrimaryBranches {
   void decompose(const Matrix6Xd& J);
 
   const Problem& problem_;
-  Branches branches_;
+  IkSolver ik_solutions_;
   std::vector<int> columns_;  ///< of J_d in J
   Eigen::VectorXd own_, z_;   ///< theta_r without regrasp coordinates
   Matrix6N J_d_;

@@ -7,8 +7,8 @@
 
 namespace maxwrench {
 
-/// The second arm of a problem with a second contact: the branches that reach the contact, and how
-/// f(theta_r) changes through them.
+/// The second arm of a problem with a second contact: the IK solutions that reach the contact, and
+/// how f(theta_r) changes through them.
 class SecondArm {
  public:
   /// Keeps a reference to the problem.
@@ -17,11 +17,11 @@ class SecondArm {
 
   /// The contact at the regrasp coordinates at the end of theta_r.
   void touch(const Eigen::VectorXd& theta_r);
-  /// All branches that reach it from the base. Returns their number.
+  /// All IK solutions that reach it from the base. Returns their number.
   int reach(const Pose<double>& base);
-  /// Whether branch i is within the limits of its joints.
+  /// Whether IK solution i is within the limits of its joints.
   bool within_limits(int i) const;
-  /// Writes branch i into q.
+  /// Writes IK solution i into q.
   void place(int i, Eigen::VectorXd& q) const;
 
   const Pose<double>& contact() const { return pose_; }

@@ -52,8 +52,8 @@ void ToolChain::add_free(const FreePose& free) {
   const auto add_axes = [&](int first) {
     for (int axis = first; axis < first + 3; ++axis) add_axis(axis);
   };
-  add_axes(free.along_tool ? 0 : 3);
-  add_axes(free.along_tool ? 3 : 0);
+  add_axes(free.along_end_effector ? 0 : 3);
+  add_axes(free.along_end_effector ? 3 : 0);
   parameters_ += free.count();
 }
 

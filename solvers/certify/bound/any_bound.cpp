@@ -184,15 +184,15 @@ std::unique_ptr<Bound> make_any_wrench_bound(const Problem& problem) {
   const auto b = static_cast<Eigen::Index>(robot.base_axes.size());
   const auto j = static_cast<Eigen::Index>(robot.joints.size());
   const auto thrusters = static_cast<Eigen::Index>(robot.thrusters.size());
-  const auto refuse = [&] {
+  const auto reject = [&] {
     throw std::invalid_argument(problem.name +
                                 ": wrench: got 'any', expected pure for a proof: any needs a base "
                                 "whose free axes are as many as the wrenches");
   };
-  if (problem.W_any.cols() != b) refuse();
+  if (problem.W_any.cols() != b) reject();
   require_few_control_points(problem.name, all_coordinates(problem));
   MultiAffine f = any_rows(problem, b, j);
-  if (!f.coefficients().allFinite() || !reproduces(problem, f, b, j)) refuse();
+  if (!f.coefficients().allFinite() || !reproduces(problem, f, b, j)) reject();
   const Eigen::VectorXd sizes = f.magnitudes(problem.theta_r_min.array() - kCeilingMargin,
                                              problem.theta_r_max.array() + kCeilingMargin);
   const Zonotope& set = robot.actuation;

@@ -59,7 +59,7 @@ double beyond(const Eigen::Vector3d& half_sizes, double reach, const Eigen::Vect
 /// A core that moves in the axes of another one's link. Its corners are tried, and points midway.
 struct Mover {
   int pair;
-  Core core, other;
+  InscribedBox core, other;
   double reach;
   double far;  ///< centres that are farther apart are out of reach
   MultiAffine path;
@@ -67,9 +67,9 @@ struct Mover {
   Pose<double> into;                    ///< the other's link -> its core
 };
 
-bool is_segment(const Core& core) { return (core.half_sizes.array() > 0).count() <= 1; }
+bool is_segment(const InscribedBox& core) { return (core.half_sizes.array() > 0).count() <= 1; }
 
-std::vector<Eigen::Vector3d> points_of(const Core& core) {
+std::vector<Eigen::Vector3d> points_of(const InscribedBox& core) {
   const int steps = is_segment(core) ? 2 : 1;
   std::array<int, 3> most{};
   for (int i = 0; i < 3; ++i) {
@@ -87,7 +87,8 @@ std::vector<Eigen::Vector3d> points_of(const Core& core) {
   return points;
 }
 
-Mover mover(const Problem& problem, int pair, const Core& core, const Core& other, double reach) {
+Mover mover(const Problem& problem, int pair, const InscribedBox& core, const InscribedBox& other,
+            double reach) {
   return {pair,
           core,
           other,
@@ -223,11 +224,15 @@ std::unique_ptr<Bound> make_collision_bound(const Problem& problem) {
   const CollisionChecker* const checker = problem.robot.collision.get();
   auto movers = std::make_shared<Movers>();
   for (int pair = 0; checker != nullptr && pair < checker->pairs(); ++pair) {
-    CorePair cores;
-    if (!checker->cores(pair, cores)) continue;
-    const bool a = is_segment(cores.a), b = is_segment(cores.b);
-    if (a || !b) movers->push_back(mover(problem, pair, cores.a, cores.b, cores.reach));
-    if (b || !a) movers->push_back(mover(problem, pair, cores.b, cores.a, cores.reach));
+    InscribedBoxPair inscribed_boxes;
+    if (!checker->inscribed_boxes(pair, inscribed_boxes)) continue;
+    const bool a = is_segment(inscribed_boxes.a), b = is_segment(inscribed_boxes.b);
+    if (a || !b)
+      movers->push_back(
+          mover(problem, pair, inscribed_boxes.a, inscribed_boxes.b, inscribed_boxes.reach));
+    if (b || !a)
+      movers->push_back(
+          mover(problem, pair, inscribed_boxes.b, inscribed_boxes.a, inscribed_boxes.reach));
   }
   if (movers->empty()) return nullptr;
   return std::make_unique<CollisionBound>(problem, std::move(movers));

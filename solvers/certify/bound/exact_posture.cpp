@@ -61,7 +61,7 @@ Pose<Extended> exact_pose(const Problem& problem, const ExtendedVector& x) {
     turn = one * turn;
   }
   const Matrix3<Extended> R = R_0 * turn;
-  const Matrix3<Extended>& along = problem.free.along_tool ? R : R_0;
+  const Matrix3<Extended>& along = problem.free.along_end_effector ? R : R_0;
   return {R, problem.pose.p.cast<Extended>() + along * shift};
 }
 

@@ -18,7 +18,7 @@ namespace {
 /// is as long in all postures; so the base's forces limit t. Else infinite, also where the second
 /// contact may bear t c in the base's place.
 double loop_ceiling(const Problem& problem, const LoopModel& model) {
-  if (!model.coordinates.base_follows || model.coordinates.forces_grow()) return kInfinity;
+  if (!model.coordinates.base_is_dependent || model.coordinates.forces_grow()) return kInfinity;
   const Zonotope& set = problem.robot.actuation;
   const bool pushes = problem.c.head<3>().norm() > 0;
   const Eigen::Index row = pushes ? 0 : 3;

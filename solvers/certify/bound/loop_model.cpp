@@ -58,7 +58,7 @@ void LoopModel::add_loads(LoopPosture& posture) {
   std::vector<int> pushed, others;
   for (int i = 0; i < static_cast<int>(n); ++i) {
     const bool slides = i < axes && robot.base_axes[static_cast<std::size_t>(i)] < 3;
-    if (slides && !coordinates.base_follows) {
+    if (slides && !coordinates.base_is_dependent) {
       pushed.push_back(i);
     } else if (std::find(coordinates.joints.begin(), coordinates.joints.end(), i - axes) ==
                coordinates.joints.end()) {
@@ -124,7 +124,7 @@ void LoopModel::add_equations(LoopPosture& posture) {
       return side();
     });
   };
-  if (!coordinates.base_follows) {
+  if (!coordinates.base_is_dependent) {
     const int from = coordinates.yaw.from, to = coordinates.free.to;
     const int k =
         std::clamp((from + to) / 2 - coordinates.first.from, 0, coordinates.first.count());

@@ -79,14 +79,14 @@ double least_force(const Problem& problem) {
 }  // namespace
 
 LoopCoordinates::LoopCoordinates(const Problem& problem)
-    : base_follows(problem.robot.base_axes.size() == 6) {
+    : base_is_dependent(problem.robot.base_axes.size() == 6) {
   const auto own = static_cast<int>(problem.redundancy());
   int next = own + static_cast<int>(problem.dependent.size());
   if (problem.contact) {
     for (const int joint : problem.contact->follow) add_joint(problem, next++, joint);
   }
   second = {0, chain.count()};
-  if (!base_follows && is_free_axis(problem.robot, 5)) {
+  if (!base_is_dependent && is_free_axis(problem.robot, 5)) {
     add(next++, true, -std::numbers::pi, std::numbers::pi);
   }
   yaw = {second.to, chain.count()};
@@ -183,7 +183,7 @@ void LoopPosture::set(const ExtendedVector& x) {
                              problem_.robot.mount.p.cast<Extended>()};
   target_ = mount.inverse() * pose_;
   const Matrix3<Extended> from_tip = pose_.R * kinematics_.end_effector(tip_).R.transpose();
-  R_base_ = coordinates_.base_follows ? from_tip : Matrix3<Extended>(mount.R * yaw_.R);
+  R_base_ = coordinates_.base_is_dependent ? from_tip : Matrix3<Extended>(mount.R * yaw_.R);
   if (problem_.contact) set_contact(x);
   set_loads(from_tip);
 }

@@ -33,11 +33,11 @@ struct LoopCoordinates {
 
   Coordinates chain;  ///< as indices of x
   Stretch second, yaw, first, free, regrasp, shares;
-  std::vector<int> joints;       ///< of the robot, in `first`
-  bool base_follows = false;     ///< all of it, from the joints: it has six free axes
-  Eigen::VectorXd lower, upper;  ///< limits of x
-  Eigen::VectorXd w_min, w_max;  ///< of the second contact, finite
-  Eigen::VectorXd v_min, v_max;  ///< its further limits for each unit of t
+  std::vector<int> joints;         ///< of the robot, in `first`
+  bool base_is_dependent = false;  ///< all of it, from the joints: it has six free axes
+  Eigen::VectorXd lower, upper;    ///< limits of x
+  Eigen::VectorXd w_min, w_max;    ///< of the second contact, finite
+  Eigen::VectorXd v_min, v_max;    ///< its further limits for each unit of t
   bool forces_grow() const { return (v_min.array() != v_max.array()).any(); }
 
  private:

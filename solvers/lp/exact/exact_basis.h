@@ -4,7 +4,7 @@
 
 namespace maxwrench {
 
-/// Programs of more rows than this are refused.
+/// Programs of more rows than this are rejected.
 inline constexpr int kMostExactRows = 500;
 
 /// The verdict of a program in rational numbers, by the simplex method from the basis of `solution`

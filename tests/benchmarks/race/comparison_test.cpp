@@ -18,7 +18,7 @@ namespace {
 /// so that what was spent when a value rose is counted as the budget is.
 TEST(Comparison, ClockCountsWhatTheSearchCounts) {
   const Problem problem = load_problem("planar/force");
-  for (const auto& table : {searches(), plan_searches(), facet_searches()}) {
+  for (const auto& table : {searches(), trajectory_searches(), facet_searches()}) {
     for (const SearchEntry& entry : table) {
       SCOPED_TRACE(entry.name);
       const Case c{problem.name, "linf_polytope", Wrench::kPure, "", entry.name, 1, 300};
@@ -38,7 +38,7 @@ TEST(Comparison, ClockCountsWhatTheSearchCounts) {
   }
 }
 
-/// No posture can be held; a search of plans has seen values, with slack, that count for nothing.
+/// No posture can be held; a trajectory search has seen values, with slack, that count for nothing.
 TEST(Comparison, ValuesWithSlackAreNone) {
   Problem problem = load_problem("uvms/valve");
   add_body(problem.robot.links[0], 1000, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero());
@@ -49,19 +49,19 @@ TEST(Comparison, ValuesWithSlackAreNone) {
   EXPECT_EQ(first_hit(run.run, -1e9).evaluations, kInfinity);
 }
 
-/// Of a static task by linf_polytope those of plans and between facets too; then the plain way
-/// through each peer that is built in.
+/// Of a static task by linf_polytope those of trajectories and between facets too; then the plain
+/// way through each peer that is built in.
 TEST(Comparison, RacesTheSearchesThatServe) {
   const Problem problem = load_problem("planar/force");
   const auto postures = static_cast<long>(searches().size()) + 1;  // and the default
-  const auto plans = static_cast<long>(plan_searches().size());
+  const auto trajectories = static_cast<long>(trajectory_searches().size());
   const auto facets = static_cast<long>(facet_searches().size());
   long peers = 0;
   for (const LpEntry& lp : lp_solvers()) {
     peers += lp.name == std::string("glpk") || lp.name == std::string("clp") ? 1 : 0;
   }
   Case c{.problem = problem.name};
-  EXPECT_EQ(attempt_count(problem, c, 3), 3 * (postures + plans + facets + peers));
+  EXPECT_EQ(attempt_count(problem, c, 3), 3 * (postures + trajectories + facets + peers));
   c.measure = "ellipsoid";
   EXPECT_EQ(attempt_count(problem, c, 3), 3 * postures);
   c.measure = "linf_polytope";
@@ -110,11 +110,11 @@ TEST(Comparison, TargetsAndReference) {
   }
   EXPECT_EQ(comparison.best(), 100);
   EXPECT_DOUBLE_EQ(comparison.target(), 99.9);
-  EXPECT_EQ(comparison.reference()->lp, "clp");
+  EXPECT_EQ(comparison.reference()->solver, "clp");
   comparison.proven = 110;
   EXPECT_DOUBLE_EQ(comparison.target(0.1), 99);
   EXPECT_EQ(comparison.peers[0].expected(comparison.target(), &Spent::seconds), kInfinity);
-  EXPECT_EQ(comparison.reference()->lp, "glpk");  // neither gets there: the first
+  EXPECT_EQ(comparison.reference()->solver, "glpk");  // neither gets there: the first
 }
 
 /// Branch and bound closes on the planar optimum, which is proven elsewhere: 3.4775 to four digits.
@@ -147,7 +147,7 @@ TEST(Comparison, ClockSeesTheBestValue) {
     EXPECT_LE(run.run.rises.back().at.seconds, run.run.spent.seconds);
     EXPECT_EQ(run.counted, run.run.spent.evaluations);
     EXPECT_LE(run.run.spent.evaluations, 200);
-    method.plan_value = PlanValue::kAtInstants;
+    method.trajectory_value = TrajectoryValue::kAtInstants;
     const auto objective = make_objective(problem, method);
     const SearchResult same = run_search(problem, method, *objective, {});
     EXPECT_EQ(run.value, same.value);
@@ -156,11 +156,11 @@ TEST(Comparison, ClockSeesTheBestValue) {
   }
 }
 
-TEST(Comparison, RefusesOptionsOutOfRange) {
+TEST(Comparison, RejectsOptionsOutOfRange) {
   const Problem problem = load_problem("planar/force");
   const Case base{.problem = problem.name, .budget = 10};
-  expect_refused("seeds", [&] { compare(problem, base, {0, 1, true, {}}); });
-  expect_refused("threads", [&] { compare(problem, base, {1, 0, true, {}}); });
+  expect_rejected("seeds", [&] { compare(problem, base, {0, 1, true, {}}); });
+  expect_rejected("threads", [&] { compare(problem, base, {1, 0, true, {}}); });
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 
 /// Four instances: the first method is best on one, ties on another, fails on the third; nobody
 /// solves the last.
-Contest small_contest() {
+BenchmarkSet small_benchmark_set() {
   return {"small",
           "us",
           {"first", "second", "third"},
@@ -17,14 +17,14 @@ Contest small_contest() {
 }
 
 TEST(PerformanceProfile, RatiosToTheBestOfEachInstance) {
-  const auto ratios = performance_ratios(small_contest());
+  const auto ratios = performance_ratios(small_benchmark_set());
   EXPECT_EQ(ratios[0], (std::vector<double>{1, 1, kInfinity, kInfinity}));
   EXPECT_EQ(ratios[1], (std::vector<double>{4, 1, 2, kInfinity}));
   EXPECT_EQ(ratios[2], (std::vector<double>{kInfinity, 4, 1, kInfinity}));
 }
 
 TEST(PerformanceProfile, FailuresStayInTheDenominator) {
-  const std::vector<MethodStanding> all = stand(small_contest());
+  const std::vector<MethodStanding> all = stand(small_benchmark_set());
   ASSERT_EQ(all.size(), 3U);
   // rho(2): 2/4 of the first and the second, 1/4 of the third; rho(1): 2/4, 1/4, 1/4.
   EXPECT_EQ(all[0].method, "first");
@@ -44,12 +44,12 @@ TEST(PerformanceProfile, FailuresStayInTheDenominator) {
 }
 
 TEST(PerformanceProfile, SignsOfManyInstances) {
-  Contest contest{"", "us", {"slow", "fast"}, {{}, {}}};
+  BenchmarkSet benchmark_set{"", "us", {"slow", "fast"}, {{}, {}}};
   for (int i = 1; i <= 10; ++i) {
-    contest.cost[0].push_back(3.0 * i);
-    contest.cost[1].push_back(i);
+    benchmark_set.cost[0].push_back(3.0 * i);
+    benchmark_set.cost[1].push_back(i);
   }
-  const std::vector<MethodStanding> all = stand(contest);
+  const std::vector<MethodStanding> all = stand(benchmark_set);
   EXPECT_EQ(all[0].method, "fast");
   EXPECT_EQ(all[1].times, 3);
   EXPECT_EQ(all[1].times_low, 3);
@@ -58,9 +58,9 @@ TEST(PerformanceProfile, SignsOfManyInstances) {
 }
 
 TEST(PerformanceProfile, AReferenceByName) {
-  Contest contest = small_contest();
-  contest.reference = "second";
-  const std::vector<MethodStanding> all = stand(contest);
+  BenchmarkSet benchmark_set = small_benchmark_set();
+  benchmark_set.reference = "second";
+  const std::vector<MethodStanding> all = stand(benchmark_set);
   EXPECT_EQ(all[0].method, "first");
   EXPECT_EQ(all[0].reference, "second");
   EXPECT_EQ(all[0].times, 1);  // of 1/4, 2/2 and infinity

@@ -31,7 +31,7 @@ void expect_same_contenders(const Comparison& race, const std::vector<Contender>
   ASSERT_EQ(read.size(), written.size());
   for (const Contender& before : written) {
     const auto after = std::find_if(read.begin(), read.end(), [&](const Contender& each) {
-      return each.search == before.search && each.lp == before.lp;
+      return each.search == before.search && each.solver == before.solver;
     });
     ASSERT_NE(after, read.end()) << before.search;
     EXPECT_EQ(after->attempts.size(), before.attempts.size());
@@ -90,7 +90,7 @@ TEST(RaceFile, ALaterRaceTakesThePlaceOfAnEarlierOne) {
   expect_same_contenders(later, later.contenders, read[0].contenders);
 }
 
-TEST(RaceFile, RowsOfTwoRacesAreRefused) {
+TEST(RaceFile, RowsOfTwoRacesAreRejected) {
   const Problem problem = load_problem("planar/force");
   const TemporaryFolder folder;
   const Comparison race = small_race(problem, 200);
@@ -98,7 +98,7 @@ TEST(RaceFile, RowsOfTwoRacesAreRefused) {
   const auto file = folder.path() / "search_comparison.csv.gz";
   const std::string good = csv_text(file);
   const std::size_t last = good.rfind('\n', good.size() - 2) + 1;
-  const auto refused = [&](const std::string& text) {
+  const auto rejected = [&](const std::string& text) {
     std::ofstream(file) << text;
     try {
       read_races(folder.path());
@@ -107,16 +107,16 @@ TEST(RaceFile, RowsOfTwoRacesAreRefused) {
     }
     return std::string();
   };
-  EXPECT_EQ(refused(good), "");
+  EXPECT_EQ(rejected(good), "");
   std::string line = good.substr(last);
   const std::string best = fmt::format("{:.17g}", race.best());
   ASSERT_NE(line.find(best), std::string::npos);
-  EXPECT_NE(refused(good.substr(0, last) + line.replace(line.find(best), best.size(), "9"))
+  EXPECT_NE(rejected(good.substr(0, last) + line.replace(line.find(best), best.size(), "9"))
                 .find("best_known: got '9', expected " + best),
             std::string::npos);
   line = good.substr(last);
   ASSERT_NE(line.find(",200,"), std::string::npos);
-  EXPECT_NE(refused(good + line.replace(line.find(",200,"), 5, ",100,"))
+  EXPECT_NE(rejected(good + line.replace(line.find(",200,"), 5, ",100,"))
                 .find("budget: got '100', expected one of each search"),
             std::string::npos);
 }
@@ -140,8 +140,8 @@ class ResultsFolder : public testing::Test {
     return "";
   }
 
-  const std::string kKeys = "problem,measure,wrench,lp,search,seed,budget,scheme,integrator";
-  const std::string kHeader = kKeys + ",status,beta,unit,yardstick,evaluations,reason\n";
+  const std::string kKeys = "problem,measure,wrench,solver,search,seed,budget,scheme,integrator";
+  const std::string kHeader = kKeys + ",status,beta,unit,beta_linf,evaluations,reason\n";
   const std::string kTimesHeader = kKeys + ",evaluations,wall_s,cpu_s\n";
   const std::string kCase = "f/a,linf_polytope,pure,facets,cmaes,1,100,,";
   const std::string kFirst = kCase + ",best_found,2.5,N,,100,\n";

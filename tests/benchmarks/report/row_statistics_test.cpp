@@ -10,11 +10,11 @@
 namespace maxwrench {
 namespace {
 
-ResultRow row(const std::string& problem, const std::string& lp, const std::string& search,
+ResultRow row(const std::string& problem, const std::string& solver, const std::string& search,
               std::optional<double> beta, double us, std::uint64_t seed = 1) {
   ResultRow row;
   row.choice.problem = problem;
-  row.choice.lp = lp;
+  row.choice.solver = solver;
   row.choice.search = search;
   row.choice.seed = seed;
   row.status = beta ? "best_found" : "infeasible";
@@ -73,7 +73,7 @@ TEST(Summaries, OfNothing) {
   EXPECT_TRUE(summarise_searches({}).empty());
   EXPECT_TRUE(summarise_costs({}).empty());
   EXPECT_TRUE(summarise_failures({}).empty());
-  EXPECT_TRUE(solver_contests({}).empty());
+  EXPECT_TRUE(solver_benchmark_sets({}).empty());
   EXPECT_TRUE(race_groups({}).empty());
 }
 
@@ -85,17 +85,17 @@ TEST(Summaries, InterruptedIsNotSolved) {
   EXPECT_EQ(summarise_failures({interrupted}).size(), 1U);
 }
 
-/// The search t has one solver only and is no contest; the peer fails on the second instance.
-TEST(Contests, SolversOnTheSameInstances) {
-  const std::vector<Contest> contests = solver_contests(five_rows());
-  ASSERT_EQ(contests.size(), 1U);
-  EXPECT_EQ(contests[0].methods, (std::vector<std::string>{"ours", "peer"}));
-  EXPECT_EQ(contests[0].cost[0], (std::vector<double>{1, 2}));
-  EXPECT_EQ(contests[0].cost[1], (std::vector<double>{4, kInfinity}));
+/// The search t has one solver only and is no benchmark set; the peer fails on the second instance.
+TEST(BenchmarkSets, SolversOnTheSameInstances) {
+  const std::vector<BenchmarkSet> benchmark_sets = solver_benchmark_sets(five_rows());
+  ASSERT_EQ(benchmark_sets.size(), 1U);
+  EXPECT_EQ(benchmark_sets[0].methods, (std::vector<std::string>{"ours", "peer"}));
+  EXPECT_EQ(benchmark_sets[0].cost[0], (std::vector<double>{1, 2}));
+  EXPECT_EQ(benchmark_sets[0].cost[1], (std::vector<double>{4, kInfinity}));
 }
 
 /// Experiments are no searches, and their times are those of all their evaluations.
-TEST(Contests, ExperimentsStandApart) {
+TEST(BenchmarkSets, ExperimentsStandApart) {
   std::vector<ResultRow> rows = five_rows();
   for (const auto& [integrator, us] : {std::pair{"cvode", 2.0}, {"ida", 0.5}}) {
     ResultRow& more = rows.emplace_back(row("f/a", "ours", "", 20, us));
@@ -103,44 +103,45 @@ TEST(Contests, ExperimentsStandApart) {
     more.status = "reached";
     more.evaluations = integrator == std::string("ida") ? 8000 : 1000;
   }
-  const std::vector<Contest> contests = integrator_contests(rows);
-  ASSERT_EQ(contests.size(), 1U);
-  EXPECT_EQ(contests[0].methods, (std::vector<std::string>{"cvode", "ida"}));
-  EXPECT_EQ(contests[0].cost, (std::vector<std::vector<double>>{{2}, {4}}));
-  EXPECT_TRUE(integrator_contests(five_rows()).empty());
+  const std::vector<BenchmarkSet> benchmark_sets = integrator_benchmark_sets(rows);
+  ASSERT_EQ(benchmark_sets.size(), 1U);
+  EXPECT_EQ(benchmark_sets[0].methods, (std::vector<std::string>{"cvode", "ida"}));
+  EXPECT_EQ(benchmark_sets[0].cost, (std::vector<std::vector<double>>{{2}, {4}}));
+  EXPECT_TRUE(integrator_benchmark_sets(five_rows()).empty());
   EXPECT_EQ(summarise_tasks(rows)[0].best, 10);
   EXPECT_EQ(summarise_searches(rows).size(), 2U);
-  EXPECT_EQ(solver_contests(rows)[0].instances(), solver_contests(five_rows())[0].instances());
+  EXPECT_EQ(solver_benchmark_sets(rows)[0].instances(),
+            solver_benchmark_sets(five_rows())[0].instances());
 }
 
 /// A third solver was not tried on the search t of f/a, which therefore is no instance; that it has
 /// no row of g/b at all is its failure.
-TEST(Contests, WhatWasNotTriedIsNoFailure) {
+TEST(BenchmarkSets, WhatWasNotTriedIsNoFailure) {
   std::vector<ResultRow> rows = five_rows();
   rows.push_back(row("f/a", "third", "s", 10, 9));
   rows.push_back(row("f/a", "ours", "t", 10, 9));
   rows.push_back(row("f/a", "peer", "t", 10, 9));
-  const std::vector<Contest> contests = solver_contests(rows);
-  ASSERT_EQ(contests[0].methods.size(), 3U);
-  EXPECT_EQ(contests[0].cost[0], (std::vector<double>{1, 2}));
-  EXPECT_EQ(contests[0].cost[1], (std::vector<double>{4, kInfinity}));
-  EXPECT_EQ(contests[0].cost[2], (std::vector<double>{9, kInfinity}));
+  const std::vector<BenchmarkSet> benchmark_sets = solver_benchmark_sets(rows);
+  ASSERT_EQ(benchmark_sets[0].methods.size(), 3U);
+  EXPECT_EQ(benchmark_sets[0].cost[0], (std::vector<double>{1, 2}));
+  EXPECT_EQ(benchmark_sets[0].cost[1], (std::vector<double>{4, kInfinity}));
+  EXPECT_EQ(benchmark_sets[0].cost[2], (std::vector<double>{9, kInfinity}));
 }
 
 /// A solver that throws has no time, and has failed.
-TEST(Contests, AFailureNeedsNoTime) {
+TEST(BenchmarkSets, AFailureNeedsNoTime) {
   std::vector<ResultRow> rows = five_rows();
   rows[3].us = std::nullopt;
-  EXPECT_EQ(solver_contests(rows)[0].cost[1], (std::vector<double>{4, kInfinity}));
+  EXPECT_EQ(solver_benchmark_sets(rows)[0].cost[1], (std::vector<double>{4, kInfinity}));
   rows[1].us = std::nullopt;  // has a value and was not measured: no instance
-  EXPECT_EQ(solver_contests(rows)[0].cost[1], (std::vector<double>{kInfinity}));
+  EXPECT_EQ(solver_benchmark_sets(rows)[0].cost[1], (std::vector<double>{kInfinity}));
 }
 
-TEST(Contests, TheLargestBudgetCounts) {
+TEST(BenchmarkSets, TheLargestBudgetCounts) {
   std::vector<ResultRow> rows = five_rows();
   rows.push_back(row("f/a", "peer", "s", 10, 3));
   rows.back().choice.budget = 40000;
-  EXPECT_EQ(solver_contests(rows)[0].cost[1][0], 3);
+  EXPECT_EQ(solver_benchmark_sets(rows)[0].cost[1][0], 3);
 }
 
 Comparison race(const std::string& problem, bool in_time, double first, double second) {
@@ -158,22 +159,22 @@ Comparison race(const std::string& problem, bool in_time, double first, double s
 }
 
 /// What has fewer seeds than others failed on the rest; several defaults are no reference.
-TEST(Contests, RacesOfDifferentSeeds) {
+TEST(BenchmarkSets, RacesOfDifferentSeeds) {
   std::vector<Comparison> races = {race("f/a", false, 1, 2), race("f/b", false, 4, 2)};
   for (const std::uint64_t seed : {2, 3}) {
     races[0].contenders[0].attempts.push_back(races[0].contenders[0].attempts[0]);
     races[0].contenders[0].attempts.back().choice.seed = seed;
   }
   races[1].default_search = "b";
-  const Contest contest = search_contest({"f", races});
-  const std::size_t a = contest.methods[0] == "a" ? 0 : 1;
-  EXPECT_EQ(contest.cost[a], (std::vector<double>{1, 1, 1, 4}));
-  EXPECT_EQ(contest.cost[1 - a], (std::vector<double>{2, kInfinity, kInfinity, 2}));
-  EXPECT_EQ(contest.reference, "");
-  EXPECT_EQ(stand(contest).size(), 2U);
+  const BenchmarkSet benchmark_set = search_benchmark_set({"f", races});
+  const std::size_t a = benchmark_set.methods[0] == "a" ? 0 : 1;
+  EXPECT_EQ(benchmark_set.cost[a], (std::vector<double>{1, 1, 1, 4}));
+  EXPECT_EQ(benchmark_set.cost[1 - a], (std::vector<double>{2, kInfinity, kInfinity, 2}));
+  EXPECT_EQ(benchmark_set.reference, "");
+  EXPECT_EQ(stand(benchmark_set).size(), 2U);
 }
 
-TEST(Contests, RacesByFamily) {
+TEST(BenchmarkSets, RacesByFamily) {
   const std::vector<RaceGroup> groups =
       race_groups({race("f/a", false, 1, 2), race("f/b", false, 4, 2), race("g/a", false, 1, 3),
                    race("f/turn", true, 1, 1)});
@@ -182,13 +183,13 @@ TEST(Contests, RacesByFamily) {
   EXPECT_EQ(groups[1].title, "f");
   EXPECT_EQ(groups[1].races.size(), 2U);
   EXPECT_EQ(groups[3].title, "tasks in time");
-  const Contest contest = search_contest(groups[1]);
-  ASSERT_EQ(contest.methods.size(), 2U);
-  const std::size_t a = contest.methods[0] == "a" ? 0 : 1;
-  EXPECT_EQ(contest.cost[a], (std::vector<double>{1, 4}));
+  const BenchmarkSet benchmark_set = search_benchmark_set(groups[1]);
+  ASSERT_EQ(benchmark_set.methods.size(), 2U);
+  const std::size_t a = benchmark_set.methods[0] == "a" ? 0 : 1;
+  EXPECT_EQ(benchmark_set.cost[a], (std::vector<double>{1, 4}));
 }
 
-TEST(Changes, ValuesTimesAndRowsOfOneSide) {
+TEST(Differences, ValuesTimesAndRowsOfOneSide) {
   Results a, b;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     a.rows.push_back(row("f/a", "ours", "s", 10, 1, seed));
@@ -199,7 +200,7 @@ TEST(Changes, ValuesTimesAndRowsOfOneSide) {
   b.rows[2].beta = {};
   a.rows.push_back(row("f/a", "ours", "old", 1, 1));
   b.rows.push_back(row("f/a", "ours", "new", 1, 1));
-  const Changes changes = find_changes(a, b);
+  const Differences changes = find_differences(a, b);
   EXPECT_EQ(changes.same, 5);
   EXPECT_EQ(changes.rounded, 1);
   ASSERT_EQ(changes.changed.size(), 2U);
@@ -210,12 +211,12 @@ TEST(Changes, ValuesTimesAndRowsOfOneSide) {
   ASSERT_EQ(changes.times.size(), 4U);  // all rows, one solver, one search, one problem
   EXPECT_EQ(changes.times[0].rows, 8);
   EXPECT_EQ(changes.times[0].times, 2);
-  EXPECT_TRUE(changes.times[0].is_change());  // p is 4 times 2/2^8
+  EXPECT_TRUE(changes.times[0].is_significant());  // p is 4 times 2/2^8
   EXPECT_DOUBLE_EQ(changes.times[0].p, 4 * 2.0 / 256);
 }
 
 /// Readings hang on steps; that one was held and the other was not is a change at any reading.
-TEST(Changes, Experiments) {
+TEST(Differences, Experiments) {
   Results a;
   for (const char* problem : {"f/a", "g/b", "h/c"}) {
     a.rows.push_back(row(problem, "ours", "", 100, 1));
@@ -227,7 +228,7 @@ TEST(Changes, Experiments) {
   b.rows[0].beta = 100.005;  // 5e-5 of 101
   b.rows[1].beta = 100.02;   // 2e-4
   b.rows[2].reason = "reading off by 3";
-  const Changes changes = find_changes(a, b);
+  const Differences changes = find_differences(a, b);
   EXPECT_EQ(changes.same, 0);
   EXPECT_EQ(changes.rounded, 1);
   ASSERT_EQ(changes.changed.size(), 2U);
@@ -237,13 +238,13 @@ TEST(Changes, Experiments) {
   EXPECT_EQ(changes.times.back().name, "cvode");
 }
 
-TEST(Changes, AFolderAndItself) {
+TEST(Differences, AFolderAndItself) {
   Results a;
   a.rows = five_rows();
-  const Changes changes = find_changes(a, a);
+  const Differences changes = find_differences(a, a);
   EXPECT_EQ(changes.same, 5);
   EXPECT_TRUE(changes.changed.empty());
-  for (const TimeChange& time : changes.times) EXPECT_FALSE(time.is_change());
+  for (const TimeRatio& time : changes.times) EXPECT_FALSE(time.is_significant());
 }
 
 }  // namespace

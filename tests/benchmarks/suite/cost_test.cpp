@@ -40,20 +40,20 @@ TEST(Cost, ShardsShareTheCasesEvenly) {
 
 /// A library for one thread at a time counts wherever it is named.
 TEST(Cost, CasesOfOneLibraryWaitForEachOther) {
-  EXPECT_FALSE(waits_for_others({.lp = "facets", .search = "sample+cmaes"}));
+  EXPECT_FALSE(waits_for_others({.solver = "facets", .search = "sample+cmaes"}));
   if (std::none_of(lp_solvers().begin(), lp_solvers().end(),
                    [](const LpEntry& lp) { return lp.name == std::string("ipopt"); })) {
     GTEST_SKIP() << "without Ipopt";
   }
-  EXPECT_TRUE(waits_for_others({.lp = "ipopt", .search = "sample"}));
-  EXPECT_TRUE(waits_for_others({.lp = "facets", .search = "grid+multistart"}));
+  EXPECT_TRUE(waits_for_others({.solver = "ipopt", .search = "sample"}));
+  EXPECT_TRUE(waits_for_others({.solver = "facets", .search = "grid+multistart"}));
 }
 
 /// 3 s and 5 s of 100 evaluations each are 4 s of 100 and 8 s of 200, whatever the seed.
 TEST(Cost, WhatWasMeasuredCounts) {
   const TemporaryFolder folder;
   const Problem problem = load_problem("planar/force");
-  Case c{.problem = problem.name, .lp = "facets", .search = "sample", .budget = 100};
+  Case c{.problem = problem.name, .solver = "facets", .search = "sample", .budget = 100};
   std::vector<std::string> columns = case_columns();
   columns.emplace_back("cpu_s");
   Table times(folder.path() / "times.csv", columns, case_columns().size());

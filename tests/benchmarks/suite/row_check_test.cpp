@@ -63,7 +63,7 @@ TEST(CheckRow, AcceptsWhatWasEvaluated) {
     for (const char* measure : {"linf_polytope", "l2_polytope", "ellipsoid"}) {
       if (problem.contact && measure != std::string("linf_polytope")) continue;
       const RowCheck found = check(problem, row_of(problem, measure, Wrench::kPure));
-      EXPECT_EQ(found.refusal, "") << name << " " << measure;
+      EXPECT_EQ(found.rejection, "") << name << " " << measure;
       EXPECT_TRUE(found.has_value);
     }
   }
@@ -71,39 +71,39 @@ TEST(CheckRow, AcceptsWhatWasEvaluated) {
 
 /// Each claim by itself: the value, the posture, the efforts, the wrench, the multipliers, how well
 /// they balance, the evaluations. What two measures prove themselves, the others have evaluated.
-TEST(CheckRow, RefusesWhatDoesNotFollow) {
+TEST(CheckRow, RejectsWhatDoesNotFollow) {
   const Problem problem = load_problem("uvms/lift");
   for (const char* measure : {"linf_polytope", "l2_polytope", "ellipsoid", "least_effort"}) {
     const Cells good = row_of(problem, measure, Wrench::kPure);
-    ASSERT_EQ(check(problem, good).refusal, "") << measure;
+    ASSERT_EQ(check(problem, good).rejection, "") << measure;
     for (const char* column : {"beta", "theta_r", "u", "h", "lambda", "balance", "bounds", "dual",
                                "gap", "evaluations"}) {
       Cells row = good;
       std::string& text = cell(row, column);
       if (text.empty()) continue;
       text = column == std::string("h") ? "1 2 3 4 5 6" : raised(text);
-      EXPECT_NE(check(problem, row).refusal, "") << measure << " " << column;
+      EXPECT_NE(check(problem, row).rejection, "") << measure << " " << column;
     }
     Cells row = good;
-    cell(row, "continuous") = cell(row, "beta");
-    EXPECT_EQ(check(problem, row).refusal, "continuous: expected none") << measure;
+    cell(row, "value_between_knots") = cell(row, "beta");
+    EXPECT_EQ(check(problem, row).rejection, "continuous: expected none") << measure;
   }
 }
 
 /// What a search says of its own effort: at most the budget, and its methods at most all of it.
-TEST(CheckRow, RefusesMoreEvaluationsThanTheBudget) {
+TEST(CheckRow, RejectsMoreEvaluationsThanTheBudget) {
   const Problem problem = load_problem("planar/force");
   Case c = with_search(problem, {.problem = problem.name, .search = "slsqp", .budget = 300});
   Cells good = values(solve(problem, {c}));
-  ASSERT_EQ(check(problem, good).refusal, "");
+  ASSERT_EQ(check(problem, good).rejection, "");
   ASSERT_NE(cell(good, "calls"), "");
   for (const auto& [column, text] : {std::pair{"evaluations", "301"},
                                      {"evaluations", "-1"},
                                      {"evaluations", "1"},
                                      {"evaluations", "0"},
                                      {"budget", "0"},
-                                     {"lp", ""},
-                                     {"lp", "ellipsoid"},
+                                     {"solver", ""},
+                                     {"solver", "ellipsoid"},
                                      {"search", "slsqpx"},
                                      {"search", "slsqp+facet"},
                                      {"calls", "slsqp"},
@@ -114,62 +114,62 @@ TEST(CheckRow, RefusesMoreEvaluationsThanTheBudget) {
                                      {"reason", "interrupted"}}) {
     Cells row = good;
     cell(row, column) = text;
-    EXPECT_NE(check(problem, row).refusal, "") << column << " " << text;
+    EXPECT_NE(check(problem, row).rejection, "") << column << " " << text;
   }
 }
 
 /// A row belongs to the files of its task as they were.
-TEST(CheckRow, RefusesRowsOfAnotherTask) {
+TEST(CheckRow, RejectsRowsOfAnotherTask) {
   const Problem problem = load_problem("planar/force");
   Cells row = row_of(problem, "linf_polytope", Wrench::kPure);
   EXPECT_EQ(cell(row, "task_digest").size(), 16U);
   cell(row, "task_digest")[0] ^= 1;
-  EXPECT_EQ(check(problem, row).refusal.find("task_digest: "), 0U);
+  EXPECT_EQ(check(problem, row).rejection.find("task_digest: "), 0U);
 }
 
-TEST(CheckRow, RefusesWhatCannotBeRead) {
+TEST(CheckRow, RejectsWhatCannotBeRead) {
   const Problem problem = load_problem("planar/force");
   const Cells good = row_of(problem, "linf_polytope", Wrench::kPure);
   for (const char* column : {"beta", "theta_r", "u", "h", "lambda", "seed"}) {
     for (const char* text : {"nan", "inf", "1 x", "1e999", "0 0 0 0 0 0 0 0 0 0 0"}) {
       Cells row = good;
       cell(row, column) = text;
-      EXPECT_NE(check(problem, row).refusal, "") << column << " " << text;
+      EXPECT_NE(check(problem, row).rejection, "") << column << " " << text;
     }
   }
   Cells row = good;
   cell(row, "wrench") = "some";
-  EXPECT_NE(check(problem, row).refusal.find("some"), std::string::npos);
+  EXPECT_NE(check(problem, row).rejection.find("some"), std::string::npos);
 }
 
 TEST(CheckRow, AsksForAReasonWhereThereIsNoValue) {
   const Problem problem = load_problem("planar/force");
   Cells row = without_value(row_of(problem, "linf_polytope", Wrench::kPure));
-  EXPECT_NE(check(problem, row).refusal, "");
+  EXPECT_NE(check(problem, row).rejection, "");
   cell(row, "reason") = "the time ran out";
-  EXPECT_NE(check(problem, row).refusal.find("without a value"), std::string::npos);
+  EXPECT_NE(check(problem, row).rejection.find("without a value"), std::string::npos);
   for (const char* status : {"proven", "reached", "x", ""}) {
     cell(row, "status") = status;
-    EXPECT_NE(check(problem, row).refusal.find("without a value"), std::string::npos) << status;
+    EXPECT_NE(check(problem, row).rejection.find("without a value"), std::string::npos) << status;
   }
   cell(row, "status") = "none_found";
-  EXPECT_EQ(check(problem, row).refusal, "status: expected 'optimal'");
+  EXPECT_EQ(check(problem, row).rejection, "status: expected 'optimal'");
   cell(row, "search") = "grid";
-  EXPECT_EQ(check(problem, row).refusal.find("beta: what it found has the value "), 0U);
-  cell(row, "theta_r") = cell(row, "yardstick") = "";
-  EXPECT_EQ(check(problem, row).refusal, "");
+  EXPECT_EQ(check(problem, row).rejection.find("beta: what it found has the value "), 0U);
+  cell(row, "theta_r") = cell(row, "beta_linf") = "";
+  EXPECT_EQ(check(problem, row).rejection, "");
   EXPECT_FALSE(check(problem, row).has_value);
 }
 
 /// What stands beside the value.
-TEST(CheckRow, RefusesOtherWords) {
+TEST(CheckRow, RejectsOtherWords) {
   const Problem problem = load_problem("uvms/lift");
   const Cells good = row_of(problem, "linf_polytope", Wrench::kPure);
   for (const auto& [column, text] :
-       {std::pair{"status", "infeasible"}, {"unit", "lb"}, {"yardstick", "1"}, {"yardstick", ""}}) {
+       {std::pair{"status", "infeasible"}, {"unit", "lb"}, {"beta_linf", "1"}, {"beta_linf", ""}}) {
     Cells row = good;
     cell(row, column) = text;
-    EXPECT_EQ(check(problem, row).refusal.find(column), 0U) << column << " " << text;
+    EXPECT_EQ(check(problem, row).rejection.find(column), 0U) << column << " " << text;
   }
 }
 
@@ -183,14 +183,14 @@ TEST(CheckRow, AcceptsPosturesThatTie) {
     PostureEvaluator model(problem);
     model.evaluate(problem.theta_r_default);
     int ties = 0;
-    for (int branch = 0; branch < model.branches(); ++branch) {
+    for (int ik_solution = 0; ik_solution < model.ik_solutions(); ++ik_solution) {
       Answer row = best;
-      row.posture = model.select(branch);
+      row.posture = model.select(ik_solution);
       WrenchProgram program = make_wrench_program(problem, c.wrench);
       set_posture(row.posture, program);
       method.make_measure()->evaluate(row.posture, program, true, row.capability);
       const bool same = std::abs(row.capability.beta - best.capability.beta) < 1e-7;
-      EXPECT_EQ(check(problem, values(row)).refusal.empty(), same) << branch;
+      EXPECT_EQ(check(problem, values(row)).rejection.empty(), same) << ik_solution;
       ties += same ? 1 : 0;
     }
     EXPECT_GT(ties, 1);
@@ -204,37 +204,37 @@ TEST(CheckRow, CarriesOutExperiments) {
     const Problem problem = load_problem(name);
     const Case c{.problem = name, .search = "", .scheme = scheme, .integrator = "cvode"};
     const Cells good = values(experiment(problem, {c}));
-    EXPECT_EQ(check(problem, good).refusal, "") << name;
+    EXPECT_EQ(check(problem, good).rejection, "") << name;
     for (const char* column :
-         {"beta", "yardstick", "unit", "status", "reason", "integrator", "theta_r"}) {
+         {"beta", "beta_linf", "unit", "status", "reason", "integrator", "theta_r"}) {
       Cells row = good;
       std::string& text = cell(row, column);
       text = text.empty() || text.front() > '9' ? "x" : scaled(text, 1.001);
-      EXPECT_NE(check(problem, row).refusal, "") << name << " " << column;
+      EXPECT_NE(check(problem, row).rejection, "") << name << " " << column;
     }
     Cells row = good;
     cell(row, "status") = "budget_exhausted";
-    EXPECT_NE(check(problem, row).refusal, "") << name;
+    EXPECT_NE(check(problem, row).rejection, "") << name;
   }
 }
 
 /// Of rows that say that they have no value.
-TEST(CheckRow, RefusesNamesAndFailuresThatAreNot) {
+TEST(CheckRow, RejectsNamesAndFailuresThatAreNot) {
   const Problem problem = load_problem("uvms/lift");
   Cells good = without_value(row_of(problem, "linf_polytope", Wrench::kPure));
   cell(good, "search") = "grid";
-  cell(good, "theta_r") = cell(good, "yardstick") = "";
+  cell(good, "theta_r") = cell(good, "beta_linf") = "";
   cell(good, "status") = "none_found";
   cell(good, "reason") = "the time ran out";
-  EXPECT_EQ(check(problem, good).refusal, "");
+  EXPECT_EQ(check(problem, good).rejection, "");
   for (const auto& [column, text] : {std::pair{"status", "infeasible"},
                                      {"status", "budget_exhausted"},
                                      {"reason", "interrupted"},
                                      {"reason", ""},
                                      {"unit", "N m"},
                                      {"unit", ""},
-                                     {"yardstick", "1"},
-                                     {"continuous", "1"},
+                                     {"beta_linf", "1"},
+                                     {"value_between_knots", "1"},
                                      {"h", "0 0 0 0 0 0"},
                                      {"gap", "0"},
                                      {"search", "slp+grid"},
@@ -243,17 +243,17 @@ TEST(CheckRow, RefusesNamesAndFailuresThatAreNot) {
                                      {"calls", "grid ended 1 30000"}}) {
     Cells row = good;
     cell(row, column) = text;
-    EXPECT_NE(check(problem, row).refusal, "") << column << " " << text;
+    EXPECT_NE(check(problem, row).rejection, "") << column << " " << text;
   }
-  for (const char* column :
-       {"measure", "lp", "search", "scheme", "integrator", "theta_r", "label", "yardstick_unit"}) {
+  for (const char* column : {"measure", "solver", "search", "scheme", "integrator", "theta_r",
+                             "label", "beta_linf_unit"}) {
     Cells row = good;
     cell(row, column) = "x";
-    EXPECT_NE(check(problem, row).refusal, "") << column;
+    EXPECT_NE(check(problem, row).rejection, "") << column;
   }
   cell(good, "search") = "";
   cell(good, "integrator") = "cvode";
-  EXPECT_EQ(check(problem, good).refusal, "status: expected 'reached'");
+  EXPECT_EQ(check(problem, good).rejection, "status: expected 'reached'");
 }
 
 /// A posture and knots beyond the limits, evaluated: why there is no value is looked at, too.
@@ -270,22 +270,22 @@ TEST(CheckRow, EvaluatesWhatHasNoValue) {
       row = values(evaluate(problem, far, {c}));
     }
     ASSERT_EQ(cell(row, "beta"), "") << name;
-    EXPECT_EQ(check(problem, row).refusal, "") << name;
+    EXPECT_EQ(check(problem, row).rejection, "") << name;
     const std::string status = cell(row, "status");
     cell(row, "status") = "unbounded";
-    EXPECT_EQ(check(problem, row).refusal, "status: expected '" + status + "'");
+    EXPECT_EQ(check(problem, row).rejection, "status: expected '" + status + "'");
     cell(row, "status") = status;
     for (const auto& [column, text] : {std::pair{"reason", "joint limit of another"},
                                        {"unit", "lb"},
-                                       {"yardstick", "1"},
-                                       {"continuous", "1"},
-                                       {"lp", ""}}) {
+                                       {"beta_linf", "1"},
+                                       {"value_between_knots", "1"},
+                                       {"solver", ""}}) {
       Cells other = row;
       cell(other, column) = text;
-      EXPECT_EQ(check(problem, other).refusal.find(column), 0U) << name << " " << column;
+      EXPECT_EQ(check(problem, other).rejection.find(column), 0U) << name << " " << column;
     }
     cell(row, "theta_r") = "";
-    EXPECT_NE(check(problem, row).refusal.find("theta_r"), std::string::npos) << name;
+    EXPECT_NE(check(problem, row).rejection.find("theta_r"), std::string::npos) << name;
   }
 }
 
@@ -297,22 +297,22 @@ TEST(CheckRow, CarriesOutExperimentsWithoutAReading) {
   set_scheme("scheme", c.scheme, changed);
   Cells good = values(experiment(changed, {c}));
   ASSERT_EQ(cell(good, "beta"), "");
-  EXPECT_EQ(check(problem, good).refusal, "");
-  for (const auto& [column, text] : {std::pair{"continuous", "1"},
+  EXPECT_EQ(check(problem, good).rejection, "");
+  for (const auto& [column, text] : {std::pair{"value_between_knots", "1"},
                                      {"unit", "lb"},
-                                     {"yardstick", "1"},
+                                     {"beta_linf", "1"},
                                      {"theta_r", ""},
                                      {"reason", "interrupted"},
                                      {"status", "none_found"},
-                                     {"lp", ""},
+                                     {"solver", ""},
                                      {"calls", "x"}}) {
     Cells row = good;
     cell(row, column) = text;
-    EXPECT_EQ(check(problem, row).refusal.find(column), 0U) << column << " " << text;
+    EXPECT_EQ(check(problem, row).rejection.find(column), 0U) << column << " " << text;
   }
 }
 
-TEST(CheckRow, EvaluatesPlans) {
+TEST(CheckRow, EvaluatesTrajectories) {
   const Problem problem = load_problem("planar/trajectory");
   const Case c{.problem = problem.name, .search = ""};
   Problem changed = problem;
@@ -321,12 +321,12 @@ TEST(CheckRow, EvaluatesPlans) {
       evaluate(changed, constant_knots(changed, changed.theta_r_default), {method.choice});
   ASSERT_TRUE(row.has_value());
   Cells cells = values(row);
-  EXPECT_EQ(check(problem, cells).refusal, "");
+  EXPECT_EQ(check(problem, cells).rejection, "");
   Cells other = cells;
-  cell(other, "continuous") = scaled(cell(other, "continuous"), 1.01);
-  EXPECT_EQ(check(problem, other).refusal.find("continuous"), 0U);
+  cell(other, "value_between_knots") = scaled(cell(other, "value_between_knots"), 1.01);
+  EXPECT_EQ(check(problem, other).rejection.find("value_between_knots"), 0U);
   cell(cells, "beta") = scaled(cell(cells, "beta"), 1.01);
-  EXPECT_NE(check(problem, cells).refusal.find("has the value"), std::string::npos);
+  EXPECT_NE(check(problem, cells).rejection.find("has the value"), std::string::npos);
 }
 
 }  // namespace

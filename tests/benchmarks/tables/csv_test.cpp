@@ -71,7 +71,7 @@ TEST_F(Csv, MayBePackedByGzip) {
 }
 
 /// Cut anywhere, with any one bit changed behind its header, or with something behind it.
-TEST_F(Csv, DamagedGzipIsRefused) {
+TEST_F(Csv, DamagedGzipIsRejected) {
   const std::string packed = packed_csv("a,b\nx,1\ny,2\nz,3\n");
   const auto expect_damaged = [&](const std::string& text) {
     EXPECT_EQ(complaint(text).find((folder_.path() / "t.csv").string() + ": got a damaged file, "),
@@ -87,7 +87,7 @@ TEST_F(Csv, DamagedGzipIsRefused) {
   expect_damaged(packed + "x");
 }
 
-/// A table of one letter packs a thousand times. We store it larger, and refuse what would fill the
+/// A table of one letter packs a thousand times. We store it larger, and reject what would fill the
 /// memory.
 TEST_F(Csv, SmallFilesDoNotFillTheMemory) {
   const std::string text = "a,b\n" + std::string(10'000'000, 'x');

@@ -131,7 +131,7 @@ TEST(Table, ForgetsWhatIsDropped) {
 
 /// Rows that are not understood would be lost with the next one. Of a journal they are what a
 /// killed process left.
-TEST(Table, RowsThatAreNotUnderstoodAreRefused) {
+TEST(Table, RowsThatAreNotUnderstoodAreRejected) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "t.csv";
   for (const char* text : {"a,gone,value\n1,2,3\n", "b,a,value\n1,2,3\n", "a\n1\n",
@@ -145,7 +145,7 @@ TEST(Table, RowsThatAreNotUnderstoodAreRefused) {
 }
 
 /// Taken for an empty table, it would be lost with the next row.
-TEST(Table, WhatIsNoTableIsRefused) {
+TEST(Table, WhatIsNoTableIsRejected) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder.path() / "t.csv");
   EXPECT_THROW(Table(folder.path() / "t.csv", {"a"}, 1), std::invalid_argument);

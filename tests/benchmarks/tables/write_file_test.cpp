@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 class WriteFile : public testing::Test {
  protected:
-  void expect_refused(const fs::path& file, const std::string& reason) {
+  void expect_rejected(const fs::path& file, const std::string& reason) {
     try {
       write_file(file, "new");
       ADD_FAILURE() << file << " was written";
@@ -53,7 +53,7 @@ TEST_F(WriteFile, MakesTheFolderAndLeavesNothingElse) {
 TEST_F(WriteFile, TakesTheLongestName) {
   write_file(in(std::string(255, 'n')), "text");
   EXPECT_EQ(read_text(in(std::string(255, 'n'))), "text");
-  expect_refused(in(std::string(256, 'n')), "File name too long");
+  expect_rejected(in(std::string(256, 'n')), "File name too long");
 }
 
 TEST_F(WriteFile, FollowsLinks) {
@@ -70,7 +70,7 @@ TEST_F(WriteFile, FollowsLinks) {
   EXPECT_TRUE(fs::is_symlink(in("dangling")));
   EXPECT_EQ(read_text(in("not_yet")), "new");
   fs::create_symlink("circle", in("circle"));
-  expect_refused(in("circle"), "Too many levels");
+  expect_rejected(in("circle"), "Too many levels");
   expect_only({"real", "sub", "two", "dangling", "not_yet", "circle"});
 }
 
@@ -82,7 +82,7 @@ TEST_F(WriteFile, KeepsThePermissionsOfAnOldFile) {
             fs::perms::owner_read | fs::perms::owner_write);
   if (geteuid() == 0) GTEST_SKIP() << "root may write to what is read-only";
   fs::permissions(in("private"), fs::perms::owner_read);
-  expect_refused(in("private"), "Permission denied");
+  expect_rejected(in("private"), "Permission denied");
   EXPECT_EQ(read_text(in("private")), "new");
 }
 
@@ -104,17 +104,17 @@ TEST_F(WriteFile, DevicesAreWrittenToAndTheirReasonIsNamed) {
   const int descriptor = open(in("full").c_str(), O_WRONLY);
   if (descriptor < 0) GTEST_SKIP() << "devices of one's own do not work here";
   close(descriptor);
-  expect_refused(in("full"), "No space left on device");
+  expect_rejected(in("full"), "No space left on device");
   EXPECT_TRUE(fs::is_character_file(in("full")));
   expect_only({"full"});
 }
 
 TEST_F(WriteFile, FoldersAreNamed) {
-  expect_refused(folder_.path(), "Is a directory");
+  expect_rejected(folder_.path(), "Is a directory");
   std::ofstream(in("file")) << "old";
-  expect_refused(in("file/x"), "Not a directory");
-  expect_refused(in("file/x/y"), "Not a directory");
-  expect_refused("/proc/nowhere/t.csv", "No such file");
+  expect_rejected(in("file/x"), "Not a directory");
+  expect_rejected(in("file/x/y"), "Not a directory");
+  expect_rejected("/proc/nowhere/t.csv", "No such file");
   EXPECT_EQ(read_text(in("file")), "old");
 }
 

@@ -83,23 +83,23 @@ TEST(CertifyCommand, EndsWithCtrlC) {
   EXPECT_GT(proof["bound"], proof["beta"]);
 }
 
-TEST(CertifyCommand, RefusesInOneLine) {
-  const auto refused = [](const std::string& words, const char* mention) {
+TEST(CertifyCommand, RejectsInOneLine) {
+  const auto rejected = [](const std::string& words, const char* mention) {
     const CommandResult result = run_maxwrench("certify " + words);
     EXPECT_EQ(result.exit_status, 2) << words;
     EXPECT_EQ(result.out, "");
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
     EXPECT_NE(result.err.find(mention), std::string::npos) << result.err;
   };
-  refused("uvms/valve_trajectory", "task in time");
-  refused("dual_arm/bar_wall --measure ellipsoid", "got 'ellipsoid'");
-  refused("fixed/push --wrench any", "follow from theta_r");
-  refused("dual_arm/bar_wall --certificate proof.bin",
-          "--certificate: got a task with forces of a second contact");
-  refused("planar/force --measure volume", "--measure: got 'volume'");
-  refused("planar/force --measure ellipsoid --wrench any", "--wrench: got 'any'");
-  refused("planar/force --gap 1e-9", "--gap");
-  refused("planar/force --time soon", "--time");
+  rejected("uvms/valve_trajectory", "task in time");
+  rejected("dual_arm/bar_wall --measure ellipsoid", "got 'ellipsoid'");
+  rejected("fixed/push --wrench any", "follow from theta_r");
+  rejected("dual_arm/bar_wall --certificate proof.bin",
+           "--certificate: got a task with forces of a second contact");
+  rejected("planar/force --measure volume", "--measure: got 'volume'");
+  rejected("planar/force --measure ellipsoid --wrench any", "--wrench: got 'any'");
+  rejected("planar/force --gap 1e-9", "--gap");
+  rejected("planar/force --time soon", "--time");
 }
 
 }  // namespace

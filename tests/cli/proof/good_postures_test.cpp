@@ -113,8 +113,8 @@ TEST(WithinCommand, EndsEarly) {
   }
 }
 
-TEST(WithinCommand, RefusesInOneLine) {
-  const auto refused = [](const std::string& words, const char* mention) {
+TEST(WithinCommand, RejectsInOneLine) {
+  const auto rejected = [](const std::string& words, const char* mention) {
     const CommandResult result = run_maxwrench("certify planar/force " + words);
     EXPECT_EQ(result.exit_status, 2) << words;
     EXPECT_EQ(result.out, "");
@@ -122,15 +122,15 @@ TEST(WithinCommand, RefusesInOneLine) {
     EXPECT_NE(result.err.find(mention), std::string::npos) << result.err;
   };
   for (const char* share : {"0", "-1%", "101%", "1.01", "nan", "nan%", "one", "%", "''"}) {
-    refused("--within " + std::string(share), "--within");
+    rejected("--within " + std::string(share), "--within");
   }
   for (const char* side : {"0", "-0.1", "nan", "inf", "fine"}) {
-    refused("--within 1% --resolution " + std::string(side), "--resolution");
+    rejected("--within 1% --resolution " + std::string(side), "--resolution");
   }
-  refused("--resolution 0.1", "--within");
-  refused("--boxes boxes.csv", "--within");
-  refused("--figure boxes.svg", "--within");
-  refused("--within 1% --boxes same --figure same", "same");
+  rejected("--resolution 0.1", "--within");
+  rejected("--boxes boxes.csv", "--within");
+  rejected("--figure boxes.svg", "--within");
+  rejected("--within 1% --boxes same --figure same", "same");
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ TEST_F(VerifyCommand, KnowsWhetherCollisionsCounted) {
   EXPECT_NE(result.out.find("collisions ignored"), std::string::npos);
 }
 
-TEST_F(VerifyCommand, RefusesAnotherTask) {
+TEST_F(VerifyCommand, RejectsAnotherTask) {
   const std::string file = certificate("planar/force");
   const CommandResult result = run_maxwrench("verify --problem uvms/valve " + file);
   EXPECT_EQ(result.exit_status, 1);
@@ -54,21 +54,21 @@ TEST_F(VerifyCommand, RefusesAnotherTask) {
       << result.out;
 }
 
-TEST_F(VerifyCommand, RefusesOtherFilesInOneLine) {
-  const auto refused = [](const std::string& words, const char* mention) {
+TEST_F(VerifyCommand, RejectsOtherFilesInOneLine) {
+  const auto rejected = [](const std::string& words, const char* mention) {
     const CommandResult result = run_maxwrench("verify " + words);
     EXPECT_EQ(result.exit_status, 2) << words;
     EXPECT_EQ(result.out, "");
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
     EXPECT_NE(result.err.find(mention), std::string::npos) << result.err;
   };
-  refused("README.md", "README.md: got something else");
-  refused("no_such_file", "no_such_file: got nothing");
+  rejected("README.md", "README.md: got something else");
+  rejected("no_such_file", "no_such_file: got nothing");
   const std::string file = certificate("planar/force");
   std::string text = read_text(file);
   text[text.size() / 2] ^= 1;
   std::ofstream(file, std::ios::binary) << text;
-  refused(file, "damaged");
+  rejected(file, "damaged");
 }
 
 /// A certificate of nothing is none.
@@ -84,17 +84,17 @@ TEST(CertifyCommand, WritesNoCertificateWithoutABound) {
   EXPECT_FALSE(std::filesystem::exists(file));
 }
 
-/// The rows of the project's own run; and one that claims a tenth more is refused by its name.
+/// The rows of the project's own run; and one that claims a tenth more is rejected by its name.
 TEST_F(VerifyCommand, ChecksRowsOfARun) {
   const std::string rows = MAXWRENCH_SOURCE_DIR "/results/values.csv.gz";
   const json good = json::parse(run_maxwrench("verify --json --sample 200 " + rows).out);
-  EXPECT_EQ(good["status"], "verified") << good["refused"];
+  EXPECT_EQ(good["status"], "verified") << good["rejected"];
   EXPECT_EQ(good["checked"], 200);
   EXPECT_GT(good["values"], 100);
   EXPECT_LT(good["deviation"], 1e-6);
   const std::string file = folder_.path() / "values.csv.gz";
   const CommandResult run = run_maxwrench(
-      "run planar/force measure=linf_polytope lp=facets search=crs2 budget=500 --out " +
+      "run planar/force measure=linf_polytope solver=facets search=crs2 budget=500 --out " +
       folder_.path().string());
   ASSERT_EQ(run.exit_status, 0) << run.err;
   EXPECT_EQ(run_maxwrench("verify " + file).exit_status, 0);
@@ -104,7 +104,7 @@ TEST_F(VerifyCommand, ChecksRowsOfARun) {
   std::ofstream(file) << text.replace(beta, 3, "3.9");
   const CommandResult other = run_maxwrench("verify " + file);
   EXPECT_EQ(other.exit_status, 1);
-  EXPECT_NE(other.out.find("refused: planar/force,linf_polytope,pure,facets,crs2,1,500"),
+  EXPECT_NE(other.out.find("rejected: planar/force,linf_polytope,pure,facets,crs2,1,500"),
             std::string::npos)
       << other.out;
   std::ofstream(file, std::ios::app) << "planar/force,linf_polytope\n";

@@ -11,7 +11,7 @@
 namespace maxwrench {
 namespace {
 
-TEST(Compare, RefusesAProblemTwice) {
+TEST(Compare, RejectsAProblemTwice) {
   const CommandResult result = run_maxwrench("compare planar/force uvms/lift planar/force");
   EXPECT_EQ(result.exit_status, 2);
   EXPECT_NE(result.err.find("problems: got 'planar/force' twice"), std::string::npos) << result.err;

@@ -26,11 +26,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kSmallPlan = fmt::format(R"(
+const std::string kSmallSuite = fmt::format(R"(
 [[product]]
 problem = ["planar/force", "dual_arm/bar_wall"]
 wrench = "all"
-lp = "all"
+solver = "all"
 search = ["sample", "crs2+cmaes"]
 seeds = 2
 budget = {}
@@ -39,13 +39,13 @@ problem = "planar/trajectory"
 search = ["sample", "slp"]
 budget = 20
 )",
-                                           samples(200));
+                                            samples(200));
 
-class RunPlan : public testing::Test {
+class RunSuite : public testing::Test {
  protected:
-  RunPlan() { std::ofstream(folder_.path() / "plan.toml") << kSmallPlan; }
+  RunSuite() { std::ofstream(folder_.path() / "suite.toml") << kSmallSuite; }
   CommandResult run(const std::string& words) {
-    return run_maxwrench("run plan.toml " + words, folder_.path());
+    return run_maxwrench("run suite.toml " + words, folder_.path());
   }
   std::string read(const std::string& file) const { return read_text(folder_.path() / file); }
   std::string table(const std::string& file) const { return read_table(folder_.path() / file); }
@@ -58,7 +58,7 @@ class RunPlan : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(RunPlan, GivesTheSameValuesAtAnyThreadCount) {
+TEST_F(RunSuite, GivesTheSameValuesAtAnyThreadCount) {
   const std::string one = undisturbed();
   for (const char* threads : {"2", "8"}) {
     ASSERT_LT(run(fmt::format("--threads {} --out {}", threads, threads)).exit_status, 2);
@@ -67,12 +67,12 @@ TEST_F(RunPlan, GivesTheSameValuesAtAnyThreadCount) {
   }
 }
 
-TEST_F(RunPlan, GoesOnAfterItWasKilled) {
+TEST_F(RunSuite, GoesOnAfterItWasKilled) {
   const std::string one = undisturbed();
   bool had_rows = false;
   for (int kill = 0; kill < 10; ++kill) {
     run_maxwrench(fmt::format("--version > /dev/null; timeout -s KILL {:.2f} '" MAXWRENCH_COMMAND
-                              "' run plan.toml --threads 2 --out killed",
+                              "' run suite.toml --threads 2 --out killed",
                               0.03 * std::pow(1.6, kill)),
                   folder_.path());
     const std::string rows = read("killed/values.csv.part");
@@ -84,23 +84,23 @@ TEST_F(RunPlan, GoesOnAfterItWasKilled) {
   EXPECT_FALSE(fs::exists(folder_.path() / "killed/values.csv.part"));
 }
 
-TEST_F(RunPlan, AFolderHasOneRunAtATime) {
+TEST_F(RunSuite, AFolderHasOneRunAtATime) {
   const std::string one = undisturbed();
   Table held(folder_.path() / "one/values.csv", value_columns(), case_columns().size());
   held.hold();
-  fs::remove(folder_.path() / "one/plan.toml");
+  fs::remove(folder_.path() / "one/suite.toml");
   const CommandResult second = run("--again --out one");
   EXPECT_EQ(second.exit_status, 2);
   EXPECT_EQ(std::count(second.err.begin(), second.err.end(), '\n'), 1) << second.err;
   EXPECT_NE(second.err.find("values.csv.part"), std::string::npos) << second.err;
-  EXPECT_FALSE(fs::exists(folder_.path() / "one/plan.toml"));
+  EXPECT_FALSE(fs::exists(folder_.path() / "one/suite.toml"));
   EXPECT_EQ(table("one/values.csv"), one);
 }
 
 bool keeps_rows() { return names_sources(version()); }
 
 /// A torn line is no row; what is whole is not computed again, unless the sources were changed.
-TEST_F(RunPlan, KeepsTheRowsOfAJournal) {
+TEST_F(RunSuite, KeepsTheRowsOfAJournal) {
   const std::string one = undisturbed();
   fs::remove(folder_.path() / "one/values.csv.gz");
   std::ofstream(folder_.path() / "one/values.csv.part") << one.substr(0, one.size() - 5);
@@ -119,7 +119,7 @@ TEST_F(RunPlan, KeepsTheRowsOfAJournal) {
   EXPECT_EQ(table("one/values.csv"), one);
 }
 
-TEST_F(RunPlan, ShardsMergeToOneRun) {
+TEST_F(RunSuite, ShardsMergeToOneRun) {
   const std::string one = undisturbed();
   for (const char* index : {"1", "2", "3"}) {
     ASSERT_LT(run(fmt::format("--shard {0}/3 --out part{0}", index)).exit_status, 2);
@@ -127,7 +127,7 @@ TEST_F(RunPlan, ShardsMergeToOneRun) {
   const CommandResult merged = run_maxwrench("merge all part3 part1 part2", folder_.path());
   ASSERT_EQ(merged.exit_status, 0) << merged.err;
   EXPECT_EQ(read("all/values.csv.gz"), read("one/values.csv.gz"));
-  EXPECT_EQ(read("all/plan.toml"), kSmallPlan);
+  EXPECT_EQ(read("all/suite.toml"), kSmallSuite);
   const CommandResult less = run_maxwrench("merge less part3 part1", folder_.path());
   const auto rows = std::count(one.begin(), one.end(), '\n') - 1;
   EXPECT_EQ(less.out.find(fmt::format("{} rows", rows)), std::string::npos) << less.out;
@@ -141,10 +141,10 @@ TEST_F(RunPlan, ShardsMergeToOneRun) {
 
 /// Rows are of the files of their task and of one version; ".dirty" is none, nor is what no commit
 /// is known of.
-TEST_F(RunPlan, RowsOfEditedTasksAndOtherVersionsAreNotThere) {
+TEST_F(RunSuite, RowsOfEditedTasksAndOtherVersionsAreNotThere) {
   EditedCopy robot;
   const std::string task = robot.path() / "force.toml";
-  std::ofstream(folder_.path() / "plan.toml")
+  std::ofstream(folder_.path() / "suite.toml")
       << "[[product]]\nproblem = '" << task << "'\nsearch = 'sample'\nbudget = 20\n";
   ASSERT_EQ(run("--out one").exit_status, 0);
   const fs::path one = folder_.path() / "one";
@@ -168,7 +168,7 @@ TEST_F(RunPlan, RowsOfEditedTasksAndOtherVersionsAreNotThere) {
   }
 }
 
-TEST_F(RunPlan, ContradictionsAreNotMerged) {
+TEST_F(RunSuite, ContradictionsAreNotMerged) {
   ASSERT_LT(run("--out one").exit_status, 2);
   fs::copy(folder_.path() / "one", folder_.path() / "two");
   std::string changed = table("two/values.csv");
@@ -190,7 +190,7 @@ TEST_F(RunPlan, ContradictionsAreNotMerged) {
   }
 }
 
-TEST_F(RunPlan, CountsAndNamesItsRows) {
+TEST_F(RunSuite, CountsAndNamesItsRows) {
   const std::string commands = run("--commands").out;
   const auto rows = std::count(commands.begin(), commands.end(), '\n');
   EXPECT_NE(run("--dry").out.find(fmt::format("{} rows, {} of them to do", rows, rows)),
@@ -209,8 +209,8 @@ TEST_F(RunPlan, CountsAndNamesItsRows) {
 
 /// Experiments of a static task and of one in time: the same rows on two threads, and the reading
 /// of the command that stands for each.
-TEST_F(RunPlan, CarriesOutExperiments) {
-  std::ofstream(folder_.path() / "plan.toml")
+TEST_F(RunSuite, CarriesOutExperiments) {
+  std::ofstream(folder_.path() / "suite.toml")
       << "[[product]]\nproblem = ['uvms/lift', 'uvms/lift_impulse']\nintegrator = 'cvode'\n";
   ASSERT_EQ(run("--threads 1 --out one").exit_status, 0);
   ASSERT_EQ(run("--threads 2 --out two").exit_status, 0);
@@ -225,14 +225,14 @@ TEST_F(RunPlan, CarriesOutExperiments) {
     ASSERT_TRUE(command.starts_with("maxwrench simulate ")) << command;
     const auto said = nlohmann::json::parse(run_maxwrench(command.substr(10) + " --json").out);
     EXPECT_EQ(said[readings[i]], csv.number(i, "beta")) << command;
-    EXPECT_EQ(said["planned"], csv.number(i, "yardstick")) << command;
+    EXPECT_EQ(said["planned"], csv.number(i, "beta_linf")) << command;
   }
   const CommandResult report = run_maxwrench("report one", folder_.path());
   EXPECT_NE(report.out.find("Experiments in the virtual tank"), std::string::npos);
   EXPECT_EQ(run_maxwrench("verify one/values.csv.gz", folder_.path()).exit_status, 0);
 }
 
-TEST_F(RunPlan, BadWordsAreRefused) {
+TEST_F(RunSuite, BadWordsAreRejected) {
   for (const char* words : {"seed=1", "--shard 0/3", "--shard 4/3", "--shard 1", "--shard a/b"}) {
     const CommandResult result = run(words);
     EXPECT_EQ(result.exit_status, 2) << words;

@@ -24,7 +24,7 @@ std::string table(const std::vector<std::pair<int, std::string>>& edits, int row
   return text;
 }
 
-TEST(PlanTable, IsEvaluated) {
+TEST(TrajectoryTable, IsEvaluated) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "knots.csv") << table({});
   const CommandResult result =
@@ -40,10 +40,10 @@ struct BadTable {
   std::vector<std::string> mentions;
 };
 
-class BadPlanTable : public testing::TestWithParam<BadTable> {};
+class BadTrajectoryTable : public testing::TestWithParam<BadTable> {};
 
 INSTANTIATE_TEST_SUITE_P(
-    Each, BadPlanTable,
+    Each, BadTrajectoryTable,
     testing::Values(
         BadTable{"rows", 2, table({}, 9), {"knots.csv: rows: got 9, expected 10"}},
         BadTable{"columns", 2, "1,2,3\n", {"knots.csv: "}},
@@ -60,23 +60,23 @@ INSTANTIATE_TEST_SUITE_P(
                  {"speed limit", "knots 3 and 4", "q2_shoulder_pitch"}}),
     [](const auto& named) { return named.param.name; });
 
-TEST_P(BadPlanTable, IsRefusedOrInvalid) {
+TEST_P(BadTrajectoryTable, IsRejectedOrInvalid) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "knots.csv") << GetParam().text;
   const std::string words = "eval uvms/valve_trajectory --theta-r knots.csv";
   const CommandResult result = run_maxwrench(words + " --json", folder.path());
   EXPECT_EQ(result.exit_status, GetParam().exit_status) << result.err;
-  const bool refused = GetParam().exit_status == 2;
-  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), refused ? 1 : 0);
-  EXPECT_EQ(result.out.empty(), refused);
-  const std::string& said = refused ? result.err : result.out;
+  const bool rejected = GetParam().exit_status == 2;
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), rejected ? 1 : 0);
+  EXPECT_EQ(result.out.empty(), rejected);
+  const std::string& said = rejected ? result.err : result.out;
   for (const std::string& part : GetParam().mentions)
     EXPECT_NE(said.find(part), std::string::npos) << part << "\n" << said;
-  if (refused) return;
-  const json plan = json::parse(result.out);
-  EXPECT_EQ(plan["status"], "invalid_posture");
-  for (const char* key : {"value", "beta", "continuous", "gradient", "residual"})
-    EXPECT_TRUE(plan[key].is_null()) << key;
+  if (rejected) return;
+  const json trajectory = json::parse(result.out);
+  EXPECT_EQ(trajectory["status"], "invalid_posture");
+  for (const char* key : {"value", "beta", "value_between_knots", "gradient", "residual"})
+    EXPECT_TRUE(trajectory[key].is_null()) << key;
   EXPECT_EQ(run_maxwrench(words, folder.path()).exit_status, 1);
 }
 
@@ -107,7 +107,8 @@ INSTANTIATE_TEST_SUITE_P(
                        "--measure: got 'ellipsoid', expected linf_polytope"},
         BadMotionWords{"eval uvms/valve_trajectory --measure volume", "volume"},
         BadMotionWords{"eval uvms/valve_trajectory --wrench both", "both"},
-        BadMotionWords{"eval uvms/valve_trajectory --lp facets", "expected one of structured ipm"},
+        BadMotionWords{"eval uvms/valve_trajectory --solver facets",
+                       "expected one of structured ipm"},
         BadMotionWords{"eval uvms/valve_trajectory --theta-r 1,2,3",
                        "--theta-r: got '1,2,3', expected 4 numbers or a file of k = 10 rows"},
         BadMotionWords{"eval uvms/valve_trajectory --theta-r 1,2,3,x", "--theta-r"},
@@ -130,16 +131,16 @@ TEST_P(BadMotionCommand, ExitsWithTwoAndOneLine) {
 }
 
 /// One knot holds the start of the path, at rest: the static value.
-TEST(PlanTable, OneKnotIsAStaticPosture) {
+TEST(TrajectoryTable, OneKnotIsAStaticPosture) {
   EditedCopy copy;
   copy.replace("trajectory.toml", "k = 8\nscheme = \"spline\"\ninstants_per_interval = 4",
                "k = 1\nscheme = \"ends\"");
   const std::string words = " trajectory.toml --json";
   const CommandResult one = run_maxwrench("eval" + words, copy.path());
   ASSERT_EQ(one.exit_status, 0) << one.err;
-  const json plan = json::parse(one.out);
-  EXPECT_EQ(plan["instants"].size(), 1U);
-  EXPECT_EQ(plan["continuous"], plan["value"]);
+  const json trajectory = json::parse(one.out);
+  EXPECT_EQ(trajectory["instants"].size(), 1U);
+  EXPECT_EQ(trajectory["value_between_knots"], trajectory["value"]);
   const CommandResult spline = run_maxwrench("eval --scheme spline" + words, copy.path());
   EXPECT_EQ(spline.exit_status, 2);
   EXPECT_NE(spline.err.find("--scheme: got 'spline', expected another one for k = 1"),

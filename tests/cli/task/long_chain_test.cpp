@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 
 /// A proof looks at 3^d points of a box of d joints: 13 took 4.5 GB, and 20 are more than an int.
-TEST(LongChain, BeyondTheProofsIsRefusedInOneLine) {
+TEST(LongChain, BeyondTheProofsIsRejectedInOneLine) {
   for (const int joints : {10, 13, 20, 25, 64}) {
     SCOPED_TRACE(joints);
     const Snake snake(joints);
@@ -80,7 +80,7 @@ TEST(LongChain, SLOW_EveryEvaluationHasAVerdict) {
     const CommandResult result = run_maxwrench("solve " + snake.task() + " --json --budget 20000");
     ASSERT_EQ(result.exit_status, 0) << result.err;
     const json answer = json::parse(result.out);
-    EXPECT_EQ(answer["lp"], "facets");
+    EXPECT_EQ(answer["solver"], "facets");
     EXPECT_EQ(answer["undecided"], 0) << joints << " joints";
   }
 }

@@ -22,8 +22,8 @@ TEST(PlotCommand, DrawsNoPostureThatDoesNotExist) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.svg"));
 }
 
-/// At the start, in the middle and at the end; of a heave at its peak.
-TEST(PlotCommand, DrawsThePosturesOfAPlan) {
+/// At the start, in the middle and at the end; of an impulse at its peak.
+TEST(PlotCommand, DrawsThePosturesOfATrajectory) {
   const TemporaryFolder folder;
   for (const auto& [words, titles] :
        {std::pair("plot uvms/valve_trajectory", std::array{"0°", "90°", "180°"}),
@@ -46,7 +46,7 @@ TEST(PlotCommand, DrawsThePosturesOfAPlan) {
 }
 
 /// No step of the experiment succeeds. The answer stands, the figure has nothing to show.
-TEST(SimulateCommand, RefusesAFigureWithoutSamples) {
+TEST(SimulateCommand, RejectsAFigureWithoutSamples) {
   const TemporaryFolder folder;
   const CommandResult result = run_maxwrench(
       "simulate uvms/valve --thrust-noise 1e300 --figure a.svg --json", folder.path());

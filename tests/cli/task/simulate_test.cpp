@@ -23,7 +23,7 @@ json simulated(const std::string& words) {
   return json::parse(result.out);
 }
 
-TEST(SimulateCommand, SaysWhetherThePlanIsHeld) {
+TEST(SimulateCommand, SaysWhetherTheTrajectoryIsHeld) {
   const json held = simulated(kShort);
   EXPECT_EQ(held["status"], "reached");
   EXPECT_EQ(held["planned"], 4);
@@ -35,7 +35,7 @@ TEST(SimulateCommand, SaysWhetherThePlanIsHeld) {
   const json lost = simulated("simulate uvms/valve --planned 10 --ramp 2 --hold 2");
   EXPECT_EQ(lost["held"], false);
   EXPECT_EQ(lost["saturated"], 1);
-  // Of the hold, which is half a second after a ramp: the reading creeps up to the plan.
+  // Of the hold, which is half a second after a ramp: the reading creeps up to the trajectory.
   EXPECT_NEAR(held["mean"].get<double>(), 4, 0.02 * 4);
   const CommandResult text = run_maxwrench(kShort);
   for (const std::string& words :
@@ -51,9 +51,9 @@ TEST(SimulateCommand, SaysWhetherThePlanIsHeld) {
   const std::string wild = "simulate uvms/valve --thrust-noise 1e300";
   const std::string none = run_maxwrench(wild).out;
   EXPECT_NE(none.find("reading     none, the experiment ended"), std::string::npos) << none;
-  EXPECT_EQ(none.find("drift"), std::string::npos) << none;
+  EXPECT_EQ(none.find("theta_r_error"), std::string::npos) << none;
   const json object = json::parse(run_maxwrench(wild + " --json").out);
-  EXPECT_TRUE(object["drift"].is_null());
+  EXPECT_TRUE(object["theta_r_error"].is_null());
   EXPECT_EQ(object["end"], 0);
 }
 
@@ -106,7 +106,7 @@ TEST(SimulateCommand, FollowsATurn) {
   EXPECT_EQ(turn["status"], "reached");
   EXPECT_EQ(turn["scheme"], "spline");
   EXPECT_EQ(turn["interpolation"], "spline");
-  EXPECT_EQ(turn["planned"], turn["continuous"]);
+  EXPECT_EQ(turn["planned"], turn["value_between_knots"]);
   EXPECT_EQ(turn["held"], true);
   EXPECT_EQ(turn["violations"], 0);
   EXPECT_EQ(turn["end"], 5);
@@ -124,21 +124,21 @@ TEST(SimulateCommand, FollowsATurn) {
   }
 }
 
-TEST(SimulateCommand, FollowsAHeaveToItsPeak) {
-  const json heave = simulated("simulate uvms/valve_impulse --t-h 2");
-  EXPECT_EQ(heave["t_h"], 1.25);
-  EXPECT_EQ(heave["end"], 2.5);
-  EXPECT_EQ(heave["held"], true);
-  const double planned = heave["planned"];
-  EXPECT_NEAR(heave["at_t_h"].get<double>(), planned, 0.03 * planned);
+TEST(SimulateCommand, FollowsAImpulseToItsPeak) {
+  const json impulse = simulated("simulate uvms/valve_impulse --t-h 2");
+  EXPECT_EQ(impulse["t_h"], 1.25);
+  EXPECT_EQ(impulse["end"], 2.5);
+  EXPECT_EQ(impulse["held"], true);
+  const double planned = impulse["planned"];
+  EXPECT_NEAR(impulse["at_t_h"].get<double>(), planned, 0.03 * planned);
   const json less = simulated("simulate uvms/valve_impulse --planned 20 --scheme forward");
   EXPECT_EQ(less["planned"], 20);
   EXPECT_EQ(less["interpolation"], "linear");
   EXPECT_EQ(less["held"], true);
 }
 
-/// A plan whose four steps are no motion has no peak on the spline through its knots.
-TEST(SimulateCommand, SaysWhyAPlanIsNotRun) {
+/// A trajectory whose four steps are no motion has no peak on the spline through its knots.
+TEST(SimulateCommand, SaysWhyATrajectoryIsNotRun) {
   const TemporaryFolder folder;
   std::ofstream(folder.path() / "knots.csv")
       << "3.070,0.772,0.453,-2.983\n3.046,0.550,0.615,-3.008\n"

@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 
 /// What solve writes is what it says, and eval agrees.
-TEST(PlanSolve, WritesTheTableThatItFound) {
+TEST(TrajectorySolve, WritesTheTableThatItFound) {
   const TemporaryFolder folder;
   const CommandResult result = run_maxwrench(
       "solve planar/trajectory --budget 300 --seed 2 --json --out t/best.csv", folder.path());
@@ -29,32 +29,33 @@ TEST(PlanSolve, WritesTheTableThatItFound) {
   EXPECT_GE(best["value"], start["value"]);
   const CommandResult again =
       run_maxwrench("eval planar/trajectory --json --theta-r t/best.csv", folder.path());
-  const json plan = json::parse(again.out);
-  EXPECT_EQ(plan["status"], "optimal");
-  EXPECT_EQ(plan["theta_r"], best["theta_r"]);
-  EXPECT_EQ(plan["value"], best["value"]);
-  EXPECT_EQ(plan["continuous"], best["continuous"]);
+  const json trajectory = json::parse(again.out);
+  EXPECT_EQ(trajectory["status"], "optimal");
+  EXPECT_EQ(trajectory["theta_r"], best["theta_r"]);
+  EXPECT_EQ(trajectory["value"], best["value"]);
+  EXPECT_EQ(trajectory["value_between_knots"], best["value_between_knots"]);
   const std::string table = read_text(folder.path() / "t/best.csv");
-  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), plan["task"]["k"].get<int>() + 1);
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), trajectory["task"]["k"].get<int>() + 1);
   EXPECT_NE(run_maxwrench("solve planar/trajectory --budget 30").out.find("\nbest_found\n"),
             std::string::npos);
 }
 
-TEST(PlanSolve, IsTheSameAtAnyThreadCount) {
+TEST(TrajectorySolve, IsTheSameAtAnyThreadCount) {
   std::string first;
   for (const char* threads : {"1", "2", "8"}) {
-    json plan = json::parse(run_maxwrench("solve planar/trajectory --budget 200 --json --threads " +
-                                          std::string(threads))
-                                .out);
-    plan.erase("wall_s");
-    if (first.empty()) first = plan.dump();
-    EXPECT_EQ(plan.dump(), first) << threads;
+    json trajectory =
+        json::parse(run_maxwrench("solve planar/trajectory --budget 200 --json --threads " +
+                                  std::string(threads))
+                        .out);
+    trajectory.erase("wall_s");
+    if (first.empty()) first = trajectory.dump();
+    EXPECT_EQ(trajectory.dump(), first) << threads;
   }
 }
 
-/// A static task is a plan of one knot for a search of plans; what it finds is a posture like any
-/// other, which `eval` confirms, and no worse than that of a search of postures.
-TEST(PlanSolve, ServesAStaticTaskToo) {
+/// A static task is a trajectory of one knot for a trajectory search; what it finds is a posture
+/// like any other, which `eval` confirms, and no worse than that of a search of postures.
+TEST(TrajectorySolve, ServesAStaticTaskToo) {
   for (const char* wrench : {"pure", "any"}) {
     const std::string words = "solve uvms/lift --json --wrench " + std::string(wrench);
     json first;
@@ -68,7 +69,7 @@ TEST(PlanSolve, ServesAStaticTaskToo) {
     }
     EXPECT_EQ(first["status"], "best_found");
     EXPECT_EQ(first["search"], "slp");
-    EXPECT_EQ(first["lp"], wrench == std::string("pure") ? "facets" : "box");
+    EXPECT_EQ(first["solver"], wrench == std::string("pure") ? "facets" : "condensed");
     EXPECT_LE(first["evaluations"], 20000);
     std::string theta_r;
     for (const json& angle : first["theta_r"])
@@ -85,8 +86,9 @@ TEST(PlanSolve, ServesAStaticTaskToo) {
 
 /// On the way are programs in whose restoration phase Ipopt, with the corrector of Mehrotra,
 /// follows a null pointer.
-TEST(PlanSolve, SLOW_IpoptSurvivesItsRestoration) {
-  const std::string words = "solve planar/trajectory --search annealing --budget 40 --json --lp ";
+TEST(TrajectorySolve, SLOW_IpoptSurvivesItsRestoration) {
+  const std::string words =
+      "solve planar/trajectory --search annealing --budget 40 --json --solver ";
   const CommandResult ipopt = run_maxwrench(words + "ipopt");
   ASSERT_EQ(ipopt.exit_status, 0) << ipopt.err;
   const CommandResult clp = run_maxwrench(words + "clp");
@@ -94,12 +96,12 @@ TEST(PlanSolve, SLOW_IpoptSurvivesItsRestoration) {
 }
 
 /// Of the product, what the words choose; a scheme of its own each.
-TEST(PlanRun, WritesTheSameValuesAtAnyThreadCount) {
+TEST(TrajectoryRun, WritesTheSameValuesAtAnyThreadCount) {
   std::string first;
   for (const char* threads : {"1", "2", "8"}) {
     const TemporaryFolder folder;
     const CommandResult result = run_maxwrench(
-        "run planar/trajectory search=slp lp=ipm wrench=pure budget=60 --out . --threads " +
+        "run planar/trajectory search=slp solver=ipm wrench=pure budget=60 --out . --threads " +
             std::string(threads),
         folder.path());
     ASSERT_EQ(result.exit_status, 0) << result.err;
@@ -113,28 +115,28 @@ TEST(PlanRun, WritesTheSameValuesAtAnyThreadCount) {
   }
 }
 
-TEST(PlanCompare, RacesEverySearchOfPlans) {
+TEST(TrajectoryCompare, RacesEverySearchOfTrajectories) {
   std::string first;
   for (int run = 0; run < 2; ++run) {
     const TemporaryFolder folder;
     const CommandResult result = run_maxwrench(
         "compare planar/trajectory --scheme ends --budget 20 --seeds 1 --out .", folder.path());
     ASSERT_EQ(result.exit_status, 0) << result.err;
-    for (const auto& table : {plan_searches(), searches()}) {
+    for (const auto& table : {trajectory_searches(), searches()}) {
       for (const SearchEntry& search : table) {
         EXPECT_NE(result.out.find("\n" + std::string(search.name)), std::string::npos);
       }
     }
     const std::string values = read_table(folder.path() / "search_comparison.csv");
     EXPECT_NE(values.find(",slp,1,20,ends,"), std::string::npos) << values;
-    EXPECT_TRUE(std::filesystem::exists(folder.path() / "plan_comparison.svg"));
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "trajectory_comparison.svg"));
     if (run == 0) first = values;
     EXPECT_EQ(values, first);
   }
 }
 
 /// Its poses are an input too.
-TEST(PlanSolve, DoesNotReplaceThePath) {
+TEST(TrajectorySolve, DoesNotReplaceThePath) {
   EditedCopy copy;
   const std::string poses = "0,0,0,0,0,0,0\n1,0.1,0,0,0,0,0\n2,0.1,0.1,0,0,0,0\n";
   std::ofstream(copy.path() / "poses.csv") << poses;

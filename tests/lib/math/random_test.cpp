@@ -96,7 +96,8 @@ TEST(RandomTest, NoNumberOfAStreamComesAgainInAnother) {
   std::size_t count = 0;
   for (std::uint64_t seed = 0; seed < 32; ++seed) {
     for (const std::uint64_t own : {seed, ~seed}) {
-      for (const RandomUse use : {RandomUse::kSample, RandomUse::kClimb, RandomUse::kRefine}) {
+      for (const RandomUse use :
+           {RandomUse::kSample, RandomUse::kLocalSearch, RandomUse::kRefine}) {
         for (std::uint64_t index = 0; index < 32; ++index) {
           Random random(own, use, index);
           for (int i = 0; i < 64; ++i, ++count) seen.insert(random.next());

@@ -83,7 +83,7 @@ TEST(Zonotope, TooManySubsetsMeanNoFacets) {
   EXPECT_EQ(z.facet_pairs(), 0);
 }
 
-TEST(Zonotope, RefusesCrossingLimits) {
+TEST(Zonotope, RejectsCrossingLimits) {
   EXPECT_THROW(make_zonotope(Eigen::MatrixXd::Ones(1, 1), Eigen::VectorXd::Ones(1),
                              Eigen::VectorXd::Zero(1)),
                std::invalid_argument);

@@ -204,7 +204,7 @@ TEST(Background, DesiredWrenchesAreInTheAxesOfTheFrame) {
     EditedCopy copy;
     copy.replace("force.toml", "0.17453292519943295", yaw);
     copy.replace("force.toml", "\"tz\"]",
-                 "\"tz\"]\nframe = \"tool\"\ndesired = [10, 1, 1, 1, 1, 2]");
+                 "\"tz\"]\nframe = \"end_effector\"\ndesired = [10, 1, 1, 1, 1, 2]");
     const Problem problem = load_problem((copy.path() / "force.toml").string());
     PostureEvaluator model(problem, false);
     const double trace =
@@ -214,7 +214,7 @@ TEST(Background, DesiredWrenchesAreInTheAxesOfTheFrame) {
   }
 }
 
-TEST(Background, RobotsWithoutTheRankOrTheLimitsAreRefused) {
+TEST(Background, RobotsWithoutTheRankOrTheLimitsAreRejected) {
   Random random(3);
   Problem problem = random_problem(random, 2);
   Problem one_sided = problem;

@@ -20,7 +20,8 @@ std::vector<Case> cases_of(const Problem& problem, const std::vector<std::string
   std::vector<Case> cases = product(problem, 1, 1);
   std::erase_if(cases, [&](const Case& c) {
     return c.search != general_search() ||
-           (c.lp != kNoSolver && std::find(solvers.begin(), solvers.end(), c.lp) == solvers.end());
+           (c.solver != kNoSolver &&
+            std::find(solvers.begin(), solvers.end(), c.solver) == solvers.end());
   });
   return cases;
 }
@@ -146,7 +147,7 @@ TEST(ContactMeasure, RestingColumnsChangeNothing) {
     resting.contact->w_max.setZero();
     Problem alone = problem;
     alone.contact.reset();
-    for (const Case& c : cases_of(problem, {"box", "simplex"})) {
+    for (const Case& c : cases_of(problem, {"condensed", "simplex"})) {
       PostureEvaluator model(problem, false);
       const auto measure = resolve(problem, c).make_measure();
       int compared = 0;
@@ -215,14 +216,14 @@ TEST(ContactMeasure, PushOnlyContactNeverPulls) {
   EXPECT_GT(would_pull, 10);
 }
 
-/// Of the whole way from theta_r to beta, on the best branch. At a kink, where the active limits or
-/// the best branch change, the one-sided differences disagree: those are left out.
+/// Of the whole way from theta_r to beta, on the best IK solution. At a kink, where the active
+/// limits or the best IK solution change, the one-sided differences disagree: those are left out.
 TEST(ContactMeasure, GradientEqualsDifferences) {
   Random random(34);
   constexpr double kStep = 1e-6;
   for (const char* name : kContactProblems) {
     for (const Problem& problem : {load_problem(name), with_pipe(load_problem(name))}) {
-      for (const Case& c : cases_of(problem, {"box"})) {
+      for (const Case& c : cases_of(problem, {"condensed"})) {
         const auto f =
             make_capability_objective(problem, c.wrench, resolve(problem, c).make_measure, false);
         int compared = 0, kinks = 0;
@@ -255,7 +256,7 @@ TEST(ContactMeasure, GradientEqualsDifferences) {
 TEST(ContactMeasure, ValueAndGradientAllocateNothingAfterTheFirstCall) {
   for (const char* name : kContactProblems) {
     const Problem problem = load_problem(name);
-    for (const Case& c : cases_of(problem, {"box", "simplex"})) {
+    for (const Case& c : cases_of(problem, {"condensed", "simplex"})) {
       const auto f = make_capability_objective(problem, c.wrench, resolve(problem, c).make_measure);
       Random random(35);
       std::vector<Eigen::VectorXd> postures;
@@ -267,8 +268,8 @@ TEST(ContactMeasure, ValueAndGradientAllocateNothingAfterTheFirstCall) {
       for (const Eigen::VectorXd& theta_r : postures) {
         values += std::isfinite(f->evaluate(theta_r, &gradient));
       }
-      EXPECT_EQ(allocation_count(), before) << name << " " << c.measure << " " << c.lp;
-      EXPECT_GT(values, 0) << name << " " << c.measure << " " << c.lp;
+      EXPECT_EQ(allocation_count(), before) << name << " " << c.measure << " " << c.solver;
+      EXPECT_GT(values, 0) << name << " " << c.measure << " " << c.solver;
     }
   }
 }
@@ -289,7 +290,7 @@ TEST(ContactMeasure, NullMotionFollowsTheContact) {
         const Eigen::VectorXd theta_r = near_default(problem, random);
         const Posture posture = model.evaluate(theta_r);
         if (posture.status != Status::kValid) continue;
-        const int branches = model.branches();
+        const int ik_solutions = model.ik_solutions();
         Eigen::MatrixXd A_r;
         null_motion(problem, posture, A_r);
         ASSERT_EQ(A_r.rows(), n);
@@ -303,9 +304,9 @@ TEST(ContactMeasure, NullMotionFollowsTheContact) {
         for (Eigen::Index k = 0; k < A_r.cols(); ++k) {
           const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(A_r.cols(), k);
           const Eigen::VectorXd after = model.evaluate(theta_r + step).q;
-          bool same = model.branches() == branches;
+          bool same = model.ik_solutions() == ik_solutions;
           const Eigen::VectorXd before = model.evaluate(theta_r - step).q;
-          same &= model.branches() == branches;
+          same &= model.ik_solutions() == ik_solutions;
           if (!same) continue;
           EXPECT_LT(((after - before) / (2 * kStep) - A_r.col(k).tail(joints)).norm(),
                     1e-6 * (1 + A_r.col(k).norm()))

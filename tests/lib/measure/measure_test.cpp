@@ -59,7 +59,8 @@ std::vector<Case> all_cases(const std::string& problem) {
 class EveryMeasure : public testing::TestWithParam<Case> {};
 
 std::string case_name(const testing::TestParamInfo<Case>& info) {
-  return fmt::format("{}_{}_{}", info.param.measure, to_string(info.param.wrench), info.param.lp);
+  return fmt::format("{}_{}_{}", info.param.measure, to_string(info.param.wrench),
+                     info.param.solver);
 }
 
 INSTANTIATE_TEST_SUITE_P(Planar, EveryMeasure, testing::ValuesIn(all_cases("planar/force")),
@@ -70,8 +71,8 @@ INSTANTIATE_TEST_SUITE_P(Planar, EveryMeasure, testing::ValuesIn(all_cases("plan
 /// of curvature f'' differs by h f''.
 void expect_gradients(const Problem& problem, const Case& c, int samples, double tolerance) {
   Random random(7);
-  Evaluator evaluate(problem, c.measure, c.wrench, c.lp);
-  const double h = c.lp == "ipopt" ? 1e-4 : 1e-5;
+  Evaluator evaluate(problem, c.measure, c.wrench, c.solver);
+  const double h = c.solver == "ipopt" ? 1e-4 : 1e-5;
   int kinks = 0;
   for (int sample = 0; sample < samples; ++sample) {
     const Eigen::VectorXd theta_r = random_theta_r(problem, random);
@@ -99,20 +100,20 @@ void expect_gradients(const Problem& problem, const Case& c, int samples, double
 }
 
 TEST_P(EveryMeasure, GradientEqualsCentralDifference) {
-  const bool slow = GetParam().lp == "ipopt";
+  const bool slow = GetParam().solver == "ipopt";
   // The interior point stops about 1e-10 short of the optimum: 1e-10 / h in a difference.
   expect_gradients(load_problem("planar/force"), GetParam(), samples(slow ? 20 : 1000), 1e-6);
 }
 
 TEST_P(EveryMeasure, GradientEqualsCentralDifferenceOfTheUnderwaterVehicle) {
-  const bool slow = GetParam().lp == "ipopt";
+  const bool slow = GetParam().solver == "ipopt";
   expect_gradients(load_problem("uvms/valve"), GetParam(), samples(slow ? 20 : 1000),
                    slow ? 1e-5 : 1e-6);
 }
 
 TEST_P(EveryMeasure, GradientEqualsCentralDifferenceInSpace) {
   Random random(11);
-  const bool slow = GetParam().lp == "ipopt";
+  const bool slow = GetParam().solver == "ipopt";
   const Problem problem = random_problem(random, 4);
   expect_gradients(problem, GetParam(), samples(slow ? 20 : 200), 1e-5);
 }
@@ -127,9 +128,9 @@ TEST_P(EveryMeasure, SolversAgreeAndAnswersVerify) {
   const Case& c = GetParam();
   const Problem problem = load_problem("planar/force");
   Random random(5);
-  Evaluator mine(problem, c.measure, c.wrench, c.lp);
+  Evaluator mine(problem, c.measure, c.wrench, c.solver);
   Evaluator reference(problem, c.measure, c.wrench);
-  const bool slow = c.lp == "ipopt";
+  const bool slow = c.solver == "ipopt";
   for (int sample = 0; sample < samples(slow ? 100 : 2000); ++sample) {
     const Eigen::VectorXd theta_r = random_theta_r(problem, random);
     const Capability& capability = mine(theta_r, true);
@@ -261,7 +262,7 @@ TEST(Measure, ClosedFormsLeaveNoMultiplierOfAnEarlierAnswer) {
   }
 }
 
-TEST(Measure, RefusesDeficientActuation) {
+TEST(Measure, RejectsDeficientActuation) {
   Random random(9);
   Problem problem = random_problem(random, 2);
   problem.robot.thrusters.resize(3);
@@ -321,7 +322,7 @@ TEST(Measure, ValueAndGradientAllocateNothingAfterTheFirstCall) {
   for (const char* name : {"planar/force", "uvms/valve"}) {
     const Problem problem = load_problem(name);
     for (const Case& c : all_cases(name)) {
-      if (c.lp != kNoSolver && c.lp != "facets" && c.lp != "simplex") continue;
+      if (c.solver != kNoSolver && c.solver != "facets" && c.solver != "simplex") continue;
       const auto objective =
           make_capability_objective(problem, c.wrench, resolve(problem, c).make_measure);
       Random random(12);
@@ -335,7 +336,7 @@ TEST(Measure, ValueAndGradientAllocateNothingAfterTheFirstCall) {
         const double value = objective->evaluate(theta_r, &gradient);
         if (std::isfinite(value)) sum += value;
       }
-      EXPECT_EQ(allocation_count(), before) << name << " " << c.measure << " " << c.lp;
+      EXPECT_EQ(allocation_count(), before) << name << " " << c.measure << " " << c.solver;
       EXPECT_TRUE(std::isfinite(sum));
     }
   }

@@ -62,10 +62,10 @@ TEST(FreePose, AxesOfThePoseAndOfTheTool) {
   const Pose<double> along_pose = pose_at(problem, theta_r);
   EXPECT_LT((along_pose.p - Eigen::Vector3d(1, 2.5, 3)).norm(), 1e-15);
   EXPECT_LT((along_pose.R - yawed(2 * kQuarter)).norm(), 1e-15);
-  problem.free.along_tool = true;
-  const Pose<double> along_tool = pose_at(problem, theta_r);
-  EXPECT_LT((along_tool.p - Eigen::Vector3d(0.5, 2, 3)).norm(), 1e-15);
-  EXPECT_LT((along_tool.R - along_pose.R).norm(), 1e-15);
+  problem.free.along_end_effector = true;
+  const Pose<double> along_end_effector = pose_at(problem, theta_r);
+  EXPECT_LT((along_end_effector.p - Eigen::Vector3d(0.5, 2, 3)).norm(), 1e-15);
+  EXPECT_LT((along_end_effector.R - along_pose.R).norm(), 1e-15);
 }
 
 /// Ry(90 degrees) Rx(90 degrees) has the columns (0, 0, -1), (1, 0, 0) and (0, -1, 0).
@@ -81,10 +81,10 @@ TEST(FreePose, AnglesAreThoseOfRpy) {
 TEST(FreePose, TwistIsTheDerivativeOfThePose) {
   constexpr double kStep = 1e-6;
   Random random(62);
-  for (const bool along_tool : {false, true}) {
+  for (const bool along_end_effector : {false, true}) {
     Problem problem;
     problem.pose = {random_rotation(random), random_vector(random)};
-    problem.free = {{0, 1, 2, 3, 4, 5}, along_tool, false};
+    problem.free = {{0, 1, 2, 3, 4, 5}, along_end_effector, false};
     for (int sample = 0; sample < 20; ++sample) {
       const Eigen::VectorXd s = Eigen::VectorXd::NullaryExpr(6, [&] { return random.normal(); });
       for (int i = 0; i < 6; ++i) {
@@ -108,7 +108,7 @@ TEST(FreePose, PosturesReachIt) {
       const Eigen::VectorXd theta_r = place_in(problem, random);
       if (model.evaluate(theta_r).status != Status::kValid) continue;
       const Problem held = held_at(problem, theta_r);
-      for (int i = 0; i < model.branches(); ++i) {
+      for (int i = 0; i < model.ik_solutions(); ++i) {
         EXPECT_LT(pose_error(held, model.select(i)), 1e-11) << problem.name;
         ++seen;
       }

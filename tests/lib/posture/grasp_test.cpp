@@ -27,7 +27,7 @@ double value(Problem problem, const Posture& posture, int columns) {
 }
 
 /// Six joints hold position and axes; Newton's method finds them.
-TEST(Grasp, EveryBranchHoldsPositionAndAxes) {
+TEST(Grasp, EveryIkSolutionHoldsPositionAndAxes) {
   Random random(21);
   int found = 0;
   for (int sample = 0; sample < 5; ++sample) {
@@ -35,8 +35,8 @@ TEST(Grasp, EveryBranchHoldsPositionAndAxes) {
     EXPECT_EQ(problem.contact->rank, 12);
     PostureEvaluator model(problem, false);
     model.evaluate(near_default(problem, random));
-    for (int branch = 0; branch < model.branches(); ++branch, ++found) {
-      const Posture& posture = model.select(branch);
+    for (int ik_solution = 0; ik_solution < model.ik_solutions(); ++ik_solution, ++found) {
+      const Posture& posture = model.select(ik_solution);
       const Pose<double> hand =
           posture.base * posture.links[10] * problem.robot.end_effectors[1].placement;
       EXPECT_LT((hand.p - posture.contact.p).norm(), 1e-11);
@@ -64,7 +64,7 @@ TEST(Grasp, HoldingFirmlyHelpsMost) {
   EXPECT_GE(helped, 5);
 }
 
-/// Of random linear functions of tau_d, J, J_2 and C_2, where Newton stays on its branch.
+/// Of random linear functions of tau_d, J, J_2 and C_2, where Newton stays on its IK solution.
 TEST(Grasp, GradientAndNullMotionEqualDifferences) {
   Random random(23);
   constexpr double kStep = 1e-6;
@@ -88,7 +88,7 @@ TEST(Grasp, GradientAndNullMotionEqualDifferences) {
     EXPECT_LT((posture.J * A_r).norm(), 1e-10);
     const auto at = [&](const Eigen::VectorXd& other, Eigen::VectorXd& q) {
       Posture p = model.evaluate(other);
-      for (int b = 1; b < model.branches(); ++b) {
+      for (int b = 1; b < model.ik_solutions(); ++b) {
         if ((model.select(b).q - posture.q).norm() < (p.q - posture.q).norm()) p = model.select(b);
       }
       q = p.q;
@@ -100,7 +100,7 @@ TEST(Grasp, GradientAndNullMotionEqualDifferences) {
       Eigen::VectorXd after, before;
       const double difference =
           (at(theta_r + step, after) - at(theta_r - step, before)) / (2 * kStep);
-      if ((after - before).norm() > 1e-3) continue;  // another branch
+      if ((after - before).norm() > 1e-3) continue;  // another IK solution
       EXPECT_NEAR(gradient[k], difference, 1e-5 * (1 + std::abs(difference)));
       EXPECT_LT(((after - before) / (2 * kStep) - A_r.col(k).tail(10)).norm(),
                 1e-5 * (1 + A_r.col(k).norm()));

@@ -14,11 +14,11 @@ std::vector<Problem> examples() {
   for (const int joints : {1, 4, 7}) problems.push_back(random_problem(random, joints));
   // An end effector in the middle: the joints beyond it stand still.
   problems.push_back(random_problem(random, 4));
-  Problem& branch = problems.back();
-  branch.robot.end_effectors[0].link = 2;
-  branch.redundant.resize(2);
+  Problem& ik_solution = problems.back();
+  ik_solution.robot.end_effectors[0].link = 2;
+  ik_solution.redundant.resize(2);
   for (Eigen::VectorXd* bounds :
-       {&branch.theta_r_min, &branch.theta_r_max, &branch.theta_r_default}) {
+       {&ik_solution.theta_r_min, &ik_solution.theta_r_max, &ik_solution.theta_r_default}) {
     bounds->conservativeResize(2);
   }
   return problems;

@@ -60,7 +60,7 @@ TEST(Violation, NamesTheDependentJoint) {
               4)
         << text;
     EXPECT_TRUE(at < low || at > high) << text;
-    EXPECT_EQ(posture.branches.found, posture.branches.beyond_limit);
+    EXPECT_EQ(posture.ik_solutions.found, posture.ik_solutions.beyond_limit);
   }
   EXPECT_GT(seen, 10);
 }

@@ -20,7 +20,7 @@ std::unique_ptr<Measure> linf(const Problem& problem, const char* solver) {
   return make_linf_polytope(problem.robot, find_wrench_solver(solver).make());
 }
 
-TEST(Contact, EveryBranchReachesItsPoint) {
+TEST(Contact, EveryIkSolutionReachesItsPoint) {
   Random random(1);
   for (const char* name : kContactProblems) {
     for (const Problem& problem : {load_problem(name), with_pipe(load_problem(name))}) {
@@ -37,9 +37,9 @@ TEST(Contact, EveryBranchReachesItsPoint) {
         }
         kinematics.set_joints(q);
         const Pose<double> target = kinematics.end_effector(tip);
-        const int branches = arm.solve(target);
+        const int ik_solutions = arm.solve(target);
         bool same = false;
-        for (int b = 0; b < branches; ++b) {
+        for (int b = 0; b < ik_solutions; ++b) {
           Eigen::VectorXd other = problem.contact->q_rest;
           double distance = 0;
           for (std::size_t k = 0; k < problem.contact->follow.size(); ++k) {
@@ -52,7 +52,7 @@ TEST(Contact, EveryBranchReachesItsPoint) {
           EXPECT_LT((kinematics.end_effector_position(tip) - target.p).norm(), 1e-12) << name;
         }
         EXPECT_TRUE(same) << name << " lost the joints that made the target";
-        found += branches;
+        found += ik_solutions;
       }
       EXPECT_GE(found, 600);
     }
@@ -76,14 +76,14 @@ TEST(Contact, NewtonReachesWhereNoClosedFormIsKnown) {
     for (const int i : slide.contact->follow) q[i] = random.uniform(0.2, 1);
     kinematics.set_joints(q);
     const Pose<double> target = kinematics.end_effector(tip);
-    const int branches = arm.solve(target);
-    for (int b = 0; b < branches; ++b) {
+    const int ik_solutions = arm.solve(target);
+    for (int b = 0; b < ik_solutions; ++b) {
       Eigen::VectorXd other = q;
       for (int k = 0; k < 2; ++k) other[slide.contact->follow[k]] = arm.solution(b)[k];
       kinematics.set_joints(other);
       EXPECT_LT((kinematics.end_effector_position(tip) - target.p).norm(), 1e-12);
     }
-    found += branches > 0;
+    found += ik_solutions > 0;
   }
   EXPECT_EQ(found, 50);
 }
@@ -127,7 +127,7 @@ TEST(Contact, StackedJacobianEqualsDifferences) {
   }
 }
 
-/// Of beta and of random linear functions of tau_d, J, J_2 and C_2, on one branch.
+/// Of beta and of random linear functions of tau_d, J, J_2 and C_2, on one IK solution.
 TEST(Contact, GradientEqualsDifferences) {
   Random random(4);
   for (const char* name : kContactProblems) {
@@ -145,11 +145,11 @@ TEST(Contact, GradientEqualsDifferences) {
         if (model.evaluate(theta_r).status != Status::kValid) continue;
         Eigen::VectorXd gradient;
         model.pull_back(theta_r, seeds, gradient);
-        const int branches = model.branches();
+        const int ik_solutions = model.ik_solutions();
         bool jumped = false;
         const auto value = [&](const Eigen::VectorXd& at) {
           const Posture& p = model.evaluate(at);
-          jumped |= model.branches() != branches;
+          jumped |= model.ik_solutions() != ik_solutions;
           return seeds.lambda.dot(p.tau_d) + seeds.beta_J.cwiseProduct(p.J).sum() +
                  seeds.beta_J2.cwiseProduct(p.J_2).sum() + seeds.beta_C2.cwiseProduct(p.C_2).sum();
         };
@@ -199,7 +199,7 @@ TEST(Contact, MoreFreedomNeverLowersTheValue) {
           WrenchProgram program = make_wrench_program(p, wrench);
           Capability capability;
           const Posture& posture =
-              evaluate_best(model, theta_r, *linf(p, "box"), true, program, capability);
+              evaluate_best(model, theta_r, *linf(p, "condensed"), true, program, capability);
           if (posture.status != Status::kValid || capability.status != Status::kOptimal) {
             return -kInfinity;
           }
@@ -219,14 +219,14 @@ TEST(Contact, MoreFreedomNeverLowersTheValue) {
         PostureEvaluator model(idle, false);
         double single = -kInfinity;
         model.evaluate(theta_r);
-        for (int branch = 0; branch < model.branches(); ++branch) {
-          const Posture& posture = model.select(branch);
+        for (int ik_solution = 0; ik_solution < model.ik_solutions(); ++ik_solution) {
+          const Posture& posture = model.select(ik_solution);
           Problem one = problem;
           one.contact.reset();
           WrenchProgram program = make_wrench_program(one, wrench);
           set_posture(posture, program);
           Capability capability;
-          linf(one, "box")->evaluate(posture, program, false, capability);
+          linf(one, "condensed")->evaluate(posture, program, false, capability);
           if (capability.status == Status::kOptimal) single = std::max(single, capability.beta);
         }
         EXPECT_EQ(without, single) << name;
@@ -295,14 +295,14 @@ TEST(Contact, NearSingularPosturesAreRejected) {
   EXPECT_EQ(at(0).status, Status::kValid);
   double low = 0, high = 1;  // it reaches the one and not the other
   for (int step = 0; step < 50; ++step) {
-    (at((low + high) / 2).branches.found > 0 ? low : high) = (low + high) / 2;
+    (at((low + high) / 2).ik_solutions.found > 0 ? low : high) = (low + high) / 2;
   }
   const Posture stretched = at(low - 1e-6);
   EXPECT_LT(smallest_gain(problem.robot, *problem.contact, stretched.J, stretched.J_2), 0.05);
   EXPECT_EQ(stretched.status, Status::kInvalidPosture);
   EXPECT_EQ(stretched.reason.str().find("singular"), 0u) << stretched.reason.c_str();
-  EXPECT_GT(stretched.branches.singular, 0);
-  EXPECT_EQ(stretched.branches.valid(), 0);
+  EXPECT_GT(stretched.ik_solutions.singular, 0);
+  EXPECT_EQ(stretched.ik_solutions.valid(), 0);
   const Posture far = at(high + 1e-6);
   EXPECT_EQ(far.status, Status::kInvalidPosture);
   EXPECT_EQ(far.reason.str().find("unreachable contact"), 0u) << far.reason.c_str();

@@ -4,7 +4,7 @@
 #include <type_traits>
 
 #include "lib/posture/pull_back.h"
-#include "lib/robot/motion.h"
+#include "lib/robot/free_motion.h"
 #include "lib/tank/controller.h"
 #include "lib/tank/ode.h"
 #include "maxwrench/problem.h"

@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(
       return name + "_" + to_string(each.param.wrench);
     });
 
-/// Of all rows by theta_r and w, at each branch; w is any.
+/// Of all rows by theta_r and w, at each IK solution; w is any.
 TEST_P(FacetRows, DerivativesAreThoseOfDifferences) {
   const Problem problem = load(GetParam());
   FacetProgram program(problem, GetParam().wrench, linf_polytope(problem));
@@ -69,10 +69,10 @@ TEST_P(FacetRows, DerivativesAreThoseOfDifferences) {
   int seen = 0;
   for (int draw = 0; draw < 200 && seen < 20; ++draw) {
     const Eigen::VectorXd theta_r = draw_theta_r(problem, random);
-    const int branches = program.branches(theta_r);
-    for (int branch = 0; branch < branches; ++branch) {
+    const int ik_solutions = program.ik_solutions(theta_r);
+    for (int ik_solution = 0; ik_solution < ik_solutions; ++ik_solution) {
       Eigen::VectorXd w;
-      program.set_out(theta_r, branch, w);
+      program.set_out(theta_r, ik_solution, w);
       for (double& w_j : w) w_j = random.uniform(-10, 10);
       ASSERT_TRUE(program.evaluate(theta_r, w));
       program.linearize();
@@ -95,7 +95,7 @@ TEST_P(FacetRows, DerivativesAreThoseOfDifferences) {
       const Eigen::VectorXd off = by_theta_r * dtheta + by_w * dw - slope;
       const Eigen::VectorXd size = program.row_unit() + slope.cwiseAbs();
       EXPECT_LT(off.cwiseQuotient(size).cwiseAbs().maxCoeff(), 1e-6)
-          << "draw " << draw << ", branch " << branch;
+          << "draw " << draw << ", IK solution " << ik_solution;
     }
   }
   EXPECT_GE(seen, 10);
@@ -116,7 +116,7 @@ TEST_P(FacetRows, HoldTheLowerLevel) {
   };
   for (int draw = 0; draw < 500 && seen < 20; ++draw) {
     const Eigen::VectorXd theta_r = draw_theta_r(problem, random);
-    if (program.branches(theta_r) == 0) continue;
+    if (program.ik_solutions(theta_r) == 0) continue;
     Eigen::VectorXd w;
     program.set_out(theta_r, 0, w);
     if (w.isZero()) continue;  // the lower level has no answer
@@ -129,18 +129,19 @@ TEST_P(FacetRows, HoldTheLowerLevel) {
   EXPECT_GE(seen, 10);
 }
 
-/// Two arms: from each branch a step of 1e-4 moves the joints as little, though others are there.
-TEST(FacetProgram, StaysOnItsBranch) {
+/// Two arms: from each IK solution a step of 1e-4 moves the joints as little, though others are
+/// there.
+TEST(FacetProgram, StaysOnItsIkSolution) {
   const Problem problem = load_problem("dual_arm/two_arms");
   FacetProgram program(problem, Wrench::kPure, linf_polytope(problem));
   Random random(3);
   int seen = 0;
   for (int draw = 0; draw < 2000 && seen < 20; ++draw) {
     const Eigen::VectorXd theta_r = draw_theta_r(problem, random);
-    const int branches = program.branches(theta_r);
-    for (int branch = 0; branches > 1 && branch < branches; ++branch) {
+    const int ik_solutions = program.ik_solutions(theta_r);
+    for (int ik_solution = 0; ik_solutions > 1 && ik_solution < ik_solutions; ++ik_solution) {
       Eigen::VectorXd w;
-      program.set_out(theta_r, branch, w);
+      program.set_out(theta_r, ik_solution, w);
       ASSERT_TRUE(program.evaluate(theta_r, w));
       program.linearize();
       const Eigen::VectorXd at = program.rows();

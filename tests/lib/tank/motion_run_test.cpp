@@ -22,7 +22,7 @@ using std::numbers::pi;
 /// The best static posture of uvms/valve, rounded.
 const Vector4d kStill(3.0643, 0.6895, 0.4288, -3.0278);
 
-/// A heave of `backward` that a search found, rounded: 39.6 N m by its own four steps, without a
+/// An impulse of `backward` that a search found, rounded: 39.6 N m by its own four steps, without a
 /// motion that is one.
 const double kBackward[4][4] = {{3.070, 0.772, 0.453, -2.983},
                                 {3.046, 0.550, 0.615, -3.008},
@@ -31,11 +31,11 @@ const double kBackward[4][4] = {{3.070, 0.772, 0.453, -2.983},
 
 TankScript script_of(const Problem& problem, const MatrixXd& knots, ScriptOptions options = {},
                      Wrench wrench = Wrench::kPure) {
-  const PlanSolverEntry& lp = plan_solvers().front();
-  PlanEvaluator evaluator(problem, wrench, lp.make);
+  const TrajectorySolverEntry& lp = trajectory_solvers().front();
+  TrajectoryEvaluator evaluator(problem, wrench, lp.make);
   evaluator.evaluate(knots);
-  evaluator.evaluate_continuous();
-  return make_script(problem, evaluator.plan(), wrench, *lp.make(), options);
+  evaluator.evaluate_between_knots();
+  return make_script(problem, evaluator.trajectory(), wrench, *lp.make(), options);
 }
 
 TankRun run(const Problem& problem, const TankScript& script, const TankOptions& options = {}) {
@@ -55,7 +55,7 @@ void expect_within_limits(const TankRun& tank) {
   EXPECT_EQ(tank.summary.motion->violations, 0);
 }
 
-/// 34.30164 is `continuous` of the fixed posture in an independent model.
+/// 34.30164 is `value_between_knots` of the fixed posture in an independent model.
 TEST(TankMotion, ASplineTurnReadsWhatIsAskedForAllAlong) {
   const Problem problem = turn_of(Scheme::kSpline);
   const TankScript script = script_of(problem, constant_knots(problem, kStill));
@@ -69,8 +69,8 @@ TEST(TankMotion, ASplineTurnReadsWhatIsAskedForAllAlong) {
   EXPECT_NEAR(tank.summary.high, asked, 1e-3);
   EXPECT_TRUE(tank.summary.held);
   EXPECT_EQ(tank.samples.size(), 500U);
-  EXPECT_LT(tank.summary.displaced, 1e-6);
-  EXPECT_LT(tank.summary.moved, 1e-3);
+  EXPECT_LT(tank.summary.deflection_error, 1e-6);
+  EXPECT_LT(tank.summary.configuration_error, 1e-3);
   // The cell turns by 180 degrees; what bends it at the end is there from the start.
   EXPECT_NEAR(tank.samples.back().angle, pi, 1e-6);
   EXPECT_NEAR(tank.samples[249].angle, pi / 2, 1e-6);
@@ -101,8 +101,8 @@ TEST(TankMotion, ADoorIsPushedWithJointsThatFollow) {
   const TankRun tank = run(problem, script);
   expect_within_limits(tank);
   EXPECT_TRUE(tank.summary.held) << tank.summary.missed;
-  EXPECT_LT(tank.summary.moved, 1e-3);
-  EXPECT_NEAR(tank.summary.low, script.planned, kFollowedShare * script.planned);
+  EXPECT_LT(tank.summary.configuration_error, 1e-3);
+  EXPECT_NEAR(tank.summary.low, script.planned, kTrackedWrenchError * script.planned);
   EXPECT_NEAR(tank.samples.back().angle, pi / 3, 1e-4);
 }
 
@@ -120,7 +120,7 @@ TEST(TankMotion, FreeComponentsAreLeftToTheCell) {
   EXPECT_TRUE(tank.summary.held);
 }
 
-TEST(TankMotion, ASplineHeaveReadsItsPeak) {
+TEST(TankMotion, ASplineImpulseReadsItsPeak) {
   const Problem problem = load_problem("uvms/valve_impulse");
   const TankScript script = script_of(problem, constant_knots(problem, problem.motion->theta_0));
   EXPECT_NEAR(script.t_h, 2.5 * 3 / 4, 1e-12);
@@ -128,13 +128,13 @@ TEST(TankMotion, ASplineHeaveReadsItsPeak) {
   expect_within_limits(tank);
   EXPECT_TRUE(tank.summary.held);
   const MotionSummary& motion = *tank.summary.motion;
-  EXPECT_NEAR(motion.at_peak, script.planned, kFollowedShare * script.planned);
+  EXPECT_NEAR(motion.at_peak, script.planned, kTrackedWrenchError * script.planned);
   EXPECT_NEAR(motion.t_high, script.t_h, 0.1);
   EXPECT_GT(motion.at_peak, tank.samples[99].reading);  // at 1 s
 }
 
 /// Its four steps hide a motion that no efforts make: the cell reads about as much without one.
-TEST(TankMotion, ABackwardHeaveDoesNotReachItsPeak) {
+TEST(TankMotion, ABackwardImpulseDoesNotReachItsPeak) {
   Problem problem = load_problem("uvms/valve_impulse");
   problem.motion->scheme = Scheme::kBackward;
   const MatrixXd knots =

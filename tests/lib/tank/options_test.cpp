@@ -48,65 +48,66 @@ const TankNumber kTankNumbers[] = {
     {"integrator step", [](TankOptions& o) -> double& { return o.integrator.step; }, false},
 };
 
-TEST(TankOptions, RefuseEachNumberOutOfRange) {
+TEST(TankOptions, RejectEachNumberOutOfRange) {
   EXPECT_NO_THROW(check(TankOptions()));
   for (const TankNumber& number : kTankNumbers) {
     SCOPED_TRACE(number.key);
     for (const double value : {-1.0, kNoNumber, kInfinity, -kInfinity}) {
       TankOptions options;
       number.of(options) = value;
-      expect_refused(number.key, [&] { check(options); });
+      expect_rejected(number.key, [&] { check(options); });
     }
     TankOptions options;
     number.of(options) = 0;
     if (number.may_be_zero) {
       EXPECT_NO_THROW(check(options));
     } else {
-      expect_refused(number.key, [&] { check(options); });
+      expect_rejected(number.key, [&] { check(options); });
     }
   }
 }
 
-TEST(TankOptions, RefuseWhatLeavesNothingOrHasNoEnd) {
+TEST(TankOptions, RejectWhatLeavesNothingOrHasNoEnd) {
   TankOptions all, endless, no_steps;
   all.margin = 1;  // nothing would be asked for
-  expect_refused("margin", [&] { check(all); });
+  expect_rejected("margin", [&] { check(all); });
   endless.period = 1e-9;
-  expect_refused("period", [&] { check(endless); });
+  expect_rejected("period", [&] { check(endless); });
   no_steps.integrator.max_steps = 0;
-  expect_refused("integrator max_steps", [&] { check(no_steps); });
+  expect_rejected("integrator max_steps", [&] { check(no_steps); });
 }
 
-TEST(ScriptOptions, RefuseEachNumberOutOfRange) {
+TEST(ScriptOptions, RejectEachNumberOutOfRange) {
   EXPECT_NO_THROW(check(ScriptOptions()));
   for (const double value : {-1.0, kNoNumber, kInfinity}) {
-    expect_refused("planned", [&] { check(ScriptOptions{.planned = value}); });
-    expect_refused("margin", [&] { check(ScriptOptions{.margin = value}); });
+    expect_rejected("planned", [&] { check(ScriptOptions{.planned = value}); });
+    expect_rejected("margin", [&] { check(ScriptOptions{.margin = value}); });
   }
-  expect_refused("margin", [] { check(ScriptOptions{.margin = 1}); });
+  expect_rejected("margin", [] { check(ScriptOptions{.margin = 1}); });
 }
 
 /// Both experiments and the script look at their options.
 TEST(TankOptions, AreCheckedByTheExperiments) {
   const Problem problem = load_problem("planar/trajectory");
-  PlanEvaluator plans(problem, Wrench::kPure, plan_solvers().front().make);
-  plans.evaluate(constant_knots(problem, problem.theta_r_default));
-  plans.evaluate_continuous();
-  const auto solver = plan_solvers().front().make();
-  expect_refused("margin", [&] {
-    make_script(problem, plans.plan(), Wrench::kPure, *solver, {.margin = kNoNumber});
+  TrajectoryEvaluator trajectories(problem, Wrench::kPure, trajectory_solvers().front().make);
+  trajectories.evaluate(constant_knots(problem, problem.theta_r_default));
+  trajectories.evaluate_between_knots();
+  const auto solver = trajectory_solvers().front().make();
+  expect_rejected("margin", [&] {
+    make_script(problem, trajectories.trajectory(), Wrench::kPure, *solver, {.margin = kNoNumber});
   });
-  const TankScript script = make_script(problem, plans.plan(), Wrench::kPure, *solver, {});
+  const TankScript script =
+      make_script(problem, trajectories.trajectory(), Wrench::kPure, *solver, {});
   ASSERT_EQ(script.status, Status::kOptimal) << script.reason.c_str();
   TankOptions bad;
   bad.period = 0;
   const auto integrator = integrators().front().make();
-  expect_refused("period", [&] { run_tank(problem, script, *integrator, bad); });
+  expect_rejected("period", [&] { run_tank(problem, script, *integrator, bad); });
   const Problem still = load_problem("fixed/push");
   Posture posture;
-  TankPlan plan;
-  plan.h.setZero();
-  expect_refused("period", [&] { run_tank(still, posture, plan, *integrator, bad); });
+  TargetWrench trajectory;
+  trajectory.h.setZero();
+  expect_rejected("period", [&] { run_tank(still, posture, trajectory, *integrator, bad); });
 }
 
 }  // namespace

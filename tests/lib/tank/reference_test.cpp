@@ -4,7 +4,7 @@
 
 #include "lib/robot/kinematics.h"
 #include "lib/tank/ode.h"
-#include "lib/trajectory/motion.h"
+#include "lib/trajectory/motion_evaluator.h"
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/trajectory.h"
@@ -25,7 +25,7 @@ struct MadeScript {
         knots(i, j) = problem.theta_r_default[j] + 0.1 * random.uniform(-1, 1);
       }
     }
-    MotionEvaluator motion(problem, make_continuous(*problem.motion, 5));
+    MotionEvaluator motion(problem, make_dense_spline(*problem.motion, 5));
     motion.evaluate(knots, script.instants);
     script.path = problem.motion->path;
     script.interpolation = interpolation;
@@ -45,7 +45,7 @@ struct MadeScript {
 TEST(ScriptReader, JoinsTheSplineExactly) {
   const MadeScript made("uvms/valve_trajectory", Interpolation::kSpline);
   const ScriptReader reader(made.problem, made.script);
-  const SchemeMaps maps = make_continuous(*made.problem.motion, 7);
+  const SchemeMaps maps = make_dense_spline(*made.problem.motion, 7);
   Reference reference;
   for (int i = 0; i < maps.instants(); ++i) {
     reader.read(maps.t[static_cast<std::size_t>(i)], reference);
@@ -91,7 +91,7 @@ TEST(ScriptReader, WrenchesTurnAsTheDirectionDoes) {
 TEST(TankOde, TheMovingCellIsASpringAndADamper) {
   const Problem problem = load_problem("uvms/jet_trajectory");
   const TankOptions options;
-  MotionEvaluator evaluator(problem, make_continuous(*problem.motion, 5));
+  MotionEvaluator evaluator(problem, make_dense_spline(*problem.motion, 5));
   std::vector<Instant> instants;
   evaluator.evaluate(problem.theta_r_default.transpose().replicate(problem.motion->k, 1), instants);
   const Instant& at = instants[17];
@@ -120,7 +120,7 @@ TEST(TankOde, TheMovingCellIsASpringAndADamper) {
               1e-4 * (std::abs(power) + s.dot(D.cwiseProduct(s))));
 }
 
-TEST(ScriptReader, RefusesAScriptWithoutEfforts) {
+TEST(ScriptReader, RejectsAScriptWithoutEfforts) {
   MadeScript made("uvms/valve_trajectory", Interpolation::kSpline);
   made.script.instants[2].u.resize(0);
   EXPECT_THROW(ScriptReader(made.problem, made.script), std::invalid_argument);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <span>
 
-#include "lib/robot/motion.h"
+#include "lib/robot/free_motion.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
 #include "solvers/solve/method.h"
@@ -37,7 +37,7 @@ const Experiment kExperiments[] = {
     {"beta_3", Wrench::kAny, {4.6061, 1.8815, 2.1509, -0.2632}},
 };
 
-/// What any efforts reach at a posture; with `measure` another plan.
+/// What any efforts reach at a posture; with `measure` another trajectory.
 Answer planned(const Problem& problem, Wrench wrench, const VectorXd& theta_r,
                const char* measure = "linf_polytope") {
   return evaluate(problem, theta_r, {{problem.name, measure, wrench}});
@@ -45,17 +45,18 @@ Answer planned(const Problem& problem, Wrench wrench, const VectorXd& theta_r,
 
 TankRun run(const Problem& problem, const Answer& row, double extra,
             const TankOptions& options = {}, const char* integrator = "cvode") {
-  const TankPlan plan{row.capability.h + extra * problem.c, row.capability.u, row.choice.wrench};
-  return run_tank(problem, row.posture, plan, *find_integrator(integrator).make(), options);
+  const TargetWrench trajectory{row.capability.h + extra * problem.c, row.capability.u,
+                                row.choice.wrench};
+  return run_tank(problem, row.posture, trajectory, *find_integrator(integrator).make(), options);
 }
 
 void expect_held(const TankRun& tank) {
   ASSERT_EQ(tank.status, Status::kReached) << tank.reason.c_str();
   const TankSummary& s = tank.summary;
-  EXPECT_TRUE(s.held) << s.drift;
+  EXPECT_TRUE(s.held) << s.theta_r_error;
   EXPECT_GT(s.low, 0.98 * s.planned);
   EXPECT_LT(s.high, 1.02 * s.planned);
-  EXPECT_LT(s.drift, kHeldDrift);
+  EXPECT_LT(s.theta_r_error, kHeldThetaRError);
   EXPECT_LT(s.violation, 1e-6);  // of efforts and rates; what the integrator leaves
 }
 
@@ -66,7 +67,7 @@ void expect_saturated_and_adrift(const TankRun& tank) {
   EXPECT_FALSE(s.held);
   EXPECT_EQ(s.saturated, 1);
   EXPECT_GT(s.relaxed, 0.5);
-  EXPECT_GT(s.drift, kHeldDrift);
+  EXPECT_GT(s.theta_r_error, kHeldThetaRError);
   EXPECT_LT(s.violation, 1e-6);
 }
 
@@ -106,7 +107,7 @@ TEST(Tank, RandomPosturesHoldWhatIsPlannedAndNoMore) {
 }
 
 /// beta_1 is what an ellipsoid inside the polytope reaches, so there is room beyond it.
-TEST(Tank, TheEllipsoidsPlanAndOneNewtonMetreMoreAreHeld) {
+TEST(Tank, TheEllipsoidsTrajectoryAndOneNewtonMetreMoreAreHeld) {
   const Problem problem = load_problem("uvms/valve");
   TankOptions options;
   options.until_hold = true;
@@ -147,7 +148,7 @@ TEST(Tank, IdaAndCvodeGiveTheSameWrench) {
 bool same_rows(const TankRun& a, const TankRun& b) {
   return std::equal(a.samples.begin(), a.samples.end(), b.samples.begin(), b.samples.end(),
                     [](const TankSample& x, const TankSample& y) {
-                      return x.h_e == y.h_e && x.u == y.u && x.drift == y.drift;
+                      return x.h_e == y.h_e && x.u == y.u && x.theta_r_error == y.theta_r_error;
                     });
 }
 
@@ -212,7 +213,7 @@ TEST(Tank, SLOW_CarriesWhatThePolytopeAllows) {
       EXPECT_EQ(tank.summary.held, mass == most) << mass;
       EXPECT_LT(tank.summary.violation, 1e-6);
       if (mass > most) {
-        EXPECT_GT(tank.summary.drift, kHeldDrift);
+        EXPECT_GT(tank.summary.theta_r_error, kHeldThetaRError);
       }
     }
   }

@@ -13,9 +13,10 @@
 namespace maxwrench {
 namespace {
 
-// The best knot of a heave is a choice, so it is a mixed-integer program over all k peaks at once:
+// The best knot of an impulse is a choice, so it is a mixed-integer program over all k peaks at
+// once:
 //
-//     max t   subject to the heave's rows,   t <= w_h + M (1 - z_h),   sum z_h = 1,   z_h in {0,
+//     max t   subject to the impulse's rows,   t <= w_h + M (1 - z_h),   sum z_h = 1,   z_h in {0,
 //     1}.
 //
 // w_h, the only column of knot h's wrench, lies between the values low_h and high_h that its own
@@ -23,7 +24,7 @@ namespace {
 // M = max high - min low the rows of all other knots say nothing.
 class ByIntegers {
  public:
-  explicit ByIntegers(const PlanProgram& program) : problem_(glp_create_prob()) {
+  explicit ByIntegers(const TrajectoryProgram& program) : problem_(glp_create_prob()) {
     glp_set_obj_dir(problem_.get(), GLP_MAX);
     LinearProgram lp = assemble(program);
     add(lp);
@@ -99,9 +100,9 @@ class ByIntegers {
   int t_ = 0, one_ = 0;
 };
 
-/// The best over all knots; `peaks` are their instants.
-double by_integers(const PlanProgram& program, const std::vector<int>& peaks) {
-  const auto box = find_wrench_solver("box").make();
+/// The best over all knots; `starts_wanted` are their instants.
+double by_integers(const TrajectoryProgram& program, const std::vector<int>& peaks) {
+  const auto box = find_wrench_solver("condensed").make();
   double low = kInfinity, high = -kInfinity;
   Capability capability;
   for (const int peak : peaks) {
@@ -123,23 +124,23 @@ double by_integers(const PlanProgram& program, const std::vector<int>& peaks) {
 
 /// The knot found, after comparing with the mixed-integer program; 0 where both have no answer.
 int compare(const Problem& problem, const Eigen::MatrixXd& knots) {
-  PlanEvaluator evaluator(problem, Wrench::kPure, find_plan_solver("ipm").make);
-  const Plan& plan = evaluator.evaluate(knots);
-  const PlanProgram& program = evaluator.program();
+  TrajectoryEvaluator evaluator(problem, Wrench::kPure, find_trajectory_solver("ipm").make);
+  const Trajectory& trajectory = evaluator.evaluate(knots);
+  const TrajectoryProgram& program = evaluator.program();
   const int k = problem.motion->k;
-  // All these heaves begin with a block for the start, and knots are evenly spaced after it.
+  // All these impulses begin with a block for the start, and knots are evenly spaced after it.
   const int spacing = (program.size() - 1) / k;
   EXPECT_EQ(spacing * k + 1, program.size());
   std::vector<int> peaks;
   for (int knot = 1; knot <= k; ++knot) peaks.push_back(knot * spacing);
   const double best = by_integers(program, peaks);
-  EXPECT_EQ(plan.status == Status::kOptimal, best > -kInfinity) << plan.reason.c_str();
-  if (plan.status != Status::kOptimal) return 0;
-  EXPECT_NEAR(plan.value, best, 1e-7 * (1 + std::abs(best)));
-  return plan.t_h;
+  EXPECT_EQ(trajectory.status == Status::kOptimal, best > -kInfinity) << trajectory.reason.c_str();
+  if (trajectory.status != Status::kOptimal) return 0;
+  EXPECT_NEAR(trajectory.value, best, 1e-7 * (1 + std::abs(best)));
+  return trajectory.t_h;
 }
 
-Problem load_heave(const char* name, Scheme scheme, double T) {
+Problem load_impulse(const char* name, Scheme scheme, double T) {
   Problem problem = load_problem(name);
   problem.motion->scheme = scheme;
   problem.motion->T = T;
@@ -148,10 +149,10 @@ Problem load_heave(const char* name, Scheme scheme, double T) {
   return problem;
 }
 
-TEST(BestKnot, OfTheShippedHeavesIsThatOfAMixedIntegerProgram) {
+TEST(BestKnot, OfTheShippedImpulsesIsThatOfAMixedIntegerProgram) {
   for (const char* name : {"uvms/valve_impulse", "uvms/lift_impulse"}) {
     for (const Scheme scheme : {Scheme::kSpline, Scheme::kForward, Scheme::kBackward}) {
-      const Problem problem = load_heave(name, scheme, 2.5);
+      const Problem problem = load_impulse(name, scheme, 2.5);
       EXPECT_GT(compare(problem, problem.theta_r_default.transpose().replicate(4, 1)), 0) << name;
     }
   }
@@ -162,7 +163,7 @@ TEST(BestKnot, OfRandomTablesIsThatOfAMixedIntegerProgram) {
   std::vector<int> found(5, 0);
   for (const char* name : {"uvms/valve_impulse", "uvms/lift_impulse"}) {
     for (const Scheme scheme : {Scheme::kForward, Scheme::kBackward}) {
-      const Problem problem = load_heave(name, scheme, 2.5);
+      const Problem problem = load_impulse(name, scheme, 2.5);
       for (int sample = 0; sample < 10; ++sample) {
         Eigen::MatrixXd knots = problem.theta_r_default.transpose().replicate(4, 1);
         for (double& q : knots.reshaped()) q += random.uniform(-0.1, 0.1);

@@ -44,10 +44,10 @@ TEST(Clearance, GradientIsThatOfCentralDifferences) {
   EXPECT_GT(compared, 500);
 }
 
-/// Of the knots of a plan, with joints that follow from theta_r.
+/// Of the knots of a trajectory, with joints that follow from theta_r.
 TEST(Clearance, GradientHasTheDependentJoints) {
   const Problem problem = load_problem("mobile/trajectory");
-  PlanEvaluator evaluator(problem, Wrench::kPure, plan_solvers().front().make);
+  TrajectoryEvaluator evaluator(problem, Wrench::kPure, trajectory_solvers().front().make);
   Eigen::VectorXd x = problem.theta_r_default.replicate(problem.motion->k, 1);
   Random random(6);
   for (double& q : x) q += random.uniform(-0.2, 0.2);
@@ -91,8 +91,8 @@ TEST(Clearance, IsNegativeWhereBodiesCollide) {
   EXPECT_GT(colliding, 20);
 }
 
-PlanEvaluator evaluator_of(const Problem& problem, bool check_collision = true) {
-  return {problem, Wrench::kPure, plan_solvers().front().make, check_collision};
+TrajectoryEvaluator evaluator_of(const Problem& problem, bool check_collision = true) {
+  return {problem, Wrench::kPure, trajectory_solvers().front().make, check_collision};
 }
 
 /// The clamped cubic spline through the rows of a table one apart, by its slopes m at them:
@@ -120,7 +120,7 @@ class ClampedSpline {
   Eigen::MatrixXd y_, m_;
 };
 
-/// What a curve comes to at instants much denser than those of `continuous`.
+/// What a curve comes to at instants much denser than those of `value_between_knots`.
 struct Dense {
   double least = kInfinity, swept = 0;  ///< m, rad: of all joints in half an interval of those
   bool collides = false;
@@ -148,7 +148,7 @@ Dense dense_least(const Problem& problem, const ClampedSpline& curve, int interv
 TEST(LeastClearance, IsThatOfAMuchDenserCurve) {
   const Problem problem = load_problem("uvms/valve_trajectory");
   const int k = problem.motion->k;
-  PlanEvaluator evaluator = evaluator_of(problem);
+  TrajectoryEvaluator evaluator = evaluator_of(problem);
   Random random(5);
   const int count = std::max(20, samples(60));
   int clear = 0, between = 0;
@@ -160,8 +160,8 @@ TEST(LeastClearance, IsThatOfAMuchDenserCurve) {
     const auto found = evaluator.least_clearance();
     ASSERT_TRUE(found);
     const Dense dense = dense_least(problem, ClampedSpline(knots), k - 1);
-    // It contains the instants of `continuous`. No body is 1 m from the axis of a joint, so two
-    // come nearer by less than 1 m for each radian that the joints turn by.
+    // It contains the instants of `value_between_knots`. No body is 1 m from the axis of a joint,
+    // so two come nearer by less than 1 m for each radian that the joints turn by.
     EXPECT_LE(dense.least, found->least + 1e-9);
     EXPECT_GE(dense.least, found->least - dense.swept);
     EXPECT_EQ(dense.collides, dense.least < 0);
@@ -184,21 +184,21 @@ TEST(LeastClearance, NamesTheCollisionOfAKnot) {
   Eigen::VectorXd folded = problem.theta_r_default;
   folded[2] = problem.theta_r_min[2];  // onto the base
   const Eigen::MatrixXd knots = folded.transpose().replicate(problem.motion->k, 1);
-  PlanEvaluator evaluator = evaluator_of(problem);
+  TrajectoryEvaluator evaluator = evaluator_of(problem);
   EXPECT_FALSE(evaluator.evaluate(knots).collision.empty());
   const auto found = evaluator.least_clearance();
   ASSERT_TRUE(found);
   EXPECT_LT(found->least, 0);
   EXPECT_EQ(found->t, 0);  // nothing moves
   EXPECT_NE(found->pair.find(" and "), std::string::npos);
-  PlanEvaluator blind = evaluator_of(problem, false);
+  TrajectoryEvaluator blind = evaluator_of(problem, false);
   blind.evaluate(knots);
   EXPECT_FALSE(blind.least_clearance());
 }
 
 TEST(LeastClearance, OfOneKnotIsThatOfItsPosture) {
   const Problem problem = load_problem("uvms/valve");
-  PlanEvaluator evaluator = evaluator_of(problem);
+  TrajectoryEvaluator evaluator = evaluator_of(problem);
   evaluator.evaluate(problem.theta_r_default.transpose());
   Kinematics<double> kinematics(problem.robot);
   kinematics.set_joints(problem.theta_r_default);
@@ -221,7 +221,7 @@ class TestOnly final : public CollisionChecker {
   }
   int pairs() const override { return 1; }
   bool nearest(const std::vector<Pose<double>>& /*links*/, int /*pair*/,
-               Nearness& /*result*/) const override {
+               ClosestPoints& /*result*/) const override {
     return false;
   }
   std::string pair_name(int /*pair*/) const override { return "hull and cylinder"; }
@@ -234,7 +234,7 @@ TEST(LeastClearance, IsZeroWhereOnlyATestSaysThatBodiesCollide) {
   Problem problem = load_problem("uvms/valve_trajectory");
   for (const bool collides : {true, false}) {
     problem.robot.collision = std::make_shared<TestOnly>(collides);
-    PlanEvaluator evaluator = evaluator_of(problem);
+    TrajectoryEvaluator evaluator = evaluator_of(problem);
     evaluator.evaluate(problem.theta_r_default.transpose().replicate(problem.motion->k, 1));
     const auto found = evaluator.least_clearance();
     ASSERT_EQ(found.has_value(), collides);

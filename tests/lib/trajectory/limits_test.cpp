@@ -11,8 +11,8 @@
 namespace maxwrench {
 namespace {
 
-PlanEvaluator limits_evaluator(const Problem& problem) {
-  return {problem, Wrench::kPure, plan_solvers().front().make};
+TrajectoryEvaluator limits_evaluator(const Problem& problem) {
+  return {problem, Wrench::kPure, trajectory_solvers().front().make};
 }
 
 /// The shoulder folds from knot to knot, so the elbow stretches (see
@@ -50,7 +50,7 @@ TEST(FollowingLimits, NameTheDependentJointThatIsTooFast) {
 TEST(FollowingLimits, HoldAtInstantsBetweenKnots) {
   Problem problem = load_problem("mobile/trajectory");
   const Eigen::MatrixXd knots = folding(problem, 0.8);
-  PlanEvaluator evaluator = limits_evaluator(problem);
+  TrajectoryEvaluator evaluator = limits_evaluator(problem);
   const auto& instants = evaluator.evaluate(knots).instants;
   const int per_knot = problem.motion->instants_per_interval;
   const double dt = problem.motion->T / (problem.motion->k - 1);
@@ -82,16 +82,16 @@ TEST(FollowingLimits, RowsAreDerivatives) {
   for (const Scheme scheme : {Scheme::kSpline, Scheme::kForward, Scheme::kEnds}) {
     Problem problem = load_problem("mobile/trajectory");
     problem.motion->scheme = scheme;
-    PlanEvaluator evaluator = limits_evaluator(problem);
+    TrajectoryEvaluator evaluator = limits_evaluator(problem);
     Random random(4);
     Eigen::VectorXd x = stacked(folding(problem, 0.5));
     for (double& q : x) q += random.uniform(-0.05, 0.05);
     const auto rows_at = [&](const Eigen::VectorXd& at) {
       EXPECT_GT(evaluator.evaluate_elastic(unstacked(at, knots_of(problem)), nullptr), -kInfinity);
       evaluator.linearize();
-      return evaluator.following_rows();
+      return evaluator.dependent_rows();
     };
-    const FollowingRows rows = rows_at(x);
+    const DependentRows rows = rows_at(x);
     ASSERT_GT(rows.at.size(), 0);
     EXPECT_TRUE((rows.at.array() >= rows.r_min.array()).all());
     EXPECT_TRUE((rows.at.array() <= rows.r_max.array()).all());
@@ -107,11 +107,11 @@ TEST(FollowingLimits, RowsAreDerivatives) {
 
 TEST(FollowingLimits, AreNoneWithoutDependentJoints) {
   const Problem problem = load_problem("planar/trajectory");
-  PlanEvaluator evaluator = limits_evaluator(problem);
+  TrajectoryEvaluator evaluator = limits_evaluator(problem);
   evaluator.evaluate_elastic(problem.theta_r_default.transpose().replicate(problem.motion->k, 1),
                              nullptr);
   evaluator.linearize();
-  EXPECT_EQ(evaluator.following_rows().at.size(), 0);
+  EXPECT_EQ(evaluator.dependent_rows().at.size(), 0);
 }
 
 }  // namespace

@@ -168,7 +168,7 @@ TEST(Path, ASplineTurnsTheShorterWay) {
   EXPECT_GT(path.at(3).twist[5], 0.9 * M_PI / 3);
 }
 
-TEST(Path, SplinesThatAreNoneAreRefused) {
+TEST(Path, SplinesThatAreNoneAreRejected) {
   const Pose<double> one;
   Pose<double> half = one;
   half.R = Eigen::AngleAxisd(M_PI, Eigen::Vector3d::UnitX()).toRotationMatrix();
@@ -201,7 +201,7 @@ TEST(Scheme, NamesAreReadAsTheyAreWritten) {
   EXPECT_EQ(parse_scheme("backward_stop"), Scheme::kBackwardStop);
 }
 
-TEST(Scheme, UnknownNamesAreRefusedWithTheAlternatives) {
+TEST(Scheme, UnknownNamesAreRejectedWithTheAlternatives) {
   EXPECT_EQ(thrown_by([] { parse_scheme("central"); }),
             "scheme: got 'central', expected one of forward, ends, spline, backward, "
             "backward_stop");

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "lib/trajectory/motion.h"
+#include "lib/trajectory/motion_evaluator.h"
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/strategies.h"
@@ -68,17 +68,17 @@ struct Door {
   }
 };
 
-TEST(BranchFollower, IsTheClosedFormOfTheRover) {
+TEST(RobotMotionTracker, IsTheClosedFormOfTheRover) {
   const Door door;
-  BranchFollower follower(door.problem);
+  RobotMotionTracker robot_motion(door.problem);
   const auto rate = [&](double t) -> Eigen::VectorXd {
     return slope_of([&](double at) -> Eigen::VectorXd { return door.theta_r(at); }, t, 1e-3);
   };
   for (double t = 0.05; t < 2.9; t += 0.05) {
     const Eigen::VectorXd bend = slope_of(rate, t, 1e-3);
-    ASSERT_EQ(follower.set(door.problem.motion->path.at(t), door.theta_r(t), rate(t), bend),
+    ASSERT_EQ(robot_motion.set(door.problem.motion->path.at(t), door.theta_r(t), rate(t), bend),
               nullptr);
-    const Follower<double>& motion = follower.motion();
+    const RobotMotion<double>& motion = robot_motion.motion();
     const RoverPose expected = door.pose(t);
     EXPECT_LT((motion.q() - expected.q).norm(), 1e-12);
     EXPECT_NEAR(motion.base().p.x(), expected.x, 1e-12);
@@ -96,17 +96,18 @@ TEST(BranchFollower, IsTheClosedFormOfTheRover) {
 
 /// On a screw about a skew axis, with all six of the tool's motions: velocities are the derivatives
 /// of positions and of the base's pose, accelerations those of velocities.
-TEST(BranchFollower, VelocitiesAndAccelerationsAreDerivatives) {
+TEST(RobotMotionTracker, VelocitiesAndAccelerationsAreDerivatives) {
   for (const char* name : {"mobile/push", "fixed/push"}) {
     const Problem problem = load_problem(name);
     const Path path = Path::screw(problem.pose, Eigen::Vector3d(1, -2, 3).normalized(),
                                   {0.2, 0.1, 0}, 0.4, {0.05, -0.05, 0.03}, Timing::kQuintic, 2);
     const Eigen::VectorXd way = Eigen::VectorXd::LinSpaced(problem.redundancy(), 0.2, -0.1);
-    BranchFollower follower(problem);
+    RobotMotionTracker robot_motion(problem);
     const auto at = [&](double t) {
       const Eigen::VectorXd theta_r = problem.theta_r_default + std::sin(t) * way;
-      EXPECT_EQ(follower.set(path.at(t), theta_r, std::cos(t) * way, -std::sin(t) * way), nullptr);
-      return follower.motion();
+      EXPECT_EQ(robot_motion.set(path.at(t), theta_r, std::cos(t) * way, -std::sin(t) * way),
+                nullptr);
+      return robot_motion.motion();
     };
     const double h = 1e-5;
     const auto axes = static_cast<Eigen::Index>(problem.robot.base_axes.size());
@@ -134,10 +135,10 @@ Eigen::MatrixXd knots_near_default(const Problem& problem, Random& random) {
   return knots;
 }
 
-/// Along plans of all schemes: the pose is met, J v is the twist, and tau_d and J are those of
-/// Lagrange's equations on the files of the robot, as is the value of the worst instant (no effort
-/// of the rover has a rate limit) by trying every vertex.
-TEST(BranchFollower, PlansAreThoseOfAnIndependentModel) {
+/// Along trajectories of all schemes: the pose is met, J v is the twist, and tau_d and J are those
+/// of Lagrange's equations on the files of the robot, as is the value of the worst instant (no
+/// effort of the rover has a rate limit) by trying every vertex.
+TEST(RobotMotionTracker, TrajectoriesAreThoseOfAnIndependentModel) {
   const reference::Lagrange lagrange(std::filesystem::path(MAXWRENCH_SOURCE_DIR) /
                                      "problems/mobile/rover.toml");
   Random random(8);
@@ -145,11 +146,11 @@ TEST(BranchFollower, PlansAreThoseOfAnIndependentModel) {
     Problem problem = load_problem("mobile/trajectory");
     problem.motion->scheme = scheme;
     for (Joint& joint : problem.robot.joints) joint.velocity_max = kInfinity;
-    PlanEvaluator evaluator(problem, Wrench::kPure, plan_solvers().front().make);
-    const Plan& plan = evaluator.evaluate(knots_near_default(problem, random));
-    ASSERT_EQ(plan.status, Status::kOptimal) << plan.reason.c_str();
+    TrajectoryEvaluator evaluator(problem, Wrench::kPure, trajectory_solvers().front().make);
+    const Trajectory& trajectory = evaluator.evaluate(knots_near_default(problem, random));
+    ASSERT_EQ(trajectory.status, Status::kOptimal) << trajectory.reason.c_str();
     double worst = kInfinity;
-    for (const Instant& instant : plan.instants) {
+    for (const Instant& instant : trajectory.instants) {
       reference::Place place;
       place.p = instant.base.p;
       place.rpy.z() = std::atan2(instant.base.R(1, 0), instant.base.R(0, 0));
@@ -166,14 +167,14 @@ TEST(BranchFollower, PlansAreThoseOfAnIndependentModel) {
       ASSERT_TRUE(beta);
       worst = std::min(worst, *beta);
     }
-    EXPECT_NEAR(plan.value, worst, 1e-7 * worst) << to_string(scheme);
+    EXPECT_NEAR(trajectory.value, worst, 1e-7 * worst) << to_string(scheme);
   }
 }
 
-/// At rest a plan of one knot is a posture.
-TEST(BranchFollower, OneKnotIsTheStaticPosture) {
+/// At rest a trajectory of one knot is a posture.
+TEST(RobotMotionTracker, OneKnotIsTheStaticPosture) {
   const Problem problem = load_problem("mobile/push");
-  PlanEvaluator evaluator(problem, Wrench::kPure, plan_solvers().front().make);
+  TrajectoryEvaluator evaluator(problem, Wrench::kPure, trajectory_solvers().front().make);
   PostureEvaluator model(problem);
   const auto measure = make_linf_polytope(problem.robot, find_wrench_solver("facets").make());
   WrenchProgram program = make_wrench_program(problem, Wrench::kPure);
@@ -182,29 +183,29 @@ TEST(BranchFollower, OneKnotIsTheStaticPosture) {
   for (int i = 0; i < 200; ++i) {
     const Eigen::VectorXd theta_r = random_theta_r(problem, random);
     const Posture& posture = model.evaluate(theta_r);
-    const Plan& plan = evaluator.evaluate(theta_r.transpose());
+    const Trajectory& trajectory = evaluator.evaluate(theta_r.transpose());
     const bool collides = posture.violation == Violation::kCollision;
-    EXPECT_EQ(plan.status == Status::kInvalidPosture,
+    EXPECT_EQ(trajectory.status == Status::kInvalidPosture,
               posture.status != Status::kValid && !collides);
-    EXPECT_TRUE(!collides || !plan.collision.empty());
-    if (posture.status != Status::kValid || plan.status != Status::kOptimal) continue;
+    EXPECT_TRUE(!collides || !trajectory.collision.empty());
+    if (posture.status != Status::kValid || trajectory.status != Status::kOptimal) continue;
     Capability capability;
     set_posture(posture, program);
     measure->evaluate(posture, program, true, capability);
-    EXPECT_NEAR(plan.value, capability.beta, 1e-9 * (1 + std::abs(capability.beta)));
+    EXPECT_NEAR(trajectory.value, capability.beta, 1e-9 * (1 + std::abs(capability.beta)));
     ++compared;
   }
   EXPECT_GT(compared, 50);
 }
 
-/// A dependent joint goes on from instant to instant, beyond half a turn too; there is no branch to
-/// fall back to.
-TEST(BranchFollower, KeepsToItsBranchOverATurn) {
+/// A dependent joint goes on from instant to instant, beyond half a turn too; there is no IK
+/// solution to fall back to.
+TEST(RobotMotionTracker, KeepsToItsIkSolutionOverATurn) {
   Problem problem = load_problem("mobile/trajectory");
   problem.motion->path =
       Path::screw(problem.pose, Eigen::Vector3d::UnitZ(), problem.pose.p, 3 * M_PI,
                   Eigen::Vector3d::Zero(), Timing::kCubic, problem.motion->T);
-  MotionEvaluator motion(problem, make_continuous(*problem.motion, 25));
+  MotionEvaluator motion(problem, make_dense_spline(*problem.motion, 25));
   std::vector<Instant> instants;
   const Eigen::MatrixXd Q = problem.theta_r_default.transpose().replicate(problem.motion->k, 1);
   motion.evaluate(Q, instants);
@@ -215,19 +216,19 @@ TEST(BranchFollower, KeepsToItsBranchOverATurn) {
   }
 }
 
-TEST(BranchFollower, SaysWhereItGetsLost) {
+TEST(RobotMotionTracker, SaysWhereItGetsLost) {
   Problem problem = load_problem("mobile/trajectory");
   const auto reason_along = [&](const Eigen::Vector3d& way, Timing timing) {
     problem.motion->path = Path::screw(problem.pose, Eigen::Vector3d::UnitZ(), problem.pose.p, 0,
                                        way, timing, problem.motion->T);
-    PlanEvaluator evaluator(problem, Wrench::kPure, plan_solvers().front().make);
-    const Plan& plan =
+    TrajectoryEvaluator evaluator(problem, Wrench::kPure, trajectory_solvers().front().make);
+    const Trajectory& trajectory =
         evaluator.evaluate(problem.theta_r_default.transpose().replicate(problem.motion->k, 1));
-    EXPECT_EQ(plan.status, Status::kInvalidPosture);
-    EXPECT_TRUE(std::isnan(plan.instants.back().q[2]));
+    EXPECT_EQ(trajectory.status, Status::kInvalidPosture);
+    EXPECT_TRUE(std::isnan(trajectory.instants.back().q[2]));
     EXPECT_FALSE(evaluator.least_clearance());
-    EXPECT_EQ(evaluator.evaluate_elastic(plan.knots, nullptr), -kInfinity);
-    return plan.reason.str();
+    EXPECT_EQ(evaluator.evaluate_elastic(trajectory.knots, nullptr), -kInfinity);
+    return trajectory.reason.str();
   };
   // 0.5 + 0.45 sin 1 + 0.4 m is 1.279 m above the ground; the tool leaves 0.9 m.
   const std::string up = reason_along({0, 0, 1}, Timing::kLinear);
@@ -237,7 +238,7 @@ TEST(BranchFollower, SaysWhereItGetsLost) {
 
 /// A fixed arm of three links of 1 m that turn about z cannot lift its tool: the twist at the start
 /// shows it before any pose does.
-TEST(BranchFollower, RefusesAPathThatTheRobotCannotMoveAlong) {
+TEST(RobotMotionTracker, RejectsAPathThatTheRobotCannotMoveAlong) {
   Problem problem;
   Robot& robot = problem.robot;
   robot.links.resize(5);

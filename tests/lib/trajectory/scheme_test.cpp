@@ -19,7 +19,7 @@ MotionTask turn(Scheme scheme, int k) {
   return task;
 }
 
-MotionTask heave(Scheme scheme, int k) {
+MotionTask impulse(Scheme scheme, int k) {
   MotionTask task;
   task.impulse = true;
   task.T = 2;
@@ -41,7 +41,7 @@ Eigen::VectorXd random_knots(int count) {
 double phi(double s) { return 3 * s * s - 2 * s * s * s; }
 
 TEST(Scheme, SplinePassesItsKnotsAndRestsAtItsEnds) {
-  for (const MotionTask& task : {turn(Scheme::kSpline, 7), heave(Scheme::kSpline, 4)}) {
+  for (const MotionTask& task : {turn(Scheme::kSpline, 7), impulse(Scheme::kSpline, 4)}) {
     const SchemeMaps maps = make_scheme(task);
     const Eigen::VectorXd Q = random_knots(maps.knots());
     const Eigen::VectorXd q = maps.P * Q, rate = maps.V * Q;
@@ -60,7 +60,7 @@ TEST(Scheme, SplineIsDifferentiableTwice) {
   // accelerations, across the knots too: central differences miss a cubic by h^2/6 times its third
   // derivative.
   MotionTask task = turn(Scheme::kSpline, 6);
-  const SchemeMaps maps = make_continuous(task, 2000);
+  const SchemeMaps maps = make_dense_spline(task, 2000);
   const Eigen::VectorXd Q = random_knots(6);
   const Eigen::VectorXd q = maps.P * Q, rate = maps.V * Q, bend = maps.A * Q;
   const double h = maps.t[1];
@@ -112,20 +112,21 @@ TEST(Scheme, TwistOfDifferencesLeadsFromPoseToPose) {
   }
 }
 
-TEST(Scheme, HeavesBeginAtRest) {
+TEST(Scheme, ImpulsesBeginAtRest) {
   const Eigen::VectorXd Q = Eigen::Vector4d(1, 2, 4, 8);
   const double dt = 2.0 / 3;
-  const SchemeMaps backward = make_scheme(heave(Scheme::kBackward, 3));
+  const SchemeMaps backward = make_scheme(impulse(Scheme::kBackward, 3));
   // v = (0, 1, 2, 4)/dt, a_i = (v_i - v_i-1)/dt.
   Eigen::VectorXd v = backward.V * Q;
   EXPECT_TRUE((v * dt).isApprox(Eigen::Vector4d(0, 1, 2, 4), 1e-14));
   EXPECT_TRUE((backward.D * v * dt * dt).isApprox(Eigen::Vector4d(0, 1, 1, 2), 1e-14));
-  const SchemeMaps forward = make_scheme(heave(Scheme::kForward, 3));
+  const SchemeMaps forward = make_scheme(impulse(Scheme::kForward, 3));
   // v = (0, 2, 4, 0)/dt, a_i = (v_i+1 - v_i)/dt for i >= 1, the last zero.
   v = forward.V * Q;
   EXPECT_TRUE((v * dt).isApprox(Eigen::Vector4d(0, 2, 4, 0), 1e-14));
   EXPECT_TRUE((forward.D * v * dt * dt).isApprox(Eigen::Vector4d(0, 2, -4, 0), 1e-14));
-  EXPECT_EQ(make_scheme(heave(Scheme::kBackwardStop, 3)).zero * Q, Eigen::VectorXd::Constant(1, 4));
+  EXPECT_EQ(make_scheme(impulse(Scheme::kBackwardStop, 3)).zero * Q,
+            Eigen::VectorXd::Constant(1, 4));
 }
 
 TEST(Scheme, RowsLimitEveryPairOfKnotsAndEveryInstant) {
@@ -135,7 +136,7 @@ TEST(Scheme, RowsLimitEveryPairOfKnotsAndEveryInstant) {
   const Eigen::VectorXd rates = maps.speed * Eigen::Vector4d(0, 5, 5, 0);
   EXPECT_NEAR(rates[0], 3, 1e-14);  // 5 in T/3
   EXPECT_NEAR(rates[1], 0, 1e-14);
-  const SchemeMaps heaving = make_scheme(heave(Scheme::kSpline, 3));
+  const SchemeMaps heaving = make_scheme(impulse(Scheme::kSpline, 3));
   ASSERT_EQ(heaving.zero.rows(), 1);
   EXPECT_NEAR(heaving.zero.row(0).dot(Eigen::Vector4d::Ones()), 0, 1e-12);
 }
@@ -153,7 +154,7 @@ TEST(Scheme, OneKnotRests) {
 
 TEST(Scheme, ServesOneKindOfTask) {
   EXPECT_THROW(make_scheme(turn(Scheme::kBackward, 4)), std::invalid_argument);
-  EXPECT_THROW(make_scheme(heave(Scheme::kEnds, 4)), std::invalid_argument);
+  EXPECT_THROW(make_scheme(impulse(Scheme::kEnds, 4)), std::invalid_argument);
 }
 
 }  // namespace

@@ -13,36 +13,37 @@
 namespace maxwrench {
 namespace {
 
-PlanSolution solve_plan_by(const PlanProgram& program, const char* name = "simplex") {
-  PlanSolution solution;
-  find_plan_solver(name).make()->solve(program, solution);
+TrajectorySolution solve_trajectory_by(const TrajectoryProgram& program,
+                                       const char* name = "simplex") {
+  TrajectorySolution solution;
+  find_trajectory_solver(name).make()->solve(program, solution);
   return solution;
 }
 
 /// A bordered elastic program with rates, whose every multiplier counts.
-PlanProgram rich_plan(const Problem& problem, Random& random) {
-  PlanRecipe recipe;
+TrajectoryProgram rich_trajectory(const Problem& problem, Random& random) {
+  TrajectoryRecipe recipe;
   recipe.instants = 4;
   recipe.border = 5;
   recipe.rho = 100;
-  PlanProgram program = random_plan(problem, recipe, random);
+  TrajectoryProgram program = random_trajectory(problem, recipe, random);
   program.first_elastic = 1;
   return program;
 }
 
-TEST(PlanProgram, OneInstantIsAWrenchProgram) {
+TEST(TrajectoryProgram, OneInstantIsAWrenchProgram) {
   const Problem problem = load_problem("uvms/valve");
   Random random(1);
   for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
     for (const int peak : {-1, 0}) {
-      PlanRecipe recipe;
+      TrajectoryRecipe recipe;
       recipe.instants = 1;
       recipe.wrench = wrench;
       recipe.peak = peak;
-      const PlanProgram program = random_plan(problem, recipe, random);
+      const TrajectoryProgram program = random_trajectory(problem, recipe, random);
       Capability capability;
-      find_wrench_solver("box").make()->solve(program.instants[0], true, capability);
-      const PlanSolution solution = solve_plan_by(program);
+      find_wrench_solver("condensed").make()->solve(program.instants[0], true, capability);
+      const TrajectorySolution solution = solve_trajectory_by(program);
       ASSERT_EQ(solution.status, Status::kOptimal) << solution.reason.c_str();
       EXPECT_NEAR(solution.value, capability.beta, 1e-9 * (1 + capability.beta));
       EXPECT_TRUE(solution.residual.within(1e-9 * (1 + capability.beta)));
@@ -50,11 +51,11 @@ TEST(PlanProgram, OneInstantIsAWrenchProgram) {
   }
 }
 
-TEST(PlanProgram, UpdateWritesWhatAssembleBuilds) {
+TEST(TrajectoryProgram, UpdateWritesWhatAssembleBuilds) {
   const Problem problem = load_problem("uvms/valve");
   Random random(2);
-  const PlanProgram first = rich_plan(problem, random);
-  PlanProgram second = rich_plan(problem, random);
+  const TrajectoryProgram first = rich_trajectory(problem, random);
+  TrajectoryProgram second = rich_trajectory(problem, random);
   second.R = first.R;
   LinearProgram updated = assemble(first);
   const long before = allocation_count();
@@ -68,12 +69,12 @@ TEST(PlanProgram, UpdateWritesWhatAssembleBuilds) {
   EXPECT_EQ(updated.u, fresh.u);
 }
 
-TEST(PlanProgram, TheAssembledProgramSaysWhatTheDocumentationSays) {
+TEST(TrajectoryProgram, TheAssembledProgramSaysWhatTheDocumentationSays) {
   // Any u, w, s and y within their limits make a balance and rates that the columns repeat.
   const Problem problem = load_problem("uvms/valve");
   Random random(3);
-  const PlanProgram program = rich_plan(problem, random);
-  const PlanSolution solution = solve_plan_by(program);
+  const TrajectoryProgram program = rich_trajectory(problem, random);
+  const TrajectorySolution solution = solve_trajectory_by(program);
   ASSERT_EQ(solution.status, Status::kOptimal);
   const Eigen::MatrixXd& B = problem.robot.actuation.B;
   for (int i = 0; i < program.size(); ++i) {
@@ -92,7 +93,7 @@ TEST(PlanProgram, TheAssembledProgramSaysWhatTheDocumentationSays) {
 
 /// Calls f(name, number) for a number of every part of the answer.
 template <class F>
-void for_every_part(PlanSolution& solution, F&& f) {
+void for_every_part(TrajectorySolution& solution, F&& f) {
   f("value", solution.value);
   f("price", solution.price);
   f("u", solution.u(0, 1));
@@ -105,11 +106,11 @@ void for_every_part(PlanSolution& solution, F&& f) {
   f("nu", solution.nu[0]);
 }
 
-TEST(PlanProgram, WhatIsNotANumberPassesNoRecheck) {
+TEST(TrajectoryProgram, WhatIsNotANumberPassesNoRecheck) {
   const Problem problem = load_problem("uvms/valve");
   Random random(4);
-  const PlanProgram program = rich_plan(problem, random);
-  PlanSolution solution = solve_plan_by(program);
+  const TrajectoryProgram program = rich_trajectory(problem, random);
+  TrajectorySolution solution = solve_trajectory_by(program);
   ASSERT_TRUE(recheck(program, solution).within(1e-8));
   for (const double bad : {std::nan(""), kInfinity, -kInfinity}) {
     for_every_part(solution, [&](const char* name, double& number) {
@@ -118,16 +119,16 @@ TEST(PlanProgram, WhatIsNotANumberPassesNoRecheck) {
       number = kept;
     });
   }
-  PlanProgram broken = program;
+  TrajectoryProgram broken = program;
   broken.instants[2].tau_d[0] = std::nan("");
   EXPECT_FALSE(recheck(broken, solution).within(1e6));
 }
 
-TEST(PlanProgram, RecheckSeesWhateverIsMoved) {
+TEST(TrajectoryProgram, RecheckSeesWhateverIsMoved) {
   const Problem problem = load_problem("uvms/valve");
   Random random(5);
-  const PlanProgram program = rich_plan(problem, random);
-  PlanSolution solution = solve_plan_by(program);
+  const TrajectoryProgram program = rich_trajectory(problem, random);
+  TrajectorySolution solution = solve_trajectory_by(program);
   ASSERT_TRUE(recheck(program, solution).within(1e-8));
   for_every_part(solution, [&](const char* name, double& number) {
     const double kept = number;
@@ -145,17 +146,17 @@ TEST(PlanProgram, RecheckSeesWhateverIsMoved) {
   EXPECT_FALSE(recheck(program, solution).within(1e6));
 }
 
-TEST(PlanProgram, AProofIsAProofAndNothingElseIs) {
+TEST(TrajectoryProgram, AProofIsAProofAndNothingElseIs) {
   const Problem problem = load_problem("uvms/valve");
   Random random(6);
-  PlanRecipe recipe;
+  TrajectoryRecipe recipe;
   recipe.instants = 4;
-  PlanProgram program = random_plan(problem, recipe, random);
-  const PlanSolution optimum = solve_plan_by(program);
+  TrajectoryProgram program = random_trajectory(problem, recipe, random);
+  const TrajectorySolution optimum = solve_trajectory_by(program);
   EXPECT_FALSE(proves_infeasible(program, optimum));
   program.instants[2].tau_d *= 100;
   for (const char* name : {"simplex", "ipm"}) {
-    PlanSolution proof = solve_plan_by(program, name);
+    TrajectorySolution proof = solve_trajectory_by(program, name);
     ASSERT_EQ(proof.status, Status::kInfeasible) << name;
     EXPECT_TRUE(proves_infeasible(program, proof));
     proof.lambda = -proof.lambda;
@@ -170,27 +171,27 @@ TEST(PlanProgram, AProofIsAProofAndNothingElseIs) {
   EXPECT_TRUE(proves_infeasible(program, {}));
 }
 
-TEST(PlanProgram, ProofsMayRestOnTheRates) {
+TEST(TrajectoryProgram, ProofsMayRestOnTheRates) {
   // Opposite loads in two instants, each balanced alone, with efforts that may not change.
   const Problem problem = load_problem("uvms/valve");
   Random random(7);
-  PlanRecipe recipe;
+  TrajectoryRecipe recipe;
   recipe.instants = 2;
   recipe.load = 0;
-  PlanProgram program = random_plan(problem, recipe, random);
+  TrajectoryProgram program = random_trajectory(problem, recipe, random);
   const Zonotope& set = problem.robot.actuation;
   const Eigen::VectorXd push = 0.5 * set.B.leftCols(8) * set.u_max.head(8);
   program.instants[0].tau_d = push;
   program.instants[1].tau_d = -push;
-  ASSERT_EQ(solve_plan_by(program).status, Status::kInfeasible);
+  ASSERT_EQ(solve_trajectory_by(program).status, Status::kInfeasible);
   for (const char* name : {"simplex", "ipm"}) {
-    PlanSolution proof = solve_plan_by(program, name);
+    TrajectorySolution proof = solve_trajectory_by(program, name);
     ASSERT_TRUE(proves_infeasible(program, proof)) << name;
     proof.mu.setZero();
     EXPECT_FALSE(proves_infeasible(program, proof)) << name;
   }
   program.du_max.setConstant(kInfinity);
-  EXPECT_EQ(solve_plan_by(program).status, Status::kOptimal);
+  EXPECT_EQ(solve_trajectory_by(program).status, Status::kOptimal);
 }
 
 }  // namespace

@@ -29,7 +29,8 @@ struct ProofCase {
       : problem(load_problem(name)), measure(of), wrench(allowed) {
     make = [this] {
       const bool one = wrench == Wrench::kPure && !problem.contact;
-      return find_measure(measure).make(problem, find_wrench_solver(one ? "facets" : "box").make());
+      return find_measure(measure).make(problem,
+                                        find_wrench_solver(one ? "facets" : "condensed").make());
     };
   }
   ProofCase(const ProofCase&) = delete;
@@ -146,7 +147,8 @@ TEST(Certify, FindsWhatItIsNotGiven) {
   }
 }
 
-/// Where the incumbent is far below the best, centres of boxes and climbs from there lead to it.
+/// Where the incumbent is far below the best, centres of boxes and local searches from there lead
+/// to it.
 TEST(Certify, ImprovesAPoorIncumbent) {
   ProofCase at("uvms/lift", "linf_polytope", Wrench::kPure);
   const Eigen::VectorXd& start = at.problem.theta_r_default;
@@ -192,7 +194,7 @@ TEST(Certify, HoldsForPosturesOneByOne) {
   for (const Candidate& posture : postures) EXPECT_LE(posture.value, result.bound);
 }
 
-/// The same where joints follow: no branch of the postures is cut off from the boxes.
+/// The same where joints follow: no IK solution of the postures is cut off from the boxes.
 TEST(Certify, HoldsForPosturesWhoseJointsFollow) {
   for (const char* name : {"mobile/push", "dual_arm/bar_wall"}) {
     ProofCase at(name, "linf_polytope", Wrench::kPure);
@@ -220,7 +222,7 @@ TEST(Certify, HoldsForPosturesWhoseJointsFollow) {
   }
 }
 
-/// Against all postures at points of a grid, in all branches.
+/// Against all postures at points of a grid, in all IK solutions.
 TEST(Certify, SLOW_IsNearTheBestOfAGrid) {
   for (const char* name : {"mobile/push", "dual_arm/bar_wall", "dual_arm/bar_alone"}) {
     ProofCase at(name, "linf_polytope", Wrench::kPure);
@@ -301,32 +303,32 @@ TEST(Certify, EndsEarlyWithABracket) {
 /// Where no posture can do what is asked without help, the best value is negative.
 TEST(Certify, ProvesWhatIsBelowZero) {
   const auto at = [](double x) { return Eigen::VectorXd::Constant(1, x).eval(); };
-  const Hills hills = {at(-1), at(1), {at(0.3)}, -1};
-  HillsObjective objective(hills);
+  const Multimodal multimodal = {at(-1), at(1), {at(0.3)}, -1};
+  MultimodalObjective objective(multimodal);
   const CertifyResult result =
-      certify(objective, HillsBound(hills), {at(-0.5), -1.8}, to_gap(1e-3));
+      certify(objective, MultimodalBound(multimodal), {at(-0.5), -1.8}, to_gap(1e-3));
   EXPECT_EQ(result.status, Status::kProven);
   EXPECT_GE(result.bound, -1);
   EXPECT_NEAR(result.best.value, -1, 1e-3);
 }
 
-TEST(Certify, RefusesOptionsOutOfRange) {
+TEST(Certify, RejectsOptionsOutOfRange) {
   ProofCase at("planar/force", "ellipsoid", Wrench::kPure);
-  const auto refused = [&](const char* key, const auto& spoil, double value = -kInfinity) {
+  const auto rejected = [&](const char* key, const auto& spoil, double value = -kInfinity) {
     CertifyOptions options = to_gap(1e-3);
     spoil(options);
-    expect_refused(key, [&] { at.prove({at.problem.theta_r_default, value}, options); });
+    expect_rejected(key, [&] { at.prove({at.problem.theta_r_default, value}, options); });
   };
   for (const double gap : {1e-9, -1.0, kInfinity, std::nan("")}) {
-    refused("gap", [&](CertifyOptions& options) { options.gap = gap; });
+    rejected("gap", [&](CertifyOptions& options) { options.gap = gap; });
   }
   for (const double seconds : {-1.0, -kInfinity, std::nan("")}) {
-    refused("seconds", [&](CertifyOptions& options) { options.seconds = seconds; });
+    rejected("seconds", [&](CertifyOptions& options) { options.seconds = seconds; });
   }
-  refused("boxes", [](CertifyOptions& options) { options.boxes = 0; });
-  refused("threads", [](CertifyOptions& options) { options.threads = 0; });
-  refused("threads", [](CertifyOptions& options) { options.threads = 1025; });
-  refused(
+  rejected("boxes", [](CertifyOptions& options) { options.boxes = 0; });
+  rejected("threads", [](CertifyOptions& options) { options.threads = 0; });
+  rejected("threads", [](CertifyOptions& options) { options.threads = 1025; });
+  rejected(
       "incumbent", [](CertifyOptions&) {}, std::nan(""));
 }
 

@@ -20,15 +20,15 @@ namespace {
 constexpr double kHalfTurn = std::numbers::pi;
 
 /// In [-pi, pi]^d.
-Hills hills_at(const std::vector<Eigen::VectorXd>& peaks) {
+Multimodal multimodal_at(const std::vector<Eigen::VectorXd>& peaks) {
   const Eigen::Index d = peaks.front().size();
   return {Eigen::VectorXd::Constant(d, -kHalfTurn), Eigen::VectorXd::Constant(d, kHalfTurn), peaks};
 }
 
-GoodPostures list(const Hills& hills, const GoodOptions& options) {
-  HillsObjective objective(hills);
-  return find_good_postures(objective, HillsBound(hills), {hills.peaks.front(), hills.top},
-                            hills.top, options);
+GoodPostures list(const Multimodal& multimodal, const GoodOptions& options) {
+  MultimodalObjective objective(multimodal);
+  return find_good_postures(objective, MultimodalBound(multimodal),
+                            {multimodal.peaks.front(), multimodal.top}, multimodal.top, options);
 }
 
 bool holds(const GoodBox& box, const Eigen::VectorXd& x) {
@@ -70,9 +70,9 @@ TEST(GoodPostures, AreApartOrHangTogether) {
   GoodOptions options;
   options.within = 0.1;
   const Eigen::Vector2d one(0.5, 0.7), near(0.69, 0.89), far(-1, 0.7);
-  const Hills hills = hills_at({one, near, far});
-  HillsObjective objective(hills);
-  const GoodPostures good = list(hills, options);
+  const Multimodal multimodal = multimodal_at({one, near, far});
+  MultimodalObjective objective(multimodal);
+  const GoodPostures good = list(multimodal, options);
   EXPECT_EQ(good.status, Status::kProven);
   EXPECT_DOUBLE_EQ(good.least, 0.9);
   expect_sound(objective, good, options);
@@ -96,11 +96,11 @@ TEST(GoodPostures, AreApartOrHangTogether) {
 TEST(GoodPostures, GoAroundWhereJointsTurn) {
   GoodOptions options;
   options.within = 0.1;
-  Hills hills = hills_at({Eigen::Vector2d(kHalfTurn, 0.3)});
-  hills.turns = {1, 0};
-  EXPECT_EQ(list(hills, options).clusters.size(), 2U);
-  options.turns = hills.turns;
-  const GoodPostures good = list(hills, options);
+  Multimodal multimodal = multimodal_at({Eigen::Vector2d(kHalfTurn, 0.3)});
+  multimodal.turns = {1, 0};
+  EXPECT_EQ(list(multimodal, options).clusters.size(), 2U);
+  options.turns = multimodal.turns;
+  const GoodPostures good = list(multimodal, options);
   ASSERT_EQ(good.clusters.size(), 1U);
   EXPECT_NEAR(good.clusters[0].lower[0], kHalfTurn - 0.1, options.resolution);
   EXPECT_NEAR(good.clusters[0].upper[0], kHalfTurn + 0.1, options.resolution);
@@ -109,10 +109,10 @@ TEST(GoodPostures, GoAroundWhereJointsTurn) {
 
 /// What is found 5 % below a bound that is that far off may be within 1 %, or not.
 TEST(GoodPostures, MayHoldWhatIsNotSure) {
-  const Hills hills = hills_at({Eigen::VectorXd::Constant(1, 0.2)});
-  HillsObjective objective(hills);
-  const GoodPostures good =
-      find_good_postures(objective, HillsBound(hills), {hills.peaks[0], 1}, 1.05, {});
+  const Multimodal multimodal = multimodal_at({Eigen::VectorXd::Constant(1, 0.2)});
+  MultimodalObjective objective(multimodal);
+  const GoodPostures good = find_good_postures(objective, MultimodalBound(multimodal),
+                                               {multimodal.peaks[0], 1}, 1.05, {});
   ASSERT_EQ(good.clusters.size(), 1U);
   EXPECT_FALSE(good.holds(good.clusters[0]));
   EXPECT_DOUBLE_EQ(good.sure, 1.05 * 0.99);
@@ -120,15 +120,16 @@ TEST(GoodPostures, MayHoldWhatIsNotSure) {
 
 /// All that is good lies in the boxes whatever ends the search, some of which are larger.
 TEST(GoodPostures, EndEarlyWithLargerBoxes) {
-  const Hills hills = hills_at({Eigen::Vector3d(0.5, 0.7, -2), Eigen::Vector3d(-1, 3, 1)});
-  HillsObjective objective(hills);
+  const Multimodal multimodal =
+      multimodal_at({Eigen::Vector3d(0.5, 0.7, -2), Eigen::Vector3d(-1, 3, 1)});
+  MultimodalObjective objective(multimodal);
   GoodOptions few, late, stopped;
   few.boxes = 20;
   late.seconds = 0;
   stopped.interrupted = [] { return true; };
   for (const auto& [options, reason] :
        {std::pair(few, "boxes"), {late, "time"}, {stopped, "interrupted"}}) {
-    const GoodPostures good = list(hills, options);
+    const GoodPostures good = list(multimodal, options);
     EXPECT_EQ(good.status, Status::kBracket);
     EXPECT_NE(good.reason.str().find(reason), std::string::npos) << good.reason.c_str();
     expect_sound(objective, good, options);
@@ -137,47 +138,47 @@ TEST(GoodPostures, EndEarlyWithLargerBoxes) {
       widest = std::max(widest, (box.upper - box.lower).maxCoeff());
     }
     EXPECT_GT(widest, options.resolution);
-    for (const auto& peak : hills.peaks) EXPECT_GE(cluster_at(good, peak), 0);
+    for (const auto& peak : multimodal.peaks) EXPECT_GE(cluster_at(good, peak), 0);
     EXPECT_TRUE(good.holds(good.clusters.front()));
   }
 }
 
-TEST(GoodPostures, RefuseOptionsOutOfRange) {
-  const Hills hills = hills_at({Eigen::VectorXd::Constant(1, 0.2)});
-  HillsObjective objective(hills);
-  const HillsBound bound(hills);
-  const auto refused = [&](const char* key, const auto& spoil, double value = 1, double high = 1) {
+TEST(GoodPostures, RejectOptionsOutOfRange) {
+  const Multimodal multimodal = multimodal_at({Eigen::VectorXd::Constant(1, 0.2)});
+  MultimodalObjective objective(multimodal);
+  const MultimodalBound bound(multimodal);
+  const auto rejected = [&](const char* key, const auto& spoil, double value = 1, double high = 1) {
     GoodOptions options;
     spoil(options);
-    expect_refused(key, [&] {
-      find_good_postures(objective, bound, {hills.peaks[0], value}, high, options);
+    expect_rejected(key, [&] {
+      find_good_postures(objective, bound, {multimodal.peaks[0], value}, high, options);
     });
   };
   const auto none = [](GoodOptions&) {};
   for (const double bad : {0.0, -1.0, std::nan(""), kInfinity, -kInfinity}) {
-    refused("within", [&](GoodOptions& options) { options.within = bad; });
-    refused("resolution", [&](GoodOptions& options) { options.resolution = bad; });
+    rejected("within", [&](GoodOptions& options) { options.within = bad; });
+    rejected("resolution", [&](GoodOptions& options) { options.resolution = bad; });
     if (bad < 0 || std::isnan(bad)) {
-      refused("seconds", [&](GoodOptions& options) { options.seconds = bad; });
+      rejected("seconds", [&](GoodOptions& options) { options.seconds = bad; });
     }
-    if (!std::isfinite(bad)) refused("best", none, bad);
+    if (!std::isfinite(bad)) rejected("best", none, bad);
   }
-  refused("within", [](GoodOptions& options) { options.within = 1.1; });
-  refused("boxes", [](GoodOptions& options) { options.boxes = 0; });
-  refused("threads", [](GoodOptions& options) { options.threads = 0; });
-  refused("turns", [](GoodOptions& options) { options.turns = {1, 1}; });
-  refused("high", none, 1, std::nan(""));
+  rejected("within", [](GoodOptions& options) { options.within = 1.1; });
+  rejected("boxes", [](GoodOptions& options) { options.boxes = 0; });
+  rejected("threads", [](GoodOptions& options) { options.threads = 0; });
+  rejected("turns", [](GoodOptions& options) { options.turns = {1, 1}; });
+  rejected("high", none, 1, std::nan(""));
 }
 
 /// The value may be below zero.
 TEST(GoodPostures, AreAShareOfTheSize) {
   EXPECT_DOUBLE_EQ(good_from(50, 0.1), 45);
   EXPECT_DOUBLE_EQ(good_from(-50, 0.1), -55);
-  Hills hills = hills_at({Eigen::VectorXd::Constant(1, 0.2)});
-  hills.top = -2;
+  Multimodal multimodal = multimodal_at({Eigen::VectorXd::Constant(1, 0.2)});
+  multimodal.top = -2;
   GoodOptions options;
   options.within = 0.1;
-  const GoodPostures good = list(hills, options);
+  const GoodPostures good = list(multimodal, options);
   ASSERT_EQ(good.clusters.size(), 1U);
   EXPECT_NEAR(good.clusters[0].lower[0], 0, options.resolution);
   EXPECT_NEAR(good.clusters[0].upper[0], 0.4, options.resolution);
@@ -232,8 +233,8 @@ TEST(GoodPostures, SLOW_OfTheWholePlaneAreListed) {
   EXPECT_GT(found, steps / 50);
 }
 
-/// Random walks through what is within 1 % never leave the boxes; they begin where climbs by random
-/// steps come that near.
+/// Random walks through what is within 1 % never leave the boxes; they begin where local searches
+/// by random steps come that near.
 TEST(GoodPostures, SLOW_OfAVehicleAreListed) {
   const Listed at("uvms/lift");
   GoodOptions options;

@@ -53,7 +53,7 @@ class IntegratorTest : public testing::TestWithParam<IntegratorEntry> {
     return GetParam().make()->integrate(ode, options, std::vector<double>(times), trajectory);
   }
   IntegratorOptions options;
-  Trajectory trajectory;
+  OdeSolution trajectory;
 };
 
 INSTANTIATE_TEST_SUITE_P(All, IntegratorTest,
@@ -199,14 +199,14 @@ TEST_P(IntegratorTest, ExceptionsPassThrough) {
   }
 }
 
-TEST_P(IntegratorTest, RefusesTimesThatDoNotIncrease) {
+TEST_P(IntegratorTest, RejectsTimesThatDoNotIncrease) {
   Given still(one(0), [](double, const auto&) { return one(0); });
   EXPECT_THROW(integrate(still, {0}), std::invalid_argument);
   EXPECT_THROW(integrate(still, {0, 0}), std::invalid_argument);
   EXPECT_THROW(integrate(still, {0, 1, 0.5}), std::invalid_argument);
 }
 
-TEST_P(IntegratorTest, RefusesOptionsOfNoIntegration) {
+TEST_P(IntegratorTest, RejectsOptionsOfNoIntegration) {
   Given still(one(0), [](double, const auto&) { return one(0); });
   for (double IntegratorOptions::*option :
        {&IntegratorOptions::relative_tolerance, &IntegratorOptions::absolute_tolerance,
@@ -214,12 +214,12 @@ TEST_P(IntegratorTest, RefusesOptionsOfNoIntegration) {
     for (const double value : {-1.0, kNan, kInfinity}) {
       options = {};
       options.*option = value;
-      expect_refused("integrator ", [&] { integrate(still, {0, 1}); });
+      expect_rejected("integrator ", [&] { integrate(still, {0, 1}); });
     }
   }
   options = {};
   options.max_steps = 0;
-  expect_refused("integrator max_steps", [&] { integrate(still, {0, 1}); });
+  expect_rejected("integrator max_steps", [&] { integrate(still, {0, 1}); });
 }
 
 TEST(Ode, ResidualIsThatOfTheExplicitForm) {

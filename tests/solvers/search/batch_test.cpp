@@ -49,31 +49,31 @@ Known round_hill() {
           VectorXd::Constant(2, 1)};
 }
 
-TEST(SearchOptions, RefuseWhatIsOutOfRange) {
+TEST(SearchOptions, RejectWhatIsOutOfRange) {
   const Known objective = round_hill();
-  const auto refused = [&](const char* key, const std::function<void(SearchOptions&)>& spoil) {
+  const auto rejected = [&](const char* key, const std::function<void(SearchOptions&)>& spoil) {
     SearchOptions options;
     spoil(options);
-    expect_refused(key, [&] { check(options, objective); });
+    expect_rejected(key, [&] { check(options, objective); });
   };
   EXPECT_NO_THROW(check({}, objective));
   for (const long budget : {0L, -1L}) {
-    refused("budget", [&](SearchOptions& options) { options.budget = budget; });
+    rejected("budget", [&](SearchOptions& options) { options.budget = budget; });
   }
   for (const int threads : {0, -1, 1025}) {
-    refused("threads", [&](SearchOptions& options) { options.threads = threads; });
+    rejected("threads", [&](SearchOptions& options) { options.threads = threads; });
   }
-  refused("peaks", [](SearchOptions& options) { options.peaks = -1; });
+  rejected("starts_wanted", [](SearchOptions& options) { options.starts_wanted = -1; });
   for (const double value : {std::nan(""), kInfinity, -kInfinity}) {
     const Eigen::Vector2d point(0.5, value);
-    refused("search start", [&](SearchOptions& options) { options.start = point; });
-    refused("search starts", [&](SearchOptions& options) { options.starts = {{point, 1}}; });
-    refused("search starts", [&](SearchOptions& options) {
+    rejected("search start", [&](SearchOptions& options) { options.start = point; });
+    rejected("search starts", [&](SearchOptions& options) { options.starts = {{point, 1}}; });
+    rejected("search starts", [&](SearchOptions& options) {
       options.starts = {{VectorXd::Zero(2), value}};
     });
   }
-  refused("search start", [](SearchOptions& options) { options.start = VectorXd::Zero(3); });
-  refused("search starts", [](SearchOptions& options) {
+  rejected("search start", [](SearchOptions& options) { options.start = VectorXd::Zero(3); });
+  rejected("search starts", [](SearchOptions& options) {
     options.starts = {{VectorXd::Zero(2), 1}, {VectorXd::Zero(1), 1}};
   });
 }

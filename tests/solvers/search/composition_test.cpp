@@ -86,7 +86,7 @@ TEST(Composition, GoesOnFromNothing) {
   EXPECT_GT(result.value, -0.1);
 }
 
-std::string refusal(const char* name) {
+std::string rejection(const char* name) {
   try {
     find_search(name);
   } catch (const std::invalid_argument& error) {
@@ -95,16 +95,16 @@ std::string refusal(const char* name) {
   return "";
 }
 
-TEST(Composition, RefusesWhatIsNoStage) {
+TEST(Composition, RejectsWhatIsNoStage) {
   for (const char* name : {"", "+", "cmaes+", "+cmaes", "sample+nothing", "sample cmaes"}) {
-    EXPECT_NE(refusal(name).find("expected one of slp joint_nlp sample grid annealing"),
+    EXPECT_NE(rejection(name).find("expected one of slp joint_nlp sample grid annealing"),
               std::string::npos)
-        << name << ": " << refusal(name);
+        << name << ": " << rejection(name);
   }
   for (const char* name : {"cmaes+grid", "sample+sample", "sample+cmaes+direct_l"}) {
-    EXPECT_NE(refusal(name).find("expected as a later stage one of annealing cmaes"),
+    EXPECT_NE(rejection(name).find("expected as a later stage one of annealing cmaes"),
               std::string::npos)
-        << name << ": " << refusal(name);
+        << name << ": " << rejection(name);
   }
   EXPECT_THROW(find_search("sample+slp"), std::invalid_argument);
   EXPECT_NO_THROW(find_search("slp+cmaes"));

@@ -65,7 +65,7 @@ TEST_P(FacetSearch, SLOW_ReachesTheBestKnownWithASecondContact) {
   EXPECT_GE(maximize(*objective, options_of(3000)).value, 0.999 * 37.94392);
 }
 
-TEST_P(FacetSearch, RefusesWhatHasNoFacets) {
+TEST_P(FacetSearch, RejectsWhatHasNoFacets) {
   Problem many = load_problem("planar/force");
   many.robot.actuation.has_facets = false;
   const Problem few = load_problem("planar/force"), motion = load_problem("planar/trajectory");
@@ -73,12 +73,12 @@ TEST_P(FacetSearch, RefusesWhatHasNoFacets) {
   l2.measure = "l2_polytope";
   const auto of_l2 = make_capability_objective(few, Wrench::kPure, resolve(few, l2).make_measure);
   const auto of_many = objective_of(many);
-  const std::unique_ptr<Objective> of_plans =
-      make_plan_objective(motion, Wrench::kPure, plan_solvers().front().make);
-  for (Objective* objective : {of_l2.get(), of_many.get(), of_plans.get()}) {
+  const std::unique_ptr<Objective> of_trajectories =
+      make_trajectory_objective(motion, Wrench::kPure, trajectory_solvers().front().make);
+  for (Objective* objective : {of_l2.get(), of_many.get(), of_trajectories.get()}) {
     try {
       maximize(*objective, {});
-      ADD_FAILURE() << "not refused";
+      ADD_FAILURE() << "not rejected";
     } catch (const std::invalid_argument& error) {
       const std::string line = error.what();
       EXPECT_NE(line.find(GetParam().name), std::string::npos) << line;

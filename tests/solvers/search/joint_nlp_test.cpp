@@ -10,8 +10,8 @@ namespace maxwrench {
 namespace {
 
 SearchResult search(const Problem& problem, const SearchOptions& options) {
-  const auto objective =
-      make_plan_objective(problem, Wrench::kPure, find_plan_solver("structured").make);
+  const auto objective = make_trajectory_objective(problem, Wrench::kPure,
+                                                   find_trajectory_solver("facets_or_ipm").make);
   return find_search("joint_nlp").make()->maximize(*objective, options);
 }
 
@@ -27,13 +27,14 @@ TEST(JointNlp, SLOW_FindsWhatTheLowerLevelConfirms) {
   const SearchResult result = search(problem, options_of(problem, 2000));
   ASSERT_EQ(result.status, Status::kBestFound);
   EXPECT_LE(result.evaluations, 2000);
-  PlanEvaluator plans(problem, Wrench::kPure, find_plan_solver("simplex").make);
-  const Plan& plan = plans.evaluate(unstacked(result.theta_r, knots_of(problem)));
-  ASSERT_EQ(plan.status, Status::kOptimal) << plan.reason.c_str();
-  EXPECT_NEAR(plan.value, result.value, 1e-7 * (1 + result.value));
+  TrajectoryEvaluator trajectories(problem, Wrench::kPure, find_trajectory_solver("simplex").make);
+  const Trajectory& trajectory =
+      trajectories.evaluate(unstacked(result.theta_r, knots_of(problem)));
+  ASSERT_EQ(trajectory.status, Status::kOptimal) << trajectory.reason.c_str();
+  EXPECT_NEAR(trajectory.value, result.value, 1e-7 * (1 + result.value));
   // No worse by 1 % than what linear programs find.
-  const auto objective =
-      make_plan_objective(problem, Wrench::kPure, find_plan_solver("structured").make);
+  const auto objective = make_trajectory_objective(problem, Wrench::kPure,
+                                                   find_trajectory_solver("facets_or_ipm").make);
   const SearchResult slp =
       find_search("slp").make()->maximize(*objective, options_of(problem, 2000));
   EXPECT_GE(result.value, 0.99 * slp.value);
@@ -48,7 +49,7 @@ TEST(JointNlp, SpendsNoMoreThanItsBudget) {
   }
 }
 
-TEST(JointNlp, RefusesObjectivesWithoutPlans) {
+TEST(JointNlp, RejectsObjectivesWithoutTrajectories) {
   const Problem problem = load_problem("planar/force");
   const auto objective = make_capability_objective(problem, Wrench::kPure, [&] {
     return find_measure("linf_polytope").make(problem, find_wrench_solver("facets").make());

@@ -20,20 +20,20 @@ class JointProgramOf : public testing::TestWithParam<Setting> {
  protected:
   JointProgramOf() : problem_(load_problem(GetParam().problem)) {
     problem_.motion->scheme = GetParam().scheme;
-    plans_ = std::make_unique<PlanEvaluator>(problem_, GetParam().wrench,
-                                             find_plan_solver("ipm").make, false);
+    trajectories_ = std::make_unique<TrajectoryEvaluator>(
+        problem_, GetParam().wrench, find_trajectory_solver("ipm").make, false);
     const Eigen::MatrixXd knots =
-        problem_.theta_r_default.transpose().replicate(plans_->knots(), 1);
-    value_ = plans_->evaluate_elastic(knots, nullptr);
+        problem_.theta_r_default.transpose().replicate(trajectories_->knots(), 1);
+    value_ = trajectories_->evaluate_elastic(knots, nullptr);
     const auto limits = [&](const Eigen::VectorXd& limit) -> Eigen::VectorXd {
-      return limit.replicate(plans_->knots(), 1);
+      return limit.replicate(trajectories_->knots(), 1);
     };
-    program_ = std::make_unique<JointProgram>(*plans_, limits(problem_.theta_r_min),
+    program_ = std::make_unique<JointProgram>(*trajectories_, limits(problem_.theta_r_min),
                                               limits(problem_.theta_r_max));
   }
 
   Problem problem_;
-  std::unique_ptr<PlanEvaluator> plans_;
+  std::unique_ptr<TrajectoryEvaluator> trajectories_;
   std::unique_ptr<JointProgram> program_;
   double value_ = 0;
 };
@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Setting{"uvms/valve_impulse", Scheme::kBackward, Wrench::kPure}));
 
 /// The answer of the lower level keeps all rows and limits, and the objective is its value.
-TEST_P(JointProgramOf, BeginsAtThePlan) {
+TEST_P(JointProgramOf, BeginsAtTheTrajectory) {
   const Eigen::VectorXd& X = program_->start();
   EXPECT_NEAR(program_->objective().dot(X), value_, 1e-7);
   constexpr double kRounding = 1e-6;

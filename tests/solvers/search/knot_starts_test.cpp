@@ -19,8 +19,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-std::unique_ptr<PlanObjective> plans_to_draw(const Problem& problem) {
-  return make_plan_objective(problem, Wrench::kPure, find_plan_solver("structured").make);
+std::unique_ptr<TrajectoryObjective> trajectories_to_draw(const Problem& problem) {
+  return make_trajectory_objective(problem, Wrench::kPure,
+                                   find_trajectory_solver("facets_or_ipm").make);
 }
 
 SearchOptions draw_options(const Problem& problem, long budget, int threads = 2) {
@@ -33,8 +34,9 @@ SearchOptions draw_options(const Problem& problem, long budget, int threads = 2)
 
 /// What was drawn, and what that took.
 struct Drawn {
-  using Draw = std::vector<Candidate>(PlanObjective&, const SearchOptions&, SearchRun&, Part&);
-  Drawn(Draw* draw, PlanObjective& objective, SearchOptions options) {
+  using Draw = std::vector<Candidate>(TrajectoryObjective&, const SearchOptions&, SearchRun&,
+                                      Part&);
+  Drawn(Draw* draw, TrajectoryObjective& objective, SearchOptions options) {
     options.progress = [this](long count) { shown = std::max<long>(shown, count); };
     SearchRun run(options);
     starts = draw(objective, options, run, found);
@@ -56,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(Tasks, KnotStartsOf,
 
 TEST_P(KnotStartsOf, AreTablesWithAValueWithinAllLimits) {
   const Problem problem = load_problem(GetParam());
-  const auto objective = plans_to_draw(problem);
+  const auto objective = trajectories_to_draw(problem);
   const SearchOptions options = draw_options(problem, 300);
   const Drawn drawn(draw_knot_starts, *objective, options);
   // A tenth of the budget, the start among them.
@@ -66,7 +68,7 @@ TEST_P(KnotStartsOf, AreTablesWithAValueWithinAllLimits) {
   EXPECT_LE(drawn.starts.size(), 30U);
   EXPECT_TRUE(std::any_of(drawn.starts.begin(), drawn.starts.end(),
                           [&](const Candidate& c) { return c.theta_r == options.start; }));
-  const KnotRows& rows = objective->plans().rows();
+  const KnotRows& rows = objective->trajectories().rows();
   double best = -kInfinity;
   for (const Candidate& start : drawn.starts) {
     EXPECT_NEAR(objective->evaluate(start.theta_r), start.value, 1e-9);
@@ -81,11 +83,11 @@ TEST_P(KnotStartsOf, AreTablesWithAValueWithinAllLimits) {
   EXPECT_EQ(drawn.found.best.value, best);
 }
 
-/// Along a path all knots are moved alike. A heave, whose start a row binds to knot 0, would not
+/// Along a path all knots are moved alike. An impulse, whose start a row binds to knot 0, would not
 /// leave it: its knots differ.
 TEST_P(KnotStartsOf, MoveAlikeWhereTheyMay) {
   const Problem problem = load_problem(GetParam());
-  const auto objective = plans_to_draw(problem);
+  const auto objective = trajectories_to_draw(problem);
   const SearchOptions options = draw_options(problem, 300);
   const Drawn drawn(draw_knot_starts, *objective, options);
   bool differ = false;
@@ -98,7 +100,7 @@ TEST_P(KnotStartsOf, MoveAlikeWhereTheyMay) {
 
 TEST_P(KnotStartsOf, AreTheSameAtAnyThreadCount) {
   const Problem problem = load_problem(GetParam());
-  const auto objective = plans_to_draw(problem);
+  const auto objective = trajectories_to_draw(problem);
   const Drawn one(find_knot_starts, *objective, draw_options(problem, 300, 1));
   const Drawn four(find_knot_starts, *objective, draw_options(problem, 300, 4));
   ASSERT_EQ(one.starts.size(), four.starts.size());
@@ -113,11 +115,11 @@ TEST_P(KnotStartsOf, AreTheSameAtAnyThreadCount) {
   EXPECT_NE(one.starts.back().theta_r, elsewhere.starts.back().theta_r);
 }
 
-/// Before the tables that were drawn come the ends of climbs with all knots alike: they are no
-/// worse, of one posture, and no two of a family. Heaves have none.
-TEST_P(KnotStartsOf, BeginWithTheEndsOfClimbs) {
+/// Before the tables that were drawn come the ends of local searches with all knots alike: they are
+/// no worse, of one posture, and no two of a family. Impulses have none.
+TEST_P(KnotStartsOf, BeginWithTheEndsOfLocalSearches) {
   const Problem problem = load_problem(GetParam());
-  const auto objective = plans_to_draw(problem);
+  const auto objective = trajectories_to_draw(problem);
   const SearchOptions options = draw_options(problem, 600);
   const Drawn drawn(draw_knot_starts, *objective, options);
   const Drawn found(find_knot_starts, *objective, options);
@@ -146,13 +148,13 @@ TEST_P(KnotStartsOf, BeginWithTheEndsOfClimbs) {
 /// all knots, so that they are the same for all and the differences stay.
 TEST(KnotStarts, AlikeMeansWithinTheBoundsOfAllKnots) {
   const Problem problem = load_problem("planar/trajectory");
-  const auto whole = plans_to_draw(problem);
+  const auto whole = trajectories_to_draw(problem);
   const int r = problem.redundancy();
   SearchOptions options = draw_options(problem, 2000);
   VectorXd lower = whole->lower(), upper = whole->upper();
   upper.segment(3 * r, r).setConstant(0.1);
   options.start.tail(r).array() -= 0.2;
-  OtherBounds objective(plans_to_draw(problem), lower, upper);
+  OtherBounds objective(trajectories_to_draw(problem), lower, upper);
   for (Drawn::Draw* draw : {draw_knot_starts, find_knot_starts}) {
     const Drawn drawn(draw, objective, options);
     ASSERT_GT(drawn.starts.size(), 20U);
@@ -166,14 +168,14 @@ TEST(KnotStarts, AlikeMeansWithinTheBoundsOfAllKnots) {
 
 /// Each pair of kicks has a reach of its own, and the first of a pair moves all knots alike, unless
 /// limits are in the way.
-TEST_P(KnotStartsOf, KicksStayNearThePlanAndWithinAllLimits) {
+TEST_P(KnotStartsOf, KicksStayNearTheTrajectoryAndWithinAllLimits) {
   const Problem problem = load_problem(GetParam());
-  const auto objective = plans_to_draw(problem);
+  const auto objective = trajectories_to_draw(problem);
   const SearchOptions options = draw_options(problem, 300);
-  const Candidate plan = {options.start, objective->evaluate(options.start)};
-  const KnotRows& rows = objective->plans().rows();
+  const Candidate trajectory = {options.start, objective->evaluate(options.start)};
+  const KnotRows& rows = objective->trajectories().rows();
   Part found;
-  const auto kicks = kick_knots(*objective, options, plan, 0, 16, quiet_run(), found);
+  const auto kicks = kick_knots(*objective, options, trajectory, 0, 16, quiet_run(), found);
   EXPECT_EQ(found.trace.evaluations(), 16);
   ASSERT_GT(kicks.size(), 2U);  // many collide
   for (const Candidate& kick : kicks) {
@@ -183,13 +185,13 @@ TEST_P(KnotStartsOf, KicksStayNearThePlanAndWithinAllLimits) {
     const VectorXd at = rows.R * kick.theta_r;
     EXPECT_LE((at - rows.r_max).maxCoeff(), 1e-9);
     EXPECT_LE((rows.r_min - at).maxCoeff(), 1e-9);
-    const double moved = (kick.theta_r - plan.theta_r).norm();
+    const double moved = (kick.theta_r - trajectory.theta_r).norm();
     EXPECT_GT(moved, 0);
-    EXPECT_LE(moved, 0.8 * std::sqrt(static_cast<double>(plan.theta_r.size())));
+    EXPECT_LE(moved, 0.8 * std::sqrt(static_cast<double>(trajectory.theta_r.size())));
   }
   // Others of the series differ, the same ones do not.
-  const auto again = kick_knots(*objective, options, plan, 0, 16, quiet_run(), found);
-  const auto later = kick_knots(*objective, options, plan, 16, 16, quiet_run(), found);
+  const auto again = kick_knots(*objective, options, trajectory, 0, 16, quiet_run(), found);
+  const auto later = kick_knots(*objective, options, trajectory, 16, 16, quiet_run(), found);
   EXPECT_EQ(again.front().theta_r, kicks.front().theta_r);
   EXPECT_NE(later.front().theta_r, kicks.front().theta_r);
 }
@@ -198,7 +200,7 @@ TEST(KnotStarts, NoneOnceTheRunHasEnded) {
   const Problem problem = load_problem("planar/trajectory");
   SearchOptions options = draw_options(problem, 500);
   options.interrupted = [] { return true; };
-  const Drawn drawn(find_knot_starts, *plans_to_draw(problem), options);
+  const Drawn drawn(find_knot_starts, *trajectories_to_draw(problem), options);
   EXPECT_TRUE(drawn.starts.empty());
   EXPECT_EQ(drawn.found.best.value, -kInfinity);
   EXPECT_EQ(drawn.found.trace.evaluations(), 0);
@@ -207,8 +209,8 @@ TEST(KnotStarts, NoneOnceTheRunHasEnded) {
 /// To an objective to which more counts, their values are guides: none is its own.
 TEST(KnotStarts, AreTheSameWhateverCounts) {
   const Problem problem = load_problem("planar/trajectory");
-  const auto objective = plans_to_draw(problem);
-  const auto throughout = objective->copy(PlanValue::kThroughout);
+  const auto objective = trajectories_to_draw(problem);
+  const auto throughout = objective->copy(TrajectoryValue::kThroughout);
   std::atomic<long> values = 0;
   SearchOptions options = draw_options(problem, 600);
   const Drawn by_instants(find_knot_starts, *objective, options);
@@ -227,7 +229,7 @@ TEST(KnotStarts, AreTheSameWhateverCounts) {
 
 TEST(KnotStarts, OneEvaluationIsTheStart) {
   const Problem problem = load_problem("planar/trajectory");
-  const auto objective = plans_to_draw(problem);
+  const auto objective = trajectories_to_draw(problem);
   for (const long budget : {1, 19}) {
     const Drawn drawn(find_knot_starts, *objective, draw_options(problem, budget));
     EXPECT_EQ(drawn.found.trace.evaluations(), 1);
@@ -235,18 +237,18 @@ TEST(KnotStarts, OneEvaluationIsTheStart) {
   }
 }
 
-TEST(KnotStarts, RequirePlans) {
+TEST(KnotStarts, RequireTrajectories) {
   const Problem problem = load_problem("planar/force");
   const auto posture = make_capability_objective(problem, Wrench::kPure, [&] {
     return find_measure("linf_polytope").make(problem, find_wrench_solver("facets").make());
   });
   try {
-    require_plans(*posture, "a_search");
+    require_trajectories(*posture, "a_search");
     FAIL() << "expected std::invalid_argument";
   } catch (const std::invalid_argument& error) {
     EXPECT_NE(std::string(error.what()).find("got 'a_search',"), std::string::npos) << error.what();
   }
-  EXPECT_NO_THROW(require_plans(*plans_to_draw(problem), "a_search"));
+  EXPECT_NO_THROW(require_trajectories(*trajectories_to_draw(problem), "a_search"));
 }
 
 }  // namespace

@@ -8,13 +8,13 @@
 namespace maxwrench {
 namespace {
 
-/// The paper's bilevel method on plans: above the start, within the rows of the knots, and no more
-/// evaluations than allowed.
-TEST(Multistart, ClimbsPlansWithinTheirRows) {
+/// The paper's bilevel method on trajectories: above the start, within the rows of the knots, and
+/// no more evaluations than allowed.
+TEST(Multistart, LocalSearchesTrajectoriesWithinTheirRows) {
   for (const char* name : {"planar/trajectory", "uvms/valve_impulse"}) {
     const Problem problem = load_problem(name);
-    const auto objective =
-        make_plan_objective(problem, Wrench::kPure, find_plan_solver("structured").make);
+    const auto objective = make_trajectory_objective(problem, Wrench::kPure,
+                                                     find_trajectory_solver("facets_or_ipm").make);
     SearchOptions options;
     options.budget = 200;
     options.start = problem.theta_r_default.replicate(problem.motion->k, 1);

@@ -75,7 +75,7 @@ TEST(Nullspace, SLOW_FlowKeepsTheEndEffectorAndRaisesBeta) {
     Eigen::VectorXd v;
     ASSERT_TRUE(flow.derivative(0, flow.initial(), v));
     const double unit = 0.05 / v.head(problem.redundancy()).norm();
-    Trajectory trajectory;
+    OdeSolution trajectory;
     make_cvode()->integrate(flow, {}, std::array{0.0, unit, 2 * unit, 3 * unit, 4 * unit},
                             trajectory);
     ASSERT_GE(trajectory.y.size(), 3U) << trajectory.reason.c_str();
@@ -117,7 +117,8 @@ class Counting : public Measure {
 };
 
 TEST(Nullspace, BudgetCountsAllEvaluations) {
-  // The robot has one branch and no posture is invalid: the measure is asked once an evaluation.
+  // The robot has one IK solution and no posture is invalid: the measure is asked once an
+  // evaluation.
   const Problem problem = load_problem("planar/force");
   const Case c{problem.name, "ellipsoid", Wrench::kPure};
   long count = 0;
@@ -187,17 +188,17 @@ TEST(Nullspace, StopsAtPosturesWithoutAValue) {
 
 TEST(Nullspace, OtherSeedsStartElsewhere) {
   // Two hills; the start lies on the lower one.
-  Known hills(
+  Known multimodal(
       [](const Eigen::VectorXd& x) {
         return std::exp(-std::pow(x[0] + 1, 2) * 4) + 2 * std::exp(-std::pow(x[0] - 1, 2) * 4);
       },
       Eigen::VectorXd::Constant(1, -2), Eigen::VectorXd::Constant(1, 2));
   SearchOptions options;
   options.start = Eigen::VectorXd::Constant(1, -0.9);
-  EXPECT_NEAR(make_nullspace()->maximize(hills, options).value, 1, 1e-3);
+  EXPECT_NEAR(make_nullspace()->maximize(multimodal, options).value, 1, 1e-3);
   int found = 0;
   for (options.seed = 2; options.seed <= 11; ++options.seed)
-    found += make_nullspace()->maximize(hills, options).value > 1.99 ? 1 : 0;
+    found += make_nullspace()->maximize(multimodal, options).value > 1.99 ? 1 : 0;
   EXPECT_GE(found, 2);
   EXPECT_LE(found, 8);
 }

@@ -52,15 +52,15 @@ TEST(Restart, StopsSoonOnOneHill) {
 
 /// A local method by itself ends on the hill that it starts below. The highest of 25 has a base of
 /// a 25th of the square.
-TEST(Restart, FindsTheHighestOfManyHills) {
-  const auto hills = [](const Eigen::VectorXd& x) {
+TEST(Restart, FindsTheHighestOfManyMultimodal) {
+  const auto multimodal = [](const Eigen::VectorXd& x) {
     const Eigen::Array2d cell = (2.5 * (x.array() + 1)).floor().min(4);
     const Eigen::Array2d at = 2.5 * (x.array() + 1) - cell - 0.5;
     const double height = cell[0] == 3 && cell[1] == 1 ? 1 : 0.1 * (cell[0] + cell[1]);
     return height - at.square().sum();
   };
   for (const std::uint64_t seed : {1, 2, 3}) {
-    Known objective = known(hills, 2);
+    Known objective = known(multimodal, 2);
     const SearchResult result = restarted(objective, "bobyqa", 200'000, 1, seed);
     EXPECT_NEAR(result.value, 1, 1e-6) << seed;
   }

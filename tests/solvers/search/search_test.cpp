@@ -75,7 +75,7 @@ std::vector<Landscape> landscapes() {
       {"ridge", {ridge, -two, two}, V(0.5, 0.4), 1, 1e-6},
       {"pyramid", {pyramid, -two, two}, V(0.2, -0.4), 3, 1e-6},
       {"crease", {crease, -two, two}, V(s, s), 2 * s, 1e-6},
-      {"peaks", {peaks, -3 * one, 3 * one}, V(1, -1), 0, 1e-6},
+      {"starts_wanted", {peaks, -3 * one, 3 * one}, V(1, -1), 0, 1e-6},
       {"annulus", {annulus, -two, two}, V(1, 0), 1, 1e-5},
       {"corner", {corner, -one, 3 * one}, V(3, -1), 5, 0},
       {"one dimension", {kink, constant(1, -1), constant(1, 2)}, constant(1, 0.123), 0, 1e-8},
@@ -145,7 +145,7 @@ TEST_P(CompositionTest, NeedsLittleForAThousandth) {
   for (Landscape& example : landscapes()) {
     if (example.maximum.size() > 2) continue;
     // With so little a few seeds in a hundred settle on the second of many peaks.
-    const std::uint64_t allowed = example.name == std::string("peaks") ? 2 : 0;
+    const std::uint64_t allowed = example.name == std::string("starts_wanted") ? 2 : 0;
     std::uint64_t missed = 0;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
       SearchOptions options;
@@ -160,8 +160,8 @@ TEST_P(CompositionTest, NeedsLittleForAThousandth) {
 
 /// The method alone, not a sample and not a refinement: in four dimensions 4000 random points come
 /// within about 0.17 of the maximum of `bowl` (16 / 4000 of the volume in a ball of that radius),
-/// where its value is some -0.05. Those that climb get there; the grid where the maximum is one of
-/// its points, the corner of a cube.
+/// where its value is some -0.05. Those that local search get there; the grid where the maximum is
+/// one of its points, the corner of a cube.
 TEST_P(SearchTest, ReachesWhatASampleDoesNot) {
   const auto corner = [](const Eigen::VectorXd& x) { return -(x.array() - 1).matrix().norm(); };
   const bool grid = GetParam() == "grid";
@@ -185,7 +185,7 @@ TEST_P(SearchTest, ReachesWhatASampleDoesNot) {
 /// Where an earlier search has been: a point near it, or for the populations of differential
 /// evolution one that has a coordinate of it.
 TEST_P(SearchTest, GoesOnFromStarts) {
-  if (!search_.stages.front()->goes_on || search_.stages.size() > 1) GTEST_SKIP();
+  if (!search_.stages.front()->accepts_starts || search_.stages.size() > 1) GTEST_SKIP();
   const Eigen::VectorXd start =
       (Eigen::VectorXd(6) << 0.71, -0.62, 0.83, -0.74, 0.65, -0.86).finished();
   double near = kInfinity, shared = kInfinity;
@@ -243,7 +243,7 @@ TEST_P(SearchTest, KeepsTheBudgetAndCountsExactly) {
 }
 
 TEST_P(SearchTest, ExceptionsPassThrough) {
-  // A hill whose evaluation number 1, 150 or 600 fails: in the sample, or amid the climbs.
+  // A hill whose evaluation number 1, 150 or 600 fails: in the sample, or amid the local searches.
   for (const long last : {1, 150, 600}) {
     const auto calls = std::make_shared<std::atomic<long>>(0);
     Known hill(
@@ -281,7 +281,8 @@ TEST_P(SearchTest, TakesNotANumberForNoValue) {
              constant(1, 0), constant(1, 1));
   const SearchResult result = maximize(half, {});
   EXPECT_EQ(result.status, Status::kBestFound);
-  // 20,000 evaluations: the gap of a lattice is 5e-5; alone, methods that climb stop at the edge.
+  // 20,000 evaluations: the gap of a lattice is 5e-5; alone, methods that local search stop at the
+  // edge.
   const bool ends_in_cmaes = GetParam().ends_with("cmaes");
   EXPECT_NEAR(result.value, -0.5, ends_in_cmaes ? 1e-6 : 1e-2);
 }
@@ -314,7 +315,7 @@ TEST_P(SearchTest, IsContentWithAFlatFunction) {
   EXPECT_EQ(result.history.size(), 1U);
 }
 
-TEST_P(SearchTest, AsksForGradientsOnlyIfItClimbsAlongThem) {
+TEST_P(SearchTest, AsksForGradientsOnlyIfItLocalSearchesAlongThem) {
   Known known(smooth, constant(2, -2), constant(2, 2));
   SearchOptions options;
   options.budget = 2000;
@@ -323,7 +324,7 @@ TEST_P(SearchTest, AsksForGradientsOnlyIfItClimbsAlongThem) {
                                            "lbfgs", "sample+slsqp+cmaes"}));
 }
 
-TEST_P(SearchTest, RefusesBadInput) {
+TEST_P(SearchTest, RejectsBadInput) {
   Known known(smooth, constant(2, -1), constant(2, 1));
   SearchOptions options;
   options.budget = 0;

@@ -12,14 +12,14 @@
 namespace maxwrench {
 namespace {
 
-std::unique_ptr<PlanObjective> objective_of(const Problem& problem, PlanValue counts) {
-  return make_plan_objective(problem, Wrench::kPure, find_plan_solver("structured").make, true,
-                             counts);
+std::unique_ptr<TrajectoryObjective> objective_of(const Problem& problem, TrajectoryValue counts) {
+  return make_trajectory_objective(problem, Wrench::kPure,
+                                   find_trajectory_solver("facets_or_ipm").make, true, counts);
 }
 
 /// For what is possible throughout.
 SearchResult search(const Problem& problem, long budget, int threads = 2, std::uint64_t seed = 1) {
-  const auto objective = objective_of(problem, PlanValue::kThroughout);
+  const auto objective = objective_of(problem, TrajectoryValue::kThroughout);
   SearchOptions options;
   options.budget = budget;
   options.seed = seed;
@@ -28,11 +28,11 @@ SearchResult search(const Problem& problem, long budget, int threads = 2, std::u
   return find_search("slp").make()->maximize(*objective, options);
 }
 
-Plan plan_of(const Problem& problem, const SearchResult& result) {
-  PlanEvaluator evaluator(problem, Wrench::kPure, find_plan_solver("ipm").make);
+Trajectory trajectory_of(const Problem& problem, const SearchResult& result) {
+  TrajectoryEvaluator evaluator(problem, Wrench::kPure, find_trajectory_solver("ipm").make);
   evaluator.evaluate(unstacked(result.theta_r, knots_of(problem)));
-  evaluator.evaluate_continuous();
-  return evaluator.plan();
+  evaluator.evaluate_between_knots();
+  return evaluator.trajectory();
 }
 
 /// What an independent model found by other methods, less a margin (N m).
@@ -49,19 +49,22 @@ INSTANTIATE_TEST_SUITE_P(Tasks, SlpFinds,
                                          Wanted{"uvms/valve_trajectory", Scheme::kEnds, 35.407, 2},
                                          Wanted{"uvms/valve_impulse", Scheme::kSpline, 39.87, 1}));
 
-TEST_P(SlpFinds, SLOW_PlansThatHoldBetweenTheirInstants) {
+TEST_P(SlpFinds, SLOW_TrajectoriesThatHoldBetweenTheirInstants) {
   Problem problem = load_problem(GetParam().problem);
   problem.motion->scheme = GetParam().scheme;
   for (std::uint64_t seed = 1; seed <= GetParam().seeds; ++seed) {
     const SearchResult result = search(problem, 20000, 2, seed);
     ASSERT_EQ(result.status, Status::kBestFound);
-    const Plan plan = plan_of(problem, result);
-    ASSERT_EQ(plan.status, Status::kOptimal) << plan.reason.c_str();
+    const Trajectory trajectory = trajectory_of(problem, result);
+    ASSERT_EQ(trajectory.status, Status::kOptimal) << trajectory.reason.c_str();
     const bool smooth = GetParam().scheme == Scheme::kSpline;
-    EXPECT_NEAR(smooth ? std::min(plan.value, plan.continuous) : plan.value, result.value, 1e-7);
-    EXPECT_GE(plan.value, GetParam().value) << seed;
+    EXPECT_NEAR(
+        smooth ? std::min(trajectory.value, trajectory.value_between_knots) : trajectory.value,
+        result.value, 1e-7);
+    EXPECT_GE(trajectory.value, GetParam().value) << seed;
     if (!smooth) continue;
-    EXPECT_LE(std::abs(plan.value - plan.continuous), 0.005 * plan.value) << seed;
+    EXPECT_LE(std::abs(trajectory.value - trajectory.value_between_knots), 0.005 * trajectory.value)
+        << seed;
   }
 }
 
@@ -77,11 +80,12 @@ TEST(Slp, SameAtAnyThreadCount) {
 }
 
 /// Whatever its objective counts: the best value that it has evaluated is the last of its history,
-/// and that of its point. Before, plans of higher value were seen and then left out.
+/// and that of its point. Before, trajectories of higher value were seen and then left out.
 TEST(Slp, ReturnsTheBestOfItsObjective) {
   for (const char* name : {"planar/trajectory", "mobile/trajectory"}) {
     const Problem problem = load_problem(name);
-    for (const PlanValue counts : {PlanValue::kAtInstants, PlanValue::kThroughout}) {
+    for (const TrajectoryValue counts :
+         {TrajectoryValue::kAtInstants, TrajectoryValue::kThroughout}) {
       const auto objective = objective_of(problem, counts);
       SearchOptions options;
       options.budget = 400;
@@ -120,8 +124,8 @@ TEST(Slp, NeedsThreeEvaluations) {
 TEST(Slp, RisesFromTheStart) {
   const Problem problem = load_problem("planar/trajectory");
   const SearchResult result = search(problem, 300);
-  const auto objective =
-      make_plan_objective(problem, Wrench::kPure, find_plan_solver("structured").make);
+  const auto objective = make_trajectory_objective(problem, Wrench::kPure,
+                                                   find_trajectory_solver("facets_or_ipm").make);
   const double start = objective->evaluate(problem.theta_r_default.replicate(problem.motion->k, 1));
   EXPECT_GT(result.value, 1.5 * start);
 }
@@ -135,17 +139,18 @@ TEST(Slp, SLOW_KeepsTheSpeedLimitOfADependentJoint) {
   task.path = Path::screw(problem.pose, Eigen::Vector3d::UnitZ(), {0, 0.9, 0.9}, M_PI / 3,
                           Eigen::Vector3d::Zero(), Timing::kCubic, task.T);
   const int elbow = problem.dependent.front(), axes = 3;
-  const auto fastest = [&](const Plan& plan) {
+  const auto fastest = [&](const Trajectory& trajectory) {
     double rate = 0;
-    for (const Instant& at : plan.instants) rate = std::max(rate, std::abs(at.v[axes + elbow]));
+    for (const Instant& at : trajectory.instants)
+      rate = std::max(rate, std::abs(at.v[axes + elbow]));
     return rate;
   };
   const long budget = 2000;
-  const Plan free = plan_of(problem, search(problem, budget));
+  const Trajectory free = trajectory_of(problem, search(problem, budget));
   ASSERT_EQ(free.status, Status::kOptimal) << free.reason.c_str();
   const double limit = fastest(free) / 2;
   problem.robot.joints[static_cast<std::size_t>(elbow)].velocity_max = limit;
-  const Plan bound = plan_of(problem, search(problem, budget));
+  const Trajectory bound = trajectory_of(problem, search(problem, budget));
   ASSERT_EQ(bound.status, Status::kOptimal) << bound.reason.c_str();
   EXPECT_LE(fastest(bound), limit + 1e-6);
   EXPECT_LT(bound.value, free.value);
@@ -153,11 +158,12 @@ TEST(Slp, SLOW_KeepsTheSpeedLimitOfADependentJoint) {
   EXPECT_GT(bound.value, 0.9 * free.value);
 }
 
-/// A static problem is a plan of one knot: the independent model's best posture has 35.4077 N m.
-TEST(Slp, ServesAStaticProblemAsAPlanOfOneKnot) {
+/// A static problem is a trajectory of one knot: the independent model's best posture has 35.4077 N
+/// m.
+TEST(Slp, ServesAStaticProblemAsATrajectoryOfOneKnot) {
   const Problem problem = load_problem("uvms/valve");
-  const auto objective =
-      make_plan_objective(problem, Wrench::kPure, find_plan_solver("structured").make);
+  const auto objective = make_trajectory_objective(problem, Wrench::kPure,
+                                                   find_trajectory_solver("facets_or_ipm").make);
   SearchOptions options;
   options.budget = 5000;
   options.start = problem.theta_r_default;
@@ -168,7 +174,7 @@ TEST(Slp, ServesAStaticProblemAsAPlanOfOneKnot) {
   EXPECT_LE(result.value, 35.41);
 }
 
-TEST(Slp, RefusesObjectivesWithoutPlans) {
+TEST(Slp, RejectsObjectivesWithoutTrajectories) {
   const Problem problem = load_problem("planar/force");
   const auto objective = make_capability_objective(problem, Wrench::kPure, [&] {
     return find_measure("linf_polytope").make(problem, find_wrench_solver("facets").make());

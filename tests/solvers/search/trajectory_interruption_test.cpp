@@ -9,14 +9,14 @@
 namespace maxwrench {
 namespace {
 
-TEST(PlanInterruption, EndsASearchSoonWithWhatItHas) {
+TEST(TrajectoryInterruption, EndsASearchSoonWithWhatItHas) {
   const Problem problem = load_problem("planar/trajectory");
   for (const char* name : {"slp", "joint_nlp", "multistart"}) {
     for (const long evaluations : {0, 1, 2, 5, 19, 20, 21, 25, 40, 80, 150}) {
       const bool throughout = name == std::string("slp") && evaluations % 2 == 1;
-      const auto objective =
-          make_plan_objective(problem, Wrench::kPure, find_plan_solver("structured").make, true,
-                              throughout ? PlanValue::kThroughout : PlanValue::kAtInstants);
+      const auto objective = make_trajectory_objective(
+          problem, Wrench::kPure, find_trajectory_solver("facets_or_ipm").make, true,
+          throughout ? TrajectoryValue::kThroughout : TrajectoryValue::kAtInstants);
       SearchOptions options;
       const Interruption interruption(evaluations, options);
       options.budget = 200;
@@ -25,7 +25,8 @@ TEST(PlanInterruption, EndsASearchSoonWithWhatItHas) {
       EXPECT_EQ(result.status, evaluations == 0 ? Status::kNoneFound : Status::kBestFound)
           << name << ' ' << evaluations;
       EXPECT_TRUE(result.interrupted || result.evaluations < evaluations);
-      // None is made any more, but the two that say what the best plan so far is worth throughout.
+      // None is made any more, but the two that say what the best trajectory so far is worth
+      // throughout.
       EXPECT_GE(interruption.left(), throughout ? -2 : 0) << name << ' ' << evaluations;
       EXPECT_EQ(result.evaluations, evaluations - interruption.left());
       ASSERT_EQ(result.history.empty(), evaluations == 0);
@@ -36,10 +37,11 @@ TEST(PlanInterruption, EndsASearchSoonWithWhatItHas) {
   }
 }
 
-TEST(PlanInterruption, NothingIsLinearisedBeforeAnEvaluation) {
+TEST(TrajectoryInterruption, NothingIsLinearisedBeforeAnEvaluation) {
   const Problem problem = load_problem("planar/trajectory");
-  PlanEvaluator plans(problem, Wrench::kPure, find_plan_solver("structured").make);
-  EXPECT_THROW(plans.linearize(), std::logic_error);
+  TrajectoryEvaluator trajectories(problem, Wrench::kPure,
+                                   find_trajectory_solver("facets_or_ipm").make);
+  EXPECT_THROW(trajectories.linearize(), std::logic_error);
 }
 
 }  // namespace

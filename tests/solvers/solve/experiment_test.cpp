@@ -16,8 +16,8 @@ Options tried(const char* problem, const char* integrator, const char* scheme = 
   return {{.problem = problem, .scheme = scheme, .integrator = integrator}};
 }
 
-/// Two integrators agree, on 0.5 % less than was planned: of a posture, a turn and a heave, which
-/// peaks while thrusters lag behind.
+/// Two integrators agree, on 0.5 % less than was planned: of a posture, a turn and an impulse,
+/// which peaks while thrusters lag behind.
 TEST(Experiment, SLOW_IntegratorsReadTheSame) {
   for (const auto& [name, scheme, lag] : {std::tuple{"uvms/valve", "", 1e-4},
                                           {"mobile/trajectory", "spline", 1e-3},
@@ -29,23 +29,23 @@ TEST(Experiment, SLOW_IntegratorsReadTheSame) {
       ASSERT_TRUE(row->has_value()) << name << " " << row->reason.str();
       EXPECT_EQ(row->status, Status::kReached);
       EXPECT_EQ(row->missed, "");
-      EXPECT_NEAR(row->beta(), 0.995 * row->yardstick, lag * row->yardstick) << name;
+      EXPECT_NEAR(row->beta(), 0.995 * row->beta_linf, lag * row->beta_linf) << name;
       EXPECT_GT(row->evaluations, 1000);
     }
-    EXPECT_EQ(a.yardstick, b.yardstick);
+    EXPECT_EQ(a.beta_linf, b.beta_linf);
     EXPECT_NEAR(a.beta(), b.beta(), 1e-3 * a.beta()) << name;
     EXPECT_EQ(values(a).size(), value_columns().size());
   }
 }
 
 /// The default posture of the valve loads the first joint alone, whose limit is 9 N m.
-TEST(Experiment, PlansWhatThePostureHas) {
+TEST(Experiment, TrajectoriesWhatThePostureHas) {
   const Answer row = experiment(load_problem("uvms/valve"), tried("uvms/valve", "cvode"));
-  EXPECT_NEAR(row.yardstick, 9, 1e-6);
+  EXPECT_NEAR(row.beta_linf, 9, 1e-6);
 }
 
 /// A turn in 1.5 s has no efforts that balance it at its knots.
-TEST(Experiment, WhatHasNoPlanHasNoReading) {
+TEST(Experiment, WhatHasNoTrajectoryHasNoReading) {
   const char* name = "uvms/valve_trajectory_fast";
   Problem problem = load_problem(name);
   set_scheme("scheme", "ends", problem);
@@ -65,7 +65,7 @@ TEST(Experiment, ALostPostureHasNoReading) {
   EXPECT_EQ(row.reason.str(), "the posture was lost before the end");
 }
 
-TEST(Experiment, RefusesWhatDoesNotServe) {
+TEST(Experiment, RejectsWhatDoesNotServe) {
   const Problem wall = load_problem("dual_arm/bar_wall"), valve = load_problem("uvms/valve");
   EXPECT_TRUE(served_integrators(wall, "linf_polytope").empty());
   EXPECT_TRUE(served_integrators(valve, "ellipsoid").empty());

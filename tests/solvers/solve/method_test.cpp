@@ -17,31 +17,31 @@ namespace {
 TEST(Method, DefaultsToTheFirstSolverThatServes) {
   Problem problem = load_problem("planar/force");
   const auto lp = [&](const char* measure, Wrench wrench) {
-    return resolve(problem, {problem.name, measure, wrench}).choice.lp;
+    return resolve(problem, {problem.name, measure, wrench}).choice.solver;
   };
   EXPECT_EQ(lp("linf_polytope", Wrench::kPure), "facets");
-  EXPECT_EQ(lp("linf_polytope", Wrench::kAny), "box");
+  EXPECT_EQ(lp("linf_polytope", Wrench::kAny), "condensed");
   EXPECT_EQ(lp("ellipsoid", Wrench::kAny), kNoSolver);
   problem.robot.actuation.has_facets = false;
-  EXPECT_EQ(lp("linf_polytope", Wrench::kPure), "box");
+  EXPECT_EQ(lp("linf_polytope", Wrench::kPure), "condensed");
 }
 
-TEST(Method, RefusesChoicesWithoutMeaning) {
+TEST(Method, RejectsChoicesWithoutMeaning) {
   Problem problem = load_problem("planar/force");
-  const auto refused = [&](const Case& c) {
-    EXPECT_THROW(resolve(problem, c), std::invalid_argument) << c.measure << " " << c.lp;
+  const auto rejected = [&](const Case& c) {
+    EXPECT_THROW(resolve(problem, c), std::invalid_argument) << c.measure << " " << c.solver;
   };
-  refused({"p", "linf_polytope", Wrench::kAny, "facets"});
-  refused({"p", "ellipsoid", Wrench::kPure, "simplex"});
-  refused({"p", "linf_polytope", Wrench::kPure, kNoSolver});
-  refused({"p", "manipulability", Wrench::kAny});
-  refused({"p", "volume", Wrench::kPure});
-  refused({"p", "ellipsoid", Wrench::kPure, "", "magic"});
-  refused({"p", "ellipsoid", Wrench::kPure, "", "grid", 1, -1});
+  rejected({"p", "linf_polytope", Wrench::kAny, "facets"});
+  rejected({"p", "ellipsoid", Wrench::kPure, "simplex"});
+  rejected({"p", "linf_polytope", Wrench::kPure, kNoSolver});
+  rejected({"p", "manipulability", Wrench::kAny});
+  rejected({"p", "volume", Wrench::kPure});
+  rejected({"p", "ellipsoid", Wrench::kPure, "", "magic"});
+  rejected({"p", "ellipsoid", Wrench::kPure, "", "grid", 1, -1});
   EXPECT_THROW(parse_wrench("both"), std::invalid_argument);
   // An explicit choice is never replaced.
   problem.robot.actuation.has_facets = false;
-  refused({"p", "linf_polytope", Wrench::kPure, "facets"});
+  rejected({"p", "linf_polytope", Wrench::kPure, "facets"});
 }
 
 TEST(Method, KeepsNoProblemThatGoesAway) {
@@ -51,7 +51,7 @@ TEST(Method, KeepsNoProblemThatGoesAway) {
                            Problem>);
 }
 
-TEST(Method, ClosedFormsRefuseLimitedContacts) {
+TEST(Method, ClosedFormsRejectLimitedContacts) {
   Problem problem = load_problem("planar/two_arms");
   const auto made = [&](const char* measure) {
     resolve(problem, {problem.name, measure}).make_measure();
@@ -68,7 +68,7 @@ TEST(Method, ProductHoldsEachMeaningfulCombinationOnce) {
   const Problem problem = load_problem("planar/force");
   const std::vector<Case> cases = product(problem, 3, 100);
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    EXPECT_EQ(resolve(problem, cases[i]).choice.lp, cases[i].lp);
+    EXPECT_EQ(resolve(problem, cases[i]).choice.solver, cases[i].solver);
     for (std::size_t j = 0; j < i; ++j) EXPECT_NE(case_values(cases[i]), case_values(cases[j]));
   }
 }
@@ -76,31 +76,32 @@ TEST(Method, ProductHoldsEachMeaningfulCombinationOnce) {
 TEST(Method, ProductCrossesEverySearchAndEverySolverWithoutCrossingBoth) {
   const std::vector<Case> cases = product(load_problem("planar/force"), 1, 100);
   for (const SearchEntry& search : searches())
-    EXPECT_FALSE(select(cases, {{"search", search.name}, {"lp", "facets"}}).empty());
+    EXPECT_FALSE(select(cases, {{"search", search.name}, {"solver", "facets"}}).empty());
   for (const WrenchSolverEntry& solver : wrench_solvers())
-    EXPECT_FALSE(select(cases, {{"search", general_search()}, {"lp", solver.name}}).empty());
-  EXPECT_THROW(select(cases, {{"search", "multistart"}, {"lp", "ipopt"}}), std::invalid_argument);
+    EXPECT_FALSE(select(cases, {{"search", general_search()}, {"solver", solver.name}}).empty());
+  EXPECT_THROW(select(cases, {{"search", "multistart"}, {"solver", "ipopt"}}),
+               std::invalid_argument);
 }
 
-/// As plans of one knot, by the solver of the same name if there is one.
-TEST(Method, SearchesOfPlansServeStaticTasksByLinfPolytope) {
+/// As trajectories of one knot, by the solver of the same name if there is one.
+TEST(Method, SearchesOfTrajectoriesServeStaticTasksByLinfPolytope) {
   const Problem problem = load_problem("planar/force");
   const auto solver = [&](const char* measure, Wrench wrench, const char* lp, const char* search) {
-    const PlanSolverEntry* entry =
-        resolve(problem, {problem.name, measure, wrench, lp, search}).plan_solver;
+    const TrajectorySolverEntry* entry =
+        resolve(problem, {problem.name, measure, wrench, lp, search}).trajectory_solver;
     return std::string(entry ? entry->name : "");
   };
-  EXPECT_EQ(solver("linf_polytope", Wrench::kPure, "", "slp"), "structured");  // facets
-  EXPECT_EQ(solver("linf_polytope", Wrench::kAny, "", "slp"), "structured");   // box
+  EXPECT_EQ(solver("linf_polytope", Wrench::kPure, "", "slp"), "facets_or_ipm");  // facets
+  EXPECT_EQ(solver("linf_polytope", Wrench::kAny, "", "slp"), "facets_or_ipm");   // box
   EXPECT_EQ(solver("linf_polytope", Wrench::kPure, "simplex", "slp"), "simplex");
   EXPECT_EQ(solver("linf_polytope", Wrench::kPure, "", "grid"), "");
   EXPECT_EQ(solver("l2_polytope", Wrench::kPure, "", "slp"), "");
-  EXPECT_TRUE(serves_as_plan(problem, "linf_polytope"));
-  EXPECT_FALSE(serves_as_plan(problem, "ellipsoid"));
-  EXPECT_TRUE(serves_as_plan(load_problem("mobile/push"), "linf_polytope"));
-  EXPECT_FALSE(serves_as_plan(load_problem("planar/two_arms"), "linf_polytope"));
+  EXPECT_TRUE(serves_as_trajectory(problem, "linf_polytope"));
+  EXPECT_FALSE(serves_as_trajectory(problem, "ellipsoid"));
+  EXPECT_TRUE(serves_as_trajectory(load_problem("mobile/push"), "linf_polytope"));
+  EXPECT_FALSE(serves_as_trajectory(load_problem("planar/two_arms"), "linf_polytope"));
   const std::vector<Case> cases = product(problem, 1, 100);
-  for (const SearchEntry& search : plan_searches()) {
+  for (const SearchEntry& search : trajectory_searches()) {
     for (const Case& c : select(cases, {{"search", search.name}})) {
       EXPECT_EQ(c.measure, "linf_polytope");
     }
@@ -137,7 +138,8 @@ TEST(Method, SelectKeepsWhatMatches) {
   EXPECT_EQ(select(cases, {{"seed", "5"}}).size(), cases.size());
   EXPECT_EQ(select(cases, {{"scheme", "none"}, {"integrator", "none"}}).size(), cases.size());
   EXPECT_THROW(select(cases, {{"colour", "red"}}), std::invalid_argument);
-  EXPECT_THROW(select(cases, {{"measure", "ellipsoid"}, {"lp", "facets"}}), std::invalid_argument);
+  EXPECT_THROW(select(cases, {{"measure", "ellipsoid"}, {"solver", "facets"}}),
+               std::invalid_argument);
 }
 
 TEST(Method, SchemesAreThoseOfTheTask) {
@@ -154,20 +156,20 @@ TEST(Method, SchemesAreThoseOfTheTask) {
 
 /// Each row of the product of a task in time is another case, which its problem resolves to itself.
 TEST(Method, ProductOfATaskInTimeCrossesItsSchemes) {
-  Problem heave = load_problem("uvms/valve_impulse");
-  const std::vector<Case> cases = product(heave, 3, 100);
+  Problem impulse = load_problem("uvms/valve_impulse");
+  const std::vector<Case> cases = product(impulse, 3, 100);
   std::set<std::vector<std::string>> different;
   for (const Case& c : cases) {
-    set_scheme("scheme", c.scheme, heave);
-    EXPECT_EQ(case_values(resolve(heave, c).choice), case_values(c));
+    set_scheme("scheme", c.scheme, impulse);
+    EXPECT_EQ(case_values(resolve(impulse, c).choice), case_values(c));
     different.insert(case_values(c));
   }
   EXPECT_EQ(different.size(), cases.size());
   for (const std::string& scheme : scheme_names(true)) {
     for (const SearchEntry& search : searches())
       EXPECT_FALSE(select(cases, {{"search", search.name}, {"scheme", scheme}}).empty());
-    for (const PlanSolverEntry& solver : plan_solvers())
-      EXPECT_FALSE(select(cases, {{"lp", solver.name}, {"scheme", scheme}}).empty());
+    for (const TrajectorySolverEntry& solver : trajectory_solvers())
+      EXPECT_FALSE(select(cases, {{"solver", solver.name}, {"scheme", scheme}}).empty());
   }
   EXPECT_THROW(select(cases, {{"scheme", "ends"}}), std::invalid_argument);
 }

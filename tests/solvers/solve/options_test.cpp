@@ -13,19 +13,19 @@
 namespace maxwrench {
 namespace {
 
-TEST(Solve, RefusesOptionsOutOfRange) {
+TEST(Solve, RejectsOptionsOutOfRange) {
   for (const char* name : {"planar/force", "planar/trajectory"}) {
     const Problem problem = load_problem(name);
-    const auto refused = [&](const char* key, const auto& spoil) {
+    const auto rejected = [&](const char* key, const auto& spoil) {
       Options options;
       spoil(options);
-      expect_refused(key, [&] { solve(problem, options); });
+      expect_rejected(key, [&] { solve(problem, options); });
     };
     for (const int threads : {-1, 1025}) {
-      refused("threads", [&](Options& options) { options.threads = threads; });
+      rejected("threads", [&](Options& options) { options.threads = threads; });
     }
     for (const long budget : {-1L, long{kMostBudget} + 1}) {
-      refused("budget", [&](Options& options) { options.budget = budget; });
+      rejected("budget", [&](Options& options) { options.budget = budget; });
     }
     for (const double bad : {std::nan(""), kInfinity}) {
       const Eigen::MatrixXd theta_r =
@@ -35,8 +35,8 @@ TEST(Solve, RefusesOptionsOutOfRange) {
   }
 }
 
-/// Every search, of postures, plans and between facets, ends soon after it is asked to, and has
-/// what it found before.
+/// Every search, of postures, trajectories and between facets, ends soon after it is asked to, and
+/// has what it found before.
 TEST(Solve, EndsSoonWhenItIsInterrupted) {
   for (const char* name : {"planar/force", "planar/trajectory"}) {
     const Problem problem = load_problem(name);

@@ -28,8 +28,8 @@ TEST(SolveInTime, CellsRepeatTheirValue) {
   Eigen::VectorXd x(problem.motion->k * problem.redundancy());
   for (double& value : x) text >> value;
   const Answer again = evaluate(problem, unstacked(x, knots_of(problem)), {method.choice});
-  EXPECT_EQ(std::stod(cell(row, "beta")), again.plan.value);
-  EXPECT_EQ(std::stod(cell(row, "continuous")), again.plan.continuous);
+  EXPECT_EQ(std::stod(cell(row, "beta")), again.trajectory.value);
+  EXPECT_EQ(std::stod(cell(row, "value_between_knots")), again.trajectory.value_between_knots);
 }
 
 TEST(SolveInTime, KeepsWhatHasNoValue) {

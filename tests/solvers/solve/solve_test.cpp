@@ -101,9 +101,9 @@ std::vector<Case> planar_cases() {
   for (Case c : product(load_problem("planar/force"), 1, 40000)) {
     const bool beta_1 = c.measure == "ellipsoid" && c.wrench == Wrench::kPure;
     if (!beta_1 && c.measure != "linf_polytope") continue;
-    const bool own = c.lp == "facets" || c.lp == "box" || c.lp == kNoSolver;
+    const bool own = c.solver == "facets" || c.solver == "condensed" || c.solver == kNoSolver;
     if (!own && c.search != general_search()) continue;
-    c.budget = c.lp == "ipopt" ? 2000 : c.search.starts_with("grid") ? 400000 : 20000;
+    c.budget = c.solver == "ipopt" ? 2000 : c.search.starts_with("grid") ? 400000 : 20000;
     if (c.search == "mlsl") c.budget = 4000;  // its clusters take time that grows with its square
     cases.push_back(c);
   }
@@ -116,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(All, PlanarOptimum, testing::ValuesIn(planar_cases()),
                          [](const testing::TestParamInfo<Case>& named) {
                            const Case& c = named.param;
                            std::string name = fmt::format("{}_{}_{}_{}", c.measure,
-                                                          to_string(c.wrench), c.lp, c.search);
+                                                          to_string(c.wrench), c.solver, c.search);
                            std::replace(name.begin(), name.end(), '+', '_');
                            return name;
                          });
@@ -126,10 +126,10 @@ TEST_P(PlanarOptimum, SLOW_IsFoundByEverySolverAndSearch) {
   const Answer row = solve(problem, {GetParam(), 2});
   ASSERT_EQ(row.status, Status::kBestFound) << row.reason.c_str();
   EXPECT_NEAR(PlanarModel(GetParam())(row.posture.theta_r), row.capability.beta,
-              GetParam().lp == "ipopt" ? 1e-6 : 1e-8);
+              GetParam().solver == "ipopt" ? 1e-6 : 1e-8);
   const double optimum = planar_optimum(GetParam().measure, GetParam().wrench);
   // Few evaluations are left after the grid through Ipopt.
-  const double tolerance = GetParam().lp == "ipopt" ? 2e-3 : 1e-3;
+  const double tolerance = GetParam().solver == "ipopt" ? 2e-3 : 1e-3;
   const std::string& search = GetParam().search;
   // Methods alone that come near only: two take what their points meet, one stops at kinks.
   const bool coarse = search == "sample" || search == "grid" || search == "mma";
@@ -161,11 +161,12 @@ TEST(Solve, SLOW_SearchByIpoptMayEvaluateByIpopt) {
   EXPECT_LE(row.evaluations, 200);
 }
 
-/// So heavy that no posture can be held: what a search of plans finds has a value with slack alone.
-TEST(Solve, ASearchOfPlansFindsNothingWhereOnlySlackBalances) {
+/// So heavy that no posture can be held: what a trajectory search finds has a value with slack
+/// alone.
+TEST(Solve, ASearchOfTrajectoriesFindsNothingWhereOnlySlackBalances) {
   Problem problem = load_problem("uvms/valve");
   add_body(problem.robot.links[0], 1000, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero());
-  for (const SearchEntry& search : plan_searches()) {
+  for (const SearchEntry& search : trajectory_searches()) {
     const Case c{problem.name, "linf_polytope", Wrench::kPure, "", search.name, 1, 60};
     const Answer row = solve(problem, {c, 2});
     EXPECT_EQ(row.status, Status::kNoneFound) << search.name;
@@ -174,7 +175,7 @@ TEST(Solve, ASearchOfPlansFindsNothingWhereOnlySlackBalances) {
   }
 }
 
-TEST(Solve, ASearchOfPlansRefusesWhatIsNone) {
+TEST(Solve, ASearchOfTrajectoriesRejectsWhatIsNone) {
   for (const auto& [name, measure] :
        {std::pair("planar/force", "ellipsoid"), std::pair("planar/two_arms", "linf_polytope")}) {
     const Problem problem = load_problem(name);
@@ -200,15 +201,15 @@ Problem stretched(const std::string& reach) {
 }
 
 /// A straight arm pushes harder than any weight of slack, and a limit of a joint that follows
-/// binds: what a search of plans finds is a posture all the same, little worse than what a search
+/// binds: what a trajectory search finds is a posture all the same, little worse than what a search
 /// of postures finds, which sees the elbow bent to the other side too.
-TEST(Solve, SearchesOfPlansFindPosturesOfAStraightArm) {
+TEST(Solve, SearchesOfTrajectoriesFindPosturesOfAStraightArm) {
   for (const char* reach : {"1.0299", "1.027"}) {
     const Problem problem = stretched(reach);
     const Case c{problem.name, "linf_polytope", Wrench::kPure, "", "cobyla", 1, 600};
     const Answer cobyla = solve(problem, {c, 2});
     ASSERT_TRUE(cobyla.has_value());
-    for (const SearchEntry& search : plan_searches()) {
+    for (const SearchEntry& search : trajectory_searches()) {
       const Case each{problem.name, "linf_polytope", Wrench::kPure, "", search.name, 1, 600};
       const Answer row = solve(problem, {each, 2});
       ASSERT_TRUE(row.has_value()) << search.name << ' ' << reach << ": " << row.reason.c_str();
@@ -219,14 +220,14 @@ TEST(Solve, SearchesOfPlansFindPosturesOfAStraightArm) {
 }
 
 /// Without a choice there is one posture, whose value is that of the default.
-TEST(Solve, SearchesOfPlansWithNothingToChoose) {
+TEST(Solve, SearchesOfTrajectoriesWithNothingToChoose) {
   Problem problem = load_problem("planar/force");
   problem.redundant.clear();
   for (Eigen::VectorXd* part :
        {&problem.theta_r_default, &problem.theta_r_min, &problem.theta_r_max}) {
     part->resize(0);
   }
-  for (const SearchEntry& search : plan_searches()) {
+  for (const SearchEntry& search : trajectory_searches()) {
     const Case c{problem.name, "linf_polytope", Wrench::kPure, "", search.name, 1, 60};
     const Method method = resolve(problem, c);
     const Answer row = solve(problem, {method.choice, 2});
@@ -257,14 +258,14 @@ TEST(Solve, EveryMeasureIsReadBesideTheSameYardstick) {
     const Case common{problem.name, "linf_polytope", c.wrench, "simplex"};
     const Answer row = evaluate(problem, theta_r, {c});
     ASSERT_TRUE(row.has_value()) << c.measure << ": " << row.reason.c_str();
-    EXPECT_EQ(row.yardstick, evaluate(problem, theta_r, {common}).capability.beta);
+    EXPECT_EQ(row.beta_linf, evaluate(problem, theta_r, {common}).capability.beta);
     EXPECT_EQ(values(row).size(), value_columns().size());
     const bool wrench = find_measure(c.measure).unit == nullptr;
     EXPECT_EQ(row.unit, wrench ? "N m" : find_measure(c.measure).unit);
   }
   // A posture that does not exist has none.
   const Answer none = evaluate(problem, Eigen::Vector4d(9, 9, 9, 9), {{problem.name}});
-  EXPECT_TRUE(std::isnan(none.yardstick));
+  EXPECT_TRUE(std::isnan(none.beta_linf));
 }
 
 TEST(Solve, KeepsStatusAndReasonOfWhatHasNoValue) {

@@ -15,8 +15,8 @@
 namespace maxwrench {
 namespace {
 
-PlanProgram any_plan(const Problem& problem, Random& random) {
-  PlanRecipe recipe;
+TrajectoryProgram any_trajectory(const Problem& problem, Random& random) {
+  TrajectoryRecipe recipe;
   recipe.instants = 1 + static_cast<int>(random.uniform(0, 12));
   recipe.wrench = random.uniform() < 0.5 ? Wrench::kPure : Wrench::kAny;
   recipe.rates = random.uniform() < 0.7;
@@ -24,19 +24,20 @@ PlanProgram any_plan(const Problem& problem, Random& random) {
   if (random.uniform() < 0.2) recipe.rho = 100;
   if (random.uniform() < 0.3) recipe.border = 1 + static_cast<int>(random.uniform(0, 10));
   recipe.load = random.uniform() < 0.3 ? 0.05 : 0.6;
-  PlanProgram program = random_plan(problem, recipe, random);
+  TrajectoryProgram program = random_trajectory(problem, recipe, random);
   if (random.uniform() < 0.5) program.first_elastic = 1;
   return program;
 }
 
 /// How one solver compares with the interior point method.
-struct PlanTally {
+struct TrajectoryTally {
   int optimal = 0, infeasible = 0, none = 0;
 };
 
-void compare_plans(const PlanProgram& program, const PlanSolution& reference, PlanSolver& solver,
-                   double tolerance, const std::string& name, PlanTally& tally) {
-  PlanSolution solution;
+void compare_trajectories(const TrajectoryProgram& program, const TrajectorySolution& reference,
+                          TrajectorySolver& solver, double tolerance, const std::string& name,
+                          TrajectoryTally& tally) {
+  TrajectorySolution solution;
   solver.solve(program, solution);
   // A library that has no verdict says so; what it says must be right.
   if (solution.status == Status::kNumericalError) ++tally.none;
@@ -54,22 +55,23 @@ void compare_plans(const PlanProgram& program, const PlanSolution& reference, Pl
   EXPECT_TRUE(recheck(program, solution).within(10 * tolerance * size)) << name;
 }
 
-TEST(PlanAgreement, EverySolverGivesTheSameAnswerOnRandomPrograms) {
+TEST(TrajectoryAgreement, EverySolverGivesTheSameAnswerOnRandomPrograms) {
   const Problem problem = load_problem("uvms/valve");
   Random random(1);
-  std::map<std::string, PlanTally> tallies;
-  std::map<std::string, std::unique_ptr<PlanSolver>> solvers;
-  for (const PlanSolverEntry& entry : plan_solvers()) solvers[entry.name] = entry.make();
+  std::map<std::string, TrajectoryTally> tallies;
+  std::map<std::string, std::unique_ptr<TrajectorySolver>> solvers;
+  for (const TrajectorySolverEntry& entry : trajectory_solvers())
+    solvers[entry.name] = entry.make();
   for (int sample = 0; sample < samples(400); ++sample) {
-    const PlanProgram program = any_plan(problem, random);
-    PlanSolution reference;
+    const TrajectoryProgram program = any_trajectory(problem, random);
+    TrajectorySolution reference;
     solvers["ipm"]->solve(program, reference);
     ASSERT_NE(reference.status, Status::kNumericalError) << sample;
     for (auto& [name, solver] : solvers) {
       if (name == "ipopt" && sample % 10 != 0) continue;
       if (name == "simplex" && program.size() > 6) continue;  // its factors are dense
-      compare_plans(program, reference, *solver, name == "ipopt" ? 1e-6 : 1e-8, name,
-                    tallies[name]);
+      compare_trajectories(program, reference, *solver, name == "ipopt" ? 1e-6 : 1e-8, name,
+                           tallies[name]);
     }
   }
   for (const auto& [name, tally] : tallies) {
@@ -84,37 +86,37 @@ TEST(PlanAgreement, EverySolverGivesTheSameAnswerOnRandomPrograms) {
   EXPECT_GT(tallies["ipm"].optimal, samples(120));
 }
 
-TEST(PlanAgreement, OtherRobots) {
+TEST(TrajectoryAgreement, OtherRobots) {
   for (const std::string& name : shipped_problems()) {
     const Problem problem = load_problem(name);
     Random random(2);
-    const auto ipm = make_plan_ipm();
-    const auto peer = find_plan_solver("simplex").make();
-    PlanTally tally;
+    const auto ipm = make_trajectory_ipm();
+    const auto peer = find_trajectory_solver("simplex").make();
+    TrajectoryTally tally;
     for (int sample = 0; sample < 20; ++sample) {
-      PlanProgram program = any_plan(problem, random);
+      TrajectoryProgram program = any_trajectory(problem, random);
       if (program.size() > 4) continue;
-      PlanSolution reference;
+      TrajectorySolution reference;
       ipm->solve(program, reference);
       ASSERT_NE(reference.status, Status::kNumericalError) << name << " " << sample;
-      compare_plans(program, reference, *peer, 1e-8, name, tally);
+      compare_trajectories(program, reference, *peer, 1e-8, name, tally);
     }
     EXPECT_LE(tally.none, 1) << name;
   }
 }
 
-TEST(PlanAgreement, AWarmStartGivesTheSameAnswer) {
+TEST(TrajectoryAgreement, AWarmStartGivesTheSameAnswer) {
   const Problem problem = load_problem("uvms/valve");
   Random random(3);
-  PlanProgram program = slow_plan(problem, Wrench::kPure, 4, 5, random);
-  const auto warm = find_plan_solver("simplex").make();
-  PlanSolution kept;
+  TrajectoryProgram program = slow_trajectory(problem, Wrench::kPure, 4, 5, random);
+  const auto warm = find_trajectory_solver("simplex").make();
+  TrajectorySolution kept;
   int cold_pivots = 0, warm_pivots = 0;
   for (int step = 0; step < 10; ++step) {
     for (WrenchProgram& at : program.instants) at.tau_d *= 1.01;
-    PlanSolution fresh;
+    TrajectorySolution fresh;
     warm->solve(program, kept);
-    find_plan_solver("simplex").make()->solve(program, fresh);
+    find_trajectory_solver("simplex").make()->solve(program, fresh);
     ASSERT_EQ(kept.status, Status::kOptimal);
     EXPECT_NEAR(kept.value, fresh.value, 1e-8 * (1 + std::abs(fresh.value)));
     if (step > 0) warm_pivots += kept.iterations;
@@ -123,10 +125,10 @@ TEST(PlanAgreement, AWarmStartGivesTheSameAnswer) {
   EXPECT_LT(2 * warm_pivots, cold_pivots);
 }
 
-TEST(PlanSolvers, ATableNamesThem) {
-  EXPECT_STREQ(plan_solvers().front().name, "structured");
-  EXPECT_STREQ(find_plan_solver("simplex").name, "simplex");
-  EXPECT_THROW(find_plan_solver("none"), std::invalid_argument);
+TEST(TrajectorySolvers, ATableNamesThem) {
+  EXPECT_STREQ(trajectory_solvers().front().name, "facets_or_ipm");
+  EXPECT_STREQ(find_trajectory_solver("simplex").name, "simplex");
+  EXPECT_THROW(find_trajectory_solver("none"), std::invalid_argument);
 }
 
 }  // namespace

@@ -14,19 +14,20 @@ namespace {
 
 /// The program of steps of at most `radius` about a table around the default, without rates and
 /// slacks.
-PlanProgram step_program(const Problem& problem, double radius, Random& random) {
-  PlanEvaluator plans(problem, Wrench::kPure, find_plan_solver("ipm").make, false);
-  Eigen::MatrixXd knots = problem.theta_r_default.transpose().replicate(plans.knots(), 1);
+TrajectoryProgram step_program(const Problem& problem, double radius, Random& random) {
+  TrajectoryEvaluator trajectories(problem, Wrench::kPure, find_trajectory_solver("ipm").make,
+                                   false);
+  Eigen::MatrixXd knots = problem.theta_r_default.transpose().replicate(trajectories.knots(), 1);
   for (double& value : knots.reshaped()) value += random.uniform(-0.02, 0.02);
-  EXPECT_GT(plans.evaluate_elastic(knots, nullptr), -kInfinity);
-  PlanProgram program = plans.linearize();
+  EXPECT_GT(trajectories.evaluate_elastic(knots, nullptr), -kInfinity);
+  TrajectoryProgram program = trajectories.linearize();
   const Eigen::Index p = knots.size();
   program.y_min.setConstant(p, -radius);
   program.y_max.setConstant(p, radius);
-  program.R = plans.rows().R;
+  program.R = trajectories.rows().R;
   const Eigen::VectorXd at = program.R * stacked(knots);
-  program.r_min = (plans.rows().r_min - at).cwiseMin(0);
-  program.r_max = (plans.rows().r_max - at).cwiseMax(0);
+  program.r_min = (trajectories.rows().r_min - at).cwiseMin(0);
+  program.r_max = (trajectories.rows().r_max - at).cwiseMax(0);
   program.rho = kInfinity;
   program.du_max.setConstant(kInfinity);
   return program;
@@ -41,12 +42,12 @@ TEST_P(BorderedFacetsOf, AgreesWithTheInteriorPoint) {
   const Problem problem = load_problem(GetParam());
   Random random(1);
   BorderedFacets facets;
-  const auto ipm = make_plan_ipm();
+  const auto ipm = make_trajectory_ipm();
   for (const double radius : {1e-4, 0.01, 0.1, 0.4}) {
     for (int sample = 0; sample < 3; ++sample) {
-      const PlanProgram program = step_program(problem, radius, random);
+      const TrajectoryProgram program = step_program(problem, radius, random);
       ASSERT_TRUE(BorderedFacets::suits(program));
-      PlanSolution mine, reference;
+      TrajectorySolution mine, reference;
       ASSERT_TRUE(facets.solve(program, mine)) << radius;
       ipm->solve(program, reference);
       ASSERT_EQ(reference.status, Status::kOptimal) << radius;
@@ -57,9 +58,9 @@ TEST_P(BorderedFacetsOf, AgreesWithTheInteriorPoint) {
       EXPECT_LE((program.y_min.array() - mine.y.array()).maxCoeff(), 1e-9);
       EXPECT_LE((program.R * mine.y - program.r_max).maxCoeff(), 1e-8);
       EXPECT_LE((program.r_min - program.R * mine.y).maxCoeff(), 1e-8);
-      PlanProgram there = program;
+      TrajectoryProgram there = program;
       there.y_min = there.y_max = mine.y;
-      PlanSolution efforts;
+      TrajectorySolution efforts;
       ipm->solve(there, efforts);
       EXPECT_NEAR(efforts.value, mine.value, 1e-7 * scale) << radius;
       // The multipliers prove the value: with them `recheck` finds no gap.
@@ -77,12 +78,12 @@ TEST_P(BorderedFacetsOf, AgreesWithTheInteriorPoint) {
 TEST(BorderedFacets, SuitsWhatIsDecidedByFacetsAlone) {
   const Problem problem = load_problem("planar/trajectory");
   Random random(2);
-  PlanProgram program = step_program(problem, 0.1, random);
+  TrajectoryProgram program = step_program(problem, 0.1, random);
   EXPECT_TRUE(BorderedFacets::suits(program));
-  PlanProgram heave = program;
-  heave.peak = 1;
-  EXPECT_FALSE(BorderedFacets::suits(heave));
-  PlanProgram limited = program;
+  TrajectoryProgram impulse = program;
+  impulse.peak = 1;
+  EXPECT_FALSE(BorderedFacets::suits(impulse));
+  TrajectoryProgram limited = program;
   limited.instants[1].w_max.setConstant(1);
   EXPECT_FALSE(BorderedFacets::suits(limited));
   program.y_min.resize(0);

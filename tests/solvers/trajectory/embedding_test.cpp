@@ -14,15 +14,15 @@ namespace {
 
 constexpr double kTight = 1e-9;
 
-PlanSolution plan_by_glpk(const PlanProgram& program) {
-  PlanSolution solution;
-  find_plan_solver("glpk").make()->solve(program, solution);
+TrajectorySolution trajectory_by_glpk(const TrajectoryProgram& program) {
+  TrajectorySolution solution;
+  find_trajectory_solver("glpk").make()->solve(program, solution);
   return solution;
 }
 
-/// All kinds: paths and heaves, pure and any wrench, elastic and not, with steps of the knots.
-PlanRecipe recipe_of(int sample) {
-  PlanRecipe recipe;
+/// All kinds: paths and impulses, pure and any wrench, elastic and not, with steps of the knots.
+TrajectoryRecipe recipe_of(int sample) {
+  TrajectoryRecipe recipe;
   recipe.instants = 1 + sample % 5;
   recipe.wrench = sample % 2 == 0 ? Wrench::kPure : Wrench::kAny;
   recipe.peak = sample % 3 == 0 ? recipe.instants / 2 : -1;
@@ -33,8 +33,8 @@ PlanRecipe recipe_of(int sample) {
   return recipe;
 }
 
-PlanSolution embedded(const PlanProgram& program, double tolerance = kTight) {
-  PlanSolution solution;
+TrajectorySolution embedded(const TrajectoryProgram& program, double tolerance = kTight) {
+  TrajectorySolution solution;
   Embedding embedding;
   EXPECT_EQ(embedding.run(program, true, true, tolerance, solution), Embedding::End::kVerdict)
       << embedding.reason();
@@ -48,9 +48,9 @@ TEST(Embedding, AgreesWithGlpkWhateverItHasSolvedBefore) {
   Embedding embedding;
   int optimal = 0, infeasible = 0;
   for (int sample = 0; sample < samples(120); ++sample) {
-    const PlanProgram program = random_plan(problem, recipe_of(sample), random);
-    const PlanSolution reference = plan_by_glpk(program);
-    PlanSolution solution;
+    const TrajectoryProgram program = random_trajectory(problem, recipe_of(sample), random);
+    const TrajectorySolution reference = trajectory_by_glpk(program);
+    TrajectorySolution solution;
     const auto end = embedding.run(program, true, true, kTight, solution);
     ASSERT_EQ(end, Embedding::End::kVerdict) << sample << ' ' << embedding.reason();
     ASSERT_EQ(solution.status, reference.status) << sample;
@@ -63,7 +63,7 @@ TEST(Embedding, AgreesWithGlpkWhateverItHasSolvedBefore) {
     EXPECT_NEAR(solution.value - solution.price, reference.value - reference.price, 1e-8 * scale);
     EXPECT_TRUE(recheck(program, solution).within(kTight * scale)) << sample;
     // What it has solved before leaves no trace.
-    const PlanSolution fresh = embedded(program);
+    const TrajectorySolution fresh = embedded(program);
     EXPECT_EQ(fresh.value, solution.value);
     EXPECT_EQ(fresh.u, solution.u);
     EXPECT_EQ(fresh.lambda, solution.lambda);
@@ -80,14 +80,14 @@ TEST(Embedding, SaysWhenItNeedsTheRates) {
   Random random(2);
   int needed = 0, kept = 0;
   for (int sample = 0; sample < samples(60); ++sample) {
-    PlanRecipe recipe;
+    TrajectoryRecipe recipe;
     recipe.instants = 4;
     recipe.load = 0.03;
     recipe.du = sample % 2 == 0 ? 0.02 : 1.5;
-    const PlanProgram program = random_plan(problem, recipe, random);
-    const PlanSolution reference = plan_by_glpk(program);
+    const TrajectoryProgram program = random_trajectory(problem, recipe, random);
+    const TrajectorySolution reference = trajectory_by_glpk(program);
     Embedding embedding;
-    PlanSolution solution;
+    TrajectorySolution solution;
     const auto end = embedding.run(program, false, true, kTight, solution);
     if (end == Embedding::End::kVerdict) {
       ASSERT_EQ(solution.status, reference.status);
@@ -98,9 +98,9 @@ TEST(Embedding, SaysWhenItNeedsTheRates) {
       continue;
     }
     ++needed;
-    PlanProgram unbound = program;
+    TrajectoryProgram unbound = program;
     unbound.du_max.setConstant(kInfinity);
-    const PlanSolution without = plan_by_glpk(unbound);
+    const TrajectorySolution without = trajectory_by_glpk(unbound);
     if (without.status != Status::kOptimal || reference.status != Status::kOptimal) continue;
     EXPECT_GE(without.value, reference.value - 1e-9);
   }
@@ -113,18 +113,18 @@ TEST(Embedding, SaysWhenItNeedsTheSlacks) {
   const Problem problem = load_problem("uvms/valve");
   Random random(3);
   for (int at = 0; at < 3; ++at) {
-    PlanRecipe recipe;
+    TrajectoryRecipe recipe;
     recipe.rho = 100;
     recipe.rates = false;
     recipe.load = 0.02;
-    PlanProgram program = random_plan(problem, recipe, random);
+    TrajectoryProgram program = random_trajectory(problem, recipe, random);
     program.instants[static_cast<std::size_t>(at)].tau_d *= 50;
     Embedding embedding;
-    PlanSolution solution;
+    TrajectorySolution solution;
     EXPECT_EQ(embedding.run(program, true, false, kTight, solution), Embedding::End::kNeedsSlacks);
     EXPECT_EQ(embedding.run(program, true, true, kTight, solution), Embedding::End::kVerdict);
     ASSERT_EQ(solution.status, Status::kOptimal);
-    const PlanSolution reference = plan_by_glpk(program);
+    const TrajectorySolution reference = trajectory_by_glpk(program);
     EXPECT_NEAR(solution.value - solution.price, reference.value - reference.price,
                 1e-8 * (1 + reference.price));
     EXPECT_GT(solution.s.col(at).lpNorm<1>(), 1);
@@ -136,12 +136,12 @@ TEST(Embedding, IsAsExactAsItIsAskedToBe) {
   const Problem problem = load_problem("uvms/valve");
   Random random(4);
   for (int sample = 0; sample < 10; ++sample) {
-    PlanRecipe recipe;
+    TrajectoryRecipe recipe;
     recipe.load = 0.02;
     recipe.border = 4;
     recipe.rho = 100;
-    const PlanProgram program = random_plan(problem, recipe, random);
-    const PlanSolution tight = embedded(program), loose = embedded(program, 1e-4);
+    const TrajectoryProgram program = random_trajectory(problem, recipe, random);
+    const TrajectorySolution tight = embedded(program), loose = embedded(program, 1e-4);
     ASSERT_EQ(tight.status, Status::kOptimal);
     ASSERT_EQ(loose.status, Status::kOptimal);
     EXPECT_LT(loose.iterations, tight.iterations);
@@ -155,13 +155,13 @@ TEST(Embedding, IsAsExactAsItIsAskedToBe) {
 TEST(Embedding, GivesNoVerdictWhereTheValueHasNoLimit) {
   const Problem problem = load_problem("uvms/valve");
   Random random(5);
-  PlanRecipe recipe;
+  TrajectoryRecipe recipe;
   recipe.load = 0.01;
-  PlanProgram program = random_plan(problem, recipe, random);
+  TrajectoryProgram program = random_trajectory(problem, recipe, random);
   for (WrenchProgram& at : program.instants) at.JtW.setZero();
-  ASSERT_EQ(plan_by_glpk(program).status, Status::kUnbounded);
+  ASSERT_EQ(trajectory_by_glpk(program).status, Status::kUnbounded);
   Embedding embedding;
-  PlanSolution solution;
+  TrajectorySolution solution;
   EXPECT_EQ(embedding.run(program, true, true, kTight, solution), Embedding::End::kNone);
   EXPECT_STRNE(embedding.reason(), "");
 }
@@ -172,15 +172,15 @@ TEST(Embedding, FixedStepsMoveTheLoad) {
   const Problem problem = load_problem("uvms/valve");
   Random random(6);
   for (int sample = 0; sample < 5; ++sample) {
-    PlanRecipe recipe;
+    TrajectoryRecipe recipe;
     recipe.load = 0.02;
     recipe.border = 3;
-    PlanProgram program = random_plan(problem, recipe, random);
+    TrajectoryProgram program = random_trajectory(problem, recipe, random);
     program.R.resize(0, 3);
     program.r_min.resize(0);
     program.r_max.resize(0);
     program.y_min = program.y_max = Eigen::Vector3d(0.01, -0.02, 0.03);
-    PlanProgram moved = program;
+    TrajectoryProgram moved = program;
     for (int i = 0; i < moved.size(); ++i) {
       moved.instants[static_cast<std::size_t>(i)].tau_d -=
           moved.G[static_cast<std::size_t>(i)] * program.y_max;
@@ -189,7 +189,7 @@ TEST(Embedding, FixedStepsMoveTheLoad) {
     moved.y_min.resize(0);
     moved.y_max.resize(0);
     moved.R.resize(0, 0);
-    const PlanSolution with = embedded(program), without = embedded(moved);
+    const TrajectorySolution with = embedded(program), without = embedded(moved);
     ASSERT_EQ(with.status, without.status);
     if (with.status != Status::kOptimal) continue;
     EXPECT_NEAR(with.value, without.value, 1e-8 * (1 + std::abs(with.value)));

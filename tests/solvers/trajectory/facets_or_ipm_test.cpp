@@ -51,12 +51,12 @@ TEST(EvenEfforts, TheMostLoadedActuatorIsLoadedLeast) {
   }
 }
 
-TEST(PlanStructured, IsTheInteriorPointMethodsAnswer) {
+TEST(FacetsOrIpm, IsTheInteriorPointMethodsAnswer) {
   const Problem problem = load_problem("uvms/valve");
   Random random(2);
   int attempts = 0, infeasible = 0;
   for (int sample = 0; sample < samples(200); ++sample) {
-    PlanRecipe recipe;
+    TrajectoryRecipe recipe;
     recipe.instants = 1 + sample % 8;
     recipe.wrench = sample % 5 == 0 ? Wrench::kAny : Wrench::kPure;
     recipe.peak = sample % 7 == 0 ? 0 : -1;
@@ -64,10 +64,10 @@ TEST(PlanStructured, IsTheInteriorPointMethodsAnswer) {
     recipe.border = sample % 6 == 0 ? 3 : 0;
     recipe.du = sample % 2 == 0 ? 0.05 : 2;
     recipe.load = sample % 4 < 2 ? 0.02 : 0.2;
-    const PlanProgram program = random_plan(problem, recipe, random);
-    PlanSolution fast, plain;
-    make_plan_structured()->solve(program, fast);
-    make_plan_ipm()->solve(program, plain);
+    const TrajectoryProgram program = random_trajectory(problem, recipe, random);
+    TrajectorySolution fast, plain;
+    make_facets_or_ipm()->solve(program, fast);
+    make_trajectory_ipm()->solve(program, plain);
     ASSERT_EQ(fast.status, plain.status) << sample;
     attempts += fast.iterations == 0;
     infeasible += fast.status == Status::kInfeasible;
@@ -85,13 +85,13 @@ TEST(PlanStructured, IsTheInteriorPointMethodsAnswer) {
   EXPECT_GT(infeasible, samples(10));
 }
 
-TEST(PlanStructured, SlowMotionsNeedNoIteration) {
+TEST(FacetsOrIpm, SlowMotionsNeedNoIteration) {
   const Problem problem = load_problem("uvms/valve");
   Random random(3);
-  const auto solver = make_plan_structured();
-  PlanSolution solution;
+  const auto solver = make_facets_or_ipm();
+  TrajectorySolution solution;
   for (int sample = 0; sample < 10; ++sample) {
-    const PlanProgram program = slow_plan(problem, Wrench::kPure, 100, 5, random);
+    const TrajectoryProgram program = slow_trajectory(problem, Wrench::kPure, 100, 5, random);
     const long before = allocation_count();
     solver->solve(program, solution);
     EXPECT_TRUE(sample == 0 || allocation_count() == before);

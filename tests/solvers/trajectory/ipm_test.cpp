@@ -12,24 +12,24 @@
 namespace maxwrench {
 namespace {
 
-PlanSolution solve_by_ipm(const PlanProgram& program) {
-  PlanSolution solution;
-  make_plan_ipm()->solve(program, solution);
+TrajectorySolution solve_by_ipm(const TrajectoryProgram& program) {
+  TrajectorySolution solution;
+  make_trajectory_ipm()->solve(program, solution);
   return solution;
 }
 
-TEST(PlanIpm, WithoutRatesTheWorstInstantDecides) {
+TEST(TrajectoryIpm, WithoutRatesTheWorstInstantDecides) {
   const Problem problem = load_problem("uvms/valve");
   Random random(1);
-  const auto box = find_wrench_solver("box").make();
+  const auto box = find_wrench_solver("condensed").make();
   for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
     for (int sample = 0; sample < 20; ++sample) {
-      PlanRecipe recipe;
+      TrajectoryRecipe recipe;
       recipe.instants = 5;
       recipe.wrench = wrench;
       recipe.rates = false;
       recipe.load = 0.03;
-      const PlanProgram program = random_plan(problem, recipe, random);
+      const TrajectoryProgram program = random_trajectory(problem, recipe, random);
       double worst = kInfinity;
       bool feasible = true;
       for (const WrenchProgram& at : program.instants) {
@@ -38,7 +38,7 @@ TEST(PlanIpm, WithoutRatesTheWorstInstantDecides) {
         feasible = feasible && capability.status == Status::kOptimal;
         worst = std::min(worst, capability.beta);
       }
-      const PlanSolution solution = solve_by_ipm(program);
+      const TrajectorySolution solution = solve_by_ipm(program);
       ASSERT_EQ(solution.status, feasible ? Status::kOptimal : Status::kInfeasible);
       if (!feasible) continue;
       EXPECT_NEAR(solution.value, worst, 1e-8 * (1 + std::abs(worst)));
@@ -46,27 +46,27 @@ TEST(PlanIpm, WithoutRatesTheWorstInstantDecides) {
   }
 }
 
-TEST(PlanIpm, EffortsThatMayHardlyChangeAreOne) {
+TEST(TrajectoryIpm, EffortsThatMayHardlyChangeAreOne) {
   // With du = 0 for all actuators there is one u: the value is that of the program of one instant
   // with all balances stacked. Here the instants are equal, so it is that of one of them.
   const Problem problem = load_problem("uvms/valve");
   Random random(2);
-  PlanRecipe recipe;
+  TrajectoryRecipe recipe;
   recipe.instants = 1;
-  PlanProgram program = random_plan(problem, recipe, random);
+  TrajectoryProgram program = random_trajectory(problem, recipe, random);
   const double alone = solve_by_ipm(program).value;
   program.instants.resize(4, program.instants[0]);
   for (const double du : {0.0, 1e-13, 1e-9, 1e-6}) {
     program.du_max = Eigen::MatrixXd::Constant(problem.robot.actuators(), 3, du);
-    PlanSolution solution = solve_by_ipm(program);
+    TrajectorySolution solution = solve_by_ipm(program);
     ASSERT_EQ(solution.status, Status::kOptimal) << du << solution.reason.c_str();
     EXPECT_NEAR(solution.value, alone, 1e-8 * (1 + alone));
     // Different loads: efforts follow within du, as the simplex says.
-    PlanProgram other = program;
+    TrajectoryProgram other = program;
     for (int i = 0; i < 4; ++i) other.instants[i].tau_d += Eigen::VectorXd::Constant(10, 1e-7 * i);
     solution = solve_by_ipm(other);
-    PlanSolution reference;
-    find_plan_solver("simplex").make()->solve(other, reference);
+    TrajectorySolution reference;
+    find_trajectory_solver("simplex").make()->solve(other, reference);
     if (reference.status != Status::kOptimal) continue;
     ASSERT_EQ(solution.status, Status::kOptimal) << du << solution.reason.c_str();
     EXPECT_NEAR(solution.value, reference.value, 1e-8 * (1 + alone));
@@ -74,51 +74,51 @@ TEST(PlanIpm, EffortsThatMayHardlyChangeAreOne) {
   }
 }
 
-TEST(PlanIpm, OneInstantWithoutBalanceIsEnough) {
+TEST(TrajectoryIpm, OneInstantWithoutBalanceIsEnough) {
   const Problem problem = load_problem("uvms/valve");
   Random random(3);
   for (int at = 0; at < 6; ++at) {
-    PlanRecipe recipe;
+    TrajectoryRecipe recipe;
     recipe.instants = 6;
     recipe.load = 0.02;
     recipe.rates = at % 2 == 0;
-    PlanProgram program = random_plan(problem, recipe, random);
+    TrajectoryProgram program = random_trajectory(problem, recipe, random);
     program.instants[at].tau_d *= 50;
-    const PlanSolution solution = solve_by_ipm(program);
+    const TrajectorySolution solution = solve_by_ipm(program);
     ASSERT_EQ(solution.status, Status::kInfeasible) << solution.reason.c_str();
     EXPECT_TRUE(proves_infeasible(program, solution));
     // Elastic it has a value, and slack in that instant.
     program.rho = 100;
-    const PlanSolution elastic = solve_by_ipm(program);
+    const TrajectorySolution elastic = solve_by_ipm(program);
     ASSERT_EQ(elastic.status, Status::kOptimal) << elastic.reason.c_str();
     EXPECT_GT(elastic.s.col(at).lpNorm<1>(), 1);
   }
 }
 
-TEST(PlanIpm, LambdaIsTheDerivativeByTheLoad) {
+TEST(TrajectoryIpm, LambdaIsTheDerivativeByTheLoad) {
   // The value is piecewise linear in tau_d: both one-sided differences agree but at a kink.
   const Problem problem = load_problem("uvms/valve");
   Random random(4);
   int compared = 0;
   for (int sample = 0; sample < 12; ++sample) {
-    PlanRecipe recipe;
+    TrajectoryRecipe recipe;
     recipe.instants = 3;
     recipe.wrench = sample % 2 == 0 ? Wrench::kPure : Wrench::kAny;
     recipe.peak = sample % 3 == 0 ? 1 : -1;
     recipe.rho = sample % 4 == 0 ? 100 : kInfinity;
     recipe.border = sample % 5 == 0 ? 4 : 0;
     recipe.load = 0.03;
-    PlanProgram program = random_plan(problem, recipe, random);
-    const PlanSolution solution = solve_by_ipm(program);
+    TrajectoryProgram program = random_trajectory(problem, recipe, random);
+    const TrajectorySolution solution = solve_by_ipm(program);
     if (solution.status != Status::kOptimal) continue;
     const double at = solution.value - solution.price;
     for (int row = 0; row < 10; ++row) {
       double differences[2];
       for (const int side : {0, 1}) {
-        PlanProgram moved = program;
+        TrajectoryProgram moved = program;
         const double by = side == 0 ? 1e-4 : -1e-4;
         moved.instants[1].tau_d[row] += by;
-        const PlanSolution there = solve_by_ipm(moved);
+        const TrajectorySolution there = solve_by_ipm(moved);
         ASSERT_EQ(there.status, Status::kOptimal);
         differences[side] = (there.value - there.price - at) / by;
       }
@@ -130,25 +130,25 @@ TEST(PlanIpm, LambdaIsTheDerivativeByTheLoad) {
   EXPECT_GT(compared, 50);
 }
 
-TEST(PlanIpm, MultipliersOfRatesAndRowsAreDerivativesByTheirLimits) {
+TEST(TrajectoryIpm, MultipliersOfRatesAndRowsAreDerivativesByTheirLimits) {
   const Problem problem = load_problem("uvms/valve");
   Random random(5);
   int rates = 0, rows = 0;
   for (int sample = 0; sample < 20; ++sample) {
-    PlanRecipe recipe;
+    TrajectoryRecipe recipe;
     recipe.instants = 3;
     recipe.du = 0.1;
     recipe.border = 4;
     recipe.rho = 100;
-    PlanProgram program = random_plan(problem, recipe, random);
-    const PlanSolution solution = solve_by_ipm(program);
+    TrajectoryProgram program = random_trajectory(problem, recipe, random);
+    const TrajectorySolution solution = solve_by_ipm(program);
     ASSERT_EQ(solution.status, Status::kOptimal);
     const auto difference = [&](double& limit, double by) {
       const double kept = limit;
       double values[2];
       for (const int side : {0, 1}) {
         limit = kept + (side == 0 ? by : -by);
-        const PlanSolution there = solve_by_ipm(program);
+        const TrajectorySolution there = solve_by_ipm(program);
         EXPECT_EQ(there.status, Status::kOptimal);
         values[side] = there.value - there.price;
       }
@@ -180,7 +180,7 @@ TEST(PlanIpm, MultipliersOfRatesAndRowsAreDerivativesByTheirLimits) {
   EXPECT_GT(rows, 5);
 }
 
-TEST(PlanIpm, RowsThatNoActuatorReaches) {
+TEST(TrajectoryIpm, RowsThatNoActuatorReaches) {
   // Robots without full row rank: what B does not reach is an equation on the wrench.
   int deficient = 0;
   for (const std::string& name : shipped_problems()) {
@@ -198,15 +198,15 @@ TEST(PlanIpm, RowsThatNoActuatorReaches) {
       Random random(6);
       for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
         for (const double rho : {kInfinity, 100.0}) {
-          PlanRecipe recipe;
+          TrajectoryRecipe recipe;
           recipe.wrench = wrench;
           recipe.rho = rho;
           recipe.load = 0.01;
-          PlanProgram program = random_plan(problem, recipe, random);
+          TrajectoryProgram program = random_trajectory(problem, recipe, random);
           for (WrenchProgram& at : program.instants) at.actuation = set;
-          const PlanSolution solution = solve_by_ipm(program);
-          PlanSolution reference;
-          find_plan_solver("simplex").make()->solve(program, reference);
+          const TrajectorySolution solution = solve_by_ipm(program);
+          TrajectorySolution reference;
+          find_trajectory_solver("simplex").make()->solve(program, reference);
           ASSERT_NE(solution.status, Status::kNumericalError) << name;
           if (reference.status == Status::kNumericalError) continue;
           ASSERT_EQ(solution.status, reference.status)
@@ -223,40 +223,40 @@ TEST(PlanIpm, RowsThatNoActuatorReaches) {
 
 // The first of its kind: the storage for slacks and rates comes with the first program that needs
 // them.
-TEST(PlanIpm, NothingIsAllocatedAfterTheFirstCall) {
+TEST(TrajectoryIpm, NothingIsAllocatedAfterTheFirstCall) {
   const Problem problem = load_problem("uvms/valve");
   for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
     for (const bool elastic : {false, true}) {
       for (const int border : {0, 6}) {
         Random random(7);
-        PlanRecipe recipe;
+        TrajectoryRecipe recipe;
         recipe.wrench = wrench;
         recipe.load = 0.02;
         recipe.rho = elastic ? 100 : kInfinity;
         recipe.border = border;
-        std::vector<PlanProgram> programs;
-        for (int i = 0; i < 5; ++i) programs.push_back(random_plan(problem, recipe, random));
-        const auto solver = make_plan_ipm();
-        PlanSolution solution;
-        for (const PlanProgram& program : programs) solver->solve(program, solution);
+        std::vector<TrajectoryProgram> programs;
+        for (int i = 0; i < 5; ++i) programs.push_back(random_trajectory(problem, recipe, random));
+        const auto solver = make_trajectory_ipm();
+        TrajectorySolution solution;
+        for (const TrajectoryProgram& program : programs) solver->solve(program, solution);
         const long before = allocation_count();
-        for (const PlanProgram& program : programs) solver->solve(program, solution);
+        for (const TrajectoryProgram& program : programs) solver->solve(program, solution);
         EXPECT_EQ(allocation_count(), before) << elastic << " " << border;
       }
     }
   }
 }
 
-TEST(PlanIpm, AnswersDependOnNothingButTheProgram) {
+TEST(TrajectoryIpm, AnswersDependOnNothingButTheProgram) {
   const Problem problem = load_problem("uvms/valve");
   Random random(8);
-  PlanRecipe recipe;
-  const PlanProgram program = random_plan(problem, recipe, random);
+  TrajectoryRecipe recipe;
+  const TrajectoryProgram program = random_trajectory(problem, recipe, random);
   recipe.instants = 7;
   recipe.wrench = Wrench::kAny;
-  const PlanProgram other = random_plan(problem, recipe, random);
-  const auto solver = make_plan_ipm();
-  PlanSolution first, again;
+  const TrajectoryProgram other = random_trajectory(problem, recipe, random);
+  const auto solver = make_trajectory_ipm();
+  TrajectorySolution first, again;
   solver->solve(program, first);
   solver->solve(other, again);
   solver->solve(program, again);
@@ -265,18 +265,18 @@ TEST(PlanIpm, AnswersDependOnNothingButTheProgram) {
   EXPECT_EQ(first.value, again.value);
 }
 
-TEST(PlanIpm, ALooserToleranceEndsEarlierAndKeepsToIt) {
+TEST(TrajectoryIpm, ALooserToleranceEndsEarlierAndKeepsToIt) {
   const Problem problem = load_problem("uvms/valve");
   Random random(10);
   const double tolerance = 1e-5;
-  const auto exact = make_plan_ipm(), loose = make_plan_ipm(tolerance);
+  const auto exact = make_trajectory_ipm(), loose = make_trajectory_ipm(tolerance);
   long saved = 0;
   for (int sample = 0; sample < 10; ++sample) {
-    PlanRecipe recipe;
+    TrajectoryRecipe recipe;
     recipe.rho = 100;
     recipe.border = 5;
-    const PlanProgram program = random_plan(problem, recipe, random);
-    PlanSolution reference, solution;
+    const TrajectoryProgram program = random_trajectory(problem, recipe, random);
+    TrajectorySolution reference, solution;
     exact->solve(program, reference);
     loose->solve(program, solution);
     ASSERT_EQ(reference.status, Status::kOptimal);
@@ -292,17 +292,17 @@ TEST(PlanIpm, ALooserToleranceEndsEarlierAndKeepsToIt) {
   EXPECT_GE(saved, 10);
 }
 
-TEST(PlanIpm, LoadsABitBeyondWhatCanBeBalancedAreProvedSo) {
+TEST(TrajectoryIpm, LoadsABitBeyondWhatCanBeBalancedAreProvedSo) {
   // A load of which an instant holds at most the share alpha without rates: at a bit more there is
   // no answer.
   const Problem problem = load_problem("uvms/valve");
   Random random(11);
   int proved = 0;
   for (int sample = 0; sample < 10; ++sample) {
-    PlanRecipe recipe;
-    PlanProgram program = random_plan(problem, recipe, random);
+    TrajectoryRecipe recipe;
+    TrajectoryProgram program = random_trajectory(problem, recipe, random);
     // The largest share of its own load that can be held: tau_d alpha as a column of the wrench.
-    PlanProgram held = program;
+    TrajectoryProgram held = program;
     held.peak = 0;
     for (WrenchProgram& at : held.instants) {
       at.JtW.conservativeResize(Eigen::NoChange, 2);
@@ -316,11 +316,11 @@ TEST(PlanIpm, LoadsABitBeyondWhatCanBeBalancedAreProvedSo) {
     }
     program.du_max.setConstant(kInfinity);
     held.du_max.setConstant(kInfinity);
-    const PlanSolution most = solve_by_ipm(held);
+    const TrajectorySolution most = solve_by_ipm(held);
     ASSERT_EQ(most.status, Status::kOptimal);
     for (const double beyond : {1e-3, 1e-5, 1e-6}) {
       program.instants[0].tau_d = held.instants[0].JtW.col(1) * (most.value * (1 + beyond));
-      const PlanSolution solution = solve_by_ipm(program);
+      const TrajectorySolution solution = solve_by_ipm(program);
       EXPECT_EQ(solution.status, Status::kInfeasible) << beyond << solution.reason.c_str();
       EXPECT_TRUE(proves_infeasible(program, solution));
       ++proved;
@@ -329,16 +329,16 @@ TEST(PlanIpm, LoadsABitBeyondWhatCanBeBalancedAreProvedSo) {
   EXPECT_EQ(proved, 30);
 }
 
-TEST(PlanIpm, AWrenchThatLoadsNothingHasNoVerdict) {
+TEST(TrajectoryIpm, AWrenchThatLoadsNothingHasNoVerdict) {
   const Problem problem = load_problem("uvms/valve");
   Random random(9);
-  PlanProgram program = random_plan(problem, {}, random);
+  TrajectoryProgram program = random_trajectory(problem, {}, random);
   // The load is zero too, so there are answers, of any value.
   for (WrenchProgram& at : program.instants) {
     at.JtW.setZero();
     at.tau_d.setZero();
   }
-  const PlanSolution solution = solve_by_ipm(program);
+  const TrajectorySolution solution = solve_by_ipm(program);
   EXPECT_EQ(solution.status, Status::kNumericalError);
   EXPECT_STRNE(solution.reason.c_str(), "");
 }

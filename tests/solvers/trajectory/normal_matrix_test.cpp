@@ -49,7 +49,7 @@ struct RandomStages {
   }
   static constexpr int kInstants = 4;
   Zonotope set;
-  PlanProgram program;
+  TrajectoryProgram program;
   Forms forms;
 };
 
@@ -126,9 +126,9 @@ TEST(NormalMatrix, TasksInTimeTakeThePathThatTheTableSays) {
     const auto [pure, any] = sizes.at(name.substr(0, name.find('/')));
     for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
       Random random(2);
-      PlanRecipe recipe;
+      TrajectoryRecipe recipe;
       recipe.wrench = wrench;
-      const PlanProgram program = random_plan(problem, recipe, random);
+      const TrajectoryProgram program = random_trajectory(problem, recipe, random);
       Forms forms;
       forms.build(program);
       const int d = wrench == Wrench::kPure ? pure : any;

@@ -130,7 +130,7 @@ struct Tally {
 class Agreement {
  public:
   Agreement() {
-    for (const char* name : {"box", "simplex", "clp", "glpk"}) {
+    for (const char* name : {"condensed", "simplex", "clp", "glpk"}) {
       solvers_.emplace_back(name, find_wrench_solver(name).make());
     }
   }
@@ -217,7 +217,7 @@ TEST(Agreement, AnswersSatisfyTheirPrograms) {
     const Kind kind = static_cast<Kind>(robot % static_cast<int>(Kind::kCount));
     const Zonotope set = random_actuation(random, kind);
     const WrenchProgram program = random_program(random, kind, set);
-    for (const char* name : {"facets", "box", "simplex", "clp", "glpk"}) {
+    for (const char* name : {"facets", "condensed", "simplex", "clp", "glpk"}) {
       if (program.columns() > 1 && find_wrench_solver(name).one_column_only) continue;
       Capability capability;
       find_wrench_solver(name).make()->solve(program, true, capability);
@@ -231,7 +231,7 @@ TEST(Agreement, AnswersSatisfyTheirPrograms) {
           << residual.dual << " " << residual.gap;
     }
   }
-  EXPECT_EQ(optimal["box"], optimal["simplex"]);
+  EXPECT_EQ(optimal["condensed"], optimal["simplex"]);
 }
 
 TEST(Agreement, InfeasibleIsProvedWithOrWithoutEfforts) {
@@ -243,7 +243,7 @@ TEST(Agreement, InfeasibleIsProvedWithOrWithoutEfforts) {
     const Kind kind = sample % 2 == 0 ? Kind::kHeavy : Kind::kNearBoundary;
     const Zonotope set = random_actuation(random, kind);
     const WrenchProgram program = random_program(random, kind, set);
-    for (const char* name : {"facets", "box"}) {
+    for (const char* name : {"facets", "condensed"}) {
       if (program.columns() > 1 && find_wrench_solver(name).one_column_only) continue;
       Capability capability;
       find_wrench_solver(name).make()->solve(program, false, capability);
@@ -272,7 +272,7 @@ TEST(Box, OneSidedAndBoundedColumns) {
     program.w_max[0] = 0.5;
     Capability a;
     Capability b;
-    find_wrench_solver("box").make()->solve(program, false, a);
+    find_wrench_solver("condensed").make()->solve(program, false, a);
     find_wrench_solver("simplex").make()->solve(program, false, b);
     ASSERT_EQ(a.status, b.status) << sample << " " << a.reason.c_str() << " " << b.reason.c_str();
     if (a.status != Status::kOptimal) continue;
@@ -288,16 +288,16 @@ TEST(Box, WithoutFacetsAndWithoutLoad) {
   WrenchProgram program = random_program(random, Kind::kPlain, set);
   Capability with;
   Capability without;
-  find_wrench_solver("box").make()->solve(program, true, with);
+  find_wrench_solver("condensed").make()->solve(program, true, with);
   set = make_zonotope(set.B, set.u_min, set.u_max, 0);
   ASSERT_FALSE(set.has_facets);
-  find_wrench_solver("box").make()->solve(program, true, without);
+  find_wrench_solver("condensed").make()->solve(program, true, without);
   ASSERT_EQ(with.status, without.status);
   EXPECT_NEAR(with.beta, without.beta, 1e-9 * (1 + std::abs(with.beta)));
   program.JtW.setZero();
   program.tau_d.setZero();
   set = make_zonotope(set.B, set.u_min, set.u_max);
-  find_wrench_solver("box").make()->solve(program, false, with);
+  find_wrench_solver("condensed").make()->solve(program, false, with);
   EXPECT_EQ(with.status, Status::kUnbounded);
 }
 
@@ -311,7 +311,7 @@ TEST(Box, AnswersDoNotDependOnEarlierOnesAndAllocateNothing) {
       programs.push_back(program);
     }
   }
-  const auto warm = find_wrench_solver("box").make();
+  const auto warm = find_wrench_solver("condensed").make();
   Capability capability;
   warm->solve(programs[0], false, capability);
   for (const WrenchProgram& program : programs) {
@@ -319,7 +319,7 @@ TEST(Box, AnswersDoNotDependOnEarlierOnesAndAllocateNothing) {
     warm->solve(program, false, capability);
     EXPECT_EQ(allocation_count(), before);
     Capability fresh;
-    find_wrench_solver("box").make()->solve(program, false, fresh);
+    find_wrench_solver("condensed").make()->solve(program, false, fresh);
     EXPECT_EQ(capability.beta, fresh.beta);
     EXPECT_EQ(capability.lambda, fresh.lambda);
   }

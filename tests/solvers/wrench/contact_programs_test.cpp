@@ -61,7 +61,7 @@ TEST(ContactPrograms, EverySolverGivesTheSameAnswer) {
   for (int robot = 0; robot < samples(100); ++robot) {
     const Zonotope set = random_vehicle(random);
     std::vector<std::pair<std::string, std::unique_ptr<WrenchSolver>>> solvers;
-    for (const char* name : {"box", "simplex", "clp", "glpk", "ipopt"}) {
+    for (const char* name : {"condensed", "simplex", "clp", "glpk", "ipopt"}) {
       solvers.emplace_back(name, find_wrench_solver(name).make());
     }
     for (int i = 0; i < 100; ++i, ++compared) {
@@ -72,9 +72,9 @@ TEST(ContactPrograms, EverySolverGivesTheSameAnswer) {
         if (interior && i >= 2) continue;
         Capability capability;
         solver->solve(program, true, capability);
-        if (name == "box") reference = capability;
+        if (name == "condensed") reference = capability;
         // Rarely a library says something that the program's own numbers do not bear out.
-        if (capability.status == Status::kNumericalError && name != "box") {
+        if (capability.status == Status::kNumericalError && name != "condensed") {
           ++undecided;
           continue;
         }

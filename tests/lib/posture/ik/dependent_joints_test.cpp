@@ -62,15 +62,15 @@ TEST(DependentJoints, PoseAndDerivativeAtRandomPostures) {
         Matrix6Xd::NullaryExpr(6, n, [&](Eigen::Index, Eigen::Index) { return random.normal(); });
     bool reached = true;
     const auto value = [&](const Eigen::VectorXd& at) {
-      const Posture& near = nearest_branch(model, at, q);
+      const Posture& near = nearest_ik_solution(model, at, q);
       reached = reached && near.status == Status::kValid && (near.q - q).norm() < 0.01;
       return tau_seed.dot(near.tau_d) + J_seed.cwiseProduct(near.J).sum();
     };
     Eigen::VectorXd gradient;
-    model.pull_back(theta_r, tau_seed, J_seed, gradient);  // of the first branch, as `q`
+    model.pull_back(theta_r, tau_seed, J_seed, gradient);  // of the first IK solution, as `q`
     Eigen::VectorXd differences(problem.redundancy());
     for (int k = 0; k < problem.redundancy(); ++k) differences[k] = difference(value, theta_r, k);
-    if (!reached) continue;  // the end of the branch lies between the points of the difference
+    if (!reached) continue;  // the end of the IK solution lies between the points of the difference
     ++valid;
     EXPECT_LT((gradient - differences).norm(), 1e-6 * (1 + differences.norm())) << sample;
   }
@@ -111,27 +111,27 @@ TEST(DependentJoints, GoesOnAlongAMotion) {
     const auto pose_at = [&](double s) -> Pose<double> {
       return {Eigen::AngleAxisd(s * turn.norm(), turn.normalized()) * start.R, start.p + s * way};
     };
-    DependentJoints branch(problem);
-    if (branch.follow(before)) continue;  // singular
-    const Eigen::VectorXd z = branch.z();
+    DependentJoints ik_solution(problem);
+    if (ik_solution.follow(before)) continue;  // singular
+    const Eigen::VectorXd z = ik_solution.z();
     bool reached = true;
     const auto go = [&](double s) {
-      reached = reached && !branch.go_on(before + s * (after - before), pose_at(s));
+      reached = reached && !ik_solution.go_on(before + s * (after - before), pose_at(s));
     };
     for (int i = 1; i <= 10; ++i) go(i / 10.0);
     if (!reached) continue;
     ++arrived;
     Posture posture;
-    posture.base = base_pose(problem.robot, branch.z().head<4>());
+    posture.base = base_pose(problem.robot, ik_solution.z().head<4>());
     Kinematics<double> kinematics(problem.robot);
-    kinematics.set_joints(branch.z().tail(before.size() + problem.dependent.size()));
+    kinematics.set_joints(ik_solution.z().tail(before.size() + problem.dependent.size()));
     posture.links = kinematics.links();
     problem.pose = pose_at(1);
     EXPECT_LT(pose_error(problem, posture), 1e-12);
     problem.pose = start;
     for (int i = 9; i >= 0; --i) go(i / 10.0);
     EXPECT_TRUE(reached);
-    EXPECT_LT((branch.z() - z).norm(), 1e-8 * (1 + z.norm()));
+    EXPECT_LT((ik_solution.z() - z).norm(), 1e-8 * (1 + z.norm()));
   }
   EXPECT_GT(arrived, samples(200));
 }
@@ -145,7 +145,7 @@ TEST(DependentJoints, AllocatesNothingAfterTheFirstCall) {
   const Eigen::VectorXd tau_seed = Eigen::VectorXd::Ones(problem.robot.velocities());
   const Matrix6Xd J_seed = Matrix6Xd::Ones(6, problem.robot.velocities());
   Eigen::VectorXd gradient;
-  // Places of the atlas are computed when they are needed first.
+  // Places of the start system are computed when they are needed first.
   for (const Eigen::VectorXd& theta_r : points) model.evaluate(theta_r);
   model.pull_back(points[0], tau_seed, J_seed, gradient);
   const long before = allocation_count();
@@ -176,7 +176,7 @@ TEST(DependentJoints, PlanarArmEqualsTheLawOfCosines) {
     model.evaluate(Eigen::VectorXd::Constant(1, q0));
     const Eigen::Vector2d rest(1.5 - std::cos(q0), 0.5 - std::sin(q0));
     if (rest.norm() > 1.999) {
-      EXPECT_EQ(model.branches(), 0);
+      EXPECT_EQ(model.ik_solutions(), 0);
       continue;
     }
     const double bend = std::acos((rest.squaredNorm() - 2) / 2);
@@ -186,10 +186,10 @@ TEST(DependentJoints, PlanarArmEqualsTheLawOfCosines) {
       const Eigen::Vector4d q(q0, q1, q2, -q0 - q1 - q2);
       if (q.cwiseAbs().maxCoeff() > 3) continue;  // beyond the limits
       ++listed;
-      const Posture& posture = nearest_branch(model, Eigen::VectorXd::Constant(1, q0), q);
+      const Posture& posture = nearest_ik_solution(model, Eigen::VectorXd::Constant(1, q0), q);
       EXPECT_LT((posture.q - q).norm(), 1e-11) << q0;
     }
-    EXPECT_EQ(model.branches(), listed) << q0;
+    EXPECT_EQ(model.ik_solutions(), listed) << q0;
   }
 }
 

@@ -16,14 +16,14 @@
 namespace maxwrench {
 namespace {
 
-class BranchesOf : public testing::TestWithParam<const char*> {};
+class IkSolutionsOf : public testing::TestWithParam<const char*> {};
 
-TEST_P(BranchesOf, AreAllThatRandomStartsFind) {
+TEST_P(IkSolutionsOf, AreAllThatRandomStartsFind) {
   constexpr int kMany = std::max(50, samples(200));
   expect_complete(load_problem(GetParam()), kMany, kMany, kMany);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shipped, BranchesOf, testing::Values("mobile/push", "fixed/push"),
+INSTANTIATE_TEST_SUITE_P(Shipped, IkSolutionsOf, testing::Values("mobile/push", "fixed/push"),
                          [](const auto& test) {
                            std::string name = test.param;
                            std::replace(name.begin(), name.end(), '/', '_');
@@ -32,20 +32,20 @@ INSTANTIATE_TEST_SUITE_P(Shipped, BranchesOf, testing::Values("mobile/push", "fi
 
 /// A general chain of six revolute joints has 16 solutions, real or not (Primrose 1986); a vehicle
 /// with two dependent joints, x, y, z and yaw has two: two cones of directions cross twice.
-TEST(Branches, AreAsManyAsTheoryHas) {
+TEST(IkSolver, AreAsManyAsTheoryHas) {
   Random random(6);
   for (int sample = 0; sample < 3; ++sample) {
     Problem problem = problem_with_dependents(random, {}, 1, true);
-    EXPECT_EQ(BranchAtlas(problem).solutions(), 16);
+    EXPECT_EQ(IkStartSystem(problem).solutions(), 16);
     problem = problem_with_dependents(random, {0, 1, 2, 5}, 2, true);
-    EXPECT_EQ(BranchAtlas(problem).solutions(), 2);
+    EXPECT_EQ(IkStartSystem(problem).solutions(), 2);
     // Three angles turn one orientation into another, in two ways.
     problem = problem_with_dependents(random, {0, 1, 2}, 2, true);
-    EXPECT_EQ(BranchAtlas(problem).solutions(), 2);
+    EXPECT_EQ(IkStartSystem(problem).solutions(), 2);
   }
 }
 
-TEST(Branches, OfRandomChainsReachThePose) {
+TEST(IkSolver, OfRandomChainsReachThePose) {
   Random random(2);
   for (int sample = 0; sample < std::max(8, samples(28)); ++sample) {
     const auto& axes = kIntegrableAxes[static_cast<std::size_t>(sample) % kIntegrableAxes.size()];
@@ -54,7 +54,7 @@ TEST(Branches, OfRandomChainsReachThePose) {
     PostureEvaluator model(problem, false);
     for (int place = 0; place < 10; ++place) {
       model.evaluate(random_theta_r(problem, random));
-      for (int i = 0; i < model.branches(); ++i) {
+      for (int i = 0; i < model.ik_solutions(); ++i) {
         EXPECT_LT(pose_error(problem, model.select(i)), 1e-12) << sample;
       }
     }
@@ -62,11 +62,11 @@ TEST(Branches, OfRandomChainsReachThePose) {
 }
 
 /// The way there does not matter.
-TEST(Branches, DependOnThetaRAlone) {
+TEST(IkSolver, DependOnThetaRAlone) {
   Random random(3);
   const Problem problem = problem_with_dependents(random, {0, 1, 5}, 2);
-  const auto atlas = std::make_shared<const BranchAtlas>(problem);
-  Branches there(atlas), back(atlas);
+  const auto start_system = std::make_shared<const IkStartSystem>(problem);
+  IkSolver there(start_system), back(start_system);
   std::vector<Eigen::VectorXd> points;
   std::vector<std::vector<Six<double>>> list;
   for (int i = 0; i < 50; ++i) {
@@ -77,7 +77,8 @@ TEST(Branches, DependOnThetaRAlone) {
   for (std::size_t i = points.size(); i-- > 0;) {
     ASSERT_EQ(back.solve(points[i]), static_cast<int>(list[i].size()));
     for (int b = 0; b < back.count(); ++b) {
-      EXPECT_LT(apart(atlas->chain(), back.y(b), list[i][static_cast<std::size_t>(b)]), 1e-9);
+      EXPECT_LT(apart(start_system->chain(), back.y(b), list[i][static_cast<std::size_t>(b)]),
+                1e-9);
     }
   }
 }
@@ -85,9 +86,9 @@ TEST(Branches, DependOnThetaRAlone) {
 /// Where a pair of postures ends (a stretched arm), both are found as near to it from anywhere as
 /// from close by. The four bars of dependent_joints_test: with the elbow at (cos q_0, sin q_0) the
 /// rest of the way to the tool is stretched at a distance of 2 m.
-TEST(Branches, AreTheSameFromAnywhereNearAFold) {
+TEST(IkSolver, AreTheSameFromAnywhereNearAFold) {
   const Problem problem = four_bars();
-  const auto atlas = std::make_shared<const BranchAtlas>(problem);
+  const auto start_system = std::make_shared<const IkStartSystem>(problem);
   const auto apart_by = [](double q_0) {
     return std::hypot(1.5 - std::cos(q_0), 0.5 - std::sin(q_0)) - 2;
   };
@@ -99,7 +100,7 @@ TEST(Branches, AreTheSameFromAnywhereNearAFold) {
   }
   for (double distance = 1e-2; distance > 1e-11; distance /= 10) {
     const Eigen::VectorXd place = Eigen::VectorXd::Constant(1, inside - distance);
-    Branches fresh(atlas), close(atlas);
+    IkSolver fresh(start_system), close(start_system);
     close.solve(Eigen::VectorXd::Constant(1, inside - 1.5 * distance));
     EXPECT_EQ(fresh.solve(place), 2) << distance;
     EXPECT_EQ(close.solve(place), 2) << distance;
@@ -109,38 +110,38 @@ TEST(Branches, AreTheSameFromAnywhereNearAFold) {
 }
 
 /// A base that drives anywhere reaches a pose anywhere.
-TEST(Branches, OfAPoseFarAway) {
+TEST(IkSolver, OfAPoseFarAway) {
   Problem problem = load_problem("mobile/push");
-  const int near = Branches(serving_atlas(problem)).solve(problem.theta_r_default);
+  const int near = IkSolver(serving_start_system(problem)).solve(problem.theta_r_default);
   problem.pose.p += Eigen::Vector3d(2000, -700, 0);
-  EXPECT_EQ(Branches(serving_atlas(problem)).solve(problem.theta_r_default), near);
+  EXPECT_EQ(IkSolver(serving_start_system(problem)).solve(problem.theta_r_default), near);
   EXPECT_GT(near, 0);
 }
 
-TEST(Branches, AtlasIsOfOneProblem) {
+TEST(IkSolver, StartSystemIsOfOneProblem) {
   Problem problem = load_problem("mobile/push");
-  ASSERT_NE(problem.atlas, nullptr);
-  EXPECT_TRUE(problem.atlas->serves(problem));
-  EXPECT_EQ(serving_atlas(problem), problem.atlas);
+  ASSERT_NE(problem.start_system, nullptr);
+  EXPECT_TRUE(problem.start_system->serves(problem));
+  EXPECT_EQ(serving_start_system(problem), problem.start_system);
   problem.pose.p.x() += 0.01;
-  EXPECT_FALSE(problem.atlas->serves(problem));
-  EXPECT_NE(serving_atlas(problem), problem.atlas);
+  EXPECT_FALSE(problem.start_system->serves(problem));
+  EXPECT_NE(serving_start_system(problem), problem.start_system);
   problem = load_problem("mobile/push");
   problem.robot.joints[static_cast<std::size_t>(problem.dependent[0])].placement.p.z() += 0.01;
-  EXPECT_FALSE(problem.atlas->serves(problem));
+  EXPECT_FALSE(problem.start_system->serves(problem));
 }
 
-TEST(Branches, OfAnUnreachablePoseAreNone) {
+TEST(IkSolver, OfAnUnreachablePoseAreNone) {
   Problem problem = load_problem("mobile/push");
   problem.pose.p.z() = 9;
-  const auto atlas = std::make_shared<const BranchAtlas>(problem);
-  EXPECT_FALSE(atlas->reaches());
-  EXPECT_EQ(Branches(atlas).solve(problem.theta_r_default), 0);
+  const auto start_system = std::make_shared<const IkStartSystem>(problem);
+  EXPECT_FALSE(start_system->reaches());
+  EXPECT_EQ(IkSolver(start_system).solve(problem.theta_r_default), 0);
   PostureEvaluator model(problem);
   const Posture& posture = model.evaluate(problem.theta_r_default);
   EXPECT_EQ(posture.reason.str().find("unreachable pose"), 0u);
-  EXPECT_EQ(posture.branches.unreachable, 1);
-  EXPECT_EQ(model.branches(), 0);
+  EXPECT_EQ(posture.ik_solutions.unreachable, 1);
+  EXPECT_EQ(model.ik_solutions(), 0);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ MeasureMaker maker(const Problem& problem, const BoundForm& form) {
   return [&problem, form] {
     const bool one = form.wrench == Wrench::kPure;
     return find_measure(form.measure)
-        .make(problem, find_wrench_solver(one ? "facets" : "box").make());
+        .make(problem, find_wrench_solver(one ? "facets" : "condensed").make());
   };
 }
 
@@ -110,7 +110,7 @@ TEST_P(BoundOf, IsExactAtAPoint) {
   }
 }
 
-std::string refusal(const std::string& name, const char* measure, Wrench wrench) {
+std::string rejection(const std::string& name, const char* measure, Wrench wrench) {
   const Problem problem = load_problem(name);
   try {
     make_capability_bound(problem, measure, wrench);
@@ -120,28 +120,28 @@ std::string refusal(const std::string& name, const char* measure, Wrench wrench)
   return "";
 }
 
-TEST(CapabilityBound, RefusesWhatItDoesNotServe) {
-  const auto refused = [](const std::string& name, const char* measure, Wrench wrench,
-                          const char* word) {
-    const std::string text = refusal(name, measure, wrench);
+TEST(CapabilityBound, RejectsWhatItDoesNotServe) {
+  const auto rejected = [](const std::string& name, const char* measure, Wrench wrench,
+                           const char* word) {
+    const std::string text = rejection(name, measure, wrench);
     EXPECT_NE(text.find(word), std::string::npos) << name << ": " << text;
     EXPECT_NE(text.find("expected"), std::string::npos) << text;
     EXPECT_EQ(text.find('\n'), std::string::npos) << text;
   };
-  refused("uvms/valve_trajectory", "linf_polytope", Wrench::kPure, "task in time");
-  refused("dual_arm/bar_wall", "ellipsoid", Wrench::kPure, "ellipsoid");
-  refused("fixed/push", "linf_polytope", Wrench::kAny, "any");
-  refused("planar/force", "manipulability", Wrench::kPure, "manipulability");
-  refused("planar/force", "ellipsoid", Wrench::kAny, "any");
-  EXPECT_EQ(refusal("planar/force", "ellipsoid", Wrench::kPure), "");
+  rejected("uvms/valve_trajectory", "linf_polytope", Wrench::kPure, "task in time");
+  rejected("dual_arm/bar_wall", "ellipsoid", Wrench::kPure, "ellipsoid");
+  rejected("fixed/push", "linf_polytope", Wrench::kAny, "any");
+  rejected("planar/force", "manipulability", Wrench::kPure, "manipulability");
+  rejected("planar/force", "ellipsoid", Wrench::kAny, "any");
+  EXPECT_EQ(rejection("planar/force", "ellipsoid", Wrench::kPure), "");
 }
 
 /// A base that does not turn limits no torque, and one without z no force that joints may turn to
 /// z.
-TEST(CapabilityBound, RefusesWhatTheFreeAxesDoNotLimit) {
+TEST(CapabilityBound, RejectsWhatTheFreeAxesDoNotLimit) {
   Random random(3);
   Problem problem = random_problem(random, 4);
-  const auto refuses = [&problem](const std::vector<int>& axes, const Vector6d& c) {
+  const auto rejects = [&problem](const std::vector<int>& axes, const Vector6d& c) {
     problem.robot.base_axes = axes;
     complete_actuation(problem.robot);
     problem.c = c;
@@ -153,16 +153,16 @@ TEST(CapabilityBound, RefusesWhatTheFreeAxesDoNotLimit) {
     return false;
   };
   const Vector6d force = Vector6d::Unit(0), torque = Vector6d::Unit(3);
-  EXPECT_FALSE(refuses({0, 1, 2, 3, 4, 5}, force));
-  EXPECT_FALSE(refuses({0, 1, 2}, force));
-  EXPECT_TRUE(refuses({0, 1, 2}, torque));
-  EXPECT_TRUE(refuses({0, 1, 3, 4, 5}, force));
-  EXPECT_FALSE(refuses({3, 4, 5}, torque));
-  EXPECT_TRUE(refuses({3, 4, 5}, force));
+  EXPECT_FALSE(rejects({0, 1, 2, 3, 4, 5}, force));
+  EXPECT_FALSE(rejects({0, 1, 2}, force));
+  EXPECT_TRUE(rejects({0, 1, 2}, torque));
+  EXPECT_TRUE(rejects({0, 1, 3, 4, 5}, force));
+  EXPECT_FALSE(rejects({3, 4, 5}, torque));
+  EXPECT_TRUE(rejects({3, 4, 5}, force));
 }
 
 /// A torque at the second contact is in no balance of forces of the base.
-TEST(CapabilityBound, RefusesWhatNothingLimits) {
+TEST(CapabilityBound, RejectsWhatNothingLimits) {
   Problem problem = load_problem("planar/two_arms");
   EXPECT_NO_THROW(make_capability_bound(problem, "linf_polytope", Wrench::kPure));
   problem.contact->C.col(0) << 0, 0, 0, 0, 0, 1;

@@ -19,7 +19,7 @@ Eigen::VectorXd all_equations(const Problem& problem, const LoopPosture& loop,
   const LoopCoordinates& all = model.coordinates;
   const int k = std::clamp((all.yaw.from + all.free.to) / 2 - all.first.from, 0, all.first.count());
   Eigen::VectorXd base, contact;
-  if (!all.base_follows) base = (loop.left(k) - loop.right(k)).cast<double>();
+  if (!all.base_is_dependent) base = (loop.left(k) - loop.right(k)).cast<double>();
   if (problem.contact) contact = (loop.touching() - loop.touched()).cast<double>();
   Eigen::VectorXd both(base.size() + contact.size());
   both << base, contact;

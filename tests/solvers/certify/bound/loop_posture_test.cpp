@@ -36,7 +36,7 @@ TEST_P(LoopPostureOf, IsThePosture) {
     const double size = 1 + expected.cwiseAbs().maxCoeff();
     EXPECT_LT((tau - expected).cwiseAbs().maxCoeff(), 1e-8 * size);
     EXPECT_LT((a - program.JtW.col(0)).cwiseAbs().maxCoeff(), 1e-8);
-    if (!source.coordinates().base_follows) {
+    if (!source.coordinates().base_is_dependent) {
       for (const int k : {0, 2}) {
         EXPECT_LT((loop.left(k) - loop.right(k)).cwiseAbs().maxCoeff(), 1e-8);
       }

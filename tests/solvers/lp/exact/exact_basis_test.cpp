@@ -24,7 +24,7 @@ TEST(ExactBasis, VerdictsAreThoseOfAPeer) {
     simplex->solve(program, ours);
     for (const LpSolution& start : {ours, LpSolution()}) {
       const LpProof proof = exact_proof(program, start);
-      EXPECT_EQ(refuse_lp_proof(program, proof), "") << sample;
+      EXPECT_EQ(reject_lp_proof(program, proof), "") << sample;
       EXPECT_EQ(proof.status, peer.status) << sample;
       if (proof.status != Status::kOptimal) continue;
       const double value = exact_objective(program, proof.x).get_d();
@@ -47,7 +47,7 @@ TEST(ExactBasis, ProvesTheProgramOfDoubles) {
   program.u = Eigen::Vector2d(kInfinity, kInfinity);
   const LpProof proof = exact_proof(program, {});
   ASSERT_EQ(proof.status, Status::kOptimal);
-  EXPECT_EQ(refuse_lp_proof(program, proof), "");
+  EXPECT_EQ(reject_lp_proof(program, proof), "");
   EXPECT_EQ(proof.x[0], (mpq_class(0.3) - mpq_class(0.2)) / mpq_class(0.1));
   EXPECT_LT(proof.x[0], 1);
 }
@@ -66,11 +66,11 @@ TEST(ExactBasis, SingularStartsAreGivenUp) {
   start.basis = {kBasic, kBasic, kAtLower, kAtLower, kAtLower};
   const LpProof proof = exact_proof(program, start);
   ASSERT_EQ(proof.status, Status::kOptimal);
-  EXPECT_EQ(refuse_lp_proof(program, proof), "");
+  EXPECT_EQ(reject_lp_proof(program, proof), "");
   EXPECT_EQ(exact_objective(program, proof.x), 3);
 }
 
-TEST(ExactBasis, LargeProgramsAreRefused) {
+TEST(ExactBasis, LargeProgramsAreRejected) {
   LinearProgram program;
   const int rows = kMostExactRows + 1;
   program.A.resize(rows, 1);

@@ -1,9 +1,9 @@
-#include "problems/loader/motion.h"
+#include "problems/loader/motion_table.h"
 
 #include <filesystem>
 
 #include "problems/loader/path_table.h"
-#include "problems/make/motion.h"
+#include "problems/make/motion_task.h"
 
 namespace maxwrench {
 namespace {
@@ -13,13 +13,13 @@ Timing read_timing(const Block& path) {
   if (name == "cubic") return Timing::kCubic;
   if (name == "quintic") return Timing::kQuintic;
   if (name == "linear") return Timing::kLinear;
-  path.refuse_value("timing", "cubic, quintic or linear");
+  path.throw_bad_value("timing", "cubic, quintic or linear");
 }
 
 Path read_line(const Block& path, const Pose<double>& start, double T) {
   path.allow_only({"kind", "timing", "displacement"});
   const Eigen::Vector3d displacement = path.vector("displacement");
-  if (displacement.isZero(0)) path.refuse_value("displacement", "one of nonzero length");
+  if (displacement.isZero(0)) path.throw_bad_value("displacement", "one of nonzero length");
   return Path::screw(start, Eigen::Vector3d::UnitZ(), start.p, 0, displacement, read_timing(path),
                      T);
 }
@@ -27,7 +27,7 @@ Path read_line(const Block& path, const Pose<double>& start, double T) {
 Path read_turn(const Block& path, const Pose<double>& start, const Eigen::Vector3d& centre,
                double T) {
   const double angle = path.number("angle");
-  if (angle == 0) path.refuse_value("angle", "a number other than 0");
+  if (angle == 0) path.throw_bad_value("angle", "a number other than 0");
   return Path::screw(start, path.direction("axis"), centre, angle, Eigen::Vector3d::Zero(),
                      read_timing(path), T);
 }
@@ -44,14 +44,15 @@ Path read_path(const Block& path, const Pose<double>& start, double T) {
     path.allow_only({"kind", "timing", "axis", "angle", "centre"});
     return read_turn(path, start, path.vector("centre"), T);
   }
-  path.refuse_value("kind", "rotation, line, arc or poses");
+  path.throw_bad_value("kind", "rotation, line, arc or poses");
 }
 
 void read_table(const Block& task, TaskSpec& spec) {
   const Block path = task.table("path"), motion = task.table("motion");
   path.allow_only({"kind", "file"});
-  if (task.has("pose")) task.refuse_value("pose", "none: a path through poses starts at the first");
-  if (motion.has("T")) motion.refuse_value("T", "none: it is the last t of the poses");
+  if (task.has("pose"))
+    task.throw_bad_value("pose", "none: a path through poses starts at the first");
+  if (motion.has("T")) motion.throw_bad_value("T", "none: it is the last t of the poses");
   const std::filesystem::path file = task.file().parent_path() / path.text("file");
   spec.motion->path = read_path_table(file);
   spec.motion->path_file = file.string();
@@ -64,7 +65,7 @@ void read_scheme(const Block& block, MotionTask& motion) {
   motion.scheme = parse_scheme(name);
   motion.k = block.whole("k", 1, kMostKnots);
   if (block.has("instants_per_interval") && motion.scheme != Scheme::kSpline) {
-    block.refuse_value("instants_per_interval", "no such key, but for the scheme spline");
+    block.throw_bad_value("instants_per_interval", "no such key, but for the scheme spline");
   }
   motion.instants_per_interval =
       block.whole("instants_per_interval", 1, kMostInstants, motion.impulse ? 16 : 4);
@@ -73,11 +74,11 @@ void read_scheme(const Block& block, MotionTask& motion) {
 /// A knot, or 0 for the best one.
 int read_peak(const Block& block, int k) {
   const std::string expected = peak_range(k);
-  if (block.is_text("t_h") && block.text("t_h") != "best") block.refuse_value("t_h", expected);
+  if (block.is_text("t_h") && block.text("t_h") != "best") block.throw_bad_value("t_h", expected);
   if (!block.has("t_h") || block.is_text("t_h")) return 0;
   const double t_h = block.number("t_h");
   if (!(t_h >= 1 && t_h <= kMostKnots) || t_h != static_cast<int>(t_h))
-    block.refuse_value("t_h", expected);
+    block.throw_bad_value("t_h", expected);
   return static_cast<int>(t_h);
 }
 
@@ -85,7 +86,7 @@ Start read_start_kind(const Block& start) {
   const std::string name = start.text("kind", "static");
   for (const Start kind : {Start::kStatic, Start::kRest, Start::kZero, Start::kFree})
     if (name == to_string(kind)) return kind;
-  start.refuse_value("kind", "one of static, rest, zero, free");
+  start.throw_bad_value("kind", "one of static, rest, zero, free");
 }
 
 }  // namespace

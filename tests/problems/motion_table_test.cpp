@@ -57,7 +57,7 @@ TEST(Motion, TheJetStaysNormalToThePipe) {
   EXPECT_TRUE(motion.path.pose(10).p.isApprox(Eigen::Vector3d(0.3, 0, 0.3), 1e-14));
 }
 
-TEST(Motion, Heaves) {
+TEST(Motion, Impulses) {
   const std::map<std::string, std::string> neighbours = {{"uvms/valve_impulse", "uvms/valve"},
                                                          {"uvms/lift_impulse", "uvms/lift"}};
   for (const auto& [name, neighbour] : neighbours) {
@@ -114,7 +114,7 @@ TEST(Motion, WhatATrajectoryMayChoose) {
   EXPECT_NEAR(motion.path.at(1).twist[5], M_PI / 2 / 10, 1e-15);
 }
 
-constexpr const char* kHeaveText = R"(type = "impulse"
+constexpr const char* kImpulseText = R"(type = "impulse"
 robot = "vehicle.toml"
 end_effector = "tool"
 label = "test"
@@ -126,10 +126,10 @@ wrench = { c = [1, 0, 0, 0, 0, 0] }
 theta_r = { joints = ["shoulder", "elbow"] }
 )";
 
-TEST(Motion, DefaultsOfAHeave) {
+TEST(Motion, DefaultsOfAImpulse) {
   EditedCopy copy;
-  std::ofstream(copy.path() / "heave.toml") << kHeaveText;
-  const Problem problem = load(copy, "heave.toml");
+  std::ofstream(copy.path() / "impulse.toml") << kImpulseText;
+  const Problem problem = load(copy, "impulse.toml");
   EXPECT_EQ(problem.motion->t_h, 0);  // the best one
   EXPECT_EQ(problem.motion->scheme, Scheme::kSpline);
   EXPECT_EQ(problem.motion->instants_per_interval, 16);
@@ -137,12 +137,12 @@ TEST(Motion, DefaultsOfAHeave) {
   EXPECT_EQ(problem.theta_r_default, Eigen::Vector2d(0.1, 0.2));
 }
 
-TEST(Motion, WhatAHeaveMayChoose) {
+TEST(Motion, WhatAImpulseMayChoose) {
   EditedCopy copy;
-  std::ofstream(copy.path() / "heave.toml") << kHeaveText;
-  copy.replace("heave.toml", "k = 3", "k = 1, scheme = \"backward_stop\", t_h = \"best\"");
-  copy.replace("heave.toml", "0.2]", "0.2], kind = \"free\"");
-  const Problem problem = load(copy, "heave.toml");
+  std::ofstream(copy.path() / "impulse.toml") << kImpulseText;
+  copy.replace("impulse.toml", "k = 3", "k = 1, scheme = \"backward_stop\", t_h = \"best\"");
+  copy.replace("impulse.toml", "0.2]", "0.2], kind = \"free\"");
+  const Problem problem = load(copy, "impulse.toml");
   EXPECT_EQ(problem.motion->t_h, 0);
   EXPECT_EQ(problem.motion->k, 1);
   EXPECT_EQ(problem.motion->scheme, Scheme::kBackwardStop);

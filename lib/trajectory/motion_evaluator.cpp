@@ -1,4 +1,4 @@
-#include "lib/trajectory/motion.h"
+#include "lib/trajectory/motion_evaluator.h"
 
 #include "lib/robot/chain.h"
 
@@ -17,9 +17,9 @@ using D4 = Dual<4>;
 MotionEvaluator::MotionEvaluator(const Problem& problem, SchemeMaps maps)
     : problem_(problem),
       maps_(std::move(maps)),
-      follower_(problem),
+      tracker_(problem),
       dynamics_(problem.robot),
-      dual_follower_(problem),
+      dual_motion_(problem),
       dynamics_slopes_(problem.robot),
       place_(problem.redundancy(), maps_.instants()),
       rate_(place_),
@@ -56,7 +56,7 @@ void MotionEvaluator::set_rows(const Eigen::MatrixXd& Q) {
 void MotionEvaluator::evaluate(const Eigen::MatrixXd& Q, std::vector<Instant>& instants) {
   set_rows(Q);
   instants.resize(static_cast<std::size_t>(maps_.instants()));
-  follower_.restart();
+  tracker_.restart();
   lost_ = -1;
   for (Eigen::Index i = 0; i < maps_.instants() && lost_ < 0; ++i) {
     const auto at = static_cast<std::size_t>(i);
@@ -64,8 +64,8 @@ void MotionEvaluator::evaluate(const Eigen::MatrixXd& Q, std::vector<Instant>& i
     theta_r_ = place_.col(i);
     rate_r_ = rate_.col(i);
     bend_r_ = bend_.col(i);
-    const char* const reason = follower_.set(maps_.x[at], theta_r_, rate_r_, bend_r_);
-    const Follower<double>& motion = follower_.motion();
+    const char* const reason = tracker_.set(maps_.x[at], theta_r_, rate_r_, bend_r_);
+    const RobotMotion<double>& motion = tracker_.motion();
     instant.t = maps_.t[at];
     instant.end_effector = maps_.x[at].pose;
     instant.base = motion.base();
@@ -90,7 +90,7 @@ void MotionEvaluator::evaluate(const Eigen::MatrixXd& Q, std::vector<Instant>& i
 /// one, is not that of the path.
 bool MotionEvaluator::leaves_path(int i) const {
   const PathPoint& x = maps_.x[static_cast<std::size_t>(i)];
-  const Follower<double>& motion = follower_.motion();
+  const RobotMotion<double>& motion = tracker_.motion();
   const auto missed = [](double by, const Vector6d& asked) {
     return !(by <= kPathMissed * (1 + asked.lpNorm<Eigen::Infinity>()));
   };
@@ -125,16 +125,16 @@ bool MotionEvaluator::visit(
     const Eigen::MatrixXd& Q,
     const std::function<void(int, const Eigen::VectorXd&, const Eigen::MatrixXd&)>& see) {
   visited_.noalias() = Q.transpose().lazyProduct(maps_.P.transpose());
-  follower_.restart();
+  tracker_.restart();
   const bool follow = !problem_.dependent.empty();
   for (Eigen::Index i = 0; i < maps_.instants(); ++i) {
     theta_r_ = visited_.col(i);
-    if (follower_.place(maps_.x[static_cast<std::size_t>(i)].pose, theta_r_)) return false;
+    if (tracker_.place(maps_.x[static_cast<std::size_t>(i)].pose, theta_r_)) return false;
     for (std::size_t k = 0; k < problem_.redundant.size(); ++k) {
       q_[problem_.redundant[k]] = theta_r_[static_cast<Eigen::Index>(k)];
     }
-    if (follow) q_ = follower_.branch().z().tail(q_.size());
-    see(static_cast<int>(i), q_, follow ? follower_.branch().slopes() : no_slopes_);
+    if (follow) q_ = tracker_.ik_solution().z().tail(q_.size());
+    see(static_cast<int>(i), q_, follow ? tracker_.ik_solution().slopes() : no_slopes_);
   }
   return true;
 }
@@ -194,12 +194,12 @@ void MotionEvaluator::follow(const Instant& instant, int i, int first, int count
   }
   const PathPoint& x = maps_.x[static_cast<std::size_t>(i)];
   if (problem_.dependent.empty()) {
-    dual_follower_.set(x, dual_theta_r_, dual_rate_, dual_bend_);
+    dual_motion_.set(x, dual_theta_r_, dual_rate_, dual_bend_);
   } else {
-    dual_follower_.set(x, instant.base, instant.q, dual_theta_r_, dual_rate_, dual_bend_);
+    dual_motion_.set(x, instant.base, instant.q, dual_theta_r_, dual_rate_, dual_bend_);
   }
-  dual_v_ = dual_follower_.v();
-  dual_v_dot_ = dual_follower_.v_dot();
+  dual_v_ = dual_motion_.v();
+  dual_v_dot_ = dual_motion_.v_dot();
   const bool moves = maps_.moves[i] != 0;
   for (Eigen::Index row = 0; row < dual_v_.size(); ++row) {
     if (!moves) dual_v_[row] = 0;
@@ -217,11 +217,11 @@ void MotionEvaluator::follow(const Instant& instant, int i, int first, int count
 /// Infinitesimal d of the dual numbers, the slopes along a direction.
 void MotionEvaluator::read_slopes(std::size_t d, Eigen::Index direction) {
   const auto slope = [d](const D4& x) { return x.d[d]; };
-  q_slopes_.col(direction) = dual_follower_.q().unaryExpr(slope);
+  q_slopes_.col(direction) = dual_motion_.q().unaryExpr(slope);
   v_slopes_.col(direction) = dual_v_.unaryExpr(slope);
   v_dot_slopes_.col(direction) = dual_v_dot_.unaryExpr(slope);
   // The base turns by R'dR = [turn]x.
-  const Matrix3<D4>& R = dual_follower_.base().R;
+  const Matrix3<D4>& R = dual_motion_.base().R;
   const auto along = [&](int a, int b) {
     return R(0, a).v * R(0, b).d[d] + R(1, a).v * R(1, b).d[d] + R(2, a).v * R(2, b).d[d];
   };

@@ -17,7 +17,7 @@ void check(const IntegratorOptions& options) {
           "a finite number > 0");
 }
 
-void Trajectory::start(double t_0, const Eigen::VectorXd& y_0) {
+void OdeSolution::start(double t_0, const Eigen::VectorXd& y_0) {
   conclude(Status::kNumericalError);
   t.assign(1, t_0);
   y.assign(1, y_0);

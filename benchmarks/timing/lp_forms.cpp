@@ -1,4 +1,4 @@
-#include "benchmarks/timing/forms.h"
+#include "benchmarks/timing/lp_forms.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "lib/trajectory/motion.h"
+#include "lib/trajectory/motion_evaluator.h"
 
 #include <gtest/gtest.h>
 
@@ -24,11 +24,11 @@ struct Moving {
   }
 
   /// q(t) = a + b sin(t) / 10 + c t^2 / 50 and its derivatives.
-  void set(double t, Follower<double>& follower) const {
+  void set(double t, RobotMotion<double>& robot_motion) const {
     const Eigen::VectorXd q = curve[0] + std::sin(t) / 10 * curve[1] + t * t / 50 * curve[2];
     const Eigen::VectorXd rate = std::cos(t) / 10 * curve[1] + t / 25 * curve[2];
     const Eigen::VectorXd bend = -std::sin(t) / 10 * curve[1] + 1.0 / 25 * curve[2];
-    follower.set(path.at(t), q, rate, bend);
+    robot_motion.set(path.at(t), q, rate, bend);
   }
 
   Problem problem;
@@ -42,32 +42,32 @@ INSTANTIATE_TEST_SUITE_P(Robots, FollowedPath, testing::Values("uvms/valve", "pl
 TEST_P(FollowedPath, VelocitiesAreThoseOfTheEndEffector) {
   const Moving moving(GetParam());
   const Robot& robot = moving.problem.robot;
-  Follower<double> follower(moving.problem);
+  RobotMotion<double> robot_motion(moving.problem);
   Kinematics<double> kinematics(robot);
   Matrix6Xd J(6, robot.velocities());
   for (const double t : {0.4, 1.5, 2.6}) {
-    moving.set(t, follower);
-    kinematics.set_joints(follower.q());
+    moving.set(t, robot_motion);
+    kinematics.set_joints(robot_motion.q());
     const EndEffector& tool = robot.end_effectors[0];
-    const Pose<double> reached = follower.base() * kinematics.end_effector(tool);
+    const Pose<double> reached = robot_motion.base() * kinematics.end_effector(tool);
     EXPECT_TRUE(reached.p.isApprox(moving.path.pose(t).p, 1e-12));
     EXPECT_TRUE(reached.R.isApprox(moving.path.pose(t).R, 1e-12));
-    kinematics.jacobian(tool, follower.base().R, J);
-    EXPECT_TRUE((J * follower.v()).isApprox(moving.path.at(t).twist, 1e-11));
+    kinematics.jacobian(tool, robot_motion.base().R, J);
+    EXPECT_TRUE((J * robot_motion.v()).isApprox(moving.path.at(t).twist, 1e-11));
   }
 }
 
 TEST_P(FollowedPath, AccelerationsAreDerivativesOfTheVelocities) {
   const Moving moving(GetParam());
-  Follower<double> follower(moving.problem);
+  RobotMotion<double> robot_motion(moving.problem);
   const double h = 1e-5;
   for (const double t : {0.4, 1.5, 2.6}) {
-    moving.set(t + h, follower);
-    const Eigen::VectorXd after = follower.v();
-    moving.set(t - h, follower);
-    const Eigen::VectorXd before = follower.v();
-    moving.set(t, follower);
-    EXPECT_TRUE(((after - before) / (2 * h)).isApprox(follower.v_dot(), 1e-8));
+    moving.set(t + h, robot_motion);
+    const Eigen::VectorXd after = robot_motion.v();
+    moving.set(t - h, robot_motion);
+    const Eigen::VectorXd before = robot_motion.v();
+    moving.set(t, robot_motion);
+    EXPECT_TRUE(((after - before) / (2 * h)).isApprox(robot_motion.v_dot(), 1e-8));
   }
 }
 
@@ -101,9 +101,9 @@ std::string name_of(const testing::TestParamInfo<Sloped>& info) {
   return name + "_" + to_string(info.param.scheme) + "_" + to_string(info.param.wrench);
 }
 
-class PlanGradient : public testing::TestWithParam<Sloped> {};
+class TrajectoryGradient : public testing::TestWithParam<Sloped> {};
 INSTANTIATE_TEST_SUITE_P(
-    Schemes, PlanGradient,
+    Schemes, TrajectoryGradient,
     testing::Values(Sloped{"uvms/valve_trajectory", Scheme::kSpline, Wrench::kPure},
                     Sloped{"uvms/valve_trajectory", Scheme::kEnds, Wrench::kPure},
                     Sloped{"uvms/valve_trajectory", Scheme::kForward, Wrench::kPure},
@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Sloped{"uvms/valve_impulse", Scheme::kForward, Wrench::kPure}),
     name_of);
 
-/// A table around a random constant posture, or around the start of a heave.
+/// A table around a random constant posture, or around the start of an impulse.
 Eigen::VectorXd random_table(const Problem& problem, Random& random) {
   const int k = problem.motion->k;
   const Eigen::VectorXd around =
@@ -131,7 +131,7 @@ Eigen::VectorXd random_table(const Problem& problem, Random& random) {
   return x;
 }
 
-/// A static problem as a heave from its default.
+/// A static problem as an impulse from its default.
 Problem load_moving(const char* name) {
   Problem problem = load_problem(name);
   if (problem.motion) return problem;
@@ -145,7 +145,7 @@ Problem load_moving(const char* name) {
   return problem;
 }
 
-TEST_P(PlanGradient, IsThatOfCentralDifferences) {
+TEST_P(TrajectoryGradient, IsThatOfCentralDifferences) {
   Problem problem = load_moving(GetParam().problem);
   problem.motion->scheme = GetParam().scheme;
   problem.robot.collision = nullptr;
@@ -158,10 +158,10 @@ TEST_P(PlanGradient, IsThatOfCentralDifferences) {
   const Problem drawn = problem;
   problem.theta_r_min.setConstant(-10);
   problem.theta_r_max.setConstant(10);
-  // The row on the start of a smooth heave is no matter of the gradient: any table has a value
+  // The row on the start of a smooth impulse is no matter of the gradient: any table has a value
   // here that keeps it, so tables are drawn in its null space.
-  const auto objective =
-      make_plan_objective(problem, GetParam().wrench, find_plan_solver("structured").make, false);
+  const auto objective = make_trajectory_objective(
+      problem, GetParam().wrench, find_trajectory_solver("facets_or_ipm").make, false);
   const KnotRows& rows = *objective->rows();
   const Eigen::MatrixXd R = rows.R;
   std::vector<Eigen::Index> equations;

@@ -1,4 +1,4 @@
-#include "lib/robot/motion.h"
+#include "lib/robot/free_motion.h"
 
 namespace maxwrench {
 namespace {

@@ -1,4 +1,4 @@
-#include "lib/robot/motion.h"
+#include "lib/robot/free_motion.h"
 
 #include <gtest/gtest.h>
 
@@ -54,7 +54,7 @@ struct Swing {
   FreeMotion ode() const { return {robot, start, tau}; }
 
   static VectorXd end(Ode& motion, const char* integrator, const IntegratorOptions& options) {
-    Trajectory trajectory;
+    OdeSolution trajectory;
     const Status status = find_integrator(integrator)
                               .make()
                               ->integrate(motion, options, std::array{0.0, kSeconds}, trajectory);

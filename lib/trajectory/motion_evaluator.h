@@ -63,9 +63,9 @@ class MotionEvaluator {
 
   const Problem& problem_;
   SchemeMaps maps_;
-  BranchFollower follower_;
+  RobotMotionTracker tracker_;
   Dynamics dynamics_;
-  Follower<Dual<4>> dual_follower_;
+  RobotMotion<Dual<4>> dual_motion_;
   DynamicsSlopes dynamics_slopes_;
   Eigen::MatrixXd place_, rate_, bend_;  ///< r×N: theta_r and its derivatives at the instants
   Eigen::MatrixXd visited_;              ///< the same of `visit`, which `linearize` does not see

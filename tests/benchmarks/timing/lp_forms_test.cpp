@@ -1,4 +1,4 @@
-#include "benchmarks/timing/forms.h"
+#include "benchmarks/timing/lp_forms.h"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ TEST(Forms, HaveTheSameOptimumAndVerdict) {
         set_posture(model.evaluate(random_theta_r(problem, random)), program);
         for (double& t : program.tau_d) t += (sample % 2 == 0 ? 0.1 : 100) * random.normal();
         Capability expected;
-        find_wrench_solver("box").make()->solve(program, false, expected);
+        find_wrench_solver("condensed").make()->solve(program, false, expected);
         for (const ProgramForm form :
              {ProgramForm::kPaper, ProgramForm::kSubstituted, ProgramForm::kReduced}) {
           LpSolution solution;

@@ -1,4 +1,4 @@
-#include "lib/robot/opening.h"
+#include "lib/robot/clearance_slope.h"
 
 namespace maxwrench {
 namespace {
@@ -23,8 +23,8 @@ Eigen::Vector3d point_velocity(const Robot& robot, const std::vector<Pose<double
 
 }  // namespace
 
-double opening(const Robot& robot, const std::vector<Pose<double>>& links, const Nearness& near,
-               int joint) {
+double clearance_slope(const Robot& robot, const std::vector<Pose<double>>& links,
+                       const ClosestPoints& near, int joint) {
   const Eigen::Vector3d apart = (near.on_a - near.on_b).normalized();
   return apart.dot(point_velocity(robot, links, joint, near.link_a, near.on_a) -
                    point_velocity(robot, links, joint, near.link_b, near.on_b));

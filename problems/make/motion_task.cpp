@@ -1,4 +1,4 @@
-#include "problems/make/motion.h"
+#include "problems/make/motion_task.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -47,7 +47,7 @@ std::string peak_range(int k) { return fmt::format("a knot of 1 to k = {}, or 'b
 void set_motion(const TaskSpec& task, Problem& problem) {
   if (!task.motion) return;
   MotionTask& motion = problem.motion.emplace(*task.motion);
-  motion.c_turns = task.wrench_in_tool;
+  motion.c_turns = task.wrench_in_end_effector;
   if (!motion.impulse) motion.T = motion.path.duration();
   require_duration(motion.T);
   require_scheme(to_string(motion.scheme), motion.impulse);
@@ -73,7 +73,7 @@ void set_start(const TaskSpec& task, Problem& problem) {
   if (!problem.motion->impulse) return;
   if (task.theta_r_default.size() > 0) {
     throw BadValue("theta_r.default", shown(task.theta_r_default),
-                   "none: the default of a heave is start.theta_r");
+                   "none: the default of an impulse is start.theta_r");
   }
   require_theta_r_within("start.theta_r", problem.motion->theta_0, problem);
   problem.theta_r_default = problem.motion->theta_0;
