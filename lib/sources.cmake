@@ -8,7 +8,7 @@ set(maxwrench_lib_sources
   posture/ik/contact_arm.cpp posture/ik/continuation.cpp posture/ik/dependent_joints.cpp posture/ik/ik_solver.cpp
   posture/ik/ik_start_system.cpp posture/ik/path_tracker.cpp posture/ik/primary_ik.cpp posture/ik/second_arm.cpp
   posture/ik/tool_chain.cpp
-  posture/movable.cpp posture/posture.cpp posture/pull_back.cpp posture/redundancy.cpp posture/violation.cpp
+  posture/movable.cpp posture/posture.cpp posture/pull_back.cpp posture/redundancy.cpp posture/tally.cpp posture/violation.cpp
   robot/chain.cpp robot/clearance_slope.cpp robot/contact.cpp robot/dynamics.cpp robot/dynamics_slopes.cpp robot/free_motion.cpp
   robot/kinematics.cpp robot/problem.cpp robot/robot.cpp
   search/capability.cpp search/facet_program.cpp
