@@ -13,11 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::vector<std::string>> kFloors = {{"lib", "verify"},
-                                                       {"solvers", "problems"},
-                                                       {"drawing", "benchmarks"},
-                                                       {"cli"},
-                                                       {"examples", "tests"}};
+const std::vector<std::vector<std::string>> kFloors = {
+    {"lib"}, {"verify"},           {"solvers", "problems"}, {"drawing", "benchmarks"},
+    {"cli"}, {"examples", "tests"}};
 
 /// Public headers stand on the floor of their implementation.
 const std::map<std::string, std::string> kImplementedIn = {

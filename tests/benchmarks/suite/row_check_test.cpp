@@ -86,7 +86,7 @@ TEST(CheckRow, RejectsWhatDoesNotFollow) {
     }
     Cells row = good;
     cell(row, "value_between_knots") = cell(row, "beta");
-    EXPECT_EQ(check(problem, row).rejection, "continuous: expected none") << measure;
+    EXPECT_EQ(check(problem, row).rejection, "value_between_knots: expected none") << measure;
   }
 }
 

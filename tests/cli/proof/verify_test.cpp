@@ -50,7 +50,7 @@ TEST_F(VerifyCommand, RejectsAnotherTask) {
   const std::string file = certificate("planar/force");
   const CommandResult result = run_maxwrench("verify --problem uvms/valve " + file);
   EXPECT_EQ(result.exit_status, 1);
-  EXPECT_NE(result.out.find("\nrefused: it is about another robot or task\n"), std::string::npos)
+  EXPECT_NE(result.out.find("\nrejected: it is about another robot or task\n"), std::string::npos)
       << result.out;
 }
 

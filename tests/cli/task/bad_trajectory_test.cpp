@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadMotionWords{"eval uvms/valve_trajectory --measure volume", "volume"},
         BadMotionWords{"eval uvms/valve_trajectory --wrench both", "both"},
         BadMotionWords{"eval uvms/valve_trajectory --solver facets",
-                       "expected one of structured ipm"},
+                       "expected one of facets_or_ipm ipm"},
         BadMotionWords{"eval uvms/valve_trajectory --theta-r 1,2,3",
                        "--theta-r: got '1,2,3', expected 4 numbers or a file of k = 10 rows"},
         BadMotionWords{"eval uvms/valve_trajectory --theta-r 1,2,3,x", "--theta-r"},
