@@ -28,6 +28,12 @@ if(MAXWRENCH_WITH_SUNDIALS)
     integrator/arkode.cpp integrator/cvode.cpp integrator/ida.cpp integrator/sundials.cpp
     search/nullspace.cpp)
 endif()
+if(MAXWRENCH_WITH_IPOPT)
+  list(APPEND maxwrench_solvers_sources
+    ipopt/ipopt_nlp.cpp
+    lp/ipopt.cpp
+    search/facet_nlp.cpp search/joint_nlp.cpp search/multistart.cpp)
+endif()
 if(MAXWRENCH_WITH_CLP)
   list(APPEND maxwrench_solvers_sources
     lp/clp.cpp)
@@ -35,11 +41,6 @@ endif()
 if(MAXWRENCH_WITH_GLPK)
   list(APPEND maxwrench_solvers_sources
     lp/glpk.cpp)
-endif()
-if(MAXWRENCH_WITH_IPOPT)
-  list(APPEND maxwrench_solvers_sources
-    lp/ipopt.cpp
-    search/facet_nlp.cpp search/ipopt_run.cpp search/joint_nlp.cpp search/multistart.cpp)
 endif()
 if(MAXWRENCH_WITH_NLOPT)
   list(APPEND maxwrench_solvers_sources

@@ -1,95 +1,46 @@
-#include <IpIpoptApplication.hpp>
 #include <IpSolveStatistics.hpp>
-#include <IpTNLP.hpp>
 #include <algorithm>
 
-#include "solvers/ipopt_lock.h"
+#include "solvers/ipopt/ipopt_lock.h"
+#include "solvers/ipopt/ipopt_nlp.h"
 #include "solvers/lp/elastic.h"
 #include "solvers/lp/makers.h"
 
 namespace maxwrench {
 namespace {
 
-using Ipopt::Index;
-using Ipopt::Number;
-
-/// Beyond this an Ipopt bound is infinite (its default nlp_*_bound_inf).
-constexpr double kIpoptInfinity = 1e19;
-
-/// min -c'x subject to A x = b, l <= x <= u, as Ipopt wants it.
-class LinearNlp : public Ipopt::TNLP {
+/// min -c'x subject to A x = b, l <= x <= u. Ipopt's Lagrangian is -c'x + lambda'(A x - b), so its
+/// lambda is already d(c'x)/db.
+class LinearNlp final : public IpoptNlp {
  public:
-  LinearNlp(const LinearProgram& program, Eigen::VectorXd start)
-      : lp_(program), start_(std::move(start)) {}
+  LinearNlp(const LinearProgram& program, const Eigen::VectorXd& start)
+      : IpoptNlp({start, program.l, program.u, program.b, program.b, entries_of(program.A)}),
+        lp_(program) {}
 
-  bool get_nlp_info(Index& n, Index& m, Index& nnz_jac, Index& nnz_hessian,
-                    IndexStyleEnum& style) override {
-    n = lp_.cols();
-    m = lp_.rows();
-    nnz_jac = static_cast<Index>(lp_.A.nonZeros());
-    nnz_hessian = 0;
-    style = TNLP::C_STYLE;
+ private:
+  bool value(const Point& x, double& f) override {
+    f = -lp_.c.dot(x);
     return true;
   }
-  bool get_bounds_info(Index n, Number* l, Number* u, Index m, Number* g_l, Number* g_u) override {
-    for (Index j = 0; j < n; ++j) {
-      l[j] = std::max(lp_.l[j], -kIpoptInfinity);
-      u[j] = std::min(lp_.u[j], kIpoptInfinity);
-    }
-    for (Index i = 0; i < m; ++i) g_l[i] = g_u[i] = lp_.b[i];
+  bool gradient(const Point& /*x*/, Result slopes) override {
+    slopes = -lp_.c;
     return true;
   }
-  bool get_starting_point(Index n, bool /*init_x*/, Number* x, bool /*init_z*/, Number* /*z_l*/,
-                          Number* /*z_u*/, Index /*m*/, bool /*init_lambda*/,
-                          Number* /*lambda*/) override {
-    std::copy(start_.data(), start_.data() + n, x);
+  bool rows(const Point& x, Result g) override {
+    g = lp_.A * x;
     return true;
   }
-  bool eval_f(Index n, const Number* x, bool /*new_x*/, Number& value) override {
-    value = -lp_.c.dot(Eigen::Map<const Eigen::VectorXd>(x, n));
-    return true;
-  }
-  bool eval_grad_f(Index n, const Number* /*x*/, bool /*new_x*/, Number* gradient) override {
-    for (Index j = 0; j < n; ++j) gradient[j] = -lp_.c[j];
-    return true;
-  }
-  bool eval_g(Index n, const Number* x, bool /*new_x*/, Index m, Number* g) override {
-    Eigen::Map<Eigen::VectorXd>(g, m) = lp_.A * Eigen::Map<const Eigen::VectorXd>(x, n);
-    return true;
-  }
-  bool eval_jac_g(Index n, const Number* /*x*/, bool /*new_x*/, Index /*m*/, Index /*count*/,
-                  Index* rows, Index* cols, Number* values) override {
-    Index k = 0;
-    for (Index j = 0; j < n; ++j) {
-      for (Eigen::SparseMatrix<double>::InnerIterator it(lp_.A, j); it; ++it, ++k) {
-        if (values != nullptr) {
-          values[k] = it.value();
-        } else {
-          rows[k] = static_cast<Index>(it.row());
-          cols[k] = j;
-        }
+  bool jacobian(const Point& /*x*/, Result values) override {
+    Eigen::Index k = 0;
+    for (Eigen::Index j = 0; j < lp_.A.outerSize(); ++j) {
+      for (Eigen::SparseMatrix<double>::InnerIterator it(lp_.A, j); it; ++it) {
+        values[k++] = it.value();
       }
     }
     return true;
   }
-  bool eval_h(Index, const Number*, bool, Number, Index, const Number*, bool, Index, Index*, Index*,
-              Number*) override {
-    return true;  // a linear program has no curvature
-  }
-  void finalize_solution(Ipopt::SolverReturn, Index n, const Number* x, const Number*,
-                         const Number*, Index m, const Number*, const Number* lambda, Number,
-                         const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
-    // Ipopt's Lagrangian is -c'x + lambda'(A x - b), so its lambda is already d(c'x)/db.
-    x_ = Eigen::Map<const Eigen::VectorXd>(x, n);
-    lambda_ = Eigen::Map<const Eigen::VectorXd>(lambda, m);
-  }
 
-  const Eigen::VectorXd& x() const { return x_; }
-  const Eigen::VectorXd& lambda() const { return lambda_; }
-
- private:
   const LinearProgram& lp_;
-  Eigen::VectorXd start_, x_, lambda_;
 };
 
 /// A point inside the bounds.
@@ -139,33 +90,28 @@ class IpoptSolver : public LpSolver {
   bool run(const LinearProgram& program, LpSolution& solution) {
     if (!Ipopt::IsValid(application_)) start();
     const Ipopt::SmartPtr<LinearNlp> nlp = new LinearNlp(program, interior_point(program));
-    const Ipopt::ApplicationReturnStatus status =
-        application_->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(nlp)));
+    const Ipopt::ApplicationReturnStatus status = minimize(*application_, *nlp);
     solution.iterations = 0;
     if (Ipopt::IsValid(application_->Statistics())) {
       solution.iterations = application_->Statistics()->IterationCount();
     }
-    if (nlp->x().size() != program.cols()) return false;
+    if (nlp->lambda().size() != program.rows()) return false;
     solution.x = nlp->x().cwiseMax(program.l).cwiseMin(program.u);
     solution.lambda = nlp->lambda();
     return status == Ipopt::Solve_Succeeded || status == Ipopt::Solved_To_Acceptable_Level;
   }
 
   void start() {
-    application_ = new Ipopt::IpoptApplication(false);
-    auto options = application_->Options();
-    options->SetIntegerValue("print_level", 0);
-    options->SetStringValue("sb", "yes");
-    options->SetNumericValue("tol", 1e-10);
-    options->SetNumericValue("bound_relax_factor", 0);
-    options->SetStringValue("mehrotra_algorithm", "yes");
-    // Its restoration phase has no affine step to correct, and would follow a null pointer.
-    options->SetStringValue("resto.mehrotra_algorithm", "no");
-    options->SetStringValue("jac_c_constant", "yes");
-    options->SetStringValue("hessian_constant", "yes");
-    options->SetIntegerValue("max_iter", 150);  // Netlib's programs take 10 to 55
-    options->SetIntegerValue("mumps_pivot_order", kMumpsOrdering);
-    application_->Initialize("");
+    constexpr int kIterations = 150;  // Netlib's programs take 10 to 55
+    application_ = make_ipopt_application("ipopt", kIterations, [](Ipopt::OptionsList& options) {
+      options.SetNumericValue("tol", 1e-10);
+      options.SetStringValue("mehrotra_algorithm", "yes");
+      // Its restoration phase has no affine step to correct, and would follow a null pointer.
+      options.SetStringValue("resto.mehrotra_algorithm", "no");
+      options.SetStringValue("jac_c_constant", "yes");
+      options.SetStringValue("hessian_approximation", "exact");
+      options.SetStringValue("hessian_constant", "yes");
+    });
   }
 
   Ipopt::SmartPtr<Ipopt::IpoptApplication> application_;

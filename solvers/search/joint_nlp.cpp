@@ -1,9 +1,7 @@
-#include <IpTNLP.hpp>
 #include <algorithm>
 
-#include "solvers/caught.h"
-#include "solvers/ipopt_lock.h"
-#include "solvers/search/ipopt_run.h"
+#include "solvers/ipopt/ipopt_lock.h"
+#include "solvers/ipopt/ipopt_nlp.h"
 #include "solvers/search/joint_program.h"
 #include "solvers/search/knot_starts.h"
 #include "solvers/search/makers.h"
@@ -11,117 +9,65 @@
 namespace maxwrench {
 namespace {
 
-using Ipopt::Index;
-using Ipopt::Number;
-
 constexpr std::size_t kJointStarts = 4;
 constexpr int kJointIterations = 200;
 
 /// A `JointProgram` as Ipopt wants it. The table of every iterate is evaluated as any search does,
 /// so what is found was found by the lower level and not by Ipopt's tolerances. An evaluation is
 /// one of these or one of the rows; the rows are computed once more after each of the former.
-class JointNlp : public Ipopt::TNLP {
+class JointNlp final : public IpoptNlp {
  public:
   JointNlp(Objective& objective, JointProgram& program, long budget, SearchRun& run, Part& found)
-      : objective_(objective), program_(program), budget_(budget), run_(run), found_(found) {}
-
-  bool get_nlp_info(Index& n, Index& m, Index& nnz_jac, Index& nnz_hessian,
-                    IndexStyleEnum& style) override {
-    n = static_cast<Index>(program_.start().size());
-    m = static_cast<Index>(program_.row_min().size());
-    nnz_jac = static_cast<Index>(program_.jacobian().nonZeros());
-    nnz_hessian = 0;
-    style = TNLP::C_STYLE;
-    return true;
-  }
-  bool get_bounds_info(Index, Number* l, Number* u, Index, Number* g_l, Number* g_u) override {
-    copy(program_.lower(), l);
-    copy(program_.upper(), u);
-    copy(program_.row_min(), g_l);
-    copy(program_.row_max(), g_u);
-    return true;
-  }
-  bool get_starting_point(Index, bool, Number* x, bool, Number*, Number*, Index, bool,
-                          Number*) override {
-    copy(program_.start(), x);
-    return true;
-  }
-  bool eval_f(Index n, const Number* x, bool, Number& value) override {
-    value = -program_.objective().dot(Eigen::Map<const Eigen::VectorXd>(x, n));
-    return true;
-  }
-  bool eval_grad_f(Index, const Number*, bool, Number* gradient) override {
-    copy(-program_.objective(), gradient);
-    return true;
-  }
-  bool eval_g(Index n, const Number* x, bool, Index, Number* g) override {
-    if (!look(n, x)) return false;
-    copy(program_.rows(), g);
-    return program_.rows().allFinite();
-  }
-  bool eval_jac_g(Index n, const Number* x, bool, Index, Index, Index* rows, Index* cols,
-                  Number* values) override {
-    if (values == nullptr) {
-      fill_pattern(rows, cols);
-      return true;
-    }
-    if (!look(n, x) || !judge()) return false;
-    std::copy_n(program_.jacobian().valuePtr(), program_.jacobian().nonZeros(), values);
-    return true;
-  }
-  bool intermediate_callback(Ipopt::AlgorithmMode, Index, Number, Number, Number, Number, Number,
-                             Number, Number, Number, Index, const Ipopt::IpoptData*,
-                             Ipopt::IpoptCalculatedQuantities*) override {
-    return left() >= 2 && !caught_.any();
-  }
-  void finalize_solution(Ipopt::SolverReturn, Index, const Number*, const Number*, const Number*,
-                         Index, const Number*, const Number*, Number, const Ipopt::IpoptData*,
-                         Ipopt::IpoptCalculatedQuantities*) override {
-    // `found` has the best table.
-  }
-
-  void rethrow() { caught_.rethrow(); }
+      : IpoptNlp({program.start(), program.lower(), program.upper(), program.row_min(),
+                  program.row_max(), entries_of(program.jacobian())}),
+        objective_(objective),
+        program_(program),
+        budget_(budget),
+        run_(run),
+        found_(found) {}
 
  private:
-  static void copy(const Eigen::VectorXd& from, Number* to) {
-    std::copy_n(from.data(), from.size(), to);
+  bool value(const Point& X, double& f) override {
+    f = -program_.objective().dot(X);
+    return true;
   }
+  bool gradient(const Point& /*X*/, Result slopes) override {
+    slopes = -program_.objective();
+    return true;
+  }
+  bool rows(const Point& X, Result g) override {
+    if (!look(X)) return false;
+    g = program_.rows();
+    return g.allFinite();
+  }
+  bool jacobian(const Point& X, Result values) override {
+    if (!look(X) || !judge()) return false;
+    std::copy_n(program_.jacobian().valuePtr(), values.size(), values.data());
+    return true;
+  }
+  bool ended() override { return left() < 2; }
+
   long left() const { return run_.ended() ? 0 : budget_ - found_.trace.evaluations(); }
 
-  void fill_pattern(Index* rows, Index* cols) const {
-    const Eigen::SparseMatrix<double>& jacobian = program_.jacobian();
-    for (int column = 0; column < jacobian.outerSize(); ++column) {
-      for (Eigen::SparseMatrix<double>::InnerIterator it(jacobian, column); it; ++it) {
-        *rows++ = static_cast<Index>(it.row());
-        *cols++ = static_cast<Index>(it.col());
-      }
-    }
-  }
-
-  bool look(Index n, const Number* x) {
-    return caught_.run(false, [&] {
-      const Eigen::Map<const Eigen::VectorXd> point(x, n);
-      if (X_.size() == n && X_ == point) return true;
-      if (left() == 0) return false;
-      X_ = point;
-      program_.evaluate(X_);
-      found_.trace.add(-kInfinity);
-      run_.show();
-      return true;
-    });
+  bool look(const Point& X) {
+    if (X_.size() == X.size() && X_ == X) return true;
+    if (left() == 0) return false;
+    X_ = X;
+    program_.evaluate(X_);
+    found_.trace.add(-kInfinity);
+    run_.show();
+    return true;
   }
 
   /// What the lower level makes of the table of an iterate.
   bool judge() {
-    return caught_.run(false, [&] {
-      if (left() == 0) return false;
-      const Eigen::VectorXd x = program_.knots(X_);
-      const double value = run_.evaluate(objective_, x);
-      found_.trace.add(value);
-      if (value > found_.best.value) found_.best = {x, value};
-      program_.evaluate(X_);  // the lower level has moved the evaluator's motion
-      return true;
-    });
+    if (left() == 0) return false;
+    const Eigen::VectorXd x = program_.knots(X_);
+    const double value = run_.evaluate(objective_, x);
+    found_.trace.add(value);
+    if (value > found_.best.value) found_.best = {x, value};
+    program_.evaluate(X_);  // the lower level has moved the evaluator's motion
+    return true;
   }
 
   Objective& objective_;
@@ -130,7 +76,6 @@ class JointNlp : public Ipopt::TNLP {
   SearchRun& run_;
   Part& found_;
   Eigen::VectorXd X_;
-  Caught caught_;
 };
 
 /// The trajectory, its efforts and its wrenches in one nonlinear program (`JointProgram`) by Ipopt
@@ -172,8 +117,7 @@ class JointNlpSearch : public Search {
           options.SetNumericValue("tol", 1e-7);
         });
     const Ipopt::SmartPtr<JointNlp> nlp = new JointNlp(objective, program, until, run, found);
-    application->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(nlp)));
-    nlp->rethrow();
+    minimize(*application, *nlp);
   }
 };
 

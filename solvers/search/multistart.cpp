@@ -1,11 +1,9 @@
 #include "solvers/search/multistart.h"
 
-#include <IpTNLP.hpp>
 #include <algorithm>
 
-#include "solvers/caught.h"
-#include "solvers/ipopt_lock.h"
-#include "solvers/search/ipopt_run.h"
+#include "solvers/ipopt/ipopt_lock.h"
+#include "solvers/ipopt/ipopt_nlp.h"
 #include "solvers/search/knot_starts.h"
 #include "solvers/search/local_search.h"
 #include "solvers/search/makers.h"
@@ -13,103 +11,61 @@
 namespace maxwrench {
 namespace {
 
-using Ipopt::Index;
-using Ipopt::Number;
-
 constexpr int kPostureIterations = 40;
 constexpr int kTrajectoryIterations = 200;
 
 /// min -f(theta_r(x)) subject to 0 <= x <= 1, with the exact gradient, and of a trajectory to the
 /// rows of its knots. Where f has no value, Ipopt is told so and shortens its step.
-class BoundedNlp : public Ipopt::TNLP {
+class BoundedNlp final : public IpoptNlp {
  public:
-  BoundedNlp(Probe& probe, const Box& box, Eigen::VectorXd start, const KnotRows* rows = nullptr)
-      : probe_(probe), box_(box), start_(std::move(start)) {
-    if (rows == nullptr) return;
-    const Eigen::VectorXd origin = box_.theta_r(Eigen::VectorXd::Zero(box_.free()));
-    Eigen::MatrixXd reach(origin.size(), box_.free());
-    for (int j = 0; j < box_.free(); ++j) {
-      reach.col(j) = box_.theta_r(Eigen::VectorXd::Unit(box_.free(), j)) - origin;
-    }
-    R_ = (rows->R * reach).sparseView();
-    r_min_ = rows->r_min - rows->R * origin;
-    r_max_ = rows->r_max - rows->R * origin;
-  }
-
-  bool get_nlp_info(Index& n, Index& m, Index& nnz_jac, Index& nnz_hessian,
-                    IndexStyleEnum& style) override {
-    n = box_.free();
-    m = static_cast<Index>(R_.rows());
-    nnz_jac = static_cast<Index>(R_.nonZeros());
-    nnz_hessian = 0;
-    style = TNLP::C_STYLE;
-    return true;
-  }
-  bool get_bounds_info(Index n, Number* l, Number* u, Index m, Number* g_l, Number* g_u) override {
-    std::fill(l, l + n, 0.0);
-    std::fill(u, u + n, 1.0);
-    std::copy_n(r_min_.data(), m, g_l);
-    std::copy_n(r_max_.data(), m, g_u);
-    return true;
-  }
-  bool get_starting_point(Index n, bool, Number* x, bool, Number*, Number*, Index, bool,
-                          Number*) override {
-    std::copy(start_.data(), start_.data() + n, x);
-    return true;
-  }
-  bool eval_f(Index n, const Number* x, bool, Number& value) override {
-    if (!look(n, x)) return false;
-    value = -value_;
-    return true;
-  }
-  bool eval_grad_f(Index n, const Number* x, bool, Number* gradient) override {
-    if (!look(n, x)) return false;
-    Eigen::Map<Eigen::VectorXd>(gradient, n) = -slope_;
-    return slope_.allFinite();
-  }
-  bool eval_g(Index n, const Number* x, bool, Index m, Number* g) override {
-    Eigen::Map<Eigen::VectorXd>(g, m) = R_ * Eigen::Map<const Eigen::VectorXd>(x, n);
-    return true;
-  }
-  bool eval_jac_g(Index, const Number*, bool, Index, Index, Index* rows, Index* cols,
-                  Number* values) override {
-    if (values != nullptr) {
-      std::copy_n(R_.valuePtr(), R_.nonZeros(), values);
-      return true;
-    }
-    for (int column = 0; column < R_.outerSize(); ++column) {
-      for (Eigen::SparseMatrix<double>::InnerIterator it(R_, column); it; ++it) {
-        *rows++ = static_cast<Index>(it.row());
-        *cols++ = static_cast<Index>(it.col());
-      }
-    }
-    return true;
-  }
-  bool intermediate_callback(Ipopt::AlgorithmMode, Index, Number, Number, Number, Number, Number,
-                             Number, Number, Number, Index, const Ipopt::IpoptData*,
-                             Ipopt::IpoptCalculatedQuantities*) override {
-    return probe_.left() > 0 && !caught_.any();
-  }
-  void finalize_solution(Ipopt::SolverReturn, Index, const Number*, const Number*, const Number*,
-                         Index, const Number*, const Number*, Number, const Ipopt::IpoptData*,
-                         Ipopt::IpoptCalculatedQuantities*) override {
-    // The probe has kept the best point.
-  }
-
-  /// What the objective threw; Ipopt would keep it to itself.
-  void rethrow() { caught_.rethrow(); }
+  BoundedNlp(Probe& probe, const Box& box, const Eigen::VectorXd& start,
+             const KnotRows* rows = nullptr)
+      : BoundedNlp(probe, box, start, in_unit_cube(box, rows)) {}
 
  private:
-  bool look(Index n, const Number* x) {
-    return caught_.run(false, [&] { return evaluate(n, x); });
+  BoundedNlp(Probe& probe, const Box& box, const Eigen::VectorXd& start, const KnotRows& rows)
+      : IpoptNlp({start, Eigen::VectorXd::Zero(box.free()), Eigen::VectorXd::Ones(box.free()),
+                  rows.r_min, rows.r_max, entries_of(rows.R)}),
+        probe_(probe),
+        box_(box),
+        R_(rows.R) {}
+
+  static KnotRows in_unit_cube(const Box& box, const KnotRows* rows) {
+    if (rows == nullptr) return {Eigen::SparseMatrix<double>(0, box.free()), {}, {}};
+    const Eigen::VectorXd origin = box.theta_r(Eigen::VectorXd::Zero(box.free()));
+    Eigen::MatrixXd reach(origin.size(), box.free());
+    for (int j = 0; j < box.free(); ++j) {
+      reach.col(j) = box.theta_r(Eigen::VectorXd::Unit(box.free(), j)) - origin;
+    }
+    return {(rows->R * reach).sparseView(), rows->r_min - rows->R * origin,
+            rows->r_max - rows->R * origin};
   }
 
+  bool value(const Point& x, double& f) override {
+    if (!evaluate(x)) return false;
+    f = -value_;
+    return true;
+  }
+  bool gradient(const Point& x, Result slopes) override {
+    if (!evaluate(x)) return false;
+    slopes = -slope_;
+    return slope_.allFinite();
+  }
+  bool rows(const Point& x, Result g) override {
+    g = R_ * x;
+    return true;
+  }
+  bool jacobian(const Point& /*x*/, Result values) override {
+    std::copy_n(R_.valuePtr(), values.size(), values.data());
+    return true;
+  }
+  bool ended() override { return probe_.left() == 0; }
+
   /// Value and gradient at x, once for each point: Ipopt asks for them one after the other.
-  bool evaluate(Index n, const Number* x) {
-    const Eigen::Map<const Eigen::VectorXd> point(x, n);
-    if (x_.size() != n || x_ != point) {
-      if (probe_.left() == 0 || !point.allFinite()) return false;
-      x_ = point;
+  bool evaluate(const Point& x) {
+    if (x_.size() != x.size() || x_ != x) {
+      if (probe_.left() == 0 || !x.allFinite()) return false;
+      x_ = x;
       value_ = probe_.evaluate(box_.theta_r(x_), &gradient_);
       slope_ = box_.slope(gradient_);
     }
@@ -118,12 +74,9 @@ class BoundedNlp : public Ipopt::TNLP {
 
   Probe& probe_;
   const Box& box_;
-  const Eigen::VectorXd start_;
-  Eigen::SparseMatrix<double> R_;  ///< rows on x; none unless of a trajectory
-  Eigen::VectorXd r_min_, r_max_;
+  const Eigen::SparseMatrix<double> R_;  ///< rows on x; none unless of a trajectory
   Eigen::VectorXd x_, gradient_, slope_;
   double value_ = -kInfinity;
-  Caught caught_;
 };
 
 /// One solve from `start`, and Ipopt's word for its end.
@@ -132,8 +85,7 @@ std::string solve_by_ipopt(Probe& probe, const Box& box, const Eigen::VectorXd& 
   const std::lock_guard guard(ipopt_lock());
   const auto application = make_ipopt_application("multistart", iterations);
   const Ipopt::SmartPtr<BoundedNlp> nlp = new BoundedNlp(probe, box, box.unit(start), rows);
-  const auto status = application->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(nlp)));
-  nlp->rethrow();
+  const auto status = minimize(*application, *nlp);
   return probe.left() == 0 ? kBudgetUsed : word_of(status);
 }
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "solvers/ipopt_lock.h"
+#include "solvers/ipopt/ipopt_lock.h"
 
 namespace maxwrench {
 namespace {
