@@ -2,18 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <initializer_list>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 
 #include "benchmarks/suite/results.h"
+#include "benchmarks/suite/row_claim.h"
 #include "benchmarks/tables/case_file.h"
 #include "maxwrench/problem.h"
-#include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"
 #include "solvers/solve/method.h"
 #include "solvers/solve/row.h"
@@ -21,36 +17,9 @@
 namespace maxwrench {
 namespace {
 
-/// How a row without a value may have ended; that of a search not by a verdict of the lower level.
-constexpr Status kNoValue[] = {Status::kInfeasible,     Status::kUnbounded,
-                               Status::kInvalidPosture, Status::kNumericalError,
-                               Status::kNoneFound,      Status::kBudgetExhausted};
-
-/// A row of a file.
-struct RowOf {
-  const CsvFile& csv;
-  std::size_t row;
-
-  const std::string& text(const char* column) const { return csv.text(row, column); }
-  /// Numbers that are separated by blanks.
-  Eigen::VectorXd vector(const char* column) const {
-    std::istringstream words(text(column));
-    std::vector<double> all;
-    for (std::string word; words >> word;) {
-      double value = 0;
-      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-      if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
-        csv.throw_bad_cell(row, column, "finite numbers");
-      }
-      all.push_back(value);
-    }
-    return Eigen::Map<Eigen::VectorXd>(all.data(), static_cast<Eigen::Index>(all.size()));
-  }
-};
-
 /// Its own efforts, wrench and multipliers, in a posture.
 std::string reject_efforts(const Problem& problem, Wrench wrench, const Posture& posture,
-                           const RowOf& claim, double beta) {
+                           const RowClaim& claim, double beta) {
   WrenchProgram program = make_wrench_program(problem, wrench);
   set_posture(posture, program);
   const Eigen::VectorXd h = claim.vector("h");
@@ -69,7 +38,7 @@ std::string reject_efforts(const Problem& problem, Wrench wrench, const Posture&
 
 /// The same in the best posture at theta_r, or in another one: which of two that are worth the same
 /// is chosen hangs on rounding.
-std::string reject_own(const Problem& problem, const Answer& anew, const RowOf& claim,
+std::string reject_own(const Problem& problem, const Answer& anew, const RowClaim& claim,
                        double beta) {
   const Wrench wrench = anew.choice.wrench;
   const std::string why = reject_efforts(problem, wrench, anew.posture, claim, beta);
@@ -80,131 +49,6 @@ std::string reject_own(const Problem& problem, const Answer& anew, const RowOf& 
     if (reject_efforts(problem, wrench, model.select(ik_solution), claim, beta).empty()) return "";
   }
   return why;
-}
-
-/// A number beside the value, such as its beta_linf, which may be none.
-std::string reject_other(const RowOf& claim, const char* column, double anew) {
-  const std::optional<double> claimed = claim.csv.number(claim.row, column);
-  const bool same = std::isfinite(anew) ? claimed && std::abs(*claimed - anew) <=
-                                                         kAnswerTolerance * (1 + std::abs(anew))
-                                        : !claimed;
-  if (same) return "";
-  return std::isfinite(anew) ? fmt::format("{}: its posture has {:.9g}", column, anew)
-                             : fmt::format("{}: its posture has none", column);
-}
-
-/// Numbers that are those of the same posture evaluated anew.
-std::string reject_numbers(const RowOf& claim, const char* column, const Eigen::VectorXd& anew) {
-  const Eigen::VectorXd claimed = claim.vector(column);
-  if (claimed.size() != anew.size()) {
-    return fmt::format("{}: got {} numbers, expected {}", column, claimed.size(), anew.size());
-  }
-  if (anew.size() == 0) return "";
-  const double size = 1 + anew.lpNorm<Eigen::Infinity>();
-  const bool same = (claimed - anew).lpNorm<Eigen::Infinity>() <= kAnswerTolerance * size;
-  return same ? "" : fmt::format("{}: its posture has others", column);
-}
-
-/// The residual that the row claims is that of its answer, up to rounding.
-std::string reject_residual(const RowOf& claim, const Residual& anew, double beta) {
-  const std::pair<const char*, double> all[] = {
-      {"balance", anew.balance}, {"bounds", anew.bounds}, {"dual", anew.dual}, {"gap", anew.gap}};
-  const double tolerance = kAnswerTolerance * (1 + std::abs(beta));
-  for (const auto& [column, value] : all) {
-    const std::optional<double> claimed = claim.csv.number(claim.row, column);
-    if (!claimed) return fmt::format("{}: got none, expected a number", column);
-    if (!(*claimed >= 0 && std::abs(*claimed - value) <= tolerance)) {
-      return fmt::format("{}: expected about {:.2g}", column, value);
-    }
-  }
-  return "";
-}
-
-/// That these cells are empty.
-std::string reject_filled(const RowOf& claim, std::initializer_list<const char*> columns) {
-  for (const char* column : columns) {
-    if (!claim.text(column).empty()) return fmt::format("{}: expected none", column);
-  }
-  return "";
-}
-
-/// The evaluations of a search are its own word, but for its budget, and those of its methods are
-/// among them.
-std::string reject_effort(const Case& c, const RowOf& claim) {
-  const auto evaluations = claim.csv.whole<long>(claim.row, "evaluations");
-  if (!c.integrator.empty()) return "";
-  if (c.search.empty()) {
-    return evaluations == 1 && claim.text("calls").empty()
-               ? ""
-               : "evaluations: expected 1, and no calls, of what is given";
-  }
-  const long least = claim.text("beta").empty() ? 0 : 1;
-  if (evaluations < least || evaluations > c.budget) {
-    return fmt::format("evaluations: expected {} to {}", least, c.budget);
-  }
-  long called = 0;
-  std::istringstream calls(claim.text("calls"));
-  for (std::string call; std::getline(calls, call, ';');) {
-    std::istringstream words(call);
-    std::string method, status, more;
-    long count = 0, spent = 0;
-    if (!(words >> method >> status >> count >> spent) || words >> more || count < 1 || spent < 0) {
-      return "calls: expected a method, how it ended, how often, and its evaluations";
-    }
-    called += spent;
-  }
-  return called <= evaluations ? "" : "calls: expected no more evaluations than there are in all";
-}
-
-/// That its names are complete, exist and mean something together.
-std::string reject_names(const Problem& problem, const Case& c) {
-  const Case complete = resolve(problem, c).choice;
-  if (complete.solver != c.solver) return fmt::format("solver: expected '{}'", complete.solver);
-  if (c.budget != complete.budget) return "budget: expected at least 1";
-  if (c.search.empty()) return "";
-  const std::vector<std::string> served = served_searches(problem, c.measure);
-  for (const SearchEntry* stage : find_search(c.search).stages) {
-    if (std::find(served.begin(), served.end(), stage->name) == served.end()) {
-      return fmt::format("search: got '{}', expected one that serves the task", stage->name);
-    }
-  }
-  return "";
-}
-
-/// What its words say: whether a row of this status can have a value, and what belongs to its task.
-std::string reject_words(const Problem& problem, const Case& c, const RowOf& claim,
-                         bool has_value) {
-  if (claim.text("task_digest") != problem.digest) {
-    return "task_digest: expected '" + problem.digest + "', the digest of its files";
-  }
-  if (claim.text("label") != problem.label) return "label: expected '" + problem.label + "'";
-  if (claim.text("beta_linf_unit") != problem.unit()) {
-    return fmt::format("beta_linf_unit: expected '{}'", problem.unit());
-  }
-  const std::string& status = claim.text("status");
-  const Status of_value = !c.integrator.empty() ? Status::kReached
-                          : c.search.empty()    ? Status::kOptimal
-                                                : Status::kBestFound;
-  const bool interrupted = !c.search.empty() && claim.text("reason") == "interrupted";
-  const bool exhausted = status == to_string(Status::kBudgetExhausted);
-  if (has_value && !(interrupted ? exhausted : status == to_string(of_value))) {
-    return fmt::format("status: got '{}', expected '{}' beside a value", status,
-                       to_string(of_value));
-  }
-  if (has_value && c.integrator.empty() && !interrupted && !claim.text("reason").empty()) {
-    return "reason: expected none beside a value";
-  }
-  if (has_value) return "";
-  const std::string filled =
-      reject_filled(claim, {"h", "u", "lambda", "balance", "bounds", "dual", "gap"});
-  if (!filled.empty()) return filled;
-  const bool known = std::any_of(std::begin(kNoValue), std::end(kNoValue),
-                                 [&](Status each) { return status == to_string(each); });
-  const bool of_search = status != to_string(Status::kInfeasible) && interrupted == exhausted;
-  if (!known || (!c.search.empty() && !of_search)) {
-    return fmt::format("status: got '{}' without a value", status);
-  }
-  return claim.text("reason").empty() ? "it has no value and no reason why" : "";
 }
 
 RowCheck compare(const Verdict& anew, double value, double beta) {
@@ -226,7 +70,7 @@ Problem with_scheme(const Problem& problem, const Case& c) {
 }
 
 /// The posture of a row, evaluated.
-Answer posture_again(const Problem& problem, const Case& c, const RowOf& claim) {
+Answer posture_again(const Problem& problem, const Case& c, const RowClaim& claim) {
   const Eigen::VectorXd theta_r = claim.vector("theta_r");
   if (theta_r.size() != problem.redundancy()) {
     throw std::invalid_argument(
@@ -236,7 +80,7 @@ Answer posture_again(const Problem& problem, const Case& c, const RowOf& claim) 
 }
 
 /// The knots of a row, evaluated.
-Answer trajectory_again(const Problem& problem, const Case& c, const RowOf& claim) {
+Answer trajectory_again(const Problem& problem, const Case& c, const RowClaim& claim) {
   const Eigen::VectorXd x = claim.vector("theta_r");
   const int r = problem.redundancy();
   if (x.size() == 0 || r == 0 || x.size() % r != 0) {
@@ -246,7 +90,7 @@ Answer trajectory_again(const Problem& problem, const Case& c, const RowOf& clai
   return evaluate(problem, unstacked(x, x.size() / r), {c});
 }
 
-std::string reject_capability(const RowOf& claim, const Capability& capability) {
+std::string reject_capability(const RowClaim& claim, const Capability& capability) {
   const Eigen::VectorXd h =
       capability.w.size() > 0 ? Eigen::VectorXd(capability.h) : Eigen::VectorXd();
   for (const auto& [column, numbers] : {std::pair<const char*, const Eigen::VectorXd&>("h", h),
@@ -260,7 +104,7 @@ std::string reject_capability(const RowOf& claim, const Capability& capability) 
 
 /// Whether another posture at theta_r is worth as much, with the wrench, efforts and multipliers of
 /// the row: which of those that tie is taken hangs on rounding.
-bool has_tie(const Problem& problem, const Case& c, const RowOf& claim, const Answer& anew) {
+bool has_tie(const Problem& problem, const Case& c, const RowClaim& claim, const Answer& anew) {
   PostureEvaluator model(problem);
   const Eigen::VectorXd theta_r = claim.vector("theta_r");
   model.evaluate(theta_r);
@@ -283,7 +127,7 @@ bool has_tie(const Problem& problem, const Case& c, const RowOf& claim, const An
   return false;
 }
 
-RowCheck check_posture(const Problem& problem, const Case& c, const RowOf& claim, double beta) {
+RowCheck check_posture(const Problem& problem, const Case& c, const RowClaim& claim, double beta) {
   const Answer anew = posture_again(problem, c, claim);
   RowCheck check = compare(anew, anew.capability.beta, beta);
   if (check.rejection.empty() && anew.unit != claim.text("unit")) {
@@ -302,7 +146,8 @@ RowCheck check_posture(const Problem& problem, const Case& c, const RowOf& claim
   return check;
 }
 
-RowCheck check_trajectory(const Problem& problem, const Case& c, const RowOf& claim, double value) {
+RowCheck check_trajectory(const Problem& problem, const Case& c, const RowClaim& claim,
+                          double value) {
   const Answer anew = trajectory_again(problem, c, claim);
   RowCheck check = compare(anew, anew.trajectory.value, value);
   if (check.rejection.empty() && anew.unit != claim.text("unit")) {
@@ -321,7 +166,7 @@ RowCheck check_trajectory(const Problem& problem, const Case& c, const RowOf& cl
 }
 
 /// By the experiment again, of whose steps a reading depends to their tolerance.
-RowCheck check_experiment(const Problem& problem, const Case& c, const RowOf& claim,
+RowCheck check_experiment(const Problem& problem, const Case& c, const RowClaim& claim,
                           double reading) {
   const Answer anew = experiment(problem, {c});
   const Eigen::VectorXd theta_r = claim.vector("theta_r");
@@ -351,7 +196,7 @@ RowCheck check_experiment(const Problem& problem, const Case& c, const RowOf& cl
 
 /// Of a row without a value whose posture, trajectory or experiment was made again; no status of
 /// such a row is one of a value.
-std::string reject_again(const Answer& anew, const RowOf& claim) {
+std::string reject_again(const Answer& anew, const RowClaim& claim) {
   const std::string status = to_string(anew.status);
   if (status != claim.text("status")) return "status: expected '" + status + "'";
   if (anew.reason.str() != claim.text("reason")) {
@@ -365,7 +210,7 @@ std::string reject_again(const Answer& anew, const RowOf& claim) {
 }
 
 /// What stands beside the value that there is not. Of a search that found nothing there is nothing.
-std::string reject_beside(const Answer& anew, const RowOf& claim) {
+std::string reject_beside(const Answer& anew, const RowClaim& claim) {
   if (anew.unit != claim.text("unit")) return fmt::format("unit: expected '{}'", anew.unit);
   const std::string why = reject_other(claim, "beta_linf", anew.beta_linf);
   return !why.empty()
@@ -375,7 +220,7 @@ std::string reject_beside(const Answer& anew, const RowOf& claim) {
 
 /// Whether a row that says why it has no value is right. A search is not made again: that it found
 /// nothing is its own word, but what it names as the best has no value indeed.
-std::string reject_failure(const Problem& changed, const Case& c, const RowOf& claim) {
+std::string reject_failure(const Problem& changed, const Case& c, const RowClaim& claim) {
   Answer anew;
   if (!c.integrator.empty()) {
     anew = experiment(changed, {c});
@@ -395,7 +240,7 @@ std::string reject_failure(const Problem& changed, const Case& c, const RowOf& c
   return !why.empty() ? why : reject_beside(anew, claim);
 }
 
-RowCheck checked(const Problem& problem, const Case& c, const RowOf& claim) {
+RowCheck checked(const Problem& problem, const Case& c, const RowClaim& claim) {
   const std::optional<double> beta = claim.csv.number(claim.row, "beta");
   const Problem changed = with_scheme(problem, c);
   std::string rejection = reject_words(changed, c, claim, beta.has_value());
