@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "cli/output.h"
+#include "maxwrench/batch.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/version.h"
 #include "solvers/solve/method.h"
@@ -157,7 +158,7 @@ void CommonOptions::add_json(CLI::App& app) {
 void CommonOptions::add_threads(CLI::App& app) {
   app.add_option("--threads", threads, "changes the time, never the result (0: one for each core)")
       ->capture_default_str()
-      ->check(CLI::Range(0, 1024));
+      ->check(CLI::Range(0, kMostThreads));
 }
 
 Options CommonOptions::read_options() const {

@@ -9,6 +9,7 @@
 #include "benchmarks/suite/results.h"
 #include "benchmarks/suite/row_claim.h"
 #include "benchmarks/tables/case_file.h"
+#include "maxwrench/measure.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/wrench_program.h"
 #include "solvers/solve/method.h"

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <stdexcept>
 
 #include "lib/math/cubic_spline.h"
+#include "lib/math/require.h"
 
 namespace maxwrench {
 namespace {
@@ -101,7 +101,12 @@ constexpr std::array<std::pair<Start, const char*>, 4> kStarts = {{
 Path Path::screw(const Pose<double>& start, const Eigen::Vector3d& axis,
                  const Eigen::Vector3d& centre, double angle, const Eigen::Vector3d& displacement,
                  Timing timing, double duration) {
-  assert(duration > 0 && std::abs(axis.norm() - 1) < 1e-9);
+  require(duration > 0 && std::isfinite(duration), "path duration", duration,
+          "a finite number > 0");
+  require(std::abs(axis.norm() - 1) < 1e-9, "path axis", axis.norm(), "a vector of length 1");
+  require(start.p.allFinite() && start.R.allFinite() && centre.allFinite() &&
+              std::isfinite(angle) && displacement.allFinite(),
+          "path", angle, "finite numbers");
   Path path;
   path.start_ = start;
   path.axis_ = axis;

@@ -191,6 +191,22 @@ std::string thrown_by(F f) {
   return "accepted";
 }
 
+TEST(Path, ScrewsThatAreNoneAreRejected) {
+  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ(), none = Eigen::Vector3d::Zero();
+  const double nan = std::nan("");
+  const auto screw = [&](const Eigen::Vector3d& axis, double angle, double duration) {
+    return Path::screw({}, axis, none, angle, none, Timing::kCubic, duration);
+  };
+  EXPECT_NO_THROW(screw(z, 1, 1));
+  EXPECT_THROW(screw(2 * z, 1, 1), std::invalid_argument);
+  EXPECT_THROW(screw(none, 1, 1), std::invalid_argument);
+  EXPECT_THROW(screw(z, nan, 1), std::invalid_argument);
+  for (const double duration : {0.0, -1.0, nan, kInfinity}) {
+    EXPECT_THROW(screw(z, 1, duration), std::invalid_argument) << duration;
+    EXPECT_THROW(Path::constant({}, duration), std::invalid_argument) << duration;
+  }
+}
+
 TEST(Scheme, NamesAreReadAsTheyAreWritten) {
   for (const bool impulse : {false, true}) {
     for (const std::string& name : scheme_names(impulse))
