@@ -5,7 +5,7 @@
 namespace maxwrench {
 namespace {
 
-Vector6d stacked(const Eigen::Vector3d& linear, const Eigen::Vector3d& angular) {
+Vector6d spatial_vector(const Eigen::Vector3d& linear, const Eigen::Vector3d& angular) {
   Vector6d screw;
   screw << linear, angular;
   return screw;
@@ -14,13 +14,13 @@ Vector6d stacked(const Eigen::Vector3d& linear, const Eigen::Vector3d& angular) 
 /// V x S: the rate of a twist S that the twist V carries along.
 Vector6d crossed(const Vector6d& V, const Vector6d& S) {
   const Eigen::Vector3d v = V.head<3>(), w = V.tail<3>(), s = S.head<3>(), turn = S.tail<3>();
-  return stacked(w.cross(s) + v.cross(turn), w.cross(turn));
+  return spatial_vector(w.cross(s) + v.cross(turn), w.cross(turn));
 }
 
 /// V x* F: the same of a wrench or momentum F.
 Vector6d crossed_force(const Vector6d& V, const Vector6d& F) {
   const Eigen::Vector3d v = V.head<3>(), w = V.tail<3>(), f = F.head<3>(), m = F.tail<3>();
-  return stacked(w.cross(f), w.cross(m) + v.cross(f));
+  return spatial_vector(w.cross(f), w.cross(m) + v.cross(f));
 }
 
 Eigen::Matrix<double, 6, 6> full(const Inertia<double>& inertia) {
@@ -82,8 +82,8 @@ void DynamicsSlopes::set_axes() {
   for (std::size_t i = 0; i < robot_.joints.size(); ++i) {
     const Eigen::Vector3d axis = kinematics_.joint_axis(i);
     const bool turns = robot_.joints[i].type == JointType::kRevolute;
-    axes_[base + i].s = turns ? stacked(kinematics_.links()[i + 1].p.cross(axis), axis)
-                              : stacked(axis, Eigen::Vector3d::Zero());
+    axes_[base + i].s = turns ? spatial_vector(kinematics_.links()[i + 1].p.cross(axis), axis)
+                              : spatial_vector(axis, Eigen::Vector3d::Zero());
   }
 }
 
@@ -132,13 +132,13 @@ void DynamicsSlopes::add_drag(std::size_t link) {
   for (const HydrodynamicBody& water : robot_.links[link].hydrodynamics) {
     const Pose<double> frame = kinematics_.links()[link] * water.frame;
     const Screw<double> seen = into(frame, twist);
-    const Vector6d x = stacked(seen.linear, seen.angular);
+    const Vector6d x = spatial_vector(seen.linear, seen.angular);
     const Vector6d slope =
         water.damping_linear + 2 * water.damping_quadratic.cwiseProduct(x.cwiseAbs());
     const Vector6d drag =
         (water.damping_linear + water.damping_quadratic.cwiseProduct(x.cwiseAbs())).cwiseProduct(x);
     const Eigen::Vector3d force = frame.R * drag.head<3>();
-    body.F += stacked(force, frame.R * drag.tail<3>() + frame.p.cross(force));
+    body.F += spatial_vector(force, frame.R * drag.tail<3>() + frame.p.cross(force));
     body.B += full(moved<double>(frame, {slope.head<3>().asDiagonal(), Matrix3<double>::Zero(),
                                          slope.tail<3>().asDiagonal()}));
   }
@@ -152,10 +152,10 @@ void DynamicsSlopes::carry() {
     parent.I += bodies_[i].I;
     parent.B += bodies_[i].B;
   }
-  const Vector6d h = stacked(force_, torque_ + p_e_.cross(force_));
+  const Vector6d h = spatial_vector(force_, torque_ + p_e_.cross(force_));
   for (std::size_t link = 0; link < bodies_.size(); ++link) {
-    bodies_[link].F -= stacked(kinematics_.carried_mass(link) * pull_,
-                               kinematics_.carried_moment(link).cross(pull_));
+    bodies_[link].F -= spatial_vector(kinematics_.carried_mass(link) * pull_,
+                                      kinematics_.carried_moment(link).cross(pull_));
     if (carries(link, tool_link_)) bodies_[link].F += h;
   }
   for (Axis& axis : axes_) {
@@ -168,11 +168,11 @@ void DynamicsSlopes::carry() {
 /// seen from it.
 Vector6d DynamicsSlopes::turned_loads(std::size_t link, const Eigen::Vector3d& turn) const {
   const Eigen::Vector3d pull = pull_.cross(turn);
-  Vector6d gained =
-      stacked(-kinematics_.carried_mass(link) * pull, pull.cross(kinematics_.carried_moment(link)));
+  Vector6d gained = spatial_vector(-kinematics_.carried_mass(link) * pull,
+                                   pull.cross(kinematics_.carried_moment(link)));
   if (carries(link, tool_link_)) {
     const Eigen::Vector3d force = force_.cross(turn);
-    gained += stacked(force, torque_.cross(turn) + p_e_.cross(force));
+    gained += spatial_vector(force, torque_.cross(turn) + p_e_.cross(force));
   }
   return gained;
 }
