@@ -11,9 +11,8 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-constexpr double kLargest = 1e100;  // larger powers of ten are outside the range of double
-constexpr double kNarrowest =
-    1e-9;  // of the largest value; in narrower ranges ticks coincide by rounding
+constexpr double kLargest = 1e100;   // larger powers of ten are outside the range of double
+constexpr double kNarrowest = 1e-9;  // of the largest value; narrower ticks coincide by rounding
 constexpr int kMostTicks = 50;
 constexpr double kLeastNameLeft = 9;  // px, so that a name along the left edge is not cut
 

@@ -157,8 +157,7 @@ void Svg::arrow(const Point& tail, const Point& tip, const Paint& paint, double 
   const Point across(-along.y(), along.x());
   head = std::min(head, length);
   const Point neck = tip - head * along;
-  line(tail, neck + 0.2 * head * along,
-       paint);  // extends under the head, so that no gap is visible
+  line(tail, neck + 0.2 * head * along, paint);  // under the head, so that no gap is visible
   Paint solid;
   solid.fill = paint.stroke;
   polygon({tip, neck + 0.38 * head * across, neck - 0.38 * head * across}, solid);

@@ -20,8 +20,7 @@ struct CertificateTree {
   };
   struct Node {
     Reason reason = Reason::kNone;
-    int axis =
-        -1;  ///< the axis along which the box is cut in two, its halves follow; -1 for a leaf
+    int axis = -1;                            ///< of the cut in two, its halves follow; -1: a leaf
     std::optional<double> at = std::nullopt;  ///< position of the cut, unless it is at the middle
     int pair = -1;                            ///< index of the colliding pair
     std::size_t multiplier = 0;               ///< index of its first number in `multipliers`

@@ -29,8 +29,7 @@ struct PostureCoordinates {
   std::vector<int> chain;     ///< the joints that move the end effector, from the base outward
   int yaw = 0;                ///< first index of each stretch of variables
   int first = 0, free = 0, regrasp = 0;
-  bool base_is_dependent =
-      false;  ///< the base's pose has a closed form; otherwise equations determine it
+  bool base_is_dependent = false;  ///< its pose has a closed form; else equations
 
   int count() const { return static_cast<int>(variables.size()); }
   bool has_yaw() const { return first > yaw; }

@@ -69,10 +69,7 @@ bool base_gets_there(const Problem& problem, const FormModel& model, const Eigen
   }
   Eigen::Matrix3d upright = Eigen::Matrix3d::Identity();
   if (turns) upright.topLeftCorner<2, 2>() = base.R.topLeftCorner<2, 2>();
-  const double tilt =
-      (base.R - upright)
-          .cwiseAbs()
-          .maxCoeff();  // the sine of the tilt, which is more accurate than its cosine
+  const double tilt = (base.R - upright).cwiseAbs().maxCoeff();  // its sine, not its cosine
   return p.norm() <= kIncumbentTolerance && tilt <= kIncumbentTolerance;
 }
 

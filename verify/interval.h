@@ -102,8 +102,7 @@ inline CosSin<long double> enclose_wide(double x) {
     Wide& to = degree % 2 == 0 ? sum.c : sum.s;
     to = minus ? to - term : to + term;
   }
-  const long double left =
-      term.magnitude();  // the next terms, |y|^21/21! and smaller, are below this
+  const long double left = term.magnitude();  // the next terms, |y|^21/21! and less, are smaller
   sum.c += Wide(-left, left);
   sum.s += Wide(-left, left);
   for (; halvings > 0; --halvings) {

@@ -78,8 +78,7 @@ class FormModel {
   void sum_total();
   Form held_by(std::size_t joint) const;  ///< the joint's row of tau_d
   void exert_on_base(const Vector6d& h, std::vector<Form>& rows) const;
-  FormVector from_world(
-      const FormVector& x) const;  ///< converts a direction to base axes, using the base's yaw
+  FormVector from_world(const FormVector& x) const;  ///< direction to base axes, by the yaw
   FormVector inboard(std::size_t link, const FormVector& before) const;
   int parent(std::size_t link) const { return problem_.robot.joints[link - 1].parent; }
   const EndEffector& tip() const {

@@ -72,8 +72,7 @@ class Dynamics {
 
   const Robot* robot_;
   Kinematics<double> kinematics_;
-  std::vector<Inertia<double>>
-      inertia_;  ///< of each link with its water, at the link's origin in its axes
+  std::vector<Inertia<double>> inertia_;  ///< of each link with its water, at its origin and axes
   Eigen::Matrix3d R_base_ = Eigen::Matrix3d::Identity();
   std::vector<Screw> axes_;  ///< of each joint: the twist of its link per joint rate
   std::vector<Screw> twists_, twist_rates_;

@@ -36,9 +36,7 @@ class DynamicsSlopes {
            const Eigen::VectorXd& acceleration, const EndEffector& end_effector,
            const Vector6d& h_e);
 
-  const Eigen::MatrixXd& by_turn() const {
-    return by_turn_;
-  }  ///< n×3, by a turn of the base, in its axes
+  const Eigen::MatrixXd& by_turn() const { return by_turn_; }    ///< n×3, of the base, in its axes
   const Eigen::MatrixXd& by_q() const { return by_q_; }          ///< n×joints
   const Eigen::MatrixXd& by_v() const { return by_v_; }          ///< n×n
   const Eigen::MatrixXd& by_v_dot() const { return by_v_dot_; }  ///< n×n: M
@@ -71,8 +69,7 @@ class DynamicsSlopes {
   const Robot& robot_;
   Kinematics<double> kinematics_;
   std::vector<Inertia<double>> inertia_;
-  Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>
-      carries_;  ///< link by link; a link carries itself
+  Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> carries_;  ///< link by link; also itself
   std::vector<Body> bodies_;
   std::vector<Axis> axes_;
   std::size_t tool_link_ = 0;

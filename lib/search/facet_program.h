@@ -35,8 +35,7 @@ class FacetProgram {
   const Eigen::VectorXd& w_max() const;    ///< k
   const Eigen::VectorXd& row_min() const;  ///< for clearances one nanometre
   const Eigen::VectorXd& row_max() const;
-  const Eigen::VectorXd& row_unit()
-      const;  ///< typical magnitude of a row: half the width of its bounds; 0.1 m for a clearance
+  const Eigen::VectorXd& row_unit() const;  ///< half the width of a row; 0.1 m for a clearance
 
   /// The number of postures at theta_r that are valid apart from collisions.
   int ik_solutions(const Eigen::VectorXd& theta_r);

@@ -18,9 +18,8 @@ struct EffortAnswer {
   double shortfall = 0;    ///< max |B u - tau_c| [N, N m]; zero up to rounding unless relaxed
   bool saturated = false;  ///< at least one effort is at a bound
   bool relaxed = false;    ///< no u within the bounds reaches tau_c
-  bool converged =
-      true;  ///< false: the active set reached its iteration limit; u is within the bounds
-  int iterations = 0;  ///< of the active set; zero if the pseudo-inverse was within the bounds
+  bool converged = true;   ///< false: iteration limit of the active set; u is in bounds
+  int iterations = 0;      ///< of the active set; zero if the pseudo-inverse was within the bounds
 };
 
 /// The paper's tracking program over u (m), in "Tracking Dynamic Trajectories",

@@ -140,8 +140,7 @@ class Experiment {
   ControlLoop loop_;
   Eigen::VectorXd u_0_;
   Motion motion_;
-  Eigen::Vector3d v_load_ =
-      Eigen::Vector3d::Zero();  ///< velocity of the load at the last sample [m/s]
+  Eigen::Vector3d v_load_ = Eigen::Vector3d::Zero();  ///< at the last sample [m/s]
 };
 
 }  // namespace

@@ -205,8 +205,7 @@ void MotionEvaluator::follow(const Instant& instant, int i, int first, int count
   for (Eigen::Index row = 0; row < dual_v_.size(); ++row) {
     if (!moves) dual_v_[row] = 0;
     if (moves && maps_.smooth()) continue;
-    dual_v_dot_[row] =
-        instant.v_dot[row];  // by differences: from its own v; the others are added later
+    dual_v_dot_[row] = instant.v_dot[row];  // by differences: own v here, the others later
     if (!maps_.smooth() && maps_.D(i, i) != 0) {
       for (std::size_t d = 0; d < 4; ++d) {
         dual_v_dot_[row].d[d] = maps_.D(i, i) * dual_v_[row].d[d];

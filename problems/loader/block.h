@@ -35,8 +35,7 @@ class Block {
   double number(std::string_view key) const;
   double number(std::string_view key, double fallback) const;
   Eigen::VectorXd numbers(std::string_view key, int size) const;
-  Eigen::VectorXd any_numbers(
-      std::string_view key) const;  ///< of any size; empty if the key is missing
+  Eigen::VectorXd any_numbers(std::string_view key) const;  ///< of any size; empty without key
   Eigen::Vector3d vector(std::string_view key) const;
   Eigen::Vector3d vector(std::string_view key, const Eigen::Vector3d& fallback) const;
   Eigen::Vector3d direction(std::string_view key) const;  ///< normalised; zero is rejected

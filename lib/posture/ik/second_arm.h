@@ -48,13 +48,11 @@ class SecondArm {
   const Problem& problem_;
   const Contact& contact_;
   ContactArm arm_;
-  std::vector<char> first_,
-      second_;  ///< whether a velocity moves the first, the second end effector
+  std::vector<char> first_, second_;  ///< whether a velocity moves each end effector
   std::array<double, 2> s_{};
   Pose<double> pose_;
   Matrix6Xd C_2_, seeds_;
-  Vector6d mu_ =
-      Vector6d::Zero();  ///< J_f' mu = the derivatives by the second arm's dependent joints
+  Vector6d mu_ = Vector6d::Zero();  ///< J_f' mu = derivatives by the dependent joints
 };
 
 }  // namespace maxwrench
