@@ -6,8 +6,8 @@
 
 namespace maxwrench {
 
-/// A complex number whose arithmetic is plain: the operators of std::complex check for NaN after
-/// each product.
+/// A complex number with the plain formulas for its operations. The operators of std::complex check
+/// for NaN after each product.
 struct Complex {
   double re = 0, im = 0;
 

@@ -40,8 +40,8 @@ Eigen::VectorXd smaller_limits(const Zonotope& actuation);
 /// directions.
 Eigen::MatrixXd weighted_inverse(const Robot& robot, const std::string& measure);
 
-/// A measure for wrench columns that may only push or are at rest, from a closed form for free
-/// columns.
+/// A measure for programs in which some wrench columns may only push or must be zero, from a closed
+/// form for free columns.
 std::unique_ptr<Measure> make_one_sided(std::function<std::unique_ptr<Measure>()> closed_form);
 
 /// Ends an evaluation without an answer. Clears the multiplier of an earlier evaluation, which

@@ -11,7 +11,7 @@ namespace maxwrench {
 namespace {
 
 /// The sum of the squared radii of the ellipsoid {z : |W_u B^+ J'W S z| <= 1} of wrenches W S z.
-/// The columns of W (6×k) are all wrenches that the task can allow. S = W' diag(s) W, in the axes
+/// The columns of W (6×k) span all wrenches that the task can allow. S = W' diag(s) W, in the axes
 /// in which the task gives its wrenches, scales them by the desired wrench s. With G = W_u B^+ J'W
 /// (m×k) and Z = (G'G)^-1 S^-1,
 ///

@@ -10,9 +10,8 @@
 namespace maxwrench {
 namespace {
 
-/// w = sqrt det(A A') with A = W'J (k×n). The columns of W are all wrenches that the task can
-/// allow, so the rows of A span the possible motions of the end effector. d w = w <(A A')^-1 A, d
-/// A>.
+/// w = sqrt det(A A') with A = W'J (k×n). W, the wrenches that the task can allow at most, selects
+/// the rows that span the possible motions of the end effector. d w = w <(A A')^-1 A, d A>.
 class Manipulability : public Measure {
  public:
   explicit Manipulability(Matrix6Xd W) : W_0_(std::move(W)) {}

@@ -10,9 +10,9 @@ namespace maxwrench {
 namespace {
 
 /// Extends a closed form for free columns to programs in which some columns may only push (w_j >=
-/// 0) or may rest at zero. The problem is convex. If the columns that are zero at the optimum are
-/// left out, the closed form gives the optimum; for any other set its answer violates a sign or is
-/// no better. The measure therefore takes the best answer over all sets of resting columns, which
+/// 0) or must be zero. The problem is convex. If the columns that are zero at the optimum are left
+/// out, the closed form gives the optimum; for any other set its answer violates a sign or is no
+/// better. The measure therefore takes the best answer over all sets of resting columns, which
 /// needs 2^s closed forms for s one-sided columns. A resting column is optimal if its reduced slope
 /// c_w + (J'W)'lambda does not point inwards.
 ///

@@ -282,7 +282,7 @@ struct PostureEvaluator::Workspace {
   std::optional<PrimaryIk> primary;  ///< if joints are dependent
   std::optional<SecondArm> second;   ///< if there is a second contact
   std::vector<IkSolution> valid;
-  Fault fault;               ///< if no posture is valid,
+  Fault fault;               ///< set if no posture is valid
   IkSolution shown, placed;  ///< where the fault is; where the model is
   const Matrix6Xd none;      ///< no seeds
   Posture posture;

@@ -12,7 +12,6 @@
 
 namespace maxwrench {
 
-/// The state of one posture.
 struct PostureState {
   explicit PostureState(const Problem& p)
       : problem(p),

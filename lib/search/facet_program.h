@@ -63,7 +63,8 @@ class FacetProgram {
 /// An objective over postures that may have a facet program, for searches that solve it.
 class FacetObjective : public Objective {
  public:
-  /// A new program, or null if f is no optimum of the wrench program or {B u} has too many facets.
+  /// A new program, or null if the objective is not the optimum of the wrench program or {B u} has
+  /// too many facets.
   virtual std::unique_ptr<FacetProgram> make_facet_program() const = 0;
 };
 

@@ -15,9 +15,9 @@ class PostureController {
                     const TankOptions& options);
   PostureController(const Problem&&, const Posture&, Wrench, const TankOptions&) = delete;
 
-  /// The control effort tau_c of the motion for the wrench h. The efforts should be close to
-  /// u_star. They must be within their limits and within what the rate limits allow during `period`
-  /// after u_before.
+  /// Fills `request` for a motion and a wrench h: the control effort tau_c, the preferred efforts
+  /// u_star, and the bounds from the effort limits and from the rate limits during `period` after
+  /// u_before.
   void request(const Motion& motion, const Vector6d& h, const Eigen::VectorXd& u_star,
                const Eigen::VectorXd& u_before, double period, EffortRequest& request);
 

@@ -129,7 +129,7 @@ class MotionExperiment {
     if (lost_) loop_.run.conclude(Status::kInvalidPosture, lost_);
   }
 
-  /// The efforts are those of t_1, so the request uses a prediction of the motion at t_1.
+  /// The efforts apply at t_1, so the request uses a prediction of the motion at t_1.
   void request(const Eigen::VectorXd& u, double dt, double t_1) {
     const Stopwatch watch(loop_.run.controller_s);
     Motion then = advanced(problem_.robot, motion_, dt);

@@ -89,8 +89,7 @@ class Experiment {
     if (t > t_0) keep(t_0, t);
   }
 
-  /// The efforts are those of the period's end, so the request uses a prediction of the motion
-  /// there.
+  /// The efforts apply at the period's end, so the request uses a prediction of the motion there.
   void request(const Eigen::VectorXd& u, double s) {
     const Stopwatch watch(loop_.run.controller_s);
     controller_.request(advanced(problem_.robot, motion_, options_.period), exerted(asked(s)),

@@ -141,7 +141,6 @@ class Walk {
   int rates_before_ = 0;
 };
 
-/// Builds the pattern.
 struct Pattern {
   std::vector<Eigen::Triplet<double>> entries;
   int col = -1;
@@ -149,7 +148,6 @@ struct Pattern {
   void entry(int row, double /*value*/) { entries.emplace_back(row, col, 0.0); }
 };
 
-/// Writes the numbers.
 struct Numbers {
   LinearProgram& lp;
   int col = 0;

@@ -17,8 +17,8 @@ namespace maxwrench {
 /// and
 ///
 ///  * two, about parallel axes (an arm in a plane), or
-///  * three, the last two about parallel axes (a shoulder's yaw, its pitch and an elbow), the first
-/// about another axis.
+///  * three, the last two about parallel axes (a shoulder's yaw, its pitch and an elbow), the
+///    first about another axis.
 ///
 /// Let a be the unit axis of a joint and o a point on it at zero positions, R(a, q) the rotation, n
 /// the common axis of the last two joints, and p_0 the end effector's origin at zero positions. The

@@ -13,9 +13,9 @@ inline constexpr const char* kUnreachableReason =
     "unreachable pose: the dependent joints do not get there";
 inline constexpr const char* kSingularReason = "singular: the dependent joints do not fix the pose";
 
-/// Computes the dependent coordinates where the base pose is not their only part. Of the
-/// coordinates z = [x, y, z, yaw; all joints], theta_r holds r and y holds the free base
-/// coordinates and the dependent joints, d <= 6. y solves
+/// The dependent coordinates of a problem with dependent joints. z = [x, y, z, yaw; all joints] are
+/// all coordinates. theta_r has r of them. y has the free base coordinates and the dependent
+/// joints, d <= 6 in number. y solves
 ///
 ///     X_base(y) X_e(theta_r, y) = X     (pose of the end effector in the world, six equations)
 ///

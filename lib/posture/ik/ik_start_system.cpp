@@ -12,7 +12,7 @@
 namespace maxwrench {
 namespace {
 
-/// The number of starting points of Newton's method for the first solution.
+/// The largest number of starting points of Newton's method for the first solution.
 constexpr int kFirstStarts = 4000;
 /// The search for solutions ends after this many loops without a new one.
 constexpr int kIdleLoops = 10;
@@ -23,7 +23,8 @@ constexpr std::size_t kMostSolutions = 64;
 /// The numbers of starting points of Newton's method for further real and for complex solutions.
 constexpr int kRealStarts = 100;
 constexpr int kComplexStarts = 200;
-/// A solution is dropped if J_d is singular to this share: it is a multiple one at every theta_r.
+/// If a pivot of J_d is below this share of the largest, the solution is a multiple one at every
+/// theta_r and is dropped.
 constexpr double kSingularSolution = 1e-6;
 constexpr double kPi = std::numbers::pi;
 

@@ -64,7 +64,7 @@ class ToolChain {
   std::vector<Coordinate> coordinates_;
   std::vector<int> places_, in_z_;  ///< indices of y in coordinates_ and in z
   int parameters_ = 0;
-  Pose<double> behind_;  ///< from the last frame to what comes next, at last the end effector
+  Pose<double> behind_;  ///< from the last frame to the next one, finally to the end effector
 };
 
 }  // namespace maxwrench
