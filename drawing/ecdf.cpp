@@ -32,7 +32,7 @@ Axis decades_of(const EcdfPanel& panel, double from, double to) {
   return make_axis(low, std::max(high, low + 1), from, to, panel.axis);
 }
 
-/// One panel: x is log10 of the effort spent, y the share.
+/// One panel: x is log10 of the budget spent, y the share.
 class SharePanel {
  public:
   SharePanel(Svg& svg, const EcdfPanel& panel, const NamedCurves& styles, Point corner,

@@ -8,16 +8,16 @@
 
 namespace maxwrench {
 
-/// The share of all targets that was reached, against the effort spent.
+/// The share of all targets that was reached, against the budget spent.
 struct EcdfCurve {
   std::string name;
-  /// (effort, share from there on), both ascending
+  /// (budget, share from there on), both ascending
   std::vector<Eigen::Vector2d> steps;
 };
 
 struct EcdfPanel {
   std::string title;
-  std::string axis;  ///< name of the effort, whose axis is logarithmic
+  std::string axis;  ///< name of the budget, whose axis is logarithmic
   std::vector<EcdfCurve> curves;
   std::string shares = "targets reached";  ///< name of the share
 };

@@ -59,7 +59,7 @@ void add_bodies(const DrawnPosture& panel, View view, Scene& scene) {
                    [](const Silhouette& a, const Silhouette& b) { return a.depth > b.depth; });
 }
 
-/// Whether each link has no solid. In a picture with a hull no link has one.
+/// For each link, whether it has no solid. In a picture with a hull, no link has one.
 std::vector<bool> bare_links(const DrawnPosture& panel) {
   std::vector<bool> bare(panel.posture.links.size(), true);
   if (!panel.hull.empty()) return bare;

@@ -34,7 +34,6 @@ struct CurveStyle {
 CurveStyle curve_style(std::size_t i);
 void draw_mark(Svg& svg, const Eigen::Vector2d& at, const CurveStyle& style);
 
-/// The entry of a curve.
 LegendEntry legend_entry(const std::string& text, const CurveStyle& style);
 
 }  // namespace maxwrench

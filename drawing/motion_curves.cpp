@@ -17,8 +17,7 @@ namespace {
 using Point = Eigen::Vector2d;
 
 constexpr double kStripLeft = 54, kStripTop = 12, kStripHeight = 92, kStripRight = 12;  // px
-constexpr double kStripBelow = 24, kStripNamed = 38;  // from a strip to its legend; the second for
-                                                      // the last strip, which has an axis name
+constexpr double kStripBelow = 24, kStripNamed = 38;  // to the legend; the last has an axis name
 constexpr double kStripBare = 14, kStripBetween = 12;
 constexpr double kStripTitle = 14, kStripLegendLeft = 14;
 constexpr int kValuePieces = 3;       // of the axis of values

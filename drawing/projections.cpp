@@ -18,7 +18,7 @@ using Rectangle = std::array<double, 4>;
 constexpr double kTriangleLeft = 54, kTriangleTop = 26, kTriangleRight = 12, kTriangleGap = 9,
                  kTriangleBottom = 40, kTallest = 230, kStrip = 36;
 constexpr double kAround = 0.06;   // share of the width of all boxes, added on either side
-constexpr double kNoWidth = 1e-6;  // a narrower axis is widened by this:
+constexpr double kNoWidth = 1e-6;  // a narrower axis is widened by kSomeWidth
 constexpr double kSomeWidth = 0.05;
 constexpr int kMostPieces = 8;                      // of an axis, between ticks
 constexpr double kTickHeight = 20, kTickApart = 8;  // px

@@ -8,7 +8,6 @@
 
 namespace maxwrench {
 
-/// Points of one kind.
 struct ScatterSet {
   std::string name;
   std::vector<Eigen::Vector2d> points;
