@@ -32,7 +32,7 @@ std::string as_written(const toml::node& node) {
 
 std::optional<double> finite_number(const toml::node& node) {
   if (!node.is_number()) return std::nullopt;
-  const toml::value<int64_t>* const whole = node.as_integer();  // value<double> must be lossless
+  const toml::value<int64_t>* const whole = node.as_integer();  // value<double> may reject it
   const double value = whole ? static_cast<double>(whole->get()) : *node.value<double>();
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }

@@ -66,7 +66,7 @@ bool intersect(const Geometry& a, const Pose<double>& pose_a, const Geometry& b,
 /// A shape at the pose of its link.
 struct Placed {
   Pose<double> pose;          ///< R is set only if the shape is a box or uses FCL
-  Eigen::Vector3d half_axis;  ///< set for a capsule
+  Eigen::Vector3d half_axis;  ///< of a capsule
 };
 
 Placed place(const Shape& shape, const Pose<double>& link, bool oriented) {

@@ -41,7 +41,7 @@ bool is_folder(const fs::path& path) {
   return fs::is_directory(path, none);
 }
 
-/// The file of a shipped task, by its name, or of a path.
+/// The file of a shipped task, or the file at a path.
 fs::path find_task(const std::string& name) {
   const fs::path folder = problems_folder();
   const fs::path shipped = folder / (name + ".toml");
@@ -199,7 +199,7 @@ std::vector<std::string> tasks_in(const fs::path& folder) {
   if (!is_folder(folder)) return names;
   const auto options = fs::directory_options::skip_permission_denied;
   for (const auto& entry : fs::recursive_directory_iterator(folder, options)) {
-    std::error_code none;  // ignored; for example a link to itself
+    std::error_code none;  // ignored, for example for a link to itself
     if (entry.path().extension() != ".toml" || !entry.is_regular_file(none)) continue;
     std::ifstream stream(entry.path(), std::ios::binary);
     if (stream && !names_a_robot(stream)) continue;

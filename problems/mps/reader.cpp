@@ -78,7 +78,6 @@ struct MpsColumn {
 
 constexpr double kLargestBound = 1e25;  // a larger bound in a file means none
 
-/// The cards of one file.
 class Cards {
  public:
   explicit Cards(const std::string& path) : path_(path) { read(); }
