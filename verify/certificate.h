@@ -20,7 +20,7 @@ struct CertificateTree {
   };
   struct Node {
     Reason reason = Reason::kNone;
-    int axis = -1;                            ///< of the cut in two, its halves follow; -1: a leaf
+    int axis = -1;                            ///< of the cut; its two halves follow. -1: a leaf
     std::optional<double> at = std::nullopt;  ///< position of the cut, unless it is at the middle
     int pair = -1;                            ///< index of the colliding pair
     std::size_t multiplier = 0;               ///< index of its first number in `multipliers`
@@ -58,9 +58,8 @@ struct ProofCertificate {
 /// A hash (FNV-1a) of all numbers of robot and task on which a proof depends.
 std::uint64_t digest(const Problem& problem);
 
-/// The contents of a certificate file: "maxwrench proof 2
-/// ", the CRC-32 of everything after it, the length of the certificate, and the certificate packed
-/// by zlib; little endian.
+/// The contents of a certificate file: "maxwrench proof 2\n", the CRC-32 of everything after it,
+/// the length of the certificate, and the certificate packed by zlib; little endian.
 std::string certificate_text(const ProofCertificate& certificate);
 
 /// Throws std::invalid_argument, in one line with the name of the file, if the file is damaged or

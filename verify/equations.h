@@ -61,7 +61,7 @@ class EquationsOverBox {
   bool set(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
   /// Whether nu'f > 0 in the whole box, so that it contains no posture.
   bool excluded(const double* nu);
-  /// Adds the control points of nu'f to `points`, those of all variables.
+  /// Adds the control points of nu'f to `points`, which are on the grid of all variables.
   void add_to(std::vector<Narrow>& points, const double* nu);
 
  private:

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kIncumbentTolerance = 1e-8;
 
-/// [m; 1] Near a stretched arm, joints with an error of the square root of this satisfy the
-/// equations.
+/// [m; 1] Tolerance of the equations. Near a stretched arm, joints with an error of its square root
+/// satisfy them.
 constexpr double kOffEquations = 1e-10;
 
 /// Poses of all links relative to the base.

@@ -12,8 +12,8 @@ namespace maxwrench {
 ///
 /// If the base's pose has a closed form, everything is carried to the base, which has six free axes
 /// or all axes that these motions need. Otherwise the base has a yaw of its own. The rows of the
-/// base and of joints outside the chain are then computed from this yaw and the joints between.
-/// Where the equations do not hold, which is at no posture, the two ways give different values.
+/// base and of joints outside the chain are then computed from this yaw and from the joints after
+/// it. The two ways give different values only where the equations do not hold, away from postures.
 class FormModel {
  public:
   /// Keeps a reference to the problem. Throws std::invalid_argument, in one line, for other tasks.
@@ -28,8 +28,8 @@ class FormModel {
 
   /// tau_d, n: the load of gravity and buoyancy (eq:dynamics at rest).
   std::vector<Form> tau_d() const;
-  /// J'h, n, for a wrench at the end effector, in world axes if no coordinate of its pose is free.
-  /// If the task's wrenches turn with the end effector, h is turned with it.
+  /// J'h, n, for a wrench h at the end effector in world axes. If the task's wrenches turn with the
+  /// end effector, h is given at `Problem::pose` and turned with it.
   std::vector<Form> exerted(const Vector6d& h) const;
   /// The force of c, or its torque if not `force`, in base axes.
   FormVector along_at_base(bool force) const;

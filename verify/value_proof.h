@@ -21,8 +21,8 @@ class ValueProof {
   virtual int width() const = 0;
   /// An upper bound of the value at every posture.
   virtual double ceiling() const = 0;
-  /// Let no value in the box exceed `high`. Then no value exceeds max(low, the result), and the
-  /// result is at most `high`.
+  /// If no value in the box exceeds `high`, no value exceeds max(low, the result). The result is at
+  /// most `high`.
   virtual double most(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
                       const double* multiplier, double low, double high) = 0;
   virtual std::unique_ptr<ValueProof> clone() const = 0;
@@ -36,9 +36,12 @@ class ValueProof {
 ///                          t (1 - lambda'a_v) - lambda'tau_v - nu'f_v,
 ///
 /// because the values of (tau_d, J'c, f) lie in the convex hull of their control points. With
-/// equations, low and high may be infinite. Then, if lambda'a_v > 0 at all v, also t <= max over v
-/// of (s(lambda) - lambda'tau_v - nu'f_v)/lambda'a_v. Throws std::invalid_argument, in one line,
-/// for measures that it does not support.
+/// equations, where low and high may be infinite, also
+///
+///     t <= max over v of (s(lambda) - lambda'tau_v - nu'f_v)/lambda'a_v
+///
+/// if lambda'a_v > 0 at all v. Throws std::invalid_argument, in one line, for measures that it does
+/// not support.
 std::unique_ptr<ValueProof> make_pure_proof(const Problem& problem, const FormModel& model,
                                             const Equations& equations, const std::string& measure);
 
