@@ -11,10 +11,10 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-constexpr double kLargest = 1e100;   // powers of ten beyond it are out of reach of double's range
-constexpr double kNarrowest = 1e-9;  // of the largest value: below, ticks coincide by rounding
+constexpr double kLargest = 1e100;   // larger powers of ten are outside the range of double
+constexpr double kNarrowest = 1e-9;  // of the largest value; narrower ticks coincide by rounding
 constexpr int kMostTicks = 50;
-constexpr double kLeastNameLeft = 9;  // px: a name along the left edge is whole
+constexpr double kLeastNameLeft = 9;  // px, so that a name along the left edge is not cut
 
 const Paint& faint() {
   static const Paint kFaint{.stroke = "#e2e2e2", .width = 0.8};

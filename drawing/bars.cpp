@@ -28,7 +28,7 @@ const Paint& measured_paint() {
 /// Draws one group with its axis.
 class GroupWriter {
  public:
-  /// `left`: the left edge of its share of the picture.
+  /// `left`: the left edge of the group's part of the picture.
   GroupWriter(Svg& svg, const BarGroup& group, double left, double slot)
       : svg_(svg), group_(group), slot_(slot) {
     x_ = {0, static_cast<double>(std::max<std::size_t>(group.bars.size(), 1)), left + kAxisWidth,
@@ -51,7 +51,7 @@ class GroupWriter {
   }
 
  private:
-  /// Infinite for what is no number, which the axis rejects.
+  /// The magnitude; infinity for NaN, which the axis rejects.
   static double size(double value) { return std::isnan(value) ? kInfinity : std::abs(value); }
 
   void bar(const Bar& bar, double centre) {

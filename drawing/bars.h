@@ -8,16 +8,16 @@ namespace maxwrench {
 struct Bar {
   std::string name;
   double value = 0;
-  std::vector<double> measured;  ///< to compare with, drawn as dashes
+  std::vector<double> measured;  ///< values to compare with, drawn as dashes
 };
 
-/// Bars in one unit on a scale of their own.
+/// Bars with a common unit and scale.
 struct BarGroup {
   std::string unit;
   std::vector<Bar> bars;
 };
 
-/// Groups of bars side by side as SVG. `measured` says what the dashes are.
+/// Draws groups of bars side by side as SVG. `measured` is the legend text of the dashes.
 std::string draw_bars(const std::string& title, const std::vector<BarGroup>& groups,
                       const std::string& measured);
 

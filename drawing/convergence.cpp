@@ -16,11 +16,11 @@ using Point = Eigen::Vector2d;
 // px
 constexpr double kPanelHeight = 180, kPanelLeft = 78, kPanelTop = 26, kPanelRight = 12,
                  kPanelBottom = 40;
-constexpr double kSmallest = 1e-6;  // share of the best value: the foot of the picture
+constexpr double kSmallest = 1e-6;  // share of the best value at the lower edge of the picture
 constexpr int kPointsPerDecade = 24;
 constexpr int kMostDecades = 12;  // of evaluations
 
-/// One panel in decades: x log10 of evaluations from 0, y log10 of the shortfall up to 0.
+/// One panel in decades: x is log10 of evaluations, from 0; y is log10 of the shortfall, up to 0.
 class DecadePanel {
  public:
   DecadePanel(Svg& svg, const ConvergencePanel& panel, const NamedCurves& styles, double top)
@@ -61,7 +61,7 @@ class DecadePanel {
     draw_frame(svg_, x_, y_);
   }
 
-  /// From the first evaluation with a value.
+  /// The steps of a curve from its first evaluation with a value.
   std::vector<Point> stairs(const ConvergenceCurve& curve) const {
     std::vector<Point> points;
     const int steps = static_cast<int>(std::lround(x_.high * kPointsPerDecade));

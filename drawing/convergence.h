@@ -7,8 +7,8 @@
 
 namespace maxwrench {
 
-/// How far the best value so far stays below a reference, as a share of it, after so many
-/// evaluations; infinity while there is none.
+/// The shortfall of the best value so far from a reference, as a share of the reference, after a
+/// number of evaluations. Infinity while there is no value.
 struct ConvergenceCurve {
   std::string name;
   std::function<double(double evaluations)> shortfall;
@@ -16,12 +16,12 @@ struct ConvergenceCurve {
 
 struct ConvergencePanel {
   std::string title;
-  double budget = 1;  ///< evaluations, where the axis ends
+  double budget = 1;  ///< evaluations at which the axis ends
   std::vector<ConvergenceCurve> curves;
 };
 
-/// Panels below each other as SVG, shortfalls against evaluations, both logarithmic. The curves of
-/// `named` have styles and names in one legend, the others are grey.
+/// Draws panels below each other as SVG: shortfall against evaluations, both logarithmic. The
+/// curves in `named` have styles and names in one legend; the others are grey.
 std::string draw_convergence(std::span<const ConvergencePanel> panels,
                              const std::vector<std::string>& named);
 

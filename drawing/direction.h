@@ -4,8 +4,9 @@
 
 namespace maxwrench {
 
-// Directions without a length: a torque in the plane as an arrow with two heads, a torque about the
-// line of sight as part of a circle, a force along it as a point or a tail of an arrow.
+// Directions without a length. A torque in the plane is an arrow with two heads, and a torque about
+// the line of sight is part of a circle. A force along the line of sight is the point or the tail
+// of an arrow.
 
 void draw_torque(Svg& svg, const Eigen::Vector2d& tail, const Eigen::Vector2d& tip,
                  const Paint& paint, double head);

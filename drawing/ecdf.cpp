@@ -17,7 +17,7 @@ constexpr double kEcdfLeft = 52, kEcdfTop = 24, kEcdfHeight = 150, kEcdfBottom =
                  kEcdfBetween = 34, kEcdfRight = 14;
 constexpr double kLowestDecade = -6, kHighestDecade = 12;
 
-/// The decades that hold all steps of a panel.
+/// The decades that contain all steps of a panel.
 Axis decades_of(const EcdfPanel& panel, double from, double to) {
   double low = kHighestDecade, high = kLowestDecade;
   for (const EcdfCurve& curve : panel.curves) {
@@ -32,7 +32,7 @@ Axis decades_of(const EcdfPanel& panel, double from, double to) {
   return make_axis(low, std::max(high, low + 1), from, to, panel.axis);
 }
 
-/// One panel: x log10 of what was spent, y the share.
+/// One panel: x is log10 of the budget spent, y the share.
 class SharePanel {
  public:
   SharePanel(Svg& svg, const EcdfPanel& panel, const NamedCurves& styles, Point corner,
@@ -71,7 +71,7 @@ class SharePanel {
     draw_frame(svg_, x_, y_);
   }
 
-  /// From no share at the first step to the right end.
+  /// The steps of a curve from share zero at the first step to the right end.
   std::vector<Point> stairs(const EcdfCurve& curve) const {
     std::vector<Point> points;
     double share = 0;

@@ -22,13 +22,13 @@
 namespace maxwrench {
 namespace {
 
-/// From above, unless c points up or down.
+/// The view from above, unless c points up or down.
 View view_of(const Problem& problem) {
   return std::abs(problem.c[2]) < 1e-9 ? View::kTop : View::kSide;
 }
 
-/// The set of one measure; without value and outline if the robot's actuators do not allow this
-/// measure (B rank deficient, a one-sided limit).
+/// The set of one measure. It has no value and no outline if the robot's actuators do not allow
+/// this measure (B rank deficient, a one-sided limit).
 ForceSet set_of(const Problem& problem, const Posture& posture, const MeasureEntry& entry,
                 Wrench wrench, const char* name) {
   std::unique_ptr<Measure> measure;
@@ -48,7 +48,7 @@ DrawnPosture draw_robot(const Problem& problem, PostureEvaluator& model, const P
   DrawnPosture drawn;
   drawn.title = with_letters(panel.title);
   drawn.problem = &problem;
-  // Of several IK solutions of a second arm the best one is drawn.
+  // If a second arm has several IK solutions, the best one is drawn.
   WrenchProgram program = make_wrench_program(problem, Wrench::kPure);
   const auto measure = make_linf_polytope(problem.robot, find_wrench_solver("condensed").make());
   Capability capability;
@@ -82,10 +82,10 @@ Problem at_instant(const Problem& problem, const Instant& instant) {
   return still;
 }
 
-/// Of a path that turns the angle, else the time.
+/// The angle for a path that turns, else the time.
 std::string title_of(const Problem& problem, const Trajectory& trajectory, const Instant& instant) {
   const double angle = problem.motion->path.angle();
-  // A rotation by more than half a turn cannot be read from where it has arrived.
+  // A pose does not show a rotation by more than half a turn.
   if (angle == 0 || std::abs(angle) > std::numbers::pi * (1 + 1e-12))
     return fmt::format("{:.4g} s", instant.t);
   const Eigen::AngleAxisd turned(trajectory.instants.front().end_effector.R.transpose() *
@@ -113,7 +113,7 @@ std::string posture_figure(const Problem& problem, const std::vector<Panel>& pan
 
 std::string trajectory_figure(const Problem& problem, const Trajectory& trajectory,
                               const std::vector<double>& times) {
-  std::deque<Problem> problems;  // whose elements stay where they are
+  std::deque<Problem> problems;  // a deque keeps the addresses of its elements
   std::vector<DrawnPosture> drawn;
   for (const double time : times) {
     const auto& instant = *std::min_element(trajectory.instants.begin(), trajectory.instants.end(),

@@ -11,7 +11,7 @@
 namespace maxwrench {
 namespace {
 
-/// The wrenches over which the outline is taken.
+/// The wrenches that span the outline.
 Matrix6Xd outline_basis(const Problem& problem, Wrench wrench, View view) {
   if (wrench == Wrench::kAny) return problem.W_any;
   Matrix6Xd W = Matrix6Xd::Zero(6, 2);
@@ -54,7 +54,7 @@ ForceSet force_set(const Problem& problem, const Posture& posture, Measure& meas
   WrenchProgram program = along_c;
   program.W = outline_basis(held, wrench, view);
   program.W_0.resize(6, 0);
-  // The second contact's columns follow those of the outline.
+  // The second contact's columns come after those of the outline.
   const Eigen::Index own = program.W.cols();
   const Eigen::Index l = program.C_2.cols();
   program.c_w.setZero(own + l);

@@ -17,8 +17,8 @@ namespace {
 using Point = Eigen::Vector2d;
 using Box = Eigen::AlignedBox2d;
 
-// Colours of Okabe and Ito, told apart by colour-blind readers; vermillion is kept for c. Equal
-// sets show both: a pale line under dark dashes.
+// Colours of Okabe and Ito, which colour-blind readers can distinguish; vermillion is reserved for
+// c. If two sets are equal, both are visible: a pale line under dark dashes.
 constexpr CurveStyle kSetStyles[] = {{"#007A5A", "2 2", Mark::kTriangle, false},
                                      {"#EDB04A", "", Mark::kSquare, false},
                                      {"#0072B2", "7 4", Mark::kDiamond, false},
@@ -59,7 +59,7 @@ void add_bodies(const DrawnPosture& panel, View view, Scene& scene) {
                    [](const Silhouette& a, const Silhouette& b) { return a.depth > b.depth; });
 }
 
-/// A link that has no solid; none has one in a picture with a hull.
+/// For each link, whether it has no solid. In a picture with a hull, no link has one.
 std::vector<bool> bare_links(const DrawnPosture& panel) {
   std::vector<bool> bare(panel.posture.links.size(), true);
   if (!panel.hull.empty()) return bare;
@@ -115,7 +115,7 @@ ContactMark contact_of(const DrawnPosture& panel, View view) {
     for (int i = 0; i <= kPieces; ++i) add(Eigen::VectorXd::Constant(1, double(i) / kPieces));
   } else if (contact.coordinates() == 2) {
     for (const auto& [x, y] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}}) add(Eigen::Vector2d(x, y));
-    touch.places = convex_hull(touch.places);  // of a plane seen from its edge a line
+    touch.places = convex_hull(touch.places);  // a plane seen from its edge becomes a line
     if (touch.places.size() > 2) touch.places.push_back(touch.places.front());
   }
   return touch;
@@ -182,7 +182,7 @@ void choose_force_scale(std::span<const DrawnPosture> panels, Layout& layout) {
     }
   }
   layout.forces = largest > 0;
-  // The sets reach about half as far as the robot; a round number of newtons per metre.
+  // A round number of newtons per metre, so that the sets are about half as large as the robot.
   const double extent = std::max(layout.box.sizes().maxCoeff(), 1e-3);
   layout.metres = largest > 0 ? 1 / round_step(2.2 * largest / extent) : 0.1 * extent;
   if (largest > 0 && largest * layout.metres > 0.8 * extent) layout.metres /= 2;
@@ -230,7 +230,7 @@ Layout make_layout(std::span<const DrawnPosture> panels, View view) {
   const double columns = static_cast<double>(layout.columns);
   layout.cell = (kPageWidth - kPostureLeft - kPostureRight - (columns - 1) * kPostureGap) / columns;
   const double height = layout.columns == 1 ? 340 : 210;
-  // Of a robot without extent, a centimetre.
+  // At least one centimetre, for a robot without extent.
   const Point extent = layout.box.sizes().cwiseMax(1e-2);
   layout.box = Box(layout.box.center() - extent / 2, layout.box.center() + extent / 2);
   layout.scale = std::min(layout.cell / extent.x(), height / extent.y());

@@ -11,7 +11,8 @@ using Point = Eigen::Vector2d;
 
 constexpr double kAfterMark = 5;  // px
 
-// Colours of Okabe and Ito, told apart by colour-blind readers; none as light as their yellow.
+// Colours of Okabe and Ito, which colour-blind readers can distinguish; none is as light as their
+// yellow.
 constexpr CurveStyle kCurveStyles[] = {
     {"#222222", "", Mark::kCircle, false},         {"#C77F00", "7 2", Mark::kSquare, true},
     {"#0072B2", "", Mark::kTriangle, false},       {"#009E73", "2 2", Mark::kDiamond, true},

@@ -8,7 +8,7 @@
 
 namespace maxwrench {
 
-/// What a mark of a picture means.
+/// The meaning of a mark in a picture.
 struct LegendEntry {
   std::string text;
   /// Draws the mark between `left` and `left` + (kLegendMark, 0).
@@ -18,12 +18,13 @@ struct LegendEntry {
 inline constexpr double kLegendMark = 28;  ///< px
 inline constexpr double kLegendLine = 16;  ///< px
 
-/// In rows of so many columns; a long text takes several of them. Returns the height; with no `svg`
-/// it draws nothing.
+/// Draws the entries in rows of `columns`; a long text takes several columns. Returns the height.
+/// Without `svg` it draws nothing.
 double draw_legend(Svg* svg, const std::vector<LegendEntry>& entries, const Eigen::Vector2d& corner,
                    double width, int columns = 3);
 
-/// How the i-th of several curves looks. Read in grey, marks and dashes tell them apart.
+/// The style of the i-th of several curves. Marks and dashes distinguish the curves without
+/// colours.
 struct CurveStyle {
   const char* colour;
   const char* dash;
@@ -33,7 +34,6 @@ struct CurveStyle {
 CurveStyle curve_style(std::size_t i);
 void draw_mark(Svg& svg, const Eigen::Vector2d& at, const CurveStyle& style);
 
-/// The entry of a curve.
 LegendEntry legend_entry(const std::string& text, const CurveStyle& style);
 
 }  // namespace maxwrench

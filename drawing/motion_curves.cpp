@@ -17,7 +17,7 @@ namespace {
 using Point = Eigen::Vector2d;
 
 constexpr double kStripLeft = 54, kStripTop = 12, kStripHeight = 92, kStripRight = 12;  // px
-constexpr double kStripBelow = 24, kStripNamed = 38;  // to its legend, the last one with a name
+constexpr double kStripBelow = 24, kStripNamed = 38;  // to the legend; the last has an axis name
 constexpr double kStripBare = 14, kStripBetween = 12;
 constexpr double kStripTitle = 14, kStripLegendLeft = 14;
 constexpr int kValuePieces = 3;       // of the axis of values
@@ -31,7 +31,7 @@ struct Strand {
   std::function<double(const TankSample&)> value;
 };
 
-/// One plot of several above each other.
+/// One of several plots above each other.
 struct Strip {
   std::string name;
   std::vector<Strand> strands = {};
@@ -58,7 +58,7 @@ Strip angle_strip(const std::vector<TankCurve>& curves) {
   return strip;
 }
 
-/// From zero unless several readings are told apart.
+/// The wrench strip. It starts from zero unless there are several curves.
 Strip wrench_strip(const Problem& problem, const std::vector<TankCurve>& curves) {
   Strip strip{fmt::format("along c [{}]", problem.unit())};
   strip.from_zero = curves.size() == 1;
@@ -97,7 +97,7 @@ Strip posture_strip(const Problem& problem, const TankRun& run) {
   return strip;
 }
 
-/// Of several runs, one strip each below each other, with one legend.
+/// For several runs, one strip each, below each other, with one legend.
 std::vector<Strip> strips_of(const Problem& problem, const std::vector<TankCurve>& curves) {
   std::vector<Strip> strips;
   if (!problem.motion->impulse) strips.push_back(angle_strip(curves));
@@ -148,7 +148,7 @@ void draw_strip(Svg& svg, const Strip& strip, const Axis& time, const Axis& valu
   }
 }
 
-/// In two columns if a name does not fit in one of three. Returns the height.
+/// Draws the legend in three columns, or in two if a name does not fit. Returns the height.
 double strip_legend(Svg* svg, const Strip& strip, const Point& corner) {
   if (!strip.legend) return 0;
   std::vector<LegendEntry> entries;

@@ -17,7 +17,7 @@ using Point = Eigen::Vector2d;
 constexpr double kTitle = 22, kTicks = 34, kValue = 82, kValueLine = 15, kPanelFoot = 6,
                  kContactArrow = 20;
 
-/// Values of beta beside each other.
+/// The number of values of beta in one row.
 std::size_t values_per_row(const Layout& layout) {
   return std::max<std::size_t>(1, static_cast<std::size_t>(layout.cell / kValue));
 }
@@ -106,7 +106,7 @@ class PanelWriter {
                                         .fill_opacity = 0.75});
   }
 
-  /// Sets of forces cover the base but not the arm, in whatever depth it is.
+  /// Force sets cover the base but not the arm, whatever its depth.
   void arm() {
     for (const Silhouette& body : scene_.bodies) {
       if (!body.on_base && !panel_.sets.empty()) draw_body(body);
@@ -115,7 +115,7 @@ class PanelWriter {
     for (const Point& p : scene_.joints) draw_joint(svg_, to_px_(p));
   }
 
-  /// The second contact and, dashed, the places that it may have.
+  /// Draws the second contact and, dashed, its possible places.
   void touch() {
     if (!scene_.touch) return;
     const ContactMark& touch = *scene_.touch;
@@ -127,15 +127,15 @@ class PanelWriter {
 
   void outlines() {
     for (const ForceSet& set : panel_.sets) {
-      // A line without dashes is wide, so that it shows under dashes.
+      // A line without dashes is wide, so that it is visible under dashes.
       const double width = *style(set).dash == 0 ? 2.6 : 1.5;
       svg_.polygon(outline(set),
                    {.stroke = style(set).colour, .width = width, .dash = style(set).dash});
     }
   }
 
-  /// The arrow c, and beta c of each set; where the force that attains beta is no multiple of c, a
-  /// line across c joins the two.
+  /// Draws the arrow c, and beta c of each set. If the force that attains beta is no multiple of c,
+  /// a line across c joins the two.
   void direction() {
     if (panel_.sets.empty()) return direction_symbol();
     const double reach = reach_along_c(panel_, scene_.c);
@@ -165,8 +165,8 @@ class PanelWriter {
                .italic = true});
   }
 
-  /// c without a length: a force as an arrow, a torque as an arrow with two heads or, about the
-  /// line of sight, as part of a circle.
+  /// Draws c without a length: a force as an arrow, a torque as an arrow with two heads or, about
+  /// the line of sight, as part of a circle.
   void direction_symbol() {
     const Point centre = to_px_(scene_.end_effector);
     const double length = layout_.symbol * layout_.scale;

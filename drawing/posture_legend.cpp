@@ -10,11 +10,11 @@ namespace {
 using Point = Eigen::Vector2d;
 using Entries = std::vector<LegendEntry>;
 
-constexpr double kSeen = 1e-9;  // parts of c below it are rounding
+constexpr double kSeen = 1e-9;  // smaller parts of c are rounding
 
 const Point kEnd(kLegendMark, 0), kMiddle(kLegendMark / 2, 0);
 
-/// Whether a scene has what is asked for.
+/// Whether the predicate holds for at least one scene.
 template <class Predicate>
 bool any_scene(const Layout& layout, Predicate predicate) {
   return std::any_of(layout.scenes.begin(), layout.scenes.end(), predicate);
@@ -104,7 +104,7 @@ void add_touch(const Layout& layout, Entries& entries) {
                      }});
 }
 
-/// In the order of the panels.
+/// Adds the sets in the order of the panels.
 void add_sets(const Layout& layout, std::span<const DrawnPosture> panels, Entries& entries) {
   std::vector<std::string> names;
   bool any = false;

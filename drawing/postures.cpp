@@ -15,7 +15,7 @@ using Point = Eigen::Vector2d;
 
 constexpr double kLongestBar = 90, kScaleLine = 20, kLegendLeft = 14;  // px
 
-/// The length of a round number of newtons, starting at `left`.
+/// Draws the length of a round number of newtons, starting at `left`.
 void force_scale_bar(Svg& svg, const Layout& layout, const Point& left) {
   const double px_per_newton = layout.metres * layout.scale;
   const double newtons = round_step(kLongestBar / px_per_newton);
@@ -49,7 +49,7 @@ Picture picture(std::span<const DrawnPosture> panels, View view) {
   return {svg, posture_legend(layout, panels)};
 }
 
-/// The pictures below each other, then what the marks of all of them mean.
+/// The pictures below each other, then one legend for all of them.
 std::string with_legend(const std::vector<Picture>& pictures) {
   std::vector<LegendEntry> legend;
   double height = 0;

@@ -11,14 +11,14 @@ namespace maxwrench {
 namespace {
 
 using Point = Eigen::Vector2d;
-/// x from, to, y from, to.
+/// x from, x to, y from, y to.
 using Rectangle = std::array<double, 4>;
 
 // px
 constexpr double kTriangleLeft = 54, kTriangleTop = 26, kTriangleRight = 12, kTriangleGap = 9,
                  kTriangleBottom = 40, kTallest = 230, kStrip = 36;
-constexpr double kAround = 0.06;   // of the width of all boxes, on either side
-constexpr double kNoWidth = 1e-6;  // an axis that is narrower is made wider by this:
+constexpr double kAround = 0.06;   // share of the width of all boxes, added on either side
+constexpr double kNoWidth = 1e-6;  // a narrower axis is widened by kSomeWidth
 constexpr double kSomeWidth = 0.05;
 constexpr int kMostPieces = 8;                      // of an axis, between ticks
 constexpr double kTickHeight = 20, kTickApart = 8;  // px
@@ -27,7 +27,7 @@ const char* const kGreys[] = {"#9a9a9a", "#d4d4d4"};
 
 using Intervals = std::vector<std::pair<double, double>>;
 
-/// The union, in order.
+/// The union of the intervals, in order.
 Intervals united(Intervals parts) {
   std::sort(parts.begin(), parts.end());
   Intervals result;
@@ -41,8 +41,8 @@ Intervals united(Intervals parts) {
   return result;
 }
 
-/// The same area by rectangles that do not overlap: rows between neighbouring edges, those that are
-/// alike in one.
+/// The same area as rectangles that do not overlap: rows between neighbouring edges, with equal
+/// neighbouring rows merged.
 std::vector<Rectangle> united(std::vector<Rectangle> area) {
   std::sort(area.begin(), area.end());
   area.erase(std::unique(area.begin(), area.end()), area.end());
@@ -68,7 +68,7 @@ std::vector<Rectangle> united(std::vector<Rectangle> area) {
   return result;
 }
 
-/// From the first box to the last, with something around, but not beyond the limits.
+/// The range from the first box to the last, with some space around it, but not beyond the limits.
 std::pair<double, double> shown(const std::vector<BoxGroup>& groups, Eigen::Index i, double lower,
                                 double upper) {
   double low = kInfinity, high = -kInfinity;
@@ -117,7 +117,7 @@ class Triangle {
  private:
   const BoxAxis& axis(int i) const { return axes_[static_cast<std::size_t>(i)]; }
 
-  /// x is coordinate `column`, y is coordinate `row` + 1 if there is one.
+  /// Draws a panel: x is coordinate `column`; y is coordinate `row` + 1 if there is one.
   void panel(Svg& svg, int row, int column) const {
     const Point corner(kTriangleLeft + column * (size_.x() + kTriangleGap),
                        kTriangleTop + row * (size_.y() + kTriangleGap));
@@ -149,7 +149,7 @@ class Triangle {
     if (column > 0) draw_y_lines(svg, x, y, up);
   }
 
-  /// As many as have room for their labels.
+  /// As many ticks as there is room for their labels.
   static std::vector<Tick> ticks_of(const Axis& axis, bool across) {
     const double length = std::abs(axis.to - axis.from);
     for (int pieces = kMostPieces;; --pieces) {
@@ -166,7 +166,8 @@ class Triangle {
 
   static std::string with_unit(const BoxAxis& axis) { return axis.name + " [" + axis.unit + "]"; }
 
-  /// Whether one word at the top says the unit of all, as names with units have no room.
+  /// Whether one text at the top gives the unit of all axes, because the names with units do not
+  /// fit.
   bool one_unit() const {
     const bool same = std::all_of(axes_.begin(), axes_.end(), [this](const BoxAxis& each) {
       return each.unit == axes_.front().unit;
@@ -180,7 +181,7 @@ class Triangle {
     return fitted(one_unit() ? axis(i).name : with_unit(axis(i)), Font().size, room());
   }
 
-  /// The largest first.
+  /// Draws the areas, the largest first.
   void areas(Svg& svg, const Axis& x, const Axis& y, int row, int column) const {
     std::vector<std::pair<double, std::size_t>> order;
     std::vector<std::vector<Rectangle>> all;
@@ -212,13 +213,14 @@ class Triangle {
     return united(std::move(boxes));
   }
 
-  /// The line hides seams, and what is thinner than a dot.
+  /// The line hides seams and makes thin areas visible.
   Paint fill(std::size_t i) const {
     const char* const colour = colour_of(i);
     return {.stroke = colour, .width = 0.6, .fill = colour};
   }
 
-  /// Colours in the order of the groups that have one, none black, no mark twice.
+  /// Styles in the order of the groups that have a colour. No colour is black and no mark occurs
+  /// twice.
   CurveStyle style_of(std::size_t i) const {
     std::size_t place = 0;
     for (std::size_t k = 0; k < i; ++k) place += groups_[k].grey ? 0 : 1;

@@ -18,7 +18,7 @@ bool can_be_drawn(const Eigen::Vector2d& point) {
   return point.allFinite() && point.minCoeff() > 0;
 }
 
-/// A logarithmic axis around one coordinate of all points, a third of a decade wider on each side.
+/// A logarithmic axis for one coordinate of all points, a third of a decade wider on each side.
 Axis axis_around(const ScatterPanel& panel, int coordinate, double from, double to,
                  const std::string& name) {
   double low = kInfinity, high = -kInfinity;
@@ -32,7 +32,7 @@ Axis axis_around(const ScatterPanel& panel, int coordinate, double from, double 
   return make_axis(low - 0.3, high + 0.3, from, to, name);
 }
 
-/// Powers of ten, and 2 and 5 times them on a short axis.
+/// Ticks at powers of ten, and on a short axis also at 2 and 5 times these.
 std::vector<Tick> decade_ticks(const Axis& axis) {
   std::vector<Tick> ticks;
   const bool is_short = axis.high - axis.low < 2;

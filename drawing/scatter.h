@@ -8,7 +8,6 @@
 
 namespace maxwrench {
 
-/// Points of one kind.
 struct ScatterSet {
   std::string name;
   std::vector<Eigen::Vector2d> points;
@@ -19,8 +18,8 @@ struct ScatterPanel {
   std::vector<ScatterSet> sets;
 };
 
-/// A panel as SVG, both axes logarithmic; sets differ in mark and colour. Points that are not
-/// positive and finite are left out; throws std::invalid_argument if none is left.
+/// Draws a panel as SVG, with both axes logarithmic. Sets differ in mark and colour. Points that
+/// are not positive and finite are left out. Throws std::invalid_argument if none is left.
 std::string draw_scatter(const ScatterPanel& panel);
 
 }  // namespace maxwrench

@@ -15,9 +15,9 @@ using Point = Eigen::Vector2d;
 
 constexpr double kFarthest = 1e5;  // px
 
-/// A coordinate that can be written.
+/// Checks that a coordinate can be written.
 double px(double value) {
-  if (std::abs(value) <= kFarthest) return value;  // not of NaN
+  if (std::abs(value) <= kFarthest) return value;  // false for NaN
   throw std::invalid_argument(
       fmt::format("figure: got a point at {:g} px, expected finite values of similar size", value));
 }
@@ -57,7 +57,7 @@ std::string escaped(std::string_view text) {
   return result;
 }
 
-/// The bytes of the UTF-8 character that starts at `i`.
+/// The number of bytes of the UTF-8 character that starts at `i`.
 std::size_t character_length(std::string_view text, std::size_t i) {
   std::size_t length = 1;
   while (i + length < text.size() && (static_cast<unsigned char>(text[i + length]) & 0xC0U) == 0x80)
@@ -77,14 +77,15 @@ bool after_one_letter(std::string_view text, std::size_t end) {
   return first < end && first + character_length(text, first) == end;
 }
 
-/// Text with its lowered characters; `dy` shifts all that follows, so the rest is raised again.
+/// The text with its subscripts. `dy` shifts everything after it, so the remaining text is raised
+/// again.
 std::string spans(std::string_view text, double size) {
   std::string result;
   std::string plain;
   double lowered = 0;
   const auto flush = [&] {
     if (plain.empty()) return;
-    // Renderers drop a blank at the start of a span: a shift takes its place.
+    // Renderers drop a blank at the start of a span, so a shift replaces it.
     const bool blank = lowered > 0 && plain[0] == ' ';
     if (blank) plain.erase(0, 1);
     const std::string dx = blank ? fmt::format(" dx=\"{:.2f}\"", 0.3 * size) : "";
@@ -156,7 +157,7 @@ void Svg::arrow(const Point& tail, const Point& tip, const Paint& paint, double 
   const Point across(-along.y(), along.x());
   head = std::min(head, length);
   const Point neck = tip - head * along;
-  line(tail, neck + 0.2 * head * along, paint);  // under the head, so that no gap shows
+  line(tail, neck + 0.2 * head * along, paint);  // under the head, so that no gap is visible
   Paint solid;
   solid.fill = paint.stroke;
   polygon({tip, neck + 0.38 * head * across, neck - 0.38 * head * across}, solid);

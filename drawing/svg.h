@@ -8,7 +8,7 @@
 
 namespace maxwrench {
 
-/// How a shape looks. An empty colour draws nothing.
+/// The style of a shape. An empty colour draws nothing.
 struct Paint {
   std::string stroke = {};
   double width = 1;       ///< px
@@ -17,11 +17,11 @@ struct Paint {
   double fill_opacity = 1;
 };
 
-/// All figures are made for a column of 8 cm: this many px wide, so that kFontSize is 6.2 pt there.
+/// All figures are this wide, for a column of 8 cm, so that kFontSize is 6.2 pt there.
 inline constexpr double kPageWidth = 400;  ///< px
-inline constexpr double kFontSize = 11;    ///< px, the smallest one of words and numbers
+inline constexpr double kFontSize = 11;    ///< px, the smallest size of words and numbers
 
-/// Marks that differ in shape, for readers without colours.
+/// Marks differ in shape, for readers who cannot distinguish colours.
 enum class Mark { kCircle, kSquare, kDiamond, kTriangle, kFlipped, kCross };
 
 enum class Anchor { kStart, kMiddle, kEnd };
@@ -35,26 +35,26 @@ struct Font {
   double angle = 0;  ///< degrees, counterclockwise
 };
 
-/// Writes an SVG picture on white ground. All coordinates are px, y down, as in SVG. Throws
-/// std::invalid_argument for one that is not finite or far outside any picture.
+/// Writes an SVG picture on a white background. All coordinates are px, y down, as in SVG. Throws
+/// std::invalid_argument for a coordinate that is not finite or far outside any picture.
 class Svg {
  public:
   Svg(double width, double height);
 
   void line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Paint& paint);
-  /// Closed; with two points a line, with one a dot.
+  /// A closed polygon; two points give a line, one a dot.
   void polygon(const std::vector<Eigen::Vector2d>& points, const Paint& paint);
   void polyline(const std::vector<Eigen::Vector2d>& points, const Paint& paint);
   void circle(const Eigen::Vector2d& centre, double radius, const Paint& paint);
-  /// A shaft in the paint's stroke and a filled head of that length at `tip`.
+  /// A shaft in the stroke of the paint and a filled head of length `head` at `tip`.
   void arrow(const Eigen::Vector2d& tail, const Eigen::Vector2d& tip, const Paint& paint,
              double head);
   void mark(const Eigen::Vector2d& at, Mark mark, double radius, const Paint& paint);
-  /// `at` is the baseline's anchor. After a word of one letter an underscore lowers the next
-  /// character: "L_2"; "direct_l" stays as it is.
+  /// `at` is the baseline's anchor. After a word of one letter, an underscore makes the next
+  /// character a subscript: "L_2". "direct_l" stays unchanged.
   void text(const Eigen::Vector2d& at, std::string_view text, const Font& font);
 
-  /// Another picture with its upper left corner at `corner`.
+  /// Inserts another picture with its upper left corner at `corner`.
   void place(const Svg& other, const Eigen::Vector2d& corner);
 
   double width() const { return width_; }
@@ -66,7 +66,7 @@ class Svg {
   std::string body_;
 };
 
-/// A plane of the world on the paper: metres, y up -> px, y down.
+/// Maps a plane of the world to the picture: metres, y up -> px, y down.
 struct Viewport {
   Eigen::Vector2d origin;  ///< px, of the world's (0, 0)
   double scale;            ///< px/m
@@ -77,11 +77,11 @@ struct Viewport {
   std::vector<Eigen::Vector2d> operator()(const std::vector<Eigen::Vector2d>& points) const;
 };
 
-/// About how wide a text is [px].
+/// The approximate width of a text [px].
 double text_width(std::string_view text, double size);
-/// What fits of a text: its end, after an ellipsis.
+/// The text if it fits; otherwise an ellipsis and the longest end of the text that fits.
 std::string fitted(const std::string& text, double size, double width);
-/// "beta" as the letter.
+/// Replaces "beta" with the Greek letter.
 std::string with_letters(std::string text);
 
 }  // namespace maxwrench

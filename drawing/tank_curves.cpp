@@ -27,7 +27,8 @@ struct TankAxes {
   Point operator()(double t, double y) const { return {time(t), value(y)}; }
 };
 
-/// Those of all samples and of zero. Throws std::invalid_argument if there is nothing to draw.
+/// The axes that contain all samples and zero. Throws std::invalid_argument if there is nothing to
+/// draw.
 TankAxes axes_of(const std::vector<TankCurve>& curves) {
   double end = 0, low = 0, high = 0;
   bool finite = true;
@@ -52,7 +53,7 @@ TankAxes axes_of(const std::vector<TankCurve>& curves) {
           make_axis(low, low + 1.05 * std::max(high - low, 1e-9), foot, kCurvesTop, "readings")};
 }
 
-/// The reading and the trajectory of one run, with marks in places of its own.
+/// Draws the reading and the planned wrench of one run, with marks at positions of its own.
 void draw_run(Svg& svg, const TankAxes& axes, const TankCurve& curve, std::size_t index,
               std::size_t count) {
   const CurveStyle style = curve_style(index);

@@ -27,7 +27,8 @@ std::vector<FormRow> on_free_axes(const Problem& problem, const FormModel& model
   return rows;
 }
 
-/// What the thrusters exert along c at most: |o_0| + sum over axes |y| sum_k |B_k| max |u_k|.
+/// An upper bound of what the thrusters exert along c: |o_0| + sum over axes |y| sum_k |B_k| max
+/// |u_k|.
 double any_ceiling(const Problem& problem, const FormModel& model) {
   const Zonotope& set = problem.robot.actuation;
   Wide most(model.weight_along_c().magnitude(model.far()));
@@ -89,7 +90,7 @@ class AnyProof final : public ValueProof {
     double most = -kInfinity;
     for (std::size_t v = 0; v < size; ++v) {
       const double at = (constant_[v] + thrust(v)).high;
-      if (!(at < kInfinity)) return high;  // or no number
+      if (!(at < kInfinity)) return high;  // or NaN
       most = std::max(most, at);
     }
     const double U = Narrow::above(most + joints(mu));

@@ -3,15 +3,15 @@
 
 #include "verify/model.h"
 
-// Any wrench at the end effector, by what the base exerts.
+// Any wrench at the end effector, computed from what the base exerts.
 
 namespace maxwrench {
 namespace {
 
-/// Off the base's free axes these [-, m] are rounding.
+/// [-, m] Smaller motions off the base's free axes are rounding.
 constexpr long double kOffAxes = 1e-13L;
 
-/// Throws std::invalid_argument unless nothing moves the base off its free axes.
+/// Throws std::invalid_argument if the twist moves the base off its free axes.
 void require_free(const Problem& problem, const std::array<FormVector, 2>& twist,
                   const std::vector<double>& far) {
   const std::vector<int>& axes = problem.robot.base_axes;
@@ -28,8 +28,8 @@ void require_free(const Problem& problem, const std::array<FormVector, 2>& twist
 
 }  // namespace
 
-/// First moment, about the origin of a link of the chain and in its axes, of all that it does not
-/// carry; `before`: the same of its parent.
+/// First moment of all that a link of the chain does not carry, about the link's origin and in its
+/// axes. `before`: the same for its parent.
 FormVector FormModel::inboard(std::size_t link, const FormVector& before) const {
   const Place& place = places_[link - 1];
   const Wide rest = carried_[0] - carried_[link];

@@ -3,10 +3,10 @@
 namespace maxwrench {
 namespace {
 
-/// Arcs as wide are not enclosed: below pi.
+/// Arcs this wide or wider are not enclosed. It is below pi.
 constexpr double kWidestArc = 3.1;
 
-/// Angles that are remembered.
+/// The largest number of cached angles.
 constexpr std::size_t kMostKnown = 10000;
 
 CosSin<double> enclose(double x) {
@@ -23,13 +23,13 @@ const CosSin<double>& BoxForms::at(double angle) {
                                : known_.emplace(angle, enclose(angle)).first->second;
 }
 
-/// With the middle m and half the width r: where the tangents meet, (cos m, sin m)/cos r, is the
-/// sum of the ends over 1 + cos 2r.
+/// Let m be the middle of the arc and r half its width. The tangents meet at (cos m, sin m)/cos r,
+/// which is the sum of the ends divided by 1 + cos 2r.
 bool BoxForms::set_turning(Corners& corners) {
   if (!(Narrow::above(corners.upper - corners.lower) < kWidestArc)) return false;
   const CosSin<double> a = at(corners.lower), b = at(corners.upper);
   const Narrow below = Narrow(1.0) + a.c * b.c + a.s * b.s;
-  if (!(below.low > 0)) return false;  // angles so far off that no digit of them is left
+  if (!(below.low > 0)) return false;  // the angles are so large that no digit is exact
   corners.first[0] = Term(a.c);
   corners.second[0] = Term(a.s);
   corners.first[1] = Term((a.c + b.c) / below);
@@ -43,10 +43,10 @@ BoxForms::Term::Term(const Narrow& x)
     : middle((x.low + x.high) / 2),
       radius(Narrow::above(std::max(x.high - middle, middle - x.low))) {}
 
-/// f0 + f1 t1 + f2 t2, rounded to nearest first. With magnitudes M_i of f_i and S = M_0 + M_1 |t1|
-/// + M_2 |t2| at the middles, two products, two sums and the last difference are off by less than 6
-/// u S, u = epsilon/2, and the radii add M_i r_i: less than E, whose own rounding takes a few u of
-/// it.
+/// f0 + f1 t1 + f2 t2, first rounded to nearest. Let M_i be the magnitudes of f_i, u = epsilon/2,
+/// and S = M_0 + M_1 |t1| + M_2 |t2| at the middles. Two products, two sums and the last difference
+/// have an error of less than 6 u S. The radii add M_i r_i. The sum is less than E, even after
+/// rounding E, which changes it by a few u E.
 Narrow BoxForms::combine(const Narrow& f0, const Narrow& f1, const Narrow& f2, const Term& t1,
                          const Term& t2) {
   constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
@@ -72,7 +72,7 @@ bool BoxForms::set(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
       corners.first[0] = Term(Narrow(lower[k]));
       corners.first[1] = Term(Narrow(upper[k]));
     } else if (!set_turning(corners)) {
-      corners.lower = kInfinity;  // look again
+      corners.lower = kInfinity;  // compute it again next time
       narrow_enough = false;
     }
   }

@@ -8,25 +8,26 @@
 
 namespace maxwrench {
 
-/// A box of coordinates, corner by corner of what encloses it: of a turning joint the triangle of
-/// the ends of its arc and the point where their tangents meet, of a sliding one its interval. A
-/// form's values over the box lie in the hull of its values at products of these corners: its
+/// A box of coordinates, with corners that enclose the terms of each coordinate. For a turning
+/// joint these are the three corners of a triangle: the ends of its arc and the point where their
+/// tangents meet. For a sliding joint they are the ends of its interval. The values of a form over
+/// the box lie in the convex hull of its values at products of these corners. These values are its
 /// control points, one for each coefficient.
 class BoxForms {
  public:
-  /// Keeps a reference.
+  /// Keeps a reference to the shape.
   explicit BoxForms(const FormShape& shape) : shape_(shape), corners_(shape.terms.size()) {}
 
-  /// False if an arc is half a turn or more, or nothing is known of it.
+  /// Sets the box. False if an arc is half a turn or more, or cannot be enclosed.
   bool set(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
-  /// Coefficients -> control points.
+  /// Replaces coefficients by control points.
   void over_box(std::vector<Narrow>& values) const;
 
-  /// The same of one point: where all corners are one.
+  /// The value at a single point q, where all corners coincide.
   static Narrow at_point(const FormShape& shape, const FormRow& row, const Eigen::VectorXd& q);
 
  private:
-  /// What a term is at a corner: within `radius` of `middle`.
+  /// A term at a corner, within `radius` of `middle`.
   struct Term {
     double middle = 0, radius = 0;
     Term() = default;
@@ -34,7 +35,7 @@ class BoxForms {
   };
   struct Corners {
     double lower = kInfinity, upper = -kInfinity;
-    Term first[3], second[3];  ///< the second and third term, or the second
+    Term first[3], second[3];  ///< the first two terms other than 1 at each corner
   };
   static Narrow combine(const Narrow& f0, const Narrow& f1, const Narrow& f2, const Term& t1,
                         const Term& t2);

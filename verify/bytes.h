@@ -9,7 +9,7 @@
 
 namespace maxwrench {
 
-/// Puts numbers one after another, little endian.
+/// Writes numbers one after another, little endian.
 class ByteWriter {
  public:
   void whole(std::uint64_t x, int bytes) {
@@ -35,7 +35,7 @@ class ByteWriter {
   std::string text_;
 };
 
-/// Takes them again. What is not there is zero, and `good` false from then on.
+/// Reads these numbers again. After the end of the text it returns zero, and `good` is false.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view text) : text_(text) {}
@@ -50,7 +50,7 @@ class ByteReader {
     return x;
   }
   double real() { return std::bit_cast<double>(whole(8)); }
-  /// Of things of at least so many bytes each.
+  /// The number of elements that follow, of at least `bytes` bytes each.
   std::size_t count(std::size_t bytes) {
     const std::uint64_t n = whole(8);
     good_ = good_ && n <= text_.size() / bytes;

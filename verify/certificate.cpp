@@ -14,9 +14,9 @@ namespace maxwrench {
 namespace {
 
 constexpr std::string_view kMagic = "maxwrench proof 2\n";
-/// A file has at least a byte for so many of what it holds, and so of the nodes of its tree: a
-/// small file cannot fill the memory. What packs better, boxes without a multiplier, is stored as
-/// it is.
+/// A file has at least one byte for this many bytes of its contents, and so of the nodes of its
+/// tree. A small file therefore cannot fill the memory. Contents that would pack better, such as
+/// boxes without a multiplier, are stored without compression.
 constexpr std::uint64_t kMostPacked = 16;
 constexpr std::size_t kMostNodes = 50'000'000;
 
@@ -93,8 +93,8 @@ void put_contact(ByteWriter& to, const Robot& robot, const Contact& contact) {
   for (const int joint : contact.follow) to.count(joint);
 }
 
-/// Two bits of the reason, five of the axis (a box of 31 coordinates has 3^31 control points), and
-/// whether it is cut elsewhere than at its middle.
+/// A tag has two bits for the reason, five for the axis (a box of 31 coordinates has 3^31 control
+/// points), and this bit if the cut is not at the middle.
 constexpr int kElsewhere = 128;
 
 void put_tree(ByteWriter& to, const CertificateTree& tree) {
@@ -114,7 +114,7 @@ void put_tree(ByteWriter& to, const CertificateTree& tree) {
   }
 }
 
-/// False if it is none.
+/// Reads a tree. False if the data contain none.
 bool take_tree(ByteReader& from, CertificateTree& tree) {
   tree.width = static_cast<int>(from.count(sizeof(double)));
   tree.equations = static_cast<int>(from.count(sizeof(double)));
@@ -136,7 +136,8 @@ bool take_tree(ByteReader& from, CertificateTree& tree) {
   return true;
 }
 
-/// What follows the first line. That is looked at before the rest, which may have no end.
+/// The contents after the first line. The first line is checked before the rest is read, because
+/// the rest may be endless.
 std::string read_packed(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   std::string start(kMagic.size(), '\0');
@@ -154,7 +155,7 @@ std::uint64_t checksum(std::string_view text) {
   return crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size());
 }
 
-/// Empty if it is damaged.
+/// The unpacked certificate; empty if it is damaged.
 std::string unpacked(std::string_view text) {
   ByteReader sum(text);
   const std::uint64_t claimed = sum.whole(4);
@@ -166,7 +167,7 @@ std::string unpacked(std::string_view text) {
   return raw && raw->size() == length ? *raw : "";
 }
 
-/// What may be printed in a line.
+/// Whether a text can be printed in a line.
 bool is_plain(const std::string& text) {
   return std::none_of(text.begin(), text.end(),
                       [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; });

@@ -9,8 +9,8 @@
 
 namespace maxwrench {
 
-/// A proof of how large a capability can be: a tree of boxes of a posture's coordinates x, as in
-/// `PostureCoordinates`, each with the reason why no value in it is larger, if there is one yet.
+/// A proof of an upper bound of a capability: a tree of boxes of a posture's coordinates x, as in
+/// `PostureCoordinates`. A box may have a reason why no value in it exceeds the bound.
 struct CertificateTree {
   enum class Reason : std::uint8_t {
     kNone,
@@ -20,33 +20,33 @@ struct CertificateTree {
   };
   struct Node {
     Reason reason = Reason::kNone;
-    int axis = -1;  ///< cut in two along this one; its halves follow. -1: a leaf
-    std::optional<double> at = std::nullopt;  ///< where it is cut, unless at its middle
-    int pair = -1;                            ///< that collides
-    std::size_t multiplier = 0;               ///< where it begins among `multipliers`
+    int axis = -1;                            ///< of the cut; its two halves follow. -1: a leaf
+    std::optional<double> at = std::nullopt;  ///< position of the cut, unless it is at the middle
+    int pair = -1;                            ///< index of the colliding pair
+    std::size_t multiplier = 0;               ///< index of its first number in `multipliers`
   };
-  /// How many numbers of `multipliers` a node has.
+  /// The number of entries of `multipliers` that a node has.
   std::size_t numbers(const Node& node) const {
     if (node.reason == Reason::kNoPosture) return static_cast<std::size_t>(equations);
     return node.reason == Reason::kMultiplier ? static_cast<std::size_t>(width) : 0;
   }
-  int width = 0;      ///< numbers of a multiplier
-  int equations = 0;  ///< numbers of a nu, if there is one
+  int width = 0;      ///< number of entries of a multiplier
+  int equations = 0;  ///< number of entries of a nu, if there is one
   std::vector<double> multipliers;
-  std::vector<Node> nodes;  ///< a node, then its lower half, then its upper half
+  std::vector<Node> nodes;  ///< in the order: a node, its lower half, its upper half
 };
 
 struct ProofCertificate {
-  std::string version;  ///< of maxwrench, that wrote it
-  std::string problem;  ///< as it was named on the command line
+  std::string version;  ///< version of maxwrench that wrote it
+  std::string problem;  ///< name of the problem on the command line
   std::string measure;
   Wrench wrench = Wrench::kPure;
-  bool collision = true;     ///< postures that collide do not count
+  bool collision = true;     ///< postures that collide are excluded
   std::uint64_t digest = 0;  ///< of the robot and the task
-  double bound = 0;          ///< [N or N m] no posture has more
+  double bound = 0;          ///< [N or N m] no posture exceeds it
   double gap = 0;            ///< bound <= value + gap |value|
-  // A posture, its value, and for the L-infinity polytope the efforts and the wrench (world axes)
-  // with which it is reached.
+  // A posture and its value. For the L-infinity polytope also the efforts and the wrench (world
+  // axes) that attain it.
   Eigen::VectorXd x;
   double value = 0;
   Eigen::VectorXd u;
@@ -55,15 +55,15 @@ struct ProofCertificate {
   CertificateTree tree;
 };
 
-/// All numbers of robot and task that a proof rests upon, as one number (FNV-1a).
+/// A hash (FNV-1a) of all numbers of robot and task on which a proof depends.
 std::uint64_t digest(const Problem& problem);
 
-/// A file: "maxwrench proof 2\n", the CRC-32 of all that follows, the length of the certificate,
-/// and that, packed by zlib; little endian.
+/// The contents of a certificate file: "maxwrench proof 2\n", the CRC-32 of everything after it,
+/// the length of the certificate, and the certificate packed by zlib; little endian.
 std::string certificate_text(const ProofCertificate& certificate);
 
-/// Throws std::invalid_argument with one line that names the file for what is no certificate, or a
-/// damaged one. What it claims is not looked at.
+/// Throws std::invalid_argument, in one line with the name of the file, if the file is damaged or
+/// is not a certificate. Does not check the claims of the certificate.
 ProofCertificate read_certificate(const std::string& file);
 
 }  // namespace maxwrench

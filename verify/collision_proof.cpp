@@ -3,20 +3,21 @@
 namespace maxwrench {
 namespace {
 
-/// An upper bound of how far x [m] is beyond the reach of a box; negative within it. Convex in x.
+/// An upper bound of the distance [m] by which x is beyond the reach of a box; negative within the
+/// reach. Convex in x.
 double beyond(const std::array<Narrow, 3>& x, const Eigen::Vector3d& half_sizes, double reach) {
   double most = -kInfinity;
   Narrow square;
   for (std::size_t i = 0; i < 3; ++i) {
     const double out = Narrow::above(x[i].magnitude() - half_sizes[static_cast<Eigen::Index>(i)]);
-    if (!(out < kInfinity)) return kInfinity;  // or no number
+    if (!(out < kInfinity)) return kInfinity;  // or NaN
     most = std::max(most, out);
     if (out > 0) square += Narrow(out) * Narrow(out);
   }
   return Narrow::above((most <= 0 ? most : root_above(square.high)) - reach);
 }
 
-/// Of all coefficients, the products of terms at q.
+/// Computes the products of terms at q, one for each coefficient.
 void set_products(const FormShape& shape, const Eigen::VectorXd& q, std::vector<double>& terms) {
   terms.assign(1, 1.0);
   for (std::size_t i = 0; i < shape.terms.size(); ++i) {
@@ -34,7 +35,8 @@ void set_products(const FormShape& shape, const Eigen::VectorXd& q, std::vector<
 
 bool is_thin(const InscribedBox& core) { return (core.half_sizes.array() > 0).count() <= 1; }
 
-/// Corners of a box and points midway; of a segment its quarters.
+/// The corners of a box and the points midway between them. For a segment, the points at its
+/// quarters.
 std::vector<Eigen::Vector3d> points_of(const InscribedBox& core) {
   const int steps = is_thin(core) ? 2 : 1;
   const auto most = [&](int axis) { return core.half_sizes[axis] > 0 ? steps : 0; };
@@ -49,7 +51,7 @@ std::vector<Eigen::Vector3d> points_of(const InscribedBox& core) {
   return points;
 }
 
-/// A hair inside: points are moved into link axes with rounded numbers.
+/// Subtracted from the reach, because points are moved into link axes with rounded numbers.
 constexpr double kHair = 1e-9;
 
 }  // namespace
@@ -95,7 +97,8 @@ CollisionProof::Movers CollisionProof::movers(const InscribedBox& core, const In
   return result;
 }
 
-/// Whether it is at the centre of the box, rounded: worth a proof.
+/// Whether the point is close at the centre of the box, without an enclosure. Only then a proof is
+/// attempted.
 bool CollisionProof::may_be_close(const Movers& movers, const std::array<FormRow, 3>& point) const {
   std::array<Narrow, 3> x;
   for (std::size_t i = 0; i < 3; ++i) {

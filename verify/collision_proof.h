@@ -8,20 +8,21 @@
 
 namespace maxwrench {
 
-/// Shows that two bodies collide throughout a box of coordinates: a point of one core is, at all
-/// control points of its path in the axes of the other core, closer to that than the reach; points
-/// that are so close are a convex set. One object serves one thread.
+/// Proves that two bodies collide throughout a box of coordinates. Take a point of one core and its
+/// path in the axes of the other core. At all control points of the path it must be closer to the
+/// other core than the reach. The points that are this close form a convex set, so the whole path
+/// is in it. Not thread-safe: use one object for each thread.
 class CollisionProof {
  public:
-  /// Keeps references.
+  /// Keeps references to both.
   CollisionProof(const Problem& problem, const FormModel& model)
       : problem_(problem), model_(model), box_(model.shape()) {}
 
-  /// Whether it could be shown of a pair of the robot's `CollisionChecker`.
+  /// Whether the proof succeeds for a pair of the robot's `CollisionChecker`.
   bool collides(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, int pair);
 
  private:
-  /// Points of one core in the axes of the other one, coordinate by coordinate.
+  /// Points of one core in the axes of the other core, coordinate by coordinate.
   struct Movers {
     Eigen::Vector3d half_sizes;  ///< of the other core
     double reach = 0;

@@ -9,16 +9,16 @@
 namespace maxwrench {
 namespace {
 
-/// Rotations of rounded numbers are none, so in general the equations of a posture hold exactly for
-/// no x at all. Each side of a row may be off by so much of the sum of its terms' magnitudes: some
-/// ten factors, each off by a few roundings.
+/// Rotations with rounded entries are not exact rotations, so in general no x satisfies the
+/// equations of a posture exactly. Each side of a row may have an error of this share of the sum of
+/// its terms' magnitudes: about ten factors, each with a few rounding errors.
 constexpr long double kRoundedData = 64 * std::numeric_limits<double>::epsilon();
 
 bool is_free(const Robot& robot, int axis) {
   return std::find(robot.base_axes.begin(), robot.base_axes.end(), axis) != robot.base_axes.end();
 }
 
-/// (R, p) as rows: the columns of R, then p, as far as `fixed` says.
+/// A pose as forms.
 struct FormPose {
   FormMatrix R;
   FormVector p;
@@ -48,7 +48,7 @@ FormPose constant_pose(const FormModel& model, const Pose<double>& pose) {
   return {model.matrix(pose.R), model.constant(pose.p)};
 }
 
-/// A pose in the axes of link a -> in those of link b.
+/// Converts a pose from the axes of link a to those of link b.
 FormPose seen(const FormModel& model, int a, const FormPose& pose, int b) {
   FormMatrix columns = transposed(pose.R);
   for (FormVector& column : columns) column = model.seen(a, column, b, false);
@@ -129,7 +129,8 @@ void Equations::add_contact(const Problem& problem, const FormModel& model) {
   count_ += static_cast<int>(sides_.back().rows.size());
 }
 
-/// The rows depend on no other variables, so their terms are those of the stretch.
+/// The rows depend only on the variables `from` to `to` - 1, so their terms are those of this
+/// stretch.
 void Equations::add_side(const FormModel& model, int from, int to, const std::vector<Form>& rows) {
   const FormShape& all = model.shape();
   Side side{std::make_unique<FormShape>(all.stretch(from, to)), 1, count_, {}};
@@ -190,7 +191,7 @@ bool EquationsOverBox::excluded(const double* nu) {
   for (std::size_t side = 0; side < boxes_.size(); ++side) {
     double of_side = kInfinity;
     for (const Narrow& x : points(side, nu)) {
-      if (!(x.low > -kInfinity)) return false;  // or no number
+      if (!(x.low > -kInfinity)) return false;  // or NaN
       of_side = std::min(of_side, x.low);
     }
     least += Narrow(of_side);

@@ -10,30 +10,31 @@ namespace maxwrench {
 class FormModel;
 struct Problem;
 
-/// What a posture's coordinates x fulfil, f(x) = 0, m rows, each the sum of two sides.
+/// The equations f(x) = 0 of a posture's coordinates x, m rows. Each row is the sum of two sides.
 ///
-/// Unless the base follows in closed form, its pose in its mount, by the joints up to the middle of
-/// the chain and by those behind it, in all rows of the rotation and those of the position that no
-/// free axis moves:
+/// Unless the base's pose has a closed form, the first equations equate the base's pose in its
+/// mount from the joints up to the middle of the chain with that from the joints after it. They are
+/// all rows of the rotation and those rows of the position that no free axis moves:
 ///
 ///     Rz(yaw) T_1(q_1) ... T_k(q_k) - mount^-1 X(s) (T_k+1(q_k+1) ... T_n(q_n))^-1 = 0.
 ///
-/// And the place of the second end effector is the contact's, T_e2(q_2) - T_e1(q_1) X(s)^-1 F(s_2)
-/// = 0, in position or in all. Each row is an interval about that: what the rounding of the
-/// problem's numbers may do to it, so that a posture of the numbers meant is one of these.
+/// The other equations put the second end effector at the contact, T_e2(q_2) - T_e1(q_1) X(s)^-1
+/// F(s_2) = 0, in position only or in the whole pose. Each row is an interval: it includes the
+/// effect of rounding in the problem's numbers, so that every posture of the intended numbers
+/// satisfies it.
 class Equations {
  public:
-  /// Of a model, which outlives it.
+  /// The model must outlive this object.
   Equations(const Problem& problem, const FormModel& model);
 
   int count() const { return count_; }
 
-  /// Some rows that depend on a stretch of the variables alone. On the grid of the control points
-  /// of all, point v of all is point (v / repeat) mod shape.size of these.
+  /// Rows that depend only on a stretch of the variables. On the grid of all control points, point
+  /// v corresponds to point (v / repeat) mod shape.size of this side.
   struct Side {
     std::unique_ptr<const FormShape> shape;
     int repeat = 1;
-    int row = 0;  ///< the first
+    int row = 0;  ///< index of the first row
     std::vector<FormRow> rows;
   };
   const std::vector<Side>& sides() const { return sides_; }
@@ -50,17 +51,17 @@ class Equations {
   int count_ = 0;
 };
 
-/// nu'f over a box. One object serves one thread.
+/// nu'f over a box. Not thread-safe: use one object for each thread.
 class EquationsOverBox {
  public:
-  /// Keeps a reference.
+  /// Keeps a reference to the equations.
   explicit EquationsOverBox(const Equations& equations);
 
-  /// False if the box is too wide, or nothing is known of it.
+  /// Sets the box. False if it is too wide or cannot be enclosed.
   bool set(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
-  /// Whether nu'f > 0 in all of the box, so that it has no posture.
+  /// Whether nu'f > 0 in the whole box, so that it contains no posture.
   bool excluded(const double* nu);
-  /// Adds the control points of nu'f to those of all.
+  /// Adds the control points of nu'f to `points`, which are on the grid of all variables.
   void add_to(std::vector<Narrow>& points, const double* nu);
 
  private:

@@ -77,7 +77,7 @@ std::vector<int> Form::nonzero() const {
   return index;
 }
 
-/// Of no variable in common, two products of terms stand at the sum of where they stood.
+/// The functions have no common variable, so the index of a product is the sum of the two indices.
 Form operator*(const Form& a, const Form& b) {
   const std::vector<int> of_a = a.nonzero(), of_b = b.nonzero();
   for (std::size_t i = 0; i < a.shape_->terms.size(); ++i) {
@@ -131,7 +131,7 @@ FormMatrix transposed(const FormMatrix& a) {
 }
 
 FormRow::FormRow(const Form& form, const std::vector<double>& far) {
-  constexpr long double kNearlyZero = 1e-16L;  // of all
+  constexpr long double kNearlyZero = 1e-16L;  // share of the sum of all magnitudes
   const long double all = form.magnitude(far);
   Wide constant = form.coefficients()[0];
   for (int k = 1; k < static_cast<int>(form.coefficients().size()); ++k) {

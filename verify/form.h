@@ -7,27 +7,28 @@
 
 namespace maxwrench {
 
-/// The variables of a `Form`: a turning one q has the terms 1, cos q, sin q, a sliding one 1, q.
+/// The variables of a `Form`. A turning variable q has the terms 1, cos q, sin q; a sliding one has
+/// 1, q.
 struct FormShape {
   std::vector<int> terms;        ///< 3 or 2 for each variable
-  std::vector<int> coordinates;  ///< which side of a box each variable is
-  std::vector<int> strides;      ///< of a variable's terms among all, the last one's 1
-  int size = 1;                  ///< of all products of terms, at most kMostTerms
+  std::vector<int> coordinates;  ///< the coordinate of the box that each variable is
+  std::vector<int> strides;  ///< index strides of each variable's terms; 1 for the last variable
+  int size = 1;              ///< number of products of terms, at most kMostTerms
 
-  /// More products of terms than this take too long for a box, and too much memory.
+  /// More products of terms than this need too much time for each box and too much memory.
   static constexpr int kMostTerms = 20'000;
 
-  /// Throws std::invalid_argument, in one line, if there are more.
+  /// Throws std::invalid_argument, in one line, if there are more products than kMostTerms.
   FormShape(std::vector<int> terms_of, std::vector<int> coordinates_of);
-  /// Of the variables from one to before another.
+  /// The shape of the variables `from` to `to` - 1.
   FormShape stretch(int from, int to) const;
   int digit(int index, std::size_t variable) const {
     return index / strides[variable] % terms[variable];
   }
 };
 
-/// A multi-affine function of joints: a coefficient for each product of terms, one term of each
-/// variable. The shape outlives it.
+/// A multi-affine function of joints: one coefficient for each product of terms, with one term of
+/// each variable. The shape must outlive the form.
 class Form {
  public:
   explicit Form(const FormShape& shape, const Wide& constant = 0.0L);
@@ -36,16 +37,17 @@ class Form {
        const Wide& by_2);
 
   const std::vector<Wide>& coefficients() const { return c_; }
-  /// Sum of |coefficients| where all terms are at most 1 in magnitude, sliding ones up to `far`.
+  /// The sum of |coefficients|, each times the largest magnitude of its terms: 1, or `far` for a
+  /// sliding variable.
   long double magnitude(const std::vector<double>& far) const;
-  /// The same of one of them.
+  /// The same for one coefficient.
   long double magnitude(int index, const std::vector<double>& far) const;
 
   Form& operator+=(const Form& other);
   Form operator-() const;
   friend Form operator+(Form a, const Form& b) { return a += b; }
   friend Form operator-(Form a, const Form& b) { return a += -b; }
-  /// Of functions that have no variable in common; throws std::logic_error of others.
+  /// The product of functions without a common variable. Throws std::logic_error for others.
   friend Form operator*(const Form& a, const Form& b);
 
  private:
@@ -67,9 +69,9 @@ FormMatrix operator*(const FormMatrix& a, const FormMatrix& b);
 FormVector cross(const FormVector& a, const FormVector& b);
 FormMatrix transposed(const FormMatrix& a);
 
-/// The coefficients of a form, rounded outward. Those that are nearly zero, by the rounding of what
-/// they were made of, become part of the constant one: their terms are at most 1 in magnitude, or
-/// at most `far`.
+/// The coefficients of a form, rounded outward. Coefficients that are zero up to the rounding of
+/// their terms are added to the constant one as an interval, with the largest magnitude of their
+/// terms: 1, or `far`.
 struct FormRow {
   std::vector<int> index;
   std::vector<Narrow> coefficient;

@@ -17,7 +17,7 @@ Vector6d twist_of(const Eigen::Vector3d& axis, bool turns, const Eigen::Vector3d
   return twist;
 }
 
-/// Of an end effector in base axes, where gains are those in world axes.
+/// The Jacobian of an end effector in base axes; its gains are the same in world axes.
 Matrix6Xd jacobian_of(const Robot& robot, int end_effector,
                       const std::vector<Pose<double>>& links) {
   const EndEffector& tip = robot.end_effectors[static_cast<std::size_t>(end_effector)];

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kIncumbentTolerance = 1e-8;
 
-/// [m; 1] Near a stretched arm, joints that are off by the root of this fulfil the equations.
+/// [m; 1] Tolerance of the equations. Near a stretched arm, joints with an error of its square root
+/// satisfy them.
 constexpr double kOffEquations = 1e-10;
 
 /// Poses of all links relative to the base.
@@ -40,7 +41,7 @@ std::vector<Pose<double>> links_at(const Problem& problem, const PostureCoordina
   return links;
 }
 
-/// Whether the base, where its pose follows in closed form, is where its free axes bring it.
+/// Whether a base whose pose has a closed form is on its free axes.
 bool base_gets_there(const Problem& problem, const FormModel& model, const Eigen::VectorXd& x,
                      const std::vector<Pose<double>>& links) {
   const Robot& robot = problem.robot;
@@ -117,8 +118,8 @@ Wide square_of_effort(const Zonotope& set, const std::vector<Narrow>& tau) {
   return square;
 }
 
-/// There is a value only where the ellipsoid holds tau_d. Then |W_u B^+ J'h| <= 2, so that a value
-/// that is off by a small share takes the square off by at most 4 times that share.
+/// A value exists only if tau_d is in the ellipsoid. Then |W_u B^+ J'h| <= 2, so a small relative
+/// error of the value changes the square by at most 4 times that error.
 std::string reject_ellipsoid(const Problem& problem, const FormModel& model,
                              const ProofCertificate& proof, const std::vector<Narrow>& tau) {
   const Zonotope& set = problem.robot.actuation;

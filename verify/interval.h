@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-// Every enclosure below rests on IEEE 754 arithmetic that rounds to nearest. Where the compiler
-// does not keep to it, the build stops here.
+// Every enclosure below relies on IEEE 754 arithmetic that rounds to nearest. The build fails if
+// the compiler does not provide it.
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error "verify: the interval arithmetic needs IEEE 754: build without -ffast-math"
 #endif
@@ -20,16 +20,16 @@ static_assert(std::numeric_limits<long double>::is_iec559 &&
 
 namespace maxwrench {
 
-/// So much is added to every step outward: more than the smallest normal number, so that intervals
-/// about zero do not become denormal, on which processors are slow.
+/// This is added to every outward step. It exceeds the smallest normal number, so that intervals
+/// about zero do not become denormal, which is slow on many processors.
 inline constexpr double kTiny = 1e-280;
 
-/// All real numbers from `low` to `high`. Every operation returns an interval that contains the
-/// result for any members of its operands. It rounds to nearest and then steps outward: for a
-/// rounded result x the neighbour above is at most x + ulp(x), and ulp(x) <= |x| epsilon + min, so
-/// that x + (|x| epsilon + min), rounded in turn, is at least that neighbour, which is at least the
-/// exact result; kTiny stands for min. No rounding mode is touched and no flag of the compiler
-/// needed, but for those that break IEEE 754. All is finite.
+/// All real numbers from `low` to `high`, both finite. Every operation returns an interval that
+/// contains the result for all members of its operands. It rounds to nearest and then steps
+/// outward. For a rounded result x, the next number above is at most x + ulp(x), and ulp(x) <= |x|
+/// epsilon + min. Therefore x + (|x| epsilon + min), rounded in turn, is at least that number,
+/// which is at least the exact result. kTiny replaces min. The rounding mode is not changed, and no
+/// compiler flags are needed except that none may violate IEEE 754.
 template <class T>
 struct Interval {
   T low = 0, high = 0;
@@ -57,7 +57,7 @@ struct Interval {
   friend Interval operator*(T x, const Interval& a) {
     return {below(x * (x < 0 ? a.high : a.low)), above(x * (x < 0 ? a.low : a.high))};
   }
-  /// b > 0
+  /// Needs b > 0.
   friend Interval operator/(const Interval& a, const Interval& b) {
     return a * Interval(below(1 / b.high), above(1 / b.low));
   }
@@ -65,17 +65,17 @@ struct Interval {
   Interval& operator-=(const Interval& other) { return *this = *this - other; }
 };
 
-/// The square root is rounded correctly.
+/// An upper bound of the square root, which std::sqrt rounds correctly.
 template <class T>
 T root_above(T x) {
   return Interval<T>::above(std::sqrt(std::max(x, T(0))));
 }
 
 using Narrow = Interval<double>;
-/// What constants are made of, so that they are known to the last digits of a double.
+/// For the computation of constants, so that they are accurate to the last digits of a double.
 using Wide = Interval<long double>;
 
-/// Contains it.
+/// An interval of doubles that contains x.
 inline Narrow narrow(const Wide& x) {
   if (x.is_zero()) return 0.0;
   return {Narrow::below(static_cast<double>(x.low)), Narrow::above(static_cast<double>(x.high))};
@@ -87,12 +87,12 @@ struct CosSin {
   Interval<T> c, s;
 };
 
-/// cos x and sin x: x is halved until |x| <= 1/2, where their series is summed to the term of
-/// degree 20 and what remains of it enclosed by the next one; then angles are doubled, cos 2y = 1 -
-/// 2 sin^2 y and sin 2y = 2 sin y cos y.
+/// Encloses cos x and sin x. x is halved until |x| <= 1/2. There the series is summed up to the
+/// term of degree 20, whose magnitude bounds the remainder. Then the angle is doubled again: cos 2y
+/// = 1 - 2 sin^2 y and sin 2y = 2 sin y cos y.
 inline CosSin<long double> enclose_wide(double x) {
   int halvings = 0;
-  long double y = x;  // halved exactly
+  long double y = x;  // halving is exact
   for (; std::abs(y) > 0.5L; ++halvings) y /= 2;
   CosSin<long double> sum{1.0L, Wide(y)};
   Wide term(y);
@@ -102,7 +102,7 @@ inline CosSin<long double> enclose_wide(double x) {
     Wide& to = degree % 2 == 0 ? sum.c : sum.s;
     to = minus ? to - term : to + term;
   }
-  const long double left = term.magnitude();  // the next terms, of |y|^21/21! and less, are smaller
+  const long double left = term.magnitude();  // the next terms, |y|^21/21! and less, are smaller
   sum.c += Wide(-left, left);
   sum.s += Wide(-left, left);
   for (; halvings > 0; --halvings) {

@@ -1,10 +1,11 @@
 #include "verify/model.h"
 
-// What weights and wrenches take of the actuators.
+// The loads of weights and wrenches on the actuators.
 
 namespace maxwrench {
 
-/// Gravity and what it does, from the end effector to the base and into other IK solutions.
+/// Sets gravity and its moments, from the end effector to the base and outward into side branches
+/// of the tree.
 void FormModel::weigh() {
   const Robot& robot = problem_.robot;
   const FormVector nothing = constant(Eigen::Vector3d::Zero());
@@ -41,7 +42,8 @@ FormVector FormModel::from_world(const FormVector& x) const {
   return transposed(R) * x;
 }
 
-/// The base and side IK solutions anew, as the base stands.
+/// Sets gravity and its moments again for the base and the side branches, from the base's own
+/// orientation.
 void FormModel::weigh_from_base() {
   const Robot& robot = problem_.robot;
   std::vector<FormVector> pull = {from_world(constant({0, 0, -robot.gravity}))};
@@ -79,8 +81,8 @@ Form FormModel::held_by(std::size_t joint) const {
   return -dot(constant(at.axis), turns ? load_[joint + 1] : weight);
 }
 
-/// A force and its moment, or an angular velocity and a linear one, at a link's origin in its axes
-/// -> at the base's.
+/// Converts a force and its moment, or an angular velocity and a linear one, from a link's origin
+/// and axes to those of the base.
 std::array<FormVector, 2> FormModel::to_base(int link, FormVector along, FormVector about) const {
   for (auto i = static_cast<std::size_t>(link); i > 0; i = static_cast<std::size_t>(parent(i))) {
     along = places_[i - 1].R * along;
@@ -89,8 +91,8 @@ std::array<FormVector, 2> FormModel::to_base(int link, FormVector along, FormVec
   return {along, about};
 }
 
-/// At the origin of the link that carries the end effector. Wrenches that turn with it are constant
-/// in its axes.
+/// Converts h to the origin and axes of the link that carries the end effector. Wrenches that turn
+/// with the end effector are constant in its axes.
 std::array<FormVector, 2> FormModel::from_end_effector(const Vector6d& h) const {
   const FormMatrix into =
       transposed(problem_.free.wrench_turns ? matrix(problem_.pose.R) : pose_R_);
@@ -124,7 +126,7 @@ std::vector<Form> FormModel::exerted(const Vector6d& h) const {
   return rows;
 }
 
-/// By the base's yaw, and where the end effector is in its axes.
+/// Sets the base's rows, from the base's yaw and the position of the end effector in base axes.
 void FormModel::exert_on_base(const Vector6d& h, std::vector<Form>& rows) const {
   const auto in_base = [&](const Eigen::Vector3d& x) {
     if (!problem_.free.wrench_turns) return from_world(constant(x));

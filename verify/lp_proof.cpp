@@ -17,7 +17,7 @@ mpq_class column_times(const LinearProgram& p, int j, const RationalVector& v) {
   return sum;
 }
 
-/// A x - rhs, or A x without one.
+/// A x - rhs, or A x if there is no `rhs`.
 RationalVector balance(const LinearProgram& p, const RationalVector& x,
                        const Eigen::VectorXd* rhs) {
   RationalVector sum(static_cast<std::size_t>(p.rows()));

@@ -82,7 +82,7 @@ FormVector FormModel::pose_place() const {
   return constant(problem_.pose.p) + along * shift_;
 }
 
-/// With the shift in the end effector's own axes R'p = R'p_0 + shift.
+/// If the shift is in the end effector's own axes, R'p = R'p_0 + shift.
 FormVector FormModel::into_pose(const FormVector& x, bool point) const {
   const FormMatrix back = transposed(pose_R_);
   if (!point) return back * x;
@@ -90,7 +90,7 @@ FormVector FormModel::into_pose(const FormVector& x, bool point) const {
   return back * (x - pose_place());
 }
 
-/// Rodrigues: a joint turns its link by 1 + sin q S + (1 - cos q) S S, S = [axis]x.
+/// Rodrigues' formula: a joint rotates its link by 1 + sin q S + (1 - cos q) S S, S = [axis]x.
 FormModel::Place FormModel::place_of(std::size_t joint) const {
   const Joint& at = problem_.robot.joints[joint];
   const int variable = coordinates_.of_joint[joint];
@@ -116,7 +116,7 @@ FormModel::Place FormModel::place_of(std::size_t joint) const {
   return place;
 }
 
-/// What hangs on side IK solutions counts to the link of the chain that carries it.
+/// The links of a side branch count towards the link of the chain that carries them.
 void FormModel::weigh_links() {
   const Robot& robot = problem_.robot;
   for (const Link& link : robot.links) {
@@ -138,7 +138,7 @@ void FormModel::weigh_links() {
   }
 }
 
-/// Up to where the ways to the base meet, then outward.
+/// Converts towards the base up to the common ancestor of both links, then outward.
 FormVector FormModel::seen(int a, FormVector x, int b, bool point) const {
   std::vector<std::size_t> outward;
   auto from = static_cast<std::size_t>(a), to = static_cast<std::size_t>(b);

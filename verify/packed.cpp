@@ -9,9 +9,10 @@
 namespace maxwrench {
 namespace {
 
-constexpr int kUsualMemory = 8;  // of deflate
+constexpr int kUsualMemory = 8;  // the usual memory level of deflate
 
-/// Gives the stream more to read when it has read all: zlib counts in 32 bits.
+/// Gives the stream its next input when it has read all of the last. The input is split because
+/// zlib counts in 32 bits.
 void feed(std::string_view& rest, z_stream& stream) {
   if (stream.avail_in != 0) return;
   const std::size_t size = std::min<std::size_t>(rest.size(), 1U << 30);
@@ -20,7 +21,7 @@ void feed(std::string_view& rest, z_stream& stream) {
   rest.remove_prefix(size);
 }
 
-/// Adds what `step` makes of the stream's input to `text`, and returns what it says.
+/// Appends the output of `step` on the stream's input to `text`, and returns the result of `step`.
 template <class Step>
 int append(std::string& text, z_stream& stream, const Step& step) {
   std::array<char, 1U << 16> chunk;

@@ -21,9 +21,9 @@ std::vector<FormRow> to_rows(const std::vector<Form>& forms, const std::vector<d
 }
 
 /// t <= (sum_k max |u_k| |B_k| + |tau_d|) / |J'c|, on the base's free axes, linear ones for a force
-/// and angular ones for a torque. There |J'c| is |c|, but for the share that rotations of rounded
-/// numbers may take, less what is along axes that are not free. Infinite where the base does not
-/// follow in closed form, as then other axes may hold.
+/// and angular ones for a torque. There |J'c| is at least |c|, reduced by the share that rotations
+/// with rounded entries may take and by the part along axes that are not free. Infinite if the
+/// base's pose has no closed form, because other axes may then bear the wrench.
 double pure_ceiling(const Problem& problem, const FormModel& model) {
   if (!model.coordinates().base_is_dependent) return kInfinity;
   const Zonotope& set = problem.robot.actuation;
@@ -66,7 +66,7 @@ double pure_ceiling(const Problem& problem, const FormModel& model) {
   return narrow(force / length).high;
 }
 
-/// The part that all sets share.
+/// The common part of the proofs for all sets.
 class PureProof : public ValueProof {
  public:
   PureProof(const Problem& problem, const FormModel& model, const Equations& equations,
@@ -102,9 +102,9 @@ class PureProof : public ValueProof {
   }
 
  protected:
-  /// Numbers of lambda.
+  /// The number of entries of lambda.
   virtual int own_width() const = 0;
-  /// The support, not below it; `factors`: of the n rows.
+  /// An upper bound of the support. `factors`: those of the n rows.
   virtual double reach(const double* lambda, std::vector<Narrow>& factors) = 0;
 
   const Problem& problem_;
@@ -118,7 +118,7 @@ class PureProof : public ValueProof {
     for (std::size_t v = 0; v < tau_.size(); ++v) {
       const Narrow slope = Narrow(1.0) - a_[v];
       const Narrow at_low = Narrow(low) * slope - tau_[v], at_high = Narrow(high) * slope - tau_[v];
-      if (!(at_low.high < kInfinity && at_high.high < kInfinity)) return kInfinity;  // or no number
+      if (!(at_low.high < kInfinity && at_high.high < kInfinity)) return kInfinity;  // or NaN
       most = std::max(most, std::max(at_low.high, at_high.high));
     }
     return Narrow::above(support + most);
@@ -140,7 +140,7 @@ class PureProof : public ValueProof {
   std::vector<Narrow> factors_, tau_, a_;
 };
 
-/// {B u}: s = sum_k max over limits of u_k lambda'B_k.
+/// The set {B u}: s = sum_k max over limits of u_k lambda'B_k.
 class PolytopeProof final : public PureProof {
  public:
   using PureProof::PureProof;
@@ -165,8 +165,8 @@ class PolytopeProof final : public PureProof {
   }
 };
 
-/// {tau: u_min <= B^+ tau <= u_max}: rows B^+ tau and B^+ a, s = sum_k max over limits of u_k
-/// lambda_k.
+/// The set {tau: u_min <= B^+ tau <= u_max}: rows B^+ tau and B^+ a, s = sum_k max over limits of
+/// u_k lambda_k.
 class SmallestEffortProof final : public PureProof {
  public:
   SmallestEffortProof(const Problem& problem, const FormModel& model, const Equations& equations,
@@ -195,7 +195,7 @@ class SmallestEffortProof final : public PureProof {
   WideRows B_pinv_;
 };
 
-/// {tau: |W_u B^+ tau| <= 1}: s = sqrt(lambda'Q^-1 lambda), Q = (W_u B^+)'(W_u B^+).
+/// The set {tau: |W_u B^+ tau| <= 1}: s = sqrt(lambda'Q^-1 lambda), Q = (W_u B^+)'(W_u B^+).
 class EllipsoidProof final : public PureProof {
  public:
   EllipsoidProof(const Problem& problem, const FormModel& model, const Equations& equations,

@@ -6,7 +6,7 @@
 namespace maxwrench {
 namespace {
 
-/// One coefficient of each entry; below zero: of none.
+/// The coefficient `index` of each entry; zero if `index` is negative.
 WideRows coefficients(const FormMatrix& R, int index) {
   WideRows M(3, std::vector<Wide>(3));
   if (index < 0) return M;
@@ -18,8 +18,8 @@ WideRows coefficients(const FormMatrix& R, int index) {
   return M;
 }
 
-/// The largest row sum of |R'R - 1| for R = A + c B + s C at any angle: as c^2 = 1 - s^2, R'R is a
-/// sum of matrices times 1, c, s, s^2 and c s.
+/// The largest row sum of |R'R - 1| for R = A + c B + s C at any angle. Because c^2 = 1 - s^2, R'R
+/// is a sum of matrices times 1, c, s, s^2 and c s.
 long double off_rotations(const WideRows& A, const WideRows& B, const WideRows& C) {
   const WideRows AT = transposed(A), BT = transposed(B), CT = transposed(C);
   const WideRows AA = AT * A, BB = BT * B, CC = CT * C, AB = AT * B, AC = AT * C, BC = BT * C;

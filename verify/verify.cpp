@@ -19,17 +19,17 @@ using Reason = CertificateTree::Reason;
 /// Larger numbers are rejected, so that no product of them overflows.
 constexpr double kLargest = 1e60;
 
-/// [rad or m]
+/// [rad or m] The largest width of the first box.
 constexpr double kWidest = 1e6;
 
-/// A bit more than a whole turn.
+/// Slightly more than a whole turn.
 constexpr double kWholeTurn = 6.2831853071795872;
 
-/// Cuts above a box at most: halves are far fewer, but what has no posture is cut off slice by
-/// slice.
+/// The largest number of cuts above a box. Halving needs far fewer, but parts without postures are
+/// cut off in slices.
 constexpr int kDeepest = 100'000;
 
-/// A node of the tree, its box, and a number that no value in the box of its parent exceeds.
+/// A node of the tree, its box, and a number that no value in its parent's box exceeds.
 struct OpenBox {
   std::size_t node = 0;
   Eigen::VectorXd lower, upper;
@@ -37,7 +37,8 @@ struct OpenBox {
   int depth = 0;
 };
 
-/// Empty, or why the nodes are no tree of boxes: each that is cut is followed by two.
+/// Empty, or the reason why the nodes do not form a tree of boxes: each cut node must be followed
+/// by its two halves.
 std::string reject_shape(const CertificateTree& tree, Eigen::Index axes, int width, int equations) {
   std::size_t open = 1;
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
@@ -61,7 +62,7 @@ std::string reject_shape(const CertificateTree& tree, Eigen::Index axes, int wid
   return open == 0 ? "" : "boxes are missing";
 }
 
-/// Where each node's upper half stands, behind all of its lower half.
+/// The index of each node's upper half, which comes after all of its lower half.
 std::vector<std::size_t> upper_halves(const CertificateTree& tree) {
   std::vector<std::size_t> size(tree.nodes.size(), 1), second(tree.nodes.size(), 0);
   for (std::size_t i = tree.nodes.size(); i-- > 0;) {
@@ -72,12 +73,13 @@ std::vector<std::size_t> upper_halves(const CertificateTree& tree) {
   return second;
 }
 
-/// Walks through parts of the tree. The induction: no value in a node's box exceeds max(bound,
-/// high), `high` proven of its parent's box, which contains it (at the root: the ceiling of all
-/// postures). With t in [bound, high] the node's own multiplier then proves max(bound, high') with
-/// high' <= high, for its halves; a collision, or nu'f > 0, that there is no value. Nothing of the
-/// file's is believed: neither that a multiplier is good nor what it was good for. A leaf needs
-/// high' <= bound. The two halves of a box are cut at the same number and so cover it.
+/// Walks through parts of the tree. The proof is by induction: no value in a node's box exceeds
+/// max(bound, high), where `high` was proven for its parent's box, which contains it (at the root:
+/// the ceiling of all postures). With t in [bound, high] the node's own multiplier then proves
+/// max(bound, high') with high' <= high, for its halves. A collision, or nu'f > 0, proves that
+/// there is no value. The walk takes nothing from the file on trust, neither that a multiplier is
+/// valid nor what it proved. A leaf needs high' <= bound. The two halves of a box are cut at the
+/// same number, so they cover it.
 class TreeWalk {
  public:
   TreeWalk(const Problem& problem, const FormModel& model, const Equations& equations,
@@ -89,7 +91,7 @@ class TreeWalk {
         collision_(problem, model),
         off_postures_(equations) {}
 
-  /// All below a node; stops where the proof fails.
+  /// Checks all boxes below a node; stops where the proof fails.
   void walk(OpenBox top) {
     std::vector<OpenBox> open;
     open.push_back(std::move(top));
@@ -100,7 +102,7 @@ class TreeWalk {
     }
   }
 
-  /// Takes over what the node proves; true if it is cut.
+  /// Checks a node and updates `box.high` with what it proves. True if the box is cut.
   bool check(OpenBox& box) {
     const Node& node = tree().nodes[box.node];
     ++done.boxes;
@@ -136,7 +138,7 @@ class TreeWalk {
   }
 
   Verification done;
-  std::size_t failed = std::size_t(-1);  ///< the node
+  std::size_t failed = std::size_t(-1);  ///< the node where the proof failed
 
  private:
   const CertificateTree& tree() const { return proof_.tree; }
@@ -198,7 +200,8 @@ void add(const TreeWalk& part, Verification& sum, std::size_t& failed) {
   sum.rejection = part.done.rejection;
 }
 
-/// Whether a box holds every posture within limits, or the same with whole turns of a joint.
+/// Whether the first box contains every posture within the limits, possibly after whole turns of a
+/// joint.
 bool holds_all(const PostureCoordinates& coordinates, const ProofCertificate& proof) {
   return std::all_of(
       coordinates.variables.begin(), coordinates.variables.end(),
@@ -210,7 +213,7 @@ bool holds_all(const PostureCoordinates& coordinates, const ProofCertificate& pr
       });
 }
 
-/// What does not ask for the boxes.
+/// Checks the claims that do not depend on the boxes.
 std::string reject_claims(const Problem& problem, const FormModel& model,
                           const Equations& equations, const ProofCertificate& proof) {
   if (proof.digest != digest(problem)) return "it is about another robot or task";
@@ -235,7 +238,7 @@ std::string reject_claims(const Problem& problem, const FormModel& model,
   return reject_incumbent(problem, model, equations, proof);
 }
 
-/// The first boxes one by one, until there are enough to share out.
+/// Checks the first boxes one by one, until there are enough for all threads.
 std::vector<OpenBox> first_boxes(TreeWalk& walk, OpenBox root) {
   constexpr std::size_t kEnough = 256;
   std::vector<OpenBox> open;

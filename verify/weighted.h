@@ -5,7 +5,7 @@
 
 namespace maxwrench {
 
-/// max over u in [min, max] of u slope, enclosed.
+/// An enclosure of the maximum of u slope over u in [min, max].
 inline Narrow larger(const Narrow& slope, double min, double max) {
   const Narrow a = min * slope, b = max * slope;
   return {std::max(a.low, b.low), std::max(a.high, b.high)};

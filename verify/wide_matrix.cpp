@@ -6,7 +6,7 @@
 namespace maxwrench {
 namespace {
 
-/// Infinite of what is no number.
+/// Infinity for NaN.
 long double largest_row_sum(const WideRows& M) {
   long double most = 0;
   for (const std::vector<Wide>& row : M) {
@@ -47,8 +47,8 @@ WideRows operator*(const WideRows& a, const WideRows& b) {
   return product;
 }
 
-/// With any X and E = 1 - X M, M^-1 = X + E X + (1 - E)^-1 E E X; in the norm of row sums e = |E| <
-/// 1 the last term, and so each of its entries, is at most e^2/(1 - e) |X|.
+/// For any X and E = 1 - X M, M^-1 = X + E X + (1 - E)^-1 E E X. In the norm of row sums with e =
+/// |E| < 1 the last term, and so each of its entries, is at most e^2/(1 - e) |X|.
 WideRows enclose_inverse(const WideRows& M) {
   const auto n = static_cast<Eigen::Index>(M.size());
   MatrixX<long double> middle(n, n);

@@ -6,7 +6,7 @@
 
 namespace maxwrench {
 
-/// A complex number whose arithmetic is four plain operations: that of the standard library looks
+/// A complex number with the plain formulas for its operations. The operators of std::complex check
 /// for NaN after each product.
 struct Complex {
   double re = 0, im = 0;
@@ -62,7 +62,7 @@ inline double imaginary_part(const Complex& a) { return a.im; }
 
 namespace Eigen {
 
-/// To Eigen a number without a conjugate: products of vectors are analytic functions.
+/// Eigen sees a number without a conjugate, so that products of vectors are analytic functions.
 template <>
 struct NumTraits<maxwrench::Complex> : NumTraits<double> {
   using Real = maxwrench::Complex;

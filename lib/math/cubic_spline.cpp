@@ -6,8 +6,9 @@
 namespace maxwrench {
 
 /// At every knot the slopes from both sides agree. With h the length and g the mean slope of an
-/// interval, that is h_- y''_-/6 + (h_- + h) y''/3 + h y''_+/6 = g - g_-, at the ends with what
-/// lies outside left out: a tridiagonal system, which is diagonally dominant.
+/// interval, this is h_- y''_-/6 + (h_- + h) y''/3 + h y''_+/6 = g - g_-. At the ends, the terms of
+/// the missing interval are left out. The result is a tridiagonal system, which is diagonally
+/// dominant.
 Eigen::MatrixXd clamped_spline_bends(std::span<const double> times, const Eigen::MatrixXd& values) {
   const Eigen::Index N = values.cols();
   assert(N >= 2 && static_cast<Eigen::Index>(times.size()) == N);

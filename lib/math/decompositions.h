@@ -2,13 +2,13 @@
 
 #include "maxwrench/types.h"
 
-// Dense decompositions. Eigen's templates for them take longer to compile than most files that need
-// one, so they are compiled once, here.
+// Dense decompositions. Eigen's templates for them take longer to compile than most files that use
+// them, so they are compiled once, here.
 
 namespace maxwrench {
 
-/// Sizes up to six live on the stack: unless A is rank deficient, nothing that takes or gives these
-/// allocates.
+/// Matrices of up to six rows and columns are on the stack. Functions that take or return them
+/// allocate nothing unless A is rank deficient.
 using Matrix6N = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
 using Vector6N = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1>;
 
@@ -19,7 +19,7 @@ class LeastSquares6 {
   explicit LeastSquares6(const Matrix6N& A) { compute(A); }
 
   void compute(const Matrix6N& A) { qr_.compute(A); }
-  /// Whether a pivot is smaller than this share of the largest.
+  /// Whether a pivot is smaller than `threshold` times the largest pivot.
   bool is_singular(double threshold) const;
   /// b with r rows -> A^+ b with d rows.
   Vector6N solve(const Vector6N& b) const;
@@ -30,26 +30,29 @@ class LeastSquares6 {
   Eigen::CompleteOrthogonalDecomposition<Matrix6N> qr_;
 };
 
-/// [m; rad] from a pose: Newton's method has arrived, and what one more step must reach.
+/// [m; rad] Residuals of a pose. Below `kArrived` Newton's method has converged; one more step must
+/// then reach `kExact`.
 inline constexpr double kArrived = 1e-9;
 inline constexpr double kExact = 1e-12;
 
-/// J_d, 6×d of what follows, is singular if a pivot of its QR decomposition is below this part of
-/// the largest.
+/// J_d (6×d, the dependent columns of J) is singular if a pivot of its QR decomposition is below
+/// this share of the largest pivot.
 inline constexpr double kSingularShare = 1e-4;
 
-/// (A'A + damping I)^-1 A'b, the step of Levenberg and Marquardt; A r×d, r and d <= 6, damping > 0.
+/// The Levenberg-Marquardt step (A'A + damping I)^-1 A'b; A r×d, r and d <= 6, damping > 0.
 Vector6N damped_step(const Matrix6N& A, const Vector6N& b, double damping);
 
-/// Orthonormal columns: those that span what the columns of a matrix span, then all others.
+/// Orthonormal columns: `range` spans the column space of a matrix, `complement` its orthogonal
+/// complement.
 struct Split {
   Eigen::MatrixXd range, complement;
 };
 
-/// Pivots below `threshold` times the largest count as zero; at -1, those of rounding.
+/// Pivots below `threshold` times the largest count as zero. At -1 the threshold is that of
+/// rounding.
 Split split(const Eigen::MatrixXd& A, double threshold = -1);
 
-/// A^+ (Moore and Penrose).
+/// The Moore-Penrose inverse A^+.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& A);
 
 /// In decreasing order.

@@ -5,8 +5,8 @@
 
 namespace maxwrench {
 
-/// The rows of B that one column alone serves, which serves no other row (a directly driven joint),
-/// each with its column; and all other rows and columns, in increasing order.
+/// The rows of B that have one nonzero entry, in a column that has no other (a directly driven
+/// joint), each with its column; and all other rows and columns, in increasing order.
 struct DirectDrives {
   std::vector<int> rows, columns, other_rows, other_columns;
 };

@@ -6,19 +6,19 @@
 
 namespace maxwrench {
 
-/// A number v + d'e with N infinitesimals: arithmetic carries first derivatives exactly (forward
+/// A number v + d'e with N infinitesimals e. Arithmetic carries first derivatives exactly (forward
 /// mode).
 template <int N>
 struct Dual {
-  /// First, so that a copy reads the pairs of numbers that arithmetic wrote: the other way round
-  /// the processor waits for every store.
+  /// The derivatives come first, so that a copy reads the pairs of numbers that arithmetic wrote.
+  /// In the other order the processor waits for every store.
   std::array<double, N> d{};
   double v = 0;
 
   Dual() = default;
   Dual(double value) : v(value) {}  // NOLINT(google-explicit-constructor): a constant is a number
 
-  /// The variable number i.
+  /// The variable with index i: its derivative i is one.
   static Dual variable(double value, int i) {
     Dual x(value);
     x.d[i] = 1;
@@ -77,7 +77,7 @@ Dual<N> sqrt(const Dual<N>& x) {
   const double root = std::sqrt(x.v);
   return x.chain(root, 0.5 / root);
 }
-/// At zero the derivative from above.
+/// The derivative at zero is that from above.
 template <int N>
 Dual<N> abs(const Dual<N>& x) {
   return x.chain(std::abs(x.v), x.v < 0 ? -1 : 1);
@@ -95,7 +95,7 @@ struct NumTraits<maxwrench::Dual<N>> : NumTraits<double> {
   enum { RequireInitialization = 1, ReadCost = N + 1, AddCost = N + 1, MulCost = 2 * N + 1 };
 };
 
-// Products of plain and dual matrices stay cheaper than products of two dual ones.
+// Products of plain and dual matrices cost less than products of two dual ones.
 template <int N, class Op>
 struct ScalarBinaryOpTraits<maxwrench::Dual<N>, double, Op> {
   using ReturnType = maxwrench::Dual<N>;

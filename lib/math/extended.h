@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <limits>
 
-// Numbers of more digits than double, for what a proof is made of: model functions are templates on
-// the scalar, and multiply by constants in double.
+// A number type with more digits than double, for the terms of a proof. Model functions are
+// templates on the scalar and multiply by constants in double.
 
 namespace maxwrench {
 

@@ -6,12 +6,12 @@
 
 namespace maxwrench {
 
-/// From here on a bound counts as infinite.
+/// A bound of at least this magnitude counts as infinite.
 inline constexpr double kInfiniteBound = 1e20;
 /// A sum below this share of its terms' magnitudes may be rounding alone.
 inline constexpr double kRounding = 64 * std::numeric_limits<double>::epsilon();
 
-/// A sum and what it is made of.
+/// A sum, the sum of its terms' magnitudes and the largest of these magnitudes.
 struct TermSum {
   double value = 0;
   double magnitudes = 0;
@@ -24,13 +24,13 @@ struct TermSum {
   }
 };
 
-/// Whether y proves that no x satisfies A x = b, l <= x <= u (Farkas): y'b exceeds the supremum of
-/// y'A x over the bounds. It is fed with the terms of y'b and with (A'y)_j and the bounds of each
-/// column j.
+/// Checks whether y proves that no x satisfies A x = b, l <= x <= u (Farkas): y'b exceeds the
+/// supremum of y'A x over the bounds. The caller adds the terms of y'b, then (A'y)_j and the bounds
+/// of each column j.
 ///
-/// (A'y)_j may be off by rounding, which counts against the proof with the larger of its bounds;
-/// where a bound is infinite, it counts as zero below 1e-10 of the magnitudes that it is summed
-/// from. The margin must exceed 1e-10 of the sum of all magnitudes. What is not a number proves
+/// Rounding may change (A'y)_j; this error times the larger absolute bound counts against the
+/// proof. Where the bound is infinite, (A'y)_j counts as zero if it is below 1e-10 of the sum of
+/// its terms' magnitudes. The margin must exceed 1e-10 of the sum of all magnitudes. NaN proves
 /// nothing.
 class Farkas {
  public:
@@ -54,7 +54,7 @@ class Farkas {
  private:
   static constexpr double kMargin = 1e-10;
 
-  TermSum margin_;     ///< y'b less the supremum
+  TermSum margin_;     ///< y'b minus the supremum
   bool open_ = false;  ///< the supremum is infinite
 };
 

@@ -9,7 +9,7 @@
 namespace maxwrench {
 namespace {
 
-/// Entries of a certificate below this share of the largest are rounding.
+/// Entries of a certificate below this share of the largest count as rounding.
 constexpr double kNegligible = 1e-12;
 
 constexpr double kRayTolerance = 1e-9;
@@ -17,7 +17,7 @@ constexpr double kRayTolerance = 1e-9;
 bool finite_lower(double l) { return l > -kInfiniteBound; }
 bool finite_upper(double u) { return u < kInfiniteBound; }
 
-/// Calls f(row, value) for the entries of column j; A need not be compressed.
+/// Calls f(row, value) for the entries of column j. A need not be compressed.
 template <class F>
 void for_column(const Eigen::SparseMatrix<double>& A, int j, F&& f) {
   const int begin = A.outerIndexPtr()[j];
@@ -40,7 +40,7 @@ void multiply(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& x, Lp
   }
 }
 
-/// Raises `worst` to `value`, and to infinity by what is not a number.
+/// Raises `worst` to `value`; NaN counts as infinity.
 void raise(double& worst, double value) {
   if (!(value <= worst)) worst = std::isnan(value) ? kInfinity : value;
 }

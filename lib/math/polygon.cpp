@@ -7,8 +7,8 @@
 namespace maxwrench {
 namespace {
 
-/// An edge that is still pushed outwards after this many steps belongs to a support that
-/// contradicts itself.
+/// If an edge is still pushed outwards after this many steps, the support function contradicts
+/// itself.
 constexpr int kMaxDepth = 64;
 
 using Point = Eigen::Vector2d;
@@ -55,8 +55,8 @@ class Tracer {
     push_out(r, q, depth + 1);
   }
 
-  /// Drops repeated vertices and those inside of an edge: ties of the support may give any point of
-  /// an edge.
+  /// Drops repeated vertices and those in the interior of an edge. In a tie the support function
+  /// may return any point of an edge.
   void merge() {
     bool changed = true;
     while (changed && vertices_.size() > 1) {
@@ -83,7 +83,7 @@ class Tracer {
 
   const Support& support_;
   double tolerance_;
-  double length_ = 0;  // of the set, to a factor of two
+  double length_ = 0;  // extent of the set, within a factor of two
   bool failed_ = false;
   std::vector<Point> vertices_;
 };

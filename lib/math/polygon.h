@@ -9,18 +9,20 @@
 
 namespace maxwrench {
 
-/// The largest d'x over a convex set for a unit direction d, and a point x where it is attained;
-/// nothing if the set is empty or has no end in this direction.
+/// The support function of a convex set: for a unit direction d, the largest d'x over the set and a
+/// point x where it is attained. Empty if the set is empty or unbounded in this direction.
 using Support =
     std::function<std::optional<std::pair<double, Eigen::Vector2d>>(const Eigen::Vector2d& d)>;
 
-/// The vertices of a convex set in the plane, counterclockwise, from its support alone; one vertex
-/// for a point, two for a segment, none if the support has no answer in some direction.
+/// The vertices of a convex set in the plane, counterclockwise, from its support function alone.
+/// The result has one vertex for a point, two for a segment, and none if the support function
+/// returns nothing in some direction.
 ///
-/// The extreme points along the four axes come first; then every edge between two neighbours is
-/// pushed outwards along its normal until the support exceeds it by less than `tolerance` times the
-/// extent of the set. A polygon is found exactly, with one question for each edge and each vertex;
-/// a curved set is inscribed to that tolerance.
+/// The algorithm starts from the extreme points along the four axes. It then pushes every edge
+/// between two neighbours outwards along its normal until the support exceeds the edge by less than
+/// `tolerance` times the extent of the set. A polygon is found exactly, with one evaluation of the
+/// support for each edge and each vertex. For a curved set the result is an inscribed polygon with
+/// this tolerance.
 std::vector<Eigen::Vector2d> polygon_from_support(const Support& support, double tolerance = 1e-9);
 
 /// The vertices of the convex hull of some points, counterclockwise.

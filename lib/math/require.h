@@ -6,7 +6,7 @@
 
 namespace maxwrench {
 
-/// Throws std::invalid_argument "key: got value, expected this" unless it is good.
+/// Throws std::invalid_argument "key: got value, expected this" unless `good`.
 inline void require(bool good, const char* key, double value, const char* expected) {
   if (good) return;
   char text[32];

@@ -4,7 +4,7 @@
 
 namespace maxwrench {
 
-/// blkdiag(R, R) x for columns [force; torque] or twists.
+/// blkdiag(R, R) x, where the columns of x are wrenches [force; torque] or twists.
 template <class Columns>
 Eigen::Matrix<double, 6, Columns::ColsAtCompileTime> rotated(const Eigen::Matrix3d& R,
                                                              const Eigen::MatrixBase<Columns>& x) {
@@ -13,7 +13,7 @@ Eigen::Matrix<double, 6, Columns::ColsAtCompileTime> rotated(const Eigen::Matrix
   return result;
 }
 
-/// The same into storage, which is not allocated again if it has the size.
+/// The same into `result`, which is not reallocated if it has the right size.
 inline void rotate_into(const Eigen::Matrix3d& R, const Matrix6Xd& x, Matrix6Xd& result) {
   result.resize(6, x.cols());
   result.topRows<3>().noalias() = R.lazyProduct(x.topRows<3>());

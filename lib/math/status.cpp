@@ -36,7 +36,7 @@ const char* to_string(Status status) {
 
 bool Residual::within(double tolerance) const {
   if (!std::isfinite(tolerance)) return false;
-  // One by one: std::max loses what is not a number.
+  // Compared one by one, because std::max can lose NaN.
   return balance <= tolerance && bounds <= tolerance && dual <= tolerance && gap <= tolerance;
 }
 

@@ -14,13 +14,13 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Rows and columns of B that hang together.
+/// Rows and columns of B that nonzero entries connect.
 struct Block {
   std::vector<int> rows, cols;
 };
 
 std::vector<Block> independent_blocks(const MatrixXd& B) {
-  // Union-find over rows 0..n-1; a column joins all the rows that it touches.
+  // Union-find over rows 0..n-1. A column joins all rows in which it has an entry.
   std::vector<int> root(B.rows());
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](int row) {
@@ -51,7 +51,7 @@ std::vector<Block> independent_blocks(const MatrixXd& B) {
   return blocks;
 }
 
-/// The number of subsets with `k` of `n` elements, or more than `limit` if it exceeds that.
+/// The number of subsets with `k` of `n` elements; more than `limit` if the number exceeds `limit`.
 long count_subsets(int n, int k, long limit) {
   double count = 1;
   for (int i = 0; i < k; ++i) count = count * (n - i) / (i + 1);
@@ -97,7 +97,7 @@ void add_pair(Zonotope& zonotope, const VectorXd& normal) {
   double high = 0;
   for (int j = 0; j < zonotope.actuators(); ++j) {
     const double slope = normal.dot(zonotope.B.col(j));
-    // A generator that lies in the facet up to rounding does not move its support.
+    // A generator that lies in the facet up to rounding does not change its support.
     if (std::abs(slope) < 1e-13 * zonotope.B.col(j).norm()) continue;
     low += std::min(slope * zonotope.u_min[j], slope * zonotope.u_max[j]);
     high += std::max(slope * zonotope.u_min[j], slope * zonotope.u_max[j]);
@@ -108,7 +108,7 @@ void add_pair(Zonotope& zonotope, const VectorXd& normal) {
   zonotope.b_max[f] = high;
 }
 
-/// Adds the pairs of one block; false if there would be too many.
+/// Adds the facet pairs of one block; false if there would be too many.
 bool add_block(Zonotope& zonotope, const Block& block, long max_subsets) {
   const MatrixXd part = zonotope.B(block.rows, block.cols);
   const int rows = static_cast<int>(block.rows.size());
@@ -125,7 +125,7 @@ bool add_block(Zonotope& zonotope, const Block& block, long max_subsets) {
       normals.push_back(range * normal);
     }
   }
-  // Nothing acts along these.
+  // No actuator acts along these directions.
   for (int i = 0; i < rows - rank; ++i) normals.push_back(complement.col(i));
   for (const VectorXd& normal : normals) {
     VectorXd full = VectorXd::Zero(zonotope.dimension());

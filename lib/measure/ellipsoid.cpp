@@ -8,7 +8,8 @@
 namespace maxwrench {
 namespace {
 
-/// max c_w'w subject to |G w + g| <= 1, G = W_u B^+ J'W (m×k), g = W_u B^+ tau_d (m), by
+/// Solves max c_w'w subject to |G w + g| <= 1, with G = W_u B^+ J'W (m×k) and g = W_u B^+ tau_d
+/// (m), by
 ///
 ///     z = -(G'G)^-1 G'g,  rho^2 = 1 - |g + G z|^2,  s^2 = c_w'(G'G)^-1 c_w,
 ///     beta = c_w'z + rho s,  w = z + (rho/s) (G'G)^-1 c_w.
@@ -53,7 +54,7 @@ class Ellipsoid : public Measure {
     direction_ = ldlt_.solve(c_w_);
     e_ = g_;
     e_.noalias() += G_.lazyProduct(capability.w);
-    // |e| <= |g| < 1 and (G'G)^-1 is positive definite, but for rounding.
+    // |e| <= |g| < 1 and (G'G)^-1 is positive definite, except for rounding.
     const double rho2 = 1 - e_.squaredNorm(), s2 = program.c_w.dot(direction_);
     if (!(rho2 > 0 && s2 > 0)) {
       return without_answer(Status::kNumericalError, "tau_d lies on the ellipsoid", capability);
@@ -66,9 +67,9 @@ class Ellipsoid : public Measure {
     return Status::kOptimal;
   }
 
-  /// u = B^+ (tau_d + J'W w), and the residual: u on the ellipsoid, c_w = -(J'W)'lambda
-  /// (stationarity), and the dual objective lambda'tau_d + sup {-lambda'tau : |W_u B^+ tau| <= 1},
-  /// whose supremum is at this very tau.
+  /// u = B^+ (tau_d + J'W w), and the residual: the distance of u from the ellipsoid, stationarity
+  /// c_w = -(J'W)'lambda, and the dual objective lambda'tau_d + sup {-lambda'tau : |W_u B^+ tau| <=
+  /// 1}, whose supremum is attained at this tau.
   void recover(const WrenchProgram& program, Capability& capability) {
     const Eigen::VectorXd tau = program.tau_d + program.JtW * capability.w;
     const Eigen::VectorXd& lambda = capability.lambda;

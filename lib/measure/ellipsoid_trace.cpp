@@ -10,14 +10,14 @@
 namespace maxwrench {
 namespace {
 
-/// The sum of the squared radii of the ellipsoid {z : |W_u B^+ J'W S z| <= 1}: wrenches W S z (W
-/// 6×k, the wrenches that the task allows at most) measured by the desired wrench, S = W' diag(s) W
-/// in the axes in which the task gives its wrenches. With G = W_u B^+ J'W (m×k) and
-/// Z = (G'G)^-1 S^-1,
+/// The sum of the squared radii of the ellipsoid {z : |W_u B^+ J'W S z| <= 1} of wrenches W S z.
+/// The columns of W (6×k) span all wrenches that the task can allow. S = W' diag(s) W, in the axes
+/// in which the task gives its wrenches, scales them by the desired wrench s. With G = W_u B^+ J'W
+/// (m×k) and Z = (G'G)^-1 S^-1,
 ///
 ///     T = trace(S^-1 Z),  d T = -2 <G Z Z', d G>.
 ///
-/// The offset by tau_d moves the centre only and does not occur.
+/// The offset by tau_d only moves the centre, so T does not depend on it.
 class EllipsoidTrace : public Measure {
  public:
   EllipsoidTrace(Eigen::MatrixXd K, const Problem& problem)
@@ -54,7 +54,7 @@ class EllipsoidTrace : public Measure {
 
  private:
   Eigen::MatrixXd K_;
-  Matrix6Xd W_0_, W_;  ///< before and after they turn with the end effector
+  Matrix6Xd W_0_, W_;  ///< before and after the turn with the end effector
   Eigen::MatrixXd JtW_, G_, slope_, seed_;
   SmallMatrix S_inverse_, normal_, Z_;
   Eigen::LDLT<SmallMatrix> ldlt_;

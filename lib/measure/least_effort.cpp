@@ -8,13 +8,13 @@
 namespace maxwrench {
 namespace {
 
-/// -min |u|^2 subject to B u = tau_d + J'W w, c_w'w = reference. With G = B^+ J'W (m×k) and g =
-/// B^+ tau_d the efforts are u = g + G w, so
+/// Solves -min |u|^2 subject to B u = tau_d + J'W w, c_w'w = reference. With G = B^+ J'W (m×k) and
+/// g = B^+ tau_d the efforts are u = g + G w, so
 ///
 ///     w = (G'G)^-1 (mu c_w - G'g),  mu = (reference + c_w'(G'G)^-1 G'g) / (c_w'(G'G)^-1 c_w).
 ///
-/// u'G = mu c_w', and every change of w along the constraint is orthogonal to c_w, so lambda =
-/// -2 (B^+)'u.
+/// u'G = mu c_w', and every change of w along the constraint is orthogonal to c_w, so lambda = -2
+/// (B^+)'u.
 class LeastEffort : public Measure {
  public:
   LeastEffort(Eigen::MatrixXd B_pinv, double reference)
@@ -48,8 +48,8 @@ class LeastEffort : public Measure {
   }
 
  private:
-  /// The residual: c_w'w is the reference, G'u = mu c_w, and the dual objective 2 u'g + 2 mu
-  /// reference - |u|^2, which bounds |u|^2 from below. Limits play no part.
+  /// The residual: c_w'w = reference, G'u = mu c_w, and the dual objective 2 u'g + 2 mu reference -
+  /// |u|^2, which bounds |u|^2 from below. Limits have no effect.
   void recover(const WrenchProgram& program, double mu, Capability& capability) {
     capability.u = u_;
     Residual& residual = capability.residual;

@@ -10,8 +10,8 @@
 namespace maxwrench {
 namespace {
 
-/// w = sqrt det(A A') with A = W'J (k×n), W the wrenches that the task allows at most: the rows
-/// that span what the end effector can do. d w = w <(A A')^-1 A, d A>.
+/// w = sqrt det(A A') with A = W'J (k×n). W, the wrenches that the task can allow at most, selects
+/// the rows that span the possible motions of the end effector. d w = w <(A A')^-1 A, d A>.
 class Manipulability : public Measure {
  public:
   explicit Manipulability(Matrix6Xd W) : W_0_(std::move(W)) {}
@@ -36,7 +36,7 @@ class Manipulability : public Measure {
   }
 
  private:
-  Matrix6Xd W_0_, W_;  ///< before and after they turn with the end effector
+  Matrix6Xd W_0_, W_;  ///< before and after the turn with the end effector
   Eigen::MatrixXd A_, scaled_;
   SmallMatrix gram_;
   Eigen::LDLT<SmallMatrix> ldlt_;

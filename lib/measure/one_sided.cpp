@@ -9,13 +9,14 @@
 namespace maxwrench {
 namespace {
 
-/// A closed form for free columns, where some may only push (w_j >= 0) or may do nothing. The
-/// problem is convex: with the columns that rest at zero in the optimum left out, the closed form
-/// gives the optimum, and what it gives for other sets either breaks a sign or is no better. So the
-/// best over all sets of resting columns is taken, 2^s closed forms for s one-sided columns. A
-/// column rests rightly if its reduced slope c_w + (J'W)'lambda does not point inwards.
+/// Extends a closed form for free columns to programs in which some columns may only push (w_j >=
+/// 0) or must be zero. The problem is convex. If the columns that are zero at the optimum are left
+/// out, the closed form gives the optimum; for any other set its answer violates a sign or is no
+/// better. The measure therefore takes the best answer over all sets of resting columns, which
+/// needs 2^s closed forms for s one-sided columns. A resting column is optimal if its reduced slope
+/// c_w + (J'W)'lambda does not point inwards.
 ///
-/// Each number of columns has a closed form of its own, so that nothing changes its size.
+/// Each number of columns has a closed form of its own, so that no matrix changes its size.
 class OneSided : public Measure {
  public:
   explicit OneSided(std::function<std::unique_ptr<Measure>()> make) : make_(std::move(make)) {
@@ -49,7 +50,7 @@ class OneSided : public Measure {
   }
 
  private:
-  /// The closed form for some number of columns.
+  /// The closed form for one number of columns.
   struct Form {
     std::unique_ptr<Measure> measure;
     WrenchProgram program;
@@ -75,7 +76,7 @@ class OneSided : public Measure {
     supported_ &= free_.size() + sided_.size() <= kMaxColumns;
   }
 
-  /// The closed form on the free columns and those one-sided ones whose bit is set.
+  /// The closed form on the free columns and on the one-sided columns whose bit in `moving` is set.
   const Capability& solve(const Posture& posture, const WrenchProgram& program, unsigned moving,
                           bool efforts) {
     kept_ = free_;
@@ -114,7 +115,7 @@ class OneSided : public Measure {
     return true;
   }
 
-  /// The answer on the columns kept, with zeros for those that rest.
+  /// The answer on the kept columns, with zeros for the resting ones.
   void expand(const WrenchProgram& program, const Capability& answer, bool efforts,
               Capability& capability) const {
     capability.iterations = answer.iterations;
@@ -146,7 +147,7 @@ class OneSided : public Measure {
     if (!efforts) return;
     capability.u = answer.u;
     capability.residual = answer.residual;
-    // d beta = load' d(J'W) w: what lambda is where tau_d counts.
+    // d beta = load' d(J'W) w: if the measure depends on tau_d, load is lambda.
     Eigen::VectorXd load = answer.lambda;
     if (!answer.h.isZero(0)) load = answer.beta_J.transpose() * answer.h / answer.h.squaredNorm();
     for (const int j : sided_) {
@@ -159,7 +160,7 @@ class OneSided : public Measure {
   }
 
   std::function<std::unique_ptr<Measure>()> make_;
-  /// By the number of columns; the first serves programs without one-sided columns.
+  /// Indexed by the number of columns. The first is for programs without one-sided columns.
   std::vector<std::unique_ptr<Form>> forms_;
   std::vector<int> free_, sided_, kept_;
   bool supported_ = true;

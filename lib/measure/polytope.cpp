@@ -6,7 +6,7 @@
 namespace maxwrench {
 namespace {
 
-/// A verdict that the data do not confirm is none.
+/// Rejects a verdict of infeasibility that the data do not confirm.
 void confirm_infeasible(const WrenchProgram& program, const Eigen::VectorXd& y,
                         Capability& capability) {
   if (capability.status != Status::kInfeasible || proves_infeasible(program, y)) return;
@@ -34,7 +34,7 @@ class LinfPolytope : public Measure {
   std::unique_ptr<WrenchSolver> solver_;
 };
 
-/// The same program with (B, J, tau_d) replaced by (I, J (B^+)', B^+ tau_d); lambda = (B^+)'
+/// The same program with (B, J, tau_d) replaced by (I, J (B^+)', B^+ tau_d). lambda = (B^+)'
 /// lambda_L2.
 class L2Polytope : public Measure {
  public:
@@ -54,7 +54,7 @@ class L2Polytope : public Measure {
     program_.w_max = program.w_max;
     program_.JtW.noalias() = B_pinv_.lazyProduct(program.JtW);
     program_.tau_d.noalias() = B_pinv_.lazyProduct(program.tau_d);
-    capability.lambda.swap(lambda_);  // m numbers there, n numbers outside: keep both allocated
+    capability.lambda.swap(lambda_);  // m numbers there, n numbers here: both stay allocated
     solver_->solve(program_, efforts, capability);
     capability.lambda.swap(lambda_);
     if (efforts) confirm_infeasible(program_, lambda_, capability);
@@ -62,7 +62,7 @@ class L2Polytope : public Measure {
     capability.lambda.noalias() = B_pinv_.transpose().lazyProduct(lambda_);
     fill_wrenches(posture, program, capability);
     if (!efforts) return;
-    // The balance in the robot's own rows, optimality in the rows of the program that was solved.
+    // The balance in the robot's own rows; optimality in the rows of the program that was solved.
     capability.residual = recheck(program_, capability.u, capability.w, lambda_);
     capability.residual.balance =
         recheck(program, capability.u, capability.w, capability.lambda).balance;

@@ -8,13 +8,13 @@
 namespace maxwrench {
 namespace {
 
-/// A slope below this share of all does not load an actuator.
+/// An actuator whose slope is below this share of the largest carries no load.
 constexpr double kSlopeTolerance = 1e-12;
 
-/// The largest x with u_min <= K (tau_d + J'W x) <= u_max, beta = c_w x: each actuator has a ratio
-/// of what its limit leaves to what a unit of x takes. K = W_u^-1 (B W_u^-1)^+ (m×n) gives the
-/// efforts of the least |W_u u|. With the actuator i that saturates, lambda = -c_w K'e_i / (K
-/// J'W)_i.
+/// The largest x with u_min <= K (tau_d + J'W x) <= u_max, and beta = c_w x. Each actuator limits x
+/// to the ratio of the effort that its limit leaves to the effort that one unit of x takes. K =
+/// W_u^-1 (B W_u^-1)^+ (m×n) gives the efforts with the least |W_u u|. If actuator i saturates,
+/// lambda = -c_w K'e_i / (K J'W)_i.
 class SaturatingWrench : public Measure {
  public:
   explicit SaturatingWrench(const Robot& robot)
@@ -64,13 +64,13 @@ class SaturatingWrench : public Measure {
     }
     capability.reason = "";
     capability.beta = program.c_w[0] * high;
-    capability.w.setZero(program.columns());  // a second contact rests
+    capability.w.setZero(program.columns());  // a second contact exerts nothing
     capability.w[0] = high;
     capability.lambda.noalias() = K_.row(active_).transpose() * (-program.c_w[0] / slope_[active_]);
     return Status::kOptimal;
   }
 
-  /// The balance in the robot's own rows, optimality in the rows of u = K (tau_d + J'W w).
+  /// The balance in the robot's own rows; optimality in the rows of u = K (tau_d + J'W w).
   void recover(const WrenchProgram& program, Capability& capability) const {
     WrenchProgram ratios = program;
     ratios.actuation = &box_;

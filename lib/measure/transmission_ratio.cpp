@@ -7,12 +7,12 @@
 namespace maxwrench {
 namespace {
 
-/// max c_w'w subject to |G w| <= 1, G = K J'W (m×k), by
+/// Solves max c_w'w subject to |G w| <= 1, G = K J'W (m×k), by
 ///
 ///     beta = sqrt(c_w'(G'G)^-1 c_w),  w = (G'G)^-1 c_w / beta.
 ///
-/// With e = G w the multiplier of the constraint is beta, so d beta = -beta e'K d(J'W) w. tau_d
-/// does not occur.
+/// With e = G w the multiplier of the constraint is beta, so d beta = -beta e'K d(J'W) w. The
+/// measure does not depend on tau_d.
 class TransmissionRatio : public Measure {
  public:
   TransmissionRatio(Eigen::MatrixXd K, Eigen::MatrixXd B_pinv)
@@ -43,7 +43,7 @@ class TransmissionRatio : public Measure {
   }
 
  private:
-  /// u = B^+ J'W w and the residual of the program without tau_d, whose multiplier is `load_`.
+  /// u = B^+ J'W w, and the residual of the program without tau_d, whose multiplier is `load_`.
   void recover(const WrenchProgram& program, Capability& capability) {
     WrenchProgram unloaded = program;
     unloaded.tau_d.setZero();

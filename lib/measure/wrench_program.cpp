@@ -12,7 +12,7 @@
 namespace maxwrench {
 namespace {
 
-/// How far x leaves its limits.
+/// The largest violation of the limits by x; infinity for NaN.
 double outside(const Eigen::VectorXd& x, const Eigen::VectorXd& low, const Eigen::VectorXd& high) {
   double worst = 0;
   for (Eigen::Index j = 0; j < x.size(); ++j) {
@@ -31,7 +31,7 @@ bool well_formed(const WrenchProgram& program) {
   if (program.JtW.rows() != n || program.JtW.cols() != k) return false;
   if (program.w_min.size() != k || program.w_max.size() != k) return false;
   if (program.W.cols() + program.C_2.cols() != k) return false;
-  // A product with zero is zero of finite numbers only.
+  // 0 * x is zero only if x is finite.
   const auto zero = [](const auto& x) { return (x.array() * 0).sum(); };
   const double wrenches = zero(program.W) + zero(program.C_2);
   if (!(wrenches + zero(program.JtW) + zero(program.tau_d) + zero(program.c_w) == 0)) return false;
@@ -115,7 +115,8 @@ LinearProgram assemble(const WrenchProgram& program) {
       if (actuation.B(i, j) != 0) entries.emplace_back(i, j, actuation.B(i, j));
     }
   }
-  // Every entry of -J'W is stored, zero or not: the pattern is the same for all postures.
+  // Every entry of -J'W is stored, even if it is zero, so that the pattern is the same for all
+  // postures.
   for (int j = 0; j < k; ++j) {
     for (int i = 0; i < n; ++i) entries.emplace_back(i, m + j, 0.0);
   }

@@ -8,7 +8,7 @@
 namespace maxwrench {
 namespace {
 
-/// All six s, those that are not free zero.
+/// All six coordinates s; those that are not free are zero.
 Vector6d coordinates_at(const Problem& problem, const Eigen::VectorXd& theta_r) {
   Vector6d s = Vector6d::Zero();
   auto next = static_cast<Eigen::Index>(problem.redundant.size());
@@ -57,7 +57,7 @@ Vector6d free_twist(const Problem& problem, const Eigen::VectorXd& theta_r, int 
         along_end_effector ? Eigen::Vector3d(R_0 * turned(s).col(axis)) : R_0.col(axis);
     return twist;
   }
-  // About which axis: z, then y turned by the yaw, then x turned by the pitch too.
+  // The rotation axis: z, then y turned by the yaw, then x turned by yaw and pitch.
   Vector6d outer = Vector6d::Zero();
   for (int j = axis + 1; j < 6; ++j) outer[j] = s[j];
   const Eigen::Vector3d w = problem.pose.R * turned(outer).col(axis - 3);

@@ -7,7 +7,7 @@ namespace maxwrench {
 /// Throws std::invalid_argument unless theta_r has the problem's size and is finite.
 void require_theta_r(const Problem& problem, const Eigen::VectorXd& theta_r);
 
-/// The twist [linear; angular] of the end effector in world axes, at its origin, along free
+/// The twist [linear; angular] of the end effector, in world axes at its origin, along free
 /// coordinate i of its pose at theta_r: the derivative of `pose_at`.
 Vector6d free_twist(const Problem& problem, const Eigen::VectorXd& theta_r, int i);
 

@@ -14,10 +14,11 @@ namespace {
 
 using Eigen::Matrix3d;
 
-/// An axis this near to a subspace lies in it [-, squared distance].
+/// [-, squared distance] An axis this close to a subspace lies in it.
 constexpr double kOnAxis = 1e-12;
 
-/// Of a base that follows in closed form: it alone moves the end effector in all ways.
+/// The motions of an end effector whose dependent coordinates are the base alone, which moves it in
+/// every possible way.
 Matrix6Xd base_motions(const Problem& problem) {
   const Robot& robot = problem.robot;
   const Pose<double> pose = pose_at(problem, problem.theta_r_default);

@@ -15,7 +15,7 @@
 namespace maxwrench {
 namespace {
 
-/// What is wrong with a posture, and how that is said; null: nothing.
+/// The violation of a posture and its description; null if there is none.
 struct Fault {
   Violation violation = Violation::kNone;
   const char* reason = nullptr;
@@ -33,7 +33,8 @@ constexpr Fault kBaseOffItsAxes{Violation::kBase,
                                 "unreachable pose: the base would leave its free axes"};
 constexpr Fault kSelfCollision{Violation::kCollision, "self-collision"};
 
-/// A posture at one theta_r: the numbers of the solutions for what follows, and for the second arm.
+/// A posture at one theta_r: the indices of the IK solutions for the dependent coordinates and for
+/// the second arm.
 struct IkSolution {
   int primary = -1, second = -1;
   bool operator==(const IkSolution&) const = default;
@@ -73,14 +74,14 @@ struct PostureEvaluator::Workspace {
     return check_collision && problem.robot.collision->collides(model.kinematics.links());
   }
 
-  /// Moves the second arm to one of its solutions.
+  /// Moves the second arm to IK solution i.
   void place_second(int i) {
     second->place(i, model.q);
     model.finish_second();
     placed.second = i;
   }
 
-  /// Moves what follows to one of its solutions.
+  /// Moves the dependent coordinates to IK solution i.
   void place_primary(int i) {
     primary->place(i);
     model.evaluate_at(model.theta_r, primary->z());
@@ -93,7 +94,7 @@ struct PostureEvaluator::Workspace {
     if (ik_solution.second != placed.second) place_second(ik_solution.second);
   }
 
-  /// Goes through the solutions for the second arm, from where the base is.
+  /// Tries all IK solutions for the second arm at the current base pose.
   void try_second() {
     const int found = second->reach(model.base);
     if (found == 0) blame(kUnreachableContact);
@@ -118,21 +119,21 @@ struct PostureEvaluator::Workspace {
     valid.push_back(placed);
   }
 
-  /// Counts the IK solution where the model is.
+  /// Counts the current IK solution as invalid.
   void turn_down(long& count, const Fault& why) {
     ++posture.ik_solutions.found;
     ++count;
     blame(why);
   }
 
-  /// Of all faults the gravest says what is wrong with a theta_r without a valid posture.
+  /// Keeps the gravest fault, which is the one reported for a theta_r without a valid posture.
   void blame(const Fault& why) {
     if (fault.reason && why.violation <= fault.violation) return;
     fault = why;
     shown = placed;
   }
 
-  /// Goes through the solutions for what follows.
+  /// Tries all IK solutions for the dependent coordinates.
   void try_primary(const Eigen::VectorXd& theta_r) {
     const int found = primary->solve(theta_r);
     model.theta_r = theta_r;
@@ -157,8 +158,8 @@ struct PostureEvaluator::Workspace {
     }
   }
 
-  /// Fills `valid` and, if there is none, `fault`; the model shows the first valid posture, or what
-  /// is wrong.
+  /// Fills `valid` and, if there is no valid posture, `fault`. The model ends at the first valid
+  /// posture, or at the one with the reported fault.
   void find_ik_solutions(const Eigen::VectorXd& theta_r) {
     valid.clear();
     fault = {};
@@ -233,7 +234,7 @@ struct PostureEvaluator::Workspace {
                  Eigen::VectorXd& gradient) {
     if (model.theta_r != theta_r) {
       if (second || primary) {
-        run(theta_r);  // chooses an IK solution
+        run(theta_r);  // selects an IK solution
       } else {
         model.evaluate(theta_r);
       }
@@ -256,7 +257,7 @@ struct PostureEvaluator::Workspace {
   }
 
   /// The derivatives by the free coordinates of the pose. Each moves the robot by a twist of the
-  /// end effector, at joints that rest; then what follows answers.
+  /// end effector at resting joints; then the dependent coordinates change.
   void follow_pose(const Matrix6Xd& J_seed, Eigen::VectorXd& gradient) const {
     Vector6d by_twist = reverse.by_twist();
     for (Eigen::Index i = 0; i < J_seed.cols(); ++i) {
@@ -281,8 +282,8 @@ struct PostureEvaluator::Workspace {
   std::optional<PrimaryIk> primary;  ///< if joints are dependent
   std::optional<SecondArm> second;   ///< if there is a second contact
   std::vector<IkSolution> valid;
-  Fault fault;               ///< if none is valid,
-  IkSolution shown, placed;  ///< and where it is; where the model is
+  Fault fault;               ///< set if no posture is valid
+  IkSolution shown, placed;  ///< where the fault is; where the model is
   const Matrix6Xd none;      ///< no seeds
   Posture posture;
 };

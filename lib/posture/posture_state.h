@@ -12,7 +12,6 @@
 
 namespace maxwrench {
 
-/// The state of one posture.
 struct PostureState {
   explicit PostureState(const Problem& p)
       : problem(p),
@@ -34,7 +33,8 @@ struct PostureState {
     return problem.robot.end_effectors[problem.end_effector];
   }
 
-  /// The base follows in closed form from all joints of the chain.
+  /// Evaluates the posture if the base is the only dependent coordinate: all joints of the chain
+  /// give it in closed form.
   void evaluate(const Eigen::VectorXd& at) {
     theta_r = at;
     for (std::size_t i = 0; i < problem.redundant.size(); ++i) {
@@ -46,7 +46,7 @@ struct PostureState {
     finish();
   }
 
-  /// z = [x, y, z, yaw of the base; all joints].
+  /// Evaluates the posture at z = [x, y, z, yaw of the base; all joints].
   void evaluate_at(const Eigen::VectorXd& at, const Eigen::VectorXd& z) {
     theta_r = at;
     if (!problem.free.axes.empty()) pose = pose_at(problem, at);
@@ -61,14 +61,14 @@ struct PostureState {
     if (!problem.contact) kinematics.gravity_and_buoyancy(base.R, tau_d);
   }
 
-  /// The same for a second arm that has moved, but for tau_d.
+  /// The same for a second arm that has moved, without tau_d.
   void finish_second() {
     kinematics.set_joints(q, second);
     const auto touching = static_cast<std::size_t>(problem.contact->end_effector);
     kinematics.jacobian(problem.robot.end_effectors[touching], base.R, J_2);
   }
 
-  /// Before the first evaluation: equals no theta_r.
+  /// The theta_r before the first evaluation; equal to no theta_r.
   static constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
   const Problem& problem;

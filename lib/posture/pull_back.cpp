@@ -25,13 +25,13 @@ PullBack::PullBack(const Robot& robot, int end_effector, int second)
   }
 }
 
-/// The part of tau_d in y and in the load.
+/// Adds the part of tau_d to y and to the load.
 void PullBack::collect_load(double t, Node& node) const {
   node.y_w -= t * field_cross(robot_->gravity, node.p);
   node.load += t * field_cross(robot_->gravity, node.w);
 }
 
-/// The part of J in y.
+/// Adds the part of J to y.
 void PullBack::collect_seed(const Matrix6Xd& J_seed, Eigen::Index column, Node& node) {
   const Vector3d a = J_seed.col(column).head<3>();
   const Vector3d b = J_seed.col(column).tail<3>();
@@ -39,7 +39,7 @@ void PullBack::collect_seed(const Matrix6Xd& J_seed, Eigen::Index column, Node& 
   node.y_w -= node.v.cross(a) + node.w.cross(b);
 }
 
-/// y and load of the base's own velocities.
+/// Sets y and load of the base's own velocities.
 void PullBack::set_base(const Kinematics<double>& kinematics, const Eigen::Matrix3d& R_base,
                         const Matrix6Xd& J, const Eigen::VectorXd& t, const Matrix6Xd& J_seed) {
   Node& base = nodes_[0];
@@ -55,7 +55,7 @@ void PullBack::set_base(const Kinematics<double>& kinematics, const Eigen::Matri
   }
 }
 
-/// The screw of a joint and p. Joints beside the chain have no column in J.
+/// Sets the screw of a joint, and p. Joints outside the chain have no column in J.
 void PullBack::set_joint(const Kinematics<double>& kinematics, const Eigen::Matrix3d& R_base,
                          const Matrix6Xd& J, std::size_t joint) {
   Node& node = nodes_[joint + 1];

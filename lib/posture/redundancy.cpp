@@ -11,7 +11,7 @@
 namespace maxwrench {
 namespace {
 
-/// The dependent velocities, at most six: more would leave A_r without a unique answer.
+/// The dependent velocities, at most six: with more, A_r would not be unique.
 struct Dependent {
   std::array<int, 6> index{};
   int count = 0;
@@ -59,8 +59,8 @@ void scatter(const LeastSquares6& J_d, const Dependent& dependent, const Vector6
   }
 }
 
-/// The second arm's joints that follow, in a column of A_r: J_f dq_2 = t - J_2 (the column), t the
-/// twist of the contact frame.
+/// The second arm's dependent joints in a column of A_r: J_f dq_2 = t - J_2 (the column), where t
+/// is the twist of the contact frame.
 void follow_contact(const Problem& problem, const Posture& posture, const Vector6d& t,
                     Eigen::Ref<Eigen::VectorXd> column) {
   const Contact& contact = *problem.contact;

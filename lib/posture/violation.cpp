@@ -20,7 +20,7 @@ std::string shown_place(const std::string& name, double x, const char* unit, dou
   return text.str();
 }
 
-/// The first coordinate of theta_r beyond its limits, or nothing.
+/// Describes the first coordinate of theta_r beyond its limits; empty if there is none.
 std::string theta_r_beyond(const Problem& problem, const Posture& posture) {
   for (int i = 0; i < static_cast<int>(posture.theta_r.size()); ++i) {
     const double x = posture.theta_r[i], min = problem.theta_r_min[i], max = problem.theta_r_max[i];
@@ -30,7 +30,7 @@ std::string theta_r_beyond(const Problem& problem, const Posture& posture) {
   return "";
 }
 
-/// The first of these joints beyond its limits, or nothing.
+/// Describes the first of these joints beyond its limits; empty if there is none.
 std::string joint_beyond(const Robot& robot, const std::vector<int>& joints,
                          const Eigen::VectorXd& q) {
   for (const int i : joints) {
@@ -42,7 +42,7 @@ std::string joint_beyond(const Robot& robot, const std::vector<int>& joints,
   return "";
 }
 
-/// Where the base is off its free axes, farthest: the coordinate from its mount.
+/// Describes the fixed coordinate in which the base is farthest from its mount.
 std::string base_off_its_axes(const Robot& robot, const Pose<double>& base) {
   constexpr std::array<const char*, 3> kAxes = {"x", "y", "z"};
   const Pose<double> moved = robot.mount.inverse() * base;
@@ -70,7 +70,7 @@ std::string detail_of(const Problem& problem, const Posture& posture) {
     case Violation::kBase:
       return base_off_its_axes(robot, posture.base);
     case Violation::kCollision: {
-      // With a second arm the posture is the last of several, which may fail by something else.
+      // With a second arm the posture is the last of several, which may have another fault.
       const int pair = robot.collision ? robot.collision->colliding_pair(posture.links) : -1;
       return pair < 0 ? "" : robot.collision->pair_name(pair);
     }

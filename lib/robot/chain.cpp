@@ -40,7 +40,7 @@ int motions_of(const Robot& robot, int end_effector, const std::vector<int>& vel
   Matrix6Xd J(6, robot.velocities());
   if (velocities.empty()) return 0;
   return generic_rank(robot, [&](const Kinematics<double>& kinematics) {
-    // The pose of the base does not change the rank.
+    // The rank does not depend on the pose of the base.
     kinematics.jacobian(robot.end_effectors[static_cast<std::size_t>(end_effector)],
                         Eigen::Matrix3d::Identity(), J);
     return split(J(Eigen::all, velocities), kRankTolerance).range.cols();

@@ -12,34 +12,36 @@ namespace maxwrench {
 /// The joints of the chain from the base to an end effector, from the base outward.
 std::vector<int> chain_to(const Robot& robot, int end_effector);
 
-/// These joints and all that they carry, from the base outward.
+/// These joints and all joints that they carry, from the base outward.
 std::vector<int> carried_by(const Robot& robot, const std::vector<int>& joints);
 
-/// In how many independent ways the free base axes and the joints of the chain move an end
-/// effector: the largest rank of their columns of J over all postures, 6 in space and 3 in a plane.
-/// A pose leaves (free base axes + joints of the chain - this number) coordinates free: theta_r.
+/// The number of independent motions that the free base axes and the joints of the chain give an
+/// end effector: the largest rank of their columns of J over all postures, 6 in space and 3 in a
+/// plane. A pose leaves (free base axes + joints of the chain - this number) coordinates free:
+/// theta_r.
 int motions_of(const Robot& robot, int end_effector);
 /// The same for these velocities alone.
 int motions_of(const Robot& robot, int end_effector, const std::vector<int>& velocities);
 
-/// [x, y, z, yaw] of a base that neither rolls nor pitches -> its pose in the world: the robot's
-/// mount, then (x, y, z), then Rz(yaw).
+/// The pose in the world of a base that neither rolls nor pitches, from x = [x, y, z, yaw]: the
+/// robot's mount, then (x, y, z), then Rz(yaw).
 Pose<double> base_pose(const Robot& robot, const Eigen::Vector4d& x);
 
-/// Distance [m] and rotation [-] below which the base counts as lying on its free axes.
+/// The base lies on its free axes if the distance [m] and the rotation [-] from them are below
+/// this.
 inline constexpr double kReachTolerance = 1e-9;
 
-/// Whether a pose in the world is reached by moving along the free base axes from the mount.
+/// Whether the base reaches a pose in the world by moving along its free axes from the mount.
 bool base_reaches(const Robot& robot, const Pose<double>& in_world);
 
-/// All joints at zero, or at the limit next to it.
+/// The joint positions with each joint at zero, or at its limit nearest to zero.
 Eigen::VectorXd resting_joints(const Robot& robot);
 
-/// Singular values below this part of the largest are rounding.
+/// Singular values below this share of the largest count as zero.
 inline constexpr double kRankTolerance = 1e-9;
 
-/// The largest rank(kinematics) over some random positions of all joints: almost everywhere it is
-/// as large as it can be. Unlimited joints; the base rests.
+/// The largest rank(kinematics) over random positions of all joints; almost all positions attain
+/// the maximum. Joint limits are ignored and the base rests.
 template <class Rank>
 int generic_rank(const Robot& robot, Rank&& rank) {
   constexpr int kPostures = 8;

@@ -6,8 +6,9 @@
 
 namespace maxwrench {
 
-/// The derivative of a clearance by the position of a joint: by the velocities of the two nearest
-/// points, which differ, along the line between them. `links`: pose of each relative to the base.
+/// The derivative of a clearance with respect to the position of a joint: the relative velocity of
+/// the two closest points, which must differ, along the line between them. `links`: the pose of
+/// each link relative to the base.
 double clearance_slope(const Robot& robot, const std::vector<Pose<double>>& links,
                        const ClosestPoints& near, int joint);
 

@@ -11,7 +11,7 @@
 namespace maxwrench {
 namespace {
 
-/// From the axis of a pipe to the contact point.
+/// The vector from the axis of a pipe to the contact point.
 Eigen::Vector3d spoke(const Contact& contact, const Eigen::Matrix3d& R) {
   return -contact.radius * R.col(2);
 }
@@ -19,7 +19,8 @@ Eigen::Vector3d spoke(const Contact& contact, const Eigen::Matrix3d& R) {
 template <int kRows>
 using Square = Eigen::Matrix<double, kRows, kRows>;
 
-/// The Gram matrix JJ' of the stacked J, in units of length_scale: the lower triangle.
+/// The lower triangle of the Gram matrix JJ' of the stacked J, with lengths in units of
+/// length_scale.
 template <int kRows>
 Square<kRows> gram_of(const Robot& robot, const Contact& contact, const Matrix6Xd& J,
                       const Matrix6Xd& J_2) {
@@ -62,8 +63,9 @@ Gains squared_gains(const Robot& robot, const Contact& contact, const Matrix6Xd&
   return Eigen::SelfAdjointEigenSolver<Gram>(gram, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
-/// How many eigenvalues of the symmetric A are positive: as many as pivots (Sylvester's law of
-/// inertia). -1 if a pivot is so small that rounding may have given it its sign. Overwrites A.
+/// The number of positive eigenvalues of the symmetric matrix A, which equals the number of
+/// positive pivots (Sylvester's law of inertia). -1 if a pivot is so small that its sign may be due
+/// to rounding. Overwrites A.
 template <int kRows>
 int count_positive(Square<kRows>& A) {
   const double smallest = 1e-6 * A.diagonal().cwiseAbs().sum();
@@ -81,7 +83,7 @@ int count_positive(Square<kRows>& A) {
   return count;
 }
 
-/// How many gains exceed sigma_min, or -1.
+/// The number of gains that exceed sigma_min, or -1 if rounding leaves it open.
 template <int kRows>
 int count_large(const Robot& robot, const Contact& contact, const Matrix6Xd& J,
                 const Matrix6Xd& J_2) {

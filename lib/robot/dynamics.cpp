@@ -34,8 +34,8 @@ void Dynamics::set_configuration(const Eigen::Matrix3d& R_base, const Eigen::Vec
   }
 }
 
-/// Composite bodies: a joint's column of M is the momentum that its unit rate gives to all that it
-/// carries, as the velocities of the base and of its ancestors see it.
+/// Composite bodies: a joint's column of M is the momentum that its unit rate gives to all links
+/// that it carries, projected on the velocities of the base and of the joint's ancestors.
 void Dynamics::mass_matrix(Eigen::MatrixXd& M) {
   const int base = static_cast<int>(robot_->base_axes.size());
   const int joints = static_cast<int>(axes_.size());
@@ -118,7 +118,7 @@ auto Dynamics::base_unit(int axis) -> Screw {
   return unit;
 }
 
-/// The base's part of n numbers, as a twist.
+/// The base's entries of a velocity vector, as a twist.
 auto Dynamics::base_twist(const Eigen::VectorXd& velocity) const -> Screw {
   Screw twist;
   for (std::size_t i = 0; i < robot_->base_axes.size(); ++i) {
@@ -139,8 +139,8 @@ void Dynamics::set_twists(const Eigen::VectorXd& velocity) {
   }
 }
 
-/// Derivatives in resting axes that coincide with the base's: a joint's axis moves with its parent.
-/// Those of the base's own components are the same in moving and in resting axes.
+/// The rates are in fixed axes that coincide with the base's, in which a joint's axis moves with
+/// its parent. For the base's own components, moving and fixed axes give the same rates.
 void Dynamics::set_twist_rates(const Eigen::VectorXd& velocity,
                                const Eigen::VectorXd& acceleration) {
   const auto base = static_cast<Eigen::Index>(robot_->base_axes.size());
@@ -162,15 +162,15 @@ void Dynamics::clear_forces() {
   for (Screw& force : forces_) force = Screw();
 }
 
-/// Adds a wrench given at `frame`'s origin in its axes.
+/// Adds a wrench that is given at `frame`'s origin in its axes.
 void Dynamics::add_force(int link, const Pose<double>& frame, const Screw& wrench) {
   const Eigen::Vector3d force = frame.R * wrench.linear;
   forces_[link].linear += force;
   forces_[link].angular += frame.R * wrench.angular + frame.p.cross(force);
 }
 
-/// The rate of each link's momentum, in its own axes, where its inertia is constant: with momentum
-/// (p, L) and twist (v, w) it is p_d + w x p and L_d + w x L + v x p.
+/// The rate of each link's momentum, in the link's own axes, where its inertia is constant. For
+/// momentum (p, L) and twist (v, w) it is p_d + w x p and L_d + w x L + v x p.
 void Dynamics::add_inertial_forces() {
   for (int i = 0; i < static_cast<int>(inertia_.size()); ++i) {
     const Pose<double>& frame = kinematics_.links()[i];

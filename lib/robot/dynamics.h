@@ -8,34 +8,35 @@
 
 namespace maxwrench {
 
-/// The equations of motion of a tree on its base (eq:dynamics, eq:reducedDynamics);
-/// evaluation allocates nothing.
+/// The equations of motion of a tree on its base (eq:dynamics, eq:reducedDynamics). Evaluation
+/// allocates nothing.
 ///
 ///   tau_d = M(theta) v_d + C(theta, v) v + D(theta, v) v + g(theta),   tau_d + J'h_e = B u
 ///
 /// v, n numbers: the base's twist at the base origin on its free axes, in base axes, then joint
-/// rates [m/s, rad/s]. v_d: the componentwise derivative of v; the terms of the turning axes are
-/// part of C. tau_d, n numbers [N, N m].
+/// rates [m/s, rad/s]. v_d: the componentwise derivative of v; C contains the terms that arise
+/// because the axes turn. tau_d: n numbers [N, N m].
 ///
 /// The water is at rest, so a body and the water that it moves have one momentum, linear in the
-/// body's twist (Kirchhoff): added mass is an inertia that differs between axes, with Coriolis
-/// terms of its own. Added mass and drag act as given, whatever the water's density; the loader
-/// rejects them in air. Joints have no friction, motors no inertia.
+/// body's twist (Kirchhoff). Added mass is therefore an inertia that differs between axes and has
+/// Coriolis terms of its own. Added mass and drag act as given, whatever the water's density; the
+/// loader rejects them in air. Joints have no friction, motors no inertia.
 class Dynamics {
  public:
-  /// The robot outlives this.
+  /// The robot must outlive this object.
   explicit Dynamics(const Robot& robot);
   explicit Dynamics(const Robot&&) = delete;
 
-  /// theta: orientation of the base in the world, joint positions. Nothing depends on where the
-  /// base is.
+  /// theta: orientation of the base in the world and joint positions. Nothing depends on the
+  /// position of the base.
   void set_configuration(const Eigen::Matrix3d& R_base, const Eigen::VectorXd& q);
 
   /// M n×n [kg, kg m, kg m^2], symmetric, with added mass.
   void mass_matrix(Eigen::MatrixXd& M);
   /// C(theta, v) v, with the terms of added mass.
   void coriolis(const Eigen::VectorXd& velocity, Eigen::VectorXd& C_v);
-  /// D(theta, v) v: the drag that the actuators overcome. Differentiable once where v is zero.
+  /// D(theta, v) v: the drag that the actuators overcome. It has a first derivative at v = 0 but no
+  /// second.
   void damping(const Eigen::VectorXd& velocity, Eigen::VectorXd& D_v);
   /// g(theta): weight, buoyancy and trim.
   void gravity(Eigen::VectorXd& g) { kinematics_.gravity_and_buoyancy(R_base_, g); }
@@ -44,16 +45,16 @@ class Dynamics {
   void inverse(const Eigen::VectorXd& velocity, const Eigen::VectorXd& acceleration,
                Eigen::VectorXd& tau_d);
 
-  /// The motion under actuator forces tau = B u, free of contact: v_d of tau_d(theta, v, v_d) =
-  /// tau.
+  /// The motion under actuator forces tau = B u without contact: v_d such that tau_d(theta, v, v_d)
+  /// = tau.
   void forward(const Eigen::VectorXd& velocity, const Eigen::VectorXd& tau,
                Eigen::VectorXd& acceleration);
-  /// The same while an end effector exerts h_e = [force; torque] in world axes at its origin on the
-  /// environment: v_d of tau_d(theta, v, v_d) = tau - J'h_e.
+  /// The motion while an end effector exerts h_e = [force; torque], in world axes at its origin, on
+  /// the environment: v_d such that tau_d(theta, v, v_d) = tau - J'h_e.
   void forward(const Eigen::VectorXd& velocity, const Eigen::VectorXd& tau,
                const EndEffector& end_effector, const Vector6d& h_e, Eigen::VectorXd& acceleration);
 
-  /// At the configuration that was set.
+  /// The kinematics at the configuration that was set.
   const Kinematics<double>& kinematics() const { return kinematics_; }
 
  private:
@@ -75,7 +76,7 @@ class Dynamics {
   Eigen::Matrix3d R_base_ = Eigen::Matrix3d::Identity();
   std::vector<Screw> axes_;  ///< of each joint: the twist of its link per joint rate
   std::vector<Screw> twists_, twist_rates_;
-  std::vector<Screw> forces_;  ///< on each link, once projected also on all that it carries
+  std::vector<Screw> forces_;  ///< on each link; after projection also on all links that it carries
   std::vector<Inertia<double>> carried_;
   Eigen::VectorXd zero_, load_, tau_;
   Eigen::MatrixXd M_;

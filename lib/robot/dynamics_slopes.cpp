@@ -11,13 +11,13 @@ Vector6d spatial_vector(const Eigen::Vector3d& linear, const Eigen::Vector3d& an
   return screw;
 }
 
-/// V x S: the rate of a twist S that the twist V carries along.
+/// V x S: the rate of a twist S that moves with the twist V.
 Vector6d crossed(const Vector6d& V, const Vector6d& S) {
   const Eigen::Vector3d v = V.head<3>(), w = V.tail<3>(), s = S.head<3>(), turn = S.tail<3>();
   return spatial_vector(w.cross(s) + v.cross(turn), w.cross(turn));
 }
 
-/// V x* F: the same of a wrench or momentum F.
+/// V x* F: the rate of a wrench or momentum F that moves with the twist V.
 Vector6d crossed_force(const Vector6d& V, const Vector6d& F) {
   const Eigen::Vector3d v = V.head<3>(), w = V.tail<3>(), f = F.head<3>(), m = F.tail<3>();
   return spatial_vector(w.cross(f), w.cross(m) + v.cross(f));
@@ -87,7 +87,7 @@ void DynamicsSlopes::set_axes() {
   }
 }
 
-/// In resting axes that coincide with the base's, as `Dynamics` has them.
+/// In fixed axes that coincide with the base's, as in `Dynamics`.
 void DynamicsSlopes::set_motion(const Eigen::VectorXd& velocity,
                                 const Eigen::VectorXd& acceleration) {
   const std::size_t base = robot_.base_axes.size();
@@ -106,7 +106,7 @@ void DynamicsSlopes::set_motion(const Eigen::VectorXd& velocity,
   }
 }
 
-/// A link's own I, B and F, but for weight and h_e.
+/// A link's own I, B and F, without weight and h_e.
 void DynamicsSlopes::set_body(std::size_t link) {
   Body& body = bodies_[link];
   body.I = full(moved<double>(kinematics_.links()[link], inertia_[link]));
@@ -144,7 +144,7 @@ void DynamicsSlopes::add_drag(std::size_t link) {
   }
 }
 
-/// Sums over all that a link carries; weight and h_e join F.
+/// Sums I, B and F over all links that a link carries, and adds weight and h_e to F.
 void DynamicsSlopes::carry() {
   for (std::size_t i = robot_.joints.size(); i > 0; --i) {
     Body& parent = bodies_[static_cast<std::size_t>(robot_.joints[i - 1].parent)];
@@ -164,8 +164,8 @@ void DynamicsSlopes::carry() {
   }
 }
 
-/// What weight and h_e on all that a link carries gain where that turns against them by `turn`,
-/// seen from it.
+/// The change of weight and h_e on all links that `link` carries, in the axes of these links, when
+/// they turn by `turn`.
 Vector6d DynamicsSlopes::turned_loads(std::size_t link, const Eigen::Vector3d& turn) const {
   const Eigen::Vector3d pull = pull_.cross(turn);
   Vector6d gained = spatial_vector(-kinematics_.carried_mass(link) * pull,
@@ -177,14 +177,14 @@ Vector6d DynamicsSlopes::turned_loads(std::size_t link, const Eigen::Vector3d& t
   return gained;
 }
 
-/// by_v and by_v_dot.
+/// Fills by_v_ and by_v_dot_.
 void DynamicsSlopes::fill_velocities() {
   const auto n = static_cast<Eigen::Index>(axes_.size());
   by_v_.setZero();
   by_v_dot_.setZero();
   for (Eigen::Index j = 0; j < n; ++j) {
     const Axis& moves = axes_[static_cast<std::size_t>(j)];
-    // Of the base, s is an axis of V_0, which turns with it.
+    // For the base, s is an axis of V_0 and turns with it.
     const bool joint = moves.link != 0;
     const std::size_t parent =
         joint ? static_cast<std::size_t>(robot_.joints[moves.link - 1].parent) : 0;

@@ -7,15 +7,15 @@
 
 namespace maxwrench {
 
-// A moving robot as the state y of an Ode, in this order:
+// The state y of a moving robot in an Ode, in this order:
 //
 //   p   3  position of the base in the world [m]
 //   e   4  its orientation as a quaternion (w, x, y, z)
 //   q      joint positions
 //   v   n  velocities (see lib/robot/dynamics.h)
 //
-// The orientation is read from e/|e|, so its length means nothing to the motion; the rate of e has
-// a term along e that pulls the length back to one, so it never drifts far.
+// The orientation is that of e/|e|, so the length of e does not affect the motion. The rate of e
+// has a term along e that pulls the length back to one, so it stays close to one.
 
 /// The configuration and velocity of a robot.
 struct Motion {
@@ -23,24 +23,24 @@ struct Motion {
   Eigen::VectorXd q, v;
 };
 
-/// The numbers that a motion takes in a state.
+/// The number of entries that a motion takes in a state.
 int motion_size(const Robot& robot);
-/// Into and from the head of y.
+/// Write a motion to, or read it from, the first entries of y.
 void write_motion(const Motion& motion, Eigen::VectorXd& y);
 void read_motion(const Eigen::VectorXd& y, Motion& motion);
-/// The rates of p, e and q by a motion that was read from y, into the head of y_dot:
-/// p_dot = R v_lin,  e_dot = e * (0, w)/2 + k (1 - |e|^2) e,  k = 1/s,  q_dot.
+/// Writes the rates of p, e and q of a motion that was read from y to the first entries of y_dot:
+///   p_dot = R v_lin,  e_dot = e * (0, w)/2 + k (1 - |e|^2) e,  k = 1/s,  q_dot.
 void configuration_rates(const Robot& robot, const Motion& motion, const Eigen::VectorXd& y,
                          Eigen::VectorXd& y_dot);
 
-/// The configuration after `seconds` with the velocities that it has.
+/// The configuration after `seconds` at the motion's constant velocities.
 Motion advanced(const Robot& robot, Motion motion, double seconds);
 
-/// A robot free of contact under actuator forces tau(t) (eq:dynamics with h_e = 0). Its residual
+/// A robot without contact under actuator forces tau(t) (eq:dynamics with h_e = 0). Its residual
 /// form needs no factorisation of M.
 class FreeMotion final : public Ode {
  public:
-  /// The robot outlives this. `tau` fills n numbers [N, N m].
+  /// The robot must outlive this object. `tau` fills n numbers [N, N m].
   FreeMotion(const Robot& robot, const Motion& start,
              std::function<void(double t, Eigen::VectorXd& tau)> tau);
   FreeMotion(const Robot&&, const Motion&, std::function<void(double, Eigen::VectorXd&)>) = delete;

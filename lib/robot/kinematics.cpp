@@ -62,7 +62,7 @@ void Kinematics<T>::jacobian(const EndEffector& end_effector, const Matrix3<T>& 
   const Vector3<T> p = end_effector_position(end_effector);
   const Vector3<T> r = R_base * p;
   const T zero(0.0);
-  J.resize(6, robot_->velocities());  // the caller's, perhaps empty
+  J.resize(6, robot_->velocities());  // J is the caller's and may be empty
   J.setConstant(zero);
   int column = 0;
   for (const int axis : robot_->base_axes) {
@@ -91,8 +91,8 @@ void Kinematics<T>::jacobian(const EndEffector& end_effector, const Matrix3<T>& 
 
 template <class T>
 void Kinematics<T>::gravity_and_buoyancy(const Matrix3<T>& R_base, VectorX<T>& tau_d) {
-  // In base axes: the weight of a body of wet mass m is m * pull, its moment about the base origin
-  // moment x pull.
+  // In base axes, the weight of a body of wet mass m is m * pull, and its moment about the base
+  // origin is moment x pull.
   const Vector3<T> pull = R_base.row(2).transpose() * T(-robot_->gravity);
   const int joints = static_cast<int>(constants_.size());
   for (int i = 0; i <= joints; ++i) {

@@ -22,8 +22,8 @@ double turned_into_limits(const Joint& joint, double q) {
 }
 
 void add_body(Link& link, double mass, const Eigen::Vector3d& com, const Eigen::Matrix3d& inertia) {
-  // About the common centre of mass, the parallel axes of both parts are those of their reduced
-  // mass at their distance.
+  // Parallel-axis theorem: about the common centre of mass, the two parts add the inertia of their
+  // reduced mass at their distance.
   const Eigen::Vector3d apart = com - link.com;
   const double reduced = link.mass * mass / (link.mass + mass);
   link.inertia += inertia + reduced * (apart.squaredNorm() * Eigen::Matrix3d::Identity() -

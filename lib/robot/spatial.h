@@ -4,22 +4,22 @@
 
 namespace maxwrench {
 
-/// A twist [linear; angular] or its rate, a momentum or a wrench [force; torque]: in base axes at
-/// the base origin unless said otherwise.
+/// A twist [linear; angular] or its rate, a momentum, or a wrench [force; torque]. Unless stated
+/// otherwise, in base axes at the base origin.
 template <class T>
 struct Screw {
   Vector3<T> linear = Vector3<T>::Zero(), angular = Vector3<T>::Zero();
 };
 
-/// Twist -> momentum at the same origin: [A v + B w; B'v + C w], all 3×3.
+/// Maps a twist to the momentum at the same origin: [A v + B w; B'v + C w], all blocks 3×3.
 template <class S>
 struct Inertia {
   Matrix3<S> A, B, C;
 };
 
-/// An inertia given at `frame`'s origin in its axes, at the origin and axes that `frame` is
-/// relative to: with P = [p]x the twist at p is (v - P w, w), and momentum at p counts L + p x (A v
-/// + B w).
+/// Moves an inertia from the origin and axes of `frame` to the origin and axes that `frame` is
+/// relative to. With P = [p]x the twist at p is (v - P w, w), and a momentum (A v + B w, L) at p
+/// has the angular part L + p x (A v + B w).
 template <class S>
 Inertia<S> moved(const Pose<S>& frame, const Inertia<double>& inertia) {
   const auto turned = [&frame](const Matrix3<double>& block) -> Matrix3<S> {
@@ -35,7 +35,7 @@ Inertia<S> moved(const Pose<S>& frame, const Inertia<double>& inertia) {
   return result;
 }
 
-/// Of the link and of the water that its bodies move, at the link's origin and in its axes.
+/// The inertia of the link and of the water that its bodies move, at the link's origin in its axes.
 inline Inertia<double> link_inertia(const Link& link) {
   const Matrix3<double> zero = Matrix3<double>::Zero();
   const Matrix3<double> mass = link.mass * Matrix3<double>::Identity();
@@ -64,7 +64,7 @@ T along(const Screw<T>& twist, const Screw<T>& wrench) {
   return twist.linear.dot(wrench.linear) + twist.angular.dot(wrench.angular);
 }
 
-/// Number `axis` of [linear; angular].
+/// Component `axis` of [linear; angular].
 template <class T>
 T component(const Screw<T>& screw, int axis) {
   return axis < 3 ? screw.linear[axis] : screw.angular[axis - 3];

@@ -45,7 +45,7 @@ class CapabilityObjective final : public FacetObjective {
     return capability_.beta;
   }
 
-  /// A_r'A_r of eq:redundantJacobian: |theta_dot|^2 of the motion that theta_r_dot makes.
+  /// A_r'A_r of eq:redundantJacobian: |theta_dot|^2 as a quadratic form in theta_r_dot.
   void metric(const Eigen::VectorXd& theta_r, Eigen::MatrixXd& M) override {
     if (posture_ == nullptr || theta_r_ != theta_r) evaluate(theta_r, nullptr);
     null_motion(problem_, *posture_, A_r_);

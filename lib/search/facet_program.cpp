@@ -14,12 +14,13 @@
 namespace maxwrench {
 namespace {
 
-/// m: bodies that touch are a collision, and a solver keeps to its bounds up to rounding.
+/// [m] The lower bound of a clearance. It is positive because bodies that touch collide and a
+/// solver meets its bounds only up to rounding.
 constexpr double kLeastClearance = 1e-9;
 constexpr int kMostPairs = 200;
 constexpr double kClearanceUnit = 0.1;  // m
 
-/// The pairs whose distance is known.
+/// The pairs of bodies whose distance is known.
 std::vector<int> known_pairs(const Problem& problem, bool check_collision) {
   std::vector<int> known;
   const CollisionChecker* checker = problem.robot.collision.get();
@@ -91,7 +92,7 @@ struct FacetProgram::Workspace {
     return true;
   }
 
-  /// Whole turns do not count.
+  /// The squared distance of q from `anchor`; whole turns do not count.
   double away(const Eigen::VectorXd& q) const {
     double sum = 0;
     for (Eigen::Index i = 0; i < q.size(); ++i) {
@@ -103,7 +104,7 @@ struct FacetProgram::Workspace {
     return sum;
   }
 
-  /// Turns to the IK solution nearest to `anchor`, the first of equal ones.
+  /// Selects the IK solution nearest to `anchor`, the first of several equally near ones.
   void choose_nearest() {
     int nearest = 0;
     double least = kInfinity;
@@ -128,7 +129,7 @@ struct FacetProgram::Workspace {
     for (const int joint : following) rows[row++] = posture->q[joint];
   }
 
-  /// The derivatives of clearances and of the joints that follow, by those of all joints.
+  /// The derivatives of the clearances and of the dependent joints, from those of all joints.
   void differentiate_places() {
     null_motion(problem, *posture, A_r);
     const auto turns = A_r.bottomRows(posture->q.size());
@@ -147,7 +148,7 @@ struct FacetProgram::Workspace {
     for (const int joint : following) by_theta_r.row(row++) = turns.row(joint);
   }
 
-  /// The derivative of f = tau_d + J'W w at constant w: row k is that of a capability with lambda =
+  /// The derivative of f = tau_d + J'W w at constant w. Row k is that of a capability with lambda =
   /// e_k.
   void differentiate() {
     seeds.w = w;
@@ -166,7 +167,7 @@ struct FacetProgram::Workspace {
   std::unique_ptr<Measure> measure;
   const std::vector<int> pairs, following;
   const Posture* posture = nullptr;
-  Eigen::VectorXd anchor;  ///< joints of the IK solution
+  Eigen::VectorXd anchor;  ///< joints of the current IK solution
   Capability capability, seeds;
   Eigen::VectorXd w, f, slope;
   Eigen::MatrixXd slopes;  ///< n×r

@@ -7,7 +7,7 @@
 
 namespace maxwrench {
 
-/// Another objective, but for what a class derived from this changes.
+/// Forwards to another objective. Derived classes override what they change.
 class ForwardingObjective : public Objective {
  public:
   explicit ForwardingObjective(std::unique_ptr<Objective> objective)

@@ -58,7 +58,7 @@ TankSample ControlLoop::sample(double t_0, double t) const {
   return sample;
 }
 
-/// Of what the actuators do, and of what they were told.
+/// The violation by the actual efforts and by the commanded ones.
 double ControlLoop::violation(double dt, const Eigen::VectorXd& u) const {
   const Zonotope& limits = robot_.actuation;
   const Eigen::ArrayXd rate = (u - u_0_).array().abs() / dt;

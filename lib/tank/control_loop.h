@@ -11,31 +11,32 @@ class TankOde;
 struct Problem;
 struct Robot;
 
-/// The control periods of an experiment: in each the tracking program answers what a controller
-/// asks for, and the simulated robot carries that out.
+/// The control periods of an experiment. In each period the tracking program computes efforts for
+/// the controller's request, and the simulated robot applies them.
 class ControlLoop {
  public:
-  /// Keeps references to all of them.
+  /// Keeps references to all arguments.
   ControlLoop(const Problem& problem, const TankOptions& options, Integrator& integrator,
               TankOde& ode, EffortTracker& tracker);
   ControlLoop(const Problem&&, const TankOptions&, Integrator&, TankOde&, EffortTracker&) = delete;
 
-  EffortRequest request;  ///< of the next step
+  EffortRequest request;  ///< for the next step
   TankRun run;
 
-  /// From efforts u_0 at t_0 to those that answer the request at t_1; h_0 and h_1 are exerted on
-  /// the support of a load. Returns where it ended, before t_1 if the integrator gave up.
+  /// Moves the efforts from u_0 at t_0 to the answer to the request at t_1. h_0 and h_1 are exerted
+  /// on the support of a load. Returns the time at which the step ended, which is before t_1 if the
+  /// integrator failed.
   double step(double t_0, const Eigen::VectorXd& u_0, double t_1, const Vector6d& h_0,
               const Vector6d& h_1);
 
-  /// What the last step, from t_0 to t, says of efforts and their limits.
+  /// The efforts and limit violations of the last step, from t_0 to t.
   TankSample sample(double t_0, double t) const;
 
-  /// Of the last sample: the posture was lost (see kLost).
+  /// Whether the posture was lost at the last sample (see kLost).
   bool lost() const;
   bool accepts_starts() const { return run.status == Status::kReached && !lost(); }
 
-  /// The run with what it took, but without its summary.
+  /// The run with its counts and times, but without its summary.
   TankRun& finish();
 
  private:

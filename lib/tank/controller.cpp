@@ -10,10 +10,11 @@
 namespace maxwrench {
 namespace {
 
-/// Directions that differ by less than this share are one.
+/// Directions that differ by less than this share count as one.
 constexpr double kSameDirection = 1e-9;
 
-/// Of (u - u*)'Q(u - u*): an effort counts by its smaller limit, as in beta_1.
+/// The diagonal of Q in (u - u*)'Q(u - u*). An effort is weighted by its smaller limit, as in
+/// beta_1.
 Eigen::VectorXd weights(const Zonotope& actuation) {
   const Eigen::ArrayXd limit =
       actuation.u_min.array().abs().min(actuation.u_max.array().abs()).max(1e-3);
@@ -54,7 +55,7 @@ double PostureController::moved(const Motion& motion) const {
   return std::max({joints, base.head<3>().norm(), base.tail<3>().norm()});
 }
 
-/// From the base to its reference in base axes: [m; rotation vector].
+/// The pose of the reference relative to the base, in base axes: [m; rotation vector].
 Vector6d PostureController::offset(const Pose<double>& base) const {
   const Eigen::Matrix3d R = base.R.transpose();
   Vector6d pose;
@@ -76,7 +77,7 @@ void PostureController::accelerate_posture(const Motion& motion) {
   a_ = A_r_ * error_;
 }
 
-/// a = omega^2 e - 2 omega v, e the error of the pose in base axes and of the joints.
+/// a = omega^2 e - 2 omega v, where e is the error of the pose in base axes and of the joints.
 void PostureController::accelerate_all(const Motion& motion) {
   const Vector6d pose = offset(motion.base);
   const auto& axes = problem_.robot.base_axes;
@@ -85,7 +86,8 @@ void PostureController::accelerate_all(const Motion& motion) {
   a_ = options_.bandwidth * options_.bandwidth * a_ - 2 * options_.bandwidth * motion.v;
 }
 
-/// Only those combinations of the balance's rows in which the wrenches `across_` have no part.
+/// Keeps only those combinations of the balance's rows on which the wrenches `across_` have no
+/// effect.
 void PostureController::leave_free(EffortRequest& request) const {
   if (across_.cols() == 0) return;
   Matrix6Xd across(6, across_.cols());
@@ -122,7 +124,7 @@ void PostureController::request(const Motion& motion, const Eigen::VectorXd& acc
   fill(motion, h, u_star, u_before, period, request);
 }
 
-/// From a_, J and the dynamics at the motion.
+/// Fills `request` from a_, J and the dynamics at the motion.
 void PostureController::fill(const Motion& motion, const Vector6d& h, const Eigen::VectorXd& u_star,
                              const Eigen::VectorXd& u_before, double period,
                              EffortRequest& request) {

@@ -15,13 +15,14 @@ class PostureController {
                     const TankOptions& options);
   PostureController(const Problem&&, const Posture&, Wrench, const TankOptions&) = delete;
 
-  /// tau_c of the motion for the wrench h, with efforts close to u_star and within their limits and
-  /// what the rate limits allow within `period` after u_before.
+  /// Fills `request` for a motion and a wrench h: the control effort tau_c, the preferred efforts
+  /// u_star, and the bounds from the effort limits and from the rate limits during `period` after
+  /// u_before.
   void request(const Motion& motion, const Vector6d& h, const Eigen::VectorXd& u_star,
                const Eigen::VectorXd& u_before, double period, EffortRequest& request);
 
-  /// The same with a given acceleration of all velocities (n) in place of the posture's errors, and
-  /// with the wrenches that the cell takes turned by `turn`.
+  /// The same, but with a given acceleration of all velocities (n) instead of one from the
+  /// posture's errors. The wrenches that the cell takes are turned by `turn`.
   void request(const Motion& motion, const Eigen::VectorXd& acceleration, const Vector6d& h,
                const Eigen::Matrix3d& turn, const Eigen::VectorXd& u_star,
                const Eigen::VectorXd& u_before, double period, EffortRequest& request);
@@ -29,7 +30,7 @@ class PostureController {
   EffortTracker& tracker() { return tracker_; }
   /// max |theta_r - its reference|.
   double drift(const Motion& motion) const;
-  /// The largest distance of a joint or of the base from its reference [rad, m].
+  /// The largest deviation of a joint or of the base from its reference [rad, m].
   double moved(const Motion& motion) const;
 
  private:
@@ -47,8 +48,8 @@ class PostureController {
   Dynamics dynamics_;
   EffortTracker tracker_;
   Posture reference_, now_;
-  Matrix6Xd across_;  ///< 6×k: what the cell takes without being asked for
-  Eigen::Matrix3d turn_ = Eigen::Matrix3d::Identity();  ///< of it
+  Matrix6Xd across_;  ///< 6×k: the wrenches that the cell takes without a request
+  Eigen::Matrix3d turn_ = Eigen::Matrix3d::Identity();  ///< the rotation of across_
   Eigen::MatrixXd A_r_;
   Eigen::VectorXd a_, error_;
 };

@@ -7,11 +7,11 @@ namespace maxwrench {
 namespace {
 
 constexpr double kReached = 1e-9;     // of the largest control effort, at least 1
-constexpr double kMissed = 1e-6;      // likewise: from here on it is not reached
+constexpr double kMissed = 1e-6;      // likewise; above this the control effort is not reached
 constexpr double kAtBound = 1e-9;     // of an effort
-constexpr double kStiffness = 1e6;    // of what is missing beside the distance to u*
-constexpr double kRankMargin = 1e-9;  // of B Q^-1 B', which has an inverse even so
-constexpr int kMultiplierSteps = 8;   // each shrinks what is missing by up to kStiffness
+constexpr double kStiffness = 1e6;    // weight of the shortfall relative to the distance from u*
+constexpr double kRankMargin = 1e-9;  // of B Q^-1 B', so that it always has an inverse
+constexpr int kMultiplierSteps = 8;   // each shrinks the shortfall by up to kStiffness
 constexpr int kIterationsPerEffort = 20;
 
 }  // namespace
@@ -38,7 +38,7 @@ void EffortTracker::solve(const EffortRequest& request, EffortAnswer& answer) {
   }
 }
 
-/// True if it is within the bounds. The second step removes what kRankMargin adds.
+/// True if the answer is within the bounds. The second step removes the error due to kRankMargin.
 bool EffortTracker::pseudo_inverse(const EffortRequest& request, EffortAnswer& answer) {
   answer.u = request.u_star;
   for (int step = 0; step < 2; ++step) {
@@ -49,8 +49,8 @@ bool EffortTracker::pseudo_inverse(const EffortRequest& request, EffortAnswer& a
          (answer.u.array() <= request.upper.array()).all();
 }
 
-/// With P = (B Q^-1 B')^-1: min (u - u*)'Q(u - u*) + rho (B u - y)'P(B u - y) within the bounds,
-/// where y starts as tau_c and moves until B u = tau_c.
+/// With P = (B Q^-1 B')^-1, minimises (u - u*)'Q(u - u*) + rho (B u - y)'P(B u - y) within the
+/// bounds. y starts as tau_c and moves until B u = tau_c.
 void EffortTracker::active_set(const EffortRequest& request, double scale, EffortAnswer& answer) {
   PB_ = factored_S_.solve(request.B);
   H_ = kStiffness * request.B.transpose() * PB_;
@@ -66,11 +66,12 @@ void EffortTracker::active_set(const EffortRequest& request, double scale, Effor
     if (rhs_.lpNorm<Eigen::Infinity>() <= kReached * scale) return;
     y_ += rhs_;
   }
-  // Multipliers of what cannot be had grow without end: the first answer is the nearest one.
+  // If tau_c cannot be reached, the multipliers grow without bound. The first answer is the
+  // nearest.
   if (rhs_.lpNorm<Eigen::Infinity>() > kMissed * scale) answer.u = first_;
 }
 
-/// min u'H u/2 - f'u within the bounds, from answer.u within them and the sides of its bounds.
+/// Minimises u'H u/2 - f'u within the bounds, from answer.u within them and the bounds in side_.
 void EffortTracker::minimise_in_box(const EffortRequest& request, EffortAnswer& answer) {
   const int limit = kIterationsPerEffort * static_cast<int>(Q_.size());
   target_ = answer.u;
@@ -84,7 +85,7 @@ void EffortTracker::minimise_in_box(const EffortRequest& request, EffortAnswer& 
   answer.converged = false;
 }
 
-/// target: the minimum over the free efforts, the others where they are.
+/// Sets target_ to the minimum over the free efforts, with the others constant.
 void EffortTracker::solve_free() {
   free_.clear();
   for (std::size_t i = 0; i < side_.size(); ++i) {
@@ -100,7 +101,7 @@ void EffortTracker::solve_free() {
   }
 }
 
-/// As far as the bounds allow; true if all the way.
+/// Steps as far as the bounds allow. True if the whole step was possible.
 bool EffortTracker::step_towards_free(const EffortRequest& request, Eigen::VectorXd& u) {
   double length = 1;
   int blocking = -1, side = 0;
@@ -120,7 +121,7 @@ bool EffortTracker::step_towards_free(const EffortRequest& request, Eigen::Vecto
   return false;
 }
 
-/// Frees the effort at a bound that the objective pulls inwards most; false if there is none.
+/// Frees the effort at a bound that the objective pulls inwards most. False if there is none.
 bool EffortTracker::release(const Eigen::VectorXd& u) {
   gradient_ = H_ * u - f_;
   int worst = -1;

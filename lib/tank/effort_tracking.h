@@ -5,36 +5,37 @@
 
 namespace maxwrench {
 
-/// What the actuators are asked for at one instant.
+/// The request to the actuators at one instant.
 struct EffortRequest {
-  Eigen::MatrixXd B;             ///< n×m: efforts -> control effort
+  Eigen::MatrixXd B;             ///< n×m: maps efforts to control effort
   Eigen::VectorXd tau_c;         ///< n [N, N m], the control effort
-  Eigen::VectorXd u_star;        ///< m, efforts to stay close to
-  Eigen::VectorXd lower, upper;  ///< m, limits of u and of its rate, whichever is closer
+  Eigen::VectorXd u_star;        ///< m, the preferred efforts
+  Eigen::VectorXd lower, upper;  ///< m, limits of u or of its rate, whichever are tighter
 };
 
 struct EffortAnswer {
   Eigen::VectorXd u;       ///< m, always within the bounds
-  double shortfall = 0;    ///< max |B u - tau_c| [N, N m]; zero to rounding unless relaxed
+  double shortfall = 0;    ///< max |B u - tau_c| [N, N m]; zero up to rounding unless relaxed
   bool saturated = false;  ///< at least one effort is at a bound
   bool relaxed = false;    ///< no u within the bounds reaches tau_c
-  bool converged = true;   ///< false: the active set ran out of iterations, u is within the bounds
-  int iterations = 0;      ///< of the active set; zero: the pseudo-inverse was within the bounds
+  bool converged = true;   ///< false: iteration limit of the active set; u is in bounds
+  int iterations = 0;      ///< of the active set; zero if the pseudo-inverse was within the bounds
 };
 
 /// The paper's tracking program over u (m), in "Tracking Dynamic Trajectories",
 ///
 ///     min (u - u*)'Q(u - u*)   subject to   B u = tau_c,   lower <= u <= upper.
 ///
-/// Inside the bounds the answer is u* + B_Q^+ (tau_c - B u*), B_Q^+ = Q^-1 B'(B Q^-1 B')^-1. At
-/// them an active-set method solves the program without its equality, which the method of
-/// multipliers imposes. If no u reaches tau_c, the request is relaxed: u is then nearest to efforts
-/// v, free of bounds, that do,
+/// Within the bounds the answer is u* + B_Q^+ (tau_c - B u*), B_Q^+ = Q^-1 B'(B Q^-1 B')^-1. At the
+/// bounds an active-set method solves the program without its equality, which the method of
+/// multipliers imposes. If no u reaches tau_c, the request is relaxed: u is then nearest to
+/// unbounded efforts v that reach it,
 ///
 ///     min over u, v of (v - u)'Q(v - u)   subject to   B v = tau_c,   lower <= u <= upper,
 ///
-/// and among such u close to u*. This is r'(B Q^-1 B')^-1 r of what is missing, r = tau_c - B u:
-/// the efforts that would be needed besides measure forces and torques alike. Reuses its storage.
+/// and among such u close to u*. The minimum over v is r'(B Q^-1 B')^-1 r with the shortfall r =
+/// tau_c - B u. This norm measures forces and torques alike, by the additional efforts that they
+/// would need. The object reuses its storage.
 class EffortTracker {
  public:
   /// Q: m positive weights, its diagonal.
@@ -54,7 +55,7 @@ class EffortTracker {
   Eigen::MatrixXd BQ_, S_, PB_, H_, H_free_;
   Eigen::LLT<Eigen::MatrixXd> factored_S_;
   Eigen::VectorXd f_, y_, first_, target_, gradient_, rhs_;
-  std::vector<int> side_;  ///< of each effort: -1 and 1 at a bound, 0 free
+  std::vector<int> side_;  ///< for each effort: -1 or 1 at a bound, 0 free
   std::vector<int> free_;
 };
 

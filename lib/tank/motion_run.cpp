@@ -13,10 +13,11 @@
 namespace maxwrench {
 namespace {
 
-/// Slower than this the cell turns about no axis [rad/s].
+/// [rad/s] Below this angular velocity the cell has no axis of rotation.
 constexpr double kSpins = 1e-9;
 
-/// A joint nears its speed limit no faster than with this time constant [s], that of the thrusters.
+/// [s] A joint approaches its speed limit with this time constant, that of the thrusters, or more
+/// slowly.
 constexpr double kBrake = 0.1;
 
 Eigen::Matrix3d rotation_by(const Eigen::Vector3d& turn) {
@@ -25,7 +26,7 @@ Eigen::Matrix3d rotation_by(const Eigen::Vector3d& turn) {
   return Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
 }
 
-/// Only what the controller and the simulated robot need.
+/// Only the parts that the controller and the simulated robot need.
 Posture at_rest(const Problem& problem, const Motion& motion) {
   Posture posture;
   posture.base = motion.base;
@@ -34,7 +35,7 @@ Posture at_rest(const Problem& problem, const Motion& motion) {
   return posture;
 }
 
-/// One experiment in steps of the control period, the last of which ends with the script.
+/// One experiment in steps of the control period. The last step ends with the script.
 class MotionExperiment {
  public:
   MotionExperiment(const Problem& problem, const TankScript& script, Integrator& integrator,
@@ -64,7 +65,7 @@ class MotionExperiment {
   }
 
  private:
-  /// The pose of an end effector that bends the cell with the wrench of the reference.
+  /// The pose of an end effector that deflects the cell by the reference wrench.
   Pose<double> bent() const {
     const Vector6d bend = this->bend();
     return {rotation_by(bend.tail<3>()) * reference_.x.pose.R,
@@ -84,7 +85,7 @@ class MotionExperiment {
     x.pose = bent();
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(problem_.redundancy());
     const bool linear = script_.interpolation == Interpolation::kLinear;
-    if (follower_.place(x.pose, reference_.theta_r)) {  // a tool that moves in some ways only
+    if (follower_.place(x.pose, reference_.theta_r)) {  // a tool with fewer degrees of freedom
       x.pose = reference_.x.pose;
       follower_.restart();
     }
@@ -94,7 +95,7 @@ class MotionExperiment {
     return {robot_motion.base(), robot_motion.q(), robot_motion.v()};
   }
 
-  /// The robot at x. Where dependent joints do not get there the experiment ends.
+  /// The robot at x. If the dependent joints do not reach it, the experiment ends.
   const RobotMotion<double>& follow(const PathPoint& x, const Eigen::VectorXd& theta_r,
                                     const Eigen::VectorXd& rate,
                                     const Eigen::VectorXd& acceleration) {
@@ -102,7 +103,8 @@ class MotionExperiment {
     return follower_.motion();
   }
 
-  /// a of all velocities at a motion: on the path, with the errors of theta_r corrected.
+  /// Sets a_, the acceleration of all velocities at a motion: along the path, with corrections of
+  /// the errors of theta_r.
   void accelerate(const Motion& motion) {
     const double omega = options_.bandwidth;
     theta_r_ = motion.q(problem_.redundant);
@@ -127,7 +129,7 @@ class MotionExperiment {
     if (lost_) loop_.run.conclude(Status::kInvalidPosture, lost_);
   }
 
-  /// The efforts of t_1, so the motion is that of t_1 too, as far as it can be told.
+  /// The efforts apply at t_1, so the request uses a prediction of the motion at t_1.
   void request(const Eigen::VectorXd& u, double dt, double t_1) {
     const Stopwatch watch(loop_.run.controller_s);
     Motion then = advanced(problem_.robot, motion_, dt);
@@ -176,7 +178,7 @@ class MotionExperiment {
     sample.h_e = rotated(turn.transpose(), h_e);
   }
 
-  /// With the posture that the script asks for.
+  /// Compares the sample with the posture of the script.
   void compare(TankSample& sample) {
     const auto& robot_motion =
         follow(reference_.x, reference_.theta_r, reference_.rate, reference_.acceleration);
@@ -186,7 +188,7 @@ class MotionExperiment {
     sample.configuration_error = std::max({(motion_.q - robot_motion.q()).lpNorm<Eigen::Infinity>(),
                                            (motion_.base.p - base.p).norm(),
                                            logarithm(motion_.base.R * base.R.transpose()).norm()});
-    // About the axis that the cell turns about, or did last.
+    // The angle about the current or the last axis of rotation of the cell.
     const Eigen::Vector3d spin = reference_.x.twist.tail<3>();
     if (spin.norm() > kSpins) axis_ = spin.normalized();
     const Eigen::Matrix3d R =
@@ -196,7 +198,7 @@ class MotionExperiment {
     sample.angle = angle_;
   }
 
-  /// How far joints are beyond their speed limits.
+  /// The largest violation of a joint's speed limit.
   double speeding() const {
     const Robot& robot = problem_.robot;
     const auto axes = static_cast<Eigen::Index>(robot.base_axes.size());

@@ -82,7 +82,7 @@ Vector6d TankOde::wrench(double t, const Motion& motion) {
   return stiffness_.cwiseProduct(moved) + damping_.cwiseProduct(J_ * motion.v - at.twist);
 }
 
-/// Reads y; fills tau_, h_e_ and J_, and all rates but those of v.
+/// Reads y. Fills tau_, h_e_ and J_, and all rates except those of v.
 void TankOde::prepare(double t, const Eigen::VectorXd& y, Eigen::VectorXd& rates) {
   const Eigen::Index thrusters = rate_max_.size();
   read_motion(y, motion_);

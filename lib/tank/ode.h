@@ -6,42 +6,43 @@
 
 namespace maxwrench {
 
-/// The robot in the tank. State: its motion (see lib/robot/free_motion.h), then the thrust of each
-/// thruster [N], which follows its command with a first-order lag, never faster than its rate
-/// limit. Joint torques are those commanded. Efforts are asked for linearly between two instants;
-/// the command of a thruster leads by its lag times the slope, within its limits, so that away from
-/// them its thrust is what was asked for.
+/// The robot in the tank. The state is its motion (see lib/robot/free_motion.h), then the thrust of
+/// each thruster [N], which follows its command with a first-order lag and within its rate limit.
+/// Joint torques are those commanded. The requested efforts are linear between two instants. The
+/// command of a thruster leads by its lag times the slope, within its limits; away from the limits
+/// its thrust is therefore the requested one.
 class TankOde final : public Ode {
  public:
   /// Keeps references to the problem and the options.
   TankOde(const Problem& problem, const Posture& posture, const TankOptions& options);
   TankOde(const Problem&&, const Posture&, const TankOptions&) = delete;
 
-  /// What holds the end effector follows `path`, which outlives this, instead of staying.
+  /// Makes the cell that holds the end effector follow `path`, which must outlive this object,
+  /// instead of staying at rest.
   void hold_along(const Path& path) { path_ = &path; }
-  /// At rest or not, with efforts that have settled.
+  /// Starts from a motion, with the thrusts already at their commands.
   void start(const Motion& motion, const Eigen::VectorXd& u);
   void restart(const Eigen::VectorXd& y) { start_ = y; }
-  /// Efforts and, with a load, what is exerted on its support, from t_0 to t_1.
+  /// Commands efforts and, with a load, the wrench on its support, from t_0 to t_1.
   void command(double t_0, const Eigen::VectorXd& u_0, double t_1, const Eigen::VectorXd& u_1,
                const Vector6d& h_0, const Vector6d& h_1);
   void set_noise(const Eigen::VectorXd& noise) { noise_ = noise; }
 
   const Eigen::VectorXd& initial() const override { return start_; }
   bool derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& y_dot) override;
-  /// M v' + C v + D v + g + J'h_e - B u in the rows of v.
+  /// The rows of v are M v' + C v + D v + g + J'h_e - B u.
   bool residual(double t, const Eigen::VectorXd& y, const Eigen::VectorXd& y_dot,
                 Eigen::VectorXd& F) override;
 
   void read(const Eigen::VectorXd& y, Motion& motion) const { read_motion(y, motion); }
-  /// Of the state that `initial` returns, without noise and losses.
+  /// The efforts in the state of `initial`, without noise and losses.
   Eigen::VectorXd efforts(double t) const;
-  /// h_e: K [p_e - p_0; rotation vector of R_e R_0'] + D (J v - x_0_dot), p_0, R_0 and x_0_dot of
-  /// what holds the end effector, or what is exerted on the support of the load.
+  /// h_e: K [p_e - p_0; rotation vector of R_e R_0'] + D (J v - x_0_dot), with p_0, R_0 and x_0_dot
+  /// those of the cell. With a load, the wrench on its support.
   Vector6d wrench(double t, const Motion& motion);
-  /// [m, rad] of the end effector from what holds it, in world axes.
+  /// The displacement [m, rad] of the end effector from the cell's pose, in world axes.
   Vector6d displacement(double t, const Motion& motion);
-  /// [m/s, rad/s] of the end effector, in world axes.
+  /// The twist [m/s, rad/s] of the end effector, in world axes.
   Vector6d twist(const Motion& motion);
 
   long evaluations() const { return evaluations_; }

@@ -20,7 +20,7 @@ Eigen::Matrix3d ScriptReader::turn(const Eigen::Matrix3d& R) const {
   return R * script_.path.pose(0).R.transpose();
 }
 
-/// The part of theta_r in all velocities.
+/// The entries of theta_r in all velocities.
 Eigen::VectorXd ScriptReader::of_theta_r(const Eigen::VectorXd& velocities) const {
   const auto joints = static_cast<Eigen::Index>(problem_.robot.joints.size());
   return velocities.tail(joints)(problem_.redundant);
@@ -36,7 +36,7 @@ void ScriptReader::read(double t, Reference& reference) const {
   reference.x = script_.path.at(t);
   reference.turn = turn(reference.x.pose.R);
   reference.c = rotated(reference.turn, problem_.c);
-  // Wrenches in axes that turn as c does.
+  // Wrenches in axes that turn like c.
   const auto own = [&](const Instant& instant) {
     return rotated(turn(instant.end_effector.R).transpose(), instant.h);
   };
@@ -56,7 +56,7 @@ void ScriptReader::join(std::size_t from, double z, double dt, Reference& refere
     reference.acceleration = (1 - z) * of_theta_r(a.v_dot) + z * of_theta_r(b.v_dot);
     return;
   }
-  // Hermite's basis about the chord.
+  // Hermite basis about the chord.
   const Eigen::VectorXd first = of_theta_r(a.v) - slope, last = of_theta_r(b.v) - slope;
   const double y = 1 - z;
   reference.theta_r = start + dt * (z * slope + z * y * y * first - z * z * y * last);

@@ -6,23 +6,23 @@
 
 namespace maxwrench {
 
-/// What a script asks for at one time.
+/// The reference values of a script at one time.
 struct Reference {
   PathPoint x;
   Eigen::VectorXd theta_r, rate, acceleration;  ///< r
   Vector6d c, h;                                ///< in the world
-  Eigen::Matrix3d turn;                         ///< of c and W_any from the start
+  Eigen::Matrix3d turn;                         ///< the rotation of c and W_any since the start
   Eigen::VectorXd u;                            ///< m
 };
 
-/// Joins the instants of a script: efforts and wrenches linearly; theta_r as its interpolation
-/// says, on the spline by the cubics through values and rates of neighbouring instants, which are
-/// those of the spline. Linear theta_r has the rate of its slope and the acceleration of the
-/// instants.
+/// Interpolates between the instants of a script. Efforts and wrenches are linear. theta_r follows
+/// the script's interpolation. On the spline, cubics through the values and rates of neighbouring
+/// instants reproduce it. If theta_r is linear, its rate is the slope and its acceleration that of
+/// the instants.
 class ScriptReader {
  public:
-  /// Keeps references to both. Throws std::invalid_argument unless the script has at least two
-  /// instants with efforts.
+  /// Keeps references to both arguments. Throws std::invalid_argument unless the script has at
+  /// least two instants with efforts.
   ScriptReader(const Problem& problem, const TankScript& script);
   ScriptReader(const Problem&, const TankScript&&) = delete;
 

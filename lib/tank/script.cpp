@@ -18,8 +18,7 @@ SchemeMaps maps_of(const MotionTask& task, Interpolation interpolation) {
   return make_dense_spline(task, task.impulse ? kDenseImpulse : kDensePath);
 }
 
-/// Fixes c'h of a block: its columns turned so that the first one is c, which all of W's span
-/// holds.
+/// Fixes c'h of a block. Turns the columns so that the first one is c, which lies in the span of W.
 void fix_wrench(double asked, WrenchProgram& block) {
   const Eigen::VectorXd along = block.c_w.normalized();
   Eigen::MatrixXd Z = along.householderQr().householderQ();
@@ -30,7 +29,7 @@ void fix_wrench(double asked, WrenchProgram& block) {
   block.w_min[0] = block.w_max[0] = asked / block.c_w[0];
 }
 
-/// Along a path the knots of a scheme that has them T/k apart, T/(k-1) apart.
+/// Spaces the knots along a path T/(k-1) apart, for schemes that space them T/k apart.
 void stretch(const MotionTask& task, std::vector<Instant>& instants) {
   const double f = task.T / instants.back().t;
   for (Instant& instant : instants) {
@@ -41,7 +40,7 @@ void stretch(const MotionTask& task, std::vector<Instant>& instants) {
   instants.back().t = task.T;
 }
 
-/// At rest for the whole duration.
+/// Adds a second instant, so that the robot rests for the whole duration.
 void rest(const MotionTask& task, std::vector<Instant>& instants) {
   instants.push_back(instants.front());
   instants.back().t = task.T;
@@ -53,7 +52,7 @@ double worth(const Trajectory& trajectory, const ScriptOptions& options) {
                                                          : trajectory.value;
 }
 
-/// Concludes why not.
+/// Whether the trajectory has a wrench to request. If not, concludes with the reason.
 bool askable(const Trajectory& trajectory, TankScript& script) {
   if (trajectory.status == Status::kInvalidPosture) {
     script.conclude(trajectory.status, trajectory.reason.c_str());
@@ -69,7 +68,7 @@ bool askable(const Trajectory& trajectory, TankScript& script) {
   return false;
 }
 
-/// The program of the instants with the wrench that is asked for.
+/// The program of the instants with the requested wrench.
 TrajectoryProgram asking(const Problem& problem, const SchemeMaps& maps, int t_h,
                          TankScript& script) {
   const MotionTask& task = *problem.motion;
@@ -83,7 +82,7 @@ TrajectoryProgram asking(const Problem& problem, const SchemeMaps& maps, int t_h
     return program;
   }
   const bool block = start_is_block(task, maps);
-  // What balances at theta_0 is at most the static capability.
+  // The wrench that balances at theta_0 is at most the static capability.
   if (block && task.start == Start::kStatic) program.instants[0].w_max.setConstant(kInfinity);
   const int peak = maps.knot_at[static_cast<std::size_t>(t_h)];
   program.peak = peak - (block ? 0 : 1);

@@ -4,7 +4,7 @@
 
 namespace maxwrench {
 
-/// Adds the time of its life [s].
+/// Adds its lifetime [s] to `seconds`.
 class Stopwatch {
  public:
   explicit Stopwatch(double& seconds) : seconds_(seconds), begin_(Clock::now()) {}

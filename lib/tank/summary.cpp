@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// The furthest from the reference that the summary or the sample was.
+/// Raises the largest errors of the summary to those of the sample.
 void reach(const TankSample& sample, TankSummary& summary) {
   summary.theta_r_error = std::max(summary.theta_r_error, sample.theta_r_error);
   summary.configuration_error = std::max(summary.configuration_error, sample.configuration_error);
@@ -48,7 +48,7 @@ void take_means(double count, TankSummary& summary) {
   }
 }
 
-/// One sample of a task in time.
+/// Adds one sample of a task in time.
 void add_sample(const TankSample& sample, TankSummary& summary) {
   MotionSummary& motion = *summary.motion;
   summary.violation = std::max(summary.violation, sample.violation);
@@ -68,7 +68,7 @@ void add_sample(const TankSample& sample, TankSummary& summary) {
   summary.relaxed += sample.relaxed;
 }
 
-/// What is more than it may be, or not a number, is missed.
+/// Adds a value to `missed` if it exceeds its limit or is NaN.
 void allow(double most, const char* what, double value, TankSummary& summary) {
   if (value <= most) return;
   std::array<char, 120> text{};
@@ -87,13 +87,13 @@ void judge_reading(const Problem& problem, const TargetWrench& target, const Tan
   allow(room * (torque + force * kHeldLever), "torque across c", across.tail<3>().norm(), summary);
 }
 
-/// `moved`: how far the posture may be from its reference.
+/// `moved`: the largest allowed deviation of the posture from its reference.
 void judge_posture(double moved, TankSummary& summary) {
   allow(moved, "posture off by", summary.configuration_error, summary);
   allow(kHeldPosition, "end effector displaced by", summary.deflection_error, summary);
 }
 
-/// Last: held is what missed nothing to its end.
+/// Call last: the wrench was held if the run reached its end and nothing was missed.
 void conclude(const TankRun& run, bool lost, TankSummary& summary) {
   summary.lost = lost;
   if (lost) summary.missed = "the posture was lost";
@@ -141,7 +141,7 @@ TankSummary summarise(const Problem& problem, const TargetWrench& target,
 TankSummary summarise(const TankScript& script, const TankRun& run, bool lost) {
   TankSummary summary;
   summary.planned = script.planned;
-  summary.across.setConstant(kNone);  // see the stray wrenches
+  summary.across.setConstant(kNone);  // see the off-axis wrenches
   summary.motion.emplace();
   MotionSummary& motion = *summary.motion;
   motion.at_peak = kNone;

@@ -4,10 +4,11 @@
 
 namespace maxwrench {
 
-/// How well the hold of `run` went (see TankSummary and `run_tank`). `lost`: the posture was.
+/// How well `run` held its wrench (see TankSummary and `run_tank`). `lost`: whether the posture was
+/// lost.
 TankSummary summarise(const Problem& problem, const TargetWrench& target,
                       const TankOptions& options, const TankRun& run, bool lost);
-/// The same of an experiment in time, all of which is the hold.
+/// The same for an experiment in time, which counts as the hold as a whole.
 TankSummary summarise(const TankScript& script, const TankRun& run, bool lost);
 
 }  // namespace maxwrench

@@ -20,7 +20,7 @@ double profile(double t, const TankOptions& options) {
   return down <= 0 ? 1 : std::max(0.0, 1 - down / options.ramp);
 }
 
-/// With the load as a point mass at the end effector.
+/// The problem with the load as a point mass at the end effector.
 Problem loaded(Problem problem, double load) {
   if (load == 0) return problem;
   const EndEffector& tool =
@@ -67,13 +67,13 @@ class Experiment {
     ode_.start(motion_, u_0_);
   }
 
-  /// What the robot exerts on its environment at a share of the trajectory: on what holds the load
-  /// up, the weight that it does not carry itself.
+  /// The wrench that the robot exerts on its environment at a share of the planned wrench. With a
+  /// load it acts on the load's support: the part of the weight that the robot does not carry.
   Vector6d exerted(double share) const {
     return (options_.load > 0 ? share - 1 : share) * target_.h;
   }
 
-  /// The share that is asked for. A load is what it is.
+  /// The requested share. The margin does not apply to a load.
   double asked(double share) const {
     return options_.load > 0 ? share : (1 - options_.margin) * share;
   }
@@ -89,14 +89,14 @@ class Experiment {
     if (t > t_0) keep(t_0, t);
   }
 
-  /// The efforts are those of the period's end, so the motion is too, as far as it can be told.
+  /// The efforts apply at the period's end, so the request uses a prediction of the motion there.
   void request(const Eigen::VectorXd& u, double s) {
     const Stopwatch watch(loop_.run.controller_s);
     controller_.request(advanced(problem_.robot, motion_, options_.period), exerted(asked(s)),
                         u_0_ + asked(s) * (target_.u - u_0_), u, options_.period, loop_.request);
   }
 
-  /// What accelerates the load since the last sample.
+  /// The force that has accelerated the load since the last sample.
   Vector6d inertia_force(double t) {
     const double t_before = loop_.run.samples.empty() ? 0 : loop_.run.samples.back().t;
     const Eigen::Vector3d v = ode_.twist(motion_).head<3>();
@@ -106,7 +106,7 @@ class Experiment {
     return force;
   }
 
-  /// The displacement of the end effector in the cell at a share of the trajectory.
+  /// The displacement of the end effector in the cell at a share of the planned wrench.
   Vector6d bend(double share) const {
     Vector6d displacement = Vector6d::Zero();
     if (options_.load > 0) return displacement;

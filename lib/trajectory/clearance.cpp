@@ -7,7 +7,8 @@
 namespace maxwrench {
 namespace {
 
-/// m: less is rounding, which shall not choose among instants at which nothing moved.
+/// [m] A clearance counts as smaller only if it is smaller by this. Otherwise rounding would choose
+/// among instants between which nothing moves.
 constexpr double kNearer = 1e-9;
 
 }  // namespace

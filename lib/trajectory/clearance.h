@@ -10,25 +10,28 @@ namespace maxwrench {
 
 class MotionEvaluator;
 
-/// The pairs of bodies nearer than `within` [m] at a configuration whose links are given, of those
-/// whose distance is known: clearance and its gradient over theta_r, by the velocities of the
-/// nearest points along the line between them. Appended with the number of the knot. `slopes`: of
-/// dependent joints, if there are any (`DependentJoints::slopes`).
+/// Appends the pairs of bodies closer than `within` [m], at a configuration with the given links,
+/// to `pairs`, each with the index of the knot. Only pairs whose distance is known count. Each has
+/// its clearance and the gradient of the clearance over theta_r, from the velocities of the closest
+/// points along the line between them. `slopes`: those of dependent joints, if there are any
+/// (`DependentJoints::slopes`).
 void find_near_pairs(const Problem& problem, const Kinematics<double>& kinematics, int knot,
                      double within, std::vector<NearPair>& pairs,
                      const Eigen::MatrixXd& slopes = Eigen::MatrixXd());
 
-/// The same at the knots of a table Q (K×r, theta_0 of an impulse first, which is left out), from
-/// 0, as far as dependent joints get. Leaves the links there.
+/// The same at the knots of a table Q (K×r). Knots are numbered from 0. For an impulse the first
+/// row is theta_0, which is left out. Stops where the dependent joints have no solution. Leaves the
+/// links at the last visited knot.
 void find_near_pairs(const Problem& problem, MotionEvaluator& motion, const Eigen::MatrixXd& Q,
                      double within, Kinematics<double>& kinematics, std::vector<NearPair>& pairs);
 
-/// Empty, or the first knot of an evaluated motion that collides, and which bodies; as far as
-/// dependent joints got. Leaves the links there.
+/// The first knot of an evaluated motion with a collision, and the pair of bodies; empty if there
+/// is none. Checks the knots before the instant at which the motion was lost. Leaves the links at
+/// the last checked knot.
 std::string knot_collision(const Problem& problem, const MotionEvaluator& motion,
                            const std::vector<Instant>& instants, Kinematics<double>& kinematics);
 
-/// The least clearance at the instants of a table Q, see `TrajectoryEvaluator::least_clearance`.
+/// The least clearance at the instants of a table Q; see `TrajectoryEvaluator::least_clearance`.
 /// Leaves the links at the last instant.
 std::optional<Clearance> find_least_clearance(const Problem& problem, MotionEvaluator& motion,
                                               const Eigen::MatrixXd& Q,

@@ -9,8 +9,9 @@
 namespace maxwrench {
 namespace {
 
-/// rad or m: limits of a static posture's dependent joints hold to rounding (`kLimitTolerance`), so
-/// what keeps to them to first order only stays away by this.
+/// [rad or m] The margin of the linearised limits of dependent joints in static tasks. A static
+/// posture must satisfy these limits up to rounding (`kLimitTolerance`), but a step satisfies them
+/// only to first order.
 constexpr double kSpareOfPosture = 1e-7;
 
 /// The joint of a coordinate of theta_r.
@@ -19,7 +20,7 @@ const Joint& joint_of(const Problem& problem, Eigen::Index coordinate) {
       .joints[static_cast<std::size_t>(problem.redundant[static_cast<std::size_t>(coordinate)])];
 }
 
-/// "knots 3 and 4" for the row of a difference, "between knots 3 and 4" for an instant.
+/// "knots 3 and 4" for the row of a difference; "between knots 3 and 4" for an instant.
 std::string place_of(const Eigen::MatrixXd& rows, Eigen::Index row, const SchemeMaps& maps) {
   const Eigen::Index pairs = maps.knots() - 1;
   const int first = maps.starts ? 0 : 1;
@@ -48,14 +49,14 @@ std::string place_of_instant(int instant, const SchemeMaps& maps) {
   return place_of(maps.place, instant, maps);
 }
 
-/// Puts " at t = ... s" before the colon of a reason.
+/// Inserts " at t = ... s" before the colon of a reason.
 std::string reason_at(const std::string& reason, double t) {
   const std::size_t colon = reason.find(':');
   return reason.substr(0, colon) + " at t = " + std::to_string(t) + " s" + reason.substr(colon);
 }
 
-/// What is limited of a dependent joint: its position and its rate at instants, and how far it goes
-/// from knot to knot by dt.
+/// The limited values of a dependent joint: its position and its rate at instants, and its
+/// difference from knot to knot divided by dt.
 class DependentJoint {
  public:
   DependentJoint(const Problem& problem, const SchemeMaps& maps,
@@ -77,7 +78,7 @@ class DependentJoint {
   int v() const { return v_; }
   const Joint& joint() const { return joint_; }
 
-  /// Empty, or where it leaves its limits.
+  /// Describes the first violation of the joint's limits; empty if there is none.
   std::string violation() const {
     const double low = joint_.q_min, high = joint_.q_max;
     for (int i = maps_.starts ? 1 : 0; i < maps_.instants(); ++i) {

@@ -5,7 +5,8 @@
 namespace maxwrench {
 namespace {
 
-/// m/s, rad/s (squared: accelerations), beside 1 + the largest asked for.
+/// [m/s, rad/s; m/s^2, rad/s^2 for accelerations] The tolerance relative to 1 + the largest
+/// component.
 constexpr double kPathMissed = 1e-6;
 constexpr const char* kLeavesPath =
     "unreachable motion: the robot cannot move the end effector as the path asks";
@@ -39,7 +40,7 @@ MotionEvaluator::MotionEvaluator(const Problem& problem, SchemeMaps maps)
       v_dot_slopes_(v_slopes_),
       f_slopes_(v_slopes_) {}
 
-/// theta_r and its derivatives at all instants.
+/// Sets theta_r and its derivatives at all instants.
 void MotionEvaluator::set_rows(const Eigen::MatrixXd& Q) {
   place_.noalias() = Q.transpose().lazyProduct(maps_.P.transpose());
   rate_.noalias() = Q.transpose().lazyProduct(maps_.V.transpose());
@@ -86,8 +87,8 @@ void MotionEvaluator::evaluate(const Eigen::MatrixXd& Q, std::vector<Instant>& i
   }
 }
 
-/// Whether the twist at the instant that was followed last, or its derivative if the scheme has
-/// one, is not that of the path.
+/// Whether the twist at the current instant, or its derivative if the scheme has one, differs from
+/// that of the path.
 bool MotionEvaluator::leaves_path(int i) const {
   const PathPoint& x = maps_.x[static_cast<std::size_t>(i)];
   const RobotMotion<double>& motion = tracker_.motion();
@@ -99,7 +100,7 @@ bool MotionEvaluator::leaves_path(int i) const {
           (maps_.smooth() && missed(motion.acceleration_missed(), x.acceleration)));
 }
 
-/// From this instant on theta_r alone is known.
+/// Marks all values from this instant on as unknown, except theta_r.
 void MotionEvaluator::lose(int instant, const char* reason, std::vector<Instant>& instants) {
   lost_ = instant;
   lost_reason_ = reason;
@@ -178,8 +179,8 @@ void MotionEvaluator::linearize(const std::vector<Instant>& instants,
   }
 }
 
-/// The slopes of the motion at instant i along `count` of the 2r directions (theta_r, theta_r_dot)
-/// from `first` on.
+/// The slopes of the motion at instant i along `count` of the 2r directions (theta_r, theta_r_dot),
+/// starting with `first`.
 void MotionEvaluator::follow(const Instant& instant, int i, int first, int count) {
   const int r = problem_.redundancy();
   for (Eigen::Index j = 0; j < r; ++j) {
@@ -204,7 +205,7 @@ void MotionEvaluator::follow(const Instant& instant, int i, int first, int count
   for (Eigen::Index row = 0; row < dual_v_.size(); ++row) {
     if (!moves) dual_v_[row] = 0;
     if (moves && maps_.smooth()) continue;
-    dual_v_dot_[row] = instant.v_dot[row];  // by differences: of its own v, the others' come later
+    dual_v_dot_[row] = instant.v_dot[row];  // by differences: own v here, the others later
     if (!maps_.smooth() && maps_.D(i, i) != 0) {
       for (std::size_t d = 0; d < 4; ++d) {
         dual_v_dot_[row].d[d] = maps_.D(i, i) * dual_v_[row].d[d];
@@ -214,7 +215,7 @@ void MotionEvaluator::follow(const Instant& instant, int i, int first, int count
   for (int d = 0; d < count; ++d) read_slopes(static_cast<std::size_t>(d), first + d);
 }
 
-/// Infinitesimal d of the dual numbers, the slopes along a direction.
+/// Reads infinitesimal d of the dual numbers into the slopes along `direction`.
 void MotionEvaluator::read_slopes(std::size_t d, Eigen::Index direction) {
   const auto slope = [d](const D4& x) { return x.d[d]; };
   q_slopes_.col(direction) = dual_motion_.q().unaryExpr(slope);
@@ -236,7 +237,7 @@ void MotionEvaluator::pull_back(const std::vector<MotionSlopes>& slopes,
                        const auto& seed) {
     gradient += rows.row(i).transpose() * (part.transpose() * seed).transpose();
   };
-  for (Eigen::Index i = maps_.starts ? 1 : 0; i < count; ++i) {  // the start rests where it is
+  for (Eigen::Index i = maps_.starts ? 1 : 0; i < count; ++i) {  // the start is constant
     const MotionSlopes& s = slopes[static_cast<std::size_t>(i)];
     add(maps_.P, i, s.place, lambda.col(i));
     add(maps_.V, i, s.rate, lambda.col(i));

@@ -11,46 +11,48 @@
 
 namespace maxwrench {
 
-/// How f_i = tau_d,i + J_i'h_i moves with the motion at instant i, at the h of the instants. n×r
-/// each.
+/// The derivatives of f_i = tau_d,i + J_i'h_i by the motion at instant i, at constant h of the
+/// instants. n×r each.
 struct MotionSlopes {
   Eigen::MatrixXd place, rate, bend;  ///< by theta_r, theta_r_dot, theta_r_ddot (`spline`)
   Eigen::MatrixXd M;                  ///< n×n, by v_dot
-  Eigen::MatrixXd v_place, v_rate;    ///< of v: the last is A_r
-  Eigen::MatrixXd q_place;            ///< joints×r, of q by theta_r; empty without dependent ones
+  Eigen::MatrixXd v_place, v_rate;    ///< of v; v_rate is A_r
+  Eigen::MatrixXd q_place;  ///< joints×r, of q by theta_r; empty without dependent joints
 };
 
-/// What a table of knots makes a robot do at the instants of a scheme, and the derivatives of that.
+/// The motion of a robot at the instants of a scheme, from a table of knots, and its derivatives.
 /// `evaluate` and `linearize` allocate nothing after the first call.
 class MotionEvaluator {
  public:
-  /// The problem outlives this.
+  /// The problem must outlive this object.
   MotionEvaluator(const Problem& problem, SchemeMaps maps);
   MotionEvaluator(const Problem&&, SchemeMaps) = delete;
 
   const SchemeMaps& maps() const { return maps_; }
 
-  /// Q K×r. Fills t, the poses, q, v, v_dot, J and tau_d of the instants; from `lost` on NaN.
+  /// Q K×r. Fills t, the poses, q, v, v_dot, J and tau_d of the instants. From instant `lost` on,
+  /// the values are NaN.
   void evaluate(const Eigen::MatrixXd& Q, std::vector<Instant>& instants);
 
-  /// The first instant of the last `evaluate` that dependent joints do not get to, or at which the
-  /// robot cannot move the end effector as the path asks; -1: none. And why.
+  /// The first instant of the last `evaluate` that the dependent joints do not reach, or at which
+  /// the robot cannot move the end effector along the path; -1 if there is none. `lost_reason`
+  /// gives the reason.
   int lost() const { return lost_; }
   const char* lost_reason() const { return lost_reason_; }
 
-  /// Calls see(instant, q, slopes) for the postures of the instants as far as dependent joints get:
-  /// all joints, and of dependent ones z by theta_r (`DependentJoints::slopes`), else empty.
-  /// Whether it is all of them.
+  /// Calls see(instant, q, slopes) for the postures of the instants until the dependent joints have
+  /// no solution. q: all joints. slopes: the derivative of z by theta_r if there are dependent
+  /// joints (`DependentJoints::slopes`), else empty. Returns whether all instants were visited.
   bool visit(const Eigen::MatrixXd& Q,
              const std::function<void(int, const Eigen::VectorXd&, const Eigen::MatrixXd&)>& see);
 
-  /// After `evaluate`.
+  /// Call after `evaluate`.
   void linearize(const std::vector<Instant>& instants, std::vector<MotionSlopes>& slopes);
 
-  /// gradient K×r of sum_i lambda_i'f_i, lambda n×N: the slopes pulled back through the scheme.
+  /// gradient K×r of sum_i lambda_i'f_i, lambda n×N: pulls the slopes back through the scheme.
   void pull_back(const std::vector<MotionSlopes>& slopes, const Eigen::MatrixXd& lambda,
                  Eigen::MatrixXd& gradient) const;
-  /// G n×(K r) of f_i by the knots, row by row: theta_r_1 of all coordinates first.
+  /// G n×(K r) of f_i by the knots, knot by knot: all coordinates of theta_r_1 first.
   void push_forward(const std::vector<MotionSlopes>& slopes, int instant, Eigen::MatrixXd& G) const;
 
  private:
@@ -68,13 +70,13 @@ class MotionEvaluator {
   RobotMotion<Dual<4>> dual_motion_;
   DynamicsSlopes dynamics_slopes_;
   Eigen::MatrixXd place_, rate_, bend_;  ///< r×N: theta_r and its derivatives at the instants
-  Eigen::MatrixXd visited_;              ///< the same of `visit`, which `linearize` does not see
+  Eigen::MatrixXd visited_;  ///< the same for `visit`, which must not change those of `linearize`
   VectorX<double> theta_r_, rate_r_, bend_r_, q_;
   const Eigen::MatrixXd no_slopes_;
   int lost_ = -1;
   const char* lost_reason_ = nullptr;
   VectorX<Dual<4>> dual_theta_r_, dual_rate_, dual_bend_, dual_v_, dual_v_dot_;
-  /// Of the motion at an instant by (theta_r, theta_r_dot), and of f, 2r columns each.
+  /// Of the motion at an instant by (theta_r, theta_r_dot), and of f; 2r columns each.
   Eigen::MatrixXd turn_slopes_, q_slopes_, v_slopes_, v_dot_slopes_, f_slopes_;
 };
 

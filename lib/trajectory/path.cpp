@@ -43,7 +43,7 @@ void require_poses(const std::vector<double>& times, const std::vector<Pose<doub
   }
 }
 
-/// [p; w, x, y, z], with the signs of the quaternions such that neighbours are close.
+/// [p; w, x, y, z], with the signs of the quaternions chosen so that neighbours are close.
 Eigen::MatrixXd coordinates(const std::vector<Pose<double>>& poses) {
   Eigen::MatrixXd values(7, static_cast<Eigen::Index>(poses.size()));
   for (Eigen::Index i = 0; i < values.cols(); ++i) {
@@ -63,7 +63,7 @@ Eigen::MatrixXd coordinates(const std::vector<Pose<double>>& poses) {
 
 Eigen::Quaterniond quaternion(const Eigen::Vector4d& e) { return {e[0], e[1], e[2], e[3]}; }
 
-/// The value of this name in a table of pairs (value, name).
+/// The value with this name in a table of pairs (value, name).
 template <class Table>
 auto parse(const Table& table, const char* what, const std::string& name) {
   std::string names;
@@ -151,8 +151,8 @@ PathPoint Path::at(double t) const {
   return point;
 }
 
-/// With E the curve of quaternions before they are normalised, E_dot E^-1 = (a, omega/2), where a
-/// is the rate of log |E|. Its derivative is E_ddot E^-1 - (E_dot E^-1)^2.
+/// Let E be the curve of quaternions before they are normalised. Then E_dot E^-1 = (a, omega/2),
+/// where a is the rate of log |E|. Its derivative is E_ddot E^-1 - (E_dot E^-1)^2.
 PathPoint Path::on_spline(double t) const {
   const SplineInstant at = spline_at(times_, t);
   const Eigen::Matrix<double, 7, 3> curve =

@@ -5,7 +5,7 @@
 namespace maxwrench {
 namespace {
 
-/// In place of `set_posture`: J'W of one instant.
+/// Sets W, tau_d and J'W of one instant, as `set_posture` does for a posture.
 void set_block(const Instant& instant, const Matrix6Xd& W, WrenchProgram& block) {
   block.W = W;
   block.tau_d = instant.tau_d;

@@ -8,25 +8,26 @@
 
 namespace maxwrench {
 
-/// Weight of the slack per N and N m of elastic programs.
+/// Weight of the slack in elastic programs, per N and N m.
 inline constexpr double kElasticWeight = 100;
 
-/// The program of a task's instants, before the first motion. A start that balances
-/// (`Start::kStatic`, `kRest`) is its first block; otherwise the blocks begin after it.
+/// The program of a task's instants, before any motion is set. A start that must balance
+/// (`Start::kStatic`, `kRest`) is its first block; otherwise the first block is the instant after
+/// the start.
 TrajectoryProgram make_trajectory_program(const Problem& problem, const MotionTask& task,
                                           Wrench wrench, const SchemeMaps& maps);
 
 /// Whether the start of an impulse is a block of the program.
 bool start_is_block(const MotionTask& task, const SchemeMaps& maps);
 
-/// Sets tau_d and J'W of all blocks and c of the instants, W and c turned with the end effector
-/// where the task says so.
+/// Sets tau_d and J'W of all blocks and c of the instants. W and c turn with the end effector if
+/// the task says so.
 void set_instants(const Problem& problem, const MotionTask& task, Wrench wrench,
                   const SchemeMaps& maps, std::vector<Instant>& instants,
                   TrajectoryProgram& program);
 
-/// u and h of the instants from an answer. Without a block of its own the start has u_0 = 0, or
-/// what u_1 is where it is free.
+/// Reads u and h of the instants from an answer. A start without a block of its own has u_0 = 0, or
+/// u_0 = u_1 if it is free.
 void read_efforts(const Problem& problem, const MotionTask& task, const TrajectoryProgram& program,
                   const TrajectorySolution& solution, std::vector<Instant>& instants);
 

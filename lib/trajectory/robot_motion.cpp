@@ -5,7 +5,7 @@
 namespace maxwrench {
 namespace {
 
-/// How many derivatives a number carries.
+/// The number of derivatives that a number carries.
 template <class T>
 constexpr std::size_t kDirections = 0;
 template <int N>
@@ -50,7 +50,7 @@ const EndEffector& RobotMotion<T>::tool() const {
   return problem_->robot.end_effectors[static_cast<std::size_t>(problem_->end_effector)];
 }
 
-/// Into a vector whose joints begin at `first`.
+/// Writes theta_r into a vector whose joints begin at `first`.
 template <class T>
 void RobotMotion<T>::set_theta_r(const VectorX<T>& values, Eigen::Index first,
                                  VectorX<T>& all) const {
@@ -59,8 +59,8 @@ void RobotMotion<T>::set_theta_r(const VectorX<T>& values, Eigen::Index first,
   }
 }
 
-/// A frame at r from another that carries it, both relative to the base: with the axis a of the
-/// joint between them, which the carrier takes along,
+/// A frame at r that another frame carries, both relative to the base. With the axis a of the joint
+/// between them, which moves with the carrying frame,
 ///     v += w x r (+ a q_dot),   v_dot += w_dot x r + w x (w x r) (+ 2 w x a q_dot + a q_ddot),
 ///     w += a q_dot,             w_dot += w x a q_dot + a q_ddot.
 template <class T>
@@ -107,7 +107,7 @@ void RobotMotion<T>::set(const PathPoint& x, const VectorX<T>& theta_r, const Ve
   const Pose<T> e = kinematics_.end_effector(tool());
   base_ = x.pose * e.inverse();
   const Relative hand = along_chain(e.p);
-  // The end effector's own, in base axes; their components change as the base turns, too.
+  // The end effector's own motion in base axes. Its components also change because the base turns.
   const Matrix3<T> into = base_.R.transpose();
   const Vector3<T> v_e = into * Vector3<double>(x.twist.head<3>());
   const Vector3<T> w_e = into * Vector3<double>(x.twist.tail<3>());
@@ -125,20 +125,20 @@ void RobotMotion<T>::set(const PathPoint& x, const VectorX<T>& theta_r, const Ve
   }
 }
 
-/// J at q_ and base_.
+/// Sets J_ at q_ and base_.
 template <class T>
 void RobotMotion<T>::read_jacobian() {
   kinematics_.set_joints(q_);
   kinematics_.jacobian(tool(), base_.R, J_);
 }
 
-/// The derivatives of base and dependent joints, which the gap between a pose of values and that of
-/// the end effector has as long as they are constants.
+/// Sets the derivatives of the base and the dependent joints, which are constants at first: J_d^+
+/// times the derivatives of the gap between the pose x and the end effector's pose.
 template <class T>
 void RobotMotion<T>::correct(const Pose<double>& x) {
   const Robot& robot = problem_->robot;
   const Pose<T> e = base_ * kinematics_.end_effector(tool());
-  const Matrix3<T> S = x.R * e.R.transpose();  // the identity, and derivatives [turn]x
+  const Matrix3<T> S = x.R * e.R.transpose();  // the identity plus derivatives [turn]x
   Vector6<T> gap, twist = Vector6<T>::Constant(T(0.0));
   gap << x.p - e.p, S(2, 1), S(0, 2), S(1, 0);
   if constexpr (kDirections < T >> 0) {
@@ -175,7 +175,7 @@ Vector6<T> RobotMotion<T>::acceleration() const {
   return result;
 }
 
-/// Sets the dependent velocities to J_d^+ twist; the largest entry of twist that is left.
+/// Sets the dependent velocities to J_d^+ twist. Returns the largest remaining entry of the twist.
 template <class T>
 double RobotMotion<T>::solve(const Vector6<T>& twist, VectorX<T>& velocities) const {
   const Vector6N values = J_d_.solve(values_of(twist));

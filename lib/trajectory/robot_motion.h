@@ -12,47 +12,50 @@
 
 namespace maxwrench {
 
-/// The whole robot's motion from that of theta_r and of the end effector (eq:redundantJacobian,
-/// v = J_e x_dot + A_r theta_r_dot) and its derivative. Of a problem without a second contact.
-/// Joints beside the chain from base to end effector rest. A template on the scalar as Kinematics.
+/// The motion of the whole robot from that of theta_r and of the end effector
+/// (eq:redundantJacobian, v = J_e x_dot + A_r theta_r_dot), and its derivative. For problems
+/// without a second contact. Joints outside the chain from base to end effector rest. A template on
+/// the scalar, as Kinematics.
 ///
-/// Where theta_r holds all joints of the chain, in closed form: along it the motion relative to the
-/// base follows from the joints, and what is left of the end effector's is the base's.
+/// If theta_r holds all joints of the chain, the motion has a closed form. The joints give the end
+/// effector's motion relative to the base, and the rest of the end effector's motion is the base's.
 ///
-/// Where joints are dependent (`DependentJoints`), from a posture that reaches the pose: with J_d
-/// the columns of J for the free base axes and the dependent joints, J_r those of theta_r,
+/// If joints are dependent (`DependentJoints`), the motion starts from a posture that reaches the
+/// pose. With J_d the columns of J for the free base axes and the dependent joints, and J_r those
+/// of theta_r,
 ///
 ///     J_d v_d = x_dot - J_r theta_r_dot,   J_d v_dot_d = x_ddot - J_dot v - J_r theta_r_ddot,
 ///
-/// d <= 6 numbers by least squares. Derivatives of what solves F(y, p) = 0 are those of one step
-/// y - J_d^+ F in dual numbers, by the values of J_d.
+/// d <= 6 numbers, by least squares. The derivatives of a solution y of F(y, p) = 0 are those of
+/// one step y - J_d^+ F in dual numbers, where J_d holds values only.
 template <class T>
 class RobotMotion {
  public:
-  /// The problem outlives this.
+  /// The problem must outlive this object.
   explicit RobotMotion(const Problem& problem);
   explicit RobotMotion(const Problem&&) = delete;
 
-  /// theta_r and its derivatives in time, r each.
+  /// Sets theta_r and its time derivatives, r numbers each.
   void set(const PathPoint& x, const VectorX<T>& theta_r, const VectorX<T>& rate,
            const VectorX<T>& acceleration);
-  /// The same with dependent joints: `base` and all joints q bring the end effector to x with the
+  /// The same with dependent joints: `base` and all joints q bring the end effector to x at the
   /// values of theta_r.
   void set(const PathPoint& x, const Pose<double>& base, const Eigen::VectorXd& q,
            const VectorX<T>& theta_r, const VectorX<T>& rate, const VectorX<T>& acceleration);
 
   const VectorX<T>& q() const { return q_; }
   const Pose<T>& base() const { return base_; }
-  /// n each: base twist in base axes on the free axes, joint rates; and their derivatives.
+  /// n numbers each: base twist in base axes on the free axes, then joint rates; and their
+  /// derivatives.
   const VectorX<T>& v() const { return v_; }
   const VectorX<T>& v_dot() const { return v_dot_; }
-  /// With dependent joints: how much of x_dot, and of x_ddot, no motion of the robot has [m/s,
-  /// rad/s; m/s^2, rad/s^2], the largest of six.
+  /// With dependent joints: the largest of the six components of x_dot, and of x_ddot, that no
+  /// motion of the robot provides [m/s, rad/s; m/s^2, rad/s^2].
   double twist_missed() const { return twist_missed_; }
   double acceleration_missed() const { return acceleration_missed_; }
 
  private:
-  /// Of a body relative to the base, in base axes: twist at its origin, and derivatives there.
+  /// A body relative to the base, in base axes: the twist at its origin, and the derivatives there.
   struct Relative {
     Vector3<T> v = Vector3<T>::Zero(), w = Vector3<T>::Zero();
     Vector3<T> v_dot = Vector3<T>::Zero(), w_dot = Vector3<T>::Zero();
@@ -77,20 +80,20 @@ class RobotMotion {
   double twist_missed_ = 0, acceleration_missed_ = 0;
 };
 
-/// A `RobotMotion` of instants one after the other: dependent joints begin on the IK solution of
-/// the guess, at theta_r_default and the problem's pose, and go on from each instant to the next.
+/// A `RobotMotion` at one instant after another. Dependent joints start on the IK solution of the
+/// guess, at theta_r_default and the problem's pose, and continue from each instant to the next.
 class RobotMotionTracker {
  public:
-  /// The problem outlives this.
+  /// The problem must outlive this object.
   explicit RobotMotionTracker(const Problem& problem);
   explicit RobotMotionTracker(const Problem&&) = delete;
 
-  /// The next instant is the first one, at the pose where the path starts.
+  /// Makes the next instant the first one, at the start of the path.
   void restart() { started_ = false; }
-  /// Goes to an instant; null, or why dependent joints do not get there: then they are where they
-  /// came to.
+  /// Moves to an instant. Returns null, or the reason why the dependent joints do not reach it;
+  /// then they stay at the last point that they reached.
   const char* place(const Pose<double>& x, const Eigen::VectorXd& theta_r);
-  /// `place`, and the motion there.
+  /// Calls `place`, then computes the motion.
   const char* set(const PathPoint& x, const Eigen::VectorXd& theta_r, const Eigen::VectorXd& rate,
                   const Eigen::VectorXd& acceleration);
   const RobotMotion<double>& motion() const { return follower_; }

@@ -20,7 +20,7 @@ void resize(SchemeMaps& maps, int instants, int knots) {
   maps.place.resize(0, knots);
 }
 
-/// Every pair of neighbouring knots: their difference by dt.
+/// Limits the difference of every pair of neighbouring knots divided by dt.
 void limit_differences(SchemeMaps& maps) {
   const int pairs = maps.knots() - 1;
   maps.speed = Eigen::MatrixXd::Zero(std::max(pairs, 0), maps.knots());
@@ -50,7 +50,7 @@ SchemeMaps make_spline(const MotionTask& task, int per_interval, bool limited) {
   const Eigen::MatrixXd values = Eigen::MatrixXd::Identity(knots, knots);
   const Eigen::MatrixXd bends = clamped_spline_bends(times, values);
   for (int n = 0; n < instants; ++n) {
-    // Whole knots are met to the last digit.
+    // At a knot the time is that of the knot, exactly.
     const bool knot = n % per_interval == 0;
     const SplineInstant at_n =
         spline_at(times, knot ? times[static_cast<std::size_t>(n / per_interval)]
@@ -124,7 +124,7 @@ SchemeMaps make_differences(const MotionTask& task) {
   return maps;
 }
 
-/// `forward`, `backward` and `backward_stop` of an impulse: instants are the knots.
+/// `forward`, `backward` and `backward_stop` of an impulse: the instants are the knots.
 SchemeMaps make_impulse_differences(const MotionTask& task) {
   SchemeMaps maps;
   const int knots = task.k + 1, last = task.k;

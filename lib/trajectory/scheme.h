@@ -6,8 +6,8 @@
 
 namespace maxwrench {
 
-/// What a scheme makes of a table Q of knots (K×r): linear maps to N instants. Of an impulse the
-/// first of the K = k + 1 knots is theta_0 and the first instant, if `starts`, is at rest there.
+/// The linear maps of a scheme from a table Q of knots (K×r) to N instants. For an impulse the
+/// first of the K = k + 1 knots is theta_0. The first instant, if `starts`, is at rest there.
 ///
 ///     theta_r = P Q,   theta_r_dot = V Q,   v = moves (J_e x_dot + A_r theta_r_dot)
 ///     `spline`: theta_r_ddot = A Q and v_dot exact;   else: v_dot = D v
@@ -15,16 +15,16 @@ namespace maxwrench {
 /// v and v_dot are those of all velocities, in base axes.
 struct SchemeMaps {
   std::vector<double> t;     ///< N [s]
-  std::vector<PathPoint> x;  ///< N, of the end effector; acceleration only of `spline`
-  std::vector<int> knot_at;  ///< K: the instant of each knot; -1: none
-  Eigen::MatrixXd P, V, A;   ///< N×K; A of `spline`, else empty
-  Eigen::MatrixXd D;         ///< N×N; empty of `spline`
-  Eigen::VectorXd moves;     ///< N of 1, or 0 where v is zero by the scheme
+  std::vector<PathPoint> x;  ///< N, of the end effector; accelerations only for `spline`
+  std::vector<int> knot_at;  ///< K: the instant of each knot; -1 if there is none
+  Eigen::MatrixXd P, V, A;   ///< N×K; A only for `spline`, else empty
+  Eigen::MatrixXd D;         ///< N×N; empty for `spline`
+  Eigen::VectorXd moves;     ///< N numbers: 1, or 0 where the scheme sets v to zero
   bool starts = false;       ///< the first instant is the start of an impulse
   double dt = 0;             ///< between neighbouring knots [s]; 0 if k = 1
-  /// Rows on each coordinate of theta_r over its K knots: limits of its rate (speed Q within
-  /// +-q_dot_max), of its value (place Q within the limits, beyond those of the knots), and what
-  /// must vanish (zero Q = 0; times dt^2 where it is an acceleration).
+  /// Rows that act on each coordinate of theta_r over its K knots: limits of its rate (speed Q
+  /// within +-q_dot_max), limits of its value in addition to those at the knots (place Q within the
+  /// limits), and rows that must vanish (zero Q = 0; an acceleration is multiplied by dt^2).
   Eigen::MatrixXd speed, place, zero;
 
   int instants() const { return static_cast<int>(t.size()); }
@@ -32,18 +32,18 @@ struct SchemeMaps {
   bool smooth() const { return D.size() == 0; }
 };
 
-/// Throws std::invalid_argument if the scheme does not serve the task.
+/// Throws std::invalid_argument if the scheme does not support the task.
 SchemeMaps make_scheme(const MotionTask& task);
 
-/// Instants per interval of `value_between_knots`, along a path and in an impulse.
+/// Instants per interval for `value_between_knots`, along a path and in an impulse.
 inline constexpr int kDensePath = 25, kDenseImpulse = 50;
 
-/// The knots that a scheme maps: those of a table, of an impulse with theta_0 before them.
+/// The knots that a scheme maps: the table, for an impulse with theta_0 before it.
 Eigen::MatrixXd all_knots(const MotionTask& task, const Eigen::MatrixXd& table);
 
 /// The clamped cubic spline through the knots of a task, whatever its scheme, with this many
-/// instants an interval: what `value_between_knots` is judged by. Of an impulse it begins with the
-/// start.
+/// instants per interval. `value_between_knots` is computed on it. For an impulse it begins with
+/// the start.
 SchemeMaps make_dense_spline(const MotionTask& task, int instants_per_interval);
 
 }  // namespace maxwrench

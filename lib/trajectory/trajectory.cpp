@@ -13,14 +13,14 @@
 namespace maxwrench {
 namespace {
 
-/// The slack [N, N m] that `value_between_knots` forgives.
+/// [N, N m] The slack that `value_between_knots` tolerates.
 constexpr double kSlackForgiven = 0.05;
-/// Less is rounding of an interior point.
+/// Smaller values are rounding of an interior-point method.
 constexpr double kNoPrice = 1e-7, kNoMultiplier = 1e-7;
-/// A verdict counts if its figures are within this part of 1 + |value|.
+/// A verdict counts if its residuals are within this share of 1 + |value|.
 constexpr double kVerified = 1e-7;
 
-/// The task in time; a static one holds its pose at one knot.
+/// The task in time. A static task holds its pose at one knot.
 MotionTask task_of(const Problem& problem) {
   if (problem.contact) {
     throw std::invalid_argument(problem.name +
@@ -56,7 +56,7 @@ struct TrajectoryEvaluator::Workspace {
     if (task.impulse && task.start == Start::kStatic) bound_start(make);
   }
 
-  /// w_0 is at most the static capability at theta_0.
+  /// Limits w_0 to the static capability at theta_0.
   void bound_start(const TrajectorySolverMaker& make) {
     Q = all_knots(task, task.theta_0.transpose().replicate(task.k, 1));
     motion.evaluate(Q, trajectory.instants);
@@ -91,7 +91,7 @@ struct TrajectoryEvaluator::Workspace {
     }
   }
 
-  /// Empty, or why the knots or their motion are no answer.
+  /// Why the knots or their motion are not feasible; empty if they are.
   std::string violation() const {
     const std::string of_knots = knots_violation(problem, motion.maps(), Q);
     return of_knots.empty() ? motion_violation(problem, motion, trajectory.instants) : of_knots;
@@ -102,7 +102,7 @@ struct TrajectoryEvaluator::Workspace {
     return check_collision ? knot_collision(problem, motion, trajectory.instants, links) : "";
   }
 
-  /// On the clamped spline through the knots, of which there are at least two.
+  /// The motion on the clamped spline through the knots, of which there must be at least two.
   MotionEvaluator& on_spline() {
     if (!fine) {
       fine.emplace(problem, make_dense_spline(task, task.impulse ? kDenseImpulse : kDensePath));
@@ -116,7 +116,7 @@ struct TrajectoryEvaluator::Workspace {
     return instant - (start_is_block(task, maps) ? 0 : 1);
   }
 
-  /// Solves for the task's t_h, or for each one and keeps the best.
+  /// Solves for the task's t_h, or for every t_h, and keeps the best.
   void solve_best(TrajectoryProgram& p, TrajectorySolver& with, TrajectorySolution& best,
                   int& t_h) {
     if (!task.impulse) {
@@ -142,9 +142,10 @@ struct TrajectoryEvaluator::Workspace {
     p.peak = block_of(motion.maps(), t_h);
   }
 
-  /// The hard program's answer where it has one: it is cheaper, and that of the elastic one too but
-  /// where a multiplier exceeds the weight of the slack, so that slack is cheaper than a wrench.
-  /// The best t_h of several may be one that needs slack, and is sought with it first.
+  /// Uses the hard program's answer if there is one, because that program is cheaper to solve. Its
+  /// answer is also that of the elastic program unless a multiplier exceeds the weight of the
+  /// slack; then slack costs less than a smaller wrench. If t_h is free, the best t_h may need
+  /// slack, so the elastic program is solved first.
   void solve_elastic() {
     const bool several = task.impulse && task.t_h == 0;
     if (!several && solve_hard()) return;
@@ -267,7 +268,7 @@ void TrajectoryEvaluator::evaluate_between_knots(TrajectorySolver* by) {
   if (task.impulse) program.peak = ws.block_of(maps, trajectory.t_h);
   TrajectorySolution solution;
   solver.solve(program, solution);
-  if (solution.status != Status::kOptimal) {  // perhaps slack is cheaper than a wrench
+  if (solution.status != Status::kOptimal) {  // slack may cost less than a wrench
     program.rho = kInfinity;
     solver.solve(program, solution);
   }

@@ -7,9 +7,9 @@
 namespace maxwrench {
 namespace {
 
-/// Where things stand in the assembled program: its columns are those of the instants, of the
-/// rates, t and the slack columns, y and the activities of R; its rows are the balances, the rates,
-/// those of t and of R.
+/// The layout of the assembled program. Its columns are those of the instants, of the rates, t and
+/// the slack columns, y and the activities of R. Its rows are the balances, the rates, those of t
+/// and of R.
 class Layout {
  public:
   explicit Layout(const TrajectoryProgram& program)
@@ -49,9 +49,9 @@ class Layout {
   int rates_ = 0;
 };
 
-/// Calls sink.column(cost, low, high) for each column of the assembled program and
-/// sink.entry(row, value) for the entries that follow it, in increasing rows. The pattern depends
-/// on the shape alone.
+/// Calls sink.column(cost, low, high) for each column of the assembled program, then
+/// sink.entry(row, value) for its entries in increasing rows. The pattern depends on the shape
+/// alone.
 template <class Sink>
 class Walk {
  public:
@@ -112,7 +112,7 @@ class Walk {
     }
   }
 
-  /// t and what each c_w'w has above it.
+  /// The columns of t and of the excess of each c_w'w over t.
   void lowest() {
     sink_.column(1, -kInfinity, kInfinity);
     for (int i = 0; i < program_.size(); ++i) sink_.entry(layout_.first_t_row() + i, -1);
@@ -141,7 +141,6 @@ class Walk {
   int rates_before_ = 0;
 };
 
-/// Builds the pattern.
 struct Pattern {
   std::vector<Eigen::Triplet<double>> entries;
   int col = -1;
@@ -149,7 +148,6 @@ struct Pattern {
   void entry(int row, double /*value*/) { entries.emplace_back(row, col, 0.0); }
 };
 
-/// Writes the numbers.
 struct Numbers {
   LinearProgram& lp;
   int col = 0;
@@ -241,7 +239,7 @@ void read(const TrajectoryProgram& program, const LpSolution& answer,
   const Eigen::VectorXd& rows = proof ? answer.certificate : answer.lambda;
   if (answer.status != Status::kOptimal && !proof) return;
   if (rows.size() != layout.rows()) return;
-  // A proof is y of the assembled program: mu and nu have the opposite sign there.
+  // A proof is the y of the assembled program, in which mu and nu have the opposite sign.
   const double sign = proof ? -1 : 1;
   solution.lambda.resize(layout.n(), N);
   solution.mu.setZero(layout.m(), N - 1);
@@ -252,7 +250,7 @@ void read(const TrajectoryProgram& program, const LpSolution& answer,
       if (layout.limited(j, i)) solution.mu(j, i) = sign * rows[row++];
     }
   }
-  // The row c_w'w - t - z = b: to raise b by one lowers the value by pi.
+  // The row c_w'w - t - z = b: raising b by one lowers the value by pi.
   if (layout.max_min()) solution.pi = -rows.segment(layout.first_t_row(), N);
   if (!layout.max_min()) solution.pi[program.peak] = 1;
   solution.nu = sign * rows.tail(layout.r_rows());

@@ -7,12 +7,12 @@
 namespace maxwrench {
 namespace {
 
-/// Raises `worst` to `value`, and to infinity by what is not a number.
+/// Raises `worst` to `value`; NaN counts as infinity.
 void raise_to(double& worst, double value) {
   if (!(value <= worst)) worst = std::isnan(value) ? kInfinity : value;
 }
 
-/// A trajectory program and multipliers of it, for both kinds of proof.
+/// A trajectory program and its multipliers, for both kinds of proof.
 class Multipliers {
  public:
   Multipliers(const TrajectoryProgram& program, const TrajectorySolution& solution)
@@ -22,7 +22,7 @@ class Multipliers {
         n_(set_.dimension()),
         m_(set_.actuators()) {}
 
-  /// Those that a proof needs fit and are finite.
+  /// Whether the multipliers that a proof needs have the right size and are finite.
   bool fit() const {
     const Eigen::Index N = program_.size();
     return solution_.lambda.rows() == n_ && solution_.lambda.cols() == N &&
@@ -160,7 +160,7 @@ double outside_limits(const TrajectoryProgram& program, const TrajectorySolution
   return worst;
 }
 
-/// Of R y, one row after the other in the storage of `activity`.
+/// The largest violation of the limits of R y. `activity` is storage for R y.
 double outside_rows(const TrajectoryProgram& program, const TrajectorySolution& solution) {
   double worst = 0;
   if (program.R.rows() == 0) return worst;
@@ -209,7 +209,7 @@ void add_dual(const TrajectoryProgram& program, const TrajectorySolution& soluti
   raise_to(residual.gap, std::abs(objective - (solution.value - solution.price)));
 }
 
-/// Whether limits exclude each other, which is a proof without multipliers.
+/// Whether limits exclude each other. This proves infeasibility without multipliers.
 bool limits_cross(const TrajectoryProgram& program) {
   const Zonotope& set = *program.instants.front().actuation;
   const auto crosses = [](const auto& low, const auto& high) {
@@ -257,7 +257,7 @@ bool proves_infeasible(const TrajectoryProgram& program, const TrajectorySolutio
       farkas.add_column(data.wrench(1, 0, j, i), at.w_min[j], at.w_max[j]);
     }
     if (!data.elastic(i)) continue;
-    // The slack takes whatever pays.
+    // The slack is unbounded, so its slope must be zero.
     for (Eigen::Index r = 0; r < at.tau_d.size(); ++r) {
       TermSum slope;
       slope.add(solution.lambda(r, i));

@@ -13,8 +13,8 @@ namespace maxwrench {
 [[noreturn]] void throw_bad_input(const std::filesystem::path& file, std::string_view key,
                                   std::string_view got, std::string_view expected);
 
-/// What `function` returns. Where it rejects a value, `file_of` names the file that holds the key,
-/// and puts the key as it stands there.
+/// Returns the result of `function`. If it rejects a value, throws the error with the file that
+/// holds the key. `file_of` returns that file and replaces the key by its name in the file.
 template <class FileOf, class Function>
 auto in_files(const FileOf& file_of, const Function& function) {
   try {
@@ -25,17 +25,17 @@ auto in_files(const FileOf& file_of, const Function& function) {
     throw_bad_input(file, key, bad.got(), bad.expected());
   }
 }
-/// The same where one file holds all keys.
+/// The same if one file holds all keys.
 template <class Function>
 auto in_file(const std::filesystem::path& file, const Function& function) {
   return in_files([&file](const std::string&) { return file; }, function);
 }
 
-/// Whether it is a regular file; what cannot be looked at, such as a link that leads to itself, is
-/// none.
+/// Whether the path is a regular file. False also for a path that cannot be examined, such as a
+/// link to itself.
 bool is_file(const std::filesystem::path& path);
 
-/// Opens a regular file, or rejects what is none or cannot be read.
+/// Opens a regular file. Rejects other paths and files that cannot be read.
 std::ifstream open_file(const std::filesystem::path& file, std::string_view expected);
 
 }  // namespace maxwrench

@@ -15,7 +15,7 @@
 namespace maxwrench {
 namespace {
 
-/// Nearly as the user wrote it. (toml++ prints 0.3 with 17 digits.)
+/// The value almost as the user wrote it. (toml++ prints 0.3 with 17 digits.)
 std::string as_written(const toml::node& node) {
   if (node.is_table()) return "a table";
   if (node.is_string()) return fmt::format("'{}'", node.as_string()->get());
@@ -32,7 +32,7 @@ std::string as_written(const toml::node& node) {
 
 std::optional<double> finite_number(const toml::node& node) {
   if (!node.is_number()) return std::nullopt;
-  const toml::value<int64_t>* const whole = node.as_integer();  // lossless, value<double> says
+  const toml::value<int64_t>* const whole = node.as_integer();  // value<double> may reject it
   const double value = whole ? static_cast<double>(whole->get()) : *node.value<double>();
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
@@ -46,7 +46,7 @@ std::optional<std::vector<std::string>> all_texts(const toml::array& array) {
   return texts;
 }
 
-/// toml++ calls itself for every part of a dotted key, so a long one would overrun the stack.
+/// toml++ recurses for every part of a dotted key, so a long key would overflow the stack.
 void require_short_keys(const std::filesystem::path& file, const std::string& text) {
   constexpr int kMostDots = 1000;
   int dots = 0;

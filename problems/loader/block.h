@@ -14,11 +14,11 @@
 
 namespace maxwrench {
 
-/// A table of a TOML file that knows its file and its key path, so that every error names them.
-/// All numbers that it hands out are finite. `source` and `status` are allowed in every table.
+/// A table of a TOML file. It knows its file and its key path, so that every error names them. All
+/// numbers that it returns are finite. `source` and `status` are allowed in every table.
 class Block {
  public:
-  /// Reads the file; the result is its root table. A missing file or a syntax error is rejected.
+  /// Reads the file and returns its root table. Rejects a missing file or a syntax error.
   static Block read(const std::filesystem::path& file);
 
   const std::filesystem::path& file() const { return file_; }
@@ -29,13 +29,13 @@ class Block {
   [[noreturn]] void throw_bad_value(std::string_view key, std::string_view got,
                                     std::string_view expected) const;
 
-  // Values. Without a fallback the key must be there.
+  // Values. Without a fallback the key is required.
   std::string text(std::string_view key) const;
   std::string text(std::string_view key, std::string_view fallback) const;
   double number(std::string_view key) const;
   double number(std::string_view key, double fallback) const;
   Eigen::VectorXd numbers(std::string_view key, int size) const;
-  Eigen::VectorXd any_numbers(std::string_view key) const;  ///< of any size; none without the key
+  Eigen::VectorXd any_numbers(std::string_view key) const;  ///< of any size; empty without key
   Eigen::Vector3d vector(std::string_view key) const;
   Eigen::Vector3d vector(std::string_view key, const Eigen::Vector3d& fallback) const;
   Eigen::Vector3d direction(std::string_view key) const;  ///< normalised; zero is rejected
@@ -46,16 +46,16 @@ class Block {
   std::vector<std::string> texts(std::string_view key) const;
   std::vector<std::pair<std::string, std::string>> text_pairs(std::string_view key) const;
 
-  // Tables; nothing where the key is missing. `list` is an array of tables, `named` a table of
-  // tables in the order of the file.
+  // Tables; empty if the key is missing. `list` is an array of tables, `named` a table of tables in
+  // the order of the file.
   Block table(std::string_view key) const;
   std::vector<Block> list(std::string_view key) const;
   std::vector<std::pair<std::string, Block>> named(std::string_view key) const;
-  /// All keys of this table, each a number.
+  /// All entries of this table, each of which must be a number.
   std::map<std::string, double> numbers_by_name() const;
 
-  /// (block, its `source` and, in brackets, its `status`) of this table and all below it, in the
-  /// order of the file.
+  /// Pairs of a block's name and its `source` with its `status` in brackets, for this table and all
+  /// tables in it, in the order of the file.
   std::vector<std::pair<std::string, std::string>> sources(std::string_view root_name) const;
 
  private:
@@ -68,9 +68,9 @@ class Block {
   Eigen::VectorXd listed(std::string_view key, std::string_view expected) const;
 
   std::filesystem::path file_;
-  std::string path_;                         ///< of this table, empty for the root
+  std::string path_;                         ///< of this table; empty for the root
   std::shared_ptr<const toml::table> root_;  ///< keeps the tables alive
-  const toml::table* table_;                 ///< null: an absent optional table
+  const toml::table* table_;                 ///< null if an optional table is missing
 };
 
 }  // namespace maxwrench

@@ -58,14 +58,14 @@ fcl::Transform3d to_fcl(const Pose<double>& pose) {
 
 bool intersect(const Geometry& a, const Pose<double>& pose_a, const Geometry& b,
                const Pose<double>& pose_b) {
-  const fcl::CollisionRequestd request;  // yes or no, by libccd
+  const fcl::CollisionRequestd request;  // only whether they collide, by libccd
   fcl::CollisionResultd result;
   return fcl::collide(&a, to_fcl(pose_a), &b, to_fcl(pose_b), request, result) > 0;
 }
 
-/// A shape where its link is.
+/// A shape at the pose of its link.
 struct Placed {
-  Pose<double> pose;          ///< R only if the shape is a box or goes to FCL
+  Pose<double> pose;          ///< R is set only if the shape is a box or uses FCL
   Eigen::Vector3d half_axis;  ///< of a capsule
 };
 
@@ -84,7 +84,7 @@ bool capsules_closer(const Shape& a, const Placed& at_a, const Shape& b, const P
                           q + at_b.half_axis) < a.radius + b.radius + margin;
 }
 
-/// Most capsules are too far from a box for their length to matter.
+/// A first test excludes capsules whose centre is too far from the box for their length to matter.
 bool capsule_box_closer(const Shape& capsule, const Placed& at, const Shape& box,
                         const Pose<double>& box_pose, double margin) {
   const double reach = capsule.radius + margin;
@@ -96,7 +96,7 @@ bool capsule_box_closer(const Shape& capsule, const Placed& at, const Shape& box
   return segment_box_distance(centre - half_axis, centre + half_axis, box.half_sizes) < reach;
 }
 
-/// Nearest points of a capsule's axis and a box, in the frame that both are placed in.
+/// The closest points of a capsule's axis and a box, in the frame in which both are placed.
 Between capsule_to_box(const Placed& at, const Shape& box, const Pose<double>& box_pose) {
   const Pose<double> into = box_pose.inverse();
   const Eigen::Vector3d centre = into.R * at.pose.p + into.p;
@@ -106,8 +106,8 @@ Between capsule_to_box(const Placed& at, const Shape& box, const Pose<double>& b
   return between;
 }
 
-/// A box of which all points within some radius, which is returned, belong to the shape; for a
-/// capsule and a box they are all of it.
+/// Sets `core` to a box such that the shape contains all points within a radius of it, and returns
+/// this radius. For a capsule and a box these points are the whole shape.
 double core_of(const Shape& shape, InscribedBox& core) {
   core.link = shape.link;
   core.placement = shape.placement;
@@ -121,10 +121,10 @@ double core_of(const Shape& shape, InscribedBox& core) {
   return radius;
 }
 
-/// Two shapes on different links, with the FCL shapes if no exact test is at hand.
+/// Two shapes on different links, with their FCL shapes if there is no exact test.
 struct Pair {
   int a, b;
-  double reach;  ///< centres farther apart than this cannot collide
+  double reach;  ///< shapes whose centres are farther apart than this cannot collide
   std::shared_ptr<const Geometry> geometry_a, geometry_b;
 };
 
@@ -156,8 +156,8 @@ bool collide(const Pair& pair, const Shape& a, const Placed& at_a, const Shape& 
 
 class ShapePairs : public CollisionChecker {
  public:
-  /// Exact pairs come first, as FCL's tests are far dearer, then pairs that reach far, as they are
-  /// likelier to collide.
+  /// Exact pairs come first, because FCL's tests are far more expensive. Then pairs with a large
+  /// reach come first, because they are more likely to collide.
   ShapePairs(std::vector<Shape> shapes, std::vector<Pair> pairs, double margin)
       : shapes_(std::move(shapes)), pairs_(std::move(pairs)), margin_(margin) {
     std::stable_sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
@@ -174,7 +174,7 @@ class ShapePairs : public CollisionChecker {
   }
 
   int colliding_pair(const std::vector<Pose<double>>& links) const override {
-    thread_local std::vector<Placed> moving;  // allocates when it grows, not in every posture
+    thread_local std::vector<Placed> moving;  // allocates when it grows, not at every posture
     moving.resize(shapes_.size());
     for (std::size_t i = 0; i < shapes_.size(); ++i) {
       const int link = shapes_[i].link;
@@ -230,7 +230,7 @@ class ShapePairs : public CollisionChecker {
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
   std::vector<Shape> shapes_;
-  std::vector<Placed> fixed_;   ///< where the shapes of the base are
+  std::vector<Placed> fixed_;   ///< the placed shapes of the base
   std::vector<bool> oriented_;  ///< whether a shape's test needs its rotation
   std::vector<Pair> pairs_;
   double margin_;

@@ -6,8 +6,9 @@ namespace maxwrench {
 
 Between segment_to_segment(const Eigen::Vector3d& a0, const Eigen::Vector3d& a1,
                            const Eigen::Vector3d& b0, const Eigen::Vector3d& b1) {
-  // The squared distance |r + s u - t v|^2 is convex in (s, t). Its minimum over the square lies
-  // inside (then the lines' nearest points are it) or on an edge (an end point of one segment).
+  // The squared distance |r + s u - t v|^2 is convex in (s, t). Its minimum over the square is
+  // either inside, at the closest points of the two lines, or on an edge, at an end point of one
+  // segment.
   const Eigen::Vector3d u = a1 - a0, v = b1 - b0, r = a0 - b0;
   double best = kInfinity, best_s = 0, best_t = 0;
   const auto consider = [&](double s, double t) {
@@ -27,7 +28,7 @@ Between segment_to_segment(const Eigen::Vector3d& a0, const Eigen::Vector3d& a1,
   consider(1, along(-r - u, v));
   const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v);
   const double determinant = uu * vv - uv * uv;
-  if (determinant > 1e-12 * uu * vv) {  // nearly parallel: an end point is as near, to 1e-6
+  if (determinant > 1e-12 * uu * vv) {  // if nearly parallel, an end point is as close, to 1e-6
     const double s = (uv * r.dot(v) - vv * r.dot(u)) / determinant;
     const double t = (uu * r.dot(v) - uv * r.dot(u)) / determinant;
     if (s > 0 && s < 1 && t > 0 && t < 1) consider(s, t);
@@ -41,8 +42,8 @@ Between segment_to_box(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1,
   const auto inside = [&](const Eigen::Vector3d& x) -> Eigen::Vector3d {
     return x.cwiseMax(-half_sizes).cwiseMin(half_sizes);
   };
-  // Half the derivative of the squared distance along the segment: piecewise linear, increasing,
-  // with its breakpoints where the segment crosses a plane of a face.
+  // Half the derivative of the squared distance along the segment. It is piecewise linear and
+  // increasing; its breakpoints are where the segment crosses the plane of a face.
   const auto slope = [&](double t) {
     const Eigen::Vector3d x = p0 + t * v;
     return (x - inside(x)).dot(v);

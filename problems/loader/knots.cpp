@@ -17,7 +17,7 @@ std::vector<std::string> coordinate_names(const Problem& problem) {
   return names;
 }
 
-/// Whether a table with this name in its header is read as it was written.
+/// Whether a table with this name in its header is read back unchanged.
 bool is_plain(const std::string& name) {
   return !name.empty() && name.find("nan") != 0 && name.find("inf") != 0 &&
          std::isalpha(static_cast<unsigned char>(name.front())) != 0 &&

@@ -32,7 +32,7 @@ Path read_turn(const Block& path, const Pose<double>& start, const Eigen::Vector
                      read_timing(path), T);
 }
 
-/// A path that starts at a pose and takes T.
+/// A path of duration T that starts at a pose.
 Path read_path(const Block& path, const Pose<double>& start, double T) {
   const std::string kind = path.text("kind");
   if (kind == "line") return read_line(path, start, T);
@@ -71,7 +71,7 @@ void read_scheme(const Block& block, MotionTask& motion) {
       block.whole("instants_per_interval", 1, kMostInstants, motion.impulse ? 16 : 4);
 }
 
-/// A knot, or 0 for the best one.
+/// The knot of the peak, or 0 for the best one.
 int read_peak(const Block& block, int k) {
   const std::string expected = peak_range(k);
   if (block.is_text("t_h") && block.text("t_h") != "best") block.throw_bad_value("t_h", expected);

@@ -5,11 +5,12 @@
 
 namespace maxwrench {
 
-/// Whether the task is a trajectory through the poses of a table, of which the first is its own.
+/// Whether the task is a trajectory through the poses of a table. The first pose is then the task's
+/// pose.
 bool follows_poses(const Block& task);
 
-/// Reads `[motion]` and `[path]` or `[start]` of a task in time; nothing of a static one. `spec`
-/// has its pose.
+/// Reads `[motion]`, and `[path]` or `[start]`, of a task in time. Does nothing for a static task.
+/// `spec` must have its pose.
 void read_motion(const Block& task, TaskSpec& spec);
 
 }  // namespace maxwrench

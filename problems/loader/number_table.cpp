@@ -16,7 +16,7 @@ namespace {
 
 using Columns = std::vector<std::string>;
 
-constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // spreadsheets begin with it
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // spreadsheets write it first
 
 std::string trimmed(const std::string& text) {
   constexpr const char* kSpace = " \t\r";
@@ -36,7 +36,7 @@ Columns cells_of(const std::string& line) {
   return cells;
 }
 
-/// Also nan and inf.
+/// A number; nan and inf are allowed.
 std::optional<double> as_number(const std::string& cell) {
   const char* begin = cell.data() + (cell.starts_with('+') ? 1 : 0);
   const char* end = cell.data() + cell.size();
@@ -59,7 +59,7 @@ bool is_header(const Columns& cells) {
                       [](const std::string& cell) { return as_number(cell).has_value(); });
 }
 
-/// None if a cell is no finite number.
+/// The numbers of a row; empty if a cell is not a finite number.
 std::optional<std::vector<double>> as_row(const Columns& cells) {
   std::vector<double> row;
   for (const std::string& cell : cells) {

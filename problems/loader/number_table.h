@@ -6,20 +6,21 @@
 
 namespace maxwrench {
 
-/// The numbers of a CSV file, all finite.
+/// The numbers of a CSV file, all of them finite.
 struct NumberTable {
   std::vector<std::string> columns;
   std::vector<std::vector<double>> rows;
-  std::vector<int> lines;  ///< of the file, in which the rows stand
+  std::vector<int> lines;  ///< line of each row in the file
 
-  /// Rejects a row by its line.
+  /// Rejects a row with its line number.
   [[noreturn]] void throw_bad_row(std::size_t row, const std::string& expected) const;
 
   std::filesystem::path file;
 };
 
-/// Reads a CSV file with one of several choices of columns, which differ in number. The first line
-/// may be their names. Blank lines count for nothing. Anything else is rejected in one line.
+/// Reads a CSV file with one of several lists of columns, which differ in length. The first line
+/// may contain the column names. Blank lines are skipped. Anything else is rejected with a message
+/// of one line.
 NumberTable read_numbers(const std::filesystem::path& file,
                          const std::vector<std::vector<std::string>>& choices);
 

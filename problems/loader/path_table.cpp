@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kShortestTime = 1e-6;     // s, between neighbours
 constexpr double kLengthTolerance = 1e-3;  // of a quaternion that was printed with a few digits
-/// rad, between neighbours: near pi it hangs on the last digits which way round the path turns.
+/// [rad] between neighbours. Near pi, rounding would decide in which direction the path turns.
 constexpr double kLargestTurn = 3;
 
 Pose<double> pose_of(const NumberTable& table, std::size_t row) {

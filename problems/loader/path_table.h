@@ -6,8 +6,8 @@
 
 namespace maxwrench {
 
-/// Reads a path through poses in the world from CSV: columns t,x,y,z and roll,pitch,yaw or
-/// qw,qx,qy,qz [s, m, rad], t from 0. What is wrong is rejected in one line.
+/// Reads a path through poses in the world from CSV, with columns t,x,y,z and roll,pitch,yaw or
+/// qw,qx,qy,qz [s, m, rad], t from 0. Rejects invalid files with a message of one line.
 Path read_path_table(const std::filesystem::path& file);
 
 }  // namespace maxwrench

@@ -12,7 +12,7 @@
 namespace maxwrench {
 namespace {
 
-/// `got` must be one of the keys of the map.
+/// The value of this name. Rejects a name that is not a key of the map.
 template <class Value>
 const Value& find_named(const std::map<std::string, Value>& values, const std::string& name,
                         const Block& block, std::string_view key, std::string_view noun) {
@@ -75,7 +75,7 @@ void read_end_effectors(const Block& root, const UrdfTree& tree, Robot& robot) {
   }
 }
 
-/// Bodies on one link add their volumes; the centre of buoyancy is the weighted mean.
+/// The volumes of bodies on one link are added; the centre of buoyancy is their weighted mean.
 void read_buoyancy(const Block& root, const UrdfTree& tree, Robot& robot) {
   const Block all = root.table("buoyancy");
   for (const auto& [name, block] : root.named("buoyancy")) {
@@ -97,7 +97,7 @@ void read_trim(const Block& root, Robot& robot) {
   robot.trim = {trim.number("buoyancy_mass"), trim.vector("position")};
 }
 
-/// Bodies on one link stay apart; only their frames are turned into those of the link.
+/// Bodies on one link stay separate; only their frames are converted to those of the link.
 void read_hydrodynamics(const Block& root, const UrdfTree& tree, Robot& robot) {
   const Block all = root.table("hydrodynamics");
   for (const auto& [name, block] : root.named("hydrodynamics")) {
@@ -118,7 +118,8 @@ void read_hydrodynamics(const Block& root, const UrdfTree& tree, Robot& robot) {
   }
 }
 
-/// Body by body: the robot knows links only, on which bodies stand together.
+/// Checks body by body. The robot itself only knows links, each of which may contain several
+/// bodies.
 void require_water(const Block& root, const Robot& robot) {
   std::vector<InWater> bodies;
   for (const auto& [name, block] : root.named("hydrodynamics")) bodies.push_back({name, 0, true});
@@ -140,7 +141,7 @@ Shape read_capsule(const Block& block, const UrdfTree& tree) {
   const Eigen::Vector3d p0 = block.vector("p0"), p1 = block.vector("p1");
   shape.half_length = (p1 - p0).norm() / 2;
   shape.placement.p = (p0 + p1) / 2;
-  if (shape.half_length > 0) {  // its axis is z
+  if (shape.half_length > 0) {  // the axis of the shape is z
     Eigen::Matrix3d& R = shape.placement.R;
     R.col(2) = (p1 - p0).normalized();
     R.col(0) = R.col(2).unitOrthogonal();
@@ -162,7 +163,7 @@ Collision read_collision(const Block& block, const UrdfTree& tree) {
     find_body(tree, block, "ignore", a);
     find_body(tree, block, "ignore", b);
   }
-  // A body without a shape meets nothing, and the robot does not know it.
+  // A body without a shape cannot collide, and the robot does not know it.
   const auto has_shape = [&collision](const std::string& body) {
     return std::any_of(collision.shapes.begin(), collision.shapes.end(),
                        [&body](const Shape& shape) { return shape.body == body; });
@@ -174,7 +175,8 @@ Collision read_collision(const Block& block, const UrdfTree& tree) {
   return collision;
 }
 
-/// What a thruster does not say, all thrusters share.
+/// The key of a thruster's value. If the thruster has no value of its own, the key is that of the
+/// value that all thrusters share.
 std::string thruster_key(const Block& thrusters, const std::string& key) {
   const std::vector<Block> list = thrusters.list("list");
   for (std::size_t i = 0; i < list.size(); ++i) {

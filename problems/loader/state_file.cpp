@@ -11,7 +11,7 @@
 namespace maxwrench {
 namespace {
 
-/// Of the base from its mount: zero to rounding where its axes do not lead.
+/// Rejects a displacement of the base from its mount along axes that are not free, beyond rounding.
 void require_free_axes(const Block& theta, const Pose<double>& base, const Robot& robot) {
   constexpr double kRounding = 1e-9;
   if (robot.base_axes.size() == kTwistAxes.size()) return;

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kProblemsVariable = "MAXWRENCH_PROBLEMS";
 
-/// Whether the key `robot` stands before the first table.
+/// Whether the key `robot` occurs before the first table.
 bool names_a_robot(std::istream& toml) {
   std::string line;
   while (std::getline(toml, line)) {
@@ -41,7 +41,7 @@ bool is_folder(const fs::path& path) {
   return fs::is_directory(path, none);
 }
 
-/// The file of a shipped name or a path.
+/// The file of a shipped task, or the file at a path.
 fs::path find_task(const std::string& name) {
   const fs::path folder = problems_folder();
   const fs::path shipped = folder / (name + ".toml");
@@ -76,7 +76,7 @@ void read_theta_r(const Block& theta_r, TaskSpec& spec) {
   spec.guess_base = theta_r.table("guess_base").numbers_by_name();
 }
 
-/// What a task of this type may hold.
+/// Rejects keys that a task of this type does not have.
 void allow_keys(const Block& task) {
   const std::string type = task.text("type");
   std::vector<std::string_view> keys = {"type", "robot",  "end_effector", "label",
@@ -110,7 +110,7 @@ void read_free_pose(const Block& pose, TaskSpec& spec) {
   spec.along_end_effector = frame == "end_effector";
 }
 
-/// A path through the poses of a table brings its own.
+/// Reads the pose. A path through the poses of a table has its own.
 void read_pose(const Block& task, TaskSpec& spec) {
   if (follows_poses(task)) return;
   const Block pose = task.table("pose");
@@ -124,7 +124,7 @@ void read_pose(const Block& task, TaskSpec& spec) {
   read_free_pose(pose, spec);
 }
 
-/// FNV-1a of the sizes and the bytes of files, in 16 hexadecimal digits.
+/// FNV-1a of the sizes and the bytes of files, as 16 hexadecimal digits.
 std::string digest_of(const std::vector<fs::path>& files) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   const auto add = [&hash](std::string_view text) {
@@ -199,7 +199,7 @@ std::vector<std::string> tasks_in(const fs::path& folder) {
   if (!is_folder(folder)) return names;
   const auto options = fs::directory_options::skip_permission_denied;
   for (const auto& entry : fs::recursive_directory_iterator(folder, options)) {
-    std::error_code none;  // such as a link that leads to itself
+    std::error_code none;  // ignored, for example for a link to itself
     if (entry.path().extension() != ".toml" || !entry.is_regular_file(none)) continue;
     std::ifstream stream(entry.path(), std::ios::binary);
     if (stream && !names_a_robot(stream)) continue;

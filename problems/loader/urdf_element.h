@@ -11,8 +11,8 @@
 
 namespace maxwrench {
 
-/// An element of a URDF file. Its key, such as `link[hull].inertial`, is how messages name it. It
-/// lives as long as its document and the path of the file.
+/// An element of a URDF file. Messages name it by its key, such as `link[hull].inertial`. Its
+/// document and the path of its file must outlive it.
 class UrdfElement {
  public:
   UrdfElement(const std::filesystem::path& file, const tinyxml2::XMLElement& xml, std::string key)
@@ -20,26 +20,26 @@ class UrdfElement {
 
   std::string tag() const { return xml_->Name(); }
 
-  /// A link or joint with its name in the key, `link[hull]`. Rejects one without a name.
+  /// The link or joint with its name in the key, `link[hull]`. Rejects an element without a name.
   UrdfElement with_name() const;
 
-  /// The only child with this tag. Rejects none and several.
+  /// The only child with this tag. Rejects a missing child and several children.
   UrdfElement child(const char* tag) const;
-  /// Nothing if there is none. Rejects several.
+  /// The only child with this tag; empty if there is none. Rejects several children.
   std::optional<UrdfElement> child_if_any(const char* tag) const;
   /// All children, or those with this tag, in the order of the file.
   std::vector<UrdfElement> children(const char* tag = nullptr) const;
 
-  /// The text of an attribute, or nothing.
+  /// The text of an attribute; empty if it is missing.
   std::optional<std::string> attribute(const char* name) const;
-  /// Rejects all but a finite number, and an attribute that is not there unless there is a value to
-  /// take instead.
+  /// A finite number. Rejects any other value, and a missing attribute unless `otherwise` is given.
   double number(const char* name, std::optional<double> otherwise = {}) const;
-  /// The same of three numbers.
+  /// The same for three numbers.
   Eigen::Vector3d vector(const char* name,
                          const std::optional<Eigen::Vector3d>& otherwise = {}) const;
 
-  /// Throws the line of `bad_input.h` about this element or, if it is named, an attribute.
+  /// Throws the error of `bad_input.h` about this element or, if `attribute` is not empty, about
+  /// that attribute.
   [[noreturn]] void throw_bad_input(std::string_view attribute, std::string_view got,
                                     std::string_view expected) const;
 

@@ -11,7 +11,7 @@
 namespace maxwrench {
 namespace {
 
-/// Where `origin` puts it; the rotation by way of a quaternion of half angles.
+/// The pose in `origin`. The rotation is computed from a quaternion of half angles.
 Pose<double> origin_of(const UrdfElement& element) {
   const std::optional<UrdfElement> origin = element.child_if_any("origin");
   if (!origin) return {};
@@ -23,7 +23,7 @@ Pose<double> origin_of(const UrdfElement& element) {
   return {q.normalized().toRotationMatrix(), origin->vector("xyz", Eigen::Vector3d::Zero())};
 }
 
-/// One file being flattened.
+/// The state while one file is flattened.
 struct Reading {
   const UrdfStructure& structure;
   UrdfTree tree;
@@ -97,7 +97,7 @@ void set_limits(const UrdfElement& from, bool continuous, Joint& joint) {
   joint.q_max = continuous ? std::numbers::pi : limit->number("upper", 0);
 }
 
-/// A joint that moves.
+/// A joint that is not fixed.
 Joint joint_of(const UrdfElement& from, const std::string& type, const Body& parent) {
   Joint joint;
   joint.name = name_of(from);

@@ -10,13 +10,13 @@
 
 namespace maxwrench {
 
-/// Where a URDF link went: it is part of a link of the robot, at a fixed pose.
+/// The place of a URDF link in the robot: part of a link, at a fixed pose.
 struct Body {
   int link = 0;
   Pose<double> placement;  ///< link of the robot -> URDF link
 };
 
-/// What a URDF file says, with links on fixed joints merged into the link that carries them.
+/// The contents of a URDF file. Links on fixed joints are merged into the link that carries them.
 struct UrdfTree {
   std::string root;
   std::vector<Link> links;  ///< named after the URDF link that their joint moves
@@ -25,10 +25,11 @@ struct UrdfTree {
   std::vector<Shape> shapes;
 };
 
-/// Links and joints in depth-first order from the root, siblings in the order of the file.
+/// Reads a URDF file. Links and joints are in depth-first order from the root, siblings in the
+/// order of the file.
 UrdfTree read_urdf(const std::filesystem::path& file);
 
-/// R and p of an URDF origin: rotations about the fixed axes x, y, z, in this order.
+/// The pose of a URDF origin: rotations about the fixed axes x, y, z, in this order.
 Pose<double> pose_from_xyz_rpy(const Eigen::Vector3d& xyz, const Eigen::Vector3d& rpy);
 
 }  // namespace maxwrench

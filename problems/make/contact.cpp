@@ -21,7 +21,7 @@ bool contains(const std::vector<int>& values, int value) {
   return std::find(values.begin(), values.end(), value) != values.end();
 }
 
-/// C and the bounds of w_2: `free` columns, or columns that may only push.
+/// Sets C and the bounds of w_2. The columns are free, or may only push.
 void set_basis(Matrix6Xd C, bool free, Contact& contact) {
   const Eigen::Index l = C.cols();
   contact.C = std::move(C);
@@ -87,9 +87,9 @@ void set_forces(const ContactSpec& spec, Contact& contact) {
   }
 }
 
-/// The directions of `basis` that may be pulled and pushed without limit: none of their sums may be
-/// free of work, or zero, because nothing would bound it. One alone that does no work is rejected
-/// whatever its limits.
+/// The directions of `basis` that may be pulled and pushed without limit. No combination of them
+/// may be zero or do no work, because nothing would bound it. A single direction that does no work
+/// is rejected whatever its limits.
 void require_work(const Eigen::MatrixXd& works, const Contact& contact) {
   std::vector<Eigen::Index> free;
   for (Eigen::Index j = 0; j < works.cols(); ++j) {
@@ -115,8 +115,8 @@ Eigen::Vector3d rpy_of(const Eigen::Matrix3d& R) {
   return rpy.array() + 0.0;  // no -0
 }
 
-/// Leaves out of C what does no work, because the structure takes it: of free forces all such
-/// columns, of others their part along which the end effector cannot move.
+/// Removes from C the parts that do no work, because the structure takes them: for free forces all
+/// such columns, for others their part along which the end effector cannot move.
 void drop_idle(const std::string& forces, const Robot& robot, Contact& contact) {
   const Eigen::Matrix<double, 6, 6> movable = movable_at_contact(robot, contact);
   const Matrix6Xd works = movable * contact.C;
@@ -133,7 +133,7 @@ void drop_idle(const std::string& forces, const Robot& robot, Contact& contact) 
   }
 }
 
-/// Where the joints of the arm that do not follow rest.
+/// Sets the rest positions of the arm's joints that are not dependent.
 void set_rest(const ContactSpec& spec, const std::vector<int>& chain, Problem& problem,
               Contact& contact) {
   const Robot& robot = problem.robot;
@@ -167,7 +167,7 @@ void set_rest(const ContactSpec& spec, const std::vector<int>& chain, Problem& p
   throw BadValue("contact.joints", spec.joints.empty() ? "nothing" : shown(spec.joints), expected);
 }
 
-/// Which joints of the arm follow; the others rest.
+/// Sets which joints of the arm are dependent; the others rest.
 void set_arm(const ContactSpec& spec, Problem& problem, Contact& contact) {
   const Robot& robot = problem.robot;
   const char* key = "contact.end_effector";

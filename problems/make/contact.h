@@ -4,7 +4,8 @@
 
 namespace maxwrench {
 
-/// Fills contact, and adds the regrasp coordinates to theta_r, which the joints have filled.
+/// Sets the contact and appends the regrasp coordinates to theta_r, which must already hold the
+/// joints.
 void set_contact(const ContactSpec& spec, Problem& problem);
 
 /// The index of an end effector by its name.

@@ -16,17 +16,17 @@
 namespace maxwrench {
 namespace {
 
-/// [m; rad] Limits beyond this would be lost in rounding.
+/// [m; rad] Larger limits would lose precision by rounding.
 constexpr double kFarthest = 1e6;
 constexpr double kHalfTurn = std::numbers::pi;
-/// Part of a unit twist beyond the end effector's motions that is no rounding.
+/// A part of a unit twist outside the end effector's motions above this is not rounding.
 constexpr double kApart = 1e-6;
 
 bool names(const std::vector<std::string>& list, const char* axis) {
   return std::find(list.begin(), list.end(), axis) != list.end();
 }
 
-/// Rejects axes that do not exist or stand twice.
+/// Rejects axes that do not exist or occur twice.
 void require_axes(const TaskSpec& task) {
   const auto known = [](const std::string& axis) {
     return std::find(kTwistAxes.begin(), kTwistAxes.end(), axis) != kTwistAxes.end();
@@ -79,8 +79,8 @@ void append(Eigen::VectorXd& all, double value) {
   all[all.size() - 1] = value;
 }
 
-/// The twists that the end effector can make at theta_r, an orthonormal basis; nothing where no
-/// posture reaches the pose.
+/// An orthonormal basis of the end effector's twists at theta_r; empty if no posture reaches the
+/// pose.
 Matrix6Xd motions_at(const Problem& problem, PostureEvaluator& model,
                      const Eigen::VectorXd& theta_r) {
   if (problem.dependent.empty()) return motions_at_pose(held_at(problem, theta_r));

@@ -16,7 +16,7 @@ void require_whole(std::string_view key, int value, int most) {
   throw BadValue(key, fmt::format("{}", value), fmt::format("a whole number of 1 to {}", most));
 }
 
-/// A path is finite throughout and starts at the task's pose.
+/// Rejects a path that is not finite or does not start at the task's pose.
 void require_path(const Path& path, const Pose<double>& pose) {
   constexpr double kRounding = 1e-9;
   for (const double s : {0.0, 0.5, 1.0}) require_pose("path", path.pose(s * path.duration()));

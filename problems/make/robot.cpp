@@ -12,7 +12,7 @@
 namespace maxwrench {
 namespace {
 
-/// In increasing order.
+/// The principal moments in increasing order.
 Eigen::Vector3d principal_moments(const Eigen::Matrix3d& inertia) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly)
       .eigenvalues();
@@ -26,7 +26,7 @@ Eigen::Vector3d principal_moments(const Eigen::Matrix3d& inertia) {
       expected);
 }
 
-/// Rejects names that are empty or stand twice.
+/// Rejects names that are empty or occur twice.
 template <class Named>
 void require_names(const std::vector<Named>& all, const std::string& noun) {
   std::set<std::string> names;
@@ -55,7 +55,7 @@ void check_base(Robot& robot) {
   require_pose("base", robot.mount);
 }
 
-/// What moves needs mass and moments, or its motion has no equation.
+/// Rejects a moving link without mass and moments: its equation of motion would be singular.
 void require_inertia(const Link& link) {
   const char* moves = "of this link and what is fixed to it, because it moves";
   if (!(link.mass > 0)) {

@@ -7,20 +7,20 @@
 
 namespace maxwrench {
 
-/// Rejects a mass that is negative and moments that no body has. A mass point, a thin rod and a
-/// frame without mass are fine as long as they are a part of a link.
+/// Rejects a negative mass and moments that no body can have. A point mass, a thin rod and a frame
+/// without mass are valid as part of a link.
 void require_body(const std::string& link, double mass, const Eigen::Matrix3d& inertia);
 
-/// Whether something displaces water, and whether added mass and drag are known of it.
+/// A body that displaces water, and whether its added mass and drag are known.
 struct InWater {
   std::string name;
   double volume = 0;  ///< m^3
   bool has_hydrodynamics = false;
 };
 
-/// What displaces water moves water: once one body has added mass, each body with a volume needs
-/// its own, if only zeros. A forgotten one would go unnoticed. Added mass and drag are those of
-/// water, so there must be some.
+/// Rejects incomplete hydrodynamics. A body that displaces water also moves water. Once one body
+/// has added mass, every body with a volume must have its own, even if it is zero; otherwise a
+/// forgotten one would go unnoticed. Added mass and drag need a water density > 0.
 void require_hydrodynamics(const std::vector<InWater>& bodies, double water_density);
 
 /// Rejects negative or infinite coefficients.

@@ -69,9 +69,10 @@ void set_any(const std::vector<std::string>& any, const TaskSpec& task, Problem&
   }
 }
 
-/// W_any, of wrenches that do work: with T the twists with which the end effector can leave its
-/// pose, all of T, or those across c beside c where c has a part that the structure takes. What the
-/// task names itself must not hold a wrench h with T'h = 0: nothing bounds it.
+/// Sets W_any, the wrenches that do work. Let T be the twists with which the end effector can leave
+/// its pose. W_any is all of T or, if c has a part that the structure takes, c and those of T
+/// across c. The columns that a task gives itself must not span a wrench h with T'h = 0, because
+/// nothing bounds it.
 void choose_wrenches(const TaskSpec& task, Problem& problem) {
   const Matrix6Xd T = motions_at_pose(problem);
   const Eigen::VectorXd c_T = T.transpose() * problem.c;

@@ -21,7 +21,7 @@ namespace {
   throw BadValue("theta_r.joints", task.joints ? shown(*task.joints) : "nothing", expected);
 }
 
-/// The joints that the task names, `count` of the chain's.
+/// The joints that the task names, which must be `count` of the chain's.
 std::vector<int> named_joints(const TaskSpec& task, const std::vector<int>& chain, int count) {
   const Robot& robot = task.robot;
   const std::string expected = fmt::format(
@@ -42,7 +42,8 @@ std::vector<int> named_joints(const TaskSpec& task, const std::vector<int>& chai
   return joints;
 }
 
-/// All joints of the chain are redundant: the task may repeat them.
+/// Checks the names of a task in which all joints of the chain are redundant. The task may list
+/// them.
 void require_chain(const TaskSpec& task, const std::vector<int>& chain) {
   std::vector<std::string> names;
   for (const int i : chain) names.push_back(task.robot.joints[static_cast<std::size_t>(i)].name);
@@ -76,7 +77,7 @@ void set_default(const TaskSpec& task, Problem& problem) {
   problem.theta_r_default = task.theta_r_default;
 }
 
-/// Zero, moved into the limits, where the task guesses nothing.
+/// Sets the guess; where the task gives none, it is zero, moved into the limits.
 void set_guess(const TaskSpec& task, Problem& problem) {
   const Robot& robot = problem.robot;
   problem.guess_q = resting_joints(robot);
@@ -116,7 +117,7 @@ void set_guess(const TaskSpec& task, Problem& problem) {
 
 bool is_guessed(const TaskSpec& task) { return !task.guess.empty() || !task.guess_base.empty(); }
 
-/// Of a twist [m; rad], the coordinate that is largest.
+/// The largest coordinate of a twist [m; rad].
 std::string shown_gap(const Vector6d& gap) {
   int i = 0;
   gap.cwiseAbs().maxCoeff(&i);
@@ -125,7 +126,7 @@ std::string shown_gap(const Vector6d& gap) {
                : fmt::format("{:.2g} rad away about the world's {}", std::abs(gap[i]), axis);
 }
 
-/// "elbow, wrist and the base"
+/// For example "elbow, wrist and the base".
 std::string dependents_of(const Problem& problem) {
   return names_of(problem.robot, problem.dependent) +
          (problem.robot.base_axes.empty() ? "" : " and the base");
@@ -136,8 +137,8 @@ std::string dependents_of(const Problem& problem) {
                                     dependents_of(problem), why));
 }
 
-/// Whether base and dependent joints move the end effector in as many ways as they are, in almost
-/// all postures.
+/// Whether the velocities of the base and the dependent joints move the end effector independently
+/// of each other in almost all postures.
 bool follow_independently(const Problem& problem) {
   std::vector<int> velocities(problem.robot.base_axes.size());
   std::iota(velocities.begin(), velocities.end(), 0);
@@ -173,12 +174,12 @@ bool follow_independently(const Problem& problem) {
                              dependents));
 }
 
-/// Whether the pose is reached, in a posture that may yet collide.
+/// Whether a posture reaches the pose. It may collide.
 bool is_reached(const Posture& posture) { return posture.ik_solutions.found > 0; }
 
-/// A default that the task leaves open: the first place with a valid posture, or else where the
-/// pose is reached at all. First the joints move alone; then the coordinates of the pose and of a
-/// second contact leave their own defaults too.
+/// Finds a default that the task leaves open: the first sample with a valid posture, or else one at
+/// which the pose is reached. Samples first vary the joints alone; then also the coordinates of the
+/// pose and of a second contact.
 void find_default(PostureEvaluator& model, Problem& problem) {
   constexpr int kPlaces = 4000;
   Random random(3);

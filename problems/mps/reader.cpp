@@ -20,7 +20,7 @@ namespace {
 
 using Fields = std::vector<std::string>;
 
-/// What is no finite number is none. Fortran writes 1.5D+3.
+/// Rejects numbers that are not finite. Fortran writes 1.5D+3.
 std::optional<double> as_finite(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == 'd' || c == 'D'; }, 'e');
@@ -41,7 +41,7 @@ Fields split(const std::string& line) {
   return fields;
 }
 
-/// One name of several words: the format allows blanks.
+/// Joins several words into one name, because the format allows blanks in names.
 std::string join(const Fields& words, std::size_t first = 0) {
   std::string name;
   for (std::size_t k = first; k < words.size(); ++k) {
@@ -51,7 +51,7 @@ std::string join(const Fields& words, std::size_t first = 0) {
   return name;
 }
 
-/// The fixed columns 2-3, 5-12, 15-22, 25-36, 40-47, 50-61.
+/// Splits a line into the fixed columns 2-3, 5-12, 15-22, 25-36, 40-47, 50-61.
 Fields split_fixed(const std::string& line) {
   constexpr std::array<std::array<std::size_t, 2>, 6> kColumns{
       {{1, 2}, {4, 8}, {14, 8}, {24, 12}, {39, 8}, {49, 12}}};
@@ -65,27 +65,26 @@ Fields split_fixed(const std::string& line) {
 
 struct MpsRow {
   std::string name;
-  char type;             ///< N (the objective), E, L, G, or '-' for one that does not count
-  int last_column = -1;  ///< that has an entry here
+  char type;             ///< N (the objective), E, L, G, or '-' for an ignored row
+  int last_column = -1;  ///< the last column that has an entry in this row
   std::optional<double> rhs = {}, range = {};
 };
 
 struct MpsColumn {
   std::string name;
   double cost = 0, l = 0, u = kInfinity;
-  bool has_lower = false, has_upper = false;  ///< given by a card
+  bool has_lower = false, has_upper = false;  ///< whether a card sets the bound
 };
 
-constexpr double kLargestBound = 1e25;  // beyond it, a file means none
+constexpr double kLargestBound = 1e25;  // a larger bound in a file means none
 
-/// The cards of one file.
 class Cards {
  public:
   explicit Cards(const std::string& path) : path_(path) { read(); }
   MpsProgram program() const;
 
  private:
-  /// A column or set, "" where a set has no name, and its number in each of one or two rows.
+  /// A column or set ("" if a set has no name), and its value in one or two rows.
   struct NamedPairs {
     std::string name;
     std::vector<std::pair<int, double>> pairs;
@@ -203,7 +202,7 @@ void Cards::read_row(const Fields& fields) {
   rows_.push_back(row);
 }
 
-/// Of the fields [name, row, value] or [name, row, value, row, value].
+/// Reads the fields [name, row, value] or [name, row, value, row, value].
 std::optional<Cards::NamedPairs> Cards::as_pairs(const Fields& fields) const {
   if (fields.size() != 3 && fields.size() != 5) return std::nullopt;
   NamedPairs result{fields[0], {}};
@@ -233,7 +232,7 @@ Cards::NamedPairs Cards::read_pairs(const std::string& line, bool may_lack_name)
 void Cards::read_column(const std::string& line) {
   if (line.find("'MARKER'") != std::string::npos) {
     if (line.find("'SOS") != std::string::npos) fail("no SOS marker");
-    return;  // the relaxation is read
+    return;  // integer markers are ignored: the relaxation is read
   }
   const auto [name, pairs] = read_pairs(line, false);
   if (columns_.empty() || columns_.back().name != name) {

@@ -19,7 +19,7 @@ std::string wrench_name(const Problem& problem, const Matrix6Xd& W, Eigen::Index
   return fmt::format("w_{}", j + 1);
 }
 
-/// Of the rows of a balance.
+/// Names of the rows of a balance.
 std::vector<std::string> balance_names(const Robot& robot) {
   std::vector<std::string> names;
   for (const int axis : robot.base_axes) names.push_back(fmt::format("base_{}", kTwistAxes[axis]));

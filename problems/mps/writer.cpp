@@ -47,7 +47,7 @@ std::string bounds(const std::string& column, double l, double u) {
   }
   if (l == u) return bound("FX", column, l);
   if (std::isinf(l) && std::isinf(u)) return bound("FR", column);
-  // MI goes before UP: alone, a negative upper bound would mean different things to readers.
+  // MI comes before UP, because readers interpret a negative upper bound alone in different ways.
   const std::string low = std::isinf(l) ? bound("MI", column) : bound("LO", column, l);
   return std::isinf(u) ? low : low + bound("UP", column, u);
 }
@@ -63,7 +63,7 @@ std::string mps_text(const LinearProgram& program, const std::string& name) {
   text += "COLUMNS\n";
   std::string limits;
   for (int j = 0; j < program.cols(); ++j) {
-    // Even a zero, so that a column without entries exists.
+    // Even a zero is written, so that a column without entries exists.
     text += fmt::format(" {} {} {:.17g}\n", cols[j], kObjective, program.c[j]);
     for (Eigen::SparseMatrix<double>::InnerIterator it(program.A, j); it; ++it) {
       if (it.value() == 0) continue;

@@ -6,9 +6,9 @@
 
 namespace maxwrench {
 
-/// The program as free MPS that maximises (section OBJSENSE), with 17 digits, so that reading it
-/// gives the same numbers. Blanks in names become '_'; missing names are r1.. and x1... Throws
-/// std::invalid_argument on names that collide or crossing bounds.
+/// The program as free MPS that maximises (section OBJSENSE). Numbers have 17 digits, so that
+/// reading them gives the same values. Blanks in names become '_'; missing names become r1.. and
+/// x1... Throws std::invalid_argument on names that collide or on crossing bounds.
 std::string mps_text(const LinearProgram& program, const std::string& name);
 
 }  // namespace maxwrench

@@ -11,11 +11,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Axes whose sine is below this are parallel.
+/// Axes are parallel if the sine of their angle is below this.
 constexpr double kParallel = 1e-9;
-/// How far [m] a target may lie off the plane of an arm that cannot leave it.
+/// [m] The largest distance of a target from the plane of an arm that cannot leave this plane.
 constexpr double kOffPlane = 1e-9;
-/// [rad or m] Closer solutions are the same.
+/// [rad or m] Solutions closer than this are the same.
 constexpr double kSame = 1e-5;
 constexpr int kSeeds = 24;
 constexpr int kMostSteps = 60;
@@ -30,10 +30,10 @@ Vector3d rotate(const Vector3d& a, const Angle& q, const Vector3d& x) {
   return x * q.c + a.cross(x) * q.s + a * (a.dot(x) * (1 - q.c));
 }
 
-/// x less its part along n.
+/// x without its part along n.
 Vector3d flat(const Vector3d& n, const Vector3d& x) { return x - n * n.dot(x); }
 
-/// The angle about a that turns x, less its part along a, towards y.
+/// The angle about a that turns x, without its part along a, towards y.
 double angle_about(const Vector3d& a, const Vector3d& x, const Vector3d& y) {
   return std::atan2(a.dot(x.cross(y)), x.dot(y) - a.dot(x) * a.dot(y));
 }
@@ -118,7 +118,8 @@ void ContactArm::solve_shoulder(const Vector3d& p) {
   });
 }
 
-/// The last two joints, about parallel axes; `first` is the one before them.
+/// Solves the last two joints, about parallel axes; `first` is the position of the joint before
+/// them.
 void ContactArm::solve_plane(const Vector3d& p, double first) {
   const bool shoulder = contact_.follow.size() == 3;
   const Axis& inner = axes_[shoulder ? 1 : 0];
@@ -132,7 +133,7 @@ void ContactArm::solve_plane(const Vector3d& p, double first) {
   });
 }
 
-/// Whether `trial_` is this posture, up to whole turns.
+/// Whether `found` and `trial_` are the same posture up to whole turns.
 bool ContactArm::same(const Eigen::VectorXd& found) const {
   for (Eigen::Index i = 0; i < trial_.size(); ++i) {
     const auto joint = static_cast<std::size_t>(contact_.follow[static_cast<std::size_t>(i)]);
@@ -161,7 +162,7 @@ void ContactArm::keep() {
   solutions_[static_cast<std::size_t>(count_++)] = trial_;
 }
 
-/// error_ and J_f_ at trial_, in base axes.
+/// Fills error_ and J_f_ at trial_, in base axes.
 void ContactArm::linearise(const Pose<double>& target) {
   const Robot& robot = problem_.robot;
   const EndEffector& tip = robot.end_effectors[static_cast<std::size_t>(contact_.end_effector)];
@@ -180,7 +181,8 @@ void ContactArm::linearise(const Pose<double>& target) {
   error_.tail<3>() = logarithm(target.R * pose.R.transpose());
 }
 
-/// Levenberg's and Marquardt's method from trial_, then a plain step; whether it arrives.
+/// The Levenberg-Marquardt method from trial_, then a plain Newton step. Returns whether it
+/// converges.
 bool ContactArm::newton(const Pose<double>& target) {
   constexpr double kMostDamping = 1e6;
   double damping = 1e-3;
@@ -210,7 +212,7 @@ bool ContactArm::newton(const Pose<double>& target) {
 }
 
 void ContactArm::solve_by_newton(const Pose<double>& target) {
-  Random random(1);  // the same seeds for each target: a solution depends on nothing else
+  Random random(1);  // the same seeds for each target: a solution depends on the target alone
   for (int seed = 0; seed < kSeeds; ++seed) {
     for (Eigen::Index i = 0; i < trial_.size(); ++i) {
       const Joint& joint =

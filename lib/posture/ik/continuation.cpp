@@ -9,27 +9,30 @@
 namespace maxwrench {
 namespace {
 
-/// The first correction after a step [rad or m]: at most, and what the next step should meet.
+/// [rad or m] The first correction after a step: its upper limit, and the size at which the step
+/// controller aims.
 constexpr double kLongestCorrection = 0.1;
 constexpr double kGoodCorrection = 0.02;
-/// A further correction is this share of the one before at most.
+/// Each further correction must be at most this share of the one before.
 constexpr double kContraction = 0.25;
-/// Corrections below this end Newton's method on the way, and at its end.
+/// Newton's method ends at corrections below the first value along the path and below the second at
+/// its end.
 constexpr double kCloseEnough = 1e-4;
 constexpr double kLastCorrection = 1e-13;
-/// One that may grow no smaller near a singular posture.
+/// Near a singular posture corrections may stop shrinking. They must then be below this.
 constexpr double kSmallCorrection = 1e-6;
-/// The error of an answer [rad, m], as a share of the largest of 1, J_d and the distance of the
+/// [rad, m] The error of an answer, as a share of the largest of 1, J_d and the distance of the
 /// pose.
 constexpr double kLeastError = 1e-12;
 constexpr int kMostCorrections = 8;
-/// A way in steps shorter than this share of what is left of it, or in more steps, fails: what lies
-/// just beyond its end does not hold it up, as the fold beyond which a pair of postures is gone.
+/// A path fails if a step would be shorter than this share of its remaining length, or after
+/// `kMostWaySteps` steps. The limit is relative to the remaining length, so that a singularity just
+/// beyond the end does not stop the tracker, such as a fold where a pair of postures vanishes.
 constexpr double kShortestShare = 1e-5;
 constexpr int kMostWaySteps = 2000;
 constexpr double kLongestShare = 0.5;
-/// Where a solution counts as gone to infinity: an imaginary part of an angle [rad], whose sinh is
-/// beyond all use, or a distance [m].
+/// A solution counts as infinite beyond these values: the imaginary part of an angle [rad], whose
+/// sinh is then too large to use, and a distance [m].
 constexpr double kInfiniteAngle = 20;
 constexpr double kInfinitePlace = 1e6;
 
@@ -93,7 +96,7 @@ template <class T>
 Continuation<T>::Continuation(const ToolChain& chain)
     : chain_(chain), d_(chain.unknowns()), r_(chain.parameters()), theta_r_(r_), rate_(r_) {}
 
-/// theta_r, X and their rates at s.
+/// Sets theta_r, X and their rates at s.
 template <class T>
 void Continuation<T>::place(const HomotopyPath<T>& path, double s) {
   for (int k = 0; k < r_; ++k) {
@@ -113,7 +116,7 @@ void Continuation<T>::place(const HomotopyPath<T>& path, double s) {
   twist_ = reference_.twist;
 }
 
-/// Fills state_, error_ and J_d_ at y; the largest of the error.
+/// Fills state_, error_ and J_d_ at y. Returns the largest entry of the error.
 template <class T>
 double Continuation<T>::linearise(const Six<T>& y) {
   chain_.evaluate(theta_r_.data(), y.data(), rate_.data(), static_cast<const T*>(nullptr), state_);
@@ -128,12 +131,12 @@ double Continuation<T>::linearise(const Six<T>& y) {
   return largest(error, 6);
 }
 
-/// What rounding leaves of the error.
+/// The error that rounding allows.
 template <class T>
 double Continuation<T>::least_error() const {
   double far = 1;
   for (int i = 0; i < 3; ++i) far = std::max(far, magnitude(pose_.p[i]));
-  // Cosines of complex angles grow without bound.
+  // Cosines of complex angles are unbounded.
   for (int j = 0; j < d_; ++j) {
     for (const T& entry : state_.J[static_cast<std::size_t>(j)]) {
       far = std::max(far, magnitude(entry));
@@ -142,7 +145,7 @@ double Continuation<T>::least_error() const {
   return kLeastError * far;
 }
 
-/// Newton's method from y; `first` is the length of its first correction.
+/// Newton's method from y. `first` is the length of its first correction.
 template <class T>
 bool Continuation<T>::contract(Six<T>& y, bool exact, double& first) {
   double last = kInfinity;
@@ -153,7 +156,7 @@ bool Continuation<T>::contract(Six<T>& y, bool exact, double& first) {
     if (i == 0) first = length;
     if (!(length <= kLongestCorrection)) return false;
     if (i > 0 && length > std::max(kContraction * last, kLastCorrection)) {
-      // At rounding nothing contracts any more.
+      // At the level of rounding nothing contracts any more.
       return exact && last <= kSmallCorrection && linearise(y) <= least_error();
     }
     for (int j = 0; j < d_; ++j) y[j] += dy[j];
@@ -164,7 +167,7 @@ bool Continuation<T>::contract(Six<T>& y, bool exact, double& first) {
   return false;
 }
 
-/// dy/ds where `linearise` saw y last.
+/// dy/ds at the y of the last `linearise`.
 template <class T>
 Six<T> Continuation<T>::tangent() {
   return J_d_.solve(twist_ - state_.twist);

@@ -4,51 +4,51 @@
 
 namespace maxwrench {
 
-/// J_d y = b for J_d 6×d of full rank and b in its range, by elimination with exchanges of rows.
+/// Solves J_d y = b for J_d 6×d of full rank and b in its range, by elimination with row exchanges.
 template <class T>
 class PivotedLu {
  public:
   void factor(const Six<Vector6<T>>& J_d, int d);
-  /// Whether a pivot is smaller than this share of the largest.
+  /// Whether a pivot is smaller than `threshold` times the largest pivot.
   bool is_singular(double threshold) const { return !(smallest_ > threshold * largest_); }
   Six<T> solve(const Vector6<T>& b) const;
 
  private:
   std::array<Six<T>, 6> rows_;  ///< L below the diagonal, U on it and above
-  std::array<int, 6> from_;     ///< where each row stood
+  std::array<int, 6> from_;     ///< the original index of each row
   Six<T> inverse_pivots_;
   int d_ = 0;
   double smallest_ = 0, largest_ = 0;
 };
 
-/// A way of (theta_r, X), 0 <= s <= 1: theta_r(s) = from + s (to - from) + s (1 - s) bend, and X(s)
-/// either stays or is where the end effector is at theta_r(s) and y_from + s (y_to - y_from).
+/// A path of (theta_r, X), 0 <= s <= 1: theta_r(s) = from + s (to - from) + s (1 - s) bend. X(s) is
+/// either constant or the pose of the end effector at theta_r(s) and y_from + s (y_to - y_from).
 template <class T>
 struct HomotopyPath {
   VectorX<T> from, to, bend;
   bool moves_pose = false;
-  Pose<T> pose;  ///< unless it moves
+  Pose<T> pose;  ///< X, unless it moves
   Six<T> y_from{}, y_to{};
 };
 
-/// Carries a solution y of X_e(theta_r, y) = X along a way: a step along the polynomial of second
-/// order through the last two tangents, then Newton's method, whose first correction must be small
-/// and whose next ones must contract, else the step is quartered.
+/// Tracks a solution y of X_e(theta_r, y) = X along a path. A step follows the polynomial of second
+/// order through the last two tangents, then Newton's method corrects it. The first correction must
+/// be small and each further one must contract; otherwise the step is quartered.
 template <class T>
 class Continuation {
  public:
-  /// The chain outlives this.
+  /// The chain must outlive this object.
   explicit Continuation(const ToolChain& chain);
   explicit Continuation(const ToolChain&&) = delete;
 
-  /// Carries y from s = 0 to 1, to rounding; false if that would need too short steps, as where
-  /// solutions meet or go to infinity.
+  /// Tracks y from s = 0 to 1, up to rounding. False if the steps would be too short, for example
+  /// where solutions meet or go to infinity.
   bool track(const HomotopyPath<T>& path, Six<T>& y);
-  /// Newton's method at a place, from close by: whether it arrives.
+  /// Newton's method at (theta_r, pose) from a nearby y; whether it converges.
   bool correct(const VectorX<T>& theta_r, const Pose<T>& pose, Six<T>& y);
-  /// Newton's method from anywhere.
+  /// Newton's method from any y; whether it converges.
   bool seek(const VectorX<T>& theta_r, const Pose<T>& pose, Six<T>& y);
-  /// Whether J_d is singular where the last success ended.
+  /// Whether J_d is singular at the end of the last successful call.
   bool is_singular(double threshold) const { return J_d_.is_singular(threshold); }
 
  private:

@@ -9,19 +9,19 @@
 namespace maxwrench {
 namespace {
 
-/// On the way to theta_r a rougher solution is enough.
+/// The tolerance along the path to theta_r, where a rougher solution suffices.
 constexpr double kOnTheWay = 1e-6;
-/// theta_r moves this far in one step [rad or m], and y is corrected by this at most.
+/// [rad or m] The largest change of theta_r in one step, and the largest correction of y.
 constexpr double kStep = 0.3;
 constexpr double kCorrection = 0.2;
-/// A step that must be shorter than this fails.
+/// The path fails if a step must be shorter than this.
 constexpr double kShortestStep = 1e-5;
 constexpr int kMostPathSteps = 2000;
 
-/// The place of a base axis [x y z roll pitch yaw] in [x, y, z, yaw].
+/// The index of a base axis [x y z roll pitch yaw] in [x, y, z, yaw].
 int coordinate(int axis) { return std::min(axis, 3); }
 
-/// A share of the way [m; rad] from a pose.
+/// The pose after a share of the motion `path` [m; rad] from `start`.
 Pose<double> between(const Pose<double>& start, const Vector6d& path, double share) {
   const Eigen::Vector3d turn = share * path.tail<3>();
   const double angle = turn.norm();
@@ -64,8 +64,8 @@ DependentJoints::DependentJoints(const Problem& problem)
   start_slopes_ = slopes_;
 }
 
-/// Fills error_, J_ and J_d_. The translations are coordinates along the mount's axes; those of J_
-/// are along the base's.
+/// Fills error_, J_ and J_d_. The translations in z are along the mount's axes; those of J_ are
+/// along the base's.
 void DependentJoints::linearise(const Eigen::VectorXd& z) {
   const Robot& robot = problem_.robot;
   const EndEffector& end_effector =
@@ -86,7 +86,7 @@ void DependentJoints::linearise(const Eigen::VectorXd& z) {
   error_.tail<3>() = logarithm(pose_.R * pose.R.transpose());
 }
 
-/// slopes_ where J_ and qr_ are, dtheta_r/dtheta_r included.
+/// Fills slopes_ at the point of J_ and qr_, including dtheta_r/dtheta_r.
 void DependentJoints::differentiate() {
   const auto axes = static_cast<Eigen::Index>(problem_.robot.base_axes.size());
   for (Eigen::Index k = 0; k < slopes_.cols(); ++k) {
@@ -100,7 +100,7 @@ void DependentJoints::differentiate() {
   }
 }
 
-/// One step of Levenberg and Marquardt from z_, kept if it leads closer; false if none does.
+/// One Levenberg-Marquardt step from z_. False if no step reduces the error.
 bool DependentJoints::approach(double& damping) {
   constexpr double kMostDamping = 1e9;
   constexpr double kLongest = 0.5;
@@ -152,7 +152,8 @@ bool DependentJoints::contract(double tolerance) {
   }
 }
 
-/// trial_ along the tangent from one share of the way to another, with theta_r and X there.
+/// Sets trial_ along the tangent from one share of the path to another, with theta_r and X at the
+/// second.
 void DependentJoints::predict(double from, double to, const Eigen::VectorXd& theta_r) {
   trial_ = z_;
   for (Eigen::Index k = 0; k < theta_r.size(); ++k) {
@@ -168,8 +169,8 @@ void DependentJoints::predict(double from, double to, const Eigen::VectorXd& the
   }
 }
 
-/// From from_ and pose_ to theta_r and a pose; z_ and slopes_ are those of the last point that was
-/// reached.
+/// Tracks from from_ and pose_ to theta_r and `pose`. z_ and slopes_ are those of the last point
+/// that was reached.
 const char* DependentJoints::carry(const Eigen::VectorXd& theta_r, const Pose<double>& pose) {
   const Pose<double> start = pose_;
   const Eigen::Vector3d turn = logarithm(pose.R * start.R.transpose());
@@ -213,7 +214,7 @@ const char* DependentJoints::arrive() {
   return error_.norm() <= kExact ? nullptr : kUnreachableReason;
 }
 
-/// from_ of z_.
+/// Sets from_ from z_.
 void DependentJoints::read_theta_r() {
   for (Eigen::Index k = 0; k < from_.size(); ++k) {
     from_[k] = z_[4 + problem_.redundant[static_cast<std::size_t>(k)]];
@@ -223,7 +224,7 @@ void DependentJoints::read_theta_r() {
 bool DependentJoints::has_start() const { return start_error() <= kArrived; }
 
 const char* DependentJoints::follow(const Eigen::VectorXd& theta_r) {
-  // The answer depends on theta_r alone, so the last one may be kept.
+  // The answer depends on theta_r alone, so the last one is still valid.
   if (followed_ && theta_r_ == theta_r) return reason_;
   followed_ = true;
   theta_r_ = theta_r;

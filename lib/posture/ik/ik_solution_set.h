@@ -7,13 +7,12 @@
 
 namespace maxwrench {
 
-/// A place of theta_r and the solutions y there: those that are real, and one of each pair of
-/// conjugate ones.
+/// A theta_r and the solutions y there: the real ones, and one of each pair of complex conjugates.
 struct IkSolutionSet {
   Eigen::VectorXd theta_r;
   std::vector<Six<double>> real;
   std::vector<Six<Complex>> pairs;
-  bool complete = false;  ///< as many as there are
+  bool complete = false;  ///< whether these are all solutions
 };
 
 }  // namespace maxwrench

@@ -10,11 +10,11 @@
 namespace maxwrench {
 namespace {
 
-/// [rad or m] From so near no place of the start system is looked for.
+/// [rad or m] If the last theta_r is closer than this, no node of the start system is used.
 constexpr double kNear = 0.2;
-/// How far a way around leads off the real numbers, as a share of its length.
+/// The largest imaginary part of a detour, as a share of its length.
 constexpr double kSidestep = 0.4;
-/// [rad or m] The lattice of the order of postures.
+/// [rad or m] The spacing of the grid on which postures are sorted.
 constexpr double kEqual = 1e-7;
 
 double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
@@ -82,7 +82,8 @@ bool IkSolver::track_detour(const IkSolutionSet& from, double side) {
 }
 
 void IkSolver::sort() {
-  // On a lattice, so that rounding rarely changes the order; -pi and pi of an angle are one place.
+  // Sorted on a grid, so that rounding rarely changes the order. The angles -pi and pi count as
+  // equal.
   const ToolChain& chain = start_system_->chain();
   const auto place = [&](const Six<double>& y, int i) {
     const double y_i = y[static_cast<std::size_t>(i)];

@@ -12,27 +12,29 @@
 namespace maxwrench {
 namespace {
 
-/// Newton's method starts from so many places for the first solution.
+/// The largest number of starting points of Newton's method for the first solution.
 constexpr int kFirstStarts = 4000;
-/// So many loops without a new solution end the search for them.
+/// The search for solutions ends after this many loops without a new one.
 constexpr int kIdleLoops = 10;
 constexpr int kMostLoops = 300;
-/// No chain of six joints has more than 16; the bound only ends what went wrong.
+/// A chain of six joints has at most 16 solutions. The limit only stops a search that has gone
+/// wrong.
 constexpr std::size_t kMostSolutions = 64;
-/// Newton's method starts from so many places for further real, and for complex, solutions.
+/// The numbers of starting points of Newton's method for further real and for complex solutions.
 constexpr int kRealStarts = 100;
 constexpr int kComplexStarts = 200;
-/// J_d of a solution that others fall together with at every theta_r.
+/// If a pivot of J_d is below this share of the largest, the solution is a multiple one at every
+/// theta_r and is dropped.
 constexpr double kSingularSolution = 1e-6;
 constexpr double kPi = std::numbers::pi;
 
-/// A stop of a loop: theta_r and y of the end effector that shows where X goes.
+/// A stop of a loop: theta_r, and the y of the end effector pose that X takes.
 struct Stop {
   VectorX<Complex> theta_r;
   Six<Complex> y{};
 };
 
-/// Somewhere, not near the real numbers.
+/// A random stop that is not near the real numbers.
 Stop random_stop(const ToolChain& chain, const Stop& around, Random& random) {
   constexpr double kImaginary = 0.7;
   Stop stop = around;
@@ -64,7 +66,8 @@ VectorX<Complex> complex_of(const Eigen::VectorXd& theta_r) {
   return result;
 }
 
-/// The damped Newton's method of Levenberg and Marquardt for y at theta_r; whether it arrives.
+/// The damped Newton's method of Levenberg and Marquardt for y at theta_r. `run` returns whether it
+/// converges.
 class FirstNewton {
  public:
   FirstNewton(const ToolChain& chain, const Pose<double>& pose)
@@ -114,7 +117,7 @@ class FirstNewton {
   Vector6N error_;
 };
 
-/// The i-th number of the sequence of van der Corput to a base.
+/// Number i of the van der Corput sequence to a base.
 double radical_inverse(int i, int base) {
   double result = 0, digit = 1.0 / base;
   for (; i > 0; i /= base, digit /= base) result += digit * (i % base);
@@ -145,7 +148,7 @@ bool IkStartSystem::serves(const Problem& problem) const {
          problem.theta_r_max.head(r) == theta_r_max_ && ToolChain(problem) == chain_;
 }
 
-/// Where y may be: any angle, joints within their limits, the base near the pose at theta_r.
+/// Sets the range of y: any angle, joints within their limits, the base near the pose at theta_r.
 void IkStartSystem::set_reach(const Problem& problem, const Eigen::VectorXd& theta_r) {
   const Eigen::Vector3d near = (problem.robot.mount.inverse() * pose_at(problem, theta_r)).p;
   for (int j = 0; j < chain_.unknowns(); ++j) {
@@ -165,7 +168,7 @@ void IkStartSystem::set_reach(const Problem& problem, const Eigen::VectorXd& the
   }
 }
 
-/// Somewhere, in real numbers.
+/// A random real y within its range.
 Six<double> IkStartSystem::random_y(Random& random) const {
   Six<double> y{};
   for (int j = 0; j < chain_.unknowns(); ++j) {
@@ -175,7 +178,8 @@ Six<double> IkStartSystem::random_y(Random& random) const {
   return y;
 }
 
-/// One at the default, from the guess or from anywhere, or else at any theta_r; then others there.
+/// Finds a first solution at the default from the guess or a random y, or else at a random theta_r.
+/// Then finds other real solutions at that theta_r.
 void IkStartSystem::find_first(const Problem& problem) {
   set_reach(problem, problem.theta_r_default);
   FirstNewton newton(chain_, pose_);
@@ -215,7 +219,7 @@ bool IkStartSystem::keep(Six<Complex> y) {
   return true;
 }
 
-/// Those that are carried from the first, and those that Newton's method finds.
+/// Adds the solutions that are tracked from the first ones, and those that Newton's method finds.
 void IkStartSystem::seek_generic(Continuation<Complex>& continuation, Random& random) {
   const Pose<Complex> pose = complex_of(pose_);
   Stop base{complex_of(first_->theta_r), complex_of(first_->real[0])};
@@ -241,8 +245,8 @@ void IkStartSystem::seek_generic(Continuation<Complex>& continuation, Random& ra
   }
 }
 
-/// Carries all that are known around loops. Every other loop moves X too, with one of them; it
-/// comes back to itself.
+/// Tracks all known solutions around loops. Every other loop also moves X along with one of the
+/// solutions, which returns to itself.
 void IkStartSystem::find_generic() {
   Continuation<Complex> continuation(chain_);
   Random random(2);

@@ -15,43 +15,44 @@ template <class T>
 class Continuation;
 struct Problem;
 
-/// All solutions of the inverse kinematics of what follows,
+/// All solutions of the inverse kinematics of the dependent coordinates,
 ///
 ///     X_e(theta_r, y) = X,     six equations in d <= 6 complex numbers y,
 ///
-/// at a theta_r in general position, complex, and at a few real ones. There are as many at almost
-/// every theta_r, real or not, and they follow continuously along almost every way: where the way
-/// is complex, it meets none of the places at which two of them fall together
-/// (coefficient-parameter continuation, Sommese and Wampler 2005). So the real ones among the ends
-/// of all ways to a theta_r are all postures there.
+/// at a complex theta_r in general position and at a few real ones. Almost every theta_r, real or
+/// not, has the same number of solutions, and they are continuous along almost every path: a
+/// complex path misses the points at which two of them meet (coefficient-parameter continuation,
+/// Sommese and Wampler 2005). So the real ones among the ends of all paths to a theta_r are all
+/// postures there.
 ///
-/// The first solution is a real one, found by a damped Newton's method from the guess or from
-/// random places. The others come by monodromy: all known ones are carried around a random loop in
-/// (theta_r, X), which starts where the end effector stands by the first solution; at its end they
-/// have changed places, and some stand at new ones. The set {(theta_r, y)} that the equations
-/// describe for all X together is connected, as it is a product of lines, so loops lead from each
-/// solution to each other one. When many loops in a row found nothing the list counts as complete.
+/// The first solution is real. A damped Newton's method finds it from the guess or from random
+/// points. The others come by monodromy. A loop is a random closed path of theta_r, or of theta_r
+/// and X. All known solutions are tracked around it; at its end they are permuted, and some have
+/// become new solutions. The set {(theta_r, y)} of all X together is a product of lines and
+/// therefore connected, so loops lead from each solution to every other one. The list counts as
+/// complete after several loops in a row without a new solution.
 class IkStartSystem {
  public:
   explicit IkStartSystem(const Problem& problem);
 
-  /// Whether it is that of this problem: chain, pose and limits of theta_r are the same.
+  /// Whether this is the start system of the problem: chain, pose and limits of theta_r are the
+  /// same.
   bool serves(const Problem& problem) const;
 
   const ToolChain& chain() const { return chain_; }
   const Pose<double>& pose() const { return pose_; }
-  /// Whether a posture is known that reaches the pose.
+  /// Whether a posture that reaches the pose is known.
   bool reaches() const { return first_.has_value(); }
-  /// theta_r and y of the posture that all others come from.
+  /// theta_r and the real solutions there from which all others were found.
   const IkSolutionSet& first() const { return *first_; }
-  /// How many solutions there are, real or not.
+  /// The number of solutions, real or not.
   int solutions() const { return static_cast<int>(generic_.size()); }
 
-  /// All solutions at theta_r, by ways from the place in general position.
+  /// All solutions at theta_r, by paths from the theta_r in general position.
   void go_from_generic(const Eigen::VectorXd& theta_r, PathTracker& tracker,
                        IkSolutionSet& node) const;
-  /// The real places, spread evenly over the limits of theta_r; each is computed when it is asked
-  /// for first, by any thread.
+  /// The nodes at real theta_r, spread evenly over the limits. Each is computed at its first use,
+  /// by any thread.
   int nodes() const { return static_cast<int>(places_.size()); }
   const Eigen::VectorXd& place(int i) const { return places_[static_cast<std::size_t>(i)]; }
   const IkSolutionSet& node(int i) const;
@@ -73,7 +74,7 @@ class IkStartSystem {
   ToolChain chain_;
   Pose<double> pose_;
   Eigen::VectorXd theta_r_min_, theta_r_max_;
-  Six<double> middle_{}, reach_{};  ///< where y is looked for
+  Six<double> middle_{}, reach_{};  ///< the range in which y is searched
   std::optional<IkSolutionSet> first_;
   VectorX<Complex> generic_theta_r_;
   std::vector<Six<Complex>> generic_;
@@ -81,7 +82,7 @@ class IkStartSystem {
   std::unique_ptr<Lazy[]> lazy_;
 };
 
-/// That of the problem if it serves, else a new one.
+/// The problem's start system if it is valid for the problem, else a new one.
 std::shared_ptr<const IkStartSystem> serving_start_system(const Problem& problem);
 
 }  // namespace maxwrench

@@ -7,9 +7,9 @@
 namespace maxwrench {
 namespace {
 
-/// [rad or m] The imaginary part of a solution that may be real.
+/// [rad or m] A solution whose imaginary part is below this may be real.
 constexpr double kAlmostReal = 1e-6;
-/// [rad or m] Two ends this close may be one that was reached twice.
+/// [rad or m] Two ends closer than this may be the same solution reached twice.
 constexpr double kTwice = 1e-7;
 
 double largest_imaginary(const Six<Complex>& y) {
@@ -18,7 +18,8 @@ double largest_imaginary(const Six<Complex>& y) {
   return most;
 }
 
-/// Its sign tells a solution from its conjugate; weights that no symmetry of a robot makes cancel.
+/// The sign differs between a solution and its conjugate. The weights are such that no symmetry of
+/// a robot makes the sum cancel.
 double side(const Six<Complex>& y) {
   static constexpr Six<double> kWeights = {1, 0.62, 0.37, 0.83, 0.29, 0.51};
   double sum = 0;

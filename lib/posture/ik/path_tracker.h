@@ -7,22 +7,23 @@
 
 namespace maxwrench {
 
-/// What carries solutions along ways to a real theta_r; of one thread.
+/// Tracks solutions along paths to a real theta_r. Not thread-safe: use one tracker for each
+/// thread.
 class PathTracker {
  public:
-  /// The chain outlives this.
+  /// The chain must outlive this object.
   PathTracker(const ToolChain& chain, const Pose<double>& pose);
   PathTracker(const ToolChain&&, const Pose<double>&) = delete;
 
   HomotopyPath<Complex>& path() { return path_; }
   void begin() { ends_.clear(); }
-  /// Carries a solution along the way.
+  /// Tracks a solution along the path and keeps its end.
   void carry(const Six<Complex>& y);
-  /// Sorts the ends into real solutions, exact to rounding, and pairs; whether they are `count`
-  /// different ones, all accounted for.
+  /// Sorts the ends into real solutions, exact up to rounding, and pairs. True if there are `count`
+  /// different ends, none of them unpaired.
   bool finish(int count, IkSolutionSet& node);
-  /// The same without a detour: a real solution stays real, and pairs stay apart; false: they do
-  /// not. At the start `node` holds the solutions of another theta_r.
+  /// The same along the straight line from `from`. At the start `node` holds the solutions at
+  /// `from`. False unless every real solution stays real and the pairs stay apart.
   bool track_straight(const Eigen::VectorXd& from, IkSolutionSet& node);
 
  private:
@@ -41,16 +42,15 @@ Pose<Complex> complex_of(const Pose<double>& pose);
 /// [rad or m] Solutions closer than this are the same.
 inline constexpr double kSameSolution = 1e-6;
 
-/// How far two solutions are from each other [rad or m], the largest of all y; whole turns do not
-/// count.
+/// The distance of two solutions [rad or m], the largest over all y. Whole turns do not count.
 template <class T>
 double apart(const ToolChain& chain, const Six<T>& a, const Six<T>& b);
 
-/// Whether one of the list is the same as y.
+/// Whether the list contains a solution that is the same as y.
 template <class T>
 bool contains(const ToolChain& chain, const std::vector<Six<T>>& list, const Six<T>& y);
 
-/// Brings angles between -pi and pi.
+/// Moves angles into [-pi, pi] by whole turns.
 template <class T>
 void wrap(const ToolChain& chain, Six<T>& y);
 

@@ -91,7 +91,7 @@ void SecondArm::follow(const Vector3d& p_e, const Matrix6Xd& J, const Matrix6Xd&
     const Vector3d v = J.col(axes + k).head<3>(), w = J.col(axes + k).tail<3>();
     q_gradient[k] += mu_.head<3>().dot(v + w.cross(r)) + mu_.tail<3>().dot(w);
   }
-  // J_2 as a function of the contact point: column i grows by w_i × dp.
+  // J_2 as a function of the contact point: column i changes by w_i × dp.
   Vector3d by_point = mu_.head<3>();
   for (Eigen::Index i = 0; i < J2_seed.cols(); ++i) {
     if (!second_[static_cast<std::size_t>(i)]) continue;

@@ -41,7 +41,8 @@ void ToolChain::add(const Pose<double>& placement, const Eigen::Vector3d& axis, 
   behind_ = onto_axis.inverse();
 }
 
-/// D(s)^-1 behind the end effector, so that the chain ends at X_0: X_e(theta_r, y) D(s)^-1 = X_0.
+/// Appends D(s)^-1 after the end effector, so that the chain ends at X_0: X_e(theta_r, y) D(s)^-1 =
+/// X_0.
 void ToolChain::add_free(const FreePose& free) {
   const auto add_axis = [&](int axis) {
     const auto found = std::find(free.axes.begin(), free.axes.end(), axis);
@@ -57,7 +58,7 @@ void ToolChain::add_free(const FreePose& free) {
   parameters_ += free.count();
 }
 
-/// The last coordinate is the next y.
+/// Makes the last coordinate the next y.
 void ToolChain::follows(int place_in_z) {
   coordinates_.back().unknown = unknowns();
   places_.push_back(static_cast<int>(coordinates_.size()) - 1);

@@ -10,24 +10,24 @@ namespace maxwrench {
 struct FreePose;
 struct Problem;
 
-/// Of up to six numbers y that follow from theta_r.
+/// Up to six dependent coordinates y.
 template <class T>
 using Six = std::array<T, 6>;
 
-/// The end effector at (theta_r, y), in world axes.
+/// The state of the end effector at (theta_r, y), in world axes.
 template <class T>
 struct ToolState {
   Pose<T> pose;
-  Six<Vector6<T>> J;                      ///< [m; rad], twist by each y
-  Vector6<T> twist;                       ///< by the rates
+  Six<Vector6<T>> J;                      ///< [m; rad], the twist per unit rate of each y
+  Vector6<T> twist;                       ///< due to the rates
   std::vector<Vector3<T>> axes, origins;  ///< of the coordinates
 };
 
-/// The way from the world to the end effector: free base axes and joints, each of which turns about
-/// or slides along the z axis of its own frame. y are the base axes and the dependent joints, d <=
-/// 6 in the order of the chain; theta_r, r of them, are the other joints and the free coordinates
-/// of the end effector's pose, whose inverse ends the chain. A template on the scalar: double or
-/// Complex.
+/// The chain from the world to the end effector: free base axes and joints. Each turns about or
+/// slides along the z axis of its own frame. y are the base axes and the dependent joints, d <= 6
+/// in the order of the chain. theta_r, r numbers, are the other joints and the free coordinates of
+/// the end effector's pose; the chain ends with the inverse of these coordinates. `evaluate` is a
+/// template on the scalar: double or Complex.
 class ToolChain {
  public:
   explicit ToolChain(const Problem& problem);
@@ -39,13 +39,13 @@ class ToolChain {
     const int place = places_[static_cast<std::size_t>(i)];
     return coordinates_[static_cast<std::size_t>(place)].turns;
   }
-  /// The place of y_i in z = [x, y, z, yaw of the base; all joints].
+  /// The index of y_i in z = [x, y, z, yaw of the base; all joints].
   int place_in_z(int i) const { return in_z_[static_cast<std::size_t>(i)]; }
 
-  /// Whether all coordinates are the same.
+  /// Whether all coordinates of both chains are the same.
   bool operator==(const ToolChain& other) const;
 
-  /// Fills `state`. `theta_r_rate` and `y_rate` may be null: they are zero.
+  /// Fills `state`. A null `theta_r_rate` or `y_rate` counts as zero.
   template <class T>
   void evaluate(const T* theta_r, const T* y, const T* theta_r_rate, const T* y_rate,
                 ToolState<T>& state) const;
@@ -54,7 +54,7 @@ class ToolChain {
   struct Coordinate {
     Pose<double> placement;  ///< from the frame before
     bool turns = true;
-    int unknown = -1, parameter = -1;  ///< its number in y or in theta_r
+    int unknown = -1, parameter = -1;  ///< its index in y or in theta_r
   };
 
   void add(const Pose<double>& placement, const Eigen::Vector3d& axis, bool turns);
@@ -62,9 +62,9 @@ class ToolChain {
   void follows(int place_in_z);
 
   std::vector<Coordinate> coordinates_;
-  std::vector<int> places_, in_z_;  ///< of y in coordinates_ and in z
+  std::vector<int> places_, in_z_;  ///< indices of y in coordinates_ and in z
   int parameters_ = 0;
-  Pose<double> behind_;  ///< from the last frame to what comes next, at last the end effector
+  Pose<double> behind_;  ///< from the last frame to the next one, finally to the end effector
 };
 
 }  // namespace maxwrench
