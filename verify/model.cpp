@@ -120,10 +120,10 @@ FormModel::Place FormModel::place_of(std::size_t joint) const {
 void FormModel::weigh_links() {
   const Robot& robot = problem_.robot;
   for (const Link& link : robot.links) {
-    const Wide deflection_error = exact_product(robot.water_density, link.volume);
-    mass_.push_back(Wide(link.mass) - deflection_error);
+    const Wide displaced_mass = exact_product(robot.water_density, link.volume);
+    mass_.push_back(Wide(link.mass) - displaced_mass);
     moment_.push_back(Form(shape_, Wide(link.mass)) * constant(link.com) -
-                      Form(shape_, deflection_error) * constant(link.cob));
+                      Form(shape_, displaced_mass) * constant(link.cob));
   }
   const Wide lift(robot.trim.buoyancy_mass);
   mass_[0] -= lift;

@@ -1,6 +1,6 @@
 #!/bin/sh
 #SBATCH --job-name=maxwrench
-# part.sh PLAN OUT N: one part of an array job. It goes on with the rows that it finds; if its process dies, it queues itself again, three
+# part.sh SUITE OUT N: one part of an array job. It goes on with the rows that it finds; if its process dies, it queues itself again, three
 # times at most. Exit status 1 says that some rows have no value, which is a result.
 suite=$1 out=$2 parts=$3
 status=0

@@ -1,10 +1,10 @@
 #!/bin/sh
-# submit.sh PLAN OUT N: runs a suite as N parts on Slurm and merges their rows into OUT when all are done.
+# submit.sh SUITE OUT N: runs a suite as N parts on Slurm and merges their rows into OUT when all are done.
 # Options of sbatch for the parts, such as a partition or a time, come from the environment (SBATCH_PARTITION, SBATCH_TIMELIMIT, ...).
-# Without Slurm: seq N | parallel maxwrench run PLAN --shard {}/N --threads 1 --out OUT/shards/{}; maxwrench merge OUT OUT/shards/*
-# and maxwrench run PLAN --dry --out OUT, which counts what is missing.
+# Without Slurm: seq N | parallel maxwrench run SUITE --shard {}/N --threads 1 --out OUT/shards/{}; maxwrench merge OUT OUT/shards/*
+# and maxwrench run SUITE --dry --out OUT, which counts what is missing.
 set -eu
-[ $# -eq 3 ] || { echo "submit.sh: got $# words, expected PLAN OUT N" >&2; exit 2; }
+[ $# -eq 3 ] || { echo "submit.sh: got $# words, expected SUITE OUT N" >&2; exit 2; }
 suite=$1 out=$2 parts=$3
 here=$(cd "$(dirname "$0")" && pwd)
 mkdir -p "$out/shards"

@@ -40,7 +40,7 @@ struct Results {
   /// How many rows of times.csv each version made.
   std::map<std::string, long> versions;
   std::string machine;  ///< machine.txt, if it is there
-  std::string suite;    ///< plan.toml, if it is there
+  std::string suite;    ///< suite.toml, if it is there
 };
 
 /// Reads values.csv, which must be there unless a race is, times.csv, and the files of a race.

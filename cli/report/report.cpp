@@ -71,7 +71,7 @@ void describe(const Results& results, const std::string& mark, PageHead& head) {
   head.facts.emplace_back("folder" + mark, results.folder.string());
   head.facts.emplace_back("version" + mark, versions_of(results));
   head.facts.emplace_back("machine" + mark, fact_of(results, "processor") + ", " +
-                                                fact_of(results, "inscribed_boxes") + " cores");
+                                                fact_of(results, "cores") + " cores");
   head.facts.emplace_back("rows" + mark, extent_of(results.rows));
   if (!results.suite.empty()) head.texts.emplace_back("suite" + mark, results.suite);
   if (!results.machine.empty()) head.texts.emplace_back("machine.txt" + mark, results.machine);

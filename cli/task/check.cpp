@@ -79,7 +79,7 @@ void print_dependents(const Problem& problem) {
     const Joint& joint = problem.robot.joints[i];
     const bool inside =
         q[i] >= joint.q_min - kLimitTolerance && q[i] <= joint.q_max + kLimitTolerance;
-    fmt::print("  follows {:<17} {:g} .. {:g}, at the default {:g}{}\n", joint.name, joint.q_min,
+    fmt::print("  dependent {:<15} {:g} .. {:g}, at the default {:g}{}\n", joint.name, joint.q_min,
                joint.q_max, q[i], inside ? "" : ", beyond its limits");
   }
   fmt::print("  {}\n", problem.robot.base_axes.empty()

@@ -147,12 +147,12 @@ void Dynamics::set_twist_rates(const Eigen::VectorXd& velocity,
   twist_rates_[0] = base_twist(acceleration);
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const auto k = base + static_cast<Eigen::Index>(i);
-    const Screw& tracker = twists_[robot_->joints[i].parent];
+    const Screw& carrier = twists_[robot_->joints[i].parent];
     const Screw& parent = twist_rates_[robot_->joints[i].parent];
     const Screw& axis = axes_[i];
-    const Eigen::Vector3d turned = tracker.angular.cross(axis.angular);
+    const Eigen::Vector3d turned = carrier.angular.cross(axis.angular);
     const Eigen::Vector3d swept =
-        tracker.angular.cross(axis.linear) + tracker.linear.cross(axis.angular);
+        carrier.angular.cross(axis.linear) + carrier.linear.cross(axis.angular);
     twist_rates_[i + 1] = {parent.linear + axis.linear * acceleration[k] + swept * velocity[k],
                            parent.angular + axis.angular * acceleration[k] + turned * velocity[k]};
   }

@@ -45,9 +45,9 @@ DynamicsSlopes::DynamicsSlopes(const Robot& robot)
   for (const Link& link : robot.links) inertia_.push_back(link_inertia(link));
   carries_.setConstant(false);
   for (int link = 0; link < static_cast<int>(robot.links.size()); ++link) {
-    int tracker = link;
-    for (; tracker != 0; tracker = robot.joints[static_cast<std::size_t>(tracker - 1)].parent) {
-      carries_(tracker, link) = true;
+    int carrier = link;
+    for (; carrier != 0; carrier = robot.joints[static_cast<std::size_t>(carrier - 1)].parent) {
+      carries_(carrier, link) = true;
     }
     carries_(0, link) = true;
   }

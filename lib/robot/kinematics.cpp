@@ -17,9 +17,9 @@ Kinematics<T>::Kinematics(const Robot& robot) : robot_(&robot) {
   }
   links_.resize(robot.links.size());
   for (const Link& link : robot.links) {
-    const double deflection_error = robot.water_density * link.volume;
-    link_mass_.push_back(link.mass - deflection_error);
-    link_moment_.push_back(link.mass * link.com - deflection_error * link.cob);
+    const double displaced_mass = robot.water_density * link.volume;
+    link_mass_.push_back(link.mass - displaced_mass);
+    link_moment_.push_back(link.mass * link.com - displaced_mass * link.cob);
   }
   link_mass_[0] -= robot.trim.buoyancy_mass;
   link_moment_[0] -= robot.trim.buoyancy_mass * robot.trim.position;

@@ -40,7 +40,7 @@ PostureController::PostureController(const Problem& problem, const Posture& post
   }
 }
 
-double PostureController::drift(const Motion& motion) const {
+double PostureController::theta_r_error(const Motion& motion) const {
   double worst = 0;
   for (const int joint : problem_.redundant) {
     worst = std::max(worst, std::abs(reference_.q[joint] - motion.q[joint]));

@@ -29,7 +29,7 @@ class PostureController {
 
   EffortTracker& tracker() { return tracker_; }
   /// max |theta_r - its reference|.
-  double drift(const Motion& motion) const;
+  double theta_r_error(const Motion& motion) const;
   /// The largest deviation of a joint or of the base from its reference [rad, m].
   double moved(const Motion& motion) const;
 

@@ -122,7 +122,7 @@ class Experiment {
     sample.h_e = ode_.wrench(t, motion_);
     if (options_.load > 0) sample.h_e += target_.h + inertia_force(t);
     sample.reading = problem_.c.dot(sample.h_e);
-    sample.theta_r_error = controller_.drift(motion_);
+    sample.theta_r_error = controller_.theta_r_error(motion_);
     sample.configuration_error = controller_.moved(motion_);
     const Vector6d displacement = ode_.displacement(t, motion_);
     sample.position_error = displacement.head<3>().norm();

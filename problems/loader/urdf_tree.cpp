@@ -38,13 +38,13 @@ Eigen::Matrix3d inertia_of(const UrdfElement& given) {
 }
 
 /// Adds a body to the link that carries it.
-void add_inertial(Link& tracker, const std::string& name, const UrdfElement& inertial,
+void add_inertial(Link& carrier, const std::string& name, const UrdfElement& inertial,
                   const Pose<double>& body) {
   const Pose<double> frame = body * origin_of(inertial);
   const double mass = inertial.child("mass").number("value");
   const Eigen::Matrix3d inertia = inertia_of(inertial.child("inertia"));
   require_body(name, mass, inertia);
-  if (mass > 0) add_body(tracker, mass, frame.p, frame.R * inertia * frame.R.transpose());
+  if (mass > 0) add_body(carrier, mass, frame.p, frame.R * inertia * frame.R.transpose());
 }
 
 Shape shape_of(const UrdfElement& collision) {

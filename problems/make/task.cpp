@@ -30,7 +30,7 @@ void require_final(const Robot& robot) {
 
 void set_wrench(const TaskSpec& task, Problem& problem) {
   if (task.wrench_in_end_effector && problem.motion && problem.motion->impulse) {
-    throw BadValue("wrench.frame", "'tool'", "'world': in an impulse the pose stays");
+    throw BadValue("wrench.frame", "'end_effector'", "'world': in an impulse the pose stays");
   }
   if (task.wrench_in_end_effector) problem.wrench_axes = problem.pose.R;
   const Eigen::VectorXd c = task.c;

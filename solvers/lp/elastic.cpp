@@ -10,7 +10,7 @@ namespace maxwrench {
 namespace {
 
 /// The least violation that counts as infeasible, relative to 1 + |b|.
-constexpr double kInfeasible = 1e-7;
+constexpr double kFeasibility = 1e-7;
 
 }  // namespace
 
@@ -98,7 +98,7 @@ void prove_no_optimum(const LinearProgram& program, const LpRun& run, LpSolution
   const bool feasibility_known = run(relaxed, proof);
   solution.iterations = iterations + proof.iterations;
   const double size = program.rows() == 0 ? 0 : program.b.lpNorm<Eigen::Infinity>();
-  if (feasibility_known && relaxed.c.dot(proof.x) < -kInfeasible * (1 + size)) {
+  if (feasibility_known && relaxed.c.dot(proof.x) < -kFeasibility * (1 + size)) {
     // The elastic optimum is lambda'b less sup {lambda'A x}, so -lambda points out of the
     // reachable set.
     solution.certificate = -proof.lambda;

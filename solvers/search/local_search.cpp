@@ -21,7 +21,7 @@ Candidate draw_start(Probe& probe, const Box& box, const SearchOptions& options,
   return start;
 }
 
-/// Climb number `optimise`, with all that the probe has left.
+/// Local search number `optimise`, with all that the probe has left.
 Part optimise_once(Probe& probe, const Box& box, const SearchOptions& options,
                    const LocalSearch& local_search, long optimise) {
   Random random(options.seed, RandomUse::kLocalSearch, static_cast<std::uint64_t>(optimise));

@@ -74,7 +74,7 @@ bool Elimination::invert(const WrenchProgram& program) {
     for (int i = step; i < 6; ++i) best = std::max(best, std::abs(A(i, step)));
     if (step < k && !(best > kSingular * largest)) return false;
     if (!(best > kWellConditioned * largest)) steps_ = 2;
-    // A search for the largest entry is an IK solution that no processor foresees; exchange only
+    // A search for the largest entry is a branch that no processor predicts; exchange only
     // what is bad.
     int pivot = step;
     if (std::abs(A(step, step)) < kDiagonal * best) {

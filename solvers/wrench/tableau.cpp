@@ -117,7 +117,7 @@ void Tableau::read() {
   }
 }
 
-/// The first row with the highest score, -1 if none is above `least`. No IK solutions: which row it
+/// The first row with the highest score, -1 if none is above `least`. No branches: which row it
 /// is is a matter of chance.
 int Tableau::highest(double least) const {
   double most[kScores] = {least, least, least, least};
@@ -214,7 +214,7 @@ int Tableau::leaving(int i, double& gap, bool first) {
   const double side = gap > 0 ? 1 : -1;
   const double* const y = T(rows_);
   const double* const row = T(i);
-  // No IK solutions here and below: which positions block is a matter of chance.
+  // No branches here and below: which positions block is a matter of chance.
   for (int j = 0; j < stride_; ++j) {
     const double a = side * side_[j] * row[j];
     const double ratio = std::max(side_[j] * y[j], 0.0) / a;

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# run.sh MAXWRENCH [PLAN]: a suite in 4 parts on a Slurm of one node, which this starts and ends itself, as plain daemons. The process of one part is killed
+# run.sh MAXWRENCH [SUITE]: a suite in 4 parts on a Slurm of one node, which this starts and ends itself, as plain daemons. The process of one part is killed
 # once. The merged rows must be those of one machine, byte for byte.
 set -euo pipefail
 [ "$(id -u)" -eq 0 ] || { echo "skipped: Slurm's daemons need root"; exit 0; }
