@@ -9,7 +9,7 @@
 namespace maxwrench {
 namespace {
 
-/// The least violation that counts as infeasible, relative to 1 + |b|.
+/// The smallest violation that counts as infeasible, relative to 1 + |b|.
 constexpr double kInfeasible = 1e-7;
 
 }  // namespace
@@ -99,8 +99,8 @@ void prove_no_optimum(const LinearProgram& program, const LpRun& run, LpSolution
   solution.iterations = iterations + proof.iterations;
   const double size = program.rows() == 0 ? 0 : program.b.lpNorm<Eigen::Infinity>();
   if (feasibility_known && relaxed.c.dot(proof.x) < -kInfeasible * (1 + size)) {
-    // The elastic optimum is lambda'b less sup {lambda'A x}, so -lambda points out of the
-    // reachable set.
+    // The elastic optimum is lambda'b less sup {lambda'A x}, so -lambda points out of the reachable
+    // set.
     solution.certificate = -proof.lambda;
     drop_rounding(solution.certificate);
     give_up(solution, Status::kInfeasible, "no x satisfies the rows within its bounds");

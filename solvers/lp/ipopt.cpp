@@ -16,7 +16,7 @@ using Ipopt::Number;
 /// Beyond this an Ipopt bound is infinite (its default nlp_*_bound_inf).
 constexpr double kIpoptInfinity = 1e19;
 
-/// min -c'x subject to A x = b, l <= x <= u, as Ipopt wants it.
+/// min -c'x subject to A x = b, l <= x <= u, in the form that Ipopt requires.
 class LinearNlp : public Ipopt::TNLP {
  public:
   LinearNlp(const LinearProgram& program, Eigen::VectorXd start)
@@ -108,7 +108,7 @@ class IpoptSolver : public LpSolver {
   IpoptSolver() = default;
   IpoptSolver(const IpoptSolver&) = delete;
   IpoptSolver& operator=(const IpoptSolver&) = delete;
-  /// The application ends its MUMPS, in memory that MUMPS shares with those of other threads.
+  /// Destroying the application ends its MUMPS, whose memory other threads share.
   ~IpoptSolver() override {
     const std::lock_guard guard(ipopt_lock());
     application_ = nullptr;
@@ -133,7 +133,7 @@ class IpoptSolver : public LpSolver {
   }
 
  private:
-  /// Interior points end close to a vertex, not on it.
+  /// Interior point methods end near a vertex, not exactly at it.
   static constexpr double kAccepted = 1e-6;
 
   bool run(const LinearProgram& program, LpSolution& solution) {
@@ -159,11 +159,11 @@ class IpoptSolver : public LpSolver {
     options->SetNumericValue("tol", 1e-10);
     options->SetNumericValue("bound_relax_factor", 0);
     options->SetStringValue("mehrotra_algorithm", "yes");
-    // Its restoration phase has no affine step to correct, and would follow a null pointer.
+    // The restoration phase has no affine step to correct, and would dereference a null pointer.
     options->SetStringValue("resto.mehrotra_algorithm", "no");
     options->SetStringValue("jac_c_constant", "yes");
     options->SetStringValue("hessian_constant", "yes");
-    options->SetIntegerValue("max_iter", 150);  // Netlib's programs take 10 to 55
+    options->SetIntegerValue("max_iter", 150);  // the programs of Netlib take 10 to 55
     options->SetIntegerValue("mumps_pivot_order", kMumpsOrdering);
     application_->Initialize("");
   }

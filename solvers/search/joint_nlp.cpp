@@ -17,9 +17,10 @@ using Ipopt::Number;
 constexpr std::size_t kJointStarts = 4;
 constexpr int kJointIterations = 200;
 
-/// A `JointProgram` as Ipopt wants it. The table of every iterate is evaluated as any search does,
-/// so what is found was found by the lower level and not by Ipopt's tolerances. An evaluation is
-/// one of these or one of the rows; the rows are computed once more after each of the former.
+/// A `JointProgram` in the form that Ipopt requires. The table of every iterate is evaluated like
+/// that of any search, so results come from the lower level and do not depend on Ipopt's
+/// tolerances. Evaluating a table counts as one evaluation, and so does evaluating the rows. The
+/// rows are computed once more after each table.
 class JointNlp : public Ipopt::TNLP {
  public:
   JointNlp(Objective& objective, JointProgram& program, long budget, SearchRun& run, Part& found)
@@ -77,7 +78,7 @@ class JointNlp : public Ipopt::TNLP {
   void finalize_solution(Ipopt::SolverReturn, Index, const Number*, const Number*, const Number*,
                          Index, const Number*, const Number*, Number, const Ipopt::IpoptData*,
                          Ipopt::IpoptCalculatedQuantities*) override {
-    // `found` has the best table.
+    // `found` holds the best table.
   }
 
   void rethrow() { caught_.rethrow(); }
@@ -111,7 +112,7 @@ class JointNlp : public Ipopt::TNLP {
     });
   }
 
-  /// What the lower level makes of the table of an iterate.
+  /// Evaluates the table of an iterate by the lower level.
   bool judge() {
     return caught_.run(false, [&] {
       if (left() == 0) return false;
@@ -119,7 +120,7 @@ class JointNlp : public Ipopt::TNLP {
       const double value = run_.evaluate(objective_, x);
       found_.trace.add(value);
       if (value > found_.best.value) found_.best = {x, value};
-      program_.evaluate(X_);  // the lower level has moved the evaluator's motion
+      program_.evaluate(X_);  // the lower level has changed the evaluator's motion
       return true;
     });
   }
@@ -133,9 +134,10 @@ class JointNlp : public Ipopt::TNLP {
   Caught caught_;
 };
 
-/// The trajectory, its efforts and its wrenches in one nonlinear program (`JointProgram`) by Ipopt
-/// with exact sparse first derivatives, from the starts of `slp`, one after the other behind
-/// Ipopt's lock. It does not see collisions: a trajectory that collides counts for nothing.
+/// The trajectory, its efforts and its wrenches in one nonlinear program (`JointProgram`), solved
+/// by Ipopt with exact sparse first derivatives. It starts from the starts of `slp`, one after the
+/// other under Ipopt's lock. The program does not contain collisions: a trajectory that collides
+/// has no value.
 class JointNlpSearch : public Search {
  public:
   SearchResult maximize(Objective& given, const SearchOptions& options) override {
@@ -149,8 +151,8 @@ class JointNlpSearch : public Search {
       const auto later = static_cast<long>(std::min(starts.size(), kJointStarts) - i);
       const long before = found.trace.evaluations(), left = options.budget - before;
       if (left < kFewestOfLocalSearch || run.ended()) break;
-      // A local search of its own copy: its path is that of what it evaluates, not of what was
-      // before.
+      // Each local search has its own copy of the objective, so its path depends only on its own
+      // evaluations.
       optimise(*objective.copy(objective.counts()), starts[i],
                before + std::max(kFewestOfLocalSearch, left / later), run, found);
       run.add(found.trace.evaluations() - before);

@@ -19,8 +19,9 @@ using Ipopt::Number;
 constexpr int kPostureIterations = 40;
 constexpr int kTrajectoryIterations = 200;
 
-/// min -f(theta_r(x)) subject to 0 <= x <= 1, with the exact gradient, and of a trajectory to the
-/// rows of its knots. Where f has no value, Ipopt is told so and shortens its step.
+/// min -f(theta_r(x)) subject to 0 <= x <= 1 with the exact gradient; for a trajectory, also
+/// subject to the rows of its knots. Where f has no value, Ipopt gets a failure code and shortens
+/// its step.
 class BoundedNlp : public Ipopt::TNLP {
  public:
   BoundedNlp(Probe& probe, const Box& box, Eigen::VectorXd start, const KnotRows* rows = nullptr)
@@ -93,10 +94,10 @@ class BoundedNlp : public Ipopt::TNLP {
   void finalize_solution(Ipopt::SolverReturn, Index, const Number*, const Number*, const Number*,
                          Index, const Number*, const Number*, Number, const Ipopt::IpoptData*,
                          Ipopt::IpoptCalculatedQuantities*) override {
-    // The probe has kept the best point.
+    // The probe has stored the best point.
   }
 
-  /// What the objective threw; Ipopt would keep it to itself.
+  /// Rethrows an exception of the objective, which Ipopt would suppress.
   void rethrow() { caught_.rethrow(); }
 
  private:
@@ -104,7 +105,8 @@ class BoundedNlp : public Ipopt::TNLP {
     return caught_.run(false, [&] { return evaluate(n, x); });
   }
 
-  /// Value and gradient at x, once for each point: Ipopt asks for them one after the other.
+  /// Value and gradient at x, computed once for each point: Ipopt requests them one after the
+  /// other.
   bool evaluate(Index n, const Number* x) {
     const Eigen::Map<const Eigen::VectorXd> point(x, n);
     if (x_.size() != n || x_ != point) {
@@ -119,14 +121,14 @@ class BoundedNlp : public Ipopt::TNLP {
   Probe& probe_;
   const Box& box_;
   const Eigen::VectorXd start_;
-  Eigen::SparseMatrix<double> R_;  ///< rows on x; none unless of a trajectory
+  Eigen::SparseMatrix<double> R_;  ///< rows on x; empty except for a trajectory
   Eigen::VectorXd r_min_, r_max_;
   Eigen::VectorXd x_, gradient_, slope_;
   double value_ = -kInfinity;
   Caught caught_;
 };
 
-/// One solve from `start`, and Ipopt's word for its end.
+/// One solve from `start`; returns Ipopt's status.
 std::string solve_by_ipopt(Probe& probe, const Box& box, const Eigen::VectorXd& start,
                            int iterations, const KnotRows* rows = nullptr) {
   const std::lock_guard guard(ipopt_lock());
@@ -146,12 +148,12 @@ void optimise_by_ipopt(Probe& probe, const Box& box, const Eigen::VectorXd& thet
 namespace {
 
 /// Local solves by Ipopt (interior point, limited-memory quasi-Newton, exact gradient) from many
-/// random points: what fmincon with MultiStart does. One start for each 500 evaluations of the
-/// budget and at most 64, for a start costs far more time than its evaluations; they run one after
-/// the other behind one lock. Where the objective has a kink the line search gives up.
+/// random points, like fmincon with MultiStart. There is one start for each 500 evaluations of the
+/// budget, at most 64, because a start takes far more time than its evaluations. The solves run one
+/// after the other under one lock. At a kink of the objective, the line search fails.
 ///
-/// Of a trajectory it is the paper's bilevel method: from the best of the drawn tables, or where an
-/// earlier search has been, one start after the other, subject to the rows of the knots.
+/// For a trajectory it is the paper's bilevel method: from the best of the drawn tables, or from
+/// points of an earlier search, one start after the other, subject to the rows of the knots.
 class Multistart final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {

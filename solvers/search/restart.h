@@ -17,10 +17,11 @@ constexpr long restart_budget(int d) { return 500L * (d + 1); }
 /// runs are enough if this exceeds w by less than half an optimum.
 bool enough_restarts(long runs, long optima);
 
-/// Runs a search repeatedly with seeds of its own, each time with `restart_budget` and a random
-/// start, until `enough_restarts` or until the budget is used; `stopped` of the result says which.
-/// Values that differ by less than 1e-6 (1 + |f|) count as one optimum. Parallel runs count as if
-/// they took turns, so the result does not depend on the threads.
+/// Runs a search repeatedly, each time with `restart_budget`. The first run has the search's own
+/// seed and start; every other run has its own seed and a random start. Ends when the budget is
+/// used, or at `enough_restarts`; then `stopped` of the result says so. Values that differ by less
+/// than 1e-6 (1 + |f|) count as one optimum. Parallel runs count as if they took turns, so the
+/// result does not depend on the threads.
 std::unique_ptr<Search> make_restart(const NamedSearch& of);
 
 }  // namespace maxwrench
