@@ -21,7 +21,8 @@
 namespace maxwrench {
 namespace {
 
-/// How a row without a value may have ended; that of a search not by a verdict of the lower level.
+/// The valid statuses of a row without a value. A search does not end with a verdict of the lower
+/// level.
 constexpr Status kNoValue[] = {Status::kInfeasible,     Status::kUnbounded,
                                Status::kInvalidPosture, Status::kNumericalError,
                                Status::kNoneFound,      Status::kBudgetExhausted};
@@ -32,7 +33,7 @@ struct RowOf {
   std::size_t row;
 
   const std::string& text(const char* column) const { return csv.text(row, column); }
-  /// Numbers that are separated by blanks.
+  /// Numbers separated by blanks.
   Eigen::VectorXd vector(const char* column) const {
     std::istringstream words(text(column));
     std::vector<double> all;
@@ -48,7 +49,7 @@ struct RowOf {
   }
 };
 
-/// Its own efforts, wrench and multipliers, in a posture.
+/// Checks the row's own efforts, wrench and multipliers in a posture.
 std::string reject_efforts(const Problem& problem, Wrench wrench, const Posture& posture,
                            const RowOf& claim, double beta) {
   WrenchProgram program = make_wrench_program(problem, wrench);
@@ -67,8 +68,8 @@ std::string reject_efforts(const Problem& problem, Wrench wrench, const Posture&
       own.balance, own.bounds, own.dual, own.gap);
 }
 
-/// The same in the best posture at theta_r, or in another one: which of two that are worth the same
-/// is chosen hangs on rounding.
+/// The same in the best posture at theta_r, or in another one: if two have the same value, rounding
+/// decides which is chosen.
 std::string reject_own(const Problem& problem, const Answer& anew, const RowOf& claim,
                        double beta) {
   const Wrench wrench = anew.choice.wrench;
@@ -82,7 +83,7 @@ std::string reject_own(const Problem& problem, const Answer& anew, const RowOf& 
   return why;
 }
 
-/// A number beside the value, such as its beta_linf, which may be none.
+/// Checks a number that accompanies the value, such as beta_linf, which may be empty.
 std::string reject_other(const RowOf& claim, const char* column, double anew) {
   const std::optional<double> claimed = claim.csv.number(claim.row, column);
   const bool same = std::isfinite(anew) ? claimed && std::abs(*claimed - anew) <=
@@ -93,7 +94,7 @@ std::string reject_other(const RowOf& claim, const char* column, double anew) {
                              : fmt::format("{}: its posture has none", column);
 }
 
-/// Numbers that are those of the same posture evaluated anew.
+/// Checks that the numbers are those of a new evaluation of the same posture.
 std::string reject_numbers(const RowOf& claim, const char* column, const Eigen::VectorXd& anew) {
   const Eigen::VectorXd claimed = claim.vector(column);
   if (claimed.size() != anew.size()) {
@@ -105,7 +106,7 @@ std::string reject_numbers(const RowOf& claim, const char* column, const Eigen::
   return same ? "" : fmt::format("{}: its posture has others", column);
 }
 
-/// The residual that the row claims is that of its answer, up to rounding.
+/// Checks that the row's residual is that of its answer, up to rounding.
 std::string reject_residual(const RowOf& claim, const Residual& anew, double beta) {
   const std::pair<const char*, double> all[] = {
       {"balance", anew.balance}, {"bounds", anew.bounds}, {"dual", anew.dual}, {"gap", anew.gap}};
@@ -120,7 +121,7 @@ std::string reject_residual(const RowOf& claim, const Residual& anew, double bet
   return "";
 }
 
-/// That these cells are empty.
+/// Checks that these cells are empty.
 std::string reject_filled(const RowOf& claim, std::initializer_list<const char*> columns) {
   for (const char* column : columns) {
     if (!claim.text(column).empty()) return fmt::format("{}: expected none", column);
@@ -128,8 +129,8 @@ std::string reject_filled(const RowOf& claim, std::initializer_list<const char*>
   return "";
 }
 
-/// The evaluations of a search are its own word, but for its budget, and those of its methods are
-/// among them.
+/// The number of evaluations of a search is only compared with its budget, and must include those
+/// of its methods.
 std::string reject_effort(const Case& c, const RowOf& claim) {
   const auto evaluations = claim.csv.whole<long>(claim.row, "evaluations");
   if (!c.integrator.empty()) return "";
@@ -156,7 +157,7 @@ std::string reject_effort(const Case& c, const RowOf& claim) {
   return called <= evaluations ? "" : "calls: expected no more evaluations than there are in all";
 }
 
-/// That its names are complete, exist and mean something together.
+/// Checks that the names are complete, exist and are a valid combination.
 std::string reject_names(const Problem& problem, const Case& c) {
   const Case complete = resolve(problem, c).choice;
   if (complete.solver != c.solver) return fmt::format("solver: expected '{}'", complete.solver);
@@ -171,7 +172,7 @@ std::string reject_names(const Problem& problem, const Case& c) {
   return "";
 }
 
-/// What its words say: whether a row of this status can have a value, and what belongs to its task.
+/// Checks the texts: whether a row of this status can have a value, and what belongs to its task.
 std::string reject_words(const Problem& problem, const Case& c, const RowOf& claim,
                          bool has_value) {
   if (claim.text("task_digest") != problem.digest) {
@@ -225,7 +226,7 @@ Problem with_scheme(const Problem& problem, const Case& c) {
   return changed;
 }
 
-/// The posture of a row, evaluated.
+/// Evaluates the posture of a row.
 Answer posture_again(const Problem& problem, const Case& c, const RowOf& claim) {
   const Eigen::VectorXd theta_r = claim.vector("theta_r");
   if (theta_r.size() != problem.redundancy()) {
@@ -235,7 +236,7 @@ Answer posture_again(const Problem& problem, const Case& c, const RowOf& claim) 
   return evaluate(problem, theta_r, {c});
 }
 
-/// The knots of a row, evaluated.
+/// Evaluates the knots of a row.
 Answer trajectory_again(const Problem& problem, const Case& c, const RowOf& claim) {
   const Eigen::VectorXd x = claim.vector("theta_r");
   const int r = problem.redundancy();
@@ -258,8 +259,8 @@ std::string reject_capability(const RowOf& claim, const Capability& capability) 
   return "";
 }
 
-/// Whether another posture at theta_r is worth as much, with the wrench, efforts and multipliers of
-/// the row: which of those that tie is taken hangs on rounding.
+/// Whether another posture at theta_r has the same value, with the wrench, efforts and multipliers
+/// of the row: if values tie, rounding decides which is chosen.
 bool has_tie(const Problem& problem, const Case& c, const RowOf& claim, const Answer& anew) {
   PostureEvaluator model(problem);
   const Eigen::VectorXd theta_r = claim.vector("theta_r");
@@ -295,7 +296,8 @@ RowCheck check_posture(const Problem& problem, const Case& c, const RowOf& claim
   if (!check.rejection.empty()) return check;
   check.rejection = reject_capability(claim, anew.capability);
   if (!check.rejection.empty() && has_tie(problem, c, claim, anew)) check.rejection.clear();
-  // Which of several efforts and multipliers are optimal hangs on rounding: these prove themselves.
+  // Rounding decides which of several optimal efforts and multipliers are found, so other ones are
+  // checked for themselves.
   if (!check.rejection.empty() && c.measure == "linf_polytope" && !problem.contact) {
     check.rejection = reject_own(problem, anew, claim, beta);
   }
@@ -320,7 +322,7 @@ RowCheck check_trajectory(const Problem& problem, const Case& c, const RowOf& cl
   return check;
 }
 
-/// By the experiment again, of whose steps a reading depends to their tolerance.
+/// Repeats the experiment. Its reading depends on the integrator's steps, within their tolerance.
 RowCheck check_experiment(const Problem& problem, const Case& c, const RowOf& claim,
                           double reading) {
   const Answer anew = experiment(problem, {c});
@@ -349,8 +351,8 @@ RowCheck check_experiment(const Problem& problem, const Case& c, const RowOf& cl
   return check;
 }
 
-/// Of a row without a value whose posture, trajectory or experiment was made again; no status of
-/// such a row is one of a value.
+/// Checks a row without a value whose posture, trajectory or experiment was computed again. Its
+/// status cannot be one of a row with a value.
 std::string reject_again(const Answer& anew, const RowOf& claim) {
   const std::string status = to_string(anew.status);
   if (status != claim.text("status")) return "status: expected '" + status + "'";
@@ -364,7 +366,7 @@ std::string reject_again(const Answer& anew, const RowOf& claim) {
   return reject_filled(claim, {"calls"});
 }
 
-/// What stands beside the value that there is not. Of a search that found nothing there is nothing.
+/// Checks the numbers that accompany a missing value. A search that found nothing has none.
 std::string reject_beside(const Answer& anew, const RowOf& claim) {
   if (anew.unit != claim.text("unit")) return fmt::format("unit: expected '{}'", anew.unit);
   const std::string why = reject_other(claim, "beta_linf", anew.beta_linf);
@@ -373,14 +375,14 @@ std::string reject_beside(const Answer& anew, const RowOf& claim) {
              : reject_other(claim, "value_between_knots", anew.trajectory.value_between_knots);
 }
 
-/// Whether a row that says why it has no value is right. A search is not made again: that it found
-/// nothing is its own word, but what it names as the best has no value indeed.
+/// Checks a row without a value and its reason. A search is not repeated: that it found nothing is
+/// taken on trust, but the best point that it names must indeed have no value.
 std::string reject_failure(const Problem& changed, const Case& c, const RowOf& claim) {
   Answer anew;
   if (!c.integrator.empty()) {
     anew = experiment(changed, {c});
   } else if (!c.search.empty() && claim.text("theta_r").empty()) {
-    // A search that an error ended knows no unit.
+    // A search that ended by an error may have no unit.
     const bool failed = claim.text("status") == to_string(Status::kNumericalError);
     anew.unit = failed && claim.text("unit").empty() ? "" : resolve(changed, c).unit;
   } else {

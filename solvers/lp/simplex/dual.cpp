@@ -103,8 +103,8 @@ bool Dual::refresh() {
 }
 
 /// Moves boxed variables to the bound that fits the sign of d; shifts other costs so that their
-/// reduced cost is small and has the right sign. During the phase it only shifts costs, because a
-/// later flip would undo an earlier one.
+/// reduced cost is small and has the right sign. During the phase it only shifts costs, because the
+/// phase would have to repeat what a flip undoes.
 void Dual::make_dual_feasible(bool may_flip) {
   bool moved = false;
   for (int j = e_.model.rows; j < e_.model.total; ++j) {

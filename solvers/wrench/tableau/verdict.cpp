@@ -8,7 +8,7 @@
 namespace maxwrench {
 namespace {
 
-/// How well the multipliers of an accepted optimum satisfy their equations.
+/// The error that is accepted in conditions on the multipliers, relative to their size.
 constexpr double kAccepted = 1e-10;
 
 }  // namespace
@@ -29,7 +29,7 @@ void Tableau::fill() {
 
 /// One step of iterative refinement with G.
 void Tableau::refine() {
-  // The distances of the basis rows of G from their bounds move the dependent columns of x.
+  // The distances of the basis rows of G from their bounds correct the dependent columns of x.
   for (int j = 0; j < columns_; ++j) {
     if (basis_.row[j] >= rows_) continue;
     double missed = bound(j);
@@ -38,7 +38,7 @@ void Tableau::refine() {
       if (dependent_.row[i] >= rows_) value_[i] += T(i)[j] * missed;
     }
   }
-  // On the dependent columns, c minus the combination of rows by the multipliers is zero.
+  // On the dependent columns, c minus the combination of rows by the multipliers should be zero.
   for (int i = 0; i < rows_; ++i) {
     const int column = dependent_.row[i] - rows_;
     if (column < 0) continue;
