@@ -14,7 +14,7 @@ namespace maxwrench {
 struct Method;
 
 /// One run of a search on one thread, with the processor time of that thread, which excludes other
-/// programs and other attempts. Evaluations and seconds have the order in which the thread
+/// programs and other attempts. Evaluations and seconds both follow the order in which the thread
 /// evaluated.
 struct Attempt {
   Case choice;
@@ -36,9 +36,8 @@ Attempt attempt(const Problem& problem, const Method& method,
 /// All attempts of one search with one lower-level solver.
 struct Contender {
   std::string search, solver;
-  long budget = 0;  ///< evaluations of each attempt
-  std::vector<Attempt>
-      attempts;  ///< seeds 1, 2, ...; if the problem was interrupted, those that had begun
+  long budget = 0;                ///< evaluations of each attempt
+  std::vector<Attempt> attempts;  ///< seeds 1, 2, ...; if interrupted, those that had begun
 
   std::vector<RaceRun> runs() const;
   /// The median over the attempts of the shortfall of their best value so far from `best`, as a

@@ -79,8 +79,7 @@ double normal_p(const std::vector<int>& ranks, double sum) {
     total += rank;
     squares += rank * rank;
   }
-  const double away = std::max(
-      0.0, std::abs(sum - total / 2) - 1);  // the continuity correction: half a rank, doubled
+  const double away = std::max(0.0, std::abs(sum - total / 2) - 1);  // half a rank, doubled
   return std::erfc(away / std::sqrt(squares / 4) / std::sqrt(2.0));
 }
 

@@ -19,7 +19,7 @@ struct TaskSummary {
 };
 std::vector<TaskSummary> summarise_tasks(const std::vector<ResultRow>& rows);
 
-/// One search, over all rows of a run that it has values in.
+/// One search, over all its rows of a run that has values.
 struct SearchSummary {
   std::string search;
   long rows = 0, solved = 0;

@@ -16,11 +16,11 @@
 namespace maxwrench {
 namespace {
 
-// Measured on two cores at 2.1 GHz: microseconds of one evaluation of a static task,
+// Measured on two cores at 2.1 GHz: microseconds of one evaluation of a static task.
 constexpr double kPosture = 8;
 constexpr double kSecondContact = 12;
 constexpr double kDependentJoints = 50;
-/// and the additional microseconds for each unit of `WrenchSolverEntry::cost`.
+/// Additional microseconds for each unit of `WrenchSolverEntry::cost`.
 constexpr double kSolver = 12;
 constexpr double kIpopt = 3300;
 // Additional microseconds of one evaluation in a search by Ipopt.

@@ -183,7 +183,7 @@ void add_set(const Set& set) {
   }
 }
 
-/// Prints as usual and keeps the medians, in microseconds of CPU time.
+/// Prints as usual and keeps the medians, in microseconds of processor time.
 class Collector : public benchmark::ConsoleReporter {
  public:
   void ReportRuns(const std::vector<Run>& runs) override {

@@ -32,9 +32,9 @@ ReportSection dictionary_section();
 
 /// The columns of a case.
 std::vector<ReportCell> case_cells(const Case& c);
-/// Adds to a table, which has its name, title and note, a line for each method of each benchmark
-/// set; `method` and `cost` are the columns for its name and costs. The figures are performance
-/// profiles, one for each benchmark set: `performance_ratios` as shares of instances.
+/// Adds a line for each method of each benchmark set to a table that already has its name, title
+/// and note. `method` and `cost` name the columns of the method and its cost. The figures are
+/// performance profiles, one for each benchmark set: `performance_ratios` as shares of instances.
 ReportSection benchmark_set_section(ReportTable table,
                                     const std::vector<BenchmarkSet>& benchmark_sets,
                                     const std::string& method, const std::string& cost);

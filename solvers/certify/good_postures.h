@@ -36,7 +36,7 @@ struct Cluster {
 struct GoodOptions {
   double within = 0.01;         ///< share of |best|, above 0, at most 1
   double resolution = 0.05;     ///< rad or m, at least 1e-6
-  std::vector<char> turns = {}; /**< of each coordinate, whether both its limits are one place;
+  std::vector<char> turns = {}; /**< whether both limits of a coordinate are the same place;
                                      empty: none */
   double seconds = kInfinity;
   long boxes = 5'000'000;  ///< the most boxes to bound
@@ -53,7 +53,7 @@ struct GoodPostures : Verdict {
   double least = 0;  ///< good_from the best known value
   double sure = 0;   ///< good_from the bound: values from here on are certainly good
   std::vector<GoodBox> boxes;
-  std::vector<Cluster> clusters;  ///< the one with the best value found comes first; ties by `high`
+  std::vector<Cluster> clusters;  ///< the largest best value comes first, then the largest `high`
   long bounded = 0;               ///< number of bounded boxes
   double seconds = 0;
 

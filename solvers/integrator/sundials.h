@@ -67,10 +67,10 @@ class Session {
   Owned<_generic_SUNLinearSolver> linear_;
 };
 
-/// The loop over the times. A session has
-///   int advance(double t, double end, double& reached)  integrates to t, never evaluates beyond
-///   end; void rethrow()  rethrows what the callbacks threw; Eigen::VectorXd state() const;   int
-///   found_root() const;   std::string words(int flag) const.
+/// The loop over the times. A session must have
+///   int advance(double t, double end, double& reached)  integrates to t, evaluates up to end only;
+///   void rethrow()  rethrows exceptions of the callbacks;
+///   Eigen::VectorXd state() const;   int found_root() const;   std::string words(int flag) const.
 template <class S>
 Status run(S& session, std::span<const double> times, OdeSolution& trajectory) {
   for (const double t : times.subspan(1)) {

@@ -163,7 +163,7 @@ bool Simplex::dual_feasible() const {
   return true;
 }
 
-/// In a `LpSolution` the program's columns come first, in the model the logical variables.
+/// In an `LpSolution` the program's columns come first, in the model the logical variables.
 bool Simplex::read_basis(const LpSolution& solution) {
   Engine& e = engine_;
   const int m = e.model.rows, n = e.model.cols;

@@ -159,9 +159,9 @@ constexpr double kNearStep = 0.02;       // from a point of an earlier search
 constexpr double kTolerance = 1e-9;      // a local search ends when its reach is below this
 constexpr long kMostLocalSearches = 24;  // from points of an earlier search
 
-/// Continues from the best points of an earlier search, best first: up to 24, and no more than get
-/// 120 (d + 1) evaluations each from half of the budget, which they share. The best of their
-/// results gets the rest.
+/// Continues from the best points of an earlier search. Up to 24 points, best first, share half of
+/// the budget; there are no more of them than get 120 (d + 1) evaluations each. The best of their
+/// results gets the rest of the budget.
 void ascend_from(const Objective& objective, const Box& box, const SearchOptions& options,
                  SearchRun& run, Part& found) {
   const long half = options.budget / 2;

@@ -69,9 +69,9 @@ using FacetSolve = std::function<FacetEnd(FacetView& view)>;
 
 /// Local solves from many postures: first from `options.starts`, or from `options.start` if there
 /// are none, then from random ones. Each posture is solved from all its IK solutions. The objective
-/// is evaluated at the end of each solve, and only this value counts as found. These count as
-/// evaluations: each start, with or without a posture, each of its IK solutions, each point at
-/// which a solve evaluates rows, and each end. Runs in up to eight parallel parts, one for each 200
+/// is evaluated at the end of each solve, and only this value counts as found. Each of these counts
+/// as an evaluation: a start, with or without a posture; an IK solution of a start; a point at
+/// which a solve evaluates rows; and an end. Runs in up to eight parallel parts, one for each 200
 /// evaluations of the budget. Ends after `most` solves or a few more. Throws std::invalid_argument,
 /// with `name`, if the objective has no facets.
 SearchResult search_from_facet_starts(const char* name, Objective& objective,

@@ -79,8 +79,7 @@ void JointProgram::evaluate(const Eigen::VectorXd& X) {
       trajectories_.linearize(unstacked(X.head(p_), trajectories_.knots()), w_);
   fill(program);
   rows_.noalias() = jacobian_ * X;
-  // Along the knots the balance is not linear, so its derivative times the knots must be
-  // subtracted.
+  // The balance is not linear in the knots: tau_d replaces G times the knots.
   for (int i = 0; i < N_; ++i) {
     const auto at = static_cast<std::size_t>(i);
     rows_.segment(n_ * i, n_) -= program.G[at] * X.head(p_) + program.instants[at].tau_d;

@@ -22,8 +22,7 @@ constexpr double kSame = 0.1;     // rad or m: closer starts belong to one famil
 constexpr long kAlike = 48;       // largest number of local searches with all knots alike
 constexpr long kAlikeSteps = 30;  // evaluations of each; all together at most a fifth of the budget
 constexpr double kKickReach[] = {0.05, 0.15, 0.4, 0.8};  // rad or m
-constexpr double kHopeful =
-    0.8;  // values of a family are at most (1 - this) (1 + |best|) below the best
+constexpr double kHopeful = 0.8;  // families are at most (1 - this) (1 + |best|) below the best
 
 /// Draws tables around the start that satisfy the rows of the limits.
 class Drawing {

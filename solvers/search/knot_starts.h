@@ -17,8 +17,8 @@ TrajectoryObjective* as_trajectories(Objective& objective);
 TrajectoryObjective& require_trajectories(Objective& objective, const char* search);
 
 /// Evaluates the search's start and tables drawn around it that satisfy the rows of the limits. All
-/// knots of a table move by the same offset; of an impulse, each knot by its own, because a common
-/// offset leaves the fixed start at once. Returns the tables that have a value, best first in
+/// knots of a table move by the same offset. Knots of an impulse move separately, because a common
+/// offset violates the fixed start at once. Returns the tables that have a value, best first in
 /// rounds: each round takes the tables that are apart from those it has taken. The values are those
 /// at the instants, whatever value the objective uses. Adds all evaluations to `found`, of the
 /// objective or of another value.

@@ -6,8 +6,8 @@ namespace maxwrench {
 namespace {
 
 /// The start of local search number `optimise` if the earlier search has left none: `options.start`
-/// for the first local search, then random points. Without a value if the probe's evaluations run
-/// out.
+/// for the first local search, random points for the others. Has no value if the probe's
+/// evaluations run out first.
 Candidate draw_start(Probe& probe, const Box& box, const SearchOptions& options, long optimise,
                      Random& random) {
   Candidate start;

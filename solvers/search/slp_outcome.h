@@ -6,8 +6,8 @@ namespace maxwrench {
 
 class SlpRun;
 
-/// Shares of the way from a trajectory with a value of the objective to one without, at which to
-/// look for a better one.
+/// If the objective has no value for a new trajectory, trajectories at these shares of the way to
+/// it from the best one are tried.
 inline constexpr double kRetreats[] = {0.97, 0.9, 0.75, 0.5};
 /// The most evaluations of one `judge`.
 extern const long kJudged;
@@ -23,9 +23,10 @@ struct SlpOutcome {
   bool improves(double its_worth, double its_value, double margin) const;
 };
 
-/// Makes the best trajectory of a local search the outcome's if the objective's value of it is
-/// larger. If the objective has no value for it, tries trajectories between the outcome's and it.
-/// Takes at most `kJudged` evaluations, which are counted in the local search's `found`.
+/// If the objective's value of a local search's best trajectory is larger than the outcome's, makes
+/// it the outcome's trajectory. If the objective has no value for it, tries trajectories between
+/// the outcome's and it. Takes at most `kJudged` evaluations, which are counted in the local
+/// search's `found`.
 void judge(SlpRun& slp_run, SearchRun& run, SlpOutcome& outcome);
 
 }  // namespace maxwrench

@@ -10,8 +10,7 @@ namespace {
 constexpr double kFirstRadius = 0.1;  // rad or m
 constexpr double kSmallestRadius = 1e-7;
 constexpr double kAccept = 0.05, kShrink = 0.25, kGrow = 0.7;  // shares of the predicted rise
-constexpr double kNearing =
-    2;  // m per radius: the most that bodies may approach each other in a step
+constexpr double kNearing = 2;           // m per radius: how much nearer bodies may come in a step
 constexpr double kSpare = 1e-9;          // m, added to the margin when knots are moved apart
 constexpr int kApartRounds = 5;          // rounds of moving knots apart
 constexpr double kStepTolerance = 1e-6;  // of a linear program, whose answer is used only as a step

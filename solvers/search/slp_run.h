@@ -34,8 +34,8 @@ class SlpRun {
 
   /// The most evaluations of `worth`: the program at the instants, and that between them.
   static constexpr int kJudgement = 2;
-  /// The objective's value of a trajectory with this value at its instants. If the objective uses
-  /// the value at the instants, this is the same. Otherwise it ends the local search.
+  /// The objective's value of a trajectory with this value at its instants. The two are the same if
+  /// the objective uses the value at the instants; otherwise this call ends the local search.
   double worth(const Candidate& trajectory);
 
   /// One evaluation at x, from which the local search does not continue.
@@ -66,8 +66,7 @@ class SlpRun {
   std::unique_ptr<TrajectoryObjective> objective_;
   TrajectoryEvaluator& trajectories_;
   SearchRun& run_;
-  Eigen::MatrixXd
-      shared_;  ///< maps the step of one knot to that of all knots; empty: each knot has its own
+  Eigen::MatrixXd shared_;  ///< step of one knot -> steps of all; empty: separate steps
   BorderedFacets uncoupled_;
   std::unique_ptr<TrajectorySolver> solver_;
   bool coupled_ = true;  ///< at the last point with a value

@@ -12,8 +12,7 @@
 namespace maxwrench {
 namespace {
 
-constexpr double kCounts =
-    1e-3;  ///< a significant multiplier, as a share of the largest or of the sum
+constexpr double kCounts = 1e-3;  ///< a significant multiplier: share of the largest, or of the sum
 constexpr std::size_t kMostLimits = 6, kMostInstants = 6;
 
 struct BindingLimit {

@@ -21,7 +21,7 @@ bool is_utf8(const std::string& text) {
     if (more < 0 || i + static_cast<std::size_t>(more) >= text.size()) return false;
     for (int k = 1; k <= more; ++k) {
       const auto next = static_cast<unsigned char>(text[i + static_cast<std::size_t>(k)]);
-      // The second byte excludes longer forms than needed, surrogates and what is beyond 10FFFF.
+      // The second byte excludes overlong forms, surrogates and code points beyond 10FFFF.
       const int low = k > 1 ? 0x80 : first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
       const int high = k > 1 ? 0xBF : first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
       if (next < low || next > high) return false;

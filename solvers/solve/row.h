@@ -9,7 +9,7 @@
 
 namespace maxwrench {
 
-/// The columns that select a case, `problem measure wrench lp search seed budget scheme
+/// The columns that select a case, `problem measure wrench solver search seed budget scheme
 /// integrator`, as text.
 const std::vector<std::string>& case_columns();
 std::vector<std::string> case_values(const Case& c);

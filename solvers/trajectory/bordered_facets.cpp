@@ -13,8 +13,7 @@ constexpr double kFlat = 1e-12;    // a slope below this part of the wrench's si
 constexpr double kLikely = 0.1;    // share of its reach by which y is expected to move a row
 constexpr double kMissed = 1e-10;  // relative violation of an omitted row
 constexpr int kLazyRounds = 20;
-constexpr int kRowsAtOnce =
-    32;  // the tableau grows by this many rows; the last ones have no limits
+constexpr int kRowsAtOnce = 32;  // the tableau grows by these; the last ones have no limits
 
 }  // namespace
 

@@ -15,10 +15,11 @@ constexpr int kPatience = 4;
 /// The share of the way to the boundary that a step leaves: kLeft times the gap, within these
 /// limits.
 constexpr double kLeft = 0.3, kMostLeft = 0.01, kLeastLeft = 1e-5;
-/// The gap is reduced to this share of the tolerance, so that values can be compared; not if the
-/// tolerance is above kStepOnly, where only a step is needed.
+/// The gap is reduced to kClosed times the tolerance, so that values can be compared. If the
+/// tolerance is kStepOnly or more, the answer is only used for a step, and the tolerance itself is
+/// enough.
 constexpr double kClosed = 0.1, kStepOnly = 1e-8;
-/// The last correction is the one that lengthens the step by less than this share.
+/// A correction that lengthens the step by less than this share is undone, and no other follows.
 constexpr double kLonger = 0.02;
 constexpr int kCorrections = 2;
 /// The initial slacks [N, N m]. Their products with their multipliers, all equal to mu, leave room

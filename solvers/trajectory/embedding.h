@@ -63,8 +63,8 @@ class Embedding {
   Forms forms_;
   NormalMatrix matrix_;
   Side low_{-1}, high_{1};
-  /// X: variables; sigma: slacks; G: forms, then phi of what is mapped to X (less sigma for the one
-  /// side, plus sigma for the other).
+  /// X: variables; sigma: slacks; G: numbers of the forms, first those mapped to X, then phi of the
+  /// solved X (less sigma for one side, plus sigma for the other).
   Eigen::MatrixXd D_X_, D_sigma_, G_, G_low_;
   Eigen::VectorXd X_, sigma_, phi_, phi_low_, weight_, s_phi_, s_diagonal_, scale_;
   Eigen::VectorXd kept_X_, kept_sigma_, kept_G_, kept_low_;

@@ -5,7 +5,7 @@
 namespace maxwrench {
 namespace {
 
-/// The error of the least sum of slacks [N, N m].
+/// The permitted error of the least sum of slacks [N, N m].
 constexpr double kLeast = 1e-9;
 
 /// Leaves out rates and slacks until the embedding needs them.

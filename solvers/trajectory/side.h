@@ -45,8 +45,7 @@ struct Side {
   /// Computes the inverse and the predictor's centre; returns s y.
   template <int L>
   SimdPack<L> measure(Eigen::Index i) {
-    constexpr double kLeast =
-        1e-150;  // where there is no limit: multiplied by y = 0 wherever it is used
+    constexpr double kLeast = 1e-150;  // where there is no limit; its uses are multiplied by y = 0
     const SimdPack<L> product = pack<L>(&s[i]) * pack<L>(&y[i]);
     pack<L>(&inverse[i]) = product.max(kLeast).inverse();
     pack<L>(&centre[i]) = -product;

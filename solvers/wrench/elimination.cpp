@@ -177,7 +177,7 @@ void Elimination::fill_lambda(const WrenchProgram& program, const Tableau& table
     lambda[drives_.rows[joint]] = -tableau.multipliers[static_cast<Eigen::Index>(joint)];
   }
   for (int step = 0; step < steps_; ++step) {
-    // The residual of c_w + (J'W)'lambda, at first all of it, which the base has to compensate.
+    // The residual of c_w + (J'W)'lambda; in the first step, the base must compensate all of it.
     // Most joints are not at their limits.
     Vector6d left = Vector6d::Zero();
     for (int j = 0; j < k; ++j) left[j] = c_share * program.c_w[j];

@@ -31,8 +31,8 @@ Problem loop_problem(const std::string& name);
 /// The name of a parameter of kLoopProblems as the name of a test.
 std::string loop_name(const testing::TestParamInfo<const char*>& of);
 
-/// The coordinates x of a posture, with w of the second contact at the value t. Whole turns are
-/// added to bring them within the limits of x where possible.
+/// The coordinates x of a posture, with w of the second contact at the value t. Angles are shifted
+/// by whole turns into the limits of x where possible.
 Eigen::VectorXd loop_coordinates(const Problem& problem, const LoopCoordinates& coordinates,
                                  const Posture& posture, const Eigen::VectorXd& w, double t);
 

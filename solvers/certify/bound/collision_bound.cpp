@@ -8,8 +8,8 @@
 namespace maxwrench {
 namespace {
 
-/// How deep [m] the whole box must be within reach. It exceeds the rounding errors of collision
-/// checks.
+/// The depth [m] within reach that the whole box must have. It exceeds the rounding errors of
+/// collision checks.
 constexpr double kDepth = 1e-6;
 
 /// The coordinates of a posture that move one link relative to the other.

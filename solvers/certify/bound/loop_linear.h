@@ -31,7 +31,8 @@ class LoopLinear {
   void turn(const MultiAffine& f, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
   void gather(const LoopPart& part);
   void eliminate();
-  /// A limit of one u_j, and the row that it follows from: row i of f is i, row i of M f is m + i.
+  /// A limit of one u_j, and the row that it follows from: i for row i of f, m + i for row i of M
+  /// f.
   struct Limit {
     int axis = 0, row = 0;
     bool upper = false;

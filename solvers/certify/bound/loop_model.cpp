@@ -51,8 +51,10 @@ void LoopModel::add_part(Kind kind, int from, int to, const std::vector<int>& ro
   parts.push_back(std::move(part));
 }
 
-/// The rows of the base and of joints outside the chain depend on the whole chain, unless they are
-/// linear axes of the base.
+/// Rows of the base's linear axes depend on the yaw only, or on the stretch from the yaw to the
+/// free coordinates if the wrench turns with the pose. The other rows of the base, those of joints
+/// outside the chain, and the linear axes of a dependent base depend on everything up to the free
+/// coordinates. The contact forces depend on the whole chain.
 void LoopModel::add_loads(LoopPosture& posture) {
   const Robot& robot = problem_.robot;
   const auto axes = static_cast<int>(robot.base_axes.size());

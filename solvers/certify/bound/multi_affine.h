@@ -82,9 +82,8 @@ class ControlPoints {
   void advance(int axis, double lower, double upper);
 
   const MultiAffine& f_;
-  std::vector<Eigen::MatrixXd>
-      levels_;                     ///< with control points along the first axes, one more in each
-  Eigen::VectorXd lower_, upper_;  ///< of the last box
+  std::vector<Eigen::MatrixXd> levels_;  ///< element i: control points along i axes
+  Eigen::VectorXd lower_, upper_;        ///< of the last box
 };
 
 }  // namespace maxwrench

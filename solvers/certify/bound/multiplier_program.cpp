@@ -6,10 +6,9 @@
 namespace maxwrench {
 namespace {
 
-constexpr double kBasisPivot = 1e-9;  ///< smaller pivots make a basis singular
-constexpr double kStepPivot = 1e-10;  ///< smaller entries of a row are rounding errors
-constexpr double kInfeasible =
-    1e-10;  ///< share of its width by which a variable may exceed a limit
+constexpr double kBasisPivot = 1e-9;   ///< smaller pivots make a basis singular
+constexpr double kStepPivot = 1e-10;   ///< smaller entries of a row are rounding errors
+constexpr double kInfeasible = 1e-10;  ///< violation of a limit, as a share of the width
 
 }  // namespace
 

@@ -153,8 +153,7 @@ void Factor::load_kernel(const Model& model) {
   kernel_positions_.clear();
   for (int i = 0; i < m_; ++i) {
     if (row_done_[i]) continue;
-    row_sum_[i] =
-        static_cast<int>(kernel_rows_.size());  // from here on the row's place in the kernel
+    row_sum_[i] = static_cast<int>(kernel_rows_.size());  // now the row's place in the kernel
     kernel_rows_.push_back(i);
   }
   for (int p = 0; p < m_; ++p) {
