@@ -84,8 +84,7 @@ void throw_on_dependents(const ProofOptions& options, const Problem& problem) {
 Proof prove(const ProofOptions& options, const Problem& problem) {
   Options c = options.read_options();
   c.budget = kUsualBudget;
-  const auto bound =
-      make_capability_bound(problem, c.measure, c.wrench);  // rejects unsupported tasks
+  const auto bound = make_capability_bound(problem, c.measure, c.wrench);  // first, as it may throw
   const Method method = resolve(problem, c);
   CtrlC ctrl_c;
   Proof proof;

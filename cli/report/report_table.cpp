@@ -30,7 +30,6 @@ std::string shown(const std::string& column, const ReportCell& cell, const char*
   return fmt::format("{:.{}g}", value, is_value(column) ? 8 : 4);
 }
 
-/// Whether a column holds numbers.
 bool is_numeric(const ReportTable& table, std::size_t column) {
   return !table.rows.empty() && std::holds_alternative<double>(table.rows.front()[column]);
 }

@@ -74,8 +74,8 @@ ReportSection search_section(const std::vector<ResultRow>& rows) {
   return {table, {}};
 }
 
-/// Coordinates, instants, actuators and columns of a problem; missing if the problem is not
-/// installed here.
+/// Coordinates, instants, actuators and columns of a problem; missing if the problem cannot be
+/// loaded.
 std::vector<ReportCell> sizes_of(const CostSummary& cost) {
   try {
     const Problem problem = load_problem(cost.problem);

@@ -35,7 +35,8 @@ struct TrajectoryExperiment {
   TankRun run;  ///< without samples and with the script's status if there is nothing to run
 };
 
-/// The simulated experiment along an evaluated trajectory, also between knots on the spline.
+/// The simulated experiment along a trajectory, which must be evaluated at its instants and also
+/// between knots, on the spline.
 TrajectoryExperiment simulate_trajectory(const Problem& problem, const Trajectory& trajectory,
                                          Wrench wrench, const TrajectorySolverEntry& lp,
                                          const ScriptOptions& script, const std::string& integrator,

@@ -10,9 +10,9 @@ namespace maxwrench {
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Columns = Eigen::Ref<Eigen::MatrixXd>;
 
-/// Calls body with the number of a stage's variables. It is a compile-time constant for a pure or
-/// an any wrench on a vehicle with eight thrusters and six base axes (3, 8), on one with four
-/// thrusters in the plane (2, 4), and for a pure wrench without redundant actuators (1).
+/// Calls body with the number of variables of a stage. It is a compile-time constant for a vehicle
+/// with eight thrusters and six base axes (3 with a pure wrench, 8 with any), for one with four
+/// thrusters in the plane (2 and 4), and for a pure wrench without redundant actuators (1).
 template <class Body>
 void with_dimension(int d, Body&& body) {
   switch (d) {

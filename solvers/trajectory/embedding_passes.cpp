@@ -79,8 +79,9 @@ void Embedding::measure_slacks() {
   }
 }
 
-/// The change of tau by the predictor's right-hand sides. Also the remainder of the limits along
-/// the direction of tau: sums of squares, which do not cancel.
+/// Returns the part of the predictor's right-hand sides in the equation of tau. Also sets the pivot
+/// of tau, from the changes of the limits along its direction: a sum of squares, without
+/// cancellation.
 double Embedding::affine_rhs() {
   PackSum<> squares, rhs;
   const Eigen::VectorXd& phi_l = phi_low();
@@ -117,7 +118,8 @@ void Embedding::predict_affine() {
   falls_ = most.value();
 }
 
-/// Raises the centres, computes the right-hand sides of the forms, and returns their change of tau.
+/// Raises the centres, computes the right-hand sides of the forms, and returns their part in the
+/// equation of tau.
 double Embedding::newton_rhs(double reduction, double raise) {
   PackSum<> rhs;
   const Eigen::VectorXd& phi_l = phi_low();

@@ -11,8 +11,8 @@ namespace maxwrench {
 /// The wrench program without its equations. Its first wrench columns must be free, and as many as
 /// the rows without a direct drive (all six wrenches on a free-floating base). Further columns,
 /// those of a second contact, stay with their bounds as if they were thrusters whose column of B_b
-/// is that of -J_b'W; they also appear in the driven rows j. A direct drive is the only entry of
-/// its row and of its column of B. With P = (J_b'W)^-1 over the other rows b,
+/// is that of -J_b'W; they also appear directly in the driven rows j. A direct drive is the only
+/// entry of its row and of its column of B. With P = (J_b'W)^-1 over the other rows b,
 ///
 ///     w = P (B_b u_b - tau_b),   v_j = tau_j + J_j'W w,   b_j u_j = v_j   for the driven rows j.
 ///

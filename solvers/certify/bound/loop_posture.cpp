@@ -47,8 +47,8 @@ Pose<Extended> exact_contact(const Contact& contact, const Extended* s) {
   return pose;
 }
 
-/// [N] The most that the base's thrusters bear beside the weight and the first end effector's
-/// force.
+/// [N] The most that the base's thrusters bear in addition to the weight and the first end
+/// effector's force.
 double most_force(const Problem& problem) {
   const Robot& robot = problem.robot;
   const Zonotope& set = robot.actuation;

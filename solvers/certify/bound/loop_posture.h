@@ -16,13 +16,12 @@ namespace maxwrench {
 ///     w = w_min + omega (w_max - w_min) + t (v_min + omega (v_max - v_min)),
 ///
 /// with t the value, at least zero if v is not zero. A component that has no limit of its own is
-/// bounded by what the base's linear axes can bear beside t c.
+/// bounded by what the base's linear axes can bear in addition to t c.
 ///
 /// The chain has this order: the second arm's joints; from the world to the end effector, the yaw,
 /// the joints from the base outward and the free coordinates of the pose; the regrasp coordinates;
 /// the shares. Angles are within one turn.
 struct LoopCoordinates {
-  /// A stretch of the chain.
   struct Stretch {
     int from = 0, to = 0;
     int count() const { return to - from; }

@@ -71,7 +71,7 @@ double spread(const Coordinates& coordinates, const Eigen::VectorXd& lower,
 /// the box before.
 class ControlPoints {
  public:
-  /// Keeps a reference.
+  /// Keeps a reference to f.
   explicit ControlPoints(const MultiAffine& f);
   explicit ControlPoints(const MultiAffine&&) = delete;
 

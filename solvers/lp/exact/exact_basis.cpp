@@ -112,7 +112,7 @@ class ExactSimplex {
     return solve_rational(std::move(rows), rhs);
   }
 
-  /// B'y = rhs.
+  /// Solves B'y = rhs.
   std::optional<RationalVector> solve_rows(const RationalVector& rhs) const {
     std::vector<SparseRow> rows;
     for (const int j : basis_) rows.push_back(column(j));
