@@ -20,9 +20,8 @@
 namespace maxwrench {
 namespace {
 
-/// What was rejected by the name of its key, such as "solver: got ", by that of its option,
-/// "--solver: got
-/// ".
+/// Replaces the name of a key in an error message, such as "solver: got ", by that of its option,
+/// "--solver: got ".
 std::string as_option(const CLI::App& app, const std::string& message) {
   std::string key = message.substr(0, message.find(": got "));
   std::replace(key.begin(), key.end(), '_', '-');
@@ -38,7 +37,7 @@ int parse_and_run(int argc, const char* const* argv) {
                "maxwrench");
   app.set_version_flag("--version", [] {
     std::string text = describe_build();
-    text.pop_back();  // a line break follows
+    text.pop_back();  // without the line break at its end
     return text;
   });
   app.require_subcommand(1);
@@ -63,7 +62,8 @@ int parse_and_run(int argc, const char* const* argv) {
   return exit_status;
 }
 
-/// Nothing leaves the command but a status and, if it is that of bad input, one line.
+/// The one line for an exception: the command ends with a status and, for bad input, one line,
+/// never with an exception.
 std::string complaint_of(const std::exception_ptr& thrown) {
   try {
     std::rethrow_exception(thrown);

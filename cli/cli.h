@@ -13,47 +13,48 @@ struct Problem;
 /// Exit statuses of the command.
 enum ExitStatus { kAnswered = 0, kOtherStatus = 1, kBadInput = 2 };
 
-/// The whole command line; prints results to stdout and talk to stderr, and returns the exit
+/// Runs the whole command line. Prints results to stdout and messages to stderr; returns the exit
 /// status.
 int run_command(int argc, const char* const* argv);
 
-/// The options that commands share. `wrench` and `theta_r` are texts until they are read.
+/// The options that several commands share. `wrench` and `theta_r` are texts until they are parsed.
 struct CommonOptions {
   Case choice;
   std::string wrench = "pure";
-  int threads = 0;  ///< 0: one for each core
+  int threads = 0;  ///< 0: one per core
   bool json = false;
 
   void add_case(CLI::App& app);
-  void add_choice(CLI::App& app);  ///< measure, wrench and lp
+  void add_choice(CLI::App& app);  ///< measure, wrench and solver
   void add_search(CLI::App& app);
   void add_budget(CLI::App& app, const char* what);
   void add_json(CLI::App& app);
   void add_threads(CLI::App& app);
 
-  Options read_options() const;  ///< with all but callbacks
+  Options read_options() const;  ///< all except callbacks
   int thread_count() const;
 };
 
 /// Numbers separated by commas; throws std::invalid_argument that names the option.
 Eigen::VectorXd parse_numbers(const std::string& option, const std::string& text);
 
-/// The posture that `--theta-r` names; without it that of the task.
+/// The posture that `--theta-r` gives, or that of the task.
 Eigen::VectorXd theta_r_of(const Problem& problem, const std::optional<std::string>& text);
 
-/// Throws std::invalid_argument for a task in time, which the command does not serve.
+/// Throws std::invalid_argument for a task in time, which the command does not support.
 void require_static(const Problem& problem, const char* command);
 
-/// Empty, or why the text is no seed of random numbers.
+/// Empty, or why the text is not a seed of random numbers.
 std::string reject_seed(const std::string& text);
 
-/// Empty, or why the text names no file or folder.
+/// Empty, or why the text does not name a file or folder.
 std::string reject_empty(const std::string& text);
 
-/// An answer for people or, with `json`, as one object; returns the exit status that it deserves.
+/// Prints an answer as text or, with `json`, as one object; returns its exit status.
 int report(const Answer& answer, bool json);
 
-// One function for each subcommand: adds it to the command line; its callback sets `exit_status`.
+// One function for each subcommand. It adds the subcommand to the command line; the subcommand's
+// callback sets `exit_status`.
 void add_list(CLI::App& app, int& exit_status);
 void add_check(CLI::App& app, int& exit_status);
 void add_eval(CLI::App& app, int& exit_status);

@@ -4,8 +4,9 @@
 
 namespace maxwrench {
 
-/// While one lives, the first Ctrl-C (SIGINT) asks to end early and the second ends the program at
-/// once. One at a time. Where SIGINT is ignored (a job in the background) it stays ignored.
+/// While an object of this class exists, the first Ctrl-C (SIGINT) requests an early end and the
+/// second ends the program at once. Only one object may exist at a time. If SIGINT is ignored (a
+/// background job), it stays ignored.
 class CtrlC {
  public:
   CtrlC();
@@ -13,7 +14,7 @@ class CtrlC {
   CtrlC(const CtrlC&) = delete;
   CtrlC& operator=(const CtrlC&) = delete;
 
-  /// Whether it was pressed since.
+  /// Whether Ctrl-C was pressed since the construction.
   std::function<bool()> asked() const;
 };
 

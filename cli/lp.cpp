@@ -25,7 +25,7 @@ struct LpOptions {
   std::string certificate;
 };
 
-/// An answer with what was recomputed from the file's data.
+/// An answer with the numbers recomputed from the file's data.
 struct Checked {
   LpSolution solution;
   Residual residual;
@@ -43,7 +43,7 @@ Checked solve(const LpEntry& solver, const LinearProgram& program) {
   const bool verdict = solution.status == Status::kOptimal ||
                        solution.status == Status::kInfeasible ||
                        solution.status == Status::kUnbounded;
-  // The interior point ends near a vertex, not on it.
+  // The interior point method ends near a vertex, not exactly at it.
   if (verdict && !verified(program, solution, 1e-6)) {
     solution.status = Status::kNumericalError;
     solution.reason = "the verdict is not confirmed by the program's data";
@@ -115,7 +115,7 @@ void print_lp(const LpOptions& options, const MpsProgram& mps, const Checked& an
       r.balance, r.bounds, r.dual, r.gap, solution.iterations, answer.wall_s);
 }
 
-/// Proves the verdict in rational numbers; false if they do not confirm it.
+/// Proves the verdict in rational numbers. Returns false if they do not confirm it.
 bool certify_verdict(const LpOptions& options, const MpsProgram& mps, const LpSolution& solution) {
   const LpProof proof = exact_proof(mps.program, solution);
   std::string rejection = reject_lp_proof(mps.program, proof);

@@ -31,8 +31,8 @@ std::string names_of(const CLI::Option& option) {
   return option.get_name(option.get_positional(), !option.get_positional());
 }
 
-/// Text of a manual page: a backslash, a hyphen that is to be copied as one, and a control
-/// character at the beginning of a line have forms of their own.
+/// Escapes text for a manual page: backslashes, hyphens that readers may copy, and control
+/// characters at the beginning of a line.
 std::string roff(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
@@ -74,7 +74,7 @@ void write_command(const CLI::App& command, std::string& page) {
   }
 }
 
-/// The names that an option takes, if it takes one of few.
+/// The names that an option accepts, if there are only a few.
 std::string choices(const std::string& option) {
   std::string names;
   const auto add = [&names](const auto& table) {
@@ -99,7 +99,7 @@ std::string choices(const std::string& option) {
   return names;
 }
 
-/// The lines of a shell's `case` that set what may stand behind a command.
+/// The lines of a shell's `case` that set the completions of a command.
 std::string completions(const CLI::App& command) {
   std::vector<std::string> names;
   for (const CLI::Option* option : options_of(command, false)) {
@@ -172,7 +172,7 @@ std::string bash_completion(const CLI::App& app) {
 void add_manual(CLI::App& app, int& exit_status) {
   auto kind = std::make_shared<std::string>();
   CLI::App& command = *app.add_subcommand("manual", "the manual page, or the completion of bash");
-  command.group("");  // for packages, not for people
+  command.group("");  // for packages, not for users
   command.add_option("kind", *kind, "man or bash")
       ->required()
       ->check(CLI::IsMember({"man", "bash"}));

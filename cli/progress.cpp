@@ -31,7 +31,7 @@ void Progress::show(double done) {
   drawn_ = true;
   const double share = std::min(1.0, done / total_);
   const int filled = static_cast<int>(share * kCharacters);
-  // Not fmt::print, which throws if the terminal is gone: the caller may be a C library.
+  // Not fmt::print, which throws if the terminal is closed: the caller may be a C library.
   const double spent = std::chrono::duration<double>(now - start_).count();
   const std::string left =
       share > 0 ? fmt::format(", {:.0f} s left", spent / share - spent) : std::string();

@@ -7,14 +7,14 @@
 
 namespace maxwrench {
 
-/// A progress bar with the time left on stderr, only if that is a terminal and the work takes
-/// longer than a second.
+/// A progress bar with the remaining time on stderr. It appears only if stderr is a terminal and
+/// the work takes longer than a second.
 class Progress {
  public:
   Progress(std::string what, double total);
   ~Progress() { finish(); }
 
-  /// To be called with the work done so far, from any thread.
+  /// Shows the work done so far; call it from any thread.
   void show(double done);
   std::function<void(long)> counter() {
     return [this](long done) { show(static_cast<double>(done)); };
@@ -31,7 +31,7 @@ class Progress {
   std::chrono::steady_clock::time_point start_, next_;
 };
 
-/// A line of words and seconds in its place, for work whose amount is not known. For one thread.
+/// A line with a text and seconds instead, for an unknown amount of work. For one thread.
 class ProgressLine {
  public:
   ProgressLine();

@@ -1,5 +1,5 @@
-// A linear program: max 3 x + 5 y  subject to  x <= 4, 2 y <= 12, 3 x + 2 y <= 18, x, y >= 0.
-// Rows are equalities here; what is left to a right-hand side is a column of its own.
+// A linear program: max 3 x + 5 y  subject to  x <= 4, 2 y <= 12, 3 x + 2 y <= 18, x, y >= 0. All
+// rows are equations, so each inequality gets a column for its slack.
 #include <cstdio>
 #include <vector>
 

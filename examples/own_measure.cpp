@@ -1,6 +1,6 @@
-// A measure of one's own: how little effort a posture costs at rest, -|tau_d|^2. It says nothing of
-// a wrench. A measure hands over its derivatives by tau_d and J; those by theta_r follow from them,
-// so methods with gradients work as well.
+// A measure of your own: how little effort a posture costs at rest, -|tau_d|^2. It does not depend
+// on a wrench. A measure returns its derivatives with respect to tau_d and J. The library computes
+// from them those with respect to theta_r, so methods with gradients work as well.
 #include <cstdio>
 
 #include "maxwrench/load.h"

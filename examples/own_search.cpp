@@ -1,5 +1,5 @@
-// A search of one's own: compass search. From a start it tries a step to both sides of each
-// coordinate, moves to what is better, and halves the step where nothing is.
+// A search of your own: compass search. From a start, it tries a step to both sides of each
+// coordinate, moves to a better point, and halves the step if there is none.
 #include <algorithm>
 #include <cstdio>
 

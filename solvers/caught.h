@@ -5,12 +5,13 @@
 
 namespace maxwrench {
 
-/// Carries what a callback throws past the frames of a library, which no exception may cross: the
-/// callback returns the library's own sign of failure, and whoever called the library throws again
-/// what was kept.
+/// Carries an exception that a callback throws past the stack frames of a library, which no
+/// exception may cross. The callback returns the library's own failure code, and the caller of the
+/// library rethrows the stored exception.
 class Caught {
  public:
-  /// body(), or `failed` if that throws. After the first exception nothing is called any more.
+  /// Returns body(), or `failed` if it throws. After the first exception, `body` is not called any
+  /// more.
   template <class Result, class Body>
   Result run(Result failed, Body&& body) noexcept {
     if (thrown_) return failed;

@@ -20,7 +20,7 @@
 namespace maxwrench {
 namespace {
 
-/// `make` of a measure that needs a robot, or a problem, and no solver.
+/// `make` for a measure that needs a robot or a problem, but no solver.
 template <std::unique_ptr<Measure> (*make)(const Robot&)>
 std::unique_ptr<Measure> of_robot(const Problem& problem, std::unique_ptr<WrenchSolver> /*none*/) {
   return make(problem.robot);
@@ -30,7 +30,7 @@ std::unique_ptr<Measure> of_problem(const Problem& problem,
                                     std::unique_ptr<WrenchSolver> /*none*/) {
   return make(problem);
 }
-/// `make` of a measure that solves a program.
+/// `make` for a measure that solves a program.
 template <std::unique_ptr<Measure> (*make)(const Robot&, std::unique_ptr<WrenchSolver>)>
 std::unique_ptr<Measure> of_program(const Problem& problem, std::unique_ptr<WrenchSolver> solver) {
   return make(problem.robot, std::move(solver));
@@ -122,7 +122,7 @@ const IntegratorEntry kIntegrators[] = {
     {"runge_kutta", "own classical Runge-Kutta method with a fixed step", false, make_runge_kutta},
 };
 
-/// What the conditions above may leave out.
+/// The entries that the conditions above may omit.
 constexpr struct {
   bool built_in;
   Absent entry;
@@ -161,7 +161,7 @@ std::vector<Absent> make_absent() {
   return absent;
 }
 
-/// Perhaps none is built in.
+/// Empty if none is built in.
 std::vector<SearchEntry> make_facet_searches() {
   return {
 #if MAXWRENCH_WITH_NLOPT
@@ -223,7 +223,7 @@ const Entry& find(std::span<const Entry> table, const char* family, std::string_
       fmt::format("{}: got '{}'{}, expected one of {}", family, name, why, fmt::join(names, " ")));
 }
 
-/// Stages of a name.
+/// The stages that a name lists.
 NamedSearch find_stages(std::span<const SearchEntry* const> table, std::string_view name) {
   NamedSearch search{std::string(name), name.starts_with(kRestarted), {}, true};
   if (search.restarts) name.remove_prefix(kRestarted.size());

@@ -26,7 +26,7 @@
 namespace maxwrench {
 namespace {
 
-/// Where a library tells it at run time, that is the version which is told.
+/// The version of each library, as the library reports it at run time if it does.
 std::string library_versions() {
   std::string text =
       fmt::format("Eigen {}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);

@@ -48,7 +48,7 @@ std::string default_of(const Problem& problem, const Case& base) {
   return named ? base.search : default_search(problem, base.measure);
 }
 
-/// The searches that serve a problem, the default first.
+/// The searches that support a problem, the default first.
 std::vector<std::string> searches_of(const Problem& problem, const Case& base) {
   std::vector<std::string> served = served_searches(problem, base.measure);
   const std::string first = default_of(problem, base);
@@ -57,7 +57,7 @@ std::vector<std::string> searches_of(const Problem& problem, const Case& base) {
   return served;
 }
 
-/// Of the dearest stage.
+/// The cost of the most expensive stage.
 int cost_of(const std::string& search) {
   int cost = 1;
   for (const SearchEntry* stage : find_search(search).stages) {
@@ -66,14 +66,16 @@ int cost_of(const std::string& search) {
   return cost;
 }
 
-/// What is nearer to the best value moves no target by more than a third of the lowest.
+/// A bound this near to the best value moves no target by more than a third of the lowest target
+/// share.
 constexpr double kNearBound = kTargetShares.back() / 3;
 constexpr double kProofGap = 1e-7;
-/// Boxes of more coordinates than theta_r are dearer; of many, nothing comes of so few.
+/// Boxes with more coordinates than theta_r are more expensive, so fewer are bounded. With more
+/// than kMostBoxed coordinates, this few boxes prove nothing.
 constexpr long kProofBoxes = 200'000, kFewerBoxes = 50'000;
 constexpr Eigen::Index kMostBoxed = 8;
 
-/// A bound of all postures, if one comes so near to the best of all attempts.
+/// A bound on all postures, if it is within kNearBound of the best of all attempts.
 std::optional<double> proven_best(const Problem& problem, const Case& base,
                                   const Comparison& comparison, const RaceOptions& race) {
   if (!comparison.has_value()) return {};
@@ -91,8 +93,8 @@ std::optional<double> proven_best(const Problem& problem, const Case& base,
   return bound;
 }
 
-/// Seed by seed, so that attempts of one search, which may wait for each other, do not run side by
-/// side.
+/// Runs seed by seed, so that attempts of one search, which may wait for each other, do not run in
+/// parallel.
 void run_all(const Problem& problem, const Case& base, const RaceOptions& options,
              Comparison& comparison) {
   std::vector<Contender*> all;
@@ -147,7 +149,8 @@ Attempt attempt(const Problem& problem, const Method& method,
   const Answer answer =
       evaluate(problem, unstacked(attempt.found, knots_of(problem)), Options{method.choice});
   attempt.value_between_knots = answer.trajectory.value_between_knots;
-  // What a trajectory search maximises has a value where only slack balances a posture, too.
+  // For a task in time, the search's objective has a value even where only slack balances a
+  // posture.
   if (!problem.motion && !answer.has_value()) {
     attempt.value = -kInfinity;
     attempt.run.rises.clear();

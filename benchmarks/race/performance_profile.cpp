@@ -10,8 +10,8 @@
 namespace maxwrench {
 namespace {
 
-/// How many times `reference` a method paid, over the instances that at least one of both solved:
-/// zero where only the method did, infinity where only the reference did.
+/// The cost of a method as a multiple of that of `reference`, over the instances that at least one
+/// of them solved: zero where only the method did, infinity where only the reference did.
 std::vector<double> paired_ratios(const std::vector<double>& method,
                                   const std::vector<double>& reference) {
   std::vector<double> ratios;
@@ -37,7 +37,7 @@ const std::vector<double>& costs_of(const BenchmarkSet& benchmark_set, const std
   return benchmark_set.cost[static_cast<std::size_t>(found - benchmark_set.methods.begin())];
 }
 
-/// What the profiles tell, best first.
+/// The standings from the performance profiles, best first.
 std::vector<MethodStanding> profiles_in_order(const BenchmarkSet& benchmark_set) {
   const std::vector<std::vector<double>> ratios = performance_ratios(benchmark_set);
   std::vector<MethodStanding> all;

@@ -21,14 +21,14 @@ std::vector<std::string> race_file_columns(std::vector<std::string> more, const 
   return with_case_columns(more);
 }
 
-/// All that an attempt took.
+/// The cost of a whole attempt.
 double spent_of(const CsvFile& csv, std::size_t row, const char* column) {
   const std::optional<double> spent = csv.number(row, column);
   if (!spent || *spent < 0) csv.throw_bad_cell(row, column, "a number of 0 or more");
   return *spent;
 }
 
-/// The attempt of a row of values and that of times.
+/// The attempt from a row of values and a row of times.
 Attempt attempt_of(const CsvFile& values, std::size_t row, const CsvFile& times,
                    std::size_t time_row, double best) {
   Attempt attempt;
@@ -46,7 +46,7 @@ Attempt attempt_of(const CsvFile& values, std::size_t row, const CsvFile& times,
   return attempt;
 }
 
-/// Where an attempt belongs by its role.
+/// The group that an attempt belongs to by its role.
 std::vector<Contender>& group_of(const CsvFile& values, std::size_t row, Comparison& comparison) {
   const std::string& role = values.text(row, "role");
   if (role == kPeerRole) return comparison.peers;
@@ -59,7 +59,7 @@ std::vector<Contender>& group_of(const CsvFile& values, std::size_t row, Compari
   return comparison.contenders;
 }
 
-/// Rejects what two races left in one table.
+/// Rejects a table that mixes two races.
 void require_one_race(const CsvFile& values, const Rows& rows) {
   std::set<std::vector<std::string>> attempts;
   for (const std::size_t row : rows) {

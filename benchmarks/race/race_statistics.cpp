@@ -7,7 +7,7 @@
 namespace maxwrench {
 namespace {
 
-/// Of sorted values, at least one.
+/// The quantile of sorted values, of which there is at least one.
 double quantile(const std::vector<double>& sorted, double share) {
   const double place = share * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(place);

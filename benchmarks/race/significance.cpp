@@ -9,7 +9,8 @@ namespace {
 
 constexpr std::size_t kExactUpTo = 100;
 
-/// Standard deviations beyond which the binomial distribution has nothing that a double shows.
+/// The number of standard deviations beyond which a double cannot represent the tail of the
+/// binomial distribution.
 constexpr double kFar = 40;
 
 /// P(Binomial(n, share) >= k), k of 1 to n.
@@ -26,7 +27,7 @@ double binomial_tail(int n, double share, int k) {
   return std::min(sum, 1.0);
 }
 
-/// Of the k-th smallest of n drawn values, the place of its quantile in the sample, of 1 to n.
+/// The rank in the sample, 1 to n, of a quantile of the k-th smallest of n drawn values.
 int bootstrap_place(int n, int k, double probability) {
   int low = 1, high = n;
   while (low < high) {
@@ -41,7 +42,7 @@ int bootstrap_place(int n, int k, double probability) {
   return low;
 }
 
-/// Twice the rank of each size, so that means of ranks are whole.
+/// Twice the rank of each size, so that means of ranks are whole numbers.
 std::vector<int> doubled_ranks(const std::vector<double>& sizes) {
   std::vector<std::size_t> order(sizes.size());
   std::iota(order.begin(), order.end(), 0);
@@ -55,7 +56,7 @@ std::vector<int> doubled_ranks(const std::vector<double>& sizes) {
   return ranks;
 }
 
-/// Both tails of the sum of ranks whose signs are coins, by counting its 2^n values.
+/// The probability of both tails of a sum of ranks with random signs, by counting its 2^n values.
 double exact_p(const std::vector<int>& ranks, int sum) {
   const int total = std::accumulate(ranks.begin(), ranks.end(), 0);
   std::vector<double> share(static_cast<std::size_t>(total) + 1, 0);
@@ -73,7 +74,7 @@ double exact_p(const std::vector<int>& ranks, int sum) {
 }
 
 double normal_p(const std::vector<int>& ranks, double sum) {
-  double total = 0, squares = 0;  // a coin of size r has variance r^2/4
+  double total = 0, squares = 0;  // a random sign at rank r has variance r^2/4
   for (const double rank : ranks) {
     total += rank;
     squares += rank * rank;
@@ -102,7 +103,7 @@ double wilcoxon_signed_rank(std::span<const double> differences) {
     positive.push_back(difference > 0);
   }
   const std::vector<int> ranks = doubled_ranks(sizes);
-  double sum = 0;  // beyond any int of many
+  double sum = 0;  // with many ranks it exceeds an int
   for (std::size_t i = 0; i < ranks.size(); ++i) sum += positive[i] ? ranks[i] : 0;
   if (ranks.empty()) return 1;
   return ranks.size() <= kExactUpTo ? exact_p(ranks, static_cast<int>(sum)) : normal_p(ranks, sum);

@@ -20,10 +20,10 @@ bool belongs(const ResultRow& row, bool in_time, Wrench wrench) {
 
 using Instances = std::map<std::vector<std::string>, ByMethod>;
 
-/// Leaves out what was not tried with each method that has rows of the same problem, measure and
-/// wrench.
+/// Removes instances that were not tried with every method that has rows of the same problem,
+/// measure and wrench.
 void keep_tried_by_all(Instances& instances) {
-  constexpr std::ptrdiff_t kTask = 3;  // columns of a key
+  constexpr std::ptrdiff_t kTask = 3;  // columns of the key
   std::map<std::vector<std::string>, std::set<std::string>> serving;
   const auto task_of = [](const std::vector<std::string>& key) {
     return std::vector<std::string>(key.begin(), key.begin() + kTask);
@@ -42,7 +42,7 @@ Instances instances_of(const std::vector<ResultRow>& rows, bool in_time, Wrench 
   for (const ResultRow& row : rows) {
     const Case& c = row.choice;
     if (row.is_experiment() || c.solver == kNoSolver || !belongs(row, in_time, wrench)) continue;
-    if (row.solved() && !row.us) continue;  // was not measured
+    if (row.solved() && !row.us) continue;  // its time was not measured
     const ResultRow*& kept = instances[{c.problem, c.measure, to_string(c.wrench), c.search,
                                         std::to_string(c.seed), c.scheme}][c.solver];
     if (kept == nullptr || kept->choice.budget < c.budget) kept = &row;
@@ -51,7 +51,7 @@ Instances instances_of(const std::vector<ResultRow>& rows, bool in_time, Wrench 
   return instances;
 }
 
-/// Every method on all instances; `cost` is that of a row that has a value.
+/// All methods on all instances; `cost` is the cost of a row that has a value.
 BenchmarkSet benchmark_set_of(const std::string& title, const std::string& unit,
                               const Instances& instances,
                               const std::function<double(const ResultRow&)>& cost) {
@@ -74,7 +74,8 @@ BenchmarkSet benchmark_set_of(const std::string& title, const std::string& unit,
   return benchmark_set;
 }
 
-/// Milliseconds of a search to the target on each seed of a race, infinity where it has none.
+/// Milliseconds of a search to the target for each seed of a race, infinity where it did not reach
+/// it.
 std::map<std::uint64_t, double> times_to_target(const Comparison& race, const std::string& search) {
   std::map<std::uint64_t, double> ms;
   for (const Contender& contender : race.contenders) {

@@ -31,7 +31,7 @@ std::map<TaskKey, TaskSummary> tasks_by_key(const std::vector<ResultRow>& rows) 
   return tasks;
 }
 
-/// How far a value stays below the best, as a share of it.
+/// The shortfall of a value from the best, as a share of it.
 double share_below(double best, double beta) {
   return best == beta ? 0 : (best - beta) / std::abs(best);
 }

@@ -1,6 +1,6 @@
 #!/bin/sh
 #SBATCH --job-name=maxwrench-merge
-# merge.sh OUT N: the rows of all parts in one folder.
+# merge.sh OUT N: merges the rows of all parts into one folder.
 set -eu
 out=$1 parts=$2
 set --

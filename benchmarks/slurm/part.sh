@@ -8,5 +8,5 @@ status=0
   --out "$out/shards/$SLURM_ARRAY_TASK_ID" || status=$?
 [ $status -gt 1 ] || exit 0
 [ $status -gt 2 ] && [ "${SLURM_RESTART_COUNT:-0}" -lt 3 ] &&
-  scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID" && sleep 60  # is ended while it waits
+  scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID" && sleep 60  # Slurm ends the job during the wait
 exit $status

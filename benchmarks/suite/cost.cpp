@@ -16,18 +16,19 @@
 namespace maxwrench {
 namespace {
 
-// Measured on two cores at 2.1 GHz, microseconds of one evaluation of a static task,
+// Measured on two cores at 2.1 GHz: microseconds of one evaluation of a static task.
 constexpr double kPosture = 8;
 constexpr double kSecondContact = 12;
 constexpr double kDependentJoints = 50;
-/// more for each unit of `WrenchSolverEntry::cost`.
+/// Additional microseconds for each unit of `WrenchSolverEntry::cost`.
 constexpr double kSolver = 12;
 constexpr double kIpopt = 3300;
-// Of one evaluation more in a search by Ipopt.
+// Additional microseconds of one evaluation in a search by Ipopt.
 constexpr double kIpoptInPosture = 80;
 
-/// Of a task in time with kActuators actuators and a pure wrench: one evaluation, most of which end
-/// at an instant without balance, and the programs in the knots of a hundred evaluations of `slp`.
+/// For a task in time with kActuators actuators and a pure wrench: one evaluation, where most
+/// evaluations end at an instant without balance; and the programs in the knots of a hundred
+/// evaluations of `slp`.
 constexpr double kActuators = 12;
 constexpr struct {
   const char* solver;
@@ -36,7 +37,7 @@ constexpr struct {
     {"simplex", 1000, 5}, {"ipopt", 8000, 8}, {"glpk", 300, 0.4}, {"clp", 200, 0.2}};
 constexpr double kOursInTime_us = 100;
 constexpr double kOursSlp_s = 0.12;
-/// Times as much: `slp` with any wrench, an evaluation where most have a value (by Ipopt).
+/// Factors: of `slp` with any wrench, and of an evaluation where most have a value (by Ipopt).
 constexpr double kAnyWrench = 4;
 constexpr double kGoodTrajectories = 10;
 
@@ -92,7 +93,7 @@ std::string without_seed_and_budget(const std::vector<std::string>& row) {
   return text;
 }
 
-/// Zero for what is no positive number.
+/// Zero for text that is not a positive number.
 double positive(const std::string& cell) {
   double value = 0;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
@@ -115,7 +116,7 @@ Forecast::Forecast(const Table& times) {
   const std::size_t cpu_s = times.column("cpu_s");
   times.each([&](const std::vector<std::string>& row) {
     const double evaluations = positive(row[budget]), seconds = positive(row[cpu_s]);
-    if (evaluations == 0 || seconds == 0) return;  // of an earlier version
+    if (evaluations == 0 || seconds == 0) return;  // from an earlier version
     Sum& sum = measured_[without_seed_and_budget(row)];
     sum.budget += evaluations;
     sum.seconds += seconds;
@@ -134,7 +135,7 @@ std::vector<Case> shard(const std::vector<Case>& cases, const std::vector<double
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return costs[a] > costs[b]; });
-  using Part = std::pair<double, int>;  // its cost so far
+  using Part = std::pair<double, int>;  // cost so far and index
   std::priority_queue<Part, std::vector<Part>, std::greater<>> parts;
   for (int i = 0; i < count; ++i) parts.emplace(0.0, i);
   std::vector<Case> chosen;

@@ -10,17 +10,18 @@ namespace maxwrench {
 
 class Table;
 
-/// Whether a complete case waits for others of this kind that run beside it in one process.
+/// Whether a complete case must wait for others of this kind that run in parallel in the same
+/// process.
 bool waits_for_others(const Case& c);
 
-/// About how many seconds a complete case takes on one thread, from nothing but its names and its
-/// problem, so that whoever asks gets the same.
+/// The approximate seconds of a complete case on one thread. Depends only on its names and its
+/// problem, so it is the same everywhere.
 double usual_seconds(const Problem& problem, const Case& c);
 
-/// The same from what was measured before.
+/// The same from earlier measurements.
 class Forecast {
  public:
-  /// `times`: a table of times; of what it does not hold the usual seconds count.
+  /// `times` is a table of times. For cases that it does not contain, the usual seconds are used.
   explicit Forecast(const Table& times);
   double seconds(const Problem& problem, const Case& c) const;
 
@@ -28,11 +29,11 @@ class Forecast {
   struct Sum {
     double seconds = 0, budget = 0;
   };
-  std::map<std::string, Sum> measured_;  ///< by all columns of the case but seed and budget
+  std::map<std::string, Sum> measured_;  ///< by all columns of the case except seed and budget
 };
 
-/// The cases of part `index` of `count` (0 and more): the dearest goes to the part that has least
-/// so far, and so on.
+/// The cases of part `index` of `count` (0 and more). The most expensive remaining case always goes
+/// to the part with the least cost so far.
 std::vector<Case> shard(const std::vector<Case>& cases, const std::vector<double>& costs, int index,
                         int count);
 

@@ -34,7 +34,7 @@ Journal::Journal(std::filesystem::path file) : file_(std::move(file)) {
       throw std::invalid_argument(file_.string() +
                                   ": is being written, expected one run at a time");
     }
-  } while (was_removed(descriptor_));  // by who held it until now
+  } while (was_removed(descriptor_));  // by the process that held it until now
 }
 
 void Journal::begin(const std::string& line) {
@@ -53,7 +53,7 @@ void Journal::add(const std::string& line) {
   const int error = write_all(descriptor_, line + '\n');
   if (error == 0) return;
   const bool taken_back = before >= 0 && ftruncate(descriptor_, before) == 0;
-  if (!taken_back) static_cast<void>(write_all(descriptor_, "\n"));  // the torn line stays alone
+  if (!taken_back) static_cast<void>(write_all(descriptor_, "\n"));  // keeps the torn line separate
   throw_output_error(file_, error);
 }
 

@@ -5,21 +5,22 @@
 
 namespace maxwrench {
 
-/// A file that grows by whole lines and belongs to one process at a time. A line that was added
-/// outlives a killed process; at most the last one is torn, without its line break.
+/// A file that grows by whole lines and belongs to one process at a time. An added line remains if
+/// the process is killed; at most the last line is torn, without its line break.
 class Journal {
  public:
-  /// Takes hold of a file and leaves what is in it. Throws std::invalid_argument on one that cannot
-  /// be written, or that another process holds.
+  /// Locks a file and keeps its contents. Throws std::invalid_argument if it cannot be written or
+  /// another process holds it.
   explicit Journal(std::filesystem::path file);
-  /// Lets go of the file, and removes it if nothing is in it.
+  /// Unlocks the file, and removes it if it is empty.
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  /// Removes all lines but this first one.
+  /// Removes all lines and writes this first one.
   void begin(const std::string& line);
-  /// The line comes without its break. What cannot be written whole is taken back.
+  /// Adds a line, given without its break. A line that cannot be written completely is removed
+  /// again.
   void add(const std::string& line);
   /// Removes the file.
   void remove();

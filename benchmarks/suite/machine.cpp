@@ -26,7 +26,7 @@ std::string build_line() {
   std::istringstream lines(describe_build());
   std::string text, line;
   std::getline(lines, line);  // the version and
-  std::getline(lines, line);  // the sources, which are columns of their own
+  std::getline(lines, line);  // the sources, which have columns of their own
   while (std::getline(lines, line)) text += (text.empty() ? "" : "; ") + line;
   return text;
 }

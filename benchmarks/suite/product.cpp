@@ -23,7 +23,8 @@ bool has(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Those of a column that serve; the first one is the default.
+/// The names of a column that are supported; an empty name means the first supported one, the
+/// default.
 Names wanted(const Names& column, const Names& served) {
   if (column == Names{kAll} || served.empty()) return served;
   Names names;
@@ -33,7 +34,7 @@ Names wanted(const Names& column, const Names& served) {
   return names;
 }
 
-/// Those of a column all of whose stages serve.
+/// The searches of a column whose stages are all supported.
 Names wanted_searches(const Names& column, const Problem& problem, const std::string& measure) {
   const Names alone = served_searches(problem, measure);
   const std::string usual = default_search(problem, measure);
@@ -52,7 +53,7 @@ Names wanted_searches(const Names& column, const Problem& problem, const std::st
   return wanted(column, names);
 }
 
-/// The schemes that a problem can have, its own first; the spline needs two knots.
+/// The schemes that a problem can have, its own first. The spline needs two knots.
 Names schemes_of(const Problem& problem) {
   if (!problem.motion) return {""};
   Names names = scheme_names(problem.motion->impulse);
@@ -76,12 +77,13 @@ Names all_measures() {
   return names;
 }
 
-/// Those of a measure, wrench, solver and scheme: with every search and seed, or experiment.
+/// Adds the cases of a measure, wrench, solver and scheme: with every search and seed, or with
+/// every experiment.
 void add_cases(const Problem& problem, const ProductColumns& columns, Case c,
                std::vector<Case>& cases) {
   if (!columns.integrator.empty()) {
     c.search.clear();
-    c.budget = kUsualBudget;  // as in the row, though no search uses it
+    c.budget = kUsualBudget;  // like in the row, although no search uses it
     for (const std::string& integrator :
          wanted(columns.integrator, served_integrators(problem, c.measure))) {
       c.integrator = integrator;

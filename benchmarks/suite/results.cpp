@@ -12,13 +12,14 @@
 namespace maxwrench {
 namespace {
 
-/// Microseconds of an evaluation by the cases of a table of times; counts the rows of each version.
+/// Microseconds of an evaluation for each case of a table of times. Counts the rows of each
+/// version.
 std::map<std::vector<std::string>, double> read_times(const std::filesystem::path& file,
                                                       std::map<std::string, long>& versions) {
   std::map<std::vector<std::string>, double> us;
   if (!std::filesystem::exists(file)) return us;
   const CsvFile csv = read_csv(file, with_case_columns({"evaluations"}), {"cpu_s", "version"});
-  if (!csv.has("cpu_s")) return us;  // of an earlier version
+  if (!csv.has("cpu_s")) return us;  // from an earlier version
   for (const auto& [key, i] : rows_of_cases(csv)) {
     if (csv.has("version")) ++versions[csv.text(i, "version")];
     const auto evaluations = csv.number(i, "evaluations");

@@ -11,41 +11,41 @@
 
 namespace maxwrench {
 
-/// Readings of an experiment count as the same up to this, relative to 1 + |reading|: they hang on
-/// the steps of its integrator.
+/// Two readings of an experiment count as the same up to this, relative to 1 + |reading|: they
+/// depend on the steps of its integrator.
 inline constexpr double kSameReading = 1e-4;
 
-/// One row of values.csv with its time: what an analysis asks for.
+/// One row of values.csv with its time, as far as an analysis needs it.
 struct ResultRow {
   Case choice;
   std::string status, unit, reason;
   std::optional<double> beta;       ///< none: the row has no value
-  std::optional<double> beta_linf;  ///< of an experiment, what was planned
+  std::optional<double> beta_linf;  ///< of an experiment, the planned c'h
   double evaluations = 0;
-  /// Microseconds of an evaluation, of the processor; none where they were not measured.
+  /// Microseconds of an evaluation, in processor time; empty if not measured.
   std::optional<double> us;
 
-  /// Has a value that is what was asked for: an interrupted search has failed.
+  /// Whether it has the requested value: an interrupted search has failed.
   bool solved() const;
   bool is_experiment() const { return !choice.integrator.empty(); }
-  /// All that the row took, of the processor; none where it was not measured.
+  /// Processor time of the whole row; empty if not measured.
   std::optional<double> ms() const;
 };
 
-/// What a run, a race or both left in a folder.
+/// The results of a run, a race or both in a folder.
 struct Results {
   std::filesystem::path folder;
   std::vector<ResultRow> rows;
-  std::vector<Comparison> races;  ///< of search_comparison.csv, if it is there
-  /// How many rows of times.csv each version made.
+  std::vector<Comparison> races;  ///< from search_comparison.csv, if it exists
+  /// The number of rows of times.csv for each version.
   std::map<std::string, long> versions;
-  std::string machine;  ///< machine.txt, if it is there
-  std::string suite;    ///< suite.toml, if it is there
+  std::string machine;  ///< machine.txt, if it exists
+  std::string suite;    ///< suite.toml, if it exists
 };
 
-/// Reads values.csv, which must be there unless a race is, times.csv, and the files of a race.
-/// Throws std::invalid_argument with one line on a file that is no such table: a column that is
-/// missing, a cell that is no finite number, a case that appears twice.
+/// Reads values.csv, which must exist unless there is a race, times.csv, and the files of a race.
+/// Throws std::invalid_argument with one line on a file that is not such a table: a missing column,
+/// a cell that is not a finite number, a case that appears twice.
 Results read_results(const std::filesystem::path& folder);
 
 }  // namespace maxwrench

@@ -140,7 +140,8 @@ RowCheck check_posture(const Problem& problem, const Case& c, const RowClaim& cl
   if (!check.rejection.empty()) return check;
   check.rejection = reject_capability(claim, anew.capability);
   if (!check.rejection.empty() && has_tie(problem, c, claim, anew)) check.rejection.clear();
-  // Which of several efforts and multipliers are optimal hangs on rounding: these prove themselves.
+  // Rounding decides which of several optimal efforts and multipliers are found, so other ones are
+  // checked for themselves.
   if (!check.rejection.empty() && c.measure == "linf_polytope" && !problem.contact) {
     check.rejection = reject_own(problem, anew, claim, beta);
   }
@@ -226,7 +227,7 @@ std::string reject_failure(const Problem& changed, const Case& c, const RowClaim
   if (!c.integrator.empty()) {
     anew = experiment(changed, {c});
   } else if (!c.search.empty() && claim.text("theta_r").empty()) {
-    // A search that an error ended knows no unit.
+    // A search that ended by an error may have no unit.
     const bool failed = claim.text("status") == to_string(Status::kNumericalError);
     anew.unit = failed && claim.text("unit").empty() ? "" : resolve(changed, c).unit;
   } else {

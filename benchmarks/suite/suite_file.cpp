@@ -30,7 +30,7 @@ Names texts_of(const Block& block, const char* key) {
   return names;
 }
 
-/// Those of a key, each of which is known; as it is where the key is missing.
+/// Reads the names of a key, all of which must be known; keeps `names` if the key is missing.
 void read_names(const Block& block, const char* key, const Names& known, Names& names) {
   if (!block.has(key)) return;
   names = texts_of(block, key);
@@ -51,7 +51,7 @@ void add_names(const Table& table, Names& names) {
   }
 }
 
-/// Methods alone, and stages joined by +.
+/// Single methods, and stages joined by +.
 void read_searches(const Block& block, Names& names) {
   if (!block.has("search")) return;
   names = texts_of(block, "search");
@@ -68,7 +68,7 @@ void read_searches(const Block& block, Names& names) {
   }
 }
 
-/// Experiments search nothing.
+/// Experiments do not search.
 void read_integrators(const Block& block, Names& names) {
   if (!block.has("integrator")) return;
   read_names(block, "integrator", stiff_integrators(), names);
@@ -100,7 +100,7 @@ ProductColumns read_columns(const Block& block) {
   return columns;
 }
 
-/// The names of all shipped problems, or of those that are tasks in time or not.
+/// The names of all shipped problems, or only of the tasks in time or of the static ones.
 Names shipped_group(const std::string& group) {
   Names names;
   for (const std::string& name : shipped_problems()) {

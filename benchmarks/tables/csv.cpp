@@ -27,16 +27,16 @@ std::string quoted_field(const std::string& field) {
   return text + '"';
 }
 
-constexpr std::uint64_t kMostRatio = 256;  // of a table to its packed file
-constexpr int kPackingLevel = 6;           // a third of the time of 9 for a hundredth more bytes
+constexpr std::uint64_t kMostRatio = 256;  // of a table's size to that of its packed file
+constexpr int kPackingLevel = 6;           // takes a third of the time of 9 for 1 % more bytes
 
-/// The name of a table without the ending of a packed one.
+/// The name of a table without the suffix of a packed one.
 std::filesystem::path plain_name(std::filesystem::path file) {
   if (file.extension() == kPackedEnding) file.replace_extension();
   return file;
 }
 
-/// What editors and spreadsheets do to a table; what else they changed in it, nobody knows.
+/// Throws if an editor or a spreadsheet has changed the table: its other changes are unknown.
 void throw_if_edited(const std::filesystem::path& file, const std::string& text) {
   for (const char* mark : {"\xef\xbb\xbf", "\xff\xfe", "\xfe\xff"}) {
     if (!text.starts_with(mark)) continue;
@@ -51,7 +51,7 @@ void throw_if_edited(const std::filesystem::path& file, const std::string& text)
       file.string(), line));
 }
 
-/// Where the columns that are to be read stand.
+/// The positions of the requested columns.
 std::vector<std::size_t> chosen_places(const std::filesystem::path& file,
                                        const std::vector<std::string>& header,
                                        const std::vector<std::string>& required,

@@ -64,7 +64,7 @@ constexpr ColumnMeaning kDictionary[] = {
     {"seconds_to_thousandth", "s", "processor time until 0.1 % below"},
     {"seconds_to_ten_thousandth", "s", "processor time until 0.01 % below"},
     {"seconds", "s", "processor time of the whole run"},
-    // what report gathers
+    // tables of report
     {"rows", "", "rows that the line stands for"},
     {"solved", "", "of these rows or instances, those with a value, or that reached 0.1 %"},
     {"best", "unit", "largest beta of the solved rows"},
@@ -112,7 +112,7 @@ constexpr ColumnMeaning kDictionary[] = {
     {"ert_evaluations_hundredth", "", "the same to 1 %"},
     {"ert_evaluations_thousandth", "", "the same to 0.1 %"},
     {"ert_evaluations_ten_thousandth", "", "the same to 0.01 %"},
-    // what report --compare finds
+    // tables of report --compare
     {"folder", "", "a or b: the one that has the row"},
     {"status_a", "", "status in the first folder"},
     {"status_b", "", "status in the second folder"},

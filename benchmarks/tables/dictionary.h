@@ -5,7 +5,7 @@
 
 namespace maxwrench {
 
-/// What a column of our CSV files holds; a name means the same in each of them.
+/// The meaning of a column of our CSV files; a name means the same in all of them.
 struct ColumnMeaning {
   const char* column;
   const char* unit;  ///< empty: a name, a count or a share
@@ -15,7 +15,7 @@ struct ColumnMeaning {
 /// All columns of all tables that `run`, `compare` and `report` write.
 std::span<const ColumnMeaning> dictionary();
 
-/// Null: the dictionary has no such column.
+/// Null if the dictionary has no such column.
 const ColumnMeaning* find_meaning(const std::string& column);
 
 }  // namespace maxwrench

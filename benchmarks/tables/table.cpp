@@ -16,8 +16,8 @@
 namespace maxwrench {
 namespace {
 
-/// Whether there is a file to read. One that cannot be read must not be mistaken for none: writing
-/// would lose its rows.
+/// Whether there is a file to read. A file that exists but cannot be read must not count as
+/// missing, because writing would then lose its rows.
 bool is_there(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
@@ -90,7 +90,7 @@ std::vector<std::size_t> Table::places_of(const std::filesystem::path& file,
   return places;
 }
 
-/// Texts whose alphabetical order is that of the rows: before a whole number its length.
+/// A text whose alphabetical order is that of the rows. Whole numbers are preceded by their length.
 std::string Table::order_of(const std::vector<std::string>& row) const {
   std::string text;
   for (std::size_t i = 0; i < key_columns_; ++i) {

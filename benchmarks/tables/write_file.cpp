@@ -18,11 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostLinks = 40;  // as the kernel
+constexpr int kMostLinks = 40;  // like the kernel
 constexpr mode_t kNewFile = 0666;
 
-/// The stream of ours that writes to this file already, or -1. A second way into the file would
-/// overwrite what it has printed.
+/// The standard stream that already writes to this file, or -1. Opening the file a second time
+/// would overwrite what the stream has printed.
 int stream_to(const struct stat& file) {
   for (std::FILE* stream : {stdout, stderr}) {
     struct stat own {};
@@ -45,7 +45,7 @@ void write_stream(const fs::path& file, const struct stat& found, const std::str
   if (error != 0) throw_output_error(file, error);
 }
 
-/// Where a chain of symbolic links ends, which need not exist.
+/// The end of a chain of symbolic links, which need not exist.
 fs::path follow_links(const fs::path& file) {
   fs::path target = file;
   std::error_code error;
@@ -57,7 +57,8 @@ fs::path follow_links(const fs::path& file) {
   return target;
 }
 
-/// A new file in the folder of `target`; its short name fits wherever that of `target` does.
+/// Creates a new file in the folder of `target`, with a short name that is valid wherever that of
+/// `target` is.
 int open_beside(const fs::path& target, fs::path& temporary) {
   static std::atomic<int> count = 0;
   int descriptor = -1;
@@ -68,7 +69,7 @@ int open_beside(const fs::path& target, fs::path& temporary) {
   return descriptor;
 }
 
-/// `found`: what `target` was before, if it exists.
+/// `found` describes the previous `target`, if it exists.
 void replace(const fs::path& file, const fs::path& target, const struct stat* found,
              const std::string& text) {
   if (found != nullptr && access(target.c_str(), W_OK) != 0) throw_output_error(file, errno);

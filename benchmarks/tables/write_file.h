@@ -6,22 +6,22 @@
 
 namespace maxwrench {
 
-/// Writes a whole file; all files that the command writes go through here. Below this floor nothing
-/// writes files: what has a form of its own (MPS, SVG, CSV) is handed up as text.
+/// Writes a whole file. The command writes all its files through this function. Lower layers write
+/// no files: they return formats of their own (MPS, SVG, CSV) as text.
 ///
-/// A regular file, new or old, is written under a temporary name in its folder (which is made if it
-/// is missing) and renamed, so that it is whole or untouched; symbolic links are followed. Anything
-/// else (a device, a pipe) is written to as a stream, and so is what stdout or stderr already stand
-/// for. Throws std::invalid_argument with one line that names the file and the system's reason;
-/// nothing is left behind then.
+/// A regular file, new or old, is written under a temporary name in its folder (which is created if
+/// it is missing) and then renamed, so it is complete or unchanged; symbolic links are followed.
+/// Anything else (a device, a pipe) is written as a stream, and so are the files of stdout and
+/// stderr. Throws std::invalid_argument with one line that names the file and the system's reason;
+/// then nothing is left behind.
 void write_file(const std::filesystem::path& file, const std::string& text);
 
-/// All of a file; empty if there is none, or it cannot be read.
+/// The contents of a file; empty if it does not exist or cannot be read.
 std::string text_of(const std::filesystem::path& file);
 
-/// The line that `write_file` throws, for an `errno`.
+/// Throws the error line of `write_file` for an `errno`.
 [[noreturn]] void throw_output_error(const std::filesystem::path& file, int error);
-/// All of a text to an open file; zero or the `errno`.
+/// Writes a whole text to an open file; returns zero or the `errno`.
 int write_all(int descriptor, std::string_view text);
 
 }  // namespace maxwrench

@@ -1,6 +1,6 @@
-// Times theta_r -> beta (model, lower level, nothing else) for every measure, wrench and solver, on
-// random postures without collision checks; the parts of it; and KDL on the same chain. Ratios of
-// what was measured in this run follow at the end. Task files may be added to the command line.
+// Times theta_r -> beta (model and lower level only) for every measure, wrench and solver, on
+// random postures without collision checks; its parts; and KDL on the same chain. Prints ratios of
+// these measurements at the end. You may add task files to the command line.
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -61,8 +61,8 @@ void time_model(benchmark::State& state, const Problem& problem) {
   }
 }
 
-/// What a search asks of a model with a second contact where that is reached: all valid IK
-/// solutions, collision checked.
+/// The part of a model with a second contact that a search needs where the contact is reachable:
+/// all valid IK solutions, with collision checks.
 void time_ik_solutions(benchmark::State& state, const Problem& problem) {
   PostureEvaluator model(problem);
   std::vector<Eigen::VectorXd> postures;
@@ -79,7 +79,7 @@ void time_ik_solutions(benchmark::State& state, const Problem& problem) {
   }
 }
 
-/// Passes on and keeps where a search evaluates.
+/// Forwards evaluations and records where a search evaluates.
 class Recorder : public ForwardingObjective {
  public:
   Recorder(std::unique_ptr<Objective> objective, std::vector<Eigen::VectorXd>& visited)
@@ -107,8 +107,8 @@ std::vector<Eigen::VectorXd> postures_of_a_search(const Problem& problem) {
   return visited;
 }
 
-/// The places of a search, in its order: all postures that reach the pose. The counters are their
-/// number, and what each of them takes at the median place.
+/// The points of a search, in its order, with all postures that reach the pose. The counters are
+/// their number, and the time of each at the median point.
 void time_along_a_search(benchmark::State& state, const Problem& problem) {
   using Clock = std::chrono::steady_clock;
   const std::vector<Eigen::VectorXd> visited = postures_of_a_search(problem);
@@ -134,7 +134,7 @@ void time_along_a_search(benchmark::State& state, const Problem& problem) {
   state.counters["ns_per_ik_solution"] = *middle;
 }
 
-/// The check alone, for link poses that are known.
+/// Only the collision check, for known link poses.
 void time_collision(benchmark::State& state, const Problem& problem) {
   PostureEvaluator model(problem, false);
   std::vector<std::vector<Pose<double>>> links;
@@ -147,7 +147,7 @@ void time_collision(benchmark::State& state, const Problem& problem) {
   }
 }
 
-/// The chain of the arm with one segment for each joint, the fewest that KDL can do with.
+/// The chain of the arm with one segment for each joint, the fewest that KDL needs.
 KDL::Chain kdl_chain(const Problem& problem) {
   const Robot& robot = problem.robot;
   const auto vector = [](const Eigen::Vector3d& v) { return KDL::Vector(v.x(), v.y(), v.z()); };
@@ -172,7 +172,7 @@ KDL::Chain kdl_chain(const Problem& problem) {
   return chain;
 }
 
-/// Forward kinematics and Jacobian by KDL.
+/// Forward kinematics and Jacobian with KDL.
 void time_kdl(benchmark::State& state, const Problem& problem) {
   const KDL::Chain chain = kdl_chain(problem);
   KDL::ChainFkSolverPos_recursive forward(chain);
@@ -225,7 +225,7 @@ void add_problem(const Problem& problem) {
   }
 }
 
-/// The console's table; keeps the shortest time of each name.
+/// Prints the console's table and keeps the shortest time of each name.
 class Keeper : public benchmark::ConsoleReporter {
  public:
   void ReportRuns(const std::vector<Run>& runs) override {
@@ -240,7 +240,7 @@ class Keeper : public benchmark::ConsoleReporter {
     }
   }
 
-  /// The ratios of a problem whose parts were all measured.
+  /// Prints the ratios of a problem if all its parts were measured.
   void print_ratios(const Problem& problem) const {
     const auto time = [&](const std::string& rest) {
       const auto found = times_.find(problem.name + "/" + rest);

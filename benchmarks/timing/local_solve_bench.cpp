@@ -1,6 +1,6 @@
-// Single local solves of beta_2 from the same random postures that have a value: what share reaches
-// the best known value within 0.1 %, the evaluations and the time of one. Where a second arm has
-// several IK solutions, the solves between facets begin at each.
+// Single local solves of beta_2 from the same random postures with a value: the share that reaches
+// the best known value within 0.1 %, and the evaluations and the time of one solve. Where a second
+// arm has several IK solutions, the solves between facets start from each of them.
 
 #include <benchmark/benchmark.h>
 
@@ -21,12 +21,12 @@ namespace maxwrench {
 namespace {
 
 constexpr int kStarts = 1000;
-constexpr long kMostEvaluations = 1000;  // of one solve; none takes as many
+constexpr long kMostEvaluations = 1000;  // limit of one solve; none needs as many
 constexpr double kShort = 1e-3;
 
 struct Target {
   const char* problem;
-  double best;  ///< seen by any search
+  double best;  ///< the best value found by any search
 };
 constexpr Target kTargets[] = {
     {"planar/force", 3.47748},       {"uvms/valve", 35.40830},        {"uvms/lift", 108.40954},
@@ -39,7 +39,7 @@ struct LocalStart {
   int ik_solution = 0;
 };
 
-/// One local solve; the best value that it evaluated.
+/// One local solve; returns the best value that it evaluated.
 using LocalSolve = double (*)(Probe& probe, FacetProgram& program, const Box& box,
                               const LocalStart& start);
 
@@ -54,7 +54,7 @@ double bilevel(Probe& probe, FacetProgram& /*program*/, const Box& box, const Lo
   return probe.found().best.value;
 }
 
-/// `every_ik_solution`: each as a start of its own.
+/// With `every_ik_solution`, each IK solution is a start of its own.
 std::vector<LocalStart> random_starts(Objective& objective, FacetProgram& program,
                                       bool every_ik_solution) {
   const Box box(objective);

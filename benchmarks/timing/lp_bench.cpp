@@ -1,14 +1,14 @@
-// Times the lower level alone: our solvers that know the structure, without and with the efforts
-// (+u, the output that general solvers give), and every general simplex in three forms of the
-// program, on random postures and along a walk in small steps; then prints how many times faster
-// ours are than the best of Clp and GLPK in the same run. All of them work to tolerances of 1e-9.
+// Times only the lower level: our solvers that exploit the structure, without and with the efforts
+// (+u, the output of general solvers), and every general simplex in three forms of the program, on
+// random postures and along a walk in small steps. Then prints how many times faster ours are than
+// the better of Clp and GLPK in the same run. All solvers use tolerances of 1e-9.
 //
-// A general solver gets its program assembled for free; what is timed includes checking the answer,
-// as everywhere else, and bringing the program into the library in one of three ways:
+// The assembly of a general solver's program is not timed. The time includes checking the answer,
+// as everywhere, and passing the program to the library in one of three ways:
 //
-//     cold   loaded afresh, from the slack basis
-//     basis  loaded afresh, from the last basis
-//     model  the library's model stays alive, is edited in place and keeps its basis
+//     cold   loaded anew, from the slack basis
+//     basis  loaded anew, from the last basis
+//     model  the library's model is kept, edited in place, and keeps its basis
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -31,7 +31,7 @@ namespace maxwrench {
 namespace {
 
 constexpr int kPrograms = 1024;
-constexpr double kWalkStep = 0.01;  // of each coordinate's range
+constexpr double kWalkStep = 0.01;  // share of each coordinate's range
 
 /// Wrench programs of one problem and wrench, and their forms.
 struct Set {
@@ -56,7 +56,7 @@ std::vector<Eigen::VectorXd> postures(const Problem& problem, bool walk) {
       const double step = kWalkStep * (high - low) * random.uniform(-1, 1);
       next[j] = walk ? std::clamp(theta_r[j] + step, low, high) : random.uniform(low, high);
     }
-    // A second arm must reach its contact.
+    // The second arm must reach its contact.
     if (problem.contact && model.evaluate(next).status != Status::kValid) continue;
     theta_r = next;
     result.push_back(theta_r);
@@ -64,7 +64,7 @@ std::vector<Eigen::VectorXd> postures(const Problem& problem, bool walk) {
   return result;
 }
 
-/// Scales tau_d up until nothing balances it. The planar vehicle floats without load: it gets one.
+/// Scales tau_d up until it cannot be balanced. The planar vehicle has no load, so it gets one.
 void overload(WrenchProgram& program, WrenchSolver& judge, Random& random) {
   Capability capability;
   if (program.tau_d.norm() < 1e-9) {
@@ -112,7 +112,7 @@ void time_own(benchmark::State& state, const Set& set, const char* name, bool ef
   }
 }
 
-/// theta_r -> J, tau_d -> beta, without the collision check.
+/// Times theta_r -> J, tau_d -> beta without the collision check.
 void time_total(benchmark::State& state, const Set& set, const char* name) {
   PostureEvaluator model(*set.problem, false);
   WrenchProgram program = set.programs.front();
@@ -131,7 +131,7 @@ enum class Start { kCold, kBasis, kModel };
 constexpr std::pair<Start, const char*> kStarts[] = {
     {Start::kCold, "cold"}, {Start::kBasis, "basis"}, {Start::kModel, "model"}};
 
-/// Null if the solver has no model that stays alive.
+/// Null if the solver cannot keep its model.
 std::unique_ptr<LpSolver> make_general(const LpEntry& entry, Start start) {
   if (start != Start::kModel) return entry.make();
   if (std::string_view(entry.name) == "clp") return make_clp_keeping_its_model();
@@ -170,7 +170,7 @@ void add_set(const Set& set) {
   }
   add("total", [&set](benchmark::State& state) { time_total(state, set, own_solver(set)); });
   for (const LpEntry& entry : lp_solvers()) {
-    if (std::string_view(entry.name) == "ipopt") continue;  // no simplex, 100 times slower
+    if (std::string_view(entry.name) == "ipopt") continue;  // no simplex, and 100 times slower
     for (const auto& [form, programs] : set.forms) {
       for (const auto& [start, label] : kStarts) {
         if (!make_general(entry, start)) continue;
@@ -183,7 +183,7 @@ void add_set(const Set& set) {
   }
 }
 
-/// Prints as usual and keeps the medians, in microseconds of CPU time.
+/// Prints as usual and keeps the medians, in microseconds of processor time.
 class Collector : public benchmark::ConsoleReporter {
  public:
   void ReportRuns(const std::vector<Run>& runs) override {

@@ -24,9 +24,9 @@ LinearProgram from_dense(const MatrixXd& A, const VectorXd& b, const VectorXd& c
   return program;
 }
 
-/// Columns (u, h): B u - J'h = tau_d, (W W^+ - I) h = 0. J' acts on the span of W only, which those
-/// rows leave. A second contact keeps its columns w_2, whose bounds say in which directions it
-/// acts.
+/// Columns (u, h): B u - J'h = tau_d, (W W^+ - I) h = 0. J' acts only on the span of W, to which
+/// the second rows restrict h. A second contact keeps its columns w_2, whose bounds give its
+/// directions.
 LinearProgram paper_form(const WrenchProgram& program) {
   const Zonotope& set = *program.actuation;
   const int n = set.dimension();
@@ -73,7 +73,7 @@ LinearProgram reduce_pure(const WrenchProgram& program, const DirectDrives& driv
     low = std::max(low, std::min(first, second));
     high = std::min(high, std::max(first, second));
   }
-  // Crossing bounds are kept apart from infinity, which no bound may be.
+  // Lower bounds must not be infinity, so crossing bounds get finite numbers.
   if (low == kInfinity) low = high + 1;
   const int m = static_cast<int>(drives.other_columns.size());
   MatrixXd A(drives.other_rows.size(), m + 1);

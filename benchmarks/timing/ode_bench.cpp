@@ -1,5 +1,5 @@
-// Work and precision of every integrator on a motion of the free underwater vehicle, and where the
-// time of a simulated experiment goes, static and along a turn.
+// The work and the precision of every integrator on a motion of the free underwater vehicle, and
+// the time of the parts of a simulated experiment, static and along a turn.
 
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Counts what an integrator asks for.
+/// Counts the evaluations of an integrator.
 class Counted final : public Ode {
  public:
   explicit Counted(Ode& ode) : ode_(ode) {}
@@ -39,7 +39,7 @@ class Counted final : public Ode {
   Ode& ode_;
 };
 
-/// The default posture, moving, under forces that swing.
+/// The default posture in motion, under oscillating forces.
 FreeMotion swing(const Problem& problem) {
   PostureEvaluator model(problem);
   const Posture& posture = model.evaluate(problem.theta_r_default);
@@ -81,7 +81,7 @@ void print_work_and_precision(const Problem& problem) {
   }
 }
 
-/// Only integrators for stiff systems serve the tank.
+/// The tank supports only integrators for stiff systems.
 template <typename Experiment>
 void print_shares(const char* what, const Problem& problem, const Experiment& experiment) {
   fmt::print("\n{}, {}, on one core\n", problem.name, what);

@@ -1,12 +1,13 @@
-// Times the lower level over the instants of a slow motion, cold: our interior point method, the
-// same after its attempt on the worst instant, and our simplex where it is small enough (it is
-// dense), against Clp, by its dual and its primal simplex and by what it chooses after presolving,
-// and GLPK, all on the program assembled for free; then prints how many times faster ours are than
-// the best peer of the same run. Every answer is checked, as everywhere else.
+// Times the lower level over the instants of a slow motion, cold. Our solvers are the interior
+// point method, the same after its attempt on the worst instant, and our simplex where the program
+// is small enough (it is dense). The peers are GLPK and Clp, by its dual and its primal simplex and
+// by its choice after presolving. The assembly of the peers' program is not timed. Then prints how
+// many times faster ours are than the best peer of the same run. Every answer is checked, as
+// everywhere.
 //
 // Robots: the underwater vehicle of uvms/valve, the planar one, the wheeled one, and the underwater
-// one with nine joints. Beside each row stand the variables of an instant in the interior point
-// method, and whether code for this number is compiled in.
+// one with nine joints. Each row also shows the number of variables of an instant in the interior
+// point method, and whether code for this number is compiled in.
 //
 // The primal simplex of Clp takes minutes for 1,000 instants and is left out there, as is GLPK.
 
@@ -38,7 +39,7 @@ struct TimedRobot {
   Problem problem;
 };
 
-/// With the arm's chain of joints behind itself until there are `joints`.
+/// Repeats the arm's chain of joints behind itself until there are `joints`.
 Problem lengthened(Problem problem, std::size_t joints) {
   Robot& robot = problem.robot;
   const std::size_t arm = robot.joints.size();
@@ -71,7 +72,7 @@ std::vector<TimedRobot> timed_robots() {
   return robots;
 }
 
-/// Programs of one robot and size.
+/// Programs of one robot and one size.
 struct Set {
   std::string robot;
   Wrench wrench;
@@ -164,7 +165,7 @@ void add_set(const Set& set) {
   }
 }
 
-/// Prints as usual and keeps the medians, in microseconds of CPU time.
+/// Prints as usual and keeps the medians, in microseconds of processor time.
 class Medians : public benchmark::ConsoleReporter {
  public:
   void ReportRuns(const std::vector<Run>& runs) override {

@@ -31,16 +31,16 @@ struct ProofOptions : CommonOptions {
   WithinOptions within;
 };
 
-/// What was proven of the best posture that was found.
+/// The proof for the best posture found.
 struct Proof {
-  Answer row;  ///< of the posture, evaluated anew
+  Answer row;  ///< the posture, evaluated again
   std::string search;
   CertifyResult result;
   double search_s = 0;
-  ProofRecorder boxes;               ///< if there is to be a certificate
-  std::optional<GoodPostures> good;  ///< if they were asked for, and there is a value
+  ProofRecorder boxes;               ///< filled if a certificate is requested
+  std::optional<GoodPostures> good;  ///< if requested, and if there is a value
 
-  /// Of |beta|; infinite without a posture.
+  /// The gap as a share of |beta|; infinite without a posture.
   double gap() const {
     if (!row.has_value()) return kInfinity;
     return (result.bound - row.capability.beta) / std::abs(row.capability.beta);
@@ -50,7 +50,7 @@ struct Proof {
   }
 };
 
-/// In the time that is left.
+/// Lists the good postures in the remaining time.
 GoodPostures list_good(const ProofOptions& options, const Problem& problem, const Method& method,
                        const Bound& bound, const CertifyOptions& how, Proof& proof) {
   ProgressLine line;
@@ -66,8 +66,8 @@ GoodPostures list_good(const ProofOptions& options, const Problem& problem, cons
   return verified_good_postures(problem, method, bound, proof.result.bound, good, proof.row);
 }
 
-/// What checks a certificate knows no forces of a second contact; the list of good postures is one
-/// of boxes of theta_r alone.
+/// The check of a certificate does not support forces of a second contact. The list of good
+/// postures needs boxes of theta_r only.
 void throw_on_dependents(const ProofOptions& options, const Problem& problem) {
   if (!options.certificate.empty() && problem.contact_columns() > 0) {
     throw std::invalid_argument(
@@ -80,11 +80,11 @@ void throw_on_dependents(const ProofOptions& options, const Problem& problem) {
   }
 }
 
-/// Searches, then bounds. What was found while bounding is evaluated anew, too.
+/// Searches, then bounds. A better posture found while bounding is also evaluated again.
 Proof prove(const ProofOptions& options, const Problem& problem) {
   Options c = options.read_options();
   c.budget = kUsualBudget;
-  const auto bound = make_capability_bound(problem, c.measure, c.wrench);  // or rejects, first
+  const auto bound = make_capability_bound(problem, c.measure, c.wrench);  // first, as it may throw
   const Method method = resolve(problem, c);
   CtrlC ctrl_c;
   Proof proof;
@@ -126,7 +126,7 @@ Proof prove(const ProofOptions& options, const Problem& problem) {
   return proof;
 }
 
-/// Empty, or why the text is no gap.
+/// Empty, or why the text is not a gap.
 std::string reject_gap(const std::string& text) {
   double gap = 0;
   const bool read = CLI::detail::lexical_cast(text, gap);
@@ -134,7 +134,7 @@ std::string reject_gap(const std::string& text) {
   return fmt::format("got '{}', expected a number of {:g} to 1", text, kLeastGap);
 }
 
-/// Without a posture of a value, or a bound, there is nothing to certify.
+/// Without a posture that has a value, or without a bound, there is nothing to certify.
 void write_certificate(const ProofOptions& options, const Proof& proof) {
   if (options.certificate.empty()) return;
   if (!proof.row.has_value() || !std::isfinite(proof.result.bound)) {

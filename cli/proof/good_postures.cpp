@@ -17,10 +17,10 @@ namespace maxwrench {
 namespace {
 
 constexpr double kLeastShare = kLeastGap / kGapPart;
-/// Clusters that people get to see.
+/// The most clusters that are printed.
 constexpr std::size_t kPrinted = 20;
 
-/// "1%", "1 %" or "0.01"; NaN if it is none.
+/// "1%", "1 %" or "0.01"; NaN for any other text.
 double parse_share(std::string text) {
   double unit = 1;
   if (text.ends_with('%')) {
@@ -48,7 +48,7 @@ std::string reject_resolution(const std::string& text) {
                      kLeastResolution);
 }
 
-/// Joints whose limits are a whole turn apart.
+/// The joints whose limits are a whole turn apart.
 std::vector<char> turning(const Problem& problem) {
   std::vector<char> turns;
   for (int i = 0; i < problem.redundancy(); ++i) {
@@ -107,7 +107,7 @@ std::string boxes_csv(const GoodPostures& good) {
   return text;
 }
 
-/// The best that hold such postures, the other ones that do, those that may.
+/// The best clusters that hold good postures, the other ones that do, and those that may.
 std::vector<BoxGroup> groups_of(const GoodPostures& good, const char* unit) {
   std::vector<BoxGroup> groups;
   const auto holds = static_cast<std::size_t>(holding(good));

@@ -19,31 +19,31 @@ struct Problem;
 
 /// The options of `certify --within`.
 struct WithinOptions {
-  std::string within;  ///< as on the command line; empty: not asked for
+  std::string within;  ///< as on the command line; empty if not requested
   double resolution = GoodOptions().resolution;
-  std::string figure, boxes;  ///< files; empty: none
+  std::string figure, boxes;  ///< files; empty if none
 
   void add(CLI::App& command);
   bool asked() const { return !within.empty(); }
-  double share() const;  ///< that `within` says
+  double share() const;  ///< `within` as a number
 };
 
-/// Of the gap to the best, at most this part of the share: so what is found good is good for sure
-/// unless it lies near the edge.
+/// The gap to the best may be at most this part of the share. Then a posture that counts as good
+/// certainly is good, unless its value is near the limit.
 inline constexpr double kGapPart = 0.1;
 
-/// All postures that are within the share of the best; `row` holds the best that is known, whose
-/// value is at most `high`. Those that are found are verified as any; a better one becomes `row`.
+/// All postures within the share of the best. `row` holds the best known one, and no value exceeds
+/// `high`. Postures that are found are verified like any other; a better one becomes `row`.
 GoodPostures verified_good_postures(const Problem& problem, const Method& method,
                                     const Bound& bound, double high, GoodOptions options,
                                     Answer& row);
 
-/// For people, after what was proven of the best.
+/// Prints the good postures as text, after the proof for the best one.
 void print_good(const Problem& problem, const GoodPostures& good, const WithinOptions& options);
 
 nlohmann::ordered_json to_json(const GoodPostures& good, const WithinOptions& options);
 
-/// The files that were asked for.
+/// Writes the requested files.
 void write_good(const Answer& row, const GoodPostures& good, const WithinOptions& options);
 
 }  // namespace maxwrench

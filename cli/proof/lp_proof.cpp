@@ -30,7 +30,8 @@ std::vector<std::string> fractions(const RationalVector& v) {
   return all;
 }
 
-/// "-12" or "-12/5", with no other sign, blank or zero below the line.
+/// Whether the text is like "-12" or "-12/5", without any other sign or blank, and with a
+/// denominator other than zero.
 bool is_fraction(const std::string& text) {
   const auto digits = [](std::string_view part) {
     return !part.empty() && part.find_first_not_of("0123456789") == part.npos;

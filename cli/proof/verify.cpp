@@ -20,7 +20,7 @@ struct VerifyOptions : CommonOptions {
   std::size_t sample = 0;
 };
 
-/// Of the coordinates of its posture, which may be too few.
+/// theta_r from the coordinates of the certificate's posture, which may be too few.
 Eigen::VectorXd theta_r_of(const ProofCertificate& proof, const Problem& problem) {
   return proof.x.head(std::min(proof.x.size(), problem.theta_r_min.size()));
 }
@@ -69,7 +69,7 @@ void print_verified_object(const ProofCertificate& proof, const Problem& problem
   print_json(object);
 }
 
-/// A fraction of many digits is no help for the eye.
+/// A fraction with many digits is hard to read.
 std::string readable(const std::string& fraction) {
   constexpr std::size_t kShort = 20;
   if (fraction.size() <= kShort) return fraction;

@@ -24,7 +24,7 @@
 namespace maxwrench {
 namespace {
 
-/// The rows that are looked at.
+/// The rows to check.
 std::vector<std::size_t> draw(std::size_t all, std::size_t sample, std::uint64_t seed) {
   std::vector<std::size_t> rows(all);
   std::iota(rows.begin(), rows.end(), 0);
@@ -41,7 +41,7 @@ std::vector<std::size_t> draw(std::size_t all, std::size_t sample, std::uint64_t
 std::vector<RowCheck> check_all(const CsvFile& csv, const std::vector<std::size_t>& rows,
                                 int threads) {
   std::map<std::string, Problem> problems;
-  std::map<std::string, std::string> unknown;  // with what is wrong
+  std::map<std::string, std::string> unknown;  // with their errors
   for (const std::size_t row : rows) {
     const std::string& name = csv.text(row, "problem");
     if (problems.contains(name) || unknown.contains(name)) continue;

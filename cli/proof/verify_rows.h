@@ -4,11 +4,11 @@
 
 namespace maxwrench {
 
-/// Whether a file begins as the values of `run` do; throws if it cannot be read.
+/// Whether a file begins like values.csv of `run`; throws if it cannot be read.
 bool is_values_file(const std::string& file);
 
-/// Checks all rows of such a file, or `sample` of them, drawn by `seed`; 0: all. Prints what it
-/// found, and returns the exit status.
+/// Checks `sample` rows of such a file, drawn by `seed`, or all if `sample` is 0. Prints the
+/// results and returns the exit status.
 int verify_rows(const std::string& file, std::size_t sample, std::uint64_t seed, int threads,
                 bool json);
 

@@ -7,7 +7,7 @@
 namespace maxwrench {
 namespace {
 
-/// Methods with names in a figure.
+/// The most methods that are named in a figure.
 constexpr std::size_t kNamedMethods = 8;
 
 EcdfPanel profile_panel(const BenchmarkSet& benchmark_set) {

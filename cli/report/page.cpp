@@ -5,7 +5,7 @@
 namespace maxwrench {
 namespace {
 
-/// Rows of a table that a browser shows without delay; all are in its CSV file.
+/// The most rows of a table that a browser shows without delay; the CSV file has all.
 constexpr std::size_t kMostShown = 5000;
 
 constexpr const char* kStyle = R"(

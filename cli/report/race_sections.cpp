@@ -8,12 +8,12 @@ namespace {
 
 constexpr std::size_t kNamedSearches = 8;
 
-/// A column for each target: `tenth` and so on after a prefix.
+/// Adds a column for each target: `tenth` and so on after a prefix.
 void add_target_columns(const std::string& prefix, std::vector<std::string>& columns) {
   for (const char* target : kTargetNames) columns.push_back(prefix + target);
 }
 
-/// Steps that a reader can tell apart: on a logarithmic axis those 1 % apart, and the last.
+/// Keeps steps that a reader can distinguish: those 1 % apart on a logarithmic axis, and the last.
 void thin(std::vector<EcdfPanel>& panels) {
   for (EcdfPanel& panel : panels) {
     for (EcdfCurve& curve : panel.curves) {

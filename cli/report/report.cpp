@@ -17,7 +17,7 @@
 namespace maxwrench {
 namespace {
 
-/// Rows of a table on the terminal.
+/// The most rows of a table that are printed on the terminal.
 constexpr std::size_t kMostPrinted = 40;
 
 struct ReportOptions {
@@ -26,7 +26,7 @@ struct ReportOptions {
   std::string out;
 };
 
-/// The rest of the line of machine.txt that starts so.
+/// The rest of the line of machine.txt that begins with `start`.
 std::string fact_of(const Results& results, const std::string& start) {
   std::istringstream lines(results.machine);
   for (std::string line; std::getline(lines, line);) {
@@ -35,7 +35,7 @@ std::string fact_of(const Results& results, const std::string& start) {
   return "unknown";
 }
 
-/// How many different names the rows have in each column that a suite chooses.
+/// The number of different names that the rows have in each column that a suite chooses.
 std::string extent_of(const std::vector<ResultRow>& rows) {
   std::set<std::string> problems, measures, lps, searches, integrators;
   std::set<std::uint64_t> seeds;
@@ -56,7 +56,8 @@ std::string extent_of(const std::vector<ResultRow>& rows) {
       seeds.size(), integrators.size());
 }
 
-/// The versions that made the rows, with their numbers of rows; of a race that of the folder.
+/// The versions that made the rows, with their numbers of rows; for a race, the version of the
+/// folder.
 std::string versions_of(const Results& results) {
   if (results.versions.empty()) return fact_of(results, "maxwrench");
   std::vector<std::string> versions;
@@ -66,7 +67,7 @@ std::string versions_of(const Results& results) {
   return fmt::format("{}", fmt::join(versions, ", "));
 }
 
-/// What a page says of one folder; `mark` stands behind the names of facts.
+/// Adds the facts about one folder to the page; `mark` is appended to their names.
 void describe(const Results& results, const std::string& mark, PageHead& head) {
   head.facts.emplace_back("folder" + mark, results.folder.string());
   head.facts.emplace_back("version" + mark, versions_of(results));

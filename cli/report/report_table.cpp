@@ -11,7 +11,7 @@
 namespace maxwrench {
 namespace {
 
-/// Above 2^53 not all whole numbers are doubles.
+/// Above 2^53, not all whole numbers are doubles.
 bool is_whole(double value) { return value == std::round(value) && std::abs(value) < 9e15; }
 
 /// Whether a column holds values of tasks.
@@ -20,7 +20,8 @@ bool is_value(const std::string& column) {
          column.starts_with("beta");
 }
 
-/// For people: values of tasks with eight digits, other numbers with four; `none` for what is none.
+/// A cell for readers: values of tasks with eight digits, other numbers with four; `none` for a
+/// missing number.
 std::string shown(const std::string& column, const ReportCell& cell, const char* none) {
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;
   const double value = std::get<double>(cell);
@@ -29,12 +30,11 @@ std::string shown(const std::string& column, const ReportCell& cell, const char*
   return fmt::format("{:.{}g}", value, is_value(column) ? 8 : 4);
 }
 
-/// Whether a column holds numbers.
 bool is_numeric(const ReportTable& table, std::size_t column) {
   return !table.rows.empty() && std::holds_alternative<double>(table.rows.front()[column]);
 }
 
-/// All cells as they are printed, the names of the columns first.
+/// All cells as they are printed; the names of the columns come first.
 std::vector<std::vector<std::string>> printed(const ReportTable& table, std::size_t most) {
   std::vector<std::vector<std::string>> lines = {table.columns};
   for (std::size_t i = 0; i < std::min(most, table.rows.size()); ++i) {

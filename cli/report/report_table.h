@@ -6,22 +6,23 @@
 
 namespace maxwrench {
 
-/// A text, or a number, which is none if it is not finite.
+/// A text or a number; a number that is not finite counts as missing.
 using ReportCell = std::variant<std::string, double>;
 
-/// A table that is printed, written as CSV and shown on a page. Columns are those of `dictionary`.
+/// A table that is printed, written as CSV and shown on a page. Its columns are those of
+/// `dictionary`.
 struct ReportTable {
-  std::string name;  ///< of its file, without the ending
+  std::string name;  ///< of its file, without the suffix
   std::string title, note;
   std::vector<std::string> columns;
   std::vector<std::vector<ReportCell>> rows;
 };
 
-/// Each line with its break, numbers with a few digits, at most `most` rows.
+/// Lines with line breaks, numbers with a few digits, at most `most` rows.
 std::string text_of_table(const ReportTable& table, std::size_t most);
-/// Numbers with all their digits; nothing for none.
+/// Numbers with all digits; empty cells for missing numbers.
 std::string csv_of_table(const ReportTable& table);
-/// A box with a filter, within which the table scrolls, with at most `most` rows.
+/// A box with a filter, in which the table scrolls, with at most `most` rows.
 std::string html_of_table(const ReportTable& table, std::size_t most);
 
 std::string escaped_html(const std::string& text);

@@ -19,7 +19,7 @@ namespace {
 
 double or_none(const std::optional<double>& value) { return value.value_or(NAN); }
 
-/// A seed may have more digits than a double.
+/// A text, because a seed may have more digits than a double.
 ReportCell seed_cell(std::uint64_t seed) {
   const bool fits = seed <= std::uint64_t{1} << 53;
   return fits ? ReportCell(static_cast<double>(seed)) : ReportCell(std::to_string(seed));
@@ -74,7 +74,8 @@ ReportSection search_section(const std::vector<ResultRow>& rows) {
   return {table, {}};
 }
 
-/// Coordinates, instants, actuators and columns of a problem; none of one that is not here.
+/// Coordinates, instants, actuators and columns of a problem; missing if the problem cannot be
+/// loaded.
 std::vector<ReportCell> sizes_of(const CostSummary& cost) {
   try {
     const Problem problem = load_problem(cost.problem);
@@ -87,8 +88,8 @@ std::vector<ReportCell> sizes_of(const CostSummary& cost) {
   }
 }
 
-/// A set of points for each solver: one of the sizes in a line of the table of costs, and its time;
-/// nothing unless sizes differ. `in_time`: of tasks in time, else of static ones.
+/// A set of points for each solver: one of the sizes and the time from each line of the table of
+/// costs. Empty unless sizes differ. `in_time`: for tasks in time, otherwise for static ones.
 std::vector<std::string> draw_costs(const ReportTable& table, const std::string& size,
                                     bool in_time) {
   const auto place = [&](const std::string& column) {

@@ -16,24 +16,25 @@ struct Results;
 struct ReportSection {
   ReportTable table;
   std::vector<std::string> figures;
-  bool printed = true;  ///< on the terminal, too
+  bool printed = true;  ///< also on the terminal
 };
 
-/// What the rows of a run tell: tasks, solvers, searches, costs, experiments in the virtual tank if
-/// there are any, failures, the rows themselves.
+/// Sections on the rows of a run: tasks, solvers, searches, costs, experiments in the virtual tank
+/// if there are any, failures, the rows themselves.
 std::vector<ReportSection> run_sections(const Results& results);
-/// What its races tell: groups of tasks, significance, expected running times; none without races.
+/// Sections on its races: groups of tasks, significance, expected running times; empty without
+/// races.
 std::vector<ReportSection> race_sections(const std::vector<Comparison>& races);
-/// What differs between two folders.
+/// The differences between two folders.
 std::vector<ReportSection> change_sections(const Results& a, const Results& b);
-/// Every column with its unit and meaning.
+/// All columns with their units and meanings.
 ReportSection dictionary_section();
 
 /// The columns of a case.
 std::vector<ReportCell> case_cells(const Case& c);
-/// Fills a table that has its name, title and note with a line for each method of each benchmark
-/// set; `method` and `cost` are the columns of its name and costs. Performance profiles, a figure
-/// for each benchmark set: `performance_ratios` as shares of instances.
+/// Adds a line for each method of each benchmark set to a table that already has its name, title
+/// and note. `method` and `cost` name the columns of the method and its cost. The figures are
+/// performance profiles, one for each benchmark set: `performance_ratios` as shares of instances.
 ReportSection benchmark_set_section(ReportTable table,
                                     const std::vector<BenchmarkSet>& benchmark_sets,
                                     const std::string& method, const std::string& cost);

@@ -23,7 +23,7 @@ struct Tank {
   double one = 23, chosen = 26, best = 30;  ///< N m, measured in the paper
 };
 
-/// Of the measure beta_2: pure torque at the bar.
+/// The measure beta_2: pure torque at the bar.
 Case pure(const char* search) {
   return {"", "linf_polytope", Wrench::kPure, "", search, 1, kDualBudget};
 }

@@ -18,13 +18,13 @@
 namespace maxwrench {
 namespace {
 
-/// One of the paper's experiments in time and what its tank measured.
+/// One of the paper's experiments in time, with the measurements of its tank.
 struct MotionTable {
   const char* problem;
   const char* title;
-  const char *constant, *moving;  ///< what their rows are called
+  const char *constant, *moving;  ///< names of their rows
   double tank_constant, tank_moving;
-  const char* reading;  ///< what of the virtual tank's cell stands in the table
+  const char* reading;  ///< which number of the virtual tank's load cell the table shows
 };
 
 constexpr MotionTable kMotionTables[] = {
@@ -34,9 +34,9 @@ constexpr MotionTable kMotionTables[] = {
      "at t_h"},
 };
 
-constexpr double kWide = 0.5;  // m: bodies this far apart are not near each other
+constexpr double kWide = 0.5;  // m: bodies farther apart than this do not count as near
 
-/// One row of a table, of a problem that outlives it.
+/// One row of a table; its problem must outlive it.
 struct Moved {
   const Problem& problem;
   std::string name;
@@ -55,7 +55,7 @@ std::string in_column(double value, int width = 8, int digits = 2) {
                               : fmt::format("{:>{}}", "none", width);
 }
 
-/// The value of the same table of theta_r under another task, less its own.
+/// The change of the value of the same table of theta_r under another task.
 std::string rise(const Moved& moved, const MotionTask& other) {
   Problem problem = moved.problem;
   problem.motion = other;
@@ -63,10 +63,10 @@ std::string rise(const Moved& moved, const MotionTask& other) {
       evaluate(problem, moved.row.trajectory.knots, {moved.row.choice}).trajectory;
   const double risen = std::round(1000 * (trajectory.value - moved.row.trajectory.value)) / 1000;
   return std::isfinite(risen) ? fmt::format("{:>+8.3f}", risen + 0.0)
-                              : in_column(risen);  // no zero below zero
+                              : in_column(risen);  // avoids -0
 }
 
-/// How much is left between the bodies of the robot at the knots, beyond their margin.
+/// The least clearance between the bodies of the robot at the knots, beyond their margin.
 std::string clearance(const Moved& moved) {
   TrajectoryEvaluator evaluator(moved.problem, Wrench::kPure, trajectory_solvers().front().make);
   double least = kWide;
@@ -88,7 +88,7 @@ std::string limits_line(const Moved& moved) {
                      dearest_efforts(moved.row));
 }
 
-/// What the virtual tank was asked for and what came of it.
+/// The planned value in the virtual tank, and its result.
 std::string tank_cells(const Moved& moved) {
   const TankScript& script = moved.tank.script;
   const TankSummary& summary = moved.tank.run.summary;
@@ -99,7 +99,7 @@ std::string tank_cells(const Moved& moved) {
                      summary.configuration_error, held);
 }
 
-/// `constant`: the row of the same scheme that the gain refers to.
+/// `constant` is the row of the same scheme that the gain refers to.
 std::string value_line(const MotionTable& table, const Moved& moved, const Moved& constant) {
   const Trajectory& trajectory = moved.row.trajectory;
   const bool found = &moved != &constant;
@@ -113,7 +113,8 @@ std::string value_line(const MotionTable& table, const Moved& moved, const Moved
                      found ? table.tank_moving / table.tank_constant : 1);
 }
 
-/// The constant default and the trajectory that the search finds, each in the virtual tank.
+/// The constant default and the trajectory that the search finds, both simulated in the virtual
+/// tank.
 std::vector<Moved> solve_scheme(RowWriter& writer, const MotionTable& table, const Problem& problem,
                                 const std::filesystem::path& folder, long budget) {
   const Case c{.budget = budget};
@@ -135,7 +136,8 @@ std::vector<Moved> solve_scheme(RowWriter& writer, const MotionTable& table, con
   return rows;
 }
 
-/// The paper's figures of a task in time, of the scheme that says what happens between instants.
+/// Writes the paper's figures of a task in time, for the scheme that defines the motion between
+/// instants.
 void write_motion_figures(const MotionTable& table, const std::vector<Moved>& rows,
                           const std::filesystem::path& folder) {
   const Moved& found = rows.back();
@@ -153,7 +155,8 @@ void write_motion_figures(const MotionTable& table, const std::vector<Moved>& ro
                                telling_times(*found.problem.motion, found.row.trajectory)));
 }
 
-/// Those of the table: for an impulse without the one that ends at rest, which nobody has measured.
+/// The schemes of the table; for an impulse, without the one that ends at rest, which was not
+/// measured.
 std::vector<std::string> schemes_of_table(const Problem& problem) {
   std::vector<std::string> schemes = scheme_names(problem.motion->impulse);
   std::erase(schemes, to_string(Scheme::kBackwardStop));

@@ -12,7 +12,8 @@
 namespace maxwrench {
 namespace {
 
-/// One number of the paper's planar example (fig:optimalpolytopes) and how we reach it.
+/// One number of the paper's planar example (fig:optimalpolytopes), and the case that reproduces
+/// it.
 struct PaperValue {
   const char* symbol;
   double paper;  ///< N
@@ -30,8 +31,8 @@ const std::vector<PaperValue>& planar_values() {
   return kValues;
 }
 
-/// Enough for a first grid of 600 × 600 points; an interior point solve costs a thousand times
-/// more.
+/// Enough for a first grid of 600 × 600 points; an interior point solve takes a thousand times as
+/// long.
 long budget_of(const std::string& search, const std::string& solver) {
   if (solver == "ipopt") return 3000;
   return search == "grid+cmaes" ? 400000 : 40000;
@@ -39,7 +40,7 @@ long budget_of(const std::string& search, const std::string& solver) {
 
 struct Rows {
   std::string text;          ///< the table
-  std::vector<Answer> best;  ///< for each paper value the first row
+  std::vector<Answer> best;  ///< the first row for each paper value
   bool all_solved = true;
 };
 

@@ -7,23 +7,23 @@ namespace maxwrench {
 
 struct Answer;
 
-/// One of the paper's tables beside ours.
+/// One of the paper's tables, with our values.
 struct PaperTable {
   std::string text;
   bool all_solved = true;
 };
 
-/// What branch and bound proves from the posture of an answer on, to 0.1 %: no posture has more.
-/// NaN where no bound serves or none comes so near.
+/// The bound on all postures that branch and bound proves to 0.1 %, starting from the posture of an
+/// answer. NaN if no bound is supported or none is near enough.
 double proven_bound(const Answer& answer, int threads);
 
-// Each solves its cases into values.csv and times.csv of the folder and writes its table, and
-// figures if it has any, beside them.
+// Each function solves its cases, writes them to values.csv and times.csv of the folder, and writes
+// its table, and its figures if any, to the same folder.
 PaperTable reproduce_planar(const std::filesystem::path& folder, int threads);
 PaperTable reproduce_uvms(const std::filesystem::path& folder, int threads);
 PaperTable reproduce_dual(const std::filesystem::path& folder, int threads);
-/// Each trajectory that was found becomes a table trajectories/TASK_SCHEME.csv of the folder.
-/// `budget` is that of each search.
+/// Also writes each trajectory found to a table trajectories/TASK_SCHEME.csv of the folder.
+/// `budget` is the budget of each search.
 PaperTable reproduce_motion(const std::filesystem::path& folder, int threads, long budget);
 
 }  // namespace maxwrench

@@ -16,7 +16,7 @@
 namespace maxwrench {
 namespace {
 
-/// One posture of the paper's static experiments and what the tank measured there.
+/// One posture of the paper's static experiments, and the tank's measurement there.
 struct Measured {
   const char* symbol;
   const char* measure;
@@ -30,7 +30,7 @@ struct Task {
   double unit;  ///< of the table, in N or N m
   double tank_default;
   std::vector<Measured> optima;
-  const char* figure;  ///< file name without ending
+  const char* figure;  ///< file name without suffix
 };
 
 constexpr double kKilogram = 9.81;  ///< N; the tank lifted weights
@@ -63,7 +63,8 @@ constexpr TankTry kAttempts[] = {
     {"grid+cmaes", 1}, {"annealing+cmaes", 1}, {"annealing+cmaes", 2}, {"annealing+cmaes", 3}};
 constexpr long kStaticBudget = 200000;
 
-/// The row of the best search, by which share the worst one stays below, and `proven_bound`.
+/// The row of the best search, the shortfall of the worst search as a share of it, and
+/// `proven_bound`.
 struct Best {
   Answer row;
   double lag = 0, bound = 0;
@@ -80,14 +81,14 @@ Best search(RowWriter& writer, const Problem& problem, const Measured& measured,
     worst = std::min(worst, row.capability.beta);
     const bool better =
         !best.row.has_value() || row.capability.beta > best.row.capability.beta * (1 + 1e-9);
-    if (better) best.row = row;  // within rounding the first one stays
+    if (better) best.row = row;  // of rows equal within rounding, the first is kept
   }
   if (best.row.has_value()) best.lag = 1 - worst / best.row.capability.beta;
   best.bound = proven_bound(best.row, threads);
   return best;
 }
 
-/// What the actuators can do at a posture: the common beta_linf of all measures.
+/// The most that the actuators can exert at a posture: the common beta_linf of all measures.
 Case beta_linf(Wrench wrench) { return {.measure = "linf_polytope", .wrench = wrench}; }
 
 std::string cell(const Answer& row, double unit) {
@@ -95,15 +96,15 @@ std::string cell(const Answer& row, double unit) {
                          : fmt::format("{:>8}", "none");
 }
 
-/// What the virtual tank measures: the mean torque of the hold, or the heaviest load that is held.
+/// The virtual tank's measurement: the mean torque of the hold, or the heaviest load that is held.
 struct Simulated {
   std::string name;
   TankRun run;
   std::string cell;
-  std::string beyond;  ///< what one N m more than the efforts reach does
+  std::string beyond;  ///< the result at 1 N m beyond the reach of the efforts
 };
 
-/// `reach`: what any efforts exert at the posture with the wrenches of `own`.
+/// `reach` is what any efforts can exert at the posture with the wrenches of `own`.
 Simulated simulated(const Task& task, const char* name, const Answer& own, const Answer& reach) {
   Simulated result;
   result.name = name;
@@ -141,7 +142,7 @@ std::string posture(const Answer& row) {
   return text;
 }
 
-/// What the environment must take besides the wrench along c, and about what it took in the tank.
+/// The approximate size of the wrench orthogonal to c that the environment bore in the tank.
 constexpr double kTankForce = 80, kTankTorque = 50;
 
 Vector6d orthogonal(const Answer& row) {
@@ -157,8 +158,8 @@ std::string describe_orthogonal(const Answer& row) {
       fmt::join(h.head<3>(), ", "), kTankForce, fmt::join(h.tail<3>(), ", "), kTankTorque);
 }
 
-/// All components of the wrench at the beta_3 optimum. The paper gives no axes and no signs of the
-/// orthogonal ones.
+/// All components of the wrench at the beta_3 optimum. The paper gives neither axes nor signs of
+/// the orthogonal ones.
 std::string wrench_bars(const Problem& problem, const Answer& row, double tank) {
   static constexpr const char* kNames[] = {"f_x", "f_y", "f_z", "n_x", "n_y", "n_z"};
   std::vector<BarGroup> groups = {{"force [N]", {}}, {"torque [N m]", {}}};
@@ -174,8 +175,8 @@ std::string wrench_bars(const Problem& problem, const Answer& row, double tank) 
                    "tank (orthogonal to c: size only)");
 }
 
-/// One line for an optimum. For beta_3 the tank measured the torque while its sensor took any other
-/// component, so the own value is the one to compare, otherwise the pure one.
+/// One line for an optimum. For beta_3, the tank's sensor bore all other components while it
+/// measured the torque, so the posture's own value is compared; otherwise the pure one is.
 std::string optimum_line(const Task& task, const Measured& measured, const Best& best,
                          const Answer& pure, const std::string& virtual_tank, double reference) {
   const Answer& compared = measured.wrench == Wrench::kAny ? best.row : pure;
@@ -188,7 +189,7 @@ std::string optimum_line(const Task& task, const Measured& measured, const Best&
       posture(best.row));
 }
 
-/// The paper's figures of a task: its postures, and the wrench of beta_3.
+/// Writes the paper's figures of a task: its postures, and the wrench of beta_3.
 void write_figures(const std::filesystem::path& folder, const Problem& problem, const Task& task,
                    const std::vector<Answer>& best) {
   std::vector<Panel> panels = {{"default", problem.theta_r_default}};
@@ -202,10 +203,10 @@ void write_figures(const std::filesystem::path& folder, const Problem& problem, 
              posture_figure(problem, panels));
 }
 
-/// The paper's fig:staticTorque.
+/// Writes the paper's fig:staticTorque.
 void write_tank_figure(const std::filesystem::path& folder, const Problem& problem,
                        const Task& task, const std::vector<Simulated>& experiments) {
-  if (task.unit == kKilogram) return;  // a load is held or not
+  if (task.unit == kKilogram) return;  // a load is either held or not
   std::vector<TankCurve> curves;
   for (const Simulated& experiment : experiments) {
     curves.push_back({experiment.name, &experiment.run});

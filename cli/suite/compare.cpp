@@ -29,21 +29,22 @@ namespace maxwrench {
 namespace {
 
 struct CompareOptions : CommonOptions {
-  std::vector<std::string> problems;  ///< none: all static ones that are shipped
+  std::vector<std::string> problems;  ///< if empty, all shipped static ones
   int seeds = 20;
   bool names_budget = false;
   MotionOptions motion;
   std::string out = "results";
 };
 
-/// Problems of so few coordinates, and those with joints that follow, each evaluation of which
-/// costs twenty of others, get a fifth of the budget unless it is named.
+/// Problems with at most this many coordinates, and those with dependent joints, get a fifth of the
+/// budget unless it is named. With dependent joints, an evaluation takes about as long as twenty
+/// others.
 constexpr int kFewCoordinates = 2;
 constexpr long kLesserShare = 5;
-/// Searches with names in the figures.
+/// The most searches that are named in the figures.
 constexpr std::size_t kNamed = 8;
 
-/// All shipped static ones, with a second contact too.
+/// All shipped static tasks, including those with a second contact.
 std::vector<std::string> static_problems() {
   std::vector<std::string> names;
   for (const std::string& name : shipped_problems()) {
@@ -52,7 +53,7 @@ std::vector<std::string> static_problems() {
   return names;
 }
 
-/// The median of each search as a curve; `comparison` outlives it.
+/// The median of each search as a curve; `comparison` must outlive it.
 ConvergencePanel panel(const Comparison& comparison) {
   ConvergencePanel panel{comparison.problem, static_cast<double>(comparison.budget), {}};
   const double best = comparison.best();
@@ -70,8 +71,8 @@ long usual_budget(const Problem& problem, long budget) {
   return whole ? budget : budget / kLesserShare;
 }
 
-/// Keeps what is finished; of an interrupted problem nothing, because each line depends on the best
-/// of all.
+/// Returns only finished problems; nothing of an interrupted one, because each line depends on the
+/// best of all.
 std::vector<Comparison> attempt_all(const CompareOptions& options,
                                     const std::filesystem::path& folder) {
   std::vector<Problem> problems;
@@ -85,7 +86,7 @@ std::vector<Comparison> attempt_all(const CompareOptions& options,
     options.motion.change(problem);
     Case& c = cases.emplace_back(options.read_options());
     if (!options.names_budget) c.budget = usual_budget(problem, c.budget);
-    resolve(problem, c);  // rejects before anything is computed
+    resolve(problem, c);  // rejects errors before any computation
   }
   write_file(folder / "machine.txt", describe_machine());
   long total = 0;
@@ -133,8 +134,8 @@ void draw(std::span<const Comparison> comparisons, const std::filesystem::path& 
              draw_ecdf(ecdf_panels(comparisons, "all problems"), named, 1));
 }
 
-/// The searches with names in the figures and the floor of every comparison, then all with the
-/// times of each problem.
+/// The searches that are named in the figures and the baseline `sample`; then all searches with
+/// their times for each problem.
 std::string summary(std::span<const Comparison> comparisons) {
   const std::vector<Standing> all = standings(comparisons);
   std::vector<std::string> named = leaders(all, kNamed);
@@ -153,7 +154,7 @@ std::string summary(std::span<const Comparison> comparisons) {
       summary_table(some), summary_table(all, comparisons));
 }
 
-/// All tables, the summary if nothing is missing.
+/// All tables, and the summary if nothing is missing.
 std::string race_text(std::span<const Comparison> comparisons, int seeds, bool whole) {
   std::string text = fmt::format(
       "Every search with {} seeds, each on one thread; time of the processor, best first, * the "

@@ -20,7 +20,7 @@ struct MergeOptions {
   std::vector<std::string> folders;
 };
 
-/// Whether `run` wrote there and has ended.
+/// Throws unless `run` has written to the folder and has ended.
 void require_ended(const fs::path& folder) {
   const fs::path file = table_file(folder / "values.csv"), journal = folder / "values.csv.part";
   if (!fs::exists(file) && !fs::exists(journal)) {
@@ -34,7 +34,7 @@ void require_ended(const fs::path& folder) {
   }
 }
 
-/// Every row of `more`; one that is there already must be the same.
+/// Adds every row of `more`; a row that already exists must be the same.
 void add_values(const Table& more, const fs::path& from, Table& all, const fs::path& out) {
   more.each([&](const std::vector<std::string>& row) {
     const auto there = all.find(row);
@@ -49,14 +49,14 @@ void add_values(const Table& more, const fs::path& from, Table& all, const fs::p
   });
 }
 
-/// The times of all folders; of a row that was measured in several the first.
+/// Adds the times of all folders; for a row measured in several folders, the first time.
 void add_times(const std::vector<std::string>& folders, Table& all) {
   for (auto folder = folders.rbegin(); folder != folders.rend(); ++folder) {
     times_table(*folder).each([&](const std::vector<std::string>& row) { all.add(row); });
   }
 }
 
-/// That of the first folder that has one.
+/// Copies the file from the first folder that has it.
 void take_over(const char* name, const MergeOptions& options) {
   for (const std::string& folder : options.folders) {
     const std::string text = text_of(fs::path(folder) / name);
@@ -67,7 +67,7 @@ void take_over(const char* name, const MergeOptions& options) {
 int merge(const MergeOptions& options) {
   for (const std::string& folder : options.folders) require_ended(folder);
   std::size_t rows = 0;
-  {  // one table after the other: a million rows fill a gigabyte
+  {  // one table after the other, because a million rows fill a gigabyte
     Table values = values_table(options.out);
     values.hold();
     for (const std::string& folder : options.folders) {

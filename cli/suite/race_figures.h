@@ -9,8 +9,8 @@
 
 namespace maxwrench {
 
-/// The share of targets that each search reached, against evaluations and against ms: of one
-/// problem, or of several together as one.
+/// The share of targets that each search reached, against evaluations and against ms, for one
+/// problem or for several taken together.
 std::vector<EcdfPanel> ecdf_panels(std::span<const Comparison> comparisons,
                                    const std::string& title);
 

@@ -14,19 +14,19 @@
 namespace maxwrench {
 namespace {
 
-/// How far a value stays below the best, as a share of it; NaN if there is none.
+/// The shortfall of a value from the best, as a share of it; NaN if there is no value.
 double shortfall(const Comparison& comparison, double value) {
   return (comparison.best() - value) / std::abs(comparison.best());
 }
 
-/// The median over the attempts of a number of theirs.
+/// The median of a number over the attempts.
 double median_of(const Contender& contender, double Attempt::*number) {
   std::vector<double> values;
   for (const Attempt& each : contender.attempts) values.push_back(each.*number);
   return median(std::move(values));
 }
 
-/// Three digits.
+/// A number with three digits.
 std::string brief(double value) {
   if (!std::isfinite(value)) return "-";
   if (value >= 99.95) return fmt::format("{:.0f}", value);
@@ -72,7 +72,7 @@ std::string contender_line(const Comparison& comparison, const Contender& conten
                      std::isfinite(plain) ? number_or_dash(share, "{:.4f}") : "-");
 }
 
-/// Who won, and how the default did.
+/// The best search, and the result of the default.
 std::string verdict(const Comparison& comparison, const std::vector<const Contender*>& ranked) {
   const auto seconds = [&](const Contender& contender) {
     return contender.expected(comparison.target(), &Spent::seconds);
@@ -98,12 +98,13 @@ void put(Table& table, const Attempt& each, const std::vector<std::string>& more
   table.put(cells);
 }
 
-/// Of a table: empty for what is not finite, so that programs read a column of numbers.
+/// A cell of a table: empty for a number that is not finite, so that programs can read the column
+/// as numbers.
 std::string number_cell(double value, const char* format) {
   return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "";
 }
 
-/// One cell for each target: what was spent when it was reached.
+/// One cell for each target: the cost at which it was reached.
 std::vector<std::string> hit_cells(const Comparison& comparison, const Attempt& each, Cost cost,
                                    const char* format) {
   std::vector<std::string> cells;
@@ -113,7 +114,7 @@ std::vector<std::string> hit_cells(const Comparison& comparison, const Attempt& 
   return cells;
 }
 
-/// The columns of a table: the case, `before`, one for each target, `after`.
+/// The columns of a table: the case, `before`, one column for each target, `after`.
 std::vector<std::string> race_columns(const std::vector<std::string>& before, const char* what,
                                       const std::vector<std::string>& after) {
   std::vector<std::string> names = case_columns();
@@ -152,7 +153,7 @@ void keep_attempts(const Comparison& comparison, const Contender& contender, con
   }
 }
 
-/// The rows of an earlier race of the same task: their best value was another one.
+/// Removes the rows of an earlier race of the same task, which refer to another best value.
 void drop_race(const Comparison& comparison, Table& table) {
   const auto task_of = [](const std::vector<std::string>& cells) {
     return std::tuple(cells[0], cells[1], cells[2], cells[7]);  // problem, measure, wrench, scheme

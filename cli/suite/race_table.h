@@ -9,17 +9,17 @@
 
 namespace maxwrench {
 
-/// One problem, a line for each search, best first.
+/// The table of one problem: a line for each search, best first.
 std::string race_table(const Comparison& comparison);
-/// All problems together, a line for each of `rows`, as Markdown; of each of `comparisons`, which
-/// may be none or must be those of the standings, the expected ms to a thousandth.
+/// The table of all problems together, as Markdown: a line for each of `rows`. It has the expected
+/// ms to a thousandth for each of `comparisons`, which are empty or those of the standings.
 std::string summary_table(std::span<const Standing> rows,
                           std::span<const Comparison> comparisons = {});
 
-/// The values and, apart from them, the times of all attempts, as tables in a folder.
+/// Writes the values of all attempts, and separately their times, to tables in a folder.
 void keep(const Comparison& comparison, const std::filesystem::path& folder);
 
-/// "-" for what is not finite.
+/// "-" for a number that is not finite.
 std::string number_or_dash(double value, const char* format);
 
 }  // namespace maxwrench

@@ -14,14 +14,14 @@
 namespace maxwrench {
 namespace {
 
-/// Columns of times.csv: those of a row, and what a time depends on.
+/// The columns of times.csv: those of a row, and the conditions of the measurement.
 std::vector<std::string> measured_columns() {
   std::vector<std::string> columns = time_columns();
   columns.insert(columns.end(), {"cpu_s", "threads", "machine", "build", "sources", "version"});
   return columns;
 }
 
-/// [s], of this thread if it works alone.
+/// Processor time [s] of this thread if `threads` is 1, otherwise of the process.
 double processor_seconds(int threads) {
   timespec now{};
   clock_gettime(threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID, &now);

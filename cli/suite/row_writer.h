@@ -19,20 +19,20 @@ struct Problem;
 Table values_table(const std::filesystem::path& folder);
 Table times_table(const std::filesystem::path& folder);
 
-/// Whether a version tells from which sources it was built: those of a commit, with no change.
+/// Whether a version identifies the sources of its build: a commit without changes.
 bool names_sources(std::string_view version);
 
-/// The rows of a folder as they are.
+/// The existing rows of a folder.
 class RowsThere {
  public:
   explicit RowsThere(const std::filesystem::path& folder,
                      std::string version = maxwrench::version());
 
-  /// Whether the folder holds the row of a complete case, made from the files that the task was
-  /// read from, by the present sources and version; none if that does not name its sources.
+  /// Whether the folder holds the row of a complete case, made from the same task files by the
+  /// present sources and version. False if the version does not identify its sources.
   bool has(const Problem& problem, const Case& c) const;
   bool empty() const { return values_.size() == 0; }
-  /// Whether those of all these cases are there and have a value.
+  /// Whether the rows of all these cases exist and have a value.
   bool all_solved(const std::vector<Case>& cases) const;
 
  private:
@@ -40,27 +40,27 @@ class RowsThere {
   std::string version_;
 };
 
-/// Solves cases and keeps their rows in the tables of a folder, each as soon as it is known;
-/// describes the machine in machine.txt. Each time says on how many threads, on which processor and
-/// by which build it was measured, because a table may grow on several. Shows its progress.
+/// Solves cases and writes each row to the tables of a folder as soon as it is known; writes the
+/// description of the machine to machine.txt. Each time is stored with its number of threads,
+/// processor and build, because several machines may add to a table. Shows its progress.
 class RowWriter {
  public:
-  /// `threads`: of each case; `work`: of all of them together, for the progress bar.
+  /// `threads` is for each case; `work` is the total of all cases, for the progress bar.
   RowWriter(const std::string& command, const std::filesystem::path& folder, int threads,
             double work);
 
   Answer solve(const Problem& problem, const Case& c);
   Answer evaluate(const Problem& problem, const Case& c, const Eigen::MatrixXd& theta_r);
 
-  /// A search or an experiment, from any thread; what is thrown on the way makes a row without a
-  /// value, with the reason.
+  /// Runs a search or an experiment; may be called from any thread. An exception gives a row
+  /// without a value, with the reason.
   void carry_out(const Problem& problem, const Case& c, double work);
 
-  /// Removes the progress bar and writes the tables; whether every row has a value.
+  /// Removes the progress bar and writes the tables. Returns whether every row has a value.
   bool finish();
 
  private:
-  /// Keeps the row of what is made, and measures the time of the processor.
+  /// Stores the row of the answer that `make` returns, and measures the processor time.
   Answer kept(int threads, const std::function<Answer()>& make, double work = 1);
 
   Table values_, times_;

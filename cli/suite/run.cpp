@@ -27,7 +27,7 @@ struct RunOptions : CommonOptions {
   bool dry = false, commands = false, again = false;
 };
 
-/// What the words of the command line choose.
+/// The problems and cases that the words of the command line choose.
 struct Choice {
   std::vector<std::string> problems;
   std::map<std::string, std::string> filter;
@@ -85,7 +85,7 @@ long read_budget(const std::map<std::string, std::string>& filter, bool in_time)
   return value;
 }
 
-/// Those named, or all shipped static ones.
+/// The named problems, or all shipped static ones.
 std::map<std::string, Problem> load_chosen(const std::vector<std::string>& named) {
   std::map<std::string, Problem> problems;
   for (const std::string& name : named.empty() ? shipped_problems() : named) {
@@ -109,7 +109,7 @@ Workload choose(const Choice& choice) {
   return work;
 }
 
-/// A suite, which stands alone, or what the words choose.
+/// A suite, which must be the only word, or what the words choose.
 Workload read_work(const std::vector<std::string>& words) {
   for (const std::string& word : words) {
     std::error_code ignored;
@@ -153,7 +153,7 @@ std::string quoted_word(const std::string& word) {
   return text + "'";
 }
 
-/// What gives the same row.
+/// The command that computes the same row.
 std::string command_of(const Case& c) {
   const bool experiment = !c.integrator.empty();
   return fmt::format(

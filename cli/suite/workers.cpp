@@ -18,10 +18,10 @@ namespace {
 struct Job {
   Case choice;
   double seconds;  ///< expected
-  bool alone;      ///< beside another one of these it would wait
+  bool alone;      ///< would wait for another job of this kind
 };
 
-/// Hands out jobs once each, the dearest first, and of those that want to be alone one at a time.
+/// Hands out each job once, the longest first; of jobs that must run alone, only one at a time.
 class Jobs {
  public:
   explicit Jobs(std::vector<Job> jobs) {

@@ -7,7 +7,7 @@
 
 namespace maxwrench {
 
-/// Solves cases of a workload side by side, each on one thread, and keeps their rows in the tables
+/// Solves cases of a workload in parallel, each on one thread, and writes their rows to the tables
 /// of a folder.
 void solve_cases(const Workload& work, const std::vector<Case>& cases,
                  const std::filesystem::path& folder, int threads);

@@ -64,13 +64,13 @@ void print(const Robot& robot) {
     fmt::print("  source of {}: {}\n", block, source);
 }
 
-/// The base pose and the dependent joints, at the default of theta_r.
+/// Prints the base pose and the dependent joints at the default of theta_r.
 void print_dependents(const Problem& problem) {
   PostureEvaluator model(problem);
   const Posture& posture = model.evaluate(problem.theta_r_default);
   Eigen::VectorXd q = posture.q;
   if (problem.motion &&
-      !problem.dependent.empty()) {  // a trajectory begins on the guess's IK solution
+      !problem.dependent.empty()) {  // a trajectory begins at the guess's IK solution
     DependentJoints ik_solution(problem);
     ik_solution.follow(problem.theta_r_default);
     q = ik_solution.z().tail(q.size());
@@ -127,7 +127,7 @@ std::string at_pose(const Pose<double>& pose) {
                      fmt::join(tidy(turn), ", "));
 }
 
-/// Of a task in time.
+/// Prints the data of a task in time.
 void print(const MotionTask& motion) {
   fmt::print("  {} of {:g} s, {} knots of theta_r, scheme {}",
              motion.impulse ? "impulse" : "trajectory", motion.T, motion.k,

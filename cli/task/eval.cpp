@@ -21,7 +21,7 @@ struct EvalOptions : CommonOptions {
   MotionOptions motion;
 };
 
-/// Writes the program of the posture or trajectory, if there is one.
+/// Writes the linear program of the posture or trajectory, if there is one.
 void write_program(const EvalOptions& options, const Answer& answer) {
   const Problem& problem = *answer.task;
   if (answer.status == Status::kInvalidPosture) return;

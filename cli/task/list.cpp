@@ -25,7 +25,8 @@ void print_problem(const std::string& name) {
              problem.label.empty() ? "" : ", " + problem.label);
 }
 
-/// A broken file does not hide the others: it is named, and the exit status tells.
+/// A file with errors does not hide the others: it is named, and the exit status is that of an
+/// error.
 int list() {
   int exit_status = kAnswered;
   const std::filesystem::path folder = problems_folder();

@@ -33,7 +33,7 @@ void change_peak(const Problem& problem, const std::string& text, MotionTask& ta
   task.t_h = knot;
 }
 
-/// Whether the text begins as a number does, and no name of a file.
+/// Whether the text begins like a number, and is not the name of a file.
 bool is_number(const std::string& text) {
   const std::size_t first = text.find_first_not_of("+-.");
   return text.empty() || text.find(',') != std::string::npos ||

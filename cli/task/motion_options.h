@@ -16,19 +16,19 @@ struct MotionOptions {
   std::optional<std::string> scheme, t_h;
 
   void add(CLI::App& app);
-  /// Replaces what the task says. Throws std::invalid_argument where that means nothing.
+  /// Replaces settings of the task. Throws std::invalid_argument if an option does not apply.
   void change(Problem& problem) const;
 };
 
-/// `--theta-r`, of any task.
+/// Adds `--theta-r`, for any task.
 void add_theta_r(CLI::App& app, std::optional<std::string>& theta_r);
 
-/// The table that `--theta-r` names: a file, or numbers that hold throughout; without it the
-/// constant default of the task.
+/// The table that `--theta-r` gives: a file, or numbers that are used at all knots; without the
+/// option, the constant default of the task.
 Eigen::MatrixXd knots_of(const Problem& problem, const std::optional<std::string>& text);
 
-/// When postures tell most [s]: at the start, in the middle (of an impulse at its peak) and at the
-/// end.
+/// The instants [s] of the postures to show: at the start, in the middle (for an impulse at its
+/// peak) and at the end.
 std::vector<double> telling_times(const MotionTask& task, const Trajectory& trajectory);
 
 }  // namespace maxwrench

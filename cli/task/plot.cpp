@@ -21,7 +21,7 @@ struct PlotOptions {
   MotionOptions motion;
 };
 
-/// Nothing, with a line on stderr, if there is no such posture.
+/// Empty, with a line on stderr, if there is no such posture.
 std::optional<std::string> draw_static(const Problem& problem, const PlotOptions& options) {
   const Eigen::VectorXd theta_r = theta_r_of(problem, options.theta_r);
   PostureEvaluator model(problem);
@@ -33,7 +33,7 @@ std::optional<std::string> draw_static(const Problem& problem, const PlotOptions
   return figure(problem, {{problem.name, theta_r}});
 }
 
-/// The same of a trajectory: its start, its middle (of an impulse the peak) and its end.
+/// The same for a trajectory: its start, its middle (for an impulse the peak) and its end.
 std::optional<std::string> draw_trajectory(const Problem& problem, const PlotOptions& options) {
   TrajectoryEvaluator evaluator(problem, Wrench::kPure, trajectory_solvers().front().make);
   const Trajectory& trajectory = evaluator.evaluate(knots_of(problem, options.theta_r));
@@ -44,7 +44,7 @@ std::optional<std::string> draw_trajectory(const Problem& problem, const PlotOpt
   return trajectory_figure(problem, trajectory, telling_times(*problem.motion, trajectory));
 }
 
-/// Status 1 if there is no such posture: another one in its place would mislead.
+/// Returns status 1 if there is no such posture: showing another one would be misleading.
 int plot(const PlotOptions& options) {
   require_apart({{"problem", options.problem}, {"--theta-r", options.theta_r.value_or("")}},
                 {{"--out", options.out}});

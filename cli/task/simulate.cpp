@@ -61,7 +61,7 @@ void print_reading(const SimulateOptions& options, const TankSummary& s) {
   }
   fmt::print("{}     {:.5f}, between {:.5f} and {:.5f}\n",
              options.tank.load > 0 ? "carried" : "reading", s.mean, s.low, s.high);
-  // In thousandths, without the sign of a zero.
+  // Rounded to thousandths; adding zero avoids -0.
   const Vector6d across = (1000 * s.across).array().round() / 1000 + 0.0;
   fmt::print("across      {:.3f} N, {:.3f} N m\n", fmt::join(across.head<3>(), " "),
              fmt::join(across.tail<3>(), " "));
@@ -114,7 +114,7 @@ void require_stiff(const std::string& name) {
   const std::vector<std::string> stiff = stiff_integrators();
   if (std::find(stiff.begin(), stiff.end(), name) != stiff.end()) return;
   for (const Absent& absent : not_built_in()) {
-    if (absent.name == name) find_integrator(name);  // says what is missing
+    if (absent.name == name) find_integrator(name);  // names the missing library
   }
   throw std::invalid_argument(
       fmt::format("--integrator: got {}, expected one for stiff systems: {}", name,
@@ -122,7 +122,7 @@ void require_stiff(const std::string& name) {
 }
 
 int simulate_static(const Problem& task, const SimulateOptions& options) {
-  // The controller holds the end effector where theta_r has it.
+  // The controller holds the end effector at its pose for theta_r.
   const Eigen::VectorXd theta_r = theta_r_of(task, options.theta_r);
   const Problem problem = held_at(task, theta_r);
   const Answer answer = evaluate(problem, held_theta_r(task, theta_r), options.read_options());
@@ -135,7 +135,7 @@ int simulate_static(const Problem& task, const SimulateOptions& options) {
   const TankRun run = simulate_answer(options, answer);
   if (!options.out.empty()) write_file(options.out, tank_csv(problem, run));
   (options.json ? print_object : print_text)(problem, options, run);
-  // Last: it rejects an experiment without samples, whose answer stands even so.
+  // Comes last: it rejects an experiment without samples, but the answer is valid even then.
   if (!options.figure.empty()) {
     write_file(options.figure, tank_figure(problem, {{problem.name, &run}}));
   }
@@ -194,7 +194,7 @@ void add_imperfections(CLI::App& command, Imperfections& imperfections) {
       ->check(reject_seed);
 }
 
-/// Of what is carried out.
+/// Options of the experiment.
 void add_trajectory_options(CLI::App& command, SimulateOptions& options) {
   add_theta_r(command, options.theta_r);
   options.motion.add(command);

@@ -12,17 +12,17 @@ namespace maxwrench {
 struct SimulateOptions : CommonOptions {
   std::optional<std::string> theta_r, interpolation;
   std::string out, figure, integrator = "cvode";
-  double planned = 0;  ///< zero: the capability, or what the trajectory is worth
+  double planned = 0;  ///< 0: the capability, or the value of the trajectory
   bool heaviest = false;
   MotionOptions motion;
   TankOptions tank;
   const CLI::App* command = nullptr;
 };
 
-/// Whether it held, what it missed, and how it ended.
+/// Prints whether it was held, which conditions it missed, and how it ended.
 void print_end(const TankRun& run);
 
-/// The experiment of a task in time; returns the exit status.
+/// Runs the experiment of a task in time; returns the exit status.
 int simulate_motion(const Problem& problem, const SimulateOptions& options);
 
 }  // namespace maxwrench

@@ -17,7 +17,7 @@
 namespace maxwrench {
 namespace {
 
-/// The trajectory, and its experiment.
+/// A trajectory and its experiment.
 struct MotionAnswer : TrajectoryExperiment {
   Trajectory trajectory;
 };
@@ -61,7 +61,7 @@ MotionAnswer answer_of(const Problem& problem, const SimulateOptions& options) {
           trajectory};
 }
 
-/// What was measured; null where nothing was.
+/// Adds the measurements; null where there is none.
 void add_measured(const TankRun& run, nlohmann::ordered_json& object) {
   const bool ran = !run.samples.empty();
   const TankSummary& s = run.summary;
@@ -158,7 +158,7 @@ int simulate_motion(const Problem& problem, const SimulateOptions& options) {
     write_file(options.out, tank_csv(problem, answer.run));
   }
   (options.json ? print_motion_object : print_motion_text)(problem, options, answer);
-  // Last: it rejects an experiment without samples, whose answer stands even so.
+  // Comes last: it rejects an experiment without samples, but the answer is valid even then.
   if (!options.figure.empty() && answer.script.status == Status::kOptimal) {
     write_file(options.figure, motion_figure(problem, {{problem.name, &answer.run}}));
   }

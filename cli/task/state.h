@@ -6,8 +6,8 @@
 
 namespace maxwrench {
 
-/// Prints the terms of the equations of motion (eq:dynamics) and J at the state in `file`, for
-/// people or, with `json`, as one object; returns the exit status.
+/// Prints the terms of the equations of motion (eq:dynamics) and J at the state in `file`, as text
+/// or, with `json`, as one object; returns the exit status.
 int report_state(const Problem& problem, const std::string& file, bool json);
 
 }  // namespace maxwrench

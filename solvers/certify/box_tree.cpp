@@ -24,7 +24,7 @@ BoxTree::BoxTree(const std::vector<GoodBox>& boxes, const Eigen::VectorXd& lower
   if (!boxes.empty()) build(0, static_cast<int>(boxes.size()));
 }
 
-/// Cut in two equal parts along the widest side.
+/// Cuts into two equal parts along the widest side.
 int BoxTree::build(int first, int last) {
   const auto index = static_cast<int>(nodes_.size());
   nodes_.emplace_back();
@@ -51,7 +51,7 @@ int BoxTree::build(int first, int last) {
   return index;
 }
 
-/// Of boxes around others: they may.
+/// Whether two boxes touch; for boxes around others, whether these may touch.
 template <class A, class B>
 bool BoxTree::touch(const A& a, const B& b) const {
   for (Eigen::Index i = 0; i < lower_.size(); ++i) {
@@ -82,7 +82,7 @@ void BoxTree::join_boxes(const Node& a, const Node& b) {
                  boxes_[static_cast<std::size_t>(box(j))])) {
         continue;
       }
-      // The first box stands for all.
+      // The first box represents its set.
       parent_[static_cast<std::size_t>(std::max(one, other))] = std::min(one, other);
     }
   }
@@ -121,7 +121,7 @@ std::vector<int> BoxTree::connect() {
   std::vector<int> numbers(boxes_.size(), -1);
   int count = 0;
   for (int i = 0; i < static_cast<int>(boxes_.size()); ++i) {
-    const int set = set_of(i);  // not later than i
+    const int set = set_of(i);  // at or before i
     numbers[static_cast<std::size_t>(i)] =
         set == i ? count++ : numbers[static_cast<std::size_t>(set)];
   }

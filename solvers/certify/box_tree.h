@@ -6,27 +6,28 @@
 
 namespace maxwrench {
 
-/// Many boxes in a binary tree of boxes around them, to find neighbours. Sides that were made by
-/// the same halvings are the same numbers, so nothing is rounded.
+/// A binary tree of boxes around many boxes, to find neighbours. Sides made by the same halvings
+/// are identical numbers, so comparisons are exact.
 class BoxTree {
  public:
-  /// `lower`, `upper`: around all; where `turns`, both are one place. The boxes outlive the tree.
+  /// `lower` and `upper` are the limits of all boxes; where `turns`, both limits are the same
+  /// place. The boxes must outlive the tree.
   BoxTree(const std::vector<GoodBox>& boxes, const Eigen::VectorXd& lower,
           const Eigen::VectorXd& upper, const std::vector<char>& turns);
 
-  /// Which hang together: for each box a number, 0, 1, ... in the order of their first boxes. Those
-  /// hang together that have a common point.
+  /// Numbers the connected sets of boxes: for each box 0, 1, ... in the order of the sets' first
+  /// boxes. Boxes with a common point are connected.
   std::vector<int> connect();
 
-  /// A box that holds x; -1: none does.
+  /// The index of a box that contains x; -1 if there is none.
   int find(const Eigen::VectorXd& x) const;
 
  private:
   struct Node {
-    int first = 0, last = 0;    ///< of `order_`
+    int first = 0, last = 0;    ///< range in `order_`
     int left = -1, right = -1;  ///< -1: a leaf
     Eigen::VectorXd lower, upper;
-    bool whole = false;  ///< all its boxes are known to hang together
+    bool whole = false;  ///< all its boxes are known to be connected
   };
 
   int build(int first, int last);

@@ -11,13 +11,13 @@
 namespace maxwrench {
 namespace {
 
-/// The first rounds have fewer: at most this part of the boxes that wait.
+/// The first rounds cut fewer boxes than kRound: at most the waiting boxes divided by this.
 constexpr std::size_t kShare = 2;
 
-/// How many boxes there are for one whose centre is evaluated, unless they are as small as this.
+/// One box in this many has its centre evaluated, and every box that is smaller than kSmallBox.
 constexpr std::size_t kSeldom = 32;
 constexpr double kSmallBox = 1e-3;
-/// Evaluations of a local search, about.
+/// The approximate number of evaluations of a local search.
 constexpr int kLocalSearchEvaluations = 500;
 
 class BranchAndBound {
@@ -51,7 +51,7 @@ class BranchAndBound {
     return a->proof.high < b->proof.high;
   }
 
-  /// What does not exceed this needs no proof.
+  /// Boxes whose values do not exceed this need no further proof.
   double target() const {
     const double best = result_.best.value;
     return std::isfinite(best) ? best + options_.gap * std::abs(best) : best;
@@ -88,7 +88,7 @@ class BranchAndBound {
     return true;
   }
 
-  /// The boxes with the largest bounds.
+  /// Takes the boxes with the largest bounds.
   void take_parents() {
     parents_.clear();
     const std::size_t most = std::clamp(waiting_.size() / kShare, std::size_t{1}, kRound);
@@ -111,7 +111,7 @@ class BranchAndBound {
     for (auto& child : children) keep(std::move(child));
   }
 
-  /// A box that was bounded waits, or is proven.
+  /// Queues a bounded box, or reports it if it is proven.
   void keep(std::unique_ptr<CertifiedBox> box) {
     ++result_.boxes;
     if (box->proof.kind == BoxProof::Kind::kCollision) ++result_.colliding;
@@ -122,7 +122,7 @@ class BranchAndBound {
     }
   }
 
-  /// Centres of boxes, of one in so many and of all small ones, may be better than the best.
+  /// Looks for better values at the centres of one box in kSeldom and of all small boxes.
   void improve() {
     for (std::size_t i = 0; i < parents_.size(); ++i) {
       const CertifiedBox& box = *parents_[i];
@@ -132,7 +132,8 @@ class BranchAndBound {
     }
   }
 
-  /// Takes a point over if it is better, and then what is better still, one coordinate at a time.
+  /// If x is better than the incumbent, takes it over and continues from it, one coordinate at a
+  /// time.
   void local_search(Eigen::VectorXd x, double step) {
     if (!take_over(x)) return;
     int evaluations = 0;

@@ -17,15 +17,15 @@
 namespace maxwrench {
 namespace {
 
-/// A side that is longer by rounding only is short enough.
+/// A side that exceeds the resolution only by rounding is short enough.
 constexpr double kSideRounding = 1 + 1e-9;
-/// Of a cluster's boxes, the centres of so many are evaluated at most.
+/// The most boxes of a cluster whose centres are evaluated.
 constexpr std::size_t kCentres = 1000;
-/// Evaluations of the search that follows.
+/// Evaluations of the CMA-ES that follows.
 constexpr long kSearchBudget = 2000;
 
-/// The branching: boxes are cut in the order in which they were made, so that those of an early end
-/// are about as large as each other.
+/// The branching. Boxes are cut in the order in which they were made, so that their sizes are
+/// similar if it ends early.
 class GoodBoxes {
  public:
   GoodBoxes(const Objective& objective, const Bound& bound, double high, const GoodOptions& options,
@@ -100,13 +100,13 @@ class GoodBoxes {
   const GoodOptions& options_;
   GoodPostures& result_;
   Halving halving_;
-  double low_;  ///< just below what counts
+  double low_;  ///< just below the least good value
   std::chrono::steady_clock::time_point start_;
   std::deque<std::unique_ptr<CertifiedBox>> waiting_;
 };
 
-/// Of arcs [a, b] within [lower, upper], whose ends are one place, the shortest arc around all: the
-/// complement of the longest gap.
+/// For arcs [a, b] within [lower, upper], whose ends are the same place, the shortest arc that
+/// contains them all: the complement of the longest gap.
 std::pair<double, double> around(std::vector<std::pair<double, double>> arcs, double lower,
                                  double upper) {
   std::sort(arcs.begin(), arcs.end());
@@ -123,7 +123,7 @@ std::pair<double, double> around(std::vector<std::pair<double, double>> arcs, do
   return gap > outer ? found : std::pair(arcs.front().first, end);
 }
 
-/// The objective where `inside` says so.
+/// The objective restricted to the points that `inside` accepts.
 class PartOf final : public ForwardingObjective {
  public:
   using Inside = std::function<bool(const Eigen::VectorXd&)>;
@@ -148,7 +148,7 @@ class PartOf final : public ForwardingObjective {
   Inside inside_;
 };
 
-/// What hangs together, and the best that is found in each.
+/// Groups the boxes into clusters and finds the best posture of each.
 class Clusters {
  public:
   Clusters(const Objective& objective, const Candidate& best, const GoodOptions& options,
@@ -195,7 +195,7 @@ class Clusters {
         cluster.lower = cluster.lower.cwiseMin(box(i).lower);
         cluster.upper = cluster.upper.cwiseMax(box(i).upper);
         cluster.high = std::max(cluster.high, box(i).high);
-        // A coordinate that cannot move has no part in it.
+        // A coordinate that cannot move does not count.
         cluster.share += (size.array() > 0)
                              .select((box(i).upper - box(i).lower).array() / size.array(), 1)
                              .prod();
@@ -219,7 +219,8 @@ class Clusters {
     return found < 0 ? -1 : result_.boxes[static_cast<std::size_t>(found)].cluster;
   }
 
-  /// The best known posture, or the best centre and what a search from there finds.
+  /// Sets the cluster's best: the best known posture, the best centre, or what a search from that
+  /// centre finds.
   void represent(Cluster& cluster, std::vector<int>& members) {
     const int number = box(members.front()).cluster;
     if (cluster_at(best_.theta_r) == number) cluster.best = best_;
@@ -276,7 +277,7 @@ class Clusters {
   const GoodOptions& options_;
   GoodPostures& result_;
   BoxTree tree_;
-  std::vector<std::vector<int>> members_;  ///< the boxes of each
+  std::vector<std::vector<int>> members_;  ///< the boxes of each cluster
 };
 
 }  // namespace

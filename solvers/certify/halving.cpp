@@ -71,7 +71,7 @@ void Halving::bound_one(CertifiedBox& box, double low) {
     }
   }
   if (!bound) bound = bound_.clone();
-  // Without a value yet, what no value is below: a ceiling holds for both signs.
+  // Without a value so far, uses a number that no value is below: a ceiling bounds both signs.
   box.low = std::isfinite(low) ? low : -bound_.ceiling();
   if (bound->shrink(box.lower, box.upper, records_ ? &box.cuts : nullptr)) {
     bound->evaluate(box.lower, box.upper, box.low, box.high, box.proof);

@@ -7,25 +7,26 @@
 
 #include "solvers/certify/certify.h"
 
-// What searches over boxes share.
+// Functions that searches over boxes share.
 
 namespace maxwrench {
 
 using CertifiedBoxes = std::vector<std::unique_ptr<CertifiedBox>>;
 
-/// Makes boxes by halves and bounds them on several threads, each with a bound of its own.
+/// Halves boxes and bounds them on several threads, each with a bound of its own.
 class Halving {
  public:
-  /// `records`: boxes keep what was cut off them.
+  /// `records`: boxes store the slices cut off them.
   Halving(const Objective& objective, const Bound& bound, int threads, bool records);
 
-  /// All of theta_r and of what follows, widened by the tolerance of limits, given that no value
-  /// exceeds `high`.
+  /// The box of theta_r and of the dependent coordinates, widened by the tolerance of limits, given
+  /// that no value exceeds `high`.
   std::unique_ptr<CertifiedBox> root(double low, double high);
 
-  /// The halves of boxes, each cut along its `cut_axis`, the lower one first. All have the same
-  /// aim, and their numbers in the same order, whatever the threads. Once `ended` says so, from any
-  /// thread, those that are left have what is known of their parents.
+  /// The halves of boxes, each cut along its `cut_axis`, the lower half first. All halves have the
+  /// same target `low`, and their numbers have the same order at any thread count. `ended` may be
+  /// called from any thread. Once it returns true, the remaining halves keep the bounds of their
+  /// parents.
   CertifiedBoxes halves(const CertifiedBoxes& parents, double low,
                         const std::function<bool()>& ended);
 
@@ -41,13 +42,13 @@ class Halving {
   std::vector<std::unique_ptr<Bound>> free_;
 };
 
-/// Where a box is cut: the coordinate that its bound names, else the widest; -1 if no such one is
-/// wider than `narrowest`.
+/// The axis along which a box is cut: the coordinate that its bound names, else the widest; -1 if
+/// no coordinate is wider than `narrowest`.
 int axis_to_cut(const CertifiedBox& box, double narrowest);
 
 /// Boxes narrower than this [rad or m] are not cut.
 inline constexpr double kNarrowestBox = 1e-6;
-/// Boxes that are cut beside each other: they see the same aim, at any thread count.
+/// The number of boxes cut in one round. They all have the same target, at any thread count.
 inline constexpr std::size_t kRound = 256;
 
 }  // namespace maxwrench

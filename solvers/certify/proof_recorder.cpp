@@ -11,8 +11,8 @@ namespace {
 
 using Node = CertificateTree::Node;
 
-/// [theta_r; dependent joints; joints of a second arm; yaw of the base], as `PostureCoordinates`
-/// has them.
+/// [theta_r; dependent joints; joints of a second arm; yaw of the base], in the order of
+/// `PostureCoordinates`.
 Eigen::VectorXd coordinates_of(const Problem& problem, const PostureCoordinates& coordinates,
                                const Posture& posture) {
   Eigen::VectorXd x(coordinates.count());
@@ -62,7 +62,7 @@ void ProofRecorder::add(const CertifiedBox& given) {
     own.node.multiplier = keep(given.proof.multiplier);
     width_ = static_cast<int>(given.proof.multiplier.size());
   }
-  if (given.parent >= 0) {  // ids of halves are one apart, the lower one's is odd
+  if (given.parent >= 0) {  // the ids of two halves differ by one; that of the lower half is odd
     box(static_cast<std::size_t>(given.parent)).lower_half = id % 2 == 1 ? id : id - 1;
     return;
   }

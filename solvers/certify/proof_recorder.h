@@ -6,29 +6,30 @@
 
 namespace maxwrench {
 
-/// Keeps the boxes of a run of branch and bound, for its certificate.
+/// Records the boxes of a run of branch and bound, for its certificate.
 class ProofRecorder {
  public:
   /// For `CertifyOptions::sink`.
   void add(const CertifiedBox& box);
 
-  /// What was proven of the posture of an answer, which has a value. `gap`: what was asked for.
+  /// The certificate of an answer whose posture has a value. `gap` is the requested gap.
   ProofCertificate certificate(const Answer& answer, const CertifyResult& result, double gap) const;
 
  private:
-  /// What was cut off a box: a leaf, and where.
+  /// A slice cut off a box: a leaf, and where it was cut.
   struct Slice {
     CertificateTree::Node leaf;
-    int axis = -1;  ///< -1: all that was left
+    int axis = -1;  ///< -1: the whole remaining box
     bool upper = false;
     double at = 0;
   };
   struct Box {
     std::vector<Slice> slices;
     CertificateTree::Node node;  ///< of the rest
-    std::size_t lower_half = 0;  ///< if it is cut; the upper one is next to it
+    std::size_t lower_half = 0;  ///< if the box is cut; the upper half has the next id
   };
-  /// A part of a tree that is still to be written: a slice, or what is left after the first ones.
+  /// A part of a tree that is still to be written: a slice, or the rest of a box after its first
+  /// slices.
   struct Part {
     std::size_t box = 0, slices = 0;
     bool is_slice = false;

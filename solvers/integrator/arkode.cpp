@@ -33,7 +33,7 @@ class ArkodeSession : public sundials::Session {
     ERKStepSetStopTime(m, end);
     const double before = reached;
     const int flag = ERKStepEvolve(m, t, state_.get(), &reached, ARK_NORMAL);
-    // After a failure the state is that of a stage, not of the time that it returns.
+    // After a failure, the state is that of a stage, not of the returned time.
     if (flag < 0 && flag != ARK_TOO_MUCH_WORK) reached = before;
     return flag;
   }

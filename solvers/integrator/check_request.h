@@ -10,8 +10,8 @@
 
 namespace maxwrench {
 
-/// Throws std::invalid_argument unless the times increase and are at least two, and the options are
-/// those of an integration.
+/// Throws std::invalid_argument unless there are at least two times, finite and increasing, and the
+/// options are valid.
 inline void check_request(const IntegratorOptions& options, std::span<const double> times) {
   const bool increase =
       std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();

@@ -9,7 +9,7 @@ namespace {
 
 using sundials::view;
 
-/// One integration by IDA from a y'(t_0) that is consistent.
+/// One integration by IDA from a consistent y'(t_0).
 class IdaSession : public sundials::Session {
  public:
   IdaSession(Ode& ode, const IntegratorOptions& options, double t_0, const Eigen::VectorXd& y_dot_0)

@@ -7,9 +7,9 @@ namespace maxwrench {
 namespace {
 
 constexpr double kMostSteps = 1e15;
-constexpr int kBisections = 60;  // halve a step down to rounding
+constexpr int kBisections = 60;  // halve a step down to rounding errors
 
-/// One integration: where it stands, and room for a step.
+/// One integration: its current state, and storage for a step.
 class Walk {
  public:
   explicit Walk(Ode& ode, double t_0) : t(t_0), y(ode.initial()), ode_(ode) {
@@ -18,7 +18,7 @@ class Walk {
     if (ode.roots() > 0) ode.root(t, y, g_);
   }
 
-  /// Advances by h; false where the derivative has no value, and then stays.
+  /// Advances by h. Returns false, and does not move, where the derivative has no value.
   bool step(double h) {
     if (!try_step(h)) return false;
     t += h;
@@ -26,8 +26,8 @@ class Walk {
     return true;
   }
 
-  /// After a step of h from (t_0, y_0): the component of g that changed its sign, or -1. Goes back
-  /// to where it did.
+  /// After a step of h from (t_0, y_0): the component of g that changed its sign, or -1. If there
+  /// is one, goes back to the place of the change.
   int find_root(double t_0, const Eigen::VectorXd& y_0, double h) {
     if (ode_.roots() == 0) return -1;
     const Eigen::VectorXd g_0 = g_;
@@ -68,7 +68,7 @@ class Walk {
   int changed_sign(const Eigen::VectorXd& g_0) {
     ode_.root(t, y, g_);
     for (Eigen::Index i = 0; i < g_.size(); ++i) {
-      if (g_0[i] == 0) continue;  // it leaves zero
+      if (g_0[i] == 0) continue;  // it starts at zero
       if (g_[i] == 0 || (g_[i] > 0) != (g_0[i] > 0)) return static_cast<int>(i);
     }
     return -1;

@@ -15,11 +15,11 @@
 #include "maxwrench/integrator.h"
 #include "solvers/caught.h"
 
-// What the integrators of SUNDIALS share (Hindmarsh et al., 2005).
+// Code that the integrators of SUNDIALS share (Hindmarsh et al., 2005).
 
 namespace maxwrench::sundials {
 
-/// Flags with one meaning in CVODE, ARKODE and IDA.
+/// Flags that have the same meaning in CVODE, ARKODE and IDA.
 enum Flag { kReached = 0, kReachedStop = 1, kFoundRoot = 2, kTooMuchWork = -1 };
 
 template <class T>
@@ -27,10 +27,11 @@ using Owned = std::unique_ptr<T, std::function<void(T*)>>;
 
 Eigen::Map<Eigen::VectorXd> view(N_Vector v);
 
-/// What goes wrong is reported by flags, not on stderr.
+/// Suppresses messages on stderr: flags report the errors.
 void be_silent(int code, const char* module, const char* function, char* message, void* data);
 
-/// A problem in the form of SUNDIALS: storage, and callbacks whose last argument is this object.
+/// A problem in the form that SUNDIALS expects: storage, and callbacks whose last argument is this
+/// object.
 class Session {
  public:
   Session(Ode& ode, const IntegratorOptions& options);
@@ -39,36 +40,36 @@ class Session {
   void rethrow() { caught_.rethrow(); }
 
  protected:
-  /// What callbacks return: no value here, try a shorter step; give up.
+  /// What callbacks return. kNoValue: there is no value here, try a shorter step.
   enum Answer { kValue = 0, kNoValue = 1, kGiveUp = -1 };
 
   static int derivative(double t, N_Vector y, N_Vector y_dot, void* self);
   static int root(double t, N_Vector y, double* g, void* self);
 
   N_Vector new_vector() const;
-  /// Dense; of the implicit methods.
+  /// A dense linear solver, for the implicit methods.
   void make_linear_solver();
-  /// Keeps the first failure of what an integration needs before it can start.
+  /// Stores the first failure of a call that prepares the integration.
   void require(int flag) {
     if (failure_ == 0) failure_ = flag;
   }
-  /// Which component of g has the first sign in `found`.
+  /// The first component of g that has a sign in `found`.
   int first_root(const std::vector<int>& found) const;
 
   Ode& ode_;
-  Caught caught_;  ///< by the callbacks
+  Caught caught_;  ///< from the callbacks
   Eigen::VectorXd y_, y_dot_, g_;
   const IntegratorOptions& options_;
-  int failure_ = 0;                                   ///< a flag, what `advance` then returns
+  int failure_ = 0;                                   ///< a flag, which `advance` then returns
   Owned<std::remove_pointer_t<SUNContext>> context_;  // destroyed last
   Owned<_generic_N_Vector> state_;
   Owned<_generic_SUNMatrix> matrix_;
   Owned<_generic_SUNLinearSolver> linear_;
 };
 
-/// The loop over the times. A session has
-///   int advance(double t, double end, double& reached)  on to t, never evaluating beyond end;
-///   void rethrow()  what the callbacks threw;
+/// The loop over the times. A session must have
+///   int advance(double t, double end, double& reached)  integrates to t, evaluates up to end only;
+///   void rethrow()  rethrows exceptions of the callbacks;
 ///   Eigen::VectorXd state() const;   int found_root() const;   std::string words(int flag) const.
 template <class S>
 Status run(S& session, std::span<const double> times, OdeSolution& trajectory) {

@@ -48,10 +48,10 @@ class Clp : public LpSolver {
 
   void solve(const LinearProgram& program, LpSolution& solution) override {
     if (rejected(program, solution)) return;
-    // Scaling costs more than a small program. The dual simplex bounds free columns by 1e10 for a
-    // while, which can leave columns 1e-6 off their bounds, or free ones out there where any value
-    // would do, with rows that balance to 1e-6 only. What fails is tried again with scaling and the
-    // primal simplex.
+    // For a small program, scaling costs more than the solution. The dual simplex temporarily
+    // bounds free columns by 1e10. This can leave columns 1e-6 off their bounds, or leave free
+    // columns near 1e10 although any value would do, with rows that balance only to 1e-6. A failed
+    // attempt is repeated with scaling and the primal simplex.
     solve_by_attempts(
         program,
         [this](const LinearProgram& other, bool warm, bool careful, LpSolution& answer) {
@@ -61,7 +61,7 @@ class Clp : public LpSolver {
   }
 
  private:
-  /// Whether a free column is where the dual simplex bounded it.
+  /// Whether a free column is near the temporary bound of the dual simplex.
   static bool far_out(const LinearProgram& program, const Eigen::VectorXd& x) {
     for (int j = 0; j < program.cols(); ++j) {
       const bool free = program.l[j] == -kInfinity && program.u[j] == kInfinity;
@@ -70,7 +70,7 @@ class Clp : public LpSolver {
     return false;
   }
 
-  /// False if there is no verdict that the data confirm.
+  /// Returns false if there is no verdict that the data confirm.
   bool try_once(const LinearProgram& program, bool warm, bool careful, LpSolution& solution) {
     const int status = run(program, warm, careful, solution);
     if (status == kClpOptimal) {
@@ -90,7 +90,7 @@ class Clp : public LpSolver {
                  "the objective grows without limit", solution);
   }
 
-  /// Takes over a ray, which Clp allocated, in whichever sense proves the status.
+  /// Stores a ray, which Clp allocated, with the sign that proves the status.
   bool prove(const LinearProgram& program, double* ray, int size, Status status, const char* reason,
              LpSolution& solution) {
     if (ray == nullptr) return false;
@@ -141,7 +141,7 @@ class Clp : public LpSolver {
     if (keep_model_ && !careful && edit(program)) return;
     model_ = ClpSimplex();
     model_.setLogLevel(0);
-    // Zeros then stay, and there is room for other numbers.
+    // Zeros then stay in the pattern, and other numbers can replace them.
     if (keep_model_) model_.setSmallElementValue(0);
     model_.loadProblem(program.cols(), program.rows(), matrix_.outerIndexPtr(),
                        matrix_.innerIndexPtr(), matrix_.valuePtr(), program.l.data(),
@@ -154,7 +154,7 @@ class Clp : public LpSolver {
     editable_ = !careful;
   }
 
-  /// Writes the program over the one that the model holds; false if its pattern is another.
+  /// Replaces the program in the stored model; returns false if the pattern differs.
   bool edit(const LinearProgram& program) {
     if (!editable_ || program.cols() != model_.numberColumns() ||
         program.rows() != model_.numberRows()) {
@@ -180,7 +180,7 @@ class Clp : public LpSolver {
 
   bool keep_model_;
   ClpMethod method_;
-  bool editable_ = false;  ///< the model was loaded in the fast settings
+  bool editable_ = false;  ///< the model was loaded with the fast settings
   ClpSimplex model_;
   Eigen::SparseMatrix<double> matrix_;
   Eigen::VectorXd cost_;

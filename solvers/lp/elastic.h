@@ -17,24 +17,25 @@ LinearProgram recession(const LinearProgram& program);
 /// Solves a program that has an optimum; fills x, lambda and iterations, or returns false.
 using LpRun = std::function<bool(const LinearProgram&, LpSolution&)>;
 
-/// One run of a library, warm from the solution's basis or cold, in its fast or its careful
-/// settings; false if it ended without a verdict that the data confirm.
+/// One run of a library, warm from the solution's basis or cold, with its fast or its careful
+/// settings. Returns false if it ended without a verdict that the data confirm.
 using LpAttempt = std::function<bool(const LinearProgram&, bool warm, bool careful, LpSolution&)>;
 
-/// Fast, then careful (counted as a cold restart if the first was warm), then `prove_no_optimum`.
+/// Runs the fast settings, then the careful ones (counted as a cold restart if the first run was
+/// warm), then `prove_no_optimum`.
 void solve_by_attempts(const LinearProgram& program, const LpAttempt& attempt,
                        LpSolution& solution);
 
-/// For a library that found no optimum and hands out no proof: solves the elastic program, whose
-/// multipliers are the Farkas vector, and if there is none the recession program, whose solution is
-/// the ray. What the data do not confirm becomes kNumericalError.
+/// For a library that found no optimum and provides no proof. Solves the elastic program, whose
+/// multipliers are the Farkas vector. If that proves nothing, solves the recession program, whose
+/// solution is the ray. A proof that the data do not confirm becomes kNumericalError.
 void prove_no_optimum(const LinearProgram& program, const LpRun& run, LpSolution& solution);
 
-/// Whether the program is not for a library: malformed data or entries beyond 1e20
-/// (kNumericalError) or crossing bounds (kInfeasible), which fill `solution`.
+/// Whether the program must not be passed to a library: malformed data or entries beyond 1e20
+/// (kNumericalError), or crossing bounds (kInfeasible). Then fills `solution`.
 bool rejected(const LinearProgram& program, LpSolution& solution);
 
-/// The verdict without optimum, its reason, and no certificate yet.
+/// Stores a verdict without optimum and its reason; there is no certificate yet.
 void give_up(LpSolution& solution, Status status, const char* reason);
 
 }  // namespace maxwrench

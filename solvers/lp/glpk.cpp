@@ -8,15 +8,16 @@
 namespace maxwrench {
 namespace {
 
-/// Blocks of memory in this thread's environment.
+/// The number of memory blocks in this thread's environment.
 int blocks() {
   int count = 0;
   glp_mem_usage(&count, nullptr, nullptr, nullptr);
   return count;
 }
 
-/// GLPK keeps an environment for each thread. It may hold problems of a host program:
-/// only one that we opened, and that holds nothing but what failed calls of ours left, is freed.
+/// GLPK has an environment for each thread, which may hold problems of a host program. It is freed
+/// only if this class opened it and nothing is left in it except the remains of failed calls of
+/// ours.
 class Environment {
  public:
   Environment() = default;
@@ -28,7 +29,8 @@ class Environment {
     if (glp_init_env() == 0) ours_ = true;
   }
 
-  /// A call has failed and left its problem in pieces; before it there were so many blocks.
+  /// Call this after a call has failed and left a damaged problem. `before` is the number of blocks
+  /// before the call.
   void clean_up(int before) {
     lost_ += blocks() - before;
     if (free()) open();
@@ -44,7 +46,7 @@ class Environment {
   }
 
   bool ours_ = false;
-  int lost_ = 0;  ///< blocks that nobody can free one by one
+  int lost_ = 0;  ///< blocks that cannot be freed one by one
 };
 
 Environment& environment() {
@@ -52,10 +54,10 @@ Environment& environment() {
   return environment;
 }
 
-/// Claims to have printed a message.
+/// Reports a message as printed, which suppresses it.
 int swallow(void* /*info*/, const char* /*message*/) { return 1; }
 
-/// Keeps GLPK quiet. A failed assertion turns the output on again, hence the hook.
+/// Keeps GLPK quiet. A failed assertion turns the output on again, so an error hook is needed.
 class Quiet {
  public:
   Quiet() : before_(start()) {}
@@ -66,7 +68,7 @@ class Quiet {
   Quiet(const Quiet&) = delete;
   Quiet& operator=(const Quiet&) = delete;
 
-  /// Again after an error, and in an environment that is new. Returns what was before.
+  /// Call this again after an error and in a new environment. Returns the previous setting.
   static int start() {
     glp_term_hook(swallow, nullptr);
     return glp_term_out(GLP_OFF);
@@ -78,9 +80,9 @@ class Quiet {
 
 void jump(void* back) { std::longjmp(*static_cast<std::jmp_buf*>(back), 1); }
 
-/// Calls a function of GLPK, which answers some singular bases with a failed assertion and would
-/// then end the process. False if it did; the problem must not be touched any more. The jump back
-/// crosses frames of C only.
+/// Calls a function of GLPK. For some singular bases GLPK fails an assertion, which would end the
+/// process. Then this returns false, and the problem must not be used any more. The jump back
+/// crosses only frames of C.
 bool guarded(int (*call)(glp_prob*, const glp_smcp*), glp_prob* problem, const glp_smcp* options,
              int& result) {
   std::jmp_buf back;
@@ -94,7 +96,7 @@ bool guarded(int (*call)(glp_prob*, const glp_smcp*), glp_prob* problem, const g
   return true;
 }
 
-/// With scaling GLPK rejects factors out of range, by a failed assertion too.
+/// With scaling, GLPK rejects factors out of range, also by a failed assertion.
 int prepare(glp_prob* problem, const glp_smcp* /*options*/) {
   glp_scale_prob(problem, GLP_SF_AUTO);
   glp_adv_basis(problem, 0);
@@ -103,7 +105,7 @@ int prepare(glp_prob* problem, const glp_smcp* /*options*/) {
 
 int factorize(glp_prob* problem, const glp_smcp* /*options*/) { return glp_factorize(problem); }
 
-/// A factorisation of the basis, if there is none.
+/// Factors the basis if it has no factors.
 int refactorize(glp_prob* problem, const glp_smcp* /*options*/) {
   return glp_bf_exists(problem) ? 0 : glp_factorize(problem);
 }
@@ -147,7 +149,8 @@ class Glpk : public LpSolver {
     if (rejected(program, solution)) return;
     environment().open();
     const Quiet quiet;
-    // Scaling costs more than a small program; what fails without it is tried again with it.
+    // For a small program, scaling costs more than the solution; a failed attempt is repeated with
+    // scaling.
     solve_by_attempts(
         program,
         [this](const LinearProgram& other, bool warm, bool careful, LpSolution& answer) {
@@ -159,7 +162,7 @@ class Glpk : public LpSolver {
   }
 
  private:
-  /// False if there is no verdict that the data confirm.
+  /// Returns false if there is no verdict that the data confirm.
   bool try_once(const LinearProgram& program, bool warm, bool careful, LpSolution& solution) {
     if (careful) problem_.reset();
     load(program);
@@ -174,8 +177,8 @@ class Glpk : public LpSolver {
     return status == GLP_NOFEAS && find_farkas(program, solution);
   }
 
-  /// The row of the inverse basis that belongs to the variable that cannot become feasible: GLPK's
-  /// system is x_R - A x_S = 0, of which any combination of rows is a consequence.
+  /// The row of the inverse basis that belongs to the variable that cannot become feasible. GLPK's
+  /// system is x_R - A x_S = 0, and any combination of its rows follows from it.
   bool find_farkas(const LinearProgram& program, LpSolution& solution) {
     glp_prob* const problem = problem_.get();
     const int rows = program.rows();
@@ -197,7 +200,7 @@ class Glpk : public LpSolver {
     return verified(program, solution, 1e-7, scratch_);
   }
 
-  /// Writes the program into the problem that is kept, or into a new one.
+  /// Writes the program into the stored problem, or into a new one.
   void load(const LinearProgram& program) {
     const int rows = program.rows();
     const int cols = program.cols();
@@ -231,7 +234,7 @@ class Glpk : public LpSolver {
     }
   }
 
-  /// False if GLPK fell over.
+  /// Returns false if GLPK failed an assertion.
   bool start(const LinearProgram& program, bool warm, bool careful, const LpSolution& solution) {
     glp_prob* const problem = problem_.get();
     const int cols = program.cols();
@@ -250,7 +253,8 @@ class Glpk : public LpSolver {
     return true;
   }
 
-  /// The status, GLP_UNDEF if GLPK fell over; there is no problem then.
+  /// Returns the status, or GLP_UNDEF if GLPK failed an assertion; then there is no problem any
+  /// more.
   int run(const LinearProgram& program, bool warm, bool careful, LpSolution& solution) {
     if (!start(program, warm, careful, solution)) return lose();
     glp_prob* const problem = problem_.get();
@@ -282,7 +286,7 @@ class Glpk : public LpSolver {
     return failed == 0 ? glp_get_status(problem) : GLP_UNDEF;
   }
 
-  /// Leaves a problem in pieces to the environment.
+  /// Hands a damaged problem over to the environment.
   int lose() {
     static_cast<void>(problem_.release());
     environment().clean_up(blocks_before_);

@@ -59,7 +59,7 @@ class IpoptSolver : public LpSolver {
   IpoptSolver() = default;
   IpoptSolver(const IpoptSolver&) = delete;
   IpoptSolver& operator=(const IpoptSolver&) = delete;
-  /// The application ends its MUMPS, in memory that MUMPS shares with those of other threads.
+  /// Destroying the application ends its MUMPS, whose memory other threads share.
   ~IpoptSolver() override {
     const std::lock_guard guard(ipopt_lock());
     application_ = nullptr;
@@ -84,7 +84,7 @@ class IpoptSolver : public LpSolver {
   }
 
  private:
-  /// Interior points end close to a vertex, not on it.
+  /// Interior point methods end near a vertex, not exactly at it.
   static constexpr double kAccepted = 1e-6;
 
   bool run(const LinearProgram& program, LpSolution& solution) {

@@ -45,8 +45,9 @@ class Simplex final : public LpSolver {
   static constexpr Attempt kAttempts[] = {Attempt::kWarm, Attempt::kCold, Attempt::kTight,
                                           Attempt::kLoose};
 
-  /// What the data did not confirm is tried again with tighter tolerances (an optimum that hides
-  /// below them), then with looser ones (a verdict that hangs on violations near them).
+  /// A verdict that the data do not confirm is computed again with tighter tolerances (for an
+  /// optimum that tolerances hide), then with looser ones (for a verdict that depends on violations
+  /// near them).
   void set_tolerances(Attempt attempt) {
     SimplexOptions& o = engine_.options;
     o = options_;
@@ -76,7 +77,7 @@ class Simplex final : public LpSolver {
   LpScratch scratch_;
 };
 
-/// False if there was no verdict, or none that the data confirm, and another attempt may help.
+/// Returns false if there is no verdict that the data confirm and another attempt may help.
 bool Simplex::try_once(const LinearProgram& program, LpSolution& solution, bool warm) {
   Engine& e = engine_;
   const int per_attempt = options_.max_iterations > 0 ? options_.max_iterations
@@ -100,7 +101,7 @@ bool Simplex::try_once(const LinearProgram& program, LpSolution& solution, bool 
   if (status == Status::kBudgetExhausted) return options_.max_iterations > 0;
   if (verified(program, solution, options_.verify_tolerance, scratch_)) return true;
   if (status == Status::kOptimal || status == Status::kUnbounded) {
-    // A violation that outgrew its scaling may be small as a residual of the rows.
+    // A violation that scaling magnifies may be small as a residual of the rows.
     solution.x = solution.x.cwiseMax(program.l).cwiseMin(program.u);
     solution.objective = program.c.dot(solution.x);
     if (verified(program, solution, options_.verify_tolerance, scratch_)) return true;
@@ -112,8 +113,8 @@ bool Simplex::try_once(const LinearProgram& program, LpSolution& solution, bool 
   return false;
 }
 
-/// Alternates the phases until the original bounds and costs, with fresh factors, are satisfied.
-/// Perturbation is given up after a few rounds, so that what remains is a sequence of pure phases.
+/// Alternates the phases until the original bounds and costs are satisfied with fresh factors.
+/// After a few rounds, perturbation is turned off, so that the remaining rounds are pure phases.
 Status Simplex::run_rounds(const char*& reason) {
   Engine& e = engine_;
   int troubles = 0;
@@ -162,7 +163,7 @@ bool Simplex::dual_feasible() const {
   return true;
 }
 
-/// The program's columns come first in a `LpSolution`, the logical variables first in the model.
+/// In an `LpSolution` the program's columns come first, in the model the logical variables.
 bool Simplex::read_basis(const LpSolution& solution) {
   Engine& e = engine_;
   const int m = e.model.rows, n = e.model.cols;
@@ -207,7 +208,7 @@ void Simplex::write_point(const LinearProgram& program, LpSolution& solution) co
   for (int j = 0; j < n; ++j) {
     if (e.model.scaled) solution.x[j] *= e.model.col_scale[j];
     solution.x[j] /= e.model.rhs_scale;
-    // The bound itself, whatever the scaling did to it.
+    // The exact bound, not its scaled copy.
     if (e.state[m + j] == VariableState::kAtLower) solution.x[j] = program.l[j];
     if (e.state[m + j] == VariableState::kAtUpper) solution.x[j] = program.u[j];
   }
@@ -222,8 +223,8 @@ void Simplex::write_multipliers(LpSolution& solution) const {
   }
 }
 
-/// The row of the tableau that no choice of the nonbasic variables can satisfy, as y'A x = y'b.
-/// Entries that may be rounding are removed step by step until the proof holds.
+/// The tableau row that no values of the nonbasic variables can satisfy, as y'A x = y'b. Entries
+/// that may be rounding errors are removed step by step until the proof holds.
 void Simplex::write_farkas(const LinearProgram& program, LpSolution& solution) {
   Engine& e = engine_;
   const int m = e.model.rows;
@@ -240,7 +241,7 @@ void Simplex::write_farkas(const LinearProgram& program, LpSolution& solution) {
   }
 }
 
-/// r_q = 1, r_B = -B^-1 a_q, cleaned of rounding in the same way.
+/// r_q = 1, r_B = -B^-1 a_q, with rounding errors removed in the same way.
 void Simplex::write_ray(const LinearProgram& program, LpSolution& solution) {
   Engine& e = engine_;
   const int m = e.model.rows;

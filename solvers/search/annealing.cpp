@@ -13,13 +13,13 @@ constexpr double kColdest = 1e-4;  // last temperature over the first
 constexpr int kAdaptEvery = 20;    // proposals between two changes of the step
 constexpr double kMinStep = 1e-5, kMaxStep = 0.5;
 
-/// x folded back into [0, 1] at its ends.
+/// Reflects x at the ends of [0, 1].
 double reflect(double x) {
   x = std::fmod(std::abs(x), 2.0);
   return x > 1 ? 2 - x : x;
 }
 
-/// One Markov chain, by its own clone of the objective and its own random numbers.
+/// One Markov chain, with its own clone of the objective and its own random numbers.
 class Chain {
  public:
   Chain(Probe& probe, const Box& box, Random random) : probe_(probe), box_(box), random_(random) {}
@@ -52,7 +52,7 @@ class Chain {
     return x;
   }
 
-  /// Evaluates a point of the sample; the walk will start at the best one.
+  /// Evaluates a point of the sample. The walk starts at the best one.
   void scout(const Eigen::VectorXd& x) { scout(x, box_.theta_r(x)); }
   void scout(const Eigen::VectorXd& x, const Eigen::VectorXd& theta_r) {
     const double value = probe_.evaluate(theta_r);
@@ -64,8 +64,8 @@ class Chain {
     if (value > value_) move(x, value);
   }
 
-  /// The first temperature: the standard deviation of the sample, or where that says nothing a
-  /// tenth of the value.
+  /// The initial temperature: the standard deviation of the sample, or a tenth of the value if that
+  /// is not usable.
   double temperature() const {
     return count_ < 3 ? 0.1 * std::abs(value_) : std::sqrt(square_ / (count_ - 1));
   }
@@ -106,13 +106,14 @@ class Chain {
 
 /// Simulated annealing with restarts (Kirkpatrick, Gelatt, Vecchi 1983).
 ///
-/// The budget goes to r = sqrt(budget/180) independent chains (1 to 32), each with its own stream
-/// of random numbers. A chain samples the bounds with a tenth of its steps (after a point of the
-/// earlier search, if there is one; without any, the first chain after `start`) and walks on from
-/// the best point of the sample. Its temperature begins at the sample's standard deviation and
-/// falls geometrically to 1e-4 of it; a proposal is a normal step of all coordinates, reflected at
-/// the bounds, its length steered to an acceptance of 30 to 45 %. A point without a value is never
-/// accepted; a chain that has seen none with a value keeps sampling.
+/// The budget is split among r = sqrt(budget/180) independent chains (1 to 32), each with its own
+/// stream of random numbers. A chain first samples the bounds with a tenth of its steps. The sample
+/// begins with a point of the earlier search, if there is one; without an earlier search, the first
+/// chain's sample begins with `start`. The chain walks from the best point of the sample. Its
+/// temperature begins at the sample's standard deviation and falls geometrically to 1e-4 of it. A
+/// proposal is a normal step of all coordinates, reflected at the bounds, with a length adapted to
+/// an acceptance of 30 to 45 %. A point without a value is never accepted; a chain that has found
+/// no point with a value continues to sample.
 class Annealing final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {

@@ -29,7 +29,7 @@ Eigen::VectorXd Box::theta_r(const Eigen::VectorXd& x) const {
   Eigen::VectorXd result = lower_;
   for (int j = 0; j < free(); ++j) {
     const int i = free_[j];
-    // Both ends are met exactly.
+    // Both ends are reached exactly.
     result[i] = x[j] >= 1 ? upper_[i] : lower_[i] + std::max(x[j], 0.0) * (upper_[i] - lower_[i]);
   }
   return result;
@@ -71,8 +71,8 @@ void parallel_for(int threads, long count, const std::function<void(long)>& body
     return;
   }
   tbb::task_arena arena(threads);
-  // What the caller wrote before is seen by every body, and what they wrote by the caller after:
-  // TBB sees to it, but a thread sanitizer does not see that, so it is said once more.
+  // Every body sees what the caller wrote before, and the caller sees what the bodies wrote. TBB
+  // guarantees this, but a thread sanitizer does not know it; so these atomics state it again.
   std::atomic<long> begun{0}, ended{0};
   begun.store(1, std::memory_order_release);
   arena.execute([&] {
@@ -91,7 +91,7 @@ void parallel_for(int threads, long count, const std::function<void(long)>& body
 std::vector<double> evaluate_all(const Objective& objective, long count,
                                  const std::function<Eigen::VectorXd(long)>& point, int threads,
                                  SearchRun& run, bool guides) {
-  // Large enough to pay for a clone, small enough to share the work evenly.
+  // Large enough to justify a clone, small enough to distribute the work evenly.
   const long chunk = std::clamp(count / 64, 64L, 4096L);
   std::vector<double> values(count, std::numeric_limits<double>::quiet_NaN());
   parallel_for(threads, (count + chunk - 1) / chunk, [&](long c) {

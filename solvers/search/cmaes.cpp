@@ -10,7 +10,7 @@
 namespace maxwrench {
 namespace {
 
-/// The numbers of CMA-ES that depend on the dimension d only (names as in Hansen's tutorial).
+/// The parameters of CMA-ES that depend only on the dimension d (names as in Hansen's tutorial).
 struct Rates {
   explicit Rates(int d) : lambda(6 + 3 * d), mu(lambda / 2), weights(mu) {
     for (int i = 0; i < mu; ++i) weights[i] = std::log((lambda + 1) / 2.0) - std::log(i + 1.0);
@@ -52,13 +52,13 @@ class Evolution {
     return x.cwiseMax(0).cwiseMin(1);
   }
 
-  /// Nothing sampled has a value: back to the best point, and closer.
+  /// For a generation without any value: returns to the best point with a smaller step.
   void retreat(const Eigen::VectorXd& best) {
     mean_ = best;
     sigma_ /= 2;
   }
 
-  /// `ranked`: the mu best samples, best first.
+  /// `ranked` holds the mu best samples, best first.
   void update(const std::vector<Eigen::VectorXd>& ranked) {
     const Rates& r = rates_;
     Eigen::MatrixXd Y(mean_.size(), r.mu);
@@ -96,19 +96,19 @@ class Evolution {
   double sigma_;
 };
 
-/// One ascent of one candidate, with its own random numbers.
+/// One local search from one candidate, with its own random numbers.
 class CmaesRun {
  public:
   CmaesRun(Probe& probe, const Box& box, const Candidate& start, Random random)
       : probe_(probe), box_(box), rates_(box.free()), best_(start), random_(random) {}
 
-  /// Spends the evaluations of the probe, or fewer.
+  /// Uses the evaluations of the probe, or fewer.
   void run(double step, double tolerance) {
     int idle = 0;
     for (int start = 0; probe_.left() > 0 && idle < 2; ++start) {
       const double before = best_.value;
       optimise(start % 2 == 0 ? step : step / 100, tolerance);
-      // Rounding alone, as on a flat maximum, is no progress.
+      // A change by rounding only, as on a flat maximum, is not progress.
       idle = best_.value > before + 1e-13 * std::abs(before) ? 0 : idle + 1;
     }
   }
@@ -140,7 +140,7 @@ class CmaesRun {
     }
     std::vector<Eigen::VectorXd> ranked;
     for (int i = 0; i < rates_.mu; ++i) {
-      // Too few points with a value: the best one takes the places of the rest.
+      // If too few points have a value, the best one replaces the others.
       const long k = values[order[i]] == -kInfinity ? order[0] : order[i];
       ranked.push_back(samples[k]);
     }
@@ -155,13 +155,13 @@ class CmaesRun {
 };
 
 constexpr double kFirstStep = 0.3;       // from a random point, as a share of the bounds
-constexpr double kNearStep = 0.02;       // from where an earlier search has been
-constexpr double kTolerance = 1e-9;      // an ascent ends when it looks less far than this
+constexpr double kNearStep = 0.02;       // from a point of an earlier search
+constexpr double kTolerance = 1e-9;      // a local search ends when its reach is below this
 constexpr long kMostLocalSearches = 24;  // from points of an earlier search
 
-/// Goes on from the best points of an earlier search: up to 24, best first and no more than the
-/// budget gives 120 (d + 1) evaluations each, share one half of it; the best of their results gets
-/// the rest.
+/// Continues from the best points of an earlier search. Up to 24 points, best first, share half of
+/// the budget; there are no more of them than get 120 (d + 1) evaluations each. The best of their
+/// results gets the rest of the budget.
 void ascend_from(const Objective& objective, const Box& box, const SearchOptions& options,
                  SearchRun& run, Part& found) {
   const long half = options.budget / 2;
@@ -190,12 +190,13 @@ void ascend_from(const Objective& objective, const Box& box, const SearchOptions
 /// An evolution strategy with covariance matrix adaptation (CMA-ES; Hansen, "The CMA Evolution
 /// Strategy: A Tutorial", 2016) in the unit cube, projected onto the bounds. A capability is
 /// piecewise smooth: its maxima often lie on sharp ridges that are not parallel to the axes, where
-/// compass search and shrinking grids stall. The adapted covariance learns the ridge. Points
-/// without a value rank last.
+/// compass search and shrinking grids stall. The covariance adapts to the ridge. Points without a
+/// value rank last.
 ///
-/// Ascents from random points, or where an earlier search has been, see `ascend_from`, and then
-/// from random points. One that has converged starts again at its best point, with the first step
-/// and with a hundredth of it in turn, until two starts in a row bring nothing.
+/// Without an earlier search, local searches start from random points; otherwise first from its
+/// points, see `ascend_from`, and then from random points. A local search that has converged starts
+/// again at its best point, alternately with the first step and with a hundredth of it, until two
+/// starts in a row bring no progress.
 class Cmaes final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {

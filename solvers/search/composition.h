@@ -9,10 +9,11 @@ namespace maxwrench {
 
 struct SearchEntry;
 
-/// Searches one after the other, each from where the earlier ones have been: of their points the
-/// best ones that are apart. All but the last get a share of the budget that is left: the share
-/// that their entry says, else an equal part; what they leave goes on. History, evaluations and
-/// calls join in order. The entries outlive the search; all but the first go on from starts.
+/// Runs searches one after the other. Each continues from the points that the earlier ones found:
+/// the best of those that are apart. Each search but the last gets a share of the remaining budget:
+/// the share in its entry, or else an equal part. What it does not use passes to the later ones.
+/// History, evaluations and calls are joined in order. The entries must outlive the search. All
+/// searches but the first must accept starts.
 std::unique_ptr<Search> make_composition(std::span<const SearchEntry* const> stages);
 
 }  // namespace maxwrench

@@ -68,8 +68,8 @@ FacetEnd solve_facets_by_ipopt(FacetView& view) {
 
 namespace {
 
-/// Ipopt (Wächter, Biegler 2006): an interior point method, exact first derivatives. A solve costs
-/// far more time than its evaluations, so there are fewer than the budget would bear.
+/// Ipopt (Wächter, Biegler 2006): an interior point method with exact first derivatives. A solve
+/// takes far more time than its evaluations, so there are fewer solves than the budget allows.
 class FacetNlpSearch final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {

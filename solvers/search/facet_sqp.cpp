@@ -13,9 +13,10 @@ namespace {
 
 using FacetOptimizer = std::unique_ptr<std::remove_pointer_t<nlopt_opt>, decltype(&nlopt_destroy)>;
 
-/// Of rows in shares of half their width, and of y.
+/// Tolerances of rows, as shares of half their width, and of y.
 constexpr double kRowTolerance = 1e-9, kYTolerance = 1e-9;
-/// By how much a point without a posture seems to miss each row, and to lose.
+/// How far each row appears violated at a point without a posture, and how much value such a point
+/// appears to lose.
 constexpr double kMiss = 10;
 constexpr int kSqpPoints = 400;
 
@@ -25,23 +26,23 @@ struct Bounded {
   double sign, limit;
 };
 
-/// A local solve of the view as NLopt's functions see it.
+/// A local solve of the view, as the data of NLopt's functions.
 struct FacetSession {
   FacetView& view;
   nlopt_opt opt;
   Eigen::VectorXd y, gradient;
-  std::vector<Bounded> wide;       ///< the sides of rows with some width that are bounded,
-  std::vector<Eigen::Index> flat;  ///< and the rows without
+  std::vector<Bounded> wide;       ///< sides of rows with some width that have a bound
+  std::vector<Eigen::Index> flat;  ///< rows without width
   Caught caught;
 
-  /// Whether there are rows at point.
+  /// Whether the rows have values at the point.
   bool look(unsigned n, const double* point) {
     y = Eigen::Map<const Eigen::VectorXd>(point, n);
     const bool seen = caught.run(false, [&] { return view.look(y); });
     if (caught.any() || (!seen && view.ended())) nlopt_force_stop(opt);
     return seen;
   }
-  /// The derivative of a row, with a sign; zero where there is none.
+  /// The signed derivative of a row; zero where there is none.
   void slope(bool seen, Eigen::Index row, double sign, double* to) {
     Eigen::Map<Eigen::RowVectorXd> into(to, y.size());
     into.setZero();
@@ -56,7 +57,7 @@ double wrench(unsigned n, const double* point, double* slope, void* data) {
   return s.view.c_y().dot(s.y) - (seen ? 0 : kMiss);
 }
 
-/// How far the sides of rows with some width are exceeded.
+/// By how much the sides of rows with some width are violated.
 void limits(unsigned, double* result, unsigned n, const double* point, double* slope, void* data) {
   FacetSession& s = *static_cast<FacetSession*>(data);
   const bool seen = s.look(n, point);
@@ -68,7 +69,7 @@ void limits(unsigned, double* result, unsigned n, const double* point, double* s
   }
 }
 
-/// rows - row_max of those without.
+/// rows - row_max of the rows without width.
 void balance(unsigned, double* result, unsigned n, const double* point, double* slope, void* data) {
   FacetSession& s = *static_cast<FacetSession*>(data);
   const bool seen = s.look(n, point);
@@ -96,7 +97,8 @@ FacetEnd solve_facets_by_slsqp(FacetView& view) {
     if (high < kInfinity) session.wide.push_back({j, 1, high});
     if (low > -kInfinity) session.wide.push_back({j, -1, -low});
   }
-  // SLSQP takes no more equations than unknowns: where nothing is left to choose, the start stays.
+  // SLSQP accepts no more equations than unknowns. With more, there is nothing to choose, and the
+  // start is the result.
   if (static_cast<Eigen::Index>(session.flat.size()) > y.size()) return {y, "too_many_equations"};
   const auto take = [](nlopt_result result) { require_taken(result, "facet_sqp"); };
   take(nlopt_set_lower_bounds(opt.get(), view.lower().data()));
@@ -117,7 +119,7 @@ FacetEnd solve_facets_by_slsqp(FacetView& view) {
 
 namespace {
 
-/// SLSQP (Kraft 1994) of NLopt: sequential quadratic programs, exact first derivatives.
+/// SLSQP (Kraft 1994) of NLopt: sequential quadratic programs with exact first derivatives.
 class FacetSqp final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {

@@ -4,8 +4,9 @@
 
 namespace maxwrench {
 
-/// A local solve by SLSQP of NLopt, at most 400 points. SLSQP wants numbers everywhere: a point
-/// without a posture misses all rows by ten half widths there, so that a step gets shorter.
+/// A local solve by SLSQP of NLopt, at most 400 points. SLSQP needs a number at every point: where
+/// there is no posture, all rows appear violated by ten half widths, so that SLSQP shortens its
+/// step.
 FacetEnd solve_facets_by_slsqp(FacetView& view);
 
 }  // namespace maxwrench

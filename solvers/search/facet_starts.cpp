@@ -10,15 +10,15 @@
 namespace maxwrench {
 namespace {
 
-/// Of the scale of a column of w, whatever the posture of a start says [N, N m].
+/// Limits of the scale of a column of w, at any start [N, N m].
 constexpr double kLeastScale = 1e-2, kMostScale = 1e4;
 
-/// Evaluations that a local solve wants: to set out, to move, and at its end.
+/// The fewest evaluations of a local solve: at its start, for a move, and at its end.
 constexpr long kFewest = 3;
 
 long facet_parts_of(long budget) { return std::clamp(budget / 200, 1L, 8L); }
 
-/// From each IK solution of theta_r; appends how each solve ended.
+/// Solves from each IK solution of theta_r; appends how each solve ended.
 void solve_all(Probe& probe, FacetProgram& program, const Box& box, const Eigen::VectorXd& theta_r,
                const char* name, const FacetSolve& solve, std::vector<Call>& calls) {
   const auto spent = [&] { return probe.found().trace.evaluations(); };
@@ -33,7 +33,7 @@ void solve_all(Probe& probe, FacetProgram& program, const Box& box, const Eigen:
   }
 }
 
-/// The one place that asks whether an objective has facets. Throws unless it does.
+/// The only place that checks whether an objective has facets. Throws if it has none.
 std::unique_ptr<FacetProgram> require_facets(const Objective& objective, const char* search) {
   const auto* of_postures = dynamic_cast<const FacetObjective*>(&objective);
   auto program = of_postures ? of_postures->make_facet_program() : nullptr;
@@ -63,7 +63,7 @@ bool FacetView::set_out(const Eigen::VectorXd& theta_r, int ik_solution) {
   return true;
 }
 
-/// s, and what depends on it.
+/// Sets s and the data that depend on it.
 void FacetView::scale(const Eigen::VectorXd& w) {
   const Eigen::Index k = w.size();
   w_scale_.resize(k);

@@ -9,20 +9,21 @@
 
 namespace maxwrench {
 
-/// A `FacetProgram` as a local solver gets it, in y = (x, w/s), x in the unit cube of the bounds:
+/// A `FacetProgram` in the form of a local solver, in y = (x, w/s), with x in the unit cube of the
+/// bounds:
 ///
 ///     max c_y'y   subject to   row_min <= rows(y) <= row_max,   lower <= y <= upper.
 ///
-/// Rows are in their units; s_k is how much of column k alone the start might bear, or more if w
-/// is. Points are counted as evaluations of the probe, which
-/// keeps one for the end.
+/// Each row is divided by its unit. The scale s_k is how much of wrench column k alone the start
+/// can bear, or |w_k| if that is larger. Each point counts as an evaluation of the probe, which
+/// reserves one for the end.
 class FacetView {
  public:
-  /// All outlive this.
+  /// All arguments must outlive this.
   FacetView(Probe& probe, FacetProgram& program, const Box& box);
 
-  /// Sets out at one of the IK solutions of theta_r, which counts as an evaluation; false if there
-  /// are no more so many.
+  /// Starts at an IK solution of theta_r, which counts as one evaluation. Returns false if theta_r
+  /// has no solution of this number.
   bool set_out(const Eigen::VectorXd& theta_r, int ik_solution);
   const Eigen::VectorXd& start() const { return start_; }
   const Eigen::VectorXd& lower() const { return lower_; }
@@ -31,13 +32,13 @@ class FacetView {
   const Eigen::VectorXd& row_min() const { return row_min_; }
   const Eigen::VectorXd& row_max() const { return row_max_; }
 
-  /// Whether no evaluation is left but the one for the end.
+  /// Whether no evaluation is left except the reserved one.
   bool ended() const { return probe_.left() < 2; }
-  /// Evaluates the rows at y, once for each y in a row. False where there is no posture, or
-  /// `ended`.
+  /// Evaluates the rows at y, once for repeated calls with the same y. Returns false if there is no
+  /// posture, or if `ended`.
   bool look(const Eigen::VectorXd& y);
   const Eigen::VectorXd& rows() const { return rows_; }
-  /// At the last y, where `look` was true. f×(d + k), by rows.
+  /// The derivative of the rows at the last y for which `look` returned true. f×(d + k), by rows.
   using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const Jacobian& jacobian();
 
@@ -57,7 +58,7 @@ class FacetView {
   Jacobian jacobian_;
 };
 
-/// Where a local solve ended, and the library's word for it.
+/// Where a local solve ended, and the library's status.
 struct FacetEnd {
   Eigen::VectorXd y;
   std::string status;
@@ -66,20 +67,20 @@ struct FacetEnd {
 /// A local solve from `view.start()`.
 using FacetSolve = std::function<FacetEnd(FacetView& view)>;
 
-/// Local solves from many postures, first `options.starts`, or without any `options.start`, then
-/// random ones: from each of the IK solutions of one. The objective is evaluated at the end of
-/// each, and that alone counts as found. Each start counts as an evaluation, with or without a
-/// posture, and so does each of its IK solutions, each point at which a solve asks for rows, and
-/// each end. Runs in up to eight parts side by side, one for each 200 evaluations of the budget,
-/// and ends after `most` solves or a few more. Throws std::invalid_argument, with `name`, if the
-/// objective has no facets.
+/// Local solves from many postures: first from `options.starts`, or from `options.start` if there
+/// are none, then from random ones. Each posture is solved from all its IK solutions. The objective
+/// is evaluated at the end of each solve, and only this value counts as found. Each of these counts
+/// as an evaluation: a start, with or without a posture; an IK solution of a start; a point at
+/// which a solve evaluates rows; and an end. Runs in up to eight parallel parts, one for each 200
+/// evaluations of the budget. Ends after `most` solves or a few more. Throws std::invalid_argument,
+/// with `name`, if the objective has no facets.
 SearchResult search_from_facet_starts(const char* name, Objective& objective,
                                       const SearchOptions& options, const FacetSolve& solve,
                                       long most = std::numeric_limits<long>::max());
 
-/// One of these local solves, from an IK solution of theta_r (`FacetProgram::ik_solutions`): the
-/// value at its end, -infinity if there is none. At least three evaluations are left. `status`, if
-/// given, gets the library's word.
+/// One of these local solves, from an IK solution of theta_r (`FacetProgram::ik_solutions`).
+/// Returns the value at its end, -infinity if there is none. At least three evaluations must be
+/// left. Stores the library's status in `status`, if given.
 double solve_from(Probe& probe, FacetProgram& program, const Box& box,
                   const Eigen::VectorXd& theta_r, int ik_solution, const FacetSolve& solve,
                   std::string* status = nullptr);

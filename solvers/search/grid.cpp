@@ -8,12 +8,13 @@
 namespace maxwrench {
 namespace {
 
-/// Equally spaced points in the unit cube, both ends included; a coordinate with one point only
-/// stands in the middle. The first coordinate runs slowest.
+/// Equally spaced points in the unit cube, both ends included. A coordinate with only one point has
+/// it in the middle. The first coordinate changes slowest.
 class Lattice {
  public:
-  /// The largest N with N^d <= budget, the same in all d dimensions. Where even 2^d is too many,
-  /// the first dimensions get two points, as many as the budget allows, and the others one.
+  /// Uses the largest N with N^d <= budget in all d dimensions. If even 2^d points are too many,
+  /// the first dimensions have two points, as many dimensions as the budget allows, and the others
+  /// one.
   Lattice(int d, long budget) : points_(d, 1) {
     if (d == 0) return;
     const auto share = static_cast<double>(budget);
@@ -42,7 +43,7 @@ class Lattice {
     return x;
   }
 
-  /// Whether no neighbour (3^d - 1 of them) is better; of equal neighbours the first counts.
+  /// Whether none of the 3^d - 1 neighbours is better; of equal neighbours, the first is better.
   bool is_peak(const std::vector<double>& values, long index) const {
     if (values[index] == -kInfinity) return false;
     return !has_better(values, index, index, 0, size());
@@ -64,8 +65,8 @@ class Lattice {
 };
 
 /// A regular grid over the bounds: N = floor(budget^(1/d)) points in each of the d dimensions, the
-/// bounds included. A dimension with lower = upper takes no part. The seed has no effect. What a
-/// later search gets are its peaks, the points without a better neighbour.
+/// bounds included. Dimensions with lower = upper are ignored. The seed has no effect. A later
+/// search gets its peaks, the points without a better neighbour.
 class Grid final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {

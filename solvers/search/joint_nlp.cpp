@@ -59,7 +59,7 @@ class JointNlp final : public IpoptNlp {
     return true;
   }
 
-  /// What the lower level makes of the table of an iterate.
+  /// Evaluates the table of an iterate by the lower level.
   bool judge() {
     if (left() == 0) return false;
     const Eigen::VectorXd x = program_.knots(X_);
@@ -78,9 +78,10 @@ class JointNlp final : public IpoptNlp {
   Eigen::VectorXd X_;
 };
 
-/// The trajectory, its efforts and its wrenches in one nonlinear program (`JointProgram`) by Ipopt
-/// with exact sparse first derivatives, from the starts of `slp`, one after the other behind
-/// Ipopt's lock. It does not see collisions: a trajectory that collides counts for nothing.
+/// The trajectory, its efforts and its wrenches in one nonlinear program (`JointProgram`), solved
+/// by Ipopt with exact sparse first derivatives. It starts from the starts of `slp`, one after the
+/// other under Ipopt's lock. The program does not contain collisions: a trajectory that collides
+/// has no value.
 class JointNlpSearch : public Search {
  public:
   SearchResult maximize(Objective& given, const SearchOptions& options) override {
@@ -94,8 +95,8 @@ class JointNlpSearch : public Search {
       const auto later = static_cast<long>(std::min(starts.size(), kJointStarts) - i);
       const long before = found.trace.evaluations(), left = options.budget - before;
       if (left < kFewestOfLocalSearch || run.ended()) break;
-      // A local search of its own copy: its path is that of what it evaluates, not of what was
-      // before.
+      // Each local search has its own copy of the objective, so its path depends only on its own
+      // evaluations.
       optimise(*objective.copy(objective.counts()), starts[i],
                before + std::max(kFewestOfLocalSearch, left / later), run, found);
       run.add(found.trace.evaluations() - before);

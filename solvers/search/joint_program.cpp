@@ -54,7 +54,7 @@ void JointProgram::set_limits(const TrajectoryProgram& program, const KnotRows& 
   } else {
     const WrenchProgram& at = program.instants[static_cast<std::size_t>(program.peak)];
     objective_.segment(w0(program.peak), at.columns()) = at.c_w;
-    lower_[p_] = upper_[p_] = start_[p_] = 0;  // t has no part in it
+    lower_[p_] = upper_[p_] = start_[p_] = 0;  // t is not used
   }
   const auto rates = static_cast<Eigen::Index>(rated_.size());
   const Eigen::Index limits = path ? N_ : 0, R = rows.R.rows(), F = following.R.rows();
@@ -79,7 +79,7 @@ void JointProgram::evaluate(const Eigen::VectorXd& X) {
       trajectories_.linearize(unstacked(X.head(p_), trajectories_.knots()), w_);
   fill(program);
   rows_.noalias() = jacobian_ * X;
-  // The knots move the balance in another way than their derivative times themselves.
+  // The balance is not linear in the knots: tau_d replaces G times the knots.
   for (int i = 0; i < N_; ++i) {
     const auto at = static_cast<std::size_t>(i);
     rows_.segment(n_ * i, n_) -= program.G[at] * X.head(p_) + program.instants[at].tau_d;
@@ -95,7 +95,7 @@ void JointProgram::fill(const TrajectoryProgram& program) {
   jacobian_.setFromTriplets(entries_.begin(), entries_.end());
 }
 
-/// The balance of one instant. Of a robot's zeros in B none is an entry; of J'W and G all are.
+/// The balance of one instant. Zeros of B are not entries of the pattern; zeros of J'W and G are.
 void JointProgram::fill_block(const TrajectoryProgram& program, int i) {
   const WrenchProgram& at = program.instants[static_cast<std::size_t>(i)];
   const Eigen::MatrixXd& B = at.actuation->B;
@@ -129,7 +129,7 @@ void JointProgram::fill_linear(const TrajectoryProgram& program) {
             row + static_cast<int>(trajectories_.rows().R.rows()));
 }
 
-/// Rows on the knots, from `first` on.
+/// The rows R x of the knots, from row `first` on.
 void JointProgram::fill_rows(const Eigen::SparseMatrix<double>& R, int first) {
   for (int column = 0; column < R.outerSize(); ++column) {
     for (Eigen::SparseMatrix<double>::InnerIterator it(R, column); it; ++it) {

@@ -7,18 +7,17 @@
 
 namespace maxwrench {
 
-/// The whole of a trajectory as one nonlinear program in X = (x, t, u_i and w_i of all blocks), x
-/// the stacked knots:
+/// A whole trajectory as one nonlinear program in X = (x, t, u_i and w_i of all blocks), with x the
+/// stacked knots:
 ///
 ///     max t (of an impulse c_w,p'w_p)   subject to
 ///     B u_i - J_i(x)'W_i(x) w_i - tau_d,i(x) = 0,   t - c_w,i'w_i <= 0,   the rates,   R x,
 ///     positions and rates of dependent joints (x)
 ///
-/// and all limits. The balance and the last rows are the parts that are not linear. Collisions are
-/// not in it.
+/// and all limits. Only the balance and the last rows are nonlinear. Collisions are not included.
 class JointProgram {
  public:
-  /// About the trajectory that `trajectories` has evaluated last by `evaluate_elastic`; keeps a
+  /// Built at the trajectory that `trajectories` evaluated last by `evaluate_elastic`; keeps a
   /// reference.
   JointProgram(TrajectoryEvaluator& trajectories, const Eigen::VectorXd& x_min,
                const Eigen::VectorXd& x_max);
@@ -32,7 +31,7 @@ class JointProgram {
   const Eigen::VectorXd& objective() const { return objective_; }  ///< linear, to be maximised
   auto knots(const Eigen::VectorXd& X) const { return X.head(p_); }
 
-  /// The rows at X, and their derivative, whose pattern is always the same.
+  /// Evaluates the rows at X and their derivative, whose pattern never changes.
   void evaluate(const Eigen::VectorXd& X);
   const Eigen::VectorXd& rows() const { return rows_; }
   const Eigen::SparseMatrix<double>& jacobian() const { return jacobian_; }

@@ -14,17 +14,17 @@
 namespace maxwrench {
 namespace {
 
-constexpr long kSamples = 192;    // at most, besides the start; at most a tenth of the budget
-constexpr long kNearOf = 4;       // every so many of them is near the start,
-constexpr double kNear = 0.5;     // by so much [rad or m]
+constexpr long kSamples = 192;    // without the start; at most a tenth of the budget
+constexpr long kNearOf = 4;       // every fourth table is near the start
+constexpr double kNear = 0.5;     // [rad or m] distance of near tables, at most
 constexpr double kFar = 0.8;      // rad or m, between starts of the same round
-constexpr double kSame = 0.1;     // rad or m: closer ones are of one family
-constexpr long kAlike = 48;       // local searches with all knots alike, at most,
-constexpr long kAlikeSteps = 30;  // of so many evaluations; a fifth of the budget, at most
+constexpr double kSame = 0.1;     // rad or m: closer starts belong to one family
+constexpr long kAlike = 48;       // largest number of local searches with all knots alike
+constexpr long kAlikeSteps = 30;  // evaluations of each; all together at most a fifth of the budget
 constexpr double kKickReach[] = {0.05, 0.15, 0.4, 0.8};  // rad or m
-constexpr double kHopeful = 0.8;  // a family is less than 1 - this of 1 + |best| below the best
+constexpr double kHopeful = 0.8;  // families are at most (1 - this) (1 + |best|) below the best
 
-/// Tables around the start that keep the rows of the limits.
+/// Draws tables around the start that satisfy the rows of the limits.
 class Drawing {
  public:
   Drawing(const Objective& objective, const TrajectoryEvaluator& trajectories,
@@ -55,7 +55,8 @@ class Drawing {
     return moved(offset.replicate(start_.size() / offset.size(), 1));
   }
 
-  /// Each number of the table moved by `reach` at most, or those of a coordinate alike.
+  /// Moves each number of the table by `reach` at most; with `alike`, each coordinate alike at all
+  /// knots.
   Eigen::VectorXd kick(Random random, double reach, bool alike) const {
     const Eigen::Index drawn = alike ? down_.size() : start_.size();
     const Eigen::VectorXd offset =
@@ -73,7 +74,7 @@ class Drawing {
         .cwiseMin(objective_.upper());
   }
 
-  /// The share of a step from the start that the rows allow.
+  /// The share of a step from the start that the rows permit.
   double share(const Eigen::VectorXd& offset) const {
     const Eigen::VectorXd at = rows_.R * start_, moved = rows_.R * offset;
     double share = 1;
@@ -90,7 +91,7 @@ class Drawing {
   const Eigen::VectorXd& start_;
   bool alike_;  ///< whether the knots of a table move alike
   Eigen::MatrixXd equations_, inverse_;
-  Eigen::VectorXd down_, up_;  ///< of the offset, for all knots if they move alike
+  Eigen::VectorXd down_, up_;  ///< limits of the offset, for all knots if they move alike
 };
 
 double distance(const Candidate& a, const Candidate& b) {
@@ -102,7 +103,7 @@ bool is_near(const Candidate& start, std::span<const Candidate> others, double w
                      [&](const Candidate& other) { return distance(start, other) <= within; });
 }
 
-/// Best first in rounds: each takes those that are far from the ones it has taken.
+/// Sorts best first in rounds: each round takes the starts that are far from those it has taken.
 std::vector<Candidate> spread(std::vector<Candidate> starts) {
   std::stable_sort(starts.begin(), starts.end(),
                    [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
@@ -119,8 +120,8 @@ std::vector<Candidate> spread(std::vector<Candidate> starts) {
   return ordered;
 }
 
-/// The best of each family that is worth a local search of its own; `known` is the best value so
-/// far.
+/// The best start of each family that is good enough for a local search; `known` is the best value
+/// so far.
 std::vector<Candidate> families(std::vector<Candidate> starts, double known) {
   std::stable_sort(starts.begin(), starts.end(),
                    [](const Candidate& a, const Candidate& b) { return a.value > b.value; });
@@ -133,7 +134,7 @@ std::vector<Candidate> families(std::vector<Candidate> starts, double known) {
   return heads;
 }
 
-/// Those of `count` tables that have a value.
+/// Evaluates `count` tables and returns those that have a value.
 std::vector<Candidate> with_value(const TrajectoryObjective& objective,
                                   const SearchOptions& options, long count,
                                   const std::function<Eigen::VectorXd(long)>& table, SearchRun& run,
@@ -153,7 +154,7 @@ std::vector<Candidate> with_value(const TrajectoryObjective& objective,
   return valued;
 }
 
-/// The start and the drawn tables that have a value.
+/// Evaluates the start and drawn tables and returns those that have a value.
 std::vector<Candidate> sample(const TrajectoryObjective& objective, const SearchOptions& options,
                               const Drawing& drawing, const Eigen::VectorXd& start, SearchRun& run,
                               Part& found) {
@@ -166,7 +167,7 @@ std::vector<Candidate> sample(const TrajectoryObjective& objective, const Search
   return with_value(objective, options, count, table, run, found);
 }
 
-/// The ends of local searches with all knots alike.
+/// The results of local searches with all knots alike.
 std::vector<Candidate> optimise_alike(const TrajectoryObjective& objective,
                                       const SearchOptions& options,
                                       std::span<const Candidate> starts, SearchRun& run,

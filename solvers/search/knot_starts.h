@@ -7,32 +7,35 @@
 
 namespace maxwrench {
 
-/// A local search of fewer evaluations is not worth its start.
+/// The fewest evaluations with which it is useful to start a local search.
 inline constexpr long kFewestOfLocalSearch = 6;
 
-/// The one place that asks whether an objective is one of trajectories; null: it is not.
+/// The only place that checks whether an objective is one of trajectories; null if it is not.
 TrajectoryObjective* as_trajectories(Objective& objective);
-/// Throws std::invalid_argument, which names the search, unless it is.
+/// Throws std::invalid_argument, which names the search, if the objective is not one of
+/// trajectories.
 TrajectoryObjective& require_trajectories(Objective& objective, const char* search);
 
-/// The search's start and tables drawn around it that keep the rows of the limits, an offset for
-/// all knots alike; or, as such a one leaves the start of an impulse at once, one for each knot.
-/// Those that have a value, best first in rounds, each of which takes those that are apart from the
-/// ones it has taken. Their values are those at the instants, whatever the objective counts. Adds
-/// to `found` what was evaluated, of the objective or of something else.
+/// Evaluates the search's start and tables drawn around it that satisfy the rows of the limits. All
+/// knots of a table move by the same offset. Knots of an impulse move separately, because a common
+/// offset violates the fixed start at once. Returns the tables that have a value, best first in
+/// rounds: each round takes the tables that are apart from those it has taken. The values are those
+/// at the instants, whatever value the objective uses. Adds all evaluations to `found`, of the
+/// objective or of another value.
 std::vector<Candidate> draw_knot_starts(TrajectoryObjective& objective,
                                         const SearchOptions& options, SearchRun& run, Part& found);
 
-/// Where the local searches of `slp` begin. Drawn tables of one posture first local search as such,
-/// all knots alike (`SlpRun`), which costs little and of hundreds of tables leaves a few families:
-/// these come first, then the tables as drawn. Empty if none has a value.
+/// The starts of the local searches of `slp`. For a task other than an impulse, each drawn table is
+/// first optimised with all knots moving alike (`SlpRun`). This costs little and reduces hundreds
+/// of tables to a few families. The results come first, then the drawn tables. Empty if no table
+/// has a value.
 std::vector<Candidate> find_knot_starts(TrajectoryObjective& objective,
                                         const SearchOptions& options, SearchRun& run, Part& found);
 
-/// Tables near a trajectory, numbers `first` to `first` + `count` - 1 of an endless series: knots
-/// moved alike or, always of an impulse, each by itself, by 0.05 to 0.8 [rad or m] at most, the
-/// rows of the limits kept. Those that have a value: where a local search has stalled, another from
-/// nearby may not. Adds to `found` what was evaluated.
+/// Tables near a trajectory, numbers `first` to `first` + `count` - 1 of an endless series. The
+/// knots move alike or separately, those of an impulse always separately, by 0.05 to 0.8 [rad or m]
+/// at most, and satisfy the rows of the limits. Returns the tables that have a value: where a local
+/// search has stalled, another from nearby may not. Adds the evaluations to `found`.
 std::vector<Candidate> kick_knots(TrajectoryObjective& objective, const SearchOptions& options,
                                   const Candidate& best, long first, long count, SearchRun& run,
                                   Part& found);

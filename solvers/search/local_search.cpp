@@ -5,9 +5,9 @@
 namespace maxwrench {
 namespace {
 
-/// Of local search number `optimise` where the earlier search has left no start: `options.start`
-/// for the first of all, then random points. No value if the evaluations of the probe run out
-/// before.
+/// The start of local search number `optimise` if the earlier search has left none: `options.start`
+/// for the first local search, random points for the others. Has no value if the probe's
+/// evaluations run out first.
 Candidate draw_start(Probe& probe, const Box& box, const SearchOptions& options, long optimise,
                      Random& random) {
   Candidate start;
@@ -21,7 +21,7 @@ Candidate draw_start(Probe& probe, const Box& box, const SearchOptions& options,
   return start;
 }
 
-/// Local search number `optimise`, with all that the probe has left.
+/// Local search number `optimise`, with all evaluations that the probe has left.
 Part optimise_once(Probe& probe, const Box& box, const SearchOptions& options,
                    const LocalSearch& local_search, long optimise) {
   Random random(options.seed, RandomUse::kLocalSearch, static_cast<std::uint64_t>(optimise));

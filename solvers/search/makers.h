@@ -4,7 +4,7 @@
 
 #include "maxwrench/search.h"
 
-// Searches; what each does stands in the table of strategies.
+// Searches. The table of strategies describes them.
 
 namespace maxwrench {
 

@@ -79,7 +79,7 @@ class BoundedNlp final : public IpoptNlp {
   double value_ = -kInfinity;
 };
 
-/// One solve from `start`, and Ipopt's word for its end.
+/// One solve from `start`; returns Ipopt's status.
 std::string solve_by_ipopt(Probe& probe, const Box& box, const Eigen::VectorXd& start,
                            int iterations, const KnotRows* rows = nullptr) {
   const std::lock_guard guard(ipopt_lock());
@@ -98,12 +98,12 @@ void optimise_by_ipopt(Probe& probe, const Box& box, const Eigen::VectorXd& thet
 namespace {
 
 /// Local solves by Ipopt (interior point, limited-memory quasi-Newton, exact gradient) from many
-/// random points: what fmincon with MultiStart does. One start for each 500 evaluations of the
-/// budget and at most 64, for a start costs far more time than its evaluations; they run one after
-/// the other behind one lock. Where the objective has a kink the line search gives up.
+/// random points, like fmincon with MultiStart. There is one start for each 500 evaluations of the
+/// budget, at most 64, because a start takes far more time than its evaluations. The solves run one
+/// after the other under one lock. At a kink of the objective, the line search fails.
 ///
-/// Of a trajectory it is the paper's bilevel method: from the best of the drawn tables, or where an
-/// earlier search has been, one start after the other, subject to the rows of the knots.
+/// For a trajectory it is the paper's bilevel method: from the best of the drawn tables, or from
+/// points of an earlier search, one start after the other, subject to the rows of the knots.
 class Multistart final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {

@@ -24,7 +24,8 @@ struct Session {
 double look(Session& s, unsigned n, const double* x, double* slope) {
   double value = -kInfinity;
   const Eigen::Map<const Eigen::VectorXd> point(x, n);
-  // Some methods take seconds to spend a large budget in vain, and some leave the numbers.
+  // Some methods take seconds to use up a large budget to no effect, and some leave the finite
+  // numbers.
   if (s.probe.left() == 0 || !point.allFinite()) {
     nlopt_force_stop(s.opt);
   } else {
@@ -76,7 +77,7 @@ std::string optimise_by_nlopt(const NloptOptions& options, Probe& probe, const B
   nlopt_srand(static_cast<unsigned long>(random.next()));
   Eigen::VectorXd x = box.unit(start.theta_r);
   double value = 0;
-  // However it ends, the probe has kept the best.
+  // Whatever the status, the probe has stored the best point.
   const nlopt_result result = nlopt_optimize(opt.get(), x.data(), &value);
   session.caught.rethrow();
   return probe.left() == 0 ? kBudgetUsed : word_of(result);

@@ -1,7 +1,7 @@
 #include "solvers/search/makers.h"
 #include "solvers/search/nlopt_run.h"
 
-// The methods of NLopt, one maker each.
+// The methods of NLopt.
 
 namespace maxwrench {
 namespace {
@@ -47,9 +47,9 @@ std::unique_ptr<Search> make_cobyla() {
   return make_nlopt_search(model_search("cobyla", NLOPT_LN_COBYLA));
 }
 
-/// Controlled random search with local mutation (Price 1983; Kaelo, Ali 2006): a population, the
-/// start one of it, that random simplices pull together. Where another search goes on, a population
-/// that has come within a hundredth of the bounds has shown where.
+/// Controlled random search with local mutation (Price 1983; Kaelo, Ali 2006): random simplices
+/// contract a population, which includes the start. If another search follows, a population within
+/// a hundredth of the bounds is close enough.
 std::unique_ptr<Search> make_crs2() {
   NloptOptions options{"crs2", NLOPT_GN_CRS2_LM};
   options.x_tolerance = 1e-7;
@@ -58,8 +58,8 @@ std::unique_ptr<Search> make_crs2() {
   return make_nlopt_search(options);
 }
 
-/// Improved stochastic ranking evolution strategy (Runarsson, Yao 2005), the start one of its first
-/// population. Runs until the budget is used.
+/// Improved stochastic ranking evolution strategy (Runarsson, Yao 2005). The start belongs to the
+/// first population. Runs until the budget is used.
 std::unique_ptr<Search> make_isres() {
   NloptOptions options{"isres", NLOPT_GN_ISRES};
   options.evaluations_per_run = 10000;
@@ -75,9 +75,9 @@ std::unique_ptr<Search> make_mlsl() {
   return make_nlopt_search(options);
 }
 
-/// DIRECT-L: divides the bounds into boxes, first those that may hold the best value by any
-/// Lipschitz constant, biased to local search (Gablonsky, Kelley 2001). No random numbers: the
-/// start says which s of phi it sees, and else is one point more.
+/// DIRECT-L: divides the bounds into boxes, first those that may hold the best value for any
+/// Lipschitz constant, with a bias to local search (Gablonsky, Kelley 2001). It uses no random
+/// numbers. The start determines the s of phi and is otherwise just one more point.
 std::unique_ptr<Search> make_direct_l() {
   NloptOptions options{"direct_l", NLOPT_GN_DIRECT_L};
   options.max_parallel = 1;

@@ -10,8 +10,8 @@
 namespace maxwrench {
 namespace {
 
-/// The flow M(theta_r) theta_r_dot = d f/d theta_r on the coordinates F that move; the others rest
-/// on a bound. It is eq:NullSpace, theta_dot = (I - J^+ J) d f/d theta, in the coordinates of
+/// The flow M(theta_r) theta_r_dot = d f/d theta_r on the coordinates F that move; the others are
+/// fixed at a bound. It is eq:NullSpace, theta_dot = (I - J^+ J) d f/d theta, in the coordinates of
 /// eq:redundantJacobian: theta_dot = A_r theta_r_dot keeps the end effector where it is, M =
 /// A_r'A_r.
 class Flow final : public Ode {
@@ -27,14 +27,14 @@ class Flow final : public Ode {
 
   bool derivative(double /*t*/, const Eigen::VectorXd& y, Eigen::VectorXd& y_dot) override {
     if (probe_.left() == 0) return false;
-    // A trial step may leave the bounds by a little, the flow does not.
+    // A trial step may leave the bounds slightly; the flow does not.
     const Eigen::VectorXd theta_r = y.cwiseMax(lower_).cwiseMin(upper_);
     if (probe_.evaluate(theta_r, &gradient_) == -kInfinity) return false;
     probe_.metric(M_);
     return velocity(y_dot);
   }
 
-  /// The distances to the bounds; of a coordinate that rests, nothing that changes.
+  /// The distances to the bounds; constants for a fixed coordinate.
   int roots() const override { return 2 * dimension(); }
   void root(double /*t*/, const Eigen::VectorXd& y, Eigen::VectorXd& g) override {
     for (int i = 0; i < dimension(); ++i) {
@@ -43,14 +43,14 @@ class Flow final : public Ode {
     }
   }
 
-  /// Goes on from y, where root number `root` (or none, -1) was met.
+  /// Continues from y, where root number `root` was found (-1: none).
   void move_to(const Eigen::VectorXd& y, int root) {
     theta_r_ = y.cwiseMax(lower_).cwiseMin(upper_);
     if (root >= 0) theta_r_[root / 2] = root % 2 == 0 ? lower_[root / 2] : upper_[root / 2];
   }
 
-  /// Puts to rest the coordinates that would leave their bounds, one after the other, and frees all
-  /// others; the speed |theta_r_dot| is left, or zero if there is no flow.
+  /// Fixes the coordinates that would leave their bounds, one after the other, and frees all
+  /// others. Returns the remaining speed |theta_r_dot|, zero if there is no flow.
   double choose() {
     std::fill(moves_.begin(), moves_.end(), true);
     Eigen::VectorXd v;
@@ -70,7 +70,7 @@ class Flow final : public Ode {
   }
 
  private:
-  /// v_F = M_FF^-1 g_F, so that f grows by g_F' M_FF^-1 g_F >= 0 whichever coordinates rest.
+  /// v_F = M_FF^-1 g_F, so f grows by g_F' M_FF^-1 g_F >= 0, whichever coordinates are fixed.
   bool velocity(Eigen::VectorXd& v) {
     for (int i = 0; i < dimension(); ++i) {
       if (moves_[i]) continue;
@@ -92,15 +92,15 @@ class Flow final : public Ode {
 };
 
 /// Projection of the gradient onto the null space of J, eq:NullSpace: the established local method,
-/// here as the baseline that every global search should beat.
+/// and the baseline that every global search should improve on.
 ///
-/// Schedule: one flow from the best point of an earlier search; without any, from `start` if the
-/// seed is 1, for any other seed from the first of uniformly random postures that has a value.
-/// CVODE integrates it over intervals of growing length; between them the coordinates at a bound
-/// are chosen anew that must rest there. The flow ends when it stands still (an interval brings
-/// less than 1e-10 of the value), where it runs against postures without a value, where it chatters
-/// along a kink, or with the budget. It finds the maximum that lies uphill from its start and no
-/// other one, and may stop on a ridge.
+/// It runs one flow. The flow starts at the best point of an earlier search. Without an earlier
+/// search, it starts at `start` if the seed is 1; for any other seed, at the first of uniformly
+/// random postures that has a value. CVODE integrates the flow over intervals of growing length.
+/// Between intervals, the coordinates that must stay at a bound are chosen again. The flow ends
+/// when it stands still (an interval gains less than 1e-10 of the value), where it meets postures
+/// without a value, where it chatters along a kink, or when the budget is used. It finds only the
+/// maximum uphill from its start, and may stop on a ridge.
 class Nullspace final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {

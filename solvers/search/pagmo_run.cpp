@@ -9,19 +9,20 @@
 #include "solvers/search/local_search.h"
 #include "solvers/search/makers.h"
 
-// The methods of pagmo (Biscani, Izzo 2020). Its headers are heavy: they are included here only.
+// The methods of pagmo (Biscani, Izzo 2020). Its headers are large, so only this file includes
+// them.
 
 namespace maxwrench {
 namespace {
 
-/// Thrown out of a run of pagmo, which counts generations: the probe has no evaluation left, or the
-/// run has lost its numbers.
+/// Thrown to end a run of pagmo, which counts only generations: the probe has no evaluation left,
+/// or the run has produced numbers that are not finite.
 struct Stop {
   const char* why;
 };
 
-/// -f over the unit cube. pagmo minimises, and these methods ask only which of two values is less:
-/// a point without a value gets the largest number.
+/// -f over the unit cube. pagmo minimises, and these methods use only which of two values is
+/// smaller, so a point without a value gets the largest number.
 struct UnitCube {
   Probe* probe = nullptr;
   const Box* box = nullptr;
@@ -38,9 +39,9 @@ struct UnitCube {
   }
 };
 
-constexpr double kPagmoTolerance = 1e-9;  // of x and of f: a run that is closer has converged
+constexpr double kPagmoTolerance = 1e-9;  // of x and of f: a run below this has converged
 
-/// `size` points, the start first, the others up to `reach` from it in each coordinate.
+/// `size` points: the start first, the others up to `reach` from it in each coordinate.
 pagmo::population make_population(const UnitCube& cube, const Candidate& start, long size,
                                   double reach, Random& random) {
   pagmo::population population(pagmo::problem(cube), 0, 0);
@@ -56,8 +57,8 @@ pagmo::population make_population(const UnitCube& cube, const Candidate& start, 
   return population;
 }
 
-/// Runs of an algorithm of pagmo from a population until it converges or its evaluations are used.
-/// Its random numbers come from a seed of the local search's stream; nothing asks for pagmo's own.
+/// Runs an algorithm of pagmo from a population until it converges or its evaluations are used. The
+/// local search's stream seeds its random numbers; pagmo's own seeds are not used.
 /// `make(generations, seed)` makes the algorithm.
 template <class Make>
 SearchResult search_by_pagmo(const char* method, int members, double reach, Objective& objective,
@@ -79,7 +80,7 @@ SearchResult search_by_pagmo(const char* method, int members, double reach, Obje
   return multistart_search(objective, options, local_search);
 }
 
-/// CMA-ES of pagmo: the restarts are ours, the samples are clamped to the bounds.
+/// CMA-ES of pagmo. The restarts are ours, and the samples are clamped to the bounds.
 class PagmoCmaes final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {

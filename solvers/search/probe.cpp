@@ -20,7 +20,7 @@ Probe::Probe(const Objective& objective, long budget, SearchRun& run, const Box*
 Probe::~Probe() {
   try {
     report();
-  } catch (...) {  // no exception leaves a destructor: the evaluations are counted, not shown
+  } catch (...) {  // a destructor must not throw: the evaluations are counted but not shown
   }
 }
 
@@ -57,7 +57,7 @@ Part Probe::take() {
   return std::exchange(found_, {});
 }
 
-/// Beyond 21 coordinates the numbers wrap and a few cells share one.
+/// Beyond 21 coordinates the numbers wrap, and a few cells share a number.
 std::uint64_t Probe::cell(const Eigen::VectorXd& theta_r) const {
   std::uint64_t number = 0;
   for (const double x : box_->unit(theta_r))

@@ -12,7 +12,7 @@
 
 namespace maxwrench {
 
-/// What one part of a search found.
+/// The results of one part of a search.
 struct Part {
   Candidate best;
   Trace trace;
@@ -20,34 +20,34 @@ struct Part {
   std::vector<Call> calls = {};
 };
 
-/// The eyes of one part of a search: its own clone of the objective, its share of the budget, and
-/// the best point so far.
+/// Evaluates the objective for one part of a search. It has its own clone of the objective, its
+/// share of the budget, and the best point so far.
 class Probe {
  public:
-  /// With `condensed`, also keeps the best point of each of its cells: an eighth of the bounds wide
-  /// in every coordinate.
+  /// With `box`, also stores the best point of each cell, an eighth of the bounds wide in every
+  /// coordinate.
   Probe(const Objective& objective, long budget, SearchRun& run, const Box* box = nullptr);
   ~Probe();
   Probe(const Probe&) = delete;
   Probe& operator=(const Probe&) = delete;
 
-  /// More evaluations.
+  /// Adds evaluations to the budget.
   void grant(long evaluations) { budget_ += evaluations; }
 
-  /// What was found since the last time; leaves no budget.
+  /// Returns what was found since the last call, and sets the budget to zero.
   Part take();
 
-  /// Evaluations that are left: none once the run has ended.
+  /// Evaluations that are left; zero once the run has ended.
   long left() const { return run_.ended() ? 0 : granted(); }
 
-  /// The value at theta_r, -infinity where there is none; costs one evaluation, with a gradient
-  /// too, one of which must have been left. Once the run has ended: no value, and no cost.
+  /// The value at theta_r, -infinity where there is none. Costs one evaluation, with or without
+  /// gradient; one must be left. Once the run has ended, returns no value and costs nothing.
   double evaluate(const Eigen::VectorXd& theta_r, Eigen::VectorXd* gradient = nullptr);
 
-  /// Counts an evaluation of something else than the objective's value; one must have been left.
+  /// Counts an evaluation that is not a value of the objective; one must be left.
   void spend();
 
-  /// The metric at the point of the last evaluation, which costs nothing.
+  /// The metric at the point of the last evaluation; costs nothing.
   void metric(Eigen::MatrixXd& M) { objective_->metric(last_, M); }
   const Part& found() const { return found_; }
 
@@ -66,28 +66,28 @@ class Probe {
   Eigen::VectorXd last_;
 };
 
-/// Of parts that ran side by side: the best point (the first of equals), the common trace, peaks
-/// and calls, appended to `found`.
+/// Appends to `found` the results of parts that ran in parallel: the best point (the first of
+/// equals), the common trace, peaks and calls.
 void join(const std::vector<Part>& parts, Part& found);
 
-/// Uniformly random within the bounds.
+/// A uniformly random point within the bounds.
 Eigen::VectorXd random_point(const Box& box, Random& random);
 
-/// How far two points of a selection are apart, at least, as a share of the bounds.
+/// The least distance of two selected points, as a share of the bounds.
 inline constexpr double kApart = 0.05;
 
-/// The best candidates with a value, best first, at most `count`, each `separation` (as
-/// `Box::distance`) or more from all better ones; of equal ones the first counts.
+/// The best candidates with a value, best first, at most `count`. Each is at least `separation` (as
+/// `Box::distance`) from all better ones; of equal ones, the first is better.
 std::vector<Candidate> select_apart(const Box& box, std::vector<Candidate> candidates,
                                     double separation, long count);
 
-/// Adds what `evaluate_all` found at points to what a search has found. Those to which it did not
-/// come have no value from then on.
+/// Adds the results of `evaluate_all` at points to `found`. Sets the value of points that were not
+/// evaluated to -infinity.
 void add(std::vector<double>& values, const std::function<Eigen::VectorXd(long)>& point,
          Part& found);
 
 SearchResult make_result(const Part& found, const SearchRun& run);
-/// With the peaks that `options` ask for.
+/// Includes the peaks that `options` request.
 SearchResult make_result(Part found, const Box& box, const SearchOptions& options,
                          const SearchRun& run);
 

@@ -13,10 +13,10 @@
 namespace maxwrench {
 namespace {
 
-constexpr long kSideBySide = 8;  // runs between two looks at the rule
+constexpr long kSideBySide = 8;  // runs between two checks of the rule
 constexpr double kSameOptimum = 1e-6;
 
-/// Of a run, which all but the first begin at a random point.
+/// The options of a run. All runs but the first begin at a random point.
 SearchOptions options_of(const SearchOptions& whole, const Box& box, long run) {
   SearchOptions own = whole;
   own.threads = 1;
@@ -27,7 +27,7 @@ SearchOptions options_of(const SearchOptions& whole, const Box& box, long run) {
   return own;
 }
 
-/// How many values differ. Runs without a value have ended in one place, too.
+/// The number of different values. Runs without a value count as one optimum.
 long count_optima(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   long optima = 1;

@@ -7,11 +7,11 @@
 namespace maxwrench {
 namespace {
 
-/// Evaluated at a time, so that the memory has a bound.
+/// The number of points evaluated at a time, which limits the memory.
 constexpr long kBlock = 1L << 16U;
 
-/// Uniformly random points within the bounds and nothing else: what every other search has to beat.
-/// Point i has a stream of its own.
+/// Uniformly random points within the bounds and nothing else: the reference that every other
+/// search should improve on. Each point has its own stream.
 class Sample final : public Search {
  public:
   SearchResult maximize(Objective& objective, const SearchOptions& options) override {

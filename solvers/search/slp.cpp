@@ -10,15 +10,16 @@ namespace maxwrench {
 namespace {
 
 constexpr std::size_t kBatch = 8;  // local searches that compete
-constexpr long kKicks = 24;        // tables near the best trajectory for a batch: many collide
-constexpr int kIdleBatches = 3;    // without a better trajectory before the search ends
-constexpr double kBetter = 1e-5;   // relative to 1 + |f|
-/// The local searches that go on, and the evaluations of each by then.
+constexpr long kKicks = 24;  // tables near the best trajectory for a batch, of which many collide
+constexpr int kIdleBatches = 3;   // batches without a better trajectory before the search ends
+constexpr double kBetter = 1e-5;  // relative to 1 + |f|
+/// The numbers of local searches that continue, and the evaluations of each by then.
 constexpr std::pair<std::size_t, long> kLocalSearchRounds[] = {
     {kBatch, 19}, {4, 33}, {2, 61}, {1, 400}};
 
-/// Local searches that compete in rounds, side by side; all that they found, and the trajectory
-/// that is worth most or, if none is worth anything, the one of highest value at its instants.
+/// Runs local searches that compete in rounds, in parallel. Returns all that they found, and the
+/// trajectory with the largest value of the objective; if none has such a value, the one with the
+/// largest value at its instants.
 SlpOutcome compete(const TrajectoryObjective& objective, std::span<const Candidate> starts,
                    long budget, int threads, const SlpOutcome& best, SearchRun& run) {
   std::vector<std::unique_ptr<SlpRun>> slp_runs;
@@ -55,10 +56,10 @@ SlpOutcome compete(const TrajectoryObjective& objective, std::span<const Candida
   return outcome;
 }
 
-/// Sequential linear programming from many starts until a batch brings nothing better, then from
-/// near the best trajectory until that brings nothing. It local searches by the value at the
-/// instants. If that is not all that its objective counts, the objective is evaluated at the best
-/// start and at the ends of local searches.
+/// Sequential linear programming from many starts until a batch finds nothing better, then from
+/// near the best trajectory until that finds nothing better. The local searches maximise the value
+/// at the instants. If the objective uses another value, it is evaluated at the best start and at
+/// the ends of local searches.
 class Slp : public Search {
  public:
   SearchResult maximize(Objective& given, const SearchOptions& options) override {

@@ -6,25 +6,27 @@ namespace maxwrench {
 
 class SlpRun;
 
-/// How far a trajectory that is worth nothing keeps away from one that is worth something.
+/// If the objective has no value for a new trajectory, trajectories at these shares of the way to
+/// it from the best one are tried.
 inline constexpr double kRetreats[] = {0.97, 0.9, 0.75, 0.5};
-/// Evaluations of one judgement, at most.
+/// The most evaluations of one `judge`.
 extern const long kJudged;
 
-/// What `slp` has found by its objective, and the trajectory from which it goes on.
+/// What `slp` has found by its objective, and the trajectory from which it continues.
 struct SlpOutcome {
   Part found;
   Candidate trajectory;       ///< with its value at the instants
-  double worth = -kInfinity;  ///< what the objective makes of it, see `SlpRun::worth`
+  double worth = -kInfinity;  ///< the objective's value of it, see `SlpRun::worth`
 
-  /// Whether a trajectory is better, by more than `margin` relative to 1 + |what counts|; of two
-  /// that are worth nothing the one of higher value.
+  /// Whether a trajectory is better, by more than `margin` relative to 1 + |value|. Compares the
+  /// objective's values, or the values at the instants if the objective has a value for neither.
   bool improves(double its_worth, double its_value, double margin) const;
 };
 
-/// Makes the best trajectory of a climber the outcome's if it is worth more. One that is worth
-/// nothing goes back some of the way from the outcome's. Takes at most `kJudged` evaluations, which
-/// stand in what the climber has found.
+/// If the objective's value of a local search's best trajectory is larger than the outcome's, makes
+/// it the outcome's trajectory. If the objective has no value for it, tries trajectories between
+/// the outcome's and it. Takes at most `kJudged` evaluations, which are counted in the local
+/// search's `found`.
 void judge(SlpRun& slp_run, SearchRun& run, SlpOutcome& outcome);
 
 }  // namespace maxwrench

@@ -9,11 +9,11 @@ namespace {
 
 constexpr double kFirstRadius = 0.1;  // rad or m
 constexpr double kSmallestRadius = 1e-7;
-constexpr double kAccept = 0.05, kShrink = 0.25, kGrow = 0.7;  // of what was predicted
-constexpr double kNearing = 2;           // m per radius: how far bodies may come nearer in a step
-constexpr double kSpare = 1e-9;          // m, beyond the margin where knots are moved apart
-constexpr int kApartRounds = 5;          // of moving them apart
-constexpr double kStepTolerance = 1e-6;  // of a linear program, whose answer is only a step
+constexpr double kAccept = 0.05, kShrink = 0.25, kGrow = 0.7;  // shares of the predicted rise
+constexpr double kNearing = 2;           // m per radius: how much nearer bodies may come in a step
+constexpr double kSpare = 1e-9;          // m, added to the margin when knots are moved apart
+constexpr int kApartRounds = 5;          // rounds of moving knots apart
+constexpr double kStepTolerance = 1e-6;  // of a linear program, whose answer is used only as a step
 constexpr double kConverged = 1e-9;      // predicted, relative to 1 + |f|
 
 }  // namespace
@@ -44,7 +44,7 @@ void SlpRun::optimise(long evaluations) {
   const auto left = [&] { return evaluations - found_.trace.evaluations(); };
   while (!done_ && left() >= 3 && !run_.ended()) {
     if (program_ == nullptr) {
-      // Its efforts are what the program is linearised about.
+      // The program is linearised about the efforts of this evaluation.
       done_ = evaluate(at_.theta_r) == -kInfinity;
       if (done_) return;
       program_ = linearize();
@@ -55,7 +55,7 @@ void SlpRun::optimise(long evaluations) {
   }
 }
 
-/// Whether it moved, and `trajectories_` stands at the new point.
+/// Returns whether the knots moved; then `trajectories_` is at the new point.
 bool SlpRun::try_step() {
   if (!solve()) {
     done_ = true;
@@ -82,7 +82,7 @@ bool SlpRun::try_step() {
   return true;
 }
 
-/// The value at the instants; none, at no cost, once the run has ended.
+/// The value at the instants. Once the run has ended, there is none, at no cost.
 double SlpRun::evaluate(const Eigen::VectorXd& x) {
   if (run_.ended()) return -kInfinity;
   double value = trajectories_.evaluate_elastic(unstacked(x, trajectories_.knots()), nullptr);
@@ -93,7 +93,7 @@ double SlpRun::evaluate(const Eigen::VectorXd& x) {
   return value;
 }
 
-/// An evaluation: a value of the objective, or of something else.
+/// Records an evaluation, of the objective or of another value.
 void SlpRun::note(const Eigen::VectorXd& x, double value) {
   found_.trace.add(value);
   run_.show(value);
@@ -113,7 +113,8 @@ double SlpRun::worth(const Candidate& trajectory) {
   return worth;
 }
 
-/// The radius, and what is left to the bounds: of a step that knots share to the nearest one.
+/// Sets the radius, limited by the distance to the bounds: for a step that knots share, that of the
+/// nearest knot.
 void SlpRun::set_bounds() {
   const Eigen::Index size = at_.theta_r.size();
   const Eigen::Index moved = shared_.size() > 0 ? shared_.cols() : size;
@@ -123,7 +124,7 @@ void SlpRun::set_bounds() {
   program_->y_max = high.rowwise().minCoeff().cwiseMin(radius_);
 }
 
-/// Solves for a step; whether there is an answer.
+/// Solves for a step. Returns whether there is an answer.
 bool SlpRun::solve() {
   set_bounds();
   set_rows();
@@ -137,7 +138,7 @@ bool SlpRun::solve() {
   return solution_.status == Status::kOptimal;
 }
 
-/// low <= R y <= high, without rows that no step of this radius reaches; `reach` sums the
+/// Adds low <= R y <= high without the rows that no step of this radius reaches. `reach` sums the
 /// magnitudes of each row.
 void SlpRun::add_rows(const Eigen::SparseMatrix<double>& R, const Eigen::VectorXd& reach,
                       const Eigen::VectorXd& low, const Eigen::VectorXd& high) {
@@ -145,7 +146,7 @@ void SlpRun::add_rows(const Eigen::SparseMatrix<double>& R, const Eigen::VectorX
   for (Eigen::Index i = 0; i < R.rows(); ++i) {
     if (low[i] < -radius_ * reach[i] && high[i] > radius_ * reach[i]) continue;
     row_of_[static_cast<std::size_t>(i)] = static_cast<int>(low_.size());
-    // What rounding left outside is no reason to fail.
+    // A violation by rounding must not make the program infeasible.
     low_.push_back(std::min(low[i], 0.0));
     high_.push_back(std::max(high[i], 0.0));
   }
@@ -157,8 +158,8 @@ void SlpRun::add_rows(const Eigen::SparseMatrix<double>& R, const Eigen::VectorX
   }
 }
 
-/// Limits of the knots; to first order those of dependent joints, and no pair of bodies nearer than
-/// its margin.
+/// Adds the limits of the knots; to first order, those of dependent joints; and the condition that
+/// no pair of bodies is nearer than its margin.
 void SlpRun::set_rows() {
   const KnotRows& rows = trajectories_.rows();
   const DependentRows& following = trajectories_.dependent_rows();
@@ -187,7 +188,7 @@ void SlpRun::set_rows() {
   if (shared_.size() > 0) program_->R = (program_->R * shared_).sparseView();
 }
 
-/// x with colliding knots moved apart by Newton's method along the gradients of the clearance.
+/// Moves colliding knots of x apart by Newton's method along the gradients of the clearance.
 Eigen::VectorXd SlpRun::apart(Eigen::VectorXd x) {
   const Eigen::Index r = x.size() / trajectories_.knots();
   for (int round = 0; round < kApartRounds; ++round) {

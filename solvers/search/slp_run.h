@@ -10,43 +10,44 @@
 
 namespace maxwrench {
 
-/// One local search of sequential linear programming: each step y of the knots comes from a linear
+/// One local search by sequential linear programming. Each step y of the knots comes from a linear
 /// program in the knots, the efforts and the wrenches at once,
 ///
 ///     max t - rho sum |s_i|_1   subject to the balance linearised at the last trajectory, |y| <=
 ///     radius, the limits and speed limits of the knots, to first order those of dependent joints,
 ///     and no bodies nearer than their margin to first order.
 ///
-/// While neither effort rates nor slacks decide, the program without them is enough
-/// (`BorderedFacets`). A step counts if the elastic value, an exact penalty function, rises by a
-/// share of what the linear program predicted; the radius follows from that share. Knots that
-/// collide after a step are moved apart.
+/// While neither effort rates nor slacks matter, the program without them is enough
+/// (`BorderedFacets`). A step is accepted if the elastic value, an exact penalty function, rises by
+/// a share of what the linear program predicted. This share also determines the next radius. Knots
+/// that collide after a step are moved apart.
 class SlpRun {
  public:
-  /// Takes a clone of the objective. `start` has a value at its instants, by which it local
-  /// searches. `alike`: all knots take the same step, a program in the coordinates of one.
+  /// Takes a clone of the objective. `start` must have a value at its instants, which the local
+  /// search maximises. `alike`: all knots take the same step, and the program has the coordinates
+  /// of one knot.
   SlpRun(const TrajectoryObjective& objective, Candidate start, SearchRun& run, bool alike = false);
 
-  /// Goes on until it has converged or has used so many evaluations; a linear program counts as
+  /// Continues until it has converged or has used this many evaluations. A linear program counts as
   /// one.
   void optimise(long evaluations);
 
-  /// What `worth` costs at most: the program at the instants, and that between them.
+  /// The most evaluations of `worth`: the program at the instants, and that between them.
   static constexpr int kJudgement = 2;
-  /// What the objective makes of a trajectory with this value at its instants, which is the value
-  /// itself where nothing else counts. Ends the local search otherwise.
+  /// The objective's value of a trajectory with this value at its instants. The two are the same if
+  /// the objective uses the value at the instants; otherwise this call ends the local search.
   double worth(const Candidate& trajectory);
 
-  /// One evaluation elsewhere, which the local search does not follow.
+  /// One evaluation at x, from which the local search does not continue.
   Candidate look(const Eigen::VectorXd& x) { return {x, evaluate(x)}; }
 
   // Values at the instants.
   double value() const { return at_.value; }
   const Candidate& at() const { return at_; }
-  const Candidate& best() const { return best_; }  ///< of what was evaluated, the start included
+  const Candidate& best() const { return best_; }  ///< best evaluated point, the start included
 
-  /// Values of the objective, and how its linear programs were solved: a call "facets" or "ipm" of
-  /// slp for each.
+  /// Values of the objective, and how its linear programs were solved: one call "facets" or "ipm"
+  /// of slp for each.
   const Part& found() const { return found_; }
 
  private:
@@ -65,7 +66,7 @@ class SlpRun {
   std::unique_ptr<TrajectoryObjective> objective_;
   TrajectoryEvaluator& trajectories_;
   SearchRun& run_;
-  Eigen::MatrixXd shared_;  ///< the step of the knots by that of one; empty: each its own
+  Eigen::MatrixXd shared_;  ///< step of one knot -> steps of all; empty: separate steps
   BorderedFacets uncoupled_;
   std::unique_ptr<TrajectorySolver> solver_;
   bool coupled_ = true;  ///< at the last point with a value

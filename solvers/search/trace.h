@@ -7,23 +7,24 @@
 
 namespace maxwrench {
 
-/// What a search, or a part of one, has seen: how many values, and each that was above all before.
+/// The record of a search, or of a part of one: how many values it evaluated, and each value above
+/// all earlier ones.
 class Trace {
  public:
   Trace() = default;
-  /// What a search has seen.
+  /// The trace of a search that has ended.
   Trace(std::vector<Improvement> improvements, long evaluations)
       : evaluations_(evaluations), improvements_(std::move(improvements)) {}
 
   /// One more value, -infinity if there was none.
   void add(double value);
 
-  /// What happened after this trace ended.
+  /// Appends what happened after this trace ended.
   void append(const Trace& later);
 
-  /// What happened after this trace ended, in parts that ran side by side: they are taken as if
-  /// they had evaluated in turns, one point each, the first part first; a part that has ended
-  /// passes. So the order does not depend on the threads.
+  /// Appends what happened after this trace ended, in parts that ran in parallel. The order is as
+  /// if they had evaluated in turns, one point each, the first part first, skipping parts that have
+  /// ended. So it does not depend on the threads.
   void append(std::span<const Trace> parts);
 
   long evaluations() const { return evaluations_; }

@@ -12,7 +12,7 @@
 namespace maxwrench {
 namespace {
 
-constexpr double kCounts = 1e-3;  ///< a multiplier: of the largest, or of their sum
+constexpr double kCounts = 1e-3;  ///< a significant multiplier: share of the largest, or of the sum
 constexpr std::size_t kMostLimits = 6, kMostInstants = 6;
 
 struct BindingLimit {
@@ -20,7 +20,7 @@ struct BindingLimit {
   std::string text;
 };
 
-/// What raising the limits of u_j at block i is worth, per unit (positive: the upper one).
+/// The value gained per unit by raising the limits of u_j at block i (positive: the upper limit).
 Eigen::VectorXd effort_prices(const Robot& robot, const TrajectorySolution& solution,
                               Eigen::Index i) {
   Eigen::VectorXd prices = -robot.actuation.B.transpose() * solution.lambda.col(i);
@@ -29,7 +29,7 @@ Eigen::VectorXd effort_prices(const Robot& robot, const TrajectorySolution& solu
   return prices;
 }
 
-/// Those that count, the dearest first.
+/// The significant limits, largest effect first.
 std::vector<BindingLimit> dearest_first(std::vector<BindingLimit> limits) {
   std::stable_sort(limits.begin(), limits.end(),
                    [](const auto& a, const auto& b) { return a.worth > b.worth; });

@@ -55,7 +55,7 @@ ordered_json task_json(const Answer& answer) {
   return object;
 }
 
-/// In the order of u; `rate` is null where it has no limit.
+/// In the order of u; `rate` is null if there is no limit.
 ordered_json actuators_json(const Robot& robot) {
   ordered_json list = ordered_json::array();
   for (Eigen::Index i = 0; i < robot.actuators(); ++i) {
@@ -87,7 +87,7 @@ ordered_json clearance_json(const std::optional<Clearance>& clearance) {
   return {{"least", clearance->least}, {"t", clearance->t}, {"pair", clearance->pair}};
 }
 
-/// What was asked, and how it ended.
+/// The choice of the case, and how it ended.
 ordered_json choice_json(const Answer& answer) {
   const Case& c = answer.choice;
   ordered_json object;
@@ -104,7 +104,7 @@ ordered_json choice_json(const Answer& answer) {
   return object;
 }
 
-/// Where, and with which efforts, a static task has its value.
+/// The posture and the efforts of a static task's value.
 void add_posture(const Answer& answer, ordered_json& object) {
   const Problem& problem = *answer.task;
   const Posture& posture = answer.posture;
@@ -126,7 +126,7 @@ void add_posture(const Answer& answer, ordered_json& object) {
   object["gradient"] = known(solved, array(answer.trajectory.gradient.transpose()));
 }
 
-/// The trajectory of a task in time; its efforts and wrenches stand by its instants.
+/// The trajectory of a task in time. Its efforts and wrenches are listed by instant.
 void add_trajectory(const Answer& answer, ordered_json& object) {
   const bool solved = answer.has_value();
   object["theta_r"] = known(answer.has_posture(), rows(answer.trajectory.knots));

@@ -34,7 +34,7 @@ void conclude_experiment(const TankRun& run, Answer& answer) {
 
 void carry_out_posture(const Case& c, Answer& answer) {
   const Problem& task = *answer.task;
-  // The controller holds the end effector where theta_r has it.
+  // The controller holds the end effector at its pose for theta_r.
   const Problem held = held_at(task, task.theta_r_default);
   const Answer posture = evaluate(held, held_theta_r(task, task.theta_r_default), {c});
   answer.trajectory.knots = task.theta_r_default.transpose();

@@ -8,13 +8,13 @@
 #include "maxwrench/solve.h"
 #include "maxwrench/status.h"
 
-// Pieces of what is printed of an answer.
+// Functions that format parts of an answer.
 
 namespace maxwrench {
 
 nlohmann::ordered_json array(const Eigen::VectorXd& v);
 
-/// An array of its rows.
+/// An array of the matrix's rows.
 nlohmann::ordered_json rows(const Eigen::MatrixXd& matrix);
 
 /// The value, or null.
@@ -32,8 +32,8 @@ nlohmann::ordered_json to_json(const Residual& residual);
 /// An array of objects.
 nlohmann::ordered_json to_json(const std::vector<CallCount>& counts);
 
-/// The object on one line. JSON knows UTF-8 only: text in another encoding is read as Latin-1, so
-/// that names stay apart.
+/// The object on one line. JSON requires UTF-8: text in another encoding is read as Latin-1, so
+/// that different names stay different.
 std::string in_one_line(const nlohmann::ordered_json& object);
 
 /// Roll, pitch, yaw with R = Rz(yaw) Ry(pitch) Rx(roll).
@@ -49,8 +49,8 @@ std::string percent(double share);
 /// "20 evaluations in 0.5 s"
 std::string line(long evaluations, double seconds);
 
-/// Random theta_r within the limits, always the same: at how many there is a valid posture, and
-/// what became of all postures there.
+/// Random theta_r within the limits, always the same ones: how many have a valid posture, and the
+/// outcome of all postures there.
 struct Sampled {
   int valid = 0;
   IkCounts postures;
@@ -60,10 +60,10 @@ Sampled sample_postures(const Problem& problem, int samples);
 /// "postures: 3 valid, ..."
 std::string describe(const IkCounts& ik_solutions);
 
-/// Instants from knot to knot.
+/// The number of instants from knot to knot.
 int instants_per_interval(const MotionTask& task);
 
-/// Thrusters, then joints.
+/// The name of actuator i: thrusters come first, then joints.
 const std::string& actuator_name(const Robot& robot, Eigen::Index i);
 
 }  // namespace maxwrench

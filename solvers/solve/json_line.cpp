@@ -7,7 +7,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// How many bytes follow this first one of a character in UTF-8; negative: it is none.
+/// How many bytes follow this first byte of a UTF-8 character; negative if it is not a first byte.
 int following(unsigned char first) {
   if (first < 0x80) return 0;
   if (first < 0xC2 || first > 0xF4) return -1;
@@ -21,7 +21,7 @@ bool is_utf8(const std::string& text) {
     if (more < 0 || i + static_cast<std::size_t>(more) >= text.size()) return false;
     for (int k = 1; k <= more; ++k) {
       const auto next = static_cast<unsigned char>(text[i + static_cast<std::size_t>(k)]);
-      // The second byte excludes longer forms than needed, surrogates and what is beyond 10FFFF.
+      // The second byte excludes overlong forms, surrogates and code points beyond 10FFFF.
       const int low = k > 1 ? 0x80 : first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
       const int high = k > 1 ? 0xBF : first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
       if (next < low || next > high) return false;
@@ -48,7 +48,7 @@ ordered_json in_utf8(const ordered_json& value) {
   }
   if (!value.is_structured()) return value;
   ordered_json result = value.is_array() ? ordered_json::array() : ordered_json::object();
-  bool keys_in_utf8 = true;  // all or none, lest two names become one
+  bool keys_in_utf8 = true;  // all or none, so that two different names do not become equal
   for (const auto& [key, inner] : value.items()) keys_in_utf8 = keys_in_utf8 && is_utf8(key);
   for (const auto& [key, inner] : value.items()) {
     if (value.is_array()) {

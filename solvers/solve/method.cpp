@@ -21,7 +21,7 @@ bool serves(const WrenchSolverEntry& solver, const Problem& problem, Wrench wren
   return !solver.needs_facets || problem.robot.actuation.has_facets;
 }
 
-/// The lower-level solvers that serve a measure and a wrench; a null entry for a closed form.
+/// The lower-level solvers that support a measure and a wrench; a null entry for a closed form.
 std::vector<const WrenchSolverEntry*> solvers_for(const MeasureEntry& measure,
                                                   const Problem& problem, Wrench wrench) {
   if (wrench == Wrench::kAny && !measure.serves_any) return {};
@@ -35,7 +35,7 @@ std::vector<const WrenchSolverEntry*> solvers_for(const MeasureEntry& measure,
 
 const char* name_of(const WrenchSolverEntry* solver) { return solver ? solver->name : kNoSolver; }
 
-/// The solver with this name, or the first one of those that serve. Throws if it is none of them.
+/// The solver with this name, or the first of the supported ones. Throws if it is not one of them.
 const WrenchSolverEntry* choose_solver(const std::vector<const WrenchSolverEntry*>& served,
                                        const Problem& problem, const Case& c) {
   if (c.solver.empty()) return served.front();
@@ -53,8 +53,8 @@ const WrenchSolverEntry* choose_solver(const std::vector<const WrenchSolverEntry
       many ? " and too many facets" : "", fmt::join(names, " ")));
 }
 
-/// For a trajectory search, which it asks, the solver of the same name; `facets` and `condensed`
-/// are `facets_or_ipm` there.
+/// For a trajectory search, the trajectory solver of the same name; `facets` and `condensed` become
+/// `facets_or_ipm`.
 const TrajectorySolverEntry* trajectory_solver_of(const Problem& problem, const Case& c) {
   const auto named = [](const auto& table, const std::string& name) {
     return std::find_if(table.begin(), table.end(),
@@ -70,14 +70,14 @@ const TrajectorySolverEntry* trajectory_solver_of(const Problem& problem, const 
   return same == trajectory_solvers().end() ? &trajectory_solvers().front() : &*same;
 }
 
-/// Whether a force of the contact ends at a limit other than zero.
+/// Whether a force of the contact has a finite limit other than zero.
 bool limited(const Contact& contact) {
   const auto counts = [](double limit) { return limit != 0 && std::isfinite(limit); };
   return std::any_of(contact.w_min.begin(), contact.w_min.end(), counts) ||
          std::any_of(contact.w_max.begin(), contact.w_max.end(), counts);
 }
 
-/// Closed forms that know free columns only serve no contact with limits.
+/// Closed forms handle free columns only, so they do not support a contact with limits.
 bool serves_limits(const MeasureEntry& measure, const Problem& problem) {
   const bool closed_form = !measure.needs_solver && measure.serves_any;
   return !(closed_form && problem.contact && limited(*problem.contact));

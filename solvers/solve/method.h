@@ -15,49 +15,51 @@ namespace maxwrench {
 struct MeasureEntry;
 struct TrajectorySolverEntry;
 
-/// More evaluations than anyone waits for: a grid keeps all their values.
+/// The largest evaluation budget: a grid stores all values.
 inline constexpr int kMostBudget = 100'000'000;
 
-/// The table entries that a case names, looked up once, on a problem that outlives it.
+/// The table entries that a case names, looked up once, for a problem that must outlive them.
 struct Method {
-  Case choice;  ///< complete: nothing is left to defaults
+  Case choice;  ///< complete, with all defaults filled in
   const MeasureEntry* measure = nullptr;
   std::optional<NamedSearch> search;  ///< none: the posture or trajectory is given
-  /// Of a task in time. Of a static one: the search is one of trajectories and gets those of one
-  /// knot, solved by this one; null: it gets postures.
+  /// For a task in time: the solver. For a static task: if not null, the search is one of
+  /// trajectories and gets trajectories of one knot, solved by this solver; if null, the search
+  /// gets postures.
   const TrajectorySolverEntry* trajectory_solver = nullptr;
   TrajectoryValue trajectory_value =
       TrajectoryValue::kAtInstants;  ///< what the search of a task in time maximises
   const char* unit = "";             ///< of the value
-  /// Of a static task.
+  /// For a static task.
   MeasureMaker make_measure;
-  /// linf_polytope with the same wrenches by the reference solver, see `Answer::beta_linf`.
+  /// linf_polytope with the same wrenches and the reference solver, see `Answer::beta_linf`.
   MeasureMaker make_beta_linf;
 };
 
-/// Whether trajectory searches serve a static task, which is a trajectory of one knot: by
-/// linf_polytope, without a second contact.
+/// Whether trajectory searches support a static task, as a trajectory of one knot: only with
+/// linf_polytope and without a second contact.
 bool serves_as_trajectory(const Problem& problem, const std::string& measure);
 
-/// Whether searches between facets serve: linf_polytope of a static task, few facets.
+/// Whether searches between facets support the problem: linf_polytope of a static task, with few
+/// facets.
 bool serves_between_facets(const Problem& problem, const std::string& measure);
 
-/// The names of the lower-level solvers that serve a measure and a wrench, `kNoSolver` of a closed
-/// form; none if they mean nothing together. The first one is the default.
+/// The names of the lower-level solvers that support a measure and a wrench, `kNoSolver` for a
+/// closed form. Empty if the measure does not support the wrench. The first one is the default.
 std::vector<std::string> served_solvers(const Problem& problem, const std::string& measure,
                                         Wrench wrench);
 
-/// The methods alone that serve a measure, those of a task in time first.
+/// The single methods that support a measure, those of a task in time first.
 std::vector<std::string> served_searches(const Problem& problem, const std::string& measure);
 
-/// Without a search if the case names none. Throws std::invalid_argument on a name that does not
-/// exist and on a choice without meaning, such as `facets` for several wrench columns or for
-/// actuators with too many facets, a solver for a closed form, or a scheme that is not the task's.
+/// Has no search if the case names none. Throws std::invalid_argument on a name that does not exist
+/// and on an invalid choice, such as `facets` for several wrench columns or for actuators with too
+/// many facets, a solver for a closed form, or a scheme that the task does not have.
 Method resolve(const Problem& problem, const Case& c);
 Method resolve(const Problem&& problem, const Case& c) = delete;
 
-/// Replaces what a task in time says. Throws std::invalid_argument, which names `key`, unless it
-/// has a scheme of this name.
+/// Replaces the scheme of a task in time. Throws std::invalid_argument, which names `key`, unless
+/// the problem is a task in time that has a scheme of this name.
 void set_scheme(const char* key, const std::string& scheme, Problem& problem);
 
 /// What the search of a method maximises.
@@ -66,8 +68,8 @@ std::unique_ptr<Objective> make_objective(const Problem& problem, const Method& 
 std::unique_ptr<Objective> make_objective(const Problem&&, const Method&,
                                           std::shared_ptr<Tally> = nullptr) = delete;
 
-/// Runs the search of a method from the default of the task: seed, budget and start of the options
-/// are the method's.
+/// Runs the search of a method from the default of the task. Seed, budget and start of the options
+/// are replaced by the method's.
 SearchResult run_search(const Problem& problem, const Method& method, Objective& objective,
                         SearchOptions options);
 

@@ -47,7 +47,7 @@ std::vector<std::string> values(const Answer& answer) {
   const bool experiment = !answer.choice.integrator.empty();
   const bool solved = answer.has_value() && !experiment;
   const bool posture =
-      solved && !answer.task->motion;  // the efforts of a trajectory are not in its row
+      solved && !answer.task->motion;  // the row does not contain a trajectory's efforts
   std::vector<std::string> cells = case_values(answer.choice);
   cells.insert(
       cells.end(),

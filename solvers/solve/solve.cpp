@@ -21,7 +21,7 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Without a value so far.
+/// An answer without a value yet.
 Answer begin(std::shared_ptr<const Problem> task, const Method& method) {
   Answer answer;
   answer.task = std::move(task);
@@ -39,7 +39,7 @@ double beta_linf(const Problem& task, const Method& method, const Posture& postu
                                                : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// A static task as one in time of one instant.
+/// A static task as a task in time with one instant.
 Trajectory one_instant(const Problem& task, const Posture& posture, const Capability& capability,
                        const Eigen::VectorXd& gradient) {
   Trajectory trajectory;
@@ -94,7 +94,8 @@ void evaluate_trajectory(const Method& method, const Eigen::MatrixXd& knots, Ans
                                 answer.collision);
   const Trajectory& trajectory = evaluator.evaluate(knots);
   if (trajectory.status != Status::kInvalidPosture) {
-    // A check, the same for all rows: a solver that takes minutes for its instants tells no more.
+    // All rows use the same check; using a solver that takes minutes for these instants would add
+    // nothing.
     const auto checker = trajectory_solvers().front().make();
     evaluator.evaluate_between_knots(checker.get());
   }
@@ -135,8 +136,8 @@ std::vector<CallCount> count_calls(const std::vector<Call>& calls) {
   return counts;
 }
 
-/// Makes the answer of a posture, or trajectory, that a search found the answer of that search:
-/// what it took, and its word, for `optimal` is one of the lower level.
+/// Turns the answer of a posture or trajectory into the answer of the search that found it: with
+/// its effort and its status, because `optimal` is a status of the lower level.
 void conclude_search(const SearchResult& result, Answer& answer) {
   answer.evaluations = result.evaluations;
   answer.calls = count_calls(result.calls);
@@ -145,7 +146,7 @@ void conclude_search(const SearchResult& result, Answer& answer) {
                    : result.evaluations < answer.choice.budget ? "the method came to its end"
                                                                : kBudgetSpent;
   if (answer.status == Status::kOptimal) answer.conclude(Status::kBestFound);
-  if (answer.status == Status::kInfeasible) {  // true of what was found, not of the task
+  if (answer.status == Status::kInfeasible) {  // holds for what was found, not for the task
     answer.conclude(Status::kNoneFound, "of the best that was found: " + answer.reason.str());
   }
   if (result.interrupted && answer.status != Status::kNumericalError) {
@@ -179,7 +180,7 @@ const Residual& Answer::residual() const {
 Answer evaluate(const Problem& task, const Eigen::MatrixXd& theta_r, const Options& options) {
   const auto kept = std::make_shared<const Problem>(task);
   Case c = options;
-  c.search.clear();  // none is used
+  c.search.clear();  // the posture or trajectory is given, not searched
   return evaluate(kept, resolve(*kept, c), theta_r, options.check_collision);
 }
 

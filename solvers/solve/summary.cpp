@@ -16,7 +16,7 @@ void add(std::string& text, fmt::format_string<Values...> format, Values&&... va
   fmt::format_to(std::back_inserter(text), format, std::forward<Values>(values)...);
 }
 
-/// Some of the instants at knots.
+/// Adds some of the instants at knots.
 void add_instants(const Answer& answer, std::string& text) {
   const Problem& problem = *answer.task;
   const auto& instants = answer.trajectory.instants;
@@ -81,7 +81,7 @@ void add_dependent(const Answer& answer, const std::vector<int>& joints, std::st
   }
 }
 
-/// The value with the wrench, efforts, gradient and residual.
+/// Adds the value with the wrench, efforts, gradient and residual.
 void add_capability(const Answer& answer, std::string& text) {
   const Problem& problem = *answer.task;
   const Capability& capability = answer.capability;

@@ -14,7 +14,7 @@
 namespace maxwrench {
 namespace {
 
-/// Throws unless the wrench is one that a hanging mass asks for.
+/// Throws unless a hanging mass can exert the wrench.
 void require_weight(const Answer& answer) {
   const Problem& problem = *answer.task;
   if (!problem.c.isApprox(Vector6d::Unit(2), 1e-9)) {
@@ -36,8 +36,8 @@ TankRun simulate_posture(const Answer& answer, double planned, const std::string
                          const TankOptions& options) {
   const Problem& problem = *answer.task;
   const Capability& capability = answer.capability;
-  // Beyond the capability only the component along c grows; below it all of them shrink, which the
-  // convex set of efforts allows.
+  // Beyond the capability, only the component along c grows. Below it, all components shrink
+  // together, which is feasible because the set of efforts is convex.
   const double share = std::clamp(planned / problem.c.dot(capability.h), 0.0, 1.0);
   TargetWrench trajectory{share * capability.h, share * capability.u, answer.choice.wrench};
   trajectory.h += (planned - problem.c.dot(trajectory.h)) * problem.c;

@@ -29,7 +29,7 @@ class AssembledTrajectory : public TrajectorySolver {
   }
 
  private:
-  /// What decides the pattern of the assembled program.
+  /// The properties that determine the pattern of the assembled program.
   struct Shape {
     const Zonotope* actuation = nullptr;
     std::vector<int> columns;

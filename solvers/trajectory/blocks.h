@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-// How the interior point method of trajectories keeps its numbers: small blocks, one for each
+// How the interior point method of trajectories stores its numbers: small blocks, one for each
 // instant.
 
 namespace maxwrench {
@@ -10,9 +10,9 @@ namespace maxwrench {
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Columns = Eigen::Ref<Eigen::MatrixXd>;
 
-/// Calls body with the number of a stage's variables, known to the compiler where it is that of a
-/// pure wrench or of any on a vehicle with eight thrusters and six base axes (3, 8), on one with
-/// four in the plane (2, 4), or of a pure wrench where no actuator is to spare (1).
+/// Calls body with the number of variables of a stage. It is a compile-time constant for a vehicle
+/// with eight thrusters and six base axes (3 with a pure wrench, 8 with any), for one with four
+/// thrusters in the plane (2 and 4), and for a pure wrench without redundant actuators (1).
 template <class Body>
 void with_dimension(int d, Body&& body) {
   switch (d) {
@@ -31,7 +31,7 @@ void with_dimension(int d, Body&& body) {
   }
 }
 
-/// Whether `with_dimension` knows d.
+/// Whether `with_dimension` has a compile-time constant for d.
 inline bool is_compiled(int d) {
   bool compiled = false;
   with_dimension(d, [&]<int D>() { compiled = D != Eigen::Dynamic; });

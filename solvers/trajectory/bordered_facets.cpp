@@ -8,12 +8,12 @@
 namespace maxwrench {
 namespace {
 
-constexpr int kMostColumns = 64;   // of y: a dense tableau loses against `ipm` with more
+constexpr int kMostColumns = 64;   // of y: with more columns, a dense tableau is slower than `ipm`
 constexpr double kFlat = 1e-12;    // a slope below this part of the wrench's size is rounding
-constexpr double kLikely = 0.1;    // part of its reach that y is expected to move a row
-constexpr double kMissed = 1e-10;  // relative, by a row that was left out
+constexpr double kLikely = 0.1;    // share of its reach by which y is expected to move a row
+constexpr double kMissed = 1e-10;  // relative violation of an omitted row
 constexpr int kLazyRounds = 20;
-constexpr int kRowsAtOnce = 32;  // the tableau grows by so many rows, the last ones without limits
+constexpr int kRowsAtOnce = 32;  // the tableau grows by these; the last ones have no limits
 
 }  // namespace
 
@@ -83,7 +83,7 @@ void BorderedFacets::add_facets(const TrajectoryProgram& program, int instant) {
   }
 }
 
-/// Those that become the tightest where y goes a part of the way that its bounds allow.
+/// Selects the rows that may become the tightest when y uses a share of its range.
 void BorderedFacets::choose() {
   double tightest = kInfinity;
   for (const Row& row : rows_) {
@@ -97,7 +97,7 @@ void BorderedFacets::choose() {
   }
 }
 
-/// Whether there were any at (t, y).
+/// Marks the rows violated at (t, y) as used. Returns whether there are any.
 bool BorderedFacets::add_violated(const Eigen::VectorXd& x) {
   y_values_.noalias() = y_slopes_.transpose() * x.tail(y_slopes_.rows());
   bool any = false;
@@ -135,14 +135,14 @@ void BorderedFacets::load(const TrajectoryProgram& program) {
     tableau_.high[line] = kInfinity;
   }
   tableau_.low[height] = -kInfinity;
-  tableau_.high[height] = most_ + 1 + std::abs(most_);  // where it never rests in the end
+  tableau_.high[height] = most_ + 1 + std::abs(most_);  // too large to be active in the end
   tableau_.low.tail(p) = program.y_min;
   tableau_.high.tail(p) = program.y_max;
   tableau_.c.setZero();
   tableau_.c[0] = 1;
 }
 
-/// Multiplier m of a facet's row: d t/d tau_d,i = -sigma m n_j, and it carries m |s| of the t.
+/// The multiplier m of a facet's row gives d t/d tau_d,i = -sigma m n_j, and m |s| of pi.
 void BorderedFacets::read(const TrajectoryProgram& program, TrajectorySolution& solution) const {
   const Zonotope& set = *program.instants.front().actuation;
   solution.value = tableau_.x[0];

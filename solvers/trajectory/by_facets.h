@@ -4,9 +4,9 @@
 
 namespace maxwrench {
 
-/// Whether what the facets of {B u} allow at each instant by itself bounds t: a max-min program of
-/// one wrench column without limits, whose first instant has the limits of the others. Rates and
-/// slacks, which it may have, do not count.
+/// Whether the facets of {B u} bound t at each instant separately: a max-min program of one wrench
+/// column without limits, whose first instant has the same limits as the others. Rates and slacks
+/// are ignored.
 bool bounded_by_facets(const TrajectoryProgram& program);
 
 }  // namespace maxwrench

@@ -7,23 +7,25 @@ namespace maxwrench {
 namespace {
 
 constexpr int kMaxIterations = 150;
-/// Pivots of the normal equations below this share are rounding. Where steps end at once, more is:
+/// Pivots of the normal equations below this share are rounding errors. Where steps end at once,
 /// the limit rises tenfold each time.
 constexpr double kPivot = 1e-15;
 constexpr double kStuck = 1e-4;
 constexpr int kPatience = 4;
-/// The share of the way to the boundary that a step leaves: of the gap, within these.
+/// The share of the way to the boundary that a step leaves: kLeft times the gap, within these
+/// limits.
 constexpr double kLeft = 0.3, kMostLeft = 0.01, kLeastLeft = 1e-5;
-/// The gap goes so far below the tolerance, so that values can be compared, unless only a step is
-/// asked for.
+/// The gap is reduced to kClosed times the tolerance, so that values can be compared. If the
+/// tolerance is kStepOnly or more, the answer is only used for a step, and the tolerance itself is
+/// enough.
 constexpr double kClosed = 0.1, kStepOnly = 1e-8;
-/// A correction that does not lengthen the step by so much is the last.
+/// A correction that lengthens the step by less than this share is undone, and no other follows.
 constexpr double kLonger = 0.02;
 constexpr int kCorrections = 2;
-/// Slacks [N, N m] from which it starts: their products with their multipliers, mu for all, leave
-/// room for programs that need much more.
+/// The initial slacks [N, N m]. Their products with their multipliers, all equal to mu, leave room
+/// for programs that need much larger slacks.
 constexpr double kSlack = 10;
-/// Below this gap steps are refined.
+/// Steps are refined if the gap is below this.
 constexpr double kRefine = 1e-6;
 
 }  // namespace
@@ -88,7 +90,7 @@ void Embedding::start(const TrajectoryProgram& program) {
   least_pivot_ = kPivot;
 }
 
-/// Whether the present point is a verdict that the data confirm.
+/// Whether the present point gives a verdict that the data confirm.
 bool Embedding::settled(const TrajectoryProgram& program, double tolerance,
                         TrajectorySolution& solution) {
   if (!std::isfinite(mu_)) return false;
@@ -134,7 +136,7 @@ void Embedding::iterate() {
   if (dual_value_ - primal_value_ < kRefine * (tau_ + std::abs(primal_value_))) refine(reduction);
 }
 
-/// The directions of tau and of the predictor, at once.
+/// Computes the directions of tau and of the predictor together.
 void Embedding::predict() {
   for (std::size_t i = 0; i < forms_.slacks.size(); ++i) {
     const int f = forms_.slacks[i];
@@ -153,7 +155,7 @@ void Embedding::predict() {
   predict_affine();
 }
 
-/// The right-hand sides without the columns of sigma.
+/// Eliminates the columns of sigma from the right-hand sides.
 void Embedding::eliminate_slacks(int first, int count) {
   for (int c = first; c < first + count; ++c) {
     for (std::size_t i = 0; i < forms_.slacks.size(); ++i) {
@@ -162,7 +164,7 @@ void Embedding::eliminate_slacks(int first, int count) {
   }
 }
 
-/// Columns of X and sigma from their right-hand sides, and G of them.
+/// Solves for columns of X and sigma from their right-hand sides, and maps them to G.
 void Embedding::solve_normal(int first, int count) {
   auto X = D_X_.middleCols(first, count);
   auto G = G_.middleCols(first, count);
@@ -181,8 +183,8 @@ void Embedding::solve_normal(int first, int count) {
   }
 }
 
-/// The direction for the present centres, raised by `raise`, and the share of the residuals that
-/// goes.
+/// The direction for the present centres, raised by `raise`. `reduction` is the share of the
+/// residuals that it removes.
 void Embedding::direct(double reduction, double tau_centre, double raise) {
   const double rhs = newton_rhs(reduction, raise);
   D_X_.col(kStep) = reduction * D_X_.col(kDual);
@@ -193,9 +195,9 @@ void Embedding::direct(double reduction, double tau_centre, double raise) {
   finish(reduction);
 }
 
-/// d tau and d kappa. What the step does to the limits along the direction of tau is
-/// (c, -rho)'(X, sigma) of the step by symmetry of H; slacks, whose weights differ most, lose too
-/// much to rounding by it.
+/// Computes d tau and d kappa. By symmetry of H, the change of the limits by the step along the
+/// direction of tau could be computed as (c, -rho)'(X, sigma) of the step; but that loses too much
+/// to rounding for slacks, whose weights differ most.
 void Embedding::combine_directions(double reduction, double tau_centre, double rhs) {
   double dual = D_X_.col(kTau).dot(D_X_.col(kDual));
   for (std::size_t i = 0; i < forms_.slacks.size(); ++i) {
@@ -209,8 +211,8 @@ void Embedding::combine_directions(double reduction, double tau_centre, double r
   d_kappa_ = (tau_centre - kappa_ * d_tau_) / tau_;
 }
 
-/// Gondzio's corrections: products that a longer step would leave far from mu are pulled back. One
-/// that does not lengthen the step is taken back.
+/// Gondzio's corrections: products that would be far from mu after a longer step are moved back
+/// towards it. A correction that does not lengthen the step is undone.
 void Embedding::centralise(double reduction, double tau_centre) {
   double step = reach();
   for (int count = 0; count < kCorrections && step < 0.9; ++count) {
@@ -232,7 +234,8 @@ void Embedding::centralise(double reduction, double tau_centre) {
   }
 }
 
-/// Takes from the multipliers' steps what rounding of the normal equations left in A'dy.
+/// Removes from the steps of the multipliers the error A'dy that rounding left in the normal
+/// equations.
 void Embedding::refine(double reduction) {
   kept_X_ = D_X_.col(kStep);
   kept_G_ = G_.col(kStep);
@@ -258,7 +261,7 @@ void Embedding::refine(double reduction) {
   if (split()) G_low_.col(kStep) += kept_low_;
 }
 
-/// How much of the way to the boundary the step leaves: less as the gap closes.
+/// The share of the way to the boundary that the step leaves; it decreases as the gap closes.
 double Embedding::left() const {
   const double gap = std::abs(dual_value_ - primal_value_) / (tau_ + std::abs(primal_value_));
   return std::clamp(kLeft * gap, kLeastLeft, kMostLeft);

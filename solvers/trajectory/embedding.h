@@ -12,22 +12,22 @@ namespace maxwrench {
 ///     hi tau - phi(X) - s_hi = 0,  phi(X) - lo tau - s_lo = 0,  c tau = map'(y_hi - y_lo),
 ///     kappa = c'X - hi'y_hi + lo'y_lo,   s y = tau kappa = 0.
 ///
-/// tau > 0 = kappa is an optimum at X/tau, kappa > 0 = tau a proof that there is none. Followed
-/// from s y = mu by Mehrotra's predictor and corrector, with Gondzio's corrections of centrality
-/// where they are cheap beside the factors.
+/// If tau > 0 = kappa, X/tau is an optimum; kappa > 0 = tau proves that there is none. The central
+/// path s y = mu is followed by Mehrotra's predictor and corrector, with Gondzio's centrality
+/// corrections where they are cheap compared with the factors.
 class Embedding {
  public:
   enum class End { kVerdict, kNone, kNeedsRates, kNeedsSlacks };
 
-  /// Without rates or slacks it ends as soon as these are needed. Counts on in
-  /// `solution.iterations`; a verdict is one that the data confirm to `tolerance`.
+  /// Without rates or slacks, it ends as soon as these are needed. Adds its iterations to
+  /// `solution.iterations`. A verdict is one that the data confirm to `tolerance`.
   End run(const TrajectoryProgram& program, bool rates, bool slacks, double tolerance,
           TrajectorySolution& solution);
   /// Why there is no verdict.
   const char* reason() const;
 
  private:
-  /// Columns of the directions: of tau, of the step without it, of the residual of c tau.
+  /// Columns of the directions: of tau, of the step without tau, and of the residual of c tau.
   static constexpr int kTau = 0, kStep = 1, kDual = 2;
 
   void start(const TrajectoryProgram& program);
@@ -44,7 +44,7 @@ class Embedding {
   double left() const;
   double reach() const;
 
-  // One pass over all forms each.
+  // Each makes one pass over all forms.
   void measure(double step);
   void advance(double step);
   void measure_equations();
@@ -63,8 +63,8 @@ class Embedding {
   Forms forms_;
   NormalMatrix matrix_;
   Side low_{-1}, high_{1};
-  /// X: variables, sigma: slacks; G: forms, what is mapped to X, then phi of it (less and plus
-  /// sigma for the two sides).
+  /// X: variables; sigma: slacks; G: numbers of the forms, first those mapped to X, then phi of the
+  /// solved X (less sigma for one side, plus sigma for the other).
   Eigen::MatrixXd D_X_, D_sigma_, G_, G_low_;
   Eigen::VectorXd X_, sigma_, phi_, phi_low_, weight_, s_phi_, s_diagonal_, scale_;
   Eigen::VectorXd kept_X_, kept_sigma_, kept_G_, kept_low_;
@@ -72,7 +72,7 @@ class Embedding {
   double tau_ = 1, kappa_ = 1, d_tau_ = 0, d_kappa_ = 0, tau_pivot_ = 0;
   double least_pivot_ = 0;
   double mu_ = 0, rho_ = 0, count_ = 0, dual_value_ = 0, primal_value_ = 0, gap_residual_ = 0;
-  double falls_ = 0;  ///< the most that an s or a y loses of itself in a full step
+  double falls_ = 0;  ///< the largest share of itself that an s or a y loses in a full step
 };
 
 }  // namespace maxwrench

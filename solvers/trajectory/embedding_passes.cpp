@@ -2,17 +2,18 @@
 
 #include "solvers/trajectory/embedding.h"
 
-// What the embedding does to all forms, each in one pass.
+// The operations of the embedding on all forms, one pass each.
 
 namespace maxwrench {
 namespace {
 
-/// An equation's weight in the normal equations; what this leaves of it vanishes with the steps.
+/// The weight of an equation in the normal equations. The remaining violation vanishes with the
+/// steps.
 constexpr double kEquation = 1e8;
 
 }  // namespace
 
-/// Takes the step; residuals of the embedding and right-hand sides at the point where it ends.
+/// Takes the step; computes residuals of the embedding and right-hand sides at its end.
 void Embedding::measure(double step) {
   if (step > 0) advance(step);
   PackSum<> dual, products;
@@ -66,7 +67,7 @@ void Embedding::measure_equations() {
   }
 }
 
-/// The columns of sigma are eliminated: what is left of a slack's weight.
+/// Eliminates the columns of sigma; computes the remaining weight of a slack.
 void Embedding::measure_slacks() {
   for (std::size_t i = 0; i < forms_.slacks.size(); ++i) {
     const int f = forms_.slacks[i];
@@ -78,8 +79,9 @@ void Embedding::measure_slacks() {
   }
 }
 
-/// What the predictor's pushes do to tau; and what is left of the limits along the direction of
-/// tau: sums of squares, which do not cancel.
+/// Returns the part of the predictor's right-hand sides in the equation of tau. Also sets the pivot
+/// of tau, from the changes of the limits along its direction: a sum of squares, without
+/// cancellation.
 double Embedding::affine_rhs() {
   PackSum<> squares, rhs;
   const Eigen::VectorXd& phi_l = phi_low();
@@ -101,7 +103,7 @@ double Embedding::affine_rhs() {
   return sum;
 }
 
-/// The predictor's steps, for the corrector's centres.
+/// The predictor's steps, which set the corrector's centres.
 void Embedding::predict_affine() {
   PackMax most;
   const Eigen::VectorXd& phi_l = phi_low();
@@ -116,7 +118,8 @@ void Embedding::predict_affine() {
   falls_ = most.value();
 }
 
-/// Raises the centres; what pushes the forms; returns what that does to tau.
+/// Raises the centres, computes the right-hand sides of the forms, and returns their part in the
+/// equation of tau.
 double Embedding::newton_rhs(double reduction, double raise) {
   PackSum<> rhs;
   const Eigen::VectorXd& phi_l = phi_low();
@@ -144,7 +147,7 @@ double Embedding::newton_rhs(double reduction, double raise) {
   return sum;
 }
 
-/// What the step does to the limits along the direction of tau.
+/// The change of the limits by the step along the direction of tau.
 double Embedding::sum_moves() const {
   PackSum<> moves;
   const Eigen::MatrixXd& G_l = G_low();
@@ -183,7 +186,7 @@ void Embedding::finish(double reduction) {
   }
 }
 
-/// A change of all forms, without tau, to steps that are there.
+/// Adds a change of all forms, without tau, to the present steps.
 void Embedding::add_change() {
   PackMax most;
   const Eigen::MatrixXd& G_l = G_low();

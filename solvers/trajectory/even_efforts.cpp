@@ -8,7 +8,7 @@ namespace maxwrench {
 namespace {
 
 constexpr int kMostExchanges = 50;
-/// A row is violated if it exceeds g by this.
+/// The excess over g from which a row counts as violated.
 constexpr double kExcess = 1e-12;
 
 }  // namespace
@@ -45,12 +45,13 @@ bool EvenEfforts::prepare(const Zonotope& set) {
   return first_basis();
 }
 
-/// Any q + 1 rows have a dependence, whose signs make it a convex one.
+/// Any q + 1 rows are linearly dependent; their signs are chosen so that the dependence becomes a
+/// convex one.
 bool EvenEfforts::first_basis() {
   const Eigen::Index q = Z_.cols();
   Eigen::FullPivLU<Eigen::MatrixXd> lu(zeta_.transpose());
   if (lu.rank() < q || zeta_.rows() <= q) return false;
-  // q independent rows, and one more.
+  // q independent rows and one more.
   for (Eigen::Index c = 0; c <= q; ++c) {
     basis_.push_back(static_cast<int>(lu.permutationQ().indices()[c]));
   }
@@ -78,7 +79,7 @@ bool EvenEfforts::factor() {
   return true;
 }
 
-/// The row comes in, and the one that leaves keeps y >= 0.
+/// The row enters, and the leaving row is chosen so that y >= 0.
 bool EvenEfforts::exchange(int entering, double sign) {
   const Eigen::Index q = Z_.cols();
   change_.setZero();

@@ -6,22 +6,22 @@
 
 namespace maxwrench {
 
-/// Of all efforts that exert a given tau, those that use the most loaded actuator least:
+/// Of all efforts that exert a given tau, those that load the most loaded actuator least:
 ///
 ///     min g   subject to   B u = tau,   |u_j - middle_j| <= g half_j
 ///
 /// over the actuators that the null space of B moves. They depend continuously on tau, so a motion
-/// without jumps has efforts without jumps; and they are within their limits if any are.
+/// without jumps has efforts without jumps. They are within their limits if any such efforts are.
 ///
-/// u = B^+ tau + Z v; an optimum is a basis of q + 1 signed rows (Z has q columns), dual feasible
-/// whatever tau is: the one of the last call is tried first, and a row that is violated replaces
-/// another one until none is.
+/// u = B^+ tau + Z v. An optimum is a basis of q + 1 signed rows (Z has q columns), which is dual
+/// feasible for any tau. The basis of the last call is tried first, and a violated row replaces
+/// another one until none is violated.
 class EvenEfforts {
  public:
-  /// False if the zonotope is not for this: a moved actuator without room, B without full row
-  /// rank, too many ways to move.
+  /// Returns false if the zonotope is not suitable: a moved actuator without range, B without full
+  /// row rank, or too many columns of Z.
   bool prepare(const Zonotope& set);
-  /// False if it does not end. Allocates nothing.
+  /// Returns false if it does not terminate. Allocates nothing.
   bool solve(const Eigen::VectorXd& tau, Eigen::Ref<Eigen::VectorXd> u);
 
  private:
@@ -37,10 +37,10 @@ class EvenEfforts {
   const Zonotope* set_ = nullptr;
   Eigen::MatrixXd Z_;       ///< m×q
   std::vector<int> moved_;  ///< actuators with a row in Z
-  Eigen::MatrixXd zeta_;    ///< their rows, in halves of their range
-  Eigen::VectorXd alpha_;   ///< (B^+ tau - middle) of them, in the same
-  std::vector<int> basis_;  ///< q + 1 of them
-  SmallVector sign_;        ///< on which side
+  Eigen::MatrixXd zeta_;    ///< their rows, divided by half of their range
+  Eigen::VectorXd alpha_;   ///< (B^+ tau - middle) of them, scaled likewise
+  std::vector<int> basis_;  ///< q + 1 rows
+  SmallVector sign_;        ///< side of each row
   SmallMatrix rows_, inverse_;
   SmallVector point_, right_, weight_, change_;  ///< (v, g), y
 };

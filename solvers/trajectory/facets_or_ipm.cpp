@@ -20,13 +20,14 @@ class FacetsOrIpm : public TrajectorySolver {
   }
 
  private:
-  /// Of an elastic program the hard one is tried.
+  /// For an elastic program, the hard one is tried.
   bool suits(const TrajectoryProgram& program) {
     return program.border() == 0 && bounded_by_facets(program) &&
            efforts_.prepare(*program.instants.front().actuation);
   }
 
-  /// True if the worst instant alone decides and `recheck` or a proof confirms it.
+  /// Returns true if the worst instant alone determines the value and `recheck` or a proof confirms
+  /// it.
   bool instant_by_instant(const TrajectoryProgram& program, TrajectorySolution& solution) {
     int worst = 0;
     solution.value = kInfinity;
@@ -48,7 +49,7 @@ class FacetsOrIpm : public TrajectorySolver {
     return confirm(program, solution);
   }
 
-  /// Where a slack would be cheaper, or efforts within the rates are not found, `recheck` fails.
+  /// `recheck` fails where a slack would be cheaper or where these efforts violate the rates.
   bool confirm(const TrajectoryProgram& program, TrajectorySolution& solution) {
     if (!fill_efforts(program, solution)) return false;
     solution.residual = recheck(program, solution);
@@ -77,7 +78,7 @@ class FacetsOrIpm : public TrajectorySolver {
     return true;
   }
 
-  /// All instants exert the value, with the efforts that change least abruptly.
+  /// All instants exert the value, with the efforts that load the most loaded actuator least.
   bool fill_efforts(const TrajectoryProgram& program, TrajectorySolution& solution) {
     const Zonotope& set = *program.instants.front().actuation;
     const int N = program.size();

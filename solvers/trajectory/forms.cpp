@@ -9,7 +9,7 @@
 namespace maxwrench {
 namespace {
 
-/// An interval narrower than this, relative to 1 + its end, is an equation.
+/// An interval narrower than this, relative to 1 + its end, counts as an equation.
 constexpr double kWidth = 1e-11;
 
 }  // namespace
@@ -143,7 +143,7 @@ void Forms::fill_efforts(const TrajectoryProgram& program, int i) {
   if (p > 0) D.middleRows(at.f0, m).noalias() = -B_pinv_ * program.G[i];
 }
 
-/// What B does not reach: P'(J'W w - G y - s) = -P'tau_d.
+/// The directions that B does not reach: P'(J'W w - G y - s) = -P'tau_d.
 void Forms::fill_unreached(const TrajectoryProgram& program, int i) {
   const Stage& at = stages[i];
   const WrenchProgram& data = program.instants[i];

@@ -3,16 +3,16 @@
 
 #include "solvers/trajectory/forms.h"
 
-// The answer of a trajectory program, from that of its forms.
+// Computes the answer of a trajectory program from that of its forms.
 
 namespace maxwrench {
 namespace {
 
-/// Added to the products of the columns of J'W, which may be dependent, as a share of their trace.
+/// Added to the Gram matrix of the columns of J'W, which may be dependent, as a share of its trace.
 constexpr double kGram = 1e-13;
-/// Instants whose lambda is below this share of the largest take no part in a proof.
+/// Instants whose lambda is below this share of the largest are left out of a proof.
 constexpr double kPart = 1e-10;
-/// And entries below this are rounding.
+/// Entries below this share are rounding errors.
 constexpr double kRest = 1e-12;
 
 }  // namespace
@@ -65,7 +65,7 @@ void Forms::read_dual(const TrajectoryProgram& program, const Eigen::VectorXd& m
       solution.mu(order[r], i) = multipliers[rates0 + rated * i + r] / tau;
     }
   }
-  // Those of t add up to nothing in a proof.
+  // In a proof, the multipliers of t sum to zero.
   for (int i = 0; t > 0 && !proof && i < N; ++i) {
     solution.pi[i] = -multipliers[stages[i].f0 + stages[i].count - 1];
   }
@@ -89,7 +89,7 @@ void Forms::read_dual(const TrajectoryProgram& program, const Eigen::VectorXd& m
   if (proof) sign_proof(solution);
 }
 
-/// The sign that a proof of infeasibility has, without what is rounding.
+/// Gives the multipliers the signs of a proof of infeasibility and removes rounding errors.
 void Forms::sign_proof(TrajectorySolution& solution) const {
   const double largest = solution.lambda.lpNorm<Eigen::Infinity>();
   for (int i = 0; i < N; ++i) {
@@ -111,7 +111,7 @@ void Forms::level(const TrajectoryProgram& program, const Eigen::VectorXd& multi
   gram_.diagonal().array() += kGram * gram_.trace();
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factors(gram_);
   if (factors.info() != Eigen::Success) return;
-  // Once more for what was added.
+  // The second pass corrects the rounding of the first.
   for (int pass = 0; pass < 2; ++pass) {
     slope_ = solution.pi[i] * data.c_w;
     slope_.noalias() += data.JtW.transpose().lazyProduct(lambda);

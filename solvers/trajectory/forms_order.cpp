@@ -3,19 +3,20 @@
 
 #include "solvers/trajectory/forms.h"
 
-// Which efforts come first, and which of them one form may stand for.
+// The order of the efforts, and which of them one form replaces.
 
 namespace maxwrench {
 namespace {
 
-/// A row of Z below this is rounding: the null space does not move the actuator.
+/// A row of Z below this is a rounding error: the null space does not move the actuator.
 constexpr double kStill = 1e-12;
-/// An effort that w moves less than this, relative to all, is not taken for a limit of w.
+/// An effort that w moves less than this, relative to the largest, does not limit w.
 constexpr double kSlight = 1e-6;
 
 }  // namespace
 
-/// Those with rates first, last those that are without and that the null space of B leaves alone.
+/// Actuators with rates come first; those without rates that the null space of B does not move come
+/// last.
 void Forms::order_actuators(const TrajectoryProgram& program, bool with_rates) {
   const int m = actuation_->actuators();
   const auto has_rate = [&](int j) {
@@ -45,7 +46,7 @@ void Forms::order_actuators(const TrajectoryProgram& program, bool with_rates) {
   }
 }
 
-/// At which w the effort of a row reaches the limit that holds w from above or from below.
+/// The w at which the effort of a row reaches the limit that bounds w from above or from below.
 double Forms::end_of_w(const TrajectoryProgram& program, int i, int r, bool high) const {
   const int j = order[r];
   const double slope = slopes_(r, i);
@@ -53,8 +54,8 @@ double Forms::end_of_w(const TrajectoryProgram& program, int i, int r, bool high
   return (limits[j] - offsets_(j, i)) / slope;
 }
 
-/// Offsets, slopes and, if w is all that moves the lone efforts, which of them limit it. Where
-/// their limits exclude each other they stay apart, for the proof.
+/// Computes offsets, slopes and, if only w moves the lone efforts, which of them limit w. If their
+/// limits contradict each other, they stay separate, for the proof.
 void Forms::merge(const TrajectoryProgram& program, int i) {
   Stage& at = stages[i];
   const WrenchProgram& data = program.instants[i];
@@ -73,7 +74,7 @@ void Forms::merge(const TrajectoryProgram& program, int i) {
     if (end_of_w(program, i, r, true) < high) high = end_of_w(program, i, highest = r, true);
   }
   if (lowest < 0 || highest < 0 || !(low < high)) return;
-  // Those that hardly depend on w must keep their limits all the way.
+  // Efforts that hardly depend on w must be within their limits over the whole interval.
   for (int r = m - lone; r < m; ++r) {
     if (std::abs(slopes_(r, i)) > flat) continue;
     const int j = order[r];
@@ -86,7 +87,7 @@ void Forms::merge(const TrajectoryProgram& program, int i) {
   at.highest = highest;
 }
 
-/// Of the effort in a row. What holds w is the multiplier of the effort that limits it.
+/// The multiplier of the effort in a row. The multiplier of w belongs to the effort that limits it.
 double Forms::effort_multiplier(const Eigen::VectorXd& multipliers, int i, int r) const {
   const Stage& at = stages[i];
   if (r < at.efforts) return multipliers[at.f0 + r];

@@ -5,10 +5,10 @@
 namespace maxwrench {
 namespace {
 
-/// How far the least sum of slacks may be off [N, N m].
+/// The permitted error of the least sum of slacks [N, N m].
 constexpr double kLeast = 1e-9;
 
-/// Leaves out rates and slacks until the embedding asks for them.
+/// Leaves out rates and slacks until the embedding needs them.
 class Ipm : public TrajectorySolver {
  public:
   explicit Ipm(double tolerance) : tolerance_(tolerance) {}
@@ -19,7 +19,7 @@ class Ipm : public TrajectorySolver {
     bool rates = !(program.du_max.array() < kInfiniteBound).any();
     bool slacks = !program.elastic();
     for (;;) {
-      // Each has its own storage: nothing is sized anew from call to call.
+      // Each has its own storage, so nothing is resized from call to call.
       Embedding& embedding = embeddings_[rates ? 1 : 0][slacks ? 1 : 0];
       const auto end = embedding.run(program, rates, slacks, tolerance_, solution);
       if (end == Embedding::End::kVerdict) return;
@@ -33,9 +33,9 @@ class Ipm : public TrajectorySolver {
   }
 
  private:
-  /// Programs that miss an answer by little are hard to tell from those that hit one. The least sum
-  /// of slacks that balances all instants is a program with an answer; if it is not zero, its
-  /// multipliers prove that there is none without slack.
+  /// Programs that are slightly infeasible are hard to distinguish from feasible ones. The least
+  /// sum of slacks that balances all instants is a feasible program. If it is not zero, its
+  /// multipliers prove that there is no answer without slack.
   bool lacks_balance(const TrajectoryProgram& program, TrajectorySolution& solution) {
     if (program.elastic()) return false;
     TrajectoryProgram least = program;
@@ -51,7 +51,7 @@ class Ipm : public TrajectorySolver {
     return true;
   }
 
-  const double tolerance_;  ///< how far an optimum may be off, relative to 1 + |value|
+  const double tolerance_;  ///< permitted error of an optimum, relative to 1 + |value|
   Embedding embeddings_[2][2];
 };
 

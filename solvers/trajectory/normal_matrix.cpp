@@ -113,7 +113,7 @@ void NormalMatrix::couple(const Forms& forms, const Eigen::VectorXd& theta, int 
   }
 }
 
-/// What the border's columns add: E = F'theta D of the stages and their rates, H += D'theta D.
+/// Adds the border's columns: E = F'theta D of the stages and their rates, H += D'theta D.
 void NormalMatrix::border(const Forms& forms, const Eigen::VectorXd& theta) {
   const int p = forms.p, b = forms.t + p;
   stack_ = theta.head(forms.border0).asDiagonal() * forms.D;
@@ -177,7 +177,7 @@ void NormalMatrix::factor_stage(const Forms& forms, int i) {
   factor_coupling<D, Eigen::Dynamic>(forms, i);
 }
 
-/// S = K_i+1,i L^-T and what it leaves of the next stage.
+/// S = K_i+1,i L^-T, and subtracts its contribution from the next stage.
 template <int D, int Next>
 void NormalMatrix::factor_coupling(const Forms& forms, int i) {
   const int d = forms.stages[i].d, next = forms.stages[i + 1].d;
@@ -190,7 +190,7 @@ void NormalMatrix::factor_coupling(const Forms& forms, int i) {
   }
   StageBlock<Next> K(K_.data() + K0_[i + 1], next, next);
   if constexpr (Next > 4) {
-    constexpr int kLate = Next - 4;  // above the last columns nothing is needed
+    constexpr int kLate = Next - 4;  // nothing above the last columns is needed
     K.template leftCols<4>() -= S.lazyProduct(S.template topRows<4>().transpose());
     const auto late = S.template bottomRows<kLate>();
     K.template bottomRightCorner<kLate, kLate>() -= late.lazyProduct(late.transpose());

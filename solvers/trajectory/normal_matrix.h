@@ -8,14 +8,14 @@ namespace maxwrench {
 
 struct Forms;
 
-/// H = sum_f theta_f phi_f phi_f' over the forms of a trajectory, factored by stages: its blocks
-/// K_i of the instants are coupled only by the rates (K_i+1,i), and the border z = (t, y) is last.
+/// H = sum_f theta_f phi_f phi_f' over the forms of a trajectory, factored by stages. Only the
+/// rates couple the blocks K_i of the instants (K_i+1,i). The border z = (t, y) comes last.
 ///
-/// A pivot below the share `least_pivot` of its diagonal is a direction that no form sees: it is
-/// left out.
+/// A pivot below the share `least_pivot` of its diagonal belongs to a direction that no form
+/// contains, and is left out.
 class NormalMatrix {
  public:
-  /// Storage for the shape of these forms.
+  /// Allocates storage for the shape of these forms.
   void reserve(const Forms& forms);
   void factor(const Forms& forms, const Eigen::VectorXd& theta, double least_pivot);
   /// X = H^-1 X, column by column.
@@ -39,12 +39,12 @@ class NormalMatrix {
   void border_limits(const Forms& forms, const Eigen::VectorXd& theta);
 
   double least_pivot_ = 0;
-  std::vector<int> K0_, S0_, E0_;  ///< where the blocks of a stage begin
+  std::vector<int> K0_, S0_, E0_;  ///< where the blocks of each stage begin
   Eigen::VectorXd K_;              ///< d×d, then its factor L with inverse diagonal
   Eigen::VectorXd S_;              ///< d_i+1 × d_i, then K_i+1,i L_i^-T
   Eigen::VectorXd E_;              ///< d×b by rows, then L_i^-1 E_i
   Eigen::MatrixXd H_;              ///< b×b, then its factor
-  Eigen::VectorXd weight_;         ///< theta with those of the rates added to the efforts'
+  Eigen::VectorXd weight_;         ///< theta, with that of the rates added to the efforts'
   Eigen::VectorXd weighted_, row_;
   RowMatrix stack_;
 };

@@ -5,8 +5,8 @@
 namespace maxwrench {
 
 /// One side of all forms, sign (limit tau - phi) = s >= 0: slacks s, multipliers y >= 0, and their
-/// steps. What has no limit has y = 0, and s and its step mean nothing. Methods work on the L forms
-/// from i on.
+/// steps. A form without a limit has y = 0, and its s and its step are not used. Methods with a
+/// parameter L work on the L forms from i on.
 struct Side {
   explicit Side(double which) : sign(which) {}
 
@@ -14,8 +14,8 @@ struct Side {
   const Eigen::VectorXd* limit = nullptr;
   Eigen::VectorXd s, y, ds, dy;
   Eigen::VectorXd inverse;     ///< 1/(s y)
-  Eigen::VectorXd centre;      ///< what s y should change by
-  Eigen::VectorXd correction;  ///< of it, the last one
+  Eigen::VectorXd centre;      ///< the required change of s y
+  Eigen::VectorXd correction;  ///< the last correction of the centre
 
   void start(const Eigen::VectorXd& limits, const Eigen::VectorXd& has,
              const Eigen::VectorXd& scale, double mu) {
@@ -27,7 +27,7 @@ struct Side {
     y = mu * has.array() / s.array();
   }
 
-  /// The same for single forms.
+  /// The same quantities for one form.
   double theta(Eigen::Index f) const { return y[f] * y[f] * inverse[f]; }
   double residual(double phi, double tau, Eigen::Index f) const {
     return sign * (tau * (*limit)[f] - phi) - s[f];
@@ -42,10 +42,10 @@ struct Side {
     pack<L>(&y[i]) += step * pack<L>(&dy[i]);
   }
 
-  /// Inverse and the predictor's centre; returns s y.
+  /// Computes the inverse and the predictor's centre; returns s y.
   template <int L>
   SimdPack<L> measure(Eigen::Index i) {
-    constexpr double kLeast = 1e-150;  // where there is no limit: all that uses it is times y = 0
+    constexpr double kLeast = 1e-150;  // where there is no limit; its uses are multiplied by y = 0
     const SimdPack<L> product = pack<L>(&s[i]) * pack<L>(&y[i]);
     pack<L>(&inverse[i]) = product.max(kLeast).inverse();
     pack<L>(&centre[i]) = -product;
@@ -60,7 +60,7 @@ struct Side {
   SimdPack<L> residual_of(const SimdPack<L>& phi, double tau, Eigen::Index i) const {
     return sign * (tau * pack<L>(&(*limit)[i]) - phi) - pack<L>(&s[i]);
   }
-  /// What the forms are pushed with: centre/s - share theta residual.
+  /// The right-hand side of the forms: centre/s - reduction theta residual.
   template <int L>
   SimdPack<L> newton_rhs_of(double reduction, const SimdPack<L>& phi, double tau,
                             Eigen::Index i) const {
@@ -68,7 +68,7 @@ struct Side {
     return inverse_s *
            (pack<L>(&centre[i]) - reduction * pack<L>(&y[i]) * residual_of<L>(phi, tau, i));
   }
-  /// What d tau does to s, given that it changes phi by q.
+  /// The derivative of s by tau, given that phi changes by q per unit of tau.
   template <int L>
   SimdPack<L> tau_slope_of(const SimdPack<L>& q, Eigen::Index i) const {
     return sign * (pack<L>(&(*limit)[i]) - q);
@@ -83,8 +83,8 @@ struct Side {
            sign * (d_tau * (limit_i - q) - d);
   }
 
-  /// The corrector's centre by the predictor's change of s, with which y changes by -y - y ds/s.
-  /// Returns the most that an s or a y loses of itself.
+  /// Sets the corrector's centre from the predictor's change of s, with which y changes by -y - y
+  /// ds/s. Returns the largest share of itself that an s or a y loses.
   template <int L>
   SimdPack<L> predict(const SimdPack<L>& step, Eigen::Index i) {
     const SimdPack<L> product = pack<L>(&s[i]) * pack<L>(&y[i]);
@@ -93,7 +93,7 @@ struct Side {
     return (-reduction).max(1 + reduction);
   }
 
-  /// ds and dy; returns the most that an s or a y loses of itself.
+  /// Sets ds and dy; returns the largest share of itself that an s or a y loses.
   template <int L>
   SimdPack<L> finish(const SimdPack<L>& step, Eigen::Index i) {
     const SimdPack<L> inverse_s = pack<L>(&inverse[i]) * pack<L>(&y[i]);
@@ -115,7 +115,7 @@ struct Side {
     return -(pack<L>(&ds[i]) * pack<L>(&y[i]) * in).min(pack<L>(&dy[i]) * pack<L>(&s[i]) * in);
   }
 
-  /// Centres that bring what the products s y would be after a step `trial` within kLow mu and
+  /// Corrects the centres so that the products s y after a step `trial` are between kLow mu and
   /// kHigh mu.
   template <int L>
   void center_products(double trial, double mu, Eigen::Index i) {

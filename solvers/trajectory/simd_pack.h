@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-// Loops over long vectors, a few numbers at a time: what is added up or compared stays in
-// registers.
+// Loops over long vectors, a few numbers at a time, so that sums and comparisons stay in registers.
 
 namespace maxwrench {
 
@@ -22,7 +21,7 @@ Eigen::Map<SimdPack<L>> pack(double* x) {
   return Eigen::Map<SimdPack<L>>(x);
 }
 
-/// Calls body<L>(i) for the `size` numbers, L of them from i on.
+/// Calls body<L>(i) for blocks of L numbers from i on, until all `size` numbers are covered.
 template <int Most = kPackSize, class Body>
 EIGEN_ALWAYS_INLINE void for_packs(Eigen::Index size, Body&& body) {
   Eigen::Index i = 0;
@@ -30,7 +29,8 @@ EIGEN_ALWAYS_INLINE void for_packs(Eigen::Index size, Body&& body) {
   for (; i < size; ++i) body.template operator()<1>(i);
 }
 
-/// A sum, and the largest of numbers. What does not fill the lanes is apart: registers again.
+/// A sum and a maximum. Numbers that do not fill a pack are accumulated separately, so that packs
+/// stay in registers.
 template <int Most = kPackSize>
 struct PackSum {
   SimdPack<Most> sums = SimdPack<Most>::Zero();

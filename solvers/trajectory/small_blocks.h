@@ -7,8 +7,7 @@
 #include "solvers/trajectory/blocks.h"
 #include "solvers/trajectory/simd_pack.h"
 
-// Algebra on the blocks of stages, whose sizes are known to the compiler: D is a number, or
-// Eigen::Dynamic.
+// Algebra on the blocks of stages. Their size D is a compile-time number or Eigen::Dynamic.
 
 namespace maxwrench {
 
@@ -22,7 +21,8 @@ using StageColumn = Eigen::Map<Eigen::Matrix<double, D, 1>>;
 template <int D>
 using ConstStageColumn = Eigen::Map<const Eigen::Matrix<double, D, 1>>;
 
-/// The numbers of a stage in a long column; where their count is known, in registers until `store`.
+/// The numbers of a stage in a long column. If their count is a compile-time constant, they are in
+/// registers until `store`.
 template <int D>
 class StageVector {
  public:
@@ -33,7 +33,7 @@ class StageVector {
   static constexpr int size() { return D; }
 
  private:
-  // One by one: what is copied as a block passes through memory.
+  // One by one, because a block copy goes through memory.
   using Places = std::make_index_sequence<D>;
   template <std::size_t... r>
   StageVector(const double* at, std::index_sequence<r...>) : values_{at[r]...} {}
@@ -73,8 +73,8 @@ EIGEN_STRONG_INLINE void subtract_transposed(const double* S, int rows, const do
   }
 }
 
-/// The R×C block at (r, c) of sign A' diag(weight) B; the columns of A, B and out are `a`, `b` and
-/// `d` numbers long.
+/// The R×C block at (r, c) of sign A' diag(weight) B. The columns of A, B and out have lengths `a`,
+/// `b` and `d`.
 template <int R, int C>
 EIGEN_STRONG_INLINE void product_block(const double* A, Eigen::Index a, const double* B,
                                        Eigen::Index b, const double* weight, Eigen::Index count,
@@ -92,8 +92,8 @@ EIGEN_STRONG_INLINE void product_block(const double* A, Eigen::Index a, const do
   }
 }
 
-/// out = sign A' diag(weight) B, of a symmetric one blocks with the lower triangle only. All blocks
-/// at once would be more sums than registers.
+/// out = sign A' diag(weight) B; if A = B, only blocks that reach the lower triangle. One block at
+/// a time, because all blocks together need more sums than there are registers.
 template <int D>
 void product(const double* A, Eigen::Index a, const double* B, Eigen::Index b, const double* weight,
              Eigen::Index count, double sign, double* out) {
@@ -105,8 +105,9 @@ void product(const double* A, Eigen::Index a, const double* B, Eigen::Index b, c
   }
 }
 
-/// The lower triangle of A becomes L with A = L L', the inverse in the diagonal. A pivot below the
-/// share `least` of its diagonal is none.
+/// Replaces the lower triangle of A by L with A = L L', with the inverse of L's diagonal on the
+/// diagonal. A pivot below the share `least` of its diagonal counts as zero; its inverse becomes
+/// zero.
 template <class Matrix>
 EIGEN_STRONG_INLINE void cholesky(Matrix& A, double least) {
   const Eigen::Index d = A.rows();

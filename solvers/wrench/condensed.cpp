@@ -84,8 +84,8 @@ class Condensed : public WrenchSolver {
     }
   }
 
-  /// Calls body(row, entry) for the entries of normal i; most are zero, as thrusters and joints are
-  /// independent.
+  /// Calls body(row, entry) for the nonzero entries of normal i. Most are zero, because thrusters
+  /// and joints are independent.
   template <class Body>
   static void for_normal(const Zonotope& set, int i, Body&& body) {
     const int* const begin = set.N_nonzero.outerIndexPtr() + i;
@@ -109,7 +109,7 @@ class Condensed : public WrenchSolver {
     }
   }
 
-  /// The iterations are those of both methods.
+  /// Counts the iterations of both methods.
   void solve_assembled(const WrenchProgram& program, bool efforts, Capability& capability) {
     const int before = capability.iterations;
     assembled_->solve(program, efforts, capability);

@@ -12,10 +12,10 @@ namespace {
 /// Smaller pivots, relative to the largest entry, make J_b'W near singular.
 constexpr double kSingular = 1e-7;
 
-/// Above this, P is so accurate that its products need no refinement.
+/// Above this, P is accurate enough that its products need no refinement.
 constexpr double kWellConditioned = 1e-2;
 
-/// A diagonal entry of at least this share of its column serves as pivot.
+/// A diagonal entry of at least this share of its column is accepted as pivot.
 constexpr double kDiagonal = 0.1;
 
 bool first_free(const WrenchProgram& program, int k) {
@@ -32,14 +32,14 @@ void Elimination::split(const Eigen::MatrixXd& B) {
   drives_ = direct_drives(B);
   const auto m = static_cast<Eigen::Index>(drives_.other_columns.size());
   const auto k = static_cast<Eigen::Index>(drives_.other_rows.size());
-  if (k > 6) return;  // no program is of this kind
+  if (k > 6) return;  // no program has this form
   extra_ = 0;
   B_b_.setZero(6, padded(static_cast<int>(m)));
   B_b_.topLeftCorner(k, m) = B(drives_.other_rows, drives_.other_columns);
   row_.resize(B_b_.cols());
 }
 
-/// The wrench columns beyond those that are eliminated, behind the thrusters.
+/// Appends the wrench columns that are not eliminated, after the thrusters.
 void Elimination::append(const WrenchProgram& program) {
   const int m = static_cast<int>(drives_.other_columns.size());
   const int k = static_cast<int>(drives_.other_rows.size());
@@ -69,13 +69,13 @@ bool Elimination::invert(const WrenchProgram& program) {
   }
   int exchanged[6];
   steps_ = 1;
-  for (int step = 0; step < 6; ++step) {  // beyond k the identity
+  for (int step = 0; step < 6; ++step) {  // the identity beyond k
     double best = 0;
     for (int i = step; i < 6; ++i) best = std::max(best, std::abs(A(i, step)));
     if (step < k && !(best > kSingular * largest)) return false;
     if (!(best > kWellConditioned * largest)) steps_ = 2;
-    // A search for the largest entry is a branch that no processor predicts; exchange only
-    // what is bad.
+    // A search for the largest entry needs a conditional jump that processors mispredict, so rows
+    // are exchanged only if the pivot is bad.
     int pivot = step;
     if (std::abs(A(step, step)) < kDiagonal * best) {
       while (std::abs(A(pivot, step)) != best) ++pivot;
@@ -84,7 +84,7 @@ bool Elimination::invert(const WrenchProgram& program) {
     exchanged[step] = pivot;
     const double inverse = 1 / A(step, step);
     A.row(step) *= inverse;
-    // Column `step` is written last: a processor waits when it loads two entries just after one of
+    // Column `step` is written last: a processor stalls if it loads two entries just after one of
     // them was stored.
     for (int i = 0; i < 6; ++i) {
       if (i == step) continue;
@@ -177,8 +177,8 @@ void Elimination::fill_lambda(const WrenchProgram& program, const Tableau& table
     lambda[drives_.rows[joint]] = -tableau.multipliers[static_cast<Eigen::Index>(joint)];
   }
   for (int step = 0; step < steps_; ++step) {
-    // What c_w + (J'W)'lambda lacks to zero, at first all that the base has to give. Most joints
-    // are not at their limits.
+    // The residual of c_w + (J'W)'lambda; in the first step, the base must compensate all of it.
+    // Most joints are not at their limits.
     Vector6d left = Vector6d::Zero();
     for (int j = 0; j < k; ++j) left[j] = c_share * program.c_w[j];
     const Eigen::Index n = program.tau_d.size();
@@ -203,7 +203,7 @@ void Elimination::fill(const WrenchProgram& program, const Tableau& tableau, boo
   const int k = static_cast<int>(drives_.other_rows.size());
   const int m = static_cast<int>(drives_.other_columns.size());
   const int f = static_cast<int>(drives_.rows.size());
-  // w = P (B_b u_b - tau_b), refined if need be; row i of `load` is that of the balance.
+  // w = P (B_b u_b - tau_b), refined if necessary; row i of `load` is that of the balance.
   Vector6d load = -tau_b_;
   for (int i = 0; i < k; ++i) {
     for (int j = 0; j < m + extra_; ++j) load[i] += B_b_(i, j) * tableau.x[j];

@@ -8,15 +8,16 @@
 
 namespace maxwrench {
 
-/// The wrench program without its equations, for a program whose first wrench columns are free and
-/// as many as the rows without a direct drive (all six wrenches on a free-floating base). Further
-/// ones, those of a second contact, stay with their bounds as if they were thrusters whose column
-/// of B_b is that of -J_b'W; in a driven row j they also appear by themselves. A direct drive is
-/// the only entry of its row and of its column of B. With P = (J_b'W)^-1 over the other rows b,
+/// The wrench program without its equations. Its first wrench columns must be free, and as many as
+/// the rows without a direct drive (all six wrenches on a free-floating base). Further columns,
+/// those of a second contact, stay with their bounds as if they were thrusters whose column of B_b
+/// is that of -J_b'W; they also appear directly in the driven rows j. A direct drive is the only
+/// entry of its row and of its column of B. With P = (J_b'W)^-1 over the other rows b,
 ///
-///     w = P (B_b u_b - tau_b),   v_j = tau_j + J_j'W w,   b_j u_j = v_j   for the driven rows j,
+///     w = P (B_b u_b - tau_b),   v_j = tau_j + J_j'W w,   b_j u_j = v_j   for the driven rows j.
 ///
-/// the efforts u_b (the thrusters) are left, each between its limits, and a row for each joint:
+/// What remains are the efforts u_b of the thrusters, each between its limits, and a row for each
+/// joint:
 ///
 ///     max (c_w'P B_b) u_b   subject to   u_b,min <= u_b <= u_b,max,   v_j between the limits of
 ///     b_j u_j.
@@ -25,18 +26,19 @@ namespace maxwrench {
 /// lambda_b = -P'(c_w + (J_j'W)'lambda_j).
 class Elimination {
  public:
-  /// Fills the tableau; false if the program is not of this kind or J_b'W is near singular.
+  /// Fills the tableau. Returns false if the program is not of this kind or J_b'W is nearly
+  /// singular.
   bool load(const WrenchProgram& program, Tableau& tableau);
-  /// beta, w, lambda and, if asked for, u, after the tableau was solved.
+  /// Fills beta, w, lambda and, if `efforts`, u from the solved tableau.
   void fill(const WrenchProgram& program, const Tableau& tableau, bool efforts,
             Capability& capability);
-  /// The Farkas vector y of the wrench program, after the tableau was found infeasible.
+  /// The Farkas vector y of the wrench program, from an infeasible tableau.
   void fill_contradiction(const WrenchProgram& program, const Tableau& tableau,
                           Eigen::VectorXd& y) const;
 
  private:
-  /// k <= 6 columns that are eliminated, padded to 6, with an identity in P and zeros elsewhere:
-  /// constant sizes are fast.
+  /// k <= 6 columns are eliminated. They are padded to 6, with an identity in P and zeros
+  /// elsewhere, because constant sizes are fast.
   using Square = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
   using Wide = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -49,12 +51,12 @@ class Elimination {
   void fill_lambda(const WrenchProgram& program, const Tableau& tableau, double c_share,
                    Eigen::VectorXd& lambda) const;
 
-  Eigen::MatrixXd B_;    // that the following two were made from
-  DirectDrives drives_;  // the other rows are those of the base, the other columns thrusters
+  Eigen::MatrixXd B_;    // from which the following two were made
+  DirectDrives drives_;  // the other rows belong to the base, the other columns to thrusters
   Wide B_b_;  // thrusters, then columns of a second contact, then zeros (solvers/wrench/padded.h)
-  int extra_ = 0;  // of the latter
+  int extra_ = 0;  // number of the latter
   Square P_;
-  int steps_ = 1;  // of refinement with P, the first included
+  int steps_ = 1;  // of refinement with P, including the first
   Vector6d tau_b_;
   Eigen::VectorXd row_;
 };

@@ -8,18 +8,19 @@
 namespace maxwrench {
 namespace {
 
-/// A slope n'a below this share of |a| does not move along the ray.
+/// A facet with a slope n'a below this share of |a| counts as parallel to the ray.
 constexpr double kSlopeTolerance = 1e-12;
-/// How far [N, N m] the set may be missed by rounding, relative to the widths involved.
+/// The distance [N, N m] by which rounding may make the ray miss the set, relative to the widths
+/// involved.
 constexpr double kPairTolerance = 1e-9;
 
-/// The part of the ray tau_d + a x inside the set: the largest `enter` and the least `leave` of its
-/// facet pairs. The loops have no IK solutions that depend on the posture.
+/// The part of the ray tau_d + a x inside the set, from the largest `enter` to the least `leave` of
+/// its facet pairs. The loops have no conditional jumps that depend on the posture.
 class Ray {
  public:
   double low = 0, high = 0;
-  int missed_pair = -1;    ///< a violated pair that the ray runs parallel to
-  double missed_side = 0;  ///< 1 if its upper bound is, -1 if the lower one
+  int missed_pair = -1;    ///< a violated pair that is parallel to the ray
+  double missed_side = 0;  ///< 1 if its upper bound is violated, -1 if its lower one is
 
   void shoot(const Zonotope& set, const Eigen::VectorXd& tau, const double* a) {
     project(set, tau, a);
@@ -119,12 +120,13 @@ class Facets : public WrenchSolver {
       capability.reason = "no actuator efforts balance the posture";
       fill_contradiction(program, ray, capability.lambda);
       if (proves_infeasible(program, capability.lambda)) return;
-      // The ray misses the set by 1e-9 or so of its length: too little for a proof by two facets.
+      // The ray misses the set by about 1e-9 of its length, which is too little for a proof by two
+      // facets.
       return assembled_->solve(program, efforts, capability);
     }
     if (!std::isfinite(x)) {
       const double size = program.JtW.squaredNorm();
-      // Too large or too small for what stands above, which tells no more then.
+      // `size` overflows or underflows, so the computation above is not valid.
       if (size != 0 && !std::isnormal(size)) return assembled_->solve(program, efforts, capability);
       capability.status = Status::kUnbounded;
       capability.reason = "the wrench does not load any actuator";
@@ -150,14 +152,15 @@ class Facets : public WrenchSolver {
     }
   }
 
-  /// y with sup {y'(B u - J'W w)} < y'tau_d: the missed pair, or the difference of the two that
-  /// stop the ray before it begins, n/(n'J'W) each.
+  /// y with sup {y'(B u - J'W w)} < y'tau_d: the missed pair, or the difference of the two pairs
+  /// that end the ray before it begins, n/(n'J'W) each.
   static void fill_contradiction(const WrenchProgram& program, const Ray& ray, Eigen::VectorXd& y) {
     const Zonotope& set = *program.actuation;
     y.setZero(program.tau_d.size());
     const auto a = program.JtW.col(0);
     const bool free = program.w_min[0] == -kInfinity || program.w_max[0] == kInfinity;
-    // A slope y'a that ought to vanish is taken away, for w may have no bound to keep it small.
+    // The slope y'a should be zero; its rounding error is removed, because w may have no bound to
+    // limit its effect.
     const auto level = [&] {
       const double size = a.squaredNorm();
       if (free && size > 0) y -= a * (a.dot(y) / size);

@@ -5,7 +5,8 @@
 #include "maxwrench/lp_solver.h"
 #include "maxwrench/wrench_solver.h"
 
-// Solvers of wrench programs: those that know the structure, and any other on the assembled one.
+// Solvers of wrench programs: solvers that exploit the structure, and any general LP solver on the
+// assembled program.
 
 namespace maxwrench {
 
@@ -13,25 +14,25 @@ namespace maxwrench {
 ///
 ///     b_min <= N'(tau_d + a x) <= b_max
 ///
-/// bounds x from both sides, pair by pair; the optimum is the tightest bound on the side of c_w and
-/// lambda = -c_w n_j / (n_j'a) of the active pair. No pivot, no iteration. Throws
+/// bounds x from both sides, pair by pair. The optimum is the tightest bound on the side of c_w,
+/// and lambda = -c_w n_j / (n_j'a) of the active pair. There are no pivots or iterations. Throws
 /// std::invalid_argument on several columns or a zonotope without facets.
 std::unique_ptr<WrenchSolver> make_facets();
 
 /// Any number of wrench columns, by a small dual simplex that starts at a sign vertex (`Tableau`).
-/// Free columns that are as many as the rows without a direct drive are eliminated, and the efforts
-/// of the thrusters are left (`Elimination`). Otherwise the efforts are eliminated, between the
+/// If the free columns are as many as the rows without a direct drive, they are eliminated, and the
+/// efforts of the thrusters remain (`Elimination`). Otherwise the efforts are eliminated, by the
 /// facet pairs of {B u}:
 ///
 ///     max c_w'w   subject to   b_min - N'tau_d <= N'J'W w <= b_max - N'tau_d,   w_min <= w <=
 ///     w_max
 ///
-/// with lambda = -N_B y_B. A directly driven joint is one of these rows, and so is a direction that
-/// no actuator reaches.
+/// with lambda = -N_B y_B. A directly driven joint gives one of these rows, as does a direction
+/// that no actuator reaches.
 ///
-/// Each call starts cold from the same rule: the answer depends on nothing but the program. What
-/// has no facets and cannot be eliminated, a wrench that loads no actuator and whatever does not
-/// check out goes to the general simplex on the assembled program, also cold.
+/// Each call starts cold by the same rule: the answer depends only on the program. These go to the
+/// general simplex on the assembled program, also cold: programs that have no facets and cannot be
+/// eliminated, a wrench that loads no actuator, and answers that fail the checks.
 std::unique_ptr<WrenchSolver> make_condensed();
 
 /// Any general LP solver on the assembled program, warm-started from call to call; or cold each

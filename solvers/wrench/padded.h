@@ -4,13 +4,13 @@
 
 namespace maxwrench {
 
-// Short rows of numbers, padded with zeros so that loops over them are vectorised without a
-// remainder. The compiler knows the length of the shortest, for which that matters most.
+// Short rows of numbers, padded with zeros so that loops over them vectorise without a remainder.
+// The length of the shortest row, for which this matters most, is a compile-time constant.
 
 /// The length of a row that holds `count` numbers.
 constexpr int padded(int count) { return count <= 2 ? 2 : (count + 3) / 4 * 4; }
 
-/// body(length); two is a constant.
+/// Calls body(length); a length of two is a compile-time constant.
 template <class Body>
 void with_length(int length, Body&& body) {
   if (length == 2) {
@@ -20,7 +20,7 @@ void with_length(int length, Body&& body) {
   }
 }
 
-/// How many numbers are worked on side by side: a divisor of the length.
+/// How many numbers are processed together: a divisor of the length.
 template <class Length>
 constexpr int kLanes = std::is_same_v<Length, int> ? 4 : 2;
 

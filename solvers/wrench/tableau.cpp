@@ -8,16 +8,16 @@
 namespace maxwrench {
 namespace {
 
-/// How far a row may be missed by rounding, relative to one plus its bounds.
+/// The violation of a row that rounding may cause, relative to one plus its bounds.
 constexpr double kFeasibilityTolerance = 1e-9;
-/// Smaller entries of the tableau, whose pivots are near one, are rounding.
+/// Smaller entries of the tableau, whose pivots are near one, are rounding errors.
 constexpr double kZero = 1e-11;
-/// The least share of a row's squared norm that serves as first pivot.
+/// The least share of a row's squared norm that is accepted as first pivot.
 constexpr double kSmallPivot = 1e-8;
-/// Keeps a row without entries from a division by zero.
+/// Prevents a division by zero for a row without entries.
 constexpr double kTiny = 1e-20;
 
-/// Scores that are compared side by side.
+/// The number of scores that are compared together.
 constexpr int kScores = 4;
 
 double magnitude(double bound) { return std::isfinite(bound) ? std::abs(bound) : 0; }
@@ -60,13 +60,13 @@ void Tableau::resize(int rows, int columns) {
   multipliers.resize(rows);
 }
 
-/// Dependent row i enters the basis at position j, whose row becomes dependent. y is exchanged as
-/// the rows are.
+/// Dependent row i enters the basis at position j, and the row there becomes dependent. y is
+/// updated like the rows.
 void Tableau::exchange(int i, int j) {
   double* const pivot = T(i);
   const double inverse = 1 / pivot[j];
   for (int k = 0; k < stride_; ++k) pivot[k] *= -inverse;
-  // Column j is written last: a processor waits when it loads a whole chunk just after a part of it
+  // Column j is written last: a processor stalls if it loads a whole chunk just after a part of it
   // was stored.
   with_length(stride_, [&](auto n) {
     double* row = T_.data();
@@ -94,7 +94,7 @@ void Tableau::move(int j, double step) {
   for (int i = 0; i < rows_; ++i) value_[i] += step * T(i)[j];
 }
 
-/// The rows of G as dependent ones, the unit rows as basis.
+/// Initialises the rows of G as dependent, and the unit rows as basis.
 void Tableau::read() {
   measured_ = false;
   std::copy(G_.begin(), G_.end(), T_.begin());
@@ -117,8 +117,8 @@ void Tableau::read() {
   }
 }
 
-/// The first row with the highest score, -1 if none is above `least`. No branches: which row it
-/// is is a matter of chance.
+/// The first row with the highest score, -1 if none is above `least`. It avoids conditional jumps,
+/// because the row cannot be predicted.
 int Tableau::highest(double least) const {
   double most[kScores] = {least, least, least, least};
   for (std::size_t i = 0; i < score_.size(); i += kScores) {
@@ -133,8 +133,8 @@ int Tableau::highest(double least) const {
   return row;
 }
 
-/// `weight` and `tight` of all rows, before the first exchange; many programs need none. Rows of
-/// the basis do not serve as pivots once they have left it.
+/// Computes `weight` and `tight` of all rows before the first exchange; many programs need none.
+/// Rows of the initial basis are not accepted as pivots once they have left it.
 void Tableau::measure() {
   measured_ = true;
   std::fill(basis_.weight.begin(), basis_.weight.end(), 1.0);
@@ -148,7 +148,7 @@ void Tableau::measure() {
   });
 }
 
-/// Whether the sign of y_j asks for a finite bound; then side_ is set to it.
+/// Whether the sign of y_j selects a finite bound; sets side_ to that bound.
 bool Tableau::rests(int j) {
   const double y = T(rows_)[j];
   const bool up = y > 0 || (y == 0 && std::isfinite(basis_.high[j]));
@@ -156,8 +156,8 @@ bool Tableau::rests(int j) {
   return std::isfinite(bound(j));
 }
 
-/// A dual feasible basis: columns without a bound to rest on leave for the row of G that confines
-/// them most, by its two finite bounds. False if there is no such row.
+/// Makes a dual feasible basis. A column without a finite bound for its y is exchanged for the row
+/// of G that limits it most, by its two finite bounds. Returns false if there is no such row.
 bool Tableau::start() {
   read();
   for (int row = 0; row < rows_ + columns_; ++row) {
@@ -177,7 +177,7 @@ bool Tableau::start() {
     const int best = highest(0);
     if (best < 0) return false;
     exchange(best, j);
-    j = 0;  // all of y have changed
+    j = 0;  // all y have changed
   }
   std::fill(ratio_.begin(), ratio_.end(), 0.0);
   for (int j = 0; j < columns_; ++j) ratio_[j] = bound(j);
@@ -185,8 +185,8 @@ bool Tableau::start() {
   return true;
 }
 
-/// The dependent row that is violated most, in units of its own size; -1 if none is. `first`: the
-/// violated one of lowest index instead, which cannot cycle.
+/// The dependent row with the largest violation, in units of its own size; -1 if none is violated.
+/// With `first`, the violated row of lowest index, which cannot cycle.
 int Tableau::violated(bool first) {
   bool any = false;
   for (int i = 0; i < rows_; ++i) {
@@ -207,14 +207,15 @@ int Tableau::violated(bool first) {
 }
 
 /// The dual ratio test. As the multiplier of dependent row i grows, those of the basis reach zero
-/// one by one; such a row flips to its other bound, which shortens the gap that row i has to close,
-/// until the next flip would more than close it. Returns the position that leaves, or -1 if all
-/// flips leave a gap: then no x satisfies the rows.
+/// one by one. Such a row flips to its other bound, which shortens the gap that row i must close,
+/// until the next flip would more than close it. Returns the position that leaves, or -1 if a gap
+/// remains after all flips: then no x satisfies the rows.
 int Tableau::leaving(int i, double& gap, bool first) {
   const double side = gap > 0 ? 1 : -1;
   const double* const y = T(rows_);
   const double* const row = T(i);
-  // No branches here and below: which positions block is a matter of chance.
+  // Here and below there are no conditional jumps, because the positions that block cannot be
+  // predicted.
   for (int j = 0; j < stride_; ++j) {
     const double a = side * side_[j] * row[j];
     const double ratio = std::max(side_[j] * y[j], 0.0) / a;
@@ -235,8 +236,8 @@ int Tableau::leaving(int i, double& gap, bool first) {
   }
 }
 
-/// Of the positions whose multipliers reach zero together: the largest pivot is safest, the lowest
-/// index cannot cycle.
+/// Of the positions whose multipliers reach zero together, the largest pivot is the safest; the
+/// lowest index cannot cycle.
 int Tableau::first_of(double ratio, int i, bool first) const {
   int best = 0;
   while (ratio_[best] != ratio) ++best;

@@ -6,46 +6,47 @@
 
 namespace maxwrench {
 
-/// max c'x  subject to  low <= [G; I] x <= high, a dual simplex on a condensed tableau for few
+/// max c'x  subject to  low <= [G; I] x <= high, by a dual simplex on a condensed tableau, for few
 /// columns.
 ///
-/// G is f×k; bounds may be infinite or equal. Of the f + k rows of [G; I] a basis holds k, on whose
-/// bounds x lies; the tableau T (f×k) gives the other rows, the dependent ones, from those of the
-/// basis, and a pivot exchanges a dependent row with one of the basis. y are the multipliers of the
-/// basis: the objective is y'(rows of the basis). A basis is dual feasible if the bound that the
-/// sign of y asks for is finite in each of its rows: there is no first phase. With finite bounds on
-/// all of x the unit rows are that basis, and no pivot is needed; a free column, or a bounded one
-/// whose y asks for infinity, first leaves for a row of G with two finite bounds.
+/// G is f×k; bounds may be infinite or equal. Of the f + k rows of [G; I], a basis contains k, and
+/// x lies on their bounds. The tableau T (f×k) expresses the other rows, the dependent ones, by
+/// those of the basis. A pivot exchanges a dependent row with one of the basis. y are the
+/// multipliers of the basis: the objective is y'(rows of the basis). A basis is dual feasible if
+/// the bound that the sign of y selects is finite in each of its rows, so there is no first phase.
+/// With finite bounds on all of x, the unit rows are such a basis, and no pivot is needed. A free
+/// column, or a bounded one whose y selects an infinite bound, is first exchanged for a row of G
+/// with two finite bounds.
 class Tableau {
  public:
   enum class Outcome { kOptimal, kInfeasible, kUndecided };
 
-  /// Sizes the storage; allocates only when the sizes change. Then fill `entry` (of G), `low`,
-  /// `high` and `c`.
+  /// Sizes the storage; allocates only when the sizes change. Call it before you fill `entry` (of
+  /// G), `low`, `high` and `c`.
   void resize(int rows, int columns);
   double& entry(int row, int column) { return G_[row * stride_ + column]; }
-  /// Entries of one row of G, `stride` of them (solvers/wrench/padded.h): beyond k they are zero
-  /// and must stay so.
+  /// The entries of row i of G, `stride` of them (solvers/wrench/padded.h). Those beyond k are zero
+  /// and must stay zero.
   double* row(int i) { return &G_[static_cast<std::size_t>(i) * stride_]; }
   int stride() const { return stride_; }
 
-  /// What the tableau claims is checked with G before it is returned; what fails is undecided.
+  /// Checks the result with G before it is returned; a result that fails is undecided.
   Outcome solve();
 
   Eigen::VectorXd low, high;  ///< f + k
   Eigen::VectorXd c;          ///< k
   Eigen::VectorXd x;          ///< k, the optimum
-  /// f, of the rows of G. Optimal: their multipliers, positive at an upper bound. Infeasible: with
-  /// these the rows add up to one that the bounds of x contradict (Farkas).
+  /// f, of the rows of G. If optimal: their multipliers, positive at an upper bound. If infeasible:
+  /// weights with which the rows add up to one that the bounds of x contradict (Farkas).
   Eigen::VectorXd multipliers;
   int iterations = 0;
 
  private:
-  /// Rows of [G; I] with their bounds, wherever they are.
+  /// Rows of [G; I] with their bounds, in any order.
   struct Lines {
     std::vector<int> row;
     std::vector<double> low, high;
-    std::vector<double> slack;   // how far it may be missed by rounding
+    std::vector<double> slack;   // violation that rounding may cause
     std::vector<double> weight;  // one over its squared norm
     std::vector<double> tight;   // one over the distance of its bounds
     void resize(int count);

@@ -9,10 +9,10 @@ namespace maxwrench {
 /// A shipped problem with one passage changed.
 struct BadInput {
   const char* name;
-  const char* file;  ///< that is changed and that the message must name
+  const char* file;  ///< the changed file, which the message must name
   const char* from;  ///< replaced once; empty: the file is removed
   const char* to;
-  std::vector<std::string> message;  ///< what must stand in it
+  std::vector<std::string> message;  ///< texts that it must contain
 };
 
 inline void PrintTo(const BadInput& input, std::ostream* out) { *out << input.name; }

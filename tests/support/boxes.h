@@ -10,7 +10,7 @@ struct RandomBox {
   Eigen::VectorXd lower, upper, inside;
 };
 
-/// Of any size, with a point in it, now and then a corner.
+/// A box of any size with a point in it, which is sometimes a corner.
 inline RandomBox random_box(const Problem& problem, Random& random) {
   RandomBox box;
   box.lower = box.upper = box.inside = random_theta_r(problem, random);

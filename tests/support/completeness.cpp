@@ -14,8 +14,8 @@
 namespace maxwrench {
 namespace {
 
-/// An independent way to a posture at theta_r: plain Gauss-Newton steps, damped, on base and joints
-/// by the kinematics of the whole robot.
+/// An independent way to find a posture at theta_r: damped Gauss-Newton steps on base and joints,
+/// with the kinematics of the whole robot.
 class RandomNewton {
  public:
   explicit RandomNewton(const Problem& problem)
@@ -25,7 +25,8 @@ class RandomNewton {
     for (const int joint : problem.dependent) columns_.push_back(axes + joint);
   }
 
-  /// From random dependent joints and a random place of the base; whether it arrives.
+  /// Starts from random dependent joints and a random place of the base. Returns whether it
+  /// converges.
   bool run(const Eigen::VectorXd& theta_r, Random& random) {
     q = resting_joints(problem_.robot);
     base.setZero();
@@ -66,7 +67,7 @@ class RandomNewton {
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       J_d_.col(static_cast<Eigen::Index>(i)) = J_.col(columns_[i]);
     }
-    // Base translations are coordinates along the mount's axes.
+    // Translations of the base are coordinates along the mount's axes.
     for (std::size_t i = 0; i < problem_.robot.base_axes.size(); ++i) {
       const int axis = problem_.robot.base_axes[i];
       if (axis < 3) {

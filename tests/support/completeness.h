@@ -4,9 +4,9 @@
 
 namespace maxwrench {
 
-/// Expects of `places` random theta_r that every posture that Newton's method finds from `starts`
-/// random starts there is in the list of IK solutions, and that it found more than `least_found` in
-/// all.
+/// Checks the list of IK solutions at `places` random theta_r: it must contain every posture that
+/// Newton's method finds from `starts` random starts. Newton's method must find more than
+/// `least_found` postures in all.
 void expect_complete(const Problem& problem, int places, int starts, int least_found);
 
 }  // namespace maxwrench

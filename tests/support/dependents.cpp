@@ -18,7 +18,7 @@ Problem problem_with_dependents(Random& random, const std::vector<int>& axes, in
   for (Joint& joint : robot.joints) {
     joint.q_min = -20;
     joint.q_max = 20;
-    // One that slides would repeat a translation of the base.
+    // A sliding joint would repeat a translation of the base.
     if (turns || axes.size() >= 3) joint.type = JointType::kRevolute;
   }
   complete_actuation(robot);

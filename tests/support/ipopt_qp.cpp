@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 using Ipopt::Index;
 using Ipopt::Number;
 
-/// The program as Ipopt wants it, all matrices dense.
+/// The program in the form that Ipopt requires, with all matrices dense.
 class Nlp : public Ipopt::TNLP {
  public:
   explicit Nlp(const QuadraticProgram& program) : qp_(program) {}

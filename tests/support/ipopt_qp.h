@@ -10,7 +10,7 @@ struct QuadraticProgram {
   Eigen::VectorXd f, b, lower, upper;
 };
 
-/// By Ipopt, an independent route; throws std::runtime_error unless it succeeds.
+/// Solves by Ipopt, as an independent method; throws std::runtime_error unless it succeeds.
 Eigen::VectorXd solve_by_ipopt(const QuadraticProgram& program);
 
 }  // namespace maxwrench

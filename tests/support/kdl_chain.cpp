@@ -21,7 +21,8 @@ KDL::RigidBodyInertia to_kdl(const Link& link) {
       KDL::RotationalInertia(I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2)));
 }
 
-/// KDL turns a joint before it applies the segment's frame: a placement is a segment of its own.
+/// KDL turns a joint before it applies the segment's frame, so a placement needs a segment of its
+/// own.
 void add_arm(const Robot& robot, KDL::Chain& chain) {
   for (std::size_t i = 0; i < robot.joints.size(); ++i) {
     const Joint& joint = robot.joints[i];

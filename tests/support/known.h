@@ -11,8 +11,8 @@
 
 namespace maxwrench {
 
-/// A function with a known maximum; counts over all clones and checks the bounds. Gradients are
-/// central differences, which cost nothing here.
+/// A function with a known maximum. Counts evaluations over all clones and checks the bounds.
+/// Gradients are central differences, which are not counted.
 class Known : public Objective {
  public:
   using Function = std::function<double(const Eigen::VectorXd&)>;
@@ -37,7 +37,7 @@ class Known : public Objective {
   const Verdict& verdict() const override { return verdict_; }
   std::unique_ptr<Objective> clone() const override { return std::make_unique<Known>(*this); }
   long count() const { return *count_; }
-  /// How many of the evaluations asked for the gradient.
+  /// The number of evaluations with a gradient.
   long gradients() const { return *gradients_; }
 
  private:
@@ -49,7 +49,7 @@ class Known : public Objective {
     for (int i = 0; i < x.size(); ++i) {
       const Eigen::VectorXd e = kStep * Eigen::VectorXd::Unit(x.size(), i);
       const double above = f_(x + e), below = f_(x - e);
-      // At the edge of the values from one side.
+      // At the edge of the region with values, a one-sided difference.
       gradient[i] = above == -kInfinity   ? (value - below) / kStep
                     : below == -kInfinity ? (above - value) / kStep
                                           : (above - below) / (2 * kStep);

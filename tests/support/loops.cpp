@@ -15,7 +15,7 @@ Problem loop_problem(const std::string& name) {
   Random random(3);
   if (name == "random, fixed") {
     Problem problem = problem_with_dependents(random, {}, 1);
-    for (Joint& joint : problem.robot.joints) joint.effort_max *= 20;  // it bears its weight
+    for (Joint& joint : problem.robot.joints) joint.effort_max *= 20;  // bears its weight
     complete_actuation(problem.robot);
     return problem;
   }

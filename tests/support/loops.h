@@ -12,7 +12,7 @@
 #include "solvers/certify/bound/loop_posture.h"
 #include "tests/support/support.h"
 
-// Postures whose joints follow by equations.
+// Postures with dependent joints that follow from equations.
 
 namespace maxwrench {
 
@@ -22,35 +22,35 @@ inline const std::vector<const char*> kLoopProblems = {
     "random, yaw",        "random, x y yaw", "random, x y z yaw",
     "random, free tool",  "planar/two_arms", "dual_arm/bar_wall"};
 
-/// The last, whose second contact bears forces.
+/// The number of the last ones, whose second contact bears forces.
 constexpr std::ptrdiff_t kLoopProblemsWithForces = 2;
 
 /// A shipped problem, or a random one with these free axes of the base.
 Problem loop_problem(const std::string& name);
 
-/// The name of a parameter of kLoopProblems as one of a test.
+/// The name of a parameter of kLoopProblems as the name of a test.
 std::string loop_name(const testing::TestParamInfo<const char*>& of);
 
-/// The coordinates x of a posture, with w of the second contact at the value t, within the limits
-/// of x as far as whole turns bring them there.
+/// The coordinates x of a posture, with w of the second contact at the value t. Angles are shifted
+/// by whole turns into the limits of x where possible.
 Eigen::VectorXd loop_coordinates(const Problem& problem, const LoopCoordinates& coordinates,
                                  const Posture& posture, const Eigen::VectorXd& w, double t);
 
-/// A posture that is valid, with its coordinates and its value.
+/// A valid posture with its coordinates and its value.
 struct ValuedPosture {
   Eigen::VectorXd x;
   double value = -kInfinity;
 };
 
-/// Draws postures of a problem, which outlives it, in all IK solutions.
+/// Draws postures of a problem, which must outlive it, with all IK solutions.
 class PostureSource {
  public:
   PostureSource(const Problem& problem, const std::string& measure);
 
-  /// Null if there is none at a random theta_r, or it has no value.
+  /// Null if a random theta_r has no posture, or the posture has no value.
   const ValuedPosture* draw(Random& random);
   const LoopCoordinates& coordinates() const { return coordinates_; }
-  /// Of the last draw.
+  /// The program of the last draw.
   const WrenchProgram& program() const { return program_; }
   const Capability& capability() const { return capability_; }
 

@@ -10,7 +10,7 @@ Vector6d random_coefficients(Random& random, double scale) {
   return Vector6d::NullaryExpr([&] { return random.uniform(0, scale); });
 }
 
-/// [linear; angular] of a frame on a link, at its origin and in its axes.
+/// The twist [linear; angular] of a frame on a link, at its origin and in its axes.
 Vector6d twist_of(const Robot& robot, const Eigen::VectorXd& q, const Eigen::VectorXd& v, int link,
                   const Pose<double>& frame) {
   Kinematics<double> kinematics(robot);
@@ -37,7 +37,8 @@ Robot random_wet_robot(Random& random, int joints) {
   }
   for (int i = 0; i <= joints; ++i) {
     Link& link = robot.links[i];
-    // A body's moments are sums of pairs of sum_k m_k x_k^2, ..., so none exceeds the other two.
+    // A body's moments of inertia are sums of two of sum_k m_k x_k^2, ..., so none exceeds the sum
+    // of the other two.
     const Eigen::Vector3d squares = random_coefficients(random, 0.05).head<3>();
     const Eigen::Vector3d moments =
         Eigen::Vector3d::Constant(squares.sum()) - squares + Eigen::Vector3d::Constant(1e-3);

@@ -8,19 +8,19 @@
 #include "maxwrench/bound.h"
 #include "maxwrench/objective.h"
 
-// A function whose bounds over boxes are exact.
+// A function with exact bounds over boxes.
 
 namespace maxwrench {
 
-/// top - the distance to the nearest peak, the largest coordinate of the difference; where `turns`,
-/// around the corner too.
+/// The value is top minus the distance to the nearest peak, in the maximum norm. Where `turns`, the
+/// distance may also go around the limits.
 struct Multimodal {
   Eigen::VectorXd lower, upper;
   std::vector<Eigen::VectorXd> peaks;
   double top = 1;
   std::vector<char> turns = {};
 
-  /// To the nearest point of the box [from, to].
+  /// The distance to the nearest point of the box [from, to].
   double distance(const Eigen::VectorXd& peak, const Eigen::VectorXd& from,
                   const Eigen::VectorXd& to) const {
     double most = 0;

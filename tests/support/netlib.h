@@ -9,8 +9,8 @@ struct NetlibOptimum {
   double value;
 };
 
-/// Koch (2004), "The final NETLIB-LP results", exact optima; that of e226 with the constant 7.113
-/// that its objective's RHS entry of -7.113 means.
+/// Koch (2004), "The final NETLIB-LP results", exact optima. That of e226 includes the constant
+/// 7.113 that the objective's RHS entry of -7.113 stands for.
 inline constexpr NetlibOptimum kNetlibOptima[] = {
     {"adlittle", 225494.96316238038}, {"afiro", -464.75314285714286},
     {"blend", -30.812149845828220},   {"brandy", 1518.5098964881284},
@@ -21,7 +21,7 @@ inline constexpr NetlibOptimum kNetlibOptima[] = {
     {"scagr7", -2331389.824330984},   {"share2b", -415.73224074141949},
     {"stocfor1", -41131.976219436406}};
 
-/// Of the infeasible ones.
+/// The infeasible programs.
 inline constexpr const char* kNetlibInfeasible[] = {"itest2", "itest6",   "galenet",
                                                     "bgprtr", "woodinfe", "klein1"};
 

@@ -9,28 +9,28 @@
 
 namespace maxwrench {
 
-/// A run of a search that nobody watches.
+/// A run of a search without callbacks.
 inline SearchRun& quiet_run() {
   static const SearchOptions options;
   static SearchRun run(options);
   return run;
 }
 
-/// Interrupts a search after so many evaluations.
+/// Interrupts a search after a number of evaluations.
 class Interruption {
  public:
   Interruption(long evaluations, SearchOptions& options) : left_(evaluations) {
     options.interrupted = [this] { return left_ <= 0; };
     options.evaluated = [this](double) { --left_; };
   }
-  /// Negative: so many more were made.
+  /// If negative, the search made that many more.
   long left() const { return left_; }
 
  private:
   std::atomic<long> left_;
 };
 
-/// Trajectories within other bounds.
+/// The objective of trajectories with other bounds.
 class OtherBounds final : public TrajectoryObjective {
  public:
   OtherBounds(std::unique_ptr<TrajectoryObjective> objective, Eigen::VectorXd lower,

@@ -7,8 +7,8 @@
 
 namespace maxwrench {
 
-/// Expects std::invalid_argument with one line that names the key first, then what it got and what
-/// was expected.
+/// Expects std::invalid_argument with one line that names first the key, then the given value and
+/// what was expected.
 template <class Call>
 void expect_rejected(const char* key, const Call& call) {
   try {

@@ -16,7 +16,7 @@ std::string inertial(double mass) {
       mass);
 }
 
-/// Joints about y and z in turn, 0.12 m apart.
+/// Joints alternately about y and z, 0.12 m apart.
 std::string urdf_text(int joints) {
   std::string text = "<robot name=\"snake\">\n<link name=\"link_0\">" + inertial(15) + "</link>\n";
   for (int i = 1; i <= joints; ++i) {

@@ -6,8 +6,8 @@
 
 namespace maxwrench {
 
-/// A vehicle on six axes with a chain of many revolute joints, all of them theta_r, as files in a
-/// folder: robot.urdf, robot.toml and task.toml, which asks for the force forward.
+/// A vehicle on six axes with a chain of many revolute joints, all of them in theta_r, as files in
+/// a folder: robot.urdf, robot.toml and task.toml, which maximises the forward force.
 class Snake {
  public:
   explicit Snake(int joints);

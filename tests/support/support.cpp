@@ -13,8 +13,8 @@ std::atomic<long> allocations{0};
 }
 
 #if !defined(MAXWRENCH_SANITIZED)
-// The whole test program counts, because the hot loop promises not to allocate. Eigen and operator
-// new both end in malloc; the sanitizers need it for themselves, so there nothing is counted.
+// Counts allocations in the whole test program, to check that the hot loop does not allocate. Eigen
+// and operator new both call malloc. Sanitizers replace malloc, so nothing is counted with them.
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);

@@ -16,8 +16,8 @@ namespace maxwrench {
 #endif
 #endif
 
-/// How many samples a statistical test draws. Sanitizers slow everything down twentyfold: there it
-/// is a twentieth, rounded up.
+/// The number of samples that a statistical test draws. Sanitizers are about twenty times slower,
+/// so with them it is a twentieth, rounded up.
 constexpr int samples(int all) {
 #if defined(MAXWRENCH_SANITIZED)
   return (all + 19) / 20;
@@ -26,8 +26,8 @@ constexpr int samples(int all) {
 #endif
 }
 
-/// Heap allocations of this process so far. Sanitizers need malloc for themselves: there none is
-/// counted.
+/// The number of heap allocations of this process so far. Sanitizers replace malloc, so nothing is
+/// counted with them.
 #if defined(MAXWRENCH_SANITIZED)
 inline constexpr bool kAllocationsAreCounted = false;
 #else
@@ -36,17 +36,17 @@ inline constexpr bool kAllocationsAreCounted = true;
 long allocation_count();
 
 /// A vehicle on six axes with eight thrusters of asymmetric limits and an arm of `joints` joints
-/// (every third one prismatic), all numbers random; end effector pose and c random, any wrench
-/// allowed.
+/// (every third one prismatic), with random numbers throughout. End effector pose and c are random,
+/// and any wrench is allowed.
 Problem random_problem(Random& random, int joints);
 
-/// Uniform within the limits of theta_r.
+/// A uniformly random theta_r within its limits.
 Eigen::VectorXd random_theta_r(const Problem& problem, Random& random);
 
 Eigen::Vector3d random_vector(Random& random, double scale = 1);
 Eigen::Matrix3d random_rotation(Random& random);
 
-/// What a command printed.
+/// The output of a command.
 struct CommandResult {
   int exit_status = -1;
   std::string out, err;
@@ -58,7 +58,7 @@ CommandResult run_maxwrench(const std::string& words,
 
 std::string read_text(const std::filesystem::path& file);
 
-/// A fresh folder that is removed at the end.
+/// A new folder that is removed at the end.
 class TemporaryFolder {
  public:
   TemporaryFolder();

@@ -7,7 +7,7 @@
 
 namespace maxwrench {
 
-/// The text of a table such as FOLDER/values.csv, which is packed or not; empty if there is none.
+/// The text of a table such as FOLDER/values.csv, packed or not; empty if it does not exist.
 inline std::string read_table(const std::filesystem::path& file) {
   return csv_text(table_file(file));
 }

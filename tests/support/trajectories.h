@@ -8,7 +8,7 @@
 
 namespace maxwrench {
 
-/// What a random trajectory program is made of.
+/// The parameters of a random trajectory program.
 struct TrajectoryRecipe {
   int instants = 3;
   Wrench wrench = Wrench::kPure;
@@ -16,11 +16,11 @@ struct TrajectoryRecipe {
   int peak = -1;
   double rho = kInfinity;
   int border = 0;     ///< p
-  double load = 0.1;  ///< standard deviation of what is added to tau_d, as a share of u_max
-  double du = 0.3;    ///< most of u_max per step, of rated actuators
+  double load = 0.1;  ///< standard deviation of the numbers added to tau_d, as a share of u_max
+  double du = 0.3;    ///< largest change per step of rated actuators, as a share of u_max
 };
 
-/// Instants at random postures of `problem` (which outlives it), tau_d perturbed.
+/// Instants at random postures of `problem` (which must outlive it), with perturbed tau_d.
 TrajectoryProgram random_trajectory(const Problem& problem, const TrajectoryRecipe& recipe,
                                     Random& random);
 

@@ -7,7 +7,7 @@
 
 namespace maxwrench {
 
-/// A shipped problem and what `certify` writes of it.
+/// A shipped problem and the certificate that `certify` writes for it.
 struct WrittenProof {
   Problem problem;
   ProofCertificate proof;
@@ -16,7 +16,7 @@ struct WrittenProof {
                long boxes = 1000000);
   WrittenProof(const WrittenProof&) = delete;
 
-  /// Why `verify` does not accept a certificate of the problem; empty if it does.
+  /// Why `verify` rejects a certificate of the problem; empty if it accepts it.
   std::string rejection(const ProofCertificate& of) const;
 };
 

@@ -9,12 +9,12 @@
 namespace maxwrench {
 namespace {
 
-/// With b base axes, j joints, y = (J_b'W)^-T c_w and K = J_j'W (J_b'W)^-1 the rows are
-/// [o_0; tau_0; y; K column by column], 1 + j + b + jb: o = B_b'y, o_0 = -y'tau_b, A = K B_b and
-/// tau_0 = tau_j - K tau_b.
+/// With b base axes, j joints, y = (J_b'W)^-T c_w and K = J_j'W (J_b'W)^-1, the rows are [o_0;
+/// tau_0; y; K column by column], 1 + j + b + jb: o = B_b'y, o_0 = -y'tau_b, A = K B_b and tau_0 =
+/// tau_j - K tau_b.
 struct AnyModel {
   MultiAffine f;
-  Eigen::VectorXd sizes;         ///< of its rows
+  Eigen::VectorXd sizes;         ///< of the rows
   Eigen::MatrixXd B_b;           ///< b×thrusters
   Eigen::VectorXd u_min, u_max;  ///< of thrusters,
   Eigen::VectorXd j_min, j_max;  ///< and of joints
@@ -40,7 +40,7 @@ MultiAffine any_rows(const Problem& problem, Eigen::Index b, Eigen::Index j) {
       }};
 }
 
-/// Whether the rows are what the model says at other postures, too.
+/// Whether the rows agree with the model at other postures, too.
 bool reproduces(const Problem& problem, const MultiAffine& f, Eigen::Index b, Eigen::Index j) {
   if (j == 0) return true;
   Eigen::VectorXd theta_r = problem.theta_r_default;
@@ -79,7 +79,7 @@ class AnyWrenchBound final : public Bound {
              model_->j_min.cwiseAbs().cwiseMax(model_->j_max.cwiseAbs());
   }
 
-  /// What the thrusters exert along c at most, with the largest lever that a posture can have.
+  /// The most that the thrusters exert along c, with the largest lever that a posture can have.
   double ceiling() const override { return fixed_ * (1 + kCeilingRounding); }
 
   void evaluate(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low, double high,
@@ -106,8 +106,9 @@ class AnyWrenchBound final : public Bound {
   static constexpr int kMostRounds = 30;
   static constexpr std::size_t kMostAdded = 16;
   static constexpr int kMostSteps = 60;
-  static constexpr double kBelow = 1e-9;  ///< what rounding may add to U, generously
-  /// Of what U is above `low`: nearer to the least U of the points so far is not worth a round.
+  static constexpr double kBelow = 1e-9;  ///< more than rounding can add to U
+  /// A share of U's excess over `low`: another round is not useful if U is nearer than this to the
+  /// least U of the points so far.
   static constexpr double kClose = 0.01;
 
   /// U(mu), rounding included; leaves o - A'mu of all control points in d_.
@@ -132,8 +133,8 @@ class AnyWrenchBound final : public Bound {
     return support_ + most_.maxCoeff() + kBoundRounding * kMostSpread * off;
   }
 
-  /// At control points where U(mu) exceeds `least`, those with the largest, the efforts that are
-  /// best at mu; in the first round at all.
+  /// At the control points with the largest U(mu) above `least`, adds the best efforts for mu; with
+  /// `all`, in the first round, at all control points.
   void add_points(double least, bool all) {
     const Eigen::Index N = P_.rows();
     order_.clear();

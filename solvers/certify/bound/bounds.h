@@ -6,57 +6,63 @@
 #include "maxwrench/problem.h"
 #include "solvers/certify/bound/multi_affine.h"
 
-// The bounds of which that of a capability is made.
+// The bounds that make up the bound of a capability.
 
 namespace maxwrench {
 
-/// Control points may exceed values by this factor at most, on which terms of rounding rely.
+/// The largest factor by which control points may exceed values. The terms for rounding rely on it.
 inline constexpr double kMostSpread = 16;
 
-/// A sum of products, each with a few factors, in some hundred steps: how far it may be off, as a
-/// share of the sum of its magnitudes.
+/// The largest rounding error of a sum of products with a few factors each, after some hundred
+/// operations, as a share of the sum of its magnitudes.
 inline constexpr double kBoundRounding = 128 * std::numeric_limits<double>::epsilon();
 
-/// How far a ceiling may be off, as a share of it: rotations of rounded numbers are not quite that.
+/// The error of a ceiling, as a share of it: rotation matrices of rounded numbers are not exactly
+/// rotations.
 inline constexpr double kCeilingRounding = 1e-6;
-/// [m] A ceiling holds so far beyond the limits of sliding coordinates, as that of `verify` does.
+/// [m] A ceiling is valid up to this far beyond the limits of sliding coordinates, like that of
+/// `verify`.
 inline constexpr double kCeilingMargin = 1;
 
-/// Bounds with W = c, of beta = max t subject to tau_d + t J'c in a convex set with the support s:
+/// Bounds with W = c, of beta = max t subject to tau_d + t J'c in a convex set with the support
+/// function s. For any lambda, no value in [low, high] of a posture in the box exceeds
 ///
 ///     U(lambda) = s(lambda) + max over control points v and t in {low, high} of
-///                 t (1 - lambda'a_v) - lambda'tau_v
+///                 t (1 - lambda'a_v) - lambda'tau_v.
 ///
-/// for any lambda, here minus the multiplier of the lower level, which the least U decides.
-/// The L-infinity polytope: {B u}; with `l2` the same program with (I, B^+ J'c, B^+ tau_d).
+/// The lambda with the least U is used. In sign, lambda is minus the multiplier of the lower level.
+/// The convex set is the L-infinity polytope {B u}; with `l2`, the program is the same with (I, B^+
+/// J'c, B^+ tau_d).
 std::unique_ptr<Bound> make_polytope_bound(const Problem& problem, bool l2);
-/// The ellipsoid |W_u B^+ tau| <= 1, lambda from the centre of the box.
+/// The ellipsoid |W_u B^+ tau| <= 1, with lambda from the centre of the box.
 std::unique_ptr<Bound> make_ellipsoid_bound(const Problem& problem);
 
 enum class LoopMeasure { kPolytope, kSmallestEffort, kEllipsoid };
 
-/// The L-infinity or L2 polytope or the ellipsoid, where joints follow from theta_r: of all
-/// coordinates x of the posture, `LoopCoordinates`, with equations f(x) = 0,
+/// The L-infinity or L2 polytope or the ellipsoid of a problem with dependent joints. For all
+/// coordinates x of the posture, `LoopCoordinates`, with equations f(x) = 0, and for any lambda and
+/// nu, no value in [low, high] of a posture in the box exceeds
 ///
 ///     U(lambda, nu) = s(lambda) + max over control points v and t in {low, high} of
-///                     t (1 - lambda'a_v) - lambda'tau_v - nu'f_v
+///                     t (1 - lambda'a_v) - lambda'tau_v - nu'f_v.
 ///
-/// for any lambda and nu; the multiplier is [lambda; nu]. Where lambda'a_v > 0 at all control
-/// points, the largest (s(lambda) - lambda'tau_v - nu'f_v)/lambda'a_v is a bound, too.
+/// The multiplier is [lambda; nu]. Where lambda'a_v > 0 at all control points, the largest
+/// (s(lambda) - lambda'tau_v - nu'f_v)/lambda'a_v is also a bound.
 std::unique_ptr<Bound> make_loop_bound(const Problem& problem, LoopMeasure measure);
 
-/// With W as wide as the base has free axes: h follows from the forces u of the thrusters on the
-/// base, w = (J_b'W)^-1 (B_b u - tau_b). So beta = o_0 + o'u, and the joints exert tau_0 + A u.
-/// With mu a number per joint and s(mu) the support of the joints' limits,
+/// For W with as many columns as the base has free axes. The forces u of the thrusters on the base
+/// then determine h by w = (J_b'W)^-1 (B_b u - tau_b). So beta = o_0 + o'u, and the joints exert
+/// tau_0 + A u. With one number mu per joint and the support function s(mu) of the joints' limits,
+/// no value in the box exceeds
 ///
-///     U(mu) = s(mu) + max over control points v and u within limits of o_0 - mu'tau_0 + (o -
-///     A'mu)'u.
+///     U(mu) = s(mu) + max over control points v and u within limits of
+///             o_0 - mu'tau_0 + (o - A'mu)'u.
 std::unique_ptr<Bound> make_any_wrench_bound(const Problem& problem);
 
-/// -infinity for boxes in which two bodies collide throughout, else `high`. Of a pair, a point of
-/// one body's core moves along a multi-affine path in the axes of the other's link: if its control
-/// points are all within reach of the other's core, a convex set, so is the point. Null if the
-/// robot has no cores.
+/// Returns -infinity for boxes throughout which two bodies collide, else `high`. For each pair of
+/// bodies, a point of one body's core moves along a multi-affine path in the axes of the other's
+/// link. The other's core, with its reach, is convex: if it contains all control points of the
+/// path, it contains the point. Null if the robot has no cores.
 std::unique_ptr<Bound> make_collision_bound(const Problem& problem);
 
 }  // namespace maxwrench

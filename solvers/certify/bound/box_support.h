@@ -5,8 +5,8 @@
 
 namespace maxwrench {
 
-/// The support of {B u} within limits of u: s(lambda) = max over u of lambda'B u. With `identity`
-/// that of the limits themselves, B the identity.
+/// The support function of {B u} within the limits of u: s(lambda) = max over u of lambda'B u. With
+/// `identity`, B is the identity, and s is the support function of the limits themselves.
 class BoxSupport {
  public:
   /// Keeps a reference to the limits.
@@ -22,7 +22,7 @@ class BoxSupport {
     sizes_.noalias() = B_.cwiseAbs().transpose() * lambda.cwiseAbs();
     return (slope_.array() * set_.u_min.array()).max(slope_.array() * set_.u_max.array()).sum();
   }
-  /// How far the last one may be off.
+  /// The largest rounding error of the last value.
   double rounding() const { return kBoundRounding * sizes_.dot(farthest_); }
 
  private:

@@ -6,7 +6,7 @@
 namespace maxwrench {
 namespace {
 
-/// Either bound; where all of a box collides there is no value.
+/// The collision bound and another one: a box that collides throughout has no value.
 class CapabilityBound final : public Bound {
  public:
   CapabilityBound(std::unique_ptr<Bound> measure, std::unique_ptr<Bound> collision)

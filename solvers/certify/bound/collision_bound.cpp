@@ -8,10 +8,11 @@
 namespace maxwrench {
 namespace {
 
-/// How deep [m] all of a box must be within reach: more than what checks of collisions round off.
+/// The depth [m] within reach that the whole box must have. It exceeds the rounding errors of
+/// collision checks.
 constexpr double kDepth = 1e-6;
 
-/// The coordinates of a posture between two links.
+/// The coordinates of a posture that move one link relative to the other.
 Coordinates between_links(const Problem& problem, int a, int b) {
   std::vector<char> carries(problem.robot.joints.size(), 0);
   for (const int from : {a, b}) {
@@ -32,7 +33,7 @@ Coordinates between_links(const Problem& problem, int a, int b) {
   return some;
 }
 
-/// The rows of (R, p) of link a in the axes of b, column by column, 12.
+/// The rows of (R, p) of link a in the axes of link b, 12, column by column.
 MultiAffine relative_pose(const Problem& problem, int a, int b) {
   ExactPosture posture(problem);
   const Eigen::VectorXd rest =
@@ -49,19 +50,20 @@ MultiAffine relative_pose(const Problem& problem, int a, int b) {
           }};
 }
 
-/// How far x [m] is beyond the reach of a core, in its axes; negative within it. Convex.
+/// How far x [m], in the axes of a core, is beyond the core's reach; negative within it. Convex.
 double beyond(const Eigen::Vector3d& half_sizes, double reach, const Eigen::Vector3d& x) {
   const Eigen::Vector3d outside = x.cwiseAbs() - half_sizes;
   const double most = outside.maxCoeff();
   return (most <= 0 ? most : outside.cwiseMax(0).norm()) - reach;
 }
 
-/// A core that moves in the axes of another one's link. Its corners are tried, and points midway.
+/// A core that moves in the axes of another core's link. The points tried are its corners and
+/// midpoints.
 struct Mover {
   int pair;
   InscribedBox core, other;
   double reach;
-  double far;  ///< centres that are farther apart are out of reach
+  double far;  ///< centres farther apart than this are out of reach
   MultiAffine path;
   std::vector<Eigen::Vector3d> points;  ///< in the axes of their link
   Pose<double> into;                    ///< the other's link -> its core
@@ -136,7 +138,7 @@ class CollisionBound final : public Bound {
   }
 
  private:
-  /// To the centre of a box.
+  /// Moves everything to the centre of a box.
   void place(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
     for (std::size_t i = 0; i < joints_.size(); ++i) {
       const auto at = static_cast<Eigen::Index>(i);
@@ -145,8 +147,8 @@ class CollisionBound final : public Bound {
     centre_.set_joints(q_);
   }
 
-  /// A coordinate, not much narrower than the widest, along which a half of the box collides; -1 if
-  /// there is none.
+  /// A coordinate along which one half of the box collides, not much narrower than the widest one;
+  /// -1 if there is none.
   int cut(int mover, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
     const double widest = (upper - lower).maxCoeff();
     for (const int i : (*movers_)[static_cast<std::size_t>(mover)].path.coordinates().index) {
@@ -162,8 +164,8 @@ class CollisionBound final : public Bound {
     return -1;
   }
 
-  /// The point that is deepest within reach at the centre of the box; null: none is, and so not
-  /// all control points can be. Remembers the mover that comes nearest.
+  /// The point that is deepest within reach at the centre of the box. Null if no point is within
+  /// reach; then not all control points can be. Remembers the mover that comes nearest.
   const Eigen::Vector3d* deepest(int i) {
     const Mover& mover = (*movers_)[static_cast<std::size_t>(i)];
     const Pose<double>& a = centre_.links()[static_cast<std::size_t>(mover.core.link)];
@@ -205,7 +207,7 @@ class CollisionBound final : public Bound {
 
   /// m per rad (or m per m): how far a body may move while a coordinate crosses half a box.
   static constexpr double kLever = 0.1;
-  /// Of the widest coordinate: narrower ones are not cut before.
+  /// A share of the widest coordinate: narrower coordinates are not cut.
   static constexpr double kThinnest = 0.1;
 
   const Problem& problem_;
@@ -214,8 +216,8 @@ class CollisionBound final : public Bound {
   std::vector<ControlPoints> corners_;
   Kinematics<double> centre_;
   Eigen::VectorXd q_, part_lower_, part_upper_;
-  double near_ = 0;   ///< how near [m] the nearest mover came at the last centre,
-  int nearest_ = -1;  ///< and which; -1: none as near as the box could bring it
+  double near_ = 0;   ///< how near [m] the nearest mover came at the last centre
+  int nearest_ = -1;  ///< the nearest mover; -1: none is as near as the box could bring it
 };
 
 }  // namespace

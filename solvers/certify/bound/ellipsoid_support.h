@@ -9,8 +9,8 @@
 
 namespace maxwrench {
 
-/// |K tau| <= 1 with K = W_u B^+; its Q = K'K = L L', so that its support is s(lambda) = |L^-1
-/// lambda|.
+/// The ellipsoid |K tau| <= 1 with K = W_u B^+. With Q = K'K = L L', its support function is
+/// s(lambda) = |L^-1 lambda|.
 class EllipsoidSupport {
  public:
   explicit EllipsoidSupport(const Eigen::MatrixXd& K) {
@@ -27,11 +27,11 @@ class EllipsoidSupport {
     sizes_.noalias() = L_inverse_.cwiseAbs() * lambda.cwiseAbs();
     return reach_.norm();
   }
-  /// How far the last one may be off.
+  /// The largest rounding error of the last value.
   double rounding() const { return kBoundRounding * sizes_.sum(); }
 
-  /// The normal Q (tau + t a) where the ray leaves the ellipsoid, or, if `low` is farther out, at
-  /// `low`; scaled to lambda'a = 1.
+  /// Sets lambda to the normal Q (tau + t a), scaled to lambda'a = 1, at the t where the ray leaves
+  /// the ellipsoid, or at `low` if that is farther out.
   void aim(const Eigen::VectorXd& tau, const Eigen::VectorXd& a, double low,
            Eigen::VectorXd& lambda) {
     constexpr double kLeast = 1e-6;

@@ -23,7 +23,7 @@ int EquationPoints::sign(const Eigen::VectorXd& lower, const Eigen::VectorXd& up
     least += values_.minCoeff();
     most += values_.maxCoeff();
   }
-  // What checks it in intervals rounds, too.
+  // The check of the proof in interval arithmetic rounds, too.
   const double off = 4 * kBoundRounding * kMostSpread * nu.cwiseAbs().dot(model_.f);
   return least > off ? 1 : most < -off ? -1 : 0;
 }

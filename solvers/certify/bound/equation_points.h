@@ -9,15 +9,15 @@ namespace maxwrench {
 struct LoopModel;
 struct LoopPart;
 
-/// The equations over boxes, by their control points.
+/// The signs of the equations over boxes, from their control points.
 class EquationPoints {
  public:
-  /// Keeps a reference.
+  /// Keeps a reference to the model.
   explicit EquationPoints(const LoopModel& model);
   explicit EquationPoints(const LoopModel&&) = delete;
 
-  /// 1 if nu'f > 0 in all of a box, with room for what rounding may do to it; -1 if it is < 0; 0:
-  /// not known.
+  /// 1 if nu'f > 0 in all of a box, even with rounding errors; -1 if nu'f < 0; 0 if neither is
+  /// proven.
   int sign(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, const Eigen::VectorXd& nu);
 
  private:

@@ -14,9 +14,9 @@
 namespace maxwrench {
 namespace {
 
-/// Where the base follows from the joints, c on its linear axes, or a torque on the angular ones,
-/// is as long in all postures; so the base's forces limit t. Else infinite, also where the second
-/// contact may bear t c in the base's place.
+/// Where the base follows from the joints, the force of c on its linear axes, or the torque on its
+/// angular axes, has the same length in all postures. So the base's forces limit t. Otherwise, and
+/// where the second contact may bear t c in place of the base, the ceiling is infinite.
 double loop_ceiling(const Problem& problem, const LoopModel& model) {
   if (!model.coordinates.base_is_dependent || model.coordinates.forces_grow()) return kInfinity;
   const Zonotope& set = problem.robot.actuation;
@@ -30,10 +30,10 @@ double loop_ceiling(const Problem& problem, const LoopModel& model) {
   return most / problem.c.segment<3>(row).norm() * (1 + kCeilingRounding);
 }
 
-/// As `make_polytope_bound`, with nu'f added to the rows.
+/// Like `make_polytope_bound`, with nu'f added to the rows.
 class LoopBound final : public Bound {
  public:
-  /// K: of the L2 polytope, B^+; of the ellipsoid, W_u B^+; else it does not matter.
+  /// K is B^+ for the L2 polytope and W_u B^+ for the ellipsoid; it is not used otherwise.
   LoopBound(std::shared_ptr<const LoopModel> model, double ceiling, const Zonotope& set,
             const Eigen::MatrixXd& K, LoopMeasure measure)
       : model_(std::move(model)),
@@ -66,7 +66,7 @@ class LoopBound final : public Bound {
                 BoxProof& proof) override {
     proof.forget(high);
     if (!box_.set(lower, upper)) return;
-    if (model_->coordinates.forces_grow() && low < 0) {  // t >= 0 alone is known
+    if (model_->coordinates.forces_grow() && low < 0) {  // only t >= 0 is known
       if (!(high > 0)) return;
       bound_from(lower, upper, 0, high, proof);
       proof.high = std::max(proof.high, 0.0);
@@ -111,10 +111,10 @@ class LoopBound final : public Bound {
   static constexpr double kClose = 0.02;
   static constexpr double kWide = 1e3;
 
-  /// Of lambda.
+  /// The length of lambda.
   Eigen::Index rows() const { return support_.B().rows(); }
 
-  /// The lambda of the ellipsoid is its normal at the centre of the box; the program finds nu.
+  /// The lambda of the ellipsoid is its normal at the centre of the box, and the program finds nu.
   bool found_by_program() const { return measure_ != LoopMeasure::kEllipsoid; }
   bool by_effort() const { return measure_ == LoopMeasure::kSmallestEffort; }
   Eigen::Index free_rows() const { return found_by_program() ? rows() : 0; }
@@ -126,7 +126,7 @@ class LoopBound final : public Bound {
     return all;
   }
 
-  /// And takes its U, without nu, to begin with.
+  /// Also sets the initial U, without nu.
   void aim(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low, double high,
            BoxProof& proof) {
     box_.evaluate((lower + upper) / 2);
@@ -141,7 +141,7 @@ class LoopBound final : public Bound {
     proof.improve(U, both_);
   }
 
-  /// U(lambda, nu), rounding included; what is violated is left in at_low_ and at_high_.
+  /// U(lambda, nu), rounding included. Leaves the violations in at_low_ and at_high_.
   double value(double low, double high) {
     const double s = ellipsoid_ ? ellipsoid_->of(lambda_) : support_.of(lambda_);
     if (by_effort()) {
@@ -192,8 +192,8 @@ class LoopBound final : public Bound {
     keep_basis(proof.basis);
   }
 
-  /// Those of the basis of a larger box, and those that are worst at its multiplier; without one
-  /// the corners of the box.
+  /// Begins with the points of a larger box's basis and those that are worst at its multiplier;
+  /// without a basis, with the corners of the box.
   void begin_points(const std::vector<int>& basis) {
     ids_.clear();
     const auto first = program_.first_point();
@@ -225,7 +225,7 @@ class LoopBound final : public Bound {
     }
   }
 
-  /// Point v at least_t_, or v + size at most_t_.
+  /// Point v at least_t_, or point v + size at most_t_.
   void write_point(Eigen::Index i) {
     const Eigen::Index id = ids_[static_cast<std::size_t>(i)];
     const bool high = id >= model_->size;
@@ -235,7 +235,7 @@ class LoopBound final : public Bound {
     load_ = box_.tau() + t * box_.a();
     double cost = t;
     if (ellipsoid_) {
-      cost += s_ - lambda_.dot(load_);  // lambda and its support stay
+      cost += s_ - lambda_.dot(load_);  // lambda and its support stay the same
     } else if (by_effort()) {
       entries_.head(rows).noalias() = K_ * load_;
     } else {
@@ -247,7 +247,7 @@ class LoopBound final : public Bound {
     program_.costs()[i] = cost;
   }
 
-  /// False if there is none, or no room.
+  /// Returns false if there are no points to add, or no room for them.
   bool add_points(double least) {
     order_.clear();
     const Eigen::Index N = model_->size;

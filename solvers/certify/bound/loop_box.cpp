@@ -5,7 +5,7 @@
 namespace maxwrench {
 namespace {
 
-/// Adds a part's values where they belong on the grid of all.
+/// Adds a part's values at their places on the grid of all coordinates.
 void spread_out(const LoopPart& part, const Eigen::VectorXd& values, Eigen::VectorXd& all) {
   const Eigen::Index size = values.size(), repeat = part.repeat;
   for (Eigen::Index first = 0; first < all.size(); first += size * repeat) {

@@ -4,24 +4,24 @@
 
 namespace maxwrench {
 
-/// The control points of one box of a `LoopModel`, on the grid of all coordinates.
+/// The control points of a `LoopModel` over one box, on the grid of all coordinates.
 class LoopBox {
  public:
-  /// Keeps a reference.
+  /// Keeps a reference to the model.
   explicit LoopBox(const LoopModel& model);
   explicit LoopBox(const LoopModel&&) = delete;
 
-  /// False if the box is too large for control points.
+  /// Returns false if the box is too large for control points.
   bool set(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
 
-  /// g = lambda'tau + nu'f and h = lambda'a at all of them.
+  /// Computes g = lambda'tau + nu'f and h = lambda'a at all control points.
   void weigh(const Eigen::VectorXd& lambda, const Eigen::VectorXd& nu);
   const Eigen::VectorXd& g() const { return g_; }
   const Eigen::VectorXd& h() const { return h_; }
 
-  /// All rows at one of them.
+  /// Computes tau, a and f at control point v.
   void read(Eigen::Index v);
-  /// The same at x.
+  /// Computes tau, a and f at x.
   void evaluate(const Eigen::VectorXd& x);
   const Eigen::VectorXd& tau() const { return tau_; }
   const Eigen::VectorXd& a() const { return a_; }

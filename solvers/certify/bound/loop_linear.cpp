@@ -10,7 +10,7 @@
 namespace maxwrench {
 namespace {
 
-/// Of angles up to r.
+/// The largest sine of angles up to r.
 double largest_sine(double r) { return r < std::numbers::pi / 2 ? std::sin(r) : 1; }
 
 }  // namespace
@@ -23,8 +23,8 @@ LoopLinear::LoopLinear(const LoopModel& model) : model_(model), points_(model) {
   w_ = low_ = high_ = Eigen::VectorXd::Zero(d);
 }
 
-/// The coefficients of a part in cosines and sines about the centre of the box, and the sizes of
-/// what they multiply.
+/// Computes the coefficients of a part in cosines and sines about the centre of the box, and the
+/// magnitudes of the factors that they multiply.
 void LoopLinear::turn(const MultiAffine& f, const Eigen::VectorXd& lower,
                       const Eigen::VectorXd& upper) {
   coefficients_ = f.coefficients();
@@ -91,7 +91,7 @@ void LoopLinear::expand(const Eigen::VectorXd& lower, const Eigen::VectorXd& upp
   }
 }
 
-/// Gauss and Jordan with complete pivoting, of D in units of w.
+/// Gauss-Jordan elimination with complete pivoting, of D in units of w.
 void LoopLinear::eliminate() {
   constexpr double kLeastPivot = 1e-7;
   A_ = D_;
@@ -137,8 +137,8 @@ void LoopLinear::limit(const Limit& by, double value) {
   limits_.push_back(by);
 }
 
-/// Each row e + A u + rest = 0, |rest| <= rho, limits each u_j, within [low, high]; false: it
-/// cannot be.
+/// Each row e + A u + rest = 0, |rest| <= rho, limits each u_j further, within [low, high]. Returns
+/// false if no u satisfies a row.
 bool LoopLinear::propagate(const Eigen::MatrixXd& A, const Eigen::VectorXd& e,
                            const Eigen::VectorXd& rho, int first_row) {
   constexpr double kLeast = 1e-6;
@@ -155,7 +155,7 @@ bool LoopLinear::propagate(const Eigen::MatrixXd& A, const Eigen::VectorXd& e,
       const double slope = A(i, j);
       if (std::abs(slope) < kLeast) continue;
       const double at_low = slope * low_[j], at_high = slope * high_[j];
-      // slope u_j in [-(most - its part), -(least - its part)]
+      // slope u_j is in [-(most - its part), -(least - its part)].
       const double from = std::max(at_low, at_high) - most, to = std::min(at_low, at_high) - least;
       limit({static_cast<int>(j), refuted_, false}, std::min(from / slope, to / slope) - 1e-12);
       limit({static_cast<int>(j), refuted_, true}, std::max(from / slope, to / slope) + 1e-12);
@@ -168,7 +168,7 @@ bool LoopLinear::propagate(const Eigen::MatrixXd& A, const Eigen::VectorXd& e,
   return true;
 }
 
-/// By the equations, then by combinations of them that have few u_j.
+/// Propagates the equations, then combinations of them that have few u_j.
 bool LoopLinear::propagate_all() {
   low_.setConstant(-1);
   high_.setConstant(1);
@@ -180,7 +180,7 @@ bool LoopLinear::propagate_all() {
   return propagate(A_, e_, reduced_rho_, static_cast<int>(model_.m));
 }
 
-/// With the digits of a float, which are enough and pack better.
+/// Uses the precision of a float, which is enough and compresses better.
 void LoopLinear::set_multiplier(int row) {
   const auto m = static_cast<int>(model_.m);
   if (row < m) {
@@ -190,7 +190,7 @@ void LoopLinear::set_multiplier(int row) {
   }
 }
 
-/// Whether the row shows that a box has no x with f(x) = 0; if so, it is one of `cuts`.
+/// Whether the row proves that a box has no x with f(x) = 0; if so, adds it to `cuts`.
 bool LoopLinear::excludes(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, int row,
                           int axis, std::vector<BoxCut>* cuts) {
   set_multiplier(row);
@@ -202,11 +202,12 @@ bool LoopLinear::excludes(const Eigen::VectorXd& lower, const Eigen::VectorXd& u
   return true;
 }
 
-/// Cuts off what is beyond a limit, or the outer half of that; false: it is all of the box.
+/// Cuts off the part of the box beyond a limit, or the outer half of that part. Returns false if
+/// this is the whole box.
 bool LoopLinear::slice(const Limit& by, Eigen::VectorXd& lower, Eigen::VectorXd& upper,
                        std::vector<BoxCut>* cuts) {
   constexpr double kOutward = 1e-12;
-  constexpr double kSteep = 0.999;    ///< sines near 1 tell little of their angles
+  constexpr double kSteep = 0.999;    ///< sines near 1 determine their angles badly
   constexpr double kThinnest = 0.01;  ///< of the box
   constexpr int kTries = 3;
   const Coordinates& chain = model_.coordinates.chain;

@@ -5,22 +5,23 @@
 
 namespace maxwrench {
 
-/// The equations over a box, about its centre m: with s_i = sin(x_i - m_i) of turning coordinates,
-/// x_i - m_i of sliding ones, |s_i| <= w_i,
+/// The equations over a box, expanded about its centre m. With s_i = sin(x_i - m_i) for turning
+/// coordinates and x_i - m_i for sliding ones, |s_i| <= w_i,
 ///
-///     f(x) = f_0 + D s + rest,   |rest| <= rho,
+///     f(x) = f_0 + D s + rest,   |rest| <= rho.
 ///
-/// from the coefficients of f in (1, cos(x_i - m_i) less the middle of its range, s_i), of which
-/// those of higher order are summed up.
+/// The expansion uses the coefficients of f in (1, cos(x_i - m_i) less the middle of its range,
+/// s_i). The bound rho sums up those of higher order.
 class LoopLinear {
  public:
   explicit LoopLinear(const LoopModel& model);
 
-  /// Cuts off what no x with f(x) = 0 of the box has, one slice after another; false: it has none.
-  /// What the expansion says is proven of each slice by control points. `cuts` may be null.
+  /// Cuts off slices of the box that hold no x with f(x) = 0, one after the other. Returns false if
+  /// the whole box holds none. Control points prove what the expansion suggests of each slice.
+  /// `cuts` may be null.
   bool shrink(Eigen::VectorXd& lower, Eigen::VectorXd& upper, std::vector<BoxCut>* cuts);
-  /// Rows M f, the first `rank` of which are some s_i/w_i and a linear combination of others, and
-  /// the others next to zero.
+  /// Computes M for rows M f. The first `rank` rows are each one s_i/w_i plus a linear combination
+  /// of others; the remaining rows are almost zero.
   void precondition(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
   const Eigen::MatrixXd& M() const { return M_; }
   int rank() const { return rank_; }
@@ -30,7 +31,8 @@ class LoopLinear {
   void turn(const MultiAffine& f, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
   void gather(const LoopPart& part);
   void eliminate();
-  /// A limit of one u_j, and the row that it follows from: of f, or, m more, of M f.
+  /// A limit of one u_j, and the row that it follows from: i for row i of f, m + i for row i of M
+  /// f.
   struct Limit {
     int axis = 0, row = 0;
     bool upper = false;
@@ -53,7 +55,7 @@ class LoopLinear {
   std::vector<Limit> limits_;  ///< in the order in which they were found
   BoxCut cut_;
   Eigen::VectorXd centre_, radius_, slice_lower_, slice_upper_;
-  int refuted_ = 0;  ///< the row that no u of the box fulfils
+  int refuted_ = 0;  ///< the row that no u of the box satisfies
   int rank_ = 0;
   double gain_ = 0;
 };

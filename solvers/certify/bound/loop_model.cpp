@@ -51,7 +51,10 @@ void LoopModel::add_part(Kind kind, int from, int to, const std::vector<int>& ro
   parts.push_back(std::move(part));
 }
 
-/// The base and what is not of the chain depend on all.
+/// Rows of the base's linear axes depend on the yaw only, or on the stretch from the yaw to the
+/// free coordinates if the wrench turns with the pose. The other rows of the base, those of joints
+/// outside the chain, and the linear axes of a dependent base depend on everything up to the free
+/// coordinates. The contact forces depend on the whole chain.
 void LoopModel::add_loads(LoopPosture& posture) {
   const Robot& robot = problem_.robot;
   const auto axes = static_cast<int>(robot.base_axes.size());
@@ -91,7 +94,7 @@ void LoopModel::add_loads(LoopPosture& posture) {
            });
 }
 
-/// A joint of the chain depends on what is behind it.
+/// The row of a joint of the chain depends on the coordinates behind it.
 void LoopModel::add_joints(LoopPosture& posture) {
   const auto axes = static_cast<int>(problem_.robot.base_axes.size());
   for (int i = coordinates.first.from; i < coordinates.first.to; ++i) {
@@ -114,7 +117,8 @@ std::vector<int> LoopModel::new_equations(Eigen::Index count) {
   return rows;
 }
 
-/// Left and right of the middle of the chain; the second arm and what it touches.
+/// Adds the two sides of the base's equations, split at the middle of the chain; and those of the
+/// second arm and of the pose that it touches.
 void LoopModel::add_equations(LoopPosture& posture) {
   using Side = std::function<ExtendedVector()>;
   posture.set(ExtendedVector::Zero(coordinates.lower.size()));

@@ -6,9 +6,9 @@
 
 namespace maxwrench {
 
-/// Rows that depend on a stretch of the chain of coordinates alone. On the grid of the control
-/// points of all, of which the first coordinate changes slowest, point v of all is point
-/// (v / repeat) mod f.size() of these.
+/// Rows that depend only on a stretch of the chain of coordinates. On the grid of the control
+/// points of all coordinates, the first coordinate changes slowest, and grid point v is point (v /
+/// repeat) mod f.size() of these rows.
 struct LoopPart {
   enum class Kind {
     kLoads,     ///< f = [rows of tau; the same rows of a]
@@ -22,18 +22,19 @@ struct LoopPart {
   Eigen::Index repeat = 1;
 };
 
-/// tau = tau_d + J_2'C_2 w_2 at t = 0, a = J'c and what t adds to w_2, and the equations f(x) = 0
-/// as sums of parts.
+/// tau = tau_d + J_2'C_2 w_2 at t = 0, a = J'c plus the change of J_2'C_2 w_2 per unit of t, and
+/// the equations f(x) = 0, as sums of parts.
 struct LoopModel {
-  /// Keeps a reference. Throws std::invalid_argument, in one line, if there are too many.
+  /// Keeps a reference to the problem. Throws std::invalid_argument with one line if there are too
+  /// many control points.
   explicit LoopModel(const Problem& problem);
 
   LoopCoordinates coordinates;
   std::vector<LoopPart> parts;
   Eigen::Index n = 0;         ///< rows of tau_d
-  Eigen::Index m = 0;         ///< of the equations
+  Eigen::Index m = 0;         ///< equations
   Eigen::Index size = 1;      ///< control points
-  Eigen::VectorXd tau, a, f;  ///< magnitudes
+  Eigen::VectorXd tau, a, f;  ///< magnitudes of the rows
 
  private:
   using Kind = LoopPart::Kind;

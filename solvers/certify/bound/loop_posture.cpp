@@ -16,7 +16,7 @@ bool is_free_axis(const Robot& robot, int axis) {
   return std::find(robot.base_axes.begin(), robot.base_axes.end(), axis) != robot.base_axes.end();
 }
 
-/// One turn is enough: that about the middle of finite limits.
+/// Limits an angle to one turn, about the middle of its limits if they are finite.
 void limit_to_a_turn(double& lower, double& upper) {
   if (upper - lower <= 2 * std::numbers::pi) return;
   double middle = 0;
@@ -27,7 +27,7 @@ void limit_to_a_turn(double& lower, double& upper) {
   upper = middle + std::numbers::pi;
 }
 
-/// Where a joint stands in a list, or its size.
+/// The index of a joint in a list, or the list's size.
 int place_in(const std::vector<int>& list, int joint) {
   return static_cast<int>(std::find(list.begin(), list.end(), joint) - list.begin());
 }
@@ -47,7 +47,8 @@ Pose<Extended> exact_contact(const Contact& contact, const Extended* s) {
   return pose;
 }
 
-/// [N] What the base's thrusters bear at most beside the weight and the first end effector's force.
+/// [N] The most that the base's thrusters bear in addition to the weight and the first end
+/// effector's force.
 double most_force(const Problem& problem) {
   const Robot& robot = problem.robot;
   const Zonotope& set = robot.actuation;
@@ -68,7 +69,7 @@ double least_force(const Problem& problem) {
   if (!moves(0) || !moves(1) || contact.C.cols() > 3) return 0;
   Eigen::MatrixXd forces =
       problem.robot.mount.R.transpose() * contact.frame.R * contact.C.topRows<3>();
-  if (!moves(2)) {  // the yaw turns the first two alone
+  if (!moves(2)) {  // the yaw turns the first two only
     if (contact.surface == Surface::kCircle) return 0;
     forces = forces.topRows(2).eval();
   }
@@ -130,7 +131,7 @@ void LoopCoordinates::add_joint(const Problem& problem, int at, int joint) {
       given ? problem.theta_r_max[at] : of.q_max);
 }
 
-/// The base's free linear axes bear the weight, t c and the second contact's force alone, so |w| <=
+/// The base's free linear axes bear only the weight, t c and the second contact's force, so |w| <=
 /// (most_force + t |force of c|)/least_force.
 void LoopCoordinates::limit_forces(const Problem& problem) {
   w_min = problem.contact->w_min;
@@ -188,7 +189,7 @@ void LoopPosture::set(const ExtendedVector& x) {
   set_loads(from_tip);
 }
 
-/// From the pose for the joints of the chain, from the base for all others.
+/// Joints of the chain are loaded from the end effector's pose, all others from the base.
 void LoopPosture::set_loads(const Matrix3<Extended>& from_tip) {
   const Vector6<Extended> c = exact_turned(problem_, pose_, problem_.c);
   const Eigen::Index n = problem_.robot.velocities();

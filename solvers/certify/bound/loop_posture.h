@@ -6,38 +6,37 @@
 
 namespace maxwrench {
 
-/// All coordinates x of a posture whose joints follow by equations:
+/// All coordinates x of a posture whose dependent joints follow from equations:
 ///
 ///     x = [theta_r; dependent joints; joints of a second arm; yaw; shares of contact forces].
 ///
-/// The yaw is the base's, if that is free but not all of it. A share omega in [0, 1] of a component
-/// of the second contact's wrench stands for
+/// The yaw is the base's, if it is free but not all axes of the base are. A share omega in [0, 1]
+/// of a component of the second contact's wrench stands for
 ///
 ///     w = w_min + omega (w_max - w_min) + t (v_min + omega (v_max - v_min)),
 ///
-/// t the value, at least zero if v is not zero: what has no limit of its own is not more than the
-/// base's linear axes bear, which share t c.
+/// with t the value, at least zero if v is not zero. A component that has no limit of its own is
+/// bounded by what the base's linear axes can bear in addition to t c.
 ///
-/// The chain puts them in order: the second arm's joints; from the world to the end effector, the
-/// yaw, the joints from the base outward and the free coordinates of the pose; the regrasp
-/// coordinates; the shares. Angles are within one turn.
+/// The chain has this order: the second arm's joints; from the world to the end effector, the yaw,
+/// the joints from the base outward and the free coordinates of the pose; the regrasp coordinates;
+/// the shares. Angles are within one turn.
 struct LoopCoordinates {
-  /// A stretch of the chain.
   struct Stretch {
     int from = 0, to = 0;
     int count() const { return to - from; }
   };
 
-  /// Throws std::invalid_argument, in one line, if forces of a second contact have no limits.
+  /// Throws std::invalid_argument with one line if forces of a second contact have no limits.
   explicit LoopCoordinates(const Problem& problem);
 
-  Coordinates chain;  ///< as indices of x
+  Coordinates chain;  ///< as indices into x
   Stretch second, yaw, first, free, regrasp, shares;
   std::vector<int> joints;         ///< of the robot, in `first`
-  bool base_is_dependent = false;  ///< all of it, from the joints: it has six free axes
+  bool base_is_dependent = false;  ///< its whole pose follows from the joints: it has six free axes
   Eigen::VectorXd lower, upper;    ///< limits of x
-  Eigen::VectorXd w_min, w_max;    ///< of the second contact, finite
-  Eigen::VectorXd v_min, v_max;    ///< its further limits for each unit of t
+  Eigen::VectorXd w_min, w_max;    ///< of the second contact's w, finite
+  Eigen::VectorXd v_min, v_max;    ///< change of these limits per unit of t
   bool forces_grow() const { return (v_min.array() != v_max.array()).any(); }
 
  private:
@@ -46,32 +45,35 @@ struct LoopCoordinates {
   void limit_forces(const Problem& problem);
 };
 
-/// What a posture is made of at any x, with the digits of `Extended`. All of it is multi-affine:
-/// weight and contact force load joint i through the joints behind it alone, turned once by each,
-/// from the end effector's pose; and the base through its yaw.
+/// The parts of a posture at any x, in the precision of `Extended`. All of them are multi-affine.
+/// Weight and contact force load joint i only through the joints behind it, and are turned once by
+/// each of them, from the end effector's pose. They load the base through its yaw.
 ///
-/// Where x is a posture, the pose of the base in its mount is, unless all of it is free,
+/// If x is a posture, the pose of the base in its mount satisfies, unless all axes of the base are
+/// free,
 ///
 ///     Rz(yaw) T_1(q_1) ... T_k(q_k) = mount^-1 X(s) (T_k+1(q_k+1) ... T_n(q_n))^-1
 ///
-/// in all rows of the rotation, and those of the position that no free axis moves. And the second
-/// end effector is at the contact, T_e2(q_2) = T_e1(q_1) X(s)^-1 F(s_2), in position or in all.
+/// in all rows of the rotation, and in those of the position that no free axis moves. The second
+/// end effector is at the contact, T_e2(q_2) = T_e1(q_1) X(s)^-1 F(s_2), in position or in position
+/// and rotation.
 class LoopPosture {
  public:
-  /// Keeps references.
+  /// Keeps references to both.
   LoopPosture(const Problem& problem, const LoopCoordinates& coordinates);
 
   void set(const ExtendedVector& x);
 
   /// [tau_d; J'c], 2n.
   const ExtendedVector& loads() const { return loads_; }
-  /// J_2'C_2 w_2, n, at t = 0; and what each unit of t adds.
+  /// J_2'C_2 w_2, n, at t = 0; and its change per unit of t.
   ExtendedVector forces() const { return forces(w_); }
   ExtendedVector forces_by_t() const { return forces(v_); }
-  /// The rows of either side of the equations of the base, k joints on the left.
+  /// The rows of the left and the right side of the base's equations, with k joints on the left.
   ExtendedVector left(int k) const;
   ExtendedVector right(int k) const;
-  /// Those of the second contact: the arm's, and the pose's.
+  /// The rows of the second contact's equations: the side of the second arm, and that of the pose
+  /// that it touches.
   ExtendedVector touching() const;
   ExtendedVector touched() const;
 

@@ -15,19 +15,19 @@ int terms(const Coordinates& coordinates, int axis) {
   return coordinates.turns[static_cast<std::size_t>(axis)] ? 3 : 2;
 }
 
-/// How far apart neighbours along an axis are, in columns.
+/// The distance, in columns, between neighbours along an axis.
 Eigen::Index stride(const Coordinates& coordinates, int axis) {
   Eigen::Index columns = 1;
   for (int i = axis + 1; i < coordinates.count(); ++i) columns *= terms(coordinates, i);
   return columns;
 }
 
-/// Where a turning coordinate is sampled, 0, pi/2 and pi, or a sliding one, 0 and 1.
+/// The sample places: 0, pi/2 and pi of a turning coordinate, 0 and 1 of a sliding one.
 Extended place(bool turns, int i) {
   return turns ? std::numbers::pi_v<Extended> / 2 * i : Extended(i);
 }
 
-/// Values at the places -> coefficients, along one axis.
+/// Converts values at the sample places into coefficients, along one axis.
 void read_off(const Coordinates& coordinates, int axis, ExtendedMatrix& F) {
   const Eigen::Index step = stride(coordinates, axis);
   const int n = terms(coordinates, axis);
@@ -138,7 +138,7 @@ const Eigen::MatrixXd& ControlPoints::over(const Eigen::VectorXd& lower,
   return levels_.back();
 }
 
-/// One axis from coefficients to control points.
+/// Converts coefficients into control points, along one axis.
 void ControlPoints::advance(int axis, double lower, double upper) {
   const int n = terms(f_.coordinates(), axis);
   const Eigen::Index length = stride(f_.coordinates(), axis) * f_.rows();

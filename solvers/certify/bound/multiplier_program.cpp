@@ -6,9 +6,9 @@
 namespace maxwrench {
 namespace {
 
-constexpr double kBasisPivot = 1e-9;   ///< smaller ones make a basis singular
-constexpr double kStepPivot = 1e-10;   ///< smaller entries of a row are rounding
-constexpr double kInfeasible = 1e-10;  ///< share of its width by which a variable may be beyond
+constexpr double kBasisPivot = 1e-9;   ///< smaller pivots make a basis singular
+constexpr double kStepPivot = 1e-10;   ///< smaller entries of a row are rounding errors
+constexpr double kInfeasible = 1e-10;  ///< violation of a limit, as a share of the width
 
 }  // namespace
 
@@ -35,7 +35,7 @@ MultiplierProgram::MultiplierProgram(const Eigen::MatrixXd& B, const Eigen::Vect
   breaks_.reserve(static_cast<std::size_t>(most));
 }
 
-/// The inverse of the basis by Gauss and Jordan; false if it is singular.
+/// Inverts the basis by Gauss-Jordan elimination; returns false if it is singular.
 bool MultiplierProgram::invert() {
   for (Eigen::Index i = 0; i < rows_; ++i) {
     work_.col(i) = A_.row(basis_[static_cast<std::size_t>(i)]);
@@ -64,7 +64,7 @@ bool MultiplierProgram::invert() {
   return true;
 }
 
-/// Everything that follows from the basis.
+/// Computes everything that depends on the basis.
 void MultiplierProgram::price() {
   const Eigen::Index size = columns();
   std::fill(place_.begin(), place_.begin() + size, -1);
@@ -115,7 +115,7 @@ double MultiplierProgram::value() const {
 }
 
 /// The row of the variable that is farthest beyond its limits, measured along its dual edge; -1 if
-/// there is none. Sets the sign: 1 below, -1 above.
+/// there is none. Sets the sign: 1 below the lower limit, -1 above the upper one.
 int MultiplierProgram::leaving() const {
   int row = -1;
   double most = 0;
@@ -131,15 +131,15 @@ int MultiplierProgram::leaving() const {
   return row;
 }
 
-/// Moves a variable that rests to its other limit; what that changes is gathered.
+/// Moves a nonbasic variable to its other limit and accumulates what that changes.
 void MultiplierProgram::flip(int column) {
   char& high = high_[static_cast<std::size_t>(column)];
   change_ += (high ? width_[column] : -width_[column]) * A_.row(column).transpose();
   high = !high;
 }
 
-/// The long-step ratio test: passes reduced costs that become zero, whose variables change to their
-/// other limits, while the dual objective falls. -1: it falls for ever.
+/// The long-step ratio test. Passes reduced costs that become zero while the dual objective falls;
+/// their variables change to their other limits. Returns -1 if the objective falls without end.
 int MultiplierProgram::entering(double slope) {
   breaks_.clear();
   const Eigen::Index size = columns();
@@ -187,7 +187,8 @@ void MultiplierProgram::pivot(int row, int column) {
   }
 }
 
-/// One step of the dual simplex; false if U falls for ever along it, and y_ is far down.
+/// One step of the dual simplex. Returns false if U falls without end along it; y_ is then far down
+/// the edge.
 bool MultiplierProgram::step(int row) {
   const int gone = basis_[static_cast<std::size_t>(row)];
   const double below = low_[gone] - x_[row], above = x_[row] - low_[gone] - width_[gone];

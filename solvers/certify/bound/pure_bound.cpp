@@ -12,7 +12,8 @@
 namespace maxwrench {
 namespace {
 
-/// What boxes of W = c share: the rows, the sizes of their terms, and the ceiling.
+/// The data that all boxes of W = c share: the rows, the magnitudes of their terms, and the
+/// ceiling.
 struct PureModel {
   MultiAffine f;           ///< [tau; a], 2n
   Eigen::VectorXd tau, a;  ///< magnitudes, n
@@ -25,9 +26,10 @@ MultiAffine base_rows(Problem problem) {
   return pure_rows(problem, Eigen::MatrixXd::Identity(6, problem.robot.velocities()));
 }
 
-/// t <= (sum_k max |u_k| |B_k| + |tau_d|) / |J'c|, all on the base's free axes, linear ones for a
-/// force and angular ones for a torque. On the three axes of that kind |J'c| is the length of the
-/// force or torque of c; of its square goes what axes that are not free can take.
+/// t <= (sum_k max |u_k| |B_k| + |tau_d|) / |J'c|, with all norms on the base's free axes: linear
+/// axes for a force, angular axes for a torque. On the three axes of that kind, free or not, |J'c|
+/// is the length of the force or torque of c. What the axes that are not free can take is
+/// subtracted from its square.
 double pure_ceiling(const Problem& problem) {
   constexpr double kLeastLength2 = 1e-6;
   const Zonotope& set = problem.robot.actuation;
@@ -73,7 +75,7 @@ class PureBox {
   explicit PureBox(const PureModel& model)
       : model_(model), corners_(model.f), tau_(model.f.size(), model.tau.size()), a_(tau_) {}
 
-  /// False if the box is too large for control points.
+  /// Returns false if the box is too large for control points.
   bool set(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
     if (!(spread(model_.f.coordinates(), lower, upper) <= kMostSpread)) return false;
     const Eigen::MatrixXd& P = corners_.over(lower, upper);
@@ -82,7 +84,7 @@ class PureBox {
     return true;
   }
 
-  /// What lambda proves of t in [low, high] without the support, rounding included.
+  /// The bound that lambda proves for t in [low, high], without the support, rounding included.
   double most(const Eigen::VectorXd& lambda, double low, double high) {
     g_.noalias() = tau_ * lambda;
     h_.noalias() = a_ * lambda;
@@ -142,7 +144,7 @@ class PolytopeBound final : public Bound {
 
  private:
   static constexpr int kMostSteps = 100;
-  static constexpr double kSlack = 1e-9;  ///< what rounding may add to U, generously
+  static constexpr double kSlack = 1e-9;  ///< more than rounding can add to U
 
   double value(double low, double high) {
     const double s = support_.of(lambda_);
@@ -158,7 +160,7 @@ class PolytopeBound final : public Bound {
   Eigen::VectorXd lambda_;
 };
 
-/// Weights of control points whose sum is the centre of the box.
+/// Sets weights of control points whose weighted sum is the centre of the box.
 void weigh_centre(const Coordinates& coordinates, const Eigen::VectorXd& lower,
                   const Eigen::VectorXd& upper, Eigen::VectorXd& weights) {
   Eigen::Index size = 1;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kMostPivots = 1000;
 
-/// max c'x, A x + s = b with logical variables s fixed at zero, behind the columns.
+/// max c'x, A x + s = b. The logical variables s are fixed at zero and come after the columns.
 class ExactSimplex {
  public:
   ExactSimplex(const LinearProgram& program, const LpSolution& solution)
@@ -32,7 +32,8 @@ class ExactSimplex {
       const int violated = first_violated();
       const int improving = first_improving();
       if (violated < 0 && improving < 0) return verdict(Status::kOptimal, {});
-      // Where costs have the right signs the dual method keeps them; else any basis that fits does.
+      // If the reduced costs have the right signs, the dual method preserves them; otherwise any
+      // basis that fits may follow.
       const std::optional<LpProof> end =
           violated >= 0 ? dual_step(violated, improving < 0) : primal_step(improving);
       if (end) return *end;
@@ -62,7 +63,7 @@ class ExactSimplex {
     for (int j = 0; j < n_ + m_; ++j) states_[at(j)] = j < n_ ? resting(j) : VariableState::kBasic;
   }
 
-  /// Which are basic, and where the others rest.
+  /// Determines which variables are basic, and at which bound the others are.
   void settle() {
     basis_.clear();
     for (int j = 0; j < n_ + m_; ++j) {
@@ -79,7 +80,7 @@ class ExactSimplex {
     }
   }
 
-  /// A basis that was regular in decimals only is given up for the logical variables'.
+  /// A basis that is singular in rational numbers is replaced by the logical variables.
   bool restart() {
     start_cold();
     settle();
@@ -102,7 +103,7 @@ class ExactSimplex {
     return sum;
   }
 
-  /// B x = rhs, by the place in the basis.
+  /// Solves B x = rhs; x is ordered by positions in the basis.
   std::optional<RationalVector> solve_columns(const RationalVector& rhs) const {
     std::vector<SparseRow> rows(at(m_));
     for (int k = 0; k < m_; ++k) {
@@ -111,7 +112,7 @@ class ExactSimplex {
     return solve_rational(std::move(rows), rhs);
   }
 
-  /// B'y = rhs.
+  /// Solves B'y = rhs.
   std::optional<RationalVector> solve_rows(const RationalVector& rhs) const {
     std::vector<SparseRow> rows;
     for (const int j : basis_) rows.push_back(column(j));
@@ -138,7 +139,7 @@ class ExactSimplex {
     return true;
   }
 
-  /// The place in the basis of the first variable that leaves its bounds; -1: none.
+  /// The position in the basis of the first variable that violates its bounds; -1 if there is none.
   int first_violated() const {
     int first = -1;
     for (int k = 0; k < m_; ++k) {
@@ -152,7 +153,7 @@ class ExactSimplex {
 
   mpq_class reduced_cost(int j) const { return cost(j) - times(y_, j); }
 
-  /// May x_j go up or down from where it rests?
+  /// Whether x_j may go up or down from its bound.
   bool may_move(int j, bool up) const {
     const VariableState state = states_[at(j)];
     if (state == VariableState::kBasic || is_fixed(j)) return false;
@@ -173,7 +174,8 @@ class ExactSimplex {
     basis_[at(place)] = entering;
   }
 
-  /// x_p beyond a bound goes there. `keep_signs`: of the reduced costs.
+  /// Moves x_p to the bound that it violates. `keep_signs` preserves the signs of the reduced
+  /// costs.
   std::optional<LpProof> dual_step(int place, bool keep_signs) {
     const int p = basis_[at(place)];
     const bool rises = has_lower(p) && x_[at(p)] < lower(p);
@@ -201,12 +203,12 @@ class ExactSimplex {
     return verdict(Status::kInfeasible, farkas);
   }
 
-  /// x_j moves until it or a basic variable meets a bound.
+  /// Moves x_j until it or a basic variable reaches a bound.
   std::optional<LpProof> primal_step(int entering) {
     const bool up = reduced_cost(entering) > 0;
     RationalVector rhs(at(m_));
     for (const auto& [row, value] : column(entering)) rhs[at(row)] = up ? mpq_class(-value) : value;
-    const RationalVector move = *solve_columns(rhs);  // of the basic variables, per unit
+    const RationalVector move = *solve_columns(rhs);  // change of the basic variables per unit
     int place = -1;
     mpq_class least;
     for (int k = 0; k < m_; ++k) {

@@ -15,7 +15,7 @@ class RationalElimination {
     }
   }
 
-  /// None if M is singular.
+  /// Returns nothing if M is singular.
   std::optional<RationalVector> solve() {
     std::vector<std::pair<int, int>> pivots;
     std::vector<char> done(rows_.size());
@@ -81,7 +81,7 @@ class RationalElimination {
 
   std::vector<SparseRow> rows_;
   RationalVector rhs_;
-  std::vector<std::set<int>> users_;  ///< of each column, the rows left that have it
+  std::vector<std::set<int>> users_;  ///< for each column, the remaining rows that contain it
 };
 
 }  // namespace

@@ -11,8 +11,8 @@ namespace maxwrench {
 /// Entries by column.
 using SparseRow = std::map<int, mpq_class>;
 
-/// x of M x = rhs, M square and given by rows; none if M is singular. Elimination with pivots where
-/// a row has the fewest entries.
+/// Solves M x = rhs for a square M given by its rows; returns nothing if M is singular. Eliminates
+/// with pivots in the rows that have the fewest entries.
 std::optional<RationalVector> solve_rational(std::vector<SparseRow> rows, RationalVector rhs);
 
 }  // namespace maxwrench

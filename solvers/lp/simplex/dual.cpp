@@ -6,18 +6,19 @@
 namespace maxwrench::simplex {
 namespace {
 
-/// Up to so many rows steepest edge weights cost more than the pivots that they save.
+/// Up to this number of rows, steepest edge weights cost more than the pivots that they save.
 constexpr int kPlainPricing = 24;
 
 }  // namespace
 
 /// The dual simplex: starts from reduced costs of the right sign and removes bound violations.
 ///
-/// Leaving row by steepest edge, by the largest violation in small programs. Entering column by the
-/// bound flipping ratio test: as the dual step grows, candidates whose reduced cost changes sign
-/// jump to their other bound as long as the row's violation outlasts them. Among the breakpoints
-/// that lie together within the dual tolerance (Harris) the one with the largest pivot enters; a
-/// reduced cost that this leaves on the wrong side is moved to zero by shifting its cost.
+/// The leaving row is chosen by steepest edge, or in small programs by the largest violation. The
+/// entering column is chosen by the bound flipping ratio test: as the dual step grows, candidates
+/// whose reduced cost changes sign jump to their other bound while some of the row's violation
+/// remains. Among the breakpoints that are within the dual tolerance of each other (Harris), the
+/// one with the largest pivot enters. A reduced cost that then has the wrong sign is moved to zero
+/// by shifting its cost.
 class Dual {
  public:
   explicit Dual(Engine& engine) : e_(engine), s_(engine.options) {}
@@ -44,7 +45,7 @@ class Dual {
   int r_ = -1;       // leaving position
   double sign_ = 0;  // +1: x_r above its upper bound
   double violation_ = 0;
-  double left_over_ = 0;  // of the violation, when all candidates have jumped
+  double left_over_ = 0;  // violation that remains after all candidates have jumped
   int stalled_ = 0;
   bool perturbed_ = false, bland_ = false;
 };
@@ -92,7 +93,7 @@ Outcome Dual::run() {
   }
 }
 
-/// Fresh factors, x and d. A basis that had to be repaired ends the phase.
+/// Computes fresh factors, x and d. Ends the phase if the basis had to be repaired.
 bool Dual::refresh() {
   if (!e_.refactor()) return false;
   e_.compute_primal();
@@ -101,9 +102,9 @@ bool Dual::refresh() {
   return true;
 }
 
-/// Boxed variables move to the bound that fits the sign of d; other costs are shifted to a small
-/// reduced cost of the right sign. Amid the phase only costs are shifted, since what a flip undoes
-/// would be done again.
+/// Moves boxed variables to the bound that fits the sign of d; shifts other costs so that their
+/// reduced cost is small and has the right sign. During the phase it only shifts costs, because the
+/// phase would have to repeat what a flip undoes.
 void Dual::make_dual_feasible(bool may_flip) {
   bool moved = false;
   for (int j = e_.model.rows; j < e_.model.total; ++j) {
@@ -145,7 +146,8 @@ int Dual::choose_row() const {
   return best;
 }
 
-/// Nonbasic variables whose move towards their other side reduces the violation.
+/// Gathers the nonbasic variables that reduce the violation when they move towards their other
+/// bound.
 void Dual::gather_candidates() {
   e_.candidates_.clear();
   for (int j = e_.model.rows; j < e_.model.total; ++j) {
@@ -173,8 +175,8 @@ int Dual::choose_column_by_index() {
   return best;
 }
 
-/// Splits the candidates into groups of neighbouring breakpoints, in order of the dual step, until
-/// the violation is used up; -1 if it outlasts all of them.
+/// Splits the candidates into groups of neighbouring breakpoints, in the order of the dual step,
+/// until the violation is used up. Returns -1 if some violation remains after all of them.
 int Dual::choose_column() {
   auto& list = e_.candidates_;
   e_.flipped_.clear();
@@ -192,7 +194,7 @@ int Dual::choose_column() {
       if (reach < step) step = reach, first = j;
     }
     left_over_ = slope;
-    if (first < 0) return -1;  // no number is left
+    if (first < 0) return -1;  // not a number
     const int begin = done;
     for (int k = begin; k < count; ++k) {
       const int j = list[k];
@@ -208,8 +210,8 @@ int Dual::choose_column() {
   return -1;
 }
 
-/// From the last group, whose step is longest, unless its pivots are small and an earlier group has
-/// a better one. All groups before the chosen one jump.
+/// Chooses from the last group, which has the longest step, unless its pivots are small and an
+/// earlier group has a better one. All groups before the chosen one jump.
 int Dual::largest_pivot_of_groups() {
   const auto& list = e_.candidates_;
   double largest = 0;
@@ -273,7 +275,8 @@ void Dual::step(int q) {
   note_progress(theta_dual);
 }
 
-/// d -= theta alpha_r; what Harris' tolerance left on the wrong side is shifted to zero.
+/// d -= theta alpha_r. A reduced cost that Harris' tolerance left with the wrong sign is shifted to
+/// zero.
 void Dual::update_duals(double theta) {
   const bool upwards = sign_ * theta >= 0;
   for (int j = e_.model.rows; j < e_.model.total; ++j) {
@@ -303,8 +306,8 @@ void Dual::update_weights(double pivot) {
   e_.weights_[r_] = std::max(norm / (pivot * pivot), 1e-4);
 }
 
-/// Steps of length zero may cycle: they are counted, answered by perturbed costs, and if that does
-/// not help by smallest indices, which end in finitely many steps.
+/// Counts steps of length zero, which may cycle. The first remedy is to perturb costs; the second
+/// is to pivot by smallest indices, which ends in finitely many steps.
 void Dual::note_progress(double theta) {
   if (std::abs(theta) > 1e-12) {
     stalled_ = 0;

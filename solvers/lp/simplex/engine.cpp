@@ -48,7 +48,7 @@ void Engine::reset_bounds_and_costs() {
   bounds_shifted = false;
 }
 
-/// In [0.5, 1), the same sequence in every solve.
+/// A number in [0.5, 1); the sequence is the same in every solve.
 double Engine::jitter(int j) {
   random_ += 0x9e3779b97f4a7c15u + static_cast<std::uint64_t>(j);
   std::uint64_t z = random_;
@@ -81,7 +81,7 @@ void Engine::crash_basis() {
   }
 }
 
-/// Takes the place of a logical variable where the pivot is not small, else of any bounded one.
+/// Replaces a logical variable where the pivot is not small, otherwise any bounded variable.
 void Engine::enter_free_column(int j) {
   if (factor.updates() == options.max_updates) refactor();
   column(j, alpha_column.data());
@@ -160,7 +160,7 @@ void Engine::refine() {
   refine_dual();
 }
 
-/// A residual within a few units in the last place of its terms is left alone.
+/// A residual within a few units in the last place of its terms is ignored.
 void Engine::refine_primal() {
   double size = 0;
   for (int i = 0; i < model.rows; ++i) {
@@ -276,7 +276,8 @@ void Engine::load_position(int p) {
       options.primal_tolerance + (std::isfinite(bound) ? 1e-12 * bound : 0) + excused_[j];
 }
 
-/// The proof compares rho'b with the row's terms rho'a_j x_j; below 1e-10 of them it is none.
+/// The proof compares rho'b with the row's terms rho'a_j x_j; a violation below 1e-10 of them
+/// proves nothing.
 bool Engine::provable(double violation) const {
   double terms = 0;
   for (int i = 0; i < model.rows; ++i) terms += std::abs(rho[i] * model.b[i]);

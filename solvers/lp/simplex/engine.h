@@ -14,11 +14,11 @@ namespace maxwrench::simplex {
 enum class Outcome { kDone, kInfeasible, kUnbounded, kIterationLimit, kTrouble };
 
 /// The working state that both phases share. A basis is `head` (the variable at each position) and
-/// a `state` for every variable; x and d follow from it:
+/// a `state` for every variable. They determine x and d:
 ///
 ///   B x_B = b - N x_N,   B'y = cost_B,   d = cost - A'y.
 ///
-/// `lower`, `upper` and `cost` are working copies that a phase may shift; the driver undoes that.
+/// `lower`, `upper` and `cost` are working copies that a phase may shift; the driver restores them.
 class Engine {
  public:
   explicit Engine(const SimplexOptions& tolerances) : options(tolerances) {}
@@ -26,10 +26,11 @@ class Engine {
   void resize();
   void start_attempt();
   void reset_bounds_and_costs();
-  /// Slacks and other single entries, then free columns, enter the logical basis.
+  /// Replaces logical variables of the basis by slacks and other columns with a single entry, then
+  /// by free columns.
   void crash_basis();
-  /// Factors the basis; where it is singular, logical variables replace the dependent columns.
-  /// False if it was.
+  /// Factors the basis. Where it is singular, logical variables replace the dependent columns, and
+  /// the result is false.
   bool refactor();
   void compute_primal();
   void compute_dual();
@@ -42,7 +43,8 @@ class Engine {
     if (state[j] == VariableState::kAtLower) return lower[j];
     return state[j] == VariableState::kAtUpper ? upper[j] : 0;
   }
-  /// How far the basic variable at p is outside its bounds; 0 within tolerance, negative below.
+  /// How far the basic variable at p is outside its bounds: 0 within tolerance, negative below the
+  /// lower bound.
   double infeasibility(int p) const {
     const double x = x_basic[p], tolerance = basic_tolerance[p] + rounding;
     if (x < basic_lower[p] - tolerance) return x - basic_lower[p];
@@ -53,7 +55,7 @@ class Engine {
   bool provable(double violation) const;
   /// Tolerates the violation at p from now on.
   void excuse(int p, double violation);
-  /// The wrong-signed part of the reduced cost of nonbasic j.
+  /// The part of the reduced cost of nonbasic j that has the wrong sign.
   double dual_violation(int j) const;
   bool primal_feasible() const;
 
@@ -65,10 +67,10 @@ class Engine {
   void refined_inverse_row(int p);
   /// alpha_j = y'a_j for every nonbasic variable that may move.
   void tableau_row(const double* y);
-  /// Variable q enters at position p; the one that leaves takes `leaving_state`.
+  /// Variable q enters at position p; the leaving variable gets `leaving_state`.
   void pivot(int p, int q, VariableState leaving_state, double entering_value);
 
-  /// Phases; they expect fresh factors, x and d.
+  /// The two phases. They expect fresh factors, x and d.
   Outcome dual();
   Outcome primal();
 
@@ -79,14 +81,15 @@ class Engine {
   std::vector<VariableState> state;
   std::vector<double> lower, upper, cost;
   std::vector<double> x_basic, basic_lower, basic_upper, basic_tolerance;  // by positions
-  // What a basic variable and a reduced cost may be off by rounding alone.
+  // The errors that rounding alone can cause in a basic variable and in a reduced cost.
   double rounding = 0, dual_rounding = 0;
   std::vector<double> y, d;  // by rows, by variables
   std::vector<double> alpha_row, alpha_column, rho;
   int iterations = 0, iteration_limit = 0;
-  bool perturb = true;  // whether stalling may be answered by shifting bounds and costs
+  bool perturb = true;  // whether to answer stalling by shifting bounds and costs
   bool bounds_shifted = false;
-  // What a verdict rests on: the row and the side it misses, or the column and its direction.
+  // The basis of a verdict: the row and the bound that it violates, or the column and its
+  // direction.
   int proof_position = -1, proof_column = -1;
   double proof_sign = 0;
 

@@ -88,8 +88,8 @@ void Factor::take_pivot(std::vector<Pivot>& list, int row, int position, double 
   column_done_[position] = 1;
 }
 
-/// A column whose only entry in the remaining rows is in row i: the sum of its remaining row
-/// numbers is i.
+/// Removes columns with a single entry in the remaining rows. The sum of such a column's remaining
+/// row numbers is its row i.
 void Factor::peel_columns(const Model& model, double singular_tolerance) {
   int tail = 0;
   for (int p = 0; p < m_; ++p) {
@@ -104,7 +104,7 @@ void Factor::peel_columns(const Model& model, double singular_tolerance) {
       if (model.index[e] == i) v = model.value[e];
       largest = std::max(largest, std::abs(model.value[e]));
     }
-    // A tiny pivot is left to the kernel, which may find the column dependent.
+    // A tiny pivot is left to the kernel, which may find that the column is dependent.
     if (std::abs(v) <= singular_tolerance * 100 * largest) continue;
     take_pivot(column_pivots_, i, p, v);
     for (int e = row_start_[i]; e < row_start_[i + 1]; ++e) {
@@ -120,8 +120,8 @@ void Factor::peel_columns(const Model& model, double singular_tolerance) {
   }
 }
 
-/// A row whose only entry in the remaining columns is in position p. The pivot must not be small
-/// in its column, since the other entries are divided by it.
+/// Removes rows with a single entry in the remaining columns, at position p. The pivot must not be
+/// small in its column, because the other entries are divided by it.
 void Factor::peel_rows(const Model& model) {
   int tail = 0;
   for (int i = 0; i < m_; ++i) {
@@ -171,8 +171,8 @@ void Factor::load_kernel(const Model& model) {
   }
 }
 
-/// Right-looking elimination; a column without an acceptable pivot is moved to the end and reported
-/// with a row that is left over.
+/// Right-looking elimination. A column without an acceptable pivot is moved to the end and reported
+/// with a remaining row.
 bool Factor::factorise_kernel(double singular_tolerance) {
   const int k = k_;
   double* const a = kernel_.data();

@@ -9,30 +9,30 @@ namespace maxwrench::simplex {
 
 /// Factors of the basis matrix B, whose column at position p is the model's column head[p].
 ///
-/// Rows and columns that hold a single entry are peeled off first, which leaves the block form
+/// Rows and columns with a single entry are removed first, which leaves the block form
 ///
-///   [ U  *  * ]    columns with one entry left, used as they stand
-///   [ 0  L  0 ]    rows with one entry left, used as they stand
+///   [ U  *  * ]    columns with one entry left, used unchanged
+///   [ 0  L  0 ]    rows with one entry left, used unchanged
 ///   [ 0  *  D ]    the kernel, a dense LU with row exchanges
 ///
-/// so fill-in exists in D only. A pivot appends B^-1 times its column (product form). A basis of a
-/// few rows is inverted explicitly instead.
+/// so fill-in occurs in D only. A pivot appends B^-1 times its column (product form). For a basis
+/// of few rows, the explicit inverse is used instead.
 class Factor {
  public:
   void resize(int rows, int max_updates);
 
-  /// Factors B from scratch; the order of `head` may change. Where columns depend on others,
+  /// Factors B from scratch; the order of `head` may change. If columns depend on others,
   /// `singular` lists them, and the result is false.
   bool factorise(const Model& model, std::vector<int>& head, double singular_tolerance);
   const std::vector<Replacement>& singular() const { return singular_; }
 
-  /// B z = a. `a` by rows is destroyed, z comes by positions.
+  /// Solves B z = a. Overwrites `a`, which is ordered by rows; z is ordered by positions.
   void ftran(double* a, double* z) const;
-  /// B'y = c. `c` by positions is destroyed, y comes by rows.
+  /// Solves B'y = c. Overwrites `c`, which is ordered by positions; y is ordered by rows.
   void btran(double* c, double* y) const;
-  /// Row `position` of B^-1; `c` by positions is destroyed.
+  /// Row `position` of B^-1. Overwrites `c`, which is ordered by positions.
   void row(int position, double* c, double* y) const;
-  /// The column at `position` is replaced by one with B^-1 a = alpha.
+  /// Replaces the column at `position` by a column a with B^-1 a = alpha.
   void update(int position, const double* alpha);
   int updates() const { return updates_; }
 

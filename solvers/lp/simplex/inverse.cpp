@@ -6,7 +6,7 @@
 namespace maxwrench::simplex {
 namespace {
 
-/// y += f x; the two never overlap.
+/// y += f x; the two must not overlap.
 inline void add(int n, double f, const double* __restrict x, double* __restrict y) {
   for (int p = 0; p < n; ++p) y[p] += f * x[p];
 }

@@ -11,14 +11,15 @@ struct Replacement {
   int position, row;
 };
 
-/// The explicit inverse of a small basis matrix. A row of it costs nothing, a product is a few
-/// contiguous additions; below about 24 rows this beats triangular factors.
+/// The explicit inverse of a small basis matrix. A row of it needs no computation, and a product is
+/// a few contiguous additions. Below about 24 rows this is faster than triangular factors.
 class Inverse {
  public:
   void resize(int rows);
 
-  /// Inverts by bringing one column after the other into the identity, single entries first. The
-  /// columns of `head` are put in the order of their pivot rows. Dependent columns are listed.
+  /// Inverts by exchanging one column of the identity after the other, columns with a single entry
+  /// first. Reorders the columns of `head` by their pivot rows. Lists dependent columns in
+  /// `singular`.
   bool invert(const Model& model, std::vector<int>& head, double singular_tolerance,
               std::vector<Replacement>& singular);
   void ftran(const double* a, double* z) const;

@@ -58,7 +58,7 @@ void Model::resize(int new_rows, int new_cols, int entries) {
   }
 }
 
-/// Also gathers what the scaling needs: the largest magnitude of each row and column.
+/// Also computes the data for scaling: the largest magnitude of each row and column.
 bool Model::copy(const LinearProgram& program) {
   const auto& A = program.A;
   const int* const outer = A.outerIndexPtr();
@@ -101,9 +101,9 @@ bool Model::copy(const LinearProgram& program) {
   return poison == 0;
 }
 
-/// Rows and columns whose largest entries are already near one are left alone. Otherwise a few
-/// passes of geometric scaling, then every column is brought to a largest entry near one. Entries
-/// that are rounding noise beside their column's largest do not take part.
+/// Rows and columns whose largest entries are already near one are not scaled. Otherwise, after a
+/// few passes of geometric scaling, every column is scaled so that its largest entry is near one.
+/// Entries that are rounding noise compared with the largest entry of their column are ignored.
 void Model::choose_scales() {
   const auto uneven = [](double x) { return x != 0 && (x < 0.01 || x > 100); };
   scaled = std::any_of(row_max_.begin(), row_max_.end(), uneven) ||
@@ -151,8 +151,8 @@ void Model::apply_matrix_scales() {
   for (int i = 0; i < rows; ++i) b[i] *= row_scale[i];
 }
 
-/// Tolerances are absolute for quantities near one: the geometric mean of the costs is brought
-/// there, and right-hand sides and bounds if all are small.
+/// Tolerances are absolute, for quantities near one. So the geometric mean of the costs is scaled
+/// to one, and right-hand sides and bounds if all of them are small.
 void Model::apply_vector_scales() {
   double smallest_cost = kInfinity, largest_cost = 0, largest_bound = 0;
   for (int j = rows; j < total; ++j) {

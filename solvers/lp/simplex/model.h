@@ -6,9 +6,9 @@
 
 namespace maxwrench::simplex {
 
-/// The scaled program `min cost'x, [I A] x = b, lower <= x <= upper`: the logical variables 0..m-1,
-/// fixed at zero, come first and make every program start from a regular basis; column j of the
-/// program is variable m + j. All factors are powers of two, so that scaling rounds nothing:
+/// The scaled program `min cost'x, [I A] x = b, lower <= x <= upper`. The logical variables 0..m-1
+/// come first and are fixed at zero; they give every program a regular basis. Column j of the
+/// program is variable m + j. All factors are powers of two, so scaling causes no rounding:
 ///
 ///   A_s = R A C,  b_s = t R b,  x_s = t C^-1 x,  cost = -k C c,  lambda = -R y / k.
 struct Model {
@@ -22,7 +22,8 @@ struct Model {
   bool scaled = false;
   bool crossing = false;
 
-  /// Copies and scales; explicit zeros are dropped. False if the program is malformed.
+  /// Copies and scales the program; drops explicit zeros. Returns false if the program is
+  /// malformed.
   bool load(const LinearProgram& program);
 
  private:

@@ -7,9 +7,10 @@ namespace maxwrench::simplex {
 
 /// The primal simplex: starts from a feasible basis and improves the objective.
 ///
-/// Entering column by Devex weights, leaving row by Harris' ratio test in two passes: the longest
-/// step that violates no bound by more than the tolerance, then the largest pivot that blocks
-/// within it. A bound that is already violated there is shifted to the present value.
+/// The entering column is chosen by Devex weights, the leaving row by Harris' ratio test in two
+/// passes. The first pass finds the longest step that violates no bound by more than the tolerance,
+/// the second the largest pivot that blocks within this step. If the bound at this pivot is already
+/// violated, it is shifted to the present value.
 class Primal {
  public:
   explicit Primal(Engine& engine) : e_(engine), s_(engine.options) {}
@@ -69,7 +70,8 @@ Outcome Primal::run() {
   }
 }
 
-/// Fresh factors, x and d. A basis that had to be repaired or is clearly infeasible ends the phase.
+/// Computes fresh factors, x and d. Ends the phase if the basis had to be repaired or is clearly
+/// infeasible.
 bool Primal::refresh() {
   if (!e_.refactor()) return false;
   e_.compute_primal();
@@ -94,7 +96,8 @@ int Primal::choose_column() const {
   return best;
 }
 
-/// Room of the basic variable at p when the entering one moves with tableau entry `a`.
+/// The distance that the basic variable at p permits, when the entering variable moves with tableau
+/// entry `a`.
 double Primal::slack(int p, double a) const {
   return a > 0 ? e_.x_basic[p] - e_.basic_lower[p] : e_.basic_upper[p] - e_.x_basic[p];
 }
@@ -185,7 +188,7 @@ void Primal::update_duals(int q, double pivot) {
   e_.weights_[leaving] = std::max(reference / (pivot * pivot), 1.0);
 }
 
-/// As in the dual phase, with bounds in the place of costs.
+/// Like in the dual phase, with bounds instead of costs.
 void Primal::note_progress(double theta) {
   if (theta > 1e-12) {
     stalled_ = 0;

@@ -3,17 +3,17 @@
 
 #include "solvers/wrench/tableau.h"
 
-// What the tableau claims, checked with the rows that it was given.
+// Checks the tableau's result with the given rows.
 
 namespace maxwrench {
 namespace {
 
-/// What an accepted optimum satisfies its multipliers to.
+/// The error that is accepted in conditions on the multipliers, relative to their size.
 constexpr double kAccepted = 1e-10;
 
 }  // namespace
 
-/// x and the multipliers as the tableau has them.
+/// Sets x and the multipliers from the tableau.
 void Tableau::fill() {
   for (int j = 0; j < columns_; ++j) {
     point_[basis_.row[j]] = bound(j);
@@ -27,9 +27,9 @@ void Tableau::fill() {
   std::copy(y_.begin(), y_.begin() + rows_, multipliers.data());
 }
 
-/// One step of iterative refinement by G.
+/// One step of iterative refinement with G.
 void Tableau::refine() {
-  // What the rows of G in the basis miss of their bounds moves the dependent columns of x.
+  // The distances of the basis rows of G from their bounds correct the dependent columns of x.
   for (int j = 0; j < columns_; ++j) {
     if (basis_.row[j] >= rows_) continue;
     double missed = bound(j);
@@ -38,7 +38,7 @@ void Tableau::refine() {
       if (dependent_.row[i] >= rows_) value_[i] += T(i)[j] * missed;
     }
   }
-  // c less what the multipliers give vanishes on the dependent columns.
+  // On the dependent columns, c minus the combination of rows by the multipliers should be zero.
   for (int i = 0; i < rows_; ++i) {
     const int column = dependent_.row[i] - rows_;
     if (column < 0) continue;
@@ -51,8 +51,8 @@ void Tableau::refine() {
   fill();
 }
 
-/// Whether all rows of [G; I] hold and each either rests on the bound that its multiplier asks for
-/// or has none. The multiplier of a unit row is what c leaves for its column.
+/// Whether all rows of [G; I] hold, and each row with a multiplier is on the bound that its sign
+/// selects. The multiplier of a unit row is the remainder of c in its column.
 bool Tableau::optimum_holds() {
   std::copy(c.data(), c.data() + columns_, y_.begin() + rows_);
   double scale = 0;
@@ -82,8 +82,9 @@ bool Tableau::optimum_holds() {
   return holds;
 }
 
-/// Dependent row i less sum T_ij times the rows of the basis vanishes, and the bounds of the latter
-/// keep it away from its own by the gap that the ratio test left. False if it does not vanish.
+/// Dependent row i minus the sum of T_ij times the rows of the basis is zero, and the bounds of
+/// these rows keep row i away from its own bound by the gap that the ratio test left. Returns false
+/// if the combination is not zero.
 bool Tableau::prove_contradiction(int i, double side) {
   multipliers.setZero();
   used_.clear();
