@@ -117,7 +117,7 @@ Simulated simulated(const Task& task, const char* name, const Answer& own, const
   result.cell = summary.held ? fmt::format("{:>8.2f}", summary.mean) : "    lost";
   const TankRun beyond = simulate_posture(reach, reach.capability.beta + 1, "cvode", {});
   result.beyond =
-      fmt::format("    {:<8} {:>5.2f}: {}, mean reading {:.2f}, drift {:.2f} rad{}\n", name,
+      fmt::format("    {:<8} {:>5.2f}: {}, mean reading {:.2f}, error {:.2f} rad{}\n", name,
                   beyond.summary.planned, beyond.summary.held ? "held" : "not held",
                   beyond.summary.mean, beyond.summary.theta_r_error,
                   beyond.summary.theta_r_error < kLost

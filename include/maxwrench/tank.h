@@ -156,7 +156,7 @@ inline constexpr double kLost = 0.5;
 /// A load is part of the robot's mass matrix and weight from the start; what holds it up lets go in
 /// the ramp. Then a = omega^2 e - 2 omega v acts on all velocities, e the errors of base and
 /// joints. Throws as `check`.
-TankRun run_tank(const Problem& problem, const Posture& posture, const TargetWrench& trajectory,
+TankRun run_tank(const Problem& problem, const Posture& posture, const TargetWrench& target,
                  Integrator& integrator, const TankOptions& options);
 
 /// What joins the instants of a trajectory.

@@ -5,30 +5,30 @@
 namespace maxwrench {
 namespace {
 
-/// The start of local search number `optimise` if the earlier search has left none: `options.start`
+/// The start of local search `number` if the earlier search has left none: `options.start`
 /// for the first local search, random points for the others. Has no value if the probe's
 /// evaluations run out first.
-Candidate draw_start(Probe& probe, const Box& box, const SearchOptions& options, long optimise,
+Candidate draw_start(Probe& probe, const Box& box, const SearchOptions& options, long number,
                      Random& random) {
   Candidate start;
   const auto evaluate = [&](const Eigen::VectorXd& theta_r) {
     start = {theta_r, probe.evaluate(theta_r)};
   };
-  if (optimise == 0 && options.starts.empty()) evaluate(box.start(options.start));
+  if (number == 0 && options.starts.empty()) evaluate(box.start(options.start));
   while (start.value == -kInfinity && probe.left() > 0) {
     evaluate(random_point(box, random));
   }
   return start;
 }
 
-/// Local search number `optimise`, with all evaluations that the probe has left.
+/// Local search `number`, with all evaluations that the probe has left.
 Part optimise_once(Probe& probe, const Box& box, const SearchOptions& options,
-                   const LocalSearch& local_search, long optimise) {
-  Random random(options.seed, RandomUse::kLocalSearch, static_cast<std::uint64_t>(optimise));
-  const auto number = static_cast<std::size_t>(optimise);
-  const Candidate start = number < options.starts.size()
-                              ? options.starts[number]
-                              : draw_start(probe, box, options, optimise, random);
+                   const LocalSearch& local_search, long number) {
+  Random random(options.seed, RandomUse::kLocalSearch, static_cast<std::uint64_t>(number));
+  const auto index = static_cast<std::size_t>(number);
+  const Candidate start = index < options.starts.size()
+                              ? options.starts[index]
+                              : draw_start(probe, box, options, number, random);
   Call call{local_search.method, kBudgetUsed};
   const long drawn = probe.found().trace.evaluations();
   if (start.value > -kInfinity && probe.left() > 0)

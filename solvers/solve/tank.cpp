@@ -39,10 +39,9 @@ TankRun simulate_posture(const Answer& answer, double planned, const std::string
   // Beyond the capability, only the component along c grows. Below it, all components shrink
   // together, which is feasible because the set of efforts is convex.
   const double share = std::clamp(planned / problem.c.dot(capability.h), 0.0, 1.0);
-  TargetWrench trajectory{share * capability.h, share * capability.u, answer.choice.wrench};
-  trajectory.h += (planned - problem.c.dot(trajectory.h)) * problem.c;
-  return run_tank(problem, answer.posture, trajectory, *find_integrator(integrator).make(),
-                  options);
+  TargetWrench target{share * capability.h, share * capability.u, answer.choice.wrench};
+  target.h += (planned - problem.c.dot(target.h)) * problem.c;
+  return run_tank(problem, answer.posture, target, *find_integrator(integrator).make(), options);
 }
 
 TankRun simulate_load(const Answer& answer, double load, const std::string& integrator,

@@ -123,8 +123,8 @@ void BorderedFacets::load(const TrajectoryProgram& program) {
     const Row& row = rows_[i];
     if (!row.used) continue;
     tableau_.entry(line, 0) = row.slope;
-    const auto center_products = y_slopes_.col(static_cast<Eigen::Index>(i));
-    std::copy(center_products.data(), center_products.data() + p, tableau_.row(line) + 1);
+    const auto slopes = y_slopes_.col(static_cast<Eigen::Index>(i));
+    std::copy(slopes.data(), slopes.data() + p, tableau_.row(line) + 1);
     tableau_.low[line] = row.low;
     tableau_.high[line] = row.high;
     ++line;

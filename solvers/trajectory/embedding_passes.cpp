@@ -96,9 +96,9 @@ double Embedding::affine_rhs() {
   tau_pivot_ = kappa_ / tau_ + squares.value();
   double sum = rhs.value();
   for (const int f : forms_.equations) {
-    const double drift = forms_.hi[f] - G_(f, kTau);
-    tau_pivot_ += kEquation * drift * drift;
-    sum -= drift * kEquation * (forms_.hi[f] * tau_ - phi_[f]);
+    const double tau_slope = forms_.hi[f] - G_(f, kTau);
+    tau_pivot_ += kEquation * tau_slope * tau_slope;
+    sum -= tau_slope * kEquation * (forms_.hi[f] * tau_ - phi_[f]);
   }
   return sum;
 }
