@@ -204,7 +204,7 @@ void add_problem(const Problem& problem) {
   }
   add(name("model"), [&](benchmark::State& state) { time_model(state, problem); });
   if (problem.contact) {
-    add(name("model/IK solutions"),
+    add(name("model/ik_solutions"),
         [&](benchmark::State& state) { time_ik_solutions(state, problem); });
   }
   if (!problem.dependent.empty()) {
@@ -254,7 +254,7 @@ class Keeper : public benchmark::ConsoleReporter {
                  model / kdl);
     }
     if (time("model/search") > 0 && kdl > 0) {
-      fmt::print("{}: along a search, median of model / IK solution / KDL = {:.2f}\n", problem.name,
+      fmt::print("{}: along a search, median of model / ik_solutions / KDL = {:.2f}\n", problem.name,
                  time("model/search") / kdl);
     }
     if (value > 0 && gradient > 0) {

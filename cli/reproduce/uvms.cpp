@@ -267,7 +267,7 @@ PaperTable reproduce_uvms(const std::filesystem::path& folder, int threads) {
   RowWriter writer("reproduce uvms", folder, threads, rows);
   std::string text = fmt::format(
       "The underwater vehicle with a 4-joint arm, static. The model is public data, nothing is\n"
-      "tuned to the tank. own: value of the measure; proven: no posture has more, by IK solution "
+      "tuned to the tank. own: value of the measure; proven: no posture has more, by branch "
       "and\n"
       "bound to 0.1 %; pure: the largest wrench along c alone that any efforts reach at that\n"
       "posture; tank: measured in the paper; gain over the default posture: of pure (of own for\n"

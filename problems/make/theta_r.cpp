@@ -156,7 +156,7 @@ bool follow_independently(const Problem& problem) {
   throw BadValue(
       "pose.xyz", shown(problem.pose.p),
       fmt::format("a pose that {} reach{} (from {} at the default Newton's method stays {})",
-                  dependents_of(problem), problem.motion ? " on the IK solution of the guess" : "",
+                  dependents_of(problem), problem.motion ? " on the solution of the guess" : "",
                   task.guess.empty() ? "zero" : "theta_r.guess",
                   shown_gap(ik_solution.start_gap())));
 }
