@@ -33,8 +33,8 @@ class Box {
   Eigen::VectorXd slope(const Eigen::VectorXd& gradient) const;
   /// Returns the theta_r at which a search starts.
   ///
-  /// It is `start` moved into the bounds, or the middle of the bounds if `start` is empty. Call
-  /// `check` before.
+  /// It is `start` moved into the bounds, or the middle of the bounds if `start` is empty. `start`
+  /// must have passed `check`.
   Eigen::VectorXd start(const Eigen::VectorXd& start) const;
   /// Returns the distance of two values of theta_r.
   ///

@@ -24,7 +24,7 @@ struct BoxProof {
   };
   Kind kind = Kind::kNone;     ///< the kind of reason
   double high = kInfinity;     ///< the upper bound [N or N m]
-  Eigen::VectorXd multiplier;  ///< lambda of the measure's program, or mu of the joints
+  Eigen::VectorXd multiplier;  ///< lambda of the measure's program, or mu, one number per joint
   int pair = -1;               ///< pair of the robot's `CollisionChecker`; -1: none
   /// A coordinate along which to cut the box, because one half then collides; -1: none is known. It
   /// proves nothing.

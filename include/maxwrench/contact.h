@@ -33,9 +33,9 @@ enum class Surface {
 /// wrenches turn with the contact frame: h_2 = C_2 w_2 in world axes at the contact point, with
 /// C_2 = blkdiag(R(s), R(s)) C.
 struct Contact {
-  int end_effector =
-      0;  ///< index in `Robot::end_effectors`; its arm shares no joint with the first
-  Surface surface = Surface::kPoint;  ///< where it may touch
+  /// Index in `Robot::end_effectors`. Its arm shares no joint with that of the first end effector.
+  int end_effector = 0;
+  Surface surface = Surface::kPoint;  ///< the points that it may touch
   Pose<double> frame;                 ///< F, in the world [m]
   double radius = 0;                  ///< m, of kCircle
   /// 6×l [force; torque], in contact axes: a basis of what the robot may exert. It may have no
@@ -107,11 +107,11 @@ bool near_singular(const Robot& robot, const Contact& contact, const Matrix6Xd& 
 /// @return the rank
 int stacked_rank(const Robot& robot, int end_effector, const Contact& contact);
 
-/// Returns the number of independent motions that the dependent joints of a contact can give to
-/// those coordinates of the second end effector that the contact fixes.
+/// Returns the largest rank of J_f over all postures.
 ///
-/// It is the largest rank of J_f over all postures. J_f is (3 or 6)×d, with d the number of
-/// `Contact::follow`. If the rank is less than d, the contact does not determine the joints.
+/// J_f is (3 or 6)×d. It maps the rates of the d dependent joints (`Contact::follow`) to the rates
+/// of the coordinates of the second end effector that the contact fixes. If the rank is less than
+/// d, the contact does not determine the joints.
 int dependent_rank(const Robot& robot, const Contact& contact);
 
 }  // namespace maxwrench

@@ -23,10 +23,13 @@ struct Panel {
 /// Draws a robot in one or several postures with its wrench sets.
 ///
 /// It is the paper's fig:polytopes (one panel) or fig:optimalpolytopes (several panels). Each panel
-/// shows the robot, the direction c and four sets of forces around the end effector. They are the
-/// ellipsoid, the L2 polytope and the L-infinity polytope of the forces without any other wrench
-/// component, and the L-infinity polytope of the forces that occur together with any allowed
-/// wrench. If c is not a force along the plane seen from above or from the side, the result is that
+/// shows the robot, the direction c and four sets of forces around the end effector:
+///
+/// * the ellipsoid, the L2 polytope and the L-infinity polytope of the forces without any other
+///   wrench component;
+/// * the L-infinity polytope of the forces that occur together with any allowed wrench.
+///
+/// If c is not a force along the plane seen from above or from the side, the result is that
 /// of `posture_figure`.
 ///
 /// @param problem  the task

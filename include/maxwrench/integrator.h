@@ -107,8 +107,7 @@ class Integrator {
   ///         kBudgetExhausted: `max_steps` did not suffice. kNumericalError: no step was short
   ///         enough.
   /// @throws std::invalid_argument if the times are fewer than two or do not increase, or if
-  /// `check`
-  ///         throws.
+  ///         `check` throws.
   virtual Status integrate(Ode& ode, const IntegratorOptions& options,
                            std::span<const double> times, OdeSolution& trajectory) = 0;
 };

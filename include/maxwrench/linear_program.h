@@ -78,8 +78,8 @@ inline constexpr const char* kMalformed =
 /// largest magnitude of the terms that it compares.
 ///
 /// Bounds of magnitude 1e20 or more count as infinite. A sum that rounding alone may have produced
-/// (a few units in the last place of its terms) counts as zero, so that it is not multiplied by a
-/// large bound.
+/// (a few units in the last place of its terms) counts as zero. Otherwise a large bound would
+/// multiply it.
 ///
 /// @param program   the program
 /// @param solution  its solution
@@ -95,10 +95,10 @@ Residual residuals(const LinearProgram& program, const LpSolution& solution, LpS
 ///
 /// A certificate is judged relative to its own terms, so its length does not matter:
 ///
-/// * Infeasible: y'b must exceed the supremum by 1e-10 of the sum of all magnitudes, which is far
-///   above rounding, and by the product of the rounding of (A'y)_j with the bounds. Where the bound
-///   is infinite, (A'y)_j counts as zero below 1e-10 of the magnitudes of its terms. Any l > u is a
-///   proof without a certificate.
+/// * Infeasible: y'b must exceed the supremum by the sum of two amounts. One is 1e-10 of the sum of
+///   all magnitudes, far above rounding. The other is the rounding of (A'y)_j times the larger of
+///   its bounds, summed over the columns. Where a bound is infinite, (A'y)_j counts as zero below
+///   1e-10 of the magnitudes of its terms. Any l > u is a proof without a certificate.
 /// * Unbounded: A r = 0 and the bounds hold to 1e-9 of their terms, c'r exceeds 1e-9 of its terms,
 ///   and x is feasible to `tolerance`.
 ///

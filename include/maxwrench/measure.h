@@ -69,8 +69,7 @@ const Posture& evaluate_best(PostureEvaluator& model, const Eigen::VectorXd& the
 /// absolute limits.
 ///
 /// @throws std::invalid_argument if B does not have full row rank, or an actuator cannot act in
-/// both
-///         directions (min < 0 < max).
+///         both directions (min < 0 < max).
 std::unique_ptr<Measure> make_ellipsoid(const Robot& robot);
 
 /// Makes the L2 polytope measure: the efforts u = B^+ (tau_d + J'h) must be within the limits.
@@ -103,8 +102,7 @@ std::unique_ptr<Measure> make_manipulability(const Problem& problem);
 /// columns it is the farthest point of the ellipsoid along c.
 ///
 /// @throws std::invalid_argument if B does not have full row rank, because the efforts would then
-/// be
-///         undetermined.
+///         be undetermined.
 std::unique_ptr<Measure> make_transmission_ratio(const Robot& robot);
 
 /// Makes the weighted transmission ratio: eq:transmissionUVMS at tau_d = 0, |W_u B^+ J'h| <= 1.
@@ -122,10 +120,10 @@ std::unique_ptr<Measure> make_least_effort(const Problem& problem);
 
 /// Makes the saturating-wrench measure: the wrench along c at which the first actuator saturates.
 ///
-/// For each actuator it takes the ratio of the remaining effort to the effort per unit of wrench,
-/// as for a serial arm, where a given wrench determines the effort of each joint. The efforts are
-/// those of least |W_u u|. If all actuators have the same limits, the value is that of the L2
-/// polytope along c.
+/// For each actuator it takes the ratio of the remaining effort to the effort per unit of wrench.
+/// This is the method for serial arms, where a given wrench determines the effort of each joint.
+/// Here the efforts are those of least |W_u u|. If all actuators have the same limits, the value is
+/// that of the L2 polytope along c.
 ///
 /// @throws std::invalid_argument as `make_ellipsoid`.
 std::unique_ptr<Measure> make_saturating_wrench(const Robot& robot);

@@ -54,8 +54,7 @@ struct MpsProgram {
 /// * Integrality is ignored.
 ///
 /// @throws std::invalid_argument that names the file, the line and what was expected there. A
-/// number
-///         that is given twice is such an error.
+///         number that is given twice is such an error.
 MpsProgram read_mps(const std::string& path);
 
 /// Returns a wrench program as the text of an MPS file with physical names.

@@ -105,9 +105,9 @@ class PostureEvaluator {
 
   /// Computes the posture at theta_r.
   ///
-  /// Joint limits, reach and self-collision determine its status. J and tau_d are always filled.
-  /// They belong to the first valid posture, or to one that shows the violation. If no posture
-  /// reaches the pose, they belong to theta_r with the guess of the dependent coordinates.
+  /// The limits of joints, reach and self-collision determine its status. J and tau_d are always
+  /// filled. They belong to the first valid posture, or to one that shows the violation. If no
+  /// posture reaches the pose, they belong to theta_r with the guess of the dependent coordinates.
   ///
   /// @param theta_r  r, the redundant coordinates
   /// @return the posture, valid until the next call

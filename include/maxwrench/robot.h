@@ -27,8 +27,7 @@ enum class JointType {
 /// Added mass and drag of one body, diagonal in the axes of its own frame.
 ///
 /// They act on the velocity v = [linear; angular] at the origin of `frame`. The force of the drag
-/// is
-/// -(linear + quadratic |v|) v.
+/// is -(linear + quadratic |v|) v.
 struct HydrodynamicBody {
   Pose<double> frame;                             ///< link -> body
   Vector6d added_mass = Vector6d::Zero();         ///< [kg, kg m^2]
@@ -181,7 +180,7 @@ struct Robot {
   Trim trim;                               ///< floats and ballast
   /// The actuators (n×m): thrusters first, then one directly driven motor for each joint.
   Zonotope actuation;
-  Eigen::VectorXd u_rate_max;                         ///< m, [N/s]; infinite for joints
+  Eigen::VectorXd u_rate_max;  ///< m, limits of effort rates [N/s]; infinite for joints
   std::shared_ptr<const CollisionChecker> collision;  ///< null: there is nothing to check
   std::vector<ConvexBody> convex_bodies;              ///< shapes of the robot, for figures
 

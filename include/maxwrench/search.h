@@ -35,8 +35,8 @@ struct SearchOptions {
   /// The results of an earlier search, best first, each with a value. A search that continues
   /// begins at these points, and only then at its own starts.
   std::vector<Candidate> starts;
-  long starts_wanted =
-      0;  ///< largest number of points in `SearchResult::starts`, for a search that continues
+  /// Largest number of points in `SearchResult::starts`, for a search that continues.
+  long starts_wanted = 0;
   std::function<void(long evaluations)> progress = {};  ///< called from time to time
   /// Called before each evaluation. Once it returns true, the search makes no more evaluations and
   /// returns the best point so far.
@@ -55,7 +55,7 @@ struct Improvement {
 /// One run of a method, such as a local search of "slsqp" that ended with "xtol_reached".
 struct Call {
   std::string method;    ///< the name of the search
-  std::string status;    ///< the word of the library; "budget" if the evaluations ran out
+  std::string status;    ///< as the library reports it; "budget" if the evaluations ran out
   long evaluations = 0;  ///< number of evaluations of this run
 };
 

@@ -29,8 +29,8 @@ struct Case {
   /// "none": the measure is a closed form.
   std::string solver = "";
   /// A single method, or stages joined by '+'. Empty: `default_search`, which is restarted for a
-  /// static task without a budget until more runs are pointless. An evaluation of a given posture
-  /// or trajectory uses no search.
+  /// static task without a budget until another optimum is unlikely. An evaluation of a given
+  /// posture or trajectory uses no search.
   std::string search = "";
   std::uint64_t seed = 1;  ///< of the random numbers
   /// Largest number of evaluations of the search, never exceeded. 0: `kUsualBudget`, or for a
@@ -67,10 +67,10 @@ struct Options : Case {
   std::function<bool()> interrupted = {};
 };
 
-/// How often a method of a search ended with the same word of its library.
+/// The number of runs of a method that ended with the same status of its library.
 struct CallCount {
   std::string method,   ///< the name of the method
-      status;           ///< the word of the library
+      status;           ///< the status that the library reports
   long calls = 0,       ///< number of runs
       evaluations = 0;  ///< number of evaluations of these runs
 };
@@ -142,10 +142,9 @@ std::string default_search(const Problem& task, const std::string& measure);
 /// Returns the case with the search and the budget that `solve` uses if it names none.
 Case with_search(const Problem& task, Case c);
 
-/// Returns the name of the search of postures that is best in general for a measure of which
-/// nothing is known.
+/// Returns the name of the search of postures that is best in general for any measure.
 ///
-/// It is one of those that are built in.
+/// It is one of the searches that this build contains.
 const char* general_search();
 
 /// Evaluates a task at theta_r.
@@ -155,9 +154,8 @@ const char* general_search();
 /// @param options  measure, wrench, solver and others
 /// @return the value and what is known about it
 /// @throws std::invalid_argument, which names key, value and what was expected, if the table has
-/// the
-///         wrong size or is not finite, a name does not exist, or the combination of choices is not
-///         supported.
+///         the wrong size or is not finite, a name does not exist, or the combination of choices is
+///         not supported.
 Answer evaluate(const Problem& task, const Eigen::MatrixXd& theta_r, const Options& options = {});
 
 /// Searches for the best posture or trajectory.
@@ -173,8 +171,7 @@ Answer solve(const Problem& task, const Options& options = {});
 /// @param task     the task
 /// @param options  the case, with `Case::integrator`
 /// @return kReached, with the reading as value, whether or not the wrench was held; kNoneFound if
-/// the
-///         posture was lost
+///         the posture was lost
 /// @throws std::invalid_argument as `evaluate`.
 Answer experiment(const Problem& task, const Options& options);
 

@@ -25,7 +25,7 @@ struct Problem;
 /// A capability measure in the table.
 struct MeasureEntry {
   const char* name;     ///< as on the command line
-  const char* summary;  ///< one line for people
+  const char* summary;  ///< one line of description
   bool needs_solver;    ///< false: a closed form, for which `make` ignores the solver
   bool serves_any;      ///< false: rejects Wrench::kAny, which would have no meaning
   const char* unit;     ///< of its value; null: that of the wrench along c
@@ -36,7 +36,7 @@ struct MeasureEntry {
 /// A solver of general linear programs in the table.
 struct LpEntry {
   const char* name;     ///< as on the command line
-  const char* summary;  ///< one line for people
+  const char* summary;  ///< one line of description
   /// The approximate cost of one solve, as a multiple of that of our own solvers. The budgets of
   /// the benchmark are divided by it.
   int cost;
@@ -48,7 +48,7 @@ struct LpEntry {
 /// It either exploits the structure, or is a general solver applied to the assembled program.
 struct WrenchSolverEntry {
   const char* name;      ///< as on the command line
-  const char* summary;   ///< one line for people
+  const char* summary;   ///< one line of description
   bool one_column_only;  ///< true: rejects Wrench::kAny and second contacts
   bool needs_facets;     ///< true: rejects actuators with too many facets to enumerate
   int cost;              ///< as `LpEntry::cost`
@@ -60,14 +60,14 @@ struct WrenchSolverEntry {
 /// It either exploits the structure, or is a general solver applied to the assembled program.
 struct TrajectorySolverEntry {
   const char* name;                                         ///< as on the command line
-  const char* summary;                                      ///< one line for people
+  const char* summary;                                      ///< one line of description
   std::function<std::unique_ptr<TrajectorySolver>()> make;  ///< makes the solver
 };
 
 /// A search in the table: a single method, without stages.
 struct SearchEntry {
   const char* name;     ///< as on the command line
-  const char* summary;  ///< one line for people
+  const char* summary;  ///< one line of description
   bool local;           ///< true: a local search from one posture, which finds no better maximum
                         ///< elsewhere
   std::unique_ptr<Search> (*make)();  ///< makes the search
@@ -88,7 +88,7 @@ struct SearchEntry {
 /// An integrator in the table.
 struct IntegratorEntry {
   const char* name;                       ///< as on the command line
-  const char* summary;                    ///< one line for people
+  const char* summary;                    ///< one line of description
   bool stiff;                             ///< true: fast decaying components do not limit its steps
   std::unique_ptr<Integrator> (*make)();  ///< makes the integrator
 };
@@ -136,8 +136,7 @@ bool one_at_a_time(std::string_view name);
 /// Returns the measure with this name.
 ///
 /// @throws std::invalid_argument that lists the alternatives. If this build leaves the entry out,
-/// it
-///         names the missing library.
+///         it names the missing library.
 const MeasureEntry& find_measure(std::string_view name);
 /// Returns the solver of linear programs with this name.
 ///

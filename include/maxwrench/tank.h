@@ -97,8 +97,8 @@ struct TankSample {
   double deflection_error = 0;     ///< distance of the end effector from where the planned wrench
                                    ///< bends the cell to [m, rad]
   double violation = 0;            ///< how far efforts or rates exceed their limits [N, N m, N/s]
-  double off_axis_force = 0,       ///< force of h_e across c, less the planned one [N]
-      off_axis_torque = 0;         ///< torque of h_e across c, less the planned one [N m]
+  double off_axis_force = 0,       ///< force of h_e across c: deviation from the planned one [N]
+      off_axis_torque = 0;         ///< torque of h_e across c, likewise [N m]
   double speed = 0;                ///< how far joints exceed their speed limits [rad/s, m/s]
   double angle = 0;                ///< rotation of the end effector since the start [rad]
   Eigen::VectorXd theta_r;         ///< r
@@ -110,8 +110,8 @@ struct MotionSummary {
       t_high = 0;             ///< time of the highest reading
   double at_peak = 0;         ///< of an impulse: the reading at t_h; otherwise NaN
   double deviation = 0;       ///< largest difference of reading and planned wrench [N, N m]
-  double off_axis_force = 0,  ///< largest force across c, less the planned one, if it is not free
-      off_axis_torque = 0;    ///< largest torque across c, likewise
+  double off_axis_force = 0,  ///< largest deviation of the force across c, if it is not free [N]
+      off_axis_torque = 0;    ///< largest deviation of the torque across c, likewise [N m]
   double speed = 0;           ///< largest of the samples [rad/s, m/s]
   int violations = 0;         ///< samples that exceed a limit of effort, rate or speed
 };
@@ -177,8 +177,8 @@ inline constexpr double kHeldViolation = 1e-3;
 /// Beside a planned force, a torque counts as the force at this lever. Beside a planned torque, a
 /// force counts as its torque at this lever.
 inline constexpr double kHeldLever = 0.1;
-/// The distance from its reference at which the posture is lost, which ends the experiment [rad,
-/// m].
+/// The distance [rad, m] from its reference at which the posture is lost, which ends the
+/// experiment.
 inline constexpr double kLost = 0.5;
 
 /// Runs a static experiment.
@@ -256,8 +256,8 @@ void check(const ScriptOptions& options);
 ///
 ///     B u_i - J_i'h_i (+ s_i) = tau_d,i,   u_min <= u_i <= u_max,   |u_i+1 - u_i| <= du_max dt.
 ///
-/// Along a path, the knots of the scheme `forward` are T/(k-1) apart here, as their poses are. A
-/// single knot is held where the path starts.
+/// Along a path, the knots of the scheme `forward` are T/(k-1) apart here, as their poses are.
+/// With a single knot the end effector stays where the path starts.
 ///
 /// @param problem     the task in time
 /// @param trajectory  an evaluated trajectory; for kSpline, `evaluate_between_knots` was called too
@@ -275,8 +275,8 @@ TankScript make_script(const Problem& problem, const Trajectory& trajectory, Wre
 /// kTrackedConfigurationError, and the end effector kHeldPosition. No sample may exceed a limit of
 /// effort, rate or joint speed.
 inline constexpr double kTrackedWrenchError = 0.03;
-/// The largest error of the whole posture in time that counts as held, twice that of a hold [rad,
-/// m].
+/// The largest error [rad, m] of the whole posture in time that counts as held: twice that of a
+/// hold.
 inline constexpr double kTrackedConfigurationError = 0.02;
 
 /// Runs an experiment in time along a script, for the duration of the script.

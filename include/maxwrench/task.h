@@ -26,9 +26,9 @@ struct Shape {
     kBox,      ///< a box along the axes
     kCylinder  ///< a cylinder about the z axis
   };
-  std::string body =
-      "";        ///< its name in messages and in `Collision::ignore`; empty: that of its link
-  int link = 0;  ///< the link that carries it
+  /// Its name in messages and in `Collision::ignore`. Empty: the name of its link.
+  std::string body = "";
+  int link = 0;                ///< the link that carries it
   Kind kind = Kind::kCapsule;  ///< the kind of shape
   /// Link -> shape. The shape is centred at the origin of this frame.
   Pose<double> placement = {};
@@ -78,8 +78,8 @@ struct ContactSpec {
   std::optional<double> radius = {};  ///< m, of a circle
   Eigen::VectorXd min = {},  ///< lower limits of the regrasp coordinates [m; rad of a circle];
                              ///< empty for a point
-      max = {},                          ///< upper limits, likewise
-      initial = {};                      ///< default values, likewise
+      max = {},              ///< upper limits, likewise
+      initial = {};          ///< default values, likewise
   std::vector<std::string> joints = {};  ///< the dependent joints of the contact, in the order of
                                          ///< the arm
   std::map<std::string, double> rest = {};  ///< rest values of other joints of the arm [rad or m];

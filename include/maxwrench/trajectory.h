@@ -95,7 +95,8 @@ class TrajectoryEvaluator {
   /// @param make             makes the solver of trajectory programs
   /// @param check_collision  whether to check collisions
   /// @throws std::invalid_argument if the problem has a second contact, or is static with free
-  ///         coordinates of the pose, or if an impulse cannot start as its task requires.
+  ///         coordinates of the pose. Also if the scheme does not support the task, or if the
+  ///         posture at the start of an impulse has no static capability (`Start::kStatic`).
   TrajectoryEvaluator(const Problem& problem, Wrench wrench, const TrajectorySolverMaker& make,
                       bool check_collision = true);
   TrajectoryEvaluator(const Problem&&, Wrench, const TrajectorySolverMaker&, bool = true) = delete;
@@ -196,10 +197,8 @@ enum class TrajectoryValue {
   /// The elastic value. It equals that of the hard program if that has an optimum.
   kAtInstants,
   /// The smaller one of the elastic value and `Trajectory::value_between_knots`. It does not exist
-  /// if
-  /// the hard program has no optimum or there is no value between knots. Schemes other than
-  /// `spline`
-  /// do not define the motion between instants, so they use kAtInstants.
+  /// if the hard program has no optimum or there is no value between knots. Schemes other than
+  /// `spline` do not define the motion between instants, so they use kAtInstants.
   kThroughout
 };
 

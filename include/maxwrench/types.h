@@ -10,7 +10,7 @@
 
 /// The public interface of maxwrench.
 ///
-/// Start with `load_problem`, `evaluate` and `solve`.
+/// The first functions to know are `load_problem`, `evaluate` and `solve`.
 namespace maxwrench {
 
 // Memory that the library allocates is freed by the program, and the reverse. So Eigen must
