@@ -13,28 +13,30 @@ namespace maxwrench {
 /// The status is kOptimal, or the reason why there is no value.
 struct Capability : Verdict {
   double beta = 0;    ///< c'h [N or N m], or a score in a unit of its own
-  Eigen::VectorXd w;  ///< k; empty, with h zero, if the measure has no wrench
-  Vector6d h;  ///< W w (of the first contact): what the robot exerts on the environment, world axes
-  Eigen::VectorXd u;  ///< m, actuator efforts; empty unless they were requested
-  /// n, d beta/d tau_d.
+  Eigen::VectorXd w;  ///< wrench coordinates (k); empty, with h zero, if the measure has no wrench
+  Vector6d h;         ///< wrench W w of the first contact: what the robot exerts, in world axes
+  Eigen::VectorXd u;  ///< actuator efforts (m); empty unless they were requested
+  /// Derivative d beta/d tau_d (n).
   ///
   /// If the program is infeasible, it holds a proof y instead: sup {y'(B u - J'W w)} < y'tau_d over
   /// the limits (Farkas; for the L2 polytope in the rows of its own program).
   Eigen::VectorXd lambda;
-  /// 6×n, d beta/d J.
+  /// Derivative d beta/d J (6×n).
   ///
   /// Together with lambda it gives the derivative by any parameter (envelope theorem; the paper's
   /// KKT gradient), where `<.,.>` sums the products of the entries:
   ///
   ///     d beta = lambda'd tau_d + <beta_J, d J>
   Matrix6Xd beta_J;
-  /// What the second contact exerts, world axes at the contact point; zero without one.
+  /// Wrench of the second contact, in world axes at the contact point; zero without one.
   Vector6d h_2 = Vector6d::Zero();
-  /// 6×n, d beta/d J_2 of a second contact; empty without one. It adds `<beta_J2, d J_2>` to d
-  /// beta.
+  /// Derivative d beta/d J_2 (6×n) of a second contact; empty without one.
+  ///
+  /// It adds `<beta_J2, d J_2>` to d beta.
   Matrix6Xd beta_J2,
-      /// 6×l, d beta/d C_2 of a second contact; empty without one. It adds `<beta_C2, d C_2>` to d
-      /// beta.
+      /// Derivative d beta/d C_2 (6×l) of a second contact; empty without one.
+      ///
+      /// It adds `<beta_C2, d C_2>` to d beta.
       beta_C2;
   int iterations = 0;  ///< iterations of the solver
   /// The residual of the result, filled together with u.

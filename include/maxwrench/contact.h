@@ -37,21 +37,21 @@ struct Contact {
   int end_effector = 0;
   Surface surface = Surface::kPoint;  ///< the points that it may touch
   Pose<double> frame;                 ///< F, in the world [m]
-  double radius = 0;                  ///< m, of kCircle
-  /// 6×l [force; torque], in contact axes: a basis of what the robot may exert. It may have no
-  /// column.
+  double radius = 0;                  ///< radius of kCircle [m]
+  /// Basis of the wrenches [force; torque] that the robot may exert (6×l), in contact axes. It may
+  /// have no column.
   Matrix6Xd C;
-  Eigen::VectorXd w_min,  ///< l, lower limits of w_2 [N or N m]; 0 if the robot may only push
-      w_max;              ///< l, upper limits of w_2 [N or N m]; infinity if there is none
+  Eigen::VectorXd w_min,  ///< lower limits of w_2 (l) [N or N m]; 0 if the robot may only push
+      w_max;              ///< upper limits of w_2 (l) [N or N m]; infinity if there is none
   /// true: the axes of the end effector also follow those of the contact frame (a firm grasp).
   /// false: only its origin meets the contact point.
   bool holds_axes = false;
   /// The joints that depend on the contact, in the order of the arm. All others of the arm rest.
   std::vector<int> follow;
-  Eigen::VectorXd q_rest;  ///< all joints [rad or m]: the rest values of joints that nothing else
-                           ///< determines
-  double length_scale = 0.2;  ///< m, the unit of length in the stacked Jacobian of `smallest_gain`
-  double sigma_min = 0.05;    ///< [-] a posture is near singular if `smallest_gain` is below this
+  /// Rest values of joints that nothing else determines (all joints) [rad or m].
+  Eigen::VectorXd q_rest;
+  double length_scale = 0.2;  ///< unit of length in the stacked Jacobian of `smallest_gain` [m]
+  double sigma_min = 0.05;    ///< a posture is near singular if `smallest_gain` is below this [-]
   /// The number of singular values of the stacked Jacobian that count: the largest number that
   /// differ from zero in any posture.
   int rank = 0;

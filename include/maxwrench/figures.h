@@ -17,7 +17,7 @@ struct Problem;
 /// One posture of a figure.
 struct Panel {
   std::string title;        ///< the title; "beta" in it is replaced by the Greek letter
-  Eigen::VectorXd theta_r;  ///< r, the posture
+  Eigen::VectorXd theta_r;  ///< the posture (r)
 };
 
 /// Draws a robot in one or several postures with its wrench sets.

@@ -16,11 +16,11 @@ namespace maxwrench {
 ///
 /// A program whose bounds cross (l > u) is infeasible.
 struct LinearProgram {
-  Eigen::SparseMatrix<double> A;       ///< rows×cols, compressed by columns
-  Eigen::VectorXd b,                   ///< rows, the right-hand side
-      c,                               ///< cols, the objective
-      l,                               ///< cols, lower bounds; may be infinite, or equal to u
-      u;                               ///< cols, upper bounds; may be infinite, or equal to l
+  Eigen::SparseMatrix<double> A;       ///< matrix (rows×cols), compressed by columns
+  Eigen::VectorXd b,                   ///< right-hand side (rows)
+      c,                               ///< objective (cols)
+      l,                               ///< lower bounds (cols); may be infinite, or equal to u
+      u;                               ///< upper bounds (cols); may be infinite, or equal to l
   std::vector<std::string> row_names,  ///< optional: empty, or one name for each row
       col_names;                       ///< optional: empty, or one name for each column
 
@@ -40,8 +40,8 @@ enum class VariableState : signed char {
 ///
 /// Pass the same object again to reuse both.
 struct LpSolution : Verdict {
-  Eigen::VectorXd x;       ///< cols, the point
-  Eigen::VectorXd lambda;  ///< rows, d(objective)/db
+  Eigen::VectorXd x;       ///< point (cols)
+  Eigen::VectorXd lambda;  ///< multipliers d(objective)/db (rows)
   /// The proof of an infeasible or unbounded program.
   ///
   /// Infeasible: y (rows) with sup {y'A x : l <= x <= u} < y'b. Unbounded: a ray r (cols) with

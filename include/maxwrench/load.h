@@ -65,10 +65,10 @@ std::string knots_csv(const Problem& problem, const Eigen::MatrixXd& knots);
 
 /// The state of a robot at one instant of a motion.
 struct State {
-  Pose<double> base;         ///< of the base in the world
-  Eigen::VectorXd q;         ///< all joints [rad or m]
-  Eigen::VectorXd velocity,  ///< n, free base axes in base axes, then joints
-      acceleration;          ///< n, its derivative
+  Pose<double> base;         ///< pose of the base in the world
+  Eigen::VectorXd q;         ///< positions of all joints [rad or m]
+  Eigen::VectorXd velocity,  ///< velocities (n): free base axes in base axes, then joints
+      acceleration;          ///< derivative of `velocity` (n)
 };
 
 /// Reads a state from a TOML file.

@@ -12,16 +12,16 @@ namespace maxwrench {
 
 /// The progress phi(s) along a path, from 0 to 1, at s = t/T in [0, 1].
 enum class Timing {
-  kCubic,    ///< 3 s^2 - 2 s^3: at rest at both ends
-  kQuintic,  ///< 10 s^3 - 15 s^4 + 6 s^5: at rest and without acceleration at both ends
-  kLinear    ///< s
+  kCubic,    ///< phi(s) = 3 s^2 - 2 s^3: at rest at both ends
+  kQuintic,  ///< phi(s) = 10 s^3 - 15 s^4 + 6 s^5: at rest and without acceleration at both ends
+  kLinear    ///< phi(s) = s
 };
 
 /// The end effector at one instant of a path.
 struct PathPoint {
-  Pose<double> pose;                         ///< in the world
-  Vector6d twist = Vector6d::Zero();         ///< [linear; angular] at its origin, world axes
-                                             ///< [m/s; rad/s]
+  Pose<double> pose;  ///< pose in the world
+  /// Twist [linear; angular] at its origin, in world axes [m/s; rad/s].
+  Vector6d twist = Vector6d::Zero();
   Vector6d acceleration = Vector6d::Zero();  ///< derivative of the twist [m/s^2; rad/s^2]
 };
 
@@ -121,16 +121,16 @@ struct MotionTask {
   bool impulse = false;               ///< whether the task is an impulse
   Path path = Path::constant({}, 1);  ///< the path; at rest for an impulse
   std::string path_file;              ///< file with the poses of the path; empty if there is none
-  double T = 1;                       ///< s, duration
+  double T = 1;                       ///< duration [s]
   int k = 1;                          ///< number of knots of theta_r, without knot 0 of an impulse
   Scheme scheme = Scheme::kSpline;    ///< how the knots become a motion
-  int instants_per_interval = 4;      ///< of the scheme `spline`; 16 in an impulse
+  int instants_per_interval = 4;      ///< for the scheme `spline`; 16 in an impulse
   bool rates = true;                  ///< whether the rate limits of efforts apply
   /// Whether c and W_any turn with the end effector. Those of the problem are valid at the start.
   bool c_turns = false;
   int t_h = 0;  ///< impulse only: the knot of the peak, 1 .. k; 0: the best one is chosen
   Start start = Start::kStatic;  ///< impulse only: how it starts
-  Eigen::VectorXd theta_0;       ///< impulse only: r, theta_r at the start
+  Eigen::VectorXd theta_0;       ///< impulse only: theta_r at the start (r)
 };
 
 }  // namespace maxwrench

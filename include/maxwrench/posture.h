@@ -68,20 +68,23 @@ enum class Violation {
 /// The status is kValid if it exists and violates nothing, otherwise kInvalidPosture.
 struct Posture : Verdict {
   Violation violation = Violation::kNone;  ///< the kind of violation that `reason` describes
-  Eigen::VectorXd theta_r;                 ///< r, the redundant coordinates
-  Pose<double> base;                       ///< of the base in the world
-  Eigen::VectorXd q;                       ///< all joints [rad or m]
+  Eigen::VectorXd theta_r;                 ///< redundant coordinates (r)
+  Pose<double> base;                       ///< pose of the base in the world
+  Eigen::VectorXd q;                       ///< positions of all joints [rad or m]
   std::vector<Pose<double>> links;         ///< poses of the links relative to the base
   /// The rotation of the task's wrenches. It is the identity unless they turn with an end effector
   /// whose pose is partly free.
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  Matrix6Xd J;    ///< 6×n [-, m], velocities -> twist of the end effector in world axes
-  Matrix6Xd J_2;  ///< 6×n, as J: twist of the second end effector at the contact point; empty
-                  ///< without a second contact
-  Matrix6Xd C_2;  ///< 6×l, basis of the second contact's wrenches in world axes; or empty
+  Matrix6Xd J;  ///< Jacobian (6×n) [-, m]: velocities -> twist of the end effector in world axes
+  /// Jacobian of the second end effector at the contact point (6×n), as J. Empty without a second
+  /// contact.
+  Matrix6Xd J_2;
+  /// Basis of the wrenches of the second contact, in world axes (6×l). Empty without one.
+  Matrix6Xd C_2;
   Pose<double> contact;   ///< the frame of the second contact in the world
   IkCounts ik_solutions;  ///< counts of all postures at this theta_r
-  Eigen::VectorXd tau_d;  ///< n [N, N m], what the actuators must exert at rest without contact
+  /// Forces that the actuators must exert at rest without contact (n) [N, N m].
+  Eigen::VectorXd tau_d;
 };
 
 /// Returns the reason why a posture is invalid, with the joint or bodies and the numbers.

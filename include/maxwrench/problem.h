@@ -40,7 +40,7 @@ struct FreePose {
 ///
 /// `load_problem` and `make_problem` make problems.
 struct Problem {
-  std::string name;    ///< as on the command line, such as "planar/force"
+  std::string name;    ///< name as on the command line, such as "planar/force"
   std::string label;   ///< how reliable the numbers are, such as "identified"
   std::string source;  ///< where the numbers come from
   /// The FNV-1a hash, 16 hexadecimal digits, of all bytes of the files of task and robot. Empty if
@@ -53,10 +53,11 @@ struct Problem {
   Vector6d c;            ///< unit direction [force; torque] in world axes
   /// The task in time. A static problem has none.
   std::optional<MotionTask> motion;
-  /// 6×k, an orthonormal basis of the wrenches that `Wrench::kAny` allows. Its span contains c, and
+  /// Orthonormal basis of the wrenches that `Wrench::kAny` allows (6×k). Its span contains c, and
   /// each of its wrenches can do work.
   Matrix6Xd W_any;
-  double reference = 1;  ///< N or N m along c, for measures of the efforts at a given wrench
+  /// Wrench along c [N or N m], for measures of the efforts at a given wrench.
+  double reference = 1;
   /// The unit of each axis of the wrench [N; N m], for measures of all axes together.
   Vector6d desired = Vector6d::Ones();
   /// World axes of the axes of `desired` at `pose`: those of the end effector if the task gives
@@ -68,12 +69,12 @@ struct Problem {
   /// They follow from theta_r, as the pose of the base does (see
   /// lib/posture/ik/dependent_joints.h). If there are none, the pose of the base has a closed form.
   std::vector<int> dependent;
-  /// All joints [rad or m] of a posture near one at theta_r_default, if there are dependent joints.
+  /// Joints of a posture near one at theta_r_default, if there are dependent joints [rad or m].
   ///
   /// A task in time starts on the IK solution of the guess. For a static task all IK solutions
   /// count.
   Eigen::VectorXd guess_q;
-  /// [x, y, z, yaw] of the base in the posture of `guess_q` [m; rad].
+  /// The base in the posture of `guess_q`: x, y, z, yaw [m; rad].
   Eigen::Vector4d guess_base = Eigen::Vector4d::Zero();
   /// Finds all IK solutions; shared by all evaluators of postures.
   ///
@@ -82,13 +83,13 @@ struct Problem {
   std::shared_ptr<const IkStartSystem> start_system;
   /// The second contact, if there is one. The value is the wrench of the first contact only.
   std::optional<Contact> contact;
-  /// r, lower limits of theta_r.
+  /// Lower limits of theta_r (r).
   ///
   /// theta_r holds the joints that are free while the end effector keeps its pose, then the free
   /// coordinates of the pose, then the regrasp coordinates of the second contact.
   Eigen::VectorXd theta_r_min,
-      theta_r_max,      ///< r, upper limits of theta_r
-      theta_r_default;  ///< r, the default theta_r
+      theta_r_max,      ///< upper limits of theta_r (r)
+      theta_r_default;  ///< default theta_r (r)
 
   /// Returns the name of coordinate i of theta_r: its joint, pose_x .. pose_yaw, regrasp_1 or
   /// regrasp_2.

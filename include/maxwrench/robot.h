@@ -29,10 +29,11 @@ enum class JointType {
 /// They act on the velocity v = [linear; angular] at the origin of `frame`. The force of the drag
 /// is -(linear + quadratic |v|) v.
 struct HydrodynamicBody {
-  Pose<double> frame;                             ///< link -> body
-  Vector6d added_mass = Vector6d::Zero();         ///< [kg, kg m^2]
-  Vector6d damping_linear = Vector6d::Zero();     ///< [N s/m, N m s]
-  Vector6d damping_quadratic = Vector6d::Zero();  ///< [N s^2/m^2, N m s^2]
+  Pose<double> frame;                          ///< link -> body
+  Vector6d added_mass = Vector6d::Zero();      ///< added mass [kg; kg m^2]
+  Vector6d damping_linear = Vector6d::Zero();  ///< linear drag coefficients [N s/m; N m s]
+  /// Quadratic drag coefficients [N s^2/m^2; N m s^2].
+  Vector6d damping_quadratic = Vector6d::Zero();
 };
 
 /// A rigid body of the robot.
@@ -41,11 +42,11 @@ struct HydrodynamicBody {
 /// link that carries them.
 struct Link {
   std::string name;                                   ///< the name
-  double mass = 0;                                    ///< kg
-  Eigen::Vector3d com = Eigen::Vector3d::Zero();      ///< m, centre of mass in link axes
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< kg m^2, about com, in link axes
-  double volume = 0;                                  ///< m^3, displaced
-  Eigen::Vector3d cob = Eigen::Vector3d::Zero();      ///< m, centre of buoyancy in link axes
+  double mass = 0;                                    ///< mass [kg]
+  Eigen::Vector3d com = Eigen::Vector3d::Zero();      ///< centre of mass in link axes [m]
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< inertia about com, in link axes [kg m^2]
+  double volume = 0;                                  ///< displaced volume [m^3]
+  Eigen::Vector3d cob = Eigen::Vector3d::Zero();      ///< centre of buoyancy in link axes [m]
   /// One for each body with such data. One matrix for all cannot express the terms |v| v.
   std::vector<HydrodynamicBody> hydrodynamics = {};
 };
@@ -54,8 +55,8 @@ struct Link {
 ///
 /// They exert a force of buoyancy_mass * gravity upwards, in water and in air, and have no inertia.
 struct Trim {
-  double buoyancy_mass = 0;                            ///< kg; negative: ballast added
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m, in base axes
+  double buoyancy_mass = 0;  ///< mass that the trim carries [kg]; negative: ballast added
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< where the force acts, in base axes [m]
 };
 
 /// A joint and its motor.
@@ -67,8 +68,8 @@ struct Joint {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit vector in the joint frame
   double q_min = -kInfinity,                        ///< lower limit [rad or m]
       q_max = kInfinity;                            ///< upper limit [rad or m]
-  double velocity_max = kInfinity;                  ///< rad/s or m/s
-  double effort_max = 0;                            ///< N m or N
+  double velocity_max = kInfinity;                  ///< speed limit [rad/s or m/s]
+  double effort_max = 0;                            ///< effort limit, in both directions [N m or N]
 };
 
 /// Returns q plus or minus whole turns, such that it is inside the limits of a revolute joint if
@@ -79,12 +80,13 @@ double turned_into_limits(const Joint& joint, double q);
 
 /// A thruster, fixed to the base.
 struct Thruster {
-  std::string name;                   ///< the name
-  Eigen::Vector3d position;           ///< m, in base axes
-  Eigen::Vector3d direction;          ///< unit vector of the force on the base at positive thrust
+  std::string name;          ///< the name
+  Eigen::Vector3d position;  ///< position in base axes [m]
+  /// Unit vector of the force on the base at positive thrust, in base axes.
+  Eigen::Vector3d direction;
   double force_min = 0,               ///< lower limit [N]
       force_max = 0;                  ///< upper limit [N]
-  double force_rate_max = kInfinity;  ///< N/s
+  double force_rate_max = kInfinity;  ///< limit of the rate of the force [N/s]
 };
 
 /// A frame on a link that can touch the environment.
@@ -97,8 +99,8 @@ struct EndEffector {
 /// A convex body on a link, for figures: all points within `radius` of the convex hull of `points`.
 struct ConvexBody {
   int link = 0;                         ///< the link
-  std::vector<Eigen::Vector3d> points;  ///< m, in link axes
-  double radius = 0;                    ///< m
+  std::vector<Eigen::Vector3d> points;  ///< points in link axes [m]
+  double radius = 0;                    ///< radius [m]
 };
 
 /// The closest points of two bodies on different links.
@@ -118,14 +120,14 @@ struct ClosestPoints {
 struct InscribedBox {
   int link = 0;                                          ///< the link
   Pose<double> placement;                                ///< link -> box, centred at its origin
-  Eigen::Vector3d half_sizes = Eigen::Vector3d::Zero();  ///< m
+  Eigen::Vector3d half_sizes = Eigen::Vector3d::Zero();  ///< half of its sizes [m]
 };
 
 /// Inscribed boxes of two bodies, which collide wherever these boxes are closer than `reach`.
 struct InscribedBoxPair {
   InscribedBox a,    ///< box in the first body
       b;             ///< box in the second body
-  double reach = 0;  ///< m
+  double reach = 0;  ///< distance [m]
 };
 
 /// Decides whether a posture is in self-collision.
@@ -171,16 +173,16 @@ struct Robot {
   std::vector<int> base_axes;
   /// Pose of the base in the world before it moves along its free axes. Unused with all six.
   Pose<double> mount;
-  std::vector<Link> links;                 ///< joints + 1, the base first
+  std::vector<Link> links;                 ///< the base, then one link for each joint
   std::vector<Joint> joints;               ///< the joints
   std::vector<Thruster> thrusters;         ///< the thrusters
   std::vector<EndEffector> end_effectors;  ///< the end effectors
-  double gravity = 9.81;                   ///< m/s^2, along -z of the world
-  double water_density = 0;                ///< kg/m^3, zero in air
+  double gravity = 9.81;                   ///< gravity along -z of the world [m/s^2]
+  double water_density = 0;                ///< density of the water [kg/m^3]; zero in air
   Trim trim;                               ///< floats and ballast
   /// The actuators (n×m): thrusters first, then one directly driven motor for each joint.
   Zonotope actuation;
-  Eigen::VectorXd u_rate_max;  ///< m, limits of effort rates [N/s]; infinite for joints
+  Eigen::VectorXd u_rate_max;  ///< limits of effort rates (m) [N/s]; infinite for joints
   std::shared_ptr<const CollisionChecker> collision;  ///< null: there is nothing to check
   std::vector<ConvexBody> convex_bodies;              ///< shapes of the robot, for figures
 

@@ -87,7 +87,7 @@ struct CallCount {
 struct Answer : Verdict {
   std::shared_ptr<const Problem> task;  ///< the task as it was solved
   Case choice;                          ///< the case, with all defaults filled in
-  std::string unit;                     ///< of the value
+  std::string unit;                     ///< unit of the value
   bool collision = true;                ///< whether collisions were checked
   /// Knots k×r, instants, value and gradient k×r. For a static task the value is beta, and
   /// `solution` is empty.
@@ -114,7 +114,7 @@ struct Answer : Verdict {
   long undecided = 0;
   /// For a static task, except with trajectory searches: counts of the postures of all evaluations.
   IkCounts ik_solutions;
-  double wall_s = 0;  ///< s, wall time, without that of `beta_linf`
+  double wall_s = 0;  ///< wall time, without that of `beta_linf` [s]
 
   /// Returns whether there is a posture or trajectory.
   bool has_posture() const { return trajectory.knots.rows() > 0; }

@@ -27,39 +27,41 @@ struct Problem;
 /// one for all three torques. A commercial six-axis sensor has about 1e7 N/m and 1e5 N m/rad. The
 /// frame that carries it is more compliant. The damping is the stiffness times 1 ms.
 struct LoadCell {
-  double stiffness_linear = 1e6;   ///< N/m: 0.1 mm at 100 N
-  double stiffness_angular = 1e5;  ///< N m/rad: 0.06 degrees at 100 N m
-  double damping_linear = 1e3;     ///< N s/m
-  double damping_angular = 100;    ///< N m s/rad
+  double stiffness_linear = 1e6;   ///< stiffness of forces [N/m]: 0.1 mm at 100 N
+  double stiffness_angular = 1e5;  ///< stiffness of torques [N m/rad]: 0.06 degrees at 100 N m
+  double damping_linear = 1e3;     ///< damping of forces [N s/m]
+  double damping_angular = 100;    ///< damping of torques [N m s/rad]
 };
 
 /// How the simulated robot differs from its model. By default it does not differ.
 struct Imperfections {
   double thrust_efficiency = 1;  ///< thrust divided by commanded thrust
-  double thrust_noise = 0;       ///< N, standard deviation of each thruster, new in each period
-  std::uint64_t seed = 1;        ///< of the noise
+  /// Standard deviation of the force of each thruster [N], new in each period.
+  double thrust_noise = 0;
+  std::uint64_t seed = 1;  ///< seed of the noise
 };
 
 /// The options of an experiment as in the paper: ramp, hold, ramp.
 struct TankOptions {
-  double ramp = 5,            ///< s, duration of each ramp
-      hold = 5;               ///< s, duration of the hold
-  double period = 0.01;       ///< s, between two commands; efforts are linear in between
-  double thruster_lag = 0.1;  ///< s, first order
-  /// rad/s, of the control of posture errors, critically damped. The default is a fifth of
-  /// 1/thruster_lag, which the thrusters can follow.
+  double ramp = 5,            ///< duration of each ramp [s]
+      hold = 5;               ///< duration of the hold [s]
+  double period = 0.01;       ///< time between two commands [s]; efforts are linear in between
+  double thruster_lag = 0.1;  ///< time constant of the thrusters, first order [s]
+  /// Bandwidth of the control of posture errors, critically damped [rad/s]. The default is a fifth
+  /// of 1/thruster_lag, which the thrusters can follow.
   double bandwidth = 2;
   /// The fraction of the planned wrench that is not requested, so that efforts remain to hold the
   /// posture. The default is a quarter of kHeldWrenchError.
   double margin = 0.005;
-  /// kg. If it is positive, nothing holds the end effector, which carries this point mass. The mass
-  /// displaces no water.
+  /// Mass of the load [kg]. If it is positive, nothing holds the end effector, which carries this
+  /// point mass. The mass displaces no water.
   double load = 0;
   /// Whether the experiment ends after the hold.
   bool until_hold = false;
-  LoadCell cell;                                           ///< the load cell
-  Imperfections imperfections;                             ///< of the robot
-  IntegratorOptions integrator{1e-6, 1e-8, 100000, 1e-4};  ///< tolerances and limits
+  LoadCell cell;                ///< the load cell
+  Imperfections imperfections;  ///< how the robot differs from its model
+  /// Tolerances and limits of the integration.
+  IntegratorOptions integrator{1e-6, 1e-8, 100000, 1e-4};
 };
 
 /// Checks the options of an experiment.
@@ -73,8 +75,8 @@ void check(const TankOptions& options);
 
 /// The wrench that the robot is to exert, with its efforts.
 struct TargetWrench {
-  Vector6d h;                     ///< [N; N m] in world axes; with a load its weight
-  Eigen::VectorXd u;              ///< m, the efforts to stay close to at the full wrench
+  Vector6d h;                     ///< wrench in world axes [N; N m]; with a load, its weight
+  Eigen::VectorXd u;              ///< efforts to stay close to at the full wrench (m)
   Wrench wrench = Wrench::kPure;  ///< kAny: the cell may take any wrench of W_any across c
 };
 
@@ -82,11 +84,11 @@ struct TargetWrench {
 ///
 /// The last five members are filled for a task in time only.
 struct TankSample {
-  double t = 0;        ///< s
-  double planned = 0;  ///< planned c'h [N, N m]
-  double reading = 0;  ///< c'h_e [N, N m]
+  double t = 0;        ///< time [s]
+  double planned = 0;  ///< planned wrench c'h [N, N m]
+  double reading = 0;  ///< reading along c, c'h_e [N, N m]
   Vector6d h_e;        ///< reading of the cell, or the wrench that carries and accelerates the load
-  Eigen::VectorXd u;   ///< m, efforts without the imperfections
+  Eigen::VectorXd u;   ///< efforts without the imperfections (m)
   double shortfall = 0;    ///< max |B u - tau_c|, the part of the requested forces that the efforts
                            ///< do not exert [N, N m]
   bool saturated = false,  ///< whether an effort is at a limit
@@ -101,7 +103,7 @@ struct TankSample {
       off_axis_torque = 0;         ///< torque of h_e across c, likewise [N m]
   double speed = 0;                ///< how far joints exceed their speed limits [rad/s, m/s]
   double angle = 0;                ///< rotation of the end effector since the start [rad]
-  Eigen::VectorXd theta_r;         ///< r
+  Eigen::VectorXd theta_r;         ///< redundant coordinates (r)
 };
 
 /// The summary of an experiment in time. Times are those of samples [s].
@@ -112,7 +114,7 @@ struct MotionSummary {
   double deviation = 0;       ///< largest difference of reading and planned wrench [N, N m]
   double off_axis_force = 0,  ///< largest deviation of the force across c, if it is not free [N]
       off_axis_torque = 0;    ///< largest deviation of the torque across c, likewise [N m]
-  double speed = 0;           ///< largest of the samples [rad/s, m/s]
+  double speed = 0;           ///< largest `TankSample::speed` [rad/s, m/s]
   int violations = 0;         ///< samples that exceed a limit of effort, rate or speed
 };
 
@@ -121,23 +123,23 @@ struct MotionSummary {
 /// Numbers are NaN if there was no hold. If the posture was lost, the largest errors include that
 /// instant. For a task in time the hold is the whole experiment.
 struct TankSummary {
-  double planned = 0;           ///< c'h [N, N m]
+  double planned = 0;           ///< planned wrench c'h [N, N m]
   double mean = 0,              ///< mean of c'h_e [N, N m]
       low = 0,                  ///< lowest c'h_e
       high = 0;                 ///< highest c'h_e
   Vector6d across;              ///< mean of h_e less its part along c [N; N m]
-  double theta_r_error = 0,     ///< largest [rad, m]
-      configuration_error = 0;  ///< largest [rad, m]
-  double position_error = 0;    ///< largest [m]
-  double deflection_error = 0;  ///< largest [m, rad]
-  double violation = 0;         ///< largest of the whole experiment
-  double saturated = 0,         ///< fraction of the periods with an effort at a limit
-      relaxed = 0;              ///< fraction of the periods in which no efforts meet the request
-  double shortfall = 0;         ///< mean [N, N m]
-  bool lost = false;            ///< whether the posture was lost, which ended it (see kLost)
-  bool held = false;            ///< whether the wrench was held
-  std::string missed;           ///< why not, each value with the largest that is allowed
-  std::optional<MotionSummary> motion;  ///< of a task in time
+  double theta_r_error = 0,     ///< largest `TankSample::theta_r_error` [rad, m]
+      configuration_error = 0;  ///< largest `TankSample::configuration_error` [rad, m]
+  double position_error = 0;    ///< largest `TankSample::position_error` [m]
+  double deflection_error = 0;  ///< largest `TankSample::deflection_error` [m, rad]
+  double violation = 0;  ///< largest `TankSample::violation` of the whole experiment [N, N m, N/s]
+  double saturated = 0,  ///< fraction of the periods with an effort at a limit
+      relaxed = 0;       ///< fraction of the periods in which no efforts meet the request
+  double shortfall = 0;  ///< mean `TankSample::shortfall` [N, N m]
+  bool lost = false;     ///< whether the posture was lost, which ended it (see kLost)
+  bool held = false;     ///< whether the wrench was held
+  std::string missed;    ///< why not, each value with the largest that is allowed
+  std::optional<MotionSummary> motion;  ///< summary of a task in time; none for a static one
 };
 
 /// The record of an experiment.
@@ -146,14 +148,14 @@ struct TankSummary {
 /// Otherwise the reason says why it ended early.
 struct TankRun : Verdict {
   std::vector<TankSample> samples;  ///< one for each period
-  TankSummary summary;              ///< the hold
+  TankSummary summary;              ///< summary of the hold
   long requests = 0,                ///< number of tracking programs
       active_set_iterations = 0,    ///< iterations of their active-set method
       evaluations = 0;              ///< evaluations of the derivative
-  double model_s = 0,               ///< s, time in derivatives
-      controller_s = 0,             ///< s, time in tau_c
-      qp_s = 0,                     ///< s, time in the tracking program
-      total_s = 0;                  ///< s, all; the rest is that of the integrator
+  double model_s = 0,               ///< time in derivatives [s]
+      controller_s = 0,             ///< time in tau_c [s]
+      qp_s = 0,                     ///< time in the tracking program [s]
+      total_s = 0;                  ///< time in all [s]; the rest is that of the integrator
 };
 
 /// The largest error of the mean reading of a wrench that counts as held, relative to the planned
@@ -227,13 +229,13 @@ Interpolation parse_interpolation(const std::string& name);
 /// The requested wrench is smaller than that of the trajectory by the margin. The efforts are those
 /// that the lower level finds for this wrench. Include maxwrench/trajectory.h to use it.
 struct TankScript : Verdict {
-  Path path = Path::constant({}, 1);  ///< of the load cell that holds the end effector
-  std::vector<Instant> instants;      ///< t from 0 to T; u and h as requested
+  Path path = Path::constant({}, 1);  ///< path of the load cell that holds the end effector
+  std::vector<Instant> instants;      ///< instants, t from 0 to T; u and h as requested
   Interpolation interpolation = Interpolation::kSpline;  ///< how the instants are joined
   Wrench wrench = Wrench::kPure;                         ///< the allowed wrenches
-  double planned = 0;                                    ///< along c, of an impulse at t_h [N, N m]
-  double margin = 0;                                     ///< fraction of it that is not requested
-  double t_h = std::numeric_limits<double>::quiet_NaN();  ///< s, of an impulse
+  double planned = 0;  ///< planned wrench along c, of an impulse at t_h [N, N m]
+  double margin = 0;   ///< fraction of it that is not requested
+  double t_h = std::numeric_limits<double>::quiet_NaN();  ///< time of the peak of an impulse [s]
   double slack = 0;  ///< largest slack of the balance [N, N m]; 0 if efforts exert the wrench
 };
 

@@ -32,9 +32,10 @@ struct Shape {
   Kind kind = Kind::kCapsule;  ///< the kind of shape
   /// Link -> shape. The shape is centred at the origin of this frame.
   Pose<double> placement = {};
-  double radius = 0;       ///< m, capsule and cylinder
-  double half_length = 0;  ///< m, of the axis; a capsule of half length 0 is a sphere
-  Eigen::Vector3d half_sizes = Eigen::Vector3d::Zero();  ///< m, box
+  double radius = 0;  ///< radius of capsule and cylinder [m]
+  /// Half of the length of the axis [m]; a capsule of half length 0 is a sphere.
+  double half_length = 0;
+  Eigen::Vector3d half_sizes = Eigen::Vector3d::Zero();  ///< half of the sizes of the box [m]
 };
 
 /// The self-collision check of a robot.
@@ -44,7 +45,7 @@ struct Shape {
 struct Collision {
   std::vector<Shape> shapes = {};                                ///< the shapes
   std::vector<std::pair<std::string, std::string>> ignore = {};  ///< pairs of bodies by name
-  double margin = 0;                                             ///< m
+  double margin = 0;                                             ///< least distance [m]
 };
 
 /// Checks a robot and computes its derived members.
@@ -63,7 +64,7 @@ Robot finalize(Robot robot, const Collision& collision = {});
 struct ContactSpec {
   /// A column of the basis of the contact wrenches, with its limits.
   struct Direction {
-    Vector6d direction = Vector6d::Zero();  ///< [force; torque] in contact axes
+    Vector6d direction = Vector6d::Zero();  ///< direction [force; torque] in contact axes
     double min = -kInfinity,                ///< lower limit of its coordinate, at most 0
         max = kInfinity;                    ///< upper limit of its coordinate, at least 0
   };
@@ -74,8 +75,8 @@ struct ContactSpec {
   std::optional<double> mu = {};      ///< the friction coefficient, for "friction"
   std::vector<Direction> basis = {};  ///< the directions, for "basis"
   Surface surface = Surface::kPoint;  ///< where the end effector may touch
-  Pose<double> frame = {};            ///< in the world, its z axis into the environment
-  std::optional<double> radius = {};  ///< m, of a circle
+  Pose<double> frame = {};  ///< contact frame in the world, its z axis into the environment
+  std::optional<double> radius = {};  ///< radius of a circle [m]
   Eigen::VectorXd min = {},  ///< lower limits of the regrasp coordinates [m; rad of a circle];
                              ///< empty for a point
       max = {},              ///< upper limits, likewise
@@ -84,16 +85,16 @@ struct ContactSpec {
                                          ///< the arm
   std::map<std::string, double> rest = {};  ///< rest values of other joints of the arm [rad or m];
                                             ///< 0 if missing
-  double length_scale = Contact().length_scale;  ///< m, as in `Contact`
-  double sigma_min = Contact().sigma_min;        ///< [-], as in `Contact`
+  double length_scale = Contact().length_scale;  ///< as `Contact::length_scale` [m]
+  double sigma_min = Contact().sigma_min;        ///< as `Contact::sigma_min` [-]
 };
 
 /// The description of a task; `make_problem` derives everything else in a `Problem`.
 struct TaskSpec {
-  std::string name = "",          ///< free text, see `Problem`
-      label = "",                 ///< free text, see `Problem`
-      source = "";                ///< free text, see `Problem`
-  Robot robot = {};               ///< as `finalize` returns it
+  std::string name = "",          ///< as `Problem::name`, free text
+      label = "",                 ///< as `Problem::label`, free text
+      source = "";                ///< as `Problem::source`, free text
+  Robot robot = {};               ///< the robot as `finalize` returns it
   std::string end_effector = "";  ///< the name of the end effector
   /// The pose of the end effector in the world; the start of a path.
   Pose<double> pose = {};
@@ -104,14 +105,14 @@ struct TaskSpec {
   std::map<std::string, std::array<double, 2>> range = {};
   /// true: these coordinates are along the axes of the end effector; false: along those of `pose`.
   bool along_end_effector = false;
-  Vector6d c = Vector6d::Zero();  ///< [force; torque], of any nonzero length
+  Vector6d c = Vector6d::Zero();  ///< direction [force; torque], of any nonzero length
   /// true: c, `any` and `desired` are in the axes of the end effector and turn with it. false: they
   /// are in world axes.
   bool wrench_in_end_effector = false;
   /// The wrenches that `Wrench::kAny` allows, by names in kWrenchAxes. None: all that do work.
   std::optional<std::vector<std::string>> any = {};
-  double reference = 1;                     ///< as in `Problem`
-  std::optional<Vector6d> desired = {};     ///< as in `Problem`
+  double reference = 1;                     ///< as `Problem::reference`
+  std::optional<Vector6d> desired = {};     ///< as `Problem::desired`
   std::optional<ContactSpec> contact = {};  ///< second contact of a static task
   /// The task in time. T follows from the path. For an impulse give T; its path is constant.
   /// c_turns follows from `wrench_in_end_effector`.

@@ -20,27 +20,27 @@ struct Problem;
 
 /// Everything known at one instant of a motion.
 struct Instant {
-  double t = 0;                   ///< s
-  Pose<double> end_effector,      ///< in the world
-      base;                       ///< in the world
-  Eigen::VectorXd q;              ///< all joints [rad or m]
-  Eigen::VectorXd v,              ///< n, base twist in base axes and joint rates
-      v_dot;                      ///< n, derivative of v
-  Eigen::VectorXd tau_d;          ///< n [N, N m], by the full dynamics (eq:dynamics)
-  Matrix6Xd J;                    ///< 6×n
+  double t = 0;                   ///< time [s]
+  Pose<double> end_effector,      ///< pose of the end effector in the world
+      base;                       ///< pose of the base in the world
+  Eigen::VectorXd q;              ///< positions of all joints [rad or m]
+  Eigen::VectorXd v,              ///< velocities (n): base twist in base axes, then joint rates
+      v_dot;                      ///< derivative of v (n)
+  Eigen::VectorXd tau_d;          ///< forces of the full dynamics (n) [N, N m] (eq:dynamics)
+  Matrix6Xd J;                    ///< Jacobian of the end effector (6×n)
   Vector6d c = Vector6d::Zero();  ///< the direction, in the world
   Vector6d h = Vector6d::Zero();  ///< the wrench that the robot exerts [N; N m]
-  Eigen::VectorXd u;              ///< m, efforts
+  Eigen::VectorXd u;              ///< efforts (m)
   /// Returns the wrench along c [N or N m].
   double beta() const { return c.dot(h); }
 };
 
 /// A table of knots of theta_r, with its instants and its value.
 struct Trajectory : Verdict {
-  Eigen::MatrixXd knots;          ///< k×r, without theta_0 of an impulse
+  Eigen::MatrixXd knots;          ///< knots of theta_r (k×r), without theta_0 of an impulse
   std::vector<Instant> instants;  ///< the instants; of an impulse the start first
-  /// N or N m. Along a path: the least wrench along c at any instant. Of an impulse: the wrench
-  /// along c at the peak.
+  /// Value [N or N m]. Along a path: the least wrench along c at any instant. Of an impulse: the
+  /// wrench along c at the peak.
   double value = std::numeric_limits<double>::quiet_NaN();
   /// The value between knots: that of the clamped spline through the knots at many more instants [N
   /// or N m]. NaN: none.
@@ -48,7 +48,7 @@ struct Trajectory : Verdict {
   Reason between_knots_reason;  ///< why there is no value between knots
   Reason collision;          ///< the first knot that collides, and the bodies; empty: none collides
   int t_h = 0;               ///< of an impulse: the knot of the peak
-  Eigen::MatrixXd gradient;  ///< k×r, of the value
+  Eigen::MatrixXd gradient;  ///< gradient of the value (k×r)
   TrajectorySolution solution;  ///< the solution of the trajectory program
 };
 
@@ -57,9 +57,9 @@ using TrajectorySolverMaker = std::function<std::unique_ptr<TrajectorySolver>()>
 
 /// Linear constraints r_min <= R x <= r_max on the stacked knots x (k r numbers, row by row).
 struct KnotRows {
-  Eigen::SparseMatrix<double> R;  ///< rows×(k r)
-  Eigen::VectorXd r_min,          ///< lower limits
-      r_max;                      ///< upper limits
+  Eigen::SparseMatrix<double> R;  ///< matrix (rows×(k r))
+  Eigen::VectorXd r_min,          ///< lower limits (rows)
+      r_max;                      ///< upper limits (rows)
 };
 
 /// Constraints on nonlinear functions of x, linearised at a trajectory.
@@ -73,14 +73,15 @@ struct DependentRows : KnotRows {
 struct NearPair {
   int knot = 0;              ///< the knot, from 0
   double clearance = 0;      ///< distance less the margin [m]
-  Eigen::VectorXd gradient;  ///< r, derivative of the clearance by theta_r at this knot
+  Eigen::VectorXd gradient;  ///< derivative of the clearance by theta_r at this knot (r)
 };
 
 /// The least distance of two bodies of the robot along a trajectory.
 struct Clearance {
-  double least = 0;  ///< m, less the margin of the collision check; negative: collision
-  double t = 0;      ///< s
-  std::string pair;  ///< the links, such as "forearm and base"
+  /// Least distance less the margin of the collision check [m]; negative: collision.
+  double least = 0;
+  double t = 0;      ///< time [s]
+  std::string pair;  ///< links of the bodies, such as "forearm and base"
 };
 
 /// Evaluates trajectories of a task in time.

@@ -28,20 +28,22 @@ namespace maxwrench {
 /// same linear program. The balance then contains + G_i y, with the constraints y_min <= y <= y_max
 /// and r_min <= R y <= r_max.
 struct TrajectoryProgram {
-  std::vector<WrenchProgram> instants;  ///< N, all with the same actuation
-  Eigen::VectorXd first_min,            ///< m, lower limits of u_0
-      first_max;                        ///< m, upper limits of u_0
-  Eigen::MatrixXd du_max;               ///< m×(N-1), infinite where there is no limit
-  int peak = -1;                        ///< p of an impulse; -1: max-min
-  double rho = kInfinity;               ///< weight of the slack, per N and N m; infinite: no slack
-  int first_elastic = 0;                ///< the first instant with slack
+  /// Programs of the instants (N), all with the same actuation.
+  std::vector<WrenchProgram> instants;
+  Eigen::VectorXd first_min,  ///< lower limits of u_0 (m)
+      first_max;              ///< upper limits of u_0 (m)
+  /// Limits of the changes of efforts (m×(N-1)), infinite where there is none.
+  Eigen::MatrixXd du_max;
+  int peak = -1;           ///< instant p of the peak of an impulse; -1: max-min
+  double rho = kInfinity;  ///< weight of the slack, per N and N m; infinite: no slack
+  int first_elastic = 0;   ///< the first instant with slack
 
-  std::vector<Eigen::MatrixXd> G;  ///< N matrices n×p; empty: no border
-  Eigen::VectorXd y_min,           ///< p, lower limits of y
-      y_max;                       ///< p, upper limits of y
-  Eigen::SparseMatrix<double> R;   ///< rows×p
-  Eigen::VectorXd r_min,           ///< rows, lower limits of R y
-      r_max;                       ///< rows, upper limits of R y
+  std::vector<Eigen::MatrixXd> G;  ///< N matrices G_i (n×p); empty: no border
+  Eigen::VectorXd y_min,           ///< lower limits of y (p)
+      y_max;                       ///< upper limits of y (p)
+  Eigen::SparseMatrix<double> R;   ///< matrix of the rows on y (rows×p)
+  Eigen::VectorXd r_min,           ///< lower limits of R y (rows)
+      r_max;                       ///< upper limits of R y (rows)
 
   /// Returns N, the number of instants.
   int size() const { return static_cast<int>(instants.size()); }
@@ -53,13 +55,13 @@ struct TrajectoryProgram {
 
 /// The solution of a trajectory program, with its storage and its warm start.
 struct TrajectorySolution : Verdict {
-  double value = 0;                ///< t, without the price of the slack
-  double price = 0;                ///< rho sum |s_i|_1
-  Eigen::MatrixXd u;               ///< m×N
-  std::vector<Eigen::VectorXd> w;  ///< N vectors of k_i
-  Eigen::MatrixXd s;               ///< n×N, zero unless elastic
-  Eigen::VectorXd y;               ///< p
-  /// n×N, multipliers of the balance: d value/d tau_d,i.
+  double value = 0;                ///< value t, without the price of the slack
+  double price = 0;                ///< price of the slack, rho sum |s_i|_1
+  Eigen::MatrixXd u;               ///< efforts (m×N)
+  std::vector<Eigen::VectorXd> w;  ///< wrench coordinates: N vectors (k_i)
+  Eigen::MatrixXd s;               ///< slacks (n×N), zero unless elastic
+  Eigen::VectorXd y;               ///< variables y (p)
+  /// Multipliers of the balance (n×N): d value/d tau_d,i.
   ///
   /// If the program is infeasible, lambda, mu and nu are the proof instead. Then the supremum over
   /// the limits of
@@ -68,13 +70,12 @@ struct TrajectorySolution : Verdict {
   ///
   /// is less than sum_i lambda_i'tau_d,i minus the contribution of the limits of rates and rows.
   Eigen::MatrixXd lambda,
-      mu;              ///< m×(N-1), multipliers of the rates: positive where u_i+1 - u_i is at its
-                       ///< upper limit
-  Eigen::VectorXd pi,  ///< N, multipliers of t <= c_w,i'w_i: their sum is one; with a peak its unit
-                       ///< vector
-      nu;              ///< rows, multipliers of R y: positive at r_max
-  int iterations = 0;  ///< iterations of the solver
-  Residual residual;   ///< of the solution
+      mu;  ///< multipliers of the rates (m×(N-1)): positive where u_i+1 - u_i is at its upper limit
+  Eigen::VectorXd
+      pi,  ///< multipliers of t <= c_w,i'w_i (N): their sum is one; with a peak its unit vector
+      nu;  ///< multipliers of R y (rows): positive at r_max
+  int iterations = 0;                ///< iterations of the solver
+  Residual residual;                 ///< of the solution
   std::vector<VariableState> basis;  ///< of a solver that stores one; empty: cold start
 };
 

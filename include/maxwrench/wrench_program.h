@@ -23,14 +23,14 @@ struct Problem;
 /// J'W denotes [J_1'W, J_2'C_2] (eq:dualOrthogonal). C_2 may also change. c_w is zero for w_2.
 struct WrenchProgram {
   const Zonotope* actuation = nullptr;  ///< B and the limits of u; it must outlive the program
-  Matrix6Xd W;                          ///< 6×k_1, basis of the allowed wrenches
+  Matrix6Xd W;                          ///< basis of the allowed wrenches (6×k_1)
   Matrix6Xd W_0;          ///< W before it turns with the end effector; empty: it does not turn
-  Matrix6Xd C_2;          ///< 6×l, basis of the wrenches of the second contact; k = k_1 + l
-  Eigen::VectorXd c_w;    ///< k, W'c
-  Eigen::VectorXd w_min,  ///< k, lower limits of w
-      w_max;              ///< k, upper limits of w
-  Eigen::MatrixXd JtW;    ///< n×k, J'W
-  Eigen::VectorXd tau_d;  ///< n [N, N m]
+  Matrix6Xd C_2;          ///< basis of the wrenches of the second contact (6×l); k = k_1 + l
+  Eigen::VectorXd c_w;    ///< objective W'c (k)
+  Eigen::VectorXd w_min,  ///< lower limits of w (k)
+      w_max;              ///< upper limits of w (k)
+  Eigen::MatrixXd JtW;    ///< J'W (n×k)
+  Eigen::VectorXd tau_d;  ///< right-hand side of the balance (n) [N, N m]
 
   /// Returns k, the number of wrench columns.
   int columns() const { return static_cast<int>(c_w.size()); }

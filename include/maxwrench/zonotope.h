@@ -14,18 +14,18 @@ namespace maxwrench {
 /// facets are independent, because the limits of u may be asymmetric. A direction that no actuator
 /// reaches is a pair with b_min = b_max = 0.
 struct Zonotope {
-  Eigen::MatrixXd B;        ///< n×m
-  Eigen::VectorXd u_min,    ///< m, lower limits of u [N or N m]
-      u_max;                ///< m, upper limits of u [N or N m]
-  int rank = 0;             ///< of B
-  Eigen::MatrixXd B_pinv;   ///< B^+, m×n
+  Eigen::MatrixXd B;        ///< efforts -> generalised forces (n×m)
+  Eigen::VectorXd u_min,    ///< lower limits of u (m) [N or N m]
+      u_max;                ///< upper limits of u (m) [N or N m]
+  int rank = 0;             ///< rank of B
+  Eigen::MatrixXd B_pinv;   ///< pseudo-inverse B^+ (m×n)
   bool has_facets = false;  ///< false if there are too many to enumerate
-  /// n×f, unit normals of the pairs of facets as columns. It is stored by rows, so that the
+  /// Unit normals of the pairs of facets, as columns (n×f). It is stored by rows, so that the
   /// products with all normals are vectorised.
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> N;
   Eigen::SparseMatrix<double> N_nonzero;  ///< N without its zeros, by columns
-  Eigen::VectorXd b_min,                  ///< f, lower limits of N'tau
-      b_max;                              ///< f, upper limits of N'tau
+  Eigen::VectorXd b_min,                  ///< lower limits of N'tau (f)
+      b_max;                              ///< upper limits of N'tau (f)
 
   /// Returns n, the number of generalised forces.
   int dimension() const { return static_cast<int>(B.rows()); }
