@@ -87,8 +87,8 @@ Vector6d contact_twist(const Contact& contact, const double* s, int i);
 ///
 /// @param robot    the robot
 /// @param contact  the second contact
-/// @param J        6×n, J_1 of the first end effector
-/// @param J_2      6×n, of the second end effector at the contact point
+/// @param J        Jacobian J_1 of the first end effector (6×n)
+/// @param J_2      Jacobian of the second end effector at the contact point (6×n)
 double smallest_gain(const Robot& robot, const Contact& contact, const Matrix6Xd& J,
                      const Matrix6Xd& J_2);
 

@@ -76,7 +76,7 @@ std::string motion_figure(const Problem& problem, const std::vector<TankCurve>& 
 /// @param problem     the task
 /// @param trajectory  an evaluated trajectory; it must have instants, so it must not be an invalid
 ///                    posture
-/// @param times       s; the figure shows the instants closest to these times
+/// @param times       times [s]; the figure shows the instants closest to them
 /// @return the SVG document; its titles give the angle by which the end effector has turned, or the
 ///         time
 std::string trajectory_figure(const Problem& problem, const Trajectory& trajectory,

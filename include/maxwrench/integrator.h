@@ -25,8 +25,8 @@ class Ode {
   /// Computes f(t, y).
   ///
   /// @param t      the time
-  /// @param y      d, the state
-  /// @param y_dot  d, receives f; the caller sets its size
+  /// @param y      the state (d)
+  /// @param y_dot  receives f (d); the caller sets its size
   /// @return false where f has no value; the integrator then tries a shorter step
   virtual bool derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& y_dot) = 0;
 
@@ -54,9 +54,9 @@ class Ode {
   /// factorisation.
   ///
   /// @param t      the time
-  /// @param y      d, the state
-  /// @param y_dot  d, its derivative y'
-  /// @param F      d, receives the residual
+  /// @param y      the state (d)
+  /// @param y_dot  its derivative y' (d)
+  /// @param F      receives the residual (d)
   /// @return false where it has no value
   virtual bool residual(double t, const Eigen::VectorXd& y, const Eigen::VectorXd& y_dot,
                         Eigen::VectorXd& F) {

@@ -56,7 +56,7 @@ std::vector<std::string> shipped_problems();
 ///
 /// @param file     the CSV file
 /// @param problem  the task
-/// @return k×r, the knots of theta_r
+/// @return the knots of theta_r (k×r)
 /// @throws std::invalid_argument as `load_robot`.
 Eigen::MatrixXd load_knots(const std::filesystem::path& file, const Problem& problem);
 

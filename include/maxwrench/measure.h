@@ -52,7 +52,7 @@ class Measure {
 /// solution ends (at a limit, a singularity or a collision), beta may jump.
 ///
 /// @param model       evaluates the postures
-/// @param theta_r     r, the redundant coordinates
+/// @param theta_r     the redundant coordinates (r)
 /// @param measure     the measure
 /// @param efforts     whether to compute u and the residual
 /// @param program     receives the wrench program of the posture

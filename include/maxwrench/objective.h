@@ -40,7 +40,7 @@ class Objective {
   /// positive definite where f has a value. The default is the identity. At the point of the last
   /// evaluation it costs no evaluation. Elsewhere it may cost one, which no budget counts.
   ///
-  /// @param theta_r  d, the point
+  /// @param theta_r  the point (d)
   /// @param M        receives the metric
   virtual void metric(const Eigen::VectorXd& theta_r, Eigen::MatrixXd& M) {
     M.setIdentity(theta_r.size(), theta_r.size());

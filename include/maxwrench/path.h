@@ -41,7 +41,7 @@ class Path {
   /// @param angle         the rotation is `angle` times phi [rad]
   /// @param displacement  the translation is `displacement` times phi [m]
   /// @param timing        phi
-  /// @param duration      s, positive
+  /// @param duration      the duration [s], positive
   static Path screw(const Pose<double>& start, const Eigen::Vector3d& axis,
                     const Eigen::Vector3d& centre, double angle,
                     const Eigen::Vector3d& displacement, Timing timing, double duration);
@@ -52,7 +52,7 @@ class Path {
   /// It is the clamped cubic spline (at rest at both ends) of the positions and of the quaternions,
   /// which are then normalised.
   ///
-  /// @param times  s, at least two times that increase from 0
+  /// @param times  at least two times that increase from 0 [s]
   /// @param poses  one pose for each time, each rotated by less than pi from the previous one
   /// @throws std::invalid_argument otherwise.
   static Path spline(const std::vector<double>& times, const std::vector<Pose<double>>& poses);

@@ -112,7 +112,7 @@ class PostureEvaluator {
   /// filled. They belong to the first valid posture, or to one that shows the violation. If no
   /// posture reaches the pose, they belong to theta_r with the guess of the dependent coordinates.
   ///
-  /// @param theta_r  r, the redundant coordinates
+  /// @param theta_r  the redundant coordinates (r)
   /// @return the posture, valid until the next call
   /// @throws std::invalid_argument if theta_r has the wrong size or is not finite.
   const Posture& evaluate(const Eigen::VectorXd& theta_r);
@@ -137,9 +137,9 @@ class PostureEvaluator {
   /// because the value depends on that. The call is cheapest after `evaluate` at the same theta_r;
   /// it then uses the selected posture.
   ///
-  /// @param theta_r   r, the redundant coordinates
-  /// @param tau_seed  n, the derivative by tau_d
-  /// @param J_seed    6×n, the derivative by J
+  /// @param theta_r   the redundant coordinates (r)
+  /// @param tau_seed  the derivative by tau_d (n)
+  /// @param J_seed    the derivative by J (6×n)
   /// @param gradient  receives r numbers
   void pull_back(const Eigen::VectorXd& theta_r, const Eigen::VectorXd& tau_seed,
                  const Matrix6Xd& J_seed, Eigen::VectorXd& gradient);
@@ -155,7 +155,7 @@ class PostureEvaluator {
   /// where J_f holds the columns of J_2 of the dependent joints of the contact. C_2 turns with the
   /// contact frame.
   ///
-  /// @param theta_r     r, the redundant coordinates
+  /// @param theta_r     the redundant coordinates (r)
   /// @param capability  the result of a measure at this posture
   /// @param gradient    receives r numbers
   void pull_back(const Eigen::VectorXd& theta_r, const Capability& capability,

@@ -116,7 +116,7 @@ Pose<double> pose_at(const Problem& problem, const Eigen::VectorXd& theta_r);
 /// regrasp coordinates only.
 ///
 /// @param problem  the task
-/// @param theta_r  r, which determines s
+/// @param theta_r  the redundant coordinates (r), which determine s
 Problem held_at(const Problem& problem, const Eigen::VectorXd& theta_r);
 
 /// Returns the joints and regrasp coordinates of theta_r (r): the theta_r of `held_at`.

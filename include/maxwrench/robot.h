@@ -195,9 +195,9 @@ struct Robot {
 /// Adds a rigid body to a link.
 ///
 /// @param link     the link
-/// @param mass     kg, positive
-/// @param com      m, centre of mass of the body, in link axes
-/// @param inertia  kg m^2, of the body about its centre of mass, in link axes
+/// @param mass     mass of the body [kg], positive
+/// @param com      centre of mass of the body, in link axes [m]
+/// @param inertia  inertia of the body about its centre of mass, in link axes [kg m^2]
 void add_body(Link& link, double mass, const Eigen::Vector3d& com, const Eigen::Matrix3d& inertia);
 
 /// Returns whether the poses that velocities along these base axes reach form a group.

@@ -150,7 +150,7 @@ const char* general_search();
 /// Evaluates a task at theta_r.
 ///
 /// @param task     the task
-/// @param theta_r  k×r knots, or r numbers, which a task in time keeps throughout
+/// @param theta_r  knots (k×r), or r numbers, which a task in time keeps throughout
 /// @param options  measure, wrench, solver and others
 /// @return the value and what is known about it
 /// @throws std::invalid_argument, which names key, value and what was expected, if the table has

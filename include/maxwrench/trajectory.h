@@ -110,7 +110,7 @@ class TrajectoryEvaluator {
   /// limits or the reach are violated by more than 1e-6, also by dependent joints. A knot that
   /// collides is only reported. Instants that dependent joints do not reach are NaN.
   ///
-  /// @param knots  k×r, the knots
+  /// @param knots  the knots (k×r)
   /// @return the trajectory, valid until the next call
   /// @throws std::invalid_argument if the table has the wrong size or is not finite.
   const Trajectory& evaluate(const Eigen::MatrixXd& knots);
@@ -132,7 +132,7 @@ class TrajectoryEvaluator {
 
   /// Solves the elastic program at a table of knots.
   ///
-  /// @param knots     k×r, the knots
+  /// @param knots     the knots (k×r)
   /// @param gradient  if not null, receives the gradient k×r of the result
   /// @return the value less the price of the slack; -infinity where `evaluate` finds an invalid
   ///         posture, where a knot collides, or without an optimum
@@ -154,7 +154,7 @@ class TrajectoryEvaluator {
   ///
   /// For an impulse, the peak is that of the last solution.
   ///
-  /// @param knots  k×r, the knots
+  /// @param knots  the knots (k×r)
   /// @param w      the wrenches of all blocks (`TrajectoryProgram::instants`)
   TrajectoryProgram& linearize(const Eigen::MatrixXd& knots, const std::vector<Eigen::VectorXd>& w);
 
@@ -172,7 +172,7 @@ class TrajectoryEvaluator {
   /// It includes only pairs that have a distance. The result is empty if collisions are not
   /// checked.
   ///
-  /// @param knots   k×r, the knots
+  /// @param knots   the knots (k×r)
   /// @param within  largest distance [m]
   const std::vector<NearPair>& near_pairs(const Eigen::MatrixXd& knots, double within);
 
@@ -253,9 +253,9 @@ Eigen::MatrixXd constant_knots(const Problem& problem, const Eigen::VectorXd& th
 
 /// Returns the table of stacked knots.
 ///
-/// @param x      k r numbers, row by row
-/// @param knots  k
-/// @return k×r
+/// @param x      the stacked knots: k r numbers, row by row
+/// @param knots  the number of knots, k
+/// @return the table (k×r)
 Eigen::MatrixXd unstacked(const Eigen::VectorXd& x, Eigen::Index knots);
 /// Returns the stacked knots of a table (k×r): k r numbers, row by row.
 Eigen::VectorXd stacked(const Eigen::MatrixXd& knots);

@@ -71,11 +71,12 @@ struct TrajectorySolution : Verdict {
   /// is less than sum_i lambda_i'tau_d,i minus the contribution of the limits of rates and rows.
   Eigen::MatrixXd lambda,
       mu;  ///< multipliers of the rates (m×(N-1)): positive where u_i+1 - u_i is at its upper limit
-  Eigen::VectorXd
-      pi,  ///< multipliers of t <= c_w,i'w_i (N): their sum is one; with a peak its unit vector
-      nu;  ///< multipliers of R y (rows): positive at r_max
+  /// Multipliers of t <= c_w,i'w_i (N). Their sum is one. With a peak they are the unit vector of
+  /// the peak.
+  Eigen::VectorXd pi,
+      nu;                            ///< multipliers of R y (rows): positive at r_max
   int iterations = 0;                ///< iterations of the solver
-  Residual residual;                 ///< of the solution
+  Residual residual;                 ///< residual of the solution
   std::vector<VariableState> basis;  ///< of a solver that stores one; empty: cold start
 };
 

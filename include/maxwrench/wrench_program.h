@@ -67,9 +67,9 @@ void update(const WrenchProgram& program, LinearProgram& assembled);
 /// limits.
 ///
 /// @param program  the program
-/// @param u        m, efforts
-/// @param w        k, wrench coordinates
-/// @param lambda   n, the multipliers of the balance
+/// @param u        efforts (m)
+/// @param w        wrench coordinates (k)
+/// @param lambda   the multipliers of the balance (n)
 /// @return the residual; infinite where it cannot be computed (wrong sizes, NaN)
 Residual recheck(const WrenchProgram& program, const Eigen::VectorXd& u, const Eigen::VectorXd& w,
                  const Eigen::VectorXd& lambda);

@@ -42,9 +42,9 @@ struct Zonotope {
 /// It enumerates the facets block by block: rows and columns of B that no entry connects are
 /// independent. In each block it examines all subsets of rank - 1 columns.
 ///
-/// @param B            n×m
-/// @param u_min        m, lower limits
-/// @param u_max        m, upper limits
+/// @param B            efforts -> generalised forces (n×m)
+/// @param u_min        lower limits of u (m)
+/// @param u_max        upper limits of u (m)
 /// @param max_subsets  largest number of subsets; beyond it the zonotope has no facets
 /// @throws std::invalid_argument if the sizes disagree, an entry of B is not finite, or
 ///         u_min <= u_max does not hold.
