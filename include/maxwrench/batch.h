@@ -53,6 +53,7 @@ class SearchRun {
  public:
   /// Keeps a reference to the options, which must outlive the run.
   explicit SearchRun(const SearchOptions& options) : options_(options) {}
+  /// Deleted: the options must outlive the run, and a temporary does not.
   explicit SearchRun(const SearchOptions&&) = delete;
 
   /// Returns whether the search must make no further evaluation.

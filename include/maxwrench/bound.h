@@ -123,6 +123,7 @@ class Bound {
 ///         free axes of the base do not limit, or a chain that is too long.
 std::unique_ptr<Bound> make_capability_bound(const Problem& problem, const std::string& measure,
                                              Wrench wrench);
+/// Deleted: the problem must outlive the bound, and a temporary does not.
 std::unique_ptr<Bound> make_capability_bound(const Problem&&, const std::string&, Wrench) = delete;
 
 }  // namespace maxwrench

@@ -72,6 +72,7 @@ using MeasureMaker = std::function<std::unique_ptr<Measure>()>;
 std::unique_ptr<Objective> make_capability_objective(const Problem& problem, Wrench wrench,
                                                      MeasureMaker make, bool check_collision = true,
                                                      std::shared_ptr<Tally> tally = nullptr);
+/// Deleted: the problem must outlive the objective, and a temporary does not.
 std::unique_ptr<Objective> make_capability_objective(
     const Problem&& problem, Wrench wrench, MeasureMaker make, bool check_collision = true,
     std::shared_ptr<Tally> tally = nullptr) = delete;

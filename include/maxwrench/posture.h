@@ -103,6 +103,7 @@ class PostureEvaluator {
   /// @param problem          the task
   /// @param check_collision  whether postures that collide are invalid
   explicit PostureEvaluator(const Problem& problem, bool check_collision = true);
+  /// Deleted: the problem must outlive the evaluator, and a temporary does not.
   explicit PostureEvaluator(const Problem&& problem, bool check_collision = true) = delete;
   ~PostureEvaluator();
 

@@ -48,7 +48,7 @@ struct Problem {
   std::string digest;
   Robot robot;           ///< the robot
   int end_effector = 0;  ///< index in `Robot::end_effectors`
-  Pose<double> pose;     ///< of the end effector in the world; the start of a path
+  Pose<double> pose;     ///< pose of the end effector in the world; the start of a path
   FreePose free;         ///< the free part of the pose of a static task
   Vector6d c;            ///< unit direction [force; torque] in world axes
   /// The task in time. A static problem has none.

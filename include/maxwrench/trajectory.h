@@ -100,6 +100,7 @@ class TrajectoryEvaluator {
   ///         posture at the start of an impulse has no static capability (`Start::kStatic`).
   TrajectoryEvaluator(const Problem& problem, Wrench wrench, const TrajectorySolverMaker& make,
                       bool check_collision = true);
+  /// Deleted: the problem must outlive the evaluator, and a temporary does not.
   TrajectoryEvaluator(const Problem&&, Wrench, const TrajectorySolverMaker&, bool = true) = delete;
   ~TrajectoryEvaluator();
 
@@ -238,6 +239,7 @@ class TrajectoryObjective : public Objective {
 std::unique_ptr<TrajectoryObjective> make_trajectory_objective(
     const Problem& problem, Wrench wrench, const TrajectorySolverMaker& make,
     bool check_collision = true, TrajectoryValue counts = TrajectoryValue::kAtInstants);
+/// Deleted: the problem must outlive the objective, and a temporary does not.
 std::unique_ptr<TrajectoryObjective> make_trajectory_objective(
     const Problem&&, Wrench, const TrajectorySolverMaker&, bool = true,
     TrajectoryValue = TrajectoryValue::kAtInstants) = delete;

@@ -74,10 +74,11 @@ struct TrajectorySolution : Verdict {
   /// Multipliers of t <= c_w,i'w_i (N). Their sum is one. With a peak they are the unit vector of
   /// the peak.
   Eigen::VectorXd pi,
-      nu;                            ///< multipliers of R y (rows): positive at r_max
-  int iterations = 0;                ///< iterations of the solver
-  Residual residual;                 ///< residual of the solution
-  std::vector<VariableState> basis;  ///< of a solver that stores one; empty: cold start
+      nu;              ///< multipliers of R y (rows): positive at r_max
+  int iterations = 0;  ///< iterations of the solver
+  Residual residual;   ///< residual of the solution
+  std::vector<VariableState>
+      basis;  ///< final basis, of a solver that stores one; empty: cold start
 };
 
 /// Returns whether a trajectory program is well formed.

@@ -49,6 +49,7 @@ bool well_formed(const WrenchProgram& program);
 /// @param problem  the task, which must outlive the program
 /// @param wrench   the allowed wrenches
 WrenchProgram make_wrench_program(const Problem& problem, Wrench wrench);
+/// Deleted: the problem must outlive the program, and a temporary does not.
 WrenchProgram make_wrench_program(const Problem&& problem, Wrench wrench) = delete;
 
 /// Sets JtW, tau_d and C_2 of a program to those of a posture, and W if it turns.
