@@ -171,7 +171,7 @@ Answer solve(const Problem& task, const Options& options = {});
 /// @param task     the task
 /// @param options  the case, with `Case::integrator`
 /// @return kReached, with the reading as value, whether or not the wrench was held; kNoneFound if
-///         the posture was lost
+///         the posture was lost, or if the default posture exerts nothing along c
 /// @throws std::invalid_argument as `evaluate`.
 Answer experiment(const Problem& task, const Options& options);
 
