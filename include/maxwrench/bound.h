@@ -6,35 +6,39 @@
 
 #include "maxwrench/types.h"
 
+/// @file
+/// Upper bounds of a capability over boxes of theta_r, for proofs by branch and bound.
+
 namespace maxwrench {
 
 struct Problem;
 
-/// Why no posture of a box is better than `high`.
+/// The reason why no posture of a box has a larger value than `high`.
 struct BoxProof {
+  /// The kind of reason.
   enum class Kind {
-    kNone,        ///< nothing is known: the box is too large for a bound
+    kNone,        ///< no reason: the box is too large for a bound
     kMultiplier,  ///< U(multiplier) <= high
-    kCollision,   ///< all of it collides, the bodies of `pair`; high is -infinity
-    kNoPosture    ///< all of it was cut off; high is -infinity
+    kCollision,   ///< the bodies of `pair` collide in all of the box; high is -infinity
+    kNoPosture    ///< all of the box was cut off; high is -infinity
   };
-  Kind kind = Kind::kNone;
-  double high = kInfinity;     ///< [N or N m]
-  Eigen::VectorXd multiplier;  ///< lambda of the measure's program, or mu of the joints
-  int pair = -1;               ///< of the robot's `CollisionChecker`
-  /// Where it is well cut: a half along this coordinate collides; -1: no such is known. Proves
-  /// nothing.
+  Kind kind = Kind::kNone;     ///< the kind of reason
+  double high = kInfinity;     ///< the upper bound [N or N m]
+  Eigen::VectorXd multiplier;  ///< lambda of the measure's program, or mu, one number per joint
+  int pair = -1;               ///< pair of the robot's `CollisionChecker`; -1: none
+  /// A coordinate along which to cut the box, because one half then collides; -1: none is known. It
+  /// proves nothing.
   int axis = -1;
-  /// Where a larger box came to its end, to start from in its parts; proves nothing.
+  /// The final basis of a larger box, a warm start for its parts. It proves nothing.
   std::vector<int> basis;
 
-  /// Nothing is known but that no value exceeds `most`.
+  /// Resets the proof to the bound `most`, without a reason.
   void forget(double most) {
     kind = Kind::kNone;
     high = most;
     pair = -1;
   }
-  /// Takes over that U(lambda) is a bound, if it is lower.
+  /// Stores the bound U = U(lambda) with its multiplier if it is lower than `high`.
   void improve(double U, const Eigen::VectorXd& lambda) {
     if (!(U < high)) return;
     kind = Kind::kMultiplier;
@@ -43,28 +47,40 @@ struct BoxProof {
   }
 };
 
-/// A part of a box that was cut off: no x in it fulfils the equations f(x) = 0 of what follows from
-/// theta_r, as multiplier'f(x) > 0 in all of it.
+/// A part of a box that was cut off because it has no posture.
+///
+/// No x in it satisfies the equations f(x) = 0 of the dependent coordinates, because
+/// multiplier'f(x) > 0 in all of it.
 struct BoxCut {
-  int axis = -1;           ///< the coordinate; -1: all of the box
-  bool upper = false;      ///< x_axis >= at was cut off; else x_axis <= at
-  double at = 0, end = 0;  ///< from there to where the box ended
-  Eigen::VectorXd multiplier;
+  int axis = -1;               ///< the coordinate of the cut; -1: all of the box was cut off
+  bool upper = false;          ///< true: x_axis >= at was cut off; false: x_axis <= at
+  double at = 0,               ///< one end of the part that was cut off
+      end = 0;                 ///< its other end, the former limit of the box
+  Eigen::VectorXd multiplier;  ///< the proof
 };
 
-/// An upper bound of an objective over boxes of theta_r. One object serves one thread.
+/// An upper bound of an objective over boxes of theta_r.
+///
+/// Use one object per thread.
 class Bound {
  public:
   virtual ~Bound() = default;
 
-  /// Boxes may have more coordinates than theta_r, x = [theta_r; what follows]: turns the limits of
-  /// theta_r into those of x, which hold at least one of all postures of each value.
+  /// Turns the limits of theta_r into the limits of the coordinates x of a box.
+  ///
+  /// Boxes may have more coordinates than theta_r: x = [theta_r; dependent coordinates]. For each
+  /// value that postures have, the new limits contain at least one posture with this value.
+  ///
+  /// @param lower,upper  the limits, replaced in place
   virtual void extend(Eigen::VectorXd& lower, Eigen::VectorXd& upper) const {
     static_cast<void>(lower);
     static_cast<void>(upper);
   }
-  /// Cuts off parts of a box without a posture, one after another; false: it has none. `cuts`, if
-  /// not null, gets them.
+  /// Shrinks a box by cutting off parts without a posture, one after another.
+  ///
+  /// @param lower,upper  the limits of the box, replaced in place
+  /// @param cuts         if not null, receives the parts that were cut off
+  /// @return false if the box has no posture
   virtual bool shrink(Eigen::VectorXd& lower, Eigen::VectorXd& upper, std::vector<BoxCut>* cuts) {
     static_cast<void>(lower);
     static_cast<void>(upper);
@@ -72,26 +88,42 @@ class Bound {
     return true;
   }
 
-  /// No value is larger, at any theta_r within its limits.
+  /// Returns a number that no value exceeds at any theta_r within its limits.
   virtual double ceiling() const = 0;
 
-  /// Whoever asks knows that no value in the box lower <= theta_r <= upper exceeds `high`, and does
-  /// not care for those up to `low`: afterwards none exceeds max(low, proof.high), where proof.high
-  /// <= high. `proof` comes with the multiplier and basis of a box that contains this one, or none.
+  /// Bounds the values in the box lower <= theta_r <= upper.
+  ///
+  /// The caller knows that no value in the box exceeds `high`, and ignores values up to `low`.
+  /// After the call, no value in the box exceeds max(low, proof.high), and proof.high <= high.
+  ///
+  /// @param lower,upper  the limits of the box
+  /// @param low          values up to this one do not matter
+  /// @param high         a known upper bound
+  /// @param proof        on entry, the multiplier and basis of a box that contains this one, or
+  ///                     none; on return, the bound and its reason
   virtual void evaluate(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low,
                         double high, BoxProof& proof) = 0;
 
-  /// An independent copy without memory.
+  /// Returns an independent copy without memory of earlier calls.
   virtual std::unique_ptr<Bound> clone() const = 0;
 };
 
-/// Of the value of a measure, linf_polytope, l2_polytope or ellipsoid, over postures of a problem,
-/// which outlives it. Throws std::invalid_argument, in one line, for what it does not serve: other
-/// measures; any wrenches but with linf_polytope and a base whose free axes are as many as they;
-/// tasks in time; where joints follow from theta_r or there is a second contact any wrenches,
-/// contact forces that nothing limits, or any with the ellipsoid, and chains that are too long.
+/// Makes the upper bound of a measure over the postures of a static problem.
+///
+/// It supports the measures linf_polytope, l2_polytope and ellipsoid. `Wrench::kAny` requires
+/// linf_polytope, a base with as many free axes as there are wrench columns, no dependent joints
+/// and no second contact. The ellipsoid supports no forces of a second contact.
+///
+/// @param problem  the task, which must outlive the bound
+/// @param measure  the name of the measure
+/// @param wrench   the allowed wrenches
+/// @return the bound
+/// @throws std::invalid_argument, with one line, for a case that is not supported: another measure
+///         or wrench, a task in time, contact forces that nothing limits, a direction c that the
+///         free axes of the base do not limit, or a chain that is too long.
 std::unique_ptr<Bound> make_capability_bound(const Problem& problem, const std::string& measure,
                                              Wrench wrench);
+/// Deleted: the problem must outlive the bound, and a temporary does not.
 std::unique_ptr<Bound> make_capability_bound(const Problem&&, const std::string&, Wrench) = delete;
 
 }  // namespace maxwrench

@@ -3,31 +3,52 @@
 #include "maxwrench/status.h"
 #include "maxwrench/types.h"
 
+/// @file
+/// The result of a measure at one posture.
+
 namespace maxwrench {
 
-/// What a measure says of one posture.
+/// The result of a measure at one posture.
+///
+/// The status is kOptimal, or the reason why there is no value.
 struct Capability : Verdict {
   double beta = 0;    ///< c'h [N or N m], or a score in a unit of its own
-  Eigen::VectorXd w;  ///< k; empty and h zero if the measure says nothing of a wrench
-  Vector6d h;  ///< W w (of the first contact), what the robot exerts on the environment, world axes
-  Eigen::VectorXd u;  ///< m, actuator efforts; filled only when asked for, or empty
-  /// n, d beta/d tau_d. Of an infeasible program instead a proof y: sup {y'(B u - J'W w)} < y'tau_d
-  /// over the limits (Farkas; for the L2 polytope in the rows of its own program).
+  Eigen::VectorXd w;  ///< wrench coordinates (k); empty, with h zero, if the measure has no wrench
+  Vector6d h;         ///< wrench W w of the first contact: what the robot exerts, in world axes
+  Eigen::VectorXd u;  ///< actuator efforts (m); empty unless they were requested
+  /// Derivative d beta/d tau_d (n).
+  ///
+  /// If the program is infeasible, it holds a proof y instead: sup {y'(B u - J'W w)} < y'tau_d over
+  /// the limits (Farkas; for the L2 polytope in the rows of its own program).
   Eigen::VectorXd lambda;
-  /// d beta/d J (6×n). With lambda it carries the derivative to any parameter:
-  /// d beta = lambda'd tau_d + <beta_J, d J> (envelope theorem; the paper's KKT gradient).
+  /// Derivative d beta/d J (6×n).
+  ///
+  /// Together with lambda it gives the derivative by any parameter (envelope theorem; the paper's
+  /// KKT gradient), where `<.,.>` sums the products of the entries:
+  ///
+  ///     d beta = lambda'd tau_d + <beta_J, d J>
   Matrix6Xd beta_J;
-  // With a second contact, else empty: what it exerts, world axes at the contact point, and
-  // d beta/d J_2 (6×n), d beta/d C_2 (6×l). They join the sum d beta as <beta_J, d J> does.
+  /// Wrench of the second contact, in world axes at the contact point; zero without one.
   Vector6d h_2 = Vector6d::Zero();
-  Matrix6Xd beta_J2, beta_C2;
-  int iterations = 0;
-  /// Filled together with u: balance max |B u - J'W w - tau_d| [N, N m]; bounds of u and w
-  /// (ellipsoid: ||W_u u| - 1|); dual, on the columns without bounds; gap [N or N m]. An answer
-  /// counts if they are within a tolerance times 1 + |beta|.
+  /// Derivative d beta/d J_2 (6×n) of a second contact; empty without one.
+  ///
+  /// It adds `<beta_J2, d J_2>` to d beta.
+  Matrix6Xd beta_J2,
+      /// Derivative d beta/d C_2 (6×l) of a second contact; empty without one.
+      ///
+      /// It adds `<beta_C2, d C_2>` to d beta.
+      beta_C2;
+  int iterations = 0;  ///< iterations of the solver
+  /// The residual of the result, filled together with u.
+  ///
+  /// Balance: max |B u - J'W w - tau_d| [N, N m]. Bounds: violations by u and w (ellipsoid:
+  /// ||W_u u| - 1|). Dual: violations in the columns without bounds. Gap: [N or N m]. A result
+  /// counts if all four are within a tolerance times 1 + |beta|.
   Residual residual;
 
-  /// No verdict, and zero in all numbers. Sizes stay, so that nothing is allocated again.
+  /// Sets all numbers to zero and the status to kNumericalError.
+  ///
+  /// It keeps the sizes, so that later results allocate nothing.
   void clear();
 };
 

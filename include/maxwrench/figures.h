@@ -6,6 +6,9 @@
 #include "maxwrench/tank.h"
 #include "maxwrench/types.h"
 
+/// @file
+/// Figures as SVG: postures, wrench sets, trajectories and experiments.
+
 namespace maxwrench {
 
 struct Trajectory;
@@ -13,38 +16,69 @@ struct Problem;
 
 /// One posture of a figure.
 struct Panel {
-  std::string title;
-  Eigen::VectorXd theta_r;
+  std::string title;        ///< the title; "beta" in it is replaced by the Greek letter
+  Eigen::VectorXd theta_r;  ///< the posture (r)
 };
 
-/// The paper's fig:polytopes (one panel) and fig:optimalpolytopes (several) as SVG: the robot in
-/// its postures with c and four sets of forces around its end effector: the ellipsoid, the L2 and
-/// the L-infinity polytope of the forces without any other wrench component, and the L-infinity
-/// polytope of those that occur together with any allowed wrench. "beta" in a title becomes the
-/// letter. If c is no force along the plane seen from above or from the side, as `posture_figure`.
-/// Both throw std::invalid_argument for a theta_r without a posture.
+/// Draws a robot in one or several postures with its wrench sets.
+///
+/// It is the paper's fig:polytopes (one panel) or fig:optimalpolytopes (several panels). Each panel
+/// shows the robot, the direction c and four sets of forces around the end effector:
+///
+/// * the ellipsoid, the L2 polytope and the L-infinity polytope of the forces without any other
+///   wrench component;
+/// * the L-infinity polytope of the forces that occur together with any allowed wrench.
+///
+/// If c is not a force along the plane seen from above or from the side, the result is that
+/// of `posture_figure`.
+///
+/// @param problem  the task
+/// @param panels   the postures
+/// @return the SVG document
+/// @throws std::invalid_argument if a theta_r has no posture.
 std::string figure(const Problem& problem, const std::vector<Panel>& panels);
 
-/// The postures alone, from two sides, as SVG. Titles as above.
+/// Draws postures from two sides, without wrench sets.
+///
+/// @param problem  the task
+/// @param panels   the postures
+/// @return the SVG document
+/// @throws std::invalid_argument if a theta_r has no posture.
 std::string posture_figure(const Problem& problem, const std::vector<Panel>& panels);
 
-/// One curve of c'h_e over time with the trajectory dashed.
+/// One curve of c'h_e over time; the planned wrench is dashed.
 struct TankCurve {
-  std::string name;
-  const TankRun* run;
+  std::string name;    ///< the legend
+  const TankRun* run;  ///< the experiment, which must outlive the curve
 };
-/// The paper's fig:staticTorque: all curves in one picture. Throws std::invalid_argument for a run
-/// without samples, or with readings that are not finite.
+/// Draws static experiments in one picture, the paper's fig:staticTorque.
+///
+/// @param problem  the task
+/// @param curves   the experiments
+/// @return the SVG document
+/// @throws std::invalid_argument if a run has no samples, or readings that are not finite.
 std::string tank_figure(const Problem& problem, const std::vector<TankCurve>& curves);
 
-/// Runs of a task in time as SVG, all over time: the angle of the end effector (not of an impulse,
-/// where it rests), the readings along c and the trajectories, and of each run the thruster forces
-/// with their limits and theta_r. Throws as `tank_figure`.
+/// Draws experiments of a task in time, all over time.
+///
+/// It shows the angle of the end effector (except for an impulse, where it rests), and the readings
+/// along c with the planned wrench. For each run it shows the thruster forces with their limits,
+/// and theta_r.
+///
+/// @param problem  the task
+/// @param curves   the experiments
+/// @return the SVG document
+/// @throws std::invalid_argument if a run has no samples, or readings that are not finite.
 std::string motion_figure(const Problem& problem, const std::vector<TankCurve>& curves);
 
-/// The robot at the instants of a trajectory that are next to `times` [s], from two sides, as SVG;
-/// titles say how far the end effector has turned, or when it is. The trajectory has instants, as
-/// one that is no invalid posture.
+/// Draws the robot along a trajectory, from two sides.
+///
+/// @param problem     the task
+/// @param trajectory  an evaluated trajectory; it must have instants, so it must not be an invalid
+///                    posture
+/// @param times       times [s]; the figure shows the instants closest to them
+/// @return the SVG document; its titles give the angle by which the end effector has turned, or the
+///         time
 std::string trajectory_figure(const Problem& problem, const Trajectory& trajectory,
                               const std::vector<double>& times);
 

@@ -7,32 +7,57 @@
 
 #include "maxwrench/status.h"
 
+/// @file
+/// Initial value problems and the interface of their integrators.
+
 namespace maxwrench {
 
-/// An initial value problem y' = f(t, y), y(t_0) = y_0, where t_0 is the first of the times that an
-/// `Integrator` is asked for. One object serves one thread.
+/// An initial value problem y' = f(t, y), y(t_0) = y_0.
+///
+/// t_0 is the first of the times that are passed to an `Integrator`. Use one object per thread.
 class Ode {
  public:
   virtual ~Ode() = default;
-  virtual const Eigen::VectorXd& initial() const = 0;  ///< y_0, d
+  virtual const Eigen::VectorXd& initial() const = 0;  ///< Returns y_0 (d).
+  /// Returns d, the number of components of y.
   int dimension() const { return static_cast<int>(initial().size()); }
 
-  /// f(t, y) into the d entries of y_dot. False where f has no value; the integrator then tries a
-  /// shorter step.
+  /// Computes f(t, y).
+  ///
+  /// @param t      the time
+  /// @param y      the state (d)
+  /// @param y_dot  receives f (d); the caller sets its size
+  /// @return false where f has no value; the integrator then tries a shorter step
   virtual bool derivative(double t, const Eigen::VectorXd& y, Eigen::VectorXd& y_dot) = 0;
 
-  /// d f/d y, d×d. False: not offered, the integrator differences f.
+  /// Computes d f/d y.
+  ///
+  /// The arguments are t, y (d), and the d×d matrix that receives the result. The default returns
+  /// false: the problem offers no Jacobian, and the integrator uses differences of f.
   virtual bool jacobian(double /*t*/, const Eigen::VectorXd& /*y*/, Eigen::MatrixXd& /*df_dy*/) {
     return false;
   }
 
-  /// The integration ends where one of the `roots()` components of g(t, y), which has
-  /// its size already, passes through zero.
+  /// Returns the number of components of the root function g(t, y).
+  ///
+  /// The integration ends where one of them passes through zero.
   virtual int roots() const { return 0; }
+  /// Computes g(t, y).
+  ///
+  /// The arguments are t, y (d), and the vector of `roots()` numbers that receives g. The caller
+  /// sets its size.
   virtual void root(double /*t*/, const Eigen::VectorXd& /*y*/, Eigen::VectorXd& /*g*/) {}
 
-  /// The same problem as F(t, y, y') = 0, for integrators of implicit equations: y' - f(t, y)
-  /// unless the problem has a form of its own that saves a factorisation.
+  /// Computes the residual F(t, y, y') of the same problem, for integrators of implicit equations.
+  ///
+  /// The default is y' - f(t, y). A problem may override it with another form that saves a
+  /// factorisation.
+  ///
+  /// @param t      the time
+  /// @param y      the state (d)
+  /// @param y_dot  its derivative y' (d)
+  /// @param F      receives the residual (d)
+  /// @return false where it has no value
   virtual bool residual(double t, const Eigen::VectorXd& y, const Eigen::VectorXd& y_dot,
                         Eigen::VectorXd& F) {
     if (!derivative(t, y, F)) return false;
@@ -41,24 +66,28 @@ class Ode {
   }
 };
 
+/// Tolerances and limits of an integration.
 struct IntegratorOptions {
-  double relative_tolerance = 1e-8;  ///< of each step's error, of every component
-  double absolute_tolerance = 1e-10;
-  long max_steps = 10000;  ///< over the whole call
-  double step = 1e-3;      ///< of methods with a fixed step, which ignore the tolerances
+  double relative_tolerance = 1e-8;   ///< of the error of each step, for every component
+  double absolute_tolerance = 1e-10;  ///< likewise, in the unit of the component
+  long max_steps = 10000;             ///< largest number of steps of one call
+  double step = 1e-3;                 ///< of methods with a fixed step, which ignore the tolerances
 };
 
-/// Throws std::invalid_argument, with one line, unless absolute tolerance and step are positive,
-/// the relative tolerance is not negative, all are finite, and there is at least one step.
+/// Checks the options of an integration.
+///
+/// @throws std::invalid_argument, with one line, unless the absolute tolerance and the step are
+///         positive, the relative tolerance is not negative, all are finite, and `max_steps` is at
+///         least 1.
 void check(const IntegratorOptions& options);
 
-/// The points y[i] = y(t[i]) that an integration has passed.
+/// The points y[i] = y(t[i]) that an integration has reached.
 struct OdeSolution : Verdict {
-  std::vector<double> t;
-  std::vector<Eigen::VectorXd> y;
-  int root = -1;  ///< the component of g that ended the integration at the last point, or -1
+  std::vector<double> t;           ///< the times
+  std::vector<Eigen::VectorXd> y;  ///< the states (d) at these times
+  int root = -1;  ///< the component of g that ended the integration at the last point; -1: none
 
-  /// Forgets everything but the initial value.
+  /// Removes all points and stores the initial value y_0 at t_0.
   void start(double t_0, const Eigen::VectorXd& y_0);
 };
 
@@ -67,11 +96,18 @@ class Integrator {
  public:
   virtual ~Integrator() = default;
 
-  /// Fills the trajectory, its verdict included, with y at `times`, the first of which is that of
-  /// the initial value. kReached: all times were reached, or a root was, which is then the last
-  /// point. kBudgetExhausted: max_steps did not suffice. kNumericalError: no step was short enough.
-  /// After these two the last point is the last one that was reached. Throws std::invalid_argument
-  /// unless the times increase and are at least two, and as `check`.
+  /// Integrates an initial value problem and stores the solution at given times.
+  ///
+  /// @param ode         the problem
+  /// @param options     tolerances and limits
+  /// @param times       at least two increasing times; the first one is that of the initial value
+  /// @param trajectory  receives the solution at `times` and its status; after a failure its last
+  ///                    point is the last one that was reached
+  /// @return kReached: all times were reached, or a root was, which is then the last point.
+  ///         kBudgetExhausted: `max_steps` did not suffice. kNumericalError: no step was short
+  ///         enough.
+  /// @throws std::invalid_argument if the times are fewer than two or do not increase, or if
+  ///         `check` throws.
   virtual Status integrate(Ode& ode, const IntegratorOptions& options,
                            std::span<const double> times, OdeSolution& trajectory) = 0;
 };

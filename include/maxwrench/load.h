@@ -6,52 +6,80 @@
 
 #include "maxwrench/problem.h"
 
+/// @file
+/// Reads robots, tasks, trajectories and states from files.
+
 namespace maxwrench {
 
-/// Reads a robot: a TOML file and the URDF that it names. Throws std::invalid_argument with one
-/// line that names file, key, value and what was expected.
+/// Reads a robot from a TOML file and the URDF that it names.
+///
+/// @throws std::invalid_argument with one line that names the file, the key, the value and what was
+///         expected.
 Robot load_robot(const std::filesystem::path& file);
 
-/// Reads a task and its robot. `name` is a shipped problem such as "planar/force", or the
-/// path of a task file. Errors as `load_robot`.
+/// Reads a task and its robot.
+///
+/// @param name  the name of a shipped problem, such as "planar/force", or the path of a task file
+/// @throws std::invalid_argument as `load_robot`.
 Problem load_problem(const std::string& name);
 
-/// Whether a TOML file describes a task (it names a robot) rather than a robot. A look at the keys
-/// before the first table: what else is wrong with the file shows when it is loaded. Throws
-/// std::invalid_argument if there is nothing to read.
+/// Returns whether a TOML file describes a task rather than a robot.
+///
+/// A task names a robot. The function reads only the keys before the first table. It does not
+/// report other errors of the file; loading the file does.
+///
+/// @throws std::invalid_argument if there is nothing to read.
 bool is_task(const std::filesystem::path& file);
 
-/// The tasks in a folder and below it by path, without their ending, sorted. A broken file counts:
-/// it is rejected when it is loaded.
+/// Returns the tasks in a folder and its subfolders: paths without their extension, sorted.
+///
+/// A broken file is included; loading it throws.
 std::vector<std::string> tasks_in(const std::filesystem::path& folder);
 
-/// The folder of the shipped problems: the environment variable MAXWRENCH_PROBLEMS, else
-/// share/maxwrench/problems beside the folder of the running program, the source tree, or where
-/// maxwrench was to be installed; empty if none is there. Throws std::invalid_argument if the
-/// variable names no folder.
+/// Returns the folder of the shipped problems, or an empty path if there is none.
+///
+/// It is the folder in the environment variable MAXWRENCH_PROBLEMS if that is set. Otherwise it is
+/// the first of these that exists: share/maxwrench/problems beside the folder of the running
+/// program, the source tree, the folder where maxwrench was to be installed.
+///
+/// @throws std::invalid_argument if the variable does not name a folder.
 std::filesystem::path problems_folder();
 
-/// The names of the problems in that folder, sorted.
+/// Returns the names of the problems in `problems_folder`, sorted.
 std::vector<std::string> shipped_problems();
 
-/// Reads knots of theta_r from CSV: k rows of r numbers [rad or m], without knot 0 of an impulse;
-/// one row for a static problem. A first line with the names of the coordinates may stand before
-/// them. Errors as `load_robot`; limits are not looked at.
+/// Reads a table of knots from a CSV file.
+///
+/// The table has k rows of r numbers [rad or m], without knot 0 of an impulse. A static problem has
+/// one row. A first line with the names of the coordinates is optional. The function does not check
+/// limits.
+///
+/// @param file     the CSV file
+/// @param problem  the task
+/// @return the knots of theta_r (k×r)
+/// @throws std::invalid_argument as `load_robot`.
 Eigen::MatrixXd load_knots(const std::filesystem::path& file, const Problem& problem);
 
-/// Knots k×r as such a table, each number with all its digits.
+/// Returns knots (k×r) as a CSV table that `load_knots` reads, each number with all its digits.
 std::string knots_csv(const Problem& problem, const Eigen::MatrixXd& knots);
 
-/// One instant of a robot's motion.
+/// The state of a robot at one instant of a motion.
 struct State {
-  Pose<double> base;                       ///< in the world
-  Eigen::VectorXd q;                       ///< all joints
-  Eigen::VectorXd velocity, acceleration;  ///< n, see lib/robot/dynamics.h
+  Pose<double> base;         ///< pose of the base in the world
+  Eigen::VectorXd q;         ///< positions of all joints [rad or m]
+  Eigen::VectorXd velocity,  ///< velocities (n): free base axes in base axes, then joints
+      acceleration;          ///< derivative of `velocity` (n)
 };
 
-/// Reads a state from TOML: `[theta]` with the base's `position` and `rpy` in the world, which may
-/// differ from the mount along the free axes only, and each joint by its name; `velocity`
-/// and `acceleration` with n numbers, zero where they are missing. Errors as `load_robot`.
+/// Reads a state from a TOML file.
+///
+/// The table `[theta]` has the `position` and `rpy` of the base in the world, and each joint by its
+/// name. The base may differ from its mount along the free axes only. `velocity` and `acceleration`
+/// have n numbers each, and are zero if they are missing.
+///
+/// @param file   the TOML file
+/// @param robot  the robot
+/// @throws std::invalid_argument as `load_robot`.
 State load_state(const std::filesystem::path& file, const Robot& robot);
 
 }  // namespace maxwrench

@@ -4,6 +4,9 @@
 
 #include "maxwrench/capability.h"
 
+/// @file
+/// The interface of capability measures, and the measures that are built in.
+
 namespace maxwrench {
 
 struct Posture;
@@ -14,73 +17,122 @@ struct WrenchProgram;
 class WrenchSolver;
 
 /// A scalar capability of a posture.
+///
+/// To add a measure, override `evaluate_well_formed`.
 class Measure {
  public:
   virtual ~Measure() = default;
-  /// `program` is that of the posture (JtW and tau_d set). Fills everything; u only if `efforts` is
-  /// set. Of a program that is not `well_formed`, or if the value is not finite, the status is
-  /// kNumericalError, from any measure.
+  /// Evaluates the measure at a posture.
+  ///
+  /// The status is kNumericalError if the program is not `well_formed` or the value is not finite.
+  ///
+  /// @param posture     the posture
+  /// @param program     the wrench program of this posture, with JtW and tau_d set
+  /// @param efforts     whether to compute u and the residual
+  /// @param capability  receives the result
   void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
                 Capability& capability);
-  /// Whether its value is the optimum of that program itself.
+  /// Returns whether the value is the optimum of the wrench program.
   virtual bool solves_program() const { return false; }
 
  private:
-  /// Gets a `clear` capability: what it does not fill is zero, and the status kNumericalError.
+  /// Evaluates the measure with a program that is well formed.
+  ///
+  /// `capability` is cleared before: numbers that are not written remain zero, and the status
+  /// remains kNumericalError unless it is set. The arguments are those of `evaluate`.
   virtual void evaluate_well_formed(const Posture& posture, const WrenchProgram& program,
                                     bool efforts, Capability& capability) = 0;
 };
 
-/// The capability at theta_r: of the valid IK solutions of the second arm the one with the best
-/// value, the first of equal ones; without a second contact there is one posture. `model` and the
-/// posture stay on that IK solution, so its gradient is that of the IK solution: where the best IK
-/// solution changes, beta has a kink, and where an IK solution ends (at a limit, a singularity or a
-/// collision) it may jump. The capability is left alone if no posture is valid.
+/// Evaluates a measure at theta_r, at the valid IK solution with the largest value.
+///
+/// There may be several IK solutions with dependent joints or a second contact; otherwise there is
+/// one. Of equal values the first counts. `model` stays on the chosen IK solution, so its gradient
+/// belongs to this one. Where another IK solution becomes the best, beta has a kink. Where an IK
+/// solution ends (at a limit, a singularity or a collision), beta may jump.
+///
+/// @param model       evaluates the postures
+/// @param theta_r     the redundant coordinates (r)
+/// @param measure     the measure
+/// @param efforts     whether to compute u and the residual
+/// @param program     receives the wrench program of the posture
+/// @param capability  receives the result; unchanged if no posture is valid
+/// @return the posture, which `model` owns
 const Posture& evaluate_best(PostureEvaluator& model, const Eigen::VectorXd& theta_r,
                              Measure& measure, bool efforts, WrenchProgram& program,
                              Capability& capability);
 
-/// beta_1: the positive root of eq:transmissionUVMS along c, and with free columns the farthest
-/// point of that ellipsoid along c. Actuators are weighted by the smaller of their two absolute
-/// limits. Throws std::invalid_argument if B has not full row rank or a limit is zero.
+/// Makes the ellipsoid measure, beta_1.
+///
+/// The value is the positive root of eq:transmissionUVMS along c. With free columns it is the
+/// farthest point of that ellipsoid along c. The weight of an actuator uses the smaller of its two
+/// absolute limits.
+///
+/// @throws std::invalid_argument if B does not have full row rank, or an actuator cannot act in
+///         both directions (min < 0 < max).
 std::unique_ptr<Measure> make_ellipsoid(const Robot& robot);
 
-/// The L2 polytope: u = B^+ (tau_d + J'h) within the limits. Throws std::invalid_argument if B has
-/// not full row rank.
+/// Makes the L2 polytope measure: the efforts u = B^+ (tau_d + J'h) must be within the limits.
+///
+/// @param robot   the robot
+/// @param solver  solves the program
+/// @throws std::invalid_argument if B does not have full row rank.
 std::unique_ptr<Measure> make_l2_polytope(const Robot& robot, std::unique_ptr<WrenchSolver> solver);
 
-/// The L-infinity polytope: any u within the limits that balances (beta_2, beta_3).
+/// Makes the L-infinity polytope measure (beta_2, beta_3): any u within the limits that satisfies
+/// the balance is allowed.
+///
+/// @param robot   the robot
+/// @param solver  solves the program
 std::unique_ptr<Measure> make_linf_polytope(const Robot& robot,
                                             std::unique_ptr<WrenchSolver> solver);
 
-// The measures of earlier work, which the paper's background tells of.
+// Measures of earlier work, which the background of the paper describes.
 
-/// Yoshikawa's manipulability sqrt det(J J') [-] of the whole system: J maps base twist and joint
-/// rates to the twist of the end effector, on the axes of W_any. Lengths are in units of 1 m, so
-/// that 1 rad counts as much as 1 m, in the twist and in the velocities.
+/// Makes Yoshikawa's manipulability sqrt det(J J') [-] of the whole system.
+///
+/// J maps the base twist and joint rates to the twist of the end effector, on the axes of W_any.
+/// Lengths are in units of 1 m, so that 1 rad counts as much as 1 m, in the twist and in the
+/// velocities.
 std::unique_ptr<Measure> make_manipulability(const Problem& problem);
 
-/// The transmission ratio (c'J J'c)^(-1/2) [-]: how far the ellipsoid |J'h| <= 1 reaches along c, N
-/// and N m counting alike; with free columns its farthest point along c. Throws
-/// std::invalid_argument if B has not full row rank, as no efforts could be told.
+/// Makes the transmission ratio (c'J J'c)^(-1/2) [-].
+///
+/// It is the extent of the ellipsoid |J'h| <= 1 along c, where N and N m count alike. With free
+/// columns it is the farthest point of the ellipsoid along c.
+///
+/// @throws std::invalid_argument if B does not have full row rank, because the efforts would then
+///         be undetermined.
 std::unique_ptr<Measure> make_transmission_ratio(const Robot& robot);
 
-/// eq:transmissionUVMS at tau_d = 0: |W_u B^+ J'h| <= 1. Throws as `make_ellipsoid`.
+/// Makes the weighted transmission ratio: eq:transmissionUVMS at tau_d = 0, |W_u B^+ J'h| <= 1.
+///
+/// @throws std::invalid_argument as `make_ellipsoid`.
 std::unique_ptr<Measure> make_weighted_transmission_ratio(const Robot& robot);
 
-/// Minus the smallest sum of squared efforts u'u, u in N and N m, that balances c'h = reference of
-/// the task, efforts without limits; with free columns the best of all such h. Throws
-/// std::invalid_argument if B has not full row rank.
+/// Makes the least-effort measure: minus the smallest sum of squared efforts u'u.
+///
+/// u, in N and N m and without limits, satisfies the balance at c'h = `Problem::reference`. With
+/// free columns the best such h counts.
+///
+/// @throws std::invalid_argument if B does not have full row rank.
 std::unique_ptr<Measure> make_least_effort(const Problem& problem);
 
-/// The wrench along c at which the first actuator saturates, by the ratio of what its limit leaves
-/// to what a unit of the wrench takes, as for a serial arm: there each joint has one effort for a
-/// given wrench. Thrusters share theirs with the least |W_u u|; where all have the same limits,
-/// this is the L2 polytope along c. Throws as `make_ellipsoid`.
+/// Makes the saturating-wrench measure: the wrench along c at which the first actuator saturates.
+///
+/// For each actuator it takes the ratio of the remaining effort to the effort per unit of wrench.
+/// This is the method for serial arms, where a given wrench determines the effort of each joint.
+/// Here the efforts are those of least |W_u u|. If all actuators have the same limits, the value is
+/// that of the L2 polytope along c.
+///
+/// @throws std::invalid_argument as `make_ellipsoid`.
 std::unique_ptr<Measure> make_saturating_wrench(const Robot& robot);
 
-/// The sum of the squared radii [-] of the ellipsoid |W_u B^+ J'h| <= 1 in the wrenches of W_any,
-/// each axis measured by the task's desired wrench. Throws as `make_ellipsoid`.
+/// Makes the ellipsoid trace: the sum of the squared radii [-] of the ellipsoid |W_u B^+ J'h| <= 1.
+///
+/// h is in the wrenches of W_any. Each axis is measured in units of `Problem::desired`.
+///
+/// @throws std::invalid_argument as `make_ellipsoid`.
 std::unique_ptr<Measure> make_ellipsoid_trace(const Problem& problem);
 
 }  // namespace maxwrench

@@ -5,43 +5,67 @@
 
 #include "maxwrench/types.h"
 
+/// @file
+/// Tasks in time: paths of an end effector, schemes and impulses.
+
 namespace maxwrench {
 
-/// How far along a path the end effector is at s = t/T in [0, 1]: phi(s), from 0 to 1.
+/// The progress phi(s) along a path, from 0 to 1, at s = t/T in [0, 1].
 enum class Timing {
-  kCubic,    ///< 3 s^2 - 2 s^3: at rest at both ends
-  kQuintic,  ///< 10 s^3 - 15 s^4 + 6 s^5: without acceleration there either
-  kLinear    ///< s
+  kCubic,    ///< phi(s) = 3 s^2 - 2 s^3: at rest at both ends
+  kQuintic,  ///< phi(s) = 10 s^3 - 15 s^4 + 6 s^5: at rest and without acceleration at both ends
+  kLinear    ///< phi(s) = s
 };
 
-/// The end effector at an instant: its pose in the world, its twist [linear; angular] at its origin
-/// in world axes, and the derivative of that twist.
+/// The end effector at one instant of a path.
 struct PathPoint {
-  Pose<double> pose;
-  Vector6d twist = Vector6d::Zero();         ///< m/s, rad/s
-  Vector6d acceleration = Vector6d::Zero();  ///< m/s^2, rad/s^2
+  Pose<double> pose;  ///< pose in the world
+  /// Twist [linear; angular] at its origin, in world axes [m/s; rad/s].
+  Vector6d twist = Vector6d::Zero();
+  Vector6d acceleration = Vector6d::Zero();  ///< derivative of the twist [m/s^2; rad/s^2]
 };
 
-/// Poses of an end effector in time, 0 <= t <= duration; before and after it is as at the ends.
+/// The poses of an end effector over time, 0 <= t <= duration.
+///
+/// Earlier and later times give the values at the ends.
 class Path {
  public:
-  /// From `start` turned by `angle` phi about the axis (unit vector) through `centre`, and moved by
-  /// `displacement` phi, all in the world: a rotation in place, an arc, a line or a screw.
+  /// Makes a path that rotates about an axis and translates: a rotation in place, an arc, a line or
+  /// a screw.
+  ///
+  /// All arguments are in the world.
+  ///
+  /// @param start         the pose at t = 0
+  /// @param axis          the axis, a unit vector
+  /// @param centre        a point on the axis [m]
+  /// @param angle         the rotation is `angle` times phi [rad]
+  /// @param displacement  the translation is `displacement` times phi [m]
+  /// @param timing        phi
+  /// @param duration      the duration [s], positive
   static Path screw(const Pose<double>& start, const Eigen::Vector3d& axis,
                     const Eigen::Vector3d& centre, double angle,
                     const Eigen::Vector3d& displacement, Timing timing, double duration);
-  /// At rest.
+  /// Makes a path that rests at one pose for `duration` seconds.
   static Path constant(const Pose<double>& pose, double duration);
-  /// Through poses at times that rise from 0: the clamped cubic spline (at rest at both ends) of
-  /// the positions and of the quaternions, which are normalised. At least two, each turned by less
-  /// than pi from the one before. Throws std::invalid_argument otherwise.
+  /// Makes a path through given poses.
+  ///
+  /// It is the clamped cubic spline (at rest at both ends) of the positions and of the quaternions,
+  /// which are then normalised.
+  ///
+  /// @param times  at least two times that increase from 0 [s]
+  /// @param poses  one pose for each time, each rotated by less than pi from the previous one
+  /// @throws std::invalid_argument otherwise.
   static Path spline(const std::vector<double>& times, const std::vector<Pose<double>>& poses);
 
+  /// Returns the end effector at the time t [s].
+  ///
   /// Twist and acceleration are exact derivatives of the pose.
   PathPoint at(double t) const;
+  /// Returns the pose at the time t [s].
   Pose<double> pose(double t) const { return at(t).pose; }
+  /// Returns the duration [s].
   double duration() const { return duration_; }
-  /// Turned by from start to end about one axis [rad]; 0 of splines and lines.
+  /// Returns the rotation about one axis from start to end [rad]; 0 for splines and lines.
   double angle() const { return angle_; }
 
  private:
@@ -53,48 +77,60 @@ class Path {
                   displacement_ = Eigen::Vector3d::Zero();
   double angle_ = 0, duration_ = 1;
   Timing timing_ = Timing::kCubic;
-  // Of a spline: values [p; quaternion] 7×N at the times, and the second derivatives there.
+  // Of a spline: values [p; quaternion] 7×N at the times, and their second derivatives.
   std::vector<double> times_;
   Eigen::Matrix<double, 7, Eigen::Dynamic> values_, bends_;
 };
 
-/// How knots of theta_r become motion at instants. `ends` serves paths only, `backward` and
-/// `backward_stop` impulses only.
-enum class Scheme { kForward, kEnds, kSpline, kBackward, kBackwardStop };
+/// How knots of theta_r become a motion at instants.
+enum class Scheme {
+  kForward,      ///< rates are forward differences of the knots; for paths and impulses
+  kEnds,         ///< as kForward, and at rest at both ends; for paths only
+  kSpline,       ///< the clamped cubic spline through the knots; for paths and impulses
+  kBackward,     ///< rates are backward differences of the knots; for impulses only
+  kBackwardStop  ///< as kBackward, and at rest at the end; for impulses only
+};
+/// Returns the name of a scheme, such as "backward_stop".
 const char* to_string(Scheme scheme);
-/// By its name, such as "backward_stop". Throws std::invalid_argument that names all.
+/// Returns the scheme with this name.
+///
+/// @throws std::invalid_argument that lists all names.
 Scheme parse_scheme(const std::string& name);
-/// The names of those that serve an impulse, or a path.
+/// Returns the names of the schemes for impulses (true) or for paths (false).
 std::vector<std::string> scheme_names(bool impulse);
 
-/// What an impulse begins with: efforts u_0 and a wrench w_0 >= 0 along c at theta_0.
+/// The start of an impulse: efforts u_0 and a wrench w_0 >= 0 along c at theta_0.
 enum class Start {
   kStatic,  ///< in balance, w_0 at most the static capability
   kRest,    ///< in balance, w_0 = 0
   kZero,    ///< u_0 = 0, without balance
   kFree     ///< any u_0 within its limits
 };
+/// Returns the name of a start: "static", "rest", "zero" or "free".
 const char* to_string(Start start);
-/// As `parse_scheme`.
+/// Returns the start with this name.
+///
+/// @throws std::invalid_argument that lists all names.
 Start parse_start(const std::string& name);
 
-/// A task in time: a wrench along a path ("Wrench Maximisation over a Trajectory"), or a peak
-/// wrench in an impulse at a pose ("Maximum Wrench Impulse").
+/// A task in time.
+///
+/// It is a wrench along a path ("Wrench Maximisation over a Trajectory"), or a peak wrench in an
+/// impulse at a pose ("Maximum Wrench Impulse").
 struct MotionTask {
-  bool impulse = false;
-  Path path = Path::constant({}, 1);  ///< of an impulse: at rest
-  std::string path_file;              ///< of its poses, if it was read from one
-  double T = 1;                       ///< s
-  int k = 1;                          ///< knots of theta_r, without knot 0 of an impulse
-  Scheme scheme = Scheme::kSpline;
-  int instants_per_interval = 4;  ///< of `spline`; 16 in an impulse
-  bool rates = true;              ///< limits of the rates of efforts hold
-  /// c and W_any turn with the end effector; those of the problem hold at the start.
+  bool impulse = false;               ///< whether the task is an impulse
+  Path path = Path::constant({}, 1);  ///< the path; at rest for an impulse
+  std::string path_file;              ///< file with the poses of the path; empty if there is none
+  double T = 1;                       ///< duration [s]
+  int k = 1;                          ///< number of knots of theta_r, without knot 0 of an impulse
+  Scheme scheme = Scheme::kSpline;    ///< how the knots become a motion
+  int instants_per_interval = 4;      ///< for the scheme `spline`; 16 in an impulse
+  bool rates = true;                  ///< whether the rate limits of efforts apply
+  /// Whether c and W_any turn with the end effector. Those of the problem are valid at the start.
   bool c_turns = false;
-  // Of an impulse.
-  int t_h = 0;  ///< the knot of the peak, 1 .. k; 0: the best one
-  Start start = Start::kStatic;
-  Eigen::VectorXd theta_0;  ///< r
+  int t_h = 0;  ///< impulse only: the knot of the peak, 1 .. k; 0: the best one is chosen
+  Start start = Start::kStatic;  ///< impulse only: how it starts
+  Eigen::VectorXd theta_0;       ///< impulse only: theta_r at the start (r)
 };
 
 }  // namespace maxwrench

@@ -9,93 +9,120 @@
 #include "maxwrench/path.h"
 #include "maxwrench/robot.h"
 
+/// @file
+/// A problem: a robot and a task.
+
 namespace maxwrench {
 
 class IkStartSystem;
 
-/// What a static task leaves free of the end effector's pose: with X_0 = `Problem::pose` and the
-/// coordinates s, those that are not free zero,
+/// The part of the end effector's pose that a static task leaves free.
+///
+/// Let X_0 be `Problem::pose` and s the coordinates, zero where they are not free. The pose is
 ///
 ///     X(s) = X_0 Trans(x, y, z) Rz(yaw) Ry(pitch) Rx(roll)      along the axes of X_0,
 ///     X(s) = X_0 Rz(yaw) Ry(pitch) Rx(roll) Trans(x, y, z)      along the end effector's own.
 ///
-/// So the end effector turns about its own origin, wherever that has moved to, or about that of
-/// X_0, whose distance it keeps.
+/// In the first case the end effector rotates about its own origin, wherever it has moved. In the
+/// second case it rotates about the origin of X_0, at constant distance.
 struct FreePose {
-  std::vector<int> axes;  ///< of s, in increasing order: numbers of kTwistAxes [m; rad]
-  bool along_end_effector = false;
-  /// c and the other wrenches turn with the end effector, from where they are at X_0.
+  std::vector<int> axes;  ///< the free coordinates, in increasing order: indices of kTwistAxes [m;
+                          ///< rad]
+  bool along_end_effector = false;  ///< true: the second case, along the end effector's own axes
+  /// Whether c and the other wrenches turn with the end effector, from their directions at X_0.
   bool wrench_turns = false;
+  /// Returns the number of free coordinates.
   int count() const { return static_cast<int>(axes.size()); }
 };
 
-/// A robot and a task: hold the end effector at a pose, or move it along a path, and exert the
+/// A robot and a task: to hold the end effector at a pose, or move it along a path, and exert the
 /// largest wrench along c.
+///
+/// `load_problem` and `make_problem` make problems.
 struct Problem {
-  std::string name;   ///< as on the command line, such as "planar/force"
-  std::string label;  ///< how far the numbers are to be trusted, such as "identified"
-  std::string source;
-  /// Of all the bytes of the files that task and robot were read from, 16 hexadecimal digits of
-  /// FNV-1a; empty if they were not read from files.
+  std::string name;    ///< name as on the command line, such as "planar/force"
+  std::string label;   ///< how reliable the numbers are, such as "identified"
+  std::string source;  ///< where the numbers come from
+  /// The FNV-1a hash, 16 hexadecimal digits, of all bytes of the files of task and robot. Empty if
+  /// they were not read from files.
   std::string digest;
-  Robot robot;
-  int end_effector = 0;
-  Pose<double> pose;  ///< of the end effector in the world; where a path starts
-  FreePose free;      ///< how a static task lets it leave this pose
-  Vector6d c;         ///< unit direction [force; torque] in world axes
-  /// A task in time. A static problem has none.
+  Robot robot;           ///< the robot
+  int end_effector = 0;  ///< index in `Robot::end_effectors`
+  Pose<double> pose;     ///< pose of the end effector in the world; the start of a path
+  FreePose free;         ///< the free part of the pose of a static task
+  Vector6d c;            ///< unit direction [force; torque] in world axes
+  /// The task in time. A static problem has none.
   std::optional<MotionTask> motion;
-  /// 6×k: the wrenches that `Wrench::kAny` allows, orthonormal; its span contains c, and each of
-  /// its wrenches can do work.
+  /// Orthonormal basis of the wrenches that `Wrench::kAny` allows (6×k). Its span contains c, and
+  /// each of its wrenches can do work.
   Matrix6Xd W_any;
-  double reference = 1;  ///< N or N m along c, of measures of efforts at a given wrench
-  /// What each axis of the wrench is measured by [N; N m], of measures of all axes at once, and the
-  /// world axes of these axes at `pose`: the end effector's if the task gives wrenches in them.
+  /// Wrench along c [N or N m], for measures of the efforts at a given wrench.
+  double reference = 1;
+  /// The unit of each axis of the wrench [N; N m], for measures of all axes together.
   Vector6d desired = Vector6d::Ones();
+  /// World axes of the axes of `desired` at `pose`: those of the end effector if the task gives
+  /// wrenches in them.
   Eigen::Matrix3d wrench_axes = Eigen::Matrix3d::Identity();
-  std::vector<int> redundant;  ///< the joints that theta_r holds
-  /// The joints between base and end effector that theta_r does not hold. They follow from it as
-  /// the base pose does (see lib/posture/ik/dependent_joints.h). None: the base pose follows in
-  /// closed form.
+  std::vector<int> redundant;  ///< the joints in theta_r
+  /// The dependent joints: the joints between base and end effector that are not in theta_r.
+  ///
+  /// They follow from theta_r, as the pose of the base does (see
+  /// lib/posture/ik/dependent_joints.h). If there are none, the pose of the base has a closed form.
   std::vector<int> dependent;
-  /// A posture near one at theta_r_default, if there are dependent joints: all joints, and [x, y,
-  /// z, yaw] of the base. A task in time begins on its IK solution; of a static one all IK
-  /// solutions count.
+  /// Joints of a posture near one at theta_r_default, if there are dependent joints [rad or m].
+  ///
+  /// A task in time starts on the IK solution of the guess. For a static task all IK solutions
+  /// count.
   Eigen::VectorXd guess_q;
+  /// The base in the posture of `guess_q`: x, y, z, yaw [m; rad].
   Eigen::Vector4d guess_base = Eigen::Vector4d::Zero();
-  /// What finds all IK solutions, shared by those that evaluate postures; null, or of another
-  /// robot, task or limits: each of them makes its own, which takes some hundredths of a second.
+  /// Finds all IK solutions; shared by all evaluators of postures.
+  ///
+  /// If it is null, or belongs to another robot, task or other limits, each evaluator makes its
+  /// own, which takes a few hundredths of a second.
   std::shared_ptr<const IkStartSystem> start_system;
-  /// What a second end effector does, if there is one. Only the first is scored.
+  /// The second contact, if there is one. The value is the wrench of the first contact only.
   std::optional<Contact> contact;
-  /// theta_r: the joints that are free while the end effector keeps its pose, then the coordinates
-  /// of that pose which are free, then the regrasp coordinates of the second contact.
-  Eigen::VectorXd theta_r_min, theta_r_max, theta_r_default;
+  /// Lower limits of theta_r (r).
+  ///
+  /// theta_r holds the joints that are free while the end effector keeps its pose, then the free
+  /// coordinates of the pose, then the regrasp coordinates of the second contact.
+  Eigen::VectorXd theta_r_min,
+      theta_r_max,      ///< upper limits of theta_r (r)
+      theta_r_default;  ///< default theta_r (r)
 
-  /// Of a coordinate of theta_r: the joint, or pose_x, ..., pose_yaw, or regrasp_1, regrasp_2.
+  /// Returns the name of coordinate i of theta_r: its joint, pose_x .. pose_yaw, regrasp_1 or
+  /// regrasp_2.
   std::string theta_r_name(int i) const;
-  /// Its unit: "rad" or "m".
+  /// Returns the unit of coordinate i of theta_r: "rad" or "m".
   const char* theta_r_unit(int i) const;
+  /// Returns r, the number of coordinates of theta_r.
   int redundancy() const { return static_cast<int>(theta_r_min.size()); }
-  /// Of the second contact's wrench, l; 0 without one.
+  /// Returns l, the number of columns of the second contact's wrench; 0 without a second contact.
   int contact_columns() const { return contact ? static_cast<int>(contact->C.cols()) : 0; }
-  /// Of beta: "N" if c is a pure force, "N m" if a pure torque, "mixed" otherwise.
+  /// Returns the unit of beta: "N" if c is a pure force, "N m" if it is a pure torque, else
+  /// "mixed".
   const char* unit() const;
-  /// "static", "trajectory" or "impulse".
+  /// Returns the type of the task: "static", "trajectory" or "impulse".
   const char* type() const;
 };
 
-/// X(s) at theta_r.
+/// Returns the pose X(s) of the end effector at theta_r (r), in the world.
 Pose<double> pose_at(const Problem& problem, const Eigen::VectorXd& theta_r);
 
-/// The same task with the end effector held at X(s), and c turned as it is there: nothing of its
-/// pose is free, and theta_r has joints and regrasp coordinates only.
+/// Returns the same task with the pose of the end effector fixed at X(s).
+///
+/// c is turned as it is at X(s). No coordinate of the pose is free, and theta_r has joints and
+/// regrasp coordinates only.
+///
+/// @param problem  the task
+/// @param theta_r  the redundant coordinates (r), which determine s
 Problem held_at(const Problem& problem, const Eigen::VectorXd& theta_r);
 
-/// Those coordinates of theta_r.
+/// Returns the joints and regrasp coordinates of theta_r (r): the theta_r of `held_at`.
 Eigen::VectorXd held_theta_r(const Problem& problem, const Eigen::VectorXd& theta_r);
 
-/// Fills `start_system` of a problem with dependent joints.
+/// Fills `Problem::start_system` of a problem with dependent joints.
 void prepare_ik_solutions(Problem& problem);
 
 }  // namespace maxwrench

@@ -8,158 +8,207 @@
 #include "maxwrench/types.h"
 #include "maxwrench/zonotope.h"
 
+/// @file
+/// Robots: links, joints, thrusters, collision checks and actuators.
+
 namespace maxwrench {
 
-/// [rad or m] A posture on its limit is inside: theta_r may carry rounding from a search's box.
+/// The tolerance of limits [rad or m]: a posture that exceeds a limit by less counts as inside.
+///
+/// theta_r may carry rounding from the unit cube of a search.
 inline constexpr double kLimitTolerance = 1e-12;
 
-enum class JointType { kRevolute, kPrismatic };
-
-/// Added mass and drag of one body, diagonal in its own frame: in the axes of `frame`, for the
-/// velocity [linear; angular] at its origin. Force of the drag: -(linear + quadratic |v|) v.
-struct HydrodynamicBody {
-  Pose<double> frame;                             ///< link -> body
-  Vector6d added_mass = Vector6d::Zero();         ///< [kg, kg m^2]
-  Vector6d damping_linear = Vector6d::Zero();     ///< [N s/m, N m s]
-  Vector6d damping_quadratic = Vector6d::Zero();  ///< [N s^2/m^2, N m s^2]
+/// The type of a joint.
+enum class JointType {
+  kRevolute,  ///< rotates about its axis [rad]
+  kPrismatic  ///< slides along its axis [m]
 };
 
-/// The rigid body that moves with joint i is link i + 1; link 0 is the base. Bodies on fixed joints
-/// are part of the link that carries them.
+/// Added mass and drag of one body, diagonal in the axes of its own frame.
+///
+/// They act on the velocity v = [linear; angular] at the origin of `frame`. The force of the drag
+/// is -(linear + quadratic |v|) v.
+struct HydrodynamicBody {
+  Pose<double> frame;                          ///< link -> body
+  Vector6d added_mass = Vector6d::Zero();      ///< added mass [kg; kg m^2]
+  Vector6d damping_linear = Vector6d::Zero();  ///< linear drag coefficients [N s/m; N m s]
+  /// Quadratic drag coefficients [N s^2/m^2; N m s^2].
+  Vector6d damping_quadratic = Vector6d::Zero();
+};
+
+/// A rigid body of the robot.
+///
+/// Link 0 is the base, and link i + 1 moves with joint i. Bodies on fixed joints are part of the
+/// link that carries them.
 struct Link {
-  std::string name;
-  double mass = 0;                                    ///< kg
-  Eigen::Vector3d com = Eigen::Vector3d::Zero();      ///< m, in link axes
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< kg m^2, about com, in link axes
-  double volume = 0;                                  ///< m^3, displaced
-  Eigen::Vector3d cob = Eigen::Vector3d::Zero();      ///< m, centre of buoyancy in link axes
-  /// One for each body that has such data: |v| v of a whole does not follow from one matrix.
+  std::string name;                                   ///< the name
+  double mass = 0;                                    ///< mass [kg]
+  Eigen::Vector3d com = Eigen::Vector3d::Zero();      ///< centre of mass in link axes [m]
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< inertia about com, in link axes [kg m^2]
+  double volume = 0;                                  ///< displaced volume [m^3]
+  Eigen::Vector3d cob = Eigen::Vector3d::Zero();      ///< centre of buoyancy in link axes [m]
+  /// One for each body with such data. One matrix for all cannot express the terms |v| v.
   std::vector<HydrodynamicBody> hydrodynamics = {};
 };
 
-/// Floats added and ballast removed to balance a vehicle: a force of buoyancy_mass * gravity
-/// upwards, in water and in air, without inertia. Negative: ballast added.
+/// Floats added and ballast removed to balance a vehicle.
+///
+/// They exert a force of buoyancy_mass * gravity upwards, in water and in air, and have no inertia.
 struct Trim {
-  double buoyancy_mass = 0;                            ///< kg
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< m, in base axes
+  double buoyancy_mass = 0;  ///< mass that the trim carries [kg]; negative: ballast added
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< where the force acts, in base axes [m]
 };
 
+/// A joint and its motor.
 struct Joint {
-  std::string name;
-  JointType type = JointType::kRevolute;
-  int parent = 0;          ///< link that carries the joint, always an earlier one
-  Pose<double> placement;  ///< parent link -> joint frame at q = 0
+  std::string name;                       ///< the name
+  JointType type = JointType::kRevolute;  ///< revolute or prismatic
+  int parent = 0;                         ///< link that carries the joint, always an earlier one
+  Pose<double> placement;                 ///< parent link -> joint frame at q = 0
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit vector in the joint frame
-  double q_min = -kInfinity, q_max = kInfinity;     ///< rad or m
-  double velocity_max = kInfinity;                  ///< rad/s or m/s
-  double effort_max = 0;                            ///< N m or N
+  double q_min = -kInfinity,                        ///< lower limit [rad or m]
+      q_max = kInfinity;                            ///< upper limit [rad or m]
+  double velocity_max = kInfinity;                  ///< speed limit [rad/s or m/s]
+  double effort_max = 0;                            ///< effort limit, in both directions [N m or N]
 };
 
-/// A revolute joint means the same after whole turns: q less those that bring it inside its limits.
+/// Returns q plus or minus whole turns, such that it is inside the limits of a revolute joint if
+/// possible.
+///
+/// Whole turns do not change the posture of a revolute joint.
 double turned_into_limits(const Joint& joint, double q);
 
+/// A thruster, fixed to the base.
 struct Thruster {
-  std::string name;
-  Eigen::Vector3d position;             ///< m, in base axes
-  Eigen::Vector3d direction;            ///< unit vector of the force on the base at positive thrust
-  double force_min = 0, force_max = 0;  ///< N
-  double force_rate_max = kInfinity;    ///< N/s
+  std::string name;          ///< the name
+  Eigen::Vector3d position;  ///< position in base axes [m]
+  /// Unit vector of the force on the base at positive thrust, in base axes.
+  Eigen::Vector3d direction;
+  double force_min = 0,               ///< lower limit [N]
+      force_max = 0;                  ///< upper limit [N]
+  double force_rate_max = kInfinity;  ///< limit of the rate of the force [N/s]
 };
 
+/// A frame on a link that can touch the environment.
 struct EndEffector {
-  std::string name;
-  int link = 0;
+  std::string name;        ///< the name
+  int link = 0;            ///< the link that carries it
   Pose<double> placement;  ///< link -> end effector frame
 };
 
-/// A convex body on a link, for pictures: all points within `radius` of the hull of `points`, in
-/// link axes.
+/// A convex body on a link, for figures: all points within `radius` of the convex hull of `points`.
 struct ConvexBody {
-  int link = 0;
-  std::vector<Eigen::Vector3d> points;  ///< m
-  double radius = 0;                    ///< m
+  int link = 0;                         ///< the link
+  std::vector<Eigen::Vector3d> points;  ///< points in link axes [m]
+  double radius = 0;                    ///< radius [m]
 };
 
-/// How near two bodies on different links are.
+/// The closest points of two bodies on different links.
 struct ClosestPoints {
-  /// m, what is left of the distance beyond the margin; negative: collision. It grows no deeper
-  /// where the points fall together.
+  /// The distance less the margin [m]; negative: collision. It does not decrease further once the
+  /// points coincide.
   double clearance = 0;
-  int link_a = 0, link_b = 0;
-  /// Points whose distance changes with the links as the clearance does, in base axes.
-  Eigen::Vector3d on_a, on_b;
+  int link_a = 0,  ///< the link of the first body
+      link_b = 0;  ///< the link of the second body
+  /// A point on the first body, in base axes [m]. The distance of both points changes with the
+  /// links as the clearance does.
+  Eigen::Vector3d on_a,
+      on_b;  ///< a point on the second body, in base axes [m]
 };
 
-/// A box (or a segment, or a point) on a link.
+/// A box inside a body of a link. It may be a segment or a point.
 struct InscribedBox {
-  int link = 0;
+  int link = 0;                                          ///< the link
   Pose<double> placement;                                ///< link -> box, centred at its origin
-  Eigen::Vector3d half_sizes = Eigen::Vector3d::Zero();  ///< m
+  Eigen::Vector3d half_sizes = Eigen::Vector3d::Zero();  ///< half of its sizes [m]
 };
 
-/// Two bodies collide wherever their cores are closer than `reach` [m].
+/// Inscribed boxes of two bodies, which collide wherever these boxes are closer than `reach`.
 struct InscribedBoxPair {
-  InscribedBox a, b;
-  double reach = 0;
+  InscribedBox a,    ///< box in the first body
+      b;             ///< box in the second body
+  double reach = 0;  ///< distance [m]
 };
 
-/// Decides whether a posture collides with itself. Const and shared between threads.
+/// Decides whether a posture is in self-collision.
+///
+/// An object is const and may be shared between threads. The argument `links` of its functions
+/// holds the pose of each link relative to the base. Pairs of bodies are numbered from 0.
 class CollisionChecker {
  public:
   virtual ~CollisionChecker() = default;
-  /// The first pair that collides, or -1. `links`: pose of each link relative to the base.
+  /// Returns the first pair that collides, or -1.
   virtual int colliding_pair(const std::vector<Pose<double>>& links) const = 0;
+  /// Returns whether any pair collides.
   bool collides(const std::vector<Pose<double>>& links) const { return colliding_pair(links) >= 0; }
+  /// Returns the number of pairs.
   virtual int pairs() const = 0;
-  /// How near a pair is; false if only a test is known of it.
+  /// Computes the closest points of a pair.
+  ///
+  /// @param links   poses of the links relative to the base
+  /// @param pair    the pair
+  /// @param result  receives the closest points
+  /// @return false if the pair has no distance, only a test for collision
   virtual bool nearest(const std::vector<Pose<double>>& links, int pair,
                        ClosestPoints& result) const = 0;
-  /// The links of the URDF that a pair is about, such as "forearm and base".
+  /// Returns the names of the URDF links of a pair, such as "forearm and base".
   virtual std::string pair_name(int pair) const = 0;
-  /// Where a pair is sure to collide; false if nothing is known of that.
+  /// Gives inscribed boxes of a pair, from which a collision over a range of postures can be
+  /// proved.
+  ///
+  /// The arguments are the pair, and the result. It returns false if the pair has none, which is
+  /// the default.
   virtual bool inscribed_boxes(int /*pair*/, InscribedBoxPair& /*result*/) const { return false; }
 };
 
-/// A tree of links on a base, with its actuators and limits. Const after loading and shared between
-/// threads.
+/// A robot: a tree of links on a base, with its actuators and limits.
+///
+/// It is const after loading and may be shared between threads.
 struct Robot {
-  std::string name;
-  /// (block of the file, where its numbers come from), in the order of the file.
+  std::string name;  ///< the name
+  /// Pairs (block of the file, source of its numbers), in the order of the file.
   std::vector<std::pair<std::string, std::string>> sources;
   /// The free axes of the base velocity, as indices into [x y z roll pitch yaw] in increasing
-  /// order: one of the eight subsets that are integrable in base axes (see
-  /// `base_axes_are_integrable`).
+  /// order. They are one of the eight subsets for which `base_axes_are_integrable` holds.
   std::vector<int> base_axes;
-  /// Of the base in the world before it moves along its free axes. No meaning with all six.
+  /// Pose of the base in the world before it moves along its free axes. Unused with all six.
   Pose<double> mount;
-  std::vector<Link> links;  ///< joints + 1
-  std::vector<Joint> joints;
-  std::vector<Thruster> thrusters;
-  std::vector<EndEffector> end_effectors;
-  double gravity = 9.81;     ///< m/s^2, along -z of the world
-  double water_density = 0;  ///< kg/m^3, zero in air
-  Trim trim;
-  /// Actuators: thrusters first, then one directly driven motor for each joint.
-  Zonotope actuation;                                 ///< n×m
-  Eigen::VectorXd u_rate_max;                         ///< m, per second; infinite for joints
-  std::shared_ptr<const CollisionChecker> collision;  ///< null: nothing to check
-  std::vector<ConvexBody> convex_bodies;              ///< its shapes
+  std::vector<Link> links;                 ///< the base, then one link for each joint
+  std::vector<Joint> joints;               ///< the joints
+  std::vector<Thruster> thrusters;         ///< the thrusters
+  std::vector<EndEffector> end_effectors;  ///< the end effectors
+  double gravity = 9.81;                   ///< gravity along -z of the world [m/s^2]
+  double water_density = 0;                ///< density of the water [kg/m^3]; zero in air
+  Trim trim;                               ///< floats and ballast
+  /// The actuators (n×m): thrusters first, then one directly driven motor for each joint.
+  Zonotope actuation;
+  Eigen::VectorXd u_rate_max;  ///< limits of effort rates (m) [N/s]; infinite for joints
+  std::shared_ptr<const CollisionChecker> collision;  ///< null: there is nothing to check
+  std::vector<ConvexBody> convex_bodies;              ///< shapes of the robot, for figures
 
-  /// n: free base axes, then joints.
+  /// Returns n, the number of velocities: free base axes, then joints.
   int velocities() const { return static_cast<int>(base_axes.size() + joints.size()); }
+  /// Returns m, the number of actuators: thrusters, then joints.
   int actuators() const { return static_cast<int>(thrusters.size() + joints.size()); }
 };
 
-/// Makes a rigid body part of the link: its mass > 0, centre of mass, and inertia about it, in link
-/// axes.
+/// Adds a rigid body to a link.
+///
+/// @param link     the link
+/// @param mass     mass of the body [kg], positive
+/// @param com      centre of mass of the body, in link axes [m]
+/// @param inertia  inertia of the body about its centre of mass, in link axes [kg m^2]
 void add_body(Link& link, double mass, const Eigen::Vector3d& com, const Eigen::Matrix3d& inertia);
 
-/// Whether velocities along these base axes reach a group of poses: {}, {x}, {x,y}, {x,y,z}, {yaw},
-/// {x,y,yaw}, {x,y,z,yaw} or all six.
+/// Returns whether the poses that velocities along these base axes reach form a group.
+///
+/// The eight such sets are {}, {x}, {x,y}, {x,y,z}, {yaw}, {x,y,yaw}, {x,y,z,yaw} and all six.
 bool base_axes_are_integrable(const std::vector<int>& axes);
 
-/// Fills `actuation` and `u_rate_max` from the thrusters and joints: a thruster's column of B is
-/// its [direction; position x direction] on the free base axes, a joint's a unit vector.
+/// Computes `Robot::actuation` and `Robot::u_rate_max` from the thrusters and joints.
+///
+/// The column of B of a thruster is [direction; position x direction] on the free base axes. The
+/// column of a joint is a unit vector.
 void complete_actuation(Robot& robot);
 
 }  // namespace maxwrench

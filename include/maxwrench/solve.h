@@ -13,133 +13,172 @@
 #include "maxwrench/problem.h"
 #include "maxwrench/trajectory.h"
 
+/// @file
+/// Evaluates, solves and simulates a task: the entry points of the library.
+
 namespace maxwrench {
 
-/// The names and numbers that decide an answer. The tables of names are in strategies.h.
+/// The names and numbers that determine an answer.
+///
+/// The tables of names are in strategies.h.
 struct Case {
-  std::string problem = "";  ///< the name of the task
-  std::string measure = "linf_polytope";
-  Wrench wrench = Wrench::kPure;
-  /// Of the lower level. Empty: the first solver that serves the task and the wrench. "none": the
-  /// measure is a closed form.
+  std::string problem = "";               ///< the name of the task
+  std::string measure = "linf_polytope";  ///< the name of the measure
+  Wrench wrench = Wrench::kPure;          ///< the allowed wrenches
+  /// The solver of the lower level. Empty: the first one that supports the task and the wrench.
+  /// "none": the measure is a closed form.
   std::string solver = "";
-  /// A method alone, or stages joined by '+'. Empty: `default_search`, which a static task without
-  /// a budget restarts until more is pointless; of a posture or trajectory that is given, none.
+  /// A single method, or stages joined by '+'. Empty: `default_search`, which is restarted for a
+  /// static task without a budget until another optimum is unlikely. An evaluation of a given
+  /// posture or trajectory uses no search.
   std::string search = "";
-  std::uint64_t seed = 1;
-  /// Evaluations of the search, never exceeded. 0: `kUsualBudget`, of a restarted search
-  /// `kMostOfRestarts`, which it seldom needs.
+  std::uint64_t seed = 1;  ///< of the random numbers
+  /// Largest number of evaluations of the search, never exceeded. 0: `kUsualBudget`, or for a
+  /// restarted search `kMostOfRestarts`, which it seldom uses up.
   long budget = 0;
-  /// Of a task in time: how knots become motion. Empty: as the task says.
+  /// For a task in time: how knots become a motion. Empty: the scheme of the task.
   std::string scheme = "";
-  /// Of the virtual tank, which tries the default posture or trajectory. Empty: no experiment.
+  /// The integrator of the virtual tank, which tests the default posture or trajectory. Empty: no
+  /// experiment.
   std::string integrator = "";
 };
 
-/// Evaluations if nobody says how many.
+/// The evaluation budget if none is given.
 inline constexpr long kUsualBudget = 20'000;
+/// The evaluation budget of a restarted search if none is given.
 inline constexpr long kMostOfRestarts = 200'000;
 
-/// The solver of a closed form.
+/// The name of the solver of a measure that is a closed form.
 inline constexpr const char* kNoSolver = "none";
 
-/// An answer counts as solved only if its recomputed residual is below this, relative to 1 +
-/// |beta|: what the least exact solver (an interior point) reaches with room to spare.
+/// The largest recomputed residual of an answer that counts as solved, relative to 1 + |beta|.
+///
+/// The least exact solver (an interior point) stays well below it.
 inline constexpr double kAnswerTolerance = 1e-6;
 
-/// How `evaluate` and `solve` work.
+/// The options of `evaluate`, `solve` and `experiment`.
 struct Options : Case {
-  int threads = 0;              ///< change the time, never the answer; 0: one for each core
+  int threads = 0;  ///< number of threads; it changes the time, never the answer; 0: one per core
   bool check_collision = true;  ///< `evaluate` only: a search always avoids collisions
-  /// Is called now and then with the evaluations so far, from any thread.
+  /// Called from time to time with the number of evaluations so far, from any thread.
   std::function<void(long evaluations)> progress = {};
-  /// Is asked before each evaluation, from any thread. Once it says true, the search ends with the
-  /// best so far and status kBudgetExhausted.
+  /// Called before each evaluation, from any thread. Once it returns true, the search ends with the
+  /// best result so far and status kBudgetExhausted.
   std::function<bool()> interrupted = {};
 };
 
-/// How often a method of a search ended with the same word of its library.
+/// The number of runs of a method that ended with the same status of its library.
 struct CallCount {
-  std::string method, status;
-  long calls = 0, evaluations = 0;
+  std::string method,   ///< the name of the method
+      status;           ///< the status that the library reports
+  long calls = 0,       ///< number of runs
+      evaluations = 0;  ///< number of evaluations of these runs
 };
 
-/// What a posture or a trajectory is worth, with everything that is known there. A static task is a
-/// task in time of one instant: its trajectory has one knot.
+/// The value of a posture or a trajectory, with everything that is known about it.
 ///
-/// The status is kOptimal (of `evaluate`: the lower level is solved, and verified from the data of
-/// the task), kBestFound (of `solve`), kBudgetExhausted (of an interrupted `solve`, which may have
-/// a value), kReached (of an experiment), or says, with the reason, why there is no value.
+/// A static task is a task in time of one instant: its trajectory has one knot. The status is
+///
+/// * kOptimal, from `evaluate`: the lower level is solved, and verified from the data of the task;
+/// * kBestFound, from `solve`;
+/// * kBudgetExhausted, from an interrupted `solve`, which may have a value;
+/// * kReached, from `experiment`;
+/// * another one, with a reason, if there is no value.
 struct Answer : Verdict {
-  std::shared_ptr<const Problem> task;  ///< as it was solved
-  Case choice;                          ///< complete: nothing is left to defaults
-  std::string unit;                     ///< of the value
-  bool collision = true;                ///< whether collisions were looked for
-  /// Knots k×r, instants, value, gradient k×r. Of a static task the value is beta, and `solution`
-  /// is empty.
+  std::shared_ptr<const Problem> task;  ///< the task as it was solved
+  Case choice;                          ///< the case, with all defaults filled in
+  std::string unit;                     ///< unit of the value
+  bool collision = true;                ///< whether collisions were checked
+  /// Knots k×r, instants, value and gradient k×r. For a static task the value is beta, and
+  /// `solution` is empty.
   Trajectory trajectory;
-  /// Of a static task: the posture, and what the measure says there with h, u, lambda.
+  /// For a static task: the posture.
   Posture posture;
+  /// For a static task: the result of the measure at the posture, with h, u and lambda.
   Capability capability;
-  /// Of a static task: beta of linf_polytope at the posture with the same wrenches, which makes the
-  /// postures of different measures comparable [N or N m]. Of an experiment: what was planned. NaN:
-  /// none.
+  /// For a static task: beta of linf_polytope at the posture with the same wrenches [N or N m],
+  /// which makes the postures of different measures comparable. For an experiment: the planned
+  /// value. NaN: none.
   double beta_linf = std::numeric_limits<double>::quiet_NaN();
-  /// Of a task in time: the least distance of two bodies, between knots too, and the program whose
-  /// optimum is the value. It refers to `task`.
+  /// For a task in time: the least distance of two bodies, including between knots.
   std::optional<Clearance> clearance;
+  /// For a task in time: the program whose optimum is the value. It refers to `task`.
   TrajectoryProgram program;
-  /// Of an experiment: why the wrench was not held. Empty: it was.
+  /// For an experiment: why the wrench was not held. Empty: it was held.
   std::string missed;
-  long evaluations = 0;
-  std::vector<CallCount> calls;  ///< of the methods of the search
+  long evaluations = 0;          ///< number of evaluations
+  std::vector<CallCount> calls;  ///< runs of the methods of the search
   std::string stopped;           ///< why the search ended
-  /// Of a static task, over all evaluations but those of trajectory searches: how many ended
-  /// without a verdict that the data confirm, and what became of the postures.
+  /// For a static task, except with trajectory searches: number of evaluations that ended without a
+  /// verdict that the data confirm.
   long undecided = 0;
+  /// For a static task, except with trajectory searches: counts of the postures of all evaluations.
   IkCounts ik_solutions;
-  double wall_s = 0;  ///< without the beta_linf
+  double wall_s = 0;  ///< wall time, without that of `beta_linf` [s]
 
+  /// Returns whether there is a posture or trajectory.
   bool has_posture() const { return trajectory.knots.rows() > 0; }
-  /// An interrupted search may have one, too.
+  /// Returns whether there is a value. An interrupted search may have one too.
   bool has_value() const;
-  /// Whether it is what was asked for: optimal, best found, or carried out.
+  /// Returns whether the answer is the requested one: optimal, best found, or reached.
   bool answered() const;
+  /// Returns the value [unit].
   double beta() const { return trajectory.value; }
-  /// Recomputed from the data of the task.
+  /// Returns the residual, recomputed from the data of the task.
   const Residual& residual() const;
 };
 
-/// The search that is best in general: of a task in time `slp`; of a static one that between facets
-/// where it serves, going on by `cmaes` from where it has been (its ends may collide, and it is
-/// blind to pairs of which only a test is known), else that of any measure, `general_search`.
+/// Returns the name of the search that is best in general.
+///
+/// For a task in time it is `slp`. For a static task it is the search between facets where that is
+/// supported, followed by `cmaes` from the points that it found. The second stage is needed because
+/// these points may collide, and because the first one ignores pairs of bodies that have a test for
+/// collision only. Otherwise it is `general_search`.
+///
+/// @param task     the task
+/// @param measure  the name of the measure
 std::string default_search(const Problem& task, const std::string& measure);
 
-/// The case with the search and the budget that `solve` gives it if it names none.
+/// Returns the case with the search and the budget that `solve` uses if it names none.
 Case with_search(const Problem& task, Case c);
 
-/// The search of postures that is best in general for a measure about which nothing is known, of
-/// those that are built in.
+/// Returns the name of the search of postures that is best in general for any measure.
+///
+/// It is one of the searches that this build contains.
 const char* general_search();
 
-/// What `task` can do at theta_r: k×r knots, or r numbers, which a task in time holds throughout.
-/// Throws std::invalid_argument, which names key, value and what was expected, if the table has
-/// another size or is not finite, a name does not exist, or the choice has no meaning.
+/// Evaluates a task at theta_r.
+///
+/// @param task     the task
+/// @param theta_r  knots (k×r), or r numbers, which a task in time keeps throughout
+/// @param options  measure, wrench, solver and others
+/// @return the value and what is known about it
+/// @throws std::invalid_argument, which names key, value and what was expected, if the table has
+///         the wrong size or is not finite, a name does not exist, or the combination of choices is
+///         not supported.
 Answer evaluate(const Problem& task, const Eigen::MatrixXd& theta_r, const Options& options = {});
 
-/// The best posture or trajectory that a search finds, evaluated anew. The same at any thread
-/// count. Throws as `evaluate`.
+/// Searches for the best posture or trajectory.
+///
+/// @param task     the task
+/// @param options  measure, wrench, solver, search, budget and others
+/// @return the best one that the search finds, evaluated again; the same at any number of threads
+/// @throws std::invalid_argument as `evaluate`.
 Answer solve(const Problem& task, const Options& options = {});
 
-/// The default posture or trajectory in the virtual tank, by `Case::integrator`: kReached with the
-/// reading as value, whether or not the wrench was held; kNoneFound if the posture was lost. Throws
-/// as `evaluate`.
+/// Runs an experiment with the default posture or trajectory in the virtual tank.
+///
+/// @param task     the task
+/// @param options  the case, with `Case::integrator`
+/// @return kReached, with the reading as value, whether or not the wrench was held; kNoneFound if
+///         the posture was lost, or if the default posture exerts nothing along c
+/// @throws std::invalid_argument as `evaluate`.
 Answer experiment(const Problem& task, const Options& options);
 
-/// The answer for people, in lines.
+/// Returns the answer as text of several lines.
 std::string summary(const Answer& answer);
 
-/// The answer as a JSON object on one line. What has no value is null.
+/// Returns the answer as a JSON object on one line. A key without a value is null.
 std::string to_json(const Answer& answer);
 
 }  // namespace maxwrench

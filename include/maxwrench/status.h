@@ -5,10 +5,15 @@
 #include <string>
 #include <string_view>
 
+/// @file
+/// How a computation ended: status, reason and residual.
+
 namespace maxwrench {
 
-/// How a computation ended. Only a lower level says `kOptimal`, and only what was verified from the
-/// data; a search says `kBestFound` or `kNoneFound`, which prove nothing.
+/// How a computation ended.
+///
+/// Only a lower level gives `kOptimal`, and only after verification from the data. A search gives
+/// `kBestFound` or `kNoneFound`, which prove nothing.
 enum class Status {
   kOptimal,          ///< of a lower level: verified
   kInfeasible,       ///< of a lower level: proved
@@ -19,21 +24,25 @@ enum class Status {
   kValid,            ///< of a posture: it exists and violates nothing
   kBestFound,        ///< of a search: the best of what was evaluated
   kNoneFound,        ///< of a search: nothing that it evaluated has a value
-  kProven,           ///< of branch and bound: nothing exceeds the best that was found by more
-  kBracket,          ///< of branch and bound: the best that was found and a bound apart from it
+  kProven,           ///< of branch and bound: the bound is within the gap of the best value found
+  kBracket,          ///< of branch and bound: the best value found, and a bound farther from it
   kReached           ///< of an integration: the last time, or a root
 };
 
-/// The name in files and on the command line, such as "optimal" or "invalid_posture".
+/// Returns the name of a status in files and on the command line, such as "invalid_posture".
 const char* to_string(Status status);
 
-/// A short text that is copied without allocation; what does not fit is cut.
+/// A text of at most 159 characters that is copied without allocation. Longer texts are truncated.
 class Reason {
  public:
+  /// Makes an empty text.
   Reason() { text_[0] = 0; }
+  /// Copies a text.
   Reason(const Reason& other) { *this = other; }
-  /// No more is copied than is there: most are empty, in loops that run millions of times.
+  /// Copies a text. Only the characters in use are copied, because most texts are empty and are
+  /// copied in loops that run millions of times.
   Reason& operator=(const Reason& other) { return *this = std::string_view(other.c_str()); }
+  /// Copies a text, truncated to 159 characters.
   Reason& operator=(std::string_view text) {
     const std::size_t size = std::min(text.size(), text_.size() - 1);
     text.copy(text_.data(), size);
@@ -41,20 +50,24 @@ class Reason {
     return *this;
   }
 
-  bool empty() const { return text_[0] == 0; }
-  const char* c_str() const { return text_.data(); }
-  std::string str() const { return text_.data(); }
+  bool empty() const { return text_[0] == 0; }        ///< Returns whether the text is empty.
+  const char* c_str() const { return text_.data(); }  ///< Returns the text, terminated by a zero.
+  std::string str() const { return text_.data(); }    ///< Returns the text as a string.
 
  private:
   std::array<char, 160> text_;
 };
 
-/// How a computation ended, and if it is not what was asked for, why.
+/// How a computation ended and, if it did not give the requested result, why.
 struct Verdict {
-  Status status = Status::kNumericalError;
-  Reason reason;
+  Status status = Status::kNumericalError;  ///< how it ended
+  Reason reason;                            ///< why; empty if the result is the requested one
 
-  /// Sets both and returns the status.
+  /// Sets status and reason.
+  ///
+  /// @param how  the status
+  /// @param why  the reason
+  /// @return the status
   Status conclude(Status how, std::string_view why = {}) {
     status = how;
     reason = why;
@@ -62,15 +75,16 @@ struct Verdict {
   }
 };
 
-/// How well an answer satisfies its program, recomputed from the data. What cannot be computed is
-/// infinite or NaN.
+/// How well a result satisfies its program, recomputed from the data.
+///
+/// A number that cannot be computed is infinite or NaN.
 struct Residual {
-  double balance = 0;  ///< of the equations
-  double bounds = 0;   ///< how far variables leave their limits
-  double dual = 0;     ///< how far multipliers are from dual feasible, where no bound pays for it
-  double gap = 0;      ///< dual objective less objective: optimal to within this
+  double balance = 0;  ///< violation of the equations
+  double bounds = 0;   ///< violation of the limits by the variables
+  double dual = 0;     ///< violation of dual feasibility where no finite bound compensates it
+  double gap = 0;      ///< dual objective less objective: the result is optimal to within this
 
-  /// Whether all are at most `tolerance`; NaN never is.
+  /// Returns whether all four numbers are at most `tolerance`; false if one is NaN.
   bool within(double tolerance) const;
 };
 

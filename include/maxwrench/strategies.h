@@ -15,113 +15,152 @@
 #include "maxwrench/trajectory_program.h"
 #include "maxwrench/wrench_solver.h"
 
+/// @file
+/// The tables of all measures, solvers, searches and integrators, by name.
+
 namespace maxwrench {
 
 struct Problem;
 
-/// beta of a measure on a problem, which outlives it; `needs_solver` is false for a closed form,
-/// whose `make` ignores the solver.
+/// A capability measure in the table.
 struct MeasureEntry {
-  const char* name;
-  const char* summary;
-  bool needs_solver;
-  bool serves_any;   ///< false: rejects Wrench::kAny, which would mean nothing
-  const char* unit;  ///< of its value; null: that of the wrench along c
+  const char* name;     ///< as on the command line
+  const char* summary;  ///< one line of description
+  bool needs_solver;    ///< false: a closed form, for which `make` ignores the solver
+  bool serves_any;      ///< false: rejects Wrench::kAny, which would have no meaning
+  const char* unit;     ///< of its value; null: that of the wrench along c
+  /// Makes the measure for a problem, which must outlive it.
   std::unique_ptr<Measure> (*make)(const Problem&, std::unique_ptr<WrenchSolver>);
 };
 
-/// A solver of general linear programs.
+/// A solver of general linear programs in the table.
 struct LpEntry {
-  const char* name;
-  const char* summary;
-  /// About how much dearer one solve is than that of our own solvers; the benchmark's budgets are
-  /// divided by it.
+  const char* name;     ///< as on the command line
+  const char* summary;  ///< one line of description
+  /// The approximate cost of one solve, as a multiple of that of our own solvers. The budgets of
+  /// the benchmark are divided by it.
   int cost;
-  std::unique_ptr<LpSolver> (*make)();
+  std::unique_ptr<LpSolver> (*make)();  ///< makes the solver
 };
 
-/// A lower-level solver, the `--solver` of the command line: one that knows the structure, or a
-/// general one on the assembled program.
+/// A solver of wrench programs in the table, the `--solver` of the command line.
+///
+/// It either exploits the structure, or is a general solver applied to the assembled program.
 struct WrenchSolverEntry {
-  const char* name;
-  const char* summary;
+  const char* name;      ///< as on the command line
+  const char* summary;   ///< one line of description
   bool one_column_only;  ///< true: rejects Wrench::kAny and second contacts
   bool needs_facets;     ///< true: rejects actuators with too many facets to enumerate
-  int cost;              ///< as LpEntry
-  std::function<std::unique_ptr<WrenchSolver>()> make;
+  int cost;              ///< as `LpEntry::cost`
+  std::function<std::unique_ptr<WrenchSolver>()> make;  ///< makes the solver
 };
 
-/// A solver of the programs of trajectories: one that knows the structure, or a general one on the
-/// assembled program.
+/// A solver of trajectory programs in the table.
+///
+/// It either exploits the structure, or is a general solver applied to the assembled program.
 struct TrajectorySolverEntry {
-  const char* name;
-  const char* summary;
-  std::function<std::unique_ptr<TrajectorySolver>()> make;
+  const char* name;                                         ///< as on the command line
+  const char* summary;                                      ///< one line of description
+  std::function<std::unique_ptr<TrajectorySolver>()> make;  ///< makes the solver
 };
 
-/// One method alone.
+/// A search in the table: a single method, without stages.
 struct SearchEntry {
-  const char* name;
-  const char* summary;
-  bool local;  ///< true: local searches from one posture, and finds no better maximum elsewhere
-  std::unique_ptr<Search> (*make)();
-  /// Whether it begins where an earlier search has been (`SearchOptions::starts`), so that it can
-  /// be a later stage.
+  const char* name;     ///< as on the command line
+  const char* summary;  ///< one line of description
+  bool local;           ///< true: a local search from one posture, which finds no better maximum
+                        ///< elsewhere
+  std::unique_ptr<Search> (*make)();  ///< makes the search
+  /// Whether it continues from the points of an earlier search (`SearchOptions::starts`). Only then
+  /// can it be a later stage.
   bool accepts_starts = false;
-  /// Of the budget, as a stage that others follow; 0: one part for each stage that is left.
+  /// The fraction of the remaining budget that it gets as a stage with later ones. 0: an equal
+  /// share among itself and the later stages.
   double budget_fraction = 0;
-  /// About how much dearer an evaluation is with it than with others; the race's budgets are
-  /// divided by it.
+  /// The approximate cost of an evaluation, as a multiple of that of other searches. The budgets of
+  /// `compare` are divided by it.
   int cost = 1;
-  /// Of tasks in time: `solve` lets it maximise `TrajectoryValue::kThroughout`, which it asks for
-  /// seldom.
+  /// For tasks in time: whether `solve` lets it maximise `TrajectoryValue::kThroughout`, because it
+  /// requests this value seldom.
   bool throughout = false;
 };
 
+/// An integrator in the table.
 struct IntegratorEntry {
-  const char* name;
-  const char* summary;
-  bool stiff;  ///< true: its steps are not bounded by what decays fast
-  std::unique_ptr<Integrator> (*make)();
+  const char* name;                       ///< as on the command line
+  const char* summary;                    ///< one line of description
+  bool stiff;                             ///< true: fast decaying components do not limit its steps
+  std::unique_ptr<Integrator> (*make)();  ///< makes the integrator
 };
 
-/// The tables: every strategy that exists, once. The wrench solvers begin with those that know the
-/// structure, the LP solvers follow; so do the trajectory solvers.
+/// Returns the table of measures.
 std::span<const MeasureEntry> measures();
+/// Returns the table of solvers of linear programs.
 std::span<const LpEntry> lp_solvers();
+/// Returns the table of solvers of wrench programs: those that exploit the structure first, then
+/// the solvers of linear programs.
 std::span<const WrenchSolverEntry> wrench_solvers();
+/// Returns the table of solvers of trajectory programs: those that exploit the structure first,
+/// then the solvers of linear programs.
 std::span<const TrajectorySolverEntry> trajectory_solvers();
+/// Returns the table of searches of postures. They also support stacked knots.
 std::span<const SearchEntry> searches();
-/// Searches of trajectories alone: of tasks in time, and of static ones by linf_polytope, which are
-/// trajectories of one knot. Those of postures serve stacked knots too.
+/// Returns the table of trajectory searches.
+///
+/// They support tasks in time. They also support static tasks with linf_polytope, as trajectories
+/// of one knot.
 std::span<const SearchEntry> trajectory_searches();
-/// Searches of static tasks by linf_polytope, of robots whose actuators have few facets.
+/// Returns the table of searches between facets.
+///
+/// They support static tasks with linf_polytope, for robots whose actuators have few facets.
 std::span<const SearchEntry> facet_searches();
+/// Returns the table of integrators.
 std::span<const IntegratorEntry> integrators();
-/// The names of those that serve the virtual tank, whose load cell is stiff.
+/// Returns the names of the integrators that the virtual tank supports. Its load cell is stiff.
 std::vector<std::string> stiff_integrators();
 
-/// A strategy that this build leaves out. `family` is that of its table: lp, search or integrator.
+/// A measure, solver, search or integrator that this build leaves out.
 struct Absent {
-  const char* family;
-  const char* name;
-  const char* library;  ///< that it needs
+  const char* family;   ///< its table: "lp", "search" or "integrator"
+  const char* name;     ///< its name
+  const char* library;  ///< the library that it needs
 };
+/// Returns what this build leaves out.
 std::span<const Absent> not_built_in();
 
-/// Whether the strategy with this name needs a library that only one thread may use at once, so
-/// that cases with it wait for each other.
+/// Returns whether the entry with this name needs a library that only one thread may use at a time.
+///
+/// Cases with such an entry wait for each other.
 bool one_at_a_time(std::string_view name);
 
-/// The entry with this name; throws std::invalid_argument that names the alternatives, and the
-/// library that is missing if this build leaves the entry out.
+/// Returns the measure with this name.
+///
+/// @throws std::invalid_argument that lists the alternatives. If this build leaves the entry out,
+///         it names the missing library.
 const MeasureEntry& find_measure(std::string_view name);
+/// Returns the solver of linear programs with this name.
+///
+/// @throws std::invalid_argument as `find_measure`.
 const LpEntry& find_lp_solver(std::string_view name);
+/// Returns the solver of wrench programs with this name.
+///
+/// @throws std::invalid_argument as `find_measure`.
 const WrenchSolverEntry& find_wrench_solver(std::string_view name);
+/// Returns the solver of trajectory programs with this name.
+///
+/// @throws std::invalid_argument as `find_measure`.
 const TrajectorySolverEntry& find_trajectory_solver(std::string_view name);
-/// A method of any table, or stages joined by '+'. Also throws if a later stage cannot go on.
+/// The prefix of the name of a search that is restarted.
 inline constexpr std::string_view kRestarted = "restart:";
+/// Returns the search with this name.
+///
+/// @param name  a method of any table, or stages joined by '+', see `NamedSearch`
+/// @throws std::invalid_argument as `find_measure`, and if a later stage cannot continue from the
+///         points of the earlier ones.
 NamedSearch find_search(std::string_view name);
+/// Returns the integrator with this name.
+///
+/// @throws std::invalid_argument as `find_measure`.
 const IntegratorEntry& find_integrator(std::string_view name);
 
 }  // namespace maxwrench

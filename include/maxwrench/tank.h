@@ -10,6 +10,9 @@
 #include "maxwrench/path.h"
 #include "maxwrench/types.h"
 
+/// @file
+/// The virtual tank: simulated experiments with a controller, thruster lag and a load cell.
+
 namespace maxwrench {
 
 class TrajectorySolver;
@@ -18,212 +21,287 @@ struct Trajectory;
 struct Posture;
 struct Problem;
 
-/// What holds the end effector. Stiffness and damping of each world axis, all three forces and all
-/// three torques alike. A commercial six-axis sensor has about 1e7 N/m and 1e5 N m/rad; the frame
-/// that carries it yields more. The damping is the stiffness times 1 ms.
+/// The load cell that holds the end effector.
+///
+/// It has a stiffness and a damping in each world axis: one pair of values for all three forces and
+/// one for all three torques. A commercial six-axis sensor has about 1e7 N/m and 1e5 N m/rad. The
+/// frame that carries it is more compliant. The damping is the stiffness times 1 ms.
 struct LoadCell {
-  double stiffness_linear = 1e6;   ///< N/m: 0.1 mm at 100 N
-  double stiffness_angular = 1e5;  ///< N m/rad: 0.06 degrees at 100 N m
-  double damping_linear = 1e3;     ///< N s/m
-  double damping_angular = 100;    ///< N m s/rad
+  double stiffness_linear = 1e6;   ///< stiffness of forces [N/m]: 0.1 mm at 100 N
+  double stiffness_angular = 1e5;  ///< stiffness of torques [N m/rad]: 0.06 degrees at 100 N m
+  double damping_linear = 1e3;     ///< damping of forces [N s/m]
+  double damping_angular = 100;    ///< damping of torques [N m s/rad]
 };
 
-/// How the simulated robot differs from its model. All off by default.
+/// How the simulated robot differs from its model. By default it does not differ.
 struct Imperfections {
-  double thrust_efficiency = 1;  ///< thrust over commanded thrust
-  double thrust_noise = 0;       ///< N, standard deviation of each thruster, new each period
-  std::uint64_t seed = 1;
+  double thrust_efficiency = 1;  ///< thrust divided by commanded thrust
+  /// Standard deviation of the force of each thruster [N], new in each period.
+  double thrust_noise = 0;
+  std::uint64_t seed = 1;  ///< seed of the noise
 };
 
-/// An experiment as in the paper: ramp, hold, ramp.
+/// The options of an experiment as in the paper: ramp, hold, ramp.
 struct TankOptions {
-  double ramp = 5, hold = 5;  ///< s
-  double period = 0.01;       ///< s, between two commands; efforts are linear in between
-  double thruster_lag = 0.1;  ///< s, first order
-  /// rad/s, of the posture's errors, critically damped: a fifth of what the thrusters follow,
-  /// 1/thruster_lag.
+  double ramp = 5,            ///< duration of each ramp [s]
+      hold = 5;               ///< duration of the hold [s]
+  double period = 0.01;       ///< time between two commands [s]; efforts are linear in between
+  double thruster_lag = 0.1;  ///< time constant of the thrusters, first order [s]
+  /// Bandwidth of the control of posture errors, critically damped [rad/s]. The default is a fifth
+  /// of 1/thruster_lag, which the thrusters can follow.
   double bandwidth = 2;
-  /// Share of the planned wrench that is not asked for, so that efforts are left to hold the
-  /// posture: a quarter of kHeldWrenchError.
+  /// The fraction of the planned wrench that is not requested, so that efforts remain to hold the
+  /// posture. The default is a quarter of kHeldWrenchError.
   double margin = 0.005;
-  /// kg. Positive: nothing holds the end effector, which carries this point mass. It displaces no
-  /// water.
+  /// Mass of the load [kg]. If it is positive, nothing holds the end effector, which carries this
+  /// point mass. The mass displaces no water.
   double load = 0;
-  /// Ends the experiment after the hold.
+  /// Whether the experiment ends after the hold.
   bool until_hold = false;
-  LoadCell cell;
-  Imperfections imperfections;
+  LoadCell cell;                ///< the load cell
+  Imperfections imperfections;  ///< how the robot differs from its model
+  /// Tolerances and limits of the integration.
   IntegratorOptions integrator{1e-6, 1e-8, 100000, 1e-4};
 };
 
-/// Throws std::invalid_argument, with one line that names the key, unless all times, the lag and
-/// the stiffness are positive (the hold may be zero), nothing is negative, infinite or NaN, the
-/// margin is below 1, and the experiment has at most ten million periods.
+/// Checks the options of an experiment.
+///
+/// All times, the lag and the stiffness must be positive, except that the hold may be zero. Nothing
+/// may be negative, infinite or NaN. The margin must be below 1. The experiment may have at most
+/// ten million periods.
+///
+/// @throws std::invalid_argument, with one line that names the key, otherwise.
 void check(const TankOptions& options);
 
-/// What the robot is to exert.
+/// The wrench that the robot is to exert, with its efforts.
 struct TargetWrench {
-  Vector6d h;                     ///< [N; N m] in world axes; with a load its weight
-  Eigen::VectorXd u;              ///< m, efforts to stay close to at the full share
-  Wrench wrench = Wrench::kPure;  ///< kAny: the cell may take any of W_any across c
+  Vector6d h;                     ///< wrench in world axes [N; N m]; with a load, its weight
+  Eigen::VectorXd u;              ///< efforts to stay close to at the full wrench (m)
+  Wrench wrench = Wrench::kPure;  ///< kAny: the cell may take any wrench of W_any across c
 };
 
-/// One instant, at the end of a control period or where the integrator gave up within one.
+/// One sample, at the end of a control period or where the integrator failed within one.
+///
+/// The last five members are filled for a task in time only.
 struct TankSample {
-  double t = 0;          ///< s
-  double planned = 0;    ///< c'h of the trajectory [N, N m]
-  double reading = 0;    ///< c'h_e
-  Vector6d h_e;          ///< the cell's reading, or what carries and accelerates the load
-  Eigen::VectorXd u;     ///< m, efforts before the imperfections
-  double shortfall = 0;  ///< see EffortAnswer
-  bool saturated = false, relaxed = false;
+  double t = 0;        ///< time [s]
+  double planned = 0;  ///< planned wrench c'h [N, N m]
+  double reading = 0;  ///< reading along c, c'h_e [N, N m]
+  Vector6d h_e;        ///< reading of the cell, or the wrench that carries and accelerates the load
+  Eigen::VectorXd u;   ///< efforts without the imperfections (m)
+  double shortfall = 0;    ///< max |B u - tau_c|, the part of the requested forces that the efforts
+                           ///< do not exert [N, N m]
+  bool saturated = false,  ///< whether an effort is at a limit
+      relaxed = false;     ///< whether no efforts within the limits meet the request
   double theta_r_error = 0;        ///< max |theta_r - its reference| [rad, m]
-  double configuration_error = 0;  ///< the same of all joints, and of the base [rad, m]
-  double position_error = 0;       ///< of the end effector [m]
-  double deflection_error = 0;  ///< likewise [m, rad], from where the trajectory bends the cell to
-  double violation = 0;         ///< how far efforts or rates leave their limits [N, N m, N/s]
-  // Of a task in time only.
-  double off_axis_force = 0,
-         off_axis_torque = 0;  ///< of h_e across c, from the trajectory [N, N m]
-  double speed = 0;            ///< how far joints are beyond their speed limits [rad/s, m/s]
-  double angle = 0;            ///< that the end effector has turned by [rad]
-  Eigen::VectorXd theta_r;     ///< r
+  double configuration_error = 0;  ///< the same for all joints and the base [rad, m]
+  double position_error = 0;       ///< distance of the end effector from its place [m]
+  double deflection_error = 0;     ///< distance of the end effector from where the planned wrench
+                                   ///< bends the cell to [m, rad]
+  double violation = 0;            ///< how far efforts or rates exceed their limits [N, N m, N/s]
+  double off_axis_force = 0,       ///< force of h_e across c: deviation from the planned one [N]
+      off_axis_torque = 0;         ///< torque of h_e across c, likewise [N m]
+  double speed = 0;                ///< how far joints exceed their speed limits [rad/s, m/s]
+  double angle = 0;                ///< rotation of the end effector since the start [rad]
+  Eigen::VectorXd theta_r;         ///< redundant coordinates (r)
 };
 
-/// What a task in time was like; times are those of samples [s].
+/// The summary of an experiment in time. Times are those of samples [s].
 struct MotionSummary {
-  double t_low = 0, t_high = 0;  ///< of the lowest and the highest reading
-  double at_peak = 0;            ///< of an impulse: the reading at t_h; else NaN
-  double deviation = 0;          ///< largest of the reading from the trajectory [N, N m]
-  double off_axis_force = 0,
-         off_axis_torque = 0;  ///< largest across c from the trajectory, if not free
-  double speed = 0;            ///< largest of the samples [rad/s, m/s]
-  int violations = 0;          ///< samples beyond a limit of effort, rate or speed
+  double t_low = 0,           ///< time of the lowest reading
+      t_high = 0;             ///< time of the highest reading
+  double at_peak = 0;         ///< of an impulse: the reading at t_h; otherwise NaN
+  double deviation = 0;       ///< largest difference of reading and planned wrench [N, N m]
+  double off_axis_force = 0,  ///< largest deviation of the force across c, if it is not free [N]
+      off_axis_torque = 0;    ///< largest deviation of the torque across c, likewise [N m]
+  double speed = 0;           ///< largest `TankSample::speed` [rad/s, m/s]
+  int violations = 0;         ///< samples that exceed a limit of effort, rate or speed
 };
 
-/// What the hold was like; NaN where there was no hold. If the posture was lost, how far it is from
-/// its reference reaches to that instant.
+/// The summary of the hold of an experiment.
+///
+/// Numbers are NaN if there was no hold. If the posture was lost, the largest errors include that
+/// instant. For a task in time the hold is the whole experiment.
 struct TankSummary {
-  double planned = 0;                  ///< c'h [N, N m]
-  double mean = 0, low = 0, high = 0;  ///< c'h_e
-  Vector6d across;                     ///< mean of h_e less its part along c [N; N m]
-  double theta_r_error = 0, configuration_error = 0;  ///< largest [rad, m]
-  double position_error = 0;                          ///< largest [m]
-  double deflection_error = 0;                        ///< largest [m, rad]
-  double violation = 0;                               ///< largest of the whole experiment
-  double saturated = 0, relaxed = 0;                  ///< shares of the periods
-  double shortfall = 0;                               ///< mean [N, N m]
-  bool lost = false;                                  ///< it ended there, see kLost
-  bool held = false;
-  std::string missed;                   ///< why not, each value with what is allowed
-  std::optional<MotionSummary> motion;  ///< of a task in time, whose hold is all of it
+  double planned = 0;           ///< planned wrench c'h [N, N m]
+  double mean = 0,              ///< mean of c'h_e [N, N m]
+      low = 0,                  ///< lowest c'h_e
+      high = 0;                 ///< highest c'h_e
+  Vector6d across;              ///< mean of h_e less its part along c [N; N m]
+  double theta_r_error = 0,     ///< largest `TankSample::theta_r_error` [rad, m]
+      configuration_error = 0;  ///< largest `TankSample::configuration_error` [rad, m]
+  double position_error = 0;    ///< largest `TankSample::position_error` [m]
+  double deflection_error = 0;  ///< largest `TankSample::deflection_error` [m, rad]
+  double violation = 0;  ///< largest `TankSample::violation` of the whole experiment [N, N m, N/s]
+  double saturated = 0,  ///< fraction of the periods with an effort at a limit
+      relaxed = 0;       ///< fraction of the periods in which no efforts meet the request
+  double shortfall = 0;  ///< mean `TankSample::shortfall` [N, N m]
+  bool lost = false;     ///< whether the posture was lost, which ended it (see kLost)
+  bool held = false;     ///< whether the wrench was held
+  std::string missed;    ///< why not, each value with the largest that is allowed
+  std::optional<MotionSummary> motion;  ///< summary of a task in time; none for a static one
 };
 
-/// kReached: the experiment ran to its end, or until the posture was lost.
+/// The record of an experiment.
+///
+/// The status is kReached if the experiment ran to its end, or until the posture was lost.
+/// Otherwise the reason says why it ended early.
 struct TankRun : Verdict {
-  std::vector<TankSample> samples;
-  TankSummary summary;
-  long requests = 0, active_set_iterations = 0, evaluations = 0;
-  /// Time in derivatives, in tau_c, in the tracking program, in all; the rest is the integrator's.
-  double model_s = 0, controller_s = 0, qp_s = 0, total_s = 0;
+  std::vector<TankSample> samples;  ///< one for each period
+  TankSummary summary;              ///< summary of the hold
+  long requests = 0,                ///< number of tracking programs
+      active_set_iterations = 0,    ///< iterations of their active-set method
+      evaluations = 0;              ///< evaluations of the derivative
+  double model_s = 0,               ///< time in derivatives [s]
+      controller_s = 0,             ///< time in tau_c [s]
+      qp_s = 0,                     ///< time in the tracking program [s]
+      total_s = 0;                  ///< time in all [s]; the rest is that of the integrator
 };
 
-/// Held is a wrench whose mean over the hold is this close to the trajectory, along c and, unless
-/// the task leaves them to the environment, in all components across c, while the whole posture
-/// stays this close to its reference, the end effector this close to where the trajectory bends the
-/// cell to, and efforts and rates within their limits. Of a load the wrench is what carries and
-/// accelerates it: what falls is not held.
-inline constexpr double kHeldWrenchError = 0.02;  ///< of the planned c'h
-inline constexpr double kHeldThetaRError = 0.01;  ///< rad, m: 0.6 degrees
-inline constexpr double kHeldPosition = 0.01;     ///< m, rad
-inline constexpr double kHeldViolation = 1e-3;    ///< N, N m, N/s: of what the integrator leaves
-/// m: beside a planned force a torque counts as the force at this lever, about the size of a hand,
-/// and beside a planned torque a force as the torque that it has there.
+/// The largest error of the mean reading of a wrench that counts as held, relative to the planned
+/// c'h.
+///
+/// It applies along c. Unless the task leaves them to the environment, it also applies to all
+/// components across c (see kHeldLever). The posture must satisfy kHeldThetaRError, the end
+/// effector kHeldPosition, and efforts and rates kHeldViolation. The wrench of a load is the wrench
+/// that carries and accelerates it: a load that falls is not held.
+inline constexpr double kHeldWrenchError = 0.02;
+/// The largest error of the whole posture of a wrench that counts as held: 0.6 degrees [rad, m].
+inline constexpr double kHeldThetaRError = 0.01;
+/// The largest distance of the end effector from where the planned wrench bends the cell to, of a
+/// wrench that counts as held [m, rad].
+inline constexpr double kHeldPosition = 0.01;
+/// The largest violation of effort and rate limits of a wrench that counts as held: the error that
+/// the integrator leaves [N, N m, N/s].
+inline constexpr double kHeldViolation = 1e-3;
+/// The lever that compares forces and torques across c [m]: about the size of a hand.
+///
+/// Beside a planned force, a torque counts as the force at this lever. Beside a planned torque, a
+/// force counts as its torque at this lever.
 inline constexpr double kHeldLever = 0.1;
-/// This far from its reference the posture is lost, which ends the experiment [rad, m].
+/// The distance [rad, m] from its reference at which the posture is lost, which ends the
+/// experiment.
 inline constexpr double kLost = 0.5;
 
-/// The experiment at `posture`: a share s of the wrench grows from zero to one in the ramp, stays,
-/// and shrinks. Efforts follow the trajectory u* = (1 - s) u_0 + s u, u_0 those at rest, by the
-/// tracking program (see EffortTracker) for
+/// Runs a static experiment.
 ///
+/// A fraction s of the wrench increases from zero to one in the ramp, remains, and decreases. The
+/// efforts follow the planned u* by the tracking program (lib/tank/effort_tracking.h) for tau_c:
+///
+///     u* = (1 - s) u_0 + s u
 ///     tau_c = C v + D v + g + s J'h + M a,   a = A_r (omega^2 e_r - 2 omega theta_r_dot)
 ///
-/// where e_r are the errors of theta_r and omega the bandwidth; what A_r accelerates leaves the end
-/// effector alone, so the reading is that of the trajectory. With kAny the rows of the balance are
-/// those combinations in which the wrenches across c have no part.
+/// where u_0 are the efforts at rest, e_r the errors of theta_r and omega the bandwidth.
+/// Accelerations along A_r leave the end effector in place, so the reading is the planned wrench.
+/// With kAny the rows of the balance are those combinations to which the wrenches across c do not
+/// contribute.
 ///
-/// A load is part of the robot's mass matrix and weight from the start; what holds it up lets go in
-/// the ramp. Then a = omega^2 e - 2 omega v acts on all velocities, e the errors of base and
-/// joints. Throws as `check`.
+/// A load is part of the mass matrix and the weight of the robot from the start; its support
+/// releases it during the ramp. Then a = omega^2 e - 2 omega v acts on all velocities, with e the
+/// errors of base and joints.
+///
+/// @param problem     the task
+/// @param posture     the posture to hold
+/// @param trajectory  the wrench to exert, and its efforts
+/// @param integrator  a stiff integrator
+/// @param options     ramp, hold, load and others
+/// @return samples and summary
+/// @throws std::invalid_argument as `check`.
 TankRun run_tank(const Problem& problem, const Posture& posture, const TargetWrench& target,
                  Integrator& integrator, const TankOptions& options);
 
-/// What joins the instants of a trajectory.
+/// How the instants of a trajectory are joined.
 enum class Interpolation {
-  kLinear,  ///< the scheme's own instants; theta_r and efforts are linear in between, as in the
+  kLinear,  ///< the instants of the scheme; theta_r and efforts are linear in between, as in the
             ///< paper
   kSpline   ///< the clamped spline through the knots, with efforts at the instants of
             ///< `value_between_knots`
 };
+/// Returns the name of an interpolation: "linear" or "spline".
 const char* to_string(Interpolation interpolation);
-/// By its name. Throws std::invalid_argument that names both.
+/// Returns the interpolation with this name.
+///
+/// @throws std::invalid_argument that lists both names.
 Interpolation parse_interpolation(const std::string& name);
 
-/// What the tank carries out: a trajectory joined in time. Not all of a trajectory: a wrench is
-/// asked for that is smaller by the margin, and the efforts are those that the lower level finds
-/// for it. Its use needs maxwrench/trajectory.h.
+/// What the tank carries out: a trajectory joined in time.
+///
+/// The requested wrench is smaller than that of the trajectory by the margin. The efforts are those
+/// that the lower level finds for this wrench. Include maxwrench/trajectory.h to use it.
 struct TankScript : Verdict {
-  Path path = Path::constant({}, 1);  ///< of what holds the end effector
-  std::vector<Instant> instants;      ///< t from 0 to T; u and h as asked for
-  Interpolation interpolation = Interpolation::kSpline;
-  Wrench wrench = Wrench::kPure;
-  double planned = 0;  ///< along c, of an impulse at t_h [N, N m]
-  double margin = 0;   ///< share of it that is not asked for
-  double t_h = std::numeric_limits<double>::quiet_NaN();  ///< s, of an impulse
-  double slack = 0;  ///< largest of the balance of the efforts [N, N m]: 0 if they reach it
+  Path path = Path::constant({}, 1);  ///< path of the load cell that holds the end effector
+  std::vector<Instant> instants;      ///< instants, t from 0 to T; u and h as requested
+  Interpolation interpolation = Interpolation::kSpline;  ///< how the instants are joined
+  Wrench wrench = Wrench::kPure;                         ///< the allowed wrenches
+  double planned = 0;  ///< planned wrench along c, of an impulse at t_h [N, N m]
+  double margin = 0;   ///< fraction of it that is not requested
+  double t_h = std::numeric_limits<double>::quiet_NaN();  ///< time of the peak of an impulse [s]
+  double slack = 0;  ///< largest slack of the balance [N, N m]; 0 if efforts exert the wrench
 };
 
+/// The options of `make_script`.
 struct ScriptOptions {
-  Interpolation interpolation = Interpolation::kSpline;
-  double planned = 0;     ///< zero: value, or `value_between_knots` on the spline
-  double margin = 0.005;  ///< as in TankOptions
+  Interpolation interpolation = Interpolation::kSpline;  ///< how the instants are joined
+  double planned = 0;     ///< wrench along c [N, N m]; zero: the value, or on the spline
+                          ///< `value_between_knots`
+  double margin = 0.005;  ///< as `TankOptions::margin`
 };
-/// Throws std::invalid_argument unless `planned` is finite and not negative and the margin is from
-/// 0 to below 1.
+/// Checks the options of a script.
+///
+/// @throws std::invalid_argument unless `planned` is finite and not negative, and 0 <= margin < 1.
 void check(const ScriptOptions& options);
 
-/// Efforts for exactly the wrench that is asked for: along a path c'h = (1 - margin) planned at all
-/// instants, in an impulse at t_h, by the elastic program of the trajectory,
+/// Finds efforts that exert exactly the requested wrench.
+///
+/// The request is c'h = (1 - margin) planned: along a path at all instants, in an impulse at t_h.
+/// The efforts solve the elastic program of the trajectory,
 ///
 ///     B u_i - J_i'h_i (+ s_i) = tau_d,i,   u_min <= u_i <= u_max,   |u_i+1 - u_i| <= du_max dt.
 ///
-/// `trajectory` was evaluated, on the spline as well. Knots of `forward` along a path are T/(k-1)
-/// apart here as their poses are; one knot is held where the path starts. kInfeasible: the
-/// trajectory has no value to ask for, and none was given. Throws as `check`.
+/// Along a path, the knots of the scheme `forward` are T/(k-1) apart here, as their poses are.
+/// With a single knot the end effector stays where the path starts.
+///
+/// @param problem     the task in time
+/// @param trajectory  an evaluated trajectory; for kSpline, `evaluate_between_knots` was called too
+/// @param wrench      the allowed wrenches
+/// @param solver      solves the elastic program
+/// @param options     interpolation, planned wrench and margin
+/// @return the script; kInfeasible if the trajectory has no value and no wrench was given
+/// @throws std::invalid_argument as `check`.
 TankScript make_script(const Problem& problem, const Trajectory& trajectory, Wrench wrench,
                        TrajectorySolver& solver, const ScriptOptions& options);
 
-/// As held counts a reading in time that is this close to the trajectory, all along a path or at
-/// t_h, while the whole posture stays this close to its reference, no sample is beyond a limit of
-/// effort, rate or joint speed, and the end effector is as close as in a hold to where the
-/// trajectory bends the cell to.
-inline constexpr double kTrackedWrenchError = 0.03;         ///< of the planned c'h
-inline constexpr double kTrackedConfigurationError = 0.02;  ///< rad, m: twice that of a hold
+/// The largest error of the reading in time that counts as held, relative to the planned c'h.
+///
+/// It applies all along a path, or at t_h of an impulse. The whole posture must satisfy
+/// kTrackedConfigurationError, and the end effector kHeldPosition. No sample may exceed a limit of
+/// effort, rate or joint speed.
+inline constexpr double kTrackedWrenchError = 0.03;
+/// The largest error [rad, m] of the whole posture in time that counts as held: twice that of a
+/// hold.
+inline constexpr double kTrackedConfigurationError = 0.02;
 
-/// The experiment along a script, of its duration. What holds the end effector moves along the path
-/// and reads the wrench, in axes that turn with it and are those of the world at the start. At the
-/// start the load is on: the end effector is where it bends the cell to, theta_r at rest at its
-/// first value, and the efforts those of the first instant. Efforts follow those of the script by
-/// the tracking program for
+/// Runs an experiment in time along a script, for the duration of the script.
 ///
-///     tau_c = M a + C v + D v + g + J'h,   theta_r_ddot = that of the script + omega^2 e + 2 omega
-///     e_dot
+/// The load cell that holds the end effector moves along the path. It reads the wrench in axes that
+/// turn with it, which are those of the world at the start. The load is on at the start: the end
+/// effector is where the wrench bends the cell to, theta_r is at its first value and at rest, and
+/// the efforts are those of the first instant. Later efforts follow those of the script by the
+/// tracking program for
 ///
-/// where a is the acceleration of all velocities that keeps the end effector on the path with that
-/// theta_r_ddot, e the errors of theta_r and omega the bandwidth. Of the options ramp, hold,
-/// margin, load and until_hold mean nothing here. Throws as `check`, and unless the script
-/// has at least two instants with efforts.
+///     tau_c = M a + C v + D v + g + J'h
+///     theta_r_ddot = that of the script + omega^2 e + 2 omega e_dot
+///
+/// where a is the acceleration of all velocities that keeps the end effector on the path with this
+/// theta_r_ddot, e the errors of theta_r and omega the bandwidth.
+///
+/// @param problem     the task in time
+/// @param script      the script
+/// @param integrator  a stiff integrator
+/// @param options     of these, ramp, hold, margin, load and until_hold have no effect
+/// @return samples and summary
+/// @throws std::invalid_argument as `check`, and if the script has fewer than two instants with
+///         efforts.
 TankRun run_tank(const Problem& problem, const TankScript& script, Integrator& integrator,
                  const TankOptions& options);
 

@@ -9,97 +9,135 @@
 
 #include "maxwrench/problem.h"
 
-// Robots and tasks that are built in code. Files are read into the same structures, so the checks
-// and their messages are the same: one line that names the key as it is called in files, the value
-// and what was expected. docs/own_robot.md describes the keys.
+/// @file
+/// Makes robots and tasks in code.
+///
+/// Files are read into the same structures, so the checks and their messages are the same: one line
+/// that names the key as in files, the value and what was expected. docs/own_robot.md describes the
+/// keys.
 
 namespace maxwrench {
 
 /// A collision shape, fixed to a link of the robot.
 struct Shape {
-  enum class Kind { kCapsule, kBox, kCylinder };
-  std::string body = "";  ///< what messages and `Collision::ignore` call it; empty: as its link
-  int link = 0;
-  Kind kind = Kind::kCapsule;
-  /// Link -> shape. The shape is centred at its origin; the axis of capsule and cylinder is z.
+  /// The kind of shape.
+  enum class Kind {
+    kCapsule,  ///< all points within `radius` of a segment of the z axis
+    kBox,      ///< a box along the axes
+    kCylinder  ///< a cylinder about the z axis
+  };
+  /// Its name in messages and in `Collision::ignore`. Empty: the name of its link.
+  std::string body = "";
+  int link = 0;                ///< the link that carries it
+  Kind kind = Kind::kCapsule;  ///< the kind of shape
+  /// Link -> shape. The shape is centred at the origin of this frame.
   Pose<double> placement = {};
-  double radius = 0;       ///< m, capsule and cylinder
-  double half_length = 0;  ///< m, of the axis; a capsule of half length 0 is a sphere
-  Eigen::Vector3d half_sizes = Eigen::Vector3d::Zero();  ///< m, box
+  double radius = 0;  ///< radius of capsule and cylinder [m]
+  /// Half of the length of the axis [m]; a capsule of half length 0 is a sphere.
+  double half_length = 0;
+  Eigen::Vector3d half_sizes = Eigen::Vector3d::Zero();  ///< half of the sizes of the box [m]
 };
 
+/// The self-collision check of a robot.
+///
 /// A posture collides if two shapes on different links are closer than `margin`, except for pairs
 /// of bodies in `ignore`.
 struct Collision {
-  std::vector<Shape> shapes = {};
-  std::vector<std::pair<std::string, std::string>> ignore = {};
-  double margin = 0;  ///< m
+  std::vector<Shape> shapes = {};                                ///< the shapes
+  std::vector<std::pair<std::string, std::string>> ignore = {};  ///< pairs of bodies by name
+  double margin = 0;                                             ///< least distance [m]
 };
 
-/// Checks a robot and derives what follows from it: `actuation`, `u_rate_max`, `collision` and
-/// `convex_bodies`, whatever they were. The caller fills the other members; directions and axes may
-/// have any length but zero. Throws std::invalid_argument.
+/// Checks a robot and computes its derived members.
+///
+/// These are `actuation`, `u_rate_max`, `collision` and `convex_bodies`; their earlier values are
+/// overwritten. The caller fills all other members. Directions and axes may have any nonzero
+/// length.
+///
+/// @param robot      the robot
+/// @param collision  its collision shapes
+/// @return the complete robot
+/// @throws std::invalid_argument if a value is wrong.
 Robot finalize(Robot robot, const Collision& collision = {});
 
-/// What a second end effector does (the table `[contact]` of a file).
+/// The description of a second contact, the table `[contact]` of a file.
 struct ContactSpec {
+  /// A column of the basis of the contact wrenches, with its limits.
   struct Direction {
-    Vector6d direction = Vector6d::Zero();  ///< [force; torque] in contact axes
-    double min = -kInfinity, max = kInfinity;
+    Vector6d direction = Vector6d::Zero();  ///< direction [force; torque] in contact axes
+    double min = -kInfinity,                ///< lower limit of its coordinate, at most 0
+        max = kInfinity;                    ///< upper limit of its coordinate, at least 0
   };
-  std::string end_effector = "";
+  std::string end_effector = "";  ///< the name of the second end effector
   /// What the robot may exert: "none", "point" (any force), "push" (along +z), "friction" (a
   /// pyramid in the cone about +z), "grasp" (any wrench) or "basis".
   std::string forces = "";
-  std::optional<double> mu = {};      ///< of friction
-  std::vector<Direction> basis = {};  ///< of "basis"
-  Surface surface = Surface::kPoint;
-  Pose<double> frame = {};            ///< in the world, its z axis into the environment
-  std::optional<double> radius = {};  ///< m, of a circle
-  /// Of the regrasp coordinates [m; rad of a circle]; empty for a point.
-  Eigen::VectorXd min = {}, max = {}, initial = {};
-  std::vector<std::string> joints = {};  ///< that follow from the contact, in the order of the arm
-  std::map<std::string, double> rest = {};  ///< where others of the arm rest [rad or m]; else 0
-  double length_scale = Contact().length_scale;  ///< m
-  double sigma_min = Contact().sigma_min;
+  std::optional<double> mu = {};      ///< the friction coefficient, for "friction"
+  std::vector<Direction> basis = {};  ///< the directions, for "basis"
+  Surface surface = Surface::kPoint;  ///< where the end effector may touch
+  Pose<double> frame = {};  ///< contact frame in the world, its z axis into the environment
+  std::optional<double> radius = {};  ///< radius of a circle [m]
+  Eigen::VectorXd min = {},  ///< lower limits of the regrasp coordinates [m; rad of a circle];
+                             ///< empty for a point
+      max = {},              ///< upper limits, likewise
+      initial = {};          ///< default values, likewise
+  std::vector<std::string> joints = {};  ///< the dependent joints of the contact, in the order of
+                                         ///< the arm
+  std::map<std::string, double> rest = {};  ///< rest values of other joints of the arm [rad or m];
+                                            ///< 0 if missing
+  double length_scale = Contact().length_scale;  ///< as `Contact::length_scale` [m]
+  double sigma_min = Contact().sigma_min;        ///< as `Contact::sigma_min` [-]
 };
 
-/// What a user says of a task; everything else in a `Problem` follows from it.
+/// The description of a task; `make_problem` derives everything else in a `Problem`.
 struct TaskSpec {
-  std::string name = "", label = "", source = "";  ///< free text
-  Robot robot = {};                                ///< as `finalize` returns it
-  std::string end_effector = "";
-  /// Of the end effector in the world; along a path, where it starts.
+  std::string name = "",          ///< as `Problem::name`, free text
+      label = "",                 ///< as `Problem::label`, free text
+      source = "";                ///< as `Problem::source`, free text
+  Robot robot = {};               ///< the robot as `finalize` returns it
+  std::string end_effector = "";  ///< the name of the end effector
+  /// The pose of the end effector in the world; the start of a path.
   Pose<double> pose = {};
-  /// Coordinates of the pose that a static task leaves free, by their names in kTwistAxes, and
-  /// their limits [m; rad]: [min, max]. A translation needs limits; a coordinate that has them is
-  /// free. Along the end effector's own axes, or those of `pose`.
+  /// The coordinates of the pose that a static task leaves free, by their names in kTwistAxes.
   std::vector<std::string> free = {};
+  /// Limits [min, max] of coordinates of the pose [m; rad], by their names in kTwistAxes. A
+  /// translation needs limits. A coordinate with limits is free.
   std::map<std::string, std::array<double, 2>> range = {};
+  /// true: these coordinates are along the axes of the end effector; false: along those of `pose`.
   bool along_end_effector = false;
-  Vector6d c = Vector6d::Zero();  ///< [force; torque], of any length but zero
-  /// c, `any` and `desired` are in the axes of the end effector and turn with it; else the world's.
+  Vector6d c = Vector6d::Zero();  ///< direction [force; torque], of any nonzero length
+  /// true: c, `any` and `desired` are in the axes of the end effector and turn with it. false: they
+  /// are in world axes.
   bool wrench_in_end_effector = false;
-  /// What wrenches `Wrench::kAny` allows, by names in kWrenchAxes; none: all that do work.
+  /// The wrenches that `Wrench::kAny` allows, by names in kWrenchAxes. None: all that do work.
   std::optional<std::vector<std::string>> any = {};
-  double reference = 1;                     ///< as in `Problem`
-  std::optional<Vector6d> desired = {};     ///< as in `Problem`
-  std::optional<ContactSpec> contact = {};  ///< of static tasks
-  /// Of a task in time. T follows from the path; an impulse gives T and its path is constant.
+  double reference = 1;                     ///< as `Problem::reference`
+  std::optional<Vector6d> desired = {};     ///< as `Problem::desired`
+  std::optional<ContactSpec> contact = {};  ///< second contact of a static task
+  /// The task in time. T follows from the path. For an impulse give T; its path is constant.
   /// c_turns follows from `wrench_in_end_effector`.
   std::optional<MotionTask> motion = {};
-  /// The redundant joints, where others than the base follow; else all of the chain.
+  /// The redundant joints, if joints depend on theta_r in addition to the base. None: all joints of
+  /// the chain are redundant.
   std::optional<std::vector<std::string>> joints = {};
-  /// Of the redundant joints [rad or m]; empty: zero within the limits, or where the pose is
-  /// reached. Of an impulse it is `MotionTask::theta_0`.
+  /// Default values of the redundant joints [rad or m]. Empty: zero within the limits, or a value
+  /// where the pose is reached. For an impulse it is `MotionTask::theta_0`.
   Eigen::VectorXd theta_r_default = {};
-  /// A posture near one at the default, which names the IK solution: dependent joints by name, and
-  /// free base axes by theirs. Empty: an IK solution is found.
-  std::map<std::string, double> guess = {}, guess_base = {};
+  /// The dependent joints, by name [rad or m], of a posture near one at the default. It selects the
+  /// IK solution. Empty: an IK solution is found.
+  std::map<std::string, double>
+      guess = {},
+      guess_base = {};  ///< the free base axes of the same posture, by name [m; rad]
 };
 
-/// Checks a task and derives the rest: dependent joints and their IK solutions, the limits of
-/// theta_r and a default, W_any, the contact's basis and rank. Throws std::invalid_argument.
+/// Checks a task and derives the members of its problem.
+///
+/// It derives dependent joints and their IK solutions, limits and a default of theta_r, W_any, and
+/// the basis and rank of the contact.
+///
+/// @param spec  the task
+/// @return the problem
+/// @throws std::invalid_argument if a value is wrong.
 Problem make_problem(const TaskSpec& spec);
 
 }  // namespace maxwrench

@@ -11,129 +11,182 @@
 #include "maxwrench/trajectory_program.h"
 #include "maxwrench/types.h"
 
+/// @file
+/// Trajectories: tables of knots of theta_r, their values and gradients.
+
 namespace maxwrench {
 
 struct Problem;
 
 /// Everything known at one instant of a motion.
 struct Instant {
-  double t = 0;                     ///< s
-  Pose<double> end_effector, base;  ///< in the world
-  Eigen::VectorXd q;                ///< all joints
-  Eigen::VectorXd v, v_dot;         ///< n, base twist in base axes and joint rates; its derivative
-  Eigen::VectorXd tau_d;            ///< n, by the full dynamics (eq:dynamics)
-  Matrix6Xd J;                      ///< 6×n
-  Vector6d c = Vector6d::Zero();    ///< the direction in the world
-  Vector6d h = Vector6d::Zero();    ///< what the robot exerts
-  Eigen::VectorXd u;                ///< m
+  double t = 0;                   ///< time [s]
+  Pose<double> end_effector,      ///< pose of the end effector in the world
+      base;                       ///< pose of the base in the world
+  Eigen::VectorXd q;              ///< positions of all joints [rad or m]
+  Eigen::VectorXd v,              ///< velocities (n): base twist in base axes, then joint rates
+      v_dot;                      ///< derivative of v (n)
+  Eigen::VectorXd tau_d;          ///< forces of the full dynamics (n) [N, N m] (eq:dynamics)
+  Matrix6Xd J;                    ///< Jacobian of the end effector (6×n)
+  Vector6d c = Vector6d::Zero();  ///< the direction, in the world
+  Vector6d h = Vector6d::Zero();  ///< the wrench that the robot exerts [N; N m]
+  Eigen::VectorXd u;              ///< efforts (m)
+  /// Returns the wrench along c [N or N m].
   double beta() const { return c.dot(h); }
 };
 
-/// A table of theta_r and what it is worth.
+/// A table of knots of theta_r, with its instants and its value.
 struct Trajectory : Verdict {
-  Eigen::MatrixXd knots;                                    ///< k×r, without theta_0 of an impulse
-  std::vector<Instant> instants;                            ///< of an impulse the start first
-  double value = std::numeric_limits<double>::quiet_NaN();  ///< N or N m
-  double value_between_knots = std::numeric_limits<double>::quiet_NaN();  ///< NaN: none, and why
-  Reason between_knots_reason;
-  Reason collision;          ///< the first knot that collides, and which bodies; empty: none
+  Eigen::MatrixXd knots;          ///< knots of theta_r (k×r), without theta_0 of an impulse
+  std::vector<Instant> instants;  ///< the instants; of an impulse the start first
+  /// Value [N or N m]. Along a path: the least wrench along c at any instant. Of an impulse: the
+  /// wrench along c at the peak.
+  double value = std::numeric_limits<double>::quiet_NaN();
+  /// The value between knots: that of the clamped spline through the knots at many more instants [N
+  /// or N m]. NaN: none.
+  double value_between_knots = std::numeric_limits<double>::quiet_NaN();
+  Reason between_knots_reason;  ///< why there is no value between knots
+  Reason collision;          ///< the first knot that collides, and the bodies; empty: none collides
   int t_h = 0;               ///< of an impulse: the knot of the peak
-  Eigen::MatrixXd gradient;  ///< k×r, of the value
-  TrajectorySolution solution;
+  Eigen::MatrixXd gradient;  ///< gradient of the value (k×r)
+  TrajectorySolution solution;  ///< the solution of the trajectory program
 };
 
+/// A function that makes a solver of trajectory programs.
 using TrajectorySolverMaker = std::function<std::unique_ptr<TrajectorySolver>()>;
 
-/// Rows on the stacked knots x (k r numbers, row by row): r_min <= R x <= r_max.
+/// Linear constraints r_min <= R x <= r_max on the stacked knots x (k r numbers, row by row).
 struct KnotRows {
-  Eigen::SparseMatrix<double> R;
-  Eigen::VectorXd r_min, r_max;
+  Eigen::SparseMatrix<double> R;  ///< matrix (rows×(k r))
+  Eigen::VectorXd r_min,          ///< lower limits (rows)
+      r_max;                      ///< upper limits (rows)
 };
 
-/// What is limited beside, no linear function of x: its values `at` a trajectory, so to first order
-/// r_min <= at + R y <= r_max for a step y of x.
+/// Constraints on nonlinear functions of x, linearised at a trajectory.
+///
+/// To first order, r_min <= at + R y <= r_max for a step y of x.
 struct DependentRows : KnotRows {
-  Eigen::VectorXd at;
+  Eigen::VectorXd at;  ///< values of the functions at the trajectory
 };
 
-/// Two bodies of the robot that are near each other at a knot (from 0): how much is left, and its
-/// derivative by theta_r there.
+/// Two bodies of the robot that are near each other at a knot.
 struct NearPair {
-  int knot = 0;
-  double clearance = 0;
-  Eigen::VectorXd gradient;  ///< r
+  int knot = 0;              ///< the knot, from 0
+  double clearance = 0;      ///< distance less the margin [m]
+  Eigen::VectorXd gradient;  ///< derivative of the clearance by theta_r at this knot (r)
 };
 
-/// How near the robot comes to itself along a trajectory.
+/// The least distance of two bodies of the robot along a trajectory.
 struct Clearance {
-  double least = 0;  ///< m, beyond the margin of the collision check; negative: collision
-  double t = 0;      ///< s
-  std::string pair;  ///< which links, such as "forearm and base"
+  /// Least distance less the margin of the collision check [m]; negative: collision.
+  double least = 0;
+  double t = 0;      ///< time [s]
+  std::string pair;  ///< links of the bodies, such as "forearm and base"
 };
 
-/// Evaluates tables of theta_r of a task in time.
+/// Evaluates trajectories of a task in time.
+///
+/// Use one object per thread. The table `knots` of its functions is k×r.
 class TrajectoryEvaluator {
  public:
-  /// Keeps a reference to the problem; a static one is a task of k = 1. Throws
-  /// std::invalid_argument if it has a second contact.
+  /// Keeps a reference to the problem, which must outlive the evaluator.
+  ///
+  /// @param problem          the task; a static one is a task of k = 1
+  /// @param wrench           the allowed wrenches
+  /// @param make             makes the solver of trajectory programs
+  /// @param check_collision  whether to check collisions
+  /// @throws std::invalid_argument if the problem has a second contact, or is static with free
+  ///         coordinates of the pose. Also if the scheme does not support the task, or if the
+  ///         posture at the start of an impulse has no static capability (`Start::kStatic`).
   TrajectoryEvaluator(const Problem& problem, Wrench wrench, const TrajectorySolverMaker& make,
                       bool check_collision = true);
+  /// Deleted: the problem must outlive the evaluator, and a temporary does not.
   TrajectoryEvaluator(const Problem&&, Wrench, const TrajectorySolverMaker&, bool = true) = delete;
   ~TrajectoryEvaluator();
 
-  /// knots k×r. The hard program, with u, h and the gradient where it has an optimum. The best t_h
-  /// if the task leaves it open. kInvalidPosture names knots and joint where limits, speed limits
-  /// or the reach are violated beyond 1e-6, dependent joints' too; a knot that collides is
-  /// reported, no more. Instants that dependent joints do not get to are NaN. Throws
-  /// std::invalid_argument if the table has the wrong size or is not finite.
+  /// Solves the hard program, without slack, at a table of knots.
+  ///
+  /// If it has an optimum, the trajectory gets u, h and the gradient. If the task leaves t_h open,
+  /// the best one is used. The status is kInvalidPosture, with knots and joint, if limits, speed
+  /// limits or the reach are violated by more than 1e-6, also by dependent joints. A knot that
+  /// collides is only reported. Instants that dependent joints do not reach are NaN.
+  ///
+  /// @param knots  the knots (k×r)
+  /// @return the trajectory, valid until the next call
+  /// @throws std::invalid_argument if the table has the wrong size or is not finite.
   const Trajectory& evaluate(const Eigen::MatrixXd& knots);
 
-  /// The value of the last trajectory on the clamped cubic spline through its knots, see
-  /// `Trajectory`. `by`: instead of the evaluator's solver, which may be made for fewer instants.
+  /// Computes `Trajectory::value_between_knots` of the last trajectory.
+  ///
+  /// @param by  a solver to use instead of that of the evaluator, which may be designed for fewer
+  ///            instants; null: none
   void evaluate_between_knots(TrajectorySolver* by = nullptr);
 
-  /// The least of all pairs of bodies on that spline, at the instants of `value_between_knots`, the
-  /// earliest of several within 1e-9 m. A pair of which only a test is known counts where it
-  /// collides, as 0. Nothing if collisions are not checked, if no distance is known and nothing
-  /// collides, or if dependent joints do not get along it.
+  /// Returns the least distance of all pairs of bodies on the spline of the last trajectory.
+  ///
+  /// It uses the instants of `value_between_knots`, and the earliest of several within 1e-9 m. A
+  /// pair that has a test for collision only counts as 0 where it collides.
+  ///
+  /// @return nothing if collisions are not checked, if no pair has a distance and none collides, or
+  ///         if dependent joints cannot follow the spline
   std::optional<Clearance> least_clearance();
 
-  /// The elastic program at knots: value less the price of the slack, and its gradient k×r.
-  /// -infinity where `evaluate` finds an invalid posture or a knot that collides.
+  /// Solves the elastic program at a table of knots.
+  ///
+  /// @param knots     the knots (k×r)
+  /// @param gradient  if not null, receives the gradient k×r of the result
+  /// @return the value less the price of the slack; -infinity where `evaluate` finds an invalid
+  ///         posture, where a knot collides, or without an optimum
   double evaluate_elastic(const Eigen::MatrixXd& knots, Eigen::MatrixXd* gradient);
 
-  /// After `evaluate_elastic`: whether anything but the wrenches and efforts of single instants
-  /// decided, a rate of efforts or a slack.
+  /// Returns whether a rate limit of efforts or a slack determines the last elastic value.
+  ///
+  /// Otherwise only the wrenches and efforts of single instants do.
   bool coupled() const;
 
-  /// After `evaluate_elastic`: the elastic program as a linear one in steps y of the knots too, row
-  /// by row (theta_r of the first knot first), about the last answer. The caller sets bounds and
-  /// rows of y. Throws std::logic_error if nothing was evaluated.
+  /// Linearises the elastic program of the last `evaluate_elastic` in steps y of the knots.
+  ///
+  /// y is stacked row by row: theta_r of the first knot comes first. The caller sets the bounds and
+  /// rows of y.
+  ///
+  /// @throws std::logic_error if nothing was evaluated.
   TrajectoryProgram& linearize();
-  /// The same about knots and the wrenches of all blocks (`TrajectoryProgram::instants`), with
-  /// nothing solved. Of an impulse the peak is that of the last answer.
+  /// Linearises the elastic program about given knots and wrenches, without solving it.
+  ///
+  /// For an impulse, the peak is that of the last solution.
+  ///
+  /// @param knots  the knots (k×r)
+  /// @param w      the wrenches of all blocks (`TrajectoryProgram::instants`)
   TrajectoryProgram& linearize(const Eigen::MatrixXd& knots, const std::vector<Eigen::VectorXd>& w);
 
-  /// After `linearize`, about the same trajectory: the limits of dependent joints and of their
-  /// rates. Rows are always the same in number and place; none without dependent joints.
+  /// Returns the limits of dependent joints and of their rates, after `linearize` at the same
+  /// trajectory.
+  ///
+  /// Number and order of the rows are always the same. There are none without dependent joints.
   const DependentRows& dependent_rows() const;
 
-  /// The answer of the last `evaluate_elastic`.
+  /// Returns the solution of the last `evaluate_elastic`.
   const TrajectorySolution& elastic_solution() const;
 
-  /// The pairs of bodies within `within` [m] of each other at each knot, of those whose distance
-  /// is known. Empty if collisions are not checked.
+  /// Returns the pairs of bodies that are near each other at a knot.
+  ///
+  /// It includes only pairs that have a distance. The result is empty if collisions are not
+  /// checked.
+  ///
+  /// @param knots   the knots (k×r)
+  /// @param within  largest distance [m]
   const std::vector<NearPair>& near_pairs(const Eigen::MatrixXd& knots, double within);
 
+  /// Returns the last trajectory.
   const Trajectory& trajectory() const;
-  /// The hard program of the last `evaluate`.
+  /// Returns the hard program of the last `evaluate`.
   const TrajectoryProgram& program() const;
-  /// The limits on x, the stacked knots, beside the bounds of each.
+  /// Returns the constraints on the stacked knots x in addition to the bounds of each.
   const KnotRows& rows() const;
-  int knots() const;  ///< k
-  /// Whether the scheme is `spline`, which says what happens between the instants.
+  int knots() const;  ///< Returns k.
+  /// Returns whether the scheme is `spline`, which defines the motion between the instants.
   bool smooth() const;
-  /// Whether knot 0 is given, from which the others set out.
+  /// Returns whether knot 0 is given, from which the motion starts.
   bool starts() const;
 
  private:
@@ -141,51 +194,72 @@ class TrajectoryEvaluator {
   std::unique_ptr<Workspace> workspace_;
 };
 
-/// What counts of a trajectory.
+/// The value of a trajectory that a search maximises.
 enum class TrajectoryValue {
-  /// The elastic value, which is that of the hard program where that has one.
+  /// The elastic value. It equals that of the hard program if that has an optimum.
   kAtInstants,
-  /// The lesser of that and of what is possible between the instants
-  /// (`Trajectory::value_between_knots`): no value
-  /// where the hard program has none, or nothing is possible there. Of schemes other than `spline`,
-  /// which do not say what happens there, kAtInstants.
+  /// The smaller one of the elastic value and `Trajectory::value_between_knots`. It does not exist
+  /// if the hard program has no optimum or there is no value between knots. Schemes other than
+  /// `spline` do not define the motion between instants, so they use kAtInstants.
   kThroughout
 };
 
-/// f(x) of the stacked knots x (k r numbers, row by row). No value where the knots violate limits,
-/// speed limits or the reach, or collide. The gradient is that at the instants; NaN where less is
-/// possible between them. Searches that solve linear programs in the knots ask for the rest.
+/// The objective f(x) of the stacked knots x (k r numbers, row by row).
+///
+/// It has no value where the knots violate limits, speed limits or the reach, or collide. The
+/// gradient is that of the value at the instants. It is NaN where the value between knots is
+/// smaller. Searches that solve linear programs in the knots use the functions of the evaluator.
 class TrajectoryObjective : public Objective {
  public:
-  /// Its evaluator, which knows what was evaluated last.
+  /// Returns the evaluator, which holds the last trajectory.
   virtual TrajectoryEvaluator& trajectories() = 0;
+  /// Returns which value counts.
   virtual TrajectoryValue counts() const = 0;
-  /// Of kThroughout: f(x) where the value at the instants is known. Solves two programs.
+  /// Computes the value kThroughout where the value at the instants is known. It solves two
+  /// programs.
+  ///
+  /// @param x            the stacked knots
+  /// @param at_instants  the elastic value at x
+  /// @return f(x)
   virtual double evaluate_throughout(const Eigen::VectorXd& x, double at_instants) = 0;
-  /// A clone to which this counts.
+  /// Returns a clone for which the value `counts` counts.
   virtual std::unique_ptr<TrajectoryObjective> copy(TrajectoryValue counts) const = 0;
   std::unique_ptr<Objective> clone() const final { return copy(counts()); }
 };
 
-/// A static problem is one of k = 1. Throws as `TrajectoryEvaluator`.
+/// Makes the objective of the trajectories of a task.
+///
+/// @param problem          the task, which must outlive the objective; a static one is a task of
+///                         k = 1
+/// @param wrench           the allowed wrenches
+/// @param make             makes the solver of trajectory programs
+/// @param check_collision  whether knots that collide have no value
+/// @param counts           which value counts
+/// @throws std::invalid_argument as `TrajectoryEvaluator`.
 std::unique_ptr<TrajectoryObjective> make_trajectory_objective(
     const Problem& problem, Wrench wrench, const TrajectorySolverMaker& make,
     bool check_collision = true, TrajectoryValue counts = TrajectoryValue::kAtInstants);
+/// Deleted: the problem must outlive the objective, and a temporary does not.
 std::unique_ptr<TrajectoryObjective> make_trajectory_objective(
     const Problem&&, Wrench, const TrajectorySolverMaker&, bool = true,
     TrajectoryValue = TrajectoryValue::kAtInstants) = delete;
 
-/// theta_r at an instant.
+/// Returns theta_r (r) at an instant.
 Eigen::VectorXd theta_r_at(const Problem& problem, const Instant& instant);
 
-/// k; one of a static problem.
+/// Returns k, the number of knots; one for a static problem.
 int knots_of(const Problem& problem);
 
-/// One theta_r throughout, k×r.
+/// Returns a table of knots (k×r) that all equal `theta_r`.
 Eigen::MatrixXd constant_knots(const Problem& problem, const Eigen::VectorXd& theta_r);
 
-/// The table of stacked knots, so many rows, and the other way round.
+/// Returns the table of stacked knots.
+///
+/// @param x      the stacked knots: k r numbers, row by row
+/// @param knots  the number of knots, k
+/// @return the table (k×r)
 Eigen::MatrixXd unstacked(const Eigen::VectorXd& x, Eigen::Index knots);
+/// Returns the stacked knots of a table (k×r): k r numbers, row by row.
 Eigen::VectorXd stacked(const Eigen::MatrixXd& knots);
 
 }  // namespace maxwrench

@@ -6,9 +6,14 @@
 #include "maxwrench/linear_program.h"
 #include "maxwrench/wrench_program.h"
 
+/// @file
+/// The linear program over all instants of a trajectory, and the interface of its solvers.
+
 namespace maxwrench {
 
-/// The lower level over the instants of a motion: blocks of u_i (m) and w_i (k_i), i = 0 .. N - 1,
+/// The lower level over all instants of a trajectory.
+///
+/// Its variables are blocks of efforts u_i (m) and wrenches w_i (k_i), i = 0 .. N - 1:
 ///
 ///     max t   subject to   B u_i - (J'W)_i w_i (+ s_i) = tau_d,i
 ///                          u_min <= u_i <= u_max (of the first: first_min, first_max)
@@ -16,77 +21,116 @@ namespace maxwrench {
 ///                          |u_i+1 - u_i| <= du_max,i
 ///                          t <= c_w,i'w_i for all i,  or with a peak p: t = c_w,p'w_p
 ///
-/// The elastic program has slacks s_i on the balance of the instants from `first_elastic` on and
+/// The elastic program has slacks s_i on the balance of the instants from `first_elastic` on. It
 /// maximises t - rho sum |s_i|_1.
 ///
-/// A bordered program has variables y (p) beside: + G_i y in the balance, y_min <= y <= y_max and
-/// r_min <= R y <= r_max, for searches that move the postures in the same linear program.
+/// A bordered program has additional variables y (p), for searches that move the postures in the
+/// same linear program. The balance then contains + G_i y, with the constraints y_min <= y <= y_max
+/// and r_min <= R y <= r_max.
 struct TrajectoryProgram {
-  std::vector<WrenchProgram> instants;   ///< all with the same actuation
-  Eigen::VectorXd first_min, first_max;  ///< m
-  Eigen::MatrixXd du_max;                ///< m×(N-1), infinite where there is no limit
-  int peak = -1;                         ///< of an impulse; -1: max-min
-  double rho = kInfinity;                ///< per N and N m; infinite: no slack
-  int first_elastic = 0;
+  /// Programs of the instants (N), all with the same actuation.
+  std::vector<WrenchProgram> instants;
+  Eigen::VectorXd first_min,  ///< lower limits of u_0 (m)
+      first_max;              ///< upper limits of u_0 (m)
+  /// Limits of the changes of efforts (m×(N-1)), infinite where there is none.
+  Eigen::MatrixXd du_max;
+  int peak = -1;           ///< instant p of the peak of an impulse; -1: max-min
+  double rho = kInfinity;  ///< weight of the slack, per N and N m; infinite: no slack
+  int first_elastic = 0;   ///< the first instant with slack
 
-  std::vector<Eigen::MatrixXd> G;  ///< N of n×p; empty: no border
-  Eigen::VectorXd y_min, y_max;    ///< p
-  Eigen::SparseMatrix<double> R;   ///< rows×p
-  Eigen::VectorXd r_min, r_max;
+  std::vector<Eigen::MatrixXd> G;  ///< N matrices G_i (n×p); empty: no border
+  Eigen::VectorXd y_min,           ///< lower limits of y (p)
+      y_max;                       ///< upper limits of y (p)
+  Eigen::SparseMatrix<double> R;   ///< matrix of the rows on y (rows×p)
+  Eigen::VectorXd r_min,           ///< lower limits of R y (rows)
+      r_max;                       ///< upper limits of R y (rows)
 
+  /// Returns N, the number of instants.
   int size() const { return static_cast<int>(instants.size()); }
+  /// Returns p, the number of variables y.
   int border() const { return static_cast<int>(y_min.size()); }
+  /// Returns whether the program has slacks.
   bool elastic() const { return rho < kInfinity; }
 };
 
-/// The answer, its storage and its warm start.
+/// The solution of a trajectory program, with its storage and its warm start.
 struct TrajectorySolution : Verdict {
-  double value = 0;                ///< t, without the price of the slack
-  double price = 0;                ///< rho sum |s_i|_1
-  Eigen::MatrixXd u;               ///< m×N
-  std::vector<Eigen::VectorXd> w;  ///< N of k_i
-  Eigen::MatrixXd s;               ///< n×N, zero unless elastic
-  Eigen::VectorXd y;               ///< p
-  // Multipliers: of the balance n×N (d value/d tau_d,i), of the rates m×(N-1) (positive where
-  // u_i+1 - u_i ends at its upper limit), of t <= c_w,i'w_i N (their sum is one; with a peak its
-  // unit vector), and of R y (positive at r_max). Of an infeasible program lambda and mu are the
-  // proof instead: sup {sum_i lambda_i'(B u_i - (J'W)_i w_i + G_i y) - mu'(rates) - nu'R y} over
-  // the limits is below sum_i lambda_i'tau_d,i less what the rates' and rows' limits give.
-  Eigen::MatrixXd lambda, mu;
-  Eigen::VectorXd pi, nu;
-  int iterations = 0;
-  Residual residual;
-  std::vector<VariableState> basis;  ///< of a solver that keeps one; empty: cold start
+  double value = 0;                ///< value t, without the price of the slack
+  double price = 0;                ///< price of the slack, rho sum |s_i|_1
+  Eigen::MatrixXd u;               ///< efforts (m×N)
+  std::vector<Eigen::VectorXd> w;  ///< wrench coordinates: N vectors (k_i)
+  Eigen::MatrixXd s;               ///< slacks (n×N), zero unless elastic
+  Eigen::VectorXd y;               ///< variables y (p)
+  /// Multipliers of the balance (n×N): d value/d tau_d,i.
+  ///
+  /// If the program is infeasible, lambda, mu and nu are the proof instead. Then the supremum over
+  /// the limits of
+  ///
+  ///     sum_i lambda_i'(B u_i - (J'W)_i w_i + G_i y) - mu'(rates) - nu'R y
+  ///
+  /// is less than sum_i lambda_i'tau_d,i minus the contribution of the limits of rates and rows.
+  Eigen::MatrixXd lambda,
+      mu;  ///< multipliers of the rates (m×(N-1)): positive where u_i+1 - u_i is at its upper limit
+  /// Multipliers of t <= c_w,i'w_i (N). Their sum is one. With a peak they are the unit vector of
+  /// the peak.
+  Eigen::VectorXd pi,
+      nu;              ///< multipliers of R y (rows): positive at r_max
+  int iterations = 0;  ///< iterations of the solver
+  Residual residual;   ///< residual of the solution
+  std::vector<VariableState>
+      basis;  ///< final basis, of a solver that stores one; empty: cold start
 };
 
-/// Whether there is an instant, all sizes agree, and all numbers are finite but for limits, which
-/// may be infinite on their own side, and rho.
+/// Returns whether a trajectory program is well formed.
+///
+/// It must have an instant, all sizes must agree, and all numbers must be finite. Limits may be
+/// infinite on their own side, and rho may be infinite.
 bool well_formed(const TrajectoryProgram& program);
 
-/// Solves trajectory programs. Not shared between threads.
+/// Solves trajectory programs.
+///
+/// Use one object per thread. To add a solver, override `solve_well_formed`.
 class TrajectorySolver {
  public:
   virtual ~TrajectorySolver() = default;
-  /// Of a program that is not `well_formed` the status is kNumericalError, from any solver.
+  /// Solves a program.
+  ///
+  /// The status is kNumericalError if the program is not `well_formed`.
+  ///
+  /// @param program   the program
+  /// @param solution  on entry, the warm start, if its basis is not empty; on return, the result
   void solve(const TrajectoryProgram& program, TrajectorySolution& solution);
 
  private:
+  /// Solves a program that is well formed. The arguments are those of `solve`.
   virtual void solve_well_formed(const TrajectoryProgram& program,
                                  TrajectorySolution& solution) = 0;
 };
 
-/// The same program for general solvers; `update` rewrites the numbers of one that `assemble` made
-/// for the same shape and allocates nothing. `read` takes a trajectory solution from its answer.
+/// Returns a trajectory program as a linear program for general solvers.
 LinearProgram assemble(const TrajectoryProgram& program);
+/// Writes the numbers of a trajectory program into a linear program that `assemble` made for the
+/// same shape. It allocates nothing.
 void update(const TrajectoryProgram& program, LinearProgram& assembled);
+/// Converts a solution of the assembled program.
+///
+/// @param program   the trajectory program
+/// @param answer    the solution of the assembled program
+/// @param solution  receives the solution of the trajectory program
 void read(const TrajectoryProgram& program, const LpSolution& answer, TrajectorySolution& solution);
 
-/// Recomputed from the data: balance max |B u_i - (J'W)_i w_i + s_i + G_i y - tau_d,i|; bounds of
-/// u, w, y, rates, R y and of t <= c_w,i'w_i; dual, on what has no limits, |lambda| beyond rho, and
-/// |1 - sum pi|; gap, dual objective less (value - price). What cannot be computed is infinite.
+/// Computes the residual of a solution from the data of the program.
+///
+/// Balance: max |B u_i - (J'W)_i w_i + s_i + G_i y - tau_d,i|. Bounds: of u, w, y, rates, R y and
+/// of t <= c_w,i'w_i. Dual: in what has no limits, |lambda| in excess of rho, and |1 - sum pi|.
+/// Gap: dual objective less (value - price). A number that cannot be computed is infinite.
+///
+/// @param program   the program
+/// @param solution  its solution
 Residual recheck(const TrajectoryProgram& program, const TrajectorySolution& solution);
 
-/// Whether lambda, mu and nu prove that the program has no answer, as `verified` judges it.
+/// Returns whether lambda, mu and nu prove that the program is infeasible, by the criterion of
+/// `verified`.
 bool proves_infeasible(const TrajectoryProgram& program, const TrajectorySolution& solution);
 
 }  // namespace maxwrench

@@ -2,18 +2,24 @@
 
 #include <string>
 
+/// @file
+/// The version of the library.
+
 namespace maxwrench {
 
-/// "0.1.0" of a release; between two releases with the commit, "0.1.0+3f2a91c04b", and with
-/// ".dirty" behind it if sources were changed after the commit.
+/// Returns the version.
+///
+/// It is "0.1.0" for a release. Between two releases the commit follows, as in "0.1.0+3f2a91c04b".
+/// If sources were changed after the commit, ".dirty" follows.
 const char* version();
 
-/// What the commit held, whatever became of it: ten digits of the SHA1 of the list of its files,
-/// results left out.
+/// Returns the identifier of the contents of the commit, which does not depend on its history.
+///
+/// It consists of the first ten digits of the SHA1 of the list of files, without results.
 const char* sources_id();
 
-/// The version, its sources, how the library was built and the libraries that it uses, one line
-/// each.
+/// Returns the version, its sources, how the library was built and the libraries that it uses, one
+/// line each.
 std::string describe_build();
 
 }  // namespace maxwrench

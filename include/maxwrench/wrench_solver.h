@@ -2,21 +2,33 @@
 
 #include "maxwrench/capability.h"
 
+/// @file
+/// The interface of solvers of wrench programs.
+
 namespace maxwrench {
 
 struct WrenchProgram;
 
-/// Solves wrench programs. Fills status, reason, beta, w and lambda of the capability; u only if
-/// `efforts` is set (a search does not need it). Infeasible is a verdict only with a proof in
-/// lambda that `proves_infeasible` accepts, else the status is kNumericalError. Not shared between
-/// threads; keeps the last basis as a warm start.
+/// Solves wrench programs.
+///
+/// It keeps the last basis as a warm start. Use one object per thread. To add a solver, override
+/// `solve_well_formed`.
 class WrenchSolver {
  public:
   virtual ~WrenchSolver() = default;
-  /// Of a program that is not `well_formed` the status is kNumericalError, from any solver.
+  /// Solves a program.
+  ///
+  /// The status is kInfeasible only with a proof in lambda that `proves_infeasible` accepts;
+  /// without such a proof it is kNumericalError. It is also kNumericalError if the program is not
+  /// `well_formed`.
+  ///
+  /// @param program     the program
+  /// @param efforts     whether to compute u, which a search does not need
+  /// @param capability  receives status, reason, beta, w and lambda, and u if `efforts` is set
   void solve(const WrenchProgram& program, bool efforts, Capability& capability);
 
  private:
+  /// Solves a program that is well formed. The arguments are those of `solve`.
   virtual void solve_well_formed(const WrenchProgram& program, bool efforts,
                                  Capability& capability) = 0;
 };
