@@ -202,7 +202,7 @@ inline constexpr double kLost = 0.5;
 ///
 /// @param problem     the task
 /// @param posture     the posture to hold
-/// @param trajectory  the wrench to exert, and its efforts
+/// @param target  the wrench to exert, and its efforts
 /// @param integrator  a stiff integrator
 /// @param options     ramp, hold, load and others
 /// @return samples and summary
