@@ -35,7 +35,7 @@ TEST(Compare, SaysThatNothingHasAValue) {
       run_maxwrench("compare two_arms.toml --budget 20 --seeds 2 --out .", copy.path());
   EXPECT_EQ(result.exit_status, 1) << result.err;
   EXPECT_NE(result.out.find("best known - N"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("\ngrid             condensed         20   0 of 2         -       - "),
+  EXPECT_NE(result.out.find("\ngrid             condensed          20   0 of 2         -       - "),
             std::string::npos)
       << result.out;
   EXPECT_EQ(result.out.find("2 of 2"), std::string::npos) << result.out;
