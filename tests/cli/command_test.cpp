@@ -255,7 +255,7 @@ TEST(Command, RowsThatWereFinishedAreKept) {
   EXPECT_GE(std::count(rows.begin(), rows.end(), '\n'), 2) << rows;
   EXPECT_LE(rows.size(), 4 * 1024);
   const CommandResult next = run_maxwrench(words, folder.path());
-  EXPECT_EQ(next.out.find("of them were there") != std::string::npos, names_sources(version()))
+  EXPECT_EQ(next.out.find("of them existed before") != std::string::npos, names_sources(version()))
       << next.out << next.err;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
     EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
