@@ -102,8 +102,9 @@ void require_work(const Eigen::MatrixXd& works, const Contact& contact) {
   const Eigen::MatrixXd both = works(Eigen::all, free);
   const auto rank = split(both, kRankTolerance).range.cols();
   if (rank == both.cols()) return;
-  throw BadValue("contact.basis", fmt::format("{} directions without limits", free.size()),
-                 fmt::format("at most as many as do work independently, {} of these", rank));
+  throw BadValue(
+      "contact.basis", fmt::format("{} directions without limits", free.size()),
+      fmt::format("at most as many as do work independently of each other, {} of these", rank));
 }
 
 /// Angles of rotations about the fixed axes x, y, z, in this order.
