@@ -68,20 +68,18 @@ std::string complaint_of(const std::exception_ptr& thrown) {
   try {
     std::rethrow_exception(thrown);
   } catch (const std::filesystem::filesystem_error& error) {
-    return fmt::format("{}: got '{}', expected a file or folder that can be used",
-                       error.path1().string(), error.code().message());
+    return fmt::format("{}: got '{}', expected a usable file or folder", error.path1().string(),
+                       error.code().message());
   } catch (const std::system_error& error) {
     if (std::ferror(stdout) == 0) return error.what();
-    return fmt::format("stdout: got '{}', expected a stream that takes the answer",
-                       error.code().message());
+    return fmt::format("stdout: got '{}', expected a writable stream", error.code().message());
   } catch (const std::bad_alloc&) {
-    return "got no memory for so much, expected a smaller task or fewer evaluations, boxes, times "
-           "or "
+    return "got too little memory, expected a smaller task or fewer evaluations, boxes, times or "
            "threads";
   } catch (const std::exception& error) {
     return error.what();
   } catch (...) {
-    return "stopped by an error without a name";
+    return "stopped by an unknown error";
   }
 }
 
@@ -98,22 +96,22 @@ int run_command(int argc, const char* const* argv) {
 }
 
 void CommonOptions::add_case(CLI::App& app) {
-  app.add_option("problem", choice.problem, "shipped name such as planar/force, or a task file")
+  app.add_option("problem", choice.problem, "shipped task such as planar/force, or a task file")
       ->required();
   add_choice(app);
 }
 
 void CommonOptions::add_choice(CLI::App& app) {
   app.add_option("--measure", choice.measure, "capability measure")->capture_default_str();
-  app.add_option("--wrench", wrench, "pure: only along c; any: other components are free")
+  app.add_option("--wrench", wrench, "pure: along c only; any: other components are free")
       ->capture_default_str();
-  app.add_option("--solver", choice.solver, "lower-level solver (default: the first that serves)");
+  app.add_option("--solver", choice.solver, "lower-level solver (default: the first that applies)");
 }
 
 std::string reject_seed(const std::string& text) {
   const bool whole = !text.empty() && text.size() < 20 &&
                      text.find_first_not_of("0123456789") == std::string::npos;
-  return whole ? "" : "got '" + text + "', expected a whole number of 0 to 10^19 - 1";
+  return whole ? "" : "got '" + text + "', expected a whole number from 0 to 10^19 - 1";
 }
 
 std::string reject_empty(const std::string& text) {
@@ -123,12 +121,13 @@ std::string reject_empty(const std::string& text) {
 void CommonOptions::add_search(CLI::App& app) {
   app.add_option("--search", choice.search,
                  "search over theta_r, or stages joined by + (default: facet_sqp+cmaes where it "
-                 "serves, else crs2+cmaes, restarted until more is pointless or by --budget; of a "
-                 "task in time slp)");
-  app.add_option("--seed", choice.seed, "of the random numbers")
+                 "applies, else crs2+cmaes, restarted until another optimum is unlikely or "
+                 "--budget is spent; slp for a task in time)");
+  app.add_option("--seed", choice.seed, "seed of the random numbers")
       ->capture_default_str()
       ->check(reject_seed);
-  add_budget(app, "evaluations (default: 20000; 200000 at most of a default search)");
+  add_budget(app,
+             "evaluation budget (default: 20000; 200000 for the default search of a static task)");
 }
 
 void CommonOptions::add_budget(CLI::App& app, const char* what) {
@@ -156,7 +155,8 @@ void CommonOptions::add_json(CLI::App& app) {
 }
 
 void CommonOptions::add_threads(CLI::App& app) {
-  app.add_option("--threads", threads, "changes the time, never the result (0: one for each core)")
+  app.add_option("--threads", threads,
+                 "number of threads; changes the time, never the result (0: one per core)")
       ->capture_default_str()
       ->check(CLI::Range(0, kMostThreads));
 }

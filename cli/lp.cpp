@@ -121,7 +121,7 @@ bool certify_verdict(const LpOptions& options, const MpsProgram& mps, const LpSo
   std::string rejection = reject_lp_proof(mps.program, proof);
   if (rejection.empty() && proof.status != solution.status) rejection = to_string(proof.status);
   if (!rejection.empty()) {
-    remark(fmt::format("{}: not written, as rational numbers do not confirm '{}': {}",
+    remark(fmt::format("{}: not written: rational arithmetic does not confirm '{}': {}",
                        options.certificate, to_string(solution.status), rejection));
     return false;
   }
@@ -144,9 +144,9 @@ int lp(const LpOptions& options) {
 
 void add_lp(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<LpOptions>();
-  CLI::App& command = *app.add_subcommand("lp", "solves a linear program in an MPS file");
-  command.add_option("file", options->file, "fixed or free MPS")->required();
-  command.add_option("--solver", options->lp, "general solver")->capture_default_str();
+  CLI::App& command = *app.add_subcommand("lp", "solves the linear program of an MPS file");
+  command.add_option("file", options->file, "MPS file in fixed or free format")->required();
+  command.add_option("--solver", options->lp, "linear programming solver")->capture_default_str();
   command
       .add_option("--certificate", options->certificate,
                   "file for a proof in rational numbers, which 'verify' checks; up to 500 rows")

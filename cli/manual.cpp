@@ -131,14 +131,14 @@ std::string man_page(const CLI::App& app) {
       ".SH NAME\nmaxwrench \\- {}\n"
       ".SH SYNOPSIS\n.B maxwrench\n\\fIcommand\\fR [\\fIargument\\fR] [\\fIoptions\\fR]\n"
       ".SH DESCRIPTION\n{}\n.PP\n"
-      "Results go to standard output, talk and progress to standard error.\n.SH COMMANDS\n",
+      "Results go to standard output, messages and progress to standard error.\n.SH COMMANDS\n",
       roff(version()), "how strongly a redundant robot can push, lift or twist",
       roff(app.get_description()));
   for (const CLI::App* command : shown_subcommands(app)) write_command(*command, page);
   return page +
          ".SH EXIT STATUS\n"
-         ".TP\n0\nanswered\n"
-         ".TP\n1\nanswered, but not by an optimum: the reason is printed\n"
+         ".TP\n0\nsuccess\n"
+         ".TP\n1\nno optimum, or a rejected claim: the reason is printed\n"
          ".TP\n2\nbad input: one line names it and what was expected\n"
          ".SH ENVIRONMENT\n.TP\n.B MAXWRENCH_PROBLEMS\n"
          "the folder of the shipped problems (default: share/maxwrench/problems beside the folder "
@@ -171,7 +171,8 @@ std::string bash_completion(const CLI::App& app) {
 
 void add_manual(CLI::App& app, int& exit_status) {
   auto kind = std::make_shared<std::string>();
-  CLI::App& command = *app.add_subcommand("manual", "the manual page, or the completion of bash");
+  CLI::App& command =
+      *app.add_subcommand("manual", "prints the manual page or the bash completion");
   command.group("");  // for packages, not for users
   command.add_option("kind", *kind, "man or bash")
       ->required()

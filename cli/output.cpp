@@ -64,7 +64,7 @@ int flush_output(int exit_status) {
   std::cout.flush();
   const bool arrived = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout;
   if (arrived) return exit_status;
-  complain(fmt::format("stdout: got '{}', expected a stream that takes the answer",
+  complain(fmt::format("stdout: got '{}', expected a writable stream",
                        errno != 0 ? std::generic_category().message(errno) : "an error"));
   return kBadInput;
 }
@@ -78,14 +78,13 @@ void require_apart(const std::vector<NamedFile>& inputs, const std::vector<Named
     for (const NamedFile& other : others) {
       if (other.path.empty() || !collide(output.path, other.path)) continue;
       throw std::invalid_argument(
-          fmt::format("{}: got '{}', which is the file of {}, expected "
-                      "another one",
+          fmt::format("{}: got '{}', which is also the file of {}, expected a different file",
                       output.option, output.path, other.option));
     }
     if (is_robot_or_task(output.path)) {
       throw std::invalid_argument(
-          fmt::format("{}: got '{}', an existing .toml or .urdf file, expected one that holds no "
-                      "robot or task",
+          fmt::format("{}: got '{}', an existing .toml or .urdf file, expected a file that is not "
+                      "a robot or task",
                       output.option, output.path));
     }
     others.push_back(output);

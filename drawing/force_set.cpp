@@ -38,7 +38,7 @@ ForceSet force_set(const Problem& problem, const Posture& posture, Measure& meas
   const Problem held = held_at(problem, posture.theta_r);
   if (!in_view(held.c, view)) {
     throw std::invalid_argument("plot: c of " + problem.name +
-                                " is no force in the plane of the picture");
+                                " is not a force in the plane of the picture");
   }
   ForceSet set;
   set.name = std::move(name);

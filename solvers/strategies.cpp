@@ -45,22 +45,25 @@ const MeasureEntry kMeasures[] = {
      of_program<make_linf_polytope>},
     {"manipulability", "Yoshikawa's sqrt det(J J') of base and arm, lengths in m", false, false,
      "-", of_problem<make_manipulability>},
-    {"transmission_ratio", "reach of |J'h| <= 1 along c, N and N m counting alike", false, true,
-     "-", of_robot<make_transmission_ratio>},
-    {"weighted_transmission_ratio", "the ellipsoid without the offset by tau_d", false, true,
-     nullptr, of_robot<make_weighted_transmission_ratio>},
+    {"transmission_ratio", "extent of {|J'h| <= 1} along c, N and N m weighted equally", false,
+     true, "-", of_robot<make_transmission_ratio>},
+    {"weighted_transmission_ratio", "beta_1 without the offset by tau_d", false, true, nullptr,
+     of_robot<make_weighted_transmission_ratio>},
     {"least_effort", "minus the least sum of squared efforts at the reference wrench", false, true,
      "mixed", of_problem<make_least_effort>},
-    {"saturating_wrench", "the first actuator saturates, efforts weighted by their limits", false,
-     false, nullptr, of_robot<make_saturating_wrench>},
-    {"ellipsoid_trace", "squared radii of the weighted ellipsoid by the desired wrench", false,
-     false, "-", of_problem<make_ellipsoid_trace>},
+    {"saturating_wrench",
+     "wrench at which the first actuator saturates, efforts weighted by their limits", false, false,
+     nullptr, of_robot<make_saturating_wrench>},
+    {"ellipsoid_trace",
+     "sum of squared radii of the weighted ellipsoid, scaled by the desired wrench", false, false,
+     "-", of_problem<make_ellipsoid_trace>},
 };
 
 const LpEntry kLpSolvers[] = {
-    {"simplex", "own bounded-variable simplex, warm-started", 1, [] { return make_simplex(); }},
+    {"simplex", "built-in bounded-variable simplex, warm-started", 1,
+     [] { return make_simplex(); }},
 #if MAXWRENCH_WITH_CLP
-    {"clp", "Clp, simplex library of COIN-OR", 2, make_clp},
+    {"clp", "Clp (COIN-OR), simplex", 2, make_clp},
 #endif
 #if MAXWRENCH_WITH_GLPK
     {"glpk", "GLPK, dual simplex", 2, make_glpk},
@@ -71,31 +74,31 @@ const LpEntry kLpSolvers[] = {
 };
 
 const SearchEntry kSearches[] = {
-    {"sample", "uniformly random postures, the floor of every comparison", false, make_sample,
+    {"sample", "uniformly random postures, the baseline of every comparison", false, make_sample,
      false, 0.1},
     {"grid", "regular grid", false, make_grid, false, 0.9},
     {"annealing", "simulated annealing in independent chains", false, make_annealing, true},
-    {"cmaes", "own CMA-ES (covariance matrix adaptation) from many postures", false, make_cmaes,
-     true},
+    {"cmaes", "built-in CMA-ES (covariance matrix adaptation) from many postures", false,
+     make_cmaes, true},
 #if MAXWRENCH_WITH_PAGMO
-    {"pagmo_cmaes", "CMA-ES of pagmo from many postures", false, make_pagmo_cmaes, true},
-    {"de", "differential evolution of pagmo, in several populations", false, make_de, true},
-    {"sade", "self-adaptive differential evolution of pagmo", false, make_sade, true},
+    {"pagmo_cmaes", "CMA-ES (pagmo) from many postures", false, make_pagmo_cmaes, true},
+    {"de", "differential evolution (pagmo), several populations", false, make_de, true},
+    {"sade", "self-adaptive differential evolution (pagmo)", false, make_sade, true},
 #endif
 #if MAXWRENCH_WITH_IPOPT
-    {"multistart", "Ipopt with exact gradients from many postures, as fmincon", false,
+    {"multistart", "Ipopt with exact gradients from many postures, like fmincon", false,
      make_multistart, true, 0, 5},
 #endif
 #if MAXWRENCH_WITH_NLOPT
-    {"direct_l", "DIRECT-L of NLopt: divides boxes", false, make_direct_l},
-    {"crs2", "controlled random search of NLopt, in several populations", false, make_crs2, true},
-    {"mlsl", "multi-level single-linkage of NLopt, with gradients", false, make_mlsl, true},
-    {"isres", "evolution strategy ISRES of NLopt, in several populations", false, make_isres, true},
-    {"slsqp", "SLSQP of NLopt with exact gradients from many postures", false, make_slsqp, true},
-    {"mma", "MMA of NLopt with exact gradients from many postures", false, make_mma, true},
-    {"lbfgs", "L-BFGS of NLopt with exact gradients from many postures", false, make_lbfgs, true},
-    {"bobyqa", "BOBYQA of NLopt from many postures", false, make_bobyqa, true},
-    {"cobyla", "COBYLA of NLopt from many postures", false, make_cobyla, true},
+    {"direct_l", "DIRECT-L (NLopt), division of boxes", false, make_direct_l},
+    {"crs2", "controlled random search (NLopt), several populations", false, make_crs2, true},
+    {"mlsl", "multi-level single-linkage (NLopt), with gradients", false, make_mlsl, true},
+    {"isres", "evolution strategy ISRES (NLopt), several populations", false, make_isres, true},
+    {"slsqp", "SLSQP (NLopt) with exact gradients from many postures", false, make_slsqp, true},
+    {"mma", "MMA (NLopt) with exact gradients from many postures", false, make_mma, true},
+    {"lbfgs", "L-BFGS (NLopt) with exact gradients from many postures", false, make_lbfgs, true},
+    {"bobyqa", "BOBYQA (NLopt) from many postures", false, make_bobyqa, true},
+    {"cobyla", "COBYLA (NLopt) from many postures", false, make_cobyla, true},
 #endif
 #if MAXWRENCH_WITH_SUNDIALS
     {"nullspace", "local baseline: gradient projected onto the null space of J", true,
@@ -104,22 +107,23 @@ const SearchEntry kSearches[] = {
 };
 
 const SearchEntry kTrajectorySearches[] = {
-    {"slp", "sequential linear programs in knots, efforts and wrenches, from many starts", false,
+    {"slp", "sequential linear programming in knots, efforts and wrenches, from many starts", false,
      make_slp, false, 0, 1, true},
 #if MAXWRENCH_WITH_IPOPT
-    {"joint_nlp", "Ipopt in knots, efforts and wrenches at once, from the starts of slp", false,
+    {"joint_nlp", "Ipopt in knots, efforts and wrenches together, from the starts of slp", false,
      make_joint_nlp, false, 0, 5},
 #endif
 };
 
 const IntegratorEntry kIntegrators[] = {
 #if MAXWRENCH_WITH_SUNDIALS
-    {"cvode", "CVODE of SUNDIALS, backward differentiation formulas", true, make_cvode},
-    {"cvode_adams", "CVODE of SUNDIALS, Adams-Moulton formulas", false, make_cvode_adams},
-    {"arkode", "ARKODE of SUNDIALS, explicit Runge-Kutta method of order 5", false, make_arkode},
-    {"ida", "IDA of SUNDIALS on the residual form", true, make_ida},
+    {"cvode", "CVODE (SUNDIALS), backward differentiation formulas", true, make_cvode},
+    {"cvode_adams", "CVODE (SUNDIALS), Adams-Moulton formulas", false, make_cvode_adams},
+    {"arkode", "ARKODE (SUNDIALS), explicit Runge-Kutta method of order 5", false, make_arkode},
+    {"ida", "IDA (SUNDIALS), on the residual form", true, make_ida},
 #endif
-    {"runge_kutta", "own classical Runge-Kutta method with a fixed step", false, make_runge_kutta},
+    {"runge_kutta", "built-in classical Runge-Kutta method with a fixed step", false,
+     make_runge_kutta},
 };
 
 /// The entries that the conditions above may omit.
@@ -165,11 +169,11 @@ std::vector<Absent> make_absent() {
 std::vector<SearchEntry> make_facet_searches() {
   return {
 #if MAXWRENCH_WITH_NLOPT
-    {"facet_sqp", "SLSQP of NLopt in posture and wrenches, between the facets of {B u}", false,
+    {"facet_sqp", "SLSQP (NLopt) in posture and wrenches, between the facets of {B u}", false,
      make_facet_sqp, true},
 #endif
 #if MAXWRENCH_WITH_IPOPT
-        {"facet_nlp", "the same by Ipopt", false, make_facet_nlp, true, 0, 5},
+        {"facet_nlp", "the same with Ipopt", false, make_facet_nlp, true, 0, 5},
 #endif
   };
 }
@@ -190,9 +194,9 @@ std::vector<WrenchSolverEntry> make_wrench_solvers() {
 
 std::vector<TrajectorySolverEntry> make_trajectory_solvers() {
   std::vector<TrajectorySolverEntry> table = {
-      {"facets_or_ipm", "the worst instant by its facets if efforts follow, else ipm",
+      {"facets_or_ipm", "facets of the worst instant if efforts exist at all instants, else ipm",
        make_facets_or_ipm},
-      {"ipm", "own interior point method, linear in the number of instants",
+      {"ipm", "built-in interior point method, linear in the number of instants",
        [] { return make_trajectory_ipm(); }}};
   for (const LpEntry& lp : kLpSolvers) {
     table.push_back(
@@ -235,10 +239,9 @@ NamedSearch find_stages(std::span<const SearchEntry* const> table, std::string_v
       for (const SearchEntry* entry : table) {
         if (entry->accepts_starts) others.emplace_back(entry->name);
       }
-      throw std::invalid_argument(
-          fmt::format("search: got '{}', where {} begins by itself, expected as a later stage one "
-                      "of {}",
-                      name, stage.name, fmt::join(others, " ")));
+      throw std::invalid_argument(fmt::format(
+          "search: got '{}', where {} accepts no start, expected as a later stage one of {}", name,
+          stage.name, fmt::join(others, " ")));
     }
     search.stages.push_back(&stage);
     search.local = search.local && stage.local;

@@ -140,9 +140,9 @@ class AnyProof final : public ValueProof {
 
 std::unique_ptr<ValueProof> make_any_proof(const Problem& problem, const FormModel& model) {
   if (!model.coordinates().base_is_dependent) {
-    throw std::invalid_argument(problem.name +
-                                ": wrench: got 'any', expected pure: the base does "
-                                "not follow in closed form");
+    throw std::invalid_argument(
+        problem.name +
+        ": wrench: got 'any', expected pure: the base pose is not dependent in closed form");
   }
   const Eigen::MatrixXd& B = problem.robot.actuation.B;
   const auto joints = static_cast<Eigen::Index>(problem.robot.joints.size());

@@ -21,7 +21,7 @@ void require_free(const Problem& problem, const std::array<FormVector, 2>& twist
     if (twist[part][at].magnitude(far) > kOffAxes) {
       throw std::invalid_argument(problem.name +
                                   ": wrench: got 'any', expected pure: the base's free axes do not "
-                                  "take part in all that its arm does");
+                                  "cover all motions of its arm");
     }
   }
 }

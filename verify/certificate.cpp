@@ -143,7 +143,7 @@ std::string read_packed(const std::string& file) {
   std::string start(kMagic.size(), '\0');
   stream.read(start.data(), static_cast<std::streamsize>(start.size()));
   if (!stream.is_open() || stream.bad()) {
-    throw std::invalid_argument(file + ": got nothing, expected a file that can be read");
+    throw std::invalid_argument(file + ": got no data, expected a readable file");
   }
   if (!stream || start != kMagic) {
     throw std::invalid_argument(file + ": got something else, expected a certificate of 'certify'");

@@ -13,10 +13,9 @@ FormShape::FormShape(std::vector<int> terms_of, std::vector<int> coordinates_of)
     strides[i] = size;
     size *= terms[i];
     if (size > kMostTerms) {
-      throw std::invalid_argument(
-          "got " + std::to_string(terms.size()) +
-          " coordinates of a posture, expected at most 9 that turn: a proof looks at 3 points for "
-          "each, multiplied");
+      throw std::invalid_argument("got " + std::to_string(terms.size()) +
+                                  " coordinates of a posture, expected at most 9 that turn: a "
+                                  "proof uses 3 points for each, multiplied");
     }
   }
 }

@@ -87,7 +87,8 @@ std::vector<Narrow> load(const FormModel& model, const Eigen::VectorXd& x, const
 std::string reject_balance(const Problem& problem, const ProofCertificate& proof,
                            const std::vector<Narrow>& tau, double tolerance) {
   const Zonotope& set = problem.robot.actuation;
-  if (proof.u.size() != set.actuators()) return "the efforts are not as many as the actuators";
+  if (proof.u.size() != set.actuators())
+    return "the number of efforts differs from that of the actuators";
   if (!((set.u_min - proof.u).array() <= tolerance).all() ||
       !((proof.u - set.u_max).array() <= tolerance).all()) {
     return "an effort is beyond its limits";
@@ -137,7 +138,8 @@ std::string reject_value(const Problem& problem, const FormModel& model,
   const Vector6d h = proof.wrench == Wrench::kPure ? Vector6d(proof.value * problem.c) : proof.h;
   const Eigen::MatrixXd& W = problem.W_any;
   if (!((h - W * (W.transpose() * h)).norm() <= tolerance)) return "its wrench is not allowed";
-  if (!(std::abs(problem.c.dot(h) - proof.value) <= tolerance)) return "its wrench is another one";
+  if (!(std::abs(problem.c.dot(h) - proof.value) <= tolerance))
+    return "its wrench has another value along c";
   const std::vector<Narrow> tau = load(model, proof.x, h);
   if (polytope) return reject_balance(problem, proof, tau, tolerance);
   if (proof.measure == "ellipsoid") return reject_ellipsoid(problem, model, proof, tau);
@@ -166,10 +168,10 @@ std::string reject_incumbent(const Problem& problem, const FormModel& model,
   const Eigen::VectorXd& x = proof.x;
   if (x.size() != model.coordinates().count()) return "its posture has other joints";
   if (!x.allFinite() || !proof.u.allFinite() || !proof.h.allFinite()) {
-    return "its posture is no number";
+    return "its posture is not finite";
   }
   if (!is_within(model.coordinates(), x)) return "its posture is beyond the limits";
-  if (!(equations.residual(x) <= kOffEquations)) return "its joints do not get there";
+  if (!(equations.residual(x) <= kOffEquations)) return "its joints do not reach the pose";
   const std::vector<Pose<double>> links = links_at(problem, model.coordinates(), x);
   if (!base_gets_there(problem, model, x, links)) return "its base is off its free axes";
   if (problem.contact &&

@@ -47,7 +47,7 @@ std::string reject_point(const LinearProgram& p, const RationalVector& x) {
   for (int j = 0; j < p.cols(); ++j) {
     const mpq_class& at = x[static_cast<std::size_t>(j)];
     if ((has_lower(p, j) && at < p.l[j]) || (has_upper(p, j) && at > p.u[j])) {
-      return "x leaves a bound";
+      return "x violates a bound";
     }
   }
   return "";
@@ -85,7 +85,7 @@ std::string reject_ray(const LinearProgram& p, const RationalVector& r) {
   for (int j = 0; j < p.cols(); ++j) {
     const mpq_class& along = r[static_cast<std::size_t>(j)];
     if ((along < 0 && has_lower(p, j)) || (along > 0 && has_upper(p, j))) {
-      return "the ray leaves a bound";
+      return "the ray violates a bound";
     }
   }
   return exact_objective(p, r) > 0 ? "" : "the ray does not improve";
@@ -104,7 +104,8 @@ std::string reject_lp_proof(const LinearProgram& program, const LpProof& proof) 
   const auto cols = static_cast<std::size_t>(program.cols());
   const bool infeasible = proof.status == Status::kInfeasible;
   const bool optimal = proof.status == Status::kOptimal;
-  if (!infeasible && !optimal && proof.status != Status::kUnbounded) return "it is no verdict";
+  if (!infeasible && !optimal && proof.status != Status::kUnbounded)
+    return "its status is not a verdict";
   if (infeasible ? proof.certificate.size() != rows
                  : proof.x.size() != cols ||
                        (optimal ? proof.lambda.size() != rows : proof.certificate.size() != cols)) {

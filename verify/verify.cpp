@@ -42,7 +42,7 @@ struct OpenBox {
 std::string reject_shape(const CertificateTree& tree, Eigen::Index axes, int width, int equations) {
   std::size_t open = 1;
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
-    if (open == 0) return "boxes that belong to no other";
+    if (open == 0) return "boxes without a parent";
     if (tree.nodes[i].axis >= axes) return "a box is cut along no joint";
     if (const std::size_t numbers = tree.numbers(tree.nodes[i]);
         numbers > 0 && tree.nodes[i].multiplier + numbers > tree.multipliers.size()) {
@@ -57,7 +57,7 @@ std::string reject_shape(const CertificateTree& tree, Eigen::Index axes, int wid
     open += tree.nodes[i].axis < 0 ? std::size_t(-1) : 1;
   }
   for (const double x : tree.multipliers) {
-    if (!(std::abs(x) <= kLargest)) return "a multiplier is no number, or too large";
+    if (!(std::abs(x) <= kLargest)) return "a multiplier is not a number or is too large";
   }
   return open == 0 ? "" : "boxes are missing";
 }
@@ -216,9 +216,9 @@ bool holds_all(const PostureCoordinates& coordinates, const ProofCertificate& pr
 /// Checks the claims that do not depend on the boxes.
 std::string reject_claims(const Problem& problem, const FormModel& model,
                           const Equations& equations, const ProofCertificate& proof) {
-  if (proof.digest != digest(problem)) return "it is about another robot or task";
+  if (proof.digest != digest(problem)) return "it is for another robot or task";
   if (proof.collision != (problem.robot.collision != nullptr)) {
-    return "postures that collide count otherwise";
+    return "it treats postures that collide differently";
   }
   const int n = model.coordinates().count();
   if (proof.lower.size() != n || proof.upper.size() != n) return "its box has other joints";
@@ -228,12 +228,12 @@ std::string reject_claims(const Problem& problem, const FormModel& model,
   }
   if (!((proof.upper - proof.lower).array() <= kWidest).all()) return "its box is too wide";
   for (const double x : {proof.bound, proof.gap, proof.value, proof.h.lpNorm<Eigen::Infinity>()}) {
-    if (!(std::abs(x) <= kLargest)) return "what it claims is no number, or too large";
+    if (!(std::abs(x) <= kLargest)) return "its claim is not a number or is too large";
   }
   if (!(proof.bound >= proof.value)) return "its bound is below its value";
   const double slack = 1e-9 * std::abs(proof.value);
   if (!(proof.bound <= proof.value + proof.gap * std::abs(proof.value) + slack)) {
-    return "its gap is larger than it says";
+    return "its gap is larger than it claims";
   }
   return reject_incumbent(problem, model, equations, proof);
 }

@@ -66,7 +66,7 @@ WideRows enclose_inverse(const WideRows& M) {
   }
   const Wide e(largest_row_sum(E));
   if (!(e.high < 0.5L)) {
-    throw std::invalid_argument("measure: expected linf_polytope: B is nearly short of full rank");
+    throw std::invalid_argument("measure: expected linf_polytope: B is nearly rank-deficient");
   }
   const long double rest = (e * e / (Wide(1.0L) - e) * Wide(largest_row_sum(X))).high;
   WideRows inverse = E * X;

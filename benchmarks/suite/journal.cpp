@@ -32,7 +32,7 @@ Journal::Journal(std::filesystem::path file) : file_(std::move(file)) {
     if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       close(descriptor_);
       throw std::invalid_argument(file_.string() +
-                                  ": is being written, expected one run at a time");
+                                  ": got a file that is being written, expected one run at a time");
     }
   } while (was_removed(descriptor_));  // by the process that held it until now
 }

@@ -155,9 +155,8 @@ std::vector<Case> select(std::vector<Case> cases,
     std::erase_if(cases, [&](const Case& c) { return name_of(c) != value; });
     if (cases.empty()) {
       throw std::invalid_argument(
-          fmt::format("{}: got '{}', expected one that the product has together with the other "
-                      "choices: {}",
-                      column, value, fmt::join(existing, " ")));
+          fmt::format("{}: got '{}', expected one that is valid with the other choices: {}", column,
+                      value, fmt::join(existing, " ")));
     }
   }
   return cases;

@@ -86,7 +86,7 @@ Answer trajectory_again(const Problem& problem, const Case& c, const RowClaim& c
   const int r = problem.redundancy();
   if (x.size() == 0 || r == 0 || x.size() % r != 0) {
     throw std::invalid_argument(
-        fmt::format("theta_r: got {} numbers, expected some times {}", x.size(), r));
+        fmt::format("theta_r: got {} numbers, expected a multiple of {}", x.size(), r));
   }
   return evaluate(problem, unstacked(x, x.size() / r), {c});
 }

@@ -9,8 +9,8 @@ namespace maxwrench {
 struct Problem;
 
 inline constexpr const char* kOwnWord =
-    "that this search found it from this seed, its evaluations and calls but for the budget, the "
-    "status and the reason why it has no value, and the evaluations of an experiment";
+    "that this search found the value from this seed; evaluations and calls, except that they fit "
+    "the budget; status and reason of a row without a value; evaluations of an experiment";
 
 /// The result of the check of a row of values.csv.
 struct RowCheck {

@@ -55,7 +55,7 @@ std::string reject_numbers(const RowClaim& claim, const char* column, const Eige
   if (anew.size() == 0) return "";
   const double size = 1 + anew.lpNorm<Eigen::Infinity>();
   const bool same = (claimed - anew).lpNorm<Eigen::Infinity>() <= kAnswerTolerance * size;
-  return same ? "" : fmt::format("{}: its posture has others", column);
+  return same ? "" : fmt::format("{}: its posture has other values", column);
 }
 
 std::string reject_residual(const RowClaim& claim, const Residual& anew, double beta) {
@@ -85,11 +85,11 @@ std::string reject_effort(const Case& c, const RowClaim& claim) {
   if (c.search.empty()) {
     return evaluations == 1 && claim.text("calls").empty()
                ? ""
-               : "evaluations: expected 1, and no calls, of what is given";
+               : "evaluations: expected 1, and no calls, for a given posture or trajectory";
   }
   const long least = claim.text("beta").empty() ? 0 : 1;
   if (evaluations < least || evaluations > c.budget) {
-    return fmt::format("evaluations: expected {} to {}", least, c.budget);
+    return fmt::format("evaluations: expected from {} to {}", least, c.budget);
   }
   long called = 0;
   std::istringstream calls(claim.text("calls"));
@@ -102,7 +102,7 @@ std::string reject_effort(const Case& c, const RowClaim& claim) {
     }
     called += spent;
   }
-  return called <= evaluations ? "" : "calls: expected no more evaluations than there are in all";
+  return called <= evaluations ? "" : "calls: expected no more evaluations than in the row";
 }
 
 std::string reject_names(const Problem& problem, const Case& c) {
@@ -113,7 +113,7 @@ std::string reject_names(const Problem& problem, const Case& c) {
   const std::vector<std::string> served = served_searches(problem, c.measure);
   for (const SearchEntry* stage : find_search(c.search).stages) {
     if (std::find(served.begin(), served.end(), stage->name) == served.end()) {
-      return fmt::format("search: got '{}', expected one that serves the task", stage->name);
+      return fmt::format("search: got '{}', expected one that supports the task", stage->name);
     }
   }
   return "";
@@ -151,7 +151,7 @@ std::string reject_words(const Problem& problem, const Case& c, const RowClaim& 
   if (!known || (!c.search.empty() && !of_search)) {
     return fmt::format("status: got '{}' without a value", status);
   }
-  return claim.text("reason").empty() ? "it has no value and no reason why" : "";
+  return claim.text("reason").empty() ? "it has neither a value nor a reason" : "";
 }
 
 }  // namespace maxwrench

@@ -151,7 +151,7 @@ Workload read_suite_file(const std::filesystem::path& file) {
     }
     const bool none_built_in = columns.integrator == Names{kAll} && stiff_integrators().empty();
     if (work.cases.size() == before && !none_built_in) {
-      block.throw_bad_value("problem", "columns that mean nothing together",
+      block.throw_bad_value("problem", "a combination of columns that is not valid",
                             "at least one row of the product");
     }
   }

@@ -36,8 +36,9 @@ std::map<std::vector<std::string>, std::size_t> rows_of_cases(const CsvFile& csv
   for (std::size_t i = 0; i < csv.rows.size(); ++i) {
     const auto [place, is_new] = places.emplace(case_values(case_of(csv, i)), i);
     if (is_new) continue;
-    csv.throw_bad_cell(i, "problem",
-                       fmt::format("each case once: line {} has it, too", line_of(place->second)));
+    csv.throw_bad_cell(
+        i, "problem",
+        fmt::format("each case once: line {} has it already", line_of(place->second)));
   }
   return places;
 }

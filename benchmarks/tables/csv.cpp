@@ -135,7 +135,7 @@ std::filesystem::path table_file(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::exists(std::filesystem::symlink_status(file, error))) return packed;
   if (!std::filesystem::exists(packed, error)) return file;
-  throw std::invalid_argument(fmt::format("{}: got {} beside it, expected one of them",
+  throw std::invalid_argument(fmt::format("{}: got {} beside it, expected only one of them",
                                           file.string(), packed.filename().string()));
 }
 
@@ -149,9 +149,10 @@ std::string csv_text(const std::filesystem::path& file) {
   if (is_gzip(text)) {
     std::optional<std::string> unpacked = unpack(text, Wrapping::kGzip, kMostRatio);
     if (!unpacked) {
-      throw std::invalid_argument(fmt::format(
-          "{}: got a damaged file, expected a whole one packed by gzip, at most {} times smaller",
-          file.string(), kMostRatio));
+      throw std::invalid_argument(
+          fmt::format("{}: got a damaged file, expected a complete gzip file, at most {} times "
+                      "smaller than its text",
+                      file.string(), kMostRatio));
     }
     text = std::move(*unpacked);
   }

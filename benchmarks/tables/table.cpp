@@ -28,7 +28,7 @@ bool is_there(const std::filesystem::path& file) {
   if (!error && !std::ifstream(file)) error = std::error_code(errno, std::generic_category());
   if (!error) return true;
   throw std::invalid_argument(file.string() + ": got '" + error.message() +
-                              "', expected a table of ours or no file");
+                              "', expected a table of maxwrench or no file");
 }
 
 }  // namespace

@@ -89,8 +89,8 @@ void replace(const fs::path& file, const fs::path& target, const struct stat* fo
 }  // namespace
 
 void throw_output_error(const fs::path& file, int error) {
-  throw std::invalid_argument(fmt::format("{}: got '{}', expected a file that can be written",
-                                          file.string(), std::generic_category().message(error)));
+  throw std::invalid_argument(fmt::format("{}: got '{}', expected a writable file", file.string(),
+                                          std::generic_category().message(error)));
 }
 
 int write_all(int descriptor, std::string_view text) {

@@ -254,8 +254,8 @@ class Keeper : public benchmark::ConsoleReporter {
                  model / kdl);
     }
     if (time("model/search") > 0 && kdl > 0) {
-      fmt::print("{}: along a search, median of model / ik_solutions / KDL = {:.2f}\n", problem.name,
-                 time("model/search") / kdl);
+      fmt::print("{}: along a search, median of model / ik_solutions / KDL = {:.2f}\n",
+                 problem.name, time("model/search") / kdl);
     }
     if (value > 0 && gradient > 0) {
       fmt::print("{}: beta_2 with gradient / beta_2 = {:.2f}\n", problem.name, gradient / value);

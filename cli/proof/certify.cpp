@@ -61,7 +61,7 @@ GoodPostures list_good(const ProofOptions& options, const Problem& problem, cons
   good.threads = how.threads;
   good.interrupted = how.interrupted;
   good.progress = [&line](std::size_t waiting, std::size_t kept) {
-    line.show(fmt::format("within {} boxes kept, {} wait", kept, waiting));
+    line.show(fmt::format("within {} boxes kept, {} open", kept, waiting));
   };
   return verified_good_postures(problem, method, bound, proof.result.bound, good, proof.row);
 }
@@ -75,8 +75,7 @@ void throw_on_dependents(const ProofOptions& options, const Problem& problem) {
   }
   if (options.within.asked() && (!problem.dependent.empty() || problem.contact)) {
     throw std::invalid_argument(
-        "--within: got a task with joints that follow from theta_r or a second contact, expected "
-        "one without");
+        "--within: got a task with dependent joints or a second contact, expected one without");
   }
 }
 
@@ -131,14 +130,14 @@ std::string reject_gap(const std::string& text) {
   double gap = 0;
   const bool read = CLI::detail::lexical_cast(text, gap);
   if (read && gap >= kLeastGap && gap <= 1) return "";
-  return fmt::format("got '{}', expected a number of {:g} to 1", text, kLeastGap);
+  return fmt::format("got '{}', expected a number from {:g} to 1", text, kLeastGap);
 }
 
 /// Without a posture that has a value, or without a bound, there is nothing to certify.
 void write_certificate(const ProofOptions& options, const Proof& proof) {
   if (options.certificate.empty()) return;
   if (!proof.row.has_value() || !std::isfinite(proof.result.bound)) {
-    remark(options.certificate + ": not written, as there is no value or no bound");
+    remark(options.certificate + ": not written: there is no value or no bound");
     return;
   }
   write_file(options.certificate,
@@ -189,7 +188,7 @@ void print_proof_text(const ProofOptions& options, const Problem& problem, const
   if (std::isfinite(result.bound)) {
     fmt::print("bound     {:>9.5f} {}: no posture has more\n", result.bound, row.unit);
   } else if (result.status != Status::kProven) {
-    fmt::print("bound     none was proven\n");
+    fmt::print("bound     none proven\n");
   }
   if (row.has_value()) {
     fmt::print("gap       {}\nresidual {}\n",
@@ -204,24 +203,26 @@ void print_proof_text(const ProofOptions& options, const Problem& problem, const
 void add_proof_options(CLI::App& command, ProofOptions& options) {
   command
       .add_option("problem", options.choice.problem,
-                  "shipped name such as planar/force, or a task file")
+                  "shipped task such as planar/force, or a task file")
       ->required();
   command
       .add_option("--measure", options.choice.measure, "linf_polytope, l2_polytope or ellipsoid")
       ->capture_default_str();
   command
-      .add_option("--wrench", options.wrench, "pure: only along c; any: other components are free")
+      .add_option("--wrench", options.wrench, "pure: along c only; any: other components are free")
       ->capture_default_str();
-  command.add_option("--gap", options.gap, "of the bound to beta that is to be reached")
+  command
+      .add_option("--gap", options.gap,
+                  "relative gap between bound and beta at which the proof ends")
       ->capture_default_str()
       ->check(reject_gap);
-  command.add_option("--time", options.seconds, "s, after which a bracket is printed")
+  command.add_option("--time", options.seconds, "time limit [s], after which a bracket is printed")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1e9));
-  command.add_flag("--ignore-collision", options.ignore_collision,
-                   "count postures that collide, too");
+  command.add_flag("--ignore-collision", options.ignore_collision, "allow postures that collide");
   command
-      .add_option("--certificate", options.certificate, "file for the proof, which 'verify' checks")
+      .add_option("--certificate", options.certificate,
+                  "file for the certificate, which 'verify' checks")
       ->check(reject_empty);
   options.within.add(command);
   options.add_threads(command);
@@ -233,7 +234,7 @@ void add_proof_options(CLI::App& command, ProofOptions& options) {
 void add_certify(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<ProofOptions>();
   CLI::App& command = *app.add_subcommand(
-      "certify", "the largest capability, and a proof that no posture has more");
+      "certify", "finds the largest capability and proves that no posture has more");
   add_proof_options(command, *options);
   command.callback([options, &exit_status] {
     require_apart({{"problem", options->choice.problem}}, {{"--certificate", options->certificate},

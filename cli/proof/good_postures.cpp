@@ -36,7 +36,7 @@ double parse_share(std::string text) {
 std::string reject_share(const std::string& text) {
   const double share = parse_share(text);
   if (share >= kLeastShare && share <= 1) return "";
-  return fmt::format("got '{}', expected a share of {:g} to 1, or of {:g}% to 100%", text,
+  return fmt::format("got '{}', expected a share from {:g} to 1, or from {:g}% to 100%", text,
                      kLeastShare, 100 * kLeastShare);
 }
 
@@ -44,8 +44,7 @@ std::string reject_resolution(const std::string& text) {
   double side = 0;
   const bool read = CLI::detail::lexical_cast(text, side);
   if (read && side >= kLeastResolution && side < kInfinity) return "";
-  return fmt::format("got '{}', expected a number of {:g} or more [rad or m]", text,
-                     kLeastResolution);
+  return fmt::format("got '{}', expected a number >= {:g} [rad or m]", text, kLeastResolution);
 }
 
 /// The joints whose limits are a whole turn apart.
@@ -118,7 +117,7 @@ std::vector<BoxGroup> groups_of(const GoodPostures& good, const char* unit) {
         {fmt::format("{}: {:.5g} {}", i + 1, best.value, unit), false, {}, {}, best.theta_r});
   }
   const std::size_t others = groups.size();
-  groups.push_back({"others that hold such postures", true, {}, {}});
+  groups.push_back({"other boxes that hold such postures", true, {}, {}});
   groups.push_back({"may hold such postures", true, {}, {}});
   for (const GoodBox& box : good.boxes) {
     const auto cluster = static_cast<std::size_t>(box.cluster);
@@ -147,9 +146,10 @@ std::string draw_good(const Answer& row, const GoodPostures& good, const WithinO
 void WithinOptions::add(CLI::App& command) {
   CLI::Option* const asked =
       command
-          .add_option("--within", within, "list all postures that are this near to the best: 1%")
+          .add_option("--within", within,
+                      "list all postures within this share of the best, such as 1%")
           ->check(reject_share);
-  command.add_option("--resolution", resolution, "longest side of the boxes of the list, rad or m")
+  command.add_option("--resolution", resolution, "longest side of the listed boxes [rad or m]")
       ->capture_default_str()
       ->check(reject_resolution)
       ->needs(asked);
@@ -194,7 +194,7 @@ void print_good(const Problem& problem, const GoodPostures& good, const WithinOp
   const std::size_t printed = std::min(kPrinted, good.clusters.size());
   for (std::size_t i = 0; i < printed; ++i) print_cluster(problem, good, i);
   if (printed < good.clusters.size()) {
-    fmt::print("and {} more: --json has all\n", good.clusters.size() - printed);
+    fmt::print("and {} more: --json lists all\n", good.clusters.size() - printed);
   }
 }
 

@@ -45,7 +45,7 @@ bool is_fraction(const std::string& text) {
 }
 
 [[noreturn]] void throw_bad_input(const std::string& file, const std::string& why) {
-  throw std::invalid_argument(file + ": " + why + ", expected what 'lp --certificate' wrote");
+  throw std::invalid_argument(file + ": " + why + ", expected a certificate of 'lp --certificate'");
 }
 
 RationalVector read_fractions(const std::string& file, const ordered_json& object,
@@ -100,7 +100,7 @@ LpVerification verify_lp(const std::string& file, const std::string& mps_file) {
     proof.lambda = read_fractions(file, object, "lambda");
     proof.certificate = read_fractions(file, object, "certificate");
   } catch (const nlohmann::json::exception&) {
-    throw_bad_input(file, "a key is missing or of another kind");
+    throw_bad_input(file, "got a missing key or a key of the wrong type");
   }
   const MpsProgram mps = read_mps(result.mps_file);
   result.rejection = reject_lp_proof(mps.program, proof);

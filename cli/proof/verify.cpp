@@ -35,11 +35,11 @@ void print_verified(const ProofCertificate& proof, const Problem& problem,
   if (theta_r.size() > 0) fmt::print("theta_r   {}\n", line(theta_r));
   fmt::print("beta      {:>9.5f} {}\n", proof.value, problem.unit());
   fmt::print("bound     {:>9.5f} {}{}\n", proof.bound, problem.unit(),
-             result.rejection.empty() ? ": no posture has more" : ", as it claims");
+             result.rejection.empty() ? ": no posture has more" : ", as claimed");
   fmt::print("gap       {:.3g} %\n", 100 * (proof.bound - proof.value) / std::abs(proof.value));
   fmt::print(
-      "boxes     {}: {} leaves by a multiplier, {} in collision, {} without a posture, {} by "
-      "the box around\n",
+      "boxes     {}: {} leaves by a multiplier, {} in collision, {} without a posture, {} by their "
+      "parent\n",
       result.boxes, result.by_multiplier, result.by_collision, result.by_equations,
       result.by_parent);
   fmt::print("checked in {:.3g} s, written by maxwrench {}\n", seconds, proof.version);
@@ -105,7 +105,7 @@ int check_file(const VerifyOptions& options) {
   if (is_values_file(options.file)) {
     if (!options.choice.problem.empty()) {
       throw std::invalid_argument("--problem: got '" + options.choice.problem +
-                                  "', expected none: rows name their problems");
+                                  "', expected none: each row names its problem");
     }
     return verify_rows(options.file, options.sample, options.choice.seed, options.thread_count(),
                        options.json);
@@ -130,19 +130,20 @@ void add_verify(CLI::App& app, int& exit_status) {
   options->choice.problem.clear();
   CLI::App& command = *app.add_subcommand(
       "verify",
-      "checks a certificate of 'certify' or 'lp' with no code of what made it, or rows of 'run'");
+      "checks a certificate of 'certify' or 'lp' with independent code, or rows of 'run'");
   command.add_option("file", options->file, "certificate, or values.csv.gz")
       ->required()
       ->check(reject_empty);
   command
-      .add_option(
-          "--problem", options->choice.problem,
-          "what it is to be about, shipped name, task file or MPS file; default: what it says")
+      .add_option("--problem", options->choice.problem,
+                  "shipped task, task file or MPS file to check it against (default: the one that "
+                  "it names)")
       ->check(reject_empty);
-  command.add_option("--sample", options->sample, "so many rows of values.csv.gz (0: all)")
+  command
+      .add_option("--sample", options->sample, "number of rows of values.csv.gz to check (0: all)")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
-  command.add_option("--seed", options->choice.seed, "draws them")
+  command.add_option("--seed", options->choice.seed, "seed of the sample of rows")
       ->capture_default_str()
       ->check(reject_seed);
   options->add_threads(command);

@@ -102,9 +102,8 @@ int verify_rows(const std::string& file, std::size_t sample, std::uint64_t seed,
                 {"rejected", rejected}});
   } else {
     fmt::print("{}\n", file);
-    if (!rejected.empty())
-      fmt::print("rejected: {} of the rows that were checked\n", rejected.size());
-    fmt::print("{}: {} of {} rows, {} of them with a value, {} with the reason why not\n",
+    if (!rejected.empty()) fmt::print("rejected: {} of the checked rows\n", rejected.size());
+    fmt::print("{}: {} of {} rows, {} of them with a value, {} with a reason instead\n",
                rejected.empty() ? "verified" : "checked", rows.size(), all, values,
                static_cast<long>(rows.size()) - values);
     fmt::print("largest deviation {:.2g} of 1 + |beta|\nnot checked: {}\n", deviation, kOwnWord);

@@ -16,8 +16,9 @@ ReportSection value_section(const Differences& changes) {
   table.title = fmt::format("Values that differ; {} are the same, {} within rounding", changes.same,
                             changes.rounded);
   table.note = fmt::format(
-      "In status, or by more than {:g} of 1 + |beta|; of experiments by more than {:g}, or in "
-      "being held, which those without a reason were. What differs less is within rounding.",
+      "Rows that differ in status or by more than {:g} of 1 + |beta|; experiments that differ by "
+      "more than {:g}, or in whether they held (they did if they have no reason). Smaller "
+      "differences are within rounding.",
       kSameValue, kSameReading);
   table.columns = case_columns();
   table.columns.insert(table.columns.end(), {"status_a", "status_b", "beta_a", "beta_b", "unit",
@@ -34,12 +35,11 @@ ReportSection value_section(const Differences& changes) {
 ReportSection time_section(const Differences& changes) {
   ReportTable table{
       "changed_times",
-      "Times: how many times as long b took as a",
+      "Times: ratio of b to a",
       fmt::format(
-          "Medians of the ratios row by row with their bootstrap intervals of 95 %, and "
-          "Wilcoxon's signed rank test, corrected by Holm. A change is an interval that lies "
-          "wholly {:g} % from 1, with p below 0.05: less is what two runs of the same build "
-          "on a busy machine differ by.",
+          "Medians of the ratios of the same rows with 95 % bootstrap intervals, and Wilcoxon's "
+          "signed rank test with Holm's correction. A change is an interval wholly {:g} % or more "
+          "from 1, with p below 0.05: two runs of the same build on a busy machine differ by less.",
           100 * kDrift),
       {"what", "name", "rows", "times", "times_low", "times_high", "p", "change"},
       {}};
@@ -52,7 +52,7 @@ ReportSection time_section(const Differences& changes) {
 }
 
 ReportSection missing_section(const Differences& changes) {
-  ReportTable table{"missing_rows", "Rows that only one folder has", "", {"folder"}, {}};
+  ReportTable table{"missing_rows", "Rows in only one folder", "", {"folder"}, {}};
   const std::vector<std::string>& columns = case_columns();
   table.columns.insert(table.columns.end(), columns.begin(), columns.end());
   for (const auto& [folder, rows] :
@@ -76,8 +76,8 @@ std::vector<ReportSection> change_sections(const Results& a, const Results& b) {
 ReportSection dictionary_section() {
   ReportTable table{"dictionary",
                     "Columns",
-                    "What each column of every table holds, those of values.csv, times.csv, "
-                    "search_comparison.csv and search_times.csv included.",
+                    "The meaning of each column of every table, including values.csv, times.csv, "
+                    "search_comparison.csv and search_times.csv.",
                     {"column", "unit", "meaning"},
                     {}};
   for (const ColumnMeaning& entry : dictionary()) {

@@ -37,8 +37,8 @@ ReportSection standing_section(const std::vector<RaceGroup>& groups) {
   table.title = "The race: searches in groups of tasks";
   table.note =
       "Empirical distributions of the share of targets (10 %, 1 %, 0.1 % and 0.01 % below the best "
-      "known value) that a search reached, and how it stands beside the fastest search of each "
-      "task. What a search does not serve counts as missed.";
+      "known value) that a search reached, and how it compares with the fastest search of each "
+      "task. A task that a search does not support counts as missed.";
   table.columns = {"group", "search", "served", "typical", "worst"};
   add_target_columns("reached_", table.columns);
   for (const RaceGroup& group : groups) {
@@ -62,9 +62,9 @@ ReportSection race_benchmark_set_section(const std::vector<RaceGroup>& groups) {
       "race_significance",
       "The race: profiles and significance",
       "Performance profiles of the processor time to 0.1 % below the best known value; instances "
-      "are tasks and seeds, and an attempt that never got there has failed. Times are "
-      "those of the default search: a median with its bootstrap interval of 95 %, and "
-      "Wilcoxon's signed rank test, corrected by Holm.",
+      "are tasks and seeds, and an attempt that never reaches this target fails. Times are "
+      "multiples of those of the default search: a median with its 95 % bootstrap interval, and "
+      "Wilcoxon's signed rank test with Holm's correction.",
       {},
       {}};
   return benchmark_set_section(std::move(table), benchmark_sets, "search", "median_ms");
@@ -74,8 +74,8 @@ ReportSection expected_section(const std::vector<Comparison>& races) {
   ReportTable table{
       "race_expected",
       "The race: expected running times",
-      "COCO's expected running time of a search that is started again until it gets so near: all "
-      "that was spent, over the number of runs that got there.",
+      "COCO's expected running time of a search that is restarted until it reaches the target: "
+      "everything spent, divided by the number of runs that reached it.",
       {"problem", "measure", "wrench", "scheme", "search", "solver", "runs", "solved"},
       {}};
   add_target_columns("ert_ms_", table.columns);

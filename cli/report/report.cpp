@@ -50,7 +50,7 @@ std::string extent_of(const std::vector<ResultRow>& rows) {
   const auto failed =
       std::count_if(rows.begin(), rows.end(), [](const ResultRow& row) { return !row.solved(); });
   return fmt::format(
-      "{}, of which {} without a value; problems {}, measures {}, lower-level solvers {}, searches "
+      "{}, {} of them without a value; problems {}, measures {}, lower-level solvers {}, searches "
       "{}, seeds {}, integrators {}",
       rows.size(), failed, problems.size(), measures.size(), lps.size(), searches.size(),
       seeds.size(), integrators.size());
@@ -146,16 +146,18 @@ int make_report(const ReportOptions& options) {
 
 void add_report(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<ReportOptions>();
-  CLI::App& command = *app.add_subcommand(
-      "report", "tables, performance profiles and significance of what run and compare wrote");
+  CLI::App& command = *app.add_subcommand("report",
+                                          "writes tables, performance profiles and significance "
+                                          "tests of the results of run and compare");
   command.add_option("folders", options->folders, "folder with values.csv.gz; two with --compare")
       ->required();
-  command.add_flag("--compare", options->compare,
-                   "what changed between two folders: values, times beyond noise, missing rows");
+  command.add_flag(
+      "--compare", options->compare,
+      "report the changes between two folders: values, times beyond noise, missing rows");
   command
       .add_option("--out", options->out,
                   "folder for report.html and its tables as CSV (default: report in the folder; "
-                  "with --compare none)")
+                  "with --compare, none)")
       ->check(reject_empty);
   command.callback([options, &exit_status] { exit_status = make_report(*options); });
 }

@@ -26,14 +26,13 @@ ReportCell seed_cell(std::uint64_t seed) {
 }
 
 ReportSection task_section(const std::vector<ResultRow>& rows) {
-  ReportTable table{
-      "tasks",
-      "Tasks",
-      "Every problem with each measure and wrench: how many rows have a value, and the "
-      "largest one with the names that gave it.",
-      {"problem", "measure", "wrench", "scheme", "rows", "solved", "best", "unit", "solver",
-       "search", "seed"},
-      {}};
+  ReportTable table{"tasks",
+                    "Tasks",
+                    "Every problem with each measure and wrench: how many rows have a value, and "
+                    "the largest value with the solver and search that found it.",
+                    {"problem", "measure", "wrench", "scheme", "rows", "solved", "best", "unit",
+                     "solver", "search", "seed"},
+                    {}};
   for (const TaskSummary& task : summarise_tasks(rows)) {
     const Case& c = task.choice;
     table.rows.push_back({c.problem, c.measure, to_string(c.wrench), c.scheme,
@@ -48,11 +47,10 @@ ReportSection solver_section(const std::vector<ResultRow>& rows) {
       "solvers",
       "Lower-level solvers",
       "Performance profiles (Dolan and Moré) of the time of an evaluation on the same problem, "
-      "measure, wrench, search and seed, where all solvers that serve were tried. Rows without a "
-      "value, and what a solver does not serve, count as never solved. Times are those of the "
-      "reference, the best at twice the cheapest: a "
-      "median with its bootstrap interval of 95 %, and Wilcoxon's signed rank test, corrected by "
-      "Holm.",
+      "measure, wrench, search and seed, where all applicable solvers were tried. Rows without a "
+      "value, and rows that a solver does not support, count as never solved. Times are multiples "
+      "of those of the reference, the best at twice the cheapest: a median with its 95 % bootstrap "
+      "interval, and Wilcoxon's signed rank test with Holm's correction.",
       {},
       {}};
   return benchmark_set_section(std::move(table), solver_benchmark_sets(rows), "solver", "us");
@@ -63,7 +61,7 @@ ReportSection search_section(const std::vector<ResultRow>& rows) {
       "searches",
       "Searches in the run",
       "Over all rows, whatever their budget: how many have a value, how many come within 0.1 % of "
-      "the best row of their task, and how far the median stays below it.",
+      "the best row of their task, and how far the median is below it.",
       {"search", "rows", "solved", "near", "median_below", "us"},
       {}};
   for (const SearchSummary& each : summarise_searches(rows)) {
@@ -107,20 +105,19 @@ std::vector<std::string> draw_costs(const ReportTable& table, const std::string&
   }
   if (sizes.size() < 2) return {};
   ScatterPanel panel{
-      size + (in_time ? ", tasks in time" : ", static tasks"), "us of an evaluation", {}};
+      size + (in_time ? ", tasks in time" : ", static tasks"), "us per evaluation", {}};
   for (auto& [name, points] : sets) panel.sets.push_back({name, std::move(points)});
   return {draw_scatter(panel)};
 }
 
 ReportSection cost_section(const std::vector<ResultRow>& rows) {
-  ReportTable table{
-      "costs",
-      "Cost against dimension",
-      "What an evaluation of a search costs, beside the sizes of the problem: searched "
-      "coordinates, instants, actuators, columns of the wrench.",
-      {"problem", "scheme", "wrench", "solver", "coordinates", "instants", "actuators", "columns",
-       "rows", "us", "us_low", "us_high"},
-      {}};
+  ReportTable table{"costs",
+                    "Cost against dimension",
+                    "The cost of an evaluation of a search, with the sizes of the problem: "
+                    "searched coordinates, instants, actuators, columns of the wrench.",
+                    {"problem", "scheme", "wrench", "solver", "coordinates", "instants",
+                     "actuators", "columns", "rows", "us", "us_low", "us_high"},
+                    {}};
   std::map<std::pair<std::string, Wrench>, std::vector<ReportCell>> sizes;
   for (const CostSummary& cost : summarise_costs(rows)) {
     auto& size = sizes[{cost.problem, cost.wrench}];
@@ -144,9 +141,9 @@ ReportSection integrator_section(const std::vector<ResultRow>& rows) {
   ReportTable table{
       "integrators",
       "Integrators of the virtual tank",
-      "Performance profiles of the processor time of an experiment, with the evaluation of what it "
-      "tries, where all integrators that serve were tried, at the same tolerances. Experiments "
-      "without a reading count as never solved.",
+      "Performance profiles of the processor time of an experiment, including the evaluation of "
+      "its posture or trajectory, where all applicable integrators were tried at the same "
+      "tolerances. Experiments without a reading count as never solved.",
       {},
       {}};
   return benchmark_set_section(std::move(table), integrator_benchmark_sets(rows), "integrator",
@@ -156,8 +153,8 @@ ReportSection integrator_section(const std::vector<ResultRow>& rows) {
 ReportSection experiment_section(const std::vector<ResultRow>& rows) {
   ReportTable table{"experiments",
                     "Experiments in the virtual tank",
-                    "What the load cell reads of the default posture, which a task in time holds "
-                    "throughout, beside what was planned.",
+                    "Readings of the load cell for the default posture, which a task in time keeps "
+                    "throughout, and the planned values.",
                     {"problem", "wrench", "solver", "scheme", "integrator", "planned", "reading",
                      "unit", "experiment_ms", "evaluations", "reason"},
                     {}};
@@ -174,8 +171,8 @@ ReportSection experiment_section(const std::vector<ResultRow>& rows) {
 ReportSection failure_section(const std::vector<ResultRow>& rows) {
   ReportTable table{"failures",
                     "Failures",
-                    "Rows without a value by their reason, the most frequent first; each of them "
-                    "stands in the table of all rows.",
+                    "Rows without a value by their reason, the most frequent first; the table of "
+                    "all rows lists each of them.",
                     {"rows", "status", "reason", "problem", "scheme", "solver", "integrator"},
                     {}};
   for (const FailureSummary& each : summarise_failures(rows)) {

@@ -62,7 +62,7 @@ PaperTable reproduce_dual(const std::filesystem::path& folder, int threads) {
   std::string text = fmt::format(
       "dual_arm/bar_wall: torque about the vertical at a rigid bar, while the arm may push on a "
       "wall,\nN m ({}). tank: measured in the paper; push: force on the wall, N;\n"
-      "proven: no place has more, by branch and bound to 0.1 %.\n\n"
+      "proven: no contact has more, by branch and bound to 0.1 %.\n\n"
       "                     ours   proven     tank  ours gain  tank gain  push    regrasp [m]\n",
       wall.label);
   text += contact_line("one contact", one, reference, tank.one, tank.one);

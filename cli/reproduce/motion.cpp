@@ -176,7 +176,7 @@ std::string motion_table(RowWriter& writer, const MotionTable& table,
   std::string limits =
       "  what limits the trajectory:\n"
       "scheme    found by  no rates   start  clear.  fastest joint            efforts at their "
-      "limits, the dearest first\n";
+      "limits, the costliest first\n";
   for (const std::string& scheme : schemes_of_table(problem)) {
     set_scheme("scheme", scheme, problem);
     const std::vector<Moved> rows = solve_scheme(writer, table, problem, folder, budget);
@@ -204,17 +204,16 @@ PaperTable reproduce_motion(const std::filesystem::path& folder, int threads, lo
       "default posture of the task throughout, which is the best static one of uvms/valve; the\n"
       "others: the best trajectory that search {} found with seed {} and at most {} evaluations\n"
       "(trajectories/TASK_SCHEME.csv). between: the value on the spline through the knots, none\n"
-      "where no efforts achieve it. The virtual tank is asked for {:g} % less than the value and\n"
-      "joins the instants as the scheme does (spline: with the efforts of between); error: of all\n"
-      "joints and the base from the trajectory, rad or m; held: the reading within {:g} % of the\n"
-      "trajectory all along the path or at t_h, error and limits kept; lost: the error ended the\n"
-      "experiment.\n"
+      "where no efforts achieve it. The virtual tank requests {:g} % less than the value and\n"
+      "interpolates between the instants as the scheme does (spline: with the efforts of\n"
+      "between); error: of all joints and the base from the trajectory, rad or m; held: the\n"
+      "reading is within {:g} % of the trajectory along the whole path or at t_h, and error and\n"
+      "limits are kept; lost: the error ended the experiment.\n"
       "gain: over the constant posture of the same scheme, of the value, of the virtual tank's\n"
-      "reading, and of the paper's tank. no rates, start: by what the value at the same knots\n"
-      "rises without limits of effort rates, and from any efforts at the start; clear.: least\n"
-      "distance of bodies at knots beyond their margin, m; fastest joint: share of its speed "
-      "limit\n"
-      "at an instant.\n",
+      "reading, and of the paper's tank. no rates, start: the increase of the value at the same\n"
+      "knots without limits of effort rates, and from any efforts at the start; clear.: least\n"
+      "distance of bodies at knots beyond their margin, m; fastest joint: share of its speed\n"
+      "limit at an instant.\n",
       trajectory_searches().front().name, Case().seed, budget, 100 * TankOptions().margin,
       100 * kTrackedWrenchError);
   for (const MotionTable& table : kMotionTables) {

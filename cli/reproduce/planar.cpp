@@ -58,11 +58,9 @@ Rows solve_planar(const Problem& problem, const std::filesystem::path& folder, i
   Rows rows;
   rows.text = fmt::format(
       "{}: the paper's planar example, N. Geometry: {} (it is not published), so the table shows\n"
-      "that the model can carry the paper's values, not that it predicts them. Before "
-      "CMA-ES\n"
-      "the grid has 600 x 600 postures (ipopt: 51 x 51); gap bounds how far beta is from optimal "
-      "at\n"
-      "its posture; proven: no posture has more, by branch and bound to 0.1 %.\n\n"
+      "that the model can reproduce the paper's values, not that it predicts them. The grid\n"
+      "before CMA-ES has 600 x 600 postures (ipopt: 51 x 51); gap bounds how far beta is from\n"
+      "the optimum at its posture; proven: no posture has more, by branch and bound to 0.1 %.\n\n"
       "         paper      ours    proven  deviation  solver   search           evaluations   gap  "
       "    label\n",
       problem.name, problem.label);

@@ -50,8 +50,8 @@ double proven_bound(const Answer& answer, int threads) {
 void add_reproduce(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<ReproduceOptions>();
   CLI::App& command =
-      *app.add_subcommand("reproduce", "the paper's tables and figures beside ours");
-  command.add_option("--out", options->out, "folder of the results")
+      *app.add_subcommand("reproduce", "computes the paper's tables and figures for comparison");
+  command.add_option("--out", options->out, "folder for the results")
       ->capture_default_str()
       ->check(reject_empty);
   options->add_threads(command);

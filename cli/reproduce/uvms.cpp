@@ -129,7 +129,7 @@ Simulated simulated(const Task& task, const char* name, const Answer& own, const
 std::string describe_beyond(const Task& task, const std::vector<Simulated>& experiments) {
   if (task.unit == kKilogram) return "";
   std::string text =
-      "  one N m more than efforts reach (pure, own of beta_3) in the virtual tank:\n";
+      "  1 N m more than efforts reach (pure; own for beta_3) in the virtual tank:\n";
   for (const Simulated& experiment : experiments) text += experiment.beyond;
   return text;
 }
@@ -267,15 +267,16 @@ PaperTable reproduce_uvms(const std::filesystem::path& folder, int threads) {
   RowWriter writer("reproduce uvms", folder, threads, rows);
   std::string text = fmt::format(
       "The underwater vehicle with a 4-joint arm, static. The model is public data, nothing is\n"
-      "tuned to the tank. own: value of the measure; proven: no posture has more, by branch "
-      "and\n"
+      "tuned to the tank. own: value of the measure; proven: no posture has more, by branch and\n"
       "bound to 0.1 %; pure: the largest wrench along c alone that any efforts reach at that\n"
-      "posture; tank: measured in the paper; gain over the default posture: of pure (of own for\n"
-      "beta_3, where the tank's sensor took all other components), in the tank, ratio of the two;\n"
-      "lag: how far the worst of {} searches stays below (grid+cmaes, annealing+cmaes with {}\n"
-      "seeds, {} evaluations each); virtual: the mean reading in the virtual tank during the hold\n"
-      "of own, of which {:g} % are not asked for so that efforts are left to hold the posture; or\n"
-      "the heaviest load that is carried for 5 s there, in steps of 1 kg.\n",
+      "posture; tank: measured in the paper; gain over the default posture: of pure (for beta_3 "
+      "of\n"
+      "own, because the tank's sensor took all other components), in the tank, ratio of the two;\n"
+      "lag: how far the worst of {} searches is below own (grid+cmaes, annealing+cmaes with {}\n"
+      "seeds, {} evaluations each); virtual: the mean reading in the virtual tank, which requests\n"
+      "own less {:g} % so that efforts remain to control the posture; or the heaviest load that "
+      "it\n"
+      "carries for 5 s, in steps of 1 kg.\n",
       std::size(kAttempts), std::size(kAttempts) - 1, kStaticBudget, 100 * TankOptions().margin);
   for (const Task& task : tasks()) text += "\n" + table(writer, task, folder, threads);
   const bool all_solved = writer.finish();

@@ -145,11 +145,12 @@ std::string summary(std::span<const Comparison> comparisons) {
     return std::find(named.begin(), named.end(), each.search) != named.end();
   });
   return fmt::format(
-      "\nAll problems together, best first, the default in bold. Typical and worst: how many times "
-      "the expected time to\n0.1 % of the best search of a problem that is, median and largest "
-      "over "
-      "the problems; 10 % ... 0.01 %: the share [%]\nof all problems and seeds that came so near "
-      "(what a search does not serve counts as missed).\n\n{}\n"
+      "\nAll problems together, best first, the default in bold. Typical and worst: the expected "
+      "time to 0.1 % as a multiple\n"
+      "of that of the best search of a problem, median and largest over the problems; 10 % ... "
+      "0.01 %: the share [%] of all\n"
+      "problems and seeds that reached it (a problem that a search does not support counts as "
+      "missed).\n\n{}\n"
       "All searches, with the expected ms to 0.1 % of each problem:\n\n{}",
       summary_table(some), summary_table(all, comparisons));
 }
@@ -157,7 +158,7 @@ std::string summary(std::span<const Comparison> comparisons) {
 /// All tables, and the summary if nothing is missing.
 std::string race_text(std::span<const Comparison> comparisons, int seeds, bool whole) {
   std::string text = fmt::format(
-      "Every search with {} seeds, each on one thread; time of the processor, best first, * the "
+      "Every search with {} seeds, each on one thread; processor time, best first, * the "
       "default.\n",
       seeds);
   for (const Comparison& comparison : comparisons) text += "\n" + race_table(comparison);
@@ -190,20 +191,20 @@ int compare_all(const CompareOptions& options) {
 void add_compare(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<CompareOptions>();
   options->choice.budget = 100000;
-  CLI::App& command = *app.add_subcommand("compare", "every search with many seeds, side by side");
+  CLI::App& command = *app.add_subcommand("compare", "compares all searches with many seeds");
   command.add_option("problems", options->problems,
-                     "shipped names or task files (default: all static ones)");
+                     "shipped tasks or task files (default: all shipped static tasks)");
   options->add_choice(command);
   options->add_budget(
       command,
-      "evaluations of each search (default: a fifth with up to two "
-      "coordinates or joints that follow, 5000 for tasks in time, and of these a fifth for Ipopt)");
+      "evaluation budget of each search (default: a fifth with up to two coordinates or with "
+      "dependent joints, 5000 for tasks in time; Ipopt gets a fifth of these)");
   options->add_threads(command);
   options->motion.add(command);
-  command.add_option("--seeds", options->seeds, "seeds 1 to this")
+  command.add_option("--seeds", options->seeds, "number of seeds (1 to N)")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
-  command.add_option("--out", options->out, "folder of the results")
+  command.add_option("--out", options->out, "folder for the results")
       ->capture_default_str()
       ->check(reject_empty);
   command.callback([options, &command, &exit_status] {

@@ -29,8 +29,8 @@ void require_ended(const fs::path& folder) {
   }
   for (const fs::path& each : {journal, folder / "times.csv.part"}) {
     if (!Journal::is_held(each)) continue;
-    throw std::invalid_argument(
-        fmt::format("{}: is being written, expected a run that has ended", each.string()));
+    throw std::invalid_argument(fmt::format(
+        "{}: got a file that is being written, expected a run that has ended", each.string()));
   }
 }
 
@@ -41,7 +41,7 @@ void add_values(const Table& more, const fs::path& from, Table& all, const fs::p
     if (there && *there != row) {
       const auto end = row.begin() + static_cast<std::ptrdiff_t>(case_columns().size());
       throw std::invalid_argument(
-          fmt::format("{}: got another row of {} than {} has, expected the same",
+          fmt::format("{}: got a row of {} that differs from that in {}, expected the same",
                       table_file(from / "values.csv").string(),
                       fmt::join(std::vector<std::string>(row.begin(), end), ","), out.string()));
     }
@@ -93,8 +93,8 @@ int merge(const MergeOptions& options) {
 void add_merge(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<MergeOptions>();
   CLI::App& command =
-      *app.add_subcommand("merge", "one folder of rows from several, such as those of shards");
-  command.add_option("out", options->out, "folder that they go to; what it holds stays")
+      *app.add_subcommand("merge", "merges the rows of several folders, such as those of shards");
+  command.add_option("out", options->out, "folder for all rows; its existing rows are kept")
       ->required()
       ->check(reject_empty);
   command.add_option("folders", options->folders, "folders that `run` wrote")->required();

@@ -87,7 +87,7 @@ std::string verdict(const Comparison& comparison, const std::vector<const Conten
     const double factor = seconds(*contender) / seconds(winner);
     text += std::isfinite(factor)
                 ? fmt::format("; the default takes {} times as long", brief(factor))
-                : "; the default never gets there";
+                : "; the default never reaches 0.1 %";
   }
   return text + "\n";
 }
@@ -176,13 +176,13 @@ std::string race_table(const Comparison& comparison) {
                                  number_or_dash(comparison.best(), "{:.5f}"), comparison.unit);
   if (reference != nullptr) {
     const bool arrives = std::isfinite(reference->expected(comparison.target(), &Spent::seconds));
-    text += arrives ? fmt::format("the plain way, the better of {} here: {} through {}\n",
+    text += arrives ? fmt::format("the plain method, the better of {} here: {} through {}\n",
                                   comparison.peers.size() == 1 ? "one peer" : "the peers",
                                   reference->search, reference->solver)
-                    : fmt::format("the plain way, {}, never gets there\n", reference->search);
+                    : fmt::format("the plain method, {}, never reaches 0.1 %\n", reference->search);
   }
   text += fmt::format(
-      "{:50}-- expected ms to so far below --  -- expected evaluations to that --"
+      "{:50}---- expected ms to a target ----  - expected evaluations to target -"
       " ---- ms to 0.1 % ----   median{}{}\n"
       "{:<17}{:<14} budget to 0.1 %    10 %     1 %   0.1 %  0.01 %     10 %     1 %   0.1 %"
       "  0.01 %  quarter  median quarter  below %{}{}\n",

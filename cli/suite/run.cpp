@@ -115,8 +115,8 @@ Workload read_work(const std::vector<std::string>& words) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(word, ignored) || is_task(word)) continue;
     if (words.size() == 1) return read_suite_file(word);
-    throw std::invalid_argument(fmt::format("run: got {} words beside '{}', expected a suite alone",
-                                            words.size() - 1, word));
+    throw std::invalid_argument(fmt::format(
+        "run: got {} arguments beside '{}', expected a suite alone", words.size() - 1, word));
   }
   return choose(read_words(words));
 }
@@ -133,7 +133,7 @@ std::vector<Case> take_shard(const std::string& text, const Workload& work) {
   const int count = slash == std::string::npos ? 0 : number(text.substr(slash + 1));
   if (index < 1 || index > count) {
     throw std::invalid_argument(
-        fmt::format("shard: got '{}', expected I/N such as 2/4, with I of 1 to N", text));
+        fmt::format("shard: got '{}', expected I/N such as 2/4, with I from 1 to N", text));
   }
   if (count == 1) return work.cases;
   std::vector<double> costs;
@@ -175,7 +175,7 @@ int print_forecast(const RunOptions& options, const Workload& work, const std::v
     if (waits_for_others(c)) in_a_row += each;
   }
   const int threads = options.thread_count();
-  fmt::print("{} rows, {} of them to do, in about {:.0f} s on {} thread{}\n", all.size(),
+  fmt::print("{} rows, {} of them to run, in about {:.0f} s on {} thread{}\n", all.size(),
              todo.size(), std::max(seconds / threads, in_a_row), threads, threads == 1 ? "" : "s");
   return kAnswered;
 }
@@ -184,7 +184,8 @@ std::vector<Case> still_to_do(const Workload& work, std::vector<Case> cases,
                               const std::string& folder) {
   const RowsThere there(folder);
   if (!there.empty() && !names_sources(version())) {
-    fmt::print(stderr, "run: {} is built from changed or unknown sources: all rows are made anew\n",
+    fmt::print(stderr,
+               "run: {} is built from changed or unknown sources: all rows are computed again\n",
                version());
   }
   std::erase_if(cases, [&](const Case& c) { return there.has(work.problems.at(c.problem), c); });
@@ -204,7 +205,8 @@ int run(const RunOptions& options) {
   const bool all_solved = RowsThere(options.out).all_solved(cases);
   const fs::path file = table_file(fs::path(options.out) / "values.csv");
   fmt::print("{} rows in {}", cases.size(), file.string());
-  if (todo.size() < cases.size()) fmt::print(", {} of them were there", cases.size() - todo.size());
+  if (todo.size() < cases.size())
+    fmt::print(", {} of them existed before", cases.size() - todo.size());
   fmt::print("\n");
   return all_solved ? kAnswered : kOtherStatus;
 }
@@ -214,19 +216,19 @@ int run(const RunOptions& options) {
 void add_run(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<RunOptions>();
   CLI::App& command = *app.add_subcommand(
-      "run", "every meaningful combination of measure, wrench, scheme, solver, search");
+      "run", "runs every valid combination of measure, wrench, scheme, solver and search");
   command.add_option(
       "words", options->words,
-      "a suite (TOML), or problems, shipped or task files (default: all static ones shipped), and "
-      "column=value: only these rows (seed and budget are set, not filtered)");
+      "a suite (TOML); or shipped tasks and task files (default: all shipped static tasks), and "
+      "column=value to keep only these rows (seed and budget are set, not filtered)");
   command
-      .add_option("--out", options->out, "folder of values.csv.gz, times.csv.gz and machine.txt")
+      .add_option("--out", options->out, "folder for values.csv.gz, times.csv.gz and machine.txt")
       ->capture_default_str()
       ->check(reject_empty);
-  command.add_flag("--dry", options->dry, "only counts the rows and predicts the time");
-  command.add_flag("--commands", options->commands, "only prints the command of each row");
-  command.add_flag("--again", options->again, "rows that are there are computed again, too");
-  command.add_option("--shard", options->shard, "I/N: part I of N, the same whoever asks")
+  command.add_flag("--dry", options->dry, "only count the rows and predict the time");
+  command.add_flag("--commands", options->commands, "only print the command of each row");
+  command.add_flag("--again", options->again, "compute existing rows again, too");
+  command.add_option("--shard", options->shard, "I/N: only part I of N, always the same rows")
       ->capture_default_str();
   options->add_threads(command);
   command.callback([options, &exit_status] { exit_status = run(*options); });

@@ -83,10 +83,10 @@ void print_dependents(const Problem& problem) {
                joint.q_max, q[i], inside ? "" : ", beyond its limits");
   }
   fmt::print("  {}\n", problem.robot.base_axes.empty()
-                           ? "the base stands, these joints follow in all ways that reach the pose"
+                           ? "fixed base; for the dependent joints, all IK solutions are tried"
                        : problem.dependent.empty()
-                           ? "the base pose follows in closed form"
-                           : "the base pose follows with these joints, in all ways that reach it");
+                           ? "the base pose is dependent, in closed form"
+                           : "the base pose is dependent, too; all IK solutions are tried");
   fmt::print("  default posture: {}\n",
              posture.status == Status::kValid ? "exists" : describe_violation(problem, posture));
   const Sampled sampled = sample_postures(problem, kSamples);
@@ -107,7 +107,7 @@ void print(const Robot& robot, const Contact& contact) {
     joints.push_back(robot.joints[static_cast<std::size_t>(i)].name);
   const Eigen::Vector3d inward = (1e9 * contact.frame.R.col(2)).array().round() / 1e9 + 0.0;
   fmt::print(
-      "  second contact {}: {} at [{:g}] m, into the environment along [{:.3g}]; {} follow\n",
+      "  second contact {}: {} at [{:g}] m, into the environment along [{:.3g}]; dependent {}\n",
       tip.name, kSurfaces[static_cast<std::size_t>(contact.surface)],
       fmt::join(contact.frame.p, ", "), fmt::join(inward, ", "), fmt::join(joints, ", "));
   if (contact.C.cols() == 0) fmt::print("  second contact exerts nothing\n");
@@ -135,7 +135,7 @@ void print(const MotionTask& motion) {
   if (motion.scheme == Scheme::kSpline) {
     fmt::print(", {} instants per interval", motion.instants_per_interval);
   }
-  fmt::print("; the limits of the rates of efforts {}\n", motion.rates ? "hold" : "do not hold");
+  fmt::print("; limits of effort rates {}\n", motion.rates ? "apply" : "do not apply");
   if (motion.impulse) {
     fmt::print("  peak at knot {}, start {} at theta_r [{:g}]\n",
                motion.t_h > 0 ? fmt::format("{}", motion.t_h) : "best", to_string(motion.start),
@@ -188,8 +188,8 @@ void check(const std::string& file) {
 void add_check(CLI::App& app, int& exit_status) {
   auto file = std::make_shared<std::string>();
   CLI::App& command =
-      *app.add_subcommand("check", "what a robot or task file says, or what is wrong");
-  command.add_option("file", *file, "robot or task file, or a shipped problem")->required();
+      *app.add_subcommand("check", "prints what a robot or task file contains, or its first error");
+  command.add_option("file", *file, "robot or task file, or a shipped task")->required();
   command.callback([file, &exit_status] {
     check(*file);
     exit_status = kAnswered;

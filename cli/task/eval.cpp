@@ -70,18 +70,19 @@ int eval(const EvalOptions& options) {
 
 void add_eval(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<EvalOptions>();
-  CLI::App& command = *app.add_subcommand("eval", "the capability of one posture or trajectory");
+  CLI::App& command =
+      *app.add_subcommand("eval", "evaluates the capability of one posture or trajectory");
   options->add_case(command);
   options->add_json(command);
   add_theta_r(command, options->theta_r);
   options->motion.add(command);
-  command.add_option("--write", options->write, "the linear program, as an MPS file")
+  command.add_option("--write", options->write, "MPS file for the linear program")
       ->check(reject_empty);
   command.add_flag("--ignore-collision", options->ignore_collision,
-                   "evaluate a posture that collides too; of a trajectory, look for no collisions");
-  CLI::Option& state =
-      *command.add_option("--state", options->state,
-                          "M, tau_d and J at the motion in this file, instead of a capability");
+                   "evaluate colliding postures, too; do not check trajectories for collisions");
+  CLI::Option& state = *command.add_option(
+      "--state", options->state,
+      "print M, tau_d and J for the motion in this file instead of a capability");
   for (const char* other : {"--theta-r", "--measure", "--wrench", "--solver", "--write",
                             "--ignore-collision", "--scheme", "--t-h"}) {
     state.excludes(command.get_option(other));

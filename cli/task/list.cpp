@@ -42,11 +42,11 @@ int list() {
   }
   print_table("measures", measures());
   print_table("lower-level solvers (--solver)", wrench_solvers());
-  print_table("lower-level solvers of tasks in time (--solver)", trajectory_solvers());
+  print_table("lower-level solvers for tasks in time (--solver)", trajectory_solvers());
   print_table("searches", searches());
-  print_table("trajectory searches: of tasks in time, and by linf_polytope of static ones",
+  print_table("trajectory searches: for tasks in time, and for static tasks with linf_polytope",
               trajectory_searches());
-  print_table("searches between facets: of static tasks by linf_polytope, few facets",
+  print_table("searches between facets: for static tasks with linf_polytope and few facets",
               facet_searches());
   print_table("integrators", integrators());
   for (const Absent& absent : not_built_in()) {
@@ -58,7 +58,8 @@ int list() {
 }  // namespace
 
 void add_list(CLI::App& app, int& exit_status) {
-  CLI::App& command = *app.add_subcommand("list", "what there is to choose from");
+  CLI::App& command = *app.add_subcommand(
+      "list", "lists the shipped tasks, measures, solvers, searches and integrators");
   command.callback([&exit_status] { exit_status = list(); });
 }
 

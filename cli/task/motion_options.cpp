@@ -28,7 +28,7 @@ void change_peak(const Problem& problem, const std::string& text, MotionTask& ta
   const auto read = std::from_chars(text.data(), end, knot);
   const bool whole = read.ec == std::errc() && read.ptr == end;
   if (text != "best" && !(whole && knot >= 1 && knot <= task.k)) {
-    throw_bad_option("--t-h", text, fmt::format("a knot of 1 to k = {}, or best", task.k));
+    throw_bad_option("--t-h", text, fmt::format("a knot from 1 to k = {}, or best", task.k));
   }
   task.t_h = knot;
 }
@@ -43,8 +43,8 @@ bool is_number(const std::string& text) {
 }  // namespace
 
 void MotionOptions::add(CLI::App& app) {
-  app.add_option("--scheme", scheme, "how knots become motion, of a task in time");
-  app.add_option("--t-h", t_h, "the knot of an impulse's peak, or best");
+  app.add_option("--scheme", scheme, "scheme that turns knots into motion (tasks in time)");
+  app.add_option("--t-h", t_h, "knot of an impulse's peak, or best");
 }
 
 void MotionOptions::change(Problem& problem) const {
@@ -60,8 +60,8 @@ void MotionOptions::change(Problem& problem) const {
 
 void add_theta_r(CLI::App& app, std::optional<std::string>& theta_r) {
   app.add_option("--theta-r", theta_r,
-                 "redundant coordinates, separated by commas (default: those of the task); of a "
-                 "task in time they hold throughout, or a CSV file has a row for each knot");
+                 "redundant coordinates, separated by commas (default: those of the task); for a "
+                 "task in time, a constant posture or a CSV file with a row for each knot");
 }
 
 Eigen::MatrixXd knots_of(const Problem& problem, const std::optional<std::string>& text) {

@@ -67,11 +67,12 @@ int plot(const PlotOptions& options) {
 void add_plot(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<PlotOptions>();
   CLI::App& command = *app.add_subcommand(
-      "plot", "draw a posture with its wrench sets, or the postures of a trajectory, as SVG");
-  command.add_option("problem", options->problem, "shipped name or task file")->required();
+      "plot", "draws a posture with its wrench sets, or the postures of a trajectory, as SVG");
+  command.add_option("problem", options->problem, "shipped task or task file")->required();
   add_theta_r(command, options->theta_r);
   options->motion.add(command);
-  command.add_option("--out", options->out, "file to write (default: stdout)")->check(reject_empty);
+  command.add_option("--out", options->out, "SVG file to write (default: stdout)")
+      ->check(reject_empty);
   command.callback([options, &exit_status] { exit_status = plot(*options); });
 }
 

@@ -75,7 +75,7 @@ void print_text(const Problem& problem, const SimulateOptions& options, const Ta
   if (std::isfinite(s.theta_r_error)) {
     fmt::print("error       {:.2g} rad of theta_r, {:.2g} of all joints and the base\n",
                s.theta_r_error, s.configuration_error);
-    fmt::print("deflection  {:.2g} m or rad off the expected place of the end effector\n",
+    fmt::print("deflection  {:.2g} m or rad from the expected pose of the end effector\n",
                s.deflection_error);
   }
   if (std::isfinite(s.saturated)) {
@@ -83,7 +83,7 @@ void print_text(const Problem& problem, const SimulateOptions& options, const Ta
         "efforts     saturated {:.0f} %, request relaxed {:.0f} % of the hold, shortfall {:.2g}\n",
         100 * s.saturated, 100 * s.relaxed, s.shortfall);
   }
-  fmt::print("limits      left by {:.2g}\n", s.violation);
+  fmt::print("limits      exceeded by {:.2g}\n", s.violation);
   print_end(run);
 }
 
@@ -189,7 +189,7 @@ void add_imperfections(CLI::App& command, Imperfections& imperfections) {
                   "standard deviation of each thruster [N]")
       ->capture_default_str()
       ->check(number(not_negative, "a number >= 0"));
-  command.add_option("--seed", imperfections.seed, "of the noise")
+  command.add_option("--seed", imperfections.seed, "seed of the noise")
       ->capture_default_str()
       ->check(reject_seed);
 }
@@ -199,7 +199,7 @@ void add_trajectory_options(CLI::App& command, SimulateOptions& options) {
   add_theta_r(command, options.theta_r);
   options.motion.add(command);
   command.add_option("--interpolation", options.interpolation,
-                     "what joins the instants of a trajectory: linear or spline");
+                     "interpolation between the instants of a trajectory: linear or spline");
 }
 
 void add_times(CLI::App& command, TankOptions& tank) {
@@ -226,9 +226,9 @@ void print_end(const TankRun& run) {
 
 void add_simulate(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<SimulateOptions>();
-  CLI::App& command = *app.add_subcommand(
-      "simulate",
-      "the experiment on the simulated robot: ramp, hold, ramp, or a trajectory of a task in time");
+  CLI::App& command = *app.add_subcommand("simulate",
+                                          "runs the experiment in the virtual tank: ramp, hold, "
+                                          "ramp, or a trajectory of a task in time");
   options->command = &command;
   options->add_case(command);
   options->add_json(command);
@@ -236,23 +236,26 @@ void add_simulate(CLI::App& app, int& exit_status) {
   CLI::Option* planned =
       command
           .add_option("--planned", options->planned,
-                      "wrench along c (default: the capability, or what the trajectory is worth)")
+                      "wrench along c (default: the capability, or the value of the trajectory)")
           ->check(number(positive, "a number > 0"));
-  CLI::Option* load = command
-                          .add_option("--load", options->tank.load,
-                                      "kg; nothing holds the end effector, which carries this mass")
-                          ->check(number(positive, "a mass > 0"))
-                          ->excludes(planned);
-  CLI::Option* heaviest =
+  CLI::Option* load =
       command
-          .add_flag("--heaviest", options->heaviest, "only the heaviest load in whole kilograms")
-          ->excludes(planned)
-          ->excludes(load);
+          .add_option("--load", options->tank.load,
+                      "mass [kg] that the end effector carries, free of the load cell")
+          ->check(number(positive, "a mass > 0"))
+          ->excludes(planned);
+  CLI::Option* heaviest = command
+                              .add_flag("--heaviest", options->heaviest,
+                                        "find only the heaviest load in whole kilograms")
+                              ->excludes(planned)
+                              ->excludes(load);
   add_times(command, options->tank);
-  command.add_option("--integrator", options->integrator, "see maxwrench list")
+  command
+      .add_option("--integrator", options->integrator,
+                  "integrator, one of those that 'maxwrench list' prints")
       ->capture_default_str();
-  command.add_option("--out", options->out, "the time series, as a CSV file")->excludes(heaviest);
-  command.add_option("--figure", options->figure, "the run over time, as an SVG file")
+  command.add_option("--out", options->out, "CSV file for the time series")->excludes(heaviest);
+  command.add_option("--figure", options->figure, "SVG file for the curves over time")
       ->excludes(heaviest);
   add_imperfections(command, options->tank.imperfections);
   command.callback([options, &exit_status] { exit_status = simulate(*options); });

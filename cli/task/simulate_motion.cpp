@@ -121,12 +121,12 @@ void print_motion_reading(const MotionAnswer& answer) {
              m.off_axis_force, m.off_axis_torque);
   fmt::print("error       {:.2g} rad of theta_r, {:.2g} of all joints and the base\n",
              s.theta_r_error, s.configuration_error);
-  fmt::print("deflection  {:.2g} m or rad off the expected place of the end effector\n",
+  fmt::print("deflection  {:.2g} m or rad from the expected pose of the end effector\n",
              s.deflection_error);
   fmt::print(
       "efforts     saturated {:.0f} %, request relaxed {:.0f} % of the time, shortfall {:.2g}\n",
       100 * s.saturated, 100 * s.relaxed, s.shortfall);
-  fmt::print("limits      left by {:.2g}, those of joint speeds by {:.2g}; {} of {} samples\n",
+  fmt::print("limits      exceeded by {:.2g}, those of joint speeds by {:.2g}; {} of {} samples\n",
              s.violation, m.speed, m.violations, answer.run.samples.size());
 }
 

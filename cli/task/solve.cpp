@@ -37,14 +37,14 @@ int solve(const SolveOptions& options, const Problem& problem) {
 
 void add_solve(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<SolveOptions>();
-  CLI::App& command =
-      *app.add_subcommand("solve", "search the posture or trajectory with the largest capability");
+  CLI::App& command = *app.add_subcommand(
+      "solve", "searches for the posture or trajectory with the largest capability");
   options->add_case(command);
   options->add_search(command);
   options->motion.add(command);
   options->add_threads(command);
   options->add_json(command);
-  command.add_option("--out", options->out, "table of theta_r to write, as a CSV file")
+  command.add_option("--out", options->out, "CSV file for the table of theta_r")
       ->check(reject_empty);
   command.callback([options, &exit_status] {
     Problem problem = load_problem(options->choice.problem);

@@ -46,7 +46,8 @@ class Ellipsoid : public Measure {
     normal_.noalias() = G_.transpose().lazyProduct(G_);
     ldlt_.compute(normal_);
     if (!regular(ldlt_)) {
-      return without_answer(Status::kNumericalError, "J'W has not full column rank", capability);
+      return without_answer(Status::kNumericalError, "J'W does not have full column rank",
+                            capability);
     }
     direction_.noalias() = -G_.transpose().lazyProduct(g_);
     capability.w = ldlt_.solve(direction_);  // z

@@ -27,10 +27,10 @@ class OneSided : public Measure {
                             Capability& capability) override {
     sort_columns(program);
     if (!supported_) {
-      without_answer(
-          Status::kNumericalError,
-          "closed forms serve 12 wrench columns, and limits of a contact at zero or infinity only",
-          capability);
+      without_answer(Status::kNumericalError,
+                     "closed forms support at most 12 wrench columns, and contact limits of zero "
+                     "or infinity only",
+                     capability);
       return;
     }
     if (sided_.empty() && free_.size() == static_cast<std::size_t>(program.columns())) {

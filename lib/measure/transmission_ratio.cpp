@@ -26,7 +26,7 @@ class TransmissionRatio : public Measure {
     normal_.noalias() = G_.transpose().lazyProduct(G_);
     ldlt_.compute(normal_);
     if (!regular(ldlt_)) {
-      without_answer(Status::kNumericalError, "J'W has not full column rank", capability);
+      without_answer(Status::kNumericalError, "J'W does not have full column rank", capability);
       return;
     }
     capability.status = Status::kOptimal;

@@ -28,7 +28,7 @@ constexpr Fault kSingularContacts{Violation::kNoSolution,
                                   "singular: the two contacts lack a direction of motion"};
 constexpr Fault kUnreachablePose{Violation::kNoSolution, kUnreachableReason};
 constexpr Fault kUnreachableContact{Violation::kNoSolution,
-                                    "unreachable contact: the second arm does not get there"};
+                                    "unreachable contact: the second arm does not reach it"};
 constexpr Fault kBaseOffItsAxes{Violation::kBase,
                                 "unreachable pose: the base would leave its free axes"};
 constexpr Fault kSelfCollision{Violation::kCollision, "self-collision"};

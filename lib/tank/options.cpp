@@ -17,7 +17,7 @@ void require_not_negative(const char* key, double value) {
 }
 
 void require_margin(double margin) {
-  require(margin >= 0 && margin < 1, "margin", margin, "a share from 0 to below 1");
+  require(margin >= 0 && margin < 1, "margin", margin, "a share >= 0 and < 1");
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ void check(const TankOptions& options) {
   require_positive("period", options.period);
   const double periods = (2 * options.ramp + options.hold) / options.period;
   require(periods <= kMostPeriods, "period", options.period,
-          "at most ten million of them in the experiment");
+          "at most ten million periods in the experiment");
   require_positive("thruster_lag", options.thruster_lag);
   require_not_negative("bandwidth", options.bandwidth);
   require_margin(options.margin);

@@ -11,7 +11,7 @@ ScriptReader::ScriptReader(const Problem& problem, const TankScript& script)
   const auto without = [](const Instant& instant) { return instant.u.size() == 0; };
   if (script.instants.size() < 2 ||
       std::any_of(script.instants.begin(), script.instants.end(), without)) {
-    throw std::invalid_argument("script: got no efforts to follow, expected those of two instants");
+    throw std::invalid_argument("script: got no efforts to track, expected those of two instants");
   }
 }
 

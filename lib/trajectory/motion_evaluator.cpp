@@ -9,7 +9,7 @@ namespace {
 /// component.
 constexpr double kPathMissed = 1e-6;
 constexpr const char* kLeavesPath =
-    "unreachable motion: the robot cannot move the end effector as the path asks";
+    "unreachable motion: the robot cannot move the end effector along the path";
 
 using D4 = Dual<4>;
 

@@ -54,7 +54,7 @@ Eigen::MatrixXd coordinates(const std::vector<Pose<double>>& poses) {
     const double cosine = values.col(i).tail<4>().dot(values.col(i - 1).tail<4>());
     if (std::abs(cosine) < 1e-9) {
       throw std::invalid_argument("path: got pose " + std::to_string(i + 1) +
-                                  ", expected one turned by less than pi from the one before");
+                                  ", expected one turned by less than pi from the previous one");
     }
     if (cosine < 0) values.col(i).tail<4>() *= -1;
   }

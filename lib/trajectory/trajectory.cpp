@@ -278,8 +278,8 @@ void TrajectoryEvaluator::evaluate_between_knots(TrajectorySolver* by) {
   }
   const double slack = solution.s.size() == 0 ? 0 : solution.s.cwiseAbs().maxCoeff();
   if (!(slack <= kSlackForgiven)) {
-    trajectory.between_knots_reason =
-        "a balance on the spline through the knots lacks " + std::to_string(slack) + " N or N m";
+    trajectory.between_knots_reason = "a balance on the spline through the knots is violated by " +
+                                      std::to_string(slack) + " N or N m";
     return;
   }
   trajectory.value_between_knots = solution.value;

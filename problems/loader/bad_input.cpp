@@ -18,7 +18,7 @@ bool is_file(const std::filesystem::path& path) {
 std::ifstream open_file(const std::filesystem::path& file, std::string_view expected) {
   std::ifstream stream;
   if (is_file(file)) stream.open(file, std::ios::binary);
-  if (!stream.is_open()) throw_bad_input(file, "file", "nothing that can be read", expected);
+  if (!stream.is_open()) throw_bad_input(file, "file", "an unreadable file", expected);
   return stream;
 }
 

@@ -221,7 +221,7 @@ Eigen::Vector3d Block::direction(std::string_view key) const {
 int Block::whole(std::string_view key, int low, int high) const {
   const double value = number(key);
   if (value < low || value > high || value != std::floor(value)) {
-    throw_bad_value(key, fmt::format("a whole number of {} to {}", low, high));
+    throw_bad_value(key, fmt::format("a whole number from {} to {}", low, high));
   }
   return static_cast<int>(value);
 }

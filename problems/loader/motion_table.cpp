@@ -65,7 +65,7 @@ void read_scheme(const Block& block, MotionTask& motion) {
   motion.scheme = parse_scheme(name);
   motion.k = block.whole("k", 1, kMostKnots);
   if (block.has("instants_per_interval") && motion.scheme != Scheme::kSpline) {
-    block.throw_bad_value("instants_per_interval", "no such key, but for the scheme spline");
+    block.throw_bad_value("instants_per_interval", "no such key unless the scheme is spline");
   }
   motion.instants_per_interval =
       block.whole("instants_per_interval", 1, kMostInstants, motion.impulse ? 16 : 4);

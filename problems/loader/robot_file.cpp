@@ -48,7 +48,7 @@ void read_base(const Block& base, const UrdfTree& tree, Robot& robot) {
   if (robot.base_axes.size() < 6) return;
   for (const char* key : {"xyz", "rpy"}) {
     if (base.has(key))
-      base.throw_bad_value(key, "no such key: a base on all six axes starts nowhere");
+      base.throw_bad_value(key, "no such key: a base on all six axes needs no start");
   }
 }
 
@@ -199,7 +199,8 @@ Robot load_robot(const std::filesystem::path& file) {
   robot.sources = root.sources("robot");
   const std::filesystem::path urdf = file.parent_path() / root.text("urdf");
   if (!is_file(urdf)) {
-    root.throw_bad_value("urdf", fmt::format("a file beside this one ({} is none)", urdf.string()));
+    root.throw_bad_value(
+        "urdf", fmt::format("a file relative to this one ({} is not a file)", urdf.string()));
   }
   const Block thrusters = root.table("thrusters");
   const auto file_of = [&](std::string& key) {

@@ -25,9 +25,8 @@ void require_free_axes(const Block& theta, const Pose<double>& base, const Robot
     const char* name = kTwistAxes[static_cast<std::size_t>(i)];
     theta.throw_bad_value(
         i < 3 ? "position" : "rpy",
-        fmt::format("{} = 0 from where the base is mounted, because {} is not among "
-                    "its axes",
-                    name, name));
+        fmt::format("{} = 0 relative to the base's mount, because {} is not among its axes", name,
+                    name));
   }
 }
 

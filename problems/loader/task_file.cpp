@@ -105,7 +105,7 @@ void read_free_pose(const Block& pose, TaskSpec& spec) {
     pose.throw_bad_value("frame", "'pose' or 'end_effector'");
   }
   if (pose.has("frame") && spec.free.empty() && spec.range.empty()) {
-    pose.throw_bad_value("frame", "no such key, but beside pose.free or pose.range");
+    pose.throw_bad_value("frame", "no such key without pose.free or pose.range");
   }
   spec.along_end_effector = frame == "end_effector";
 }
@@ -117,7 +117,7 @@ void read_pose(const Block& task, TaskSpec& spec) {
   pose.allow_only({"xyz", "rpy", "free", "range", "frame"});
   for (const char* key : {"free", "range", "frame"}) {
     if (task.text("type") != "static" && pose.has(key)) {
-      pose.throw_bad_value(key, "no such key, but for static tasks: in time the pose is given");
+      pose.throw_bad_value(key, "no such key except in static tasks: in time the pose is given");
     }
   }
   spec.pose = pose_from_xyz_rpy(pose.vector("xyz"), pose.vector("rpy"));
@@ -133,7 +133,7 @@ std::string digest_of(const std::vector<fs::path>& files) {
     }
   };
   for (const fs::path& file : files) {
-    std::ifstream stream = open_file(file, "a file that was read before");
+    std::ifstream stream = open_file(file, "the file that was read a moment ago");
     const std::string text(std::istreambuf_iterator<char>(stream), {});
     add(fmt::format("{}:", text.size()));
     add(text);
@@ -153,7 +153,8 @@ Problem load_problem(const std::string& name) {
   spec.source = task.text("source");
   const fs::path robot = file.parent_path() / task.text("robot");
   if (!is_file(robot)) {
-    task.throw_bad_value("robot", fmt::format("the path of a robot ({} is none)", robot.string()));
+    task.throw_bad_value(
+        "robot", fmt::format("the path of a robot file ({} is not a file)", robot.string()));
   }
   spec.robot = load_robot(robot);
   spec.end_effector = task.text("end_effector");

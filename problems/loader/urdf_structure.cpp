@@ -22,7 +22,7 @@ UrdfElement parse(const fs::path& file, tinyxml2::XMLDocument& document) {
     throw_bad_input(file, fmt::format("line {}", document.ErrorLineNum()),
                     deep ? fmt::format("an element within {} others", TINYXML2_MAX_ELEMENT_DEPTH)
                          : fmt::format("'{}'", document.ErrorName()),
-                    deep ? "a file that is nested less" : "valid XML");
+                    deep ? "a file with less nesting" : "valid XML");
   }
   const tinyxml2::XMLElement* xml = document.FirstChildElement("robot");
   if (xml == nullptr) throw_bad_input(file, "robot", "nothing", "an element <robot>");
@@ -41,7 +41,7 @@ std::map<std::string, UrdfElement> named_elements(const UrdfElement& robot, cons
   for (const UrdfElement& each : robot.children(tag)) {
     const UrdfElement element = each.with_name();
     if (found.emplace(name_of(element), element).second) continue;
-    element.throw_bad_input("", "two of this name", "names of their own");
+    element.throw_bad_input("", "a duplicate name", "unique names");
   }
   return found;
 }

@@ -116,7 +116,7 @@ Joint joint_of(const UrdfElement& from, const std::string& type, const Body& par
   set_limits(from, type == "continuous", joint);
   if (const auto mimic = from.child_if_any("mimic")) {
     from.throw_bad_input("mimic", fmt::format("'{}'", mimic->attribute("joint").value_or("")),
-                         "a joint that moves on its own");
+                         "an independent joint");
   }
   return joint;
 }

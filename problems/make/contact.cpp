@@ -83,7 +83,7 @@ void set_forces(const ContactSpec& spec, Contact& contact) {
     throw BadValue("contact.forces", forces.empty() ? "nothing" : shown(forces), kForces);
   }
   if (spec.mu && forces != "friction") {
-    throw BadValue("contact.mu", shown(*spec.mu), "no such key, but for forces = 'friction'");
+    throw BadValue("contact.mu", shown(*spec.mu), "no such key unless forces = 'friction'");
   }
 }
 
@@ -104,7 +104,7 @@ void require_work(const Eigen::MatrixXd& works, const Contact& contact) {
   if (rank == both.cols()) return;
   throw BadValue(
       "contact.basis", fmt::format("{} directions without limits", free.size()),
-      fmt::format("no more than do work independently of each other, {} of these", rank));
+      fmt::format("at most as many as do work independently of each other, {} of these", rank));
 }
 
 /// Angles of rotations about the fixed axes x, y, z, in this order.
@@ -173,12 +173,12 @@ void set_arm(const ContactSpec& spec, Problem& problem, Contact& contact) {
   const char* key = "contact.end_effector";
   const std::vector<int> chain = chain_to(robot, contact.end_effector);
   if (chain.empty()) {
-    throw BadValue(key, shown(spec.end_effector), "an end effector on an arm of its own");
+    throw BadValue(key, shown(spec.end_effector), "an end effector with its own arm");
   }
   for (const int joint : chain_to(robot, problem.end_effector)) {
     if (!contains(chain, joint)) continue;
     throw BadValue(key, shown(spec.end_effector),
-                   "an end effector on an arm of its own (the first one shares a joint with it)");
+                   "an end effector with its own arm (the first one shares a joint with it)");
   }
   const std::string names = names_of(robot, chain);
   for (const std::string& name : spec.joints) {
@@ -200,8 +200,9 @@ void set_arm(const ContactSpec& spec, Problem& problem, Contact& contact) {
   }
   const int ways = dependent_rank(robot, contact);
   if (ways < static_cast<int>(contact.follow.size())) {
-    throw_bad_dependents(spec, fmt::format("joints that the contact fixes: of these {} it fixes {}",
-                                           contact.follow.size(), ways));
+    throw_bad_dependents(
+        spec, fmt::format("joints that the contact determines: of these {} it determines {}",
+                          contact.follow.size(), ways));
   }
   set_rest(spec, chain, problem, contact);
 }
@@ -243,7 +244,8 @@ void set_contact(const ContactSpec& spec, Problem& problem) {
   contact.frame = spec.frame;
   const bool circle = contact.surface == Surface::kCircle;
   if (spec.radius && !circle) {
-    throw BadValue("contact.radius", shown(*spec.radius), "no such key, but for a circle");
+    throw BadValue("contact.radius", shown(*spec.radius),
+                   "no such key unless the shape is a circle");
   }
   if (circle && !spec.radius) throw BadValue("contact.radius", "nothing", "a finite number");
   contact.radius = spec.radius.value_or(0);
@@ -261,7 +263,7 @@ void set_contact(const ContactSpec& spec, Problem& problem) {
   add_coordinates(spec, problem, contact);
   if (!spec.basis.empty() && spec.forces != "basis") {
     throw BadValue("contact.basis", fmt::format("{} directions", spec.basis.size()),
-                   "no such key, but for forces = 'basis'");
+                   "no such key unless forces = 'basis'");
   }
   problem.contact = std::move(contact);
 }

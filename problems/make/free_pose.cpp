@@ -53,10 +53,10 @@ std::array<double, 2> range_of(const TaskSpec& task, const char* axis, bool turn
   const auto found = task.range.find(axis);
   if (found == task.range.end()) {
     if (turns) return {-kHalfTurn, kHalfTurn};
-    throw BadValue("pose.free", shown(task.free),
-                   fmt::format("a range of {} too, as pose.range.{} = [min, max]: a translation "
-                               "needs one",
-                               axis, axis));
+    throw BadValue(
+        "pose.free", shown(task.free),
+        fmt::format("a range of {}, too, as pose.range.{} = [min, max]: a translation needs one",
+                    axis, axis));
   }
   const std::string key = fmt::format("pose.range.{}", axis);
   const std::array<double, 2>& limits = found->second;
@@ -93,7 +93,7 @@ bool contains(const Matrix6Xd& T, const Matrix6Xd& twists) {
 }
 
 [[noreturn]] void throw_bad_axis(const TaskSpec& task, const char* axis, const char* why) {
-  const std::string expected = fmt::format("{} ({} is none)", why, axis);
+  const std::string expected = fmt::format("{} ({} is not one)", why, axis);
   const auto range = task.range.find(axis);
   if (range == task.range.end()) throw BadValue("pose.free", shown(task.free), expected);
   throw BadValue(fmt::format("pose.range.{}", axis), shown_range(range->second), expected);
@@ -106,7 +106,7 @@ void set_free_pose(const TaskSpec& task, Problem& problem) {
     if (task.free.empty() && task.range.empty()) return;
     throw BadValue(task.free.empty() ? "pose.range" : "pose.free",
                    task.free.empty() ? "a table" : shown(task.free),
-                   "no such key, but for static tasks: in time the pose is given");
+                   "no such key except in static tasks: in time the pose is given");
   }
   require_axes(task);
   for (int i = 0; i < 6; ++i) {

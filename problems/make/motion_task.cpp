@@ -13,7 +13,7 @@ namespace {
 
 void require_whole(std::string_view key, int value, int most) {
   if (value >= 1 && value <= most) return;
-  throw BadValue(key, fmt::format("{}", value), fmt::format("a whole number of 1 to {}", most));
+  throw BadValue(key, fmt::format("{}", value), fmt::format("a whole number from 1 to {}", most));
 }
 
 /// Rejects a path that is not finite or does not start at the task's pose.
@@ -33,7 +33,7 @@ void require_duration(double T) {
   constexpr double kShortest = 1e-3, kLongest = 1e6;
   if (T >= kShortest && T <= kLongest) return;
   throw BadValue("motion.T", shown(T),
-                 fmt::format("a number of {:g} to {:g}, > 0", kShortest, kLongest));
+                 fmt::format("a number from {:g} to {:g}, > 0", kShortest, kLongest));
 }
 
 void require_scheme(const std::string& name, bool impulse) {
@@ -42,7 +42,7 @@ void require_scheme(const std::string& name, bool impulse) {
   throw BadValue("motion.scheme", shown(name), fmt::format("one of {}", fmt::join(names, ", ")));
 }
 
-std::string peak_range(int k) { return fmt::format("a knot of 1 to k = {}, or 'best'", k); }
+std::string peak_range(int k) { return fmt::format("a knot from 1 to k = {}, or 'best'", k); }
 
 void set_motion(const TaskSpec& task, Problem& problem) {
   if (!task.motion) return;
@@ -67,8 +67,7 @@ void set_motion(const TaskSpec& task, Problem& problem) {
 void set_start(const TaskSpec& task, Problem& problem) {
   if (!problem.motion) return;
   if (task.contact) {
-    throw BadValue("contact", "a table",
-                   "none: a second contact is served in static tasks only, not yet in time");
+    throw BadValue("contact", "a table", "none: only static tasks support a second contact");
   }
   if (!problem.motion->impulse) return;
   if (task.theta_r_default.size() > 0) {

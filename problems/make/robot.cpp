@@ -33,8 +33,7 @@ void require_names(const std::vector<Named>& all, const std::string& noun) {
   for (const Named& each : all) {
     if (each.name.empty()) throw BadValue(noun + ".name", "''", "a name");
     if (names.insert(each.name).second) continue;
-    throw BadValue(fmt::format("{}[{}]", noun, each.name), "two of this name",
-                   "names of their own");
+    throw BadValue(fmt::format("{}[{}]", noun, each.name), "a duplicate name", "unique names");
   }
 }
 
@@ -57,7 +56,7 @@ void check_base(Robot& robot) {
 
 /// Rejects a moving link without mass and moments: its equation of motion would be singular.
 void require_inertia(const Link& link) {
-  const char* moves = "of this link and what is fixed to it, because it moves";
+  const char* moves = "of this link with all that is fixed to it, because it moves";
   if (!(link.mass > 0)) {
     throw BadValue(fmt::format("link[{}].inertial.mass", link.name), shown(link.mass),
                    fmt::format("a mass > 0 {}", moves));
@@ -124,7 +123,7 @@ void check_thrusters(Robot& robot) {
   for (Thruster& thruster : robot.thrusters) {
     const std::string key = fmt::format("thrusters.list[{}].", i++);
     if (thruster.name.empty() || !names.insert(thruster.name).second) {
-      throw BadValue(key + "name", shown(thruster.name), "a name of its own");
+      throw BadValue(key + "name", shown(thruster.name), "a unique name");
     }
     require_numbers(key + "position", thruster.position, 3);
     thruster.direction = direction_of(key + "direction", thruster.direction);

@@ -25,12 +25,12 @@ void require_final(const Robot& robot) {
     return;
   }
   throw BadValue("robot", fmt::format("'{}', which is not complete", robot.name),
-                 "a robot as finalize returns it");
+                 "a robot that finalize returned");
 }
 
 void set_wrench(const TaskSpec& task, Problem& problem) {
   if (task.wrench_in_end_effector && problem.motion && problem.motion->impulse) {
-    throw BadValue("wrench.frame", "'end_effector'", "'world': in an impulse the pose stays");
+    throw BadValue("wrench.frame", "'end_effector'", "'world': the pose of an impulse is constant");
   }
   if (task.wrench_in_end_effector) problem.wrench_axes = problem.pose.R;
   const Eigen::VectorXd c = task.c;

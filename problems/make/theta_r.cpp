@@ -24,9 +24,10 @@ namespace {
 /// The joints that the task names, which must be `count` of the chain's.
 std::vector<int> named_joints(const TaskSpec& task, const std::vector<int>& chain, int count) {
   const Robot& robot = task.robot;
-  const std::string expected = fmt::format(
-      "{} of the joints {}, each once (the other {}{} follow)", count, names_of(robot, chain),
-      static_cast<int>(chain.size()) - count, robot.base_axes.empty() ? "" : " and the base");
+  const std::string expected =
+      fmt::format("{} of the joints {}, each once (the other {}{} are dependent)", count,
+                  names_of(robot, chain), static_cast<int>(chain.size()) - count,
+                  robot.base_axes.empty() ? "" : " and the base");
   std::vector<int> joints;
   for (const std::string& name : task.joints.value_or(std::vector<std::string>())) {
     const auto found = std::find_if(chain.begin(), chain.end(), [&](int i) {
@@ -57,7 +58,7 @@ void require_chain(const TaskSpec& task, const std::vector<int>& chain) {
        {std::pair("guess", &task.guess), std::pair("guess_base", &task.guess_base)}) {
     if (guess->empty()) continue;
     throw BadValue(fmt::format("theta_r.{}", key), "a table",
-                   "no such key: the base pose follows alone");
+                   "no such key: only the base pose is dependent");
   }
 }
 
@@ -133,7 +134,7 @@ std::string dependents_of(const Problem& problem) {
 }
 
 [[noreturn]] void throw_bad_joints(const TaskSpec& task, const Problem& problem, const char* why) {
-  throw_bad_names(task, fmt::format("joints without which the pose fixes {} ({})",
+  throw_bad_names(task, fmt::format("joints that, with the pose, determine {} ({})",
                                     dependents_of(problem), why));
 }
 
@@ -151,12 +152,12 @@ bool follow_independently(const Problem& problem) {
 [[noreturn]] void throw_bad_pose(const TaskSpec& task, const Problem& problem) {
   const DependentJoints ik_solution(problem);
   if (ik_solution.has_start() && ik_solution.start_is_singular()) {
-    throw_bad_joints(task, problem, "it does not at the default: singular");
+    throw_bad_joints(task, problem, "they do not at the default: singular");
   }
   throw BadValue(
       "pose.xyz", shown(problem.pose.p),
-      fmt::format("a pose that {} reach{} (from {} at the default Newton's method stays {})",
-                  dependents_of(problem), problem.motion ? " on the solution of the guess" : "",
+      fmt::format("a pose that {} reach{} (from {} at the default, Newton's method ends {})",
+                  dependents_of(problem), problem.motion ? " on the IK solution of the guess" : "",
                   task.guess.empty() ? "zero" : "theta_r.guess",
                   shown_gap(ik_solution.start_gap())));
 }
@@ -169,8 +170,8 @@ bool follow_independently(const Problem& problem) {
         fmt::format("theta_r at which {} reach the pose (they do elsewhere)", dependents));
   }
   throw BadValue("theta_r.default", shown(task.theta_r_default),
-                 fmt::format("theta_r at which {} reach the pose (they do elsewhere: without this "
-                             "key a place is found)",
+                 fmt::format("theta_r at which {} reach the pose (they do elsewhere: omit this key "
+                             "to have a default found)",
                              dependents));
 }
 
@@ -251,7 +252,7 @@ void set_joints(const TaskSpec& task, Problem& problem) {
 void require_ik_solution(const TaskSpec& task, Problem& problem) {
   if (problem.dependent.empty()) return;
   if (!follow_independently(problem)) {
-    throw_bad_joints(task, problem, "it does in no posture: singular");
+    throw_bad_joints(task, problem, "they do in no posture: singular");
   }
   prepare_ik_solutions(problem);
   if (!problem.start_system->reaches()) throw_bad_pose(task, problem);

@@ -109,7 +109,7 @@ Ipopt::SmartPtr<Ipopt::IpoptApplication> make_ipopt_application(
   options->SetIntegerValue("mumps_pivot_order", kMumpsOrdering);
   if (more) more(*options);
   if (application->Initialize("") != Ipopt::Solve_Succeeded) {
-    throw std::runtime_error(std::string(method) + ": Ipopt does not take its options");
+    throw std::runtime_error(std::string(method) + ": Ipopt rejects its options");
   }
   return application;
 }

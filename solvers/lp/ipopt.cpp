@@ -74,7 +74,7 @@ class IpoptSolver : public LpSolver {
       solution.reason = "";
       solution.objective = program.c.dot(solution.x);
       if (!verified(program, solution, kAccepted)) {
-        give_up(solution, Status::kNumericalError, "ipopt: the answer does not verify");
+        give_up(solution, Status::kNumericalError, "ipopt: the answer fails verification");
       }
       return;
     }

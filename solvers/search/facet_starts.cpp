@@ -39,8 +39,8 @@ std::unique_ptr<FacetProgram> require_facets(const Objective& objective, const c
   auto program = of_postures ? of_postures->make_facet_program() : nullptr;
   if (program) return program;
   throw std::invalid_argument(std::string("search: got '") + search +
-                              "', which serves linf_polytope of a static task where the actuators "
-                              "have few facets, expected another search");
+                              "', which supports only linf_polytope of a static task with few "
+                              "actuator facets, expected another search");
 }
 
 }  // namespace

@@ -203,8 +203,8 @@ TrajectoryObjective* as_trajectories(Objective& objective) {
 TrajectoryObjective& require_trajectories(Objective& objective, const char* search) {
   if (TrajectoryObjective* trajectories = as_trajectories(objective)) return *trajectories;
   throw std::invalid_argument(std::string("search: got '") + search +
-                              "', which serves linf_polytope at a fixed pose without a second "
-                              "contact, expected another one");
+                              "', which supports only linf_polytope at a fixed pose without a "
+                              "second contact, expected another search");
 }
 
 std::vector<Candidate> draw_knot_starts(TrajectoryObjective& objective,

@@ -107,7 +107,7 @@ class NloptSearch final : public Search {
 
 void require_taken(nlopt_result result, const char* search) {
   if (result >= 0) return;
-  throw std::runtime_error(std::string(search) + ": NLopt says " + word_of(result));
+  throw std::runtime_error(std::string(search) + ": NLopt reports " + word_of(result));
 }
 
 std::string word_of(nlopt_result result) {

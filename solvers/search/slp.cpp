@@ -97,7 +97,7 @@ class Slp : public Search {
     }
     SearchResult result = make_result(best.found, run);
     result.stopped =
-        idle == kIdleBatches ? "three batches of starts brought nothing better" : kBudgetSpent;
+        idle == kIdleBatches ? "three batches of starts gave no improvement" : kBudgetSpent;
     return result;
   }
 

@@ -78,7 +78,7 @@ Answer experiment(const Problem& task, const Options& options) {
   const std::vector<std::string> served = served_integrators(task, options.measure);
   if (std::find(served.begin(), served.end(), options.integrator) == served.end()) {
     throw std::invalid_argument(
-        fmt::format("integrator: got '{}', expected one that serves measure {} of {}: {}",
+        fmt::format("integrator: got '{}', expected one that supports measure {} of {}: {}",
                     options.integrator, options.measure, task.name, fmt::join(served, " ")));
   }
   Answer answer;

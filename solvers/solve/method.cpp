@@ -47,7 +47,7 @@ const WrenchSolverEntry* choose_solver(const std::vector<const WrenchSolverEntry
   }
   const bool many = served.front() && !problem.robot.actuation.has_facets;
   throw std::invalid_argument(fmt::format(
-      "solver: got '{}', which does not serve measure {} with wrench {}{}{}, expected one of {}",
+      "solver: got '{}', which does not support measure {} with wrench {}{}{}, expected one of {}",
       c.solver, c.measure, to_string(c.wrench),
       problem.contact_columns() > 0 ? " and a second contact" : "",
       many ? " and too many facets" : "", fmt::join(names, " ")));
@@ -96,15 +96,15 @@ Method resolve_static(const Problem& problem, const Case& c) {
   const auto served = solvers_for(measure, problem, c.wrench);
   if (served.empty()) {
     throw std::invalid_argument(fmt::format(
-        "wrench: got 'any', which means nothing to measure {}, expected pure", c.measure));
+        "wrench: got 'any', which measure {} does not support, expected pure", c.measure));
   }
   const WrenchSolverEntry* solver = choose_solver(served, problem, c);
   method.choice.solver = name_of(solver);
   if (method.search) method.trajectory_solver = trajectory_solver_of(problem, method.choice);
   if (!serves_limits(measure, problem)) {
     throw std::invalid_argument("measure: got " + c.measure +
-                                ", expected one with a solver: a closed form serves no limits of "
-                                "contact.basis but zero and infinity");
+                                ", expected one with a solver: a closed form supports only zero "
+                                "and infinity as limits of contact.basis");
   }
   method.unit = measure.unit ? measure.unit : problem.unit();
   method.make_measure = [&problem, &measure, solver] {
@@ -129,7 +129,7 @@ Method resolve_in_time(const Problem& problem, const Case& c) {
   method.measure = &find_measure(c.measure);
   if (c.measure != Case().measure) {
     throw std::invalid_argument("measure: got '" + c.measure + "', expected " + Case().measure +
-                                ": a task in time has no other");
+                                ": a task in time supports no other measure");
   }
   method.trajectory_solver =
       c.solver.empty() ? &trajectory_solvers().front() : &find_trajectory_solver(c.solver);
@@ -205,8 +205,8 @@ Case with_search(const Problem& task, Case c) {
 
 Method resolve(const Problem& problem, const Case& c) {
   if (c.budget < 0 || c.budget > kMostBudget) {
-    throw std::invalid_argument(
-        fmt::format("budget: got {}, expected 1 to {}, or 0 for the usual", c.budget, kMostBudget));
+    throw std::invalid_argument(fmt::format(
+        "budget: got {}, expected 1 to {}, or 0 for the default", c.budget, kMostBudget));
   }
   Method method = problem.motion ? resolve_in_time(problem, c) : resolve_static(problem, c);
   method.choice.problem = problem.name;
@@ -225,7 +225,7 @@ void set_scheme(const char* key, const std::string& scheme, Problem& problem) {
   const Scheme parsed = parse_scheme(scheme);
   if (parsed == Scheme::kSpline && task.k < 2) {
     throw std::invalid_argument(
-        fmt::format("{}: got '{}', expected another one for k = 1", key, scheme));
+        fmt::format("{}: got '{}', expected another scheme for k = 1", key, scheme));
   }
   task.scheme = parsed;
 }

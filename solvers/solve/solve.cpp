@@ -143,7 +143,7 @@ void conclude_search(const SearchResult& result, Answer& answer) {
   answer.calls = count_calls(result.calls);
   answer.stopped = result.interrupted                          ? "interrupted"
                    : !result.stopped.empty()                   ? result.stopped
-                   : result.evaluations < answer.choice.budget ? "the method came to its end"
+                   : result.evaluations < answer.choice.budget ? "the method ended"
                                                                : kBudgetSpent;
   if (answer.status == Status::kOptimal) answer.conclude(Status::kBestFound);
   if (answer.status == Status::kInfeasible) {  // holds for what was found, not for the task
@@ -157,7 +157,7 @@ void conclude_search(const SearchResult& result, Answer& answer) {
 int thread_count(int threads) {
   if (threads < 0 || threads > kMostThreads) {
     throw std::invalid_argument("threads: got " + std::to_string(threads) + ", expected 1 to " +
-                                std::to_string(kMostThreads) + ", or 0 for one on each core");
+                                std::to_string(kMostThreads) + ", or 0 for one per core");
   }
   return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }

@@ -19,11 +19,11 @@ void require_weight(const Answer& answer) {
   const Problem& problem = *answer.task;
   if (!problem.c.isApprox(Vector6d::Unit(2), 1e-9)) {
     throw std::invalid_argument(
-        "--load, --heaviest: got a task whose wrench is not the force upwards, which a "
-        "weight asks for; expected one such as uvms/lift");
+        "--load, --heaviest: got a task whose wrench is not an upward force, as a weight requires, "
+        "expected a task such as uvms/lift");
   }
   if (answer.choice.wrench != Wrench::kPure) {
-    throw std::invalid_argument("--wrench: got any, expected pure: a load has a weight alone");
+    throw std::invalid_argument("--wrench: got any, expected pure: a load exerts only its weight");
   }
   if (!(problem.robot.gravity > 0)) {
     throw std::invalid_argument("--load: got a robot without gravity, expected gravity > 0");

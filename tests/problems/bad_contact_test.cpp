@@ -195,7 +195,7 @@ const BadInput kBadArms[] = {
      "joints = [\"right_q1_shoulder_yaw\", \"right_q2_shoulder_pitch\", \"right_q3_elbow\"]\n"
      "rest = { right_q4_wrist_roll = 0 }",
      "joints = [\"right_q2_shoulder_pitch\", \"right_q3_elbow\", \"right_q4_wrist_roll\"]",
-     {"contact.joints: got", "of these 3 it fixes 2"}},
+     {"contact.joints: got", "of these 3 it determines 2"}},
     {"contact_twice",
      "bar_wall.toml",
      "[contact]\n",

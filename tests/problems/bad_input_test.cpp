@@ -74,7 +74,7 @@ const std::vector<BadInput> kBadInputs = {
      "vehicle.toml",
      "\"front_left\"",
      "\"elbow\"",
-     {"thrusters.list[0].name: got 'elbow'", "a name of its own"}},
+     {"thrusters.list[0].name: got 'elbow'", "a unique name"}},
     {"thruster_without_limit",
      "vehicle.toml",
      "force_max = 1.0",

@@ -65,7 +65,7 @@ const std::vector<BadMotion> kBadMotions = {
       kTurnFile,
       "\"spline\"",
       "\"ends\"",
-      {"motion.instants_per_interval: got 4", "scheme spline"}}},
+      {"motion.instants_per_interval: got 4", "scheme is spline"}}},
     {kTurn,
      {"rates_a_number", kTurnFile, "k = 10", "k = 10\nrates = 1", {"motion.rates: got 1", "true"}}},
     {kTurn,
@@ -175,7 +175,7 @@ const std::vector<BadMotion> kBadMotions = {
       "two_arms.toml",
       "type = \"static\"",
       kMoves,
-      {"contact: got a table", "static tasks only"}}},
+      {"contact: got a table", "only static tasks"}}},
 };
 
 class BadMotionTest : public testing::TestWithParam<BadMotion> {};
@@ -268,8 +268,7 @@ TEST(BadPoses, TakeNoOtherStartAndDuration) {
   EXPECT_THAT(message_of(file), testing::HasSubstr("trajectory.toml: motion.T: got 10, expected "));
   task.replace(task.find("T = "), task.find("k = ") - task.find("T = "), "");
   std::ofstream(file) << task;
-  EXPECT_THAT(message_of(file),
-              testing::HasSubstr("poses.csv: file: got nothing that can be read"));
+  EXPECT_THAT(message_of(file), testing::HasSubstr("poses.csv: file: got an unreadable file"));
 }
 
 }  // namespace

@@ -298,7 +298,7 @@ const std::vector<BadRobot> kBadRobots = {
     {"links_missing", [](Robot& r, Collision&) { r.links.pop_back(); },
      "link: got 2 links, expected 3: the base, and one for each joint"},
     {"link_twice", [](Robot& r, Collision&) { r.links[2].name = "hull"; },
-     "link[hull]: got two of this name, expected names of their own"},
+     "link[hull]: got a duplicate name, expected unique names"},
     {"link_without_name", [](Robot& r, Collision&) { r.links[2].name = ""; },
      "link.name: got '', expected a name"},
     {"mass_nan", [](Robot& r, Collision&) { r.links[1].mass = kNan; },
@@ -316,7 +316,7 @@ const std::vector<BadRobot> kBadRobots = {
     {"inertia_triangle", [](Robot& r, Collision&) { r.links[0].inertia(2, 2) = 5; },
      "link[hull].inertial.inertia: got principal moments 0.15, 0.32, 5, expected moments >= 0"},
     {"inertia_of_a_rod", [](Robot& r, Collision&) { r.links[1].inertia(0, 0) = 0; },
-     "expected moments > 0 of this link and what is fixed to it"},
+     "expected moments > 0 of this link with all that is fixed to it"},
     {"com_nan", [](Robot& r, Collision&) { r.links[1].com.z() = kNan; },
      "link[link_1].inertial.origin.xyz: got [0.05, 0, nan], expected a list of 3 finite numbers"},
     {"volume_negative", [](Robot& r, Collision&) { r.links[0].volume = -1; },
@@ -337,7 +337,7 @@ const std::vector<BadRobot> kBadRobots = {
      },
      "hydrodynamics.link_1: got nothing, expected added mass and drag, perhaps zeros"},
     {"joint_twice", [](Robot& r, Collision&) { r.joints[1].name = "shoulder"; },
-     "joint[shoulder]: got two of this name"},
+     "joint[shoulder]: got a duplicate name"},
     {"parent_of_itself", [](Robot& r, Collision&) { r.joints[1].parent = 2; },
      "joint[elbow].parent: got 2, expected an earlier link than the joint's own, which is 2"},
     {"parent_negative", [](Robot& r, Collision&) { r.joints[0].parent = -1; },
@@ -355,7 +355,7 @@ const std::vector<BadRobot> kBadRobots = {
     {"velocity_zero", [](Robot& r, Collision&) { r.joints[0].velocity_max = 0; },
      "joint[shoulder].limit.velocity: got 0, expected a number > 0"},
     {"thruster_as_joint", [](Robot& r, Collision&) { r.thrusters[1].name = "elbow"; },
-     "thrusters.list[1].name: got 'elbow', expected a name of its own"},
+     "thrusters.list[1].name: got 'elbow', expected a unique name"},
     {"thruster_without_direction", [](Robot& r, Collision&) { r.thrusters[0].direction.setZero(); },
      "thrusters.list[0].direction: got [0, 0, 0], expected a direction of nonzero length"},
     {"thruster_position_nan", [](Robot& r, Collision&) { r.thrusters[0].position.y() = kNan; },
@@ -411,7 +411,7 @@ TaskSpec still() { return push(); }
 
 const std::vector<BadTask> kBadTasks = {
     {"robot_not_final", still, [](TaskSpec& t) { t.robot = vehicle(); },
-     "robot: got 'planar vehicle', which is not complete, expected a robot as finalize returns it"},
+     "robot: got 'planar vehicle', which is not complete, expected a robot that finalize returned"},
     {"end_effector_unknown", still, [](TaskSpec& t) { t.end_effector = "hand"; },
      "end_effector: got 'hand', expected an end effector of the robot: tool"},
     {"pose_nan", still, [](TaskSpec& t) { t.pose.p.x() = kNan; }, "pose.xyz: got [nan, 0, 0]"},
@@ -452,7 +452,7 @@ const std::vector<BadTask> kBadTasks = {
      [](TaskSpec& t) {
        t.guess = {{"elbow", 1}};
      },
-     "theta_r.guess: got a table, expected no such key: the base pose follows alone"},
+     "theta_r.guess: got a table, expected no such key: only the base pose is dependent"},
     {"free_unknown", still, [](TaskSpec& t) { t.free = {"yawn"}; },
      "pose.free: got ['yawn'], expected some of x, y, z"},
     {"free_without_range", still, [](TaskSpec& t) { t.free = {"x"}; },
@@ -476,13 +476,14 @@ const std::vector<BadTask> kBadTasks = {
      [](TaskSpec& t) {
        t.range = {{"z", {0, 1}}};
      },
-     "pose.range.z: got [0, 1], expected axes along which the end effector can move (z is none)"},
+     "pose.range.z: got [0, 1], expected axes along which the end effector can move (z is not "
+     "one)"},
     {"contact_end_effector", push_on_wall, [](TaskSpec& t) { t.contact->end_effector = "tool"; },
-     "contact.end_effector: got 'tool', expected an end effector on an arm of its own"},
+     "contact.end_effector: got 'tool', expected an end effector with its own arm"},
     {"contact_forces", push_on_wall, [](TaskSpec& t) { t.contact->forces = "glue"; },
      "contact.forces: got 'glue', expected none, point, push"},
     {"contact_basis_beside_forces", push_on_wall, [](TaskSpec& t) { t.contact->forces = "push"; },
-     "contact.basis: got 2 directions, expected no such key, but for forces = 'basis'"},
+     "contact.basis: got 2 directions, expected no such key unless forces = 'basis'"},
     {"contact_mu", push_on_wall,
      [](TaskSpec& t) { t.contact->forces = "friction", t.contact->basis.clear(); },
      "contact.mu: got nothing, expected a finite number"},
@@ -498,7 +499,7 @@ const std::vector<BadTask> kBadTasks = {
      [](TaskSpec& t) { t.contact->basis[0].direction = along(1); },
      "contact.basis[0].direction: got [0, 1, 0, 0, 0, 0], expected one that does work"},
     {"contact_radius", push_on_wall, [](TaskSpec& t) { t.contact->radius = 0.1; },
-     "contact.radius: got 0.1, expected no such key, but for a circle"},
+     "contact.radius: got 0.1, expected no such key unless the shape is a circle"},
     {"contact_joints", push_on_wall, [](TaskSpec& t) { t.contact->joints = {"elbow"}; },
      "contact.joints: got ['elbow'], expected some of shoulder_2, elbow_2"},
     {"contact_rest", push_on_wall,
@@ -515,11 +516,11 @@ const std::vector<BadTask> kBadTasks = {
     {"contact_length_scale", push_on_wall, [](TaskSpec& t) { t.contact->length_scale = 0; },
      "contact.length_scale: got 0, expected a number > 0"},
     {"contact_in_time", push_on_the_way, [](TaskSpec& t) { t.contact = wall(); },
-     "contact: got a table, expected none: a second contact is served in static tasks only"},
+     "contact: got a table, expected none: only static tasks support a second contact"},
     {"free_in_time", push_on_the_way, [](TaskSpec& t) { t.free = {"yaw"}; },
-     "pose.free: got ['yaw'], expected no such key, but for static tasks"},
+     "pose.free: got ['yaw'], expected no such key except in static tasks"},
     {"T_tiny", push_on_the_way, [](TaskSpec& t) { t.motion->path = Path::constant(t.pose, 1e-9); },
-     "motion.T: got 1e-09, expected a number of 0.001 to 1e+06, > 0"},
+     "motion.T: got 1e-09, expected a number from 0.001 to 1e+06, > 0"},
     {"path_elsewhere", push_on_the_way, [](TaskSpec& t) { t.pose.p.x() = 1; },
      "pose.xyz: got [1, 0, 0], expected the place and rotation at which the path starts, here"},
     {"path_nan", push_on_the_way,
@@ -529,16 +530,16 @@ const std::vector<BadTask> kBadTasks = {
      },
      "path.xyz: got [nan"},
     {"k_zero", push_on_the_way, [](TaskSpec& t) { t.motion->k = 0; },
-     "motion.k: got 0, expected a whole number of 1 to 1000"},
+     "motion.k: got 0, expected a whole number from 1 to 1000"},
     {"k_one", push_on_the_way, [](TaskSpec& t) { t.motion->k = 1; },
      "motion.k: got 1, expected 2 or more for the scheme spline"},
     {"instants", push_on_the_way, [](TaskSpec& t) { t.motion->instants_per_interval = 0; },
-     "motion.instants_per_interval: got 0, expected a whole number of 1 to 100"},
+     "motion.instants_per_interval: got 0, expected a whole number from 1 to 100"},
     {"scheme_of_a_impulse", push_on_the_way,
      [](TaskSpec& t) { t.motion->scheme = Scheme::kBackward; },
      "motion.scheme: got 'backward', expected one of forward, ends, spline"},
     {"t_h", impulse, [](TaskSpec& t) { t.motion->t_h = 5; },
-     "motion.t_h: got 5, expected a knot of 1 to k = 4, or 'best'"},
+     "motion.t_h: got 5, expected a knot from 1 to k = 4, or 'best'"},
     {"theta_0_short", impulse, [](TaskSpec& t) { t.motion->theta_0.resize(0); },
      "start.theta_r: got nothing, expected a list of 4 finite numbers"},
     {"default_of_a_impulse", impulse, [](TaskSpec& t) { t.theta_r_default = t.motion->theta_0; },
@@ -600,7 +601,7 @@ TEST(InCode, ImpossibleDefaultAndRank) {
   bar.contact->frame.p = {-0.2, -0.5, 0};
   bar.contact->joints = {"right_q2_shoulder_pitch", "right_q3_elbow", "right_q4_wrist_roll"};
   EXPECT_THAT(rejection([&] { make_problem(bar); }),
-              HasSubstr("expected joints that the contact fixes: of these 3 it fixes 2"));
+              HasSubstr("expected joints that the contact determines: of these 3 it determines 2"));
 }
 
 }  // namespace

@@ -116,5 +116,5 @@ wait_for 60 node_is_idle
 wait_for 5400 queue_is_empty
 [ -s "$work/died" ] || { echo "part 2 was not killed" >&2; exit 1; }
 cmp "$work/one/values.csv.gz" "$work/out/values.csv.gz"
-grep 'of them were there' "$work/out/shards/2.log"
+grep 'of them existed before' "$work/out/shards/2.log"
 cat "$work/out/merge.log"

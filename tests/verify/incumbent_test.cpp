@@ -24,7 +24,7 @@ TEST(Incumbent, RejectsPosturesThatDoNotGetThere) {
   for (Eigen::Index i = at.problem.redundancy(); i < at.proof.x.size(); ++i) {
     ProofCertificate moved = at.proof;
     moved.x[i] += 1e-6;
-    EXPECT_NE(at.rejection(moved).find("do not get there"), std::string::npos) << i;
+    EXPECT_NE(at.rejection(moved).find("do not reach the pose"), std::string::npos) << i;
   }
 }
 

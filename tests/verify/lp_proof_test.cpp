@@ -34,7 +34,7 @@ TEST(LpProof, OptimaAreRejectedForTheLeastChange) {
   proof.x[0] += tiny;
   EXPECT_EQ(reject_lp_proof(third(), proof), "A x = b does not hold");
   proof.x[1] -= tiny;  // balanced again, but below zero
-  EXPECT_EQ(reject_lp_proof(third(), proof), "x leaves a bound");
+  EXPECT_EQ(reject_lp_proof(third(), proof), "x violates a bound");
   for (const int sign : {-1, 1}) {
     proof = proof_of_third();
     proof.lambda[0] += sign * tiny;
@@ -45,7 +45,7 @@ TEST(LpProof, OptimaAreRejectedForTheLeastChange) {
   EXPECT_EQ(reject_lp_proof(third(), proof), "its sizes are not those of the program");
   proof = proof_of_third();
   proof.status = Status::kBestFound;
-  EXPECT_EQ(reject_lp_proof(third(), proof), "it is no verdict");
+  EXPECT_EQ(reject_lp_proof(third(), proof), "its status is not a verdict");
 }
 
 /// x + y = 3 with x, y <= 1: sup of y'A x = 2 < 3. With x, y <= 1.5 they meet.
@@ -70,7 +70,7 @@ TEST(LpProof, Rays) {
   EXPECT_EQ(reject_lp_proof(one_row({1, -1}, 0, {-1, 1}, {0, 0}, {none, none}), proof),
             "the ray does not improve");
   EXPECT_EQ(reject_lp_proof(one_row({1, -1}, 0, {1, 1}, {0, 0}, {none, 1}), proof),
-            "the ray leaves a bound");
+            "the ray violates a bound");
   EXPECT_EQ(reject_lp_proof(one_row({1, 1}, 0, {1, 1}, {0, 0}, {none, none}), proof),
             "A r = 0 does not hold");
   EXPECT_EQ(reject_lp_proof(one_row({1, -1}, 1, {1, 1}, {0, 0}, {none, none}), proof),

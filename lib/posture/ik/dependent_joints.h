@@ -10,7 +10,7 @@ namespace maxwrench {
 
 /// The reasons why there is no posture.
 inline constexpr const char* kUnreachableReason =
-    "unreachable pose: the dependent joints do not get there";
+    "unreachable pose: the dependent joints do not reach it";
 inline constexpr const char* kSingularReason = "singular: the dependent joints do not fix the pose";
 
 /// The dependent coordinates of a problem with dependent joints. z = [x, y, z, yaw; all joints] are

@@ -55,8 +55,7 @@ std::unique_ptr<Bound> measure_bound(const Problem& problem, const std::string& 
     if (any || (ellipsoid && problem.contact_columns() > 0)) {
       throw std::invalid_argument(
           problem.name + ": " +
-          (any ? "wrench: got 'any', expected pure for a proof where joints "
-                 "follow from theta_r"
+          (any ? "wrench: got 'any', expected pure for a proof with dependent joints"
                : "measure: got 'ellipsoid', expected linf_polytope for a "
                  "proof with forces of a second contact"));
     }

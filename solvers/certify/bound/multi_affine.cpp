@@ -55,7 +55,7 @@ void require_few_control_points(const std::string& task, const Coordinates& coor
   if (points <= kMostControlPoints) return;
   throw std::invalid_argument(task + ": got " + std::to_string(coordinates.count()) +
                               " coordinates of a posture, expected at most 9 that turn, for a "
-                              "proof: a bound looks at 3 points for each, multiplied");
+                              "proof: a bound uses 3 points for each, multiplied");
 }
 
 MultiAffine::MultiAffine(Coordinates coordinates, const Eigen::VectorXd& theta_r,

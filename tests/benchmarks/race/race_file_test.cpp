@@ -176,8 +176,9 @@ TEST_F(ResultsFolder, NoRows) {
 
 TEST_F(ResultsFolder, NamesWhatIsWrong) {
   write("values.csv", kHeader + kFirst + kFirst);
-  EXPECT_EQ(complaint(),
-            "values.csv: line 3: problem: got 'f/a', expected each case once: line 2 has it, too");
+  EXPECT_EQ(
+      complaint(),
+      "values.csv: line 3: problem: got 'f/a', expected each case once: line 2 has it already");
   write("values.csv", kHeader + kCase + ",best_found,nan,N,,100,\n");
   EXPECT_EQ(complaint(),
             "values.csv: line 2: beta: got 'nan', expected a finite number or nothing");

@@ -101,12 +101,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadSuiteFile{"[[product]]\nproblem='all'\nintegrator='ida'\nsearch='grid'",
                      "product[0].search: got 'grid', expected no such key beside integrator"},
         BadSuiteFile{"[[product]]\nproblem='dual_arm/two_arms'\nintegrator='ida'",
-                     "mean nothing together"},
+                     "a combination of columns that is not valid"},
         BadSuiteFile{"[[product]]\nproblem='all'\nseeds=0", "product[0].seeds: got 0"},
         BadSuiteFile{"[[product]]\nproblem='all'\nbudget=1.5", "product[0].budget: got 1.5"},
         BadSuiteFile{"[[product]]\nproblem='all'\ncolour='x'", "product[0].colour: got an unknown"},
         BadSuiteFile{"[[product]]\nproblem='planar/force'\nwrench='any'\nsolver='facets'",
-                     "mean nothing together"}));
+                     "a combination of columns that is not valid"}));
 
 }  // namespace
 }  // namespace maxwrench

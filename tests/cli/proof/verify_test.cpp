@@ -50,7 +50,7 @@ TEST_F(VerifyCommand, RejectsAnotherTask) {
   const std::string file = certificate("planar/force");
   const CommandResult result = run_maxwrench("verify --problem uvms/valve " + file);
   EXPECT_EQ(result.exit_status, 1);
-  EXPECT_NE(result.out.find("\nrejected: it is about another robot or task\n"), std::string::npos)
+  EXPECT_NE(result.out.find("\nrejected: it is for another robot or task\n"), std::string::npos)
       << result.out;
 }
 
@@ -63,7 +63,7 @@ TEST_F(VerifyCommand, RejectsOtherFilesInOneLine) {
     EXPECT_NE(result.err.find(mention), std::string::npos) << result.err;
   };
   rejected("README.md", "README.md: got something else");
-  rejected("no_such_file", "no_such_file: got nothing");
+  rejected("no_such_file", "no_such_file: got no data");
   const std::string file = certificate("planar/force");
   std::string text = read_text(file);
   text[text.size() / 2] ^= 1;
@@ -78,7 +78,7 @@ TEST(CertifyCommand, WritesNoCertificateWithoutABound) {
   const CommandResult result =
       run_maxwrench("certify mobile/push_any_height --time 0 --certificate " + file);
   EXPECT_EQ(result.exit_status, 1);
-  EXPECT_NE(result.out.find("\nbound     none was proven\ngap       unknown\n"), std::string::npos)
+  EXPECT_NE(result.out.find("\nbound     none proven\ngap       unknown\n"), std::string::npos)
       << result.out;
   EXPECT_NE(result.err.find("not written"), std::string::npos) << result.err;
   EXPECT_FALSE(std::filesystem::exists(file));

@@ -106,12 +106,12 @@ TEST_F(RunSuite, KeepsTheRowsOfAJournal) {
   std::ofstream(folder_.path() / "one/values.csv.part") << one.substr(0, one.size() - 5);
   const auto rows = std::count(one.begin(), one.end(), '\n') - 1;
   const CommandResult dry = run("--dry --out one");
-  EXPECT_NE(dry.out.find(fmt::format("{} rows, {} of them to do", rows, keeps_rows() ? 1 : rows)),
+  EXPECT_NE(dry.out.find(fmt::format("{} rows, {} of them to run", rows, keeps_rows() ? 1 : rows)),
             std::string::npos)
       << dry.out;
-  EXPECT_EQ(dry.err.find("made anew") == std::string::npos, keeps_rows());
+  EXPECT_EQ(dry.err.find("computed again") == std::string::npos, keeps_rows());
   const std::string more = run("--out one").out;
-  EXPECT_EQ(more.find(fmt::format(", {} of them were there", rows - 1)) != std::string::npos,
+  EXPECT_EQ(more.find(fmt::format(", {} of them existed before", rows - 1)) != std::string::npos,
             keeps_rows())
       << more;
   EXPECT_EQ(table("one/values.csv"), one);
@@ -131,9 +131,9 @@ TEST_F(RunSuite, ShardsMergeToOneRun) {
   const CommandResult less = run_maxwrench("merge less part3 part1", folder_.path());
   const auto rows = std::count(one.begin(), one.end(), '\n') - 1;
   EXPECT_EQ(less.out.find(fmt::format("{} rows", rows)), std::string::npos) << less.out;
-  EXPECT_EQ(run("--dry --out less").out.find(", 0 of them to do"), std::string::npos);
+  EXPECT_EQ(run("--dry --out less").out.find(", 0 of them to run"), std::string::npos);
   EXPECT_NE(run("--dry --out all")
-                .out.find(fmt::format("{} rows, {} of them to do", rows, keeps_rows() ? 0 : rows)),
+                .out.find(fmt::format("{} rows, {} of them to run", rows, keeps_rows() ? 0 : rows)),
             std::string::npos);
   const std::string times = table("all/times.csv");
   EXPECT_EQ(std::count(times.begin(), times.end(), '\n'), std::count(one.begin(), one.end(), '\n'));
@@ -176,7 +176,7 @@ TEST_F(RunSuite, ContradictionsAreNotMerged) {
   std::ofstream(folder_.path() / "two/values.csv.gz") << changed;
   const CommandResult result = run_maxwrench("merge all one two", folder_.path());
   EXPECT_EQ(result.exit_status, 2);
-  EXPECT_NE(result.err.find("two/values.csv.gz: got another row of dual_arm/bar_wall,"),
+  EXPECT_NE(result.err.find("two/values.csv.gz: got a row of dual_arm/bar_wall,"),
             std::string::npos)
       << result.err;
   EXPECT_TRUE(fs::is_empty(folder_.path() / "all"));
@@ -185,7 +185,8 @@ TEST_F(RunSuite, ContradictionsAreNotMerged) {
     const Journal held(folder_.path() / journal);
     const CommandResult early = run_maxwrench("merge all one", folder_.path());
     EXPECT_EQ(early.exit_status, 2);
-    EXPECT_EQ(early.err.find(fmt::format("maxwrench: {}: is being written", journal)), 0U)
+    EXPECT_EQ(
+        early.err.find(fmt::format("maxwrench: {}: got a file that is being written", journal)), 0U)
         << early.err;
   }
 }
@@ -193,7 +194,7 @@ TEST_F(RunSuite, ContradictionsAreNotMerged) {
 TEST_F(RunSuite, CountsAndNamesItsRows) {
   const std::string commands = run("--commands").out;
   const auto rows = std::count(commands.begin(), commands.end(), '\n');
-  EXPECT_NE(run("--dry").out.find(fmt::format("{} rows, {} of them to do", rows, rows)),
+  EXPECT_NE(run("--dry").out.find(fmt::format("{} rows, {} of them to run", rows, rows)),
             std::string::npos);
   const std::string one = undisturbed();
   EXPECT_EQ(std::count(one.begin(), one.end(), '\n') - 1, rows);

@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadMotionWords{"solve uvms/valve_impulse --scheme ends", "for an impulse"},
         BadMotionWords{"eval uvms/valve_trajectory --scheme euler", "'euler'"},
         BadMotionWords{"eval uvms/valve_impulse --t-h 9",
-                       "--t-h: got '9', expected a knot of 1 to k = 4, or best"},
+                       "--t-h: got '9', expected a knot from 1 to k = 4, or best"},
         BadMotionWords{"eval uvms/valve_impulse --t-h 0", "got '0'"},
         BadMotionWords{"eval uvms/valve_impulse --t-h 2.5", "got '2.5'"},
         BadMotionWords{"eval uvms/valve_impulse --t-h worst", "got 'worst'"},
@@ -143,7 +143,7 @@ TEST(TrajectoryTable, OneKnotIsAStaticPosture) {
   EXPECT_EQ(trajectory["value_between_knots"], trajectory["value"]);
   const CommandResult spline = run_maxwrench("eval --scheme spline" + words, copy.path());
   EXPECT_EQ(spline.exit_status, 2);
-  EXPECT_NE(spline.err.find("--scheme: got 'spline', expected another one for k = 1"),
+  EXPECT_NE(spline.err.find("--scheme: got 'spline', expected another scheme for k = 1"),
             std::string::npos)
       << spline.err;
 }

@@ -87,7 +87,7 @@ TEST(OwnRobot, IsCheckedEvaluatedAndSolvedFromItsFilesAlone) {
   const StrangersFolder folder;
   const CommandResult check = run_maxwrench("check task.toml", folder.path());
   EXPECT_EQ(check.exit_status, 0) << check.err;
-  for (const char* part : {"redundancy 1", "theta_r a0", "follows a1", "follows a5", "base {x}",
+  for (const char* part : {"redundancy 1", "theta_r a0", "dependent a1", "dependent a5", "base {x}",
                            "default posture: exists", "rank of B 7 of 7"}) {
     EXPECT_NE(check.out.find(part), std::string::npos) << part << "\n" << check.out;
   }
