@@ -154,7 +154,7 @@ TEST(Report, ComparesFolders) {
   std::ofstream(small_run() / "changed/values.csv") << changed;
   const CommandResult other = run_maxwrench("report --compare run changed", small_run());
   EXPECT_NE(other.out.find(" within rounding\nproblem"), std::string::npos) << other.out;
-  EXPECT_NE(other.out.find("how many times as long b took as a\nnone\n"), std::string::npos);
+  EXPECT_NE(other.out.find("Times: ratio of b to a\nnone\n"), std::string::npos);
 }
 
 /// Failures are rows with their reason; what a file holds is no markup.
