@@ -89,7 +89,7 @@ for how in cmake make; do
   same "$how/own_search" "$(awk '{printf "%.2f ", $2}' $how.own_search)" "1.91 1.91 "
   # A textbook's program (Wyndor Glass): 36 at (2, 6), the last two rows are worth 3/2 and 1.
   wyndor="optimal 36.0000 at (2.0000, 6.0000), multipliers 0.0000 1.5000 1.0000, verified"
-  same "$how/lp" "$(sed -n 's/-0\.0000/0.0000/g; s/^simplex  *//p' $how.solver)" "$wyndor"
+  same "$how/lp" "$(sed -n 's/-0\.0000/0.0000/g; s/^simplex  *//p' $how.lp)" "$wyndor"
 done
 
 # Nobody who links us gets a word of Eigen's. Whose Eigen allocates in another way is rejected; such are programs for this processor, if it

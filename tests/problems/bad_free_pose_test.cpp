@@ -73,7 +73,7 @@ const std::vector<BadInput> kBadFreePoses = {
      "force.toml",
      kPose,
      "xyz = [0, 0, 0]\nfree = [\"yaw\"]\nframe = \"world\"",
-     {"pose.axes: got 'world'", "'pose' or 'tool'"}},
+     {"pose.frame: got 'world'", "'pose' or 'end_effector'"}},
     {"axes_of_nothing",
      "force.toml",
      kPose,
@@ -93,7 +93,7 @@ const std::vector<BadInput> kBadFreePoses = {
      "force.toml",
      "[wrench]",
      "[wrench]\nframe = \"base\"",
-     {"wrench.frame: got 'base'", "'world' or 'tool'"}},
+     {"wrench.frame: got 'base'", "'world' or 'end_effector'"}},
 };
 
 class BadFreePose : public testing::TestWithParam<BadInput> {};

@@ -106,7 +106,7 @@ const std::vector<BadMotion> kBadMotions = {
       kTurnFile,
       "[wrench]",
       "[wrench]\nframe = \"base\"",
-      {"wrench.frame: got 'base'", "'world' or 'tool'"}}},
+      {"wrench.frame: got 'base'", "'world' or 'end_effector'"}}},
     {kTurn,
      {"free_pose_in_time",
       kTurnFile,

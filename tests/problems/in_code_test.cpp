@@ -456,7 +456,7 @@ const std::vector<BadTask> kBadTasks = {
     {"free_unknown", still, [](TaskSpec& t) { t.free = {"yawn"}; },
      "pose.free: got ['yawn'], expected some of x, y, z"},
     {"free_without_range", still, [](TaskSpec& t) { t.free = {"x"}; },
-     "pose.free: got ['x'], expected a range of x too"},
+     "pose.free: got ['x'], expected a range of x, too"},
     {"range_unknown", still,
      [](TaskSpec& t) {
        t.range = {{"u", {0, 1}}};
@@ -523,12 +523,12 @@ const std::vector<BadTask> kBadTasks = {
      "motion.T: got 1e-09, expected a number from 0.001 to 1e+06, > 0"},
     {"path_elsewhere", push_on_the_way, [](TaskSpec& t) { t.pose.p.x() = 1; },
      "pose.xyz: got [1, 0, 0], expected the place and rotation at which the path starts, here"},
-    {"path_nan", push_on_the_way,
+    {"path_infinite", push_on_the_way,
      [](TaskSpec& t) {
-       t.motion->path =
-           Path::screw(t.pose, {0, 0, 1}, {kNan, 0, 0}, 1, {0, 0, 0}, Timing::kCubic, 10);
+       t.motion->path = Path::screw(t.pose, {0, 0, 1}, {1e308, 1e308, 0}, 1e308, {1e308, 0, 0},
+                                    Timing::kCubic, 10);
      },
-     "path.xyz: got [nan"},
+     "path.xyz: got ["},
     {"k_zero", push_on_the_way, [](TaskSpec& t) { t.motion->k = 0; },
      "motion.k: got 0, expected a whole number from 1 to 1000"},
     {"k_one", push_on_the_way, [](TaskSpec& t) { t.motion->k = 1; },
@@ -545,7 +545,7 @@ const std::vector<BadTask> kBadTasks = {
     {"default_of_a_impulse", impulse, [](TaskSpec& t) { t.theta_r_default = t.motion->theta_0; },
      "expected none: the default of an impulse is start.theta_r"},
     {"impulse_in_tool_axes", impulse, [](TaskSpec& t) { t.wrench_in_end_effector = true; },
-     "wrench.frame: got 'tool', expected 'world'"},
+     "wrench.frame: got 'end_effector', expected 'world'"},
 };
 
 class BadTaskInCode : public testing::TestWithParam<BadTask> {};

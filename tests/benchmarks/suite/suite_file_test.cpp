@@ -32,7 +32,7 @@ TEST(SuiteFile, ColumnsThatAreMissingAreTheDefaults) {
 /// pure: every solver; any: all but the one of one column. Budgets are divided by the cost.
 TEST(SuiteFile, WhatHasNoMeaningIsLeftOut) {
   const Workload work = read_suite_text(
-      "[[product]]\nproblem = 'planar/force'\nwrench = 'all'\nlp = 'all'\n"
+      "[[product]]\nproblem = 'planar/force'\nwrench = 'all'\nsolver = 'all'\n"
       "search = ['grid', 'slp+cmaes']\nseeds = 3\nbudget = 1000\n");
   const std::size_t solvers = wrench_solvers().size();
   EXPECT_EQ(work.cases.size(), (2 * solvers - 1) * 2 * 3);

@@ -154,7 +154,8 @@ TEST(TrajectorySolve, DoesNotReplaceThePath) {
        {"solve own.toml --budget 9 --out ./poses.csv", "eval own.toml --write poses.csv"}) {
     const CommandResult result = run_maxwrench(words, copy.path());
     EXPECT_EQ(result.exit_status, 2) << words;
-    EXPECT_NE(result.err.find("which is also the file of path.file"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("which is also the file of path.file"), std::string::npos)
+        << result.err;
   }
   EXPECT_EQ(read_text(copy.path() / "poses.csv"), poses);
 }
