@@ -67,7 +67,7 @@ Strip wrench_strip(const Problem& problem, const std::vector<TankCurve>& curves)
     strip.strands.push_back(
         {"reading" + who, curve.run, [](const TankSample& s) { return s.reading; }});
     strip.strands.push_back(
-        {"trajectory" + who, curve.run, [](const TankSample& s) { return s.planned; }});
+        {"planned" + who, curve.run, [](const TankSample& s) { return s.planned; }});
   }
   return strip;
 }

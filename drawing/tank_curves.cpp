@@ -90,7 +90,7 @@ std::string tank_figure(const Problem& problem, const std::vector<TankCurve>& cu
   for (std::size_t i = 0; i < curves.size(); ++i) {
     legend.push_back(entry_of(problem, curves[i], i));
   }
-  legend.push_back({"trajectory; numbers: mean of the hold", [](Svg& svg, const Point& left) {
+  legend.push_back({"planned; numbers: mean of the hold", [](Svg& svg, const Point& left) {
                       svg.line(left, left + Point(kLegendMark, 0), trajectory_paint());
                     }});
   const Point corner(kCurvesLeft, kCurvesTop + kCurvesHeight + kCurvesBelow - 6);

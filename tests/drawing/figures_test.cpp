@@ -221,7 +221,7 @@ TEST(MotionFigure, ComparesRuns) {
   const std::string svg = motion_figure(problem, {{"fixed", &runs[0]}, {"best", &runs[1]}});
   expect_legible(svg);
   std::vector<std::string> names = {"limits", "time [s]"};
-  for (const char* curve : {"reading, ", "trajectory, ", "end effector, "}) {
+  for (const char* curve : {"reading, ", "planned, ", "end effector, "}) {
     for (const char* run : {"fixed", "best"}) names.push_back(std::string(curve) + run);
   }
   for (const Thruster& thruster : problem.robot.thrusters) names.push_back(thruster.name);
