@@ -377,11 +377,11 @@ function claims.total(file, column)
 end
 
 -- A column of one solver in a benchmark set of the report.
-function claims.solver(benchmark set, lp, column)
+function claims.solver(benchmark_set, lp, column)
   for _, row in ipairs(rows_of("report/solvers.csv", "solver=" .. lp)) do
-    if row.benchmark set == benchmark set then return number(row[column], "results/report/solvers.csv: " .. column) end
+    if row.benchmark_set == benchmark_set then return number(row[column], "results/report/solvers.csv: " .. column) end
   end
-  fail("results/report/solvers.csv: no " .. lp .. " in '" .. benchmark set .. "'")
+  fail("results/report/solvers.csv: no " .. lp .. " in '" .. benchmark_set .. "'")
 end
 
 -- A column of one integrator of the virtual tank.
@@ -407,10 +407,10 @@ function claims.readings_apart()
 end
 
 -- The solvers of a benchmark set of the report, best first.
-function results.solver_rows(benchmark set)
+function results.solver_rows(benchmark_set)
   local found = false
   for _, row in ipairs(table_of("report/solvers.csv").rows) do
-    if row.benchmark set == benchmark set then
+    if row.benchmark_set == benchmark_set then
       found = true
       local function digits(column)
         return row[column] == "" and "--" or three_digits(number(row[column], "results/report/solvers.csv: " .. column))
@@ -421,7 +421,7 @@ function results.solver_rows(benchmark set)
                                string.format("%.0f", 100 * tonumber(row.share_double)), times}, " & ") .. "\\\\")
     end
   end
-  if not found then fail("results/report/solvers.csv: no benchmark set '" .. benchmark set .. "'") end
+  if not found then fail("results/report/solvers.csv: no benchmark set '" .. benchmark_set .. "'") end
 end
 
 return results

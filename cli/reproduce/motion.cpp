@@ -170,12 +170,12 @@ std::string motion_table(RowWriter& writer, const MotionTable& table,
       "{}: {}, {} ({})\n"
       "                                       ------ virtual tank ------   paper  ------- gain "
       "-------\n"
-      "scheme    found by     value between      asked {:>8}  error held   tank   value reading   "
+      "scheme    found_by     value  between      asked {:>8}  error held   tank   value reading   "
       "tank\n",
       problem.name, table.title, problem.unit(), problem.label, table.reading);
   std::string limits =
       "  what limits the trajectory:\n"
-      "scheme    found by  no rates   start  clear.  fastest joint            efforts at their "
+      "scheme    found_by  no rates   start  clear.  fastest joint            efforts at their "
       "limits, the costliest first\n";
   for (const std::string& scheme : schemes_of_table(problem)) {
     set_scheme("scheme", scheme, problem);
