@@ -12,7 +12,7 @@
 #include "solvers/certify/bound/loop_posture.h"
 #include "tests/support/support.h"
 
-// Postures with dependent joints that follow from equations.
+// Postures whose dependent joints satisfy equations.
 
 namespace maxwrench {
 

@@ -136,7 +136,7 @@ INSTANTIATE_TEST_SUITE_P(All, ThreadsInSearchOfTrajectories,
                                            trajectory_searches().end()),
                          [](const auto& entry) { return std::string(entry.param.name); });
 
-/// A posture, a trajectory, and one with joints that follow.
+/// A posture, a trajectory, and one with dependent joints.
 TEST_P(ThreadsInSearchOfTrajectories, FindsTheSame) {
   for (const char* name : {"uvms/valve", "uvms/valve_trajectory", "mobile/trajectory"}) {
     const Problem problem = load_problem(name);

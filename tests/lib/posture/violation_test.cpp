@@ -38,7 +38,7 @@ TEST(Violation, NamesTheJointAndItsLimits) {
             "joint limit: elbow at 1.95 rad, limits -1 .. 1");
 }
 
-/// Where all postures of a theta_r leave the limits of what follows, one of them is named.
+/// Where all postures of a theta_r leave the limits of the dependent joints, one of them is named.
 TEST(Violation, NamesTheDependentJoint) {
   Problem problem = load_problem("mobile/push");
   Joint& elbow = problem.robot.joints[static_cast<std::size_t>(problem.dependent[0])];

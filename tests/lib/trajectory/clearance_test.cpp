@@ -44,7 +44,7 @@ TEST(Clearance, GradientIsThatOfCentralDifferences) {
   EXPECT_GT(compared, 500);
 }
 
-/// Of the knots of a trajectory, with joints that follow from theta_r.
+/// Of the knots of a trajectory, with dependent joints.
 TEST(Clearance, GradientHasTheDependentJoints) {
   const Problem problem = load_problem("mobile/trajectory");
   TrajectoryEvaluator evaluator(problem, Wrench::kPure, trajectory_solvers().front().make);

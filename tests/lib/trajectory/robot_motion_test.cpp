@@ -42,7 +42,7 @@ Eigen::VectorXd slope_of(const F& f, double t, double h) {
   return (8 * (f(t + h) - f(t - h)) - (f(t + 2 * h) - f(t - 2 * h))) / (12 * h);
 }
 
-/// mobile/trajectory with a curve of theta_r, and what follows from the closed form.
+/// mobile/trajectory with a curve of theta_r, and its dependent coordinates in closed form.
 struct Door {
   Problem problem = load_problem("mobile/trajectory");
 
