@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -59,6 +60,16 @@ struct Trim {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< where the force acts, in base axes [m]
 };
 
+/// A gear or linkage that moves a joint with another one: q = ratio q_leader + offset.
+///
+/// The leader's motor drives both. `complete_actuation` gives the gear a column of B: its force
+/// u acts on the joint as u and on the leader as -ratio u, so it does no work.
+struct Gear {
+  int leader = -1;    ///< the joint that leads
+  double ratio = 1;   ///< displacement per displacement of the leader [-, m/rad or rad/m]
+  double offset = 0;  ///< position where the leader is at zero [rad or m]
+};
+
 /// A joint and its motor.
 struct Joint {
   std::string name;                       ///< the name
@@ -70,6 +81,9 @@ struct Joint {
       q_max = kInfinity;                            ///< upper limit [rad or m]
   double velocity_max = kInfinity;                  ///< speed limit [rad/s or m/s]
   double effort_max = 0;                            ///< effort limit, in both directions [N m or N]
+  /// The gear of a joint without a motor of its own. `effort_max` is then the limit of the gear. A
+  /// joint with a gear, and its leader, must not be between the base and an end effector in use.
+  std::optional<Gear> gear = {};
 };
 
 /// Returns q plus or minus whole turns, such that it is inside the limits of a revolute joint if
@@ -185,6 +199,12 @@ struct Robot {
   Eigen::VectorXd u_rate_max;  ///< limits of effort rates (m) [N/s]; infinite for joints
   std::shared_ptr<const CollisionChecker> collision;  ///< null: there is nothing to check
   std::vector<ConvexBody> convex_bodies;              ///< shapes of the robot, for figures
+  /// What a user should know of the robot's data, one line each: placeholders, repairs and what was
+  /// left out. Values computed from such data are as good as the data.
+  std::vector<std::string> warnings;
+  /// Links whose mass and inertia no body can have. At rest only mass and centre of mass count;
+  /// tasks in time and the virtual tank reject such a robot.
+  std::vector<std::string> links_without_inertia;
 
   /// Returns n, the number of velocities: free base axes, then joints.
   int velocities() const { return static_cast<int>(base_axes.size() + joints.size()); }

@@ -22,9 +22,10 @@ namespace maxwrench {
 struct Shape {
   /// The kind of shape.
   enum class Kind {
-    kCapsule,  ///< all points within `radius` of a segment of the z axis
-    kBox,      ///< a box along the axes
-    kCylinder  ///< a cylinder about the z axis
+    kCapsule,   ///< all points within `radius` of a segment of the z axis
+    kBox,       ///< a box along the axes
+    kCylinder,  ///< a cylinder about the z axis
+    kHull       ///< all points within `radius` of the convex hull of `points`
   };
   /// Its name in messages and in `Collision::ignore`. Empty: the name of its link.
   std::string body = "";
@@ -32,10 +33,11 @@ struct Shape {
   Kind kind = Kind::kCapsule;  ///< the kind of shape
   /// Link -> shape. The shape is centred at the origin of this frame.
   Pose<double> placement = {};
-  double radius = 0;  ///< radius of capsule and cylinder [m]
+  double radius = 0;  ///< radius of capsule and cylinder; what a hull is grown by [m]
   /// Half of the length of the axis [m]; a capsule of half length 0 is a sphere.
   double half_length = 0;
   Eigen::Vector3d half_sizes = Eigen::Vector3d::Zero();  ///< half of the sizes of the box [m]
+  std::vector<Eigen::Vector3d> points = {};              ///< vertices of a hull, four or more [m]
 };
 
 /// The self-collision check of a robot.
