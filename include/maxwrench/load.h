@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "maxwrench/problem.h"
+#include "maxwrench/task.h"
 
 /// @file
 /// Reads robots, tasks, trajectories and states from files.
@@ -16,6 +17,33 @@ namespace maxwrench {
 /// @throws std::invalid_argument with one line that names the file, the key, the value and what was
 ///         expected.
 Robot load_robot(const std::filesystem::path& file);
+
+/// How `load_urdf` completes a URDF.
+struct UrdfOptions {
+  /// The link that is the end effector. Empty: each link without children that a joint moves.
+  std::string tool = "";
+  /// The free axes of the base, as in `Robot::base_axes`. The base is parked: it may stand anywhere
+  /// along them, and its brakes hold any load.
+  std::vector<int> base_axes = {};
+  std::filesystem::path srdf = {};  ///< collision pairs to leave out, and named postures; optional
+  /// Folders of packages, in which `package://` is searched before other places.
+  std::vector<std::filesystem::path> packages = {};
+};
+
+/// Makes a robot from a URDF alone.
+///
+/// @throws std::invalid_argument as `load_robot`.
+Robot load_urdf(const std::filesystem::path& urdf, const UrdfOptions& options = {});
+
+/// Makes a static task of a robot's URDF alone. The program chooses the redundant joints.
+///
+/// @param urdf     the URDF
+/// @param options  the robot
+/// @param task     pose or posture, wrench and others; `TaskSpec::robot` and, if it is empty,
+///                 `TaskSpec::end_effector` are set here
+/// @throws std::invalid_argument as `load_robot`.
+Problem make_urdf_problem(const std::filesystem::path& urdf, const UrdfOptions& options,
+                          TaskSpec task);
 
 /// Reads a task and its robot.
 ///

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -199,12 +200,17 @@ struct Robot {
   Eigen::VectorXd u_rate_max;  ///< limits of effort rates (m) [N/s]; infinite for joints
   std::shared_ptr<const CollisionChecker> collision;  ///< null: there is nothing to check
   std::vector<ConvexBody> convex_bodies;              ///< shapes of the robot, for figures
-  /// What a user should know of the robot's data, one line each: placeholders, repairs and what was
-  /// left out. Values computed from such data are as good as the data.
+  /// What is wrong with the robot's data, one line each: placeholders, and what no body or motor
+  /// can have. Values computed from such data are as good as the data.
   std::vector<std::string> warnings;
-  /// Links whose mass and inertia no body can have. At rest only mass and centre of mass count;
-  /// tasks in time and the virtual tank reject such a robot.
-  std::vector<std::string> links_without_inertia;
+  /// How the data were read, one line each: meshes, collision pairs left out, elements not read.
+  std::vector<std::string> notes;
+  /// Why the equation of motion does not hold, one line for each link whose mass and inertia no
+  /// body can have. At rest only mass and centre of mass count; tasks in time reject such a robot.
+  /// `finalize` adds to it.
+  std::vector<std::string> no_dynamics;
+  /// Named postures: positions [rad or m] of some joints, by name.
+  std::map<std::string, std::map<std::string, double>> states;
 
   /// Returns n, the number of velocities: free base axes, then joints.
   int velocities() const { return static_cast<int>(base_axes.size() + joints.size()); }

@@ -48,6 +48,10 @@ struct Collision {
   std::vector<Shape> shapes = {};                                ///< the shapes
   std::vector<std::pair<std::string, std::string>> ignore = {};  ///< pairs of bodies by name
   double margin = 0;                                             ///< least distance [m]
+  /// Leaves out more pairs: links that a joint connects, links that touch in the default posture
+  /// (each joint at zero or at the limit nearest to zero) and links that touch in every one of 200
+  /// random postures. `Robot::notes` then names them.
+  bool find_ignored = false;
 };
 
 /// Checks a robot and computes its derived members.
@@ -100,6 +104,10 @@ struct TaskSpec {
   std::string end_effector = "";  ///< the name of the end effector
   /// The pose of the end effector in the world; the start of a path.
   Pose<double> pose = {};
+  /// In place of `pose`: joint positions [rad or m], by name, that put the end effector there. The
+  /// base is at its mount, and other joints rest. They are also the default and the guess, unless
+  /// these are given.
+  std::optional<std::map<std::string, double>> posture = {};
   /// The coordinates of the pose that a static task leaves free, by their names in kTwistAxes.
   std::vector<std::string> free = {};
   /// Limits [min, max] of coordinates of the pose [m; rad], by their names in kTwistAxes. A

@@ -76,7 +76,15 @@ Eigen::VectorXd resting_joints(const Robot& robot) {
     const Joint& joint = robot.joints[static_cast<std::size_t>(i)];
     q[i] = std::clamp(0.0, joint.q_min, joint.q_max);
   }
+  apply_gears(robot, q);
   return q;
+}
+
+void apply_gears(const Robot& robot, Eigen::VectorXd& q) {
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    const std::optional<Gear>& gear = robot.joints[static_cast<std::size_t>(i)].gear;
+    if (gear) q[i] = gear->ratio * q[gear->leader] + gear->offset;
+  }
 }
 
 }  // namespace maxwrench

@@ -37,6 +37,9 @@ bool base_reaches(const Robot& robot, const Pose<double>& in_world);
 /// The joint positions with each joint at zero, or at its limit nearest to zero.
 Eigen::VectorXd resting_joints(const Robot& robot);
 
+/// Sets the joints that gears move, from those that lead.
+void apply_gears(const Robot& robot, Eigen::VectorXd& q);
+
 /// Singular values below this share of the largest count as zero.
 inline constexpr double kRankTolerance = 1e-9;
 

@@ -52,6 +52,8 @@ void complete_actuation(Robot& robot) {
   }
   for (int j = 0; j < static_cast<int>(robot.joints.size()); ++j) {
     B(base + j, thrusters + j) = 1;
+    if (const auto& gear = robot.joints[j].gear)
+      B(base + gear->leader, thrusters + j) = -gear->ratio;
     u_max[thrusters + j] = robot.joints[j].effort_max;
     u_min[thrusters + j] = -robot.joints[j].effort_max;
   }

@@ -30,6 +30,7 @@ std::shared_ptr<const Geometry> grown(const Shape& shape, double margin) {
     case Shape::Kind::kCylinder:
       return std::make_shared<fcl::Cylinderd>(r, length + 2 * margin);
     case Shape::Kind::kBox:
+    case Shape::Kind::kHull:
       break;
   }
   return std::make_shared<fcl::Boxd>(sides.x(), sides.y(), sides.z());
@@ -42,6 +43,7 @@ double bounding_radius(const Shape& shape) {
     case Shape::Kind::kCylinder:
       return std::hypot(shape.half_length, shape.radius);
     case Shape::Kind::kBox:
+    case Shape::Kind::kHull:
       break;
   }
   return shape.half_sizes.norm();
@@ -256,6 +258,8 @@ ConvexBody to_convex_body(const Shape& shape) {
         for (const double x : {-1.0, 1.0}) {
           for (const double y : {-1.0, 1.0}) add(x * half.x(), y * half.y(), end * half.z());
         }
+        break;
+      case Shape::Kind::kHull:
         break;
       case Shape::Kind::kCylinder:
         for (int i = 0; i < kFaces; ++i) {

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "maxwrench/load.h"
 #include "problems/loader/bad_input.h"
 #include "problems/loader/block.h"
+#include "problems/loader/drives.h"
+#include "problems/loader/srdf.h"
 #include "problems/loader/urdf_tree.h"
 #include "problems/make/robot.h"
 
@@ -24,18 +27,13 @@ const Value& find_named(const std::map<std::string, Value>& values, const std::s
                         fmt::format("{}: {}", noun, fmt::join(names, ", ")));
 }
 
-const Body& find_body(const UrdfTree& tree, const Block& block, std::string_view key,
-                      const std::string& name) {
-  return find_named(tree.bodies, name, block, key, "a link of the URDF");
-}
-
 Pose<double> read_placement(const Block& block) {
   return pose_from_xyz_rpy(block.vector("xyz", Eigen::Vector3d::Zero()),
                            block.vector("rpy", Eigen::Vector3d::Zero()));
 }
 
 void read_base(const Block& base, const UrdfTree& tree, Robot& robot) {
-  base.allow_only({"axes", "link", "xyz", "rpy"});
+  base.allow_only({"axes", "link", "xyz", "rpy", "parked"});
   std::map<std::string, int> axes;
   for (const char* axis : kTwistAxes) axes.emplace(axis, static_cast<int>(axes.size()));
   for (const std::string& name : base.texts("axes")) {
@@ -45,25 +43,11 @@ void read_base(const Block& base, const UrdfTree& tree, Robot& robot) {
     base.throw_bad_value("link", fmt::format("the root link '{}' of the URDF", tree.root));
   }
   robot.mount = read_placement(base);
+  if (base.truth("parked", false)) add_brakes(robot);
   if (robot.base_axes.size() < 6) return;
   for (const char* key : {"xyz", "rpy"}) {
     if (base.has(key))
       base.throw_bad_value(key, "no such key: a base on all six axes needs no start");
-  }
-}
-
-void read_thrusters(const Block& thrusters, Robot& robot) {
-  thrusters.allow_only({"force_min", "force_max", "force_rate_max", "list"});
-  for (const Block& block : thrusters.list("list")) {
-    block.allow_only({"name", "position", "direction", "force_min", "force_max", "force_rate_max"});
-    const auto holder = [&](std::string_view key) { return block.has(key) ? block : thrusters; };
-    robot.thrusters.push_back(
-        {.name = block.text("name"),
-         .position = block.vector("position"),
-         .direction = block.vector("direction"),
-         .force_min = holder("force_min").number("force_min"),
-         .force_max = holder("force_max").number("force_max"),
-         .force_rate_max = holder("force_rate_max").number("force_rate_max", kInfinity)});
   }
 }
 
@@ -151,17 +135,32 @@ Shape read_capsule(const Block& block, const UrdfTree& tree) {
   return shape;
 }
 
-Collision read_collision(const Block& block, const UrdfTree& tree) {
-  block.allow_only({"margin", "ignore", "capsules"});
+MeshUse read_mesh_use(const Block& block, MeshUse otherwise) {
+  const std::string use = block.text("meshes", "");
+  if (use.empty()) return otherwise;
+  if (use == "hull") return MeshUse::kHull;
+  if (use == "capsule") return MeshUse::kCapsule;
+  if (use == "ignore") return MeshUse::kIgnore;
+  block.throw_bad_value("meshes", "'hull', 'capsule' or 'ignore'");
+}
+
+Collision read_collision(const Block& block, const UrdfTree& tree,
+                         const std::optional<Srdf>& srdf) {
+  block.allow_only({"margin", "ignore", "capsules", "meshes"});
   Collision collision;
   collision.shapes = tree.shapes;
   for (const Block& capsule : block.list("capsules")) {
     collision.shapes.push_back(read_capsule(capsule, tree));
   }
+  // Whoever lists pairs lists all of them.
+  collision.find_ignored = !block.has("ignore");
   if (block.has("ignore")) collision.ignore = block.text_pairs("ignore");
   for (const auto& [a, b] : collision.ignore) {
     find_body(tree, block, "ignore", a);
     find_body(tree, block, "ignore", b);
+  }
+  if (srdf) {
+    collision.ignore.insert(collision.ignore.end(), srdf->ignore.begin(), srdf->ignore.end());
   }
   // A body without a shape cannot collide, and the robot does not know it.
   const auto has_shape = [&collision](const std::string& body) {
@@ -173,6 +172,90 @@ Collision read_collision(const Block& block, const UrdfTree& tree) {
   });
   collision.margin = block.number("margin", 0);
   return collision;
+}
+
+std::optional<double> number_if_any(const Block& block, std::string_view key) {
+  return block.has(key) ? std::optional<double>(block.number(key)) : std::nullopt;
+}
+
+JointChoice read_joint_choice(const Block& block) {
+  block.allow_only({"effort", "velocity", "lower", "upper", "lock", "mimic"});
+  JointChoice choice;
+  choice.effort = number_if_any(block, "effort");
+  if (choice.effort.value_or(0) < 0) block.throw_bad_value("effort", "a number >= 0");
+  choice.velocity = number_if_any(block, "velocity");
+  if (choice.velocity.value_or(1) <= 0) block.throw_bad_value("velocity", "a number > 0");
+  choice.lower = number_if_any(block, "lower");
+  choice.upper = number_if_any(block, "upper");
+  choice.lock = number_if_any(block, "lock");
+  if (block.has("mimic")) {
+    const Block mimic = block.table("mimic");
+    mimic.allow_only({"joint", "ratio", "offset"});
+    choice.mimic = {mimic.text("joint"), mimic.number("ratio", 1), mimic.number("offset", 0)};
+  }
+  return choice;
+}
+
+LinkChoice read_link_choice(const Block& block, MeshUse meshes) {
+  block.allow_only({"mass", "com", "inertia", "meshes"});
+  LinkChoice choice;
+  choice.mass = number_if_any(block, "mass");
+  if (choice.mass.value_or(0) < 0) block.throw_bad_value("mass", "a number >= 0");
+  if (block.has("com")) choice.com = block.vector("com");
+  if (block.has("inertia")) {
+    const Vector6d i = block.numbers("inertia", 6);
+    choice.inertia.emplace() << i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2];
+  }
+  choice.meshes = read_mesh_use(block, meshes);
+  return choice;
+}
+
+UrdfChoices read_choices(const Block& root) {
+  UrdfChoices choices;
+  if (root.has("packages")) {
+    for (const std::string& folder : root.texts("packages")) {
+      choices.packages.push_back(root.file().parent_path() / folder);
+    }
+  }
+  choices.meshes = read_mesh_use(root.table("collision"), choices.meshes);
+  for (const auto& [name, block] : root.named("joints")) {
+    choices.joints.emplace(name, read_joint_choice(block));
+  }
+  for (const auto& [name, block] : root.named("links")) {
+    choices.links.emplace(name, read_link_choice(block, choices.meshes));
+  }
+  for (const auto& [name, block] : root.named("end_effectors")) {
+    choices.tips.insert(block.text("link"));
+  }
+  return choices;
+}
+
+/// Named postures of the TOML and of the SRDF.
+void read_states(const Block& root, const std::optional<Srdf>& srdf, Robot& robot) {
+  if (srdf) robot.states = srdf->states;
+  for (const auto& [name, block] : root.named("states")) {
+    robot.states[name] = block.numbers_by_name();
+    for (const auto& [joint, position] : robot.states[name]) {
+      const bool known = std::any_of(robot.joints.begin(), robot.joints.end(),
+                                     [&joint = joint](const Joint& j) { return j.name == joint; });
+      if (!known) block.throw_bad_value(joint, "a joint that moves");
+    }
+  }
+}
+
+std::filesystem::path named_file(const Block& root, const char* key) {
+  const std::filesystem::path path = root.file().parent_path() / root.text(key);
+  if (is_file(path)) return path;
+  root.throw_bad_value(
+      key, fmt::format("a file relative to this one ({} is not a file)", path.string()));
+}
+
+void add_tree(const UrdfTree& tree, Robot& robot) {
+  robot.links = tree.links;
+  robot.joints = tree.joints;
+  robot.warnings = tree.warnings;
+  robot.notes = tree.notes;
+  robot.no_dynamics = tree.no_dynamics;
 }
 
 /// The key of a thruster's value. If the thruster has no value of its own, the key is that of the
@@ -192,38 +275,78 @@ std::string thruster_key(const Block& thrusters, const std::string& key) {
 
 Robot load_robot(const std::filesystem::path& file) {
   const Block root = Block::read(file);
-  root.allow_only({"name", "urdf", "base", "environment", "thrusters", "end_effectors", "buoyancy",
-                   "hydrodynamics", "trim", "collision"});
+  root.allow_only({"name", "urdf", "srdf", "packages", "base", "environment", "thrusters", "wheels",
+                   "joints", "links", "states", "end_effectors", "buoyancy", "hydrodynamics",
+                   "trim", "collision"});
   Robot robot;
   robot.name = root.text("name");
   robot.sources = root.sources("robot");
-  const std::filesystem::path urdf = file.parent_path() / root.text("urdf");
-  if (!is_file(urdf)) {
-    root.throw_bad_value(
-        "urdf", fmt::format("a file relative to this one ({} is not a file)", urdf.string()));
-  }
+  const std::filesystem::path urdf = named_file(root, "urdf");
   const Block thrusters = root.table("thrusters");
   const auto file_of = [&](std::string& key) {
-    if (key.starts_with("link") || key.starts_with("joint")) return urdf;
+    if (key.starts_with("link[") || key.starts_with("joint[")) return urdf;
     key = thruster_key(thrusters, key);
     return file;
   };
   return in_files(file_of, [&] {
-    const UrdfTree tree = read_urdf(urdf);
-    robot.links = tree.links;
-    robot.joints = tree.joints;
+    const UrdfTree tree = read_urdf(urdf, read_choices(root));
+    std::optional<Srdf> srdf;
+    if (root.has("srdf")) srdf = read_srdf(named_file(root, "srdf"));
+    add_tree(tree, robot);
     read_base(root.table("base"), tree, robot);
     const Block environment = root.table("environment");
     environment.allow_only({"gravity", "water_density"});
     robot.gravity = environment.number("gravity", robot.gravity);
     robot.water_density = environment.number("water_density", robot.water_density);
-    read_thrusters(thrusters, robot);
+    read_thrusters(thrusters, tree, robot);
+    read_wheels(root.table("wheels"), tree, robot);
     read_end_effectors(root, tree, robot);
     read_buoyancy(root, tree, robot);
     read_hydrodynamics(root, tree, robot);
     require_water(root, robot);
     read_trim(root, robot);
-    return finalize(robot, read_collision(root.table("collision"), tree));
+    read_states(root, srdf, robot);
+    return finalize(robot, read_collision(root.table("collision"), tree, srdf));
+  });
+}
+
+Robot load_urdf(const std::filesystem::path& urdf, const UrdfOptions& options) {
+  const auto file_of = [&](const std::string&) { return urdf; };
+  return in_files(file_of, [&] {
+    UrdfChoices choices;
+    choices.packages = options.packages;
+    if (!options.tool.empty()) choices.tips = {options.tool};
+    const UrdfTree tree = read_urdf(urdf, choices);
+    Robot robot;
+    robot.name = tree.name;
+    add_tree(tree, robot);
+    const auto add_tool = [&](const std::string& name) {
+      const Body& body = tree.bodies.at(name);
+      robot.end_effectors.push_back({name, body.link, body.placement});
+    };
+    if (options.tool.empty()) {
+      for (const std::string& name : tree.leaves) add_tool(name);
+    } else if (tree.bodies.contains(options.tool)) {
+      add_tool(options.tool);
+    } else {
+      throw BadValue(
+          "tool", shown(options.tool),
+          fmt::format("a link of the URDF, for example {}", fmt::join(tree.leaves, ", ")));
+    }
+    robot.base_axes = options.base_axes;
+    add_brakes(robot);
+    Collision collision;
+    collision.shapes = tree.shapes;
+    collision.find_ignored = true;
+    if (!options.srdf.empty()) {
+      const Srdf srdf = read_srdf(options.srdf);
+      robot.states = srdf.states;
+      collision.ignore = srdf.ignore;
+      std::erase_if(collision.ignore, [&](const auto& pair) {
+        return !tree.bodies.contains(pair.first) || !tree.bodies.contains(pair.second);
+      });
+    }
+    return finalize(robot, collision);
   });
 }
 

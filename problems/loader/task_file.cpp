@@ -110,17 +110,44 @@ void read_free_pose(const Block& pose, TaskSpec& spec) {
   spec.along_end_effector = frame == "end_effector";
 }
 
+/// The joint positions in `state`, then those in `joints`.
+std::map<std::string, double> read_posture(const Block& pose, const Robot& robot) {
+  std::map<std::string, double> posture = pose.table("joints").numbers_by_name();
+  if (!pose.has("state")) return posture;
+  const auto state = robot.states.find(pose.text("state"));
+  if (state == robot.states.end()) {
+    std::vector<std::string> names;
+    for (const auto& entry : robot.states) names.push_back(entry.first);
+    pose.throw_bad_value("state",
+                         fmt::format("a named state of the robot: {}", fmt::join(names, ", ")));
+  }
+  posture.insert(state->second.begin(), state->second.end());
+  std::erase_if(posture, [&robot](const auto& entry) {
+    return std::none_of(robot.joints.begin(), robot.joints.end(), [&](const Joint& joint) {
+      return joint.name == entry.first && !joint.gear;
+    });
+  });
+  return posture;
+}
+
 /// Reads the pose. A path through the poses of a table has its own.
 void read_pose(const Block& task, TaskSpec& spec) {
   if (follows_poses(task)) return;
   const Block pose = task.table("pose");
-  pose.allow_only({"xyz", "rpy", "free", "range", "frame"});
+  pose.allow_only({"xyz", "rpy", "joints", "state", "free", "range", "frame"});
   for (const char* key : {"free", "range", "frame"}) {
     if (task.text("type") != "static" && pose.has(key)) {
       pose.throw_bad_value(key, "no such key except in static tasks: in time the pose is given");
     }
   }
-  spec.pose = pose_from_xyz_rpy(pose.vector("xyz"), pose.vector("rpy"));
+  if (pose.has("joints") || pose.has("state")) {
+    for (const char* key : {"xyz", "rpy"}) {
+      if (pose.has(key)) pose.throw_bad_value(key, "no such key beside pose.joints or pose.state");
+    }
+    spec.posture = read_posture(pose, spec.robot);
+  } else {
+    spec.pose = pose_from_xyz_rpy(pose.vector("xyz"), pose.vector("rpy"));
+  }
   read_free_pose(pose, spec);
 }
 
@@ -170,6 +197,15 @@ Problem load_problem(const std::string& name) {
   std::vector<fs::path> files = {file, robot, urdf};
   if (spec.motion && !spec.motion->path_file.empty()) files.emplace_back(spec.motion->path_file);
   problem.digest = digest_of(files);
+  return problem;
+}
+
+Problem make_urdf_problem(const fs::path& urdf, const UrdfOptions& options, TaskSpec task) {
+  task.robot = load_urdf(urdf, options);
+  const auto& tips = task.robot.end_effectors;
+  if (task.end_effector.empty() && tips.size() == 1) task.end_effector = tips.front().name;
+  Problem problem = in_file(urdf, [&] { return make_problem(task); });
+  problem.digest = digest_of({urdf});
   return problem;
 }
 

@@ -19,6 +19,7 @@ class UrdfElement {
       : file_(&file), xml_(&xml), key_(std::move(key)) {}
 
   std::string tag() const { return xml_->Name(); }
+  const std::string& key() const { return key_; }
 
   /// The link or joint with its name in the key, `link[hull]`. Rejects an element without a name.
   UrdfElement with_name() const;

@@ -4,36 +4,15 @@
 #include <fmt/ranges.h>
 
 #include <iterator>
+#include <set>
 
 #include "problems/loader/bad_input.h"
+#include "problems/loader/xacro.h"
 
 namespace maxwrench {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The element <robot>.
-UrdfElement parse(const fs::path& file, tinyxml2::XMLDocument& document) {
-  std::ifstream stream = open_file(file, "a URDF file");
-  const std::string text(std::istreambuf_iterator<char>(stream), {});
-  document.Parse(text.c_str());
-  if (document.Error()) {
-    const bool deep = document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED;
-    throw_bad_input(file, fmt::format("line {}", document.ErrorLineNum()),
-                    deep ? fmt::format("an element within {} others", TINYXML2_MAX_ELEMENT_DEPTH)
-                         : fmt::format("'{}'", document.ErrorName()),
-                    deep ? "a file with less nesting" : "valid XML");
-  }
-  const tinyxml2::XMLElement* xml = document.FirstChildElement("robot");
-  if (xml == nullptr) throw_bad_input(file, "robot", "nothing", "an element <robot>");
-  if (xml->NextSiblingElement("robot") != nullptr)
-    throw_bad_input(file, "robot", "two", "one robot");
-  const UrdfElement robot(file, *xml, "robot");
-  if (!robot.attribute("name")) robot.throw_bad_input("name", "nothing", "a name");
-  const std::string version = robot.attribute("version").value_or("1.0");
-  if (version != "1.0") robot.throw_bad_input("version", fmt::format("'{}'", version), "1.0");
-  return robot;
-}
 
 /// The links or joints by name.
 std::map<std::string, UrdfElement> named_elements(const UrdfElement& robot, const char* tag) {
@@ -91,7 +70,66 @@ std::string find_root(const fs::path& file, const std::map<std::string, UrdfElem
   return root;
 }
 
+/// The elements that are read, by the element that holds them.
+const std::map<std::string, std::set<std::string>>& known_elements() {
+  static const std::map<std::string, std::set<std::string>> kKnown = {
+      {"robot", {"link", "joint"}},
+      {"link", {"inertial", "collision"}},
+      {"inertial", {"origin", "mass", "inertia"}},
+      {"collision", {"origin", "geometry"}},
+      {"geometry", {"box", "cylinder", "sphere", "capsule", "mesh"}},
+      {"joint", {"origin", "parent", "child", "axis", "limit", "mimic"}}};
+  return kKnown;
+}
+
+void collect_ignored(const tinyxml2::XMLElement& element, std::map<std::string, int>& counts) {
+  const auto known = known_elements().find(element.Name());
+  if (known == known_elements().end()) return;
+  for (const tinyxml2::XMLElement* each = element.FirstChildElement(); each != nullptr;
+       each = each->NextSiblingElement()) {
+    if (known->second.contains(each->Name())) {
+      collect_ignored(*each, counts);
+    } else {
+      ++counts[fmt::format("{}.{}", element.Name(), each->Name())];
+    }
+  }
+}
+
+void count_ignored(const tinyxml2::XMLElement& robot, std::vector<std::string>& notes) {
+  std::map<std::string, int> counts;
+  collect_ignored(robot, counts);
+  // These say how a robot looks, or repeat what limits say. To ignore them changes nothing.
+  for (const char* idle : {"link.visual", "robot.material", "robot.transmission"}) {
+    counts.erase(idle);
+  }
+  std::vector<std::string> ignored;
+  for (const auto& [name, count] : counts) ignored.push_back(fmt::format("{} of {}", count, name));
+  if (!ignored.empty()) notes.push_back(fmt::format("not read: {}", fmt::join(ignored, ", ")));
+}
+
 }  // namespace
+
+UrdfElement parse_robot(const fs::path& file, tinyxml2::XMLDocument& document) {
+  std::ifstream stream = open_file(file, "a URDF file");
+  std::string text(std::istreambuf_iterator<char>(stream), {});
+  if (is_xacro(file, text)) text = expand_xacro(file);
+  document.Parse(text.c_str());
+  if (document.Error()) {
+    const bool deep = document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED;
+    throw_bad_input(file, fmt::format("line {}", document.ErrorLineNum()),
+                    deep ? fmt::format("an element within {} others", TINYXML2_MAX_ELEMENT_DEPTH)
+                         : fmt::format("'{}'", document.ErrorName()),
+                    deep ? "a file with less nesting" : "valid XML");
+  }
+  const tinyxml2::XMLElement* xml = document.FirstChildElement("robot");
+  if (xml == nullptr) throw_bad_input(file, "robot", "nothing", "an element <robot>");
+  if (xml->NextSiblingElement("robot") != nullptr)
+    throw_bad_input(file, "robot", "two", "one robot");
+  const UrdfElement robot(file, *xml, "robot");
+  const std::string version = robot.attribute("version").value_or("1.0");
+  if (version != "1.0") robot.throw_bad_input("version", fmt::format("'{}'", version), "1.0");
+  return robot;
+}
 
 std::string name_of(const UrdfElement& element) { return element.attribute("name").value(); }
 
@@ -102,10 +140,12 @@ std::string end_of(const UrdfElement& joint, const char* end) {
   return *link;
 }
 
-UrdfStructure read_structure(const fs::path& file, tinyxml2::XMLDocument& document) {
+UrdfStructure read_structure(const fs::path& file, tinyxml2::XMLDocument& document,
+                             std::vector<std::string>& notes) {
   constexpr std::size_t kMostLinks = 1000;
-  const UrdfElement robot = parse(file, document);
+  const UrdfElement robot = parse_robot(file, document);
   UrdfStructure structure;
+  structure.name = robot.attribute("name").value_or("");
   structure.links = named_elements(robot, "link");
   const std::size_t count = structure.links.size();
   if (count == 0) throw_bad_input(file, "link", "nothing", "one link or more");
@@ -116,8 +156,10 @@ UrdfStructure read_structure(const fs::path& file, tinyxml2::XMLDocument& docume
   const auto joints = named_elements(robot, "joint");
   structure.root = find_root(file, structure.links, find_parents(structure.links, joints));
   for (const UrdfElement& joint : robot.children("joint")) {
-    structure.joints_from[end_of(joint, "parent")].push_back(joint.with_name());
+    structure.joints.push_back(joint.with_name());
+    structure.joints_from[end_of(joint, "parent")].push_back(structure.joints.back());
   }
+  count_ignored(*document.FirstChildElement("robot"), notes);
   return structure;
 }
 

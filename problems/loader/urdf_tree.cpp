@@ -2,35 +2,30 @@
 
 #include <fmt/format.h>
 
-#include <numbers>
-
+#include "lib/robot/spatial.h"
 #include "problems/loader/bad_input.h"
+#include "problems/loader/urdf_joint.h"
+#include "problems/loader/urdf_shape.h"
 #include "problems/loader/urdf_structure.h"
 #include "problems/make/robot.h"
 
 namespace maxwrench {
 namespace {
 
-/// The pose in `origin`. The rotation is computed from a quaternion of half angles.
-Pose<double> origin_of(const UrdfElement& element) {
-  const std::optional<UrdfElement> origin = element.child_if_any("origin");
-  if (!origin) return {};
-  const Eigen::Vector3d half = origin->vector("rpy", Eigen::Vector3d::Zero()) / 2;
-  const Eigen::Array3d c = half.array().cos(), s = half.array().sin();
-  const Eigen::Quaterniond q(
-      c[0] * c[1] * c[2] + s[0] * s[1] * s[2], s[0] * c[1] * c[2] - c[0] * s[1] * s[2],
-      c[0] * s[1] * c[2] + s[0] * c[1] * s[2], c[0] * c[1] * s[2] - s[0] * s[1] * c[2]);
-  return {q.normalized().toRotationMatrix(), origin->vector("xyz", Eigen::Vector3d::Zero())};
-}
-
 /// The state while one file is flattened.
 struct Reading {
   const UrdfStructure& structure;
-  UrdfTree tree;
+  const UrdfChoices& choices;
+  std::map<std::string, UrdfJoint> joints;
+  MeshReading meshes;
+  UrdfTree& tree;
+  std::map<std::string, int> index_of;  ///< of joints in the tree
 };
 
-Eigen::Matrix3d inertia_of(const UrdfElement& given) {
-  const auto value = [&](const char* name) { return given.number(name); };
+Eigen::Matrix3d inertia_of(const UrdfElement& inertial) {
+  const std::optional<UrdfElement> given = inertial.child_if_any("inertia");
+  if (!given) return Eigen::Matrix3d::Zero();
+  const auto value = [&](const char* name) { return given->number(name, 0); };
   const double xy = value("ixy"), xz = value("ixz"), yz = value("iyz");
   Eigen::Matrix3d inertia;
   inertia << value("ixx"), xy, xz, xy, value("iyy"), yz, xz, yz, value("izz");
@@ -38,110 +33,165 @@ Eigen::Matrix3d inertia_of(const UrdfElement& given) {
 }
 
 /// Adds a body to the link that carries it.
-void add_inertial(Link& carrier, const std::string& name, const UrdfElement& inertial,
-                  const Pose<double>& body) {
-  const Pose<double> frame = body * origin_of(inertial);
-  const double mass = inertial.child("mass").number("value");
-  const Eigen::Matrix3d inertia = inertia_of(inertial.child("inertia"));
+void add_inertial(Reading& reading, const UrdfElement& link, const Body& body) {
+  const std::string name = name_of(link);
+  const std::optional<UrdfElement> inertial = link.child_if_any("inertial");
+  const auto found = reading.choices.links.find(name);
+  static const LinkChoice kNone;
+  const LinkChoice& choice = found == reading.choices.links.end() ? kNone : found->second;
+  double mass = 0;
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  Pose<double> frame;
+  if (inertial) {
+    frame = origin_of(*inertial);
+    inertia = inertia_of(*inertial);
+    if (const auto given = inertial->child_if_any("mass")) mass = given->number("value");
+  }
+  mass = choice.mass.value_or(mass);
+  if (choice.com) frame.p = *choice.com;
+  if (choice.inertia) {
+    inertia = *choice.inertia;
+    frame.R.setIdentity();
+  }
+  frame = body.placement * frame;
   require_body(name, mass, inertia);
+  Link& carrier = reading.tree.links[static_cast<std::size_t>(body.link)];
+  if (const auto bad = why_no_body(name, mass, inertia)) reading.tree.no_dynamics.push_back(*bad);
   if (mass > 0) add_body(carrier, mass, frame.p, frame.R * inertia * frame.R.transpose());
-}
-
-Shape shape_of(const UrdfElement& collision) {
-  const char* expected =
-      "one box, cylinder or sphere, or no <collision> here and capsules in the robot's TOML";
-  const UrdfElement geometry = collision.child("geometry");
-  const std::vector<UrdfElement> shapes = geometry.children();
-  if (shapes.empty()) geometry.throw_bad_input("", "nothing", expected);
-  const UrdfElement& given = shapes[0];
-  const std::string tag = given.tag();
-  const bool round = tag == "cylinder" || tag == "sphere";
-  if (!round && tag != "box") geometry.throw_bad_input("", fmt::format("<{}>", tag), expected);
-  if (shapes.size() > 1) {
-    geometry.throw_bad_input("", fmt::format("<{}> and <{}>", tag, shapes[1].tag()), expected);
-  }
-  Shape shape;
-  if (round) shape.radius = given.number("radius");
-  if (tag == "box") {
-    shape.kind = Shape::Kind::kBox;
-    shape.half_sizes = given.vector("size") / 2;
-  } else if (tag == "cylinder") {
-    shape.kind = Shape::Kind::kCylinder;
-    shape.half_length = given.number("length") / 2;
-  }
-  return shape;
 }
 
 void add_link(Reading& reading, const UrdfElement& link, const Body& body) {
   const std::string name = name_of(link);
   reading.tree.bodies.emplace(name, body);
-  if (const auto inertial = link.child_if_any("inertial")) {
-    add_inertial(reading.tree.links[static_cast<std::size_t>(body.link)], name, *inertial,
-                 body.placement);
-  }
+  add_inertial(reading, link, body);
+  const auto choice = reading.choices.links.find(name);
+  const MeshUse meshes = choice == reading.choices.links.end()
+                             ? reading.choices.meshes
+                             : choice->second.meshes.value_or(reading.choices.meshes);
   for (const UrdfElement& collision : link.children("collision")) {
-    Shape shape = shape_of(collision);
-    shape.body = name;
-    shape.link = body.link;
-    shape.placement = body.placement * origin_of(collision);
-    reading.tree.shapes.push_back(std::move(shape));
+    std::optional<Shape> shape = read_shape(collision, meshes, reading.meshes);
+    if (!shape) continue;
+    shape->body = name;
+    shape->link = body.link;
+    shape->placement = body.placement * shape->placement;
+    reading.tree.shapes.push_back(std::move(*shape));
   }
 }
 
-void set_limits(const UrdfElement& from, bool continuous, Joint& joint) {
-  const std::optional<UrdfElement> limit = from.child_if_any("limit");
-  if (!limit) from.throw_bad_input("limit", "nothing", "effort and velocity");
-  joint.effort_max = limit->number("effort");
-  joint.velocity_max = limit->number("velocity");
-  joint.q_min = continuous ? -std::numbers::pi : limit->number("lower", 0);
-  joint.q_max = continuous ? std::numbers::pi : limit->number("upper", 0);
-}
-
-/// A joint that is not fixed.
-Joint joint_of(const UrdfElement& from, const std::string& type, const Body& parent) {
-  Joint joint;
-  joint.name = name_of(from);
-  joint.parent = parent.link;
-  joint.type = type == "prismatic" ? JointType::kPrismatic : JointType::kRevolute;
-  if (type != "revolute" && type != "continuous" && type != "prismatic") {
-    const bool of_base = type == "floating" || type == "planar";
-    from.throw_bad_input(
-        "type", of_base ? type : fmt::format("'{}'", type),
-        fmt::format("revolute, continuous, prismatic or fixed{}",
-                    of_base ? " (the base moves by base.axes in the robot's TOML)" : ""));
+/// The pose of a locked joint's link in axes of the joint.
+Pose<double> moved_by(const UrdfJoint& joint) {
+  const double q = *joint.locked;
+  Pose<double> pose;
+  const Eigen::Vector3d axis = joint.joint.axis.normalized();
+  if (joint.joint.type == JointType::kPrismatic) {
+    pose.p = q * axis;
+  } else if (q != 0) {
+    pose.R = Eigen::AngleAxisd(q, axis).toRotationMatrix();
   }
-  joint.placement = parent.placement * origin_of(from);
-  const std::optional<UrdfElement> axis = from.child_if_any("axis");
-  joint.axis = axis ? axis->vector("xyz") : Eigen::Vector3d::UnitX();
-  set_limits(from, type == "continuous", joint);
-  if (const auto mimic = from.child_if_any("mimic")) {
-    from.throw_bad_input("mimic", fmt::format("'{}'", mimic->attribute("joint").value_or("")),
-                         "an independent joint");
-  }
-  return joint;
+  return pose;
 }
 
 void visit(Reading& reading, const std::string& name, const Body& body) {
   add_link(reading, reading.structure.links.at(name), body);
   const auto joints = reading.structure.joints_from.find(name);
-  if (joints == reading.structure.joints_from.end()) return;
-  for (const UrdfElement& joint : joints->second) {
-    const std::string child = end_of(joint, "child");
-    const std::optional<std::string> type = joint.attribute("type");
-    if (!type) joint.throw_bad_input("type", "nothing", "revolute, continuous, prismatic or fixed");
-    Body moved;
-    if (*type == "fixed") {
-      moved = {body.link, body.placement * origin_of(joint)};
+  if (joints == reading.structure.joints_from.end()) {
+    if (body.link > 0) reading.tree.leaves.push_back(name);
+    return;
+  }
+  for (const UrdfElement& element : joints->second) {
+    const UrdfJoint& joint = reading.joints.at(name_of(element));
+    const Pose<double> placement = body.placement * origin_of(element);
+    const std::string child = end_of(element, "child");
+    Body moved{body.link, placement};
+    if (joint.locked) {
+      moved.placement = placement * moved_by(joint);
     } else {
-      reading.tree.joints.push_back(joint_of(joint, *type, body));
+      reading.index_of.emplace(joint.joint.name, static_cast<int>(reading.tree.joints.size()));
+      reading.tree.joints.push_back(joint.joint);
+      reading.tree.joints.back().parent = body.link;
+      reading.tree.joints.back().placement = placement;
       reading.tree.links.push_back(Link{.name = child});
-      moved.link = static_cast<int>(reading.tree.joints.size());
+      moved = {static_cast<int>(reading.tree.joints.size()), {}};
     }
     visit(reading, child, moved);
   }
 }
 
+/// A force [N or N m] that no gear of this robot carries: a hundred times all its weight, at its
+/// whole length and 1 m more.
+double beyond_all_loads(const UrdfTree& tree) {
+  constexpr double kGravity = 10, kMuch = 100;
+  double mass = 1, length = 1;
+  for (const Link& link : tree.links) {
+    mass += link.mass;
+    length += link.com.norm();
+  }
+  for (const Joint& joint : tree.joints) {
+    length += joint.placement.p.norm();
+    if (joint.type == JointType::kPrismatic) {
+      length += std::max(std::abs(joint.q_min), std::abs(joint.q_max));
+    }
+  }
+  return kMuch * kGravity * mass * length;
+}
+
+void set_gears(Reading& reading) {
+  const double beyond = beyond_all_loads(reading.tree);
+  for (Joint& joint : reading.tree.joints) {
+    const std::optional<Mimic>& mimic = reading.joints.at(joint.name).mimic;
+    if (!mimic) continue;
+    joint.gear = {reading.index_of.at(mimic->leader), mimic->ratio, mimic->offset};
+    joint.effort_max = beyond;
+  }
+}
+
+/// Lengths and masses that only other units explain.
+void suspect_units(UrdfTree& tree) {
+  constexpr double kFar = 20, kHeavy = 5000;  // m, kg
+  for (const Joint& joint : tree.joints) {
+    if (joint.placement.p.norm() < kFar) continue;
+    tree.warnings.push_back(
+        fmt::format("joint[{}].origin.xyz: {:.3g} m from the joint before it: "
+                    "millimetres?",
+                    joint.name, joint.placement.p.norm()));
+  }
+  for (const Link& link : tree.links) {
+    if (link.mass > kHeavy) {
+      tree.warnings.push_back(
+          fmt::format("link[{}].inertial.mass: {:.3g} kg: grams?", link.name, link.mass));
+    }
+    if (link.com.norm() > kFar) {
+      tree.warnings.push_back(fmt::format("link[{}].inertial.origin.xyz: {:.3g} m: millimetres?",
+                                          link.name, link.com.norm()));
+    }
+  }
+}
+
+/// An effort that all motors share is rarely that of each of them.
+void suspect_efforts(UrdfTree& tree) {
+  constexpr int kMany = 4;
+  std::map<double, int> counts;
+  for (const Joint& joint : tree.joints) {
+    if (!joint.gear) ++counts[joint.effort_max];
+  }
+  if (counts.size() != 1 || counts.begin()->second < kMany || counts.begin()->first == 0) return;
+  tree.warnings.push_back(fmt::format("joint.limit.effort: all {} joints have {:g}: a placeholder?",
+                                      counts.begin()->second, counts.begin()->first));
+}
+
 }  // namespace
+
+Pose<double> origin_of(const UrdfElement& element) {
+  const std::optional<UrdfElement> origin = element.child_if_any("origin");
+  if (!origin) return {};
+  // Half angles: the rotation is computed from a quaternion.
+  const Eigen::Vector3d half = origin->vector("rpy", Eigen::Vector3d::Zero()) / 2;
+  const Eigen::Array3d c = half.array().cos(), s = half.array().sin();
+  const Eigen::Quaterniond q(
+      c[0] * c[1] * c[2] + s[0] * s[1] * s[2], s[0] * c[1] * c[2] - c[0] * s[1] * s[2],
+      c[0] * s[1] * c[2] + s[0] * c[1] * s[2], c[0] * c[1] * s[2] - s[0] * s[1] * c[2]);
+  return {q.normalized().toRotationMatrix(), origin->vector("xyz", Eigen::Vector3d::Zero())};
+}
 
 Pose<double> pose_from_xyz_rpy(const Eigen::Vector3d& xyz, const Eigen::Vector3d& rpy) {
   using Eigen::AngleAxisd, Eigen::Vector3d;
@@ -152,14 +202,36 @@ Pose<double> pose_from_xyz_rpy(const Eigen::Vector3d& xyz, const Eigen::Vector3d
   return {R, xyz};
 }
 
-UrdfTree read_urdf(const std::filesystem::path& file) {
+UrdfTree read_urdf(const std::filesystem::path& file, const UrdfChoices& choices) {
   tinyxml2::XMLDocument document;
-  const UrdfStructure structure = read_structure(file, document);
-  Reading reading{structure, {}};
-  reading.tree.root = structure.root;
-  reading.tree.links.push_back(Link{.name = structure.root});
+  UrdfTree tree;
+  const UrdfStructure structure = read_structure(file, document, tree.notes);
+  const auto require_known = [&](const auto& choices_by_name, const char* noun, const auto& known) {
+    for (const auto& [name, choice] : choices_by_name) {
+      if (!known(name)) {
+        throw BadValue(fmt::format("{}s.{}", noun, name), "an unknown key",
+                       fmt::format("the name of a {} of the URDF", noun));
+      }
+    }
+  };
+  Reading reading{structure,
+                  choices,
+                  read_joints(structure, choices, tree.warnings),
+                  {file, choices.packages, tree.warnings, tree.notes},
+                  tree,
+                  {}};
+  require_known(choices.joints, "joint",
+                [&](const std::string& name) { return reading.joints.contains(name); });
+  require_known(choices.links, "link",
+                [&](const std::string& name) { return structure.links.contains(name); });
+  tree.name = structure.name.empty() ? file.stem().string() : structure.name;
+  tree.root = structure.root;
+  tree.links.push_back(Link{.name = structure.root});
   visit(reading, structure.root, Body{});
-  return std::move(reading.tree);
+  set_gears(reading);
+  suspect_units(tree);
+  suspect_efforts(tree);
+  return tree;
 }
 
 }  // namespace maxwrench

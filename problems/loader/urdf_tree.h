@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "maxwrench/robot.h"
-#include "problems/loader/collision.h"
+#include "maxwrench/task.h"
+#include "problems/loader/urdf_choices.h"
+#include "problems/loader/urdf_element.h"
 
 namespace maxwrench {
 
@@ -16,20 +17,27 @@ struct Body {
   Pose<double> placement;  ///< link of the robot -> URDF link
 };
 
-/// The contents of a URDF file. Links on fixed joints are merged into the link that carries them.
+/// The contents of a URDF file. Links on joints that are fixed or locked are merged into the link
+/// that carries them.
 struct UrdfTree {
+  std::string name;  ///< of the element <robot>; the file's if it has none
   std::string root;
   std::vector<Link> links;  ///< named after the URDF link that their joint moves
   std::vector<Joint> joints;
   std::map<std::string, Body> bodies;  ///< by name of the URDF link
+  std::vector<std::string> leaves;     ///< the URDF links without children that a joint moves
   std::vector<Shape> shapes;
+  std::vector<std::string> warnings, notes, no_dynamics;  ///< as in `Robot`
 };
 
 /// Reads a URDF file. Links and joints are in depth-first order from the root, siblings in the
 /// order of the file.
-UrdfTree read_urdf(const std::filesystem::path& file);
+UrdfTree read_urdf(const std::filesystem::path& file, const UrdfChoices& choices = {});
 
 /// The pose of a URDF origin: rotations about the fixed axes x, y, z, in this order.
 Pose<double> pose_from_xyz_rpy(const Eigen::Vector3d& xyz, const Eigen::Vector3d& rpy);
+
+/// The pose in the element `origin`; the identity if there is none.
+Pose<double> origin_of(const UrdfElement& element);
 
 }  // namespace maxwrench

@@ -46,6 +46,10 @@ std::string peak_range(int k) { return fmt::format("a knot from 1 to k = {}, or 
 
 void set_motion(const TaskSpec& task, Problem& problem) {
   if (!task.motion) return;
+  if (!task.robot.no_dynamics.empty()) {
+    throw BadValue("robot", task.robot.no_dynamics.front(),
+                   "masses and inertias of bodies; only static tasks do without");
+  }
   MotionTask& motion = problem.motion.emplace(*task.motion);
   motion.c_turns = task.wrench_in_end_effector;
   if (!motion.impulse) motion.T = motion.path.duration();

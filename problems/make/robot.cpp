@@ -4,10 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "problems/loader/collision.h"
 #include "problems/make/bad_value.h"
+#include "problems/make/touching_bodies.h"
 
 namespace maxwrench {
 namespace {
@@ -18,9 +20,9 @@ Eigen::Vector3d principal_moments(const Eigen::Matrix3d& inertia) {
       .eigenvalues();
 }
 
-[[noreturn]] void throw_bad_moments(const std::string& link, const Eigen::Vector3d& moments,
-                                    std::string_view expected) {
-  throw BadValue(
+std::string bad_moments(const std::string& link, const Eigen::Vector3d& moments,
+                        std::string_view expected) {
+  return bad_value_line(
       fmt::format("link[{}].inertial.inertia", link),
       fmt::format("principal moments {:.6g}, {:.6g}, {:.6g}", moments[0], moments[1], moments[2]),
       expected);
@@ -54,19 +56,30 @@ void check_base(Robot& robot) {
   require_pose("base", robot.mount);
 }
 
-/// Rejects a moving link without mass and moments: its equation of motion would be singular.
-void require_inertia(const Link& link) {
+/// Why a link that moves has no equation of motion: without mass or moments it is singular.
+std::optional<std::string> why_no_motion(const Link& link) {
   const char* moves = "of this link with all that is fixed to it, because it moves";
   if (!(link.mass > 0)) {
-    throw BadValue(fmt::format("link[{}].inertial.mass", link.name), shown(link.mass),
-                   fmt::format("a mass > 0 {}", moves));
+    return bad_value_line(fmt::format("link[{}].inertial.mass", link.name), shown(link.mass),
+                          fmt::format("a mass > 0 {}", moves));
   }
   const Eigen::Vector3d moments = principal_moments(link.inertia);
-  if (moments[0] > 1e-9 * moments[2]) return;
-  throw_bad_moments(link.name, moments, fmt::format("moments > 0 {}", moves));
+  if (moments[0] > 1e-9 * moments[2]) return std::nullopt;
+  return bad_moments(link.name, moments, fmt::format("moments > 0 {}", moves));
 }
 
-void check_links(const Robot& robot) {
+/// Adds to `Robot::no_dynamics` unless that link is there.
+void check_dynamics(const Link& link, bool rests, Robot& robot) {
+  const std::string key = fmt::format("link[{}].inertial", link.name);
+  for (const std::string& known : robot.no_dynamics) {
+    if (known.starts_with(key)) return;
+  }
+  std::optional<std::string> why = why_no_body(link.name, link.mass, link.inertia);
+  if (!why && !rests) why = why_no_motion(link);
+  if (why) robot.no_dynamics.push_back(*why);
+}
+
+void check_links(Robot& robot) {
   if (robot.links.size() != robot.joints.size() + 1) {
     throw BadValue("link", fmt::format("{} links", robot.links.size()),
                    fmt::format("{}: the base, and one for each joint", robot.joints.size() + 1));
@@ -85,7 +98,7 @@ void check_links(const Robot& robot) {
       require_coefficients(water + ".damping_quadratic", body.damping_quadratic);
     }
     const bool rests = robot.base_axes.empty() && &link == robot.links.data();
-    if (!rests) require_inertia(link);
+    check_dynamics(link, rests, robot);
   }
 }
 
@@ -98,6 +111,21 @@ void check_limits(const std::string& key, const Joint& joint) {
   }
   require_non_negative(key + ".effort", joint.effort_max);
   require_positive(key + ".velocity", joint.velocity_max);
+}
+
+/// A gear needs a motor at its other end.
+void check_gear(const std::string& key, const Robot& robot, const Joint& joint) {
+  if (!joint.gear) return;
+  const Gear& gear = *joint.gear;
+  const auto leader = static_cast<std::size_t>(gear.leader);
+  if (gear.leader < 0 || leader >= robot.joints.size() || robot.joints[leader].gear) {
+    throw BadValue(key + ".joint", fmt::format("{}", gear.leader),
+                   "a joint that has a motor, not a gear");
+  }
+  if (!std::isfinite(gear.ratio) || gear.ratio == 0) {
+    throw BadValue(key + ".multiplier", shown(gear.ratio), "a finite number, not 0");
+  }
+  require_finite(key + ".offset", gear.offset);
 }
 
 void check_joints(Robot& robot) {
@@ -113,6 +141,7 @@ void check_joints(Robot& robot) {
     require_pose(key + ".origin", joint.placement);
     joint.axis = direction_of(key + ".axis.xyz", joint.axis);
     check_limits(key + ".limit", joint);
+    check_gear(key + ".mimic", robot, joint);
   }
 }
 
@@ -178,6 +207,8 @@ void check_shape(const Shape& shape) {
       require_numbers(key + "box.size", 2 * shape.half_sizes, 3);
       require_positive(key + "box.size", 2 * shape.half_sizes.minCoeff(), length);
       break;
+    case Shape::Kind::kHull:
+      break;
     case Shape::Kind::kCylinder:
       require_positive(key + "cylinder.radius", shape.radius, length);
       require_positive(key + "cylinder.length", 2 * shape.half_length, length);
@@ -206,7 +237,13 @@ void set_collision(Robot& robot, const Collision& collision) {
     }
   }
   require_non_negative("collision.margin", collision.margin);
-  robot.collision = make_collision_checker(std::move(shapes), collision.ignore, collision.margin);
+  auto ignore = collision.ignore;
+  if (collision.find_ignored) {
+    for (auto& pair : touching_bodies(robot, shapes, ignore, collision.margin)) {
+      ignore.push_back(std::move(pair));
+    }
+  }
+  robot.collision = make_collision_checker(std::move(shapes), ignore, collision.margin);
 }
 
 }  // namespace
@@ -219,14 +256,19 @@ void require_body(const std::string& link, double mass, const Eigen::Matrix3d& i
     const Eigen::VectorXd numbers = Eigen::Map<const Eigen::VectorXd>(inertia.data(), 9);
     throw BadValue(key + "inertia", shown(numbers), "9 finite numbers of a symmetric matrix");
   }
+}
+
+std::optional<std::string> why_no_body(const std::string& link, double mass,
+                                       const Eigen::Matrix3d& inertia) {
   const Eigen::Vector3d moments = principal_moments(inertia);
   const double slack = 1e-9 * std::abs(moments[2]);
   if (moments[0] < -slack || moments[0] + moments[1] < moments[2] - slack) {
-    throw_bad_moments(link, moments, "moments >= 0, none above the sum of the other two");
+    return bad_moments(link, moments, "moments >= 0, none above the sum of the other two");
   }
   if (mass == 0 && moments[2] > 0) {
-    throw_bad_moments(link, moments, "no moments where the mass is zero");
+    return bad_moments(link, moments, "no moments where the mass is zero");
   }
+  return std::nullopt;
 }
 
 void require_hydrodynamics(const std::vector<InWater>& bodies, double water_density) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -7,9 +8,13 @@
 
 namespace maxwrench {
 
-/// Rejects a negative mass and moments that no body can have. A point mass, a thin rod and a frame
-/// without mass are valid as part of a link.
+/// Rejects a negative mass, and a matrix that is not finite or not symmetric.
 void require_body(const std::string& link, double mass, const Eigen::Matrix3d& inertia);
+
+/// Why no body has these moments; empty if one can. A point mass, a thin rod and a frame without
+/// mass can be part of a link.
+std::optional<std::string> why_no_body(const std::string& link, double mass,
+                                       const Eigen::Matrix3d& inertia);
 
 /// A body that displaces water, and whether its added mass and drag are known.
 struct InWater {

@@ -13,6 +13,7 @@
 #include "lib/robot/chain.h"
 #include "maxwrench/posture.h"
 #include "problems/make/bad_value.h"
+#include "problems/make/redundant_joints.h"
 
 namespace maxwrench {
 namespace {
@@ -29,7 +30,7 @@ std::vector<int> named_joints(const TaskSpec& task, const std::vector<int>& chai
                   names_of(robot, chain), static_cast<int>(chain.size()) - count,
                   robot.base_axes.empty() ? "" : " and the base");
   std::vector<int> joints;
-  for (const std::string& name : task.joints.value_or(std::vector<std::string>())) {
+  for (const std::string& name : *task.joints) {
     const auto found = std::find_if(chain.begin(), chain.end(), [&](int i) {
       return robot.joints[static_cast<std::size_t>(i)].name == name;
     });
@@ -72,7 +73,9 @@ void set_default(const TaskSpec& task, Problem& problem) {
     problem.theta_r_max[i] = problem.robot.joints[static_cast<std::size_t>(joint)].q_max;
   }
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(size);
-  problem.theta_r_default = zero.cwiseMax(problem.theta_r_min).cwiseMin(problem.theta_r_max);
+  const Eigen::VectorXd start =
+      task.posture ? Eigen::VectorXd(joints_at_posture(task)(problem.redundant)) : zero;
+  problem.theta_r_default = start.cwiseMax(problem.theta_r_min).cwiseMin(problem.theta_r_max);
   if (task.theta_r_default.size() == 0) return;
   require_theta_r_within("theta_r.default", task.theta_r_default, problem);
   problem.theta_r_default = task.theta_r_default;
@@ -81,7 +84,7 @@ void set_default(const TaskSpec& task, Problem& problem) {
 /// Sets the guess; where the task gives none, it is zero, moved into the limits.
 void set_guess(const TaskSpec& task, Problem& problem) {
   const Robot& robot = problem.robot;
-  problem.guess_q = resting_joints(robot);
+  problem.guess_q = task.posture ? joints_at_posture(task) : resting_joints(robot);
   for (const auto& [name, value] : task.guess) {
     const std::string key = "theta_r.guess." + name;
     require_finite(key, value);
@@ -116,7 +119,9 @@ void set_guess(const TaskSpec& task, Problem& problem) {
   }
 }
 
-bool is_guessed(const TaskSpec& task) { return !task.guess.empty() || !task.guess_base.empty(); }
+bool is_guessed(const TaskSpec& task) {
+  return task.posture || !task.guess.empty() || !task.guess_base.empty();
+}
 
 /// The largest coordinate of a twist [m; rad].
 std::string shown_gap(const Vector6d& gap) {
@@ -227,9 +232,46 @@ void require_theta_r_within(std::string_view key, const Eigen::VectorXd& values,
   }
 }
 
+Eigen::VectorXd joints_at_posture(const TaskSpec& task) {
+  const Robot& robot = task.robot;
+  Eigen::VectorXd q = resting_joints(robot);
+  for (const auto& [name, position] : *task.posture) {
+    const auto found =
+        std::find_if(robot.joints.begin(), robot.joints.end(),
+                     [&wanted = name](const Joint& joint) { return joint.name == wanted; });
+    const std::string key = "pose.joints." + name;
+    if (found == robot.joints.end() || found->gear) {
+      std::vector<std::string> names;
+      for (const Joint& joint : robot.joints) {
+        if (!joint.gear) names.push_back(joint.name);
+      }
+      throw BadValue(key, "an unknown key",
+                     fmt::format("a joint that moves: {}", fmt::join(names, ", ")));
+    }
+    require_finite(key, position);
+    q[found - robot.joints.begin()] = position;
+  }
+  apply_gears(robot, q);
+  return q;
+}
+
+void require_no_gears(std::string_view key, const Robot& robot, const std::vector<int>& chain) {
+  const auto in_chain = [&chain](int joint) {
+    return std::find(chain.begin(), chain.end(), joint) != chain.end();
+  };
+  for (int i = 0; i < static_cast<int>(robot.joints.size()); ++i) {
+    const Joint& joint = robot.joints[static_cast<std::size_t>(i)];
+    if (!joint.gear || (!in_chain(i) && !in_chain(joint.gear->leader))) continue;
+    throw BadValue(key, fmt::format("a chain that moves '{}'", joint.name),
+                   "an end effector before all gears (joints with mimic), or joints.NAME.lock for "
+                   "one of each gear's joints");
+  }
+}
+
 void set_joints(const TaskSpec& task, Problem& problem) {
   const Robot& robot = problem.robot;
   const std::vector<int> chain = chain_to(robot, problem.end_effector);
+  require_no_gears("end_effector", robot, chain);
   const int axes = static_cast<int>(robot.base_axes.size());
   const int dependent = motions_of(robot, problem.end_effector) - axes;
   problem.redundant = chain;
@@ -238,7 +280,10 @@ void set_joints(const TaskSpec& task, Problem& problem) {
     set_default(task, problem);
     return;
   }
-  problem.redundant = named_joints(task, chain, static_cast<int>(chain.size()) - dependent);
+  const int count = static_cast<int>(chain.size()) - dependent;
+  problem.redundant = task.joints
+                          ? named_joints(task, chain, count)
+                          : choose_redundant(problem.robot, problem.end_effector, chain, count);
   for (const int joint : chain) {
     const auto& redundant = problem.redundant;
     if (std::find(redundant.begin(), redundant.end(), joint) == redundant.end()) {

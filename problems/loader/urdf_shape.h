@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "maxwrench/task.h"
+#include "problems/loader/urdf_choices.h"
+#include "problems/loader/urdf_element.h"
+
+namespace maxwrench {
+
+/// Where the meshes of a URDF are, what becomes of them, and what there is to say about them.
+struct MeshReading {
+  const std::filesystem::path& urdf;
+  const std::vector<std::filesystem::path>& packages;
+  std::vector<std::string>&warnings, &notes;
+};
+
+/// The shape of an element `collision` in axes of its URDF link, without its link. Empty where the
+/// element has none that can be used; the reason is a warning, and the link then does not collide
+/// there.
+std::optional<Shape> read_shape(const UrdfElement& collision, MeshUse meshes, MeshReading& reading);
+
+}  // namespace maxwrench

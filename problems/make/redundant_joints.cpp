@@ -1,0 +1,98 @@
+#include "problems/make/redundant_joints.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <numeric>
+
+#include "lib/math/random.h"
+#include "lib/robot/chain.h"
+#include "lib/robot/kinematics.h"
+
+namespace maxwrench {
+namespace {
+
+constexpr int kPostures = 64;
+
+/// The Jacobians of random postures, in units of the robot's reach.
+std::vector<Matrix6Xd> sample_jacobians(const Robot& robot, const EndEffector& tip) {
+  Kinematics<double> kinematics(robot);
+  Random random(1);
+  Eigen::VectorXd q(robot.joints.size());
+  std::vector<Matrix6Xd> all(kPostures, Matrix6Xd(6, robot.velocities()));
+  double reach = 0;
+  for (Matrix6Xd& J : all) {
+    for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+      q[static_cast<Eigen::Index>(i)] =
+          random.uniform(robot.joints[i].q_min, robot.joints[i].q_max);
+    }
+    kinematics.set_joints(q);
+    kinematics.jacobian(tip, Eigen::Matrix3d::Identity(), J);
+    reach += kinematics.end_effector_position(tip).norm() / kPostures;
+  }
+  if (reach > 0) {
+    for (Matrix6Xd& J : all) J.topRows<3>() /= reach;
+  }
+  return all;
+}
+
+/// The mean of the singular value of number `rank` of these columns.
+double score(const std::vector<Matrix6Xd>& all, const std::vector<int>& columns, int rank) {
+  double sum = 0;
+  for (const Matrix6Xd& J : all) {
+    const Matrix6Xd part = J(Eigen::all, columns);
+    sum += Eigen::JacobiSVD<Matrix6Xd>(part).singularValues()[rank - 1] / kPostures;
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<int> choose_redundant(Robot& robot, int end_effector, const std::vector<int>& chain,
+                                  int count) {
+  if (count == 0) return {};
+  const std::vector<Matrix6Xd> all =
+      sample_jacobians(robot, robot.end_effectors[static_cast<std::size_t>(end_effector)]);
+  const int axes = static_cast<int>(robot.base_axes.size());
+  const int rank = motions_of(robot, end_effector);
+  std::vector<int> dependent = chain, redundant;
+  std::vector<std::string> why;
+  for (int k = 0; k < count; ++k) {
+    double best = -1, next = -1;
+    int chosen = 0;
+    for (const int joint : dependent) {
+      std::vector<int> columns(static_cast<std::size_t>(axes));
+      std::iota(columns.begin(), columns.end(), 0);
+      for (const int other : dependent) {
+        if (other != joint) columns.push_back(axes + other);
+      }
+      const double value = score(all, columns, rank);
+      if (value > best * (1 + 1e-9)) {
+        next = best;
+        best = value;
+        chosen = joint;
+      } else {
+        next = std::max(next, value);
+      }
+    }
+    std::erase(dependent, chosen);
+    redundant.push_back(chosen);
+    why.push_back(fmt::format("{} ({:.3g}{})", robot.joints[static_cast<std::size_t>(chosen)].name,
+                              best, next >= 0 ? fmt::format(", next {:.3g}", next) : ""));
+  }
+  robot.notes.push_back(
+      fmt::format("redundant joints, without which the others follow best (mean smallest singular "
+                  "value): {}",
+                  fmt::join(why, ", ")));
+  std::sort(redundant.begin(), redundant.end(), [&chain](int a, int b) {
+    const auto place = [&chain](int joint) {
+      return std::find(chain.begin(), chain.end(), joint) - chain.begin();
+    };
+    return place(a) < place(b);
+  });
+  return redundant;
+}
+
+}  // namespace maxwrench
