@@ -113,6 +113,11 @@ class Reader {
       if (!choice_.lower && !choice_.upper && !result_.mimic)
         warn("limit", "without lower and upper, which counts as 0 .. 0: it does not move");
     }
+    if (joint.q_min > joint.q_max) {
+      warn("limit", fmt::format("lower {:g} is above upper {:g}: they are swapped", joint.q_min,
+                                joint.q_max));
+      std::swap(joint.q_min, joint.q_max);
+    }
     joint.q_min = choice_.lower.value_or(joint.q_min);
     joint.q_max = choice_.upper.value_or(joint.q_max);
     if (turns && (joint.q_min < -kManyTurns || joint.q_max > kManyTurns)) {
@@ -133,12 +138,13 @@ class Reader {
     Joint& joint = result_.joint;
     const auto effort = given("effort", choice_.effort);
     const auto velocity = given("velocity", choice_.velocity);
-    if (velocity.value_or(0) != 0) {
+    if (velocity.value_or(0) > 0) {
       joint.velocity_max = *velocity;
     } else if (!result_.mimic) {
-      warn("limit.velocity", velocity ? "0, which counts as no limit" : "missing: no limit");
+      warn("limit.velocity", velocity ? fmt::format("{:g}, which counts as no limit", *velocity)
+                                      : "missing: no limit");
     }
-    joint.effort_max = effort.value_or(0);
+    joint.effort_max = std::max(effort.value_or(0), 0.0);
     if (result_.mimic || choice_.lock) return;
     const std::string what = effort ? fmt::format("{:g}", *effort) : "missing";
     if (joint.effort_max == 0 && !to_tip) {

@@ -46,6 +46,11 @@ Given read_geometry(const UrdfElement& given, MeshUse meshes, MeshReading& readi
   return {{}, fmt::format("<{}>", tag)};
 }
 
+/// Elements of `collision` that stand one level too deep.
+bool is_misplaced(const UrdfElement& element) {
+  return element.tag() == "origin" || element.tag() == "material";
+}
+
 }  // namespace
 
 std::optional<Shape> read_shape(const UrdfElement& collision, MeshUse meshes,
@@ -55,8 +60,8 @@ std::optional<Shape> read_shape(const UrdfElement& collision, MeshUse meshes,
     return std::optional<Shape>();
   };
   const std::optional<UrdfElement> geometry = collision.child_if_any("geometry");
-  const std::vector<UrdfElement> shapes =
-      geometry ? geometry->children() : std::vector<UrdfElement>();
+  std::vector<UrdfElement> shapes = geometry ? geometry->children() : std::vector<UrdfElement>();
+  if (shapes.size() > 1) std::erase_if(shapes, is_misplaced);
   if (shapes.empty()) return leave_out("nothing");
   if (shapes.size() > 1) {
     geometry->throw_bad_input("", fmt::format("<{}> and <{}>", shapes[0].tag(), shapes[1].tag()),

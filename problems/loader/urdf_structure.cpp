@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <iterator>
 #include <set>
 
@@ -14,6 +15,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::string read_text(const fs::path& file) {
+  std::ifstream stream = open_file(file, "a URDF file");
+  std::string text(std::istreambuf_iterator<char>(stream), {});
+  // Some makers put their licence before the declaration, where XML allows nothing.
+  const std::size_t declaration = text.find("<?xml");
+  if (declaration != std::string::npos && declaration > 0 && text.starts_with("<!--")) {
+    const std::size_t end = text.find("?>", declaration);
+    if (end != std::string::npos) text.erase(declaration, end + 2 - declaration);
+  }
+  return text;
+}
+
+void parse(const fs::path& file, const std::string& text, tinyxml2::XMLDocument& document) {
+  document.Parse(text.c_str());
+  if (!document.Error()) return;
+  const bool deep = document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED;
+  throw_bad_input(file, fmt::format("line {}", document.ErrorLineNum()),
+                  deep ? fmt::format("an element within {} others", TINYXML2_MAX_ELEMENT_DEPTH)
+                       : fmt::format("'{}'", document.ErrorName()),
+                  deep ? "a file with less nesting" : "valid XML");
+}
+
 /// The links or joints by name.
 std::map<std::string, UrdfElement> named_elements(const UrdfElement& robot, const char* tag) {
   std::map<std::string, UrdfElement> found;
@@ -23,6 +46,30 @@ std::map<std::string, UrdfElement> named_elements(const UrdfElement& robot, cons
     element.throw_bad_input("", "a duplicate name", "unique names");
   }
   return found;
+}
+
+/// A joint may lead from a link that the file does not describe, such as `world`. If no other link
+/// is the root, it is one without mass.
+void add_missing_root(const fs::path& file, const UrdfElement& robot,
+                      tinyxml2::XMLDocument& document, std::map<std::string, UrdfElement>& links,
+                      std::vector<std::string>& notes) {
+  std::set<std::string> missing, children;
+  for (const UrdfElement& joint : robot.children("joint")) {
+    children.insert(end_of(joint, "child"));
+    if (const std::string parent = end_of(joint, "parent"); !links.contains(parent)) {
+      missing.insert(parent);
+    }
+  }
+  const bool rooted = std::any_of(links.begin(), links.end(), [&children](const auto& link) {
+    return !children.contains(link.first);
+  });
+  if (missing.size() != 1 || rooted || children.contains(*missing.begin())) return;
+  tinyxml2::XMLElement* xml = document.NewElement("link");
+  document.InsertEndChild(xml);
+  xml->SetAttribute("name", missing.begin()->c_str());
+  links.emplace(*missing.begin(), UrdfElement(file, *xml, "link").with_name());
+  notes.push_back(
+      fmt::format("link[{}]: not in the file; it is the root, without mass", *missing.begin()));
 }
 
 /// The parent of each link.
@@ -110,18 +157,12 @@ void count_ignored(const tinyxml2::XMLElement& robot, std::vector<std::string>& 
 }  // namespace
 
 UrdfElement parse_robot(const fs::path& file, tinyxml2::XMLDocument& document) {
-  std::ifstream stream = open_file(file, "a URDF file");
-  std::string text(std::istreambuf_iterator<char>(stream), {});
-  if (is_xacro(file, text)) text = expand_xacro(file);
-  document.Parse(text.c_str());
-  if (document.Error()) {
-    const bool deep = document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED;
-    throw_bad_input(file, fmt::format("line {}", document.ErrorLineNum()),
-                    deep ? fmt::format("an element within {} others", TINYXML2_MAX_ELEMENT_DEPTH)
-                         : fmt::format("'{}'", document.ErrorName()),
-                    deep ? "a file with less nesting" : "valid XML");
-  }
+  parse(file, read_text(file), document);
   const tinyxml2::XMLElement* xml = document.FirstChildElement("robot");
+  if (xml != nullptr && (file.extension() == ".xacro" || is_xacro(*xml))) {
+    parse(file, expand_xacro(file), document);
+    xml = document.FirstChildElement("robot");
+  }
   if (xml == nullptr) throw_bad_input(file, "robot", "nothing", "an element <robot>");
   if (xml->NextSiblingElement("robot") != nullptr)
     throw_bad_input(file, "robot", "two", "one robot");
@@ -153,6 +194,7 @@ UrdfStructure read_structure(const fs::path& file, tinyxml2::XMLDocument& docume
     throw_bad_input(file, "link", fmt::format("{} links", count),
                     fmt::format("at most {}", kMostLinks));
   }
+  add_missing_root(file, robot, document, structure.links, notes);
   const auto joints = named_elements(robot, "joint");
   structure.root = find_root(file, structure.links, find_parents(structure.links, joints));
   for (const UrdfElement& joint : robot.children("joint")) {

@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <chrono>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "problems/loader/bad_input.h"
@@ -60,8 +61,22 @@ bool read_all(int from, std::string& text) {
 
 }  // namespace
 
-bool is_xacro(const std::filesystem::path& file, const std::string& text) {
-  return file.extension() == ".xacro" || text.find("<xacro:") != std::string::npos;
+bool is_xacro(const tinyxml2::XMLElement& robot) {
+  const auto has_mark = [](const tinyxml2::XMLElement& element) {
+    for (const auto* each = element.FirstAttribute(); each != nullptr; each = each->Next()) {
+      const std::string_view value = each->Value();
+      if (value.find("${") != value.npos || value.find("$(") != value.npos) return true;
+    }
+    return false;
+  };
+  for (const auto* each = robot.FirstChildElement(); each != nullptr;
+       each = each->NextSiblingElement()) {
+    const std::string_view name = each->Name();
+    if (name == "xacro:include" || name == "xacro:macro") return true;
+    if (name == "gazebo" || name == "transmission" || name.starts_with("xacro:")) continue;
+    if (has_mark(*each) || is_xacro(*each)) return true;
+  }
+  return false;
 }
 
 std::string expand_xacro(const std::filesystem::path& file) {

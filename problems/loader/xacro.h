@@ -1,12 +1,14 @@
 #pragma once
 
+#include <tinyxml2.h>
+
 #include <filesystem>
 #include <string>
 
 namespace maxwrench {
 
-/// Whether a file is in xacro's language: by its name, or by an element or attribute of xacro.
-bool is_xacro(const std::filesystem::path& file, const std::string& text);
+/// Whether an element holds what xacro has to expand. Leftovers that expand nothing do not count.
+bool is_xacro(const tinyxml2::XMLElement& robot);
 
 /// The URDF that the program `xacro` prints for the file. Rejects the file if that program is not
 /// installed, fails, or prints nothing within a minute.
