@@ -185,7 +185,11 @@ Problem load_problem(const std::string& name) {
   }
   spec.robot = load_robot(robot);
   spec.end_effector = task.text("end_effector");
-  Problem problem = in_file(file, [&] {
+  const fs::path urdf = robot.parent_path() / Block::read(robot).text("urdf");
+  const auto file_of = [&](const std::string& key) {
+    return key.starts_with("link[") ? urdf : file;
+  };
+  Problem problem = in_files(file_of, [&] {
     read_pose(task, spec);
     read_motion(task, spec);
     read_wrench(task.table("wrench"), spec);
@@ -193,7 +197,6 @@ Problem load_problem(const std::string& name) {
     if (task.has("contact")) spec.contact = read_contact(task.table("contact"));
     return make_problem(spec);
   });
-  const fs::path urdf = robot.parent_path() / Block::read(robot).text("urdf");
   std::vector<fs::path> files = {file, robot, urdf};
   if (spec.motion && !spec.motion->path_file.empty()) files.emplace_back(spec.motion->path_file);
   problem.digest = digest_of(files);

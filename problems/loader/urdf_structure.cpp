@@ -50,11 +50,11 @@ std::map<std::string, UrdfElement> named_elements(const UrdfElement& robot, cons
 
 /// A joint may lead from a link that the file does not describe, such as `world`. If no other link
 /// is the root, it is one without mass.
-void add_missing_root(const fs::path& file, const UrdfElement& robot,
+void add_missing_root(const fs::path& file, const std::map<std::string, UrdfElement>& joints,
                       tinyxml2::XMLDocument& document, std::map<std::string, UrdfElement>& links,
                       std::vector<std::string>& notes) {
   std::set<std::string> missing, children;
-  for (const UrdfElement& joint : robot.children("joint")) {
+  for (const auto& [name, joint] : joints) {
     children.insert(end_of(joint, "child"));
     if (const std::string parent = end_of(joint, "parent"); !links.contains(parent)) {
       missing.insert(parent);
@@ -194,8 +194,8 @@ UrdfStructure read_structure(const fs::path& file, tinyxml2::XMLDocument& docume
     throw_bad_input(file, "link", fmt::format("{} links", count),
                     fmt::format("at most {}", kMostLinks));
   }
-  add_missing_root(file, robot, document, structure.links, notes);
   const auto joints = named_elements(robot, "joint");
+  add_missing_root(file, joints, document, structure.links, notes);
   structure.root = find_root(file, structure.links, find_parents(structure.links, joints));
   for (const UrdfElement& joint : robot.children("joint")) {
     structure.joints.push_back(joint.with_name());

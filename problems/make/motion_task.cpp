@@ -27,6 +27,15 @@ void require_path(const Path& path, const Pose<double>& pose) {
       fmt::format("the place and rotation at which the path starts, here {}", shown(start.p)));
 }
 
+/// Rejects a robot without an equation of motion.
+void require_dynamics(const Robot& robot) {
+  if (robot.no_dynamics.empty()) return;
+  const std::string& line = robot.no_dynamics.front();
+  const std::size_t got = line.find(": got "), expected = line.find(", expected ");
+  throw BadValue(line.substr(0, got), line.substr(got + 6, expected - got - 6),
+                 line.substr(expected + 11) + "; only static tasks do without");
+}
+
 }  // namespace
 
 void require_duration(double T) {
@@ -46,10 +55,7 @@ std::string peak_range(int k) { return fmt::format("a knot from 1 to k = {}, or 
 
 void set_motion(const TaskSpec& task, Problem& problem) {
   if (!task.motion) return;
-  if (!task.robot.no_dynamics.empty()) {
-    throw BadValue("robot", task.robot.no_dynamics.front(),
-                   "masses and inertias of bodies; only static tasks do without");
-  }
+  require_dynamics(task.robot);
   MotionTask& motion = problem.motion.emplace(*task.motion);
   motion.c_turns = task.wrench_in_end_effector;
   if (!motion.impulse) motion.T = motion.path.duration();

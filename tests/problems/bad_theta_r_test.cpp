@@ -10,11 +10,6 @@ constexpr const char* kGuess = "guess = { elbow = 1, wrist_pitch = 0, wrist_roll
 
 /// The wheeled base with an arm, whose task names two redundant joints.
 const std::vector<BadInput> kBadThetaRs = {
-    {"joints_missing",
-     "push.toml",
-     kRedundant,
-     "",
-     {"theta_r.joints: got nothing", "2 of the joints shoulder_yaw, shoulder_pitch, elbow"}},
     {"joint_unknown",
      "push.toml",
      kRedundant,

@@ -307,16 +307,10 @@ const std::vector<BadRobot> kBadRobots = {
      "link[link_1].inertial.mass: got inf, expected a mass >= 0"},
     {"mass_negative", [](Robot& r, Collision&) { r.links[1].mass = -1; },
      "link[link_1].inertial.mass: got -1, expected a mass >= 0"},
-    {"mass_zero", [](Robot& r, Collision&) { r.links[1] = {.name = "link_1"}; },
-     "link[link_1].inertial.mass: got 0, expected a mass > 0 of this link"},
     {"inertia_nan", [](Robot& r, Collision&) { r.links[1].inertia(0, 0) = kNan; },
      "link[link_1].inertial.inertia: got [nan, "},
     {"inertia_skew", [](Robot& r, Collision&) { r.links[1].inertia(0, 1) = 1e-6; },
      "9 finite numbers of a symmetric matrix"},
-    {"inertia_triangle", [](Robot& r, Collision&) { r.links[0].inertia(2, 2) = 5; },
-     "link[hull].inertial.inertia: got principal moments 0.15, 0.32, 5, expected moments >= 0"},
-    {"inertia_of_a_rod", [](Robot& r, Collision&) { r.links[1].inertia(0, 0) = 0; },
-     "expected moments > 0 of this link with all that is fixed to it"},
     {"com_nan", [](Robot& r, Collision&) { r.links[1].com.z() = kNan; },
      "link[link_1].inertial.origin.xyz: got [0.05, 0, nan], expected a list of 3 finite numbers"},
     {"volume_negative", [](Robot& r, Collision&) { r.links[0].volume = -1; },
@@ -566,7 +560,7 @@ TEST(InCode, JointsThatFollowWrongly) {
   task.pose.p = {0, 0, 2.9};
   task.c = along(0);
   const auto message = [&] { return rejection([&] { make_problem(task); }); };
-  EXPECT_THAT(message(), HasSubstr("theta_r.joints: got nothing, expected 2 of the joints"));
+  EXPECT_THAT(message(), HasSubstr("pose.xyz: got [0, 0, 2.9], expected a pose that"));
   task.joints = {"elbow", "wrist_roll"};
   EXPECT_THAT(message(), HasSubstr("in no posture: singular"));
   task.joints = {"shoulder_yaw", "shoulder_pitch"};
