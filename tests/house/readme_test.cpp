@@ -350,7 +350,7 @@ TEST(OwnRobotGuide, ShowsTheShippedFiles) {
   const std::string files = read_text(kRoot / "problems/mobile/rover.toml") +
                             read_text(kRoot / "problems/mobile/push.toml");
   int lines = 0;
-  for (const DocumentBlock& block : document_blocks("docs/own_robot.md")) {
+  for (const DocumentBlock& block : document_blocks("docs/robot_files.md")) {
     if (block.kind != "toml" || block.lines.front().starts_with("# problems/")) continue;
     for (const std::string& line : block.lines) {
       if (line.empty() || line.starts_with("#")) continue;
