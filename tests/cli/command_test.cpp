@@ -300,7 +300,7 @@ TEST(Command, SelfCollisionIsReportedAndCanBeIgnored) {
   EXPECT_TRUE(json::parse(result.out)["reason"].get<std::string>().starts_with("self-collision: "));
 }
 
-TEST(Command, RunWritesTheSameValuesAtAnyThreadCount) {
+TEST(Command, SLOW_RunWritesTheSameValuesAtAnyThreadCount) {
   std::string first;
   for (const char* threads : {"1", "2", "8"}) {
     const TemporaryFolder folder;

@@ -554,7 +554,7 @@ INSTANTIATE_TEST_SUITE_P(InCode, BadTaskInCode, testing::ValuesIn(kBadTasks),
                          [](const auto& test) { return std::string(test.param.name); });
 
 /// What only tasks with dependent joints can get wrong.
-TEST(InCode, JointsThatFollowWrongly) {
+TEST(InCode, SLOW_JointsThatFollowWrongly) {
   TaskSpec task{.robot = load_robot(problems_folder() / "mobile/rover.toml"),
                 .end_effector = "tool"};
   task.pose.p = {0, 0, 2.9};

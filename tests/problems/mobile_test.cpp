@@ -174,7 +174,7 @@ TEST(Mobile, SLOW_SearchFindsTheBestOfAGrid) {
 /// The four rollers lie at 45 degrees to the base's x and take 135 N each (the motor's), so no push
 /// is beyond 4 x 135 N / sqrt 2, which is reached along x of a base that stands straight: with a
 /// tool that may turn.
-TEST(Mobile, DoorPushedAnywhereTakesAllThatTheWheelsGive) {
+TEST(Mobile, SLOW_DoorPushedAnywhereTakesAllThatTheWheelsGive) {
   const Problem problem = load_problem("mobile/push_any_height");
   EXPECT_EQ(problem.free.axes, (std::vector<int>{2, 5}));
   EXPECT_EQ(problem.theta_r_name(2), "pose_z");

@@ -70,7 +70,7 @@ TEST(Comparison, RacesTheSearchesThatServe) {
 
 /// The same attempts at any number of threads, in the order of the seeds; dear searches get a part
 /// of the budget.
-TEST(Comparison, ThreadsDoNotChangeTheRace) {
+TEST(Comparison, SLOW_ThreadsDoNotChangeTheRace) {
   const Problem problem = load_problem("uvms/lift");
   const Case base{.problem = problem.name, .budget = 60};
   const Comparison one = compare(problem, base, {2, 1, true, {}});

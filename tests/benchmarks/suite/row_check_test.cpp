@@ -198,7 +198,7 @@ TEST(CheckRow, AcceptsPosturesThatTie) {
 }
 
 /// Static, and in time; of another reading, or one that was not planned so.
-TEST(CheckRow, CarriesOutExperiments) {
+TEST(CheckRow, SLOW_CarriesOutExperiments) {
   for (const auto& [name, scheme] :
        {std::pair{"mobile/push", ""}, {"mobile/trajectory", "spline"}}) {
     const Problem problem = load_problem(name);

@@ -196,7 +196,7 @@ bool same_samples(const TankRun& a, const TankRun& b) {
                     });
 }
 
-TEST(TankMotion, RepeatsBitForBitAndNoiseBySeed) {
+TEST(TankMotion, SLOW_RepeatsBitForBitAndNoiseBySeed) {
   const Problem problem = load_problem("uvms/valve_impulse");
   const TankScript script = script_of(problem, constant_knots(problem, problem.motion->theta_0));
   TankOptions options;

@@ -75,7 +75,7 @@ class TankTest : public testing::TestWithParam<Experiment> {};
 INSTANTIATE_TEST_SUITE_P(Static, TankTest, testing::ValuesIn(kExperiments),
                          [](const auto& each) { return std::string(each.param.name); });
 
-TEST_P(TankTest, TheCellReadsWhatWasPlannedWithinTheLimits) {
+TEST_P(TankTest, SLOW_TheCellReadsWhatWasPlannedWithinTheLimits) {
   const Problem problem = load_problem("uvms/valve");
   const TankRun tank = run(problem, planned(problem, GetParam().wrench, GetParam().theta_r), 0);
   expect_held(tank);
@@ -83,7 +83,7 @@ TEST_P(TankTest, TheCellReadsWhatWasPlannedWithinTheLimits) {
   EXPECT_EQ(tank.summary.relaxed, 0);
 }
 
-TEST_P(TankTest, OneNewtonMetreMoreIsNotHeld) {
+TEST_P(TankTest, SLOW_OneNewtonMetreMoreIsNotHeld) {
   const Problem problem = load_problem("uvms/valve");
   expect_saturated_and_adrift(
       run(problem, planned(problem, GetParam().wrench, GetParam().theta_r), 1));
@@ -118,7 +118,7 @@ TEST(Tank, TheEllipsoidsTrajectoryAndOneNewtonMetreMoreAreHeld) {
 
 /// Their readings differ by what the tolerances leave: a step's error of about tolerance times 1 m
 /// (the size of the state) displaces the cell by as much, and steps add up.
-TEST(Tank, IdaAndCvodeGiveTheSameWrench) {
+TEST(Tank, SLOW_IdaAndCvodeGiveTheSameWrench) {
   const Problem problem = load_problem("uvms/valve");
   const Answer row = planned(problem, kExperiments[2].wrench, kExperiments[2].theta_r);
   TankOptions options;

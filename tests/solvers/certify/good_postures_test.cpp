@@ -266,7 +266,7 @@ TEST(GoodPostures, SLOW_OfAVehicleAreListed) {
   EXPECT_GE(found, samples(1000));
 }
 
-TEST(GoodPostures, AreTheSameAtAnyThreadCount) {
+TEST(GoodPostures, SLOW_AreTheSameAtAnyThreadCount) {
   const Listed at("uvms/lift");
   std::vector<std::vector<double>> all;
   for (const int threads : {1, 3}) {

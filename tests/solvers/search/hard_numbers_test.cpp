@@ -81,7 +81,7 @@ TEST(HardNumbers, InterruptedSearchesEvaluateNoMore) {
 }
 
 /// The same method, problem and seed give the same row, whatever ran before in this process.
-TEST(HardNumbers, EveryMethodRepeatsItselfInOneProcess) {
+TEST(HardNumbers, SLOW_EveryMethodRepeatsItselfInOneProcess) {
   for (const char* name : {"planar/force", "planar/trajectory", "uvms/lift_impulse"}) {
     const Problem problem = load_problem(name);
     for (const std::string& search : served_searches(problem, "linf_polytope")) {

@@ -98,7 +98,7 @@ TEST_P(KnotStartsOf, MoveAlikeWhereTheyMay) {
   EXPECT_EQ(differ, problem.motion->impulse);
 }
 
-TEST_P(KnotStartsOf, AreTheSameAtAnyThreadCount) {
+TEST_P(KnotStartsOf, SLOW_AreTheSameAtAnyThreadCount) {
   const Problem problem = load_problem(GetParam());
   const auto objective = trajectories_to_draw(problem);
   const Drawn one(find_knot_starts, *objective, draw_options(problem, 300, 1));

@@ -131,7 +131,7 @@ TEST(IkSolver, StartSystemIsOfOneProblem) {
   EXPECT_FALSE(problem.start_system->serves(problem));
 }
 
-TEST(IkSolver, OfAnUnreachablePoseAreNone) {
+TEST(IkSolver, SLOW_OfAnUnreachablePoseAreNone) {
   Problem problem = load_problem("mobile/push");
   problem.pose.p.z() = 9;
   const auto start_system = std::make_shared<const IkStartSystem>(problem);
