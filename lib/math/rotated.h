@@ -4,11 +4,17 @@
 
 namespace maxwrench {
 
+/// The rotation about a vector by its length [rad]. `logarithm` is its inverse.
+inline Eigen::Matrix3d rotation_by(const Eigen::Vector3d& turn) {
+  const double angle = turn.norm();
+  if (angle == 0) return Eigen::Matrix3d::Identity();
+  return Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
+}
+
 /// blkdiag(R, R) x, where the columns of x are wrenches [force; torque] or twists.
 template <class Columns>
-Eigen::Matrix<double, 6, Columns::ColsAtCompileTime> rotated(const Eigen::Matrix3d& R,
-                                                             const Eigen::MatrixBase<Columns>& x) {
-  Eigen::Matrix<double, 6, Columns::ColsAtCompileTime> result(6, x.cols());
+auto rotated(const Matrix3<typename Columns::Scalar>& R, const Eigen::MatrixBase<Columns>& x) {
+  Eigen::Matrix<typename Columns::Scalar, 6, Columns::ColsAtCompileTime> result(6, x.cols());
   result << R * x.template topRows<3>(), R * x.template bottomRows<3>();
   return result;
 }

@@ -3,23 +3,26 @@
 #include <stdexcept>
 #include <string>
 
+#include "lib/math/extended.h"
 #include "lib/math/rotated.h"
 
 namespace maxwrench {
 namespace {
 
 /// All six coordinates s; those that are not free are zero.
-Vector6d coordinates_at(const Problem& problem, const Eigen::VectorXd& theta_r) {
-  Vector6d s = Vector6d::Zero();
+template <class T>
+Vector6<T> coordinates_at(const Problem& problem, const VectorX<T>& theta_r) {
+  Vector6<T> s = Vector6<T>::Zero();
   auto next = static_cast<Eigen::Index>(problem.redundant.size());
   for (const int axis : problem.free.axes) s[axis] = theta_r[next++];
   return s;
 }
 
-Eigen::Matrix3d turned(const Vector6d& s) {
-  return (Eigen::AngleAxisd(s[5], Eigen::Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(s[4], Eigen::Vector3d::UnitY()) *
-          Eigen::AngleAxisd(s[3], Eigen::Vector3d::UnitX()))
+template <class T>
+Matrix3<T> turned(const Vector6<T>& s) {
+  using Turn = Eigen::AngleAxis<T>;
+  return (Turn(s[5], Vector3<T>::UnitZ()) * Turn(s[4], Vector3<T>::UnitY()) *
+          Turn(s[3], Vector3<T>::UnitX()))
       .toRotationMatrix();
 }
 
@@ -36,14 +39,21 @@ void require_theta_r(const Problem& problem, const Eigen::VectorXd& theta_r) {
   }
 }
 
-Pose<double> pose_at(const Problem& problem, const Eigen::VectorXd& theta_r) {
-  Pose<double> pose = problem.pose;
+template <class T>
+Pose<T> free_pose(const Problem& problem, const VectorX<T>& theta_r) {
+  Pose<T> pose{problem.pose.R.cast<T>(), problem.pose.p.cast<T>()};
   if (problem.free.axes.empty()) return pose;
-  const Vector6d s = coordinates_at(problem, theta_r);
-  const Eigen::Matrix3d R = problem.pose.R * turned(s);
-  pose.p += (problem.free.along_end_effector ? R : problem.pose.R) * s.head<3>();
+  const Vector6<T> s = coordinates_at(problem, theta_r);
+  const Matrix3<T> R = pose.R * turned(s);
+  pose.p += (problem.free.along_end_effector ? R : pose.R) * s.template head<3>();
   pose.R = R;
   return pose;
+}
+
+template Pose<Extended> free_pose(const Problem&, const VectorX<Extended>&);
+
+Pose<double> pose_at(const Problem& problem, const Eigen::VectorXd& theta_r) {
+  return free_pose(problem, theta_r);
 }
 
 Vector6d free_twist(const Problem& problem, const Eigen::VectorXd& theta_r, int i) {

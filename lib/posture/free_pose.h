@@ -4,6 +4,10 @@
 
 namespace maxwrench {
 
+/// `pose_at` in any scalar. Further coordinates may follow theta_r.
+template <class T>
+Pose<T> free_pose(const Problem& problem, const VectorX<T>& theta_r);
+
 /// Throws std::invalid_argument unless theta_r has the problem's size and is finite.
 void require_theta_r(const Problem& problem, const Eigen::VectorXd& theta_r);
 

@@ -20,12 +20,6 @@ constexpr double kSpins = 1e-9;
 /// slowly.
 constexpr double kBrake = 0.1;
 
-Eigen::Matrix3d rotation_by(const Eigen::Vector3d& turn) {
-  const double angle = turn.norm();
-  if (angle == 0) return Eigen::Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
-}
-
 /// Only the parts that the controller and the simulated robot need.
 Posture at_rest(const Problem& problem, const Motion& motion) {
   Posture posture;

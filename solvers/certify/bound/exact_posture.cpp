@@ -1,8 +1,9 @@
 #include "solvers/certify/bound/exact_posture.h"
 
-#include <cmath>
 #include <numeric>
 
+#include "lib/math/rotated.h"
+#include "lib/posture/free_pose.h"
 #include "lib/robot/chain.h"
 
 namespace maxwrench {
@@ -23,7 +24,7 @@ void ExactPosture::set(const ExtendedVector& theta_r) {
   }
   kinematics_.set_joints(q_);
   const Matrix3<Extended> R_e = kinematics_.end_effector(tip).R;
-  pose_ = exact_pose(problem_, theta_r);
+  pose_ = free_pose(problem_, theta_r);
   const Matrix3<Extended> R_base = pose_.R * R_e.transpose();
   kinematics_.jacobian(tip, R_base, J_);
   kinematics_.gravity_and_buoyancy(R_base, tau_d_);
@@ -40,39 +41,12 @@ std::vector<int> moved_joints(const Problem& problem) {
   return joints;
 }
 
-Pose<Extended> exact_pose(const Problem& problem, const ExtendedVector& x) {
-  using std::cos;
-  using std::sin;
-  const Matrix3<Extended> R_0 = problem.pose.R.cast<Extended>();
-  Vector3<Extended> shift = Vector3<Extended>::Zero();
-  Matrix3<Extended> turn = Matrix3<Extended>::Identity();
-  auto next = static_cast<Eigen::Index>(problem.redundant.size());
-  for (const int axis : problem.free.axes) {
-    const Extended s = x[next++];
-    if (axis < 3) {
-      shift[axis] = s;
-      continue;
-    }
-    const int i = (axis + 1) % 3, j = (axis + 2) % 3;  // roll first, yaw last
-    Matrix3<Extended> one = Matrix3<Extended>::Identity();
-    one(i, i) = one(j, j) = cos(s);
-    one(j, i) = sin(s);
-    one(i, j) = -one(j, i);
-    turn = one * turn;
-  }
-  const Matrix3<Extended> R = R_0 * turn;
-  const Matrix3<Extended>& along = problem.free.along_end_effector ? R : R_0;
-  return {R, problem.pose.p.cast<Extended>() + along * shift};
-}
-
 Matrix6X<Extended> exact_turned(const Problem& problem, const Pose<Extended>& pose,
                                 const Matrix6Xd& wrenches) {
   const Matrix6X<Extended> given = wrenches.cast<Extended>();
   if (!problem.free.wrench_turns) return given;
   const Matrix3<Extended> turn = pose.R * problem.pose.R.cast<Extended>().transpose();
-  Matrix6X<Extended> turned(6, given.cols());
-  turned << turn * given.topRows<3>(), turn * given.bottomRows<3>();
-  return turned;
+  return rotated(turn, given);
 }
 
 Coordinates all_coordinates(const Problem& problem) {

@@ -10,9 +10,7 @@ namespace maxwrench {
 /// joints; ...], moves; -1 for none.
 std::vector<int> moved_joints(const Problem& problem);
 
-/// The pose of the end effector for x, which begins with theta_r; and wrenches of the task in the
-/// directions that they have at this pose.
-Pose<Extended> exact_pose(const Problem& problem, const ExtendedVector& x);
+/// Wrenches of the task in the directions that they have at a pose of the end effector.
 Matrix6X<Extended> exact_turned(const Problem& problem, const Pose<Extended>& pose,
                                 const Matrix6Xd& wrenches);
 

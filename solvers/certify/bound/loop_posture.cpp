@@ -6,6 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "lib/math/rotated.h"
+#include "lib/posture/free_pose.h"
 #include "lib/robot/chain.h"
 #include "solvers/certify/bound/exact_posture.h"
 
@@ -179,7 +181,7 @@ void LoopPosture::set(const ExtendedVector& x) {
     const Extended yaw = at(coordinates_.yaw.from);
     yaw_.R << cos(yaw), -sin(yaw), 0, sin(yaw), cos(yaw), 0, 0, 0, 1;
   }
-  pose_ = exact_pose(problem_, x);
+  pose_ = free_pose(problem_, x);
   const Pose<Extended> mount{problem_.robot.mount.R.cast<Extended>(),
                              problem_.robot.mount.p.cast<Extended>()};
   target_ = mount.inverse() * pose_;
@@ -223,12 +225,10 @@ void LoopPosture::set_contact(const ExtendedVector& x) {
 ExtendedVector LoopPosture::forces(const ExtendedVector& w) const {
   const Contact& contact = *problem_.contact;
   const Vector6<Extended> h = contact.C.cast<Extended>() * w;
-  Vector6<Extended> turned;
-  turned << contact_.R * h.head<3>(), contact_.R * h.tail<3>();
   Matrix6X<Extended> J_2;
   const auto touching = static_cast<std::size_t>(contact.end_effector);
   kinematics_.jacobian(problem_.robot.end_effectors[touching], R_base_, J_2);
-  return J_2.transpose() * turned;
+  return J_2.transpose() * rotated(contact_.R, h);
 }
 
 Pose<Extended> LoopPosture::link(int k) const {
