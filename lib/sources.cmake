@@ -5,9 +5,9 @@ set(maxwrench_lib_sources
   measure/measure.cpp measure/one_sided.cpp measure/polytope.cpp measure/saturating_wrench.cpp measure/transmission_ratio.cpp
   measure/wrench_program.cpp
   posture/free_pose.cpp
-  posture/ik/contact_arm.cpp posture/ik/continuation.cpp posture/ik/dependent_joints.cpp posture/ik/ik_solver.cpp
-  posture/ik/ik_start_system.cpp posture/ik/path_tracker.cpp posture/ik/primary_ik.cpp posture/ik/second_arm.cpp
-  posture/ik/tool_chain.cpp
+  posture/ik/contact_arm.cpp posture/ik/continuation.cpp posture/ik/damped_newton.cpp posture/ik/dependent_joints.cpp
+  posture/ik/ik_solver.cpp posture/ik/ik_start_system.cpp posture/ik/path_tracker.cpp posture/ik/primary_ik.cpp
+  posture/ik/second_arm.cpp posture/ik/tool_chain.cpp
   posture/movable.cpp posture/posture.cpp posture/pull_back.cpp posture/redundancy.cpp posture/tally.cpp posture/violation.cpp
   robot/chain.cpp robot/clearance_slope.cpp robot/contact.cpp robot/dynamics.cpp robot/dynamics_slopes.cpp robot/free_motion.cpp
   robot/kinematics.cpp robot/problem.cpp robot/robot.cpp

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lib/math/complex.h"
+#include "lib/math/rotated.h"
 
 namespace maxwrench {
 namespace {
@@ -31,6 +32,8 @@ constexpr int kMostCorrections = 8;
 constexpr double kShortestShare = 1e-5;
 constexpr int kMostWaySteps = 2000;
 constexpr double kLongestShare = 0.5;
+/// [rad or m] The largest change of each y along the tangent in the first step.
+constexpr double kFirstStep = 0.1;
 /// A solution counts as infinite beyond these values: the imaginary part of an angle [rad], whose
 /// sinh is then too large to use, and a distance [m].
 constexpr double kInfiniteAngle = 20;
@@ -105,7 +108,13 @@ void Continuation<T>::place(const HomotopyPath<T>& path, double s) {
     rate_[k] = length + path.bend[k] * (1 - 2 * s);
     if (s == 1) theta_r_[k] = path.to[k];
   }
-  if (!path.moves_pose) return;
+  if (!path.moves_pose) {
+    if (path.twist.isZero(0)) return;
+    const Vector6d moved = s * path.twist;
+    pose_.p = path.pose.p + moved.head<3>();
+    pose_.R = rotation_by(moved.tail<3>()) * path.pose.R;
+    return;
+  }
   Six<T> y{}, y_rate{};
   for (int i = 0; i < d_; ++i) {
     y_rate[i] = path.y_to[i] - path.y_from[i];
@@ -185,12 +194,12 @@ bool Continuation<T>::is_finite(const Six<T>& y) const {
 
 template <class T>
 bool Continuation<T>::track(const HomotopyPath<T>& path, Six<T>& y) {
-  twist_.setConstant(T(0.0));
+  twist_ = path.twist.template cast<T>();
   pose_ = path.pose;
   place(path, 0);
   linearise(y);
   Six<T> slope = tangent(), before{};
-  double s = 0, step = 0.1, last_step = 0;
+  double s = 0, step = std::min(1.0, kFirstStep / largest(slope, d_)), last_step = 0;
   for (int i = 0; i < kMostWaySteps; ++i) {
     const double next = s + step > 1 - 1e-9 ? 1 : s + step;
     const double h = next - s;

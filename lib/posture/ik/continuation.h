@@ -22,12 +22,14 @@ class PivotedLu {
 };
 
 /// A path of (theta_r, X), 0 <= s <= 1: theta_r(s) = from + s (to - from) + s (1 - s) bend. X(s) is
-/// either constant or the pose of the end effector at theta_r(s) and y_from + s (y_to - y_from).
+/// either `pose`, moved and rotated by s twist, or the pose of the end effector at theta_r(s) and
+/// y_from + s (y_to - y_from).
 template <class T>
 struct HomotopyPath {
   VectorX<T> from, to, bend;
   bool moves_pose = false;
-  Pose<T> pose;  ///< X, unless it moves
+  Pose<T> pose;                       ///< X(0), unless `moves_pose` is set
+  Vector6d twist = Vector6d::Zero();  ///< [m; rad]
   Six<T> y_from{}, y_to{};
 };
 
@@ -50,6 +52,8 @@ class Continuation {
   bool seek(const VectorX<T>& theta_r, const Pose<T>& pose, Six<T>& y);
   /// Whether J_d is singular at the end of the last successful call.
   bool is_singular(double threshold) const { return J_d_.is_singular(threshold); }
+  /// The end effector at that point.
+  const ToolState<T>& state() const { return state_; }
 
  private:
   void place(const HomotopyPath<T>& path, double s);

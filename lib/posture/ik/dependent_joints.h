@@ -1,9 +1,7 @@
 #pragma once
 
-#include <vector>
-
 #include "lib/math/decompositions.h"
-#include "lib/robot/kinematics.h"
+#include "lib/posture/ik/continuation.h"
 #include "maxwrench/problem.h"
 
 namespace maxwrench {
@@ -21,8 +19,7 @@ inline constexpr const char* kSingularReason = "singular: the dependent joints d
 ///
 /// (where coordinates of X are free, they have their values in theta_r_default). At theta_r_default
 /// a damped Newton's method finds y from the guess. From there y is tracked along the straight line
-/// to theta_r: a step along the tangent, then Newton's method, which must contract at once;
-/// otherwise the step is halved. So y is a function of theta_r alone and stays on the IK solution
+/// to theta_r (`Continuation`). So y is a function of theta_r alone and stays on the IK solution
 /// of the guess (elbow up or down). By the implicit function theorem, with J_d and J_r the columns
 /// of J for y and theta_r,
 ///
@@ -39,13 +36,14 @@ class DependentJoints {
   /// Keeps a reference to the problem.
   explicit DependentJoints(const Problem& problem);
   explicit DependentJoints(const Problem&& problem) = delete;
+  DependentJoints(const DependentJoints&) = delete;
 
   /// The distance |[m; rad]| at which Newton's method ended from the pose at theta_r_default; about
   /// 1e-16 if it converged.
   double start_error() const { return start_error_.norm(); }
   /// [m; rad], the twist in world axes from the point where Newton's method ended to the pose.
   const Vector6d& start_gap() const { return start_error_; }
-  bool has_start() const;
+  bool has_start() const { return start_error() <= kArrived; }
   /// Whether J_d is singular at this point, which means that theta_r holds the wrong joints.
   bool start_is_singular() const { return start_is_singular_; }
 
@@ -56,40 +54,28 @@ class DependentJoints {
   /// The same for a pose, from the end of the last call. The joints are not moved by whole turns.
   const char* go_on(const Eigen::VectorXd& theta_r, const Pose<double>& pose);
 
-  /// z at the last theta_r, or at the last point before it that was reached.
+  /// z at the last theta_r that was reached.
   const Eigen::VectorXd& z() const { return z_; }
   /// dz/dtheta_r, (4 + joints)×r.
   const Eigen::MatrixXd& slopes() const { return slopes_; }
 
  private:
-  void linearise(const Eigen::VectorXd& z);
-  void differentiate();
-  bool approach(double& damping);
-  void start();
-  bool contract(double tolerance);
-  void predict(double from, double to, const Eigen::VectorXd& theta_r);
   const char* carry(const Eigen::VectorXd& theta_r, const Pose<double>& pose);
-  const char* arrive();
-  void read_theta_r();
+  bool differentiate(const ToolState<double>& state);
+  void write_z();
 
   const Problem& problem_;
-  Kinematics<double> kinematics_;
-  std::vector<int> y_, columns_;  ///< indices of y in z, and in the velocities
-  Vector6d start_error_ = Vector6d::Zero();
+  ToolChain chain_;
+  Continuation<double> continuation_;
+  HomotopyPath<double> path_;  ///< from the last theta_r and X that were reached
+  Vector6d start_error_;
   bool start_is_singular_ = true;
-  Eigen::VectorXd q_, start_z_, theta_r_, from_, z_, trial_;
-  Pose<double> pose_;  ///< X, the pose of the end effector
-  Vector6d twist_;     ///< [m; rad], the motion of X along the path
-  Vector6N drift_;     ///< dy due to this motion, J_d^+ twist, at the point of J_ and qr_
+  Six<double> start_y_{}, y_{};
+  Eigen::VectorXd theta_r_, z_;
   Eigen::MatrixXd start_slopes_, slopes_;
+  LeastSquares6 qr_;
   bool followed_ = false;  ///< theta_r_ and reason_ are known
   const char* reason_ = nullptr;
-
-  // At the point of the last `linearise`.
-  Vector6d error_;  ///< [m; rad], the twist from this point to the pose
-  Matrix6Xd J_;
-  Matrix6N J_d_;
-  LeastSquares6 qr_;
 };
 
 }  // namespace maxwrench

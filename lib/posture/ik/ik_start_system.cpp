@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "lib/math/decompositions.h"
 #include "lib/math/random.h"
+#include "lib/posture/ik/damped_newton.h"
 #include "lib/posture/ik/path_tracker.h"
 #include "maxwrench/problem.h"
 
@@ -65,57 +65,6 @@ VectorX<Complex> complex_of(const Eigen::VectorXd& theta_r) {
   assign(theta_r, result);
   return result;
 }
-
-/// The damped Newton's method of Levenberg and Marquardt for y at theta_r. `run` returns whether it
-/// converges.
-class FirstNewton {
- public:
-  FirstNewton(const ToolChain& chain, const Pose<double>& pose)
-      : chain_(chain), pose_(pose), J_(6, chain.unknowns()), error_(6) {}
-
-  bool run(const Eigen::VectorXd& theta_r, Six<double>& y) {
-    constexpr int kMostNewtonSteps = 100;
-    constexpr double kMostDamping = 1e6, kLongest = 0.5;
-    double damping = 1e-2;
-    linearise(theta_r, y);
-    for (int step = 0; step < kMostNewtonSteps && error_.norm() > kArrived; ++step) {
-      const double before = error_.norm();
-      Vector6N dy = damped_step(J_, error_, damping);
-      double longest = 0;  // of the angles; translations are linear
-      for (Eigen::Index i = 0; i < dy.size(); ++i) {
-        if (chain_.turns(static_cast<int>(i))) longest = std::max(longest, std::abs(dy[i]));
-      }
-      if (longest > kLongest) dy *= kLongest / longest;
-      Six<double> trial = y;
-      for (Eigen::Index i = 0; i < dy.size(); ++i) trial[static_cast<std::size_t>(i)] += dy[i];
-      linearise(theta_r, trial);
-      if (error_.norm() < before) {
-        y = trial;
-        damping /= 8;
-        continue;
-      }
-      linearise(theta_r, y);
-      damping *= 8;
-      if (damping > kMostDamping) return false;
-    }
-    return error_.norm() <= kArrived;
-  }
-
- private:
-  void linearise(const Eigen::VectorXd& theta_r, const Six<double>& y) {
-    const double* const none = nullptr;
-    chain_.evaluate(theta_r.data(), y.data(), none, none, state_);
-    for (int i = 0; i < chain_.unknowns(); ++i) J_.col(i) = state_.J[static_cast<std::size_t>(i)];
-    error_.head<3>() = pose_.p - state_.pose.p;
-    error_.tail<3>() = logarithm(pose_.R * state_.pose.R.transpose());
-  }
-
-  const ToolChain& chain_;
-  const Pose<double>& pose_;
-  ToolState<double> state_;
-  Matrix6N J_;
-  Vector6N error_;
-};
 
 /// Number i of the van der Corput sequence to a base.
 double radical_inverse(int i, int base) {
@@ -182,7 +131,7 @@ Six<double> IkStartSystem::random_y(Random& random) const {
 /// Then finds other real solutions at that theta_r.
 void IkStartSystem::find_first(const Problem& problem) {
   set_reach(problem, problem.theta_r_default);
-  FirstNewton newton(chain_, pose_);
+  DampedNewton newton(chain_, pose_);
   Continuation<double> correction(chain_);
   Random random(1);
   IkSolutionSet node;

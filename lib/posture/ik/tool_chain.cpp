@@ -105,10 +105,12 @@ void ToolChain::evaluate(const T* theta_r, const T* y, const T* theta_r_rate, co
   }
   state.pose.p = frame.p + frame.R * behind_.p;
   state.pose.R = frame.R * behind_.R;
+  state.J_r.resize(static_cast<std::size_t>(parameters_));
   state.twist.setConstant(T(0.0));
   for (std::size_t i = 0; i < n; ++i) {
     const Coordinate& at = coordinates_[i];
-    Vector6<T> column;
+    Vector6<T>& column = at.unknown >= 0 ? state.J[static_cast<std::size_t>(at.unknown)]
+                                         : state.J_r[static_cast<std::size_t>(at.parameter)];
     if (at.turns) {
       column.template head<3>() = state.axes[i].cross(state.pose.p - state.origins[i]);
       column.template tail<3>() = state.axes[i];
@@ -116,7 +118,6 @@ void ToolChain::evaluate(const T* theta_r, const T* y, const T* theta_r_rate, co
       column.template head<3>() = state.axes[i];
       column.template tail<3>().setConstant(T(0.0));
     }
-    if (at.unknown >= 0) state.J[static_cast<std::size_t>(at.unknown)] = column;
     const T* const rate = at.unknown >= 0 ? y_rate : theta_r_rate;
     if (rate) state.twist += column * rate[std::max(at.unknown, at.parameter)];
   }

@@ -19,6 +19,7 @@ template <class T>
 struct ToolState {
   Pose<T> pose;
   Six<Vector6<T>> J;                      ///< [m; rad], the twist per unit rate of each y
+  std::vector<Vector6<T>> J_r;            ///< the twist per unit rate of each theta_r
   Vector6<T> twist;                       ///< due to the rates
   std::vector<Vector3<T>> axes, origins;  ///< of the coordinates
 };
@@ -41,6 +42,11 @@ class ToolChain {
   }
   /// The index of y_i in z = [x, y, z, yaw of the base; all joints].
   int place_in_z(int i) const { return in_z_[static_cast<std::size_t>(i)]; }
+
+  /// J_d 6×d of a state.
+  Eigen::Map<const Matrix6Xd> J_d(const ToolState<double>& state) const {
+    return {state.J[0].data(), 6, unknowns()};
+  }
 
   /// Whether all coordinates of both chains are the same.
   bool operator==(const ToolChain& other) const;

@@ -136,6 +136,29 @@ TEST(DependentJoints, GoesOnAlongAMotion) {
   EXPECT_GT(arrived, samples(200));
 }
 
+/// About the axis of the base's yaw, in one call and by almost half a turn: the base follows in its
+/// plane and the joints rest. Nothing is allocated on the way.
+TEST(DependentJoints, GoesOnByALargeTurn) {
+  Random random(8);
+  const Problem problem = problem_with_dependents(random, {0, 1, 5}, 2);
+  const Eigen::VectorXd& theta_r = problem.theta_r_default;
+  DependentJoints ik_solution(problem);
+  ASSERT_EQ(ik_solution.follow(theta_r), nullptr);
+  Eigen::VectorXd z = ik_solution.z();
+  const double turn = 3;
+  Pose<double> turned = problem.pose;
+  turned.R = Eigen::AngleAxisd(turn, problem.robot.mount.R.col(2)) * problem.pose.R;
+  const long before = allocation_count();
+  ASSERT_EQ(ik_solution.go_on(theta_r, turned), nullptr);
+  EXPECT_EQ(allocation_count(), before);
+  const Pose<double> from = base_pose(problem.robot, z.head<4>());
+  const Pose<double> to = base_pose(problem.robot, ik_solution.z().head<4>());
+  const Eigen::Vector3d lever = from.R.transpose() * (problem.pose.p - from.p);
+  EXPECT_LT((to.p + to.R * lever - problem.pose.p).norm(), 1e-11);
+  z[3] += turn;
+  EXPECT_LT((ik_solution.z() - z).tail(z.size() - 3).norm(), 1e-11);
+}
+
 TEST(DependentJoints, AllocatesNothingAfterTheFirstCall) {
   Random random(4);
   const Problem problem = problem_with_dependents(random, {5}, 3);
