@@ -32,16 +32,23 @@ class Measure {
   /// @param capability  receives the result
   void evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
                 Capability& capability);
-  /// Returns whether the value is the optimum of the wrench program.
+  /// Evaluates the measure with a program that is well formed.
+  ///
+  /// `evaluate` checks the program and clears `capability` before: numbers that are not written
+  /// remain zero, and the status remains kNumericalError unless it is set. Only if `solves_program`
+  /// is true it does not clear. The arguments are those of `evaluate`.
+  virtual void evaluate_well_formed(const Posture& posture, const WrenchProgram& program,
+                                    bool efforts, Capability& capability) = 0;
+  /// Returns whether the value is the optimum of the wrench program. If so,
+  /// `evaluate_well_formed` must write all of the result.
   virtual bool solves_program() const { return false; }
 
  private:
-  /// Evaluates the measure with a program that is well formed.
-  ///
-  /// `capability` is cleared before: numbers that are not written remain zero, and the status
-  /// remains kNumericalError unless it is set. The arguments are those of `evaluate`.
-  virtual void evaluate_well_formed(const Posture& posture, const WrenchProgram& program,
-                                    bool efforts, Capability& capability) = 0;
+  friend const Posture& evaluate_best(PostureEvaluator& model, const Eigen::VectorXd& theta_r,
+                                      Measure& measure, bool efforts, WrenchProgram& program,
+                                      Capability& capability);
+  void evaluate_if(bool well_formed, const Posture& posture, const WrenchProgram& program,
+                   bool efforts, Capability& capability);
 };
 
 /// Evaluates a measure at theta_r, at the valid IK solution with the largest value.
@@ -55,7 +62,7 @@ class Measure {
 /// @param theta_r     the redundant coordinates (r)
 /// @param measure     the measure
 /// @param efforts     whether to compute u and the residual
-/// @param program     receives the wrench program of the posture
+/// @param program     made for this problem; receives the wrench program of the posture
 /// @param capability  receives the result; unchanged if no posture is valid
 /// @return the posture, which `model` owns
 const Posture& evaluate_best(PostureEvaluator& model, const Eigen::VectorXd& theta_r,

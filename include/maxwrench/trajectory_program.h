@@ -100,9 +100,8 @@ class TrajectorySolver {
   /// @param program   the program
   /// @param solution  on entry, the warm start, if its basis is not empty; on return, the result
   void solve(const TrajectoryProgram& program, TrajectorySolution& solution);
-
- private:
-  /// Solves a program that is well formed. The arguments are those of `solve`.
+  /// Solves a program that is well formed, which `solve` checks. The arguments are those of
+  /// `solve`.
   virtual void solve_well_formed(const TrajectoryProgram& program,
                                  TrajectorySolution& solution) = 0;
 };

@@ -53,7 +53,9 @@ WrenchProgram make_wrench_program(const Problem& problem, Wrench wrench);
 WrenchProgram make_wrench_program(const Problem&& problem, Wrench wrench) = delete;
 
 /// Sets JtW, tau_d and C_2 of a program to those of a posture, and W if it turns.
-void set_posture(const Posture& posture, WrenchProgram& program);
+///
+/// @return whether JtW and tau_d are finite
+bool set_posture(const Posture& posture, WrenchProgram& program);
 
 /// Returns a wrench program as a linear program for general solvers: x = (u, w), A = [B, -J'W],
 /// b = tau_d.

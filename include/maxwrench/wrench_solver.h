@@ -26,9 +26,8 @@ class WrenchSolver {
   /// @param efforts     whether to compute u, which a search does not need
   /// @param capability  receives status, reason, beta, w and lambda, and u if `efforts` is set
   void solve(const WrenchProgram& program, bool efforts, Capability& capability);
-
- private:
-  /// Solves a program that is well formed. The arguments are those of `solve`.
+  /// Solves a program that is well formed, which `solve` checks. The arguments are those of
+  /// `solve`. beta may overflow.
   virtual void solve_well_formed(const WrenchProgram& program, bool efforts,
                                  Capability& capability) = 0;
 };

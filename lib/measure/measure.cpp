@@ -20,8 +20,13 @@ void Capability::clear() {
 
 void Measure::evaluate(const Posture& posture, const WrenchProgram& program, bool efforts,
                        Capability& capability) {
-  capability.clear();
-  if (!well_formed(program)) {
+  evaluate_if(maxwrench::well_formed(program), posture, program, efforts, capability);
+}
+
+void Measure::evaluate_if(bool well_formed, const Posture& posture, const WrenchProgram& program,
+                          bool efforts, Capability& capability) {
+  if (!well_formed || !solves_program()) capability.clear();
+  if (!well_formed) {
     capability.conclude(Status::kNumericalError, kMalformed);
     return;
   }
@@ -37,8 +42,8 @@ const Posture& evaluate_best(PostureEvaluator& model, const Eigen::VectorXd& the
   const Posture& first = model.evaluate(theta_r);
   if (first.status != Status::kValid) return first;
   const auto value = [&](const Posture& posture, bool fill_efforts) {
-    set_posture(posture, program);
-    measure.evaluate(posture, program, fill_efforts, capability);
+    const bool finite = set_posture(posture, program);
+    measure.evaluate_if(finite, posture, program, fill_efforts, capability);
     return capability.status == Status::kOptimal ? capability.beta : -kInfinity;
   };
   const int ik_solutions = model.ik_solutions();

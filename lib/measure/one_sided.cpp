@@ -34,7 +34,7 @@ class OneSided : public Measure {
       return;
     }
     if (sided_.empty() && free_.size() == static_cast<std::size_t>(program.columns())) {
-      return forms_[0]->measure->evaluate(posture, program, efforts, capability);
+      return forms_[0]->measure->evaluate_well_formed(posture, program, efforts, capability);
     }
     const unsigned sets = 1U << sided_.size();
     unsigned best = 0;

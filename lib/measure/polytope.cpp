@@ -20,18 +20,33 @@ class LinfPolytope : public Measure {
 
   void evaluate_well_formed(const Posture& posture, const WrenchProgram& program, bool efforts,
                             Capability& capability) override {
-    solver_->solve(program, efforts, capability);
+    solver_->solve_well_formed(program, efforts, capability);
     if (efforts) confirm_infeasible(program, capability.lambda, capability);
-    if (capability.status != Status::kOptimal) return;
+    if (capability.status != Status::kOptimal) return clear_value(capability);
     fill_wrenches(posture, program, capability);
     if (efforts) {
       capability.residual = recheck(program, capability.u, capability.w, capability.lambda);
+    } else {
+      capability.u.setZero();
+      capability.residual = {};
     }
   }
   bool solves_program() const override { return true; }
 
  private:
+  /// Clears the numbers of earlier results, except for a proof in lambda.
+  void clear_value(Capability& capability) {
+    const Verdict verdict = capability;
+    const int iterations = capability.iterations;
+    capability.lambda.swap(proof_);
+    capability.clear();
+    if (verdict.status == Status::kInfeasible) capability.lambda.swap(proof_);
+    capability.conclude(verdict.status, verdict.reason.c_str());
+    capability.iterations = iterations;
+  }
+
   std::unique_ptr<WrenchSolver> solver_;
+  Eigen::VectorXd proof_;
 };
 
 /// The same program with (B, J, tau_d) replaced by (I, J (B^+)', B^+ tau_d). lambda = (B^+)'

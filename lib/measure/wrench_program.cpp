@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "lib/math/farkas.h"
 #include "lib/math/rotated.h"
@@ -23,6 +24,19 @@ double outside(const Eigen::VectorXd& x, const Eigen::VectorXd& low, const Eigen
   return worst;
 }
 
+/// The loop has no jumps, so that the compiler vectorises it.
+template <class X>
+bool all_finite(const X& x) {
+  const double* const numbers = x.data();
+  std::int64_t others = 0;
+  for (Eigen::Index i = 0; i < x.size(); ++i) others |= std::abs(numbers[i]) < kInfinity ? 0 : 1;
+  return others == 0;
+}
+
+bool posture_is_finite(const WrenchProgram& program) {
+  return all_finite(program.JtW) && all_finite(program.tau_d);
+}
+
 }  // namespace
 
 bool well_formed(const WrenchProgram& program) {
@@ -31,10 +45,8 @@ bool well_formed(const WrenchProgram& program) {
   if (program.JtW.rows() != n || program.JtW.cols() != k) return false;
   if (program.w_min.size() != k || program.w_max.size() != k) return false;
   if (program.W.cols() + program.C_2.cols() != k) return false;
-  // 0 * x is zero only if x is finite.
-  const auto zero = [](const auto& x) { return (x.array() * 0).sum(); };
-  const double wrenches = zero(program.W) + zero(program.C_2);
-  if (!(wrenches + zero(program.JtW) + zero(program.tau_d) + zero(program.c_w) == 0)) return false;
+  if (!all_finite(program.W) || !all_finite(program.C_2) || !all_finite(program.c_w)) return false;
+  if (!posture_is_finite(program)) return false;
   for (Eigen::Index j = 0; j < k; ++j) {
     if (!(program.w_min[j] < kInfinity && program.w_max[j] > -kInfinity)) return false;
   }
@@ -75,17 +87,18 @@ WrenchProgram make_wrench_program(const Problem& problem, Wrench wrench) {
   return program;
 }
 
-void set_posture(const Posture& posture, WrenchProgram& program) {
+bool set_posture(const Posture& posture, WrenchProgram& program) {
   program.tau_d = posture.tau_d;
   if (program.W_0.cols() > 0) rotate_into(posture.turn, program.W_0, program.W);
   if (program.columns() == program.W.cols()) {
     program.JtW.noalias() = posture.J.transpose().lazyProduct(program.W);
-    return;
+    return posture_is_finite(program);
   }
   program.C_2 = posture.C_2;
   program.JtW.leftCols(program.W.cols()).noalias() = posture.J.transpose().lazyProduct(program.W);
   program.JtW.rightCols(program.C_2.cols()).noalias() =
       posture.J_2.transpose().lazyProduct(program.C_2);
+  return posture_is_finite(program);
 }
 
 void fill_wrenches(const Posture& posture, const WrenchProgram& program, Capability& capability) {

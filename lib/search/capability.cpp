@@ -26,7 +26,7 @@ class CapabilityObjective final : public FacetObjective {
 
   const Eigen::VectorXd& lower() const override { return problem_.theta_r_min; }
   const Eigen::VectorXd& upper() const override { return problem_.theta_r_max; }
-  const Verdict& verdict() const override { return verdict_; }
+  const Verdict& verdict() const override { return *verdict_; }
 
   double evaluate(const Eigen::VectorXd& theta_r, Eigen::VectorXd* gradient) override {
     const Posture& posture =
@@ -35,9 +35,10 @@ class CapabilityObjective final : public FacetObjective {
     theta_r_ = theta_r;
     if (tally_) tally_->add(posture.ik_solutions);
     const bool valid = posture.status == Status::kValid;
-    verdict_ = valid ? Verdict(capability_) : Verdict(posture);
-    if (tally_ && verdict_.status == Status::kNumericalError) tally_->add_undecided();
-    if (verdict_.status != Status::kOptimal) {
+    verdict_ = &capability_;
+    if (!valid) verdict_ = &posture;
+    if (tally_ && verdict_->status == Status::kNumericalError) tally_->add_undecided();
+    if (verdict_->status != Status::kOptimal) {
       if (gradient) gradient->setConstant(theta_r.size(), std::numeric_limits<double>::quiet_NaN());
       return -kInfinity;
     }
@@ -74,7 +75,7 @@ class CapabilityObjective final : public FacetObjective {
   const Posture* posture_ = nullptr;  ///< of the last evaluation, at theta_r_
   Eigen::VectorXd theta_r_;
   Eigen::MatrixXd A_r_;
-  Verdict verdict_;
+  const Verdict* verdict_ = &capability_;
 };
 
 }  // namespace

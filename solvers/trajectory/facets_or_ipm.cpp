@@ -16,7 +16,7 @@ class FacetsOrIpm : public TrajectorySolver {
     solution.basis.clear();
     solution.iterations = 0;
     if (suits(program) && instant_by_instant(program, solution)) return;
-    ipm_->solve(program, solution);
+    ipm_->solve_well_formed(program, solution);
   }
 
  private:
@@ -32,11 +32,11 @@ class FacetsOrIpm : public TrajectorySolver {
     int worst = 0;
     solution.value = kInfinity;
     for (int i = 0; i < program.size(); ++i) {
-      facets_->solve(program.instants[i], false, capability_);
+      facets_->solve_well_formed(program.instants[i], false, capability_);
       if (capability_.status == Status::kInfeasible) {
         return !slackens(program) && prove(program, i, solution);
       }
-      if (capability_.status != Status::kOptimal) return false;
+      if (capability_.status != Status::kOptimal || !std::isfinite(capability_.beta)) return false;
       if (capability_.beta >= solution.value) continue;
       solution.value = capability_.beta;
       lambda_ = capability_.lambda;

@@ -112,7 +112,7 @@ class Condensed : public WrenchSolver {
   /// Counts the iterations of both methods.
   void solve_assembled(const WrenchProgram& program, bool efforts, Capability& capability) {
     const int before = capability.iterations;
-    assembled_->solve(program, efforts, capability);
+    assembled_->solve_well_formed(program, efforts, capability);
     capability.iterations += before;
   }
 

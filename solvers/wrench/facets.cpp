@@ -122,12 +122,14 @@ class Facets : public WrenchSolver {
       if (proves_infeasible(program, capability.lambda)) return;
       // The ray misses the set by about 1e-9 of its length, which is too little for a proof by two
       // facets.
-      return assembled_->solve(program, efforts, capability);
+      return assembled_->solve_well_formed(program, efforts, capability);
     }
     if (!std::isfinite(x)) {
       const double size = program.JtW.squaredNorm();
       // `size` overflows or underflows, so the computation above is not valid.
-      if (size != 0 && !std::isnormal(size)) return assembled_->solve(program, efforts, capability);
+      if (size != 0 && !std::isnormal(size)) {
+        return assembled_->solve_well_formed(program, efforts, capability);
+      }
       capability.status = Status::kUnbounded;
       capability.reason = "the wrench does not load any actuator";
       return;
