@@ -97,7 +97,7 @@ class PureProof : public ValueProof {
     box_.over_box(a_);
     off_postures_.add_to(tau_, multiplier + own_width());
     double U = by_ends(support, low, high);
-    if (equations_.count() > 0) U = std::min(U, by_ratio(support));
+    if (U > low) U = std::min(U, by_ratio(support));
     return U < high ? U : high;
   }
 

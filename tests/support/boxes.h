@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "solvers/certify/bound/exact_posture.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {
@@ -23,6 +24,17 @@ inline RandomBox random_box(const Problem& problem, Random& random) {
     if (where > 0.8) box.inside[i] = box.upper[i];
   }
   return box;
+}
+
+/// The rows [tau_d; J'c], 2n, of a problem whose base pose follows in closed form.
+inline MultiAffine pure_rows(const Problem& problem) {
+  ExactPosture posture(problem);
+  return {all_coordinates(problem), problem.theta_r_default, [&](const ExtendedVector& theta_r) {
+            posture.set(theta_r);
+            ExtendedVector rows(2 * problem.robot.velocities());
+            rows << posture.tau_d(), posture.J().transpose() * posture.turned(problem.c);
+            return rows;
+          }};
 }
 
 }  // namespace maxwrench

@@ -136,18 +136,10 @@ class AnyWrenchBound final : public Bound {
   /// At the control points with the largest U(mu) above `least`, adds the best efforts for mu; with
   /// `all`, in the first round, at all control points.
   void add_points(double least, bool all) {
-    const Eigen::Index N = P_.rows();
-    order_.clear();
-    for (Eigen::Index v = 0; v < N; ++v) {
-      if (all || support_ + most_[v] > least) order_.push_back(v);
-    }
-    if (!all && order_.size() > kMostAdded) {
-      std::nth_element(order_.begin(), order_.begin() + kMostAdded, order_.end(),
-                       [&](Eigen::Index a, Eigen::Index b) { return most_[a] > most_[b]; });
-      order_.resize(kMostAdded);
-    }
+    const auto count = all ? static_cast<std::size_t>(P_.rows()) : kMostAdded;
+    list_largest(most_, least - support_, count, order_);
     program_.set_points(points_ + static_cast<Eigen::Index>(order_.size()));
-    for (const Eigen::Index v : order_) add_point(v);
+    for (const int v : order_) add_point(v);
   }
 
   void add_point(Eigen::Index v) {
@@ -173,7 +165,7 @@ class AnyWrenchBound final : public Bound {
   MultiplierProgram program_;
   Eigen::MatrixXd P_, d_, g_;
   Eigen::VectorXd u_, force_, mu_, most_, by_mu_;
-  std::vector<Eigen::Index> order_;
+  std::vector<int> order_;
   double fixed_ = 0, support_ = 0;
   Eigen::Index points_ = 0;
 };

@@ -24,31 +24,21 @@ inline constexpr double kCeilingRounding = 1e-6;
 /// `verify`.
 inline constexpr double kCeilingMargin = 1;
 
-/// Bounds with W = c, of beta = max t subject to tau_d + t J'c in a convex set with the support
-/// function s. For any lambda, no value in [low, high] of a posture in the box exceeds
-///
-///     U(lambda) = s(lambda) + max over control points v and t in {low, high} of
-///                 t (1 - lambda'a_v) - lambda'tau_v.
-///
-/// The lambda with the least U is used. In sign, lambda is minus the multiplier of the lower level.
-/// The convex set is the L-infinity polytope {B u}; with `l2`, the program is the same with (I, B^+
-/// J'c, B^+ tau_d).
-std::unique_ptr<Bound> make_polytope_bound(const Problem& problem, bool l2);
-/// The ellipsoid |W_u B^+ tau| <= 1, with lambda from the centre of the box.
-std::unique_ptr<Bound> make_ellipsoid_bound(const Problem& problem);
-
-enum class LoopMeasure { kPolytope, kSmallestEffort, kEllipsoid };
-
-/// The L-infinity or L2 polytope or the ellipsoid of a problem with dependent joints. For all
-/// coordinates x of the posture, `LoopCoordinates`, with equations f(x) = 0, and for any lambda and
-/// nu, no value in [low, high] of a posture in the box exceeds
+/// A bound with W = c, of beta = max t subject to tau + t a in a convex set with the support
+/// function s. For all coordinates x of the posture, `LoopCoordinates`, with equations f(x) = 0,
+/// and for any lambda and nu, no value in [low, high] of a posture in the box exceeds
 ///
 ///     U(lambda, nu) = s(lambda) + max over control points v and t in {low, high} of
 ///                     t (1 - lambda'a_v) - lambda'tau_v - nu'f_v.
 ///
-/// The multiplier is [lambda; nu]. Where lambda'a_v > 0 at all control points, the largest
+/// If the base follows in closed form, x is theta_r, and there are no equations. The lambda and nu
+/// with the least U are used. In sign, lambda is minus the multiplier of the lower level. The
+/// multiplier is [lambda; nu]. Where lambda'a_v > 0 at all control points, the largest
 /// (s(lambda) - lambda'tau_v - nu'f_v)/lambda'a_v is also a bound.
-std::unique_ptr<Bound> make_loop_bound(const Problem& problem, LoopMeasure measure);
+///
+/// The convex set of linf_polytope is {B u}. For l2_polytope the program is the same with (I, B^+
+/// a, B^+ tau). The ellipsoid is |W_u B^+ tau| <= 1, with lambda from the centre of the box.
+std::unique_ptr<Bound> make_pure_bound(const Problem& problem, const std::string& measure);
 
 /// For W with as many columns as the base has free axes. The forces u of the thrusters on the base
 /// then determine h by w = (J_b'W)^-1 (B_b u - tau_b). So beta = o_0 + o'u, and the joints exert

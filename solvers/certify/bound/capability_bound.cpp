@@ -41,8 +41,8 @@ class CapabilityBound final : public Bound {
 
 std::unique_ptr<Bound> measure_bound(const Problem& problem, const std::string& measure,
                                      Wrench wrench) {
-  const bool any = wrench == Wrench::kAny, l2 = measure == "l2_polytope";
-  if (measure != "linf_polytope" && !l2 && measure != "ellipsoid") {
+  const bool any = wrench == Wrench::kAny;
+  if (measure != "linf_polytope" && measure != "l2_polytope" && measure != "ellipsoid") {
     throw std::invalid_argument("measure: got '" + measure +
                                 "', expected linf_polytope, l2_polytope or ellipsoid for a proof");
   }
@@ -50,21 +50,16 @@ std::unique_ptr<Bound> measure_bound(const Problem& problem, const std::string& 
     throw std::invalid_argument("wrench: got 'any', expected pure for a proof of measure " +
                                 measure);
   }
-  if (problem.contact || !problem.dependent.empty()) {
-    const bool ellipsoid = measure == "ellipsoid";
-    if (any || (ellipsoid && problem.contact_columns() > 0)) {
-      throw std::invalid_argument(
-          problem.name + ": " +
-          (any ? "wrench: got 'any', expected pure for a proof with dependent joints"
-               : "measure: got 'ellipsoid', expected linf_polytope for a "
-                 "proof with forces of a second contact"));
-    }
-    return make_loop_bound(problem, ellipsoid ? LoopMeasure::kEllipsoid
-                                    : l2      ? LoopMeasure::kSmallestEffort
-                                              : LoopMeasure::kPolytope);
+  if (any && (problem.contact || !problem.dependent.empty())) {
+    throw std::invalid_argument(
+        problem.name + ": wrench: got 'any', expected pure for a proof with dependent joints");
   }
-  if (any) return make_any_wrench_bound(problem);
-  return measure == "ellipsoid" ? make_ellipsoid_bound(problem) : make_polytope_bound(problem, l2);
+  if (measure == "ellipsoid" && problem.contact_columns() > 0) {
+    throw std::invalid_argument(problem.name +
+                                ": measure: got 'ellipsoid', expected linf_polytope for a proof "
+                                "with forces of a second contact");
+  }
+  return any ? make_any_wrench_bound(problem) : make_pure_bound(problem, measure);
 }
 
 }  // namespace

@@ -64,17 +64,4 @@ Coordinates all_coordinates(const Problem& problem) {
   return all;
 }
 
-MultiAffine pure_rows(const Problem& problem, const Eigen::MatrixXd& K) {
-  ExactPosture posture(problem);
-  const MatrixX<Extended> into = K.cast<Extended>();
-  return {all_coordinates(problem), problem.theta_r_default, [&](const ExtendedVector& theta_r) {
-            posture.set(theta_r);
-            ExtendedVector rows(2 * K.rows());
-            rows.head(K.rows()).noalias() = into * posture.tau_d();
-            const ExtendedVector a = posture.J().transpose() * posture.turned(problem.c);
-            rows.tail(K.rows()).noalias() = into * a;
-            return rows;
-          }};
-}
-
 }  // namespace maxwrench

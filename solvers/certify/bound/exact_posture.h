@@ -48,7 +48,4 @@ class ExactPosture {
 /// All coordinates of theta_r.
 Coordinates all_coordinates(const Problem& problem);
 
-/// The rows [K tau_d; K J'c], 2m, for an m×n matrix K.
-MultiAffine pure_rows(const Problem& problem, const Eigen::MatrixXd& K);
-
 }  // namespace maxwrench

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 
 #include "lib/measure/closed_form.h"
 #include "solvers/certify/bound/bounds.h"
@@ -14,28 +15,52 @@
 namespace maxwrench {
 namespace {
 
-/// Where the base follows from the joints, the force of c on its linear axes, or the torque on its
-/// angular axes, has the same length in all postures. So the base's forces limit t. Otherwise, and
-/// where the second contact may bear t c in place of the base, the ceiling is infinite.
-double loop_ceiling(const Problem& problem, const LoopModel& model) {
-  if (!model.coordinates.base_is_dependent || model.coordinates.forces_grow()) return kInfinity;
+/// t <= (sum_k max |u_k| |B_k| + |tau|) / |J'c|, where only the base's free axes count: the linear
+/// ones for a force and the angular ones for a torque. On all three axes of that kind, |J'c| is the
+/// length of the force or torque of c. The share of axes that are not free is subtracted from its
+/// square. The ceiling is infinite if the base does not follow in closed form, and where the second
+/// contact may bear t c in place of the base.
+double ceiling_of(const Problem& problem, const LoopCoordinates& coordinates) {
+  constexpr double kLeastLength2 = 1e-6;
+  if (!coordinates.base_is_dependent || coordinates.forces_grow()) return kInfinity;
+  Problem wide = problem;
+  wide.robot.base_axes = {0, 1, 2, 3, 4, 5};
+  wide.theta_r_min.array() -= kCeilingMargin;
+  wide.theta_r_max.array() += kCeilingMargin;
+  const LoopModel model(wide);
   const Zonotope& set = problem.robot.actuation;
-  const bool pushes = problem.c.head<3>().norm() > 0;
-  const Eigen::Index row = pushes ? 0 : 3;
-  double most = model.tau.segment<3>(row).norm();
-  for (Eigen::Index k = 0; k < set.actuators(); ++k) {
-    const double u = std::max(std::abs(set.u_min[k]), std::abs(set.u_max[k]));
-    most += u * set.B.col(k).segment<3>(row).norm();
+  const bool pushes = !problem.c.head<3>().isZero(0);
+  const int kind = pushes ? 0 : 3;
+  std::vector<int> rows;
+  Eigen::Array3d taken = model.a.segment<3>(kind).array().square();
+  double load2 = 0;
+  for (std::size_t i = 0; i < problem.robot.base_axes.size(); ++i) {
+    const int axis = problem.robot.base_axes[i] - kind;
+    if (axis < 0 || axis >= 3) continue;
+    rows.push_back(static_cast<int>(i));
+    taken[axis] = 0;
+    load2 += model.tau[kind + axis] * model.tau[kind + axis];
   }
-  return most / problem.c.segment<3>(row).norm() * (1 + kCeilingRounding);
+  const double length2 = problem.c.segment<3>(kind).squaredNorm() - taken.sum();
+  if (rows.empty() || !(length2 > kLeastLength2)) {
+    throw std::invalid_argument(problem.name +
+                                ": wrench.c: got a direction that the base's free axes do not "
+                                "limit, expected one that they limit in all postures, for a proof");
+  }
+  double force = std::sqrt(load2);
+  for (Eigen::Index k = 0; k < set.actuators(); ++k) {
+    force += std::max(std::abs(set.u_min[k]), std::abs(set.u_max[k])) * set.B.col(k)(rows).norm();
+  }
+  return force / std::sqrt(length2) * (1 + kCeilingRounding);
 }
 
-/// Like `make_polytope_bound`, with nu'f added to the rows.
-class LoopBound final : public Bound {
+enum class PureMeasure { kPolytope, kSmallestEffort, kEllipsoid };
+
+class PureBound final : public Bound {
  public:
   /// K is B^+ for the L2 polytope and W_u B^+ for the ellipsoid; it is not used otherwise.
-  LoopBound(std::shared_ptr<const LoopModel> model, double ceiling, const Zonotope& set,
-            const Eigen::MatrixXd& K, LoopMeasure measure)
+  PureBound(std::shared_ptr<const LoopModel> model, double ceiling, const Zonotope& set,
+            const Eigen::MatrixXd& K, PureMeasure measure)
       : model_(std::move(model)),
         ceiling_(ceiling),
         set_(set),
@@ -49,17 +74,19 @@ class LoopBound final : public Bound {
                  set.u_max.head(found_by_program() ? set.actuators() : 0), kMostPoints) {
     if (!found_by_program()) ellipsoid_.emplace(K);
     entries_.resize(free_rows() + most_rank_);
+    at_.resize(2 * model_->size);
   }
 
   double ceiling() const override { return ceiling_; }
 
   void extend(Eigen::VectorXd& lower, Eigen::VectorXd& upper) const override {
+    if (model_->m == 0) return;  // x is theta_r
     lower = model_->coordinates.lower.array() - kLimitTolerance;
     upper = model_->coordinates.upper.array() + kLimitTolerance;
   }
 
   bool shrink(Eigen::VectorXd& lower, Eigen::VectorXd& upper, std::vector<BoxCut>* cuts) override {
-    return linear_.shrink(lower, upper, cuts);
+    return model_->m == 0 || linear_.shrink(lower, upper, cuts);
   }
 
   void evaluate(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low, double high,
@@ -76,7 +103,7 @@ class LoopBound final : public Bound {
   }
 
   std::unique_ptr<Bound> clone() const override {
-    return std::make_unique<LoopBound>(model_, ceiling_, set_, K_, measure_);
+    return std::make_unique<PureBound>(model_, ceiling_, set_, K_, measure_);
   }
 
  private:
@@ -96,27 +123,27 @@ class LoopBound final : public Bound {
       nu_.setZero(model_->m);
       value(low, high);
     }
-    linear_.precondition(lower, upper);
+    if (model_->m > 0) linear_.precondition(lower, upper);
     rank_ = std::min<Eigen::Index>(linear_.rank(), most_rank_);
     if (ellipsoid_) aim(lower, upper, low, high, proof);
-    if (proof.high <= low) return;
+    if (proof.high <= low || entries_.size() == 0) return;
     improve_by_rounds(low, high, proof);
   }
 
   static constexpr Eigen::Index kMostPoints = 1024;
   static constexpr int kMostRounds = 24;
-  static constexpr std::size_t kMostAdded = 24;
+  static constexpr std::size_t kMostAdded = 8;
   static constexpr int kMostSteps = 120;
   static constexpr double kBelow = 1e-9;
-  static constexpr double kClose = 0.02;
+  static constexpr double kClose = 0.1;
   static constexpr double kWide = 1e3;
 
   /// The length of lambda.
   Eigen::Index rows() const { return support_.B().rows(); }
 
   /// The lambda of the ellipsoid is its normal at the centre of the box, and the program finds nu.
-  bool found_by_program() const { return measure_ != LoopMeasure::kEllipsoid; }
-  bool by_effort() const { return measure_ == LoopMeasure::kSmallestEffort; }
+  bool found_by_program() const { return measure_ != PureMeasure::kEllipsoid; }
+  bool by_effort() const { return measure_ == PureMeasure::kSmallestEffort; }
   Eigen::Index free_rows() const { return found_by_program() ? rows() : 0; }
 
   Eigen::MatrixXd extended_B() const {
@@ -141,7 +168,7 @@ class LoopBound final : public Bound {
     proof.improve(U, both_);
   }
 
-  /// U(lambda, nu), rounding included. Leaves the violations in at_low_ and at_high_.
+  /// U(lambda, nu), rounding included. Leaves the violations in at_.
   double value(double low, double high) {
     const double s = ellipsoid_ ? ellipsoid_->of(lambda_) : support_.of(lambda_);
     if (by_effort()) {
@@ -158,15 +185,14 @@ class LoopBound final : public Bound {
                        share * (sizes_.dot(model_->tau) + nu_.cwiseAbs().dot(model_->f));
     const double off_a = share * sizes_.dot(model_->a);
     s_ = s;
-    at_low_ = least_t_ * (1 - box_.h().array()) - box_.g().array();
-    at_high_ = most_t_ * (1 - box_.h().array()) - box_.g().array();
+    at_.head(model_->size) = least_t_ * (1 - box_.h().array()) - box_.g().array();
+    at_.tail(model_->size) = most_t_ * (1 - box_.h().array()) - box_.g().array();
     double U = kInfinity;
     if (std::isfinite(low) && std::isfinite(high)) {
-      U = s + std::max(at_low_.maxCoeff(), at_high_.maxCoeff()) + off +
-          T * (off_a + kBoundRounding);
+      U = s + at_.maxCoeff() + off + T * (off_a + kBoundRounding);
     }
     // t <= (s - g)/h by convexity, where h > 0 at all points.
-    if (box_.h().minCoeff() > 2 * off_a) {
+    if (U > low && box_.h().minCoeff() > 2 * off_a) {
       const double ratio = ((s + off - box_.g().array()) /
                             (box_.h().array() - (s + off - box_.g().array()).sign() * off_a))
                                .maxCoeff();
@@ -184,7 +210,7 @@ class LoopBound final : public Bound {
       nu_.noalias() = linear_.M().topRows(rank_).transpose() * solved_.segment(free_rows(), rank_);
       take(value(low, high), proof);
       if (proof.high <= low) break;
-      const double now = s_ + std::max(at_low_.maxCoeff(), at_high_.maxCoeff());
+      const double now = s_ + at_.maxCoeff();
       const bool finite = std::isfinite(proof.high);
       if (finite && now - least <= kClose * std::max(proof.high - least_t_, 0.0)) break;
       if (!add_points(least)) break;
@@ -215,9 +241,8 @@ class LoopBound final : public Bound {
       Eigen::Index rest = v;
       bool corner = true;
       for (int i = chain.count(); i-- > 0;) {
-        const int values = chain.turns[static_cast<std::size_t>(i)] != 0 ? 3 : 2;
-        corner = corner && (values == 2 || rest % 3 != 1);
-        rest /= values;
+        corner = corner && (chain.terms(i) == 2 || rest % 3 != 1);
+        rest /= chain.terms(i);
       }
       if (!corner) continue;
       ids_.push_back(static_cast<int>(v));
@@ -249,21 +274,10 @@ class LoopBound final : public Bound {
 
   /// Returns false if there are no points to add, or no room for them.
   bool add_points(double least) {
-    order_.clear();
-    const Eigen::Index N = model_->size;
-    const auto at = [&](Eigen::Index id) { return id < N ? at_low_[id] : at_high_[id - N]; };
-    for (Eigen::Index id = 0; id < 2 * N; ++id) {
-      if (s_ + at(id) > least) order_.push_back(id);
-    }
-    if (order_.size() > kMostAdded) {
-      std::nth_element(order_.begin(), order_.begin() + kMostAdded, order_.end(),
-                       [&](Eigen::Index i, Eigen::Index j) { return at(i) > at(j); });
-      order_.resize(kMostAdded);
-    }
+    list_largest(at_, least - s_, kMostAdded, order_);
     const std::size_t before = ids_.size();
-    for (const Eigen::Index id : order_) {
-      const int one = static_cast<int>(id);
-      if (std::find(ids_.begin(), ids_.end(), one) == ids_.end()) ids_.push_back(one);
+    for (const int id : order_) {
+      if (std::find(ids_.begin(), ids_.end(), id) == ids_.end()) ids_.push_back(id);
     }
     if (ids_.size() == before || ids_.size() > static_cast<std::size_t>(kMostPoints)) {
       ids_.resize(before);
@@ -286,7 +300,7 @@ class LoopBound final : public Bound {
   const double ceiling_;
   const Zonotope& set_;
   const Eigen::MatrixXd K_;
-  const LoopMeasure measure_;
+  const PureMeasure measure_;
   const Eigen::Index most_rank_;
   BoxSupport support_;
   std::optional<EllipsoidSupport> ellipsoid_;
@@ -295,25 +309,26 @@ class LoopBound final : public Bound {
   MultiplierProgram program_;
   Eigen::Index rank_ = 0;
   double least_t_ = 0, most_t_ = 0, s_ = 0;
-  Eigen::VectorXd lambda_, nu_, solved_, both_, reach_, sizes_, at_low_, at_high_, entries_, load_;
-  std::vector<int> ids_, local_;
-  std::vector<Eigen::Index> order_;
+  Eigen::VectorXd lambda_, nu_, solved_, both_, reach_, sizes_, at_, entries_, load_;
+  std::vector<int> ids_, local_, order_;
 };
 
 }  // namespace
 
-std::unique_ptr<Bound> make_loop_bound(const Problem& problem, LoopMeasure measure) {
+std::unique_ptr<Bound> make_pure_bound(const Problem& problem, const std::string& measure) {
+  PureMeasure kind = PureMeasure::kPolytope;
   Eigen::MatrixXd K;
-  if (measure == LoopMeasure::kSmallestEffort) {
-    require_full_row_rank(problem.robot, "l2_polytope");
+  if (measure == "l2_polytope") {
+    kind = PureMeasure::kSmallestEffort;
+    require_full_row_rank(problem.robot, measure);
     K = problem.robot.actuation.B_pinv;
-  } else if (measure == LoopMeasure::kEllipsoid) {
-    K = weighted_inverse(problem.robot, "ellipsoid");
+  } else if (measure == "ellipsoid") {
+    kind = PureMeasure::kEllipsoid;
+    K = weighted_inverse(problem.robot, measure);
   }
   auto model = std::make_shared<LoopModel>(problem);
-  const double ceiling = loop_ceiling(problem, *model);
-  return std::make_unique<LoopBound>(std::move(model), ceiling, problem.robot.actuation, K,
-                                     measure);
+  const double ceiling = ceiling_of(problem, model->coordinates);
+  return std::make_unique<PureBound>(std::move(model), ceiling, problem.robot.actuation, K, kind);
 }
 
 }  // namespace maxwrench

@@ -8,11 +8,11 @@ namespace {
 /// Adds a part's values at their places on the grid of all coordinates.
 void spread_out(const LoopPart& part, const Eigen::VectorXd& values, Eigen::VectorXd& all) {
   const Eigen::Index size = values.size(), repeat = part.repeat;
+  if (repeat == 1) {
+    Eigen::Map<Eigen::MatrixXd>(all.data(), size, all.size() / size).colwise() += values;
+    return;
+  }
   for (Eigen::Index first = 0; first < all.size(); first += size * repeat) {
-    if (repeat == 1) {
-      all.segment(first, size) += values;
-      continue;
-    }
     for (Eigen::Index i = 0; i < size; ++i) {
       all.segment(first + i * repeat, repeat).array() += values[i];
     }
@@ -41,7 +41,9 @@ void LoopBox::weigh(const Eigen::VectorXd& lambda, const Eigen::VectorXd& nu) {
     const LoopPart& part = model_.parts[i];
     const Eigen::MatrixXd& P = *points_[i];
     const auto count = static_cast<Eigen::Index>(part.rows.size());
-    own_ = (part.kind == LoopPart::Kind::kEquations ? nu : lambda)(part.rows);
+    const Eigen::VectorXd& all = part.kind == LoopPart::Kind::kEquations ? nu : lambda;
+    own_.resize(count);
+    for (Eigen::Index k = 0; k < count; ++k) own_[k] = all[part.rows[static_cast<std::size_t>(k)]];
     sum_.noalias() = P.topRows(count).transpose() * own_;
     spread_out(part, sum_, g_);
     if (part.kind != LoopPart::Kind::kLoads) continue;
@@ -59,8 +61,12 @@ void LoopBox::collect(const Values& values_of) {
     const LoopPart& part = model_.parts[i];
     const auto& values = values_of(i);
     const auto count = static_cast<Eigen::Index>(part.rows.size());
-    (part.kind == LoopPart::Kind::kEquations ? f_ : tau_)(part.rows) += values.head(count);
-    if (part.kind == LoopPart::Kind::kLoads) a_(part.rows) += values.tail(count);
+    Eigen::VectorXd& all = part.kind == LoopPart::Kind::kEquations ? f_ : tau_;
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const int row = part.rows[static_cast<std::size_t>(k)];
+      all[row] += values[k];
+      if (part.kind == LoopPart::Kind::kLoads) a_[row] += values[count + k];
+    }
   }
 }
 

@@ -36,7 +36,7 @@ void LoopLinear::turn(const MultiAffine& f, const Eigen::VectorXd& lower,
     const bool turns = along.turns[static_cast<std::size_t>(i)] != 0;
     const double mid = (lower[at] + upper[at]) / 2, r = (upper[at] - lower[at]) / 2;
     const double c = std::cos(mid), s = std::sin(mid), half = (1 - std::cos(r)) / 2;
-    const int terms = turns ? 3 : 2;
+    const int terms = along.terms(i);
     step /= terms;
     for (Eigen::Index first = 0; first < coefficients_.cols(); ++first) {
       if (first / step % terms != 0) continue;
@@ -63,7 +63,7 @@ void LoopLinear::gather(const LoopPart& part) {
   weights_[0] = 0;
   Eigen::Index step = coefficients_.cols();
   for (int i = 0; i < along.count(); ++i) {
-    const int terms = along.turns[static_cast<std::size_t>(i)] != 0 ? 3 : 2;
+    const int terms = along.terms(i);
     step /= terms;
     const Eigen::Index linear = (terms - 1) * step;
     D_.col(part.from + i)(part.rows) += coefficients_.col(linear);

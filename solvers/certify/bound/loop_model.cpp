@@ -8,10 +8,6 @@
 namespace maxwrench {
 namespace {
 
-int values_along(const Coordinates& chain, int axis) {
-  return chain.turns[static_cast<std::size_t>(axis)] ? 3 : 2;
-}
-
 Coordinates part_of_chain(const Coordinates& chain, int from, int to) {
   Coordinates some;
   some.index.assign(chain.index.begin() + from, chain.index.begin() + to);
@@ -24,7 +20,7 @@ Coordinates part_of_chain(const Coordinates& chain, int from, int to) {
 LoopModel::LoopModel(const Problem& problem)
     : coordinates(problem), n(problem.robot.velocities()), problem_(problem) {
   require_few_control_points(problem.name, coordinates.chain);
-  for (int i = 0; i < coordinates.chain.count(); ++i) size *= values_along(coordinates.chain, i);
+  size = coordinates.chain.points();
   tau = a = Eigen::VectorXd::Zero(n);
   LoopPosture posture(problem, coordinates);
   add_loads(posture);
@@ -36,10 +32,7 @@ void LoopModel::add_part(Kind kind, int from, int to, const std::vector<int>& ro
                          const MultiAffine::Sample& sample) {
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(coordinates.lower.size());
   LoopPart part{kind, MultiAffine(part_of_chain(coordinates.chain, from, to), rest, sample), from,
-                to, rows};
-  for (int i = to; i < coordinates.chain.count(); ++i) {
-    part.repeat *= values_along(coordinates.chain, i);
-  }
+                rows, coordinates.chain.points(to)};
   const Eigen::VectorXd S = part.f.magnitudes(coordinates.lower, coordinates.upper);
   const auto count = static_cast<Eigen::Index>(rows.size());
   if (kind == Kind::kEquations) {

@@ -17,9 +17,9 @@ struct LoopPart {
   };
   Kind kind;
   MultiAffine f;
-  int from, to;  ///< the stretch
+  int from;  ///< where the stretch begins
   std::vector<int> rows;
-  Eigen::Index repeat = 1;
+  Eigen::Index repeat;
 };
 
 /// tau = tau_d + J_2'C_2 w_2 at t = 0, a = J'c plus the change of J_2'C_2 w_2 per unit of t, and
@@ -33,7 +33,7 @@ struct LoopModel {
   std::vector<LoopPart> parts;
   Eigen::Index n = 0;         ///< rows of tau_d
   Eigen::Index m = 0;         ///< equations
-  Eigen::Index size = 1;      ///< control points
+  Eigen::Index size = 0;      ///< control points
   Eigen::VectorXd tau, a, f;  ///< magnitudes of the rows
 
  private:

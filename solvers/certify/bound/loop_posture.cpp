@@ -82,7 +82,8 @@ double least_force(const Problem& problem) {
 }  // namespace
 
 LoopCoordinates::LoopCoordinates(const Problem& problem)
-    : base_is_dependent(problem.robot.base_axes.size() == 6) {
+    : base_is_dependent(problem.robot.base_axes.size() == 6 ||
+                        (problem.dependent.empty() && !problem.contact)) {
   const auto own = static_cast<int>(problem.redundancy());
   int next = own + static_cast<int>(problem.dependent.size());
   if (problem.contact) {

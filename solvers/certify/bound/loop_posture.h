@@ -6,12 +6,12 @@
 
 namespace maxwrench {
 
-/// All coordinates x of a posture whose dependent joints follow from equations:
+/// All coordinates x of a posture:
 ///
 ///     x = [theta_r; dependent joints; joints of a second arm; yaw; shares of contact forces].
 ///
-/// The yaw is the base's, if it is free but not all axes of the base are. A share omega in [0, 1]
-/// of a component of the second contact's wrench stands for
+/// The yaw is the base's, if it is free and the base does not follow in closed form. A share omega
+/// in [0, 1] of a component of the second contact's wrench stands for
 ///
 ///     w = w_min + omega (w_max - w_min) + t (v_min + omega (v_max - v_min)),
 ///
@@ -33,7 +33,7 @@ struct LoopCoordinates {
   Coordinates chain;  ///< as indices into x
   Stretch second, yaw, first, free, regrasp, shares;
   std::vector<int> joints;         ///< of the robot, in `first`
-  bool base_is_dependent = false;  ///< its whole pose follows from the joints: it has six free axes
+  bool base_is_dependent = false;  ///< its pose follows from the joints in closed form
   Eigen::VectorXd lower, upper;    ///< limits of x
   Eigen::VectorXd w_min, w_max;    ///< of the second contact's w, finite
   Eigen::VectorXd v_min, v_max;    ///< change of these limits per unit of t
@@ -49,8 +49,8 @@ struct LoopCoordinates {
 /// Weight and contact force load joint i only through the joints behind it, and are turned once by
 /// each of them, from the end effector's pose. They load the base through its yaw.
 ///
-/// If x is a posture, the pose of the base in its mount satisfies, unless all axes of the base are
-/// free,
+/// If x is a posture, the pose of the base in its mount satisfies, unless it follows in closed
+/// form,
 ///
 ///     Rz(yaw) T_1(q_1) ... T_k(q_k) = mount^-1 X(s) (T_k+1(q_k+1) ... T_n(q_n))^-1
 ///

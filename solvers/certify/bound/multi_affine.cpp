@@ -11,17 +11,6 @@ namespace {
 
 using ExtendedMatrix = MatrixX<Extended>;
 
-int terms(const Coordinates& coordinates, int axis) {
-  return coordinates.turns[static_cast<std::size_t>(axis)] ? 3 : 2;
-}
-
-/// The distance, in columns, between neighbours along an axis.
-Eigen::Index stride(const Coordinates& coordinates, int axis) {
-  Eigen::Index columns = 1;
-  for (int i = axis + 1; i < coordinates.count(); ++i) columns *= terms(coordinates, i);
-  return columns;
-}
-
 /// The sample places: 0, pi/2 and pi of a turning coordinate, 0 and 1 of a sliding one.
 Extended place(bool turns, int i) {
   return turns ? std::numbers::pi_v<Extended> / 2 * i : Extended(i);
@@ -29,8 +18,8 @@ Extended place(bool turns, int i) {
 
 /// Converts values at the sample places into coefficients, along one axis.
 void read_off(const Coordinates& coordinates, int axis, ExtendedMatrix& F) {
-  const Eigen::Index step = stride(coordinates, axis);
-  const int n = terms(coordinates, axis);
+  const Eigen::Index step = coordinates.points(axis + 1);
+  const int n = coordinates.terms(axis);
   for (Eigen::Index first = 0; first < F.cols(); ++first) {
     if (first / step % n != 0) continue;
     const ExtendedVector at_0 = F.col(first), at_1 = F.col(first + step);
@@ -45,13 +34,33 @@ void read_off(const Coordinates& coordinates, int axis, ExtendedMatrix& F) {
   }
 }
 
+/// prod_i e_i of all combinations of terms, e_i those of an axis.
+template <class Terms>
+Eigen::VectorXd products(const Coordinates& coordinates, const Terms& terms_of) {
+  Eigen::VectorXd all = Eigen::VectorXd::Ones(1);
+  for (int i = coordinates.count(); i-- > 0;) {  // the last one changes fastest
+    const std::array<double, 3> e = terms_of(i);
+    const Eigen::VectorXd behind = all;
+    const Eigen::Index step = behind.size();
+    all.resize(step * coordinates.terms(i));
+    for (int k = 0; k < coordinates.terms(i); ++k) {
+      all.segment(k * step, step) = e[static_cast<std::size_t>(k)] * behind;
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
+Eigen::Index Coordinates::points(int from) const {
+  Eigen::Index product = 1;
+  for (int i = from; i < count(); ++i) product *= terms(i);
+  return product;
+}
+
 void require_few_control_points(const std::string& task, const Coordinates& coordinates) {
-  Eigen::Index points = 1;
-  for (int i = 0; i < coordinates.count() && points <= kMostControlPoints; ++i) {
-    points *= terms(coordinates, i);
-  }
+  double points = 1;
+  for (int i = 0; i < coordinates.count(); ++i) points *= coordinates.terms(i);
   if (points <= kMostControlPoints) return;
   throw std::invalid_argument(task + ": got " + std::to_string(coordinates.count()) +
                               " coordinates of a posture, expected at most 9 that turn, for a "
@@ -61,14 +70,13 @@ void require_few_control_points(const std::string& task, const Coordinates& coor
 MultiAffine::MultiAffine(Coordinates coordinates, const Eigen::VectorXd& theta_r,
                          const Sample& sample)
     : coordinates_(std::move(coordinates)) {
-  Eigen::Index size = 1;
-  for (int i = 0; i < coordinates_.count(); ++i) size *= terms(coordinates_, i);
+  const Eigen::Index size = coordinates_.points();
   ExtendedVector at = theta_r.cast<Extended>();
   ExtendedMatrix F;
   for (Eigen::Index a = 0; a < size; ++a) {
     for (int i = 0; i < coordinates_.count(); ++i) {
       const auto k = static_cast<std::size_t>(i);
-      const auto digit = a / stride(coordinates_, i) % terms(coordinates_, i);
+      const auto digit = a / coordinates_.points(i + 1) % coordinates_.terms(i);
       at[coordinates_.index[k]] = place(coordinates_.turns[k] != 0, static_cast<int>(digit));
     }
     const ExtendedVector values = sample(at);
@@ -81,32 +89,19 @@ MultiAffine::MultiAffine(Coordinates coordinates, const Eigen::VectorXd& theta_r
 
 Eigen::VectorXd MultiAffine::magnitudes(const Eigen::VectorXd& lower,
                                         const Eigen::VectorXd& upper) const {
-  Eigen::VectorXd sums = Eigen::VectorXd::Zero(F_.rows());
-  for (Eigen::Index a = 0; a < F_.cols(); ++a) {
-    double factor = 1;
-    for (int i = 0; i < coordinates_.count(); ++i) {
-      const int at = coordinates_.index[static_cast<std::size_t>(i)];
-      if (terms(coordinates_, i) == 3 || a / stride(coordinates_, i) % 2 == 0) continue;
-      factor *= std::max(std::abs(lower[at]), std::abs(upper[at]));
-    }
-    sums += factor * F_.col(a).cwiseAbs();
-  }
-  return sums;
+  return F_.cwiseAbs() * products(coordinates_, [&](int i) -> std::array<double, 3> {
+           const int at = coordinates_.index[static_cast<std::size_t>(i)];
+           if (coordinates_.terms(i) == 3) return {1, 1, 1};
+           return {1, std::max(std::abs(lower[at]), std::abs(upper[at])), 0};
+         });
 }
 
 Eigen::VectorXd MultiAffine::evaluate(const Eigen::VectorXd& theta_r) const {
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(F_.rows());
-  for (Eigen::Index a = 0; a < F_.cols(); ++a) {
-    double factor = 1;
-    for (int i = 0; i < coordinates_.count(); ++i) {
-      const auto digit = a / stride(coordinates_, i) % terms(coordinates_, i);
-      const double q = theta_r[coordinates_.index[static_cast<std::size_t>(i)]];
-      if (digit == 2) factor *= std::sin(q);
-      if (digit == 1) factor *= terms(coordinates_, i) == 3 ? std::cos(q) : q;
-    }
-    sum += factor * F_.col(a);
-  }
-  return sum;
+  return F_ * products(coordinates_, [&](int i) -> std::array<double, 3> {
+           const double q = theta_r[coordinates_.index[static_cast<std::size_t>(i)]];
+           if (coordinates_.terms(i) == 3) return {1, std::cos(q), std::sin(q)};
+           return {1, q, 0};
+         });
 }
 
 double spread(const Coordinates& coordinates, const Eigen::VectorXd& lower,
@@ -140,8 +135,8 @@ const Eigen::MatrixXd& ControlPoints::over(const Eigen::VectorXd& lower,
 
 /// Converts coefficients into control points, along one axis.
 void ControlPoints::advance(int axis, double lower, double upper) {
-  const int n = terms(f_.coordinates(), axis);
-  const Eigen::Index length = stride(f_.coordinates(), axis) * f_.rows();
+  const int n = f_.coordinates().terms(axis);
+  const Eigen::Index length = f_.coordinates().points(axis + 1) * f_.rows();
   const Eigen::Index total = f_.coefficients().size();
   std::array<double, 3> c{}, s{};
   if (n == 3) {

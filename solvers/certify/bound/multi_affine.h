@@ -11,15 +11,18 @@ namespace maxwrench {
 
 using ExtendedVector = VectorX<Extended>;
 
-/// How the coordinates of theta_r enter a `MultiAffine`.
+/// More control points than this take too much time and memory for a box.
+inline constexpr Eigen::Index kMostControlPoints = 20'000;
+
+/// How coordinates of theta_r enter a `MultiAffine`.
 struct Coordinates {
   std::vector<int> index;   ///< in theta_r
   std::vector<char> turns;  ///< enters by cosine and sine; otherwise as itself
   int count() const { return static_cast<int>(index.size()); }
+  int terms(int axis) const { return turns[static_cast<std::size_t>(axis)] != 0 ? 3 : 2; }
+  /// The product of the terms of all axes from this one on.
+  Eigen::Index points(int from = 0) const;
 };
-
-/// More control points than this take too much time and memory for a box.
-inline constexpr Eigen::Index kMostControlPoints = 20'000;
 
 /// Throws std::invalid_argument, with one line that names the task, if a `MultiAffine` of all these
 /// coordinates has more coefficients than `kMostControlPoints`.

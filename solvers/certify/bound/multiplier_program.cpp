@@ -227,4 +227,17 @@ double MultiplierProgram::solve(double enough, int steps, std::vector<int>& basi
   return best;
 }
 
+void list_largest(const Eigen::VectorXd& values, double above, std::size_t most,
+                  std::vector<int>& indices) {
+  indices.clear();
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    if (values[i] > above) indices.push_back(static_cast<int>(i));
+  }
+  if (indices.size() <= most) return;
+  const auto end = indices.begin() + static_cast<std::ptrdiff_t>(most);
+  std::nth_element(indices.begin(), end, indices.end(),
+                   [&](int a, int b) { return values[a] > values[b]; });
+  indices.resize(most);
+}
+
 }  // namespace maxwrench

@@ -73,4 +73,8 @@ class MultiplierProgram {
   double sign_ = 1;
 };
 
+/// The indices of values above a limit; of the `most` largest ones, if there are more.
+void list_largest(const Eigen::VectorXd& values, double above, std::size_t most,
+                  std::vector<int>& indices);
+
 }  // namespace maxwrench

@@ -6,16 +6,10 @@
 
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
-#include "solvers/certify/bound/exact_posture.h"
-#include "tests/support/support.h"
+#include "tests/support/boxes.h"
 
 namespace maxwrench {
 namespace {
-
-MultiAffine own_rows(const Problem& problem) {
-  const int n = problem.robot.velocities();
-  return pure_rows(problem, Eigen::MatrixXd::Identity(n, n));
-}
 
 Problem with_slides() {
   Random random(3);
@@ -35,7 +29,7 @@ Eigen::VectorXd model_rows(PostureEvaluator& model, const Problem& problem,
 TEST(MultiAffine, IsTheModel) {
   for (const Problem& problem :
        {load_problem("planar/force"), load_problem("uvms/valve"), with_slides()}) {
-    const MultiAffine f = own_rows(problem);
+    const MultiAffine f = pure_rows(problem);
     PostureEvaluator model(problem, false);
     const Eigen::VectorXd S = f.magnitudes(problem.theta_r_min, problem.theta_r_max);
     Random random(1);
@@ -80,7 +74,7 @@ SampledBox box_around(const Problem& problem, double half, Random& random) {
 /// them.
 TEST(ControlPoints, Enclose) {
   for (const Problem& problem : {load_problem("uvms/valve"), with_slides()}) {
-    const MultiAffine f = own_rows(problem);
+    const MultiAffine f = pure_rows(problem);
     ControlPoints corners(f);
     Random random(2);
     for (int sample = 0; sample < samples(200); ++sample) {
@@ -104,7 +98,7 @@ TEST(ControlPoints, Enclose) {
 /// What a box shares with the one before is not computed again, to the same end.
 TEST(ControlPoints, DoNotDependOnTheBoxBefore) {
   const Problem problem = load_problem("uvms/lift");
-  const MultiAffine f = own_rows(problem);
+  const MultiAffine f = pure_rows(problem);
   ControlPoints used(f);
   Random random(4);
   SampledBox box = box_around(problem, 0.5, random);
