@@ -42,7 +42,7 @@ class OneSided : public Measure {
     for (unsigned moving = 0; moving < sets; ++moving) {
       const Capability& answer = solve(posture, program, moving, false);
       const bool valid = answer.status == Status::kOptimal && signs_hold(program, answer);
-      if (!valid || answer.beta <= most) continue;
+      if (!valid || !(answer.beta > most)) continue;
       most = answer.beta;
       best = moving;
     }
@@ -103,7 +103,8 @@ class OneSided : public Measure {
       reduced.c_w[i] = program.c_w[j];
       reduced.JtW.col(i) = program.JtW.col(j);
     }
-    form.measure->evaluate(posture, reduced, efforts, form.capability);
+    form.capability.clear();
+    form.measure->evaluate_well_formed(posture, reduced, efforts, form.capability);
     return form.capability;
   }
 
