@@ -4,7 +4,7 @@ set(maxwrench_lib_sources
   measure/closed_form.cpp measure/ellipsoid.cpp measure/ellipsoid_trace.cpp measure/least_effort.cpp measure/manipulability.cpp
   measure/measure.cpp measure/one_sided.cpp measure/polytope.cpp measure/saturating_wrench.cpp measure/transmission_ratio.cpp
   measure/wrench_program.cpp
-  posture/free_pose.cpp
+  posture/free_pose.cpp posture/given_posture.cpp
   posture/ik/contact_arm.cpp posture/ik/continuation.cpp posture/ik/damped_newton.cpp posture/ik/dependent_joints.cpp
   posture/ik/ik_solver.cpp posture/ik/ik_start_system.cpp posture/ik/path_tracker.cpp posture/ik/primary_ik.cpp
   posture/ik/second_arm.cpp posture/ik/tool_chain.cpp

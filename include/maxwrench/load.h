@@ -12,11 +12,18 @@
 
 namespace maxwrench {
 
+/// Choices among what a robot's TOML file offers.
+struct LoadOptions {
+  /// The name of the table in `[limits]` whose efforts replace those of the URDF and of
+  /// `[thrusters]`. Empty: none.
+  std::string limits = "";
+};
+
 /// Reads a robot from a TOML file and the URDF that it names.
 ///
 /// @throws std::invalid_argument with one line that names the file, the key, the value and what was
 ///         expected.
-Robot load_robot(const std::filesystem::path& file);
+Robot load_robot(const std::filesystem::path& file, const LoadOptions& options = {});
 
 /// How `load_urdf` completes a URDF.
 struct UrdfOptions {
@@ -26,6 +33,7 @@ struct UrdfOptions {
   /// along them, and its brakes hold any load.
   std::vector<int> base_axes = {};
   std::filesystem::path srdf = {};  ///< collision pairs to leave out, and named postures; optional
+  std::string posture = "";  ///< for `make_urdf_problem`: the named posture that gives the pose
   /// Folders of packages, in which `package://` is searched before other places.
   std::vector<std::filesystem::path> packages = {};
 };
@@ -40,16 +48,20 @@ Robot load_urdf(const std::filesystem::path& urdf, const UrdfOptions& options = 
 /// @param urdf     the URDF
 /// @param options  the robot
 /// @param task     pose or posture, wrench and others; `TaskSpec::robot` and, if it is empty,
-///                 `TaskSpec::end_effector` are set here
+///                 `TaskSpec::end_effector` are set here. A posture without joints is that at
+///                 rest; if the end effector cannot move from there in all its directions, or
+///                 bodies collide, another posture is chosen.
 /// @throws std::invalid_argument as `load_robot`.
 Problem make_urdf_problem(const std::filesystem::path& urdf, const UrdfOptions& options,
                           TaskSpec task);
 
 /// Reads a task and its robot.
 ///
-/// @param name  the name of a shipped problem, such as "planar/force", or the path of a task file
+/// @param name     the name of a shipped problem, such as "planar/force", or the path of a task
+/// file
+/// @param options  the robot
 /// @throws std::invalid_argument as `load_robot`.
-Problem load_problem(const std::string& name);
+Problem load_problem(const std::string& name, const LoadOptions& options = {});
 
 /// Returns whether a TOML file describes a task rather than a robot.
 ///

@@ -63,6 +63,8 @@ struct Problem {
   /// World axes of the axes of `desired` at `pose`: those of the end effector if the task gives
   /// wrenches in them.
   Eigen::Matrix3d wrench_axes = Eigen::Matrix3d::Identity();
+  /// Whether the task gives its wrenches in the axes of the end effector.
+  bool wrench_in_end_effector = false;
   std::vector<int> redundant;  ///< the joints in theta_r
   /// The dependent joints: the joints between base and end effector that are not in theta_r.
   ///

@@ -211,6 +211,9 @@ struct Robot {
   std::vector<std::string> no_dynamics;
   /// Named postures: positions [rad or m] of some joints, by name.
   std::map<std::string, std::map<std::string, double>> states;
+  /// The name of the limits of joints and thrusters in use. Empty: the robot has only one set, or
+  /// none was chosen.
+  std::string limits;
 
   /// Returns n, the number of velocities: free base axes, then joints.
   int velocities() const { return static_cast<int>(base_axes.size() + joints.size()); }

@@ -158,6 +158,20 @@ const char* general_search();
 ///         not supported.
 Answer evaluate(const Problem& task, const Eigen::MatrixXd& theta_r, const Options& options = {});
 
+/// Evaluates a static task in one posture that is given by all joints.
+///
+/// The base is at its mount, and the end effector where the joints put it, instead of the pose of
+/// the task. Wrenches in axes of the end effector turn with it. There is no inverse kinematics, so
+/// the posture may be singular. The answer has no gradient. Its task is the given one with the pose
+/// of the posture, all of it fixed.
+///
+/// @param task     a static task with one contact
+/// @param q        positions of all joints [rad or m]
+/// @param options  measure, wrench, solver and others
+/// @return the value and what is known about it
+/// @throws std::invalid_argument as `evaluate`.
+Answer evaluate_posture(const Problem& task, const Eigen::VectorXd& q, const Options& options = {});
+
 /// Searches for the best posture or trajectory.
 ///
 /// @param task     the task

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 #include "maxwrench/posture.h"
@@ -63,8 +64,14 @@ std::string detail_of(const Problem& problem, const Posture& posture) {
   switch (posture.violation) {
     case Violation::kThetaR:
       return theta_r_beyond(problem, posture);
-    case Violation::kDependentJoint:
-      return joint_beyond(robot, problem.dependent, posture.q);
+    case Violation::kDependentJoint: {
+      const std::string dependent = joint_beyond(robot, problem.dependent, posture.q);
+      if (!dependent.empty()) return dependent;
+      // In a posture that is given, a joint that does not move the end effector.
+      std::vector<int> all(robot.joints.size());
+      std::iota(all.begin(), all.end(), 0);
+      return joint_beyond(robot, all, posture.q);
+    }
     case Violation::kSecondArm:
       return joint_beyond(robot, problem.contact->follow, posture.q);
     case Violation::kBase:

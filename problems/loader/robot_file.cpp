@@ -243,6 +243,52 @@ void read_states(const Block& root, const std::optional<Srdf>& srdf, Robot& robo
   }
 }
 
+/// The limits of a thruster or joint, which must have this name; of all thrusters for `thrusters`.
+void set_limit(const Block& block, const std::string& name, Robot& robot) {
+  const double limit = block.number(name);
+  if (!(limit >= 0)) block.throw_bad_value(name, "a number >= 0");
+  bool known = false;
+  for (Thruster& thruster : robot.thrusters) {
+    if (name != "thrusters" && name != thruster.name) continue;
+    thruster.force_min = -limit;
+    thruster.force_max = limit;
+    known = true;
+  }
+  for (Joint& joint : robot.joints) {
+    if (name != joint.name) continue;
+    joint.effort_max = limit;
+    known = true;
+  }
+  if (known) return;
+  std::vector<std::string> names;
+  for (const Thruster& thruster : robot.thrusters) names.push_back(thruster.name);
+  for (const Joint& joint : robot.joints) names.push_back(joint.name);
+  block.throw_bad_value(
+      name, fmt::format("a thruster or a joint that moves: {}", fmt::join(names, ", ")));
+}
+
+/// Reads all named limits, and replaces those of the robot by the chosen ones.
+void read_limits(const Block& root, const std::string& chosen, Robot& robot) {
+  std::vector<std::string> names;
+  for (const auto& [name, block] : root.named("limits")) {
+    names.push_back(name);
+    Robot limited = robot;
+    // One number for all thrusters, then those of their own.
+    if (block.has("thrusters")) set_limit(block, "thrusters", limited);
+    for (const auto& entry : block.numbers_by_name()) {
+      if (entry.first != "thrusters") set_limit(block, entry.first, limited);
+    }
+    if (name != chosen) continue;
+    limited.limits = name;
+    std::swap(robot, limited);
+  }
+  if (!names.empty()) robot.notes.push_back(fmt::format("limits: {}", fmt::join(names, ", ")));
+  if (robot.limits == chosen) return;
+  throw BadValue("limits", shown(chosen),
+                 names.empty() ? "none: the robot has no table of that kind"
+                               : fmt::format("one of {}", fmt::join(names, ", ")));
+}
+
 std::filesystem::path named_file(const Block& root, const char* key) {
   const std::filesystem::path path = root.file().parent_path() / root.text(key);
   if (is_file(path)) return path;
@@ -273,11 +319,11 @@ std::string thruster_key(const Block& thrusters, const std::string& key) {
 
 }  // namespace
 
-Robot load_robot(const std::filesystem::path& file) {
+Robot load_robot(const std::filesystem::path& file, const LoadOptions& options) {
   const Block root = Block::read(file);
   root.allow_only({"name", "urdf", "srdf", "packages", "base", "environment", "thrusters", "wheels",
-                   "joints", "links", "states", "end_effectors", "buoyancy", "hydrodynamics",
-                   "trim", "collision"});
+                   "joints", "links", "limits", "states", "end_effectors", "buoyancy",
+                   "hydrodynamics", "trim", "collision"});
   Robot robot;
   robot.name = root.text("name");
   robot.sources = root.sources("robot");
@@ -293,13 +339,14 @@ Robot load_robot(const std::filesystem::path& file) {
     std::optional<Srdf> srdf;
     if (root.has("srdf")) srdf = read_srdf(named_file(root, "srdf"));
     add_tree(tree, robot);
-    read_base(root.table("base"), tree, robot);
+    if (root.has("base")) read_base(root.table("base"), tree, robot);
     const Block environment = root.table("environment");
     environment.allow_only({"gravity", "water_density"});
     robot.gravity = environment.number("gravity", robot.gravity);
     robot.water_density = environment.number("water_density", robot.water_density);
     read_thrusters(thrusters, tree, robot);
     read_wheels(root.table("wheels"), tree, robot);
+    read_limits(root, options.limits, robot);
     read_end_effectors(root, tree, robot);
     read_buoyancy(root, tree, robot);
     read_hydrodynamics(root, tree, robot);

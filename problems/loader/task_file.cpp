@@ -14,6 +14,7 @@
 #include "problems/loader/contact_table.h"
 #include "problems/loader/motion_table.h"
 #include "problems/loader/urdf_tree.h"
+#include "problems/make/posture.h"
 
 namespace maxwrench {
 namespace {
@@ -114,19 +115,9 @@ void read_free_pose(const Block& pose, TaskSpec& spec) {
 std::map<std::string, double> read_posture(const Block& pose, const Robot& robot) {
   std::map<std::string, double> posture = pose.table("joints").numbers_by_name();
   if (!pose.has("state")) return posture;
-  const auto state = robot.states.find(pose.text("state"));
-  if (state == robot.states.end()) {
-    std::vector<std::string> names;
-    for (const auto& entry : robot.states) names.push_back(entry.first);
-    pose.throw_bad_value("state",
-                         fmt::format("a named state of the robot: {}", fmt::join(names, ", ")));
-  }
-  posture.insert(state->second.begin(), state->second.end());
-  std::erase_if(posture, [&robot](const auto& entry) {
-    return std::none_of(robot.joints.begin(), robot.joints.end(), [&](const Joint& joint) {
-      return joint.name == entry.first && !joint.gear;
-    });
-  });
+  const std::map<std::string, double> named =
+      named_posture(robot, "pose.state", pose.text("state"));
+  posture.insert(named.begin(), named.end());
   return posture;
 }
 
@@ -170,7 +161,7 @@ std::string digest_of(const std::vector<fs::path>& files) {
 
 }  // namespace
 
-Problem load_problem(const std::string& name) {
+Problem load_problem(const std::string& name, const LoadOptions& options) {
   const fs::path file = find_task(name);
   const Block task = Block::read(file);
   allow_keys(task);
@@ -183,7 +174,7 @@ Problem load_problem(const std::string& name) {
     task.throw_bad_value(
         "robot", fmt::format("the path of a robot file ({} is not a file)", robot.string()));
   }
-  spec.robot = load_robot(robot);
+  spec.robot = load_robot(robot, options);
   spec.end_effector = task.text("end_effector");
   const fs::path urdf = robot.parent_path() / Block::read(robot).text("urdf");
   const auto file_of = [&](const std::string& key) {
@@ -205,9 +196,16 @@ Problem load_problem(const std::string& name) {
 
 Problem make_urdf_problem(const fs::path& urdf, const UrdfOptions& options, TaskSpec task) {
   task.robot = load_urdf(urdf, options);
+  if (!options.posture.empty()) {
+    task.posture =
+        in_file(urdf, [&] { return named_posture(task.robot, "posture", options.posture); });
+  }
   const auto& tips = task.robot.end_effectors;
+  if (tips.empty()) throw_bad_input(urdf, "joint", "none that moves", "a robot with joints");
   if (task.end_effector.empty() && tips.size() == 1) task.end_effector = tips.front().name;
-  Problem problem = in_file(urdf, [&] { return make_problem(task); });
+  Problem problem = in_file(urdf, [&] {
+    return task.posture && task.posture->empty() ? make_at_some_posture(task) : make_problem(task);
+  });
   problem.digest = digest_of({urdf});
   return problem;
 }

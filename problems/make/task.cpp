@@ -32,6 +32,7 @@ void set_wrench(const TaskSpec& task, Problem& problem) {
   if (task.wrench_in_end_effector && problem.motion && problem.motion->impulse) {
     throw BadValue("wrench.frame", "'end_effector'", "'world': the pose of an impulse is constant");
   }
+  problem.wrench_in_end_effector = task.wrench_in_end_effector;
   if (task.wrench_in_end_effector) problem.wrench_axes = problem.pose.R;
   const Eigen::VectorXd c = task.c;
   require_numbers("wrench.c", c, 6);

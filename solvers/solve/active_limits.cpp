@@ -49,7 +49,8 @@ std::vector<BindingLimit> limits_at(const Answer& answer, Eigen::Index i) {
     const bool upper = prices[j] > 0;
     limits.push_back(
         {std::abs(prices[j]) * (set.u_max[j] - set.u_min[j]),
-         fmt::format("{} at {:g}", actuator_name(robot, j), upper ? set.u_max[j] : set.u_min[j])});
+         fmt::format("{} at {:g}{}", actuator_name(robot, j), upper ? set.u_max[j] : set.u_min[j],
+                     robot.limits.empty() ? "" : fmt::format(" ({})", robot.limits))});
   }
   for (const Eigen::Index pair : {i - 1, i}) {
     if (pair < 0 || pair >= solution.mu.cols()) continue;

@@ -94,6 +94,8 @@ ordered_json choice_json(const Answer& answer) {
   object["problem"] = c.problem;
   object["measure"] = c.measure;
   object["wrench"] = to_string(c.wrench);
+  const std::string& limits = answer.task->robot.limits;
+  if (!limits.empty()) object["limits"] = limits;
   object["solver"] = known(c.solver != kNoSolver, c.solver);
   object["search"] = known(!c.search.empty(), c.search);
   object["seed"] = known(!c.search.empty(), c.seed);
@@ -115,7 +117,7 @@ void add_posture(const Answer& answer, ordered_json& object) {
   object["beta_linf_unit"] = problem.unit();
   object["theta_r"] = known(there, array(posture.theta_r));
   object["theta"] = there ? theta(problem.robot, posture.base, posture.q) : ordered_json(nullptr);
-  if (problem.free.count() > 0) {
+  if (finds_pose(answer)) {
     object["pose"] = there ? to_json(pose_at(problem, posture.theta_r)) : ordered_json(nullptr);
   }
   object["w"] = known(has_wrench, array(capability.w));
@@ -123,7 +125,9 @@ void add_posture(const Answer& answer, ordered_json& object) {
   if (problem.contact) object["h_2"] = known(has_wrench, array(capability.h_2));
   object["u"] = known(solved && capability.u.size() > 0, array(capability.u));
   object["lambda"] = known(solved, array(capability.lambda));
-  object["gradient"] = known(solved, array(answer.trajectory.gradient.transpose()));
+  const Eigen::MatrixXd& gradient = answer.trajectory.gradient;
+  const bool has_gradient = solved && gradient.cols() == posture.theta_r.size();
+  object["gradient"] = known(has_gradient, array(gradient.transpose()));
 }
 
 /// The trajectory of a task in time. Its efforts and wrenches are listed by instant.

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "lib/posture/given_posture.h"
 #include "maxwrench/batch.h"
 #include "maxwrench/measure.h"
 #include "maxwrench/strategies.h"
@@ -64,7 +65,30 @@ Trajectory one_instant(const Problem& task, const Posture& posture, const Capabi
   return trajectory;
 }
 
-void evaluate_posture(const Method& method, const Eigen::VectorXd& theta_r, Answer& answer) {
+/// Sets the status of an answer whose posture and capability are set.
+void conclude_posture(Answer& answer) {
+  const bool valid = answer.posture.status == Status::kValid;
+  static_cast<Verdict&>(answer) = valid ? Verdict(answer.capability) : Verdict(answer.posture);
+  if (!valid) answer.reason = describe_violation(*answer.task, answer.posture);
+  if (answer.status != Status::kOptimal) return;
+  const double beta = answer.capability.beta;
+  if (!answer.capability.residual.within(kAnswerTolerance * (1 + std::abs(beta)))) {
+    answer.conclude(Status::kNumericalError, "the answer does not satisfy its program");
+  }
+}
+
+/// Fills the rest of an answer with a status, posture and capability.
+void complete_posture(const Method& method, const Eigen::VectorXd& gradient,
+                      Clock::time_point start, Answer& answer) {
+  const Problem& task = *answer.task;
+  answer.trajectory = one_instant(task, answer.posture, answer.capability, gradient);
+  answer.wall_s = seconds_since(start);
+  if (answer.posture.status == Status::kValid) {
+    answer.beta_linf = beta_linf(task, method, answer.posture);
+  }
+}
+
+void evaluate_at(const Method& method, const Eigen::VectorXd& theta_r, Answer& answer) {
   const auto start = Clock::now();
   const Problem& task = *answer.task;
   PostureEvaluator model(task, answer.collision);
@@ -72,20 +96,12 @@ void evaluate_posture(const Method& method, const Eigen::VectorXd& theta_r, Answ
   answer.posture =
       evaluate_best(model, theta_r, *method.make_measure(), true, program, answer.capability);
   answer.ik_solutions = answer.posture.ik_solutions;
-  const bool valid = answer.posture.status == Status::kValid;
-  static_cast<Verdict&>(answer) = valid ? Verdict(answer.capability) : Verdict(answer.posture);
-  if (!valid) answer.reason = describe_violation(task, answer.posture);
   Eigen::VectorXd gradient;
-  if (answer.status == Status::kOptimal) {
-    model.pull_back(theta_r, answer.capability, gradient);
-    const double beta = answer.capability.beta;
-    if (!answer.capability.residual.within(kAnswerTolerance * (1 + std::abs(beta)))) {
-      answer.conclude(Status::kNumericalError, "the answer does not satisfy its program");
-    }
-  }
-  answer.trajectory = one_instant(task, answer.posture, answer.capability, gradient);
-  answer.wall_s = seconds_since(start);
-  if (valid) answer.beta_linf = beta_linf(task, method, answer.posture);
+  const bool solved =
+      answer.posture.status == Status::kValid && answer.capability.status == Status::kOptimal;
+  if (solved) model.pull_back(theta_r, answer.capability, gradient);
+  conclude_posture(answer);
+  complete_posture(method, gradient, start, answer);
 }
 
 void evaluate_trajectory(const Method& method, const Eigen::MatrixXd& knots, Answer& answer) {
@@ -116,9 +132,24 @@ Answer evaluate(std::shared_ptr<const Problem> task, const Method& method,
     evaluate_trajectory(
         method, throughout ? constant_knots(*answer.task, stacked(theta_r)) : theta_r, answer);
   } else {
-    evaluate_posture(method, stacked(theta_r), answer);
+    evaluate_at(method, stacked(theta_r), answer);
   }
   return answer;
+}
+
+/// Rejects tasks and joints that `evaluate_posture` does not support.
+void require_joints(const Problem& task, const Eigen::VectorXd& q) {
+  const auto reject = [&task](const std::string& got, const std::string& expected) {
+    throw std::invalid_argument("joints: got " + got + ", expected " + expected + " (" + task.name +
+                                ")");
+  };
+  if (task.motion) reject("a task in time", "a static task");
+  if (task.contact) reject("a task with a second contact", "one without");
+  const std::size_t joints = task.robot.joints.size();
+  if (q.size() != static_cast<Eigen::Index>(joints)) {
+    reject(std::to_string(q.size()) + " numbers", std::to_string(joints));
+  }
+  if (!q.allFinite()) reject("a value that is not a finite number", "finite numbers");
 }
 
 std::vector<CallCount> count_calls(const std::vector<Call>& calls) {
@@ -182,6 +213,27 @@ Answer evaluate(const Problem& task, const Eigen::MatrixXd& theta_r, const Optio
   Case c = options;
   c.search.clear();  // the posture or trajectory is given, not searched
   return evaluate(kept, resolve(*kept, c), theta_r, options.check_collision);
+}
+
+Answer evaluate_posture(const Problem& task, const Eigen::VectorXd& q, const Options& options) {
+  const auto start = Clock::now();
+  require_joints(task, q);
+  const auto held = std::make_shared<const Problem>(held_at_joints(task, q));
+  Case c = options;
+  c.search.clear();
+  const Method method = resolve(*held, c);
+  Answer answer = begin(held, method);
+  answer.collision = options.check_collision && held->robot.collision != nullptr;
+  answer.evaluations = 1;
+  answer.posture = given_posture(*held, q, answer.collision);
+  if (answer.posture.status == Status::kValid) {
+    WrenchProgram program = make_wrench_program(*held, method.choice.wrench);
+    set_posture(answer.posture, program);
+    method.make_measure()->evaluate(answer.posture, program, true, answer.capability);
+  }
+  conclude_posture(answer);
+  complete_posture(method, {}, start, answer);
+  return answer;
 }
 
 Answer solve(const Problem& task, const Options& options) {

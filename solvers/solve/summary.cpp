@@ -16,6 +16,14 @@ void add(std::string& text, fmt::format_string<Values...> format, Values&&... va
   fmt::format_to(std::back_inserter(text), format, std::forward<Values>(values)...);
 }
 
+/// The case in one line.
+std::string headline(const Answer& answer) {
+  const Case& c = answer.choice;
+  const std::string& limits = answer.task->robot.limits;
+  return fmt::format("{}  measure {}  wrench {}  solver {}{}", c.problem, c.measure,
+                     to_string(c.wrench), c.solver, limits.empty() ? "" : "  limits " + limits);
+}
+
 /// Adds some of the instants at knots.
 void add_instants(const Answer& answer, std::string& text) {
   const Problem& problem = *answer.task;
@@ -49,8 +57,7 @@ std::string trajectory_summary(const Answer& answer) {
   std::string text;
   const MotionTask& task = *problem.motion;
   const Trajectory& trajectory = answer.trajectory;
-  add(text, "{}  measure {}  wrench {}  solver {}\n", answer.choice.problem, answer.choice.measure,
-      to_string(answer.choice.wrench), answer.choice.solver);
+  add(text, "{}\n", headline(answer));
   add(text, "{} of {:g} s, {} knots, scheme {}", problem.type(), task.T, task.k,
       to_string(task.scheme));
   if (answer.has_posture()) add(text, ", {} instants", trajectory.instants.size());
@@ -94,7 +101,9 @@ void add_capability(const Answer& answer, std::string& text) {
         problem.robot.actuation.u_min[i], problem.robot.actuation.u_max[i],
         actuator_name(problem.robot, i));
   }
-  add(text, "gradient {}\n", line(answer.trajectory.gradient.transpose()));
+  if (answer.trajectory.gradient.size() > 0) {
+    add(text, "gradient {}\n", line(answer.trajectory.gradient.transpose()));
+  }
   if (answer.undecided > 0) {
     add(text, "undecided {} (evaluations without a verdict)\n", answer.undecided);
   }
@@ -106,14 +115,13 @@ std::string posture_summary(const Answer& answer) {
   const Problem& problem = *answer.task;
   std::string text;
   const Case& c = answer.choice;
-  add(text, "{}  measure {}  wrench {}  solver {}\n", c.problem, c.measure, to_string(c.wrench),
-      c.solver);
+  add(text, "{}\n", headline(answer));
   if (answer.has_posture()) {
-    add(text, "theta_r  {}\n", line(answer.posture.theta_r));
+    if (problem.redundancy() > 0) add(text, "theta_r  {}\n", line(answer.posture.theta_r));
     add(text, "base xyz {}\nbase rpy {}\n", line(answer.posture.base.p),
         line(rpy(answer.posture.base.R)));
     add_dependent(answer, problem.dependent, text);
-    if (problem.free.count() > 0) {
+    if (finds_pose(answer)) {
       const Pose<double> pose = pose_at(problem, answer.posture.theta_r);
       add(text, "tool xyz {}\ntool rpy {}\n", line(pose.p), line(rpy(pose.R)));
     }

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "maxwrench/task.h"
+
+namespace maxwrench {
+
+/// The positions of a named posture of the robot, without those of joints that do not move or that
+/// a gear moves. Rejects other names, as a value of `key`.
+std::map<std::string, double> named_posture(const Robot& robot, std::string_view key,
+                                            const std::string& name);
+
+/// Makes a static task at the pose of some posture, for whoever gives none: that at rest if the end
+/// effector can move from there in all its directions without a collision; else, of random
+/// postures in the middle half of the joints' limits, the one from which it moves best.
+///
+/// @throws BadValue as `make_problem` for the posture at rest, if no posture serves.
+Problem make_at_some_posture(TaskSpec task);
+
+}  // namespace maxwrench
