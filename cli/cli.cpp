@@ -42,9 +42,9 @@ int parse_and_run(int argc, const char* const* argv) {
   });
   app.require_subcommand(1);
   int exit_status = kAnswered;
-  for (const auto add :
-       {add_list, add_check, add_eval, add_solve, add_certify, add_verify, add_lp, add_run,
-        add_merge, add_simulate, add_plot, add_compare, add_report, add_reproduce, add_manual}) {
+  for (const auto add : {add_list, add_check, add_init, add_pose, add_eval, add_solve, add_certify,
+                         add_verify, add_lp, add_run, add_merge, add_simulate, add_plot,
+                         add_compare, add_report, add_reproduce, add_manual}) {
     add(app, exit_status);
   }
   try {
@@ -96,8 +96,7 @@ int run_command(int argc, const char* const* argv) {
 }
 
 void CommonOptions::add_case(CLI::App& app) {
-  app.add_option("problem", choice.problem, "shipped task such as planar/force, or a task file")
-      ->required();
+  app.add_option("problem", choice.problem, kProblemHelp)->required();
   add_choice(app);
 }
 

@@ -35,6 +35,10 @@ struct CommonOptions {
   int thread_count() const;
 };
 
+/// What PROBLEM may be.
+inline constexpr const char* kProblemHelp =
+    "shipped task such as planar/force, a task file, or a URDF";
+
 /// Numbers separated by commas; throws std::invalid_argument that names the option.
 Eigen::VectorXd parse_numbers(const std::string& option, const std::string& text);
 
@@ -57,6 +61,8 @@ int report(const Answer& answer, bool json);
 // callback sets `exit_status`.
 void add_list(CLI::App& app, int& exit_status);
 void add_check(CLI::App& app, int& exit_status);
+void add_init(CLI::App& app, int& exit_status);
+void add_pose(CLI::App& app, int& exit_status);
 void add_eval(CLI::App& app, int& exit_status);
 void add_solve(CLI::App& app, int& exit_status);
 void add_certify(CLI::App& app, int& exit_status);

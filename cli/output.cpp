@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 #include <system_error>
 
@@ -35,7 +36,8 @@ bool is_robot_or_task(const fs::path& file) {
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) return false;
   const fs::path extension = fs::weakly_canonical(file, ignored).extension();
-  return extension == ".toml" || extension == ".urdf";
+  static const std::set<std::string> kExtensions = {".toml", ".urdf", ".srdf", ".xacro"};
+  return kExtensions.contains(extension.string());
 }
 
 }  // namespace
@@ -83,9 +85,9 @@ void require_apart(const std::vector<NamedFile>& inputs, const std::vector<Named
     }
     if (is_robot_or_task(output.path)) {
       throw std::invalid_argument(
-          fmt::format("{}: got '{}', an existing .toml or .urdf file, expected a file that is not "
+          fmt::format("{}: got '{}', an existing {} file, expected a file that is not "
                       "a robot or task",
-                      output.option, output.path));
+                      output.option, output.path, fs::path(output.path).extension().string()));
     }
     others.push_back(output);
   }

@@ -31,8 +31,8 @@ struct NamedFile {
 };
 
 /// Throws std::invalid_argument, before any computation, if an output would replace an input,
-/// another output or any robot or task (.toml, .urdf). An output that is not a regular file, such
-/// as a device, replaces nothing.
+/// another output or any robot or task (.toml, .urdf, .srdf, .xacro). An output that is not a
+/// regular file, such as a device, replaces nothing.
 void require_apart(const std::vector<NamedFile>& inputs, const std::vector<NamedFile>& outputs);
 
 }  // namespace maxwrench

@@ -13,6 +13,7 @@
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "cli/proof/good_postures.h"
+#include "cli/task/problem_options.h"
 #include "maxwrench/load.h"
 #include "maxwrench/version.h"
 #include "solvers/certify/proof.h"
@@ -29,6 +30,7 @@ struct ProofOptions : CommonOptions {
   bool ignore_collision = false;
   std::string certificate;
   WithinOptions within;
+  ProblemOptions source;
 };
 
 /// The proof for the best posture found.
@@ -64,6 +66,19 @@ GoodPostures list_good(const ProofOptions& options, const Problem& problem, cons
     line.show(fmt::format("within {} boxes kept, {} open", kept, waiting));
   };
   return verified_good_postures(problem, method, bound, proof.result.bound, good, proof.row);
+}
+
+/// `verify` reads the task again by its name, without the options of `certify`.
+void throw_on_choices(const ProofOptions& options) {
+  if (options.certificate.empty()) return;
+  if (is_urdf(options.choice.problem)) {
+    throw std::invalid_argument(
+        "--certificate: got a URDF, expected a task file, such as 'maxwrench init' writes");
+  }
+  if (options.source.limits) {
+    throw std::invalid_argument("--certificate: got --limits " + *options.source.limits +
+                                ", expected the limits that the robot has without it");
+  }
 }
 
 /// The check of a certificate does not support forces of a second contact. The list of good
@@ -201,10 +216,8 @@ void print_proof_text(const ProofOptions& options, const Problem& problem, const
 }
 
 void add_proof_options(CLI::App& command, ProofOptions& options) {
-  command
-      .add_option("problem", options.choice.problem,
-                  "shipped task such as planar/force, or a task file")
-      ->required();
+  command.add_option("problem", options.choice.problem, kProblemHelp)->required();
+  options.source.add(command);
   command
       .add_option("--measure", options.choice.measure, "linf_polytope, l2_polytope or ellipsoid")
       ->capture_default_str();
@@ -237,13 +250,15 @@ void add_certify(CLI::App& app, int& exit_status) {
       "certify", "finds the largest capability and proves that no posture has more");
   add_proof_options(command, *options);
   command.callback([options, &exit_status] {
-    require_apart({{"problem", options->choice.problem}}, {{"--certificate", options->certificate},
-                                                           {"--figure", options->within.figure},
-                                                           {"--boxes", options->within.boxes}});
+    require_apart(options->source.inputs(options->choice.problem),
+                  {{"--certificate", options->certificate},
+                   {"--figure", options->within.figure},
+                   {"--boxes", options->within.boxes}});
     if (options->within.asked()) {
       options->gap = std::min(options->gap, kGapPart * options->within.share());
     }
-    Problem problem = load_problem(options->choice.problem);
+    throw_on_choices(*options);
+    Problem problem = options->source.load(options->choice.problem);
     throw_on_dependents(*options, problem);
     if (options->ignore_collision) problem.robot.collision = nullptr;
     const Proof proof = prove(*options, problem);

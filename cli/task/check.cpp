@@ -6,6 +6,8 @@
 #include <memory>
 
 #include "cli/cli.h"
+#include "cli/task/own_weight.h"
+#include "cli/task/problem_options.h"
 #include "lib/posture/ik/dependent_joints.h"
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
@@ -20,6 +22,27 @@ std::string base_axes(const Robot& robot) {
   std::vector<std::string> names;
   for (const int axis : robot.base_axes) names.emplace_back(kTwistAxes[axis]);
   return fmt::format("{{{}}}", fmt::join(names, ", "));
+}
+
+std::string describe_gear(const Robot& robot, const Joint& joint) {
+  if (!joint.gear) return "";
+  return fmt::format(", mimics {}, ratio {:g}, offset {:g}",
+                     robot.joints[static_cast<std::size_t>(joint.gear->leader)].name,
+                     joint.gear->ratio, joint.gear->offset);
+}
+
+void print_own_weight(const Robot& robot) {
+  const OwnWeight own = own_weight(robot, kSamples);
+  if (own.share == 0) {
+    fmt::print("  holds its own weight in all of {} random postures\n", kSamples);
+    return;
+  }
+  const Joint& joint = robot.joints[static_cast<std::size_t>(own.weakest)];
+  fmt::print(
+      "  cannot hold its own weight in {:.3g} % of {} random postures; weakest joint {} (effort "
+      "{:g}, needs up to {:.3g} {})\n",
+      100 * own.share, kSamples, joint.name, joint.effort_max, own.needed,
+      joint.type == JointType::kRevolute ? "N m" : "N");
 }
 
 void print(const Robot& robot) {
@@ -57,11 +80,18 @@ void print(const Robot& robot) {
   }
   for (const Joint& j : robot.joints) {
     const bool turns = j.type == JointType::kRevolute;
-    fmt::print("  joint {:<19} {:g} .. {:g} {}, effort {:g} {}\n", j.name, j.q_min, j.q_max,
-               turns ? "rad" : "m", j.effort_max, turns ? "N m" : "N");
+    fmt::print("  joint {:<19} {:g} .. {:g} {}, effort {:g} {}{}\n", j.name, j.q_min, j.q_max,
+               turns ? "rad" : "m", j.effort_max, turns ? "N m" : "N", describe_gear(robot, j));
   }
+  if (!robot.limits.empty()) fmt::print("  limits in use: {}\n", robot.limits);
+  print_own_weight(robot);
   for (const auto& [block, source] : robot.sources)
     fmt::print("  source of {}: {}\n", block, source);
+  for (const std::string& note : robot.notes) fmt::print("  note: {}\n", note);
+  for (const std::string& why : robot.no_dynamics) fmt::print("  no dynamics: {}\n", why);
+  if (robot.warnings.empty()) return;
+  fmt::print("warnings {}\n", robot.warnings.size());
+  for (const std::string& warning : robot.warnings) fmt::print("  warning: {}\n", warning);
 }
 
 /// Prints the base pose and the dependent joints at the default of theta_r.
@@ -173,27 +203,43 @@ void print(const Problem& problem) {
   print(problem.robot);
 }
 
-/// FILE is a robot file, a task file or the name of a shipped problem.
-void check(const std::string& file) {
+struct CheckOptions {
+  std::string file;
+  bool strict = false;
+  ProblemOptions source;
+};
+
+/// FILE is a robot file, a task file, the name of a shipped problem or a URDF.
+int check(const CheckOptions& options) {
+  const ProblemOptions& source = options.source;
   const std::vector<std::string> shipped = shipped_problems();
-  if (std::find(shipped.begin(), shipped.end(), file) != shipped.end() || is_task(file)) {
-    print(load_problem(file));
+  const bool is_task_file =
+      std::find(shipped.begin(), shipped.end(), options.file) != shipped.end() ||
+      (!is_urdf(options.file) && is_task(options.file));
+  Robot robot;
+  if (is_task_file || (is_urdf(options.file) && source.describes_task())) {
+    const Problem problem = source.load(options.file);
+    print(problem);
+    robot = problem.robot;
   } else {
-    print(load_robot(file));
+    robot = source.load_robot(options.file);
+    print(robot);
   }
+  return options.strict && !robot.warnings.empty() ? kOtherStatus : kAnswered;
 }
 
 }  // namespace
 
 void add_check(CLI::App& app, int& exit_status) {
-  auto file = std::make_shared<std::string>();
-  CLI::App& command =
-      *app.add_subcommand("check", "prints what a robot or task file contains, or its first error");
-  command.add_option("file", *file, "robot or task file, or a shipped task")->required();
-  command.callback([file, &exit_status] {
-    check(*file);
-    exit_status = kAnswered;
-  });
+  auto options = std::make_shared<CheckOptions>();
+  options->source.counts_warnings = false;  // they are printed
+  CLI::App& command = *app.add_subcommand(
+      "check", "prints what a robot, task or URDF contains and what is wrong with it");
+  command.add_option("file", options->file, "robot or task file, a shipped task, or a URDF")
+      ->required();
+  command.add_flag("--strict", options->strict, "exit with 1 if there is a warning");
+  options->source.add(command);
+  command.callback([options, &exit_status] { exit_status = check(*options); });
 }
 
 }  // namespace maxwrench

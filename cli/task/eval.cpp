@@ -5,8 +5,8 @@
 #include "cli/cli.h"
 #include "cli/output.h"
 #include "cli/task/motion_options.h"
+#include "cli/task/problem_options.h"
 #include "cli/task/state.h"
-#include "maxwrench/load.h"
 #include "maxwrench/mps.h"
 #include "maxwrench/solve.h"
 #include "maxwrench/wrench_program.h"
@@ -19,6 +19,7 @@ struct EvalOptions : CommonOptions {
   std::string state, write;
   bool ignore_collision = false;
   MotionOptions motion;
+  ProblemOptions source;
 };
 
 /// Writes the linear program of the posture or trajectory, if there is one.
@@ -40,12 +41,18 @@ void require_program(const Options& options) {
                               ", expected linf_polytope");
 }
 
-int eval(const EvalOptions& options) {
-  require_apart({{"problem", options.choice.problem}}, {{"--write", options.write}});
-  if (!options.state.empty()) {
-    return report_state(load_problem(options.choice.problem), options.state, options.json);
+Answer answer_of(const Problem& problem, const EvalOptions& options, const Options& how) {
+  if (options.source.gives_joints()) {
+    return evaluate_posture(problem, options.source.positions(problem.robot), how);
   }
-  Problem problem = load_problem(options.choice.problem);
+  if (problem.motion) return evaluate(problem, knots_of(problem, options.theta_r), how);
+  return evaluate(problem, theta_r_of(problem, options.theta_r), how);
+}
+
+int eval(const EvalOptions& options) {
+  require_apart(options.source.inputs(options.choice.problem), {{"--write", options.write}});
+  Problem problem = options.source.load(options.choice.problem, true);
+  if (!options.state.empty()) return report_state(problem, options.state, options.json);
   options.motion.change(problem);
   Options how = options.read_options();
   how.check_collision = !options.ignore_collision;
@@ -55,13 +62,7 @@ int eval(const EvalOptions& options) {
         {{"--write", options.write}});
   }
   if (!options.write.empty()) require_program(how);
-  Eigen::MatrixXd theta_r;
-  if (problem.motion) {
-    theta_r = knots_of(problem, options.theta_r);
-  } else {
-    theta_r = theta_r_of(problem, options.theta_r);
-  }
-  const Answer answer = evaluate(problem, theta_r, how);
+  const Answer answer = answer_of(problem, options, how);
   if (!options.write.empty()) write_program(options, answer);
   return report(answer, options.json);
 }
@@ -76,6 +77,10 @@ void add_eval(CLI::App& app, int& exit_status) {
   options->add_json(command);
   add_theta_r(command, options->theta_r);
   options->motion.add(command);
+  options->source.add(command);
+  for (const char* joints : {"--joints", "--posture"}) {
+    command.get_option(joints)->excludes(command.get_option("--theta-r"));
+  }
   command.add_option("--write", options->write, "MPS file for the linear program")
       ->check(reject_empty);
   command.add_flag("--ignore-collision", options->ignore_collision,
@@ -84,7 +89,7 @@ void add_eval(CLI::App& app, int& exit_status) {
       "--state", options->state,
       "print M, tau_d and J for the motion in this file instead of a capability");
   for (const char* other : {"--theta-r", "--measure", "--wrench", "--solver", "--write",
-                            "--ignore-collision", "--scheme", "--t-h"}) {
+                            "--ignore-collision", "--scheme", "--t-h", "--joints", "--posture"}) {
     state.excludes(command.get_option(other));
   }
   command.callback([options, &exit_status] { exit_status = eval(*options); });

@@ -6,6 +6,7 @@
 #include "cli/cli.h"
 #include "cli/output.h"
 #include "cli/task/motion_options.h"
+#include "cli/task/problem_options.h"
 #include "maxwrench/figures.h"
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
@@ -19,6 +20,7 @@ struct PlotOptions {
   std::string problem, out;
   std::optional<std::string> theta_r;
   MotionOptions motion;
+  ProblemOptions source;
 };
 
 /// Empty, with a line on stderr, if there is no such posture.
@@ -46,9 +48,10 @@ std::optional<std::string> draw_trajectory(const Problem& problem, const PlotOpt
 
 /// Returns status 1 if there is no such posture: showing another one would be misleading.
 int plot(const PlotOptions& options) {
-  require_apart({{"problem", options.problem}, {"--theta-r", options.theta_r.value_or("")}},
-                {{"--out", options.out}});
-  Problem problem = load_problem(options.problem);
+  std::vector<NamedFile> inputs = options.source.inputs(options.problem);
+  inputs.push_back({"--theta-r", options.theta_r.value_or("")});
+  require_apart(inputs, {{"--out", options.out}});
+  Problem problem = options.source.load(options.problem);
   options.motion.change(problem);
   const std::optional<std::string> drawn =
       problem.motion ? draw_trajectory(problem, options) : draw_static(problem, options);
@@ -68,8 +71,9 @@ void add_plot(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<PlotOptions>();
   CLI::App& command = *app.add_subcommand(
       "plot", "draws a posture with its wrench sets, or the postures of a trajectory, as SVG");
-  command.add_option("problem", options->problem, "shipped task or task file")->required();
+  command.add_option("problem", options->problem, kProblemHelp)->required();
   add_theta_r(command, options->theta_r);
+  options->source.add(command);
   options->motion.add(command);
   command.add_option("--out", options->out, "SVG file to write (default: stdout)")
       ->check(reject_empty);

@@ -13,7 +13,6 @@
 #include "benchmarks/tables/write_file.h"
 #include "cli/output.h"
 #include "maxwrench/figures.h"
-#include "maxwrench/load.h"
 #include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/version.h"
@@ -143,10 +142,10 @@ int simulate_static(const Problem& task, const SimulateOptions& options) {
 }
 
 int simulate(const SimulateOptions& options) {
-  require_apart({{"problem", options.choice.problem}},
+  require_apart(options.source.inputs(options.choice.problem),
                 {{"--out", options.out}, {"--figure", options.figure}});
   require_stiff(options.integrator);
-  Problem problem = load_problem(options.choice.problem);
+  Problem problem = options.source.load(options.choice.problem);
   if (problem.contact) {
     throw std::invalid_argument("problem: got " + problem.name +
                                 ", expected one without a second contact");
@@ -232,6 +231,7 @@ void add_simulate(CLI::App& app, int& exit_status) {
   options->command = &command;
   options->add_case(command);
   options->add_json(command);
+  options->source.add(command);
   add_trajectory_options(command, *options);
   CLI::Option* planned =
       command

@@ -5,6 +5,7 @@
 
 #include "cli/cli.h"
 #include "cli/task/motion_options.h"
+#include "cli/task/problem_options.h"
 #include "maxwrench/tank.h"
 
 namespace maxwrench {
@@ -15,6 +16,7 @@ struct SimulateOptions : CommonOptions {
   double planned = 0;  ///< 0: the capability, or the value of the trajectory
   bool heaviest = false;
   MotionOptions motion;
+  ProblemOptions source;
   TankOptions tank;
   const CLI::App* command = nullptr;
 };

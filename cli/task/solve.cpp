@@ -8,6 +8,7 @@
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "cli/task/motion_options.h"
+#include "cli/task/problem_options.h"
 #include "maxwrench/load.h"
 
 namespace maxwrench {
@@ -15,6 +16,7 @@ namespace {
 
 struct SolveOptions : CommonOptions {
   MotionOptions motion;
+  ProblemOptions source;
   std::string out;
 };
 
@@ -42,16 +44,18 @@ void add_solve(CLI::App& app, int& exit_status) {
   options->add_case(command);
   options->add_search(command);
   options->motion.add(command);
+  options->source.add(command);
   options->add_threads(command);
   options->add_json(command);
   command.add_option("--out", options->out, "CSV file for the table of theta_r")
       ->check(reject_empty);
   command.callback([options, &exit_status] {
-    Problem problem = load_problem(options->choice.problem);
+    require_apart(options->source.inputs(options->choice.problem), {{"--out", options->out}});
+    Problem problem = options->source.load(options->choice.problem);
     options->motion.change(problem);
-    require_apart({{"problem", options->choice.problem},
-                   {"path.file", problem.motion ? problem.motion->path_file : ""}},
-                  {{"--out", options->out}});
+    if (problem.motion) {
+      require_apart({{"path.file", problem.motion->path_file}}, {{"--out", options->out}});
+    }
     exit_status = solve(*options, problem);
   });
 }

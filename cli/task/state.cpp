@@ -40,14 +40,6 @@ Terms evaluate_terms(const Problem& problem, const State& state) {
   return terms;
 }
 
-std::vector<std::string> velocity_names(const Robot& robot) {
-  std::vector<std::string> names;
-  for (const int axis : robot.base_axes)
-    names.emplace_back(kTwistAxes[static_cast<std::size_t>(axis)]);
-  for (const Joint& joint : robot.joints) names.push_back(joint.name);
-  return names;
-}
-
 void print_terms_object(const Problem& problem, const std::string& file, const Terms& terms) {
   ordered_json object;
   object["problem"] = problem.name;
@@ -85,6 +77,14 @@ void print_terms(const Problem& problem, const Terms& terms) {
 }
 
 }  // namespace
+
+std::vector<std::string> velocity_names(const Robot& robot) {
+  std::vector<std::string> names;
+  for (const int axis : robot.base_axes)
+    names.emplace_back(kTwistAxes[static_cast<std::size_t>(axis)]);
+  for (const Joint& joint : robot.joints) names.push_back(joint.name);
+  return names;
+}
 
 int report_state(const Problem& problem, const std::string& file, bool json) {
   const Terms terms = evaluate_terms(problem, load_state(file, problem.robot));
