@@ -10,7 +10,7 @@ install(TARGETS maxwrench_core maxwrench_drawing EXPORT maxwrench
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/problems/ DESTINATION ${CMAKE_INSTALL_DATADIR}/maxwrench/problems COMPONENT command
   FILES_MATCHING PATTERN "*.toml" PATTERN "*.urdf" PATTERN "README.md"
-  PATTERN loader EXCLUDE PATTERN make EXCLUDE PATTERN mps EXCLUDE)
+  PATTERN collision EXCLUDE PATTERN loader EXCLUDE PATTERN make EXCLUDE PATTERN mps EXCLUDE)
 
 install(EXPORT maxwrench NAMESPACE maxwrench:: FILE maxwrenchTargets.cmake DESTINATION ${package} COMPONENT development)
 set(problems_folder ${CMAKE_INSTALL_DATADIR}/maxwrench/problems)

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "problems/loader/collision.h"
+#include "problems/collision/collision.h"
 #include "problems/make/bad_value.h"
 #include "problems/make/touching_bodies.h"
 

@@ -10,7 +10,7 @@
 #include "lib/math/random.h"
 #include "lib/robot/chain.h"
 #include "lib/robot/kinematics.h"
-#include "problems/loader/collision.h"
+#include "problems/collision/collision.h"
 
 namespace maxwrench {
 namespace {

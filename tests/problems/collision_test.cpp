@@ -1,4 +1,4 @@
-#include "problems/loader/collision.h"
+#include "problems/collision/collision.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
-#include "problems/loader/distance.h"
+#include "problems/collision/distance.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {

@@ -1,4 +1,4 @@
-#include "problems/loader/distance.h"
+#include "problems/collision/distance.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "problems/loader/collision.h"
+#include "problems/collision/collision.h"
 
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/capsule.h>
@@ -11,7 +11,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "problems/loader/distance.h"
+#include "problems/collision/distance.h"
 
 namespace maxwrench {
 namespace {
