@@ -7,11 +7,11 @@
 #include <fcl/narrowphase/collision.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 
 #include "problems/collision/distance.h"
+#include "problems/collision/gjk.h"
+#include "problems/collision/shapes.h"
 
 namespace maxwrench {
 namespace {
@@ -30,26 +30,11 @@ std::shared_ptr<const Geometry> grown(const Shape& shape, double margin) {
     case Shape::Kind::kCylinder:
       return std::make_shared<fcl::Cylinderd>(r, length + 2 * margin);
     case Shape::Kind::kBox:
-    case Shape::Kind::kHull:
+    case Shape::Kind::kHull:  // is not given to FCL
       break;
   }
   return std::make_shared<fcl::Boxd>(sides.x(), sides.y(), sides.z());
 }
-
-double bounding_radius(const Shape& shape) {
-  switch (shape.kind) {
-    case Shape::Kind::kCapsule:
-      return shape.half_length + shape.radius;
-    case Shape::Kind::kCylinder:
-      return std::hypot(shape.half_length, shape.radius);
-    case Shape::Kind::kBox:
-    case Shape::Kind::kHull:
-      break;
-  }
-  return shape.half_sizes.norm();
-}
-
-bool is(const Shape& shape, Shape::Kind kind) { return shape.kind == kind; }
 
 fcl::Transform3d to_fcl(const Pose<double>& pose) {
   fcl::Transform3d transform = fcl::Transform3d::Identity();
@@ -67,7 +52,7 @@ bool intersect(const Geometry& a, const Pose<double>& pose_a, const Geometry& b,
 
 /// A shape at the pose of its link.
 struct Placed {
-  Pose<double> pose;          ///< R is set only if the shape is a box or uses FCL
+  Pose<double> pose;          ///< R is set only where a test needs it
   Eigen::Vector3d half_axis;  ///< of a capsule
 };
 
@@ -108,49 +93,42 @@ Between capsule_to_box(const Placed& at, const Shape& box, const Pose<double>& b
   return between;
 }
 
-/// Sets `core` to a box such that the shape contains all points within a radius of it, and returns
-/// this radius. For a capsule and a box these points are the whole shape.
-double core_of(const Shape& shape, InscribedBox& core) {
-  core.link = shape.link;
-  core.placement = shape.placement;
-  if (is(shape, Shape::Kind::kBox)) {
-    core.half_sizes = shape.half_sizes;
-    return 0;
-  }
-  const bool capsule = is(shape, Shape::Kind::kCapsule);
-  const double radius = capsule ? shape.radius : std::min(shape.radius, shape.half_length);
-  core.half_sizes = {0, 0, capsule ? shape.half_length : shape.half_length - radius};
-  return radius;
+/// How a pair is tested.
+enum class Test {
+  kFormula,  ///< a closed formula of capsules and boxes
+  kGjk,      ///< pairs with a hull
+  kFcl       ///< all others
+};
+
+Test test_of(const Shape& a, const Shape& b) {
+  const auto any = [&](Shape::Kind kind) { return is(a, kind) || is(b, kind); };
+  if (any(Shape::Kind::kHull)) return Test::kGjk;
+  const bool formula = any(Shape::Kind::kCapsule) && !any(Shape::Kind::kCylinder);
+  return formula ? Test::kFormula : Test::kFcl;
 }
 
-/// Two shapes on different links, with their FCL shapes if there is no exact test.
+/// Two shapes on different links, with their FCL shapes if FCL tests them.
 struct Pair {
   int a, b;
+  Test test;
   double reach;  ///< shapes whose centres are farther apart than this cannot collide
   std::shared_ptr<const Geometry> geometry_a, geometry_b;
 };
 
-bool exact(const Shape& a, const Shape& b) {
-  return !is(a, Shape::Kind::kCylinder) && !is(b, Shape::Kind::kCylinder) &&
-         (is(a, Shape::Kind::kCapsule) || is(b, Shape::Kind::kCapsule));
-}
-
 Pair make_pair(const std::vector<Shape>& shapes, int i, int j, double margin) {
   const Shape& a = shapes[static_cast<std::size_t>(i)];
   const Shape& b = shapes[static_cast<std::size_t>(j)];
-  Pair pair{i, j, bounding_radius(a) + bounding_radius(b) + margin, nullptr, nullptr};
-  if (exact(a, b)) return pair;
+  Pair pair{i,       j,      test_of(a, b), bounding_radius(a) + bounding_radius(b) + margin,
+            nullptr, nullptr};
+  if (pair.test != Test::kFcl) return pair;
   const bool grow_b = is(b, Shape::Kind::kCapsule);  // growing a capsule is exact
   pair.geometry_a = grown(a, grow_b ? 0 : margin);
   pair.geometry_b = grown(b, grow_b ? margin : 0);
   return pair;
 }
 
-bool collide(const Pair& pair, const Shape& a, const Placed& at_a, const Shape& b,
-             const Placed& at_b, double margin) {
-  if (pair.geometry_a) {
-    return intersect(*pair.geometry_a, at_a.pose, *pair.geometry_b, at_b.pose);
-  }
+bool closer_by_formula(const Shape& a, const Placed& at_a, const Shape& b, const Placed& at_b,
+                       double margin) {
   if (is(a, Shape::Kind::kBox)) return capsule_box_closer(b, at_b, a, at_a.pose, margin);
   if (is(b, Shape::Kind::kBox)) return capsule_box_closer(a, at_a, b, at_b.pose, margin);
   return capsules_closer(a, at_a, b, at_b, margin);
@@ -158,20 +136,21 @@ bool collide(const Pair& pair, const Shape& a, const Placed& at_a, const Shape& 
 
 class ShapePairs : public CollisionChecker {
  public:
-  /// Exact pairs come first, because FCL's tests are far more expensive. Then pairs with a large
-  /// reach come first, because they are more likely to collide.
+  /// Cheap tests come first: formulas, then GJK, then FCL, each several times as expensive. Then
+  /// pairs with a large reach come first, because they are more likely to collide.
   ShapePairs(std::vector<Shape> shapes, std::vector<Pair> pairs, double margin)
       : shapes_(std::move(shapes)), pairs_(std::move(pairs)), margin_(margin) {
     std::stable_sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
-      const bool a_exact = a.geometry_a == nullptr, b_exact = b.geometry_a == nullptr;
-      return a_exact != b_exact ? a_exact : a.reach > b.reach;
+      return a.test != b.test ? a.test < b.test : a.reach > b.reach;
     });
     for (const Shape& shape : shapes_) {
       oriented_.push_back(is(shape, Shape::Kind::kBox));
       fixed_.push_back(place(shape, {}, true));
+      cores_.push_back(rounded_core(shape));
     }
     for (const Pair& pair : pairs_) {
-      if (pair.geometry_a) oriented_[index(pair.a)] = oriented_[index(pair.b)] = true;
+      if (pair.test == Test::kFormula) continue;
+      oriented_[index(pair.a)] = oriented_[index(pair.b)] = true;
     }
   }
 
@@ -187,8 +166,7 @@ class ShapePairs : public CollisionChecker {
     };
     const auto found = std::find_if(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
       const Placed &a = placed(index(pair.a)), &b = placed(index(pair.b));
-      return (a.pose.p - b.pose.p).squaredNorm() <= pair.reach * pair.reach &&
-             collide(pair, shapes_[index(pair.a)], a, shapes_[index(pair.b)], b, margin_);
+      return (a.pose.p - b.pose.p).squaredNorm() <= pair.reach * pair.reach && collide(pair, a, b);
     });
     return found == pairs_.end() ? -1 : static_cast<int>(found - pairs_.begin());
   }
@@ -196,7 +174,8 @@ class ShapePairs : public CollisionChecker {
   bool nearest(const std::vector<Pose<double>>& links, int i,
                ClosestPoints& result) const override {
     const Pair& pair = pairs_[index(i)];
-    if (pair.geometry_a) return false;
+    if (pair.test == Test::kFcl) return false;
+    if (pair.test == Test::kGjk) return nearest_by_gjk(links, pair, result);
     const bool box_first = is(shapes_[index(pair.a)], Shape::Kind::kBox);
     const Shape& a = shapes_[index(box_first ? pair.b : pair.a)];  // a capsule
     const Shape& b = shapes_[index(box_first ? pair.a : pair.b)];
@@ -216,10 +195,12 @@ class ShapePairs : public CollisionChecker {
 
   int pairs() const override { return static_cast<int>(pairs_.size()); }
 
+  /// Hulls have none.
   bool inscribed_boxes(int i, InscribedBoxPair& result) const override {
     const Pair& pair = pairs_[index(i)];
-    const double radius = core_of(shapes_[index(pair.a)], result.a);
-    result.reach = radius + core_of(shapes_[index(pair.b)], result.b) + margin_;
+    if (pair.test == Test::kGjk) return false;
+    const double radius = inscribed_core(shapes_[index(pair.a)], result.a);
+    result.reach = radius + inscribed_core(shapes_[index(pair.b)], result.b) + margin_;
     return true;
   }
 
@@ -231,47 +212,43 @@ class ShapePairs : public CollisionChecker {
  private:
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
+  bool collide(const Pair& pair, const Placed& at_a, const Placed& at_b) const {
+    const std::size_t a = index(pair.a), b = index(pair.b);
+    switch (pair.test) {
+      case Test::kFormula:
+        return closer_by_formula(shapes_[a], at_a, shapes_[b], at_b, margin_);
+      case Test::kGjk:
+        return closer_than(cores_[a].core, at_a.pose, cores_[b].core, at_b.pose, apart(pair));
+      case Test::kFcl:
+        break;
+    }
+    return intersect(*pair.geometry_a, at_a.pose, *pair.geometry_b, at_b.pose);
+  }
+
+  /// The distance of the cores at which the shapes are as near as the margin.
+  double apart(const Pair& pair) const {
+    return cores_[index(pair.a)].rounding + cores_[index(pair.b)].rounding + margin_;
+  }
+
+  bool nearest_by_gjk(const std::vector<Pose<double>>& links, const Pair& pair,
+                      ClosestPoints& result) const {
+    const Shape &a = shapes_[index(pair.a)], &b = shapes_[index(pair.b)];
+    const Between between =
+        closest_points(cores_[index(pair.a)].core, links[index(a.link)] * a.placement,
+                       cores_[index(pair.b)].core, links[index(b.link)] * b.placement);
+    result = {between.distance() - apart(pair), a.link, b.link, between.on_a, between.on_b};
+    return true;
+  }
+
   std::vector<Shape> shapes_;
   std::vector<Placed> fixed_;   ///< the placed shapes of the base
   std::vector<bool> oriented_;  ///< whether a shape's test needs its rotation
+  std::vector<RoundedCore> cores_;
   std::vector<Pair> pairs_;
   double margin_;
 };
 
 }  // namespace
-
-ConvexBody to_convex_body(const Shape& shape) {
-  ConvexBody solid;
-  solid.link = shape.link;
-  const auto add = [&](double x, double y, double z) {
-    solid.points.emplace_back(shape.placement.R * Eigen::Vector3d(x, y, z) + shape.placement.p);
-  };
-  const Eigen::Vector3d& half = shape.half_sizes;
-  constexpr int kFaces = 32;
-  for (const double end : {-1.0, 1.0}) {
-    switch (shape.kind) {
-      case Shape::Kind::kCapsule:
-        solid.radius = shape.radius;
-        add(0, 0, end * shape.half_length);
-        break;
-      case Shape::Kind::kBox:
-        for (const double x : {-1.0, 1.0}) {
-          for (const double y : {-1.0, 1.0}) add(x * half.x(), y * half.y(), end * half.z());
-        }
-        break;
-      case Shape::Kind::kHull:
-        break;
-      case Shape::Kind::kCylinder:
-        for (int i = 0; i < kFaces; ++i) {
-          const double angle = 2 * std::numbers::pi * i / kFaces;
-          add(shape.radius * std::cos(angle), shape.radius * std::sin(angle),
-              end * shape.half_length);
-        }
-        break;
-    }
-  }
-  return solid;
-}
 
 std::shared_ptr<const CollisionChecker> make_collision_checker(
     std::vector<Shape> shapes, const std::vector<std::pair<std::string, std::string>>& ignore,
@@ -282,6 +259,7 @@ std::shared_ptr<const CollisionChecker> make_collision_checker(
              (pair.first == b.body && pair.second == a.body);
     });
   };
+  for (Shape& shape : shapes) centre_hull(shape);
   std::vector<Pair> pairs;
   const int count = static_cast<int>(shapes.size());
   for (int i = 0; i < count; ++i) {

@@ -17,12 +17,10 @@ namespace maxwrench {
 /// shapes grown by the margin. These are exact if one shape is a capsule. Otherwise they are
 /// conservative by at most 0.74 margin at edges and corners. FCL's distances are not used: in
 /// version 0.7 they can be wrong or throw, while its intersection tests agree with the exact ones
-/// (see collision_test.cpp).
+/// (see collision_test.cpp). Pairs with a hull use GJK, which is exact, allocates nothing and also
+/// gives the distance.
 std::shared_ptr<const CollisionChecker> make_collision_checker(
     std::vector<Shape> shapes, const std::vector<std::pair<std::string, std::string>>& ignore,
     double margin);
-
-/// The shape as a convex body. A cylinder becomes a prism of 32 faces.
-ConvexBody to_convex_body(const Shape& shape);
 
 }  // namespace maxwrench

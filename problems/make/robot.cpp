@@ -8,6 +8,7 @@
 #include <set>
 
 #include "problems/collision/collision.h"
+#include "problems/collision/shapes.h"
 #include "problems/make/bad_value.h"
 #include "problems/make/touching_bodies.h"
 
@@ -193,6 +194,16 @@ void check_environment(const Robot& robot) {
   require_hydrodynamics(bodies, robot.water_density);
 }
 
+void check_hull(const std::string& key, const Shape& shape) {
+  constexpr std::size_t kFewest = 4;
+  if (shape.points.size() < kFewest) {
+    throw BadValue(key + "points", fmt::format("{} points", shape.points.size()),
+                   fmt::format("{} or more (a point may be repeated)", kFewest));
+  }
+  for (const Eigen::Vector3d& x : shape.points) require_numbers(key + "points", x, 3);
+  require_non_negative(key + "radius", shape.radius);
+}
+
 void check_shape(const Shape& shape) {
   const std::string key = fmt::format("link[{}].collision.geometry.", shape.body);
   const char* length = "a length > 0";
@@ -212,6 +223,9 @@ void check_shape(const Shape& shape) {
     case Shape::Kind::kCylinder:
       require_positive(key + "cylinder.radius", shape.radius, length);
       require_positive(key + "cylinder.length", 2 * shape.half_length, length);
+      break;
+    case Shape::Kind::kHull:
+      check_hull(key + "hull.", shape);
       break;
   }
   require_finite(key + "radius", shape.radius);

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "maxwrench/task.h"
+#include "problems/collision/gjk.h"
+
+namespace maxwrench {
+
+inline bool is(const Shape& shape, Shape::Kind kind) { return shape.kind == kind; }
+
+/// The distance of the farthest point of the shape from its origin.
+double bounding_radius(const Shape& shape);
+
+/// Moves the origin of a hull to the centre of its points, so that its bounding sphere is small.
+void centre_hull(Shape& shape);
+
+/// The shape as GJK knows it: all points within `rounding` of a core.
+struct RoundedCore {
+  ConvexCore core;
+  double rounding = 0;
+};
+
+RoundedCore rounded_core(const Shape& shape);
+
+/// Sets `core` to a box such that the shape contains all points within a radius of it, and returns
+/// this radius. For a capsule and a box these points are the whole shape. Not for a hull.
+double inscribed_core(const Shape& shape, InscribedBox& core);
+
+/// The shape as a convex body. A cylinder becomes a prism of 32 faces.
+ConvexBody to_convex_body(const Shape& shape);
+
+}  // namespace maxwrench
