@@ -53,7 +53,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endif()
 
-add_core_floor(problems PkgConfig::TINYXML2 tomlplusplus::tomlplusplus fcl fmt::fmt)
+add_core_floor(problems PkgConfig::TINYXML2 PkgConfig::ASSIMP PkgConfig::QHULL tomlplusplus::tomlplusplus fcl fmt::fmt)
 file(RELATIVE_PATH from_command_to_data ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_DATADIR})
 target_compile_definitions(maxwrench_problems PRIVATE
   MAXWRENCH_PROBLEMS_BESIDE="${from_command_to_data}/maxwrench/problems"

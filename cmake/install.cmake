@@ -10,7 +10,7 @@ install(TARGETS maxwrench_core maxwrench_drawing EXPORT maxwrench
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/problems/ DESTINATION ${CMAKE_INSTALL_DATADIR}/maxwrench/problems COMPONENT command
   FILES_MATCHING PATTERN "*.toml" PATTERN "*.urdf" PATTERN "README.md"
-  PATTERN collision EXCLUDE PATTERN loader EXCLUDE PATTERN make EXCLUDE PATTERN mps EXCLUDE)
+  PATTERN collision EXCLUDE PATTERN loader EXCLUDE PATTERN make EXCLUDE PATTERN mesh EXCLUDE PATTERN mps EXCLUDE)
 
 install(EXPORT maxwrench NAMESPACE maxwrench:: FILE maxwrenchTargets.cmake DESTINATION ${package} COMPONENT development)
 set(problems_folder ${CMAKE_INSTALL_DATADIR}/maxwrench/problems)
@@ -94,7 +94,7 @@ set(CPACK_DEBIAN_COMMAND_PACKAGE_NAME maxwrench)
 set(CPACK_DEBIAN_COMMAND_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libmaxwrench-dev)
 set(development_packages libeigen3-dev libfmt-dev libtbb-dev libfcl-dev libtomlplusplus-dev libtinyxml2-dev
-  libgmp-dev zlib1g-dev pkg-config)
+  libgmp-dev libassimp-dev libqhull-dev zlib1g-dev pkg-config)
 foreach(pair IPOPT:coinor-libipopt-dev CLP:coinor-libclp-dev GLPK:libglpk-dev NLOPT:libnlopt-dev PAGMO:libpagmo-dev SUNDIALS:libsundials-dev)
   string(REPLACE ":" ";" pair ${pair})
   list(POP_FRONT pair library)

@@ -5,4 +5,5 @@ set(maxwrench_problems_sources
   loader/urdf_element.cpp loader/urdf_joint.cpp loader/urdf_shape.cpp loader/urdf_structure.cpp loader/urdf_tree.cpp loader/xacro.cpp
   make/bad_value.cpp make/contact.cpp make/free_pose.cpp make/motion_task.cpp make/posture.cpp make/redundant_joints.cpp
   make/robot.cpp make/task.cpp make/theta_r.cpp make/touching_bodies.cpp
+  mesh/capsule.cpp mesh/find_mesh.cpp mesh/hull.cpp mesh/mesh_shape.cpp mesh/mesh_text.cpp mesh/read_mesh.cpp
   mps/reader.cpp mps/wrench_file.cpp mps/writer.cpp)
