@@ -206,6 +206,41 @@ TEST(HullPairs, AgreeWithTheFormulasOfCapsulesAndBoxes) {
   EXPECT_LT(collisions, tested * 9 / 10);
 }
 
+/// Boxes along the same axes have parallel faces and edges, on which no closest point is unique.
+/// The distance is that of the gaps along the axes.
+TEST(HullPairs, AgreeWithTheGapsOfParallelBoxes) {
+  Random random(6);
+  const auto corners = [](const Vector3d& half) {
+    Points points;
+    for (int i = 0; i < 27; ++i) {  // with the middles of edges and faces
+      points.push_back(half.cwiseProduct(Vector3d(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1)));  // NOLINT
+    }
+    return points;
+  };
+  const auto tenths = [&random](double low, double high) {
+    return Vector3d(Vector3d::NullaryExpr(
+        [&](Eigen::Index) { return std::floor(random.uniform(low, high + 1)) / 10; }));
+  };
+  for (int sample = 0; sample < samples(5000); ++sample) {
+    const Vector3d a = tenths(1, 4), b = tenths(1, 4);
+    const Pose<double> turned = random_pose(random, 0.5);
+    for (const bool exact : {true, false}) {  // along the world's axes, or turned together
+      const Pose<double> pose_a = exact ? Pose<double>() : turned;
+      Pose<double> pose_b = pose_a;
+      const Vector3d offset = tenths(-10, 10);
+      pose_b.p += pose_a.R * offset;
+      const double distance = (offset.cwiseAbs() - a - b).cwiseMax(0).norm();
+      const ConvexCore core_a = core_of_points(corners(a)), core_b = core_of_points(corners(b));
+      const Between between = closest_points(core_a, pose_a, core_b, pose_b);
+      EXPECT_NEAR(between.distance(), distance, 1e-12) << sample;
+      EXPECT_TRUE(closer_than(core_a, pose_a, core_b, pose_b, distance + 1e-9)) << sample;
+      if (distance > 1e-8) {
+        EXPECT_FALSE(closer_than(core_a, pose_a, core_b, pose_b, distance - 1e-9)) << sample;
+      }
+    }
+  }
+}
+
 /// A cylinder about z and a point x of radius r: the distance is that of (|x_xy|, z) from a
 /// rectangle.
 TEST(HullPairs, AgreeWithTheDistanceOfAPointFromACylinder) {
