@@ -34,15 +34,25 @@ Given read_box(const UrdfElement& given) {
   return {shape, ""};
 }
 
+Given read_mesh(const UrdfElement& given, MeshUse meshes, MeshReading& reading) {
+  const std::optional<std::string> name = given.attribute("filename");
+  if (!name) given.throw_bad_input("filename", "nothing", "the name of a mesh");
+  const Eigen::Vector3d scale = given.vector("scale", Eigen::Vector3d::Ones());
+  if (!scale.all()) {
+    given.throw_bad_input("scale", given.attribute("scale").value(), "numbers other than 0");
+  }
+  const MeshShape mesh = reading.shapes.shape(
+      *name, scale, meshes == MeshUse::kHull ? MeshAs::kHull : MeshAs::kCapsule);
+  if (!mesh.shape) return {{}, mesh.note};
+  reading.notes.push_back(fmt::format("{}: {}: {}", given.key(), mesh.file.string(), mesh.note));
+  return {mesh.shape, ""};
+}
+
 Given read_geometry(const UrdfElement& given, MeshUse meshes, MeshReading& reading) {
   const std::string tag = given.tag();
   if (tag == "box") return read_box(given);
   if (tag == "cylinder" || tag == "sphere" || tag == "capsule") return read_round(given);
-  if (tag == "mesh") {
-    (void)meshes;
-    (void)reading;
-    return {{}, "a mesh"};
-  }
+  if (tag == "mesh") return read_mesh(given, meshes, reading);
   return {{}, fmt::format("<{}>", tag)};
 }
 

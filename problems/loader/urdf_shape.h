@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,13 +7,13 @@
 #include "maxwrench/task.h"
 #include "problems/loader/urdf_choices.h"
 #include "problems/loader/urdf_element.h"
+#include "problems/mesh/mesh_shape.h"
 
 namespace maxwrench {
 
-/// Where the meshes of a URDF are, what becomes of them, and what there is to say about them.
+/// What becomes of the meshes of a URDF, and where what there is to say about them goes.
 struct MeshReading {
-  const std::filesystem::path& urdf;
-  const std::vector<std::filesystem::path>& packages;
+  MeshShapes shapes;
   std::vector<std::string>&warnings, &notes;
 };
 

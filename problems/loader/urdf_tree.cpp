@@ -217,7 +217,7 @@ UrdfTree read_urdf(const std::filesystem::path& file, const UrdfChoices& choices
   Reading reading{structure,
                   choices,
                   read_joints(structure, choices, tree.warnings),
-                  {file, choices.packages, tree.warnings, tree.notes},
+                  {MeshShapes(file, choices.packages), tree.warnings, tree.notes},
                   tree,
                   {}};
   require_known(choices.joints, "joint",
