@@ -218,8 +218,6 @@ void check_shape(const Shape& shape) {
       require_numbers(key + "box.size", 2 * shape.half_sizes, 3);
       require_positive(key + "box.size", 2 * shape.half_sizes.minCoeff(), length);
       break;
-    case Shape::Kind::kHull:
-      break;
     case Shape::Kind::kCylinder:
       require_positive(key + "cylinder.radius", shape.radius, length);
       require_positive(key + "cylinder.length", 2 * shape.half_length, length);

@@ -16,7 +16,7 @@ namespace maxwrench {
 namespace {
 
 constexpr double kMillimetre = 1e-3;  // m
-constexpr double kFarthest = 1e6;     // m; products of such numbers do not overflow
+constexpr double kFarthestVertex = 1e6;     // m; products of such numbers do not overflow
 
 Shape hull_shape(const GrownHull& hull, std::string& note) {
   Shape shape;
@@ -38,9 +38,9 @@ MeshShape shape_from(const FoundMesh& found, const Eigen::Vector3d& scale, MeshA
     std::vector<Eigen::Vector3d> points = read_mesh(found.file);
     for (Eigen::Vector3d& x : points) {
       x = x.cwiseProduct(scale);
-      if (x.cwiseAbs().maxCoeff() <= kFarthest) continue;
+      if (x.cwiseAbs().maxCoeff() <= kFarthestVertex) continue;
       throw_bad_mesh(found.file, fmt::format("vertex {}", shown(Eigen::VectorXd(x))),
-                     fmt::format("coordinates within {} m", kFarthest));
+                     fmt::format("coordinates within {} m", kFarthestVertex));
     }
     GrownHull hull = hull_of(points);
     if (as == MeshAs::kHull) {

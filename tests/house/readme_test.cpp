@@ -104,6 +104,9 @@ class Docs : public testing::TestWithParam<std::string> {};
 TEST_P(Docs, EveryCommandWorks) {
   const TemporaryFolder folder;
   fs::copy(kRoot / "problems", folder.path() / "problems", fs::copy_options::recursive);
+  fs::create_directories(folder.path() / "tests/data");
+  fs::copy(kRoot / "tests/data/robots", folder.path() / "tests/data/robots",
+           fs::copy_options::recursive);
   fs::create_directory(folder.path() / "benchmarks");
   fs::copy(kRoot / "benchmarks/suites", folder.path() / "benchmarks/suites");
   fs::create_directory(folder.path() / "results");
