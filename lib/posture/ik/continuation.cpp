@@ -25,12 +25,16 @@ constexpr double kSmallCorrection = 1e-6;
 /// [rad, m] The error of an answer, as a share of the largest of 1, J_d and the distance of the
 /// pose.
 constexpr double kLeastError = 1e-12;
+/// The same as a share of the largest rounded product.
+constexpr double kProductRounding = 1e-14;
 constexpr int kMostCorrections = 8;
 /// A path fails if a step would be shorter than this share of its remaining length, or after
 /// `kMostWaySteps` steps. The limit is relative to the remaining length, so that a singularity just
 /// beyond the end does not stop the tracker, such as a fold where a pair of postures vanishes.
 constexpr double kShortestShare = 1e-5;
 constexpr int kMostWaySteps = 2000;
+/// A step that ends closer to 1 than this ends at 1.
+constexpr double kEnd = 1e-9;
 constexpr double kLongestShare = 0.5;
 /// [rad or m] The largest change of each y along the tangent in the first step.
 constexpr double kFirstStep = 0.1;
@@ -55,8 +59,6 @@ double largest(const Six<T>& y, int d) {
 template <class T>
 void PivotedLu<T>::factor(const Six<Vector6<T>>& J_d, int d) {
   d_ = d;
-  smallest_ = kInfinity;
-  largest_ = 0;
   for (int i = 0; i < 6; ++i) {
     from_[i] = i;
     for (int j = 0; j < d; ++j) rows_[i][j] = J_d[j][i];
@@ -68,9 +70,6 @@ void PivotedLu<T>::factor(const Six<Vector6<T>>& J_d, int d) {
     }
     std::swap(rows_[k], rows_[best]);
     std::swap(from_[k], from_[best]);
-    const double pivot = magnitude(rows_[k][k]);
-    smallest_ = std::min(smallest_, pivot);
-    largest_ = std::max(largest_, pivot);
     inverse_pivots_[k] = T(1.0) / rows_[k][k];
     for (int i = k + 1; i < 6; ++i) {
       const T factor = rows_[i][k] * inverse_pivots_[k];
@@ -78,6 +77,20 @@ void PivotedLu<T>::factor(const Six<Vector6<T>>& J_d, int d) {
       for (int j = k + 1; j < d; ++j) rows_[i][j] -= factor * rows_[k][j];
     }
   }
+}
+
+template <class T>
+bool PivotedLu<T>::is_singular(const Six<Vector6<T>>& J_d, double threshold) const {
+  double least = kInfinity, most = 0;
+  for (int k = 0; k < d_; ++k) {
+    double longest = 0;
+    for (const T& entry : J_d[k]) longest = std::max(longest, magnitude(entry));
+    const double share = magnitude(rows_[k][k]) / longest;
+    if (!(share > 0)) return true;
+    least = std::min(least, share);
+    most = std::max(most, share);
+  }
+  return !(least > threshold * most);
 }
 
 template <class T>
@@ -140,18 +153,23 @@ double Continuation<T>::linearise(const Six<T>& y) {
   return largest(error, 6);
 }
 
-/// The error that rounding allows.
+/// The error that rounding allows. Cosines of complex angles are unbounded. The product of the
+/// turns up to y_j is as large as the square root of its axis; the next ones magnify its rounding
+/// by the cosines of their halves, although they may bring the product itself back to order 1.
 template <class T>
-double Continuation<T>::least_error() const {
-  double far = 1;
+double Continuation<T>::least_error(const Six<T>& y) const {
+  double far = 1, rounding = 0, growth = 1;
   for (int i = 0; i < 3; ++i) far = std::max(far, magnitude(pose_.p[i]));
-  // Cosines of complex angles are unbounded.
-  for (int j = 0; j < d_; ++j) {
+  for (int j = d_ - 1; j >= 0; --j) {
+    double axis = 0;
     for (const T& entry : state_.J[static_cast<std::size_t>(j)]) {
-      far = std::max(far, magnitude(entry));
+      axis = std::max(axis, magnitude(entry));
     }
+    far = std::max(far, axis);
+    if (chain_.turns(j)) growth *= std::cosh(imaginary_part(y[static_cast<std::size_t>(j)]) / 2);
+    rounding = std::max(rounding, std::sqrt(axis) * growth);
   }
-  return kLeastError * far;
+  return std::max(kLeastError * far, kProductRounding * rounding);
 }
 
 /// Newton's method from y. `first` is the length of its first correction.
@@ -166,12 +184,12 @@ bool Continuation<T>::contract(Six<T>& y, bool exact, double& first) {
     if (!(length <= kLongestCorrection)) return false;
     if (i > 0 && length > std::max(kContraction * last, kLastCorrection)) {
       // At the level of rounding nothing contracts any more.
-      return exact && last <= kSmallCorrection && linearise(y) <= least_error();
+      return exact && last <= kSmallCorrection && linearise(y) <= least_error(y);
     }
     for (int j = 0; j < d_; ++j) y[j] += dy[j];
     last = length;
     if (!exact && length <= kCloseEnough) return true;
-    if (length <= kLastCorrection) return linearise(y) <= least_error();
+    if (length <= kLastCorrection) return linearise(y) <= least_error(y);
   }
   return false;
 }
@@ -193,6 +211,15 @@ bool Continuation<T>::is_finite(const Six<T>& y) const {
 }
 
 template <class T>
+bool Continuation<T>::is_far(const Six<T>& y, double most) const {
+  double growth = 1;
+  for (int i = 0; i < d_; ++i) {
+    if (chain_.turns(i)) growth *= std::cosh(imaginary_part(y[i]) / 2);
+  }
+  return growth > most;
+}
+
+template <class T>
 bool Continuation<T>::track(const HomotopyPath<T>& path, Six<T>& y) {
   twist_ = path.twist.template cast<T>();
   pose_ = path.pose;
@@ -201,7 +228,7 @@ bool Continuation<T>::track(const HomotopyPath<T>& path, Six<T>& y) {
   Six<T> slope = tangent(), before{};
   double s = 0, step = std::min(1.0, kFirstStep / largest(slope, d_)), last_step = 0;
   for (int i = 0; i < kMostWaySteps; ++i) {
-    const double next = s + step > 1 - 1e-9 ? 1 : s + step;
+    const double next = s + step > 1 - kEnd ? 1 : s + step;
     const double h = next - s;
     const double curve = last_step > 0 ? h / (2 * last_step) : 0;
     Six<T> trial{};
@@ -213,7 +240,7 @@ bool Continuation<T>::track(const HomotopyPath<T>& path, Six<T>& y) {
     const bool arrived = contract(trial, next == 1, first) && is_finite(trial);
     if (!arrived) {
       step = h / 4;
-      if (step < kShortestShare * (1 - s)) return false;
+      if (step < kShortestShare * (1 - s) || (next == 1 && h <= kEnd)) return false;
       continue;
     }
     y = trial;

@@ -9,8 +9,9 @@ template <class T>
 class PivotedLu {
  public:
   void factor(const Six<Vector6<T>>& J_d, int d);
-  /// Whether a pivot is smaller than `threshold` times the largest pivot.
-  bool is_singular(double threshold) const { return !(smallest_ > threshold * largest_); }
+  /// Whether a pivot, as a share of the largest entry of its column of J_d, is smaller than
+  /// `threshold` times the largest share.
+  bool is_singular(const Six<Vector6<T>>& J_d, double threshold) const;
   Six<T> solve(const Vector6<T>& b) const;
 
  private:
@@ -18,7 +19,6 @@ class PivotedLu {
   std::array<int, 6> from_;     ///< the original index of each row
   Six<T> inverse_pivots_;
   int d_ = 0;
-  double smallest_ = 0, largest_ = 0;
 };
 
 /// A path of (theta_r, X), 0 <= s <= 1: theta_r(s) = from + s (to - from) + s (1 - s) bend. X(s) is
@@ -44,14 +44,16 @@ class Continuation {
   explicit Continuation(const ToolChain&&) = delete;
 
   /// Tracks y from s = 0 to 1, up to rounding. False if the steps would be too short, for example
-  /// where solutions meet or go to infinity.
+  /// where solutions meet or go to infinity; y is then the last point.
   bool track(const HomotopyPath<T>& path, Six<T>& y);
   /// Newton's method at (theta_r, pose) from a nearby y; whether it converges.
   bool correct(const VectorX<T>& theta_r, const Pose<T>& pose, Six<T>& y);
   /// Newton's method from any y; whether it converges.
   bool seek(const VectorX<T>& theta_r, const Pose<T>& pose, Six<T>& y);
+  /// Whether y is so far from real that rounding magnifies by more than `most`.
+  bool is_far(const Six<T>& y, double most) const;
   /// Whether J_d is singular at the end of the last successful call.
-  bool is_singular(double threshold) const { return J_d_.is_singular(threshold); }
+  bool is_singular(double threshold) const { return J_d_.is_singular(state_.J, threshold); }
   /// The end effector at that point.
   const ToolState<T>& state() const { return state_; }
 
@@ -61,7 +63,7 @@ class Continuation {
   bool contract(Six<T>& y, bool exact, double& first);
   Six<T> tangent();
   bool is_finite(const Six<T>& y) const;
-  double least_error() const;
+  double least_error(const Six<T>& y) const;
 
   const ToolChain& chain_;
   const int d_, r_;

@@ -12,7 +12,8 @@ struct IkSolutionSet {
   Eigen::VectorXd theta_r;
   std::vector<Six<double>> real;
   std::vector<Six<Complex>> pairs;
-  bool complete = false;  ///< whether these are all solutions
+  bool complete = false;  ///< whether these are all real solutions
+  bool full = false;      ///< whether these are all solutions
 };
 
 }  // namespace maxwrench

@@ -34,17 +34,17 @@ int IkSolver::solve(const Eigen::VectorXd& theta_r) {
   }
   next_.theta_r = theta_r;
   const IkSolutionSet& from = nearest(theta_r);
-  next_.complete =
-      from.complete && (track_straight(from) || track_detour(from, 1) || track_detour(from, -1));
+  next_.complete = next_.full =
+      from.full && (track_straight(from) || track_detour(from, 1) || track_detour(from, -1));
   if (!next_.complete) start_system_->go_from_generic(theta_r, tracker_, next_);
   std::swap(node_, next_);
-  if (node_.complete) last_ = node_;
+  if (node_.full) last_ = node_;
   sort();
   return count();
 }
 
 const IkSolutionSet& IkSolver::nearest(const Eigen::VectorXd& theta_r) {
-  double best = last_.complete ? distance(last_.theta_r, theta_r) : kInfinity;
+  double best = last_.full ? distance(last_.theta_r, theta_r) : kInfinity;
   if (best < kNear) return last_;
   int place = -1;
   for (int i = 0; i < start_system_->nodes(); ++i) {
@@ -53,7 +53,7 @@ const IkSolutionSet& IkSolver::nearest(const Eigen::VectorXd& theta_r) {
     best = path;
     place = i;
   }
-  if (place < 0 || !start_system_->node(place).complete) return last_;
+  if (place < 0 || !start_system_->node(place).full) return last_;
   return start_system_->node(place);
 }
 
@@ -78,7 +78,8 @@ bool IkSolver::track_detour(const IkSolutionSet& from, double side) {
     for (Complex& y_i : conjugate) y_i.im = -y_i.im;
     tracker_.carry(conjugate);
   }
-  return tracker_.finish(start_system_->solutions(), next_);
+  tracker_.finish(next_);
+  return next_.full;
 }
 
 void IkSolver::sort() {

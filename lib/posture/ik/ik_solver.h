@@ -38,7 +38,7 @@ class IkSolver {
   std::shared_ptr<const IkStartSystem> start_system_;
   PathTracker tracker_;
   IkSolutionSet node_, next_,
-      last_;  ///< at the last theta_r; in preparation; the last complete set
+      last_;  ///< at the last theta_r; in preparation; the last full set
 };
 
 }  // namespace maxwrench

@@ -1,6 +1,7 @@
 #include "lib/posture/ik/ik_start_system.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -20,6 +21,14 @@ constexpr int kMostLoops = 300;
 /// A chain of six joints has at most 16 solutions. The limit only stops a search that has gone
 /// wrong.
 constexpr std::size_t kMostSolutions = 64;
+/// The number of solutions of a general chain of six with so many slides (Primrose 1986; Mavroidis
+/// and Roth 1994).
+constexpr std::array<std::size_t, 4> kGeneralSolutions = {16, 16, 8, 2};
+/// [rad or m] Solutions of a chain of six that is deformed into this one are multiple ones if they
+/// come closer than this.
+constexpr double kMultiple = 1e-4;
+/// Where rounding magnifies by more than this, they are infinite.
+constexpr double kInfinite = 1e9;
 /// The numbers of starting points of Newton's method for further real and for complex solutions.
 constexpr int kRealStarts = 100;
 constexpr int kComplexStarts = 200;
@@ -71,6 +80,14 @@ double radical_inverse(int i, int base) {
   double result = 0, digit = 1.0 / base;
   for (; i > 0; i /= base, digit /= base) result += digit * (i % base);
   return result;
+}
+
+/// Adds y to the solutions if it is new.
+bool keep(const ToolChain& chain, Six<Complex> y, std::vector<Six<Complex>>& list) {
+  wrap(chain, y);
+  if (list.size() >= kMostSolutions || contains(chain, list, y)) return false;
+  list.push_back(y);
+  return true;
 }
 
 }  // namespace
@@ -160,68 +177,120 @@ void IkStartSystem::find_first(const Problem& problem) {
   if (!node.real.empty()) first_ = node;
 }
 
-/// Adds y to the solutions if it is new.
-bool IkStartSystem::keep(Six<Complex> y) {
-  wrap(chain_, y);
-  if (generic_.size() >= kMostSolutions || contains(chain_, generic_, y)) return false;
-  generic_.push_back(y);
-  return true;
-}
-
-/// Adds the solutions that are tracked from the first ones, and those that Newton's method finds.
+/// Chooses a theta_r in general position, to which all first solutions are tracked, or most of
+/// them.
 void IkStartSystem::seek_generic(Continuation<Complex>& continuation, Random& random) {
   const Pose<Complex> pose = complex_of(pose_);
-  Stop base{complex_of(first_->theta_r), complex_of(first_->real[0])};
-  for (int attempt = 0; attempt < 20 && generic_.empty(); ++attempt) {
-    HomotopyPath<Complex> path;
-    path.from = base.theta_r;
+  const Stop base{complex_of(first_->theta_r), complex_of(first_->real[0])};
+  HomotopyPath<Complex> path;
+  path.from = base.theta_r;
+  path.bend.setConstant(path.from.size(), Complex(0.0));
+  path.pose = pose;
+  for (int attempt = 0; attempt < 20 && generic_.size() < first_->real.size(); ++attempt) {
     path.to = random_stop(chain_, base, random).theta_r;
-    path.bend.setConstant(path.from.size(), Complex(0.0));
-    path.pose = pose;
-    generic_theta_r_ = path.to;
+    std::vector<Six<Complex>> ends;
     for (const Six<double>& y : first_->real) {
       Six<Complex> end = complex_of(y);
-      if (continuation.track(path, end)) keep(end);
+      if (continuation.track(path, end)) keep(chain_, end, ends);
     }
+    if (attempt > 0 && ends.size() <= generic_.size()) continue;
+    generic_theta_r_ = path.to;
+    generic_ = ends;
   }
+}
+
+/// Adds the solutions at theta_r in general position that Newton's method finds.
+void IkStartSystem::seek_more(Continuation<Complex>& continuation, Random& random) {
+  const Pose<Complex> pose = complex_of(pose_);
+  const Stop base{complex_of(first_->theta_r), complex_of(first_->real[0])};
   for (int start = 0; start < kComplexStarts; ++start) {
     Six<Complex> y = random_stop(chain_, base, random).y;
     for (int i = 0; i < chain_.unknowns(); ++i) {
       if (chain_.turns(i)) y[static_cast<std::size_t>(i)].re = random.uniform(-kPi, kPi);
     }
     const bool arrived = continuation.seek(generic_theta_r_, pose, y);
-    if (arrived && !continuation.is_singular(kSingularSolution)) keep(y);
+    if (arrived && !continuation.is_singular(kSingularSolution)) keep(chain_, y, generic_);
   }
 }
 
-/// Tracks all known solutions around loops. Every other loop also moves X along with one of the
-/// solutions, which returns to itself.
+/// Tracks all known solutions around loops from `here`, until there are `most` of them or no new
+/// ones. If `moves_pose`, every other loop also moves X along with one of the solutions, which
+/// returns to itself.
+void IkStartSystem::circle(const ToolChain& chain, const VectorX<Complex>& here, std::size_t most,
+                           bool moves_pose, Random& random, std::vector<Six<Complex>>& list) const {
+  Continuation<Complex> continuation(chain);
+  for (int loop = 0, idle = 0; loop < kMostLoops && idle < kIdleLoops && list.size() < most;
+       ++loop, ++idle) {
+    const auto reference =
+        static_cast<std::size_t>(random.uniform() * static_cast<double>(list.size()));
+    const Stop base{here, list[reference]};
+    const Stop first = random_stop(chain, base, random);
+    const Stop second = random_stop(chain, base, random);
+    std::array<HomotopyPath<Complex>, 3> ways = {between(base, first), between(first, second),
+                                                 between(second, base)};
+    for (HomotopyPath<Complex>& path : ways) {
+      path.moves_pose = moves_pose && loop % 2 == 0;
+      path.pose = complex_of(pose_);
+    }
+    const std::size_t known = list.size();
+    for (std::size_t i = 0; i < known; ++i) {
+      Six<Complex> y = list[i];
+      const bool arrived = std::all_of(
+          ways.begin(), ways.end(),
+          [&](const HomotopyPath<Complex>& path) { return continuation.track(path, y); });
+      if (arrived && !continuation.is_singular(kSingularSolution) && keep(chain, y, list)) {
+        idle = -1;
+      }
+    }
+  }
+}
+
+/// Finds all solutions of a chain of six whose axes are neither parallel nor meet, and tracks them
+/// to this chain. Near a special geometry some are almost infinite or almost the same: loops of
+/// theta_r and X do not lead from the others to them. Returns whether there are as many as theory
+/// has.
+bool IkStartSystem::deform(Random& random) {
+  std::size_t slides = 0;
+  for (int i = 0; i < chain_.unknowns(); ++i) slides += chain_.turns(i) ? 0 : 1;
+  if (chain_.unknowns() < 6 || slides >= kGeneralSolutions.size()) return false;
+  const ToolChain wide = chain_.deformable();
+  Continuation<Complex> continuation(wide);
+  HomotopyPath<Complex> path;
+  path.pose = complex_of(pose_);
+  path.from.setConstant(wide.parameters(), Complex(0.0));
+  path.from.head(generic_theta_r_.size()) = generic_theta_r_;
+  path.to = random_stop(wide, {path.from, generic_[0]}, random).theta_r;
+  path.bend.setConstant(wide.parameters(), Complex(0.0));
+  std::vector<Six<Complex>> list;
+  for (Six<Complex> y : generic_) {
+    if (continuation.track(path, y)) keep(wide, y, list);
+  }
+  if (list.empty()) return false;
+  circle(wide, path.to, kGeneralSolutions[slides], false, random, list);
+  std::swap(path.from, path.to);
+  // Paths to infinity fail. A second way finds what fails on the first one by chance.
+  for (int way = 0; way < 2 && generic_.size() < list.size(); ++way) {
+    for (Six<Complex> y : list) {
+      if (!continuation.track(path, y) || continuation.is_singular(kSingularSolution) ||
+          continuation.is_far(y, kInfinite)) {
+        continue;
+      }
+      wrap(chain_, y);
+      if (!contains(chain_, generic_, y, kMultiple)) generic_.push_back(y);
+    }
+    for (Complex& bend : path.bend) bend = {random.uniform(-1, 1), random.uniform(-1, 1)};
+  }
+  return list.size() == kGeneralSolutions[slides];
+}
+
 void IkStartSystem::find_generic() {
   Continuation<Complex> continuation(chain_);
   Random random(2);
   seek_generic(continuation, random);
-  if (generic_.empty()) return;
-  for (int loop = 0, idle = 0; loop < kMostLoops && idle < kIdleLoops; ++loop, ++idle) {
-    const auto reference =
-        static_cast<std::size_t>(random.uniform() * static_cast<double>(generic_.size()));
-    const Stop base{generic_theta_r_, generic_[reference]};
-    const Stop first = random_stop(chain_, base, random);
-    const Stop second = random_stop(chain_, base, random);
-    std::array<HomotopyPath<Complex>, 3> ways = {between(base, first), between(first, second),
-                                                 between(second, base)};
-    for (HomotopyPath<Complex>& path : ways) {
-      path.moves_pose = loop % 2 == 0;
-      path.pose = complex_of(pose_);
-    }
-    const std::size_t known = generic_.size();
-    for (std::size_t i = 0; i < known; ++i) {
-      Six<Complex> y = generic_[i];
-      const bool arrived = std::all_of(
-          ways.begin(), ways.end(),
-          [&](const HomotopyPath<Complex>& path) { return continuation.track(path, y); });
-      if (arrived && !continuation.is_singular(kSingularSolution) && keep(y)) idle = -1;
-    }
-  }
+  if (generic_.empty()) seek_more(continuation, random);
+  if (generic_.empty() || deform(random)) return;
+  seek_more(continuation, random);
+  circle(chain_, generic_theta_r_, kMostSolutions, true, random, generic_);
 }
 
 void IkStartSystem::spread() {
@@ -253,11 +322,17 @@ void IkStartSystem::go_from_generic(const Eigen::VectorXd& theta_r, PathTracker&
   HomotopyPath<Complex>& path = tracker.path();
   path.from = generic_theta_r_;
   assign(theta_r, path.to);
-  path.bend.setConstant(Complex(0.0));
-  tracker.begin();
-  for (const Six<Complex>& y : generic_) tracker.carry(y);
   node.theta_r = theta_r;
-  node.complete = tracker.finish(solutions(), node);
+  // Another way is as good if a path fails by chance.
+  for (const double side : {0.0, 1.0, -1.0}) {
+    for (Eigen::Index k = 0; k < theta_r.size(); ++k) {
+      path.bend[k] = Complex(0, side) * (path.to[k] - path.from[k]);
+    }
+    tracker.begin();
+    for (const Six<Complex>& y : generic_) tracker.carry(y);
+    tracker.finish(node);
+    if (node.complete || theta_r.size() == 0) return;
+  }
 }
 
 std::shared_ptr<const IkStartSystem> serving_start_system(const Problem& problem) {

@@ -26,10 +26,11 @@ struct Problem;
 /// postures there.
 ///
 /// The first solution is real. A damped Newton's method finds it from the guess or from random
-/// points. The others come by monodromy. A loop is a random closed path of theta_r, or of theta_r
-/// and X. All known solutions are tracked around it; at its end they are permuted, and some have
-/// become new solutions. The set {(theta_r, y)} of all X together is a product of lines and
-/// therefore connected, so loops lead from each solution to every other one. The list counts as
+/// points. The others come by monodromy. A loop is a random closed path of theta_r and of the axes
+/// of the chain, or of X. All known solutions are tracked around it; at its end they are permuted,
+/// and some have become new solutions. The set {(theta_r, axes, y)} is connected, so loops lead
+/// from each solution to every other one. A general chain of six has a known number of solutions,
+/// with which the search ends; they are tracked to this chain. For other chains the list counts as
 /// complete after several loops in a row without a new solution.
 class IkStartSystem {
  public:
@@ -67,8 +68,11 @@ class IkStartSystem {
   void set_reach(const Problem& problem, const Eigen::VectorXd& theta_r);
   Six<double> random_y(Random& random) const;
   void seek_generic(Continuation<Complex>& continuation, Random& random);
+  void seek_more(Continuation<Complex>& continuation, Random& random);
   void find_generic();
-  bool keep(Six<Complex> y);
+  void circle(const ToolChain& chain, const VectorX<Complex>& here, std::size_t most,
+              bool moves_pose, Random& random, std::vector<Six<Complex>>& list) const;
+  bool deform(Random& random);
   void spread();
 
   ToolChain chain_;

@@ -12,6 +12,10 @@ constexpr double kAlmostReal = 1e-6;
 /// [rad or m] Two ends closer than this may be the same solution reached twice.
 constexpr double kTwice = 1e-7;
 
+/// A solution is almost infinite if rounding magnifies by more than this. It would be real only
+/// within as small a distance of a singular posture.
+constexpr double kAlmostInfinite = 1e5;
+
 double largest_imaginary(const Six<Complex>& y) {
   double most = 0;
   for (const Complex& y_i : y) most = std::max(most, std::abs(y_i.im));
@@ -47,16 +51,26 @@ PathTracker::PathTracker(const ToolChain& chain, const Pose<double>& pose)
   path_.bend.resize(chain.parameters());
 }
 
-void PathTracker::carry(const Six<Complex>& y) {
-  Six<Complex> end = y;
-  if (complex_.track(path_, end)) ends_.push_back(end);
+void PathTracker::begin() {
+  ends_.clear();
+  carried_ = lost_ = 0;
 }
 
-bool PathTracker::finish(int count, IkSolutionSet& node) {
+void PathTracker::carry(const Six<Complex>& y) {
+  Six<Complex> end = y;
+  ++carried_;
+  if (complex_.track(path_, end)) {
+    ends_.push_back(end);
+  } else if (complex_.is_far(y, kAlmostInfinite) && complex_.is_far(end, kAlmostInfinite)) {
+    ++lost_;
+  }
+}
+
+void PathTracker::finish(IkSolutionSet& node) {
   node.real.clear();
   node.pairs.clear();
   seen_.clear();
-  int below = 0;
+  int unpaired = 0;
   for (Six<Complex> end : ends_) {
     wrap(chain_, end);
     if (contains(chain_, seen_, end)) continue;
@@ -66,13 +80,15 @@ bool PathTracker::finish(int count, IkSolutionSet& node) {
     if (largest_imaginary(end) < kAlmostReal && real_.correct(node.theta_r, line_.pose, y)) {
       wrap(chain_, y);
       node.real.push_back(y);
-    } else if (side(end) > 0) {
-      node.pairs.push_back(end);
-    } else {
-      ++below;
+      continue;
     }
+    const bool above = side(end) > 0;
+    if (above) node.pairs.push_back(end);
+    if (!complex_.is_far(end, kAlmostInfinite)) unpaired += above ? 1 : -1;
   }
-  return static_cast<int>(seen_.size()) == count && below == static_cast<int>(node.pairs.size());
+  const int found = static_cast<int>(seen_.size());
+  node.full = found == carried_ && unpaired == 0;
+  node.complete = found + lost_ == carried_ && unpaired == 0;
 }
 
 bool PathTracker::track_straight(const Eigen::VectorXd& from, IkSolutionSet& node) {
@@ -125,9 +141,10 @@ double apart(const ToolChain& chain, const Six<T>& a, const Six<T>& b) {
 }
 
 template <class T>
-bool contains(const ToolChain& chain, const std::vector<Six<T>>& list, const Six<T>& y) {
+bool contains(const ToolChain& chain, const std::vector<Six<T>>& list, const Six<T>& y,
+              double same) {
   return std::any_of(list.begin(), list.end(),
-                     [&](const Six<T>& each) { return apart(chain, each, y) < kSameSolution; });
+                     [&](const Six<T>& each) { return apart(chain, each, y) < same; });
 }
 
 template <class T>
@@ -142,8 +159,10 @@ void wrap(const ToolChain& chain, Six<T>& y) {
 
 template double apart(const ToolChain&, const Six<double>&, const Six<double>&);
 template double apart(const ToolChain&, const Six<Complex>&, const Six<Complex>&);
-template bool contains(const ToolChain&, const std::vector<Six<double>>&, const Six<double>&);
-template bool contains(const ToolChain&, const std::vector<Six<Complex>>&, const Six<Complex>&);
+template bool contains(const ToolChain&, const std::vector<Six<double>>&, const Six<double>&,
+                       double);
+template bool contains(const ToolChain&, const std::vector<Six<Complex>>&, const Six<Complex>&,
+                       double);
 template void wrap(const ToolChain&, Six<double>&);
 template void wrap(const ToolChain&, Six<Complex>&);
 

@@ -16,12 +16,13 @@ class PathTracker {
   PathTracker(const ToolChain&&, const Pose<double>&) = delete;
 
   HomotopyPath<Complex>& path() { return path_; }
-  void begin() { ends_.clear(); }
+  void begin();
   /// Tracks a solution along the path and keeps its end.
   void carry(const Six<Complex>& y);
-  /// Sorts the ends into real solutions, exact up to rounding, and pairs. True if there are `count`
-  /// different ends, none of them unpaired.
-  bool finish(int count, IkSolutionSet& node);
+  /// Sorts the ends into real solutions, exact up to rounding, and pairs. They are all if all paths
+  /// have different ends, none of them unpaired. Solutions that are almost infinite all the way and
+  /// get lost there are not real.
+  void finish(IkSolutionSet& node);
   /// The same along the straight line from `from`. At the start `node` holds the solutions at
   /// `from`. False unless every real solution stays real and the pairs stay apart.
   bool track_straight(const Eigen::VectorXd& from, IkSolutionSet& node);
@@ -33,6 +34,7 @@ class PathTracker {
   HomotopyPath<double> line_;
   HomotopyPath<Complex> path_;
   std::vector<Six<Complex>> ends_, seen_;
+  int carried_ = 0, lost_ = 0;  ///< paths since `begin`, and those lost almost at infinity
 };
 
 void assign(const Eigen::VectorXd& from, VectorX<Complex>& to);
@@ -48,7 +50,8 @@ double apart(const ToolChain& chain, const Six<T>& a, const Six<T>& b);
 
 /// Whether the list contains a solution that is the same as y.
 template <class T>
-bool contains(const ToolChain& chain, const std::vector<Six<T>>& list, const Six<T>& y);
+bool contains(const ToolChain& chain, const std::vector<Six<T>>& list, const Six<T>& y,
+              double same = kSameSolution);
 
 /// Moves angles into [-pi, pi] by whole turns.
 template <class T>

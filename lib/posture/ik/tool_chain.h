@@ -48,6 +48,11 @@ class ToolChain {
     return {state.J[0].data(), 6, unknowns()};
   }
 
+  /// The same chain with two more parameters before each y but the first, after those of theta_r: a
+  /// turn about a line across its axis, and a slide along it. At zero it is this chain, at others
+  /// its axes are neither parallel nor do they meet.
+  ToolChain deformable() const;
+
   /// Whether all coordinates of both chains are the same.
   bool operator==(const ToolChain& other) const;
 
@@ -58,7 +63,9 @@ class ToolChain {
 
  private:
   struct Coordinate {
-    Pose<double> placement;  ///< from the frame before
+    Pose<double> placement;   ///< from the frame before
+    Eigen::Quaterniond turn;  ///< its rotation
+    bool is_turned = false;   ///< whether that is not the identity
     bool turns = true;
     int unknown = -1, parameter = -1;  ///< its index in y or in theta_r
   };
@@ -66,6 +73,7 @@ class ToolChain {
   void add(const Pose<double>& placement, const Eigen::Vector3d& axis, bool turns);
   void add_free(const FreePose& free);
   void follows(int place_in_z);
+  void add_parameter(const Pose<double>& placement, const Eigen::Vector3d& axis, bool turns);
 
   std::vector<Coordinate> coordinates_;
   std::vector<int> places_, in_z_;  ///< indices of y in coordinates_ and in z

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
 #include "lib/posture/ik/ik_start_system.h"
+#include "lib/robot/kinematics.h"
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
 #include "tests/support/completeness.h"
@@ -58,6 +60,112 @@ TEST(IkSolver, OfRandomChainsReachThePose) {
         EXPECT_LT(pose_error(problem, model.select(i)), 1e-12) << sample;
       }
     }
+  }
+}
+
+/// The origins of the joints (x, y, z, roll, pitch, yaw), all about z, as makers publish them.
+/// Right angles are rounded, and axes that ought to meet miss each other by some tenths of a
+/// millimetre.
+using Origins = std::vector<std::array<double, 6>>;
+
+/// github.com/Kinovarobotics/ros_kortex, GEN3-7DOF-VISION_ARM_URDF_V12.urdf
+const Origins kKinovaGen3 = {{0, 0, 0.15643, 3.1416, 0, 0},
+                             {0, 0.005375, -0.12838, 1.5708, 0, 0},
+                             {0, -0.21038, -0.006375, -1.5708, 0, 0},
+                             {0, 0.006375, -0.21038, 1.5708, 0, 0},
+                             {0, -0.20843, -0.006375, -1.5708, 0, 0},
+                             {0, 0.00017505, -0.10593, 1.5708, 0, 0},
+                             {0, -0.10593, -0.00017505, -1.5708, 0, 0}};
+/// github.com/Kinovarobotics/ros_kortex, GEN3-6DOF_VISION_URDF_ARM_V01.urdf
+const Origins kKinovaGen3Six = {{0, 0, 0.15643, -3.1416, 0, 0},
+                                {0, 0.005375, -0.12838, 1.5708, 0, 0},
+                                {0, -0.41, 0, 3.1416, 0, 0},
+                                {0, 0.20843, -0.006375, 1.5708, 0, 0},
+                                {0, -0.00017505, -0.10593, -1.5708, 0, 0},
+                                {0, 0.10593, -0.00017505, 1.5708, 0, 0}};
+/// github.com/doosan-robotics/doosan-robot, m1013.urdf
+const Origins kDoosanM1013 = {{0, 0, 0.1525, 0, 0, 0},   {0, 0.0345, 0, 0, -1.571, -1.571},
+                              {0.62, 0, 0, 0, 0, 1.571}, {0, -0.559, 0, 1.571, 0, 0},
+                              {0, 0, 0, -1.571, 0, 0},   {0, -0.121, 0, 1.571, 0, 0}};
+
+/// The arm on a base with these axes, at the pose of the joint positions q of the guess.
+Problem published_arm(const Origins& origins, const std::vector<int>& base_axes,
+                      const std::vector<int>& redundant, Random& random) {
+  Problem problem;
+  Robot& robot = problem.robot;
+  robot.base_axes = base_axes;
+  const int joints = static_cast<int>(origins.size());
+  robot.links.resize(origins.size() + 1);
+  for (int i = 0; i < joints; ++i) {
+    const std::array<double, 6>& origin = origins[static_cast<std::size_t>(i)];
+    Joint joint;
+    joint.parent = i;
+    joint.placement.p = {origin[0], origin[1], origin[2]};
+    joint.placement.R = (Eigen::AngleAxisd(origin[5], Eigen::Vector3d::UnitZ()) *
+                         Eigen::AngleAxisd(origin[4], Eigen::Vector3d::UnitY()) *
+                         Eigen::AngleAxisd(origin[3], Eigen::Vector3d::UnitX()))
+                            .toRotationMatrix();
+    joint.q_min = -M_PI;
+    joint.q_max = M_PI;
+    robot.joints.push_back(joint);
+  }
+  robot.end_effectors = {{"tool", joints, {}}};
+  complete_actuation(robot);
+  problem.guess_q = Eigen::VectorXd::NullaryExpr(joints, [&] { return random.uniform(-3, 3); });
+  Kinematics<double> kinematics(robot);
+  kinematics.set_joints(problem.guess_q);
+  problem.pose = kinematics.end_effector(robot.end_effectors[0]);
+  problem.redundant = redundant;
+  for (int i = 0; i < joints; ++i) {
+    if (std::find(redundant.begin(), redundant.end(), i) == redundant.end()) {
+      problem.dependent.push_back(i);
+    }
+  }
+  const auto r = static_cast<Eigen::Index>(redundant.size());
+  problem.theta_r_min = Eigen::VectorXd::Constant(r, -M_PI);
+  problem.theta_r_max = Eigen::VectorXd::Constant(r, M_PI);
+  problem.theta_r_default = problem.guess_q(redundant);
+  return problem;
+}
+
+/// Sixteen solutions each, as of any chain of six joints without special geometry: half of them
+/// have imaginary parts up to 14 rad.
+TEST(IkSolver, OfArmsAsPublishedAreAll) {
+  Random random(4);
+  struct Arm {
+    const Origins& origins;
+    std::vector<int> redundant;
+  };
+  for (const auto& [origins, redundant] :
+       {Arm{kKinovaGen3, {0}}, Arm{kKinovaGen3, {5}}, Arm{kKinovaGen3, {6}},
+        Arm{kKinovaGen3Six, {}}, Arm{kDoosanM1013, {}}}) {
+    for (int sample = 0; sample < samples(6); ++sample) {
+      const Problem problem = published_arm(origins, {}, redundant, random);
+      const auto start_system = std::make_shared<const IkStartSystem>(problem);
+      ASSERT_EQ(start_system->solutions(), 16) << origins.size() << " joints, sample " << sample;
+      IkSolver solver(start_system);
+      solver.solve(problem.theta_r_default);
+      const ToolChain& chain = start_system->chain();
+      Six<double> known{};
+      for (std::size_t i = 0; i < 6; ++i) {
+        known[i] = problem.guess_q[problem.dependent[i]];
+      }
+      double nearest = kInfinity;
+      for (int i = 0; i < solver.count(); ++i) {
+        nearest = std::min(nearest, apart(chain, solver.y(i), known));
+      }
+      EXPECT_LT(nearest, 1e-6);
+      expect_complete(problem, 10, 20, -1);
+    }
+  }
+}
+
+TEST(IkSolver, OfAPublishedArmOnWheelsAreAll) {
+  Random random(5);
+  for (int sample = 0; sample < samples(6); ++sample) {
+    const Problem problem = published_arm(kKinovaGen3Six, {0, 1, 5}, {0, 1, 4}, random);
+    EXPECT_EQ(IkStartSystem(problem).solutions(), 4);
+    expect_complete(problem, 10, 20, -1);
   }
 }
 
