@@ -169,7 +169,7 @@ void suspect_units(UrdfTree& tree) {
 
 /// An effort that all motors share is rarely that of each of them.
 void suspect_efforts(UrdfTree& tree) {
-  constexpr int kMany = 4;
+  constexpr int kMany = 6;
   std::map<double, int> counts;
   for (const Joint& joint : tree.joints) {
     if (!joint.gear) ++counts[joint.effort_max];
