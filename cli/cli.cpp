@@ -88,7 +88,9 @@ std::string complaint_of(const std::exception_ptr& thrown) {
 int run_command(int argc, const char* const* argv) {
   prepare_streams();
   try {
-    return flush_output(parse_and_run(argc, argv));
+    const int exit_status = parse_and_run(argc, argv);
+    print_kept_complaints();
+    return flush_output(exit_status);
   } catch (...) {
     complain(complaint_of(std::current_exception()));
     return kBadInput;

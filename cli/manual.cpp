@@ -95,7 +95,9 @@ std::string choices(const std::string& option) {
   }
   if (option == "--integrator") add(integrators());
   if (option == "--wrench") names = "pure any";
-  if (option == "problem") names = fmt::format("{}", fmt::join(shipped_problems(), " "));
+  if (option == "problem" || option == "robot") {
+    names = fmt::format("{}", fmt::join(shipped_problems(), " "));
+  }
   return names;
 }
 

@@ -13,6 +13,7 @@
 #include <set>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include "cli/cli.h"
 #include "solvers/solve/format.h"
@@ -30,6 +31,11 @@ bool collide(const fs::path& a, const fs::path& b) {
   const fs::path first = fs::weakly_canonical(fs::absolute(a, ignored), ignored);
   const fs::path second = fs::weakly_canonical(fs::absolute(b, ignored), ignored);
   return !first.empty() && first == second;
+}
+
+std::vector<std::string>& kept_complaints() {
+  static std::vector<std::string> texts;
+  return texts;
 }
 
 bool is_robot_or_task(const fs::path& file) {
@@ -60,6 +66,13 @@ void remark(const std::string& text) {
 }
 
 void complain(const std::string& text) { remark("maxwrench: " + text); }
+
+void complain_at_end(const std::string& text) { kept_complaints().push_back(text); }
+
+void print_kept_complaints() {
+  std::fflush(stdout);  // they come after the result
+  for (const std::string& text : std::exchange(kept_complaints(), {})) complain(text);
+}
 
 int flush_output(int exit_status) {
   errno = 0;

@@ -14,6 +14,12 @@ void prepare_streams();
 /// Prints "maxwrench: <text>" to stderr as one line, whatever the text holds. Never throws.
 void complain(const std::string& text);
 
+/// Keeps a text for `print_kept_complaints`: bad input that is found later has one line alone.
+void complain_at_end(const std::string& text);
+
+/// Prints the texts kept so far as `complain` does.
+void print_kept_complaints();
+
 /// Prints a remark to stderr as one line. Never throws.
 void remark(const std::string& text);
 

@@ -147,8 +147,8 @@ auto naming_options(const std::string& file, bool by_joints, const Make& make) {
 void remark_warnings(const Robot& robot, const std::string& problem) {
   const std::size_t count = robot.warnings.size();
   if (count == 0) return;
-  complain(fmt::format("{} warning{} about the robot: 'maxwrench check {}' prints {}", count,
-                       count == 1 ? "" : "s", problem, count == 1 ? "it" : "them"));
+  complain_at_end(fmt::format("{} warning{} about the robot: 'maxwrench check {}' prints {}", count,
+                              count == 1 ? "" : "s", problem, count == 1 ? "it" : "them"));
 }
 
 }  // namespace
@@ -265,8 +265,8 @@ Problem ProblemOptions::load(const std::string& problem, bool evaluates_joints) 
   if (counts_warnings) remark_warnings(made.robot, problem);
   if (!at && !gives_joints()) {
     const Eigen::Vector3d p = made.pose.p, turn = rpy(made.pose.R);
-    complain(fmt::format("no pose was given: the tool is at --at '{:.6g} / {:.6g}'",
-                         fmt::join(p, " "), fmt::join(turn, " ")));
+    complain_at_end(fmt::format("no pose was given: the tool is at --at '{:.6g} / {:.6g}'",
+                                fmt::join(p, " "), fmt::join(turn, " ")));
   }
   return made;
 }

@@ -32,7 +32,7 @@ struct ProblemOptions {
   /// The files that the command reads.
   std::vector<NamedFile> inputs(const std::string& problem) const;
 
-  /// Loads a task: by its name, its file, or made of a URDF. Prints one line to stderr if the robot
+  /// Loads a task: by its name, its file, or made of a URDF. Keeps one line for stderr if the robot
   /// has warnings, and one if the program chose the pose.
   ///
   /// @param evaluates_joints  whether the command evaluates the given joints themselves; otherwise

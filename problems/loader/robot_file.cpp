@@ -144,6 +144,17 @@ MeshUse read_mesh_use(const Block& block, MeshUse otherwise) {
   block.throw_bad_value("meshes", "'hull', 'capsule' or 'ignore'");
 }
 
+/// A body without a shape cannot collide, and the robot does not know it.
+void drop_pairs_without_shapes(Collision& collision) {
+  const auto has_shape = [&collision](const std::string& body) {
+    return std::any_of(collision.shapes.begin(), collision.shapes.end(),
+                       [&body](const Shape& shape) { return shape.body == body; });
+  };
+  std::erase_if(collision.ignore, [&](const auto& pair) {
+    return !has_shape(pair.first) || !has_shape(pair.second);
+  });
+}
+
 Collision read_collision(const Block& block, const UrdfTree& tree,
                          const std::optional<Srdf>& srdf) {
   block.allow_only({"margin", "ignore", "capsules", "meshes"});
@@ -162,14 +173,7 @@ Collision read_collision(const Block& block, const UrdfTree& tree,
   if (srdf) {
     collision.ignore.insert(collision.ignore.end(), srdf->ignore.begin(), srdf->ignore.end());
   }
-  // A body without a shape cannot collide, and the robot does not know it.
-  const auto has_shape = [&collision](const std::string& body) {
-    return std::any_of(collision.shapes.begin(), collision.shapes.end(),
-                       [&body](const Shape& shape) { return shape.body == body; });
-  };
-  std::erase_if(collision.ignore, [&](const auto& pair) {
-    return !has_shape(pair.first) || !has_shape(pair.second);
-  });
+  drop_pairs_without_shapes(collision);
   collision.margin = block.number("margin", 0);
   return collision;
 }
@@ -389,9 +393,7 @@ Robot load_urdf(const std::filesystem::path& urdf, const UrdfOptions& options) {
       const Srdf srdf = read_srdf(options.srdf);
       robot.states = srdf.states;
       collision.ignore = srdf.ignore;
-      std::erase_if(collision.ignore, [&](const auto& pair) {
-        return !tree.bodies.contains(pair.first) || !tree.bodies.contains(pair.second);
-      });
+      drop_pairs_without_shapes(collision);
     }
     return finalize(robot, collision);
   });

@@ -113,7 +113,8 @@ TEST(UrdfCommand, WithoutAPoseItFindsOneAndSaysWhere) {
 }
 
 const char* const kStates =
-    "<robot name='ur10'><group_state name='ready' group='arm'><joint name='elbow_joint' value='1'/>"
+    "<robot name='ur10'><disable_collisions link1='base_link' link2='tool0'/><group_state "
+    "name='ready' group='arm'><joint name='elbow_joint' value='1'/>"
     "<joint name='wrist_2_joint' value='-0.8'/></group_state></robot>";
 
 TEST(UrdfCommand, JointsGiveThePoseOrThePosture) {
