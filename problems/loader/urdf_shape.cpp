@@ -34,7 +34,7 @@ Given read_box(const UrdfElement& given) {
   return {shape, ""};
 }
 
-Given read_mesh(const UrdfElement& given, MeshUse meshes, MeshReading& reading) {
+Given mesh_of(const UrdfElement& given, MeshUse meshes, MeshReading& reading) {
   const std::optional<std::string> name = given.attribute("filename");
   if (!name) given.throw_bad_input("filename", "nothing", "the name of a mesh");
   const Eigen::Vector3d scale = given.vector("scale", Eigen::Vector3d::Ones());
@@ -52,7 +52,7 @@ Given read_geometry(const UrdfElement& given, MeshUse meshes, MeshReading& readi
   const std::string tag = given.tag();
   if (tag == "box") return read_box(given);
   if (tag == "cylinder" || tag == "sphere" || tag == "capsule") return read_round(given);
-  if (tag == "mesh") return read_mesh(given, meshes, reading);
+  if (tag == "mesh") return mesh_of(given, meshes, reading);
   return {{}, fmt::format("<{}>", tag)};
 }
 

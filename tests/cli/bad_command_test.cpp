@@ -148,7 +148,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{
             "thrust_limits", "vehicle.toml", "force_min = -1.0", "force_min = 2.0", {"force_min"}},
         BadEdit{"thrust_direction", "vehicle.toml", "[4, -1, 0]", "[0, 0, 0]", {"direction"}},
-        BadEdit{"joint_limits", "vehicle.urdf", "lower=\"-1.04", "lower=\"9.04", {"vehicle.urdf"}},
+        BadEdit{"joint_limits", "vehicle.urdf", "lower=\"-1.04", "lower=\"nan ", {"vehicle.urdf"}},
         BadEdit{"unknown_link", "vehicle.toml", "link = \"link_2\"", "link = \"hand\"", {"hand"}},
         BadEdit{"default_size", "force.toml", "default = [0, 0]", "default = [0]", {"default"}},
         BadEdit{
