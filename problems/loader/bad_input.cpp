@@ -15,6 +15,11 @@ bool is_file(const std::filesystem::path& path) {
   return std::filesystem::is_regular_file(path, none);
 }
 
+bool is_folder(const std::filesystem::path& path) {
+  std::error_code none;
+  return std::filesystem::is_directory(path, none);
+}
+
 std::ifstream open_file(const std::filesystem::path& file, std::string_view expected) {
   std::ifstream stream;
   if (is_file(file)) stream.open(file, std::ios::binary);

@@ -34,6 +34,8 @@ auto in_file(const std::filesystem::path& file, const Function& function) {
 /// Whether the path is a regular file. False also for a path that cannot be examined, such as a
 /// link to itself.
 bool is_file(const std::filesystem::path& path);
+/// The same of a folder.
+bool is_folder(const std::filesystem::path& path);
 
 /// Opens a regular file. Rejects other paths and files that cannot be read.
 std::ifstream open_file(const std::filesystem::path& file, std::string_view expected);

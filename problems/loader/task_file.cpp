@@ -37,11 +37,6 @@ bool names_a_robot(std::istream& toml) {
   return false;
 }
 
-bool is_folder(const fs::path& path) {
-  std::error_code none;
-  return fs::is_directory(path, none);
-}
-
 /// The file of a shipped task, or the file at a path.
 fs::path find_task(const std::string& name) {
   const fs::path folder = problems_folder();

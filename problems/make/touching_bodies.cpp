@@ -52,7 +52,7 @@ void add_note(Robot& robot, const char* why, const std::vector<Names>& pairs) {
 
 std::vector<Names> touching_bodies(Robot& robot, const std::vector<Shape>& shapes,
                                    const std::vector<Names>& ignored, double margin) {
-  constexpr int kPostures = 200;
+  constexpr int kRandomPostures = 200;
   std::set<Names> known;
   for (const auto& [a, b] : ignored) known.insert({std::min(a, b), std::max(a, b)});
   const std::vector<int> parents = shaped_parents(robot, shapes);
@@ -84,7 +84,7 @@ std::vector<Names> touching_bodies(Robot& robot, const std::vector<Shape>& shape
     return true;
   });
   Random random(1);
-  for (int posture = 0; posture < kPostures && !pairs.empty(); ++posture) {
+  for (int posture = 0; posture < kRandomPostures && !pairs.empty(); ++posture) {
     for (std::size_t i = 0; i < robot.joints.size(); ++i) {
       q[static_cast<Eigen::Index>(i)] =
           random.uniform(robot.joints[i].q_min, robot.joints[i].q_max);

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "problems/loader/bad_input.h"
+
 namespace maxwrench {
 namespace {
 
@@ -34,11 +36,6 @@ std::string unescaped(const std::string& text) {
 bool is_there(const fs::path& path) {
   std::error_code none;  // also of a link to itself
   return fs::exists(path, none);
-}
-
-bool is_folder(const fs::path& path) {
-  std::error_code none;
-  return fs::is_directory(path, none);
 }
 
 /// The search for one mesh.

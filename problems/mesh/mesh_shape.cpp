@@ -15,8 +15,8 @@
 namespace maxwrench {
 namespace {
 
-constexpr double kMillimetre = 1e-3;  // m
-constexpr double kFarthestVertex = 1e6;     // m; products of such numbers do not overflow
+constexpr double kMillimetre = 1e-3;     // m
+constexpr double kFarthestVertex = 1e6;  // m; products of such numbers do not overflow
 
 Shape hull_shape(const GrownHull& hull, std::string& note) {
   Shape shape;
