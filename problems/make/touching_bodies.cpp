@@ -53,6 +53,7 @@ void add_note(Robot& robot, const char* why, const std::vector<Names>& pairs) {
 std::vector<Names> touching_bodies(Robot& robot, const std::vector<Shape>& shapes,
                                    const std::vector<Names>& ignored, double margin) {
   constexpr int kRandomPostures = 200;
+  constexpr double kFacesMeet = 1e-6;  // m; rounding must not decide whether closed fingers touch
   std::set<Names> known;
   for (const auto& [a, b] : ignored) known.insert({std::min(a, b), std::max(a, b)});
   const std::vector<int> parents = shaped_parents(robot, shapes);
@@ -72,7 +73,7 @@ std::vector<Names> touching_bodies(Robot& robot, const std::vector<Shape>& shape
       auto at = std::find_if(pairs.begin(), pairs.end(),
                              [&names](const BodyPair& pair) { return pair.names == names; });
       if (at == pairs.end()) at = pairs.insert(pairs.end(), BodyPair{names, {}});
-      at->tests.push_back(make_collision_checker({a, b}, {}, margin));
+      at->tests.push_back(make_collision_checker({a, b}, {}, margin + kFacesMeet));
     }
   }
   Kinematics<double> kinematics(robot);

@@ -315,6 +315,20 @@ TEST_F(UrdfTest, PairsThatTouchAreFoundUnlessTheTomlListsThem) {
   EXPECT_THAT(large.notes, Contains("collisions left out, as they touch at rest: a and c"));
 }
 
+TEST_F(UrdfTest, FingersWhoseFacesMeetTouchAtRest) {
+  // Cubes of 0.2 m around (1, 0, +-0.1): their faces meet in z = 0, whatever rounding says.
+  const auto cube = [](const std::string& name, const std::string& z) {
+    return link(name, 1,
+                "<collision><origin xyz='0 0 " + z +
+                    "'/><geometry><box size='0.2 0.2 0.2'/>"
+                    "</geometry></collision>");
+  };
+  const Robot robot = load(link("hand") + cube("one", "0.1") + cube("two", "-0.1") +
+                           joint("a", "hand", "one") + joint("b", "hand", "two"));
+  EXPECT_EQ(robot.collision, nullptr);
+  EXPECT_THAT(robot.notes, Contains("collisions left out, as they touch at rest: one and two"));
+}
+
 TEST_F(UrdfTest, SrdfGivesPairsAndNamedStates) {
   std::ofstream(folder_.path() / "r.srdf") << R"(<robot name='r'>
     <group name='arm'><joint name='arm'/></group>
