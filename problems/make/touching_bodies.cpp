@@ -52,7 +52,7 @@ void add_note(Robot& robot, const char* why, const std::vector<Names>& pairs) {
 
 std::vector<Names> touching_bodies(Robot& robot, const std::vector<Shape>& shapes,
                                    const std::vector<Names>& ignored, double margin) {
-  constexpr int kRandomPostures = 200;
+  constexpr int kTouchSamples = 200;
   constexpr double kFacesMeet = 1e-6;  // m; rounding must not decide whether closed fingers touch
   std::set<Names> known;
   for (const auto& [a, b] : ignored) known.insert({std::min(a, b), std::max(a, b)});
@@ -85,7 +85,7 @@ std::vector<Names> touching_bodies(Robot& robot, const std::vector<Shape>& shape
     return true;
   });
   Random random(1);
-  for (int posture = 0; posture < kRandomPostures && !pairs.empty(); ++posture) {
+  for (int posture = 0; posture < kTouchSamples && !pairs.empty(); ++posture) {
     for (std::size_t i = 0; i < robot.joints.size(); ++i) {
       q[static_cast<Eigen::Index>(i)] =
           random.uniform(robot.joints[i].q_min, robot.joints[i].q_max);
