@@ -13,8 +13,8 @@
 /// Makes robots and tasks in code.
 ///
 /// Files are read into the same structures, so the checks and their messages are the same: one line
-/// that names the key as in files, the value and what was expected. docs/robot_files.md describes the
-/// keys.
+/// that names the key as in files, the value and what was expected. docs/robot_files.md describes
+/// the keys.
 
 namespace maxwrench {
 
