@@ -127,7 +127,7 @@ void add_posture(const Answer& answer, ordered_json& object) {
   object["lambda"] = known(solved, array(capability.lambda));
   const Eigen::MatrixXd& gradient = answer.trajectory.gradient;
   const bool has_gradient = solved && gradient.cols() == posture.theta_r.size();
-  object["gradient"] = known(has_gradient, array(gradient.transpose()));
+  object["gradient"] = has_gradient ? array(gradient.transpose()) : ordered_json(nullptr);
 }
 
 /// The trajectory of a task in time. Its efforts and wrenches are listed by instant.
