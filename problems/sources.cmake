@@ -1,7 +1,8 @@
 set(maxwrench_problems_sources
   collision/collision.cpp collision/distance.cpp collision/gjk.cpp collision/shapes.cpp
   loader/bad_input.cpp loader/block.cpp loader/contact_table.cpp loader/drives.cpp loader/knots.cpp loader/motion_table.cpp
-  loader/number_table.cpp loader/path_table.cpp loader/robot_file.cpp loader/srdf.cpp loader/state_file.cpp loader/task_file.cpp
+  loader/number_table.cpp loader/path_table.cpp loader/robot_choices.cpp
+  loader/robot_file.cpp loader/srdf.cpp loader/state_file.cpp loader/task_file.cpp
   loader/urdf_element.cpp loader/urdf_joint.cpp loader/urdf_shape.cpp loader/urdf_structure.cpp loader/urdf_tree.cpp loader/xacro.cpp
   make/bad_value.cpp make/contact.cpp make/free_pose.cpp make/motion_task.cpp make/posture.cpp make/redundant_joints.cpp
   make/robot.cpp make/task.cpp make/theta_r.cpp make/touching_bodies.cpp

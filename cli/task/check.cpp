@@ -88,10 +88,10 @@ void print(const Robot& robot) {
   for (const auto& [block, source] : robot.sources)
     fmt::print("  source of {}: {}\n", block, source);
   for (const std::string& note : robot.notes) fmt::print("  note: {}\n", note);
-  for (const std::string& why : robot.no_dynamics) fmt::print("  no dynamics: {}\n", why);
-  if (robot.warnings.empty()) return;
-  fmt::print("warnings {}\n", robot.warnings.size());
-  for (const std::string& warning : robot.warnings) fmt::print("  warning: {}\n", warning);
+  const std::vector<std::string> warnings = warnings_of(robot);
+  if (warnings.empty()) return;
+  fmt::print("warnings {}\n", warnings.size());
+  for (const std::string& warning : warnings) fmt::print("  warning: {}\n", warning);
 }
 
 /// Prints the base pose and the dependent joints at the default of theta_r.
@@ -225,7 +225,7 @@ int check(const CheckOptions& options) {
     robot = source.load_robot(options.file);
     print(robot);
   }
-  return options.strict && !robot.warnings.empty() ? kOtherStatus : kAnswered;
+  return options.strict && !warnings_of(robot).empty() ? kOtherStatus : kAnswered;
 }
 
 }  // namespace

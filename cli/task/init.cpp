@@ -165,7 +165,7 @@ constexpr const char* kOverrides = R"(
 #[states.ready]
 #{0} = {3}
 
-# Bodies that are closer than the margin [m] collide. Meshes count as hull, capsule, or not: ignore.
+# Bodies that are closer than the margin [m] collide. Meshes count as "hull", as "capsules", or not, "ignore".
 #[collision]
 #margin = 0.001
 #meshes = "hull"

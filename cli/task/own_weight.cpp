@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "lib/math/decompositions.h"
 #include "lib/math/random.h"
@@ -28,12 +27,7 @@ OwnWeight own_weight(const Robot& robot, int samples) {
   Eigen::VectorXd q(joints), tau_d(robot.velocities()), most = Eigen::VectorXd::Zero(joints);
   int failed = 0;
   for (int sample = 0; sample < samples; ++sample) {
-    for (Eigen::Index i = 0; i < joints; ++i) {
-      const Joint& joint = robot.joints[static_cast<std::size_t>(i)];
-      q[i] = random.uniform(std::max(joint.q_min, -std::numbers::pi),
-                            std::min(joint.q_max, std::numbers::pi));
-    }
-    apply_gears(robot, q);
+    draw_joints(robot, random, q);
     kinematics.set_joints(q);
     kinematics.gravity_and_buoyancy(robot.mount.R, tau_d);
     const Eigen::VectorXd u = (efforts * tau_d.tail(joints)).cwiseAbs();

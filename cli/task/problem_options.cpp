@@ -27,7 +27,7 @@ constexpr std::string_view kJointKey = "pose.joints.";
 
 [[noreturn]] void reject(std::string_view option, const std::string& got,
                          std::string_view expected) {
-  throw std::invalid_argument(bad_value_line(option, fmt::format("'{}'", got), expected));
+  throw BadValue(option, shown(got), expected);
 }
 
 /// The numbers in a text, separated by blanks or commas; none if there is something else.
@@ -119,39 +119,42 @@ std::string option_of(const std::string& key, bool by_joints) {
 
 /// Calls `make`. If it rejects a key that an option gives, names the option.
 template <class Make>
-auto naming_options(const std::string& file, bool by_joints, const Make& make) {
+auto naming_options(bool by_joints, const Make& make) {
   try {
     return make();
-  } catch (const std::invalid_argument& error) {
-    const std::string text = error.what();
-    const std::size_t got = text.find(": got ");
-    const bool of_file = text.starts_with(file + ": ") && got > file.size() + 2;
-    if (!of_file || got == std::string::npos) throw;
-    const std::string key = text.substr(file.size() + 2, got - file.size() - 2);
-    if (key.starts_with(kJointKey)) {
-      const std::size_t expected = text.find("expected ", got);
-      reject("--joints", key.substr(kJointKey.size()), text.substr(expected + 9));
+  } catch (const BadInput& error) {
+    const BadValue& bad = error.value();
+    if (bad.key().starts_with(kJointKey)) {
+      reject("--joints", bad.key().substr(kJointKey.size()), bad.expected());
     }
-    if (key == "theta_r.joints") {
-      throw std::invalid_argument(bad_value_line(
-          by_joints ? "--joints" : "--at", "a pose that is singular",
-          "one from which the tool can move in all its directions (only eval --joints does "
-          "without)"));
+    if (bad.key() == "theta_r.joints") {
+      throw BadValue(by_joints ? "--joints" : "--at", "a pose that is singular",
+                     "one from which the tool can move in all its directions (only eval --joints "
+                     "does without)");
     }
-    const std::string option = option_of(key, by_joints);
+    const std::string option = option_of(bad.key(), by_joints);
     if (option.empty()) throw;
-    throw std::invalid_argument(option + text.substr(got));
+    throw BadValue(option, bad.got(), bad.expected());
   }
 }
 
 void remark_warnings(const Robot& robot, const std::string& problem) {
-  const std::size_t count = robot.warnings.size();
+  const std::size_t count = warnings_of(robot).size();
   if (count == 0) return;
   complain_at_end(fmt::format("{} warning{} about the robot: 'maxwrench check {}' prints {}", count,
                               count == 1 ? "" : "s", problem, count == 1 ? "it" : "them"));
 }
 
 }  // namespace
+
+std::vector<std::string> warnings_of(const Robot& robot) {
+  std::vector<std::string> lines = robot.warnings;
+  for (const DataFault& fault : robot.no_dynamics) {
+    lines.push_back(bad_value_line(fault.key, fault.got, fault.expected) +
+                    " (tasks in time reject it)");
+  }
+  return lines;
+}
 
 bool is_urdf(const std::string& problem) {
   if (!is_file(problem)) return false;
@@ -259,7 +262,7 @@ Problem ProblemOptions::load(const std::string& problem, bool evaluates_joints) 
   }
   UrdfOptions options = urdf_options();
   if (!evaluates_joints) options.posture = posture.value_or("");
-  Problem made = naming_options(problem, gives_joints(), [&] {
+  Problem made = naming_options(gives_joints(), [&] {
     return make_urdf_problem(problem, options, task(problem, evaluates_joints));
   });
   if (counts_warnings) remark_warnings(made.robot, problem);
@@ -273,7 +276,7 @@ Problem ProblemOptions::load(const std::string& problem, bool evaluates_joints) 
 
 Robot ProblemOptions::load_robot(const std::string& file) const {
   if (is_urdf(file)) {
-    return naming_options(file, false, [&] { return load_urdf(file, urdf_options()); });
+    return naming_options(false, [&] { return load_urdf(file, urdf_options()); });
   }
   reject_for_toml(file, true);
   const LoadOptions options{limits.value_or("")};

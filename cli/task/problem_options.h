@@ -13,6 +13,9 @@ namespace maxwrench {
 /// Whether PROBLEM is a URDF or xacro file rather than a task or a robot in TOML.
 bool is_urdf(const std::string& problem);
 
+/// The warnings of a robot, and its links without dynamics, one line each.
+std::vector<std::string> warnings_of(const Robot& robot);
+
 /// What makes a robot and a static task of a URDF, and what chooses among the limits of a robot in
 /// TOML. All are texts until they are parsed.
 struct ProblemOptions {

@@ -176,6 +176,13 @@ class CollisionChecker {
   virtual bool inscribed_boxes(int /*pair*/, InscribedBoxPair& /*result*/) const { return false; }
 };
 
+/// A value of a robot's data that some tasks cannot use, in the words of an error message.
+struct DataFault {
+  std::string key,  ///< the key, as in files
+      got,          ///< the value
+      expected;     ///< what such a task needs
+};
+
 /// A robot: a tree of links on a base, with its actuators and limits.
 ///
 /// It is const after loading and may be shared between threads.
@@ -205,10 +212,12 @@ struct Robot {
   std::vector<std::string> warnings;
   /// How the data were read, one line each: meshes, collision pairs left out, elements not read.
   std::vector<std::string> notes;
-  /// Why the equation of motion does not hold, one line for each link whose mass and inertia no
-  /// body can have. At rest only mass and centre of mass count; tasks in time reject such a robot.
-  /// `finalize` adds to it.
-  std::vector<std::string> no_dynamics;
+  /// Why the equation of motion does not hold, once for each link whose mass and inertia no body
+  /// can have. At rest only mass and centre of mass count; tasks in time and the virtual tank
+  /// reject such a robot. `finalize` adds to it.
+  std::vector<DataFault> no_dynamics;
+  /// The files that the robot was read from, its meshes among them. Empty for a robot made in code.
+  std::vector<std::string> files;
   /// Named postures: positions [rad or m] of some joints, by name.
   std::map<std::string, std::map<std::string, double>> states;
   /// The name of the limits of joints and thrusters in use. Empty: the robot has only one set, or

@@ -89,6 +89,7 @@ struct Answer : Verdict {
   Case choice;                          ///< the case, with all defaults filled in
   std::string unit;                     ///< unit of the value
   bool collision = true;                ///< whether collisions were checked
+  bool given_joints = false;            ///< whether all joints were given, by `evaluate_posture`
   /// Knots k×r, instants, value and gradient k×r. For a static task the value is beta, and
   /// `solution` is empty.
   Trajectory trajectory;

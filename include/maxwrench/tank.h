@@ -15,6 +15,7 @@
 
 namespace maxwrench {
 
+struct Robot;
 class TrajectorySolver;
 struct Instant;
 struct Trajectory;
@@ -72,6 +73,12 @@ struct TankOptions {
 ///
 /// @throws std::invalid_argument, with one line that names the key, otherwise.
 void check(const TankOptions& options);
+
+/// Rejects a robot that cannot move in the tank: with gears, which its equation of motion lacks, or
+/// with links that no body can be (`Robot::no_dynamics`).
+///
+/// @throws std::invalid_argument with key, value and what was expected.
+void check(const Robot& robot);
 
 /// The wrench that the robot is to exert, with its efforts.
 struct TargetWrench {
@@ -206,7 +213,7 @@ inline constexpr double kLost = 0.5;
 /// @param integrator  a stiff integrator
 /// @param options     ramp, hold, load and others
 /// @return samples and summary
-/// @throws std::invalid_argument as `check`.
+/// @throws std::invalid_argument as both `check`.
 TankRun run_tank(const Problem& problem, const Posture& posture, const TargetWrench& target,
                  Integrator& integrator, const TankOptions& options);
 
@@ -300,7 +307,8 @@ inline constexpr double kTrackedConfigurationError = 0.02;
 /// @param integrator  a stiff integrator
 /// @param options     of these, ramp, hold, margin, load and until_hold have no effect
 /// @return samples and summary
-/// @throws std::invalid_argument as `check`, and if the script has fewer than two instants with
+/// @throws std::invalid_argument as both `check`, and if the script has fewer than two instants
+/// with
 ///         efforts.
 TankRun run_tank(const Problem& problem, const TankScript& script, Integrator& integrator,
                  const TankOptions& options);

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "lib/math/rotated.h"
-#include "lib/robot/kinematics.h"
+#include "lib/robot/chain.h"
 
 namespace maxwrench {
 namespace {
@@ -31,11 +31,7 @@ Problem held_at_joints(const Problem& problem, const Eigen::VectorXd& q) {
   held.c = problem.c;  // at the pose of the task
   held.W_any = problem.W_any;
   held.wrench_axes = problem.wrench_axes;
-  Kinematics<double> kinematics(problem.robot);
-  kinematics.set_joints(q);
-  held.pose = problem.robot.mount *
-              kinematics.end_effector(
-                  problem.robot.end_effectors[static_cast<std::size_t>(problem.end_effector)]);
+  held.pose = pose_at_mount(problem.robot, problem.end_effector, q);
   held.start_system.reset();
   if (!problem.wrench_in_end_effector) return held;
   const Eigen::Matrix3d turn = held.pose.R * problem.pose.R.transpose();

@@ -80,6 +80,28 @@ Eigen::VectorXd resting_joints(const Robot& robot) {
   return q;
 }
 
+void draw_joints(const Robot& robot, Random& random, Eigen::VectorXd& q) {
+  q.resize(static_cast<Eigen::Index>(robot.joints.size()));
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    const Joint& joint = robot.joints[static_cast<std::size_t>(i)];
+    q[i] = random.uniform(joint.q_min, joint.q_max);
+  }
+  apply_gears(robot, q);
+}
+
+int find_joint(const Robot& robot, const std::string& name) {
+  const auto found = std::find_if(robot.joints.begin(), robot.joints.end(),
+                                  [&name](const Joint& joint) { return joint.name == name; });
+  return found == robot.joints.end() ? -1 : static_cast<int>(found - robot.joints.begin());
+}
+
+Pose<double> pose_at_mount(const Robot& robot, int end_effector, const Eigen::VectorXd& q) {
+  Kinematics<double> kinematics(robot);
+  kinematics.set_joints(q);
+  return robot.mount *
+         kinematics.end_effector(robot.end_effectors[static_cast<std::size_t>(end_effector)]);
+}
+
 void apply_gears(const Robot& robot, Eigen::VectorXd& q) {
   for (Eigen::Index i = 0; i < q.size(); ++i) {
     const std::optional<Gear>& gear = robot.joints[static_cast<std::size_t>(i)].gear;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "lib/math/random.h"
@@ -39,6 +40,15 @@ Eigen::VectorXd resting_joints(const Robot& robot);
 
 /// Sets the joints that gears move, from those that lead.
 void apply_gears(const Robot& robot, Eigen::VectorXd& q);
+
+/// Draws the positions of all joints, each within its limits; those that gears move follow.
+void draw_joints(const Robot& robot, Random& random, Eigen::VectorXd& q);
+
+/// The joint of this name; -1 if there is none.
+int find_joint(const Robot& robot, const std::string& name);
+
+/// The pose in the world of an end effector at the joint positions q, with the base at its mount.
+Pose<double> pose_at_mount(const Robot& robot, int end_effector, const Eigen::VectorXd& q);
 
 /// Singular values below this share of the largest count as zero.
 inline constexpr double kRankTolerance = 1e-9;

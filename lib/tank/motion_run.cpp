@@ -226,6 +226,7 @@ class MotionExperiment {
 TankRun run_tank(const Problem& problem, const TankScript& script, Integrator& integrator,
                  const TankOptions& options) {
   check(options);
+  check(problem.robot);
   return MotionExperiment(problem, script, integrator, options).run();
 }
 

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <stdexcept>
 
 #include "lib/math/require.h"
 #include "maxwrench/tank.h"
@@ -40,6 +41,18 @@ void check(const TankOptions& options) {
   require_not_negative("imperfections.thrust_efficiency", options.imperfections.thrust_efficiency);
   require_not_negative("imperfections.thrust_noise", options.imperfections.thrust_noise);
   check(options.integrator);
+}
+
+void check(const Robot& robot) {
+  const auto reject = [](const DataFault& fault) {
+    throw std::invalid_argument(fault.key + ": got " + fault.got + ", expected " + fault.expected);
+  };
+  for (const Joint& joint : robot.joints) {
+    if (!joint.gear) continue;
+    reject({"joint[" + joint.name + "].mimic", "a gear",
+            "a robot without gears: lock the joint, for the tank does not model them"});
+  }
+  if (!robot.no_dynamics.empty()) reject(robot.no_dynamics.front());
 }
 
 void check(const ScriptOptions& options) {

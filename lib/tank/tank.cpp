@@ -147,6 +147,7 @@ class Experiment {
 TankRun run_tank(const Problem& problem, const Posture& posture, const TargetWrench& target,
                  Integrator& integrator, const TankOptions& options) {
   check(options);
+  check(problem.robot);
   return Experiment(problem, posture, target, integrator, options).run();
 }
 

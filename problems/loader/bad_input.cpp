@@ -5,9 +5,12 @@
 
 namespace maxwrench {
 
+BadInput::BadInput(const std::filesystem::path& file, const BadValue& value)
+    : std::invalid_argument(one_line(file.string() + ": " + value.what())), value_(value) {}
+
 void throw_bad_input(const std::filesystem::path& file, std::string_view key, std::string_view got,
                      std::string_view expected) {
-  throw std::invalid_argument(one_line(file.string() + ": " + bad_value_line(key, got, expected)));
+  throw BadInput(file, BadValue(key, got, expected));
 }
 
 bool is_file(const std::filesystem::path& path) {

@@ -9,7 +9,17 @@
 
 namespace maxwrench {
 
-/// Throws std::invalid_argument with one line: `<file>: <key>: got <got>, expected <expected>`.
+/// An invalid value of a file: "FILE: KEY: got VALUE, expected ...", in one line.
+class BadInput : public std::invalid_argument {
+ public:
+  BadInput(const std::filesystem::path& file, const BadValue& value);
+  const BadValue& value() const { return value_; }
+
+ private:
+  BadValue value_;
+};
+
+/// Throws a `BadInput`.
 [[noreturn]] void throw_bad_input(const std::filesystem::path& file, std::string_view key,
                                   std::string_view got, std::string_view expected);
 

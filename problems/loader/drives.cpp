@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+
+#include "problems/make/bad_value.h"
 
 namespace maxwrench {
 namespace {
@@ -56,6 +59,32 @@ void add_wheel(const Block& block, const Block& wheels, const Pose<double>& fram
   if (plain) add(name + "_side", std::numbers::pi / 2, friction);
 }
 
+/// Sets the limits of the thruster or motor of this name, or of all thrusters for `thrusters`.
+void set_limit(const Block& block, const std::string& name, Robot& robot) {
+  const double limit = block.number(name);
+  if (!(limit >= 0)) block.throw_bad_value(name, "a number >= 0");
+  bool known = false;
+  for (Thruster& thruster : robot.thrusters) {
+    if (name != "thrusters" && name != thruster.name) continue;
+    thruster.force_min = -limit;
+    thruster.force_max = limit;
+    known = true;
+  }
+  for (Joint& joint : robot.joints) {
+    if (name != joint.name || joint.gear) continue;
+    joint.effort_max = limit;
+    known = true;
+  }
+  if (known) return;
+  std::vector<std::string> names;
+  for (const Thruster& thruster : robot.thrusters) names.push_back(thruster.name);
+  for (const Joint& joint : robot.joints) {
+    if (!joint.gear) names.push_back(joint.name);
+  }
+  block.throw_bad_value(
+      name, fmt::format("a thruster or a joint with a motor: {}", fmt::join(names, ", ")));
+}
+
 }  // namespace
 
 const Body& find_body(const UrdfTree& tree, const Block& block, std::string_view key,
@@ -96,6 +125,27 @@ void read_wheels(const Block& wheels, const UrdfTree& tree, Robot& robot) {
         {"name", "kind", "link", "position", "heading", "force", "mu", "load", "roller"});
     add_wheel(block, wheels, fixed_pose(block, tree), robot);
   }
+}
+
+void read_limits(const Block& root, const std::string& chosen, Robot& robot) {
+  std::vector<std::string> names;
+  for (const auto& [name, block] : root.named("limits")) {
+    names.push_back(name);
+    Robot limited = robot;
+    // One number for all thrusters, then those of their own.
+    if (block.has("thrusters")) set_limit(block, "thrusters", limited);
+    for (const auto& entry : block.numbers_by_name()) {
+      if (entry.first != "thrusters") set_limit(block, entry.first, limited);
+    }
+    if (name != chosen) continue;
+    limited.limits = name;
+    std::swap(robot, limited);
+  }
+  if (!names.empty()) robot.notes.push_back(fmt::format("limits: {}", fmt::join(names, ", ")));
+  if (robot.limits == chosen) return;
+  throw BadValue("limits", shown(chosen),
+                 names.empty() ? "none: the robot has no table of that kind"
+                               : fmt::format("one of {}", fmt::join(names, ", ")));
 }
 
 void add_brakes(Robot& robot) {

@@ -24,6 +24,10 @@ void read_thrusters(const Block& thrusters, const UrdfTree& tree, Robot& robot);
 /// Each is at most what the motor drives, `force`, and what friction holds, mu load.
 void read_wheels(const Block& wheels, const UrdfTree& tree, Robot& robot);
 
+/// Reads the tables `[limits.NAME]`, and replaces the limits of the robot by those of the `chosen`
+/// name, unless that is empty. The robot has its thrusters and joints.
+void read_limits(const Block& root, const std::string& chosen, Robot& robot);
+
 /// Adds the brakes of a parked base: forces and torques along its free axes that exceed any load.
 void add_brakes(Robot& robot);
 

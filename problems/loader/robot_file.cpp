@@ -4,10 +4,12 @@
 #include <map>
 #include <optional>
 
+#include "lib/robot/chain.h"
 #include "maxwrench/load.h"
 #include "problems/loader/bad_input.h"
 #include "problems/loader/block.h"
 #include "problems/loader/drives.h"
+#include "problems/loader/robot_choices.h"
 #include "problems/loader/srdf.h"
 #include "problems/loader/urdf_tree.h"
 #include "problems/make/robot.h"
@@ -43,7 +45,6 @@ void read_base(const Block& base, const UrdfTree& tree, Robot& robot) {
     base.throw_bad_value("link", fmt::format("the root link '{}' of the URDF", tree.root));
   }
   robot.mount = read_placement(base);
-  if (base.truth("parked", false)) add_brakes(robot);
   if (robot.base_axes.size() < 6) return;
   for (const char* key : {"xyz", "rpy"}) {
     if (base.has(key))
@@ -135,15 +136,6 @@ Shape read_capsule(const Block& block, const UrdfTree& tree) {
   return shape;
 }
 
-MeshUse read_mesh_use(const Block& block, MeshUse otherwise) {
-  const std::string use = block.text("meshes", "");
-  if (use.empty()) return otherwise;
-  if (use == "hull") return MeshUse::kHull;
-  if (use == "capsule") return MeshUse::kCapsule;
-  if (use == "ignore") return MeshUse::kIgnore;
-  block.throw_bad_value("meshes", "'hull', 'capsule' or 'ignore'");
-}
-
 /// A body without a shape cannot collide, and the robot does not know it.
 void drop_pairs_without_shapes(Collision& collision) {
   const auto has_shape = [&collision](const std::string& body) {
@@ -178,119 +170,15 @@ Collision read_collision(const Block& block, const UrdfTree& tree,
   return collision;
 }
 
-std::optional<double> number_if_any(const Block& block, std::string_view key) {
-  return block.has(key) ? std::optional<double>(block.number(key)) : std::nullopt;
-}
-
-JointChoice read_joint_choice(const Block& block) {
-  block.allow_only({"effort", "velocity", "lower", "upper", "lock", "mimic"});
-  JointChoice choice;
-  choice.effort = number_if_any(block, "effort");
-  if (choice.effort.value_or(0) < 0) block.throw_bad_value("effort", "a number >= 0");
-  choice.velocity = number_if_any(block, "velocity");
-  if (choice.velocity.value_or(1) <= 0) block.throw_bad_value("velocity", "a number > 0");
-  choice.lower = number_if_any(block, "lower");
-  choice.upper = number_if_any(block, "upper");
-  choice.lock = number_if_any(block, "lock");
-  if (block.has("mimic")) {
-    const Block mimic = block.table("mimic");
-    mimic.allow_only({"joint", "ratio", "offset"});
-    choice.mimic = {mimic.text("joint"), mimic.number("ratio", 1), mimic.number("offset", 0)};
-  }
-  return choice;
-}
-
-LinkChoice read_link_choice(const Block& block, MeshUse meshes) {
-  block.allow_only({"mass", "com", "inertia", "meshes"});
-  LinkChoice choice;
-  choice.mass = number_if_any(block, "mass");
-  if (choice.mass.value_or(0) < 0) block.throw_bad_value("mass", "a number >= 0");
-  if (block.has("com")) choice.com = block.vector("com");
-  if (block.has("inertia")) {
-    const Vector6d i = block.numbers("inertia", 6);
-    choice.inertia.emplace() << i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2];
-  }
-  choice.meshes = read_mesh_use(block, meshes);
-  return choice;
-}
-
-UrdfChoices read_choices(const Block& root) {
-  UrdfChoices choices;
-  if (root.has("packages")) {
-    for (const std::string& folder : root.texts("packages")) {
-      choices.packages.push_back(root.file().parent_path() / folder);
-    }
-  }
-  choices.meshes = read_mesh_use(root.table("collision"), choices.meshes);
-  for (const auto& [name, block] : root.named("joints")) {
-    choices.joints.emplace(name, read_joint_choice(block));
-  }
-  for (const auto& [name, block] : root.named("links")) {
-    choices.links.emplace(name, read_link_choice(block, choices.meshes));
-  }
-  for (const auto& [name, block] : root.named("end_effectors")) {
-    choices.tips.insert(block.text("link"));
-  }
-  return choices;
-}
-
 /// Named postures of the TOML and of the SRDF.
 void read_states(const Block& root, const std::optional<Srdf>& srdf, Robot& robot) {
   if (srdf) robot.states = srdf->states;
   for (const auto& [name, block] : root.named("states")) {
     robot.states[name] = block.numbers_by_name();
     for (const auto& [joint, position] : robot.states[name]) {
-      const bool known = std::any_of(robot.joints.begin(), robot.joints.end(),
-                                     [&joint = joint](const Joint& j) { return j.name == joint; });
-      if (!known) block.throw_bad_value(joint, "a joint that moves");
+      if (find_joint(robot, joint) < 0) block.throw_bad_value(joint, "a joint that moves");
     }
   }
-}
-
-/// The limits of a thruster or joint, which must have this name; of all thrusters for `thrusters`.
-void set_limit(const Block& block, const std::string& name, Robot& robot) {
-  const double limit = block.number(name);
-  if (!(limit >= 0)) block.throw_bad_value(name, "a number >= 0");
-  bool known = false;
-  for (Thruster& thruster : robot.thrusters) {
-    if (name != "thrusters" && name != thruster.name) continue;
-    thruster.force_min = -limit;
-    thruster.force_max = limit;
-    known = true;
-  }
-  for (Joint& joint : robot.joints) {
-    if (name != joint.name) continue;
-    joint.effort_max = limit;
-    known = true;
-  }
-  if (known) return;
-  std::vector<std::string> names;
-  for (const Thruster& thruster : robot.thrusters) names.push_back(thruster.name);
-  for (const Joint& joint : robot.joints) names.push_back(joint.name);
-  block.throw_bad_value(
-      name, fmt::format("a thruster or a joint that moves: {}", fmt::join(names, ", ")));
-}
-
-/// Reads all named limits, and replaces those of the robot by the chosen ones.
-void read_limits(const Block& root, const std::string& chosen, Robot& robot) {
-  std::vector<std::string> names;
-  for (const auto& [name, block] : root.named("limits")) {
-    names.push_back(name);
-    Robot limited = robot;
-    // One number for all thrusters, then those of their own.
-    if (block.has("thrusters")) set_limit(block, "thrusters", limited);
-    for (const auto& entry : block.numbers_by_name()) {
-      if (entry.first != "thrusters") set_limit(block, entry.first, limited);
-    }
-    if (name != chosen) continue;
-    limited.limits = name;
-    std::swap(robot, limited);
-  }
-  if (!names.empty()) robot.notes.push_back(fmt::format("limits: {}", fmt::join(names, ", ")));
-  if (robot.limits == chosen) return;
-  throw BadValue("limits", shown(chosen),
-                 names.empty() ? "none: the robot has no table of that kind"
-                               : fmt::format("one of {}", fmt::join(names, ", ")));
 }
 
 std::filesystem::path named_file(const Block& root, const char* key) {
@@ -306,6 +194,7 @@ void add_tree(const UrdfTree& tree, Robot& robot) {
   robot.warnings = tree.warnings;
   robot.notes = tree.notes;
   robot.no_dynamics = tree.no_dynamics;
+  robot.files.insert(robot.files.end(), tree.files.begin(), tree.files.end());
 }
 
 /// The key of a thruster's value. If the thruster has no value of its own, the key is that of the
@@ -331,6 +220,7 @@ Robot load_robot(const std::filesystem::path& file, const LoadOptions& options) 
   Robot robot;
   robot.name = root.text("name");
   robot.sources = root.sources("robot");
+  robot.files.push_back(file.string());
   const std::filesystem::path urdf = named_file(root, "urdf");
   const Block thrusters = root.table("thrusters");
   const auto file_of = [&](std::string& key) {
@@ -341,8 +231,11 @@ Robot load_robot(const std::filesystem::path& file, const LoadOptions& options) 
   return in_files(file_of, [&] {
     const UrdfTree tree = read_urdf(urdf, read_choices(root));
     std::optional<Srdf> srdf;
-    if (root.has("srdf")) srdf = read_srdf(named_file(root, "srdf"));
     add_tree(tree, robot);
+    if (root.has("srdf")) {
+      robot.files.push_back(named_file(root, "srdf").string());
+      srdf = read_srdf(robot.files.back());
+    }
     if (root.has("base")) read_base(root.table("base"), tree, robot);
     const Block environment = root.table("environment");
     environment.allow_only({"gravity", "water_density"});
@@ -351,6 +244,7 @@ Robot load_robot(const std::filesystem::path& file, const LoadOptions& options) 
     read_thrusters(thrusters, tree, robot);
     read_wheels(root.table("wheels"), tree, robot);
     read_limits(root, options.limits, robot);
+    if (root.table("base").truth("parked", false)) add_brakes(robot);
     read_end_effectors(root, tree, robot);
     read_buoyancy(root, tree, robot);
     read_hydrodynamics(root, tree, robot);
@@ -391,6 +285,7 @@ Robot load_urdf(const std::filesystem::path& urdf, const UrdfOptions& options) {
     collision.find_ignored = true;
     if (!options.srdf.empty()) {
       const Srdf srdf = read_srdf(options.srdf);
+      robot.files.push_back(options.srdf.string());
       robot.states = srdf.states;
       collision.ignore = srdf.ignore;
       drop_pairs_without_shapes(collision);

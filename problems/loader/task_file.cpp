@@ -137,8 +137,8 @@ void read_pose(const Block& task, TaskSpec& spec) {
   read_free_pose(pose, spec);
 }
 
-/// FNV-1a of the sizes and the bytes of files, as 16 hexadecimal digits.
-std::string digest_of(const std::vector<fs::path>& files) {
+/// FNV-1a of the sizes and the bytes of files, then of a text, as 16 hexadecimal digits.
+std::string digest_of(const std::vector<fs::path>& files, const std::string& words) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   const auto add = [&hash](std::string_view text) {
     for (const char byte : text) {
@@ -151,7 +151,22 @@ std::string digest_of(const std::vector<fs::path>& files) {
     add(fmt::format("{}:", text.size()));
     add(text);
   }
+  add(words);
   return fmt::format("{:016x}", hash);
+}
+
+/// What tells tasks of one URDF apart, with all digits.
+std::string words_of(const TaskSpec& task, const UrdfOptions& options) {
+  const auto list = [](const auto& numbers) { return fmt::format("{}", fmt::join(numbers, " ")); };
+  std::string words = fmt::format(
+      "{} on {}; c {} turns {}; pose {} {}", task.end_effector, list(options.base_axes),
+      list(task.c), task.wrench_in_end_effector, list(task.pose.p), list(task.pose.R.reshaped()));
+  if (!task.posture) return words;
+  words += "; posture";
+  for (const auto& [joint, position] : *task.posture) {
+    words += fmt::format(" {} {}", joint, position);
+  }
+  return words;
 }
 
 }  // namespace
@@ -171,9 +186,8 @@ Problem load_problem(const std::string& name, const LoadOptions& options) {
   }
   spec.robot = load_robot(robot, options);
   spec.end_effector = task.text("end_effector");
-  const fs::path urdf = robot.parent_path() / Block::read(robot).text("urdf");
   const auto file_of = [&](const std::string& key) {
-    return key.starts_with("link[") ? urdf : file;
+    return key.starts_with("link[") ? fs::path(spec.robot.files[1]) : file;  // its URDF
   };
   Problem problem = in_files(file_of, [&] {
     read_pose(task, spec);
@@ -183,9 +197,10 @@ Problem load_problem(const std::string& name, const LoadOptions& options) {
     if (task.has("contact")) spec.contact = read_contact(task.table("contact"));
     return make_problem(spec);
   });
-  std::vector<fs::path> files = {file, robot, urdf};
+  std::vector<fs::path> files = {file};
+  files.insert(files.end(), spec.robot.files.begin(), spec.robot.files.end());
   if (spec.motion && !spec.motion->path_file.empty()) files.emplace_back(spec.motion->path_file);
-  problem.digest = digest_of(files);
+  problem.digest = digest_of(files, options.limits);
   return problem;
 }
 
@@ -201,7 +216,8 @@ Problem make_urdf_problem(const fs::path& urdf, const UrdfOptions& options, Task
   Problem problem = in_file(urdf, [&] {
     return task.posture && task.posture->empty() ? make_at_some_posture(task) : make_problem(task);
   });
-  problem.digest = digest_of({urdf});
+  problem.digest =
+      digest_of({task.robot.files.begin(), task.robot.files.end()}, words_of(task, options));
   return problem;
 }
 

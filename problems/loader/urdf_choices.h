@@ -8,10 +8,9 @@
 #include <string>
 #include <vector>
 
-namespace maxwrench {
+#include "problems/mesh/mesh_shape.h"
 
-/// What becomes of the meshes in `collision`.
-enum class MeshUse { kHull, kCapsule, kIgnore };
+namespace maxwrench {
 
 /// `mimic` of a joint: q = ratio q_leader + offset.
 struct Mimic {
@@ -44,5 +43,12 @@ struct UrdfChoices {
   /// locked. Empty: no joint is.
   std::set<std::string> tips;
 };
+
+/// What is chosen for a link or joint of this name; the default if nothing is.
+template <class Choice>
+Choice choice_of(const std::map<std::string, Choice>& choices, const std::string& name) {
+  const auto found = choices.find(name);
+  return found == choices.end() ? Choice() : found->second;
+}
 
 }  // namespace maxwrench

@@ -130,6 +130,7 @@ class Reader {
   }
 
   void read_effort(bool to_tip) {
+    if (choice_.lock) return;
     const std::optional<UrdfElement> limit = from_.child_if_any("limit");
     const auto given = [&](const char* name, const std::optional<double>& choice) {
       if (choice || !limit || !limit->attribute(name)) return choice;
@@ -145,7 +146,7 @@ class Reader {
                                       : "missing: no limit");
     }
     joint.effort_max = std::max(effort.value_or(0), 0.0);
-    if (result_.mimic || choice_.lock) return;
+    if (result_.mimic) return;
     const std::string what = effort ? fmt::format("{:g}", *effort) : "missing";
     if (joint.effort_max == 0 && !to_tip) {
       lock("limit.effort", what);
@@ -239,9 +240,8 @@ std::map<std::string, UrdfJoint> read_joints(const UrdfStructure& structure,
   std::map<std::string, UrdfJoint> joints;
   for (const UrdfElement& element : structure.joints) {
     const std::string name = name_of(element);
-    const auto choice = choices.joints.find(name);
-    const JointChoice none;
-    Reader reader(element, choice == choices.joints.end() ? none : choice->second, warnings);
+    const JointChoice choice = choice_of(choices.joints, name);
+    Reader reader(element, choice, warnings);
     joints.emplace(name, reader.read(choices.tips.empty() || to_tips.contains(name)));
   }
   for (const UrdfElement& element : structure.joints) {

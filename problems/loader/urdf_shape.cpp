@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
+#include <algorithm>
 
 #include "problems/loader/urdf_tree.h"
 
@@ -41,10 +41,13 @@ Given mesh_of(const UrdfElement& given, MeshUse meshes, MeshReading& reading) {
   if (!scale.all()) {
     given.throw_bad_input("scale", given.attribute("scale").value(), "numbers other than 0");
   }
-  const MeshShape mesh = reading.shapes.shape(
-      *name, scale, meshes == MeshUse::kHull ? MeshAs::kHull : MeshAs::kCapsule);
+  const MeshShape mesh = reading.shapes.shape(*name, scale, meshes);
   if (!mesh.shape) return {{}, mesh.note};
-  reading.notes.push_back(fmt::format("{}: {}: {}", given.key(), mesh.file.string(), mesh.note));
+  const std::string file = mesh.file.string();
+  if (std::find(reading.files.begin(), reading.files.end(), file) == reading.files.end()) {
+    reading.files.push_back(file);
+  }
+  reading.notes.push_back(fmt::format("{}: {}: {}", given.key(), file, mesh.note));
   return {mesh.shape, ""};
 }
 

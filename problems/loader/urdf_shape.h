@@ -14,7 +14,7 @@ namespace maxwrench {
 /// What becomes of the meshes of a URDF, and where what there is to say about them goes.
 struct MeshReading {
   MeshShapes shapes;
-  std::vector<std::string>&warnings, &notes;
+  std::vector<std::string>&warnings, &notes, &files;
 };
 
 /// The shape of an element `collision` in axes of its URDF link, without its link. Empty where the

@@ -36,9 +36,7 @@ Eigen::Matrix3d inertia_of(const UrdfElement& inertial) {
 void add_inertial(Reading& reading, const UrdfElement& link, const Body& body) {
   const std::string name = name_of(link);
   const std::optional<UrdfElement> inertial = link.child_if_any("inertial");
-  const auto found = reading.choices.links.find(name);
-  static const LinkChoice kNone;
-  const LinkChoice& choice = found == reading.choices.links.end() ? kNone : found->second;
+  const LinkChoice choice = choice_of(reading.choices.links, name);
   double mass = 0;
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   Pose<double> frame;
@@ -64,10 +62,8 @@ void add_link(Reading& reading, const UrdfElement& link, const Body& body) {
   const std::string name = name_of(link);
   reading.tree.bodies.emplace(name, body);
   add_inertial(reading, link, body);
-  const auto choice = reading.choices.links.find(name);
-  const MeshUse meshes = choice == reading.choices.links.end()
-                             ? reading.choices.meshes
-                             : choice->second.meshes.value_or(reading.choices.meshes);
+  const MeshUse meshes =
+      choice_of(reading.choices.links, name).meshes.value_or(reading.choices.meshes);
   for (const UrdfElement& collision : link.children("collision")) {
     std::optional<Shape> shape = read_shape(collision, meshes, reading.meshes);
     if (!shape) continue;
@@ -205,6 +201,7 @@ Pose<double> pose_from_xyz_rpy(const Eigen::Vector3d& xyz, const Eigen::Vector3d
 UrdfTree read_urdf(const std::filesystem::path& file, const UrdfChoices& choices) {
   tinyxml2::XMLDocument document;
   UrdfTree tree;
+  tree.files.push_back(file.string());
   const UrdfStructure structure = read_structure(file, document, tree.notes);
   const auto require_known = [&](const auto& choices_by_name, const char* noun, const auto& known) {
     for (const auto& [name, choice] : choices_by_name) {
@@ -217,7 +214,7 @@ UrdfTree read_urdf(const std::filesystem::path& file, const UrdfChoices& choices
   Reading reading{structure,
                   choices,
                   read_joints(structure, choices, tree.warnings),
-                  {MeshShapes(file, choices.packages), tree.warnings, tree.notes},
+                  {MeshShapes(file, choices.packages), tree.warnings, tree.notes, tree.files},
                   tree,
                   {}};
   require_known(choices.joints, "joint",

@@ -27,7 +27,8 @@ struct UrdfTree {
   std::map<std::string, Body> bodies;  ///< by name of the URDF link
   std::vector<std::string> leaves;     ///< the URDF links without children that a joint moves
   std::vector<Shape> shapes;
-  std::vector<std::string> warnings, notes, no_dynamics;  ///< as in `Robot`
+  std::vector<std::string> warnings, notes, files;  ///< as in `Robot`
+  std::vector<DataFault> no_dynamics;               ///< likewise
 };
 
 /// Reads a URDF file. Links and joints are in depth-first order from the root, siblings in the

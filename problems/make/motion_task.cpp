@@ -30,10 +30,8 @@ void require_path(const Path& path, const Pose<double>& pose) {
 /// Rejects a robot without an equation of motion.
 void require_dynamics(const Robot& robot) {
   if (robot.no_dynamics.empty()) return;
-  const std::string& line = robot.no_dynamics.front();
-  const std::size_t got = line.find(": got "), expected = line.find(", expected ");
-  throw BadValue(line.substr(0, got), line.substr(got + 6, expected - got - 6),
-                 line.substr(expected + 11) + "; only static tasks do without");
+  const DataFault& fault = robot.no_dynamics.front();
+  throw BadValue(fault.key, fault.got, fault.expected + "; only static tasks do without");
 }
 
 }  // namespace

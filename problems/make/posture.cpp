@@ -107,9 +107,8 @@ std::map<std::string, double> named_posture(const Robot& robot, std::string_view
   }
   std::map<std::string, double> posture = state->second;
   std::erase_if(posture, [&robot](const auto& entry) {
-    return std::none_of(robot.joints.begin(), robot.joints.end(), [&](const Joint& joint) {
-      return joint.name == entry.first && !joint.gear;
-    });
+    const int joint = find_joint(robot, entry.first);
+    return joint < 0 || robot.joints[static_cast<std::size_t>(joint)].gear;
   });
   return posture;
 }

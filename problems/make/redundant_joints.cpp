@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <numeric>
 
+#include "lib/math/decompositions.h"
 #include "lib/math/random.h"
 #include "lib/robot/chain.h"
 #include "lib/robot/kinematics.h"
@@ -24,10 +24,7 @@ std::vector<Matrix6Xd> sample_jacobians(const Robot& robot, const EndEffector& t
   std::vector<Matrix6Xd> all(kPostures, Matrix6Xd(6, robot.velocities()));
   double reach = 0;
   for (Matrix6Xd& J : all) {
-    for (std::size_t i = 0; i < robot.joints.size(); ++i) {
-      q[static_cast<Eigen::Index>(i)] =
-          random.uniform(robot.joints[i].q_min, robot.joints[i].q_max);
-    }
+    draw_joints(robot, random, q);
     kinematics.set_joints(q);
     kinematics.jacobian(tip, Eigen::Matrix3d::Identity(), J);
     reach += kinematics.end_effector_position(tip).norm() / kPostures;
@@ -42,8 +39,7 @@ std::vector<Matrix6Xd> sample_jacobians(const Robot& robot, const EndEffector& t
 double score(const std::vector<Matrix6Xd>& all, const std::vector<int>& columns, int rank) {
   double sum = 0;
   for (const Matrix6Xd& J : all) {
-    const Matrix6Xd part = J(Eigen::all, columns);
-    sum += Eigen::JacobiSVD<Matrix6Xd>(part).singularValues()[rank - 1] / kPostures;
+    sum += singular_values(J(Eigen::all, columns))[rank - 1] / kPostures;
   }
   return sum;
 }

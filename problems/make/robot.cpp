@@ -21,12 +21,12 @@ Eigen::Vector3d principal_moments(const Eigen::Matrix3d& inertia) {
       .eigenvalues();
 }
 
-std::string bad_moments(const std::string& link, const Eigen::Vector3d& moments,
-                        std::string_view expected) {
-  return bad_value_line(
+DataFault bad_moments(const std::string& link, const Eigen::Vector3d& moments,
+                      const std::string& expected) {
+  return {
       fmt::format("link[{}].inertial.inertia", link),
       fmt::format("principal moments {:.6g}, {:.6g}, {:.6g}", moments[0], moments[1], moments[2]),
-      expected);
+      expected};
 }
 
 /// Rejects names that are empty or occur twice.
@@ -58,11 +58,11 @@ void check_base(Robot& robot) {
 }
 
 /// Why a link that moves has no equation of motion: without mass or moments it is singular.
-std::optional<std::string> why_no_motion(const Link& link) {
+std::optional<DataFault> why_no_motion(const Link& link) {
   const char* moves = "of this link with all that is fixed to it, because it moves";
   if (!(link.mass > 0)) {
-    return bad_value_line(fmt::format("link[{}].inertial.mass", link.name), shown(link.mass),
-                          fmt::format("a mass > 0 {}", moves));
+    return DataFault{fmt::format("link[{}].inertial.mass", link.name), shown(link.mass),
+                     fmt::format("a mass > 0 {}", moves)};
   }
   const Eigen::Vector3d moments = principal_moments(link.inertia);
   if (moments[0] > 1e-9 * moments[2]) return std::nullopt;
@@ -72,10 +72,10 @@ std::optional<std::string> why_no_motion(const Link& link) {
 /// Adds to `Robot::no_dynamics` unless that link is there.
 void check_dynamics(const Link& link, bool rests, Robot& robot) {
   const std::string key = fmt::format("link[{}].inertial", link.name);
-  for (const std::string& known : robot.no_dynamics) {
-    if (known.starts_with(key)) return;
+  for (const DataFault& known : robot.no_dynamics) {
+    if (known.key.starts_with(key)) return;
   }
-  std::optional<std::string> why = why_no_body(link.name, link.mass, link.inertia);
+  std::optional<DataFault> why = why_no_body(link.name, link.mass, link.inertia);
   if (!why && !rests) why = why_no_motion(link);
   if (why) robot.no_dynamics.push_back(*why);
 }
@@ -270,8 +270,8 @@ void require_body(const std::string& link, double mass, const Eigen::Matrix3d& i
   }
 }
 
-std::optional<std::string> why_no_body(const std::string& link, double mass,
-                                       const Eigen::Matrix3d& inertia) {
+std::optional<DataFault> why_no_body(const std::string& link, double mass,
+                                     const Eigen::Matrix3d& inertia) {
   const Eigen::Vector3d moments = principal_moments(inertia);
   const double slack = 1e-9 * std::abs(moments[2]);
   if (moments[0] < -slack || moments[0] + moments[1] < moments[2] - slack) {

@@ -13,8 +13,8 @@ void require_body(const std::string& link, double mass, const Eigen::Matrix3d& i
 
 /// Why no body has these moments; empty if one can. A point mass, a thin rod and a frame without
 /// mass can be part of a link.
-std::optional<std::string> why_no_body(const std::string& link, double mass,
-                                       const Eigen::Matrix3d& inertia);
+std::optional<DataFault> why_no_body(const std::string& link, double mass,
+                                     const Eigen::Matrix3d& inertia);
 
 /// A body that displaces water, and whether its added mass and drag are known.
 struct InWater {

@@ -97,15 +97,6 @@ void choose_wrenches(const TaskSpec& task, Problem& problem) {
                              fmt::join(idle, ", ")));
 }
 
-/// Where the posture of the task puts the end effector.
-Pose<double> pose_at_posture(const TaskSpec& task, const Problem& problem) {
-  Kinematics<double> kinematics(problem.robot);
-  kinematics.set_joints(joints_at_posture(task));
-  return problem.robot.mount *
-         kinematics.end_effector(
-             problem.robot.end_effectors[static_cast<std::size_t>(problem.end_effector)]);
-}
-
 }  // namespace
 
 int find_end_effector(std::string_view key, const std::string& name, const Robot& robot) {
@@ -127,7 +118,9 @@ Problem make_problem(const TaskSpec& task) {
   problem.robot = task.robot;
   problem.end_effector = find_end_effector("end_effector", task.end_effector, problem.robot);
   require_pose("pose", task.pose);
-  problem.pose = task.posture ? pose_at_posture(task, problem) : task.pose;
+  problem.pose = task.posture
+                     ? pose_at_mount(problem.robot, problem.end_effector, joints_at_posture(task))
+                     : task.pose;
   set_motion(task, problem);
   set_wrench(task, problem);
   set_joints(task, problem);

@@ -236,11 +236,9 @@ Eigen::VectorXd joints_at_posture(const TaskSpec& task) {
   const Robot& robot = task.robot;
   Eigen::VectorXd q = resting_joints(robot);
   for (const auto& [name, position] : *task.posture) {
-    const auto found =
-        std::find_if(robot.joints.begin(), robot.joints.end(),
-                     [&wanted = name](const Joint& joint) { return joint.name == wanted; });
+    const int found = find_joint(robot, name);
     const std::string key = "pose.joints." + name;
-    if (found == robot.joints.end() || found->gear) {
+    if (found < 0 || robot.joints[static_cast<std::size_t>(found)].gear) {
       std::vector<std::string> names;
       for (const Joint& joint : robot.joints) {
         if (!joint.gear) names.push_back(joint.name);
@@ -249,7 +247,7 @@ Eigen::VectorXd joints_at_posture(const TaskSpec& task) {
                      fmt::format("a joint that moves: {}", fmt::join(names, ", ")));
     }
     require_finite(key, position);
-    q[found - robot.joints.begin()] = position;
+    q[found] = position;
   }
   apply_gears(robot, q);
   return q;

@@ -86,11 +86,7 @@ std::vector<Names> touching_bodies(Robot& robot, const std::vector<Shape>& shape
   });
   Random random(1);
   for (int posture = 0; posture < kTouchSamples && !pairs.empty(); ++posture) {
-    for (std::size_t i = 0; i < robot.joints.size(); ++i) {
-      q[static_cast<Eigen::Index>(i)] =
-          random.uniform(robot.joints[i].q_min, robot.joints[i].q_max);
-    }
-    apply_gears(robot, q);
+    draw_joints(robot, random, q);
     kinematics.set_joints(q);
     std::erase_if(pairs, [&](const BodyPair& pair) { return !pair.touch(kinematics.links()); });
   }

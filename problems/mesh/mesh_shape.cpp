@@ -31,7 +31,7 @@ Shape hull_shape(const GrownHull& hull, std::string& note) {
   return shape;
 }
 
-MeshShape shape_from(const FoundMesh& found, const Eigen::Vector3d& scale, MeshAs as) {
+MeshShape shape_from(const FoundMesh& found, const Eigen::Vector3d& scale, MeshUse use) {
   MeshShape result;
   result.file = found.file;
   try {
@@ -43,7 +43,7 @@ MeshShape shape_from(const FoundMesh& found, const Eigen::Vector3d& scale, MeshA
                      fmt::format("coordinates within {} m", kFarthestVertex));
     }
     GrownHull hull = hull_of(points);
-    if (as == MeshAs::kHull) {
+    if (use == MeshUse::kHull) {
       result.shape = hull_shape(hull, result.note);
     } else {
       // The capsule contains the grown hull if it contains the points and grows as much.
@@ -61,12 +61,12 @@ MeshShape shape_from(const FoundMesh& found, const Eigen::Vector3d& scale, MeshA
 
 }  // namespace
 
-MeshShape MeshShapes::shape(const std::string& uri, const Eigen::Vector3d& scale, MeshAs as) {
+MeshShape MeshShapes::shape(const std::string& uri, const Eigen::Vector3d& scale, MeshUse use) {
   if (!scale.allFinite() || (scale.array() == 0).any()) {
     throw BadValue("scale", shown(Eigen::VectorXd(scale)), "3 finite numbers other than 0");
   }
   const auto [entry, added] =
-      known_.emplace(Key{uri, scale.x(), scale.y(), scale.z(), as}, MeshShape{});
+      known_.emplace(Key{uri, scale.x(), scale.y(), scale.z(), use}, MeshShape{});
   if (!added) return entry->second;
   const FoundMesh found = find_mesh(uri, urdf_, packages_);
   if (found.file.empty()) {
@@ -75,7 +75,7 @@ MeshShape MeshShapes::shape(const std::string& uri, const Eigen::Vector3d& scale
                                   : fmt::format("tried {}", fmt::join(found.tried, ", "));
     entry->second.note = one_line(fmt::format("{}: not found; {}", uri.substr(0, 200), where));
   } else {
-    entry->second = shape_from(found, scale, as);
+    entry->second = shape_from(found, scale, use);
   }
   return entry->second;
 }

@@ -11,8 +11,8 @@
 
 namespace maxwrench {
 
-/// What a mesh becomes.
-enum class MeshAs { kHull, kCapsule };
+/// What becomes of a mesh in `collision`.
+enum class MeshUse { kHull, kCapsules, kIgnore };
 
 /// A mesh as a shape, or why there is none.
 struct MeshShape {
@@ -37,12 +37,12 @@ class MeshShapes {
   /// a hull. The caller multiplies it by the origin of the <collision> from the left, and sets link
   /// and body.
   ///
-  /// A mesh that is missing or damaged is no error but has no shape.
+  /// A mesh that is missing or damaged is no error but has no shape. `use` is not kIgnore.
   /// Throws BadValue with the key "scale" if the scale is not three finite numbers other than zero.
-  MeshShape shape(const std::string& uri, const Eigen::Vector3d& scale, MeshAs as);
+  MeshShape shape(const std::string& uri, const Eigen::Vector3d& scale, MeshUse use);
 
  private:
-  using Key = std::tuple<std::string, double, double, double, MeshAs>;
+  using Key = std::tuple<std::string, double, double, double, MeshUse>;
 
   std::filesystem::path urdf_;
   std::vector<std::filesystem::path> packages_;

@@ -118,10 +118,7 @@ const std::string& actuator_name(const Robot& robot, Eigen::Index i) {
 }
 
 bool finds_pose(const Answer& answer) {
-  const IkCounts& counts = answer.ik_solutions;
-  const bool evaluated = answer.choice.search.empty() && answer.choice.integrator.empty();
-  const bool given = evaluated && counts.found == 0 && counts.unreachable == 0;
-  return answer.task->free.count() > 0 || given;
+  return answer.task->free.count() > 0 || answer.given_joints;
 }
 
 }  // namespace maxwrench

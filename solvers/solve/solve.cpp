@@ -224,6 +224,7 @@ Answer evaluate_posture(const Problem& task, const Eigen::VectorXd& q, const Opt
   const Method method = resolve(*held, c);
   Answer answer = begin(held, method);
   answer.collision = options.check_collision && held->robot.collision != nullptr;
+  answer.given_joints = true;
   answer.evaluations = 1;
   answer.posture = given_posture(*held, q, answer.collision);
   if (answer.posture.status == Status::kValid) {

@@ -134,11 +134,7 @@ std::optional<Differences> compare(const fs::path& file, const Robot& robot) {
   Random random(1);
   Eigen::VectorXd q(robot.joints.size());
   for (int posture = 0; posture < 5; ++posture) {
-    for (std::size_t i = 0; i < robot.joints.size(); ++i) {
-      q[static_cast<Eigen::Index>(i)] =
-          random.uniform(robot.joints[i].q_min, robot.joints[i].q_max);
-    }
-    apply_gears(robot, q);
+    draw_joints(robot, random, q);
     kinematics.set_joints(q);
     const KDL::JntArray theirs = peer.joints(q);
     for (const EndEffector& tip : robot.end_effectors) {

@@ -80,7 +80,8 @@ TEST_P(BadInertiaTest, IsRejectedByATaskInTimeAlone) {
   copy.replace(input.file, input.from, input.to);
   const Problem problem = load_problem((copy.path() / "force.toml").string());
   ASSERT_EQ(problem.robot.no_dynamics.size(), 1u);
-  EXPECT_THAT(problem.robot.no_dynamics[0], testing::StartsWith(input.message[0]));
+  const DataFault& fault = problem.robot.no_dynamics[0];
+  EXPECT_THAT(fault.key + ": got " + fault.got, testing::StartsWith(input.message[0]));
   EXPECT_EQ(PostureEvaluator(problem).evaluate(problem.theta_r_default).status, Status::kValid);
 }
 

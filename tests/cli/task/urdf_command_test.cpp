@@ -219,6 +219,16 @@ TEST(UrdfCommand, WarningsAreCountedOnceAndAreStrict) {
             "maxwrench: 1 warning about the robot: 'maxwrench check odd.urdf' prints it\n");
   EXPECT_EQ(eval.out.find("warning"), std::string::npos);
   EXPECT_EQ(run_maxwrench("check planar/force --strict").exit_status, 0);
+  // A link that moves without mass is a warning as well.
+  folder.write(
+      "light.urdf",
+      "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='continuous'>"
+      "<parent link='a'/><child link='b'/><limit effort='1' velocity='1'/></joint></robot>");
+  const CommandResult light = folder.run("check light.urdf --strict");
+  EXPECT_EQ(light.exit_status, 1);
+  EXPECT_NE(light.out.find("  warning: link[b].inertial.mass: got 0, expected a mass > 0"),
+            std::string::npos)
+      << light.out;
 }
 
 TEST(UrdfCommand, PosePrintsWhereEverythingIs) {

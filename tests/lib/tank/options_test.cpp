@@ -110,5 +110,15 @@ TEST(TankOptions, AreCheckedByTheExperiments) {
   expect_rejected("period", [&] { run_tank(still, posture, trajectory, *integrator, bad); });
 }
 
+TEST(TankOptions, RobotsThatCannotMoveInTheTankAreRejected) {
+  Robot robot = load_problem("planar/force").robot;
+  EXPECT_NO_THROW(check(robot));
+  robot.no_dynamics = {{"link[tip].inertial.mass", "0", "a mass > 0"}};
+  expect_rejected("link[tip].inertial.mass: got 0", [&] { check(robot); });
+  robot.no_dynamics.clear();
+  robot.joints[1].gear = Gear{.leader = 0};
+  expect_rejected("joint[elbow].mimic", [&] { check(robot); });
+}
+
 }  // namespace
 }  // namespace maxwrench

@@ -176,8 +176,8 @@ TEST(HullPairs, AgreeWithTheFormulasOfCapsulesAndBoxes) {
     capsule_hull.placement = capsule.placement;
     Points corners;
     for (int i = 0; i < 8; ++i) {
-      corners.push_back(box.half_sizes.cwiseProduct(
-          Vector3d(i % 2 * 2 - 1, i / 2 % 2 * 2 - 1, i / 4 * 2 - 1)));  // NOLINT
+      corners.push_back(
+          box.half_sizes.cwiseProduct(Vector3d(i % 2 * 2 - 1, i / 2 % 2 * 2 - 1, i / 4 * 2 - 1)));
     }
     Shape box_hull = hull_shape_of(corners, 0, 2);
     box_hull.placement = box.placement;
@@ -213,7 +213,7 @@ TEST(HullPairs, AgreeWithTheGapsOfParallelBoxes) {
   const auto corners = [](const Vector3d& half) {
     Points points;
     for (int i = 0; i < 27; ++i) {  // with the middles of edges and faces
-      points.push_back(half.cwiseProduct(Vector3d(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1)));  // NOLINT
+      points.push_back(half.cwiseProduct(Vector3d(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1)));
     }
     return points;
   };

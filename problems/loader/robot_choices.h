@@ -1,0 +1,12 @@
+#pragma once
+
+#include "problems/loader/block.h"
+#include "problems/loader/urdf_choices.h"
+
+namespace maxwrench {
+
+/// Reads what a robot's TOML file says about its URDF: `packages`, `collision.meshes`, the tables
+/// `[joints]` and `[links]`, and which links carry end effectors.
+UrdfChoices read_choices(const Block& root);
+
+}  // namespace maxwrench
