@@ -22,7 +22,7 @@ bool is_value(const std::string& column) {
 
 /// A cell for readers: values of tasks with eight digits, other numbers with four; `none` for a
 /// missing number.
-std::string shown(const std::string& column, const ReportCell& cell, const char* none) {
+std::string cell_text(const std::string& column, const ReportCell& cell, const char* none) {
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;
   const double value = std::get<double>(cell);
   if (!std::isfinite(value)) return none;
@@ -40,7 +40,7 @@ std::vector<std::vector<std::string>> printed(const ReportTable& table, std::siz
   for (std::size_t i = 0; i < std::min(most, table.rows.size()); ++i) {
     std::vector<std::string>& line = lines.emplace_back();
     for (std::size_t j = 0; j < table.columns.size(); ++j) {
-      line.push_back(shown(table.columns[j], table.rows[i][j], "-"));
+      line.push_back(cell_text(table.columns[j], table.rows[i][j], "-"));
     }
   }
   return lines;
@@ -111,7 +111,7 @@ std::string html_of_table(const ReportTable& table, std::size_t most) {
     text += "<tr>";
     for (std::size_t j = 0; j < table.columns.size(); ++j) {
       text += is_numeric(table, j) ? "<td class=\"n\">" : "<td>";
-      text += escaped_html(shown(table.columns[j], table.rows[i][j], "")) + "</td>";
+      text += escaped_html(cell_text(table.columns[j], table.rows[i][j], "")) + "</td>";
     }
     text += "</tr>\n";
   }
