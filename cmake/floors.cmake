@@ -32,9 +32,10 @@ function(add_core_floor name)
   add_floor(${name} OBJECT)
   target_include_directories(maxwrench_${name} PRIVATE ${PROJECT_SOURCE_DIR}/include)
   target_link_libraries(maxwrench_${name} PRIVATE Eigen3::Eigen ${ARGN})
-  if(BUILD_SHARED_LIBS)
-    set_target_properties(maxwrench_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-  endif()
+  # The objects also go into shared libraries and the Python module. Without -fno-semantic-interposition, calls within them would no
+  # longer be inlined.
+  set_target_properties(maxwrench_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(maxwrench_${name} PRIVATE -fno-semantic-interposition)
 endfunction()
 
 add_core_floor(lib)
