@@ -27,15 +27,19 @@ function(add_floor name)
   target_precompile_headers(maxwrench_${name} PRIVATE <Eigen/Dense> <Eigen/Sparse> <string> <vector>)
 endfunction()
 
+# The objects also go into shared libraries and the Python module. Without -fno-semantic-interposition, calls within them would no
+# longer be inlined.
+function(serve_modules name)
+  set_target_properties(maxwrench_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(maxwrench_${name} PRIVATE -fno-semantic-interposition)
+endfunction()
+
 # A floor of maxwrench::maxwrench; further words are what it needs.
 function(add_core_floor name)
   add_floor(${name} OBJECT)
   target_include_directories(maxwrench_${name} PRIVATE ${PROJECT_SOURCE_DIR}/include)
   target_link_libraries(maxwrench_${name} PRIVATE Eigen3::Eigen ${ARGN})
-  # The objects also go into shared libraries and the Python module. Without -fno-semantic-interposition, calls within them would no
-  # longer be inlined.
-  set_target_properties(maxwrench_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-  target_compile_options(maxwrench_${name} PRIVATE -fno-semantic-interposition)
+  serve_modules(${name})
 endfunction()
 
 add_core_floor(lib)
@@ -97,6 +101,7 @@ target_include_directories(maxwrench_core PUBLIC $<BUILD_INTERFACE:${PROJECT_SOU
 target_link_libraries(maxwrench_core PUBLIC Eigen3::Eigen PRIVATE ${maxwrench_libraries})
 
 add_floor(drawing)
+serve_modules(drawing)
 add_library(maxwrench::drawing ALIAS maxwrench_drawing)
 set_target_properties(maxwrench_drawing PROPERTIES EXPORT_NAME drawing)
 target_link_libraries(maxwrench_drawing PUBLIC maxwrench_core PRIVATE fmt::fmt)

@@ -6,7 +6,9 @@
 namespace maxwrench {
 
 BadInput::BadInput(const std::filesystem::path& file, const BadValue& value)
-    : std::invalid_argument(one_line(file.string() + ": " + value.what())), value_(value) {}
+    : std::invalid_argument(one_line(file.string() + ": " + value.what())),
+      file_(file),
+      value_(value) {}
 
 void throw_bad_input(const std::filesystem::path& file, std::string_view key, std::string_view got,
                      std::string_view expected) {

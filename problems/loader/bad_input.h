@@ -13,9 +13,11 @@ namespace maxwrench {
 class BadInput : public std::invalid_argument {
  public:
   BadInput(const std::filesystem::path& file, const BadValue& value);
+  const std::filesystem::path& file() const { return file_; }
   const BadValue& value() const { return value_; }
 
  private:
+  std::filesystem::path file_;
   BadValue value_;
 };
 

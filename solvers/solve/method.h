@@ -58,6 +58,13 @@ std::vector<std::string> served_searches(const Problem& problem, const std::stri
 Method resolve(const Problem& problem, const Case& c);
 Method resolve(const Problem&& problem, const Case& c) = delete;
 
+/// The number of threads that a caller wants; 0: one per core. Throws std::invalid_argument unless
+/// it is possible.
+int thread_count(int threads);
+
+/// Whether the residual of a result with efforts is small enough to count as solved.
+bool satisfies_program(const Capability& capability);
+
 /// Replaces the scheme of a task in time. Throws std::invalid_argument, which names `key`, unless
 /// the problem is a task in time that has a scheme of this name.
 void set_scheme(const char* key, const std::string& scheme, Problem& problem);

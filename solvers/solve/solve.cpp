@@ -71,8 +71,7 @@ void conclude_posture(Answer& answer) {
   static_cast<Verdict&>(answer) = valid ? Verdict(answer.capability) : Verdict(answer.posture);
   if (!valid) answer.reason = describe_violation(*answer.task, answer.posture);
   if (answer.status != Status::kOptimal) return;
-  const double beta = answer.capability.beta;
-  if (!answer.capability.residual.within(kAnswerTolerance * (1 + std::abs(beta)))) {
+  if (!satisfies_program(answer.capability)) {
     answer.conclude(Status::kNumericalError, "the answer does not satisfy its program");
   }
 }
@@ -185,6 +184,8 @@ void conclude_search(const SearchResult& result, Answer& answer) {
   }
 }
 
+}  // namespace
+
 int thread_count(int threads) {
   if (threads < 0 || threads > kMostThreads) {
     throw std::invalid_argument("threads: got " + std::to_string(threads) + ", expected 1 to " +
@@ -193,7 +194,9 @@ int thread_count(int threads) {
   return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-}  // namespace
+bool satisfies_program(const Capability& capability) {
+  return capability.residual.within(kAnswerTolerance * (1 + std::abs(capability.beta)));
+}
 
 bool Answer::has_value() const {
   return answered() ||

@@ -1,0 +1,32 @@
+"""The errors of the package."""
+
+
+class InputError(ValueError):
+    """A wrong argument or file, in one line that names the key, the value and what was expected.
+
+    Attributes: ``file``, ``key``, ``value`` and ``expected`` are texts, or None where the line does
+    not come from a file or a single key. The line is that of the command.
+
+    >>> try:
+    ...     maxwrench.load("uvms/valv")
+    ... except maxwrench.InputError as error:
+    ...     print(error.key)
+    problem
+    """
+
+    file = key = value = expected = None
+
+
+class MissingFileError(InputError, FileNotFoundError):
+    """A file that is not there; also a FileNotFoundError. It has the attributes of InputError.
+
+    >>> try:
+    ...     maxwrench.load("none.toml")
+    ... except FileNotFoundError as error:
+    ...     print(error.file)
+    none.toml
+    """
+
+
+for _error in (InputError, MissingFileError):
+    _error.__module__ = "maxwrench"

@@ -1,0 +1,89 @@
+#include "python/src/arrays.h"
+
+#include <string>
+
+#include "problems/make/bad_value.h"
+
+namespace maxwrench::python {
+namespace {
+
+std::string dimensions(const std::vector<Eigen::Index>& sizes) {
+  std::string text = "(";
+  for (const Eigen::Index size : sizes) {
+    if (text.size() > 1) text += ", ";
+    text += size < 0 ? "any" : std::to_string(size);
+  }
+  return text + (sizes.size() == 1 ? ",)" : ")");
+}
+
+void require_shape(std::string_view key, const Array& array,
+                   const std::vector<Eigen::Index>& sizes) {
+  bool fits = array.ndim() == static_cast<py::ssize_t>(sizes.size());
+  for (std::size_t i = 0; fits && i < sizes.size(); ++i) {
+    fits = sizes[i] < 0 || array.shape(static_cast<py::ssize_t>(i)) == sizes[i];
+  }
+  if (!fits) {
+    throw BadValue(key, "shape " + shape_of(array), "an array of shape " + dimensions(sizes));
+  }
+}
+
+}  // namespace
+
+std::string shape_of(const Array& array) {
+  std::vector<Eigen::Index> sizes(array.shape(), array.shape() + array.ndim());
+  return dimensions(sizes);
+}
+
+Array numbers(std::string_view key, const py::object& value) {
+  if (value.is_none()) throw BadValue(key, "None", "an array of numbers");
+  const auto reject = [&](const std::string& got) {
+    throw BadValue(key, got, "an array of real numbers");
+  };
+  py::array any = py::array::ensure(value);
+  if (!any) {
+    PyErr_Clear();
+    reject("a " + std::string(py::str(py::type::of(value).attr("__name__"))));
+  }
+  const char kind = any.dtype().kind();
+  if (kind != 'f' && kind != 'i' && kind != 'u') {
+    reject("dtype " + std::string(py::str(any.dtype())));
+  }
+  return Array(any);
+}
+
+Eigen::VectorXd vector(std::string_view key, const py::object& value, Eigen::Index size) {
+  const Array array = numbers(key, value);
+  require_shape(key, array, {size});
+  return Eigen::Map<const Eigen::VectorXd>(array.data(), array.size());
+}
+
+RowMatrix matrix(std::string_view key, const py::object& value, Eigen::Index rows,
+                 Eigen::Index cols) {
+  const Array array = numbers(key, value);
+  require_shape(key, array, {rows, cols});
+  return Eigen::Map<const RowMatrix>(array.data(), array.shape(0), array.shape(1));
+}
+
+void require_all_finite(std::string_view key, const Eigen::Ref<const RowMatrix>& values) {
+  if (!values.allFinite()) throw BadValue(key, "a NaN or an infinity", "finite numbers");
+}
+
+py::array view(const double* data, const std::vector<py::ssize_t>& shape, const py::object& owner) {
+  py::array_t<double> array(shape, data, owner);
+  array.attr("flags").attr("writeable") = false;
+  return array;
+}
+
+py::array view(const Eigen::VectorXd& v, const py::object& owner) {
+  return view(v.data(), {v.size()}, owner);
+}
+
+py::array copy(const Eigen::VectorXd& v) {
+  return py::array_t<double>(v.size(), v.data());
+}
+
+py::array copy(const RowMatrix& m) {
+  return py::array_t<double>(std::vector<py::ssize_t>{m.rows(), m.cols()}, m.data());
+}
+
+}  // namespace maxwrench::python

@@ -1,0 +1,86 @@
+#include "python/src/background.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+namespace maxwrench::python {
+namespace {
+
+/// A thread that computes, with its end.
+class Worker {
+ public:
+  Worker(Watch& watch, const std::function<void(Watch&)>& compute)
+      : thread_([this, &watch, &compute] {
+          try {
+            compute(watch);
+          } catch (...) {
+            failure_ = std::current_exception();
+          }
+          const std::lock_guard lock(mutex_);
+          done_ = true;
+          ended_.notify_one();
+        }) {}
+  ~Worker() { thread_.join(); }
+
+  /// Whether it ends within that time.
+  bool ends_within(std::chrono::milliseconds time) {
+    std::unique_lock lock(mutex_);
+    return ended_.wait_for(lock, time, [this] { return done_; });
+  }
+  std::exception_ptr failure() const { return failure_; }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  bool done_ = false;
+  std::exception_ptr failure_;
+  std::thread thread_;  // the last member: it uses the others
+};
+
+/// Whether the user has pressed Ctrl-C. Throws what another handler of a signal throws.
+bool interrupted() {
+  if (PyErr_CheckSignals() == 0) return false;
+  if (!PyErr_ExceptionMatches(PyExc_KeyboardInterrupt)) throw py::error_already_set();
+  PyErr_Clear();
+  return true;
+}
+
+bool wants_end(const py::object& callback, long evaluations) {
+  return !callback.is_none() && callback(evaluations).cast<py::object>().is(py::bool_(true));
+}
+
+}  // namespace
+
+void run_in_background(const py::object& callback, const std::function<void(Watch&)>& compute) {
+  using namespace std::chrono_literals;
+  Watch watch;
+  std::exception_ptr of_python, of_computation;
+  {
+    // The lock is released while the worker lives, so that it can call Python and be joined.
+    std::optional<py::gil_scoped_release> released(std::in_place);
+    {
+      Worker worker(watch, compute);
+      for (int round = 1; !worker.ends_within(25ms); ++round) {
+        py::gil_scoped_acquire lock;
+        try {
+          if (interrupted() ||
+              (round % 4 == 0 && wants_end(callback, watch.evaluations))) {
+            watch.stop = true;
+          }
+        } catch (...) {
+          if (!of_python) of_python = std::current_exception();
+          watch.stop = true;
+        }
+      }
+      of_computation = worker.failure();
+    }
+  }
+  if (of_python) std::rethrow_exception(of_python);
+  if (of_computation) std::rethrow_exception(of_computation);
+}
+
+}  // namespace maxwrench::python

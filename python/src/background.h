@@ -1,0 +1,29 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <atomic>
+#include <functional>
+
+namespace maxwrench::python {
+
+namespace py = pybind11;
+
+/// A computation in another thread, which Python can watch and stop.
+struct Watch {
+  std::atomic<long> evaluations{0};  ///< written by the computation
+  std::atomic<bool> stop{false};     ///< written by Python; the computation obeys
+};
+
+/// Runs `compute` in another thread, without the interpreter's lock. Meanwhile the calling thread
+/// handles signals, and every tenth of a second calls `callback` with the number of evaluations;
+/// if that returns True, or the user presses Ctrl-C, it asks the computation to stop.
+///
+/// Rethrows what `compute` or `callback` throws. Ctrl-C is an answer, not an exception: the best so
+/// far is returned.
+///
+/// @param callback  a function of one number, or None
+/// @param compute   the computation
+void run_in_background(const py::object& callback, const std::function<void(Watch&)>& compute);
+
+}  // namespace maxwrench::python

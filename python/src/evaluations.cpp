@@ -1,0 +1,95 @@
+#include "maxwrench/evaluations.h"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+
+#include "python/src/arrays.h"
+#include "python/src/background.h"
+#include "python/src/parts.h"
+
+namespace maxwrench::python {
+namespace {
+
+/// The evaluations of a task, as Python holds them.
+struct PyEvaluations {
+  Evaluations rows;
+  PyTask task;
+};
+
+std::vector<const char*> status_names(const PyEvaluations& self) {
+  std::vector<const char*> names;
+  for (const Status status : self.rows.status) names.push_back(to_string(status));
+  return names;
+}
+
+py::array valid(const PyEvaluations& self) {
+  py::array_t<bool> flags(py::ssize_t(self.rows.status.size()));
+  for (std::size_t i = 0; i < self.rows.status.size(); ++i) {
+    flags.mutable_at(py::ssize_t(i)) = self.rows.status[i] == Status::kOptimal;
+  }
+  return flags;
+}
+
+std::string repr_of_evaluations(const PyEvaluations& self) {
+  const auto count = std::count(self.rows.status.begin(), self.rows.status.end(), Status::kOptimal);
+  return fmt::format("<Evaluations of {}: {} postures, {} with a value>", self.task.problem->name,
+                     self.rows.status.size(), count);
+}
+
+/// A read-only view of rows that the object holds.
+template <Evaluations::Rows Evaluations::* rows>
+py::array rows_of(const py::object& self) {
+  const Evaluations::Rows& table = (self.cast<const PyEvaluations&>().rows).*rows;
+  return view(table.data(), {table.rows(), table.cols()}, self);
+}
+
+}  // namespace
+
+py::object evaluate_rows(const PyTask& task, const py::object& theta_r, Options options,
+                         const py::object& callback) {
+  const RowMatrix table = matrix("theta_r", theta_r, -1, task.problem->redundancy());
+  PyEvaluations result{{}, task};
+  run_in_background(callback, [&](Watch& watch) {
+    options.progress = [&watch](long evaluations) { watch.evaluations = evaluations; };
+    options.interrupted = [&watch] { return watch.stop.load(); };
+    result.rows = evaluate_each(*task.problem, table, options);
+  });
+  return py::cast(std::move(result));
+}
+
+void add_evaluations(py::module_& m) {
+  py::class_<PyEvaluations>(m, "Evaluations", R"(The values of N postures of a static task.
+
+Arrays have a row for each posture and are read-only views. They are NaN where there is no value.
+
+>>> rows = maxwrench.evaluate("planar/force", [[0, 0, 0], [0.1, 0, 0]])
+>>> rows.beta.shape, rows.gradient.shape
+((2,), (2, 3))
+)")
+      .def_property_readonly(
+          "beta",
+          [](const py::object& self) {
+            return view(self.cast<const PyEvaluations&>().rows.beta, self);
+          },
+          "The values (N) [unit].")
+      .def_property_readonly("gradient", &rows_of<&Evaluations::gradient>,
+                             "Gradients by theta_r (N×r).")
+      .def_property_readonly("q", &rows_of<&Evaluations::q>, "All joints (N×J) [rad or m].")
+      .def_property_readonly("base", &rows_of<&Evaluations::base>,
+                             "Base in the world: x, y, z, roll, pitch, yaw (N×6) [m; rad].")
+      .def_property_readonly("u", &rows_of<&Evaluations::u>, "Efforts (N×m) [N or N m].")
+      .def_property_readonly("h", &rows_of<&Evaluations::h>,
+                             "Wrenches [force; torque] in the world (N×6).")
+      .def_property_readonly("status", &status_names, "The status of each posture (N texts).")
+      .def_property_readonly("valid", &valid, "Whether there is a value (N booleans).")
+      .def_property_readonly(
+          "unit", [](const PyEvaluations& e) { return e.task.problem->unit(); },
+          "The unit of measures that are a wrench along c.")
+      .def_property_readonly("task", [](const PyEvaluations& e) { return e.task; }, "The Task.")
+      .def("__len__", [](const PyEvaluations& e) { return e.rows.status.size(); })
+      .def("__repr__", &repr_of_evaluations);
+}
+
+}  // namespace maxwrench::python

@@ -1,0 +1,21 @@
+#include <pybind11/pybind11.h>
+
+#include "maxwrench/version.h"
+#include "python/src/parts.h"
+
+PYBIND11_MODULE(_core, m) {
+  using namespace maxwrench;
+  m.doc() = "The compiled part of maxwrench; import maxwrench instead.";
+  m.attr("__version__") = version();
+  m.def("describe_build", &describe_build,
+        "Returns the version, how the module was built, and the libraries that it uses.");
+  python::add_errors(m);
+  python::add_poses(m);
+  python::add_robots(m);
+  python::add_tasks(m);
+  python::add_answers(m);
+  python::add_evaluations(m);
+  python::add_solve(m);
+  python::add_capability(m);
+  python::add_linear_programs(m);
+}

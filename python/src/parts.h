@@ -1,0 +1,59 @@
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <memory>
+
+#include "maxwrench/solve.h"
+
+// What the files of the module share.
+
+namespace maxwrench::python {
+
+namespace py = pybind11;
+
+/// How an object was made: the name of a function of the module and its arguments. Pickle stores
+/// this in place of the object.
+using Recipe = std::pair<std::string, py::dict>;
+
+/// A robot, as Python holds it.
+struct PyRobot {
+  std::shared_ptr<const Robot> robot;
+  Recipe recipe;
+};
+
+/// A task, as Python holds it.
+struct PyTask {
+  std::shared_ptr<const Problem> problem;
+  Recipe recipe;
+};
+
+/// An answer with the task that it was asked of.
+struct PyAnswer {
+  Answer answer;
+  PyTask task;
+};
+
+/// What pickle stores: the call that makes the object again, and the digest that it must have.
+py::tuple reduced(const Recipe& recipe, const std::string& digest = "");
+/// The task in an argument: a Task, or the name of one.
+PyTask task_of(const py::object& task);
+/// The Evaluations of a static task at each row of an array.
+py::object evaluate_rows(const PyTask& task, const py::object& theta_r, Options options,
+                         const py::object& callback);
+/// [x y z roll pitch yaw] of the base in the world, then the joints.
+Eigen::VectorXd theta_of(const Pose<double>& base, const Eigen::VectorXd& q);
+
+// Each adds its classes and functions to the module.
+void add_errors(py::module_& m);
+void add_poses(py::module_& m);
+void add_robots(py::module_& m);
+void add_tasks(py::module_& m);
+void add_answers(py::module_& m);
+void add_solve(py::module_& m);
+void add_evaluations(py::module_& m);
+void add_capability(py::module_& m);
+void add_linear_programs(py::module_& m);
+void add_tank(py::module_& m);
+
+}  // namespace maxwrench::python

@@ -1,0 +1,177 @@
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include "maxwrench/load.h"
+#include "problems/make/bad_value.h"
+#include "python/src/arrays.h"
+#include "python/src/parts.h"
+#include "python/src/words.h"
+#include "solvers/solve/format.h"
+
+namespace maxwrench::python {
+namespace {
+
+PyRobot from_urdf(const py::object& path, const py::object& base, const std::string& tool,
+                  const py::object& srdf, const py::object& packages) {
+  const std::string file = path_in("path", path);
+  UrdfOptions options;
+  options.tool = tool;
+  options.base_axes = base_axes_in("base", base);
+  if (!srdf.is_none()) options.srdf = path_in("srdf", srdf);
+  for (const std::string& folder : names_in("packages", packages)) {
+    options.packages.emplace_back(folder);
+  }
+  py::dict how;
+  how["path"] = file;
+  how["base"] = base;
+  how["tool"] = tool;
+  how["srdf"] = srdf;
+  how["packages"] = packages;
+  return {std::make_shared<const Robot>(load_urdf(file, options)), {"Robot.from_urdf", how}};
+}
+
+PyRobot from_toml(const py::object& path, const std::string& limits) {
+  const std::string file = path_in("path", path);
+  py::dict how;
+  how["path"] = file;
+  how["limits"] = limits;
+  return {std::make_shared<const Robot>(load_robot(file, {limits})), {"Robot.from_toml", how}};
+}
+
+template <class Items>
+std::vector<std::string> names_of(const Items& items) {
+  std::vector<std::string> names;
+  for (const auto& item : items) names.push_back(item.name);
+  return names;
+}
+
+std::vector<std::string> actuator_names(const Robot& robot) {
+  std::vector<std::string> names;
+  for (Eigen::Index i = 0; i < robot.actuators(); ++i) names.push_back(actuator_name(robot, i));
+  return names;
+}
+
+std::vector<std::string> base_names(const Robot& robot) {
+  std::vector<std::string> names;
+  for (const int axis : robot.base_axes) names.emplace_back(kTwistAxes[std::size_t(axis)]);
+  return names;
+}
+
+/// One number of each joint.
+template <class Number>
+py::array of_joints(const Robot& robot, Number number) {
+  Eigen::VectorXd v(robot.joints.size());
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    v[Eigen::Index(i)] = number(robot.joints[i]);
+  }
+  return copy(v);
+}
+
+std::string repr_of_robot(const PyRobot& self) {
+  const Robot& robot = *self.robot;
+  const std::vector<std::string> base = base_names(robot);
+  return fmt::format("<Robot {}: base {}, {} joints, {} thrusters, end effector{} {}>", robot.name,
+                     base.empty() ? "fixed" : fmt::format("{}", fmt::join(base, " ")),
+                     robot.joints.size(), robot.thrusters.size(),
+                     robot.end_effectors.size() == 1 ? "" : "s",
+                     fmt::join(names_of(robot.end_effectors), " "));
+}
+
+constexpr const char* kFromUrdf = R"(Reads a robot from a URDF alone.
+
+Args:
+    path: the URDF, or a xacro file if xacro is installed.
+    base: the free axes of the base, such as "x,y,yaw". The base is parked: it may stand anywhere
+        along them, and its brakes hold any load. Empty: the base is fixed.
+    tool: the link that is the end effector. Empty: each link without children.
+    srdf: SRDF file with collision pairs to leave out and named postures.
+    packages: folders of packages, in which ``package://`` is searched first.
+
+Raises:
+    InputError: the file is missing or something in it is wrong.
+
+>>> robot = maxwrench.Robot.from_urdf("ur10.urdf", base="x,y,yaw", tool="tool0")  # doctest: +SKIP
+)";
+
+}  // namespace
+
+void add_robots(py::module_& m) {
+  py::class_<PyRobot>(m, "Robot", R"(A robot: a tree of links on a base, with actuators and limits.
+
+It cannot change. ``Robot.from_urdf`` and ``Robot.from_toml`` read one, ``make_robot`` makes one in
+code, and ``task.robot`` is the robot of a task.
+
+>>> maxwrench.load("uvms/valve").robot.joint_names
+['waist', 'shoulder', 'elbow', 'wrist']
+)")
+      .def_static("from_urdf", &from_urdf, py::arg("path"), py::kw_only(), py::arg("base") = "",
+                  py::arg("tool") = "", py::arg("srdf") = py::none(),
+                  py::arg("packages") = py::tuple(), kFromUrdf)
+      .def_static("from_toml", &from_toml, py::arg("path"), py::kw_only(), py::arg("limits") = "",
+                  R"(Reads a robot from a TOML file and the URDF that it names.
+
+Args:
+    path: the TOML file; docs/robot_files.md describes its keys.
+    limits: the name of the table in ``[limits]`` that counts. Empty: none.
+
+Raises:
+    InputError: the file is missing or something in it is wrong.
+)")
+      .def_property_readonly(
+          "name", [](const PyRobot& r) { return r.robot->name; }, "The name.")
+      .def_property_readonly(
+          "base", [](const PyRobot& r) { return base_names(*r.robot); },
+          "The free axes of the base, of x, y, z, roll, pitch, yaw.")
+      .def_property_readonly(
+          "joint_names", [](const PyRobot& r) { return names_of(r.robot->joints); },
+          "The names of the joints, in the order of all arrays of joints (that of the URDF).")
+      .def_property_readonly(
+          "link_names", [](const PyRobot& r) { return names_of(r.robot->links); },
+          "The names of the links: the base, then one for each joint.")
+      .def_property_readonly(
+          "thruster_names", [](const PyRobot& r) { return names_of(r.robot->thrusters); },
+          "The names of the thrusters.")
+      .def_property_readonly(
+          "actuator_names", [](const PyRobot& r) { return actuator_names(*r.robot); },
+          "The names of the actuators, in the order of u: thrusters, then joints (m).")
+      .def_property_readonly(
+          "end_effectors", [](const PyRobot& r) { return names_of(r.robot->end_effectors); },
+          "The names of the end effectors.")
+      .def_property_readonly(
+          "B", [](const PyRobot& r) { return copy(RowMatrix(r.robot->actuation.B)); },
+          "Efforts to generalised forces (n×m): free base axes in base axes, then joints.")
+      .def_property_readonly(
+          "u_min", [](const PyRobot& r) { return copy(r.robot->actuation.u_min); },
+          "Lower limits of the efforts (m) [N or N m].")
+      .def_property_readonly(
+          "u_max", [](const PyRobot& r) { return copy(r.robot->actuation.u_max); },
+          "Upper limits of the efforts (m) [N or N m].")
+      .def_property_readonly(
+          "q_min",
+          [](const PyRobot& r) { return of_joints(*r.robot, [](const Joint& j) { return j.q_min; }); },
+          "Lower limits of the joints [rad or m].")
+      .def_property_readonly(
+          "q_max",
+          [](const PyRobot& r) { return of_joints(*r.robot, [](const Joint& j) { return j.q_max; }); },
+          "Upper limits of the joints [rad or m].")
+      .def_property_readonly(
+          "velocity_max",
+          [](const PyRobot& r) {
+            return of_joints(*r.robot, [](const Joint& j) { return j.velocity_max; });
+          },
+          "Speed limits of the joints [rad/s or m/s].")
+      .def_property_readonly(
+          "warnings", [](const PyRobot& r) { return r.robot->warnings; },
+          "What is wrong with the robot's data, one line each. Values computed from such data are "
+          "as good as the data.")
+      .def_property_readonly(
+          "notes", [](const PyRobot& r) { return r.robot->notes; },
+          "How the data were read, one line each: meshes, collision pairs left out.")
+      .def_property_readonly(
+          "states", [](const PyRobot& r) { return r.robot->states; },
+          "Named postures: positions [rad or m] of some joints, by name.")
+      .def("__repr__", &repr_of_robot)
+      .def("__reduce__", [](const PyRobot& r) { return reduced(r.recipe); });
+}
+
+}  // namespace maxwrench::python

@@ -1,0 +1,182 @@
+#include "maxwrench/solve.h"
+
+#include <pybind11/stl.h>
+
+#include "maxwrench/strategies.h"
+#include "problems/make/bad_value.h"
+#include "python/src/arrays.h"
+#include "python/src/background.h"
+#include "python/src/parts.h"
+
+namespace maxwrench::python {
+namespace {
+
+Options options_of(const std::string& measure, const std::string& wrench,
+                   const std::string& solver) {
+  Options options;
+  options.measure = measure;
+  options.wrench = parse_wrench(wrench);
+  options.solver = solver;
+  return options;
+}
+
+/// theta_r (r) of a posture, or knots (k×r).
+Eigen::MatrixXd knots_in(const py::object& value, const Problem& task) {
+  const Array array = numbers("theta_r", value);
+  if (array.ndim() == 1) return vector("theta_r", value, task.redundancy()).transpose();
+  return matrix("theta_r", value, knots_of(task), task.redundancy());
+}
+
+py::object evaluate_task(const py::object& task, const py::object& theta_r,
+                         const std::string& measure, const std::string& wrench,
+                         const std::string& solver, bool check_collision, int threads,
+                         const py::object& callback) {
+  const PyTask of = task_of(task);
+  Options options = options_of(measure, wrench, solver);
+  options.check_collision = check_collision;
+  options.threads = threads;
+  const bool many = !of.problem->motion && numbers("theta_r", theta_r).ndim() == 2;
+  if (many) return evaluate_rows(of, theta_r, options, callback);
+  const Eigen::MatrixXd knots = knots_in(theta_r, *of.problem);
+  PyAnswer result{{}, of};
+  {
+    const py::gil_scoped_release released;
+    result.answer = evaluate(*of.problem, knots, options);
+  }
+  return py::cast(std::move(result));
+}
+
+PyAnswer evaluate_joints(const py::object& task, const py::object& q, const std::string& measure,
+                         const std::string& wrench, const std::string& solver,
+                         bool check_collision) {
+  const PyTask of = task_of(task);
+  Options options = options_of(measure, wrench, solver);
+  options.check_collision = check_collision;
+  const Eigen::VectorXd joints = vector("q", q, Eigen::Index(of.problem->robot.joints.size()));
+  const py::gil_scoped_release released;
+  return {evaluate_posture(*of.problem, joints, options), of};
+}
+
+PyAnswer solve_task(const py::object& task, const std::string& measure, const std::string& wrench,
+                    const std::string& solver, const std::string& search, std::uint64_t seed,
+                    long budget, int threads, const py::object& callback) {
+  const PyTask of = task_of(task);
+  Options options = options_of(measure, wrench, solver);
+  options.search = search;
+  options.seed = seed;
+  options.budget = budget;
+  options.threads = threads;
+  PyAnswer result{{}, of};
+  run_in_background(callback, [&](Watch& watch) {
+    options.progress = [&watch](long evaluations) { watch.evaluations = evaluations; };
+    options.interrupted = [&watch] { return watch.stop.load(); };
+    result.answer = solve(*of.problem, options);
+  });
+  return result;
+}
+
+template <class Table>
+py::dict summaries(const Table& table) {
+  py::dict names;
+  for (const auto& entry : table) names[py::str(entry.name)] = entry.summary;
+  return names;
+}
+
+py::dict all_searches() {
+  py::dict names = summaries(searches());
+  names.attr("update")(summaries(trajectory_searches()));
+  names.attr("update")(summaries(facet_searches()));
+  return names;
+}
+
+constexpr const char* kEvaluate = R"(Evaluates a task at theta_r.
+
+Args:
+    task: a Task, or the name of one.
+    theta_r: the redundant coordinates (r) [rad or m]. For a static task also N postures, one in
+        each row (N×r), which are evaluated side by side. For a task in time knots (k×r), or r
+        numbers that it keeps throughout.
+    measure: the measure; ``measures()`` lists them.
+    wrench: "pure": only multiples of c; "any": other wrenches of the task may occur, too.
+    solver: the solver of the lower level; the first one that serves if empty.
+    check_collision: whether a posture that collides is invalid.
+    threads: for N postures, the number of threads; it changes the time, never the values; 0: one
+        per core.
+    callback: for N postures, as of ``solve``; those that remain have the status budget_exhausted.
+
+Returns:
+    Answer: the value with everything that is known about it. Evaluations: those of N postures.
+
+Raises:
+    InputError: the array has the wrong shape or is not finite, a name does not exist, or the
+        choices do not fit together.
+
+>>> maxwrench.evaluate("uvms/valve", [0, 0, 0, 0]).status
+'optimal'
+)";
+
+constexpr const char* kSolve = R"(Searches for the best posture or trajectory.
+
+Args:
+    task: a Task, or the name of one.
+    measure, wrench, solver: as of ``evaluate``.
+    search: the search, or stages joined by "+"; ``searches()`` lists them. Empty: the best one in
+        general.
+    seed: of the random numbers.
+    budget: largest number of evaluations; 0: a usual one.
+    threads: number of threads; it changes the time, never the answer; 0: one per core.
+    callback: called every tenth of a second with the number of evaluations; if it returns True,
+        the search ends. Ctrl-C ends it, too. Either way the best so far is returned, with status
+        budget_exhausted.
+
+Returns:
+    Answer: the best one that the search finds, evaluated again.
+
+Raises:
+    InputError: as ``evaluate``.
+
+>>> answer = maxwrench.solve("planar/force", seed=1)
+>>> answer.status
+'best_found'
+)";
+
+}  // namespace
+
+void add_solve(py::module_& m) {
+  m.def("evaluate", &evaluate_task, py::arg("task"), py::arg("theta_r"), py::kw_only(),
+        py::arg("measure") = Case().measure, py::arg("wrench") = "pure", py::arg("solver") = "",
+        py::arg("check_collision") = true, py::arg("threads") = 0,
+        py::arg("callback") = py::none(), kEvaluate);
+  m.def("evaluate_joints", &evaluate_joints, py::arg("task"), py::arg("q"), py::kw_only(),
+        py::arg("measure") = Case().measure, py::arg("wrench") = "pure", py::arg("solver") = "",
+        py::arg("check_collision") = true,
+        R"(Evaluates a static task in one posture that is given by all joints.
+
+The base is at its mount and the end effector where the joints put it. There is no inverse
+kinematics, and no gradient.
+
+Args:
+    task: a static Task with one contact, or the name of one.
+    q: positions of all joints (J) [rad or m], in the order of ``robot.joint_names``.
+    others: as of ``evaluate``.
+
+Returns:
+    Answer: the value.
+
+Raises:
+    InputError: as ``evaluate``.
+)");
+  m.def("solve", &solve_task, py::arg("task"), py::kw_only(), py::arg("measure") = Case().measure,
+        py::arg("wrench") = "pure", py::arg("solver") = "", py::arg("search") = "",
+        py::arg("seed") = 1, py::arg("budget") = 0, py::arg("threads") = 0,
+        py::arg("callback") = py::none(), kSolve);
+  m.def("measures", [] { return summaries(measures()); },
+        "Returns the measures: a line about each, by name.");
+  m.def("solvers", [] { return summaries(wrench_solvers()); },
+        "Returns the solvers of the lower level: a line about each, by name.");
+  m.def("searches", &all_searches, "Returns the searches: a line about each, by name.");
+  m.def("integrators", [] { return summaries(integrators()); },
+        "Returns the integrators: a line about each, by name.");
+}
+
+}  // namespace maxwrench::python

@@ -1,0 +1,473 @@
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include "maxwrench/load.h"
+#include "maxwrench/task.h"
+#include "problems/make/bad_value.h"
+#include "problems/make/posture.h"
+#include "python/src/arrays.h"
+#include "python/src/parts.h"
+#include "python/src/words.h"
+
+namespace maxwrench::python {
+namespace {
+
+/// A path of the end effector, as Python holds it.
+struct PyPath {
+  Path path;
+  Recipe recipe;
+};
+
+Timing timing_of(const std::string& name) {
+  if (name == "cubic") return Timing::kCubic;
+  if (name == "quintic") return Timing::kQuintic;
+  if (name == "linear") return Timing::kLinear;
+  throw BadValue("timing", shown(name), "cubic, quintic or linear");
+}
+
+PyPath spline_path(const py::object& times, const std::vector<Pose<double>>& poses) {
+  const Eigen::VectorXd t = vector("times", times);
+  require_all_finite("times", t);
+  py::dict how;
+  how["times"] = copy(t);
+  how["poses"] = poses;
+  return {Path::spline({t.begin(), t.end()}, poses), {"Path.spline", how}};
+}
+
+PyPath screw_path(const Pose<double>& start, double duration, const py::object& axis,
+                  const py::object& centre, double angle, const py::object& displacement,
+                  const std::string& timing) {
+  require_positive("duration", duration);
+  require_finite("angle", angle);
+  const Eigen::Vector3d a = direction_of("axis", vector("axis", axis, 3));
+  const Eigen::Vector3d c = centre.is_none() ? start.p : Eigen::Vector3d(vector("centre", centre, 3));
+  const Eigen::Vector3d d = displacement.is_none()
+                                ? Eigen::Vector3d(Eigen::Vector3d::Zero())
+                                : Eigen::Vector3d(vector("displacement", displacement, 3));
+  require_all_finite("centre", c);
+  require_all_finite("displacement", d);
+  py::dict how;
+  how["start"] = start;
+  how["duration"] = duration;
+  how["axis"] = axis;
+  how["centre"] = centre;
+  how["angle"] = angle;
+  how["displacement"] = displacement;
+  how["timing"] = timing;
+  return {Path::screw(start, a, c, angle, d, timing_of(timing), duration), {"Path.screw", how}};
+}
+
+void add_paths(py::module_& m) {
+  py::class_<PyPath>(m, "Path", R"(The poses of an end effector over time.
+
+>>> start = maxwrench.Pose([0.5, 0, 0.3])
+>>> maxwrench.Path.screw(start, 2.0, displacement=[0.1, 0, 0]).at(2.0).p
+array([0.6, 0. , 0.3])
+)")
+      .def_static("spline", &spline_path, py::arg("times"), py::arg("poses"),
+                  R"(Makes a path through given poses, at rest at both ends.
+
+Args:
+    times: at least two times that increase from 0 [s].
+    poses: one Pose for each time, each rotated by less than pi from the previous one.
+
+Raises:
+    InputError: otherwise.
+)")
+      .def_static("screw", &screw_path, py::arg("start"), py::arg("duration"), py::kw_only(),
+                  py::arg("axis") = py::make_tuple(0, 0, 1), py::arg("centre") = py::none(),
+                  py::arg("angle") = 0.0, py::arg("displacement") = py::none(),
+                  py::arg("timing") = "cubic",
+                  R"(Makes a path that rotates about an axis and translates.
+
+Args:
+    start: the Pose at t = 0.
+    duration: the duration [s].
+    axis: the axis of the rotation in the world (3), of any length.
+    centre: a point on the axis (3) [m]; the end effector's origin if not given.
+    angle: the rotation [rad].
+    displacement: the translation (3) [m].
+    timing: progress along the path: "cubic" (at rest at both ends), "quintic" (and without
+        acceleration) or "linear".
+)")
+      .def_property_readonly(
+          "duration", [](const PyPath& p) { return p.path.duration(); }, "The duration [s].")
+      .def(
+          "at", [](const PyPath& p, double t) { return p.path.pose(t); }, py::arg("t"),
+          "Returns the Pose at the time t [s].")
+      .def("__repr__",
+           [](const PyPath& p) { return fmt::format("<Path of {:g} s>", p.path.duration()); })
+      .def("__reduce__", [](const PyPath& p) { return reduced(p.recipe); });
+}
+
+/// The names of a coordinate of the pose with its limits.
+std::map<std::string, std::array<double, 2>> ranges_in(const py::object& value) {
+  std::map<std::string, std::array<double, 2>> ranges;
+  if (value.is_none()) return ranges;
+  for (const auto& [key, limits] : value.cast<py::dict>()) {
+    const std::string name = key.cast<std::string>();
+    const Eigen::VectorXd pair =
+        vector("range." + name, py::reinterpret_borrow<py::object>(limits), 2);
+    ranges[name] = {pair[0], pair[1]};
+  }
+  return ranges;
+}
+
+/// Takes an argument out of the dict, or its default.
+py::object taken(py::dict& arguments, const char* name, py::object otherwise = py::none()) {
+  if (!arguments.contains(name)) return otherwise;
+  py::object value = arguments[name];
+  arguments.attr("pop")(name);
+  return value;
+}
+
+/// Reads a number, with a message of one line.
+double number_in(const char* key, const py::object& value) {
+  try {
+    return value.cast<double>();
+  } catch (const py::cast_error&) {
+    throw BadValue(key, std::string(py::repr(value)), "a number");
+  }
+}
+
+void read_pose(py::dict& arguments, const Robot& robot, TaskSpec& spec) {
+  const py::object pose = taken(arguments, "pose"), joints = taken(arguments, "joints");
+  if (!pose.is_none() && !joints.is_none()) {
+    throw BadValue("pose", "pose and joints", "one of them");
+  }
+  if (!pose.is_none()) {
+    if (!py::isinstance<Pose<double>>(pose)) {
+      throw BadValue("pose", std::string(py::repr(pose)), "a maxwrench.Pose");
+    }
+    spec.pose = pose.cast<Pose<double>>();
+  } else if (py::isinstance<py::str>(joints)) {
+    spec.posture = named_posture(robot, "joints", joints.cast<std::string>());
+  } else if (!joints.is_none()) {
+    spec.posture = numbers_by_name("joints", joints);
+  } else {
+    spec.posture.emplace();
+  }
+}
+
+void read_wrench(py::dict& arguments, TaskSpec& spec) {
+  spec.c = direction_in("c", taken(arguments, "c", py::str("z")));
+  const std::string axes = taken(arguments, "frame", py::str("world")).cast<std::string>();
+  if (axes != "world" && axes != "end_effector") {
+    throw BadValue("frame", shown(axes), "world or end_effector");
+  }
+  spec.wrench_in_end_effector = axes == "end_effector";
+  const py::object any = taken(arguments, "any"), desired = taken(arguments, "desired");
+  if (!any.is_none()) spec.any = names_in("any", any);
+  if (!desired.is_none()) spec.desired = vector("desired", desired, 6);
+  const py::object reference = taken(arguments, "reference");
+  if (!reference.is_none()) spec.reference = number_in("reference", reference);
+}
+
+void read_theta_r(py::dict& arguments, TaskSpec& spec) {
+  const py::object names = taken(arguments, "theta_r"), start = taken(arguments, "theta_r_default");
+  if (!names.is_none()) spec.joints = names_in("theta_r", names);
+  if (!start.is_none()) spec.theta_r_default = vector("theta_r_default", start);
+  const py::object guess = taken(arguments, "guess"), base = taken(arguments, "guess_base");
+  if (!guess.is_none()) spec.guess = numbers_by_name("guess", guess);
+  if (!base.is_none()) spec.guess_base = numbers_by_name("guess_base", base);
+}
+
+void read_free(py::dict& arguments, TaskSpec& spec) {
+  const py::object free = taken(arguments, "free");
+  if (!free.is_none()) spec.free = names_in("free", free);
+  spec.range = ranges_in(taken(arguments, "range"));
+  const std::string along = taken(arguments, "along", py::str("pose")).cast<std::string>();
+  if (along != "pose" && along != "end_effector") {
+    throw BadValue("along", shown(along), "pose or end_effector");
+  }
+  spec.along_end_effector = along == "end_effector";
+}
+
+/// What all tasks have; what it reads leaves `arguments`.
+TaskSpec begin_spec(const PyRobot& robot, py::dict& arguments, bool in_time) {
+  TaskSpec spec;
+  spec.robot = *robot.robot;
+  spec.name = taken(arguments, "name", py::str(robot.robot->name)).cast<std::string>();
+  spec.end_effector = taken(arguments, "end_effector", py::str("")).cast<std::string>();
+  if (spec.end_effector.empty() && spec.robot.end_effectors.size() == 1) {
+    spec.end_effector = spec.robot.end_effectors.front().name;
+  }
+  if (!in_time) read_pose(arguments, spec.robot, spec);
+  if (!in_time) read_free(arguments, spec);
+  read_wrench(arguments, spec);
+  read_theta_r(arguments, spec);
+  return spec;
+}
+
+/// Rejects arguments that nothing has read.
+void require_empty(const py::dict& arguments, const char* function) {
+  for (const auto& [key, value] : arguments) {
+    throw py::type_error(fmt::format("{}: got an unexpected argument '{}'", function,
+                                     key.cast<std::string>()));
+  }
+}
+
+/// The recipe of a task made of a robot.
+Recipe recipe_of(const char* function, const PyRobot& robot, const py::kwargs& arguments) {
+  py::dict how(arguments);
+  how["robot"] = robot;
+  return {function, how};
+}
+
+PyTask make_static(const PyRobot& robot, const py::kwargs& given) {
+  py::dict arguments = given.attr("copy")();
+  const bool posed = arguments.contains("pose") || arguments.contains("joints");
+  TaskSpec spec = begin_spec(robot, arguments, false);
+  require_empty(arguments, "Static");
+  Problem problem = posed ? make_problem(spec) : make_at_some_posture(std::move(spec));
+  return {std::make_shared<const Problem>(std::move(problem)),
+          recipe_of("Static", robot, given)};
+}
+
+void read_scheme(py::dict& arguments, MotionTask& motion) {
+  motion.scheme =
+      parse_scheme(taken(arguments, "scheme", py::str(to_string(motion.scheme))).cast<std::string>());
+  motion.rates = taken(arguments, "rates", py::bool_(true)).cast<bool>();
+  const py::object instants = taken(arguments, "instants_per_interval");
+  if (!instants.is_none()) motion.instants_per_interval = instants.cast<int>();
+}
+
+PyTask make_trajectory(const PyRobot& robot, const PyPath& path, int knots,
+                       const py::kwargs& given) {
+  py::dict arguments = given.attr("copy")();
+  TaskSpec spec = begin_spec(robot, arguments, true);
+  MotionTask motion;
+  motion.path = path.path;
+  motion.T = path.path.duration();
+  motion.k = knots;
+  read_scheme(arguments, motion);
+  require_empty(arguments, "Trajectory");
+  spec.pose = motion.path.pose(0);
+  spec.motion = motion;
+  Recipe recipe = recipe_of("Trajectory", robot, given);
+  recipe.second["path"] = path;
+  recipe.second["knots"] = knots;
+  return {std::make_shared<const Problem>(make_problem(spec)), recipe};
+}
+
+PyTask make_impulse(const PyRobot& robot, const Pose<double>& pose, double T, int knots,
+                    const py::kwargs& given) {
+  py::dict arguments = given.attr("copy")();
+  TaskSpec spec = begin_spec(robot, arguments, true);
+  MotionTask motion;
+  motion.impulse = true;
+  motion.T = T;
+  motion.k = knots;
+  motion.instants_per_interval = 16;
+  read_scheme(arguments, motion);
+  motion.start = parse_start(taken(arguments, "start", py::str("static")).cast<std::string>());
+  motion.t_h = taken(arguments, "t_h", py::int_(0)).cast<int>();
+  const py::object theta_0 = taken(arguments, "theta_0");
+  if (!theta_0.is_none()) motion.theta_0 = vector("theta_0", theta_0);
+  require_empty(arguments, "Impulse");
+  spec.pose = pose;
+  spec.motion = motion;
+  Recipe recipe = recipe_of("Impulse", robot, given);
+  recipe.second["pose"] = pose;
+  recipe.second["T"] = T;
+  recipe.second["knots"] = knots;
+  return {std::make_shared<const Problem>(make_problem(spec)), recipe};
+}
+
+PyTask load(const py::object& name, const std::string& limits) {
+  const std::string text = path_in("name", name);
+  py::dict how;
+  how["name"] = text;
+  how["limits"] = limits;
+  return {std::make_shared<const Problem>(load_problem(text, {limits})), {"load", how}};
+}
+
+PyRobot robot_of(const PyTask& task) {
+  py::dict how;
+  how["task"] = task;
+  return {std::shared_ptr<const Robot>(task.problem, &task.problem->robot), {"Task.robot", how}};
+}
+
+std::vector<std::string> theta_r_names(const Problem& task) {
+  std::vector<std::string> names;
+  for (int i = 0; i < task.redundancy(); ++i) names.push_back(task.theta_r_name(i));
+  return names;
+}
+
+std::vector<std::string> joint_names_of(const Problem& task, const std::vector<int>& joints) {
+  std::vector<std::string> names;
+  for (const int joint : joints) names.push_back(task.robot.joints[std::size_t(joint)].name);
+  return names;
+}
+
+std::string repr_of_task(const PyTask& self) {
+  const Problem& task = *self.problem;
+  return fmt::format("<Task {}: {}, theta_r {}, unit {}>", task.name, task.type(),
+                     task.redundancy() == 0 ? "empty"
+                                            : fmt::format("{}", fmt::join(theta_r_names(task), " ")),
+                     task.unit());
+}
+
+constexpr const char* kStatic = R"(Makes a static task in code: to hold a pose and exert the largest wrench.
+
+Args:
+    robot: the Robot.
+    pose: the Pose of the end effector in the world.
+    joints: instead of pose, joint positions [rad or m] by name, or the name of a posture of the
+        robot (``robot.states``), that put the end effector there. Without either, the joints at
+        rest, or another posture from which the end effector moves freely.
+    c: direction [force; torque] (6) of the wrench that the robot exerts, of any length, or "x",
+        "y", "z", "rx", "ry", "rz" with a sign if need be. Default: "z", a lift.
+    frame: axes of c, any and desired: "world", or "end_effector", with which they turn.
+    any: the wrenches that ``wrench="any"`` allows, of fx, fy, fz, tx, ty, tz. Default: all that do
+        work.
+    end_effector: its name; not needed if the robot has one.
+    free: coordinates of the pose that are free, of x, y, z, roll, pitch, yaw.
+    range: limits [min, max] of such coordinates by name [m; rad].
+    along: axes of these coordinates: "pose" or "end_effector".
+    theta_r: names of the redundant joints. Default: the program chooses them.
+    theta_r_default: their default positions.
+    guess, guess_base: joint positions and base coordinates by name that select the IK solution.
+    reference: wrench along c, for measures of the efforts at a given wrench [N or N m].
+    desired: units of the axes of the wrench (6), for measures of all axes together.
+    name: name of the task in what is printed.
+
+Returns:
+    Task: the task.
+
+Raises:
+    InputError: a value is wrong; the message names it as the key of a task file.
+
+>>> robot = maxwrench.load("fixed/push").robot
+>>> task = maxwrench.Static(robot, joints={}, c="x")
+)";
+
+constexpr const char* kTrajectory = R"(Makes a task in time: a wrench along a path.
+
+Args:
+    robot: the Robot.
+    path: the Path of the end effector.
+    knots: k, the number of knots of theta_r.
+    scheme: how knots become a motion: "spline", "forward" or "ends".
+    instants_per_interval: for the scheme "spline".
+    rates: whether limits of the rates of efforts apply.
+    others: as of ``Static``, but for pose, joints, free, range and along.
+
+Raises:
+    InputError: a value is wrong.
+)";
+
+constexpr const char* kImpulse = R"(Makes an impulse: the peak of a wrench at a pose within a given time.
+
+Args:
+    robot: the Robot.
+    pose: the Pose of the end effector.
+    T: duration [s].
+    knots: k, the number of knots of theta_r without the one at the start.
+    scheme: "spline", "forward", "backward" or "backward_stop".
+    start: how it starts: "static", "rest", "zero" or "free".
+    t_h: the knot of the peak, 1 to k; 0: the best one.
+    theta_0: theta_r at the start (r).
+    others: as of ``Trajectory``.
+
+Raises:
+    InputError: a value is wrong.
+)";
+
+}  // namespace
+
+py::tuple reduced(const Recipe& recipe, const std::string& digest) {
+  const py::object remake = py::module_::import("maxwrench._pickle").attr("remake");
+  return py::make_tuple(remake, py::make_tuple(recipe.first, recipe.second, digest));
+}
+
+PyTask task_of(const py::object& task) {
+  if (py::isinstance<PyTask>(task)) return task.cast<PyTask>();
+  return load(task, "");
+}
+
+void add_tasks(py::module_& m) {
+  add_paths(m);
+  py::class_<PyTask>(m, "Task", R"(A robot and a task. It cannot change.
+
+``load`` reads one; ``Static``, ``Trajectory`` and ``Impulse`` make one in code.
+
+>>> maxwrench.load("planar/force")
+<Task planar/force: static, theta_r joint_1 joint_2 joint_3, unit N>
+)")
+      .def_property_readonly(
+          "name", [](const PyTask& t) { return t.problem->name; }, "The name.")
+      .def_property_readonly(
+          "type", [](const PyTask& t) { return t.problem->type(); },
+          "The type: static, trajectory or impulse.")
+      .def_property_readonly(
+          "robot",
+          &robot_of,
+          "The Robot.")
+      .def_property_readonly(
+          "unit", [](const PyTask& t) { return t.problem->unit(); },
+          "The unit of beta: N, N m or mixed.")
+      .def_property_readonly(
+          "c", [](const PyTask& t) { return copy(Eigen::VectorXd(t.problem->c)); },
+          "Unit direction [force; torque] of the wrench in the world (6).")
+      .def_property_readonly(
+          "W_any", [](const PyTask& t) { return copy(RowMatrix(t.problem->W_any)); },
+          "Orthonormal basis of the wrenches that wrench=\"any\" allows (6×k).")
+      .def_property_readonly(
+          "pose", [](const PyTask& t) { return t.problem->pose; },
+          "The Pose of the end effector in the world; the start of a path.")
+      .def_property_readonly(
+          "theta_r_names", [](const PyTask& t) { return theta_r_names(*t.problem); },
+          "The names of the coordinates of theta_r (r).")
+      .def_property_readonly(
+          "theta_r_min", [](const PyTask& t) { return copy(t.problem->theta_r_min); },
+          "Lower limits of theta_r (r) [rad or m].")
+      .def_property_readonly(
+          "theta_r_max", [](const PyTask& t) { return copy(t.problem->theta_r_max); },
+          "Upper limits of theta_r (r) [rad or m].")
+      .def_property_readonly(
+          "theta_r_default", [](const PyTask& t) { return copy(t.problem->theta_r_default); },
+          "Default theta_r (r) [rad or m].")
+      .def_property_readonly(
+          "dependent",
+          [](const PyTask& t) { return joint_names_of(*t.problem, t.problem->dependent); },
+          "The joints that follow from theta_r.")
+      .def_property_readonly(
+          "knots", [](const PyTask& t) { return knots_of(*t.problem); },
+          "k, the number of knots of theta_r; one for a static task.")
+      .def_property_readonly(
+          "digest", [](const PyTask& t) { return t.problem->digest; },
+          "Hash of the files of task and robot; empty if the task was made in code.")
+      .def("__repr__", &repr_of_task)
+      .def("__reduce__",
+           [](const PyTask& t) { return reduced(t.recipe, t.problem->digest); });
+  m.def("load", &load, py::arg("name"), py::kw_only(), py::arg("limits") = "",
+        R"(Reads a task and its robot.
+
+Args:
+    name: the name of a shipped task, such as "uvms/valve" (``tasks()`` lists them), or the path of
+        a task file in TOML.
+    limits: the name of the table in the robot's ``[limits]`` that counts. Empty: none.
+
+Returns:
+    Task: the task.
+
+Raises:
+    InputError: the file is missing or something in it is wrong.
+
+>>> maxwrench.load("uvms/valve").unit
+'N m'
+)");
+  m.def("tasks", &shipped_problems, R"(Returns the names of the shipped tasks.
+
+>>> "uvms/valve" in maxwrench.tasks()
+True
+)");
+  m.def("Static", &make_static, py::arg("robot"), kStatic);
+  m.def("Trajectory", &make_trajectory, py::arg("robot"), py::arg("path"), py::arg("knots"),
+        kTrajectory);
+  m.def("Impulse", &make_impulse, py::arg("robot"), py::arg("pose"), py::arg("T"), py::arg("knots"),
+        kImpulse);
+}
+
+}  // namespace maxwrench::python
