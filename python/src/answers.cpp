@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include "lib/robot/kinematics.h"
 #include "maxwrench/figures.h"
 #include "python/src/arrays.h"
 #include "python/src/parts.h"
@@ -138,9 +139,41 @@ py::object times(const PyAnswer& self) {
   return copy(t);
 }
 
+/// The matrices of poses, with the given axes before the last two.
+py::object matrices(const std::vector<Pose<double>>& poses, std::vector<py::ssize_t> shape) {
+  RowMatrix rows(4 * Eigen::Index(poses.size()), 4);
+  Eigen::Index i = 0;
+  for (const Pose<double>& pose : poses) rows.middleRows<4>(4 * i++) = matrix_of(pose);
+  shape.insert(shape.end(), {4, 4});
+  return copy(rows).attr("reshape")(shape);
+}
+
+py::object link_poses(const PyAnswer& self) {
+  const Robot& robot = self.answer.task->robot;
+  const auto& instants = self.answer.trajectory.instants;
+  if (instants.empty()) return py::none();
+  std::vector<Pose<double>> poses;
+  Kinematics<double> kinematics(robot);
+  for (const Instant& instant : instants) {
+    kinematics.set_joints(instant.q);
+    for (const Pose<double>& link : kinematics.links()) poses.push_back(instant.base * link);
+  }
+  const auto links = py::ssize_t(robot.links.size());
+  if (!in_time(self.answer)) return matrices(poses, {links});
+  return matrices(poses, {py::ssize_t(instants.size()), links});
+}
+
+py::object end_effector(const PyAnswer& self) {
+  std::vector<Pose<double>> poses;
+  for (const Instant& i : self.answer.trajectory.instants) poses.push_back(i.end_effector);
+  if (poses.empty()) return py::none();
+  if (!in_time(self.answer)) return matrices(poses, {});
+  return matrices(poses, {py::ssize_t(poses.size())});
+}
+
 /// What the search did, and how long it took.
 void add_effort(py::class_<PyAnswer>& answer) {
-  const auto choice = [&answer](const char* name, std::string Case::* member, const char* doc) {
+  const auto choice = [&answer](const char* name, std::string Case::*member, const char* doc) {
     answer.def_property_readonly(
         name, [member](const PyAnswer& a) { return a.answer.choice.*member; }, doc);
   };
@@ -214,8 +247,7 @@ does not exist is None.
       .def_property_readonly(
           "q",
           [](const PyAnswer& a) {
-            return per_instant(a.answer, joints_of(a.answer),
-                               [](const Instant& i) { return i.q; });
+            return per_instant(a.answer, joints_of(a.answer), [](const Instant& i) { return i.q; });
           },
           "The joints (J), or N rows of them [rad or m].")
       .def_property_readonly("u", &efforts, "The efforts (m), or N rows of them [N or N m].")
@@ -262,14 +294,22 @@ does not exist is None.
                              "balance, bounds, dual and gap, recomputed from the task's data.")
       .def_property_readonly(
           "task", [](const PyAnswer& a) { return a.task; }, "The Task.")
-      .def("summary", [](const PyAnswer& a) { return summary(a.answer); },
-           "Returns the text that the command prints.")
-      .def("to_json", [](const PyAnswer& a) { return to_json(a.answer); },
-           "Returns the JSON object that the command prints.")
+      .def_property_readonly("links", &link_poses,
+                             "Homogeneous matrices of the links in the world (L×4×4), in the order "
+                             "of robot.link_names; in time N×L×4×4.")
+      .def_property_readonly("end_effector", &end_effector,
+                             "Homogeneous matrix of the end effector in the world (4×4), or N×4×4.")
+      .def(
+          "summary", [](const PyAnswer& a) { return summary(a.answer); },
+          "Returns the text that the command prints.")
+      .def(
+          "to_json", [](const PyAnswer& a) { return to_json(a.answer); },
+          "Returns the JSON object that the command prints.")
       .def("to_dict", &to_dict, "Returns the JSON object as a dict.")
       .def("figure", &figure_of, "Returns a figure as an SVG document.")
       .def("__str__", [](const PyAnswer& a) { return summary(a.answer); })
-      .def("__repr__", &repr_of_answer);
+      .def("__repr__", &repr_of_answer)
+      .def(py::pickle(&answer_state, &answer_from_state));
   add_effort(answer);
 }
 

@@ -78,9 +78,7 @@ py::array view(const Eigen::VectorXd& v, const py::object& owner) {
   return view(v.data(), {v.size()}, owner);
 }
 
-py::array copy(const Eigen::VectorXd& v) {
-  return py::array_t<double>(v.size(), v.data());
-}
+py::array copy(const Eigen::VectorXd& v) { return py::array_t<double>(v.size(), v.data()); }
 
 py::array copy(const RowMatrix& m) {
   return py::array_t<double>(std::vector<py::ssize_t>{m.rows(), m.cols()}, m.data());

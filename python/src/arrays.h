@@ -7,7 +7,8 @@
 
 #include "maxwrench/types.h"
 
-// NumPy arrays to and from Eigen. Arrays are float64 and C-contiguous; a view of what an object holds is read-only.
+// NumPy arrays to and from Eigen. Arrays are float64 and C-contiguous; a view of what an object
+// holds is read-only.
 
 namespace maxwrench::python {
 

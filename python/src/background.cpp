@@ -67,8 +67,7 @@ void run_in_background(const py::object& callback, const std::function<void(Watc
       for (int round = 1; !worker.ends_within(25ms); ++round) {
         py::gil_scoped_acquire lock;
         try {
-          if (interrupted() ||
-              (round % 4 == 0 && wants_end(callback, watch.evaluations))) {
+          if (interrupted() || (round % 4 == 0 && wants_end(callback, watch.evaluations))) {
             watch.stop = true;
           }
         } catch (...) {

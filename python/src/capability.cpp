@@ -258,7 +258,8 @@ Raises:
 4.0
 )";
 
-constexpr const char* kScale = R"(Finds the largest factor of a demanded generalised force that actuators reach.
+constexpr const char* kScale =
+    R"(Finds the largest factor of a demanded generalised force that actuators reach.
 
     max s  subject to  B u = tau_d + s w,  lower <= u <= upper
 

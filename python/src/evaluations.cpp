@@ -39,7 +39,7 @@ std::string repr_of_evaluations(const PyEvaluations& self) {
 }
 
 /// A read-only view of rows that the object holds.
-template <Evaluations::Rows Evaluations::* rows>
+template <Evaluations::Rows Evaluations::*rows>
 py::array rows_of(const py::object& self) {
   const Evaluations::Rows& table = (self.cast<const PyEvaluations&>().rows).*rows;
   return view(table.data(), {table.rows(), table.cols()}, self);
@@ -87,7 +87,8 @@ Arrays have a row for each posture and are read-only views. They are NaN where t
       .def_property_readonly(
           "unit", [](const PyEvaluations& e) { return e.task.problem->unit(); },
           "The unit of measures that are a wrench along c.")
-      .def_property_readonly("task", [](const PyEvaluations& e) { return e.task; }, "The Task.")
+      .def_property_readonly(
+          "task", [](const PyEvaluations& e) { return e.task; }, "The Task.")
       .def("__len__", [](const PyEvaluations& e) { return e.rows.status.size(); })
       .def("__repr__", &repr_of_evaluations);
 }

@@ -38,8 +38,8 @@ Eigen::VectorXd bounds_in(const char* key, const py::object& value, Eigen::Index
                          : vector(key, value, cols);
 }
 
-LpAnswer linprog(const py::object& c, const py::object& A, const py::object& b,
-                 const py::object& l, const py::object& u, const std::string& solver) {
+LpAnswer linprog(const py::object& c, const py::object& A, const py::object& b, const py::object& l,
+                 const py::object& u, const std::string& solver) {
   LinearProgram program;
   program.c = vector("c", c);
   const Eigen::Index cols = program.c.size();
@@ -61,8 +61,8 @@ LpAnswer linprog(const py::object& c, const py::object& A, const py::object& b,
     answer.residual = residuals(program, answer.solution);
     // No status counts that the data do not confirm.
     const Status status = answer.solution.status;
-    const bool claims = status == Status::kOptimal || status == Status::kInfeasible ||
-                        status == Status::kUnbounded;
+    const bool claims =
+        status == Status::kOptimal || status == Status::kInfeasible || status == Status::kUnbounded;
     if (claims && !verified(program, answer.solution)) {
       answer.solution.conclude(Status::kNumericalError, "the data do not confirm the verdict");
     }
@@ -105,7 +105,9 @@ void add_linear_programs(py::module_& m) {
           "Why there is no verdict; empty if there is one.")
       .def_property_readonly(
           "x",
-          [](const py::object& self) { return view(self.cast<const LpAnswer&>().solution.x, self); },
+          [](const py::object& self) {
+            return view(self.cast<const LpAnswer&>().solution.x, self);
+          },
           "The point (n).")
       .def_property_readonly(
           "objective", [](const LpAnswer& a) { return a.solution.objective; }, "c'x.")

@@ -18,4 +18,5 @@ PYBIND11_MODULE(_core, m) {
   python::add_solve(m);
   python::add_capability(m);
   python::add_linear_programs(m);
+  python::add_tank(m);
 }

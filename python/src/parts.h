@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "maxwrench/solve.h"
+#include "python/src/arrays.h"
 
 // What the files of the module share.
 
@@ -41,6 +42,12 @@ PyTask task_of(const py::object& task);
 /// The Evaluations of a static task at each row of an array.
 py::object evaluate_rows(const PyTask& task, const py::object& theta_r, Options options,
                          const py::object& callback);
+/// What pickle stores of an answer: the posture, and what its search did. The posture is evaluated
+/// again when it is read, with the same result.
+py::tuple answer_state(const PyAnswer& self);
+PyAnswer answer_from_state(const py::tuple& state);
+/// The homogeneous matrix of a pose (4×4).
+RowMatrix matrix_of(const Pose<double>& pose);
 /// [x y z roll pitch yaw] of the base in the world, then the joints.
 Eigen::VectorXd theta_of(const Pose<double>& base, const Eigen::VectorXd& q);
 

@@ -45,13 +45,6 @@ Pose<double> make_pose(const py::object& p, const py::object& rpy, const py::obj
   return pose;
 }
 
-RowMatrix matrix_of(const Pose<double>& pose) {
-  RowMatrix T = RowMatrix::Identity(4, 4);
-  T.topLeftCorner<3, 3>() = pose.R;
-  T.topRightCorner<3, 1>() = pose.p;
-  return T;
-}
-
 Pose<double> from_matrix(const py::object& value) {
   const RowMatrix T = matrix("matrix", value, 4, 4);
   if (!(T.row(3) == Eigen::RowVector4d(0, 0, 0, 1))) {
@@ -74,6 +67,13 @@ std::string repr_of_pose(const Pose<double>& pose) {
 }
 
 }  // namespace
+
+RowMatrix matrix_of(const Pose<double>& pose) {
+  RowMatrix T = RowMatrix::Identity(4, 4);
+  T.topLeftCorner<3, 3>() = pose.R;
+  T.topRightCorner<3, 1>() = pose.p;
+  return T;
+}
 
 void add_poses(py::module_& m) {
   py::class_<Pose<double>>(m, "Pose", R"(A rigid transformation x -> R x + p.
@@ -114,9 +114,9 @@ Pose([0.5, 0, 0.3], rpy=[0, 0, 0])
       .def("__eq__",
            [](const Pose<double>& a, const Pose<double>& b) { return a.R == b.R && a.p == b.p; })
       .def("__repr__", &repr_of_pose)
-      .def(py::pickle(
-          [](const Pose<double>& pose) { return py::make_tuple(copy(matrix_of(pose))); },
-          [](const py::tuple& state) { return from_matrix(state[0]); }));
+      .def(
+          py::pickle([](const Pose<double>& pose) { return py::make_tuple(copy(matrix_of(pose))); },
+                     [](const py::tuple& state) { return from_matrix(state[0]); }));
 }
 
 }  // namespace maxwrench::python

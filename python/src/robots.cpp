@@ -67,6 +67,17 @@ py::array of_joints(const Robot& robot, Number number) {
   return copy(v);
 }
 
+py::list bodies(const PyRobot& self) {
+  py::list list;
+  for (const ConvexBody& body : self.robot->convex_bodies) {
+    RowMatrix points(body.points.size(), 3);
+    for (std::size_t i = 0; i < body.points.size(); ++i)
+      points.row(Eigen::Index(i)) = body.points[i];
+    list.append(py::make_tuple(body.link, copy(points), body.radius));
+  }
+  return list;
+}
+
 std::string repr_of_robot(const PyRobot& self) {
   const Robot& robot = *self.robot;
   const std::vector<std::string> base = base_names(robot);
@@ -148,11 +159,15 @@ Raises:
           "Upper limits of the efforts (m) [N or N m].")
       .def_property_readonly(
           "q_min",
-          [](const PyRobot& r) { return of_joints(*r.robot, [](const Joint& j) { return j.q_min; }); },
+          [](const PyRobot& r) {
+            return of_joints(*r.robot, [](const Joint& j) { return j.q_min; });
+          },
           "Lower limits of the joints [rad or m].")
       .def_property_readonly(
           "q_max",
-          [](const PyRobot& r) { return of_joints(*r.robot, [](const Joint& j) { return j.q_max; }); },
+          [](const PyRobot& r) {
+            return of_joints(*r.robot, [](const Joint& j) { return j.q_max; });
+          },
           "Upper limits of the joints [rad or m].")
       .def_property_readonly(
           "velocity_max",
@@ -160,6 +175,17 @@ Raises:
             return of_joints(*r.robot, [](const Joint& j) { return j.velocity_max; });
           },
           "Speed limits of the joints [rad/s or m/s].")
+      .def_property_readonly(
+          "parents",
+          [](const PyRobot& r) {
+            std::vector<int> parents;
+            for (const Joint& joint : r.robot->joints) parents.push_back(joint.parent);
+            return parents;
+          },
+          "The link that carries each joint, as an index in link_names; joint i moves link i + 1.")
+      .def_property_readonly("bodies", &bodies,
+                             "Convex bodies for figures: (link, points (P×3) in link axes [m], "
+                             "radius [m]): all points within the radius of the hull.")
       .def_property_readonly(
           "warnings", [](const PyRobot& r) { return r.robot->warnings; },
           "What is wrong with the robot's data, one line each. Values computed from such data are "

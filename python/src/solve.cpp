@@ -145,8 +145,8 @@ Raises:
 void add_solve(py::module_& m) {
   m.def("evaluate", &evaluate_task, py::arg("task"), py::arg("theta_r"), py::kw_only(),
         py::arg("measure") = Case().measure, py::arg("wrench") = "pure", py::arg("solver") = "",
-        py::arg("check_collision") = true, py::arg("threads") = 0,
-        py::arg("callback") = py::none(), kEvaluate);
+        py::arg("check_collision") = true, py::arg("threads") = 0, py::arg("callback") = py::none(),
+        kEvaluate);
   m.def("evaluate_joints", &evaluate_joints, py::arg("task"), py::arg("q"), py::kw_only(),
         py::arg("measure") = Case().measure, py::arg("wrench") = "pure", py::arg("solver") = "",
         py::arg("check_collision") = true,
@@ -170,13 +170,16 @@ Raises:
         py::arg("wrench") = "pure", py::arg("solver") = "", py::arg("search") = "",
         py::arg("seed") = 1, py::arg("budget") = 0, py::arg("threads") = 0,
         py::arg("callback") = py::none(), kSolve);
-  m.def("measures", [] { return summaries(measures()); },
-        "Returns the measures: a line about each, by name.");
-  m.def("solvers", [] { return summaries(wrench_solvers()); },
-        "Returns the solvers of the lower level: a line about each, by name.");
+  m.def(
+      "measures", [] { return summaries(measures()); },
+      "Returns the measures: a line about each, by name.");
+  m.def(
+      "solvers", [] { return summaries(wrench_solvers()); },
+      "Returns the solvers of the lower level: a line about each, by name.");
   m.def("searches", &all_searches, "Returns the searches: a line about each, by name.");
-  m.def("integrators", [] { return summaries(integrators()); },
-        "Returns the integrators: a line about each, by name.");
+  m.def(
+      "integrators", [] { return summaries(integrators()); },
+      "Returns the integrators: a line about each, by name.");
 }
 
 }  // namespace maxwrench::python

@@ -40,7 +40,8 @@ PyPath screw_path(const Pose<double>& start, double duration, const py::object& 
   require_positive("duration", duration);
   require_finite("angle", angle);
   const Eigen::Vector3d a = direction_of("axis", vector("axis", axis, 3));
-  const Eigen::Vector3d c = centre.is_none() ? start.p : Eigen::Vector3d(vector("centre", centre, 3));
+  const Eigen::Vector3d c =
+      centre.is_none() ? start.p : Eigen::Vector3d(vector("centre", centre, 3));
   const Eigen::Vector3d d = displacement.is_none()
                                 ? Eigen::Vector3d(Eigen::Vector3d::Zero())
                                 : Eigen::Vector3d(vector("displacement", displacement, 3));
@@ -202,8 +203,8 @@ TaskSpec begin_spec(const PyRobot& robot, py::dict& arguments, bool in_time) {
 /// Rejects arguments that nothing has read.
 void require_empty(const py::dict& arguments, const char* function) {
   for (const auto& [key, value] : arguments) {
-    throw py::type_error(fmt::format("{}: got an unexpected argument '{}'", function,
-                                     key.cast<std::string>()));
+    throw py::type_error(
+        fmt::format("{}: got an unexpected argument '{}'", function, key.cast<std::string>()));
   }
 }
 
@@ -220,13 +221,12 @@ PyTask make_static(const PyRobot& robot, const py::kwargs& given) {
   TaskSpec spec = begin_spec(robot, arguments, false);
   require_empty(arguments, "Static");
   Problem problem = posed ? make_problem(spec) : make_at_some_posture(std::move(spec));
-  return {std::make_shared<const Problem>(std::move(problem)),
-          recipe_of("Static", robot, given)};
+  return {std::make_shared<const Problem>(std::move(problem)), recipe_of("Static", robot, given)};
 }
 
 void read_scheme(py::dict& arguments, MotionTask& motion) {
-  motion.scheme =
-      parse_scheme(taken(arguments, "scheme", py::str(to_string(motion.scheme))).cast<std::string>());
+  motion.scheme = parse_scheme(
+      taken(arguments, "scheme", py::str(to_string(motion.scheme))).cast<std::string>());
   motion.rates = taken(arguments, "rates", py::bool_(true)).cast<bool>();
   const py::object instants = taken(arguments, "instants_per_interval");
   if (!instants.is_none()) motion.instants_per_interval = instants.cast<int>();
@@ -288,6 +288,40 @@ PyRobot robot_of(const PyTask& task) {
   return {std::shared_ptr<const Robot>(task.problem, &task.problem->robot), {"Task.robot", how}};
 }
 
+/// A limit of an actuator that must be a number.
+double limit_in(const char* key, const Eigen::VectorXd& limits, Eigen::Index i) {
+  require_finite(key, limits[i]);
+  return limits[i];
+}
+
+/// The same task with other limits of the efforts. A joint has one limit for both directions.
+PyTask with_limits(const PyTask& self, const py::object& u_min, const py::object& u_max) {
+  auto changed = std::make_shared<Problem>(*self.problem);
+  Robot& robot = changed->robot;
+  const Eigen::VectorXd low = vector("u_min", u_min, robot.actuators());
+  const Eigen::VectorXd high = vector("u_max", u_max, robot.actuators());
+  Eigen::Index i = 0;
+  for (Thruster& thruster : robot.thrusters) {
+    thruster.force_min = limit_in("u_min", low, i);
+    thruster.force_max = limit_in("u_max", high, i++);
+  }
+  for (Joint& joint : robot.joints) {
+    joint.effort_max = high[i];
+    if (!(high[i] >= 0) || low[i] != -high[i]) {
+      throw BadValue("u_min", shown(low[i]), "minus u_max, which is not negative, for a joint");
+    }
+    ++i;
+  }
+  complete_actuation(robot);
+  if (!changed->dependent.empty()) prepare_ik_solutions(*changed);
+  changed->digest.clear();
+  py::dict how;
+  how["self"] = self;
+  how["u_min"] = copy(low);
+  how["u_max"] = copy(high);
+  return {std::move(changed), {"Task.with_limits", how}};
+}
+
 std::vector<std::string> theta_r_names(const Problem& task) {
   std::vector<std::string> names;
   for (int i = 0; i < task.redundancy(); ++i) names.push_back(task.theta_r_name(i));
@@ -302,13 +336,14 @@ std::vector<std::string> joint_names_of(const Problem& task, const std::vector<i
 
 std::string repr_of_task(const PyTask& self) {
   const Problem& task = *self.problem;
-  return fmt::format("<Task {}: {}, theta_r {}, unit {}>", task.name, task.type(),
-                     task.redundancy() == 0 ? "empty"
-                                            : fmt::format("{}", fmt::join(theta_r_names(task), " ")),
-                     task.unit());
+  return fmt::format(
+      "<Task {}: {}, theta_r {}, unit {}>", task.name, task.type(),
+      task.redundancy() == 0 ? "empty" : fmt::format("{}", fmt::join(theta_r_names(task), " ")),
+      task.unit());
 }
 
-constexpr const char* kStatic = R"(Makes a static task in code: to hold a pose and exert the largest wrench.
+constexpr const char* kStatic =
+    R"(Makes a static task in code: to hold a pose and exert the largest wrench.
 
 Args:
     robot: the Robot.
@@ -357,7 +392,8 @@ Raises:
     InputError: a value is wrong.
 )";
 
-constexpr const char* kImpulse = R"(Makes an impulse: the peak of a wrench at a pose within a given time.
+constexpr const char* kImpulse =
+    R"(Makes an impulse: the peak of a wrench at a pose within a given time.
 
 Args:
     robot: the Robot.
@@ -400,10 +436,7 @@ void add_tasks(py::module_& m) {
       .def_property_readonly(
           "type", [](const PyTask& t) { return t.problem->type(); },
           "The type: static, trajectory or impulse.")
-      .def_property_readonly(
-          "robot",
-          &robot_of,
-          "The Robot.")
+      .def_property_readonly("robot", &robot_of, "The Robot.")
       .def_property_readonly(
           "unit", [](const PyTask& t) { return t.problem->unit(); },
           "The unit of beta: N, N m or mixed.")
@@ -438,9 +471,21 @@ void add_tasks(py::module_& m) {
       .def_property_readonly(
           "digest", [](const PyTask& t) { return t.problem->digest; },
           "Hash of the files of task and robot; empty if the task was made in code.")
+      .def("with_limits", &with_limits, py::arg("u_min"), py::arg("u_max"),
+           R"(Returns the same task with other limits of the efforts (m) [N or N m].
+
+A joint has one limit for both directions: its u_min is minus its u_max.
+
+Raises:
+    InputError: limits cross, or those of a joint differ in size.
+
+>>> task = maxwrench.load("planar/force")
+>>> stronger = task.with_limits(2 * task.robot.u_min, 2 * task.robot.u_max)
+>>> round(maxwrench.evaluate(stronger, [0, 0, 0]).beta / maxwrench.evaluate(task, [0, 0, 0]).beta)
+2
+)")
       .def("__repr__", &repr_of_task)
-      .def("__reduce__",
-           [](const PyTask& t) { return reduced(t.recipe, t.problem->digest); });
+      .def("__reduce__", [](const PyTask& t) { return reduced(t.recipe, t.problem->digest); });
   m.def("load", &load, py::arg("name"), py::kw_only(), py::arg("limits") = "",
         R"(Reads a task and its robot.
 

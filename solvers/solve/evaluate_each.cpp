@@ -40,8 +40,7 @@ class RowEvaluator {
         measure_(method.make_measure()) {}
 
   void evaluate(const Eigen::VectorXd& theta_r, Eigen::Index row, Evaluations& result) {
-    const Posture& posture =
-        evaluate_best(model_, theta_r, *measure_, true, program_, capability_);
+    const Posture& posture = evaluate_best(model_, theta_r, *measure_, true, program_, capability_);
     result.q.row(row) = posture.q;
     result.base.row(row) << posture.base.p.transpose(), rpy(posture.base.R).transpose();
     result.status[static_cast<std::size_t>(row)] = conclude(posture);

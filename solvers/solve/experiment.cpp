@@ -14,11 +14,6 @@
 namespace maxwrench {
 namespace {
 
-double reading_of(const TankSummary& summary) {
-  if (!summary.motion) return summary.mean;
-  return std::isfinite(summary.motion->at_peak) ? summary.motion->at_peak : summary.low;
-}
-
 void conclude_experiment(const TankRun& run, Answer& answer) {
   static_cast<Verdict&>(answer) = run;
   answer.evaluations = run.evaluations;
@@ -67,6 +62,11 @@ void carry_out_trajectory(const Method& method, Answer& answer) {
 }
 
 }  // namespace
+
+double reading_of(const TankSummary& summary) {
+  if (!summary.motion) return summary.mean;
+  return std::isfinite(summary.motion->at_peak) ? summary.motion->at_peak : summary.low;
+}
 
 std::vector<std::string> served_integrators(const Problem& problem, const std::string& measure) {
   const bool serves = !problem.contact && measure == Case().measure;

@@ -15,6 +15,10 @@ struct Problem;
 /// experiment, as with a second contact or with a measure that is not a wrench of the polytope.
 std::vector<std::string> served_integrators(const Problem& problem, const std::string& measure);
 
+/// The reading that counts: the mean of a hold, the lowest along a path, that at the peak of an
+/// impulse.
+double reading_of(const TankSummary& summary);
+
 /// The simulated experiment at the posture of a static task, with the wrench and the efforts of its
 /// capability. `planned` is the planned c'h, in place of the capability's own [N, N m].
 TankRun simulate_posture(const Answer& answer, double planned, const std::string& integrator,

@@ -1,0 +1,223 @@
+#include "maxwrench/tank.h"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include "maxwrench/strategies.h"
+#include "problems/make/bad_value.h"
+#include "python/src/arrays.h"
+#include "python/src/background.h"
+#include "python/src/parts.h"
+#include "solvers/solve/tank.h"
+
+namespace maxwrench::python {
+namespace {
+
+/// An experiment, with the task whose wrench it held.
+struct PyExperiment {
+  TankRun run;
+  std::shared_ptr<const Problem> task;
+};
+
+/// What an experiment is asked for.
+struct Request {
+  std::string integrator, interpolation;
+  double planned = 0;
+  TankOptions tank;
+};
+
+/// Reads the options of the tank, each of which is a number; rejects other names.
+Request request_of(const std::string& integrator, const std::string& interpolation, double planned,
+                   const py::kwargs& options) {
+  Request request{integrator, interpolation, planned, {}};
+  TankOptions& tank = request.tank;
+  const std::map<std::string, double*> known = {
+      {"ramp", &tank.ramp},
+      {"hold", &tank.hold},
+      {"period", &tank.period},
+      {"thruster_lag", &tank.thruster_lag},
+      {"bandwidth", &tank.bandwidth},
+      {"margin", &tank.margin},
+      {"load", &tank.load},
+      {"thrust_efficiency", &tank.imperfections.thrust_efficiency},
+      {"thrust_noise", &tank.imperfections.thrust_noise}};
+  for (const auto& [key, value] : options) {
+    const std::string name = key.cast<std::string>();
+    if (name == "seed") {
+      tank.imperfections.seed = value.cast<std::uint64_t>();
+      continue;
+    }
+    const auto found = known.find(name);
+    if (found == known.end()) {
+      throw py::type_error("simulate: got an unexpected argument '" + name + "'");
+    }
+    *found->second = value.cast<double>();
+  }
+  check(tank);
+  return request;
+}
+
+PyExperiment hold_posture(const Answer& answer, const Request& request) {
+  const Problem& task = *answer.task;
+  const Eigen::VectorXd& theta_r = answer.posture.theta_r;
+  // The controller holds the end effector at its pose for theta_r.
+  Options options;
+  static_cast<Case&>(options) = answer.choice;
+  options.check_collision = answer.collision;
+  const Answer held = evaluate(held_at(task, theta_r), held_theta_r(task, theta_r), options);
+  if (!held.has_value() || held.capability.u.size() == 0 || held.capability.w.size() == 0) {
+    throw BadValue("answer", shown(answer.choice.measure), "a posture with efforts and a wrench");
+  }
+  if (request.tank.load > 0) {
+    return {simulate_load(held, request.tank.load, request.integrator, request.tank), held.task};
+  }
+  const double planned =
+      request.planned > 0 ? request.planned : held.task->c.dot(held.capability.h);
+  if (!(planned > 0)) throw BadValue("planned", shown(planned), "a value > 0: none is possible");
+  return {simulate_posture(held, planned, request.integrator, request.tank), held.task};
+}
+
+PyExperiment carry_out(const Answer& answer, const Request& request) {
+  const Problem& task = *answer.task;
+  ScriptOptions script;
+  script.interpolation = request.interpolation.empty() ? usual_interpolation(task)
+                                                       : parse_interpolation(request.interpolation);
+  script.planned = request.planned;
+  script.margin = request.tank.margin;
+  return {simulate_trajectory(task, answer.trajectory, answer.choice.wrench,
+                              find_trajectory_solver(answer.choice.solver), script,
+                              request.integrator, request.tank)
+              .run,
+          answer.task};
+}
+
+PyExperiment simulate(const PyAnswer& given, const std::string& integrator,
+                      const std::string& interpolation, double planned,
+                      const py::kwargs& options) {
+  const Answer& answer = given.answer;
+  const Request request = request_of(integrator, interpolation, planned, options);
+  const std::vector<std::string> served = stiff_integrators();
+  if (std::find(served.begin(), served.end(), integrator) == served.end()) {
+    throw BadValue("integrator", shown(integrator), "one for stiff systems: " + shown(served));
+  }
+  if (answer.task->contact) {
+    throw BadValue("answer", "a task with a second contact", "one without");
+  }
+  if (!answer.has_value()) throw BadValue("answer", answer.reason.str(), "one with a value");
+  PyExperiment result;
+  run_in_background(py::none(), [&](Watch&) {
+    result = answer.task->motion ? carry_out(answer, request) : hold_posture(answer, request);
+  });
+  return result;
+}
+
+/// One number of each sample.
+template <class Number>
+py::array of_samples(const PyExperiment& self, Number number) {
+  Eigen::VectorXd v(self.run.samples.size());
+  Eigen::Index i = 0;
+  for (const TankSample& sample : self.run.samples) v[i++] = number(sample);
+  return copy(v);
+}
+
+template <class Row>
+py::array rows_of_samples(const PyExperiment& self, Eigen::Index cols, Row row) {
+  RowMatrix table(self.run.samples.size(), cols);
+  Eigen::Index i = 0;
+  for (const TankSample& sample : self.run.samples) table.row(i++) = row(sample);
+  return copy(table);
+}
+
+std::string repr_of_experiment(const PyExperiment& self) {
+  const TankSummary& summary = self.run.summary;
+  return fmt::format("<Experiment {}: {}, reading {:.6g} of {:.6g} planned {}>", self.task->name,
+                     summary.held ? "held" : "not held", reading_of(summary), summary.planned,
+                     self.task->unit());
+}
+
+constexpr const char* kSimulate = R"(Carries out an answer in the virtual tank.
+
+A controller, thrusters with lag and a load cell show whether the robot holds the wrench.
+
+Args:
+    answer: an Answer with a value, of one contact.
+    integrator: an integrator for stiff systems: "cvode" or "ida".
+    interpolation: in time: "linear" or "spline"; empty: that of the scheme.
+    planned: wrench along c [N or N m]; 0: the value of the answer.
+    ramp, hold: duration of each ramp and of the hold of a static task [s].
+    period: time between two commands [s].
+    thruster_lag: time constant of the thrusters [s].
+    bandwidth: of the control of posture errors [rad/s].
+    margin: fraction of the planned wrench that is not requested.
+    load: mass that the end effector carries in place of the load cell [kg].
+    thrust_efficiency, thrust_noise, seed: how the thrusters differ from the model.
+
+Returns:
+    Experiment: the record.
+
+Raises:
+    InputError: the answer has no value or no wrench, or a value is out of its range.
+
+>>> answer = maxwrench.evaluate("planar/force", [0, 0, 0])
+>>> maxwrench.simulate(answer, hold=1).held
+True
+)";
+
+}  // namespace
+
+void add_tank(py::module_& m) {
+  py::class_<PyExperiment> experiment(m, "Experiment", "The record of ``simulate``.");
+  const auto curve = [&experiment](const char* name, double TankSample::* member, const char* doc) {
+    experiment.def_property_readonly(
+        name,
+        [member](const PyExperiment& e) {
+          return of_samples(e, [member](const TankSample& s) { return s.*member; });
+        },
+        doc);
+  };
+  curve("t", &TankSample::t, "Times of the samples (N) [s].");
+  curve("readings", &TankSample::reading, "Readings along c (N) [N or N m].");
+  curve("planned_readings", &TankSample::planned, "Planned readings along c (N) [N or N m].");
+  curve("theta_r_error", &TankSample::theta_r_error, "Errors of theta_r (N) [rad, m].");
+  curve("position_error", &TankSample::position_error, "Errors of the end effector (N) [m].");
+  experiment
+      .def_property_readonly(
+          "h",
+          [](const PyExperiment& e) {
+            return rows_of_samples(e, 6, [](const TankSample& s) { return s.h_e.transpose(); });
+          },
+          "Readings of the cell [force; torque] (N×6).")
+      .def_property_readonly(
+          "u",
+          [](const PyExperiment& e) {
+            return rows_of_samples(e, e.task->robot.actuators(),
+                                   [](const TankSample& s) { return s.u.transpose(); });
+          },
+          "Efforts (N×m) [N or N m].")
+      .def_property_readonly(
+          "reading", [](const PyExperiment& e) { return reading_of(e.run.summary); },
+          "The reading that counts: mean of the hold, lowest along a path, that at the peak.")
+      .def_property_readonly(
+          "planned", [](const PyExperiment& e) { return e.run.summary.planned; },
+          "The planned wrench along c [N or N m].")
+      .def_property_readonly(
+          "held", [](const PyExperiment& e) { return e.run.summary.held; },
+          "Whether the wrench was held.")
+      .def_property_readonly(
+          "missed", [](const PyExperiment& e) { return e.run.summary.missed; },
+          "Why it was not held, each value with the largest that is allowed.")
+      .def_property_readonly(
+          "status", [](const PyExperiment& e) { return to_string(e.run.status); },
+          "How it ended: reached, or why not.")
+      .def_property_readonly(
+          "reason", [](const PyExperiment& e) { return e.run.reason.str(); },
+          "Why it ended early; empty if it did not.")
+      .def(
+          "csv", [](const PyExperiment& e) { return tank_csv(*e.task, e.run); },
+          "Returns the samples as a CSV table.")
+      .def("__repr__", &repr_of_experiment);
+  m.def("simulate", &simulate, py::arg("answer"), py::arg("integrator") = "cvode",
+        py::arg("interpolation") = "", py::arg("planned") = 0.0, kSimulate);
+}
+
+}  // namespace maxwrench::python
