@@ -136,10 +136,13 @@ def test_impulse_in_code_is_that_of_the_file():
         of_file.robot, mw.Pose(), 2.5, 4, t_h=3, start="static", theta_0=start, theta_r=of_file.theta_r_names, c="z"
     )
     assert made.type == "impulse" and made.knots == 4
-    knots = np.array(start) + np.outer([0, 0.01, 0.03, 0.02], [1, 0, 0, 0])
-    mine, theirs = mw.evaluate(made, knots), mw.evaluate(of_file, knots)
-    assert mine.status == theirs.status == "optimal", theirs.reason
+    mine, theirs = (mw.evaluate(task, start) for task in (made, of_file))
+    assert mine.status == theirs.status == "optimal"
     assert mine.beta == theirs.beta and np.array_equal(mine.u, theirs.u)
+    # Both reject an acceleration at the start, with the same line.
+    moving = np.array(start) + np.outer([0, 0.01, 0.03, 0.02], [1, 0, 0, 0])
+    mine, theirs = (mw.evaluate(task, moving) for task in (made, of_file))
+    assert mine.status == theirs.status == "invalid_posture" and mine.reason == theirs.reason != ""
 
 
 def test_one_direction_in_different_forms():
