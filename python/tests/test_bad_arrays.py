@@ -70,7 +70,9 @@ def test_shapes_of_knots(rejects, shape):
 
 
 @pytest.mark.parametrize("bad", [NAN, INF, -INF])
-@pytest.mark.parametrize("task, shape", [("planar/force", (2,)), ("planar/force", (3, 2)), ("planar/trajectory", (8, 2))])
+@pytest.mark.parametrize(
+    "task, shape", [("planar/force", (2,)), ("planar/force", (3, 2)), ("planar/trajectory", (8, 2))]
+)
 def test_numbers_that_are_not_finite(rejects, task, shape, bad):
     values = np.zeros(shape)
     values[(-1,) * len(shape)] = bad
@@ -88,7 +90,10 @@ NOT_FINITE = {
     "screw duration": ("duration", lambda bad: mw.Path.screw(mw.Pose(), bad)),
     "screw angle": ("angle", lambda bad: mw.Path.screw(mw.Pose(), 1, angle=bad)),
     "screw centre": ("centre", lambda bad: mw.Path.screw(mw.Pose(), 1, centre=changed([0, 0, 0], bad))),
-    "screw displacement": ("displacement", lambda bad: mw.Path.screw(mw.Pose(), 1, displacement=changed([0, 0, 0], bad))),
+    "screw displacement": (
+        "displacement",
+        lambda bad: mw.Path.screw(mw.Pose(), 1, displacement=changed([0, 0, 0], bad)),
+    ),
     "screw axis": ("axis", lambda bad: mw.Path.screw(mw.Pose(), 1, axis=changed([0, 0, 0], bad))),
     "spline times": ("times", lambda bad: mw.Path.spline(changed([0, 1, 2], bad), [mw.Pose()] * 3)),
     "time on a path": (None, lambda bad: mw.Path.screw(mw.Pose(), 1).at(bad)),
@@ -122,15 +127,18 @@ def test_not_finite_elsewhere(rejects, key, call, bad):
     assert "expected" in str(error) and error.key and (key is None or error.key == key)
 
 
-@pytest.mark.parametrize("key, call", [
-    (None, lambda: mw.capability(J, TAU, LIMITS, -LIMITS, "x")),
-    (None, lambda: mw.scale(None, [2, 0], [1, 1], [0, 0], [1, 0])),
-    ("l", lambda: mw.linprog([1, 1], EYE, [1, 1], [0, INF])),
-    ("u", lambda: mw.linprog([1, 1], EYE, [1, 1], [0, 0], [-INF, 1])),
-])
-def test_limits_that_leave_nothing(rejects, key, call):
-    error = rejects(call)
-    assert error.key in ("lower", "upper") if key is None else error.key == key
+@pytest.mark.parametrize(
+    "keys, call",
+    [
+        (["lower", "upper"], lambda: mw.capability(J, TAU, LIMITS, -LIMITS, "x")),
+        (["lower", "upper"], lambda: mw.scale(None, [2, 0], [1, 1], [0, 0], [1, 0])),
+        (["l"], lambda: mw.linprog([1, 1], EYE, [1, 1], [0, INF])),
+        (["u"], lambda: mw.linprog([1, 1], EYE, [1, 1], [0, 0], [-INF, 1])),
+    ],
+    ids=["capability", "scale", "linprog l", "linprog u"],
+)
+def test_limits_that_leave_nothing(rejects, keys, call):
+    assert rejects(call).key in keys
 
 
 def test_shapes_of_arrays(rejects):
@@ -186,7 +194,6 @@ def test_arrays_in_any_order_are_read():
         "long double": values.astype(np.longdouble),
         "unaligned": np.frombuffer(b"\0" + values.tobytes(), offset=1).reshape(7, 2),
         "broadcast": np.broadcast_to(values, (1, 7, 2))[0],
-        "matrix": np.matrix(values),
     }
     for name, form in forms.items():
         rows = mw.evaluate("planar/force", form)

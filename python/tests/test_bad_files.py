@@ -94,6 +94,7 @@ def test_broken_files_give_the_line_of_the_command(command, rejects, problems, t
         (["solve", "planar/trajectory", "--search", "facet_sqp"],
          lambda: mw.solve("planar/trajectory", search="facet_sqp")),
     ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else "",
 )
 def test_the_line_is_that_of_the_command(command, rejects, words, call):
     error = rejects(call)

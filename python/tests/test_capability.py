@@ -162,7 +162,8 @@ def test_ellipsoid_is_the_root_of_its_quadratic():
         root = np.roots([a @ a, 2 * a @ g, g @ g - 1]).max()
         assert mw.capability(J, tau_d, lower, upper, c, B, measure="ellipsoid").beta == pytest.approx(root, rel=1e-10)
         # Outside of it the posture alone takes more than the ellipsoid has.
-        assert mw.capability(J, tau_d / (g @ g) ** 0.5 * 1.01, lower, upper, c, B, measure="ellipsoid").status == "infeasible"
+        outside = tau_d / (g @ g) ** 0.5 * 1.01
+        assert mw.capability(J, outside, lower, upper, c, B, measure="ellipsoid").status == "infeasible"
 
 
 def test_ellipsoid_with_free_columns():

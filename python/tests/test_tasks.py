@@ -79,7 +79,8 @@ def test_static_task_with_a_free_pose():
     assert made.theta_r_names == of_file.theta_r_names == ["shoulder_yaw", "shoulder_pitch", "pose_z", "pose_yaw"]
     theta_r = of_file.theta_r_default + [0.05, 0.02, 0.1, -0.2]
     assert mw.evaluate(made, theta_r).beta == mw.evaluate(of_file, theta_r).beta
-    named = mw.Static(of_file.robot, pose=mw.Pose([0, 0, 0.9]), c="x", free="roll", theta_r="shoulder_yaw,shoulder_pitch")
+    joints = "shoulder_yaw,shoulder_pitch"
+    named = mw.Static(of_file.robot, pose=mw.Pose([0, 0, 0.9]), c="x", free="roll", theta_r=joints)
     assert named.theta_r_names == ["shoulder_yaw", "shoulder_pitch", "pose_roll"]
 
 
@@ -272,7 +273,8 @@ def test_arrays_of_a_pose_are_copies():
 def test_screw(timing, progress):
     # x(t) = centre + R(s angle) (start - centre) + s displacement, with s the progress.
     start = mw.Pose([0.5, 0.1, 0.3], rpy=[0.2, -0.1, 0.4])
-    axis, centre, angle, displacement = np.array([1, 2, -2]) / 3, np.array([0.1, 0.2, 0.3]), 1.3, np.array([0.1, 0, -0.2])
+    axis, angle = np.array([1, 2, -2]) / 3, 1.3
+    centre, displacement = np.array([0.1, 0.2, 0.3]), np.array([0.1, 0, -0.2])
     path = mw.Path.screw(
         start, 2.5, axis=5 * axis, centre=centre, angle=angle, displacement=displacement, timing=timing
     )
@@ -286,7 +288,8 @@ def test_screw(timing, progress):
 
 def test_screw_about_its_own_origin_by_default():
     path = mw.Path.screw(mw.Pose([1, 2, 3]), 1, angle=np.pi)
-    np.testing.assert_allclose(path.at(1).matrix, np.array([[-1, 0, 0, 1], [0, -1, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1]]), atol=1e-15)
+    np.testing.assert_allclose(path.at(1).R, np.diag([-1, -1, 1]), atol=1e-15)
+    assert path.at(1).p.tolist() == [1, 2, 3]
 
 
 def test_spline():
