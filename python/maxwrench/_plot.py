@@ -56,8 +56,8 @@ def _draw_posture(answer, ax, plt):
         ax.plot(*links[[parent, child], :3, 3].T, color=BLACK, marker="o", markersize=4, linewidth=2)
     drawn = np.vstack([*bodies, links[:, :3, 3], tool[None, :3, 3]])
     size = np.linalg.norm(np.ptp(drawn, axis=0)) or 1.0
-    drawn = np.vstack([drawn, *_draw_wrench(ax, answer, tool[:3, 3], 0.3 * size)])
-    _draw_axes(ax, tool, 0.08 * size)
+    wrench = _draw_wrench(ax, answer, tool[:3, 3], 0.3 * size)
+    drawn = np.vstack([drawn, *wrench, _draw_axes(ax, tool, 0.08 * size)])
     _frame(ax, drawn, flat=np.ptp(np.append(links[:, 2, 3], tool[2, 3])) < 1e-9)
     value = f"{answer.beta:.4g} {answer.unit}" if answer.has_value else "no value"
     ax.set_title(f"{answer.task.name}: {value}")
@@ -76,20 +76,12 @@ def _around(points, radius):
 
 def _draw_hull(ax, points, colour, alpha):
     """The faces of the hull; without SciPy, or for a hull without volume, the points."""
-    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
-
     try:
-        from scipy.spatial import ConvexHull, QhullError
+        from scipy.spatial import ConvexHull
 
-        faces = points[ConvexHull(points).simplices]
-    except ImportError:
-        faces = None
-    except (QhullError, ValueError):
-        faces = None
-    if faces is None:
+        _draw_faces(ax, points[ConvexHull(points).simplices], colour, alpha)
+    except (ImportError, RuntimeError):  # QhullError is a RuntimeError
         ax.plot(*points.T, color=colour, marker=".", markersize=2, linestyle="none")
-    else:
-        ax.add_collection3d(Poly3DCollection(faces, facecolor=colour, edgecolor="none", alpha=alpha))
 
 
 def _draw_wrench(ax, answer, p, length):
@@ -101,14 +93,13 @@ def _draw_wrench(ax, answer, p, length):
     force, torque = np.split(np.asarray(wrench), 2)
     drawn = []
     scale = length / np.linalg.norm(force) if np.linalg.norm(force) > 0 else 0
-    polytope = getattr(_core, "polytope", None)
-    if polytope is not None and answer.has_value and scale > 0:
-        shape = polytope(answer)
-        if len(shape.vertices) == 3:
-            scale = 1.5 * length / np.linalg.norm(shape.vertices, axis=0).max()
-            corners = p + scale * shape.vertices.T
-            _draw_faces(ax, [corners[list(face)] for face in shape.faces])
-            drawn.append(corners)
+    polytope = getattr(_core, "polytope", None)  # not in every build
+    shape = polytope(answer) if polytope and answer.has_value and scale > 0 else None
+    if shape is not None and shape.status == "optimal" and shape.triangles.size:
+        scale = 1.5 * length / np.linalg.norm(shape.vertices, axis=0).max()
+        corners = p + scale * shape.vertices.T
+        _draw_faces(ax, corners[shape.triangles.T], GREEN, 0.15)
+        drawn.append(corners)
     for part, colour, name, unit, at_scale in (
         (force, VERMILION, "force", "N", scale),
         (torque, BLUE, "torque", "N m", 0),
@@ -118,18 +109,17 @@ def _draw_wrench(ax, answer, p, length):
             continue
         arrow = part * (at_scale or length / size)
         label = f"{name} {size:.4g} {unit}" if answer.has_value else f"direction of the {name}"
-        ax.quiver(*p, *arrow, color=colour, linewidth=2.5, arrow_length_ratio=0.2, label=label)
+        _draw_arrow(ax, p, arrow, 0.06 * length, colour, label)
         drawn.append(np.stack([p, p + arrow]))
         if name == "torque":
             drawn.append(_draw_turn(ax, p + 0.5 * arrow, part / size, 0.3 * length, colour))
     return drawn
 
 
-def _draw_faces(ax, faces):
+def _draw_faces(ax, faces, colour, alpha):
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
-    shape = Poly3DCollection(faces, facecolor=GREEN, edgecolor=GREEN, linewidth=0.5, alpha=0.15)
-    ax.add_collection3d(shape)
+    ax.add_collection3d(Poly3DCollection(faces, facecolor=colour, edgecolor="none", alpha=alpha))
 
 
 def _draw_turn(ax, centre, axis, radius, colour):
@@ -139,16 +129,30 @@ def _draw_turn(ax, centre, axis, radius, colour):
     angle = np.linspace(0, 1.5 * np.pi, 40)[:, None]
     circle = centre + radius * (np.cos(angle) * across + np.sin(angle) * np.cross(axis, across))
     ax.plot(*circle.T, color=colour, linewidth=1.5)
-    ax.quiver(*circle[-1], *(circle[-1] - circle[-2]) * 4, color=colour, arrow_length_ratio=1.0, linewidth=1.5)
+    ahead = np.cross(axis, circle[-1] - centre)
+    _draw_arrow(ax, circle[-1], 0.4 * ahead, 0.13 * radius, colour)
     return circle
 
 
+def _draw_arrow(ax, start, arrow, width, colour, label=None):
+    """A line with a cone at its end, which shows from all sides."""
+    tip, length = start + arrow, np.linalg.norm(arrow)
+    neck = tip - min(1, 4 * width / length) * arrow
+    across = np.cross(arrow, np.eye(3)[np.argmin(np.abs(arrow))])
+    across *= width / np.linalg.norm(across)
+    angle = np.linspace(0, 2 * np.pi, 13)[:, None]
+    rim = neck + np.cos(angle) * across + np.sin(angle) * np.cross(arrow / length, across)
+    ax.plot(*np.stack([start, neck]).T, color=colour, linewidth=2.5, label=label)
+    _draw_faces(ax, [[tip, *side] for side in zip(rim, rim[1:])], colour, 1)
+
+
 def _draw_axes(ax, pose, length):
-    """The axes of the end effector; x is solid, y dashed, z dotted."""
-    p = pose[:3, 3]
-    for i, (name, style) in enumerate(zip("xyz", STYLES)):
-        tip = p + length * pose[:3, i]
-        ax.plot(*np.stack([p, tip]).T, color=PURPLE, linestyle=style, linewidth=1.5, label=f"end effector {name}")
+    """The axes of the end effector: x is solid, y dashed, z dotted. Returns their tips."""
+    p, tips = pose[:3, 3], pose[:3, 3] + length * pose[:3, :3].T
+    for tip, name, style in zip(tips, "xyz", STYLES):
+        line = np.stack([p, tip]).T
+        ax.plot(*line, color=PURPLE, linestyle=style, linewidth=1.5, label=f"end effector {name}")
+    return tips
 
 
 def _frame(ax, points, flat):
@@ -165,6 +169,8 @@ def _frame(ax, points, flat):
         axis.set_label_text(f"{name} [m]")
     if flat:
         ax.view_init(elev=90, azim=-90)
+        ax.set_proj_type("ortho")
+        ax.xaxis.labelpad = 12
         ax.set_zticks([])
         ax.set_zlabel("")
 
@@ -184,6 +190,7 @@ def _draw_curves(answer, ax, plt):
     task, robot = answer.task, answer.task.robot
     if answer.betas is not None:
         axes[0].plot(answer.t, answer.betas, color=BLACK)
+        axes[0].set_ylim(bottom=min(0, 1.1 * np.nanmin(answer.betas)))
     axes[0].set_ylabel(f"beta [{answer.unit}]")
     columns = [robot.joint_names.index(name) for name in task.theta_r_names]
     _draw_set(axes[1], answer.t, answer.q[:, columns], task.theta_r_names)

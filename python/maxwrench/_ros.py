@@ -28,7 +28,7 @@ def joint_state(answer, *, stamp=0.0, frame_id=""):
         InputError: the answer is of a task in time, or has no posture; the stamp is not finite.
 
     >>> maxwrench.joint_state(maxwrench.evaluate("planar/force", [0, 0]))["name"]
-    ['joint_1', 'joint_2', 'joint_3']
+    ['shoulder', 'elbow']
     """
     _require(answer, in_time=False)
     return {
@@ -100,7 +100,7 @@ def wrench_stamped(answer, *, frame_id, frame="end_effector", stamp=0.0):
     >>> answer = maxwrench.evaluate("planar/force", [0, 0])
     >>> message = maxwrench.wrench_stamped(answer, frame_id="tool")
     >>> round(message["wrench"]["force"]["x"], 3)
-    0.944
+    2.276
     """
     _require(answer, in_time=False)
     numbers = _frames.wrench(answer, frame, np.zeros(3) if frame == "world" else None)
