@@ -98,7 +98,7 @@ def _draw_wrench(ax, answer, p, length):
     if shape is not None and shape.status == "optimal" and shape.triangles.size:
         scale = 1.5 * length / np.linalg.norm(shape.vertices, axis=0).max()
         corners = p + scale * shape.vertices.T
-        _draw_faces(ax, corners[shape.triangles.T], GREEN, 0.15)
+        _draw_faces(ax, corners[shape.triangles.T], GREEN, 0.1)
         drawn.append(corners)
     for part, colour, name, unit, at_scale in (
         (force, VERMILION, "force", "N", scale),

@@ -70,7 +70,7 @@ def test_the_polytope_and_the_force_have_one_scale(monkeypatch):
     monkeypatch.setattr(mw._plot, "_draw_faces", lambda ax, faces, colour, alpha: drawn.append((np.array(faces), alpha)))
     answer.plot()
     p = answer.end_effector[:3, 3]
-    corner = max(np.linalg.norm(faces - p, axis=-1).max() for faces, alpha in drawn if alpha == 0.15)
+    corner = max(np.linalg.norm(faces - p, axis=-1).max() for faces, alpha in drawn if alpha == 0.1)
     tip = max(np.linalg.norm(faces - p, axis=-1).max() for faces, alpha in drawn if alpha == 1)
     assert corner == pytest.approx(2 * tip)
 
