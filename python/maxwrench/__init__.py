@@ -11,8 +11,9 @@ A short tour; docs/python.md is a longer one.
 ((1000,), (1000, 4))
 
 ``Robot.from_urdf`` and ``Static`` make tasks of other robots, ``Trajectory`` and ``Impulse`` tasks in
-time. ``capability``, ``scale`` and ``linprog`` take plain arrays, of any model. ``measures``,
-``solvers`` and ``searches`` list the choices. Wrong arguments and files raise ``InputError``.
+time; ``simulate`` carries an answer out in the virtual tank. ``capability``, ``scale`` and ``linprog``
+take plain arrays, of any model. ``measures``, ``solvers`` and ``searches`` list the choices. Wrong
+arguments and files raise ``InputError``.
 
 Units are SI: m, rad, N, N m, s. A wrench is [force; torque] that the robot exerts at the end effector,
 in the axes of the world; ``moved``, ``to_pinocchio`` and ``to_drake`` change point, axes and order.
@@ -37,6 +38,7 @@ __all__ = [
     "Answer",
     "Capability",
     "Evaluations",
+    "Experiment",
     "Impulse",
     "InputError",
     "LpAnswer",
@@ -64,6 +66,7 @@ __all__ = [
     "progress",
     "scale",
     "searches",
+    "simulate",
     "solve",
     "solvers",
     "table",

@@ -27,7 +27,7 @@ def table(path):
     >>> import pathlib, tempfile
     >>> path = pathlib.Path(tempfile.mkdtemp(), "rows.csv")
     >>> _ = path.write_text("problem,beta\\nuvms/valve,35.4\\nuvms/lift,\\n")
-    >>> maxwrench.table(path)["beta"][0]
+    >>> float(maxwrench.table(path)["beta"][0])
     35.4
     """
     file = os.fspath(path)
