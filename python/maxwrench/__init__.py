@@ -6,9 +6,9 @@ A short tour; docs/python.md is a longer one.
 >>> answer = maxwrench.solve(task, budget=8000)         # the best posture
 >>> print(round(answer.beta, 1), answer.unit)
 35.4 N m
->>> many = maxwrench.evaluate(task, np.tile(answer.theta_r, (1000, 1)))  # postures side by side
+>>> many = maxwrench.evaluate(task, [answer.theta_r, task.theta_r_default])  # postures side by side
 >>> many.beta.shape, many.gradient.shape
-((1000,), (1000, 4))
+((2,), (2, 4))
 
 ``Robot.from_urdf`` and ``Static`` make tasks of other robots, ``Trajectory`` and ``Impulse`` tasks in
 time; ``simulate`` carries an answer out in the virtual tank. ``capability``, ``scale`` and ``linprog``

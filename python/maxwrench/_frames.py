@@ -80,8 +80,8 @@ def to_pinocchio(array, pose=None, reference="LOCAL_WORLD_ALIGNED", *, jacobian=
     Raises:
         InputError: a shape is wrong, a number is not finite, or the pose is missing.
 
-    >>> pose = maxwrench.Pose([2, 0, 0], rpy=[0, 0, np.pi / 2])
-    >>> maxwrench.to_pinocchio([0, 3, 0, 0, 0, 0], pose, "LOCAL").round(9)
+    >>> pose = maxwrench.Pose([2, 0, 0], R=[[0, -1, 0], [1, 0, 0], [0, 0, 1]])
+    >>> maxwrench.to_pinocchio([0, 3, 0, 0, 0, 0], pose, "LOCAL")
     array([3., 0., 0., 0., 0., 0.])
     >>> maxwrench.to_pinocchio([0, 3, 0, 0, 0, 0], pose, "WORLD")
     array([0., 3., 0., 0., 0., 6.])
@@ -92,7 +92,7 @@ def to_pinocchio(array, pose=None, reference="LOCAL_WORLD_ALIGNED", *, jacobian=
 def from_pinocchio(array, pose=None, reference="LOCAL_WORLD_ALIGNED", *, jacobian=False):
     """Returns Pinocchio's wrenches or Jacobians as this package has them.
 
-    It is the inverse of ``to_pinocchio``, with the same arguments and errors.
+    It is the inverse of ``to_pinocchio``: array, pose, reference, jacobian and the errors are the same.
 
     >>> pose = maxwrench.Pose([2, 0, 0])
     >>> J = [[0], [0], [0], [0], [0], [1]]                        # a joint that turns about z
@@ -129,7 +129,7 @@ def to_drake(array, *, jacobian=False):
 def from_drake(array, *, jacobian=False):
     """Returns Drake's wrenches or Jacobians in the order of this package.
 
-    It is the inverse of ``to_drake``, with the same arguments and errors.
+    It is the inverse of ``to_drake``: array, jacobian and the errors are the same.
 
     >>> maxwrench.from_drake([4, 5, 6, 1, 2, 3])
     array([1., 2., 3., 4., 5., 6.])
