@@ -1,4 +1,78 @@
-"""How strongly a redundant robot can push, lift or twist, in which posture and with which efforts."""
+"""How strongly a redundant robot can push, lift or twist, in which posture and with which efforts.
 
+A short tour; docs/python.md is a longer one.
+
+>>> task = maxwrench.load("uvms/valve")                 # a shipped task, or a task file
+>>> answer = maxwrench.solve(task, budget=8000)         # the best posture
+>>> print(round(answer.beta, 1), answer.unit)
+35.4 N m
+>>> many = maxwrench.evaluate(task, [answer.theta_r, task.theta_r_default])  # postures side by side
+>>> many.beta.shape, many.gradient.shape
+((2,), (2, 4))
+
+``Robot.from_urdf`` and ``Static`` make tasks of other robots, ``Trajectory`` and ``Impulse`` tasks in
+time; ``simulate`` carries an answer out in the virtual tank. ``capability``, ``scale`` and ``linprog``
+take plain arrays, of any model. ``measures``, ``solvers`` and ``searches`` list the choices. Wrong
+arguments and files raise ``InputError``.
+
+Units are SI: m, rad, N, N m, s. A wrench is [force; torque] that the robot exerts at the end effector,
+in the axes of the world; ``moved``, ``to_pinocchio`` and ``to_drake`` change point, axes and order.
+"""
+
+from . import _frames, _html, _plot
 from ._core import *  # noqa: F401,F403
-from ._core import __version__
+from ._core import Answer, Evaluations, Robot, Task, __version__
+from ._frames import from_drake, from_pinocchio, moved, to_drake, to_pinocchio
+from ._progress import progress
+from ._ros import joint_state, joint_trajectory, to_yaml, wrench_stamped
+from ._table import table
+
+Answer.plot = _plot.plot_answer
+Answer.wrench_at = _frames.wrench
+Answer._repr_html_ = _html.answer_html
+Robot._repr_html_ = _html.robot_html
+Task._repr_html_ = _html.task_html
+Evaluations._repr_html_ = _html.evaluations_html
+
+__all__ = [
+    "Answer",
+    "Capability",
+    "Evaluations",
+    "Experiment",
+    "Impulse",
+    "InputError",
+    "LpAnswer",
+    "MissingFileError",
+    "Path",
+    "Pose",
+    "Robot",
+    "Static",
+    "Task",
+    "Trajectory",
+    "__version__",
+    "capability",
+    "describe_build",
+    "evaluate",
+    "evaluate_joints",
+    "from_drake",
+    "from_pinocchio",
+    "integrators",
+    "joint_state",
+    "joint_trajectory",
+    "linprog",
+    "load",
+    "measures",
+    "moved",
+    "progress",
+    "scale",
+    "searches",
+    "simulate",
+    "solve",
+    "solvers",
+    "table",
+    "tasks",
+    "to_drake",
+    "to_pinocchio",
+    "to_yaml",
+    "wrench_stamped",
+]

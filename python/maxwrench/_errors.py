@@ -30,3 +30,11 @@ class MissingFileError(InputError, FileNotFoundError):
 
 for _error in (InputError, MissingFileError):
     _error.__module__ = "maxwrench"
+
+
+def bad_value(key, value, expected, file=None, kind=InputError):
+    """Returns the error for a wrong value; its line is like those of the compiled part."""
+    line = f"{key}: got {value}, expected {expected}"
+    error = kind(f"{file}: {line}" if file else line)
+    error.file, error.key, error.value, error.expected = file, key, value, expected
+    return error

@@ -1,0 +1,112 @@
+"""Tables that notebooks show for the objects of this package."""
+
+from html import escape
+
+import numpy as np
+
+
+def answer_html(answer):
+    """Returns an Answer as an HTML table: value, status, posture, efforts and residuals.
+
+    >>> "best_found" in maxwrench.solve("planar/force")._repr_html_()
+    True
+    """
+    value = _number(answer.beta, answer.unit) if answer.has_value else f"none: {answer.reason}"
+    rows = [
+        ("beta", value),
+        ("status", answer.status),
+        ("measure", f"{answer.measure}, wrench {answer.wrench}, solver {answer.solver}"),
+    ]
+    if answer.t is None and answer.theta_r is not None:
+        rows += [(f"theta_r {n}", _number(v)) for n, v in zip(answer.task.theta_r_names, answer.theta_r)]
+        rows += _efforts(answer)
+    if answer.t is not None and answer.t.size:
+        rows.append(("time", f"{len(answer.t)} instants, {answer.t[-1]:g} s"))
+        rows.append(("between knots", _number(answer.between_knots, answer.unit)))
+    rows.append(("search", f"{answer.search or 'none'}, {answer.evaluations:,} evaluations, {answer.seconds:.3g} s"))
+    if answer.has_value:
+        rows.append(("residuals", ", ".join(f"{k} {v:.1e}" for k, v in answer.residual.items())))
+    return _table(answer.task.name, rows)
+
+
+def robot_html(robot):
+    """Returns a Robot as an HTML table: base, limits of joints and actuators, warnings.
+
+    >>> "shoulder" in maxwrench.load("uvms/valve").robot._repr_html_()
+    True
+    """
+    rows = [
+        ("base", ", ".join(robot.base) or "fixed"),
+        ("end effectors", ", ".join(robot.end_effectors)),
+    ]
+    joints = zip(robot.joint_names, robot.q_min, robot.q_max, robot.velocity_max)
+    rows += [(f"joint {n}", f"{low:.4g} .. {high:.4g}, speed {speed:.4g}") for n, low, high, speed in joints]
+    actuators = zip(robot.actuator_names, robot.u_min, robot.u_max)
+    rows += [(f"actuator {n}", f"{low:.4g} .. {high:.4g}") for n, low, high in actuators]
+    rows += [("warning", line) for line in robot.warnings]
+    return _table(robot.name, rows)
+
+
+def task_html(task):
+    """Returns a Task as an HTML table: type, direction, pose and limits of theta_r.
+
+    >>> "static" in maxwrench.load("uvms/valve")._repr_html_()
+    True
+    """
+    rows = [
+        ("type", task.type),
+        ("robot", task.robot.name),
+        ("c [force; torque]", _numbers(task.c)),
+        ("unit", task.unit),
+        ("end effector xyz [m]", _numbers(task.pose.p)),
+        ("end effector rpy [rad]", _numbers(task.pose.rpy)),
+        ("knots", str(task.knots)),
+    ]
+    limits = zip(task.theta_r_names, task.theta_r_min, task.theta_r_max, task.theta_r_default)
+    rows += [(f"theta_r {n}", f"{low:.4g} .. {high:.4g}, default {usual:.4g}") for n, low, high, usual in limits]
+    return _table(task.name, rows)
+
+
+def evaluations_html(evaluations):
+    """Returns Evaluations as an HTML table: how many have a value, and the best one.
+
+    >>> "of 2 postures" in maxwrench.evaluate("planar/force", [[0, 0], [1, 0]])._repr_html_()
+    True
+    """
+    task, beta = evaluations.task, evaluations.beta
+    valid = int(np.count_nonzero(evaluations.valid))
+    rows = [("with a value", f"{valid} of {len(evaluations)} postures")]
+    if valid:
+        best = int(np.nanargmax(beta))
+        rows += [
+            ("largest beta", f"{_number(beta[best], evaluations.unit)}, row {best}"),
+            ("median beta", _number(np.nanmedian(beta), evaluations.unit)),
+            ("smallest beta", _number(np.nanmin(beta), evaluations.unit)),
+        ]
+    return _table(task.name, rows)
+
+
+def _efforts(answer):
+    if answer.u is None:
+        return []
+    robot = answer.task.robot
+    efforts = zip(robot.actuator_names, answer.u, robot.u_min, robot.u_max)
+    return [(f"u {n}", f"{u:.4g} of {low:.4g} .. {high:.4g}") for n, u, low, high in efforts]
+
+
+def _number(value, unit=""):
+    return f"{value:.6g} {unit}".rstrip()
+
+
+def _numbers(values):
+    return ", ".join(f"{value:.4g}" for value in values)
+
+
+def _table(caption, rows):
+    """A table of names and texts, which are escaped."""
+    body = "".join(
+        f"<tr><th style='text-align:left'>{escape(name)}</th>"
+        f"<td style='text-align:left'>{escape(text)}</td></tr>"
+        for name, text in rows
+    )
+    return f"<table><caption>{escape(caption)}</caption>{body}</table>"

@@ -1,0 +1,31 @@
+"""The package as a whole: its names, their docstrings, and the methods written in Python."""
+
+import types
+
+import maxwrench as mw
+import pytest
+
+
+def test_all_lists_every_public_name():
+    names = {n for n, v in vars(mw).items() if not n.startswith("_") and not isinstance(v, types.ModuleType)}
+    assert set(mw.__all__) == names | {"__version__"}
+    assert mw.__all__ == sorted(mw.__all__)
+
+
+@pytest.mark.parametrize("name", [n for n in mw.__all__ if n != "__version__"])
+def test_names_have_docstrings(name):
+    thing = getattr(mw, name)
+    assert thing.__doc__ and thing.__doc__.strip()
+    for member in vars(thing).values() if isinstance(thing, type) else ():
+        if isinstance(member, property):
+            assert member.__doc__
+
+
+def test_methods_of_the_compiled_classes():
+    for owner, names in (
+        (mw.Answer, ("plot", "wrench_at", "_repr_html_")),
+        (mw.Robot, ("_repr_html_",)),
+        (mw.Task, ("_repr_html_",)),
+        (mw.Evaluations, ("_repr_html_",)),
+    ):
+        assert all(callable(getattr(owner, name)) for name in names)
