@@ -58,6 +58,10 @@ std::vector<std::string> served_searches(const Problem& problem, const std::stri
 Method resolve(const Problem& problem, const Case& c);
 Method resolve(const Problem&& problem, const Case& c) = delete;
 
+/// The number of threads of `Options::threads`, where 0 stands for one per core. Throws
+/// std::invalid_argument if it is out of range.
+int thread_count(int threads);
+
 /// Replaces the scheme of a task in time. Throws std::invalid_argument, which names `key`, unless
 /// the problem is a task in time that has a scheme of this name.
 void set_scheme(const char* key, const std::string& scheme, Problem& problem);
