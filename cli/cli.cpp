@@ -9,7 +9,6 @@
 #include <new>
 #include <stdexcept>
 #include <system_error>
-#include <thread>
 
 #include "cli/output.h"
 #include "maxwrench/batch.h"
@@ -168,9 +167,7 @@ Options CommonOptions::read_options() const {
   return options;
 }
 
-int CommonOptions::thread_count() const {
-  return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
+int CommonOptions::thread_count() const { return maxwrench::thread_count(threads); }
 
 Eigen::VectorXd parse_numbers(const std::string& option, const std::string& text) {
   std::vector<double> numbers;

@@ -1,12 +1,13 @@
-// A measure of your own: how little effort a posture costs at rest, -|tau_d|^2. It does not depend
-// on a wrench. A measure returns its derivatives with respect to tau_d and J. The library computes
-// from them those with respect to theta_r, so methods with gradients work as well.
+// A measure of your own, by its name: how little effort a posture costs at rest, -|tau_d|^2. It
+// does not depend on a wrench. "ease" returns its derivatives with respect to tau_d and J, from
+// which the library computes those with respect to theta_r. "ease_value" returns the value alone,
+// and the library takes differences.
 #include <cstdio>
 
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
+#include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"
-#include "maxwrench/wrench_program.h"
 
 using namespace maxwrench;
 
@@ -18,27 +19,28 @@ class Ease : public Measure {
     capability.beta = -posture.tau_d.squaredNorm();
     capability.lambda = -2 * posture.tau_d;          // d beta / d tau_d
     capability.beta_J.setZero(6, posture.J.cols());  // d beta / d J
-    capability.w.resize(0);
-    capability.u.resize(0);
-    capability.h.setZero();
   }
 };
 
-int main() {
-  const Problem problem = load_problem("fixed/push");
-  const auto objective =
-      make_capability_objective(problem, Wrench::kPure, [] { return std::make_unique<Ease>(); });
-  Eigen::VectorXd theta_r = problem.theta_r_default, gradient(theta_r.size());
-  std::printf("default  %.6f\n", objective->evaluate(theta_r, &gradient));
-  std::printf("gradient %.6f\n", gradient[0]);
-  const double step = 1e-5;
-  theta_r[0] += step;
-  const double ahead = objective->evaluate(theta_r);
-  theta_r[0] -= 2 * step;
-  std::printf("slope    %.6f\n", (ahead - objective->evaluate(theta_r)) / (2 * step));
+double ease(const Posture& posture, const WrenchProgram&) { return -posture.tau_d.squaredNorm(); }
 
-  SearchOptions options;
+int main() {
+  add_measure({"ease", "minus the squared load at rest", false, false, "N^2 m^2",
+               [](const Problem&, auto) { return std::make_unique<Ease>(); }});
+  add_measure({"ease_value", "the same without derivatives", false, false, "N^2 m^2",
+               [](const Problem&, auto) { return make_value_measure(ease); }});
+
+  const Problem task = load_problem("fixed/push");
+  Options options;
+  options.measure = "ease";
+  const Answer start = evaluate(task, task.theta_r_default, options);
+  std::printf("default  %.6f\n", start.beta());
+  std::printf("gradient %.4f\n", start.trajectory.gradient(0, 0));
+  options.measure = "ease_value";
+  const Answer by_value = evaluate(task, task.theta_r_default, options);
+  std::printf("slope    %.4f\n", by_value.trajectory.gradient(0, 0));
+
   options.budget = 2000;
-  const SearchResult best = find_search("annealing+cmaes").make()->maximize(*objective, options);
-  std::printf("best     %.6f\n", best.value);
+  const Answer best = solve(task, options);
+  std::printf("best     %.6f %s\n", best.beta(), best.unit.c_str());
 }

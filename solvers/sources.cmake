@@ -16,7 +16,7 @@ set(maxwrench_solvers_sources
   search/slp.cpp search/slp_outcome.cpp search/slp_run.cpp search/trace.cpp
   solve/active_limits.cpp solve/answer_json.cpp solve/evaluate_each.cpp solve/experiment.cpp solve/format.cpp solve/json_line.cpp solve/method.cpp
   solve/row.cpp solve/solve.cpp solve/summary.cpp solve/tank.cpp
-  strategies.cpp
+  added_strategies.cpp strategies.cpp
   trajectory/assembled.cpp trajectory/bordered_facets.cpp trajectory/by_facets.cpp trajectory/embedding.cpp
   trajectory/embedding_passes.cpp trajectory/even_efforts.cpp trajectory/facets_or_ipm.cpp trajectory/forms.cpp
   trajectory/forms_answer.cpp trajectory/forms_order.cpp trajectory/ipm.cpp trajectory/normal_matrix.cpp

@@ -9,6 +9,7 @@
 
 #include "maxwrench/problem.h"
 #include "maxwrench/solve.h"
+#include "solvers/added_strategies.h"
 #include "solvers/integrator/makers.h"
 #include "solvers/lp/makers.h"
 #include "solvers/search/composition.h"
@@ -36,29 +37,6 @@ std::unique_ptr<Measure> of_program(const Problem& problem, std::unique_ptr<Wren
   return make(problem.robot, std::move(solver));
 }
 
-const MeasureEntry kMeasures[] = {
-    {"ellipsoid", "beta_1: weighted ellipsoid of actuator efforts, closed form", false, true,
-     nullptr, of_robot<make_ellipsoid>},
-    {"l2_polytope", "efforts fixed to u = B^+ (tau_d + J'h), within their limits", true, true,
-     nullptr, of_program<make_l2_polytope>},
-    {"linf_polytope", "beta_2, beta_3: any efforts within their limits", true, true, nullptr,
-     of_program<make_linf_polytope>},
-    {"manipulability", "Yoshikawa's sqrt det(J J') of base and arm, lengths in m", false, false,
-     "-", of_problem<make_manipulability>},
-    {"transmission_ratio", "extent of {|J'h| <= 1} along c, N and N m weighted equally", false,
-     true, "-", of_robot<make_transmission_ratio>},
-    {"weighted_transmission_ratio", "beta_1 without the offset by tau_d", false, true, nullptr,
-     of_robot<make_weighted_transmission_ratio>},
-    {"least_effort", "minus the least sum of squared efforts at the reference wrench", false, true,
-     "mixed", of_problem<make_least_effort>},
-    {"saturating_wrench",
-     "wrench at which the first actuator saturates, efforts weighted by their limits", false, false,
-     nullptr, of_robot<make_saturating_wrench>},
-    {"ellipsoid_trace",
-     "sum of squared radii of the weighted ellipsoid, scaled by the desired wrench", false, false,
-     "-", of_problem<make_ellipsoid_trace>},
-};
-
 const LpEntry kLpSolvers[] = {
     {"simplex", "built-in bounded-variable simplex, warm-started", 1,
      [] { return make_simplex(); }},
@@ -70,48 +48,6 @@ const LpEntry kLpSolvers[] = {
 #endif
 #if MAXWRENCH_WITH_IPOPT
     {"ipopt", "Ipopt, interior point", 20, make_ipopt},
-#endif
-};
-
-const SearchEntry kSearches[] = {
-    {"sample", "uniformly random postures, the baseline of every comparison", false, make_sample,
-     false, 0.1},
-    {"grid", "regular grid", false, make_grid, false, 0.9},
-    {"annealing", "simulated annealing in independent chains", false, make_annealing, true},
-    {"cmaes", "built-in CMA-ES (covariance matrix adaptation) from many postures", false,
-     make_cmaes, true},
-#if MAXWRENCH_WITH_PAGMO
-    {"pagmo_cmaes", "CMA-ES (pagmo) from many postures", false, make_pagmo_cmaes, true},
-    {"de", "differential evolution (pagmo), several populations", false, make_de, true},
-    {"sade", "self-adaptive differential evolution (pagmo)", false, make_sade, true},
-#endif
-#if MAXWRENCH_WITH_IPOPT
-    {"multistart", "Ipopt with exact gradients from many postures, like fmincon", false,
-     make_multistart, true, 0, 5},
-#endif
-#if MAXWRENCH_WITH_NLOPT
-    {"direct_l", "DIRECT-L (NLopt), division of boxes", false, make_direct_l},
-    {"crs2", "controlled random search (NLopt), several populations", false, make_crs2, true},
-    {"mlsl", "multi-level single-linkage (NLopt), with gradients", false, make_mlsl, true},
-    {"isres", "evolution strategy ISRES (NLopt), several populations", false, make_isres, true},
-    {"slsqp", "SLSQP (NLopt) with exact gradients from many postures", false, make_slsqp, true},
-    {"mma", "MMA (NLopt) with exact gradients from many postures", false, make_mma, true},
-    {"lbfgs", "L-BFGS (NLopt) with exact gradients from many postures", false, make_lbfgs, true},
-    {"bobyqa", "BOBYQA (NLopt) from many postures", false, make_bobyqa, true},
-    {"cobyla", "COBYLA (NLopt) from many postures", false, make_cobyla, true},
-#endif
-#if MAXWRENCH_WITH_SUNDIALS
-    {"nullspace", "local baseline: gradient projected onto the null space of J", true,
-     make_nullspace, true},
-#endif
-};
-
-const SearchEntry kTrajectorySearches[] = {
-    {"slp", "sequential linear programming in knots, efforts and wrenches, from many starts", false,
-     make_slp, false, 0, 1, true},
-#if MAXWRENCH_WITH_IPOPT
-    {"joint_nlp", "Ipopt in knots, efforts and wrenches together, from the starts of slp", false,
-     make_joint_nlp, false, 0, 5},
 #endif
 };
 
@@ -205,11 +141,26 @@ std::vector<TrajectorySolverEntry> make_trajectory_solvers() {
   return table;
 }
 
+/// The entries that are built in, then those that users added.
+template <class Entry>
+std::vector<const Entry*> with_added(std::initializer_list<std::span<const Entry>> built_in,
+                                     const std::vector<const Entry*>& added) {
+  std::vector<const Entry*> all;
+  for (const std::span<const Entry> table : built_in) {
+    for (const Entry& entry : table) all.push_back(&entry);
+  }
+  all.insert(all.end(), added.begin(), added.end());
+  return all;
+}
+
 template <class Entry>
 const char* name_in(const Entry& entry) {
   return entry.name;
 }
-const char* name_in(const SearchEntry* entry) { return entry->name; }
+template <class Entry>
+const char* name_in(const Entry* entry) {
+  return entry->name;
+}
 
 template <class Entry>
 const Entry& find(std::span<const Entry> table, const char* family, std::string_view name) {
@@ -252,7 +203,31 @@ NamedSearch find_stages(std::span<const SearchEntry* const> table, std::string_v
 
 }  // namespace
 
-std::span<const MeasureEntry> measures() { return kMeasures; }
+std::span<const MeasureEntry> measures() {
+  static const MeasureEntry kMeasures[] = {
+      {"ellipsoid", "beta_1: weighted ellipsoid of actuator efforts, closed form", false, true,
+       nullptr, of_robot<make_ellipsoid>},
+      {"l2_polytope", "efforts fixed to u = B^+ (tau_d + J'h), within their limits", true, true,
+       nullptr, of_program<make_l2_polytope>},
+      {"linf_polytope", "beta_2, beta_3: any efforts within their limits", true, true, nullptr,
+       of_program<make_linf_polytope>},
+      {"manipulability", "Yoshikawa's sqrt det(J J') of base and arm, lengths in m", false, false,
+       "-", of_problem<make_manipulability>},
+      {"transmission_ratio", "extent of {|J'h| <= 1} along c, N and N m weighted equally", false,
+       true, "-", of_robot<make_transmission_ratio>},
+      {"weighted_transmission_ratio", "beta_1 without the offset by tau_d", false, true, nullptr,
+       of_robot<make_weighted_transmission_ratio>},
+      {"least_effort", "minus the least sum of squared efforts at the reference wrench", false,
+       true, "mixed", of_problem<make_least_effort>},
+      {"saturating_wrench",
+       "wrench at which the first actuator saturates, efforts weighted by their limits", false,
+       false, nullptr, of_robot<make_saturating_wrench>},
+      {"ellipsoid_trace",
+       "sum of squared radii of the weighted ellipsoid, scaled by the desired wrench", false, false,
+       "-", of_problem<make_ellipsoid_trace>},
+  };
+  return kMeasures;
+}
 std::span<const LpEntry> lp_solvers() { return kLpSolvers; }
 std::span<const WrenchSolverEntry> wrench_solvers() {
   static const std::vector<WrenchSolverEntry> kTable = make_wrench_solvers();
@@ -262,8 +237,52 @@ std::span<const TrajectorySolverEntry> trajectory_solvers() {
   static const std::vector<TrajectorySolverEntry> kTrajectorySolvers = make_trajectory_solvers();
   return kTrajectorySolvers;
 }
-std::span<const SearchEntry> searches() { return kSearches; }
-std::span<const SearchEntry> trajectory_searches() { return kTrajectorySearches; }
+std::span<const SearchEntry> searches() {
+  static const SearchEntry kSearches[] = {
+    {"sample", "uniformly random postures, the baseline of every comparison", false, make_sample,
+     false, 0.1},
+    {"grid", "regular grid", false, make_grid, false, 0.9},
+    {"annealing", "simulated annealing in independent chains", false, make_annealing, true},
+    {"cmaes", "built-in CMA-ES (covariance matrix adaptation) from many postures", false,
+     make_cmaes, true},
+#if MAXWRENCH_WITH_PAGMO
+    {"pagmo_cmaes", "CMA-ES (pagmo) from many postures", false, make_pagmo_cmaes, true},
+    {"de", "differential evolution (pagmo), several populations", false, make_de, true},
+    {"sade", "self-adaptive differential evolution (pagmo)", false, make_sade, true},
+#endif
+#if MAXWRENCH_WITH_IPOPT
+    {"multistart", "Ipopt with exact gradients from many postures, like fmincon", false,
+     make_multistart, true, 0, 5},
+#endif
+#if MAXWRENCH_WITH_NLOPT
+    {"direct_l", "DIRECT-L (NLopt), division of boxes", false, make_direct_l},
+    {"crs2", "controlled random search (NLopt), several populations", false, make_crs2, true},
+    {"mlsl", "multi-level single-linkage (NLopt), with gradients", false, make_mlsl, true},
+    {"isres", "evolution strategy ISRES (NLopt), several populations", false, make_isres, true},
+    {"slsqp", "SLSQP (NLopt) with exact gradients from many postures", false, make_slsqp, true},
+    {"mma", "MMA (NLopt) with exact gradients from many postures", false, make_mma, true},
+    {"lbfgs", "L-BFGS (NLopt) with exact gradients from many postures", false, make_lbfgs, true},
+    {"bobyqa", "BOBYQA (NLopt) from many postures", false, make_bobyqa, true},
+    {"cobyla", "COBYLA (NLopt) from many postures", false, make_cobyla, true},
+#endif
+#if MAXWRENCH_WITH_SUNDIALS
+    {"nullspace", "local baseline: gradient projected onto the null space of J", true,
+     make_nullspace, true},
+#endif
+  };
+  return kSearches;
+}
+std::span<const SearchEntry> trajectory_searches() {
+  static const SearchEntry kTrajectorySearches[] = {
+    {"slp", "sequential linear programming in knots, efforts and wrenches, from many starts", false,
+     make_slp, false, 0, 1, true},
+#if MAXWRENCH_WITH_IPOPT
+    {"joint_nlp", "Ipopt in knots, efforts and wrenches together, from the starts of slp", false,
+     make_joint_nlp, false, 0, 5},
+#endif
+  };
+  return kTrajectorySearches;
+}
 std::span<const SearchEntry> facet_searches() {
   static const std::vector<SearchEntry> kFacetSearches = make_facet_searches();
   return kFacetSearches;
@@ -288,7 +307,8 @@ bool one_at_a_time(std::string_view name) {
 }
 
 const MeasureEntry& find_measure(std::string_view name) {
-  return find(measures(), "measure", name);
+  const auto table = with_added({measures()}, added_measures());
+  return *find(std::span(table), "measure", name);
 }
 const LpEntry& find_lp_solver(std::string_view name) { return find(lp_solvers(), "solver", name); }
 const WrenchSolverEntry& find_wrench_solver(std::string_view name) {
@@ -299,11 +319,8 @@ const TrajectorySolverEntry& find_trajectory_solver(std::string_view name) {
 }
 const char* general_search() { return MAXWRENCH_WITH_NLOPT ? "crs2+cmaes" : "annealing+cmaes"; }
 NamedSearch find_search(std::string_view name) {
-  std::vector<const SearchEntry*> table;
-  for (const SearchEntry& entry : kTrajectorySearches) table.push_back(&entry);
-  for (const SearchEntry& entry : kSearches) table.push_back(&entry);
-  for (const SearchEntry& entry : facet_searches()) table.push_back(&entry);
-  return find_stages(table, name);
+  return find_stages(
+      with_added({trajectory_searches(), searches(), facet_searches()}, added_searches()), name);
 }
 std::unique_ptr<Search> NamedSearch::make() const {
   if (restarts) return make_restart({name, false, stages, local});

@@ -1,18 +1,9 @@
 #pragma once
 
-#include <string>
-
+#include "maxwrench/verification.h"
 #include "verify/certificate.h"
 
 namespace maxwrench {
-
-/// The result of a check of a certificate.
-struct Verification {
-  std::string rejection;  ///< empty if the certificate is verified
-  long boxes = 0;         ///< of the tree that were checked
-  long by_multiplier = 0, by_collision = 0, by_equations = 0, by_parent = 0;  ///< leaves by reason
-  double ceiling = kInfinity;  ///< of all postures, without any box
-};
 
 /// Checks that a certificate proves its claims about the problem: no posture within the limits has
 /// a value above `bound`, the certificate's posture has its value, and the gap between the two is

@@ -24,52 +24,46 @@
 namespace maxwrench {
 namespace {
 
-struct ProofOptions : CommonOptions {
-  double gap = CertifyOptions().gap;
-  double seconds = 60;
+struct CertifyCommandOptions : CommonOptions {
+  double gap = ProofOptions().gap;
+  double seconds = ProofOptions().seconds;
   bool ignore_collision = false;
   std::string certificate;
   WithinOptions within;
   ProblemOptions source;
 };
 
-/// The proof for the best posture found.
-struct Proof {
-  Answer row;  ///< the posture, evaluated again
-  std::string search;
-  CertifyResult result;
-  double search_s = 0;
+/// The proof, and what the command adds to it.
+struct Certified {
+  Proof proof;
   ProofRecorder boxes;               ///< filled if a certificate is requested
   std::optional<GoodPostures> good;  ///< if requested, and if there is a value
 
-  /// The gap as a share of |beta|; infinite without a posture.
-  double gap() const {
-    if (!row.has_value()) return kInfinity;
-    return (result.bound - row.capability.beta) / std::abs(row.capability.beta);
-  }
   bool complete() const {
-    return result.status == Status::kProven && (!good || good->status == Status::kProven);
+    return proof.status == Status::kProven && (!good || good->status == Status::kProven);
   }
 };
 
 /// Lists the good postures in the remaining time.
-GoodPostures list_good(const ProofOptions& options, const Problem& problem, const Method& method,
-                       const Bound& bound, const CertifyOptions& how, Proof& proof) {
+GoodPostures list_good(const CertifyCommandOptions& options, const Problem& problem,
+                       const Options& c, Proof& proof) {
   ProgressLine line;
   GoodOptions good;
   good.within = options.within.share();
   good.resolution = options.within.resolution;
-  good.seconds = std::max(0.0, how.seconds - proof.result.seconds);
-  good.threads = how.threads;
-  good.interrupted = how.interrupted;
+  good.seconds = std::max(0.0, options.seconds - proof.seconds);
+  good.threads = options.thread_count();
+  good.interrupted = c.interrupted;
   good.progress = [&line](std::size_t waiting, std::size_t kept) {
     line.show(fmt::format("within {} boxes kept, {} open", kept, waiting));
   };
-  return verified_good_postures(problem, method, bound, proof.result.bound, good, proof.row);
+  const auto bound = make_capability_bound(problem, c.measure, c.wrench);
+  return verified_good_postures(problem, resolve(problem, c), *bound, proof.bound, good,
+                                proof.answer);
 }
 
 /// `verify` reads the task again by its name, without the options of `certify`.
-void throw_on_choices(const ProofOptions& options) {
+void throw_on_choices(const CertifyCommandOptions& options) {
   if (options.certificate.empty()) return;
   if (is_urdf(options.choice.problem)) {
     throw std::invalid_argument(
@@ -83,7 +77,7 @@ void throw_on_choices(const ProofOptions& options) {
 
 /// The check of a certificate does not support forces of a second contact. The list of good
 /// postures needs boxes of theta_r only.
-void throw_on_dependents(const ProofOptions& options, const Problem& problem) {
+void throw_on_dependents(const CertifyCommandOptions& options, const Problem& problem) {
   if (!options.certificate.empty() && problem.contact_columns() > 0) {
     throw std::invalid_argument(
         "--certificate: got a task with forces of a second contact, expected one without");
@@ -94,50 +88,33 @@ void throw_on_dependents(const ProofOptions& options, const Problem& problem) {
   }
 }
 
-/// Searches, then bounds. A better posture found while bounding is also evaluated again.
-Proof prove(const ProofOptions& options, const Problem& problem) {
-  Options c = options.read_options();
-  c.budget = kUsualBudget;
-  const auto bound = make_capability_bound(problem, c.measure, c.wrench);  // first, as it may throw
-  const Method method = resolve(problem, c);
-  CtrlC ctrl_c;
-  Proof proof;
-  {
-    Progress progress("search", method.choice.budget);
-    c.progress = progress.counter();
-    c.interrupted = ctrl_c.asked();
-    proof.row = solve(problem, c);
-    proof.search = proof.row.choice.search;
-  }
-  proof.search_s = proof.row.wall_s;
-  ProgressLine line;
-  CertifyOptions how;
+/// The proof, with its progress shown.
+Proof prove(const CertifyCommandOptions& options, const Problem& problem, Options c,
+            ProofRecorder& boxes) {
+  Progress search("search", kUsualBudget);
+  c.progress = search.counter();
+  std::optional<ProgressLine> line;
+  ProofOptions how;
   how.gap = options.gap;
   how.seconds = options.seconds;
-  how.threads = options.thread_count();
-  how.interrupted = ctrl_c.asked();
-  if (!options.certificate.empty()) {
-    how.sink = [&proof](const CertifiedBox& box) { proof.boxes.add(box); };
-  }
-  how.progress = [&line](double most, double beta) {
-    line.show("certify gap " + percent((most - beta) / std::abs(beta)));
+  how.progress = [&](double most, double beta) {
+    search.finish();
+    if (!line) line.emplace();
+    line->show("certify gap " + percent((most - beta) / std::abs(beta)));
   };
-  Candidate incumbent;
-  if (proof.row.has_value()) {
-    incumbent = {proof.row.posture.theta_r, proof.row.capability.beta};
+  return certify(problem, c, how, options.certificate.empty() ? nullptr : &boxes);
+}
+
+Certified prove(const CertifyCommandOptions& options, const Problem& problem) {
+  CtrlC ctrl_c;
+  Options c = options.read_options();
+  c.interrupted = ctrl_c.asked();
+  Certified certified;
+  certified.proof = prove(options, problem, c, certified.boxes);
+  if (options.within.asked() && certified.proof.answer.has_value()) {
+    certified.good = list_good(options, problem, c, certified.proof);
   }
-  proof.result = prove(problem, method, *bound, incumbent, how);
-  const Candidate& best = proof.result.best;
-  if (best.value > incumbent.value) proof.row = evaluate(problem, best.theta_r, c);
-  if (best.value == -kInfinity) {
-    if (proof.result.status == Status::kProven) proof.result.reason = "no posture has a value";
-  } else if (!proof.row.has_value()) {
-    static_cast<Verdict&>(proof.result) = proof.row;
-  }
-  if (options.within.asked() && proof.row.has_value()) {
-    proof.good = list_good(options, problem, method, *bound, how, proof);
-  }
-  return proof;
+  return certified;
 }
 
 /// Empty, or why the text is not a gap.
@@ -149,27 +126,29 @@ std::string reject_gap(const std::string& text) {
 }
 
 /// Without a posture that has a value, or without a bound, there is nothing to certify.
-void write_certificate(const ProofOptions& options, const Proof& proof) {
+void write_certificate(const CertifyCommandOptions& options, const Certified& certified) {
   if (options.certificate.empty()) return;
-  if (!proof.row.has_value() || !std::isfinite(proof.result.bound)) {
+  const Proof& proof = certified.proof;
+  if (!proof.answer.has_value() || !std::isfinite(proof.bound)) {
     remark(options.certificate + ": not written: there is no value or no bound");
     return;
   }
   write_file(options.certificate,
-             certificate_text(proof.boxes.certificate(proof.row, proof.result, options.gap)));
+             certificate_text(certified.boxes.certificate(proof.answer, proof.bound, options.gap)));
 }
 
-void print_proof_object(const ProofOptions& options, const Problem& problem, const Proof& proof) {
-  const Answer& row = proof.row;
-  const CertifyResult& result = proof.result;
+void print_proof_object(const CertifyCommandOptions& options, const Problem& problem,
+                        const Certified& certified) {
+  const Proof& proof = certified.proof;
+  const Answer& row = proof.answer;
   const bool found = row.has_value();
   nlohmann::ordered_json object = {{"problem", options.choice.problem},
                                    {"measure", row.choice.measure},
                                    {"wrench", to_string(row.choice.wrench)},
-                                   {"status", to_string(result.status)},
-                                   {"reason", result.reason.str()},
+                                   {"status", to_string(proof.status)},
+                                   {"reason", proof.reason.str()},
                                    {"beta", known(found, row.capability.beta)},
-                                   {"bound", known(std::isfinite(result.bound), result.bound)},
+                                   {"bound", known(std::isfinite(proof.bound), proof.bound)},
                                    {"unit", row.unit},
                                    {"gap", known(std::isfinite(proof.gap()), proof.gap())},
                                    {"asked", options.gap},
@@ -180,29 +159,30 @@ void print_proof_object(const ProofOptions& options, const Problem& problem, con
   object["residual"] = known(found, to_json(row.capability.residual));
   object["search"] = proof.search;
   object["search_s"] = proof.search_s;
-  object["boxes"] = result.boxes;
-  object["colliding"] = result.colliding;
-  object["wall_s"] = result.seconds;
+  object["boxes"] = proof.boxes;
+  object["colliding"] = proof.colliding;
+  object["wall_s"] = proof.seconds;
   object["within"] = nullptr;
-  if (proof.good) object["within"] = to_json(*proof.good, options.within);
+  if (certified.good) object["within"] = to_json(*certified.good, options.within);
   object["version"] = version();
   print_json(object);
 }
 
-void print_proof_text(const ProofOptions& options, const Problem& problem, const Proof& proof) {
-  const Answer& row = proof.row;
-  const CertifyResult& result = proof.result;
+void print_proof_text(const CertifyCommandOptions& options, const Problem& problem,
+                      const Certified& certified) {
+  const Proof& proof = certified.proof;
+  const Answer& row = proof.answer;
   fmt::print("{}  measure {}  wrench {}{}\n", problem.name, row.choice.measure,
              to_string(row.choice.wrench), problem.robot.collision ? "" : "  collisions ignored");
-  fmt::print("{}{}{}\n", to_string(result.status), result.reason.empty() ? "" : ": ",
-             result.reason.c_str());
+  fmt::print("{}{}{}\n", to_string(proof.status), proof.reason.empty() ? "" : ": ",
+             proof.reason.c_str());
   if (row.has_value()) {
     fmt::print("theta_r   {}\n", line(row.posture.theta_r));
     fmt::print("beta      {:>9.5f} {}\n", row.capability.beta, row.unit);
   }
-  if (std::isfinite(result.bound)) {
-    fmt::print("bound     {:>9.5f} {}: no posture has more\n", result.bound, row.unit);
-  } else if (result.status != Status::kProven) {
+  if (std::isfinite(proof.bound)) {
+    fmt::print("bound     {:>9.5f} {}: no posture has more\n", proof.bound, row.unit);
+  } else if (proof.status != Status::kProven) {
     fmt::print("bound     none proven\n");
   }
   if (row.has_value()) {
@@ -211,11 +191,11 @@ void print_proof_text(const ProofOptions& options, const Problem& problem, const
                line(row.capability.residual));
   }
   fmt::print("boxes     {}, {} of them in collision, in {:.3g} s, after a search of {:.3g} s\n",
-             result.boxes, result.colliding, result.seconds, proof.search_s);
-  if (proof.good) print_good(problem, *proof.good, options.within);
+             proof.boxes, proof.colliding, proof.seconds, proof.search_s);
+  if (certified.good) print_good(problem, *certified.good, options.within);
 }
 
-void add_proof_options(CLI::App& command, ProofOptions& options) {
+void add_proof_options(CLI::App& command, CertifyCommandOptions& options) {
   command.add_option("problem", options.choice.problem, kProblemHelp)->required();
   options.source.add(command);
   command
@@ -245,7 +225,7 @@ void add_proof_options(CLI::App& command, ProofOptions& options) {
 }  // namespace
 
 void add_certify(CLI::App& app, int& exit_status) {
-  auto options = std::make_shared<ProofOptions>();
+  auto options = std::make_shared<CertifyCommandOptions>();
   CLI::App& command = *app.add_subcommand(
       "certify", "finds the largest capability and proves that no posture has more");
   add_proof_options(command, *options);
@@ -261,15 +241,15 @@ void add_certify(CLI::App& app, int& exit_status) {
     Problem problem = options->source.load(options->choice.problem);
     throw_on_dependents(*options, problem);
     if (options->ignore_collision) problem.robot.collision = nullptr;
-    const Proof proof = prove(*options, problem);
-    write_certificate(*options, proof);
-    if (proof.good) write_good(proof.row, *proof.good, options->within);
+    const Certified certified = prove(*options, problem);
+    write_certificate(*options, certified);
+    if (certified.good) write_good(certified.proof.answer, *certified.good, options->within);
     if (options->json) {
-      print_proof_object(*options, problem, proof);
+      print_proof_object(*options, problem, certified);
     } else {
-      print_proof_text(*options, problem, proof);
+      print_proof_text(*options, problem, certified);
     }
-    exit_status = proof.complete() ? kAnswered : kOtherStatus;
+    exit_status = certified.complete() ? kAnswered : kOtherStatus;
   });
 }
 

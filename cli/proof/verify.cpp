@@ -1,14 +1,13 @@
-#include "verify/verify.h"
-
 #include <fmt/format.h>
 
-#include <chrono>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "cli/cli.h"
 #include "cli/output.h"
 #include "cli/proof/lp_proof.h"
 #include "cli/proof/verify_rows.h"
+#include "maxwrench/certify.h"
 #include "maxwrench/load.h"
 #include "solvers/solve/format.h"
 
@@ -20,51 +19,42 @@ struct VerifyOptions : CommonOptions {
   std::size_t sample = 0;
 };
 
-/// theta_r from the coordinates of the certificate's posture, which may be too few.
-Eigen::VectorXd theta_r_of(const ProofCertificate& proof, const Problem& problem) {
-  return proof.x.head(std::min(proof.x.size(), problem.theta_r_min.size()));
-}
-
-void print_verified(const ProofCertificate& proof, const Problem& problem,
-                    const Verification& result, double seconds) {
-  fmt::print("{}  measure {}  wrench {}{}\n", problem.name, proof.measure, to_string(proof.wrench),
+void print_verified(const VerifiedProof& proof) {
+  fmt::print("{}  measure {}  wrench {}{}\n", proof.problem, proof.measure, to_string(proof.wrench),
              proof.collision ? "" : "  collisions ignored");
-  fmt::print("{}{}{}\n", result.rejection.empty() ? "verified" : "rejected",
-             result.rejection.empty() ? "" : ": ", result.rejection);
-  const Eigen::VectorXd theta_r = theta_r_of(proof, problem);
-  if (theta_r.size() > 0) fmt::print("theta_r   {}\n", line(theta_r));
-  fmt::print("beta      {:>9.5f} {}\n", proof.value, problem.unit());
-  fmt::print("bound     {:>9.5f} {}{}\n", proof.bound, problem.unit(),
-             result.rejection.empty() ? ": no posture has more" : ", as claimed");
-  fmt::print("gap       {:.3g} %\n", 100 * (proof.bound - proof.value) / std::abs(proof.value));
+  fmt::print("{}{}{}\n", proof.verified() ? "verified" : "rejected", proof.verified() ? "" : ": ",
+             proof.rejection);
+  if (proof.theta_r.size() > 0) fmt::print("theta_r   {}\n", line(proof.theta_r));
+  fmt::print("beta      {:>9.5f} {}\n", proof.value, proof.unit);
+  fmt::print("bound     {:>9.5f} {}{}\n", proof.bound, proof.unit,
+             proof.verified() ? ": no posture has more" : ", as claimed");
+  fmt::print("gap       {:.3g} %\n", 100 * proof.gap());
   fmt::print(
       "boxes     {}: {} leaves by a multiplier, {} in collision, {} without a posture, {} by their "
       "parent\n",
-      result.boxes, result.by_multiplier, result.by_collision, result.by_equations,
-      result.by_parent);
-  fmt::print("checked in {:.3g} s, written by maxwrench {}\n", seconds, proof.version);
+      proof.boxes, proof.by_multiplier, proof.by_collision, proof.by_equations, proof.by_parent);
+  fmt::print("checked in {:.3g} s, written by maxwrench {}\n", proof.seconds, proof.version);
 }
 
-void print_verified_object(const ProofCertificate& proof, const Problem& problem,
-                           const Verification& result, double seconds) {
-  nlohmann::ordered_json object = {{"problem", problem.name},
+void print_verified_object(const VerifiedProof& proof) {
+  nlohmann::ordered_json object = {{"problem", proof.problem},
                                    {"measure", proof.measure},
                                    {"wrench", to_string(proof.wrench)},
-                                   {"status", result.rejection.empty() ? "verified" : "rejected"},
-                                   {"reason", result.rejection},
+                                   {"status", proof.verified() ? "verified" : "rejected"},
+                                   {"reason", proof.rejection},
                                    {"beta", proof.value},
                                    {"bound", proof.bound},
-                                   {"unit", problem.unit()},
-                                   {"gap", (proof.bound - proof.value) / std::abs(proof.value)},
+                                   {"unit", proof.unit},
+                                   {"gap", proof.gap()},
                                    {"collision", proof.collision}};
-  object["theta_r"] = array(theta_r_of(proof, problem));
-  object["boxes"] = result.boxes;
-  object["multiplier"] = result.by_multiplier;
-  object["colliding"] = result.by_collision;
-  object["no_posture"] = result.by_equations;
-  object["parent"] = result.by_parent;
-  object["ceiling"] = known(std::isfinite(result.ceiling), result.ceiling);
-  object["wall_s"] = seconds;
+  object["theta_r"] = array(proof.theta_r);
+  object["boxes"] = proof.boxes;
+  object["multiplier"] = proof.by_multiplier;
+  object["colliding"] = proof.by_collision;
+  object["no_posture"] = proof.by_equations;
+  object["parent"] = proof.by_parent;
+  object["ceiling"] = known(std::isfinite(proof.ceiling), proof.ceiling);
+  object["wall_s"] = proof.seconds;
   object["version"] = proof.version;
   print_json(object);
 }
@@ -111,16 +101,13 @@ int check_file(const VerifyOptions& options) {
                        options.json);
   }
   if (is_lp_proof(options.file)) return check_lp_file(options);
-  const auto start = std::chrono::steady_clock::now();
-  const ProofCertificate proof = read_certificate(options.file);
   const std::string& other = options.choice.problem;
-  Problem problem = load_problem(other.empty() ? proof.problem : other);
-  if (!proof.collision) problem.robot.collision = nullptr;
-  const Verification result = verify(problem, proof, options.thread_count());
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  (options.json ? print_verified_object : print_verified)(proof, problem, result, seconds);
-  return result.rejection.empty() ? kAnswered : kOtherStatus;
+  const VerifiedProof proof = verify_certificate(
+      options.file,
+      [&other](const std::string& name) { return load_problem(other.empty() ? name : other); },
+      options.thread_count());
+  (options.json ? print_verified_object : print_verified)(proof);
+  return proof.verified() ? kAnswered : kOtherStatus;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "maxwrench/capability.h"
@@ -39,6 +40,17 @@ class Measure {
   /// is true it does not clear. The arguments are those of `evaluate`.
   virtual void evaluate_well_formed(const Posture& posture, const WrenchProgram& program,
                                     bool efforts, Capability& capability) = 0;
+  /// Computes the derivatives lambda, beta_J, beta_J2 and beta_C2 of the last result.
+  ///
+  /// It is called only where a gradient is wanted, so a measure whose derivatives cost much more
+  /// than its value can leave them to this function. The default does nothing: most measures fill
+  /// the derivatives together with the value.
+  ///
+  /// @param posture     the posture of the last evaluation
+  /// @param program     its wrench program
+  /// @param capability  the result of the last evaluation, which has a value
+  virtual void differentiate(const Posture& posture, const WrenchProgram& program,
+                             Capability& capability);
   /// Returns whether the value is the optimum of the wrench program. If so,
   /// `evaluate_well_formed` must write all of the result.
   virtual bool solves_program() const { return false; }
@@ -93,6 +105,19 @@ std::unique_ptr<Measure> make_l2_polytope(const Robot& robot, std::unique_ptr<Wr
 /// @param solver  solves the program
 std::unique_ptr<Measure> make_linf_polytope(const Robot& robot,
                                             std::unique_ptr<WrenchSolver> solver);
+
+/// Makes a measure from a function that gives the value alone.
+///
+/// The derivatives by tau_d and J, with a second contact also by J_2 and C_2, are central
+/// differences of the function. They cost two calls for each entry, 14 n without a second contact,
+/// wherever a gradient is wanted; searches without gradients do not need them. The differences
+/// change nothing else: a value that also depends on `Posture::q`, on the base or on the links has
+/// a gradient without that part. For such a value choose a search without gradients.
+///
+/// @param value  returns the value at a posture with its wrench program, or NaN where there is
+///               none. Each thread calls a copy of it.
+std::unique_ptr<Measure> make_value_measure(
+    std::function<double(const Posture&, const WrenchProgram&)> value);
 
 // Measures of earlier work, which the background of the paper describes.
 

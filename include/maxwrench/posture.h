@@ -142,6 +142,8 @@ class PostureEvaluator {
   /// @param tau_seed  the derivative by tau_d (n)
   /// @param J_seed    the derivative by J (6×n)
   /// @param gradient  receives r numbers
+  /// @throws std::invalid_argument if theta_r has the wrong size or is not finite, or a derivative
+  ///         has the wrong size.
   void pull_back(const Eigen::VectorXd& theta_r, const Eigen::VectorXd& tau_seed,
                  const Matrix6Xd& J_seed, Eigen::VectorXd& gradient);
 
@@ -159,6 +161,7 @@ class PostureEvaluator {
   /// @param theta_r     the redundant coordinates (r)
   /// @param capability  the result of a measure at this posture
   /// @param gradient    receives r numbers
+  /// @throws std::invalid_argument as above.
   void pull_back(const Eigen::VectorXd& theta_r, const Capability& capability,
                  Eigen::VectorXd& gradient);
 

@@ -96,9 +96,10 @@ class Search {
 
 /// A search by its name.
 ///
-/// The name is that of a `SearchEntry`, or several of them joined by '+', such as "crs2+cmaes".
-/// These are stages: each one continues from the points of the earlier ones. The prefix "restart:"
-/// runs the search from random starts repeatedly, until another optimum is unlikely.
+/// The name is that of a `SearchEntry`, built in or added, or several of them joined by '+', such
+/// as "crs2+cmaes". These are stages: each one continues from the points of the earlier ones. The
+/// prefix "restart:" runs the search from random starts repeatedly, until another optimum is
+/// unlikely.
 struct NamedSearch {
   std::string name;                        ///< the name
   bool restarts = false;                   ///< whether it has the prefix "restart:"

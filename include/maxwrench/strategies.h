@@ -16,7 +16,7 @@
 #include "maxwrench/wrench_solver.h"
 
 /// @file
-/// The tables of all measures, solvers, searches and integrators, by name.
+/// The tables of all measures, solvers, searches and integrators, by name, and your own entries.
 
 namespace maxwrench {
 
@@ -30,7 +30,7 @@ struct MeasureEntry {
   bool serves_any;      ///< false: rejects Wrench::kAny, which would have no meaning
   const char* unit;     ///< of its value; null: that of the wrench along c
   /// Makes the measure for a problem, which must outlive it.
-  std::unique_ptr<Measure> (*make)(const Problem&, std::unique_ptr<WrenchSolver>);
+  std::function<std::unique_ptr<Measure>(const Problem&, std::unique_ptr<WrenchSolver>)> make;
 };
 
 /// A solver of general linear programs in the table.
@@ -70,7 +70,7 @@ struct SearchEntry {
   const char* summary;  ///< one line of description
   bool local;           ///< true: a local search from one posture, which finds no better maximum
                         ///< elsewhere
-  std::unique_ptr<Search> (*make)();  ///< makes the search
+  std::function<std::unique_ptr<Search>()> make;  ///< makes the search
   /// Whether it continues from the points of an earlier search (`SearchOptions::starts`). Only then
   /// can it be a later stage.
   bool accepts_starts = false;
@@ -93,7 +93,7 @@ struct IntegratorEntry {
   std::unique_ptr<Integrator> (*make)();  ///< makes the integrator
 };
 
-/// Returns the table of measures.
+/// Returns the table of the measures that are built in.
 std::span<const MeasureEntry> measures();
 /// Returns the table of solvers of linear programs.
 std::span<const LpEntry> lp_solvers();
@@ -103,7 +103,8 @@ std::span<const WrenchSolverEntry> wrench_solvers();
 /// Returns the table of solvers of trajectory programs: those that exploit the structure first,
 /// then the solvers of linear programs.
 std::span<const TrajectorySolverEntry> trajectory_solvers();
-/// Returns the table of searches of postures. They also support stacked knots.
+/// Returns the table of the searches of postures that are built in. They also support stacked
+/// knots.
 std::span<const SearchEntry> searches();
 /// Returns the table of trajectory searches.
 ///
@@ -128,12 +129,50 @@ struct Absent {
 /// Returns what this build leaves out.
 std::span<const Absent> not_built_in();
 
+/// Adds a measure of your own.
+///
+/// From then on `find_measure`, `solve`, `evaluate` and all others that take the name of a measure
+/// know it. `measures` does not list it. The texts are copied. Of an entry:
+///
+/// * `needs_solver` false: `make` gets no solver, and `Case::solver` must be empty or `kNoSolver`.
+///   true: `make` gets the chosen solver of wrench programs.
+/// * `serves_any` true: the measure supports `Wrench::kAny`. If it needs no solver, tasks with
+///   finite limits of contact forces are then rejected, as for the closed forms.
+/// * `unit` null: the value is a wrench along c, in the unit of the task.
+///
+/// `make` is called from any thread, once for each part of a search that runs in parallel. What it
+/// throws, and what the measure throws, reaches the caller of `solve` or `evaluate`. A task in time
+/// supports no measure of yours.
+///
+/// You may add a name again. Later calls use the new entry, and earlier ones keep theirs: no entry
+/// is ever destroyed. The function may be called from any thread.
+///
+/// @param entry  the measure
+/// @throws std::invalid_argument if the name is empty, has a character other than a letter, a digit
+///         and '_', or is that of a built-in measure, or if `make` is empty. Later, if `make`
+///         returns null.
+void add_measure(MeasureEntry entry);
+
+/// Adds a search of your own.
+///
+/// From then on `find_search`, `solve` and all others that take the name of a search know it, also
+/// as a stage and with the prefix `kRestarted`. `searches` does not list it. The texts are copied.
+/// Make, names and threads are as for `add_measure`.
+///
+/// The search need not set `SearchResult::interrupted`.
+///
+/// @param entry  the search
+/// @throws std::invalid_argument as `add_measure`, and if `budget_fraction` is not from 0 to 1 or
+///         `cost` is less than 1. Later, if the search makes no evaluation without being
+///         interrupted or more than its budget, or if its theta_r has the wrong size.
+void add_search(SearchEntry entry);
+
 /// Returns whether the entry with this name needs a library that only one thread may use at a time.
 ///
 /// Cases with such an entry wait for each other.
 bool one_at_a_time(std::string_view name);
 
-/// Returns the measure with this name.
+/// Returns the measure with this name, built in or added.
 ///
 /// @throws std::invalid_argument that lists the alternatives. If this build leaves the entry out,
 ///         it names the missing library.
@@ -154,7 +193,7 @@ const TrajectorySolverEntry& find_trajectory_solver(std::string_view name);
 inline constexpr std::string_view kRestarted = "restart:";
 /// Returns the search with this name.
 ///
-/// @param name  a method of any table, or stages joined by '+', see `NamedSearch`
+/// @param name  a method of any table or an added one, or stages joined by '+', see `NamedSearch`
 /// @throws std::invalid_argument as `find_measure`, and if a later stage cannot continue from the
 ///         points of the earlier ones.
 NamedSearch find_search(std::string_view name);

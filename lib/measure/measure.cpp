@@ -23,6 +23,9 @@ void Measure::evaluate(const Posture& posture, const WrenchProgram& program, boo
   evaluate_if(maxwrench::well_formed(program), posture, program, efforts, capability);
 }
 
+void Measure::differentiate(const Posture& /*posture*/, const WrenchProgram& /*program*/,
+                            Capability& /*capability*/) {}
+
 void Measure::evaluate_if(bool well_formed, const Posture& posture, const WrenchProgram& program,
                           bool efforts, Capability& capability) {
   if (!well_formed || !solves_program()) capability.clear();

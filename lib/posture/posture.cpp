@@ -33,6 +33,14 @@ constexpr Fault kBaseOffItsAxes{Violation::kBase,
                                 "unreachable pose: the base would leave its free axes"};
 constexpr Fault kSelfCollision{Violation::kCollision, "self-collision"};
 
+/// Throws std::invalid_argument unless a measure has filled its derivatives.
+void require_seeds(Eigen::Index n, const Eigen::VectorXd& tau_seed, const Matrix6Xd& J_seed) {
+  if (tau_seed.size() == n && J_seed.cols() == n) return;
+  throw std::invalid_argument("derivatives: got " + std::to_string(tau_seed.size()) +
+                              " by tau_d and " + std::to_string(J_seed.cols()) +
+                              " columns by J, expected " + std::to_string(n) + " of both");
+}
+
 /// A posture at one theta_r: the indices of the IK solutions for the dependent coordinates and for
 /// the second arm.
 struct IkSolution {
@@ -232,6 +240,7 @@ struct PostureEvaluator::Workspace {
   void pull_back(const Eigen::VectorXd& theta_r, const Eigen::VectorXd& tau_seed,
                  const Matrix6Xd& J_seed, const Matrix6Xd& J2_seed, const Matrix6Xd& C2_seed,
                  Eigen::VectorXd& gradient) {
+    require_seeds(model.J.cols(), tau_seed, J_seed);
     if (model.theta_r != theta_r) {
       if (second || primary) {
         run(theta_r);  // selects an IK solution

@@ -42,7 +42,10 @@ class CapabilityObjective final : public FacetObjective {
       if (gradient) gradient->setConstant(theta_r.size(), std::numeric_limits<double>::quiet_NaN());
       return -kInfinity;
     }
-    if (gradient) model_.pull_back(theta_r, capability_, *gradient);
+    if (gradient) {
+      measure_->differentiate(posture, program_, capability_);
+      model_.pull_back(theta_r, capability_, *gradient);
+    }
     return capability_.beta;
   }
 

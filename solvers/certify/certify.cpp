@@ -179,13 +179,17 @@ class BranchAndBound {
 
 }  // namespace
 
-CertifyResult certify(Objective& objective, const Bound& bound, const Candidate& incumbent,
-                      const CertifyOptions& options) {
+void require_valid(const CertifyOptions& options) {
   require(options.gap >= kLeastGap && std::isfinite(options.gap), "gap", options.gap,
           "a finite number of at least 1e-8");
   require(options.seconds >= 0, "seconds", options.seconds, "at least 0");
   require(options.boxes >= 1, "boxes", static_cast<double>(options.boxes), "at least 1");
   require_threads(options.threads);
+}
+
+CertifyResult certify(Objective& objective, const Bound& bound, const Candidate& incumbent,
+                      const CertifyOptions& options) {
+  require_valid(options);
   require(!std::isnan(incumbent.value), "incumbent", incumbent.value, "a value, or -infinity");
   const Box rejects_infinite_limits(objective);
   return BranchAndBound(objective, bound, incumbent, options).run();

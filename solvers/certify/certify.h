@@ -51,6 +51,9 @@ struct CertifyResult : Verdict {
   double seconds = 0;
 };
 
+/// Throws std::invalid_argument, with one line, for options out of range.
+void require_valid(const CertifyOptions& options);
+
 /// Branch and bound over the box of the objective. The box with the largest bound is cut next, into
 /// two halves along the coordinate that its bound names, or else its widest one. `incumbent`, a
 /// point with its value, sets the target of the proof. A better value at the centre of a box, or

@@ -1,9 +1,15 @@
 #include "solvers/certify/proof.h"
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <stdexcept>
 
 #include "maxwrench/problem.h"
+#include "solvers/certify/proof_recorder.h"
 #include "solvers/solve/method.h"
+#include "verify/certificate.h"
+#include "verify/verify.h"
 
 namespace maxwrench {
 
@@ -27,6 +33,88 @@ CertifyResult prove(const Problem& problem, const Method& method, const Bound& b
   const auto objective =
       make_capability_objective(problem, method.choice.wrench, method.make_measure);
   return certify(*objective, bound, incumbent, options);
+}
+
+double Proof::gap() const {
+  if (!answer.has_value()) return kInfinity;
+  return (bound - answer.capability.beta) / std::abs(answer.capability.beta);
+}
+
+Proof certify(const Problem& task, const Options& options, const ProofOptions& how,
+              ProofRecorder* recorder) {
+  Options c = options;
+  if (c.budget == 0) c.budget = kUsualBudget;
+  c.check_collision = true;
+  const auto limits = make_capability_bound(task, c.measure, c.wrench);  // first, as it may throw
+  const Method method = resolve(task, c);
+  CertifyOptions own;
+  own.gap = how.gap;
+  own.seconds = how.seconds;
+  own.threads = thread_count(c.threads);
+  own.interrupted = c.interrupted;
+  own.progress = how.progress;
+  if (recorder) own.sink = [recorder](const CertifiedBox& box) { recorder->add(box); };
+  require_valid(own);
+  Proof proof;
+  proof.answer = solve(task, c);
+  proof.search = proof.answer.choice.search;
+  proof.search_s = proof.answer.wall_s;
+  Candidate incumbent;
+  if (proof.answer.has_value()) {
+    incumbent = {proof.answer.posture.theta_r, proof.answer.capability.beta};
+  }
+  const CertifyResult result = prove(task, method, *limits, incumbent, own);
+  static_cast<Verdict&>(proof) = result;
+  proof.bound = result.bound;
+  proof.boxes = result.boxes;
+  proof.colliding = result.colliding;
+  proof.seconds = result.seconds;
+  if (result.best.value > incumbent.value) proof.answer = evaluate(task, result.best.theta_r, c);
+  if (result.best.value == -kInfinity) {
+    if (proof.status == Status::kProven) proof.reason = "no posture has a value";
+  } else if (!proof.answer.has_value()) {
+    static_cast<Verdict&>(proof) = proof.answer;
+  }
+  return proof;
+}
+
+Proof certify(const Problem& task, const Options& options, const ProofOptions& how) {
+  if (!how.keep_certificate) return certify(task, options, how, nullptr);
+  if (task.contact_columns() > 0) {
+    throw std::invalid_argument(
+        "keep_certificate: got a task with forces of a second contact, expected one without");
+  }
+  ProofRecorder recorder;
+  Proof proof = certify(task, options, how, &recorder);
+  if (proof.answer.has_value() && std::isfinite(proof.bound)) {
+    proof.certificate = certificate_text(recorder.certificate(proof.answer, proof.bound, how.gap));
+  }
+  return proof;
+}
+
+double VerifiedProof::gap() const { return (bound - value) / std::abs(value); }
+
+VerifiedProof verify_certificate(const std::filesystem::path& file,
+                                 const std::function<Problem(const std::string& name)>& load,
+                                 int threads) {
+  const auto start = std::chrono::steady_clock::now();
+  const ProofCertificate claim = read_certificate(file.string());
+  Problem task = load(claim.problem);
+  if (!claim.collision) task.robot.collision = nullptr;
+  VerifiedProof proof;
+  static_cast<Verification&>(proof) = verify(task, claim, thread_count(threads));
+  proof.version = claim.version;
+  proof.problem = task.name;
+  proof.measure = claim.measure;
+  proof.wrench = claim.wrench;
+  proof.collision = claim.collision;
+  proof.unit = task.unit();
+  // The coordinates of the certificate's posture begin with theta_r. They may be too few.
+  proof.theta_r = claim.x.head(std::min(claim.x.size(), task.theta_r_min.size()));
+  proof.value = claim.value;
+  proof.bound = claim.bound;
+  proof.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return proof;
 }
 
 }  // namespace maxwrench

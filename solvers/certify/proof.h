@@ -3,12 +3,13 @@
 #include <memory>
 #include <string>
 
+#include "maxwrench/certify.h"
 #include "solvers/certify/certify.h"
 
 namespace maxwrench {
 
+class ProofRecorder;
 struct Method;
-struct Problem;
 
 /// `make_capability_bound`, or null where it does not support the choice.
 std::unique_ptr<Bound> find_bound(const Problem& problem, const std::string& measure,
@@ -22,5 +23,9 @@ Eigen::Index boxed_coordinates(const Problem& problem, const Bound& bound);
 /// not verified.
 CertifyResult prove(const Problem& problem, const Method& method, const Bound& bound,
                     const Candidate& incumbent, const CertifyOptions& options);
+
+/// `certify` of a task without a certificate. The recorder, unless it is null, receives the boxes.
+Proof certify(const Problem& task, const Options& options, const ProofOptions& how,
+              ProofRecorder* recorder);
 
 }  // namespace maxwrench

@@ -118,8 +118,7 @@ CertificateTree ProofRecorder::tree() const {
   return tree;
 }
 
-ProofCertificate ProofRecorder::certificate(const Answer& answer, const CertifyResult& result,
-                                            double gap) const {
+ProofCertificate ProofRecorder::certificate(const Answer& answer, double bound, double gap) const {
   const Problem& problem = *answer.task;
   ProofCertificate proof;
   proof.version = version();
@@ -128,7 +127,7 @@ ProofCertificate ProofRecorder::certificate(const Answer& answer, const CertifyR
   proof.wrench = answer.choice.wrench;
   proof.collision = problem.robot.collision != nullptr;
   proof.digest = digest(problem);
-  proof.bound = result.bound;
+  proof.bound = bound;
   proof.x = coordinates_of(problem, PostureCoordinates(problem), answer.posture);
   proof.value = answer.capability.beta;
   proof.gap = std::max(gap, (proof.bound - proof.value) / std::abs(proof.value));

@@ -12,8 +12,9 @@ class ProofRecorder {
   /// For `CertifyOptions::sink`.
   void add(const CertifiedBox& box);
 
-  /// The certificate of an answer whose posture has a value. `gap` is the requested gap.
-  ProofCertificate certificate(const Answer& answer, const CertifyResult& result, double gap) const;
+  /// The certificate of an answer whose posture has a value. No value exceeds `bound`, and `gap` is
+  /// the requested gap.
+  ProofCertificate certificate(const Answer& answer, double bound, double gap) const;
 
  private:
   /// A slice cut off a box: a leaf, and where it was cut.

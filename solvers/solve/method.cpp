@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <thread>
 
 #include "lib/search/facet_program.h"
+#include "maxwrench/batch.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/trajectory.h"
@@ -212,6 +214,14 @@ Method resolve(const Problem& problem, const Case& c) {
   method.choice.problem = problem.name;
   if (c.budget == 0) method.choice.budget = kUsualBudget;
   return method;
+}
+
+int thread_count(int threads) {
+  if (threads < 0 || threads > kMostThreads) {
+    throw std::invalid_argument(fmt::format(
+        "threads: got {}, expected 1 to {}, or 0 for one per core", threads, kMostThreads));
+  }
+  return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 void set_scheme(const char* key, const std::string& scheme, Problem& problem) {

@@ -58,8 +58,8 @@ std::vector<std::string> served_searches(const Problem& problem, const std::stri
 Method resolve(const Problem& problem, const Case& c);
 Method resolve(const Problem&& problem, const Case& c) = delete;
 
-/// The number of threads that a caller wants; 0: one per core. Throws std::invalid_argument unless
-/// it is possible.
+/// The number of threads of `Options::threads`, where 0 stands for one per core. Throws
+/// std::invalid_argument if it is out of range.
 int thread_count(int threads);
 
 /// Whether the residual of a result with efforts is small enough to count as solved.

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
-#include <thread>
 
 #include "lib/posture/given_posture.h"
 #include "maxwrench/batch.h"
@@ -92,13 +91,16 @@ void evaluate_at(const Method& method, const Eigen::VectorXd& theta_r, Answer& a
   const Problem& task = *answer.task;
   PostureEvaluator model(task, answer.collision);
   WrenchProgram program = make_wrench_program(task, method.choice.wrench);
-  answer.posture =
-      evaluate_best(model, theta_r, *method.make_measure(), true, program, answer.capability);
+  const auto measure = method.make_measure();
+  answer.posture = evaluate_best(model, theta_r, *measure, true, program, answer.capability);
   answer.ik_solutions = answer.posture.ik_solutions;
   Eigen::VectorXd gradient;
   const bool solved =
       answer.posture.status == Status::kValid && answer.capability.status == Status::kOptimal;
-  if (solved) model.pull_back(theta_r, answer.capability, gradient);
+  if (solved) {
+    measure->differentiate(answer.posture, program, answer.capability);
+    model.pull_back(theta_r, answer.capability, gradient);
+  }
   conclude_posture(answer);
   complete_posture(method, gradient, start, answer);
 }
@@ -186,14 +188,6 @@ void conclude_search(const SearchResult& result, Answer& answer) {
 
 }  // namespace
 
-int thread_count(int threads) {
-  if (threads < 0 || threads > kMostThreads) {
-    throw std::invalid_argument("threads: got " + std::to_string(threads) + ", expected 1 to " +
-                                std::to_string(kMostThreads) + ", or 0 for one per core");
-  }
-  return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
 bool satisfies_program(const Capability& capability) {
   return capability.residual.within(kAnswerTolerance * (1 + std::abs(capability.beta)));
 }
@@ -233,7 +227,11 @@ Answer evaluate_posture(const Problem& task, const Eigen::VectorXd& q, const Opt
   if (answer.posture.status == Status::kValid) {
     WrenchProgram program = make_wrench_program(*held, method.choice.wrench);
     set_posture(answer.posture, program);
-    method.make_measure()->evaluate(answer.posture, program, true, answer.capability);
+    const auto measure = method.make_measure();
+    measure->evaluate(answer.posture, program, true, answer.capability);
+    if (answer.capability.status == Status::kOptimal) {
+      measure->differentiate(answer.posture, program, answer.capability);
+    }
   }
   conclude_posture(answer);
   complete_posture(method, {}, start, answer);

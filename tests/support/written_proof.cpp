@@ -32,7 +32,7 @@ WrittenProof::WrittenProof(const char* name, const char* measure, Wrench wrench,
   if (result.best.value > row.capability.beta) {
     row = evaluate(problem, result.best.theta_r, {method.choice});
   }
-  proof = recorder.certificate(row, result, gap);
+  proof = recorder.certificate(row, result.bound, gap);
 }
 
 std::string WrittenProof::rejection(const ProofCertificate& of) const {

@@ -104,6 +104,25 @@ INSTANTIATE_TEST_SUITE_P(BetweenFacets, ThreadsInSearch,
                          testing::ValuesIn(facet_searches().begin(), facet_searches().end()),
                          [](const auto& entry) { return std::string(entry.param.name); });
 
+/// All threads add the same names again while others solve by them.
+TEST(Threads, ShareWhatUsersAdd) {
+  const Problem problem = load_problem("planar/force");
+  Case c{problem.name, "ellipsoid"};
+  c.search = "cmaes";
+  c.budget = 200;
+  const Answer one = solve(problem, {c, 1});
+  c.measure = "own_shared";
+  c.search = "own_shared";
+  at_once([&](int /*t*/) {
+    for (int round = 0; round < 10; ++round) {
+      add_measure({"own_shared", "", false, true, nullptr,
+                   [](const Problem& of, auto) { return make_ellipsoid(of.robot); }});
+      add_search({"own_shared", "", false, [] { return find_search("cmaes").make(); }, true});
+      EXPECT_EQ(solve(problem, {c, 2}).beta(), one.beta());
+    }
+  });
+}
+
 TEST(Threads, CertifyProvesTheSame) {
   const Problem problem = load_problem("uvms/lift");
   Case c{problem.name};
@@ -123,7 +142,7 @@ TEST(Threads, CertifyProvesTheSame) {
   EXPECT_EQ(one.bound, many.bound);
   EXPECT_EQ(one.boxes, many.boxes);
   const Answer row = evaluate(problem, many.best.theta_r, {method.choice});
-  const ProofCertificate proof = recorder.certificate(row, many, options.gap);
+  const ProofCertificate proof = recorder.certificate(row, many.bound, options.gap);
   const Verification verified = verify(problem, proof, kThreads);
   EXPECT_EQ(verified.rejection, "");
   EXPECT_EQ(verified.boxes, many.boxes);

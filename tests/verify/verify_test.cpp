@@ -81,7 +81,7 @@ TEST(Verify, AcceptsAProofWithoutCoordinates) {
     recorder.add(root);
     CertifyResult result;
     result.bound = std::max(root.low, root.proof.high);
-    EXPECT_EQ(verify(problem, recorder.certificate(row, result, 1e-3), 1).rejection, "");
+    EXPECT_EQ(verify(problem, recorder.certificate(row, result.bound, 1e-3), 1).rejection, "");
   }
 }
 
