@@ -79,8 +79,9 @@ std::vector<std::string> tasks_in(const std::filesystem::path& folder);
 /// Returns the folder of the shipped problems, or an empty path if there is none.
 ///
 /// It is the folder in the environment variable MAXWRENCH_PROBLEMS if that is set. Otherwise it is
-/// the first of these that exists: share/maxwrench/problems beside the folder of the running
-/// program, the source tree, the folder where maxwrench was to be installed.
+/// the first of these that exists: problems beside the shared library or Python module that
+/// holds this function, share/maxwrench/problems beside the folder of the running program, the
+/// source tree, the folder where maxwrench was to be installed.
 ///
 /// @throws std::invalid_argument if the variable does not name a folder.
 std::filesystem::path problems_folder();

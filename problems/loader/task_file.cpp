@@ -1,3 +1,4 @@
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -169,6 +170,15 @@ std::string words_of(const TaskSpec& task, const UrdfOptions& options) {
   return words;
 }
 
+/// The folder of the problems that a shared library or a Python module brings along, beside it.
+/// Empty in a program.
+fs::path beside_this_library() {
+  Dl_info info;
+  if (dladdr(reinterpret_cast<const void*>(&beside_this_library), &info) == 0) return {};
+  const fs::path file = info.dli_fname;
+  return file.extension() == ".so" ? file.parent_path() / "problems" : fs::path();
+}
+
 }  // namespace
 
 Problem load_problem(const std::string& name, const LoadOptions& options) {
@@ -236,8 +246,8 @@ fs::path problems_folder() {
   std::error_code unknown;
   const fs::path program = fs::read_symlink("/proc/self/exe", unknown);
   for (const fs::path& folder :
-       {program.parent_path() / MAXWRENCH_PROBLEMS_BESIDE, fs::path(MAXWRENCH_PROBLEMS_SOURCE),
-        fs::path(MAXWRENCH_PROBLEMS_INSTALLED)}) {
+       {beside_this_library(), program.parent_path() / MAXWRENCH_PROBLEMS_BESIDE,
+        fs::path(MAXWRENCH_PROBLEMS_SOURCE), fs::path(MAXWRENCH_PROBLEMS_INSTALLED)}) {
     if (is_folder(folder)) return fs::canonical(folder);
   }
   return {};

@@ -23,8 +23,11 @@ from . import _frames, _html, _plot
 from ._core import *  # noqa: F401,F403
 from ._core import Answer, Evaluations, Robot, Task, __version__
 from ._frames import from_drake, from_pinocchio, moved, to_drake, to_pinocchio
+from ._errors import SearchEnded
 from ._progress import progress
+from ._race import race
 from ._ros import joint_state, joint_trajectory, to_yaml, wrench_stamped
+from ._strategies import Measure, Search, add_measure, add_search
 from ._table import table
 
 Answer.plot = _plot.plot_answer
@@ -42,15 +45,25 @@ __all__ = [
     "Impulse",
     "InputError",
     "LpAnswer",
+    "Measure",
     "MissingFileError",
+    "Objective",
     "Path",
     "Pose",
+    "Posture",
+    "Proof",
     "Robot",
+    "Search",
+    "SearchEnded",
     "Static",
     "Task",
     "Trajectory",
+    "VerifiedProof",
     "__version__",
+    "add_measure",
+    "add_search",
     "capability",
+    "certify",
     "describe_build",
     "evaluate",
     "evaluate_joints",
@@ -64,6 +77,7 @@ __all__ = [
     "measures",
     "moved",
     "progress",
+    "race",
     "scale",
     "searches",
     "simulate",
@@ -74,5 +88,6 @@ __all__ = [
     "to_drake",
     "to_pinocchio",
     "to_yaml",
+    "verify",
     "wrench_stamped",
 ]

@@ -28,7 +28,11 @@ class MissingFileError(InputError, FileNotFoundError):
     """
 
 
-for _error in (InputError, MissingFileError):
+class SearchEnded(Exception):
+    """Ends a search: it used its budget, or the user interrupted it."""
+
+
+for _error in (InputError, MissingFileError, SearchEnded):
     _error.__module__ = "maxwrench"
 
 

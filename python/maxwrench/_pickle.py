@@ -1,7 +1,7 @@
 """Pickled objects: how each was made, and how it is made again."""
 
 from . import _core
-from ._errors import InputError
+from ._errors import bad_value
 
 
 def remake(function, arguments, digest):
@@ -13,8 +13,6 @@ def remake(function, arguments, digest):
         maker = getattr(maker, name)
     made = maker(**arguments)
     if digest and made.digest != digest:
-        raise InputError(
-            f"digest: got {made.digest}, expected {digest}: the files of {made.name} have changed "
-            "since it was pickled"
-        )
+        expected = f"{digest}: the files of {made.name} have changed since it was pickled"
+        raise bad_value("digest", made.digest, expected)
     return made

@@ -93,12 +93,11 @@ def _draw_wrench(ax, answer, p, length):
     force, torque = np.split(np.asarray(wrench), 2)
     drawn = []
     scale = length / np.linalg.norm(force) if np.linalg.norm(force) > 0 else 0
-    polytope = getattr(_core, "polytope", None)  # not in every build
-    shape = polytope(answer) if polytope and answer.has_value and scale > 0 else None
+    shape = _core.polytope(answer) if answer.has_value and scale > 0 else None
     if shape is not None and shape.status == "optimal" and shape.triangles.size:
-        scale = 1.5 * length / np.linalg.norm(shape.vertices, axis=0).max()
-        corners = p + scale * shape.vertices.T
-        _draw_faces(ax, corners[shape.triangles.T], GREEN, 0.1)
+        scale = 1.5 * length / np.linalg.norm(shape.vertices, axis=1).max()
+        corners = p + scale * shape.vertices
+        _draw_faces(ax, corners[shape.triangles], GREEN, 0.1)
         drawn.append(corners)
     for part, colour, name, unit, at_scale in (
         (force, VERMILION, "force", "N", scale),

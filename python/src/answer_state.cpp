@@ -71,8 +71,8 @@ Answer evaluated(const Problem& task, const Case& choice, const RowMatrix& given
 
 py::tuple answer_state(const PyAnswer& self) {
   const Answer& a = self.answer;
-  const RowMatrix given = a.given_joints ? RowMatrix(a.posture.q.transpose())
-                                         : RowMatrix(a.trajectory.knots);
+  const RowMatrix given =
+      a.given_joints ? RowMatrix(a.posture.q.transpose()) : RowMatrix(a.trajectory.knots);
   return py::make_tuple(self.task, state_of(a.choice), copy(given), a.given_joints, a.collision,
                         static_cast<int>(a.status), a.reason.str(), a.unit, a.evaluations,
                         state_of(a.calls), a.stopped, a.undecided, state_of(a.ik_solutions),

@@ -60,12 +60,14 @@ py::object theta(const PyAnswer& self) {
 
 py::object efforts(const PyAnswer& self) {
   if (!self.answer.has_value()) return py::none();
+  if (!in_time(self.answer) && self.answer.capability.u.size() == 0) return py::none();
   return per_instant(self.answer, self.answer.task->robot.actuators(),
                      [](const Instant& i) { return i.u; });
 }
 
 py::object wrench(const PyAnswer& self) {
   if (!self.answer.has_value()) return py::none();
+  if (!in_time(self.answer) && self.answer.capability.w.size() == 0) return py::none();
   return per_instant(self.answer, 6, [](const Instant& i) { return Eigen::VectorXd(i.h); });
 }
 
@@ -85,7 +87,8 @@ py::object lambda(const PyAnswer& self) {
   return copy(capability.lambda);
 }
 
-py::dict residual_of(const PyAnswer& self) {
+py::object residual_of(const PyAnswer& self) {
+  if (!self.answer.has_value()) return py::none();
   const Residual& residual = self.answer.residual();
   py::dict numbers;
   numbers["balance"] = residual.balance;
@@ -216,7 +219,7 @@ Arrays of a static task have one number for each coordinate. Those of a task in 
 for each instant ``t`` (N), but ``theta_r`` and ``gradient`` one for each knot (k). An array that
 does not exist is None.
 
->>> answer = maxwrench.evaluate("planar/force", [0, 0, 0])
+>>> answer = maxwrench.evaluate("planar/force", [0, 0])
 >>> print(round(answer.beta, 3), answer.unit, answer.status)
 0.944 N optimal
 )");
@@ -291,7 +294,8 @@ does not exist is None.
           [](const PyAnswer& a) { return a.answer.trajectory.value_between_knots; },
           "In time: the least value between knots [unit]; NaN: none.")
       .def_property_readonly("residual", &residual_of,
-                             "balance, bounds, dual and gap, recomputed from the task's data.")
+                             "balance, bounds, dual and gap, recomputed from the task's data; None "
+                             "without a value.")
       .def_property_readonly(
           "task", [](const PyAnswer& a) { return a.task; }, "The Task.")
       .def_property_readonly("links", &link_poses,

@@ -68,6 +68,18 @@ void require_all_finite(std::string_view key, const Eigen::Ref<const RowMatrix>&
   if (!values.allFinite()) throw BadValue(key, "a NaN or an infinity", "finite numbers");
 }
 
+void require_bounds(std::string_view lower_key, const Eigen::VectorXd& lower,
+                    std::string_view upper_key, const Eigen::VectorXd& upper, double most_crossed) {
+  for (Eigen::Index i = 0; i < lower.size(); ++i) {
+    if (!(lower[i] < kInfinity)) throw BadValue(lower_key, shown(lower[i]), "a lower bound");
+    if (!(upper[i] > -kInfinity)) throw BadValue(upper_key, shown(upper[i]), "an upper bound");
+    if (lower[i] > upper[i] && lower[i] - upper[i] > most_crossed) {
+      throw BadValue(lower_key, shown(lower[i]),
+                     "at most " + std::string(upper_key) + ", which is " + shown(upper[i]));
+    }
+  }
+}
+
 py::array view(const double* data, const std::vector<py::ssize_t>& shape, const py::object& owner) {
   py::array_t<double> array(shape, data, owner);
   array.attr("flags").attr("writeable") = false;

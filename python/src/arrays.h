@@ -28,6 +28,11 @@ RowMatrix matrix(std::string_view key, const py::object& value, Eigen::Index row
 /// Throws std::invalid_argument unless all numbers are finite.
 void require_all_finite(std::string_view key, const Eigen::Ref<const RowMatrix>& values);
 
+/// Throws std::invalid_argument if a bound is NaN, leaves no number (lower = infinity, upper =
+/// -infinity), or if lower exceeds upper by more than `most_crossed`.
+void require_bounds(std::string_view lower_key, const Eigen::VectorXd& lower,
+                    std::string_view upper_key, const Eigen::VectorXd& upper, double most_crossed);
+
 /// "(3, 6)"
 std::string shape_of(const Array& array);
 

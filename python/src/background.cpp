@@ -7,6 +7,8 @@
 #include <optional>
 #include <thread>
 
+#include "problems/make/bad_value.h"
+
 namespace maxwrench::python {
 namespace {
 
@@ -50,7 +52,7 @@ bool interrupted() {
 }
 
 bool wants_end(const py::object& callback, long evaluations) {
-  return !callback.is_none() && callback(evaluations).cast<py::object>().is(py::bool_(true));
+  return !callback.is_none() && static_cast<bool>(py::bool_(callback(evaluations)));
 }
 
 }  // namespace
@@ -80,6 +82,26 @@ void run_in_background(const py::object& callback, const std::function<void(Watc
   }
   if (of_python) std::rethrow_exception(of_python);
   if (of_computation) std::rethrow_exception(of_computation);
+}
+
+Callback::Callback(const py::object& given, long budget, const std::string& label)
+    : function_(given), is_line_(given.is_none()) {
+  if (is_line_) {
+    function_ = py::module_::import("maxwrench._progress").attr("progress")(budget, label);
+  } else if (given.is(py::bool_(false))) {
+    function_ = py::none();
+  } else if (PyCallable_Check(given.ptr()) == 0) {
+    throw BadValue("callback", std::string(py::repr(given)), "a function, None or False");
+  }
+}
+
+Callback::~Callback() {
+  if (!is_line_) return;
+  try {
+    function_.attr("close")();
+  } catch (py::error_already_set& error) {
+    error.discard_as_unraisable("the line of progress");
+  }
 }
 
 }  // namespace maxwrench::python

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <functional>
+#include <string>
 
 namespace maxwrench::python {
 
@@ -25,5 +26,24 @@ struct Watch {
 /// @param callback  a function of one number, or None
 /// @param compute   the computation
 void run_in_background(const py::object& callback, const std::function<void(Watch&)>& compute);
+
+/// The callback of a call: that of the caller, or for None a line of progress on a terminal or in a
+/// notebook, which goes with this object.
+class Callback {
+ public:
+  /// @param given   a function of one number, None for the line, or False for neither
+  /// @param budget  the largest number of evaluations; 0: not known
+  /// @param label   what is computed
+  Callback(const py::object& given, long budget, const std::string& label);
+  ~Callback();
+  Callback(const Callback&) = delete;
+  Callback& operator=(const Callback&) = delete;
+  /// A function of one number, or None.
+  const py::object& function() const { return function_; }
+
+ private:
+  py::object function_;
+  bool is_line_;
+};
 
 }  // namespace maxwrench::python

@@ -47,8 +47,10 @@ SharedZonotope actuators_in(const py::object& B, const py::object& lower, const 
   const RowMatrix matrix_B =
       B.is_none() ? RowMatrix(RowMatrix::Identity(n, n)) : matrix("B", B, n, -1);
   require_all_finite("B", matrix_B);
-  return zonotope_of(matrix_B, vector("lower", lower, matrix_B.cols()),
-                     vector("upper", upper, matrix_B.cols()));
+  const Eigen::VectorXd u_min = vector("lower", lower, matrix_B.cols());
+  const Eigen::VectorXd u_max = vector("upper", upper, matrix_B.cols());
+  require_bounds("lower", u_min, "upper", u_max, 0);
+  return zonotope_of(matrix_B, u_min, u_max);
 }
 
 /// A task with nothing but actuators and directions: what measures need beside J and tau_d.
@@ -161,6 +163,13 @@ Capabilities capability_of(const py::object& J_given, const py::object& tau_give
   choice.measure = measure;
   choice.solver = solver;
   choice.wrench = free.is_none() ? Wrench::kPure : Wrench::kAny;
+  const MeasureEntry& entry = find_measure(measure);
+  if (entry.unit) {
+    throw BadValue("measure", shown(measure), "one whose value is a wrench along c");
+  }
+  if (!free.is_none() && !entry.serves_any) {
+    throw BadValue("free", "other wrenches", "None for measure " + measure);
+  }
   const Method method = resolve(task, choice);
   const int wanted = thread_count(threads);
   result = Capabilities(result.shape, actuation->actuators(), n);
@@ -218,7 +227,9 @@ py::object each(const Capabilities& results, Value value) {
   if (results.shape.empty()) return py::cast(value(0));
   py::list list;
   for (std::size_t i = 0; i < results.status.size(); ++i) list.append(value(i));
-  return py::module_::import("numpy").attr("array")(list).attr("reshape")(results.shape);
+  return py::module_::import("numpy")
+      .attr("array")(list, py::arg("dtype") = "str")
+      .attr("reshape")(results.shape);
 }
 
 std::string repr_of_capability(const Capabilities& self) {
@@ -231,7 +242,7 @@ std::string repr_of_capability(const Capabilities& self) {
 
 constexpr const char* kCapability = R"(Finds the capability of arrays: of whatever model a user has.
 
-    max c'h  subject to  B u - J'h = tau_d,  lower <= u <= upper,  h = c beta + free w
+    max c'h  subject to  B u - J'h = tau_d,  lower <= u <= upper,  h = c x + free w
 
 J, tau_d and the limits may come from Pinocchio, MuJoCo, Drake or any other model; ``from_pinocchio``
 and ``from_drake`` reorder wrenches. Leading axes of J and tau_d are evaluated side by side.
@@ -243,7 +254,8 @@ Args:
     c: direction [force; torque] (6), of any length, or "x", "-z", "rx" ...
     B: efforts to generalised forces (n×m); None: one direct drive for each joint.
     free: other wrenches that may occur (6×k); None: none.
-    measure, solver: as of ``evaluate``.
+    measure: one whose value is a wrench along c.
+    solver: as of ``evaluate``.
     threads: number of threads; 0: one per core.
 
 Returns:

@@ -19,7 +19,7 @@ ErrorTypes& error_types() {
 
 void raise(const py::handle& type, const char* line, const std::string& file,
            const std::string& key, const std::string& value, const std::string& expected) {
-  py::object error = type(line);
+  py::object error = type(one_line(line));
   const auto known = [](const std::string& text) -> py::object {
     return text.empty() ? py::object(py::none()) : py::str(text);
   };

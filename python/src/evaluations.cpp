@@ -50,8 +50,10 @@ py::array rows_of(const py::object& self) {
 py::object evaluate_rows(const PyTask& task, const py::object& theta_r, Options options,
                          const py::object& callback) {
   const RowMatrix table = matrix("theta_r", theta_r, -1, task.problem->redundancy());
+  require_all_finite("theta_r", table);
   PyEvaluations result{{}, task};
-  run_in_background(callback, [&](Watch& watch) {
+  const Callback shown(callback, table.rows(), task.problem->name);
+  run_in_background(shown.function(), [&](Watch& watch) {
     options.progress = [&watch](long evaluations) { watch.evaluations = evaluations; };
     options.interrupted = [&watch] { return watch.stop.load(); };
     result.rows = evaluate_each(*task.problem, table, options);
@@ -64,9 +66,9 @@ void add_evaluations(py::module_& m) {
 
 Arrays have a row for each posture and are read-only views. They are NaN where there is no value.
 
->>> rows = maxwrench.evaluate("planar/force", [[0, 0, 0], [0.1, 0, 0]])
+>>> rows = maxwrench.evaluate("planar/force", [[0, 0], [0.1, 0]])
 >>> rows.beta.shape, rows.gradient.shape
-((2,), (2, 3))
+((2,), (2, 2))
 )")
       .def_property_readonly(
           "beta",

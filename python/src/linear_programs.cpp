@@ -6,7 +6,6 @@
 #include "maxwrench/strategies.h"
 #include "problems/make/bad_value.h"
 #include "python/src/arrays.h"
-#include "python/src/background.h"
 #include "python/src/parts.h"
 #include "python/src/words.h"
 
@@ -21,7 +20,7 @@ struct LpAnswer {
 
 /// A matrix of scipy.sparse, of any format.
 Eigen::SparseMatrix<double> sparse_matrix(const py::object& value) {
-  const py::object csc = value.attr("tocsc")();
+  const py::object csc = value.attr("tocsc")(py::arg("copy") = true);
   csc.attr("sum_duplicates")();
   const auto shape = csc.attr("shape").cast<std::pair<Eigen::Index, Eigen::Index>>();
   const Eigen::VectorXd data = vector("A", csc.attr("data"));
@@ -53,10 +52,16 @@ LpAnswer linprog(const py::object& c, const py::object& A, const py::object& b, 
   program.b = vector("b", b, program.A.rows());
   program.l = bounds_in("l", l, cols, 0);
   program.u = bounds_in("u", u, cols, kInfinity);
+  require_all_finite("c", program.c);
+  require_all_finite("b", program.b);
+  const Eigen::Map<const Eigen::VectorXd> entries(program.A.valuePtr(), program.A.nonZeros());
+  require_all_finite("A", entries);
+  require_bounds("l", program.l, "u", program.u, kInfinity);
   validate(program);
   const LpEntry& entry = find_lp_solver(solver);
   LpAnswer answer;
-  run_in_background(py::none(), [&](Watch&) {
+  {
+    const py::gil_scoped_release released;
     entry.make()->solve(program, answer.solution);
     answer.residual = residuals(program, answer.solution);
     // No status counts that the data do not confirm.
@@ -66,7 +71,10 @@ LpAnswer linprog(const py::object& c, const py::object& A, const py::object& b, 
     if (claims && !verified(program, answer.solution)) {
       answer.solution.conclude(Status::kNumericalError, "the data do not confirm the verdict");
     }
-  });
+  }
+  if (answer.solution.status != Status::kOptimal) {
+    answer.solution.objective = std::numeric_limits<double>::quiet_NaN();
+  }
   return answer;
 }
 
@@ -110,7 +118,8 @@ void add_linear_programs(py::module_& m) {
           },
           "The point (n).")
       .def_property_readonly(
-          "objective", [](const LpAnswer& a) { return a.solution.objective; }, "c'x.")
+          "objective", [](const LpAnswer& a) { return a.solution.objective; },
+          "c'x; NaN unless optimal.")
       .def_property_readonly(
           "lambda_",
           [](const py::object& self) {

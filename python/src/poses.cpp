@@ -110,9 +110,13 @@ Pose([0.5, 0, 0.3], rpy=[0, 0, 0])
           "matrix", [](const Pose<double>& pose) { return copy(matrix_of(pose)); },
           "Homogeneous matrix (4×4).")
       .def("inverse", &Pose<double>::inverse, "Returns the inverse transformation.")
-      .def("__mul__", [](const Pose<double>& a, const Pose<double>& b) { return a * b; })
-      .def("__eq__",
-           [](const Pose<double>& a, const Pose<double>& b) { return a.R == b.R && a.p == b.p; })
+      .def(
+          "__mul__", [](const Pose<double>& a, const Pose<double>& b) { return a * b; },
+          py::is_operator())
+      .def(
+          "__eq__",
+          [](const Pose<double>& a, const Pose<double>& b) { return a.R == b.R && a.p == b.p; },
+          py::is_operator())
       .def("__repr__", &repr_of_pose)
       .def(
           py::pickle([](const Pose<double>& pose) { return py::make_tuple(copy(matrix_of(pose))); },

@@ -18,15 +18,21 @@ PyRobot from_urdf(const py::object& path, const py::object& base, const std::str
   options.tool = tool;
   options.base_axes = base_axes_in("base", base);
   if (!srdf.is_none()) options.srdf = path_in("srdf", srdf);
-  for (const std::string& folder : names_in("packages", packages)) {
-    options.packages.emplace_back(folder);
+  py::list folders;
+  if (py::isinstance<py::str>(packages)) {
+    folders.append(packages);
+  } else {
+    folders = py::list(packages);
+  }
+  for (const py::handle& folder : folders) {
+    options.packages.emplace_back(path_in("packages", py::reinterpret_borrow<py::object>(folder)));
   }
   py::dict how;
   how["path"] = file;
-  how["base"] = base;
+  how["base"] = names_in("base", base);
   how["tool"] = tool;
   how["srdf"] = srdf;
-  how["packages"] = packages;
+  how["packages"] = folders;
   return {std::make_shared<const Robot>(load_urdf(file, options)), {"Robot.from_urdf", how}};
 }
 
@@ -113,7 +119,7 @@ It cannot change. ``Robot.from_urdf`` and ``Robot.from_toml`` read one, ``make_r
 code, and ``task.robot`` is the robot of a task.
 
 >>> maxwrench.load("uvms/valve").robot.joint_names
-['waist', 'shoulder', 'elbow', 'wrist']
+['q1_shoulder_yaw', 'q2_shoulder_pitch', 'q3_elbow', 'q4_wrist_roll']
 )")
       .def_static("from_urdf", &from_urdf, py::arg("path"), py::kw_only(), py::arg("base") = "",
                   py::arg("tool") = "", py::arg("srdf") = py::none(),

@@ -7,6 +7,7 @@
 #include "python/src/arrays.h"
 #include "python/src/background.h"
 #include "python/src/parts.h"
+#include "solvers/solve/method.h"
 
 namespace maxwrench::python {
 namespace {
@@ -23,8 +24,12 @@ Options options_of(const std::string& measure, const std::string& wrench,
 /// theta_r (r) of a posture, or knots (k×r).
 Eigen::MatrixXd knots_in(const py::object& value, const Problem& task) {
   const Array array = numbers("theta_r", value);
-  if (array.ndim() == 1) return vector("theta_r", value, task.redundancy()).transpose();
-  return matrix("theta_r", value, knots_of(task), task.redundancy());
+  const bool table = task.motion && array.ndim() == 2;
+  const Eigen::MatrixXd knots =
+      table ? Eigen::MatrixXd(matrix("theta_r", value, knots_of(task), task.redundancy()))
+            : Eigen::MatrixXd(vector("theta_r", value, task.redundancy()).transpose());
+  require_all_finite("theta_r", knots);
+  return knots;
 }
 
 py::object evaluate_task(const py::object& task, const py::object& theta_r,
@@ -34,7 +39,7 @@ py::object evaluate_task(const py::object& task, const py::object& theta_r,
   const PyTask of = task_of(task);
   Options options = options_of(measure, wrench, solver);
   options.check_collision = check_collision;
-  options.threads = threads;
+  options.threads = thread_count(threads);
   const bool many = !of.problem->motion && numbers("theta_r", theta_r).ndim() == 2;
   if (many) return evaluate_rows(of, theta_r, options, callback);
   const Eigen::MatrixXd knots = knots_in(theta_r, *of.problem);
@@ -53,6 +58,7 @@ PyAnswer evaluate_joints(const py::object& task, const py::object& q, const std:
   Options options = options_of(measure, wrench, solver);
   options.check_collision = check_collision;
   const Eigen::VectorXd joints = vector("q", q, Eigen::Index(of.problem->robot.joints.size()));
+  require_all_finite("q", joints);
   const py::gil_scoped_release released;
   return {evaluate_posture(*of.problem, joints, options), of};
 }
@@ -67,7 +73,8 @@ PyAnswer solve_task(const py::object& task, const std::string& measure, const st
   options.budget = budget;
   options.threads = threads;
   PyAnswer result{{}, of};
-  run_in_background(callback, [&](Watch& watch) {
+  const Callback shown(callback, budget, of.problem->name);
+  run_in_background(shown.function(), [&](Watch& watch) {
     options.progress = [&watch](long evaluations) { watch.evaluations = evaluations; };
     options.interrupted = [&watch] { return watch.stop.load(); };
     result.answer = solve(*of.problem, options);
@@ -111,7 +118,7 @@ Raises:
     InputError: the array has the wrong shape or is not finite, a name does not exist, or the
         choices do not fit together.
 
->>> maxwrench.evaluate("uvms/valve", [0, 0, 0, 0]).status
+>>> maxwrench.evaluate("uvms/valve", [3, 0.7, 0.4, -3]).status
 'optimal'
 )";
 
@@ -127,7 +134,7 @@ Args:
     threads: number of threads; it changes the time, never the answer; 0: one per core.
     callback: called every tenth of a second with the number of evaluations; if it returns True,
         the search ends. Ctrl-C ends it, too. Either way the best so far is returned, with status
-        budget_exhausted.
+        budget_exhausted. None: a line of progress on a terminal or in a notebook; False: nothing.
 
 Returns:
     Answer: the best one that the search finds, evaluated again.

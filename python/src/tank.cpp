@@ -6,8 +6,8 @@
 #include "maxwrench/strategies.h"
 #include "problems/make/bad_value.h"
 #include "python/src/arrays.h"
-#include "python/src/background.h"
 #include "python/src/parts.h"
+#include "python/src/words.h"
 #include "solvers/solve/tank.h"
 
 namespace maxwrench::python {
@@ -44,14 +44,15 @@ Request request_of(const std::string& integrator, const std::string& interpolati
   for (const auto& [key, value] : options) {
     const std::string name = key.cast<std::string>();
     if (name == "seed") {
-      tank.imperfections.seed = value.cast<std::uint64_t>();
+      tank.imperfections.seed =
+          std::uint64_t(integer_in("seed", py::reinterpret_borrow<py::object>(value)));
       continue;
     }
     const auto found = known.find(name);
     if (found == known.end()) {
       throw py::type_error("simulate: got an unexpected argument '" + name + "'");
     }
-    *found->second = value.cast<double>();
+    *found->second = number_in(name, py::reinterpret_borrow<py::object>(value));
   }
   check(tank);
   return request;
@@ -92,8 +93,7 @@ PyExperiment carry_out(const Answer& answer, const Request& request) {
 }
 
 PyExperiment simulate(const PyAnswer& given, const std::string& integrator,
-                      const std::string& interpolation, double planned,
-                      const py::kwargs& options) {
+                      const std::string& interpolation, double planned, const py::kwargs& options) {
   const Answer& answer = given.answer;
   const Request request = request_of(integrator, interpolation, planned, options);
   const std::vector<std::string> served = stiff_integrators();
@@ -105,9 +105,8 @@ PyExperiment simulate(const PyAnswer& given, const std::string& integrator,
   }
   if (!answer.has_value()) throw BadValue("answer", answer.reason.str(), "one with a value");
   PyExperiment result;
-  run_in_background(py::none(), [&](Watch&) {
-    result = answer.task->motion ? carry_out(answer, request) : hold_posture(answer, request);
-  });
+  const py::gil_scoped_release released;
+  result = answer.task->motion ? carry_out(answer, request) : hold_posture(answer, request);
   return result;
 }
 
@@ -158,7 +157,7 @@ Returns:
 Raises:
     InputError: the answer has no value or no wrench, or a value is out of its range.
 
->>> answer = maxwrench.evaluate("planar/force", [0, 0, 0])
+>>> answer = maxwrench.evaluate("planar/force", [0, 0])
 >>> maxwrench.simulate(answer, hold=1).held
 True
 )";
@@ -167,7 +166,7 @@ True
 
 void add_tank(py::module_& m) {
   py::class_<PyExperiment> experiment(m, "Experiment", "The record of ``simulate``.");
-  const auto curve = [&experiment](const char* name, double TankSample::* member, const char* doc) {
+  const auto curve = [&experiment](const char* name, double TankSample::*member, const char* doc) {
     experiment.def_property_readonly(
         name,
         [member](const PyExperiment& e) {

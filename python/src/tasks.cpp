@@ -37,6 +37,7 @@ PyPath spline_path(const py::object& times, const std::vector<Pose<double>>& pos
 PyPath screw_path(const Pose<double>& start, double duration, const py::object& axis,
                   const py::object& centre, double angle, const py::object& displacement,
                   const std::string& timing) {
+  require_finite("duration", duration);
   require_positive("duration", duration);
   require_finite("angle", angle);
   const Eigen::Vector3d a = direction_of("axis", vector("axis", axis, 3));
@@ -50,10 +51,10 @@ PyPath screw_path(const Pose<double>& start, double duration, const py::object& 
   py::dict how;
   how["start"] = start;
   how["duration"] = duration;
-  how["axis"] = axis;
-  how["centre"] = centre;
+  how["axis"] = copy(Eigen::VectorXd(a));
+  how["centre"] = copy(Eigen::VectorXd(c));
   how["angle"] = angle;
-  how["displacement"] = displacement;
+  how["displacement"] = copy(Eigen::VectorXd(d));
   how["timing"] = timing;
   return {Path::screw(start, a, c, angle, d, timing_of(timing), duration), {"Path.screw", how}};
 }
@@ -94,8 +95,12 @@ Args:
       .def_property_readonly(
           "duration", [](const PyPath& p) { return p.path.duration(); }, "The duration [s].")
       .def(
-          "at", [](const PyPath& p, double t) { return p.path.pose(t); }, py::arg("t"),
-          "Returns the Pose at the time t [s].")
+          "at",
+          [](const PyPath& p, double t) {
+            require_finite("t", t);
+            return p.path.pose(t);
+          },
+          py::arg("t"), "Returns the Pose at the time t [s].")
       .def("__repr__",
            [](const PyPath& p) { return fmt::format("<Path of {:g} s>", p.path.duration()); })
       .def("__reduce__", [](const PyPath& p) { return reduced(p.recipe); });
@@ -105,8 +110,11 @@ Args:
 std::map<std::string, std::array<double, 2>> ranges_in(const py::object& value) {
   std::map<std::string, std::array<double, 2>> ranges;
   if (value.is_none()) return ranges;
+  if (!py::isinstance<py::dict>(value)) {
+    throw BadValue("range", std::string(py::repr(value)), "a dict of limits [min, max] by name");
+  }
   for (const auto& [key, limits] : value.cast<py::dict>()) {
-    const std::string name = key.cast<std::string>();
+    const std::string name = text_in("range", py::reinterpret_borrow<py::object>(key));
     const Eigen::VectorXd pair =
         vector("range." + name, py::reinterpret_borrow<py::object>(limits), 2);
     ranges[name] = {pair[0], pair[1]};
@@ -120,15 +128,6 @@ py::object taken(py::dict& arguments, const char* name, py::object otherwise = p
   py::object value = arguments[name];
   arguments.attr("pop")(name);
   return value;
-}
-
-/// Reads a number, with a message of one line.
-double number_in(const char* key, const py::object& value) {
-  try {
-    return value.cast<double>();
-  } catch (const py::cast_error&) {
-    throw BadValue(key, std::string(py::repr(value)), "a number");
-  }
 }
 
 void read_pose(py::dict& arguments, const Robot& robot, TaskSpec& spec) {
@@ -151,8 +150,8 @@ void read_pose(py::dict& arguments, const Robot& robot, TaskSpec& spec) {
 }
 
 void read_wrench(py::dict& arguments, TaskSpec& spec) {
-  spec.c = direction_in("c", taken(arguments, "c", py::str("z")));
-  const std::string axes = taken(arguments, "frame", py::str("world")).cast<std::string>();
+  spec.c = direction_in("c", text_in("c", taken(arguments, "c", py::str("z")));
+                        const std::string axes = taken(arguments, "frame", py::str("world")));
   if (axes != "world" && axes != "end_effector") {
     throw BadValue("frame", shown(axes), "world or end_effector");
   }
@@ -177,7 +176,7 @@ void read_free(py::dict& arguments, TaskSpec& spec) {
   const py::object free = taken(arguments, "free");
   if (!free.is_none()) spec.free = names_in("free", free);
   spec.range = ranges_in(taken(arguments, "range"));
-  const std::string along = taken(arguments, "along", py::str("pose")).cast<std::string>();
+  const std::string along = text_in("along", taken(arguments, "along", py::str("pose")));
   if (along != "pose" && along != "end_effector") {
     throw BadValue("along", shown(along), "pose or end_effector");
   }
@@ -188,8 +187,8 @@ void read_free(py::dict& arguments, TaskSpec& spec) {
 TaskSpec begin_spec(const PyRobot& robot, py::dict& arguments, bool in_time) {
   TaskSpec spec;
   spec.robot = *robot.robot;
-  spec.name = taken(arguments, "name", py::str(robot.robot->name)).cast<std::string>();
-  spec.end_effector = taken(arguments, "end_effector", py::str("")).cast<std::string>();
+  spec.name = text_in("name", taken(arguments, "name", py::str(robot.robot->name)));
+  spec.end_effector = text_in("end_effector", taken(arguments, "end_effector", py::str("")));
   if (spec.end_effector.empty() && spec.robot.end_effectors.size() == 1) {
     spec.end_effector = spec.robot.end_effectors.front().name;
   }
@@ -208,9 +207,18 @@ void require_empty(const py::dict& arguments, const char* function) {
   }
 }
 
+/// An argument that the caller can no longer change.
+py::object kept(const py::handle& value) {
+  const bool changes = py::isinstance<py::array>(value) || py::isinstance<py::list>(value) ||
+                       py::isinstance<py::dict>(value);
+  if (!changes) return py::reinterpret_borrow<py::object>(value);
+  return py::module_::import("copy").attr("deepcopy")(value);
+}
+
 /// The recipe of a task made of a robot.
 Recipe recipe_of(const char* function, const PyRobot& robot, const py::kwargs& arguments) {
-  py::dict how(arguments);
+  py::dict how;
+  for (const auto& [key, value] : arguments) how[key] = kept(value);
   how["robot"] = robot;
   return {function, how};
 }
@@ -226,10 +234,11 @@ PyTask make_static(const PyRobot& robot, const py::kwargs& given) {
 
 void read_scheme(py::dict& arguments, MotionTask& motion) {
   motion.scheme = parse_scheme(
-      taken(arguments, "scheme", py::str(to_string(motion.scheme))).cast<std::string>());
-  motion.rates = taken(arguments, "rates", py::bool_(true)).cast<bool>();
+      text_in("scheme", taken(arguments, "scheme", py::str(to_string(motion.scheme)))));
+  motion.rates = flag_in("rates", taken(arguments, "rates", py::bool_(true)));
   const py::object instants = taken(arguments, "instants_per_interval");
-  if (!instants.is_none()) motion.instants_per_interval = instants.cast<int>();
+  if (!instants.is_none())
+    motion.instants_per_interval = integer_in("instants_per_interval", instants);
 }
 
 PyTask make_trajectory(const PyRobot& robot, const PyPath& path, int knots,
@@ -260,8 +269,8 @@ PyTask make_impulse(const PyRobot& robot, const Pose<double>& pose, double T, in
   motion.k = knots;
   motion.instants_per_interval = 16;
   read_scheme(arguments, motion);
-  motion.start = parse_start(taken(arguments, "start", py::str("static")).cast<std::string>());
-  motion.t_h = taken(arguments, "t_h", py::int_(0)).cast<int>();
+  motion.start = parse_start(text_in("start", taken(arguments, "start", py::str("static"))));
+  motion.t_h = integer_in("t_h", taken(arguments, "t_h", py::int_(0)));
   const py::object theta_0 = taken(arguments, "theta_0");
   if (!theta_0.is_none()) motion.theta_0 = vector("theta_0", theta_0);
   require_empty(arguments, "Impulse");
@@ -373,8 +382,8 @@ Returns:
 Raises:
     InputError: a value is wrong; the message names it as the key of a task file.
 
->>> robot = maxwrench.load("fixed/push").robot
->>> task = maxwrench.Static(robot, joints={}, c="x")
+>>> push = maxwrench.load("fixed/push")
+>>> task = maxwrench.Static(push.robot, pose=push.pose, c="-x")
 )";
 
 constexpr const char* kTrajectory = R"(Makes a task in time: a wrench along a path.
@@ -429,7 +438,7 @@ void add_tasks(py::module_& m) {
 ``load`` reads one; ``Static``, ``Trajectory`` and ``Impulse`` make one in code.
 
 >>> maxwrench.load("planar/force")
-<Task planar/force: static, theta_r joint_1 joint_2 joint_3, unit N>
+<Task planar/force: static, theta_r shoulder elbow, unit N>
 )")
       .def_property_readonly(
           "name", [](const PyTask& t) { return t.problem->name; }, "The name.")
@@ -481,7 +490,7 @@ Raises:
 
 >>> task = maxwrench.load("planar/force")
 >>> stronger = task.with_limits(2 * task.robot.u_min, 2 * task.robot.u_max)
->>> round(maxwrench.evaluate(stronger, [0, 0, 0]).beta / maxwrench.evaluate(task, [0, 0, 0]).beta)
+>>> round(maxwrench.evaluate(stronger, [0, 0]).beta / maxwrench.evaluate(task, [0, 0]).beta)
 2
 )")
       .def("__repr__", &repr_of_task)

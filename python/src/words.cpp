@@ -70,17 +70,36 @@ Vector6d direction_in(std::string_view key, const py::object& value) {
   return (text.starts_with('-') ? -1 : 1) * Vector6d::Unit(found - kAxes.begin());
 }
 
+std::string text_in(std::string_view key, const py::object& value) {
+  return cast<std::string>(key, value, "a text");
+}
+
+int integer_in(std::string_view key, const py::object& value) {
+  return cast<int>(key, value, "an integer");
+}
+
+double number_in(std::string_view key, const py::object& value) {
+  return cast<double>(key, value, "a number");
+}
+
+bool flag_in(std::string_view key, const py::object& value) {
+  return cast<bool>(key, value, "True or False");
+}
+
 std::map<std::string, double> numbers_by_name(std::string_view key, const py::object& value) {
   return cast<std::map<std::string, double>>(key, value, "a dict of numbers by name");
 }
 
 std::string path_in(std::string_view key, const py::object& value) {
+  std::string path;
   try {
-    return py::str(py::module_::import("os").attr("fspath")(value));
+    path = py::bytes(py::module_::import("os").attr("fsencode")(value));
   } catch (py::error_already_set& error) {
     if (!error.matches(PyExc_TypeError)) throw;
     throw BadValue(key, "a " + type_of(value), "a path");
   }
+  if (path.find('\0') != std::string::npos) throw BadValue(key, "a text with a NUL", "a path");
+  return path;
 }
 
 }  // namespace maxwrench::python

@@ -21,6 +21,10 @@ std::vector<std::string> names_in(std::string_view key, const py::object& value)
 std::vector<int> base_axes_in(std::string_view key, const py::object& value);
 /// A direction [force; torque]: six numbers, or an axis such as "-z" or "rx".
 Vector6d direction_in(std::string_view key, const py::object& value);
+std::string text_in(std::string_view key, const py::object& value);
+int integer_in(std::string_view key, const py::object& value);
+double number_in(std::string_view key, const py::object& value);
+bool flag_in(std::string_view key, const py::object& value);
 /// A dict of numbers by name.
 std::map<std::string, double> numbers_by_name(std::string_view key, const py::object& value);
 /// A path, of any type that os.fspath takes.

@@ -64,7 +64,7 @@ def test_the_polytope_and_the_force_have_one_scale(monkeypatch):
     answer = mw.solve("planar/force", budget=300)
     half = 2 * np.linalg.norm(answer.h)
     square = half * np.array([[1, 0, -1, 0], [0, 1, 0, -1], [0, 0, 0, 0]])
-    shape = SimpleNamespace(status="optimal", vertices=square, triangles=np.array([[0, 0], [1, 2], [2, 3]]))
+    shape = SimpleNamespace(status="optimal", vertices=square.T, triangles=np.array([[0, 1, 2], [0, 2, 3]]))
     monkeypatch.setattr(mw._core, "polytope", lambda of: shape, raising=False)
     drawn = []
     monkeypatch.setattr(mw._plot, "_draw_faces", lambda ax, faces, colour, alpha: drawn.append((np.array(faces), alpha)))

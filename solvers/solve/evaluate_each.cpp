@@ -13,9 +13,13 @@
 namespace maxwrench {
 namespace {
 
-/// Rows that one evaluator takes. It is made anew for each chunk, so that values do not depend on
-/// the number of threads; beside so many rows that costs nothing.
-constexpr Eigen::Index kChunk = 64;
+/// The number of rows that one evaluator takes. It is made anew for each chunk, so that values do
+/// not depend on the number of threads; beside so many rows that costs nothing. Of several IK
+/// solutions with equal values, an evaluator may choose by the row before, so there each row has
+/// its own.
+Eigen::Index chunk_size(const Problem& task) {
+  return task.dependent.empty() && !task.contact ? 64 : 1;
+}
 
 Evaluations make_evaluations(const Problem& task, Eigen::Index count) {
   const double none = std::numeric_limits<double>::quiet_NaN();
@@ -46,6 +50,7 @@ class RowEvaluator {
     result.status[static_cast<std::size_t>(row)] = conclude(posture);
     if (result.status[static_cast<std::size_t>(row)] != Status::kOptimal) return;
     result.beta[row] = capability_.beta;
+    measure_->differentiate(posture, program_, capability_);
     model_.pull_back(theta_r, capability_, gradient_);
     result.gradient.row(row) = gradient_;
     if (capability_.u.size() > 0) result.u.row(row) = capability_.u;
@@ -90,18 +95,19 @@ Evaluations evaluate_each(const Problem& task, const Evaluations::Rows& theta_r,
   Evaluations result = make_evaluations(task, theta_r.rows());
   std::atomic<bool> ended = false;
   std::atomic<long> done = 0;
-  const long chunks = (theta_r.rows() + kChunk - 1) / kChunk;
+  const Eigen::Index size = chunk_size(task);
+  const long chunks = (theta_r.rows() + size - 1) / size;
   parallel_for(threads, chunks, [&](long chunk) {
     RowEvaluator evaluator(task, method, options.check_collision);
-    const Eigen::Index end = std::min(theta_r.rows(), (chunk + 1) * kChunk);
-    for (Eigen::Index row = chunk * kChunk; row < end; ++row) {
+    const Eigen::Index end = std::min(theta_r.rows(), (chunk + 1) * size);
+    for (Eigen::Index row = chunk * size; row < end; ++row) {
       if (ended || (options.interrupted && options.interrupted())) {
         ended = true;
         return;
       }
       evaluator.evaluate(theta_r.row(row), row, result);
     }
-    done += end - chunk * kChunk;
+    done += end - chunk * size;
     if (options.progress) options.progress(done);
   });
   return result;

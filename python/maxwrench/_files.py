@@ -1,0 +1,17 @@
+"""Files: whole or not at all."""
+
+import os
+import tempfile
+
+
+def write_bytes(path, content):
+    """Writes a file under a temporary name and renames it."""
+    folder, name = os.path.split(os.path.abspath(path))
+    with tempfile.NamedTemporaryFile(dir=folder, prefix=f".{name}.", delete=False) as file:
+        try:
+            file.write(content)
+            file.close()
+            os.replace(file.name, path)
+        except BaseException:
+            os.unlink(file.name)
+            raise

@@ -1,0 +1,79 @@
+"""Measures and searches that users write."""
+
+from . import _core
+
+
+class Measure:
+    """A measure of your own. Subclass it, and add an object by ``add_measure``.
+
+    Attributes: ``name``, by which ``solve`` and ``evaluate`` find it; ``unit`` of its values, None
+    for a wrench along c; ``serves_any``, whether ``wrench="any"`` has a meaning for it.
+
+    A method ``derivatives(posture)`` may return the derivatives of the value by tau_d (n) and by
+    J (6×n). Without it they are central differences of ``value``. Either way a value should depend
+    on the posture by tau_d and J alone where searches use gradients.
+
+    One object serves all threads; the interpreter runs one call at a time.
+
+    >>> class Ease(maxwrench.Measure):
+    ...     name, unit = "ease", "N^2 m^2"
+    ...     def value(self, posture):
+    ...         return -posture.tau_d @ posture.tau_d
+    >>> maxwrench.add_measure(Ease())
+    >>> answer = maxwrench.evaluate("fixed/push", [0.5], measure="ease")
+    >>> answer.status, answer.unit
+    ('optimal', 'N^2 m^2')
+    """
+
+    name = ""
+    unit = None
+    serves_any = False
+
+    def value(self, posture):
+        """Returns the value at a Posture; NaN where there is none."""
+        raise NotImplementedError
+
+
+class Search:
+    """A search of your own. Subclass it, and add an object by ``add_search``.
+
+    Attributes: ``name``; ``local``, whether it finds no better maximum elsewhere;
+    ``accepts_starts``, whether it continues from ``objective.starts`` and so can be a later stage.
+
+    >>> class Sample(maxwrench.Search):
+    ...     name = "my_sample"
+    ...     def maximize(self, objective):
+    ...         random = numpy.random.default_rng(objective.seed)
+    ...         shape = objective.budget, objective.dimension
+    ...         objective.values(random.uniform(objective.lower, objective.upper, shape))
+    >>> maxwrench.add_search(Sample())
+    >>> maxwrench.solve("planar/force", search="my_sample", budget=100).evaluations
+    100
+    """
+
+    name = ""
+    local = False
+    accepts_starts = False
+
+    def maximize(self, objective):
+        """Evaluates an Objective as it likes; the best point counts. What it returns does not."""
+        raise NotImplementedError
+
+
+def add_measure(measure):
+    """Adds a Measure. A name that was added before is replaced.
+
+    Raises:
+        InputError: the name is empty, has other characters than letters, digits and "_", or is
+            that of a built-in measure.
+    """
+    _core._add_measure(measure)
+
+
+def add_search(search):
+    """Adds a Search, which may also be a stage of others. A name that was added before is replaced.
+
+    Raises:
+        InputError: as ``add_measure``.
+    """
+    _core._add_search(search)

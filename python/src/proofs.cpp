@@ -1,0 +1,173 @@
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <optional>
+
+#include "maxwrench/certify.h"
+#include "maxwrench/load.h"
+#include "problems/make/bad_value.h"
+#include "python/src/arrays.h"
+#include "python/src/background.h"
+#include "python/src/parts.h"
+#include "python/src/words.h"
+
+namespace maxwrench::python {
+namespace {
+
+/// A proof, with the task that it was asked of.
+struct PyProof {
+  Proof proof;
+  PyTask task;
+};
+
+PyProof certify_task(const py::object& task, double gap, double seconds, const std::string& measure,
+                     const std::string& wrench, const std::string& search, std::uint64_t seed,
+                     long budget, int threads, const py::object& callback) {
+  const PyTask of = task_of(task);
+  Options options;
+  options.measure = measure;
+  options.wrench = parse_wrench(wrench);
+  options.search = search;
+  options.seed = seed;
+  options.budget = budget;
+  options.threads = threads;
+  ProofOptions how;
+  how.gap = gap;
+  how.seconds = seconds;
+  how.keep_certificate = of.problem->contact_columns() == 0;
+  PyProof result{{}, of};
+  const Callback shown(callback, 0, of.problem->name);
+  run_in_background(shown.function(), [&](Watch& watch) {
+    options.progress = [&watch](long evaluations) { watch.evaluations = evaluations; };
+    options.interrupted = [&watch] { return watch.stop.load(); };
+    result.proof = certify(*of.problem, options, how);
+  });
+  return result;
+}
+
+void save(const PyProof& self, const py::object& path) {
+  const std::string file = path_in("path", path);
+  if (self.proof.certificate.empty()) {
+    throw BadValue("proof", "no certificate", "one of a task without contact forces, with a value");
+  }
+  py::module_::import("maxwrench._files")
+      .attr("write_bytes")(file, py::bytes(self.proof.certificate));
+}
+
+VerifiedProof verify_file(const py::object& path, const py::object& task, int threads) {
+  const std::string file = path_in("path", path);
+  std::optional<Problem> given;
+  if (!task.is_none()) given = *task_of(task).problem;
+  const py::gil_scoped_release released;
+  return verify_certificate(
+      file, [&](const std::string& name) { return given ? *given : load_problem(name); }, threads);
+}
+
+std::string repr_of_proof(const PyProof& self) {
+  const Proof& proof = self.proof;
+  return fmt::format(
+      "<Proof {}: {}, {:.6g} to {:.6g} {}>", self.task.problem->name, to_string(proof.status),
+      proof.answer.has_value() ? proof.answer.beta() : -kInfinity, proof.bound, proof.answer.unit);
+}
+
+constexpr const char* kCertify =
+    R"(Searches for the best posture, and proves how much larger a value can be.
+
+Args:
+    task: a static Task, or the name of one.
+    gap: the proof ends once bound - beta is at most this share of beta; at least 1e-8.
+    seconds: time limit of the proof, after the search [s].
+    measure: "linf_polytope", "l2_polytope" or "ellipsoid".
+    wrench, search, seed, budget, threads, callback: as of ``solve``.
+
+Returns:
+    Proof: the best posture and the bound.
+
+Raises:
+    InputError: the task is not supported, or as ``solve``.
+
+>>> proof = maxwrench.certify("planar/force", gap=1e-3)
+>>> proof.status, proof.gap <= 1e-3
+('proven', True)
+)";
+
+}  // namespace
+
+void add_proofs(py::module_& m) {
+  py::class_<PyProof>(m, "Proof", "A proof of the largest capability, made by ``certify``.")
+      .def_property_readonly(
+          "status", [](const PyProof& p) { return to_string(p.proof.status); },
+          "proven: the gap is as requested; bracket: the bound holds, but the gap is larger.")
+      .def_property_readonly(
+          "reason", [](const PyProof& p) { return p.proof.reason.str(); },
+          "Which limit ended a proof that is a bracket.")
+      .def_property_readonly(
+          "answer",
+          [](const PyProof& p) {
+            return PyAnswer{p.proof.answer, p.task};
+          },
+          "The Answer of the best posture known.")
+      .def_property_readonly(
+          "beta",
+          [](const PyProof& p) {
+            return p.proof.answer.has_value() ? p.proof.answer.beta()
+                                              : std::numeric_limits<double>::quiet_NaN();
+          },
+          "Its value; NaN: there is none.")
+      .def_property_readonly(
+          "bound", [](const PyProof& p) { return p.proof.bound; },
+          "No posture within the limits has a larger value; infinite: none is proven.")
+      .def_property_readonly(
+          "gap", [](const PyProof& p) { return p.proof.gap(); }, "(bound - beta)/|beta|.")
+      .def_property_readonly(
+          "boxes", [](const PyProof& p) { return p.proof.boxes; },
+          "The number of boxes of theta_r that were bounded.")
+      .def_property_readonly(
+          "colliding", [](const PyProof& p) { return p.proof.colliding; },
+          "The number of these in which every posture collides.")
+      .def_property_readonly(
+          "seconds", [](const PyProof& p) { return p.proof.seconds; },
+          "Wall time of the proof after the search [s].")
+      .def("save", &save, py::arg("path"),
+           "Writes the certificate, which ``verify`` and the command check with independent code.")
+      .def("__repr__", &repr_of_proof);
+  py::class_<VerifiedProof>(m, "VerifiedProof", "The result of ``verify``. True if verified.")
+      .def_property_readonly(
+          "verified", [](const VerifiedProof& v) { return v.rejection.empty(); },
+          "Whether the certificate proves its claims.")
+      .def_readonly("rejection", &VerifiedProof::rejection, "Why not; empty if it does.")
+      .def_readonly("problem", &VerifiedProof::problem, "The name of the task.")
+      .def_readonly("measure", &VerifiedProof::measure, "The measure.")
+      .def_readonly("beta", &VerifiedProof::value, "The value of the posture.")
+      .def_readonly("bound", &VerifiedProof::bound, "No posture has a larger value.")
+      .def_readonly("unit", &VerifiedProof::unit, "The unit of both.")
+      .def_readonly("boxes", &VerifiedProof::boxes, "The number of boxes that were checked.")
+      .def_property_readonly(
+          "theta_r", [](const VerifiedProof& v) { return copy(v.theta_r); }, "The posture (r).")
+      .def("__bool__", [](const VerifiedProof& v) { return v.rejection.empty(); })
+      .def("__repr__", [](const VerifiedProof& v) {
+        return fmt::format("<VerifiedProof {}: {}>", v.problem,
+                           v.rejection.empty() ? "verified" : "rejected: " + v.rejection);
+      });
+  m.def("certify", &certify_task, py::arg("task"), py::kw_only(), py::arg("gap") = 1e-3,
+        py::arg("seconds") = 60.0, py::arg("measure") = Case().measure, py::arg("wrench") = "pure",
+        py::arg("search") = "", py::arg("seed") = 1, py::arg("budget") = 0, py::arg("threads") = 0,
+        py::arg("callback") = py::none(), kCertify);
+  m.def("verify", &verify_file, py::arg("path"), py::arg("task") = py::none(), py::kw_only(),
+        py::arg("threads") = 0,
+        R"(Checks a certificate with code that is independent of the code that wrote it.
+
+Args:
+    path: a file that ``Proof.save`` or ``maxwrench certify --certificate`` wrote.
+    task: the Task or its name; None: the one that the certificate names.
+    threads: as of ``solve``.
+
+Returns:
+    VerifiedProof: the claims, and whether they are proven.
+
+Raises:
+    InputError: the file is missing, damaged or no certificate.
+)");
+}
+
+}  // namespace maxwrench::python

@@ -1,0 +1,331 @@
+#include "maxwrench/strategies.h"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include "maxwrench/batch.h"
+#include "maxwrench/problem.h"
+#include "maxwrench/wrench_program.h"
+#include "problems/make/bad_value.h"
+#include "python/src/arrays.h"
+#include "python/src/parts.h"
+
+// Measures and searches that are written in Python. The library calls them from its own threads, so
+// each call takes the interpreter's lock. What they throw passes through the library to the caller
+// of solve.
+
+namespace maxwrench::python {
+namespace {
+
+/// An object of Python that C++ threads may keep and drop without the lock.
+using Shared = std::shared_ptr<const py::object>;
+Shared share(const py::object& object) {
+  return {new py::object(object), [](const py::object* kept) {
+            const py::gil_scoped_acquire lock;
+            delete kept;
+          }};
+}
+
+std::string text_of(const py::object& object, const char* name, const std::string& otherwise) {
+  const py::object value = py::getattr(object, name, py::none());
+  return value.is_none() ? otherwise : py::str(value).cast<std::string>();
+}
+
+bool flag_of(const py::object& object, const char* name) {
+  return py::getattr(object, name, py::bool_(false)).cast<bool>();
+}
+
+// ---- Measures
+
+/// What a measure in Python sees of a posture: copies, which it may keep.
+struct PyPosture {
+  Eigen::VectorXd theta_r, q, tau_d, c, u_min, u_max;
+  RowMatrix J, B;
+};
+
+PyPosture seen(const Problem& task, const Posture& posture, const WrenchProgram& program) {
+  PyPosture view;
+  view.theta_r = posture.theta_r;
+  view.q = posture.q;
+  view.tau_d = posture.tau_d;
+  view.c.resize(6);
+  view.c << posture.turn * task.c.head<3>(), posture.turn * task.c.tail<3>();
+  view.J = posture.J;
+  view.B = program.actuation->B;
+  view.u_min = program.actuation->u_min;
+  view.u_max = program.actuation->u_max;
+  return view;
+}
+
+/// The number that a measure returns. Called with the lock.
+double value_of(const py::object& measure, const PyPosture& posture) {
+  const py::object value = measure.attr("value")(posture);
+  const py::object number = py::reinterpret_steal<py::object>(PyNumber_Float(value.ptr()));
+  if (!number) throw py::error_already_set();
+  return number.cast<double>();
+}
+
+/// A measure whose derivatives by tau_d and J are given by Python, too.
+class PythonMeasure : public Measure {
+ public:
+  PythonMeasure(const Problem& task, Shared measure) : task_(task), measure_(std::move(measure)) {}
+
+  void evaluate_well_formed(const Posture& posture, const WrenchProgram& program, bool,
+                            Capability& capability) override {
+    const py::gil_scoped_acquire lock;
+    capability.beta = value_of(*measure_, seen(task_, posture, program));
+    if (std::isfinite(capability.beta)) {
+      capability.conclude(Status::kOptimal);
+    } else {
+      capability.conclude(Status::kInfeasible, "the measure has no value here");
+    }
+  }
+  void differentiate(const Posture& posture, const WrenchProgram& program,
+                     Capability& capability) override {
+    const py::gil_scoped_acquire lock;
+    const py::object pair = measure_->attr("derivatives")(seen(task_, posture, program));
+    if (!py::isinstance<py::tuple>(pair) || py::len(pair) != 2) {
+      throw BadValue("derivatives", std::string(py::repr(pair)), "a pair of arrays (n) and (6, n)");
+    }
+    const Eigen::Index n = posture.tau_d.size();
+    capability.lambda = vector("derivatives[0]", pair[py::int_(0)], n);
+    capability.beta_J = matrix("derivatives[1]", pair[py::int_(1)], 6, n);
+  }
+
+ private:
+  const Problem& task_;
+  Shared measure_;
+};
+
+std::unique_ptr<Measure> make_python_measure(const Problem& task, const Shared& measure,
+                                             bool has_derivatives) {
+  if (has_derivatives) return std::make_unique<PythonMeasure>(task, measure);
+  return make_value_measure([&task, measure](const Posture& posture, const WrenchProgram& program) {
+    const py::gil_scoped_acquire lock;
+    return value_of(*measure, seen(task, posture, program));
+  });
+}
+
+void add_python_measure(const py::object& measure) {
+  const std::string name = text_of(measure, "name", ""), unit = text_of(measure, "unit", "");
+  const std::string summary = text_of(measure, "__doc__", "a measure in Python");
+  if (!py::hasattr(measure, "value")) throw BadValue("measure", name, "an object with value()");
+  const bool derivatives = py::hasattr(measure, "derivatives");
+  add_measure({name.c_str(), summary.c_str(), false, flag_of(measure, "serves_any"),
+               unit.empty() ? nullptr : unit.c_str(),
+               [shared = share(measure), derivatives](const Problem& task, auto) {
+                 return make_python_measure(task, shared, derivatives);
+               }});
+}
+
+// ---- Searches
+
+/// Thrown through a search in Python once it may make no more evaluations.
+py::handle& search_ended() {
+  static py::handle type;
+  return type;
+}
+
+/// The objective as a search in Python sees it. It counts, keeps the best point, and ends the
+/// search. Its functions are called with the lock.
+class PyObjective {
+ public:
+  PyObjective(Objective& objective, const SearchOptions& options)
+      : objective_(objective), options_(options), run_(options) {}
+
+  const Objective& objective() const { return require_alive().objective_; }
+  const SearchOptions& options() const { return require_alive().options_; }
+
+  double evaluate(const py::object& theta_r, Eigen::VectorXd* gradient) {
+    require_alive();
+    const Eigen::VectorXd point = vector("theta_r", theta_r, objective_.dimension());
+    require_all_finite("theta_r", point);
+    begin(1);
+    double value = 0;
+    {
+      const py::gil_scoped_release released;
+      value = run_.evaluate(objective_, clamped(point), gradient);
+      run_.add(1);
+    }
+    keep(clamped(point), value);
+    return value;
+  }
+
+  py::array evaluate_rows(const py::object& rows) {
+    require_alive();
+    const RowMatrix points = matrix("theta_r", rows, -1, objective_.dimension());
+    require_all_finite("theta_r", points);
+    begin(points.rows());
+    std::vector<double> values;
+    {
+      const py::gil_scoped_release released;
+      values = evaluate_all(
+          objective_, points.rows(), [&](long i) { return clamped(points.row(i)); },
+          options_.threads, run_);
+    }
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!std::isnan(values[i])) keep(clamped(points.row(Eigen::Index(i))), values[i]);
+    }
+    return copy(Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(), values.size())));
+  }
+
+  long left() const { return options_.budget - result_.evaluations; }
+  SearchResult finish() {
+    alive_ = false;
+    result_.interrupted = run_.interrupted();
+    return std::move(result_);
+  }
+
+ private:
+  const PyObjective& require_alive() const {
+    if (!alive_) throw BadValue("objective", "one whose search has ended", "the present one");
+    return *this;
+  }
+  /// Ends the search unless `count` more evaluations are allowed.
+  void begin(Eigen::Index count) {
+    if (count <= left() && !run_.ended()) {
+      result_.evaluations += count;
+      begun_ = result_.evaluations - count;
+      return;
+    }
+    PyErr_SetString(search_ended().ptr(), run_.interrupted() ? "interrupted" : kBudgetSpent);
+    throw py::error_already_set();
+  }
+  void keep(const Eigen::VectorXd& point, double value) {
+    ++begun_;
+    if (!(value > result_.value)) return;
+    result_.conclude(Status::kBestFound);
+    result_.theta_r = point;
+    result_.value = value;
+    result_.history.push_back({begun_, value});
+  }
+  /// Methods of others leave the bounds by rounding.
+  Eigen::VectorXd clamped(const Eigen::VectorXd& point) const {
+    return point.cwiseMax(objective_.lower()).cwiseMin(objective_.upper());
+  }
+
+  Objective& objective_;
+  const SearchOptions& options_;
+  SearchRun run_;
+  SearchResult result_;
+  long begun_ = 0;
+  bool alive_ = true;
+};
+
+/// A search that is written in Python.
+class PythonSearch : public Search {
+ public:
+  explicit PythonSearch(Shared search) : search_(std::move(search)) {}
+
+  SearchResult maximize(Objective& objective, const SearchOptions& options) override {
+    check(options, objective);
+    const py::gil_scoped_acquire lock;
+    const auto seen = std::make_shared<PyObjective>(objective, options);
+    try {
+      search_->attr("maximize")(seen);
+    } catch (py::error_already_set& error) {
+      if (!error.matches(search_ended())) {
+        seen->finish();
+        throw;
+      }
+    }
+    return seen->finish();
+  }
+
+ private:
+  Shared search_;
+};
+
+void add_python_search(const py::object& search) {
+  const std::string name = text_of(search, "name", "");
+  const std::string summary = text_of(search, "__doc__", "a search in Python");
+  if (!py::hasattr(search, "maximize")) throw BadValue("search", name, "an object with maximize()");
+  SearchEntry entry{name.c_str(), summary.c_str(), flag_of(search, "local"),
+                    [shared = share(search)] { return std::make_unique<PythonSearch>(shared); }};
+  entry.accepts_starts = flag_of(search, "accepts_starts");
+  add_search(entry);
+}
+
+py::list points_of(const std::vector<Candidate>& candidates) {
+  py::list points;
+  for (const Candidate& candidate : candidates) {
+    points.append(py::make_tuple(copy(candidate.theta_r), candidate.value));
+  }
+  return points;
+}
+
+void add_posture(py::module_& m) {
+  py::class_<PyPosture> posture(m, "Posture", "What a measure sees of a posture.");
+  const auto member = [&posture](const char* name, auto PyPosture::*array, const char* doc) {
+    posture.def_property_readonly(
+        name, [array](const PyPosture& p) { return copy(p.*array); }, doc);
+  };
+  member("theta_r", &PyPosture::theta_r, "Redundant coordinates (r).");
+  member("q", &PyPosture::q, "All joints (J).");
+  member("tau_d", &PyPosture::tau_d, "Forces that the efforts must exert without contact (n).");
+  member("c", &PyPosture::c, "Unit direction [force; torque] of the task in the world (6).");
+  member("u_min", &PyPosture::u_min, "Lower limits of the efforts (m).");
+  member("u_max", &PyPosture::u_max, "Upper limits of the efforts (m).");
+  member("J", &PyPosture::J, "Jacobian (6×n): velocities to the twist of the end effector.");
+  member("B", &PyPosture::B, "Efforts to generalised forces (n×m).");
+}
+
+void add_objective(py::module_& m) {
+  py::class_<PyObjective, std::shared_ptr<PyObjective>>(
+      m, "Objective", R"(The function that a search maximises: beta at theta_r, or at stacked knots.
+
+Call it with a point (d); the value is -inf where there is none. The best point counts by itself.
+Once the budget is used or the user interrupts, a call ends the search by an exception.
+)")
+      .def(
+          "__call__", [](PyObjective& o, const py::object& x) { return o.evaluate(x, nullptr); },
+          py::arg("theta_r"), "Returns the value at a point (d).")
+      .def("values", &PyObjective::evaluate_rows, py::arg("theta_r"),
+           "Returns the values (N) at N points (N×d), evaluated side by side.")
+      .def(
+          "value_and_gradient",
+          [](PyObjective& o, const py::object& x) {
+            Eigen::VectorXd gradient;
+            const double value = o.evaluate(x, &gradient);
+            return py::make_tuple(value, copy(gradient));
+          },
+          py::arg("theta_r"), "Returns the value at a point (d) and its exact gradient (d).")
+      .def_property_readonly(
+          "lower", [](const PyObjective& o) { return copy(o.objective().lower()); },
+          "Lower bounds (d).")
+      .def_property_readonly(
+          "upper", [](const PyObjective& o) { return copy(o.objective().upper()); },
+          "Upper bounds (d).")
+      .def_property_readonly(
+          "dimension", [](const PyObjective& o) { return o.objective().dimension(); }, "d.")
+      .def_property_readonly("left", &PyObjective::left, "The number of evaluations left.")
+      .def_property_readonly(
+          "budget", [](const PyObjective& o) { return o.options().budget; },
+          "The number of evaluations in all.")
+      .def_property_readonly(
+          "seed", [](const PyObjective& o) { return o.options().seed; },
+          "The seed of random numbers.")
+      .def_property_readonly(
+          "start",
+          [](const PyObjective& o) -> py::object {
+            if (o.options().start.size() == 0) return py::none();
+            return copy(o.options().start);
+          },
+          "The default point (d), or None.")
+      .def_property_readonly(
+          "starts", [](const PyObjective& o) { return points_of(o.options().starts); },
+          "Points and values of an earlier stage, best first.");
+}
+
+}  // namespace
+
+void add_strategies(py::module_& m) {
+  search_ended() =
+      py::object(py::module_::import("maxwrench._errors").attr("SearchEnded")).release();
+  add_posture(m);
+  add_objective(m);
+  m.def("_add_measure", &add_python_measure, py::arg("measure"));
+  m.def("_add_search", &add_python_search, py::arg("search"));
+}
+
+}  // namespace maxwrench::python
