@@ -157,6 +157,17 @@ def test_objects_cannot_change(name):
                 setattr(value, member, 1)
 
 
+def test_an_answer_without_a_value():
+    beyond = OBJECTS["Answer without value"]
+    assert beyond.to_dict()["beta"] is None and "NaN" not in beyond.to_json()
+    assert beyond.reason in beyond.summary() and beyond.reason in repr(beyond)
+    for name in ("u", "h", "betas", "gradient", "lambda_"):
+        assert getattr(beyond, name) is None
+    with pytest.raises(mw.InputError) as caught:
+        mw.solve("uvms/lift_impulse", search="sample", budget=3).figure()
+    assert len(str(caught.value).splitlines()) == 1
+
+
 def test_documents_of_an_answer():
     for name in ("Answer", "Answer in time", "Answer of a search"):
         answer = OBJECTS[name]

@@ -86,6 +86,19 @@ def test_ctrl_c_ends_programs_that_remain():
     assert "budget_exhausted" in repr(result) or np.isnan(result.beta).any()
 
 
+def test_ctrl_c_during_a_linear_program_is_not_lost():
+    # 400 rows take a second or more. It may end early with that status, or raise once it is done.
+    rng = np.random.default_rng(1)
+    A, c = rng.normal(size=(400, 1200)), rng.normal(size=1200)
+    b = A @ rng.uniform(0, 1, 1200)
+    Interrupt(0.1)
+    try:
+        status = mw.linprog(c, A, b, np.zeros(1200), np.full(1200, 2.0)).status
+    except KeyboardInterrupt:
+        status = "budget_exhausted"
+    assert status == "budget_exhausted"
+
+
 def test_ctrl_c_of_a_terminal():
     # A whole process, as a user runs it: it goes on after the solve and ends by itself.
     program = (
@@ -134,6 +147,18 @@ def test_callback_sees_progress_and_ends_the_search():
     assert 0.3 < time.perf_counter() - start < 3  # a call every tenth of a second
     assert len(seen) == 4 and seen == sorted(seen) and seen[-1] > 0 and all(type(count) is int for count in seen)
     assert answer.status == "budget_exhausted" and answer.has_value and answer.evaluations >= seen[-1]
+
+
+def test_true_of_numpy_ends_the_search():
+    # A callback that compares numbers of NumPy returns such a one.
+    calls = []
+
+    def callback(evaluations):
+        calls.append(evaluations)
+        return np.bool_(True) if len(calls) < 10 else True
+
+    mw.solve("uvms/valve", wrench="any", search="cmaes", budget=LONG, callback=callback)
+    assert len(calls) == 1
 
 
 def test_only_true_ends_the_search():
@@ -197,6 +222,16 @@ def test_threads_of_python_run_during_a_solve():
         thread.join()
     inside = [t for t in ticks if start < t < end]
     assert end - start > 0.05 and len(inside) > 0.2 * (end - start) / 0.005
+
+
+def test_import_needs_numpy_alone():
+    program = (
+        "import sys, maxwrench; maxwrench.solve('planar/force', budget=20).summary();"
+        "maxwrench.linprog([1], [[1]], [1]);"
+        "print([name for name in ('scipy', 'pandas', 'matplotlib', 'pinocchio') if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=30)
+    assert (done.stdout, done.stderr) == ("[]\n", "")
 
 
 def run_in_threads(count, function):

@@ -196,6 +196,21 @@ def test_pickled_objects_are_made_again():
     assert pickle.loads(pickle.dumps(spline)).at(1.7) == spline.at(1.7)
 
 
+def test_pickled_answers_have_the_same_numbers():
+    for answer in (
+        mw.evaluate("uvms/valve", mw.load("uvms/valve").theta_r_default, wrench="any"),
+        mw.evaluate("planar/force", [0, 1.2]),
+        mw.evaluate("planar/trajectory", [0.1, 0.1]),
+        mw.solve("planar/force", budget=60, seed=4),
+        mw.evaluate_joints("fixed/push", [0, 0.4, 0, -1.2, 0, -0.6, 0]),
+    ):
+        again = pickle.loads(pickle.dumps(answer))
+        assert repr(again) == repr(answer) and again.status == answer.status
+        for name in ("beta", "theta_r", "q", "u", "h", "gradient", "t"):
+            mine, stored = getattr(again, name), getattr(answer, name)
+            assert mine is None if stored is None else np.array_equal(mine, stored, equal_nan=True), name
+
+
 def test_a_recipe_keeps_its_own_arguments():
     # What is changed after the call does not change what is made again.
     direction, guess = np.array([1.0, 0, 0, 0, 0, 0]), {"joint_4": -2.0}
