@@ -19,9 +19,9 @@ Units are SI: m, rad, N, N m, s. A wrench is [force; torque] that the robot exer
 in the axes of the world; ``moved``, ``to_pinocchio`` and ``to_drake`` change point, axes and order.
 """
 
-from . import _frames, _html, _plot
+from . import _arguments, _core, _frames, _html, _plot
 from ._core import *  # noqa: F401,F403
-from ._core import Answer, Evaluations, Robot, Task, __version__
+from ._core import Answer, Evaluations, Path, Pose, Robot, Task, __version__
 from ._frames import from_drake, from_pinocchio, moved, to_drake, to_pinocchio
 from ._errors import SearchEnded
 from ._progress import progress
@@ -29,6 +29,14 @@ from ._race import race
 from ._ros import joint_state, joint_trajectory, to_yaml, wrench_stamped
 from ._strategies import Measure, Search, add_measure, add_search
 from ._table import table
+
+for _name, _function in list(vars(_core).items()):
+    if not _name.startswith("_") and not isinstance(_function, type) and callable(_function):
+        globals()[_name] = _arguments.checked(_function)
+_arguments.check_class(Pose, methods=["__init__"], static=["from_matrix"])
+_arguments.check_class(Path, methods=["at"], static=["spline", "screw"])
+_arguments.check_class(Robot, static=["from_urdf", "from_toml"])
+_arguments.check_class(Task, methods=["with_limits"])
 
 Answer.plot = _plot.plot_answer
 Answer.wrench_at = _frames.wrench
