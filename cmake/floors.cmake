@@ -42,7 +42,7 @@ function(add_core_floor name)
   serve_modules(${name})
 endfunction()
 
-add_core_floor(lib)
+add_core_floor(lib PkgConfig::QHULL)
 
 # It checks proofs and shares no code with what finds them: what it includes of the other folders is plain data.
 add_core_floor(verify ZLIB::ZLIB PkgConfig::GMPXX)
@@ -58,7 +58,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endif()
 
-add_core_floor(problems PkgConfig::TINYXML2 PkgConfig::ASSIMP PkgConfig::QHULL tomlplusplus::tomlplusplus fcl fmt::fmt)
+add_core_floor(problems PkgConfig::TINYXML2 PkgConfig::ASSIMP tomlplusplus::tomlplusplus fcl fmt::fmt)
 file(RELATIVE_PATH from_command_to_data ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_DATADIR})
 target_compile_definitions(maxwrench_problems PRIVATE
   MAXWRENCH_PROBLEMS_BESIDE="${from_command_to_data}/maxwrench/problems"

@@ -6,7 +6,7 @@
 #include "lib/math/polygon.h"
 #include "maxwrench/measure.h"
 #include "maxwrench/problem.h"
-#include "maxwrench/wrench_program.h"
+#include "solvers/wrench_set/directions.h"
 
 namespace maxwrench {
 namespace {
@@ -51,19 +51,8 @@ ForceSet force_set(const Problem& problem, const Posture& posture, Measure& meas
   set.beta = has_value ? capability.beta : std::numeric_limits<double>::quiet_NaN();
   if (has_value) set.h = P * capability.h.head<3>();
 
-  WrenchProgram program = along_c;
-  program.W = outline_basis(held, wrench, view);
-  program.W_0.resize(6, 0);
-  // The second contact's columns come after those of the outline.
+  WrenchProgram program = program_along(problem, posture, outline_basis(held, wrench, view));
   const Eigen::Index own = program.W.cols();
-  const Eigen::Index l = program.C_2.cols();
-  program.c_w.setZero(own + l);
-  program.w_min = Eigen::VectorXd::Constant(own + l, -kInfinity);
-  program.w_max = -program.w_min;
-  program.w_min.tail(l) = along_c.w_min.tail(l);
-  program.w_max.tail(l) = along_c.w_max.tail(l);
-  program.JtW.resize(posture.J.cols(), own + l);
-  set_posture(posture, program);
   const Support support =
       [&](const Eigen::Vector2d& d) -> std::optional<std::pair<double, Eigen::Vector2d>> {
     program.c_w.head(own) = program.W.topRows<3>().transpose() * (P.transpose() * d);

@@ -1,14 +1,9 @@
 #include "problems/mesh/hull.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <memory>
 #include <queue>
 
-extern "C" {
-#include <libqhull_r/qhull_ra.h>
-}
-
+#include "lib/math/quick_hull.h"
 #include "problems/collision/gjk.h"
 
 namespace maxwrench {
@@ -22,28 +17,14 @@ constexpr double kInside = 1e-12;
 
 /// The vertices of the hull, or all points if Qhull finds no volume.
 Points hull_vertices(const Points& points) {
-  if (points.size() < 4) return points;
-  // Qhull explains its failures at length.
-  const std::unique_ptr<FILE, int (*)(FILE*)> nowhere(std::fopen("/dev/null", "w"), &std::fclose);
-  if (!nowhere) return points;
-  std::vector<double> numbers;
-  for (const Vector3d& x : points) numbers.insert(numbers.end(), x.begin(), x.end());
-  qhT state;
-  qhT* qh = &state;
-  qh_zero(qh, nowhere.get());
-  char command[] = "qhull Pp";
-  const int failed = qh_new_qhull(qh, 3, static_cast<int>(points.size()), numbers.data(), False,
-                                  command, nowhere.get(), nowhere.get());
-  Points vertices;
-  if (failed == 0) {
-    vertexT* vertex = nullptr;
-    FORALLvertices {
-      vertices.push_back(points[static_cast<std::size_t>(qh_pointid(qh, vertex->point))]);
-    }
+  Eigen::MatrixXd columns(3, points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    columns.col(static_cast<Eigen::Index>(i)) = points[i];
   }
-  qh_freeqhull(qh, !qh_ALL);
-  int long_blocks = 0, long_bytes = 0;
-  qh_memfreeshort(qh, &long_blocks, &long_bytes);
+  Points vertices;
+  for (const int i : quick_hull(columns).vertices) {
+    vertices.push_back(points[static_cast<std::size_t>(i)]);
+  }
   return vertices.size() < 4 ? points : vertices;
 }
 
