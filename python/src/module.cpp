@@ -20,5 +20,6 @@ PYBIND11_MODULE(_core, m) {
   python::add_linear_programs(m);
   python::add_tank(m);
   python::add_proofs(m);
+  python::add_wrench_sets(m);
   python::add_strategies(m);
 }

@@ -72,7 +72,7 @@ py::array triangles_of(const WrenchSet& set) {
   for (Eigen::Index i = 0; i < set.triangles.cols(); ++i) {
     for (int j = 0; j < 3; ++j) array.mutable_at(i, j) = set.triangles(j, i);
   }
-  return std::move(array);
+  return array;
 }
 
 constexpr const char* kPolytope =
@@ -93,9 +93,12 @@ Returns:
 Raises:
     InputError: a value is wrong, or the measure does not support the robot.
 
->>> polytope = maxwrench.polytope("planar/force", [0, 0])
+>>> polytope = maxwrench.polytope("uvms/valve", [3, 0.7, 0.4, -3])
 >>> polytope.status, polytope.dimension
-('optimal', 2)
+('optimal', 3)
+>>> in_plane = numpy.eye(6)[:, :2]                       # a planar robot bears any force across it
+>>> maxwrench.polytope("planar/force", [0, 0], directions=in_plane).dimension
+2
 )";
 
 constexpr const char* kEllipsoid =

@@ -1,0 +1,80 @@
+"""Experiments and proofs, against the command."""
+
+import json
+
+import maxwrench as mw
+import numpy as np
+import pytest
+
+
+def test_a_posture_is_held(command):
+    task = mw.load("planar/force")
+    run = mw.simulate(mw.evaluate(task, task.theta_r_default), hold=2)
+    theirs = json.loads(command("simulate", "planar/force", "--hold", "2", "--json").stdout)
+    assert run.held is theirs["held"] and run.reading == theirs["mean"] and run.planned == theirs["planned"]
+    assert run.t.shape == run.readings.shape and run.u.shape == (len(run.t), len(task.robot.u_max))
+    assert (run.u <= task.robot.u_max + 1e-3).all() and run.h.shape == (len(run.t), 6)
+
+
+def test_a_trajectory_is_held(command):
+    task = mw.load("planar/trajectory")
+    run = mw.simulate(mw.evaluate(task, task.theta_r_default))
+    theirs = json.loads(command("simulate", "planar/trajectory", "--json").stdout)
+    assert run.held is theirs["held"] and run.planned == theirs["planned"]
+    assert run.reading == pytest.approx(run.readings.min(), abs=1e-12)
+    assert run.csv().count("\n") == len(run.t) + 1
+
+
+def test_weak_thrusters_do_not_hold():
+    answer = mw.solve("planar/force")
+    run = mw.simulate(answer, thrust_efficiency=0.5, hold=1)
+    assert not run.held and run.missed
+
+
+def test_bad_experiments(rejects):
+    answer = mw.evaluate("planar/force", [0, 0])
+    assert rejects(mw.simulate, answer, "arkode").key == "integrator"
+    rejects(mw.simulate, answer, ramp=0)
+    rejects(mw.simulate, answer, ramp=float("nan"))
+    assert rejects(mw.simulate, answer, ramp="a").key == "ramp"
+    rejects(mw.simulate, mw.evaluate("planar/force", [9, 9]))
+    rejects(mw.simulate, mw.evaluate("planar/force", [0, 0], measure="manipulability"))
+    with pytest.raises(TypeError, match="colour"):
+        mw.simulate(answer, colour=3)
+
+
+def test_a_proof_is_verified_by_independent_code(tmp_path, command):
+    proof = mw.certify("planar/force", gap=1e-3)
+    assert proof.status == "proven" and proof.beta <= proof.bound <= proof.beta * (1 + 1e-3)
+    assert proof.answer.beta == proof.beta and proof.boxes > 0
+    file = tmp_path / "p.proof"
+    proof.save(file)
+    checked = mw.verify(file)
+    assert checked and checked.verified and checked.bound == proof.bound and checked.rejection == ""
+    assert np.array_equal(checked.theta_r, proof.answer.theta_r)
+    assert json.loads(command("verify", str(file), "--json").stdout)["status"] == "verified"
+
+
+def test_a_proof_of_another_task_is_rejected(tmp_path):
+    task = mw.load("planar/force")
+    file = tmp_path / "p.proof"
+    mw.certify(task).save(file)
+    weaker = task.with_limits(0.9 * task.robot.u_min, 0.9 * task.robot.u_max)
+    checked = mw.verify(file, weaker)
+    assert not checked and checked.rejection
+
+
+def test_bad_proofs(tmp_path, rejects):
+    assert isinstance(rejects(mw.verify, tmp_path / "none.proof"), FileNotFoundError)
+    (tmp_path / "bad.proof").write_text("nonsense")
+    rejects(mw.verify, tmp_path / "bad.proof")
+    rejects(mw.certify, "planar/force", gap=-1)
+    rejects(mw.certify, "planar/force", gap=float("nan"))
+    rejects(mw.certify, "planar/force", seconds=-1)
+    rejects(mw.certify, "planar/trajectory")
+    rejects(mw.certify, "planar/force", measure="manipulability")
+
+
+def test_a_callback_ends_a_proof():
+    proof = mw.certify("uvms/lift", gap=1e-8, seconds=30, callback=lambda evaluations: True)
+    assert proof.status == "bracket" and proof.seconds < 10
