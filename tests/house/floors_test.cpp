@@ -14,15 +14,16 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::vector<std::vector<std::string>> kFloors = {
-    {"lib"}, {"verify"},           {"solvers", "problems"}, {"drawing", "benchmarks"},
-    {"cli"}, {"examples", "tests"}};
+    {"lib"},           {"verify"},           {"solvers", "problems"}, {"drawing", "benchmarks"},
+    {"cli", "python"}, {"examples", "tests"}};
 
 /// Public headers stand on the floor of their implementation.
 const std::map<std::string, std::string> kImplementedIn = {
     {"strategies.h", "solvers"}, {"batch.h", "solvers"},       {"bound.h", "solvers"},
     {"version.h", "solvers"},    {"solve.h", "solvers"},       {"load.h", "problems"},
     {"certify.h", "solvers"},    {"verification.h", "verify"}, {"mps.h", "problems"},
-    {"task.h", "problems"},      {"figures.h", "drawing"}};
+    {"task.h", "problems"},      {"figures.h", "drawing"},     {"evaluations.h", "solvers"},
+    {"wrench_set.h", "solvers"}};
 
 /// How deep a chain of our own includes may go.
 constexpr int kMostIncludeDepth = 9;
@@ -154,7 +155,7 @@ TEST(Floors, PublicHeadersIncludeNothingPrivate) {
     }
   }
   EXPECT_GE(headers, 20);
-  EXPECT_LE(headers, 30);
+  EXPECT_LE(headers, 33);
 }
 
 int depth(const std::string& file, std::map<std::string, int>& known) {
