@@ -1,6 +1,7 @@
 """Arguments of a wrong type: one line that names them, in place of pybind11's several."""
 
 import functools
+import inspect
 import re
 
 from . import _core
@@ -38,6 +39,14 @@ def _explained(function, text, args, kwargs):
     return TypeError(f"{function.__name__}: missing or unknown arguments, expected {signature}")
 
 
+def _signature(function):
+    """The signature in the first line of pybind11's docstring."""
+    line = function.__doc__.partition("\n")[0]
+    scope = {}
+    exec(f"from __future__ import annotations\ndef {line}: ...", scope)  # noqa: S102
+    return inspect.signature(scope[function.__name__])
+
+
 def checked(function):
     """The function, whose errors about types are one line."""
 
@@ -49,8 +58,10 @@ def checked(function):
             text = str(error)
             if "incompatible" not in text.partition("\n")[0]:
                 raise
-        raise _explained(function, text, args, kwargs)
+            raise _explained(function, text, args, kwargs) from None
 
+    del call.__wrapped__  # it has no signature for inspect
+    call.__signature__ = _signature(function)
     return call
 
 

@@ -150,8 +150,8 @@ void read_pose(py::dict& arguments, const Robot& robot, TaskSpec& spec) {
 }
 
 void read_wrench(py::dict& arguments, TaskSpec& spec) {
-  spec.c = direction_in("c", text_in("c", taken(arguments, "c", py::str("z")));
-                        const std::string axes = taken(arguments, "frame", py::str("world")));
+  spec.c = direction_in("c", taken(arguments, "c", py::str("z")));
+  const std::string axes = text_in("frame", taken(arguments, "frame", py::str("world")));
   if (axes != "world" && axes != "end_effector") {
     throw BadValue("frame", shown(axes), "world or end_effector");
   }
