@@ -194,6 +194,15 @@ void time_kdl(benchmark::State& state, const Problem& problem) {
   }
 }
 
+/// The call of the library that users make, with everything that an answer has.
+void time_evaluate(benchmark::State& state, const Problem& problem) {
+  const std::vector<Eigen::VectorXd> postures = random_postures(problem);
+  std::size_t i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(evaluate(problem, postures[i++ % kPostures].transpose()).beta());
+  }
+}
+
 void add_problem(const Problem& problem) {
   const auto name = [&](const std::string& rest) { return problem.name + "/" + rest; };
   const auto add = [](const std::string& title, auto body) {
@@ -203,6 +212,7 @@ void add_problem(const Problem& problem) {
     add(name("kdl"), [&](benchmark::State& state) { time_kdl(state, problem); });
   }
   add(name("model"), [&](benchmark::State& state) { time_model(state, problem); });
+  add(name("evaluate"), [&](benchmark::State& state) { time_evaluate(state, problem); });
   if (problem.contact) {
     add(name("model/ik_solutions"),
         [&](benchmark::State& state) { time_ik_solutions(state, problem); });

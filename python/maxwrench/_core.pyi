@@ -58,6 +58,7 @@ class Path:
     def at(self, t: float) -> Pose: ...
 
 class Robot:
+    _repr_html_: Callable[..., Any]
     @staticmethod
     def from_urdf(
         path: _Path,
@@ -107,6 +108,7 @@ class Robot:
     def states(self) -> dict[str, dict[str, float]]: ...
 
 class Task:
+    _repr_html_: Callable[..., Any]
     @property
     def name(self) -> str: ...
     @property
@@ -138,6 +140,9 @@ class Task:
     def with_limits(self, u_min: ArrayLike, u_max: ArrayLike) -> Task: ...
 
 class Answer:
+    plot: Callable[..., Any]
+    wrench_at: Callable[..., Any]
+    _repr_html_: Callable[..., Any]
     @property
     def beta(self) -> float: ...
     @property
@@ -210,6 +215,7 @@ class Answer:
     def figure(self) -> str: ...
 
 class Evaluations:
+    _repr_html_: Callable[..., Any]
     @property
     def beta(self) -> _Array: ...
     @property

@@ -221,7 +221,7 @@ does not exist is None.
 
 >>> answer = maxwrench.evaluate("planar/force", [0, 0])
 >>> print(round(answer.beta, 3), answer.unit, answer.status)
-0.944 N optimal
+2.311 N optimal
 )");
   answer
       .def_property_readonly(

@@ -52,7 +52,11 @@ bool interrupted() {
 }
 
 bool wants_end(const py::object& callback, long evaluations) {
-  return !callback.is_none() && static_cast<bool>(py::bool_(callback(evaluations)));
+  if (callback.is_none()) return false;
+  const py::object wish = callback(evaluations);
+  const bool is_flag = py::isinstance<py::bool_>(wish) ||
+                       py::isinstance(wish, py::module_::import("numpy").attr("bool_"));
+  return is_flag && static_cast<bool>(py::bool_(wish));
 }
 
 }  // namespace
@@ -84,14 +88,20 @@ void run_in_background(const py::object& callback, const std::function<void(Watc
   if (of_computation) std::rethrow_exception(of_computation);
 }
 
+void require_callback(const py::object& callback) {
+  const bool serves = callback.is_none() || callback.is(py::bool_(false));
+  if (serves || PyCallable_Check(callback.ptr()) != 0) return;
+  throw BadValue("callback", std::string(py::repr(callback)), "a function, None or False");
+}
+
 Callback::Callback(const py::object& given, long budget, const std::string& label)
     : function_(given), is_line_(given.is_none()) {
   if (is_line_) {
     function_ = py::module_::import("maxwrench._progress").attr("progress")(budget, label);
   } else if (given.is(py::bool_(false))) {
     function_ = py::none();
-  } else if (PyCallable_Check(given.ptr()) == 0) {
-    throw BadValue("callback", std::string(py::repr(given)), "a function, None or False");
+  } else {
+    require_callback(given);
   }
 }
 

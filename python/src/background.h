@@ -27,6 +27,9 @@ struct Watch {
 /// @param compute   the computation
 void run_in_background(const py::object& callback, const std::function<void(Watch&)>& compute);
 
+/// Throws std::invalid_argument unless it is a function, None or False.
+void require_callback(const py::object& callback);
+
 /// The callback of a call: that of the caller, or for None a line of progress on a terminal or in a
 /// notebook, which goes with this object.
 class Callback {

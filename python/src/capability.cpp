@@ -62,7 +62,7 @@ Problem task_of_arrays(const Zonotope& actuation, const Vector6d& c, const py::o
   require_all_finite("c", c);
   if (!(c.norm() > 0)) throw BadValue("c", "a vector of zeros", "a direction of nonzero length");
   task.c = c.normalized();
-  task.W_any = task.c;
+  task.W_any = Matrix6Xd::Identity(6, 6);
   if (!free.is_none()) {
     const RowMatrix others = matrix("free", free, 6, -1);
     require_all_finite("free", others);
@@ -163,11 +163,7 @@ Capabilities capability_of(const py::object& J_given, const py::object& tau_give
   choice.measure = measure;
   choice.solver = solver;
   choice.wrench = free.is_none() ? Wrench::kPure : Wrench::kAny;
-  const MeasureEntry& entry = find_measure(measure);
-  if (entry.unit) {
-    throw BadValue("measure", shown(measure), "one whose value is a wrench along c");
-  }
-  if (!free.is_none() && !entry.serves_any) {
+  if (!free.is_none() && !find_measure(measure).serves_any) {
     throw BadValue("free", "other wrenches", "None for measure " + measure);
   }
   const Method method = resolve(task, choice);
@@ -254,8 +250,8 @@ Args:
     c: direction [force; torque] (6), of any length, or "x", "-z", "rx" ...
     B: efforts to generalised forces (n×m); None: one direct drive for each joint.
     free: other wrenches that may occur (6×k); None: none.
-    measure: one whose value is a wrench along c.
-    solver: as of ``evaluate``.
+    measure, solver: as of ``evaluate``. Measures of all axes take those of ``free`` and c, or all
+        six without it.
     threads: number of threads; 0: one per core.
 
 Returns:

@@ -17,11 +17,17 @@ ErrorTypes& error_types() {
   return types;
 }
 
+/// A text whose bytes may be those of a path, which need not be UTF-8.
+py::object text_of(const std::string& text) {
+  return py::reinterpret_steal<py::object>(
+      PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "surrogateescape"));
+}
+
 void raise(const py::handle& type, const char* line, const std::string& file,
            const std::string& key, const std::string& value, const std::string& expected) {
-  py::object error = type(one_line(line));
+  py::object error = type(text_of(one_line(line)));
   const auto known = [](const std::string& text) -> py::object {
-    return text.empty() ? py::object(py::none()) : py::str(text);
+    return text.empty() ? py::object(py::none()) : text_of(text);
   };
   error.attr("file") = known(file);
   error.attr("key") = known(key);

@@ -147,8 +147,9 @@ void add_linear_programs(py::module_& m) {
           },
           "balance, bounds, dual and gap, recomputed from the data.")
       .def("__repr__", [](const LpAnswer& a) {
-        return fmt::format("<LpAnswer: {}, objective {:.10g}>", to_string(a.solution.status),
-                           a.solution.objective);
+        const bool optimal = a.solution.status == Status::kOptimal;
+        return fmt::format("<LpAnswer: {}{}>", to_string(a.solution.status),
+                           optimal ? fmt::format(", objective {:.10g}", a.solution.objective) : "");
       });
   m.def("linprog", &linprog, py::arg("c"), py::arg("A"), py::arg("b"), py::arg("l") = py::none(),
         py::arg("u") = py::none(), py::kw_only(), py::arg("solver") = "simplex", kLinprog);

@@ -5,7 +5,7 @@
 
 #include "maxwrench/certify.h"
 #include "maxwrench/load.h"
-#include "problems/make/bad_value.h"
+#include "problems/loader/bad_input.h"
 #include "python/src/arrays.h"
 #include "python/src/background.h"
 #include "python/src/parts.h"
@@ -56,6 +56,7 @@ void save(const PyProof& self, const py::object& path) {
 
 VerifiedProof verify_file(const py::object& path, const py::object& task, int threads) {
   const std::string file = path_in("path", path);
+  open_file(file, "a certificate");
   std::optional<Problem> given;
   if (!task.is_none()) given = *task_of(task).problem;
   const py::gil_scoped_release released;
@@ -129,7 +130,8 @@ void add_proofs(py::module_& m) {
           "seconds", [](const PyProof& p) { return p.proof.seconds; },
           "Wall time of the proof after the search [s].")
       .def("save", &save, py::arg("path"),
-           "Writes the certificate, which ``verify`` and the command check with independent code.")
+           "Writes the certificate to the file path; ``verify`` and the command check it with "
+           "independent code.")
       .def("__repr__", &repr_of_proof);
   py::class_<VerifiedProof>(m, "VerifiedProof", "The result of ``verify``. True if verified.")
       .def_property_readonly(

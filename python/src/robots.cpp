@@ -21,8 +21,10 @@ PyRobot from_urdf(const py::object& path, const py::object& base, const std::str
   py::list folders;
   if (py::isinstance<py::str>(packages)) {
     folders.append(packages);
-  } else {
+  } else if (py::isinstance<py::iterable>(packages)) {
     folders = py::list(packages);
+  } else {
+    throw BadValue("packages", std::string(py::repr(packages)), "a list of folders");
   }
   for (const py::handle& folder : folders) {
     options.packages.emplace_back(path_in("packages", py::reinterpret_borrow<py::object>(folder)));

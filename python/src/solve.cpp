@@ -40,6 +40,7 @@ py::object evaluate_task(const py::object& task, const py::object& theta_r,
   Options options = options_of(measure, wrench, solver);
   options.check_collision = check_collision;
   options.threads = thread_count(threads);
+  require_callback(callback);
   const bool many = !of.problem->motion && numbers("theta_r", theta_r).ndim() == 2;
   if (many) return evaluate_rows(of, theta_r, options, callback);
   const Eigen::MatrixXd knots = knots_in(theta_r, *of.problem);
@@ -118,7 +119,7 @@ Raises:
     InputError: the array has the wrong shape or is not finite, a name does not exist, or the
         choices do not fit together.
 
->>> maxwrench.evaluate("uvms/valve", [3, 0.7, 0.4, -3]).status
+>>> maxwrench.evaluate("planar/force", [0, 0]).status
 'optimal'
 )";
 

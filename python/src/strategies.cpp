@@ -26,7 +26,7 @@ Shared share(const py::object& object) {
           }};
 }
 
-std::string text_of(const py::object& object, const char* name, const std::string& otherwise) {
+std::string attribute_of(const py::object& object, const char* name, const std::string& otherwise) {
   const py::object value = py::getattr(object, name, py::none());
   return value.is_none() ? otherwise : py::str(value).cast<std::string>();
 }
@@ -107,8 +107,9 @@ std::unique_ptr<Measure> make_python_measure(const Problem& task, const Shared& 
 }
 
 void add_python_measure(const py::object& measure) {
-  const std::string name = text_of(measure, "name", ""), unit = text_of(measure, "unit", "");
-  const std::string summary = text_of(measure, "__doc__", "a measure in Python");
+  const std::string name = attribute_of(measure, "name", ""),
+                    unit = attribute_of(measure, "unit", "");
+  const std::string summary = attribute_of(measure, "__doc__", "a measure in Python");
   if (!py::hasattr(measure, "value")) throw BadValue("measure", name, "an object with value()");
   const bool derivatives = py::hasattr(measure, "derivatives");
   add_measure({name.c_str(), summary.c_str(), false, flag_of(measure, "serves_any"),
@@ -237,8 +238,8 @@ class PythonSearch : public Search {
 };
 
 void add_python_search(const py::object& search) {
-  const std::string name = text_of(search, "name", "");
-  const std::string summary = text_of(search, "__doc__", "a search in Python");
+  const std::string name = attribute_of(search, "name", "");
+  const std::string summary = attribute_of(search, "__doc__", "a search in Python");
   if (!py::hasattr(search, "maximize")) throw BadValue("search", name, "an object with maximize()");
   SearchEntry entry{name.c_str(), summary.c_str(), flag_of(search, "local"),
                     [shared = share(search)] { return std::make_unique<PythonSearch>(shared); }};
@@ -279,9 +280,9 @@ Once the budget is used or the user interrupts, a call ends the search by an exc
 )")
       .def(
           "__call__", [](PyObjective& o, const py::object& x) { return o.evaluate(x, nullptr); },
-          py::arg("theta_r"), "Returns the value at a point (d).")
+          py::arg("theta_r"), "Returns the value at a point theta_r (d).")
       .def("values", &PyObjective::evaluate_rows, py::arg("theta_r"),
-           "Returns the values (N) at N points (N×d), evaluated side by side.")
+           "Returns the values (N) at N points theta_r (N×d), evaluated side by side.")
       .def(
           "value_and_gradient",
           [](PyObjective& o, const py::object& x) {
@@ -289,7 +290,8 @@ Once the budget is used or the user interrupts, a call ends the search by an exc
             const double value = o.evaluate(x, &gradient);
             return py::make_tuple(value, copy(gradient));
           },
-          py::arg("theta_r"), "Returns the value at a point (d) and its exact gradient (d).")
+          py::arg("theta_r"),
+          "Returns the value at a point theta_r (d) and its exact gradient (d).")
       .def_property_readonly(
           "lower", [](const PyObjective& o) { return copy(o.objective().lower()); },
           "Lower bounds (d).")

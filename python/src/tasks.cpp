@@ -286,7 +286,7 @@ PyTask make_impulse(const PyRobot& robot, const Pose<double>& pose, double T, in
 PyTask load(const py::object& name, const std::string& limits) {
   const std::string text = path_in("name", name);
   py::dict how;
-  how["name"] = text;
+  how["name"] = name;
   how["limits"] = limits;
   return {std::make_shared<const Problem>(load_problem(text, {limits})), {"load", how}};
 }

@@ -98,7 +98,9 @@ std::string path_in(std::string_view key, const py::object& value) {
     if (!error.matches(PyExc_TypeError)) throw;
     throw BadValue(key, "a " + type_of(value), "a path");
   }
-  if (path.find('\0') != std::string::npos) throw BadValue(key, "a text with a NUL", "a path");
+  if (path.find('\0') != std::string::npos) {
+    throw BadValue(key, std::string(py::repr(value)), "a path without a NUL");
+  }
   return path;
 }
 

@@ -93,7 +93,8 @@ Returns:
 Raises:
     InputError: a value is wrong, or the measure does not support the robot.
 
->>> polytope = maxwrench.polytope("uvms/valve", [3, 0.7, 0.4, -3])
+>>> task = maxwrench.load("uvms/valve")
+>>> polytope = maxwrench.polytope(task, task.theta_r_default)
 >>> polytope.status, polytope.dimension
 ('optimal', 3)
 >>> in_plane = numpy.eye(6)[:, :2]                       # a planar robot bears any force across it

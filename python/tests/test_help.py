@@ -68,6 +68,8 @@ def test_docstrings_name_all_arguments(name):
     if "others:" in body:
         return  # they are those of another function
     for argument in arguments_of(DOCUMENTED[name]):
+        if argument == "kwargs":
+            continue  # those it takes have names of their own
         assert re.search(rf"\b{argument}\b", body, re.IGNORECASE), argument
 
 
