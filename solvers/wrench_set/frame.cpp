@@ -6,7 +6,7 @@ namespace maxwrench {
 namespace {
 
 /// A set that extends less than this times 1 + its largest coordinate along a direction is flat.
-constexpr double kFlat = 1e-9;
+constexpr double kFlatExtent = 1e-9;
 
 /// An orthonormal basis of the directions orthogonal to the columns of A (k×j).
 Eigen::MatrixXd orthogonal_to(const Eigen::MatrixXd& A) {
@@ -65,7 +65,7 @@ std::optional<AffineFrame> find_frame(WrenchSupport& support, Eigen::Index k,
     edge = high - low;
   }
   std::vector<SupportPoint> ends;
-  while (most > kFlat * (1 + size)) {
+  while (most > kFlatExtent * (1 + size)) {
     frame.edges.conservativeResize(Eigen::NoChange, frame.edges.cols() + 1);
     frame.edges.rightCols(1) = edge;
     frame.normals = orthogonal_to(frame.edges);
