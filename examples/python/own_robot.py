@@ -1,6 +1,6 @@
 """A robot of one's own, from its URDF to the best posture and a picture.
 
-python3 own_robot.py [URDF] [--base AXES] [--out FILE]
+python3 own_robot.py [URDF] [--base AXES] [--tool LINK] [--out FILE]
 """
 
 import argparse
@@ -17,10 +17,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("urdf", nargs="?", default=ROVER)
     parser.add_argument("--base", default="x,y,yaw", help="free axes of the base, which is parked")
+    parser.add_argument("--tool", default="", help="the link that is the end effector, if there are several at the ends")
     parser.add_argument("--out", default="own_robot.png")
     options = parser.parse_args()
 
-    robot = mw.Robot.from_urdf(options.urdf, base=options.base)
+    robot = mw.Robot.from_urdf(options.urdf, base=options.base, tool=options.tool)
     print(robot)
     for line in robot.warnings + robot.notes:
         print(" ", line)

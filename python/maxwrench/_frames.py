@@ -55,7 +55,7 @@ def wrench(answer, frame="world", at=None):
     array([0., 0., 0., 0., 0., 9.])
     """
     if answer.h is None:
-        raise bad_value("answer", "no value", "an answer with a value")
+        raise bad_value("answer", f"none (measure {answer.measure}, {answer.status})", "an answer with a wrench")
     return moved(answer.h, answer.end_effector, at=at, frame=frame)
 
 

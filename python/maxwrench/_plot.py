@@ -54,11 +54,14 @@ def _draw_posture(answer, ax, plt):
         _draw_hull(ax, body, SKY if link == 0 else "0.6", 0.25)
     for child, parent in enumerate(robot.parents, 1):
         ax.plot(*links[[parent, child], :3, 3].T, color=BLACK, marker="o", markersize=4, linewidth=2)
+    carrier = robot.end_effector_links[robot.end_effectors.index(answer.task.end_effector)]
+    ax.plot(*np.stack([links[carrier, :3, 3], tool[:3, 3]]).T, color=BLACK, linewidth=2)
     drawn = np.vstack([*bodies, links[:, :3, 3], tool[None, :3, 3]])
     size = np.linalg.norm(np.ptp(drawn, axis=0)) or 1.0
     wrench = _draw_wrench(ax, answer, tool[:3, 3], 0.3 * size)
     drawn = np.vstack([drawn, *wrench, _draw_axes(ax, tool, 0.08 * size)])
-    _frame(ax, drawn, flat=np.ptp(np.append(links[:, 2, 3], tool[2, 3])) < 1e-9)
+    in_plane = np.abs(answer.task.c[[2, 3, 4]]).max() < 1e-9  # seen from above, c is not a point
+    _frame(ax, drawn, flat=in_plane and np.ptp(np.append(links[:, 2, 3], tool[2, 3])) < 1e-9)
     value = f"{answer.beta:.4g} {answer.unit}" if answer.has_value else "no value"
     ax.set_title(f"{answer.task.name}: {value}")
     ax.legend(loc="upper left", bbox_to_anchor=(-0.12, 1.0), fontsize="small", frameon=False)
@@ -89,15 +92,17 @@ def _draw_wrench(ax, answer, p, length):
 
     Returns what was drawn, as points.
     """
-    wrench = answer.h if answer.has_value else answer.task.c
+    known = answer.h is not None
+    wrench = answer.h if known else answer.task.c
     force, torque = np.split(np.asarray(wrench), 2)
     drawn = []
     scale = length / np.linalg.norm(force) if np.linalg.norm(force) > 0 else 0
-    shape = _core.polytope(answer) if answer.has_value and scale > 0 else None
+    shape = _core.polytope(answer) if known and scale > 0 else None
     if shape is not None and shape.status == "optimal" and shape.triangles.size:
         scale = 1.5 * length / np.linalg.norm(shape.vertices, axis=1).max()
         corners = p + scale * shape.vertices
         _draw_faces(ax, corners[shape.triangles], GREEN, 0.1)
+        ax.plot([], [], color=GREEN, alpha=0.4, linewidth=8, label="all forces that it can exert")
         drawn.append(corners)
     for part, colour, name, unit, at_scale in (
         (force, VERMILION, "force", "N", scale),
@@ -107,7 +112,7 @@ def _draw_wrench(ax, answer, p, length):
         if size < 1e-9 * np.linalg.norm(wrench):
             continue
         arrow = part * (at_scale or length / size)
-        label = f"{name} {size:.4g} {unit}" if answer.has_value else f"direction of the {name}"
+        label = f"{name} {size:.4g} {unit}" if known else f"direction of the {name}"
         _draw_arrow(ax, p, arrow, 0.06 * length, colour, label)
         drawn.append(np.stack([p, p + arrow]))
         if name == "torque":

@@ -9,8 +9,8 @@ def race(tasks, searches, *, seeds=5, budget=2000, measure="linf_polytope", wren
     """Solves each task with each search and each seed, at equal budgets.
 
     Args:
-        tasks: Tasks, or names of them.
-        searches: names of searches, of the package or added by ``add_search``.
+        tasks: a Task, the name of one, or a list of them.
+        searches: the name of a search or a list of names, of the package or added by ``add_search``.
         seeds: number of seeds, 1 to ``seeds``.
         budget: largest number of evaluations of each run.
         measure, wrench, threads: as of ``solve``.
@@ -28,7 +28,8 @@ def race(tasks, searches, *, seeds=5, budget=2000, measure="linf_polytope", wren
     (4,)
     """
     columns = {name: [] for name in ("task", "search", "seed", "beta", "evaluations", "seconds", "status")}
-    for task in tasks:
+    searches = [searches] if isinstance(searches, str) else searches
+    for task in [tasks] if isinstance(tasks, (str, _core.Task)) else tasks:
         task = task if isinstance(task, _core.Task) else _core.load(task)
         for search in searches:
             for seed in range(1, seeds + 1):

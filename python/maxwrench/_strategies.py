@@ -1,6 +1,7 @@
 """Measures and searches that users write."""
 
 from . import _core
+from ._errors import bad_value
 
 
 class Measure:
@@ -60,6 +61,12 @@ class Search:
         raise NotImplementedError
 
 
+def _object(strategy, key):
+    if isinstance(strategy, type):
+        raise bad_value(key, f"the class {strategy.__name__}", f"an object: {strategy.__name__}()")
+    return strategy
+
+
 def add_measure(measure):
     """Adds a Measure. A name that was added before is replaced.
 
@@ -67,7 +74,7 @@ def add_measure(measure):
         InputError: the name is empty, has other characters than letters, digits and "_", or is
             that of a built-in measure.
     """
-    _core._add_measure(measure)
+    _core._add_measure(_object(measure, "measure"))
 
 
 def add_search(search):
@@ -76,4 +83,4 @@ def add_search(search):
     Raises:
         InputError: as ``add_measure``.
     """
-    _core._add_search(search)
+    _core._add_search(_object(search, "search"))

@@ -12,11 +12,14 @@
 namespace maxwrench::python {
 namespace {
 
+thread_local Watch* current_watch = nullptr;
+
 /// A thread that computes, with its end.
 class Worker {
  public:
   Worker(Watch& watch, const std::function<void(Watch&)>& compute)
       : thread_([this, &watch, &compute] {
+          current_watch = &watch;
           try {
             compute(watch);
           } catch (...) {
@@ -61,6 +64,15 @@ bool wants_end(const py::object& callback, long evaluations) {
 
 }  // namespace
 
+Watch* watch_of_this_thread() { return current_watch; }
+
+py::handle search_ended() {
+  // Made when the module is imported, by one thread.
+  static const py::handle type =
+      py::object(py::module_::import("maxwrench._errors").attr("SearchEnded")).release();
+  return type;
+}
+
 void run_in_background(const py::object& callback, const std::function<void(Watch&)>& compute) {
   using namespace std::chrono_literals;
   Watch watch;
@@ -75,6 +87,9 @@ void run_in_background(const py::object& callback, const std::function<void(Watc
         try {
           if (interrupted() || (round % 4 == 0 && wants_end(callback, watch.evaluations))) {
             watch.stop = true;
+          }
+          if (watch.stop && watch.python_thread != 0) {
+            PyThreadState_SetAsyncExc(watch.python_thread.exchange(0), search_ended().ptr());
           }
         } catch (...) {
           if (!of_python) of_python = std::current_exception();

@@ -14,7 +14,16 @@ namespace py = pybind11;
 struct Watch {
   std::atomic<long> evaluations{0};  ///< written by the computation
   std::atomic<bool> stop{false};     ///< written by Python; the computation obeys
+  /// The thread of a search in Python, which need not call its objective and so does not see
+  /// `stop`; 0: none. Once the computation is to stop, an exception is raised in it.
+  std::atomic<unsigned long> python_thread{0};
 };
+
+/// The watch of the computation in this thread; null in others.
+Watch* watch_of_this_thread();
+
+/// The exception that ends a search in Python.
+py::handle search_ended();
 
 /// Runs `compute` in another thread, without the interpreter's lock. Meanwhile the calling thread
 /// handles signals, and every tenth of a second calls `callback` with the number of evaluations;

@@ -157,6 +157,14 @@ Raises:
           "end_effectors", [](const PyRobot& r) { return names_of(r.robot->end_effectors); },
           "The names of the end effectors.")
       .def_property_readonly(
+          "end_effector_links",
+          [](const PyRobot& r) {
+            std::vector<int> links;
+            for (const EndEffector& tip : r.robot->end_effectors) links.push_back(tip.link);
+            return links;
+          },
+          "The link that carries each end effector, as an index in link_names.")
+      .def_property_readonly(
           "B", [](const PyRobot& r) { return copy(RowMatrix(r.robot->actuation.B)); },
           "Efforts to generalised forces (n×m): free base axes in base axes, then joints.")
       .def_property_readonly(

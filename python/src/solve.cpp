@@ -7,6 +7,7 @@
 #include "python/src/arrays.h"
 #include "python/src/background.h"
 #include "python/src/parts.h"
+#include "solvers/added_strategies.h"
 #include "solvers/solve/method.h"
 
 namespace maxwrench::python {
@@ -24,6 +25,11 @@ Options options_of(const std::string& measure, const std::string& wrench,
 /// theta_r (r) of a posture, or knots (k×r).
 Eigen::MatrixXd knots_in(const py::object& value, const Problem& task) {
   const Array array = numbers("theta_r", value);
+  if (task.redundancy() == 0 && array.size() > 0) {
+    throw BadValue(
+        "theta_r", "shape " + shape_of(array),
+        "an empty array: the robot is not redundant here (evaluate_joints takes joints)");
+  }
   const bool table = task.motion && array.ndim() == 2;
   const Eigen::MatrixXd knots =
       table ? Eigen::MatrixXd(matrix("theta_r", value, knots_of(task), task.redundancy()))
@@ -83,6 +89,13 @@ PyAnswer solve_task(const py::object& task, const std::string& measure, const st
   return result;
 }
 
+/// Adds the entries of a user.
+template <class Entry>
+py::dict with_added(py::dict names, const std::vector<const Entry*>& added) {
+  for (const Entry* entry : added) names[py::str(entry->name)] = entry->summary;
+  return names;
+}
+
 template <class Table>
 py::dict summaries(const Table& table) {
   py::dict names;
@@ -94,7 +107,7 @@ py::dict all_searches() {
   py::dict names = summaries(searches());
   names.attr("update")(summaries(trajectory_searches()));
   names.attr("update")(summaries(facet_searches()));
-  return names;
+  return with_added(names, added_searches());
 }
 
 constexpr const char* kEvaluate = R"(Evaluates a task at theta_r.
@@ -179,7 +192,7 @@ Raises:
         py::arg("seed") = 1, py::arg("budget") = 0, py::arg("threads") = 0,
         py::arg("callback") = py::none(), kSolve);
   m.def(
-      "measures", [] { return summaries(measures()); },
+      "measures", [] { return with_added(summaries(measures()), added_measures()); },
       "Returns the measures: a line about each, by name.");
   m.def(
       "solvers", [] { return summaries(wrench_solvers()); },

@@ -8,6 +8,7 @@
 #include "maxwrench/wrench_program.h"
 #include "problems/make/bad_value.h"
 #include "python/src/arrays.h"
+#include "python/src/background.h"
 #include "python/src/parts.h"
 
 // Measures and searches that are written in Python. The library calls them from its own threads, so
@@ -61,8 +62,10 @@ PyPosture seen(const Problem& task, const Posture& posture, const WrenchProgram&
 double value_of(const py::object& measure, const PyPosture& posture) {
   const py::object value = measure.attr("value")(posture);
   const py::object number = py::reinterpret_steal<py::object>(PyNumber_Float(value.ptr()));
-  if (!number) throw py::error_already_set();
-  return number.cast<double>();
+  if (number) return number.cast<double>();
+  PyErr_Clear();
+  throw BadValue("value", std::string(py::repr(value)),
+                 "a number from the measure " + attribute_of(measure, "name", ""));
 }
 
 /// A measure whose derivatives by tau_d and J are given by Python, too.
@@ -120,12 +123,6 @@ void add_python_measure(const py::object& measure) {
 }
 
 // ---- Searches
-
-/// Thrown through a search in Python once it may make no more evaluations.
-py::handle& search_ended() {
-  static py::handle type;
-  return type;
-}
 
 /// The objective as a search in Python sees it. It counts, keeps the best point, and ends the
 /// search. Its functions are called with the lock.
@@ -213,6 +210,25 @@ class PyObjective {
   bool alive_ = true;
 };
 
+/// While it lives, the search in this thread can be ended by an exception. Needs the lock.
+class Interruptible {
+ public:
+  Interruptible() : watch_(watch_of_this_thread()), thread_(PyThread_get_thread_ident()) {
+    if (watch_) watch_->python_thread = thread_;
+  }
+  ~Interruptible() {
+    if (!watch_) return;
+    watch_->python_thread = 0;
+    PyThreadState_SetAsyncExc(thread_, nullptr);  // one that came too late
+  }
+  Interruptible(const Interruptible&) = delete;
+  Interruptible& operator=(const Interruptible&) = delete;
+
+ private:
+  Watch* watch_;
+  unsigned long thread_;
+};
+
 /// A search that is written in Python.
 class PythonSearch : public Search {
  public:
@@ -222,6 +238,7 @@ class PythonSearch : public Search {
     check(options, objective);
     const py::gil_scoped_acquire lock;
     const auto seen = std::make_shared<PyObjective>(objective, options);
+    const Interruptible interruptible;
     try {
       search_->attr("maximize")(seen);
     } catch (py::error_already_set& error) {
@@ -322,8 +339,7 @@ Once the budget is used or the user interrupts, a call ends the search by an exc
 }  // namespace
 
 void add_strategies(py::module_& m) {
-  search_ended() =
-      py::object(py::module_::import("maxwrench._errors").attr("SearchEnded")).release();
+  search_ended();
   add_posture(m);
   add_objective(m);
   m.def("_add_measure", &add_python_measure, py::arg("measure"));

@@ -142,7 +142,7 @@ Args:
     answer: an Answer with a value, of one contact.
     integrator: an integrator for stiff systems: "cvode" or "ida".
     interpolation: in time: "linear" or "spline"; empty: that of the scheme.
-    planned: wrench along c [N or N m]; 0: the value of the answer.
+    planned: wrench along c [N or N m]; 0: the value of the answer, in time that between knots.
     ramp, hold: duration of each ramp and of the hold of a static task [s].
     period: time between two commands [s].
     thruster_lag: time constant of the thrusters [s].

@@ -447,6 +447,12 @@ void add_tasks(py::module_& m) {
           "The type: static, trajectory or impulse.")
       .def_property_readonly("robot", &robot_of, "The Robot.")
       .def_property_readonly(
+          "end_effector",
+          [](const PyTask& t) {
+            return t.problem->robot.end_effectors[std::size_t(t.problem->end_effector)].name;
+          },
+          "The name of the end effector.")
+      .def_property_readonly(
           "unit", [](const PyTask& t) { return t.problem->unit(); },
           "The unit of beta: N, N m or mixed.")
       .def_property_readonly(

@@ -118,3 +118,19 @@ def test_without_matplotlib(monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib.pyplot", None)
     with pytest.raises(ImportError, match="^plot needs Matplotlib"):
         answer.plot()
+
+
+def test_a_value_without_a_wrench():
+    ax = mw.solve("fixed/push", measure="manipulability", budget=50).plot()
+    assert "direction of the force" in [text.get_text() for text in ax.get_legend().get_texts()]
+
+
+def test_a_stretched_arm_that_lifts_is_not_seen_from_above(tmp_path):
+    link = '<inertial><mass value="1"/><inertia ixx="1e-2" ixy="0" ixz="0" iyy="1e-2" iyz="0" izz="1e-2"/></inertial>'
+    joint = '<joint name="{0}" type="{1}"><parent link="{2}"/><child link="{3}"/><origin xyz="0.4 0 0"/>{4}</joint>'
+    moves = '<axis xyz="0 1 0"/><limit lower="-3" upper="3" effort="40" velocity="2"/>'
+    arm = f'<robot name="arm"><link name="a"/><link name="b">{link}</link><link name="c">{link}</link><link name="d"/>'
+    arm += joint.format("j1", "revolute", "a", "b", moves) + joint.format("j2", "revolute", "b", "c", moves)
+    (tmp_path / "arm.urdf").write_text(arm + joint.format("j3", "fixed", "c", "d", "") + "</robot>")
+    task = mw.Static(mw.Robot.from_urdf(tmp_path / "arm.urdf"), joints={"j1": 0, "j2": 0}, c="z")
+    assert mw.evaluate_joints(task, [0, 0]).plot().elev < 80
