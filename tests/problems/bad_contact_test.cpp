@@ -10,7 +10,7 @@ constexpr const char* kForces = "forces = \"basis\"";
 constexpr const char* kDependents = "joints = [\"shoulder_2\", \"elbow_2\"]";
 
 /// The planar vehicle whose second arm pushes on a wall.
-const std::vector<BadInput> kBadContacts = {
+const std::vector<ChangedProblem> kBadContacts = {
     {"unknown_key",
      "two_arms.toml",
      kTable,
@@ -189,7 +189,7 @@ const std::vector<BadInput> kBadContacts = {
 };
 
 /// Of the spatial arm: the roll does not move the tool.
-const BadInput kBadArms[] = {
+const ChangedProblem kBadArms[] = {
     {"joints_that_the_contact_leaves_free",
      "bar_wall.toml",
      "joints = [\"right_q1_shoulder_yaw\", \"right_q2_shoulder_pitch\", \"right_q3_elbow\"]\n"
@@ -203,13 +203,13 @@ const BadInput kBadArms[] = {
      {"contact: got [a table]", "a table [contact], not a list"}},
 };
 
-class BadContact : public testing::TestWithParam<BadInput> {};
+class BadContact : public testing::TestWithParam<ChangedProblem> {};
 
 TEST_P(BadContact, IsRejectedInOneLineThatNamesFileKeyAndValue) {
   expect_rejected(GetParam(), "planar/two_arms");
 }
 
-class BadSecondArm : public testing::TestWithParam<BadInput> {};
+class BadSecondArm : public testing::TestWithParam<ChangedProblem> {};
 
 TEST_P(BadSecondArm, IsRejectedInOneLineThatNamesFileKeyAndValue) {
   expect_rejected(GetParam(), "dual_arm/bar_wall");

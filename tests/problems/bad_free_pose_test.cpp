@@ -8,7 +8,7 @@ namespace {
 constexpr const char* kPose = "xyz = [0, 0, 0]";
 
 /// planar/force, whose vehicle moves along x and y and about z.
-const std::vector<BadInput> kBadFreePoses = {
+const std::vector<ChangedProblem> kBadFreePoses = {
     {"free_unknown",
      "force.toml",
      kPose,
@@ -96,7 +96,7 @@ const std::vector<BadInput> kBadFreePoses = {
      {"wrench.frame: got 'base'", "'world' or 'end_effector'"}},
 };
 
-class BadFreePose : public testing::TestWithParam<BadInput> {};
+class BadFreePose : public testing::TestWithParam<ChangedProblem> {};
 
 INSTANTIATE_TEST_SUITE_P(All, BadFreePose, testing::ValuesIn(kBadFreePoses),
                          [](const auto& each) { return std::string(each.param.name); });

@@ -21,7 +21,7 @@ constexpr const char* kLink1 =
       <inertia ixx="0.000005" ixy="0" ixz="0" iyy="0.0000875" iyz="0" izz="0.0000875"/>
     </inertial>)";
 
-const std::vector<BadInput> kBadInertia = {
+const std::vector<ChangedProblem> kBadInertia = {
     {"negative",
      "vehicle.urdf",
      "ixx=\"0.15\"",
@@ -70,12 +70,12 @@ const std::vector<BadInput> kBadInertia = {
      {"link[hull].inertial.inertia: got principal moments -0.07", "moments >= 0"}},
 };
 
-class BadInertiaTest : public testing::TestWithParam<BadInput> {};
+class BadInertiaTest : public testing::TestWithParam<ChangedProblem> {};
 
 /// Only the equation of motion needs them.
 TEST_P(BadInertiaTest, IsRejectedByATaskInTimeAlone) {
   expect_rejected(GetParam(), "planar/trajectory");
-  const BadInput& input = GetParam();
+  const ChangedProblem& input = GetParam();
   EditedCopy copy;
   copy.replace(input.file, input.from, input.to);
   const Problem problem = load_problem((copy.path() / "force.toml").string());

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<BadInput> kBadInputs = {
+const std::vector<ChangedProblem> kBadInputs = {
     // Robot TOML.
     {"syntax", "vehicle.toml", "[base]", "[base", {"line 6", "'[base'", "valid TOML"}},
     {"unknown_key", "vehicle.toml", "margin", "margn", {"collision.margn", "margin, ignore"}},
@@ -240,7 +240,7 @@ const std::vector<BadInput> kBadInputs = {
      {"theta_r.default: got [0, 2]", "elbow within -1.047"}},
 };
 
-class BadInputTest : public testing::TestWithParam<BadInput> {};
+class BadInputTest : public testing::TestWithParam<ChangedProblem> {};
 
 TEST_P(BadInputTest, IsRejectedInOneLineThatNamesFileKeyAndValue) { expect_rejected(GetParam()); }
 

@@ -15,7 +15,7 @@ namespace {
 
 struct BadMotion {
   const char* problem;
-  BadInput input;
+  ChangedProblem input;
 };
 
 void PrintTo(const BadMotion& bad, std::ostream* out) { *out << bad.input.name; }

@@ -18,7 +18,7 @@ constexpr const char* kToFirstLink = "<child link=\"link_1\"/>";
 constexpr const char* kFromHull = "<parent link=\"hull\"/>";
 
 /// What is XML, and no tree of links with one of each part.
-const std::vector<BadInput> kBadStructures = {
+const std::vector<ChangedProblem> kBadStructures = {
     {"second_parent",
      kUrdf,
      kFirstLink,
@@ -117,7 +117,7 @@ const std::vector<BadInput> kBadStructures = {
      {"link[hull].collision.geometry: got <box> and <sphere>"}},
 };
 
-class BadStructure : public testing::TestWithParam<BadInput> {};
+class BadStructure : public testing::TestWithParam<ChangedProblem> {};
 
 TEST_P(BadStructure, IsRejectedInOneLineThatNamesFileKeyAndValue) { expect_rejected(GetParam()); }
 

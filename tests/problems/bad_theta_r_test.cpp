@@ -9,7 +9,7 @@ constexpr const char* kRedundant = "joints = [\"shoulder_yaw\", \"shoulder_pitch
 constexpr const char* kGuess = "guess = { elbow = 1, wrist_pitch = 0, wrist_roll = 0 }";
 
 /// The wheeled base with an arm, whose task names two redundant joints.
-const std::vector<BadInput> kBadThetaRs = {
+const std::vector<ChangedProblem> kBadThetaRs = {
     {"joint_unknown",
      "push.toml",
      kRedundant,
@@ -107,7 +107,7 @@ const std::vector<BadInput> kBadThetaRs = {
      {"base.rpy: got [0, inf, 0]", "3 finite numbers"}},
 };
 
-class BadThetaR : public testing::TestWithParam<BadInput> {};
+class BadThetaR : public testing::TestWithParam<ChangedProblem> {};
 
 TEST_P(BadThetaR, IsRejectedInOneLineThatNamesFileKeyAndValue) {
   expect_rejected(GetParam(), "mobile/push");
@@ -118,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(Loader, BadThetaR, testing::ValuesIn(kBadThetaRs),
 
 /// Where the base pose follows in closed form there is nothing to guess, and a base on all six axes
 /// has no place to start from.
-const std::vector<BadInput> kBadClosedForm = {
+const std::vector<ChangedProblem> kBadClosedForm = {
     {"guess", "force.toml", "default = [0, 0]", "guess = { elbow = 1 }", {"theta_r.guess: got"}},
     {"guess_base",
      "force.toml",
@@ -132,7 +132,7 @@ const std::vector<BadInput> kBadClosedForm = {
      {"base.xyz: got [0, 0, 1]", "all six axes"}},
 };
 
-class BadClosedForm : public testing::TestWithParam<BadInput> {};
+class BadClosedForm : public testing::TestWithParam<ChangedProblem> {};
 
 TEST_P(BadClosedForm, IsRejectedInOneLineThatNamesFileKeyAndValue) { expect_rejected(GetParam()); }
 

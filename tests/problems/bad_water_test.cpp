@@ -5,7 +5,7 @@
 namespace maxwrench {
 namespace {
 
-const std::vector<BadInput> kBadWater = {
+const std::vector<ChangedProblem> kBadWater = {
     {"hydrodynamics_of_unknown_link",
      "vehicle.toml",
      "[collision]",
@@ -72,7 +72,7 @@ const std::vector<BadInput> kBadWater = {
     {"trim_not_a_table", "vehicle.toml", "[base]", "[[trim]]\n[base]", {": trim: got", "a table"}},
 };
 
-class BadWaterTest : public testing::TestWithParam<BadInput> {};
+class BadWaterTest : public testing::TestWithParam<ChangedProblem> {};
 
 TEST_P(BadWaterTest, IsRejected) { expect_rejected(GetParam()); }
 

@@ -72,7 +72,7 @@ TEST(Work, WhatTheStructureTakesOfCIsNotFreed) {
   EXPECT_LT((problem.W_any * problem.W_any.transpose() - plane * plane.transpose()).norm(), 1e-14);
 }
 
-const std::vector<BadInput> kIdleWrenches = {
+const std::vector<ChangedProblem> kIdleWrenches = {
     {"c_across_the_plane",
      "force.toml",
      "c = [1, 0, 0, 0, 0, 0]\nany = [\"fx\", \"fy\", \"tz\"]",
@@ -85,14 +85,14 @@ const std::vector<BadInput> kIdleWrenches = {
      {"wrench.any: got ['fx', 'fz', 'fy']", "0, 0, 1, 0, 0, 0] does none"}},
 };
 
-class IdleWrench : public testing::TestWithParam<BadInput> {};
+class IdleWrench : public testing::TestWithParam<ChangedProblem> {};
 
 TEST_P(IdleWrench, IsRejected) { expect_rejected(GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(Work, IdleWrench, testing::ValuesIn(kIdleWrenches),
                          [](const auto& test) { return std::string(test.param.name); });
 
-const std::vector<BadInput> kIdleContacts = {
+const std::vector<ChangedProblem> kIdleContacts = {
     {"direction_across_the_plane",  // the contact frame's y is the world's z
      "two_arms.toml",
      "direction = [-0.5, 0, 1, 0, 0, 0]\nmin = 0",
@@ -113,7 +113,7 @@ const std::vector<BadInput> kIdleContacts = {
      {"contact.rpy: got [0, 0, 0]", "can move"}},
 };
 
-class IdleContact : public testing::TestWithParam<BadInput> {};
+class IdleContact : public testing::TestWithParam<ChangedProblem> {};
 
 TEST_P(IdleContact, IsRejected) { expect_rejected(GetParam(), "planar/two_arms"); }
 

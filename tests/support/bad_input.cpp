@@ -13,7 +13,7 @@ namespace maxwrench {
 
 namespace fs = std::filesystem;
 
-void expect_rejected(const BadInput& input, const std::string& problem) {
+void expect_rejected(const ChangedProblem& input, const std::string& problem) {
   std::string name = (fs::temp_directory_path() / "maxwrench_bad_XXXXXX").string();
   const fs::path folder = mkdtemp(name.data());
   const fs::path task = fs::path(MAXWRENCH_SOURCE_DIR) / "problems" / (problem + ".toml");

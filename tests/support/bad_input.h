@@ -7,7 +7,7 @@
 namespace maxwrench {
 
 /// A shipped problem with one passage changed.
-struct BadInput {
+struct ChangedProblem {
   const char* name;
   const char* file;  ///< the changed file, which the message must name
   const char* from;  ///< replaced once; empty: the file is removed
@@ -15,9 +15,9 @@ struct BadInput {
   std::vector<std::string> message;  ///< texts that it must contain
 };
 
-inline void PrintTo(const BadInput& input, std::ostream* out) { *out << input.name; }
+inline void PrintTo(const ChangedProblem& input, std::ostream* out) { *out << input.name; }
 
 /// The loader must reject it in one line that names file, key and value, and print nothing.
-void expect_rejected(const BadInput& input, const std::string& problem = "planar/force");
+void expect_rejected(const ChangedProblem& input, const std::string& problem = "planar/force");
 
 }  // namespace maxwrench
