@@ -102,7 +102,6 @@ def _draw_wrench(ax, answer, p, length):
         scale = 1.5 * length / np.linalg.norm(shape.vertices, axis=1).max()
         corners = p + scale * shape.vertices
         _draw_faces(ax, corners[shape.triangles], GREEN, 0.1)
-        ax.plot([], [], color=GREEN, alpha=0.4, linewidth=8, label="all forces that it can exert")
         drawn.append(corners)
     for part, colour, name, unit, at_scale in (
         (force, VERMILION, "force", "N", scale),
@@ -117,6 +116,8 @@ def _draw_wrench(ax, answer, p, length):
         drawn.append(np.stack([p, p + arrow]))
         if name == "torque":
             drawn.append(_draw_turn(ax, p + 0.5 * arrow, part / size, 0.3 * length, colour))
+    if shape is not None and shape.status == "optimal" and shape.triangles.size:
+        ax.plot([], [], color=GREEN, alpha=0.4, linewidth=8, label="all forces that it can exert")
     return drawn
 
 

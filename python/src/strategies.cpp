@@ -170,7 +170,7 @@ class PyObjective {
   long left() const { return options_.budget - result_.evaluations; }
   SearchResult finish() {
     alive_ = false;
-    result_.interrupted = run_.interrupted();
+    result_.interrupted = run_.ended();
     return std::move(result_);
   }
 
