@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "lib/math/require.h"
+#include "maxwrench/robot.h"
 #include "maxwrench/tank.h"
 
 namespace maxwrench {
