@@ -52,14 +52,20 @@ Array numbers(std::string_view key, const py::object& value) {
 }
 
 Eigen::VectorXd vector(std::string_view key, const py::object& value, Eigen::Index size) {
-  const Array array = numbers(key, value);
+  return vector(key, numbers(key, value), size);
+}
+
+Eigen::VectorXd vector(std::string_view key, const Array& array, Eigen::Index size) {
   require_shape(key, array, {size});
   return Eigen::Map<const Eigen::VectorXd>(array.data(), array.size());
 }
 
 RowMatrix matrix(std::string_view key, const py::object& value, Eigen::Index rows,
                  Eigen::Index cols) {
-  const Array array = numbers(key, value);
+  return matrix(key, numbers(key, value), rows, cols);
+}
+
+RowMatrix matrix(std::string_view key, const Array& array, Eigen::Index rows, Eigen::Index cols) {
   require_shape(key, array, {rows, cols});
   return Eigen::Map<const RowMatrix>(array.data(), array.shape(0), array.shape(1));
 }

@@ -20,6 +20,9 @@ using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 /// The numbers of an array or of nested lists. Throws std::invalid_argument, which names the key,
 /// for anything else, such as text or complex numbers.
 Array numbers(std::string_view key, const py::object& value);
+/// The same of an array that `numbers` returned.
+Eigen::VectorXd vector(std::string_view key, const Array& array, Eigen::Index size);
+RowMatrix matrix(std::string_view key, const Array& array, Eigen::Index rows, Eigen::Index cols);
 /// The same of `size` numbers in one dimension; -1: any size.
 Eigen::VectorXd vector(std::string_view key, const py::object& value, Eigen::Index size = -1);
 /// The same in two dimensions; -1: any size.

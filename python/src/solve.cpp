@@ -23,8 +23,7 @@ Options options_of(const std::string& measure, const std::string& wrench,
 }
 
 /// theta_r (r) of a posture, or knots (k×r).
-Eigen::MatrixXd knots_in(const py::object& value, const Problem& task) {
-  const Array array = numbers("theta_r", value);
+Eigen::MatrixXd knots_in(const Array& array, const Problem& task) {
   if (task.redundancy() == 0 && array.size() > 0) {
     throw BadValue(
         "theta_r", "shape " + shape_of(array),
@@ -32,8 +31,8 @@ Eigen::MatrixXd knots_in(const py::object& value, const Problem& task) {
   }
   const bool table = task.motion && array.ndim() == 2;
   const Eigen::MatrixXd knots =
-      table ? Eigen::MatrixXd(matrix("theta_r", value, knots_of(task), task.redundancy()))
-            : Eigen::MatrixXd(vector("theta_r", value, task.redundancy()).transpose());
+      table ? Eigen::MatrixXd(matrix("theta_r", array, knots_of(task), task.redundancy()))
+            : Eigen::MatrixXd(vector("theta_r", array, task.redundancy()).transpose());
   require_all_finite("theta_r", knots);
   return knots;
 }
@@ -45,11 +44,14 @@ py::object evaluate_task(const py::object& task, const py::object& theta_r,
   const PyTask of = task_of(task);
   Options options = options_of(measure, wrench, solver);
   options.check_collision = check_collision;
-  options.threads = thread_count(threads);
+  options.threads = threads;
+  if (threads != 0) thread_count(threads);  // one posture uses one, but a wrong number is wrong
   require_callback(callback);
-  const bool many = !of.problem->motion && numbers("theta_r", theta_r).ndim() == 2;
-  if (many) return evaluate_rows(of, theta_r, options, callback);
-  const Eigen::MatrixXd knots = knots_in(theta_r, *of.problem);
+  const Array given = numbers("theta_r", theta_r);
+  if (!of.problem->motion && given.ndim() == 2) {
+    return evaluate_rows(of, given, options, callback);
+  }
+  const Eigen::MatrixXd knots = knots_in(given, *of.problem);
   PyAnswer result{{}, of};
   {
     const py::gil_scoped_release released;
