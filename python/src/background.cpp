@@ -4,7 +4,6 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
-#include <optional>
 #include <thread>
 
 #include "problems/make/bad_value.h"
@@ -79,25 +78,23 @@ void run_in_background(const py::object& callback, const std::function<void(Watc
   std::exception_ptr of_python, of_computation;
   {
     // The lock is released while the worker lives, so that it can call Python and be joined.
-    std::optional<py::gil_scoped_release> released(std::in_place);
-    {
-      Worker worker(watch, compute);
-      for (int round = 1; !worker.ends_within(25ms); ++round) {
-        py::gil_scoped_acquire lock;
-        try {
-          if (interrupted() || (round % 4 == 0 && wants_end(callback, watch.evaluations))) {
-            watch.stop = true;
-          }
-          if (watch.stop && watch.python_thread != 0) {
-            PyThreadState_SetAsyncExc(watch.python_thread.exchange(0), search_ended().ptr());
-          }
-        } catch (...) {
-          if (!of_python) of_python = std::current_exception();
+    const py::gil_scoped_release released;
+    Worker worker(watch, compute);
+    for (int round = 1; !worker.ends_within(25ms); ++round) {
+      const py::gil_scoped_acquire lock;
+      try {
+        if (interrupted() || (round % 4 == 0 && wants_end(callback, watch.evaluations))) {
           watch.stop = true;
         }
+        if (watch.stop && watch.python_thread != 0) {
+          PyThreadState_SetAsyncExc(watch.python_thread.exchange(0), search_ended().ptr());
+        }
+      } catch (...) {
+        if (!of_python) of_python = std::current_exception();
+        watch.stop = true;
       }
-      of_computation = worker.failure();
     }
+    of_computation = worker.failure();
   }
   if (of_python) std::rethrow_exception(of_python);
   if (of_computation) std::rethrow_exception(of_computation);

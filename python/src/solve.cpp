@@ -68,8 +68,12 @@ PyAnswer evaluate_joints(const py::object& task, const py::object& q, const std:
   options.check_collision = check_collision;
   const Eigen::VectorXd joints = vector("q", q, Eigen::Index(of.problem->robot.joints.size()));
   require_all_finite("q", joints);
-  const py::gil_scoped_release released;
-  return {evaluate_posture(*of.problem, joints, options), of};
+  PyAnswer result{{}, of};  // it counts references, which needs the lock
+  {
+    const py::gil_scoped_release released;
+    result.answer = evaluate_posture(*of.problem, joints, options);
+  }
+  return result;
 }
 
 PyAnswer solve_task(const py::object& task, const std::string& measure, const std::string& wrench,
