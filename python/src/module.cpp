@@ -12,6 +12,7 @@ PYBIND11_MODULE(_core, m) {
   python::add_errors(m);
   python::add_poses(m);
   python::add_robots(m);
+  python::add_paths(m);
   python::add_tasks(m);
   python::add_answers(m);
   python::add_evaluations(m);

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "maxwrench/path.h"
 #include "maxwrench/solve.h"
 #include "python/src/arrays.h"
 
@@ -26,6 +27,12 @@ struct PyRobot {
 /// A task, as Python holds it.
 struct PyTask {
   std::shared_ptr<const Problem> problem;
+  Recipe recipe;
+};
+
+/// A path of the end effector, as Python holds it.
+struct PyPath {
+  Path path;
   Recipe recipe;
 };
 
@@ -55,6 +62,7 @@ Eigen::VectorXd theta_of(const Pose<double>& base, const Eigen::VectorXd& q);
 void add_errors(py::module_& m);
 void add_poses(py::module_& m);
 void add_robots(py::module_& m);
+void add_paths(py::module_& m);
 void add_tasks(py::module_& m);
 void add_answers(py::module_& m);
 void add_solve(py::module_& m);
