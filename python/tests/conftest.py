@@ -10,14 +10,19 @@ import pytest
 
 @pytest.fixture(scope="session")
 def command():
-    """Runs the command of the same build and returns the finished process."""
-    beside = pathlib.Path(maxwrench.__file__).parents[2] / "maxwrench"
+    """Runs the command of the same build, on the package's own copy of the problems, and returns the finished process."""
+    package = pathlib.Path(maxwrench.__file__).parent
+    beside = package.parents[1] / "maxwrench"
     program = os.environ.get("MAXWRENCH_COMMAND", str(beside))
     if not os.access(program, os.X_OK):
         pytest.fail(f"there is no command at {program}; MAXWRENCH_COMMAND names it")
 
+    environment = dict(os.environ)
+    if (package / "problems").is_dir():
+        environment["MAXWRENCH_PROBLEMS"] = str(package / "problems")
+
     def run(*words):
-        return subprocess.run([program, *map(str, words)], capture_output=True, text=True, timeout=60)
+        return subprocess.run([program, *map(str, words)], capture_output=True, text=True, timeout=60, env=environment)
 
     return run
 
