@@ -114,7 +114,7 @@ TEST(NormalMatrix, BlocksOfAllSizesAgreeWithTheDenseMatrix) {
   EXPECT_GT(generic, 50);
 }
 
-/// The table of docs/algorithms.md, section 13: columns of the wrench and actuators to spare.
+/// The table of docs/algorithms/solvers/ipm.md: columns of the wrench and actuators to spare.
 TEST(NormalMatrix, TasksInTimeTakeThePathThatTheTableSays) {
   const std::map<std::string, std::pair<int, int>> sizes = {
       {"planar", {2, 4}}, {"mobile", {2, 7}}, {"uvms", {3, 8}}};
