@@ -1,2 +1,58 @@
+"""The gallery: each shipped robot with a picture, its tasks, and their default and best values."""
+
+import pathlib
+import subprocess
+
+import maxwrench as mw
+import results
+
+COMMAND = pathlib.Path(__file__).resolve().parents[2] / "build/maxwrench"
+
+
+def plot(task, source, theta_r=None):
+    """The picture that the command draws; its path from the sources of the site."""
+    path = pathlib.Path("figures/gallery") / f"{task.replace('/', '_')}{'' if theta_r is None else '_best'}.svg"
+    (source / path).parent.mkdir(parents=True, exist_ok=True)
+    chosen = [] if theta_r is None else ["--theta-r=" + ",".join(map(str, theta_r))]
+    subprocess.run([COMMAND, "plot", task, "--out", source / path, *chosen], check=True, capture_output=True)
+    return path
+
+
+def number(value):
+    return "-" if value is None or value != value else f"{value:.4g}"
+
+
+def kind(task):
+    return {"static": "one posture"}.get(task.type, task.type)
+
+
+def row(name):
+    task = mw.load(name)
+    default = mw.evaluate(task, task.theta_r_default).beta
+    best = [results.best(name, wrench=wrench) for wrench in ["pure", "any"]]
+    values = " | ".join(number(value) for value in [default, *best])
+    return f"| `{name}` | {kind(task)} | {len(task.theta_r_names)} | {task.unit} | {values} |"
+
+
+def section(robot, names, source):
+    static = next((name for name in names if mw.load(name).type == "static"), names[0])
+    family = static.split("/")[0]
+    lines = [f"## {robot}", "", f"Model and sources: [problems/{family}](problems/{family}/README.md).", "", f"![{robot} in its default posture]({plot(static, source)})",
+             "", f"*`{static}` in its default posture, with the sets of wrenches, as `maxwrench plot {static}` draws it.*", ""]
+    if mw.load(static).type == "static":
+        best = mw.solve(static, callback=False)
+        lines += [f"![{robot} in its best posture]({plot(static, source, best.theta_r)})", "",
+                  f"*In its best posture by `linf_polytope`: {number(best.beta)} {best.unit}.*", ""]
+    lines += ["| task | of | redundancy | unit | default posture | best, pure | best, any wrench |", "|---|---|---|---|---|---|---|", *map(row, names), ""]
+    return "\n".join(lines)
+
+
 def pages(source):
-    return {}
+    robots = {}
+    for name in mw.tasks():
+        robots.setdefault(mw.load(name).robot.name, []).append(name)
+    families = sorted({name.split("/")[0] for name in mw.tasks()})
+    intro = ("# Gallery\n\nThe shipped robots and their tasks. Values are those of `linf_polytope`: at the default posture, computed now, and the best that any search "
+             "of the benchmark found, with the wrench along c alone (pure) and with other components free (any).\n\n")
+    tree = "\n".join(["```{toctree}", ":hidden:", "", *(f"problems/{family}/README.md" for family in families), "```", ""])
+    return {"gallery.md": intro + "\n".join(section(robot, names, source) for robot, names in robots.items()) + tree}

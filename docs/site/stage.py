@@ -3,16 +3,17 @@
 import pathlib
 import re
 import subprocess
-import sys
 
 import gallery
 import reference
+import reports
 import strategies
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SOURCE = ROOT / "build/docs/source"
 COPIED = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff", "docs", "problems", "results", "examples", "benchmarks/suites",
           "benchmarks/slurm"]
+FOLDERS = ["examples", "results"]
 LINK = re.compile(r"(?<=\]\()([^)#: ]+)(?=[)#])")
 
 
@@ -63,10 +64,9 @@ def first_page(readme):
     contents = {
         "Use it": ["overview.md", "docs/install.md", "docs/command.md", "docs/python.md", "docs/own_robot.md", "docs/robot_files.md", "docs/tank.md",
                    "gallery.md"],
-        "How it works": ["docs/glossary.md", "docs/algorithms.md", "docs/algorithms/measures.md", "docs/algorithms/solvers.md",
-                         "docs/algorithms/searches.md", "docs/benchmarks.md"],
+        "How it works": ["docs/glossary.md", "docs/algorithms.md", "docs/benchmarks.md"],
         "Reference": ["reference/python.md", "reference/cpp.md"],
-        "Project": ["CONTRIBUTING.md", "CHANGELOG.md", "papers.md"],
+        "Project": ["CONTRIBUTING.md", "CHANGELOG.md", "reports.md"],
     }
     trees = "".join(toctree(pages, caption) for caption, pages in contents.items())
     return start + "\n" + trees, "# Overview\n\n## " + rest
@@ -85,21 +85,19 @@ def write(path, content):
 def main():
     files = tracked()
     pages = {file: (ROOT / file).read_text() for file in files if file.suffix == ".md"}
+    strategies.require_pages(pages)
+    strategies.draw_figures(SOURCE)
     start, overview = first_page(pages.pop(pathlib.PurePosixPath("README.md")))
-    written = set()
-    for page, text in pages.items():
-        text = strategies.completed(page, listed(page, text, files))
-        written.add(write(page, with_known_links(text, page).replace("```math\n", "```{math}\n")))
-    for page, text in {"index.md": start, "overview.md": overview}.items():
-        written.add(write(page, with_known_links(text, pathlib.PurePosixPath(page))))
-    for page, text in (reference.pages() | gallery.pages(SOURCE)).items():
-        written.add(write(page, text))
-    for folder in ["results", "examples"]:
-        written.add(write(f"folders/{folder}.md", folder_page(pathlib.PurePosixPath(folder), files)))
-    for file in files:
-        if file.suffix != ".md":
-            written.add(write(file, (ROOT / file).read_bytes()))
-    return written
+    texts = {page: strategies.completed(page, listed(page, text, files)) for page, text in pages.items()}
+    texts |= {pathlib.PurePosixPath("index.md"): start, pathlib.PurePosixPath("overview.md"): overview}
+    computed = reference.pages() | gallery.pages(SOURCE) | {"reports.md": reports.page(SOURCE)}
+    for folder in FOLDERS:
+        computed[f"folders/{folder}.md"] = folder_page(pathlib.PurePosixPath(folder), files)
+    written = {write(page, with_known_links(text, page).replace("```math\n", "```{math}\n")) for page, text in texts.items()}
+    written |= {write(page, text) for page, text in computed.items()}
+    written |= {write(file, (ROOT / file).read_bytes()) for file in files if file.suffix != ".md"}
+    for old in set(SOURCE.rglob("*.md")) - written:
+        old.unlink()
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ import results
 from figures.style import BLUE, GREY, TASK, landscape, save, two_panels
 
 BUDGETS = [20, 40, 80, 160, 320, 640, 1280, 2560]
-SEEDS = range(1, 6)
+SEEDS = range(1, 4)
 SHORTFALL = 1e-6  # what counts as none
 
 
@@ -42,42 +42,44 @@ def visited(search, budget=1000):
     return np.array(recorded.postures)
 
 
-def shortfalls(search):
-    """How far below the best value each run ends: seeds × budgets, as shares of it."""
+def values_found(search):
+    """The value with which each run ends: seeds × budgets."""
     runs = [[mw.solve("uvms/valve", search=search, seed=seed, budget=budget, threads=1, callback=False).beta for budget in BUDGETS]
             for seed in SEEDS]
     return np.array(runs, dtype=float)
 
 
-def draw_facets(axes):
-    """The regions of planar/force in which one facet pair limits the force."""
-    n = 241
+def draw_facets(axes, n=81):
+    """The regions of planar/force in which one facet pair limits the force: the multipliers are its normal."""
     side = [np.linspace(low, high, n) for low, high in zip(TASK.theta_r_min, TASK.theta_r_max)]
-    grid = np.stack(np.meshgrid(*side), axis=-1).reshape(-1, 2)
-    found = mw.evaluate(TASK, grid, callback=False)
-    normals = np.round(found.lambda_ / np.abs(found.lambda_).max(axis=1, keepdims=True), 6)
-    known = found.valid
-    _, region = np.unique(normals[known], axis=0, return_inverse=True)
-    shown = np.full(len(grid), np.nan)
-    shown[known] = region.ravel() % 20
-    axes.pcolormesh(*side, shown.reshape(n, n), cmap="tab20", shading="nearest", alpha=0.5, rasterized=True)
-    axes.contour(*side, found.beta.reshape(n, n), levels=12, colors="black", linewidths=0.5)
+    values, regions, known = np.full((n, n), np.nan), np.full((n, n), np.nan), {}
+    for row, column in np.ndindex(n, n):
+        answer = mw.evaluate(TASK, [side[0][column], side[1][row]])
+        if answer.has_value:
+            values[row, column] = answer.beta
+            normal = tuple(np.round(answer.lambda_ / np.abs(answer.lambda_).max(), 6) + 0.0)
+            regions[row, column] = known.setdefault(normal, len(known))
+    axes.pcolormesh(*side, regions, cmap="Set3", shading="nearest", rasterized=True)
+    axes.contour(*side, values, levels=12, colors="black", linewidths=0.5)
     best = mw.solve(TASK, callback=False)
     axes.plot(*best.theta_r, "*", ms=12, mfc="white", mec="black", clip_on=False, zorder=5)
     axes.set(xlabel="first joint [rad]", ylabel="second joint [rad]")
-    axes.set_title("facet that limits the force (colour); star: the best", fontsize=9)
+    axes.set_title("colour: the facet that limits the force; star: the best", fontsize=9)
 
 
-def draw_instants(axes, search):
-    """The wrench at each instant of planar/trajectory: a constant posture, and what the search finds."""
+def draw_knots(axes, search):
+    """The knots of planar/trajectory, as they are by default and as the search leaves them."""
     task = mw.load("planar/trajectory")
     fixed = mw.evaluate(task, task.theta_r_default)
     found = mw.solve(task, search=search, budget=300, callback=False)
-    for answer, colour, name in [(fixed, GREY, "default posture throughout"), (found, BLUE, search)]:
-        axes.plot(answer.t, answer.betas, color=colour, label=name)
-        axes.axhline(answer.beta, color=colour, lw=0.7, ls="--")
-    axes.set(xlabel="time [s]", ylabel="largest force along c [N]", ylim=(0, None))
-    axes.set_title("planar/trajectory: each instant, and the least", fontsize=9)
+    for answer, colour, name in [(fixed, GREY, "default"), (found, BLUE, search)]:
+        knots = np.broadcast_to(answer.theta_r, (task.knots, len(task.theta_r_names)))
+        times = np.linspace(answer.t[0], answer.t[-1], len(knots))
+        for joint, style in zip(knots.T, ["o-", "o--"]):
+            axes.plot(times, joint, style, ms=3, color=colour)
+        axes.plot([], [], color=colour, label=f"{name}: {answer.beta:.2f} {answer.unit} throughout")
+    axes.set(xlabel="time [s]", ylabel="joints at the knots [rad]")
+    axes.set_title("planar/trajectory (first joint solid, second dashed)", fontsize=9)
     axes.legend(frameon=False)
 
 
@@ -85,20 +87,20 @@ def draw(search, path):
     figure, (left, right) = two_panels()
     postures = visited(search)
     if postures is not None:
-        landscape(left)
+        landscape(left, bar=False)
         shown = left.scatter(*postures.T, c=np.arange(len(postures)), cmap="autumn_r", s=5, lw=0)
         figure.colorbar(shown, ax=left, label="evaluation")
         left.set_title("the postures of planar/force that it evaluates", fontsize=9)
     elif "facet" in search:
         draw_facets(left)
     else:
-        draw_instants(left, search)
+        draw_knots(left, search)
     best = results.best("uvms/valve")
     for name, colour in [("sample", GREY), (search, BLUE)]:
-        short = np.maximum(1 - shortfalls(name) / best, SHORTFALL)
-        right.loglog(BUDGETS, np.nanmedian(short, axis=0), "o-", ms=3, color=colour, label=name)
-        right.fill_between(BUDGETS, np.nanmin(short, axis=0), np.nanmax(short, axis=0), color=colour, alpha=0.2, lw=0)
+        short = np.maximum(np.nan_to_num(1 - values_found(name) / best, nan=1), SHORTFALL)
+        right.loglog(BUDGETS, np.median(short, axis=0), "o-", ms=3, color=colour, label=name)
+        right.fill_between(BUDGETS, np.min(short, axis=0), np.max(short, axis=0), color=colour, alpha=0.2, lw=0)
     right.set(xlabel="budget [evaluations]", ylabel="share below the best known value")
-    right.set_title("uvms/valve: median and range of five seeds", fontsize=9)
+    right.set_title("uvms/valve: median and range of three seeds", fontsize=9)
     right.legend(frameon=False)
     save(figure, path)

@@ -10,7 +10,7 @@ from figures.style import BLUE, GREEN, GREY, ORANGE, save, two_panels
 
 # A robot of two directions and four actuators, each between -1 and 1.
 B = np.array([[1.0, 0.8, 0.2, -0.5], [0.1, 0.6, 1.0, 0.9]])
-TAU_D, RAY = np.array([-0.6, -0.8]), np.array([0.9, 0.45])
+TAU_D, RAY = np.array([-0.9, -1.2]), np.array([0.9, 0.3])
 # The same facets as a program in a wrench of two components, whose first one counts.
 TILT = np.array([np.cos(0.35), np.sin(0.35)])
 
@@ -43,13 +43,13 @@ def draw_ray(axes):
     exits = np.maximum((b - start) / slope, (-b - start) / slope)
     for j, x in enumerate(exits):
         axes.plot(*(TAU_D + RAY * x), "o", ms=6, color=ORANGE if j == exits.argmin() else GREY)
-    far = TAU_D + RAY * np.sort(exits)[-2] * 1.02
+    far = TAU_D + RAY * 7
     axes.annotate("", far, TAU_D, arrowprops={"arrowstyle": "->", "color": BLUE})
     axes.plot(*TAU_D, "k+")
     axes.text(*TAU_D, "tau_d ", ha="right", va="top")
     axes.text(*(TAU_D + RAY * exits.min()), "  smallest exit", color=ORANGE, va="top")
-    axes.set_xlim(-4, 4)
-    axes.set_title("the ray tau_d + a x leaves {B u}; grey: exits through other facets", fontsize=9)
+    axes.set_xlim(-3.5, 6)
+    axes.set_title("a ray leaves {B u}; grey: exits through other facets", fontsize=9)
 
 
 def simplex_path():
@@ -115,19 +115,20 @@ def draw_path(axes, path, title):
 
 
 def draw_worst_instant(axes):
-    answer = mw.evaluate("uvms/valve_trajectory", mw.load("uvms/valve_trajectory").theta_r_default)
-    task = mw.load("uvms/valve_trajectory")
-    axes.plot(answer.t, answer.betas, color=BLUE)
-    worst = int(np.argmin(answer.betas))
-    axes.plot(answer.t[worst], answer.betas[worst], "o", color=ORANGE)
-    axes.axhline(answer.beta, color=ORANGE, lw=0.8, ls="--")
-    axes.set(xlabel="time [s]", ylabel=f"wrench along c [{task.unit}]")
-    axes.set_title("uvms/valve_trajectory: the worst instant decides", fontsize=9)
+    """How much of its limit the most loaded actuator takes at each instant."""
+    task = mw.load("uvms/jet_trajectory")
+    answer, robot = mw.evaluate(task, task.theta_r_default, solver="facets_or_ipm"), task.robot
+    load = np.max(np.where(answer.u > 0, answer.u / robot.u_max, answer.u / robot.u_min), axis=1)
+    axes.plot(answer.t, load, color=BLUE)
+    worst = load > 1 - 1e-6
+    axes.plot(answer.t[worst], load[worst], "o", color=ORANGE)
+    axes.set(xlabel="time [s]", ylabel="share of its limit", ylim=(0, 1.1))
+    axes.set_title("uvms/jet_trajectory: the most loaded actuator, dot: worst instant", fontsize=9)
 
 
 PATHS = {
-    "condensed": (dual_path, "dual simplex: from outside, one violated facet after the other"),
-    "glpk": (dual_path, "dual simplex: from outside, one violated facet after the other"),
+    "condensed": (dual_path, "dual simplex: from outside, facet by facet"),
+    "glpk": (dual_path, "dual simplex: from outside, facet by facet"),
     "simplex": (simplex_path, "primal simplex: from vertex to vertex along edges"),
     "clp": (simplex_path, "primal simplex: from vertex to vertex along edges"),
     "ipopt": (central_path, "the central path, through the interior"),

@@ -17,7 +17,7 @@ TASK = mw.load("planar/force")
 
 
 def two_panels():
-    figure, axes = plt.subplots(1, 2, figsize=(8, 3.4))
+    figure, axes = plt.subplots(1, 2, figsize=(9, 3.6))
     return figure, axes
 
 
@@ -27,13 +27,14 @@ def save(figure, path):
     plt.close(figure)
 
 
-def landscape(axes, measure="linf_polytope", wrench="pure", n=121):
+def landscape(axes, measure="linf_polytope", bar=True, n=121):
     """Draws the value of a measure over both coordinates, with its best posture on this grid."""
     side = [np.linspace(low, high, n) for low, high in zip(TASK.theta_r_min, TASK.theta_r_max)]
     grid = np.stack(np.meshgrid(*side), axis=-1)
-    values = mw.evaluate(TASK, grid.reshape(-1, 2), measure=measure, wrench=wrench, callback=False).beta.reshape(n, n)
+    values = mw.evaluate(TASK, grid.reshape(-1, 2), measure=measure, callback=False).beta.reshape(n, n)
     shown = axes.pcolormesh(*side, values, cmap="viridis", shading="nearest", rasterized=True)
-    axes.figure.colorbar(shown, ax=axes, label="value")
+    if bar:
+        axes.figure.colorbar(shown, ax=axes, label="value")
     axes.set(xlabel="first joint [rad]", ylabel="second joint [rad]")
     best = grid.reshape(-1, 2)[np.nanargmax(values)]
     return best, np.nanmax(values)

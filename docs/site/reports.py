@@ -1,0 +1,22 @@
+"""The pages of `report` and the paper, beside the site."""
+
+import pathlib
+import shutil
+import subprocess
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def page(source):
+    """A page that links them. The paper is there if it has been built."""
+    out = source / "report"
+    subprocess.run([ROOT / "build/maxwrench", "report", ROOT / "results", "--out", out], check=True, capture_output=True)
+    text = ("# Report and paper\n\n"
+            "* [The benchmark report](report/report.html): all tables with filters, performance profiles and significance tests, as "
+            "`maxwrench report results` makes it. It is one file without links to others.\n"
+            "* [Its tables](docs/benchmarks.md#reports) are CSV files in [results](folders/results.md).\n")
+    paper = ROOT / "build/paper/maxwrench.pdf"
+    if paper.exists():
+        shutil.copy(paper, source / "report/maxwrench.pdf")
+        text += "* [The paper](report/maxwrench.pdf) (PDF).\n"
+    return text
