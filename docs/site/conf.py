@@ -8,7 +8,7 @@ sys.path[:0] = [str(ROOT / "docs/site"), str(ROOT / "build/python")]
 
 project = "maxwrench"
 html_title = "maxwrench"
-extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "docstrings", "formulas", "headers"]
+extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "docstrings", "formulas", "glossary_links", "headers"]
 language = "en"
 
 myst_heading_anchors = 4
@@ -31,6 +31,8 @@ html_theme = "furo"
 html_static_path = [str(ROOT / "docs/site/static")]
 html_css_files = ["site.css"]
 html_search_scorer = str(ROOT / "docs/site/static/scorer.js")
+# The report and the paper are linked as files.
+html_extra_path = [str(ROOT / "build/docs/extra")]
 html_copy_source = False
 html_show_sphinx = False
 html_show_copyright = False

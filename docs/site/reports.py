@@ -7,16 +7,16 @@ import subprocess
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
-def page(source):
+def page(extra):
     """A page that links them. The paper is there if it has been built."""
-    out = source / "report"
+    out = extra / "report"
     subprocess.run([ROOT / "build/maxwrench", "report", ROOT / "results", "--out", out], check=True, capture_output=True)
     text = ("# Report and paper\n\n"
-            "* [The benchmark report](report/report.html): all tables with filters, performance profiles and significance tests, as "
+            "* <a href=\"report/report.html\">The benchmark report</a>: all tables with filters, performance profiles and significance tests, as "
             "`maxwrench report results` makes it. It is one file without links to others.\n"
             "* [Its tables](docs/benchmarks.md#reports) are CSV files in [results](folders/results.md).\n")
     paper = ROOT / "build/paper/maxwrench.pdf"
     if paper.exists():
-        shutil.copy(paper, source / "report/maxwrench.pdf")
-        text += "* [The paper](report/maxwrench.pdf) (PDF).\n"
+        shutil.copy(paper, extra / "report/maxwrench.pdf")
+        text += "* <a href=\"report/maxwrench.pdf\">The paper</a> (PDF).\n"
     return text

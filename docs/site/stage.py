@@ -90,7 +90,7 @@ def main():
     start, overview = first_page(pages.pop(pathlib.PurePosixPath("README.md")))
     texts = {page: strategies.completed(page, listed(page, text, files)) for page, text in pages.items()}
     texts |= {pathlib.PurePosixPath("index.md"): start, pathlib.PurePosixPath("overview.md"): overview}
-    computed = reference.pages() | gallery.pages(SOURCE) | {"reports.md": reports.page(SOURCE)}
+    computed = reference.pages() | gallery.pages(SOURCE) | {"reports.md": reports.page(ROOT / "build/docs/extra")}
     for folder in FOLDERS:
         computed[f"folders/{folder}.md"] = folder_page(pathlib.PurePosixPath(folder), files)
     written = {write(page, with_known_links(text, page).replace("```math\n", "```{math}\n")) for page, text in texts.items()}
