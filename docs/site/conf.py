@@ -11,6 +11,7 @@ html_title = "maxwrench"
 extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "docstrings", "formulas", "glossary_links", "headers"]
 language = "en"
 
+highlight_language = "none"
 myst_heading_anchors = 4
 myst_enable_extensions = ["dollarmath"]
 

@@ -14,6 +14,12 @@ def plain(app, what, name, obj, options, lines):
         lines[i] = "".join(parts)
 
 
+def short(app, what, name, obj, options, arguments, result):
+    """Without the name of the compiled part."""
+    return tuple(text and text.replace("maxwrench._core.", "") for text in (arguments, result))
+
+
 def setup(app):
+    app.connect("autodoc-process-signature", short)
     app.connect("autodoc-process-docstring", plain, priority=400)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

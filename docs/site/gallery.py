@@ -35,14 +35,13 @@ def row(name):
 
 
 def section(robot, names, source):
-    static = next((name for name in names if mw.load(name).type == "static"), names[0])
+    static = next(name for name in names if mw.load(name).type == "static")
     family = static.split("/")[0]
-    lines = [f"## {robot}", "", f"Model and sources: [problems/{family}](problems/{family}/README.md).", "", f"![{robot} in its default posture]({plot(static, source)})",
-             "", f"*`{static}` in its default posture, with the sets of wrenches, as `maxwrench plot {static}` draws it.*", ""]
-    if mw.load(static).type == "static":
-        best = mw.solve(static, callback=False)
-        lines += [f"![{robot} in its best posture]({plot(static, source, best.theta_r)})", "",
-                  f"*In its best posture by `linf_polytope`: {number(best.beta)} {best.unit}.*", ""]
+    task = mw.load(static)
+    default, best = mw.evaluate(task, task.theta_r_default), mw.solve(task, callback=False)
+    lines = [f"## {robot}", "", f"Model and sources: [problems/{family}](problems/{family}/README.md). `maxwrench plot {static}` draws it:", "",
+             f"| default posture, {number(default.beta)} {task.unit} | best posture, {number(best.beta)} {task.unit} |", "|---|---|",
+             f"| ![{robot} in its default posture]({plot(static, source)}) | ![{robot} in its best posture]({plot(static, source, best.theta_r)}) |", ""]
     lines += ["| task | of | redundancy | unit | default posture | best, pure | best, any wrench |", "|---|---|---|---|---|---|---|", *map(row, names), ""]
     return "\n".join(lines)
 

@@ -42,7 +42,7 @@ def cpp_pages():
         entries += [f"cpp/{name[:-2]}" for name in names]
         for name in names:
             pages[f"reference/cpp/{name[:-2]}.md"] = "\n".join(
-                [f"# {name}", "", brief(name), "", "```{eval-rst}", f".. doxygenfile:: {name}", "   :project: maxwrench", "```", ""])
+                [f"# {name}", "", "```{eval-rst}", f".. doxygenfile:: {name}", "   :project: maxwrench", "```", ""])
     return pages | {"reference/cpp.md": "\n".join(index) + toctree(entries)}
 
 

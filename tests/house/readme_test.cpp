@@ -19,10 +19,10 @@ namespace fs = std::filesystem;
 
 const fs::path kRoot(MAXWRENCH_SOURCE_DIR);
 
-/// README.md and the pages of docs/, by their paths from the root.
+/// README.md and the pages of docs/ and its folders, by their paths from the root.
 std::vector<std::string> documents() {
   std::vector<std::string> files = {"README.md"};
-  for (const auto& entry : fs::directory_iterator(kRoot / "docs")) {
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "docs")) {
     if (entry.path().extension() == ".md") files.push_back(fs::relative(entry.path(), kRoot));
   }
   std::sort(files.begin() + 1, files.end());
