@@ -52,3 +52,6 @@ if(MAXWRENCH_WITH_PAGMO)
   list(APPEND maxwrench_solvers_sources
     search/pagmo_run.cpp)
 endif()
+list(APPEND maxwrench_solvers_sources
+  explain/best_posture.cpp explain/efforts.cpp explain/exits.cpp explain/explain.cpp explain/explanation_json.cpp
+  explain/explanation_text.cpp explain/instants.cpp explain/limits.cpp)
