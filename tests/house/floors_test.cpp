@@ -14,8 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::vector<std::vector<std::string>> kFloors = {
-    {"lib"},           {"verify"},           {"solvers", "problems"}, {"drawing", "benchmarks"},
-    {"cli", "python"}, {"examples", "tests"}};
+    {"lib"},  {"verify"},        {"solvers", "problems"}, {"drawing", "benchmarks"},
+    {"view"}, {"cli", "python"}, {"examples", "tests"}};
 
 /// Public headers stand on the floor of their implementation.
 const std::map<std::string, std::string> kImplementedIn = {
