@@ -41,7 +41,8 @@ struct BindingLimit : LimitRate {
   /// N m]: the program is solved again. For the ellipsoid it is 0.1 `share`.
   double gain = std::numeric_limits<double>::quiet_NaN();
   /// The derivative for a rising limit. It differs from `rate_down` only at a kink, where several
-  /// facets of {B u} are active; `rate` lies between both.
+  /// facets of {B u} are active; `rate` lies between both. With several wrench columns both come
+  /// from solving again with the limit moved by 1e-4 of its magnitude.
   double rate_up = std::numeric_limits<double>::quiet_NaN();
   double rate_down = std::numeric_limits<double>::quiet_NaN();  ///< the same for a falling limit
   /// By how much the limit may rise while the value changes at `rate_up` [unit]: until other limits
@@ -140,7 +141,8 @@ struct ExplainOptions {
 /// **At a best posture** with the rows g_j <= 0 of facets, limits and clearances that are active
 /// there, the multipliers mu >= 0 of least residual in c = sum_j mu_j grad g_j over (theta_r, w)
 /// give d beta*/d limit = -sum_j mu_j d g_j/d limit. They are reported if the residual is below
-/// 1e-6 (1 + |beta|).
+/// 1e-6 (1 + |beta|). They belong to this local optimum: a mirror image of the same value has rates
+/// of its own.
 ///
 /// **Least efforts**: min |W_u u|^2 subject to B u = tau_d + share J'h within the limits. W_u,ii is
 /// one over the smaller of both absolute limits; if that is 0, over the larger one; if it is

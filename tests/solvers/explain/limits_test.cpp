@@ -282,6 +282,36 @@ TEST(BindingLimits, OfAFreeForceLeaveOutItsActuator) {
   EXPECT_NEAR(explanation.limits[0].gain, 0.1, 1e-9);
 }
 
+/// Two motors in series along x bear the same force: with a force along y free, neither gives more
+/// alone, and each takes away at rate 1.
+TEST(BindingLimits, OfSeveralColumnsHaveARateForEachSideOfAKink) {
+  TaskSpec spec = cartesian_push(Vector6d::Unit(0));
+  Joint again = spec.robot.joints[0];
+  again.name = "along_x_again";
+  again.parent = 2;
+  spec.robot.joints.push_back(again);
+  spec.robot.links.push_back({.name = "tip", .mass = 0.1, .inertia = Eigen::Matrix3d::Identity()});
+  spec.robot.end_effectors[0].link = 3;
+  spec.robot = finalize(spec.robot);
+  Options options;
+  options.wrench = Wrench::kAny;
+  const Answer answer = evaluate_posture(make_problem(spec), Eigen::Vector3d::Zero(), options);
+  ASSERT_EQ(answer.status, Status::kOptimal) << answer.reason.c_str();
+  EXPECT_NEAR(answer.beta(), 1, 1e-9);
+  const Explanation explanation = explain(answer);
+  expect_budget(answer, explanation);
+  EXPECT_TRUE(explanation.kink);
+  for (const char* name : {"along_x", "along_x_again"}) {
+    const BindingLimit* limit = find_limit(explanation, name, LimitSide::kUpper);
+    ASSERT_NE(limit, nullptr) << name;
+    EXPECT_NEAR(limit->rate_up, 0, 1e-6);
+    EXPECT_NEAR(limit->rate_down, 1, 1e-6);
+    EXPECT_EQ(limit->gain, 0);
+    EXPECT_TRUE(std::isnan(limit->up));
+  }
+  EXPECT_EQ(explanation.limits.size(), 2U);
+}
+
 /// A motor whose limits are the same force: it cannot fall below itself.
 TEST(BindingLimits, OfAnActuatorWithoutWidthEndAtOnce) {
   Problem task = make_problem(cartesian_push(Vector6d::Unit(0)));
@@ -293,8 +323,8 @@ TEST(BindingLimits, OfAnActuatorWithoutWidthEndAtOnce) {
   EXPECT_EQ(limit->up, kInfinity);
 }
 
-/// An entry ends a range: u_y must hold 0.3 N of its own, so u_x falls to a posture without efforts
-/// before its limits meet. Here a tilted gravity does what a tilted bed does.
+/// An entry ends a range: u_y is at least 0.5 N, so no efforts balance the posture once u_x falls
+/// below 0.5 N, before its limits meet.
 TEST(BindingLimits, EndWhereNoEffortsBalanceThePosture) {
   Vector6d diagonal = Vector6d::Zero();
   diagonal.head<2>().setConstant(std::sqrt(0.5));
