@@ -97,8 +97,8 @@ bool closer_by_formula(const Shape& a, const Placed& at_a, const Shape& b, const
 
 class ShapePairs : public CollisionChecker {
  public:
-  /// Cheap tests come first: formulas, then GJK, then grown shapes, each several times as expensive. Then
-  /// pairs with a large reach come first, because they are more likely to collide.
+  /// Cheap tests come first: formulas, then GJK, then grown shapes, each several times as
+  /// expensive. Then pairs with a large reach come first, because they are more likely to collide.
   ShapePairs(Collision made_of, std::vector<Pair> pairs)
       : shapes_(std::move(made_of.shapes)),
         ignore_(std::move(made_of.ignore)),

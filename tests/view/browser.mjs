@@ -54,10 +54,11 @@ export class Browser {
     return page;
   }
 
-  close() {
+  async close() {
     const gone = new Promise((resolve) => this.process.once("exit", resolve));
-    this.process.kill("SIGKILL");
-    return gone.then(() => rmSync(this.profile, { recursive: true, force: true, maxRetries: 5 }));
+    await this.send("Browser.close");
+    await gone;
+    rmSync(this.profile, { recursive: true, force: true, maxRetries: 20, retryDelay: 250 });
   }
 }
 
@@ -100,10 +101,14 @@ class Page {
     return this.evaluate("new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => resolve(true))))");
   }
 
-  async screenshot(file) {
+  /** A PNG of the window in base64. */
+  async picture() {
     await this.drawn();
-    const { data } = await this.send("Page.captureScreenshot", { format: "png" });
-    writeFileSync(file, Buffer.from(data, "base64"));
+    return (await this.send("Page.captureScreenshot", { format: "png" })).data;
+  }
+
+  async screenshot(file) {
+    writeFileSync(file, Buffer.from(await this.picture(), "base64"));
   }
 
   close() {

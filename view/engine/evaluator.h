@@ -13,7 +13,7 @@ namespace maxwrench {
 
 /// What is shown of a task at one theta_r and one IK solution. README.md lists the members.
 struct Evaluation : Verdict {
-  double beta = 0;       ///< NaN unless the status is kOptimal
+  double beta = 0;        ///< NaN unless the status is kOptimal
   const char* unit = "";  ///< of beta
   Eigen::VectorXd theta, theta_r, base, u, h, lambda, tau_d, gradient, links, end_effector, c, h_2,
       contact;
@@ -34,7 +34,8 @@ struct SolutionChoice {
   Eigen::VectorXd near;  ///< not empty: the one whose joints are nearest to these
 };
 
-/// Evaluates postures of a static task one after another, and keeps for each choice what that needs.
+/// Evaluates postures of a static task one after another, and keeps for each choice what that
+/// needs.
 class TaskEvaluator {
  public:
   explicit TaskEvaluator(Problem problem);

@@ -61,8 +61,7 @@ void put(Archive& to, std::string& x) {
 }
 /// A whole number, a truth value or an enumerator.
 template <class Archive, class T>
-  requires(std::is_integral_v<T> || std::is_enum_v<T>)
-void put(Archive& to, T& x) {
+requires(std::is_integral_v<T> || std::is_enum_v<T>) void put(Archive& to, T& x) {
   auto number = static_cast<std::int64_t>(x);
   to.whole(number);
   x = static_cast<T>(number);
@@ -212,8 +211,8 @@ Problem read_problem(std::string_view data) {
   actuation.N_nonzero = actuation.N.sparseView();
   actuation.N_nonzero.makeCompressed();
   if (collision) {
-    problem.robot.collision = make_collision_checker(std::move(collision->shapes),
-                                                     collision->ignore, collision->margin);
+    problem.robot.collision =
+        make_collision_checker(std::move(collision->shapes), collision->ignore, collision->margin);
   }
   prepare_ik_solutions(problem);
   return problem;

@@ -1,5 +1,5 @@
-// Prints tasks as the engine reads them, random postures, and the native results there, as JSON. view/engine/check compares the
-// engine with them.
+// Prints tasks as the engine reads them, random postures, and the native results there, as JSON.
+// view/engine/check compares the engine with them.
 
 #include <fmt/format.h>
 
@@ -62,8 +62,11 @@ Problem with_cylinders() {
   post.kind = Shape::Kind::kCylinder;
   post.placement.p = {0.35, 0.2, 0};
   collision.shapes.insert(collision.shapes.end(), {wide, box, post});
-  collision.ignore = {{"hull", "link_1"}, {"link_1", "link_2"}, {"link_1", "wide"},
-                      {"link_1", "box"},  {"post", "link_1"}};
+  collision.ignore = {{"hull", "link_1"},
+                      {"link_1", "link_2"},
+                      {"link_1", "wide"},
+                      {"link_1", "box"},
+                      {"post", "link_1"}};
   TaskSpec task = push(finalize(vehicle(), collision));
   task.name = "vehicle with cylinders";
   return make_problem(task);
@@ -146,8 +149,9 @@ Json cases_of(const Problem& problem) {
 int main() {
   using namespace maxwrench;
   Json tasks = Json::array();
-  for (const char* name : {"uvms/valve", "uvms/lift", "dual_arm/two_arms", "mobile/push",
-                           "fixed/push", "planar/force", "planar/two_arms", "mobile/push_any_height"}) {
+  for (const char* name :
+       {"uvms/valve", "uvms/lift", "dual_arm/two_arms", "mobile/push", "fixed/push", "planar/force",
+        "planar/two_arms", "mobile/push_any_height"}) {
     tasks.push_back(cases_of(load_problem(name)));
   }
   tasks.push_back(cases_of(with_cylinders()));

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <cmath>
 
 #include "lib/math/fnv.h"
 #include "maxwrench/load.h"
@@ -51,7 +51,7 @@ TEST(ProblemData, ReadsWhatWasWritten) {
   }
 }
 
-/// A body with an empty checker has no pairs, and a robot without gravity is as good as any.
+/// The engine's collision check is made of the shapes that the robot's own is made of.
 TEST(ProblemData, KeepsAHull) {
   Collision collision = vehicle_shapes();
   Shape& hull = collision.shapes[2];
@@ -151,29 +151,34 @@ TEST(TaskEvaluator, IsEvaluate) {
 /// All IK solutions have their end effector at the task's pose, the best one is chosen, and each is
 /// found by its joints.
 TEST(TaskEvaluator, GoesThroughIkSolutions) {
-  const Problem problem = load_problem("dual_arm/two_arms");
-  TaskEvaluator engine(problem);
-  Random random(11);
-  int several = 0;
-  for (int i = 0; i < samples(100); ++i) {
-    const Eigen::VectorXd theta_r = random_theta_r(problem, random);
-    const Evaluation best = engine.evaluate(theta_r, {});
-    if (best.solutions > 1) ++several;
-    Eigen::Matrix<double, 3, 4, Eigen::RowMajor> pose;
-    const Pose<double> wanted = pose_at(problem, theta_r);
-    pose << wanted.R, wanted.p;
-    for (int k = 0; k < best.solutions; ++k) {
-      const Evaluation each = engine.evaluate(theta_r, {}, {k, {}});
-      EXPECT_EQ(each.solution, k);
-      EXPECT_FALSE(each.beta > best.beta);
-      EXPECT_LT((each.end_effector - pose.reshaped<Eigen::RowMajor>()).norm(), 1e-9);
-      EXPECT_EQ(engine.evaluate(theta_r, {}, {-1, each.theta}).solution, k);
+  const EvaluationChoice choice{.collision = false};
+  for (const char* name : {"dual_arm/two_arms", "fixed/push"}) {
+    const Problem problem = load_problem(name);
+    TaskEvaluator engine(problem);
+    Random random(11);
+    int several = 0;
+    for (int i = 0; i < samples(100); ++i) {
+      const Eigen::VectorXd theta_r = random_theta_r(problem, random);
+      const Evaluation best = engine.evaluate(theta_r, choice);
+      if (best.solutions == 0) continue;
+      if (best.solutions > 1) ++several;
+      Eigen::Matrix<double, 3, 4, Eigen::RowMajor> pose;
+      const Pose<double> wanted = pose_at(problem, theta_r);
+      pose << wanted.R, wanted.p;
+      for (int k = 0; k < best.solutions; ++k) {
+        const Evaluation each = engine.evaluate(theta_r, choice, {k, {}});
+        EXPECT_EQ(each.solution, k);
+        EXPECT_FALSE(each.beta > best.beta);
+        EXPECT_LT((each.end_effector - pose.reshaped<Eigen::RowMajor>()).norm(), 1e-9);
+        EXPECT_EQ(engine.evaluate(theta_r, choice, {-1, each.theta}).solution, k);
+      }
+      EXPECT_THAT(rejection_of([&] {
+                    engine.evaluate(theta_r, choice, {best.solutions, {}});
+                  }),
+                  StartsWith("solution: got " + std::to_string(best.solutions)));
     }
-    if (best.solutions == 0) continue;
-    EXPECT_THAT(rejection_of([&] { engine.evaluate(theta_r, {}, {best.solutions, {}}); }),
-                StartsWith("solution: got " + std::to_string(best.solutions)));
+    EXPECT_GT(several, samples(100) / 20) << name;
   }
-  EXPECT_GT(several, samples(100) / 20);
 }
 
 /// The numbers of a field by its name.
@@ -185,7 +190,6 @@ Eigen::VectorXd field(const std::string& name) {
   return {};
 }
 
-/// planar/force at its default. Both thruster pairs push along x, see planar_test.cpp.
 TEST(Engine, SaysWhyNotAndGoesOn) {
   const Problem problem = load_problem("planar/force");
   const std::string data = problem_data(problem);
@@ -206,7 +210,8 @@ TEST(Engine, SaysWhyNotAndGoesOn) {
   EXPECT_THAT(call("linf_polytope", "most"), StartsWith("wrench: got 'most'"));
   EXPECT_THAT(call("manipulability", "any"), StartsWith("wrench: got 'any'"));
   theta_r[0] = kNan;
-  EXPECT_THAT(call("linf_polytope", "pure"), StartsWith("theta_r: got a value that is not a finite"));
+  EXPECT_THAT(call("linf_polytope", "pure"),
+              StartsWith("theta_r: got a value that is not a finite"));
   theta_r = problem.theta_r_default;
   ASSERT_EQ(call("linf_polytope", "pure"), nullptr);
   EXPECT_EQ(field("beta")[0], beta);

@@ -1,5 +1,5 @@
 // What each actuator does: an arrow at a thruster or a sliding joint, a ring about a turning joint.
-import { Color, CylinderGeometry, DoubleSide, Group, Mesh, MeshStandardMaterial, Quaternion, SphereGeometry, Vector3 } from "three";
+import { Color, CylinderGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshStandardMaterial, Quaternion, SphereGeometry, Vector3 } from "three";
 import { Arc, Arrow, paint } from "./arrows.js";
 import { matrixAt } from "./format.js";
 
@@ -17,6 +17,18 @@ export function shareOf(actuator, u) {
 /** The colour of a share: red at the limit alone. */
 export function colourOf(share) {
   return share >= kAtLimit ? kLimit : kIdle.clone().lerp(kBusy, share);
+}
+
+/** Shows the parts of a mark faintly where a link is in front of them. */
+function shineThrough(mark) {
+  const faint = new MeshBasicMaterial({ transparent: true, opacity: 0.3, depthTest: false, depthWrite: false });
+  const parts = [];
+  mark.traverse((part) => part.isMesh && parts.push(part));
+  for (const part of parts) {
+    part.castShadow = true;
+    part.add(new Mesh(part.geometry, faint));
+  }
+  return faint;
 }
 
 export class Efforts extends Group {
@@ -37,11 +49,11 @@ export class Efforts extends Group {
     const turns = actuator.unit === "N m";
     const j = i - this.robot.thrusters.length;
     const sign = turns ? new Arc(this.radiusOf(j), 0.0085 * this.size, material) : new Arrow(0.011 * this.size, material);
-    sign.traverse((part) => (part.castShadow = true));
+    const hidden = shineThrough(sign);
     group.add(sign);
     const duct = i < this.robot.thrusters.length ? this.duct() : null;
     if (duct) group.add(duct);
-    return { group, sign, material, duct };
+    return { group, sign, material, hidden, duct };
   }
 
   /** Of a ring around the links of a joint. */
@@ -66,7 +78,7 @@ export class Efforts extends Group {
     this.marks.forEach((mark, i) => {
       const u = frame.u.length ? frame.u[i] : 0;
       const share = shareOf(this.robot.actuators[i], u);
-      mark.material.color.copy(colourOf(share));
+      for (const material of [mark.material, mark.hidden]) material.color.copy(colourOf(share));
       if (i < this.robot.thrusters.length) this.setThruster(mark, this.robot.thrusters[i], base, u);
       else this.setJoint(mark, i - this.robot.thrusters.length, frame, u, share);
     });

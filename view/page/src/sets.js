@@ -18,7 +18,7 @@ export class WrenchSets extends Group {
     this.ellipsoid.material.flatShading = false;
     this.ellipsoid.matrixAutoUpdate = false;
     this.face = translucent(0x2f7fd6, 0.16);
-    this.edge = new LineBasicMaterial({ color: 0x2f7fd6, transparent: true, opacity: 0.75 });
+    this.edge = new LineBasicMaterial({ color: 0x3d8fe8, transparent: true, opacity: 0.75 });
     this.point = new Mesh(new SphereGeometry(0.017 * size, 24, 16), paint(0xe8590c, { emissive: 0xe8590c, emissiveIntensity: 0.25 }));
     this.ray = new Line(new BufferGeometry(), new LineDashedMaterial({ color: 0xe8590c, dashSize: 0.02 * size, gapSize: 0.012 * size }));
     this.body = new Group(); // at the tool, in newtons or newton metres

@@ -45,7 +45,7 @@ export class World extends Group {
   /** Where the arrow of the wrench ends, or the point of the set. */
   tipOf(frame) {
     const at = new Vector3().setFromMatrixPosition(matrixAt(frame.end_effector));
-    if (!frame.h.length) return at;
+    if (!frame.h.length) return at.addScaledVector(new Vector3(...frame.c.slice(0, 3)), 0.3 * this.size);
     if (frame.sets?.of === "torque") return at.addScaledVector(new Vector3(...frame.h.slice(3, 6)), this.setMetres);
     return at.addScaledVector(new Vector3(...frame.h.slice(0, 3)), this.forceMetres);
   }

@@ -40,9 +40,9 @@ export class Wrenches extends Group {
     const labels = [];
     const [force, torque] = parts(frame.c);
     // c is a direction: its arrow has one length, its arc one angle.
-    this.c.force.set(at, force.clone().multiplyScalar(0.45 * this.size));
+    this.c.force.set(at, force.clone().multiplyScalar(0.3 * this.size));
     this.c.torque.set(at, torque, torque.length() > 1e-9 ? 1.9 * Math.PI * torque.length() : 0);
-    labels.push({ text: "c", at: at.clone().addScaledVector(force, 0.48 * this.size).addScaledVector(torque, 0.19 * this.size), kind: "soft" });
+    labels.push({ text: "c", at: at.clone().addScaledVector(force, 0.32 * this.size).addScaledVector(torque, 0.19 * this.size), kind: "soft" });
     const solved = frame.h.length > 0;
     this.h.visible = solved;
     if (solved) labels.push(this.setOne(this.h, "h", at, frame.h, metres));
