@@ -112,9 +112,16 @@ if(MAXWRENCH_BUILD_COMMAND OR MAXWRENCH_BUILD_BENCHMARKS)
 endif()
 
 if(MAXWRENCH_BUILD_COMMAND)
+  add_floor(view STATIC)
+  target_link_libraries(maxwrench_view PUBLIC maxwrench_drawing PRIVATE nlohmann_json::nlohmann_json fmt::fmt)
+  # The files that go into the program.
+  set(view ${PROJECT_SOURCE_DIR}/view)
+  set_source_files_properties(${view}/engine/module.cpp ${view}/page_file.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON
+    COMPILE_DEFINITIONS MAXWRENCH_VIEW_FOLDER="${view}" OBJECT_DEPENDS "${view}/engine/engine.js;${view}/engine/engine.wasm;${view}/page/page.html")
+
   find_package(CLI11 REQUIRED)
   add_floor(cli STATIC)
-  target_link_libraries(maxwrench_cli PUBLIC maxwrench_benchmarks maxwrench_drawing
+  target_link_libraries(maxwrench_cli PUBLIC maxwrench_benchmarks maxwrench_view
     PRIVATE CLI11::CLI11 nlohmann_json::nlohmann_json fmt::fmt)
   target_precompile_headers(maxwrench_cli PRIVATE <CLI/CLI.hpp> <fmt/format.h> <functional> <filesystem>)
   # It talks; half the build time is saved.

@@ -1,5 +1,5 @@
 set(maxwrench_python_sources
-  src/answer_state.cpp src/answers.cpp src/arrays.cpp src/background.cpp src/capability.cpp src/errors.cpp src/evaluations.cpp
+  src/answer_state.cpp src/answers.cpp src/arrays.cpp src/background.cpp src/capability.cpp src/errors.cpp src/evaluations.cpp src/explanations.cpp
   src/linear_programs.cpp src/module.cpp src/paths.cpp src/poses.cpp src/proofs.cpp src/robots.cpp src/solve.cpp src/strategies.cpp src/tank.cpp
   src/tasks.cpp src/words.cpp src/wrench_sets.cpp)
 set(maxwrench_python_modules

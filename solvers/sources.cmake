@@ -5,6 +5,8 @@ set(maxwrench_solvers_sources
   certify/bound/multiplier_program.cpp certify/bound/pure_bound.cpp
   certify/box_tree.cpp certify/certify.cpp certify/good_postures.cpp certify/halving.cpp certify/proof.cpp
   certify/proof_recorder.cpp
+  explain/best_posture.cpp explain/efforts.cpp explain/exits.cpp explain/explain.cpp explain/explanation_json.cpp
+  explain/explanation_text.cpp explain/instants.cpp explain/limits.cpp
   integrator/runge_kutta.cpp
   lp/elastic.cpp
   lp/exact/exact_basis.cpp lp/exact/rational_elimination.cpp

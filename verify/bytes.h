@@ -1,6 +1,5 @@
 #pragma once
 
-#include <bit>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -15,7 +14,7 @@ class ByteWriter {
   void whole(std::uint64_t x, int bytes) {
     for (int i = 0; i < bytes; ++i) text_.push_back(static_cast<char>(x >> (8 * i) & 0xff));
   }
-  void real(double x) { whole(std::bit_cast<std::uint64_t>(x), 8); }
+  void real(double x) { whole(Eigen::numext::bit_cast<std::uint64_t>(x), 8); }
   void count(Eigen::Index n) { whole(static_cast<std::uint64_t>(n), 8); }
   void words(const std::string& text) {
     count(static_cast<Eigen::Index>(text.size()));
@@ -49,7 +48,7 @@ class ByteReader {
     text_.remove_prefix(static_cast<std::size_t>(bytes));
     return x;
   }
-  double real() { return std::bit_cast<double>(whole(8)); }
+  double real() { return Eigen::numext::bit_cast<double>(whole(8)); }
   /// The number of elements that follow, of at least `bytes` bytes each.
   std::size_t count(std::size_t bytes) {
     const std::uint64_t n = whole(8);
@@ -67,6 +66,16 @@ class ByteReader {
     good_ = whole(8) == 1 && good_;
     for (double& x : v) x = real();
     return v;
+  }
+  Eigen::MatrixXd matrix() {
+    constexpr std::uint64_t kMost = 1U << 24U;  // the product of two does not overflow
+    const std::uint64_t rows = whole(8), columns = whole(8);
+    good_ = good_ && rows <= kMost && columns <= kMost &&
+            rows * columns <= text_.size() / sizeof(double);
+    if (!good_) return {};
+    Eigen::MatrixXd M(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
+    for (double& x : M.reshaped()) x = real();
+    return M;
   }
   bool good() const { return good_; }
   bool at_end() const { return good_ && text_.empty(); }

@@ -4,6 +4,7 @@
 #include "benchmarks/tables/write_file.h"
 #include "cli/cli.h"
 #include "cli/output.h"
+#include "cli/task/explain_option.h"
 #include "cli/task/motion_options.h"
 #include "cli/task/problem_options.h"
 #include "cli/task/state.h"
@@ -20,6 +21,7 @@ struct EvalOptions : CommonOptions {
   bool ignore_collision = false;
   MotionOptions motion;
   ProblemOptions source;
+  ExplainOption explain;
 };
 
 /// Writes the linear program of the posture or trajectory, if there is one.
@@ -64,7 +66,7 @@ int eval(const EvalOptions& options) {
   if (!options.write.empty()) require_program(how);
   const Answer answer = answer_of(problem, options, how);
   if (!options.write.empty()) write_program(options, answer);
-  return report(answer, options.json);
+  return options.explain.report(answer, options.json);
 }
 
 }  // namespace
@@ -78,6 +80,7 @@ void add_eval(CLI::App& app, int& exit_status) {
   add_theta_r(command, options->theta_r);
   options->motion.add(command);
   options->source.add(command);
+  options->explain.add(command);
   for (const char* joints : {"--joints", "--posture"}) {
     command.get_option(joints)->excludes(command.get_option("--theta-r"));
   }
@@ -88,8 +91,9 @@ void add_eval(CLI::App& app, int& exit_status) {
   CLI::Option& state = *command.add_option(
       "--state", options->state,
       "print M, tau_d and J for the motion in this file instead of a capability");
-  for (const char* other : {"--theta-r", "--measure", "--wrench", "--solver", "--write",
-                            "--ignore-collision", "--scheme", "--t-h", "--joints", "--posture"}) {
+  for (const char* other :
+       {"--theta-r", "--measure", "--wrench", "--solver", "--write", "--ignore-collision",
+        "--scheme", "--t-h", "--joints", "--posture", "--explain"}) {
     state.excludes(command.get_option(other));
   }
   command.callback([options, &exit_status] { exit_status = eval(*options); });

@@ -7,6 +7,7 @@
 #include "cli/ctrl_c.h"
 #include "cli/output.h"
 #include "cli/progress.h"
+#include "cli/task/explain_option.h"
 #include "cli/task/motion_options.h"
 #include "cli/task/problem_options.h"
 #include "maxwrench/load.h"
@@ -18,6 +19,7 @@ struct SolveOptions : CommonOptions {
   MotionOptions motion;
   ProblemOptions source;
   std::string out;
+  ExplainOption explain;
 };
 
 int solve(const SolveOptions& options, const Problem& problem) {
@@ -32,7 +34,7 @@ int solve(const SolveOptions& options, const Problem& problem) {
   if (!options.out.empty() && answer.has_posture()) {
     write_file(options.out, knots_csv(problem, answer.trajectory.knots));
   }
-  return report(answer, options.json);
+  return options.explain.report(answer, options.json);
 }
 
 }  // namespace
@@ -45,6 +47,7 @@ void add_solve(CLI::App& app, int& exit_status) {
   options->add_search(command);
   options->motion.add(command);
   options->source.add(command);
+  options->explain.add(command);
   options->add_threads(command);
   options->add_json(command);
   command.add_option("--out", options->out, "CSV file for the table of theta_r")

@@ -12,7 +12,7 @@ import strategies
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SOURCE = ROOT / "build/docs/source"
 COPIED = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff", "docs", "problems", "results", "examples", "benchmarks/suites",
-          "benchmarks/slurm"]
+          "benchmarks/slurm", "view/engine/README.md"]
 FOLDERS = ["examples", "results"]
 LINK = re.compile(r"(?<=\]\()([^)#: ]+)(?=[)#])")
 
@@ -62,11 +62,11 @@ def first_page(readme):
     """The start of the README, and the table of contents. The rest of the README is the page overview."""
     start, rest = readme.split("\n## ", 1)
     contents = {
-        "Use it": ["overview.md", "docs/install.md", "docs/command.md", "docs/python.md", "docs/own_robot.md", "docs/robot_files.md", "docs/tank.md",
+        "Use it": ["overview.md", "docs/install.md", "docs/command.md", "docs/python.md", "docs/own_robot.md", "docs/robot_files.md", "docs/tank.md", "docs/view.md",
                    "gallery.md"],
         "How it works": ["docs/glossary.md", "docs/algorithms.md", "docs/benchmarks.md"],
         "Reference": ["reference/python.md", "reference/cpp.md"],
-        "Project": ["CONTRIBUTING.md", "CHANGELOG.md", "reports.md"],
+        "Project": ["CONTRIBUTING.md", "CHANGELOG.md", "view/engine/README.md", "reports.md"],
     }
     trees = "".join(toctree(pages, caption) for caption, pages in contents.items())
     return start + "\n" + trees, "# Overview\n\n## " + rest

@@ -36,6 +36,16 @@ MatrixXd pseudo_inverse(const MatrixXd& A) {
   return Eigen::CompleteOrthogonalDecomposition<MatrixXd>(A).pseudoInverse();
 }
 
+Svd svd(const MatrixXd& A) {
+  const Eigen::JacobiSVD<MatrixXd> found(A, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return {found.matrixU(), found.singularValues(), found.matrixV()};
+}
+
+Eigen::Index Svd::rank(double threshold) const {
+  return values.size() == 0 || values[0] == 0 ? 0
+                                              : (values.array() >= threshold * values[0]).count();
+}
+
 Eigen::VectorXd singular_values(const MatrixXd& A) {
   return Eigen::JacobiSVD<MatrixXd>(A).singularValues();
 }

@@ -55,6 +55,18 @@ Split split(const Eigen::MatrixXd& A, double threshold = -1);
 /// The Moore-Penrose inverse A^+.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& A);
 
+/// A = U S V', A m×n: U m×m, V n×n, and the diagonal of S in decreasing order.
+struct Svd {
+  Eigen::MatrixXd U;
+  Eigen::VectorXd values;
+  Eigen::MatrixXd V;
+
+  /// The number of singular values above this share of the largest.
+  Eigen::Index rank(double threshold) const;
+};
+
+Svd svd(const Eigen::MatrixXd& A);
+
 /// In decreasing order.
 Eigen::VectorXd singular_values(const Eigen::MatrixXd& A);
 

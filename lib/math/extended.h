@@ -9,9 +9,11 @@
 namespace maxwrench {
 
 using Extended = long double;
+#ifndef __EMSCRIPTEN__  // where there are no bounds
 static_assert(std::numeric_limits<Extended>::is_iec559 &&
                   std::numeric_limits<Extended>::digits == 64,
               "bounds: the terms of rounding need a long double of 64 digits, as x86 has");
+#endif
 
 }  // namespace maxwrench
 

@@ -193,6 +193,8 @@ const Eigen::VectorXd& FacetProgram::w_max() const { return workspace_->program.
 const Eigen::VectorXd& FacetProgram::row_min() const { return workspace_->row_min; }
 const Eigen::VectorXd& FacetProgram::row_max() const { return workspace_->row_max; }
 const Eigen::VectorXd& FacetProgram::row_unit() const { return workspace_->row_unit; }
+const std::vector<int>& FacetProgram::pairs() const { return workspace_->pairs; }
+const std::vector<int>& FacetProgram::following() const { return workspace_->following; }
 
 int FacetProgram::ik_solutions(const Eigen::VectorXd& theta_r) {
   Workspace& ws = *workspace_;

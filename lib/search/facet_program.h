@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "maxwrench/objective.h"
 
@@ -35,7 +36,9 @@ class FacetProgram {
   const Eigen::VectorXd& w_max() const;    ///< k
   const Eigen::VectorXd& row_min() const;  ///< for clearances one nanometre
   const Eigen::VectorXd& row_max() const;
-  const Eigen::VectorXd& row_unit() const;  ///< half the width of a row; 0.1 m for a clearance
+  const Eigen::VectorXd& row_unit() const;    ///< half the width of a row; 0.1 m for a clearance
+  const std::vector<int>& pairs() const;      ///< of the rows of clearances, see `CollisionChecker`
+  const std::vector<int>& following() const;  ///< of the rows of dependent joints
 
   /// The number of postures at theta_r that are valid apart from collisions.
   int ik_solutions(const Eigen::VectorXd& theta_r);

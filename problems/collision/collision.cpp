@@ -1,54 +1,15 @@
 #include "problems/collision/collision.h"
 
-#include <fcl/geometry/shape/box.h>
-#include <fcl/geometry/shape/capsule.h>
-#include <fcl/geometry/shape/cylinder.h>
-#include <fcl/geometry/shape/sphere.h>
-#include <fcl/narrowphase/collision.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "problems/collision/distance.h"
 #include "problems/collision/gjk.h"
+#include "problems/collision/grown_shape.h"
 #include "problems/collision/shapes.h"
 
 namespace maxwrench {
 namespace {
-
-using Geometry = fcl::CollisionGeometryd;
-
-/// The FCL shape that contains every point within `margin` of the shape.
-std::shared_ptr<const Geometry> grown(const Shape& shape, double margin) {
-  const double r = shape.radius + margin;
-  const double length = 2 * shape.half_length;
-  const Eigen::Vector3d sides = 2 * (shape.half_sizes.array() + margin).matrix();
-  switch (shape.kind) {
-    case Shape::Kind::kCapsule:
-      if (length == 0) return std::make_shared<fcl::Sphered>(r);
-      return std::make_shared<fcl::Capsuled>(r, length);
-    case Shape::Kind::kCylinder:
-      return std::make_shared<fcl::Cylinderd>(r, length + 2 * margin);
-    case Shape::Kind::kBox:
-    case Shape::Kind::kHull:  // is not given to FCL
-      break;
-  }
-  return std::make_shared<fcl::Boxd>(sides.x(), sides.y(), sides.z());
-}
-
-fcl::Transform3d to_fcl(const Pose<double>& pose) {
-  fcl::Transform3d transform = fcl::Transform3d::Identity();
-  transform.linear() = pose.R;
-  transform.translation() = pose.p;
-  return transform;
-}
-
-bool intersect(const Geometry& a, const Pose<double>& pose_a, const Geometry& b,
-               const Pose<double>& pose_b) {
-  const fcl::CollisionRequestd request;  // only whether they collide, by libccd
-  fcl::CollisionResultd result;
-  return fcl::collide(&a, to_fcl(pose_a), &b, to_fcl(pose_b), request, result) > 0;
-}
 
 /// A shape at the pose of its link.
 struct Placed {
@@ -97,22 +58,22 @@ Between capsule_to_box(const Placed& at, const Shape& box, const Pose<double>& b
 enum class Test {
   kFormula,  ///< a closed formula of capsules and boxes
   kGjk,      ///< pairs with a hull
-  kFcl       ///< all others
+  kGrown     ///< all others: whether they intersect, one of them grown by the margin
 };
 
 Test test_of(const Shape& a, const Shape& b) {
   const auto any = [&](Shape::Kind kind) { return is(a, kind) || is(b, kind); };
   if (any(Shape::Kind::kHull)) return Test::kGjk;
   const bool formula = any(Shape::Kind::kCapsule) && !any(Shape::Kind::kCylinder);
-  return formula ? Test::kFormula : Test::kFcl;
+  return formula ? Test::kFormula : Test::kGrown;
 }
 
-/// Two shapes on different links, with their FCL shapes if FCL tests them.
+/// Two shapes on different links, with their grown shapes if these are tested.
 struct Pair {
   int a, b;
   Test test;
   double reach;  ///< shapes whose centres are farther apart than this cannot collide
-  std::shared_ptr<const Geometry> geometry_a, geometry_b;
+  std::shared_ptr<const GrownShape> grown_a, grown_b;
 };
 
 Pair make_pair(const std::vector<Shape>& shapes, int i, int j, double margin) {
@@ -120,10 +81,10 @@ Pair make_pair(const std::vector<Shape>& shapes, int i, int j, double margin) {
   const Shape& b = shapes[static_cast<std::size_t>(j)];
   Pair pair{i,       j,      test_of(a, b), bounding_radius(a) + bounding_radius(b) + margin,
             nullptr, nullptr};
-  if (pair.test != Test::kFcl) return pair;
+  if (pair.test != Test::kGrown) return pair;
   const bool grow_b = is(b, Shape::Kind::kCapsule);  // growing a capsule is exact
-  pair.geometry_a = grown(a, grow_b ? 0 : margin);
-  pair.geometry_b = grown(b, grow_b ? margin : 0);
+  pair.grown_a = make_grown_shape(a, grow_b ? 0 : margin);
+  pair.grown_b = make_grown_shape(b, grow_b ? margin : 0);
   return pair;
 }
 
@@ -136,10 +97,13 @@ bool closer_by_formula(const Shape& a, const Placed& at_a, const Shape& b, const
 
 class ShapePairs : public CollisionChecker {
  public:
-  /// Cheap tests come first: formulas, then GJK, then FCL, each several times as expensive. Then
-  /// pairs with a large reach come first, because they are more likely to collide.
-  ShapePairs(std::vector<Shape> shapes, std::vector<Pair> pairs, double margin)
-      : shapes_(std::move(shapes)), pairs_(std::move(pairs)), margin_(margin) {
+  /// Cheap tests come first: formulas, then GJK, then grown shapes, each several times as
+  /// expensive. Then pairs with a large reach come first, because they are more likely to collide.
+  ShapePairs(Collision made_of, std::vector<Pair> pairs)
+      : shapes_(std::move(made_of.shapes)),
+        ignore_(std::move(made_of.ignore)),
+        pairs_(std::move(pairs)),
+        margin_(made_of.margin) {
     std::stable_sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
       return a.test != b.test ? a.test < b.test : a.reach > b.reach;
     });
@@ -174,7 +138,7 @@ class ShapePairs : public CollisionChecker {
   bool nearest(const std::vector<Pose<double>>& links, int i,
                ClosestPoints& result) const override {
     const Pair& pair = pairs_[index(i)];
-    if (pair.test == Test::kFcl) return false;
+    if (pair.test == Test::kGrown) return false;
     if (pair.test == Test::kGjk) return nearest_by_gjk(links, pair, result);
     const bool box_first = is(shapes_[index(pair.a)], Shape::Kind::kBox);
     const Shape& a = shapes_[index(box_first ? pair.b : pair.a)];  // a capsule
@@ -209,6 +173,8 @@ class ShapePairs : public CollisionChecker {
     return shapes_[index(pair.a)].body + " and " + shapes_[index(pair.b)].body;
   }
 
+  Collision made_of() const { return {shapes_, ignore_, margin_}; }
+
  private:
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
@@ -219,10 +185,10 @@ class ShapePairs : public CollisionChecker {
         return closer_by_formula(shapes_[a], at_a, shapes_[b], at_b, margin_);
       case Test::kGjk:
         return closer_than(cores_[a].core, at_a.pose, cores_[b].core, at_b.pose, apart(pair));
-      case Test::kFcl:
+      case Test::kGrown:
         break;
     }
-    return intersect(*pair.geometry_a, at_a.pose, *pair.geometry_b, at_b.pose);
+    return pair.grown_a->intersects(at_a.pose, *pair.grown_b, at_b.pose);
   }
 
   /// The distance of the cores at which the shapes are as near as the margin.
@@ -241,6 +207,7 @@ class ShapePairs : public CollisionChecker {
   }
 
   std::vector<Shape> shapes_;
+  std::vector<std::pair<std::string, std::string>> ignore_;
   std::vector<Placed> fixed_;   ///< the placed shapes of the base
   std::vector<bool> oriented_;  ///< whether a shape's test needs its rotation
   std::vector<RoundedCore> cores_;
@@ -270,7 +237,14 @@ std::shared_ptr<const CollisionChecker> make_collision_checker(
     }
   }
   if (pairs.empty()) return nullptr;
-  return std::make_shared<ShapePairs>(std::move(shapes), std::move(pairs), margin);
+  return std::make_shared<ShapePairs>(Collision{std::move(shapes), ignore, margin},
+                                      std::move(pairs));
+}
+
+std::optional<Collision> made_of(const CollisionChecker& checker) {
+  const auto* const pairs = dynamic_cast<const ShapePairs*>(&checker);
+  if (!pairs) return std::nullopt;
+  return pairs->made_of();
 }
 
 }  // namespace maxwrench

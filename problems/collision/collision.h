@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,5 +23,9 @@ namespace maxwrench {
 std::shared_ptr<const CollisionChecker> make_collision_checker(
     std::vector<Shape> shapes, const std::vector<std::pair<std::string, std::string>>& ignore,
     double margin);
+
+/// The shapes, ignored pairs and margin from which `make_collision_checker` makes the same checker.
+/// None if it did not make this one.
+std::optional<Collision> made_of(const CollisionChecker& checker);
 
 }  // namespace maxwrench

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "lib/math/fnv.h"
 #include "maxwrench/load.h"
 #include "maxwrench/task.h"
 #include "problems/loader/bad_input.h"
@@ -140,20 +141,13 @@ void read_pose(const Block& task, TaskSpec& spec) {
 
 /// FNV-1a of the sizes and the bytes of files, then of a text, as 16 hexadecimal digits.
 std::string digest_of(const std::vector<fs::path>& files, const std::string& words) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  const auto add = [&hash](std::string_view text) {
-    for (const char byte : text) {
-      hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
-    }
-  };
+  std::uint64_t hash = fnv1a("");
   for (const fs::path& file : files) {
     std::ifstream stream = open_file(file, "the file that was read a moment ago");
     const std::string text(std::istreambuf_iterator<char>(stream), {});
-    add(fmt::format("{}:", text.size()));
-    add(text);
+    hash = fnv1a(text, fnv1a(fmt::format("{}:", text.size()), hash));
   }
-  add(words);
-  return fmt::format("{:016x}", hash);
+  return fmt::format("{:016x}", fnv1a(words, hash));
 }
 
 /// What tells tasks of one URDF apart, with all digits.

@@ -38,6 +38,8 @@ class UrdfElement {
   /// The same for three numbers.
   Eigen::Vector3d vector(const char* name,
                          const std::optional<Eigen::Vector3d>& otherwise = {}) const;
+  /// `count` finite numbers. Rejects any other value and a missing attribute.
+  Eigen::VectorXd numbers(const char* name, int count) const;
 
   /// Throws the error of `bad_input.h` about this element or, if `attribute` is not empty, about
   /// that attribute.
@@ -45,8 +47,6 @@ class UrdfElement {
                                     std::string_view expected) const;
 
  private:
-  Eigen::VectorXd numbers(const char* name, int count) const;
-
   const std::filesystem::path* file_;
   const tinyxml2::XMLElement* xml_;
   std::string key_;

@@ -201,6 +201,7 @@ UrdfStructure read_structure(const fs::path& file, tinyxml2::XMLDocument& docume
     structure.joints.push_back(joint.with_name());
     structure.joints_from[end_of(joint, "parent")].push_back(structure.joints.back());
   }
+  structure.materials = read_materials(robot);
   count_ignored(*document.FirstChildElement("robot"), notes);
   return structure;
 }

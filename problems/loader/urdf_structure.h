@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "problems/loader/urdf_element.h"
+#include "problems/loader/urdf_visual.h"
 
 namespace maxwrench {
 
@@ -17,6 +18,7 @@ struct UrdfStructure {
   std::vector<UrdfElement> joints;  ///< in the order of the file
   /// The joints from each link to its children, in the order of the file.
   std::map<std::string, std::vector<UrdfElement>> joints_from;
+  Materials materials;
 };
 
 /// The element <robot> of a URDF or SRDF file. Rejects a file that is not XML.

@@ -72,6 +72,12 @@ void add_link(Reading& reading, const UrdfElement& link, const Body& body) {
     shape->placement = body.placement * shape->placement;
     reading.tree.shapes.push_back(std::move(*shape));
   }
+  for (Visual& visual :
+       read_visuals(link, reading.structure.materials, reading.meshes.shapes, reading.tree.notes)) {
+    visual.link = body.link;
+    visual.placement = body.placement * visual.placement;
+    reading.tree.visuals.push_back(std::move(visual));
+  }
 }
 
 /// The pose of a locked joint's link in axes of the joint.

@@ -8,6 +8,7 @@
 #include "maxwrench/task.h"
 #include "problems/loader/urdf_choices.h"
 #include "problems/loader/urdf_element.h"
+#include "problems/loader/visuals.h"
 
 namespace maxwrench {
 
@@ -27,6 +28,7 @@ struct UrdfTree {
   std::map<std::string, Body> bodies;  ///< by name of the URDF link
   std::vector<std::string> leaves;     ///< the URDF links without children that a joint moves
   std::vector<Shape> shapes;
+  std::vector<Visual> visuals;
   std::vector<std::string> warnings, notes, files;  ///< as in `Robot`
   std::vector<DataFault> no_dynamics;               ///< likewise
 };

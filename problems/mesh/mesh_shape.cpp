@@ -7,7 +7,6 @@
 
 #include "problems/make/bad_value.h"
 #include "problems/mesh/capsule.h"
-#include "problems/mesh/find_mesh.h"
 #include "problems/mesh/hull.h"
 #include "problems/mesh/mesh_text.h"
 #include "problems/mesh/read_mesh.h"
@@ -68,7 +67,7 @@ MeshShape MeshShapes::shape(const std::string& uri, const Eigen::Vector3d& scale
   const auto [entry, added] =
       known_.emplace(Key{uri, scale.x(), scale.y(), scale.z(), use}, MeshShape{});
   if (!added) return entry->second;
-  const FoundMesh found = find_mesh(uri, urdf_, packages_);
+  const FoundMesh found = find(uri);
   if (found.file.empty()) {
     const std::string where = found.tried.empty()
                                   ? "expected a path, file://, package:// or model://"

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "maxwrench/task.h"
+#include "problems/mesh/find_mesh.h"
 
 namespace maxwrench {
 
@@ -40,6 +41,9 @@ class MeshShapes {
   /// A mesh that is missing or damaged is no error but has no shape. `use` is not kIgnore.
   /// Throws BadValue with the key "scale" if the scale is not three finite numbers other than zero.
   MeshShape shape(const std::string& uri, const Eigen::Vector3d& scale, MeshUse use);
+
+  /// Where the mesh with this name in the URDF is.
+  FoundMesh find(const std::string& uri) const { return find_mesh(uri, urdf_, packages_); }
 
  private:
   using Key = std::tuple<std::string, double, double, double, MeshUse>;

@@ -2,6 +2,7 @@
 
 #include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
+#include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
@@ -64,39 +65,70 @@ class MeshFiles : public Assimp::IOSystem {
   std::vector<std::unique_ptr<std::string>> buffers_;
 };
 
-/// Collects the vertices of a scene in its own axes.
+/// Collects the parts of a scene in its own axes.
 class Collector {
  public:
-  Collector(const std::filesystem::path& file, const aiScene& scene) : file_(file), scene_(scene) {}
+  Collector(const std::filesystem::path& file, const aiScene& scene, bool coloured)
+      : file_(file), scene_(scene), coloured_(coloured) {}
 
   void visit(const aiNode& node, const aiMatrix4x4t<double>& parent) {
     const aiMatrix4x4t<double> pose = parent * aiMatrix4x4t<double>(node.mTransformation);
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
       const aiMesh& mesh = *scene_.mMeshes[node.mMeshes[i]];
-      if (mesh.mVertices == nullptr) continue;
-      if (vertices.size() + mesh.mNumVertices > kMostVertices) {
-        throw_bad_mesh(file_, fmt::format("more than {} vertices", kMostVertices),
-                       "fewer vertices");
-      }
-      for (unsigned k = 0; k < mesh.mNumVertices; ++k) add(pose, mesh.mVertices[k]);
+      if (mesh.mVertices != nullptr) add(pose, mesh);
     }
     for (unsigned i = 0; i < node.mNumChildren; ++i) visit(*node.mChildren[i], pose);
   }
 
-  std::vector<Eigen::Vector3d> vertices;
+  std::vector<Triangles> parts;
 
  private:
-  void add(const aiMatrix4x4t<double>& pose, const aiVector3D& at) {
+  void add(const aiMatrix4x4t<double>& pose, const aiMesh& mesh) {
+    vertices_ += mesh.mNumVertices;
+    if (vertices_ > kMostVertices) {
+      throw_bad_mesh(file_, fmt::format("more than {} vertices", kMostVertices), "fewer vertices");
+    }
+    Triangles& part = part_of(mesh);
+    const auto first = static_cast<int>(part.points.size());
+    for (unsigned k = 0; k < mesh.mNumVertices; ++k) add(pose, mesh.mVertices[k], part);
+    for (unsigned k = 0; k < mesh.mNumFaces; ++k) add(first, mesh.mFaces[k], part);
+  }
+
+  void add(const aiMatrix4x4t<double>& pose, const aiVector3D& at, Triangles& part) {
     const aiVector3t<double> moved = pose * aiVector3t<double>(at.x, at.y, at.z);
     const Eigen::Vector3d x(moved.x, moved.y, moved.z);
     if (!x.allFinite()) {
       throw_bad_mesh(file_, fmt::format("vertex {}", shown(x)), "finite numbers");
     }
-    vertices.push_back(x);
+    part.points.push_back(x);
+  }
+
+  static void add(int first, const aiFace& face, Triangles& part) {
+    const auto corner = [&](unsigned i) { return first + static_cast<int>(face.mIndices[i]); };
+    for (unsigned i = 2; i < face.mNumIndices; ++i) {
+      part.triangles.emplace_back(corner(0), corner(i - 1), corner(i));
+    }
+  }
+
+  /// The part with the colour of the mesh, which is added if it is new.
+  Triangles& part_of(const aiMesh& mesh) {
+    std::optional<std::array<double, 3>> colour;
+    aiColor4D given;
+    if (coloured_ && mesh.mMaterialIndex < scene_.mNumMaterials &&
+        aiGetMaterialColor(scene_.mMaterials[mesh.mMaterialIndex], AI_MATKEY_COLOR_DIFFUSE,
+                           &given) == AI_SUCCESS) {
+      const Eigen::Array3d rgb = Eigen::Array3d(given.r, given.g, given.b).max(0).min(1);
+      if (rgb.allFinite()) colour = {rgb[0], rgb[1], rgb[2]};
+    }
+    const auto same = std::find_if(parts.begin(), parts.end(),
+                                   [&](const Triangles& part) { return part.colour == colour; });
+    return same != parts.end() ? *same : parts.emplace_back(Triangles{{}, {}, colour});
   }
 
   const std::filesystem::path& file_;
   const aiScene& scene_;
+  bool coloured_;
+  std::size_t vertices_ = 0;
 };
 
 void make_unique(std::vector<Eigen::Vector3d>& points) {
@@ -107,8 +139,8 @@ void make_unique(std::vector<Eigen::Vector3d>& points) {
   points.erase(std::unique(points.begin(), points.end()), points.end());
 }
 
-std::vector<Eigen::Vector3d> import_vertices(const std::filesystem::path& file,
-                                             const std::string& extension) {
+std::vector<Triangles> import_parts(const std::filesystem::path& file,
+                                    const std::string& extension) {
   std::string text = read_mesh_file(file);
   check_mesh_text(file, extension, text);
   Assimp::Importer importer;
@@ -120,16 +152,16 @@ std::vector<Eigen::Vector3d> import_vertices(const std::filesystem::path& file,
     std::string why = importer.GetErrorString();
     throw_bad_mesh(file, fmt::format("what Assimp cannot read ({})", why.substr(0, 120)), "a mesh");
   }
-  Collector collector(file, *scene);
+  const bool coloured = extension == ".dae" || extension == ".glb" || extension == ".gltf";
+  Collector collector(file, *scene, coloured);
   collector.visit(*scene->mRootNode, aiMatrix4x4t<double>());
-  if (collector.vertices.empty()) throw_bad_mesh(file, "no vertices", "a mesh");
-  make_unique(collector.vertices);
-  return std::move(collector.vertices);
+  if (collector.parts.empty()) throw_bad_mesh(file, "no vertices", "a mesh");
+  return std::move(collector.parts);
 }
 
 }  // namespace
 
-std::vector<Eigen::Vector3d> read_mesh(const std::filesystem::path& file) {
+std::vector<Triangles> read_parts(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -138,12 +170,21 @@ std::vector<Eigen::Vector3d> read_mesh(const std::filesystem::path& file) {
                    fmt::format("a mesh: {}", fmt::join(kFormats, ", ")));
   }
   try {
-    return import_vertices(file, extension);
+    return import_parts(file, extension);
   } catch (const std::invalid_argument&) {
     throw;
   } catch (const std::exception& error) {  // of Assimp, such as too little memory
     throw_bad_mesh(file, fmt::format("what Assimp cannot read ({})", error.what()), "a mesh");
   }
+}
+
+std::vector<Eigen::Vector3d> read_mesh(const std::filesystem::path& file) {
+  std::vector<Eigen::Vector3d> points;
+  for (const Triangles& part : read_parts(file)) {
+    points.insert(points.end(), part.points.begin(), part.points.end());
+  }
+  make_unique(points);
+  return points;
 }
 
 }  // namespace maxwrench

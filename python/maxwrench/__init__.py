@@ -21,7 +21,7 @@ in the axes of the world; ``moved``, ``to_pinocchio`` and ``to_drake`` change po
 
 from . import _arguments, _core, _frames, _html, _plot
 from ._core import *  # noqa: F401,F403
-from ._core import Answer, Evaluations, Path, Pose, Robot, Task, __version__
+from ._core import Answer, Evaluations, Explanation, Path, Pose, Robot, Task, __version__
 from ._frames import from_drake, from_pinocchio, moved, to_drake, to_pinocchio
 from ._errors import SearchEnded
 from ._progress import progress
@@ -33,6 +33,7 @@ from ._table import table
 for _name, _function in list(vars(_core).items()):
     if not _name.startswith("_") and not isinstance(_function, type) and callable(_function):
         globals()[_name] = _arguments.checked(_function)
+_arguments.check_class(Answer, methods=["explain"])
 _arguments.check_class(Pose, methods=["__init__"], static=["from_matrix"])
 _arguments.check_class(Path, methods=["at"], static=["spline", "screw"])
 _arguments.check_class(Robot, static=["from_urdf", "from_toml"])
@@ -41,6 +42,7 @@ _arguments.check_class(Task, methods=["with_limits"])
 Answer.plot = _plot.plot_answer
 Answer.wrench_at = _frames.wrench
 Answer._repr_html_ = _html.answer_html
+Explanation._repr_html_ = _html.explanation_html
 Robot._repr_html_ = _html.robot_html
 Task._repr_html_ = _html.task_html
 Evaluations._repr_html_ = _html.evaluations_html
@@ -51,8 +53,10 @@ __all__ = [
     "Ellipsoid",
     "Evaluations",
     "Experiment",
+    "Explanation",
     "Impulse",
     "InputError",
+    "Limit",
     "LpAnswer",
     "Measure",
     "MissingFileError",

@@ -29,6 +29,25 @@ def answer_html(answer):
     return _table(answer.task.name, rows)
 
 
+def explanation_html(explanation):
+    """Returns an Explanation as an HTML table: the limits that bind, the budget and what is missing.
+
+    >>> "rate" in maxwrench.solve("planar/force").explain()._repr_html_()
+    True
+    """
+    rows = [] if np.isnan(explanation.beta) else [("beta", _number(explanation.beta, explanation.unit))]
+    rows += [(f"{limit.name} {limit.side}", _limit(limit)) for limit in explanation.limits]
+    if explanation.limits:
+        rows += [(f"share of {name}", _number(v, explanation.unit)) for name, v in explanation.budget.items()]
+    rows += [(f"best posture: {limit.name} {limit.side}", _limit(limit)) for limit in explanation.best]
+    for t, limits in explanation.instants:
+        rows += [(f"{t:g} s: {limit.name} {limit.side}", _limit(limit)) for limit in limits]
+    if explanation.u is not None:
+        rows.append(("least efforts", _numbers(explanation.u)))
+    rows += [(f"no {name}", why) for name, why in explanation.missing.items() if why]
+    return _table(explanation.task.name, rows)
+
+
 def robot_html(robot):
     """Returns a Robot as an HTML table: base, limits of joints and actuators, warnings.
 
@@ -92,6 +111,16 @@ def _efforts(answer):
     robot = answer.task.robot
     efforts = zip(robot.actuator_names, answer.u, robot.u_min, robot.u_max)
     return [(f"u {n}", f"{u:.4g} of {low:.4g} .. {high:.4g}") for n, u, low, high in efforts]
+
+
+def _limit(limit):
+    """A limit with its rate and, where they are known, what more of it gives and where the rate holds."""
+    text = f"at {limit.limit:.4g} {limit.unit}, rate {limit.rate:.5g}"
+    if np.isfinite(limit.gain):
+        text += f", 10 % more gives {limit.gain:.5g}"
+    if not np.isnan(limit.up):
+        text += f", holds from {limit.limit - limit.down:.5g} to {limit.limit + limit.up:.5g}"
+    return text
 
 
 def _number(value, unit=""):

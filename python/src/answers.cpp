@@ -315,6 +315,7 @@ does not exist is None.
       .def("__repr__", &repr_of_answer)
       .def(py::pickle(&answer_state, &answer_from_state));
   add_effort(answer);
+  add_explain(answer);
 }
 
 }  // namespace maxwrench::python

@@ -14,6 +14,7 @@ PYBIND11_MODULE(_core, m) {
   python::add_robots(m);
   python::add_paths(m);
   python::add_tasks(m);
+  python::add_explanations(m);
   python::add_answers(m);
   python::add_evaluations(m);
   python::add_solve(m);

@@ -55,6 +55,8 @@ py::tuple answer_state(const PyAnswer& self);
 PyAnswer answer_from_state(const py::tuple& state);
 /// The homogeneous matrix of a pose (4×4).
 RowMatrix matrix_of(const Pose<double>& pose);
+/// Adds the method `explain`.
+void add_explain(py::class_<PyAnswer>& answer);
 /// [x y z roll pitch yaw] of the base in the world, then the joints.
 Eigen::VectorXd theta_of(const Pose<double>& base, const Eigen::VectorXd& q);
 
@@ -64,6 +66,7 @@ void add_poses(py::module_& m);
 void add_robots(py::module_& m);
 void add_paths(py::module_& m);
 void add_tasks(py::module_& m);
+void add_explanations(py::module_& m);
 void add_answers(py::module_& m);
 void add_solve(py::module_& m);
 void add_evaluations(py::module_& m);

@@ -14,6 +14,9 @@ OBJECTS = {
     "robot": lambda: mw.load("mobile/push").robot,
     "task": lambda: mw.load("uvms/valve"),
     "task in time": lambda: IN_TIME,
+    "explanation": lambda: mw.solve("planar/force", budget=500).explain(),
+    "explanation without value": lambda: mw.evaluate("uvms/valve", [0, 0, 0, 0]).explain(),
+    "explanation in time": lambda: mw.evaluate(IN_TIME, IN_TIME.theta_r_default).explain(),
     "evaluations": lambda: mw.evaluate("planar/force", [[0, 0], [0.3, 0.1]]),
     "evaluations without value": lambda: mw.evaluate("uvms/valve", [[0, 0, 0, 0]]),
 }

@@ -27,5 +27,6 @@ def test_methods_of_the_compiled_classes():
         (mw.Robot, ("_repr_html_",)),
         (mw.Task, ("_repr_html_",)),
         (mw.Evaluations, ("_repr_html_",)),
+        (mw.Explanation, ("_repr_html_",)),
     ):
         assert all(callable(getattr(owner, name)) for name in names)

@@ -15,35 +15,26 @@ namespace {
 constexpr double kCounts = 1e-3;  ///< a significant multiplier: share of the largest, or of the sum
 constexpr std::size_t kMostLimits = 6, kMostInstants = 6;
 
-struct BindingLimit {
+struct WorthyLimit {
   double worth;  ///< multiplier times the width of the limits [N or N m]
   std::string text;
 };
 
-/// The value gained per unit by raising the limits of u_j at block i (positive: the upper limit).
-Eigen::VectorXd effort_prices(const Robot& robot, const TrajectorySolution& solution,
-                              Eigen::Index i) {
-  Eigen::VectorXd prices = -robot.actuation.B.transpose() * solution.lambda.col(i);
-  if (i > 0) prices -= solution.mu.col(i - 1);
-  if (i < solution.mu.cols()) prices += solution.mu.col(i);
-  return prices;
-}
-
 /// The significant limits, largest effect first.
-std::vector<BindingLimit> dearest_first(std::vector<BindingLimit> limits) {
+std::vector<WorthyLimit> dearest_first(std::vector<WorthyLimit> limits) {
   std::stable_sort(limits.begin(), limits.end(),
                    [](const auto& a, const auto& b) { return a.worth > b.worth; });
-  std::erase_if(limits, [most = limits.front().worth](const BindingLimit& limit) {
+  std::erase_if(limits, [most = limits.front().worth](const WorthyLimit& limit) {
     return !(limit.worth > kCounts * most);
   });
   return limits;
 }
 
-std::vector<BindingLimit> limits_at(const Answer& answer, Eigen::Index i) {
+std::vector<WorthyLimit> limits_at(const Answer& answer, Eigen::Index i) {
   const Robot& robot = answer.task->robot;
   const TrajectorySolution& solution = answer.trajectory.solution;
   const Zonotope& set = robot.actuation;
-  std::vector<BindingLimit> limits;
+  std::vector<WorthyLimit> limits;
   const Eigen::VectorXd prices = effort_prices(robot, solution, i);
   for (Eigen::Index j = 0; j < prices.size(); ++j) {
     const bool upper = prices[j] > 0;
@@ -65,9 +56,9 @@ std::vector<BindingLimit> limits_at(const Answer& answer, Eigen::Index i) {
   return dearest_first(std::move(limits));
 }
 
-std::string describe(const std::vector<BindingLimit>& limits) {
+std::string describe(const std::vector<WorthyLimit>& limits) {
   std::vector<std::string> texts;
-  for (const BindingLimit& limit : limits) {
+  for (const WorthyLimit& limit : limits) {
     if (texts.size() < kMostLimits) texts.push_back(limit.text);
   }
   const std::size_t more = limits.size() - texts.size();
@@ -76,6 +67,14 @@ std::string describe(const std::vector<BindingLimit>& limits) {
 }
 
 }  // namespace
+
+Eigen::VectorXd effort_prices(const Robot& robot, const TrajectorySolution& solution,
+                              Eigen::Index i) {
+  Eigen::VectorXd prices = -robot.actuation.B.transpose() * solution.lambda.col(i);
+  if (i > 0) prices -= solution.mu.col(i - 1);
+  if (i < solution.mu.cols()) prices += solution.mu.col(i);
+  return prices;
+}
 
 std::vector<std::string> binding_limits(const Answer& answer) {
   const Eigen::VectorXd& pi = answer.trajectory.solution.pi;
@@ -100,7 +99,7 @@ std::vector<std::string> binding_limits(const Answer& answer) {
 std::string dearest_efforts(const Answer& answer) {
   const Robot& robot = answer.task->robot;
   const Zonotope& set = robot.actuation;
-  std::vector<BindingLimit> limits;
+  std::vector<WorthyLimit> limits;
   for (Eigen::Index j = 0; j < set.u_min.size(); ++j)
     limits.push_back({0, actuator_name(robot, j)});
   for (Eigen::Index i = 0; i < answer.trajectory.solution.lambda.cols(); ++i) {

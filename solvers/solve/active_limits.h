@@ -9,6 +9,12 @@ namespace maxwrench {
 
 struct Answer;
 struct Trajectory;
+struct TrajectorySolution;
+
+/// The value gained per unit by raising the limits of each effort at block i of a trajectory's
+/// program (positive: the upper limit; negative: the lower one), m numbers.
+Eigen::VectorXd effort_prices(const Robot& robot, const TrajectorySolution& solution,
+                              Eigen::Index i);
 
 /// One line for each of the worst instants of a trajectory that has a value (the peak of an
 /// impulse). It lists the limits of efforts, and of their rates there, with significant

@@ -92,26 +92,13 @@ Method resolve_static(const Problem& problem, const Case& c) {
   }
   Method method;
   method.choice = c;
-  const MeasureEntry& measure = find_measure(c.measure);
-  method.measure = &measure;
   if (!c.search.empty()) method.search = find_search(c.search);
-  const auto served = solvers_for(measure, problem, c.wrench);
-  if (served.empty()) {
-    throw std::invalid_argument(fmt::format(
-        "wrench: got 'any', which measure {} does not support, expected pure", c.measure));
-  }
-  const WrenchSolverEntry* solver = choose_solver(served, problem, c);
-  method.choice.solver = name_of(solver);
+  const LowerLevel lower = resolve_lower_level(problem, c);
+  method.measure = lower.measure;
+  method.choice.solver = lower.solver;
+  method.unit = lower.unit;
+  method.make_measure = lower.make_measure;
   if (method.search) method.trajectory_solver = trajectory_solver_of(problem, method.choice);
-  if (!serves_limits(measure, problem)) {
-    throw std::invalid_argument("measure: got " + c.measure +
-                                ", expected one with a solver: a closed form supports only zero "
-                                "and infinity as limits of contact.basis");
-  }
-  method.unit = measure.unit ? measure.unit : problem.unit();
-  method.make_measure = [&problem, &measure, solver] {
-    return measure.make(problem, solver ? solver->make() : nullptr);
-  };
   const MeasureEntry& beta_linf = find_measure("linf_polytope");
   const WrenchSolverEntry& reference = find_wrench_solver("simplex");
   method.make_beta_linf = [&problem, &beta_linf, &reference] {
@@ -149,6 +136,25 @@ Method resolve_in_time(const Problem& problem, const Case& c) {
 }
 
 }  // namespace
+
+LowerLevel resolve_lower_level(const Problem& problem, const Case& c) {
+  const MeasureEntry& measure = find_measure(c.measure);
+  const auto served = solvers_for(measure, problem, c.wrench);
+  if (served.empty()) {
+    throw std::invalid_argument(fmt::format(
+        "wrench: got 'any', which measure {} does not support, expected pure", c.measure));
+  }
+  const WrenchSolverEntry* solver = choose_solver(served, problem, c);
+  if (!serves_limits(measure, problem)) {
+    throw std::invalid_argument("measure: got " + c.measure +
+                                ", expected one with a solver: a closed form supports only zero "
+                                "and infinity as limits of contact.basis");
+  }
+  return {&measure, name_of(solver), measure.unit ? measure.unit : problem.unit(),
+          [&problem, &measure, solver] {
+            return measure.make(problem, solver ? solver->make() : nullptr);
+          }};
+}
 
 bool serves_as_trajectory(const Problem& problem, const std::string& measure) {
   return measure == Case().measure && !problem.contact && problem.free.count() == 0;

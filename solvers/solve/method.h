@@ -36,6 +36,19 @@ struct Method {
   MeasureMaker make_beta_linf;
 };
 
+/// How the postures of a static task are evaluated, without any search.
+struct LowerLevel {
+  const MeasureEntry* measure = nullptr;
+  const char* solver = "";  ///< the name of the solver, `kNoSolver` for a closed form
+  const char* unit = "";    ///< of the value
+  MeasureMaker make_measure;
+};
+
+/// Resolves measure, wrench and solver of a case of a static task, which must outlive the result.
+/// Throws std::invalid_argument as `resolve`.
+LowerLevel resolve_lower_level(const Problem& problem, const Case& c);
+LowerLevel resolve_lower_level(const Problem&& problem, const Case& c) = delete;
+
 /// Whether trajectory searches support a static task, as a trajectory of one knot: only with
 /// linf_polytope and without a second contact.
 bool serves_as_trajectory(const Problem& problem, const std::string& measure);
@@ -64,6 +77,10 @@ int thread_count(int threads);
 
 /// Whether the residual of a result with efforts is small enough to count as solved.
 bool satisfies_program(const Capability& capability);
+
+/// How an evaluation with a measure ended: with a result of the measure that satisfies its program,
+/// or why not. For an invalid posture the reason is that of `describe_violation`.
+Verdict verdict_of(const Problem& problem, const Posture& posture, const Capability& capability);
 
 /// Replaces the scheme of a task in time. Throws std::invalid_argument, which names `key`, unless
 /// the problem is a task in time that has a scheme of this name.

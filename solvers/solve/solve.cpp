@@ -64,17 +64,6 @@ Trajectory one_instant(const Problem& task, const Posture& posture, const Capabi
   return trajectory;
 }
 
-/// Sets the status of an answer whose posture and capability are set.
-void conclude_posture(Answer& answer) {
-  const bool valid = answer.posture.status == Status::kValid;
-  static_cast<Verdict&>(answer) = valid ? Verdict(answer.capability) : Verdict(answer.posture);
-  if (!valid) answer.reason = describe_violation(*answer.task, answer.posture);
-  if (answer.status != Status::kOptimal) return;
-  if (!satisfies_program(answer.capability)) {
-    answer.conclude(Status::kNumericalError, "the answer does not satisfy its program");
-  }
-}
-
 /// Fills the rest of an answer with a status, posture and capability.
 void complete_posture(const Method& method, const Eigen::VectorXd& gradient,
                       Clock::time_point start, Answer& answer) {
@@ -101,7 +90,7 @@ void evaluate_at(const Method& method, const Eigen::VectorXd& theta_r, Answer& a
     measure->differentiate(answer.posture, program, answer.capability);
     model.pull_back(theta_r, answer.capability, gradient);
   }
-  conclude_posture(answer);
+  static_cast<Verdict&>(answer) = verdict_of(task, answer.posture, answer.capability);
   complete_posture(method, gradient, start, answer);
 }
 
@@ -192,6 +181,19 @@ bool satisfies_program(const Capability& capability) {
   return capability.residual.within(kAnswerTolerance * (1 + std::abs(capability.beta)));
 }
 
+Verdict verdict_of(const Problem& problem, const Posture& posture, const Capability& capability) {
+  if (posture.status != Status::kValid) {
+    Verdict verdict = posture;
+    verdict.reason = describe_violation(problem, posture);
+    return verdict;
+  }
+  Verdict verdict = capability;
+  if (verdict.status == Status::kOptimal && !satisfies_program(capability)) {
+    verdict.conclude(Status::kNumericalError, "the answer does not satisfy its program");
+  }
+  return verdict;
+}
+
 bool Answer::has_value() const {
   return answered() ||
          (status == Status::kBudgetExhausted && trajectory.status == Status::kOptimal);
@@ -233,7 +235,7 @@ Answer evaluate_posture(const Problem& task, const Eigen::VectorXd& q, const Opt
       measure->differentiate(answer.posture, program, answer.capability);
     }
   }
-  conclude_posture(answer);
+  static_cast<Verdict&>(answer) = verdict_of(*held, answer.posture, answer.capability);
   complete_posture(method, {}, start, answer);
   return answer;
 }

@@ -1,8 +1,9 @@
 #include "solvers/trajectory/even_efforts.h"
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <cmath>
+
+#include "lib/math/decompositions.h"
 
 namespace maxwrench {
 namespace {
@@ -19,8 +20,7 @@ bool EvenEfforts::prepare(const Zonotope& set) {
   basis_.clear();
   Z_.resize(set.actuators(), 1);
   if (!set.full_row_rank()) return false;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(set.B, Eigen::ComputeFullV);
-  Z_ = svd.matrixV().rightCols(set.actuators() - set.rank);
+  Z_ = svd(set.B).V.rightCols(set.actuators() - set.rank);
   const Eigen::Index q = Z_.cols();
   if (q == 0) return true;
   if (q > kMostMoves) return false;

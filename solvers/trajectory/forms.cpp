@@ -1,9 +1,9 @@
 #include "solvers/trajectory/forms.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
+#include "lib/math/decompositions.h"
 #include "solvers/trajectory/small_blocks.h"
 
 namespace maxwrench {
@@ -19,9 +19,9 @@ void Forms::build(const TrajectoryProgram& program, bool with_rates, bool with_s
   actuation_ = &set;
   if (B_.rows() != set.B.rows() || B_.cols() != set.B.cols() || B_ != set.B) {
     B_ = set.B;
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(set.B, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Z_ = svd.matrixV().rightCols(set.actuators() - set.rank);
-    P_ = svd.matrixU().rightCols(set.dimension() - set.rank);
+    const Svd parts = svd(set.B);
+    Z_ = parts.V.rightCols(set.actuators() - set.rank);
+    P_ = parts.U.rightCols(set.dimension() - set.rank);
   }
   R = &program.R;
   shape(program, with_rates, with_slacks);

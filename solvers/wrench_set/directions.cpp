@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "lib/math/decompositions.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/problem.h"
 
@@ -13,19 +14,13 @@ namespace {
 /// A singular value below this share of the largest is zero.
 constexpr double kDependent = 1e-9;
 
-Eigen::Index rank_of(const Matrix6Xd& columns) {
-  Eigen::JacobiSVD<Eigen::MatrixXd> svd(columns);
-  svd.setThreshold(kDependent);
-  return svd.rank();
-}
-
 void check_columns(const Matrix6Xd& E) {
   const auto reject = [](const std::string& got, const char* expected) {
     throw std::invalid_argument("E: got " + got + ", expected " + expected);
   };
   if (E.cols() < 1 || E.cols() > 3) reject(fmt::format("{} columns", E.cols()), "1 to 3");
   if (!E.allFinite()) reject("a value that is not a finite number", "finite numbers");
-  const Eigen::Index rank = rank_of(E);
+  const Eigen::Index rank = svd(E).rank(kDependent);
   if (rank < E.cols()) {
     reject(fmt::format("{} columns of rank {}", E.cols(), rank), "independent columns");
   }
@@ -52,10 +47,10 @@ Matrix6Xd remainder(const Matrix6Xd& W, const Matrix6Xd& E) {
   const Matrix6Xd Q =
       Eigen::HouseholderQR<Matrix6Xd>(E).householderQ() * Matrix6Xd::Identity(6, E.cols());
   const Matrix6Xd rest = W - Q * (Q.transpose() * W);
-  const Eigen::JacobiSVD<Matrix6Xd> svd(rest, Eigen::ComputeFullU);
+  const Svd parts = svd(rest);
   // W is orthonormal, so 1 is the scale of the singular values.
-  const Eigen::Index rank = (svd.singularValues().array() > kDependent).count();
-  return svd.matrixU().leftCols(rank);
+  const Eigen::Index rank = (parts.values.array() > kDependent).count();
+  return parts.U.leftCols(rank);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "lib/math/decompositions.h"
 #include "lib/measure/closed_form.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/problem.h"
@@ -45,23 +46,22 @@ void remove_free(const Eigen::MatrixXd& F, Eigen::MatrixXd& G, Eigen::VectorXd& 
 /// |G f + g| <= 1 as centre, axes and radii.
 void solve(const Eigen::MatrixXd& G, const Eigen::VectorXd& g, double scale, WrenchEllipsoid& set) {
   const Eigen::Index k = G.cols();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(G, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd s = svd.singularValues();  // in decreasing order
+  const auto [U, s, V] = svd(G);
   if (!(s[k - 1] > kUnlimited * scale)) {
-    set.ray = svd.matrixV().rightCols<1>();
+    set.ray = V.rightCols<1>();
     set.conclude(Status::kUnbounded, "no actuator limits the wrench along ray");
     return;
   }
-  const Eigen::VectorXd along = svd.matrixU().transpose() * g;
-  const double rho2 = 1 - (g - svd.matrixU() * along).squaredNorm();
+  const Eigen::VectorXd along = U.leftCols(k).transpose() * g;
+  const double rho2 = 1 - (g - U.leftCols(k) * along).squaredNorm();
   if (!(rho2 > 0)) {
     set.conclude(Status::kInfeasible,
                  "tau_d alone exceeds the ellipsoid with any wrench of the set");
     return;
   }
-  set.centre = -(svd.matrixV() * along.cwiseQuotient(s));
+  set.centre = -(V * along.cwiseQuotient(s));
   set.radii = std::sqrt(rho2) * s.cwiseInverse().reverse();
-  set.axes = svd.matrixV().rowwise().reverse();
+  set.axes = V.rowwise().reverse();
   if (set.axes.determinant() < 0) set.axes.rightCols<1>() *= -1;
   const double unit_ball[] = {2, M_PI, 4 * M_PI / 3};
   set.volume = unit_ball[k - 1] * set.radii.prod();

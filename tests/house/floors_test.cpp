@@ -14,8 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::vector<std::vector<std::string>> kFloors = {
-    {"lib"},           {"verify"},           {"solvers", "problems"}, {"drawing", "benchmarks"},
-    {"cli", "python"}, {"examples", "tests"}};
+    {"lib"},  {"verify"},        {"solvers", "problems"}, {"drawing", "benchmarks"},
+    {"view"}, {"cli", "python"}, {"examples", "tests"}};
 
 /// Public headers stand on the floor of their implementation.
 const std::map<std::string, std::string> kImplementedIn = {
@@ -23,7 +23,7 @@ const std::map<std::string, std::string> kImplementedIn = {
     {"version.h", "solvers"},    {"solve.h", "solvers"},       {"load.h", "problems"},
     {"certify.h", "solvers"},    {"verification.h", "verify"}, {"mps.h", "problems"},
     {"task.h", "problems"},      {"figures.h", "drawing"},     {"evaluations.h", "solvers"},
-    {"wrench_set.h", "solvers"}};
+    {"wrench_set.h", "solvers"}, {"explain.h", "solvers"}};
 
 /// How deep a chain of our own includes may go.
 constexpr int kMostIncludeDepth = 9;
@@ -155,7 +155,7 @@ TEST(Floors, PublicHeadersIncludeNothingPrivate) {
     }
   }
   EXPECT_GE(headers, 20);
-  EXPECT_LE(headers, 33);
+  EXPECT_LE(headers, 34);
 }
 
 int depth(const std::string& file, std::map<std::string, int>& known) {

@@ -332,7 +332,8 @@ TEST(DocsLinks, LeadSomewhere) {
 /// Files that are named by their path from the root; what is in capitals stands for a name.
 TEST(DocsPaths, Exist) {
   static const std::regex kFile(
-      "`((include|lib|solvers|problems|drawing|benchmarks|cli|examples|tests|results|docs|paper)/"
+      "`((include|lib|solvers|problems|drawing|benchmarks|view|cli|examples|tests|results|docs|"
+      "paper)/"
       "[a-z0-9_/.]*)`");
   std::vector<std::string> files = documents();
   files.emplace_back("CONTRIBUTING.md");

@@ -1,11 +1,11 @@
 #include "solvers/certify/bound/loop_posture.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
+#include "lib/math/decompositions.h"
 #include "lib/math/rotated.h"
 #include "lib/posture/free_pose.h"
 #include "lib/robot/chain.h"
@@ -76,7 +76,7 @@ double least_force(const Problem& problem) {
     forces = forces.topRows(2).eval();
   }
   if (forces.cols() > forces.rows()) return 0;
-  return forces.jacobiSvd().singularValues().minCoeff();
+  return singular_values(forces).minCoeff();
 }
 
 }  // namespace

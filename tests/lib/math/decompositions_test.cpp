@@ -94,5 +94,19 @@ TEST(Decompositions, SingularValuesAreTheRootsOfTheGramsEigenvalues) {
   });
 }
 
+TEST(Decompositions, SvdIsOrthogonalAndMultipliesToTheMatrix) {
+  at_every_shape([](Random&, const MatrixXd& A, int rank) {
+    const Svd parts = svd(A);
+    EXPECT_EQ(parts.rank(1e-10), rank);
+    MatrixXd S = MatrixXd::Zero(A.rows(), A.cols());
+    S.diagonal() = parts.values;
+    EXPECT_LT((parts.U * S * parts.V.transpose() - A).norm(), 1e-13 * (1 + A.norm()));
+    for (const MatrixXd& Q : {parts.U, parts.V}) {
+      EXPECT_LT((Q.transpose() * Q - MatrixXd::Identity(Q.rows(), Q.rows())).norm(), 1e-13);
+    }
+  });
+  EXPECT_EQ(svd(MatrixXd::Zero(3, 2)).rank(1e-10), 0);
+}
+
 }  // namespace
 }  // namespace maxwrench

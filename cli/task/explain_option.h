@@ -1,0 +1,21 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+
+namespace maxwrench {
+
+struct Answer;
+
+/// The options of what binds.
+struct ExplainOption {
+  bool explain = false;
+  std::optional<double> share;
+
+  void add(CLI::App& app);
+  /// Prints an answer as `report` does, with what binds if that is asked for; returns its exit
+  /// status.
+  int report(const Answer& answer, bool json) const;
+};
+
+}  // namespace maxwrench

@@ -1,0 +1,99 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/tables/write_file.h"
+#include "cli/cli.h"
+#include "cli/ctrl_c.h"
+#include "cli/output.h"
+#include "cli/progress.h"
+#include "cli/task/motion_options.h"
+#include "cli/task/problem_options.h"
+#include "maxwrench/load.h"
+#include "view/page.h"
+#include "view/scene/scene.h"
+
+namespace maxwrench {
+namespace {
+
+struct ViewOptions : CommonOptions {
+  std::optional<std::string> theta_r;
+  std::string out;
+  MotionOptions motion;
+  ProblemOptions source;
+};
+
+Answer find_best(const Problem& problem, Options how) {
+  static_cast<Case&>(how) = with_search(problem, how);
+  Progress progress("view", static_cast<double>(how.budget));
+  CtrlC ctrl_c;
+  how.progress = progress.counter();
+  how.interrupted = ctrl_c.asked();
+  Answer best = solve(problem, how);
+  progress.finish();
+  return best;
+}
+
+Answer evaluate_at(const Problem& problem, const std::optional<std::string>& theta_r,
+                   const Options& how) {
+  if (problem.motion) return evaluate(problem, knots_of(problem, theta_r), how);
+  return evaluate(problem, theta_r_of(problem, theta_r), how);
+}
+
+/// Returns status 1 if the best posture has no value, or the given one has none; both are shown as
+/// far as they exist. If no posture exists, there is no page.
+int view(const ViewOptions& options, const Problem& problem) {
+  const Options how = options.read_options();
+  std::vector<Shown> shown;
+  // First: a wrong table is found before the search.
+  if (options.theta_r) shown.push_back({"given", evaluate_at(problem, options.theta_r, how)});
+  shown.push_back({"default", evaluate_at(problem, {}, how)});
+  shown.insert(shown.begin(), {"best", find_best(problem, how)});
+  const std::vector<std::string>& packages = options.source.packages;
+  const std::vector<Visual> visuals =
+      read_visuals(problem.robot, {packages.begin(), packages.end()});
+  const nlohmann::ordered_json scene = scene_of(problem, visuals, shown);
+  if (scene["shown"].empty()) {
+    const Answer& last = shown.back().answer;
+    fmt::print(stderr, "{}: {}\n", to_string(last.status), last.reason.c_str());
+    return kOtherStatus;
+  }
+  const std::string page = view_page(problem, scene);
+  if (options.out.empty()) {
+    fmt::print("{}", page);
+  } else {
+    write_file(options.out, page);
+  }
+  const bool given_failed = options.theta_r && !shown[1].answer.answered();
+  return shown[0].answer.answered() && !given_failed ? kAnswered : kOtherStatus;
+}
+
+}  // namespace
+
+void add_view(CLI::App& app, int& exit_status) {
+  auto options = std::make_shared<ViewOptions>();
+  CLI::App& command = *app.add_subcommand(
+      "view", "searches as solve does, and writes one HTML file in which the robot can be turned");
+  options->add_case(command);
+  options->add_search(command);
+  add_theta_r(command, options->theta_r);
+  options->motion.add(command);
+  options->source.add(command);
+  options->add_threads(command);
+  command.add_option("--out", options->out, "HTML file to write (default: stdout)")
+      ->check(reject_empty);
+  command.callback([options, &exit_status] {
+    std::vector<NamedFile> inputs = options->source.inputs(options->choice.problem);
+    inputs.push_back({"--theta-r", options->theta_r.value_or("")});
+    require_apart(inputs, {{"--out", options->out}});
+    Problem problem = options->source.load(options->choice.problem);
+    options->motion.change(problem);
+    if (problem.motion) {
+      require_apart({{"path.file", problem.motion->path_file}}, {{"--out", options->out}});
+    }
+    exit_status = view(*options, problem);
+  });
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,55 @@
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/explain/parts.h"
+#include "solvers/solve/active_limits.h"
+#include "solvers/solve/format.h"
+
+namespace maxwrench {
+namespace {
+
+/// A multiplier below this share of the largest of all instants is rounding.
+constexpr double kLeastPrice = 1e-6;
+
+/// The limit of effort j at block i that a price belongs to. At rest before the first block, the
+/// limit of the rate may be tighter than that of the effort.
+LimitRate limit_at(const Answer& answer, Eigen::Index j, Eigen::Index i, double price) {
+  const Robot& robot = answer.task->robot;
+  const Zonotope& set = robot.actuation;
+  const bool upper = price > 0;
+  const double own = upper ? set.u_max[j] : set.u_min[j];
+  const double first = (upper ? answer.program.first_max : answer.program.first_min)[j];
+  const bool starts = i == 0 && first != own;
+  return {(starts ? "change from rest of " : "") + actuator_name(robot, j), effort_unit(robot, j),
+          upper ? LimitSide::kUpper : LimitSide::kLower, starts ? first : own, price};
+}
+
+}  // namespace
+
+void explain_instants(const Answer& answer, Explanation& explanation) {
+  const Robot& robot = answer.task->robot;
+  const TrajectorySolution& solution = answer.trajectory.solution;
+  const Eigen::Index blocks = solution.lambda.cols();
+  Eigen::MatrixXd prices(robot.actuators(), blocks);
+  for (Eigen::Index i = 0; i < blocks; ++i) prices.col(i) = effort_prices(robot, solution, i);
+  const double least = kLeastPrice * prices.cwiseAbs().maxCoeff();
+  const auto skipped = static_cast<Eigen::Index>(answer.trajectory.instants.size()) - blocks;
+  for (Eigen::Index i = 0; i < blocks; ++i) {
+    InstantLimits at{answer.trajectory.instants[static_cast<std::size_t>(i + skipped)].t, {}};
+    const auto add = [&](const LimitRate& limit) {
+      if (std::abs(limit.rate) > least && std::isfinite(limit.limit)) at.limits.push_back(limit);
+    };
+    for (Eigen::Index j = 0; j < prices.rows(); ++j) {
+      add(limit_at(answer, j, i, prices(j, i)));
+      if (i == solution.mu.cols()) continue;
+      add({"change to the next instant of " + actuator_name(robot, j), effort_unit(robot, j),
+           LimitSide::kUpper, answer.program.du_max(j, i), std::abs(solution.mu(j, i))});
+    }
+    std::stable_sort(at.limits.begin(), at.limits.end(), [](const auto& a, const auto& b) {
+      return std::abs(a.rate * a.limit) > std::abs(b.rate * b.limit);
+    });
+    if (!at.limits.empty()) explanation.instants.push_back(std::move(at));
+  }
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,55 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "maxwrench/load.h"
+#include "maxwrench/solve.h"
+#include "tests/support/changed_limits.h"
+#include "tests/support/support.h"
+
+namespace maxwrench {
+namespace {
+
+class InstantsOf : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Tasks, InstantsOf,
+                         testing::Values("uvms/valve_trajectory", "planar/trajectory",
+                                         "uvms/valve_impulse"));
+
+/// A limit counts at all instants, so the sum of its rates is the derivative of the value.
+TEST_P(InstantsOf, RatesAddUpToTheDerivativeOfTheValue) {
+  const Problem task = load_problem(GetParam());
+  const auto answer_of = [&](const Problem& changed) {
+    return evaluate(changed, constant_knots(task, task.theta_r_default));
+  };
+  const Answer answer = answer_of(task);
+  ASSERT_TRUE(answer.has_value()) << answer.reason.c_str();
+  const Explanation explanation = explain(answer);
+  EXPECT_EQ(explanation.missing, "");
+  ASSERT_FALSE(explanation.instants.empty());
+  EXPECT_TRUE(explanation.limits.empty());
+  EXPECT_EQ(explanation.efforts.missing, "the task is in time");
+  std::map<std::pair<std::string, LimitSide>, std::pair<double, double>> sums;  // limit, rate
+  for (const InstantLimits& instant : explanation.instants) {
+    ASSERT_FALSE(instant.limits.empty());
+    for (const LimitRate& limit : instant.limits) {
+      sums[{limit.name, limit.side}].first = limit.limit;
+      sums[{limit.name, limit.side}].second += limit.rate;
+    }
+  }
+  for (const auto& [which, sum] : sums) {
+    const auto& [limit, rate] = sum;
+    const Eigen::Index i = actuator_named(task.robot, which.first);
+    if (i < 0) continue;  // a rate of an effort
+    const double step = 1e-5 * std::abs(limit);
+    const double up = answer_of(with_limit(task, i, which.second, limit + step)).beta();
+    const double down = answer_of(with_limit(task, i, which.second, limit - step)).beta();
+    const double least = std::min(up - answer.beta(), answer.beta() - down) / step;
+    const double most = std::max(up - answer.beta(), answer.beta() - down) / step;
+    EXPECT_GE(rate, least - 1e-4 * (1 + std::abs(least))) << which.first;
+    EXPECT_LE(rate, most + 1e-4 * (1 + std::abs(most))) << which.first;
+  }
+}
+
+}  // namespace
+}  // namespace maxwrench

@@ -1,0 +1,152 @@
+// check.mjs MAXWRENCH OUT [TASK...]: pages of `maxwrench view` in headless Chromium at 1280 and 390 px, light and dark. Every control is moved, and the values
+// are those of `maxwrench eval`. Pages and screenshots stand in OUT, for people to look at.
+import { spawnSync } from "node:child_process";
+import { mkdirSync, statSync } from "node:fs";
+import { resolve } from "node:path";
+import { Browser } from "./browser.mjs";
+
+const [command, folder, ...chosen] = process.argv.slice(2);
+const out = resolve(folder);
+mkdirSync(out, { recursive: true });
+
+const kTasks = chosen.length ? chosen : ["uvms/valve", "uvms/valve_trajectory", "dual_arm/two_arms", "mobile/push", "planar/force", "fixed/push"];
+const kSizes = [{ width: 1280, height: 800, scheme: "light" }, { width: 390, height: 844, scheme: "dark" }];
+const kMostBytes = 4e6;
+
+let passed = 0;
+const failed = [];
+function check(holds, what) {
+  if (holds) ++passed;
+  else failed.push(what);
+  if (!holds) console.log(`failed: ${what}`);
+}
+
+/** The output of the command; its status is 1 where there is no value. */
+function run(...words) {
+  const { status, stdout, stderr } = spawnSync(command, words, { encoding: "utf8", maxBuffer: 1e8 });
+  if (status !== 0 && status !== 1) throw new Error(`maxwrench ${words.join(" ")}: ${stderr}`);
+  return stdout;
+}
+const evaluate = (task, theta) => JSON.parse(run("eval", task, "--json", ...(theta ? ["--theta-r", theta.join(",")] : [])));
+const near = (a, b) => Math.abs(a - b) <= 1e-9 * (1 + Math.abs(b));
+
+const beta = (page) => page.evaluate("Number(document.getElementById('beta').dataset.value)");
+const click = (page, id) => page.evaluate(`document.getElementById("${id}").click()`);
+const slide = (page, id, value) =>
+  page.evaluate(`(() => { const input = document.getElementById("${id}"); input.value = ${value}; input.dispatchEvent(new Event("input", {bubbles: true})); })()`);
+
+async function checkLayout(page, name, width) {
+  check(await page.evaluate(`document.documentElement.scrollWidth <= ${width}`), `${name}: nothing is too wide`);
+  const unnamed = await page.evaluate(`[...document.querySelectorAll("button, input")].filter((e) => !(e.textContent.trim() || e.ariaLabel || e.labels?.length)).length`);
+  check(unnamed === 0, `${name}: every control has a name`);
+  const scene = await page.evaluate("JSON.parse(document.getElementById('scene').textContent).robot.actuators.length");
+  check((await page.evaluate("document.querySelectorAll('#efforts li').length")) === scene, `${name}: all efforts are listed`);
+}
+
+async function checkPostures(page, task, name) {
+  const shown = await page.evaluate("JSON.parse(document.getElementById('scene').textContent).shown.map((s) => ({name: s.name, theta: s.frames[0].theta_r, beta: s.frames[0].beta}))");
+  for (const each of shown) {
+    await click(page, `posture-${each.name}`);
+    check(near(await beta(page), each.beta), `${name}: ${each.name} has its value`);
+    if (task.includes("trajectory")) continue;
+    check(near(await beta(page), evaluate(task, each.theta).beta), `${name}: ${each.name} has the value of eval`);
+  }
+}
+
+async function checkSwitches(page, name) {
+  const ids = await page.evaluate("[...document.querySelectorAll('#show input[type=checkbox]')].map((input) => input.id)");
+  for (const id of ids) {
+    const before = await page.evaluate(`document.getElementById("${id}").checked`);
+    await click(page, id);
+    check((await page.evaluate(`document.getElementById("${id}").checked`)) !== before, `${name}: ${id} switches`);
+    await click(page, id);
+  }
+  await slide(page, "scale", 1);
+  await slide(page, "scale", 0);
+  const theme = "document.documentElement.dataset.theme";
+  const before = await page.evaluate(theme);
+  await click(page, "theme");
+  check((await page.evaluate(theme)) !== before, `${name}: the theme switches`);
+  await click(page, "theme");
+  for (const key of ["ArrowLeft", "ArrowUp", "+", "-", "1", "2", " ", " ", "Home"]) {
+    await page.evaluate(`document.getElementById("canvas").dispatchEvent(new KeyboardEvent("keydown", {key: "${key}", bubbles: true}))`);
+  }
+  await page.evaluate("document.querySelector('#efforts li').dispatchEvent(new PointerEvent('pointerenter'))");
+  check(await page.evaluate("document.querySelector('#efforts li').classList.contains('lit')"), `${name}: an effort lights up`);
+  await page.evaluate("document.querySelector('#efforts li').dispatchEvent(new PointerEvent('pointerleave'))");
+  await click(page, "png");
+  await click(page, "link");
+  check(await page.evaluate("location.hash.includes('camera=')"), `${name}: the link holds the view`);
+}
+
+/** With the engine: a slider moves the robot, and the value is that of the command. */
+async function checkSliders(page, task, name) {
+  const count = await page.evaluate("document.querySelectorAll('#coordinates input:not(:disabled)').length");
+  for (let i = 0; i < count; ++i) {
+    const [low, high, at] = await page.evaluate(`["min", "max", "value"].map((key) => Number(document.getElementById("theta-${i}")[key]))`);
+    await slide(page, `theta-${i}`, at + 0.02 * (at > (low + high) / 2 ? low - at : high - at));
+    const theta = await page.evaluate("[...document.querySelectorAll('#coordinates input')].map((input) => Number(input.value))");
+    const expected = evaluate(task, theta);
+    const value = await beta(page);
+    const close = (a, b) => Math.abs(a - b) <= 1e-6 * (1 + Math.abs(b));
+    // Of several IK solutions the page stays on one, and the command takes the best one.
+    const right = expected.beta === null ? !Number.isFinite(value)
+      : expected.ik_solutions.valid > 1 ? value < expected.beta || close(value, expected.beta) : close(value, expected.beta);
+    check(right, `${name}: slider ${i}: ${value}, eval has ${expected.beta}`);
+  }
+}
+
+async function checkTime(page, name) {
+  const links = "JSON.parse(document.getElementById('scene').textContent).shown[0].frames.map((f) => [f.t, f.beta])";
+  const frames = await page.evaluate(links);
+  await click(page, "posture-best");
+  for (const [t, value] of [frames[0], frames[Math.floor(frames.length / 2)], frames[frames.length - 1]]) {
+    await slide(page, "instant", t);
+    check(near(await beta(page), value), `${name}: the value at ${t} s`);
+  }
+  await slide(page, "instant", 0);
+  await click(page, "play");
+  await page.until("Number(document.getElementById('instant').value) > 0.05");
+  await click(page, "play");
+  check((await page.evaluate("document.getElementById('play').ariaLabel")) === "Play", `${name}: it pauses`);
+  check((await page.evaluate("document.querySelectorAll('#curves svg').length")) === 3, `${name}: value, efforts and rates have curves`);
+  await slide(page, "instant", frames[0][0]);
+}
+
+async function checkPage(browser, task, size) {
+  const file = `${out}/${task.replace("/", "_")}`;
+  const name = `${task} at ${size.width} px`;
+  const page = await browser.open(`file://${file}.html`, size);
+  check((await page.evaluate("document.documentElement.dataset.theme")) === size.scheme, `${name}: the system's scheme`);
+  await page.screenshot(`${file}_${size.width}.png`);
+  await checkLayout(page, name, size.width);
+  await checkPostures(page, task, name);
+  if (size.width > 1000) {
+    const first = await page.picture();
+    await page.evaluate("document.getElementById('canvas').dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowLeft', bubbles: true}))");
+    check((await page.picture()) !== first, `${name}: the picture turns`);
+  }
+  await checkSwitches(page, name);
+  if (task.includes("trajectory")) await checkTime(page, name);
+  else await checkSliders(page, task, name);
+  check(page.faults.length === 0, `${name}: no error: ${page.faults.join("; ")}`);
+  check(page.requests.every((url) => url.startsWith(`file://${file}.html`)), `${name}: nothing is loaded: ${page.requests.join(", ")}`);
+  await page.close();
+}
+
+for (const task of kTasks) {
+  const file = `${out}/${task.replace("/", "_")}.html`;
+  const start = Date.now();
+  run("view", task, "--budget", "3000", "--out", file);
+  const bytes = statSync(file).size;
+  check(bytes < kMostBytes, `${task}: ${bytes} bytes`);
+  console.log(`${task}: ${(bytes / 1e6).toFixed(2)} MB in ${((Date.now() - start) / 1000).toFixed(1)} s`);
+}
+const browser = new Browser();
+try {
+  for (const task of kTasks) for (const size of kSizes) await checkPage(browser, task, size);
+} finally {
+  await browser.close();
+}
+console.log(`${passed} checks passed, ${failed.length} failed; pages and pictures are in ${out}`);
+process.exitCode = failed.length ? 1 : 0;

@@ -1,0 +1,159 @@
+// Prints tasks as the engine reads them, random postures, and the native results there, as JSON.
+// view/engine/check compares the engine with them.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "maxwrench/load.h"
+#include "maxwrench/solve.h"
+#include "maxwrench/strategies.h"
+#include "solvers/solve/method.h"
+#include "tests/support/coded_tasks.h"
+#include "tests/support/support.h"
+#include "view/engine/problem_data.h"
+
+namespace maxwrench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kPostures = 100;
+/// The number of postures that each measure is evaluated at, beside linf_polytope.
+constexpr int kPosturesOfOthers = 10;
+
+Json list(const Eigen::MatrixXd& M) {
+  Json numbers = Json::array();
+  for (Eigen::Index i = 0; i < M.rows(); ++i) {
+    for (Eigen::Index j = 0; j < M.cols(); ++j) numbers.push_back(M(i, j));
+  }
+  return numbers;
+}
+
+Json list(const Pose<double>& pose) {
+  Eigen::Matrix<double, 3, 4> matrix;
+  matrix << pose.R, pose.p;
+  return list(matrix);
+}
+
+std::string hexadecimal(const std::string& bytes) {
+  std::string text;
+  for (const char byte : bytes) text += fmt::format("{:02x}", static_cast<unsigned char>(byte));
+  return text;
+}
+
+/// A task with cylinders and boxes, which FCL tests and the engine cannot leave to it.
+Problem with_cylinders() {
+  Collision collision = vehicle_shapes();
+  Shape wide = capsule(2);
+  wide.body = "wide";
+  wide.kind = Shape::Kind::kCylinder;
+  wide.placement.p.y() = -0.03;
+  wide.radius = 0.03;
+  Shape box = wide;
+  box.body = "box";
+  box.kind = Shape::Kind::kBox;
+  box.half_sizes = {0.02, 0.02, 0.05};
+  box.placement.p.y() = 0.03;
+  Shape post = capsule(0);
+  post.body = "post";
+  post.kind = Shape::Kind::kCylinder;
+  post.placement.p = {0.35, 0.2, 0};
+  collision.shapes.insert(collision.shapes.end(), {wide, box, post});
+  collision.ignore = {{"hull", "link_1"},
+                      {"link_1", "link_2"},
+                      {"link_1", "wide"},
+                      {"link_1", "box"},
+                      {"post", "link_1"}};
+  TaskSpec task = push(finalize(vehicle(), collision));
+  task.name = "vehicle with cylinders";
+  return make_problem(task);
+}
+
+Json case_at(const Problem& problem, const Eigen::VectorXd& theta_r, const Options& options) {
+  const Answer answer = evaluate(problem, theta_r, options);
+  const Posture& posture = answer.posture;
+  Json links = Json::array();
+  for (const Pose<double>& link : posture.links) {
+    for (const Json& number : list(posture.base * link)) links.push_back(number);
+  }
+  Json result = {{"measure", options.measure},
+                 {"wrench", to_string(options.wrench)},
+                 {"collision", options.check_collision},
+                 {"theta_r", list(theta_r)},
+                 {"status", to_string(answer.status)},
+                 {"reason", answer.reason.str()},
+                 {"solutions", posture.ik_solutions.valid()},
+                 {"theta", list(posture.q)},
+                 {"tau_d", list(posture.tau_d)},
+                 {"links", links}};
+  if (answer.status != Status::kOptimal) return result;
+  const Capability& capability = answer.capability;
+  result["beta"] = answer.beta();
+  result["unit"] = answer.unit;
+  result["gradient"] = list(answer.trajectory.gradient);
+  result["lambda"] = list(capability.lambda);
+  result["u"] = list(capability.u);
+  result["h"] = capability.w.size() > 0 ? list(capability.h) : Json::array();
+  result["end_effector"] = list(answer.trajectory.instants[0].end_effector);
+  result["J"] = list(posture.J);
+  result["J_2"] = list(posture.J_2);
+  return result;
+}
+
+std::vector<Options> choices_of(const Problem& problem) {
+  std::vector<Options> choices;
+  for (const MeasureEntry& measure : measures()) {
+    for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
+      Options options;
+      options.measure = measure.name;
+      options.wrench = wrench;
+      try {
+        resolve_lower_level(problem, options).make_measure();
+      } catch (const std::invalid_argument&) {
+        continue;
+      }
+      choices.push_back(options);
+    }
+  }
+  return choices;
+}
+
+Json cases_of(const Problem& problem) {
+  Json cases = Json::array();
+  Random random(7);
+  const std::vector<Options> choices = choices_of(problem);
+  for (int i = 0; i < kPostures; ++i) {
+    const Eigen::VectorXd theta_r = random_theta_r(problem, random);
+    for (Options options : choices) {
+      const bool polytope = options.measure == Case().measure;
+      if (!polytope && i >= kPosturesOfOthers) continue;
+      cases.push_back(case_at(problem, theta_r, options));
+      options.check_collision = false;
+      if (polytope) cases.push_back(case_at(problem, theta_r, options));
+    }
+  }
+  return {{"name", problem.name},
+          {"data", hexadecimal(problem_data(problem))},
+          {"B", list(problem.robot.actuation.B)},
+          {"u_min", list(problem.robot.actuation.u_min)},
+          {"u_max", list(problem.robot.actuation.u_max)},
+          {"cases", cases}};
+}
+
+}  // namespace
+}  // namespace maxwrench
+
+int main() {
+  using namespace maxwrench;
+  Json tasks = Json::array();
+  for (const char* name :
+       {"uvms/valve", "uvms/lift", "dual_arm/two_arms", "mobile/push", "fixed/push", "planar/force",
+        "planar/two_arms", "mobile/push_any_height"}) {
+    tasks.push_back(cases_of(load_problem(name)));
+  }
+  tasks.push_back(cases_of(with_cylinders()));
+  std::puts(tasks.dump().c_str());
+}

@@ -1,0 +1,18 @@
+import { App } from "./app.js";
+import { addControls } from "./controls.js";
+import { byId } from "./dom.js";
+import { engineOf } from "./engine.js";
+
+async function start() {
+  const scene = JSON.parse(byId("scene").textContent);
+  const app = new App(scene, await engineOf(scene));
+  addControls(app);
+  app.restore(location.hash);
+  document.documentElement.dataset.ready = "yes";
+}
+
+start().catch((error) => {
+  byId("failed").hidden = false;
+  byId("failed").textContent = `The page cannot be shown: ${error.message}. It needs a browser with WebGL 2.`;
+  throw error;
+});

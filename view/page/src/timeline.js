@@ -1,0 +1,128 @@
+// The time of a trajectory: play, pause, scrub, and curves with the same cursor.
+import { byId, make } from "./dom.js";
+import { shareOf } from "./efforts.js";
+import { shown, words } from "./format.js";
+
+const kWidth = 300;
+const kHeight = 96;
+
+/** The curves of a trajectory: value, efforts and rates. */
+function plotsOf(scene, frames) {
+  const { actuators, joints } = scene.robot;
+  const signed = (actuator, u) => Math.sign(u) * shareOf(actuator, u);
+  const first = frames[0].v.length - joints.length;
+  const speeds = joints.flatMap((joint, j) =>
+    joint.rate ? [{ name: `speed of ${words(joint.name)}`, actuator: actuators.length - joints.length + j, values: frames.map((f) => f.v[first + j] / joint.rate) }] : []);
+  const rates = actuators.flatMap((actuator, i) => {
+    if (!actuator.rate || !frames[0].u.length) return [];
+    const values = frames.map((f, k) => {
+      const [a, b] = [frames[Math.max(k - 1, 0)], frames[Math.min(k, frames.length - 1)]];
+      return b.t > a.t ? (b.u[i] - a.u[i]) / (b.t - a.t) / actuator.rate : 0;
+    });
+    return [{ name: `rate of ${words(actuator.name)}`, actuator: i, values, dashed: true }];
+  });
+  return [
+    { title: `wrench along c [${scene.task.unit}]`, zero: true, curves: [{ name: "wrench along c", values: frames.map((f) => f.beta ?? NaN), bold: true }] },
+    { title: "efforts / limits", range: [-1, 1], curves: frames[0].u.length ? actuators.map((a, i) => ({ name: words(a.name), actuator: i, values: frames.map((f) => signed(a, f.u[i])) })) : [] },
+    { title: "speeds and effort rates / limits", range: [-1, 1], curves: [...speeds, ...rates] },
+  ];
+}
+
+export class Timeline {
+  constructor(scene, frames, act) {
+    this.act = act;
+    this.scene = scene;
+    byId("time").hidden = false;
+    this.play = byId("play");
+    this.slider = byId("instant");
+    this.play.addEventListener("click", () => this.toggle());
+    this.slider.addEventListener("input", () => {
+      this.pause();
+      act.goTo(Number(this.slider.value));
+    });
+    this.setFrames(frames);
+  }
+
+  setFrames(frames) {
+    this.frames = frames;
+    this.end = frames[frames.length - 1].t;
+    this.slider.max = this.end;
+    const known = (curve) => curve.values.every(Number.isFinite);
+    this.plots = plotsOf(this.scene, frames).map((plot) => ({ ...plot, curves: plot.curves.filter(known) })).filter((plot) => plot.curves.length);
+    byId("curves").replaceChildren(...this.plots.map((plot) => this.draw(plot)));
+  }
+
+  draw(plot) {
+    const values = plot.curves.flatMap((curve) => curve.values).filter(Number.isFinite);
+    let [low, high] = plot.range ?? [0, Math.max(...values, 1e-9) * 1.15];
+    if (plot.zero) low = Math.min(0, ...values);
+    const x = (t) => (t / this.end) * kWidth;
+    const y = (value) => kHeight - ((value - low) / (high - low)) * kHeight;
+    const grid = [low, (low + high) / 2, high].map((value) => make("line", { x1: 0, x2: kWidth, y1: y(value), y2: y(value), class: "grid" }));
+    const curves = plot.curves.map((curve, i) => {
+      const path = make("path", {
+        d: curve.values.map((value, k) => `${k ? "L" : "M"}${x(this.frames[k].t).toFixed(2)} ${y(Math.min(Math.max(value, low), high)).toFixed(2)}`).join(""),
+        class: `curve${curve.bold ? " bold" : ""}${curve.dashed ? " dashed" : ""}`, style: curve.bold ? "" : `--hue: ${(i * 47) % 360}`,
+        "data-actuator": curve.actuator,
+        onpointerenter: () => curve.actuator !== undefined && this.act.highlight(curve.actuator), onpointerleave: () => this.act.highlight(-1),
+      });
+      path.append(Object.assign(document.createElementNS("http://www.w3.org/2000/svg", "title"), { textContent: curve.name }));
+      return path;
+    });
+    plot.cursor = make("line", { y1: 0, y2: kHeight, class: "cursor" });
+    plot.x = x;
+    const svg = make("svg", {
+      viewBox: `0 0 ${kWidth} ${kHeight}`, preserveAspectRatio: "none", role: "img", "aria-label": `${plot.title} over time`,
+      onpointerdown: (event) => this.scrub(event), onpointermove: (event) => event.buttons && this.scrub(event),
+    }, ...grid, ...curves, plot.cursor);
+    const range = make("figcaption", {}, plot.title, make("small", {}, `${shown(low, 3)} \u2026 ${shown(high, 3)}`));
+    return make("figure", {}, range, svg);
+  }
+
+  scrub(event) {
+    const box = event.currentTarget.getBoundingClientRect();
+    this.pause();
+    this.act.goTo(Math.min(Math.max(((event.clientX - box.left) / box.width) * this.end, 0), this.end));
+  }
+
+  set(t) {
+    this.t = t;
+    this.slider.value = t;
+    this.slider.setAttribute("aria-valuetext", `${shown(t, 3)} s`);
+    byId("clock").textContent = `${t.toFixed(2)} / ${this.end.toFixed(2)} s`;
+    for (const plot of this.plots) {
+      plot.cursor.setAttribute("x1", plot.x(t));
+      plot.cursor.setAttribute("x2", plot.x(t));
+    }
+  }
+
+  highlight(i) {
+    for (const path of byId("curves").querySelectorAll("path")) path.classList.toggle("lit", i >= 0 && path.dataset.actuator === String(i));
+  }
+
+  toggle() {
+    if (this.playing) return this.pause();
+    if (this.t >= this.end) this.act.goTo(0);
+    this.label("Pause");
+    let last = performance.now();
+    const step = (now) => {
+      const t = Math.min(this.t + Math.max(now - last, 0) / 1000, this.end);
+      last = now;
+      this.act.goTo(t);
+      if (t < this.end) this.playing = requestAnimationFrame(step);
+      else this.pause();
+    };
+    this.playing = requestAnimationFrame(step);
+  }
+
+  pause() {
+    if (this.playing) cancelAnimationFrame(this.playing);
+    this.playing = undefined;
+    this.label("Play");
+  }
+
+  label(text) {
+    this.play.textContent = text === "Play" ? "\u25b6" : "\u275a\u275a";
+    this.play.setAttribute("aria-label", text);
+  }
+}

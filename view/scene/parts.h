@@ -1,0 +1,42 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "maxwrench/solve.h"
+#include "problems/loader/visuals.h"
+
+// Parts of a scene.
+
+namespace maxwrench {
+
+/// A pose as a 3x4 matrix by rows.
+nlohmann::ordered_json matrix_json(const Pose<double>& pose);
+
+/// The number with six digits, for what is only drawn.
+double drawn(double value);
+/// The columns one after the other, as `drawn`.
+nlohmann::ordered_json drawn_columns(const Eigen::MatrixXd& columns);
+
+/// The bodies of each link in its axes: its visuals, else its convex bodies. A link without either
+/// is the bars from its origin to its joints and end effectors; a bare base with thrusters is
+/// what encloses these and the joints.
+nlohmann::ordered_json bodies_json(const Robot& robot, const std::vector<Visual>& visuals);
+
+/// The parts of a mesh in its own axes, thinned out: lower corner and extent of the box around it,
+/// points as 16-bit shares of that box, and indices of points, both in base64; its own colour if
+/// it has one. Empty if the mesh cannot be read.
+std::vector<nlohmann::ordered_json> mesh_json(const Visual& visual);
+
+/// Links, joints, thrusters, actuators and end effectors.
+nlohmann::ordered_json robot_json(const Robot& robot, const std::vector<Visual>& visuals);
+
+/// What the robot is and does at each instant of an answer; a static task has one. The members are
+/// those that the engine of pages returns, and for instants also `t` and `v`.
+nlohmann::ordered_json frames_json(const Answer& answer);
+
+/// The set of forces, or of torques if c is a torque, as a polytope and an ellipsoid. Null if c is
+/// neither, or there is no such set.
+nlohmann::ordered_json wrench_sets_json(const Problem& task, const Posture& posture,
+                                        const Case& choice);
+
+}  // namespace maxwrench

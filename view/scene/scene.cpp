@@ -1,0 +1,85 @@
+#include "view/scene/scene.h"
+
+#include <array>
+
+#include "maxwrench/version.h"
+#include "solvers/solve/format.h"
+#include "view/scene/parts.h"
+
+namespace maxwrench {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json coordinate_json(const Problem& problem, int i) {
+  return {{"name", problem.theta_r_name(i)},
+          {"unit", problem.theta_r_unit(i)},
+          {"min", problem.theta_r_min[i]},
+          {"max", problem.theta_r_max[i]},
+          {"default", problem.theta_r_default[i]}};
+}
+
+/// The surface of the second contact, within the limits of the regrasp coordinates.
+ordered_json contact_json(const Problem& problem) {
+  static constexpr std::array kSurfaces = {"point", "line", "plane", "circle"};
+  const Contact& contact = *problem.contact;
+  const int s = contact.coordinates();
+  return {{"surface", kSurfaces[static_cast<std::size_t>(contact.surface)]},
+          {"frame", matrix_json(contact.frame)},
+          {"radius", contact.radius},
+          {"min", array(problem.theta_r_min.tail(s))},
+          {"max", array(problem.theta_r_max.tail(s))}};
+}
+
+ordered_json task_json(const Problem& problem) {
+  ordered_json task;
+  task["name"] = problem.name;
+  task["label"] = problem.label;
+  task["source"] = problem.source;
+  task["type"] = problem.type();
+  task["unit"] = problem.unit();
+  task["end_effector"] = problem.end_effector;
+  task["theta_r"] = ordered_json::array();
+  for (int i = 0; i < problem.redundancy(); ++i) {
+    task["theta_r"].push_back(coordinate_json(problem, i));
+  }
+  task["contact"] = problem.contact ? contact_json(problem) : ordered_json(nullptr);
+  return task;
+}
+
+ordered_json shown_json(const Shown& shown) {
+  const Answer& answer = shown.answer;
+  ordered_json object;
+  object["name"] = shown.name;
+  object["status"] = to_string(answer.status);
+  object["reason"] = known(!answer.reason.empty(), answer.reason.str());
+  object["beta"] = known(answer.has_value(), answer.beta());
+  object["unit"] = answer.unit;
+  object["search"] = known(!answer.choice.search.empty(), answer.choice.search);
+  object["evaluations"] = answer.evaluations;
+  object["frames"] = frames_json(answer);
+  return object;
+}
+
+}  // namespace
+
+ordered_json scene_of(const Problem& problem, const std::vector<Visual>& visuals,
+                      const std::vector<Shown>& shown) {
+  ordered_json scene;
+  scene["version"] = version();
+  scene["task"] = task_json(problem);
+  scene["robot"] = robot_json(problem.robot, visuals);
+  scene["shown"] = ordered_json::array();
+  for (const Shown& each : shown) {
+    if (scene["measure"].is_null()) {
+      scene["measure"] = each.answer.choice.measure;
+      scene["wrench"] = to_string(each.answer.choice.wrench);
+    }
+    if (each.answer.trajectory.instants.empty()) continue;
+    ordered_json entry = shown_json(each);
+    if (!entry["frames"].empty()) scene["shown"].push_back(std::move(entry));
+  }
+  return scene;
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,4 @@
+set(maxwrench_view_sources
+  base64.cpp page.cpp page_file.cpp
+  engine/engine.cpp engine/evaluator.cpp engine/module.cpp engine/problem_data.cpp
+  scene/bodies.cpp scene/frames.cpp scene/mesh.cpp scene/robot.cpp scene/scene.cpp scene/wrench_sets.cpp)
