@@ -39,9 +39,11 @@ def section(robot, names, source):
     family = static.split("/")[0]
     task = mw.load(static)
     default, best = mw.evaluate(task, task.theta_r_default), mw.solve(task, callback=False)
-    lines = [f"## {robot}", "", f"Model and sources: [problems/{family}](problems/{family}/README.md). `maxwrench plot {static}` draws it:", "",
+    pictures = [plot(static, source), plot(static, source, best.theta_r)]
+    lines = [f"## {robot}", "",
+             f"Model and sources: [problems/{family}](problems/{family}/README.md). `maxwrench plot {static}` draws it:", "",
              f"| default posture, {number(default.beta)} {task.unit} | best posture, {number(best.beta)} {task.unit} |", "|---|---|",
-             f"| ![{robot} in its default posture]({plot(static, source)}) | ![{robot} in its best posture]({plot(static, source, best.theta_r)}) |", ""]
+             f"| ![{robot} in its default posture]({pictures[0]}) | ![{robot} in its best posture]({pictures[1]}) |", ""]
     lines += ["| task | of | redundancy | unit | default posture | best, pure | best, any wrench |", "|---|---|---|---|---|---|---|", *map(row, names), ""]
     return "\n".join(lines)
 
@@ -51,7 +53,7 @@ def pages(source):
     for name in mw.tasks():
         robots.setdefault(mw.load(name).robot.name, []).append(name)
     families = sorted({name.split("/")[0] for name in mw.tasks()})
-    intro = ("# Gallery\n\nThe shipped robots and their tasks. Values are those of `linf_polytope`: at the default posture, computed now, and the best that any search "
-             "of the benchmark found, with the wrench along c alone (pure) and with other components free (any).\n\n")
+    intro = ("# Gallery\n\nThe shipped robots and their tasks. Values are those of `linf_polytope`: at the default posture, computed now, "
+             "and the best that any search of the benchmark found, with the wrench along c alone (pure) and with other components free (any).\n\n")
     tree = "\n".join(["```{toctree}", ":hidden:", "", *(f"problems/{family}/README.md" for family in families), "```", ""])
     return {"gallery.md": intro + "\n".join(section(robot, names, source) for robot, names in robots.items()) + tree}

@@ -20,7 +20,8 @@ LINK = re.compile(r"(?<=\]\()([^)#: ]+)(?=[)#])")
 def tracked():
     """The files of the repository that the site needs, by their paths from the root."""
     names = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", *COPIED], cwd=ROOT, check=True, capture_output=True, text=True)
-    return [pathlib.PurePosixPath(name) for name in names.stdout.splitlines() if not name.startswith("docs/site/")]
+    return [pathlib.PurePosixPath(name) for name in names.stdout.splitlines()
+            if not name.startswith("docs/site/") and (ROOT / name).exists()]
 
 
 def with_known_links(text, page):
@@ -62,8 +63,8 @@ def first_page(readme):
     """The start of the README, and the table of contents. The rest of the README is the page overview."""
     start, rest = readme.split("\n## ", 1)
     contents = {
-        "Use it": ["overview.md", "docs/install.md", "docs/command.md", "docs/python.md", "docs/own_robot.md", "docs/robot_files.md", "docs/tank.md", "docs/view.md",
-                   "gallery.md"],
+        "Use it": ["overview.md", "docs/install.md", "docs/command.md", "docs/python.md", "docs/own_robot.md",
+                   "docs/robot_files.md", "docs/tank.md", "docs/view.md", "gallery.md"],
         "How it works": ["docs/glossary.md", "docs/algorithms.md", "docs/benchmarks.md"],
         "Reference": ["reference/python.md", "reference/cpp.md"],
         "Project": ["CONTRIBUTING.md", "CHANGELOG.md", "view/engine/README.md", "reports.md"],
