@@ -12,6 +12,7 @@ mkdirSync(out, { recursive: true });
 const kTasks = chosen.length ? chosen : ["uvms/valve", "uvms/valve_trajectory", "dual_arm/two_arms", "mobile/push", "planar/force", "fixed/push"];
 const kSizes = [{ width: 1280, height: 800, scheme: "light" }, { width: 390, height: 844, scheme: "dark" }];
 const kMostBytes = 4e6;
+const kPause = 250;  // ms: the page lists the IK solutions when a slider has rested for 120 ms
 
 let passed = 0;
 const failed = [];
@@ -96,10 +97,11 @@ async function checkSliders(page, task, name) {
 
 /** The page stays on one of several IK solutions, and the command takes the best one: this is among those that the page offers. */
 async function checkSolutions(page, expected, name) {
-  const count = Math.max(expected.ik_solutions.valid, 1);
+  const count = expected.ik_solutions.valid > 1 ? expected.ik_solutions.valid : 0;
   const buttons = "document.querySelectorAll('#solutions button')";
-  await page.until(`${buttons}.length === ${count > 1 ? count : 0}`);
-  if (count === 1) return;
+  await new Promise((resolve) => setTimeout(resolve, kPause));
+  await page.until(`${buttons}.length === ${count}`);
+  if (count === 0) return;
   let best = -Infinity;
   for (let i = 0; i < count; ++i) {
     await page.evaluate(`${buttons}[${i}].click()`);
