@@ -41,22 +41,6 @@ std::string join(const std::vector<Point>& points) {
   return text;
 }
 
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&') {
-      result += "&amp;";
-    } else if (c == '<') {
-      result += "&lt;";
-    } else if (c == '>') {
-      result += "&gt;";
-    } else {
-      result += c;
-    }
-  }
-  return result;
-}
-
 /// The number of bytes of the UTF-8 character that starts at `i`.
 std::size_t character_length(std::string_view text, std::size_t i) {
   std::size_t length = 1;
@@ -119,6 +103,29 @@ std::string spans(std::string_view text, double size) {
 }
 
 }  // namespace
+
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
 
 Svg::Svg(double width, double height) : width_(width), height_(height) {}
 

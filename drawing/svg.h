@@ -35,6 +35,9 @@ struct Font {
   double angle = 0;  ///< degrees, counterclockwise
 };
 
+/// The text for XML and HTML, also in a quoted attribute.
+std::string escaped(std::string_view text);
+
 /// Writes an SVG picture on a white background. All coordinates are px, y down, as in SVG. Throws
 /// std::invalid_argument for a coordinate that is not finite or far outside any picture.
 class Svg {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <mutex>
 #include <stdexcept>
@@ -119,15 +120,26 @@ class AddedSearch final : public Search {
           fmt::format("search: got {} evaluations by '{}', expected {} to {}", result.evaluations,
                       name_, fewest, options.budget));
     }
-    if (result.status == Status::kBestFound && result.theta_r.size() != objective.dimension()) {
-      throw std::invalid_argument(
-          fmt::format("search: got {} numbers as theta_r by '{}', expected {}",
-                      result.theta_r.size(), name_, objective.dimension()));
+    if (result.status == Status::kBestFound) {
+      require_candidate({result.theta_r, result.value}, objective.dimension());
     }
+    for (const Candidate& start : result.starts) require_candidate(start, objective.dimension());
     return result;
   }
 
  private:
+  void require_candidate(const Candidate& candidate, int dimension) const {
+    if (candidate.theta_r.size() != dimension) {
+      throw std::invalid_argument(
+          fmt::format("search: got {} numbers as theta_r by '{}', expected {}",
+                      candidate.theta_r.size(), name_, dimension));
+    }
+    if (candidate.theta_r.allFinite() && std::isfinite(candidate.value)) return;
+    throw std::invalid_argument(fmt::format(
+        "search: got a point or a value that is not finite by '{}', expected finite numbers",
+        name_));
+  }
+
   const char* name_;
   std::unique_ptr<Search> search_;
 };

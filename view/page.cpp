@@ -5,6 +5,7 @@
 #include <cassert>
 #include <string_view>
 
+#include "drawing/svg.h"
 #include "solvers/solve/format.h"
 #include "view/base64.h"
 #include "view/engine/module.h"
@@ -13,16 +14,6 @@
 
 namespace maxwrench {
 namespace {
-
-std::string in_html(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '&') result += "&amp;";
-    if (c == '<') result += "&lt;";
-    if (c != '&' && c != '<') result += c;
-  }
-  return result;
-}
 
 /// JSON that no HTML parser takes for the end of its element.
 std::string in_script(const std::string& json) {
@@ -52,7 +43,7 @@ std::string view_page(const Problem& task, const nlohmann::ordered_json& scene) 
     text += with;
     rest.remove_prefix(at + mark.size());
   };
-  fill("{{title}}", in_html(task.name));
+  fill("{{title}}", escaped(task.name));
   fill("{{scene}}", in_script(in_one_line(scene)));
   fill("{{engine}}", engine_html(task));
   text += rest;

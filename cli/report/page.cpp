@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "drawing/svg.h"
+
 namespace maxwrench {
 namespace {
 
@@ -78,19 +80,19 @@ for (const table of document.querySelectorAll("table")) {
 )";
 
 std::string head_html(const PageHead& head, const std::vector<ReportSection>& sections) {
-  std::string text = fmt::format("<header>\n<h1>{}</h1>\n<dl>\n", escaped_html(head.title));
+  std::string text = fmt::format("<header>\n<h1>{}</h1>\n<dl>\n", escaped(head.title));
   for (const auto& [name, fact] : head.facts) {
-    text += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped_html(name), escaped_html(fact));
+    text += fmt::format("<dt>{}</dt><dd>{}</dd>\n", escaped(name), escaped(fact));
   }
   text += "</dl>\n";
   for (const auto& [name, body] : head.texts) {
-    text += fmt::format("<details><summary>{}</summary><pre>{}</pre></details>\n",
-                        escaped_html(name), escaped_html(body));
+    text += fmt::format("<details><summary>{}</summary><pre>{}</pre></details>\n", escaped(name),
+                        escaped(body));
   }
   text += "<nav>\n";
   for (const ReportSection& section : sections) {
-    text += fmt::format("<a href=\"#{}\">{}</a>\n", section.table.name,
-                        escaped_html(section.table.title));
+    text +=
+        fmt::format("<a href=\"#{}\">{}</a>\n", section.table.name, escaped(section.table.title));
   }
   return text + "</nav>\n</header>\n";
 }
@@ -98,9 +100,9 @@ std::string head_html(const PageHead& head, const std::vector<ReportSection>& se
 std::string section_html(const ReportSection& section) {
   const ReportTable& table = section.table;
   std::string text =
-      fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", table.name, escaped_html(table.title));
+      fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n", table.name, escaped(table.title));
   if (!table.note.empty()) {
-    text += fmt::format("<p class=\"note\">{}</p>\n", escaped_html(table.note));
+    text += fmt::format("<p class=\"note\">{}</p>\n", escaped(table.note));
   }
   if (!section.figures.empty()) {
     text += "<div class=\"figures\">\n";
@@ -119,7 +121,7 @@ std::string html_page(const PageHead& head, const std::vector<ReportSection>& se
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<link rel=\"icon\" "
       "href=\"data:,\">\n<title>{}</title>\n<style>{}</style>\n</head>\n<body>\n",
-      escaped_html(head.title), kStyle);
+      escaped(head.title), kStyle);
   text += head_html(head, sections) + "<main>\n";
   for (const ReportSection& section : sections) text += section_html(section);
   return text + fmt::format("</main>\n<script>{}</script>\n</body>\n</html>\n", kScript);

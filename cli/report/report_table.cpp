@@ -7,6 +7,7 @@
 
 #include "benchmarks/tables/csv.h"
 #include "benchmarks/tables/dictionary.h"
+#include "drawing/svg.h"
 
 namespace maxwrench {
 namespace {
@@ -50,7 +51,7 @@ std::string tooltip(const std::string& column) {
   const ColumnMeaning* entry = find_meaning(column);
   if (entry == nullptr) return "";
   const std::string unit(entry->unit);
-  return escaped_html(unit.empty() ? entry->meaning : fmt::format("[{}] {}", unit, entry->meaning));
+  return escaped(unit.empty() ? entry->meaning : fmt::format("[{}] {}", unit, entry->meaning));
 }
 
 }  // namespace
@@ -100,18 +101,18 @@ std::string html_of_table(const ReportTable& table, std::size_t most) {
       "{0}\">"
       "<output></output> <a href=\"{1}.csv\">{1}.csv</a></div>\n"
       "<div class=\"scroll\" tabindex=\"0\"><table id=\"t-{1}\">\n<thead><tr>",
-      escaped_html(table.title), table.name);
+      escaped(table.title), table.name);
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     text += fmt::format("<th{}><button title=\"{}\">{}</button></th>",
                         is_numeric(table, i) ? " class=\"n\"" : "", tooltip(table.columns[i]),
-                        escaped_html(table.columns[i]));
+                        escaped(table.columns[i]));
   }
   text += "</tr></thead>\n<tbody>\n";
   for (std::size_t i = 0; i < count; ++i) {
     text += "<tr>";
     for (std::size_t j = 0; j < table.columns.size(); ++j) {
       text += is_numeric(table, j) ? "<td class=\"n\">" : "<td>";
-      text += escaped_html(cell_text(table.columns[j], table.rows[i][j], "")) + "</td>";
+      text += escaped(cell_text(table.columns[j], table.rows[i][j], "")) + "</td>";
     }
     text += "</tr>\n";
   }
@@ -120,29 +121,6 @@ std::string html_of_table(const ReportTable& table, std::size_t most) {
   return text +
          fmt::format("<p class=\"note\">The first {} of {} rows; the rest is in {}.csv.</p>\n",
                      count, table.rows.size(), table.name);
-}
-
-std::string escaped_html(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
 }
 
 }  // namespace maxwrench

@@ -25,6 +25,4 @@ std::string csv_of_table(const ReportTable& table);
 /// A box with a filter, in which the table scrolls, with at most `most` rows.
 std::string html_of_table(const ReportTable& table, std::size_t most);
 
-std::string escaped_html(const std::string& text);
-
 }  // namespace maxwrench

@@ -4,9 +4,7 @@
 
 #include "benchmarks/tables/write_file.h"
 #include "cli/cli.h"
-#include "cli/output.h"
-#include "cli/task/motion_options.h"
-#include "cli/task/problem_options.h"
+#include "cli/task/load_and_solve.h"
 #include "maxwrench/figures.h"
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
@@ -48,11 +46,9 @@ std::optional<std::string> draw_trajectory(const Problem& problem, const PlotOpt
 
 /// Returns status 1 if there is no such posture: showing another one would be misleading.
 int plot(const PlotOptions& options) {
-  std::vector<NamedFile> inputs = options.source.inputs(options.problem);
-  inputs.push_back({"--theta-r", options.theta_r.value_or("")});
-  require_apart(inputs, {{"--out", options.out}});
-  Problem problem = options.source.load(options.problem);
-  options.motion.change(problem);
+  const Problem problem =
+      load_apart(options.problem, options.source, options.motion,
+                 {{"--theta-r", options.theta_r.value_or("")}}, {{"--out", options.out}});
   const std::optional<std::string> drawn =
       problem.motion ? draw_trajectory(problem, options) : draw_static(problem, options);
   if (!drawn) return kOtherStatus;

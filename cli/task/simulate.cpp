@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "benchmarks/tables/write_file.h"
-#include "cli/output.h"
+#include "cli/task/load_and_solve.h"
 #include "maxwrench/figures.h"
 #include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"
@@ -142,20 +142,15 @@ int simulate_static(const Problem& task, const SimulateOptions& options) {
 }
 
 int simulate(const SimulateOptions& options) {
-  require_apart(options.source.inputs(options.choice.problem),
-                {{"--out", options.out}, {"--figure", options.figure}});
   require_stiff(options.integrator);
-  Problem problem = options.source.load(options.choice.problem);
+  const Problem problem = load_apart(options.choice.problem, options.source, options.motion,
+                                     {{"--theta-r", options.theta_r.value_or("")}},
+                                     {{"--out", options.out}, {"--figure", options.figure}});
   if (problem.contact) {
     throw std::invalid_argument("problem: got " + problem.name +
                                 ", expected one without a second contact");
   }
-  options.motion.change(problem);
-  if (problem.motion) {
-    require_apart({{"--theta-r", options.theta_r.value_or("")}},
-                  {{"--out", options.out}, {"--figure", options.figure}});
-    return simulate_motion(problem, options);
-  }
+  if (problem.motion) return simulate_motion(problem, options);
   if (options.interpolation) {
     throw std::invalid_argument("--interpolation: got '" + *options.interpolation +
                                 "', expected none: " + problem.name + " is a static task");

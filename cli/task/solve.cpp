@@ -4,12 +4,8 @@
 
 #include "benchmarks/tables/write_file.h"
 #include "cli/cli.h"
-#include "cli/ctrl_c.h"
-#include "cli/output.h"
-#include "cli/progress.h"
 #include "cli/task/explain_option.h"
-#include "cli/task/motion_options.h"
-#include "cli/task/problem_options.h"
+#include "cli/task/load_and_solve.h"
 #include "maxwrench/load.h"
 
 namespace maxwrench {
@@ -23,14 +19,7 @@ struct SolveOptions : CommonOptions {
 };
 
 int solve(const SolveOptions& options, const Problem& problem) {
-  Options how = options.read_options();
-  static_cast<Case&>(how) = with_search(problem, how);
-  Progress progress("solve", static_cast<double>(how.budget));
-  CtrlC ctrl_c;
-  how.progress = progress.counter();
-  how.interrupted = ctrl_c.asked();
-  const Answer answer = solve(problem, how);
-  progress.finish();
+  const Answer answer = solve_with_progress("solve", problem, options.read_options());
   if (!options.out.empty() && answer.has_posture()) {
     write_file(options.out, knots_csv(problem, answer.trajectory.knots));
   }
@@ -53,13 +42,8 @@ void add_solve(CLI::App& app, int& exit_status) {
   command.add_option("--out", options->out, "CSV file for the table of theta_r")
       ->check(reject_empty);
   command.callback([options, &exit_status] {
-    require_apart(options->source.inputs(options->choice.problem), {{"--out", options->out}});
-    Problem problem = options->source.load(options->choice.problem);
-    options->motion.change(problem);
-    if (problem.motion) {
-      require_apart({{"path.file", problem.motion->path_file}}, {{"--out", options->out}});
-    }
-    exit_status = solve(*options, problem);
+    exit_status = solve(*options, load_apart(options->choice.problem, options->source,
+                                             options->motion, {}, {{"--out", options->out}}));
   });
 }
 

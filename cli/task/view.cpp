@@ -5,11 +5,7 @@
 
 #include "benchmarks/tables/write_file.h"
 #include "cli/cli.h"
-#include "cli/ctrl_c.h"
-#include "cli/output.h"
-#include "cli/progress.h"
-#include "cli/task/motion_options.h"
-#include "cli/task/problem_options.h"
+#include "cli/task/load_and_solve.h"
 #include "maxwrench/load.h"
 #include "view/page.h"
 #include "view/scene/scene.h"
@@ -23,17 +19,6 @@ struct ViewOptions : CommonOptions {
   MotionOptions motion;
   ProblemOptions source;
 };
-
-Answer find_best(const Problem& problem, Options how) {
-  static_cast<Case&>(how) = with_search(problem, how);
-  Progress progress("view", static_cast<double>(how.budget));
-  CtrlC ctrl_c;
-  how.progress = progress.counter();
-  how.interrupted = ctrl_c.asked();
-  Answer best = solve(problem, how);
-  progress.finish();
-  return best;
-}
 
 Answer evaluate_at(const Problem& problem, const std::optional<std::string>& theta_r,
                    const Options& how) {
@@ -49,7 +34,7 @@ int view(const ViewOptions& options, const Problem& problem) {
   // First: a wrong table is found before the search.
   if (options.theta_r) shown.push_back({"given", evaluate_at(problem, options.theta_r, how)});
   shown.push_back({"default", evaluate_at(problem, {}, how)});
-  shown.insert(shown.begin(), {"best", find_best(problem, how)});
+  shown.insert(shown.begin(), {"best", solve_with_progress("view", problem, how)});
   const std::vector<std::string>& packages = options.source.packages;
   const std::vector<Visual> visuals =
       read_visuals(problem.robot, {packages.begin(), packages.end()});
@@ -84,14 +69,9 @@ void add_view(CLI::App& app, int& exit_status) {
   command.add_option("--out", options->out, "HTML file to write (default: stdout)")
       ->check(reject_empty);
   command.callback([options, &exit_status] {
-    std::vector<NamedFile> inputs = options->source.inputs(options->choice.problem);
-    inputs.push_back({"--theta-r", options->theta_r.value_or("")});
-    require_apart(inputs, {{"--out", options->out}});
-    Problem problem = options->source.load(options->choice.problem);
-    options->motion.change(problem);
-    if (problem.motion) {
-      require_apart({{"path.file", problem.motion->path_file}}, {{"--out", options->out}});
-    }
+    const Problem problem =
+        load_apart(options->choice.problem, options->source, options->motion,
+                   {{"--theta-r", options->theta_r.value_or("")}}, {{"--out", options->out}});
     exit_status = view(*options, problem);
   });
 }

@@ -26,9 +26,10 @@ struct Evaluations {
 /// Evaluates a static task at each row of `theta_r`.
 ///
 /// Row i has the numbers that `evaluate` gives at theta_r.row(i): the same lower level, verified in
-/// the same way. The rows are evaluated in parallel; their values do not depend on
-/// `Options::threads`. `Options::interrupted` is asked from time to time; once it returns true, the
-/// remaining rows have the status kBudgetExhausted.
+/// the same way. The solvers simplex, clp and glpk start at the row before: where the efforts of an
+/// optimum are not unique, u may be another choice of them. The rows are evaluated in parallel;
+/// their values do not depend on `Options::threads`. `Options::interrupted` is asked from time to
+/// time; once it returns true, the remaining rows have the status kBudgetExhausted.
 ///
 /// @param task     a static task
 /// @param theta_r  the redundant coordinates, one posture in each row (N×r)

@@ -41,6 +41,13 @@ void require_seeds(Eigen::Index n, const Eigen::VectorXd& tau_seed, const Matrix
                               " columns by J, expected " + std::to_string(n) + " of both");
 }
 
+/// The same for those by J_2 and C_2, which a measure that does not depend on them leaves empty.
+void require_columns(const char* by, const Matrix6Xd& seed, Eigen::Index columns) {
+  if (seed.cols() == 0 || seed.cols() == columns) return;
+  throw std::invalid_argument("derivatives: got " + std::to_string(seed.cols()) + " columns by " +
+                              by + ", expected " + std::to_string(columns) + ", or none");
+}
+
 /// A posture at one theta_r: the indices of the IK solutions for the dependent coordinates and for
 /// the second arm.
 struct IkSolution {
@@ -241,6 +248,10 @@ struct PostureEvaluator::Workspace {
                  const Matrix6Xd& J_seed, const Matrix6Xd& J2_seed, const Matrix6Xd& C2_seed,
                  Eigen::VectorXd& gradient) {
     require_seeds(model.J.cols(), tau_seed, J_seed);
+    if (second) {
+      require_columns("J_2", J2_seed, model.J.cols());
+      require_columns("C_2", C2_seed, problem.contact_columns());
+    }
     if (model.theta_r != theta_r) {
       if (second || primary) {
         run(theta_r);  // selects an IK solution

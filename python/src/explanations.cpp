@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include <utility>
+
 #include "maxwrench/explain.h"
 #include "python/src/arrays.h"
 #include "python/src/parts.h"
@@ -161,7 +163,12 @@ void add_explain(py::class_<PyAnswer>& answer) {
   answer.def(
       "explain",
       [](const PyAnswer& self, double share) {
-        return PyExplanation{explain(self.answer, {share}), self.task};
+        Explanation found;
+        {
+          const py::gil_scoped_release released;
+          found = explain(self.answer, {share});
+        }
+        return PyExplanation{std::move(found), self.task};
       },
       py::kw_only(), py::arg("share") = 1.0, kExplain);
 }

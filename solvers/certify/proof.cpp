@@ -12,6 +12,25 @@
 #include "verify/verify.h"
 
 namespace maxwrench {
+namespace {
+
+/// Replaces the answer of a search by that at a better point, if this one can be verified. It is
+/// still what the search with the bounds found.
+void take_better(const Eigen::VectorXd& theta_r, const Options& options, Answer& answer) {
+  Answer better = evaluate(*answer.task, theta_r, options);
+  if (!better.has_value() || (answer.has_value() && better.beta() <= answer.beta())) return;
+  better.conclude(Status::kBestFound);
+  better.choice = answer.choice;
+  better.evaluations = answer.evaluations;
+  better.calls = answer.calls;
+  better.stopped = answer.stopped;
+  better.undecided = answer.undecided;
+  better.ik_solutions = answer.ik_solutions;
+  better.wall_s = answer.wall_s;
+  answer = std::move(better);
+}
+
+}  // namespace
 
 std::unique_ptr<Bound> find_bound(const Problem& problem, const std::string& measure,
                                   Wrench wrench) {
@@ -69,7 +88,7 @@ Proof certify(const Problem& task, const Options& options, const ProofOptions& h
   proof.boxes = result.boxes;
   proof.colliding = result.colliding;
   proof.seconds = result.seconds;
-  if (result.best.value > incumbent.value) proof.answer = evaluate(task, result.best.theta_r, c);
+  if (result.best.value > incumbent.value) take_better(result.best.theta_r, c, proof.answer);
   if (result.best.value == -kInfinity) {
     if (proof.status == Status::kProven) proof.reason = "no posture has a value";
   } else if (!proof.answer.has_value()) {

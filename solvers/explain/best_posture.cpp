@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/math/decompositions.h"
 #include "lib/search/facet_program.h"
 #include "solvers/explain/parts.h"
 #include "solvers/lp/makers.h"
@@ -70,7 +71,7 @@ class BestPosture {
     for (const ActiveSide& side : sides_) A.col(column++) = side.sign * side.gradient;
     const Eigen::VectorXd mu = multipliers(A);
     best.residual = (objective_ - A * mu).lpNorm<Eigen::Infinity>();
-    best.unique = A.colPivHouseholderQr().rank() == A.cols();
+    best.unique = split(A).range.cols() == A.cols();
     if (best.residual <= kStationary * (1 + std::abs(answer_.beta()))) fill_rates(mu, best);
   }
 
@@ -150,7 +151,7 @@ class BestPosture {
       const auto add_rate = [&](LimitSide which, double limit, double rate) {
         if (!(std::abs(rate) > smallest) || !std::isfinite(limit)) return;
         best.limits.push_back(
-            {actuator_name(task_.robot, i), effort_unit(task_.robot, i), which, limit, rate});
+            {actuator_name(task_.robot, i), actuator_unit(task_.robot, i), which, limit, rate});
       };
       add_rate(LimitSide::kLower, set.u_min[i], lower[i]);
       add_rate(LimitSide::kUpper, set.u_max[i], upper[i]);

@@ -41,13 +41,6 @@ const char* to_string(LimitSide side) {
   return "smaller";
 }
 
-const char* effort_unit(const Robot& robot, Eigen::Index i) {
-  const auto joint = static_cast<std::size_t>(i) - robot.thrusters.size();
-  const bool torque = static_cast<std::size_t>(i) >= robot.thrusters.size() &&
-                      robot.joints[joint].type == JointType::kRevolute;
-  return torque ? "N m" : "N";
-}
-
 std::string contact_force_name(Eigen::Index i) { return fmt::format("contact force {}", i + 1); }
 
 const char* contact_force_unit(const Problem& task, Eigen::Index i) {

@@ -20,7 +20,7 @@ LimitRate limit_at(const Answer& answer, Eigen::Index j, Eigen::Index i, double 
   const double own = upper ? set.u_max[j] : set.u_min[j];
   const double first = (upper ? answer.program.first_max : answer.program.first_min)[j];
   const bool starts = i == 0 && first != own;
-  return {(starts ? "change from rest of " : "") + actuator_name(robot, j), effort_unit(robot, j),
+  return {(starts ? "change from rest of " : "") + actuator_name(robot, j), actuator_unit(robot, j),
           upper ? LimitSide::kUpper : LimitSide::kLower, starts ? first : own, price};
 }
 
@@ -42,7 +42,7 @@ void explain_instants(const Answer& answer, Explanation& explanation) {
     for (Eigen::Index j = 0; j < prices.rows(); ++j) {
       add(limit_at(answer, j, i, prices(j, i)));
       if (i == solution.mu.cols()) continue;
-      add({"change to the next instant of " + actuator_name(robot, j), effort_unit(robot, j),
+      add({"change to the next instant of " + actuator_name(robot, j), actuator_unit(robot, j),
            LimitSide::kUpper, answer.program.du_max(j, i), std::abs(solution.mu(j, i))});
     }
     std::stable_sort(at.limits.begin(), at.limits.end(), [](const auto& a, const auto& b) {

@@ -42,7 +42,7 @@ std::vector<LimitedColumn> limited_columns(const Problem& task, const WrenchProg
   std::vector<LimitedColumn> columns;
   for (Eigen::Index i = 0; i < d.size(); ++i) {
     columns.push_back(
-        {actuator_name(robot, i), effort_unit(robot, i), set.u_min[i], set.u_max[i], d[i]});
+        {actuator_name(robot, i), actuator_unit(robot, i), set.u_min[i], set.u_max[i], d[i]});
   }
   const Eigen::Index own = program.W.cols();
   for (Eigen::Index j = own; j < s.size(); ++j) {
@@ -171,7 +171,7 @@ void explain_ellipsoid(const Answer& answer, const WrenchProgram& program,
     binding.share = multiplier * e[i] * e[i];
     if (!(binding.share > kLeastMultiplier * multiplier)) continue;
     const Robot& robot = answer.task->robot;
-    static_cast<LimitRate&>(binding) = {actuator_name(robot, i), effort_unit(robot, i),
+    static_cast<LimitRate&>(binding) = {actuator_name(robot, i), actuator_unit(robot, i),
                                         LimitSide::kSmaller, s[i], binding.share / s[i]};
     binding.gain = kMore * binding.share;
     explanation.limits.push_back(binding);

@@ -8,8 +8,6 @@
 
 namespace maxwrench {
 
-/// "N" or "N m": the unit of effort i.
-const char* effort_unit(const Robot& robot, Eigen::Index i);
 /// "contact force 1" and its unit: column i of the basis of the second contact.
 std::string contact_force_name(Eigen::Index i);
 const char* contact_force_unit(const Problem& task, Eigen::Index i);

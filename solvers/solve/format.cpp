@@ -117,6 +117,12 @@ const std::string& actuator_name(const Robot& robot, Eigen::Index i) {
   return at < thrusters ? robot.thrusters[at].name : robot.joints[at - thrusters].name;
 }
 
+const char* actuator_unit(const Robot& robot, Eigen::Index i) {
+  const auto at = static_cast<std::size_t>(i);
+  const std::size_t thrusters = robot.thrusters.size();
+  return at >= thrusters && robot.joints[at - thrusters].type == JointType::kRevolute ? "N m" : "N";
+}
+
 bool finds_pose(const Answer& answer) {
   return answer.task->free.count() > 0 || answer.given_joints;
 }

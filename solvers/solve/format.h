@@ -65,6 +65,8 @@ int instants_per_interval(const MotionTask& task);
 
 /// The name of actuator i: thrusters come first, then joints.
 const std::string& actuator_name(const Robot& robot, Eigen::Index i);
+/// "N" or "N m": the unit of its effort.
+const char* actuator_unit(const Robot& robot, Eigen::Index i);
 
 /// Whether the pose of the end effector is a result rather than the task's: part of it is free, or
 /// all joints are given.

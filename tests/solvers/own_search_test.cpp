@@ -81,9 +81,21 @@ TEST(OwnSearch, RejectsResultsWithoutMeaning) {
   rejected();  // without theta_r
   result.theta_r = Eigen::VectorXd::Zero(9);
   rejected();
-  result.theta_r = Eigen::VectorXd::Constant(load_problem("planar/force").redundancy(), NAN);
-  EXPECT_THROW(solve(load_problem("planar/force"), of_measure("ellipsoid", "own_result", 1000)),
-               std::invalid_argument);
+  const int r = load_problem("planar/force").redundancy();
+  result.theta_r = Eigen::VectorXd::Constant(r, NAN);
+  rejected();
+  result.theta_r.setZero(r);
+  for (const double value : {std::numeric_limits<double>::quiet_NaN(), kInfinity, -kInfinity}) {
+    result.value = value;
+    rejected();
+  }
+  result.value = 1;
+  for (const Candidate& start :
+       {Candidate{Eigen::VectorXd::Zero(r + 1), 1}, Candidate{Eigen::VectorXd::Constant(r, NAN), 1},
+        Candidate{Eigen::VectorXd::Zero(r), -kInfinity}}) {
+    result.starts = {start};
+    rejected();
+  }
 }
 
 }  // namespace

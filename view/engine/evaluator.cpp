@@ -54,45 +54,36 @@ struct TaskEvaluator::Evaluator {
         program(make_wrench_program(p, choice.wrench)),
         measure(lower.make_measure()) {}
 
-  /// Evaluates the measure at one of the valid IK solutions. Returns beta, or -infinity.
-  double value_at(int solution) {
-    const Posture& posture = model.select(solution);
-    set_posture(posture, program);
-    measure->evaluate(posture, program, true, capability);
-    return capability.status == Status::kOptimal ? capability.beta : -kInfinity;
-  }
-
-  /// The valid IK solution with the largest value, as `evaluate_best` chooses it.
-  int best_solution() {
-    int best = 0;
-    double most = -kInfinity;
-    for (int i = 0; model.ik_solutions() > 1 && i < model.ik_solutions(); ++i) {
-      const double beta = value_at(i);
-      if (beta <= most) continue;
-      most = beta;
-      best = i;
-    }
-    return best;
-  }
-
-  int choose(const SolutionChoice& which) {
+  int chosen(const SolutionChoice& which) {
     if (which.number >= model.ik_solutions()) {
       throw std::invalid_argument("solution: got " + std::to_string(which.number) +
                                   ", expected 0 to " + std::to_string(model.ik_solutions() - 1));
     }
-    if (which.number >= 0) return which.number;
-    return which.near.size() > 0 ? nearest_solution(model, which.near) : best_solution();
+    return which.number >= 0 ? which.number : nearest_solution(model, which.near);
+  }
+
+  /// Evaluates the measure at the IK solution that is chosen, or at the best one. `model` stays on
+  /// it.
+  const Posture& evaluate_at(const Eigen::VectorXd& theta_r, const SolutionChoice& which,
+                             Evaluation& result) {
+    const bool best = which.number < 0 && which.near.size() == 0;
+    const Posture& posture =
+        best ? evaluate_best(model, theta_r, *measure, true, program, capability)
+             : model.evaluate(theta_r);
+    result.solutions = 0;
+    result.solution = -1;
+    if (posture.status != Status::kValid) return posture;
+    result.solutions = model.ik_solutions();
+    result.solution = best ? nearest_solution(model, Eigen::VectorXd(posture.q)) : chosen(which);
+    model.select(result.solution);
+    if (best) return posture;
+    set_posture(posture, program);
+    measure->evaluate(posture, program, true, capability);
+    return posture;
   }
 
   void evaluate(const Eigen::VectorXd& theta_r, const SolutionChoice& which, Evaluation& result) {
-    const Posture& posture = model.evaluate(theta_r);
-    result.solutions = 0;
-    result.solution = -1;
-    if (posture.status == Status::kValid) {
-      result.solutions = model.ik_solutions();
-      result.solution = choose(which);
-      value_at(result.solution);
-    }
+    const Posture& posture = evaluate_at(theta_r, which, result);
     static_cast<Verdict&>(result) = verdict_of(problem, posture, capability);
     result.unit = lower.unit;
     show_posture(posture, result);

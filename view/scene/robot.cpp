@@ -19,11 +19,8 @@ ordered_json joint_json(const Joint& joint) {
 }
 
 ordered_json actuator_json(const Robot& robot, Eigen::Index i) {
-  const auto j = static_cast<std::size_t>(i) - robot.thrusters.size();
-  const bool turns = i >= static_cast<Eigen::Index>(robot.thrusters.size()) &&
-                     robot.joints[j].type == JointType::kRevolute;
   return {{"name", actuator_name(robot, i)},
-          {"unit", turns ? "N m" : "N"},
+          {"unit", actuator_unit(robot, i)},
           {"min", finite(robot.actuation.u_min[i])},
           {"max", finite(robot.actuation.u_max[i])},
           {"rate", finite(robot.u_rate_max[i])}};

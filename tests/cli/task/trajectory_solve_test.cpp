@@ -151,7 +151,9 @@ TEST(TrajectorySolve, DoesNotReplaceThePath) {
   ASSERT_LT(run_maxwrench("eval own.toml", copy.path()).exit_status, 2)
       << run_maxwrench("eval own.toml", copy.path()).err;
   for (const char* words :
-       {"solve own.toml --budget 9 --out ./poses.csv", "eval own.toml --write poses.csv"}) {
+       {"solve own.toml --budget 9 --out ./poses.csv", "eval own.toml --write poses.csv",
+        "plot own.toml --out poses.csv", "simulate own.toml --figure poses.csv",
+        "view own.toml --budget 9 --out poses.csv"}) {
     const CommandResult result = run_maxwrench(words, copy.path());
     EXPECT_EQ(result.exit_status, 2) << words;
     EXPECT_NE(result.err.find("which is also the file of path.file"), std::string::npos)

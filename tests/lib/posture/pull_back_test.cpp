@@ -81,5 +81,36 @@ TEST(PullBack, EqualsDualNumbersWithJointsBesideTheChain) {
   }
 }
 
+/// Derivatives of another size would be read beyond their end.
+TEST(PullBack, RejectsDerivativesOfAnotherSize) {
+  const Problem problem = load_problem("dual_arm/bar_wall");
+  PostureEvaluator model(problem);
+  const Posture& posture = model.evaluate(problem.theta_r_default);
+  ASSERT_EQ(posture.status, Status::kValid);
+  const Eigen::Index n = posture.J.cols(), l = problem.contact_columns();
+  ASSERT_GT(l, 0);
+  Capability filled;
+  filled.lambda.setOnes(n);
+  filled.beta_J = Matrix6Xd::Ones(6, n);
+  filled.beta_J2 = Matrix6Xd::Ones(6, n);
+  filled.beta_C2 = Matrix6Xd::Ones(6, l);
+  Eigen::VectorXd gradient;
+  EXPECT_NO_THROW(model.pull_back(problem.theta_r_default, filled, gradient));
+  Capability empty = filled;  // of a measure that does not depend on J_2 and C_2
+  empty.beta_J2.resize(6, 0);
+  empty.beta_C2.resize(6, 0);
+  EXPECT_NO_THROW(model.pull_back(problem.theta_r_default, empty, gradient));
+  for (Matrix6Xd Capability::*part :
+       {&Capability::beta_J, &Capability::beta_J2, &Capability::beta_C2}) {
+    for (const Eigen::Index more : {-1, 1}) {
+      Capability wrong = filled;
+      (wrong.*part).setOnes(6, (filled.*part).cols() + more);
+      if ((wrong.*part).cols() == 0) continue;
+      EXPECT_THROW(model.pull_back(problem.theta_r_default, wrong, gradient),
+                   std::invalid_argument);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace maxwrench

@@ -65,6 +65,23 @@ TEST(CertifyTask, ProvesTheOptimum) {
   EXPECT_TRUE(proof.certificate.empty());
 }
 
+/// One evaluation finds next to nothing: the better points come from the bounds.
+TEST(CertifyTask, ABetterPointIsStillWhatWasFound) {
+  const Problem task = load_problem("planar/force");
+  Options options = of_ellipsoid();
+  options.search = "sample";
+  options.budget = 1;
+  const Answer alone = solve(task, options);
+  const Proof proof = certify(task, options, to(1e-3));
+  EXPECT_EQ(proof.status, Status::kProven);
+  EXPECT_NEAR(proof.answer.beta(), 1.9075, 3e-3);
+  EXPECT_GT(proof.answer.beta(), alone.beta());
+  EXPECT_EQ(proof.answer.status, Status::kBestFound);
+  EXPECT_EQ(proof.answer.choice.search, "sample");
+  EXPECT_EQ(proof.answer.evaluations, 1);
+  EXPECT_EQ(proof.answer.beta(), evaluate(task, proof.answer.posture.theta_r, options).beta());
+}
+
 TEST(CertifyTask, WritesACertificateThatIsVerified) {
   const Problem task = load_problem("planar/force");
   const Proof proof = certify(task, of_ellipsoid(1), to(1e-4, true));

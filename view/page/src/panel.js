@@ -93,8 +93,9 @@ export class Panel {
 
   /** Buttons for the IK solutions of a posture; none if there is only one. */
   setSolutions(frames, chosen) {
-    byId("solutions-section").hidden = frames.length < 2;
-    byId("solutions").replaceChildren(...frames.map((frame, i) =>
+    const several = frames.length > 1 ? frames : [];
+    byId("solutions-section").hidden = !several.length;
+    byId("solutions").replaceChildren(...several.map((frame, i) =>
       make("button", { type: "button", "aria-pressed": String(i === chosen), onclick: () => this.act.choose(i) }, `${i + 1}: ${withUnit(frame.beta, frame.unit, 4)}`)));
   }
 }
