@@ -1,4 +1,4 @@
-// Looks at the pages of `task` in a frame as wide as a phone, and lists what is wrong with them.
+// Looks at the pages of `task` in frames as wide as a screen and a phone, and lists what is wrong with them.
 const report = line => { document.getElementById("found").textContent += line + "\n"; };
 
 const open_page = (frame, address) => new Promise(resolve => {
@@ -6,9 +6,9 @@ const open_page = (frame, address) => new Promise(resolve => {
   frame.src = address;
 });
 
-const check_page = (page, address) => {
+const check_page = (page, address, width) => {
   const root = page.documentElement;
-  if (root.scrollWidth > 391) report(`${address}: ${root.scrollWidth} px wide`);
+  if (root.scrollWidth > width + 1) report(`${address}: ${root.scrollWidth} px wide at ${width} px`);
   for (const formula of page.querySelectorAll(".formula")) {
     if (!formula.querySelector(".katex") || formula.querySelector(".katex-error")) report(`${address}: not typeset: ${formula.textContent}`);
   }
@@ -29,10 +29,12 @@ const check_search = async (frame, words, expected) => {
 
 (async () => {
   const frame = document.createElement("iframe");
-  frame.width = 390;
   frame.height = 900;
   document.body.append(frame);
-  for (const address of task.pages) check_page(await open_page(frame, "/" + address), address);
+  for (const width of task.widths) {
+    frame.width = width;
+    for (const address of task.pages) check_page(await open_page(frame, "/" + address), address, width);
+  }
   for (const [words, expected] of Object.entries(task.searches)) await check_search(frame, words, expected);
   report("the end");
 })();

@@ -1,4 +1,4 @@
-"""check_in_browser.py HTML: every page at 390 px in a headless Chromium, and searches that a new user may try.
+"""check_in_browser.py HTML: every page at 1280 and 390 px in a headless Chromium, and searches that a new user may try.
 
 No page is wider than the screen, all formulas are typeset, all pictures load, and each search has the page that answers it among its first
 three results.
@@ -26,6 +26,8 @@ SEARCHES = {
     "load_problem": "reference/cpp/load",
     "from_urdf": "reference/python/tasks_and_robots",
 }
+WIDTHS = [1280, 390]
+OF_THE_COMMAND = {"gallery", "report"}  # folders of pages that have tests of their own
 DRIVER = (pathlib.Path(__file__).parent / "check.js").read_text(encoding="utf-8")
 
 
@@ -52,8 +54,9 @@ class Handler(http.server.SimpleHTTPRequestHandler):
 
 def browse(root):
     """What the driver reports of the pages, or one line if Chromium does not get to the end."""
-    pages = sorted(path.relative_to(root).as_posix() for path in root.rglob("*.html") if "_static" not in path.parts and path.name != "report.html")
-    task = json.dumps({"pages": pages, "searches": SEARCHES})
+    paths = [path.relative_to(root) for path in root.rglob("*.html")]
+    pages = sorted(path.as_posix() for path in paths if path.parts[0] not in {"_static", *OF_THE_COMMAND})
+    task = json.dumps({"pages": pages, "widths": WIDTHS, "searches": SEARCHES})
     Handler.driver = f"<!doctype html><body><pre id='found'></pre><script>const task = {task};\n{DRIVER}</script></body>".encode()
     server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Handler, directory=root))
     threading.Thread(target=server.serve_forever, daemon=True).start()

@@ -22,14 +22,13 @@ class Page(html.parser.HTMLParser):
                     self.loaded.append(value)
 
 
-def faults(root):
-    pages = {path.resolve(): Page(path) for path in root.rglob("*.html") if "_static" not in path.parts}
+def faults(root, pages):
     for path, page in pages.items():
         for link in page.links:
             parts = urllib.parse.urlsplit(link)
             if parts.scheme == "data":
                 continue
-            name = path.relative_to(root.resolve())
+            name = path.relative_to(root)
             if parts.scheme or parts.netloc:
                 if link in page.loaded:
                     yield f"{name}: {link}: needs the network"
@@ -42,10 +41,12 @@ def faults(root):
 
 
 def main():
-    root = pathlib.Path(sys.argv[1])
-    found = sorted(set(faults(root)))
+    root = pathlib.Path(sys.argv[1]).resolve()
+    pages = {path: Page(path) for path in root.rglob("*.html") if "_static" not in path.parts}
+    found = sorted(set(faults(root, pages)))
     for fault in found:
         print(fault, file=sys.stderr)
+    print(f"{sum(len(page.links) for page in pages.values())} links, {len(found)} broken")
     return 1 if found else 0
 
 

@@ -32,7 +32,7 @@ html_theme = "furo"
 html_static_path = [str(ROOT / "docs/site/static")]
 html_css_files = ["site.css"]
 html_search_scorer = str(ROOT / "docs/site/static/scorer.js")
-# The report and the paper are linked as files.
+# The report, the paper and the pages of view are linked as files.
 html_extra_path = [str(ROOT / "build/docs/extra")]
 html_copy_source = False
 html_show_sphinx = False

@@ -18,6 +18,14 @@ def plot(task, source, theta_r=None):
     return path
 
 
+def view(task, extra):
+    """The page that the command makes; its address from the root of the site."""
+    path = pathlib.Path("gallery") / f"{task.replace('/', '_')}.html"
+    (extra / path).parent.mkdir(parents=True, exist_ok=True)
+    subprocess.run([COMMAND, "view", task, "--out", extra / path], check=True, capture_output=True)
+    return path
+
+
 def number(value):
     return "-" if value is None or value != value else f"{value:.4g}"
 
@@ -34,21 +42,22 @@ def row(name):
     return f"| `{name}` | {kind(task)} | {len(task.theta_r_names)} | {task.unit} | {values} |"
 
 
-def section(robot, names, source):
+def section(robot, names, source, extra):
     static = next(name for name in names if mw.load(name).type == "static")
     family = static.split("/")[0]
     task = mw.load(static)
     default, best = mw.evaluate(task, task.theta_r_default), mw.solve(task, callback=False)
     pictures = [plot(static, source), plot(static, source, best.theta_r)]
     lines = [f"## {robot}", "",
-             f"Model and sources: [problems/{family}](problems/{family}/README.md). `maxwrench plot {static}` draws it:", "",
+             f"<a href=\"{view(static, extra)}\">Turn it in three dimensions</a>, with its efforts and wrenches (`maxwrench view {static}`). "
+             f"Its model and sources are in [problems/{family}](problems/{family}/README.md). `maxwrench plot {static}` draws it:", "",
              f"| default posture, {number(default.beta)} {task.unit} | best posture, {number(best.beta)} {task.unit} |", "|---|---|",
              f"| ![{robot} in its default posture]({pictures[0]}) | ![{robot} in its best posture]({pictures[1]}) |", ""]
     lines += ["| task | of | redundancy | unit | default posture | best, pure | best, any wrench |", "|---|---|---|---|---|---|---|", *map(row, names), ""]
     return "\n".join(lines)
 
 
-def pages(source):
+def pages(source, extra):
     robots = {}
     for name in mw.tasks():
         robots.setdefault(mw.load(name).robot.name, []).append(name)
@@ -56,4 +65,4 @@ def pages(source):
     intro = ("# Gallery\n\nThe shipped robots and their tasks. Values are those of `linf_polytope`: at the default posture, computed now, "
              "and the best that any search of the benchmark found, with the wrench along c alone (pure) and with other components free (any).\n\n")
     tree = "\n".join(["```{toctree}", ":hidden:", "", *(f"problems/{family}/README.md" for family in families), "```", ""])
-    return {"gallery.md": intro + "\n".join(section(robot, names, source) for robot, names in robots.items()) + tree}
+    return {"gallery.md": intro + "\n".join(section(robot, names, source, extra) for robot, names in robots.items()) + tree}

@@ -8,15 +8,12 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def page(extra):
-    """A page that links them. The paper is there if it has been built."""
+    """A page that links them."""
     out = extra / "report"
     subprocess.run([ROOT / "build/maxwrench", "report", ROOT / "results", "--out", out], check=True, capture_output=True)
-    text = ("# Report and paper\n\n"
+    shutil.copy(ROOT / "build/paper/maxwrench.pdf", out)
+    return ("# Report and paper\n\n"
             "* <a href=\"report/report.html\">The benchmark report</a>: all tables with filters, performance profiles and significance tests, as "
             "`maxwrench report results` makes it. It is one file without links to others.\n"
-            "* [Its tables](docs/benchmarks.md#reports) are CSV files in [results](folders/results.md).\n")
-    paper = ROOT / "build/paper/maxwrench.pdf"
-    if paper.exists():
-        shutil.copy(paper, extra / "report/maxwrench.pdf")
-        text += "* <a href=\"report/maxwrench.pdf\">The paper</a> (PDF).\n"
-    return text
+            "* [Its tables](docs/benchmarks.md#reports) are CSV files in [results](folders/results.md).\n"
+            "* <a href=\"report/maxwrench.pdf\">The paper</a> (PDF) reads its numbers from `results/`.\n")

@@ -2,6 +2,7 @@
 
 import csv
 import functools
+import gzip
 import pathlib
 
 RESULTS = pathlib.Path(__file__).resolve().parents[2] / "results"
@@ -29,3 +30,14 @@ def costs(problem, scheme, wrench):
     """The median time of an evaluation by solver [us]."""
     rows = [row for row in table("costs") if (row["problem"], row["scheme"], row["wrench"]) == (problem, scheme, wrench)]
     return {row["solver"]: float(row["us"]) for row in rows if row["solver"] != "none"}
+
+
+@functools.cache
+def times(measure):
+    """The time of an evaluation of each static task [us], with a pure wrench and with any, by `grid` and the fastest solver; None without one."""
+    found = {}
+    with gzip.open(RESULTS / "times.csv.gz", "rt", newline="") as file:
+        for row in csv.DictReader(file):
+            if (row["measure"], row["search"], row["scheme"]) == (measure, "grid", ""):
+                found.setdefault(row["problem"], {}).setdefault(row["wrench"], []).append(float(row["us_per_evaluation"]))
+    return {task: [min(by_wrench.get(wrench, []), default=None) for wrench in ["pure", "any"]] for task, by_wrench in found.items()}

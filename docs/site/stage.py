@@ -10,7 +10,7 @@ import reports
 import strategies
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SOURCE = ROOT / "build/docs/source"
+SOURCE, EXTRA = ROOT / "build/docs/source", ROOT / "build/docs/extra"
 COPIED = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "CITATION.cff", "docs", "problems", "results", "examples", "benchmarks/suites",
           "benchmarks/slurm", "view/engine/README.md"]
 FOLDERS = ["examples", "results"]
@@ -91,7 +91,7 @@ def main():
     start, overview = first_page(pages.pop(pathlib.PurePosixPath("README.md")))
     texts = {page: strategies.completed(page, listed(page, text, files)) for page, text in pages.items()}
     texts |= {pathlib.PurePosixPath("index.md"): start, pathlib.PurePosixPath("overview.md"): overview}
-    computed = reference.pages() | gallery.pages(SOURCE) | {"reports.md": reports.page(ROOT / "build/docs/extra")}
+    computed = reference.pages() | gallery.pages(SOURCE, EXTRA) | {"reports.md": reports.page(EXTRA)}
     for folder in FOLDERS:
         computed[f"folders/{folder}.md"] = folder_page(pathlib.PurePosixPath(folder), files)
     written = {write(page, with_known_links(text, page).replace("```math\n", "```{math}\n")) for page, text in texts.items()}

@@ -5,7 +5,7 @@ import multiprocessing
 import pathlib
 import subprocess
 
-import results
+import measured
 from figures import measures, searches, solvers
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -57,25 +57,14 @@ def draw_figures(source):
     known.write_text(digest)
 
 
-def measured(search):
-    """How the search did in the comparison, as a table; nothing where it did not take part."""
-    row = results.standing(search)
-    if row is None:
-        return ""
-    shares = " | ".join(f"{100 * float(row[f'reached_{part}']):.0f}" for part in ["tenth", "hundredth", "thousandth", "ten_thousandth"])
-    times = " | ".join(f"{float(row[key]):.3g}" if row[key] else "-" for key in ["typical", "worst"])
-    return ("\n## In the comparison of all static tasks\n\n"
-            "*Typical* and *worst* compare the expected time to 0.1 % below the best with that of the best search of each task. The other columns are "
-            "the share of tasks and seeds [%] that came that near ([benchmarks](../../benchmarks.md#the-searches)).\n\n"
-            f"| tasks | typical | worst | 10 % | 1 % | 0.1 % | 0.01 % |\n|---|---|---|---|---|---|---|\n| {row['served']} | {times} | {shares} |\n")
-
-
 def completed(page, text):
-    """A page of a name, with its line of the table, its figure below the title and what was measured at the end."""
+    """A page of a name, with its line of the table, its figure below the title and what was measured at the end. The page of searches compares stages."""
     family = page.parent.name
+    if str(page) == "docs/algorithms/searches.md":
+        return text + measured.stages()
     if page.parent.parent.name != "algorithms" or family not in FAMILIES:
         return text
     title, rest = text.split("\n", 1)
     line = tables()[family][page.stem].replace("|", "\\|")
     figure = f"![What {page.stem} does](../../../figures/{family}/{page.stem}.svg)"
-    return f"{title}\n\n**{line}**\n\n{figure}\n{rest}{measured(page.stem) if family == 'searches' else ''}"
+    return f"{title}\n\n**{line}**\n\n{figure}\n{rest}{measured.SECTIONS[family](page.stem)}"

@@ -136,17 +136,9 @@ PATHS = {
 }
 
 
-def measured(wrench):
-    """The time of an evaluation of a trajectory by solver, here and now [us]: the least of several."""
-    task = mw.load("uvms/valve_trajectory")
-    times = {}
-    for solver in ["facets_or_ipm", "ipm", "simplex", "clp", "glpk", "ipopt"]:
-        times[solver] = 1e6 * min(mw.evaluate(task, task.theta_r_default, solver=solver, wrench=wrench).seconds for _ in range(7))
-    return times
-
-
 def draw_costs(axes, solver, in_time):
-    shown = {name: measured(name) if in_time else results.costs("uvms/valve", "", name) for name in ["pure", "any"]}
+    problem, scheme = ("uvms/valve_trajectory", "ends") if in_time else ("uvms/valve", "")
+    shown = {wrench: results.costs(problem, scheme, wrench) for wrench in ["pure", "any"]}
     names = sorted(set().union(*shown.values()), key=lambda name: min(costs.get(name, np.inf) for costs in shown.values()))
     for k, costs in enumerate(shown.values()):
         for row, name in enumerate(names):
@@ -154,7 +146,7 @@ def draw_costs(axes, solver, in_time):
                 axes.barh(row + 0.2 - 0.4 * k, costs[name], height=0.35, color=BLUE if name == solver else GREY, alpha=1 - 0.5 * k)
     axes.set(xscale="log", yticks=range(len(names)), yticklabels=names, xlabel="time of an evaluation [µs]")
     axes.invert_yaxis()
-    axes.set_title(f"uvms/valve{'_trajectory' * in_time}: dark pure, light any wrench", fontsize=9)
+    axes.set_title(f"{problem}{' (ends)' * in_time}: dark pure, light any wrench", fontsize=9)
 
 
 def draw(solver, path):
