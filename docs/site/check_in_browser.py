@@ -52,10 +52,8 @@ class Handler(http.server.SimpleHTTPRequestHandler):
         pass
 
 
-def browse(root):
+def browse(root, pages):
     """What the driver reports of the pages, or one line if Chromium does not get to the end."""
-    paths = [path.relative_to(root) for path in root.rglob("*.html")]
-    pages = sorted(path.as_posix() for path in paths if path.parts[0] not in {"_static", *OF_THE_COMMAND})
     task = json.dumps({"pages": pages, "widths": WIDTHS, "searches": SEARCHES})
     Handler.driver = f"<!doctype html><body><pre id='found'></pre><script>const task = {task};\n{DRIVER}</script></body>".encode()
     server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Handler, directory=root))
@@ -73,9 +71,13 @@ def browse(root):
 
 
 def main():
-    faults = browse(pathlib.Path(sys.argv[1]).resolve())
+    root = pathlib.Path(sys.argv[1]).resolve()
+    paths = [path.relative_to(root) for path in root.rglob("*.html")]
+    pages = sorted(path.as_posix() for path in paths if path.parts[0] not in {"_static", *OF_THE_COMMAND})
+    faults = browse(root, pages)
     for fault in faults:
         print(fault, file=sys.stderr)
+    print(f"{len(pages)} pages at {WIDTHS[0]} and {WIDTHS[1]} px, {len(SEARCHES)} searches, {len(faults)} faults")
     return 1 if faults else 0
 
 
