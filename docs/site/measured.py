@@ -27,8 +27,8 @@ def measure(name):
 def solver(name):
     rows = [[row["benchmark_set"], f"{row['solved']} of {row['instances']}", digits(row["us"]), digits(row["times"] or 1), f"`{row['reference']}`"]
             for row in results.table("solvers") if row["solver"] == name]
-    return section("In the benchmark", "*Solved* are the cases with a value. *Time* is the median processor time of an evaluation [µs], where a case without "
-                   "a value counts as infinite. *Times* is the median ratio to that of the reference, case by case "
+    return section("In the benchmark", "*Solved* are the cases with a value; a case that the solver does not support has none. *Time* is the median processor "
+                   "time of an evaluation [µs], where a case without a value counts as infinite. *Times* is the median ratio to that of the reference, case by case "
                    "([benchmarks](../../benchmarks.md#reports)).", ["cases", "solved", "time", "times", "reference"], rows)
 
 
