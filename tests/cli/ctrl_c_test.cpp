@@ -22,18 +22,29 @@ CommandResult interrupt(const std::string& words, const std::filesystem::path& f
                        folder);
 }
 
+/// The answer to a command that is interrupted once it has found a value. How long that takes depends
+/// on the machine, so it gets more time if it has found none.
+json interrupted_answer(const std::string& words, const std::filesystem::path& folder) {
+  json answer;
+  for (const char* seconds : {"1", "5", "25"}) {
+    const CommandResult result = interrupt(words, folder, seconds);
+    EXPECT_EQ(result.exit_status, 1) << result.err;
+    EXPECT_EQ(result.err, "");
+    answer = json::parse(result.out);
+    if (answer["beta"].is_number()) break;
+  }
+  return answer;
+}
+
 TEST(CtrlC, SolvePrintsTheBestSoFar) {
   const TemporaryFolder folder;
   for (const SearchEntry& search : searches()) {
     const std::string name = search.name;
     if (name == "nullspace" || name == "multistart") continue;  // end by themselves, soon
     SCOPED_TRACE(search.name);
-    const CommandResult result =
-        interrupt("solve uvms/valve --json --budget 10000000 --search " + std::string(search.name),
-                  folder.path());
-    EXPECT_EQ(result.exit_status, 1) << result.err;
-    EXPECT_EQ(result.err, "");
-    const json best = json::parse(result.out);
+    const json best = interrupted_answer(
+        "solve uvms/valve --json --budget 10000000 --search " + name, folder.path());
+    ASSERT_TRUE(best["beta"].is_number()) << best;
     EXPECT_EQ(best["status"], "budget_exhausted");
     EXPECT_EQ(best["reason"], "interrupted");
     EXPECT_GT(best["evaluations"], 0);
