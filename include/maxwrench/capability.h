@@ -1,5 +1,6 @@
 #pragma once
 
+#include "maxwrench/scenario.h"
 #include "maxwrench/status.h"
 #include "maxwrench/types.h"
 
@@ -38,6 +39,9 @@ struct Capability : Verdict {
       ///
       /// It adds `<beta_C2, d C_2>` to d beta.
       beta_C2;
+  /// The scenario that decides, if the task has a list of scenarios: the first with the least upper
+  /// end. w, h, u, lambda and the residual are its own.
+  ScenarioChoice decides;
   int iterations = 0;  ///< iterations of the solver
   /// The residual of the result, filled together with u.
   ///

@@ -106,6 +106,21 @@ std::unique_ptr<Measure> make_l2_polytope(const Robot& robot, std::unique_ptr<Wr
 std::unique_ptr<Measure> make_linf_polytope(const Robot& robot,
                                             std::unique_ptr<WrenchSolver> solver);
 
+/// Makes the L-infinity polytope measure of a task with a list of scenarios.
+///
+/// The value is that of `ScenarioList`. With facets, and one column in each wrench program, all
+/// scenarios are scanned at once: each side of each pair of facets takes its own worst case of each
+/// load, so their combinations do not count. Otherwise `solver` solves them one by one. In both
+/// cases it solves the scenario that decides if efforts are requested.
+///
+/// @param problem  the task, which must outlive the measure
+/// @param wrench   the allowed wrenches
+/// @param solver   solves wrench programs
+/// @param facets   whether to scan facets; ignored if the task does not permit it
+/// @throws std::invalid_argument if the task has a ball and facets are not scanned.
+std::unique_ptr<Measure> make_scenario_polytope(const Problem& problem, Wrench wrench,
+                                                std::unique_ptr<WrenchSolver> solver, bool facets);
+
 /// Makes a measure from a function that gives the value alone.
 ///
 /// The derivatives by tau_d and J, with a second contact also by J_2 and C_2, are central

@@ -8,6 +8,7 @@
 #include "maxwrench/contact.h"
 #include "maxwrench/path.h"
 #include "maxwrench/robot.h"
+#include "maxwrench/scenario.h"
 
 /// @file
 /// A problem: a robot and a task.
@@ -83,6 +84,9 @@ struct Problem {
   /// If it is null, or belongs to another robot, task or other limits, each evaluator makes its
   /// own, which takes a few hundredths of a second.
   std::shared_ptr<const IkStartSystem> start_system;
+  /// The scenarios of a static task; empty for one wrench of the nominal robot. c is then the
+  /// direction of the first wrench.
+  ScenarioList scenarios;
   /// The second contact, if there is one. The value is the wrench of the first contact only.
   std::optional<Contact> contact;
   /// Lower limits of theta_r (r).
@@ -103,7 +107,7 @@ struct Problem {
   /// Returns l, the number of columns of the second contact's wrench; 0 without a second contact.
   int contact_columns() const { return contact ? static_cast<int>(contact->C.cols()) : 0; }
   /// Returns the unit of beta: "N" if c is a pure force, "N m" if it is a pure torque, else
-  /// "mixed".
+  /// "mixed". A list of scenarios has its own.
   const char* unit() const;
   /// Returns the type of the task: "static", "trajectory" or "impulse".
   const char* type() const;

@@ -61,6 +61,18 @@ struct Trim {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< where the force acts, in base axes [m]
 };
 
+/// A body of a link, before bodies on fixed joints are joined into one: what uncertain data refer
+/// to.
+struct BodyPart {
+  std::string name;                               ///< the name, for a URDF that of its link
+  int link = 0;                                   ///< the link that it is part of
+  Pose<double> frame;                             ///< link -> body
+  double mass = 0;                                ///< mass [kg]
+  Eigen::Vector3d com = Eigen::Vector3d::Zero();  ///< centre of mass in the axes of `frame` [m]
+  double volume = 0;                              ///< displaced volume [m^3]
+  Eigen::Vector3d cob = Eigen::Vector3d::Zero();  ///< centre of buoyancy, likewise [m]
+};
+
 /// A gear or linkage that moves a joint with another one: q = ratio q_leader + offset.
 ///
 /// The leader's motor drives both. `complete_actuation` gives the gear a column of B: its force
@@ -195,7 +207,9 @@ struct Robot {
   std::vector<int> base_axes;
   /// Pose of the base in the world before it moves along its free axes. Unused with all six.
   Pose<double> mount;
-  std::vector<Link> links;                 ///< the base, then one link for each joint
+  std::vector<Link> links;  ///< the base, then one link for each joint
+  /// The bodies of the links. `finalize` makes one of each link if there are none.
+  std::vector<BodyPart> parts;
   std::vector<Joint> joints;               ///< the joints
   std::vector<Thruster> thrusters;         ///< the thrusters
   std::vector<EndEffector> end_effectors;  ///< the end effectors

@@ -95,6 +95,48 @@ struct ContactSpec {
   double sigma_min = Contact().sigma_min;        ///< as `Contact::sigma_min` [-]
 };
 
+/// What is not known of a robot and its water, the table `[uncertainty]` of a file. Each number is
+/// half of the width of an interval about the nominal value, unless stated otherwise.
+struct UncertaintySpec {
+  std::map<std::string, double> mass = {},  ///< masses by name of `Robot::parts` [kg]
+      volume = {};                          ///< displaced volumes, likewise [m^3]
+  std::map<std::string, Eigen::Vector3d> com =
+                                             {},  ///< centres of mass, in the axes of the part [m]
+      cob = {};                                   ///< centres of buoyancy, likewise [m]
+  double trim = 0;                                ///< the mass that the trim carries [kg]
+  double payload_mass = 0;  ///< an unknown mass between zero and this one at the end effector [kg]
+  /// The centre of that mass, in the axes of the end effector [m].
+  Eigen::Vector3d payload_com = Eigen::Vector3d::Zero();
+  double thrust = 0,  ///< the share, less than 1, by which each thruster may be weaker [-]
+      torque = 0;     ///< the share by which each joint's motor may be weaker [-]
+  /// The speed of a steady horizontal current from any of `current_directions` directions, the
+  /// first along x, or of none [m/s].
+  double current_speed = 0;
+  int current_directions = 72;                        ///< the number of directions
+  std::vector<Eigen::Vector3d> current_vectors = {};  ///< in place of both: velocities in the world
+                                                      ///< [m/s]; add zero for still water
+};
+
+/// The actuators that may be lost, the table `[loss]` of a file.
+struct LossSpec {
+  int any = 0;  ///< at most so many of `actuators` are lost at once, in every combination
+  /// Names of thrusters and joints, "thrusters" or "joints" for all of them.
+  std::vector<std::string> actuators = {"thrusters"};
+  /// In place of both: the sets of actuators that may be lost.
+  std::vector<std::vector<std::string>> cases = {};
+  bool joints_lock = false;  ///< true: a lost joint is locked by its brake; false: it is limp
+  double friction = 0;       ///< what a limp joint resists [N m or N]
+  double brake = kInfinity;  ///< what a locked joint resists [N m or N]
+};
+
+/// A payload whose mass is the value, the table `[payload]` of a file. Lengths are in the axes of
+/// the end effector.
+struct PayloadSpec {
+  Eigen::Vector3d com = Eigen::Vector3d::Zero();  ///< centre of mass [m]
+  double volume = 0;                              ///< displaced volume per kg [m^3/kg]
+  std::optional<Eigen::Vector3d> cob = {};        ///< centre of buoyancy [m]; none: `com`
+};
+
 /// The description of a task; `make_problem` derives everything else in a `Problem`.
 struct TaskSpec {
   std::string name = "",          ///< as `Problem::name`, free text
@@ -116,8 +158,19 @@ struct TaskSpec {
   /// true: these coordinates are along the axes of the end effector; false: along those of `pose`.
   bool along_end_effector = false;
   Vector6d c = Vector6d::Zero();  ///< direction [force; torque], of any nonzero length
-  /// true: c, `any` and `desired` are in the axes of the end effector and turn with it. false: they
-  /// are in world axes.
+  /// In place of c: several wrenches, of any nonzero length. The value is the factor by which all
+  /// of them can be exerted, one at a time.
+  std::vector<Vector6d> set = {};
+  /// Axes of a ball, by names in kWrenchAxes, all of forces or all of torques: with a radius it is
+  /// added to c or to each wrench of `set`, or stands alone.
+  std::vector<std::string> ball_axes = {};
+  double ball_radius = 0;  ///< radius of the ball [N or N m]
+  bool hold = false;       ///< whether the robot must also hold its posture without a wrench
+  std::optional<UncertaintySpec> uncertainty = {};  ///< what is not known
+  std::optional<LossSpec> loss = {};                ///< the actuators that may be lost
+  std::optional<PayloadSpec> payload = {};          ///< in place of a wrench
+  /// true: c, `set`, the ball, `any` and `desired` are in the axes of the end effector and turn
+  /// with it. false: they are in world axes.
   bool wrench_in_end_effector = false;
   /// The wrenches that `Wrench::kAny` allows, by names in kWrenchAxes. None: all that do work.
   std::optional<std::vector<std::string>> any = {};

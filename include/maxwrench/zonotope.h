@@ -51,4 +51,15 @@ struct Zonotope {
 Zonotope make_zonotope(Eigen::MatrixXd B, Eigen::VectorXd u_min, Eigen::VectorXd u_max,
                        long max_subsets = 20000);
 
+/// Returns a zonotope with other limits of u. The facets keep their normals, which serve any
+/// limits.
+///
+/// An infinite limit makes the facets that it moves infinite.
+///
+/// @param zonotope  the zonotope
+/// @param u_min     lower limits of u (m)
+/// @param u_max     upper limits of u (m)
+/// @throws std::invalid_argument as `make_zonotope`.
+Zonotope with_limits(Zonotope zonotope, Eigen::VectorXd u_min, Eigen::VectorXd u_max);
+
 }  // namespace maxwrench
