@@ -12,6 +12,7 @@
 
 #include "drawing/postures.h"
 #include "drawing/svg.h"
+#include "lib/scenario/scenario_list.h"
 #include "maxwrench/measure.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
@@ -105,6 +106,7 @@ std::string figure(const Problem& problem, const std::vector<Panel>& panels) {
 }
 
 std::string posture_figure(const Problem& problem, const std::vector<Panel>& panels) {
+  require_no_scenarios(problem, "plot");
   PostureEvaluator model(problem);
   std::vector<DrawnPosture> drawn;
   for (const Panel& panel : panels) drawn.push_back(draw_robot(problem, model, panel));

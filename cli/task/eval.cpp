@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <memory>
 #include <stdexcept>
 
@@ -8,6 +10,7 @@
 #include "cli/task/motion_options.h"
 #include "cli/task/problem_options.h"
 #include "cli/task/state.h"
+#include "lib/scenario/scenario_list.h"
 #include "maxwrench/mps.h"
 #include "maxwrench/solve.h"
 #include "maxwrench/wrench_program.h"
@@ -18,7 +21,7 @@ namespace {
 struct EvalOptions : CommonOptions {
   std::optional<std::string> theta_r;
   std::string state, write;
-  bool ignore_collision = false;
+  bool ignore_collision = false, nominal = false, scenarios = false;
   MotionOptions motion;
   ProblemOptions source;
   ExplainOption explain;
@@ -37,7 +40,8 @@ void write_program(const EvalOptions& options, const Answer& answer) {
   write_file(options.write, wrench_program_mps(problem, program));
 }
 
-void require_program(const Options& options) {
+void require_program(const Problem& problem, const Options& options) {
+  require_no_scenarios(problem, "--write");
   if (options.measure == "linf_polytope") return;
   throw std::invalid_argument("--write: got measure " + options.measure +
                               ", expected linf_polytope");
@@ -56,6 +60,7 @@ int eval(const EvalOptions& options) {
   Problem problem = options.source.load(options.choice.problem, true);
   if (!options.state.empty()) return report_state(problem, options.state, options.json);
   options.motion.change(problem);
+  if (options.nominal) problem = nominal(std::move(problem));
   Options how = options.read_options();
   how.check_collision = !options.ignore_collision;
   if (problem.motion) {
@@ -63,10 +68,15 @@ int eval(const EvalOptions& options) {
         {{"path.file", problem.motion->path_file}, {"--theta-r", options.theta_r.value_or("")}},
         {{"--write", options.write}});
   }
-  if (!options.write.empty()) require_program(how);
+  if (!options.write.empty()) require_program(problem, how);
   const Answer answer = answer_of(problem, options, how);
   if (!options.write.empty()) write_program(options, answer);
-  return options.explain.report(answer, options.json);
+  if (!options.scenarios || answer.posture.status != Status::kValid) {
+    return options.explain.report(answer, options.json);
+  }
+  const std::vector<ScenarioEnds> ends = scenario_ends(answer);
+  fmt::print("{}", options.json ? to_json(answer, ends) + "\n" : summary(answer) + summary(ends));
+  return answer.answered() ? kAnswered : kOtherStatus;
 }
 
 }  // namespace
@@ -88,12 +98,16 @@ void add_eval(CLI::App& app, int& exit_status) {
       ->check(reject_empty);
   command.add_flag("--ignore-collision", options->ignore_collision,
                    "evaluate colliding postures, too; do not check trajectories for collisions");
+  command.add_flag("--nominal", options->nominal, "without uncertainty and loss of the task");
+  command
+      .add_flag("--scenarios", options->scenarios, "list the interval of each scenario of the task")
+      ->excludes("--explain");
   CLI::Option& state = *command.add_option(
       "--state", options->state,
       "print M, tau_d and J for the motion in this file instead of a capability");
   for (const char* other :
        {"--theta-r", "--measure", "--wrench", "--solver", "--write", "--ignore-collision",
-        "--scheme", "--t-h", "--joints", "--posture", "--explain"}) {
+        "--scheme", "--t-h", "--joints", "--posture", "--explain", "--nominal", "--scenarios"}) {
     state.excludes(command.get_option(other));
   }
   command.callback([options, &exit_status] { exit_status = eval(*options); });

@@ -49,10 +49,11 @@ struct ScenarioLimits {
 
 /// One wrench of a task.
 struct ScenarioWrench {
-  std::string name;  ///< for messages, such as "wrench 2"
-  /// [force; torque] in the axes of `Problem::c`, of any length. Zero asks whether the robot can
-  /// hold its posture without a wrench.
-  Vector6d c = Vector6d::Zero();
+  std::string name;               ///< for messages, such as "wrench 2"
+  Vector6d c = Vector6d::Zero();  ///< [force; torque] in the axes of `Problem::c`, of any length
+  /// true: c is zero, and the scenario asks whether the robot can hold its posture without a
+  /// wrench.
+  bool hold = false;
 };
 
 /// A ball of wrenches {E z : |z| <= radius}, which is added to each wrench of a task.
@@ -81,7 +82,8 @@ struct CarriedLoad {
 /// scenario: each is held, not all at once.
 struct ScenarioList {
   std::vector<ScenarioWrench> wrenches;  ///< the wrenches; none: the task has no list
-  std::optional<WrenchBall> ball;        ///< added to each wrench other than zero
+  std::optional<WrenchBall>
+      ball;  ///< added to each wrench but that of `hold`; with c = 0, it stands alone
   /// The payload whose mass is the value. The only wrench is its weight at `Problem::pose`; at a
   /// posture it is the weight there, since the weight does not turn with the end effector.
   std::optional<CarriedLoad> payload;

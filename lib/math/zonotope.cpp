@@ -89,23 +89,37 @@ std::vector<VectorXd> facet_normals(const MatrixXd& G) {
   return normals;
 }
 
-void add_pair(Zonotope& zonotope, const VectorXd& normal) {
+void add_normal(Zonotope& zonotope, const VectorXd& normal) {
   const Eigen::Index f = zonotope.N.cols();
   zonotope.N.conservativeResize(Eigen::NoChange, f + 1);
   zonotope.N.col(f) = normal;
-  double low = 0;
-  double high = 0;
-  for (int j = 0; j < zonotope.actuators(); ++j) {
-    const double slope = normal.dot(zonotope.B.col(j));
-    // A generator that lies in the facet up to rounding does not change its support.
-    if (std::abs(slope) < 1e-13 * zonotope.B.col(j).norm()) continue;
-    low += std::min(slope * zonotope.u_min[j], slope * zonotope.u_max[j]);
-    high += std::max(slope * zonotope.u_min[j], slope * zonotope.u_max[j]);
+}
+
+/// Computes b_min and b_max from N, B and the limits of u.
+void set_supports(Zonotope& zonotope) {
+  const Eigen::Index f = zonotope.N.cols();
+  zonotope.b_min.setZero(f);
+  zonotope.b_max.setZero(f);
+  for (Eigen::Index pair = 0; pair < f; ++pair) {
+    const VectorXd normal = zonotope.N.col(pair);
+    for (int j = 0; j < zonotope.actuators(); ++j) {
+      const double slope = normal.dot(zonotope.B.col(j));
+      // A generator that lies in the facet up to rounding does not change its support.
+      if (std::abs(slope) < 1e-13 * zonotope.B.col(j).norm()) continue;
+      const double low = slope * zonotope.u_min[j], high = slope * zonotope.u_max[j];
+      zonotope.b_min[pair] += std::min(low, high);
+      zonotope.b_max[pair] += std::max(low, high);
+    }
   }
-  zonotope.b_min.conservativeResize(f + 1);
-  zonotope.b_max.conservativeResize(f + 1);
-  zonotope.b_min[f] = low;
-  zonotope.b_max[f] = high;
+}
+
+void require_limits(const VectorXd& u_min, const VectorXd& u_max) {
+  for (Eigen::Index j = 0; j < u_min.size(); ++j) {
+    if (u_min[j] <= u_max[j] && u_min[j] < kInfinity && u_max[j] > -kInfinity) continue;
+    throw std::invalid_argument("zonotope: limit " + std::to_string(u_min[j]) + " .. " +
+                                std::to_string(u_max[j]) + " of actuator " + std::to_string(j) +
+                                ", expected min <= max");
+  }
 }
 
 /// Adds the facet pairs of one block; false if there would be too many.
@@ -130,7 +144,7 @@ bool add_block(Zonotope& zonotope, const Block& block, long max_subsets) {
   for (const VectorXd& normal : normals) {
     VectorXd full = VectorXd::Zero(zonotope.dimension());
     full(block.rows) = normal;
-    add_pair(zonotope, full);
+    add_normal(zonotope, full);
   }
   return true;
 }
@@ -143,13 +157,7 @@ Zonotope make_zonotope(MatrixXd B, VectorXd u_min, VectorXd u_max, long max_subs
                                 " columns, expected as many as limits");
   }
   if (!B.allFinite()) throw std::invalid_argument("zonotope: an entry of B is not finite");
-  for (Eigen::Index j = 0; j < u_min.size(); ++j) {
-    if (!(u_min[j] <= u_max[j] && u_min[j] < kInfinity && u_max[j] > -kInfinity)) {
-      throw std::invalid_argument("zonotope: limit " + std::to_string(u_min[j]) + " .. " +
-                                  std::to_string(u_max[j]) + " of actuator " + std::to_string(j) +
-                                  ", expected min <= max");
-    }
-  }
+  require_limits(u_min, u_max);
   Zonotope zonotope;
   zonotope.B = std::move(B);
   zonotope.u_min = std::move(u_min);
@@ -165,13 +173,23 @@ Zonotope make_zonotope(MatrixXd B, VectorXd u_min, VectorXd u_max, long max_subs
   zonotope.has_facets = std::all_of(blocks.begin(), blocks.end(), [&](const Block& block) {
     return add_block(zonotope, block, max_subsets);
   });
-  if (!zonotope.has_facets) {
-    zonotope.N.resize(zonotope.dimension(), 0);
-    zonotope.b_min.resize(0);
-    zonotope.b_max.resize(0);
-  }
+  if (!zonotope.has_facets) zonotope.N.resize(zonotope.dimension(), 0);
+  set_supports(zonotope);
   zonotope.N_nonzero = zonotope.N.sparseView();
   zonotope.N_nonzero.makeCompressed();
+  return zonotope;
+}
+
+Zonotope with_limits(Zonotope zonotope, VectorXd u_min, VectorXd u_max) {
+  if (zonotope.actuators() != u_min.size() || zonotope.actuators() != u_max.size()) {
+    throw std::invalid_argument("zonotope: got " + std::to_string(u_min.size()) + " and " +
+                                std::to_string(u_max.size()) + " limits, expected " +
+                                std::to_string(zonotope.actuators()));
+  }
+  require_limits(u_min, u_max);
+  zonotope.u_min = std::move(u_min);
+  zonotope.u_max = std::move(u_max);
+  set_supports(zonotope);
   return zonotope;
 }
 

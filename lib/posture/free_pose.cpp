@@ -87,6 +87,16 @@ Eigen::VectorXd held_theta_r(const Problem& problem, const Eigen::VectorXd& thet
   return result;
 }
 
+void turn_wrenches(const Eigen::Matrix3d& turn, Problem& problem) {
+  problem.c = rotated(turn, problem.c);
+  problem.W_any = rotated(turn, problem.W_any);
+  problem.wrench_axes = turn * problem.wrench_axes;
+  ScenarioList& list = problem.scenarios;
+  for (ScenarioWrench& wrench : list.wrenches) wrench.c = rotated(turn, wrench.c);
+  if (list.ball) list.ball->E = rotated(turn, list.ball->E);
+  list.F = rotated(turn, list.F);
+}
+
 Problem held_at(const Problem& problem, const Eigen::VectorXd& theta_r) {
   require_theta_r(problem, theta_r);
   Problem held = problem;
@@ -94,9 +104,7 @@ Problem held_at(const Problem& problem, const Eigen::VectorXd& theta_r) {
   held.pose = pose_at(problem, theta_r);
   if (problem.free.wrench_turns) {
     const Eigen::Matrix3d turn = held.pose.R * problem.pose.R.transpose();
-    held.c = rotated(turn, problem.c);
-    held.W_any = rotated(turn, problem.W_any);
-    held.wrench_axes = turn * problem.wrench_axes;
+    turn_wrenches(turn, held);
   }
   held.free = {};
   for (Eigen::VectorXd* v : {&held.theta_r_min, &held.theta_r_max, &held.theta_r_default}) {

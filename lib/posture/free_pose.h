@@ -15,4 +15,7 @@ void require_theta_r(const Problem& problem, const Eigen::VectorXd& theta_r);
 /// coordinate i of its pose at theta_r: the derivative of `pose_at`.
 Vector6d free_twist(const Problem& problem, const Eigen::VectorXd& theta_r, int i);
 
+/// Turns all wrenches of a problem, as `Problem::c`, and the axes of those that it gives.
+void turn_wrenches(const Eigen::Matrix3d& turn, Problem& problem);
+
 }  // namespace maxwrench

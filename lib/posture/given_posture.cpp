@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lib/math/rotated.h"
+#include "lib/posture/free_pose.h"
 #include "lib/robot/chain.h"
 
 namespace maxwrench {
@@ -31,13 +31,12 @@ Problem held_at_joints(const Problem& problem, const Eigen::VectorXd& q) {
   held.c = problem.c;  // at the pose of the task
   held.W_any = problem.W_any;
   held.wrench_axes = problem.wrench_axes;
+  held.scenarios = problem.scenarios;
   held.pose = pose_at_mount(problem.robot, problem.end_effector, q);
   held.start_system.reset();
-  if (!problem.wrench_in_end_effector) return held;
-  const Eigen::Matrix3d turn = held.pose.R * problem.pose.R.transpose();
-  held.c = rotated(turn, held.c);
-  held.W_any = rotated(turn, held.W_any);
-  held.wrench_axes = turn * held.wrench_axes;
+  if (problem.wrench_in_end_effector) {
+    turn_wrenches(held.pose.R * problem.pose.R.transpose(), held);
+  }
   return held;
 }
 

@@ -10,6 +10,7 @@
 #include "lib/posture/ik/second_arm.h"
 #include "lib/posture/posture_state.h"
 #include "lib/posture/pull_back.h"
+#include "lib/posture/scenario_slopes.h"
 #include "maxwrench/capability.h"
 
 namespace maxwrench {
@@ -65,6 +66,7 @@ struct PostureEvaluator::Workspace {
         reverse(p.robot, p.end_effector, p.contact ? p.contact->end_effector : -1) {
     if (!p.dependent.empty()) primary.emplace(p);
     if (p.contact) second.emplace(p);
+    if (!p.scenarios.empty()) slopes.emplace(p);
     posture.q.resize(model.q.size());
     posture.links = model.kinematics.links();
     posture.J = model.J;
@@ -246,7 +248,7 @@ struct PostureEvaluator::Workspace {
 
   void pull_back(const Eigen::VectorXd& theta_r, const Eigen::VectorXd& tau_seed,
                  const Matrix6Xd& J_seed, const Matrix6Xd& J2_seed, const Matrix6Xd& C2_seed,
-                 Eigen::VectorXd& gradient) {
+                 const Capability* decided, Eigen::VectorXd& gradient) {
     require_seeds(model.J.cols(), tau_seed, J_seed);
     if (second) {
       require_columns("J_2", J2_seed, model.J.cols());
@@ -262,7 +264,13 @@ struct PostureEvaluator::Workspace {
     gradient.resize(theta_r.size());
     const Eigen::Vector3d& p_e = model.pose.p;
     const Matrix6Xd& seeds = second ? second->shifted_seeds(p_e, J_seed, J2_seed) : J_seed;
+    if (decided) slopes->load(decided->decides, model);
     reverse.evaluate(model.kinematics, model.base.R, model.J, tau_seed, seeds, q_gradient);
+    Eigen::Vector3d by_turn = Eigen::Vector3d::Zero();
+    if (decided) {
+      slopes->unload(model);
+      by_turn = slopes->add(model, *decided, q_gradient);
+    }
     if (second) {
       second->follow(p_e, model.J, model.J_2, J2_seed, C2_seed, q_gradient, gradient);
     }
@@ -273,13 +281,16 @@ struct PostureEvaluator::Workspace {
         gradient[static_cast<Eigen::Index>(k)] = q_gradient[problem.redundant[k]];
       }
     }
-    if (!problem.free.axes.empty()) follow_pose(J_seed, gradient);
+    if (!problem.free.axes.empty()) follow_pose(J_seed, by_turn, gradient);
   }
 
-  /// The derivatives by the free coordinates of the pose. Each moves the robot by a twist of the
+  /// The derivatives by the free coordinates of the pose; `by_turn`: what a turn of the robot
+  /// changes beside tau_d and J. Each moves the robot by a twist of the
   /// end effector at resting joints; then the dependent coordinates change.
-  void follow_pose(const Matrix6Xd& J_seed, Eigen::VectorXd& gradient) const {
+  void follow_pose(const Matrix6Xd& J_seed, const Eigen::Vector3d& by_turn,
+                   Eigen::VectorXd& gradient) const {
     Vector6d by_twist = reverse.by_twist();
+    by_twist.tail<3>() += by_turn;
     for (Eigen::Index i = 0; i < J_seed.cols(); ++i) {
       const Eigen::Vector3d a = J_seed.col(i).head<3>(), b = J_seed.col(i).tail<3>();
       const Eigen::Vector3d v = model.J.col(i).head<3>(), w = model.J.col(i).tail<3>();
@@ -299,8 +310,9 @@ struct PostureEvaluator::Workspace {
   PostureState model;
   PullBack reverse;
   Eigen::VectorXd q_gradient;
-  std::optional<PrimaryIk> primary;  ///< if joints are dependent
-  std::optional<SecondArm> second;   ///< if there is a second contact
+  std::optional<PrimaryIk> primary;      ///< if joints are dependent
+  std::optional<SecondArm> second;       ///< if there is a second contact
+  std::optional<ScenarioSlopes> slopes;  ///< if there is a list of scenarios
   std::vector<IkSolution> valid;
   Fault fault;               ///< set if no posture is valid
   IkSolution shown, placed;  ///< where the fault is; where the model is
@@ -335,14 +347,14 @@ void PostureEvaluator::pull_back(const Eigen::VectorXd& theta_r, const Eigen::Ve
                                  const Matrix6Xd& J_seed, Eigen::VectorXd& gradient) {
   require_theta_r(workspace_->problem, theta_r);
   const Matrix6Xd& none = workspace_->none;
-  workspace_->pull_back(theta_r, tau_seed, J_seed, none, none, gradient);
+  workspace_->pull_back(theta_r, tau_seed, J_seed, none, none, nullptr, gradient);
 }
 
 void PostureEvaluator::pull_back(const Eigen::VectorXd& theta_r, const Capability& capability,
                                  Eigen::VectorXd& gradient) {
   require_theta_r(workspace_->problem, theta_r);
   workspace_->pull_back(theta_r, capability.lambda, capability.beta_J, capability.beta_J2,
-                        capability.beta_C2, gradient);
+                        capability.beta_C2, workspace_->slopes ? &capability : nullptr, gradient);
 }
 
 }  // namespace maxwrench

@@ -18,16 +18,28 @@ Kinematics<T>::Kinematics(const Robot& robot) : robot_(&robot) {
   links_.resize(robot.links.size());
   for (const Link& link : robot.links) {
     const double displaced_mass = robot.water_density * link.volume;
-    link_mass_.push_back(link.mass - displaced_mass);
-    link_moment_.push_back(link.mass * link.com - displaced_mass * link.cob);
+    own_mass_.push_back(link.mass - displaced_mass);
+    own_moment_.push_back(link.mass * link.com - displaced_mass * link.cob);
   }
-  link_mass_[0] -= robot.trim.buoyancy_mass;
-  link_moment_[0] -= robot.trim.buoyancy_mass * robot.trim.position;
-  carried_mass_ = link_mass_;
-  for (std::size_t i = robot.joints.size(); i-- > 0;) {
-    carried_mass_[robot.joints[i].parent] += carried_mass_[i + 1];
-  }
+  own_mass_[0] -= robot.trim.buoyancy_mass;
+  own_moment_[0] -= robot.trim.buoyancy_mass * robot.trim.position;
   carried_moment_.resize(robot.links.size());
+  set_loads({});
+}
+
+template <class T>
+void Kinematics<T>::set_loads(const std::vector<LinkLoad>& loads) {
+  link_mass_ = own_mass_;
+  link_moment_ = own_moment_;
+  for (const LinkLoad& load : loads) {
+    const auto link = static_cast<std::size_t>(load.link);
+    link_mass_[link] += load.mass;
+    link_moment_[link] += load.moment;
+  }
+  carried_mass_ = link_mass_;
+  for (std::size_t i = robot_->joints.size(); i-- > 0;) {
+    carried_mass_[robot_->joints[i].parent] += carried_mass_[i + 1];
+  }
 }
 
 template <class T>

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "maxwrench/robot.h"
+#include "maxwrench/scenario.h"
 
 namespace maxwrench {
 
@@ -24,6 +25,10 @@ class Kinematics {
   /// The same if only the joints `changed` differ, listed from the base outward. The list must
   /// include all joints that they carry.
   void set_joints(const VectorX<T>& q, const std::vector<int>& changed);
+
+  /// Sets the wet masses to those of the robot with these changes, in place of earlier ones. The
+  /// next `gravity_and_buoyancy` takes them into account.
+  void set_loads(const std::vector<LinkLoad>& loads);
 
   /// J, 6×n [-, m]: maps velocities to the twist [linear; angular] of the end effector, in world
   /// axes at its origin.
@@ -64,6 +69,9 @@ class Kinematics {
   // link and of all that it carries.
   std::vector<Vector3<double>> link_moment_;
   std::vector<double> link_mass_, carried_mass_;
+  // The robot's own.
+  std::vector<Vector3<double>> own_moment_;
+  std::vector<double> own_mass_;
   std::vector<Vector3<T>> carried_moment_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/scenario/scenario_list.h"
 #include "lib/tank/control_loop.h"
 #include "lib/tank/controller.h"
 #include "lib/tank/ode.h"
@@ -147,6 +148,7 @@ class Experiment {
 TankRun run_tank(const Problem& problem, const Posture& posture, const TargetWrench& target,
                  Integrator& integrator, const TankOptions& options) {
   check(options);
+  require_no_scenarios(problem, "virtual tank");
   check(problem.robot);
   return Experiment(problem, posture, target, integrator, options).run();
 }

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "lib/scenario/scenario_list.h"
 #include "lib/trajectory/clearance.h"
 #include "lib/trajectory/limits.h"
 #include "lib/trajectory/motion_evaluator.h"
@@ -191,7 +192,9 @@ struct TrajectoryEvaluator::Workspace {
 
 TrajectoryEvaluator::TrajectoryEvaluator(const Problem& problem, Wrench wrench,
                                          const TrajectorySolverMaker& make, bool check_collision)
-    : workspace_(std::make_unique<Workspace>(problem, wrench, make, check_collision)) {}
+    : workspace_(std::make_unique<Workspace>(problem, wrench, make, check_collision)) {
+  require_no_scenarios(problem, "trajectory");
+}
 TrajectoryEvaluator::~TrajectoryEvaluator() = default;
 
 const std::vector<NearPair>& TrajectoryEvaluator::near_pairs(const Eigen::MatrixXd& knots,

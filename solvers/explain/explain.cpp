@@ -1,3 +1,4 @@
+#include "lib/scenario/scenario_list.h"
 #include "maxwrench/explain.h"
 
 #include <fmt/format.h>
@@ -62,6 +63,7 @@ void split_loads(const Answer& answer, const Eigen::VectorXd& lambda, ValueBudge
 
 Explanation explain(const Answer& answer, const ExplainOptions& options) {
   if (!answer.task) throw std::invalid_argument("answer: got none, expected one with a task");
+  require_no_scenarios(*answer.task, "explain");
   if (!(options.share >= 0 && options.share <= 1)) {
     throw std::invalid_argument(
         fmt::format("share: got {}, expected a number from 0 to 1", options.share));

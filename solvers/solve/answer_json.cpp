@@ -125,6 +125,11 @@ void add_posture(const Answer& answer, ordered_json& object) {
   if (problem.contact) object["h_2"] = known(has_wrench, array(capability.h_2));
   object["u"] = known(solved && capability.u.size() > 0, array(capability.u));
   object["lambda"] = known(solved, array(capability.lambda));
+  if (!problem.scenarios.empty()) {
+    const ScenarioChoice& decides = capability.decides;
+    object["decides"] = known(solved, describe(problem.scenarios, decides));
+    object["critical"] = known(solved, array(capability.h));
+  }
   const Eigen::MatrixXd& gradient = answer.trajectory.gradient;
   const bool has_gradient = solved && gradient.cols() == posture.theta_r.size();
   object["gradient"] = has_gradient ? array(gradient.transpose()) : ordered_json(nullptr);
@@ -155,9 +160,7 @@ void add_instants(const Answer& answer, ordered_json& object) {
   }
 }
 
-}  // namespace
-
-std::string to_json(const Answer& answer) {
+ordered_json object_of(const Answer& answer) {
   const bool in_time = answer.task->motion.has_value();
   ordered_json object = choice_json(answer);
   (in_time ? add_trajectory : add_posture)(answer, object);
@@ -173,6 +176,23 @@ std::string to_json(const Answer& answer) {
   object["task_digest"] = answer.task->digest;
   object["version"] = version();
   if (in_time) add_instants(answer, object);
+  return object;
+}
+
+}  // namespace
+
+std::string to_json(const Answer& answer) { return in_one_line(object_of(answer)); }
+
+std::string to_json(const Answer& answer, const std::vector<ScenarioEnds>& ends) {
+  ordered_json object = object_of(answer);
+  object["scenarios"] = ordered_json::array();
+  for (const ScenarioEnds& each : ends) {
+    object["scenarios"].push_back(
+        {{"name", each.name},
+         {"low", known(each.held && std::isfinite(each.low), each.low)},
+         {"high", known(each.held && std::isfinite(each.high), each.high)},
+         {"held", each.held}});
+  }
   return in_one_line(object);
 }
 

@@ -10,6 +10,7 @@
 
 #include "lib/search/facet_program.h"
 #include "maxwrench/batch.h"
+#include "maxwrench/measure.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/trajectory.h"
@@ -27,9 +28,12 @@ bool serves(const WrenchSolverEntry& solver, const Problem& problem, Wrench wren
 std::vector<const WrenchSolverEntry*> solvers_for(const MeasureEntry& measure,
                                                   const Problem& problem, Wrench wrench) {
   if (wrench == Wrench::kAny && !measure.serves_any) return {};
+  if (!problem.scenarios.empty() && measure.name != Case().measure) return {};
   if (!measure.needs_solver) return {nullptr};
+  const bool facets_only = problem.scenarios.ball.has_value();
   std::vector<const WrenchSolverEntry*> served;
   for (const WrenchSolverEntry& solver : wrench_solvers()) {
+    if (facets_only && !solver.needs_facets) continue;
     if (serves(solver, problem, wrench)) served.push_back(&solver);
   }
   return served;
@@ -85,6 +89,32 @@ bool serves_limits(const MeasureEntry& measure, const Problem& problem) {
   return !(closed_form && problem.contact && limited(*problem.contact));
 }
 
+/// Rejects what a list of scenarios does not support. `none`: no solver does.
+void require_scenario_case(const Problem& problem, const MeasureEntry& measure, bool none) {
+  if (measure.name != Case().measure) {
+    throw std::invalid_argument(
+        fmt::format("measure: got {}, expected {}: {} has a list of scenarios", measure.name,
+                    Case().measure, problem.name));
+  }
+  if (!none) return;
+  throw std::invalid_argument(fmt::format(
+      "wrench: got a ball, expected pure wrenches and actuators with few facets, or wrench.set in "
+      "its place ({})",
+      problem.name));
+}
+
+MeasureMaker measure_maker(const Problem& problem, const MeasureEntry& measure,
+                           const WrenchSolverEntry* solver, Wrench wrench) {
+  if (problem.scenarios.empty()) {
+    return [&problem, &measure, solver] {
+      return measure.make(problem, solver ? solver->make() : nullptr);
+    };
+  }
+  return [&problem, solver, wrench] {
+    return make_scenario_polytope(problem, wrench, solver->make(), solver->needs_facets);
+  };
+}
+
 Method resolve_static(const Problem& problem, const Case& c) {
   if (!c.scheme.empty()) {
     throw std::invalid_argument(fmt::format("scheme: got '{}', expected none: {} is a static task",
@@ -99,11 +129,10 @@ Method resolve_static(const Problem& problem, const Case& c) {
   method.unit = lower.unit;
   method.make_measure = lower.make_measure;
   if (method.search) method.trajectory_solver = trajectory_solver_of(problem, method.choice);
-  const MeasureEntry& beta_linf = find_measure("linf_polytope");
-  const WrenchSolverEntry& reference = find_wrench_solver("simplex");
-  method.make_beta_linf = [&problem, &beta_linf, &reference] {
-    return beta_linf.make(problem, reference.make());
-  };
+  const bool by_facets = problem.scenarios.ball.has_value();
+  method.make_beta_linf =
+      measure_maker(problem, find_measure("linf_polytope"),
+                    &find_wrench_solver(by_facets ? "facets" : "simplex"), c.wrench);
   return method;
 }
 
@@ -151,13 +180,12 @@ LowerLevel resolve_lower_level(const Problem& problem, const Case& c) {
                                 "and infinity as limits of contact.basis");
   }
   return {&measure, name_of(solver), measure.unit ? measure.unit : problem.unit(),
-          [&problem, &measure, solver] {
-            return measure.make(problem, solver ? solver->make() : nullptr);
-          }};
+          measure_maker(problem, measure, solver, c.wrench)};
 }
 
 bool serves_as_trajectory(const Problem& problem, const std::string& measure) {
-  return measure == Case().measure && !problem.contact && problem.free.count() == 0;
+  return measure == Case().measure && !problem.contact && problem.free.count() == 0 &&
+         problem.scenarios.empty();
 }
 
 bool serves_between_facets(const Problem& problem, const std::string& measure) {

@@ -93,13 +93,17 @@ void add_capability(const Answer& answer, std::string& text) {
   const Problem& problem = *answer.task;
   const Capability& capability = answer.capability;
   add(text, "beta     {:>10.5f} {}\n", capability.beta, answer.unit);
+  const ScenarioList& list = problem.scenarios;
+  if (!list.empty()) add(text, "decides  {}\n", describe(list, capability.decides));
   add(text, "beta_linf{:>10.5f} {}\n", answer.beta_linf, problem.unit());
   if (capability.w.size() > 0) add(text, "h        {}\n", line(capability.h));
   if (problem.contact) add(text, "h_2      {}\n", line(capability.h_2));
+  const Zonotope& limits =
+      list.empty() ? problem.robot.actuation
+                   : list.limits[static_cast<std::size_t>(capability.decides.limits)].actuation;
   for (Eigen::Index i = 0; i < capability.u.size(); ++i) {
-    add(text, "u {:>17.5f}  of {:g} .. {:g}  {}\n", capability.u[i],
-        problem.robot.actuation.u_min[i], problem.robot.actuation.u_max[i],
-        actuator_name(problem.robot, i));
+    add(text, "u {:>17.5f}  of {:g} .. {:g}  {}\n", capability.u[i], limits.u_min[i],
+        limits.u_max[i], actuator_name(problem.robot, i));
   }
   if (answer.trajectory.gradient.size() > 0) {
     add(text, "gradient {}\n", line(answer.trajectory.gradient.transpose()));
@@ -147,6 +151,18 @@ std::string posture_summary(const Answer& answer) {
 }
 
 }  // namespace
+
+std::string summary(const std::vector<ScenarioEnds>& ends) {
+  std::string text = "scenarios    low        high\n";
+  const auto end = [](bool held, double value) {
+    return held ? fmt::format("{:.5f}", value) : std::string("-");
+  };
+  for (const ScenarioEnds& each : ends) {
+    add(text, "{:>14} {:>10}  {}\n", end(each.held, each.low), end(each.held, each.high),
+        each.name);
+  }
+  return text;
+}
 
 std::string summary(const Answer& answer) {
   return answer.task->motion ? trajectory_summary(answer) : posture_summary(answer);

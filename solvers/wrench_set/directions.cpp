@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "lib/math/decompositions.h"
+#include "lib/scenario/scenario_list.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/problem.h"
 
@@ -56,6 +57,7 @@ Matrix6Xd remainder(const Matrix6Xd& W, const Matrix6Xd& E) {
 }  // namespace
 
 WrenchProgram program_along(const Problem& problem, const Posture& posture, const Matrix6Xd& W) {
+  require_no_scenarios(problem, "wrench set");
   WrenchProgram program = make_wrench_program(problem, Wrench::kPure);
   const Eigen::VectorXd w_min = program.w_min, w_max = program.w_max;
   program.W = W;

@@ -175,6 +175,8 @@ std::string checksum(std::string_view bytes) {
 
 std::string why_no_engine(const Problem& problem) {
   if (problem.motion) return problem.name + ": a task in time, expected a static task";
+  if (!problem.scenarios.empty())
+    return problem.name + ": a list of scenarios, expected one wrench";
   if (problem.robot.collision && !made_of(*problem.robot.collision)) {
     return problem.name + ": a collision check of its own, expected that of the robot's shapes";
   }

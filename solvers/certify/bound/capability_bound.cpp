@@ -1,5 +1,6 @@
 #include <stdexcept>
 
+#include "lib/scenario/scenario_list.h"
 #include "maxwrench/problem.h"
 #include "solvers/certify/bound/bounds.h"
 
@@ -66,6 +67,7 @@ std::unique_ptr<Bound> measure_bound(const Problem& problem, const std::string& 
 
 std::unique_ptr<Bound> make_capability_bound(const Problem& problem, const std::string& measure,
                                              Wrench wrench) {
+  require_no_scenarios(problem, "certify");
   if (problem.motion) {
     throw std::invalid_argument(problem.name + ": got a task in time (" + problem.type() +
                                 "), expected a static task for a proof");

@@ -1,0 +1,268 @@
+#include "lib/scenario/scenario_facets.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "maxwrench/posture.h"
+
+namespace maxwrench {
+namespace {
+
+/// A row with a slope below this share of |J'c| counts as parallel to beta.
+constexpr double kFlat = 1e-12;
+/// The violation of a parallel row [N, N m] that rounding may cause, relative to its value.
+constexpr double kRounding = 1e-9;
+
+/// The changes of a case as numbers: mass and moment of each link in turn.
+Eigen::VectorXd numbers_of(const LoadCase& load, int links) {
+  Eigen::VectorXd numbers = Eigen::VectorXd::Zero(4 * links);
+  for (const LinkLoad& change : load.loads) {
+    numbers[4 * change.link] += change.mass;
+    numbers.segment<3>(4 * change.link + 1) += change.moment;
+  }
+  return numbers;
+}
+
+LoadCase case_of(const Eigen::VectorXd& numbers) {
+  LoadCase load;
+  for (int link = 0; 4 * link < numbers.size(); ++link) {
+    if (numbers.segment<4>(4 * link).isZero(0)) continue;
+    load.loads.push_back({link, numbers[4 * link], numbers.segment<3>(4 * link + 1)});
+  }
+  return load;
+}
+
+}  // namespace
+
+bool ScenarioFacets::serves(const Problem& problem) { return problem.robot.actuation.has_facets; }
+
+ScenarioFacets::ScenarioFacets(const Problem& problem)
+    : problem_(problem),
+      set_(problem.robot.actuation),
+      pairs_(set_.facet_pairs()),
+      wrenches_(problem.scenarios.wrenches.size()),
+      nominal_(pairs_),
+      most_(pairs_),
+      least_(pairs_),
+      value_(pairs_),
+      margins_(2 * pairs_),
+      slope_(pairs_),
+      widening_(pairs_),
+      row_(2 * pairs_),
+      part_(2 * pairs_),
+      tau_(set_.dimension()) {
+  const ScenarioList& list = problem.scenarios;
+  for (const LoadGroup& group : list.loads) loads_.push_back(make_load(group));
+  for (const ScenarioLimits& limits : list.limits) {
+    limits_.emplace_back(2 * pairs_);
+    limits_.back() << limits.actuation.b_max.array(), -limits.actuation.b_min.array();
+  }
+  for (Wrench& wrench : wrenches_) {
+    wrench.inverse.setZero(2 * pairs_);
+    wrench.parallel.reserve(static_cast<std::size_t>(2 * pairs_));
+  }
+  if (list.ball) ball_.resize(pairs_, list.ball->E.cols());
+}
+
+/// Cases that change masses only are combinations of at most four loads for each link. Those with a
+/// current are taken one by one.
+auto ScenarioFacets::make_load(const LoadGroup& cases) -> Load {
+  Load load{&cases, {}, {}, {}};
+  if (has_current(cases)) {
+    load.basis = cases;
+    const auto count = static_cast<Eigen::Index>(cases.size());
+    load.coefficients.setIdentity(count, count);
+    return load;
+  }
+  int links = 0;
+  for (const LoadCase& each : cases) {
+    for (const LinkLoad& change : each.loads) links = std::max(links, change.link + 1);
+  }
+  Eigen::MatrixXd all(4 * links, static_cast<Eigen::Index>(cases.size()));
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    all.col(static_cast<Eigen::Index>(i)) = numbers_of(cases[i], links);
+  }
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(all);
+  const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(all.rows(), qr.rank());
+  for (Eigen::Index i = 0; i < Q.cols(); ++i) load.basis.push_back(case_of(Q.col(i)));
+  load.coefficients = Q.transpose() * all;
+  return load;
+}
+
+/// N'tau, by rows of N.
+void ScenarioFacets::project(const Eigen::VectorXd& tau, Eigen::Ref<Eigen::ArrayXd> onto) const {
+  onto.setZero();
+  for (Eigen::Index i = 0; i < tau.size(); ++i) {
+    if (tau[i] != 0) onto += tau[i] * set_.N.row(i).array().transpose();
+  }
+}
+
+/// Writes n_j'tau of a case, for all j, into `value_`.
+void ScenarioFacets::combine(const Load& load, Eigen::Index which) {
+  value_.setZero();
+  for (Eigen::Index i = 0; i < load.coefficients.rows(); ++i) {
+    const double factor = load.coefficients(i, which);
+    if (factor != 0) value_ += factor * load.projections.col(i);
+  }
+}
+
+double ScenarioFacets::value_of(const Load& load, Eigen::Index which, Eigen::Index pair) const {
+  double value = 0;
+  for (Eigen::Index i = 0; i < load.coefficients.rows(); ++i) {
+    value += load.coefficients(i, which) * load.projections(pair, i);
+  }
+  return value;
+}
+
+void ScenarioFacets::set_margins(ScenarioPosture& at) {
+  project(at.posture().tau_d, nominal_);
+  margins_ << -nominal_, nominal_;
+  for (Load& load : loads_) {
+    load.projections.resize(pairs_, static_cast<Eigen::Index>(load.basis.size()));
+    for (std::size_t i = 0; i < load.basis.size(); ++i) {
+      tau_.setZero();
+      at.add_load(load.basis[i], tau_);
+      project(tau_, load.projections.col(static_cast<Eigen::Index>(i)));
+    }
+    most_.setConstant(-kInfinity);
+    least_.setConstant(kInfinity);
+    for (Eigen::Index i = 0; i < load.coefficients.cols(); ++i) {
+      combine(load, i);
+      most_ = most_.max(value_);
+      least_ = least_.min(value_);
+    }
+    margins_.head(pairs_) -= most_;
+    margins_.tail(pairs_) += least_;
+  }
+}
+
+void ScenarioFacets::set_wrench(ScenarioPosture& at, int i) {
+  const Matrix6Xd& J = at.posture().J;
+  const ScenarioList& list = problem_.scenarios;
+  tau_.noalias() = J.transpose().lazyProduct(at.wrench(i));
+  double size = tau_.norm();
+  project(tau_, slope_);
+  widening_.setZero();
+  if (list.ball && !list.wrenches[static_cast<std::size_t>(i)].hold) {
+    for (Eigen::Index axis = 0; axis < ball_.cols(); ++axis) {
+      tau_.noalias() = J.transpose().lazyProduct(at.ball_axis(axis));
+      size += tau_.norm();
+      project(tau_, ball_.col(axis));
+      widening_ += ball_.col(axis).square();
+    }
+    widening_ = widening_.sqrt();
+  }
+  Wrench& wrench = wrenches_[static_cast<std::size_t>(i)];
+  wrench.inverse << widening_ + slope_, widening_ - slope_;
+  wrench.parallel.clear();
+  for (Eigen::Index row = 0; row < 2 * pairs_; ++row) {
+    double& slope = wrench.inverse[row];
+    if (std::abs(slope) > kFlat * size) {
+      slope = 1 / slope;
+    } else {
+      slope = 0;
+      wrench.parallel.push_back(static_cast<int>(row));
+    }
+  }
+}
+
+bool ScenarioFacets::misses(const Eigen::ArrayXd& limits, const Wrench& wrench,
+                            Eigen::Index& row) const {
+  for (const int each : wrench.parallel) {
+    const double slack = kRounding * (1 + std::abs(margins_[each]));
+    if (limits[each] + margins_[each] >= -slack) continue;
+    row = each;
+    return true;
+  }
+  return false;
+}
+
+/// Fills a choice with the scenario of a row: the cases of the loads that are worst for it.
+bool ScenarioFacets::choose(ScenarioPosture& at, const End& end, ScenarioChoice& choice) const {
+  if (end.wrench < 0) return false;
+  const Eigen::Index pair = end.row % pairs_;
+  const double side = end.row < pairs_ ? 1 : -1;
+  choice.wrench = end.wrench;
+  choice.limits = end.limits;
+  choice.c = at.wrench(end.wrench);
+  const ScenarioList& list = problem_.scenarios;
+  if (list.ball && !list.wrenches[static_cast<std::size_t>(end.wrench)].hold) {
+    const double length = ball_.row(pair).matrix().norm();
+    for (Eigen::Index axis = 0; length > 0 && axis < ball_.cols(); ++axis) {
+      choice.c += at.ball_axis(axis) * (side * ball_(pair, axis) / length);
+    }
+  }
+  choice.cases.resize(loads_.size());
+  for (std::size_t group = 0; group < loads_.size(); ++group) {
+    const Load& load = loads_[group];
+    double worst = -kInfinity;
+    for (Eigen::Index i = 0; i < load.coefficients.cols(); ++i) {
+      const double value = side * value_of(load, i, pair);
+      if (value <= worst) continue;
+      worst = value;
+      choice.cases[group] = static_cast<int>(i);
+    }
+  }
+  return true;
+}
+
+void ScenarioFacets::scan(ScenarioPosture& at) {
+  set_margins(at);
+  high = kInfinity;
+  low = problem_.scenarios.non_negative ? 0 : -kInfinity;
+  missed = false;
+  high_end_ = low_end_ = {};
+  for (int i = 0; i < static_cast<int>(wrenches_.size()); ++i) {
+    set_wrench(at, i);
+    for (int l = 0; l < static_cast<int>(limits_.size()); ++l) {
+      if (scan_rows(i, l)) continue;
+      missed = true;
+      return;
+    }
+  }
+}
+
+/// Moves both ends to those of one wrench with one set of limits; false if a row is missed.
+bool ScenarioFacets::scan_rows(int wrench, int limits) {
+  const Wrench& rows = wrenches_[static_cast<std::size_t>(wrench)];
+  const Eigen::ArrayXd& bounds = limits_[static_cast<std::size_t>(limits)];
+  const auto find = [this](double end) {
+    Eigen::Index row = 0;
+    while (part_[row] != end) ++row;
+    return row;
+  };
+  Eigen::Index missed_row = 0;
+  if (misses(bounds, rows, missed_row)) {
+    low_end_ = {wrench, limits, missed_row};
+    return false;
+  }
+  row_ = (bounds + margins_) * rows.inverse;
+  part_ = (rows.inverse > 0).select(row_, kInfinity);
+  if (const double end = part_.minCoeff(); end < high) {
+    high = end;
+    high_end_ = {wrench, limits, find(end)};
+    high_inverse_ = rows.inverse[high_end_.row];
+  }
+  part_ = (rows.inverse < 0).select(row_, -kInfinity);
+  if (const double end = part_.maxCoeff(); end > low) {
+    low = end;
+    low_end_ = {wrench, limits, find(end)};
+  }
+  return true;
+}
+
+bool ScenarioFacets::high_scenario(ScenarioPosture& at, ScenarioChoice& choice) const {
+  return choose(at, high_end_, choice);
+}
+
+bool ScenarioFacets::low_scenario(ScenarioPosture& at, ScenarioChoice& choice) const {
+  return choose(at, low_end_, choice);
+}
+
+void ScenarioFacets::fill_slope(Eigen::VectorXd& lambda) const {
+  const double sign = high_end_.row < pairs_ ? -1 : 1;
+  lambda = set_.N.col(high_end_.row % pairs_) * (sign * high_inverse_);
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lib/scenario/scenario_program.h"
+#include "maxwrench/capability.h"
+
+namespace maxwrench {
+
+/// The interval of a list of scenarios of one wrench column, by the facets of {B u}.
+///
+/// With the normals n_j of the facets, which all limits share, scenario s holds beta exactly if
+///
+///     b_min,s,j <= n_j'tau_s + beta n_j'J'c_s <= b_max,s,j   for all j.
+///
+/// Each side of each pair is a row "slope beta <= margin". A load changes margins only, and loads
+/// are independent, so each row takes the worst case of each load: combinations of cases need not
+/// be listed. A ball of radius r adds r |E'J n_j| to the slope of both rows of a pair, which is its
+/// support function.
+class ScenarioFacets {
+ public:
+  explicit ScenarioFacets(const Problem& problem);
+  explicit ScenarioFacets(const Problem&& problem) = delete;
+
+  /// Whether the actuators of the task have facets.
+  static bool serves(const Problem& problem);
+
+  /// Computes both ends at a posture. Allocates nothing after the first call.
+  void scan(ScenarioPosture& at);
+
+  double high = 0, low = 0;  ///< min hi_s and max lo_s
+  /// Whether a row holds for no factor. Its scenario, `low_scenario`, is then infeasible by itself,
+  /// and both ends are meaningless.
+  bool missed = false;
+
+  /// The first scenario with the end `high`, after `scan`; false if there is none.
+  bool high_scenario(ScenarioPosture& at, ScenarioChoice& choice) const;
+  /// Likewise of `low`.
+  bool low_scenario(ScenarioPosture& at, ScenarioChoice& choice) const;
+  /// d high/d tau_d (n), if `high` is finite.
+  void fill_slope(Eigen::VectorXd& lambda) const;
+
+ private:
+  /// The cases of a load as combinations of few loads, whose projections on the normals suffice.
+  struct Load {
+    const LoadGroup* cases;
+    std::vector<LoadCase> basis;   ///< the cases themselves if one has a current
+    Eigen::MatrixXd coefficients;  ///< of the basis, for each case (basis×cases)
+    Eigen::ArrayXXd projections;   ///< N' of the generalised forces of the basis (f×basis)
+  };
+  /// A wrench with its rows: upper sides, then lower ones.
+  struct Wrench {
+    Eigen::ArrayXd inverse;     ///< reciprocals of the slopes; 0 for rows parallel to beta
+    std::vector<int> parallel;  ///< these rows
+  };
+  /// A row of a wrench with a set of limits; -1: none.
+  struct End {
+    int wrench = -1, limits = 0;
+    Eigen::Index row = 0;
+  };
+  static Load make_load(const LoadGroup& cases);
+  void project(const Eigen::VectorXd& tau, Eigen::Ref<Eigen::ArrayXd> onto) const;
+  void set_margins(ScenarioPosture& at);
+  void set_wrench(ScenarioPosture& at, int i);
+  /// n_j'tau of a case.
+  double value_of(const Load& load, Eigen::Index which, Eigen::Index pair) const;
+  void combine(const Load& load, Eigen::Index which);
+  bool misses(const Eigen::ArrayXd& limits, const Wrench& wrench, Eigen::Index& row) const;
+  bool scan_rows(int wrench, int limits);
+  bool choose(ScenarioPosture& at, const End& end, ScenarioChoice& choice) const;
+
+  const Problem& problem_;
+  const Zonotope& set_;
+  Eigen::Index pairs_;
+  std::vector<Load> loads_;
+  std::vector<Eigen::ArrayXd> limits_;  ///< [b_max; -b_min] of each set of limits
+  std::vector<Wrench> wrenches_;
+  Eigen::ArrayXd nominal_, most_, least_, value_, margins_, slope_, widening_, row_, part_;
+  End high_end_, low_end_;
+  double high_inverse_ = 0;
+  Eigen::VectorXd tau_;
+  Eigen::ArrayXXd ball_;  ///< N'J' of the ball's axes (f×d)
+};
+
+}  // namespace maxwrench

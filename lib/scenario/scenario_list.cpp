@@ -1,0 +1,60 @@
+#include "lib/scenario/scenario_list.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "maxwrench/problem.h"
+#include "maxwrench/scenario.h"
+
+namespace maxwrench {
+
+long ScenarioList::count() const {
+  double all = static_cast<double>(wrenches.size()) * static_cast<double>(limits.size());
+  for (const LoadGroup& group : loads) all *= static_cast<double>(group.size());
+  return all > static_cast<double>(kMostScenarios) ? kMostScenarios + 1 : std::lround(all);
+}
+
+std::string describe(const ScenarioList& list, const ScenarioChoice& choice) {
+  std::string text;
+  const auto add = [&text](const std::string& name) {
+    if (name.empty()) return;
+    if (!text.empty()) text += "; ";
+    text += name;
+  };
+  if (list.wrenches.size() > 1) add(list.wrenches[static_cast<std::size_t>(choice.wrench)].name);
+  add(list.limits[static_cast<std::size_t>(choice.limits)].name);
+  for (std::size_t group = 0; group < choice.cases.size(); ++group) {
+    add(list.loads[group][static_cast<std::size_t>(choice.cases[group])].name);
+  }
+  return text.empty() ? "nominal" : text;
+}
+
+bool next(const ScenarioList& list, ScenarioChoice& choice) {
+  for (std::size_t group = choice.cases.size(); group-- > 0;) {
+    if (++choice.cases[group] < static_cast<int>(list.loads[group].size())) return true;
+    choice.cases[group] = 0;
+  }
+  if (++choice.limits < static_cast<int>(list.limits.size())) return true;
+  choice.limits = 0;
+  return ++choice.wrench < static_cast<int>(list.wrenches.size());
+}
+
+Problem nominal(Problem problem) {
+  ScenarioList& list = problem.scenarios;
+  if (list.empty()) return problem;
+  list.loads.clear();
+  list.limits.assign(1, {"", problem.robot.actuation});
+  const bool plain =
+      list.wrenches.size() == 1 && list.wrenches[0].c == problem.c && !list.ball && !list.payload;
+  if (plain) list = {};
+  return problem;
+}
+
+void require_no_scenarios(const Problem& problem, const std::string& what) {
+  if (problem.scenarios.empty()) return;
+  throw std::invalid_argument(what + ": got " + problem.name +
+                              ", a task with a list of scenarios, expected one wrench of the "
+                              "nominal robot");
+}
+
+}  // namespace maxwrench

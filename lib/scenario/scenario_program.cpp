@@ -1,0 +1,78 @@
+#include "lib/scenario/scenario_program.h"
+
+#include "lib/math/rotated.h"
+#include "lib/scenario/static_load.h"
+#include "maxwrench/posture.h"
+
+namespace maxwrench {
+
+ScenarioPosture::ScenarioPosture(const Problem& problem)
+    : problem_(problem), added_(Eigen::VectorXd::Zero(problem.robot.velocities())) {
+  if (has_current(problem.scenarios)) water_.emplace(problem.robot);
+}
+
+void ScenarioPosture::set(const Posture& posture) {
+  posture_ = &posture;
+  if (water_) water_->set(posture.base.R, posture.q);
+}
+
+Vector6d ScenarioPosture::wrench(int i) const {
+  const ScenarioList& list = problem_.scenarios;
+  if (list.payload) {
+    const EndEffector& tool =
+        problem_.robot.end_effectors[static_cast<std::size_t>(problem_.end_effector)];
+    const Eigen::Matrix3d R = posture_->base.R *
+                              posture_->links[static_cast<std::size_t>(tool.link)].R *
+                              tool.placement.R;
+    return payload_wrench(problem_.robot, *list.payload, R);
+  }
+  return rotated(posture_->turn, list.wrenches[static_cast<std::size_t>(i)].c);
+}
+
+Vector6d ScenarioPosture::ball_axis(Eigen::Index i) const {
+  const WrenchBall& ball = *problem_.scenarios.ball;
+  return ball.radius * rotated(posture_->turn, Vector6d(ball.E.col(i)));
+}
+
+void ScenarioPosture::add_load(const LoadCase& load, Eigen::VectorXd& tau) {
+  add_static_loads(problem_.robot, *posture_, load.loads, 1, tau);
+  if (load.current.isZero()) return;
+  water_->evaluate(load.current, added_);
+  tau += added_;
+}
+
+ScenarioProgram::ScenarioProgram(const Problem& problem, Wrench wrench)
+    : problem_(problem), F_(wrench == Wrench::kAny ? problem.scenarios.F : Matrix6Xd(6, 0)) {
+  const Eigen::Index k = 1 + F_.cols(), n = problem.robot.velocities();
+  program_.W.setZero(6, k);
+  program_.C_2.resize(6, 0);
+  program_.c_w = Eigen::VectorXd::Unit(k, 0);
+  program_.w_min = Eigen::VectorXd::Constant(k, -kInfinity);
+  program_.w_max = -program_.w_min;
+  program_.JtW.setZero(n, k);
+  program_.tau_d.setZero(n);
+}
+
+const WrenchProgram& ScenarioProgram::write(ScenarioPosture& at, const ScenarioChoice& choice) {
+  const ScenarioList& list = problem_.scenarios;
+  const Posture& posture = at.posture();
+  program_.actuation = &list.limits[static_cast<std::size_t>(choice.limits)].actuation;
+  program_.W.col(0) = choice.c;
+  for (Eigen::Index i = 0; i < F_.cols(); ++i) {
+    program_.W.col(1 + i) = rotated(posture.turn, Vector6d(F_.col(i)));
+  }
+  program_.JtW.noalias() = posture.J.transpose().lazyProduct(program_.W);
+  program_.tau_d = posture.tau_d;
+  for (std::size_t group = 0; group < choice.cases.size(); ++group) {
+    at.add_load(list.loads[group][static_cast<std::size_t>(choice.cases[group])], program_.tau_d);
+  }
+  return aim(1);
+}
+
+const WrenchProgram& ScenarioProgram::aim(double sign, double most) {
+  program_.c_w[0] = sign;
+  program_.w_max[0] = most;
+  return program_;
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+
+#include "lib/scenario/current_load.h"
+#include "lib/scenario/scenario_list.h"
+#include "maxwrench/problem.h"
+#include "maxwrench/wrench_program.h"
+
+namespace maxwrench {
+
+struct Posture;
+
+/// The wrenches and loads of a list of scenarios at one posture.
+class ScenarioPosture {
+ public:
+  explicit ScenarioPosture(const Problem& problem);
+  explicit ScenarioPosture(const Problem&& problem) = delete;
+
+  /// The posture must stay as it is until the next call.
+  void set(const Posture& posture);
+  /// The wrench of number i, in world axes, without a ball.
+  Vector6d wrench(int i) const;
+  /// Axis i of the ball in world axes, times its radius.
+  Vector6d ball_axis(Eigen::Index i) const;
+  /// Adds the generalised forces of a case to tau (n).
+  void add_load(const LoadCase& load, Eigen::VectorXd& tau);
+  const Posture& posture() const { return *posture_; }
+  const Problem& problem() const { return problem_; }
+
+ private:
+  const Problem& problem_;
+  const Posture* posture_ = nullptr;
+  std::optional<CurrentLoad> water_;  ///< if a case has a current
+  Eigen::VectorXd added_;
+};
+
+/// The wrench program of one scenario: W = [c_s] or [c_s, F], where the first coordinate is beta.
+class ScenarioProgram {
+ public:
+  ScenarioProgram(const Problem& problem, Wrench wrench);
+  ScenarioProgram(const Problem&& problem, Wrench wrench) = delete;
+
+  /// Sets the program to a scenario, whose wrench is `choice.c`, at a posture. Returns it.
+  const WrenchProgram& write(ScenarioPosture& at, const ScenarioChoice& choice);
+  /// The same program, to be maximised (1) or minimised (-1), with beta at most `most`.
+  const WrenchProgram& aim(double sign, double most = kInfinity);
+
+ private:
+  const Problem& problem_;
+  WrenchProgram program_;
+  Matrix6Xd F_;
+};
+
+}  // namespace maxwrench
