@@ -49,17 +49,19 @@ struct ScenarioLimits {
 
 /// One wrench of a task.
 struct ScenarioWrench {
-  std::string name;               ///< for messages, such as "wrench 2"
-  Vector6d c = Vector6d::Zero();  ///< [force; torque] in the axes of `Problem::c`, of any length
-  /// true: c is zero, and the scenario asks whether the robot can hold its posture without a
-  /// wrench.
+  std::string name;  ///< for messages, such as "wrench 2"
+  /// [force; torque] in the axes of `Problem::c`, of any length. Zero: only the ball is added to
+  /// it, or `hold`.
+  Vector6d c = Vector6d::Zero();
+  /// Whether the robot must hold its posture without a wrench. c is zero then, and no ball is
+  /// added.
   bool hold = false;
 };
 
-/// A ball of wrenches {E z : |z| <= radius}, which is added to each wrench of a task.
+/// A ball of wrenches {E z : |z| <= radius}, which is added to each wrench of a task except `hold`.
 struct WrenchBall {
-  Matrix6Xd
-      E;  ///< orthonormal axes in those of `Problem::c`, all of forces or all of torques (6×d)
+  /// Orthonormal axes in those of `Problem::c`, all of forces or all of torques (6×d).
+  Matrix6Xd E;
   double radius = 0;  ///< radius [N or N m]
 };
 
@@ -82,17 +84,20 @@ struct CarriedLoad {
 /// scenario: each is held, not all at once.
 struct ScenarioList {
   std::vector<ScenarioWrench> wrenches;  ///< the wrenches; none: the task has no list
-  std::optional<WrenchBall>
-      ball;  ///< added to each wrench but that of `hold`; with c = 0, it stands alone
+  std::optional<WrenchBall> ball;        ///< added to each wrench except `hold`
   /// The payload whose mass is the value. The only wrench is its weight at `Problem::pose`; at a
   /// posture it is the weight there, since the weight does not turn with the end effector.
   std::optional<CarriedLoad> payload;
   /// Basis of the components that `Wrench::kAny` leaves free in each scenario (6×k).
   Matrix6Xd F = Matrix6Xd(6, 0);
-  std::vector<ScenarioLimits> limits;  ///< the first has all actuators; none where there is no list
-  std::vector<LoadGroup> loads;        ///< the uncertain loads
-  bool non_negative = false;           ///< whether beta >= 0 is required: of a ball, and of a mass
-  const char* unit = "";               ///< the unit of the value
+  /// The first has all actuators; none where there is no list. Where actuators may be weaker, these
+  /// are the limits of the weakest, in all of them.
+  std::vector<ScenarioLimits> limits;
+  std::vector<LoadGroup> loads;  ///< the uncertain loads
+  bool non_negative = false;     ///< whether beta >= 0 is required: of a ball, and of a mass
+  /// The unit of the value: "N", "N m", "mixed" of one wrench, "kg" of a payload, or "-" of a
+  /// factor of the stated wrenches.
+  const char* unit = "";
 
   /// Returns whether the task has no list.
   bool empty() const { return wrenches.empty(); }
