@@ -13,6 +13,7 @@ Wrench parse_wrench(const std::string& name) {
 }
 
 const char* Problem::unit() const {
+  if (!scenarios.empty()) return scenarios.unit;
   if (c.tail<3>().isZero()) return "N";
   if (c.head<3>().isZero()) return "N m";
   return "mixed";
