@@ -208,7 +208,8 @@ struct Robot {
   /// Pose of the base in the world before it moves along its free axes. Unused with all six.
   Pose<double> mount;
   std::vector<Link> links;  ///< the base, then one link for each joint
-  /// The bodies of the links. `finalize` makes one of each link if there are none.
+  /// The bodies of the links, which add up to them. `finalize` makes one of each link if there are
+  /// none; who changes a link of a complete robot clears them.
   std::vector<BodyPart> parts;
   std::vector<Joint> joints;               ///< the joints
   std::vector<Thruster> thrusters;         ///< the thrusters

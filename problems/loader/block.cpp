@@ -37,6 +37,16 @@ std::optional<double> finite_number(const toml::node& node) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
+std::optional<Eigen::VectorXd> all_numbers(const toml::array& array) {
+  Eigen::VectorXd numbers(static_cast<Eigen::Index>(array.size()));
+  for (Eigen::Index i = 0; i < numbers.size(); ++i) {
+    const auto value = finite_number(*array.get(static_cast<std::size_t>(i)));
+    if (!value) return std::nullopt;
+    numbers[i] = *value;
+  }
+  return numbers;
+}
+
 std::optional<std::vector<std::string>> all_texts(const toml::array& array) {
   std::vector<std::string> texts;
   for (const toml::node& node : array) {
@@ -196,14 +206,9 @@ Eigen::VectorXd Block::any_numbers(std::string_view key) const {
 }
 
 Eigen::VectorXd Block::listed(std::string_view key, std::string_view expected) const {
-  const toml::array& values = array(key, expected);
-  Eigen::VectorXd result(static_cast<Eigen::Index>(values.size()));
-  for (Eigen::Index i = 0; i < result.size(); ++i) {
-    const auto value = finite_number(*values.get(static_cast<std::size_t>(i)));
-    if (!value) throw_bad_value(key, expected);
-    result[i] = *value;
-  }
-  return result;
+  const auto result = all_numbers(array(key, expected));
+  if (!result) throw_bad_value(key, expected);
+  return *result;
 }
 
 Eigen::Vector3d Block::vector(std::string_view key) const { return numbers(key, 3); }
@@ -258,6 +263,30 @@ std::vector<std::pair<std::string, std::string>> Block::text_pairs(std::string_v
   return result;
 }
 
+std::vector<Eigen::VectorXd> Block::rows(std::string_view key, int size) const {
+  const std::string expected = fmt::format("a list of lists of {} finite numbers", size);
+  std::vector<Eigen::VectorXd> result;
+  for (const toml::node& node : array(key, expected)) {
+    const auto row = node.is_array() ? all_numbers(*node.as_array()) : std::nullopt;
+    if (!row || row->size() != size) throw_bad_value(key, as_written(node), expected);
+    result.push_back(*row);
+  }
+  if (result.empty()) throw_bad_value(key, expected);
+  return result;
+}
+
+std::vector<std::vector<std::string>> Block::text_lists(std::string_view key) const {
+  const char* expected = "a list of lists of names, such as [[\"a\"], [\"b\", \"c\"]]";
+  std::vector<std::vector<std::string>> result;
+  for (const toml::node& node : array(key, expected)) {
+    const auto list = node.is_array() ? all_texts(*node.as_array()) : std::nullopt;
+    if (!list || list->empty()) throw_bad_value(key, as_written(node), expected);
+    result.push_back(*list);
+  }
+  if (result.empty()) throw_bad_value(key, expected);
+  return result;
+}
+
 Block Block::table(std::string_view key) const {
   if (!has(key)) return Block(file_, path_of(key), root_, nullptr);
   const toml::table* table = table_->get(key)->as_table();
@@ -290,13 +319,18 @@ std::vector<std::pair<std::string, Block>> Block::named(std::string_view key) co
   return result;
 }
 
-std::map<std::string, double> Block::numbers_by_name() const {
-  std::map<std::string, double> result;
+std::vector<std::string> Block::keys() const {
+  std::vector<std::string> result;
   if (table_ == nullptr) return result;
   for (const auto& [key, node] : *table_) {
-    if (key.str() == "source" || key.str() == "status") continue;
-    result.emplace(key.str(), number(key.str()));
+    if (key.str() != "source" && key.str() != "status") result.emplace_back(key.str());
   }
+  return result;
+}
+
+std::map<std::string, double> Block::numbers_by_name() const {
+  std::map<std::string, double> result;
+  for (const std::string& key : keys()) result.emplace(key, number(key));
   return result;
 }
 

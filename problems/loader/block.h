@@ -45,12 +45,18 @@ class Block {
   bool is_text(std::string_view key) const;
   std::vector<std::string> texts(std::string_view key) const;
   std::vector<std::pair<std::string, std::string>> text_pairs(std::string_view key) const;
+  /// A list of one or more lists of `size` numbers.
+  std::vector<Eigen::VectorXd> rows(std::string_view key, int size) const;
+  /// A list of one or more lists of names, none of them empty.
+  std::vector<std::vector<std::string>> text_lists(std::string_view key) const;
 
   // Tables; empty if the key is missing. `list` is an array of tables, `named` a table of tables in
   // the order of the file.
   Block table(std::string_view key) const;
   std::vector<Block> list(std::string_view key) const;
   std::vector<std::pair<std::string, Block>> named(std::string_view key) const;
+  /// The keys of this table, without `source` and `status`.
+  std::vector<std::string> keys() const;
   /// All entries of this table, each of which must be a number.
   std::map<std::string, double> numbers_by_name() const;
 

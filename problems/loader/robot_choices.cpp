@@ -40,15 +40,19 @@ LinkChoice read_link_choice(const Block& block) {
   choice.mass = number_if_any(block, "mass");
   if (choice.mass.value_or(0) < 0) block.throw_bad_value("mass", "a number >= 0");
   if (block.has("com")) choice.com = block.vector("com");
-  if (block.has("inertia")) {
-    const Vector6d i = block.numbers("inertia", 6);
-    choice.inertia.emplace() << i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2];
-  }
+  if (block.has("inertia")) choice.inertia = read_inertia(block, "inertia");
   choice.meshes = read_mesh_use(block);
   return choice;
 }
 
 }  // namespace
+
+Eigen::Matrix3d read_inertia(const Block& block, std::string_view key) {
+  const Vector6d i = block.numbers(key, 6);
+  Eigen::Matrix3d inertia;
+  inertia << i[0], i[3], i[4], i[3], i[1], i[5], i[4], i[5], i[2];
+  return inertia;
+}
 
 UrdfChoices read_choices(const Block& root) {
   UrdfChoices choices;

@@ -9,4 +9,7 @@ namespace maxwrench {
 /// `[joints]` and `[links]`, and which links carry end effectors.
 UrdfChoices read_choices(const Block& root);
 
+/// The matrix of [xx, yy, zz, xy, xz, yz].
+Eigen::Matrix3d read_inertia(const Block& block, std::string_view key);
+
 }  // namespace maxwrench

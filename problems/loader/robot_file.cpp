@@ -60,6 +60,11 @@ void read_end_effectors(const Block& root, const UrdfTree& tree, Robot& robot) {
   }
 }
 
+BodyPart& part_named(const std::string& name, Robot& robot) {
+  return *std::find_if(robot.parts.begin(), robot.parts.end(),
+                       [&name](const BodyPart& part) { return part.name == name; });
+}
+
 /// The volumes of bodies on one link are added; the centre of buoyancy is their weighted mean.
 void read_buoyancy(const Block& root, const UrdfTree& tree, Robot& robot) {
   const Block all = root.table("buoyancy");
@@ -68,7 +73,10 @@ void read_buoyancy(const Block& root, const UrdfTree& tree, Robot& robot) {
     const Body& body = find_body(tree, all, name, name);
     const double volume = block.number("volume");
     require_non_negative(fmt::format("buoyancy.{}.volume", name), volume);
-    const Eigen::Vector3d cob = body.placement.R * block.vector("cob") + body.placement.p;
+    BodyPart& part = part_named(name, robot);
+    part.volume = volume;
+    part.cob = block.vector("cob");
+    const Eigen::Vector3d cob = body.placement.R * part.cob + body.placement.p;
     Link& link = robot.links[static_cast<std::size_t>(body.link)];
     link.volume += volume;
     if (volume > 0) link.cob += volume / link.volume * (cob - link.cob);
@@ -190,6 +198,7 @@ std::filesystem::path named_file(const Block& root, const char* key) {
 
 void add_tree(const UrdfTree& tree, Robot& robot) {
   robot.links = tree.links;
+  robot.parts = tree.parts;
   robot.joints = tree.joints;
   robot.warnings = tree.warnings;
   robot.notes = tree.notes;

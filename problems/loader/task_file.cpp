@@ -15,6 +15,7 @@
 #include "problems/loader/block.h"
 #include "problems/loader/contact_table.h"
 #include "problems/loader/motion_table.h"
+#include "problems/loader/scenario_tables.h"
 #include "problems/loader/urdf_tree.h"
 #include "problems/make/posture.h"
 
@@ -51,7 +52,7 @@ fs::path find_task(const std::string& name) {
 }
 
 void read_wrench(const Block& wrench, TaskSpec& spec) {
-  std::vector<std::string_view> keys = {"c", "any", "reference", "desired"};
+  std::vector<std::string_view> keys = {"c", "set", "ball", "hold", "any", "reference", "desired"};
   const bool impulses = spec.motion && spec.motion->impulse;
   if (!impulses) keys.emplace_back("frame");
   wrench.allow_only(keys);
@@ -60,7 +61,7 @@ void read_wrench(const Block& wrench, TaskSpec& spec) {
     wrench.throw_bad_value("frame", "'world' or 'end_effector'");
   }
   spec.wrench_in_end_effector = frame != "world";
-  spec.c = wrench.numbers("c", 6);
+  read_wrenches(wrench, spec);
   if (wrench.has("any")) spec.any = wrench.texts("any");
   spec.reference = wrench.number("reference", spec.reference);
   if (wrench.has("desired")) spec.desired = wrench.numbers("desired", 6);
@@ -85,6 +86,12 @@ void allow_keys(const Block& task) {
     keys.insert(keys.end(), {"motion", "start"});
   } else if (type != "static") {
     task.throw_bad_value("type", "'static', 'trajectory' or 'impulse'");
+  }
+  for (const char* key : {"uncertainty", "loss", "payload"}) {
+    if (type == "static") keys.emplace_back(key);
+    if (type != "static" && task.has(key)) {
+      task.throw_bad_value(key, "no such key except in static tasks");
+    }
   }
   task.allow_only(keys);
 }
@@ -156,12 +163,13 @@ std::string words_of(const TaskSpec& task, const UrdfOptions& options) {
   std::string words = fmt::format(
       "{} on {}; c {} turns {}; pose {} {}", task.end_effector, list(options.base_axes),
       list(task.c), task.wrench_in_end_effector, list(task.pose.p), list(task.pose.R.reshaped()));
-  if (!task.posture) return words;
-  words += "; posture";
-  for (const auto& [joint, position] : *task.posture) {
-    words += fmt::format(" {} {}", joint, position);
+  if (task.posture) {
+    words += "; posture";
+    for (const auto& [joint, position] : *task.posture) {
+      words += fmt::format(" {} {}", joint, position);
+    }
   }
-  return words;
+  return words + words_of_scenarios(task);
 }
 
 /// The folder of the problems that a shared library or a Python module brings along, beside it.
@@ -196,7 +204,8 @@ Problem load_problem(const std::string& name, const LoadOptions& options) {
   Problem problem = in_files(file_of, [&] {
     read_pose(task, spec);
     read_motion(task, spec);
-    read_wrench(task.table("wrench"), spec);
+    read_scenario_tables(task, spec);
+    if (!spec.payload) read_wrench(task.table("wrench"), spec);
     read_theta_r(task.table("theta_r"), spec);
     if (task.has("contact")) spec.contact = read_contact(task.table("contact"));
     return make_problem(spec);

@@ -32,7 +32,7 @@ Eigen::Matrix3d inertia_of(const UrdfElement& inertial) {
   return inertia;
 }
 
-/// Adds a body to the link that carries it.
+/// Adds a body to the link that carries it, and to the parts.
 void add_inertial(Reading& reading, const UrdfElement& link, const Body& body) {
   const std::string name = name_of(link);
   const std::optional<UrdfElement> inertial = link.child_if_any("inertial");
@@ -51,6 +51,8 @@ void add_inertial(Reading& reading, const UrdfElement& link, const Body& body) {
     inertia = *choice.inertia;
     frame.R.setIdentity();
   }
+  reading.tree.parts.push_back(
+      {.name = name, .link = body.link, .frame = body.placement, .mass = mass, .com = frame.p});
   frame = body.placement * frame;
   require_body(name, mass, inertia);
   Link& carrier = reading.tree.links[static_cast<std::size_t>(body.link)];

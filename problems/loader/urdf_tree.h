@@ -26,6 +26,7 @@ struct UrdfTree {
   std::vector<Link> links;  ///< named after the URDF link that their joint moves
   std::vector<Joint> joints;
   std::map<std::string, Body> bodies;  ///< by name of the URDF link
+  std::vector<BodyPart> parts;         ///< one for each URDF link
   std::vector<std::string> leaves;     ///< the URDF links without children that a joint moves
   std::vector<Shape> shapes;
   std::vector<Visual> visuals;

@@ -173,6 +173,68 @@ void require_link(const std::string& key, const Robot& robot, int link) {
                  fmt::format("a link: 0 to {}", robot.links.size() - 1));
 }
 
+/// The wet mass of parts, as a link has it.
+struct PartSum {
+  double mass = 0, volume = 0;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero(), displaced = Eigen::Vector3d::Zero();
+};
+
+/// The parts of a link must be all of it: their masses, volumes and first moments add up to its
+/// own.
+void check_sums(const Robot& robot) {
+  constexpr double kShare = 1e-9;
+  std::vector<PartSum> sums(robot.links.size());
+  for (const BodyPart& part : robot.parts) {
+    PartSum& sum = sums[static_cast<std::size_t>(part.link)];
+    sum.mass += part.mass;
+    sum.volume += part.volume;
+    sum.moment += part.mass * (part.frame.R * part.com + part.frame.p);
+    sum.displaced += part.volume * (part.frame.R * part.cob + part.frame.p);
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const Link& link = robot.links[i];
+    const auto require_sum = [&](const char* what, double apart, double size, double got,
+                                 double expected) {
+      if (apart <= kShare * size) return;
+      throw BadValue(fmt::format("part.{}", what), fmt::format("{:g} on '{}'", got, link.name),
+                     fmt::format("that of the link, {:g}, or no parts at all", expected));
+    };
+    const PartSum& sum = sums[i];
+    require_sum("mass", std::abs(sum.mass - link.mass), link.mass, sum.mass, link.mass);
+    require_sum("volume", std::abs(sum.volume - link.volume), link.volume, sum.volume, link.volume);
+    const Eigen::Vector3d moment = link.mass * link.com, displaced = link.volume * link.cob;
+    require_sum("mass x com", (sum.moment - moment).norm(), link.mass * (1 + link.com.norm()),
+                sum.moment.norm(), moment.norm());
+    require_sum("volume x cob", (sum.displaced - displaced).norm(),
+                link.volume * (1 + link.cob.norm()), sum.displaced.norm(), displaced.norm());
+  }
+}
+
+void check_parts(Robot& robot) {
+  if (robot.parts.empty()) {
+    for (std::size_t i = 0; i < robot.links.size(); ++i) {
+      const Link& link = robot.links[i];
+      robot.parts.push_back({.name = link.name,
+                             .link = static_cast<int>(i),
+                             .mass = link.mass,
+                             .com = link.com,
+                             .volume = link.volume,
+                             .cob = link.cob});
+    }
+  }
+  require_names(robot.parts, "part");
+  for (const BodyPart& part : robot.parts) {
+    const std::string key = fmt::format("part[{}]", part.name);
+    require_link(key + ".link", robot, part.link);
+    require_pose(key, part.frame);
+    require_non_negative(key + ".mass", part.mass);
+    require_numbers(key + ".com", part.com, 3);
+    require_non_negative(key + ".volume", part.volume);
+    require_numbers(key + ".cob", part.cob, 3);
+  }
+  check_sums(robot);
+}
+
 void check_end_effectors(const Robot& robot) {
   require_names(robot.end_effectors, "end_effectors");
   for (const EndEffector& tip : robot.end_effectors) {
@@ -310,6 +372,7 @@ Robot finalize(Robot robot, const Collision& collision) {
   check_base(robot);
   check_joints(robot);
   check_links(robot);
+  check_parts(robot);
   check_thrusters(robot);
   check_end_effectors(robot);
   check_environment(robot);

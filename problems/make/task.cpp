@@ -13,6 +13,7 @@
 #include "problems/make/contact.h"
 #include "problems/make/free_pose.h"
 #include "problems/make/motion_task.h"
+#include "problems/make/scenarios.h"
 #include "problems/make/theta_r.h"
 
 namespace maxwrench {
@@ -34,12 +35,7 @@ void set_wrench(const TaskSpec& task, Problem& problem) {
   }
   problem.wrench_in_end_effector = task.wrench_in_end_effector;
   if (task.wrench_in_end_effector) problem.wrench_axes = problem.pose.R;
-  const Eigen::VectorXd c = task.c;
-  require_numbers("wrench.c", c, 6);
-  if (c.stableNorm() < 1e-9) {
-    throw BadValue("wrench.c", shown(c), "a direction of nonzero length");
-  }
-  problem.c = rotated(problem.wrench_axes, c.stableNormalized());
+  set_wrenches(task, problem);
   require_finite("wrench.reference", task.reference);
   require_positive("wrench.reference", task.reference);
   problem.reference = task.reference;
@@ -51,7 +47,8 @@ void set_wrench(const TaskSpec& task, Problem& problem) {
   problem.desired = *task.desired;
 }
 
-void set_any(const std::vector<std::string>& any, const TaskSpec& task, Problem& problem) {
+void set_any(const std::vector<std::string>& any, const std::vector<StatedDirection>& directions,
+             Problem& problem) {
   problem.W_any.setZero(6, static_cast<Eigen::Index>(any.size()));
   for (std::size_t column = 0; column < any.size(); ++column) {
     const auto axis = std::find(kWrenchAxes.begin(), kWrenchAxes.end(), any[column]);
@@ -63,31 +60,34 @@ void set_any(const std::vector<std::string>& any, const TaskSpec& task, Problem&
     problem.W_any(axis - kWrenchAxes.begin(), static_cast<Eigen::Index>(column)) = 1;
   }
   problem.W_any = rotated(problem.wrench_axes, problem.W_any);
-  const Vector6d outside = problem.c - problem.W_any * (problem.W_any.transpose() * problem.c);
-  if (outside.norm() > 1e-12) {
-    throw BadValue("wrench.c", shown(task.c),
-                   fmt::format("a direction within any = {}", fmt::join(any, ", ")));
+  for (const auto& [key, got, c] : directions) {
+    const Vector6d outside = c - problem.W_any * (problem.W_any.transpose() * c);
+    if (outside.norm() <= 1e-12) continue;
+    throw BadValue(key, got, fmt::format("a direction within any = {}", fmt::join(any, ", ")));
   }
 }
 
 /// Sets W_any, the wrenches that do work. Let T be the twists with which the end effector can leave
 /// its pose. W_any is all of T or, if c has a part that the structure takes, c and those of T
 /// across c. The columns that a task gives itself must not span a wrench h with T'h = 0, because
-/// nothing bounds it.
+/// nothing bounds it. What a list of scenarios leaves free is across all of its wrenches.
 void choose_wrenches(const TaskSpec& task, Problem& problem) {
   const Matrix6Xd T = motions_at_pose(problem);
-  const Eigen::VectorXd c_T = T.transpose() * problem.c;
-  if (c_T.norm() < kRankTolerance) {
-    throw BadValue("wrench.c", shown(task.c),
-                   "a direction that does work: the end effector can move along it");
+  const std::vector<StatedDirection> directions = stated_directions(task, problem);
+  for (const auto& [key, got, c] : directions) {
+    if ((T.transpose() * c).norm() >= kRankTolerance) continue;
+    throw BadValue(key, got, "a direction that does work: the end effector can move along it");
   }
   if (!task.any) {
     problem.W_any = T;
+    problem.scenarios.F = free_across(directions, T);
+    const Eigen::VectorXd c_T = T.transpose() * problem.c;
     if (c_T.norm() > 1 - kRankTolerance) return;
     problem.W_any << problem.c, T * split(c_T).complement;
     return;
   }
-  set_any(*task.any, task, problem);
+  set_any(*task.any, directions, problem);
+  problem.scenarios.F = free_across(directions, problem.W_any);
   const Split works = split(problem.W_any.transpose() * T, kRankTolerance);
   if (works.complement.cols() == 0) return;
   const Vector6d idle = tidy_range(problem.W_any * works.complement).col(0);
@@ -129,6 +129,7 @@ Problem make_problem(const TaskSpec& task) {
   require_ik_solution(task, problem);
   require_free_motions(task, problem);
   choose_wrenches(task, problem);
+  set_scenarios(task, problem);
   if (task.contact) {
     set_contact(*task.contact, problem);
     reconsider_default(task, problem);

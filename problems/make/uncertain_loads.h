@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "maxwrench/task.h"
+
+namespace maxwrench {
+
+/// The body of this name. Rejects other names, as the key `key`.`name`.
+const BodyPart& find_part(const std::string& key, const std::string& name, const Robot& robot);
+
+/// The uncertain loads of a robot, each with the corners of its intervals: a group for mass and
+/// centre of mass of each body, one for its volume and centre of buoyancy, then trim, payload and
+/// current. What has no width makes no group.
+std::vector<LoadGroup> uncertain_loads(const UncertaintySpec& uncertainty, const Problem& problem);
+
+}  // namespace maxwrench
