@@ -2,7 +2,7 @@ set(maxwrench_solvers_sources
   certify/bound/any_bound.cpp certify/bound/capability_bound.cpp certify/bound/collision_bound.cpp
   certify/bound/equation_points.cpp certify/bound/exact_posture.cpp certify/bound/loop_box.cpp
   certify/bound/loop_linear.cpp certify/bound/loop_model.cpp certify/bound/loop_posture.cpp certify/bound/multi_affine.cpp
-  certify/bound/multiplier_program.cpp certify/bound/pure_bound.cpp
+  certify/bound/multiplier_program.cpp certify/bound/pure_bound.cpp certify/bound/scenario_bound.cpp
   certify/box_tree.cpp certify/certify.cpp certify/good_postures.cpp certify/halving.cpp certify/proof.cpp
   certify/proof_recorder.cpp
   explain/best_posture.cpp explain/efforts.cpp explain/exits.cpp explain/explain.cpp explain/explanation_json.cpp
@@ -17,7 +17,7 @@ set(maxwrench_solvers_sources
   search/joint_program.cpp search/knot_starts.cpp search/local_search.cpp search/probe.cpp search/restart.cpp search/sample.cpp
   search/slp.cpp search/slp_outcome.cpp search/slp_run.cpp search/trace.cpp
   solve/active_limits.cpp solve/answer_json.cpp solve/evaluate_each.cpp solve/experiment.cpp solve/format.cpp solve/json_line.cpp solve/method.cpp
-  solve/row.cpp solve/scenario_ends.cpp solve/solve.cpp solve/summary.cpp solve/tank.cpp
+  solve/row.cpp solve/scenario_ends.cpp solve/scenario_sample.cpp solve/sensitivity.cpp solve/solve.cpp solve/summary.cpp solve/tank.cpp
   added_strategies.cpp strategies.cpp
   trajectory/assembled.cpp trajectory/bordered_facets.cpp trajectory/by_facets.cpp trajectory/embedding.cpp
   trajectory/embedding_passes.cpp trajectory/even_efforts.cpp trajectory/facets_or_ipm.cpp trajectory/forms.cpp

@@ -12,6 +12,7 @@
 #include "cli/task/state.h"
 #include "lib/scenario/scenario_list.h"
 #include "maxwrench/mps.h"
+#include "maxwrench/scenario_sample.h"
 #include "maxwrench/solve.h"
 #include "maxwrench/wrench_program.h"
 
@@ -22,6 +23,7 @@ struct EvalOptions : CommonOptions {
   std::optional<std::string> theta_r;
   std::string state, write;
   bool ignore_collision = false, nominal = false, scenarios = false;
+  std::optional<long> sample;
   MotionOptions motion;
   ProblemOptions source;
   ExplainOption explain;
@@ -55,6 +57,22 @@ Answer answer_of(const Problem& problem, const EvalOptions& options, const Optio
   return evaluate(problem, theta_r_of(problem, options.theta_r), how);
 }
 
+/// Prints the answer, with what the options ask of its scenarios.
+int report_scenarios(const EvalOptions& options, const Answer& answer) {
+  const bool valid = answer.posture.status == Status::kValid;
+  if (options.scenarios && valid) {
+    const std::vector<ScenarioEnds> ends = scenario_ends(answer);
+    fmt::print("{}", options.json ? to_json(answer, ends) + "\n" : summary(answer) + summary(ends));
+  } else if (options.sample && valid) {
+    const ScenarioSample sample = sample_scenarios(answer, *options.sample, options.choice.seed);
+    fmt::print("{}",
+               options.json ? to_json(answer, sample) + "\n" : summary(answer) + summary(sample));
+  } else {
+    return options.explain.report(answer, options.json);
+  }
+  return answer.answered() ? kAnswered : kOtherStatus;
+}
+
 int eval(const EvalOptions& options) {
   require_apart(options.source.inputs(options.choice.problem), {{"--write", options.write}});
   Problem problem = options.source.load(options.choice.problem, true);
@@ -71,12 +89,7 @@ int eval(const EvalOptions& options) {
   if (!options.write.empty()) require_program(problem, how);
   const Answer answer = answer_of(problem, options, how);
   if (!options.write.empty()) write_program(options, answer);
-  if (!options.scenarios || answer.posture.status != Status::kValid) {
-    return options.explain.report(answer, options.json);
-  }
-  const std::vector<ScenarioEnds> ends = scenario_ends(answer);
-  fmt::print("{}", options.json ? to_json(answer, ends) + "\n" : summary(answer) + summary(ends));
-  return answer.answered() ? kAnswered : kOtherStatus;
+  return report_scenarios(options, answer);
 }
 
 }  // namespace
@@ -102,12 +115,20 @@ void add_eval(CLI::App& app, int& exit_status) {
   command
       .add_flag("--scenarios", options->scenarios, "list the interval of each scenario of the task")
       ->excludes("--explain");
+  command
+      .add_option("--sample", options->sample,
+                  "draw so many models from the uncertainty and the losses of the task")
+      ->check(CLI::Range(1L, 10'000'000L))
+      ->excludes("--explain", "--scenarios");
+  command.add_option("--seed", options->choice.seed, "with --sample: seed of the random numbers")
+      ->check(reject_seed)
+      ->needs("--sample");
   CLI::Option& state = *command.add_option(
       "--state", options->state,
       "print M, tau_d and J for the motion in this file instead of a capability");
-  for (const char* other :
-       {"--theta-r", "--measure", "--wrench", "--solver", "--write", "--ignore-collision",
-        "--scheme", "--t-h", "--joints", "--posture", "--explain", "--nominal", "--scenarios"}) {
+  for (const char* other : {"--theta-r", "--measure", "--wrench", "--solver", "--write",
+                            "--ignore-collision", "--scheme", "--t-h", "--joints", "--posture",
+                            "--explain", "--nominal", "--scenarios", "--sample"}) {
     state.excludes(command.get_option(other));
   }
   command.callback([options, &exit_status] { exit_status = eval(*options); });

@@ -6,7 +6,7 @@ namespace maxwrench {
 
 /// The uses of random numbers. Each use of each seed has streams of its own. To derive a stream
 /// from a seed, name a use.
-enum class RandomUse : std::uint64_t { kRefine, kSample, kLocalSearch, kKick, kRestart };
+enum class RandomUse : std::uint64_t { kRefine, kSample, kLocalSearch, kKick, kRestart, kModel };
 
 /// One stream of random numbers per (seed, stream), by SplitMix64 (Steele, Lea, Flood 2014). The
 /// class maps them to doubles itself, so the numbers are the same on every machine and at any

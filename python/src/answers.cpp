@@ -98,6 +98,30 @@ py::object residual_of(const PyAnswer& self) {
   return numbers;
 }
 
+py::object decides(const PyAnswer& self) {
+  const Answer& answer = self.answer;
+  if (!answer.has_value() || answer.task->scenarios.empty()) return py::none();
+  return py::str(describe(answer.task->scenarios, answer.capability.decides));
+}
+
+py::list scenarios(const PyAnswer& self) {
+  std::vector<ScenarioEnds> ends;
+  {
+    const py::gil_scoped_release release;
+    ends = scenario_ends(self.answer);
+  }
+  py::list list;
+  for (const ScenarioEnds& each : ends) {
+    py::dict entry;
+    entry["name"] = each.name;
+    entry["low"] = each.low;
+    entry["high"] = each.high;
+    entry["held"] = each.held;
+    list.append(entry);
+  }
+  return list;
+}
+
 py::dict solutions_of(const PyAnswer& self) {
   const IkCounts& counts = self.answer.ik_solutions;
   py::dict numbers;
@@ -242,6 +266,21 @@ does not exist is None.
       .def_property_readonly(
           "has_value", [](const PyAnswer& a) { return a.answer.has_value(); },
           "Whether there is a value.")
+      .def_property_readonly(
+          "decides", &decides,
+          "The scenario that decides, if the task has a list of scenarios and there is a value, or "
+          "None.")
+      .def("scenarios", &scenarios, R"(The interval of each scenario at this posture.
+
+Returns a list of dicts with ``name``, ``low``, ``high`` (infinite where there is no end) and
+``held``: whether the interval has a point. Raises InputError if the task has no list of scenarios
+or the posture is invalid.
+
+>>> task = maxwrench.load("examples/tasks/turn_both_ways.toml")
+>>> answer = maxwrench.evaluate(task, task.theta_r_default)
+>>> print(answer.decides, [round(each["high"], 2) for each in answer.scenarios()])
+wrench 1 [9.0, 30.17]
+)")
       .def_property_readonly("theta_r", &theta_r, "The posture (r), or the knots (k×r) [rad or m].")
       .def_property_readonly(
           "theta", &theta,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "lib/scenario/scenario_list.h"
 #include "maxwrench/problem.h"
 #include "solvers/certify/proof_recorder.h"
 #include "solvers/solve/method.h"
@@ -61,6 +62,7 @@ double Proof::gap() const {
 
 Proof certify(const Problem& task, const Options& options, const ProofOptions& how,
               ProofRecorder* recorder) {
+  if (recorder) require_no_scenarios(task, "certificate");
   Options c = options;
   if (c.budget == 0) c.budget = kUsualBudget;
   c.check_collision = true;

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "maxwrench/scenario_sample.h"
 #include "maxwrench/solve.h"
 #include "maxwrench/version.h"
 #include "solvers/solve/format.h"
@@ -193,6 +194,16 @@ std::string to_json(const Answer& answer, const std::vector<ScenarioEnds>& ends)
          {"high", known(each.held && std::isfinite(each.high), each.high)},
          {"held", each.held}});
   }
+  return in_one_line(object);
+}
+
+std::string to_json(const Answer& answer, const ScenarioSample& sample) {
+  const auto number = [](double value) { return known(std::isfinite(value), value); };
+  ordered_json object = object_of(answer);
+  object["sample"] = {{"drawn", sample.drawn},         {"infeasible", sample.infeasible},
+                      {"least", number(sample.least)}, {"q01", number(sample.q01)},
+                      {"q05", number(sample.q05)},     {"median", number(sample.median)},
+                      {"below", sample.below},         {"guaranteed", number(sample.guaranteed)}};
   return in_one_line(object);
 }
 

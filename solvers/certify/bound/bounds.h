@@ -49,6 +49,12 @@ std::unique_ptr<Bound> make_pure_bound(const Problem& problem, const std::string
 ///             o_0 - mu'tau_0 + (o - A'mu)'u.
 std::unique_ptr<Bound> make_any_wrench_bound(const Problem& problem);
 
+/// A bound of linf_polytope of a list of scenarios, with pure wrenches: the least of the bounds of
+/// its scenarios, each divided by the length of its wrench. It does not see that no posture is good
+/// for two scenarios that meet. Throws std::invalid_argument on a ball, a current and more than a
+/// hundred scenarios.
+std::unique_ptr<Bound> make_scenario_bound(const Problem& problem, Wrench wrench);
+
 /// Returns -infinity for boxes throughout which two bodies collide, else `high`. For each pair of
 /// bodies, a point of one body's core moves along a multi-affine path in the axes of the other's
 /// link. The other's core, with its reach, is convex: if it contains all control points of the

@@ -1,6 +1,5 @@
 #include <stdexcept>
 
-#include "lib/scenario/scenario_list.h"
 #include "maxwrench/problem.h"
 #include "solvers/certify/bound/bounds.h"
 
@@ -42,6 +41,10 @@ class CapabilityBound final : public Bound {
 
 std::unique_ptr<Bound> measure_bound(const Problem& problem, const std::string& measure,
                                      Wrench wrench) {
+  if (!problem.scenarios.empty() && measure != "linf_polytope") {
+    throw std::invalid_argument("measure: got '" + measure +
+                                "', expected linf_polytope for a list of scenarios");
+  }
   const bool any = wrench == Wrench::kAny;
   if (measure != "linf_polytope" && measure != "l2_polytope" && measure != "ellipsoid") {
     throw std::invalid_argument("measure: got '" + measure +
@@ -60,6 +63,7 @@ std::unique_ptr<Bound> measure_bound(const Problem& problem, const std::string& 
                                 ": measure: got 'ellipsoid', expected linf_polytope for a proof "
                                 "with forces of a second contact");
   }
+  if (!problem.scenarios.empty()) return make_scenario_bound(problem, wrench);
   return any ? make_any_wrench_bound(problem) : make_pure_bound(problem, measure);
 }
 
@@ -67,7 +71,6 @@ std::unique_ptr<Bound> measure_bound(const Problem& problem, const std::string& 
 
 std::unique_ptr<Bound> make_capability_bound(const Problem& problem, const std::string& measure,
                                              Wrench wrench) {
-  require_no_scenarios(problem, "certify");
   if (problem.motion) {
     throw std::invalid_argument(problem.name + ": got a task in time (" + problem.type() +
                                 "), expected a static task for a proof");

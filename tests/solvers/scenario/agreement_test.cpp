@@ -26,7 +26,8 @@ const Listed kLists[] = {
     {"tool_axes", "set = [[1,0,0,0,0,0], [0,1,0,0,0,0.5]]\nframe = 'end_effector'", ""},
     {"loads", kLift, kParameters},
     {"volumes", kTurn,
-     "[uncertainty]\nvolume.vehicle = 0.0002\nmass.vehicle = '1%'\ncom.vehicle = [0.004, 0.002, 0]\n"
+     "[uncertainty]\nvolume.vehicle = 0.0002\nmass.vehicle = '1%'\ncom.vehicle = [0.004, 0.002, "
+     "0]\n"
      "payload = { mass = 0.4, com = [0.02, 0, 0] }\n"},
     {"currents", kTurn, "[uncertainty]\ncurrent = { speed = 0.4, directions = 5 }\n"},
     {"everything", "set = [[1,0,0,0,0,0], [0,0,1,0,0,0]]",
@@ -47,8 +48,7 @@ TEST_P(ScenarioAgreement, OfFacetsAndOfSolversOneByOne) {
   Random random(3);
   int values = 0, infeasible = 0;
   for (int i = 0; i < samples(40); ++i) {
-    const Eigen::VectorXd theta_r =
-        i == 0 ? task_.theta_r_default : random_theta_r(task_, random);
+    const Eigen::VectorXd theta_r = i == 0 ? task_.theta_r_default : random_theta_r(task_, random);
     Options options;
     options.check_collision = false;
     const Answer facets = evaluate(task_, theta_r, options);
@@ -56,8 +56,8 @@ TEST_P(ScenarioAgreement, OfFacetsAndOfSolversOneByOne) {
     for (const char* solver : {"condensed", "simplex"}) {
       options.solver = solver;
       const Answer answer = evaluate(task_, theta_r, options);
-      ASSERT_EQ(answer.status, facets.status) << solver << ": " << answer.reason.str() << " / "
-                                              << facets.reason.str();
+      ASSERT_EQ(answer.status, facets.status)
+          << solver << ": " << answer.reason.str() << " / " << facets.reason.str();
       if (facets.status != Status::kOptimal) continue;
       const double beta = facets.beta();
       EXPECT_NEAR(answer.beta(), beta, 1e-8 * (1 + std::abs(beta))) << solver;
@@ -134,8 +134,8 @@ TEST_P(ScenarioAgreement, LoopAllocatesNothing) {
 INSTANTIATE_TEST_SUITE_P(All, ScenarioAgreement, testing::ValuesIn(kLists),
                          [](const auto& info) { return info.param.name; });
 
-/// The value of a ball is that of the worst of its wrenches: no sample is below it, and the critical
-/// wrench has it.
+/// The value of a ball is that of the worst of its wrenches: no sample is below it, and the
+/// critical wrench has it.
 TEST(ScenarioBall, IsTheWorstOfItsWrenches) {
   for (const char* wrench : {"ball = { axes = ['fx', 'fy', 'fz'], radius = 2 }",
                              "ball = { axes = ['tx', 'tz'], radius = 1 }",

@@ -17,8 +17,7 @@ struct Reference {
 void PrintTo(const Reference& reference, std::ostream* out) { *out << reference.name; }
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-const std::string kSet =
-    "set = [[0,0,-10, 0,0,5], [0,0,-10, 0,0,-5], [10,0,0, 0,0,0]]";
+const std::string kSet = "set = [[0,0,-10, 0,0,5], [0,0,-10, 0,0,-5], [10,0,0, 0,0,0]]";
 
 const Reference kReferences[] = {
     {"both_senses", "set = [[0,0,0,0,0,1], [0,0,0,0,0,-1]]", "", 9.00000, 34.82481},
@@ -76,9 +75,9 @@ double end_of_loss(const std::string& wrench, const std::string& loss) {
 }
 
 TEST(ScenarioEnds, OfALostJointAreThoseOfTheIndependentModel) {
-  for (const auto& [loss, turn] : {std::pair("joints = 'locked'\n", 30.16518),
-                                   std::pair("joints = 'limp'\n", 0.0),
-                                   std::pair("joints = 'limp'\nfriction = 0.5\n", 0.5)}) {
+  for (const auto& [loss, turn] :
+       {std::pair("joints = 'locked'\n", 30.16518), std::pair("joints = 'limp'\n", 0.0),
+        std::pair("joints = 'limp'\nfriction = 0.5\n", 0.5)}) {
     EXPECT_NEAR(end_of_loss(kTurn, loss), turn, 5.5e-6) << loss;
     EXPECT_NEAR(end_of_loss(kLift, loss), 29.92061, 5.5e-6) << loss;
   }

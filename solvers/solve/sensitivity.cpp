@@ -1,0 +1,134 @@
+#include "maxwrench/sensitivity.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "lib/math/decompositions.h"
+#include "maxwrench/problem.h"
+#include "maxwrench/version.h"
+#include "solvers/solve/format.h"
+
+namespace maxwrench {
+namespace {
+
+using nlohmann::ordered_json;
+
+void require_one_contact(const Problem& task) {
+  if (!task.motion && !task.contact) return;
+  throw std::invalid_argument("sensitivity: got " + task.name + ", " +
+                              (task.motion ? "a task in time" : "a task with a second contact") +
+                              ", expected a static task with one contact");
+}
+
+/// The scenarios of a task. One wrench of the nominal robot becomes a list of one.
+ScenarioList list_of(const Problem& task) {
+  if (!task.scenarios.empty()) return task.scenarios;
+  ScenarioList list;
+  list.wrenches.push_back({"", task.c});
+  const Eigen::VectorXd along_c = task.W_any.transpose() * task.c;
+  list.F = task.W_any * split(along_c).complement;
+  list.unit = task.unit();
+  return list;
+}
+
+/// The task with these limits. One wrench of the nominal robot remains an ordinary task.
+Problem limited(const Problem& task, const ScenarioLimits& limits) {
+  Problem changed = task;
+  if (task.scenarios.empty()) {
+    changed.robot.actuation = limits.actuation;
+  } else {
+    changed.scenarios.limits = {limits};
+  }
+  return changed;
+}
+
+class Comparison {
+ public:
+  Comparison(const Eigen::VectorXd& theta_r, const Options& options)
+      : theta_r_(theta_r), options_(options) {}
+
+  LossEffect compare(const std::string& name, const Problem& task) {
+    Options at = options_;
+    at.search.clear();
+    LossEffect effect{name, evaluate(task, theta_r_, at), {}};
+    if (!options_.interrupted || !options_.interrupted()) effect.best = solve(task, options_);
+    return effect;
+  }
+
+ private:
+  const Eigen::VectorXd& theta_r_;
+  const Options& options_;
+};
+
+double value_of(const Answer& answer) { return answer.has_value() ? answer.beta() : -kInfinity; }
+
+std::string shown(const Answer& answer) {
+  return answer.has_value() ? fmt::format("{:.5f}", answer.beta()) : "-";
+}
+
+std::string line_of(const LossEffect& effect, const std::string& name) {
+  const std::string posture = effect.best.has_value() ? line(effect.best.posture.theta_r) : "";
+  return fmt::format("{:<40} {:>11} {:>11}  {}\n", name, shown(effect.at_posture),
+                     shown(effect.best), posture);
+}
+
+ordered_json object_of(const LossEffect& effect) {
+  const Answer& best = effect.best;
+  ordered_json theta_r = nullptr;
+  if (best.has_value()) theta_r = array(best.posture.theta_r);
+  return {{"name", effect.name},
+          {"at_posture", known(effect.at_posture.has_value(), effect.at_posture.beta())},
+          {"best", known(best.has_value(), best.beta())},
+          {"theta_r", theta_r},
+          {"status", to_string(best.status)},
+          {"evaluations", best.evaluations}};
+}
+
+}  // namespace
+
+Sensitivity sensitivity(const Problem& task, const Eigen::VectorXd& theta_r,
+                        const std::vector<ScenarioLimits>& limits, const Options& options) {
+  require_one_contact(task);
+  Comparison comparison(theta_r, options);
+  Sensitivity result;
+  for (const ScenarioLimits& each : limits) {
+    result.effects.push_back(comparison.compare(each.name, limited(task, each)));
+  }
+  Problem all = task;
+  all.scenarios = list_of(task);
+  all.scenarios.limits = limits;
+  result.all = comparison.compare("any of these", all);
+  return result;
+}
+
+std::string summary(const Sensitivity& sensitivity) {
+  std::vector<const LossEffect*> sorted;
+  for (const LossEffect& effect : sensitivity.effects) sorted.push_back(&effect);
+  std::stable_sort(sorted.begin(), sorted.end(), [](const LossEffect* a, const LossEffect* b) {
+    return value_of(a->best) < value_of(b->best);
+  });
+  std::string text =
+      fmt::format("{:<40} {:>11} {:>11}  theta_r\n", "lost", "at posture", "best found");
+  for (const LossEffect* effect : sorted) {
+    text += line_of(*effect, effect->name.empty() ? "nothing" : effect->name);
+  }
+  return text + line_of(sensitivity.all, sensitivity.all.name);
+}
+
+std::string to_json(const Sensitivity& sensitivity) {
+  ordered_json object;
+  object["problem"] = sensitivity.all.at_posture.choice.problem;
+  object["unit"] = sensitivity.all.at_posture.unit;
+  object["losses"] = ordered_json::array();
+  for (const LossEffect& effect : sensitivity.effects) {
+    object["losses"].push_back(object_of(effect));
+  }
+  object["all"] = object_of(sensitivity.all);
+  object["version"] = version();
+  return in_one_line(object);
+}
+
+}  // namespace maxwrench
