@@ -2,7 +2,7 @@
 
 #include "maxwrench/bound.h"
 #include "maxwrench/certify.h"
-#include "tests/support/refusals.h"
+#include "tests/support/coded_tasks.h"
 #include "tests/support/scenario_task.h"
 
 namespace maxwrench {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "maxwrench/scenario_sample.h"
-#include "tests/support/refusals.h"
+#include "tests/support/coded_tasks.h"
 #include "tests/support/scenario_task.h"
 
 namespace maxwrench {
