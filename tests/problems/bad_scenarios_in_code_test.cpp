@@ -260,7 +260,7 @@ TEST(LossInCode, OfAGear) {
   for (const char* name : {"finger", "thumb", "joints"}) {
     task.loss = LossSpec{.any = 1, .actuators = {name}};
     EXPECT_THAT(rejection_of([&] { make_problem(task); }),
-                HasSubstr("', expected actuators without a gear: a gear connects '"))
+                HasSubstr("'], expected actuators without a gear: a gear connects '"))
         << name;
   }
   task.loss->actuators = {"elbow"};
