@@ -216,6 +216,7 @@ void check_parts(Robot& robot) {
       const Link& link = robot.links[i];
       robot.parts.push_back({.name = link.name,
                              .link = static_cast<int>(i),
+                             .frame = {},
                              .mass = link.mass,
                              .com = link.com,
                              .volume = link.volume,

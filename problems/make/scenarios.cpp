@@ -120,7 +120,7 @@ void set_payload(const TaskSpec& task, Problem& problem) {
                    "a payload with weight in water");
   }
   problem.scenarios.payload = load;
-  problem.scenarios.wrenches = {{.c = c}};
+  problem.scenarios.wrenches = {{.name = "", .c = c}};
   problem.scenarios.unit = "kg";
   problem.scenarios.non_negative = true;
   problem.c = c.stableNormalized();
@@ -166,7 +166,7 @@ void set_wrenches(const TaskSpec& task, Problem& problem) {
       throw BadValue("wrench.c", shown(c), "a direction of nonzero length");
     }
     problem.c = rotated(problem.wrench_axes, c.stableNormalized());
-    list.wrenches = {{.c = problem.c}};
+    list.wrenches = {{.name = "", .c = problem.c}};
   }
   list.unit = unit_of(task, list, problem.c);
   if (task.hold) list.wrenches.push_back({.name = "hold", .hold = true});

@@ -86,7 +86,8 @@ TEST_F(UrdfTest, AChangedPartIsAChangedLink) {
                            joint("f", "hull", "deck", "", "fixed") + link("arm", 1) +
                            joint("j", "deck", "arm");
   const std::string toml =
-      "end_effectors.tool = { link = 'arm' }\nbuoyancy.deck = { volume = 0.001, cob = [0,0.1,0] }\n"
+      "end_effectors.tool = { link = 'arm', xyz = [0, 0, 1] }\nbuoyancy.deck = { volume = 0.001, "
+      "cob = [0,0.1,0] }\n"
       "environment = { water_density = 1000 }\n";
   const Robot known = load(urdf, toml + "links.deck = { com = [0.2, 0, 0] }\n");
   const Robot changed = load(urdf, toml + "links.deck = { mass = 2.3, com = [0.25, 0, 0] }\n");
