@@ -18,7 +18,7 @@ struct ScenarioSample {
       q01 = 0, q05 = 0, median = 0;  ///< quantiles 1 %, 5 % and 50 % [unit]
   long below = 0;                    ///< number of models below `guaranteed`
   double guaranteed = 0;             ///< the value of the list at the posture, if it has one
-  const char* unit = "";             ///< of the values
+  std::string unit = "";  ///< of the values
 };
 
 /// Draws models at the posture of an answer.

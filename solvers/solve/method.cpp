@@ -169,6 +169,7 @@ Method resolve_in_time(const Problem& problem, const Case& c) {
 LowerLevel resolve_lower_level(const Problem& problem, const Case& c) {
   const MeasureEntry& measure = find_measure(c.measure);
   const auto served = solvers_for(measure, problem, c.wrench);
+  if (!problem.scenarios.empty()) require_scenario_case(problem, measure, served.empty());
   if (served.empty()) {
     throw std::invalid_argument(fmt::format(
         "wrench: got 'any', which measure {} does not support, expected pure", c.measure));
