@@ -12,7 +12,7 @@
 #include "cli/task/state.h"
 #include "lib/scenario/scenario_list.h"
 #include "maxwrench/mps.h"
-#include "maxwrench/scenario_sample.h"
+#include "maxwrench/sensitivity.h"
 #include "maxwrench/solve.h"
 #include "maxwrench/wrench_program.h"
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "maxwrench/scenario.h"
+#include <vector>
+
 #include "maxwrench/status.h"
 #include "maxwrench/types.h"
 
@@ -8,6 +9,15 @@
 /// The result of a measure at one posture.
 
 namespace maxwrench {
+
+/// The numbers of a scenario in its list.
+struct ScenarioChoice {
+  int wrench = 0,          ///< index in `ScenarioList::wrenches`
+      limits = 0;          ///< index in `ScenarioList::limits`
+  std::vector<int> cases;  ///< for each load the index of its case
+  /// The wrench per unit of beta in world axes at the posture; of a ball the critical one.
+  Vector6d c = Vector6d::Zero();
+};
 
 /// The result of a measure at one posture.
 ///

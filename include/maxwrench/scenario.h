@@ -13,6 +13,7 @@
 namespace maxwrench {
 
 struct Problem;
+struct ScenarioChoice;
 
 /// The largest number of scenarios of a list.
 inline constexpr long kMostScenarios = 100'000;
@@ -105,15 +106,6 @@ struct ScenarioList {
   long count() const;
 };
 
-/// The numbers of a scenario in its list.
-struct ScenarioChoice {
-  int wrench = 0,          ///< index in `ScenarioList::wrenches`
-      limits = 0;          ///< index in `ScenarioList::limits`
-  std::vector<int> cases;  ///< for each load the index of its case
-  /// The wrench per unit of beta in world axes at the posture; of a ball the critical one.
-  Vector6d c = Vector6d::Zero();
-};
-
 /// Returns what tells a scenario from the others of its list.
 ///
 /// An example is "wrench 2; front_left dead; base com.x +0.005 m". It is "nominal" if there is
@@ -125,13 +117,5 @@ std::string describe(const ScenarioList& list, const ScenarioChoice& choice);
 /// A list that has one wrench, no ball and no payload then becomes an ordinary task, unless the
 /// wrench comes from a set, which keeps its length.
 Problem nominal(Problem problem);
-
-/// The interval of one scenario at a posture.
-struct ScenarioEnds {
-  std::string name;   ///< as `describe` tells
-  double low = 0,     ///< lo_s; -infinity: none
-      high = 0;       ///< hi_s; infinity: none
-  bool held = false;  ///< false: I_s is empty
-};
 
 }  // namespace maxwrench

@@ -1,14 +1,66 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "maxwrench/solve.h"
 
 /// @file
-/// What each actuator is worth to a static task.
+/// What lost actuators and uncertain data cost a static task.
 
 namespace maxwrench {
+
+/// The interval of one scenario at a posture.
+struct ScenarioEnds {
+  std::string name;   ///< as `describe` tells
+  double low = 0,     ///< lo_s; -infinity: none
+      high = 0;       ///< hi_s; infinity: none
+  bool held = false;  ///< false: I_s is empty
+};
+
+/// Computes the interval of each scenario at the posture of an answer.
+///
+/// With a ball the scenarios are those of the list, each with all wrenches of the ball.
+///
+/// @param answer  of a static task with a list of scenarios, with a valid posture
+/// @return the intervals in the order of wrenches, limits and cases, the last load first
+/// @throws std::invalid_argument if the task has no list or there is no valid posture.
+std::vector<ScenarioEnds> scenario_ends(const Answer& answer);
+
+/// Returns the intervals as text of several lines.
+std::string summary(const std::vector<ScenarioEnds>& ends);
+/// Returns an answer as a JSON object on one line, with the intervals of its scenarios.
+std::string to_json(const Answer& answer, const std::vector<ScenarioEnds>& ends);
+
+/// Values of drawn models. A model without a value counts as -infinity.
+struct ScenarioSample {
+  long drawn = 0,                    ///< number of models
+      infeasible = 0;                ///< number of models without a value
+  double least = 0,                  ///< least value [unit]
+      q01 = 0, q05 = 0, median = 0;  ///< quantiles 1 %, 5 % and 50 % [unit]
+  long below = 0;                    ///< number of models below `guaranteed`
+  double guaranteed = 0;             ///< the value of the list at the posture, if it has one
+  std::string unit = "";             ///< of the values
+};
+
+/// Draws models at the posture of an answer.
+///
+/// Every width is uniform and independent: masses, volumes, centres, trim, payload, the strength of
+/// each actuator. One of the currents and one of the losses is drawn. The wrenches are those of the
+/// task. A sample proves nothing; that no value is below the guaranteed one is a check of it.
+///
+/// @param answer  of a static task with a list of scenarios, with a valid posture
+/// @param draws   number of models, at least 1
+/// @param seed    seed of the random numbers
+/// @return the values; the same for the same seed
+/// @throws std::invalid_argument if the task has no list, there is no valid posture, or draws < 1.
+ScenarioSample sample_scenarios(const Answer& answer, long draws, std::uint64_t seed);
+
+/// Returns the sample as one line of text.
+std::string summary(const ScenarioSample& sample);
+/// Returns an answer as a JSON object on one line, with the sample of its task.
+std::string to_json(const Answer& answer, const ScenarioSample& sample);
 
 /// A task with some actuators lost.
 struct LossEffect {

@@ -190,24 +190,10 @@ Answer solve(const Problem& task, const Options& options = {});
 /// @throws std::invalid_argument as `evaluate`.
 Answer experiment(const Problem& task, const Options& options);
 
-/// Computes the interval of each scenario at the posture of an answer.
-///
-/// With a ball the scenarios are those of the list, each with all wrenches of the ball.
-///
-/// @param answer  of a static task with a list of scenarios, with a valid posture
-/// @return the intervals in the order of wrenches, limits and cases, the last load first
-/// @throws std::invalid_argument if the task has no list or there is no valid posture.
-std::vector<ScenarioEnds> scenario_ends(const Answer& answer);
-
-/// Returns the intervals as text of several lines.
-std::string summary(const std::vector<ScenarioEnds>& ends);
-
 /// Returns the answer as text of several lines.
 std::string summary(const Answer& answer);
 
 /// Returns the answer as a JSON object on one line. A key without a value is null.
 std::string to_json(const Answer& answer);
-/// Returns the same with the intervals of the scenarios.
-std::string to_json(const Answer& answer, const std::vector<ScenarioEnds>& ends);
 
 }  // namespace maxwrench

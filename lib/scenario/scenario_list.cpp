@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "maxwrench/capability.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/scenario.h"
 

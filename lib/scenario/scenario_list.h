@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "maxwrench/capability.h"
 #include "maxwrench/scenario.h"
 
 namespace maxwrench {

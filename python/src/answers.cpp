@@ -3,6 +3,7 @@
 
 #include "lib/robot/kinematics.h"
 #include "maxwrench/figures.h"
+#include "maxwrench/sensitivity.h"
 #include "python/src/arrays.h"
 #include "python/src/parts.h"
 #include "solvers/solve/format.h"
@@ -275,11 +276,6 @@ does not exist is None.
 Returns a list of dicts with ``name``, ``low``, ``high`` (infinite where there is no end) and
 ``held``: whether the interval has a point. Raises InputError if the task has no list of scenarios
 or the posture is invalid.
-
->>> task = maxwrench.load("examples/tasks/turn_both_ways.toml")
->>> answer = maxwrench.evaluate(task, task.theta_r_default)
->>> print(answer.decides, [round(each["high"], 2) for each in answer.scenarios()])
-wrench 1 [9.0, 30.17]
 )")
       .def_property_readonly("theta_r", &theta_r, "The posture (r), or the knots (k×r) [rad or m].")
       .def_property_readonly(

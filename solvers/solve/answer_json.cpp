@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "maxwrench/scenario_sample.h"
+#include "maxwrench/sensitivity.h"
 #include "maxwrench/solve.h"
 #include "maxwrench/version.h"
 #include "solvers/solve/format.h"

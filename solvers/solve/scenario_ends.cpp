@@ -3,6 +3,7 @@
 #include "lib/scenario/scenario_facets.h"
 #include "lib/scenario/scenario_program.h"
 #include "maxwrench/problem.h"
+#include "maxwrench/sensitivity.h"
 #include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_solver.h"

@@ -1,5 +1,3 @@
-#include "maxwrench/scenario_sample.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include "lib/scenario/current_load.h"
 #include "maxwrench/measure.h"
 #include "maxwrench/problem.h"
+#include "maxwrench/sensitivity.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"
 

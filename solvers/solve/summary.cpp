@@ -2,6 +2,7 @@
 
 #include <iterator>
 
+#include "maxwrench/sensitivity.h"
 #include "maxwrench/solve.h"
 #include "solvers/solve/active_limits.h"
 #include "solvers/solve/format.h"

@@ -132,7 +132,7 @@ TEST_P(ScenarioAgreement, LoopAllocatesNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ScenarioAgreement, testing::ValuesIn(kLists),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& test) { return test.param.name; });
 
 /// The value of a ball is that of the worst of its wrenches: no sample is below it, and the
 /// critical wrench has it.

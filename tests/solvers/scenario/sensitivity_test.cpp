@@ -4,7 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "maxwrench/scenario_sample.h"
 #include "tests/support/coded_tasks.h"
 #include "tests/support/scenario_task.h"
 

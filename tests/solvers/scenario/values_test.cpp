@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "maxwrench/sensitivity.h"
 #include "maxwrench/solve.h"
 #include "tests/support/scenario_task.h"
 
@@ -64,7 +65,7 @@ TEST_P(ScenarioValues, AreThoseOfTheIndependentModel) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ScenarioValues, testing::ValuesIn(kReferences),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& test) { return test.param.name; });
 
 /// The upper end of the scenario of the lost joint alone.
 double end_of_loss(const std::string& wrench, const std::string& loss) {
@@ -130,7 +131,7 @@ TEST_P(SLOW_ScenarioBest, IsFoundByDefault) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, SLOW_ScenarioBest, testing::ValuesIn(kBest),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace maxwrench

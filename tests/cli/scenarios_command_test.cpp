@@ -1,0 +1,90 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/support.h"
+
+namespace maxwrench {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+TEST(ScenariosCommand, EvalSaysWhatDecides) {
+  const CommandResult result = run_maxwrench("eval examples/tasks/turn_both_ways.toml --scenarios");
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("decides  wrench 1"));
+  EXPECT_THAT(result.out, HasSubstr("wrench 2"));
+  const json object =
+      json::parse(run_maxwrench("eval examples/tasks/turn_both_ways.toml --scenarios --json").out);
+  EXPECT_EQ(object["decides"], "wrench 1");
+  ASSERT_EQ(object["scenarios"].size(), 2u);
+  EXPECT_NEAR(object["scenarios"][0]["high"], object["beta"], 1e-9);
+  EXPECT_NEAR(object["critical"][5], object["beta"], 1e-9);
+}
+
+/// The nominal task is the shipped one.
+TEST(ScenariosCommand, NominalIsWithoutUncertainty) {
+  const json nominal =
+      json::parse(run_maxwrench("eval examples/tasks/turn_guaranteed.toml --nominal --json").out);
+  const json shipped = json::parse(run_maxwrench("eval uvms/valve --json").out);
+  EXPECT_EQ(nominal["beta"], shipped["beta"]);
+  EXPECT_FALSE(nominal.contains("decides"));
+}
+
+TEST(ScenariosCommand, SampleIsNeverBelowTheGuarantee) {
+  const json object = json::parse(
+      run_maxwrench("eval examples/tasks/turn_guaranteed.toml --sample 200 --seed 4 --json").out);
+  EXPECT_EQ(object["sample"]["drawn"], 200);
+  EXPECT_EQ(object["sample"]["below"], 0);
+  EXPECT_GE(object["sample"]["least"].get<double>(), object["beta"].get<double>() - 1e-9);
+}
+
+TEST(ScenariosCommand, SensitivityRanksThrusters) {
+  const TemporaryFolder folder;
+  const CommandResult result = run_maxwrench(
+      "sensitivity uvms/valve --budget 300 --search crs2 --actuators front_left_vertical,"
+      "q1_shoulder_yaw --figure " +
+      (folder.path() / "losses.svg").string());
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("front_left_vertical dead"));
+  EXPECT_THAT(result.out, HasSubstr("q1_shoulder_yaw limp"));
+  EXPECT_THAT(read_text(folder.path() / "losses.svg"), HasSubstr("front_left_vertical dead"));
+}
+
+struct Refusal {
+  const char *words, *line;
+};
+
+class ScenarioRefusals : public testing::TestWithParam<Refusal> {};
+
+TEST_P(ScenarioRefusals, AreOneLine) {
+  const CommandResult result = run_maxwrench(GetParam().words);
+  EXPECT_EQ(result.exit_status, 2) << result.out;
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(result.err, HasSubstr(GetParam().line));
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, ScenarioRefusals,
+    testing::Values(
+        Refusal{"eval uvms/valve --scenarios", "scenarios: got a task without a list"},
+        Refusal{"eval uvms/valve --sample 10", "sample: got a task without a list"},
+        Refusal{"eval examples/tasks/push_anywhere.toml --wrench any", "got a ball"},
+        Refusal{"eval examples/tasks/push_anywhere.toml --solver simplex", "solver"},
+        Refusal{"eval examples/tasks/turn_both_ways.toml --measure ellipsoid", "measure"},
+        Refusal{"eval examples/tasks/turn_both_ways.toml --explain", "explain: got"},
+        Refusal{"eval examples/tasks/turn_both_ways.toml --write x.mps", "--write: got"},
+        Refusal{"plot examples/tasks/turn_both_ways.toml --out x.svg", "list of scenarios"},
+        Refusal{"view examples/tasks/turn_both_ways.toml --out x.html", "list of scenarios"},
+        Refusal{"simulate examples/tasks/turn_both_ways.toml", "list of scenarios"},
+        Refusal{"certify examples/tasks/turn_in_current.toml", "certify: got currents"},
+        Refusal{"certify examples/tasks/turn_both_ways.toml --certificate x.proof",
+                "certificate: got"},
+        Refusal{"sensitivity uvms/valve_trajectory", "sensitivity"},
+        Refusal{"sensitivity uvms/valve --actuators wing", "loss.actuators: got"}));
+
+}  // namespace
+}  // namespace maxwrench
