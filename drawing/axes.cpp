@@ -87,6 +87,13 @@ double round_step(double value) {
   return (mantissa >= 5 ? 5 : mantissa >= 2 ? 2 : 1) * power;
 }
 
+std::string with_digits(double value, int digits) {
+  if (std::abs(value) < 1e-6) return "0";
+  const int before = 1 + static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-12));
+  if (before > 7) return with_minus(value, "{:.3g}");
+  return with_minus(value, fmt::format("{{:.{}f}}", std::max(0, digits - before)).c_str());
+}
+
 std::string with_minus(double value, const char* format) {
   const std::string digits = fmt::format(fmt::runtime(format), std::abs(value));
   const bool zero = digits.find_first_not_of("0.") == std::string::npos;

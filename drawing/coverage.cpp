@@ -5,6 +5,11 @@
 #include <limits>
 
 namespace maxwrench {
+namespace {
+
+constexpr double kHiddenShare = 0.2;  ///< of a face that shines through; less is not drawn twice
+
+}  // namespace
 
 Coverage::Coverage(const Eigen::AlignedBox2d& box, double step)
     : corner_(box.min()),
@@ -45,46 +50,53 @@ void Coverage::visit(const std::vector<Eigen::Vector2d>& outline, const Visit& v
   }
 }
 
-bool Coverage::cover(const std::vector<Eigen::Vector2d>& outline) {
-  bool any = false;
-  visit(outline, [&](std::size_t i) {
-    any = any || !covered_[i];
-    covered_[i] = true;
-  });
-  return any;
+Samples Coverage::cover(const std::vector<Eigen::Vector2d>& outline) {
+  const Samples before = samples(outline);
+  if (before.hidden < before.all) visit(outline, [&](std::size_t i) { covered_[i] = true; });
+  return before;
 }
 
-bool Coverage::shows(const std::vector<Eigen::Vector2d>& outline) const {
-  bool any = false;
-  visit(outline, [&](std::size_t i) { any = any || !covered_[i]; });
-  return any;
+Samples Coverage::samples(const std::vector<Eigen::Vector2d>& outline) const {
+  Samples samples;
+  visit(outline, [&](std::size_t i) {
+    ++samples.all;
+    samples.hidden += covered_[i] ? 1 : 0;
+  });
+  return samples;
 }
 
 double Coverage::share(const Eigen::AlignedBox2d& box) const {
-  long samples = 0, covered = 0;
   const Eigen::Vector2d a = box.min(), c = box.max();
-  visit({a, {c.x(), a.y()}, c, {a.x(), c.y()}}, [&](std::size_t i) {
-    ++samples;
-    covered += covered_[i] ? 1 : 0;
-  });
-  return samples > 0 ? static_cast<double>(covered) / static_cast<double>(samples) : 0;
+  const Samples inside = samples({a, {c.x(), a.y()}, c, {a.x(), c.y()}});
+  return inside.all > 0 ? static_cast<double>(inside.hidden) / static_cast<double>(inside.all) : 0;
 }
 
-std::vector<Face> visible_faces(const std::vector<Face>& ordered, double step) {
+VisibleFaces visible_faces(const std::vector<Face>& ordered, double step) {
   Eigen::AlignedBox2d box;
   for (const Face& face : ordered) {
     for (const Eigen::Vector3d& corner : face.corners) box.extend(corner.head<2>());
   }
-  if (box.isEmpty()) return {};
-  Coverage coverage(box, step);
-  std::vector<Face> visible;
+  VisibleFaces faces;
+  if (box.isEmpty()) return faces;
+  Coverage all(box, step), plain(box, step);  // plain: by faces that do not shine through
   for (auto face = ordered.rbegin(); face != ordered.rend(); ++face) {
     const std::vector<Eigen::Vector2d> outline = outline_of(*face);
-    const bool shows = face->opacity < 1 ? coverage.shows(outline) : coverage.cover(outline);
-    if (shows) visible.push_back(*face);
+    const bool opaque = face->opacity == 1;
+    const Samples of_all = opaque ? all.cover(outline) : all.samples(outline);
+    if (of_all.hidden < of_all.all) faces.seen.push_back(*face);
+    if (face->shines_through) {
+      const Samples of_plain = plain.samples(outline);
+      if (of_plain.hidden > kHiddenShare * static_cast<double>(of_plain.all)) {
+        faces.hidden.push_back(*face);
+        faces.hidden.back().lines.clear();
+      }
+    } else if (opaque) {
+      plain.cover(outline);
+    }
   }
-  std::reverse(visible.begin(), visible.end());
-  return visible;
+  std::reverse(faces.seen.begin(), faces.seen.end());
+  std::reverse(faces.hidden.begin(), faces.hidden.end());
+  return faces;
 }
 
 }  // namespace maxwrench

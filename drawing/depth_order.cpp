@@ -75,7 +75,7 @@ Outline overlap(const Sheet& a, const Sheet& b) {
 
 /// The part of a face where the plane is at least zero. The cut is no line.
 Face cut(const Face& face, const Plane& plane) {
-  Face part{{}, face.colour, face.opacity, {}};
+  Face part{{}, face.colour, face.opacity, face.shines_through, {}};
   const std::size_t count = face.corners.size();
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Vector3d &p = face.corners[i], &q = face.corners[(i + 1) % count];

@@ -6,7 +6,12 @@ namespace maxwrench {
 namespace {
 
 constexpr double kLineShade = 0.55;  ///< of black in the colour of a face's lines
-constexpr double kLineWidth = 0.7;   ///< px
+
+/// A darker one, of few bits: it has few characters in a file.
+Rgb line_colour(Rgb colour) {
+  const Rgb high = mixed(colour, 0x000000, kLineShade) >> 4U & 0x0F0F0FU;
+  return high << 4U | high;
+}
 
 }  // namespace
 
@@ -38,7 +43,7 @@ void draw_faces(Svg& svg, const Viewport& to_px, const std::vector<Face>& faces)
       for (; i < face.lines.size() && face.lines[i]; ++i) {
         line.push_back(outline[(i + 1) % outline.size()]);
       }
-      svg.surface_line(line, mixed(face.colour, 0x000000, kLineShade), kLineWidth);
+      svg.surface_line(line, line_colour(face.colour));
     }
   }
   svg.end_surfaces();

@@ -19,6 +19,7 @@ struct Face {
   std::vector<Eigen::Vector3d> corners;  ///< in order around the face
   Rgb colour = 0;
   double opacity = 1;
+  bool shines_through = false;  ///< whether it is seen faintly where others hide it
   /// Whether the edge from corner i to the next one is drawn as a line. Empty: none is.
   std::vector<bool> lines = {};
 };

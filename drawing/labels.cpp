@@ -14,6 +14,7 @@ using Box = Eigen::AlignedBox2d;
 constexpr double kLabelLine = 12, kLabelGap = 2, kNearest = 5, kFarthestLabel = 170, kRing = 9,
                  kLeader = 13;
 constexpr int kDirections = 24;
+constexpr double kBoldWidth = 1.08;  ///< of that of a letter that is not
 // Costs of a place, as px of distance.
 constexpr double kOnPicture = 130, kCrossing = 60;
 
@@ -22,6 +23,7 @@ Point size_of(const Label& label) {
   for (const std::string& line : label.lines) {
     width = std::max(width, text_width(line, kFontSize));
   }
+  if (label.bold) width *= kBoldWidth;
   return {width, kLabelLine * static_cast<double>(label.lines.size())};
 }
 
@@ -111,6 +113,7 @@ void draw_labels(Svg& svg, const std::vector<PlacedLabel>& labels) {
     if ((foot - each.label.at).norm() < kLeader) continue;
     svg.line(each.label.at, foot, {.stroke = "#ffffff", .width = 2});
     svg.line(each.label.at, foot, {.stroke = each.label.colour, .width = 0.7});
+    svg.circle(each.label.at, 1.4, {.fill = each.label.colour});
   }
   for (const PlacedLabel& each : labels) {
     // Next to its place on the left or right, a label is flush with it.

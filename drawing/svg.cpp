@@ -255,7 +255,7 @@ void Svg::text(const Point& at, std::string_view text, const Font& font) {
 }
 
 void Svg::begin_surfaces() {
-  body_ += "<g fill=\"currentColor\" stroke=\"currentColor\" stroke-width=\".6\" "
+  body_ += "<g fill=\"currentColor\" stroke=\"currentColor\" stroke-width=\".7\" "
            "stroke-linejoin=\"round\" stroke-linecap=\"round\">\n";
 }
 
@@ -268,11 +268,10 @@ void Svg::surface(const std::vector<Point>& corners, std::uint32_t colour, doubl
   body_ += fmt::format("<path color=\"{}\"{} d=\"{}z\"/>\n", hex(colour), through, path);
 }
 
-void Svg::surface_line(const std::vector<Point>& points, std::uint32_t colour, double width) {
+void Svg::surface_line(const std::vector<Point>& points, std::uint32_t colour) {
   const std::string path = short_path(points);
   if (path.find('l') == std::string::npos) return;
-  body_ += fmt::format("<path color=\"{}\" fill=\"none\" stroke-width=\"{:.1f}\" d=\"{}\"/>\n",
-                       hex(colour), width, path);
+  body_ += fmt::format("<path color=\"{}\" fill=\"none\" d=\"{}\"/>\n", hex(colour), path);
 }
 
 void Svg::end_surfaces() { body_ += "</g>\n"; }

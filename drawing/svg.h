@@ -60,10 +60,11 @@ class Svg {
   void text(const Eigen::Vector2d& at, std::string_view text, const Font& font);
 
   /// Surfaces are many: between `begin_surfaces` and `end_surfaces` they take few bytes each. A
-  /// surface closes the gap that renderers leave between neighbours. Colours are 0xRRGGBB.
+  /// surface closes the gap that renderers leave between neighbours, and lines are as wide as that.
+  /// Colours are 0xRRGGBB.
   void begin_surfaces();
   void surface(const std::vector<Eigen::Vector2d>& corners, std::uint32_t colour, double opacity);
-  void surface_line(const std::vector<Eigen::Vector2d>& points, std::uint32_t colour, double width);
+  void surface_line(const std::vector<Eigen::Vector2d>& points, std::uint32_t colour);
   void end_surfaces();
 
   /// Fills the picture with colours from top to bottom; `id` names them in the whole document.

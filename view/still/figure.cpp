@@ -24,8 +24,9 @@ constexpr double kOnePanel = 1.4 * kPageWidth;  ///< a figure of one panel
 constexpr double kFullPage = 2.2 * kPageWidth;  ///< of more: a page with margins
 constexpr double kPanelGap = 10, kHeadLine = 15, kRowHead = 18, kFootGap = 8, kWave = 12;
 constexpr double kDetail = 0.35;      ///< what is smaller is not seen
-constexpr double kPerNote = 9000;     ///< the area of a panel for each label
-constexpr double kLongLine = 17;      ///< characters: a longer label has two lines
+constexpr double kShine = 0.35;       ///< opacity of what shines through
+constexpr double kPerNote = 14000;     ///< the area of a panel for each label
+constexpr std::size_t kLongLine = 17;  ///< bytes: a longer label has two lines
 constexpr double kBesideRobot = 0.12;  ///< of a panel's width, on each side, for labels
 
 constexpr Rgb kWaterTop = 0xf1f9fc, kWaterBottom = 0xcfe5f0, kAirTop = 0xfafcfd,
@@ -52,7 +53,7 @@ std::string status_words(const ordered_json& of) {
 
 std::string value_words(const ordered_json& of) {
   if (!of["beta"].is_number()) return "";
-  return fmt::format("{} {}", with_minus(of["beta"].get<double>(), "{:.4g}"),
+  return fmt::format("{} {}", with_digits(of["beta"].get<double>(), 4),
                      of["unit"].get<std::string>());
 }
 
@@ -92,6 +93,11 @@ StillPanel panel_of(const StillWorld& world, const ordered_json& entry, const or
   for (const Face& face : panel.still.faces) {
     for (const Point& corner : outline_of(face)) panel.box.extend(corner);
   }
+  Box shadows;
+  for (const std::vector<Point>& shadow : panel.still.shadows) {
+    for (const Point& p : shadow) shadows.extend(p);
+  }
+  if (!shadows.isEmpty()) panel.box.extend(shadows.center());  // so that the floor is seen
   return panel;
 }
 
@@ -119,7 +125,7 @@ class StillWriter {
     const double row_height = (heads ? kRowHead : 0) + 2 * kHeadLine + 4 + panel_.y() + kFootGap;
     const double rows = row_height * static_cast<double>(rows_.size());
     const std::vector<LegendEntry> entries = legend();
-    const int columns = rows_.front().panels.size() == 1 ? 2 : 4;
+    const int columns = rows_.front().panels.size() == 1 ? 3 : 4;
     const Point foot(4, rows + kHeadLine);
     Svg svg(width_, foot.y() + draw_legend(nullptr, entries, foot, width_ - 8, columns) + 6);
     double top = 0;
@@ -159,15 +165,17 @@ class StillWriter {
     svg.begin_clip(id, plot, panel_);
     const Point middle = panel.box.center();
     const Viewport to_px{
-        plot + panel_ / 2 + Point(water ? 0 : 0, water ? kWave / 2 : 0) -
-            scale_ * Point(middle.x(), -middle.y()),
+        plot + panel_ / 2 + Point(0, water ? kWave / 2 : 0) - scale_ * Point(middle.x(), -middle.y()),
         scale_};
     draw_ground(svg, panel.still, to_px);
     if (water) draw_surface(svg, plot);
-    const std::vector<Face> faces = visible_faces(
-        depth_order(panel.still.faces, kDetail / scale_), kDetail / scale_);
-    draw_faces(svg, to_px, faces);
-    draw_notes(svg, panel.still, faces, to_px, Box(plot, plot + panel_));
+    const VisibleFaces faces =
+        visible_faces(depth_order(panel.still.faces, kDetail / scale_), kDetail / scale_);
+    draw_faces(svg, to_px, faces.seen);
+    svg.begin_fade(kShine);
+    draw_faces(svg, to_px, faces.hidden);
+    svg.end_fade();
+    draw_notes(svg, panel.still, faces.seen, to_px, Box(plot, plot + panel_));
     svg.end_clip();
   }
 
@@ -209,13 +217,15 @@ class StillWriter {
   static Label label_of(const Note& note, const Point& at) {
     Label label{{}, at, note.colour, note.bold};
     const std::string whole = note.value.empty() ? note.name : note.name + " " + note.value;
-    const std::size_t half = note.name.find(' ', note.name.size() / 2);
-    if (static_cast<double>(whole.size()) <= kLongLine || note.value.empty()) {
-      label.lines = {whole};
-    } else if (half == std::string::npos) {
-      label.lines = {note.name, note.value};
-    } else {
-      label.lines = {note.name.substr(0, half), whole.substr(half + 1)};
+    label.lines = {whole};
+    if (whole.size() <= kLongLine) return label;
+    // Two lines, as short as they can be; a number stays with its unit.
+    std::size_t least = whole.size();
+    for (std::size_t i = whole.find(' '); i <= note.name.size(); i = whole.find(' ', i + 1)) {
+      const std::size_t longer = std::max(i, whole.size() - i - 1);
+      if (longer >= least) continue;
+      least = longer;
+      label.lines = {whole.substr(0, i), whole.substr(i + 1)};
     }
     return label;
   }
@@ -244,14 +254,14 @@ class StillWriter {
         svg.arrow(left + Point(2, 0), left + Point(26, 0), {.stroke = colour, .width = 2.4}, 8);
       };
     };
-    std::vector<LegendEntry> entries = {{"h, the wrench exerted", arrow("#e8590c")},
+    std::vector<LegendEntry> entries = {{"h, wrench exerted", arrow("#e8590c")},
                                         {"c, its direction", arrow("#7b8794")},
                                         {"effort", arrow("#16a394")},
                                         {"effort at its limit", arrow("#e11d30")}};
     const auto scale = [&](double metres, const char* of) {
       const double newtons = round_step(26 / (metres * scale_));
       const double length = newtons * metres * scale_;
-      entries.push_back({fmt::format("{:.6g} N, {}", newtons, of),
+      entries.push_back({fmt::format("{:.6g} N of {}", newtons, of),
                          [length](Svg& svg, const Point& left) {
                            const Paint ink{.stroke = "#222222", .width = 1.2};
                            svg.line(left, left + Point(length, 0), ink);
@@ -260,9 +270,16 @@ class StillWriter {
                            }
                          }});
     };
-    if (world_.shows_force()) scale(world_.force_metres(), "of h");
+    if (!world_.shown_set().empty()) {
+      entries.push_back({"all " + world_.shown_set() + "s in reach", [](Svg& svg, const Point& left) {
+                           const Point a = left + Point(2, -5), c = left + Point(26, 5);
+                           svg.polygon({a, {c.x(), a.y()}, c, {a.x(), c.y()}},
+                                       {.stroke = "#3d8fe8", .fill = "#2f7fd6", .fill_opacity = 0.16});
+                         }});
+    }
+    if (world_.shows_force()) scale(world_.force_metres(), "h");
     if (world_.thrust_metres() > 0) {
-      scale(world_.thrust_metres(), scene_["robot"]["water"] ? "of a thruster" : "of a drive");
+      scale(world_.thrust_metres(), "a force at the base");
     }
     return entries;
   }

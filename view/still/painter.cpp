@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kCrease = 0.6;  ///< rad: sharper edges are lines
 // Shares of a colour in the shade, from the light, and from the viewer's side.
-constexpr double kAmbient = 0.60, kDiffuse = 0.46, kFront = 0.06;
+constexpr double kAmbient = 0.66, kDiffuse = 0.42, kFront = 0.06;
 
 Eigen::Vector3d normal_of(const std::vector<Eigen::Vector3d>& points, const std::vector<int>& face) {
   const auto at = [&](std::size_t i) -> const Eigen::Vector3d& {
@@ -64,7 +64,7 @@ void Painter::add(const Solid& solid, const Eigen::Affine3d& to_world, Rgb colou
     if (solid.closed && normals[f].z() <= 0) continue;
     const std::vector<int>& face = solid.faces[f];
     const double side = normals[f].z() < 0 ? -1 : 1;
-    Face seen{{}, lit(colour, side * normals[f]), opacity, {}};
+    Face seen{{}, lit(colour, side * normals[f]), opacity, shines_, {}};
     for (std::size_t i = 0; i < face.size(); ++i) {
       seen.corners.push_back(points[static_cast<std::size_t>(face[i])]);
       seen.lines.push_back(opacity == 1 && is_line(normals, beside[edge_of(face, i)], solid.edges));
@@ -78,7 +78,7 @@ void Painter::add_line(const Eigen::Vector3d& a, const Eigen::Vector3d& b, doubl
   const Eigen::Vector3d from = camera_(a), to = camera_(b);
   const Eigen::Vector3d along = to - from;
   const Eigen::Vector3d across = Eigen::Vector3d(-along.y(), along.x(), 0).normalized() * width / 2;
-  faces_.push_back({{from - across, to - across, to + across, from + across}, colour, opacity, {}});
+  faces_.push_back({{from - across, to - across, to + across, from + across}, colour, opacity, shines_, {}});
 }
 
 }  // namespace maxwrench

@@ -15,6 +15,8 @@ class Painter {
 
   /// Adds the faces of a solid that can be seen.
   void add(const Solid& solid, const Eigen::Affine3d& to_world, Rgb colour, double opacity = 1);
+  /// Whether what is added from now on is seen faintly where others hide it.
+  void shine_through(bool shines) { shines_ = shines; }
   /// Adds a line from a to b as a band that faces the viewer.
   void add_line(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double width, Rgb colour,
                 double opacity = 1);
@@ -24,6 +26,7 @@ class Painter {
 
  private:
   Camera camera_;
+  bool shines_ = false;
   std::vector<Face> faces_;
 };
 

@@ -184,7 +184,7 @@ Solid box(const Point3& size) {
 
 Solid ring(double radius, double tube, double angle) {
   Solid solid;
-  const int steps = std::max(1, static_cast<int>(std::lround(40 * angle / kTurn)));
+  const int steps = std::max(1, static_cast<int>(std::lround(36 * angle / kTurn)));
   for (int i = 0; i <= steps; ++i) {
     for (int j = 0; j < kTubeSides; ++j) {
       const double a = angle * i / steps, b = kTurn * j / kTubeSides;

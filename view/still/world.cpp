@@ -47,8 +47,8 @@ std::string words(std::string name) {
   return name;
 }
 
-std::string with_unit(double value, const std::string& unit, const char* format = "{:.3g}") {
-  return with_minus(std::abs(value) < 1e-6 ? 0 : value, format) + " " + unit;
+std::string with_unit(double value, const std::string& unit, int digits = 3) {
+  return with_digits(value, digits) + " " + unit;
 }
 
 /// What moves z to a direction, and the origin to a place.
@@ -151,9 +151,7 @@ StillWorld::StillWorld(const ordered_json& scene, const std::vector<const ordere
     all.extend(box_of(*frame)).extend(pose_at((*frame)["end_effector"]).translation().eval());
     most_force_ = std::max({most_force_, norm_at(*frame, "h", 0), norm_at(*frame, "h_2", 0)});
     most_torque_ = std::max({most_torque_, norm_at(*frame, "h", 3), norm_at(*frame, "h_2", 3)});
-    const bool of_forces = frame->contains("sets") && (*frame)["sets"].is_object() &&
-                           (*frame)["sets"]["of"] == "force";
-    set_of_forces_ = set_of_forces_ || of_forces;
+    if (extent_of(*frame) > 0) shown_set_ = (*frame)["sets"]["of"];
   }
   floor_ = all.min().z();
   size_ = std::max(0.8 * box_of(*frames.front()).sizes().norm(), 1e-3);
@@ -161,7 +159,7 @@ StillWorld::StillWorld(const ordered_json& scene, const std::vector<const ordere
   double most_extent = 0;
   for (const ordered_json* frame : frames) most_extent = std::max(most_extent, extent_of(*frame));
   set_metres_ = most_extent > 0 ? 0.62 * size_ / most_extent : 1;
-  force_metres_ = set_of_forces_ && most_extent > 0 ? set_metres_
+  force_metres_ = shown_set_ == "force" ? set_metres_
                   : most_force_ > 0                 ? 0.5 * size_ / most_force_
                                                     : 1;
   double most_thrust = 0;
@@ -200,7 +198,8 @@ Still StillWorld::draw(const ordered_json& frame) const {
 }
 
 void StillWorld::draw_links(const ordered_json& frame, Painter& painter, Still& still) const {
-  const Vector3d light = camera_.axes * towards_light();
+  Vector3d light = camera_.axes * towards_light();
+  light.head<2>() *= 0.4;  // a shadow is rather below what casts it
   const double floor = floor_ - (scene_["robot"]["water"].get<bool>() ? 0.35 : 0.004) * size_;
   for (const Body& body : bodies_) {
     const Affine3d to = pose_at(frame["links"], body.link);
@@ -239,6 +238,7 @@ void StillWorld::draw_efforts(const ordered_json& frame, Painter& painter, Still
   const std::size_t thrusters = robot["thrusters"].size();
   const Affine3d base = pose_at(frame["links"]);
   std::vector<Note> notes;
+  painter.shine_through(true);
   for (std::size_t i = 0; i < robot["actuators"].size(); ++i) {
     const ordered_json& actuator = robot["actuators"][i];
     const double u = solved ? number_or(frame["u"][i], 0) : 0;
@@ -270,6 +270,7 @@ void StillWorld::draw_efforts(const ordered_json& frame, Painter& painter, Still
                      solved ? with_unit(u, actuator["unit"].get<std::string>()) : "", camera_(at),
                      limit ? kNoteLimit : kNoteInk, limit, (i < thrusters ? 1 : 0) + share});
   }
+  painter.shine_through(false);
   std::stable_sort(notes.begin(), notes.end(),
                    [](const Note& a, const Note& b) { return a.weight > b.weight; });
   if (notes.size() > kMostNotes) notes.resize(kMostNotes);
@@ -293,8 +294,8 @@ void StillWorld::draw_wrenches(const ordered_json& frame, Painter& painter, Stil
     const double f = force.norm(), t = torque.norm();
     draw(at, force, torque, force_metres_, most_torque_ > 0 ? kWrenchArc / most_torque_ : 0,
          thickness, colour);
-    std::string value = f > 1e-6 ? with_unit(f, "N", "{:.4g}") : "";
-    if (t > 1e-6) value += (value.empty() ? "" : ", ") + with_unit(t, "N m", "{:.4g}");
+    std::string value = f > 1e-6 ? with_unit(f, "N", 4) : "";
+    if (t > 1e-6) value += (value.empty() ? "" : ", ") + with_unit(t, "N m", 4);
     Vector3d tip = at + force_metres_ * force;
     if (t > 1e-6) tip += 0.1 * size_ / t * torque;
     note(name, value, tip, ink, true);
@@ -303,11 +304,13 @@ void StillWorld::draw_wrenches(const ordered_json& frame, Painter& painter, Stil
   const Vector3d force = vector_at(frame["c"]), torque = vector_at(frame["c"], 3);
   draw(at, force, torque, 0.3 * size_, kDirectionArc, 0.006, kDirection);
   note("c", "", at + 0.32 * size_ * force + 0.19 * size_ * torque, kNoteSoft, false);
+  painter.shine_through(true);
   if (has_numbers(frame["h"])) draw_one("h", at, frame["h"], kWrench, kNoteWrench, 0.013);
   if (frame.contains("h_2") && has_numbers(frame["h_2"])) {
     const Vector3d touch = pose_at(frame["contact"]).translation();
     draw_one("h_2", touch, frame["h_2"], kSecond, kNoteSecond, 0.011);
   }
+  painter.shine_through(false);
 }
 
 void StillWorld::draw_sets(const ordered_json& frame, Painter& painter, Still& still) const {

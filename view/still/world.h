@@ -37,10 +37,11 @@ class StillWorld {
   Still draw(const nlohmann::ordered_json& frame) const;
 
   double grid_step() const { return step_; }  ///< m
-  bool shows_force() const { return most_force_ > 0 || set_of_forces_; }
+  bool shows_force() const { return most_force_ > 1e-6; }
+  /// "force", "torque", or empty: what the sets of wrenches are of.
+  const std::string& shown_set() const { return shown_set_; }
   double force_metres() const { return force_metres_; }      ///< of 1 N of the wrench
   double thrust_metres() const { return thrust_metres_; }    ///< of 1 N of a thruster; 0: none
-  double size() const { return size_; }
 
  private:
   struct Body {
@@ -65,7 +66,7 @@ class StillWorld {
   double size_ = 1, floor_ = 0, step_ = 1;
   double set_metres_ = 0, force_metres_ = 0, thrust_metres_ = 0;
   double most_force_ = 0, most_torque_ = 0;
-  bool set_of_forces_ = false;
+  std::string shown_set_;
 };
 
 }  // namespace maxwrench
