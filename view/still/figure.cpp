@@ -32,6 +32,17 @@ constexpr double kBesideRobot = 0.12;  ///< of a panel's width, on each side, fo
 constexpr Rgb kWaterTop = 0xf1f9fc, kWaterBottom = 0xcfe5f0, kAirTop = 0xfafcfd,
               kAirBottom = 0xe4eaef;
 
+/// The text if it fits; otherwise the longest start of it that does, and an ellipsis.
+std::string start_of(std::string text, double size, double width) {
+  if (text_width(text, size) <= width) return text;
+  while (!text.empty() && text_width(text, size) + size > width) {
+    const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80; };
+    while (continues(text.back())) text.pop_back();
+    text.pop_back();
+  }
+  return text + "\u2026";
+}
+
 /// A still with its words.
 struct StillPanel {
   std::string title, value;
@@ -130,7 +141,9 @@ class StillWriter {
     Svg svg(width_, foot.y() + draw_legend(nullptr, entries, foot, width_ - 8, columns) + 6);
     double top = 0;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      if (heads) svg.text({2, top + 13}, rows_[i].head, {.size = 12, .bold = true});
+      if (heads) {
+        svg.text({2, top + 13}, start_of(rows_[i].head, 13, width_), {.size = 12, .bold = true});
+      }
       for (std::size_t k = 0; k < rows_[i].panels.size(); ++k) {
         const double left = static_cast<double>(k) * (panel_.x() + kPanelGap);
         draw_panel(svg, rows_[i].panels[k], {left, top + (heads ? kRowHead : 0)},
@@ -138,7 +151,7 @@ class StillWriter {
       }
       top += row_height;
     }
-    svg.text({4, rows + 7}, fitted(task_line(), kFontSize, width_), {.colour = "#5b6770"});
+    svg.text({4, rows + 7}, start_of(task_line(), kFontSize, width_ - 8), {.colour = "#5b6770"});
     draw_legend(&svg, entries, foot, width_ - 8, columns);
     return svg.str();
   }
@@ -155,9 +168,8 @@ class StillWriter {
   }
 
   void draw_panel(Svg& svg, const StillPanel& panel, const Point& corner, const std::string& id) {
-    svg.text(corner + Point(2, 12), fitted(panel.title, 12, panel_.x()),
-             {.size = 12, .bold = true});
-    svg.text(corner + Point(2, 12 + kHeadLine), fitted_start(panel.value), {.size = 12});
+    svg.text(corner + Point(2, 12), panel.title, {.size = 12, .bold = true});
+    svg.text(corner + Point(2, 12 + kHeadLine), start_of(panel.value, 12, panel_.x()), {.size = 12});
     const Point plot = corner + Point(0, 2 * kHeadLine + 4);
     const bool water = scene_["robot"]["water"];
     svg.backdrop(id + "b", plot, panel_, water ? kWaterTop : kAirTop,
@@ -177,14 +189,6 @@ class StillWriter {
     svg.end_fade();
     draw_notes(svg, panel.still, faces.seen, to_px, Box(plot, plot + panel_));
     svg.end_clip();
-  }
-
-  /// A reason may be longer than the panel is wide.
-  std::string fitted_start(const std::string& text) const {
-    if (text_width(text, 12) <= panel_.x()) return text;
-    std::string start = text;
-    while (!start.empty() && text_width(start, 12) + 12 > panel_.x()) start.pop_back();
-    return start + "\u2026";
   }
 
   static void draw_ground(Svg& svg, const Still& still, const Viewport& to_px) {
@@ -243,7 +247,8 @@ class StillWriter {
     if (notes.size() > most + 2) notes.resize(most + 2);
     std::vector<Label> labels;
     for (const Note& note : notes) labels.push_back(label_of(note, to_px(note.at.head<2>())));
-    const Box inside(plot.min() + Point::Constant(3), plot.max() - Point::Constant(3));
+    const double top = scene_["robot"]["water"] ? kWave + 5 : 3;
+    const Box inside(plot.min() + Point(3, top), plot.max() - Point::Constant(3));
     draw_labels(svg, place_labels(labels, inside,
                                   [&](const Box& box) { return coverage.share(box); }));
   }

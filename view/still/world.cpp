@@ -274,7 +274,6 @@ void StillWorld::draw_efforts(const ordered_json& frame, Painter& painter, Still
   std::stable_sort(notes.begin(), notes.end(),
                    [](const Note& a, const Note& b) { return a.weight > b.weight; });
   if (notes.size() > kMostNotes) notes.resize(kMostNotes);
-  still.efforts = notes.size();
   still.notes.insert(still.notes.end(), notes.begin(), notes.end());
 }
 

@@ -23,7 +23,6 @@ struct Still {
   std::vector<Note> notes;
   std::vector<std::vector<Eigen::Vector2d>> shadows;  ///< on the floor
   std::vector<Eigen::Vector3d> floor;  ///< the ends of the lines of its grid, two for each
-  std::size_t efforts = 0;             ///< how many have a note
 };
 
 /// Draws frames of a scene as the page of `view` does, with its colours and scales.
