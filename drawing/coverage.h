@@ -37,7 +37,7 @@ class Coverage {
 
 /// Faces in order, the farthest first.
 struct VisibleFaces {
-  std::vector<Face> seen;    ///< at least in part
+  std::vector<Face> seen;  ///< at least in part
   /// Hidden at least in part by faces that do not shine through, and do so; without lines.
   std::vector<Face> hidden;
 };

@@ -37,11 +37,14 @@ bool lines_cross(const Point& a, const Point& b, const Point& p, const Point& q)
 
 bool crosses(const Point& a, const Point& b, const Box& box) {
   const Point low = box.min(), high = box.max();
-  return lines_cross(a, b, low, high) || lines_cross(a, b, {low.x(), high.y()}, {high.x(), low.y()});
+  return lines_cross(a, b, low, high) ||
+         lines_cross(a, b, {low.x(), high.y()}, {high.x(), low.y()});
 }
 
 /// The end of a label's line at the label.
-Point foot_of(const Box& box, const Point& at) { return at.cwiseMax(box.min()).cwiseMin(box.max()); }
+Point foot_of(const Box& box, const Point& at) {
+  return at.cwiseMax(box.min()).cwiseMin(box.max());
+}
 
 class LabelPlacer {
  public:
@@ -76,9 +79,8 @@ class LabelPlacer {
   bool is_free(const Box& box) const {
     const Point gap = Point::Constant(kLabelGap);
     const Box wide(box.min() - gap, box.max() + gap);
-    return std::none_of(placed_.begin(), placed_.end(), [&](const PlacedLabel& other) {
-      return wide.intersects(other.box);
-    });
+    return std::none_of(placed_.begin(), placed_.end(),
+                        [&](const PlacedLabel& other) { return wide.intersects(other.box); });
   }
 
   double cost_of(const Label& label, const Box& box, double distance) const {
@@ -125,7 +127,9 @@ void draw_labels(Svg& svg, const std::vector<PlacedLabel>& labels) {
     for (const std::string& line : each.label.lines) {
       svg.text({x, y}, line,
                {.colour = each.label.colour,
-                .anchor = left ? Anchor::kEnd : right ? Anchor::kStart : Anchor::kMiddle,
+                .anchor = left    ? Anchor::kEnd
+                          : right ? Anchor::kStart
+                                  : Anchor::kMiddle,
                 .bold = each.label.bold,
                 .halo = "#ffffff"});
       y += kLabelLine;

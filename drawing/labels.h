@@ -29,9 +29,9 @@ struct PlacedLabel {
 /// @param labels   the labels
 /// @param bounds   px, where labels may be
 /// @param covered  the share of a box [px] that the picture covers, from 0 to 1
-std::vector<PlacedLabel> place_labels(const std::vector<Label>& labels,
-                                      const Eigen::AlignedBox2d& bounds,
-                                      const std::function<double(const Eigen::AlignedBox2d&)>& covered);
+std::vector<PlacedLabel> place_labels(
+    const std::vector<Label>& labels, const Eigen::AlignedBox2d& bounds,
+    const std::function<double(const Eigen::AlignedBox2d&)>& covered);
 
 /// Draws labels, with lines to their places where these are not beside them.
 void draw_labels(Svg& svg, const std::vector<PlacedLabel>& labels);

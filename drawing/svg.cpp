@@ -255,8 +255,9 @@ void Svg::text(const Point& at, std::string_view text, const Font& font) {
 }
 
 void Svg::begin_surfaces() {
-  body_ += "<g fill=\"currentColor\" stroke=\"currentColor\" stroke-width=\".7\" "
-           "stroke-linejoin=\"round\" stroke-linecap=\"round\">\n";
+  body_ +=
+      "<g fill=\"currentColor\" stroke=\"currentColor\" stroke-width=\".7\" "
+      "stroke-linejoin=\"round\" stroke-linecap=\"round\">\n";
 }
 
 void Svg::surface(const std::vector<Point>& corners, std::uint32_t colour, double opacity) {
@@ -276,8 +277,8 @@ void Svg::surface_line(const std::vector<Point>& points, std::uint32_t colour) {
 
 void Svg::end_surfaces() { body_ += "</g>\n"; }
 
-void Svg::backdrop(const std::string& id, const Point& corner, const Point& size,
-                   std::uint32_t top, std::uint32_t bottom) {
+void Svg::backdrop(const std::string& id, const Point& corner, const Point& size, std::uint32_t top,
+                   std::uint32_t bottom) {
   body_ += fmt::format(
       "<linearGradient id=\"{0}\" x2=\"0\" y2=\"1\"><stop stop-color=\"{1}\"/>"
       "<stop offset=\"1\" stop-color=\"{2}\"/></linearGradient>\n"
@@ -295,9 +296,7 @@ void Svg::begin_clip(const std::string& id, const Point& corner, const Point& si
 
 void Svg::end_clip() { body_ += "</g>\n"; }
 
-void Svg::begin_fade(double opacity) {
-  body_ += fmt::format("<g opacity=\"{:.2f}\">\n", opacity);
-}
+void Svg::begin_fade(double opacity) { body_ += fmt::format("<g opacity=\"{:.2f}\">\n", opacity); }
 
 void Svg::end_fade() { body_ += "</g>\n"; }
 

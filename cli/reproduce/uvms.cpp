@@ -211,8 +211,8 @@ void write_stills(const std::filesystem::path& folder, const Problem& problem, c
                   int threads) {
   Options how;
   how.threads = threads;
-  const std::vector<Shown> shown = {
-      {"default", evaluate(problem, problem.theta_r_default, how)}, {"best", solve(problem, how)}};
+  const std::vector<Shown> shown = {{"default", evaluate(problem, problem.theta_r_default, how)},
+                                    {"best", solve(problem, how)}};
   write_file(folder / (std::string(task.figure) + "_best.svg"),
              still_figure(scene_of(problem, read_visuals(problem.robot, {}), shown), {}));
 }

@@ -63,8 +63,8 @@ std::string drawn_figure(const Problem& problem, const PlotOptions& options,
                          const std::vector<Shown>& shown) {
   if (options.outline()) return outlines(problem, options, shown);
   const std::vector<std::string>& packages = options.source.packages;
-  const nlohmann::ordered_json scene = scene_of(
-      problem, read_visuals(problem.robot, {packages.begin(), packages.end()}), shown);
+  const nlohmann::ordered_json scene =
+      scene_of(problem, read_visuals(problem.robot, {packages.begin(), packages.end()}), shown);
   if (scene["shown"].empty()) return "";
   return still_figure(scene, times_of(problem, options, shown.front().answer));
 }

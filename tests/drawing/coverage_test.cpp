@@ -31,8 +31,7 @@ TEST(Coverage, FindsWhatShinesThrough) {
   Face behind_wall = tile(1, 2, 0, 1), behind_mark = tile(6, 7, 0, 2), mark = tile(5, 8, 1, 3);
   behind_wall.shines_through = behind_mark.shines_through = mark.shines_through = true;
   behind_wall.lines = {true, true, true, true};
-  const VisibleFaces faces =
-      visible_faces({behind_wall, behind_mark, mark, tile(0, 4, 2, 4)}, 0.1);
+  const VisibleFaces faces = visible_faces({behind_wall, behind_mark, mark, tile(0, 4, 2, 4)}, 0.1);
   EXPECT_EQ(colours(faces.seen), (std::vector<Rgb>{3, 4}));
   EXPECT_EQ(colours(faces.hidden), std::vector<Rgb>{1});
   EXPECT_TRUE(faces.hidden[0].lines.empty());

@@ -42,8 +42,8 @@ double inside(const Face& face, const Eigen::Vector2d& p) {
 
 /// By the plane through three corners.
 double depth_at(const Face& face, const Eigen::Vector2d& p) {
-  const Eigen::Vector3d normal = (face.corners[1] - face.corners[0])
-                                     .cross(face.corners[2] - face.corners[0]);
+  const Eigen::Vector3d normal =
+      (face.corners[1] - face.corners[0]).cross(face.corners[2] - face.corners[0]);
   return face.corners[0].z() - normal.head<2>().dot(p - face.corners[0].head<2>()) / normal.z();
 }
 
@@ -103,7 +103,9 @@ TEST(DepthOrder, FacesThatPierceEachOtherAreCut) {
   ASSERT_EQ(ordered.size(), 3U);
   const auto top_at = [&](double x) {
     return std::find_if(ordered.rbegin(), ordered.rend(),
-                        [x](const Face& face) { return inside(face, {x, 0.1}) > 0; })
+                        [x](const Face& face) {
+                          return inside(face, {x, 0.1}) > 0;
+                        })
         ->colour;
   };
   EXPECT_EQ(top_at(0.5), 0xAAU);
@@ -133,8 +135,9 @@ TEST(DepthOrder, ARingIsOpened) {
   const auto bar = [](double angle, Rgb colour) {
     const Eigen::Rotation2Dd turn(angle);
     Face face{{}, colour};
-    for (const Eigen::Vector3d& x : {Eigen::Vector3d(-0.9, 0.25, 1), Eigen::Vector3d(0.9, 0.25, -1),
-                                     Eigen::Vector3d(0.9, 0.4, -1), Eigen::Vector3d(-0.9, 0.4, 1)}) {
+    for (const Eigen::Vector3d& x :
+         {Eigen::Vector3d(-0.9, 0.25, 1), Eigen::Vector3d(0.9, 0.25, -1),
+          Eigen::Vector3d(0.9, 0.4, -1), Eigen::Vector3d(-0.9, 0.4, 1)}) {
       const Eigen::Vector2d p = turn * x.head<2>();
       face.corners.emplace_back(p.x(), p.y(), x.z());
     }

@@ -21,8 +21,8 @@ TEST(Labels, DoNotOverlap) {
     for (int i = 0; i < 30; ++i) {
       Label label;
       label.lines = {"front right", "vertical 40 N"};
-      label.at = i % 3 == 0 ? Point(200, 150)
-                            : Point(random.uniform(10, 400), random.uniform(20, 320));
+      label.at =
+          i % 3 == 0 ? Point(200, 150) : Point(random.uniform(10, 400), random.uniform(20, 320));
       label.bold = i % 2 == 0;
       labels.push_back(label);
     }
@@ -49,14 +49,14 @@ TEST(Labels, AreBesideTheirPlaceOnFreeGround) {
   const Label label{{"T1"}, {150, 195}, "#000000"};
   const std::vector<PlacedLabel> placed = place_labels({label}, bounds, covered);
   ASSERT_EQ(placed.size(), 1U);
-  EXPECT_TRUE(placed[0].box.intersection(robot).isEmpty());
+  const Box common = placed[0].box.intersection(robot);
+  EXPECT_TRUE(common.isEmpty() || common.volume() < 1e-9);
   EXPECT_LT(placed[0].box.exteriorDistance(label.at), 20);
 }
 
 TEST(Labels, WithoutAPlaceAreLeftOut) {
   const Label label{{"a label that is longer than the picture is wide"}, {5, 5}, "#000000"};
-  EXPECT_TRUE(
-      place_labels({label}, Box(Point(0, 0), Point(50, 50)), free_everywhere).empty());
+  EXPECT_TRUE(place_labels({label}, Box(Point(0, 0), Point(50, 50)), free_everywhere).empty());
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ using Box = Eigen::AlignedBox2d;
 constexpr double kOnePanel = 1.4 * kPageWidth;  ///< a figure of one panel
 constexpr double kFullPage = 2.2 * kPageWidth;  ///< of more: a page with margins
 constexpr double kPanelGap = 10, kHeadLine = 15, kRowHead = 18, kFootGap = 8, kWave = 12;
-constexpr double kDetail = 0.35;      ///< what is smaller is not seen
-constexpr double kShine = 0.35;       ///< opacity of what shines through
+constexpr double kDetail = 0.35;       ///< what is smaller is not seen
+constexpr double kShine = 0.35;        ///< opacity of what shines through
 constexpr double kPerNote = 14000;     ///< the area of a panel for each label
 constexpr std::size_t kLongLine = 17;  ///< bytes: a longer label has two lines
 constexpr double kBesideRobot = 0.12;  ///< of a panel's width, on each side, for labels
@@ -85,9 +85,8 @@ std::vector<const ordered_json*> frames_at(const ordered_json& entry,
       return std::abs(frame["t"].get<double>() - time);
     };
     const auto nearest =
-        std::min_element(frames.begin(), frames.end(), [&](const auto& a, const auto& b) {
-          return away(a) < away(b);
-        });
+        std::min_element(frames.begin(), frames.end(),
+                         [&](const auto& a, const auto& b) { return away(a) < away(b); });
     chosen.push_back(&*nearest);
   }
   return chosen;
@@ -169,16 +168,17 @@ class StillWriter {
 
   void draw_panel(Svg& svg, const StillPanel& panel, const Point& corner, const std::string& id) {
     svg.text(corner + Point(2, 12), panel.title, {.size = 12, .bold = true});
-    svg.text(corner + Point(2, 12 + kHeadLine), start_of(panel.value, 12, panel_.x()), {.size = 12});
+    svg.text(corner + Point(2, 12 + kHeadLine), start_of(panel.value, 12, panel_.x()),
+             {.size = 12});
     const Point plot = corner + Point(0, 2 * kHeadLine + 4);
     const bool water = scene_["robot"]["water"];
     svg.backdrop(id + "b", plot, panel_, water ? kWaterTop : kAirTop,
                  water ? kWaterBottom : kAirBottom);
     svg.begin_clip(id, plot, panel_);
     const Point middle = panel.box.center();
-    const Viewport to_px{
-        plot + panel_ / 2 + Point(0, water ? kWave / 2 : 0) - scale_ * Point(middle.x(), -middle.y()),
-        scale_};
+    const Viewport to_px{plot + panel_ / 2 + Point(0, water ? kWave / 2 : 0) -
+                             scale_ * Point(middle.x(), -middle.y()),
+                         scale_};
     draw_ground(svg, panel.still, to_px);
     if (water) draw_surface(svg, plot);
     const VisibleFaces faces =
@@ -249,8 +249,8 @@ class StillWriter {
     for (const Note& note : notes) labels.push_back(label_of(note, to_px(note.at.head<2>())));
     const double top = scene_["robot"]["water"] ? kWave + 5 : 3;
     const Box inside(plot.min() + Point(3, top), plot.max() - Point::Constant(3));
-    draw_labels(svg, place_labels(labels, inside,
-                                  [&](const Box& box) { return coverage.share(box); }));
+    draw_labels(svg,
+                place_labels(labels, inside, [&](const Box& box) { return coverage.share(box); }));
   }
 
   std::vector<LegendEntry> legend() const {
@@ -266,21 +266,22 @@ class StillWriter {
     const auto scale = [&](double metres, const char* of) {
       const double newtons = round_step(26 / (metres * scale_));
       const double length = newtons * metres * scale_;
-      entries.push_back({fmt::format("{:.6g} N of {}", newtons, of),
-                         [length](Svg& svg, const Point& left) {
-                           const Paint ink{.stroke = "#222222", .width = 1.2};
-                           svg.line(left, left + Point(length, 0), ink);
-                           for (const double x : {0.0, length}) {
-                             svg.line(left + Point(x, -3), left + Point(x, 3), ink);
-                           }
-                         }});
+      entries.push_back(
+          {fmt::format("{:.6g} N of {}", newtons, of), [length](Svg& svg, const Point& left) {
+             const Paint ink{.stroke = "#222222", .width = 1.2};
+             svg.line(left, left + Point(length, 0), ink);
+             for (const double x : {0.0, length}) {
+               svg.line(left + Point(x, -3), left + Point(x, 3), ink);
+             }
+           }});
     };
     if (!world_.shown_set().empty()) {
-      entries.push_back({"all " + world_.shown_set() + "s in reach", [](Svg& svg, const Point& left) {
-                           const Point a = left + Point(2, -5), c = left + Point(26, 5);
-                           svg.polygon({a, {c.x(), a.y()}, c, {a.x(), c.y()}},
-                                       {.stroke = "#3d8fe8", .fill = "#2f7fd6", .fill_opacity = 0.16});
-                         }});
+      entries.push_back(
+          {"all " + world_.shown_set() + "s in reach", [](Svg& svg, const Point& left) {
+             const Point a = left + Point(2, -5), c = left + Point(26, 5);
+             svg.polygon({a, {c.x(), a.y()}, c, {a.x(), c.y()}},
+                         {.stroke = "#3d8fe8", .fill = "#2f7fd6", .fill_opacity = 0.16});
+           }});
     }
     if (world_.shows_force()) scale(world_.force_metres(), "h");
     if (world_.thrust_metres() > 0) {

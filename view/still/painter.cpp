@@ -11,7 +11,8 @@ constexpr double kCrease = 0.6;  ///< rad: sharper edges are lines
 // Shares of a colour in the shade, from the light, and from the viewer's side.
 constexpr double kAmbient = 0.66, kDiffuse = 0.42, kFront = 0.06;
 
-Eigen::Vector3d normal_of(const std::vector<Eigen::Vector3d>& points, const std::vector<int>& face) {
+Eigen::Vector3d normal_of(const std::vector<Eigen::Vector3d>& points,
+                          const std::vector<int>& face) {
   const auto at = [&](std::size_t i) -> const Eigen::Vector3d& {
     return points[static_cast<std::size_t>(face[i % face.size()])];
   };
@@ -50,8 +51,7 @@ bool is_line(const std::vector<Eigen::Vector3d>& normals, const std::vector<std:
 
 Eigen::Vector3d towards_light() { return Eigen::Vector3d(-0.5, 0.75, 0.45).normalized(); }
 
-void Painter::add(const Solid& solid, const Eigen::Affine3d& to_world, Rgb colour,
-                  double opacity) {
+void Painter::add(const Solid& solid, const Eigen::Affine3d& to_world, Rgb colour, double opacity) {
   std::vector<Eigen::Vector3d> points, normals;
   for (const Eigen::Vector3d& x : solid.points) points.push_back(camera_(to_world * x));
   std::map<EdgeKey, std::vector<std::size_t>> beside;
@@ -73,12 +73,13 @@ void Painter::add(const Solid& solid, const Eigen::Affine3d& to_world, Rgb colou
   }
 }
 
-void Painter::add_line(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double width,
-                       Rgb colour, double opacity) {
+void Painter::add_line(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double width, Rgb colour,
+                       double opacity) {
   const Eigen::Vector3d from = camera_(a), to = camera_(b);
   const Eigen::Vector3d along = to - from;
   const Eigen::Vector3d across = Eigen::Vector3d(-along.y(), along.x(), 0).normalized() * width / 2;
-  faces_.push_back({{from - across, to - across, to + across, from + across}, colour, opacity, shines_, {}});
+  faces_.push_back(
+      {{from - across, to - across, to + across, from + across}, colour, opacity, shines_, {}});
 }
 
 }  // namespace maxwrench

@@ -28,8 +28,8 @@ Point3 on_circle(double radius, double angle, double z) {
   return {radius * std::cos(angle), radius * std::sin(angle), z};
 }
 
-/// The body that turns about z, from profile points (radius, z) that lead up. A point on the axis is
-/// a pole. Ends that are no poles are open.
+/// The body that turns about z, from profile points (radius, z) that lead up. A point on the axis
+/// is a pole. Ends that are no poles are open.
 Solid turned(const std::vector<Eigen::Vector2d>& profile, int sides) {
   Solid solid;
   std::vector<std::vector<int>> rings;
@@ -178,7 +178,8 @@ Solid box(const Point3& size) {
     solid.points.emplace_back((i & 1 ? 0.5 : -0.5) * size.x(), (i & 2 ? 0.5 : -0.5) * size.y(),
                               (i & 4 ? 0.5 : -0.5) * size.z());
   }
-  solid.faces = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+  solid.faces = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                 {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
   return solid;
 }
 

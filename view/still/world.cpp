@@ -13,9 +13,9 @@
 namespace maxwrench {
 namespace {
 
-using nlohmann::ordered_json;
 using Eigen::Affine3d;
 using Eigen::Vector3d;
+using nlohmann::ordered_json;
 
 // The colours and proportions of the page; see view/page/src/. Lengths are shares of the size.
 constexpr Rgb kBaseColour = 0x3f6c9c, kHub = 0x2d3740, kDuct = 0x20262c;
@@ -160,8 +160,8 @@ StillWorld::StillWorld(const ordered_json& scene, const std::vector<const ordere
   for (const ordered_json* frame : frames) most_extent = std::max(most_extent, extent_of(*frame));
   set_metres_ = most_extent > 0 ? 0.62 * size_ / most_extent : 1;
   force_metres_ = shown_set_ == "force" ? set_metres_
-                  : most_force_ > 0                 ? 0.5 * size_ / most_force_
-                                                    : 1;
+                  : most_force_ > 0     ? 0.5 * size_ / most_force_
+                                        : 1;
   double most_thrust = 0;
   for (std::size_t i = 0; i < scene["robot"]["thrusters"].size(); ++i) {
     const ordered_json& actuator = scene["robot"]["actuators"][i];
@@ -221,7 +221,8 @@ void StillWorld::draw_links(const ordered_json& frame, Painter& painter, Still& 
 }
 
 double StillWorld::joint_radius(std::size_t joint) const {
-  const auto parent = static_cast<std::size_t>(scene_["robot"]["joints"][joint]["parent"].get<int>());
+  const auto parent =
+      static_cast<std::size_t>(scene_["robot"]["joints"][joint]["parent"].get<int>());
   double thickest = 0;
   for (const std::size_t link : {parent, joint + 1}) {
     if (link == 0) continue;

@@ -10,11 +10,11 @@ namespace maxwrench {
 
 /// A few words at a place of the picture.
 struct Note {
-  std::string name, value;   ///< "rear left", "-40 N"
-  Eigen::Vector3d at;        ///< as the camera sees it [m]
+  std::string name, value;  ///< "rear left", "-40 N"
+  Eigen::Vector3d at;       ///< as the camera sees it [m]
   std::string colour;
   bool bold = false;
-  double weight = 0;         ///< the heaviest ones have their places first
+  double weight = 0;  ///< the heaviest ones have their places first
 };
 
 /// A frame of a scene as the camera sees it [m].
@@ -39,8 +39,8 @@ class StillWorld {
   bool shows_force() const { return most_force_ > 1e-6; }
   /// "force", "torque", or empty: what the sets of wrenches are of.
   const std::string& shown_set() const { return shown_set_; }
-  double force_metres() const { return force_metres_; }      ///< of 1 N of the wrench
-  double thrust_metres() const { return thrust_metres_; }    ///< of 1 N of a thruster; 0: none
+  double force_metres() const { return force_metres_; }    ///< of 1 N of the wrench
+  double thrust_metres() const { return thrust_metres_; }  ///< of 1 N of a thruster; 0: none
 
  private:
   struct Body {

@@ -51,9 +51,9 @@ TEST(PlotCommand, DrawsThePosturesOfATrajectory) {
 
 /// The value in the caption is the one that `solve` prints, with four digits.
 TEST(PlotCommand, TheBestPostureIsThatOfSolve) {
-  for (const char* words : {"planar/force --search grid+cmaes --budget 500 --seed 3",
-                            "fixed/push", "uvms/lift --search cmaes --budget 300 --measure "
-                                          "ellipsoid"}) {
+  for (const char* words : {"planar/force --search grid+cmaes --budget 500 --seed 3", "fixed/push",
+                            "uvms/lift --search cmaes --budget 300 --measure "
+                            "ellipsoid"}) {
     const CommandResult solved = run_maxwrench("solve --json " + std::string(words));
     ASSERT_EQ(solved.exit_status, 0) << solved.err;
     const auto answer = nlohmann::json::parse(solved.out);
@@ -71,7 +71,8 @@ TEST(PlotCommand, TheBestPostureIsThatOfSolve) {
 }
 
 TEST(PlotCommand, OutlinesOfTheBestPostureAreBesideTheDefault) {
-  const CommandResult result = run_maxwrench("plot planar/force --best --budget 300 --style outline");
+  const CommandResult result =
+      run_maxwrench("plot planar/force --best --budget 300 --style outline");
   ASSERT_EQ(result.exit_status, 0) << result.err;
   for (const char* text : {">default<", ">best<", "ellipsoid"}) {
     EXPECT_NE(result.out.find(text), std::string::npos) << text;
@@ -88,8 +89,7 @@ TEST(PlotCommand, StillsAreEvenlyOverTime) {
 
 /// Given beside best: the given one is drawn though it does not exist, and the picture says so.
 TEST(PlotCommand, SaysThatAPostureBesideTheBestDoesNotExist) {
-  const CommandResult result =
-      run_maxwrench("plot planar/force --theta-r 9,9 --best --budget 300");
+  const CommandResult result = run_maxwrench("plot planar/force --theta-r 9,9 --best --budget 300");
   EXPECT_EQ(result.exit_status, 0) << result.err;
   EXPECT_NE(result.out.find(">given posture<"), std::string::npos);
   EXPECT_NE(result.out.find("joint limit: shoulder at 9 rad"), std::string::npos);

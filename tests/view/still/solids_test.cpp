@@ -63,7 +63,8 @@ TEST(StillSolids, AreClosedAndHaveTheirVolume) {
                  {"radius", 0}},
                 0),
        1.0 / 6},
-      {solid_of({{"kind", "sphere"}, {"size", {2, 2, 2}},
+      {solid_of({{"kind", "sphere"},
+                 {"size", {2, 2, 2}},
                  {"pose", {1, 0, 0, 5, 0, 1, 0, 5, 0, 0, 1, 5}}},
                 0),
        4 * kPi / 3},
@@ -78,10 +79,8 @@ TEST(StillSolids, AreClosedAndHaveTheirVolume) {
 /// All points within 0.5 of a unit square: the slab of the square, half cylinders at its edges and
 /// quarters of a sphere at its corners.
 TEST(StillSolids, AHullGrowsByItsRadius) {
-  const Solid solid = solid_of({{"kind", "hull"},
-                                {"points", {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}},
-                                {"radius", 0.5}},
-                               0);
+  const Solid solid = solid_of(
+      {{"kind", "hull"}, {"points", {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}}, {"radius", 0.5}}, 0);
   expect_closed(solid);
   const double exact = 1 + 4 * kPi * 0.25 / 2 + 4 * kPi / 3 * 0.125;
   EXPECT_LE(volume(solid), exact);
@@ -102,8 +101,8 @@ TEST(StillSolids, AMirrorKeepsTheOutside) {
 /// A tetrahedron as `mesh_json` writes it: 16-bit shares of the box around it.
 TEST(StillSolids, AMeshIsRead) {
   const std::string full = "\xff\xff", none("\0\0", 2);
-  const std::string vertices = none + none + none + full + none + none + none + full + none + none +
-                               none + full;
+  const std::string vertices =
+      none + none + none + full + none + none + none + full + none + none + none + full;
   std::string triangles;
   for (const char i : {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}) triangles += {i, '\0', '\0', '\0'};
   const Json mesh = {{"kind", "mesh"},
@@ -118,7 +117,8 @@ TEST(StillSolids, AMeshIsRead) {
   EXPECT_FALSE(solid.closed);
 }
 
-/// Two boxes along y, seen from -y: the faces of the nearer one come last, whichever is added first.
+/// Two boxes along y, seen from -y: the faces of the nearer one come last, whichever is added
+/// first.
 TEST(StillPainter, TheNearerBoxComesLast) {
   for (const bool near_first : {true, false}) {
     Painter painter(camera_from({0.1, -1, 0.1}));
@@ -152,8 +152,8 @@ TEST(StillPainter, TheLightIsAtTheUpperLeft) {
   EXPECT_GT(right, 0U);
 }
 
-/// Lines are drawn at the outline and at sharp edges: all edges of a box, but of a sphere only those
-/// between what is seen and what is not.
+/// Lines are drawn at the outline and at sharp edges: all edges of a box, but of a sphere only
+/// those between what is seen and what is not.
 TEST(StillPainter, OutlineAndSharpEdgesAreLines) {
   const auto lines = [](const Solid& solid) {
     Painter painter(camera_from({0.3, -1, 0.4}));

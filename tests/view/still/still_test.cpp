@@ -109,7 +109,8 @@ TEST(Still, AHugeMeshIsThinnedOut) {
   constexpr int kSide = 200;
   for (int i = 0; i <= kSide; ++i) {
     for (int k = 0; k <= kSide; ++k) {
-      mesh << "v " << 0.002 * i << ' ' << 0.002 * k << ' ' << 0.01 * std::sin(0.1 * (i + k)) << '\n';
+      mesh << "v " << 0.002 * i << ' ' << 0.002 * k << ' ' << 0.01 * std::sin(0.1 * (i + k))
+           << '\n';
     }
   }
   for (int i = 0; i < kSide; ++i) {
