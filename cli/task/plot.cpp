@@ -90,26 +90,25 @@ int plot(const PlotOptions& options, const Problem& problem) {
   std::vector<Shown> shown;
   shown.push_back({options.theta_r ? "given" : "default", evaluate_given(problem, options)});
   const Answer& given = shown.front().answer;
-  const auto refuse = [](const Answer& answer) {
+  const auto complain_of = [](const Answer& answer) {
     fmt::print(stderr, "{}: {}\n", to_string(answer.status), answer.reason.c_str());
     return int{kOtherStatus};
   };
   const bool exists = given.status != Status::kInvalidPosture;
-  if (!exists && (!options.best || options.outline())) return refuse(given);
-  bool found = true;
+  if (!exists && (!options.best || options.outline())) return complain_of(given);
   if (options.best) {
     shown.push_back({"best", solve_with_progress("plot", problem, options.read_options())});
-    found = shown.back().answer.answered();
-    if (options.outline() && !shown.back().answer.has_posture()) return refuse(shown.back().answer);
   }
+  const Answer& last = shown.back().answer;
+  if (options.outline() && !last.has_posture()) return complain_of(last);
   const std::string svg = drawn_figure(problem, options, shown);
-  if (svg.empty()) return refuse(shown.back().answer);
+  if (svg.empty()) return complain_of(last);
   if (options.out.empty()) {
     fmt::print("{}", svg);
   } else {
     write_file(options.out, svg);
   }
-  return found ? kAnswered : kOtherStatus;
+  return options.best && !last.answered() ? complain_of(last) : int{kAnswered};
 }
 
 }  // namespace

@@ -18,9 +18,10 @@ namespace {
 using nlohmann::ordered_json;
 using Point3 = Eigen::Vector3d;
 
-constexpr int kSides = 20;     ///< around a round body
-constexpr int kRings = 4;      ///< from its equator to a pole
-constexpr int kTubeSides = 6;  ///< around a thin one
+constexpr int kSides = 20;             ///< around a round body
+constexpr int kRings = 4;              ///< from its equator to a pole
+constexpr int kTubeSides = 6;          ///< around a thin one
+constexpr double kSmallRadius = 0.05;  ///< of the extent of what grows by it
 
 constexpr double kTurn = 2 * std::numbers::pi;
 
@@ -82,12 +83,20 @@ Solid hull(const std::vector<Point3>& points) {
   return solid;
 }
 
-/// All points within `radius` of the points, as the hull of many.
+/// All points within `radius` of the points, as the hull of many. A small radius needs few.
 std::vector<Point3> grown(const std::vector<Point3>& points, double radius) {
-  const Solid around = sphere(radius);
+  Eigen::AlignedBox3d box;
+  for (const Point3& point : points) box.extend(point);
+  std::vector<Point3> around;
+  if (radius < kSmallRadius * box.sizes().maxCoeff()) {
+    for (const int i : {0, 1, 2})
+      around.insert(around.end(), {radius * Point3::Unit(i), -radius * Point3::Unit(i)});
+  } else {
+    around = sphere(radius).points;
+  }
   std::vector<Point3> all;
   for (const Point3& point : points) {
-    for (const Point3& x : around.points) all.push_back(point + x);
+    for (const Point3& x : around) all.push_back(point + x);
   }
   return all;
 }

@@ -87,6 +87,21 @@ TEST(StillSolids, AHullGrowsByItsRadius) {
   EXPECT_GE(volume(solid), 0.92 * exact);
 }
 
+/// A hull of many corners grows by a small radius without a sphere at each of them: by at most the
+/// radius, and by all of it along the axes.
+TEST(StillSolids, ASmallRadiusTakesFewFaces) {
+  Json points = Json::array();
+  const Solid round = sphere(1);
+  for (const Eigen::Vector3d& x : round.points) {
+    for (const double value : x) points.push_back(value);
+  }
+  const Solid solid = solid_of({{"kind", "hull"}, {"points", points}, {"radius", 0.01}}, 0);
+  expect_closed(solid);
+  EXPECT_GT(volume(solid), volume(round) * 1.01);
+  EXPECT_LT(volume(solid), volume(round) * 1.01 * 1.01 * 1.01);
+  EXPECT_LT(solid.faces.size(), 8 * round.faces.size());
+}
+
 /// A ring without its ends; a tube of six sides has 0.827 of the area of its circle.
 TEST(StillSolids, ARingHasTheVolumeOfItsTube) {
   const double turn = kPi, exact = 0.827 * kPi * 0.01 * turn;  // radius 1, tube 0.1

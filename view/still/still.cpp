@@ -1,3 +1,5 @@
+#include "view/still/still.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 #include "drawing/depth_order.h"
 #include "drawing/labels.h"
 #include "drawing/legend.h"
-#include "view/still/still.h"
 #include "view/still/world.h"
 
 namespace maxwrench {
@@ -64,8 +65,8 @@ std::string status_words(const ordered_json& of) {
 
 std::string value_words(const ordered_json& of) {
   if (!of["beta"].is_number()) return "";
-  return fmt::format("{} {}", with_digits(of["beta"].get<double>(), 4),
-                     of["unit"].get<std::string>());
+  const std::string value = with_digits(of["beta"].get<double>(), 4), unit = of["unit"];
+  return unit == "-" ? value : value + " " + unit;
 }
 
 /// "β = 35.41 N m, best found"
