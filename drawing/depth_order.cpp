@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <queue>
+#include <utility>
 
 namespace maxwrench {
 namespace {
@@ -109,7 +111,7 @@ class DepthOrder {
       pieces.pop_back();
       if (!seen) continue;
       const std::size_t first = sheets_.size();
-      const auto pierced = relate(sheet);
+      const auto pierced = relate(sheet, true);
       if (pierced < first) {
         const Plane difference = minus(sheet.plane, sheets_[pierced].plane);
         pieces.push_back(cut(sheet.face, difference));
@@ -164,7 +166,7 @@ class DepthOrder {
     return true;
   }
 
-  Relation compare(const Sheet& a, const Sheet& b) const {
+  Relation compare(const Sheet& a, const Sheet& b, bool may_cut) const {
     const Outline common = overlap(a, b);
     if (common.size() < 3 || std::abs(area(common)) < tolerance_ * tolerance_) {
       return Relation::kNone;
@@ -175,21 +177,21 @@ class DepthOrder {
       least = std::min(least, difference(p));
       most = std::max(most, difference(p));
     }
-    if (least < -tolerance_ && most > tolerance_) return Relation::kPierced;
+    if (may_cut && least < -tolerance_ && most > tolerance_) return Relation::kPierced;
     if (std::max(-least, most) < 1e-6 * tolerance_) {
       return a.number < b.number ? Relation::kBehind : Relation::kInFront;
     }
     return most > -least ? Relation::kInFront : Relation::kBehind;
   }
 
-  /// Compares a sheet with all that are there and not done. Returns the first one that pierces it,
-  /// or their number.
-  std::size_t relate(const Sheet& sheet) {
+  /// Compares a sheet with all that are there and not done. If it may be cut, returns the first one
+  /// that pierces it; else, or if there is none, their number.
+  std::size_t relate(const Sheet& sheet, bool may_be_cut) {
     behind_.clear();
     in_front_.clear();
     for (std::size_t i = 0; i < sheets_.size(); ++i) {
       if (done_[i]) continue;
-      switch (compare(sheet, sheets_[i])) {
+      switch (compare(sheet, sheets_[i], may_be_cut)) {
         case Relation::kPierced:
           return i;
         case Relation::kBehind:
@@ -257,7 +259,7 @@ class DepthOrder {
     for (const Plane& side : {middle, -middle}) {
       Sheet half;
       if (!make_sheet(small ? sheet.face : cut(sheet.face, side), sheet.number, half)) continue;
-      relate(half);
+      relate(half, false);
       if (small) behind_.clear();
       accept(half);
       if (small) break;
