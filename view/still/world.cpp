@@ -27,7 +27,7 @@ constexpr const char *kNoteInk = "#37424c", *kNoteSoft = "#5b6770", *kNoteLimit 
                      *kNoteWrench = "#c2410c", *kNoteSecond = "#7a2fb8";
 constexpr double kFullArc = 1.7 * std::numbers::pi, kWrenchArc = 1.6 * std::numbers::pi,
                  kDirectionArc = 1.9 * std::numbers::pi;
-constexpr double kAtLimit = 1 - 1e-6;  ///< of a share
+constexpr double kAtLimit = 1 - 5e-4;  ///< of a share; three digits show the limit
 constexpr std::size_t kMostNotes = 14;
 constexpr std::size_t kMeshTriangles = 1500;  ///< of all meshes of a picture
 

@@ -51,7 +51,8 @@ TEST(Still, EffortsAtTheirLimitAreRed) {
   };
   const double most = scene["robot"]["actuators"][0]["max"];
   EXPECT_EQ(red_labels(most), 1U);
-  EXPECT_EQ(red_labels(0.99 * most), 0U);
+  EXPECT_EQ(red_labels(0.9999 * most), 1U);  // "1.00", which is the limit
+  EXPECT_EQ(red_labels(0.998 * most), 0U);   // "0.998"
 }
 
 TEST(Still, PosturesAreSideBySide) {
