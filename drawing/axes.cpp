@@ -89,9 +89,10 @@ double round_step(double value) {
 
 std::string with_digits(double value, int digits) {
   if (std::abs(value) < 1e-6) return "0";
-  const int before = 1 + static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-12));
-  if (before > 7) return with_minus(value, "{:.3g}");
-  return with_minus(value, fmt::format("{{:.{}f}}", std::max(0, digits - before)).c_str());
+  const std::string rounded = fmt::format("{:.{}e}", value, digits - 1);
+  const int power = std::stoi(rounded.substr(rounded.find('e') + 1));
+  if (power > 6) return with_minus(value, "{:.3g}");
+  return with_minus(value, fmt::format("{{:.{}f}}", std::max(0, digits - 1 - power)).c_str());
 }
 
 std::string with_minus(double value, const char* format) {

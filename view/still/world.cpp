@@ -27,7 +27,7 @@ constexpr const char *kNoteInk = "#37424c", *kNoteSoft = "#5b6770", *kNoteLimit 
                      *kNoteWrench = "#c2410c", *kNoteSecond = "#7a2fb8";
 constexpr double kFullArc = 1.7 * std::numbers::pi, kWrenchArc = 1.6 * std::numbers::pi,
                  kDirectionArc = 1.9 * std::numbers::pi;
-constexpr double kAtLimit = 1 - 5e-4;  ///< of a share; three digits show the limit
+constexpr int kEffortDigits = 3;
 constexpr std::size_t kMostNotes = 14;
 constexpr std::size_t kMeshTriangles = 1500;  ///< of all meshes of a picture
 
@@ -35,19 +35,27 @@ double number_or(const ordered_json& value, double other) {
   return value.is_number() ? value.get<double>() : other;
 }
 
-double share_of(const ordered_json& actuator, double u) {
-  const double limit = number_or(actuator[u < 0 ? "min" : "max"], 0);
+double limit_of(const ordered_json& actuator, double u) {
+  return number_or(actuator[u < 0 ? "min" : "max"], 0);
+}
+
+double share_of(double limit, double u) {
   return limit == 0 ? 0 : std::min(std::abs(u / limit), 1.0);
 }
 
-Rgb colour_of(double share) { return share >= kAtLimit ? kLimit : mixed(kIdle, kBusy, share); }
+/// Whether an effort is its limit to the digits that its label shows.
+bool at_limit(double limit, double u) {
+  if (limit == 0 || u == 0) return false;
+  const double power = std::floor(std::log10(std::abs(u)));
+  return std::abs(u - limit) < 0.5 * std::pow(10, power + 1 - kEffortDigits);
+}
 
 std::string words(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
 }
 
-std::string with_unit(double value, const std::string& unit, int digits = 3) {
+std::string with_unit(double value, const std::string& unit, int digits = kEffortDigits) {
   return with_digits(value, digits) + " " + unit;
 }
 
@@ -243,8 +251,9 @@ void StillWorld::draw_efforts(const ordered_json& frame, Painter& painter, Still
   for (std::size_t i = 0; i < robot["actuators"].size(); ++i) {
     const ordered_json& actuator = robot["actuators"][i];
     const double u = solved ? number_or(frame["u"][i], 0) : 0;
-    const double share = share_of(actuator, u);
-    const Rgb colour = colour_of(share);
+    const double most = limit_of(actuator, u), share = share_of(most, u);
+    const bool limit = at_limit(most, u);
+    const Rgb colour = limit ? kLimit : mixed(kIdle, kBusy, share);
     Vector3d at;
     if (i < thrusters) {
       at = base * vector_at(robot["thrusters"][i]["position"]);
@@ -266,7 +275,6 @@ void StillWorld::draw_efforts(const ordered_json& frame, Painter& painter, Still
                    colour);
       }
     }
-    const bool limit = share >= kAtLimit;
     notes.push_back({words(actuator["name"]),
                      solved ? with_unit(u, actuator["unit"].get<std::string>()) : "", camera_(at),
                      limit ? kNoteLimit : kNoteInk, limit, (i < thrusters ? 1 : 0) + share});
