@@ -87,6 +87,14 @@ double round_step(double value) {
   return (mantissa >= 5 ? 5 : mantissa >= 2 ? 2 : 1) * power;
 }
 
+std::string with_digits(double value, int digits) {
+  if (std::abs(value) < 1e-6) return "0";
+  const std::string rounded = fmt::format("{:.{}e}", value, digits - 1);
+  const int power = std::stoi(rounded.substr(rounded.find('e') + 1));
+  if (power > 6) return with_minus(value, "{:.3g}");
+  return with_minus(value, fmt::format("{{:.{}f}}", std::max(0, digits - 1 - power)).c_str());
+}
+
 std::string with_minus(double value, const char* format) {
   const std::string digits = fmt::format(fmt::runtime(format), std::abs(value));
   const bool zero = digits.find_first_not_of("0.") == std::string::npos;

@@ -49,4 +49,8 @@ double round_step(double value);
 /// The formatted value with a minus sign instead of a hyphen, and without a sign before a zero.
 std::string with_minus(double value, const char* format = "{:.6g}");
 
+/// The value with this many significant digits, also if the last ones are zeros: "9.000". A value
+/// that rounds to zero beside 1 is "0".
+std::string with_digits(double value, int digits);
+
 }  // namespace maxwrench

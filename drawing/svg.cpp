@@ -41,6 +41,46 @@ std::string join(const std::vector<Point>& points) {
   return text;
 }
 
+/// A coordinate in tenths of a pixel, as few characters as it takes.
+std::string tenths(long value) {
+  std::string text = std::to_string(std::abs(value) / 10);
+  if (value % 10 != 0) {
+    if (text == "0") text.clear();
+    text += '.' + std::to_string(std::abs(value) % 10);
+  }
+  return value < 0 ? '-' + text : text;
+}
+
+/// A path through the points, each one relative to the last as written.
+std::string short_path(const std::vector<Point>& points) {
+  std::string text;
+  long x = 0, y = 0;
+  for (const Point& p : points) {
+    const long next_x = std::lround(10 * px(p.x())), next_y = std::lround(10 * px(p.y()));
+    const bool first = text.empty();
+    if (!first && next_x == x && next_y == y) continue;
+    const std::string dx = tenths(next_x - x), dy = tenths(next_y - y);
+    if (first) {
+      text = "M";
+    } else if (text.find('l') == std::string::npos) {
+      text += 'l';
+    } else if (dx[0] != '-') {
+      text += ' ';
+    }
+    text += dx + (dy[0] == '-' ? "" : " ") + dy;
+    x = next_x;
+    y = next_y;
+  }
+  return text;
+}
+
+/// "#rrggbb", or "#rgb" if that is the same colour.
+std::string hex(std::uint32_t colour) {
+  const std::string full = fmt::format("{:06x}", colour);
+  if (full[0] != full[1] || full[2] != full[3] || full[4] != full[5]) return '#' + full;
+  return {'#', full[0], full[2], full[4]};
+}
+
 /// The number of bytes of the UTF-8 character that starts at `i`.
 std::size_t character_length(std::string_view text, std::size_t i) {
   std::size_t length = 1;
@@ -198,6 +238,11 @@ void Svg::text(const Point& at, std::string_view text, const Font& font) {
   std::string extra;
   if (font.bold) extra += " font-weight=\"bold\"";
   if (font.italic) extra += " font-style=\"italic\"";
+  if (!font.halo.empty()) {
+    extra += fmt::format(
+        R"( stroke="{}" stroke-opacity="0.8" stroke-width="3" stroke-linejoin="round" paint-order="stroke")",
+        font.halo);
+  }
   if (font.angle != 0) {
     extra +=
         fmt::format(" transform=\"rotate({:.1f} {:.2f} {:.2f})\"", -font.angle, at.x(), at.y());
@@ -208,6 +253,52 @@ void Svg::text(const Point& at, std::string_view text, const Font& font) {
       extra, spans(text, font.size));
   body_ += '\n';
 }
+
+void Svg::begin_surfaces() {
+  body_ +=
+      "<g fill=\"currentColor\" stroke=\"currentColor\" stroke-width=\".7\" "
+      "stroke-linejoin=\"round\" stroke-linecap=\"round\">\n";
+}
+
+void Svg::surface(const std::vector<Point>& corners, std::uint32_t colour, double opacity) {
+  const std::string path = short_path(corners);
+  if (path.find('l') == std::string::npos) return;  // smaller than can be seen
+  // Translucent neighbours would show a double line where they meet.
+  const std::string through =
+      opacity < 1 ? fmt::format(" fill-opacity=\"{:.2f}\" stroke=\"none\"", opacity) : "";
+  body_ += fmt::format("<path color=\"{}\"{} d=\"{}z\"/>\n", hex(colour), through, path);
+}
+
+void Svg::surface_line(const std::vector<Point>& points, std::uint32_t colour) {
+  const std::string path = short_path(points);
+  if (path.find('l') == std::string::npos) return;
+  body_ += fmt::format("<path color=\"{}\" fill=\"none\" d=\"{}\"/>\n", hex(colour), path);
+}
+
+void Svg::end_surfaces() { body_ += "</g>\n"; }
+
+void Svg::backdrop(const std::string& id, const Point& corner, const Point& size, std::uint32_t top,
+                   std::uint32_t bottom) {
+  body_ += fmt::format(
+      "<linearGradient id=\"{0}\" x2=\"0\" y2=\"1\"><stop stop-color=\"{1}\"/>"
+      "<stop offset=\"1\" stop-color=\"{2}\"/></linearGradient>\n"
+      "<rect x=\"{3:.1f}\" y=\"{4:.1f}\" width=\"{5:.1f}\" height=\"{6:.1f}\" rx=\"5\" "
+      "fill=\"url(#{0})\"/>\n",
+      id, hex(top), hex(bottom), px(corner.x()), px(corner.y()), px(size.x()), px(size.y()));
+}
+
+void Svg::begin_clip(const std::string& id, const Point& corner, const Point& size) {
+  body_ += fmt::format(
+      "<clipPath id=\"{}\"><rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" "
+      "height=\"{:.1f}\" rx=\"5\"/></clipPath>\n<g clip-path=\"url(#{})\">\n",
+      id, px(corner.x()), px(corner.y()), px(size.x()), px(size.y()), id);
+}
+
+void Svg::end_clip() { body_ += "</g>\n"; }
+
+void Svg::begin_fade(double opacity) { body_ += fmt::format("<g opacity=\"{:.2f}\">\n", opacity); }
+
+void Svg::end_fade() { body_ += "</g>\n"; }
 
 void Svg::place(const Svg& other, const Point& corner) {
   body_ += fmt::format("<g transform=\"translate({:.2f} {:.2f})\">\n{}</g>\n", corner.x(),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,7 +33,8 @@ struct Font {
   Anchor anchor = Anchor::kStart;
   bool bold = false;
   bool italic = false;
-  double angle = 0;  ///< degrees, counterclockwise
+  double angle = 0;       ///< degrees, counterclockwise
+  std::string halo = {};  ///< the colour around the letters, over a picture; empty: none
 };
 
 /// The text for XML and HTML, also in a quoted attribute.
@@ -56,6 +58,27 @@ class Svg {
   /// `at` is the baseline's anchor. After a word of one letter, an underscore makes the next
   /// character a subscript: "L_2". "direct_l" stays unchanged.
   void text(const Eigen::Vector2d& at, std::string_view text, const Font& font);
+
+  /// Surfaces are many: between `begin_surfaces` and `end_surfaces` they take few bytes each. A
+  /// surface closes the gap that renderers leave between neighbours, and lines are as wide as that.
+  /// Colours are 0xRRGGBB.
+  void begin_surfaces();
+  void surface(const std::vector<Eigen::Vector2d>& corners, std::uint32_t colour, double opacity);
+  void surface_line(const std::vector<Eigen::Vector2d>& points, std::uint32_t colour);
+  void end_surfaces();
+
+  /// Fills the picture with colours from top to bottom; `id` names them in the whole document.
+  void backdrop(const std::string& id, const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
+                std::uint32_t top, std::uint32_t bottom);
+
+  /// What follows is drawn within a box only, until `end_clip`.
+  void begin_clip(const std::string& id, const Eigen::Vector2d& corner,
+                  const Eigen::Vector2d& size);
+  void end_clip();
+
+  /// What follows is drawn as one translucent shape, until `end_fade`.
+  void begin_fade(double opacity);
+  void end_fade();
 
   /// Inserts another picture with its upper left corner at `corner`.
   void place(const Svg& other, const Eigen::Vector2d& corner);

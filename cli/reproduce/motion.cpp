@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "benchmarks/tables/write_file.h"
@@ -14,6 +15,8 @@
 #include "solvers/solve/active_limits.h"
 #include "solvers/solve/method.h"
 #include "solvers/solve/tank.h"
+#include "view/scene/scene.h"
+#include "view/still/still.h"
 
 namespace maxwrench {
 namespace {
@@ -150,9 +153,12 @@ void write_motion_figures(const MotionTable& table, const std::vector<Moved>& ro
   if (!curves.empty()) {
     write_file(folder / (name + ".svg"), motion_figure(found.problem, curves));
   }
+  const std::vector<double> times = telling_times(*found.problem.motion, found.row.trajectory);
   write_file(folder / (name + "_postures.svg"),
-             trajectory_figure(found.problem, found.row.trajectory,
-                               telling_times(*found.problem.motion, found.row.trajectory)));
+             trajectory_figure(found.problem, found.row.trajectory, times));
+  const auto scene =
+      scene_of(found.problem, read_visuals(found.problem.robot, {}), {{"best", found.row}});
+  write_file(folder / (name + "_stills.svg"), still_figure(scene, times));
 }
 
 /// The schemes of the table; for an impulse, without the one that ends at rest, which was not

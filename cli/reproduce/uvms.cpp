@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "benchmarks/tables/write_file.h"
@@ -12,6 +13,8 @@
 #include "maxwrench/figures.h"
 #include "maxwrench/load.h"
 #include "solvers/solve/tank.h"
+#include "view/scene/scene.h"
+#include "view/still/still.h"
 
 namespace maxwrench {
 namespace {
@@ -203,6 +206,17 @@ void write_figures(const std::filesystem::path& folder, const Problem& problem, 
              posture_figure(problem, panels));
 }
 
+/// Writes what `plot PROBLEM --best` draws.
+void write_stills(const std::filesystem::path& folder, const Problem& problem, const Task& task,
+                  int threads) {
+  Options how;
+  how.threads = threads;
+  const std::vector<Shown> shown = {{"default", evaluate(problem, problem.theta_r_default, how)},
+                                    {"best", solve(problem, how)}};
+  write_file(folder / (std::string(task.figure) + "_best.svg"),
+             still_figure(scene_of(problem, read_visuals(problem.robot, {}), shown), {}));
+}
+
 /// Writes the paper's fig:staticTorque.
 void write_tank_figure(const std::filesystem::path& folder, const Problem& problem,
                        const Task& task, const std::vector<Simulated>& experiments) {
@@ -252,6 +266,7 @@ std::string table(RowWriter& writer, const Task& task, const std::filesystem::pa
   }
   if (optima.size() == task.optima.size()) {
     write_figures(folder, problem, task, optima);
+    write_stills(folder, problem, task, threads);
     write_tank_figure(folder, problem, task, experiments);
   }
   return text + digits + "\n" + notes + describe_beyond(task, experiments);

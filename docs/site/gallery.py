@@ -9,12 +9,11 @@ import results
 COMMAND = pathlib.Path(__file__).resolve().parents[2] / "build/maxwrench"
 
 
-def plot(task, source, theta_r=None):
+def plot(task, source):
     """The picture that the command draws; its path from the sources of the site."""
-    path = pathlib.Path("figures/gallery") / f"{task.replace('/', '_')}{'' if theta_r is None else '_best'}.svg"
+    path = pathlib.Path("figures/gallery") / f"{task.replace('/', '_')}.svg"
     (source / path).parent.mkdir(parents=True, exist_ok=True)
-    chosen = [] if theta_r is None else ["--theta-r=" + ",".join(map(str, theta_r))]
-    subprocess.run([COMMAND, "plot", task, "--out", source / path, *chosen], check=True, capture_output=True)
+    subprocess.run([COMMAND, "plot", task, "--best", "--out", source / path], check=True, capture_output=True)
     return path
 
 
@@ -45,14 +44,10 @@ def row(name):
 def section(robot, names, source, extra):
     static = next(name for name in names if mw.load(name).type == "static")
     family = static.split("/")[0]
-    task = mw.load(static)
-    default, best = mw.evaluate(task, task.theta_r_default), mw.solve(task, callback=False)
-    pictures = [plot(static, source), plot(static, source, best.theta_r)]
     lines = [f"## {robot}", "",
              f"<a href=\"{view(static, extra)}\">Turn it in three dimensions</a>, with its efforts and wrenches (`maxwrench view {static}`). "
-             f"Its model and sources are in [problems/{family}](problems/{family}/README.md). `maxwrench plot {static}` draws it:", "",
-             f"| default posture, {number(default.beta)} {task.unit} | best posture, {number(best.beta)} {task.unit} |", "|---|---|",
-             f"| ![{robot} in its default posture]({pictures[0]}) | ![{robot} in its best posture]({pictures[1]}) |", ""]
+             f"Its model and sources are in [problems/{family}](problems/{family}/README.md). `maxwrench plot {static} --best` draws it:", "",
+             f"![{robot} in its default posture and in its best one]({plot(static, source)})", ""]
     lines += ["| task | of | redundancy | unit | default posture | best, pure | best, any wrench |", "|---|---|---|---|---|---|---|", *map(row, names), ""]
     return "\n".join(lines)
 

@@ -296,5 +296,16 @@ TEST(SvgTest, LowersTheCharacterAfterAnUnderscore) {
   expect_well_formed(svg.str());
 }
 
+TEST(Axes, NumbersKeepTheirDigits) {
+  EXPECT_EQ(with_digits(9, 4), "9.000");
+  EXPECT_EQ(with_digits(35.4083, 4), "35.41");
+  EXPECT_EQ(with_digits(-40, 3), "\u221240.0");
+  EXPECT_EQ(with_digits(0.9999, 3), "1.00");
+  EXPECT_EQ(with_digits(0.04567, 3), "0.0457");
+  EXPECT_EQ(with_digits(12345, 3), "12345");
+  EXPECT_EQ(with_digits(1.5e8, 3), "1.5e+08");
+  EXPECT_EQ(with_digits(-1e-9, 3), "0");
+}
+
 }  // namespace
 }  // namespace maxwrench

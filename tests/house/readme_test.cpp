@@ -264,6 +264,20 @@ TEST(Readme, PaperTableIsThatOfTheResults) {
   EXPECT_EQ(rows, std::size(kPaperRows));
 }
 
+/// What `plot uvms/valve --best` draws, a command of the README, as `reproduce` wrote it: with the
+/// value of the paper's second measure, and small enough for a page.
+TEST(Readme, ItsFirstPictureShowsTheOptimum) {
+  const std::string readme = read_text(kRoot / "README.md");
+  std::smatch picture;
+  ASSERT_TRUE(std::regex_search(readme, picture, std::regex("!\\[[^\\]]*\\]\\(([^)]*)\\)")));
+  EXPECT_EQ(picture[1], "results/uvms_valve_best.svg");
+  const std::string svg = read_text(kRoot / picture[1].str());
+  EXPECT_LT(svg.size(), 300'000U);
+  const std::string best = words_of("uvms_static.txt", "uvms/valve", "beta_2")[0];
+  EXPECT_NE(svg.find(">\u03b2 = " + best + " N m, "), std::string::npos) << best;
+  EXPECT_NE(svg.find(">\u03b2 = 9.000 N m, "), std::string::npos);
+}
+
 /// Blocks of text and the table of searches are lines of the results.
 TEST(Readme, LinesAreThoseOfTheResults) {
   const std::vector<std::string> results = result_lines();

@@ -41,6 +41,7 @@ TEST(ViewPage, Base64) {
                                     {"foobar", "Zm9vYmFy"},
                                     {"\xff\xfe\xfd", "//79"}}) {
     EXPECT_EQ(base64(bytes), text);
+    EXPECT_EQ(from_base64(text), bytes);
   }
 }
 

@@ -74,7 +74,7 @@ TEST(ReproduceMotion, SLOW_FillsTheTablesAlikeAtAnyThreadCount) {
     EXPECT_EQ(table.text, first);
     EXPECT_EQ(expect_trajectories(folder.path(), table.text, kSmallBudget), 6);
     for (const char* task : {"uvms_valve_trajectory", "uvms_valve_impulse"}) {
-      for (const char* figure : {".svg", "_postures.svg"}) {
+      for (const char* figure : {".svg", "_postures.svg", "_stills.svg"}) {
         EXPECT_TRUE(std::filesystem::exists(folder.path() / (std::string(task) + figure)));
       }
     }
