@@ -107,9 +107,9 @@ Link make_link(const std::string& key, const py::handle& object) {
   link.inertia = inertia_in(inertial + "inertia", part.get("inertia"));
   link.volume = part.number(fmt::format("buoyancy.{}.volume", link.name), "volume");
   link.cob = part.numbers(fmt::format("buoyancy.{}.cob", link.name), "cob", 3);
-  link.hydrodynamics = parts_in<HydrodynamicBody>(
-      fmt::format("hydrodynamics.{}", link.name), part.get("hydrodynamics"),
-      "a list of maxwrench.Hydrodynamics", &make_body);
+  link.hydrodynamics = parts_in<HydrodynamicBody>(fmt::format("hydrodynamics.{}", link.name),
+                                                  part.get("hydrodynamics"),
+                                                  "a list of maxwrench.Hydrodynamics", &make_body);
   return link;
 }
 
@@ -146,9 +146,9 @@ void set_gears(const py::object& objects, std::vector<Joint>& joints) {
     if (given.is_none()) continue;
     const std::string key = fmt::format("joint[{}].mimic", joint.name);
     const Part part(key, given, "Gear");
-    joint.gear = Gear{index_in(key + ".joint", part.get("leader"), "joint", names),
-                      part.number(key + ".multiplier", "ratio"),
-                      part.number(key + ".offset", "offset")};
+    joint.gear =
+        Gear{index_in(key + ".joint", part.get("leader"), "joint", names),
+             part.number(key + ".multiplier", "ratio"), part.number(key + ".offset", "offset")};
   }
 }
 
@@ -201,11 +201,10 @@ Shape make_shape(const std::string& key, const py::handle& object,
 Collision collision_in(const py::object& shapes, const py::object& ignore, double margin,
                        bool find_ignored, const std::vector<std::string>& links) {
   Collision collision;
-  collision.shapes =
-      parts_in<Shape>("shapes", shapes, "a list of maxwrench.Shape",
-                      [&links](const std::string& key, const py::handle& object) {
-                        return make_shape(key, object, links);
-                      });
+  collision.shapes = parts_in<Shape>("shapes", shapes, "a list of maxwrench.Shape",
+                                     [&links](const std::string& key, const py::handle& object) {
+                                       return make_shape(key, object, links);
+                                     });
   const char* expected = "a list of pairs of names";
   for (const py::handle& each : items_in("collision.ignore", ignore, expected)) {
     const auto pair = names_in("collision.ignore", py::reinterpret_borrow<py::object>(each));
@@ -258,13 +257,13 @@ PyRobot make_robot(const py::object& links, const py::object& joints, const std:
                                    return make_joint(key, object, names);
                                  });
   set_gears(joints, robot.joints);
-  robot.thrusters = parts_in<Thruster>("thrusters", thrusters, "a list of maxwrench.Thruster",
-                                       &make_thruster);
-  robot.end_effectors = parts_in<EndEffector>(
-      "end_effectors", end_effectors, "a list of maxwrench.EndEffector",
-      [&names](const std::string& key, const py::handle& object) {
-        return make_end_effector(key, object, names);
-      });
+  robot.thrusters =
+      parts_in<Thruster>("thrusters", thrusters, "a list of maxwrench.Thruster", &make_thruster);
+  robot.end_effectors =
+      parts_in<EndEffector>("end_effectors", end_effectors, "a list of maxwrench.EndEffector",
+                            [&names](const std::string& key, const py::handle& object) {
+                              return make_end_effector(key, object, names);
+                            });
   robot.gravity = gravity;
   robot.water_density = water_density;
   robot.trim = trim_in(trim);
@@ -367,14 +366,14 @@ ContactSpec contact_in(const py::object& value) {
 }
 
 void add_robot_parts(py::module_& m) {
-  m.def("make_robot", &make_robot, py::arg("links"), py::arg("joints") = py::tuple(),
-        py::kw_only(), py::arg("name") = "robot", py::arg("base") = "",
-        py::arg("mount") = py::none(), py::arg("thrusters") = py::tuple(),
-        py::arg("end_effectors") = py::tuple(), py::arg("gravity") = Robot().gravity,
-        py::arg("water_density") = Robot().water_density, py::arg("trim") = py::none(),
-        py::arg("states") = py::dict(), py::arg("shapes") = py::tuple(),
-        py::arg("ignore") = py::tuple(), py::arg("margin") = Collision().margin,
-        py::arg("find_ignored") = Collision().find_ignored, kMakeRobot);
+  m.def("make_robot", &make_robot, py::arg("links"), py::arg("joints") = py::tuple(), py::kw_only(),
+        py::arg("name") = "robot", py::arg("base") = "", py::arg("mount") = py::none(),
+        py::arg("thrusters") = py::tuple(), py::arg("end_effectors") = py::tuple(),
+        py::arg("gravity") = Robot().gravity, py::arg("water_density") = Robot().water_density,
+        py::arg("trim") = py::none(), py::arg("states") = py::dict(),
+        py::arg("shapes") = py::tuple(), py::arg("ignore") = py::tuple(),
+        py::arg("margin") = Collision().margin, py::arg("find_ignored") = Collision().find_ignored,
+        kMakeRobot);
 }
 
 }  // namespace maxwrench::python
