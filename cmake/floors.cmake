@@ -111,14 +111,17 @@ if(MAXWRENCH_BUILD_COMMAND OR MAXWRENCH_BUILD_BENCHMARKS)
   target_link_libraries(maxwrench_benchmarks PUBLIC maxwrench_core PkgConfig::GMPXX PRIVATE TBB::tbb fmt::fmt ZLIB::ZLIB)
 endif()
 
-if(MAXWRENCH_BUILD_COMMAND)
+if(MAXWRENCH_BUILD_COMMAND OR MAXWRENCH_WITH_PYTHON)
   add_floor(view STATIC)
+  serve_modules(view)
   target_link_libraries(maxwrench_view PUBLIC maxwrench_drawing PRIVATE nlohmann_json::nlohmann_json fmt::fmt)
-  # The files that go into the program.
+  # The files that go into the program and the module.
   set(view ${PROJECT_SOURCE_DIR}/view)
   set_source_files_properties(${view}/engine/module.cpp ${view}/page_file.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON
     COMPILE_DEFINITIONS MAXWRENCH_VIEW_FOLDER="${view}" OBJECT_DEPENDS "${view}/engine/engine.js;${view}/engine/engine.wasm;${view}/page/page.html")
+endif()
 
+if(MAXWRENCH_BUILD_COMMAND)
   find_package(CLI11 REQUIRED)
   add_floor(cli STATIC)
   target_link_libraries(maxwrench_cli PUBLIC maxwrench_benchmarks maxwrench_view

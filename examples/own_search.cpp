@@ -1,7 +1,9 @@
 // A search of your own, by its name: compass search. From a start, it tries a step to both sides of
-// each coordinate, moves to a better point, and halves the step if there is none.
+// each coordinate, moves to a better point, and halves the step if there is none. Where the start
+// has no value, it starts at a random point.
 #include <algorithm>
 #include <cstdio>
+#include <random>
 
 #include "maxwrench/batch.h"
 #include "maxwrench/load.h"
@@ -27,8 +29,16 @@ class Compass : public Search {
       best.history.push_back({best.evaluations, value});
       return true;
     };
-    if (!attempt(options.starts.empty() ? options.start : options.starts[0].theta_r)) return best;
+    const Box box(objective);
     const Eigen::VectorXd &lower = objective.lower(), &upper = objective.upper();
+    std::mt19937_64 random(options.seed);
+    std::uniform_real_distribution<double> unit;
+    Eigen::VectorXd start =
+        options.starts.empty() ? box.start(options.start) : options.starts[0].theta_r;
+    while (!attempt(start)) {  // no value there, such as in a collision: somewhere else
+      if (best.evaluations == options.budget || run.ended()) return best;
+      start = box.theta_r(Eigen::VectorXd::NullaryExpr(box.free(), [&] { return unit(random); }));
+    }
     for (double step = 0.25; step > 1e-7 && best.evaluations < options.budget && !run.ended();) {
       bool better = false;
       for (int k = 0; k < objective.dimension(); ++k) {

@@ -12,6 +12,7 @@
 
 #include "lib/math/require.h"
 #include "maxwrench/batch.h"
+#include "maxwrench/robot.h"
 #include "maxwrench/strategies.h"
 
 namespace maxwrench {
@@ -121,23 +122,31 @@ class AddedSearch final : public Search {
                       name_, fewest, options.budget));
     }
     if (result.status == Status::kBestFound) {
-      require_candidate({result.theta_r, result.value}, objective.dimension());
+      require_candidate({result.theta_r, result.value}, objective);
     }
-    for (const Candidate& start : result.starts) require_candidate(start, objective.dimension());
+    for (const Candidate& start : result.starts) require_candidate(start, objective);
     return result;
   }
 
  private:
-  void require_candidate(const Candidate& candidate, int dimension) const {
-    if (candidate.theta_r.size() != dimension) {
+  void require_candidate(const Candidate& candidate, const Objective& objective) const {
+    if (candidate.theta_r.size() != objective.dimension()) {
       throw std::invalid_argument(
           fmt::format("search: got {} numbers as theta_r by '{}', expected {}",
-                      candidate.theta_r.size(), name_, dimension));
+                      candidate.theta_r.size(), name_, objective.dimension()));
     }
-    if (candidate.theta_r.allFinite() && std::isfinite(candidate.value)) return;
-    throw std::invalid_argument(fmt::format(
-        "search: got a point or a value that is not finite by '{}', expected finite numbers",
-        name_));
+    if (!candidate.theta_r.allFinite() || !std::isfinite(candidate.value)) {
+      throw std::invalid_argument(fmt::format(
+          "search: got a point or a value that is not finite by '{}', expected finite numbers",
+          name_));
+    }
+    for (int i = 0; i < objective.dimension(); ++i) {
+      const double lower = objective.lower()[i], upper = objective.upper()[i];
+      const double x = candidate.theta_r[i];
+      if (x >= lower - kLimitTolerance && x <= upper + kLimitTolerance) continue;
+      throw std::invalid_argument(fmt::format(
+          "search: got {} as theta_r[{}] by '{}', expected {} to {}", x, i, name_, lower, upper));
+    }
   }
 
   const char* name_;

@@ -7,10 +7,10 @@ A short tour; docs/python.md is a longer one.
 >>> print(round(answer.beta, 1), answer.unit)
 35.4 N m
 >>> many = maxwrench.evaluate(task, [answer.theta_r, task.theta_r_default])  # postures side by side
->>> many.beta.shape, many.gradient.shape
-((2,), (2, 4))
+>>> many.beta.shape, many.u.shape
+((2,), (2, 12))
 
-``Robot.from_urdf`` and ``Static`` make tasks of other robots, ``Trajectory`` and ``Impulse`` tasks in
+``Robot.from_urdf`` and ``make_robot`` make other robots, ``Static`` makes tasks of them, ``Trajectory`` and ``Impulse`` tasks in
 time; ``simulate`` carries an answer out in the virtual tank. ``capability``, ``scale`` and ``linprog``
 take plain arrays, of any model. ``measures``, ``solvers`` and ``searches`` list the choices. Wrong
 arguments and files raise ``InputError``.
@@ -19,16 +19,18 @@ Units are SI: m, rad, N, N m, s. A wrench is [force; torque] that the robot exer
 in the axes of the world; ``moved``, ``to_pinocchio`` and ``to_drake`` change point, axes and order.
 """
 
-from . import _arguments, _core, _frames, _html, _plot
+from . import _arguments, _core, _frames, _html, _plot, _view
 from ._core import *  # noqa: F401,F403
 from ._core import Answer, Evaluations, Explanation, Path, Pose, Robot, Task, __version__
 from ._frames import from_drake, from_pinocchio, moved, to_drake, to_pinocchio
 from ._errors import SearchEnded
+from ._parts import Contact, Direction, EndEffector, Gear, Hydrodynamics, Joint, Link, Shape, Thruster
 from ._progress import progress
 from ._race import race
 from ._ros import joint_state, joint_trajectory, to_yaml, wrench_stamped
 from ._strategies import Measure, Search, add_measure, add_search
 from ._table import table
+from ._view import Page
 
 for _name, _function in list(vars(_core).items()):
     if not _name.startswith("_") and not isinstance(_function, type) and callable(_function):
@@ -40,6 +42,7 @@ _arguments.check_class(Robot, static=["from_urdf", "from_toml"])
 _arguments.check_class(Task, methods=["with_limits"])
 
 Answer.plot = _plot.plot_answer
+Answer.view = _view.view_answer
 Answer.wrench_at = _frames.wrench
 Answer._repr_html_ = _html.answer_html
 Explanation._repr_html_ = _html.explanation_html
@@ -50,17 +53,25 @@ Evaluations._repr_html_ = _html.evaluations_html
 __all__ = [
     "Answer",
     "Capability",
+    "Contact",
+    "Direction",
     "Ellipsoid",
+    "EndEffector",
     "Evaluations",
     "Experiment",
     "Explanation",
+    "Gear",
+    "Hydrodynamics",
     "Impulse",
     "InputError",
+    "Joint",
     "Limit",
+    "Link",
     "LpAnswer",
     "Measure",
     "MissingFileError",
     "Objective",
+    "Page",
     "Path",
     "Polytope",
     "Pose",
@@ -69,8 +80,10 @@ __all__ = [
     "Robot",
     "Search",
     "SearchEnded",
+    "Shape",
     "Static",
     "Task",
+    "Thruster",
     "Trajectory",
     "VerifiedProof",
     "__version__",
@@ -89,6 +102,7 @@ __all__ = [
     "joint_trajectory",
     "linprog",
     "load",
+    "make_robot",
     "measures",
     "moved",
     "polytope",

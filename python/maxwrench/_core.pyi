@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._errors import InputError as InputError, MissingFileError as MissingFileError
+from ._parts import EndEffector, Joint, Link, Shape, Thruster
 
 _Array = NDArray[np.float64]
 _Path = str | PathLike[str]
@@ -145,6 +146,7 @@ class Task:
 
 class Answer:
     plot: Callable[..., Any]
+    view: Callable[..., Any]
     wrench_at: Callable[..., Any]
     _repr_html_: Callable[..., Any]
     @property
@@ -276,7 +278,7 @@ class Evaluations:
     @property
     def beta(self) -> _Array: ...
     @property
-    def gradient(self) -> _Array: ...
+    def gradient(self) -> _Array | None: ...
     @property
     def q(self) -> _Array: ...
     @property
@@ -481,6 +483,24 @@ class Objective:
 
 def load(name: _Path, *, limits: str = "") -> Task: ...
 def tasks() -> list[str]: ...
+def make_robot(
+    links: Sequence[Link],
+    joints: Sequence[Joint] = (),
+    *,
+    name: str = "robot",
+    base: _Names = "",
+    mount: Pose | None = None,
+    thrusters: Sequence[Thruster] = (),
+    end_effectors: Sequence[EndEffector] = (),
+    gravity: float = 9.81,
+    water_density: float = 0.0,
+    trim: tuple[float, ArrayLike] | None = None,
+    states: Mapping[str, Mapping[str, float]] = ...,
+    shapes: Sequence[Shape] = (),
+    ignore: Sequence[tuple[str, str]] = (),
+    margin: float = 0.0,
+    find_ignored: bool = False,
+) -> Robot: ...
 def Static(robot: Robot, **arguments: Any) -> Task: ...
 def Trajectory(robot: Robot, path: Path, knots: int, **arguments: Any) -> Task: ...
 def Impulse(robot: Robot, pose: Pose, T: float, knots: int, **arguments: Any) -> Task: ...
@@ -492,6 +512,7 @@ def evaluate(
     wrench: str = "pure",
     solver: str = "",
     check_collision: bool = True,
+    gradients: bool = False,
     threads: int = 0,
     callback: _Callback = None,
 ) -> Any: ...
@@ -503,7 +524,9 @@ def evaluate_joints(
     wrench: str = "pure",
     solver: str = "",
     check_collision: bool = True,
-) -> Answer: ...
+    threads: int = 0,
+    callback: _Callback = None,
+) -> Any: ...
 def solve(
     task: Task | _Path,
     *,
@@ -583,5 +606,6 @@ def solvers() -> dict[str, str]: ...
 def searches() -> dict[str, str]: ...
 def integrators() -> dict[str, str]: ...
 def describe_build() -> str: ...
+def _page(answer: Answer) -> str: ...
 def _add_measure(measure: object) -> None: ...
 def _add_search(search: object) -> None: ...

@@ -16,6 +16,7 @@ namespace {
 struct PyEvaluations {
   Evaluations rows;
   PyTask task;
+  bool gradients = false;  ///< whether they were requested
 };
 
 std::vector<const char*> status_names(const PyEvaluations& self) {
@@ -45,20 +46,43 @@ py::array rows_of(const py::object& self) {
   return view(table.data(), {table.rows(), table.cols()}, self);
 }
 
-}  // namespace
+py::object gradient_of(const py::object& self) {
+  if (!self.cast<const PyEvaluations&>().gradients) return py::none();
+  return rows_of<&Evaluations::gradient>(self);
+}
 
-py::object evaluate_rows(const PyTask& task, const py::object& theta_r, Options options,
-                         const py::object& callback) {
-  const RowMatrix table = matrix("theta_r", theta_r, -1, task.problem->redundancy());
-  require_all_finite("theta_r", table);
-  PyEvaluations result{{}, task};
-  const Callback shown(callback, table.rows(), task.problem->name);
+/// The Evaluations that evaluate(options) returns, in the background.
+template <class Evaluate>
+py::object evaluated(const PyTask& task, Eigen::Index rows, bool gradients, Options options,
+                     const py::object& callback, const Evaluate& evaluate) {
+  PyEvaluations result{{}, task, gradients};
+  const Callback shown(callback, rows, task.problem->name);
   run_in_background(shown.function(), [&](Watch& watch) {
     options.progress = [&watch](long evaluations) { watch.evaluations = evaluations; };
     options.interrupted = [&watch] { return watch.stop.load(); };
-    result.rows = evaluate_each(*task.problem, table, options);
+    result.rows = evaluate(options);
   });
   return py::cast(std::move(result));
+}
+
+}  // namespace
+
+py::object evaluate_rows(const PyTask& task, const py::object& theta_r, const Options& options,
+                         bool gradients, const py::object& callback) {
+  const RowMatrix table = matrix("theta_r", theta_r, -1, task.problem->redundancy());
+  require_all_finite("theta_r", table);
+  return evaluated(task, table.rows(), gradients, options, callback, [&](const Options& how) {
+    return evaluate_each(*task.problem, table, how, gradients);
+  });
+}
+
+py::object evaluate_joint_rows(const PyTask& task, const py::object& q, const Options& options,
+                               const py::object& callback) {
+  const RowMatrix table = matrix("q", q, -1, Eigen::Index(task.problem->robot.joints.size()));
+  require_all_finite("q", table);
+  return evaluated(task, table.rows(), false, options, callback, [&](const Options& how) {
+    return evaluate_each_posture(*task.problem, table, how);
+  });
 }
 
 void add_evaluations(py::module_& m) {
@@ -66,7 +90,7 @@ void add_evaluations(py::module_& m) {
 
 Arrays have a row for each posture and are read-only views. They are NaN where there is no value.
 
->>> rows = maxwrench.evaluate("planar/force", [[0, 0], [0.1, 0]])
+>>> rows = maxwrench.evaluate("planar/force", [[0, 0], [0.1, 0]], gradients=True)
 >>> rows.beta.shape, rows.gradient.shape
 ((2,), (2, 2))
 )")
@@ -76,8 +100,8 @@ Arrays have a row for each posture and are read-only views. They are NaN where t
             return view(self.cast<const PyEvaluations&>().rows.beta, self);
           },
           "The values (N) [unit].")
-      .def_property_readonly("gradient", &rows_of<&Evaluations::gradient>,
-                             "Gradients by theta_r (N×r).")
+      .def_property_readonly("gradient", &gradient_of,
+                             "Gradients by theta_r (N×r); None unless they were requested.")
       .def_property_readonly("q", &rows_of<&Evaluations::q>, "All joints (N×J) [rad or m].")
       .def_property_readonly("base", &rows_of<&Evaluations::base>,
                              "Base in the world: x, y, z, roll, pitch, yaw (N×6) [m; rad].")

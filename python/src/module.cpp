@@ -12,6 +12,7 @@ PYBIND11_MODULE(_core, m) {
   python::add_errors(m);
   python::add_poses(m);
   python::add_robots(m);
+  python::add_robot_parts(m);
   python::add_paths(m);
   python::add_tasks(m);
   python::add_explanations(m);
@@ -23,5 +24,6 @@ PYBIND11_MODULE(_core, m) {
   python::add_tank(m);
   python::add_proofs(m);
   python::add_wrench_sets(m);
+  python::add_view(m);
   python::add_strategies(m);
 }

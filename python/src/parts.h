@@ -6,6 +6,7 @@
 
 #include "maxwrench/path.h"
 #include "maxwrench/solve.h"
+#include "maxwrench/task.h"
 #include "python/src/arrays.h"
 
 // What the files of the module share.
@@ -47,12 +48,17 @@ py::tuple reduced(const Recipe& recipe, const std::string& digest = "");
 /// The task in an argument: a Task, or the name of one.
 PyTask task_of(const py::object& task);
 /// The Evaluations of a static task at each row of an array.
-py::object evaluate_rows(const PyTask& task, const py::object& theta_r, Options options,
-                         const py::object& callback);
+py::object evaluate_rows(const PyTask& task, const py::object& theta_r, const Options& options,
+                         bool gradients, const py::object& callback);
+/// The same in postures given by all joints.
+py::object evaluate_joint_rows(const PyTask& task, const py::object& q, const Options& options,
+                               const py::object& callback);
 /// What pickle stores of an answer: the posture, and what its search did. The posture is evaluated
 /// again when it is read, with the same result.
 py::tuple answer_state(const PyAnswer& self);
 PyAnswer answer_from_state(const py::tuple& state);
+/// The second contact of a task: a maxwrench.Contact.
+ContactSpec contact_in(const py::object& value);
 /// The homogeneous matrix of a pose (4×4).
 RowMatrix matrix_of(const Pose<double>& pose);
 /// Adds the method `explain`.
@@ -64,6 +70,7 @@ Eigen::VectorXd theta_of(const Pose<double>& base, const Eigen::VectorXd& q);
 void add_errors(py::module_& m);
 void add_poses(py::module_& m);
 void add_robots(py::module_& m);
+void add_robot_parts(py::module_& m);
 void add_paths(py::module_& m);
 void add_tasks(py::module_& m);
 void add_explanations(py::module_& m);
@@ -75,6 +82,7 @@ void add_linear_programs(py::module_& m);
 void add_tank(py::module_& m);
 void add_proofs(py::module_& m);
 void add_wrench_sets(py::module_& m);
+void add_view(py::module_& m);
 void add_strategies(py::module_& m);
 
 }  // namespace maxwrench::python

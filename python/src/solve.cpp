@@ -39,8 +39,8 @@ Eigen::MatrixXd knots_in(const Array& array, const Problem& task) {
 
 py::object evaluate_task(const py::object& task, const py::object& theta_r,
                          const std::string& measure, const std::string& wrench,
-                         const std::string& solver, bool check_collision, int threads,
-                         const py::object& callback) {
+                         const std::string& solver, bool check_collision, bool gradients,
+                         int threads, const py::object& callback) {
   const PyTask of = task_of(task);
   Options options = options_of(measure, wrench, solver);
   options.check_collision = check_collision;
@@ -49,7 +49,7 @@ py::object evaluate_task(const py::object& task, const py::object& theta_r,
   require_callback(callback);
   const Array given = numbers("theta_r", theta_r);
   if (!of.problem->motion && given.ndim() == 2) {
-    return evaluate_rows(of, given, options, callback);
+    return evaluate_rows(of, given, options, gradients, callback);
   }
   const Eigen::MatrixXd knots = knots_in(given, *of.problem);
   PyAnswer result{{}, of};
@@ -60,20 +60,25 @@ py::object evaluate_task(const py::object& task, const py::object& theta_r,
   return py::cast(std::move(result));
 }
 
-PyAnswer evaluate_joints(const py::object& task, const py::object& q, const std::string& measure,
-                         const std::string& wrench, const std::string& solver,
-                         bool check_collision) {
+py::object evaluate_joints(const py::object& task, const py::object& q, const std::string& measure,
+                           const std::string& wrench, const std::string& solver,
+                           bool check_collision, int threads, const py::object& callback) {
   const PyTask of = task_of(task);
   Options options = options_of(measure, wrench, solver);
   options.check_collision = check_collision;
-  const Eigen::VectorXd joints = vector("q", q, Eigen::Index(of.problem->robot.joints.size()));
+  options.threads = threads;
+  if (threads != 0) thread_count(threads);  // one posture uses one, but a wrong number is wrong
+  require_callback(callback);
+  const Array given = numbers("q", q);
+  if (given.ndim() == 2) return evaluate_joint_rows(of, given, options, callback);
+  const Eigen::VectorXd joints = vector("q", given, Eigen::Index(of.problem->robot.joints.size()));
   require_all_finite("q", joints);
   PyAnswer result{{}, of};  // it counts references, which needs the lock
   {
     const py::gil_scoped_release released;
     result.answer = evaluate_posture(*of.problem, joints, options);
   }
-  return result;
+  return py::cast(std::move(result));
 }
 
 PyAnswer solve_task(const py::object& task, const std::string& measure, const std::string& wrench,
@@ -127,6 +132,8 @@ Args:
     wrench: "pure": only multiples of c; "any": other wrenches of the task may occur, too.
     solver: the solver of the lower level; the first one that serves if empty.
     check_collision: whether a posture that collides is invalid.
+    gradients: for N postures, whether ``Evaluations.gradient`` is computed. One posture always has
+        its gradient.
     threads: for N postures, the number of threads; it changes the time, never the values; 0: one
         per core.
     callback: for N postures, as of ``solve``; those that remain have the status budget_exhausted.
@@ -140,6 +147,32 @@ Raises:
 
 >>> maxwrench.evaluate("planar/force", [0, 0]).status
 'optimal'
+)";
+
+constexpr const char* kEvaluateJoints =
+    R"(Evaluates a static task in postures that are given by all joints.
+
+The base is at its mount and the end effector where the joints put it. There is no inverse
+kinematics, and no gradient.
+
+Args:
+    task: a static Task with one contact, or the name of one.
+    q: positions of all joints (J) [rad or m], in the order of ``robot.joint_names``; or N postures,
+        one in each row (N×J), which are evaluated side by side.
+    others: as of ``evaluate``.
+
+Returns:
+    Answer: the value. Evaluations: those of N postures, without gradients.
+
+Raises:
+    InputError: as ``evaluate``.
+
+>>> task = maxwrench.load("fixed/push")
+>>> at_rest = [0, 0.3, 0, -1.5, 0, -0.6, 0]
+>>> maxwrench.evaluate_joints(task, at_rest).has_value
+True
+>>> maxwrench.evaluate_joints(task, [at_rest, at_rest]).beta.shape
+(2,)
 )";
 
 constexpr const char* kSolve = R"(Searches for the best posture or trajectory.
@@ -172,27 +205,12 @@ Raises:
 void add_solve(py::module_& m) {
   m.def("evaluate", &evaluate_task, py::arg("task"), py::arg("theta_r"), py::kw_only(),
         py::arg("measure") = Case().measure, py::arg("wrench") = "pure", py::arg("solver") = "",
-        py::arg("check_collision") = true, py::arg("threads") = 0, py::arg("callback") = py::none(),
-        kEvaluate);
+        py::arg("check_collision") = true, py::arg("gradients") = false, py::arg("threads") = 0,
+        py::arg("callback") = py::none(), kEvaluate);
   m.def("evaluate_joints", &evaluate_joints, py::arg("task"), py::arg("q"), py::kw_only(),
         py::arg("measure") = Case().measure, py::arg("wrench") = "pure", py::arg("solver") = "",
-        py::arg("check_collision") = true,
-        R"(Evaluates a static task in one posture that is given by all joints.
-
-The base is at its mount and the end effector where the joints put it. There is no inverse
-kinematics, and no gradient.
-
-Args:
-    task: a static Task with one contact, or the name of one.
-    q: positions of all joints (J) [rad or m], in the order of ``robot.joint_names``.
-    others: as of ``evaluate``.
-
-Returns:
-    Answer: the value.
-
-Raises:
-    InputError: as ``evaluate``.
-)");
+        py::arg("check_collision") = true, py::arg("threads") = 0, py::arg("callback") = py::none(),
+        kEvaluateJoints);
   m.def("solve", &solve_task, py::arg("task"), py::kw_only(), py::arg("measure") = Case().measure,
         py::arg("wrench") = "pure", py::arg("solver") = "", py::arg("search") = "",
         py::arg("seed") = 1, py::arg("budget") = 0, py::arg("threads") = 0,

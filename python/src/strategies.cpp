@@ -77,9 +77,8 @@ class PythonMeasure : public Measure {
                             Capability& capability) override {
     const py::gil_scoped_acquire lock;
     capability.beta = value_of(*measure_, seen(task_, posture, program));
-    if (std::isfinite(capability.beta)) {
-      capability.conclude(Status::kOptimal);
-    } else {
+    capability.conclude(Status::kOptimal);
+    if (std::isnan(capability.beta)) {
       capability.conclude(Status::kInfeasible, "the measure has no value here");
     }
   }

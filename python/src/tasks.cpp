@@ -98,8 +98,12 @@ TaskSpec begin_spec(const PyRobot& robot, py::dict& arguments, bool in_time) {
   if (spec.end_effector.empty() && spec.robot.end_effectors.size() == 1) {
     spec.end_effector = spec.robot.end_effectors.front().name;
   }
-  if (!in_time) read_pose(arguments, spec.robot, spec);
-  if (!in_time) read_free(arguments, spec);
+  if (!in_time) {
+    read_pose(arguments, spec.robot, spec);
+    read_free(arguments, spec);
+    const py::object contact = taken(arguments, "contact");
+    if (!contact.is_none()) spec.contact = contact_in(contact);
+  }
   read_wrench(arguments, spec);
   read_theta_r(arguments, spec);
   return spec;
@@ -275,6 +279,7 @@ Args:
     free: coordinates of the pose that are free, of x, y, z, roll, pitch, yaw.
     range: limits [min, max] of such coordinates by name [m; rad].
     along: axes of these coordinates: "pose" or "end_effector".
+    contact: a Contact: a second end effector that touches the environment.
     theta_r: names of the redundant joints. Default: the program chooses them.
     theta_r_default: their default positions.
     guess, guess_base: joint positions and base coordinates by name that select the IK solution.
@@ -301,7 +306,7 @@ Args:
     scheme: how knots become a motion: "spline", "forward" or "ends".
     instants_per_interval: for the scheme "spline".
     rates: whether limits of the rates of efforts apply.
-    others: as of ``Static``, but for pose, joints, free, range and along.
+    others: as of ``Static``, but for pose, joints, free, range, along and contact.
 
 Raises:
     InputError: a value is wrong.

@@ -23,7 +23,7 @@ def postures(task, count, seed=1, part=0.3):
 def test_rows_are_single_calls_bit_for_bit(name, wrench):
     task = mw.load(name)
     theta_r = postures(task, 60, part=0.02 if name == "dual_arm/two_arms" else 0.3)
-    rows = mw.evaluate(task, theta_r, wrench=wrench, threads=2)
+    rows = mw.evaluate(task, theta_r, wrench=wrench, gradients=True, threads=2)
     assert len(rows) == 60 and rows.beta.shape == (60,) and rows.valid.any()
     for i, row in enumerate(theta_r):
         one = mw.evaluate(task, row, wrench=wrench)
@@ -36,6 +36,47 @@ def test_rows_are_single_calls_bit_for_bit(name, wrench):
         assert np.array_equal(rows.u[i], one.u) and np.array_equal(rows.h[i], one.h)
         assert np.array_equal(rows.q[i], one.q) and np.array_equal(rows.base[i], one.theta[:6])
         assert np.array_equal(rows.gradient[i], one.gradient)
+
+
+@pytest.mark.parametrize("solver", [name for name in mw.solvers() if name != "facets"])
+def test_rows_are_single_calls_with_every_solver(solver):
+    # Solvers of linear programs start where they ended; the row before must not show.
+    task = mw.load("uvms/valve")
+    theta_r = postures(task, 70)
+    rows = mw.evaluate(task, theta_r, wrench="any", solver=solver)
+    for i in np.flatnonzero(rows.valid):
+        one = mw.evaluate(task, theta_r[i], wrench="any", solver=solver)
+        assert rows.beta[i] == one.beta and np.array_equal(rows.u[i], one.u) and np.array_equal(rows.h[i], one.h)
+
+
+def test_rows_have_gradients_on_request():
+    assert mw.evaluate("planar/force", [[0, 0]]).gradient is None
+    assert mw.evaluate("planar/force", [[0, 0]], gradients=True).gradient.shape == (1, 2)
+
+
+@pytest.mark.parametrize("name, wrench", [("fixed/push", "pure"), ("fixed/push", "any"), ("uvms/lift", "any")])
+def test_rows_of_joints_are_single_calls_bit_for_bit(name, wrench):
+    task = mw.load(name)
+    robot = task.robot
+    span = np.minimum(robot.q_max, 3) - np.maximum(robot.q_min, -3)
+    q = np.maximum(robot.q_min, -3) + np.random.default_rng(7).uniform(-0.02, 1, (60, span.size)) * span
+    rows = mw.evaluate_joints(task, q, wrench=wrench)
+    assert len(rows) == 60 and rows.gradient is None and rows.valid.any() and not rows.valid.all()
+    for i, row in enumerate(q):
+        one = mw.evaluate_joints(task, row, wrench=wrench)
+        assert rows.status[i] == one.status and np.array_equal(rows.q[i], row)
+        assert np.array_equal(rows.base[i], one.theta[:6])
+        if not one.has_value:
+            assert np.isnan(rows.beta[i]) and np.all(np.isnan(rows.u[i])) and np.all(np.isnan(rows.h[i]))
+            continue
+        assert rows.beta[i] == one.beta and np.array_equal(rows.u[i], one.u) and np.array_equal(rows.h[i], one.h)
+    one_thread = mw.evaluate_joints(task, q, wrench=wrench, threads=1)
+    assert np.array_equal(one_thread.beta, rows.beta, equal_nan=True)
+
+
+def test_no_rows_of_joints():
+    rows = mw.evaluate_joints("fixed/push", np.zeros((0, 7)))
+    assert len(rows) == 0 and rows.u.shape == (0, 7)
 
 
 @pytest.mark.parametrize("measure", list(mw.measures()))
@@ -52,16 +93,16 @@ def test_rows_of_all_measures(measure):
 def test_threads_do_not_change_values(name):
     task = mw.load(name)
     theta_r = postures(task, 300)
-    reference = mw.evaluate(task, theta_r, wrench="any", threads=1)
+    reference = mw.evaluate(task, theta_r, wrench="any", gradients=True, threads=1)
     for threads in (0, 2, 3, 8):
-        rows = mw.evaluate(task, theta_r, wrench="any", threads=threads)
+        rows = mw.evaluate(task, theta_r, wrench="any", gradients=True, threads=threads)
         for name in ("beta", "gradient", "q", "base", "u", "h"):
             assert np.array_equal(getattr(rows, name), getattr(reference, name), equal_nan=True), name
         assert rows.status == reference.status
 
 
 def test_no_rows():
-    rows = mw.evaluate("planar/force", np.zeros((0, 2)))
+    rows = mw.evaluate("planar/force", np.zeros((0, 2)), gradients=True)
     assert len(rows) == 0 and rows.beta.shape == (0,) and rows.u.shape == (0, 6) and rows.gradient.shape == (0, 2)
     assert rows.valid.shape == (0,) and rows.status == []
 
@@ -190,7 +231,7 @@ def test_collisions_count_unless_they_are_ignored():
 
 @pytest.mark.parametrize("name", ["beta", "gradient", "q", "base", "u", "h"])
 def test_views_are_read_only_and_keep_their_numbers(name):
-    rows = mw.evaluate("planar/force", [[0, 0], [0.1, 0.2]])
+    rows = mw.evaluate("planar/force", [[0, 0], [0.1, 0.2]], gradients=True)
     view = getattr(rows, name)
     assert view.dtype == np.float64 and view.flags.c_contiguous
     with pytest.raises(ValueError):

@@ -94,5 +94,6 @@ def test_thruster_sweep(tmp_path):
 def test_race(tmp_path):
     table = rows(run(tmp_path, "race_scipy.py", "planar/force", "--budget", "1000", "--seeds", "2"))
     assert len(table) == 6
-    for worst, median, best, _ in table.values():
+    for name, (worst, median, best, _, used) in table.items():
         assert 3.2 < worst <= median <= best < 3.4811  # proven
+        assert used == 1000 if name.startswith("SciPy") else used <= 1000

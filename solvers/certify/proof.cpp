@@ -15,6 +15,14 @@
 namespace maxwrench {
 namespace {
 
+/// The gap of a proof is reached up to this share.
+constexpr double kRounding = 1e-6;
+
+/// The gap of a proof, which of a value of zero is infinite unless the bound is zero, too.
+double relative_gap(double bound, double value) {
+  return bound == value ? 0 : (bound - value) / std::abs(value);
+}
+
 /// Replaces the answer of a search by that at a better point, if this one can be verified. It is
 /// still what the search with the bounds found.
 void take_better(const Eigen::VectorXd& theta_r, const Options& options, Answer& answer) {
@@ -57,7 +65,7 @@ CertifyResult prove(const Problem& problem, const Method& method, const Bound& b
 
 double Proof::gap() const {
   if (!answer.has_value()) return kInfinity;
-  return (bound - answer.capability.beta) / std::abs(answer.capability.beta);
+  return relative_gap(bound, answer.capability.beta);
 }
 
 Proof certify(const Problem& task, const Options& options, const ProofOptions& how,
@@ -95,6 +103,8 @@ Proof certify(const Problem& task, const Options& options, const ProofOptions& h
     if (proof.status == Status::kProven) proof.reason = "no posture has a value";
   } else if (!proof.answer.has_value()) {
     static_cast<Verdict&>(proof) = proof.answer;
+  } else if (proof.status == Status::kProven && proof.gap() > how.gap * (1 + kRounding)) {
+    proof.conclude(Status::kBracket, "a better posture could not be verified");
   }
   return proof;
 }
@@ -113,7 +123,7 @@ Proof certify(const Problem& task, const Options& options, const ProofOptions& h
   return proof;
 }
 
-double VerifiedProof::gap() const { return (bound - value) / std::abs(value); }
+double VerifiedProof::gap() const { return relative_gap(bound, value); }
 
 VerifiedProof verify_certificate(const std::filesystem::path& file,
                                  const std::function<Problem(const std::string& name)>& load,

@@ -82,6 +82,9 @@ bool satisfies_program(const Capability& capability);
 /// or why not. For an invalid posture the reason is that of `describe_violation`.
 Verdict verdict_of(const Problem& problem, const Posture& posture, const Capability& capability);
 
+/// Throws std::invalid_argument for tasks and joints (J) that `evaluate_posture` does not support.
+void require_joints(const Problem& task, const Eigen::VectorXd& q);
+
 /// Replaces the scheme of a task in time. Throws std::invalid_argument, which names `key`, unless
 /// the problem is a task in time that has a scheme of this name.
 void set_scheme(const char* key, const std::string& scheme, Problem& problem);

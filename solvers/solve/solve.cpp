@@ -127,21 +127,6 @@ Answer evaluate(std::shared_ptr<const Problem> task, const Method& method,
   return answer;
 }
 
-/// Rejects tasks and joints that `evaluate_posture` does not support.
-void require_joints(const Problem& task, const Eigen::VectorXd& q) {
-  const auto reject = [&task](const std::string& got, const std::string& expected) {
-    throw std::invalid_argument("joints: got " + got + ", expected " + expected + " (" + task.name +
-                                ")");
-  };
-  if (task.motion) reject("a task in time", "a static task");
-  if (task.contact) reject("a task with a second contact", "one without");
-  const std::size_t joints = task.robot.joints.size();
-  if (q.size() != static_cast<Eigen::Index>(joints)) {
-    reject(std::to_string(q.size()) + " numbers", std::to_string(joints));
-  }
-  if (!q.allFinite()) reject("a value that is not a finite number", "finite numbers");
-}
-
 std::vector<CallCount> count_calls(const std::vector<Call>& calls) {
   std::vector<CallCount> counts;
   for (const Call& call : calls) {
@@ -192,6 +177,20 @@ Verdict verdict_of(const Problem& problem, const Posture& posture, const Capabil
     verdict.conclude(Status::kNumericalError, "the answer does not satisfy its program");
   }
   return verdict;
+}
+
+void require_joints(const Problem& task, const Eigen::VectorXd& q) {
+  const auto reject = [&task](const std::string& got, const std::string& expected) {
+    throw std::invalid_argument("joints: got " + got + ", expected " + expected + " (" + task.name +
+                                ")");
+  };
+  if (task.motion) reject("a task in time", "a static task");
+  if (task.contact) reject("a task with a second contact", "one without");
+  const std::size_t joints = task.robot.joints.size();
+  if (q.size() != static_cast<Eigen::Index>(joints)) {
+    reject(std::to_string(q.size()) + " numbers", std::to_string(joints));
+  }
+  if (!q.allFinite()) reject("a value that is not a finite number", "finite numbers");
 }
 
 bool Answer::has_value() const {

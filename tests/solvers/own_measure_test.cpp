@@ -122,7 +122,10 @@ TEST(OwnMeasure, MayHaveNoValueInAPlace) {
   EXPECT_NEAR(answer.beta(), limit, 1e-3);
   Eigen::VectorXd above = problem.theta_r_default;
   above[0] += 1e-3;
-  EXPECT_EQ(evaluate(problem, above, of_measure("own_half")).status, Status::kNumericalError);
+  const Answer none = evaluate(problem, above, of_measure("own_half"));
+  EXPECT_EQ(none.status, Status::kInfeasible);
+  EXPECT_EQ(none.reason.str(), "the measure has no value here");
+  EXPECT_EQ(answer.undecided, 0);
 }
 
 }  // namespace

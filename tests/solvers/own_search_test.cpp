@@ -84,6 +84,8 @@ TEST(OwnSearch, RejectsResultsWithoutMeaning) {
   const int r = load_problem("planar/force").redundancy();
   result.theta_r = Eigen::VectorXd::Constant(r, NAN);
   rejected();
+  result.theta_r = Eigen::VectorXd::Constant(r, 9);  // rad, beyond the limits
+  rejected();
   result.theta_r.setZero(r);
   for (const double value : {std::numeric_limits<double>::quiet_NaN(), kInfinity, -kInfinity}) {
     result.value = value;
@@ -92,6 +94,7 @@ TEST(OwnSearch, RejectsResultsWithoutMeaning) {
   result.value = 1;
   for (const Candidate& start :
        {Candidate{Eigen::VectorXd::Zero(r + 1), 1}, Candidate{Eigen::VectorXd::Constant(r, NAN), 1},
+        Candidate{Eigen::VectorXd::Constant(r, 9), 1},
         Candidate{Eigen::VectorXd::Zero(r), -kInfinity}}) {
     result.starts = {start};
     rejected();

@@ -9,6 +9,7 @@
 
 #include "lib/math/random.h"
 #include "maxwrench/batch.h"
+#include "maxwrench/evaluations.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/trajectory.h"
@@ -191,6 +192,27 @@ TEST(Threads, BatchesOfEvaluationsShareNothing) {
     return result;
   };
   EXPECT_EQ(values(1), values(kThreads));
+}
+
+TEST(Threads, RowsOfPosturesAreThoseOfOneThread) {
+  const Problem problem = load_problem("planar/force");
+  Random random(2);
+  Evaluations::Rows rows(1000, problem.redundancy());
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) rows.row(i) = anywhere(problem, random);
+  Options options;
+  options.threads = 1;
+  const Evaluations one = evaluate_each(problem, rows, options, true);
+  options.threads = kThreads;
+  long finished = 0;
+  options.progress = [&finished](long count) { finished = count; };  // one thread at a time
+  const Evaluations many = evaluate_each(problem, rows, options, true);
+  EXPECT_EQ(finished, rows.rows());
+  EXPECT_EQ(many.status, one.status);
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    if (one.status[static_cast<std::size_t>(i)] != Status::kOptimal) continue;
+    EXPECT_EQ(many.beta[i], one.beta[i]);
+    EXPECT_EQ(Eigen::VectorXd(many.gradient.row(i)), Eigen::VectorXd(one.gradient.row(i)));
+  }
 }
 
 TEST(Threads, ProblemsAreLoadedAtOnce) {

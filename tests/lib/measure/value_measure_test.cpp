@@ -108,13 +108,56 @@ TEST(ValueMeasure, HasTheGradientOfTheMeasureWithThisValue) {
   }
 }
 
+/// NaN says so; an infinity is a mistake.
 TEST(ValueMeasure, HasNoValueWhereTheFunctionIsNotFinite) {
   const Problem problem = load_problem("planar/force");
   for (const double value : {std::nan(""), kInfinity, -kInfinity}) {
     const Capability capability =
         differentiated(problem, [&](const Posture&, const WrenchProgram&) { return value; });
-    EXPECT_EQ(capability.status, Status::kNumericalError);
+    EXPECT_EQ(capability.status, std::isnan(value) ? Status::kInfeasible : Status::kNumericalError);
   }
+}
+
+/// The value sum i J_1i exists at and below the posture only for even i, above it only for i = 1
+/// (mod 4), and otherwise nowhere else.
+TEST(ValueMeasure, TakesOneSidedDifferencesAtTheEdgeOfItsDomain) {
+  const Problem problem = load_problem("uvms/lift");
+  const Posture at = PostureEvaluator(problem).evaluate(problem.theta_r_default);
+  const Capability capability =
+      differentiated(problem, [&](const Posture& posture, const WrenchProgram&) {
+        double sum = 0;
+        for (Eigen::Index i = 0; i < at.J.cols(); ++i) {
+          const double moved = posture.J(1, i) - at.J(1, i);
+          const bool exists = i % 2 == 0 ? moved <= 0 : i % 4 == 1 ? moved >= 0 : moved == 0;
+          if (!exists) return std::nan("");
+          sum += double(i) * posture.J(1, i);
+        }
+        return sum;
+      });
+  ASSERT_EQ(capability.status, Status::kOptimal);
+  for (Eigen::Index i = 0; i < at.J.cols(); ++i) {
+    EXPECT_NEAR(capability.beta_J(1, i), i % 4 == 3 ? 0 : double(i), 1e-8) << i;
+  }
+}
+
+/// A robot whose forces are all a millionth: sin(tau / s) of such a small scale s has the
+/// derivative cos(tau / s) / s.
+TEST(ValueMeasure, StepsFitSmallTorques) {
+  constexpr double kSmall = 1e-6;
+  Problem problem = load_problem("fixed/push");
+  for (Link& link : problem.robot.links) link.mass *= kSmall;
+  for (Joint& joint : problem.robot.joints) joint.effort_max *= kSmall;
+  complete_actuation(problem.robot);
+  const Posture at = PostureEvaluator(problem).evaluate(problem.theta_r_default);
+  ASSERT_GT(at.tau_d.lpNorm<Eigen::Infinity>(), 0);
+  ASSERT_LT(at.tau_d.lpNorm<Eigen::Infinity>(), 1e-3);
+  const double scale = kSmall * 10;
+  const Capability capability =
+      differentiated(problem, [&](const Posture& posture, const WrenchProgram&) {
+        return (posture.tau_d.array() / scale).sin().sum();
+      });
+  const Eigen::VectorXd slopes = (at.tau_d.array() / scale).cos() / scale;
+  EXPECT_LT((capability.lambda - slopes).lpNorm<Eigen::Infinity>(), 1e-4 / scale);
 }
 
 /// Searches without gradients call the function once for each posture.

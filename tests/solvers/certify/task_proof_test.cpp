@@ -8,6 +8,7 @@
 #include "maxwrench/certify.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
+#include "tests/support/coded_tasks.h"
 #include "tests/support/refusals.h"
 #include "tests/support/snake.h"
 #include "tests/support/support.h"
@@ -180,6 +181,49 @@ TEST(CertifyTask, ProvesThatNothingHasAValue) {
   EXPECT_FALSE(proof.answer.has_value());
   EXPECT_EQ(proof.gap(), kInfinity);
   EXPECT_TRUE(proof.certificate.empty());
+}
+
+/// The vehicle floats over the plane, and its vertical thruster carries less than its 10.2 kg: so
+/// something must hold the end effector up. c leans by 0.06, which the horizontal thrusters can
+/// balance in some postures. There the vertical balance gives the value:
+/// beta c_z = 60 N - 10.2 kg g.
+TEST(CertifyTask, ProvesNegativeValues) {
+  Robot robot = vehicle();
+  robot.base_axes = {0, 1, 2, 5};
+  robot.thrusters.push_back({"up", {0, 0, 0}, {0, 0, 1}, -5, 60});
+  TaskSpec spec = push(finalize(robot, vehicle_shapes()));
+  spec.c << 0.06, 0, 1, 0, 0, 0;
+  spec.any.reset();
+  const Problem task = make_problem(spec);
+  const Proof proof = certify(task, {}, to(1e-3, true));
+  ASSERT_TRUE(proof.answer.has_value()) << proof.answer.reason.c_str();
+  EXPECT_EQ(proof.status, Status::kProven) << proof.reason.c_str();
+  const double expected = (60 - 10.2 * robot.gravity) * std::hypot(0.06, 1.0);
+  EXPECT_NEAR(proof.answer.beta(), expected, 1e-9);
+  EXPECT_GE(proof.bound, proof.answer.beta());
+  EXPECT_LE(proof.gap(), 1.0001e-3);
+  const Written written(proof.certificate);
+  const VerifiedProof verified =
+      verify_certificate(written.file(), [&task](const std::string&) { return task; });
+  EXPECT_TRUE(verified.verified()) << verified.rejection;
+  EXPECT_EQ(verified.gap(), proof.gap());
+}
+
+/// Without any effort a vehicle in balance holds still and exerts nothing.
+TEST(CertifyTask, BoundsAValueOfZero) {
+  Robot robot = vehicle();
+  for (Thruster& thruster : robot.thrusters) thruster.force_min = thruster.force_max = 0;
+  for (Joint& joint : robot.joints) joint.effort_max = 0;
+  const Problem task = make_problem(push(finalize(robot, vehicle_shapes())));
+  ProofOptions how = to(1e-3);
+  how.seconds = 2;
+  const Proof proof = certify(task, {}, how);
+  ASSERT_TRUE(proof.answer.has_value()) << proof.answer.reason.c_str();
+  EXPECT_EQ(proof.answer.beta(), 0);
+  EXPECT_GE(proof.bound, 0);
+  EXPECT_LT(proof.bound, 1e-6);
+  EXPECT_EQ(proof.status == Status::kProven, proof.bound == 0) << proof.reason.c_str();
+  EXPECT_EQ(proof.gap(), proof.bound > 0 ? kInfinity : 0);
 }
 
 TEST(CertifyTask, RejectsBadOptions) {
