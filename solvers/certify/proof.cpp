@@ -16,7 +16,7 @@ namespace maxwrench {
 namespace {
 
 /// The gap of a proof is reached up to this share.
-constexpr double kRounding = 1e-6;
+constexpr double kGapRounding = 1e-6;
 
 /// The gap of a proof, which of a value of zero is infinite unless the bound is zero, too.
 double relative_gap(double bound, double value) {
@@ -103,7 +103,7 @@ Proof certify(const Problem& task, const Options& options, const ProofOptions& h
     if (proof.status == Status::kProven) proof.reason = "no posture has a value";
   } else if (!proof.answer.has_value()) {
     static_cast<Verdict&>(proof) = proof.answer;
-  } else if (proof.status == Status::kProven && proof.gap() > how.gap * (1 + kRounding)) {
+  } else if (proof.status == Status::kProven && proof.gap() > how.gap * (1 + kGapRounding)) {
     proof.conclude(Status::kBracket, "a better posture could not be verified");
   }
   return proof;
