@@ -57,7 +57,8 @@ TEST_P(ScenarioAgreement, OfFacetsAndOfSolversOneByOne) {
       options.solver = solver;
       const Answer answer = evaluate(task_, theta_r, options);
       ASSERT_EQ(answer.status, facets.status)
-          << solver << ": " << answer.reason.str() << " / " << facets.reason.str();
+          << theta_r.transpose() << ": " << solver << ": " << answer.reason.str() << " / "
+          << facets.reason.str();
       if (facets.status != Status::kOptimal) continue;
       const double beta = facets.beta();
       EXPECT_NEAR(answer.beta(), beta, 1e-8 * (1 + std::abs(beta))) << solver;
