@@ -260,11 +260,7 @@ TEST(LossInCode, OfAGear) {
   for (const char* name : {"finger", "thumb", "joints"}) {
     task.loss = LossSpec{.any = 1, .actuators = {name}};
     EXPECT_THAT(rejection_of([&] { make_problem(task); }),
-<<<<<<< HEAD
-                HasSubstr("', expected actuators without a gear: a gear connects '"))
-=======
                 HasSubstr("'], expected actuators without a gear: a gear connects '"))
->>>>>>> 84e31b2571482100098f76274a0fb5511757f8e2
         << name;
   }
   task.loss->actuators = {"elbow"};
