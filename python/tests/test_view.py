@@ -19,10 +19,9 @@ def test_it_is_the_page_of_the_command(command, name, budget):
     answer = mw.solve(name, budget=budget, seed=2)
     mine = answer.view().html
     theirs = command("view", name, "--budget", budget, "--seed", 2).stdout
-    # The summary of the search has its time.
-    mine, theirs = (re.sub(r'"(wall_s|seconds)":[-0-9.e]+', "", text) for text in (mine, theirs))
-    assert mine == theirs.removesuffix("\n") or scene_of(mine) == scene_of(theirs)
-    assert len(mine) == pytest.approx(len(theirs), abs=200)
+    # The module may be built after the command.
+    mine, theirs = (re.sub(r'"version":"[^"]*"', "", text) for text in (mine, theirs))
+    assert mine == theirs
 
 
 def test_it_is_written_whole(tmp_path):

@@ -128,6 +128,7 @@ void evaluate_chunks(Eigen::Index size, int threads, const Options& options, Eva
   parallel_for(threads, (rows + size - 1) / size, [&](long chunk) {
     const Eigen::Index begin = chunk * size, end = std::min(rows, begin + size);
     clear_rows(begin, end - begin, result);
+    if (ended) return;
     const auto evaluate_row = make();
     for (Eigen::Index row = begin; row < end; ++row) {
       if (ended || (options.interrupted && options.interrupted())) {
