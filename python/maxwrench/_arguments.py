@@ -2,6 +2,7 @@
 
 import functools
 import inspect
+import math
 import re
 
 from . import _core
@@ -42,7 +43,7 @@ def _explained(function, text, args, kwargs):
 def _signature(function):
     """The signature in the first line of pybind11's docstring."""
     line = function.__doc__.partition("\n")[0]
-    scope = {}
+    scope = {"inf": math.inf}
     exec(f"from __future__ import annotations\ndef {line}: ...", scope)  # noqa: S102
     return inspect.signature(scope[function.__name__])
 
