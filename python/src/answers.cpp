@@ -315,8 +315,8 @@ Returns:
 Raises:
     InputError: the task has no list, the posture is invalid, or n < 1.
 
->>> lift = maxwrench.load("uvms/lift")
->>> unsure = maxwrench.Static(lift.robot, pose=lift.pose, uncertainty={"trim": 0.2})
+>>> push = maxwrench.load("fixed/push")
+>>> unsure = maxwrench.Static(push.robot, uncertainty={"torque": 0.1})
 >>> drawn = maxwrench.evaluate(unsure, unsure.theta_r_default).sample(20)
 >>> drawn["drawn"], drawn["below"]
 (20, 0)

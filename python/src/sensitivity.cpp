@@ -80,10 +80,10 @@ Args:
 Returns:
     Task: the task of the nominal robot; the same one if it has no list of scenarios.
 
->>> lift = maxwrench.load("uvms/lift")
->>> unsure = maxwrench.Static(lift.robot, pose=lift.pose, loss={"any": 1})
->>> known = maxwrench.nominal(unsure)
->>> maxwrench.evaluate(known, known.theta_r_default).decides is None
+>>> push = maxwrench.load("fixed/push")
+>>> weaker = maxwrench.Static(push.robot, uncertainty={"torque": 0.1})
+>>> values = [maxwrench.evaluate(t, t.theta_r_default).beta for t in (weaker, maxwrench.nominal(weaker))]
+>>> values[0] < values[1]
 True
 )";
 

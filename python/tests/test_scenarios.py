@@ -42,7 +42,7 @@ def at_default(task, **options):
 def test_the_scenario_that_decides_has_the_value():
     task = mw.load(str(TASKS / "turn_both_ways.toml"))
     answer = at_default(task)
-    assert answer.decides in ("wrench 1", "wrench 2")
+    assert answer.decides == "wrench 1"  # the first of two equal ones
     ends = answer.scenarios()
     assert [each["name"] for each in ends] == ["wrench 1", "wrench 2"]
     assert answer.beta == pytest.approx(min(each["high"] for each in ends), rel=1e-12)
@@ -264,8 +264,8 @@ def test_what_a_joint_costs():
 
 
 def test_a_loss_without_a_value_is_nan():
-    # The weight of the arm turns a limp joint.
-    cost = mw.sensitivity("fixed/push", actuators="joint_2", budget=10, callback=False)
+    # The weight of the arm turns a limp joint, and a torque about the vertical does nothing about its horizontal axis.
+    cost = mw.sensitivity(static("fixed/push", c="rz"), actuators="joint_2", budget=10, callback=False)
     assert math.isnan(cost.losses[1].at_posture) and math.isnan(cost.losses[1].best)
     assert cost.losses[1].theta_r is None and cost.to_dict()["losses"][1]["best"] is None
     assert cost.losses[0].theta_r.shape == (1,)
