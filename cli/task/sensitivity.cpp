@@ -23,18 +23,6 @@ struct SensitivityOptions : CommonOptions {
   ProblemOptions source;
 };
 
-/// The limits of the intact robot, and those of the loss of each actuator.
-std::vector<ScenarioLimits> losses_of(const SensitivityOptions& options, const Robot& robot) {
-  LossSpec loss = options.loss;
-  loss.any = 1;
-  loss.joints_lock = options.joints == "locked";
-  std::vector<ScenarioLimits> limits;
-  for (const ActuatorLimits& each : actuator_limits(loss, {}, robot)) {
-    limits.push_back({each.name, with_limits(robot.actuation, each.u_min, each.u_max)});
-  }
-  return limits;
-}
-
 /// Bars of the best values, with dashes for the values at the given posture.
 std::string figure_of(const Problem& problem, const Sensitivity& result) {
   BarGroup group{result.all.at_posture.unit, {}};
@@ -55,7 +43,9 @@ int print_sensitivity(const SensitivityOptions& options) {
   require_apart(options.source.inputs(options.choice.problem), {{"--figure", options.figure}});
   const Problem problem = options.source.load(options.choice.problem);
   require_static(problem, "sensitivity");
-  const std::vector<ScenarioLimits> limits = losses_of(options, problem.robot);
+  LossSpec loss = options.loss;
+  loss.joints_lock = options.joints == "locked";
+  const std::vector<ScenarioLimits> limits = limits_of_each_loss(loss, problem.robot);
   CtrlC ctrl_c;
   Options how = options.read_options();
   how.interrupted = ctrl_c.asked();

@@ -130,6 +130,12 @@ Block Block::read(const std::filesystem::path& file) {
   }
 }
 
+Block Block::of(toml::table table) {
+  auto root = std::make_shared<const toml::table>(std::move(table));
+  const toml::table* all = root.get();
+  return Block({}, "", std::move(root), all);
+}
+
 Block Block::inner(std::string path, const toml::table& table) const {
   return Block(file_, std::move(path), root_, &table);
 }

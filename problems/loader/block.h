@@ -20,6 +20,8 @@ class Block {
  public:
   /// Reads the file and returns its root table. Rejects a missing file or a syntax error.
   static Block read(const std::filesystem::path& file);
+  /// A root table of no file.
+  static Block of(toml::table table);
 
   const std::filesystem::path& file() const { return file_; }
   bool has(std::string_view key) const;

@@ -211,4 +211,13 @@ std::vector<ActuatorLimits> actuator_limits(const std::optional<LossSpec>& loss,
   return result;
 }
 
+std::vector<ScenarioLimits> limits_of_each_loss(LossSpec loss, const Robot& robot) {
+  loss.any = 1;
+  std::vector<ScenarioLimits> limits;
+  for (const ActuatorLimits& each : actuator_limits(loss, {}, robot)) {
+    limits.push_back({each.name, with_limits(robot.actuation, each.u_min, each.u_max)});
+  }
+  return limits;
+}
+
 }  // namespace maxwrench

@@ -20,4 +20,7 @@ struct ActuatorLimits {
 std::vector<ActuatorLimits> actuator_limits(const std::optional<LossSpec>& loss,
                                             const UncertaintySpec& uncertainty, const Robot& robot);
 
+/// The limits of the intact robot, and those of the loss of each one of `LossSpec::actuators`.
+std::vector<ScenarioLimits> limits_of_each_loss(LossSpec loss, const Robot& robot);
+
 }  // namespace maxwrench

@@ -35,7 +35,7 @@ from ._view import Page
 for _name, _function in list(vars(_core).items()):
     if not _name.startswith("_") and not isinstance(_function, type) and callable(_function):
         globals()[_name] = _arguments.checked(_function)
-_arguments.check_class(Answer, methods=["explain"])
+_arguments.check_class(Answer, methods=["explain", "sample"])
 _arguments.check_class(Pose, methods=["__init__"], static=["from_matrix"])
 _arguments.check_class(Path, methods=["at"], static=["spline", "screw"])
 _arguments.check_class(Robot, static=["from_urdf", "from_toml"])
@@ -67,6 +67,7 @@ __all__ = [
     "Joint",
     "Limit",
     "Link",
+    "Loss",
     "LpAnswer",
     "Measure",
     "MissingFileError",
@@ -80,6 +81,7 @@ __all__ = [
     "Robot",
     "Search",
     "SearchEnded",
+    "Sensitivity",
     "Shape",
     "Static",
     "Task",
@@ -105,11 +107,13 @@ __all__ = [
     "make_robot",
     "measures",
     "moved",
+    "nominal",
     "polytope",
     "progress",
     "race",
     "scale",
     "searches",
+    "sensitivity",
     "simulate",
     "solve",
     "solvers",

@@ -2,6 +2,7 @@
 
 import functools
 import inspect
+import math
 import re
 
 from . import _core
@@ -33,7 +34,9 @@ def _explained(function, text, args, kwargs):
             types = getattr(_core, kind.rpartition(".")[2], None)
             expected = f"a maxwrench.{kind.rpartition('.')[2]}" if types else f"a {kind.lower()}"
         value = given[name]
-        wrong = types is None or not isinstance(value, types) or (isinstance(value, int) and types is int)
+        # An integer that every integer of C++ holds is not what was rejected.
+        beyond = types is int and isinstance(value, int) and not 0 <= value < 2**31
+        wrong = types is None or not isinstance(value, types) or beyond
         if wrong and not (isinstance(value, bool) and types is bool):
             return bad_value(name, _shortened(value), expected)
     return TypeError(f"{function.__name__}: missing or unknown arguments, expected {signature}")
@@ -42,7 +45,7 @@ def _explained(function, text, args, kwargs):
 def _signature(function):
     """The signature in the first line of pybind11's docstring."""
     line = function.__doc__.partition("\n")[0]
-    scope = {}
+    scope = {"inf": math.inf}
     exec(f"from __future__ import annotations\ndef {line}: ...", scope)  # noqa: S102
     return inspect.signature(scope[function.__name__])
 

@@ -123,6 +123,25 @@ py::list scenarios(const PyAnswer& self) {
   return list;
 }
 
+py::dict sample_of(const PyAnswer& self, long n, std::uint64_t seed) {
+  ScenarioSample sample;
+  {
+    const py::gil_scoped_release release;
+    sample = sample_scenarios(self.answer, n, seed);
+  }
+  py::dict numbers;
+  numbers["drawn"] = sample.drawn;
+  numbers["infeasible"] = sample.infeasible;
+  numbers["least"] = sample.least;
+  numbers["q01"] = sample.q01;
+  numbers["q05"] = sample.q05;
+  numbers["median"] = sample.median;
+  numbers["below"] = sample.below;
+  numbers["guaranteed"] = sample.guaranteed;
+  numbers["unit"] = sample.unit;
+  return numbers;
+}
+
 py::dict solutions_of(const PyAnswer& self) {
   const IkCounts& counts = self.answer.ik_solutions;
   py::dict numbers;
@@ -276,6 +295,31 @@ does not exist is None.
 Returns a list of dicts with ``name``, ``low``, ``high`` (infinite where there is no end) and
 ``held``: whether the interval has a point. Raises InputError if the task has no list of scenarios
 or the posture is invalid.
+)")
+      .def("sample", &sample_of, py::arg("n"), py::arg("seed") = 0,
+           R"(Draws n models of a task with a list of scenarios, at this posture.
+
+Every width is uniform; a current and a loss are drawn from theirs. A sample proves nothing, but no
+value is below a guaranteed one.
+
+Args:
+    n: the number of models, at least 1.
+    seed: of the random numbers.
+
+Returns:
+    dict: ``drawn`` and, of these, ``infeasible``; ``least``, ``q01``, ``q05`` and ``median``: the
+    least value and the quantiles 1 %, 5 % and 50 % [unit]; ``guaranteed``, the value for all
+    models [unit], and ``below``, how many are below it; ``unit``. A model without a value counts
+    as minus infinity.
+
+Raises:
+    InputError: the task has no list, the posture is invalid, or n < 1.
+
+>>> push = maxwrench.load("fixed/push")
+>>> unsure = maxwrench.Static(push.robot, uncertainty={"torque": 0.1})
+>>> drawn = maxwrench.evaluate(unsure, unsure.theta_r_default).sample(20)
+>>> drawn["drawn"], drawn["below"]
+(20, 0)
 )")
       .def_property_readonly("theta_r", &theta_r, "The posture (r), or the knots (k×r) [rad or m].")
       .def_property_readonly(

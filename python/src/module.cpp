@@ -19,6 +19,7 @@ PYBIND11_MODULE(_core, m) {
   python::add_answers(m);
   python::add_evaluations(m);
   python::add_solve(m);
+  python::add_sensitivity(m);
   python::add_capability(m);
   python::add_linear_programs(m);
   python::add_tank(m);

@@ -59,6 +59,9 @@ py::tuple answer_state(const PyAnswer& self);
 PyAnswer answer_from_state(const py::tuple& state);
 /// The second contact of a task: a maxwrench.Contact.
 ContactSpec contact_in(const py::object& value);
+/// Reads the dicts of a task that have the keys of a task file: those of its table `[wrench]`, and
+/// the tables `uncertainty`, `loss` and `payload`, for the robot of `spec`.
+void read_scenario_arguments(const py::dict& wrench, const py::dict& tables, TaskSpec& spec);
 /// The homogeneous matrix of a pose (4×4).
 RowMatrix matrix_of(const Pose<double>& pose);
 /// Adds the method `explain`.
@@ -74,6 +77,7 @@ void add_robot_parts(py::module_& m);
 void add_paths(py::module_& m);
 void add_tasks(py::module_& m);
 void add_explanations(py::module_& m);
+void add_sensitivity(py::module_& m);
 void add_answers(py::module_& m);
 void add_solve(py::module_& m);
 void add_evaluations(py::module_& m);

@@ -55,8 +55,35 @@ void read_pose(py::dict& arguments, const Robot& robot, TaskSpec& spec) {
   }
 }
 
-void read_wrench(py::dict& arguments, TaskSpec& spec) {
-  spec.c = direction_in("c", taken(arguments, "c", py::str("z")));
+/// The arguments of these names that are given; they leave `arguments`.
+py::dict given_of(py::dict& arguments, std::initializer_list<const char*> names) {
+  py::dict given;
+  for (const char* name : names) {
+    const py::object value = taken(arguments, name);
+    if (!value.is_none() && !value.is(py::bool_(false))) given[name] = value;
+  }
+  return given;
+}
+
+/// Reads c, or what a static task has in place of it or beside it. Without any of them c is "z".
+void read_scenarios(py::dict& arguments, TaskSpec& spec) {
+  const py::dict tables = given_of(arguments, {"uncertainty", "loss", "payload"});
+  py::dict wrench = given_of(arguments, {"set", "ball", "hold"});
+  const bool needs_c =
+      !wrench.contains("set") && !wrench.contains("ball") && !tables.contains("payload");
+  if (needs_c || arguments.contains("c")) {
+    const Vector6d c = direction_in("c", taken(arguments, "c", py::str("z")));
+    wrench["c"] = copy(Eigen::VectorXd(c));
+  }
+  read_scenario_arguments(wrench, tables, spec);
+}
+
+void read_wrench(py::dict& arguments, bool in_time, TaskSpec& spec) {
+  if (in_time) {
+    spec.c = direction_in("c", taken(arguments, "c", py::str("z")));
+  } else {
+    read_scenarios(arguments, spec);
+  }
   const std::string axes = text_in("frame", taken(arguments, "frame", py::str("world")));
   if (axes != "world" && axes != "end_effector") {
     throw BadValue("frame", shown(axes), "world or end_effector");
@@ -104,7 +131,7 @@ TaskSpec begin_spec(const PyRobot& robot, py::dict& arguments, bool in_time) {
     const py::object contact = taken(arguments, "contact");
     if (!contact.is_none()) spec.contact = contact_in(contact);
   }
-  read_wrench(arguments, spec);
+  read_wrench(arguments, in_time, spec);
   read_theta_r(arguments, spec);
   return spec;
 }
@@ -271,8 +298,21 @@ Args:
         robot (``robot.states``), that put the end effector there. Without either, the joints at
         rest, or another posture from which the end effector moves freely.
     c: direction [force; torque] (6) of the wrench that the robot exerts, of any length, or "x",
-        "y", "z", "rx", "ry", "rz" with a sign if need be. Default: "z", a lift.
-    frame: axes of c, any and desired: "world", or "end_effector", with which they turn.
+        "y", "z", "rx", "ry", "rz" with a sign if need be. Default: "z", a lift, unless set, ball
+        or payload is given.
+    set: in place of c, several wrenches [force; torque] (N×6), which keep their lengths [N; N m].
+        The value is the factor by which each of them can be exerted.
+    ball: axes and radius [N or N m], as ``(["fx", "fy"], 0.5)`` or a dict: a ball of forces or of
+        torques that is added to c or to each wrench of set, or stands alone.
+    hold: whether the robot must also hold its posture without a wrench.
+    uncertainty: what is not known, a dict with the keys of the table ``[uncertainty]`` of a task
+        file: half widths of mass [kg], com [m], volume [m^3] and cob [m] by link; trim [kg],
+        payload, thrust and torque (shares), current.
+    loss: the actuators that may be lost, a dict with the keys of ``[loss]``: any and actuators, or
+        cases; joints, friction, brake.
+    payload: in place of a wrench, a dict with the keys of ``[payload]``: com [m], volume_per_kg
+        [m^3/kg], cob [m]. The value is a mass [kg].
+    frame: axes of c, set, ball, any and desired: "world", or "end_effector", with which they turn.
     any: the wrenches that ``wrench="any"`` allows, of fx, fy, fz, tx, ty, tz. Default: all that do
         work.
     end_effector: its name; not needed if the robot has one.
@@ -295,6 +335,9 @@ Raises:
 
 >>> push = maxwrench.load("fixed/push")
 >>> task = maxwrench.Static(push.robot, pose=push.pose, c="-x")
+>>> carry = maxwrench.Static(push.robot, pose=push.pose, payload={"com": [0, 0, 0.1]})
+>>> carry.unit
+'kg'
 )";
 
 constexpr const char* kTrajectory = R"(Makes a task in time: a wrench along a path.
@@ -306,7 +349,8 @@ Args:
     scheme: how knots become a motion: "spline", "forward" or "ends".
     instants_per_interval: for the scheme "spline".
     rates: whether limits of the rates of efforts apply.
-    others: as of ``Static``, but for pose, joints, free, range, along and contact.
+    others: as of ``Static``, but for pose, joints, free, range, along, contact, and the arguments
+        from set to payload.
 
 Raises:
     InputError: a value is wrong.
@@ -364,7 +408,8 @@ void add_tasks(py::module_& m) {
           "The name of the end effector.")
       .def_property_readonly(
           "unit", [](const PyTask& t) { return t.problem->unit(); },
-          "The unit of beta: N, N m or mixed.")
+          "The unit of beta: N, N m, mixed of one wrench of both, kg of a payload, or - of a "
+          "factor.")
       .def_property_readonly(
           "c", [](const PyTask& t) { return copy(Eigen::VectorXd(t.problem->c)); },
           "Unit direction [force; torque] of the wrench in the world (6).")

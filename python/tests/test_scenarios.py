@@ -1,20 +1,48 @@
-"""Lists of scenarios: several wrenches, uncertain loads, lost actuators."""
+"""Lists of scenarios: several wrenches, uncertain loads, lost actuators, payloads."""
 
 import math
+import os
 import pathlib
 import pickle
+import signal
+import threading
+import time
 
+import numpy as np
 import pytest
 
 import maxwrench as mw
 
 TASKS = pathlib.Path(__file__).parents[2] / "examples" / "tasks"
+BOTH_SENSES = [[0, 0, 0, 0, 0, 1], [0, 0, 0, 0, 0, -1]]
+STEEL = {"com": [0.05, 0, 0.02], "volume_per_kg": 1 / 7850}
+# 64 corners.
+PARAMETERS = {
+    "trim": 0.2,
+    "cob": {"vehicle": [0.005, 0, 0.005]},
+    "mass": {"link_2": 0.038, "link_4": 0.1},
+    "com": {"link_2": [0.01, 0, 0]},
+}
+
+
+def static(like="uvms/lift", **arguments):
+    """The shipped task with other arguments."""
+    task = mw.load(like)
+    if not {"c", "set", "ball", "payload"} & set(arguments):
+        arguments["c"] = task.c
+    return mw.Static(
+        task.robot, pose=task.pose, theta_r=task.theta_r_names, theta_r_default=task.theta_r_default, **arguments
+    )
+
+
+def at_default(task, **options):
+    return mw.evaluate(task, task.theta_r_default, **options)
 
 
 def test_the_scenario_that_decides_has_the_value():
     task = mw.load(str(TASKS / "turn_both_ways.toml"))
-    answer = mw.evaluate(task, task.theta_r_default)
-    assert answer.decides == "wrench 1"
+    answer = at_default(task)
+    assert answer.decides == "wrench 1"  # the first of two equal ones
     ends = answer.scenarios()
     assert [each["name"] for each in ends] == ["wrench 1", "wrench 2"]
     assert answer.beta == pytest.approx(min(each["high"] for each in ends), rel=1e-12)
@@ -24,21 +52,252 @@ def test_the_scenario_that_decides_has_the_value():
 
 def test_a_payload_is_a_mass():
     task = mw.load(str(TASKS / "carry_steel.toml"))
-    answer = mw.evaluate(task, task.theta_r_default)
-    assert answer.unit == "kg"
+    answer = at_default(task)
+    assert answer.unit == task.unit == "kg"
     assert answer.beta == pytest.approx(3.0103, abs=1e-3)
     assert answer.decides == "nominal"
 
 
-def test_an_ordinary_task_has_no_scenarios():
+def test_an_ordinary_task_has_no_scenarios(rejects):
     answer = mw.evaluate("planar/force", [0, 0])
     assert answer.decides is None
-    with pytest.raises(mw.InputError, match="scenarios: got a task without a list"):
-        answer.scenarios()
+    assert "scenarios: got a task without a list" in str(rejects(answer.scenarios))
+    assert "sample: got a task without a list" in str(rejects(answer.sample, 10))
 
 
 def test_no_scenario_is_without_a_name():
-    task = mw.load(str(TASKS / "lift_with_a_dead_thruster.toml"))
-    ends = mw.evaluate(task, task.theta_r_default).scenarios()
+    ends = at_default(mw.load(str(TASKS / "lift_with_a_dead_thruster.toml"))).scenarios()
     assert ends[0]["name"] == "nominal" and len(ends) == 9
     assert all(math.isfinite(each["high"]) for each in ends)
+
+
+# Values of an independent computation, which solves a program for each scenario.
+@pytest.mark.parametrize(
+    "like, arguments, beta",
+    [
+        ("uvms/valve", {"set": BOTH_SENSES}, 9.0),
+        ("uvms/valve", {"set": np.array(BOTH_SENSES)}, 9.0),
+        ("uvms/valve", {"set": [np.array(BOTH_SENSES[0]), tuple(BOTH_SENSES[1])]}, 9.0),
+        ("uvms/valve", {"set": [s * np.eye(6)[i] for i in (0, 1) for s in (1, -1)]}, 30.67224),
+        ("uvms/valve", {"ball": (["fx", "fy"], 1)}, 30.67224),
+        ("uvms/valve", {"ball": ("fx,fy", np.float64(1))}, 30.67224),
+        ("uvms/valve", {"ball": {"axes": ["fx", "fy"], "radius": 1}}, 30.67224),
+        ("uvms/valve", {"c": "x", "ball": (["fy", "fz"], math.tan(math.radians(20)))}, 40.64043),
+        ("uvms/valve", {"uncertainty": PARAMETERS}, 9.0),
+        ("uvms/lift", {"uncertainty": PARAMETERS}, 26.95465),
+        ("uvms/lift", {"uncertainty": PARAMETERS | {"thrust": 0.1}}, 23.88186),
+        ("uvms/valve", {"uncertainty": {"current": {"speed": 0.3}}}, 8.94623),
+        ("uvms/lift", {"uncertainty": {"current": {"speed": 0.3, "directions": 72}}}, 29.81347),
+        ("uvms/lift", {"loss": {"any": 1}}, 14.55665),
+        ("uvms/lift", {"loss": {"any": 1, "actuators": ["thrusters"]}}, 14.55665),
+        ("uvms/lift", {"loss": {"cases": [[name] for name in mw.load("uvms/lift").robot.thruster_names]}}, 14.55665),
+        ("uvms/lift", {"payload": STEEL}, 3.010312),
+        ("uvms/lift", {"payload": STEEL | {"cob": [0.05, 0, 0.02]}}, 3.010312),
+    ],
+)
+def test_tasks_made_in_code(like, arguments, beta):
+    task = static(like, **arguments)
+    answer = at_default(task)
+    assert answer.beta == pytest.approx(beta, abs=5e-5 if beta > 5 else 5e-7)
+    assert answer.decides is not None
+    again = pickle.loads(pickle.dumps(task))
+    assert at_default(again).beta == answer.beta
+
+
+@pytest.mark.parametrize(
+    "file, like, arguments",
+    [
+        ("turn_both_ways", "uvms/valve", {"set": BOTH_SENSES}),
+        ("carry_steel", "uvms/lift", {"payload": {"com": [0.05, 0, 0.02], "volume_per_kg": 1.274e-4}}),
+        ("lift_with_a_dead_thruster", "uvms/lift", {"loss": {"any": 1}}),
+    ],
+)
+def test_a_task_made_in_code_is_that_of_the_file(file, like, arguments):
+    made, read = static(like, **arguments), mw.load(TASKS / f"{file}.toml")
+    assert made.unit == read.unit
+    assert at_default(made).beta == at_default(read).beta
+    assert at_default(made, wrench="any").beta == at_default(read, wrench="any").beta
+
+
+def test_a_share_of_the_nominal_mass():
+    arguments = [{"uncertainty": {"mass": {"link_4": width}}} for width in ("50%", "0%")]
+    weaker, same = (at_default(static(**each)).beta for each in arguments)
+    assert weaker < same == pytest.approx(at_default(mw.load("uvms/lift")).beta, rel=1e-9)
+
+
+def test_hold_adds_the_posture_without_a_wrench():
+    ends = at_default(static(c="z", hold=True)).scenarios()
+    assert ends[-1]["name"] == "hold" and len(ends) == 2
+    assert static(payload=STEEL, hold=False).unit == "kg"
+
+
+def test_the_value_is_a_factor_of_wrenches_that_keep_their_lengths():
+    one, two = (at_default(static("uvms/valve", set=k * np.array(BOTH_SENSES))) for k in (1, 2))
+    assert (one.unit, two.unit) == ("N m", "-")
+    assert two.beta == pytest.approx(one.beta / 2, rel=1e-9)
+
+
+# A locked joint, and one that resists 0.5 N m and so decides.
+def test_lost_joints():
+    joint = ["q1_shoulder_yaw"]
+    for how, beta in (({"joints": "locked"}, 30.16518), ({"friction": 0.5}, 0.5)):
+        loss = {"cases": [joint]} | how
+        lost = [e["high"] for e in at_default(static("uvms/valve", loss=loss)).scenarios() if e["name"] != "nominal"]
+        assert lost == [pytest.approx(beta, abs=5e-6)]
+
+
+@pytest.mark.parametrize(
+    "arguments, key, expected",
+    [
+        ({"uncertainty": {"masss": {"link_4": 0.1}}}, "uncertainty.masss", "mass, com, volume"),
+        ({"uncertainty": {"mass": {"link_9": 0.1}}}, "uncertainty.mass.link_9", "link_4"),
+        ({"uncertainty": {"mass": {"link_4": -0.1}}}, "uncertainty.mass.link_4", ">= 0"),
+        ({"uncertainty": {"mass": {"link_4": "5 percent"}}}, "uncertainty.mass.link_4", "5%"),
+        ({"uncertainty": {"mass": {"link_4": math.nan}}}, "uncertainty.mass.link_4", "finite"),
+        ({"uncertainty": {"mass": {"link_4": 0.1j}}}, "uncertainty.mass.link_4", "a number"),
+        ({"uncertainty": {"mass": {4: 0.1}}}, "uncertainty.mass.keys", "a text"),
+        ({"uncertainty": {"com": {"link_4": [0.1, 0]}}}, "uncertainty.com.link_4", "3 finite numbers"),
+        ({"uncertainty": {"payload": {"com": [0, 0, 0]}}}, "uncertainty.payload.mass", "finite"),
+        ({"uncertainty": {"payload": {"mas": 1}}}, "uncertainty.payload.mas", "mass, com"),
+        ({"uncertainty": {"thrust": 1}}, "uncertainty.thrust", "below 1"),
+        ({"uncertainty": {"current": {"speed": 0.3, "vectors": [[1, 0, 0]]}}}, "uncertainty.current.speed", "beside"),
+        ({"uncertainty": {"current": {"knots": 1}}}, "uncertainty.current.knots", "speed"),
+        ({"uncertainty": {}}, "uncertainty", "one or more keys"),
+        ({"uncertainty": 0.1}, "uncertainty", "a table"),
+        ({"loss": {"most": 1}}, "loss.most", "any, actuators, cases"),
+        ({"loss": {"any": 0}}, "loss.any", "a whole number"),
+        ({"loss": {"any": 9}}, "loss.any", "1 to 8"),
+        ({"loss": {"actuators": ["thrusters"]}}, "loss.any", "finite"),
+        ({"loss": {"any": 1, "cases": [["thrusters"]]}}, "loss.any", "beside loss.cases"),
+        ({"loss": {"any": 1, "actuators": ["rudder"]}}, "loss.actuators", "front_right_vertical"),
+        ({"loss": {"any": 1, "joints": "stuck"}}, "loss.joints", "'limp' or 'locked'"),
+        ({"loss": {"any": 1, "joints": "locked", "friction": 1}}, "loss.friction", "locked"),
+        ({"payload": {"mass": 1}}, "payload.mass", "com, volume_per_kg"),
+        ({"payload": {"volume_per_kg": 0}}, "payload.com", "3 finite numbers"),
+        ({"payload": STEEL, "c": "z"}, "wrench", "payload"),
+        ({"payload": STEEL, "hold": True}, "wrench", "payload"),
+        ({"set": []}, "wrench.set", "6 finite numbers"),
+        ({"set": np.zeros((2, 5))}, "wrench.set", "6 finite numbers"),
+        ({"set": np.zeros((1, 6))}, "wrench.set[0]", "nonzero length"),
+        ({"set": [1, 0, 0, 0, 0, 0]}, "wrench.set", "6 finite numbers"),
+        ({"set": "z"}, "wrench.set", "6 finite numbers"),
+        ({"set": BOTH_SENSES, "c": "z"}, "wrench.c", "beside wrench.set"),
+        ({"ball": (["fx", "tz"], 1)}, "wrench.ball.axes", "not both"),
+        ({"ball": (["fx"], 0)}, "wrench.ball.radius", "> 0"),
+        ({"ball": (["fx"],)}, "wrench.ball", "(axes, radius)"),
+        ({"ball": {"axes": ["fx"], "radius": 1, "centre": 0}}, "wrench.ball.centre", "axes, radius"),
+        ({"c": np.zeros(6), "ball": (["fx"], 1)}, "wrench.c", "nonzero length"),
+        ({"hold": "yes"}, "wrench.hold", "true or false"),
+    ],
+)
+def test_wrong_arguments(arguments, key, expected, rejects):
+    error = rejects(static, **arguments)
+    assert error.key == key and expected in str(error) and error.file is None
+
+
+def test_nested_lists_without_end_are_rejected(rejects):
+    endless = []
+    endless.append(endless)
+    rejects(static, loss={"cases": endless})
+
+
+def test_tasks_in_time_have_no_lists():
+    task = mw.load("planar/trajectory")
+    path = mw.Path.screw(task.pose, 2, angle=0.1)
+    with pytest.raises(TypeError, match="unexpected argument 'loss'"):
+        mw.Trajectory(task.robot, path, 4, loss={"any": 1})
+
+
+def test_the_nominal_task():
+    lift = mw.load("uvms/lift")
+    for task in (static(loss={"any": 1}, uncertainty=PARAMETERS), lift):
+        known = mw.nominal(task)
+        assert at_default(known).beta == at_default(lift).beta
+        assert at_default(known).decides is None
+        assert at_default(pickle.loads(pickle.dumps(known))).beta == at_default(known).beta
+    turned = mw.nominal(static("uvms/valve", set=BOTH_SENSES, loss={"any": 1}))
+    assert [each["name"] for each in at_default(turned).scenarios()] == ["wrench 1", "wrench 2"]
+    assert at_default(mw.nominal(static(payload=STEEL, uncertainty=PARAMETERS))).beta == pytest.approx(3.010312, abs=5e-7)
+    assert mw.nominal("uvms/lift").digest == lift.digest
+
+
+def test_no_sample_is_below_the_guaranteed_value():
+    answer = at_default(static(uncertainty=PARAMETERS | {"thrust": 0.1}))
+    sample = answer.sample(200, seed=3)
+    assert sample["drawn"] == 200 and sample["infeasible"] == sample["below"] == 0 and sample["unit"] == "N"
+    assert sample["guaranteed"] == pytest.approx(answer.beta, rel=1e-9)
+    assert sample["guaranteed"] <= sample["least"] <= sample["q01"] <= sample["q05"] <= sample["median"]
+    assert answer.sample(n=200, seed=3) == sample != answer.sample(200)
+
+
+def test_samples_that_are_rejected(rejects):
+    answer = at_default(static(uncertainty={"trim": 0.2}))
+    assert "1 or more" in str(rejects(answer.sample, 0))
+    assert "n: " in str(rejects(answer.sample, "many"))
+    assert "n: " in str(rejects(answer.sample, 1.5))
+    assert "seed: " in str(rejects(answer.sample, 1, seed=-1))
+
+
+def test_what_a_dead_thruster_costs():
+    cost = mw.sensitivity("uvms/valve", actuators="front_right_vertical", budget=8000, callback=False)
+    assert [loss.name for loss in cost.losses] == ["", "front_right_vertical dead"]
+    intact, dead = cost.losses
+    assert intact.at_posture == pytest.approx(9, abs=1e-6) and intact.best == pytest.approx(35.4083, rel=1e-3)
+    assert dead.best == pytest.approx(24.8078, rel=1e-3)  # proven to 0.1 %
+    assert cost.all.at_posture == pytest.approx(min(intact.at_posture, dead.at_posture), rel=1e-9)
+    assert cost.all.best <= dead.best * (1 + 1e-3) and cost.unit == "N m"
+    # A dead thruster is worse than the intact robot everywhere, so the best posture is the same.
+    listed = static("uvms/valve", loss={"cases": [["front_right_vertical"]]})
+    assert mw.evaluate(listed, dead.theta_r).beta == pytest.approx(dead.best, rel=1e-6)
+    assert cost.to_dict()["losses"][1]["best"] == dead.best
+    assert "front_right_vertical dead" in cost.summary() == str(cost) and "2" not in repr(cost).partition(":")[0]
+
+
+def test_what_a_joint_costs():
+    posture = mw.load("uvms/valve").theta_r_default
+    options = {"actuators": ["q1_shoulder_yaw"], "budget": 20, "callback": False}
+    locked = mw.sensitivity("uvms/valve", posture, joints="locked", **options)
+    assert locked.losses[1].name == "q1_shoulder_yaw locked"
+    assert locked.losses[1].at_posture == pytest.approx(30.16518, abs=5e-6)
+    limp = mw.sensitivity("uvms/valve", posture, friction=0.5, **options)
+    assert limp.losses[1].at_posture == pytest.approx(0.5, abs=1e-6)
+
+
+def test_a_loss_without_a_value_is_nan():
+    # The weight of the arm turns a limp joint, and a torque about the vertical does nothing about its horizontal axis.
+    cost = mw.sensitivity(static("fixed/push", c="rz"), actuators="joint_2", budget=10, callback=False)
+    assert math.isnan(cost.losses[1].at_posture) and math.isnan(cost.losses[1].best)
+    assert cost.losses[1].theta_r is None and cost.to_dict()["losses"][1]["best"] is None
+    assert cost.losses[0].theta_r.shape == (1,)
+
+
+@pytest.mark.parametrize(
+    "task, arguments, line",
+    [
+        ("planar/force", {"actuators": "rudder"}, "loss.actuators: got ['rudder']"),
+        ("planar/force", {"actuators": "elbow", "joints": "stuck"}, "joints: got 'stuck', expected limp or locked"),
+        ("planar/force", {"actuators": "elbow", "friction": -1}, "loss.friction: got -1"),
+        ("planar/force", {"actuators": "elbow", "joints": "locked", "brake": 0}, "loss.brake: got 0"),
+        ("planar/force", {"theta_r": [0]}, "theta_r: got"),
+        ("planar/force", {"theta_r": [0, math.nan]}, "theta_r: got"),
+        ("planar/force", {"actuators": 1}, "actuators: got a int"),
+        ("planar/force", {"friction": "none"}, "friction: got 'none', expected a number"),
+        ("planar/trajectory", {}, "a task in time, expected a static task"),
+        ("dual_arm/two_arms", {"actuators": "joints"}, "expected a static task with one contact"),
+    ],
+)
+def test_sensitivity_rejects(task, arguments, line, rejects):
+    assert line in str(rejects(mw.sensitivity, task, **arguments))
+
+
+def test_ctrl_c_ends_all_searches():
+    sent = []
+
+    def send():
+        sent.append(time.perf_counter())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    threading.Timer(0.4, send).start()
+    cost = mw.sensitivity("uvms/valve", budget=100_000_000, callback=False)
+    assert time.perf_counter() - sent[0] < 5
+    assert math.isfinite(cost.losses[0].best) and math.isnan(cost.all.best)
