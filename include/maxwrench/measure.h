@@ -124,13 +124,13 @@ std::unique_ptr<Measure> make_scenario_polytope(const Problem& problem, Wrench w
 /// Makes a measure from a function that gives the value alone.
 ///
 /// The derivatives by tau_d and J, with a second contact also by J_2 and C_2, are central
-/// differences of the function. They cost two calls for each entry, 14 n without a second contact,
-/// wherever a gradient is wanted; searches without gradients do not need them. The differences
-/// change nothing else: a value that also depends on `Posture::q`, on the base or on the links has
-/// a gradient without that part. For such a value choose a search without gradients.
+/// differences of the function, one-sided beside NaN. They cost two calls for each entry, 14 n
+/// without a second contact, wherever a gradient is wanted; other searches do not need them. The
+/// differences change nothing else: a value that also depends on `Posture::q`, on the base or on the
+/// links has a gradient without that part. For such a value choose a search without gradients.
 ///
 /// @param value  returns the value at a posture with its wrench program, or NaN where there is
-///               none. Each thread calls a copy of it.
+///               none (kInfeasible). Each thread calls a copy of it.
 std::unique_ptr<Measure> make_value_measure(
     std::function<double(const Posture&, const WrenchProgram&)> value);
 

@@ -164,7 +164,7 @@ void add_measure(MeasureEntry entry);
 /// @param entry  the search
 /// @throws std::invalid_argument as `add_measure`, and if `budget_fraction` is not from 0 to 1 or
 ///         `cost` is less than 1. Later, if the search makes no evaluation without being
-///         interrupted or more than its budget, or if its theta_r has the wrong size.
+///         interrupted or more than its budget, or if a point is beyond the bounds or malformed.
 void add_search(SearchEntry entry);
 
 /// Returns whether the entry with this name needs a library that only one thread may use at a time.
