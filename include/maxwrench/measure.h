@@ -126,8 +126,8 @@ std::unique_ptr<Measure> make_scenario_polytope(const Problem& problem, Wrench w
 /// The derivatives by tau_d and J, with a second contact also by J_2 and C_2, are central
 /// differences of the function, one-sided beside NaN. They cost two calls for each entry, 14 n
 /// without a second contact, wherever a gradient is wanted; other searches do not need them. The
-/// differences change nothing else: a value that also depends on `Posture::q`, on the base or on the
-/// links has a gradient without that part. For such a value choose a search without gradients.
+/// differences change nothing else: a value that also depends on `Posture::q`, on the base or on
+/// the links has a gradient without that part. Choose a search without gradients for such a value.
 ///
 /// @param value  returns the value at a posture with its wrench program, or NaN where there is
 ///               none (kInfeasible). Each thread calls a copy of it.

@@ -179,7 +179,8 @@ struct FacetProgram::Workspace {
 
 bool has_facet_program(const Problem& problem) {
   const Zonotope& actuation = problem.robot.actuation;
-  return !problem.motion && problem.scenarios.empty() && actuation.has_facets && actuation.facet_pairs() <= kMostPairs;
+  return !problem.motion && problem.scenarios.empty() && actuation.has_facets &&
+         actuation.facet_pairs() <= kMostPairs;
 }
 
 FacetProgram::FacetProgram(const Problem& problem, Wrench wrench, const MeasureMaker& make,

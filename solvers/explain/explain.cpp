@@ -1,4 +1,3 @@
-#include "lib/scenario/scenario_list.h"
 #include "maxwrench/explain.h"
 
 #include <fmt/format.h>
@@ -6,6 +5,7 @@
 #include <stdexcept>
 
 #include "lib/robot/kinematics.h"
+#include "lib/scenario/scenario_list.h"
 #include "solvers/explain/parts.h"
 
 namespace maxwrench {

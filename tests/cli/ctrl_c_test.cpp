@@ -22,8 +22,8 @@ CommandResult interrupt(const std::string& words, const std::filesystem::path& f
                        folder);
 }
 
-/// The answer to a command that is interrupted once it has found a value. How long that takes depends
-/// on the machine, so it gets more time if it has found none.
+/// The answer to a command that is interrupted once it has found a value. How long that takes
+/// depends on the machine, so it gets more time if it has found none.
 json interrupted_answer(const std::string& words, const std::filesystem::path& folder) {
   json answer;
   for (const char* seconds : {"1", "5", "25"}) {
