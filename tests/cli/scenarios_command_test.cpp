@@ -53,6 +53,18 @@ TEST(ScenariosCommand, SensitivityRanksThrusters) {
   EXPECT_THAT(read_text(folder.path() / "losses.svg"), HasSubstr("front_left_vertical dead"));
 }
 
+/// Pictures show the value of the list, with the efforts of the scenario that decides.
+TEST(ScenariosCommand, PicturesHaveTheValueOfTheList) {
+  const TemporaryFolder folder;
+  const std::string task = "examples/tasks/lift_with_a_dead_thruster.toml", beta = "14.56 N";
+  const std::string svg = (folder.path() / "a.svg").string(),
+                    html = (folder.path() / "a.html").string();
+  EXPECT_EQ(run_maxwrench("plot " + task + " --out " + svg).exit_status, 0);
+  EXPECT_THAT(read_text(svg), HasSubstr(beta));
+  EXPECT_EQ(run_maxwrench("view " + task + " --out " + html).exit_status, 0);
+  EXPECT_THAT(read_text(html), HasSubstr("14.556"));
+}
+
 struct Refusal {
   const char *words, *line;
 };
@@ -77,8 +89,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"eval examples/tasks/turn_both_ways.toml --measure ellipsoid", "measure"},
         Refusal{"eval examples/tasks/turn_both_ways.toml --explain", "explain: got"},
         Refusal{"eval examples/tasks/turn_both_ways.toml --write x.mps", "--write: got"},
-        Refusal{"plot examples/tasks/turn_both_ways.toml --out x.svg", "list of scenarios"},
-        Refusal{"view examples/tasks/turn_both_ways.toml --out x.html", "list of scenarios"},
+        Refusal{"plot examples/tasks/turn_both_ways.toml --style outline --out x.svg",
+                "list of scenarios"},
         Refusal{"simulate examples/tasks/turn_both_ways.toml", "list of scenarios"},
         Refusal{"certify examples/tasks/turn_in_current.toml", "certify: got currents"},
         Refusal{"certify examples/tasks/turn_both_ways.toml --certificate x.proof",
