@@ -209,7 +209,7 @@ struct Robot {
   Pose<double> mount;
   std::vector<Link> links;  ///< the base, then one link for each joint
   /// The bodies of the links, which add up to them. `finalize` makes one of each link if there are
-  /// none, and again if they are the links. Clear others before you change a link.
+  /// none; who changes a link of a complete robot clears them.
   std::vector<BodyPart> parts;
   std::vector<Joint> joints;               ///< the joints
   std::vector<Thruster> thrusters;         ///< the thrusters

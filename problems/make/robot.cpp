@@ -210,21 +210,8 @@ void check_sums(const Robot& robot) {
   }
 }
 
-/// Whether the parts are the links themselves, as `finalize` makes them.
-bool parts_are_links(const Robot& robot) {
-  if (robot.parts.size() != robot.links.size()) return robot.parts.empty();
-  for (std::size_t i = 0; i < robot.links.size(); ++i) {
-    const BodyPart& part = robot.parts[i];
-    const bool same = part.name == robot.links[i].name && part.link == static_cast<int>(i) &&
-                      part.frame.R.isIdentity(0) && part.frame.p.isZero(0);
-    if (!same) return false;
-  }
-  return true;
-}
-
 void check_parts(Robot& robot) {
-  if (parts_are_links(robot)) {
-    robot.parts.clear();
+  if (robot.parts.empty()) {
     for (std::size_t i = 0; i < robot.links.size(); ++i) {
       const Link& link = robot.links[i];
       robot.parts.push_back({.name = link.name,

@@ -291,6 +291,7 @@ TEST(BindingLimits, OfSeveralColumnsHaveARateForEachSideOfAKink) {
   spec.robot.joints.push_back(again);
   spec.robot.links.push_back({.name = "tip", .mass = 0.1, .inertia = Eigen::Matrix3d::Identity()});
   spec.robot.end_effectors[0].link = 3;
+  spec.robot.parts.clear();
   spec.robot = finalize(spec.robot);
   Options options;
   options.wrench = Wrench::kAny;
