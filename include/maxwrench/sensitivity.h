@@ -35,13 +35,15 @@ std::string to_json(const Answer& answer, const std::vector<ScenarioEnds>& ends)
 
 /// Values of drawn models. A model without a value counts as -infinity.
 struct ScenarioSample {
-  long drawn = 0,                    ///< number of models
-      infeasible = 0;                ///< number of models without a value
-  double least = 0,                  ///< least value [unit]
-      q01 = 0, q05 = 0, median = 0;  ///< quantiles 1 %, 5 % and 50 % [unit]
-  long below = 0;                    ///< number of models below `guaranteed`
-  double guaranteed = 0;             ///< the value of the list at the posture, if it has one
-  std::string unit = "";             ///< of the values
+  long drawn = 0,         ///< number of models
+      infeasible = 0;     ///< number of models without a value
+  double least = 0,       ///< least value [unit]
+      q01 = 0,            ///< quantile 1 % [unit]
+      q05 = 0,            ///< quantile 5 % [unit]
+      median = 0;         ///< quantile 50 % [unit]
+  long below = 0;         ///< number of models below `guaranteed`
+  double guaranteed = 0;  ///< the value of the list at the posture, if it has one
+  std::string unit = "";  ///< of the values
 };
 
 /// Draws models at the posture of an answer.
