@@ -190,6 +190,18 @@ void print(const Problem& problem) {
                problem.free.along_end_effector ? "the end effector's axes" : "its own axes",
                problem.free.wrench_turns ? "turns with the end effector" : "stays in the world");
   }
+  if (const ScenarioList& list = problem.scenarios; !list.empty()) {
+    fmt::print("  scenarios {}: {} wrenches{}, {} limits of actuators, {} uncertain loads\n",
+               list.count(), list.wrenches.size(), list.ball ? " with a ball" : "",
+               list.limits.size(), list.loads.size());
+    for (const ScenarioWrench& wrench : list.wrenches) {
+      fmt::print("    {} [{:g}]\n", wrench.name.empty() ? "wrench" : wrench.name,
+                 fmt::join(wrench.c, ", "));
+    }
+    for (const ScenarioLimits& limits : list.limits) {
+      if (!limits.name.empty()) fmt::print("    {}\n", limits.name);
+    }
+  }
   fmt::print("  wrench any: {} columns; reference {:g} {}, desired [{:g}]\n", problem.W_any.cols(),
              problem.reference, problem.unit(), fmt::join(problem.desired, ", "));
   fmt::print("  redundancy {}\n", problem.redundancy());

@@ -57,6 +57,14 @@ Answer answer_of(const Problem& problem, const EvalOptions& options, const Optio
   return evaluate(problem, theta_r_of(problem, options.theta_r), how);
 }
 
+void require_scenarios(const Problem& problem, const EvalOptions& options) {
+  if (!problem.scenarios.empty()) return;
+  throw std::invalid_argument(fmt::format(
+      "--{}: got {}, a task without a list of scenarios, expected one with wrench.set, ball, "
+      "uncertainty, loss or payload",
+      options.scenarios ? "scenarios" : "sample", problem.name));
+}
+
 /// Prints the answer, with what the options ask of its scenarios.
 int report_scenarios(const EvalOptions& options, const Answer& answer) {
   const bool valid = answer.posture.status == Status::kValid;
@@ -87,6 +95,7 @@ int eval(const EvalOptions& options) {
         {{"--write", options.write}});
   }
   if (!options.write.empty()) require_program(problem, how);
+  if (options.scenarios || options.sample) require_scenarios(problem, options);
   const Answer answer = answer_of(problem, options, how);
   if (!options.write.empty()) write_program(options, answer);
   return report_scenarios(options, answer);

@@ -27,7 +27,8 @@ struct SensitivityOptions : CommonOptions {
 std::string figure_of(const Problem& problem, const Sensitivity& result) {
   BarGroup group{result.all.at_posture.unit, {}};
   const auto add = [&group](const std::string& name, const LossEffect& effect) {
-    Bar bar{name, effect.best.has_value() ? effect.best.beta() : 0, {}};
+    if (!effect.best.has_value()) return;
+    Bar bar{name, effect.best.beta(), {}};
     if (effect.at_posture.has_value()) bar.measured.push_back(effect.at_posture.beta());
     group.bars.push_back(bar);
   };

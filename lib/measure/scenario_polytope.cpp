@@ -113,6 +113,7 @@ class ScenarioPolytope : public Measure {
     }
     ScenarioChoice first;
     facets_->high_scenario(at_, first);
+    const std::string name = describe(list_, first);
     const Status at_most = solve(first, 1, kInfinity, true, trial_);
     const double high = trial_.beta;
     double low = 0;  // of a list that requires beta >= 0
@@ -123,14 +124,16 @@ class ScenarioPolytope : public Measure {
         !(low > high && trial_.status == Status::kOptimal)) {
       return unlike("two scenarios leave no factor by facets, but some by the solver");
     }
-    if (has_low) {
-      verdict.conclude(
-          Status::kInfeasible,
-          fmt::format("no factor suits all: at most {:.6g} ({}), at least {:.6g} ({})",
-                      facets_->high, describe(list_, first), facets_->low, describe(list_, last)));
+    const std::string other = has_low ? describe(list_, last) : "";
+    if (!has_low) {
+      verdict.conclude(Status::kInfeasible,
+                       fmt::format("no factor >= 0: at most {:.6g} ({})", facets_->high, name));
+    } else if (name == other) {
+      verdict.conclude(Status::kInfeasible, "no actuator efforts balance the posture: " + name);
     } else {
-      verdict.conclude(Status::kInfeasible, fmt::format("no factor >= 0: at most {:.6g} ({})",
-                                                        facets_->high, describe(list_, first)));
+      verdict.conclude(Status::kInfeasible,
+                       fmt::format("no factor suits all: at most {:.6g} ({}), at least {:.6g} ({})",
+                                   facets_->high, name, facets_->low, other));
     }
     return verdict;
   }
@@ -164,6 +167,12 @@ class ScenarioPolytope : public Measure {
     const bool all = for_each([&] {
       if (!within(high)) return false;
       if (trial_.status != Status::kOptimal || !(trial_.beta < high)) return true;
+      // An interior point solver ends just below the end so far, too.
+      const bool near = high < kInfinity && trial_.beta > high - allowed(kAgreement, high);
+      if (near) {
+        if (!within(kInfinity)) return false;
+        if (trial_.status != Status::kOptimal || !(trial_.beta < high)) return true;
+      }
       high = trial_.beta;
       decider = number;
       capability.decides = each_;
@@ -183,6 +192,9 @@ class ScenarioPolytope : public Measure {
     if (!for_each([&] { return number >= last || within(limit); })) return ended;
     if (solve(capability.decides, 1, kInfinity, efforts, capability) != Status::kOptimal) {
       return unlike("the scenario that decides has no value when it is solved again");
+    }
+    if (!(std::abs(capability.beta - high) <= allowed(kAgreement, high))) {
+      return unlike("the scenario that decides has another value when it is solved again");
     }
     return finish(true, efforts, capability);
   }

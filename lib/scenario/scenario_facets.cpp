@@ -71,8 +71,6 @@ auto ScenarioFacets::make_load(const LoadGroup& cases) -> Load {
   Load load{&cases, {}, {}, {}};
   if (has_current(cases)) {
     load.basis = cases;
-    const auto count = static_cast<Eigen::Index>(cases.size());
-    load.coefficients.setIdentity(count, count);
     return load;
   }
   int links = 0;
@@ -108,6 +106,7 @@ void ScenarioFacets::combine(const Load& load, Eigen::Index which) {
 }
 
 double ScenarioFacets::value_of(const Load& load, Eigen::Index which, Eigen::Index pair) const {
+  if (load.coefficients.size() == 0) return load.projections(pair, which);
   double value = 0;
   for (Eigen::Index i = 0; i < load.coefficients.rows(); ++i) {
     value += load.coefficients(i, which) * load.projections(pair, i);
@@ -127,7 +126,12 @@ void ScenarioFacets::set_margins(ScenarioPosture& at) {
     }
     most_.setConstant(-kInfinity);
     least_.setConstant(kInfinity);
-    for (Eigen::Index i = 0; i < load.coefficients.cols(); ++i) {
+    for (Eigen::Index i = 0; i < load.count(); ++i) {
+      if (load.coefficients.size() == 0) {
+        most_ = most_.max(load.projections.col(i));
+        least_ = least_.min(load.projections.col(i));
+        continue;
+      }
       combine(load, i);
       most_ = most_.max(value_);
       least_ = least_.min(value_);
@@ -197,7 +201,7 @@ bool ScenarioFacets::choose(ScenarioPosture& at, const End& end, ScenarioChoice&
   for (std::size_t group = 0; group < loads_.size(); ++group) {
     const Load& load = loads_[group];
     double worst = -kInfinity;
-    for (Eigen::Index i = 0; i < load.coefficients.cols(); ++i) {
+    for (Eigen::Index i = 0; i < load.count(); ++i) {
       const double value = side * value_of(load, i, pair);
       if (value <= worst) continue;
       worst = value;

@@ -99,6 +99,12 @@ std::vector<Lost> sets_of(const Lost& actuators, int k) {
 void check_loss(const LossSpec& loss) {
   require_non_negative("loss.friction", loss.friction);
   require_positive("loss.brake", loss.brake);
+  if (loss.joints_lock && loss.friction != 0) {
+    throw BadValue("loss.friction", shown(loss.friction), "no such key of joints that lock");
+  }
+  if (!loss.joints_lock && loss.brake != kInfinity) {
+    throw BadValue("loss.brake", shown(loss.brake), "no such key of limp joints");
+  }
   if (loss.any != 0 && !loss.cases.empty()) {
     throw BadValue("loss.cases", fmt::format("{} cases", loss.cases.size()),
                    "no such key beside loss.any");

@@ -34,7 +34,7 @@ PyProof certify_task(const py::object& task, double gap, double seconds, const s
   ProofOptions how;
   how.gap = gap;
   how.seconds = seconds;
-  how.keep_certificate = of.problem->contact_columns() == 0;
+  how.keep_certificate = of.problem->contact_columns() == 0 && of.problem->scenarios.empty();
   PyProof result{{}, of};
   const Callback shown(callback, 0, of.problem->name);
   run_in_background(shown.function(), [&](Watch& watch) {

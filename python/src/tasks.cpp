@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include "lib/scenario/scenario_list.h"
 #include "maxwrench/load.h"
 #include "maxwrench/task.h"
 #include "problems/make/bad_value.h"
@@ -242,6 +243,7 @@ double limit_in(const char* key, const Eigen::VectorXd& limits, Eigen::Index i) 
 
 /// The same task with other limits of the efforts. A joint has one limit for both directions.
 PyTask with_limits(const PyTask& self, const py::object& u_min, const py::object& u_max) {
+  require_no_scenarios(*self.problem, "with_limits");
   auto changed = std::make_shared<Problem>(*self.problem);
   Robot& robot = changed->robot;
   const Eigen::VectorXd low = vector("u_min", u_min, robot.actuators());

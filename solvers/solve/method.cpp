@@ -30,6 +30,7 @@ std::vector<const WrenchSolverEntry*> solvers_for(const MeasureEntry& measure,
   if (wrench == Wrench::kAny && !measure.serves_any) return {};
   if (!problem.scenarios.empty() && measure.name != Case().measure) return {};
   if (!measure.needs_solver) return {nullptr};
+  if (problem.scenarios.payload && wrench == Wrench::kAny) return {};
   const bool facets_only = problem.scenarios.ball.has_value();
   std::vector<const WrenchSolverEntry*> served;
   for (const WrenchSolverEntry& solver : wrench_solvers()) {
@@ -97,6 +98,11 @@ void require_scenario_case(const Problem& problem, const MeasureEntry& measure, 
                     Case().measure, problem.name));
   }
   if (!none) return;
+  if (problem.scenarios.payload) {
+    throw std::invalid_argument(fmt::format(
+        "wrench: got any, expected pure for a payload: what else holds it would carry it ({})",
+        problem.name));
+  }
   throw std::invalid_argument(fmt::format(
       "wrench: got a ball, expected pure wrenches and actuators with few facets, or wrench.set in "
       "its place ({})",

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <stdexcept>
 
 #include "lib/scenario/scenario_facets.h"
@@ -45,7 +46,8 @@ class Ends {
     }
     ScenarioFacets facets(one_);
     facets.scan(at_);
-    return {"", facets.low, facets.high, !facets.missed && facets.low <= facets.high};
+    return {"", facets.low, facets.high,
+            !facets.missed && facets.low <= facets.high + 1e-9 * (1 + std::abs(facets.high))};
   }
 
   ScenarioEnds by_programs(const ScenarioChoice& choice) {

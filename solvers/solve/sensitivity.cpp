@@ -23,6 +23,16 @@ void require_one_contact(const Problem& task) {
                               ", expected a static task with one contact");
 }
 
+/// Rejects a task whose actuators may be weaker: the limits to compare are those of the robot.
+void require_full_strength(const Problem& task) {
+  if (task.scenarios.empty()) return;
+  const Zonotope &weak = task.scenarios.limits.front().actuation, &full = task.robot.actuation;
+  if (weak.u_min == full.u_min && weak.u_max == full.u_max) return;
+  throw std::invalid_argument("sensitivity: got " + task.name +
+                              ", in which actuators may be weaker, expected no uncertainty.thrust "
+                              "and uncertainty.torque");
+}
+
 /// The scenarios of a task. One wrench of the nominal robot becomes a list of one.
 ScenarioList list_of(const Problem& task) {
   if (!task.scenarios.empty()) return task.scenarios;
@@ -54,7 +64,11 @@ class Comparison {
     Options at = options_;
     at.search.clear();
     LossEffect effect{name, evaluate(task, theta_r_, at), {}};
-    if (!options_.interrupted || !options_.interrupted()) effect.best = solve(task, options_);
+    if (!options_.interrupted || !options_.interrupted()) {
+      effect.best = solve(task, options_);
+    } else {
+      effect.best.conclude(Status::kBudgetExhausted, "interrupted");
+    }
     return effect;
   }
 
@@ -92,6 +106,7 @@ ordered_json object_of(const LossEffect& effect) {
 Sensitivity sensitivity(const Problem& task, const Eigen::VectorXd& theta_r,
                         const std::vector<ScenarioLimits>& limits, const Options& options) {
   require_one_contact(task);
+  require_full_strength(task);
   Comparison comparison(theta_r, options);
   Sensitivity result;
   for (const ScenarioLimits& each : limits) {

@@ -57,6 +57,7 @@ Trajectory one_instant(const Problem& task, const Posture& posture, const Capabi
   instant.c << posture.turn * task.c.head<3>(), posture.turn * task.c.tail<3>();
   if (trajectory.status == Status::kOptimal) {
     trajectory.value = capability.beta;
+    if (!task.scenarios.empty()) instant.c = capability.decides.c.stableNormalized();
     if (capability.w.size() > 0) instant.h = capability.h;
     instant.u = capability.u;
   }

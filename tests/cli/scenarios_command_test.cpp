@@ -82,8 +82,9 @@ TEST_P(ScenarioRefusals, AreOneLine) {
 INSTANTIATE_TEST_SUITE_P(
     All, ScenarioRefusals,
     testing::Values(
-        Refusal{"eval uvms/valve --scenarios", "scenarios: got a task without a list"},
-        Refusal{"eval uvms/valve --sample 10", "sample: got a task without a list"},
+        Refusal{"eval uvms/valve --scenarios",
+                "--scenarios: got uvms/valve, a task without a list"},
+        Refusal{"eval uvms/valve --sample 10", "--sample: got uvms/valve, a task without a list"},
         Refusal{"eval examples/tasks/push_anywhere.toml --wrench any", "got a ball"},
         Refusal{"eval examples/tasks/push_anywhere.toml --solver simplex", "solver"},
         Refusal{"eval examples/tasks/turn_both_ways.toml --measure ellipsoid", "measure"},
@@ -95,6 +96,11 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"certify examples/tasks/turn_in_current.toml", "certify: got currents"},
         Refusal{"certify examples/tasks/turn_both_ways.toml --certificate x.proof",
                 "certificate: got"},
+        Refusal{"eval examples/tasks/carry_steel.toml --wrench any",
+                "wrench: got any, expected pure"},
+        Refusal{"eval uvms/valve_trajectory --scenarios", "--scenarios: got uvms/valve_trajectory"},
+        Refusal{"sensitivity uvms/valve --joints-are locked --friction 1", "loss.friction: got 1"},
+        Refusal{"sensitivity uvms/valve --brake 1", "loss.brake: got 1"},
         Refusal{"sensitivity uvms/valve_trajectory", "sensitivity"},
         Refusal{"sensitivity uvms/valve --actuators wing", "loss.actuators: got"}));
 

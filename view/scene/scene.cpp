@@ -68,7 +68,9 @@ ordered_json scene_of(const Problem& problem, const std::vector<Visual>& visuals
   ordered_json scene;
   scene["version"] = version();
   scene["task"] = task_json(problem);
-  scene["robot"] = robot_json(problem.robot, visuals);
+  Robot robot = problem.robot;
+  if (!problem.scenarios.empty()) robot.actuation = problem.scenarios.limits.front().actuation;
+  scene["robot"] = robot_json(robot, visuals);
   scene["shown"] = ordered_json::array();
   for (const Shown& each : shown) {
     if (scene["measure"].is_null()) {

@@ -27,12 +27,13 @@ Problem task_of(const Problem& problem, const ScenarioChoice& choice) {
       Link& link = one.robot.links[static_cast<std::size_t>(change.link)];
       const Eigen::Vector3d moment = link.mass * link.com + change.moment;
       link.mass += change.mass;
-      if (!(link.mass > 0)) {
-        throw std::invalid_argument("certify: got " + link.name +
-                                    " without mass, expected a mass > 0 in each scenario");
-      }
-      link.com = moment / link.mass;
+      if (link.mass != 0) link.com = moment / link.mass;
     }
+  }
+  for (const Link& link : one.robot.links) {
+    if (link.mass >= 0 && link.com.allFinite()) continue;
+    throw std::invalid_argument("certify: got " + link.name +
+                                " without mass, expected a mass >= 0 in each scenario");
   }
   return one;
 }
@@ -75,6 +76,9 @@ class ScenarioBound final : public Bound {
           problem.scenarios.wrenches[static_cast<std::size_t>(choice.wrench)];
       parts_.push_back({make_pure_bound(*tasks_->back(), "linf_polytope"), wrench.c.norm()});
     } while (next(problem.scenarios, choice));
+    if (parts_.empty()) {
+      throw std::invalid_argument("certify: got no scenario with a wrench and finite limits");
+    }
     // The scenarios with the least ceilings cut most.
     std::stable_sort(parts_.begin(), parts_.end(), [](const Part& a, const Part& b) {
       return a.bound->ceiling() / a.length < b.bound->ceiling() / b.length;
@@ -94,7 +98,7 @@ class ScenarioBound final : public Bound {
     for (const Part& part : parts_) {
       BoxProof own = given;
       part.bound->evaluate(lower, upper, low * part.length, proof.high * part.length, own);
-      if (own.high / part.length < proof.high) {
+      if (own.high / part.length <= proof.high) {
         own.high /= part.length;
         proof = own;
       }
