@@ -68,9 +68,11 @@ ScenarioFacets::ScenarioFacets(const Problem& problem)
 /// Cases that change masses only are combinations of at most four loads for each link. Those with a
 /// current are taken one by one.
 auto ScenarioFacets::make_load(const LoadGroup& cases) -> Load {
-  Load load{&cases, {}, {}, {}};
+  Load load;
+  load.cases = &cases;
   if (has_current(cases)) {
     load.basis = cases;
+    load.as_given = true;
     return load;
   }
   int links = 0;
@@ -106,7 +108,7 @@ void ScenarioFacets::combine(const Load& load, Eigen::Index which) {
 }
 
 double ScenarioFacets::value_of(const Load& load, Eigen::Index which, Eigen::Index pair) const {
-  if (load.coefficients.size() == 0) return load.projections(pair, which);
+  if (load.as_given) return load.projections(pair, which);
   double value = 0;
   for (Eigen::Index i = 0; i < load.coefficients.rows(); ++i) {
     value += load.coefficients(i, which) * load.projections(pair, i);
@@ -127,7 +129,7 @@ void ScenarioFacets::set_margins(ScenarioPosture& at) {
     most_.setConstant(-kInfinity);
     least_.setConstant(kInfinity);
     for (Eigen::Index i = 0; i < load.count(); ++i) {
-      if (load.coefficients.size() == 0) {
+      if (load.as_given) {
         most_ = most_.max(load.projections.col(i));
         least_ = least_.min(load.projections.col(i));
         continue;

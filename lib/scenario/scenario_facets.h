@@ -44,11 +44,11 @@ class ScenarioFacets {
  private:
   /// The cases of a load as combinations of few loads, whose projections on the normals suffice.
   struct Load {
-    const LoadGroup* cases;
-    std::vector<LoadCase> basis;  ///< the cases themselves if one has a current
-    /// Of the basis, for each case (basis×cases); empty if the basis is the cases.
-    Eigen::MatrixXd coefficients;
-    Eigen::ArrayXXd projections;  ///< N' of the generalised forces of the basis (f×basis)
+    const LoadGroup* cases = nullptr;
+    bool as_given = false;         ///< whether the basis is the cases, one of which has a current
+    std::vector<LoadCase> basis;   ///< the loads
+    Eigen::MatrixXd coefficients;  ///< unless `as_given`: of the basis, for each case (basis×cases)
+    Eigen::ArrayXXd projections;   ///< N' of the generalised forces of the basis (f×basis)
     Eigen::Index count() const { return static_cast<Eigen::Index>(cases->size()); }
   };
   /// A wrench with its rows: upper sides, then lower ones.
