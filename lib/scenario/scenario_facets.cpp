@@ -12,7 +12,7 @@ namespace {
 /// A row with a slope below this share of |J'c| counts as parallel to beta.
 constexpr double kFlat = 1e-12;
 /// The violation of a parallel row [N, N m] that rounding may cause, relative to its value.
-constexpr double kRounding = 1e-9;
+constexpr double kRowRounding = 1e-9;
 
 /// The changes of a case as numbers: mass and moment of each link in turn.
 Eigen::VectorXd numbers_of(const LoadCase& load, int links) {
@@ -176,7 +176,7 @@ void ScenarioFacets::set_wrench(ScenarioPosture& at, int i) {
 bool ScenarioFacets::misses(const Eigen::ArrayXd& limits, const Wrench& wrench,
                             Eigen::Index& row) const {
   for (const int each : wrench.parallel) {
-    const double slack = kRounding * (1 + std::abs(margins_[each]));
+    const double slack = kRowRounding * (1 + std::abs(margins_[each]));
     if (limits[each] + margins_[each] >= -slack) continue;
     row = each;
     return true;

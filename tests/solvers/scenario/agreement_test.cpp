@@ -14,13 +14,13 @@
 namespace maxwrench {
 namespace {
 
-struct Listed {
+struct ListedTask {
   const char* name;
   std::string wrench, tables;
 };
-void PrintTo(const Listed& listed, std::ostream* out) { *out << listed.name; }
+void PrintTo(const ListedTask& listed, std::ostream* out) { *out << listed.name; }
 
-const Listed kLists[] = {
+const ListedTask kLists[] = {
     {"senses", "set = [[0,0,0,0,0,1], [0,0,0,0,0,-1]]", ""},
     {"held", "set = [[1,0,0,0,0,0], [0,0,-10,0,0,5]]\nhold = true", ""},
     {"tool_axes", "set = [[1,0,0,0,0,0], [0,1,0,0,0,0.5]]\nframe = 'end_effector'", ""},
@@ -38,7 +38,7 @@ const Listed kLists[] = {
     {"payload", "", "[payload]\ncom = [0.05, 0, 0.02]\nvolume_per_kg = 1.27e-4\n"},
 };
 
-class ScenarioAgreement : public testing::TestWithParam<Listed> {
+class ScenarioAgreement : public testing::TestWithParam<ListedTask> {
  protected:
   const Problem task_ = scenario_task(GetParam().wrench, GetParam().tables);
 };

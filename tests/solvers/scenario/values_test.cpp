@@ -10,17 +10,17 @@ namespace maxwrench {
 namespace {
 
 /// A value of an independent model, at the default posture.
-struct Reference {
+struct ReferenceValue {
   const char* name;
   std::string wrench, tables;
   double pure, any;  ///< NaN: not known
 };
-void PrintTo(const Reference& reference, std::ostream* out) { *out << reference.name; }
+void PrintTo(const ReferenceValue& reference, std::ostream* out) { *out << reference.name; }
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 const std::string kSet = "set = [[0,0,-10, 0,0,5], [0,0,-10, 0,0,-5], [10,0,0, 0,0,0]]";
 
-const Reference kReferences[] = {
+const ReferenceValue kReferences[] = {
     {"both_senses", "set = [[0,0,0,0,0,1], [0,0,0,0,0,-1]]", "", 9.00000, 34.82481},
     {"four_directions", "set = [[1,0,0,0,0,0], [-1,0,0,0,0,0], [0,1,0,0,0,0], [0,-1,0,0,0,0]]", "",
      30.67224, 88.01163},
@@ -45,10 +45,10 @@ const Reference kReferences[] = {
     {"payload_in_air", "", "[payload]\ncom = [0, 0, 0]\n", 3.050011, kUnknown},
 };
 
-class ScenarioValues : public testing::TestWithParam<Reference> {};
+class ScenarioValues : public testing::TestWithParam<ReferenceValue> {};
 
 TEST_P(ScenarioValues, AreThoseOfTheIndependentModel) {
-  const Reference& reference = GetParam();
+  const ReferenceValue& reference = GetParam();
   const Problem task = scenario_task(reference.wrench, reference.tables);
   ASSERT_FALSE(task.scenarios.empty());
   for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
@@ -85,7 +85,7 @@ TEST(ScenarioEnds, OfALostJointAreThoseOfTheIndependentModel) {
 }
 
 TEST(ScenarioEnds, ListIsTheValueOfItsLeastAndLargest) {
-  for (const Reference& reference : kReferences) {
+  for (const ReferenceValue& reference : kReferences) {
     const Problem task = scenario_task(reference.wrench, reference.tables);
     if (task.scenarios.count() > 100) continue;
     const Answer answer = evaluate(task, task.theta_r_default);
