@@ -8,6 +8,7 @@
 #include "cli/cli.h"
 #include "cli/ctrl_c.h"
 #include "cli/output.h"
+#include "cli/task/motion_options.h"
 #include "cli/task/problem_options.h"
 #include "drawing/bars.h"
 #include "maxwrench/task.h"
