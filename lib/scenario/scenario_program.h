@@ -26,7 +26,6 @@ class ScenarioPosture {
   /// Adds the generalised forces of a case to tau (n).
   void add_load(const LoadCase& load, Eigen::VectorXd& tau);
   const Posture& posture() const { return *posture_; }
-  const Problem& problem() const { return problem_; }
 
  private:
   const Problem& problem_;
