@@ -3,7 +3,6 @@
 
 #include "lib/robot/kinematics.h"
 #include "maxwrench/figures.h"
-#include "maxwrench/sensitivity.h"
 #include "python/src/arrays.h"
 #include "python/src/parts.h"
 #include "solvers/solve/format.h"
@@ -96,49 +95,6 @@ py::object residual_of(const PyAnswer& self) {
   numbers["bounds"] = residual.bounds;
   numbers["dual"] = residual.dual;
   numbers["gap"] = residual.gap;
-  return numbers;
-}
-
-py::object decides(const PyAnswer& self) {
-  const Answer& answer = self.answer;
-  if (!answer.has_value() || answer.task->scenarios.empty()) return py::none();
-  return py::str(describe(answer.task->scenarios, answer.capability.decides));
-}
-
-py::list scenarios(const PyAnswer& self) {
-  std::vector<ScenarioEnds> ends;
-  {
-    const py::gil_scoped_release release;
-    ends = scenario_ends(self.answer);
-  }
-  py::list list;
-  for (const ScenarioEnds& each : ends) {
-    py::dict entry;
-    entry["name"] = each.name;
-    entry["low"] = each.low;
-    entry["high"] = each.high;
-    entry["held"] = each.held;
-    list.append(entry);
-  }
-  return list;
-}
-
-py::dict sample_of(const PyAnswer& self, long n, std::uint64_t seed) {
-  ScenarioSample sample;
-  {
-    const py::gil_scoped_release release;
-    sample = sample_scenarios(self.answer, n, seed);
-  }
-  py::dict numbers;
-  numbers["drawn"] = sample.drawn;
-  numbers["infeasible"] = sample.infeasible;
-  numbers["least"] = sample.least;
-  numbers["q01"] = sample.q01;
-  numbers["q05"] = sample.q05;
-  numbers["median"] = sample.median;
-  numbers["below"] = sample.below;
-  numbers["guaranteed"] = sample.guaranteed;
-  numbers["unit"] = sample.unit;
   return numbers;
 }
 
@@ -286,41 +242,6 @@ does not exist is None.
       .def_property_readonly(
           "has_value", [](const PyAnswer& a) { return a.answer.has_value(); },
           "Whether there is a value.")
-      .def_property_readonly(
-          "decides", &decides,
-          "The scenario that decides, if the task has a list of scenarios and there is a value, or "
-          "None.")
-      .def("scenarios", &scenarios, R"(The interval of each scenario at this posture.
-
-Returns a list of dicts with ``name``, ``low``, ``high`` (infinite where there is no end) and
-``held``: whether the interval has a point. Raises InputError if the task has no list of scenarios
-or the posture is invalid.
-)")
-      .def("sample", &sample_of, py::arg("n"), py::arg("seed") = 0,
-           R"(Draws n models of a task with a list of scenarios, at this posture.
-
-Every width is uniform; a current and a loss are drawn from theirs. A sample proves nothing, but no
-value is below a guaranteed one.
-
-Args:
-    n: the number of models, at least 1.
-    seed: of the random numbers.
-
-Returns:
-    dict: ``drawn`` and, of these, ``infeasible``; ``least``, ``q01``, ``q05`` and ``median``: the
-    least value and the quantiles 1 %, 5 % and 50 % [unit]; ``guaranteed``, the value for all
-    models [unit], and ``below``, how many are below it; ``unit``. A model without a value counts
-    as minus infinity.
-
-Raises:
-    InputError: the task has no list, the posture is invalid, or n < 1.
-
->>> push = maxwrench.load("fixed/push")
->>> unsure = maxwrench.Static(push.robot, uncertainty={"torque": 0.1})
->>> drawn = maxwrench.evaluate(unsure, unsure.theta_r_default).sample(20)
->>> drawn["drawn"], drawn["below"]
-(20, 0)
-)")
       .def_property_readonly("theta_r", &theta_r, "The posture (r), or the knots (k×r) [rad or m].")
       .def_property_readonly(
           "theta", &theta,
@@ -395,6 +316,7 @@ Raises:
       .def(py::pickle(&answer_state, &answer_from_state));
   add_effort(answer);
   add_explain(answer);
+  add_scenarios(answer);
 }
 
 }  // namespace maxwrench::python

@@ -66,6 +66,8 @@ void read_scenario_arguments(const py::dict& wrench, const py::dict& tables, Tas
 RowMatrix matrix_of(const Pose<double>& pose);
 /// Adds the method `explain`.
 void add_explain(py::class_<PyAnswer>& answer);
+/// Adds what an answer says of a list of scenarios.
+void add_scenarios(py::class_<PyAnswer>& answer);
 /// [x y z roll pitch yaw] of the base in the world, then the joints.
 Eigen::VectorXd theta_of(const Pose<double>& base, const Eigen::VectorXd& q);
 

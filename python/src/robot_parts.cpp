@@ -8,61 +8,14 @@
 #include "maxwrench/task.h"
 #include "problems/make/bad_value.h"
 #include "python/src/arrays.h"
+#include "python/src/part_values.h"
 #include "python/src/parts.h"
 #include "python/src/words.h"
 
-// Robots and contacts that are made in code. Their parts are the classes of maxwrench/_parts.py,
-// which hold values of any type; wrong ones are named by the keys of robot and task files.
+// Robots that are made in code. Wrong values are named by the keys of robot files.
 
 namespace maxwrench::python {
 namespace {
-
-/// The values of a part.
-class Part {
- public:
-  /// Rejects objects of another class.
-  Part(std::string_view key, const py::handle& object, const char* type)
-      : object_(py::reinterpret_borrow<py::object>(object)) {
-    if (py::isinstance(object, py::module_::import("maxwrench._parts").attr(type))) return;
-    throw BadValue(key, std::string(py::repr(object)), fmt::format("a maxwrench.{}", type));
-  }
-
-  py::object get(const char* name) const { return object_.attr(name); }
-  bool has(const char* name) const { return !get(name).is_none(); }
-  std::string text(const std::string& key, const char* name) const {
-    return text_in(key, get(name));
-  }
-  double number(const std::string& key, const char* name) const {
-    return number_in(key, get(name));
-  }
-  Eigen::VectorXd numbers(const std::string& key, const char* name, Eigen::Index size = -1) const {
-    return vector(key, get(name), size);
-  }
-  Pose<double> pose(const std::string& key, const char* name) const {
-    if (py::isinstance<Pose<double>>(get(name))) return get(name).cast<Pose<double>>();
-    throw BadValue(key, std::string(py::repr(get(name))), "a maxwrench.Pose");
-  }
-
- private:
-  py::object object_;
-};
-
-py::list items_in(std::string_view key, const py::object& value, const char* expected) {
-  const bool is_list = py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value);
-  if (!is_list) throw BadValue(key, std::string(py::repr(value)), expected);
-  return py::list(value);
-}
-
-/// The parts of a list, each made by `make` of its key and the object.
-template <class Item, class Make>
-std::vector<Item> parts_in(const std::string& key, const py::object& value, const char* expected,
-                           const Make& make) {
-  std::vector<Item> items;
-  for (const py::handle& each : items_in(key, value, expected)) {
-    items.push_back(make(fmt::format("{}[{}]", key, items.size()), each));
-  }
-  return items;
-}
 
 template <class Named>
 std::vector<std::string> part_names(const std::vector<Named>& all) {
@@ -290,19 +243,6 @@ PyRobot make_robot(const py::object& links, const py::object& joints, const std:
           {"make_robot", how}};
 }
 
-Surface surface_in(const std::string& key, const std::string& name) {
-  static constexpr std::array<const char*, 4> kNames = {"point", "line", "plane", "circle"};
-  const auto found = std::find(kNames.begin(), kNames.end(), name);
-  if (found == kNames.end()) throw BadValue(key, shown(name), "point, line, plane or circle");
-  return static_cast<Surface>(found - kNames.begin());
-}
-
-ContactSpec::Direction make_direction(const std::string& key, const py::handle& object) {
-  const Part part(key, object, "Direction");
-  return {part.numbers(key + ".direction", "direction", 6), part.number(key + ".min", "min"),
-          part.number(key + ".max", "max")};
-}
-
 constexpr const char* kMakeRobot = R"(Makes a robot in code.
 
 Args:
@@ -343,27 +283,6 @@ Raises:
 )";
 
 }  // namespace
-
-ContactSpec contact_in(const py::object& value) {
-  const Part part("contact", value, "Contact");
-  ContactSpec contact;
-  contact.end_effector = part.text("contact.end_effector", "end_effector");
-  contact.forces = part.text("contact.forces", "forces");
-  if (part.has("mu")) contact.mu = part.number("contact.mu", "mu");
-  contact.basis = parts_in<ContactSpec::Direction>(
-      "contact.basis", part.get("basis"), "a list of maxwrench.Direction", &make_direction);
-  contact.surface = surface_in("contact.surface", part.text("contact.surface", "surface"));
-  contact.frame = part.pose("contact.frame", "frame");
-  if (part.has("radius")) contact.radius = part.number("contact.radius", "radius");
-  contact.min = part.numbers("contact.min", "min");
-  contact.max = part.numbers("contact.max", "max");
-  contact.initial = part.numbers("contact.default", "default");
-  contact.joints = names_in("contact.joints", part.get("joints"));
-  contact.rest = numbers_by_name("contact.rest", part.get("rest"));
-  contact.length_scale = part.number("contact.length_scale", "length_scale");
-  contact.sigma_min = part.number("contact.sigma_min", "sigma_min");
-  return contact;
-}
 
 void add_robot_parts(py::module_& m) {
   m.def("make_robot", &make_robot, py::arg("links"), py::arg("joints") = py::tuple(), py::kw_only(),

@@ -104,6 +104,19 @@ TaskSpec push_on_the_way() {
   return task;
 }
 
+TaskSpec valve() {
+  static const Robot robot = load_robot(problems_folder() / "uvms/bluerov2_alpha5.toml");
+  TaskSpec task{.name = "valve", .robot = robot, .end_effector = "tool"};
+  task.c = along(5);
+  return task;
+}
+
+std::vector<std::string> limit_names(const ScenarioList& list) {
+  std::vector<std::string> names;
+  for (const ScenarioLimits& each : list.limits) names.push_back(each.name);
+  return names;
+}
+
 TaskSpec impulse() {
   const Problem loaded = load_problem("uvms/valve_impulse");
   TaskSpec task{.robot = loaded.robot, .end_effector = "tool"};

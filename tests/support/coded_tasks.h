@@ -29,6 +29,10 @@ ContactSpec wall();
 TaskSpec push_on_wall();
 /// problems/planar/trajectory.toml.
 TaskSpec push_on_the_way();
+/// problems/uvms/valve.toml.
+TaskSpec valve();
+/// The names of the limits of a list of scenarios.
+std::vector<std::string> limit_names(const ScenarioList& list);
 /// problems/uvms/valve_impulse.toml.
 TaskSpec impulse();
 
