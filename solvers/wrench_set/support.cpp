@@ -8,13 +8,15 @@
 #include <stdexcept>
 
 #include "maxwrench/problem.h"
-#include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"
 #include "solvers/lp/makers.h"
 #include "solvers/wrench_set/directions.h"
 
 namespace maxwrench {
 namespace {
+
+/// Largest residual of a support point, relative to 1 + its value.
+constexpr double kSupportTolerance = 1e-9;
 
 const WrenchSolverEntry& solver_named(const std::string& name) {
   std::vector<std::string> names;
@@ -71,7 +73,7 @@ std::optional<SupportPoint> WrenchSupport::farthest(const Eigen::VectorXd& d) {
   if (verdict_.status == Status::kUnbounded) confirm_unbounded(d);
   if (verdict_.status != Status::kOptimal) return std::nullopt;
   const Residual& residual = capability_.residual;
-  if (!residual.within(kAnswerTolerance * (1 + std::abs(capability_.beta)))) {
+  if (!residual.within(kSupportTolerance * (1 + std::abs(capability_.beta)))) {
     verdict_.conclude(Status::kNumericalError, "a point of the set does not satisfy its program");
     return std::nullopt;
   }
