@@ -43,6 +43,7 @@ bool next(const ScenarioList& list, ScenarioChoice& choice) {
 Problem nominal(Problem problem) {
   ScenarioList& list = problem.scenarios;
   if (list.empty()) return problem;
+  problem.digest.clear();  // that of the file is of the whole list
   list.loads.clear();
   list.limits.assign(1, {"", problem.robot.actuation});
   const bool plain =

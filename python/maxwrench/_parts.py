@@ -74,11 +74,11 @@ class Gear:
 class Joint:
     """A joint of a robot made in code, and its motor.
 
-    Attributes: ``name``; ``parent``, the name or index of the link that carries it, an earlier one than
-    the link that it moves; ``placement``, the Pose of the joint frame in the parent at q = 0; ``axis`` in
-    the joint frame (3), of any length; ``type``, "revolute" or "prismatic"; ``q_min`` and ``q_max``
-    [rad or m]; ``velocity_max`` [rad/s or m/s]; ``effort_max``, in both directions [N m or N]; ``gear``,
-    None for a joint with a motor of its own.
+    Attributes: ``name``; ``parent``, the name or index of the link that carries it, an earlier one than the
+    link that it moves; ``placement``, the Pose of the joint frame in the parent at q = 0; ``axis`` in the
+    joint frame (3), of any length; ``type``, "revolute" or "prismatic"; ``q_min`` and ``q_max`` [rad or m],
+    which must be finite: -pi and pi if the joint turns without end; ``velocity_max`` [rad/s or m/s];
+    ``effort_max``, in both directions [N m or N]; ``gear``, None for a joint with a motor of its own.
 
     >>> maxwrench.Joint("elbow", parent="link_1", placement=maxwrench.Pose([0.1, 0, 0]), q_min=-1, q_max=1).type
     'revolute'

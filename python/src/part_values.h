@@ -12,7 +12,8 @@
 #include "python/src/arrays.h"
 #include "python/src/words.h"
 
-// The parts of robots and contacts that are made in code: the classes of maxwrench/_parts.py, which hold values of any type.
+// The parts of robots and contacts that are made in code: the classes of maxwrench/_parts.py, which
+// hold values of any type.
 
 namespace maxwrench::python {
 

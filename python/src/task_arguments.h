@@ -5,7 +5,8 @@
 #include "maxwrench/task.h"
 #include "python/src/parts.h"
 
-// The arguments of Static, Trajectory and Impulse: each function removes from `arguments` what it reads.
+// The arguments of Static, Trajectory and Impulse: each function removes from `arguments` what it
+// reads.
 
 namespace maxwrench::python {
 

@@ -31,6 +31,7 @@ TEST(ScenariosCommand, NominalIsWithoutUncertainty) {
   const json shipped = json::parse(run_maxwrench("eval uvms/valve --json").out);
   EXPECT_EQ(nominal["beta"], shipped["beta"]);
   EXPECT_FALSE(nominal.contains("decides"));
+  EXPECT_EQ(nominal["task_digest"], "");  // no file holds this task
 }
 
 TEST(ScenariosCommand, SampleIsNeverBelowTheGuarantee) {
