@@ -54,6 +54,9 @@ ScenarioFacets::ScenarioFacets(const Problem& problem)
       tau_(set_.dimension()) {
   const ScenarioList& list = problem.scenarios;
   for (const LoadGroup& group : list.loads) loads_.push_back(make_load(group));
+  bounded_ =
+      std::any_of(loads_.begin(), loads_.end(), [](const Load& load) { return load.as_given; });
+  exact_.resize(static_cast<std::size_t>(2 * pairs_));
   for (const ScenarioLimits& limits : list.limits) {
     limits_.emplace_back(2 * pairs_);
     limits_.back() << limits.actuation.b_max.array(), -limits.actuation.b_min.array();
@@ -65,16 +68,12 @@ ScenarioFacets::ScenarioFacets(const Problem& problem)
   if (list.ball) ball_.resize(pairs_, list.ball->E.cols());
 }
 
-/// Cases that change masses only are combinations of at most four loads for each link. Those with a
-/// current are taken one by one.
+/// Cases that change masses only are combinations of at most four loads for each link.
 auto ScenarioFacets::make_load(const LoadGroup& cases) -> Load {
   Load load;
   load.cases = &cases;
-  if (has_current(cases)) {
-    load.basis = cases;
-    load.as_given = true;
-    return load;
-  }
+  load.as_given = has_current(cases);
+  if (load.as_given) return load;
   int links = 0;
   for (const LoadCase& each : cases) {
     for (const LinkLoad& change : each.loads) links = std::max(links, change.link + 1);
@@ -108,8 +107,13 @@ void ScenarioFacets::combine(const Load& load, Eigen::Index which) {
 }
 
 double ScenarioFacets::value_of(const Load& load, Eigen::Index which, Eigen::Index pair) const {
-  if (load.as_given) return load.projections(pair, which);
   double value = 0;
+  if (load.as_given) {
+    for (Eigen::Index i = 0; i < load.forces.cols(); ++i) {
+      value += set_.N(i, pair) * load.forces(which, i);
+    }
+    return value;
+  }
   for (Eigen::Index i = 0; i < load.coefficients.rows(); ++i) {
     value += load.coefficients(i, which) * load.projections(pair, i);
   }
@@ -119,7 +123,16 @@ double ScenarioFacets::value_of(const Load& load, Eigen::Index which, Eigen::Ind
 void ScenarioFacets::set_margins(ScenarioPosture& at) {
   project(at.posture().tau_d, nominal_);
   margins_ << -nominal_, nominal_;
-  for (Load& load : loads_) {
+  std::fill(exact_.begin(), exact_.end(), 0);
+  for (std::size_t group = 0; group < loads_.size(); ++group) {
+    Load& load = loads_[group];
+    if (load.as_given) {
+      at.fill_loads(group, load.forces);
+      bound_cases(load);
+      margins_.head(pairs_) -= load.most;
+      margins_.tail(pairs_) += load.least;
+      continue;
+    }
     load.projections.resize(pairs_, static_cast<Eigen::Index>(load.basis.size()));
     for (std::size_t i = 0; i < load.basis.size(); ++i) {
       tau_.setZero();
@@ -129,11 +142,6 @@ void ScenarioFacets::set_margins(ScenarioPosture& at) {
     most_.setConstant(-kInfinity);
     least_.setConstant(kInfinity);
     for (Eigen::Index i = 0; i < load.count(); ++i) {
-      if (load.as_given) {
-        most_ = most_.max(load.projections.col(i));
-        least_ = least_.min(load.projections.col(i));
-        continue;
-      }
       combine(load, i);
       most_ = most_.max(value_);
       least_ = least_.min(value_);
@@ -141,6 +149,36 @@ void ScenarioFacets::set_margins(ScenarioPosture& at) {
     margins_.head(pairs_) -= most_;
     margins_.tail(pairs_) += least_;
   }
+}
+
+/// Bounds of n_j'tau by the ends of each coordinate.
+void ScenarioFacets::bound_cases(Load& load) {
+  load.most.setZero(pairs_);
+  load.least.setZero(pairs_);
+  for (Eigen::Index i = 0; i < load.forces.cols(); ++i) {
+    const double from = load.forces.col(i).minCoeff(), to = load.forces.col(i).maxCoeff();
+    const auto normals = set_.N.row(i).array().transpose();
+    load.most += (normals * from).max(normals * to);
+    load.least += (normals * from).min(normals * to);
+  }
+}
+
+/// Makes the margin of a row that of the worst cases; false if it is that already.
+bool ScenarioFacets::refine(Eigen::Index row) {
+  if (!bounded_ || exact_[static_cast<std::size_t>(row)]) return false;
+  exact_[static_cast<std::size_t>(row)] = 1;
+  const Eigen::Index pair = row % pairs_;
+  const double side = row < pairs_ ? 1 : -1;
+  for (Load& load : loads_) {
+    if (!load.as_given) continue;
+    load.values.setZero(load.count());
+    for (Eigen::Index i = 0; i < load.forces.cols(); ++i) {
+      load.values += (side * set_.N(i, pair)) * load.forces.col(i);
+    }
+    const double worst = load.values.maxCoeff();
+    margins_[row] += (side > 0 ? load.most[pair] : -load.least[pair]) - worst;
+  }
+  return true;
 }
 
 void ScenarioFacets::set_wrench(ScenarioPosture& at, int i) {
@@ -173,11 +211,13 @@ void ScenarioFacets::set_wrench(ScenarioPosture& at, int i) {
   }
 }
 
-bool ScenarioFacets::misses(const Eigen::ArrayXd& limits, const Wrench& wrench,
-                            Eigen::Index& row) const {
-  for (const int each : wrench.parallel) {
+bool ScenarioFacets::misses(const Eigen::ArrayXd& limits, const Wrench& wrench, Eigen::Index& row) {
+  const auto holds = [&](Eigen::Index each) {
     const double slack = kRowRounding * (1 + std::abs(margins_[each]));
-    if (limits[each] + margins_[each] >= -slack) continue;
+    return limits[each] + margins_[each] >= -slack;
+  };
+  for (const int each : wrench.parallel) {
+    if (holds(each) || (refine(each) && holds(each))) continue;
     row = each;
     return true;
   }
@@ -244,16 +284,25 @@ bool ScenarioFacets::scan_rows(int wrench, int limits) {
     return false;
   }
   row_ = (bounds + margins_) * rows.inverse;
+  const auto refined = [&](Eigen::Index row) {
+    if (!refine(row)) return false;
+    part_[row] = (bounds[row] + margins_[row]) * rows.inverse[row];
+    return true;
+  };
   part_ = (rows.inverse > 0).select(row_, kInfinity);
-  if (const double end = part_.minCoeff(); end < high) {
+  for (double end = part_.minCoeff(); end < high; end = part_.minCoeff()) {
+    const Eigen::Index row = find(end);
+    if (refined(row)) continue;
     high = end;
-    high_end_ = {wrench, limits, find(end)};
-    high_inverse_ = rows.inverse[high_end_.row];
+    high_end_ = {wrench, limits, row};
+    high_inverse_ = rows.inverse[row];
   }
-  part_ = (rows.inverse < 0).select(row_, -kInfinity);
-  if (const double end = part_.maxCoeff(); end > low) {
+  part_ = (rows.inverse < 0).select((bounds + margins_) * rows.inverse, -kInfinity);
+  for (double end = part_.maxCoeff(); end > low; end = part_.maxCoeff()) {
+    const Eigen::Index row = find(end);
+    if (refined(row)) continue;
     low = end;
-    low_end_ = {wrench, limits, find(end)};
+    low_end_ = {wrench, limits, row};
   }
   return true;
 }

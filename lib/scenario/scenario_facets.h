@@ -16,8 +16,9 @@ namespace maxwrench {
 ///
 /// Each side of each pair is a row "slope beta <= margin". A load changes margins only, and loads
 /// are independent, so each row takes the worst case of each load: combinations of cases need not
-/// be listed. A ball of radius r adds r |E'J n_j| to the slope of both rows of a pair, which is its
-/// support function.
+/// be listed. Of a load with many currents, each row first takes a bound of the worst case; the
+/// case itself is found only for rows that may be the end. A ball of radius r adds r |E'J n_j| to
+/// the slope of both rows of a pair, which is its support function.
 class ScenarioFacets {
  public:
   explicit ScenarioFacets(const Problem& problem);
@@ -43,12 +44,16 @@ class ScenarioFacets {
 
  private:
   /// The cases of a load as combinations of few loads, whose projections on the normals suffice.
+  /// Or, if one of them has a current, the generalised forces of each.
   struct Load {
     const LoadGroup* cases = nullptr;
-    bool as_given = false;         ///< whether the basis is the cases, one of which has a current
-    std::vector<LoadCase> basis;   ///< the loads
+    bool as_given = false;         ///< whether a case has a current
+    std::vector<LoadCase> basis;   ///< unless `as_given`: the loads
     Eigen::MatrixXd coefficients;  ///< unless `as_given`: of the basis, for each case (basis×cases)
     Eigen::ArrayXXd projections;   ///< N' of the generalised forces of the basis (f×basis)
+    Eigen::ArrayXXd forces;        ///< if `as_given`: the generalised forces (cases×n)
+    Eigen::ArrayXd most, least;    ///< if `as_given`: bounds of n_j'tau over the cases (f)
+    Eigen::ArrayXd values;         ///< if `as_given`: n_j'tau of each case, for one j
     Eigen::Index count() const { return static_cast<Eigen::Index>(cases->size()); }
   };
   /// A wrench with its rows: upper sides, then lower ones.
@@ -68,7 +73,9 @@ class ScenarioFacets {
   /// n_j'tau of a case.
   double value_of(const Load& load, Eigen::Index which, Eigen::Index pair) const;
   void combine(const Load& load, Eigen::Index which);
-  bool misses(const Eigen::ArrayXd& limits, const Wrench& wrench, Eigen::Index& row) const;
+  void bound_cases(Load& load);
+  bool refine(Eigen::Index row);
+  bool misses(const Eigen::ArrayXd& limits, const Wrench& wrench, Eigen::Index& row);
   bool scan_rows(int wrench, int limits);
   bool choose(ScenarioPosture& at, const End& end, ScenarioChoice& choice) const;
 
@@ -79,6 +86,8 @@ class ScenarioFacets {
   std::vector<Eigen::ArrayXd> limits_;  ///< [b_max; -b_min] of each set of limits
   std::vector<Wrench> wrenches_;
   Eigen::ArrayXd nominal_, most_, least_, value_, margins_, slope_, widening_, row_, part_;
+  bool bounded_ = false;     ///< whether a load has bounds
+  std::vector<char> exact_;  ///< of each row: whether its margin is of the worst cases
   End high_end_, low_end_;
   double high_inverse_ = 0;
   Eigen::VectorXd tau_;

@@ -8,7 +8,12 @@ namespace maxwrench {
 
 ScenarioPosture::ScenarioPosture(const Problem& problem)
     : problem_(problem), added_(Eigen::VectorXd::Zero(problem.robot.velocities())) {
-  if (has_current(problem.scenarios)) water_.emplace(problem.robot);
+  if (!has_current(problem.scenarios)) return;
+  water_.emplace(problem.robot);
+  for (const LoadGroup& cases : problem.scenarios.loads) {
+    std::optional<CurrentCases>& currents = currents_.emplace_back();
+    if (has_current(cases)) currents.emplace(problem.robot, cases);
+  }
 }
 
 void ScenarioPosture::set(const Posture& posture) {
@@ -39,6 +44,19 @@ void ScenarioPosture::add_load(const LoadCase& load, Eigen::VectorXd& tau) {
   if (load.current.isZero()) return;
   water_->evaluate(load.current, added_);
   tau += added_;
+}
+
+void ScenarioPosture::fill_loads(std::size_t group, Eigen::ArrayXXd& tau) {
+  currents_[group]->evaluate(*posture_, tau);
+  Eigen::Index row = 0;
+  for (const LoadCase& each : problem_.scenarios.loads[group]) {
+    if (!each.loads.empty()) {
+      added_.setZero();
+      add_static_loads(problem_.robot, *posture_, each.loads, 1, added_);
+      tau.row(row) += added_.transpose().array();
+    }
+    ++row;
+  }
 }
 
 ScenarioProgram::ScenarioProgram(const Problem& problem, Wrench wrench)
