@@ -104,8 +104,8 @@ void CurrentCases::set_forms() {
 void CurrentCases::set_terms(const Posture& posture) {
   const Eigen::Matrix3d R = -posture.base.R;
   for (Eigen::Index i = 0; i < 3; ++i) {
-    terms_.col(i).array() = currents_.col(0) * R(0, i) + currents_.col(1) * R(1, i) +
-                            currents_.col(2) * R(2, i);
+    terms_.col(i).array() =
+        currents_.col(0) * R(0, i) + currents_.col(1) * R(1, i) + currents_.col(2) * R(2, i);
   }
   const auto x = terms_.col(0).array(), y = terms_.col(1).array(), z = terms_.col(2).array();
   terms_.col(3).array() = x.square();

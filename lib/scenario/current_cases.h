@@ -35,7 +35,7 @@ class CurrentCases {
   };
   /// What a link and all that it carries contribute, in base axes.
   struct Composite {
-    Eigen::Matrix3d added_mass;            ///< A
+    Eigen::Matrix3d added_mass;           ///< A
     Eigen::Matrix<double, 6, 3> damping;  ///< V to the wrench of linear drag at the base's origin
   };
 

@@ -53,9 +53,9 @@ ScenarioFacets::ScenarioFacets(const Problem& problem)
       part_(2 * pairs_),
       tau_(set_.dimension()) {
   const ScenarioList& list = problem.scenarios;
-  for (const LoadGroup& group : list.loads) loads_.push_back(make_load(group));
-  bounded_ =
-      std::any_of(loads_.begin(), loads_.end(), [](const Load& load) { return load.as_given; });
+  for (const LoadGroup& group : list.loads) loads_.push_back(make_load(problem.robot, group));
+  bounded_ = std::any_of(loads_.begin(), loads_.end(),
+                         [](const Load& load) { return load.currents.has_value(); });
   exact_.resize(static_cast<std::size_t>(2 * pairs_));
   for (const ScenarioLimits& limits : list.limits) {
     limits_.emplace_back(2 * pairs_);
@@ -69,11 +69,13 @@ ScenarioFacets::ScenarioFacets(const Problem& problem)
 }
 
 /// Cases that change masses only are combinations of at most four loads for each link.
-auto ScenarioFacets::make_load(const LoadGroup& cases) -> Load {
+auto ScenarioFacets::make_load(const Robot& robot, const LoadGroup& cases) -> Load {
   Load load;
   load.cases = &cases;
-  load.as_given = has_current(cases);
-  if (load.as_given) return load;
+  if (has_current(cases)) {
+    load.currents.emplace(robot, cases);
+    return load;
+  }
   int links = 0;
   for (const LoadCase& each : cases) {
     for (const LinkLoad& change : each.loads) links = std::max(links, change.link + 1);
@@ -108,7 +110,7 @@ void ScenarioFacets::combine(const Load& load, Eigen::Index which) {
 
 double ScenarioFacets::value_of(const Load& load, Eigen::Index which, Eigen::Index pair) const {
   double value = 0;
-  if (load.as_given) {
+  if (load.currents) {
     for (Eigen::Index i = 0; i < load.forces.cols(); ++i) {
       value += set_.N(i, pair) * load.forces(which, i);
     }
@@ -124,10 +126,9 @@ void ScenarioFacets::set_margins(ScenarioPosture& at) {
   project(at.posture().tau_d, nominal_);
   margins_ << -nominal_, nominal_;
   std::fill(exact_.begin(), exact_.end(), 0);
-  for (std::size_t group = 0; group < loads_.size(); ++group) {
-    Load& load = loads_[group];
-    if (load.as_given) {
-      at.fill_loads(group, load.forces);
+  for (Load& load : loads_) {
+    if (load.currents) {
+      at.fill_loads(*load.cases, *load.currents, load.forces);
       bound_cases(load);
       margins_.head(pairs_) -= load.most;
       margins_.tail(pairs_) += load.least;
@@ -170,7 +171,7 @@ bool ScenarioFacets::refine(Eigen::Index row) {
   const Eigen::Index pair = row % pairs_;
   const double side = row < pairs_ ? 1 : -1;
   for (Load& load : loads_) {
-    if (!load.as_given) continue;
+    if (!load.currents) continue;
     load.values.setZero(load.count());
     for (Eigen::Index i = 0; i < load.forces.cols(); ++i) {
       load.values += (side * set_.N(i, pair)) * load.forces.col(i);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,13 +48,13 @@ class ScenarioFacets {
   /// Or, if one of them has a current, the generalised forces of each.
   struct Load {
     const LoadGroup* cases = nullptr;
-    bool as_given = false;         ///< whether a case has a current
-    std::vector<LoadCase> basis;   ///< unless `as_given`: the loads
-    Eigen::MatrixXd coefficients;  ///< unless `as_given`: of the basis, for each case (basis×cases)
-    Eigen::ArrayXXd projections;   ///< N' of the generalised forces of the basis (f×basis)
-    Eigen::ArrayXXd forces;        ///< if `as_given`: the generalised forces (cases×n)
-    Eigen::ArrayXd most, least;    ///< if `as_given`: bounds of n_j'tau over the cases (f)
-    Eigen::ArrayXd values;         ///< if `as_given`: n_j'tau of each case, for one j
+    std::optional<CurrentCases> currents;  ///< if a case has a current
+    std::vector<LoadCase> basis;           ///< the loads; with `currents` none
+    Eigen::MatrixXd coefficients;          ///< of the basis, for each case (basis×cases)
+    Eigen::ArrayXXd projections;           ///< N' of the generalised forces of the basis (f×basis)
+    Eigen::ArrayXXd forces;                ///< with `currents`: the generalised forces (cases×n)
+    Eigen::ArrayXd most, least;  ///< with `currents`: bounds of n_j'tau over the cases (f)
+    Eigen::ArrayXd values;       ///< with `currents`: n_j'tau of each case, for one j
     Eigen::Index count() const { return static_cast<Eigen::Index>(cases->size()); }
   };
   /// A wrench with its rows: upper sides, then lower ones.
@@ -66,7 +67,7 @@ class ScenarioFacets {
     int wrench = -1, limits = 0;
     Eigen::Index row = 0;
   };
-  static Load make_load(const LoadGroup& cases);
+  static Load make_load(const Robot& robot, const LoadGroup& cases);
   void project(const Eigen::VectorXd& tau, Eigen::Ref<Eigen::ArrayXd> onto) const;
   void set_margins(ScenarioPosture& at);
   void set_wrench(ScenarioPosture& at, int i);

@@ -8,12 +8,7 @@ namespace maxwrench {
 
 ScenarioPosture::ScenarioPosture(const Problem& problem)
     : problem_(problem), added_(Eigen::VectorXd::Zero(problem.robot.velocities())) {
-  if (!has_current(problem.scenarios)) return;
-  water_.emplace(problem.robot);
-  for (const LoadGroup& cases : problem.scenarios.loads) {
-    std::optional<CurrentCases>& currents = currents_.emplace_back();
-    if (has_current(cases)) currents.emplace(problem.robot, cases);
-  }
+  if (has_current(problem.scenarios)) water_.emplace(problem.robot);
 }
 
 void ScenarioPosture::set(const Posture& posture) {
@@ -46,10 +41,11 @@ void ScenarioPosture::add_load(const LoadCase& load, Eigen::VectorXd& tau) {
   tau += added_;
 }
 
-void ScenarioPosture::fill_loads(std::size_t group, Eigen::ArrayXXd& tau) {
-  currents_[group]->evaluate(*posture_, tau);
+void ScenarioPosture::fill_loads(const LoadGroup& cases, CurrentCases& currents,
+                                 Eigen::ArrayXXd& tau) {
+  currents.evaluate(*posture_, tau);
   Eigen::Index row = 0;
-  for (const LoadCase& each : problem_.scenarios.loads[group]) {
+  for (const LoadCase& each : cases) {
     if (!each.loads.empty()) {
       added_.setZero();
       add_static_loads(problem_.robot, *posture_, each.loads, 1, added_);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "lib/scenario/current_cases.h"
 #include "lib/scenario/current_load.h"
@@ -27,16 +26,14 @@ class ScenarioPosture {
   Vector6d ball_axis(Eigen::Index i) const;
   /// Adds the generalised forces of a case to tau (n).
   void add_load(const LoadCase& load, Eigen::VectorXd& tau);
-  /// The generalised forces of each case (cases×n) of a load of the list, one of which has a
-  /// current.
-  void fill_loads(std::size_t group, Eigen::ArrayXXd& tau);
+  /// The generalised forces of each case (cases×n), with those of its current by `currents`.
+  void fill_loads(const LoadGroup& cases, CurrentCases& currents, Eigen::ArrayXXd& tau);
   const Posture& posture() const { return *posture_; }
 
  private:
   const Problem& problem_;
   const Posture* posture_ = nullptr;
-  std::optional<CurrentLoad> water_;                   ///< if a case has a current
-  std::vector<std::optional<CurrentCases>> currents_;  ///< of each load
+  std::optional<CurrentLoad> water_;  ///< if a case has a current
   Eigen::VectorXd added_;
 };
 
