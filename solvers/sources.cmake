@@ -1,8 +1,10 @@
 set(maxwrench_solvers_sources
-  certify/bound/any_bound.cpp certify/bound/capability_bound.cpp certify/bound/collision_bound.cpp
+  certify/bound/any_bound.cpp
+  certify/bound/bound_points.cpp
+  certify/bound/ceiling.cpp certify/bound/list_bound.cpp certify/bound/list_model.cpp certify/bound/list_multiplier.cpp certify/bound/list_rows.cpp certify/bound/capability_bound.cpp certify/bound/collision_bound.cpp
   certify/bound/equation_points.cpp certify/bound/exact_posture.cpp certify/bound/loop_box.cpp
   certify/bound/loop_linear.cpp certify/bound/loop_model.cpp certify/bound/loop_posture.cpp certify/bound/multi_affine.cpp
-  certify/bound/multiplier_program.cpp certify/bound/pure_bound.cpp certify/bound/scenario_bound.cpp
+  certify/bound/multiplier_program.cpp certify/bound/pure_bound.cpp 
   certify/box_tree.cpp certify/certify.cpp certify/good_postures.cpp certify/halving.cpp certify/proof.cpp
   certify/proof_recorder.cpp
   explain/best_posture.cpp explain/efforts.cpp explain/exits.cpp explain/explain.cpp explain/explanation_json.cpp

@@ -71,7 +71,7 @@ class AnyProof final : public ValueProof {
   double ceiling() const override { return rows_->ceiling; }
 
   double most(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, const double* mu,
-              double low, double high) override {
+              std::size_t /*parts*/, double low, double high) override {
     if (high <= low || !box_.set(lower, upper)) return high;
     const auto size = static_cast<std::size_t>(model_.shape().size);
     constant_.assign(size, 0.0);
@@ -158,6 +158,13 @@ std::unique_ptr<ValueProof> make_any_proof(const Problem& problem, const FormMod
 std::unique_ptr<ValueProof> make_value_proof(const Problem& problem, const FormModel& model,
                                              const Equations& equations, const std::string& measure,
                                              Wrench wrench) {
+  if (!problem.scenarios.empty()) {
+    if (wrench == Wrench::kPure && measure == "linf_polytope") {
+      return make_list_proof(problem, model, equations);
+    }
+    throw std::invalid_argument(problem.name +
+                                ": got a list of scenarios, expected linf_polytope and pure");
+  }
   if (wrench == Wrench::kPure) return make_pure_proof(problem, model, equations, measure);
   if (measure == "linf_polytope") return make_any_proof(problem, model);
   throw std::invalid_argument("wrench: got 'any', expected pure with measure " + measure);

@@ -14,6 +14,8 @@ namespace maxwrench {
 namespace {
 
 constexpr std::string_view kMagic = "maxwrench proof 2\n";
+constexpr std::string_view kListMagic = "maxwrench proof 3\n";
+static_assert(kMagic.size() == kListMagic.size());
 /// A file has at least one byte for this many bytes of its contents, and so of the nodes of its
 /// tree. A small file therefore cannot fill the memory. Contents that would pack better, such as
 /// boxes without a multiplier, are stored without compression.
@@ -93,6 +95,43 @@ void put_contact(ByteWriter& to, const Robot& robot, const Contact& contact) {
   for (const int joint : contact.follow) to.count(joint);
 }
 
+void put_load(ByteWriter& to, const LoadCase& load) {
+  to.count(static_cast<Eigen::Index>(load.loads.size()));
+  for (const LinkLoad& change : load.loads) {
+    to.count(change.link);
+    to.real(change.mass);
+    to.matrix(change.moment);
+  }
+  to.matrix(load.current);
+}
+
+void put_list(ByteWriter& to, const ScenarioList& list) {
+  to.count(static_cast<Eigen::Index>(list.wrenches.size()));
+  for (const ScenarioWrench& wrench : list.wrenches) {
+    to.matrix(wrench.c);
+    to.whole(wrench.hold ? 1 : 0, 1);
+  }
+  to.whole((list.ball ? 1 : 0) + (list.payload ? 2 : 0) + (list.non_negative ? 4 : 0), 1);
+  if (list.ball) {
+    to.matrix(list.ball->E);
+    to.real(list.ball->radius);
+  }
+  if (list.payload) {
+    to.real(list.payload->wet_mass);
+    to.matrix(list.payload->moment);
+  }
+  to.count(static_cast<Eigen::Index>(list.limits.size()));
+  for (const ScenarioLimits& limits : list.limits) {
+    to.matrix(limits.actuation.u_min);
+    to.matrix(limits.actuation.u_max);
+  }
+  to.count(static_cast<Eigen::Index>(list.loads.size()));
+  for (const LoadGroup& group : list.loads) {
+    to.count(static_cast<Eigen::Index>(group.size()));
+    for (const LoadCase& load : group) put_load(to, load);
+  }
+}
+
 /// A tag has two bits for the reason, five for the axis (a box of 31 coordinates has 3^31 control
 /// points), and this bit if the cut is not at the middle.
 constexpr int kElsewhere = 128;
@@ -100,6 +139,7 @@ constexpr int kElsewhere = 128;
 void put_tree(ByteWriter& to, const CertificateTree& tree) {
   to.count(tree.width);
   to.count(tree.equations);
+  if (tree.of_list) to.count(tree.shared);
   to.count(static_cast<Eigen::Index>(tree.nodes.size()));
   for (const CertificateTree::Node& node : tree.nodes) {
     const int tag = static_cast<int>(node.reason) | (node.axis + 1) << 2;
@@ -107,6 +147,9 @@ void put_tree(ByteWriter& to, const CertificateTree& tree) {
     if (node.at) to.real(*node.at);
     if (node.reason == CertificateTree::Reason::kCollision) {
       to.whole(static_cast<std::uint64_t>(node.pair), 4);
+    }
+    if (tree.of_list && node.reason == CertificateTree::Reason::kMultiplier) {
+      to.whole(node.parts, 1);
     }
     for (std::size_t i = 0; i < tree.numbers(node); ++i) {
       to.real(tree.multipliers[node.multiplier + i]);
@@ -118,6 +161,7 @@ void put_tree(ByteWriter& to, const CertificateTree& tree) {
 bool take_tree(ByteReader& from, CertificateTree& tree) {
   tree.width = static_cast<int>(from.count(sizeof(double)));
   tree.equations = static_cast<int>(from.count(sizeof(double)));
+  if (tree.of_list) tree.shared = static_cast<int>(from.count(sizeof(double)));
   const std::size_t nodes = from.count(1);
   if (nodes > kMostNodes) return false;
   tree.nodes.resize(nodes);
@@ -130,22 +174,29 @@ bool take_tree(ByteReader& from, CertificateTree& tree) {
     if (node.reason == CertificateTree::Reason::kCollision) {
       node.pair = static_cast<int>(from.whole(4));
     }
+    if (tree.of_list && node.reason == CertificateTree::Reason::kMultiplier) {
+      node.parts = static_cast<std::size_t>(from.whole(1));
+    }
     node.multiplier = tree.multipliers.size();
-    for (std::size_t i = 0; i < tree.numbers(node); ++i) tree.multipliers.push_back(from.real());
+    const std::size_t numbers = tree.numbers(node);
+    for (std::size_t i = 0; i < numbers && from.good(); ++i) {
+      tree.multipliers.push_back(from.real());
+    }
   }
   return true;
 }
 
-/// The contents after the first line. The first line is checked before the rest is read, because
-/// the rest may be endless.
-std::string read_packed(const std::string& file) {
+/// The contents after the first line, which tells whether it is of a list. The first line is
+/// checked before the rest is read, because the rest may be endless.
+std::string read_packed(const std::string& file, bool& of_list) {
   std::ifstream stream(file, std::ios::binary);
   std::string start(kMagic.size(), '\0');
   stream.read(start.data(), static_cast<std::streamsize>(start.size()));
   if (!stream.is_open() || stream.bad()) {
     throw std::invalid_argument(file + ": got no data, expected a readable file");
   }
-  if (!stream || start != kMagic) {
+  of_list = start == kListMagic;
+  if (!stream || (start != kMagic && !of_list)) {
     throw std::invalid_argument(file + ": got something else, expected a certificate of 'certify'");
   }
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
@@ -188,6 +239,7 @@ std::uint64_t digest(const Problem& problem) {
   for (const int axis : problem.free.axes) all.count(axis);
   all.whole((problem.free.along_end_effector ? 1 : 0) + (problem.free.wrench_turns ? 2 : 0), 1);
   if (problem.contact) put_contact(all, problem.robot, *problem.contact);
+  if (!problem.scenarios.empty()) put_list(all, problem.scenarios);
   all.matrix(problem.theta_r_min);
   all.matrix(problem.theta_r_max);
   std::uint64_t hash = 0xcbf29ce484222325U;
@@ -210,6 +262,10 @@ std::string certificate_text(const ProofCertificate& proof) {
        {proof.x, proof.u, Eigen::VectorXd(proof.h), proof.lower, proof.upper}) {
     raw.matrix(v);
   }
+  if (proof.tree.of_list) {
+    raw.matrix(Eigen::Map<const Eigen::VectorXd>(proof.decides.data(),
+                                                 static_cast<Eigen::Index>(proof.decides.size())));
+  }
   put_tree(raw, proof.tree);
   const std::string& text = raw.text();
   ByteWriter head;
@@ -217,13 +273,13 @@ std::string certificate_text(const ProofCertificate& proof) {
   const std::string all = head.text() + pack(text, Wrapping::kZlib, Z_BEST_SPEED, kMostPacked);
   ByteWriter sum;
   sum.whole(checksum(all), 4);
-  return std::string(kMagic) + sum.text() + all;
+  return std::string(proof.tree.of_list ? kListMagic : kMagic) + sum.text() + all;
 }
 
 ProofCertificate read_certificate(const std::string& file) {
-  const std::string raw = unpacked(read_packed(file));
-  ByteReader from(raw);
   ProofCertificate proof;
+  const std::string raw = unpacked(read_packed(file, proof.tree.of_list));
+  ByteReader from(raw);
   proof.version = from.words();
   proof.problem = from.words();
   proof.measure = from.words();
@@ -236,6 +292,10 @@ ProofCertificate read_certificate(const std::string& file) {
   const Eigen::VectorXd h = from.vector();
   proof.lower = from.vector();
   proof.upper = from.vector();
+  if (proof.tree.of_list) {
+    const Eigen::VectorXd decides = from.vector();
+    proof.decides.assign(decides.begin(), decides.end());
+  }
   const bool plain = is_plain(proof.version) && is_plain(proof.problem) && is_plain(proof.measure);
   if (!plain || h.size() != 6 || !take_tree(from, proof.tree) || !from.at_end()) {
     throw std::invalid_argument(file + ": got a damaged file, expected a whole certificate");

@@ -5,6 +5,7 @@
 
 #include "verify/equations.h"
 #include "verify/gain.h"
+#include "verify/list_value.h"
 #include "verify/model.h"
 #include "verify/weighted.h"
 
@@ -84,25 +85,6 @@ std::vector<Narrow> load(const FormModel& model, const Eigen::VectorXd& x, const
   return sum;
 }
 
-std::string reject_balance(const Problem& problem, const ProofCertificate& proof,
-                           const std::vector<Narrow>& tau, double tolerance) {
-  const Zonotope& set = problem.robot.actuation;
-  if (proof.u.size() != set.actuators())
-    return "the number of efforts differs from that of the actuators";
-  if (!((set.u_min - proof.u).array() <= tolerance).all() ||
-      !((proof.u - set.u_max).array() <= tolerance).all()) {
-    return "an effort is beyond its limits";
-  }
-  for (Eigen::Index i = 0; i < set.dimension(); ++i) {
-    Narrow left = tau[static_cast<std::size_t>(i)];
-    for (Eigen::Index k = 0; k < set.actuators(); ++k) {
-      left -= Narrow(set.B(i, k)) * Narrow(proof.u[k]);
-    }
-    if (!(left.magnitude() <= tolerance)) return "its efforts do not balance";
-  }
-  return "";
-}
-
 /// B^+ tau, or W_u B^+ tau, at the incumbent.
 std::vector<Wide> efforts(const WideRows& K, const std::vector<Narrow>& tau) {
   std::vector<Wide> u(K.size());
@@ -141,7 +123,7 @@ std::string reject_value(const Problem& problem, const FormModel& model,
   if (!(std::abs(problem.c.dot(h) - proof.value) <= tolerance))
     return "its wrench has another value along c";
   const std::vector<Narrow> tau = load(model, proof.x, h);
-  if (polytope) return reject_balance(problem, proof, tau, tolerance);
+  if (polytope) return reject_balance(set.B, set, proof.u, tau, tolerance);
   if (proof.measure == "ellipsoid") return reject_ellipsoid(problem, model, proof, tau);
   const std::vector<Wide> u = efforts(enclose_pseudoinverse(set.B), tau);
   for (std::size_t k = 0; k < u.size(); ++k) {
@@ -163,6 +145,22 @@ bool is_within(const PostureCoordinates& coordinates, const Eigen::VectorXd& x) 
 
 }  // namespace
 
+std::string reject_balance(const Eigen::MatrixXd& B, const Zonotope& limits,
+                           const Eigen::VectorXd& u, const std::vector<Narrow>& tau,
+                           double tolerance) {
+  if (u.size() != B.cols()) return "the number of efforts differs from that of the actuators";
+  if (!((limits.u_min - u).array() <= tolerance).all() ||
+      !((u - limits.u_max).array() <= tolerance).all()) {
+    return "an effort is beyond its limits";
+  }
+  for (Eigen::Index i = 0; i < B.rows(); ++i) {
+    Narrow left = tau[static_cast<std::size_t>(i)];
+    for (Eigen::Index k = 0; k < B.cols(); ++k) left -= Narrow(B(i, k)) * Narrow(u[k]);
+    if (!(left.magnitude() <= tolerance)) return "its efforts do not balance";
+  }
+  return "";
+}
+
 std::string reject_incumbent(const Problem& problem, const FormModel& model,
                              const Equations& equations, const ProofCertificate& proof) {
   const Eigen::VectorXd& x = proof.x;
@@ -181,7 +179,9 @@ std::string reject_incumbent(const Problem& problem, const FormModel& model,
   if (problem.robot.collision && problem.robot.collision->collides(links)) {
     return "its posture collides";
   }
-  return reject_value(problem, model, proof, kIncumbentTolerance * (1 + std::abs(proof.value)));
+  const double tolerance = kIncumbentTolerance * (1 + std::abs(proof.value));
+  return problem.scenarios.empty() ? reject_value(problem, model, proof, tolerance)
+                                   : reject_list_value(problem, model, proof, tolerance);
 }
 
 }  // namespace maxwrench

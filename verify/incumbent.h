@@ -1,8 +1,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "verify/certificate.h"
+#include "verify/interval.h"
 
 namespace maxwrench {
 
@@ -16,5 +18,10 @@ class FormModel;
 /// each row and limit. No program is solved: the efforts are in the certificate or follow from it.
 std::string reject_incumbent(const Problem& problem, const FormModel& model,
                              const Equations& equations, const ProofCertificate& proof);
+
+/// Whether efforts within limits balance tau, B u = tau, up to `tolerance`. Empty, or why not.
+std::string reject_balance(const Eigen::MatrixXd& B, const Zonotope& limits,
+                           const Eigen::VectorXd& u, const std::vector<Narrow>& tau,
+                           double tolerance);
 
 }  // namespace maxwrench

@@ -141,9 +141,9 @@ void FormModel::exert_on_base(const Vector6d& h, std::vector<Form>& rows) const 
   }
 }
 
-FormVector FormModel::along_at_base(bool force) const {
+FormVector FormModel::along_at_base(const Vector6d& c, bool force) const {
   Vector6d h = Vector6d::Zero();
-  h.head<3>() = force ? problem_.c.head<3>() : problem_.c.tail<3>();
+  h.head<3>() = force ? c.head<3>() : c.tail<3>();
   const auto [along, about] = from_end_effector(h);
   return to_base(tip().link, along, about)[0];
 }

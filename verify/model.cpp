@@ -20,7 +20,9 @@ Wide exact_product(double a, double b) { return Wide(a) * Wide(b); }
 
 }  // namespace
 
-FormModel::FormModel(const Problem& problem)
+FormModel::FormModel(const Problem& problem) : FormModel(problem, nullptr) {}
+
+FormModel::FormModel(const Problem& problem, const std::vector<LinkLoad>* loads)
     : problem_(problem),
       coordinates_(problem),
       shape_(shape_of(coordinates_)),
@@ -34,7 +36,7 @@ FormModel::FormModel(const Problem& problem)
   }
   set_pose();
   for (std::size_t i = 0; i < problem.robot.joints.size(); ++i) places_.push_back(place_of(i));
-  weigh_links();
+  weigh_links(loads);
   weigh();
   if (coordinates_.base_is_dependent) {
     sum_total();
@@ -117,17 +119,30 @@ FormModel::Place FormModel::place_of(std::size_t joint) const {
 }
 
 /// The links of a side branch count towards the link of the chain that carries them.
-void FormModel::weigh_links() {
+void FormModel::weigh_links(const std::vector<LinkLoad>* loads) {
   const Robot& robot = problem_.robot;
   for (const Link& link : robot.links) {
+    if (loads) {
+      mass_.emplace_back();
+      moment_.push_back(constant(Eigen::Vector3d::Zero()));
+      continue;
+    }
     const Wide displaced_mass = exact_product(robot.water_density, link.volume);
     mass_.push_back(Wide(link.mass) - displaced_mass);
     moment_.push_back(Form(shape_, Wide(link.mass)) * constant(link.com) -
                       Form(shape_, displaced_mass) * constant(link.cob));
   }
-  const Wide lift(robot.trim.buoyancy_mass);
-  mass_[0] -= lift;
-  moment_[0] = moment_[0] - Form(shape_, lift) * constant(robot.trim.position);
+  if (loads) {
+    for (const LinkLoad& load : *loads) {
+      const auto at = static_cast<std::size_t>(load.link);
+      mass_[at] += Wide(load.mass);
+      moment_[at] = moment_[at] + constant(load.moment);
+    }
+  } else {
+    const Wide lift(robot.trim.buoyancy_mass);
+    mass_[0] -= lift;
+    moment_[0] = moment_[0] - Form(shape_, lift) * constant(robot.trim.position);
+  }
   carried_ = mass_;
   for (std::size_t i = robot.joints.size(); i > 0; --i) {
     const auto to = static_cast<std::size_t>(parent(i));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "maxwrench/scenario.h"
 #include "verify/coordinates.h"
 #include "verify/form.h"
 
@@ -19,6 +20,9 @@ class FormModel {
   /// Keeps a reference to the problem. Throws std::invalid_argument, in one line, for other tasks.
   explicit FormModel(const Problem& problem);
   explicit FormModel(const Problem&&) = delete;
+  /// The same robot with these wet masses in place of its own.
+  FormModel(const Problem& problem, const std::vector<LinkLoad>& loads)
+      : FormModel(problem, &loads) {}
   FormModel(const FormModel&) = delete;
 
   const PostureCoordinates& coordinates() const { return coordinates_; }
@@ -31,8 +35,8 @@ class FormModel {
   /// J'h, n, for a wrench h at the end effector in world axes. If the task's wrenches turn with the
   /// end effector, h is given at `Problem::pose` and turned with it.
   std::vector<Form> exerted(const Vector6d& h) const;
-  /// The force of c, or its torque if not `force`, in base axes.
-  FormVector along_at_base(bool force) const;
+  /// The force of a wrench c, or its torque if not `force`, in base axes.
+  FormVector along_at_base(const Vector6d& c, bool force) const;
   /// [linear; angular] velocity of the base when the end effector moves by c as one body with the
   /// base: y with J_b y = c, so c'h = y'J_b'h.
   std::array<FormVector, 2> carrying() const;
@@ -72,7 +76,8 @@ class FormModel {
   void set_pose();
   std::array<FormVector, 2> to_base(int link, FormVector along, FormVector about) const;
   std::array<FormVector, 2> from_end_effector(const Vector6d& h) const;
-  void weigh_links();
+  FormModel(const Problem& problem, const std::vector<LinkLoad>* loads);
+  void weigh_links(const std::vector<LinkLoad>* loads);
   void weigh();
   void weigh_from_base();
   void sum_total();

@@ -1,3 +1,3 @@
 set(maxwrench_verify_sources
   any_proof.cpp any_wrench.cpp box_forms.cpp certificate.cpp collision_proof.cpp coordinates.cpp equations.cpp form.cpp gain.cpp
-  incumbent.cpp loads.cpp lp_proof.cpp model.cpp packed.cpp pure_proof.cpp shrinking.cpp verify.cpp wide_matrix.cpp)
+  incumbent.cpp list_forms.cpp list_proof.cpp list_value.cpp loads.cpp lp_proof.cpp model.cpp packed.cpp proof_over_box.cpp pure_proof.cpp shrinking.cpp verify.cpp wide_matrix.cpp)

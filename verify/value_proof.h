@@ -17,14 +17,16 @@ class ValueProof {
  public:
   virtual ~ValueProof() = default;
 
-  /// The number of entries of a multiplier.
+  /// The number of entries of a multiplier; for a list of scenarios, of each part.
   virtual int width() const = 0;
+  /// The number of further entries that all parts share.
+  virtual int shared() const { return 0; }
   /// An upper bound of the value at every posture.
   virtual double ceiling() const = 0;
   /// If no value in the box exceeds `high`, no value exceeds max(low, the result). The result is at
-  /// most `high`.
+  /// most `high`. The multiplier has `parts` parts.
   virtual double most(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
-                      const double* multiplier, double low, double high) = 0;
+                      const double* multiplier, std::size_t parts, double low, double high) = 0;
   virtual std::unique_ptr<ValueProof> clone() const = 0;
 };
 
@@ -53,7 +55,14 @@ std::unique_ptr<ValueProof> make_pure_proof(const Problem& problem, const FormMo
 ///                     o_0 - mu'tau_0 + sum_k max over limits of u_k (B_b'(y - K'mu))_k.
 std::unique_ptr<ValueProof> make_any_proof(const Problem& problem, const FormModel& model);
 
-/// One of the two above, as the measure and the wrench require.
+/// For a list of scenarios, pure wrenches and the L-infinity polytope. A value t satisfies tau_s +
+/// t a_s in {B u} within the limits of s, up to the tolerance of ends, for every scenario s. So any
+/// lambda_s of some of them add up to a bound of the kind of the first one. A part of a multiplier
+/// is [wrench, limits, case of each load, z of the ball, lambda_s]; they share nu.
+std::unique_ptr<ValueProof> make_list_proof(const Problem& problem, const FormModel& model,
+                                            const Equations& equations);
+
+/// One of those above, as the measure and the wrench require.
 std::unique_ptr<ValueProof> make_value_proof(const Problem& problem, const FormModel& model,
                                              const Equations& equations, const std::string& measure,
                                              Wrench wrench);

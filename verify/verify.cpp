@@ -39,7 +39,8 @@ struct OpenBox {
 
 /// Empty, or the reason why the nodes do not form a tree of boxes: each cut node must be followed
 /// by its two halves.
-std::string reject_shape(const CertificateTree& tree, Eigen::Index axes, int width, int equations) {
+std::string reject_shape(const CertificateTree& tree, Eigen::Index axes, const ValueProof& value,
+                         int equations) {
   std::size_t open = 1;
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     if (open == 0) return "boxes without a parent";
@@ -48,7 +49,9 @@ std::string reject_shape(const CertificateTree& tree, Eigen::Index axes, int wid
         numbers > 0 && tree.nodes[i].multiplier + numbers > tree.multipliers.size()) {
       return "multipliers of another length";
     }
-    if (tree.nodes[i].reason == Reason::kMultiplier && tree.width != width) {
+    if (tree.nodes[i].reason == Reason::kMultiplier &&
+        (tree.width != value.width() || tree.shared != value.shared() ||
+         (!tree.of_list && tree.nodes[i].parts != 1))) {
       return "multipliers of another length";
     }
     if (tree.nodes[i].reason == Reason::kNoPosture && tree.equations != equations) {
@@ -114,7 +117,8 @@ class TreeWalk {
         box.high = -kInfinity;
       }
     } else if (node.reason == Reason::kMultiplier) {
-      box.high = value_->most(box.lower, box.upper, multiplier(node), proof_.bound, before);
+      box.high =
+          value_->most(box.lower, box.upper, multiplier(node), node.parts, proof_.bound, before);
     }
     if (node.axis >= 0) return is_cut(box, node);
     if (!(box.high <= proof_.bound)) return reject(box, what_is_open(box, node));
@@ -217,6 +221,7 @@ bool holds_all(const PostureCoordinates& coordinates, const ProofCertificate& pr
 std::string reject_claims(const Problem& problem, const FormModel& model,
                           const Equations& equations, const ProofCertificate& proof) {
   if (proof.digest != digest(problem)) return "it is for another robot or task";
+  if (proof.tree.of_list != !problem.scenarios.empty()) return "it is for another kind of task";
   if (proof.collision != (problem.robot.collision != nullptr)) {
     return "it treats postures that collide differently";
   }
@@ -263,8 +268,7 @@ Verification verify(const Problem& problem, const ProofCertificate& proof, int t
   result.ceiling = value->ceiling();
   result.rejection = reject_claims(problem, model, equations, proof);
   if (result.rejection.empty()) {
-    result.rejection =
-        reject_shape(proof.tree, proof.lower.size(), value->width(), equations.count());
+    result.rejection = reject_shape(proof.tree, proof.lower.size(), *value, equations.count());
   }
   if (!result.rejection.empty()) return result;
   const std::vector<std::size_t> second = upper_halves(proof.tree);

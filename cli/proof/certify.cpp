@@ -75,12 +75,12 @@ void throw_on_choices(const CertifyCommandOptions& options) {
   }
 }
 
-/// The check of a certificate does not support forces of a second contact. The list of good
-/// postures needs boxes of theta_r only.
+/// The check of a certificate does not support all tasks. The list of good postures needs boxes of
+/// theta_r only.
 void throw_on_dependents(const CertifyCommandOptions& options, const Problem& problem) {
-  if (!options.certificate.empty() && problem.contact_columns() > 0) {
-    throw std::invalid_argument(
-        "--certificate: got a task with forces of a second contact, expected one without");
+  const std::string got = why_no_certificate(problem);
+  if (!options.certificate.empty() && !got.empty()) {
+    throw std::invalid_argument("--certificate: got " + got + ", expected one without");
   }
   if (options.within.asked() && (!problem.dependent.empty() || problem.contact)) {
     throw std::invalid_argument(

@@ -42,6 +42,10 @@ struct Proof : Verdict {
   double gap() const;
 };
 
+/// Returns what keeps a task from having a certificate: forces of a second contact, or currents.
+/// Empty if nothing does.
+std::string why_no_certificate(const Problem& task);
+
 /// Searches for the best posture, and proves by branch and bound over all of theta_r how much
 /// larger a value can be.
 ///
@@ -54,7 +58,7 @@ struct Proof : Verdict {
 /// @param how      gap, time limit and certificate
 /// @return the proof; without time or interruptions the same at any number of threads
 /// @throws std::invalid_argument as `solve` and `make_capability_bound`; also for a gap or seconds
-///         out of range, and for a certificate of a task with forces of a second contact.
+///         out of range, and for a certificate of a task that has none, `why_no_certificate`.
 Proof certify(const Problem& task, const Options& options = {}, const ProofOptions& how = {});
 
 /// A certificate and the result of its check. The claims count only if it is verified.

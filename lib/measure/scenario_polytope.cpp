@@ -14,8 +14,6 @@
 namespace maxwrench {
 namespace {
 
-/// The difference of ends that rounding may cause, relative to 1 + their size.
-constexpr double kEndTolerance = 1e-9;
 /// The largest difference, likewise, at which facets and solver count as equal.
 constexpr double kAgreement = 1e-7;
 

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "maxwrench/posture.h"
-
 namespace maxwrench {
 namespace {
 
@@ -122,8 +120,8 @@ double ScenarioFacets::value_of(const Load& load, Eigen::Index which, Eigen::Ind
   return value;
 }
 
-void ScenarioFacets::set_margins(ScenarioPosture& at) {
-  project(at.posture().tau_d, nominal_);
+void ScenarioFacets::set_margins(ScenarioForces& at) {
+  project(at.tau_d(), nominal_);
   margins_ << -nominal_, nominal_;
   std::fill(exact_.begin(), exact_.end(), 0);
   for (Load& load : loads_) {
@@ -182,16 +180,15 @@ bool ScenarioFacets::refine(Eigen::Index row) {
   return true;
 }
 
-void ScenarioFacets::set_wrench(ScenarioPosture& at, int i) {
-  const Matrix6Xd& J = at.posture().J;
+void ScenarioFacets::set_wrench(ScenarioForces& at, int i) {
   const ScenarioList& list = problem_.scenarios;
-  tau_.noalias() = J.transpose().lazyProduct(at.wrench(i));
+  at.exert(at.wrench(i), tau_);
   double size = tau_.norm();
   project(tau_, slope_);
   widening_.setZero();
   if (list.ball && !list.wrenches[static_cast<std::size_t>(i)].hold) {
     for (Eigen::Index axis = 0; axis < ball_.cols(); ++axis) {
-      tau_.noalias() = J.transpose().lazyProduct(at.ball_axis(axis));
+      at.exert(at.ball_axis(axis), tau_);
       size += tau_.norm();
       project(tau_, ball_.col(axis));
       widening_ += ball_.col(axis).square();
@@ -226,7 +223,7 @@ bool ScenarioFacets::misses(const Eigen::ArrayXd& limits, const Wrench& wrench, 
 }
 
 /// Fills a choice with the scenario of a row: the cases of the loads that are worst for it.
-bool ScenarioFacets::choose(ScenarioPosture& at, const End& end, ScenarioChoice& choice) const {
+bool ScenarioFacets::choose(ScenarioForces& at, const End& end, ScenarioChoice& choice) const {
   if (end.wrench < 0) return false;
   const Eigen::Index pair = end.row % pairs_;
   const double side = end.row < pairs_ ? 1 : -1;
@@ -254,7 +251,7 @@ bool ScenarioFacets::choose(ScenarioPosture& at, const End& end, ScenarioChoice&
   return true;
 }
 
-void ScenarioFacets::scan(ScenarioPosture& at) {
+void ScenarioFacets::scan(ScenarioForces& at) {
   set_margins(at);
   high = kInfinity;
   low = problem_.scenarios.non_negative ? 0 : -kInfinity;
@@ -308,11 +305,11 @@ bool ScenarioFacets::scan_rows(int wrench, int limits) {
   return true;
 }
 
-bool ScenarioFacets::high_scenario(ScenarioPosture& at, ScenarioChoice& choice) const {
+bool ScenarioFacets::high_scenario(ScenarioForces& at, ScenarioChoice& choice) const {
   return choose(at, high_end_, choice);
 }
 
-bool ScenarioFacets::low_scenario(ScenarioPosture& at, ScenarioChoice& choice) const {
+bool ScenarioFacets::low_scenario(ScenarioForces& at, ScenarioChoice& choice) const {
   return choose(at, low_end_, choice);
 }
 

@@ -4,8 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "lib/scenario/scenario_program.h"
+#include "lib/scenario/current_load.h"
+#include "lib/scenario/scenario_forces.h"
 #include "maxwrench/capability.h"
+#include "maxwrench/problem.h"
 
 namespace maxwrench {
 
@@ -28,8 +30,8 @@ class ScenarioFacets {
   /// Whether the actuators of the task have facets.
   static bool serves(const Problem& problem);
 
-  /// Computes both ends at a posture. Allocates nothing after the first call.
-  void scan(ScenarioPosture& at);
+  /// Computes both ends. Allocates nothing after the first call.
+  void scan(ScenarioForces& at);
 
   double high = 0, low = 0;  ///< min hi_s and max lo_s
   /// Whether a row holds for no factor. Its scenario, `low_scenario`, is then infeasible by itself,
@@ -37,9 +39,12 @@ class ScenarioFacets {
   bool missed = false;
 
   /// The first scenario with the end `high`, after `scan`; false if there is none.
-  bool high_scenario(ScenarioPosture& at, ScenarioChoice& choice) const;
-  /// Likewise of `low`.
-  bool low_scenario(ScenarioPosture& at, ScenarioChoice& choice) const;
+  bool high_scenario(ScenarioForces& at, ScenarioChoice& choice) const;
+  /// Likewise of `low`; of the row that is missed, if one is.
+  bool low_scenario(ScenarioForces& at, ScenarioChoice& choice) const;
+  /// The pairs of facets of these two ends.
+  int high_pair() const { return static_cast<int>(high_end_.row % pairs_); }
+  int low_pair() const { return static_cast<int>(low_end_.row % pairs_); }
   /// d high/d tau_d (n), if `high` is finite.
   void fill_slope(Eigen::VectorXd& lambda) const;
 
@@ -69,8 +74,8 @@ class ScenarioFacets {
   };
   static Load make_load(const Robot& robot, const LoadGroup& cases);
   void project(const Eigen::VectorXd& tau, Eigen::Ref<Eigen::ArrayXd> onto) const;
-  void set_margins(ScenarioPosture& at);
-  void set_wrench(ScenarioPosture& at, int i);
+  void set_margins(ScenarioForces& at);
+  void set_wrench(ScenarioForces& at, int i);
   /// n_j'tau of a case.
   double value_of(const Load& load, Eigen::Index which, Eigen::Index pair) const;
   void combine(const Load& load, Eigen::Index which);
@@ -78,7 +83,7 @@ class ScenarioFacets {
   bool refine(Eigen::Index row);
   bool misses(const Eigen::ArrayXd& limits, const Wrench& wrench, Eigen::Index& row);
   bool scan_rows(int wrench, int limits);
-  bool choose(ScenarioPosture& at, const End& end, ScenarioChoice& choice) const;
+  bool choose(ScenarioForces& at, const End& end, ScenarioChoice& choice) const;
 
   const Problem& problem_;
   const Zonotope& set_;

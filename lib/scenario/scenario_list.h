@@ -7,6 +7,10 @@
 
 namespace maxwrench {
 
+/// The difference of ends that rounding may cause, relative to 1 + their size: a posture whose
+/// largest lo_s exceeds the least hi_s by no more has a value.
+inline constexpr double kEndTolerance = 1e-9;
+
 /// Moves to the next scenario of a list, the cases of the last load first; false after the last
 /// one. The first one has zeros throughout.
 bool next(const ScenarioList& list, ScenarioChoice& choice);

@@ -16,6 +16,12 @@ void ScenarioPosture::set(const Posture& posture) {
   if (water_) water_->set(posture.base.R, posture.q);
 }
 
+const Eigen::VectorXd& ScenarioPosture::tau_d() const { return posture_->tau_d; }
+
+void ScenarioPosture::exert(const Vector6d& c, Eigen::VectorXd& tau) const {
+  tau.noalias() = posture_->J.transpose().lazyProduct(c);
+}
+
 Vector6d ScenarioPosture::wrench(int i) const {
   const ScenarioList& list = problem_.scenarios;
   if (list.payload) {

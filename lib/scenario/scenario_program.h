@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "lib/scenario/current_cases.h"
 #include "lib/scenario/current_load.h"
+#include "lib/scenario/scenario_forces.h"
 #include "lib/scenario/scenario_list.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/wrench_program.h"
@@ -12,23 +12,22 @@ namespace maxwrench {
 
 struct Posture;
 
-/// The wrenches and loads of a list of scenarios at one posture.
-class ScenarioPosture {
+/// The wrenches and loads of a list of scenarios at one posture, in world axes.
+class ScenarioPosture final : public ScenarioForces {
  public:
   explicit ScenarioPosture(const Problem& problem);
   explicit ScenarioPosture(const Problem&& problem) = delete;
 
   /// The posture must stay as it is until the next call.
   void set(const Posture& posture);
-  /// The wrench of number i, in world axes, without a ball.
-  Vector6d wrench(int i) const;
-  /// Axis i of the ball in world axes, times its radius.
-  Vector6d ball_axis(Eigen::Index i) const;
-  /// Adds the generalised forces of a case to tau (n).
-  void add_load(const LoadCase& load, Eigen::VectorXd& tau);
-  /// The generalised forces of each case (cases×n), with those of its current by `currents`.
-  void fill_loads(const LoadGroup& cases, CurrentCases& currents, Eigen::ArrayXXd& tau);
   const Posture& posture() const { return *posture_; }
+
+  const Eigen::VectorXd& tau_d() const override;
+  void add_load(const LoadCase& load, Eigen::VectorXd& tau) override;
+  void fill_loads(const LoadGroup& cases, CurrentCases& currents, Eigen::ArrayXXd& tau) override;
+  void exert(const Vector6d& c, Eigen::VectorXd& tau) const override;
+  Vector6d wrench(int i) const override;
+  Vector6d ball_axis(Eigen::Index i) const override;
 
  private:
   const Problem& problem_;

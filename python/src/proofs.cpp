@@ -34,7 +34,7 @@ PyProof certify_task(const py::object& task, double gap, double seconds, const s
   ProofOptions how;
   how.gap = gap;
   how.seconds = seconds;
-  how.keep_certificate = of.problem->contact_columns() == 0 && of.problem->scenarios.empty();
+  how.keep_certificate = why_no_certificate(*of.problem).empty();
   PyProof result{{}, of};
   const Callback shown(callback, 0, of.problem->name);
   run_in_background(shown.function(), [&](Watch& watch) {
@@ -48,7 +48,8 @@ PyProof certify_task(const py::object& task, double gap, double seconds, const s
 void save(const PyProof& self, const py::object& path) {
   const std::string file = path_in("path", path);
   if (self.proof.certificate.empty()) {
-    throw BadValue("proof", "no certificate", "one of a task without contact forces, with a value");
+    throw BadValue("proof", "no certificate",
+                   "one of a task without contact forces and currents, with a value");
   }
   py::module_::import("maxwrench._files")
       .attr("write_bytes")(file, py::bytes(self.proof.certificate));

@@ -1,5 +1,6 @@
 """Lists of scenarios: several wrenches, uncertain loads, lost actuators, payloads."""
 
+import json
 import math
 import os
 import pathlib
@@ -305,3 +306,22 @@ def test_ctrl_c_ends_all_searches():
     cost = mw.sensitivity("uvms/valve", budget=100_000_000, callback=False)
     assert time.perf_counter() - sent[0] < 5
     assert math.isfinite(cost.losses[0].best) and math.isnan(cost.all.best)
+
+
+def test_proofs_of_lists_are_checked(tmp_path, command):
+    name = str(TASKS / "lift_with_a_dead_thruster.toml")
+    proof = mw.certify(name, gap=1e-2)
+    assert proof.status == "proven" and proof.beta <= proof.bound <= proof.beta * (1 + 1.0001e-2)
+    file = tmp_path / "list.proof"
+    proof.save(file)
+    checked = mw.verify(file)
+    assert checked and checked.bound == proof.bound and checked.unit == "N"
+    assert json.loads(command("verify", str(file), "--json").stdout)["status"] == "verified"
+    intact = mw.verify(file, mw.load("uvms/lift"))
+    assert not intact and intact.rejection
+
+
+def test_a_proof_with_currents_leaves_them_out(tmp_path, rejects):
+    proof = mw.certify(static(uncertainty={"current": {"speed": 0.05, "directions": 4}}), gap=0.1, seconds=20)
+    assert proof.beta <= proof.bound
+    rejects(proof.save, tmp_path / "current.proof")

@@ -5,11 +5,15 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "lib/scenario/scenario_list.h"
+#include "lib/math/random.h"
+#include "lib/scenario/current_load.h"
 #include "maxwrench/problem.h"
 #include "solvers/certify/proof_recorder.h"
 #include "solvers/solve/method.h"
 #include "verify/certificate.h"
+#include "verify/equations.h"
+#include "verify/incumbent.h"
+#include "verify/model.h"
 #include "verify/verify.h"
 
 namespace maxwrench {
@@ -23,20 +27,54 @@ double relative_gap(double bound, double value) {
   return bound == value ? 0 : (bound - value) / std::abs(value);
 }
 
+/// The answer at another point of the same search, if it has a value; else it has none.
+Answer answer_at(const Eigen::VectorXd& theta_r, const Options& options, const Answer& answer) {
+  Answer other = evaluate(*answer.task, theta_r, options);
+  if (!other.has_value()) return other;
+  other.conclude(Status::kBestFound);
+  other.choice = answer.choice;
+  other.evaluations = answer.evaluations;
+  other.calls = answer.calls;
+  other.stopped = answer.stopped;
+  other.undecided = answer.undecided;
+  other.ik_solutions = answer.ik_solutions;
+  other.wall_s = answer.wall_s;
+  return other;
+}
+
 /// Replaces the answer of a search by that at a better point, if this one can be verified. It is
 /// still what the search with the bounds found.
 void take_better(const Eigen::VectorXd& theta_r, const Options& options, Answer& answer) {
-  Answer better = evaluate(*answer.task, theta_r, options);
+  Answer better = answer_at(theta_r, options, answer);
   if (!better.has_value() || (answer.has_value() && better.beta() <= answer.beta())) return;
-  better.conclude(Status::kBestFound);
-  better.choice = answer.choice;
-  better.evaluations = answer.evaluations;
-  better.calls = answer.calls;
-  better.stopped = answer.stopped;
-  better.undecided = answer.undecided;
-  better.ik_solutions = answer.ik_solutions;
-  better.wall_s = answer.wall_s;
   answer = std::move(better);
+}
+
+/// Moves a posture that the check of a certificate would reject, such as one that touches itself:
+/// the last digit may decide whether it collides. Tries points at random that are farther and
+/// farther away, and keeps the first one that the check accepts.
+void settle(const Options& options, Answer& answer) {
+  constexpr double kNear = 1e-13, kFar = 1e-7;  // [rad or m]
+  constexpr int kTrials = 256;
+  const Problem& problem = *answer.task;
+  const FormModel model(problem);
+  const Equations equations(problem, model);
+  const auto accepted = [&](const Answer& one) {
+    return reject_incumbent(problem, model, equations, claim_of(one)).empty();
+  };
+  if (accepted(answer)) return;
+  Random random(options.seed);
+  const Eigen::VectorXd centre = answer.posture.theta_r;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Eigen::VectorXd theta_r = centre;
+    const double size = kNear * std::pow(kFar / kNear, static_cast<double>(trial) / kTrials);
+    for (double& x : theta_r) x += size * random.uniform(-1, 1);
+    theta_r = theta_r.cwiseMax(problem.theta_r_min).cwiseMin(problem.theta_r_max);
+    Answer near = answer_at(theta_r, options, answer);
+    if (!near.has_value() || !accepted(near)) continue;
+    answer = std::move(near);
+    return;
+  }
 }
 
 }  // namespace
@@ -70,7 +108,6 @@ double Proof::gap() const {
 
 Proof certify(const Problem& task, const Options& options, const ProofOptions& how,
               ProofRecorder* recorder) {
-  if (recorder) require_no_scenarios(task, "certificate");
   Options c = options;
   if (c.budget == 0) c.budget = kUsualBudget;
   c.check_collision = true;
@@ -106,14 +143,19 @@ Proof certify(const Problem& task, const Options& options, const ProofOptions& h
   } else if (proof.status == Status::kProven && proof.gap() > how.gap * (1 + kGapRounding)) {
     proof.conclude(Status::kBracket, "a better posture could not be verified");
   }
+  if (recorder && proof.answer.has_value()) settle(c, proof.answer);
   return proof;
+}
+
+std::string why_no_certificate(const Problem& task) {
+  if (task.contact_columns() > 0) return "a task with forces of a second contact";
+  return has_current(task.scenarios) ? "a task with currents" : "";
 }
 
 Proof certify(const Problem& task, const Options& options, const ProofOptions& how) {
   if (!how.keep_certificate) return certify(task, options, how, nullptr);
-  if (task.contact_columns() > 0) {
-    throw std::invalid_argument(
-        "keep_certificate: got a task with forces of a second contact, expected one without");
+  if (const std::string got = why_no_certificate(task); !got.empty()) {
+    throw std::invalid_argument("keep_certificate: got " + got + ", expected one without");
   }
   ProofRecorder recorder;
   Proof proof = certify(task, options, how, &recorder);

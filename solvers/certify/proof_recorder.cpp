@@ -2,8 +2,10 @@
 
 #include <cmath>
 
+#include "lib/math/rotated.h"
 #include "maxwrench/version.h"
-#include "verify/coordinates.h"
+#include "verify/equations.h"
+#include "verify/model.h"
 
 namespace maxwrench {
 
@@ -29,6 +31,24 @@ Eigen::VectorXd coordinates_of(const Problem& problem, const PostureCoordinates&
   }
   x.head(posture.theta_r.size()) = posture.theta_r;
   return x;
+}
+
+/// The scenario that decides at the posture of an answer.
+std::vector<double> decides_of(const Problem& problem, const Answer& answer) {
+  const ScenarioList& list = problem.scenarios;
+  const ScenarioChoice& choice = answer.capability.decides;
+  std::vector<double> numbers = {static_cast<double>(choice.wrench),
+                                 static_cast<double>(choice.limits)};
+  numbers.insert(numbers.end(), choice.cases.begin(), choice.cases.end());
+  if (!list.ball) return numbers;
+  const ScenarioWrench& wrench = list.wrenches[static_cast<std::size_t>(choice.wrench)];
+  Eigen::VectorXd z = Eigen::VectorXd::Zero(list.ball->E.cols());
+  if (!wrench.hold) {
+    const Vector6d c = rotated(Eigen::Matrix3d(answer.posture.turn.transpose()), choice.c);
+    z = list.ball->E.transpose() * (c - wrench.c) / list.ball->radius;
+  }
+  numbers.insert(numbers.end(), z.begin(), z.end());
+  return numbers;
 }
 
 }  // namespace
@@ -60,6 +80,7 @@ void ProofRecorder::add(const CertifiedBox& given) {
   } else if (given.proof.kind == BoxProof::Kind::kMultiplier) {
     own.node.reason = CertificateTree::Reason::kMultiplier;
     own.node.multiplier = keep(given.proof.multiplier);
+    own.node.parts = static_cast<std::size_t>(given.proof.multiplier.size());
     width_ = static_cast<int>(given.proof.multiplier.size());
   }
   if (given.parent >= 0) {  // the ids of two halves differ by one; that of the lower half is odd
@@ -76,9 +97,16 @@ void ProofRecorder::add(const CertifiedBox& given) {
 void ProofRecorder::write(const Node& node, CertificateTree& tree) const {
   tree.nodes.push_back(node);
   const auto from = multipliers_.begin() + static_cast<std::ptrdiff_t>(node.multiplier);
-  tree.nodes.back().multiplier = tree.multipliers.size();
+  Node& last = tree.nodes.back();
+  last.multiplier = tree.multipliers.size();
+  if (tree.of_list && last.reason == CertificateTree::Reason::kMultiplier) {
+    last.parts =
+        (node.parts - static_cast<std::size_t>(tree.shared)) / static_cast<std::size_t>(tree.width);
+  } else {
+    last.parts = 1;
+  }
   tree.multipliers.insert(tree.multipliers.end(), from,
-                          from + static_cast<std::ptrdiff_t>(tree.numbers(node)));
+                          from + static_cast<std::ptrdiff_t>(tree.numbers(last)));
 }
 
 void ProofRecorder::write(const Part& part, std::vector<Part>& open, CertificateTree& tree) const {
@@ -105,10 +133,17 @@ void ProofRecorder::write(const Part& part, std::vector<Part>& open, Certificate
   open.push_back(lower);
 }
 
-CertificateTree ProofRecorder::tree() const {
+CertificateTree ProofRecorder::tree(const Problem& problem) const {
   CertificateTree tree;
   tree.width = width_;
   tree.equations = equations_;
+  if (const ScenarioList& list = problem.scenarios; !list.empty()) {
+    tree.of_list = true;
+    tree.width = static_cast<int>(2 + list.loads.size()) + problem.robot.velocities();
+    if (list.ball) tree.width += static_cast<int>(list.ball->E.cols());
+    const FormModel model(problem);
+    tree.shared = Equations(problem, model).count();
+  }
   std::vector<Part> open = {{}};
   while (!open.empty()) {
     const Part part = open.back();
@@ -118,7 +153,7 @@ CertificateTree ProofRecorder::tree() const {
   return tree;
 }
 
-ProofCertificate ProofRecorder::certificate(const Answer& answer, double bound, double gap) const {
+ProofCertificate claim_of(const Answer& answer) {
   const Problem& problem = *answer.task;
   ProofCertificate proof;
   proof.version = version();
@@ -127,15 +162,22 @@ ProofCertificate ProofRecorder::certificate(const Answer& answer, double bound, 
   proof.wrench = answer.choice.wrench;
   proof.collision = problem.robot.collision != nullptr;
   proof.digest = digest(problem);
-  proof.bound = bound;
   proof.x = coordinates_of(problem, PostureCoordinates(problem), answer.posture);
   proof.value = answer.capability.beta;
-  proof.gap = std::max(gap, (proof.bound - proof.value) / std::abs(proof.value));
   proof.u = answer.capability.u;
   proof.h = answer.capability.h;
+  proof.tree.of_list = !problem.scenarios.empty();
+  if (proof.tree.of_list) proof.decides = decides_of(problem, answer);
+  return proof;
+}
+
+ProofCertificate ProofRecorder::certificate(const Answer& answer, double bound, double gap) const {
+  ProofCertificate proof = claim_of(answer);
+  proof.bound = bound;
+  proof.gap = std::max(gap, (proof.bound - proof.value) / std::abs(proof.value));
   proof.lower = lower_;
   proof.upper = upper_;
-  proof.tree = tree();
+  proof.tree = tree(*answer.task);
   return proof;
 }
 

@@ -6,6 +6,9 @@
 
 namespace maxwrench {
 
+/// The claim of an answer whose posture has a value, without a bound and boxes.
+ProofCertificate claim_of(const Answer& answer);
+
 /// Records the boxes of a run of branch and bound, for its certificate.
 class ProofRecorder {
  public:
@@ -26,7 +29,7 @@ class ProofRecorder {
   };
   struct Box {
     std::vector<Slice> slices;
-    CertificateTree::Node node;  ///< of the rest
+    CertificateTree::Node node;  ///< of the rest; `parts` is the number of entries
     std::size_t lower_half = 0;  ///< if the box is cut; the upper half has the next id
   };
   /// A part of a tree that is still to be written: a slice, or the rest of a box after its first
@@ -38,7 +41,7 @@ class ProofRecorder {
 
   Box& box(std::size_t id);
   std::size_t keep(const Eigen::VectorXd& multiplier);
-  CertificateTree tree() const;
+  CertificateTree tree(const Problem& problem) const;
   void write(const Part& part, std::vector<Part>& open, CertificateTree& tree) const;
   void write(const CertificateTree::Node& node, CertificateTree& tree) const;
 

@@ -12,7 +12,11 @@ namespace maxwrench {
 
 WrittenProof::WrittenProof(const char* name, const char* measure, Wrench wrench, double gap,
                            long boxes)
-    : problem(load_problem(name)) {
+    : WrittenProof(load_problem(name), name, measure, wrench, gap, boxes) {}
+
+WrittenProof::WrittenProof(Problem of, const char* name, const char* measure, Wrench wrench,
+                           double gap, long boxes)
+    : problem(std::move(of)) {
   Case c;
   c.problem = name;
   c.measure = measure;

@@ -14,6 +14,8 @@ struct WrittenProof {
 
   WrittenProof(const char* name, const char* measure, Wrench wrench, double gap,
                long boxes = 1000000);
+  WrittenProof(Problem of, const char* name, const char* measure, Wrench wrench, double gap,
+               long boxes = 1000000);
   WrittenProof(const WrittenProof&) = delete;
 
   /// Why `verify` rejects a certificate of the problem; empty if it accepts it.

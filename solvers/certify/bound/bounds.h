@@ -49,11 +49,31 @@ std::unique_ptr<Bound> make_pure_bound(const Problem& problem, const std::string
 ///             o_0 - mu'tau_0 + (o - A'mu)'u.
 std::unique_ptr<Bound> make_any_wrench_bound(const Problem& problem);
 
-/// A bound of linf_polytope of a list of scenarios, with pure wrenches: the least of the bounds of
-/// its scenarios, each divided by the length of its wrench. It does not see that no posture is good
-/// for two scenarios that meet. Throws std::invalid_argument on a ball, a current and more than a
-/// hundred scenarios.
-std::unique_ptr<Bound> make_scenario_bound(const Problem& problem, Wrench wrench);
+/// A bound of linf_polytope of a list of scenarios, with pure wrenches. A value t of the list is a
+/// factor of every scenario s, so for any lambda_s and nu
+///
+///     U = sum_s s_s(lambda_s) + max over control points v and t in {low, high} of
+///         t (1 - sum_s lambda_s'a_s,v) - sum_s lambda_s'tau_s,v - nu'f_v
+///
+/// is a bound as above. It combines the facets of all scenarios that have to do with a box; all
+/// others have lambda_s = 0. The multiplier is [numbers of s; lambda_s] of each scenario with
+/// lambda_s, and nu. Throws std::invalid_argument, with one line, as `ListModel` and for any
+/// wrenches.
+std::unique_ptr<Bound> make_list_bound(const Problem& problem, Wrench wrench);
+
+/// Magnitudes of tau and a in the six axes of the base, beyond the limits of sliding coordinates.
+struct CeilingSizes {
+  Eigen::VectorXd tau, a;
+};
+CeilingSizes ceiling_sizes(const Problem& problem);
+
+/// t <= (sum_k max |u_k| |B_k| + |tau|) / |J'c|, where only the base's free axes count: the linear
+/// ones for a force and the angular ones for a torque. On all three axes of that kind, |J'c| is the
+/// length of the force or torque of c. The share of axes that are not free is subtracted from its
+/// square. For tasks whose base follows in closed form, without forces of a second contact. Throws
+/// std::invalid_argument, with one line, for a c that the free axes do not limit.
+double pure_ceiling(const Problem& problem, const Vector6d& c, const Zonotope& set,
+                    const CeilingSizes& sizes);
 
 /// Returns -infinity for boxes throughout which two bodies collide, else `high`. For each pair of
 /// bodies, a point of one body's core moves along a multi-affine path in the axes of the other's

@@ -9,18 +9,20 @@ namespace maxwrench {
 /// `identity`, B is the identity, and s is the support function of the limits themselves.
 class BoxSupport {
  public:
-  /// Keeps a reference to the limits.
+  /// Keeps a reference to the set.
   BoxSupport(const Zonotope& set, bool identity)
       : set_(set),
-        B_(identity ? Eigen::MatrixXd::Identity(set.actuators(), set.actuators()) : set.B),
-        farthest_(set.u_min.cwiseAbs().cwiseMax(set.u_max.cwiseAbs())) {}
+        B_(identity ? Eigen::MatrixXd::Identity(set.actuators(), set.actuators()) : set.B) {}
 
   const Eigen::MatrixXd& B() const { return B_; }
 
-  double of(const Eigen::VectorXd& lambda) {
+  double of(const Eigen::VectorXd& lambda) { return of(lambda, set_); }
+  /// The same within the limits of another set, of the same B.
+  double of(const Eigen::VectorXd& lambda, const Zonotope& other) {
+    farthest_ = other.u_min.cwiseAbs().cwiseMax(other.u_max.cwiseAbs());
     slope_.noalias() = B_.transpose() * lambda;
     sizes_.noalias() = B_.cwiseAbs().transpose() * lambda.cwiseAbs();
-    return (slope_.array() * set_.u_min.array()).max(slope_.array() * set_.u_max.array()).sum();
+    return (slope_.array() * other.u_min.array()).max(slope_.array() * other.u_max.array()).sum();
   }
   /// The largest rounding error of the last value.
   double rounding() const { return kBoundRounding * sizes_.dot(farthest_); }

@@ -63,7 +63,7 @@ std::unique_ptr<Bound> measure_bound(const Problem& problem, const std::string& 
                                 ": measure: got 'ellipsoid', expected linf_polytope for a proof "
                                 "with forces of a second contact");
   }
-  if (!problem.scenarios.empty()) return make_scenario_bound(problem, wrench);
+  if (!problem.scenarios.empty()) return make_list_bound(problem, wrench);
   return any ? make_any_wrench_bound(problem) : make_pure_bound(problem, measure);
 }
 

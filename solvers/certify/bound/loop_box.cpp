@@ -34,7 +34,8 @@ bool LoopBox::set(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
   return true;
 }
 
-void LoopBox::weigh(const Eigen::VectorXd& lambda, const Eigen::VectorXd& nu) {
+void LoopBox::weigh(const Eigen::VectorXd& lambda, const Eigen::VectorXd& slopes,
+                    const Eigen::VectorXd& nu) {
   g_.setZero();
   h_.setZero();
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -47,6 +48,9 @@ void LoopBox::weigh(const Eigen::VectorXd& lambda, const Eigen::VectorXd& nu) {
     sum_.noalias() = P.topRows(count).transpose() * own_;
     spread_out(part, sum_, g_);
     if (part.kind != LoopPart::Kind::kLoads) continue;
+    for (Eigen::Index k = 0; k < count; ++k) {
+      own_[k] = slopes[part.rows[static_cast<std::size_t>(k)]];
+    }
     sum_.noalias() = P.bottomRows(count).transpose() * own_;
     spread_out(part, sum_, h_);
   }

@@ -15,7 +15,12 @@ class LoopBox {
   bool set(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
 
   /// Computes g = lambda'tau + nu'f and h = lambda'a at all control points.
-  void weigh(const Eigen::VectorXd& lambda, const Eigen::VectorXd& nu);
+  void weigh(const Eigen::VectorXd& lambda, const Eigen::VectorXd& nu) {
+    weigh(lambda, lambda, nu);
+  }
+  /// The same with another multiplier of a, for h = slopes'a.
+  void weigh(const Eigen::VectorXd& lambda, const Eigen::VectorXd& slopes,
+             const Eigen::VectorXd& nu);
   const Eigen::VectorXd& g() const { return g_; }
   const Eigen::VectorXd& h() const { return h_; }
 

@@ -101,6 +101,12 @@ void LoopModel::add_joints(LoopPosture& posture) {
   }
 }
 
+void LoopModel::leave_equations() {
+  std::erase_if(parts, [](const LoopPart& part) { return part.kind == Kind::kEquations; });
+  m = 0;
+  f.resize(0);
+}
+
 std::vector<int> LoopModel::new_equations(Eigen::Index count) {
   std::vector<int> rows(static_cast<std::size_t>(count));
   std::iota(rows.begin(), rows.end(), static_cast<int>(m));

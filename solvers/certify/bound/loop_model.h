@@ -29,6 +29,9 @@ struct LoopModel {
   /// many control points.
   explicit LoopModel(const Problem& problem);
 
+  /// Takes the equations out.
+  void leave_equations();
+
   LoopCoordinates coordinates;
   std::vector<LoopPart> parts;
   Eigen::Index n = 0;         ///< rows of tau_d

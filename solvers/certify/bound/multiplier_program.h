@@ -24,6 +24,11 @@ class MultiplierProgram {
   MultiplierProgram(const Eigen::MatrixXd& B, const Eigen::VectorXd& x_min,
                     const Eigen::VectorXd& x_max, Eigen::Index most_points);
 
+  /// Changes the limits of x_k.
+  void set_limits(Eigen::Index k, double x_min, double x_max) {
+    low_[k] = x_min;
+    width_[k] = x_max - x_min;
+  }
   void set_points(Eigen::Index count) { points_ = count; }
   Eigen::Index points() const { return points_; }
   /// The index of the first point in a basis.
@@ -36,6 +41,12 @@ class MultiplierProgram {
   /// `basis`, which is empty or the basis of a program with as many rows, and stores the last basis
   /// in it. Returns U(lambda), which may be off by rounding.
   double solve(double enough, int steps, std::vector<int>& basis, Eigen::VectorXd& lambda);
+  /// The weight mu_i of a point where the last call ended. It is in [0, 1] if that call reached the
+  /// least U.
+  double weight(Eigen::Index i) const {
+    const auto column = static_cast<std::size_t>(first_ + i);
+    return place_[column] >= 0 ? x_[place_[column]] : high_[column] != 0 ? 1 : 0;
+  }
 
  private:
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

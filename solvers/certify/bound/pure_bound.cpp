@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "lib/measure/closed_form.h"
+#include "solvers/certify/bound/bound_points.h"
 #include "solvers/certify/bound/bounds.h"
 #include "solvers/certify/bound/box_support.h"
 #include "solvers/certify/bound/ellipsoid_support.h"
@@ -14,45 +15,6 @@
 
 namespace maxwrench {
 namespace {
-
-/// t <= (sum_k max |u_k| |B_k| + |tau|) / |J'c|, where only the base's free axes count: the linear
-/// ones for a force and the angular ones for a torque. On all three axes of that kind, |J'c| is the
-/// length of the force or torque of c. The share of axes that are not free is subtracted from its
-/// square. The ceiling is infinite if the base does not follow in closed form, and where the second
-/// contact may bear t c in place of the base.
-double ceiling_of(const Problem& problem, const LoopCoordinates& coordinates) {
-  constexpr double kLeastLength2 = 1e-6;
-  if (!coordinates.base_is_dependent || coordinates.forces_grow()) return kInfinity;
-  Problem wide = problem;
-  wide.robot.base_axes = {0, 1, 2, 3, 4, 5};
-  wide.theta_r_min.array() -= kCeilingMargin;
-  wide.theta_r_max.array() += kCeilingMargin;
-  const LoopModel model(wide);
-  const Zonotope& set = problem.robot.actuation;
-  const bool pushes = !problem.c.head<3>().isZero(0);
-  const int kind = pushes ? 0 : 3;
-  std::vector<int> rows;
-  Eigen::Array3d taken = model.a.segment<3>(kind).array().square();
-  double load2 = 0;
-  for (std::size_t i = 0; i < problem.robot.base_axes.size(); ++i) {
-    const int axis = problem.robot.base_axes[i] - kind;
-    if (axis < 0 || axis >= 3) continue;
-    rows.push_back(static_cast<int>(i));
-    taken[axis] = 0;
-    load2 += model.tau[kind + axis] * model.tau[kind + axis];
-  }
-  const double length2 = problem.c.segment<3>(kind).squaredNorm() - taken.sum();
-  if (rows.empty() || !(length2 > kLeastLength2)) {
-    throw std::invalid_argument(problem.name +
-                                ": wrench.c: got a direction that the base's free axes do not "
-                                "limit, expected one that they limit in all postures, for a proof");
-  }
-  double force = std::sqrt(load2);
-  for (Eigen::Index k = 0; k < set.actuators(); ++k) {
-    force += std::max(std::abs(set.u_min[k]), std::abs(set.u_max[k])) * set.B.col(k)(rows).norm();
-  }
-  return force / std::sqrt(length2) * (1 + kCeilingRounding);
-}
 
 enum class PureMeasure { kPolytope, kSmallestEffort, kEllipsoid };
 
@@ -71,10 +33,9 @@ class PureBound final : public Bound {
         box_(*model_),
         linear_(*model_),
         program_(extended_B(), set.u_min.head(found_by_program() ? set.actuators() : 0),
-                 set.u_max.head(found_by_program() ? set.actuators() : 0), kMostPoints) {
+                 set.u_max.head(found_by_program() ? set.actuators() : 0), ProgramPoints::kMost) {
     if (!found_by_program()) ellipsoid_.emplace(K);
     entries_.resize(free_rows() + most_rank_);
-    at_.resize(2 * model_->size);
   }
 
   double ceiling() const override { return ceiling_; }
@@ -109,9 +70,7 @@ class PureBound final : public Bound {
  private:
   void bound_from(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low,
                   double high, BoxProof& proof) {
-    least_t_ = std::isfinite(low) ? low : std::min(-kWide, -2 * std::abs(high));
-    if (!std::isfinite(least_t_)) least_t_ = -kWide;
-    most_t_ = std::isfinite(high) ? high : kWide * std::max(1.0, std::abs(least_t_));
+    values_.set_ends(low, high);
     const Eigen::Index rows = this->rows();
     if (proof.multiplier.size() == rows + model_->m) {
       lambda_ = proof.multiplier.head(rows);
@@ -130,13 +89,10 @@ class PureBound final : public Bound {
     improve_by_rounds(low, high, proof);
   }
 
-  static constexpr Eigen::Index kMostPoints = 1024;
   static constexpr int kMostRounds = 24;
-  static constexpr std::size_t kMostAdded = 8;
   static constexpr int kMostSteps = 120;
   static constexpr double kBelow = 1e-9;
   static constexpr double kClose = 0.1;
-  static constexpr double kWide = 1e3;
 
   /// The length of lambda.
   Eigen::Index rows() const { return support_.B().rows(); }
@@ -179,40 +135,27 @@ class PureBound final : public Bound {
       sizes_ = lambda_.cwiseAbs();
     }
     box_.weigh(reach_, nu_);
-    const double T = std::max(std::abs(least_t_), std::abs(most_t_));
     const double share = kBoundRounding * kMostSpread;
     const double off = (ellipsoid_ ? ellipsoid_->rounding() : support_.rounding()) +
                        share * (sizes_.dot(model_->tau) + nu_.cwiseAbs().dot(model_->f));
     const double off_a = share * sizes_.dot(model_->a);
     s_ = s;
-    at_.head(model_->size) = least_t_ * (1 - box_.h().array()) - box_.g().array();
-    at_.tail(model_->size) = most_t_ * (1 - box_.h().array()) - box_.g().array();
-    double U = kInfinity;
-    if (std::isfinite(low) && std::isfinite(high)) {
-      U = s + at_.maxCoeff() + off + T * (off_a + kBoundRounding);
-    }
-    // t <= (s - g)/h by convexity, where h > 0 at all points.
-    if (U > low && box_.h().minCoeff() > 2 * off_a) {
-      const double ratio = ((s + off - box_.g().array()) /
-                            (box_.h().array() - (s + off - box_.g().array()).sign() * off_a))
-                               .maxCoeff();
-      U = std::min(U, ratio + 1e-14 * std::abs(ratio));
-    }
-    return U;
+    return values_.bound(s, box_.g(), box_.h(), off, off_a, low, high);
   }
 
   void improve_by_rounds(double low, double high, BoxProof& proof) {
     begin_points(proof.basis);
+    const double least_t = values_.least_t();
     for (int round = 0; round < kMostRounds; ++round) {
       const double least =
-          program_.solve(least_t_ - kBelow * std::abs(least_t_), kMostSteps, local_, solved_);
+          program_.solve(least_t - kBelow * std::abs(least_t), kMostSteps, local_, solved_);
       if (!ellipsoid_) lambda_ = solved_.head(rows());
       nu_.noalias() = linear_.M().topRows(rank_).transpose() * solved_.segment(free_rows(), rank_);
       take(value(low, high), proof);
       if (proof.high <= low) break;
-      const double now = s_ + at_.maxCoeff();
+      const double now = s_ + values_.at().maxCoeff();
       const bool finite = std::isfinite(proof.high);
-      if (finite && now - least <= kClose * std::max(proof.high - least_t_, 0.0)) break;
+      if (finite && now - least <= kClose * std::max(proof.high - least_t, 0.0)) break;
       if (!add_points(least)) break;
     }
     keep_basis(proof.basis);
@@ -221,40 +164,28 @@ class PureBound final : public Bound {
   /// Begins with the points of a larger box's basis and those that are worst at its multiplier;
   /// without a basis, with the corners of the box.
   void begin_points(const std::vector<int>& basis) {
-    ids_.clear();
+    points_.clear();
     const auto first = program_.first_point();
     local_ = basis;
     for (int& column : local_) {
       if (column < first) continue;
-      ids_.push_back(column - first);
-      column = first + static_cast<int>(ids_.size()) - 1;
+      points_.add(column - first);
+      column = first + static_cast<int>(points_.count()) - 1;
     }
-    if (basis.empty()) add_corners();
-    program_.set_points(static_cast<Eigen::Index>(ids_.size()));
-    for (std::size_t i = 0; i < ids_.size(); ++i) write_point(static_cast<Eigen::Index>(i));
+    if (basis.empty()) points_.add_corners(model_->coordinates.chain, model_->size);
+    write_points(0);
     if (!basis.empty()) add_points(-kInfinity);
   }
 
-  void add_corners() {
-    const Coordinates& chain = model_->coordinates.chain;
-    for (Eigen::Index v = 0; v < model_->size && ids_.size() + 2 <= kMostPoints / 2; ++v) {
-      Eigen::Index rest = v;
-      bool corner = true;
-      for (int i = chain.count(); i-- > 0;) {
-        corner = corner && (chain.terms(i) == 2 || rest % 3 != 1);
-        rest /= chain.terms(i);
-      }
-      if (!corner) continue;
-      ids_.push_back(static_cast<int>(v));
-      ids_.push_back(static_cast<int>(v + model_->size));
-    }
+  void write_points(Eigen::Index from) {
+    program_.set_points(points_.count());
+    for (Eigen::Index i = from; i < points_.count(); ++i) write_point(i);
   }
 
-  /// Point v at least_t_, or point v + size at most_t_.
   void write_point(Eigen::Index i) {
-    const Eigen::Index id = ids_[static_cast<std::size_t>(i)];
+    const Eigen::Index id = points_.ids()[static_cast<std::size_t>(i)];
     const bool high = id >= model_->size;
-    const double t = high ? most_t_ : least_t_;
+    const double t = high ? values_.most_t() : values_.least_t();
     box_.read(high ? id - model_->size : id);
     const Eigen::Index rows = free_rows();
     load_ = box_.tau() + t * box_.a();
@@ -274,17 +205,9 @@ class PureBound final : public Bound {
 
   /// Returns false if there are no points to add, or no room for them.
   bool add_points(double least) {
-    list_largest(at_, least - s_, kMostAdded, order_);
-    const std::size_t before = ids_.size();
-    for (const int id : order_) {
-      if (std::find(ids_.begin(), ids_.end(), id) == ids_.end()) ids_.push_back(id);
-    }
-    if (ids_.size() == before || ids_.size() > static_cast<std::size_t>(kMostPoints)) {
-      ids_.resize(before);
-      return false;
-    }
-    program_.set_points(static_cast<Eigen::Index>(ids_.size()));
-    for (std::size_t i = before; i < ids_.size(); ++i) write_point(static_cast<Eigen::Index>(i));
+    const Eigen::Index before = points_.count();
+    if (!points_.add_largest(values_.at(), least - s_)) return false;
+    write_points(before);
     return true;
   }
 
@@ -292,7 +215,7 @@ class PureBound final : public Bound {
     basis = local_;
     const auto first = program_.first_point();
     for (int& column : basis) {
-      if (column >= first) column = first + ids_[static_cast<std::size_t>(column - first)];
+      if (column >= first) column = first + points_.ids()[static_cast<std::size_t>(column - first)];
     }
   }
 
@@ -308,9 +231,11 @@ class PureBound final : public Bound {
   LoopLinear linear_;
   MultiplierProgram program_;
   Eigen::Index rank_ = 0;
-  double least_t_ = 0, most_t_ = 0, s_ = 0;
-  Eigen::VectorXd lambda_, nu_, solved_, both_, reach_, sizes_, at_, entries_, load_;
-  std::vector<int> ids_, local_, order_;
+  PointValues values_;
+  ProgramPoints points_;
+  double s_ = 0;
+  Eigen::VectorXd lambda_, nu_, solved_, both_, reach_, sizes_, entries_, load_;
+  std::vector<int> local_;
 };
 
 }  // namespace
@@ -327,7 +252,10 @@ std::unique_ptr<Bound> make_pure_bound(const Problem& problem, const std::string
     K = weighted_inverse(problem.robot, measure);
   }
   auto model = std::make_shared<LoopModel>(problem);
-  const double ceiling = ceiling_of(problem, model->coordinates);
+  double ceiling = kInfinity;
+  if (model->coordinates.base_is_dependent && !model->coordinates.forces_grow()) {
+    ceiling = pure_ceiling(problem, problem.c, problem.robot.actuation, ceiling_sizes(problem));
+  }
   return std::make_unique<PureBound>(std::move(model), ceiling, problem.robot.actuation, K, kind);
 }
 

@@ -1,0 +1,70 @@
+#include "solvers/certify/bound/bound_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/certify/bound/bounds.h"
+#include "solvers/certify/bound/multiplier_program.h"
+
+namespace maxwrench {
+namespace {
+
+constexpr std::size_t kMostAdded = 8;
+constexpr double kWide = 1e3;
+
+}  // namespace
+
+void PointValues::set_ends(double low, double high) {
+  least_t_ = std::isfinite(low) ? low : std::min(-kWide, -2 * std::abs(high));
+  if (!std::isfinite(least_t_)) least_t_ = -kWide;
+  most_t_ = std::isfinite(high) ? high : kWide * std::max(1.0, std::abs(least_t_));
+}
+
+double PointValues::bound(double s, const Eigen::VectorXd& g, const Eigen::VectorXd& h, double off,
+                          double off_a, double low, double high) {
+  const double T = std::max(std::abs(least_t_), std::abs(most_t_));
+  const Eigen::Index size = g.size();
+  at_.resize(2 * size);
+  at_.head(size) = least_t_ * (1 - h.array()) - g.array();
+  at_.tail(size) = most_t_ * (1 - h.array()) - g.array();
+  double U = kInfinity;
+  if (std::isfinite(low) && std::isfinite(high)) {
+    U = s + at_.maxCoeff() + off + T * (off_a + kBoundRounding);
+  }
+  // t <= (s - g)/h by convexity, where h > 0 at all points.
+  if (U > low && h.minCoeff() > 2 * off_a) {
+    const double ratio =
+        ((s + off - g.array()) / (h.array() - (s + off - g.array()).sign() * off_a)).maxCoeff();
+    U = std::min(U, ratio + 1e-14 * std::abs(ratio));
+  }
+  return U;
+}
+
+void ProgramPoints::add_corners(const Coordinates& chain, Eigen::Index size) {
+  for (Eigen::Index v = 0; v < size && count() + 2 <= kMost / 2; ++v) {
+    Eigen::Index rest = v;
+    bool corner = true;
+    for (int i = chain.count(); i-- > 0;) {
+      corner = corner && (chain.terms(i) == 2 || rest % 3 != 1);
+      rest /= chain.terms(i);
+    }
+    if (!corner) continue;
+    ids_.push_back(static_cast<int>(v));
+    ids_.push_back(static_cast<int>(v + size));
+  }
+}
+
+bool ProgramPoints::add_largest(const Eigen::VectorXd& values, double above) {
+  list_largest(values, above, kMostAdded, order_);
+  const std::size_t before = ids_.size();
+  for (const int id : order_) {
+    if (std::find(ids_.begin(), ids_.end(), id) == ids_.end()) ids_.push_back(id);
+  }
+  if (ids_.size() == before || count() > kMost) {
+    ids_.resize(before);
+    return false;
+  }
+  return true;
+}
+
+}  // namespace maxwrench

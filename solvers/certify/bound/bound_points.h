@@ -1,0 +1,53 @@
+#pragma once
+
+#include <vector>
+
+#include "solvers/certify/bound/multi_affine.h"
+
+namespace maxwrench {
+
+/// The values t (1 - h_v) - g_v of a multiplier at all control points v, for t = least_t and t =
+/// most_t, and the bound that they prove.
+class PointValues {
+ public:
+  /// For values in [low, high], which may be infinite: numbers that the program can use in place of
+  /// infinite ones.
+  void set_ends(double low, double high);
+  double least_t() const { return least_t_; }
+  double most_t() const { return most_t_; }
+
+  /// U = s + the largest value, rounding included; without finite `low` and `high`, and where it is
+  /// less, the largest (s - g_v)/h_v. The rounding errors of s, g and h are at most `off` and
+  /// `off_a`.
+  double bound(double s, const Eigen::VectorXd& g, const Eigen::VectorXd& h, double off,
+               double off_a, double low, double high);
+  /// The values, first all with least_t.
+  const Eigen::VectorXd& at() const { return at_; }
+
+ private:
+  double least_t_ = 0, most_t_ = 0;
+  Eigen::VectorXd at_;
+};
+
+/// The control points of a linear program. Point v with least_t is number v, and with most_t number
+/// v + size.
+class ProgramPoints {
+ public:
+  static constexpr Eigen::Index kMost = 1024;
+
+  /// The numbers, in the order of the program's columns.
+  const std::vector<int>& ids() const { return ids_; }
+  Eigen::Index count() const { return static_cast<Eigen::Index>(ids_.size()); }
+  void clear() { ids_.clear(); }
+  void add(int id) { ids_.push_back(id); }
+  /// Adds the corners of a box, if there are not too many.
+  void add_corners(const Coordinates& chain, Eigen::Index size);
+  /// Adds some of the numbers with the largest values above a limit. Returns false if there are
+  /// none that are new, or no room for them.
+  bool add_largest(const Eigen::VectorXd& values, double above);
+
+ private:
+  std::vector<int> ids_, order_;
+};
+
+}  // namespace maxwrench
