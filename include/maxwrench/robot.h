@@ -157,14 +157,6 @@ struct InscribedBoxPair {
   double reach = 0;  ///< distance [m]
 };
 
-/// How far the two bodies of a pair extend.
-struct BodyExtents {
-  int link_a = 0,        ///< the link of the first body
-      link_b = 0;        ///< the link of the second body
-  double a = kInfinity,  ///< all points of the first body are this near its link's origin [m]
-      b = kInfinity;     ///< the same for the second body [m]
-};
-
 /// Decides whether a posture is in self-collision.
 ///
 /// An object is const and may be shared between threads. The argument `links` of its functions
@@ -194,9 +186,6 @@ class CollisionChecker {
   /// The arguments are the pair, and the result. It returns false if the pair has none, which is
   /// the default.
   virtual bool inscribed_boxes(int /*pair*/, InscribedBoxPair& /*result*/) const { return false; }
-  /// Returns how far the bodies of a pair extend, which bounds how fast they approach each other.
-  /// The default is infinite: it is not known.
-  virtual BodyExtents extents(int /*pair*/) const { return {}; }
 };
 
 /// A value of a robot's data that some tasks cannot use, in the words of an error message.

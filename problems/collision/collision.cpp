@@ -168,15 +168,6 @@ class ShapePairs : public CollisionChecker {
     return true;
   }
 
-  BodyExtents extents(int i) const override {
-    const Pair& pair = pairs_[index(i)];
-    const Shape &a = shapes_[index(pair.a)], &b = shapes_[index(pair.b)];
-    const auto extent = [](const Shape& shape) {
-      return (shape.placement.p.norm() + bounding_radius(shape)) * (1 + 1e-12);
-    };
-    return {a.link, b.link, extent(a), extent(b)};
-  }
-
   std::string pair_name(int i) const override {
     const Pair& pair = pairs_[index(i)];
     return shapes_[index(pair.a)].body + " and " + shapes_[index(pair.b)].body;

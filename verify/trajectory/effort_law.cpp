@@ -7,7 +7,7 @@
 namespace maxwrench {
 namespace {
 
-/// The time between two edges is cut in halves this often at most.
+/// The time about an edge is cut in halves this often at most.
 constexpr int kMostHalvings = 8;
 
 /// [m; 1] The base may be this far off its free axes, which the knots' rounding can cause.
@@ -54,6 +54,13 @@ double least(const std::array<Narrow, 3>& y, const Narrow& r) {
   return -most({-y[0], -y[1], -y[2]}, r);
 }
 
+/// A quadratic in s/H about another place, as one in s.
+std::array<Narrow, 3> moved_to(const std::array<Narrow, 3>& y, const Narrow& place,
+                               const Narrow& H) {
+  return {y[0] + place * (y[1] + place * y[2]), (y[1] + 2.0 * (place * y[2])) / H,
+          y[2] / H / H};
+}
+
 }  // namespace
 
 NarrowRows narrow_pseudoinverse(const Problem& problem) {
@@ -75,17 +82,17 @@ EffortLaw::EffortLaw(const TrajectoryModel& model, const TrajectoryCertificate& 
   length_ = narrow(Wide(model.problem().motion->T) / Wide(static_cast<long double>(edges)));
 }
 
-MotionFault EffortLaw::check(int interval, int part, long& slices) const {
+MotionFault EffortLaw::check(int interval, int edge, long& slices) const {
   struct Slice {
     double from, to;
     int halvings;
   };
-  std::vector<Slice> open = {{0, 1, 0}};
+  std::vector<Slice> open = {{edge == 0 ? 0 : -0.5, edge == proof_.parts ? 0 : 0.5, 0}};
   while (!open.empty()) {
     const Slice slice = open.back();
     open.pop_back();
     ++slices;
-    MotionFault fault = check_slice(interval, part, slice.from, slice.to);
+    MotionFault fault = check_slice(interval, edge, slice.from, slice.to);
     if (fault.reason.empty()) continue;
     if (slice.halvings == kMostHalvings) return fault;
     const double middle = (slice.from + slice.to) / 2;
@@ -95,40 +102,47 @@ MotionFault EffortLaw::check(int interval, int part, long& slices) const {
   return {};
 }
 
-auto EffortLaw::efforts(int interval, int part, double from, double to,
-                        const std::vector<Jet<1>>& tau_d, const std::vector<Jet<1>>& a,
-                        const std::vector<Jet<2>>& tau_d_over,
-                        const std::vector<Jet<2>>& a_over) const -> std::vector<Quadratic> {
-  const Eigen::Index edge = Eigen::Index{proof_.parts} * interval + part;
-  const double middle = (from + to) / 2;
-  const auto between = [&](double y_0, double y_1, double at) {
-    return Narrow(y_0) + at * (Narrow(y_1) - Narrow(y_0));
-  };
+/// The B-spline about an edge, by powers of s/H. `at` is the control point of this edge.
+auto EffortLaw::spline(const double* at, Eigen::Index stride, int edge) const -> Quadratic {
+  const Narrow own(at[0]);
+  if (edge == 0) return {own, Narrow(at[stride]) - own, Narrow()};
+  const Narrow before(at[-stride]);
+  if (edge == proof_.parts) return {own, own - before, Narrow()};
+  const Narrow after(at[stride]), sum = before + after;
+  return {0.125 * (sum + 6.0 * own), 0.5 * (after - before), 0.5 * (sum - 2.0 * own)};
+}
+
+/// `place`: of the slice, in s/H.
+auto EffortLaw::efforts(int interval, int edge, const Narrow& place, const MotionLoads<1>& at,
+                        const MotionLoads<2>& over) const -> std::vector<Quadratic> {
+  const Eigen::Index column = Eigen::Index{proof_.parts} * interval + edge;
   const auto m = static_cast<std::size_t>(proof_.y.rows());
-  std::vector<Narrow> y(m), y_rate(m);
+  const Narrow middle((place.low + place.high) / 2);
+  std::array<std::vector<Narrow>, 3> y, left;  // left of the balance, without B^+
   for (std::size_t i = 0; i < m; ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    y[i] = between(proof_.y(row, edge), proof_.y(row, edge + 1), middle);
-    y_rate[i] = (Narrow(proof_.y(row, edge + 1)) - Narrow(proof_.y(row, edge))) / length_;
+    const Quadratic own = spline(&proof_.y(static_cast<Eigen::Index>(i), column),
+                                 proof_.y.rows(), edge);
+    const Quadratic here = moved_to(own, middle, length_);
+    for (std::size_t k = 0; k < 3; ++k) y[k].push_back(here[k]);
   }
-  Narrow w(proof_.value), w_rate, w_over = w;
+  Quadratic w = {Narrow(proof_.value), Narrow(), Narrow()}, w_over = w;
   if (proof_.w.size() > 0) {
-    const double w_0 = proof_.w[edge], w_1 = proof_.w[edge + 1];
-    w = between(w_0, w_1, middle);
-    w_rate = (Narrow(w_1) - Narrow(w_0)) / length_;
-    const Narrow first = between(w_0, w_1, from), last = between(w_0, w_1, to);
-    w_over = {std::min(first.low, last.low), std::max(first.high, last.high)};
+    const Quadratic own = spline(&proof_.w[column], 1, edge);
+    w = moved_to(own, middle, length_);
+    w_over = moved_to(own, place, length_);
   }
-  std::array<std::vector<Narrow>, 3> left;  // of the balance, without B^+
-  for (std::size_t i = 0; i < tau_d.size(); ++i) {
-    left[0].push_back(tau_d[i].c[0] + a[i].c[0] * w - product(B_[i], y));
-    left[1].push_back(tau_d[i].c[1] + a[i].c[1] * w + a[i].c[0] * w_rate - product(B_[i], y_rate));
-    left[2].push_back(tau_d_over[i].c[2] + a_over[i].c[2] * w_over + a_over[i].c[1] * w_rate);
+  for (std::size_t i = 0; i < at.tau_d.size(); ++i) {
+    const auto& tau = at.tau_d[i].c;
+    const auto& a = at.along_c[i].c;
+    const auto& a_over = over.along_c[i].c;
+    left[0].push_back(tau[0] + a[0] * w[0] - product(B_[i], y[0]));
+    left[1].push_back(tau[1] + a[1] * w[0] + a[0] * w[1] - product(B_[i], y[1]));
+    left[2].push_back(over.tau_d[i].c[2] + a_over[2] * w_over[0] + a_over[1] * w_over[1] +
+                      a_over[0] * w_over[2] - product(B_[i], y[2]));
   }
-  std::vector<Quadratic> u;
+  std::vector<Quadratic> u(m);
   for (std::size_t i = 0; i < m; ++i) {
-    u.push_back({y[i] + product(B_pinv_[i], left[0]), y_rate[i] + product(B_pinv_[i], left[1]),
-                 product(B_pinv_[i], left[2])});
+    for (std::size_t k = 0; k < 3; ++k) u[i][k] = y[k][i] + product(B_pinv_[i], left[k]);
   }
   return u;
 }
@@ -153,10 +167,10 @@ MotionFault EffortLaw::check_limits(std::size_t actuator, const Quadratic& u,
           in_digits(rate) + ", beyond its limit " + in_digits(limit)};
 }
 
-MotionFault EffortLaw::check_slice(int interval, int part, double from, double to) const {
-  const Narrow parts(static_cast<double>(proof_.parts));
+MotionFault EffortLaw::check_slice(int interval, int edge, double from, double to) const {
   const auto place = [&](const Narrow& at) {
-    const Narrow x = (Narrow(static_cast<double>(part)) + at) / parts;
+    const Narrow x = (Narrow(static_cast<double>(edge)) + at) /
+                     Narrow(static_cast<double>(proof_.parts));
     return Narrow(std::max(x.low, 0.0), std::min(x.high, 1.0));
   };
   const double middle = (from + to) / 2;
@@ -164,8 +178,7 @@ MotionFault EffortLaw::check_slice(int interval, int part, double from, double t
   const MotionLoads<2> over = model_.loads<4>(interval, place({from, to}));
   const Narrow r = ((to - from) / 2) * length_;
   MotionFault fault;
-  const std::vector<Quadratic> u =
-      efforts(interval, part, from, to, at.tau_d, at.along_c, over.tau_d, over.along_c);
+  const std::vector<Quadratic> u = efforts(interval, edge, {from, to}, at, over);
   for (std::size_t i = 0; i < u.size() && fault.reason.empty(); ++i) {
     fault = check_limits(i, u[i], r);
   }
@@ -175,8 +188,9 @@ MotionFault EffortLaw::check_slice(int interval, int part, double from, double t
       fault.reason = "the base may leave its free axes";
     }
   }
-  const double x = (part + middle) / proof_.parts;
-  if (!fault.reason.empty()) fault.t = model_.time(interval, x);
+  if (!fault.reason.empty()) {
+    fault.t = model_.time(interval, (edge + middle) / proof_.parts);
+  }
   return fault;
 }
 

@@ -36,6 +36,11 @@ void add_levers(const TrajectoryModel& model, int link, int ancestor, double ext
   }
 }
 
+/// [m] The distance of the farthest point of a box from the origin of its link.
+double extent(const InscribedBox& box) {
+  return (box.placement.p.norm() + box.half_sizes.norm()) * (1 + 1e-12);
+}
+
 int common_ancestor(const Robot& robot, int a, int b) {
   while (a != b) {  // parents come before children
     int& later = a > b ? a : b;
@@ -63,11 +68,13 @@ class ClearanceProof {
       : model_(model), checker_(*model.problem().robot.collision), result_(result) {
     const Robot& robot = model.problem().robot;
     for (int pair = 0; pair < checker_.pairs(); ++pair) {
-      const BodyExtents bodies = checker_.extents(pair);
-      const int ancestor = common_ancestor(robot, bodies.link_a, bodies.link_b);
       std::vector<Lever>& levers = levers_.emplace_back();
-      add_levers(model, bodies.link_a, ancestor, bodies.a, levers);
-      add_levers(model, bodies.link_b, ancestor, bodies.b, levers);
+      InscribedBoxPair cores;
+      known_.push_back(checker_.inscribed_boxes(pair, cores) ? 1 : 0);
+      if (!known_.back()) continue;
+      const int ancestor = common_ancestor(robot, cores.a.link, cores.b.link);
+      add_levers(model, cores.a.link, ancestor, extent(cores.a), levers);
+      add_levers(model, cores.b.link, ancestor, extent(cores.b), levers);
     }
   }
 
@@ -104,8 +111,9 @@ class ClearanceProof {
         return MotionFault{checker_.pair_name(pair) + " " + reason,
                            model_.time(slice.interval, middle)};
       };
-      if (!checker_.nearest(links_, pair, near)) {
-        return fault("have no known distance, only a test for collision");
+      if (!known_[static_cast<std::size_t>(pair)] || !checker_.nearest(links_, pair, near)) {
+        return {checker_.pair_name(pair) +
+                ": proofs in time know distances of capsules and boxes only (--ignore-collision)"};
       }
       if (!(near.clearance >= -kTouching)) {
         return fault("collide: they are closer than their margin by " + in_metres(-near.clearance));
@@ -137,6 +145,7 @@ class ClearanceProof {
   const CollisionChecker& checker_;
   TrajectoryVerification& result_;
   std::vector<std::vector<Lever>> levers_;  ///< of each pair
+  std::vector<char> known_;                 ///< whether a pair is one of capsules and boxes
   std::vector<Pose<double>> links_;
 };
 

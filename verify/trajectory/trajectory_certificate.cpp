@@ -6,6 +6,7 @@
 #include "verify/bytes.h"
 #include "verify/certificate.h"
 #include "verify/sealed.h"
+#include "verify/trajectory/screw_path.h"
 
 namespace maxwrench {
 namespace {
@@ -41,7 +42,7 @@ void put_motion(ByteWriter& to, const MotionTask& task) {
   to.count(task.t_h);
   to.whole(static_cast<std::uint64_t>(task.start), 1);
   to.matrix(task.theta_0);
-  const ScrewPath path = task.path.as_screw().value_or(ScrewPath());
+  const ScrewPath path = screw_of(task.path).value_or(ScrewPath());
   to.matrix(path.start.R);
   to.matrix(path.start.p);
   to.matrix(path.axis);
@@ -51,17 +52,6 @@ void put_motion(ByteWriter& to, const MotionTask& task) {
   to.whole(static_cast<std::uint64_t>(path.timing), 1);
 }
 
-/// How far the bodies of each pair extend, which bounds how fast they approach each other.
-void put_extents(ByteWriter& to, const CollisionChecker* checker) {
-  for (int pair = 0; checker != nullptr && pair < checker->pairs(); ++pair) {
-    const BodyExtents extents = checker->extents(pair);
-    to.count(extents.link_a);
-    to.count(extents.link_b);
-    to.real(extents.a);
-    to.real(extents.b);
-  }
-}
-
 }  // namespace
 
 std::uint64_t motion_digest(const Problem& problem) {
@@ -69,7 +59,6 @@ std::uint64_t motion_digest(const Problem& problem) {
   all.whole(digest(problem), 8);
   put_dynamics(all, problem.robot);
   if (problem.motion) put_motion(all, *problem.motion);
-  put_extents(all, problem.robot.collision.get());
   std::uint64_t hash = 0xcbf29ce484222325U;
   for (const char byte : all.text()) {
     hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;

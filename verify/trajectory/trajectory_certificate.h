@@ -19,8 +19,8 @@ struct TrajectoryCertificate {
   Eigen::MatrixXd knots;  ///< k×r, without theta_0 of an impulse
   /// The number of parts into which the edges cut each interval between knots.
   int parts = 0;
-  Eigen::MatrixXd y;  ///< efforts at the edges, m×(parts intervals + 1), linear between them
-  /// Of an impulse: the wrench along c at the edges, linear between them. Else empty.
+  Eigen::MatrixXd y;  ///< control points of the efforts at the edges, m×(parts intervals + 1)
+  /// Of an impulse: control points of the wrench along c at the edges. Else empty.
   Eigen::VectorXd w;
 };
 

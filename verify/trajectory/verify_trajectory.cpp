@@ -68,17 +68,18 @@ std::string reject_impulse(const Problem& problem, const TrajectoryCertificate& 
   return "";
 }
 
-/// All parts between edges, on several threads. The earliest fault counts.
+/// All edges of all intervals, on several threads. The earliest fault counts.
 MotionFault check_efforts(const EffortLaw& law, int intervals, int parts, int threads,
                           long& slices) {
-  const long all = long{intervals} * parts;
+  const int edges = parts + 1;
+  const long all = long{intervals} * edges;
   std::atomic<long> next = 0, first_bad = all;
   std::mutex mutex;
   MotionFault fault;
   const auto work = [&] {
     long own = 0;
     for (long i = next++; i < all && i < first_bad; i = next++) {
-      MotionFault found = law.check(static_cast<int>(i / parts), static_cast<int>(i % parts), own);
+      MotionFault found = law.check(static_cast<int>(i / edges), static_cast<int>(i % edges), own);
       if (found.reason.empty()) continue;
       const std::lock_guard<std::mutex> guard(mutex);
       if (i >= first_bad) continue;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "maxwrench/verification.h"
+#include "maxwrench/trajectory_verification.h"
 #include "verify/trajectory/effort_law.h"
 
 namespace maxwrench {

@@ -34,29 +34,44 @@ EdgeProgram::EdgeProgram(const Problem& problem, const Eigen::MatrixXd& knots, i
   loose_.peak = t_h * parts - (block ? 0 : 1);
 }
 
-/// B^+ f_ddot at an edge, f = tau_d + J'c w. At the first and the last edge: of the next one.
-Eigen::VectorXd EdgeProgram::bend(std::size_t edge) const {
-  return bends_.col(static_cast<Eigen::Index>(edge));
-}
-
-/// Second differences of B^+ (tau_d + J'c w), about w.
-void EdgeProgram::measure_bends(double w) {
-  const auto edges = static_cast<Eigen::Index>(instants_.size());
+/// Second and third differences of p within each interval between knots; at a knot the third
+/// derivative of theta_r jumps. `w`: at the edges. Where w bends, y bends with it, so its
+/// differences count only together with those of J'c.
+void EdgeProgram::measure_bends(const Eigen::VectorXd& w) {
+  const Eigen::Index edges = w.size();
   const Zonotope& set = problem_.robot.actuation;
-  Eigen::MatrixXd p(set.actuators(), edges);
+  Eigen::MatrixXd tau(set.actuators(), edges), a(set.actuators(), edges);
   for (Eigen::Index i = 0; i < edges; ++i) {
     const Instant& at = instants_[static_cast<std::size_t>(i)];
-    p.col(i) = set.B_pinv * (at.tau_d + at.J.transpose() * (at.c * w));
+    tau.col(i) = set.B_pinv * at.tau_d;
+    a.col(i) = set.B_pinv * (at.J.transpose() * at.c);
   }
   const double H = problem_.motion->T / static_cast<double>(edges - 1);
-  Eigen::MatrixXd at_edges(p.rows(), edges);
-  for (Eigen::Index i = 0; i < edges; ++i) {
-    const Eigen::Index j = std::clamp<Eigen::Index>(i, 1, edges - 2);
-    at_edges.col(i) = ((p.col(j + 1) - 2 * p.col(j) + p.col(j - 1)) / (H * H)).cwiseAbs();
-  }
-  bends_.resize(p.rows(), edges - 1);
+  off_.setZero(tau.rows(), edges - 1);
+  rate_off_.setZero(tau.rows(), edges - 1);
   for (Eigen::Index i = 0; i + 1 < edges; ++i) {
-    bends_.col(i) = kBendSafety * at_edges.col(i).cwiseMax(at_edges.col(i + 1));
+    const Eigen::Index first = i / parts_ * parts_, last = first + parts_;
+    const auto second = [&](const auto& x, Eigen::Index edge) -> Eigen::VectorXd {
+      const Eigen::Index at = std::clamp(edge, first + 1, last - 1);
+      return x.col(at + 1) - 2 * x.col(at) + x.col(at - 1);
+    };
+    const auto bend = [&](Eigen::Index edge) -> Eigen::VectorXd {  // H^2 p_ddot
+      return second(tau, edge) + w[i] * second(a, edge);
+    };
+    const Eigen::VectorXd a_step = (a.col(i + 1) - a.col(i)).cwiseAbs();
+    const double w_step = std::abs(w[i + 1] - w[i]);
+    const double w_bend = std::max(second(w.transpose(), i).cwiseAbs()[0],
+                                   second(w.transpose(), i + 1).cwiseAbs()[0]);
+    const Eigen::VectorXd b_0 = bend(i), b_1 = bend(i + 1);
+    const Eigen::VectorXd most = b_0.cwiseAbs().cwiseMax(b_1.cwiseAbs()) + 2 * w_step * a_step;
+    off_.col(i) = kBendSafety / 8 * most;
+    if (i == first || i + 1 == last) {
+      rate_off_.col(i) = kBendSafety / (2 * H) * most;
+    } else {
+      const Eigen::VectorXd jerk = (bend(i + 2) - bend(i - 1)).cwiseAbs() / 3;  // H^3 p_dddot
+      rate_off_.col(i) = kBendSafety / (6 * H) *
+                         (jerk.cwiseMax((b_1 - b_0).cwiseAbs()) + 3 * w_bend * a_step);
+    }
   }
 }
 
@@ -66,8 +81,8 @@ void EdgeProgram::tighten(double slack) {
   const Zonotope& set = problem_.robot.actuation;
   program_ = loose_;
   if (slack < 0) return;
-  const double H = problem_.motion->T / static_cast<double>(bends_.cols());
-  Eigen::VectorXd margin = H * H / 8 * bends_.rowwise().maxCoeff();
+  const double H = problem_.motion->T / static_cast<double>(off_.cols());
+  Eigen::VectorXd margin = off_.rowwise().maxCoeff();
   for (Eigen::Index i = 0; i < margin.size(); ++i) {
     const double range = set.u_max[i] - set.u_min[i];
     if (!std::isfinite(range)) continue;
@@ -77,14 +92,12 @@ void EdgeProgram::tighten(double slack) {
   for (WrenchProgram& at : program_.instants) at.actuation = &tight_;
   program_.first_min = tight_.u_min;
   program_.first_max = tight_.u_max;
-  const Eigen::Index skipped = bends_.cols() - program_.du_max.cols();
+  const Eigen::Index skipped = off_.cols() - program_.du_max.cols();
   for (Eigen::Index i = 0; i < program_.du_max.cols(); ++i) {
-    const Eigen::VectorXd off = H * H / 2 * bends_.col(i + skipped);
-    for (Eigen::Index k = 0; k < off.size(); ++k) {
+    for (Eigen::Index k = 0; k < off_.rows(); ++k) {
       double& most = program_.du_max(k, i);
-      if (std::isfinite(most)) {
-        most = std::max(most * (1 - slack) - off[k], (1 - kMostOfRange) * most);
-      }
+      if (!std::isfinite(most)) continue;
+      most = std::max(most * (1 - slack) - H * rate_off_(k, i + skipped), (1 - kMostOfRange) * most);
     }
   }
 }
@@ -132,10 +145,12 @@ EdgeEfforts EdgeProgram::read(const TrajectorySolution& solution) const {
 EdgeEfforts EdgeProgram::solve(double slack) {
   TrajectorySolution solution;
   if (slack >= 0) {
-    if (bends_.size() == 0) {
+    if (off_.size() == 0) {
       program_ = loose_;
       solver_->solve(program_, solution);
-      measure_bends(solution.status == Status::kOptimal ? solution.value : 0);
+      const EdgeEfforts loose = read(solution);
+      const auto edges = static_cast<Eigen::Index>(instants_.size());
+      measure_bends(loose.w.size() > 0 ? loose.w : Eigen::VectorXd::Constant(edges, loose.value));
     }
   }
   tighten(slack);

@@ -18,12 +18,13 @@ struct EdgeEfforts : Verdict {
   Eigen::VectorXd w;  ///< of an impulse: the wrench along c at the edges
 };
 
-/// The largest wrench with efforts at edges, such that efforts which are linear between them and
-/// corrected by B^+ stay within their limits.
+/// The largest wrench with efforts at edges, such that the efforts of an `EffortLaw` with these
+/// control points stay within their limits.
 ///
-/// Between edges at a distance H, the efforts u = y + B^+ (f - B y) deviate from the chord by at
-/// most H^2/8 |B^+ f_ddot|, and their rate from its slope by H/2 |B^+ f_ddot|. Limits and rates of
-/// the program are tighter by this and by a slack for the enclosures, which the proof checks.
+/// With p = B^+ (tau_d + J'c w), these efforts differ from the B-spline by at most H^2/8 |p_ddot|,
+/// and their rate from its rate by H^2/6 |p_dddot|; at the first and last part between knots, where
+/// the spline is linear, by H/2 |p_ddot|. Limits and rates of the program are tighter by this and by
+/// a slack for the enclosures. The proof then checks the efforts themselves.
 class EdgeProgram {
  public:
   /// Keeps a reference to the problem.
@@ -40,8 +41,7 @@ class EdgeProgram {
 
  private:
   void tighten(double slack);
-  void measure_bends(double w);
-  Eigen::VectorXd bend(std::size_t edge) const;
+  void measure_bends(const Eigen::VectorXd& w);
   EdgeEfforts read(const TrajectorySolution& solution) const;
   bool exerts_equally(const TrajectorySolution& solution) const;
 
@@ -51,7 +51,8 @@ class EdgeProgram {
   std::vector<Instant> instants_;
   TrajectoryProgram loose_, program_;
   Zonotope tight_;
-  Eigen::MatrixXd bends_;  ///< m×(edges - 1): the largest |B^+ f_ddot| on each part
+  /// m×(edges - 1), of each part: by how much efforts and rates differ from those of the spline.
+  Eigen::MatrixXd off_, rate_off_;
   std::unique_ptr<TrajectorySolver> solver_;
 };
 

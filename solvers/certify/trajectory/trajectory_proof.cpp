@@ -21,9 +21,9 @@ using ProofClock = std::chrono::steady_clock;
 
 /// Parts are doubled while the proof loses more than this share.
 constexpr double kLossOfParts = 1e-4;
-constexpr int kMostParts = 800;
+constexpr int kMostParts = 200;
 /// Shares of the limits' ranges for the enclosures, tried one after another.
-constexpr double kSlacks[] = {3e-6, 3e-5, 3e-4, 3e-3};
+constexpr double kSlacks[] = {3e-6, 2e-5, 1e-4, 5e-4, 3e-3};
 
 double seconds_from(ProofClock::time_point start) {
   return std::chrono::duration<double>(ProofClock::now() - start).count();
