@@ -185,7 +185,8 @@ ProofCertificate read_certificate(const std::string& file) {
   const Eigen::VectorXd h = from.vector();
   proof.lower = from.vector();
   proof.upper = from.vector();
-  const bool plain = is_plain(proof.version) && is_plain(proof.problem) && is_plain(proof.measure);
+  const bool plain = fits_in_a_line(proof.version) && fits_in_a_line(proof.problem) &&
+                     fits_in_a_line(proof.measure);
   if (!plain || h.size() != 6 || !take_tree(from, proof.tree) || !from.at_end()) {
     throw std::invalid_argument(file + ": got a damaged file, expected a whole certificate");
   }

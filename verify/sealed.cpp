@@ -66,7 +66,7 @@ std::string unseal(const std::string& file, std::string_view first_line) {
   return unpacked(rest);
 }
 
-bool is_plain(const std::string& text) {
+bool fits_in_a_line(const std::string& text) {
   return std::none_of(text.begin(), text.end(),
                       [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; });
 }

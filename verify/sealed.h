@@ -20,6 +20,6 @@ bool begins_with(const std::string& file, std::string_view first_line);
 std::string unseal(const std::string& file, std::string_view first_line);
 
 /// Whether a text can be printed in a line.
-bool is_plain(const std::string& text);
+bool fits_in_a_line(const std::string& text);
 
 }  // namespace maxwrench

@@ -84,15 +84,16 @@ int certify_motion(const CertifyCommandOptions& options, const CLI::App& command
                    const Problem& problem) {
   for (const char* other : {"--gap", "--time", "--within", "--resolution", "--figure", "--boxes"}) {
     if (command.get_option(other)->count() == 0) continue;
-    throw std::invalid_argument(fmt::format("{}: got {}, a task in time, expected a static task",
-                                            other, problem.name));
+    throw std::invalid_argument(
+        fmt::format("{}: got {}, a task in time, expected a static task", other, problem.name));
   }
   if (!options.certificate.empty() && options.motion.t_h) {
     throw std::invalid_argument("--certificate: got --t-h " + *options.motion.t_h +
                                 ", expected the peak that the task has without it");
   }
-  require_apart({{"path.file", problem.motion->path_file}, {"--theta-r", options.theta_r.value_or("")}},
-                {{"--certificate", options.certificate}});
+  require_apart(
+      {{"path.file", problem.motion->path_file}, {"--theta-r", options.theta_r.value_or("")}},
+      {{"--certificate", options.certificate}});
   return certify_trajectory(problem, knots_of(problem, options.theta_r), options.read_options(),
                             options.certificate, options.json);
 }

@@ -111,8 +111,7 @@ int report_proven(const TrajectoryProof& proof, bool json) {
 int verify_trajectory_file(const std::string& file, const std::string& problem, int threads,
                            bool json) {
   const VerifiedTrajectory proof = verify_trajectory_certificate(
-      file,
-      [&](const std::string& name) { return load_problem(problem.empty() ? name : problem); },
+      file, [&](const std::string& name) { return load_problem(problem.empty() ? name : problem); },
       threads);
   if (json) {
     print_json({{"problem", proof.problem},

@@ -30,7 +30,8 @@ int solve_proven(const SolveOptions& options, const Problem& problem) {
     throw std::invalid_argument("--proven: got " + problem.name +
                                 ", a static task, expected a task in time (certify proves others)");
   }
-  const TrajectoryProof proof = solve_proven_with_progress("solve", problem, options.read_options());
+  const TrajectoryProof proof =
+      solve_proven_with_progress("solve", problem, options.read_options());
   write_knots(options, problem, proof.answer);
   return report_proven(proof, options.json);
 }

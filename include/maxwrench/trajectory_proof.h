@@ -35,8 +35,8 @@ struct TrajectoryProof : Verdict {
   /// every instant, in an impulse at its peak. NaN: none.
   double guaranteed = std::numeric_limits<double>::quiet_NaN();
   double t = std::numeric_limits<double>::quiet_NaN();  ///< where the proof fails [s]; NaN: nowhere
-  int parts = 0;     ///< number of parts between knots in which the efforts are linear
-  long slices = 0;   ///< number of slices of time on which the efforts were enclosed
+  int parts = 0;                 ///< number of parts between knots in which the efforts are linear
+  long slices = 0;               ///< number of slices of time on which the efforts were enclosed
   double clearance = kInfinity;  ///< no bodies are closer than their margin plus this [m]
   double seconds = 0;            ///< wall time, without that of `answer` [s]
   std::string certificate;  ///< the contents of a certificate file. Empty unless it was requested
@@ -87,7 +87,7 @@ bool is_trajectory_certificate(const std::filesystem::path& file);
 ///
 /// The arguments and exceptions are those of `verify_certificate`.
 VerifiedTrajectory verify_trajectory_certificate(
-    const std::filesystem::path& file,
-    const std::function<Problem(const std::string& name)>& load, int threads = 0);
+    const std::filesystem::path& file, const std::function<Problem(const std::string& name)>& load,
+    int threads = 0);
 
 }  // namespace maxwrench

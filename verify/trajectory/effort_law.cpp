@@ -57,8 +57,7 @@ double least(const std::array<Narrow, 3>& y, const Narrow& r) {
 /// A quadratic in s/H about another place, as one in s.
 std::array<Narrow, 3> moved_to(const std::array<Narrow, 3>& y, const Narrow& place,
                                const Narrow& H) {
-  return {y[0] + place * (y[1] + place * y[2]), (y[1] + 2.0 * (place * y[2])) / H,
-          y[2] / H / H};
+  return {y[0] + place * (y[1] + place * y[2]), (y[1] + 2.0 * (place * y[2])) / H, y[2] / H / H};
 }
 
 }  // namespace
@@ -120,8 +119,8 @@ auto EffortLaw::efforts(int interval, int edge, const Narrow& place, const Motio
   const Narrow middle((place.low + place.high) / 2);
   std::array<std::vector<Narrow>, 3> y, left;  // left of the balance, without B^+
   for (std::size_t i = 0; i < m; ++i) {
-    const Quadratic own = spline(&proof_.y(static_cast<Eigen::Index>(i), column),
-                                 proof_.y.rows(), edge);
+    const Quadratic own =
+        spline(&proof_.y(static_cast<Eigen::Index>(i), column), proof_.y.rows(), edge);
     const Quadratic here = moved_to(own, middle, length_);
     for (std::size_t k = 0; k < 3; ++k) y[k].push_back(here[k]);
   }
@@ -169,8 +168,8 @@ MotionFault EffortLaw::check_limits(std::size_t actuator, const Quadratic& u,
 
 MotionFault EffortLaw::check_slice(int interval, int edge, double from, double to) const {
   const auto place = [&](const Narrow& at) {
-    const Narrow x = (Narrow(static_cast<double>(edge)) + at) /
-                     Narrow(static_cast<double>(proof_.parts));
+    const Narrow x =
+        (Narrow(static_cast<double>(edge)) + at) / Narrow(static_cast<double>(proof_.parts));
     return Narrow(std::max(x.low, 0.0), std::min(x.high, 1.0));
   };
   const double middle = (from + to) / 2;

@@ -18,8 +18,8 @@ struct MotionFault {
 ///
 ///     u(t) = y(t) + B^+ (tau_d(t) + J'c(t) w(t) - B y(t)).
 ///
-/// They balance the wrench w c at every t, because B B^+ is the identity. Between two knots, y and w
-/// are quadratic B-splines whose control points are their values at the edges, with linear ends:
+/// They balance the wrench w c at every t, because B B^+ is the identity. Between two knots, y and
+/// w are quadratic B-splines whose control points are their values at the edges, with linear ends:
 /// with s = t - t_e and |s| <= H/2 about an edge e,
 ///
 ///     y(t) = (y_- + 6 y_e + y_+)/8 + (y_+ - y_-) s/(2 H) + (y_- - 2 y_e + y_+) s^2/(2 H^2),
@@ -39,8 +39,8 @@ class EffortLaw {
   EffortLaw(const TrajectoryModel&, const TrajectoryCertificate&&) = delete;
 
   /// Whether efforts and rates are within their limits, and the base is on its free axes, nearer to
-  /// one edge of an interval (0 to `parts`) than to its others. Cuts this time into slices as far as
-  /// needed, and adds their number.
+  /// one edge of an interval (0 to `parts`) than to its others. Cuts this time into slices as far
+  /// as needed, and adds their number.
   MotionFault check(int interval, int edge, long& slices) const;
 
  private:

@@ -114,8 +114,8 @@ Jet<N> signed_square(const Jet<N>& x) {
   const Narrow& at = x.c[0];
   const double least = at.low > 0 ? at.low : at.high < 0 ? -at.high : 0;
   const Narrow size(least, at.magnitude());
-  Jet<N> y(Narrow(Narrow::below(at.low * std::abs(at.low)),
-                  Narrow::above(at.high * std::abs(at.high))));
+  Jet<N> y(
+      Narrow(Narrow::below(at.low * std::abs(at.low)), Narrow::above(at.high * std::abs(at.high))));
   const Narrow twice = 2.0 * size;
   if constexpr (N >= 1) y.c[1] = twice * x.c[1];
   if constexpr (N >= 2) {

@@ -57,8 +57,8 @@ bool leaves_limits(const ControlPoints& points, const CurveLimits& limits, doubl
   if (limits.holds(points)) return false;
   for (const bool last : {false, true}) {
     const Narrow& end = last ? points.back() : points.front();
-    const bool outside = end.high < limits.lower - limits.tolerance ||
-                         end.low > limits.upper + limits.tolerance;
+    const bool outside =
+        end.high < limits.lower - limits.tolerance || end.low > limits.upper + limits.tolerance;
     if (!outside && cuts > 0) continue;
     where.found = true;
     where.x = last ? x_1 : x_0;
@@ -116,8 +116,7 @@ KnotCurve::Outside KnotCurve::leaves(int coordinate, bool rate, double lower, do
     const Cubic& a = cubic(coordinate, i);
     ControlPoints points;
     if (rate) {
-      points = {rate_ * a[1], rate_ * (a[1] + a[2]),
-                rate_ * (a[1] + 2.0 * a[2] + 3.0 * a[3])};
+      points = {rate_ * a[1], rate_ * (a[1] + a[2]), rate_ * (a[1] + 2.0 * a[2] + 3.0 * a[3])};
     } else {
       points = {a[0], a[0] + third * a[1], a[0] + third * (2.0 * a[1] + a[2]),
                 a[0] + a[1] + a[2] + a[3]};

@@ -3,18 +3,38 @@
 // TEMPORARY
 namespace maxwrench {
 namespace {
-template <class Tag> struct Stolen { static inline typename Tag::type at{}; };
-template <class Tag, typename Tag::type p> struct Steal {
-  struct Do { Do() { Stolen<Tag>::at = p; } };
+template <class Tag>
+struct Stolen {
+  static inline typename Tag::type at{};
+};
+template <class Tag, typename Tag::type p>
+struct Steal {
+  struct Do {
+    Do() { Stolen<Tag>::at = p; }
+  };
   static inline Do done{};
 };
-struct TStart { using type = Pose<double> Path::*; };
-struct TAxis { using type = Eigen::Vector3d Path::*; };
-struct TCentre { using type = Eigen::Vector3d Path::*; };
-struct TMove { using type = Eigen::Vector3d Path::*; };
-struct TAngle { using type = double Path::*; };
-struct TTiming { using type = Timing Path::*; };
-struct TTimes { using type = std::vector<double> Path::*; };
+struct TStart {
+  using type = Pose<double> Path::*;
+};
+struct TAxis {
+  using type = Eigen::Vector3d Path::*;
+};
+struct TCentre {
+  using type = Eigen::Vector3d Path::*;
+};
+struct TMove {
+  using type = Eigen::Vector3d Path::*;
+};
+struct TAngle {
+  using type = double Path::*;
+};
+struct TTiming {
+  using type = Timing Path::*;
+};
+struct TTimes {
+  using type = std::vector<double> Path::*;
+};
 template struct Steal<TStart, &Path::start_>;
 template struct Steal<TAxis, &Path::axis_>;
 template struct Steal<TCentre, &Path::centre_>;

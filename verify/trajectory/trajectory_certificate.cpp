@@ -100,9 +100,8 @@ TrajectoryCertificate read_trajectory_certificate(const std::string& file) {
   const std::uint64_t parts = from.whole(8);
   proof.y = from.matrix();
   const Eigen::MatrixXd w = from.matrix();
-  const bool plain = is_plain(proof.version) && is_plain(proof.problem);
-  if (!plain || t_h > kMost || parts > kMost || (w.size() > 0 && w.cols() != 1) ||
-      !from.at_end()) {
+  const bool plain = fits_in_a_line(proof.version) && fits_in_a_line(proof.problem);
+  if (!plain || t_h > kMost || parts > kMost || (w.size() > 0 && w.cols() != 1) || !from.at_end()) {
     throw std::invalid_argument(file + ": got a damaged file, expected a whole certificate");
   }
   proof.t_h = static_cast<int>(t_h);

@@ -45,12 +45,12 @@ LinkScrew<N> momentum_of(const Link& link, const LinkScrew<N>& twist) {
   LinkScrew<N> sum;
   const LinkScrew<N> at_com = twist_of<N>({Eigen::Matrix3d::Identity(), link.com}, twist);
   const LinkScrew<N> own = {Jet<N>(link.mass) * at_com.linear,
-                       constant_jets<N>(link.inertia) * at_com.angular};
+                            constant_jets<N>(link.inertia) * at_com.angular};
   add_at<N>({Eigen::Matrix3d::Identity(), link.com}, own, sum);
   for (const HydrodynamicBody& body : link.hydrodynamics) {
     const LinkScrew<N> at = twist_of(body.frame, twist);
     const LinkScrew<N> water = {componentwise<N>(body.added_mass.head<3>(), at.linear),
-                           componentwise<N>(body.added_mass.tail<3>(), at.angular)};
+                                componentwise<N>(body.added_mass.tail<3>(), at.angular)};
     add_at(body.frame, water, sum);
   }
   return sum;
@@ -101,15 +101,14 @@ auto TrajectoryModel::force_on(std::size_t link, const Frame<N>& at) const -> Wr
     sum.torque = sum.torque + cross(place, force);
   };
   if (!body.hydrodynamics.empty()) {
-    const LinkScrew<N - 2> drag = drag_of<N - 2>(
-        body, {shortened<N - 2>(twist.linear), shortened<N - 2>(twist.angular)});
+    const LinkScrew<N - 2> drag =
+        drag_of<N - 2>(body, {shortened<N - 2>(twist.linear), shortened<N - 2>(twist.angular)});
     add(origin, turn * drag.linear);
     sum.torque = sum.torque + turn * drag.angular;
   }
   const auto add_weight = [&](const Eigen::Vector3d& place, const Narrow& mass) {
     if (mass.is_zero()) return;
-    add(origin + turn * constant_jets<N - 2>(place),
-        upward<N - 2>(mass * Narrow(robot.gravity)));
+    add(origin + turn * constant_jets<N - 2>(place), upward<N - 2>(mass * Narrow(robot.gravity)));
   };
   add_weight(body.com, Narrow(body.mass));
   if (body.volume != 0 && robot.water_density != 0) {

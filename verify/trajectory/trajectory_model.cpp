@@ -103,8 +103,7 @@ auto TrajectoryModel::joint_frame(std::size_t joint, int interval, const Narrow&
     -> Frame<N> {
   const Joint& at = problem_.robot.joints[joint];
   const int coordinate = coordinate_of_[joint];
-  const Jet<N> q =
-      coordinate < 0 ? Jet<N>(rest_[joint]) : curve_.at<N>(coordinate, interval, x);
+  const Jet<N> q = coordinate < 0 ? Jet<N>(rest_[joint]) : curve_.at<N>(coordinate, interval, x);
   Frame<N> frame{constant_jets<N>(at.placement.R), constant_jets<N>(at.placement.p)};
   if (at.type == JointType::kRevolute) {
     frame.R = frame.R * rotation(at.axis, q);
@@ -125,14 +124,13 @@ void TrajectoryModel::move_tool(int interval, const Narrow& x, Motion<N>& motion
   motion.tool = {constant_jets<N>(path_.start.R), constant_jets<N>(Eigen::Vector3d(0, 0, 0))};
   if (rests) return;
   Jet<N> s;
-  s.c[0] = (Narrow(static_cast<double>(interval)) + x) /
-           Narrow(static_cast<double>(curve_.intervals()));
+  s.c[0] =
+      (Narrow(static_cast<double>(interval)) + x) / Narrow(static_cast<double>(curve_.intervals()));
   s.c[1] = Narrow(1.0) / Narrow(problem_.motion->T);
   const Jet<N> phi = progress_of(path_.timing, s);
   if (path_.angle != 0) {
     const JetMatrix<N> E = rotation(path_.axis, Narrow(path_.angle) * phi);
-    const JetVector<N> arm =
-        constant_jets<N>(path_.start.p) - constant_jets<N>(path_.centre);
+    const JetVector<N> arm = constant_jets<N>(path_.start.p) - constant_jets<N>(path_.centre);
     motion.tool.p = E * arm - arm;
     motion.tool.R = E * motion.tool.R;
     if (problem_.motion->c_turns) {
@@ -163,8 +161,8 @@ auto TrajectoryModel::move(int interval, const Narrow& x) const -> Motion<N> {
     return frame;
   };
   auto link = static_cast<std::size_t>(tip.link);
-  motion.links[link] = outer(motion.tool, constant_jets<N>(tip.placement.R),
-                             constant_jets<N>(tip.placement.p));
+  motion.links[link] =
+      outer(motion.tool, constant_jets<N>(tip.placement.R), constant_jets<N>(tip.placement.p));
   placed[link] = 1;
   for (const int moved : inward_) {
     const auto from = static_cast<std::size_t>(moved);
@@ -190,8 +188,8 @@ std::vector<Jet<N>> TrajectoryModel::off_axes(const Frame<N>& base) const {
   };
   const Pose<double>& mount = problem_.robot.mount;
   const JetMatrix<N> into = transposed(constant_jets<N>(mount.R));
-  const JetVector<N> p = into * (base.p + (constant_jets<N>(path_.start.p) -
-                                           constant_jets<N>(mount.p)));
+  const JetVector<N> p =
+      into * (base.p + (constant_jets<N>(path_.start.p) - constant_jets<N>(mount.p)));
   const JetMatrix<N> R = into * base.R;
   std::vector<Jet<N>> off;
   for (int axis = 0; axis < 3; ++axis) {

@@ -102,9 +102,10 @@ MotionFault check_motion(const TrajectoryModel& model) {
   const Problem& problem = model.problem();
   const KnotCurve& curve = model.curve();
   for (int k = 0; k < problem.redundancy(); ++k) {
-    const double speed = problem.robot.joints[static_cast<std::size_t>(
-                                                  problem.redundant[static_cast<std::size_t>(k)])]
-                             .velocity_max;
+    const double speed =
+        problem.robot
+            .joints[static_cast<std::size_t>(problem.redundant[static_cast<std::size_t>(k)])]
+            .velocity_max;
     for (const bool rate : {false, true}) {
       const double lower = rate ? -speed : problem.theta_r_min[k];
       const double upper = rate ? speed : problem.theta_r_max[k];

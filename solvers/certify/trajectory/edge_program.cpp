@@ -69,8 +69,8 @@ void EdgeProgram::measure_bends(const Eigen::VectorXd& w) {
       rate_off_.col(i) = kBendSafety / (2 * H) * most;
     } else {
       const Eigen::VectorXd jerk = (bend(i + 2) - bend(i - 1)).cwiseAbs() / 3;  // H^3 p_dddot
-      rate_off_.col(i) = kBendSafety / (6 * H) *
-                         (jerk.cwiseMax((b_1 - b_0).cwiseAbs()) + 3 * w_bend * a_step);
+      rate_off_.col(i) =
+          kBendSafety / (6 * H) * (jerk.cwiseMax((b_1 - b_0).cwiseAbs()) + 3 * w_bend * a_step);
     }
   }
 }
@@ -97,7 +97,8 @@ void EdgeProgram::tighten(double slack) {
     for (Eigen::Index k = 0; k < off_.rows(); ++k) {
       double& most = program_.du_max(k, i);
       if (!std::isfinite(most)) continue;
-      most = std::max(most * (1 - slack) - H * rate_off_(k, i + skipped), (1 - kMostOfRange) * most);
+      most =
+          std::max(most * (1 - slack) - H * rate_off_(k, i + skipped), (1 - kMostOfRange) * most);
     }
   }
 }
@@ -155,8 +156,7 @@ EdgeEfforts EdgeProgram::solve(double slack) {
   }
   tighten(slack);
   solver_->solve(program_, solution);
-  if (solution.status != Status::kOptimal || problem_.motion->impulse ||
-      exerts_equally(solution)) {
+  if (solution.status != Status::kOptimal || problem_.motion->impulse || exerts_equally(solution)) {
     return read(solution);
   }
   // Where rates matter, instants may exert more than the least of them. The claim is the same

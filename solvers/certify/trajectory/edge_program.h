@@ -23,8 +23,8 @@ struct EdgeEfforts : Verdict {
 ///
 /// With p = B^+ (tau_d + J'c w), these efforts differ from the B-spline by at most H^2/8 |p_ddot|,
 /// and their rate from its rate by H^2/6 |p_dddot|; at the first and last part between knots, where
-/// the spline is linear, by H/2 |p_ddot|. Limits and rates of the program are tighter by this and by
-/// a slack for the enclosures. The proof then checks the efforts themselves.
+/// the spline is linear, by H/2 |p_ddot|. Limits and rates of the program are tighter by this and
+/// by a slack for the enclosures. The proof then checks the efforts themselves.
 class EdgeProgram {
  public:
   /// Keeps a reference to the problem.

@@ -150,8 +150,8 @@ bool is_trajectory_certificate(const std::filesystem::path& file) {
 }
 
 VerifiedTrajectory verify_trajectory_certificate(
-    const std::filesystem::path& file,
-    const std::function<Problem(const std::string& name)>& load, int threads) {
+    const std::filesystem::path& file, const std::function<Problem(const std::string& name)>& load,
+    int threads) {
   const auto start = ProofClock::now();
   const TrajectoryCertificate claim = read_trajectory_certificate(file.string());
   Problem task = load(claim.problem);

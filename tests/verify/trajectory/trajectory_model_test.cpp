@@ -104,9 +104,8 @@ TEST(TrajectoryModel, KnowsTheFreeAxes) {
   for (const Jet<1>& off : TrajectoryModel(problem, knots).loads<3>(1, Narrow(0.5)).off_axes) {
     EXPECT_LT(off.c[0].magnitude(), 1e-12);
   }
-  problem.motion->path =
-      Path::screw(problem.pose, Eigen::Vector3d::UnitX(), problem.pose.p, 0.1,
-                  Eigen::Vector3d::Zero(), Timing::kCubic, problem.motion->T);
+  problem.motion->path = Path::screw(problem.pose, Eigen::Vector3d::UnitX(), problem.pose.p, 0.1,
+                                     Eigen::Vector3d::Zero(), Timing::kCubic, problem.motion->T);
   double most = 0;
   for (const Jet<1>& off : TrajectoryModel(problem, knots).loads<3>(6, Narrow(1.0)).off_axes) {
     most = std::max(most, off.c[0].magnitude());

@@ -30,8 +30,8 @@ const Problem& held_impulse() {
   return problem;
 }
 const TrajectoryCertificate& impulse_proof() {
-  static const TrajectoryCertificate proof = certified(
-      held_impulse(), constant_knots(held_impulse(), held_impulse().motion->theta_0));
+  static const TrajectoryCertificate proof =
+      certified(held_impulse(), constant_knots(held_impulse(), held_impulse().motion->theta_0));
   return proof;
 }
 
@@ -198,8 +198,7 @@ TEST(VerifyTrajectory, EffortsKeepTheirLimitsAtManyInstants) {
         y[k] = spline(Eigen::VectorXd(proof.y.row(k)), interval, place);
       }
       const double w = impulse ? spline(proof.w, interval, place) : proof.value;
-      const Eigen::VectorXd load =
-          instants[i].tau_d + w * (instants[i].J.transpose() * problem.c);
+      const Eigen::VectorXd load = instants[i].tau_d + w * (instants[i].J.transpose() * problem.c);
       const Eigen::VectorXd u = y + set.B_pinv * (load - set.B * y);
       EXPECT_LT((set.B * u - load).cwiseAbs().maxCoeff(), 1e-9);
       EXPECT_GE((u - set.u_min).minCoeff(), -1e-9) << instants[i].t;
