@@ -1,25 +1,16 @@
 #include "verify/certificate.h"
 
-#include <zlib.h>
-
-#include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
+#include <string_view>
 
 #include "verify/bytes.h"
-#include "verify/packed.h"
+#include "verify/sealed.h"
 
 namespace maxwrench {
 namespace {
 
 constexpr std::string_view kMagic = "maxwrench proof 2\n";
 constexpr std::string_view kListMagic = "maxwrench proof 3\n";
-static_assert(kMagic.size() == kListMagic.size());
-/// A file has at least one byte for this many bytes of its contents, and so of the nodes of its
-/// tree. A small file therefore cannot fill the memory. Contents that would pack better, such as
-/// boxes without a multiplier, are stored without compression.
-constexpr std::uint64_t kMostPacked = 16;
 constexpr std::size_t kMostNodes = 50'000'000;
 
 void put_pose(ByteWriter& to, const Pose<double>& pose) {
@@ -186,44 +177,6 @@ bool take_tree(ByteReader& from, CertificateTree& tree) {
   return true;
 }
 
-/// The contents after the first line, which tells whether it is of a list. The first line is
-/// checked before the rest is read, because the rest may be endless.
-std::string read_packed(const std::string& file, bool& of_list) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string start(kMagic.size(), '\0');
-  stream.read(start.data(), static_cast<std::streamsize>(start.size()));
-  if (!stream.is_open() || stream.bad()) {
-    throw std::invalid_argument(file + ": got no data, expected a readable file");
-  }
-  of_list = start == kListMagic;
-  if (!stream || (start != kMagic && !of_list)) {
-    throw std::invalid_argument(file + ": got something else, expected a certificate of 'certify'");
-  }
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
-std::uint64_t checksum(std::string_view text) {
-  return crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size());
-}
-
-/// The unpacked certificate; empty if it is damaged.
-std::string unpacked(std::string_view text) {
-  ByteReader sum(text);
-  const std::uint64_t claimed = sum.whole(4);
-  if (!sum.good() || claimed != checksum(text.substr(4))) return "";
-  ByteReader head(text.substr(4));
-  const std::uint64_t length = head.whole(8);
-  if (!head.good()) return "";
-  const auto raw = unpack(text.substr(12), Wrapping::kZlib, kMostPacked);
-  return raw && raw->size() == length ? *raw : "";
-}
-
-/// Whether a text can be printed in a line.
-bool is_plain(const std::string& text) {
-  return std::none_of(text.begin(), text.end(),
-                      [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; });
-}
-
 }  // namespace
 
 std::uint64_t digest(const Problem& problem) {
@@ -267,18 +220,13 @@ std::string certificate_text(const ProofCertificate& proof) {
                                                  static_cast<Eigen::Index>(proof.decides.size())));
   }
   put_tree(raw, proof.tree);
-  const std::string& text = raw.text();
-  ByteWriter head;
-  head.whole(text.size(), 8);
-  const std::string all = head.text() + pack(text, Wrapping::kZlib, Z_BEST_SPEED, kMostPacked);
-  ByteWriter sum;
-  sum.whole(checksum(all), 4);
-  return std::string(proof.tree.of_list ? kListMagic : kMagic) + sum.text() + all;
+  return seal(proof.tree.of_list ? kListMagic : kMagic, raw.text());
 }
 
 ProofCertificate read_certificate(const std::string& file) {
   ProofCertificate proof;
-  const std::string raw = unpacked(read_packed(file, proof.tree.of_list));
+  proof.tree.of_list = begins_with(file, kListMagic);
+  const std::string raw = unseal(file, proof.tree.of_list ? kListMagic : kMagic);
   ByteReader from(raw);
   proof.version = from.words();
   proof.problem = from.words();
@@ -296,7 +244,8 @@ ProofCertificate read_certificate(const std::string& file) {
     const Eigen::VectorXd decides = from.vector();
     proof.decides.assign(decides.begin(), decides.end());
   }
-  const bool plain = is_plain(proof.version) && is_plain(proof.problem) && is_plain(proof.measure);
+  const bool plain = fits_in_a_line(proof.version) && fits_in_a_line(proof.problem) &&
+                     fits_in_a_line(proof.measure);
   if (!plain || h.size() != 6 || !take_tree(from, proof.tree) || !from.at_end()) {
     throw std::invalid_argument(file + ": got a damaged file, expected a whole certificate");
   }

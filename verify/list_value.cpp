@@ -227,8 +227,9 @@ std::string reject_list_value(const Problem& problem, const FormModel& model,
       const double least = *std::min_element(supports.begin(), supports.end());
       for (std::size_t wrench = 0; wrench < list.wrenches.size(); ++wrench) {
         if (!(at.most(n, wrench, t).high <= least + tolerance)) {
-          return "its value is not held in a scenario: " +
-                 (list.wrenches[wrench].name.empty() ? "of its wrench" : list.wrenches[wrench].name);
+          return "its value is not held in a scenario: " + (list.wrenches[wrench].name.empty()
+                                                                ? "of its wrench"
+                                                                : list.wrenches[wrench].name);
         }
       }
     }

@@ -13,6 +13,8 @@
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "cli/proof/good_postures.h"
+#include "cli/proof/trajectory_proofs.h"
+#include "cli/task/motion_options.h"
 #include "cli/task/problem_options.h"
 #include "maxwrench/load.h"
 #include "maxwrench/version.h"
@@ -31,6 +33,8 @@ struct CertifyCommandOptions : CommonOptions {
   std::string certificate;
   WithinOptions within;
   ProblemOptions source;
+  std::optional<std::string> theta_r;  ///< of a task in time
+  MotionOptions motion;
 };
 
 /// The proof, and what the command adds to it.
@@ -73,6 +77,25 @@ void throw_on_choices(const CertifyCommandOptions& options) {
     throw std::invalid_argument("--certificate: got --limits " + *options.source.limits +
                                 ", expected the limits that the robot has without it");
   }
+}
+
+/// Proves a trajectory of a task in time. `command` has the options of static tasks, too.
+int certify_motion(const CertifyCommandOptions& options, const CLI::App& command,
+                   const Problem& problem) {
+  for (const char* other : {"--gap", "--time", "--within", "--resolution", "--figure", "--boxes"}) {
+    if (command.get_option(other)->count() == 0) continue;
+    throw std::invalid_argument(
+        fmt::format("{}: got {}, a task in time, expected a static task", other, problem.name));
+  }
+  if (!options.certificate.empty() && options.motion.t_h) {
+    throw std::invalid_argument("--certificate: got --t-h " + *options.motion.t_h +
+                                ", expected the peak that the task has without it");
+  }
+  require_apart(
+      {{"path.file", problem.motion->path_file}, {"--theta-r", options.theta_r.value_or("")}},
+      {{"--certificate", options.certificate}});
+  return certify_trajectory(problem, knots_of(problem, options.theta_r), options.read_options(),
+                            options.certificate, options.json);
 }
 
 /// The check of a certificate does not support all tasks. The list of good postures needs boxes of
@@ -218,6 +241,8 @@ void add_proof_options(CLI::App& command, CertifyCommandOptions& options) {
                   "file for the certificate, which 'verify' checks")
       ->check(reject_empty);
   options.within.add(command);
+  add_theta_r(command, options.theta_r);
+  options.motion.add(command);
   options.add_threads(command);
   options.add_json(command);
 }
@@ -227,9 +252,11 @@ void add_proof_options(CLI::App& command, CertifyCommandOptions& options) {
 void add_certify(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<CertifyCommandOptions>();
   CLI::App& command = *app.add_subcommand(
-      "certify", "finds the largest capability and proves that no posture has more");
+      "certify",
+      "finds the largest capability and proves that no posture has more; of a task in time: proves "
+      "what a trajectory exerts at every instant");
   add_proof_options(command, *options);
-  command.callback([options, &exit_status] {
+  command.callback([options, &command, &exit_status] {
     require_apart(options->source.inputs(options->choice.problem),
                   {{"--certificate", options->certificate},
                    {"--figure", options->within.figure},
@@ -239,8 +266,17 @@ void add_certify(CLI::App& app, int& exit_status) {
     }
     throw_on_choices(*options);
     Problem problem = options->source.load(options->choice.problem);
-    throw_on_dependents(*options, problem);
+    options->motion.change(problem);
     if (options->ignore_collision) problem.robot.collision = nullptr;
+    if (problem.motion) {
+      exit_status = certify_motion(*options, command, problem);
+      return;
+    }
+    if (options->theta_r) {
+      throw std::invalid_argument("--theta-r: got " + problem.name +
+                                  ", a static task, expected a task in time");
+    }
+    throw_on_dependents(*options, problem);
     const Certified certified = prove(*options, problem);
     write_certificate(*options, certified);
     if (certified.good) write_good(certified.proof.answer, *certified.good, options->within);

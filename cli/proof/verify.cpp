@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "cli/cli.h"
 #include "cli/output.h"
 #include "cli/proof/lp_proof.h"
+#include "cli/proof/trajectory_proofs.h"
 #include "cli/proof/verify_rows.h"
 #include "maxwrench/certify.h"
 #include "maxwrench/load.h"
@@ -101,6 +103,10 @@ int check_file(const VerifyOptions& options) {
                        options.json);
   }
   if (is_lp_proof(options.file)) return check_lp_file(options);
+  if (is_trajectory_certificate(std::filesystem::path(options.file))) {
+    return verify_trajectory_file(options.file, options.choice.problem, options.thread_count(),
+                                  options.json);
+  }
   const std::string& other = options.choice.problem;
   const VerifiedProof proof = verify_certificate(
       options.file,

@@ -1,9 +1,26 @@
 #include "cli/task/load_and_solve.h"
 
+#include <utility>
+
 #include "cli/ctrl_c.h"
 #include "cli/progress.h"
 
 namespace maxwrench {
+namespace {
+
+template <class Run>
+auto with_progress(const char* command, const Problem& problem, Options how, const Run& run) {
+  static_cast<Case&>(how) = with_search(problem, how);
+  Progress progress(command, static_cast<double>(how.budget));
+  CtrlC ctrl_c;
+  how.progress = progress.counter();
+  how.interrupted = ctrl_c.asked();
+  auto result = run(how);
+  progress.finish();
+  return result;
+}
+
+}  // namespace
 
 Problem load_apart(const std::string& problem, const ProblemOptions& source,
                    const MotionOptions& motion, const std::vector<NamedFile>& inputs,
@@ -18,14 +35,14 @@ Problem load_apart(const std::string& problem, const ProblemOptions& source,
 }
 
 Answer solve_with_progress(const char* command, const Problem& problem, Options how) {
-  static_cast<Case&>(how) = with_search(problem, how);
-  Progress progress(command, static_cast<double>(how.budget));
-  CtrlC ctrl_c;
-  how.progress = progress.counter();
-  how.interrupted = ctrl_c.asked();
-  Answer best = solve(problem, how);
-  progress.finish();
-  return best;
+  return with_progress(command, problem, std::move(how),
+                       [&](const Options& options) { return solve(problem, options); });
+}
+
+TrajectoryProof solve_proven_with_progress(const char* command, const Problem& problem,
+                                           Options how) {
+  return with_progress(command, problem, std::move(how),
+                       [&](const Options& options) { return solve_proven(problem, options); });
 }
 
 }  // namespace maxwrench

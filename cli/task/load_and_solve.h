@@ -7,6 +7,7 @@
 #include "cli/task/motion_options.h"
 #include "cli/task/problem_options.h"
 #include "maxwrench/solve.h"
+#include "maxwrench/trajectory_proof.h"
 
 namespace maxwrench {
 
@@ -24,5 +25,9 @@ Problem load_apart(const std::string& problem, const ProblemOptions& source,
 
 /// `solve`, with progress on stderr under the name of the command, until Ctrl-C.
 Answer solve_with_progress(const char* command, const Problem& problem, Options how);
+
+/// `solve_proven` likewise.
+TrajectoryProof solve_proven_with_progress(const char* command, const Problem& problem,
+                                           Options how);
 
 }  // namespace maxwrench

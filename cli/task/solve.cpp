@@ -4,6 +4,7 @@
 
 #include "benchmarks/tables/write_file.h"
 #include "cli/cli.h"
+#include "cli/proof/trajectory_proofs.h"
 #include "cli/task/explain_option.h"
 #include "cli/task/load_and_solve.h"
 #include "maxwrench/load.h"
@@ -16,13 +17,29 @@ struct SolveOptions : CommonOptions {
   ProblemOptions source;
   std::string out;
   ExplainOption explain;
+  bool proven = false;
 };
 
-int solve(const SolveOptions& options, const Problem& problem) {
-  const Answer answer = solve_with_progress("solve", problem, options.read_options());
-  if (!options.out.empty() && answer.has_posture()) {
-    write_file(options.out, knots_csv(problem, answer.trajectory.knots));
+void write_knots(const SolveOptions& options, const Problem& problem, const Answer& answer) {
+  if (options.out.empty() || !answer.has_posture()) return;
+  write_file(options.out, knots_csv(problem, answer.trajectory.knots));
+}
+
+int solve_proven(const SolveOptions& options, const Problem& problem) {
+  if (!problem.motion) {
+    throw std::invalid_argument("--proven: got " + problem.name +
+                                ", a static task, expected a task in time (certify proves others)");
   }
+  const TrajectoryProof proof =
+      solve_proven_with_progress("solve", problem, options.read_options());
+  write_knots(options, problem, proof.answer);
+  return report_proven(proof, options.json);
+}
+
+int solve(const SolveOptions& options, const Problem& problem) {
+  if (options.proven) return solve_proven(options, problem);
+  const Answer answer = solve_with_progress("solve", problem, options.read_options());
+  write_knots(options, problem, answer);
   return options.explain.report(answer, options.json);
 }
 
@@ -41,6 +58,10 @@ void add_solve(CLI::App& app, int& exit_status) {
   options->add_json(command);
   command.add_option("--out", options->out, "CSV file for the table of theta_r")
       ->check(reject_empty);
+  command
+      .add_flag("--proven", options->proven,
+                "of a task in time: prove what the trajectory exerts at every instant")
+      ->excludes("--explain");
   command.callback([options, &exit_status] {
     exit_status = solve(*options, load_apart(options->choice.problem, options->source,
                                              options->motion, {}, {{"--out", options->out}}));

@@ -400,6 +400,44 @@ class Proof:
     def seconds(self) -> float: ...
     def save(self, path: _Path) -> None: ...
 
+class TrajectoryProof:
+    @property
+    def status(self) -> str: ...
+    @property
+    def reason(self) -> str: ...
+    @property
+    def answer(self) -> Answer: ...
+    @property
+    def guaranteed(self) -> float: ...
+    @property
+    def t(self) -> float: ...
+    @property
+    def slices(self) -> int: ...
+    @property
+    def clearance(self) -> float: ...
+    @property
+    def seconds(self) -> float: ...
+    def save(self, path: _Path) -> None: ...
+
+class VerifiedTrajectory:
+    @property
+    def verified(self) -> bool: ...
+    @property
+    def rejection(self) -> str: ...
+    @property
+    def problem(self) -> str: ...
+    @property
+    def guaranteed(self) -> float: ...
+    @property
+    def unit(self) -> str: ...
+    @property
+    def slices(self) -> int: ...
+    @property
+    def clearance(self) -> float: ...
+    @property
+    def knots(self) -> _Array: ...
+    def __bool__(self) -> bool: ...
+
 class VerifiedProof:
     @property
     def verified(self) -> bool: ...
@@ -577,8 +615,10 @@ def sensitivity(
     threads: int = 0,
     callback: _Callback = None,
 ) -> Sensitivity: ...
+@overload
 def certify(
     task: Task | _Path,
+    theta_r: ArrayLike,
     *,
     gap: float = 1e-3,
     seconds: float = 60.0,
@@ -589,8 +629,25 @@ def certify(
     budget: int = 0,
     threads: int = 0,
     callback: _Callback = None,
-) -> Proof: ...
-def verify(path: _Path, task: Task | _Path | None = None, *, threads: int = 0) -> VerifiedProof: ...
+) -> TrajectoryProof: ...
+@overload
+def certify(
+    task: Task | _Path,
+    theta_r: None = None,
+    *,
+    gap: float = 1e-3,
+    seconds: float = 60.0,
+    measure: str = "linf_polytope",
+    wrench: str = "pure",
+    search: str = "",
+    seed: int = 1,
+    budget: int = 0,
+    threads: int = 0,
+    callback: _Callback = None,
+) -> Any: ...  # a Proof of a static task, a TrajectoryProof of a task in time
+def verify(
+    path: _Path, task: Task | _Path | None = None, *, threads: int = 0
+) -> Any: ...  # a VerifiedProof or a VerifiedTrajectory
 def simulate(
     answer: Answer,
     integrator: str = "cvode",

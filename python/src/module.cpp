@@ -24,6 +24,7 @@ PYBIND11_MODULE(_core, m) {
   python::add_linear_programs(m);
   python::add_tank(m);
   python::add_proofs(m);
+  python::add_trajectory_proofs(m);
   python::add_wrench_sets(m);
   python::add_view(m);
   python::add_strategies(m);

@@ -3,6 +3,8 @@
 #include <pybind11/pybind11.h>
 
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "maxwrench/path.h"
 #include "maxwrench/solve.h"
@@ -57,6 +59,14 @@ py::object evaluate_joint_rows(const PyTask& task, const py::object& q, const Op
 /// again when it is read, with the same result.
 py::tuple answer_state(const PyAnswer& self);
 PyAnswer answer_from_state(const py::tuple& state);
+/// theta_r of a posture, as one row, or knots (k×r) of a task in time.
+Eigen::MatrixXd knots_in(const Array& array, const Problem& task);
+/// `certify` of a task in time: a TrajectoryProof, of the knots in theta_r or, if that is None, of
+/// the trajectory that a search finds.
+py::object certify_motion(const PyTask& task, const py::object& theta_r, const Options& options,
+                          const py::object& callback);
+/// `verify` of a certificate of a trajectory; `given` is the task in place of the one it names.
+py::object verify_motion(const std::string& file, const std::optional<Problem>& given, int threads);
 /// The second contact of a task: a maxwrench.Contact.
 ContactSpec contact_in(const py::object& value);
 /// Reads the dicts of a task that have the keys of a task file: those of its table `[wrench]`, and
@@ -87,6 +97,7 @@ void add_capability(py::module_& m);
 void add_linear_programs(py::module_& m);
 void add_tank(py::module_& m);
 void add_proofs(py::module_& m);
+void add_trajectory_proofs(py::module_& m);
 void add_wrench_sets(py::module_& m);
 void add_view(py::module_& m);
 void add_strategies(py::module_& m);

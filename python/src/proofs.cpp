@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include <filesystem>
 #include <optional>
 
 #include "maxwrench/certify.h"
 #include "maxwrench/load.h"
+#include "maxwrench/trajectory_proof.h"
 #include "problems/loader/bad_input.h"
 #include "python/src/arrays.h"
 #include "python/src/background.h"
@@ -20,9 +22,10 @@ struct PyProof {
   PyTask task;
 };
 
-PyProof certify_task(const py::object& task, double gap, double seconds, const std::string& measure,
-                     const std::string& wrench, const std::string& search, std::uint64_t seed,
-                     long budget, int threads, const py::object& callback) {
+py::object certify_task(const py::object& task, const py::object& theta_r, double gap,
+                        double seconds, const std::string& measure, const std::string& wrench,
+                        const std::string& search, std::uint64_t seed, long budget, int threads,
+                        const py::object& callback) {
   const PyTask of = task_of(task);
   Options options;
   options.measure = measure;
@@ -31,6 +34,10 @@ PyProof certify_task(const py::object& task, double gap, double seconds, const s
   options.seed = seed;
   options.budget = budget;
   options.threads = threads;
+  if (of.problem->motion) return certify_motion(of, theta_r, options, callback);
+  if (!theta_r.is_none()) {
+    throw BadValue("theta_r", "an array", "None: " + of.problem->name + " is a static task");
+  }
   ProofOptions how;
   how.gap = gap;
   how.seconds = seconds;
@@ -42,7 +49,7 @@ PyProof certify_task(const py::object& task, double gap, double seconds, const s
     options.interrupted = [&watch] { return watch.stop.load(); };
     result.proof = certify(*of.problem, options, how);
   });
-  return result;
+  return py::cast(std::move(result));
 }
 
 void save(const PyProof& self, const py::object& path) {
@@ -55,14 +62,22 @@ void save(const PyProof& self, const py::object& path) {
       .attr("write_bytes")(file, py::bytes(self.proof.certificate));
 }
 
-VerifiedProof verify_file(const py::object& path, const py::object& task, int threads) {
+py::object verify_file(const py::object& path, const py::object& task, int threads) {
   const std::string file = path_in("path", path);
   open_file(file, "a certificate");
   std::optional<Problem> given;
   if (!task.is_none()) given = *task_of(task).problem;
-  const py::gil_scoped_release released;
-  return verify_certificate(
-      file, [&](const std::string& name) { return given ? *given : load_problem(name); }, threads);
+  if (is_trajectory_certificate(std::filesystem::path(file))) {
+    return verify_motion(file, given, threads);
+  }
+  VerifiedProof result;
+  {
+    const py::gil_scoped_release released;
+    result = verify_certificate(
+        file, [&](const std::string& name) { return given ? *given : load_problem(name); },
+        threads);
+  }
+  return py::cast(std::move(result));
 }
 
 std::string repr_of_proof(const PyProof& self) {
@@ -73,17 +88,20 @@ std::string repr_of_proof(const PyProof& self) {
 }
 
 constexpr const char* kCertify =
-    R"(Searches for the best posture, and proves how much larger a value can be.
+    R"(Searches for the best posture, and proves how much larger a value can be. For a task in time:
+proves what a trajectory exerts at every instant.
 
 Args:
-    task: a static Task, or the name of one.
-    gap: the proof ends once bound - beta is at most this share of beta; at least 1e-8.
-    seconds: time limit of the proof, after the search [s].
-    measure: "linf_polytope", "l2_polytope" or "ellipsoid".
+    task: a Task, or the name of one.
+    theta_r: for a task in time, as of ``evaluate``; None: the trajectory that a search finds.
+    gap: for a static task, the proof ends once bound - beta is at most this share of beta; at
+        least 1e-8.
+    seconds: for a static task, the time limit of the proof, after the search [s].
+    measure: "linf_polytope", "l2_polytope" or "ellipsoid"; for a task in time the first.
     wrench, search, seed, budget, threads, callback: as of ``solve``.
 
 Returns:
-    Proof: the best posture and the bound.
+    Proof: the best posture and the bound. TrajectoryProof: that of a task in time.
 
 Raises:
     InputError: the task is not supported, or as ``solve``.
@@ -152,10 +170,10 @@ void add_proofs(py::module_& m) {
         return fmt::format("<VerifiedProof {}: {}>", v.problem,
                            v.rejection.empty() ? "verified" : "rejected: " + v.rejection);
       });
-  m.def("certify", &certify_task, py::arg("task"), py::kw_only(), py::arg("gap") = 1e-3,
-        py::arg("seconds") = 60.0, py::arg("measure") = Case().measure, py::arg("wrench") = "pure",
-        py::arg("search") = "", py::arg("seed") = 1, py::arg("budget") = 0, py::arg("threads") = 0,
-        py::arg("callback") = py::none(), kCertify);
+  m.def("certify", &certify_task, py::arg("task"), py::arg("theta_r") = py::none(), py::kw_only(),
+        py::arg("gap") = 1e-3, py::arg("seconds") = 60.0, py::arg("measure") = Case().measure,
+        py::arg("wrench") = "pure", py::arg("search") = "", py::arg("seed") = 1,
+        py::arg("budget") = 0, py::arg("threads") = 0, py::arg("callback") = py::none(), kCertify);
   m.def("verify", &verify_file, py::arg("path"), py::arg("task") = py::none(), py::kw_only(),
         py::arg("threads") = 0,
         R"(Checks a certificate with code that is independent of the code that wrote it.
@@ -166,7 +184,8 @@ Args:
     threads: as of ``solve``.
 
 Returns:
-    VerifiedProof: the claims, and whether they are proven.
+    VerifiedProof: the claims, and whether they are proven. VerifiedTrajectory: those of a
+    trajectory.
 
 Raises:
     InputError: the file is missing, damaged or no certificate.

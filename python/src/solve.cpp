@@ -11,18 +11,7 @@
 #include "solvers/solve/method.h"
 
 namespace maxwrench::python {
-namespace {
 
-Options options_of(const std::string& measure, const std::string& wrench,
-                   const std::string& solver) {
-  Options options;
-  options.measure = measure;
-  options.wrench = parse_wrench(wrench);
-  options.solver = solver;
-  return options;
-}
-
-/// theta_r (r) of a posture, or knots (k×r).
 Eigen::MatrixXd knots_in(const Array& array, const Problem& task) {
   if (task.redundancy() == 0 && array.size() > 0) {
     throw BadValue(
@@ -35,6 +24,17 @@ Eigen::MatrixXd knots_in(const Array& array, const Problem& task) {
             : Eigen::MatrixXd(vector("theta_r", array, task.redundancy()).transpose());
   require_all_finite("theta_r", knots);
   return knots;
+}
+
+namespace {
+
+Options options_of(const std::string& measure, const std::string& wrench,
+                   const std::string& solver) {
+  Options options;
+  options.measure = measure;
+  options.wrench = parse_wrench(wrench);
+  options.solver = solver;
+  return options;
 }
 
 py::object evaluate_task(const py::object& task, const py::object& theta_r,

@@ -64,6 +64,38 @@ def test_a_proof_of_another_task_is_rejected(tmp_path):
     assert not checked and checked.rejection
 
 
+def test_a_trajectory_is_proven_at_every_instant(tmp_path, command):
+    proof = mw.certify("planar/trajectory", [0.3, 0.1])
+    assert proof.status == "proven" and proof.reason == "" and np.isnan(proof.t)
+    between = proof.answer.to_dict()["value_between_knots"]
+    assert between * (1 - 5e-4) <= proof.guaranteed <= between
+    file = tmp_path / "t.proof"
+    proof.save(file)
+    checked = mw.verify(file)
+    assert checked and checked.guaranteed == proof.guaranteed and checked.knots.shape == (8, 2)
+    assert json.loads(command("verify", str(file), "--json").stdout)["status"] == "verified"
+    task = mw.load("planar/trajectory")
+    weaker = task.with_limits(0.9 * task.robot.u_min, 0.9 * task.robot.u_max)
+    assert not mw.verify(file, weaker)
+
+
+def test_a_trajectory_is_found_and_proven():
+    proof = mw.certify("planar/trajectory", budget=200, seed=2)
+    assert proof.status == "proven" and proof.answer.status == "best_found"
+    assert 0 < proof.guaranteed <= proof.answer.beta
+
+
+def test_an_unprovable_trajectory_says_when(tmp_path, rejects):
+    knots = np.zeros((8, 2))
+    knots[4] = 1.4  # beyond a limit
+    proof = mw.certify("planar/trajectory", knots)
+    assert proof.status == "invalid_posture" and proof.reason.startswith("t = ") and proof.t > 0
+    rejects(proof.save, tmp_path / "t.proof")
+    rejects(mw.certify, "planar/trajectory", np.zeros((3, 2)))
+    rejects(mw.certify, "planar/trajectory", [0, 0], wrench="any")
+    rejects(mw.certify, "planar/force", [0, 0])
+
+
 def test_bad_proofs(tmp_path, rejects):
     assert isinstance(rejects(mw.verify, tmp_path / "none.proof"), FileNotFoundError)
     (tmp_path / "bad.proof").write_text("nonsense")
@@ -71,7 +103,7 @@ def test_bad_proofs(tmp_path, rejects):
     rejects(mw.certify, "planar/force", gap=-1)
     rejects(mw.certify, "planar/force", gap=float("nan"))
     rejects(mw.certify, "planar/force", seconds=-1)
-    rejects(mw.certify, "planar/trajectory")
+    rejects(mw.certify, "mobile/trajectory")
     rejects(mw.certify, "planar/force", measure="manipulability")
 
 

@@ -1,0 +1,138 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "maxwrench/load.h"
+#include "maxwrench/trajectory_proof.h"
+#include "problems/make/bad_value.h"
+#include "python/src/arrays.h"
+#include "python/src/background.h"
+#include "python/src/parts.h"
+#include "python/src/words.h"
+
+namespace maxwrench::python {
+namespace {
+
+/// A proof in time, with the task that it was asked of.
+struct PyTrajectoryProof {
+  TrajectoryProof proof;
+  PyTask task;
+};
+
+void save_trajectory_proof(const PyTrajectoryProof& self, const py::object& path) {
+  const std::string file = path_in("path", path);
+  if (self.proof.certificate.empty()) {
+    throw BadValue("proof", "no certificate", "one of a trajectory that is proven");
+  }
+  py::module_::import("maxwrench._files")
+      .attr("write_bytes")(file, py::bytes(self.proof.certificate));
+}
+
+std::string repr_of_trajectory_proof(const PyTrajectoryProof& self) {
+  const TrajectoryProof& proof = self.proof;
+  const std::string& name = self.task.problem->name;
+  if (proof.status != Status::kProven) {
+    return fmt::format("<TrajectoryProof {}: {}, {}>", name, to_string(proof.status),
+                       proof.reason.str());
+  }
+  return fmt::format("<TrajectoryProof {}: {:.6g} {} at every instant>", name, proof.guaranteed,
+                     proof.answer.unit);
+}
+
+}  // namespace
+
+py::object certify_motion(const PyTask& task, const py::object& theta_r, const Options& options,
+                          const py::object& callback) {
+  TrajectoryProofOptions how;
+  how.keep_certificate = true;
+  PyTrajectoryProof result{{}, task};
+  const Problem& problem = *task.problem;
+  Eigen::MatrixXd knots;
+  if (!theta_r.is_none()) {
+    knots = knots_in(numbers("theta_r", theta_r), problem);
+    if (knots.rows() != knots_of(problem)) knots = constant_knots(problem, stacked(knots));
+  }
+  Options own = options;
+  const Callback shown(callback, options.budget, problem.name);
+  run_in_background(shown.function(), [&](Watch& watch) {
+    own.progress = [&watch](long evaluations) { watch.evaluations = evaluations; };
+    own.interrupted = [&watch] { return watch.stop.load(); };
+    result.proof = knots.size() > 0 ? certify_trajectory(problem, knots, own, how)
+                                    : solve_proven(problem, own, how);
+  });
+  return py::cast(std::move(result));
+}
+
+py::object verify_motion(const std::string& file, const std::optional<Problem>& given,
+                         int threads) {
+  VerifiedTrajectory result;
+  {
+    const py::gil_scoped_release released;
+    result = verify_trajectory_certificate(
+        file, [&](const std::string& name) { return given ? *given : load_problem(name); },
+        threads);
+  }
+  return py::cast(std::move(result));
+}
+
+void add_trajectory_proofs(py::module_& m) {
+  py::class_<PyTrajectoryProof>(
+      m, "TrajectoryProof",
+      "A proof of what a trajectory exerts at every instant, made by ``certify``.")
+      .def_property_readonly(
+          "status", [](const PyTrajectoryProof& p) { return to_string(p.proof.status); },
+          "proven, or why not: invalid_posture, infeasible or numerical_error.")
+      .def_property_readonly(
+          "reason", [](const PyTrajectoryProof& p) { return p.proof.reason.str(); },
+          "What is violated, and when; empty if it is proven.")
+      .def_property_readonly(
+          "answer",
+          [](const PyTrajectoryProof& p) {
+            return PyAnswer{p.proof.answer, p.task};
+          },
+          "The Answer of the trajectory.")
+      .def_property_readonly(
+          "guaranteed", [](const PyTrajectoryProof& p) { return p.proof.guaranteed; },
+          "The wrench along c that is proven at every instant, of an impulse at its peak; NaN: "
+          "none.")
+      .def_property_readonly(
+          "t", [](const PyTrajectoryProof& p) { return p.proof.t; },
+          "The instant of the reason [s]; NaN: none.")
+      .def_property_readonly(
+          "slices", [](const PyTrajectoryProof& p) { return p.proof.slices; },
+          "The number of slices of time on which the efforts were enclosed.")
+      .def_property_readonly(
+          "clearance", [](const PyTrajectoryProof& p) { return p.proof.clearance; },
+          "No bodies are closer than their margin plus this [m].")
+      .def_property_readonly(
+          "seconds", [](const PyTrajectoryProof& p) { return p.proof.seconds; },
+          "Wall time of the proof [s].")
+      .def("save", &save_trajectory_proof, py::arg("path"),
+           "Writes the certificate to the file path; ``verify`` and the command check it with "
+           "independent code.")
+      .def("__repr__", &repr_of_trajectory_proof);
+  py::class_<VerifiedTrajectory>(
+      m, "VerifiedTrajectory",
+      "The result of ``verify`` for a certificate of a trajectory. True if verified.")
+      .def_property_readonly(
+          "verified", [](const VerifiedTrajectory& v) { return v.verified(); },
+          "Whether the certificate proves its claims.")
+      .def_readonly("rejection", &VerifiedTrajectory::rejection, "Why not; empty if it does.")
+      .def_readonly("problem", &VerifiedTrajectory::problem, "The name of the task.")
+      .def_readonly("guaranteed", &VerifiedTrajectory::guaranteed,
+                    "The wrench along c that is exerted at every instant.")
+      .def_readonly("unit", &VerifiedTrajectory::unit, "Its unit.")
+      .def_readonly("slices", &VerifiedTrajectory::slices,
+                    "The number of slices of time that were checked.")
+      .def_readonly("clearance", &VerifiedTrajectory::clearance,
+                    "No bodies are closer than their margin plus this [m].")
+      .def_property_readonly(
+          "knots", [](const VerifiedTrajectory& v) { return copy(v.knots); }, "The knots (k×r).")
+      .def("__bool__", [](const VerifiedTrajectory& v) { return v.verified(); })
+      .def("__repr__", [](const VerifiedTrajectory& v) {
+        return fmt::format("<VerifiedTrajectory {}: {}>", v.problem,
+                           v.verified() ? "verified" : "rejected: " + v.rejection);
+      });
+}
+
+}  // namespace maxwrench::python

@@ -1,0 +1,173 @@
+#include "solvers/certify/trajectory/edge_program.h"
+
+#include <cmath>
+
+#include "lib/trajectory/program.h"
+#include "maxwrench/strategies.h"
+
+namespace maxwrench {
+namespace {
+
+/// Second differences at edges are no bound of the derivative between them.
+constexpr double kBendSafety = 1.05;
+/// The most of a limit's range that a margin takes.
+constexpr double kMostOfRange = 0.25;
+/// Wrenches that differ by this share of the value are the same.
+constexpr double kEqualWrench = 1e-9;
+
+}  // namespace
+
+EdgeProgram::EdgeProgram(const Problem& problem, const Eigen::MatrixXd& knots, int parts, int t_h)
+    : problem_(problem),
+      parts_(parts),
+      motion_(problem, make_dense_spline(*problem.motion, parts)),
+      solver_(trajectory_solvers().front().make()) {
+  const MotionTask& task = *problem.motion;
+  const SchemeMaps& maps = motion_.maps();
+  loose_ = make_trajectory_program(problem, task, Wrench::kPure, maps);
+  motion_.evaluate(all_knots(task, knots), instants_);
+  set_instants(problem, task, Wrench::kPure, maps, instants_, loose_);
+  if (!task.impulse) return;
+  const bool block = start_is_block(task, maps);
+  // At rest and in balance, w_0 cannot exceed the static capability.
+  if (block && task.start == Start::kStatic) loose_.instants[0].w_max.setConstant(kInfinity);
+  loose_.peak = t_h * parts - (block ? 0 : 1);
+}
+
+/// Second and third differences of p within each interval between knots; at a knot the third
+/// derivative of theta_r jumps. `w`: at the edges. Where w bends, y bends with it, so its
+/// differences count only together with those of J'c.
+void EdgeProgram::measure_bends(const Eigen::VectorXd& w) {
+  const Eigen::Index edges = w.size();
+  const Zonotope& set = problem_.robot.actuation;
+  Eigen::MatrixXd tau(set.actuators(), edges), a(set.actuators(), edges);
+  for (Eigen::Index i = 0; i < edges; ++i) {
+    const Instant& at = instants_[static_cast<std::size_t>(i)];
+    tau.col(i) = set.B_pinv * at.tau_d;
+    a.col(i) = set.B_pinv * (at.J.transpose() * at.c);
+  }
+  const double H = problem_.motion->T / static_cast<double>(edges - 1);
+  off_.setZero(tau.rows(), edges - 1);
+  rate_off_.setZero(tau.rows(), edges - 1);
+  for (Eigen::Index i = 0; i + 1 < edges; ++i) {
+    const Eigen::Index first = i / parts_ * parts_, last = first + parts_;
+    const auto second = [&](const auto& x, Eigen::Index edge) -> Eigen::VectorXd {
+      const Eigen::Index at = std::clamp(edge, first + 1, last - 1);
+      return x.col(at + 1) - 2 * x.col(at) + x.col(at - 1);
+    };
+    const auto bend = [&](Eigen::Index edge) -> Eigen::VectorXd {  // H^2 p_ddot
+      return second(tau, edge) + w[i] * second(a, edge);
+    };
+    const Eigen::VectorXd a_step = (a.col(i + 1) - a.col(i)).cwiseAbs();
+    const double w_step = std::abs(w[i + 1] - w[i]);
+    const double w_bend = std::max(second(w.transpose(), i).cwiseAbs()[0],
+                                   second(w.transpose(), i + 1).cwiseAbs()[0]);
+    const Eigen::VectorXd b_0 = bend(i), b_1 = bend(i + 1);
+    const Eigen::VectorXd most = b_0.cwiseAbs().cwiseMax(b_1.cwiseAbs()) + 2 * w_step * a_step;
+    off_.col(i) = kBendSafety / 8 * most;
+    if (i == first || i + 1 == last) {
+      rate_off_.col(i) = kBendSafety / (2 * H) * most;
+    } else {
+      const Eigen::VectorXd jerk = (bend(i + 2) - bend(i - 1)).cwiseAbs() / 3;  // H^3 p_dddot
+      rate_off_.col(i) =
+          kBendSafety / (6 * H) * (jerk.cwiseMax((b_1 - b_0).cwiseAbs()) + 3 * w_bend * a_step);
+    }
+  }
+}
+
+/// The limits of the whole program are tighter by the largest margin of each actuator, the rates by
+/// the margin of each part.
+void EdgeProgram::tighten(double slack) {
+  const Zonotope& set = problem_.robot.actuation;
+  program_ = loose_;
+  if (slack < 0) return;
+  const double H = problem_.motion->T / static_cast<double>(off_.cols());
+  Eigen::VectorXd margin = off_.rowwise().maxCoeff();
+  for (Eigen::Index i = 0; i < margin.size(); ++i) {
+    const double range = set.u_max[i] - set.u_min[i];
+    if (!std::isfinite(range)) continue;
+    margin[i] = std::min(margin[i] + slack * range, kMostOfRange * range);
+  }
+  tight_ = with_limits(set, set.u_min + margin, set.u_max - margin);
+  for (WrenchProgram& at : program_.instants) at.actuation = &tight_;
+  program_.first_min = tight_.u_min;
+  program_.first_max = tight_.u_max;
+  const Eigen::Index skipped = off_.cols() - program_.du_max.cols();
+  for (Eigen::Index i = 0; i < program_.du_max.cols(); ++i) {
+    for (Eigen::Index k = 0; k < off_.rows(); ++k) {
+      double& most = program_.du_max(k, i);
+      if (!std::isfinite(most)) continue;
+      most =
+          std::max(most * (1 - slack) - H * rate_off_(k, i + skipped), (1 - kMostOfRange) * most);
+    }
+  }
+}
+
+bool EdgeProgram::exerts_equally(const TrajectorySolution& solution) const {
+  for (std::size_t i = 0; i < solution.w.size(); ++i) {
+    const double w = solution.w[i][0] * program_.instants[i].c_w[0];
+    if (!(std::abs(w - solution.value) <= kEqualWrench * (1 + std::abs(solution.value)))) {
+      return false;
+    }
+  }
+  return true;
+}
+
+EdgeEfforts EdgeProgram::read(const TrajectorySolution& solution) const {
+  EdgeEfforts efforts;
+  static_cast<Verdict&>(efforts) = solution;
+  const Eigen::Index edges = static_cast<Eigen::Index>(instants_.size());
+  const Eigen::Index blocks = program_.size();
+  if (solution.status == Status::kInfeasible) {
+    Eigen::Index worst = 0;
+    if (solution.lambda.cols() == blocks) {
+      solution.lambda.colwise().lpNorm<Eigen::Infinity>().maxCoeff(&worst);
+    }
+    efforts.t = instants_[static_cast<std::size_t>(worst + edges - blocks)].t;
+  }
+  if (solution.status != Status::kOptimal) return efforts;
+  efforts.value = solution.value;
+  efforts.y.resize(solution.u.rows(), edges);
+  efforts.y.rightCols(blocks) = solution.u;
+  if (blocks < edges) efforts.y.col(0) = solution.u.col(0);
+  if (!problem_.motion->impulse) return efforts;
+  efforts.w.resize(edges);
+  for (Eigen::Index i = 0; i < blocks; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    efforts.w[i + edges - blocks] = solution.w[at][0] * program_.instants[at].c_w[0];
+  }
+  if (blocks < edges) efforts.w[0] = efforts.w[1];
+  if (problem_.motion->start == Start::kStatic) efforts.w[0] = std::max(efforts.w[0], 0.0);
+  if (problem_.motion->start == Start::kRest) efforts.w[0] = 0;
+  efforts.value = efforts.w[program_.peak + edges - blocks];
+  return efforts;
+}
+
+EdgeEfforts EdgeProgram::solve(double slack) {
+  TrajectorySolution solution;
+  if (slack >= 0) {
+    if (off_.size() == 0) {
+      program_ = loose_;
+      solver_->solve(program_, solution);
+      const EdgeEfforts loose = read(solution);
+      const auto edges = static_cast<Eigen::Index>(instants_.size());
+      measure_bends(loose.w.size() > 0 ? loose.w : Eigen::VectorXd::Constant(edges, loose.value));
+    }
+  }
+  tighten(slack);
+  solver_->solve(program_, solution);
+  if (solution.status != Status::kOptimal || problem_.motion->impulse || exerts_equally(solution)) {
+    return read(solution);
+  }
+  // Where rates matter, instants may exert more than the least of them. The claim is the same
+  // wrench throughout.
+  for (WrenchProgram& at : program_.instants) {
+    const double w = solution.value / at.c_w[0];
+    at.w_min.setConstant(w);
+    at.w_max.setConstant(w);
+  }
+  solver_->solve(program_, solution);
+  return read(solution);
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,172 @@
+#include "maxwrench/trajectory_proof.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "maxwrench/batch.h"
+#include "maxwrench/strategies.h"
+#include "maxwrench/version.h"
+#include "solvers/certify/trajectory/edge_program.h"
+#include "solvers/solve/method.h"
+#include "verify/trajectory/motion_clearance.h"
+#include "verify/trajectory/verify_trajectory.h"
+
+namespace maxwrench {
+namespace {
+
+using ProofClock = std::chrono::steady_clock;
+
+/// Parts are doubled while the proof loses more than this share.
+constexpr double kLossOfParts = 1e-4;
+constexpr int kMostParts = 200;
+/// Shares of the limits' ranges for the enclosures, tried one after another.
+constexpr double kSlacks[] = {3e-6, 2e-5, 1e-4, 5e-4, 3e-3};
+
+double seconds_from(ProofClock::time_point start) {
+  return std::chrono::duration<double>(ProofClock::now() - start).count();
+}
+
+void require_provable_case(const Problem& task, const Options& options) {
+  require_provable(task);
+  if (options.measure != "linf_polytope") {
+    throw std::invalid_argument("measure: got " + options.measure +
+                                ", expected linf_polytope for a proof in time");
+  }
+  if (options.wrench != Wrench::kPure) {
+    throw std::invalid_argument("wrench: got any, expected pure for a proof in time");
+  }
+}
+
+/// One proof, from its task to its certificate.
+class TrajectoryProver {
+ public:
+  TrajectoryProver(const Problem& task, const Eigen::MatrixXd& knots, const Options& options,
+                   const TrajectoryProofOptions& how)
+      : task_(task), options_(options), how_(how), threads_(thread_count(options.threads)) {
+    if (!options.check_collision) task_.robot.collision = nullptr;
+    proof_.answer = evaluate(task_, knots, options);
+    claim_.version = version();
+    claim_.problem = task.name;
+    claim_.collision = task_.robot.collision != nullptr;
+    claim_.digest = motion_digest(task_);
+    claim_.knots = knots;
+    claim_.t_h = task.motion->impulse ? proof_.answer.trajectory.t_h : 0;
+  }
+
+  TrajectoryProof run() {
+    const auto start = ProofClock::now();
+    if (keeps_limits()) prove_wrench();
+    proof_.seconds = seconds_from(start);
+    return std::move(proof_);
+  }
+
+ private:
+  void refuse(Status status, const std::string& reason, double t) {
+    if (t >= 0) proof_.t = t;
+    proof_.conclude(status, t >= 0 ? fmt::format("t = {:.5g} s: {}", t, reason) : reason);
+  }
+
+  bool keeps_limits() {
+    const TrajectoryModel model(task_, claim_.knots);
+    MotionFault fault = check_motion(model);
+    TrajectoryVerification apart;
+    if (fault.reason.empty()) fault = check_clearance(model, apart);
+    if (!fault.reason.empty()) refuse(Status::kInvalidPosture, fault.reason, fault.t);
+    return fault.reason.empty();
+  }
+
+  /// With more and more parts, until more do not help.
+  void prove_wrench() {
+    const int usual = task_.motion->impulse ? 50 : 25;
+    if (task_.motion->impulse && claim_.t_h == 0) claim_.t_h = std::max(1, task_.motion->t_h);
+    for (int parts = how_.parts > 0 ? how_.parts : usual; parts <= kMostParts; parts *= 2) {
+      EdgeProgram program(task_, claim_.knots, parts, claim_.t_h);
+      const EdgeEfforts most = program.solve(-1);
+      if (most.status != Status::kOptimal) {
+        if (proof_.status == Status::kProven) return;
+        refuse(most.status, most.reason.str(), most.t);
+        return;
+      }
+      if (prove_with(program, parts) &&
+          proof_.guaranteed >= most.value - kLossOfParts * std::abs(most.value)) {
+        return;
+      }
+    }
+  }
+
+  /// Keeps the certificate with the largest value. Returns whether there is one with these parts.
+  bool prove_with(EdgeProgram& program, int parts) {
+    for (const double slack : kSlacks) {
+      const EdgeEfforts efforts = program.solve(slack);
+      if (efforts.status != Status::kOptimal) break;
+      claim_.parts = parts;
+      claim_.y = efforts.y;
+      claim_.w = efforts.w;
+      claim_.value = efforts.value;
+      const TrajectoryVerification check = verify(task_, claim_, threads_);
+      if (check.verified()) {
+        keep(check);
+        return true;
+      }
+      if (proof_.status != Status::kProven) {
+        refuse(Status::kNumericalError, "not enclosed: " + check.rejection, check.t);
+      }
+    }
+    return false;
+  }
+
+  void keep(const TrajectoryVerification& check) {
+    if (proof_.status == Status::kProven && !(claim_.value > proof_.guaranteed)) return;
+    proof_.conclude(Status::kProven);
+    proof_.t = std::numeric_limits<double>::quiet_NaN();
+    proof_.guaranteed = claim_.value;
+    proof_.parts = claim_.parts;
+    proof_.slices = check.slices;
+    proof_.clearance = check.clearance;
+    if (how_.keep_certificate) proof_.certificate = certificate_text(claim_);
+  }
+
+  Problem task_;
+  const Options& options_;
+  const TrajectoryProofOptions& how_;
+  const int threads_;
+  TrajectoryCertificate claim_;
+  TrajectoryProof proof_;
+};
+
+}  // namespace
+
+TrajectoryProof certify_trajectory(const Problem& task, const Eigen::MatrixXd& knots,
+                                   const Options& options, const TrajectoryProofOptions& how) {
+  require_provable_case(task, options);
+  return TrajectoryProver(task, knots, options, how).run();
+}
+
+bool is_trajectory_certificate(const std::filesystem::path& file) {
+  return is_trajectory_certificate(file.string());
+}
+
+VerifiedTrajectory verify_trajectory_certificate(
+    const std::filesystem::path& file, const std::function<Problem(const std::string& name)>& load,
+    int threads) {
+  const auto start = ProofClock::now();
+  const TrajectoryCertificate claim = read_trajectory_certificate(file.string());
+  Problem task = load(claim.problem);
+  if (!claim.collision) task.robot.collision = nullptr;
+  VerifiedTrajectory result;
+  static_cast<TrajectoryVerification&>(result) = verify(task, claim, thread_count(threads));
+  result.version = claim.version;
+  result.problem = task.name;
+  result.collision = claim.collision;
+  result.unit = task.unit();
+  result.knots = claim.knots;
+  result.guaranteed = claim.value;
+  result.parts = claim.parts;
+  result.seconds = seconds_from(start);
+  return result;
+}
+
+}  // namespace maxwrench

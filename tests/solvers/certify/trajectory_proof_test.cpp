@@ -1,0 +1,165 @@
+#include "maxwrench/trajectory_proof.h"
+
+#include <gtest/gtest.h>
+
+#include "maxwrench/load.h"
+#include "tests/support/trajectory_proofs.h"
+#include "verify/trajectory/trajectory_model.h"
+
+namespace maxwrench {
+namespace {
+
+/// The shipped turn. An independent model found 35.776335 N m as the least of 9,001 instants, at
+/// 0.8972 s, and 35.7770 at 25 instants per interval.
+TEST(TrajectoryProof, ProvesTheShippedTurn) {
+  const Problem problem = load_problem("uvms/valve_trajectory");
+  const Eigen::MatrixXd knots = shipped_knots("uvms_valve_trajectory_spline", problem);
+  const TrajectoryProof proof = certify_trajectory(problem, knots);
+  EXPECT_EQ(proof.status, Status::kProven) << proof.reason.str();
+  EXPECT_LE(proof.guaranteed, 35.776336);
+  EXPECT_GE(proof.guaranteed, 35.7770 * (1 - 5e-4));
+  EXPECT_GE(proof.clearance, -1e-5);
+  EXPECT_TRUE(proof.certificate.empty());
+  TrajectoryProofOptions fine;
+  fine.parts = 100;
+  const TrajectoryProof finer = certify_trajectory(problem, knots, {}, fine);
+  EXPECT_GE(finer.guaranteed, 35.7756);
+  EXPECT_LE(finer.guaranteed, 35.776336);
+}
+
+/// At a posture that is held, nothing lies between samples: by an independent model 34.30164 at 25
+/// instants per interval of the turn, and at rest the static capability 35.40830 of an impulse.
+TEST(TrajectoryProof, ProvesHeldPostures) {
+  const Problem held = load_problem("uvms/valve_trajectory");
+  const TrajectoryProof turn = certify_trajectory(held, constant_knots(held, held.theta_r_default));
+  EXPECT_LE(turn.guaranteed, turn.answer.trajectory.value_between_knots + 1e-9);
+  EXPECT_NEAR(turn.guaranteed, 34.3, 34.3 * 5e-4);
+  const Problem rest = load_problem("uvms/valve_impulse");
+  const TrajectoryProof impulse =
+      certify_trajectory(rest, constant_knots(rest, rest.motion->theta_0));
+  EXPECT_LE(impulse.guaranteed, 35.40831);
+  EXPECT_NEAR(impulse.guaranteed, 35.4083, 35.4 * 5e-4);
+  for (const char* name : {"planar/trajectory", "uvms/jet_trajectory", "uvms/lift_impulse"}) {
+    const Problem problem = load_problem(name);
+    const Eigen::VectorXd start =
+        problem.motion->impulse ? problem.motion->theta_0 : problem.theta_r_default;
+    const TrajectoryProof proof = certify_trajectory(problem, constant_knots(problem, start));
+    EXPECT_EQ(proof.status, Status::kProven) << name << proof.reason.str();
+    const double between = proof.answer.trajectory.value_between_knots;
+    EXPECT_LE(proof.guaranteed, between + 1e-6 * std::abs(between)) << name;
+    EXPECT_NEAR(proof.guaranteed, between, 5e-4 * std::abs(between)) << name;
+  }
+}
+
+/// The plans of coarse schemes exceed the speed of a joint on the spline through their knots.
+TEST(TrajectoryProof, RefusesPlansOfCoarseSchemes) {
+  Problem problem = load_problem("uvms/valve_trajectory");
+  for (const Scheme scheme : {Scheme::kForward, Scheme::kEnds}) {
+    problem.motion->scheme = scheme;
+    const Eigen::MatrixXd knots =
+        shipped_knots(std::string("uvms_valve_trajectory_") + to_string(scheme), problem);
+    const TrajectoryProof proof = certify_trajectory(problem, knots);
+    EXPECT_EQ(proof.status, Status::kInvalidPosture);
+    EXPECT_GE(proof.t, 0);
+    EXPECT_EQ(proof.reason.str().find("t = "), 0u) << proof.reason.str();
+    EXPECT_NE(proof.reason.str().find("q2_shoulder_pitch moves at"), std::string::npos);
+  }
+  // Without limits of joints the dip between its knots is proven: 31.99 for 35.41 at its instants.
+  for (Joint& joint : problem.robot.joints) joint.velocity_max = 10;
+  problem.theta_r_min.array() -= 1;
+  problem.theta_r_max.array() += 1;
+  problem.motion->scheme = Scheme::kForward;
+  Options options;
+  options.check_collision = false;
+  const TrajectoryProof dip =
+      certify_trajectory(problem, shipped_knots("uvms_valve_trajectory_forward", problem), options);
+  EXPECT_EQ(dip.status, Status::kProven) << dip.reason.str();
+  EXPECT_NEAR(dip.answer.beta(), 35.408, 1e-3);
+  EXPECT_NEAR(dip.guaranteed, 31.99, 31.99 * 1e-3);
+}
+
+/// The largest value of a coordinate at `per_interval` instants of each interval between knots.
+double largest_at(const KnotCurve& curve, int coordinate, int per_interval, double& t) {
+  double most = -kInfinity;
+  for (int i = 0; i <= curve.intervals() * per_interval; ++i) {
+    const int interval = std::min(i / per_interval, curve.intervals() - 1);
+    const double x = double(i) / per_interval - interval;
+    const double q = curve.at<3>(coordinate, interval, Narrow(x)).c[0].high;
+    if (q <= most) continue;
+    most = q;
+    t = interval + x;
+  }
+  return most;
+}
+
+/// A joint whose peak lies between the sub-instants at which everything is sampled. A limit midway
+/// between the peak and the largest sample is violated only there: all samples keep it.
+TEST(TrajectoryProof, RefusesALimitThatIsViolatedBetweenSamplesOnly) {
+  Problem problem = load_problem("uvms/valve_trajectory");
+  Eigen::MatrixXd knots = constant_knots(problem, problem.theta_r_default);
+  knots(4, 2) += 0.05;  // the peak is not at a knot: its neighbours differ
+  knots(5, 2) += 0.04;
+  const TrajectoryModel model(problem, knots);
+  double t = 0;
+  const double sampled = largest_at(model.curve(), 2, 25, t);
+  const double peak = largest_at(model.curve(), 2, 25 * 64, t);
+  ASSERT_GT(peak - sampled, 4e-6);
+  problem.theta_r_max[2] = (peak + sampled) / 2;
+  Options options;
+  options.check_collision = false;
+  const TrajectoryProof proof = certify_trajectory(problem, knots, options);
+  EXPECT_EQ(proof.answer.status, Status::kOptimal);  // at its instants and between them
+  EXPECT_TRUE(std::isfinite(proof.answer.trajectory.value_between_knots));
+  EXPECT_EQ(proof.status, Status::kInvalidPosture);
+  EXPECT_NEAR(proof.t, t * problem.motion->T / 9, problem.motion->T / 9 / 25);
+  EXPECT_NE(proof.reason.str().find("q3_elbow is at"), std::string::npos) << proof.reason.str();
+  problem.theta_r_max[2] = peak + 1e-5;
+  const TrajectoryProof within = certify_trajectory(problem, knots, options);
+  EXPECT_EQ(within.status, Status::kProven) << within.reason.str();
+}
+
+/// The shipped impulse keeps the speed limit of its elbow at its instants, not between them. The
+/// search with a tighter limit finds one that keeps it at all times, of almost the same value.
+TEST(TrajectoryProof, SLOW_SolvesAProvenImpulse) {
+  const Problem problem = load_problem("uvms/valve_impulse");
+  const TrajectoryProof shipped =
+      certify_trajectory(problem, shipped_knots("uvms_valve_impulse_spline", problem));
+  EXPECT_EQ(shipped.status, Status::kInvalidPosture);
+  EXPECT_NE(shipped.reason.str().find("q3_elbow moves at 0.50"), std::string::npos);
+  Options options;
+  options.budget = 1000;
+  const TrajectoryProof proof = solve_proven(problem, options);
+  EXPECT_EQ(proof.status, Status::kProven) << proof.reason.str();
+  EXPECT_EQ(proof.answer.status, Status::kBestFound);
+  const double between = proof.answer.trajectory.value_between_knots;
+  EXPECT_LE(proof.guaranteed, between);
+  EXPECT_GE(proof.guaranteed, between * (1 - 5e-4));
+  EXPECT_GT(proof.guaranteed, 39.7);
+}
+
+TEST(TrajectoryProof, RejectsOtherTasksAndChoices) {
+  const Problem problem = load_problem("planar/trajectory");
+  const Eigen::MatrixXd knots = constant_knots(problem, problem.theta_r_default);
+  Options any, ellipsoid;
+  any.wrench = Wrench::kAny;
+  ellipsoid.measure = "ellipsoid";
+  EXPECT_THROW(certify_trajectory(problem, knots, any), std::invalid_argument);
+  EXPECT_THROW(certify_trajectory(problem, knots, ellipsoid), std::invalid_argument);
+  EXPECT_THROW(certify_trajectory(problem, knots.topRows(3)), std::invalid_argument);
+  const Problem fixed = load_problem("planar/force");
+  EXPECT_THROW(certify_trajectory(fixed, fixed.theta_r_default), std::invalid_argument);
+}
+
+/// Thrusters that are too slow cannot carry the turn around: no efforts balance it.
+TEST(TrajectoryProof, SaysWhereNothingBalances) {
+  Problem problem = load_problem("uvms/valve_trajectory");
+  problem.robot.u_rate_max.head(8).setConstant(0.5);
+  const TrajectoryProof proof =
+      certify_trajectory(problem, shipped_knots("uvms_valve_trajectory_spline", problem));
+  EXPECT_EQ(proof.status, Status::kInfeasible) << proof.reason.str();
+  EXPECT_GE(proof.t, 0);
+  EXPECT_LE(proof.t, 5);
+}
+
+}  // namespace
+}  // namespace maxwrench

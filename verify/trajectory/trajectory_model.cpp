@@ -1,0 +1,253 @@
+#include "verify/trajectory/trajectory_model.h"
+
+#include <Eigen/Geometry>
+#include <stdexcept>
+
+#include "verify/coordinates.h"
+
+namespace maxwrench {
+namespace {
+
+Eigen::MatrixXd all_rows(const MotionTask& task, const Eigen::MatrixXd& table) {
+  if (!task.impulse) return table;
+  Eigen::MatrixXd all(table.rows() + 1, table.cols());
+  all << task.theta_0.transpose(), table;
+  return all;
+}
+
+/// The position at which a joint rests. One with a gear follows its leader.
+double rest_with_gears(const Problem& problem, std::size_t joint) {
+  const Joint& at = problem.robot.joints[joint];
+  if (!at.gear) return rest_of(problem, joint);
+  const double leader = rest_with_gears(problem, static_cast<std::size_t>(at.gear->leader));
+  return at.gear->ratio * leader + at.gear->offset;
+}
+
+template <int N>
+JetMatrix<N> rotation(const Eigen::Vector3d& axis, const Jet<N>& angle) {
+  const auto [c, s] = cos_sin(angle);
+  const JetMatrix<N> S = constant_jets<N>(Eigen::Matrix3d(skew(axis)));
+  const JetMatrix<N> SS = S * S;
+  const Jet<N> v = Jet<N>(1.0) - c;
+  JetMatrix<N> R = constant_jets<N>(Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) R[i][j] = R[i][j] + s * S[i][j] + v * SS[i][j];
+  }
+  return R;
+}
+
+/// phi of a `Timing` at s.
+template <int N>
+Jet<N> progress_of(Timing timing, const Jet<N>& s) {
+  switch (timing) {
+    case Timing::kCubic:
+      return s * s * (Jet<N>(3.0) - Narrow(2.0) * s);
+    case Timing::kQuintic:
+      return s * s * s * (Jet<N>(10.0) + s * (Narrow(6.0) * s - Jet<N>(15.0)));
+    case Timing::kLinear:
+      break;
+  }
+  return s;
+}
+
+[[noreturn]] void throw_unprovable(const Problem& problem, const char* got, const char* expected) {
+  throw std::invalid_argument(problem.name + ": got " + got + ", expected " + expected +
+                              " for a proof in time");
+}
+
+}  // namespace
+
+void require_provable(const Problem& problem) {
+  if (!problem.motion) throw_unprovable(problem, "a static task", "a trajectory or an impulse");
+  const MotionTask& task = *problem.motion;
+  const bool open_start = task.impulse && task.start == Start::kZero;
+  const bool moves = task.k + (task.impulse ? 1 : 0) >= 2;
+  const std::vector<std::pair<bool, std::array<const char*, 2>>> cases = {
+      {problem.contact.has_value(), {"a second contact", "one contact"}},
+      {!problem.dependent.empty(), {"dependent joints", "a base whose pose has a closed form"}},
+      {problem.free.count() > 0, {"free pose coordinates", "a path"}},
+      {!problem.scenarios.empty(), {"a list of scenarios", "one wrench of the nominal robot"}},
+      {!screw_of(task.path),
+       {"a path through given poses", "one that rotates about an axis and translates"}},
+      {!moves, {"k = 1", "k >= 2"}},
+      {open_start, {"start.kind = \"zero\"", "a start in balance"}},
+      {!problem.robot.no_dynamics.empty(), {"a robot without dynamics", "complete inertias"}},
+      {!problem.robot.actuation.full_row_rank(),
+       {"actuators that do not reach all generalised forces", "B of full row rank"}},
+  };
+  for (const auto& [refused, words] : cases) {
+    if (refused) throw_unprovable(problem, words[0], words[1]);
+  }
+}
+
+TrajectoryModel::TrajectoryModel(const Problem& problem, const Eigen::MatrixXd& table)
+    : problem_(problem),
+      path_(screw_of(problem.motion->path).value()),
+      curve_(all_rows(*problem.motion, table), problem.motion->T),
+      coordinate_of_(problem.robot.joints.size(), -1) {
+  for (std::size_t k = 0; k < problem.redundant.size(); ++k) {
+    coordinate_of_[static_cast<std::size_t>(problem.redundant[k])] = static_cast<int>(k);
+  }
+  for (std::size_t i = 0; i < problem.robot.joints.size(); ++i) {
+    rest_.push_back(rest_with_gears(problem, i));
+  }
+  int link = problem.robot.end_effectors[static_cast<std::size_t>(problem.end_effector)].link;
+  for (; link != 0; link = problem.robot.joints[static_cast<std::size_t>(link - 1)].parent) {
+    inward_.push_back(link);
+  }
+}
+
+/// The pose of a link in its parent's axes.
+template <int N>
+auto TrajectoryModel::joint_frame(std::size_t joint, int interval, const Narrow& x) const
+    -> Frame<N> {
+  const Joint& at = problem_.robot.joints[joint];
+  const int coordinate = coordinate_of_[joint];
+  const Jet<N> q = coordinate < 0 ? Jet<N>(rest_[joint]) : curve_.at<N>(coordinate, interval, x);
+  Frame<N> frame{constant_jets<N>(at.placement.R), constant_jets<N>(at.placement.p)};
+  if (at.type == JointType::kRevolute) {
+    frame.R = frame.R * rotation(at.axis, q);
+  } else {
+    frame.p = frame.p + frame.R * (q * constant_jets<N>(at.axis));
+  }
+  return frame;
+}
+
+/// The end effector, from its origin at the start: with the rotation E about the axis through the
+/// centre z, p - p_0 = (E - 1)(p_0 - z) + phi displacement.
+template <int N>
+void TrajectoryModel::move_tool(int interval, const Narrow& x, Motion<N>& motion) const {
+  const bool rests = problem_.motion->impulse;
+  const Vector6d& c = problem_.c;
+  motion.c_force = constant_jets<N>(Eigen::Vector3d(c.head<3>()));
+  motion.c_torque = constant_jets<N>(Eigen::Vector3d(c.tail<3>()));
+  motion.tool = {constant_jets<N>(path_.start.R), constant_jets<N>(Eigen::Vector3d(0, 0, 0))};
+  if (rests) return;
+  Jet<N> s;
+  s.c[0] =
+      (Narrow(static_cast<double>(interval)) + x) / Narrow(static_cast<double>(curve_.intervals()));
+  s.c[1] = Narrow(1.0) / Narrow(problem_.motion->T);
+  const Jet<N> phi = progress_of(path_.timing, s);
+  if (path_.angle != 0) {
+    const JetMatrix<N> E = rotation(path_.axis, Narrow(path_.angle) * phi);
+    const JetVector<N> arm = constant_jets<N>(path_.start.p) - constant_jets<N>(path_.centre);
+    motion.tool.p = E * arm - arm;
+    motion.tool.R = E * motion.tool.R;
+    if (problem_.motion->c_turns) {
+      motion.c_force = E * motion.c_force;
+      motion.c_torque = E * motion.c_torque;
+    }
+  }
+  motion.tool.p = motion.tool.p + phi * constant_jets<N>(path_.displacement);
+}
+
+template <int N>
+auto TrajectoryModel::move(int interval, const Narrow& x) const -> Motion<N> {
+  const Robot& robot = problem_.robot;
+  Motion<N> motion;
+  move_tool(interval, x, motion);
+  std::vector<Frame<N>> joints;
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    joints.push_back(joint_frame<N>(i, interval, x));
+  }
+  motion.links.resize(robot.links.size());
+  std::vector<char> placed(robot.links.size(), 0);
+  const EndEffector& tip = robot.end_effectors[static_cast<std::size_t>(problem_.end_effector)];
+  // A frame inside another one at (R, p): the outer frame from the inner one.
+  const auto outer = [](const Frame<N>& inner, const JetMatrix<N>& R, const JetVector<N>& p) {
+    Frame<N> frame;
+    frame.R = inner.R * transposed(R);
+    frame.p = inner.p - frame.R * p;
+    return frame;
+  };
+  auto link = static_cast<std::size_t>(tip.link);
+  motion.links[link] =
+      outer(motion.tool, constant_jets<N>(tip.placement.R), constant_jets<N>(tip.placement.p));
+  placed[link] = 1;
+  for (const int moved : inward_) {
+    const auto from = static_cast<std::size_t>(moved);
+    link = static_cast<std::size_t>(robot.joints[from - 1].parent);
+    motion.links[link] = outer(motion.links[from], joints[from - 1].R, joints[from - 1].p);
+    placed[link] = 1;
+  }
+  for (std::size_t i = 1; i < robot.links.size(); ++i) {
+    if (placed[i]) continue;
+    const Frame<N>& parent = motion.links[static_cast<std::size_t>(robot.joints[i - 1].parent)];
+    motion.links[i] = {parent.R * joints[i - 1].R, parent.p + parent.R * joints[i - 1].p};
+  }
+  return motion;
+}
+
+/// The components of the base's pose, seen from its mount, that no free axis changes.
+template <int N>
+std::vector<Jet<N>> TrajectoryModel::off_axes(const Frame<N>& base) const {
+  const std::vector<int>& axes = problem_.robot.base_axes;
+  if (axes.size() == 6) return {};
+  const auto is_free = [&axes](int axis) {
+    return std::find(axes.begin(), axes.end(), axis) != axes.end();
+  };
+  const Pose<double>& mount = problem_.robot.mount;
+  const JetMatrix<N> into = transposed(constant_jets<N>(mount.R));
+  const JetVector<N> p =
+      into * (base.p + (constant_jets<N>(path_.start.p) - constant_jets<N>(mount.p)));
+  const JetMatrix<N> R = into * base.R;
+  std::vector<Jet<N>> off;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!is_free(axis)) off.push_back(p[static_cast<std::size_t>(axis)]);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (i != j && !(is_free(5) && i < 2 && j < 2)) off.push_back(R[i][j]);
+    }
+  }
+  return off;
+}
+
+template <int N>
+MotionLoads<N - 2> TrajectoryModel::loads(int interval, const Narrow& x) const {
+  const Motion<N> motion = move<N>(interval, x);
+  std::vector<Frame<N - 2>> links;
+  std::vector<Wrenches<N - 2>> forces;
+  for (std::size_t i = 0; i < motion.links.size(); ++i) {
+    const Frame<N>& at = motion.links[i];
+    links.push_back({shortened<N - 2>(at.R), shortened<N - 2>(at.p)});
+    forces.push_back(force_on(i, at));
+  }
+  MotionLoads<N - 2> loads;
+  loads.tau_d = project(forces, links);
+  std::vector<Wrenches<N - 2>> exerted(forces.size());
+  const EndEffector& tip =
+      problem_.robot.end_effectors[static_cast<std::size_t>(problem_.end_effector)];
+  Wrenches<N - 2>& h = exerted[static_cast<std::size_t>(tip.link)];
+  h.force = shortened<N - 2>(motion.c_force);
+  h.torque = shortened<N - 2>(motion.c_torque) + cross(shortened<N - 2>(motion.tool.p), h.force);
+  loads.along_c = project(exerted, links);
+  loads.off_axes = off_axes(links[0]);
+  return loads;
+}
+
+template MotionLoads<1> TrajectoryModel::loads<3>(int, const Narrow&) const;
+template MotionLoads<2> TrajectoryModel::loads<4>(int, const Narrow&) const;
+
+std::vector<Pose<double>> TrajectoryModel::links(int interval, double x) const {
+  const Robot& robot = problem_.robot;
+  std::vector<Pose<double>> links(1);
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    const Joint& joint = robot.joints[i];
+    double q = rest_[i];
+    if (coordinate_of_[i] >= 0) {
+      const Narrow at = curve_.at<3>(coordinate_of_[i], interval, Narrow(x)).c[0];
+      q = (at.low + at.high) / 2;
+    }
+    Pose<double> motion;
+    if (joint.type == JointType::kRevolute) {
+      motion.R = Eigen::AngleAxisd(q, joint.axis).toRotationMatrix();
+    } else {
+      motion.p = joint.axis * q;
+    }
+    links.push_back(links[static_cast<std::size_t>(joint.parent)] * joint.placement * motion);
+  }
+  return links;
+}
+
+}  // namespace maxwrench

@@ -1,0 +1,149 @@
+#include "verify/trajectory/verify_trajectory.h"
+
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <mutex>
+#include <thread>
+
+#include "verify/trajectory/motion_clearance.h"
+
+namespace maxwrench {
+namespace {
+
+/// Larger numbers are rejected, so that no product of them overflows.
+constexpr double kLargestKnot = 1e6, kLargestEffort = 1e30;
+constexpr int kMostEdges = 10'000'000;
+/// [s] Durations are within these.
+constexpr double kShortest = 1e-6, kLongest = 1e9;
+
+bool within(const Eigen::MatrixXd& M, double most) {
+  return M.size() == 0 || (M.array().abs() <= most).all();  // false for NaN
+}
+
+std::string in_six_digits(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6f", x);
+  return text;
+}
+
+/// Empty, or why the certificate does not belong to the task or is not well formed.
+std::string reject_sizes(const Problem& problem, const TrajectoryCertificate& proof) {
+  const MotionTask& task = *problem.motion;
+  if (proof.digest != motion_digest(problem)) return "it is for another robot or task";
+  if (proof.collision != (problem.robot.collision != nullptr)) {
+    return "it treats collisions differently";
+  }
+  if (!(task.T >= kShortest && task.T <= kLongest)) return "the task takes too long or too short";
+  if (proof.knots.rows() != task.k || proof.knots.cols() != problem.redundancy()) {
+    return "its knots have another size";
+  }
+  const Eigen::Index intervals = task.k - (task.impulse ? 0 : 1);
+  if (proof.parts < 1 || proof.parts > kMostEdges / intervals) return "it has no edges or too many";
+  const Eigen::Index edges = intervals * proof.parts + 1;
+  if (proof.y.rows() != problem.robot.actuators() || proof.y.cols() != edges ||
+      proof.w.size() != (task.impulse ? edges : 0)) {
+    return "its efforts have another size";
+  }
+  if (!within(proof.knots, kLargestKnot) || !within(proof.y, kLargestEffort) ||
+      !within(proof.w, kLargestEffort) || !(std::abs(proof.value) <= kLargestEffort)) {
+    return "a number is not finite or is too large";
+  }
+  return "";
+}
+
+/// Empty, or why the wrenches of an impulse are not those that the task asks for. In balance at
+/// rest, w_0 cannot exceed the static capability.
+std::string reject_impulse(const Problem& problem, const TrajectoryCertificate& proof) {
+  const MotionTask& task = *problem.motion;
+  if (!task.impulse) return proof.t_h == 0 ? "" : "it has a peak";
+  if (proof.t_h < 1 || proof.t_h > task.k || (task.t_h > 0 && proof.t_h != task.t_h)) {
+    return "its peak is at another knot";
+  }
+  if (!(proof.w[Eigen::Index{proof.t_h} * proof.parts] >= proof.value)) {
+    return "the wrench at its peak is below its value";
+  }
+  if (task.start == Start::kStatic && !(proof.w[0] >= 0)) return "it starts with a wrench below 0";
+  if (task.start == Start::kRest && proof.w[0] != 0) return "it starts with a wrench";
+  return "";
+}
+
+/// All edges of all intervals, on several threads. The earliest fault counts.
+MotionFault check_efforts(const EffortLaw& law, int intervals, int parts, int threads,
+                          long& slices) {
+  const int edges = parts + 1;
+  const long all = long{intervals} * edges;
+  std::atomic<long> next = 0, first_bad = all;
+  std::mutex mutex;
+  MotionFault fault;
+  const auto work = [&] {
+    long own = 0;
+    for (long i = next++; i < all && i < first_bad; i = next++) {
+      MotionFault found = law.check(static_cast<int>(i / edges), static_cast<int>(i % edges), own);
+      if (found.reason.empty()) continue;
+      const std::lock_guard<std::mutex> guard(mutex);
+      if (i >= first_bad) continue;
+      first_bad = i;
+      fault = std::move(found);
+    }
+    const std::lock_guard<std::mutex> guard(mutex);
+    slices += own;
+  };
+  std::vector<std::thread> others;
+  for (int i = 1; i < threads; ++i) others.emplace_back(work);
+  work();
+  for (std::thread& each : others) each.join();
+  return fault;
+}
+
+}  // namespace
+
+MotionFault check_motion(const TrajectoryModel& model) {
+  const Problem& problem = model.problem();
+  const KnotCurve& curve = model.curve();
+  for (int k = 0; k < problem.redundancy(); ++k) {
+    const double speed =
+        problem.robot
+            .joints[static_cast<std::size_t>(problem.redundant[static_cast<std::size_t>(k)])]
+            .velocity_max;
+    for (const bool rate : {false, true}) {
+      const double lower = rate ? -speed : problem.theta_r_min[k];
+      const double upper = rate ? speed : problem.theta_r_max[k];
+      const KnotCurve::Outside where = curve.leaves(k, rate, lower, upper, kKnotTolerance);
+      if (!where.found) continue;
+      const bool above = where.value > upper;
+      return {problem.theta_r_name(k) + (rate ? " moves at " : " is at ") +
+                  in_six_digits(where.value) + ", beyond its limit " +
+                  in_six_digits(above ? upper : lower) + " " + problem.theta_r_unit(k) +
+                  (rate ? "/s" : ""),
+              model.time(where.interval, where.x)};
+    }
+    if (!problem.motion->impulse) continue;
+    const Narrow bend = 2.0 * curve.at<3>(k, 0, Narrow(0.0)).c[2] / (curve.rate() * curve.rate());
+    if (!(bend.magnitude() <= 2 * kKnotTolerance)) {
+      return {problem.theta_r_name(k) + " starts with an acceleration; at rest there is none", 0};
+    }
+  }
+  return {};
+}
+
+TrajectoryVerification verify(const Problem& problem, const TrajectoryCertificate& proof,
+                              int threads) {
+  require_provable(problem);
+  TrajectoryVerification result;
+  result.rejection = reject_sizes(problem, proof);
+  if (result.rejection.empty()) result.rejection = reject_impulse(problem, proof);
+  if (!result.rejection.empty()) return result;
+  const TrajectoryModel model(problem, proof.knots);
+  const EffortLaw law(model, proof);
+  MotionFault fault = check_motion(model);
+  if (fault.reason.empty()) fault = check_clearance(model, result);
+  if (fault.reason.empty()) {
+    fault = check_efforts(law, model.curve().intervals(), proof.parts, threads, result.slices);
+  }
+  result.rejection = fault.reason;
+  result.t = fault.t;
+  return result;
+}
+
+}  // namespace maxwrench

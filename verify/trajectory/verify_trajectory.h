@@ -1,0 +1,26 @@
+#pragma once
+
+#include "maxwrench/trajectory_verification.h"
+#include "verify/trajectory/effort_law.h"
+
+namespace maxwrench {
+
+/// [rad or m, per s] The limits of theta_r and of its rates may be exceeded by this, as tables that
+/// are written with six digits do.
+inline constexpr double kKnotTolerance = 1e-6;
+
+/// Checks that theta_r and its rates are within their limits at all times, and that an impulse
+/// begins at rest and without acceleration.
+MotionFault check_motion(const TrajectoryModel& model);
+
+/// Checks that a certificate proves its claim about a task: the robot can exert the wrench at every
+/// instant, with efforts, effort rates, joints and joint speeds within their limits, and, if the
+/// certificate says so, without collision. The efforts are enclosed anew in interval arithmetic,
+/// from the problem's data and the certificate, without any code that found them. The result is the
+/// same at any number of threads.
+///
+/// @throws std::invalid_argument as `require_provable`.
+TrajectoryVerification verify(const Problem& problem, const TrajectoryCertificate& proof,
+                              int threads);
+
+}  // namespace maxwrench
