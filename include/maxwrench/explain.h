@@ -60,7 +60,7 @@ struct ValueBudget {
   double weight = 0,  ///< of all links
       buoyancy = 0,   ///< of all links
       trim = 0,       ///< floats and ballast
-      other = 0,      ///< the rest of tau_d: drag and inertia, zero at rest in still water
+      other = 0,      ///< the rest of tau_d: drag, inertia and uncertain loads
       error = 0;      ///< what is missing; zero up to rounding
 };
 
@@ -102,6 +102,8 @@ struct InstantLimits {
 struct Explanation {
   std::string unit;                                        ///< unit of the value
   double beta = std::numeric_limits<double>::quiet_NaN();  ///< the value
+  /// Of a list of scenarios, the one that decides; empty: the task has no list.
+  std::string scenario;
   /// Why the binding limits are not known; empty: they are.
   std::string missing;
   /// The limits that bind, those with the largest gain first.
@@ -149,6 +151,10 @@ struct ExplainOptions {
 /// infinite or both are 0, it is 1.
 ///
 /// **Task in time**: for each instant, the limits with their multipliers at this instant alone.
+///
+/// **List of scenarios**: all of this for the scenario that decides, with its limits, wrench and
+/// loads. A `gain` is that of this scenario, so another one may allow less of it. There are no
+/// rates at a best posture.
 ///
 /// What does not exist for the answer's measure, wrench or task says so in its `missing`.
 ///

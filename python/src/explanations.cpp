@@ -128,6 +128,9 @@ void add_explanations(py::module_& m) {
           "unit", [](const PyExplanation& e) { return e.explanation.unit; },
           "The unit of the value.")
       .def_property_readonly(
+          "scenario", [](const PyExplanation& e) { return e.explanation.scenario; },
+          "Of a list of scenarios, the one that decides; empty: the task has no list.")
+      .def_property_readonly(
           "limits", [](const PyExplanation& e) { return e.explanation.limits; },
           "The limits that bind at the posture, those with the largest gain first.")
       .def_property_readonly(

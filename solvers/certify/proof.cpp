@@ -53,7 +53,7 @@ void take_better(const Eigen::VectorXd& theta_r, const Options& options, Answer&
 /// Moves a posture that the check of a certificate would reject, such as one that touches itself:
 /// the last digit may decide whether it collides. Tries points at random that are farther and
 /// farther away, and keeps the first one that the check accepts.
-void settle(const Options& options, Answer& answer) {
+void settle_posture(const Options& options, Answer& answer) {
   constexpr double kNear = 1e-13, kFar = 1e-7;  // [rad or m]
   constexpr int kTrials = 256;
   const Problem& problem = *answer.task;
@@ -143,7 +143,7 @@ Proof certify(const Problem& task, const Options& options, const ProofOptions& h
   } else if (proof.status == Status::kProven && proof.gap() > how.gap * (1 + kGapRounding)) {
     proof.conclude(Status::kBracket, "a better posture could not be verified");
   }
-  if (recorder && proof.answer.has_value()) settle(c, proof.answer);
+  if (recorder && proof.answer.has_value()) settle_posture(c, proof.answer);
   return proof;
 }
 

@@ -209,6 +209,7 @@ std::string without_best(const Answer& answer) {
   if (answer.choice.measure != Case().measure) {
     return "the measure is " + answer.choice.measure + ", only linf_polytope has them";
   }
+  if (!task.scenarios.empty()) return "the task has a list of scenarios";
   if (answer.given_joints) return "all joints are given";
   if (task.redundancy() == 0) return "the task leaves no coordinate free";
   if (!has_facet_program(task)) return "the actuators have too many facets";

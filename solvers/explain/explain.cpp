@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "lib/robot/kinematics.h"
-#include "lib/scenario/scenario_list.h"
+#include "lib/scenario/scenario_program.h"
 #include "solvers/explain/parts.h"
 
 namespace maxwrench {
@@ -26,6 +26,13 @@ std::string without_value(const Answer& answer) {
   if (answer.has_value()) return "";
   return fmt::format("there is no value: {}{}{}", to_string(answer.status),
                      answer.reason.empty() ? "" : ": ", answer.reason.c_str());
+}
+
+void explain_static(const Answer& answer, const WrenchProgram& program, Explanation& explanation) {
+  explain_limits(answer, program, explanation);
+  if (!explanation.missing.empty()) explanation.ranges_missing = explanation.missing;
+  explain_best_posture(answer, explanation.best);
+  explain_efforts(answer, program, explanation.efforts);
 }
 
 }  // namespace
@@ -63,7 +70,6 @@ void split_loads(const Answer& answer, const Eigen::VectorXd& lambda, ValueBudge
 
 Explanation explain(const Answer& answer, const ExplainOptions& options) {
   if (!answer.task) throw std::invalid_argument("answer: got none, expected one with a task");
-  require_no_scenarios(*answer.task, "explain");
   if (!(options.share >= 0 && options.share <= 1)) {
     throw std::invalid_argument(
         fmt::format("share: got {}, expected a number from 0 to 1", options.share));
@@ -80,12 +86,18 @@ Explanation explain(const Answer& answer, const ExplainOptions& options) {
     if (explanation.missing.empty()) explain_instants(answer, explanation);
     return explanation;
   }
-  WrenchProgram program = make_wrench_program(*answer.task, answer.choice.wrench);
+  const Problem& task = *answer.task;
+  if (!task.scenarios.empty()) {
+    ScenarioPosture at(task);
+    at.set(answer.posture);
+    ScenarioProgram scenario(task, answer.choice.wrench);
+    explanation.scenario = describe(task.scenarios, answer.capability.decides);
+    explain_static(answer, scenario.write(at, answer.capability.decides), explanation);
+    return explanation;
+  }
+  WrenchProgram program = make_wrench_program(task, answer.choice.wrench);
   set_posture(answer.posture, program);
-  explain_limits(answer, program, explanation);
-  if (!explanation.missing.empty()) explanation.ranges_missing = explanation.missing;
-  explain_best_posture(answer, explanation.best);
-  explain_efforts(answer, program, explanation.efforts);
+  explain_static(answer, program, explanation);
   return explanation;
 }
 

@@ -51,6 +51,7 @@ ordered_json explanation_object(const Explanation& explanation) {
   const bool at_posture = explanation.missing.empty() && explanation.instants.empty();
   ordered_json object;
   object["missing"] = text_or_null(explanation.missing);
+  if (!explanation.scenario.empty()) object["scenario"] = explanation.scenario;
   object["binding"] = ordered_json::array();
   for (const BindingLimit& limit : explanation.limits) {
     object["binding"].push_back(binding_json(limit));

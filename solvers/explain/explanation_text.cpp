@@ -151,11 +151,14 @@ std::string instants_text(const Explanation& e) {
 std::string summary(const Explanation& explanation) {
   if (!explanation.instants.empty()) return instants_text(explanation);
   std::string text;
+  if (!explanation.scenario.empty()) {
+    text = fmt::format("in the scenario that decides, {}\n", explanation.scenario);
+  }
   if (!explanation.missing.empty()) {
-    text = "binds: not known, " + explanation.missing + "\n";
+    text += "binds: not known, " + explanation.missing + "\n";
     if (std::isnan(explanation.beta)) return text;
   } else {
-    text = binding_words(explanation) + binding_table(explanation);
+    text += binding_words(explanation) + binding_table(explanation);
     if (!explanation.ranges_missing.empty()) {
       text += "no ranges: " + explanation.ranges_missing + "\n";
     }

@@ -203,6 +203,8 @@ void explain_limits(const Answer& answer, const WrenchProgram& program, Explanat
   if (!explanation.missing.empty()) return;
   ValueBudget& budget = explanation.budget;
   split_loads(answer, answer.capability.lambda, budget);
+  // The loads of a scenario.
+  budget.other += answer.capability.lambda.dot(program.tau_d - answer.posture.tau_d);
   budget.error = answer.beta() - budget.weight - budget.buoyancy - budget.trim - budget.other;
   for (const BindingLimit& limit : explanation.limits) budget.error -= limit.share;
   if (!(std::abs(budget.error) <= kAnswerTolerance * (1 + std::abs(answer.beta())))) {

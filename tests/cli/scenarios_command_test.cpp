@@ -86,6 +86,27 @@ TEST_P(ScenarioRefusals, AreOneLine) {
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
 }
 
+TEST(ScenariosCommand, ExplainNamesTheScenario) {
+  const CommandResult result =
+      run_maxwrench("eval examples/tasks/lift_with_a_dead_thruster.toml --explain");
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_NE(result.out.find("in the scenario that decides, "), std::string::npos) << result.out;
+}
+
+TEST(ScenariosCommand, ACertificateOfAListIsVerified) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "list.proof").string();
+  const std::string task = "examples/tasks/lift_with_a_dead_thruster.toml";
+  const CommandResult proof =
+      run_maxwrench("certify " + task + " --gap 0.01 --certificate " + file);
+  EXPECT_EQ(proof.exit_status, 0) << proof.err;
+  const CommandResult checked = run_maxwrench("verify " + file);
+  EXPECT_EQ(checked.exit_status, 0) << checked.err << checked.out;
+  EXPECT_NE(checked.out.find("\nverified\n"), std::string::npos) << checked.out;
+  const CommandResult other = run_maxwrench("verify " + file + " --problem uvms/lift");
+  EXPECT_EQ(other.exit_status, 1) << other.err << other.out;
+}
+
 INSTANTIATE_TEST_SUITE_P(
     All, ScenarioRefusals,
     testing::Values(
@@ -95,14 +116,12 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"eval examples/tasks/push_anywhere.toml --wrench any", "got a ball"},
         Refusal{"eval examples/tasks/push_anywhere.toml --solver simplex", "solver"},
         Refusal{"eval examples/tasks/turn_both_ways.toml --measure ellipsoid", "measure"},
-        Refusal{"eval examples/tasks/turn_both_ways.toml --explain", "explain: got"},
         Refusal{"eval examples/tasks/turn_both_ways.toml --write x.mps", "--write: got"},
         Refusal{"plot examples/tasks/turn_both_ways.toml --style outline --out x.svg",
                 "list of scenarios"},
         Refusal{"simulate examples/tasks/turn_both_ways.toml", "list of scenarios"},
-        Refusal{"certify examples/tasks/turn_in_current.toml", "certify: got currents"},
-        Refusal{"certify examples/tasks/turn_both_ways.toml --certificate x.proof",
-                "certificate: got"},
+        Refusal{"certify examples/tasks/turn_in_current.toml --certificate x.proof",
+                "--certificate: got a task with currents"},
         Refusal{"eval examples/tasks/carry_steel.toml --wrench any",
                 "wrench: got any, expected pure"},
         Refusal{"eval uvms/valve_trajectory --scenarios", "--scenarios: got uvms/valve_trajectory"},

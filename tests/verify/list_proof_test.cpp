@@ -139,7 +139,7 @@ TEST(ListProof, RejectsFalseProofs) {
   }
 }
 
-WrittenProof written(const char* form, double gap) {
+WrittenProof written_list(const char* form, double gap) {
   for (const ListForm& each : list_forms()) {
     if (std::string(each.name) == form) {
       return {scenario_task(each.wrench, each.tables), "list", "linf_polytope", Wrench::kPure, gap};
@@ -150,7 +150,7 @@ WrittenProof written(const char* form, double gap) {
 
 /// A multiplier of a wrench outside the ball proves too much.
 TEST(ListProof, RejectsWrenchesOutsideTheBall) {
-  const WrittenProof at = written("ball", 3e-2);
+  const WrittenProof at = written_list("ball", 3e-2);
   for (const double factor : {1.1, 1e3, -1.5}) {
     ProofCertificate proof = at.proof;
     for (const int entry : {2, 3}) {
@@ -166,7 +166,7 @@ TEST(ListProof, RejectsWrenchesOutsideTheBall) {
 /// What holds for the intact robot does not hold for one that may lose a thruster: the intact
 /// robot's value is larger, and its multipliers prove less.
 TEST(ListProof, RejectsTheValueOfFewerScenarios) {
-  WrittenProof at = written("losses", 3e-2);
+  WrittenProof at = written_list("losses", 3e-2);
   ProofCertificate intact = at.proof;
   change_entry(intact, 1, [](double) { return 0.0; });
   EXPECT_NE(at.rejection(intact), "");
@@ -206,7 +206,7 @@ TEST(ListProof, RejectsOtherLists) {
         {"corners", lighter},
         {"corners", stronger},
         {"ball", smaller}}) {
-    WrittenProof at = written(form, 3e-2);
+    WrittenProof at = written_list(form, 3e-2);
     ASSERT_EQ(at.rejection(at.proof), "") << form;
     change(at.problem);
     EXPECT_NE(at.rejection(at.proof).find("another robot or task"), std::string::npos) << form;
@@ -217,7 +217,7 @@ TEST(ListProof, RejectsOtherLists) {
 
 /// A certificate of one wrench is none of a list, and the other way round.
 TEST(ListProof, IsOfItsKind) {
-  const WrittenProof list = written("losses", 3e-2);
+  const WrittenProof list = written_list("losses", 3e-2);
   Problem one = list.problem;
   one.scenarios = {};
   ProofCertificate proof = list.proof;

@@ -166,7 +166,7 @@ TEST(ListBound, ServesDependentJoints) {
   EXPECT_LE(proof.answer.beta(), alone.bound);
 }
 
-Proof proven(const std::string& wrench, const std::string& tables, double gap) {
+Proof proven_list(const std::string& wrench, const std::string& tables, double gap) {
   ProofOptions how;
   how.gap = gap;
   how.seconds = 300;
@@ -189,7 +189,7 @@ TEST(SLOW_ListBound, ProvesTheReferenceValues) {
         Reference{"ball = { axes = ['fx', 'fy'], radius = 1 }", "", 75.47647, 2e-3},
         Reference{"", "[payload]\ncom = [0.05, 0, 0.02]\nvolume_per_kg = 1.2738853503184714e-4\n",
                   11.85426, 1e-3}}) {
-    const Proof proof = proven(each.wrench, each.tables, each.gap);
+    const Proof proof = proven_list(each.wrench, each.tables, each.gap);
     EXPECT_EQ(proof.status, Status::kProven) << each.wrench << each.tables << proof.reason.str();
     EXPECT_GE(proof.bound, each.best * (1 - 1e-5)) << each.wrench << each.tables;
     EXPECT_GE(proof.answer.beta(), each.best * (1 - each.gap)) << each.wrench << each.tables;
