@@ -175,6 +175,14 @@ void print(const MotionTask& motion) {
   fmt::print("  path from {}\n       to   {}", at_pose(motion.path.pose(0)),
              at_pose(motion.path.pose(motion.T)));
   if (motion.path.angle() != 0) fmt::print(", turned by {:g} rad", motion.path.angle());
+  if (motion.payload) {
+    fmt::print("\n  payload with its centre of mass at [{:g}] m of the end effector\n",
+               fmt::join(motion.payload->com, ", "));
+    return;
+  }
+  if (motion.table) {
+    fmt::print("\n  wrenches at {} times of {}", motion.table->t.size(), motion.table->file);
+  }
   fmt::print("\n  c {}\n", motion.c_turns ? "turns with the end effector" : "stays in the world");
 }
 

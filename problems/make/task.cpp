@@ -73,6 +73,10 @@ void set_any(const std::vector<std::string>& any, const std::vector<StatedDirect
 /// nothing bounds it. What a list of scenarios leaves free is across all of its wrenches.
 void choose_wrenches(const TaskSpec& task, Problem& problem) {
   const Matrix6Xd T = motions_at_pose(problem);
+  if (problem.motion && problem.motion->has_factor()) {
+    problem.W_any = T;  // not used: these wrenches are pure
+    return;
+  }
   const std::vector<StatedDirection> directions = stated_directions(task, problem);
   for (const auto& [key, got, c] : directions) {
     if ((T.transpose() * c).norm() >= kRankTolerance) continue;

@@ -81,7 +81,7 @@ void read_scenarios(py::dict& arguments, TaskSpec& spec) {
 
 void read_wrench(py::dict& arguments, bool in_time, TaskSpec& spec) {
   if (in_time) {
-    spec.c = direction_in("c", taken(arguments, "c", py::str("z")));
+    read_wrench_in_time(arguments, spec);
   } else {
     read_scenarios(arguments, spec);
   }
@@ -184,6 +184,7 @@ PyTask make_trajectory(const PyRobot& robot, const PyPath& path, int knots,
   py::dict arguments = given.attr("copy")();
   TaskSpec spec = begin_spec(robot, arguments, true);
   MotionTask motion;
+  motion.table = wrenches_in(arguments);
   motion.path = path.path;
   motion.T = path.path.duration();
   motion.k = knots;
@@ -351,8 +352,12 @@ Args:
     scheme: how knots become a motion: "spline", "forward" or "ends".
     instants_per_interval: for the scheme "spline".
     rates: whether limits of the rates of efforts apply.
+    payload: in place of c, a dict with the keys of ``[payload]``: the value is the mass [kg] that
+        the robot carries along the path.
+    wrenches: in place of c, a table of wrenches over time (N×7), rows [t, force, torque] with t
+        from 0 to the duration of the path: the value is their factor.
     others: as of ``Static``, but for pose, joints, free, range, along, contact, and the arguments
-        from set to payload.
+        from set to loss.
 
 Raises:
     InputError: a value is wrong.

@@ -31,6 +31,14 @@ ordered_json path_json(const Path& path) {
           {"angle", path.angle()}};
 }
 
+ordered_json payload_json(const CarriedBody& body) {
+  return {{"com", array(body.com)},
+          {"inertia_per_kg", rows(body.inertia)},
+          {"volume_per_kg", body.volume},
+          {"cob", array(body.cob)},
+          {"added_mass_per_kg", array(body.added_mass)}};
+}
+
 ordered_json task_json(const Answer& answer) {
   const Problem& problem = *answer.task;
   const MotionTask& task = *problem.motion;
@@ -41,6 +49,8 @@ ordered_json task_json(const Answer& answer) {
   object["k"] = task.k;
   object["T"] = task.T;
   object["c"] = array(problem.c);
+  if (task.payload) object["payload"] = payload_json(*task.payload);
+  if (task.table) object["wrench_file"] = task.table->file;
   object["rates"] = task.rates;
   object["wrench"] = to_string(answer.choice.wrench);
   object["t_h"] = known(task.impulse && t_h > 0, t_h);

@@ -69,7 +69,8 @@ double reading_of(const TankSummary& summary) {
 }
 
 std::vector<std::string> served_integrators(const Problem& problem, const std::string& measure) {
-  const bool serves = !problem.contact && measure == Case().measure;
+  const bool factor = problem.motion && problem.motion->has_factor();
+  const bool serves = !problem.contact && !factor && measure == Case().measure;
   return serves ? stiff_integrators() : std::vector<std::string>();
 }
 

@@ -155,6 +155,12 @@ Method resolve_in_time(const Problem& problem, const Case& c) {
     throw std::invalid_argument("measure: got '" + c.measure + "', expected " + Case().measure +
                                 ": a task in time supports no other measure");
   }
+  if (problem.motion->has_factor() && c.wrench == Wrench::kAny) {
+    throw std::invalid_argument(
+        problem.motion->payload
+            ? "wrench: got 'any', expected pure: the environment could carry the payload"
+            : "wrench: got 'any', expected pure: the table has all components of the wrench");
+  }
   method.trajectory_solver =
       c.solver.empty() ? &trajectory_solvers().front() : &find_trajectory_solver(c.solver);
   method.choice.solver = method.trajectory_solver->name;
@@ -295,7 +301,7 @@ SearchResult run_search(const Problem& problem, const Method& method, Objective&
                         SearchOptions options) {
   options.seed = method.choice.seed;
   options.budget = method.choice.budget;
-  options.start = stacked(constant_knots(problem, problem.theta_r_default));
+  options.start = stacked(default_knots(problem));
   return method.search->make()->maximize(objective, options);
 }
 
