@@ -25,7 +25,7 @@ struct CarriedBody {
 
 /// Wrenches [force; torque] over time, linear in between.
 struct WrenchTable {
-  std::string file;      ///< where they come from; empty: from code
+  std::string file;       ///< where they come from; empty: from code
   std::vector<double> t;  ///< times that increase from 0 to the duration of the task [s]
   Matrix6Xd wrenches = Matrix6Xd(6, 0);  ///< the wrenches, a column for each time [N; N m]
 

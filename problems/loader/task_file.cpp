@@ -93,11 +93,16 @@ void allow_keys(const Block& task) {
     keys.insert(keys.end(), {"path", "motion"});
   } else if (type == "impulse") {
     keys.insert(keys.end(), {"motion", "start"});
+  } else if (type == "transfer") {
+    keys = {"type", "robot", "end_effector", "label", "from", "to", "motion"};
+    if (task.has("wrench")) {
+      task.throw_bad_value("wrench", "no such table in a transfer: its payload is the wrench");
+    }
   } else if (type != "static") {
-    task.throw_bad_value("type", "'static', 'trajectory' or 'impulse'");
+    task.throw_bad_value("type", "'static', 'trajectory', 'impulse' or 'transfer'");
   }
   for (const std::string_view key : {"uncertainty", "loss", "payload"}) {
-    const bool carried = key == "payload" && type == "trajectory";
+    const bool carried = key == "payload" && (type == "trajectory" || type == "transfer");
     if (type == "static" || carried) {
       keys.emplace_back(key);
     } else if (task.has(key)) {
@@ -139,7 +144,7 @@ std::map<std::string, double> read_posture(const Block& pose, const Robot& robot
 
 /// Reads the pose. A path through the poses of a table has its own.
 void read_pose(const Block& task, TaskSpec& spec) {
-  if (follows_poses(task)) return;
+  if (follows_poses(task) || task.text("type") == "transfer") return;
   const Block pose = task.table("pose");
   pose.allow_only({"xyz", "rpy", "joints", "state", "free", "range", "frame"});
   for (const char* key : {"free", "range", "frame"}) {

@@ -30,9 +30,9 @@ void require_no_wrenches(const TaskSpec& task, const char* beside) {
 void require_one_factor(const MotionTask& motion, const char* key) {
   if (motion.impulse) throw BadValue(key, "a table", "no such key in an impulse");
   if (motion.scheme == Scheme::kSpline) return;
-  throw BadValue("motion.scheme", to_string(motion.scheme),
-                 fmt::format("spline beside {}: other schemes have no accelerations of the path",
-                             key));
+  throw BadValue(
+      "motion.scheme", to_string(motion.scheme),
+      fmt::format("spline beside {}: other schemes have no accelerations of the path", key));
 }
 
 /// The payload in motion. [m^2]
@@ -105,8 +105,8 @@ void set_table(const TaskSpec& task, Problem& problem) {
   const WrenchTable& table = *problem.motion->table;
   const std::size_t count = table.t.size();
   if (count < 2 || table.wrenches.cols() != static_cast<Eigen::Index>(count)) {
-    throw BadValue("wrench.file", fmt::format("{} times and {} wrenches", count,
-                                              table.wrenches.cols()),
+    throw BadValue("wrench.file",
+                   fmt::format("{} times and {} wrenches", count, table.wrenches.cols()),
                    "as many, two or more");
   }
   for (std::size_t i = 0; i < count; ++i) {

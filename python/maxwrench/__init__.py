@@ -87,6 +87,7 @@ __all__ = [
     "Task",
     "Thruster",
     "Trajectory",
+    "Transfer",
     "VerifiedProof",
     "__version__",
     "add_measure",

@@ -15,8 +15,7 @@ void read_wrench_in_time(py::dict& arguments, TaskSpec& spec) {
     read_scenario_arguments({}, tables, spec);
   }
   const bool needs_c = payload.is_none() && !arguments.contains("wrenches");
-  const py::object c =
-      arguments.attr("pop")("c", needs_c ? py::object(py::str("z")) : none);
+  const py::object c = arguments.attr("pop")("c", needs_c ? py::object(py::str("z")) : none);
   if (!c.is_none()) spec.c = direction_in("c", c);
 }
 

@@ -80,6 +80,7 @@ void add_robots(py::module_& m);
 void add_robot_parts(py::module_& m);
 void add_paths(py::module_& m);
 void add_tasks(py::module_& m);
+void add_transfers(py::module_& m);
 void add_explanations(py::module_& m);
 void add_sensitivity(py::module_& m);
 void add_answers(py::module_& m);

@@ -444,7 +444,11 @@ void add_tasks(py::module_& m) {
           "The joints that follow from theta_r.")
       .def_property_readonly(
           "knots", [](const PyTask& t) { return knots_of(*t.problem); },
-          "k, the number of knots of theta_r; one for a static task.")
+          "The number of knots of a table of theta_r; one for a static task.")
+      .def_property_readonly(
+          "default_knots",
+          [](const PyTask& t) { return copy(RowMatrix(default_knots(*t.problem))); },
+          "The table of theta_r at which a search begins (knots×r).")
       .def_property_readonly(
           "digest", [](const PyTask& t) { return t.problem->digest; },
           "Hash of the files of task and robot; empty if the task was made in code.")

@@ -55,11 +55,12 @@ ordered_json task_json(const Answer& answer) {
   object["wrench"] = to_string(answer.choice.wrench);
   object["t_h"] = known(task.impulse && t_h > 0, t_h);
   object["u0"] = known(task.impulse, to_string(task.start));
-  object["theta0"] = known(task.impulse, array(task.theta_0));
+  object["theta0"] = known(task.impulse || task.transfer, array(task.theta_0));
+  if (task.transfer) object["thetaT"] = array(task.theta_T);
   object["collision"] = answer.collision;
   if (is_turn_in_place(task.path)) {
     object["angle"] = task.path.angle();
-  } else {
+  } else if (!task.transfer) {
     object["path"] = path_json(task.path);
   }
   object["sub"] = instants_per_interval(task);
@@ -160,6 +161,9 @@ void add_instants(const Answer& answer, ordered_json& object) {
   object["task"] = task_json(answer);
   object["value"] = known(answer.has_value(), trajectory.value);
   object["value_between_knots"] = trajectory.value_between_knots;
+  if (answer.task->motion->transfer) {
+    object["overshoot"] = known(std::isfinite(trajectory.overshoot), trajectory.overshoot);
+  }
   object["between_knots_reason"] =
       known(!trajectory.between_knots_reason.empty(), trajectory.between_knots_reason.str());
   object["collision"] = known(!trajectory.collision.empty(), trajectory.collision.str());

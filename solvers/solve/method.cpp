@@ -273,7 +273,9 @@ int thread_count(int threads) {
 
 void set_scheme(const char* key, const std::string& scheme, Problem& problem) {
   MotionTask& task = *problem.motion;
-  const std::vector<std::string> served = scheme_names(task.impulse);
+  const std::vector<std::string> served = task.has_factor()
+                                              ? std::vector<std::string>{to_string(Scheme::kSpline)}
+                                              : scheme_names(task.impulse);
   if (std::find(served.begin(), served.end(), scheme) == served.end()) {
     throw std::invalid_argument(fmt::format("{}: got '{}', expected one of {} for {} {}", key,
                                             scheme, fmt::join(served, " "),

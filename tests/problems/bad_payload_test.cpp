@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "maxwrench/load.h"
+#include "maxwrench/task.h"
 #include "tests/support/bad_input.h"
 #include "tests/support/edited_copy.h"
 
@@ -18,28 +19,45 @@ constexpr const char* kTurningFile = "valve_trajectory.toml";
 constexpr const char* kWrenchTable = "[wrench]\nc = [0, 0, 0, 0, 0, 1]";
 
 const ChangedProblem kBadPayloads[] = {
-    {"beside_wrench", kTurningFile, kWrenchTable,
+    {"beside_wrench",
+     kTurningFile,
+     kWrenchTable,
      "[wrench]\nc = [0, 0, 0, 0, 0, 1]\n[payload]\ncom = [0, 0, 0]",
      {"wrench: got a table", "no such table beside payload"}},
-    {"no_com", kTurningFile, kWrenchTable, "[payload]\nvolume_per_kg = 0",
+    {"no_com",
+     kTurningFile,
+     kWrenchTable,
+     "[payload]\nvolume_per_kg = 0",
      {"payload.com: got nothing"}},
-    {"negative_inertia", kTurningFile, kWrenchTable,
+    {"negative_inertia",
+     kTurningFile,
+     kWrenchTable,
      "[payload]\ncom = [0, 0, 0]\ninertia_per_kg = [-1, 1, 1, 0, 0, 0]",
      {"payload.inertia_per_kg", "moments >= 0"}},
-    {"negative_added_mass", kTurningFile, kWrenchTable,
+    {"negative_added_mass",
+     kTurningFile,
+     kWrenchTable,
      "[payload]\ncom = [0, 0, 0]\nadded_mass_per_kg = [0, -1, 0, 0, 0, 0]",
      {"payload.added_mass_per_kg", "-1"}},
-    {"negative_volume", kTurningFile, kWrenchTable,
+    {"negative_volume",
+     kTurningFile,
+     kWrenchTable,
      "[payload]\ncom = [0, 0, 0]\nvolume_per_kg = -1e-4",
      {"payload.volume_per_kg: got -0.0001"}},
     {"nan", kTurningFile, kWrenchTable, "[payload]\ncom = [0, nan, 0]", {"payload.com", "nan"}},
-    {"drag", kTurningFile, kWrenchTable,
+    {"drag",
+     kTurningFile,
+     kWrenchTable,
      "[payload]\ncom = [0, 0, 0]\ndamping_linear = [1, 1, 1, 1, 1, 1]",
      {"payload.damping_linear"}},
-    {"file_beside_c", kTurningFile, kWrenchTable,
+    {"file_beside_c",
+     kTurningFile,
+     kWrenchTable,
      "[wrench]\nc = [0, 0, 0, 0, 0, 1]\nfile = \"cutting.csv\"",
      {"wrench.c: got [0, 0, 0, 0, 0, 1]", "no such key beside wrench.file"}},
-    {"file_beside_any", kTurningFile, kWrenchTable,
+    {"file_beside_any",
+     kTurningFile,
+     kWrenchTable,
      "[wrench]\nany = [\"fx\"]\nfile = \"cutting.csv\"",
      {"wrench.any", "no such key beside wrench.file"}},
 };
@@ -56,9 +74,73 @@ INSTANTIATE_TEST_SUITE_P(Loader, BadPayloadTest,
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(BadPayload, OfAnImpulse) {
-  expect_rejected({"impulse", "valve_impulse.toml", "[wrench]\nc = [0, 0, 0, 0, 0, 1]",
-                   "[payload]\ncom = [0, 0, 0]", {"payload: got a table", "impulse"}},
+  expect_rejected({"impulse",
+                   "valve_impulse.toml",
+                   "[wrench]\nc = [0, 0, 0, 0, 0, 1]",
+                   "[payload]\ncom = [0, 0, 0]",
+                   {"payload: got a table", "impulse"}},
                   "uvms/valve_impulse");
+}
+
+const ChangedProblem kBadTransfers[] = {
+    {"unknown_joint",
+     "lift.toml",
+     "q2 = 0\n\n[to]",
+     "elbow = 0\n\n[to]",
+     {"from.elbow: got an unknown key", "q1, q2"}},
+    {"missing_joint",
+     "lift.toml",
+     "q2 = 0\n\n[motion]",
+     "\n[motion]",
+     {"to: got 1 joints", "q1, q2"}},
+    {"beyond_limit",
+     "lift.toml",
+     "q2 = 0\n\n[to]",
+     "q2 = 3\n\n[to]",
+     {"from: got [-1.0", "q2 within"}},
+    {"nan", "lift.toml", "q2 = 0\n\n[to]", "q2 = nan\n\n[to]", {"from.q2: got nan"}},
+    {"T_zero", "lift.toml", "T = 1.5", "T = 0", {"motion.T: got 0", "> 0"}},
+    {"T_negative", "lift.toml", "T = 1.5", "T = -1", {"motion.T: got -1", "> 0"}},
+    {"k_two", "lift.toml", "k = 8", "k = 2", {"motion.k: got 2", "3 or more"}},
+    {"scheme", "lift.toml", "k = 8", "k = 8\nscheme = \"ends\"", {"motion.scheme"}},
+    {"no_payload", "lift.toml", "[payload]\ncom = [0, 0, 0]", "", {"payload: got nothing"}},
+    {"wrench",
+     "lift.toml",
+     "[payload]\ncom = [0, 0, 0]",
+     "[payload]\ncom = [0, 0, 0]\n[wrench]\nc = [0, 0, 1, 0, 0, 0]",
+     {"wrench: got a table"}},
+    {"pose", "lift.toml", "[payload]", "[pose]\nxyz = [0, 0, 0]\n[payload]", {"pose"}},
+    {"negative_mass_of_water",
+     "lift.toml",
+     "[payload]\ncom = [0, 0, 0]",
+     "[payload]\ncom = [0, 0, 0]\ninertia_per_kg = [1, 1, 3, 0, 0, 0]",
+     {"payload.inertia_per_kg", "none above the sum"}},
+};
+
+class BadTransferTest : public testing::TestWithParam<ChangedProblem> {};
+
+TEST_P(BadTransferTest, IsRejectedInOneLine) {
+  expect_rejected(GetParam(), "../examples/tasks/two_link/lift");
+}
+
+INSTANTIATE_TEST_SUITE_P(Loader, BadTransferTest,
+                         testing::ValuesIn(std::begin(kBadTransfers), std::end(kBadTransfers)),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(BadTransfer, OfARobotWhoseBaseMoves) {
+  TaskSpec spec;
+  spec.robot = load_problem("planar/force").robot;
+  spec.end_effector = "tool";
+  spec.payload.emplace();
+  MotionTask& motion = spec.motion.emplace();
+  motion.transfer = true;
+  motion.k = 4;
+  try {
+    make_problem(spec);
+    ADD_FAILURE() << "was accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("robot: got a base with 3 free axes, expected"));
+  }
 }
 
 struct BadWrenches {
@@ -77,7 +159,8 @@ const BadWrenches kBadWrenches[] = {
     {"other_header", "t,x,y,z,tx,ty,tz\n0,1,0,0,0,0,0\n", {"line 1: got 't,x", "t,fx,fy"}},
     {"nan", "0,1,0,0,0,0,0\n10,nan,0,0,0,0,0\n", {"line 2: got '10,nan", "finite numbers"}},
     {"late", "1,1,0,0,0,0,0\n10,1,0,0,0,0,0\n", {"line 1: got", "t = 0 in the first row"}},
-    {"back", "0,1,0,0,0,0,0\n5,1,0,0,0,0,0\n4,1,0,0,0,0,0\n10,1,0,0,0,0,0\n",
+    {"back",
+     "0,1,0,0,0,0,0\n5,1,0,0,0,0,0\n4,1,0,0,0,0,0\n10,1,0,0,0,0,0\n",
      {"line 3: got", "rises"}},
 };
 
@@ -131,7 +214,8 @@ TEST(BadWrenches, ThatEndAtAnotherTimeOrAreZero) {
                                                      "the duration of the task, 10 s"));
   std::ofstream(copy.path() / "cutting.csv") << "0,0,0,0,0,0,0\n10,0,0,0,0,0,0\n";
   EXPECT_THAT(rejection_of(file), testing::HasSubstr("wrench.file: got wrenches of at most 0"));
-  std::ofstream(copy.path() / "cutting.csv") << "t,fx,fy,fz,tx,ty,tz\n0,1,0,0,0,0,0\n10,2,0,0,0,0,0\n";
+  std::ofstream(copy.path() / "cutting.csv")
+      << "t,fx,fy,fz,tx,ty,tz\n0,1,0,0,0,0,0\n10,2,0,0,0,0,0\n";
   const Problem problem = load_problem(file.string());
   EXPECT_EQ(problem.motion->table->at(5)[0], 1.5);
   EXPECT_STREQ(problem.unit(), "-");

@@ -44,8 +44,8 @@ Robot loaded(Robot robot, const EndEffector& tool, const CarriedBody& body) {
     const Eigen::Vector3d d = p - centre;
     return m * (d.squaredNorm() * Eigen::Matrix3d::Identity() - d * d.transpose());
   };
-  link.inertia += steiner(link.mass, link.com) + steiner(1, com) +
-                  at.R * body.inertia * at.R.transpose();
+  link.inertia +=
+      steiner(link.mass, link.com) + steiner(1, com) + at.R * body.inertia * at.R.transpose();
   link.com = centre;
   link.mass = mass;
   const double volume = link.volume + body.volume;

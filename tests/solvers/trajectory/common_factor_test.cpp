@@ -121,7 +121,7 @@ TEST_P(OneRowTest, TheUpperEndIsTheValue) {
   const TrajectoryProgram other = one_row(set_, {{-1, 1}, {0.5, 1}, {0, -4}});
   solve(other);
   ASSERT_EQ(solution_.status, Status::kOptimal);
-  EXPECT_NEAR(solution_.value, 0.25, 1e-8);  // 4 t <= 1 of the third; t >= 0 of the first
+  EXPECT_NEAR(solution_.value, 0.25, 1e-8);         // 4 t <= 1 of the third; t >= 0 of the first
   EXPECT_NEAR(solution_.lambda(0, 2), 0.25, 1e-6);  // d t/d tau: -1 <= tau - 4 t
 }
 
