@@ -79,7 +79,7 @@ Problem at_instant(const Problem& problem, const Instant& instant) {
   Problem still = problem;
   still.motion.reset();
   still.pose = instant.end_effector;
-  still.c = instant.c;
+  still.c = std::isnan(instant.factor) ? instant.c : instant.c.stableNormalized();
   return still;
 }
 

@@ -23,7 +23,7 @@ set(maxwrench_solvers_sources
   solve/row.cpp solve/scenario_ends.cpp solve/scenario_sample.cpp solve/sensitivity.cpp solve/solve.cpp solve/summary.cpp solve/tank.cpp
   added_strategies.cpp strategies.cpp
   trajectory/assembled.cpp trajectory/bordered_facets.cpp trajectory/by_facets.cpp trajectory/embedding.cpp
-  trajectory/embedding_passes.cpp trajectory/even_efforts.cpp trajectory/facets_or_ipm.cpp trajectory/forms.cpp
+  trajectory/common_factor.cpp trajectory/embedding_passes.cpp trajectory/even_efforts.cpp trajectory/facets_or_ipm.cpp trajectory/forms.cpp
   trajectory/forms_answer.cpp trajectory/forms_order.cpp trajectory/ipm.cpp trajectory/normal_matrix.cpp
   version.cpp
   wrench/assembled.cpp wrench/condensed.cpp wrench/efforts.cpp wrench/elimination.cpp wrench/facets.cpp wrench/tableau.cpp

@@ -56,6 +56,7 @@ Names wanted_searches(const Names& column, const Problem& problem, const std::st
 /// The schemes that a problem can have, its own first. The spline needs two knots.
 Names schemes_of(const Problem& problem) {
   if (!problem.motion) return {""};
+  if (problem.motion->has_factor()) return {to_string(problem.motion->scheme)};
   Names names = scheme_names(problem.motion->impulse);
   if (problem.motion->k < 2) std::erase(names, to_string(Scheme::kSpline));
   const std::string own = to_string(problem.motion->scheme);

@@ -11,6 +11,7 @@
 #include "cli/report/sections.h"
 #include "drawing/scatter.h"
 #include "maxwrench/load.h"
+#include "maxwrench/trajectory.h"
 #include "maxwrench/wrench_program.h"
 #include "solvers/solve/row.h"
 
@@ -77,7 +78,7 @@ ReportSection search_section(const std::vector<ResultRow>& rows) {
 std::vector<ReportCell> sizes_of(const CostSummary& cost) {
   try {
     const Problem problem = load_problem(cost.problem);
-    const int k = problem.motion ? problem.motion->k : 1;
+    const int k = knots_of(problem);
     return {static_cast<double>(problem.redundancy()) * k, static_cast<double>(k),
             static_cast<double>(problem.robot.actuation.u_min.size()),
             static_cast<double>(make_wrench_program(problem, cost.wrench).columns())};

@@ -157,11 +157,18 @@ std::string at_pose(const Pose<double>& pose) {
                      fmt::join(tidy(turn), ", "));
 }
 
+void print_payload(const CarriedBody& body) {
+  fmt::print("  payload with its centre of mass at [{:g}] m in axes of the end effector\n",
+             fmt::join(body.com, ", "));
+}
+
 /// Prints the data of a task in time.
 void print(const MotionTask& motion) {
   fmt::print("  {} of {:g} s, {} knots of theta_r, scheme {}",
-             motion.impulse ? "impulse" : "trajectory", motion.T, motion.k,
-             to_string(motion.scheme));
+             motion.impulse    ? "impulse"
+             : motion.transfer ? "transfer"
+                               : "trajectory",
+             motion.T, motion.k, to_string(motion.scheme));
   if (motion.scheme == Scheme::kSpline) {
     fmt::print(", {} instants per interval", motion.instants_per_interval);
   }
@@ -172,9 +179,23 @@ void print(const MotionTask& motion) {
                fmt::join(motion.theta_0, ", "));
     return;
   }
+  if (motion.transfer) {
+    fmt::print("  from theta_r [{:g}]\n  to           [{:g}]\n", fmt::join(motion.theta_0, ", "),
+               fmt::join(motion.theta_T, ", "));
+    print_payload(*motion.payload);
+    return;
+  }
   fmt::print("  path from {}\n       to   {}", at_pose(motion.path.pose(0)),
              at_pose(motion.path.pose(motion.T)));
   if (motion.path.angle() != 0) fmt::print(", turned by {:g} rad", motion.path.angle());
+  if (motion.payload) {
+    fmt::print("\n");
+    print_payload(*motion.payload);
+    return;
+  }
+  if (motion.table) {
+    fmt::print("\n  wrenches at {} times of {}", motion.table->t.size(), motion.table->file);
+  }
   fmt::print("\n  c {}\n", motion.c_turns ? "turns with the end effector" : "stays in the world");
 }
 

@@ -68,11 +68,13 @@ Eigen::MatrixXd knots_of(const Problem& problem, const std::optional<std::string
   std::error_code ignored;
   const bool numbers = text && !std::filesystem::exists(*text, ignored) && is_number(*text);
   if (text && !numbers) return load_knots(*text, problem);
+  if (!text) return default_knots(problem);
   const Eigen::VectorXd theta_r = theta_r_of(problem, text);
   if (theta_r.size() != problem.redundancy()) {
-    throw_bad_option("--theta-r", *text,
-                     fmt::format("{} numbers or a file of k = {} rows", problem.redundancy(),
-                                 problem.motion->k));
+    throw_bad_option(
+        "--theta-r", *text,
+        fmt::format("{} numbers or a file of {}{} rows", problem.redundancy(),
+                    problem.motion->transfer ? "k - 2 = " : "k = ", knots_of(problem)));
   }
   return constant_knots(problem, theta_r);
 }

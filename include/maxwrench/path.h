@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "maxwrench/carried.h"
 #include "maxwrench/types.h"
 
 /// @file
@@ -116,21 +118,33 @@ Start parse_start(const std::string& name);
 /// A task in time.
 ///
 /// It is a wrench along a path ("Wrench Maximisation over a Trajectory"), or a peak wrench in an
-/// impulse at a pose ("Maximum Wrench Impulse").
+/// impulse at a pose ("Maximum Wrench Impulse"). Or it is a transfer of a payload from one posture
+/// to another, at rest at both, with free motion in between.
 struct MotionTask {
   bool impulse = false;               ///< whether the task is an impulse
+  bool transfer = false;              ///< whether the task is a transfer
   Path path = Path::constant({}, 1);  ///< the path; at rest for an impulse
   std::string path_file;              ///< file with the poses of the path; empty if there is none
   double T = 1;                       ///< duration [s]
-  int k = 1;                          ///< number of knots of theta_r, without knot 0 of an impulse
-  Scheme scheme = Scheme::kSpline;    ///< how the knots become a motion
-  int instants_per_interval = 4;      ///< for the scheme `spline`; 16 in an impulse
-  bool rates = true;                  ///< whether the rate limits of efforts apply
+  /// Number of knots of theta_r, without knot 0 of an impulse, with both ends of a transfer.
+  int k = 1;
+  Scheme scheme = Scheme::kSpline;  ///< how the knots become a motion
+  int instants_per_interval = 4;    ///< for the scheme `spline`; 16 in an impulse
+  bool rates = true;                ///< whether the rate limits of efforts apply
   /// Whether c and W_any turn with the end effector. Those of the problem are valid at the start.
   bool c_turns = false;
   int t_h = 0;  ///< impulse only: the knot of the peak, 1 .. k; 0: the best one is chosen
   Start start = Start::kStatic;  ///< impulse only: how it starts
-  Eigen::VectorXd theta_0;       ///< impulse only: theta_r at the start (r)
+  Eigen::VectorXd theta_0;       ///< of an impulse or a transfer: theta_r at the start (r)
+  Eigen::VectorXd theta_T;       ///< of a transfer: theta_r at the end (r)
+  /// The payload of a path or a transfer, whose mass [kg] is the value: one mass at all instants.
+  std::optional<CarriedBody> payload;
+  /// Wrenches over time in place of c. The value is the factor by which all of them are exerted:
+  /// one factor at all instants.
+  std::optional<WrenchTable> table;
+
+  /// Returns whether one factor holds at all instants.
+  bool has_factor() const { return payload.has_value() || table.has_value(); }
 };
 
 }  // namespace maxwrench

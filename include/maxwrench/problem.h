@@ -51,7 +51,9 @@ struct Problem {
   int end_effector = 0;  ///< index in `Robot::end_effectors`
   Pose<double> pose;     ///< pose of the end effector in the world; the start of a path
   FreePose free;         ///< the free part of the pose of a static task
-  Vector6d c;            ///< unit direction [force; torque] in world axes
+  /// Unit direction [force; torque] in world axes. Of a payload or a table of wrenches in time it
+  /// is that of the first wrench, for pictures.
+  Vector6d c;
   /// The task in time. A static problem has none.
   std::optional<MotionTask> motion;
   /// Orthonormal basis of the wrenches that `Wrench::kAny` allows (6×k). Its span contains c, and
@@ -107,9 +109,9 @@ struct Problem {
   /// Returns l, the number of columns of the second contact's wrench; 0 without a second contact.
   int contact_columns() const { return contact ? static_cast<int>(contact->C.cols()) : 0; }
   /// Returns the unit of beta: "N" if c is a pure force, "N m" if it is a pure torque, else
-  /// "mixed". A list of scenarios has its own.
+  /// "mixed". A list of scenarios has its own. A payload has "kg", a table of wrenches "-".
   const char* unit() const;
-  /// Returns the type of the task: "static", "trajectory" or "impulse".
+  /// Returns the type of the task: "static", "trajectory", "impulse" or "transfer".
   const char* type() const;
 };
 

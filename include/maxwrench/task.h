@@ -135,6 +135,11 @@ struct PayloadSpec {
   Eigen::Vector3d com = Eigen::Vector3d::Zero();  ///< centre of mass [m]
   double volume = 0;                              ///< displaced volume per kg [m^3/kg]
   std::optional<Eigen::Vector3d> cob = {};        ///< centre of buoyancy [m]; none: `com`
+  /// Inertia about the centre of mass per kg, of a possible body [m^2]. At rest it does not count.
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  /// Added mass about the centre of mass per kg: along the axes [-], and about them [m^2]. At rest
+  /// it does not count.
+  Vector6d added_mass = Vector6d::Zero();
 };
 
 /// The description of a task; `make_problem` derives everything else in a `Problem`.
@@ -180,6 +185,8 @@ struct TaskSpec {
   /// The task in time. T follows from the path. For an impulse give T; its path is constant.
   /// c_turns follows from `wrench_in_end_effector`.
   std::optional<MotionTask> motion = {};
+  /// Of a transfer: joint positions at its start and at its end [rad or m], by name. Others rest.
+  std::map<std::string, double> from = {}, to = {};  ///< likewise at its end
   /// The redundant joints, if joints depend on theta_r in addition to the base. None: all joints of
   /// the chain are redundant.
   std::optional<std::vector<std::string>> joints = {};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -20,19 +21,23 @@ struct Problem;
 
 /// Everything known at one instant of a motion.
 struct Instant {
-  double t = 0;                   ///< time [s]
-  Pose<double> end_effector,      ///< pose of the end effector in the world
-      base;                       ///< pose of the base in the world
-  Eigen::VectorXd q;              ///< positions of all joints [rad or m]
-  Eigen::VectorXd v,              ///< velocities (n): base twist in base axes, then joint rates
-      v_dot;                      ///< derivative of v (n)
-  Eigen::VectorXd tau_d;          ///< forces of the full dynamics (n) [N, N m] (eq:dynamics)
-  Matrix6Xd J;                    ///< Jacobian of the end effector (6×n)
-  Vector6d c = Vector6d::Zero();  ///< the direction, in the world
+  double t = 0;               ///< time [s]
+  Pose<double> end_effector,  ///< pose of the end effector in the world
+      base;                   ///< pose of the base in the world
+  Eigen::VectorXd q;          ///< positions of all joints [rad or m]
+  Eigen::VectorXd v,          ///< velocities (n): base twist in base axes, then joint rates
+      v_dot;                  ///< derivative of v (n)
+  Eigen::VectorXd tau_d;      ///< forces of the full dynamics (n) [N, N m] (eq:dynamics)
+  Matrix6Xd J;                ///< Jacobian of the end effector (6×n)
+  /// The direction, in the world; of a payload or a table of wrenches the wrench of 1 kg or of the
+  /// factor 1.
+  Vector6d c = Vector6d::Zero();
   Vector6d h = Vector6d::Zero();  ///< the wrench that the robot exerts [N; N m]
   Eigen::VectorXd u;              ///< efforts (m)
-  /// Returns the wrench along c [N or N m].
-  double beta() const { return c.dot(h); }
+  /// The factor of c, of a task with one factor for all instants; otherwise NaN.
+  double factor = std::numeric_limits<double>::quiet_NaN();
+  /// Returns the wrench along c [N or N m], or the factor of c.
+  double beta() const { return std::isnan(factor) ? c.dot(h) : factor; }
 };
 
 /// A table of knots of theta_r, with its instants and its value.
@@ -40,12 +45,15 @@ struct Trajectory : Verdict {
   Eigen::MatrixXd knots;          ///< knots of theta_r (k×r), without theta_0 of an impulse
   std::vector<Instant> instants;  ///< the instants; of an impulse the start first
   /// Value [N or N m]. Along a path: the least wrench along c at any instant. Of an impulse: the
-  /// wrench along c at the peak.
+  /// wrench along c at the peak. Of a payload its mass [kg], of a table of wrenches their factor.
   double value = std::numeric_limits<double>::quiet_NaN();
   /// The value between knots: that of the clamped spline through the knots at many more instants [N
   /// or N m]. NaN: none.
   double value_between_knots = std::numeric_limits<double>::quiet_NaN();
   Reason between_knots_reason;  ///< why there is no value between knots
+  /// Of a transfer: how far the largest effort exceeds its limit between instants, as a share of
+  /// the limit [-]. Negative: all are within their limits. NaN: not computed.
+  double overshoot = std::numeric_limits<double>::quiet_NaN();
   Reason collision;          ///< the first knot that collides, and the bodies; empty: none collides
   int t_h = 0;               ///< of an impulse: the knot of the peak
   Eigen::MatrixXd gradient;  ///< gradient of the value (k×r)
@@ -183,10 +191,10 @@ class TrajectoryEvaluator {
   const TrajectoryProgram& program() const;
   /// Returns the constraints on the stacked knots x in addition to the bounds of each.
   const KnotRows& rows() const;
-  int knots() const;  ///< Returns k.
+  int knots() const;  ///< Returns the number of rows of a table, as `knots_of`.
   /// Returns whether the scheme is `spline`, which defines the motion between the instants.
   bool smooth() const;
-  /// Returns whether knot 0 is given, from which the motion starts.
+  /// Returns whether the knot before the table is given, from which the motion starts.
   bool starts() const;
 
  private:
@@ -247,11 +255,15 @@ std::unique_ptr<TrajectoryObjective> make_trajectory_objective(
 /// Returns theta_r (r) at an instant.
 Eigen::VectorXd theta_r_at(const Problem& problem, const Instant& instant);
 
-/// Returns k, the number of knots; one for a static problem.
+/// Returns the number of knots of a table: k, one for a static problem, k - 2 of a transfer.
 int knots_of(const Problem& problem);
 
 /// Returns a table of knots (k×r) that all equal `theta_r`.
 Eigen::MatrixXd constant_knots(const Problem& problem, const Eigen::VectorXd& theta_r);
+
+/// Returns the default table of a task: the default of theta_r throughout. Of a transfer it is the
+/// straight line from its start to its end, with the progress 3 s^2 - 2 s^3.
+Eigen::MatrixXd default_knots(const Problem& problem);
 
 /// Returns the table of stacked knots.
 ///

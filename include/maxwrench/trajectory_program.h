@@ -19,7 +19,8 @@ namespace maxwrench {
 ///                          u_min <= u_i <= u_max (of the first: first_min, first_max)
 ///                          w_min,i <= w_i <= w_max,i
 ///                          |u_i+1 - u_i| <= du_max,i
-///                          t <= c_w,i'w_i for all i,  or with a peak p: t = c_w,p'w_p
+///                          t <= c_w,i'w_i for all i,  or with a peak p: t = c_w,p'w_p,
+///                          or with `common`: t = c_w,i'w_i for all i
 ///
 /// The elastic program has slacks s_i on the balance of the instants from `first_elastic` on. It
 /// maximises t - rho sum |s_i|_1.
@@ -34,7 +35,10 @@ struct TrajectoryProgram {
       first_max;              ///< upper limits of u_0 (m)
   /// Limits of the changes of efforts (m×(N-1)), infinite where there is none.
   Eigen::MatrixXd du_max;
-  int peak = -1;           ///< instant p of the peak of an impulse; -1: max-min
+  int peak = -1;  ///< instant p of the peak of an impulse; -1: max-min
+  /// Whether one factor holds at all instants, such as the mass of a payload: t = c_w,i'w_i. It
+  /// needs one wrench column at each instant, c_w other than zero, and no peak.
+  bool common = false;
   double rho = kInfinity;  ///< weight of the slack, per N and N m; infinite: no slack
   int first_elastic = 0;   ///< the first instant with slack
 
@@ -63,16 +67,16 @@ struct TrajectorySolution : Verdict {
   Eigen::VectorXd y;               ///< variables y (p)
   /// Multipliers of the balance (n×N): d value/d tau_d,i.
   ///
-  /// If the program is infeasible, lambda, mu and nu are the proof instead. Then the supremum over
-  /// the limits of
+  /// If the program is infeasible, lambda, mu and nu are the proof instead, with `common` also pi.
+  /// Then the supremum over the limits of
   ///
-  ///     sum_i lambda_i'(B u_i - (J'W)_i w_i + G_i y) - mu'(rates) - nu'R y
+  ///     sum_i lambda_i'(B u_i - (J'W)_i w_i + G_i y) - mu'(rates) - nu'R y (+ pi_i c_w,i'w_i)
   ///
   /// is less than sum_i lambda_i'tau_d,i minus the contribution of the limits of rates and rows.
   Eigen::MatrixXd lambda,
       mu;  ///< multipliers of the rates (m×(N-1)): positive where u_i+1 - u_i is at its upper limit
   /// Multipliers of t <= c_w,i'w_i (N). Their sum is one. With a peak they are the unit vector of
-  /// the peak.
+  /// the peak. With `common` they have any sign, and in a proof their sum is zero.
   Eigen::VectorXd pi,
       nu;              ///< multipliers of R y (rows): positive at r_max
   int iterations = 0;  ///< iterations of the solver
@@ -121,15 +125,16 @@ void read(const TrajectoryProgram& program, const LpSolution& answer, Trajectory
 /// Computes the residual of a solution from the data of the program.
 ///
 /// Balance: max |B u_i - (J'W)_i w_i + s_i + G_i y - tau_d,i|. Bounds: of u, w, y, rates, R y and
-/// of t <= c_w,i'w_i. Dual: in what has no limits, |lambda| in excess of rho, and |1 - sum pi|.
+/// of t <= c_w,i'w_i or t = c_w,i'w_i. Dual: in what has no limits, |lambda| in excess of rho, and
+/// |1 - sum pi|.
 /// Gap: dual objective less (value - price). A number that cannot be computed is infinite.
 ///
 /// @param program   the program
 /// @param solution  its solution
 Residual recheck(const TrajectoryProgram& program, const TrajectorySolution& solution);
 
-/// Returns whether lambda, mu and nu prove that the program is infeasible, by the criterion of
-/// `verified`.
+/// Returns whether lambda, mu, nu and with `common` pi prove that the program is infeasible, by the
+/// criterion of `verified`.
 bool proves_infeasible(const TrajectoryProgram& program, const TrajectorySolution& solution);
 
 }  // namespace maxwrench

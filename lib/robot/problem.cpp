@@ -14,6 +14,8 @@ Wrench parse_wrench(const std::string& name) {
 
 const char* Problem::unit() const {
   if (!scenarios.empty()) return scenarios.unit;
+  if (motion && motion->payload) return "kg";
+  if (motion && motion->table) return "-";
   if (c.tail<3>().isZero()) return "N";
   if (c.head<3>().isZero()) return "N m";
   return "mixed";
@@ -21,6 +23,7 @@ const char* Problem::unit() const {
 
 const char* Problem::type() const {
   if (!motion) return "static";
+  if (motion->transfer) return "transfer";
   return motion->impulse ? "impulse" : "trajectory";
 }
 

@@ -108,6 +108,11 @@ TankScript make_script(const Problem& problem, const Trajectory& trajectory, Wre
                        TrajectorySolver& solver, const ScriptOptions& options) {
   check(options);
   const MotionTask& task = *problem.motion;
+  if (task.has_factor()) {
+    throw std::invalid_argument(problem.name + ": got " +
+                                (task.payload ? "a payload" : "a table of wrenches") +
+                                ", expected one wrench along c for the virtual tank");
+  }
   TankScript script;
   script.interpolation = options.interpolation;
   script.wrench = wrench;

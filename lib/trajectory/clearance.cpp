@@ -39,11 +39,12 @@ void find_near_pairs(const Problem& problem, const Kinematics<double>& kinematic
 void find_near_pairs(const Problem& problem, MotionEvaluator& motion, const Eigen::MatrixXd& Q,
                      double within, Kinematics<double>& kinematics, std::vector<NearPair>& pairs) {
   const SchemeMaps& maps = motion.maps();
-  std::size_t next = maps.starts ? 1 : 0;
+  auto next = static_cast<std::size_t>(maps.before);
+  const std::size_t end = maps.knot_at.size() - static_cast<std::size_t>(maps.after);
   motion.visit(Q, [&](int instant, const Eigen::VectorXd& q, const Eigen::MatrixXd& slopes) {
-    if (next == maps.knot_at.size() || instant != maps.knot_at[next]) return;
+    if (next >= end || instant != maps.knot_at[next]) return;
     kinematics.set_joints(q);
-    const int knot = static_cast<int>(next++) - (maps.starts ? 1 : 0);
+    const int knot = static_cast<int>(next++) - maps.before;
     find_near_pairs(problem, kinematics, knot, within, pairs, slopes);
   });
 }
@@ -52,7 +53,8 @@ std::string knot_collision(const Problem& problem, const MotionEvaluator& motion
                            const std::vector<Instant>& instants, Kinematics<double>& kinematics) {
   const SchemeMaps& maps = motion.maps();
   const int first = maps.starts ? 0 : 1;
-  for (std::size_t knot = maps.starts ? 1 : 0; knot < maps.knot_at.size(); ++knot) {
+  const std::size_t end = maps.knot_at.size() - static_cast<std::size_t>(maps.after);
+  for (auto knot = static_cast<std::size_t>(maps.before); knot < end; ++knot) {
     const int instant = maps.knot_at[knot];
     if (motion.lost() >= 0 && instant >= motion.lost()) break;
     kinematics.set_joints(instants[static_cast<std::size_t>(instant)].q);

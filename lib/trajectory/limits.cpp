@@ -116,7 +116,7 @@ class DependentJoint {
 /// Collects `DependentRows`.
 class RowCollector {
  public:
-  RowCollector(Eigen::Index r, const SchemeMaps& maps) : r_(r), skipped_(maps.starts ? 1 : 0) {}
+  RowCollector(Eigen::Index r, const SchemeMaps& maps) : r_(r), skipped_(maps.before) {}
 
   /// Begins a row with its value and limits.
   void begin(double at, double low, double high) {
@@ -162,7 +162,7 @@ std::string knots_violation(const Problem& problem, const SchemeMaps& maps,
     const auto beyond = [&](double q) {
       return !(q >= low - kTableTolerance && q <= high + kTableTolerance);
     };
-    for (Eigen::Index i = maps.starts ? 1 : 0; i < Q.rows(); ++i) {
+    for (Eigen::Index i = maps.before; i < Q.rows() - maps.after; ++i) {
       if (!beyond(Q(i, j))) continue;
       return "joint limit: knot " + std::to_string(i + (maps.starts ? 0 : 1)) + ": " + joint.name +
              text(" at %.6g, limits %.6g .. %.6g", Q(i, j), low, high);
@@ -234,12 +234,11 @@ DependentRows make_dependent_rows(const Problem& problem, const MotionEvaluator&
       rows.add(maps.P, to, 1 / maps.dt, at(to).q_place, following.q());
     }
   }
-  return rows.finish(problem.redundancy() * (maps.knots() - (maps.starts ? 1 : 0)));
+  return rows.finish(problem.redundancy() * maps.rows());
 }
 
 KnotRows knot_rows(const Problem& problem, const MotionTask& task, const SchemeMaps& maps) {
-  const Eigen::Index r = problem.redundancy(), skipped = maps.starts ? 1 : 0;
-  const Eigen::Index k = maps.knots() - skipped;
+  const Eigen::Index r = problem.redundancy(), skipped = maps.before, k = maps.rows();
   const Eigen::Index rows = maps.speed.rows() + maps.place.rows() + maps.zero.rows();
   KnotRows result;
   result.R.resize(rows * r, k * r);
@@ -251,7 +250,8 @@ KnotRows knot_rows(const Problem& problem, const MotionTask& task, const SchemeM
     for (Eigen::Index i = 0; i < k; ++i) {
       if (row[i + skipped] != 0) entries.emplace_back(at, i * r + j, row[i + skipped]);
     }
-    const double fixed = skipped ? row[0] * task.theta_0[j] : 0;
+    double fixed = skipped > 0 ? row[0] * task.theta_0[j] : 0;
+    if (maps.after > 0) fixed += row[row.size() - 1] * task.theta_T[j];
     result.r_min[at] = low - fixed;
     result.r_max[at++] = high - fixed;
   };

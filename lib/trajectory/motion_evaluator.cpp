@@ -38,7 +38,10 @@ MotionEvaluator::MotionEvaluator(const Problem& problem, SchemeMaps maps)
       q_slopes_(problem.robot.joints.size(), turn_slopes_.cols()),
       v_slopes_(problem.robot.velocities(), turn_slopes_.cols()),
       v_dot_slopes_(v_slopes_),
-      f_slopes_(v_slopes_) {}
+      f_slopes_(v_slopes_),
+      c_slopes_(6, 2 * problem.redundancy()) {
+  if (problem.motion && problem.motion->transfer) transferred_ = &*problem.motion->payload;
+}
 
 /// Sets theta_r and its derivatives at all instants.
 void MotionEvaluator::set_rows(const Eigen::MatrixXd& Q) {
@@ -67,6 +70,7 @@ void MotionEvaluator::evaluate(const Eigen::MatrixXd& Q, std::vector<Instant>& i
     bend_r_ = bend_.col(i);
     const char* const reason = tracker_.set(maps_.x[at], theta_r_, rate_r_, bend_r_);
     const RobotMotion<double>& motion = tracker_.motion();
+    if (transferred_) read_tool(at);
     instant.t = maps_.t[at];
     instant.end_effector = maps_.x[at].pose;
     instant.base = motion.base();
@@ -85,6 +89,12 @@ void MotionEvaluator::evaluate(const Eigen::MatrixXd& Q, std::vector<Instant>& i
     dynamics_.inverse(instant.v, instant.v_dot, instant.tau_d);
     dynamics_.kinematics().jacobian(end_effector, instant.base.R, instant.J);
   }
+}
+
+/// Sets the end effector's motion at an instant of a transfer.
+void MotionEvaluator::read_tool(std::size_t i) {
+  const ToolMotion<double> tool = tracker_.motion().tool_motion();
+  maps_.x[i] = {tracker_.motion().tool_pose(), tool.twist, tool.acceleration};
 }
 
 /// Whether the twist at the current instant, or its derivative if the scheme has one, differs from
@@ -176,6 +186,25 @@ void MotionEvaluator::linearize(const std::vector<Instant>& instants,
     if (!problem_.dependent.empty()) s.q_place = q_slopes_.leftCols(r);
     s.M = f.by_v_dot();
     if (maps_.smooth()) s.bend.noalias() = s.M.lazyProduct(s.v_rate);
+    if (transferred_) add_payload(instant, maps_.x[i], s);
+  }
+}
+
+/// Adds the derivatives of m J'c by the motion through c. c is affine in the acceleration of the
+/// end effector.
+void MotionEvaluator::add_payload(const Instant& instant, const PathPoint& x,
+                                  MotionSlopes& slopes) {
+  const Eigen::Index r = problem_.redundancy();
+  mJt_ = instant.factor * instant.J.transpose();
+  slopes.place.noalias() += mJt_.lazyProduct(c_slopes_.leftCols(r));
+  slopes.rate.noalias() += mJt_.lazyProduct(c_slopes_.rightCols(r));
+  ToolMotion<double> tool{x.pose.R, x.twist, x.acceleration};
+  const Vector6d c = carried_wrench<double>(problem_.robot, *transferred_, tool);
+  for (Eigen::Index k = 0; k < r; ++k) {
+    tool.acceleration = x.acceleration;
+    tool.acceleration.noalias() += instant.J.lazyProduct(slopes.v_rate.col(k));
+    const Vector6d change = carried_wrench<double>(problem_.robot, *transferred_, tool) - c;
+    slopes.bend.col(k).noalias() += mJt_.lazyProduct(change);
   }
 }
 
@@ -194,7 +223,10 @@ void MotionEvaluator::follow(const Instant& instant, int i, int first, int count
     seeded.d[static_cast<std::size_t>(d)] = 1;
   }
   const PathPoint& x = maps_.x[static_cast<std::size_t>(i)];
-  if (problem_.dependent.empty()) {
+  if (transferred_) {
+    dual_motion_.set(dual_theta_r_, dual_rate_, dual_bend_);
+    dual_c_ = carried_wrench<D4>(problem_.robot, *transferred_, dual_motion_.tool_motion());
+  } else if (problem_.dependent.empty()) {
     dual_motion_.set(x, dual_theta_r_, dual_rate_, dual_bend_);
   } else {
     dual_motion_.set(x, instant.base, instant.q, dual_theta_r_, dual_rate_, dual_bend_);
@@ -221,6 +253,7 @@ void MotionEvaluator::read_slopes(std::size_t d, Eigen::Index direction) {
   q_slopes_.col(direction) = dual_motion_.q().unaryExpr(slope);
   v_slopes_.col(direction) = dual_v_.unaryExpr(slope);
   v_dot_slopes_.col(direction) = dual_v_dot_.unaryExpr(slope);
+  if (transferred_) c_slopes_.col(direction) = dual_c_.unaryExpr(slope);
   // The base turns by R'dR = [turn]x.
   const Matrix3<D4>& R = dual_motion_.base().R;
   const auto along = [&](int a, int b) {

@@ -12,7 +12,8 @@
 namespace maxwrench {
 
 /// The derivatives of f_i = tau_d,i + J_i'h_i by the motion at instant i, at constant h of the
-/// instants. n×r each.
+/// instants. n×r each. In a transfer h_i = m c_i, where c_i depends on the motion and m is
+/// constant.
 struct MotionSlopes {
   Eigen::MatrixXd place, rate, bend;  ///< by theta_r, theta_r_dot, theta_r_ddot (`spline`)
   Eigen::MatrixXd M;                  ///< n×n, by v_dot
@@ -28,6 +29,7 @@ class MotionEvaluator {
   MotionEvaluator(const Problem& problem, SchemeMaps maps);
   MotionEvaluator(const Problem&&, SchemeMaps) = delete;
 
+  /// Of a transfer, x is that of the last `evaluate`.
   const SchemeMaps& maps() const { return maps_; }
 
   /// Q K×r. Fills t, the poses, q, v, v_dot, J and tau_d of the instants. From instant `lost` on,
@@ -58,6 +60,8 @@ class MotionEvaluator {
  private:
   void set_rows(const Eigen::MatrixXd& Q);
   bool leaves_path(int i) const;
+  void read_tool(std::size_t i);
+  void add_payload(const Instant& instant, const PathPoint& x, MotionSlopes& slopes);
   void lose(int instant, const char* reason, std::vector<Instant>& instants);
   void accelerate_by_differences(std::vector<Instant>& instants) const;
   void follow(const Instant& instant, int i, int first, int count);
@@ -73,6 +77,11 @@ class MotionEvaluator {
   Eigen::MatrixXd visited_;  ///< the same for `visit`, which must not change those of `linearize`
   VectorX<double> theta_r_, rate_r_, bend_r_, q_;
   const Eigen::MatrixXd no_slopes_;
+  /// The payload of a transfer; null: the motion is not one.
+  const CarriedBody* transferred_ = nullptr;
+  Eigen::MatrixXd c_slopes_,  ///< 6×2r, of the wrench of 1 kg
+      mJt_;                   ///< n×6
+  Vector6<Dual<4>> dual_c_;
   int lost_ = -1;
   const char* lost_reason_ = nullptr;
   VectorX<Dual<4>> dual_theta_r_, dual_rate_, dual_bend_, dual_v_, dual_v_dot_;

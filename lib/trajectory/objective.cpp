@@ -84,10 +84,26 @@ Eigen::VectorXd theta_r_at(const Problem& problem, const Instant& instant) {
   return instant.q(problem.redundant);
 }
 
-int knots_of(const Problem& problem) { return problem.motion ? problem.motion->k : 1; }
+int knots_of(const Problem& problem) {
+  if (!problem.motion) return 1;
+  return problem.motion->k - (problem.motion->transfer ? 2 : 0);
+}
 
 Eigen::MatrixXd constant_knots(const Problem& problem, const Eigen::VectorXd& theta_r) {
   return theta_r.transpose().replicate(knots_of(problem), 1);
+}
+
+Eigen::MatrixXd default_knots(const Problem& problem) {
+  if (!problem.motion || !problem.motion->transfer) {
+    return constant_knots(problem, problem.theta_r_default);
+  }
+  const MotionTask& task = *problem.motion;
+  Eigen::MatrixXd knots(knots_of(problem), problem.redundancy());
+  for (Eigen::Index i = 0; i < knots.rows(); ++i) {
+    const double s = static_cast<double>(i + 1) / (task.k - 1);
+    knots.row(i) = task.theta_0 + s * s * (3 - 2 * s) * (task.theta_T - task.theta_0);
+  }
+  return knots;
 }
 
 Eigen::MatrixXd unstacked(const Eigen::VectorXd& x, Eigen::Index knots) {

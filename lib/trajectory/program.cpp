@@ -1,6 +1,7 @@
 #include "lib/trajectory/program.h"
 
 #include "lib/math/rotated.h"
+#include "lib/trajectory/carried.h"
 
 namespace maxwrench {
 namespace {
@@ -32,6 +33,12 @@ TrajectoryProgram make_trajectory_program(const Problem& problem, const MotionTa
     const auto at = static_cast<std::size_t>(from);
     return problem.robot.u_rate_max * (maps.t[at + 1] - maps.t[at]);
   };
+  program.common = task.has_factor();
+  for (WrenchProgram& at : program.instants) {
+    if (!program.common) break;
+    at.c_w.setOnes();
+    if (task.payload) at.w_min.setZero();  // a mass
+  }
   if (task.rates) {
     for (int i = 0; i + 1 < N; ++i) program.du_max.col(i) = limit(i + skipped);
   }
@@ -60,6 +67,11 @@ void set_instants(const Problem& problem, const MotionTask& task, Wrench wrench,
   const Matrix6Xd own = wrench == Wrench::kPure ? Matrix6Xd(problem.c) : problem.W_any;
   for (std::size_t i = 0; i < instants.size(); ++i) {
     Instant& instant = instants[i];
+    if (task.has_factor()) {
+      instant.c = factored_wrench(problem.robot, task, instant.t, maps.x[i]);
+      set_block(instant, Matrix6Xd(instant.c), program.instants[i]);
+      continue;
+    }
     instant.c = rotated(turn(instant), problem.c);
     if (i < skipped) continue;
     const bool start = i == 0 && start_is_block(task, maps);
@@ -75,6 +87,7 @@ void read_efforts(const Problem& problem, const MotionTask& task, const Trajecto
     Instant& instant = instants[i + skipped];
     instant.u = solution.u.col(static_cast<Eigen::Index>(i));
     instant.h.noalias() = program.instants[i].W * solution.w[i];
+    if (program.common) instant.factor = solution.w[i][0];
   }
   if (skipped == 0) return;
   Instant& start = instants.front();

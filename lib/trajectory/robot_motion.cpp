@@ -125,6 +125,34 @@ void RobotMotion<T>::set(const PathPoint& x, const VectorX<T>& theta_r, const Ve
   }
 }
 
+template <class T>
+void RobotMotion<T>::set(const VectorX<T>& theta_r, const VectorX<T>& rate,
+                         const VectorX<T>& acceleration) {
+  const Robot& robot = problem_->robot;
+  const auto axes = static_cast<Eigen::Index>(robot.base_axes.size());
+  set_theta_r(theta_r, 0, q_);
+  set_theta_r(rate, axes, v_);
+  set_theta_r(acceleration, axes, v_dot_);
+  kinematics_.set_joints(q_);
+  base_ = {robot.mount.R.cast<T>(), robot.mount.p.cast<T>()};
+}
+
+template <class T>
+ToolMotion<T> RobotMotion<T>::tool_motion() const {
+  const Vector3<T> p = kinematics_.end_effector_position(tool());
+  Vector6<T> base = Vector6<T>::Constant(T(0.0));
+  const auto& axes = problem_->robot.base_axes;
+  for (std::size_t i = 0; i < axes.size(); ++i) base[axes[i]] = v_[static_cast<Eigen::Index>(i)];
+  const Relative hand = along_chain(p);
+  const Vector3<T> v = base.template head<3>(), w = base.template tail<3>();
+  ToolMotion<T> motion;
+  motion.R = tool_pose().R;
+  motion.twist << base_.R * Vector3<T>(v + Vector3<T>(w.cross(p)) + hand.v),
+      base_.R * Vector3<T>(w + hand.w);
+  motion.acceleration = acceleration();
+  return motion;
+}
+
 /// Sets J_ at q_ and base_.
 template <class T>
 void RobotMotion<T>::read_jacobian() {
@@ -228,6 +256,7 @@ template class RobotMotion<Dual<4>>;
 RobotMotionTracker::RobotMotionTracker(const Problem& problem)
     : problem_(problem), follower_(problem), q_(problem.robot.joints.size()) {
   if (!problem.dependent.empty()) ik_solution_.emplace(problem);
+  transfer_ = problem.motion && problem.motion->transfer;
 }
 
 const char* RobotMotionTracker::place(const Pose<double>& x, const Eigen::VectorXd& theta_r) {
@@ -243,6 +272,10 @@ const char* RobotMotionTracker::place(const Pose<double>& x, const Eigen::Vector
 const char* RobotMotionTracker::set(const PathPoint& x, const Eigen::VectorXd& theta_r,
                                     const Eigen::VectorXd& rate,
                                     const Eigen::VectorXd& acceleration) {
+  if (transfer_) {
+    follower_.set(theta_r, rate, acceleration);
+    return nullptr;
+  }
   if (!ik_solution_) {
     follower_.set(x, theta_r, rate, acceleration);
     return nullptr;

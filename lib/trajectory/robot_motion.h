@@ -7,6 +7,7 @@
 #include "lib/math/dual.h"
 #include "lib/posture/ik/dependent_joints.h"
 #include "lib/robot/kinematics.h"
+#include "lib/trajectory/carried.h"
 #include "maxwrench/path.h"
 #include "maxwrench/problem.h"
 
@@ -43,12 +44,19 @@ class RobotMotion {
   void set(const PathPoint& x, const Pose<double>& base, const Eigen::VectorXd& q,
            const VectorX<T>& theta_r, const VectorX<T>& rate, const VectorX<T>& acceleration);
 
+  /// The same for a transfer, in which theta_r holds all joints of the chain and the base rests at
+  /// its mount. The end effector's motion follows.
+  void set(const VectorX<T>& theta_r, const VectorX<T>& rate, const VectorX<T>& acceleration);
+
   const VectorX<T>& q() const { return q_; }
   const Pose<T>& base() const { return base_; }
   /// n numbers each: base twist in base axes on the free axes, then joint rates; and their
   /// derivatives.
   const VectorX<T>& v() const { return v_; }
   const VectorX<T>& v_dot() const { return v_dot_; }
+  /// The end effector's motion in the world, from q, base, v and v_dot.
+  ToolMotion<T> tool_motion() const;
+  Pose<T> tool_pose() const { return base_ * kinematics_.end_effector(tool()); }
   /// With dependent joints: the largest of the six components of x_dot, and of x_ddot, that no
   /// motion of the robot provides [m/s, rad/s; m/s^2, rad/s^2].
   double twist_missed() const { return twist_missed_; }
@@ -93,7 +101,7 @@ class RobotMotionTracker {
   /// Moves to an instant. Returns null, or the reason why the dependent joints do not reach it;
   /// then they stay at the last point that they reached.
   const char* place(const Pose<double>& x, const Eigen::VectorXd& theta_r);
-  /// Calls `place`, then computes the motion.
+  /// Calls `place`, then computes the motion; of a transfer x does not count.
   const char* set(const PathPoint& x, const Eigen::VectorXd& theta_r, const Eigen::VectorXd& rate,
                   const Eigen::VectorXd& acceleration);
   const RobotMotion<double>& motion() const { return follower_; }
@@ -107,6 +115,7 @@ class RobotMotionTracker {
   std::optional<DependentJoints> ik_solution_;
   Eigen::VectorXd q_;
   bool started_ = false;
+  bool transfer_ = false;
 };
 
 }  // namespace maxwrench

@@ -45,6 +45,8 @@ SchemeMaps make_spline(const MotionTask& task, int per_interval, bool limited) {
   maps.A = Eigen::MatrixXd::Zero(instants, knots);
   maps.dt = task.T / intervals;
   maps.starts = task.impulse;
+  maps.before = task.impulse || task.transfer ? 1 : 0;
+  maps.after = task.transfer ? 1 : 0;
   std::vector<double> times;
   for (int knot = 0; knot < knots; ++knot) times.push_back(knot * maps.dt);
   const Eigen::MatrixXd values = Eigen::MatrixXd::Identity(knots, knots);
@@ -130,6 +132,7 @@ SchemeMaps make_impulse_differences(const MotionTask& task) {
   const int knots = task.k + 1, last = task.k;
   resize(maps, knots, knots);
   maps.starts = true;
+  maps.before = 1;
   maps.dt = task.T / task.k;
   maps.D = Eigen::MatrixXd::Zero(knots, knots);
   maps.moves[0] = 0;
@@ -163,6 +166,10 @@ SchemeMaps make_impulse_differences(const MotionTask& task) {
 
 SchemeMaps make_scheme(const MotionTask& task) {
   if (task.scheme == Scheme::kSpline) return make_spline(task, task.instants_per_interval, true);
+  if (task.has_factor()) {
+    throw std::invalid_argument(std::string("scheme: got ") + to_string(task.scheme) +
+                                ", expected spline for a payload or a table of wrenches");
+  }
   const bool backward = task.scheme == Scheme::kBackward || task.scheme == Scheme::kBackwardStop;
   if (task.impulse ? task.scheme == Scheme::kEnds : backward) {
     throw std::invalid_argument(
@@ -174,9 +181,11 @@ SchemeMaps make_scheme(const MotionTask& task) {
 }
 
 Eigen::MatrixXd all_knots(const MotionTask& task, const Eigen::MatrixXd& table) {
-  if (!task.impulse) return table;
-  Eigen::MatrixXd all(table.rows() + 1, table.cols());
-  all << task.theta_0.transpose(), table;
+  if (!task.impulse && !task.transfer) return table;
+  Eigen::MatrixXd all(table.rows() + (task.transfer ? 2 : 1), table.cols());
+  all.row(0) = task.theta_0.transpose();
+  all.middleRows(1, table.rows()) = table;
+  if (task.transfer) all.bottomRows<1>() = task.theta_T.transpose();
   return all;
 }
 

@@ -8,6 +8,7 @@
 #include "lib/trajectory/clearance.h"
 #include "lib/trajectory/limits.h"
 #include "lib/trajectory/motion_evaluator.h"
+#include "lib/trajectory/overshoot.h"
 #include "lib/trajectory/program.h"
 #include "maxwrench/problem.h"
 
@@ -81,10 +82,10 @@ struct TrajectoryEvaluator::Workspace {
   }
 
   void require_table(const Eigen::MatrixXd& knots) const {
-    if (knots.rows() != task.k || knots.cols() != problem.redundancy()) {
+    if (knots.rows() != motion.maps().rows() || knots.cols() != problem.redundancy()) {
       throw std::invalid_argument("theta_r: got a table of " + std::to_string(knots.rows()) +
                                   " x " + std::to_string(knots.cols()) + " numbers, expected " +
-                                  std::to_string(task.k) + " x " +
+                                  std::to_string(motion.maps().rows()) + " x " +
                                   std::to_string(problem.redundancy()) + " for " + problem.name);
     }
     if (!knots.allFinite()) {
@@ -169,7 +170,7 @@ struct TrajectoryEvaluator::Workspace {
     lambda.setZero(problem.robot.velocities(), motion.maps().instants());
     lambda.rightCols(lambda.cols() - skipped) = solution.lambda;
     motion.pull_back(slopes, lambda, all_gradient);
-    gradient = all_gradient.bottomRows(task.k);
+    gradient = all_gradient.middleRows(motion.maps().before, motion.maps().rows());
   }
 
   const Problem& problem;
@@ -210,16 +211,17 @@ const Trajectory& TrajectoryEvaluator::trajectory() const { return workspace_->t
 const TrajectoryProgram& TrajectoryEvaluator::program() const { return workspace_->program; }
 const KnotRows& TrajectoryEvaluator::rows() const { return workspace_->rows; }
 const DependentRows& TrajectoryEvaluator::dependent_rows() const { return workspace_->following; }
-int TrajectoryEvaluator::knots() const { return workspace_->task.k; }
+int TrajectoryEvaluator::knots() const { return workspace_->motion.maps().rows(); }
 bool TrajectoryEvaluator::smooth() const { return workspace_->motion.maps().smooth(); }
-bool TrajectoryEvaluator::starts() const { return workspace_->motion.maps().starts; }
+bool TrajectoryEvaluator::starts() const { return workspace_->motion.maps().before > 0; }
 
 const Trajectory& TrajectoryEvaluator::evaluate(const Eigen::MatrixXd& knots) {
   Workspace& ws = *workspace_;
   Trajectory& trajectory = ws.trajectory;
   ws.require_table(knots);
   trajectory.knots = knots;
-  trajectory.value = trajectory.value_between_knots = std::numeric_limits<double>::quiet_NaN();
+  trajectory.value = trajectory.value_between_knots = trajectory.overshoot =
+      std::numeric_limits<double>::quiet_NaN();
   trajectory.between_knots_reason = "";
   ws.Q = all_knots(ws.task, knots);
   ws.motion.evaluate(ws.Q, trajectory.instants);
@@ -253,6 +255,9 @@ void TrajectoryEvaluator::evaluate_between_knots(TrajectorySolver* by) {
     trajectory.value_between_knots = trajectory.value;
     trajectory.between_knots_reason = trajectory.reason;
     return;
+  }
+  if (task.transfer && trajectory.status == Status::kOptimal) {
+    trajectory.overshoot = overshoot_of(ws.problem, ws.Q, trajectory.value);
   }
   MotionEvaluator& fine = ws.on_spline();
   const SchemeMaps& maps = fine.maps();
@@ -354,9 +359,10 @@ TrajectoryProgram& TrajectoryEvaluator::linearize() {
   ws.following = make_dependent_rows(ws.problem, ws.motion, ws.trajectory.instants, ws.slopes);
   program.G.resize(program.instants.size());
   const Eigen::Index r = ws.problem.redundancy();
+  const SchemeMaps& maps = ws.motion.maps();
   for (std::size_t i = 0; i < program.instants.size(); ++i) {
     ws.motion.push_forward(ws.slopes, static_cast<int>(i + skipped), ws.G);
-    program.G[i] = -ws.G.rightCols(ws.task.k * r);
+    program.G[i] = -ws.G.middleCols(maps.before * r, maps.rows() * r);
   }
   return program;
 }

@@ -117,7 +117,7 @@ class Walk {
     sink_.column(1, -kInfinity, kInfinity);
     for (int i = 0; i < program_.size(); ++i) sink_.entry(layout_.first_t_row() + i, -1);
     for (int i = 0; i < program_.size(); ++i) {
-      sink_.column(0, 0, kInfinity);
+      sink_.column(0, 0, program_.common ? 0 : kInfinity);
       sink_.entry(layout_.first_t_row() + i, -1);
     }
   }
@@ -174,9 +174,11 @@ bool is_finite(const Eigen::SparseMatrix<double>& R) {
 bool well_formed(const TrajectoryProgram& program) {
   const int N = program.size();
   if (N == 0 || program.peak >= N || !(program.rho > 0)) return false;
+  if (program.common && program.peak >= 0) return false;
   const Zonotope* const set = program.instants.front().actuation;
   for (const WrenchProgram& at : program.instants) {
     if (at.actuation != set || !well_formed(at)) return false;
+    if (program.common && (at.columns() != 1 || at.c_w[0] == 0)) return false;
   }
   const Eigen::Index m = set->actuators(), p = program.border(), rows = program.R.rows();
   const auto limits = [](const Eigen::VectorXd& low, const Eigen::VectorXd& high,
@@ -251,7 +253,7 @@ void read(const TrajectoryProgram& program, const LpSolution& answer,
     }
   }
   // The row c_w'w - t - z = b: raising b by one lowers the value by pi.
-  if (layout.max_min()) solution.pi = -rows.segment(layout.first_t_row(), N);
+  if (layout.max_min()) solution.pi = -sign * rows.segment(layout.first_t_row(), N);
   if (!layout.max_min()) solution.pi[program.peak] = 1;
   solution.nu = sign * rows.tail(layout.r_rows());
   if (proof) return;

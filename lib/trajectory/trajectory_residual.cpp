@@ -143,8 +143,8 @@ double outside_limits(const TrajectoryProgram& program, const TrajectorySolution
   for (int i = 0; i < program.size(); ++i) {
     const WrenchProgram& at = program.instants[i];
     const double along = at.c_w.dot(solution.w[i]);
-    if (program.peak < 0) raise_to(worst, solution.value - along);
-    if (program.peak == i) raise_to(worst, std::abs(solution.value - along));
+    if (program.peak < 0 && !program.common) raise_to(worst, solution.value - along);
+    if (program.peak == i || program.common) raise_to(worst, std::abs(solution.value - along));
     for (int j = 0; j < at.columns(); ++j) check(solution.w[i][j], at.w_min[j], at.w_max[j]);
     for (int j = 0; j < at.actuation->actuators(); ++j) {
       check(solution.u(j, i), data.u_min(j, i), data.u_max(j, i));
@@ -196,7 +196,7 @@ void add_dual(const TrajectoryProgram& program, const TrajectorySolution& soluti
     const WrenchProgram& at = program.instants[i];
     objective += solution.lambda.col(i).dot(at.tau_d);
     sum += solution.pi[i];
-    raise_to(residual.dual, -solution.pi[i]);
+    if (!program.common) raise_to(residual.dual, -solution.pi[i]);
     if (program.peak >= 0) raise_to(residual.dual, std::abs(solution.pi[i] - (program.peak == i)));
     for (int j = 0; j < at.columns(); ++j) {
       add(data.wrench(-1, solution.pi[i] * at.c_w[j], j, i), at.w_min[j], at.w_max[j]);
@@ -243,8 +243,10 @@ Residual recheck(const TrajectoryProgram& program, const TrajectorySolution& sol
 bool proves_infeasible(const TrajectoryProgram& program, const TrajectorySolution& solution) {
   if (limits_cross(program)) return true;
   const Multipliers data(program, solution);
-  if (!data.fit()) return false;
+  if (!data.fit() || (program.common && solution.pi.size() != program.size())) return false;
+  if (program.common && !solution.pi.allFinite()) return false;
   Farkas farkas;
+  TermSum factor;  // the slope of t, which has no limits
   data.columns(1, [&](const TermSum& slope, double low, double high) {
     farkas.add_column(slope, low, high);
   });
@@ -254,8 +256,10 @@ bool proves_infeasible(const TrajectoryProgram& program, const TrajectorySolutio
       farkas.add_row(solution.lambda(r, i) * at.tau_d[r]);
     }
     for (int j = 0; j < at.columns(); ++j) {
-      farkas.add_column(data.wrench(1, 0, j, i), at.w_min[j], at.w_max[j]);
+      const double along = program.common ? solution.pi[i] * at.c_w[j] : 0;
+      farkas.add_column(data.wrench(1, along, j, i), at.w_min[j], at.w_max[j]);
     }
+    if (program.common) factor.add(-solution.pi[i]);
     if (!data.elastic(i)) continue;
     // The slack is unbounded, so its slope must be zero.
     for (Eigen::Index r = 0; r < at.tau_d.size(); ++r) {
@@ -264,6 +268,7 @@ bool proves_infeasible(const TrajectoryProgram& program, const TrajectorySolutio
       farkas.add_column(slope, -kInfinity, kInfinity);
     }
   }
+  farkas.add_column(factor, -kInfinity, kInfinity);
   return farkas.holds();
 }
 

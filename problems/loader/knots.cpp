@@ -5,6 +5,7 @@
 #include <cctype>
 
 #include "maxwrench/load.h"
+#include "maxwrench/trajectory.h"
 #include "problems/loader/bad_input.h"
 #include "problems/loader/number_table.h"
 
@@ -30,13 +31,15 @@ bool is_plain(const std::string& name) {
 
 Eigen::MatrixXd load_knots(const std::filesystem::path& file, const Problem& problem) {
   const NumberTable table = read_numbers(file, {coordinate_names(problem)});
-  const std::size_t k = problem.motion ? static_cast<std::size_t>(problem.motion->k) : 1;
+  const auto k = static_cast<std::size_t>(knots_of(problem));
+  const bool starts = problem.motion && problem.motion->impulse;
+  const bool both = problem.motion && problem.motion->transfer;
   if (table.rows.size() != k) {
-    throw_bad_input(
-        file, "rows", fmt::format("{}", table.rows.size()),
-        fmt::format(
-            "{}, one for each knot of theta_r{}", k,
-            problem.motion && problem.motion->impulse ? " after knot 0, which is given" : ""));
+    throw_bad_input(file, "rows", fmt::format("{}", table.rows.size()),
+                    fmt::format("{}, one for each knot of theta_r{}", k,
+                                starts ? " after knot 0, which is given"
+                                : both ? " between both ends, which are given"
+                                       : ""));
   }
   Eigen::MatrixXd knots(static_cast<Eigen::Index>(k), problem.redundancy());
   for (std::size_t i = 0; i < k; ++i) {

@@ -89,6 +89,21 @@ Start read_start_kind(const Block& start) {
   start.throw_bad_value("kind", "one of static, rest, zero, free");
 }
 
+/// A payload from one posture to another.
+void read_transfer(const Block& task, const Block& block, TaskSpec& spec) {
+  MotionTask& motion = *spec.motion;
+  block.allow_only({"T", "k", "instants_per_interval", "rates"});
+  read_scheme(block, motion);
+  motion.rates = block.truth("rates", true);
+  motion.T = block.number("T");
+  require_duration(motion.T);
+  for (const char* key : {"from", "to", "payload"}) {
+    if (!task.has(key)) task.throw_bad_value(key, "nothing", "a table");
+  }
+  spec.from = task.table("from").numbers_by_name();
+  spec.to = task.table("to").numbers_by_name();
+}
+
 }  // namespace
 
 bool follows_poses(const Block& task) {
@@ -102,7 +117,9 @@ void read_motion(const Block& task, TaskSpec& spec) {
   if (type == "static") return;
   MotionTask& motion = spec.motion.emplace();
   motion.impulse = type == "impulse";
+  motion.transfer = type == "transfer";
   const Block block = task.table("motion");
+  if (motion.transfer) return read_transfer(task, block, spec);
   std::vector<std::string_view> keys = {"T", "k", "scheme", "instants_per_interval", "rates"};
   if (motion.impulse) keys.emplace_back("t_h");
   block.allow_only(keys);

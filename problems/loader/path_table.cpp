@@ -25,14 +25,19 @@ Pose<double> pose_of(const NumberTable& table, std::size_t row) {
   return {e.normalized().toRotationMatrix(), p};
 }
 
-void require_order(const NumberTable& table, const std::vector<Pose<double>>& poses) {
-  for (std::size_t i = 0; i < poses.size(); ++i) {
+/// Rejects times that do not rise from zero.
+void require_times(const NumberTable& table) {
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
     const double t = table.rows[i][0];
     if (i == 0 && t != 0) table.throw_bad_row(i, "t = 0 in the first row");
-    if (i == 0) continue;
-    if (t - table.rows[i - 1][0] < kShortestTime) {
+    if (i > 0 && t - table.rows[i - 1][0] < kShortestTime) {
       table.throw_bad_row(i, "a t that rises from row to row, by 1e-6 s or more");
     }
+  }
+}
+
+void require_turns(const NumberTable& table, const std::vector<Pose<double>>& poses) {
+  for (std::size_t i = 1; i < poses.size(); ++i) {
     if (logarithm(poses[i - 1].R.transpose() * poses[i].R).norm() > kLargestTurn) {
       table.throw_bad_row(i, "a pose turned by at most 3 rad from the row before");
     }
@@ -53,8 +58,26 @@ Path read_path_table(const std::filesystem::path& file) {
     times.push_back(table.rows[i][0]);
     poses.push_back(pose_of(table, i));
   }
-  require_order(table, poses);
+  require_times(table);
+  require_turns(table, poses);
   return Path::spline(times, poses);
+}
+
+WrenchTable read_wrench_table(const std::filesystem::path& file) {
+  const NumberTable table = read_numbers(file, {{"t", "fx", "fy", "fz", "tx", "ty", "tz"}});
+  if (table.rows.size() < 2) {
+    throw_bad_input(file, "rows", std::to_string(table.rows.size()), "two wrenches or more");
+  }
+  require_times(table);
+  WrenchTable result;
+  result.file = file.string();
+  result.wrenches.resize(6, static_cast<Eigen::Index>(table.rows.size()));
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const std::vector<double>& row = table.rows[i];
+    result.t.push_back(row[0]);
+    result.wrenches.col(static_cast<Eigen::Index>(i)) = Eigen::Map<const Vector6d>(row.data() + 1);
+  }
+  return result;
 }
 
 }  // namespace maxwrench

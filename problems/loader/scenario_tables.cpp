@@ -116,7 +116,6 @@ LossSpec read_loss(const Block& block) {
   return spec;
 }
 
-/// Reads a payload. What counts in motion only is checked.
 PayloadSpec read_payload(const Block& block) {
   block.allow_only({"com", "volume_per_kg", "cob", "inertia_per_kg", "added_mass_per_kg"});
   PayloadSpec spec;
@@ -124,12 +123,9 @@ PayloadSpec read_payload(const Block& block) {
   spec.volume = block.number("volume_per_kg", 0);
   if (block.has("cob")) spec.cob = block.vector("cob");
   if (block.has("inertia_per_kg")) {
-    const auto bad = why_no_body("payload", 1, read_inertia(block, "inertia_per_kg"));
-    if (bad) block.throw_bad_value("inertia_per_kg", bad->got, bad->expected);
+    spec.inertia = read_inertia(block, "inertia_per_kg");
   }
-  if (block.has("added_mass_per_kg")) {
-    require_coefficients("payload.added_mass_per_kg", block.numbers("added_mass_per_kg", 6));
-  }
+  if (block.has("added_mass_per_kg")) spec.added_mass = block.numbers("added_mass_per_kg", 6);
   return spec;
 }
 
@@ -208,6 +204,9 @@ std::string words_of_scenarios(const TaskSpec& task) {
   if (task.payload) {
     words += fmt::format("; payload {} {}", all_digits(task.payload->com), task.payload->volume);
     if (task.payload->cob) words += " " + all_digits(*task.payload->cob);
+    const PayloadSpec& body = *task.payload;
+    if (!body.inertia.isZero(0)) words += " inertia " + all_digits(body.inertia);
+    if (!body.added_mass.isZero(0)) words += " added mass " + all_digits(body.added_mass);
   }
   return words;
 }

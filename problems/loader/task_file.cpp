@@ -15,6 +15,7 @@
 #include "problems/loader/block.h"
 #include "problems/loader/contact_table.h"
 #include "problems/loader/motion_table.h"
+#include "problems/loader/path_table.h"
 #include "problems/loader/scenario_tables.h"
 #include "problems/loader/urdf_tree.h"
 #include "problems/make/posture.h"
@@ -55,13 +56,21 @@ void read_wrench(const Block& wrench, TaskSpec& spec) {
   std::vector<std::string_view> keys = {"c", "set", "ball", "hold", "any", "reference", "desired"};
   const bool impulses = spec.motion && spec.motion->impulse;
   if (!impulses) keys.emplace_back("frame");
+  if (spec.motion && !impulses) keys.emplace_back("file");
   wrench.allow_only(keys);
   const std::string frame = wrench.text("frame", "world");
   if (frame != "world" && frame != "end_effector") {
     wrench.throw_bad_value("frame", "'world' or 'end_effector'");
   }
   spec.wrench_in_end_effector = frame != "world";
-  read_wrenches(wrench, spec);
+  if (wrench.has("file")) {
+    for (const char* key : {"c", "set", "ball", "hold", "any"}) {
+      if (wrench.has(key)) wrench.throw_bad_value(key, "no such key beside wrench.file");
+    }
+    spec.motion->table = read_wrench_table(wrench.file().parent_path() / wrench.text("file"));
+  } else {
+    read_wrenches(wrench, spec);
+  }
   if (wrench.has("any")) spec.any = wrench.texts("any");
   spec.reference = wrench.number("reference", spec.reference);
   if (wrench.has("desired")) spec.desired = wrench.numbers("desired", 6);
@@ -84,13 +93,21 @@ void allow_keys(const Block& task) {
     keys.insert(keys.end(), {"path", "motion"});
   } else if (type == "impulse") {
     keys.insert(keys.end(), {"motion", "start"});
+  } else if (type == "transfer") {
+    keys = {"type", "robot", "end_effector", "label", "from", "to", "motion"};
+    if (task.has("wrench")) {
+      task.throw_bad_value("wrench", "no such table in a transfer: its payload is the wrench");
+    }
   } else if (type != "static") {
-    task.throw_bad_value("type", "'static', 'trajectory' or 'impulse'");
+    task.throw_bad_value("type", "'static', 'trajectory', 'impulse' or 'transfer'");
   }
-  for (const char* key : {"uncertainty", "loss", "payload"}) {
-    if (type == "static") keys.emplace_back(key);
-    if (type != "static" && task.has(key)) {
-      task.throw_bad_value(key, "no such key except in static tasks");
+  for (const std::string_view key : {"uncertainty", "loss", "payload"}) {
+    const bool carried = key == "payload" && (type == "trajectory" || type == "transfer");
+    if (type == "static" || carried) {
+      keys.emplace_back(key);
+    } else if (task.has(key)) {
+      task.throw_bad_value(key, key == "payload" ? "no such key in an impulse"
+                                                 : "no such key except in static tasks");
     }
   }
   task.allow_only(keys);
@@ -127,7 +144,7 @@ std::map<std::string, double> read_posture(const Block& pose, const Robot& robot
 
 /// Reads the pose. A path through the poses of a table has its own.
 void read_pose(const Block& task, TaskSpec& spec) {
-  if (follows_poses(task)) return;
+  if (follows_poses(task) || task.text("type") == "transfer") return;
   const Block pose = task.table("pose");
   pose.allow_only({"xyz", "rpy", "joints", "state", "free", "range", "frame"});
   for (const char* key : {"free", "range", "frame"}) {
@@ -213,6 +230,7 @@ Problem load_problem(const std::string& name, const LoadOptions& options) {
   std::vector<fs::path> files = {file};
   files.insert(files.end(), spec.robot.files.begin(), spec.robot.files.end());
   if (spec.motion && !spec.motion->path_file.empty()) files.emplace_back(spec.motion->path_file);
+  if (spec.motion && spec.motion->table) files.emplace_back(spec.motion->table->file);
   problem.digest = digest_of(files, options.limits);
   return problem;
 }

@@ -48,7 +48,7 @@ bool read_all(int from, std::string& text) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
     pollfd ready = {from, POLLIN, 0};
     if (left.count() <= 0 || poll(&ready, 1, static_cast<int>(left.count())) == 0) return false;
-    const ssize_t count = read(from, buffer.data(), buffer.size());
+    const ssize_t count = ::read(from, buffer.data(), buffer.size());
     if (count == 0) return true;
     if (count > 0) {
       text.append(buffer.data(), static_cast<std::size_t>(count));

@@ -34,6 +34,23 @@ void require_dynamics(const Robot& robot) {
   throw BadValue(fault.key, fault.got, fault.expected + "; only static tasks do without");
 }
 
+/// Rejects a transfer without a payload, with a base that moves, or without a knot in between.
+void require_transfer(const TaskSpec& task, Problem& problem) {
+  MotionTask& motion = *problem.motion;
+  motion.path = Path::constant(problem.pose, motion.T);
+  if (!problem.robot.base_axes.empty()) {
+    throw BadValue("robot", fmt::format("a base with {} free axes", problem.robot.base_axes.size()),
+                   "a robot whose base is fixed, for a transfer");
+  }
+  if (!task.payload) throw BadValue("payload", "nothing", "the payload of the transfer");
+  if (motion.scheme != Scheme::kSpline) {
+    throw BadValue("motion.scheme", to_string(motion.scheme), "spline for a transfer");
+  }
+  if (motion.k < 3) {
+    throw BadValue("motion.k", fmt::format("{}", motion.k), "3 or more for a transfer");
+  }
+}
+
 }  // namespace
 
 void require_duration(double T) {
@@ -56,7 +73,7 @@ void set_motion(const TaskSpec& task, Problem& problem) {
   require_dynamics(task.robot);
   MotionTask& motion = problem.motion.emplace(*task.motion);
   motion.c_turns = task.wrench_in_end_effector;
-  if (!motion.impulse) motion.T = motion.path.duration();
+  if (!motion.impulse && !motion.transfer) motion.T = motion.path.duration();
   require_duration(motion.T);
   require_scheme(to_string(motion.scheme), motion.impulse);
   require_whole("motion.k", motion.k, kMostKnots);
@@ -64,6 +81,7 @@ void set_motion(const TaskSpec& task, Problem& problem) {
     throw BadValue("motion.k", fmt::format("{}", motion.k), "2 or more for the scheme spline");
   }
   require_whole("motion.instants_per_interval", motion.instants_per_interval, kMostInstants);
+  if (motion.transfer) return require_transfer(task, problem);
   if (motion.impulse) {
     motion.path = Path::constant(problem.pose, motion.T);
     if (motion.t_h >= 0 && motion.t_h <= motion.k) return;

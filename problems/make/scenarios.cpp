@@ -10,6 +10,7 @@
 #include "lib/robot/chain.h"
 #include "problems/make/bad_value.h"
 #include "problems/make/losses.h"
+#include "problems/make/payload.h"
 #include "problems/make/uncertain_loads.h"
 
 namespace maxwrench {
@@ -93,39 +94,6 @@ const char* unit_of(const TaskSpec& task, const ScenarioList& list, const Vector
   return unit_of(all, kFactor);
 }
 
-/// The weight of 1 kg in place of a wrench.
-void set_payload(const TaskSpec& task, Problem& problem) {
-  const PayloadSpec& payload = *task.payload;
-  const auto require_none = [](bool given, const char* key) {
-    if (given) throw BadValue(key, "a value", "no such key beside payload: it is the wrench");
-  };
-  require_none(!task.c.isZero(0), "wrench.c");
-  require_none(!task.set.empty(), "wrench.set");
-  require_none(!task.ball_axes.empty() || task.ball_radius != 0, "wrench.ball");
-  require_none(task.hold, "wrench.hold");
-  require_none(task.wrench_in_end_effector, "wrench.frame");
-  require_numbers("payload.com", payload.com, 3);
-  require_non_negative("payload.volume_per_kg", payload.volume);
-  const Eigen::Vector3d cob = payload.cob.value_or(payload.com);
-  require_numbers("payload.cob", cob, 3);
-  const double displaced = problem.robot.water_density * payload.volume;
-  CarriedLoad load;
-  load.wet_mass = 1 - displaced;
-  load.moment = payload.com - displaced * cob;
-  const Eigen::Vector3d up = problem.robot.gravity * Eigen::Vector3d::UnitZ();
-  Vector6d c;
-  c << load.wet_mass * up, (problem.pose.R * load.moment).cross(up);
-  if (!(c.stableNorm() >= kShortestWrench && c.stableNorm() <= kLargestWrench)) {
-    throw BadValue("payload", fmt::format("a wrench of {:g} per kg", c.stableNorm()),
-                   "a payload with weight in water");
-  }
-  problem.scenarios.payload = load;
-  problem.scenarios.wrenches = {{.name = "", .c = c}};
-  problem.scenarios.unit = "kg";
-  problem.scenarios.non_negative = true;
-  problem.c = c.stableNormalized();
-}
-
 /// Rejects a list that nobody could evaluate. `corners` is the number of cases of all loads.
 void require_few(const TaskSpec& task, double wrenches, double limits, double corners) {
   const double count = wrenches * limits * corners;
@@ -140,10 +108,11 @@ void require_few(const TaskSpec& task, double wrenches, double limits, double co
 
 void set_wrenches(const TaskSpec& task, Problem& problem) {
   const KeyOfLists given = key_of_lists(task);
-  if (problem.motion && !given.key.empty()) {
+  if (problem.motion && !given.key.empty() && given.key != "payload") {
     throw BadValue(given.key, given.got, "no such key except in static tasks");
   }
   if (task.payload) return set_payload(task, problem);
+  if (problem.motion && problem.motion->table) return set_table(task, problem);
   ScenarioList& list = problem.scenarios;
   const bool in_ball = !task.ball_axes.empty() || task.ball_radius != 0;
   if (in_ball) list.ball = ball_of(task, problem);

@@ -72,6 +72,10 @@ void set_any(const std::vector<std::string>& any, const std::vector<StatedDirect
 /// across c. The columns that a task gives itself must not span a wrench h with T'h = 0, because
 /// nothing bounds it. What a list of scenarios leaves free is across all of its wrenches.
 void choose_wrenches(const TaskSpec& task, Problem& problem) {
+  if (problem.motion && problem.motion->has_factor()) {
+    problem.W_any = problem.c;  // not used: these wrenches are pure
+    return;
+  }
   const Matrix6Xd T = motions_at_pose(problem);
   const std::vector<StatedDirection> directions = stated_directions(task, problem);
   for (const auto& [key, got, c] : directions) {
@@ -118,7 +122,11 @@ Problem make_problem(const TaskSpec& task) {
   problem.robot = task.robot;
   problem.end_effector = find_end_effector("end_effector", task.end_effector, problem.robot);
   require_pose("pose", task.pose);
-  problem.pose = task.posture
+  const bool transfer = task.motion && task.motion->transfer;
+  // Of a transfer, `set_joints` checks the names.
+  problem.pose = transfer ? pose_at_mount(problem.robot, problem.end_effector,
+                                          joints_by_name("from.", task.from, problem.robot))
+                 : task.posture
                      ? pose_at_mount(problem.robot, problem.end_effector, joints_at_posture(task))
                      : task.pose;
   set_motion(task, problem);

@@ -212,6 +212,43 @@ void guess_from(const Posture& posture, Problem& problem) {
   problem.guess_base << base.p, std::atan2(base.R(1, 0), base.R(0, 0));
 }
 
+/// Rejects the end of a transfer that does not name all joints of the chain, and no others.
+void require_all_named(const std::string& key, const std::map<std::string, double>& named,
+                       const Robot& robot, const std::vector<int>& chain) {
+  const std::string expected = fmt::format(
+      "a position for each joint from the base to the end effector: {}", names_of(robot, chain));
+  for (const auto& [name, position] : named) {
+    const int joint = find_joint(robot, name);
+    if (std::find(chain.begin(), chain.end(), joint) != chain.end()) continue;
+    throw BadValue(key + "." + name, "an unknown key", expected);
+  }
+  if (named.size() != chain.size()) {
+    throw BadValue(key, fmt::format("{} joints", named.size()), expected);
+  }
+}
+
+/// A transfer moves all joints of the chain, from one given posture to another.
+void set_ends(const TaskSpec& task, const std::vector<int>& chain, Problem& problem) {
+  const Robot& robot = problem.robot;
+  problem.redundant = chain;
+  const auto count = static_cast<Eigen::Index>(chain.size());
+  problem.theta_r_min.resize(count);
+  problem.theta_r_max.resize(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Joint& joint = robot.joints[static_cast<std::size_t>(chain[static_cast<std::size_t>(i)])];
+    problem.theta_r_min[i] = joint.q_min;
+    problem.theta_r_max[i] = joint.q_max;
+  }
+  MotionTask& motion = *problem.motion;
+  require_all_named("from", task.from, robot, chain);
+  require_all_named("to", task.to, robot, chain);
+  motion.theta_0 = joints_by_name("from.", task.from, robot)(chain);
+  motion.theta_T = joints_by_name("to.", task.to, robot)(chain);
+  require_theta_r_within("from", motion.theta_0, problem);
+  require_theta_r_within("to", motion.theta_T, problem);
+  problem.theta_r_default = motion.theta_0;
+}
+
 }  // namespace
 
 std::string names_of(const Robot& robot, const std::vector<int>& joints) {
@@ -233,11 +270,15 @@ void require_theta_r_within(std::string_view key, const Eigen::VectorXd& values,
 }
 
 Eigen::VectorXd joints_at_posture(const TaskSpec& task) {
-  const Robot& robot = task.robot;
+  return joints_by_name("pose.joints.", *task.posture, task.robot);
+}
+
+Eigen::VectorXd joints_by_name(const std::string& start, const std::map<std::string, double>& named,
+                               const Robot& robot) {
   Eigen::VectorXd q = resting_joints(robot);
-  for (const auto& [name, position] : *task.posture) {
+  for (const auto& [name, position] : named) {
     const int found = find_joint(robot, name);
-    const std::string key = "pose.joints." + name;
+    const std::string key = start + name;
     if (found < 0 || robot.joints[static_cast<std::size_t>(found)].gear) {
       std::vector<std::string> names;
       for (const Joint& joint : robot.joints) {
@@ -270,6 +311,7 @@ void set_joints(const TaskSpec& task, Problem& problem) {
   const Robot& robot = problem.robot;
   const std::vector<int> chain = chain_to(robot, problem.end_effector);
   require_no_gears("end_effector", robot, chain);
+  if (problem.motion && problem.motion->transfer) return set_ends(task, chain, problem);
   const int axes = static_cast<int>(robot.base_axes.size());
   const int dependent = motions_of(robot, problem.end_effector) - axes;
   problem.redundant = chain;

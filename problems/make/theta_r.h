@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,11 @@ std::string names_of(const Robot& robot, const std::vector<int>& joints);
 /// The positions of all joints in the posture of a task. Rejects names that are not of joints that
 /// move.
 Eigen::VectorXd joints_at_posture(const TaskSpec& task);
+
+/// The positions of all joints from those of some, by name, whose key begins with `key`. Others
+/// rest.
+Eigen::VectorXd joints_by_name(const std::string& key, const std::map<std::string, double>& named,
+                               const Robot& robot);
 
 /// Rejects a chain with a joint that a gear moves, or that moves another by a gear.
 void require_no_gears(std::string_view key, const Robot& robot, const std::vector<int>& chain);

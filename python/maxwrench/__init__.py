@@ -88,6 +88,7 @@ __all__ = [
     "Thruster",
     "Trajectory",
     "TrajectoryProof",
+    "Transfer",
     "VerifiedProof",
     "VerifiedTrajectory",
     "__version__",

@@ -141,6 +141,8 @@ class Task:
     @property
     def knots(self) -> int: ...
     @property
+    def default_knots(self) -> _Array: ...
+    @property
     def digest(self) -> str: ...
     def with_limits(self, u_min: ArrayLike, u_max: ArrayLike) -> Task: ...
 
@@ -565,6 +567,19 @@ def make_robot(
 def Static(robot: Robot, **arguments: Any) -> Task: ...
 def Trajectory(robot: Robot, path: Path, knots: int, **arguments: Any) -> Task: ...
 def Impulse(robot: Robot, pose: Pose, T: float, knots: int, **arguments: Any) -> Task: ...
+def Transfer(
+    robot: Robot,
+    start: dict[str, float],
+    end: dict[str, float],
+    T: float,
+    knots: int,
+    *,
+    payload: dict[str, Any],
+    instants_per_interval: int = 4,
+    rates: bool = True,
+    end_effector: str = "",
+    name: str = "",
+) -> Task: ...
 def evaluate(
     task: Task | _Path,
     theta_r: ArrayLike,

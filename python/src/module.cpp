@@ -15,6 +15,7 @@ PYBIND11_MODULE(_core, m) {
   python::add_robot_parts(m);
   python::add_paths(m);
   python::add_tasks(m);
+  python::add_transfers(m);
   python::add_explanations(m);
   python::add_answers(m);
   python::add_evaluations(m);

@@ -79,7 +79,7 @@ void read_scenarios(py::dict& arguments, TaskSpec& spec) {
 
 void read_wrench(py::dict& arguments, bool in_time, TaskSpec& spec) {
   if (in_time) {
-    spec.c = direction_in("c", taken(arguments, "c", py::str("z")));
+    read_wrench_in_time(arguments, spec);
   } else {
     read_scenarios(arguments, spec);
   }

@@ -44,6 +44,7 @@ PyTask make_trajectory(const PyRobot& robot, const PyPath& path, int knots,
   py::dict arguments = given.attr("copy")();
   TaskSpec spec = begin_spec(robot, arguments, true);
   MotionTask motion;
+  motion.table = wrenches_in(arguments);
   motion.path = path.path;
   motion.T = path.path.duration();
   motion.k = knots;
@@ -211,8 +212,12 @@ Args:
     scheme: how knots become a motion: "spline", "forward" or "ends".
     instants_per_interval: for the scheme "spline".
     rates: whether limits of the rates of efforts apply.
+    payload: in place of c, a dict with the keys of ``[payload]``: the value is the mass [kg] that
+        the robot carries along the path.
+    wrenches: in place of c, a table of wrenches over time (N×7), rows [t, force, torque] with t
+        from 0 to the duration of the path: the value is their factor.
     others: as of ``Static``, but for pose, joints, free, range, along, contact, and the arguments
-        from set to payload.
+        from set to loss.
 
 Raises:
     InputError: a value is wrong.
@@ -299,7 +304,11 @@ void add_tasks(py::module_& m) {
           "The joints that follow from theta_r.")
       .def_property_readonly(
           "knots", [](const PyTask& t) { return knots_of(*t.problem); },
-          "k, the number of knots of theta_r; one for a static task.")
+          "The number of knots of a table of theta_r; one for a static task.")
+      .def_property_readonly(
+          "default_knots",
+          [](const PyTask& t) { return copy(RowMatrix(default_knots(*t.problem))); },
+          "The table of theta_r at which a search begins (knots×r).")
       .def_property_readonly(
           "digest", [](const PyTask& t) { return t.problem->digest; },
           "Hash of the files of task and robot; empty if the task was made in code.")

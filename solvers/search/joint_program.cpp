@@ -60,7 +60,7 @@ void JointProgram::set_limits(const TrajectoryProgram& program, const KnotRows& 
   const Eigen::Index limits = path ? N_ : 0, R = rows.R.rows(), F = following.R.rows();
   row_min_.setZero(n_ * N_ + limits + rates + R + F);
   row_max_ = row_min_;
-  row_min_.segment(n_ * N_, limits).setConstant(-kInfinity);
+  if (!program.common) row_min_.segment(n_ * N_, limits).setConstant(-kInfinity);
   for (Eigen::Index k = 0; k < rates; ++k) {
     const auto& [i, j] = rated_[static_cast<std::size_t>(k)];
     row_max_[n_ * N_ + limits + k] = program.du_max(j, i);

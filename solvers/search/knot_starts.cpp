@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -14,9 +15,11 @@
 namespace maxwrench {
 namespace {
 
-constexpr long kSamples = 192;    // without the start; at most a tenth of the budget
-constexpr long kNearOf = 4;       // every fourth table is near the start
-constexpr double kNear = 0.5;     // [rad or m] distance of near tables, at most
+constexpr long kSamples = 192;  // without the start; at most a tenth of the budget
+constexpr long kNearOf = 4;     // every fourth table is near the start
+constexpr double kNear = 0.5;   // [rad or m] distance of near tables, at most
+constexpr double kBump = 1.2;   // [rad or m] the largest wave that is added to a transfer
+constexpr int kWaves = 3;
 constexpr double kFar = 0.8;      // rad or m, between starts of the same round
 constexpr double kSame = 0.1;     // rad or m: closer starts belong to one family
 constexpr long kAlike = 48;       // largest number of local searches with all knots alike
@@ -32,7 +35,9 @@ class Drawing {
       : objective_(objective),
         rows_(trajectories.rows()),
         start_(start),
-        alike_(!trajectories.starts()) {
+        alike_(!trajectories.starts()),
+        knots_(trajectories.knots()),
+        between_(trajectories.starts() && trajectories.program().common) {
     std::vector<Eigen::Index> equations;
     for (Eigen::Index row = 0; row < rows_.r_min.size(); ++row) {
       if (rows_.r_min[row] == rows_.r_max[row]) equations.push_back(row);
@@ -47,6 +52,7 @@ class Drawing {
   }
 
   Eigen::VectorXd draw(Random random, bool near) const {
+    if (between_) return bump(random, near ? kNear : kBump);
     Eigen::VectorXd offset(down_.size());
     for (Eigen::Index i = 0; i < offset.size(); ++i) {
       offset[i] = near ? std::clamp(random.uniform(-kNear, kNear), down_[i], up_[i])
@@ -67,6 +73,23 @@ class Drawing {
   }
 
  private:
+  /// Adds a smooth curve to each coordinate that vanishes at both ends of a transfer.
+  Eigen::VectorXd bump(Random& random, double reach) const {
+    const Eigen::Index r = start_.size() / knots_;
+    Eigen::MatrixXd offset = Eigen::MatrixXd::Zero(r, knots_);
+    for (int wave = 1; wave <= kWaves; ++wave) {
+      const Eigen::RowVectorXd shape = Eigen::RowVectorXd::NullaryExpr(knots_, [&](Eigen::Index i) {
+        return std::sin(wave * std::numbers::pi * static_cast<double>(i + 1) /
+                        static_cast<double>(knots_ + 1)) /
+               wave;
+      });
+      for (Eigen::Index j = 0; j < r; ++j) offset.row(j) += random.uniform(-reach, reach) * shape;
+    }
+    return moved(offset.reshaped()
+                     .cwiseMax(objective_.lower() - start_)
+                     .cwiseMin(objective_.upper() - start_));
+  }
+
   Eigen::VectorXd moved(Eigen::VectorXd offset) const {
     if (equations_.rows() > 0) offset -= inverse_ * (equations_ * offset);
     return (start_ + share(offset) * offset)
@@ -90,6 +113,8 @@ class Drawing {
   const KnotRows& rows_;
   const Eigen::VectorXd& start_;
   bool alike_;  ///< whether the knots of a table move alike
+  Eigen::Index knots_;
+  bool between_;  ///< whether both ends are given: a transfer
   Eigen::MatrixXd equations_, inverse_;
   Eigen::VectorXd down_, up_;  ///< limits of the offset, for all knots if they move alike
 };

@@ -31,6 +31,14 @@ ordered_json path_json(const Path& path) {
           {"angle", path.angle()}};
 }
 
+ordered_json payload_json(const CarriedBody& body) {
+  return {{"com", array(body.com)},
+          {"inertia_per_kg", rows(body.inertia)},
+          {"volume_per_kg", body.volume},
+          {"cob", array(body.cob)},
+          {"added_mass_per_kg", array(body.added_mass)}};
+}
+
 ordered_json task_json(const Answer& answer) {
   const Problem& problem = *answer.task;
   const MotionTask& task = *problem.motion;
@@ -41,15 +49,18 @@ ordered_json task_json(const Answer& answer) {
   object["k"] = task.k;
   object["T"] = task.T;
   object["c"] = array(problem.c);
+  if (task.payload) object["payload"] = payload_json(*task.payload);
+  if (task.table) object["wrench_file"] = task.table->file;
   object["rates"] = task.rates;
   object["wrench"] = to_string(answer.choice.wrench);
   object["t_h"] = known(task.impulse && t_h > 0, t_h);
   object["u0"] = known(task.impulse, to_string(task.start));
-  object["theta0"] = known(task.impulse, array(task.theta_0));
+  object["theta0"] = known(task.impulse || task.transfer, array(task.theta_0));
+  if (task.transfer) object["thetaT"] = array(task.theta_T);
   object["collision"] = answer.collision;
   if (is_turn_in_place(task.path)) {
     object["angle"] = task.path.angle();
-  } else {
+  } else if (!task.transfer) {
     object["path"] = path_json(task.path);
   }
   object["sub"] = instants_per_interval(task);
@@ -150,6 +161,9 @@ void add_instants(const Answer& answer, ordered_json& object) {
   object["task"] = task_json(answer);
   object["value"] = known(answer.has_value(), trajectory.value);
   object["value_between_knots"] = trajectory.value_between_knots;
+  if (answer.task->motion->transfer) {
+    object["overshoot"] = known(std::isfinite(trajectory.overshoot), trajectory.overshoot);
+  }
   object["between_knots_reason"] =
       known(!trajectory.between_knots_reason.empty(), trajectory.between_knots_reason.str());
   object["collision"] = known(!trajectory.collision.empty(), trajectory.collision.str());

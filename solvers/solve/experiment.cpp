@@ -46,7 +46,7 @@ void carry_out_posture(const Case& c, Answer& answer) {
 
 void carry_out_trajectory(const Method& method, Answer& answer) {
   const Problem& task = *answer.task;
-  answer.trajectory.knots = constant_knots(task, task.theta_r_default);
+  answer.trajectory.knots = default_knots(task);
   TrajectoryEvaluator evaluator(task, method.choice.wrench, method.trajectory_solver->make);
   static_cast<Verdict&>(answer) = evaluator.evaluate(answer.trajectory.knots);
   if (evaluator.trajectory().status != Status::kOptimal) return;
@@ -69,7 +69,8 @@ double reading_of(const TankSummary& summary) {
 }
 
 std::vector<std::string> served_integrators(const Problem& problem, const std::string& measure) {
-  const bool serves = !problem.contact && measure == Case().measure;
+  const bool factor = problem.motion && problem.motion->has_factor();
+  const bool serves = !problem.contact && !factor && measure == Case().measure;
   return serves ? stiff_integrators() : std::vector<std::string>();
 }
 

@@ -155,6 +155,12 @@ Method resolve_in_time(const Problem& problem, const Case& c) {
     throw std::invalid_argument("measure: got '" + c.measure + "', expected " + Case().measure +
                                 ": a task in time supports no other measure");
   }
+  if (problem.motion->has_factor() && c.wrench == Wrench::kAny) {
+    throw std::invalid_argument(
+        problem.motion->payload
+            ? "wrench: got 'any', expected pure: the environment could carry the payload"
+            : "wrench: got 'any', expected pure: the table has all components of the wrench");
+  }
   method.trajectory_solver =
       c.solver.empty() ? &trajectory_solvers().front() : &find_trajectory_solver(c.solver);
   method.choice.solver = method.trajectory_solver->name;
@@ -267,7 +273,9 @@ int thread_count(int threads) {
 
 void set_scheme(const char* key, const std::string& scheme, Problem& problem) {
   MotionTask& task = *problem.motion;
-  const std::vector<std::string> served = scheme_names(task.impulse);
+  const std::vector<std::string> served = task.has_factor()
+                                              ? std::vector<std::string>{to_string(Scheme::kSpline)}
+                                              : scheme_names(task.impulse);
   if (std::find(served.begin(), served.end(), scheme) == served.end()) {
     throw std::invalid_argument(fmt::format("{}: got '{}', expected one of {} for {} {}", key,
                                             scheme, fmt::join(served, " "),
@@ -295,7 +303,7 @@ SearchResult run_search(const Problem& problem, const Method& method, Objective&
                         SearchOptions options) {
   options.seed = method.choice.seed;
   options.budget = method.choice.budget;
-  options.start = stacked(constant_knots(problem, problem.theta_r_default));
+  options.start = stacked(default_knots(problem));
   return method.search->make()->maximize(objective, options);
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iterator>
 
 #include "maxwrench/sensitivity.h"
@@ -49,6 +50,9 @@ void add_value(const Answer& answer, std::string& text) {
     add(text, "value_between_knots {:.5f} {}\n", trajectory.value_between_knots, answer.unit);
   } else {
     add(text, "value_between_knots none: {}\n", trajectory.between_knots_reason.c_str());
+  }
+  if (!std::isnan(trajectory.overshoot)) {
+    add(text, "overshoot {:>9.5f} of the limits between instants\n", trajectory.overshoot);
   }
   if (!trajectory.collision.empty()) add(text, "collides: {}\n", trajectory.collision.c_str());
 }

@@ -10,7 +10,7 @@ bool bounded_by_facets(const TrajectoryProgram& program) {
            at.w_max[0] == kInfinity;
   };
   const Zonotope& set = *program.instants.front().actuation;
-  return program.peak < 0 && set.has_facets && program.first_min == set.u_min &&
+  return program.peak < 0 && !program.common && set.has_facets && program.first_min == set.u_min &&
          program.first_max == set.u_max &&
          std::all_of(program.instants.begin(), program.instants.end(), single);
 }

@@ -5,8 +5,8 @@
 namespace maxwrench {
 
 /// Whether the facets of {B u} bound t at each instant separately: a max-min program of one wrench
-/// column without limits, whose first instant has the same limits as the others. Rates and slacks
-/// are ignored.
+/// column without limits and without a common factor, whose first instant has the same limits as
+/// the others. Rates and slacks are ignored.
 bool bounded_by_facets(const TrajectoryProgram& program);
 
 }  // namespace maxwrench

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <cmath>
 
 #include "solvers/trajectory/by_facets.h"
+#include "solvers/trajectory/common_factor.h"
 #include "solvers/trajectory/even_efforts.h"
 #include "solvers/trajectory/makers.h"
 #include "solvers/wrench/makers.h"
@@ -9,6 +11,9 @@ namespace maxwrench {
 namespace {
 
 constexpr double kConfirmed = 1e-9;
+/// The share of the limits by which a common factor may violate them (`CommonFactor`), and the
+/// largest such violation [N, N m].
+constexpr double kHeldOfLimits = 1e-8, kMostHeld = 1e-7;
 
 class FacetsOrIpm : public TrajectorySolver {
  public:
@@ -16,6 +21,7 @@ class FacetsOrIpm : public TrajectorySolver {
     solution.basis.clear();
     solution.iterations = 0;
     if (suits(program) && instant_by_instant(program, solution)) return;
+    if (suits_common(program) && all_instants(program, solution)) return;
     ipm_->solve_well_formed(program, solution);
   }
 
@@ -24,6 +30,23 @@ class FacetsOrIpm : public TrajectorySolver {
   bool suits(const TrajectoryProgram& program) {
     return program.border() == 0 && bounded_by_facets(program) &&
            efforts_.prepare(*program.instants.front().actuation);
+  }
+
+  bool suits_common(const TrajectoryProgram& program) {
+    return CommonFactor::suits(program) && efforts_.prepare(*program.instants.front().actuation);
+  }
+
+  /// Returns true if `recheck` or a proof confirms the verdict.
+  bool all_instants(const TrajectoryProgram& program, TrajectorySolution& solution) {
+    clear_multipliers(program, solution);
+    solution.y.resize(0);
+    const Status status = factor_.solve(program, solution);
+    if (status == Status::kInfeasible) {
+      if (slackens(program) || !proves_infeasible(program, solution)) return false;
+      solution.conclude(Status::kInfeasible, "no factor balances all instants");
+      return true;
+    }
+    return status == Status::kOptimal && confirm(program, solution);
   }
 
   /// Returns true if the worst instant alone determines the value and `recheck` or a proof confirms
@@ -53,9 +76,18 @@ class FacetsOrIpm : public TrajectorySolver {
   bool confirm(const TrajectoryProgram& program, TrajectorySolution& solution) {
     if (!fill_efforts(program, solution)) return false;
     solution.residual = recheck(program, solution);
-    if (!solution.residual.within(kConfirmed * (1 + std::abs(solution.value)))) return false;
+    Residual others = solution.residual;
+    if (program.common && others.bounds <= most_held(program)) others.bounds = 0;
+    if (!others.within(kConfirmed * (1 + std::abs(solution.value)))) return false;
     solution.conclude(Status::kOptimal);
     return true;
+  }
+
+  static double most_held(const TrajectoryProgram& program) {
+    const Zonotope& set = *program.instants.front().actuation;
+    double largest = 0;
+    for (const double limit : set.u_max) largest = std::max(largest, limit);
+    return std::min(kMostHeld, kHeldOfLimits * largest);
   }
 
   static bool slackens(const TrajectoryProgram& program) {
@@ -97,6 +129,7 @@ class FacetsOrIpm : public TrajectorySolver {
 
   std::unique_ptr<WrenchSolver> facets_ = make_facets();
   std::unique_ptr<TrajectorySolver> ipm_ = make_trajectory_ipm();
+  CommonFactor factor_;
   EvenEfforts efforts_;
   Capability capability_;
   Eigen::VectorXd lambda_, tau_;

@@ -124,7 +124,11 @@ void Forms::fill_stage(const TrajectoryProgram& program, int i) {
   }
   if (t == 0) return;
   F_i.row(at.count - 1).segment(at.w, data.columns()) = data.c_w.transpose();
-  has_lo[at.f0 + at.count - 1] = 1;
+  if (program.common) {
+    equations.push_back(at.f0 + at.count - 1);
+  } else {
+    has_lo[at.f0 + at.count - 1] = 1;
+  }
 }
 
 /// u = B^+ (tau_d + J'W w - G y - s) + Z v.

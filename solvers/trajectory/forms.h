@@ -24,8 +24,8 @@ namespace maxwrench {
 ///
 /// The forms of an instant, phi = F x + D y (less t in the last one), are: efforts, those with
 /// rates first; the single w in place of the efforts that only w moves; w with limits; slacks or
-/// equations; c_w'w - t >= 0. Then follow the rates, which are differences of the instants' first
-/// forms, then y and R y. Constant parts are in lo and hi.
+/// equations; c_w'w - t >= 0, or = 0 with `common`. Then follow the rates, which are differences of
+/// the instants' first forms, then y and R y. Constant parts are in lo and hi.
 struct Forms {
   void build(const TrajectoryProgram& program, bool with_rates = true, bool with_slacks = true);
 

@@ -65,11 +65,12 @@ void Forms::read_dual(const TrajectoryProgram& program, const Eigen::VectorXd& m
       solution.mu(order[r], i) = multipliers[rates0 + rated * i + r] / tau;
     }
   }
-  // In a proof, the multipliers of t sum to zero.
-  for (int i = 0; t > 0 && !proof && i < N; ++i) {
+  // In a proof, the multipliers of t sum to zero: those of limits on one side vanish.
+  for (int i = 0; t > 0 && (!proof || program.common) && i < N; ++i) {
     solution.pi[i] = -multipliers[stages[i].f0 + stages[i].count - 1];
   }
   if (t > 0 && !proof) solution.pi /= solution.pi.sum();
+  if (proof && program.common) solution.pi /= tau;
   if (t == 0 && !proof) solution.pi[program.peak] = 1;
   for (int i = 0; i < N; ++i) {
     const Stage& at = stages[i];
@@ -105,6 +106,7 @@ void Forms::sign_proof(TrajectorySolution& solution) const {
 void Forms::level(const TrajectoryProgram& program, const Eigen::VectorXd& multipliers, double tau,
                   int i, TrajectorySolution& solution) {
   const WrenchProgram& data = program.instants[i];
+  if (data.columns() == 0) return;
   auto lambda = solution.lambda.col(i);
   gram_.resize(data.columns(), data.columns());
   gram_.noalias() = data.JtW.transpose().lazyProduct(data.JtW);

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <utility>
+
 #include "lib/math/farkas.h"
 #include "solvers/trajectory/embedding.h"
 #include "solvers/trajectory/makers.h"
@@ -42,13 +45,64 @@ class Ipm : public TrajectorySolver {
     least.rho = 1;
     least.first_elastic = 0;
     least.peak = 0;
+    if (program.common) border_factor(least);
     for (WrenchProgram& at : least.instants) at.c_w.setZero();
     const auto end = embeddings_[1][1].run(least, true, true, kLeast, solution);
     if (end != Embedding::End::kVerdict || solution.status != Status::kOptimal) return false;
     solution.lambda *= -1;
+    if (program.common) set_pi(program, solution);
     if (!proves_infeasible(program, solution)) return false;
     solution.conclude(Status::kInfeasible, "no efforts and wrenches balance all instants");
     return true;
+  }
+
+  /// The multipliers of a proof for which no w has a slope, except the one whose limit is that of
+  /// the common factor.
+  static void set_pi(const TrajectoryProgram& program, TrajectorySolution& solution) {
+    for (int i = 0; i < program.size(); ++i) {
+      const WrenchProgram& at = program.instants[i];
+      solution.pi[i] = at.JtW.col(0).dot(solution.lambda.col(i)) / at.c_w[0];
+    }
+    const double left = solution.pi.sum();
+    int limiting = 0;
+    double tightest = -kInfinity;  // of the lower limits if the factor is too small, else the upper
+    for (int i = 0; i < program.size(); ++i) {
+      const WrenchProgram& at = program.instants[i];
+      const bool lower = (left > 0) == (at.c_w[0] > 0);
+      const double limit = at.c_w[0] * (lower ? at.w_min[0] : at.w_max[0]);
+      const double height = left > 0 ? limit : -limit;
+      if (!(height > tightest)) continue;
+      tightest = height;
+      limiting = i;
+    }
+    solution.pi[limiting] -= left;
+  }
+
+  /// Makes the common factor of one wrench column another variable y.
+  static void border_factor(TrajectoryProgram& program) {
+    const int p = program.border();
+    double low = -kInfinity, high = kInfinity;
+    program.common = false;
+    program.G.resize(program.instants.size());
+    for (std::size_t i = 0; i < program.instants.size(); ++i) {
+      WrenchProgram& at = program.instants[i];
+      const double per = at.c_w[0];
+      const double ends[] = {at.w_min[0] * per, at.w_max[0] * per};
+      low = std::max(low, std::min(ends[0], ends[1]));
+      high = std::min(high, std::max(ends[0], ends[1]));
+      Eigen::MatrixXd G(at.tau_d.size(), p + 1);
+      if (p > 0) G.leftCols(p) = program.G[i];
+      G.col(p) = -at.JtW.col(0) / per;
+      program.G[i] = G;
+      at.W.resize(6, 0);
+      at.JtW.resize(at.tau_d.size(), 0);
+      for (Eigen::VectorXd* each : {&at.c_w, &at.w_min, &at.w_max}) each->resize(0);
+    }
+    for (auto [limits, end] : {std::pair(&program.y_min, low), std::pair(&program.y_max, high)}) {
+      limits->conservativeResize(p + 1);
+      (*limits)[p] = end;
+    }
+    program.R.conservativeResize(program.R.rows(), p + 1);
   }
 
   const double tolerance_;  ///< permitted error of an optimum, relative to 1 + |value|

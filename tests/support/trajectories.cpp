@@ -61,6 +61,7 @@ TrajectoryProgram random_trajectory(const Problem& problem, const TrajectoryReci
     }
   }
   program.peak = recipe.peak;
+  program.common = recipe.common;
   program.rho = recipe.rho;
   if (recipe.border > 0) add_border(problem, recipe.border, random, program);
   return program;

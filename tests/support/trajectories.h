@@ -15,9 +15,10 @@ struct TrajectoryRecipe {
   bool rates = true;
   int peak = -1;
   double rho = kInfinity;
-  int border = 0;     ///< p
-  double load = 0.1;  ///< standard deviation of the numbers added to tau_d, as a share of u_max
-  double du = 0.3;    ///< largest change per step of rated actuators, as a share of u_max
+  int border = 0;       ///< p
+  bool common = false;  ///< one factor for all instants
+  double load = 0.1;    ///< standard deviation of the numbers added to tau_d, as a share of u_max
+  double du = 0.3;      ///< largest change per step of rated actuators, as a share of u_max
 };
 
 /// Instants at random postures of `problem` (which must outlive it), with perturbed tau_d.
