@@ -10,7 +10,9 @@
 #include "maxwrench/measure.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"
+#include "solvers/search/probe.h"
 #include "solvers/solve/method.h"
+#include "solvers/solve/solve_from.h"
 
 namespace maxwrench {
 namespace {
@@ -143,6 +145,22 @@ std::vector<CallCount> count_calls(const std::vector<Call>& calls) {
   return counts;
 }
 
+/// Evaluates postures that may be good. Returns those that have a value and are apart, best first,
+/// and takes what they cost from the budget, of which at least one evaluation remains.
+std::vector<Candidate> starts_among(const std::vector<Eigen::VectorXd>& near, Objective& objective,
+                                    long& budget) {
+  std::vector<Candidate> starts;
+  for (const Eigen::VectorXd& theta_r : near) {
+    if (budget <= 1) break;
+    --budget;
+    const double value = evaluate_one(objective, theta_r);
+    if (value > -kInfinity) starts.push_back({theta_r, value});
+  }
+  if (starts.empty()) return starts;
+  const auto count = static_cast<long>(starts.size());
+  return select_apart(Box(objective), std::move(starts), kApart, count);
+}
+
 /// Turns the answer of a posture or trajectory into the answer of the search that found it: with
 /// its effort and its status, because `optimal` is a status of the lower level.
 void conclude_search(const SearchResult& result, Answer& answer) {
@@ -241,21 +259,35 @@ Answer evaluate_posture(const Problem& task, const Eigen::VectorXd& q, const Opt
 }
 
 Answer solve(const Problem& task, const Options& options) {
+  return solve_from(std::make_shared<const Problem>(task), {}, options);
+}
+
+Answer solve_from(std::shared_ptr<const Problem> task, const std::vector<Eigen::VectorXd>& near,
+                  const Options& options) {
   const int threads = thread_count(options.threads);
-  const auto kept = std::make_shared<const Problem>(task);
-  const Method method = resolve(*kept, with_search(task, options));
+  Method method = resolve(*task, with_search(*task, options));
   const auto start = Clock::now();
   const auto tally = std::make_shared<Tally>();
-  const auto objective = make_objective(*kept, method, tally);
+  const auto objective = make_objective(*task, method, tally);
   SearchOptions how;
   how.threads = threads;
   how.progress = options.progress;
   how.interrupted = options.interrupted;
-  const SearchResult result = run_search(*kept, method, *objective, std::move(how));
+  const Case choice = method.choice;
+  how.starts = starts_among(near, *objective, method.choice.budget);
+  const std::vector<Candidate> starts = how.starts;
+  SearchResult result = run_search(*task, method, *objective, std::move(how));
+  result.evaluations += choice.budget - method.choice.budget;
+  if (!starts.empty() && starts.front().value > result.value) {
+    result.conclude(Status::kBestFound);
+    result.theta_r = starts.front().theta_r;
+    result.value = starts.front().value;
+  }
   const double search_s = seconds_since(start);
-  Answer answer = begin(kept, method);
+  method.choice = choice;
+  Answer answer = begin(task, method);
   if (result.status == Status::kBestFound) {
-    answer = evaluate(kept, method, unstacked(result.theta_r, knots_of(*kept)), true);
+    answer = evaluate(task, method, unstacked(result.theta_r, knots_of(*task)), true);
   } else {
     static_cast<Verdict&>(answer) = result;
   }
