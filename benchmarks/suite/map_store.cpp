@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -170,7 +171,8 @@ std::size_t merge_maps(const fs::path& out, const std::vector<std::string>& fold
   std::vector<fs::path> all(folders.begin(), folders.end());
   const std::string settings = text_of(all.front() / kMapSettings);
   if (holds_map(out)) all.insert(all.begin(), out);
-  const std::string header = csv_text(table_file(all.front() / kMapTable));
+  std::string header = csv_text(table_file(all.front() / kMapTable));
+  if (header.empty()) header = text_of(all.front() / "map.csv.part");  // of a killed run
   for (const fs::path& folder : all) {
     if (text_of(folder / kMapSettings) != settings) {
       throw std::invalid_argument(
@@ -178,9 +180,9 @@ std::size_t merge_maps(const fs::path& out, const std::vector<std::string>& fold
                       (folder / kMapSettings).string(), folders.front()));
     }
     if (Journal::is_held(folder / "map.csv.part") && folder != out) {
-      throw std::invalid_argument(fmt::format(
-          "{}: got a file that is being written, expected a map that has ended",
-          (folder / "map.csv.part").string()));
+      throw std::invalid_argument(
+          fmt::format("{}: got a file that is being written, expected a map that has ended",
+                      (folder / "map.csv.part").string()));
     }
   }
   const std::vector<std::string> columns = split_csv(header.substr(0, header.find('\n')));

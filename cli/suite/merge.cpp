@@ -98,8 +98,8 @@ int merge(const MergeOptions& options) {
 
 void add_merge(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<MergeOptions>();
-  CLI::App& command =
-      *app.add_subcommand("merge", "merges the rows or maps of several folders, such as those of shards");
+  CLI::App& command = *app.add_subcommand(
+      "merge", "merges the rows or maps of several folders, such as those of shards");
   command.add_option("out", options->out, "folder for all rows; its existing rows are kept")
       ->required()
       ->check(reject_empty);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <memory>
 
@@ -13,6 +14,7 @@
 #include "cli/progress.h"
 #include "cli/suite/shard_option.h"
 #include "cli/task/problem_options.h"
+#include "maxwrench/figures.h"
 #include "solvers/map/plan_check.h"
 #include "solvers/solve/method.h"
 
@@ -49,6 +51,17 @@ MapAxis parse_axis(const std::string& text) {
   return axis;
 }
 
+/// Rejects before the search what `map_figure` does not draw.
+void require_drawable(const MapPlan& plan) {
+  const auto several = std::count_if(plan.over.begin(), plan.over.end(),
+                                     [](const MapAxis& axis) { return axis.count > 1; });
+  const auto count = static_cast<long>(plan.over.size());
+  if (count <= 3 && (several == count || count == 3)) return;
+  throw std::invalid_argument(
+      fmt::format("figure: got {} coordinates, {} of them with several values, expected 1, 2 or 3",
+                  count, several));
+}
+
 int print_map(const MapCommandOptions& options) {
   require_apart(options.source.inputs(options.choice.problem), {{"--figure", options.figure}});
   const Problem problem = options.source.load(options.choice.problem);
@@ -57,6 +70,7 @@ int print_map(const MapCommandOptions& options) {
   for (const std::string& text : options.over) plan.over.push_back(parse_axis(text));
   std::tie(plan.shard, plan.shards) = parse_shard(options.shard);
   check_plan(problem, plan);
+  if (!options.figure.empty()) require_drawable(plan);
   Options how = options.read_options();
   CtrlC ctrl_c;
   how.interrupted = ctrl_c.asked();

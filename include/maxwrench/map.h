@@ -44,14 +44,14 @@ const char* map_unit(const std::string& coordinate);
 struct MapCell : Verdict {
   /// The place on the finest lattice: `MapPlan::refine` halvings of each interval of the grid.
   std::vector<long> index;
-  Eigen::VectorXd at;       ///< the coordinates
-  int level = 0;            ///< the level in which it was computed, from 0
-  double beta = 0;          ///< value [unit]; NaN: none
-  std::string unit;         ///< of the value; it can differ from wrench to wrench
-  Eigen::VectorXd theta_r,  ///< the posture (r); empty: none
-      q,                    ///< all its joints [rad or m]
-      base;                 ///< its base in the world: x, y, z, roll, pitch, yaw [m; rad]
-  long evaluations = 0;     ///< number of evaluations
+  Eigen::VectorXd at;        ///< the coordinates
+  int level = 0;             ///< the level in which it was computed, from 0
+  double beta = 0;           ///< value [unit]; NaN: none
+  std::string unit;          ///< of the value; it can differ from wrench to wrench
+  Eigen::VectorXd theta_r,   ///< the posture (r); empty: none
+      q,                     ///< all its joints [rad or m]
+      base;                  ///< its base in the world: x, y, z, roll, pitch, yaw [m; rad]
+  long evaluations = 0;      ///< number of evaluations
   double bound = kInfinity;  ///< no posture has a larger value there [unit]; infinite: not known
   /// What a search from scratch found there [unit]; nothing: none was made. -infinity: it found no
   /// value.
@@ -66,12 +66,12 @@ struct MapPlan {
   /// An interval is halved if the corners of its cell differ by more than this share of the largest
   /// of them, or in status.
   double tolerance = 0.05;
-  double check = 0;             ///< share of the cells that a search from scratch checks [0, 1]
-  bool bound = false;           ///< whether `certify` proves a bound in each cell
-  double gap = 1e-3,            ///< the gap that ends this proof, as `ProofOptions::gap`
-      seconds = 60;             ///< the time that ends it, as `ProofOptions::seconds`
-  int shard = 1,                ///< only part `shard` of `shards`, from 1
-      shards = 1;               ///< number of parts
+  double check = 0;    ///< share of the cells that a search from scratch checks [0, 1]
+  bool bound = false;  ///< whether `certify` proves a bound in each cell
+  double gap = 1e-3,   ///< the gap that ends this proof, as `ProofOptions::gap`
+      seconds = 60;    ///< the time that ends it, as `ProofOptions::seconds`
+  int shard = 1,       ///< only part `shard` of `shards`, from 1
+      shards = 1;      ///< number of parts
   /// Returns a cell that an earlier run has computed. It may be called from any thread.
   std::function<std::optional<MapCell>(const std::vector<long>& index)> known = {};
   /// Gets each cell that was computed, one call at a time, from any thread.
@@ -116,7 +116,8 @@ struct CapabilityMap : Verdict {
 /// @param task     a static task
 /// @param plan     the coordinates, and what to compute
 /// @param options  measure, wrench, solver, search, budget and others, of each cell. Without a
-///                 search it is `default_search`, not restarted. The budget counts at level 0, the
+///                 search it is the first stage of `default_search`, or all of it where that is no
+///                 search between facets; it is not restarted. The budget counts at level 0, the
 ///                 default is `kMapBudget`; later levels have a fifth of it
 /// @return the map. An interruption leaves out the cells that it stops
 /// @throws std::invalid_argument, which names the coordinate, its value and what was expected: for
@@ -125,7 +126,7 @@ struct CapabilityMap : Verdict {
 CapabilityMap map(const Problem& task, const MapPlan& plan, const Options& options = {});
 
 /// The evaluations of a cell of level 0 if no budget is given.
-inline constexpr long kMapBudget = 2000;
+inline constexpr long kMapBudget = 3000;
 
 /// Returns the case with the search and the budget that `map` uses if it names none.
 Case with_map_search(const Problem& task, Case c);
@@ -143,13 +144,5 @@ std::string summary(const CapabilityMap& map);
 
 /// Returns a map, without its cells, as a JSON object on one line.
 std::string to_json(const CapabilityMap& map);
-
-/// Draws a map as SVG.
-///
-/// One coordinate gives a curve, an azimuth a rose. Two give a heat map, three give points in
-/// space; the colour is the value. Cells without a value are crosses.
-///
-/// @throws std::invalid_argument for more than three coordinates, or if no cell has a value
-std::string map_figure(const CapabilityMap& map);
 
 }  // namespace maxwrench

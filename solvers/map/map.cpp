@@ -23,7 +23,7 @@ namespace {
 
 using Index = Lattice::Index;
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoCellValue = std::numeric_limits<double>::quiet_NaN();
 /// The budget of a level after level 0, as a divisor of that of level 0.
 constexpr long kWarmShare = 5;
 /// A cell is improved if a search from scratch exceeds it by more than this share.
@@ -116,7 +116,11 @@ class MapMaker {
     cell.index = place;
     cell.at = lattice_.at(place);
     cell.level = level;
-    cell.beta = kNone;
+    cell.beta = kNoCellValue;
+    if (options_.interrupted && options_.interrupted()) {
+      cell.conclude(Status::kBudgetExhausted, "interrupted");
+      return cell;
+    }
     const auto task = std::make_shared<const Problem>(task_at(cell.at));
     std::vector<Eigen::VectorXd> near;
     Options options = options_;
@@ -215,7 +219,11 @@ class MapMaker {
 }  // namespace
 
 Case with_map_search(const Problem& task, Case c) {
-  if (c.search.empty()) c.search = default_search(task, c.measure);
+  if (c.search.empty()) {
+    c.search = default_search(task, c.measure);
+    // A second stage serves a single posture; here the neighbours do more for the same cost.
+    if (c.search == "facet_sqp+cmaes") c.search = "facet_sqp";
+  }
   if (c.budget == 0) c.budget = kMapBudget;
   return c;
 }

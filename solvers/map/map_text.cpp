@@ -14,7 +14,7 @@ using nlohmann::ordered_json;
 
 struct MapCounts {
   long with_value = 0, evaluations = 0;
-  std::vector<long> levels;     ///< number of cells of each level
+  std::vector<long> levels;        ///< number of cells of each level
   const MapCell* least = nullptr;  ///< the least value
 };
 
@@ -54,23 +54,23 @@ ordered_json object_of(const CapabilityMap& map, const MapCell* cell) {
 
 std::string summary(const CapabilityMap& map) {
   const MapCounts counts = count_cells(map);
-  std::string text = fmt::format("{}  measure {}  wrench {}  search {}\n", map.task->name,
-                                 map.choice.measure, to_string(map.choice.wrench),
-                                 map.choice.search);
+  std::string text =
+      fmt::format("{}  measure {}  wrench {}  search {}\n", map.task->name, map.choice.measure,
+                  to_string(map.choice.wrench), map.choice.search);
   text += fmt::format("map over");
   for (const MapAxis& axis : map.plan.over) {
     text += fmt::format("  {} {:g} .. {:g} ({})", axis.name, axis.low, axis.high, axis.count);
   }
   text += fmt::format("\n{}{}\n", to_string(map.status),
                       map.reason.empty() ? "" : ": " + map.reason.str());
-  text += fmt::format("cells     {}, {} with a value; by level", map.cells.size(),
-                      counts.with_value);
+  text +=
+      fmt::format("cells     {}, {} with a value; by level", map.cells.size(), counts.with_value);
   for (const long count : counts.levels) text += fmt::format(" {}", count);
   text += "\n";
   const auto say = [&](const char* name, const MapCell* cell) {
     if (cell == nullptr) return;
-    text += fmt::format("{:<8}{:>11.5f} {} at {}\n", name, cell->beta, map.unit,
-                        place_of(map, *cell));
+    text +=
+        fmt::format("{:<8}{:>11.5f} {} at {}\n", name, cell->beta, map.unit, place_of(map, *cell));
   };
   say("largest", map.best());
   say("least", counts.least);

@@ -63,9 +63,9 @@ void check_direction(const Problem& task, const std::string& axis) {
   const bool several = task.scenarios.payload || task.scenarios.ball ||
                        task.scenarios.wrenches.size() > 1 || unit == "mixed" || unit == "-";
   if (!several) return;
-  throw std::invalid_argument(fmt::format(
-      "over: got {}, expected it for a task with one force or one torque along c ({})", axis,
-      task.name));
+  throw std::invalid_argument(
+      fmt::format("over: got {}, expected it for a task with one force or one torque along c ({})",
+                  axis, task.name));
 }
 
 void check_number(const char* key, double got, double low, double high) {

@@ -10,7 +10,7 @@
 #include "maxwrench/measure.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"
-#include "solvers/search/probe.h"
+#include "solvers/search/starts.h"
 #include "solvers/solve/method.h"
 #include "solvers/solve/solve_from.h"
 
@@ -145,22 +145,6 @@ std::vector<CallCount> count_calls(const std::vector<Call>& calls) {
   return counts;
 }
 
-/// Evaluates postures that may be good. Returns those that have a value and are apart, best first,
-/// and takes what they cost from the budget, of which at least one evaluation remains.
-std::vector<Candidate> starts_among(const std::vector<Eigen::VectorXd>& near, Objective& objective,
-                                    long& budget) {
-  std::vector<Candidate> starts;
-  for (const Eigen::VectorXd& theta_r : near) {
-    if (budget <= 1) break;
-    --budget;
-    const double value = evaluate_one(objective, theta_r);
-    if (value > -kInfinity) starts.push_back({theta_r, value});
-  }
-  if (starts.empty()) return starts;
-  const auto count = static_cast<long>(starts.size());
-  return select_apart(Box(objective), std::move(starts), kApart, count);
-}
-
 /// Turns the answer of a posture or trajectory into the answer of the search that found it: with
 /// its effort and its status, because `optimal` is a status of the lower level.
 void conclude_search(const SearchResult& result, Answer& answer) {
@@ -278,11 +262,7 @@ Answer solve_from(std::shared_ptr<const Problem> task, const std::vector<Eigen::
   const std::vector<Candidate> starts = how.starts;
   SearchResult result = run_search(*task, method, *objective, std::move(how));
   result.evaluations += choice.budget - method.choice.budget;
-  if (!starts.empty() && starts.front().value > result.value) {
-    result.conclude(Status::kBestFound);
-    result.theta_r = starts.front().theta_r;
-    result.value = starts.front().value;
-  }
+  include_starts(starts, result);
   const double search_s = seconds_since(start);
   method.choice = choice;
   Answer answer = begin(task, method);

@@ -23,7 +23,8 @@ const std::map<std::string, std::string> kImplementedIn = {
     {"version.h", "solvers"},    {"solve.h", "solvers"},       {"load.h", "problems"},
     {"certify.h", "solvers"},    {"verification.h", "verify"}, {"mps.h", "problems"},
     {"task.h", "problems"},      {"figures.h", "drawing"},     {"evaluations.h", "solvers"},
-    {"wrench_set.h", "solvers"}, {"explain.h", "solvers"},     {"sensitivity.h", "solvers"}};
+    {"wrench_set.h", "solvers"}, {"explain.h", "solvers"},     {"sensitivity.h", "solvers"},
+    {"map.h", "solvers"},        {"pareto.h", "solvers"}};
 
 /// How deep a chain of our own includes may go.
 constexpr int kMostIncludeDepth = 9;
