@@ -72,6 +72,8 @@ void add_run(CLI::App& app, int& exit_status);
 void add_merge(CLI::App& app, int& exit_status);
 void add_simulate(CLI::App& app, int& exit_status);
 void add_plot(CLI::App& app, int& exit_status);
+void add_map(CLI::App& app, int& exit_status);
+void add_pareto(CLI::App& app, int& exit_status);
 void add_sensitivity(CLI::App& app, int& exit_status);
 void add_view(CLI::App& app, int& exit_status);
 void add_compare(CLI::App& app, int& exit_status);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "benchmarks/suite/map_store.h"
 #include "benchmarks/tables/csv.h"
 #include "benchmarks/tables/write_file.h"
 #include "cli/cli.h"
@@ -65,6 +66,11 @@ void take_over(const char* name, const MergeOptions& options) {
 }
 
 int merge(const MergeOptions& options) {
+  if (holds_map(options.folders.front())) {
+    const std::size_t cells = merge_maps(options.out, options.folders);
+    fmt::print("{} cells in {}\n", cells, table_file(fs::path(options.out) / "map.csv").string());
+    return kAnswered;
+  }
   for (const std::string& folder : options.folders) require_ended(folder);
   std::size_t rows = 0;
   {  // one table after the other, because a million rows fill a gigabyte
@@ -92,12 +98,12 @@ int merge(const MergeOptions& options) {
 
 void add_merge(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<MergeOptions>();
-  CLI::App& command =
-      *app.add_subcommand("merge", "merges the rows of several folders, such as those of shards");
+  CLI::App& command = *app.add_subcommand(
+      "merge", "merges the rows or maps of several folders, such as those of shards");
   command.add_option("out", options->out, "folder for all rows; its existing rows are kept")
       ->required()
       ->check(reject_empty);
-  command.add_option("folders", options->folders, "folders that `run` wrote")->required();
+  command.add_option("folders", options->folders, "folders that `run` or `map` wrote")->required();
   command.callback([options, &exit_status] { exit_status = merge(*options); });
 }
 

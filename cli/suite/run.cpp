@@ -11,6 +11,7 @@
 #include "benchmarks/tables/csv.h"
 #include "cli/cli.h"
 #include "cli/suite/row_writer.h"
+#include "cli/suite/shard_option.h"
 #include "cli/suite/workers.h"
 #include "maxwrench/load.h"
 #include "maxwrench/version.h"
@@ -123,18 +124,7 @@ Workload read_work(const std::vector<std::string>& words) {
 
 /// The cases of "I/N".
 std::vector<Case> take_shard(const std::string& text, const Workload& work) {
-  const std::size_t slash = text.find('/');
-  const auto number = [](const std::string& digits) {
-    const bool whole = !digits.empty() && digits.size() < 7 &&
-                       digits.find_first_not_of("0123456789") == std::string::npos;
-    return whole ? std::stoi(digits) : 0;
-  };
-  const int index = number(text.substr(0, slash));
-  const int count = slash == std::string::npos ? 0 : number(text.substr(slash + 1));
-  if (index < 1 || index > count) {
-    throw std::invalid_argument(
-        fmt::format("shard: got '{}', expected I/N such as 2/4, with I from 1 to N", text));
-  }
+  const auto [index, count] = parse_shard(text);
   if (count == 1) return work.cases;
   std::vector<double> costs;
   for (const Case& c : work.cases) {

@@ -11,6 +11,8 @@
 
 namespace maxwrench {
 
+struct CapabilityMap;
+struct Front;
 struct Trajectory;
 struct Problem;
 
@@ -81,5 +83,23 @@ std::string motion_figure(const Problem& problem, const std::vector<TankCurve>& 
 ///         time
 std::string trajectory_figure(const Problem& problem, const Trajectory& trajectory,
                               const std::vector<double>& times);
+
+/// Draws a capability map.
+///
+/// One coordinate gives a curve, or a rose of an azimuth. Two give a heat map, three give points in
+/// space; the colour is the value. Cells without a value are crosses.
+///
+/// @param map  the map
+/// @return the SVG document
+/// @throws std::invalid_argument for more than three coordinates, one or two with a single value,
+///         or if no cell has a value.
+std::string map_figure(const CapabilityMap& map);
+
+/// Draws the front of two tasks: the values of its postures, and what is proven beyond them.
+///
+/// @param front  the front
+/// @return the SVG document
+/// @throws std::invalid_argument if it has no points.
+std::string front_figure(const Front& front);
 
 }  // namespace maxwrench

@@ -19,9 +19,9 @@ Units are SI: m, rad, N, N m, s. A wrench is [force; torque] that the robot exer
 in the axes of the world; ``moved``, ``to_pinocchio`` and ``to_drake`` change point, axes and order.
 """
 
-from . import _arguments, _core, _frames, _html, _plot, _view
+from . import _arguments, _core, _frames, _html, _map, _plot, _view
 from ._core import *  # noqa: F401,F403
-from ._core import Answer, Evaluations, Explanation, Path, Pose, Robot, Task, __version__
+from ._core import Answer, Evaluations, Explanation, Map, Path, Pose, Robot, Task, __version__
 from ._frames import from_drake, from_pinocchio, moved, to_drake, to_pinocchio
 from ._errors import SearchEnded
 from ._parts import Contact, Direction, EndEffector, Gear, Hydrodynamics, Joint, Link, Shape, Thruster
@@ -43,6 +43,9 @@ _arguments.check_class(Task, methods=["with_limits"])
 
 Answer.plot = _plot.plot_answer
 Answer.view = _view.view_answer
+Map.best = property(_map.best_of)
+Map.grid = property(_map.grid_of)
+Map.plot = _map.plot_map
 Answer.wrench_at = _frames.wrench
 Answer._repr_html_ = _html.answer_html
 Explanation._repr_html_ = _html.explanation_html
@@ -60,6 +63,7 @@ __all__ = [
     "Evaluations",
     "Experiment",
     "Explanation",
+    "Front",
     "Gear",
     "Hydrodynamics",
     "Impulse",
@@ -69,6 +73,7 @@ __all__ = [
     "Link",
     "Loss",
     "LpAnswer",
+    "Map",
     "Measure",
     "MissingFileError",
     "Objective",
@@ -108,9 +113,11 @@ __all__ = [
     "linprog",
     "load",
     "make_robot",
+    "map",
     "measures",
     "moved",
     "nominal",
+    "pareto",
     "polytope",
     "progress",
     "race",

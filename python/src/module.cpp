@@ -21,6 +21,8 @@ PYBIND11_MODULE(_core, m) {
   python::add_evaluations(m);
   python::add_solve(m);
   python::add_sensitivity(m);
+  python::add_maps(m);
+  python::add_fronts(m);
   python::add_capability(m);
   python::add_linear_programs(m);
   python::add_tank(m);

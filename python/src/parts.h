@@ -95,6 +95,8 @@ void add_tasks(py::module_& m);
 void add_transfers(py::module_& m);
 void add_explanations(py::module_& m);
 void add_sensitivity(py::module_& m);
+void add_maps(py::module_& m);
+void add_fronts(py::module_& m);
 void add_answers(py::module_& m);
 void add_solve(py::module_& m);
 void add_evaluations(py::module_& m);

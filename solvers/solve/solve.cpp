@@ -10,7 +10,9 @@
 #include "maxwrench/measure.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"
+#include "solvers/search/starts.h"
 #include "solvers/solve/method.h"
+#include "solvers/solve/solve_from.h"
 
 namespace maxwrench {
 namespace {
@@ -241,21 +243,31 @@ Answer evaluate_posture(const Problem& task, const Eigen::VectorXd& q, const Opt
 }
 
 Answer solve(const Problem& task, const Options& options) {
+  return solve_from(std::make_shared<const Problem>(task), {}, options);
+}
+
+Answer solve_from(std::shared_ptr<const Problem> task, const std::vector<Eigen::VectorXd>& near,
+                  const Options& options) {
   const int threads = thread_count(options.threads);
-  const auto kept = std::make_shared<const Problem>(task);
-  const Method method = resolve(*kept, with_search(task, options));
+  Method method = resolve(*task, with_search(*task, options));
   const auto start = Clock::now();
   const auto tally = std::make_shared<Tally>();
-  const auto objective = make_objective(*kept, method, tally);
+  const auto objective = make_objective(*task, method, tally);
   SearchOptions how;
   how.threads = threads;
   how.progress = options.progress;
   how.interrupted = options.interrupted;
-  const SearchResult result = run_search(*kept, method, *objective, std::move(how));
+  const Case choice = method.choice;
+  how.starts = starts_among(near, *objective, method.choice.budget);
+  const std::vector<Candidate> starts = how.starts;
+  SearchResult result = run_search(*task, method, *objective, std::move(how));
+  result.evaluations += choice.budget - method.choice.budget;
+  include_starts(starts, result);
   const double search_s = seconds_since(start);
-  Answer answer = begin(kept, method);
+  method.choice = choice;
+  Answer answer = begin(task, method);
   if (result.status == Status::kBestFound) {
-    answer = evaluate(kept, method, unstacked(result.theta_r, knots_of(*kept)), true);
+    answer = evaluate(task, method, unstacked(result.theta_r, knots_of(*task)), true);
   } else {
     static_cast<Verdict&>(answer) = result;
   }

@@ -34,7 +34,9 @@ const std::map<std::string, std::string> kImplementedIn = {{"strategies.h", "sol
                                                            {"evaluations.h", "solvers"},
                                                            {"wrench_set.h", "solvers"},
                                                            {"explain.h", "solvers"},
-                                                           {"sensitivity.h", "solvers"}};
+                                                           {"sensitivity.h", "solvers"},
+                                                           {"map.h", "solvers"},
+                                                           {"pareto.h", "solvers"}};
 
 /// How deep a chain of our own includes may go.
 constexpr int kMostIncludeDepth = 9;

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "maxwrench/map.h"
+
+namespace maxwrench {
+
+/// Throws std::invalid_argument, with one line, unless the plan can be carried out for the task.
+void check_plan(const Problem& task, const MapPlan& plan);
+
+/// The coordinates without effect: in the middle of the others, no sampled posture has another
+/// value or status at another value of the coordinate.
+std::vector<std::string> find_unchanging(const Problem& task, const MapPlan& plan,
+                                         const Options& options);
+
+}  // namespace maxwrench

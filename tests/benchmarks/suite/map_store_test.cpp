@@ -1,0 +1,119 @@
+#include "benchmarks/suite/map_store.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "benchmarks/tables/csv.h"
+#include "maxwrench/load.h"
+#include "tests/support/coded_tasks.h"
+#include "tests/support/support.h"
+
+namespace maxwrench {
+namespace {
+
+using testing::HasSubstr;
+
+class MapStoreTest : public testing::Test {
+ protected:
+  MapStoreTest() { plan.over = {{"azimuth", 0, 6, 9}}; }
+
+  /// A cell without a value and one with one.
+  MapCell cell(long i) const {
+    MapCell made;
+    made.index = {i};
+    made.at = Eigen::VectorXd::Constant(1, 0.1 * static_cast<double>(i));
+    made.unit = "N";
+    made.conclude(Status::kNoneFound, "nothing, \"really\" nothing");
+    if (i % 2 == 0) return made;
+    made.conclude(Status::kBestFound);
+    made.beta = 1.0 / 3 + static_cast<double>(i);
+    made.theta_r = Eigen::VectorXd::Constant(2, 0.7);
+    made.q = Eigen::VectorXd::Constant(2, 0.7);
+    made.base = Eigen::VectorXd::LinSpaced(6, 0, 1);
+    made.level = 2;
+    made.evaluations = 41;
+    made.bound = 7.5;
+    made.scratch = -kInfinity;
+    return made;
+  }
+  MapStore open(const std::string& name, bool again = false) {
+    return {folder.path() / name, task, plan, choice, again};
+  }
+
+  const Problem task = load_problem("planar/force");
+  MapPlan plan;
+  const Case choice = with_map_search(task, {});
+  const TemporaryFolder folder;
+};
+
+TEST_F(MapStoreTest, KeepsCellsOfARunThatWasKilled) {
+  {
+    MapStore store = open("a");
+    EXPECT_EQ(store.known(), 0u);
+    store.put(cell(1));
+    store.put(cell(2));
+  }  // without `write`
+  const MapStore store = open("a");
+  EXPECT_EQ(store.known(), 2u);
+  EXPECT_FALSE(store.find({3}));
+  const MapCell one = *store.find({1}), two = *store.find({2}), was = cell(1);
+  EXPECT_EQ(one.status, Status::kBestFound);
+  EXPECT_EQ(one.beta, was.beta);
+  EXPECT_EQ(one.at, was.at);
+  EXPECT_EQ(one.theta_r, was.theta_r);
+  EXPECT_EQ(one.q, was.q);
+  EXPECT_EQ(one.base, was.base);
+  EXPECT_EQ(one.level, 2);
+  EXPECT_EQ(one.evaluations, 41);
+  EXPECT_EQ(one.bound, 7.5);
+  EXPECT_EQ(one.scratch, -kInfinity);
+  EXPECT_EQ(two.status, Status::kNoneFound);
+  EXPECT_EQ(two.reason.str(), "nothing, \"really\" nothing");
+  EXPECT_EQ(two.theta_r.size(), 0);
+  EXPECT_EQ(two.bound, kInfinity);
+  EXPECT_FALSE(two.scratch);
+}
+
+TEST_F(MapStoreTest, RejectsTheFolderOfAnotherMap) {
+  open("a").put(cell(1));
+  plan.over.front().high = 5;
+  EXPECT_THAT(rejection_of([&] { open("a"); }), HasSubstr("another map"));
+  plan.over.front().high = 6;
+  EXPECT_EQ(open("a", true).known(), 0u);
+}
+
+TEST_F(MapStoreTest, MergesParts) {
+  for (const auto& [name, i] : {std::pair("a", 1L), {"b", 2L}}) {
+    MapStore store = open(name);
+    store.put(cell(i));
+    store.put(cell(3));
+    store.write();
+  }
+  const std::string a = folder.path() / "a", b = folder.path() / "b";
+  EXPECT_EQ(merge_maps(folder.path() / "all", {a, b}), 3u);
+  EXPECT_EQ(merge_maps(folder.path() / "back", {b, a}), 3u);
+  EXPECT_EQ(csv_text(folder.path() / "all" / "map.csv.gz"),
+            csv_text(folder.path() / "back" / "map.csv.gz"));
+  EXPECT_EQ(open("all").known(), 3u);
+}
+
+TEST_F(MapStoreTest, MergesNoOtherValuesAndNoOtherMap) {
+  open("a").put(cell(1));
+  MapCell other = cell(1);
+  other.beta += 1e-9;
+  open("b").put(other);
+  const std::string a = folder.path() / "a", b = folder.path() / "b", c = folder.path() / "c";
+  EXPECT_THAT(rejection_of([&] {
+                merge_maps(folder.path() / "all", {a, b});
+              }),
+              HasSubstr("another value of a cell"));
+  plan.over.front().high = 5;
+  open("c").put(cell(1));
+  EXPECT_THAT(rejection_of([&] {
+                merge_maps(folder.path() / "all", {a, c});
+              }),
+              HasSubstr("another map"));
+}
+
+}  // namespace
+}  // namespace maxwrench

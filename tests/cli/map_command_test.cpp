@@ -1,0 +1,87 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "benchmarks/tables/csv.h"
+#include "tests/support/support.h"
+
+namespace maxwrench {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+TEST(MapCommand, WritesCellsAndAFigure) {
+  const TemporaryFolder folder;
+  const std::string out = folder.path() / "m", figure = folder.path() / "m.svg";
+  const std::string words = "map planar/force --over yaw=-0.5:0.5:3 azimuth=0:3:5 --budget 200 ";
+  const CommandResult result =
+      run_maxwrench(words + "--check 0.5 --out " + out + " --figure " + figure);
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("cells     15, 15 with a value"));
+  EXPECT_THAT(read_text(figure), HasSubstr("azimuth [rad]"));
+  const CsvFile rows = read_csv(folder.path() / "m" / "map.csv.gz", {"i_yaw", "azimuth", "beta"});
+  ASSERT_EQ(rows.rows.size(), 15u);
+  const json object = json::parse(run_maxwrench(words + "--json").out);
+  EXPECT_EQ(object["cells"], 15);
+  EXPECT_EQ(object["unit"], "N");
+  double most = 0;
+  for (std::size_t i = 0; i < 15; ++i) most = std::max(most, *rows.number(i, "beta"));
+  EXPECT_EQ(object["largest"]["beta"], most);
+}
+
+TEST(MapCommand, PartsMergeToTheWhole) {
+  const TemporaryFolder folder;
+  const std::string words =
+      "map planar/force --over yaw=-0.5:0.5:6 azimuth=0:3:6 --budget 200 --out ";
+  EXPECT_EQ(run_maxwrench(words + "whole", folder.path()).exit_status, 0);
+  EXPECT_EQ(run_maxwrench(words + "p1 --shard 1/2", folder.path()).exit_status, 0);
+  EXPECT_EQ(run_maxwrench(words + "p2 --shard 2/2 --threads 1", folder.path()).exit_status, 0);
+  const CommandResult merged = run_maxwrench("merge all p1 p2", folder.path());
+  EXPECT_EQ(merged.exit_status, 0) << merged.err;
+  EXPECT_THAT(merged.out, HasSubstr("36 cells"));
+  EXPECT_EQ(csv_text(folder.path() / "all" / "map.csv.gz"),
+            csv_text(folder.path() / "whole" / "map.csv.gz"));
+}
+
+TEST(MapCommand, SaysWhatChangesNothing) {
+  const CommandResult result = run_maxwrench("map uvms/lift --over x=-1:1:2 --budget 20");
+  EXPECT_THAT(result.out, HasSubstr("x changes nothing"));
+}
+
+struct BadMap {
+  const char *words, *line;
+};
+void PrintTo(const BadMap& bad, std::ostream* out) { *out << bad.words; }
+
+class BadMapCommand : public testing::TestWithParam<BadMap> {};
+
+TEST_P(BadMapCommand, IsOneLine) {
+  const CommandResult result = run_maxwrench(std::string("map ") + GetParam().words);
+  EXPECT_EQ(result.exit_status, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(result.err, HasSubstr(GetParam().line));
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadMapCommand,
+    testing::Values(
+        BadMap{"uvms/lift --over x=0:1:1000000 z=0:1:1000000", "--over: got a grid of 1e+12 cells"},
+        BadMap{"uvms/lift --over x=0:1:1000000000000", "--over: got a grid of 1e+12 cells"},
+        BadMap{"uvms/lift --over x=0:1:99999999999999999999", "--over: got 'x=0:1:9999"},
+        BadMap{"uvms/lift --over x=1:0:4", "--over: got 'x=1:0:4', expected low < high"},
+        BadMap{"uvms/lift --over tilt=0:1:4", "one of the coordinates"},
+        BadMap{"uvms/lift --over x=nan:1:4", "finite limits"},
+        BadMap{"uvms/lift --over x=0:1", "expected NAME=LOW:HIGH:COUNT"},
+        BadMap{"uvms/lift --over x=0:1:2:3", "expected NAME=LOW:HIGH:COUNT"},
+        BadMap{"uvms/lift --over x=0:1:2.5", "expected NAME=LOW:HIGH:COUNT"},
+        BadMap{"uvms/lift", "--over"}, BadMap{"uvms/nothing --over x=0:1:2", "uvms/nothing"},
+        BadMap{"uvms/valve_trajectory --over x=0:1:2", "expected a static task"},
+        BadMap{"uvms/lift --over x=0:1:2 --check -1", "--check: got -1"},
+        BadMap{"uvms/lift --over x=0:1:2 --shard 3/2", "--shard: got '3/2'"},
+        BadMap{"uvms/lift --over x=0:1:2 --search swim", "--search: got 'swim'"}));
+
+}  // namespace
+}  // namespace maxwrench
