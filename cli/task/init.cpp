@@ -10,6 +10,8 @@
 #include "cli/cli.h"
 #include "cli/task/problem_options.h"
 #include "lib/robot/chain.h"
+#include "lib/robot/gears.h"
+#include "maxwrench/posture.h"
 #include "problems/make/bad_value.h"
 #include "problems/make/posture.h"
 #include "solvers/solve/format.h"
@@ -197,6 +199,31 @@ std::string robot_text(const InitOptions& options, const Robot& robot, const fs:
                             joint.effort_max, (joint.q_min + joint.q_max) / 2);
 }
 
+std::string pose_text(const Problem& task) {
+  return fmt::format(
+      "# The end effector's frame in the world [m; rad]. This pose was chosen because it is "
+      "reached.\n"
+      "# In place of xyz and rpy, joints = {{ JOINT = POSITION, ... }} or state = NAME gives it.\n"
+      "[pose]\nxyz = {}\nrpy = {}\n",
+      list_of(task.pose.p), list_of(rpy(task.pose.R)));
+}
+
+/// An end effector that moves in fewer than six ways reaches no pose that was rounded.
+std::string joints_text(const Problem& task) {
+  const Posture posture = PostureEvaluator(task).evaluate(task.theta_r_default);
+  std::vector<std::string> joints;
+  for (const int i : motors_to(task.robot, task.end_effector)) {
+    joints.push_back(fmt::format(
+        "{} = {:.6g}", quoted(task.robot.joints[static_cast<std::size_t>(i)].name), posture.q[i]));
+  }
+  return fmt::format(
+      "# The end effector is where these joints have it; all others rest [rad or m]. It moves in "
+      "{} "
+      "ways\n# only, so xyz and rpy of the world would have to be exact.\n"
+      "[pose]\njoints = {{ {} }}\n",
+      motions_of(task.robot, task.end_effector), fmt::join(joints, ", "));
+}
+
 std::string task_text(const Problem& task) {
   std::string text = fmt::format(
       "# A static task for maxwrench: hold a pose and push as strongly as possible.\n"
@@ -206,13 +233,8 @@ std::string task_text(const Problem& task) {
       "# How far to trust the numbers, and where they come from: free texts.\n"
       "label = \"to be checked\"\nsource = \"written by maxwrench init\"\n\n",
       quoted(task.robot.end_effectors[static_cast<std::size_t>(task.end_effector)].name));
-  text += fmt::format(
-      "# The end effector's frame in the world [m; rad]. This pose was chosen because it is "
-      "reached.\n"
-      "# In place of xyz and rpy, joints = {{ JOINT = POSITION, ... }} or state = NAME gives it.\n"
-      "[pose]\nxyz = {}\nrpy = {}\n",
-      list_of(task.pose.p), list_of(rpy(task.pose.R)));
   const bool moves_freely = motions_of(task.robot, task.end_effector) == 6;
+  text += moves_freely ? pose_text(task) : joints_text(task);
   if (moves_freely) {
     text += "# The axes of the pose that may turn, x y z roll pitch yaw.\n#free = [\"yaw\"]\n";
   }

@@ -157,9 +157,9 @@ std::vector<std::string> warnings_of(const Robot& robot) {
 }
 
 bool is_urdf(const std::string& problem) {
-  if (!is_file(problem)) return false;
   const std::string extension = std::filesystem::path(problem).extension().string();
   if (extension == ".urdf" || extension == ".xacro") return true;
+  if (!is_file(problem)) return false;
   std::ifstream stream(problem, std::ios::binary);
   char first = 0;
   return static_cast<bool>(stream >> first) && first == '<';

@@ -271,6 +271,12 @@ struct PostureEvaluator::Workspace {
       slopes->unload(model);
       by_turn = slopes->add(model, *decided, q_gradient);
     }
+    const std::vector<Joint>& joints = problem.robot.joints;
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      const std::optional<Gear>& gear = joints[i].gear;
+      if (!gear) continue;
+      q_gradient[gear->leader] += gear->ratio * q_gradient[static_cast<Eigen::Index>(i)];
+    }
     if (second) {
       second->follow(p_e, model.J, model.J_2, J2_seed, C2_seed, q_gradient, gradient);
     }

@@ -40,6 +40,7 @@ struct PostureState {
     for (std::size_t i = 0; i < problem.redundant.size(); ++i) {
       q[problem.redundant[i]] = at[static_cast<Eigen::Index>(i)];
     }
+    apply_gears(problem.robot, q);
     kinematics.set_joints(q, first);
     if (!problem.free.axes.empty()) pose = pose_at(problem, at);
     base = pose * kinematics.end_effector(end_effector()).inverse();
@@ -51,6 +52,7 @@ struct PostureState {
     theta_r = at;
     if (!problem.free.axes.empty()) pose = pose_at(problem, at);
     q = z.tail(q.size());
+    apply_gears(problem.robot, q);
     kinematics.set_joints(q, first);
     base = base_pose(problem.robot, z.head<4>());
     finish();

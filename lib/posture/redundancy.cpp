@@ -31,12 +31,25 @@ Dependent dependent_velocities(const Problem& problem) {
   while (link > 0) {
     const int joint = link - 1;
     const std::vector<int>& redundant = problem.redundant;
-    if (std::find(redundant.begin(), redundant.end(), joint) == redundant.end()) {
+    const bool geared = robot.joints[static_cast<std::size_t>(joint)].gear.has_value();
+    if (!geared && std::find(redundant.begin(), redundant.end(), joint) == redundant.end()) {
       dependent.add(axes + joint);
     }
     link = robot.joints[static_cast<std::size_t>(joint)].parent;
   }
   return dependent;
+}
+
+/// The twist of the end effector by a joint and by those that gears move with it.
+Vector6d driven_twist(const Robot& robot, const Posture& posture, int joint) {
+  const auto axes = static_cast<Eigen::Index>(robot.base_axes.size());
+  Vector6d twist = posture.J.col(axes + joint);
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    const auto& gear = robot.joints[i].gear;
+    if (!gear || gear->leader != joint) continue;
+    twist += gear->ratio * posture.J.col(axes + static_cast<Eigen::Index>(i));
+  }
+  return twist;
 }
 
 /// Factors J_d; `solve` then applies J_d^+.
@@ -89,9 +102,9 @@ void null_motion(const Problem& problem, const Posture& posture, Eigen::MatrixXd
   A_r.setZero(posture.J.cols(), problem.redundancy());
   const auto joints = static_cast<Eigen::Index>(problem.redundant.size());
   for (Eigen::Index k = 0; k < joints; ++k) {
-    const Eigen::Index velocity = axes + problem.redundant[static_cast<std::size_t>(k)];
-    scatter(J_d, dependent, -posture.J.col(velocity), A_r.col(k));
-    A_r(velocity, k) = 1;
+    const int joint = problem.redundant[static_cast<std::size_t>(k)];
+    scatter(J_d, dependent, -driven_twist(problem.robot, posture, joint), A_r.col(k));
+    A_r(axes + joint, k) = 1;
     if (problem.contact) follow_contact(problem, posture, Vector6d::Zero(), A_r.col(k));
   }
   const Eigen::Index regrasp = joints + problem.free.count();
@@ -104,6 +117,11 @@ void null_motion(const Problem& problem, const Posture& posture, Eigen::MatrixXd
     const Vector6d t = contact_twist(*problem.contact, posture.theta_r.data() + regrasp,
                                      static_cast<int>(k - regrasp));
     follow_contact(problem, posture, t, A_r.col(k));
+  }
+  for (std::size_t i = 0; i < problem.robot.joints.size(); ++i) {
+    const auto& gear = problem.robot.joints[i].gear;
+    if (!gear) continue;
+    A_r.row(axes + static_cast<Eigen::Index>(i)) = gear->ratio * A_r.row(axes + gear->leader);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "lib/math/decompositions.h"
+#include "lib/robot/gears.h"
 
 namespace maxwrench {
 
@@ -17,6 +18,51 @@ std::vector<int> chain_to(const Robot& robot, int end_effector) {
   }
   std::reverse(chain.begin(), chain.end());
   return chain;
+}
+
+std::vector<int> motors_to(const Robot& robot, int end_effector) {
+  std::vector<int> motors;
+  for (const int joint : chain_to(robot, end_effector)) {
+    const auto& gear = robot.joints[static_cast<std::size_t>(joint)].gear;
+    const int motor = gear ? gear->leader : joint;
+    if (std::find(motors.begin(), motors.end(), motor) == motors.end()) motors.push_back(motor);
+  }
+  return motors;
+}
+
+std::vector<int> gears_at(const Robot& robot, int end_effector) {
+  const std::vector<int> chain = chain_to(robot, end_effector);
+  const auto in_chain = [&chain](int joint) {
+    return std::find(chain.begin(), chain.end(), joint) != chain.end();
+  };
+  std::vector<int> found;
+  for (int i = 0; i < static_cast<int>(robot.joints.size()); ++i) {
+    const auto& gear = robot.joints[static_cast<std::size_t>(i)].gear;
+    if (gear && (in_chain(i) || in_chain(gear->leader))) found.push_back(i);
+  }
+  return found;
+}
+
+std::vector<int> leaders_to(const Robot& robot, int end_effector) {
+  std::vector<int> leaders;
+  for (const int joint : chain_to(robot, end_effector)) {
+    const auto& gear = robot.joints[static_cast<std::size_t>(joint)].gear;
+    if (gear && std::find(leaders.begin(), leaders.end(), gear->leader) == leaders.end()) {
+      leaders.push_back(gear->leader);
+    }
+  }
+  return leaders;
+}
+
+void fold_gears(const Robot& robot, Matrix6Xd& J) {
+  const auto axes = static_cast<Eigen::Index>(robot.base_axes.size());
+  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
+    const auto& gear = robot.joints[i].gear;
+    if (!gear) continue;
+    const Eigen::Index column = axes + static_cast<Eigen::Index>(i);
+    J.col(axes + gear->leader) += gear->ratio * J.col(column);
+    J.col(column).setZero();
+  }
 }
 
 std::vector<int> carried_by(const Robot& robot, const std::vector<int>& joints) {
@@ -43,6 +89,7 @@ int motions_of(const Robot& robot, int end_effector, const std::vector<int>& vel
     // The rank does not depend on the pose of the base.
     kinematics.jacobian(robot.end_effectors[static_cast<std::size_t>(end_effector)],
                         Eigen::Matrix3d::Identity(), J);
+    fold_gears(robot, J);
     return split(J(Eigen::all, velocities), kRankTolerance).range.cols();
   });
 }

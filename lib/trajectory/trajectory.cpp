@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "lib/robot/gears.h"
 #include "lib/scenario/scenario_list.h"
 #include "lib/trajectory/clearance.h"
 #include "lib/trajectory/limits.h"
@@ -32,6 +33,9 @@ MotionTask task_of(const Problem& problem) {
   if (problem.free.count() > 0) {
     throw std::invalid_argument(problem.name +
                                 ": got free pose coordinates, expected a pose that is fixed");
+  }
+  if (!gears_at(problem.robot, problem.end_effector).empty()) {
+    throw std::invalid_argument(problem.name + ": got a gear, expected a chain without one");
   }
   MotionTask task;
   task.path = Path::constant(problem.pose, task.T);

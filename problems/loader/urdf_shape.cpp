@@ -47,7 +47,8 @@ Given mesh_of(const UrdfElement& given, MeshUse meshes, MeshReading& reading) {
   if (std::find(reading.files.begin(), reading.files.end(), file) == reading.files.end()) {
     reading.files.push_back(file);
   }
-  reading.notes.push_back(fmt::format("{}: {}: {}", given.key(), file, mesh.note));
+  const char* mirrored = scale.prod() < 0 ? ", mirrored by its scale" : "";
+  reading.notes.push_back(fmt::format("{}: {}: {}{}", given.key(), file, mesh.note, mirrored));
   return {mesh.shape, ""};
 }
 

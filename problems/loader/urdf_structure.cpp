@@ -27,7 +27,18 @@ std::string read_text(const fs::path& file) {
   return text;
 }
 
+/// The parser does not expand entities of the file's own, so what they stand for would be lost.
+void require_no_entities(const fs::path& file, const std::string& text) {
+  const std::size_t entity = text.find("<!ENTITY");
+  if (entity == std::string::npos) return;
+  const auto lines =
+      std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(entity), '\n');
+  throw_bad_input(file, fmt::format("line {}", lines + 1), "entities that it defines itself",
+                  "a URDF without them");
+}
+
 void parse(const fs::path& file, const std::string& text, tinyxml2::XMLDocument& document) {
+  require_no_entities(file, text);
   document.Parse(text.c_str());
   if (!document.Error()) return;
   const bool deep = document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED;

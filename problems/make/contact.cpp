@@ -10,6 +10,7 @@
 #include "lib/posture/movable.h"
 #include "lib/robot/chain.h"
 #include "problems/make/bad_value.h"
+#include "problems/make/redundant_joints.h"
 #include "problems/make/theta_r.h"
 
 namespace maxwrench {
@@ -171,6 +172,7 @@ void set_rest(const ContactSpec& spec, const std::vector<int>& chain, Problem& p
 void set_arm(const ContactSpec& spec, Problem& problem, Contact& contact) {
   const Robot& robot = problem.robot;
   const char* key = "contact.end_effector";
+  require_no_gears(key, robot, contact.end_effector);
   const std::vector<int> chain = chain_to(robot, contact.end_effector);
   if (chain.empty()) {
     throw BadValue(key, shown(spec.end_effector), "an end effector with its own arm");

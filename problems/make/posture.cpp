@@ -8,6 +8,7 @@
 #include "lib/math/decompositions.h"
 #include "lib/math/random.h"
 #include "lib/robot/chain.h"
+#include "lib/robot/gears.h"
 #include "maxwrench/posture.h"
 #include "problems/make/bad_value.h"
 #include "problems/make/contact.h"
@@ -42,6 +43,7 @@ class Mobility {
     kinematics_.set_joints(q);
     if (robot_.collision && robot_.collision->collides(kinematics_.links())) return -1;
     kinematics_.jacobian(tip_, Eigen::Matrix3d::Identity(), J_);
+    fold_gears(robot_, J_);
     J_.topRows<3>() /= reach_;
     return rank_ == 0 ? 0 : singular_values(J_)[rank_ - 1];
   }
@@ -116,7 +118,6 @@ std::map<std::string, double> named_posture(const Robot& robot, std::string_view
 Problem make_at_some_posture(TaskSpec task) {
   const Robot& robot = task.robot;
   const int end_effector = find_end_effector("end_effector", task.end_effector, robot);
-  require_no_gears("end_effector", robot, chain_to(robot, end_effector));
   Mobility mobility(robot, end_effector);
   std::vector<Eigen::VectorXd> postures = best_first(robot, mobility);
   const Eigen::VectorXd rest = resting_joints(robot);

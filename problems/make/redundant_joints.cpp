@@ -9,7 +9,10 @@
 #include "lib/math/decompositions.h"
 #include "lib/math/random.h"
 #include "lib/robot/chain.h"
+#include "lib/robot/gears.h"
 #include "lib/robot/kinematics.h"
+#include "problems/make/bad_value.h"
+#include "problems/make/theta_r.h"
 
 namespace maxwrench {
 namespace {
@@ -27,6 +30,7 @@ std::vector<Matrix6Xd> sample_jacobians(const Robot& robot, const EndEffector& t
     draw_joints(robot, random, q);
     kinematics.set_joints(q);
     kinematics.jacobian(tip, Eigen::Matrix3d::Identity(), J);
+    fold_gears(robot, J);
     reach += kinematics.end_effector_position(tip).norm() / kPostures;
   }
   if (reach > 0) {
@@ -46,8 +50,27 @@ double score(const std::vector<Matrix6Xd>& all, const std::vector<int>& columns,
 
 }  // namespace
 
+void require_no_gears(std::string_view key, const Robot& robot, int end_effector) {
+  const std::vector<int> gears = gears_at(robot, end_effector);
+  if (gears.empty()) return;
+  throw BadValue(key, fmt::format("a chain that moves '{}'", names_of(robot, {gears.front()})),
+                 "an end effector before all gears (joints with mimic), or joints.NAME.lock for "
+                 "one of each gear's joints");
+}
+
+void require_redundant_leaders(const Robot& robot, const std::vector<int>& leaders, int count) {
+  if (static_cast<int>(leaders.size()) <= count) return;
+  throw BadValue(
+      "end_effector",
+      fmt::format("a chain with gears (joints with mimic) that {} lead{}", names_of(robot, leaders),
+                  leaders.size() == 1 ? "s" : ""),
+      fmt::format("as many joints to choose as lead: the pose leaves {}. joints.NAME.lock "
+                  "fixes a gear",
+                  count));
+}
+
 std::vector<int> choose_redundant(Robot& robot, int end_effector, const std::vector<int>& chain,
-                                  int count) {
+                                  const std::vector<int>& leaders, int count) {
   if (count == 0) return {};
   const std::vector<Matrix6Xd> all =
       sample_jacobians(robot, robot.end_effectors[static_cast<std::size_t>(end_effector)]);
@@ -55,7 +78,13 @@ std::vector<int> choose_redundant(Robot& robot, int end_effector, const std::vec
   const int rank = motions_of(robot, end_effector);
   std::vector<int> dependent = chain, redundant;
   std::vector<std::string> why;
-  for (int k = 0; k < count; ++k) {
+  for (const int leader : leaders) {
+    std::erase(dependent, leader);
+    redundant.push_back(leader);
+    why.push_back(
+        fmt::format("{} (leads another)", robot.joints[static_cast<std::size_t>(leader)].name));
+  }
+  for (int k = static_cast<int>(leaders.size()); k < count; ++k) {
     double best = -1, next = -1;
     int chosen = 0;
     for (const int joint : dependent) {

@@ -8,6 +8,9 @@
 
 namespace maxwrench {
 
+/// Rejects an index that is none of the robot's links.
+void require_link(const std::string& key, const Robot& robot, int link);
+
 /// Rejects a negative mass, and a matrix that is not finite or not symmetric.
 void require_body(const std::string& link, double mass, const Eigen::Matrix3d& inertia);
 

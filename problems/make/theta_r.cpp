@@ -11,6 +11,7 @@
 #include "lib/posture/ik/dependent_joints.h"
 #include "lib/posture/ik/ik_start_system.h"
 #include "lib/robot/chain.h"
+#include "lib/robot/gears.h"
 #include "maxwrench/posture.h"
 #include "problems/make/bad_value.h"
 #include "problems/make/redundant_joints.h"
@@ -22,8 +23,9 @@ namespace {
   throw BadValue("theta_r.joints", task.joints ? shown(*task.joints) : "nothing", expected);
 }
 
-/// The joints that the task names, which must be `count` of the chain's.
-std::vector<int> named_joints(const TaskSpec& task, const std::vector<int>& chain, int count) {
+/// The joints that the task names, which must be `count` of the chain's, with all that lead.
+std::vector<int> named_joints(const TaskSpec& task, const std::vector<int>& chain,
+                              const std::vector<int>& leaders, int count) {
   const Robot& robot = task.robot;
   const std::string expected =
       fmt::format("{} of the joints {}, each once (the other {}{} are dependent)", count,
@@ -41,6 +43,11 @@ std::vector<int> named_joints(const TaskSpec& task, const std::vector<int>& chai
     joints.push_back(*found);
   }
   if (static_cast<int>(joints.size()) != count) throw_bad_names(task, expected);
+  for (const int leader : leaders) {
+    if (std::find(joints.begin(), joints.end(), leader) != joints.end()) continue;
+    throw_bad_names(task, fmt::format("'{}' among them, which leads another joint of the chain",
+                                      names_of(robot, {leader})));
+  }
   return joints;
 }
 
@@ -294,23 +301,12 @@ Eigen::VectorXd joints_by_name(const std::string& start, const std::map<std::str
   return q;
 }
 
-void require_no_gears(std::string_view key, const Robot& robot, const std::vector<int>& chain) {
-  const auto in_chain = [&chain](int joint) {
-    return std::find(chain.begin(), chain.end(), joint) != chain.end();
-  };
-  for (int i = 0; i < static_cast<int>(robot.joints.size()); ++i) {
-    const Joint& joint = robot.joints[static_cast<std::size_t>(i)];
-    if (!joint.gear || (!in_chain(i) && !in_chain(joint.gear->leader))) continue;
-    throw BadValue(key, fmt::format("a chain that moves '{}'", joint.name),
-                   "an end effector before all gears (joints with mimic), or joints.NAME.lock for "
-                   "one of each gear's joints");
-  }
-}
-
 void set_joints(const TaskSpec& task, Problem& problem) {
   const Robot& robot = problem.robot;
-  const std::vector<int> chain = chain_to(robot, problem.end_effector);
-  require_no_gears("end_effector", robot, chain);
+  if (problem.motion || task.contact) {
+    require_no_gears("end_effector", robot, problem.end_effector);
+  }
+  const std::vector<int> chain = motors_to(robot, problem.end_effector);
   if (problem.motion && problem.motion->transfer) return set_ends(task, chain, problem);
   const int axes = static_cast<int>(robot.base_axes.size());
   const int dependent = motions_of(robot, problem.end_effector) - axes;
@@ -321,9 +317,11 @@ void set_joints(const TaskSpec& task, Problem& problem) {
     return;
   }
   const int count = static_cast<int>(chain.size()) - dependent;
-  problem.redundant = task.joints
-                          ? named_joints(task, chain, count)
-                          : choose_redundant(problem.robot, problem.end_effector, chain, count);
+  const std::vector<int> leaders = leaders_to(robot, problem.end_effector);
+  require_redundant_leaders(robot, leaders, count);
+  problem.redundant =
+      task.joints ? named_joints(task, chain, leaders, count)
+                  : choose_redundant(problem.robot, problem.end_effector, chain, leaders, count);
   for (const int joint : chain) {
     const auto& redundant = problem.redundant;
     if (std::find(redundant.begin(), redundant.end(), joint) == redundant.end()) {

@@ -21,9 +21,6 @@ Eigen::VectorXd joints_at_posture(const TaskSpec& task);
 Eigen::VectorXd joints_by_name(const std::string& key, const std::map<std::string, double>& named,
                                const Robot& robot);
 
-/// Rejects a chain with a joint that a gear moves, or that moves another by a gear.
-void require_no_gears(std::string_view key, const Robot& robot, const std::vector<int>& chain);
-
 /// Sets the redundant joints, their limits and default, and the guess for the dependent
 /// coordinates. `problem` must have its robot, end effector and pose.
 void set_joints(const TaskSpec& task, Problem& problem);

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "lib/robot/gears.h"
 #include "lib/search/facet_program.h"
 #include "maxwrench/batch.h"
 #include "maxwrench/measure.h"
@@ -198,7 +199,7 @@ LowerLevel resolve_lower_level(const Problem& problem, const Case& c) {
 
 bool serves_as_trajectory(const Problem& problem, const std::string& measure) {
   return measure == Case().measure && !problem.contact && problem.free.count() == 0 &&
-         problem.scenarios.empty();
+         gears_at(problem.robot, problem.end_effector).empty() && problem.scenarios.empty();
 }
 
 bool serves_between_facets(const Problem& problem, const std::string& measure) {

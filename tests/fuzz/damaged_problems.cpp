@@ -54,6 +54,7 @@ DamagedProblems::DamagedProblems() {
   for (const std::string& name : shipped_problems()) {
     const fs::path family = fs::path(name).parent_path();
     if (!fs::exists(folder_.path() / family)) {
+      fs::create_directories((folder_.path() / family).parent_path());
       fs::copy(shipped / family, folder_.path() / family, fs::copy_options::recursive);
     }
     tasks.push_back(folder_.path() / (name + ".toml"));

@@ -2,7 +2,8 @@
 # Tries maxwrench on a folder of public URDFs: run.sh FOLDER OUT writes
 #   OUT/gallery.csv       every URDF of the folder: read or why not, and the differences from KDL (gallery.cpp)
 #   OUT/gallery_arms.csv  the arms of arms.csv that the folder has: a lift and a push, each with three seeds, and how long one takes
-# The program and the command must be built. 'run.sh FOLDER OUT SECONDS' also tries to prove each optimum for that long.
+# The program and the command must be built. 'run.sh FOLDER OUT SECONDS' also tries to prove each optimum for that long; the bound is inf while
+# boxes remain that have none.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 build=$here/../../build
@@ -28,7 +29,7 @@ of() { sed -E "s/.*\"$1\":\"?([^,\"}]*).*/\1/"; }
       end=$(date +%s.%N) bound='' boxes=''
       if [ "$seconds" -gt 0 ]; then
         proof=$("$build/maxwrench" certify "${task[@]}" --time "$seconds" --json 2> /dev/null || true)
-        bound=$(of bound <<< "$proof") boxes=$(of boxes <<< "$proof")
+        bound=$(of bound <<< "$proof" | sed 's/null/inf/') boxes=$(of boxes <<< "$proof")
       fi
       awk -v row="$file,$tool,$wrench" -v a="${betas[0]}" -v b="${betas[1]}" -v c="${betas[2]}" -v i="$incomplete" -v from="$start" -v to="$end" \
         -v bound="$bound" -v boxes="$boxes" 'BEGIN {

@@ -19,6 +19,11 @@ constexpr const char* kFromHull = "<parent link=\"hull\"/>";
 
 /// What is XML, and no tree of links with one of each part.
 const std::vector<ChangedProblem> kBadStructures = {
+    {"entities_that_stand_for_others",
+     kUrdf,
+     "<robot name=\"planar_vehicle\">",
+     "<!DOCTYPE robot [<!ENTITY a \"ten\"><!ENTITY b \"&a;&a;\">]><robot name=\"planar_vehicle\">",
+     {"got entities that it defines itself", "a URDF without them"}},
     {"second_parent",
      kUrdf,
      kFirstLink,

@@ -182,7 +182,8 @@ TEST_F(UrdfTest, GearsWithContradictingLimitsAreNamed) {
   EXPECT_THAT(odd.warnings, Contains(HasSubstr("does the multiplier -1 have the wrong sign?")));
 }
 
-TEST_F(UrdfTest, AGearBetweenBaseAndToolIsRejectedByTheTask) {
+/// One motion, and the gear's leader would have to follow.
+TEST_F(UrdfTest, AGearThatThePoseWouldHaveToMoveIsRejectedByTheTask) {
   TaskSpec task;
   task.robot = load(link("base") + link("a") + link("b") + joint("arm", "base", "a") +
                         joint("rod", "a", "b", "<mimic joint='arm'/>"),
@@ -193,7 +194,9 @@ TEST_F(UrdfTest, AGearBetweenBaseAndToolIsRejectedByTheTask) {
     make_problem(task);
     FAIL() << "accepted";
   } catch (const std::invalid_argument& error) {
-    EXPECT_THAT(error.what(), HasSubstr("end_effector: got a chain that moves 'rod'"));
+    EXPECT_THAT(
+        error.what(),
+        HasSubstr("end_effector: got a chain with gears (joints with mimic) that arm leads"));
   }
 }
 

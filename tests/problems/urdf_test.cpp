@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <sstream>
@@ -167,6 +168,24 @@ std::string tetrahedron(const std::string& size) {
 
 constexpr const char* kMesh =
     "<collision><geometry><mesh filename='t.stl'/></geometry></collision>";
+
+TEST_F(UrdfTest, AMeshMayBeMirrored) {
+  std::ofstream(folder_.path() / "t.stl") << tetrahedron("1");
+  const Robot robot =
+      load(link("a", 1,
+                "<collision><geometry><mesh filename='t.stl' scale='1 1 -2'/></geometry>"
+                "</collision>") +
+           link("b") + joint("j", "a", "b"));
+  ASSERT_EQ(robot.convex_bodies.size(), 1u);
+  double lowest = 0, highest = 0;
+  for (const Eigen::Vector3d& x : robot.convex_bodies[0].points) {
+    lowest = std::min(lowest, x.z());
+    highest = std::max(highest, x.z());
+  }
+  EXPECT_EQ(lowest, -2);
+  EXPECT_EQ(highest, 0);
+  EXPECT_THAT(robot.notes, Contains(HasSubstr("hull of 4 vertices, mirrored by its scale")));
+}
 
 TEST_F(UrdfTest, MeshesBecomeWhatTheTomlSays) {
   std::ofstream(folder_.path() / "t.stl") << tetrahedron("1");

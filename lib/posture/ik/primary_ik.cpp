@@ -68,9 +68,16 @@ void PrimaryIk::follow(const Matrix6Xd& J, const Eigen::VectorXd& q_gradient,
     seed_[i] = q_gradient[problem_.dependent[static_cast<std::size_t>(i - axes)]];
   }
   lambda_ = qr_.solve_transposed(seed_);
+  const std::vector<Joint>& joints = problem_.robot.joints;
   for (std::size_t k = 0; k < problem_.redundant.size(); ++k) {
     const int joint = problem_.redundant[k];
-    gradient[static_cast<Eigen::Index>(k)] = q_gradient[joint] - J.col(axes + joint).dot(lambda_);
+    double slope = q_gradient[joint] - J.col(axes + joint).dot(lambda_);
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      const std::optional<Gear>& gear = joints[i].gear;
+      if (!gear || gear->leader != joint) continue;
+      slope -= gear->ratio * J.col(axes + static_cast<Eigen::Index>(i)).dot(lambda_);
+    }
+    gradient[static_cast<Eigen::Index>(k)] = slope;
   }
 }
 

@@ -66,9 +66,14 @@ ToolChain::ToolChain(const Problem& problem) : behind_(problem.robot.mount) {
   for (const int i : chain_to(robot, problem.end_effector)) {
     const Joint& joint = robot.joints[static_cast<std::size_t>(i)];
     add(joint.placement, joint.axis, joint.type == JointType::kRevolute);
-    const auto redundant = std::find(problem.redundant.begin(), problem.redundant.end(), i);
+    const int motor = joint.gear ? joint.gear->leader : i;
+    const auto redundant = std::find(problem.redundant.begin(), problem.redundant.end(), motor);
     if (redundant != problem.redundant.end()) {
       coordinates_.back().parameter = static_cast<int>(redundant - problem.redundant.begin());
+      if (joint.gear) {
+        coordinates_.back().ratio = joint.gear->ratio;
+        coordinates_.back().offset = joint.gear->offset;
+      }
       continue;
     }
     follows(4 + i);
@@ -137,6 +142,8 @@ ToolChain ToolChain::deformable() const {
     wide.add(moves ? Pose<double>() : at.placement, Eigen::Vector3d::UnitZ(), at.turns);
     wide.coordinates_.back().unknown = at.unknown;
     wide.coordinates_.back().parameter = at.parameter;
+    wide.coordinates_.back().ratio = at.ratio;
+    wide.coordinates_.back().offset = at.offset;
     if (at.unknown >= 0) wide.places_.push_back(static_cast<int>(wide.coordinates_.size()) - 1);
   }
   wide.behind_ = behind_;
@@ -149,7 +156,7 @@ bool ToolChain::operator==(const ToolChain& other) const {
   };
   const auto same = [&](const Coordinate& a, const Coordinate& b) {
     return a.turns == b.turns && a.unknown == b.unknown && a.parameter == b.parameter &&
-           same_pose(a.placement, b.placement);
+           a.ratio == b.ratio && a.offset == b.offset && same_pose(a.placement, b.placement);
   };
   return in_z_ == other.in_z_ && same_pose(behind_, other.behind_) &&
          std::equal(coordinates_.begin(), coordinates_.end(), other.coordinates_.begin(),
@@ -169,7 +176,8 @@ void ToolChain::evaluate(const T* theta_r, const T* y, const T* theta_r_rate, co
   p.setConstant(T(0.0));
   for (std::size_t i = 0; i < n; ++i) {
     const Coordinate& at = coordinates_[i];
-    const T value = at.unknown >= 0 ? y[at.unknown] : theta_r[at.parameter];
+    const T value =
+        at.unknown >= 0 ? y[at.unknown] : theta_r[at.parameter] * at.ratio + T(at.offset);
     rotor.carry(at.placement.p, p);
     if (at.is_turned) rotor.turn(at.turn);
     state.axes[i] = rotor.z_axis();
@@ -184,17 +192,23 @@ void ToolChain::evaluate(const T* theta_r, const T* y, const T* theta_r_rate, co
   state.pose.p = p;
   state.pose.R = rotor.matrix() * behind_.R;
   state.J_r.resize(static_cast<std::size_t>(parameters_));
+  for (Vector6<T>& column : state.J_r) column.setConstant(T(0.0));
   state.twist.setConstant(T(0.0));
+  Vector6<T> column;
   for (std::size_t i = 0; i < n; ++i) {
     const Coordinate& at = coordinates_[i];
-    Vector6<T>& column = at.unknown >= 0 ? state.J[static_cast<std::size_t>(at.unknown)]
-                                         : state.J_r[static_cast<std::size_t>(at.parameter)];
     if (at.turns) {
       column.template head<3>() = state.axes[i].cross(state.pose.p - state.origins[i]);
       column.template tail<3>() = state.axes[i];
     } else {
       column.template head<3>() = state.axes[i];
       column.template tail<3>().setConstant(T(0.0));
+    }
+    if (at.unknown >= 0) {
+      state.J[static_cast<std::size_t>(at.unknown)] = column;
+    } else {
+      column = column * at.ratio;
+      state.J_r[static_cast<std::size_t>(at.parameter)] += column;
     }
     const T* const rate = at.unknown >= 0 ? y_rate : theta_r_rate;
     if (rate) state.twist += column * rate[std::max(at.unknown, at.parameter)];

@@ -27,7 +27,8 @@ struct ToolState {
 /// The chain from the world to the end effector: free base axes and joints. Each turns about or
 /// slides along the z axis of its own frame. y are the base axes and the dependent joints, d <= 6
 /// in the order of the chain. theta_r, r numbers, are the other joints and the free coordinates of
-/// the end effector's pose; the chain ends with the inverse of these coordinates. `evaluate` is a
+/// the end effector's pose; the chain ends with the inverse of these coordinates. A joint with a
+/// gear is at ratio times its leader, which is one of theta_r, plus offset. `evaluate` is a
 /// template on the scalar: double or Complex.
 class ToolChain {
  public:
@@ -68,6 +69,7 @@ class ToolChain {
     bool is_turned = false;   ///< whether that is not the identity
     bool turns = true;
     int unknown = -1, parameter = -1;  ///< its index in y or in theta_r
+    double ratio = 1, offset = 0;      ///< of the gear of a joint whose leader is in theta_r
   };
 
   void add(const Pose<double>& placement, const Eigen::Vector3d& axis, bool turns);

@@ -1,5 +1,6 @@
 #include <stdexcept>
 
+#include "lib/robot/gears.h"
 #include "maxwrench/problem.h"
 #include "solvers/certify/bound/bounds.h"
 
@@ -74,6 +75,11 @@ std::unique_ptr<Bound> make_capability_bound(const Problem& problem, const std::
   if (problem.motion) {
     throw std::invalid_argument(problem.name + ": got a task in time (" + problem.type() +
                                 "), expected a static task for a proof");
+  }
+  if (const auto gears = gears_at(problem.robot, problem.end_effector); !gears.empty()) {
+    const Joint& joint = problem.robot.joints[static_cast<std::size_t>(gears.front())];
+    throw std::invalid_argument(problem.name + ": got a chain that moves '" + joint.name +
+                                "' by a gear, expected none for a proof");
   }
   return std::make_unique<CapabilityBound>(measure_bound(problem, measure, wrench),
                                            make_collision_bound(problem));

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -76,6 +77,28 @@ TEST(Init, WritesFilesToStartFrom) {
               "maxwrench: --out: got 'new/robot.toml', which exists, expected a folder without "
               "it\n");
   }
+}
+
+/// The pose of an arm of four joints is given by them: its six numbers, once rounded, would not be
+/// reached.
+TEST(Init, GivesThePoseOfAShortArmByItsJoints) {
+  const TemporaryFolder folder;
+  std::string urdf = "<robot name='short'><link name='l0'/>";
+  const char* axes[] = {"0 0 1", "0 1 0", "0 1 0", "1 0 0"};
+  for (int i = 1; i <= 4; ++i) {
+    urdf += fmt::format(
+        "<link name='l{0}'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' "
+        "ixz='0' iyz='0'/></inertial></link><joint name='j{0}' type='revolute'><parent "
+        "link='l{1}'/><child link='l{0}'/><origin xyz='0.1 0.02 0.3'/><axis xyz='{2}'/><limit "
+        "lower='-2' upper='2' effort='90' velocity='1'/></joint>",
+        i, i - 1, axes[i - 1]);
+  }
+  std::ofstream(folder.path() / "short.urdf") << urdf << "</robot>";
+  ASSERT_EQ(run_maxwrench("init short.urdf", folder.path()).exit_status, 0);
+  EXPECT_NE(read_text(folder.path() / "task.toml").find("[pose]\njoints = { \"j1\" = "),
+            std::string::npos);
+  const CommandResult result = run_maxwrench("eval task.toml", folder.path());
+  EXPECT_EQ(result.exit_status, 0) << result.err;
 }
 
 /// Without --out the files are beside the URDF, whose path is then its name.

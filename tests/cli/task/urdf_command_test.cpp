@@ -339,7 +339,7 @@ TEST(UrdfCommand, BadUsesEndWithOneLine) {
       {"init planar/force", "urdf: got 'planar/force', expected a URDF"},
       {"pose ur10.urdf --tool hand", "--tool: got 'hand'"},
       {"pose planar/force --tool hand", "--tool: got 'hand'"},
-      {"check none.urdf", "none.urdf"}};
+      {"check none.urdf", "none.urdf: file: got an unreadable file, expected a URDF file"}};
   for (const BadUse& use : uses) {
     const CommandResult result = folder.run(use.words);
     EXPECT_EQ(result.exit_status, 2) << use.words << '\n' << result.err;
