@@ -221,10 +221,8 @@ std::string without_best(const Answer& answer) {
 void explain_best_posture(const Answer& answer, BestPostureRates& best) {
   best.missing = without_best(answer);
   if (!best.missing.empty()) return;
-  Case choice = answer.choice;
-  choice.search.clear();
-  const Method method = resolve(*answer.task, choice);
-  FacetProgram program(*answer.task, choice.wrench, method.make_measure, answer.collision);
+  const LowerLevel lower = resolve_lower_level(*answer.task, answer.choice);
+  FacetProgram program(*answer.task, answer.choice.wrench, lower.make_measure, answer.collision);
   BestPosture at(answer, program);
   if (!at.load()) {
     best.missing = "the posture has no smooth program";

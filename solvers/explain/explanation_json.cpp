@@ -2,6 +2,7 @@
 
 #include "maxwrench/explain.h"
 #include "maxwrench/solve.h"
+#include "solvers/explain/parts.h"
 #include "solvers/solve/format.h"
 
 namespace maxwrench {
@@ -52,6 +53,7 @@ ordered_json explanation_object(const Explanation& explanation) {
   ordered_json object;
   object["missing"] = text_or_null(explanation.missing);
   if (!explanation.scenario.empty()) object["scenario"] = explanation.scenario;
+  object["words"] = known(at_posture, binding_words(explanation));
   object["binding"] = ordered_json::array();
   for (const BindingLimit& limit : explanation.limits) {
     object["binding"].push_back(binding_json(limit));
@@ -75,7 +77,9 @@ ordered_json explanation_object(const Explanation& explanation) {
                              {"gap", known(held, efforts.gap)}};
   object["instants"] = ordered_json::array();
   for (const InstantLimits& instant : explanation.instants) {
-    object["instants"].push_back({{"t", instant.t}, {"limits", limits_json(instant.limits)}});
+    object["instants"].push_back({{"t", instant.t},
+                                  {"words", where_limits_are(instant.limits)},
+                                  {"limits", limits_json(instant.limits)}});
   }
   return object;
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "maxwrench/explain.h"
+#include "solvers/explain/parts.h"
 
 namespace maxwrench {
 namespace {
@@ -18,25 +18,6 @@ std::string in_words(std::vector<std::string> names) {
   return names.empty() ? last : fmt::format("{} and {}", fmt::join(names, ", "), last);
 }
 
-/// "a and b are at their lower limits, c is at its upper limit"
-template <class Limits>
-std::string where_limits_are(const Limits& limits) {
-  std::vector<std::string> parts;
-  const std::pair<LimitSide, const char*> sides[] = {{LimitSide::kLower, "lower"},
-                                                     {LimitSide::kUpper, "upper"}};
-  for (const auto& [side, word] : sides) {
-    std::vector<std::string> names;
-    for (const auto& limit : limits) {
-      if (limit.side == side) names.push_back(limit.name);
-    }
-    if (names.empty()) continue;
-    const bool one = names.size() == 1;
-    parts.push_back(fmt::format("{} {} {} limit{}", in_words(names),
-                                one ? "is at its" : "are at their", word, one ? "" : "s"));
-  }
-  return fmt::format("{}", fmt::join(parts, ", "));
-}
-
 /// What 10 % more of the limit that gives most would give.
 std::string more_of(const LimitRate& limit, double gain, const std::string& unit) {
   if (!(gain > 0)) return "10 % more of one limit alone gives nothing\n";
@@ -47,23 +28,6 @@ std::string more_of(const LimitRate& limit, double gain, const std::string& unit
 std::string unsigned_zero(double value) {
   const std::string text = fmt::format("{:.5f}", value);
   return text == "-0.00000" ? "0.00000" : text;
-}
-
-std::string binding_words(const Explanation& e) {
-  if (e.limits.empty()) return "binds: no limit\n";
-  const BindingLimit& first = e.limits.front();
-  std::string text;
-  if (first.side == LimitSide::kSmaller) {
-    text = fmt::format("binds: the ellipsoid, in which all limits count; {} counts most\n",
-                       first.name);
-  } else {
-    text = fmt::format("binds: {}\n", where_limits_are(e.limits));
-  }
-  if (e.kink)
-    text +=
-        "the value has a kink here: a limit that falls and one that rises have rates of their "
-        "own\n";
-  return text + more_of(first, first.gain, e.unit);
 }
 
 /// The values of a limit between which its rate holds, such as "-41.48353 .. -38.2".
@@ -147,6 +111,40 @@ std::string instants_text(const Explanation& e) {
 }
 
 }  // namespace
+
+std::string where_limits_are(const std::vector<LimitRate>& limits) {
+  std::vector<std::string> parts;
+  const std::pair<LimitSide, const char*> sides[] = {{LimitSide::kLower, "lower"},
+                                                     {LimitSide::kUpper, "upper"}};
+  for (const auto& [side, word] : sides) {
+    std::vector<std::string> names;
+    for (const LimitRate& limit : limits) {
+      if (limit.side == side) names.push_back(limit.name);
+    }
+    if (names.empty()) continue;
+    const bool one = names.size() == 1;
+    parts.push_back(fmt::format("{} {} {} limit{}", in_words(names),
+                                one ? "is at its" : "are at their", word, one ? "" : "s"));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string binding_words(const Explanation& e) {
+  if (e.limits.empty()) return "binds: no limit\n";
+  const BindingLimit& first = e.limits.front();
+  std::string text;
+  if (first.side == LimitSide::kSmaller) {
+    text = fmt::format("binds: the ellipsoid, in which all limits count; {} counts most\n",
+                       first.name);
+  } else {
+    text = fmt::format("binds: {}\n", where_limits_are({e.limits.begin(), e.limits.end()}));
+  }
+  if (e.kink)
+    text +=
+        "the value has a kink here: a limit that falls and one that rises have rates of their "
+        "own\n";
+  return text + more_of(first, first.gain, e.unit);
+}
 
 std::string summary(const Explanation& explanation) {
   if (!explanation.instants.empty()) return instants_text(explanation);

@@ -25,4 +25,11 @@ void explain_efforts(const Answer& answer, const WrenchProgram& program, LeastEf
 
 void explain_instants(const Answer& answer, Explanation& explanation);
 
+/// What binds at a posture in words, a line for each sentence: the limits, whether there is a kink,
+/// and what 10 % more of the first limit gives.
+std::string binding_words(const Explanation& explanation);
+
+/// "a and b are at their lower limits, c is at its upper limit"
+std::string where_limits_are(const std::vector<LimitRate>& limits);
+
 }  // namespace maxwrench

@@ -12,6 +12,7 @@
 #include "maxwrench/wrench_program.h"
 #include "solvers/search/starts.h"
 #include "solvers/solve/method.h"
+#include "solvers/solve/one_instant.h"
 #include "solvers/solve/solve_from.h"
 
 namespace maxwrench {
@@ -39,32 +40,6 @@ double beta_linf(const Problem& task, const Method& method, const Posture& postu
   method.make_beta_linf()->evaluate(posture, program, false, capability);
   return capability.status == Status::kOptimal ? capability.beta
                                                : std::numeric_limits<double>::quiet_NaN();
-}
-
-/// A static task as a task in time with one instant.
-Trajectory one_instant(const Problem& task, const Posture& posture, const Capability& capability,
-                       const Eigen::VectorXd& gradient) {
-  Trajectory trajectory;
-  static_cast<Verdict&>(trajectory) =
-      posture.status == Status::kValid ? Verdict(capability) : Verdict(posture);
-  trajectory.knots = posture.theta_r.transpose();
-  trajectory.gradient = gradient.transpose();
-  Instant instant;
-  instant.end_effector = pose_at(task, posture.theta_r);
-  instant.base = posture.base;
-  instant.q = posture.q;
-  instant.v = instant.v_dot = Eigen::VectorXd::Zero(posture.tau_d.size());
-  instant.tau_d = posture.tau_d;
-  instant.J = posture.J;
-  instant.c << posture.turn * task.c.head<3>(), posture.turn * task.c.tail<3>();
-  if (trajectory.status == Status::kOptimal) {
-    trajectory.value = capability.beta;
-    if (!task.scenarios.empty()) instant.c = capability.decides.c.stableNormalized();
-    if (capability.w.size() > 0) instant.h = capability.h;
-    instant.u = capability.u;
-  }
-  trajectory.instants.push_back(std::move(instant));
-  return trajectory;
 }
 
 /// Fills the rest of an answer with a status, posture and capability.
@@ -180,6 +155,31 @@ Verdict verdict_of(const Problem& problem, const Posture& posture, const Capabil
     verdict.conclude(Status::kNumericalError, "the answer does not satisfy its program");
   }
   return verdict;
+}
+
+Trajectory one_instant(const Problem& task, const Posture& posture, const Capability& capability,
+                       const Eigen::VectorXd& gradient) {
+  Trajectory trajectory;
+  static_cast<Verdict&>(trajectory) =
+      posture.status == Status::kValid ? Verdict(capability) : Verdict(posture);
+  trajectory.knots = posture.theta_r.transpose();
+  trajectory.gradient = gradient.transpose();
+  Instant instant;
+  instant.end_effector = pose_at(task, posture.theta_r);
+  instant.base = posture.base;
+  instant.q = posture.q;
+  instant.v = instant.v_dot = Eigen::VectorXd::Zero(posture.tau_d.size());
+  instant.tau_d = posture.tau_d;
+  instant.J = posture.J;
+  instant.c << posture.turn * task.c.head<3>(), posture.turn * task.c.tail<3>();
+  if (trajectory.status == Status::kOptimal) {
+    trajectory.value = capability.beta;
+    if (!task.scenarios.empty()) instant.c = capability.decides.c.stableNormalized();
+    if (capability.w.size() > 0) instant.h = capability.h;
+    instant.u = capability.u;
+  }
+  trajectory.instants.push_back(std::move(instant));
+  return trajectory;
 }
 
 void require_joints(const Problem& task, const Eigen::VectorXd& q) {

@@ -1,7 +1,7 @@
 // check.mjs MAXWRENCH OUT [TASK...]: pages of `maxwrench view` in headless Chromium at 1280 and 390 px, light and dark. Every control is moved, and the values
 // are those of `maxwrench eval`. Pages and screenshots stand in OUT, for people to look at.
 import { spawnSync } from "node:child_process";
-import { mkdirSync, statSync } from "node:fs";
+import { mkdirSync, statSync, writeFileSync } from "node:fs";
 import { resolve } from "node:path";
 import { Browser } from "./browser.mjs";
 
@@ -9,8 +9,10 @@ const [command, folder, ...chosen] = process.argv.slice(2);
 const out = resolve(folder);
 mkdirSync(out, { recursive: true });
 
-const kTasks = chosen.length ? chosen : ["uvms/valve", "uvms/valve_trajectory", "dual_arm/two_arms", "mobile/push", "planar/force", "fixed/push"];
+const kTasks = chosen.length ? chosen : ["uvms/valve", "uvms/valve_trajectory", "dual_arm/two_arms", "mobile/push", "planar/force", "fixed/push",
+  "examples/tasks/lift_with_a_dead_thruster.toml"];
 const kSizes = [{ width: 1280, height: 800, scheme: "light" }, { width: 390, height: 844, scheme: "dark" }];
+const kLooks = [{ width: 1280, height: 800, scheme: "dark" }, { width: 390, height: 844, scheme: "light" }]; // only looked at
 const kMostBytes = 4e6;
 const kPause = 250;  // ms: the page lists the IK solutions when a slider has rested for 120 ms
 
@@ -28,7 +30,8 @@ function run(...words) {
   if (status !== 0 && status !== 1) throw new Error(`maxwrench ${words.join(" ")}: ${stderr}`);
   return stdout;
 }
-const evaluate = (task, theta) => JSON.parse(run("eval", task, "--json", ...(theta ? ["--theta-r", theta.join(",")] : [])));
+const fileOf = (task) => `${out}/${task.replace(/^.*tasks./, "").replace(".toml", "").replaceAll("/", "_")}`;
+const evaluate = (task, theta, ...words) => JSON.parse(run("eval", task, "--json", ...words, ...(theta ? ["--theta-r", theta.join(",")] : [])));
 const near = (a, b) => Math.abs(a - b) <= 1e-9 * (1 + Math.abs(b));
 
 const beta = (page) => page.evaluate("Number(document.getElementById('beta').dataset.value)");
@@ -92,7 +95,42 @@ async function checkSliders(page, task, name) {
     const right = expected.beta === null ? !Number.isFinite(value) : expected.ik_solutions.valid > 1 ? value <= expected.beta || near(value, expected.beta) : near(value, expected.beta);
     check(right, `${name}: slider ${i}: ${value}, eval has ${expected.beta}`);
     if (expected.beta !== null) await checkSolutions(page, expected, `${name}: slider ${i}`);
+    if (expected.beta !== null) await checkDetails(page, task, `${name}: slider ${i}`);
   }
+}
+
+/** What stands beside the value belongs to the posture of the sliders: sets, and what binds as the command says it, or the scenarios. */
+async function checkDetails(page, task, name) {
+  await page.until("!app.entry.stale");
+  const theta = await page.evaluate("Array.from(app.frame.theta_r)");
+  const shown = await page.evaluate("({set: app.frame.sets?.polytope?.vertices ?? null, c: Array.from(app.frame.c), beta: app.frame.beta, words: document.getElementById('binds').innerText})");
+  if (shown.set) {
+    const first = (await page.evaluate("app.frame.sets.of")) === "force" ? 0 : 3;
+    let most = -Infinity; // beta c is in the set
+    for (let i = 0; i < shown.set.length; i += 3) most = Math.max(most, [0, 1, 2].reduce((sum, k) => sum + shown.set[i + k] * shown.c[first + k], 0));
+    check(most >= shown.beta * (1 - 1e-5), `${name}: the set reaches ${most}, beta is ${shown.beta}`);
+    check(await page.evaluate("document.getElementById('set-note').hidden"), `${name}: the set is that of the posture`);
+  }
+  if (task.includes("tasks/")) {
+    const decides = evaluate(task, theta).decides;
+    check((await page.evaluate("document.getElementById('decides').textContent")).startsWith(`${decides} decides`), `${name}: ${decides} decides`);
+    check((await page.evaluate("document.querySelectorAll('#ends tbody tr').length")) > 1, `${name}: scenarios are listed`);
+    return;
+  }
+  const expected = evaluate(task, theta, "--explain");
+  if (!near(expected.beta, shown.beta)) return; // another IK solution
+  const words = expected.explanation.words.split("\n")[0].replace("binds: ", "").replaceAll("_", " ");
+  check(shown.words.toLowerCase().includes(words.toLowerCase()), `${name}: "${shown.words.split("\n")[0]}", eval says "${words}"`);
+}
+
+/** Pictures beside each other, and the table. */
+async function checkBeside(page, name, picture) {
+  await click(page, "show-beside");
+  const entries = await page.evaluate("app.entries.length");
+  check((await page.evaluate("document.querySelectorAll('.label.title').length")) === (entries > 1 ? entries : 0), `${name}: each picture has its title`);
+  check((await page.evaluate("document.querySelectorAll('#compare thead th').length")) === entries + 1, `${name}: each posture has its column`);
+  if (picture) await page.screenshot(picture);
+  await click(page, "show-beside");
 }
 
 /** The page stays on one of several IK solutions, and the command takes the best one: this is among those that the page offers. */
@@ -128,10 +166,34 @@ async function checkTime(page, name) {
   await slide(page, "instant", frames[0][0]);
 }
 
+/** A slider moves the knot nearest to the cursor, and the trajectory has the value of the command. */
+async function checkKnots(page, task, name) {
+  await click(page, "posture-default");
+  await slide(page, "instant", 0);
+  await click(page, "knot-behind");
+  const knot = await page.evaluate("app.knot");
+  check(knot === 1, `${name}: the next knot is ${knot}`);
+  const [low, high, at] = await page.evaluate(`["min", "max", "value"].map((key) => Number(document.getElementById("theta-0")[key]))`);
+  await slide(page, "theta-0", at + 0.01 * (high - low));
+  await page.until("app.name === 'own'");
+  const { knots, beta: value, reason } = await page.evaluate("({knots: app.entry.knots.map((row) => Array.from(row)), beta: app.entry.beta, reason: app.entry.reason})");
+  check(Math.abs(knots[1][0] - at) > 0.009 * (high - low), `${name}: the knot moved`);
+  const names = await page.evaluate("app.scene.task.theta_r.map((coordinate) => coordinate.name)");
+  writeFileSync(`${out}/knots.csv`, [names, ...knots].map((row) => row.join(",")).join("\n") + "\n");
+  const expected = JSON.parse(run("eval", task, "--json", "--theta-r", `${out}/knots.csv`));
+  check(expected.beta === null ? value === null : near(value, expected.beta), `${name}: knot: ${value} (${reason}), eval has ${expected.beta} (${expected.reason})`);
+  await page.until("app.frame.sets !== undefined");
+  check(await page.evaluate("document.getElementById('set-note').hidden"), `${name}: the set is that of the instant`);
+  await click(page, "knot-before");
+  check((await page.evaluate("app.t")) === 0, `${name}: back at the first knot`);
+}
+
 async function checkPage(browser, task, size) {
-  const file = `${out}/${task.replace("/", "_")}`;
+  const file = fileOf(task);
   const name = `${task} at ${size.width} px`;
+  const start = Date.now();
   const page = await browser.open(`file://${file}.html`, size);
+  console.log(`${name}: opened in ${((Date.now() - start) / 1000).toFixed(1)} s`);
   check((await page.evaluate("document.documentElement.dataset.theme")) === size.scheme, `${name}: the system's scheme`);
   await page.screenshot(`${file}_${size.width}.png`);
   await checkLayout(page, name, size.width);
@@ -142,15 +204,34 @@ async function checkPage(browser, task, size) {
     check((await page.picture()) !== first, `${name}: the picture turns`);
   }
   await checkSwitches(page, name);
-  if (task.includes("trajectory")) await checkTime(page, name);
-  else await checkSliders(page, task, name);
+  await checkBeside(page, name, `${file}_${size.width}_beside.png`);
+  if (task.includes("trajectory")) {
+    await checkTime(page, name);
+    await checkKnots(page, task, name);
+  } else {
+    await checkSliders(page, task, name);
+  }
+  await page.screenshot(`${file}_${size.width}_own.png`);
+  await page.evaluate("document.getElementById('binds-section').scrollIntoView()");
+  await page.screenshot(`${file}_${size.width}_binds.png`);
+  await checkBeside(page, `${name}, with the posture of the sliders`, `${file}_${size.width}_all.png`);
   check(page.faults.length === 0, `${name}: no error: ${page.faults.join("; ")}`);
   check(page.requests.every((url) => url.startsWith(`file://${file}.html`)), `${name}: nothing is loaded: ${page.requests.join(", ")}`);
   await page.close();
 }
 
+/** The page in another scheme: no error, nothing too wide, a screenshot. */
+async function lookAtPage(browser, task, size) {
+  const file = fileOf(task);
+  const page = await browser.open(`file://${file}.html`, size);
+  await checkLayout(page, `${task} at ${size.width} px, ${size.scheme}`, size.width);
+  await page.screenshot(`${file}_${size.width}_${size.scheme}.png`);
+  check(page.faults.length === 0, `${task} at ${size.width} px, ${size.scheme}: no error: ${page.faults.join("; ")}`);
+  await page.close();
+}
+
 for (const task of kTasks) {
-  const file = `${out}/${task.replace("/", "_")}.html`;
+  const file = `${fileOf(task)}.html`;
   const start = Date.now();
   run("view", task, "--budget", "3000", "--out", file);
   const bytes = statSync(file).size;
@@ -159,7 +240,10 @@ for (const task of kTasks) {
 }
 const browser = new Browser();
 try {
-  for (const task of kTasks) for (const size of kSizes) await checkPage(browser, task, size);
+  for (const task of kTasks) {
+    for (const size of kSizes) await checkPage(browser, task, size);
+    for (const size of kLooks) await lookAtPage(browser, task, size);
+  }
 } finally {
   await browser.close();
 }

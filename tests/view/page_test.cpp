@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/support.h"
+#include "tests/view/no_collision.h"
 #include "view/base64.h"
 
 namespace maxwrench {
@@ -21,7 +22,7 @@ TEST(ViewPage, HoldsAnyTextOfTheScene) {
                                         {"more", "<!-- & {{scene}} $& \u03b2"}};
   Problem task;
   task.name = "a < b & c";
-  task.motion.emplace();  // the engine does not support it
+  task.robot.collision = std::make_shared<NoCollision>();  // the engine does not support it
   const std::string page = view_page(task, scene);
   EXPECT_EQ(between(page, "<title>", "</title>"), "a &lt; b &amp; c");
   const std::string json =

@@ -1,11 +1,15 @@
 #include "view/engine/engine.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "maxwrench/strategies.h"
+#include "solvers/solve/format.h"
 #include "solvers/solve/method.h"
 #include "view/engine/evaluator.h"
 #include "view/engine/problem_data.h"
+#include "view/scene/parts.h"
+#include "view/scene/scene.h"
 
 namespace maxwrench {
 namespace {
@@ -59,7 +63,29 @@ const char* line_of_error(Function&& function) {
   return engine().error.c_str();
 }
 
+TaskEvaluator& loaded_task() {
+  if (!engine().task) throw std::invalid_argument("engine: got no task, expected load before");
+  return *engine().task;
+}
+
+nlohmann::ordered_json part_json(const Answer& answer, const std::string& part, int instant) {
+  if (part == "shown") return shown_json({"own", answer}, 0);
+  if (part == "explanation") return explanation_json(answer);
+  if (part == "scenarios") return scenarios_json(answer);
+  if (part != "sets") {
+    throw std::invalid_argument("part: got '" + part +
+                                "', expected shown, sets, explanation or scenarios");
+  }
+  const auto instants = static_cast<int>(answer.trajectory.instants.size());
+  if (instant < 0 || instant >= instants) {
+    throw std::invalid_argument("instant: got " + std::to_string(instant) + ", expected 0 to " +
+                                std::to_string(instants - 1));
+  }
+  return sets_json(answer, static_cast<std::size_t>(instant));
+}
+
 bool supports(const Problem& problem, const char* measure, Wrench wrench) {
+  if (problem.motion) return measure == Case().measure;
   try {
     Case c;
     c.measure = measure;
@@ -174,11 +200,27 @@ const char* engine_evaluate(const double* theta_r, int count, const char* measur
                             const char* wrench, int collision, int solution, const double* near,
                             int joints) {
   return line_of_error([&] {
-    if (!engine().task) throw std::invalid_argument("engine: got no task, expected load before");
+    TaskEvaluator& task = loaded_task();
     const EvaluationChoice choice{measure, parse_wrench(wrench), collision != 0};
-    show_evaluation(engine().task->evaluate(vector_of(theta_r, count), choice,
-                                            {solution, vector_of(near, joints)}));
+    show_evaluation(
+        task.evaluate(vector_of(theta_r, count), choice, {solution, vector_of(near, joints)}));
   });
+}
+
+const char* engine_evaluate_knots(const double* knots, int count, const char* measure,
+                                  const char* wrench, int collision) {
+  return line_of_error([&] {
+    TaskEvaluator& task = loaded_task();
+    const int columns = std::max(task.problem().redundancy(), 1);
+    using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    task.evaluate_knots(Eigen::Map<const Table>(knots, count / columns, columns),
+                        {measure, parse_wrench(wrench), collision != 0});
+  });
+}
+
+const char* engine_part(const char* part, int instant) {
+  return line_of_error(
+      [&] { show("json", in_one_line(part_json(loaded_task().answer(), part, instant))); });
 }
 
 int engine_fields() { return static_cast<int>(engine().fields.size()); }

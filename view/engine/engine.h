@@ -25,6 +25,20 @@ const char* engine_evaluate(const double* theta_r, int count, const char* measur
                             const char* wrench, int collision, int solution, const double* near,
                             int joints);
 
+/// Evaluates a trajectory of a task in time. The result is in `engine_part`.
+///
+/// @param knots      the knots (k×r), one after the other
+/// @param count      the number of numbers
+/// @param measure, wrench, collision  as above
+const char* engine_evaluate_knots(const double* knots, int count, const char* measure,
+                                  const char* wrench, int collision);
+
+/// Part of the last evaluation. The field "json" then is that part as a scene has it.
+///
+/// @param part     "shown", "sets", "explanation" or "scenarios"
+/// @param instant  the number of the instant whose sets are wanted; 0 of a static task
+const char* engine_part(const char* part, int instant);
+
 /// The number of fields of the last task or evaluation.
 int engine_fields();
 const char* engine_field_name(int field);

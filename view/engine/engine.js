@@ -74,6 +74,15 @@ async function createEngine(wasm) {
       return call("engine_evaluate", numbers("theta_r", theta_r), String(measure), String(wrench),
         collision ? 1 : 0, number, Float64Array.from(near));
     },
+    evaluateKnots(knots, {measure = "linf_polytope", wrench = "pure", collision = true} = {}) {
+      if (!Array.isArray(knots)) fail(`knots: got ${knots}, expected a list of lists of numbers`);
+      call("engine_evaluate_knots", Float64Array.from(knots.flatMap((knot) => Array.from(numbers("knots", knot)))),
+        String(measure), String(wrench), collision ? 1 : 0);
+      return engine.part("shown");
+    },
+    part(name, instant = 0) {
+      return JSON.parse(call("engine_part", String(name), instant).json);
+    },
     solutions(theta_r, options = {}) {
       const best = engine.evaluate(theta_r, {...options, solution: undefined});
       return Array.from({length: best.solutions},

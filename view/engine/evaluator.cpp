@@ -6,9 +6,12 @@
 
 #include "maxwrench/measure.h"
 #include "maxwrench/posture.h"
+#include "maxwrench/strategies.h"
+#include "maxwrench/trajectory.h"
 #include "maxwrench/wrench_program.h"
 #include "solvers/solve/format.h"
 #include "solvers/solve/method.h"
+#include "solvers/solve/one_instant.h"
 
 namespace maxwrench {
 namespace {
@@ -17,6 +20,14 @@ namespace {
 void put_pose(const Pose<double>& pose, Eigen::Ref<Eigen::VectorXd> to) {
   Eigen::Map<Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> matrix(to.data());
   matrix << pose.R, pose.p;
+}
+
+Case case_of(const Problem& problem, const EvaluationChoice& choice) {
+  Case c;
+  c.problem = problem.name;
+  c.measure = choice.measure;
+  c.wrench = choice.wrench;
+  return c;
 }
 
 /// The valid IK solution whose joints are nearest to `near`.
@@ -44,12 +55,9 @@ void require_choice(const Problem& problem, const SolutionChoice& which) {
 struct TaskEvaluator::Evaluator {
   Evaluator(const Problem& p, const EvaluationChoice& choice)
       : problem(p),
-        lower([&] {
-          Case c;
-          c.measure = choice.measure;
-          c.wrench = choice.wrench;
-          return resolve_lower_level(p, c);
-        }()),
+        collision(choice.collision && p.robot.collision != nullptr),
+        case_(case_of(p, choice)),
+        lower(resolve_lower_level(p, case_)),
         model(p, choice.collision),
         program(make_wrench_program(p, choice.wrench)),
         measure(lower.make_measure()) {}
@@ -84,11 +92,13 @@ struct TaskEvaluator::Evaluator {
 
   void evaluate(const Eigen::VectorXd& theta_r, const SolutionChoice& which, Evaluation& result) {
     const Posture& posture = evaluate_at(theta_r, which, result);
+    posture_ = &posture;
     static_cast<Verdict&>(result) = verdict_of(problem, posture, capability);
     result.unit = lower.unit;
     show_posture(posture, result);
     if (result.status != Status::kOptimal) return;
     result.beta = capability.beta;
+    if (!problem.scenarios.empty()) result.c = capability.decides.c.stableNormalized();
     result.u = capability.u;
     if (capability.w.size() > 0) {
       result.h = capability.h;
@@ -128,30 +138,98 @@ struct TaskEvaluator::Evaluator {
     put_pose(posture.contact, result.contact);
   }
 
+  /// `result` is that of the last evaluation.
+  Answer answer(std::shared_ptr<const Problem> task, const Evaluation& result) const {
+    Answer answer;
+    static_cast<Verdict&>(answer) = result;
+    answer.task = std::move(task);
+    answer.choice = case_;
+    answer.choice.solver = lower.solver;
+    answer.unit = lower.unit;
+    answer.evaluations = 1;
+    answer.collision = collision;
+    answer.posture = *posture_;
+    answer.capability = capability;
+    answer.trajectory = one_instant(problem, *posture_, capability, result.gradient);
+    return answer;
+  }
+
   const Problem& problem;
+  bool collision;
+  Case case_;
   LowerLevel lower;
   PostureEvaluator model;
   WrenchProgram program;
   std::unique_ptr<Measure> measure;
   Capability capability;
+  const Posture* posture_ = nullptr;
 };
 
-TaskEvaluator::TaskEvaluator(Problem problem) : problem_(std::move(problem)) {}
-TaskEvaluator::~TaskEvaluator() = default;
+struct TaskEvaluator::KnotsEvaluator {
+  KnotsEvaluator(const Problem& problem, const EvaluationChoice& choice)
+      : case_(case_of(problem, choice)),
+        unit(problem.unit()),
+        evaluator(problem, choice.wrench, trajectory_solvers().front().make, choice.collision) {
+    if (choice.measure != Case().measure) {
+      throw std::invalid_argument("measure: got '" + choice.measure + "', expected " +
+                                  Case().measure + ": a task in time supports no other measure");
+    }
+    case_.solver = trajectory_solvers().front().name;
+    case_.scheme = to_string(problem.motion->scheme);
+  }
 
-TaskEvaluator::Evaluator& TaskEvaluator::evaluator_for(const EvaluationChoice& choice) {
-  std::unique_ptr<Evaluator>& found =
-      evaluators_[{choice.measure, choice.wrench, choice.collision}];
-  if (!found) found = std::make_unique<Evaluator>(problem_, choice);
-  return *found;
-}
+  Answer answer(std::shared_ptr<const Problem> task) const {
+    Answer answer;
+    answer.task = std::move(task);
+    answer.choice = case_;
+    answer.unit = unit;
+    answer.evaluations = 1;
+    answer.trajectory = evaluator.trajectory();
+    static_cast<Verdict&>(answer) = answer.trajectory;
+    answer.program = evaluator.program();
+    return answer;
+  }
+
+  Case case_;
+  const char* unit;
+  TrajectoryEvaluator evaluator;
+};
+
+TaskEvaluator::TaskEvaluator(Problem problem)
+    : problem_(std::make_shared<const Problem>(std::move(problem))) {}
+TaskEvaluator::~TaskEvaluator() = default;
 
 const Evaluation& TaskEvaluator::evaluate(const Eigen::VectorXd& theta_r,
                                           const EvaluationChoice& choice,
                                           const SolutionChoice& which) {
-  require_choice(problem_, which);
-  evaluator_for(choice).evaluate(theta_r, which, evaluation_);
+  if (problem_->motion) {
+    throw std::invalid_argument("theta_r: got a posture of a task in time, expected its knots");
+  }
+  require_choice(*problem_, which);
+  last_ = {};
+  std::unique_ptr<Evaluator>& found =
+      evaluators_[{choice.measure, choice.wrench, choice.collision}];
+  if (!found) found = std::make_unique<Evaluator>(*problem_, choice);
+  found->evaluate(theta_r, which, evaluation_);
+  last_ = [this, evaluator = found.get()] { return evaluator->answer(problem_, evaluation_); };
   return evaluation_;
+}
+
+void TaskEvaluator::evaluate_knots(const Eigen::MatrixXd& knots, const EvaluationChoice& choice) {
+  if (!problem_->motion) {
+    throw std::invalid_argument("theta_r: got knots of a static task, expected a posture");
+  }
+  last_ = {};
+  std::unique_ptr<KnotsEvaluator>& found =
+      knots_evaluators_[{choice.measure, choice.wrench, choice.collision}];
+  if (!found) found = std::make_unique<KnotsEvaluator>(*problem_, choice);
+  found->evaluator.evaluate(knots);
+  last_ = [this, evaluator = found.get()] { return evaluator->answer(problem_); };
+}
+
+Answer TaskEvaluator::answer() const {
+  if (!last_) throw std::invalid_argument("engine: got no evaluation, expected one before");
+  return last_();
 }
 
 }  // namespace maxwrench

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -34,15 +35,15 @@ struct SolutionChoice {
   Eigen::VectorXd near;  ///< not empty: the one whose joints are nearest to these
 };
 
-/// Evaluates postures of a static task one after another, and keeps for each choice what that
-/// needs.
+/// Evaluates postures of a static task, or trajectories of a task in time, one after another, and
+/// keeps for each choice what that needs.
 class TaskEvaluator {
  public:
   explicit TaskEvaluator(Problem problem);
   TaskEvaluator(const TaskEvaluator&) = delete;
   TaskEvaluator& operator=(const TaskEvaluator&) = delete;
   ~TaskEvaluator();
-  const Problem& problem() const { return problem_; }
+  const Problem& problem() const { return *problem_; }
 
   /// Evaluates the task at theta_r, as `maxwrench::evaluate` does for the best IK solution.
   ///
@@ -53,12 +54,28 @@ class TaskEvaluator {
   const Evaluation& evaluate(const Eigen::VectorXd& theta_r, const EvaluationChoice& choice,
                              const SolutionChoice& which = {});
 
+  /// Evaluates a table of knots (k×r) of a task in time at the instants of its scheme, as
+  /// `maxwrench::evaluate` does, but neither between the knots nor the clearance there.
+  ///
+  /// @throws std::invalid_argument with one line if the table is not k×r finite numbers, or the
+  ///         task does not support the choice.
+  void evaluate_knots(const Eigen::MatrixXd& knots, const EvaluationChoice& choice);
+
+  /// The last evaluation as `maxwrench::evaluate` returns it, without `Answer::beta_linf` and what
+  /// is between knots.
+  ///
+  /// @throws std::invalid_argument with one line if nothing was evaluated.
+  Answer answer() const;
+
  private:
   struct Evaluator;
-  Evaluator& evaluator_for(const EvaluationChoice& choice);
+  struct KnotsEvaluator;
+  using Key = std::tuple<std::string, Wrench, bool>;
 
-  Problem problem_;
-  std::map<std::tuple<std::string, Wrench, bool>, std::unique_ptr<Evaluator>> evaluators_;
+  std::shared_ptr<const Problem> problem_;
+  std::map<Key, std::unique_ptr<Evaluator>> evaluators_;
+  std::map<Key, std::unique_ptr<KnotsEvaluator>> knots_evaluators_;
+  std::function<Answer()> last_;
   Evaluation evaluation_;
 };
 

@@ -9,10 +9,20 @@
 #include "verify/bytes.h"
 
 namespace maxwrench {
+
+/// Stores paths, whose members nothing else sees.
+struct PathMembers {
+  template <class Put>
+  static void put_all(Path& x, const Put& put) {
+    put(x.start_, x.axis_, x.centre_, x.displacement_, x.angle_, x.duration_, x.timing_, x.times_,
+        x.values_, x.bends_);
+  }
+};
+
 namespace {
 
 /// The first bytes. The number is the version of everything that follows.
-constexpr std::string_view kBegin = "maxwrench task 1\n";
+constexpr std::string_view kBegin = "maxwrench task 2\n";
 constexpr std::size_t kChecksumBytes = 8;
 
 /// Writes values. `Reading` has the same functions, so each type's members are listed once.
@@ -152,11 +162,53 @@ void put(Archive& to, Contact& x) {
           x.follow, x.q_rest, x.length_scale, x.sigma_min, x.rank);
 }
 template <class Archive>
+void put(Archive& to, MotionTask& x) {
+  PathMembers::put_all(x.path, [&to](auto&... members) { put_all(to, members...); });
+  put_all(to, x.impulse, x.T, x.k, x.scheme, x.instants_per_interval, x.rates, x.c_turns, x.t_h,
+          x.start, x.theta_0);
+}
+template <class Archive>
+void put(Archive& to, LinkLoad& x) {
+  put_all(to, x.link, x.mass, x.moment);
+}
+template <class Archive>
+void put(Archive& to, LoadCase& x) {
+  put_all(to, x.name, x.loads, x.current);
+}
+/// The rest follows from the robot's own actuation.
+template <class Archive>
+void put(Archive& to, ScenarioLimits& x) {
+  put_all(to, x.name, x.actuation.u_min, x.actuation.u_max);
+}
+template <class Archive>
+void put(Archive& to, ScenarioWrench& x) {
+  put_all(to, x.name, x.c, x.hold);
+}
+template <class Archive>
+void put(Archive& to, WrenchBall& x) {
+  put_all(to, x.E, x.radius);
+}
+template <class Archive>
+void put(Archive& to, CarriedLoad& x) {
+  put_all(to, x.wet_mass, x.moment);
+}
+/// The unit is a text that lasts as long as the program.
+template <class Archive>
+void put(Archive& to, ScenarioList& x) {
+  std::string unit = x.unit;
+  put_all(to, x.wrenches, x.ball, x.payload, x.F, x.limits, x.loads, x.non_negative, unit);
+  for (const char* known : {"", "N", "N m", "mixed", "kg", "-"}) {
+    if (unit == known) x.unit = known;
+  }
+  to.expect(unit == x.unit);
+}
+template <class Archive>
 void put(Archive& to, Problem& x) {
   put_all(to, x.name, x.label, x.digest, x.robot, x.end_effector, x.pose, x.free.axes,
           x.free.along_end_effector, x.free.wrench_turns, x.c, x.W_any, x.reference, x.desired,
           x.wrench_axes, x.wrench_in_end_effector, x.redundant, x.dependent, x.guess_q,
-          x.guess_base, x.contact, x.theta_r_min, x.theta_r_max, x.theta_r_default);
+          x.guess_base, x.contact, x.theta_r_min, x.theta_r_max, x.theta_r_default, x.motion,
+          x.scenarios);
 }
 
 template <class Archive, class T>
@@ -174,9 +226,6 @@ std::string checksum(std::string_view bytes) {
 }  // namespace
 
 std::string why_no_engine(const Problem& problem) {
-  if (problem.motion) return problem.name + ": a task in time, expected a static task";
-  if (!problem.scenarios.empty())
-    return problem.name + ": a list of scenarios, expected one wrench";
   if (problem.robot.collision && !made_of(*problem.robot.collision)) {
     return problem.name + ": a collision check of its own, expected that of the robot's shapes";
   }
@@ -212,6 +261,9 @@ Problem read_problem(std::string_view data) {
   Zonotope& actuation = problem.robot.actuation;
   actuation.N_nonzero = actuation.N.sparseView();
   actuation.N_nonzero.makeCompressed();
+  for (ScenarioLimits& limits : problem.scenarios.limits) {
+    limits.actuation = with_limits(actuation, limits.actuation.u_min, limits.actuation.u_max);
+  }
   if (collision) {
     problem.robot.collision =
         make_collision_checker(std::move(collision->shapes), collision->ignore, collision->margin);

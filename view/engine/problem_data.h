@@ -9,11 +9,10 @@ namespace maxwrench {
 
 /// Why the evaluation engine does not support a task, in one line; empty if it does.
 ///
-/// It supports static tasks of robots without a collision check, or with the one that `finalize`
-/// makes.
+/// It supports tasks of robots without a collision check, or with the one that `finalize` makes.
 std::string why_no_engine(const Problem& problem);
 
-/// All that an evaluation of a static task depends on, as bytes for `read_problem`.
+/// All that an evaluation of a task depends on, as bytes for `read_problem`.
 ///
 /// The collision check is written as its shapes, and `Problem::start_system` is left out, as are
 /// texts that no result depends on: sources, notes, warnings, files, named postures and bodies for

@@ -59,26 +59,39 @@ ordered_json static_frame(const Answer& answer) {
     frame["contact"] = matrix_json(answer.posture.contact);
     frame["h_2"] = answer.has_value() ? array(answer.capability.h_2) : ordered_json::array();
   }
-  if (answer.posture.status == Status::kValid) {
-    frame["sets"] = wrench_sets_json(problem, answer.posture, answer.choice);
-  }
   return frame;
 }
 
 }  // namespace
 
-ordered_json frames_json(const Answer& answer) {
-  if (!answer.task->motion) return ordered_json::array({static_frame(answer)});
+ordered_json sets_json(const Answer& answer, std::size_t instant) {
+  const Problem& problem = *answer.task;
+  const bool in_time = problem.motion.has_value();
+  const Posture& posture =
+      in_time ? posture_at(problem, answer.trajectory.instants.at(instant)) : answer.posture;
+  if (posture.status != Status::kValid) return nullptr;
+  return wrench_sets_json(problem, posture, answer.choice);
+}
+
+ordered_json frames_json(const Answer& answer, std::size_t most_sets) {
   ordered_json frames = ordered_json::array();
-  for (const Instant& instant : answer.trajectory.instants) {
+  if (!answer.task->motion) {
+    frames.push_back(static_frame(answer));
+    if (most_sets > 0) frames[0]["sets"] = sets_json(answer, 0);
+    return frames;
+  }
+  const std::size_t instants = answer.trajectory.instants.size();
+  const std::size_t step = most_sets == 0 ? instants : (instants + most_sets - 1) / most_sets;
+  for (std::size_t i = 0; i < instants; ++i) {
+    const Instant& instant = answer.trajectory.instants[i];
     if (!instant.q.allFinite()) continue;  // the dependent joints do not reach it
     ordered_json frame = frame_of(answer, instant);
     frame["beta"] = known(answer.has_value(), instant.beta());
     frame["unit"] = answer.unit;
     frame["t"] = instant.t;
     frame["v"] = array(instant.v);
-    frame["sets"] =
-        wrench_sets_json(*answer.task, posture_at(*answer.task, instant), answer.choice);
+    frame["instant"] = i;
+    if (most_sets > 0 && i % step == 0) frame["sets"] = sets_json(answer, i);
     frames.push_back(std::move(frame));
   }
   return frames;

@@ -31,8 +31,20 @@ std::vector<nlohmann::ordered_json> mesh_json(const Visual& visual);
 nlohmann::ordered_json robot_json(const Robot& robot, const std::vector<Visual>& visuals);
 
 /// What the robot is and does at each instant of an answer; a static task has one. The members are
-/// those that the engine of pages returns, and for instants also `t` and `v`.
-nlohmann::ordered_json frames_json(const Answer& answer);
+/// those that the engine of pages returns, for instants also `t`, `v` and their number `instant`,
+/// and at no more than `most_sets` instants the sets of wrenches.
+nlohmann::ordered_json frames_json(const Answer& answer, std::size_t most_sets);
+
+/// The sets of wrenches at an instant of an answer, as `wrench_sets_json`; null if its posture is
+/// invalid. In time they are those with the forces of the motion.
+nlohmann::ordered_json sets_json(const Answer& answer, std::size_t instant);
+
+/// What binds at an answer, as `eval --explain --json` has it; null for a list of scenarios.
+nlohmann::ordered_json explanation_json(const Answer& answer);
+
+/// Of a list of scenarios: which one decides, its limits of the efforts, the number of scenarios,
+/// and the intervals of all of them unless there are many. Null without a list or a posture.
+nlohmann::ordered_json scenarios_json(const Answer& answer);
 
 /// The set of forces, or of torques if c is a torque, as a polytope and an ellipsoid. Null if c is
 /// neither, or there is no such set.

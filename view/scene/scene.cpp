@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "lib/trajectory/scheme.h"
 #include "maxwrench/version.h"
 #include "solvers/solve/format.h"
 #include "view/scene/parts.h"
@@ -10,6 +11,9 @@ namespace maxwrench {
 namespace {
 
 using nlohmann::ordered_json;
+
+/// The most instants of a trajectory whose sets of wrenches are in a scene.
+constexpr std::size_t kMostSets = 50;
 
 ordered_json coordinate_json(const Problem& problem, int i) {
   return {{"name", problem.theta_r_name(i)},
@@ -31,6 +35,18 @@ ordered_json contact_json(const Problem& problem) {
           {"max", array(problem.theta_r_max.tail(s))}};
 }
 
+/// The times of the knots [s]; of an impulse without its start.
+std::vector<double> knot_times(const Problem& problem) {
+  const SchemeMaps maps = make_scheme(*problem.motion);
+  std::vector<double> times;
+  for (std::size_t i = maps.starts ? 1 : 0; i < maps.knot_at.size(); ++i) {
+    const int instant = maps.knot_at[i];
+    times.push_back(instant < 0 ? maps.dt * static_cast<double>(i)
+                                : maps.t[static_cast<std::size_t>(instant)]);
+  }
+  return times;
+}
+
 ordered_json task_json(const Problem& problem) {
   ordered_json task;
   task["name"] = problem.name;
@@ -43,22 +59,9 @@ ordered_json task_json(const Problem& problem) {
   for (int i = 0; i < problem.redundancy(); ++i) {
     task["theta_r"].push_back(coordinate_json(problem, i));
   }
+  if (problem.motion) task["knot_times"] = knot_times(problem);
   task["contact"] = problem.contact ? contact_json(problem) : ordered_json(nullptr);
   return task;
-}
-
-ordered_json shown_json(const Shown& shown) {
-  const Answer& answer = shown.answer;
-  ordered_json object;
-  object["name"] = shown.name;
-  object["status"] = to_string(answer.status);
-  object["reason"] = known(!answer.reason.empty(), answer.reason.str());
-  object["beta"] = known(answer.has_value(), answer.beta());
-  object["unit"] = answer.unit;
-  object["search"] = known(!answer.choice.search.empty(), answer.choice.search);
-  object["evaluations"] = answer.evaluations;
-  object["frames"] = frames_json(answer);
-  return object;
 }
 
 }  // namespace
@@ -78,7 +81,7 @@ ordered_json scene_of(const Problem& problem, const std::vector<Visual>& visuals
       scene["wrench"] = to_string(each.answer.choice.wrench);
     }
     if (each.answer.trajectory.instants.empty()) continue;
-    ordered_json entry = shown_json(each);
+    ordered_json entry = shown_json(each, kMostSets);
     if (!entry["frames"].empty()) scene["shown"].push_back(std::move(entry));
   }
   return scene;

@@ -15,6 +15,12 @@ struct Shown {
   Answer answer;
 };
 
+/// A posture or trajectory as a page shows it: status, value, frames, what binds, scenarios.
+///
+/// @param shown      the posture or trajectory
+/// @param most_sets  at most so many instants have sets of wrenches
+nlohmann::ordered_json shown_json(const Shown& shown, std::size_t most_sets);
+
 /// All that a page draws, as one object: the robot, the task, its surroundings and the frames of
 /// what is shown. docs/view.md lists its keys.
 ///

@@ -6,6 +6,12 @@ namespace maxwrench {
 
 using nlohmann::ordered_json;
 
+double number_or(const ordered_json& value, double other) {
+  return value.is_number() ? value.get<double>() : other;
+}
+
+bool has_numbers(const ordered_json& list) { return list.is_array() && !list.empty(); }
+
 Eigen::Affine3d pose_at(const ordered_json& numbers, std::size_t i) {
   Eigen::Affine3d pose = Eigen::Affine3d::Identity();
   for (std::size_t k = 0; k < 12; ++k) {

@@ -9,6 +9,12 @@
 
 namespace maxwrench {
 
+/// The number, or another one where there is none.
+double number_or(const nlohmann::ordered_json& value, double other);
+
+/// Whether it is a list that is not empty.
+bool has_numbers(const nlohmann::ordered_json& list);
+
 /// The i-th pose in a list of poses, 12 numbers each.
 Eigen::Affine3d pose_at(const nlohmann::ordered_json& numbers, std::size_t i = 0);
 

@@ -210,6 +210,13 @@ Solid ring(double radius, double tube, double angle) {
   return solid;
 }
 
+Eigen::Affine3d placed(const Point3& at, const Point3& along) {
+  Eigen::Affine3d to = Eigen::Affine3d::Identity();
+  to.translation() = at;
+  to.linear() = Eigen::Quaterniond::FromTwoVectors(Point3::UnitZ(), along).toRotationMatrix();
+  return to;
+}
+
 Solid moved(Solid solid, const Eigen::Affine3d& to) {
   for (Point3& x : solid.points) x = to * x;
   if (to.linear().determinant() < 0) {

@@ -32,6 +32,9 @@ Solid box(const Eigen::Vector3d& size);
 /// A tube around a circle about z, from the x axis by an angle [rad], without ends.
 Solid ring(double radius, double tube, double angle);
 
+/// What moves z to a direction, and the origin to a place.
+Eigen::Affine3d placed(const Eigen::Vector3d& at, const Eigen::Vector3d& along);
+
 Solid moved(Solid solid, const Eigen::Affine3d& to);
 
 }  // namespace maxwrench

@@ -14,6 +14,8 @@
 #include "tests/support/coded_tasks.h"
 #include "tests/support/support.h"
 #include "view/engine/problem_data.h"
+#include "view/scene/parts.h"
+#include "view/scene/scene.h"
 
 namespace maxwrench {
 namespace {
@@ -21,6 +23,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kPostures = 100;
+/// The number of postures whose sets of wrenches and explanation are compared.
+constexpr int kPosturesWithParts = 20;
+/// The number of trajectories of a task in time.
+constexpr int kTrajectories = 5;
 /// The number of postures that each measure is evaluated at, beside linf_polytope.
 constexpr int kPosturesOfOthers = 10;
 
@@ -72,7 +78,8 @@ Problem with_cylinders() {
   return make_problem(task);
 }
 
-Json case_at(const Problem& problem, const Eigen::VectorXd& theta_r, const Options& options) {
+Json case_at(const Problem& problem, const Eigen::VectorXd& theta_r, const Options& options,
+             bool with_parts) {
   const Answer answer = evaluate(problem, theta_r, options);
   const Posture& posture = answer.posture;
   Json links = Json::array();
@@ -100,6 +107,10 @@ Json case_at(const Problem& problem, const Eigen::VectorXd& theta_r, const Optio
   result["end_effector"] = list(answer.trajectory.instants[0].end_effector);
   result["J"] = list(posture.J);
   result["J_2"] = list(posture.J_2);
+  if (!with_parts) return result;
+  result["sets"] = sets_json(answer, 0);
+  result["explanation"] = explanation_json(answer);
+  result["scenarios"] = scenarios_json(answer);
   return result;
 }
 
@@ -130,9 +141,9 @@ Json cases_of(const Problem& problem) {
     for (Options options : choices) {
       const bool polytope = options.measure == Case().measure;
       if (!polytope && i >= kPosturesOfOthers) continue;
-      cases.push_back(case_at(problem, theta_r, options));
+      cases.push_back(case_at(problem, theta_r, options, false));
       options.check_collision = false;
-      if (polytope) cases.push_back(case_at(problem, theta_r, options));
+      if (polytope) cases.push_back(case_at(problem, theta_r, options, i < kPosturesWithParts));
     }
   }
   return {{"name", problem.name},
@@ -141,6 +152,28 @@ Json cases_of(const Problem& problem) {
           {"u_min", list(problem.robot.actuation.u_min)},
           {"u_max", list(problem.robot.actuation.u_max)},
           {"cases", cases}};
+}
+
+/// Trajectories near the default one.
+Json trajectories_of(const Problem& problem) {
+  Json cases = Json::array();
+  Random random(9);
+  const Eigen::VectorXd width = problem.theta_r_max - problem.theta_r_min;
+  for (int i = 0; i < kTrajectories; ++i) {
+    Eigen::MatrixXd knots = problem.theta_r_default.transpose().replicate(problem.motion->k, 1);
+    for (auto knot : knots.rowwise()) {
+      for (Eigen::Index k = 0; k < knot.size(); ++k) {
+        knot[k] += (i == 0 ? 0 : 0.02) * width[k] * (random.uniform() - 0.5);
+      }
+    }
+    const Answer answer = evaluate(problem, knots);
+    const std::size_t middle = answer.trajectory.instants.size() / 2;
+    Json shown = shown_json({"own", answer}, 0);
+    cases.push_back({{"shown", shown}, {"instant", middle}, {"sets", sets_json(answer, middle)}});
+  }
+  return {{"name", problem.name},
+          {"data", hexadecimal(problem_data(problem))},
+          {"trajectories", cases}};
 }
 
 }  // namespace
@@ -153,6 +186,15 @@ int main() {
        {"uvms/valve", "uvms/lift", "dual_arm/two_arms", "mobile/push", "fixed/push", "planar/force",
         "planar/two_arms", "mobile/push_any_height"}) {
     tasks.push_back(cases_of(load_problem(name)));
+  }
+  for (const char* name : {"turn_both_ways", "lift_with_a_dead_thruster", "turn_guaranteed"}) {
+    const std::string folder = MAXWRENCH_SOURCE_DIR "/examples/tasks/";
+    tasks.push_back(cases_of(load_problem(folder + name + ".toml")));
+  }
+  for (const char* name : {"planar/trajectory"
+                           "uvms/valve_trajectory",
+                           "uvms/valve_impulse"}) {
+    tasks.push_back(trajectories_of(load_problem(name)));
   }
   tasks.push_back(cases_of(with_cylinders()));
   std::puts(tasks.dump().c_str());

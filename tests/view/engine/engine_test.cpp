@@ -10,6 +10,7 @@
 #include "maxwrench/solve.h"
 #include "tests/support/coded_tasks.h"
 #include "tests/support/support.h"
+#include "tests/view/no_collision.h"
 #include "verify/bytes.h"
 #include "verify/certificate.h"
 #include "view/engine/evaluator.h"
@@ -101,21 +102,11 @@ TEST(ProblemData, ShortDataWithAChecksumAreRejected) {
 
 TEST(ProblemData, SaysWhatTheEngineDoesNotSupport) {
   EXPECT_EQ(why_no_engine(load_problem("uvms/valve")), "");
-  const Problem in_time = load_problem("uvms/valve_trajectory");
-  EXPECT_EQ(why_no_engine(in_time),
-            "uvms/valve_trajectory: a task in time, expected a static task");
-  EXPECT_EQ(rejection_of([&] { problem_data(in_time); }), why_no_engine(in_time));
-  struct Never final : CollisionChecker {
-    int colliding_pair(const std::vector<Pose<double>>&) const override { return -1; }
-    int pairs() const override { return 0; }
-    bool nearest(const std::vector<Pose<double>>&, int, ClosestPoints&) const override {
-      return false;
-    }
-    std::string pair_name(int) const override { return ""; }
-  };
+  EXPECT_EQ(why_no_engine(load_problem("uvms/valve_trajectory")), "");
   Problem own = load_problem("planar/force");
-  own.robot.collision = std::make_shared<Never>();
+  own.robot.collision = std::make_shared<NoCollision>();
   EXPECT_THAT(why_no_engine(own), StartsWith("planar/force: a collision check of its own"));
+  EXPECT_EQ(rejection_of([&] { problem_data(own); }), why_no_engine(own));
 }
 
 /// The engine keeps its evaluators, `evaluate` makes them anew.

@@ -10,7 +10,7 @@ function addKeys(app) {
     "+": () => stage.orbit(0, 0, 0.9), "=": () => stage.orbit(0, 0, 0.9), "-": () => stage.orbit(0, 0, 1.1), Home: () => stage.frame(),
     " ": () => app.timeline?.toggle(),
   };
-  app.scene.shown.forEach((each, i) => (keys[String(i + 1)] = () => app.showPosture(each.name)));
+  [...app.scene.shown.map((each) => each.name), "own"].forEach((name, i) => (keys[String(i + 1)] = () => app.showPosture(name)));
   byId("canvas").addEventListener("keydown", (event) => {
     if (!keys[event.key] || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
@@ -29,14 +29,16 @@ function addPointer(app) {
   canvas.addEventListener("pointermove", (event) => {
     if (event.buttons) return;
     const box = canvas.getBoundingClientRect();
-    light(app.world.actuatorAt((2 * (event.clientX - box.left)) / box.width - 1, 1 - (2 * (event.clientY - box.top)) / box.height, app.stage.camera));
+    const { view, x, y } = app.stage.viewAt(event.clientX - box.left, event.clientY - box.top);
+    app.stage.views[view]();
+    light(app.world.actuatorAt(x, y, app.stage.camera));
   });
   canvas.addEventListener("pointerleave", () => light(-1));
   app.stage.controls.addEventListener("start", () => (app.stage.framed = false));
 }
 
 export function addControls(app) {
-  for (const input of document.querySelectorAll("#show input[type=checkbox]")) {
+  for (const input of document.querySelectorAll("input[type=checkbox]")) {
     input.addEventListener("change", () => app.setShown(input.id.replace("show-", ""), input.checked));
   }
   byId("scale").addEventListener("input", () => {

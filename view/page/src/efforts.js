@@ -77,7 +77,7 @@ export class Efforts extends Group {
     const base = matrixAt(frame.links);
     this.marks.forEach((mark, i) => {
       const u = frame.u.length ? frame.u[i] : 0;
-      const share = shareOf(this.robot.actuators[i], u);
+      const share = shareOf(frame.limits[i], u);
       for (const material of [mark.material, mark.hidden]) material.color.copy(colourOf(share));
       if (i < this.robot.thrusters.length) this.setThruster(mark, this.robot.thrusters[i], base, u);
       else this.setJoint(mark, i - this.robot.thrusters.length, frame, u, share);

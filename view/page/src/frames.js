@@ -28,7 +28,7 @@ export function frameAt(frames, t) {
   const s = b.t > a.t ? Math.min(Math.max((t - a.t) / (b.t - a.t), 0), 1) : 0;
   if (s < 1e-9) return a;
   const near = s < 0.5 ? a : b;
-  const between = { ...near, t, beta: a.beta === null ? null : a.beta + s * (b.beta - a.beta) };
+  const between = { ...near, near, t, beta: a.beta === null ? null : a.beta + s * (b.beta - a.beta) };
   for (const key of ["theta_r", "theta", "c", "h", "u", "v"]) between[key] = mix(a[key], b[key], s);
   for (const key of ["links", "end_effector"]) between[key] = mixPoses(a[key], b[key], s);
   return between;

@@ -17,12 +17,13 @@ function numbers(text, count) {
 }
 
 /** Reads what `written` wrote. What is missing or damaged is null. */
-export function read(hash, coordinates) {
+export function read(hash, coordinates, knots) {
   const part = new URLSearchParams(hash.replace(/^#/, ""));
   return {
     posture: part.get("posture"),
     theta: numbers(part.get("theta"), coordinates),
     near: numbers(part.get("near")),
+    knots: knots ? numbers(part.get("knots"), knots) : null,
     t: numbers(part.get("t"), 1)?.[0] ?? null,
     camera: numbers(part.get("camera"), 6),
     show: part.get("show")?.split(",") ?? null,

@@ -6,6 +6,7 @@ import { engineOf } from "./engine.js";
 async function start() {
   const scene = JSON.parse(byId("scene").textContent);
   const app = new App(scene, await engineOf(scene));
+  globalThis.app = app; // for tests and the console
   addControls(app);
   app.restore(location.hash);
   document.documentElement.dataset.ready = "yes";

@@ -9,6 +9,8 @@ import { paint } from "./arrows.js";
 const translucent = (colour, opacity) =>
   new MeshStandardMaterial({ color: colour, transparent: true, opacity, side: DoubleSide, depthWrite: false, roughness: 0.6, flatShading: true });
 
+const kKept = 64; // bodies of polytopes
+
 export class WrenchSets extends Group {
   constructor(size) {
     super();
@@ -24,6 +26,7 @@ export class WrenchSets extends Group {
     this.body = new Group(); // at the tool, in newtons or newton metres
     this.body.add(this.polytope, this.ellipsoid);
     this.add(this.body, this.point, this.ray);
+    this.bodies = new Map(); // of polytopes
   }
 
   /** `metres` is the length of 1 N or 1 N m of the set. Returns the label of the point. */
@@ -51,17 +54,27 @@ export class WrenchSets extends Group {
   setPolytope(polytope) {
     if (polytope === this.drawn) return;
     this.drawn = polytope;
-    for (const part of this.polytope.children) part.geometry.dispose();
     this.polytope.clear();
     if (!polytope) return;
+    if (!this.bodies.has(polytope)) this.bodies.set(polytope, this.bodyOf(polytope));
+    // Those that were not drawn for long are made again.
+    for (const [old, parts] of this.bodies) {
+      if (this.bodies.size <= kKept) break;
+      for (const part of parts) part.geometry.dispose();
+      this.bodies.delete(old);
+    }
+    this.polytope.add(...this.bodies.get(polytope));
+  }
+
+  bodyOf(polytope) {
     const positions = new BufferAttribute(new Float32Array(polytope.vertices), 3);
     const surface = new BufferGeometry().setAttribute("position", positions);
     surface.setIndex(polytope.triangles);
     surface.computeVertexNormals();
     const edges = new BufferGeometry().setAttribute("position", positions);
     edges.setIndex(polytope.edges);
-    if (polytope.triangles.length) this.polytope.add(new Mesh(surface, this.face));
-    this.polytope.add(new LineSegments(edges, this.edge));
+    const lines = new LineSegments(edges, this.edge);
+    return polytope.triangles.length ? [new Mesh(surface, this.face), lines] : [lines];
   }
 
   setEllipsoid(ellipsoid) {

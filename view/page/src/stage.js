@@ -54,6 +54,7 @@ export class Stage {
     this.controls.enableDamping = false;
     this.controls.addEventListener("change", () => this.invalidate());
     this.drawn = () => {};
+    this.views = [() => {}];
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
   }
 
@@ -65,15 +66,48 @@ export class Stage {
   render() {
     if (this.pending) cancelAnimationFrame(this.pending);
     this.pending = undefined;
-    this.renderer.render(this.scene, this.camera);
+    this.renderer.setScissorTest(this.views.length > 1);
+    this.views.forEach((arrange, i) => {
+      const { x, y, width, height } = this.boxOf(i);
+      const bottom = this.canvas.clientHeight - y - height;
+      this.renderer.setViewport(x, bottom, width, height);
+      this.renderer.setScissor(x, bottom, width, height);
+      arrange();
+      this.renderer.render(this.scene, this.camera);
+    });
     this.drawn();
+  }
+
+  /** What is drawn: a function for each view puts the scene in order for it. */
+  setViews(views) {
+    const other = views.length !== this.views.length;
+    this.views = views;
+    if (other) this.resize();
+    this.invalidate();
+  }
+
+  /** Where a view is on the canvas [px]: beside each other on a wide one, else one above the other. */
+  boxOf(i) {
+    const { clientWidth, clientHeight } = this.canvas;
+    const count = this.views.length;
+    if (clientWidth > clientHeight) return { x: (i * clientWidth) / count, y: 0, width: clientWidth / count, height: clientHeight };
+    return { x: 0, y: (i * clientHeight) / count, width: clientWidth, height: clientHeight / count };
+  }
+
+  /** The view at a place of the canvas [px], and the place in it, in -1 .. 1. */
+  viewAt(x, y) {
+    const within = (box) => x >= box.x && x <= box.x + box.width && y >= box.y && y <= box.y + box.height;
+    const view = Math.max(this.views.findIndex((_, i) => within(this.boxOf(i))), 0);
+    const box = this.boxOf(view);
+    return { view, x: (2 * (x - box.x)) / box.width - 1, y: 1 - (2 * (y - box.y)) / box.height };
   }
 
   resize() {
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement;
     if (!width || !height) return;
     this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / height;
+    const box = this.boxOf(0);
+    this.camera.aspect = box.width / box.height;
     this.camera.updateProjectionMatrix();
     if (this.framed) this.frame();
     this.render();

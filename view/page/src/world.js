@@ -75,7 +75,7 @@ export class World extends Group {
     return new Vector3(0.75, -1, flat ? 1.9 : 0.62);
   }
 
-  /** The actuator at a place of the picture, in -1 .. 1; -1 if there is none. */
+  /** The actuator at a place of the view that was drawn last, in -1 .. 1; -1 if there is none. */
   actuatorAt(x, y, camera) {
     if (!this.efforts.visible) return -1;
     this.caster.setFromCamera(new Vector2(x, y), camera);

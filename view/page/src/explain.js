@@ -1,0 +1,100 @@
+// What binds: the limits at work, in words first; and the scenarios of a list.
+import { byId, make } from "./dom.js";
+import { shown, withUnit, words } from "./format.js";
+
+const row = (tag, ...cells) => make("tr", {}, ...cells.map((cell) => make(tag, {}, cell)));
+
+const kSides = { min: "lower", max: "upper", smaller: "smaller" };
+
+function table(head, rows) {
+  return make("table", { class: "numbers" }, make("thead", {}, row("th", ...head)), make("tbody", {}, ...rows.map((cells) => row("td", ...cells))));
+}
+
+/** Names are long: each stands above its numbers. */
+function namedTable(head, rows) {
+  const lines = rows.flatMap(([name, ...cells]) => [make("tr", { class: "name" }, make("td", { colspan: head.length }, name)), row("td", ...cells)]);
+  return make("table", { class: "numbers named" }, make("thead", {}, row("th", ...head)), make("tbody", {}, ...lines));
+}
+
+const nameOf = (limit) => `${words(limit.name)}, ${kSides[limit.limit] ?? limit.limit}`;
+
+/** Limits, what 10 % more of each gives, and between which values that rate holds. */
+function bindingTable({ binding }, unit) {
+  const range = (limit) => (limit.rate_up === null ? "\u2013"
+    : `${limit.down === null ? "\u2212\u221e" : shown(limit.at - limit.down, 4)} \u2026 ${limit.up === null ? "\u221e" : shown(limit.at + limit.up, 4)}`);
+  return namedTable(["at", `10 % more [${unit}]`, "rate", "holds from \u2026 to"],
+    binding.map((limit) => [nameOf(limit), withUnit(limit.at, limit.unit, 4), limit.gain === null ? "\u2013" : shown(limit.gain, 4), shown(limit.rate, 4), range(limit)]));
+}
+
+function ratesTable(limits, unit) {
+  return namedTable(["at", `rate [${unit} per unit]`], limits.map((limit) => [nameOf(limit), withUnit(limit.at, limit.unit, 4), shown(limit.rate, 4)]));
+}
+
+/** The value as a sum of what limits and loads contribute. */
+function budgetWords({ budget, binding }, unit) {
+  if (!budget) return null;
+  const parts = [["limits", binding.reduce((sum, limit) => sum + limit.share, 0)], ...["weight", "buoyancy", "trim", "other"].map((name) => [name, budget[name]])];
+  const terms = parts.filter(([, value]) => Math.abs(value) > 1e-9).map(([name, value]) => `${name} ${shown(value, 5)}`);
+  return `The value is the sum of ${terms.join(", ")} ${unit}.`;
+}
+
+function ofPosture(explanation, unit) {
+  if (explanation.missing) return [make("p", {}, `Not known: ${explanation.missing}.`)];
+  const parts = explanation.words.trim().split("\n").map((line) => make("p", {}, sentence(line)));
+  if (explanation.binding.length) parts.push(bindingTable(explanation, unit));
+  const more = [];
+  const sum = budgetWords(explanation, unit);
+  if (sum) more.push(make("p", {}, sum));
+  const best = explanation.best_posture;
+  if (!best.missing && best.limits.length) more.push(make("p", {}, "If the posture is optimised again, to first order:"), ratesTable(best.limits, unit));
+  else if (best.missing) more.push(make("p", {}, `With the posture optimised again there are no rates: ${best.missing}.`));
+  const least = explanation.least_efforts;
+  if (least.u) more.push(make("p", {}, `Marks in the list of efforts are the least efforts for the same wrench: |W\u1d64 u| is ${shown(least.norm, 4)}${least.vertex_norm === null ? "" : `, that of the efforts shown ${shown(least.vertex_norm, 4)}`}.`));
+  parts.push(make("details", {}, make("summary", {}, "more"), ...more));
+  return parts;
+}
+
+const sentence = (line) => {
+  const text = words(line.replace(/^binds: /, ""));
+  return text.charAt(0).toUpperCase() + text.slice(1) + ".";
+};
+
+function ofInstant(explanation, frame, unit) {
+  if (explanation.missing) return [make("p", {}, `Not known: ${explanation.missing}.`)];
+  const at = explanation.instants.find((instant) => Math.abs(instant.t - frame.near.t) < 1e-9);
+  const where = `at ${shown(frame.near.t, 4)} s`;
+  if (!at) {
+    const times = [...new Set(explanation.instants.map((instant) => shown(instant.t, 3)))];
+    return [make("p", {}, `No limit counts ${where}. ${times.length ? `The value is determined at ${times.slice(0, 8).join(", ")}${times.length > 8 ? " \u2026" : ""} s.` : ""}`)];
+  }
+  return [make("p", {}, `${sentence(at.words).slice(0, -1)} ${where}.`), ratesTable(at.limits, unit)];
+}
+
+let written = []; // what stands there
+
+/** Writes what binds at a frame. `stale`: it is that of the posture before. */
+export function showExplanation(explanation, frame, unit, stale) {
+  const section = byId("binds-section");
+  section.hidden = !explanation;
+  section.classList.toggle("stale", Boolean(stale));
+  const key = [explanation, frame.near?.t];
+  if (!explanation || key.every((part, i) => part === written[i])) return;
+  written = key;
+  const open = byId("binds").querySelector("details")?.open;
+  byId("binds").replaceChildren(...(frame.t === undefined ? ofPosture(explanation, unit) : ofInstant(explanation, frame, unit)));
+  const details = byId("binds").querySelector("details");
+  if (details && open) details.open = true;
+}
+
+/** Writes which scenario decides, and the ends of all. */
+export function showScenarios(scenarios, unit, stale) {
+  const section = byId("scenarios-section");
+  section.hidden = !scenarios;
+  section.classList.toggle("stale", Boolean(stale));
+  if (!scenarios) return;
+  const all = `of ${scenarios.count} scenario${scenarios.count === 1 ? "" : "s"}`;
+  byId("decides").textContent = scenarios.decides ? `${scenarios.decides} decides, ${all}; the picture shows its efforts.` : `None decides, ${all}.`;
+  const end = (value, none) => (value === null ? none : shown(value, 5));
+  const rows = (scenarios.ends ?? []).map((each) => [each.name, ...(each.held ? [end(each.low, "\u2212\u221e"), end(each.high, "\u221e")] : ["not held", ""])]);
+  byId("ends").replaceChildren(...(rows.length ? [table(["scenario", `from [${unit}]`, `to [${unit}]`], rows)] : [make("p", { class: "note" }, "They are too many to be listed.")]));
+}
