@@ -177,6 +177,13 @@ bool take_tree(ByteReader& from, CertificateTree& tree) {
   return true;
 }
 
+/// A robot without gears has the digest that it always had.
+void put_gear(ByteWriter& to, const Gear& gear) {
+  to.count(gear.leader);
+  to.real(gear.ratio);
+  to.real(gear.offset);
+}
+
 }  // namespace
 
 std::uint64_t digest(const Problem& problem) {
@@ -193,6 +200,9 @@ std::uint64_t digest(const Problem& problem) {
   all.whole((problem.free.along_end_effector ? 1 : 0) + (problem.free.wrench_turns ? 2 : 0), 1);
   if (problem.contact) put_contact(all, problem.robot, *problem.contact);
   if (!problem.scenarios.empty()) put_list(all, problem.scenarios);
+  for (const Joint& joint : problem.robot.joints) {
+    if (joint.gear) put_gear(all, *joint.gear);
+  }
   all.matrix(problem.theta_r_min);
   all.matrix(problem.theta_r_max);
   std::uint64_t hash = 0xcbf29ce484222325U;

@@ -14,6 +14,17 @@ void throw_unless_served(bool serves, const Problem& problem) {
                               "one, exerts nothing, and joints that move the end effector");
 }
 
+/// A joint with a gear is taken to rest, as its leader does.
+void throw_on_moving_gears(const Problem& problem, const std::vector<int>& of_joint) {
+  for (std::size_t i = 0; i < of_joint.size(); ++i) {
+    const Joint& joint = problem.robot.joints[i];
+    if (!joint.gear) continue;
+    if (of_joint[i] < 0 && of_joint[static_cast<std::size_t>(joint.gear->leader)] < 0) continue;
+    throw std::invalid_argument(problem.name + ": got a gear that moves '" + joint.name +
+                                "', expected joints of the end effector without gears");
+  }
+}
+
 std::vector<int> joints_between(const Problem& problem) {
   const Robot& robot = problem.robot;
   std::vector<int> joints;
@@ -67,6 +78,7 @@ PostureCoordinates::PostureCoordinates(const Problem& problem)
   const bool around = problem.contact && problem.contact->surface == Surface::kCircle;
   while (at < own) variables.push_back({around, at++, 0, 0});
   throw_unless_served(count() == next, problem);
+  throw_on_moving_gears(problem, of_joint);
   for (Variable& variable : variables) {
     if (variable.coordinate >= own) continue;
     variable.lower = problem.theta_r_min[variable.coordinate];
@@ -77,6 +89,10 @@ PostureCoordinates::PostureCoordinates(const Problem& problem)
 double rest_of(const Problem& problem, std::size_t joint) {
   if (problem.contact) return problem.contact->q_rest[static_cast<Eigen::Index>(joint)];
   const Joint& at = problem.robot.joints[joint];
+  if (at.gear) {
+    return at.gear->ratio * rest_of(problem, static_cast<std::size_t>(at.gear->leader)) +
+           at.gear->offset;
+  }
   return std::clamp(0.0, at.q_min, at.q_max);
 }
 

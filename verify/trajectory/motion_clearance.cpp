@@ -10,8 +10,9 @@ namespace {
 constexpr int kMostTimeCuts = 30;
 constexpr long kMostPlaces = 2'000'000;
 
-/// [m] Rounding of the distances, which are computed in ordinary arithmetic.
-constexpr double kDistanceRounding = 1e-12;
+/// [m] Rounding of the distances, which are computed in ordinary arithmetic. Axes of capsules that
+/// are nearly parallel have the largest.
+constexpr double kDistanceRounding = 1e-9;
 
 /// A joint between two bodies, and how far a point of a body can be from it.
 struct Lever {
@@ -31,7 +32,10 @@ void add_levers(const TrajectoryModel& model, int link, int ancestor, double ext
     const int coordinate = model.coordinate_of()[joint];
     if (coordinate >= 0) levers.push_back({coordinate, turns ? reach : 1});
     reach += at.placement.p.norm();
-    if (!turns) reach += std::max(std::abs(at.q_min), std::abs(at.q_max)) + 1e-6;
+    if (!turns) {
+      reach += coordinate < 0 ? std::abs(model.rest()[joint])
+                              : std::max(std::abs(at.q_min), std::abs(at.q_max)) + 1e-6;
+    }
     reach *= 1 + 1e-12;
   }
 }

@@ -15,14 +15,6 @@ Eigen::MatrixXd all_rows(const MotionTask& task, const Eigen::MatrixXd& table) {
   return all;
 }
 
-/// The position at which a joint rests. One with a gear follows its leader.
-double rest_with_gears(const Problem& problem, std::size_t joint) {
-  const Joint& at = problem.robot.joints[joint];
-  if (!at.gear) return rest_of(problem, joint);
-  const double leader = rest_with_gears(problem, static_cast<std::size_t>(at.gear->leader));
-  return at.gear->ratio * leader + at.gear->offset;
-}
-
 template <int N>
 JetMatrix<N> rotation(const Eigen::Vector3d& axis, const Jet<N>& angle) {
   const auto [c, s] = cos_sin(angle);
@@ -69,6 +61,8 @@ void require_provable(const Problem& problem) {
       {!problem.scenarios.empty(), {"a list of scenarios", "one wrench of the nominal robot"}},
       {!screw_of(task.path),
        {"a path through given poses", "one that rotates about an axis and translates"}},
+      {task.transfer, {"a transfer", "a trajectory or an impulse"}},
+      {task.has_factor(), {"a payload or a table of wrenches", "one wrench along a path"}},
       {!moves, {"k = 1", "k >= 2"}},
       {open_start, {"start.kind = \"zero\"", "a start in balance"}},
       {!problem.robot.no_dynamics.empty(), {"a robot without dynamics", "complete inertias"}},
@@ -89,7 +83,7 @@ TrajectoryModel::TrajectoryModel(const Problem& problem, const Eigen::MatrixXd& 
     coordinate_of_[static_cast<std::size_t>(problem.redundant[k])] = static_cast<int>(k);
   }
   for (std::size_t i = 0; i < problem.robot.joints.size(); ++i) {
-    rest_.push_back(rest_with_gears(problem, i));
+    rest_.push_back(rest_of(problem, i));
   }
   int link = problem.robot.end_effectors[static_cast<std::size_t>(problem.end_effector)].link;
   for (; link != 0; link = problem.robot.joints[static_cast<std::size_t>(link - 1)].parent) {
@@ -199,6 +193,8 @@ std::vector<Jet<N>> TrajectoryModel::off_axes(const Frame<N>& base) const {
     for (std::size_t j = 0; j < 3; ++j) {
       if (i != j && !(is_free(5) && i < 2 && j < 2)) off.push_back(R[i][j]);
     }
+    // A half turn has the same entries off the diagonal.
+    if (i == 2 || !is_free(5)) off.push_back(R[i][i] - Jet<N>(1.0));
   }
   return off;
 }

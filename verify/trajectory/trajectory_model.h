@@ -57,6 +57,7 @@ class TrajectoryModel {
   std::vector<Pose<double>> links(int interval, double x) const;
   /// The coordinate of theta_r that each joint is; -1: it rests at `rest`.
   const std::vector<int>& coordinate_of() const { return coordinate_of_; }
+  const std::vector<double>& rest() const { return rest_; }
 
  private:
   template <int N>
