@@ -118,7 +118,7 @@ if(MAXWRENCH_BUILD_COMMAND OR MAXWRENCH_WITH_PYTHON)
   # The files that go into the program and the module.
   set(view ${PROJECT_SOURCE_DIR}/view)
   set_source_files_properties(${view}/engine/module.cpp ${view}/page_file.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON
-    COMPILE_DEFINITIONS MAXWRENCH_VIEW_FOLDER="${view}" OBJECT_DEPENDS "${view}/engine/engine.js;${view}/engine/engine.wasm;${view}/page/page.html")
+    COMPILE_DEFINITIONS MAXWRENCH_VIEW_FOLDER="${view}" OBJECT_DEPENDS "${view}/engine/engine.js;${view}/engine/engine.wasm.gz;${view}/page/page.html")
 endif()
 
 if(MAXWRENCH_BUILD_COMMAND)

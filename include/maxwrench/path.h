@@ -71,7 +71,7 @@ class Path {
   double angle() const { return angle_; }
 
  private:
-  friend struct PathMembers;  // stores paths
+  friend struct PathMembers;  ///< stores paths
   Path() = default;
   PathPoint on_spline(double t) const;
 

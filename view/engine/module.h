@@ -4,7 +4,8 @@
 
 namespace maxwrench {
 
-/// The WebAssembly module that evaluates a task in a page: the bytes of view/engine/engine.wasm.
+/// The WebAssembly module that evaluates a task in a page: the bytes of
+/// view/engine/engine.wasm.gz.
 std::string_view engine_module();
 
 /// The script that defines `createEngine`: the text of view/engine/engine.js.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -13,33 +12,38 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Shares of the size of the set: on a plane, on a line.
-constexpr double kOnPlane = 1e-10, kOnLine = 1e-12;
+/// Points, lines and planes that are nearer than this share of the size of the set are the same.
+constexpr double kSame = 1e-10;
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// The corners of the hull of points in a plane, counterclockwise, as indices; at least three or
-/// none (Andrew's monotone chain).
+/// none (Jarvis's march). Points on an edge are no corners.
 std::vector<int> corners_of(const std::vector<Vector2d>& points, double size) {
-  std::vector<int> order(points.size());
-  std::iota(order.begin(), order.end(), 0);
   const auto at = [&](int i) -> const Vector2d& { return points[static_cast<std::size_t>(i)]; };
-  std::sort(order.begin(), order.end(), [&](int i, int j) {
-    return std::pair(at(i).x(), at(i).y()) < std::pair(at(j).x(), at(j).y());
-  });
+  const auto count = static_cast<int>(points.size());
+  if (count < 3) return {};
+  int start = 0;  // farthest from the first one, so a corner
+  for (int i = 1; i < count; ++i) {
+    if ((at(i) - at(0)).norm() > (at(start) - at(0)).norm()) start = i;
+  }
   std::vector<int> corners;
-  for (const bool upper : {false, true}) {
-    const std::size_t begin = corners.size();
-    for (const int i : order) {
-      const auto turns_left = [&] {
-        const Vector2d &a = at(corners[corners.size() - 2]), &b = at(corners.back());
-        return cross(b - a, at(i) - a) > kOnLine * size * (at(i) - a).norm();
-      };
-      while (corners.size() >= begin + 2 && !turns_left()) corners.pop_back();
-      corners.push_back(i);
+  const auto same = [&](int i, int j) { return (at(i) - at(j)).norm() < kSame * size; };
+  for (int from = start; corners.empty() || !same(from, start);) {
+    if (static_cast<int>(corners.size()) == count) return {};  // rounding led astray
+    corners.push_back(from);
+    int next = -1;
+    for (int i = 0; i < count; ++i) {
+      if (same(i, from)) continue;
+      const Vector2d to = at(i) - at(from);
+      const Vector2d best = next < 0 ? to : at(next) - at(from);
+      const double left = cross(best, to) / best.norm();
+      if (next < 0 || left < -kSame * size || (left <= kSame * size && to.norm() > best.norm())) {
+        next = i;
+      }
     }
-    corners.pop_back();  // the first one of the other chain
-    if (!upper) std::reverse(order.begin(), order.end());
+    if (next < 0) return {};
+    from = next;
   }
   return corners.size() < 3 ? std::vector<int>() : corners;
 }
@@ -51,7 +55,7 @@ class GiftWrapping {
     for (Eigen::Index i = 0; i < points.cols(); ++i) {
       const Vector3d x = points.col(i);
       const bool known = std::any_of(points_.begin(), points_.end(), [&](const Vector3d& other) {
-        return (x - other).norm() < kOnPlane * size_;
+        return (x - other).norm() < kSame * size_;
       });
       if (known) continue;
       points_.push_back(x);
@@ -88,7 +92,7 @@ class GiftWrapping {
     double most = -1;
     for (const Vector3d& x : points_) {
       const double along = (x - a).dot(inward), below = -(x - a).dot(start);
-      if (std::hypot(along, below) < kOnPlane * size_) continue;
+      if (std::hypot(along, below) < kSame * size_) continue;
       // Rounding may put a point of the plane above it.
       most = std::max(most, std::atan2(std::max(below, 0.0), along));
     }
@@ -104,13 +108,13 @@ class GiftWrapping {
     double far = 0;
     Vector3d best = Vector3d::Zero();
     for (const Vector3d& x : points_) {
-      if (std::abs((x - a).dot(outward)) > kOnPlane * size_) continue;
+      if (std::abs((x - a).dot(outward)) > kSame * size_) continue;
       const Vector3d across = (x - a) - (x - a).dot(e) * e;
       if (across.norm() <= far) continue;
       far = across.norm();
       best = across;
     }
-    if (far < kOnPlane * size_) return false;
+    if (far < kSame * size_) return false;
     normal = best.cross(e).normalized();
     if (normal.dot(outward) < 0) normal = -normal;
     return true;
@@ -129,7 +133,7 @@ class GiftWrapping {
     Vector3d e = Vector3d::Zero();
     for (const Vector3d& x : points_) {
       const Vector3d to = x - first;
-      if (std::abs(to.dot(normal)) <= kOnPlane * size_ && to.norm() > e.norm()) e = to;
+      if (std::abs(to.dot(normal)) <= kSame * size_ && to.norm() > e.norm()) e = to;
     }
     e.normalize();
     return turn(first, e, normal) && add(normal, first.dot(normal));
@@ -142,7 +146,7 @@ class GiftWrapping {
     std::vector<int> on;
     std::vector<Vector2d> flat;
     for (int i = 0; i < static_cast<int>(points_.size()); ++i) {
-      if (offset - normal.dot(at(i)) > kOnPlane * size_) continue;
+      if (offset - normal.dot(at(i)) > kSame * size_) continue;
       on.push_back(i);
       flat.emplace_back(x.dot(at(i)), y.dot(at(i)));
     }

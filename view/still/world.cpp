@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 using nlohmann::ordered_json;
 
 // The colours and proportions of the page; see view/page/src/. Lengths are shares of the size.
-constexpr Rgb kBaseColour = 0x3f6c9c, kHub = 0x2d3740, kDuct = 0x20262c;
+constexpr Rgb kBaseColour = 0x3f6c9c, kHub = 0x2d3740;
 constexpr Rgb kArmColours[] = {0xe9ecef, 0xcfd6dd};
 constexpr Rgb kTouched = 0xb08968;
 constexpr std::size_t kMeshTriangles = 1500;  ///< of all meshes of a picture

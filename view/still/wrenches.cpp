@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 using nlohmann::ordered_json;
 
 // The colours and proportions of the page; see view/page/src/. Lengths are shares of the size.
-constexpr Rgb kIdle = 0x16a394, kBusy = 0xf2a93b, kLimit = 0xe11d30;
+constexpr Rgb kDuct = 0x20262c, kIdle = 0x16a394, kBusy = 0xf2a93b, kLimit = 0xe11d30;
 constexpr Rgb kDirection = 0x7b8794, kWrench = 0xe8590c, kSecond = 0x8f3fd1;
 constexpr Rgb kSetFace = 0x2f7fd6, kSetEdge = 0x3d8fe8;
 constexpr const char *kNoteInk = "#37424c", *kNoteSoft = "#5b6770", *kNoteLimit = "#c2182b",

@@ -148,6 +148,7 @@ Json cases_of(const Problem& problem) {
   }
   return {{"name", problem.name},
           {"data", hexadecimal(problem_data(problem))},
+          {"list", !problem.scenarios.empty()},
           {"B", list(problem.robot.actuation.B)},
           {"u_min", list(problem.robot.actuation.u_min)},
           {"u_max", list(problem.robot.actuation.u_max)},
@@ -191,9 +192,7 @@ int main() {
     const std::string folder = MAXWRENCH_SOURCE_DIR "/examples/tasks/";
     tasks.push_back(cases_of(load_problem(folder + name + ".toml")));
   }
-  for (const char* name : {"planar/trajectory"
-                           "uvms/valve_trajectory",
-                           "uvms/valve_impulse"}) {
+  for (const char* name : {"planar/trajectory", "uvms/valve_trajectory", "uvms/valve_impulse"}) {
     tasks.push_back(trajectories_of(load_problem(name)));
   }
   tasks.push_back(cases_of(with_cylinders()));

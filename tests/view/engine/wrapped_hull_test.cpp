@@ -78,6 +78,14 @@ TEST(WrappedHull, IsThatOfGrids) {
   twice << grid, grid;
   EXPECT_EQ(wrapped_hull(twice).vertices.size(), 8U);
   Random random(4);
+  // Rounding must not make corners of points on an edge.
+  for (int trial = 0; trial < 40; ++trial) {
+    const Hull near = wrapped_hull(twice + 1e-14 * normal_numbers(3, 128, random));
+    EXPECT_EQ(near.facets.size(), 6U);
+    EXPECT_EQ(near.vertices.size(), 8U);
+    const Hull square = wrapped_hull((twice + 1e-14 * normal_numbers(3, 128, random)).topRows<2>());
+    EXPECT_EQ(square.facets.size(), 4U);
+  }
   for (int trial = 0; trial < 40; ++trial) {
     Eigen::MatrixXd B = normal_numbers(3, 4 + trial % 4, random).array().round();
     B.leftCols<3>() += 4 * Eigen::Matrix3d::Identity();  // not flat

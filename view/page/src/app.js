@@ -124,6 +124,7 @@ export class App {
 
   choose(i) {
     this.move(this.frame.theta_r, this.solutions[i].theta);
+    this.rested();
   }
 
   highlight(i) {

@@ -22,8 +22,10 @@ const nameOf = (limit) => `${words(limit.name)}, ${kSides[limit.limit] ?? limit.
 function bindingTable({ binding }, unit) {
   const range = (limit) => (limit.rate_up === null ? "\u2013"
     : `${limit.down === null ? "\u2212\u221e" : shown(limit.at - limit.down, 4)} \u2026 ${limit.up === null ? "\u221e" : shown(limit.at + limit.up, 4)}`);
+  // At a kink a limit that falls and one that rises have rates of their own.
+  const rate = ({ rate, rate_down: down, rate_up: up }) => (up === null || shown(down, 4) === shown(up, 4) ? shown(rate, 4) : `${shown(down, 4)} / ${shown(up, 4)}`);
   return namedTable(["at", `10 % more [${unit}]`, "rate", "holds from \u2026 to"],
-    binding.map((limit) => [nameOf(limit), withUnit(limit.at, limit.unit, 4), limit.gain === null ? "\u2013" : shown(limit.gain, 4), shown(limit.rate, 4), range(limit)]));
+    binding.map((limit) => [nameOf(limit), withUnit(limit.at, limit.unit, 4), limit.gain === null ? "\u2013" : shown(limit.gain, 4), rate(limit), range(limit)]));
 }
 
 function ratesTable(limits, unit) {
@@ -39,7 +41,7 @@ function budgetWords({ budget, binding }, unit) {
 }
 
 function ofPosture(explanation, unit) {
-  if (explanation.missing) return [make("p", {}, `Not known: ${explanation.missing}.`)];
+  if (explanation.missing) return [make("p", {}, `Not known: ${words(explanation.missing)}.`)];
   const parts = explanation.words.trim().split("\n").map((line) => make("p", {}, sentence(line)));
   if (explanation.binding.length) parts.push(bindingTable(explanation, unit));
   const more = [];
@@ -60,7 +62,7 @@ const sentence = (line) => {
 };
 
 function ofInstant(explanation, frame, unit) {
-  if (explanation.missing) return [make("p", {}, `Not known: ${explanation.missing}.`)];
+  if (explanation.missing) return [make("p", {}, `Not known: ${words(explanation.missing)}.`)];
   const at = explanation.instants.find((instant) => Math.abs(instant.t - frame.near.t) < 1e-9);
   const where = `at ${shown(frame.near.t, 4)} s`;
   if (!at) {
