@@ -69,6 +69,14 @@ class Path {
   double duration() const { return duration_; }
   /// Returns the rotation about one axis from start to end [rad]; 0 for splines and lines.
   double angle() const { return angle_; }
+  /// Whether the path goes through given poses, so that the following functions say nothing.
+  bool is_spline() const { return !times_.empty(); }
+  // The other arguments of `screw`.
+  const Pose<double>& start() const { return start_; }                   ///< see `screw`
+  const Eigen::Vector3d& axis() const { return axis_; }                  ///< see `screw`
+  const Eigen::Vector3d& centre() const { return centre_; }              ///< see `screw`
+  const Eigen::Vector3d& displacement() const { return displacement_; }  ///< see `screw`
+  Timing timing() const { return timing_; }                              ///< see `screw`
 
  private:
   friend struct PathMembers;  ///< stores paths

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lib/math/fnv.h"
+#include "lib/robot/gears.h"
 #include "problems/collision/collision.h"
 #include "verify/bytes.h"
 
@@ -228,6 +229,12 @@ std::string checksum(std::string_view bytes) {
 std::string why_no_engine(const Problem& problem) {
   if (problem.robot.collision && !made_of(*problem.robot.collision)) {
     return problem.name + ": a collision check of its own, expected that of the robot's shapes";
+  }
+  if (problem.motion && (problem.motion->has_factor() || problem.motion->transfer)) {
+    return problem.name + ": one factor at all instants, expected a wrench along a path";
+  }
+  if (!gears_at(problem.robot, problem.end_effector).empty()) {
+    return problem.name + ": a gear before the end effector, expected none";
   }
   return "";
 }
