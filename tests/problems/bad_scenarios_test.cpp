@@ -401,7 +401,7 @@ TEST(BadScenariosInTime, AreRejected) {
       expect_rejected({"in_time", file.c_str(), from.c_str(), to.c_str(), {message, expected}},
                       task);
     };
-    for (const std::string table : {"uncertainty", "loss", "payload"}) {
+    for (const std::string table : {"uncertainty", "loss"}) {
       expect("[motion]", "[" + table + "]\nany = 1\n\n[motion]", table + ": got a table");
     }
     expect(kC, "set = [[0,0,0,0,0,1]]", "wrench.set: got 1 wrenches");
