@@ -31,9 +31,9 @@ std::uint32_t ColourScale::operator()(double value) const {
   const auto piece = static_cast<std::size_t>(std::min(std::floor(at), kPieces - 1));
   std::uint32_t colour = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double mixed = kScaleColours[piece][k] + (at - static_cast<double>(piece)) *
-                                                       (kScaleColours[piece + 1][k] -
-                                                        kScaleColours[piece][k]);
+    const double mixed =
+        kScaleColours[piece][k] +
+        (at - static_cast<double>(piece)) * (kScaleColours[piece + 1][k] - kScaleColours[piece][k]);
     colour = colour << 8U | static_cast<std::uint32_t>(std::lround(mixed));
   }
   return colour;

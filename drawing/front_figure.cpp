@@ -18,9 +18,7 @@ constexpr double kFrontLeft = 56, kFrontRight = 14, kFrontTop = 34, kFrontHeight
                  kFrontBelow = 46;  // px
 constexpr double kFrontRoom = 1.08;
 
-std::string task_name(const Answer& own) {
-  return own.choice.problem + " beta [" + own.unit + "]";
-}
+std::string task_name(const Answer& own) { return own.choice.problem + " beta [" + own.unit + "]"; }
 
 /// The corners (T w_1, T w_2) that no posture exceeds in both tasks, by the first value.
 std::vector<Point> proven_corners(const Front& front) {
@@ -79,9 +77,8 @@ std::string front_figure(const Front& front) {
   for (const FrontPoint& point : front.points) {
     if (point.beta.allFinite()) points.push_back(&point);
   }
-  std::sort(points.begin(), points.end(), [](const FrontPoint* a, const FrontPoint* b) {
-    return a->beta[0] < b->beta[0];
-  });
+  std::sort(points.begin(), points.end(),
+            [](const FrontPoint* a, const FrontPoint* b) { return a->beta[0] < b->beta[0]; });
   std::vector<Point> line;
   for (const FrontPoint* point : points) line.push_back(at(point->beta));
   svg.polyline(line, {.stroke = "#9fbfd6", .width = 1});
@@ -90,15 +87,15 @@ std::string front_figure(const Front& front) {
   if (compromise.size() == 2 && compromise.allFinite()) {
     svg.mark(at(compromise), Mark::kDiamond, 5, {.stroke = "#111111", .width = 1.5});
   }
-  std::vector<LegendEntry> legend = {
-      {"postures found",
-       [found](Svg& to, const Point& left) {
-         to.circle(left + Point(kLegendMark / 2, 0), 3, {.fill = found.stroke});
-       }},
-      {"for both", [](Svg& to, const Point& left) {
-         to.mark(left + Point(kLegendMark / 2, 0), Mark::kDiamond, 5,
-                 {.stroke = "#111111", .width = 1.5});
-       }}};
+  std::vector<LegendEntry> legend = {{"postures found",
+                                      [found](Svg& to, const Point& left) {
+                                        to.circle(left + Point(kLegendMark / 2, 0), 3,
+                                                  {.fill = found.stroke});
+                                      }},
+                                     {"for both", [](Svg& to, const Point& left) {
+                                        to.mark(left + Point(kLegendMark / 2, 0), Mark::kDiamond, 5,
+                                                {.stroke = "#111111", .width = 1.5});
+                                      }}};
   if (!corners.empty()) {
     legend.push_back({"proven limit", [proven](Svg& to, const Point& left) {
                         to.line(left, left + Point(kLegendMark, 0), proven);

@@ -13,7 +13,7 @@ namespace maxwrench {
 
 /// One of several tasks that a posture serves, and how it is measured.
 struct Goal {
-  Problem task;           ///< a static task
+  Problem task;                          ///< a static task
   std::string measure = Case().measure;  ///< its measure
   Wrench wrench = Wrench::kPure;         ///< its allowed wrenches
   std::string solver = "";               ///< its solver, as `Case::solver`
@@ -21,11 +21,11 @@ struct Goal {
 
 /// A posture that was found for some weights.
 struct FrontPoint {
-  double phi = 0;            ///< the angle of the weights [rad]; NaN for more than two tasks
-  Eigen::VectorXd weights;   ///< w, a number for each task [its unit]
-  Eigen::VectorXd theta_r,   ///< the posture (r)
-      beta;                  ///< the value of each task there [its unit]
-  double t = 0;              ///< min beta_k / w_k over the tasks with w_k > 0
+  double phi = 0;           ///< the angle of the weights [rad]; NaN for more than two tasks
+  Eigen::VectorXd weights;  ///< w, a number for each task [its unit]
+  Eigen::VectorXd theta_r,  ///< the posture (r)
+      beta;                 ///< the value of each task there [its unit]
+  double t = 0;             ///< min beta_k / w_k over the tasks with w_k > 0
   /// No posture has a larger t, so none has beta_k > bound w_k for all k. Infinite: not known.
   double bound = std::numeric_limits<double>::infinity();
 };
@@ -48,10 +48,10 @@ struct Front : Verdict {
 
 /// The options of `pareto`.
 struct FrontPlan {
-  int points = 9;        ///< number of weights of two tasks, at least 2; 0: only the compromise
-  bool bound = false;    ///< whether `certify` proves a bound for each weight
-  double gap = 1e-3,     ///< the gap that ends such a proof, as `ProofOptions::gap`
-      seconds = 60;      ///< the time that ends it, as `ProofOptions::seconds`
+  int points = 9;      ///< number of weights of two tasks, at least 2; 0: only the compromise
+  bool bound = false;  ///< whether `certify` proves a bound for each weight
+  double gap = 1e-3,   ///< the gap that ends such a proof, as `ProofOptions::gap`
+      seconds = 60;    ///< the time that ends it, as `ProofOptions::seconds`
 };
 
 /// Computes what one posture gives to several tasks of one robot at one pose.

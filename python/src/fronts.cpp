@@ -108,7 +108,8 @@ Raises:
 }  // namespace
 
 void add_fronts(py::module_& m) {
-  py::class_<Front>(m, "Front", "What one posture gives to several tasks, from ``pareto``. N points.")
+  py::class_<Front>(m, "Front",
+                    "What one posture gives to several tasks, from ``pareto``. N points.")
       .def_property_readonly(
           "phi", [](const Front& f) { return numbers_of_points(f, &FrontPoint::phi); },
           "The angles of the weights (N) [rad].")

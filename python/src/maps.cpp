@@ -101,8 +101,7 @@ py::array indices(const PyMap& self) {
                        [](const MapCell& cell) {
                          Eigen::VectorXd index(static_cast<Eigen::Index>(cell.index.size()));
                          for (Eigen::Index a = 0; a < index.size(); ++a) {
-                           index[a] =
-                               static_cast<double>(cell.index[static_cast<std::size_t>(a)]);
+                           index[a] = static_cast<double>(cell.index[static_cast<std::size_t>(a)]);
                          }
                          return index;
                        });
@@ -124,9 +123,9 @@ std::vector<const char*> statuses(const PyMap& self) {
 
 std::string repr_of_map(const PyMap& self) {
   const MapCell* best = self.map.best();
-  return fmt::format("<Map of {}: {} cells, {}>", self.map.task->name, self.map.cells.size(),
-                     best ? fmt::format("at most {:.6g} {}", best->beta, self.map.unit)
-                          : std::string("no value"));
+  return fmt::format(
+      "<Map of {}: {} cells, {}>", self.map.task->name, self.map.cells.size(),
+      best ? fmt::format("at most {:.6g} {}", best->beta, self.map.unit) : std::string("no value"));
 }
 
 constexpr const char* kMap = R"(Computes the best value over a grid of poses and directions.
@@ -168,7 +167,8 @@ True
 }  // namespace
 
 void add_maps(py::module_& m) {
-  py::class_<PyMap>(m, "Map", "The best values over a grid, from ``map``. N cells of d coordinates.")
+  py::class_<PyMap>(m, "Map",
+                    "The best values over a grid, from ``map``. N cells of d coordinates.")
       .def_property_readonly(
           "task", [](const PyMap& self) { return self.task; }, "The Task.")
       .def_property_readonly("over", over_of, "The coordinates: low, high, number of values.")

@@ -175,8 +175,7 @@ class FrontMaker {
       Options here = options_;
       static_cast<Case&>(here) = case_of(goal, options_);
       const Answer answer = evaluate(goal.task, point.theta_r.transpose(), here);
-      point.beta[k] =
-          answer.has_value() ? answer.beta() : std::numeric_limits<double>::quiet_NaN();
+      point.beta[k] = answer.has_value() ? answer.beta() : std::numeric_limits<double>::quiet_NaN();
       if (point.weights[k] > 0) point.t = std::min(point.t, point.beta[k] / point.weights[k]);
     }
     if (plan_.bound && !interrupted_) point.bound = bound_of(point);
@@ -254,12 +253,13 @@ Front pareto(const std::vector<Goal>& goals, const FrontPlan& plan, const Option
   for (const Goal& goal : goals) require_alike(goals.front().task, goal.task);
   const bool front = plan.points != 0;
   if (plan.points < 0 || plan.points == 1 || plan.points > kMostPoints) {
-    throw std::invalid_argument(fmt::format("points: got {}, expected 2 to {}, or 0 for none",
-                                            plan.points, kMostPoints));
+    throw std::invalid_argument(
+        fmt::format("points: got {}, expected 2 to {}, or 0 for none", plan.points, kMostPoints));
   }
   if (front && goals.size() > 2) {
-    throw std::invalid_argument(fmt::format(
-        "points: got {}, expected 0 for {} tasks: only two have a front", plan.points, goals.size()));
+    throw std::invalid_argument(
+        fmt::format("points: got {}, expected 0 for {} tasks: only two have a front", plan.points,
+                    goals.size()));
   }
   if (plan.bound) require_provable(goals);
   return FrontMaker(goals, plan, options).make();

@@ -37,8 +37,8 @@ std::string summary(const Front& front) {
   std::string text;
   for (std::size_t k = 0; k < front.own.size(); ++k) {
     const Answer& own = front.own[k];
-    text += fmt::format("task {}  {}  measure {}  wrench {}  best {}\n", k + 1,
-                        own.choice.problem, own.choice.measure, to_string(own.choice.wrench),
+    text += fmt::format("task {}  {}  measure {}  wrench {}  best {}\n", k + 1, own.choice.problem,
+                        own.choice.measure, to_string(own.choice.wrench),
                         own.has_value() ? fmt::format("{:.5f} {}", own.beta(), own.unit) : "-");
   }
   text += fmt::format("{}{}\n", to_string(front.status),

@@ -46,8 +46,8 @@ TEST(MapFigure, HasTheColourOfEachValue) {
   EXPECT_THAT(svg, HasSubstr("x [m]"));
   EXPECT_THAT(svg, HasSubstr("roll [rad]"));
   EXPECT_THAT(svg, HasSubstr("[N]"));
-  EXPECT_THAT(svg, HasSubstr("440154"));  // the least value
-  EXPECT_THAT(svg, HasSubstr("fde725"));  // the largest one
+  EXPECT_THAT(svg, HasSubstr("440154"));    // the least value
+  EXPECT_THAT(svg, HasSubstr("fde725"));    // the largest one
   EXPECT_THAT(svg, HasSubstr("\"#ddd\""));  // none
 }
 

@@ -103,11 +103,15 @@ TEST_F(MapStoreTest, MergesNoOtherValuesAndNoOtherMap) {
   other.beta += 1e-9;
   open("b").put(other);
   const std::string a = folder.path() / "a", b = folder.path() / "b", c = folder.path() / "c";
-  EXPECT_THAT(rejection_of([&] { merge_maps(folder.path() / "all", {a, b}); }),
+  EXPECT_THAT(rejection_of([&] {
+                merge_maps(folder.path() / "all", {a, b});
+              }),
               HasSubstr("another value of a cell"));
   plan.over.front().high = 5;
   open("c").put(cell(1));
-  EXPECT_THAT(rejection_of([&] { merge_maps(folder.path() / "all", {a, c}); }),
+  EXPECT_THAT(rejection_of([&] {
+                merge_maps(folder.path() / "all", {a, c});
+              }),
               HasSubstr("another map"));
 }
 

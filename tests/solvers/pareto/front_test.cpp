@@ -1,5 +1,3 @@
-#include "maxwrench/pareto.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +7,7 @@
 
 #include "maxwrench/evaluations.h"
 #include "maxwrench/load.h"
+#include "maxwrench/pareto.h"
 #include "solvers/pareto/weighted.h"
 #include "solvers/solve/method.h"
 #include "tests/support/coded_tasks.h"
