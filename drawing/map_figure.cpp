@@ -149,7 +149,8 @@ std::string draw_map_curve(const CapabilityMap& map) {
 
 /// The values over an azimuth, from the centre outwards. Negative ones are at the centre.
 std::string draw_rose(const CapabilityMap& map) {
-  const double most = range_of(map).second;
+  const double largest = range_of(map).second;
+  const double most = largest > 0 ? largest : 1;
   const Axis radius = make_axis(0, most, 0, kRoseRadius, "values");
   const Point centre(kPageWidth / 2, kMapTop + kRoseRadius + 16);
   Svg svg = titled(map, centre.y() + kRoseRadius + 48);
