@@ -114,26 +114,29 @@ int verify_trajectory_file(const std::string& file, const std::string& problem, 
       file, [&](const std::string& name) { return load_problem(problem.empty() ? name : problem); },
       threads);
   if (json) {
-    print_json({{"problem", proof.problem},
-                {"status", proof.verified() ? "verified" : "rejected"},
-                {"reason", proof.rejection},
-                {"guaranteed", proof.guaranteed},
-                {"unit", proof.unit},
-                {"t", known(proof.t >= 0, proof.t)},
-                {"collision", proof.collision},
-                {"clearance", known(std::isfinite(proof.clearance), proof.clearance)},
-                {"knots", proof.knots.rows()},
-                {"parts", proof.parts},
-                {"slices", proof.slices},
-                {"wall_s", proof.seconds},
-                {"version", proof.version}});
+    print_json(
+        {{"problem", proof.problem},
+         {"status", proof.verified() ? "verified" : "rejected"},
+         {"reason", proof.rejection},
+         {"guaranteed", proof.guaranteed},
+         {"unit", proof.unit},
+         {"t", known(proof.t >= 0, proof.t)},
+         {"collision", proof.collision},
+         {"clearance", known(proof.verified() && std::isfinite(proof.clearance), proof.clearance)},
+         {"knots", proof.knots.rows()},
+         {"parts", proof.parts},
+         {"slices", proof.slices},
+         {"wall_s", proof.seconds},
+         {"version", proof.version}});
   } else {
     fmt::print("{}{}\n", proof.problem, proof.collision ? "" : "  collisions ignored");
     const std::string when = proof.t >= 0 ? fmt::format("t = {:.5g} s: ", proof.t) : "";
     fmt::print("{}\n", proof.verified() ? "verified" : "rejected: " + when + proof.rejection);
     fmt::print("guaranteed {:>8.5f} {}{}\n", proof.guaranteed, proof.unit,
-               proof.verified() ? ": proven for all t" : ", as claimed");
-    fmt::print("clearance  {}\n", words_of_clearance(proof.clearance));
+               !proof.verified() ? ", as claimed"
+               : proof.t_h > 0   ? ": proven at the peak"
+                                 : ": proven at every instant");
+    if (proof.verified()) fmt::print("clearance  {}\n", words_of_clearance(proof.clearance));
     fmt::print("slices     {}, {} parts between knots\n", proof.slices, proof.parts);
     fmt::print("checked in {:.3g} s, written by maxwrench {}\n", proof.seconds, proof.version);
   }

@@ -35,7 +35,7 @@ struct TrajectoryProof : Verdict {
   /// every instant, in an impulse at its peak. NaN: none.
   double guaranteed = std::numeric_limits<double>::quiet_NaN();
   double t = std::numeric_limits<double>::quiet_NaN();  ///< where the proof fails [s]; NaN: nowhere
-  int parts = 0;                 ///< number of parts between knots in which the efforts are linear
+  int parts = 0;                 ///< number of parts between knots: pieces of the efforts' splines
   long slices = 0;               ///< number of slices of time on which the efforts were enclosed
   double clearance = kInfinity;  ///< no bodies are closer than their margin plus this [m]
   double seconds = 0;            ///< wall time, without that of `answer` [s]
@@ -75,7 +75,8 @@ struct VerifiedTrajectory : TrajectoryVerification {
   bool collision = true;  ///< whether bodies are kept apart
   std::string unit;       ///< unit of the value
   Eigen::MatrixXd knots;  ///< the knots (k×r)
-  double guaranteed = 0;  ///< the wrench along c that is exerted
+  double guaranteed = 0;  ///< the wrench along c that is exerted, in an impulse at its peak
+  int t_h = 0;            ///< the knot of the peak of an impulse; 0: a path
   int parts = 0;          ///< as `TrajectoryProof::parts`
   double seconds = 0;     ///< wall time of reading and checking [s]
 };
@@ -83,7 +84,10 @@ struct VerifiedTrajectory : TrajectoryVerification {
 /// Returns whether a file is a certificate of a trajectory.
 bool is_trajectory_certificate(const std::filesystem::path& file);
 
-/// Checks a certificate of a trajectory with code that is independent of the code that wrote it.
+/// Checks a certificate of a trajectory.
+///
+/// The check shares nothing with the search for the efforts, nor with the model that evaluates
+/// trajectories. `certify_trajectory` calls it as well: what it proves is what this accepts.
 ///
 /// The arguments and exceptions are those of `verify_certificate`.
 VerifiedTrajectory verify_trajectory_certificate(

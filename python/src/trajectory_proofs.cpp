@@ -35,8 +35,9 @@ std::string repr_of_trajectory_proof(const PyTrajectoryProof& self) {
     return fmt::format("<TrajectoryProof {}: {}, {}>", name, to_string(proof.status),
                        proof.reason.str());
   }
-  return fmt::format("<TrajectoryProof {}: {:.6g} {} at every instant>", name, proof.guaranteed,
-                     proof.answer.unit);
+  return fmt::format("<TrajectoryProof {}: {:.6g} {} {}>", name, proof.guaranteed,
+                     proof.answer.unit,
+                     self.task.problem->motion->impulse ? "at the peak" : "at every instant");
 }
 
 }  // namespace
@@ -119,8 +120,9 @@ void add_trajectory_proofs(py::module_& m) {
           "Whether the certificate proves its claims.")
       .def_readonly("rejection", &VerifiedTrajectory::rejection, "Why not; empty if it does.")
       .def_readonly("problem", &VerifiedTrajectory::problem, "The name of the task.")
-      .def_readonly("guaranteed", &VerifiedTrajectory::guaranteed,
-                    "The wrench along c that is exerted at every instant.")
+      .def_readonly(
+          "guaranteed", &VerifiedTrajectory::guaranteed,
+          "The wrench along c that is exerted at every instant, in an impulse at its peak.")
       .def_readonly("unit", &VerifiedTrajectory::unit, "Its unit.")
       .def_readonly("slices", &VerifiedTrajectory::slices,
                     "The number of slices of time that were checked.")

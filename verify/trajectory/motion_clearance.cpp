@@ -117,7 +117,8 @@ class ClearanceProof {
       };
       if (!known_[static_cast<std::size_t>(pair)] || !checker_.nearest(links_, pair, near)) {
         return {checker_.pair_name(pair) +
-                ": proofs in time know distances of capsules and boxes only (--ignore-collision)"};
+                ": proofs in time know distances of capsules, and of a capsule and a box, only "
+                "(--ignore-collision)"};
       }
       if (!(near.clearance >= -kTouching)) {
         return fault("collide: they are closer than their margin by " + in_metres(-near.clearance));

@@ -22,6 +22,8 @@ using ProofClock = std::chrono::steady_clock;
 /// Parts are doubled while the proof loses more than this share.
 constexpr double kLossOfParts = 1e-4;
 constexpr int kMostParts = 200;
+/// How often the value is bisected once there is a proof.
+constexpr int kRaises = 6;
 /// Shares of the limits' ranges for the enclosures, tried one after another.
 constexpr double kSlacks[] = {3e-6, 2e-5, 1e-4, 5e-4, 3e-3};
 
@@ -38,6 +40,12 @@ void require_provable_case(const Problem& task, const Options& options) {
   if (options.wrench != Wrench::kPure) {
     throw std::invalid_argument("wrench: got any, expected pure for a proof in time");
   }
+}
+
+void require_parts(int parts) {
+  if (parts == 0 || (parts >= 2 && parts <= kMostParts)) return;
+  throw std::invalid_argument(
+      fmt::format("parts: got {}, expected 0 or a number from 2 to {}", parts, kMostParts));
 }
 
 /// One proof, from its task to its certificate.
@@ -90,7 +98,7 @@ class TrajectoryProver {
         refuse(most.status, most.reason.str(), most.t);
         return;
       }
-      if (prove_with(program, parts) &&
+      if (prove_with(program, parts, most.value) &&
           proof_.guaranteed >= most.value - kLossOfParts * std::abs(most.value)) {
         return;
       }
@@ -98,7 +106,7 @@ class TrajectoryProver {
   }
 
   /// Keeps the certificate with the largest value. Returns whether there is one with these parts.
-  bool prove_with(EdgeProgram& program, int parts) {
+  bool prove_with(EdgeProgram& program, int parts, double most) {
     for (const double slack : kSlacks) {
       const EdgeEfforts efforts = program.solve(slack);
       if (efforts.status != Status::kOptimal) break;
@@ -109,6 +117,7 @@ class TrajectoryProver {
       const TrajectoryVerification check = verify(task_, claim_, threads_);
       if (check.verified()) {
         keep(check);
+        raise(most);
         return true;
       }
       if (proof_.status != Status::kProven) {
@@ -116,6 +125,17 @@ class TrajectoryProver {
       }
     }
     return false;
+  }
+
+  /// The efforts have a margin, so they may exert more than the value that they were found for.
+  void raise(double most) {
+    double low = claim_.value;
+    for (int i = 0; i < kRaises; ++i) {
+      claim_.value = (low + most) / 2;
+      const TrajectoryVerification check = verify(task_, claim_, threads_);
+      (check.verified() ? low : most) = claim_.value;
+      if (check.verified()) keep(check);
+    }
   }
 
   void keep(const TrajectoryVerification& check) {
@@ -142,6 +162,7 @@ class TrajectoryProver {
 TrajectoryProof certify_trajectory(const Problem& task, const Eigen::MatrixXd& knots,
                                    const Options& options, const TrajectoryProofOptions& how) {
   require_provable_case(task, options);
+  require_parts(how.parts);
   return TrajectoryProver(task, knots, options, how).run();
 }
 
@@ -164,6 +185,7 @@ VerifiedTrajectory verify_trajectory_certificate(
   result.unit = task.unit();
   result.knots = claim.knots;
   result.guaranteed = claim.value;
+  result.t_h = claim.t_h;
   result.parts = claim.parts;
   result.seconds = seconds_from(start);
   return result;
