@@ -1,6 +1,6 @@
 #pragma once
 
-#include "maxwrench/scenario.h"
+#include "maxwrench/problem.h"
 #include "verify/coordinates.h"
 #include "verify/form.h"
 
