@@ -210,6 +210,9 @@ std::string reject_list_value(const Problem& problem, const FormModel& model,
       if (!load.current.isZero(0)) return "currents are not supported";
     }
   }
+  if (list.payload && problem.free.count() > 0) {
+    return "a payload at a pose that is partly free is not supported";
+  }
   if (list.non_negative && !(proof.value >= -tolerance)) return "its value is negative";
   const ListForms forms(problem, model);
   const ListAtPosture at(problem, model, forms, proof.x);

@@ -120,6 +120,16 @@ TEST(TrajectoryModel, RejectsOtherTasks) {
   Problem problem = load_problem("planar/trajectory");
   problem.motion->path = Path::spline({0, 5, 10}, {problem.pose, problem.pose, problem.pose});
   EXPECT_THROW(require_provable(problem), std::invalid_argument);
+  problem = load_problem("planar/trajectory");
+  EXPECT_NO_THROW(require_provable(problem));
+  problem.motion->payload = CarriedBody();
+  EXPECT_THROW(require_provable(problem), std::invalid_argument);
+  problem.motion->payload.reset();
+  problem.motion->table = WrenchTable();
+  EXPECT_THROW(require_provable(problem), std::invalid_argument);
+  problem.motion->table.reset();
+  problem.motion->transfer = true;
+  EXPECT_THROW(require_provable(problem), std::invalid_argument);
 }
 
 }  // namespace

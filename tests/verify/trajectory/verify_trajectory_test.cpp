@@ -58,6 +58,7 @@ TEST(VerifyTrajectory, RejectsAValueThatHoldsAtSamplesOnly) {
   wrong.value = 35.7770;
   const TrajectoryVerification result = verify(turn(), wrong, 2);
   EXPECT_NE(result.rejection, "");
+  EXPECT_GT(result.t, 0.5);
   EXPECT_LT(result.t, 1.3);
 }
 
