@@ -93,7 +93,8 @@ void add_trajectory_proofs(py::module_& m) {
           "The Answer of the trajectory.")
       .def_property_readonly(
           "guaranteed", [](const PyTrajectoryProof& p) { return p.proof.guaranteed; },
-          "The wrench along c that is proven at every instant, of an impulse at its peak; NaN: none.")
+          "The wrench along c that is proven at every instant, of an impulse at its peak; NaN: "
+          "none.")
       .def_property_readonly(
           "t", [](const PyTrajectoryProof& p) { return p.proof.t; },
           "The instant of the reason [s]; NaN: none.")
@@ -126,7 +127,8 @@ void add_trajectory_proofs(py::module_& m) {
       .def_readonly("clearance", &VerifiedTrajectory::clearance,
                     "No bodies are closer than their margin plus this [m].")
       .def_property_readonly(
-          "knots", [](const VerifiedTrajectory& v) { return copy(v.knots); }, "The knots (k×r).")
+          "knots", [](const VerifiedTrajectory& v) { return copy(RowMatrix(v.knots)); },
+          "The knots (k×r).")
       .def("__bool__", [](const VerifiedTrajectory& v) { return v.verified(); })
       .def("__repr__", [](const VerifiedTrajectory& v) {
         return fmt::format("<VerifiedTrajectory {}: {}>", v.problem,
