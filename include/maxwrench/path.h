@@ -27,6 +27,16 @@ struct PathPoint {
   Vector6d acceleration = Vector6d::Zero();  ///< derivative of the twist [m/s^2; rad/s^2]
 };
 
+/// The data of a path that rotates about an axis and translates; see `Path::screw`.
+struct ScrewPath {
+  Pose<double> start;                               ///< the pose at t = 0
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ(),  ///< the axis, a unit vector
+      centre = Eigen::Vector3d::Zero(),             ///< a point on the axis [m]
+      displacement = Eigen::Vector3d::Zero();       ///< the translation [m]
+  double angle = 0;                                 ///< the rotation [rad]
+  Timing timing = Timing::kCubic;                   ///< how both progress
+};
+
 /// The poses of an end effector over time, 0 <= t <= duration.
 ///
 /// Earlier and later times give the values at the ends.
@@ -69,14 +79,11 @@ class Path {
   double duration() const { return duration_; }
   /// Returns the rotation about one axis from start to end [rad]; 0 for splines and lines.
   double angle() const { return angle_; }
-  /// Whether the path goes through given poses, so that the following functions say nothing.
-  bool is_spline() const { return !times_.empty(); }
-  // The other arguments of `screw`.
-  const Pose<double>& start() const { return start_; }                   ///< see `screw`
-  const Eigen::Vector3d& axis() const { return axis_; }                  ///< see `screw`
-  const Eigen::Vector3d& centre() const { return centre_; }              ///< see `screw`
-  const Eigen::Vector3d& displacement() const { return displacement_; }  ///< see `screw`
-  Timing timing() const { return timing_; }                              ///< see `screw`
+  /// Returns the data of a path that `screw` or `constant` made; nothing for a spline.
+  std::optional<ScrewPath> as_screw() const {
+    if (!times_.empty()) return std::nullopt;
+    return ScrewPath{start_, axis_, centre_, displacement_, angle_, timing_};
+  }
 
  private:
   friend struct PathMembers;  ///< stores paths

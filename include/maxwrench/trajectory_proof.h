@@ -6,7 +6,7 @@
 #include <string>
 
 #include "maxwrench/solve.h"
-#include "maxwrench/trajectory_verification.h"
+#include "maxwrench/verification.h"
 
 /// @file
 /// Proves what a trajectory exerts at every instant of time, and checks such proofs.

@@ -79,14 +79,14 @@ class MotionEvaluator {
   const Eigen::MatrixXd no_slopes_;
   /// The payload of a transfer; null: the motion is not one.
   const CarriedBody* transferred_ = nullptr;
-  Eigen::MatrixXd c_slopes_,  ///< 6×2r, of the wrench of 1 kg
-      mJt_;                   ///< n×6
   Vector6<Dual<4>> dual_c_;
   int lost_ = -1;
   const char* lost_reason_ = nullptr;
   VectorX<Dual<4>> dual_theta_r_, dual_rate_, dual_bend_, dual_v_, dual_v_dot_;
   /// Of the motion at an instant by (theta_r, theta_r_dot), and of f; 2r columns each.
   Eigen::MatrixXd turn_slopes_, q_slopes_, v_slopes_, v_dot_slopes_, f_slopes_;
+  Eigen::MatrixXd c_slopes_,  ///< 6×2r, of the wrench of 1 kg
+      mJt_;                   ///< n×6
 };
 
 }  // namespace maxwrench

@@ -129,7 +129,8 @@ void add_trajectory_proofs(py::module_& m) {
       .def_readonly("clearance", &VerifiedTrajectory::clearance,
                     "No bodies are closer than their margin plus this [m].")
       .def_property_readonly(
-          "knots", [](const VerifiedTrajectory& v) { return copy(v.knots); }, "The knots (k×r).")
+          "knots", [](const VerifiedTrajectory& v) { return copy(RowMatrix(v.knots)); },
+          "The knots (k×r).")
       .def("__bool__", [](const VerifiedTrajectory& v) { return v.verified(); })
       .def("__repr__", [](const VerifiedTrajectory& v) {
         return fmt::format("<VerifiedTrajectory {}: {}>", v.problem,

@@ -6,7 +6,6 @@
 #include "verify/bytes.h"
 #include "verify/certificate.h"
 #include "verify/sealed.h"
-#include "verify/trajectory/screw_path.h"
 
 namespace maxwrench {
 namespace {
@@ -42,7 +41,7 @@ void put_motion(ByteWriter& to, const MotionTask& task) {
   to.count(task.t_h);
   to.whole(static_cast<std::uint64_t>(task.start), 1);
   to.matrix(task.theta_0);
-  const ScrewPath path = screw_of(task.path).value_or(ScrewPath());
+  const ScrewPath path = task.path.as_screw().value_or(ScrewPath());
   to.matrix(path.start.R);
   to.matrix(path.start.p);
   to.matrix(path.axis);

@@ -59,7 +59,7 @@ void require_provable(const Problem& problem) {
       {!problem.dependent.empty(), {"dependent joints", "a base whose pose has a closed form"}},
       {problem.free.count() > 0, {"free pose coordinates", "a path"}},
       {!problem.scenarios.empty(), {"a list of scenarios", "one wrench of the nominal robot"}},
-      {!screw_of(task.path),
+      {!task.path.as_screw(),
        {"a path through given poses", "one that rotates about an axis and translates"}},
       {task.transfer, {"a transfer", "a trajectory or an impulse"}},
       {task.has_factor(), {"a payload or a table of wrenches", "one wrench along a path"}},
@@ -76,7 +76,7 @@ void require_provable(const Problem& problem) {
 
 TrajectoryModel::TrajectoryModel(const Problem& problem, const Eigen::MatrixXd& table)
     : problem_(problem),
-      path_(screw_of(problem.motion->path).value()),
+      path_(problem.motion->path.as_screw().value()),
       curve_(all_rows(*problem.motion, table), problem.motion->T),
       coordinate_of_(problem.robot.joints.size(), -1) {
   for (std::size_t k = 0; k < problem.redundant.size(); ++k) {

@@ -6,7 +6,6 @@
 
 #include "maxwrench/problem.h"
 #include "verify/trajectory/knot_curve.h"
-#include "verify/trajectory/screw_path.h"
 
 namespace maxwrench {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "maxwrench/trajectory_verification.h"
+#include "maxwrench/verification.h"
 #include "verify/trajectory/effort_law.h"
 
 namespace maxwrench {
