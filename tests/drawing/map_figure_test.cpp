@@ -33,7 +33,7 @@ CapabilityMap made_map(const std::vector<std::string>& names) {
   return made;
 }
 
-int occurrences(const std::string& text, const std::string& part) {
+int number_of(const std::string& text, const std::string& part) {
   int count = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
     ++count;
@@ -56,7 +56,7 @@ TEST(MapFigure, DrawsCurvesRosesAndPoints) {
   EXPECT_THAT(map_figure(made_map({"azimuth"})), HasSubstr("over the azimuth of c"));
   const std::string points = map_figure(made_map({"x", "y", "z"}));
   EXPECT_THAT(points, HasSubstr("z [m]"));
-  EXPECT_EQ(occurrences(points, "<circle"), 7);
+  EXPECT_EQ(number_of(points, "<circle"), 7);
 }
 
 TEST(MapFigure, RejectsWhatItCannotDraw) {
