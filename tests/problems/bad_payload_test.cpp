@@ -164,7 +164,7 @@ const BadWrenches kBadWrenches[] = {
      {"line 3: got", "rises"}},
 };
 
-std::string rejection_of(const std::filesystem::path& task) {
+std::string rejection_of_file(const std::filesystem::path& task) {
   try {
     load_problem(task.string());
   } catch (const std::invalid_argument& error) {
@@ -188,7 +188,7 @@ class BadWrenchesTest : public testing::TestWithParam<BadWrenches> {};
 
 TEST_P(BadWrenchesTest, AreRejectedInOneLineThatNamesTheTable) {
   EditedCopy copy;
-  const std::string message = rejection_of(with_wrenches(copy, GetParam().text));
+  const std::string message = rejection_of_file(with_wrenches(copy, GetParam().text));
   EXPECT_EQ(message.find((copy.path() / "cutting.csv").string() + ": "), 0u) << message;
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   for (const std::string& part : GetParam().message) EXPECT_THAT(message, testing::HasSubstr(part));
@@ -203,17 +203,20 @@ TEST(BadWrenches, WithAnotherSchemeThanTheSpline) {
   const std::filesystem::path file = with_wrenches(copy, "0,1,0,0,0,0,0\n10,1,0,0,0,0,0\n");
   copy.replace("trajectory.toml", "scheme = \"spline\"", "scheme = \"forward\"");
   copy.replace("trajectory.toml", "instants_per_interval", "# instants_per_interval");
-  EXPECT_THAT(rejection_of(file), testing::HasSubstr("motion.scheme: got forward, expected spline "
-                                                     "beside wrench.file"));
+  EXPECT_THAT(rejection_of_file(file),
+              testing::HasSubstr("motion.scheme: got forward, expected spline "
+                                 "beside wrench.file"));
 }
 
 TEST(BadWrenches, ThatEndAtAnotherTimeOrAreZero) {
   EditedCopy copy;
   const std::filesystem::path file = with_wrenches(copy, "0,1,0,0,0,0,0\n9,1,0,0,0,0,0\n");
-  EXPECT_THAT(rejection_of(file), testing::HasSubstr("wrench.file: got a last t of 9 s, expected "
-                                                     "the duration of the task, 10 s"));
+  EXPECT_THAT(rejection_of_file(file),
+              testing::HasSubstr("wrench.file: got a last t of 9 s, expected "
+                                 "the duration of the task, 10 s"));
   std::ofstream(copy.path() / "cutting.csv") << "0,0,0,0,0,0,0\n10,0,0,0,0,0,0\n";
-  EXPECT_THAT(rejection_of(file), testing::HasSubstr("wrench.file: got wrenches of at most 0"));
+  EXPECT_THAT(rejection_of_file(file),
+              testing::HasSubstr("wrench.file: got wrenches of at most 0"));
   std::ofstream(copy.path() / "cutting.csv")
       << "t,fx,fy,fz,tx,ty,tz\n0,1,0,0,0,0,0\n10,2,0,0,0,0,0\n";
   const Problem problem = load_problem(file.string());
