@@ -94,8 +94,8 @@ struct Joint {
       q_max = kInfinity;                            ///< upper limit [rad or m]
   double velocity_max = kInfinity;                  ///< speed limit [rad/s or m/s]
   double effort_max = 0;                            ///< effort limit, in both directions [N m or N]
-  /// The gear of a joint without a motor of its own; `effort_max` is then its limit. Between base and
-  /// end effector, static tasks of one contact support it; its leader is then one of theta_r.
+  /// The gear of a joint without a motor of its own; `effort_max` is then its limit. Between base
+  /// and end effector, static tasks of one contact support it; its leader is then one of theta_r.
   std::optional<Gear> gear = {};
 };
 
