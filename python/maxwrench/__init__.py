@@ -43,8 +43,8 @@ _arguments.check_class(Task, methods=["with_limits"])
 
 Answer.plot = _plot.plot_answer
 Answer.view = _view.view_answer
-Map.best = property(_map.best_of)
-Map.grid = property(_map.grid_of)
+setattr(Map, "best", property(_map.best_of))
+setattr(Map, "grid", property(_map.grid_of))
 Map.plot = _map.plot_map
 Answer.wrench_at = _frames.wrench
 Answer._repr_html_ = _html.answer_html
