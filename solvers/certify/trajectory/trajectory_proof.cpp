@@ -117,7 +117,7 @@ class TrajectoryProver {
       const TrajectoryVerification check = verify(task_, claim_, threads_);
       if (check.verified()) {
         keep(check);
-        raise(most);
+        if (!task_.motion->impulse) raise(most);
         return true;
       }
       if (proof_.status != Status::kProven) {
@@ -127,7 +127,8 @@ class TrajectoryProver {
     return false;
   }
 
-  /// The efforts have a margin, so they may exert more than the value that they were found for.
+  /// The efforts have a margin, so along a path they may exert more than the value that they were
+  /// found for. In an impulse the certificate also holds the wrench at the edges.
   void raise(double most) {
     double low = claim_.value;
     for (int i = 0; i < kRaises; ++i) {
