@@ -15,7 +15,7 @@ constexpr double kZero = 1e-11;
 /// The least share of a row's squared norm that is accepted as first pivot.
 constexpr double kSmallPivot = 1e-8;
 /// Prevents a division by zero for a row without entries.
-constexpr double kTiny = 1e-20;
+constexpr double kLeastDivisor = 1e-20;
 
 /// The number of scores that are compared together.
 constexpr int kScores = 4;
@@ -142,8 +142,8 @@ void Tableau::measure() {
   with_length(stride_, [&](auto n) {
     for (int i = 0; i < rows_; ++i) {
       const double* const row = T_.data() + i * n;
-      dependent_.weight[i] = 1 / (dot(row, row, n) + kTiny);
-      dependent_.tight[i] = 1 / (dependent_.high[i] - dependent_.low[i] + kTiny);
+      dependent_.weight[i] = 1 / (dot(row, row, n) + kLeastDivisor);
+      dependent_.tight[i] = 1 / (dependent_.high[i] - dependent_.low[i] + kLeastDivisor);
     }
   });
 }
