@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 
 #include "benchmarks/tables/csv.h"
@@ -55,11 +56,16 @@ nlohmann::ordered_json settings_of(const Problem& task, const MapPlan& plan, con
           {"tolerance", plan.tolerance}};
 }
 
-double number_in(const std::string& text, double none) {
-  double value = none;
+/// The number in a cell of the table, which may be empty if `none` says what that means.
+double number_in(const std::string& text, std::optional<double> none = std::nullopt) {
+  if (text.empty() && none) return *none;
   if (text == "-inf") return -kInfinity;
-  std::from_chars(text.data(), text.data() + text.size(), value);
-  return value;
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto [last, error] = std::from_chars(text.data(), end, value);
+  if (error == std::errc() && last == end && std::isfinite(value)) return value;
+  throw std::invalid_argument(
+      fmt::format("{}: got '{}', expected a finite number", table_file(kMapTable).string(), text));
 }
 
 std::string text_of_value(double value) { return value == kInfinity ? "" : exact_text(value); }
@@ -139,7 +145,7 @@ void MapStore::put(const MapCell& cell) {
 MapCell MapStore::read(const std::vector<std::string>& row) const {
   MapCell cell;
   std::size_t next = 0;
-  for (; next < axes_; ++next) cell.index.push_back(std::lround(number_in(row[next], -1)));
+  for (; next < axes_; ++next) cell.index.push_back(std::lround(number_in(row[next])));
   const auto numbers = [&](std::size_t count) {
     Eigen::VectorXd v(static_cast<Eigen::Index>(count));
     for (double& value : v) {
@@ -149,10 +155,15 @@ MapCell MapStore::read(const std::vector<std::string>& row) const {
   };
   cell.at = numbers(axes_);
   const std::size_t plain = next;
-  cell.level = static_cast<int>(std::lround(number_in(row[plain], 0)));
+  cell.level = static_cast<int>(std::lround(number_in(row[plain])));
   const bool has = row[plain + 1] == to_string(Status::kBestFound);
+  if (!has && row[plain + 1] != to_string(Status::kNoneFound)) {
+    throw std::invalid_argument(
+        fmt::format("{}: got status '{}', expected best_found or none_found",
+                    table_file(kMapTable).string(), row[plain + 1]));
+  }
   cell.conclude(has ? Status::kBestFound : Status::kNoneFound, row[plain + 2]);
-  cell.beta = number_in(row[plain + 3], std::numeric_limits<double>::quiet_NaN());
+  cell.beta = has ? number_in(row[plain + 3]) : std::numeric_limits<double>::quiet_NaN();
   cell.unit = row[plain + 4];
   cell.bound = number_in(row[plain + 5], kInfinity);
   if (!row[plain + 6].empty()) cell.scratch = number_in(row[plain + 6], -kInfinity);
@@ -160,8 +171,13 @@ MapCell MapStore::read(const std::vector<std::string>& row) const {
   cell.theta_r = numbers(theta_r_);
   cell.base = numbers(std::size(kBaseColumns));
   cell.q = numbers(joints_);
+  if (has && !cell.theta_r.allFinite()) {
+    throw std::invalid_argument(
+        fmt::format("{}: got best_found without theta_r, expected {} numbers",
+                    table_file(kMapTable).string(), theta_r_));
+  }
   if (!has) cell.theta_r = cell.base = cell.q = Eigen::VectorXd();
-  cell.evaluations = std::lround(number_in(row[next], 0));
+  cell.evaluations = std::lround(number_in(row[next]));
   return cell;
 }
 

@@ -112,13 +112,17 @@ void print_dependents(const Problem& problem) {
     fmt::print("  dependent {:<15} {:g} .. {:g}, at the default {:g}{}\n", joint.name, joint.q_min,
                joint.q_max, q[i], inside ? "" : ", beyond its limits");
   }
-  fmt::print("  {}\n", problem.robot.base_axes.empty()
-                           ? "fixed base; for the dependent joints, all IK solutions are tried"
-                       : problem.dependent.empty()
-                           ? "the base pose is dependent, in closed form"
-                           : "the base pose is dependent, too; all IK solutions are tried");
+  fmt::print("  {}\n",
+             problem.robot.base_axes.empty()
+                 ? problem.dependent.empty()
+                       ? "fixed base"
+                       : "fixed base; for the dependent joints, all IK solutions are tried"
+             : problem.dependent.empty()
+                 ? "the base pose is dependent, in closed form"
+                 : "the base pose is dependent, too; all IK solutions are tried");
   fmt::print("  default posture: {}\n",
              posture.status == Status::kValid ? "exists" : describe_violation(problem, posture));
+  if (problem.motion && problem.motion->transfer) return;  // no pose asks for IK solutions
   const Sampled sampled = sample_postures(problem, kSamples);
   fmt::print("  {} of {} random theta_r are valid; {}\n", sampled.valid, kSamples,
              describe(sampled.postures));

@@ -105,6 +105,11 @@ void add_map(CLI::App& app, int& exit_status) {
       *app.add_subcommand("map", "finds the best wrench over a grid of poses and directions");
   options->add_case(command);
   options->add_search(command);
+  command.get_option("--search")
+      ->description(
+          "search of each cell, or stages joined by + (default: facet_sqp where it applies, else "
+          "crs2+cmaes)");
+  command.get_option("--budget")->description("evaluation budget of each cell (default: 3000)");
   options->add_threads(command);
   options->add_json(command);
   options->source.add(command);

@@ -57,6 +57,9 @@ void add_pareto(CLI::App& app, int& exit_status) {
       "pareto", "finds what one posture can give to two tasks, or to several at once");
   options->add_case(command);
   options->add_search(command);
+  command.get_option("--search")
+      ->description("search of each angle, or stages joined by + (default: crs2+cmaes)");
+  command.get_option("--budget")->description("evaluation budget of each angle (default: 20000)");
   options->add_threads(command);
   options->add_json(command);
   command

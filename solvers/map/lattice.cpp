@@ -1,6 +1,8 @@
 #include "solvers/map/lattice.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
 namespace maxwrench {
 
@@ -106,6 +108,11 @@ std::vector<Lattice::Index> Lattice::shard_cells(int level) const {
   }
   std::vector<Index> cells = product(lists);
   const auto count = static_cast<long>(cells.size());
+  if (count < shards_) {
+    throw std::invalid_argument("shard: got " + std::to_string(shards_) +
+                                " parts, expected at most " + std::to_string(count) +
+                                ", the cells of the coarse grid");
+  }
   const auto cut = [&](long part) { return cells.begin() + count * part / shards_; };
   cells = std::vector<Index>(cut(shard_ - 1), cut(shard_));
   for (int l = 0; l < level; ++l) {

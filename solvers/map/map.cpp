@@ -108,7 +108,11 @@ class MapMaker {
   /// Whether a cell lacks a check or a bound that the plan asks for.
   bool lacks(const MapCell& cell) const {
     return (!cell.scratch && is_drawn(cell.index, plan_.check, options_.seed)) ||
-           (plan_.bound && cell.bound == kInfinity && cell.status == Status::kBestFound);
+           (plan_.bound && cell.status == Status::kBestFound && !is_within_gap(cell));
+  }
+
+  bool is_within_gap(const MapCell& cell) const {
+    return std::isfinite(cell.bound) && cell.bound - cell.beta <= plan_.gap * std::abs(cell.bound);
   }
 
   MapCell solved(const Index& place, int level) const {
@@ -163,12 +167,16 @@ class MapMaker {
       }
       cell.scratch = scratch.has_value() ? scratch.beta() : -kInfinity;
     }
-    if (!plan_.bound || cell.bound < kInfinity || cell.status != Status::kBestFound) return;
+    if (!plan_.bound || is_within_gap(cell) || cell.status != Status::kBestFound) return;
     ProofOptions how;
     how.gap = plan_.gap;
     how.seconds = plan_.seconds;
     const Proof proof = certify(task_at(cell.at), options_, how);
-    cell.bound = proof.bound;
+    if (options_.interrupted && options_.interrupted()) {
+      cell.conclude(Status::kBudgetExhausted, "interrupted");
+      return;
+    }
+    cell.bound = std::min(cell.bound, proof.bound);
   }
 
   void store(const MapCell& cell, bool is_new) {

@@ -173,7 +173,9 @@ std::vector<std::string> find_unchanging(const Problem& task, const MapPlan& pla
     const MapAxis& axis = plan.over[static_cast<std::size_t>(a)];
     if (axis.count < 2) continue;
     bool same = true;
-    for (const double value : {axis.low, axis.high}) {
+    std::vector<double> values = {axis.low, axis.high};
+    for (double i = axis.low + 1; axis.name == "wrench" && i < axis.high; ++i) values.push_back(i);
+    for (const double value : values) {
       Eigen::VectorXd there = middle;
       there[a] = value;
       same = same && same_values(here, values_at(posed(task, plan.over, there), postures, options));

@@ -12,6 +12,7 @@
 #include "solvers/pareto/weighted.h"
 #include "solvers/search/starts.h"
 #include "solvers/solve/method.h"
+#include "verify/certificate.h"
 
 namespace maxwrench {
 namespace {
@@ -26,6 +27,15 @@ constexpr double kSamePlace = 1e-12;
 [[noreturn]] void throw_unlike(const Problem& a, const Problem& b, const char* what) {
   throw std::invalid_argument(fmt::format(
       "against: got {}, expected a static task with the same {} as {}", b.name, what, a.name));
+}
+
+/// The digest of everything but the wrench: of the robot's data, the pose and theta_r.
+std::uint64_t digest_without_wrench(Problem problem) {
+  problem.c.setZero();
+  problem.W_any.resize(6, 0);
+  problem.scenarios = {};
+  problem.free.wrench_turns = false;
+  return digest(problem);
 }
 
 void require_alike(const Problem& a, const Problem& b) {
@@ -44,6 +54,7 @@ void require_alike(const Problem& a, const Problem& b) {
       a.theta_r_max != b.theta_r_max) {
     throw_unlike(a, b, "theta_r");
   }
+  if (digest_without_wrench(a) != digest_without_wrench(b)) throw_unlike(a, b, "robot");
 }
 
 Case case_of(const Goal& goal, const Options& options) {

@@ -18,7 +18,9 @@ double degrees(double phi) { return phi * 180 / std::numbers::pi; }
 std::string front_line(const FrontPoint& point, const std::string& name) {
   std::string text = fmt::format("{:<12}{:>9.5f}", name, point.t);
   text += point.bound < kInfinity ? fmt::format(" {:>9.5f}", point.bound) : "         -";
-  for (const double beta : point.beta) text += fmt::format(" {:>11.5f}", beta);
+  for (const double beta : point.beta) {
+    text += fmt::format(" {:>11}", std::isfinite(beta) ? fmt::format("{:.5f}", beta) : "-");
+  }
   return text + "  " + line(point.theta_r) + "\n";
 }
 
@@ -53,8 +55,9 @@ std::string summary(const Front& front) {
     text += front_line(point, fmt::format("{:.2f}", degrees(point.phi)));
   }
   text += front_line(front.compromise, "all tasks");
-  text += fmt::format("one posture for all tasks: at least {} of the best of each\n",
-                      percent(front.compromise.t));
+  text += fmt::format(
+      "one posture for all tasks: at least {} of the best that was found for each alone\n",
+      percent(front.compromise.t));
   if (front.dominated > 0) text += fmt::format("{} dominated points left out\n", front.dominated);
   return text + line(front.evaluations, front.wall_s) + "\n";
 }

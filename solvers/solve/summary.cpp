@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -52,7 +53,8 @@ void add_value(const Answer& answer, std::string& text) {
     add(text, "value_between_knots none: {}\n", trajectory.between_knots_reason.c_str());
   }
   if (!std::isnan(trajectory.overshoot)) {
-    add(text, "overshoot {:>9.5f} of the limits between instants\n", trajectory.overshoot);
+    add(text, "overshoot {:>9.5f} of the limits between instants\n",
+        std::max(0.0, trajectory.overshoot));
   }
   if (!trajectory.collision.empty()) add(text, "collides: {}\n", trajectory.collision.c_str());
 }

@@ -13,6 +13,7 @@ Problem with_fingers(double offset) {
   TaskSpec task = valve();
   Robot& robot = task.robot;
   robot.collision = nullptr;
+  robot.parts.clear();
   const int wrist = static_cast<int>(robot.links.size()) - 1;
   const int leader = static_cast<int>(robot.joints.size());
   for (const char* name : {"lead", "follow"}) {

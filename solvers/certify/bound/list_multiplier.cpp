@@ -28,7 +28,7 @@ void ListMultiplier::read(const Eigen::VectorXd& numbers) {
   nu.setZero(equations());
   if (numbers.size() < equations()) return;
   nu = numbers.tail(equations());
-  for (Eigen::Index at = 0; at + width() <= numbers.size(); at += width()) {
+  for (Eigen::Index at = 0; at + width() + equations() <= numbers.size(); at += width()) {
     parts_.push_back({model_.read(numbers.segment(at, model_.key_size())),
                       numbers.segment(at + model_.key_size(), model_.n())});
   }

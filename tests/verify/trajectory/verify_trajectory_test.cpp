@@ -84,7 +84,7 @@ TEST(VerifyTrajectory, RejectsTamperedCertificates) {
       [](TrajectoryCertificate& p) { p.parts = 0; },
       [](TrajectoryCertificate& p) { p.parts *= 2; },
       [](TrajectoryCertificate& p) { p.parts = 1 << 30; },
-      [](TrajectoryCertificate& p) { p.y(3, 200) += 1; },
+      [](TrajectoryCertificate& p) { p.y(3, 200) += 20; },
       [](TrajectoryCertificate& p) { p.y.rowwise().reverseInPlace(); },
       [](TrajectoryCertificate& p) { p.y.setZero(); },
       [](TrajectoryCertificate& p) { p.y *= 1.5; },
