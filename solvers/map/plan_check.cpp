@@ -174,7 +174,9 @@ std::vector<std::string> find_unchanging(const Problem& task, const MapPlan& pla
     if (axis.count < 2) continue;
     bool same = true;
     std::vector<double> values = {axis.low, axis.high};
-    for (double i = axis.low + 1; axis.name == "wrench" && i < axis.high; ++i) values.push_back(i);
+    if (axis.name == "wrench") {
+      for (int i = 1; i + 1 < axis.count; ++i) values.push_back(axis.low + i);
+    }
     for (const double value : values) {
       Eigen::VectorXd there = middle;
       there[a] = value;
