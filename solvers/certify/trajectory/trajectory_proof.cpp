@@ -53,7 +53,7 @@ class TrajectoryProver {
  public:
   TrajectoryProver(const Problem& task, const Eigen::MatrixXd& knots, const Options& options,
                    const TrajectoryProofOptions& how)
-      : task_(task), options_(options), how_(how), threads_(thread_count(options.threads)) {
+      : task_(task), how_(how), threads_(thread_count(options.threads)) {
     if (!options.check_collision) task_.robot.collision = nullptr;
     proof_.answer = evaluate(task_, knots, options);
     claim_.version = version();
@@ -151,7 +151,6 @@ class TrajectoryProver {
   }
 
   Problem task_;
-  const Options& options_;
   const TrajectoryProofOptions& how_;
   const int threads_;
   TrajectoryCertificate claim_;
