@@ -52,7 +52,7 @@ class Interrupt:
         ("uvms/valve", "slsqp"),
         ("fixed/push", "de"),
         ("mobile/push", "facet_sqp"),
-        ("uvms/valve_trajectory", ""),
+        ("uvms/valve_trajectory", "cmaes"),  # slp may end by itself before
         ("planar/trajectory", "cmaes"),
     ],
 )
