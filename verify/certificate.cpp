@@ -205,11 +205,7 @@ std::uint64_t digest(const Problem& problem) {
   }
   all.matrix(problem.theta_r_min);
   all.matrix(problem.theta_r_max);
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char byte : all.text()) {
-    hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
-  }
-  return hash;
+  return digest_of(all.text());
 }
 
 std::string certificate_text(const ProofCertificate& proof) {

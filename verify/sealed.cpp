@@ -66,6 +66,14 @@ std::string unseal(const std::string& file, std::string_view first_line) {
   return unpacked(rest);
 }
 
+std::uint64_t digest_of(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char byte : bytes) {
+    hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
+  }
+  return hash;
+}
+
 bool fits_in_a_line(const std::string& text) {
   return std::none_of(text.begin(), text.end(),
                       [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -18,6 +19,9 @@ bool begins_with(const std::string& file, std::string_view first_line);
 /// @throws std::invalid_argument, in one line with the name of the file, if the file cannot be read
 ///         or begins differently.
 std::string unseal(const std::string& file, std::string_view first_line);
+
+/// The FNV-1a hash of bytes.
+std::uint64_t digest_of(std::string_view bytes);
 
 /// Whether a text can be printed in a line.
 bool fits_in_a_line(const std::string& text);

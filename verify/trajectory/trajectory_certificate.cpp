@@ -58,11 +58,7 @@ std::uint64_t motion_digest(const Problem& problem) {
   all.whole(digest(problem), 8);
   put_dynamics(all, problem.robot);
   if (problem.motion) put_motion(all, *problem.motion);
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char byte : all.text()) {
-    hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3U;
-  }
-  return hash;
+  return digest_of(all.text());
 }
 
 std::string certificate_text(const TrajectoryCertificate& proof) {
