@@ -7,6 +7,6 @@ set(maxwrench_problems_sources
   loader/urdf_visual.cpp loader/visuals.cpp loader/xacro.cpp
   make/bad_value.cpp make/collision_shapes.cpp make/contact.cpp make/free_pose.cpp make/losses.cpp make/motion_task.cpp make/payload.cpp
   make/posture.cpp make/redundant_joints.cpp
-  make/robot.cpp make/scenarios.cpp make/task.cpp make/theta_r.cpp make/touching_bodies.cpp make/uncertain_loads.cpp
+  make/robot.cpp make/scenarios.cpp make/task.cpp make/theta_r.cpp make/touching_bodies.cpp make/transfer_ends.cpp make/uncertain_loads.cpp
   mesh/capsule.cpp mesh/find_mesh.cpp mesh/hull.cpp mesh/mesh_shape.cpp mesh/mesh_text.cpp mesh/read_mesh.cpp mesh/thin_out.cpp
-  mps/reader.cpp mps/wrench_file.cpp mps/writer.cpp)
+  mps/fields.cpp mps/reader.cpp mps/wrench_file.cpp mps/writer.cpp)

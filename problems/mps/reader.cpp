@@ -1,9 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -14,54 +12,10 @@
 #include <stdexcept>
 
 #include "maxwrench/mps.h"
+#include "problems/mps/fields.h"
 
 namespace maxwrench {
 namespace {
-
-using Fields = std::vector<std::string>;
-
-/// Rejects numbers that are not finite. Fortran writes 1.5D+3.
-std::optional<double> as_finite(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == 'd' || c == 'D'; }, 'e');
-  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
-  const char* end = text.data() + text.size();
-  double value = 0;
-  const auto [rest, error] = std::from_chars(begin, end, value);
-  if (begin == end || rest != end || error != std::errc() || !std::isfinite(value)) {
-    return std::nullopt;
-  }
-  return value;
-}
-
-Fields split(const std::string& line) {
-  std::istringstream stream(line);
-  Fields fields;
-  for (std::string field; stream >> field;) fields.push_back(field);
-  return fields;
-}
-
-/// Joins several words into one name, because the format allows blanks in names.
-std::string join(const Fields& words, std::size_t first = 0) {
-  std::string name;
-  for (std::size_t k = first; k < words.size(); ++k) {
-    if (k > first) name += '_';
-    name += words[k];
-  }
-  return name;
-}
-
-/// Splits a line into the fixed columns 2-3, 5-12, 15-22, 25-36, 40-47, 50-61.
-Fields split_fixed(const std::string& line) {
-  constexpr std::array<std::array<std::size_t, 2>, 6> kColumns{
-      {{1, 2}, {4, 8}, {14, 8}, {24, 12}, {39, 8}, {49, 12}}};
-  Fields fields;
-  for (const auto& [begin, length] : kColumns) {
-    fields.push_back(begin < line.size() ? join(split(line.substr(begin, length))) : "");
-  }
-  while (!fields.empty() && fields.back().empty()) fields.pop_back();
-  return fields;
-}
 
 struct MpsRow {
   std::string name;
@@ -92,16 +46,16 @@ class Cards {
 
   [[noreturn]] void fail(const std::string& expected) const;
   void read();
-  void begin_section(const Fields& fields);
+  void begin_section(const MpsFields& fields);
   void read_card(const std::string& line);
   void read_sense(const std::string& word);
-  void read_row(const Fields& fields);
-  std::optional<NamedPairs> as_pairs(const Fields& fields) const;
+  void read_row(const MpsFields& fields);
+  std::optional<NamedPairs> as_pairs(const MpsFields& fields) const;
   NamedPairs read_pairs(const std::string& line, bool may_lack_name) const;
   void read_column(const std::string& line);
   void read_set(const std::string& line);
   void read_bound(const std::string& line);
-  bool try_bound(Fields fields);
+  bool try_bound(MpsFields fields);
   bool of_first_set(const std::string& set);
 
   std::string path_, section_, name_, set_name_;
@@ -129,7 +83,7 @@ void Cards::read() {
     ++number_;
     for (char& c : line) c = c == '\t' || c == '\r' ? ' ' : c;
     if (line.find('\0') != std::string::npos) fail("text");
-    const Fields fields = split(line);
+    const MpsFields fields = mps_words(line);
     if (fields.empty() || line[0] == '*') continue;
     for (const std::string& field : fields) {
       if (field.size() > 100) fail("fields of at most 100 characters");
@@ -144,7 +98,7 @@ void Cards::read() {
   if (!seen_.count("ROWS") || !seen_.count("COLUMNS")) fail("ROWS and COLUMNS before ENDATA");
 }
 
-void Cards::begin_section(const Fields& fields) {
+void Cards::begin_section(const MpsFields& fields) {
   static const std::set<std::string> kSections{"NAME",   "ROWS",   "COLUMNS",  "RHS",
                                                "RANGES", "BOUNDS", "OBJSENSE", "ENDATA"};
   const std::string& title = fields[0];
@@ -167,8 +121,8 @@ void Cards::begin_section(const Fields& fields) {
 }
 
 void Cards::read_card(const std::string& line) {
-  if (section_ == "OBJSENSE") return read_sense(split(line)[0]);
-  if (section_ == "ROWS") return read_row(split(line));
+  if (section_ == "OBJSENSE") return read_sense(mps_words(line)[0]);
+  if (section_ == "ROWS") return read_row(mps_words(line));
   if (section_ == "COLUMNS") return read_column(line);
   if (section_ == "RHS" || section_ == "RANGES") return read_set(line);
   if (section_ == "BOUNDS") return read_bound(line);
@@ -187,12 +141,12 @@ void Cards::read_sense(const std::string& word) {
   }
 }
 
-void Cards::read_row(const Fields& fields) {
+void Cards::read_row(const MpsFields& fields) {
   if (fields.size() < 2 || fields[0].size() != 1 ||
       std::string("NELG").find(fields[0]) == std::string::npos) {
     fail("a type N, E, L or G and a name");
   }
-  MpsRow row{.name = join(fields, 1), .type = fields[0][0]};
+  MpsRow row{.name = mps_name(fields, 1), .type = fields[0][0]};
   const int place = static_cast<int>(rows_.size());
   if (!row_of_.emplace(row.name, place).second) fail("row " + row.name + " only once");
   if (row.type == 'N') {
@@ -203,12 +157,12 @@ void Cards::read_row(const Fields& fields) {
 }
 
 /// Reads the fields [name, row, value] or [name, row, value, row, value].
-std::optional<Cards::NamedPairs> Cards::as_pairs(const Fields& fields) const {
+std::optional<Cards::NamedPairs> Cards::as_pairs(const MpsFields& fields) const {
   if (fields.size() != 3 && fields.size() != 5) return std::nullopt;
   NamedPairs result{fields[0], {}};
   for (std::size_t k = 1; k < fields.size(); k += 2) {
     const auto row = row_of_.find(fields[k]);
-    const std::optional<double> value = as_finite(fields[k + 1]);
+    const std::optional<double> value = mps_number(fields[k + 1]);
     if (row == row_of_.end() || !value) return std::nullopt;
     result.pairs.emplace_back(row->second, *value);
   }
@@ -216,13 +170,13 @@ std::optional<Cards::NamedPairs> Cards::as_pairs(const Fields& fields) const {
 }
 
 Cards::NamedPairs Cards::read_pairs(const std::string& line, bool may_lack_name) const {
-  Fields fields = split(line);
+  MpsFields fields = mps_words(line);
   if (const auto found = as_pairs(fields)) return *found;
   if (may_lack_name) {
     fields.insert(fields.begin(), "");
     if (const auto found = as_pairs(fields)) return *found;
   }
-  fields = split_fixed(line);
+  fields = mps_columns(line);
   if (!fields.empty()) fields.erase(fields.begin());
   const auto found = as_pairs(fields);
   if (found && (may_lack_name || !found->name.empty())) return *found;
@@ -271,12 +225,12 @@ void Cards::read_set(const std::string& line) {
 }
 
 void Cards::read_bound(const std::string& line) {
-  if (try_bound(split(line)) || try_bound(split_fixed(line))) return;
+  if (try_bound(mps_words(line)) || try_bound(mps_columns(line))) return;
   fail(
       "a type UP, LO, FX, FR, MI, PL, BV, LI or UI, a known column and, if it needs one, a number");
 }
 
-bool Cards::try_bound(Fields f) {
+bool Cards::try_bound(MpsFields f) {
   static const std::set<std::string> kWithValue{"UP", "LO", "FX", "UI", "LI"};
   static const std::set<std::string> kWithout{"FR", "MI", "PL", "BV"};
   if (f.empty()) return false;
@@ -290,7 +244,7 @@ bool Cards::try_bound(Fields f) {
     f.insert(f.begin() + 1, "");
   }
   if (f.size() < size || f.size() > 4) return false;
-  const std::optional<double> value = with_value ? as_finite(f[3]) : 0;
+  const std::optional<double> value = with_value ? mps_number(f[3]) : 0;
   if (!value) return false;
   if (!of_first_set(f[1])) return true;
   MpsColumn& column = columns_[static_cast<std::size_t>(column_of_.at(f[2]))];
