@@ -62,6 +62,7 @@ void expect_fault(const std::string& search, bool in_derivatives) {
     }
     // Nothing of it remains.
     left = -1;
+    options.budget = 100;
     EXPECT_TRUE(solve(load_problem("uvms/lift"), options).has_value());
   }
 }

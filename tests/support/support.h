@@ -15,24 +15,19 @@ namespace maxwrench {
 #define MAXWRENCH_SANITIZED
 #endif
 #endif
+#if defined(MAXWRENCH_SANITIZED)
+inline constexpr bool kSanitized = true;
+#else
+inline constexpr bool kSanitized = false;
+#endif
 
 /// The number of samples that a statistical test draws. Sanitizers are about twenty times slower,
 /// so with them it is a twentieth, rounded up.
-constexpr int samples(int all) {
-#if defined(MAXWRENCH_SANITIZED)
-  return (all + 19) / 20;
-#else
-  return all;
-#endif
-}
+constexpr int samples(int all) { return kSanitized ? (all + 19) / 20 : all; }
 
 /// The number of heap allocations of this process so far. Sanitizers replace malloc, so nothing is
 /// counted with them.
-#if defined(MAXWRENCH_SANITIZED)
-inline constexpr bool kAllocationsAreCounted = false;
-#else
-inline constexpr bool kAllocationsAreCounted = true;
-#endif
+inline constexpr bool kAllocationsAreCounted = !kSanitized;
 long allocation_count();
 
 /// A vehicle on six axes with eight thrusters of asymmetric limits and an arm of `joints` joints

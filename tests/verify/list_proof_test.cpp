@@ -23,7 +23,7 @@ TEST(ListProof, IsVerified) {
     Options options;
     options.budget = 3000;
     ProofOptions how;
-    how.gap = 2e-2;
+    how.gap = kSanitized ? 1e-1 : 2e-2;
     how.seconds = 200;
     how.keep_certificate = true;
     if (std::string(form.name) == "current") {

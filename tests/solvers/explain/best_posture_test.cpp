@@ -18,7 +18,7 @@ double best_rate(const Explanation& explanation, const std::string& name, LimitS
 }
 
 /// An independent model gives these values (to the digits shown).
-TEST(BestPosture, RatesOfTheValveAreTheReferenceValues) {
+TEST(BestPosture, SLOW_RatesOfTheValveAreTheReferenceValues) {
   const Explanation explanation = explain(solve(load_problem("uvms/valve")));
   ASSERT_EQ(explanation.best.missing, "");
   EXPECT_LT(explanation.best.residual, 1e-6);
@@ -46,7 +46,7 @@ double best_near(Problem task, const Eigen::VectorXd& theta_r) {
 }
 
 /// Solved again with each limit in turn a little larger and smaller.
-TEST_P(BestPostureOf, RatesAreDifferencesOfOptimaThatAreSolvedAgain) {
+TEST_P(BestPostureOf, SLOW_RatesAreDifferencesOfOptimaThatAreSolvedAgain) {
   const Problem task = load_problem(GetParam());
   const Answer answer = solve(task);
   const Eigen::VectorXd& theta_r = answer.posture.theta_r;
