@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -16,8 +17,9 @@ using Eigen::VectorXd;
 /// In coordinates in which the set has the size of 1: a point counts as beyond a facet from here
 /// on.
 constexpr double kBeyond = 1e-9;
-/// Likewise, a vertex of a facet is within this distance of it.
-constexpr double kOn = 1e-8;
+/// Likewise, a vertex of a facet is within this distance of it: the first of these with which the
+/// facets close. Where facets nearly meet in one point, another tells them apart.
+constexpr double kOn[] = {1e-8, 1e-7, 2e-9};
 
 /// Grows a polytope from its support until each facet of the hull of the points is proven.
 class PolytopeGrowth {
@@ -120,7 +122,10 @@ class PolytopeGrowth {
   }
 
   void fill(WrenchSet& set) const {
-    const auto boundary = boundary_of(y_, half_spaces_, q(), kOn);
+    std::optional<Boundary> boundary;
+    for (const double on : kOn) {
+      if (!boundary) boundary = boundary_of(y_, half_spaces_, q(), on);
+    }
     if (!boundary) {
       set.conclude(Status::kNumericalError, "the facets found do not close");
       return;

@@ -134,9 +134,7 @@ TEST_P(WrenchSetsOfTasks, PolytopesHaveTheCapabilityAlongC) {
         EXPECT_NEAR(found, answer.beta(), tolerance(answer.beta()));
         EXPECT_TRUE(set.residual.within(1e-6 * (1 + set.vertices.norm())));
       });
-      // Offsets of 0.2 mm give the Gen3 facets that are almost parallel. Where they are not told
-      // apart, the set says so.
-      EXPECT_LE(undecided, problem_.name.starts_with("gallery/gen3/") ? 1 : 0);
+      EXPECT_EQ(undecided, 0);
     }
   }
 }
