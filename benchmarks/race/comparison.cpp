@@ -45,12 +45,12 @@ std::vector<std::string> peers_of(const Problem& problem, const Case& base) {
 
 std::string default_of(const Problem& problem, const Case& base) {
   const bool named = !problem.motion && !base.search.empty();
-  return named ? base.search : default_search(problem, base.measure);
+  return named ? base.search : default_search(problem, base.measure, base.wrench);
 }
 
 /// The searches that support a problem, the default first.
 std::vector<std::string> searches_of(const Problem& problem, const Case& base) {
-  std::vector<std::string> served = served_searches(problem, base.measure);
+  std::vector<std::string> served = served_searches(problem, base.measure, base.wrench);
   const std::string first = default_of(problem, base);
   std::erase(served, first);
   served.insert(served.begin(), first);

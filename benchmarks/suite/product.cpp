@@ -35,9 +35,9 @@ Names wanted(const Names& column, const Names& served) {
 }
 
 /// The searches of a column whose stages are all supported.
-Names wanted_searches(const Names& column, const Problem& problem, const std::string& measure) {
-  const Names alone = served_searches(problem, measure);
-  const std::string usual = default_search(problem, measure);
+Names wanted_searches(const Names& column, const Problem& problem, const Case& c) {
+  const Names alone = served_searches(problem, c.measure, c.wrench);
+  const std::string usual = default_search(problem, c.measure, c.wrench);
   Names names = alone;
   std::erase(names, usual);
   names.insert(names.begin(), usual);
@@ -93,7 +93,7 @@ void add_cases(const Problem& problem, const ProductColumns& columns, Case c,
     return;
   }
   c.budget = budget_of(problem, c.solver, columns.budget);
-  for (const std::string& search : wanted_searches(columns.search, problem, c.measure)) {
+  for (const std::string& search : wanted_searches(columns.search, problem, c)) {
     c.search = search;
     for (const std::uint64_t seed : columns.seed) {
       c.seed = seed;

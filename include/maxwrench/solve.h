@@ -131,14 +131,16 @@ struct Answer : Verdict {
 
 /// Returns the name of the search that is best in general.
 ///
-/// For a task in time it is `slp`. For a static task it is the search between facets where that is
-/// supported, followed by `cmaes` from the points that it found. The second stage is needed because
-/// these points may collide, and because the first one ignores pairs of bodies that have a test for
-/// collision only. Otherwise it is `general_search`.
+/// For a task in time it is `slp`. For a static task, also with a list of scenarios, it is the
+/// search between facets where that is supported, followed by `cmaes` from the points that it
+/// found. The second stage is needed because these points may collide, and because the first one
+/// ignores pairs of bodies that have a test for collision only. Otherwise it is `general_search`.
 ///
 /// @param task     the task
 /// @param measure  the name of the measure
-std::string default_search(const Problem& task, const std::string& measure);
+/// @param wrench   the allowed wrenches
+std::string default_search(const Problem& task, const std::string& measure,
+                           Wrench wrench = Wrench::kPure);
 
 /// Returns the case with the search and the budget that `solve` uses if it names none.
 Case with_search(const Problem& task, Case c);

@@ -180,27 +180,32 @@ bool ScenarioFacets::refine(Eigen::Index row) {
   return true;
 }
 
-void ScenarioFacets::set_wrench(ScenarioForces& at, int i) {
+/// Sets the slopes of a wrench, and by how much the ball widens them.
+void ScenarioFacets::set_slopes(ScenarioForces& at, int i) {
   const ScenarioList& list = problem_.scenarios;
   at.exert(at.wrench(i), tau_);
-  double size = tau_.norm();
+  size_ = tau_.norm();
   project(tau_, slope_);
   widening_.setZero();
   if (list.ball && !list.wrenches[static_cast<std::size_t>(i)].hold) {
     for (Eigen::Index axis = 0; axis < ball_.cols(); ++axis) {
       at.exert(at.ball_axis(axis), tau_);
-      size += tau_.norm();
+      size_ += tau_.norm();
       project(tau_, ball_.col(axis));
       widening_ += ball_.col(axis).square();
     }
     widening_ = widening_.sqrt();
   }
+}
+
+void ScenarioFacets::set_wrench(ScenarioForces& at, int i) {
+  set_slopes(at, i);
   Wrench& wrench = wrenches_[static_cast<std::size_t>(i)];
   wrench.inverse << widening_ + slope_, widening_ - slope_;
   wrench.parallel.clear();
   for (Eigen::Index row = 0; row < 2 * pairs_; ++row) {
     double& slope = wrench.inverse[row];
-    if (std::abs(slope) > kFlat * size) {
+    if (std::abs(slope) > kFlat * size_) {
       slope = 1 / slope;
     } else {
       slope = 0;
@@ -249,6 +254,24 @@ bool ScenarioFacets::choose(ScenarioForces& at, const End& end, ScenarioChoice& 
     }
   }
   return true;
+}
+
+void ScenarioFacets::fill_rows(ScenarioForces& at, Eigen::VectorXd& load, Eigen::VectorXd& slope) {
+  set_margins(at);
+  for (Eigen::Index row = 0; row < 2 * pairs_; ++row) refine(row);
+  const auto wrenches = static_cast<Eigen::Index>(wrenches_.size());
+  load = -margins_.matrix().replicate(wrenches, 1);
+  slope.resize(load.size());
+  for (Eigen::Index i = 0; i < wrenches; ++i) {
+    set_slopes(at, static_cast<int>(i));
+    slope.segment(2 * pairs_ * i, pairs_) = widening_ + slope_;
+    slope.segment(2 * pairs_ * i + pairs_, pairs_) = widening_ - slope_;
+  }
+}
+
+void ScenarioFacets::worst(ScenarioForces& at, int wrench, Eigen::Index row,
+                           ScenarioChoice& choice) {
+  choose(at, {wrench, 0, row}, choice);
 }
 
 void ScenarioFacets::scan(ScenarioForces& at) {

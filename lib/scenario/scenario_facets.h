@@ -38,6 +38,13 @@ class ScenarioFacets {
   /// and both ends are meaningless.
   bool missed = false;
 
+  /// The rows "load + slope beta <= limit" of all wrenches, in turn: 2f of each, upper sides first.
+  /// All loads count with their worst cases.
+  void fill_rows(ScenarioForces& at, Eigen::VectorXd& load, Eigen::VectorXd& slope);
+  /// The worst scenario of such a row of a wrench, after `fill_rows` at the same forces; it names
+  /// no limits.
+  void worst(ScenarioForces& at, int wrench, Eigen::Index row, ScenarioChoice& choice);
+
   /// The first scenario with the end `high`, after `scan`; false if there is none.
   bool high_scenario(ScenarioForces& at, ScenarioChoice& choice) const;
   /// Likewise of `low`; of the row that is missed, if one is.
@@ -75,6 +82,7 @@ class ScenarioFacets {
   static Load make_load(const Robot& robot, const LoadGroup& cases);
   void project(const Eigen::VectorXd& tau, Eigen::Ref<Eigen::ArrayXd> onto) const;
   void set_margins(ScenarioForces& at);
+  void set_slopes(ScenarioForces& at, int i);
   void set_wrench(ScenarioForces& at, int i);
   /// n_j'tau of a case.
   double value_of(const Load& load, Eigen::Index which, Eigen::Index pair) const;
@@ -98,6 +106,7 @@ class ScenarioFacets {
   double high_inverse_ = 0;
   Eigen::VectorXd tau_;
   Eigen::ArrayXXd ball_;  ///< N'J' of the ball's axes (f×d)
+  double size_ = 0;       ///< of the generalised forces of a wrench, with those of the ball
 };
 
 }  // namespace maxwrench

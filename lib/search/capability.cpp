@@ -57,7 +57,7 @@ class CapabilityObjective final : public FacetObjective {
   }
 
   std::unique_ptr<FacetProgram> make_facet_program() const override {
-    if (!measure_->solves_program() || !has_facet_program(problem_)) return nullptr;
+    if (!measure_->solves_program() || !has_facet_program(problem_, wrench_)) return nullptr;
     return std::make_unique<FacetProgram>(problem_, wrench_, make_, check_collision_);
   }
 

@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "lib/posture/redundancy.h"
 #include "lib/robot/clearance_slope.h"
+#include "lib/search/list_rows.h"
 #include "maxwrench/measure.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/problem.h"
@@ -17,7 +19,7 @@ namespace {
 /// [m] The lower bound of a clearance. It is positive because bodies that touch collide and a
 /// solver meets its bounds only up to rounding.
 constexpr double kLeastClearance = 1e-9;
-constexpr int kMostPairs = 200;
+constexpr int kMostPairs = 200, kMostListRows = 1200;
 constexpr double kClearanceUnit = 0.1;  // m
 
 /// The pairs of bodies whose distance is known.
@@ -53,21 +55,38 @@ struct FacetProgram::Workspace {
         pairs(known_pairs(p, check_collision)),
         following(all_dependent_joints(p)),
         slopes(p.robot.velocities(), p.redundancy()) {
+    if (ListRows::count(p, wrench) > 0) list.emplace(p);
+    set_w();
     set_bounds();
     const Eigen::Index count = row_min.size();
     rows.setZero(count);
     by_theta_r.setZero(count, p.redundancy());
-    by_w.setZero(count, program.columns());
+    by_w.setZero(count, c_w.size());
+  }
+
+  /// Of a list, w is the factor of its wrenches.
+  void set_w() {
+    c_w = program.c_w;
+    w_min = program.w_min;
+    w_max = program.w_max;
+    if (!list) return;
+    c_w.setOnes(1);
+    w_min.setConstant(1, problem.scenarios.non_negative ? 0 : -kInfinity);
+    w_max.setConstant(1, kInfinity);
   }
 
   void set_bounds() {
-    const Zonotope& set = actuation();
     const Eigen::Index faces = facets(), p = static_cast<Eigen::Index>(pairs.size());
-    row_min.resize(faces + p + static_cast<Eigen::Index>(following.size()));
-    row_min << set.b_min, Eigen::VectorXd::Constant(p, kLeastClearance),
-        Eigen::VectorXd::Zero(row_min.size() - faces - p);
+    row_min.setZero(faces + p + static_cast<Eigen::Index>(following.size()));
     row_max = row_min;
-    row_max.head(faces) = set.b_max;
+    if (list) {
+      row_min.head(faces).setConstant(-kInfinity);
+      row_max.head(faces) = list->bound();
+    } else {
+      row_min.head(faces) = actuation().b_min;
+      row_max.head(faces) = actuation().b_max;
+    }
+    row_min.segment(faces, p).setConstant(kLeastClearance);
     row_max.segment(faces, p).setConstant(kInfinity);
     for (std::size_t i = 0; i < following.size(); ++i) {
       const Joint& joint = problem.robot.joints[static_cast<std::size_t>(following[i])];
@@ -76,20 +95,30 @@ struct FacetProgram::Workspace {
       row_max[row] = joint.q_max;
     }
     row_unit = (row_max - row_min) / 2;
+    if (list) row_unit.head(faces) = list->unit();
     row_unit.segment(faces, p).setConstant(kClearanceUnit);
     for (double& unit : row_unit) unit = unit > 0 && std::isfinite(unit) ? unit : 1;
   }
 
   const Zonotope& actuation() const { return *program.actuation; }
-  Eigen::Index facets() const { return actuation().facet_pairs(); }
+  /// The number of rows of forces.
+  Eigen::Index facets() const { return list ? list->bound().size() : actuation().facet_pairs(); }
 
   bool place(const Eigen::VectorXd& theta_r) {
     if (posture && posture->theta_r == theta_r) return posture->status == Status::kValid;
     posture = &model.evaluate(theta_r);
     if (posture->status != Status::kValid) return false;
     if (model.ik_solutions() > 1) choose_nearest();
-    set_posture(*posture, program);
+    read_posture();
     return true;
+  }
+
+  void read_posture() {
+    if (list) {
+      list->set(*posture);
+    } else {
+      set_posture(*posture, program);
+    }
   }
 
   /// The squared distance of q from `anchor`; whole turns do not count.
@@ -118,9 +147,13 @@ struct FacetProgram::Workspace {
   }
 
   void fill_rows() {
-    f = program.tau_d;
-    f.noalias() += program.JtW.lazyProduct(w);
-    rows.head(facets()).noalias() = actuation().N.transpose() * f;
+    if (list) {
+      list->fill(w[0], rows.head(facets()));
+    } else {
+      f = program.tau_d;
+      f.noalias() += program.JtW.lazyProduct(w);
+      rows.head(facets()).noalias() = actuation().N.transpose() * f;
+    }
     Eigen::Index row = facets();
     for (const int pair : pairs) {
       problem.robot.collision->nearest(posture->links, pair, near);
@@ -148,6 +181,16 @@ struct FacetProgram::Workspace {
     for (const int joint : following) by_theta_r.row(row++) = turns.row(joint);
   }
 
+  void differentiate_forces() {
+    if (list) {
+      list->differentiate(model, w[0], by_theta_r.topRows(facets()), by_w.topRows(facets()));
+      return;
+    }
+    differentiate();
+    by_theta_r.topRows(facets()).noalias() = actuation().N.transpose() * slopes;
+    by_w.topRows(facets()).noalias() = actuation().N.transpose() * program.JtW;
+  }
+
   /// The derivative of f = tau_d + J'W w at constant w. Row k is that of a capability with lambda =
   /// e_k.
   void differentiate() {
@@ -164,12 +207,13 @@ struct FacetProgram::Workspace {
   const Problem& problem;
   PostureEvaluator model;
   WrenchProgram program;
+  std::optional<ListRows> list;  ///< of a task with a list of scenarios
   std::unique_ptr<Measure> measure;
   const std::vector<int> pairs, following;
   const Posture* posture = nullptr;
   Eigen::VectorXd anchor;  ///< joints of the current IK solution
   Capability capability, seeds;
-  Eigen::VectorXd w, f, slope;
+  Eigen::VectorXd w, f, slope, c_w, w_min, w_max;
   Eigen::MatrixXd slopes;  ///< n×r
   ClosestPoints near;
   Eigen::MatrixXd A_r;  ///< n×r
@@ -177,10 +221,12 @@ struct FacetProgram::Workspace {
   Eigen::MatrixXd by_theta_r, by_w;
 };
 
-bool has_facet_program(const Problem& problem) {
+bool has_facet_program(const Problem& problem, Wrench wrench) {
   const Zonotope& actuation = problem.robot.actuation;
-  return !problem.motion && problem.scenarios.empty() && actuation.has_facets &&
-         actuation.facet_pairs() <= kMostPairs;
+  if (problem.motion || !actuation.has_facets || actuation.facet_pairs() > kMostPairs) return false;
+  if (problem.scenarios.empty()) return true;
+  const Eigen::Index rows = ListRows::count(problem, wrench);
+  return rows > 0 && rows <= kMostListRows;
 }
 
 FacetProgram::FacetProgram(const Problem& problem, Wrench wrench, const MeasureMaker& make,
@@ -188,9 +234,9 @@ FacetProgram::FacetProgram(const Problem& problem, Wrench wrench, const MeasureM
     : workspace_(std::make_unique<Workspace>(problem, wrench, make, check_collision)) {}
 FacetProgram::~FacetProgram() = default;
 
-const Eigen::VectorXd& FacetProgram::c_w() const { return workspace_->program.c_w; }
-const Eigen::VectorXd& FacetProgram::w_min() const { return workspace_->program.w_min; }
-const Eigen::VectorXd& FacetProgram::w_max() const { return workspace_->program.w_max; }
+const Eigen::VectorXd& FacetProgram::c_w() const { return workspace_->c_w; }
+const Eigen::VectorXd& FacetProgram::w_min() const { return workspace_->w_min; }
+const Eigen::VectorXd& FacetProgram::w_max() const { return workspace_->w_max; }
 const Eigen::VectorXd& FacetProgram::row_min() const { return workspace_->row_min; }
 const Eigen::VectorXd& FacetProgram::row_max() const { return workspace_->row_max; }
 const Eigen::VectorXd& FacetProgram::row_unit() const { return workspace_->row_unit; }
@@ -208,7 +254,7 @@ bool FacetProgram::set_out(const Eigen::VectorXd& theta_r, int ik_solution, Eige
   if (ik_solution >= ik_solutions(theta_r)) return false;
   ws.posture = &ws.model.select(ik_solution);
   ws.anchor = ws.posture->q;
-  set_posture(*ws.posture, ws.program);
+  ws.read_posture();
   ws.measure->evaluate(*ws.posture, ws.program, false, ws.capability);
   if (ws.capability.status == Status::kOptimal) {
     w = ws.capability.w;
@@ -231,10 +277,8 @@ const Eigen::VectorXd& FacetProgram::rows() const { return workspace_->rows; }
 void FacetProgram::linearize() {
   Workspace& ws = *workspace_;
   ws.anchor = ws.posture->q;
-  ws.differentiate();
+  ws.differentiate_forces();
   ws.differentiate_places();
-  ws.by_theta_r.topRows(ws.facets()).noalias() = ws.actuation().N.transpose() * ws.slopes;
-  ws.by_w.topRows(ws.facets()).noalias() = ws.actuation().N.transpose() * ws.program.JtW;
 }
 
 const Eigen::MatrixXd& FacetProgram::by_theta_r() const { return workspace_->by_theta_r; }

@@ -21,7 +21,8 @@ struct Problem;
 /// rows are the f facet pairs [N; N m], the pairs of bodies whose distance is known [m], and the
 /// dependent joints, including those of the second arm [rad; m]. At fixed theta_r the optimum is
 /// that of the lower level. The program has no rows for pairs of bodies that have a collision test
-/// but no distance.
+/// but no distance. Of a list of scenarios, w is the factor of its wrenches, and the first rows are
+/// those of `ListRows`.
 class FacetProgram {
  public:
   /// Keeps a reference to the problem, whose actuation must have facets. `make` makes
@@ -36,8 +37,8 @@ class FacetProgram {
   const Eigen::VectorXd& w_max() const;    ///< k
   const Eigen::VectorXd& row_min() const;  ///< for clearances one nanometre
   const Eigen::VectorXd& row_max() const;
-  const Eigen::VectorXd& row_unit() const;    ///< half the width of a row; 0.1 m for a clearance
-  const std::vector<int>& pairs() const;      ///< of the rows of clearances, see `CollisionChecker`
+  const Eigen::VectorXd& row_unit() const;  ///< half the width of a row or pair; 0.1 m: a clearance
+  const std::vector<int>& pairs() const;    ///< of the rows of clearances, see `CollisionChecker`
   const std::vector<int>& following() const;  ///< of the rows of dependent joints
 
   /// The number of postures at theta_r that are valid apart from collisions.
@@ -72,7 +73,7 @@ class FacetObjective : public Objective {
 };
 
 /// Whether a static problem has a facet program that suits solvers with dense matrices: at most 200
-/// facet pairs.
-bool has_facet_program(const Problem& problem);
+/// facet pairs, and 1200 rows of a list of scenarios.
+bool has_facet_program(const Problem& problem, Wrench wrench);
 
 }  // namespace maxwrench

@@ -212,7 +212,7 @@ std::string without_best(const Answer& answer) {
   if (!task.scenarios.empty()) return "the task has a list of scenarios";
   if (answer.given_joints) return "all joints are given";
   if (task.redundancy() == 0) return "the task leaves no coordinate free";
-  if (!has_facet_program(task)) return "the actuators have too many facets";
+  if (!has_facet_program(task, answer.choice.wrench)) return "the actuators have too many facets";
   return "";
 }
 

@@ -202,8 +202,8 @@ bool serves_as_trajectory(const Problem& problem, const std::string& measure) {
          gears_at(problem.robot, problem.end_effector).empty() && problem.scenarios.empty();
 }
 
-bool serves_between_facets(const Problem& problem, const std::string& measure) {
-  return measure == Case().measure && has_facet_program(problem);
+bool serves_between_facets(const Problem& problem, const std::string& measure, Wrench wrench) {
+  return measure == Case().measure && has_facet_program(problem, wrench);
 }
 
 std::vector<std::string> served_solvers(const Problem& problem, const std::string& measure,
@@ -223,7 +223,8 @@ std::vector<std::string> served_solvers(const Problem& problem, const std::strin
   return names;
 }
 
-std::vector<std::string> served_searches(const Problem& problem, const std::string& measure) {
+std::vector<std::string> served_searches(const Problem& problem, const std::string& measure,
+                                         Wrench wrench) {
   std::vector<std::string> names;
   const auto add = [&](std::span<const SearchEntry> table) {
     for (const SearchEntry& search : table) names.emplace_back(search.name);
@@ -231,22 +232,22 @@ std::vector<std::string> served_searches(const Problem& problem, const std::stri
   if (problem.motion) add(trajectory_searches());
   add(searches());
   if (!problem.motion && serves_as_trajectory(problem, measure)) add(trajectory_searches());
-  if (serves_between_facets(problem, measure)) add(facet_searches());
+  if (serves_between_facets(problem, measure, wrench)) add(facet_searches());
   return names;
 }
 
-std::string default_search(const Problem& task, const std::string& measure) {
+std::string default_search(const Problem& task, const std::string& measure, Wrench wrench) {
   if (task.motion) return trajectory_searches().front().name;
   const bool has_sqp =
       std::any_of(facet_searches().begin(), facet_searches().end(),
                   [](const SearchEntry& entry) { return entry.name == std::string("facet_sqp"); });
-  const bool serves = has_sqp && serves_between_facets(task, measure);
+  const bool serves = has_sqp && serves_between_facets(task, measure, wrench);
   return serves ? "facet_sqp+cmaes" : general_search();
 }
 
 Case with_search(const Problem& task, Case c) {
   if (c.search.empty()) {
-    c.search = default_search(task, c.measure);
+    c.search = default_search(task, c.measure, c.wrench);
     if (c.budget == 0 && !task.motion) c.search.insert(0, kRestarted);
   }
   if (c.budget == 0) c.budget = find_search(c.search).restarts ? kMostOfRestarts : kUsualBudget;

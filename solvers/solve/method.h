@@ -55,7 +55,7 @@ bool serves_as_trajectory(const Problem& problem, const std::string& measure);
 
 /// Whether searches between facets support the problem: linf_polytope of a static task, with few
 /// facets.
-bool serves_between_facets(const Problem& problem, const std::string& measure);
+bool serves_between_facets(const Problem& problem, const std::string& measure, Wrench wrench);
 
 /// The names of the lower-level solvers that support a measure and a wrench, `kNoSolver` for a
 /// closed form. Empty if the measure does not support the wrench. The first one is the default.
@@ -63,7 +63,8 @@ std::vector<std::string> served_solvers(const Problem& problem, const std::strin
                                         Wrench wrench);
 
 /// The single methods that support a measure, those of a task in time first.
-std::vector<std::string> served_searches(const Problem& problem, const std::string& measure);
+std::vector<std::string> served_searches(const Problem& problem, const std::string& measure,
+                                         Wrench wrench);
 
 /// Has no search if the case names none. Throws std::invalid_argument on a name that does not exist
 /// and on an invalid choice, such as `facets` for several wrench columns or for actuators with too

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <ostream>
 #include <vector>
 
 #include "tests/support/scenario_task.h"
@@ -11,6 +12,8 @@ struct ListForm {
   const char* name;
   std::string wrench, tables;
 };
+
+inline void PrintTo(const ListForm& form, std::ostream* out) { *out << form.name; }
 
 inline std::vector<ListForm> list_forms() {
   const std::string parameters = kParameters;

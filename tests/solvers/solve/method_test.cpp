@@ -114,8 +114,8 @@ TEST(Method, SearchesOfTrajectoriesServeStaticTasksByLinfPolytope) {
 TEST(Method, SearchesBetweenFacetsServeLinfPolytopeWithFewFacets) {
   for (const char* name : {"planar/force", "planar/two_arms", "mobile/push"}) {
     const Problem problem = load_problem(name);
-    EXPECT_TRUE(serves_between_facets(problem, "linf_polytope")) << name;
-    EXPECT_FALSE(serves_between_facets(problem, "l2_polytope")) << name;
+    EXPECT_TRUE(serves_between_facets(problem, "linf_polytope", Wrench::kPure)) << name;
+    EXPECT_FALSE(serves_between_facets(problem, "l2_polytope", Wrench::kPure)) << name;
     const std::vector<Case> cases = product(problem, 1, 100);
     for (const SearchEntry& search : facet_searches()) {
       const std::vector<Case> its = select(cases, {{"search", search.name}});
@@ -125,8 +125,9 @@ TEST(Method, SearchesBetweenFacetsServeLinfPolytopeWithFewFacets) {
   }
   Problem many = load_problem("planar/force");
   many.robot.actuation.has_facets = false;
-  EXPECT_FALSE(serves_between_facets(many, "linf_polytope"));
-  EXPECT_FALSE(serves_between_facets(load_problem("planar/trajectory"), "linf_polytope"));
+  EXPECT_FALSE(serves_between_facets(many, "linf_polytope", Wrench::kPure));
+  EXPECT_FALSE(
+      serves_between_facets(load_problem("planar/trajectory"), "linf_polytope", Wrench::kPure));
 }
 
 TEST(Method, SelectKeepsWhatMatches) {
