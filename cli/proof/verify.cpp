@@ -102,6 +102,10 @@ int check_file(const VerifyOptions& options) {
     return verify_rows(options.file, options.sample, options.choice.seed, options.thread_count(),
                        options.json);
   }
+  if (options.sample > 0) {
+    throw std::invalid_argument(fmt::format(
+        "--sample: got {}, expected no such option with a certificate", options.sample));
+  }
   if (is_lp_proof(options.file)) return check_lp_file(options);
   if (is_trajectory_certificate(std::filesystem::path(options.file))) {
     return verify_trajectory_file(options.file, options.choice.problem, options.thread_count(),

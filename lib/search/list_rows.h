@@ -7,8 +7,8 @@
 namespace maxwrench {
 
 /// The rows of the smooth program of a list of scenarios, for pure wrenches. With the facet normals
-/// n_j of {B u}, the wrenches c_i and the factor t, each wrench has a row for each side s = 1, -1 of
-/// each pair:
+/// n_j of {B u}, the wrenches c_i and the factor t, each wrench has a row for each side s = 1, -1
+/// of each pair:
 ///
 ///     s n_j'tau_d + max over cases of s n_j'tau + t (s n_j'J'c_i + r |E'J n_j|) <= least s b_j,
 ///

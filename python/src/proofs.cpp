@@ -34,7 +34,15 @@ py::object certify_task(const py::object& task, const py::object& theta_r, doubl
   options.seed = seed;
   options.budget = budget;
   options.threads = threads;
-  if (of.problem->motion) return certify_motion(of, theta_r, options, callback);
+  if (of.problem->motion) {
+    if (gap != ProofOptions().gap) {
+      throw BadValue("gap", shown(gap), "no such argument of a task in time");
+    }
+    if (seconds != ProofOptions().seconds) {
+      throw BadValue("seconds", shown(seconds), "no such argument of a task in time");
+    }
+    return certify_motion(of, theta_r, options, callback);
+  }
   if (!theta_r.is_none()) {
     throw BadValue("theta_r", "an array", "None: " + of.problem->name + " is a static task");
   }

@@ -93,6 +93,8 @@ def test_an_unprovable_trajectory_says_when(tmp_path, rejects):
     rejects(proof.save, tmp_path / "t.proof")
     rejects(mw.certify, "planar/trajectory", np.zeros((3, 2)))
     rejects(mw.certify, "planar/trajectory", [0, 0], wrench="any")
+    rejects(mw.certify, "planar/trajectory", [0, 0], gap=1e-4)
+    rejects(mw.certify, "planar/trajectory", [0, 0], seconds=5)
     rejects(mw.certify, "planar/force", [0, 0])
 
 

@@ -120,6 +120,8 @@ TrajectoryProof solve_proven(const Problem& task, const Options& options,
   proof_options.solver = "";
   proof_options.search = "";
   TrajectoryProof proof;
+  long evaluations = 0;  // of the searches before this one
+  double wall_s = 0;     // likewise
   for (int search = 1; search <= kMostSearches; ++search) {
     const Answer found = solve(tight, options);
     if (!found.has_value()) {
@@ -130,6 +132,10 @@ TrajectoryProof solve_proven(const Problem& task, const Options& options,
     }
     proof = certify_trajectory(task, found.trajectory.knots, proof_options, how);
     take_search(found, proof.answer);
+    proof.answer.evaluations += evaluations;
+    proof.answer.wall_s += wall_s;
+    evaluations += found.evaluations;
+    wall_s += found.wall_s;
     if (proof.status != Status::kInvalidPosture || (options.interrupted && options.interrupted()) ||
         !tighten_limits(task, found.trajectory.knots, wider, tight)) {
       break;

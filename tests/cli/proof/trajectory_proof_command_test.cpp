@@ -39,6 +39,9 @@ TEST(CertifyTrajectoryCommand, ProvesAndIsVerified) {
       run_maxwrench("verify --problem uvms/valve_trajectory_fast --json " + file);
   EXPECT_EQ(other.exit_status, 1);
   EXPECT_EQ(json::parse(other.out)["reason"], "it is for another robot or task");
+  const CommandResult rows = run_maxwrench("verify --sample 3 " + file);
+  EXPECT_EQ(rows.exit_status, 2);
+  EXPECT_EQ(rows.err, "maxwrench: --sample: got 3, expected no such option with a certificate\n");
 }
 
 /// A damaged file has exit status 2 and one line.

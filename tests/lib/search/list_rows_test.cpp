@@ -42,8 +42,8 @@ INSTANTIATE_TEST_SUITE_P(All, ListRowsOf, testing::ValuesIn(list_forms()), [](co
   return name;
 });
 
-/// The value of the list keeps all rows, and no more does: its scan and the rows are two ways to the
-/// same end.
+/// The value of the list keeps all rows, and no more does: its scan and the rows are two ways to
+/// the same end.
 TEST_P(ListRowsOf, HoldTheValueAndNoMore) {
   at_postures(1, [](const Problem& task, FacetProgram& program, const Eigen::VectorXd& theta_r,
                     const Eigen::VectorXd& w, Random&) {
