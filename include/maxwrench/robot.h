@@ -216,7 +216,9 @@ struct Robot {
   std::vector<EndEffector> end_effectors;  ///< the end effectors
   double gravity = 9.81;                   ///< gravity along -z of the world [m/s^2]
   double water_density = 0;                ///< density of the water [kg/m^3]; zero in air
-  Trim trim;                               ///< floats and ballast
+  /// Steady velocity of the water in the world [m/s]. Only static tasks may have one.
+  Eigen::Vector3d current = Eigen::Vector3d::Zero();
+  Trim trim;  ///< floats and ballast
   /// The actuators (n×m): thrusters first, then one directly driven motor for each joint.
   Zonotope actuation;
   Eigen::VectorXd u_rate_max;  ///< limits of effort rates (m) [N/s]; infinite for joints

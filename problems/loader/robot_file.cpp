@@ -247,9 +247,10 @@ Robot load_robot(const std::filesystem::path& file, const LoadOptions& options) 
     }
     if (root.has("base")) read_base(root.table("base"), tree, robot);
     const Block environment = root.table("environment");
-    environment.allow_only({"gravity", "water_density"});
+    environment.allow_only({"gravity", "water_density", "current"});
     robot.gravity = environment.number("gravity", robot.gravity);
     robot.water_density = environment.number("water_density", robot.water_density);
+    robot.current = environment.vector("current", robot.current);
     read_thrusters(thrusters, tree, robot);
     read_wheels(root.table("wheels"), tree, robot);
     read_limits(root, options.limits, robot);

@@ -181,6 +181,11 @@ void read_wrenches(const Block& wrench, TaskSpec& spec) {
 }
 
 void read_scenario_tables(const Block& task, TaskSpec& spec) {
+  if (task.has("environment")) {
+    const Block environment = filled_table(task, "environment");
+    environment.allow_only({"current"});
+    spec.current = environment.vector("current");
+  }
   if (task.has("uncertainty")) {
     spec.uncertainty = read_uncertainty(filled_table(task, "uncertainty"), spec.robot);
   }
@@ -199,6 +204,7 @@ std::string words_of_scenarios(const TaskSpec& task) {
     words += fmt::format("; ball {} {}", fmt::join(task.ball_axes, " "), task.ball_radius);
   }
   if (task.hold) words += "; hold";
+  if (task.current) words += "; current " + all_digits(*task.current);
   if (task.uncertainty) words += words_of_uncertainty(*task.uncertainty);
   if (task.loss) words += words_of_loss(*task.loss);
   if (task.payload) {

@@ -101,7 +101,7 @@ void allow_keys(const Block& task) {
   } else if (type != "static") {
     task.throw_bad_value("type", "'static', 'trajectory', 'impulse' or 'transfer'");
   }
-  for (const std::string_view key : {"uncertainty", "loss", "payload"}) {
+  for (const std::string_view key : {"environment", "uncertainty", "loss", "payload"}) {
     const bool carried = key == "payload" && (type == "trajectory" || type == "transfer");
     if (type == "static" || carried) {
       keys.emplace_back(key);

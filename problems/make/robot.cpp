@@ -9,6 +9,7 @@
 
 #include "problems/make/bad_value.h"
 #include "problems/make/collision_shapes.h"
+#include "problems/make/uncertain_loads.h"
 
 namespace maxwrench {
 namespace {
@@ -247,6 +248,9 @@ void check_environment(const Robot& robot) {
     bodies.push_back({link.name, link.volume, !link.hydrodynamics.empty()});
   }
   require_hydrodynamics(bodies, robot.water_density);
+  require_numbers("environment.current", robot.current, 3);
+  if (robot.current.isZero(0)) return;
+  require_current("environment.current", shown(robot.current), robot.current.stableNorm(), robot);
 }
 
 }  // namespace

@@ -19,6 +19,10 @@ namespace {
 constexpr double kLargestWrench = 1e9;    // N or N m
 constexpr double kShortestWrench = 1e-9;  // likewise
 
+const Eigen::Vector3d& current_of(const TaskSpec& task) {
+  return task.current ? *task.current : task.robot.current;
+}
+
 /// The first key of a task that ordinary tasks do not have, with its value. Empty: there is none.
 struct KeyOfLists {
   std::string key, got;
@@ -28,6 +32,7 @@ KeyOfLists key_of_lists(const TaskSpec& task) {
   if (!task.set.empty()) return {"wrench.set", fmt::format("{} wrenches", task.set.size())};
   if (!task.ball_axes.empty() || task.ball_radius != 0) return {"wrench.ball", "a table"};
   if (task.hold) return {"wrench.hold", "true"};
+  if (!current_of(task).isZero(0)) return {"environment.current", shown(current_of(task))};
   if (task.uncertainty) return {"uncertainty", "a table"};
   if (task.loss) return {"loss", "a table"};
   if (task.payload) return {"payload", "a table"};
@@ -92,6 +97,18 @@ const char* unit_of(const TaskSpec& task, const ScenarioList& list, const Vector
     all.rightCols<1>() = wrench.c;
   }
   return unit_of(all, kFactor);
+}
+
+/// The load of the known current: a single case.
+LoadGroup known_current(const TaskSpec& task, const Robot& robot) {
+  const Eigen::Vector3d& current = current_of(task);
+  require_numbers("environment.current", current, 3);
+  require_current("environment.current", shown(current), current.stableNorm(), robot);
+  if (task.uncertainty &&
+      (task.uncertainty->current_speed != 0 || !task.uncertainty->current_vectors.empty())) {
+    throw BadValue("environment.current", shown(current), "zero beside uncertainty.current");
+  }
+  return {{.name = "", .loads = {}, .current = current}};
 }
 
 /// Rejects a list that nobody could evaluate. `corners` is the number of cases of all loads.
@@ -168,6 +185,7 @@ void set_scenarios(const TaskSpec& task, Problem& problem) {
   const UncertaintySpec known;
   const UncertaintySpec& uncertainty = task.uncertainty ? *task.uncertainty : known;
   list.loads = uncertain_loads(uncertainty, problem);
+  if (!current_of(task).isZero(0)) list.loads.push_back(known_current(task, problem.robot));
   const std::vector<ActuatorLimits> limits = actuator_limits(task.loss, uncertainty, problem.robot);
   double corners = 1;
   for (const LoadGroup& group : list.loads) corners *= static_cast<double>(group.size());

@@ -16,6 +16,8 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr double kLargestSpeed = 100;  // of a current [m/s]
+
 /// A mass or volume with its centre, which are uncertain together.
 struct UncertainBody {
   const BodyPart& part;
@@ -142,13 +144,6 @@ LoadGroup payload_cases(const UncertaintySpec& uncertainty, const Problem& probl
   return {{}, {.name = fmt::format("payload {:g} kg", mass), .loads = {load}}};
 }
 
-void require_drag(const std::string& got, const Robot& robot) {
-  const bool has_drag = std::any_of(robot.links.begin(), robot.links.end(),
-                                    [](const Link& link) { return !link.hydrodynamics.empty(); });
-  if (has_drag && robot.water_density > 0) return;
-  throw BadValue("uncertainty.current", got, "no such key unless the robot has hydrodynamics");
-}
-
 /// Still water and the currents of one speed from all directions, or the given currents.
 LoadGroup current_cases(const UncertaintySpec& uncertainty, const Robot& robot) {
   const double speed = uncertainty.current_speed;
@@ -165,7 +160,7 @@ LoadGroup current_cases(const UncertaintySpec& uncertainty, const Robot& robot) 
   }
   LoadGroup group;
   if (speed > 0) {
-    require_drag(fmt::format("{:g} m/s", speed), robot);
+    require_current("uncertainty.current", fmt::format("{:g} m/s", speed), speed, robot);
     group.push_back({});
     for (int k = 0; k < n; ++k) {
       const double angle = 2 * std::numbers::pi * k / n;
@@ -177,7 +172,7 @@ LoadGroup current_cases(const UncertaintySpec& uncertainty, const Robot& robot) 
   for (std::size_t i = 0; i < vectors.size(); ++i) {
     const Vector3d& v = vectors[i];
     require_numbers(fmt::format("uncertainty.current.vectors[{}]", i), v, 3);
-    require_drag(shown(v), robot);
+    require_current("uncertainty.current", shown(v), v.stableNorm(), robot);
     const std::string name =
         v.isZero(0) ? "" : fmt::format("current [{:g}, {:g}, {:g}] m/s", v.x(), v.y(), v.z());
     group.push_back({.name = name, .loads = {}, .current = v});
@@ -188,6 +183,18 @@ LoadGroup current_cases(const UncertaintySpec& uncertainty, const Robot& robot) 
 }
 
 }  // namespace
+
+void require_current(const std::string& key, const std::string& got, double speed,
+                     const Robot& robot) {
+  const bool has_drag = std::any_of(robot.links.begin(), robot.links.end(),
+                                    [](const Link& link) { return !link.hydrodynamics.empty(); });
+  if (!has_drag || robot.water_density <= 0) {
+    throw BadValue(key, got, "no such key unless the robot has hydrodynamics");
+  }
+  if (!(speed <= kLargestSpeed)) {
+    throw BadValue(key, got, fmt::format("a current of at most {:g} m/s", kLargestSpeed));
+  }
+}
 
 const BodyPart& find_part(const std::string& key, const std::string& name, const Robot& robot) {
   std::vector<std::string> names;

@@ -75,6 +75,8 @@ void read_scenarios(py::dict& arguments, TaskSpec& spec) {
     wrench["c"] = copy(Eigen::VectorXd(c));
   }
   read_scenario_arguments(wrench, tables, spec);
+  const py::object current = taken(arguments, "current");
+  if (!current.is_none()) spec.current = Eigen::Vector3d(vector("current", current, 3));
 }
 
 void read_wrench(py::dict& arguments, bool in_time, TaskSpec& spec) {

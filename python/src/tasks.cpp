@@ -168,6 +168,7 @@ Args:
     ball: axes and radius [N or N m], as ``(["fx", "fy"], 0.5)`` or a dict: a ball of forces or of
         torques that is added to c or to each wrench of set, or stands alone.
     hold: whether the robot must also hold its posture without a wrench.
+    current: steady velocity of the water in the world [m/s]. Default: that of the robot.
     uncertainty: what is not known, a dict with the keys of the table ``[uncertainty]`` of a task
         file: half widths of mass [kg], com [m], volume [m^3] and cob [m] by link; trim [kg],
         payload, thrust and torque (shares), current.
