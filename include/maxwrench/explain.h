@@ -153,8 +153,9 @@ struct ExplainOptions {
 /// **Task in time**: for each instant, the limits with their multipliers at this instant alone.
 ///
 /// **List of scenarios**: all of this for the scenario that decides, with its limits, wrench and
-/// loads. A `gain` is that of this scenario, so another one may allow less of it. There are no
-/// rates at a best posture.
+/// loads. A `gain` is that of this scenario, so another one may allow less of it. The rates at a
+/// best posture are those of the whole list, for pure wrenches; a limit counts in the scenarios in
+/// which its actuator is not lost.
 ///
 /// What does not exist for the answer's measure, wrench or task says so in its `missing`.
 ///

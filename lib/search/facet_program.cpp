@@ -240,6 +240,10 @@ const Eigen::VectorXd& FacetProgram::w_max() const { return workspace_->w_max; }
 const Eigen::VectorXd& FacetProgram::row_min() const { return workspace_->row_min; }
 const Eigen::VectorXd& FacetProgram::row_max() const { return workspace_->row_max; }
 const Eigen::VectorXd& FacetProgram::row_unit() const { return workspace_->row_unit; }
+Eigen::Index FacetProgram::force_rows() const { return workspace_->facets(); }
+FacetSide FacetProgram::facet(Eigen::Index row) const {
+  return workspace_->list ? workspace_->list->facet(row) : FacetSide{row, 1, {}};
+}
 const std::vector<int>& FacetProgram::pairs() const { return workspace_->pairs; }
 const std::vector<int>& FacetProgram::following() const { return workspace_->following; }
 

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "lib/search/facet_side.h"
 #include "maxwrench/objective.h"
 
 namespace maxwrench {
@@ -38,7 +39,10 @@ class FacetProgram {
   const Eigen::VectorXd& row_min() const;  ///< for clearances one nanometre
   const Eigen::VectorXd& row_max() const;
   const Eigen::VectorXd& row_unit() const;  ///< half the width of a row or pair; 0.1 m: a clearance
-  const std::vector<int>& pairs() const;    ///< of the rows of clearances, see `CollisionChecker`
+  /// The number of rows of forces, which come first, and the facet of each.
+  Eigen::Index force_rows() const;
+  FacetSide facet(Eigen::Index row) const;
+  const std::vector<int>& pairs() const;      ///< of the rows of clearances, see `CollisionChecker`
   const std::vector<int>& following() const;  ///< of the rows of dependent joints
 
   /// The number of postures at theta_r that are valid apart from collisions.

@@ -3,6 +3,12 @@
 #include <algorithm>
 
 namespace maxwrench {
+namespace {
+
+/// Bounds within this share of half the width of their pair are equal but for rounding.
+constexpr double kTied = 1e-9;
+
+}  // namespace
 
 ListRows::ListRows(const Problem& problem)
     : problem_(problem), set_(problem.robot.actuation), at_(problem), facets_(problem) {
@@ -30,6 +36,19 @@ Eigen::Index ListRows::count(const Problem& problem, Wrench wrench) {
   if (list.empty() || !one_column || !ScenarioFacets::serves(problem)) return 0;
   return 2 * problem.robot.actuation.facet_pairs() *
          static_cast<Eigen::Index>(list.wrenches.size());
+}
+
+FacetSide ListRows::facet(Eigen::Index row) const {
+  const Eigen::Index pairs = set_.facet_pairs();
+  FacetSide facet{row % pairs, row % (2 * pairs) < pairs ? 1.0 : -1.0, {}};
+  int index = 0;
+  for (const ScenarioLimits& limits : problem_.scenarios.limits) {
+    const double bound =
+        facet.sign > 0 ? limits.actuation.b_max[facet.pair] : -limits.actuation.b_min[facet.pair];
+    if (bound - bound_[row] <= kTied * unit_[row]) facet.limits.push_back(index);
+    ++index;
+  }
+  return facet;
 }
 
 void ListRows::set(const Posture& posture) {

@@ -2,6 +2,7 @@
 
 #include "lib/scenario/scenario_facets.h"
 #include "lib/scenario/scenario_program.h"
+#include "lib/search/facet_side.h"
 #include "maxwrench/posture.h"
 
 namespace maxwrench {
@@ -26,6 +27,8 @@ class ListRows {
 
   const Eigen::VectorXd& bound() const { return bound_; }  ///< rows <= bound [N, N m]
   const Eigen::VectorXd& unit() const { return unit_; }    ///< half the width of the pair
+  /// The facet of a row, with all limits that have its least bound.
+  FacetSide facet(Eigen::Index row) const;
 
   /// Computes what the rows need of a posture, which must stay as it is.
   void set(const Posture& posture);

@@ -96,7 +96,7 @@ class BestPosture {
 
   std::pair<Kind, std::size_t> place_of(Eigen::Index row) const {
     auto index = static_cast<std::size_t>(row);
-    const auto facets = static_cast<std::size_t>(task_.robot.actuation.facet_pairs());
+    const auto facets = static_cast<std::size_t>(program_.force_rows());
     if (index < facets) return {Kind::kFacet, index};
     index -= facets;
     if (index < program_.pairs().size()) return {Kind::kClearance, index};
@@ -141,10 +141,23 @@ class BestPosture {
         others.push_back(limit_of(side, multiplier));
         continue;
       }
-      const auto normal = set.N.col(static_cast<Eigen::Index>(side.index));
-      const Eigen::VectorXd along = side.sign * multiplier * (set.B.transpose() * normal);
-      upper += along.cwiseMax(0);
-      lower += along.cwiseMin(0);
+      const FacetSide facet = program_.facet(static_cast<Eigen::Index>(side.index));
+      const Eigen::VectorXd along =
+          side.sign * facet.sign * multiplier * (set.B.transpose() * set.N.col(facet.pair));
+      const Eigen::VectorXd out = along.cwiseMax(0), in = along.cwiseMin(0);
+      const auto rates = [&](std::size_t tied, LimitSide which) -> Eigen::VectorXd {
+        const Eigen::VectorXd& part = which == LimitSide::kUpper ? out : in;
+        return part.cwiseProduct(share_of(facet, tied, which));
+      };
+      upper += rates(0, LimitSide::kUpper);
+      lower += rates(0, LimitSide::kLower);
+      // Limits that bound the same facet may differ in which actuators are lost.
+      for (std::size_t tied = 1; tied < facet.limits.size(); ++tied) {
+        for (const LimitSide which : {LimitSide::kUpper, LimitSide::kLower}) {
+          const double apart = (rates(tied, which) - rates(0, which)).lpNorm<Eigen::Infinity>();
+          best.unique = best.unique && apart <= kLeastRate * along.lpNorm<Eigen::Infinity>();
+        }
+      }
     }
     const double smallest = kLeastRate * std::max(upper.maxCoeff(), -lower.minCoeff());
     for (Eigen::Index i = 0; i < upper.size(); ++i) {
@@ -160,6 +173,25 @@ class BestPosture {
       return std::abs(a.rate * a.limit) > std::abs(b.rate * b.limit);
     });
     best.limits.insert(best.limits.end(), others.begin(), others.end());
+  }
+
+  /// By how much the limits of each actuator that bound a facet change with those of the robot: by
+  /// the share that a weaker actuator keeps, and not at all where it is lost.
+  Eigen::VectorXd share_of(const FacetSide& facet, std::size_t tied, LimitSide which) const {
+    const auto limits = [which](const Zonotope& set) -> const Eigen::VectorXd& {
+      return which == LimitSide::kUpper ? set.u_max : set.u_min;
+    };
+    const Eigen::VectorXd& robot = limits(task_.robot.actuation);
+    Eigen::VectorXd share = Eigen::VectorXd::Ones(robot.size());
+    if (facet.limits.empty()) return share;
+    const auto& list = task_.scenarios.limits;
+    const Zonotope& all = list.front().actuation;
+    const Zonotope& left = list[static_cast<std::size_t>(facet.limits[tied])].actuation;
+    for (Eigen::Index i = 0; i < robot.size(); ++i) {
+      const bool lost = left.u_min[i] != all.u_min[i] || left.u_max[i] != all.u_max[i];
+      if (robot[i] != 0) share[i] = lost ? 0 : limits(all)[i] / robot[i];
+    }
+    return share;
   }
 
   LimitRate limit_of(const ActiveSide& side, double multiplier) const {
@@ -209,10 +241,12 @@ std::string without_best(const Answer& answer) {
   if (answer.choice.measure != Case().measure) {
     return "the measure is " + answer.choice.measure + ", only linf_polytope has them";
   }
-  if (!task.scenarios.empty()) return "the task has a list of scenarios";
   if (answer.given_joints) return "all joints are given";
   if (task.redundancy() == 0) return "the task leaves no coordinate free";
-  if (!has_facet_program(task, answer.choice.wrench)) return "the actuators have too many facets";
+  if (!has_facet_program(task, answer.choice.wrench)) {
+    return task.scenarios.empty() ? "the actuators have too many facets"
+                                  : "the list has no program of few facets";
+  }
   return "";
 }
 

@@ -1,6 +1,5 @@
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
@@ -36,8 +35,7 @@ TEST(KnownCurrent, LeastOfAllDirectionsIsThatOfTheList) {
 /// It is the case of a list with this current alone, and still water is no current at all.
 TEST(KnownCurrent, IsAListOfOneCurrent) {
   const Problem task = in_current(kLift, 0.2, -0.4);
-  const Problem list =
-      scenario_task(kLift, "[uncertainty]\ncurrent.vectors = [[0.2, -0.4, 0]]\n");
+  const Problem list = scenario_task(kLift, "[uncertainty]\ncurrent.vectors = [[0.2, -0.4, 0]]\n");
   EXPECT_EQ(evaluate(task, task.theta_r_default).beta(),
             evaluate(list, list.theta_r_default).beta());
   EXPECT_TRUE(in_current(kLift, 0, 0).scenarios.empty());
@@ -46,8 +44,8 @@ TEST(KnownCurrent, IsAListOfOneCurrent) {
 /// The nominal task leaves out what is not known; the current is known.
 TEST(KnownCurrent, StaysInTheNominalTask) {
   const Problem alone = in_current(kLift, 0.3, 0);
-  const Problem unsure = scenario_task(
-      kLift, std::string(kParameters) + "[environment]\ncurrent = [0.3, 0, 0]\n");
+  const Problem unsure =
+      scenario_task(kLift, std::string(kParameters) + "[environment]\ncurrent = [0.3, 0, 0]\n");
   const Problem known = nominal(unsure);
   EXPECT_EQ(known.scenarios.loads.size(), 1u);
   EXPECT_EQ(evaluate(known, known.theta_r_default).beta(),
