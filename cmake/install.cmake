@@ -8,9 +8,9 @@ install(TARGETS maxwrench_core maxwrench_drawing EXPORT maxwrench
   LIBRARY COMPONENT command
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+# All but the sources, which stand in folders beside the problems.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/problems/ DESTINATION ${CMAKE_INSTALL_DATADIR}/maxwrench/problems COMPONENT command
-  FILES_MATCHING PATTERN "*.toml" PATTERN "*.urdf" PATTERN "*.stl" PATTERN "*.STL" PATTERN "README.md" PATTERN "LICENSE*"
-  PATTERN collision EXCLUDE PATTERN loader EXCLUDE PATTERN make EXCLUDE PATTERN mesh EXCLUDE PATTERN mps EXCLUDE)
+  PATTERN sources.cmake EXCLUDE REGEX "/problems/(collision|loader|make|mesh|mps)$" EXCLUDE)
 
 install(EXPORT maxwrench NAMESPACE maxwrench:: FILE maxwrenchTargets.cmake DESTINATION ${package} COMPONENT development)
 set(problems_folder ${CMAKE_INSTALL_DATADIR}/maxwrench/problems)

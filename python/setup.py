@@ -14,7 +14,7 @@ from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
 SOURCE = Path(__file__).resolve().parent.parent
-PROBLEM_FILES = ("*.toml", "*.urdf", "README.md")
+SOURCES = (".cpp", ".h", ".cmake")  # stand beside the problems and are none of them
 
 
 def version():
@@ -55,11 +55,12 @@ class BuildByCMake(build_ext):
 
     @staticmethod
     def copy_problems(target):
-        for pattern in PROBLEM_FILES:
-            for file in (SOURCE / "problems").rglob(pattern):
-                copy = target / file.relative_to(SOURCE / "problems")
-                copy.parent.mkdir(parents=True, exist_ok=True)
-                shutil.copy2(file, copy)
+        for file in (SOURCE / "problems").rglob("*"):
+            if not file.is_file() or file.suffix in SOURCES:
+                continue
+            copy = target / file.relative_to(SOURCE / "problems")
+            copy.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(file, copy)
 
 
 setup(

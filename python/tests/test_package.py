@@ -1,6 +1,7 @@
 """The package as a whole: its names, their docstrings, and the methods written in Python."""
 
 import types
+from pathlib import Path
 
 import maxwrench as mw
 import pytest
@@ -30,3 +31,17 @@ def test_methods_of_the_compiled_classes():
         (mw.Explanation, ("_repr_html_",)),
     ):
         assert all(callable(getattr(owner, name)) for name in names)
+
+
+def test_the_package_brings_all_files_of_the_problems():
+    """Its meshes and licences, too: without a mesh a task has other answers."""
+    source = Path(__file__).resolve().parents[2] / "problems"
+    copy = Path(mw.__file__).parent / "problems"
+
+    def files_of(folder):
+        files = [f for f in folder.rglob("*") if f.is_file() and f.suffix not in (".cpp", ".h", ".cmake")]
+        return {f.relative_to(folder): f.read_bytes() for f in files}
+
+    ours = files_of(copy)
+    assert ours and ours == files_of(source)
+    assert mw.load("gallery/ur10/lift").robot.warnings == []

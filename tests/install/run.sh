@@ -26,6 +26,9 @@ mv "$work/first" "$work/moved"
 prefix=$work/moved
 ! grep -rIl "$work/first\|$source" "$prefix" > "$log" || fail "files name the place where they were made"
 [ -z "$(find "$prefix" -name '*.cpp')" ] || fail "sources are installed"
+# files_of FOLDER: the names and contents of all that is not a source.
+files_of() { (cd "$1" && find . -type f ! -name '*.cpp' ! -name '*.h' ! -name '*.cmake' -exec sha1sum {} + | sort -k 2); }
+diff <(files_of "$source/problems") <(files_of "$prefix/share/maxwrench/problems") > "$log" || fail "other problems than those of the sources"
 export PKG_CONFIG_PATH=$prefix/lib/pkgconfig
 unset MAXWRENCH_PROBLEMS
 
