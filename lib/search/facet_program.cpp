@@ -22,19 +22,6 @@ constexpr double kLeastClearance = 1e-9;
 constexpr int kMostPairs = 200, kMostListRows = 1200;
 constexpr double kClearanceUnit = 0.1;  // m
 
-/// The pairs of bodies whose distance is known.
-std::vector<int> known_pairs(const Problem& problem, bool check_collision) {
-  std::vector<int> known;
-  const CollisionChecker* checker = problem.robot.collision.get();
-  if (!check_collision || checker == nullptr) return known;
-  const std::vector<Pose<double>> links(problem.robot.links.size());
-  ClosestPoints near;
-  for (int pair = 0; pair < checker->pairs(); ++pair) {
-    if (checker->nearest(links, pair, near)) known.push_back(pair);
-  }
-  return known;
-}
-
 std::vector<int> all_dependent_joints(const Problem& problem) {
   std::vector<int> following = problem.dependent;
   if (problem.contact) {
@@ -42,6 +29,42 @@ std::vector<int> all_dependent_joints(const Problem& problem) {
                      problem.contact->follow.end());
   }
   return following;
+}
+
+/// For each link the last link on its way from the base that a joint of the task moves; 0: none.
+/// Two links with the same one keep their distance.
+std::vector<int> movers(const Problem& problem) {
+  const std::vector<Joint>& joints = problem.robot.joints;
+  std::vector<bool> moves(joints.size());
+  for (const int joint : problem.redundant) moves[static_cast<std::size_t>(joint)] = true;
+  for (const int joint : all_dependent_joints(problem)) {
+    moves[static_cast<std::size_t>(joint)] = true;
+  }
+  std::vector<int> mover(joints.size() + 1);
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const std::optional<Gear>& gear = joints[i].gear;
+    const bool moved = moves[i] || (gear && moves[static_cast<std::size_t>(gear->leader)]);
+    mover[i + 1] =
+        moved ? static_cast<int>(i + 1) : mover[static_cast<std::size_t>(joints[i].parent)];
+  }
+  return mover;
+}
+
+/// The pairs of bodies whose distance is known and may change.
+std::vector<int> known_pairs(const Problem& problem, bool check_collision) {
+  std::vector<int> known;
+  const CollisionChecker* checker = problem.robot.collision.get();
+  if (!check_collision || checker == nullptr) return known;
+  const std::vector<Pose<double>> links(problem.robot.links.size());
+  const std::vector<int> mover = movers(problem);
+  ClosestPoints near;
+  for (int pair = 0; pair < checker->pairs(); ++pair) {
+    if (!checker->nearest(links, pair, near)) continue;
+    const int a = mover[static_cast<std::size_t>(near.link_a)];
+    const int b = mover[static_cast<std::size_t>(near.link_b)];
+    if (a != b) known.push_back(pair);
+  }
+  return known;
 }
 
 }  // namespace
@@ -173,6 +196,7 @@ struct FacetProgram::Workspace {
       slope_of_pair.setZero();
       if (near.on_a == near.on_b) continue;  // no derivative
       for (Eigen::Index joint = 0; joint < turns.rows(); ++joint) {
+        if (turns.row(joint).isZero(0)) continue;  // it rests
         const double opens =
             clearance_slope(problem.robot, posture->links, near, static_cast<int>(joint));
         if (opens != 0) slope_of_pair += opens * turns.row(joint);

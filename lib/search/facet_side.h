@@ -10,7 +10,8 @@ namespace maxwrench {
 struct FacetSide {
   Eigen::Index pair = 0;  ///< the pair of facets
   double sign = 1;        ///< 1, or -1 where a list has a row for each side
-  /// Of a list of scenarios, the indices in `ScenarioList::limits` of the limits that bound the row.
+  /// Of a list of scenarios, the indices in `ScenarioList::limits` of the limits that bound the
+  /// row.
   std::vector<int> limits;
 };
 
