@@ -40,7 +40,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("tasks", nargs="*", default=[str(TASKS / f"{name}_guaranteed.toml") for name in ("turn", "lift")])
     parser.add_argument("--draws", type=int, default=10000)
-    parser.add_argument("--seeds", type=int, default=10)
+    parser.add_argument("--seeds", type=int, default=3)
     parser.add_argument("--budget", type=int, default=0, help="evaluations of each search; 0: until another optimum is unlikely")
     parser.add_argument("--out", default=".")
     options = parser.parse_args()

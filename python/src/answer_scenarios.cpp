@@ -47,8 +47,7 @@ py::dict sample_of(const PyAnswer& self, long n, std::uint64_t seed,
   numbers["below"] = sample.below;
   numbers["guaranteed"] = sample.guaranteed;
   numbers["unit"] = sample.unit;
-  numbers["values"] = copy(Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(
-      sample.values.data(), static_cast<Eigen::Index>(sample.values.size()))));
+  numbers["values"] = sample.values;
   return numbers;
 }
 
@@ -82,8 +81,8 @@ Args:
 Returns:
     dict: ``drawn`` and, of these, ``infeasible``; ``least``, ``q01``, ``q05`` and ``median``: the
     least value and the quantiles 1 %, 5 % and 50 % [unit]; ``guaranteed``, what they are
-    compared with [unit], and ``below``, how many are below it; ``unit``; ``values``, that of each
-    model (n). A model without a value counts as minus infinity.
+    compared with [unit], and ``below``, how many are below it; ``unit``; ``values``, a list of
+    that of each model. A model without a value counts as minus infinity.
 
 Raises:
     InputError: the task has no list, the posture is invalid, or n < 1.

@@ -64,8 +64,9 @@ TEST(MotionInstants, TauIsThatOfKdl) {
   const Problem problem = load_problem("fixed/push");
   const Robot& robot = problem.robot;
   const auto joints = static_cast<unsigned>(robot.joints.size());
-  KDL::ChainIdSolver_RNE solver(kdl_chain(robot), KDL::Vector(0, 0, -robot.gravity));
-  const KDL::Wrenches none(kdl_chain(robot).getNrOfSegments(), KDL::Wrench::Zero());
+  const KDL::Chain chain = kdl_chain(robot);
+  KDL::ChainIdSolver_RNE solver(chain, KDL::Vector(0, 0, -robot.gravity));
+  const KDL::Wrenches none(chain.getNrOfSegments(), KDL::Wrench::Zero());
   for (const int derivatives : {0, 1, 2}) {
     const std::vector<Instant> instants =
         motion_instants(problem, waves(joint_names(robot), 401, 2, derivatives));
@@ -208,7 +209,8 @@ TEST(MotionInstants, RestIsThePosture) {
 /// follow from the pose, or are checked if the table has some of them.
 TEST(MotionInstants, DependentJointsKeepTheLoop) {
   Problem problem = four_bars();
-  const auto& joints = problem.robot.joints;
+  std::vector<Joint>& joints = problem.robot.joints;
+  for (std::size_t i = 0; i < joints.size(); ++i) joints[i].name = "joint_" + std::to_string(i);
   MotionTable table;
   table.t = {0, 0.5, 1};
   table.names = {joints[static_cast<std::size_t>(problem.redundant[0])].name};

@@ -27,7 +27,7 @@ using testing::HasSubstr;
 Instant random_instant(const Problem& problem, Random& random, double speed) {
   const Robot& robot = problem.robot;
   Instant instant;
-  instant.base.R = random_rotation(random);
+  if (robot.base_axes.size() == 6) instant.base.R = random_rotation(random);
   instant.q.resize(static_cast<Eigen::Index>(robot.joints.size()));
   for (double& q : instant.q) q = random.uniform(-2, 2);
   instant.v.resize(robot.velocities());
@@ -136,7 +136,7 @@ TEST(MotionMargin, OfAnArmIsTheNearestRow) {
   Random random(8);
   std::vector<Instant> instants;
   for (int i = 0; i < 50; ++i) {
-    instants.push_back(random_instant(problem, random, 0.1 * i));
+    instants.push_back(random_instant(problem, random, 0.4 * i));
     instants.back().t = i;
   }
   const MotionMargin result = motion_margin(problem, instants);
@@ -191,7 +191,7 @@ TEST(MotionMargin, OfASetThatLoadsNothing) {
   EXPECT_EQ(none.status, Status::kInfeasible);
   EXPECT_EQ(none.instants[0].margin, -kInfinity);
   EXPECT_FALSE(none.instants[0].binding.empty());
-  EXPECT_THAT(to_json(none), HasSubstr("\"margin\": null"));
+  EXPECT_THAT(to_json(none), HasSubstr("\"margin\":null"));
   EXPECT_THAT(summary(none), HasSubstr("none"));
 }
 
@@ -264,7 +264,7 @@ TEST(InstantScan, AllocatesNothing) {
     double sum = 0;
     for (const Instant& instant : instants) sum += scan.scan(instant);
     EXPECT_EQ(allocation_count(), before);
-    EXPECT_TRUE(std::isfinite(sum));
+    EXPECT_FALSE(std::isnan(sum));
   }
 }
 
