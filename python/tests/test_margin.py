@@ -5,7 +5,7 @@ import pytest
 
 import maxwrench as mw
 
-MOTION = {"t": [0, 1, 2, 3], "shoulder": [-0.8, -0.7, -0.75, -0.8], "elbow": [1, 1.1, 1.05, 1]}
+MOTION = {"t": [0, 1, 2, 3], "shoulder": [-0.8, -0.7, -0.75, -0.8], "elbow": [1, 0.9, 0.95, 1]}
 
 
 def test_a_motion_has_a_margin_at_each_instant():
