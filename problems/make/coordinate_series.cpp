@@ -35,7 +35,7 @@ void require_finite_rows(const char* suffix, const Eigen::MatrixXd& matrix,
   }
 }
 
-void require_times(const MotionTable& table) {
+void require_rising_times(const MotionTable& table) {
   if (table.t.size() < 2) {
     throw BadValue("rows", fmt::format("{}", table.t.size()), "two rows or more");
   }
@@ -52,7 +52,7 @@ void require_times(const MotionTable& table) {
 }
 
 void require_table(const MotionTable& table) {
-  require_times(table);
+  require_rising_times(table);
   if (table.names.empty()) {
     throw BadValue("columns", "no coordinates", "t and the coordinates by name");
   }
@@ -110,22 +110,22 @@ Eigen::MatrixXd slopes_at_rows(const std::vector<double>& t, const Eigen::Matrix
   return slopes;
 }
 
-using Names = std::vector<std::string>;
+using ColumnNames = std::vector<std::string>;
 
-int place_of(const Names& columns, const std::string& name) {
+int place_of(const ColumnNames& columns, const std::string& name) {
   const auto found = std::find(columns.begin(), columns.end(), name);
   return found == columns.end() ? -1 : static_cast<int>(found - columns.begin());
 }
 
 /// Whether a column is NAME + suffix of another one.
-bool derives(const Names& columns, const std::string& name, const std::string& suffix) {
+bool derives(const ColumnNames& columns, const std::string& name, const std::string& suffix) {
   return name.size() > suffix.size() && name.ends_with(suffix) &&
          place_of(columns, name.substr(0, name.size() - suffix.size())) >= 0;
 }
 
 /// The columns NAME + suffix of all coordinates; empty if there is none of them.
-Eigen::MatrixXd columns_with(const std::string& suffix, const Names& names, const Names& columns,
-                             const Eigen::MatrixXd& numbers) {
+Eigen::MatrixXd columns_with(const std::string& suffix, const ColumnNames& names,
+                             const ColumnNames& columns, const Eigen::MatrixXd& numbers) {
   Eigen::MatrixXd all(numbers.rows(), static_cast<Eigen::Index>(names.size()));
   std::size_t found = 0;
   std::string missing;
@@ -147,7 +147,7 @@ Eigen::MatrixXd columns_with(const std::string& suffix, const Names& names, cons
 
 }  // namespace
 
-MotionTable make_motion_table(const Names& columns, const Eigen::MatrixXd& numbers) {
+MotionTable make_motion_table(const ColumnNames& columns, const Eigen::MatrixXd& numbers) {
   if (numbers.cols() != static_cast<Eigen::Index>(columns.size())) {
     throw BadValue("columns", fmt::format("{} names", columns.size()),
                    fmt::format("{}, one for each column", numbers.cols()));

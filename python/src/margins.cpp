@@ -109,7 +109,7 @@ Returns:
 Raises:
     InputError: the table or the set is wrong, or the task has a second contact or uncertain loads.
 
->>> motion = {"t": [0, 1, 2], "shoulder": [-0.8, -0.7, -0.8], "elbow": [1, 1.1, 1]}
+>>> motion = {"t": [0, 1, 2], "shoulder": [-0.8, -0.7, -0.8], "elbow": [1, 0.9, 1]}
 >>> margin = maxwrench.margin("planar/force", motion, ball=["fx", "fy"])
 >>> margin.status, margin.margin.shape
 ('optimal', (3,))

@@ -25,10 +25,10 @@ constexpr double kMarginResidual = 1e-7;
 /// Rates below this share of the largest are rounding.
 constexpr double kMarginRate = 1e-9;
 
-using Clock = std::chrono::steady_clock;
+using MarginClock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
+double margin_seconds_since(MarginClock::time_point start) {
+  return std::chrono::duration<double>(MarginClock::now() - start).count();
 }
 
 void require_instants(const Problem& task, const std::vector<Instant>& instants) {
@@ -128,8 +128,8 @@ class MarginCheck {
 };
 
 /// The limits of the actuators that bind, from d = -B'slope.
-std::vector<LimitRate> binding_limits(const Robot& robot, const Zonotope& actuation,
-                                      const Eigen::VectorXd& slope) {
+std::vector<LimitRate> limits_of_facet(const Robot& robot, const Zonotope& actuation,
+                                       const Eigen::VectorXd& slope) {
   const Eigen::VectorXd d = -(actuation.B.transpose() * slope);
   const double least = kMarginRate * d.lpNorm<Eigen::Infinity>();
   std::vector<LimitRate> limits;
@@ -177,12 +177,12 @@ MotionMargin motion_margin(const Problem& task, const std::vector<Instant>& inst
   result.instants.resize(instants.size());
   InstantScan scan(listed, set);
   scan.scan(instants.front());  // sizes what it stores
-  const Clock::time_point start = Clock::now();
+  const MarginClock::time_point start = MarginClock::now();
   for (std::size_t i = 0; i < instants.size(); ++i) {
     result.instants[i].margin = scan.scan(instants[i]);
   }
-  result.wall_s = seconds_since(start);
-  const Clock::time_point checked = Clock::now();
+  result.wall_s = margin_seconds_since(start);
+  const MarginClock::time_point checked = MarginClock::now();
   MarginCheck check(listed);
   int unverified = -1;
   bool unbounded = true;
@@ -195,7 +195,7 @@ MotionMargin motion_margin(const Problem& task, const std::vector<Instant>& inst
     at.facet = scan.pair();
     at.limits = limits.name;
     if (std::isfinite(at.margin)) at.worst = scan.choice().c;
-    at.binding = binding_limits(task.robot, limits.actuation, scan.slope());
+    at.binding = limits_of_facet(task.robot, limits.actuation, scan.slope());
     unbounded = unbounded && at.margin == kInfinity;
     if (at.margin == kInfinity) {
       at.conclude(Status::kUnbounded, "no wrench of the set loads an actuator");
@@ -213,7 +213,7 @@ MotionMargin motion_margin(const Problem& task, const std::vector<Instant>& inst
       result.worst = static_cast<int>(i);
     }
   }
-  result.checks_s = seconds_since(checked);
+  result.checks_s = margin_seconds_since(checked);
   conclude(result, unverified, unbounded);
   return result;
 }
