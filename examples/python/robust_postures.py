@@ -58,7 +58,7 @@ def main():
             )
             numbers = [nominal, worst, drawn["drawn"], SAMPLE_SEED, guaranteed, drawn["below"], drawn["infeasible"]]
             numbers += [drawn["least"], drawn["q01"], drawn["q05"], drawn["median"]]
-            theta = " ".join(f"{x:.6f}" for x in theta_r)
+            theta = " ".join(f"{x:.17g}" for x in theta_r)
             lines.append(",".join([name, posture, theta, *(f"{x:.6g}" for x in numbers), drawn["unit"]]))
             values = np.quantile(drawn["values"], np.linspace(0, 1, 201))
             ax.plot(values, np.linspace(0, 100, 201), label=f"{posture} posture")
