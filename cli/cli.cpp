@@ -42,10 +42,10 @@ int parse_and_run(int argc, const char* const* argv) {
   app.require_subcommand(1);
   int exit_status = kAnswered;
   for (const auto add :
-       {add_list,    add_check,       add_init,     add_pose,   add_eval,   add_solve,
-        add_certify, add_sensitivity, add_map,      add_pareto, add_verify, add_lp,
-        add_run,     add_merge,       add_simulate, add_plot,   add_view,   add_compare,
-        add_report,  add_reproduce,   add_manual}) {
+       {add_list,    add_check,       add_init,      add_pose,     add_eval,   add_solve,
+        add_certify, add_sensitivity, add_map,       add_margin,   add_pareto, add_verify,
+        add_lp,      add_run,         add_merge,     add_simulate, add_plot,   add_view,
+        add_compare, add_report,      add_reproduce, add_manual}) {
     add(app, exit_status);
   }
   try {

@@ -73,6 +73,7 @@ void add_merge(CLI::App& app, int& exit_status);
 void add_simulate(CLI::App& app, int& exit_status);
 void add_plot(CLI::App& app, int& exit_status);
 void add_map(CLI::App& app, int& exit_status);
+void add_margin(CLI::App& app, int& exit_status);
 void add_pareto(CLI::App& app, int& exit_status);
 void add_sensitivity(CLI::App& app, int& exit_status);
 void add_view(CLI::App& app, int& exit_status);

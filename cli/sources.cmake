@@ -8,4 +8,5 @@ set(maxwrench_cli_sources
   suite/workers.cpp
   task/check.cpp task/eval.cpp task/explain_option.cpp task/init.cpp task/list.cpp task/load_and_solve.cpp task/motion_options.cpp
   task/own_weight.cpp task/plot.cpp task/pose.cpp task/problem_options.cpp task/simulate.cpp task/simulate_motion.cpp
-  task/map.cpp task/pareto.cpp task/sensitivity.cpp task/solve.cpp task/state.cpp task/view.cpp)
+  task/map.cpp task/pareto.cpp task/sensitivity.cpp task/solve.cpp task/state.cpp task/view.cpp
+  task/margin.cpp)

@@ -3,6 +3,7 @@ set(maxwrench_python_sources
   src/errors.cpp src/evaluations.cpp src/explanations.cpp src/fronts.cpp src/linear_programs.cpp src/maps.cpp src/module.cpp
   src/motion_arguments.cpp src/paths.cpp src/poses.cpp src/proofs.cpp src/robot_parts.cpp src/robots.cpp src/scenario_arguments.cpp
   src/sensitivity.cpp src/solve.cpp src/strategies.cpp src/tank.cpp src/task_arguments.cpp src/tasks.cpp src/trajectory_proofs.cpp
-  src/transfers.cpp src/view.cpp src/words.cpp src/wrench_sets.cpp)
+  src/transfers.cpp src/view.cpp src/words.cpp src/wrench_sets.cpp
+  src/margins.cpp)
 set(maxwrench_python_modules
   __init__.py _arguments.py _errors.py _files.py _frames.py _html.py _map.py _parts.py _pickle.py _plot.py _progress.py _race.py _ros.py _strategies.py _table.py _view.py)

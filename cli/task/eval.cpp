@@ -24,6 +24,8 @@ struct EvalOptions : CommonOptions {
   std::string state, write;
   bool ignore_collision = false, nominal = false, scenarios = false;
   std::optional<long> sample;
+  std::optional<double> guaranteed;
+  std::string models;
   MotionOptions motion;
   ProblemOptions source;
   ExplainOption explain;
@@ -72,7 +74,9 @@ int report_scenarios(const EvalOptions& options, const Answer& answer) {
     const std::vector<ScenarioEnds> ends = scenario_ends(answer);
     fmt::print("{}", options.json ? to_json(answer, ends) + "\n" : summary(answer) + summary(ends));
   } else if (options.sample && valid) {
-    const ScenarioSample sample = sample_scenarios(answer, *options.sample, options.choice.seed);
+    const ScenarioSample sample =
+        sample_scenarios(answer, *options.sample, options.choice.seed, options.guaranteed);
+    if (!options.models.empty()) write_file(options.models, sample_csv(sample));
     fmt::print("{}",
                options.json ? to_json(answer, sample) + "\n" : summary(answer) + summary(sample));
   } else {
@@ -82,7 +86,8 @@ int report_scenarios(const EvalOptions& options, const Answer& answer) {
 }
 
 int eval(const EvalOptions& options) {
-  require_apart(options.source.inputs(options.choice.problem), {{"--write", options.write}});
+  require_apart(options.source.inputs(options.choice.problem),
+                {{"--write", options.write}, {"--models", options.models}});
   Problem problem = options.source.load(options.choice.problem, true);
   if (!options.state.empty()) return report_state(problem, options.state, options.json);
   options.motion.change(problem);
@@ -131,6 +136,15 @@ void add_eval(CLI::App& app, int& exit_status) {
       ->excludes("--explain", "--scenarios");
   command.add_option("--seed", options->choice.seed, "with --sample: seed of the random numbers")
       ->check(reject_seed)
+      ->needs("--sample");
+  command
+      .add_option("--guaranteed", options->guaranteed,
+                  "with --sample: the value that models are compared with (default: beta)")
+      ->needs("--sample");
+  command
+      .add_option("--models", options->models,
+                  "with --sample: CSV file for the value of each model")
+      ->check(reject_empty)
       ->needs("--sample");
   CLI::Option& state = *command.add_option(
       "--state", options->state,

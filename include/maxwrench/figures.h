@@ -13,6 +13,7 @@ namespace maxwrench {
 
 struct CapabilityMap;
 struct Front;
+struct MotionMargin;
 struct Trajectory;
 struct Problem;
 
@@ -101,5 +102,14 @@ std::string map_figure(const CapabilityMap& map);
 /// @return the SVG document
 /// @throws std::invalid_argument if it has no points.
 std::string front_figure(const Front& front);
+
+/// Draws the margins of a motion over time. Instants without a finite margin are crosses, the least
+/// margin is a dot.
+///
+/// @param margin  the margins
+/// @return the SVG document
+/// @throws std::invalid_argument if no margin is finite and different from zero, or for one
+/// instant.
+std::string margin_figure(const MotionMargin& margin);
 
 }  // namespace maxwrench

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,8 +43,10 @@ struct ScenarioSample {
       q05 = 0,            ///< quantile 5 % [unit]
       median = 0;         ///< quantile 50 % [unit]
   long below = 0;         ///< number of models below `guaranteed`
-  double guaranteed = 0;  ///< the value of the list at the posture, if it has one
+  double guaranteed = 0;  ///< what models are compared with [unit]
   std::string unit = "";  ///< of the values
+  /// The value of each model, in the order of their numbers; -infinity: none.
+  std::vector<double> values;
 };
 
 /// Draws models at the posture of an answer.
@@ -54,10 +57,17 @@ struct ScenarioSample {
 ///
 /// @param answer  of a static task with a list of scenarios, with a valid posture
 /// @param draws   number of models, at least 1
-/// @param seed    seed of the random numbers
+/// @param seed    seed of the random numbers; model i of a seed is the same in any posture
+/// @param guaranteed  what models are compared with [unit], such as the guaranteed value of another
+///                    posture; none: the value of the list at this posture, if it has one
 /// @return the values; the same for the same seed
-/// @throws std::invalid_argument if the task has no list, there is no valid posture, or draws < 1.
-ScenarioSample sample_scenarios(const Answer& answer, long draws, std::uint64_t seed);
+/// @throws std::invalid_argument if the task has no list, there is no valid posture, draws < 1, or
+///         the guaranteed value is not finite.
+ScenarioSample sample_scenarios(const Answer& answer, long draws, std::uint64_t seed,
+                                std::optional<double> guaranteed = {});
+
+/// Returns the models as CSV: number, value; empty if there is none.
+std::string sample_csv(const ScenarioSample& sample);
 
 /// Returns the sample as one line of text.
 std::string summary(const ScenarioSample& sample);

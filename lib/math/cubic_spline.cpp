@@ -2,8 +2,35 @@
 
 #include <algorithm>
 #include <cassert>
+#include <vector>
 
 namespace maxwrench {
+namespace {
+
+/// The derivative at knot 0 of the polynomial through the knots of `indices`, of which the first is
+/// knot 0, by Newton's divided differences: sum_k f[0..k] prod_{0<j<k} (t_0 - t_j).
+Eigen::VectorXd end_slope(std::span<const double> times, const Eigen::MatrixXd& values,
+                          const std::vector<Eigen::Index>& indices) {
+  const std::size_t count = indices.size();
+  const auto t = [&](std::size_t k) { return times[static_cast<std::size_t>(indices[k])]; };
+  Eigen::MatrixXd divided(values.rows(), static_cast<Eigen::Index>(count));
+  for (std::size_t k = 0; k < count; ++k) {
+    divided.col(static_cast<Eigen::Index>(k)) = values.col(indices[k]);
+  }
+  Eigen::VectorXd slope = Eigen::VectorXd::Zero(values.rows());
+  double factor = 1;
+  for (std::size_t order = 1; order < count; ++order) {
+    for (std::size_t k = count - 1; k >= order; --k) {
+      const auto at = static_cast<Eigen::Index>(k);
+      divided.col(at) = (divided.col(at) - divided.col(at - 1)).eval() / (t(k) - t(k - order));
+    }
+    slope += factor * divided.col(static_cast<Eigen::Index>(order));
+    factor *= t(0) - t(order);
+  }
+  return slope;
+}
+
+}  // namespace
 
 /// At every knot the slopes from both sides agree. With h the length and g the mean slope of an
 /// interval, this is h_- y''_-/6 + (h_- + h) y''/3 + h y''_+/6 = g - g_-. At the ends, the terms of
@@ -33,6 +60,26 @@ Eigen::MatrixXd clamped_spline_bends(std::span<const double> times, const Eigen:
     bends.col(i) = (bends.col(i) - beside[i] * bends.col(i + 1)) / diagonal[i];
   }
   return bends;
+}
+
+/// A quadratic with the slopes at the ends is taken off, which leaves a clamped spline.
+Eigen::MatrixXd free_spline_bends(std::span<const double> times, const Eigen::MatrixXd& values) {
+  const Eigen::Index N = values.cols();
+  assert(N >= 2 && static_cast<Eigen::Index>(times.size()) == N);
+  std::vector<Eigen::Index> first, last;
+  for (Eigen::Index k = 0; k < std::min<Eigen::Index>(4, N); ++k) {
+    first.push_back(k);
+    last.push_back(N - 1 - k);
+  }
+  const Eigen::VectorXd start = end_slope(times, values, first);
+  const Eigen::VectorXd bend =
+      (end_slope(times, values, last) - start) / (times.back() - times.front());
+  Eigen::MatrixXd rest = values;
+  for (Eigen::Index i = 0; i < N; ++i) {
+    const double t = times[static_cast<std::size_t>(i)] - times.front();
+    rest.col(i) -= t * start + t * t / 2 * bend;
+  }
+  return clamped_spline_bends(times, rest).colwise() + bend;
 }
 
 SplineInstant spline_at(std::span<const double> times, double t) {

@@ -11,6 +11,10 @@ namespace maxwrench {
 /// that multiplies any values from the right.
 Eigen::MatrixXd clamped_spline_bends(std::span<const double> times, const Eigen::MatrixXd& values);
 
+/// The same for a spline whose slopes at the ends are those of the cubics through the first and the
+/// last four knots, or of lower polynomials through fewer knots. It reproduces a cubic.
+Eigen::MatrixXd free_spline_bends(std::span<const double> times, const Eigen::MatrixXd& values);
+
 /// A cubic spline at an instant between knots i and i + 1. With values y and second derivatives y''
 /// at the knots, [y_i y_i+1 y''_i y''_i+1] weights = [value, first, second derivative].
 struct SplineInstant {

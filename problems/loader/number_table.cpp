@@ -70,14 +70,9 @@ std::optional<std::vector<double>> as_row(const Columns& cells) {
   return row;
 }
 
-}  // namespace
-
-void NumberTable::throw_bad_row(std::size_t row, const std::string& expected) const {
-  throw_bad_input(file, fmt::format("line {}", lines[row]),
-                  fmt::format("'{}'", fmt::join(rows[row], ",")), expected);
-}
-
-NumberTable read_numbers(const std::filesystem::path& file, const std::vector<Columns>& choices) {
+/// Reads the rows. `columns_for` chooses the columns by the first line that is not blank.
+template <class ColumnsFor>
+NumberTable read_rows(const std::filesystem::path& file, const ColumnsFor& columns_for) {
   std::ifstream stream = open_file(file, "a CSV file");
   NumberTable table{{}, {}, {}, file};
   int number = 0;
@@ -88,15 +83,7 @@ NumberTable read_numbers(const std::filesystem::path& file, const std::vector<Co
     const Columns cells = cells_of(line);
     const std::string where = fmt::format("line {}", number), got = fmt::format("'{}'", line);
     if (table.columns.empty()) {
-      const auto chosen = std::find_if(choices.begin(), choices.end(), [&](const Columns& columns) {
-        return is_header(cells) ? columns == cells : columns.size() == cells.size();
-      });
-      if (chosen == choices.end()) {
-        throw_bad_input(
-            file, where, got,
-            fmt::format("{} columns, with or without this header", shown_columns(choices)));
-      }
-      table.columns = *chosen;
+      table.columns = columns_for(cells, where, got);
       if (is_header(cells)) continue;
     }
     const auto row = as_row(cells);
@@ -108,6 +95,40 @@ NumberTable read_numbers(const std::filesystem::path& file, const std::vector<Co
     table.lines.push_back(number);
   }
   return table;
+}
+
+}  // namespace
+
+void NumberTable::throw_bad_row(std::size_t row, const std::string& expected) const {
+  throw_bad_input(file, fmt::format("line {}", lines[row]),
+                  fmt::format("'{}'", fmt::join(rows[row], ",")), expected);
+}
+
+NumberTable read_numbers(const std::filesystem::path& file, const std::vector<Columns>& choices) {
+  return read_rows(file, [&](const Columns& cells, const std::string& where,
+                             const std::string& got) {
+    const auto chosen = std::find_if(choices.begin(), choices.end(), [&](const Columns& columns) {
+      return is_header(cells) ? columns == cells : columns.size() == cells.size();
+    });
+    if (chosen == choices.end()) {
+      throw_bad_input(
+          file, where, got,
+          fmt::format("{} columns, with or without this header", shown_columns(choices)));
+    }
+    return *chosen;
+  });
+}
+
+NumberTable read_named_numbers(const std::filesystem::path& file) {
+  return read_rows(
+      file, [&](const Columns& cells, const std::string& where, const std::string& got) {
+        const bool named = std::none_of(cells.begin(), cells.end(), [](const std::string& cell) {
+          return cell.empty() || as_number(cell).has_value();
+        });
+        if (!named)
+          throw_bad_input(file, where, got, "a header line with the names of the columns");
+        return cells;
+      });
 }
 
 }  // namespace maxwrench

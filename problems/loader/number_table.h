@@ -24,4 +24,8 @@ struct NumberTable {
 NumberTable read_numbers(const std::filesystem::path& file,
                          const std::vector<std::vector<std::string>>& choices);
 
+/// Reads a CSV file whose first line has the names of its columns, whatever they are. Otherwise as
+/// `read_numbers`.
+NumberTable read_named_numbers(const std::filesystem::path& file);
+
 }  // namespace maxwrench

@@ -27,13 +27,6 @@ void require_path(const Path& path, const Pose<double>& pose) {
       fmt::format("the place and rotation at which the path starts, here {}", shown(start.p)));
 }
 
-/// Rejects a robot without an equation of motion.
-void require_dynamics(const Robot& robot) {
-  if (robot.no_dynamics.empty()) return;
-  const DataFault& fault = robot.no_dynamics.front();
-  throw BadValue(fault.key, fault.got, fault.expected + "; only static tasks do without");
-}
-
 /// Rejects a transfer without a payload, with a base that moves, or without a knot in between.
 void require_transfer(const TaskSpec& task, Problem& problem) {
   MotionTask& motion = *problem.motion;
@@ -52,6 +45,12 @@ void require_transfer(const TaskSpec& task, Problem& problem) {
 }
 
 }  // namespace
+
+void require_dynamics(const Robot& robot) {
+  if (robot.no_dynamics.empty()) return;
+  const DataFault& fault = robot.no_dynamics.front();
+  throw BadValue(fault.key, fault.got, fault.expected + "; only static tasks do without");
+}
 
 void require_duration(double T) {
   constexpr double kShortest = 1e-3, kLongest = 1e6;

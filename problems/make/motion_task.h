@@ -13,6 +13,9 @@ void require_scheme(const std::string& name, bool impulse);
 /// The allowed values of the peak's knot in an impulse.
 std::string peak_range(int k);
 
+/// Rejects a robot without an equation of motion.
+void require_dynamics(const Robot& robot);
+
 /// Sets the motion of a task in time. `problem` must have its pose.
 void set_motion(const TaskSpec& task, Problem& problem);
 

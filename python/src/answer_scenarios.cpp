@@ -1,3 +1,5 @@
+#include <pybind11/stl.h>
+
 #include "maxwrench/sensitivity.h"
 #include "python/src/parts.h"
 
@@ -28,11 +30,12 @@ py::list scenarios(const PyAnswer& self) {
   return list;
 }
 
-py::dict sample_of(const PyAnswer& self, long n, std::uint64_t seed) {
+py::dict sample_of(const PyAnswer& self, long n, std::uint64_t seed,
+                   std::optional<double> guaranteed) {
   ScenarioSample sample;
   {
     const py::gil_scoped_release release;
-    sample = sample_scenarios(self.answer, n, seed);
+    sample = sample_scenarios(self.answer, n, seed, guaranteed);
   }
   py::dict numbers;
   numbers["drawn"] = sample.drawn;
@@ -44,6 +47,7 @@ py::dict sample_of(const PyAnswer& self, long n, std::uint64_t seed) {
   numbers["below"] = sample.below;
   numbers["guaranteed"] = sample.guaranteed;
   numbers["unit"] = sample.unit;
+  numbers["values"] = sample.values;
   return numbers;
 }
 
@@ -62,6 +66,7 @@ Returns a list of dicts with ``name``, ``low``, ``high`` (infinite where there i
 or the posture is invalid.
 )")
       .def("sample", &sample_of, py::arg("n"), py::arg("seed") = 0,
+           py::arg("guaranteed") = py::none(),
            R"(Draws n models of a task with a list of scenarios, at this posture.
 
 Every width is uniform; a current and a loss are drawn from theirs. A sample proves nothing, but no
@@ -69,13 +74,15 @@ value is below a guaranteed one.
 
 Args:
     n: the number of models, at least 1.
-    seed: of the random numbers.
+    seed: of the random numbers. Model i of a seed is the same in any posture.
+    guaranteed: what models are compared with [unit], such as the guaranteed value of another
+        posture. Default: the value for all models at this posture.
 
 Returns:
     dict: ``drawn`` and, of these, ``infeasible``; ``least``, ``q01``, ``q05`` and ``median``: the
-    least value and the quantiles 1 %, 5 % and 50 % [unit]; ``guaranteed``, the value for all
-    models [unit], and ``below``, how many are below it; ``unit``. A model without a value counts
-    as minus infinity.
+    least value and the quantiles 1 %, 5 % and 50 % [unit]; ``guaranteed``, what they are
+    compared with [unit], and ``below``, how many are below it; ``unit``; ``values``, a list of
+    that of each model. A model without a value counts as minus infinity.
 
 Raises:
     InputError: the task has no list, the posture is invalid, or n < 1.

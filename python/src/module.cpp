@@ -1,6 +1,7 @@
 #include <pybind11/pybind11.h>
 
 #include "maxwrench/version.h"
+#include "python/src/margins.h"
 #include "python/src/parts.h"
 
 PYBIND11_MODULE(_core, m) {
@@ -23,6 +24,7 @@ PYBIND11_MODULE(_core, m) {
   python::add_sensitivity(m);
   python::add_maps(m);
   python::add_fronts(m);
+  python::add_margins(m);
   python::add_capability(m);
   python::add_linear_programs(m);
   python::add_tank(m);

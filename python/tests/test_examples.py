@@ -91,6 +91,21 @@ def test_thruster_sweep(tmp_path):
     assert (tmp_path / "thruster_sweep.png").stat().st_size > 5000
 
 
+def test_robust_postures(tmp_path):
+    tasks = [str(FOLDER.parent / "tasks" / f"{name}_guaranteed.toml") for name in ("turn", "lift")]
+    run(tmp_path, "robust_postures.py", *tasks, "--draws", "300", "--seeds", "1", "--budget", "3000", "--out", str(tmp_path))
+    table = [line.split(",") for line in (tmp_path / "robust_postures.csv").read_text().splitlines()]
+    robust, nominal = ([dict(zip(table[0], row)) for row in table[i::2]] for i in (1, 2))
+    # The proven bounds of both tasks with this uncertainty, and nominal: docs/algorithms/scenarios.md, results/uvms_static.txt.
+    for row, bound in zip(robust, (35.11, 104.5)):
+        assert 0.9 * bound < float(row["guaranteed"]) == float(row["worst"]) <= bound
+        assert row["below"] == row["infeasible"] == "0"
+    for row, best in zip(nominal, robust):
+        assert float(row["nominal"]) >= 0.99 * float(best["nominal"])
+        assert int(row["drawn"]) == 300 and float(row["least"]) >= float(row["worst"])
+    assert (tmp_path / "robust_postures.svg").stat().st_size > 5000
+
+
 def test_race(tmp_path):
     table = rows(run(tmp_path, "race_scipy.py", "planar/force", "--budget", "1000", "--seeds", "2"))
     assert len(table) == 6

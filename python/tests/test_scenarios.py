@@ -233,6 +233,9 @@ def test_no_sample_is_below_the_guaranteed_value():
     assert sample["guaranteed"] == pytest.approx(answer.beta, rel=1e-9)
     assert sample["guaranteed"] <= sample["least"] <= sample["q01"] <= sample["q05"] <= sample["median"]
     assert answer.sample(n=200, seed=3) == sample != answer.sample(200)
+    assert len(sample["values"]) == 200 and min(sample["values"]) == sample["least"]
+    # Compared with another value, such as the median: half of the models are below.
+    assert answer.sample(200, seed=3, guaranteed=np.median(sample["values"]))["below"] == pytest.approx(100, abs=1)
 
 
 def test_samples_that_are_rejected(rejects):

@@ -13,6 +13,7 @@
 #include "maxwrench/sensitivity.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"
+#include "solvers/solve/row.h"
 
 namespace maxwrench {
 namespace {
@@ -76,7 +77,8 @@ double value_of(const Problem& drawn, const Answer& answer) {
 
 }  // namespace
 
-ScenarioSample sample_scenarios(const Answer& answer, long draws, std::uint64_t seed) {
+ScenarioSample sample_scenarios(const Answer& answer, long draws, std::uint64_t seed,
+                                std::optional<double> guaranteed) {
   if (!answer.task || answer.task->scenarios.empty()) {
     throw std::invalid_argument(
         "sample: got a task without a list of scenarios, expected one with uncertainty");
@@ -87,13 +89,17 @@ ScenarioSample sample_scenarios(const Answer& answer, long draws, std::uint64_t 
   if (draws < 1) {
     throw std::invalid_argument(fmt::format("sample: got {}, expected 1 or more", draws));
   }
+  if (guaranteed && !std::isfinite(*guaranteed)) {
+    throw std::invalid_argument(
+        fmt::format("guaranteed: got {:g}, expected a finite number", *guaranteed));
+  }
   const Problem& problem = *answer.task;
   Problem drawn = problem;
   ScenarioSample sample;
   sample.drawn = draws;
   sample.unit = answer.unit;
-  sample.guaranteed = answer.has_value() ? answer.beta() : -kInfinity;
-  std::vector<double> values;
+  sample.guaranteed = guaranteed.value_or(answer.has_value() ? answer.beta() : -kInfinity);
+  std::vector<double>& values = sample.values;
   for (long i = 0; i < draws; ++i) {
     Random random(seed, RandomUse::kModel, static_cast<std::uint64_t>(i));
     for (std::size_t group = 0; group < problem.scenarios.loads.size(); ++group) {
@@ -102,11 +108,12 @@ ScenarioSample sample_scenarios(const Answer& answer, long draws, std::uint64_t 
     drawn.scenarios.limits = {drawn_limits(problem, random)};
     values.push_back(value_of(drawn, answer));
   }
-  std::sort(values.begin(), values.end());
+  std::vector<double> sorted = values;
+  std::sort(sorted.begin(), sorted.end());
   const auto quantile = [&](double share) {
-    return values[static_cast<std::size_t>(share * static_cast<double>(draws - 1))];
+    return sorted[static_cast<std::size_t>(share * static_cast<double>(draws - 1))];
   };
-  sample.least = values.front();
+  sample.least = sorted.front();
   sample.q01 = quantile(0.01);
   sample.q05 = quantile(0.05);
   sample.median = quantile(0.5);
@@ -123,9 +130,18 @@ std::string summary(const ScenarioSample& sample) {
     return value == -kInfinity ? std::string("-") : fmt::format("{:.5f}", value);
   };
   return fmt::format(
-      "sample   {} models: least {} {}, 1 % {}, 5 % {}, median {}; {} infeasible, {} below beta\n",
+      "sample   {} models: least {} {}, 1 % {}, 5 % {}, median {}; {} infeasible, {} below {}\n",
       sample.drawn, shown(sample.least), sample.unit, shown(sample.q01), shown(sample.q05),
-      shown(sample.median), sample.infeasible, sample.below);
+      shown(sample.median), sample.infeasible, sample.below, shown(sample.guaranteed));
+}
+
+std::string sample_csv(const ScenarioSample& sample) {
+  std::string text = "model,beta\n";
+  for (std::size_t i = 0; i < sample.values.size(); ++i) {
+    const double value = sample.values[i];
+    text += fmt::format("{},{}\n", i, value == -kInfinity ? "" : exact_text(value));
+  }
+  return text;
 }
 
 }  // namespace maxwrench

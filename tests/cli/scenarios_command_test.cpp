@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/support/support.h"
 
@@ -40,6 +42,37 @@ TEST(ScenariosCommand, SampleIsNeverBelowTheGuarantee) {
   EXPECT_EQ(object["sample"]["drawn"], 200);
   EXPECT_EQ(object["sample"]["below"], 0);
   EXPECT_GE(object["sample"]["least"].get<double>(), object["beta"].get<double>() - 1e-9);
+}
+
+/// Model i of a seed is the same in any posture, run and number of models. A model is below what it
+/// is compared with if its value is, and a guaranteed value of another posture may be compared.
+TEST(ScenariosCommand, ModelsAreRowsOfATable) {
+  const TemporaryFolder folder;
+  const auto models = [&](const std::string& options) {
+    const std::string file = folder.path() / "models.csv";
+    const CommandResult result = run_maxwrench(
+        "eval examples/tasks/lift_guaranteed.toml --sample " + options + " --models " + file);
+    EXPECT_EQ(result.exit_status, 0) << result.err;
+    return read_text(file);
+  };
+  const std::string many = models("300 --seed 7"), few = models("40 --seed 7");
+  EXPECT_EQ(std::count(many.begin(), many.end(), '\n'), 301);
+  EXPECT_EQ(many.substr(0, few.size()), few);
+  EXPECT_NE(models("40 --seed 8"), few);
+  const json object = json::parse(
+      run_maxwrench("eval examples/tasks/lift_guaranteed.toml --sample 300 --seed 7 --json "
+                    "--guaranteed 28")
+          .out);
+  long below = 0;
+  std::istringstream lines(many);
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "model,beta");
+  while (std::getline(lines, line)) below += std::stod(line.substr(line.find(',') + 1)) < 28;
+  EXPECT_GT(below, 0);
+  EXPECT_LT(below, 300);
+  EXPECT_EQ(object["sample"]["below"], below);
+  EXPECT_EQ(object["sample"]["guaranteed"], 28);
 }
 
 TEST(ScenariosCommand, SensitivityRanksThrusters) {
@@ -112,6 +145,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Refusal{"eval uvms/valve --scenarios",
                 "--scenarios: got uvms/valve, a task without a list"},
+        Refusal{"eval examples/tasks/lift_guaranteed.toml --guaranteed 3", "--guaranteed"},
+        Refusal{"eval examples/tasks/lift_guaranteed.toml --sample 3 --guaranteed nan",
+                "guaranteed: got nan"},
         Refusal{"eval uvms/valve --sample 10", "--sample: got uvms/valve, a task without a list"},
         Refusal{"eval examples/tasks/push_anywhere.toml --wrench any", "got a ball"},
         Refusal{"eval examples/tasks/push_anywhere.toml --solver simplex", "solver"},

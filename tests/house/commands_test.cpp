@@ -57,6 +57,7 @@ TEST_P(Docs, EveryCommandWorks) {
   fs::copy(kRoot / "benchmarks/suites", folder.path() / "benchmarks/suites");
   fs::create_directory(folder.path() / "examples");
   fs::copy(kRoot / "examples/tasks", folder.path() / "examples/tasks", fs::copy_options::recursive);
+  fs::copy(kRoot / "examples/motions", folder.path() / "examples/motions");
   fs::create_directory(folder.path() / "results");
   fs::copy(kRoot / "results/trajectories", folder.path() / "results/trajectories");
   static const std::regex kPath("# ([a-z_/]+\\.toml)");

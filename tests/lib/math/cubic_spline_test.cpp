@@ -92,5 +92,30 @@ TEST(CubicSpline, AKnotBelongsToTheIntervalAfterIt) {
   EXPECT_EQ(spline_at(kTimes, 9).interval, 3);
 }
 
+/// The slopes at the ends are those of polynomials through the first and last rows: a polynomial of
+/// that degree is its own spline, at any times. Two rows are a line, three a parabola.
+TEST(FreeSpline, ReproducesPolynomials) {
+  const std::vector<double> all = {-0.3, 0.1, 0.9, 1.0, 2.5, 2.6};
+  for (const std::size_t rows : {2, 3, 4, 6}) {
+    const std::vector<double> times(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(rows));
+    const double a = 0.7, b = -2, c = rows > 2 ? 1.5 : 0, d = rows > 3 ? -0.4 : 0;
+    Eigen::MatrixXd values(1, static_cast<Eigen::Index>(rows));
+    for (std::size_t i = 0; i < rows; ++i) {
+      const double t = times[i];
+      values(0, static_cast<Eigen::Index>(i)) = a + b * t + c * t * t + d * t * t * t;
+    }
+    const Eigen::MatrixXd bends = free_spline_bends(times, values);
+    for (int k = 0; k <= 20; ++k) {
+      const double t = times.front() + k / 20.0 * (times.back() - times.front());
+      const SplineInstant at = spline_at(times, t);
+      const Eigen::Vector4d own(values(0, at.interval), values(0, at.interval + 1),
+                                bends(0, at.interval), bends(0, at.interval + 1));
+      EXPECT_NEAR(own.dot(at.weights.col(0)), a + b * t + c * t * t + d * t * t * t, 1e-12);
+      EXPECT_NEAR(own.dot(at.weights.col(1)), b + 2 * c * t + 3 * d * t * t, 1e-11);
+      EXPECT_NEAR(own.dot(at.weights.col(2)), 2 * c + 6 * d * t, 1e-10);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace maxwrench
