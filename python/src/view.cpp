@@ -25,9 +25,10 @@ std::vector<std::filesystem::path> packages_of(const PyTask& task) {
   return folders;
 }
 
-std::string page_of(const PyAnswer& self) {
+std::string page_of(const PyAnswer& self, bool tank) {
   const Answer& answer = self.answer;
   if (!answer.has_posture()) throw BadValue("answer", "no posture", "an answer with a posture");
+  if (tank) require_tank(*answer.task, answer.choice.measure, "tank");
   const std::vector<std::filesystem::path> packages = packages_of(self.task);
   const py::gil_scoped_release released;
   const Problem& task = *answer.task;
@@ -38,11 +39,12 @@ std::string page_of(const PyAnswer& self) {
     options.check_collision = answer.collision;
     shown.push_back({"default", evaluate(task, task.theta_r_default.transpose(), options)});
   }
+  for (Shown& each : shown) each.tank = tank;
   return view_page(task, scene_of(task, read_visuals(task.robot, packages), shown));
 }
 
 }  // namespace
 
-void add_view(py::module_& m) { m.def("_page", &page_of, py::arg("answer")); }
+void add_view(py::module_& m) { m.def("_page", &page_of, py::arg("answer"), py::arg("tank")); }
 
 }  // namespace maxwrench::python

@@ -65,8 +65,8 @@ export class Efforts extends Group {
 
   /** A thruster's, or a hub where a wheel acts. */
   duct() {
-    if (!this.robot.water) return new Mesh(new SphereGeometry(0.022 * this.size, 24, 16), new MeshStandardMaterial({ color: 0x20262c, roughness: 0.5 }));
-    const material = new MeshStandardMaterial({ color: 0x20262c, roughness: 0.6, side: DoubleSide });
+    if (!this.robot.water) return new Mesh(new SphereGeometry(0.022 * this.size, 24, 16), new MeshStandardMaterial({ color: 0x46525d, roughness: 0.5 }));
+    const material = new MeshStandardMaterial({ color: 0x46525d, roughness: 0.6, side: DoubleSide });
     const ring = new Mesh(new CylinderGeometry(0.045 * this.size, 0.045 * this.size, 0.045 * this.size, 36, 1, true), material);
     ring.castShadow = true;
     return ring;
