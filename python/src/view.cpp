@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "maxwrench/trajectory.h"
 #include "problems/loader/visuals.h"
 #include "problems/make/bad_value.h"
 #include "python/src/parts.h"
@@ -37,7 +38,7 @@ std::string page_of(const PyAnswer& self, bool tank) {
     Options options;
     static_cast<Case&>(options) = answer.choice;
     options.check_collision = answer.collision;
-    shown.push_back({"default", evaluate(task, task.theta_r_default.transpose(), options)});
+    shown.push_back({"default", evaluate(task, default_knots(task), options)});
   }
   for (Shown& each : shown) each.tank = tank;
   return view_page(task, scene_of(task, read_visuals(task.robot, packages), shown));

@@ -9,7 +9,7 @@ const [command, folder, ...chosen] = process.argv.slice(2);
 const out = resolve(folder);
 mkdirSync(out, { recursive: true });
 
-const kTasks = chosen.length ? chosen : ["uvms/valve", "uvms/valve_trajectory", "dual_arm/two_arms", "mobile/push", "planar/force", "fixed/push",
+const kTasks = chosen.length ? chosen : ["uvms/valve", "uvms/valve_trajectory", "dual_arm/two_arms", "mobile/push", "planar/force", "fixed/push", "gallery/panda/lift",
   "examples/tasks/lift_with_a_dead_thruster.toml"];
 const kSizes = [{ width: 1280, height: 800, scheme: "light" }, { width: 390, height: 844, scheme: "dark" }];
 const kLooks = [{ width: 1280, height: 800, scheme: "dark" }, { width: 390, height: 844, scheme: "light" }]; // only looked at
