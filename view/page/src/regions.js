@@ -45,7 +45,7 @@ export class Regions {
     const { share, status, reason, least, holding, clusters_all: all, boxes, drawn } = this.within;
     const texts = [
       `Every posture with ${withUnit(least, this.unit, 5)} or more, within ${shown(100 * share)} % of the best, is in the coloured regions: this is proven.`,
-      `${holding} of ${all} clusters hold such postures${holding < all ? ", the grey ones may" : ""}.`,
+      holding < all ? `${holding} of ${all} clusters hold such postures, the other ones may.` : `${all} cluster${all === 1 ? " holds" : "s hold"} such postures.`,
       status === "proven" ? "" : `The list ended early (${reason ?? status.replaceAll("_", " ")}): its boxes are larger.`,
       drawn < boxes ? `${boxes} boxes are joined into ${drawn}.` : "",
       this.engine ? "Click to see a posture. Keys: arrows and Enter." : "This task cannot be evaluated in a page.",

@@ -41,7 +41,7 @@ function plotsOf(scene, frames) {
     return [{ name: `rate of ${words(actuator.name)}`, actuator: i, values, dashed: true }];
   });
   return [
-    { title: `wrench along c [${scene.task.unit}]`, zero: true, curves: [{ name: "wrench along c", values: frames.map((f) => f.beta ?? NaN), bold: true }] },
+    { title: `${/^N/.test(scene.task.unit) ? "wrench along c" : "value"} [${scene.task.unit}]`, zero: true, curves: [{ name: "wrench along c", values: frames.map((f) => f.beta ?? NaN), bold: true }] },
     { title: "efforts / limits", range: [-1, 1], curves: frames[0].u.length ? actuators.map((a, i) => ({ name: words(a.name), actuator: i, values: frames.map((f) => signed(a, f.u[i])) })) : [] },
     { title: "speeds, rates / limits", range: [-1, 1], curves: [...speeds, ...rates] },
   ];
