@@ -1,6 +1,6 @@
 // What each actuator does: an arrow at a thruster or a sliding joint, a ring about a turning joint.
-import { Color, CylinderGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshStandardMaterial, Quaternion, SphereGeometry, Vector3 } from "three";
-import { Arc, Arrow, paint } from "./arrows.js";
+import { Color, CylinderGeometry, DoubleSide, Group, Mesh, MeshStandardMaterial, Quaternion, SphereGeometry, Vector3 } from "three";
+import { Arc, Arrow, paint, shineThrough } from "./arrows.js";
 import { matrixAt } from "./format.js";
 
 const kIdle = new Color(0x16a394);
@@ -17,18 +17,6 @@ export function shareOf(actuator, u) {
 /** The colour of a share: red at the limit alone. */
 export function colourOf(share) {
   return share >= kAtLimit ? kLimit : kIdle.clone().lerp(kBusy, share);
-}
-
-/** Shows the parts of a mark faintly where a link is in front of them. */
-function shineThrough(mark) {
-  const faint = new MeshBasicMaterial({ transparent: true, opacity: 0.3, depthTest: false, depthWrite: false });
-  const parts = [];
-  mark.traverse((part) => part.isMesh && parts.push(part));
-  for (const part of parts) {
-    part.castShadow = true;
-    part.add(new Mesh(part.geometry, faint));
-  }
-  return faint;
 }
 
 export class Efforts extends Group {

@@ -74,7 +74,8 @@ export class Regions {
     canvas.addEventListener("blur", () => this.set(this.frame));
     canvas.addEventListener("focus", () => this.set(this.frame));
     const range = (k) => `${this.range[k].map((x) => shown(x, 3)).join(" \u2026 ")} ${this.coordinates[k].unit}`;
-    const lines = [`\u2192 ${name(i)}, ${range(i)}`, ...(j === null ? [] : [`\u2191 ${name(j)}, ${range(j)}`])];
+    const oneLine = (text) => text.replaceAll(" ", "\u00a0");
+    const lines = [`\u2192 ${name(i)}, ${oneLine(range(i))}`, ...(j === null ? [] : [`\u2191 ${name(j)}, ${oneLine(range(j))}`])];
     panel.figure = make("figure", {}, canvas, make("figcaption", {}, ...lines.map((line) => make("span", {}, line))));
     return panel;
   }
