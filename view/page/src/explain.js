@@ -24,7 +24,7 @@ function bindingTable({ binding }, unit) {
     : `${limit.down === null ? "\u2212\u221e" : shown(limit.at - limit.down, 4)} \u2026 ${limit.up === null ? "\u221e" : shown(limit.at + limit.up, 4)}`);
   // At a kink a limit that falls and one that rises have rates of their own.
   const rate = ({ rate, rate_down: down, rate_up: up }) => (up === null || shown(down, 4) === shown(up, 4) ? shown(rate, 4) : `${shown(down, 4)} / ${shown(up, 4)}`);
-  return namedTable(["at", `10\u00a0%\u00a0more [${unit}]`, "rate", "holds\u00a0in"],
+  return namedTable(["at", `10\u00a0% more [${unit}]`, "rate", "holds\u00a0in"],
     binding.map((limit) => [nameOf(limit), withUnit(limit.at, limit.unit, 4), limit.gain === null ? "\u2013" : shown(limit.gain, 4), rate(limit), range(limit)]));
 }
 
