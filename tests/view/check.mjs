@@ -42,6 +42,8 @@ const slide = (page, id, value) =>
 
 async function checkLayout(page, name, width) {
   check(await page.evaluate(`document.documentElement.scrollWidth <= ${width}`), `${name}: nothing is too wide`);
+  const hidden = await page.evaluate("[...document.querySelectorAll('#binds, #ends, .wide-table')].filter((e) => e.scrollWidth > e.clientWidth).length");
+  check(hidden === 0, `${name}: tables are as wide as the panel`);
   const unnamed = await page.evaluate(`[...document.querySelectorAll("button, input")].filter((e) => !(e.textContent.trim() || e.ariaLabel || e.labels?.length)).length`);
   check(unnamed === 0, `${name}: every control has a name`);
   const scene = await page.evaluate("JSON.parse(document.getElementById('scene').textContent).robot.actuators.length");
