@@ -11,8 +11,8 @@
 #include "cli/cli.h"
 #include "cli/ctrl_c.h"
 #include "cli/output.h"
-#include "cli/progress.h"
 #include "cli/proof/good_postures.h"
+#include "cli/proof/prove.h"
 #include "cli/proof/trajectory_proofs.h"
 #include "cli/task/motion_options.h"
 #include "cli/task/problem_options.h"
@@ -47,24 +47,6 @@ struct Certified {
     return proof.status == Status::kProven && (!good || good->status == Status::kProven);
   }
 };
-
-/// Lists the good postures in the remaining time.
-GoodPostures list_good(const CertifyCommandOptions& options, const Problem& problem,
-                       const Options& c, Proof& proof) {
-  ProgressLine line;
-  GoodOptions good;
-  good.within = options.within.share();
-  good.resolution = options.within.resolution;
-  good.seconds = std::max(0.0, options.seconds - proof.seconds);
-  good.threads = options.thread_count();
-  good.interrupted = c.interrupted;
-  good.progress = [&line](std::size_t waiting, std::size_t kept) {
-    line.show(fmt::format("within {} boxes kept, {} open", kept, waiting));
-  };
-  const auto bound = make_capability_bound(problem, c.measure, c.wrench);
-  return verified_good_postures(problem, resolve(problem, c), *bound, proof.bound, good,
-                                proof.answer);
-}
 
 /// `verify` reads the task again by its name, without the options of `certify`.
 void throw_on_choices(const CertifyCommandOptions& options) {
@@ -105,27 +87,7 @@ void throw_on_dependents(const CertifyCommandOptions& options, const Problem& pr
   if (!options.certificate.empty() && !got.empty()) {
     throw std::invalid_argument("--certificate: got " + got + ", expected one without");
   }
-  if (options.within.asked() && (!problem.dependent.empty() || problem.contact)) {
-    throw std::invalid_argument(
-        "--within: got a task with dependent joints or a second contact, expected one without");
-  }
-}
-
-/// The proof, with its progress shown.
-Proof prove(const CertifyCommandOptions& options, const Problem& problem, Options c,
-            ProofRecorder& boxes) {
-  Progress search("search", kUsualBudget);
-  c.progress = search.counter();
-  std::optional<ProgressLine> line;
-  ProofOptions how;
-  how.gap = options.gap;
-  how.seconds = options.seconds;
-  how.progress = [&](double most, double beta) {
-    search.finish();
-    if (!line) line.emplace();
-    line->show("certify gap " + percent((most - beta) / std::abs(beta)));
-  };
-  return certify(problem, c, how, options.certificate.empty() ? nullptr : &boxes);
+  options.within.require_listable(problem);
 }
 
 Certified prove(const CertifyCommandOptions& options, const Problem& problem) {
@@ -133,9 +95,12 @@ Certified prove(const CertifyCommandOptions& options, const Problem& problem) {
   Options c = options.read_options();
   c.interrupted = ctrl_c.asked();
   Certified certified;
-  certified.proof = prove(options, problem, c, certified.boxes);
+  certified.proof =
+      prove_with_progress(problem, c, {.gap = options.gap, .seconds = options.seconds},
+                          options.certificate.empty() ? nullptr : &certified.boxes);
   if (options.within.asked() && certified.proof.answer.has_value()) {
-    certified.good = list_good(options, problem, c, certified.proof);
+    certified.good =
+        list_with_progress(problem, options.within, c, options.seconds, certified.proof);
   }
   return certified;
 }

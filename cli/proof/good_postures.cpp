@@ -143,7 +143,7 @@ std::string draw_good(const Answer& row, const GoodPostures& good, const WithinO
 
 }  // namespace
 
-void WithinOptions::add(CLI::App& command) {
+void WithinOptions::add_list(CLI::App& command) {
   CLI::Option* const asked =
       command
           .add_option("--within", within,
@@ -153,10 +153,22 @@ void WithinOptions::add(CLI::App& command) {
       ->capture_default_str()
       ->check(reject_resolution)
       ->needs(asked);
+}
+
+void WithinOptions::add(CLI::App& command) {
+  add_list(command);
+  CLI::Option* const asked = command.get_option("--within");
   command.add_option("--figure", figure, "SVG file for the projections of the boxes")
       ->check(reject_empty)
       ->needs(asked);
   command.add_option("--boxes", boxes, "CSV file for the boxes")->check(reject_empty)->needs(asked);
+}
+
+void WithinOptions::require_listable(const Problem& problem) const {
+  if (asked() && (!problem.dependent.empty() || problem.contact)) {
+    throw std::invalid_argument(
+        "--within: got a task with dependent joints or a second contact, expected one without");
+  }
 }
 
 double WithinOptions::share() const { return parse_share(within); }

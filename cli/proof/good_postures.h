@@ -24,6 +24,9 @@ struct WithinOptions {
   std::string figure, boxes;  ///< files; empty if none
 
   void add(CLI::App& command);
+  void add_list(CLI::App& command);  ///< without the files
+  /// Throws std::invalid_argument for a task whose good postures are no boxes of theta_r.
+  void require_listable(const Problem& problem) const;
   bool asked() const { return !within.empty(); }
   double share() const;  ///< `within` as a number
 };

@@ -24,6 +24,12 @@ SEARCHES = {
     "branch and bound": "docs/algorithms/proofs",
     "cmaes": "docs/algorithms/searches/cmaes",
     "load_problem": "reference/cpp/load",
+    "how to bring my own URDF": "docs/questions",
+    "own URDF": "docs/own_robot",
+    "what does optimal mean": "docs/questions",
+    "thruster dead": "docs/algorithms/scenarios",
+    "Python install": "docs/install",
+    "certificate verify": "docs/algorithms/certificates",
     "from_urdf": "reference/python/tasks_and_robots",
 }
 WIDTHS = [1280, 390]

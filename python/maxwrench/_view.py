@@ -35,7 +35,7 @@ class Page:
         return f'<iframe title="{escape(self._title)}" style="{style}" srcdoc="{escape(self.html)}"></iframe>'
 
 
-def view_answer(answer, out=None):
+def view_answer(answer, out=None, tank=False):
     """Makes the page in which the robot can be turned and the answer be seen.
 
     It is the page of the command ``maxwrench view``: this answer, and the task's default posture or
@@ -44,19 +44,20 @@ def view_answer(answer, out=None):
     Args:
         answer: an Answer with a posture.
         out: HTML file to write, replaced as a whole. None: no file.
+        tank: whether to add what the virtual tank reads along each trajectory of a task in time.
 
     Returns:
         Page: the page, which a notebook shows in the cell.
 
     Raises:
-        InputError: the answer has no posture.
+        InputError: the answer has no posture, or ``tank`` is given for a task that the virtual tank does not support.
         OSError: the file cannot be written.
 
     >>> answer = maxwrench.solve("planar/force", budget=500)
     >>> answer.view("posture.html")  # doctest: +ELLIPSIS
     <Page planar/force: ... MB>
     """
-    page = Page(_core._page(answer), answer.task.name)
+    page = Page(_core._page(answer, tank), answer.task.name)
     if out is not None:
         page.save(out)
     return page

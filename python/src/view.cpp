@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "maxwrench/trajectory.h"
 #include "problems/loader/visuals.h"
 #include "problems/make/bad_value.h"
 #include "python/src/parts.h"
@@ -25,9 +26,10 @@ std::vector<std::filesystem::path> packages_of(const PyTask& task) {
   return folders;
 }
 
-std::string page_of(const PyAnswer& self) {
+std::string page_of(const PyAnswer& self, bool tank) {
   const Answer& answer = self.answer;
   if (!answer.has_posture()) throw BadValue("answer", "no posture", "an answer with a posture");
+  if (tank) require_tank(*answer.task, answer.choice.measure, "tank");
   const std::vector<std::filesystem::path> packages = packages_of(self.task);
   const py::gil_scoped_release released;
   const Problem& task = *answer.task;
@@ -36,13 +38,14 @@ std::string page_of(const PyAnswer& self) {
     Options options;
     static_cast<Case&>(options) = answer.choice;
     options.check_collision = answer.collision;
-    shown.push_back({"default", evaluate(task, task.theta_r_default.transpose(), options)});
+    shown.push_back({"default", evaluate(task, default_knots(task), options)});
   }
+  for (Shown& each : shown) each.tank = tank;
   return view_page(task, scene_of(task, read_visuals(task.robot, packages), shown));
 }
 
 }  // namespace
 
-void add_view(py::module_& m) { m.def("_page", &page_of, py::arg("answer")); }
+void add_view(py::module_& m) { m.def("_page", &page_of, py::arg("answer"), py::arg("tank")); }
 
 }  // namespace maxwrench::python

@@ -24,6 +24,18 @@ def test_it_is_the_page_of_the_command(command, name, budget):
     assert mine == theirs
 
 
+def test_the_virtual_tank_reads_what_simulate_reads():
+    task = mw.load("mobile/trajectory")
+    answer = mw.evaluate(task, task.theta_r_default)
+    shown = scene_of(answer.view(tank=True).html)["shown"]
+    run = mw.simulate(answer)
+    assert shown[0]["tank"]["held"] == run.held
+    assert shown[0]["tank"]["curve"]["reading"] == pytest.approx(list(run.readings), rel=1e-5)
+    assert "tank" not in scene_of(answer.view().html)["shown"][0]
+    with pytest.raises(mw.InputError, match="tank: got planar/force, a static task, expected a task in time"):
+        mw.evaluate("planar/force", [0.3, -0.7]).view(tank=True)
+
+
 def test_it_is_written_whole(tmp_path):
     file = tmp_path / "posture.html"
     page = mw.solve("planar/force", budget=200).view(file)

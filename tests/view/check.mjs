@@ -9,10 +9,11 @@ const [command, folder, ...chosen] = process.argv.slice(2);
 const out = resolve(folder);
 mkdirSync(out, { recursive: true });
 
-const kTasks = chosen.length ? chosen : ["uvms/valve", "uvms/valve_trajectory", "dual_arm/two_arms", "mobile/push", "planar/force", "fixed/push",
+const kTasks = chosen.length ? chosen : ["uvms/valve", "uvms/valve_trajectory", "dual_arm/two_arms", "mobile/push", "planar/force", "fixed/push", "gallery/panda/lift",
   "examples/tasks/lift_with_a_dead_thruster.toml"];
 const kSizes = [{ width: 1280, height: 800, scheme: "light" }, { width: 390, height: 844, scheme: "dark" }];
 const kLooks = [{ width: 1280, height: 800, scheme: "dark" }, { width: 390, height: 844, scheme: "light" }]; // only looked at
+const kWords = { "uvms/valve": ["--within", "1%"], "planar/force": ["--within", "2%", "--resolution", "0.02"], "uvms/valve_trajectory": ["--tank"] };  // more options of the command
 const kMostBytes = 4e6;
 const kPause = 250;  // ms: the page lists the IK solutions when a slider has rested for 120 ms
 
@@ -41,6 +42,8 @@ const slide = (page, id, value) =>
 
 async function checkLayout(page, name, width) {
   check(await page.evaluate(`document.documentElement.scrollWidth <= ${width}`), `${name}: nothing is too wide`);
+  const hidden = await page.evaluate("[...document.querySelectorAll('#binds, #ends, .wide-table')].filter((e) => e.scrollWidth > e.clientWidth).length");
+  check(hidden === 0, `${name}: tables are as wide as the panel`);
   const unnamed = await page.evaluate(`[...document.querySelectorAll("button, input")].filter((e) => !(e.textContent.trim() || e.ariaLabel || e.labels?.length)).length`);
   check(unnamed === 0, `${name}: every control has a name`);
   const scene = await page.evaluate("JSON.parse(document.getElementById('scene').textContent).robot.actuators.length");
@@ -103,7 +106,7 @@ async function checkSliders(page, task, name) {
 async function checkDetails(page, task, name) {
   await page.until("!app.entry.stale");
   const theta = await page.evaluate("Array.from(app.frame.theta_r)");
-  const shown = await page.evaluate("({set: app.frame.sets?.polytope?.vertices ?? null, c: Array.from(app.frame.c), beta: app.frame.beta, words: document.getElementById('binds').innerText})");
+  const shown = await page.evaluate("({set: app.frame.sets?.polytope?.vertices ?? null, c: Array.from(app.frame.c), beta: app.frame.beta, words: document.getElementById('binds').innerText.replaceAll('\u00a0', ' ')})");
   if (shown.set) {
     const first = (await page.evaluate("app.frame.sets.of")) === "force" ? 0 : 3;
     let most = -Infinity; // beta c is in the set
@@ -112,7 +115,7 @@ async function checkDetails(page, task, name) {
     check(await page.evaluate("document.getElementById('set-note').hidden"), `${name}: the set is that of the posture`);
   }
   if (task.includes("tasks/")) {
-    const decides = evaluate(task, theta).decides;
+    const decides = evaluate(task, theta).decides.replaceAll("_", " ");
     check((await page.evaluate("document.getElementById('decides').textContent")).startsWith(`${decides} decides`), `${name}: ${decides} decides`);
     check((await page.evaluate("document.querySelectorAll('#ends tbody tr').length")) > 1, `${name}: scenarios are listed`);
     return;
@@ -160,10 +163,66 @@ async function checkTime(page, name) {
   await slide(page, "instant", 0);
   await click(page, "play");
   await page.until("Number(document.getElementById('instant').value) > 0.05");
-  await click(page, "play");
+  await page.evaluate("app.timeline.playing && document.getElementById('play').click()"); // a slow browser may have come to the end
   check((await page.evaluate("document.getElementById('play').ariaLabel")) === "Play", `${name}: it pauses`);
-  check((await page.evaluate("document.querySelectorAll('#curves svg').length")) === 3, `${name}: value, efforts and rates have curves`);
+  check((await page.evaluate("document.querySelectorAll('#curves svg').length")) === 4, `${name}: value, efforts, rates and tank have curves`);
   await slide(page, "instant", frames[0][0]);
+}
+
+/** The experiment of the default trajectory is that of the command; one of the sliders has none. */
+async function checkTank(page, task, name) {
+  const expected = JSON.parse(run("simulate", task, "--json"));
+  await click(page, "posture-default");
+  const { held, reading, curve } = await page.evaluate("app.entry.tank");
+  check(held === expected.held && near(reading, expected.low), `${name}: the tank reads ${reading}, simulate has ${expected.low}`);
+  const k = Math.floor(curve.t.length / 2);
+  await slide(page, "instant", curve.t[k]);
+  const text = await page.evaluate("document.getElementById('tank').textContent.replaceAll('\\u00a0', ' ')");
+  check(text.startsWith("Virtual tank: held, reads") && text.endsWith(`${Number(curve.reading[k].toPrecision(5))} N m at the cursor.`), `${name}: "${text}"`);
+  const cursors = await page.evaluate("[...document.querySelectorAll('#curves .cursor')].map((line) => line.getAttribute('x1'))");
+  check(new Set(cursors).size === 1, `${name}: all curves have the same cursor: ${cursors}`);
+}
+
+/** Projections of good postures: a click and the keys show a posture, with the value of the command. */
+async function checkRegions(page, task, name) {
+  if (!(await page.evaluate("Boolean(app.regions)"))) return;
+  const least = await page.evaluate("app.regions.within.least");
+  const canvases = "document.querySelectorAll('#projections canvas')";
+  const panels = await page.evaluate(`${canvases}.length`);
+  const r = await page.evaluate("app.scene.task.theta_r.length");
+  check(panels === (r * (r - 1)) / 2, `${name}: each pair of coordinates has a projection`);
+  const same = async (what) => {
+    const { theta, own } = await page.evaluate("({theta: Array.from(app.frame.theta_r), own: app.name === 'own'})");
+    const value = await beta(page);
+    check(own && near(value, evaluate(task, theta).beta), `${name}: ${what}: ${value}`);
+    return value;
+  };
+  const buttons = "document.querySelectorAll('#clusters button')";
+  await page.evaluate(`${buttons}[0].click()`);
+  check((await same("the best posture of the first cluster")) >= least, `${name}: it is good`);
+  for (let i = 0; i < panels; ++i) {
+    // In the middle of the box with the largest bound.
+    const at = await page.evaluate(`(() => { const { regions } = app, panel = regions.panels[${i}];
+      const share = (k) => ((regions.lower[k] + regions.upper[k]) / 2 - regions.range[k][0]) / (regions.range[k][1] - regions.range[k][0]);
+      panel.canvas.scrollIntoView({ block: "center" });
+      const box = panel.canvas.getBoundingClientRect();
+      return { x: box.left + share(panel.i) * box.width, y: box.top + (1 - share(panel.j)) * box.height }; })()`);
+    await click(page, "posture-default");
+    for (const type of ["mousePressed", "mouseReleased"]) await page.send("Input.dispatchMouseEvent", { type, button: "left", clickCount: 1, ...at });
+    check((await same(`a click on projection ${i + 1}`)) >= least * 0.9, `${name}: a click finds a nearly good posture`);
+  }
+  const key = (key) => page.evaluate(`${canvases}[0].dispatchEvent(new KeyboardEvent("keydown", {key: "${key}", bubbles: true}))`);
+  const said = () => page.evaluate("document.getElementById('said').textContent");
+  await page.evaluate(`${buttons}[0].click(), ${canvases}[0].focus()`);
+  await key("ArrowRight");
+  await key("ArrowLeft");
+  check((await said()).endsWith("good postures may be here"), `${name}: "${await said()}"`);
+  await key("Enter");
+  await same("Enter");
+  for (let i = 0; i < 60; ++i) await key("ArrowLeft");
+  check((await said()).endsWith("no good posture"), `${name}: "${await said()}"`);
+  await key("Enter");
+  check((await said()) === "No good posture is here.", `${name}: "${await said()}"`);
 }
 
 /** A slider moves the knot nearest to the cursor, and the trajectory has the value of the command. */
@@ -207,13 +266,19 @@ async function checkPage(browser, task, size) {
   await checkBeside(page, name, `${file}_${size.width}_beside.png`);
   if (task.includes("trajectory")) {
     await checkTime(page, name);
+    await checkTank(page, task, name);
     await checkKnots(page, task, name);
   } else {
     await checkSliders(page, task, name);
+    await checkRegions(page, task, name);
   }
   await page.screenshot(`${file}_${size.width}_own.png`);
   await page.evaluate("document.getElementById('binds-section').scrollIntoView()");
   await page.screenshot(`${file}_${size.width}_binds.png`);
+  if (await page.evaluate("Boolean(app.regions)")) {
+    await page.evaluate("document.getElementById('regions-section').scrollIntoView()");
+    await page.screenshot(`${file}_${size.width}_regions.png`);
+  }
   await checkBeside(page, `${name}, with the posture of the sliders`, `${file}_${size.width}_all.png`);
   check(page.faults.length === 0, `${name}: no error: ${page.faults.join("; ")}`);
   check(page.requests.every((url) => url.startsWith(`file://${file}.html`)), `${name}: nothing is loaded: ${page.requests.join(", ")}`);
@@ -233,7 +298,7 @@ async function lookAtPage(browser, task, size) {
 for (const task of kTasks) {
   const file = `${fileOf(task)}.html`;
   const start = Date.now();
-  run("view", task, "--budget", "3000", "--out", file);
+  run("view", task, "--budget", "3000", "--out", file, ...(kWords[task] ?? []));
   const bytes = statSync(file).size;
   check(bytes < kMostBytes, `${task}: ${bytes} bytes`);
   console.log(`${task}: ${(bytes / 1e6).toFixed(2)} MB in ${((Date.now() - start) / 1000).toFixed(1)} s`);

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "lib/math/fnv.h"
-#include "lib/robot/gears.h"
 #include "problems/collision/collision.h"
 #include "verify/bytes.h"
 
@@ -23,7 +22,7 @@ struct PathMembers {
 namespace {
 
 /// The first bytes. The number is the version of everything that follows.
-constexpr std::string_view kBegin = "maxwrench task 2\n";
+constexpr std::string_view kBegin = "maxwrench task 3\n";
 constexpr std::size_t kChecksumBytes = 8;
 
 /// Writes values. `Reading` has the same functions, so each type's members are listed once.
@@ -163,10 +162,18 @@ void put(Archive& to, Contact& x) {
           x.follow, x.q_rest, x.length_scale, x.sigma_min, x.rank);
 }
 template <class Archive>
+void put(Archive& to, CarriedBody& x) {
+  put_all(to, x.com, x.inertia, x.volume, x.cob, x.added_mass);
+}
+template <class Archive>
+void put(Archive& to, WrenchTable& x) {
+  put_all(to, x.t, x.wrenches);
+}
+template <class Archive>
 void put(Archive& to, MotionTask& x) {
   PathMembers::put_all(x.path, [&to](auto&... members) { put_all(to, members...); });
-  put_all(to, x.impulse, x.T, x.k, x.scheme, x.instants_per_interval, x.rates, x.c_turns, x.t_h,
-          x.start, x.theta_0);
+  put_all(to, x.impulse, x.transfer, x.T, x.k, x.scheme, x.instants_per_interval, x.rates,
+          x.c_turns, x.t_h, x.start, x.theta_0, x.theta_T, x.payload, x.table);
 }
 template <class Archive>
 void put(Archive& to, LinkLoad& x) {
@@ -229,12 +236,6 @@ std::string checksum(std::string_view bytes) {
 std::string why_no_engine(const Problem& problem) {
   if (problem.robot.collision && !made_of(*problem.robot.collision)) {
     return problem.name + ": a collision check of its own, expected that of the robot's shapes";
-  }
-  if (problem.motion && (problem.motion->has_factor() || problem.motion->transfer)) {
-    return problem.name + ": one factor at all instants, expected a wrench along a path";
-  }
-  if (!gears_at(problem.robot, problem.end_effector).empty()) {
-    return problem.name + ": a gear before the end effector, expected none";
   }
   return "";
 }

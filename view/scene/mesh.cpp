@@ -13,14 +13,6 @@ namespace {
 
 constexpr std::size_t kMostTriangles = 6000;  ///< of a mesh: about 100 kB of the page
 
-/// The bytes of whole numbers, the lowest first.
-template <class Number>
-void append(Number number, std::string& bytes) {
-  for (std::size_t i = 0; i < sizeof(Number); ++i) {
-    bytes += static_cast<char>(number >> (8 * i) & 0xFF);
-  }
-}
-
 /// Stretches a mesh; one that is mirrored keeps its outside.
 void stretch(const Eigen::Vector3d& size, Triangles& mesh) {
   for (Eigen::Vector3d& x : mesh.points) x = x.cwiseProduct(size);
@@ -39,10 +31,11 @@ nlohmann::ordered_json part_json(const Triangles& part) {
   std::string points, triangles;
   for (const Eigen::Vector3d& x : part.points) {
     const Eigen::Vector3d share = (x - low).cwiseQuotient(extent);
-    for (const double s : share) append(static_cast<std::uint16_t>(std::lround(65535 * s)), points);
+    for (const double s : share)
+      append_bytes(static_cast<std::uint16_t>(std::lround(65535 * s)), points);
   }
   for (const Eigen::Vector3i& triangle : part.triangles) {
-    for (const int i : triangle) append(static_cast<std::uint32_t>(i), triangles);
+    for (const int i : triangle) append_bytes(static_cast<std::uint32_t>(i), triangles);
   }
   nlohmann::ordered_json json = {{"low", drawn_columns(low)},
                                  {"extent", drawn_columns(extent)},

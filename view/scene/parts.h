@@ -17,6 +17,14 @@ double drawn(double value);
 /// The columns one after the other, as `drawn`.
 nlohmann::ordered_json drawn_columns(const Eigen::MatrixXd& columns);
 
+/// Adds the bytes of a whole number without a sign, the lowest first.
+template <class Number>
+void append_bytes(Number number, std::string& bytes) {
+  for (std::size_t i = 0; i < sizeof(Number); ++i) {
+    bytes += static_cast<char>(number >> (8 * i) & 0xFF);
+  }
+}
+
 /// The bodies of each link in its axes: its visuals, else its convex bodies. A link without either
 /// is the bars from its origin to its joints and end effectors; a bare base with thrusters is
 /// what encloses these and the joints.
@@ -45,6 +53,11 @@ nlohmann::ordered_json explanation_json(const Answer& answer);
 /// Of a list of scenarios: which one decides, its limits of the efforts, the number of scenarios,
 /// and the intervals of all of them unless there are many. Null without a list or a posture.
 nlohmann::ordered_json scenarios_json(const Answer& answer);
+
+/// The experiment in the virtual tank along a trajectory, as `simulate` runs it by default: whether
+/// it was held, the reading that counts, and curves of what is planned and read along c. Null if
+/// the trajectory has no value.
+nlohmann::ordered_json tank_json(const Answer& answer);
 
 /// The set of forces, or of torques if c is a torque, as a polytope and an ellipsoid. Null if c is
 /// neither, or there is no such set.

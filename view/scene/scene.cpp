@@ -35,11 +35,14 @@ ordered_json contact_json(const Problem& problem) {
           {"max", array(problem.theta_r_max.tail(s))}};
 }
 
-/// The times of the knots [s]; of an impulse without its start.
+/// The times of the knots of a table [s]: of an impulse without its start, of a transfer without
+/// both ends.
 std::vector<double> knot_times(const Problem& problem) {
   const SchemeMaps maps = make_scheme(*problem.motion);
   std::vector<double> times;
-  for (std::size_t i = maps.starts ? 1 : 0; i < maps.knot_at.size(); ++i) {
+  const bool transfer = problem.motion->transfer;
+  const std::size_t end = maps.knot_at.size() - (transfer ? 1 : 0);
+  for (std::size_t i = maps.starts || transfer ? 1 : 0; i < end; ++i) {
     const int instant = maps.knot_at[i];
     times.push_back(instant < 0 ? maps.dt * static_cast<double>(i)
                                 : maps.t[static_cast<std::size_t>(instant)]);
@@ -82,6 +85,7 @@ ordered_json scene_of(const Problem& problem, const std::vector<Visual>& visuals
     }
     if (each.answer.trajectory.instants.empty()) continue;
     ordered_json entry = shown_json(each, kMostSets);
+    if (each.tank) entry["tank"] = tank_json(each.answer);
     if (!entry["frames"].empty()) scene["shown"].push_back(std::move(entry));
   }
   return scene;

@@ -10,6 +10,7 @@
 #include "maxwrench/load.h"
 #include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"
+#include "maxwrench/trajectory.h"
 #include "solvers/solve/method.h"
 #include "tests/support/coded_tasks.h"
 #include "tests/support/support.h"
@@ -75,6 +76,15 @@ Problem with_cylinders() {
                       {"post", "link_1"}};
   TaskSpec task = push(finalize(vehicle(), collision));
   task.name = "vehicle with cylinders";
+  return make_problem(task);
+}
+
+/// A task whose last joint follows the one before it.
+Problem with_a_gear() {
+  Robot robot = vehicle();
+  robot.joints[1].gear = Gear{0, 0.5, 0.1};
+  TaskSpec task = push(finalize(robot, vehicle_shapes()));
+  task.name = "vehicle with a gear";
   return make_problem(task);
 }
 
@@ -161,7 +171,7 @@ Json trajectories_of(const Problem& problem) {
   Random random(9);
   const Eigen::VectorXd width = problem.theta_r_max - problem.theta_r_min;
   for (int i = 0; i < kTrajectories; ++i) {
-    Eigen::MatrixXd knots = problem.theta_r_default.transpose().replicate(problem.motion->k, 1);
+    Eigen::MatrixXd knots = default_knots(problem);
     for (auto knot : knots.rowwise()) {
       for (Eigen::Index k = 0; k < knot.size(); ++k) {
         knot[k] += (i == 0 ? 0 : 0.02) * width[k] * (random.uniform() - 0.5);
@@ -195,6 +205,11 @@ int main() {
   for (const char* name : {"planar/trajectory", "uvms/valve_trajectory", "uvms/valve_impulse"}) {
     tasks.push_back(trajectories_of(load_problem(name)));
   }
+  for (const char* name : {"carry_steel_along", "two_link/lift", "two_link/luus"}) {
+    const std::string folder = MAXWRENCH_SOURCE_DIR "/examples/tasks/";
+    tasks.push_back(trajectories_of(load_problem(folder + name + ".toml")));
+  }
+  tasks.push_back(cases_of(with_a_gear()));
   tasks.push_back(cases_of(with_cylinders()));
   std::puts(tasks.dump().c_str());
 }

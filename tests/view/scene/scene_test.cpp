@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <nlohmann/json.hpp>
 
@@ -128,6 +129,23 @@ TEST(Scene, InstantsAreThoseOfTheTrajectory) {
   for (const Json& frame : frames) least = std::min(least, frame["beta"].get<double>());
   EXPECT_NEAR(least, answer.beta(), 1e-9);  // the value of a path is its least wrench
   EXPECT_EQ(frames.back()["t"], 10);
+}
+
+/// A page moves the row of the table whose time is nearest to its cursor.
+TEST(Scene, EachRowOfTheTableHasItsTime) {
+  for (const char* name :
+       {"planar/trajectory", "uvms/valve_impulse", "examples/tasks/carry_steel_along.toml",
+        "examples/tasks/two_link/luus.toml"}) {
+    const Problem problem = load_problem(name);
+    const Json scene = scene_with_default(problem);
+    const auto times = scene["task"]["knot_times"].get<std::vector<double>>();
+    EXPECT_EQ(times.size(), scene["shown"][0]["knots"].size()) << name;
+    EXPECT_TRUE(std::is_sorted(times.begin(), times.end())) << name;
+    if (problem.motion->transfer) {  // the ends are given
+      EXPECT_GT(times.front(), 0) << name;
+      EXPECT_LT(times.back(), problem.motion->T - 0.01) << name;
+    }
+  }
 }
 
 TEST(Scene, WithoutSolidsThereAreBars) {

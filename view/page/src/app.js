@@ -3,12 +3,13 @@ import { kTitles, showComparison } from "./compare.js";
 import { byId } from "./dom.js";
 import { showExplanation, showScenarios } from "./explain.js";
 import { frameAt, someOf } from "./frames.js";
-import { shown, withUnit, words } from "./format.js";
+import { shown, valueText, words } from "./format.js";
 import { read, written } from "./hash.js";
 import { Labels } from "./labels.js";
 import { Live } from "./live.js";
 import { Panel } from "./panel.js";
 import { save } from "./picture.js";
+import { Regions } from "./regions.js";
 import { Stage } from "./stage.js";
 import { roundStep } from "./surroundings.js";
 import { Timeline } from "./timeline.js";
@@ -36,7 +37,8 @@ export class App {
     this.stage.drawn = () => this.labels.place();
     this.stage.setSubject(this.world.bounds, this.world.from());
     this.panel = new Panel(scene, this, Boolean(engine));
-    this.timeline = this.timed ? new Timeline(scene, scene.shown[0].frames, this) : null;
+    this.timeline = this.timed ? new Timeline(scene, scene.shown[0], this) : null;
+    this.regions = scene.within ? new Regions(scene.within, scene, engine, this) : null;
     this.name = scene.shown[0].name;
   }
 
@@ -53,11 +55,11 @@ export class App {
   showPosture(name) {
     if (!this.entries.some((each) => each.name === name)) return;
     this.name = name;
-    this.timeline?.setFrames(this.entry.frames);
+    this.timeline?.setEntry(this.entry);
     this.solutions = null;
     this.draw();
     this.rested();
-    byId("said").textContent = `${name}: ${withUnit(this.frame.beta, this.frame.unit, 5)}, ${this.frame.status.replaceAll("_", " ")}`;
+    byId("said").textContent = `${name}: ${valueText(this.frame.beta, this.frame.unit, 5)}, ${this.frame.status.replaceAll("_", " ")}`;
   }
 
   goTo(t) {
@@ -101,7 +103,7 @@ export class App {
     this.live.moveKnots(knots, (own) => {
       this.name = "own";
       this.t = this.scene.task.knot_times[knot];
-      this.timeline.setFrames(own.frames);
+      this.timeline.setEntry(own);
       this.draw();
       this.rested();
     });
@@ -153,13 +155,14 @@ export class App {
     this.world.model.setGhosts(this.show.ghosts && !beside ? this.ghosts(entries, frames) : []);
     const views = beside ? frames : [this.frame];
     this.stage.setViews(views.map((frame) => () => this.world.set(frame, this.show, this.scale)));
-    const title = (k) => ({ text: `${kTitles[entries[k].name]}  ${withUnit(frames[k].beta, frames[k].unit, 4)}`, kind: entries[k].name === this.name ? "title chosen" : "title" });
+    const title = (k) => ({ text: `${kTitles[entries[k].name]}  ${valueText(frames[k].beta, frames[k].unit, 4)}`, kind: entries[k].name === this.name ? "title chosen" : "title" });
     this.labels.set(views.map((frame, k) => [...(beside ? [title(k)] : []), ...this.world.set(frame, this.show, this.scale)]));
     this.panel.set(this.frame, this.entry, this.timed ? this.knot : null);
     showComparison(this.scene, entries, frames, this.name);
     showExplanation(this.entry.explanation, this.frame, this.frame.unit, this.entry.stale);
     showScenarios(this.entry.scenarios, this.frame.unit, this.entry.stale);
     this.timeline?.set(this.t);
+    this.regions?.set(this.frame);
     this.describe();
   }
 
@@ -179,7 +182,7 @@ export class App {
     else scales.push(`forces: ${round(world.forceMetres * this.scale, "N")}`);
     byId("scales").textContent = scales.join(" \u00b7 ");
     byId("canvas").setAttribute("aria-label",
-      `${words(this.scene.robot.name)}, ${this.name}: ${withUnit(frame.beta, frame.unit, 5)}. Arrow keys turn the picture, plus and minus zoom.`);
+      `${words(this.scene.robot.name)}, ${this.name}: ${valueText(frame.beta, frame.unit, 5)}. Arrow keys turn the picture, plus and minus zoom.`);
     const note = this.show.polytope || this.show.ellipsoid ? this.setNote() : "";
     byId("set-note").hidden = !note;
     byId("set-note").textContent = note;
@@ -244,6 +247,7 @@ export class App {
     document.documentElement.dataset.theme = dark ? "dark" : "light";
     byId("theme").setAttribute("aria-pressed", String(dark));
     this.stage.setTheme(dark ? "dark" : "light");
+    this.regions?.paint();
   }
 
   get dark() {

@@ -1,6 +1,6 @@
 // Arrows and arcs whose length or angle changes without new geometries.
 import {
-  BufferAttribute, BufferGeometry, ConeGeometry, CylinderGeometry, Group, Mesh, MeshStandardMaterial, Quaternion, Vector3,
+  BufferAttribute, BufferGeometry, ConeGeometry, CylinderGeometry, Group, Mesh, MeshBasicMaterial, MeshStandardMaterial, Quaternion, Vector3,
 } from "three";
 
 const kZ = new Vector3(0, 0, 1);
@@ -8,6 +8,18 @@ const shaft = new CylinderGeometry(1, 1, 1, 20).rotateX(Math.PI / 2).translate(0
 const cone = new ConeGeometry(1, 1, 28).rotateX(Math.PI / 2).translate(0, 0, 0.5);
 
 export const paint = (colour, options = {}) => new MeshStandardMaterial({ color: colour, roughness: 0.45, metalness: 0, ...options });
+
+/** Shows the parts of a mark faintly where a link is in front of them. */
+export function shineThrough(mark) {
+  const faint = new MeshBasicMaterial({ transparent: true, opacity: 0.3, depthTest: false, depthWrite: false });
+  const parts = [];
+  mark.traverse((part) => part.isMesh && parts.push(part));
+  for (const part of parts) {
+    part.castShadow = true;
+    part.add(new Mesh(part.geometry, faint));
+  }
+  return faint;
+}
 
 /** A straight arrow along z of its group. */
 export class Arrow extends Group {

@@ -1,6 +1,6 @@
 // What each actuator does: an arrow at a thruster or a sliding joint, a ring about a turning joint.
-import { Color, CylinderGeometry, DoubleSide, Group, Mesh, MeshBasicMaterial, MeshStandardMaterial, Quaternion, SphereGeometry, Vector3 } from "three";
-import { Arc, Arrow, paint } from "./arrows.js";
+import { Color, CylinderGeometry, DoubleSide, Group, Mesh, MeshStandardMaterial, Quaternion, SphereGeometry, Vector3 } from "three";
+import { Arc, Arrow, paint, shineThrough } from "./arrows.js";
 import { matrixAt } from "./format.js";
 
 const kIdle = new Color(0x16a394);
@@ -17,18 +17,6 @@ export function shareOf(actuator, u) {
 /** The colour of a share: red at the limit alone. */
 export function colourOf(share) {
   return share >= kAtLimit ? kLimit : kIdle.clone().lerp(kBusy, share);
-}
-
-/** Shows the parts of a mark faintly where a link is in front of them. */
-function shineThrough(mark) {
-  const faint = new MeshBasicMaterial({ transparent: true, opacity: 0.3, depthTest: false, depthWrite: false });
-  const parts = [];
-  mark.traverse((part) => part.isMesh && parts.push(part));
-  for (const part of parts) {
-    part.castShadow = true;
-    part.add(new Mesh(part.geometry, faint));
-  }
-  return faint;
 }
 
 export class Efforts extends Group {
@@ -65,8 +53,8 @@ export class Efforts extends Group {
 
   /** A thruster's, or a hub where a wheel acts. */
   duct() {
-    if (!this.robot.water) return new Mesh(new SphereGeometry(0.022 * this.size, 24, 16), new MeshStandardMaterial({ color: 0x20262c, roughness: 0.5 }));
-    const material = new MeshStandardMaterial({ color: 0x20262c, roughness: 0.6, side: DoubleSide });
+    if (!this.robot.water) return new Mesh(new SphereGeometry(0.022 * this.size, 24, 16), new MeshStandardMaterial({ color: 0x46525d, roughness: 0.5 }));
+    const material = new MeshStandardMaterial({ color: 0x46525d, roughness: 0.6, side: DoubleSide });
     const ring = new Mesh(new CylinderGeometry(0.045 * this.size, 0.045 * this.size, 0.045 * this.size, 36, 1, true), material);
     ring.castShadow = true;
     return ring;

@@ -1,8 +1,8 @@
 // What binds: the limits at work, in words first; and the scenarios of a list.
 import { byId, make } from "./dom.js";
-import { shown, withUnit, words } from "./format.js";
+import { shown, unbroken, withUnit, words } from "./format.js";
 
-const row = (tag, ...cells) => make("tr", {}, ...cells.map((cell) => make(tag, {}, cell)));
+const row = (tag, ...cells) => make("tr", {}, ...cells.map((cell) => make(tag, {}, unbroken(cell))));
 
 const kSides = { min: "lower", max: "upper", smaller: "smaller" };
 
@@ -24,7 +24,7 @@ function bindingTable({ binding }, unit) {
     : `${limit.down === null ? "\u2212\u221e" : shown(limit.at - limit.down, 4)} \u2026 ${limit.up === null ? "\u221e" : shown(limit.at + limit.up, 4)}`);
   // At a kink a limit that falls and one that rises have rates of their own.
   const rate = ({ rate, rate_down: down, rate_up: up }) => (up === null || shown(down, 4) === shown(up, 4) ? shown(rate, 4) : `${shown(down, 4)} / ${shown(up, 4)}`);
-  return namedTable(["at", `10 % more [${unit}]`, "rate", "holds from \u2026 to"],
+  return namedTable(["at", `10\u00a0% more [${unit}]`, "rate", "holds\u00a0in"],
     binding.map((limit) => [nameOf(limit), withUnit(limit.at, limit.unit, 4), limit.gain === null ? "\u2013" : shown(limit.gain, 4), rate(limit), range(limit)]));
 }
 
@@ -58,13 +58,13 @@ function ofPosture(explanation, unit) {
 
 const sentence = (line) => {
   const text = words(line.replace(/^binds: /, ""));
-  return text.charAt(0).toUpperCase() + text.slice(1) + ".";
+  return unbroken(text.charAt(0).toUpperCase() + text.slice(1) + ".");
 };
 
 function ofInstant(explanation, frame, unit) {
   if (explanation.missing) return [make("p", {}, `Not known: ${words(explanation.missing)}.`)];
   const at = explanation.instants.find((instant) => Math.abs(instant.t - frame.near.t) < 1e-9);
-  const where = `at ${shown(frame.near.t, 4)} s`;
+  const where = `at ${withUnit(frame.near.t, "s", 4)}`;
   if (!at) {
     const times = [...new Set(explanation.instants.map((instant) => shown(instant.t, 3)))];
     return [make("p", {}, `No limit counts ${where}. ${times.length ? `The value is determined at ${times.slice(0, 8).join(", ")}${times.length > 8 ? " \u2026" : ""} s.` : ""}`)];
@@ -95,8 +95,8 @@ export function showScenarios(scenarios, unit, stale) {
   section.classList.toggle("stale", Boolean(stale));
   if (!scenarios) return;
   const all = `of ${scenarios.count} scenario${scenarios.count === 1 ? "" : "s"}`;
-  byId("decides").textContent = scenarios.decides ? `${scenarios.decides} decides, ${all}; the picture shows its efforts.` : `None decides, ${all}.`;
+  byId("decides").textContent = scenarios.decides ? `${words(scenarios.decides)} decides, ${all}; the picture shows its efforts.` : `None decides, ${all}.`;
   const end = (value, none) => (value === null ? none : shown(value, 5));
-  const rows = (scenarios.ends ?? []).map((each) => [each.name, ...(each.held ? [end(each.low, "\u2212\u221e"), end(each.high, "\u221e")] : ["not held", ""])]);
+  const rows = (scenarios.ends ?? []).map((each) => [words(each.name), ...(each.held ? [end(each.low, "\u2212\u221e"), end(each.high, "\u221e")] : ["not held", ""])]);
   byId("ends").replaceChildren(...(rows.length ? [table(["scenario", `from [${unit}]`, `to [${unit}]`], rows)] : [make("p", { class: "note" }, "They are too many to be listed.")]));
 }

@@ -9,8 +9,14 @@ export function shown(value, digits = 4) {
   return text.replace(/-/g, "\u2212");
 }
 
-/** A value with its unit. */
-export const withUnit = (value, unit, digits) => `${shown(value, digits)} ${unit}`;
+/** The text with units that do not break at the end of a line. */
+export const unbroken = (text) => text.replaceAll("N m", "N\u00a0m").replace(/(\d) (N|kg|rad|m|s|%)(?![a-z])/g, "$1\u00a0$2");
+
+/** A value with its unit, on one line. */
+export const withUnit = (value, unit, digits) => unbroken(`${shown(value, digits)} ${unit}`);
+
+/** The value of an answer, which may have none. */
+export const valueText = (value, unit, digits) => (Number.isFinite(value ?? NaN) ? withUnit(value, unit, digits) : "no value");
 
 /** The matrix of the i-th pose in a list of poses, 12 numbers each, by rows. */
 export function matrixAt(numbers, i = 0) {

@@ -39,7 +39,7 @@ export class Labels {
       const free = (v) => !taken.some(([u, w]) => Math.abs(u - x) < 60 && Math.abs(w - v) < 18);
       y += kShifts.find((shift) => free(y + shift)) ?? 0;
       const width = label.element.offsetWidth;
-      x = Math.min(Math.max(x, box.x + 2), box.x + box.width - width - 2);
+      x = Math.min(Math.max(x, box.x + 6), box.x + box.width - width - 6);
       taken.push([x, y]);
       label.element.style.transform = `translate(${x}px, ${y}px)`;
       label.place = [x, y];

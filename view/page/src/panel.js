@@ -2,7 +2,7 @@
 import { byId, make } from "./dom.js";
 import { kTitles } from "./compare.js";
 import { colourOf, kAtLimit, shareOf } from "./efforts.js";
-import { shown, withUnit, words } from "./format.js";
+import { shown, valueText, withUnit, words } from "./format.js";
 
 const css = (colour) => `#${colour.getHexString()}`;
 
@@ -11,7 +11,7 @@ export class Panel {
   constructor(scene, act, live) {
     this.scene = scene;
     this.act = act;
-    byId("name").textContent = scene.task.name;
+    byId("name").append(...scene.task.name.split(/(?<=[/_.])/).flatMap((part) => [part, make("wbr")]));
     byId("about").textContent = `${scene.robot.name} \u00b7 ${scene.measure}, wrench ${scene.wrench}`;
     this.addPostures(live);
     this.addCoordinates(live);
@@ -23,7 +23,7 @@ export class Panel {
     if (live) names.push("own");
     this.postures = names.map((name, i) => {
       const input = make("input", { type: "radio", name: "posture", id: `posture-${name}`, value: name, onchange: () => this.act.showPosture(name), disabled: name === "own" });
-      const value = make("small", {}, name === "own" ? "move a slider" : withUnit(this.scene.shown[i].beta, this.scene.shown[i].unit, 4));
+      const value = make("small", {}, name === "own" ? "move a slider" : valueText(this.scene.shown[i].beta, this.scene.shown[i].unit, 4));
       byId("postures").append(input, make("label", { for: input.id }, kTitles[name], value));
       return { name, input, value };
     });
@@ -78,7 +78,7 @@ export class Panel {
       posture.input.checked = posture.name === name;
       if (posture.name !== "own" || name !== "own") continue;
       posture.input.disabled = false;
-      posture.value.textContent = withUnit(entry.beta, entry.unit, 4);
+      posture.value.textContent = valueText(entry.beta, entry.unit, 4);
     }
     this.sliders.forEach((slider, i) => {
       slider.input.value = frame.theta_r[i];
@@ -112,6 +112,6 @@ export class Panel {
     const several = frames.length > 1 ? frames : [];
     byId("solutions-section").hidden = !several.length;
     byId("solutions").replaceChildren(...several.map((frame, i) =>
-      make("button", { type: "button", "aria-pressed": String(i === chosen), onclick: () => this.act.choose(i) }, `${i + 1}: ${withUnit(frame.beta, frame.unit, 4)}`)));
+      make("button", { type: "button", "aria-pressed": String(i === chosen), onclick: () => this.act.choose(i) }, `${i + 1}: ${valueText(frame.beta, frame.unit, 4)}`)));
   }
 }

@@ -5,7 +5,7 @@ import { matrixAt } from "./format.js";
 
 const kBase = 0x3f6c9c;
 const kArm = [0xe9ecef, 0xcfd6dd];
-const kHub = 0x2d3740;
+const kHub = 0x4f5d69;
 const kGhost = new MeshStandardMaterial({ color: 0x7b93ab, transparent: true, opacity: 0.13, depthWrite: false, roughness: 1 });
 
 function materialOf(body, link) {

@@ -1,10 +1,29 @@
 // The time of a trajectory: play, pause, scrub, and curves with the same cursor.
 import { byId, make } from "./dom.js";
 import { shareOf } from "./efforts.js";
-import { shown, words } from "./format.js";
+import { shown, withUnit, words } from "./format.js";
 
 const kWidth = 300;
 const kHeight = 96;
+
+/** What the virtual tank reads along c, in a scale of its own: it differs little from what is planned. */
+function tankPlot(tank, unit) {
+  if (!tank?.curve.t.length) return [];
+  const { t: times, planned, reading } = tank.curve;
+  const [low, high] = [Math.min(...planned, ...reading), Math.max(...planned, ...reading)];
+  const margin = Math.max(0.15 * (high - low), 1e-3 * Math.max(Math.abs(low), Math.abs(high)), 1e-9);
+  return [{ title: `virtual tank [${unit}]`, digits: 5, range: [low - margin, high + margin],
+    curves: [{ name: "planned", times, values: planned, soft: true }, { name: "reading of the virtual tank", times, values: reading, bold: true }] }];
+}
+
+/** How an experiment ended. */
+function verdictOf(tank, unit) {
+  if (tank === null) return "The virtual tank has nothing to carry out.";
+  const counts = tank.reading === null ? "" : `, reads ${withUnit(tank.reading, unit, 5)}${tank.t_h === null ? "" : ` at ${shown(tank.t_h, 4)} s`}`;
+  const planned = tank.planned === null ? "" : ` (requested ${shown(tank.asked, 5)}, planned ${withUnit(tank.planned, unit, 5)})`;
+  const why = tank.missed ?? tank.reason;
+  return `Virtual tank: ${tank.held ? "held" : "not held"}${counts}${planned}${why ? `; ${why}` : ""}.`;
+}
 
 /** The curves of a trajectory: value, efforts and rates. */
 function plotsOf(scene, frames) {
@@ -22,14 +41,14 @@ function plotsOf(scene, frames) {
     return [{ name: `rate of ${words(actuator.name)}`, actuator: i, values, dashed: true }];
   });
   return [
-    { title: `wrench along c [${scene.task.unit}]`, zero: true, curves: [{ name: "wrench along c", values: frames.map((f) => f.beta ?? NaN), bold: true }] },
+    { title: `${/^N/.test(scene.task.unit) ? "wrench along c" : "value"} [${scene.task.unit}]`, zero: true, curves: [{ name: "wrench along c", values: frames.map((f) => f.beta ?? NaN), bold: true }] },
     { title: "efforts / limits", range: [-1, 1], curves: frames[0].u.length ? actuators.map((a, i) => ({ name: words(a.name), actuator: i, values: frames.map((f) => signed(a, f.u[i])) })) : [] },
-    { title: "speeds and effort rates / limits", range: [-1, 1], curves: [...speeds, ...rates] },
+    { title: "speeds, rates / limits", range: [-1, 1], curves: [...speeds, ...rates] },
   ];
 }
 
 export class Timeline {
-  constructor(scene, frames, act) {
+  constructor(scene, entry, act) {
     this.act = act;
     this.scene = scene;
     byId("time").hidden = false;
@@ -40,16 +59,22 @@ export class Timeline {
       this.pause();
       act.goTo(Number(this.slider.value));
     });
-    this.setFrames(frames);
+    this.setEntry(entry);
   }
 
-  setFrames(frames) {
+  /** Draws the curves of a trajectory. One of the sliders has no experiment in the tank. */
+  setEntry({ frames, tank }) {
     this.frames = frames;
+    this.tank = tank;
     this.end = frames[frames.length - 1].t;
     this.slider.max = this.end;
     const known = (curve) => curve.values.every(Number.isFinite);
-    this.plots = plotsOf(this.scene, frames).map((plot) => ({ ...plot, curves: plot.curves.filter(known) })).filter((plot) => plot.curves.length);
+    const unit = this.scene.task.unit;
+    this.plots = [...plotsOf(this.scene, frames), ...tankPlot(tank, unit)].map((plot) => ({ ...plot, curves: plot.curves.filter(known) })).filter((plot) => plot.curves.length);
     byId("curves").replaceChildren(...this.plots.map((plot) => this.draw(plot)));
+    const asked = this.scene.shown.some((each) => each.tank);
+    byId("tank").hidden = !asked;
+    byId("tank-verdict").textContent = !asked ? "" : tank === undefined ? "The virtual tank runs in the command only: maxwrench simulate." : verdictOf(tank, unit);
   }
 
   draw(plot) {
@@ -61,8 +86,8 @@ export class Timeline {
     const grid = [low, (low + high) / 2, high].map((value) => make("line", { x1: 0, x2: kWidth, y1: y(value), y2: y(value), class: "grid" }));
     const curves = plot.curves.map((curve, i) => {
       const path = make("path", {
-        d: curve.values.map((value, k) => `${k ? "L" : "M"}${x(this.frames[k].t).toFixed(2)} ${y(Math.min(Math.max(value, low), high)).toFixed(2)}`).join(""),
-        class: `curve${curve.bold ? " bold" : ""}${curve.dashed ? " dashed" : ""}`, style: curve.bold ? "" : `--hue: ${(i * 47) % 360}`,
+        d: curve.values.map((value, k) => `${k ? "L" : "M"}${x(curve.times ? curve.times[k] : this.frames[k].t).toFixed(2)} ${y(Math.min(Math.max(value, low), high)).toFixed(2)}`).join(""),
+        class: `curve${curve.bold ? " bold" : ""}${curve.dashed ? " dashed" : ""}${curve.soft ? " soft dashed" : ""}`, style: curve.bold ? "" : `--hue: ${(i * 47) % 360}`,
         "data-actuator": curve.actuator,
         onpointerenter: () => curve.actuator !== undefined && this.act.highlight(curve.actuator), onpointerleave: () => this.act.highlight(-1),
       });
@@ -75,7 +100,7 @@ export class Timeline {
       viewBox: `0 0 ${kWidth} ${kHeight}`, preserveAspectRatio: "none", role: "img", "aria-label": `${plot.title} over time`,
       onpointerdown: (event) => this.scrub(event), onpointermove: (event) => event.buttons && this.scrub(event),
     }, ...grid, ...curves, plot.cursor);
-    const range = make("figcaption", {}, plot.title, make("small", {}, `${shown(low, 3)} \u2026 ${shown(high, 3)}`));
+    const range = make("figcaption", {}, plot.title, make("small", {}, `${shown(low, plot.digits ?? 3)} \u2026 ${shown(high, plot.digits ?? 3)}`));
     return make("figure", {}, range, svg);
   }
 
@@ -90,10 +115,20 @@ export class Timeline {
     this.slider.value = t;
     this.slider.setAttribute("aria-valuetext", `${shown(t, 3)} s`);
     byId("clock").textContent = `${t.toFixed(2)} / ${this.end.toFixed(2)} s`;
+    byId("tank-reading").textContent = this.readingAt(t);
     for (const plot of this.plots) {
       plot.cursor.setAttribute("x1", plot.x(t));
       plot.cursor.setAttribute("x2", plot.x(t));
     }
+  }
+
+  /** What the tank reads at a time, of the sample nearest to it. */
+  readingAt(t) {
+    const times = this.tank?.curve.t ?? [];
+    if (!times.length) return "";
+    if (t > times[times.length - 1] + 0.02 * this.end) return " It has ended before the cursor.";
+    const k = times.reduce((best, time, i) => (Math.abs(time - t) < Math.abs(times[best] - t) ? i : best), 0);
+    return ` ${withUnit(this.tank.curve.reading[k], this.scene.task.unit, 5)} at the cursor.`;
   }
 
   highlight(i) {

@@ -1,6 +1,6 @@
 // The direction c and the wrenches of the contacts, as arrows (forces) and arcs (torques).
 import { Group, Vector3 } from "three";
-import { Arc, Arrow, paint } from "./arrows.js";
+import { Arc, Arrow, paint, shineThrough } from "./arrows.js";
 import { matrixAt } from "./format.js";
 
 const kTurn = 1.6 * Math.PI; // of the largest torque
@@ -32,6 +32,8 @@ export class Wrenches extends Group {
     this.h = new WrenchMark(size, 0.013, 0xe8590c, { roughness: 0.3 });
     this.h2 = new WrenchMark(size, 0.011, 0x8f3fd1, { roughness: 0.3 });
     this.add(this.c, this.h, this.h2);
+    shineThrough(this.h).color.set(0xe8590c);
+    shineThrough(this.h2).color.set(0x8f3fd1);
   }
 
   /** `metres` is the length of 1 N. Returns the labels: text and place. */
