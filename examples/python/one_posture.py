@@ -3,7 +3,7 @@
 python3 one_posture.py [URDF TOOL] [--points N] [--budget N]
 
 The rule of pal-robotics/dynamic_payload_analysis is repeated in `one_posture` and `bisected`: the joints move from zero until
-the tool is at a point, whatever its orientation, and the payload of that posture is bisected. Beside it `map` searches the
+the tool is at a point, whatever its orientation, and the payload of that posture is bisected. Beside it `solve` searches the
 best posture of each point. Without arguments: the Franka Panda and the UR10 of problems/gallery.
 """
 

@@ -193,3 +193,23 @@ def test_a_proof_leaves_rings_that_hold_the_mass(proof):
         empty = proof.refute(chain, 12, radii, heights, np.ones(cells.shape, bool), tilt, 300_000)
         assert cells.any() and empty.any()
         assert not (cells & empty).any()
+
+
+def test_shares_of_the_panda_are_those_of_its_rings():
+    """The table of results/, docs/studies.md and the README, from the rings of the CSV."""
+    root = FOLDER.parents[1]
+    rings = np.genfromtxt(root / "results/panda_payload.csv", delimiter=",", names=True)
+    table = re.findall(r"^ +(9|12|20) +(.*)$", (root / "results/panda_payload.txt").read_text(), re.MULTILINE)
+    assert len(table) == 6
+    page = (root / "docs/studies.md").read_text()
+    for n, (mass, shares) in enumerate(table):
+        kind = "any" if n < 3 else "down"
+        best, cannot = rings[f"{kind}_kg"], rings[f"{kind}_cannot_kg"]
+        volume = rings["radius"] * np.isfinite(best)  # of a ring: 2 pi radius times its section
+        held = 100 * volume[best >= float(mass)].sum() / volume.sum()
+        none = 100 * volume[cannot <= float(mass)].sum() / volume.sum()
+        assert numbers(shares)[:2] == [pytest.approx(held, abs=0.051), pytest.approx(none, abs=0.051)]
+        assert f" {held:.1f} " in page and f" {none:.1f} " in page
+        assert not (best >= cannot).any()
+    readme = (root / "README.md").read_text()
+    assert f"{numbers(table[0][1])[0]:.0f} % of the workspace" in readme and f"in {numbers(table[0][1])[1]} % it is proven" in readme
