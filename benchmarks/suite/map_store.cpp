@@ -12,7 +12,7 @@
 
 #include "benchmarks/tables/csv.h"
 #include "benchmarks/tables/write_file.h"
-#include "maxwrench/objective.h"
+#include "maxwrench/problem.h"
 #include "maxwrench/version.h"
 #include "solvers/solve/row.h"
 

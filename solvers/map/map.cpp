@@ -247,9 +247,9 @@ CapabilityMap map(const Problem& task, const MapPlan& plan, const Options& optio
   static_cast<Case&>(each) = with_map_search(task, options);
   const Method method = resolve(*result.task, each);
   result.choice = method.choice;
+  if (plan.bound) require_bound(*result.task, plan, result.choice);
   result.unit = method.unit;
   result.unchanging = find_unchanging(task, plan, each);
-  if (plan.bound) require_bound(*result.task, plan, result.choice);
   Options scratch = options;
   scratch.search.clear();
   scratch.budget = plan.check_budget;

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "benchmarks/tables/csv.h"
 #include "maxwrench/load.h"
 #include "tests/support/coded_tasks.h"

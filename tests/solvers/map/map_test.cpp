@@ -258,6 +258,10 @@ TEST(Map, RefusesBoundsAtOnce) {
   plan.seconds = 60;
   plan.gap = 0;
   EXPECT_THAT(rejection_of([&] { map(task, plan, options); }), HasSubstr("gap: got 0"));
+  plan.gap = 1e-3;
+  Problem geared = task;
+  geared.robot.joints[2].gear = Gear{1, 1, 0};
+  EXPECT_THAT(rejection_of([&] { map(geared, plan, options); }), HasSubstr("by a gear"));
 }
 
 /// Improved are: 2 beside 1, a value beside none; not: 1.0009 beside 1, none beside none.
