@@ -24,9 +24,11 @@ namespace {
 std::string as_option(const CLI::App& app, const std::string& message) {
   std::string key = message.substr(0, message.find(": got "));
   std::replace(key.begin(), key.end(), '_', '-');
+  const std::string of_key = message.substr(std::min(key.size(), message.size()));
+  if (key == "seconds") key = "time";
   for (const CLI::App* command : app.get_subcommands()) {
     if (command->get_option_no_throw("--" + key) == nullptr) continue;
-    return "--" + key + message.substr(key.size());
+    return "--" + key + of_key;
   }
   return message;
 }

@@ -1,6 +1,7 @@
 #include "benchmarks/suite/map_store.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
 #include <cmath>
@@ -70,6 +71,19 @@ double number_in(const std::string& text, std::optional<double> none = std::null
 
 std::string text_of_value(double value) { return value == kInfinity ? "" : exact_text(value); }
 
+/// Gives a row what only another row of the same cell has, or has better: the lower bound, and the
+/// larger result of a search from scratch. Returns whether anything changed.
+bool take_over_proofs(const std::vector<std::string>& from, std::size_t bound, std::size_t scratch,
+                      std::vector<std::string>& to) {
+  const std::vector<std::string> before = to;
+  if (number_in(from[bound], kInfinity) < number_in(to[bound], kInfinity)) to[bound] = from[bound];
+  if (to[scratch].empty() ||
+      (!from[scratch].empty() && number_in(from[scratch]) > number_in(to[scratch]))) {
+    to[scratch] = from[scratch];
+  }
+  return to != before;
+}
+
 void append_numbers(const Eigen::VectorXd& v, std::size_t count, std::vector<std::string>& row) {
   for (std::size_t i = 0; i < count; ++i) {
     const auto at = static_cast<Eigen::Index>(i);
@@ -81,7 +95,11 @@ void append_numbers(const Eigen::VectorXd& v, std::size_t count, std::vector<std
 
 MapStore::MapStore(const fs::path& folder, const Problem& task, const MapPlan& plan,
                    const Case& choice, bool again)
-    : columns_(columns_of(task, plan)),
+    : task_(task),
+      over_(plan.over),
+      choice_(choice),
+      lattice_(plan),
+      columns_(columns_of(task, plan)),
       axes_(plan.over.size()),
       theta_r_(static_cast<std::size_t>(task.redundancy())),
       joints_(task.robot.joints.size()),
@@ -122,7 +140,33 @@ MapStore::MapStore(const fs::path& folder, const Problem& task, const MapPlan& p
 
 std::optional<MapCell> MapStore::find(const std::vector<long>& index) const {
   const auto found = known_.find(index);
-  return found == known_.end() ? std::nullopt : std::optional(found->second);
+  if (found == known_.end()) return std::nullopt;
+  require_true(found->second);
+  return found->second;
+}
+
+void MapStore::require_true(const MapCell& cell) const {
+  const auto reject = [&](const std::string& got, const std::string& expected) {
+    throw std::invalid_argument(fmt::format("{}: cell {}: got {}, expected {}",
+                                            table_file(kMapTable).string(),
+                                            fmt::join(cell.index, ","), got, expected));
+  };
+  const Eigen::VectorXd at = lattice_.at(cell.index);
+  if (!((cell.at - at).cwiseAbs().maxCoeff() <= kAnswerTolerance)) {
+    reject("other coordinates", "those of its place");
+  }
+  if (cell.status != Status::kBestFound) return;
+  if (cell.bound < cell.beta) {
+    reject(fmt::format("bound {:.9g}", cell.bound), fmt::format("at least {:.9g}", cell.beta));
+  }
+  Problem here = posed(task_, over_, at);
+  prepare_ik_solutions(here);
+  const Answer anew = evaluate(here, cell.theta_r, {choice_});
+  const double beta = anew.has_value() ? anew.beta() : std::numeric_limits<double>::quiet_NaN();
+  if (!(std::abs(beta - cell.beta) <= kAnswerTolerance * (1 + std::abs(cell.beta)))) {
+    reject(fmt::format("beta {:.9g}", cell.beta),
+           fmt::format("{:.9g}, the value of its posture", beta));
+  }
 }
 
 void MapStore::put(const MapCell& cell) {
@@ -208,15 +252,20 @@ std::size_t merge_maps(const fs::path& out, const std::vector<std::string>& fold
   merged.hold();
   for (const std::string& folder : folders) {
     const Table part(fs::path(folder) / kMapTable, columns, axes);
-    const std::size_t beta = part.column("beta");
+    const std::size_t beta = part.column("beta"), bound = part.column("bound"),
+                      scratch = part.column("scratch");
     part.each([&](const std::vector<std::string>& row) {
-      const auto there = merged.find(row);
+      auto there = merged.find(row);
       if (there && there->at(beta) != row.at(beta)) {
         throw std::invalid_argument(fmt::format(
             "{}: got another value of a cell than in {} or an earlier folder, expected the same",
             (fs::path(folder) / kMapTable).string(), out.string()));
       }
-      if (!there) merged.add(row);
+      if (!there) {
+        merged.add(row);
+      } else if (take_over_proofs(row, bound, scratch, *there)) {
+        merged.add(*there);
+      }
     });
   }
   merged.write();

@@ -8,6 +8,8 @@
 
 #include "benchmarks/tables/table.h"
 #include "maxwrench/map.h"
+#include "maxwrench/problem.h"
+#include "solvers/map/lattice.h"
 
 namespace maxwrench {
 
@@ -22,7 +24,10 @@ class MapStore {
   MapStore(const std::filesystem::path& folder, const Problem& task, const MapPlan& plan,
            const Case& choice, bool again);
 
-  /// A cell that was known at the beginning. May be called from any thread.
+  /// A cell that was known at the beginning. Its posture is evaluated again. May be called from any
+  /// thread.
+  ///
+  /// Throws std::invalid_argument unless the posture has the value of the cell.
   std::optional<MapCell> find(const std::vector<long>& index) const;
   /// The number of those cells.
   std::size_t known() const { return known_.size(); }
@@ -33,7 +38,12 @@ class MapStore {
 
  private:
   MapCell read(const std::vector<std::string>& row) const;
+  void require_true(const MapCell& cell) const;
 
+  const Problem task_;
+  const std::vector<MapAxis> over_;
+  const Case choice_;
+  const Lattice lattice_;
   std::vector<std::string> columns_;
   std::size_t axes_, theta_r_, joints_;
   std::string unit_, seed_;

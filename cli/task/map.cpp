@@ -128,6 +128,11 @@ void add_map(CLI::App& app, int& exit_status) {
       ->capture_default_str();
   command.add_option("--check", options->plan.check,
                      "share of the cells that a search from scratch checks");
+  command
+      .add_option("--check-budget", options->plan.check_budget,
+                  "evaluations of such a search (default: it is restarted until another optimum is "
+                  "unlikely)")
+      ->check(CLI::Range(1L, long{kMostBudget}));
   command.add_flag("--certify", options->plan.bound, "also prove a bound in each cell");
   command.add_option("--gap", options->plan.gap, "the gap at which such a proof is complete")
       ->capture_default_str();

@@ -64,7 +64,8 @@ def first_page(readme):
     start, rest = readme.split("\n## ", 1)
     contents = {
         "Use it": ["overview.md", "docs/install.md", "docs/command.md", "docs/python.md", "docs/own_robot.md",
-                   "docs/robot_files.md", "docs/tank.md", "docs/view.md", "docs/questions.md", "gallery.md"],
+                   "docs/robot_files.md", "docs/tank.md", "docs/view.md", "docs/studies.md", "docs/questions.md",
+                   "gallery.md"],
         "How it works": ["docs/glossary.md", "docs/algorithms.md", "docs/benchmarks.md"],
         "Reference": ["reference/python.md", "reference/cpp.md"],
         "Project": ["CONTRIBUTING.md", "CHANGELOG.md", "view/engine/README.md", "reports.md"],

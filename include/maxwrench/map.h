@@ -66,7 +66,10 @@ struct MapPlan {
   /// An interval is halved if the corners of its cell differ by more than this share of the largest
   /// of them, or in status.
   double tolerance = 0.05;
-  double check = 0;    ///< share of the cells that a search from scratch checks [0, 1]
+  double check = 0;  ///< share of the cells that a search from scratch checks [0, 1]
+  /// Evaluations of such a search, which is `default_search`; 0: it is restarted until another
+  /// optimum is unlikely, as that of `solve`.
+  long check_budget = 0;
   bool bound = false;  ///< whether `certify` proves a bound in each cell
   double gap = 1e-3,   ///< the gap that ends this proof, as `ProofOptions::gap`
       seconds = 60;    ///< the time that ends it, as `ProofOptions::seconds`
@@ -99,6 +102,11 @@ struct CapabilityMap : Verdict {
   long checked() const;
   /// Returns the number of these that it improves by more than 0.1 %, or in status.
   long improved() const;
+  /// Returns the number of cells whose bound is within `MapPlan::gap` of their value.
+  long proven() const;
+  /// Returns the largest gap of a cell that has a value, (bound - beta)/|beta|; infinite: a cell
+  /// has no bound.
+  double widest_gap() const;
   /// Returns the cell with the largest value, or null if none has a value.
   const MapCell* best() const;
 };
@@ -122,7 +130,8 @@ struct CapabilityMap : Verdict {
 /// @return the map. An interruption leaves out the cells that it stops
 /// @throws std::invalid_argument, which names the coordinate, its value and what was expected: for
 ///         a coordinate that does not exist, occurs twice, or does not suit the task, limits that
-///         are not finite or not in order, a grid above `kMostCells`; also as `solve`
+///         are not finite or not in order, a grid above `kMostCells`; also as `solve` and, for
+///         bounds, as `certify`
 CapabilityMap map(const Problem& task, const MapPlan& plan, const Options& options = {});
 
 /// The evaluations of a cell of level 0 if no budget is given.

@@ -463,6 +463,8 @@ class Map:
     @property
     def improved(self) -> int: ...
     @property
+    def proven(self) -> int: ...
+    @property
     def unchanging(self) -> list[str]: ...
     @property
     def best(self) -> dict[str, Any] | None: ...
@@ -723,6 +725,7 @@ def map(
     refine: int = 0,
     tolerance: float = 0.05,
     check: float = 0.0,
+    check_budget: int = 0,
     certify: bool = False,
     gap: float = 1e-3,
     seconds: float = 60.0,

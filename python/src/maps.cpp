@@ -42,9 +42,10 @@ std::vector<MapAxis> axes_in(const py::object& over) {
 }
 
 PyMap make_map(const py::object& task, const py::object& over, int refine, double tolerance,
-               double check, bool certify, double gap, double seconds, const std::string& measure,
-               const std::string& wrench, const std::string& solver, const std::string& search,
-               std::uint64_t seed, long budget, int threads, const py::object& callback) {
+               double check, long check_budget, bool certify, double gap, double seconds,
+               const std::string& measure, const std::string& wrench, const std::string& solver,
+               const std::string& search, std::uint64_t seed, long budget, int threads,
+               const py::object& callback) {
   PyMap result{{}, task_of(task)};
   const Problem& problem = *result.task.problem;
   MapPlan plan;
@@ -52,6 +53,7 @@ PyMap make_map(const py::object& task, const py::object& over, int refine, doubl
   plan.refine = refine;
   plan.tolerance = tolerance;
   plan.check = check;
+  plan.check_budget = check_budget;
   plan.bound = certify;
   plan.gap = gap;
   plan.seconds = seconds;
@@ -142,6 +144,7 @@ Args:
     refine: how often cells of the grid are halved whose corners differ.
     tolerance: the difference of corners, as a share of the largest, above which they do.
     check: share of the cells that a search from scratch checks; see ``scratch``.
+    check_budget: evaluations of such a search; 0: it is restarted until another optimum is unlikely.
     certify: whether to prove a bound in each cell, to ``gap`` within ``seconds``.
     gap: the gap at which such a proof is complete, relative to its value.
     seconds: the time after which such a proof ends [s].
@@ -249,6 +252,9 @@ void add_maps(py::module_& m) {
           "improved", [](const PyMap& self) { return self.map.improved(); },
           "The number of these that it improves by more than 0.1 %.")
       .def_property_readonly(
+          "proven", [](const PyMap& self) { return self.map.proven(); },
+          "The number of cells whose bound is within ``gap`` of their value.")
+      .def_property_readonly(
           "unchanging", [](const PyMap& self) { return self.map.unchanging; },
           "The coordinates without effect on any sampled posture.")
       .def(
@@ -268,7 +274,7 @@ void add_maps(py::module_& m) {
       .def("__repr__", repr_of_map);
   m.def("map", &make_map, py::arg("task"), py::arg("over"), py::kw_only(), py::arg("refine") = 0,
         py::arg("tolerance") = MapPlan().tolerance, py::arg("check") = 0.0,
-        py::arg("certify") = false, py::arg("gap") = MapPlan().gap,
+        py::arg("check_budget") = 0, py::arg("certify") = false, py::arg("gap") = MapPlan().gap,
         py::arg("seconds") = MapPlan().seconds, py::arg("measure") = Case().measure,
         py::arg("wrench") = "pure", py::arg("solver") = "", py::arg("search") = "",
         py::arg("seed") = 1, py::arg("budget") = 0, py::arg("threads") = 0,

@@ -1,5 +1,6 @@
 """The examples run with small settings, and print what they find."""
 
+import gzip
 import os
 import pathlib
 import re
@@ -7,6 +8,7 @@ import subprocess
 import sys
 
 import maxwrench as mw
+import numpy as np
 import pytest
 
 FOLDER = pathlib.Path(__file__).parents[2] / "examples" / "python"
@@ -112,3 +114,117 @@ def test_race(tmp_path):
     for name, (worst, median, best, _, used) in table.items():
         assert 3.2 < worst <= median <= best < 3.4811  # proven
         assert used == 1000 if name.startswith("SciPy") else used <= 1000
+
+
+def test_weakest_posture(tmp_path):
+    text = run(tmp_path, "weakest_posture.py", "--samples", "300")
+    # The maker promises 3 kg in any posture; joint 2 is strong enough for no more than 87 N m.
+    assert 3 < numbers(text.splitlines()[0])[0] < 3.6
+    assert re.search(r"panda_joint2 +-?8[67]\.\d+ of 87", text)
+    # With a tenth of its effort this joint does not hold the arm.
+    text = run(tmp_path, "weakest_posture.py", "--samples", "300", "--effort", "panda_joint2=8.7")
+    assert numbers(text.splitlines()[0])[0] == 0 and "does not hold its own weight" in text
+
+
+def test_one_posture(tmp_path):
+    urdf = FOLDER.parents[1] / "tests/data/robots/panda/panda.urdf"
+    text = run(tmp_path, "one_posture.py", urdf, "panda_hand_tcp", "--points", "4", "--budget", "400")
+    assert text.count("gain: median") == 1
+    pairs = re.findall(r"one +([\d.]+) kg  best +([\d.]+|nan) kg", text)
+    assert len(pairs) >= 4
+    # The tool of the one posture is within 1 mm of the point.
+    assert sum(float(best) >= 0.99 * float(one) for one, best in pairs) >= 0.8 * len(pairs)
+
+
+def test_panda_payload(tmp_path):
+    # Maps that found nothing: all masses are those of random postures.
+    with gzip.open(tmp_path / "map.csv.gz", "wt") as file:
+        file.write("i_x,i_z,beta\n" + "".join(f"{i},{j},\n" for i in range(10) for j in range(19)))
+    maps = ["--any", str(tmp_path), "--down", str(tmp_path)]
+    text = run(tmp_path, "panda_payload.py", *maps, "--samples", "20000", "--boxes", "60000")
+    assert 3 < numbers(text.splitlines()[0])[0] < 3.7
+    for line in text.splitlines():
+        if re.match(r"  +(9|12|20) ", line):
+            _, best, none, undecided, one = numbers(line)
+            assert best + none + undecided == pytest.approx(100, abs=0.2)
+            assert one <= best + 15
+    assert (tmp_path / "panda_payload.csv").read_text().count("\n") == 191
+    assert "best posture, tool down" in (tmp_path / "panda_payload.svg").read_text()
+
+
+def test_ring_proof(tmp_path):
+    text = run(tmp_path, "ring_proof.py", "--mass", "20", "--boxes", "600000")
+    proven = int(re.search(r"^(\d+) of 264 rings proven", text, re.MULTILINE)[1])
+    # Far rings are beyond the arm's reach of 0.95 m from 0.333 m above the floor, near ones are not.
+    assert proven >= 10
+    grid = [line.split()[-1] for line in text.splitlines() if re.match(r" +-?\d\.\d\d m  ", line)]
+    assert len(grid) == 22 and all(row[3] == "?" for row in grid[8:14])
+
+
+@pytest.fixture
+def proof():
+    sys.path.insert(0, str(FOLDER))
+    yield __import__("ring_proof")
+    sys.path.remove(str(FOLDER))
+
+
+def test_boxes_of_a_proof_hold_their_postures(proof):
+    """Radius, height and efforts of postures in boxes, from the package's model, are within the boxes' enclosures."""
+    task = mw.Static(mw.Robot.from_urdf(proof.PANDA, tool="panda_hand_tcp"), c="z")
+    chain, rng = proof.Chain(proof.PANDA, "panda_hand_tcp"), np.random.default_rng(2)
+    lower, upper = chain.limits()
+    centre = rng.uniform(lower, upper, (400, 5))
+    half = rng.uniform(0, 0.25, (400, 1)) * rng.uniform(0, 1, (400, 5))
+    q = np.clip(centre + half * rng.uniform(-1, 1, (400, 5)), lower, upper)
+    q[::2] = np.clip(centre + half * rng.choice([-1, 1], (400, 5)), lower, upper)[::2]  # corners
+    (near, far), (low, high), slope, _, _ = proof.Enclosure(chain, 9).evaluate(centre, half)
+    ends = [rng.uniform(-2.8, 2.8, 400), rng.uniform(-2.8, 2.8, 400)]
+    full = np.column_stack([ends[0], q, ends[1]])
+    masses = mw.evaluate_joints(task, full, check_collision=False).beta / proof.G
+    held = 0
+    for i in range(400):
+        X = mw.evaluate_joints(task, full[i], check_collision=False).end_effector
+        assert near[i] <= np.hypot(*X[:2, 3]) <= far[i]
+        assert low[i] <= X[2, 3] <= high[i]
+        assert slope[i] <= X[2, 2]
+        # A box whose efforts do not suffice for a mass has no posture that holds it.
+        mass = masses[i] * 0.999
+        enclosure = proof.Enclosure(chain, mass)
+        assert enclosure.evaluate(centre[i : i + 1], half[i : i + 1])[3][0]
+        # And a small box around a posture that holds far less is refuted.
+        small = np.full((1, 5), 1e-4)
+        held += not proof.Enclosure(chain, 1.1 * masses[i]).evaluate(q[i : i + 1], small)[3][0]
+    assert held > 350
+
+
+def test_a_proof_leaves_rings_that_hold_the_mass(proof):
+    chain, rng = proof.Chain(proof.PANDA, "panda_hand_tcp"), np.random.default_rng(3)
+    radii, heights = np.linspace(0, 1.5, 16), np.linspace(-1, 1.8, 29)
+    mass, radius, height, slope = proof.held_mass(chain, rng.uniform(*chain.limits(), (50_000, 5)))
+    holds = {tilt: np.zeros((15, 28), bool) for tilt in (None, 0.3)}
+    for tilt, cells in holds.items():
+        fits = (mass >= 12) & (True if tilt is None else slope <= -np.cos(tilt))
+        cells[np.digitize(radius[fits], radii) - 1, np.digitize(height[fits], heights) - 1] = True
+        empty = proof.refute(chain, 12, radii, heights, np.ones(cells.shape, bool), tilt, 300_000)
+        assert cells.any() and empty.any()
+        assert not (cells & empty).any()
+
+
+def test_shares_of_the_panda_are_those_of_its_rings():
+    """The table of results/, docs/studies.md and the README, from the rings of the CSV."""
+    root = FOLDER.parents[1]
+    rings = np.genfromtxt(root / "results/panda_payload.csv", delimiter=",", names=True)
+    table = re.findall(r"^ +(9|12|20) +(.*)$", (root / "results/panda_payload.txt").read_text(), re.MULTILINE)
+    assert len(table) == 6
+    page = (root / "docs/studies.md").read_text()
+    for n, (mass, shares) in enumerate(table):
+        kind = "any" if n < 3 else "down"
+        best, cannot = rings[f"{kind}_kg"], rings[f"{kind}_cannot_kg"]
+        volume = rings["radius"] * np.isfinite(best)  # of a ring: 2 pi radius times its section
+        held = 100 * volume[best >= float(mass)].sum() / volume.sum()
+        none = 100 * volume[cannot <= float(mass)].sum() / volume.sum()
+        assert numbers(shares)[:2] == [pytest.approx(held, abs=0.051), pytest.approx(none, abs=0.051)]
+        assert f" {held:.1f} " in page and f" {none:.1f} " in page
+        assert not (best >= cannot).any()
+    readme = (root / "README.md").read_text()
+    assert f"{numbers(table[0][1])[0]:.0f} % of the workspace" in readme and f"in {numbers(table[0][1])[1]} % it is proven" in readme

@@ -38,6 +38,11 @@ bool is_drawn(const Index& index, double share, std::uint64_t seed) {
   return Random(state, RandomUse::kSample, 0).uniform() < share;
 }
 
+/// Whether the bound of a cell with a value is as near as `gap` asks.
+bool is_proven(const MapCell& cell, double gap) {
+  return std::isfinite(cell.bound) && cell.bound - cell.beta <= gap * std::abs(cell.bound);
+}
+
 class MapMaker {
  public:
   MapMaker(const Problem& task, const MapPlan& plan, const Options& options)
@@ -108,11 +113,7 @@ class MapMaker {
   /// Whether a cell lacks a check or a bound that the plan asks for.
   bool lacks(const MapCell& cell) const {
     return (!cell.scratch && is_drawn(cell.index, plan_.check, options_.seed)) ||
-           (plan_.bound && cell.status == Status::kBestFound && !is_within_gap(cell));
-  }
-
-  bool is_within_gap(const MapCell& cell) const {
-    return std::isfinite(cell.bound) && cell.bound - cell.beta <= plan_.gap * std::abs(cell.bound);
+           (plan_.bound && cell.status == Status::kBestFound && !is_proven(cell, plan_.gap));
   }
 
   MapCell solved(const Index& place, int level) const {
@@ -167,7 +168,7 @@ class MapMaker {
       }
       cell.scratch = scratch.has_value() ? scratch.beta() : -kInfinity;
     }
-    if (!plan_.bound || is_within_gap(cell) || cell.status != Status::kBestFound) return;
+    if (!plan_.bound || cell.status != Status::kBestFound || is_proven(cell, plan_.gap)) return;
     ProofOptions how;
     how.gap = plan_.gap;
     how.seconds = plan_.seconds;
@@ -246,9 +247,12 @@ CapabilityMap map(const Problem& task, const MapPlan& plan, const Options& optio
   static_cast<Case&>(each) = with_map_search(task, options);
   const Method method = resolve(*result.task, each);
   result.choice = method.choice;
+  if (plan.bound) require_bound(*result.task, plan, result.choice);
   result.unit = method.unit;
   result.unchanging = find_unchanging(task, plan, each);
   Options scratch = options;
+  scratch.search.clear();
+  scratch.budget = plan.check_budget;
   scratch.threads = 1;
   scratch.progress = {};
   MapMaker maker(*result.task, result.plan, each);
@@ -278,6 +282,21 @@ long CapabilityMap::improved() const {
     if (cell.status != Status::kBestFound) return true;
     return *cell.scratch - cell.beta > kImproved * std::abs(cell.beta);
   });
+}
+
+long CapabilityMap::proven() const {
+  return std::count_if(cells.begin(), cells.end(), [this](const MapCell& cell) {
+    return cell.status == Status::kBestFound && is_proven(cell, plan.gap);
+  });
+}
+
+double CapabilityMap::widest_gap() const {
+  double widest = 0;
+  for (const MapCell& cell : cells) {
+    if (cell.status != Status::kBestFound || cell.bound == cell.beta) continue;
+    widest = std::max(widest, (cell.bound - cell.beta) / std::abs(cell.beta));
+  }
+  return widest;
 }
 
 const MapCell* CapabilityMap::best() const {

@@ -12,6 +12,15 @@ namespace {
 
 using nlohmann::ordered_json;
 
+/// The largest bound of a cell with a value.
+double largest_bound(const CapabilityMap& map) {
+  double largest = -kInfinity;
+  for (const MapCell& cell : map.cells) {
+    if (cell.status == Status::kBestFound) largest = std::max(largest, cell.bound);
+  }
+  return largest;
+}
+
 struct MapCounts {
   long with_value = 0, evaluations = 0;
   std::vector<long> levels;        ///< number of cells of each level
@@ -30,6 +39,16 @@ MapCounts count_cells(const CapabilityMap& map) {
     if (counts.least == nullptr || cell.beta < counts.least->beta) counts.least = &cell;
   }
   return counts;
+}
+
+/// What the proofs of the cells say, in a line.
+std::string bounds_line(const CapabilityMap& map, long with_value) {
+  const double widest = map.widest_gap();
+  std::string text = fmt::format("proven    {} of {} cells with a value to {:g} %", map.proven(),
+                                 with_value, 100 * map.plan.gap);
+  if (!std::isfinite(widest)) return text + "; some have no bound\n";
+  return text + fmt::format(", the widest gap is {:.2g} %; none of them has more than {:.5f} {}\n",
+                            100 * widest, largest_bound(map), map.unit);
 }
 
 std::string place_of(const CapabilityMap& map, const MapCell& cell) {
@@ -79,6 +98,7 @@ std::string summary(const CapabilityMap& map) {
         "checked   {} cells from scratch: {} ({:.2f} %) improve by more than 0.1 %\n", checked,
         map.improved(), 100.0 * static_cast<double>(map.improved()) / static_cast<double>(checked));
   }
+  if (map.plan.bound && counts.with_value > 0) text += bounds_line(map, counts.with_value);
   for (const std::string& name : map.unchanging) {
     text += fmt::format("{} changes nothing: no sampled posture has another value there\n", name);
   }
@@ -96,6 +116,7 @@ std::string to_json(const CapabilityMap& map) {
                     {"count", axis.count}});
   }
   const long checked = map.checked();
+  const bool bounded = map.plan.bound && counts.with_value > 0;
   return in_one_line({{"problem", map.task->name},
                       {"measure", map.choice.measure},
                       {"wrench", to_string(map.choice.wrench)},
@@ -115,6 +136,9 @@ std::string to_json(const CapabilityMap& map) {
                       {"least", object_of(map, counts.least)},
                       {"checked", checked},
                       {"improved", known(checked > 0, map.improved())},
+                      {"proven", known(bounded, map.proven())},
+                      {"widest_gap", known(bounded, map.widest_gap())},
+                      {"largest_bound", known(bounded, largest_bound(map))},
                       {"unchanging", map.unchanging},
                       {"evaluations", counts.evaluations},
                       {"wall_s", map.wall_s},

@@ -9,7 +9,9 @@
 
 #include "lib/math/random.h"
 #include "maxwrench/batch.h"
+#include "maxwrench/bound.h"
 #include "maxwrench/objective.h"
+#include "solvers/certify/certify.h"
 #include "solvers/solve/method.h"
 
 namespace maxwrench {
@@ -122,6 +124,7 @@ void check_plan(const Problem& task, const MapPlan& plan) {
   check_number("refine", plan.refine, 0, kMostHalvings);
   check_number("tolerance", plan.tolerance, 0, kInfinity);
   check_number("check", plan.check, 0, 1);
+  check_number("check_budget", static_cast<double>(plan.check_budget), 0, kMostBudget);
   if (plan.shards < 1 || plan.shard < 1 || plan.shard > plan.shards) {
     throw std::invalid_argument(
         fmt::format("shard: got '{}/{}', expected I/N such as 2/4, with I from 1 to N", plan.shard,
@@ -147,6 +150,19 @@ void check_plan(const Problem& task, const MapPlan& plan) {
         fmt::format("refine: got {}, which may make {:g} cells, expected at most {:g}", plan.refine,
                     finest, static_cast<double>(10 * kMostCells)));
   }
+}
+
+void require_bound(const Problem& task, const MapPlan& plan, const Case& choice) {
+  CertifyOptions how;
+  how.gap = plan.gap;
+  how.seconds = plan.seconds;
+  require_valid(how);
+  Eigen::VectorXd first(static_cast<Eigen::Index>(plan.over.size()));
+  for (Eigen::Index a = 0; a < first.size(); ++a) {
+    first[a] = plan.over[static_cast<std::size_t>(a)].low;
+  }
+  const Problem cell = posed(task, plan.over, first);
+  make_capability_bound(cell, choice.measure, choice.wrench);
 }
 
 std::vector<std::string> find_unchanging(const Problem& task, const MapPlan& plan,

@@ -7,6 +7,10 @@ namespace maxwrench {
 /// Throws std::invalid_argument, with one line, unless the plan can be carried out for the task.
 void check_plan(const Problem& task, const MapPlan& plan);
 
+/// Throws std::invalid_argument, as `certify`, unless the cells have bounds with a measure and
+/// wrench.
+void require_bound(const Problem& task, const MapPlan& plan, const Case& choice);
+
 /// The coordinates without effect: in the middle of the others, no sampled posture has another
 /// value or status at another value of the coordinate.
 std::vector<std::string> find_unchanging(const Problem& task, const MapPlan& plan,

@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/tables/csv.h"
@@ -45,6 +47,28 @@ TEST(MapCommand, PartsMergeToTheWhole) {
             csv_text(folder.path() / "whole" / "map.csv.gz"));
 }
 
+/// Somebody changed a value of the table: the posture of the row does not have it.
+TEST(MapCommand, NoticesAnotherValue) {
+  const TemporaryFolder folder;
+  const std::string words = "map planar/force --over azimuth=0:3:5 --budget 200 --out m";
+  EXPECT_EQ(run_maxwrench(words, folder.path()).exit_status, 0);
+  const std::filesystem::path packed = folder.path() / "m" / "map.csv.gz";
+  const std::string table = csv_text(packed);
+  const CsvFile rows = read_csv(packed, {"beta", "azimuth"});
+  const auto resume_with = [&](const std::string& column, const std::string& value) {
+    std::string changed = table;
+    const std::string& before = rows.text(2, column);
+    changed.replace(changed.rfind(before), before.size(), value);
+    std::filesystem::remove(packed);
+    std::ofstream(folder.path() / "m" / "map.csv") << changed;
+    return run_maxwrench(words, folder.path());
+  };
+  const CommandResult beta = resume_with("beta", "99.5");
+  EXPECT_EQ(beta.exit_status, 2);
+  EXPECT_THAT(beta.err, HasSubstr("map.csv.gz: cell 2: got beta 99.5, expected"));
+  EXPECT_EQ(std::count(beta.err.begin(), beta.err.end(), '\n'), 1) << beta.err;
+}
+
 TEST(MapCommand, SaysWhatChangesNothing) {
   const CommandResult result = run_maxwrench("map uvms/lift --over x=-1:1:2 --budget 20");
   EXPECT_THAT(result.out, HasSubstr("x changes nothing"));
@@ -80,6 +104,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadMap{"uvms/lift", "--over"}, BadMap{"uvms/nothing --over x=0:1:2", "uvms/nothing"},
         BadMap{"uvms/valve_trajectory --over x=0:1:2", "expected a static task"},
         BadMap{"uvms/lift --over x=0:1:2 --check -1", "--check: got -1"},
+        BadMap{"uvms/lift --over x=0:1:2 --check-budget 0", "--check-budget"},
+        BadMap{"uvms/lift --over x=0:1:2 --certify --time nan", "--time: got nan"},
+        BadMap{"uvms/lift --over x=0:1:2 --certify --measure manipulability",
+               "--measure: got 'manipulability'"},
         BadMap{"uvms/lift --over x=0:1:2 --shard 3/2", "--shard: got '3/2'"},
         BadMap{"uvms/lift --over x=0:1:2 --search swim", "--search: got 'swim'"}));
 

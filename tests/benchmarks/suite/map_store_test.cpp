@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "benchmarks/tables/csv.h"
 #include "maxwrench/load.h"
 #include "tests/support/coded_tasks.h"
@@ -21,13 +23,13 @@ class MapStoreTest : public testing::Test {
   MapCell cell(long i) const {
     MapCell made;
     made.index = {i};
-    made.at = Eigen::VectorXd::Constant(1, 0.1 * static_cast<double>(i));
+    made.at = Eigen::VectorXd::Constant(1, 0.75 * static_cast<double>(i));  // 9 from 0 to 6
     made.unit = "N";
     made.conclude(Status::kNoneFound, "nothing, \"really\" nothing");
     if (i % 2 == 0) return made;
     made.conclude(Status::kBestFound);
-    made.beta = 1.0 / 3 + static_cast<double>(i);
     made.theta_r = Eigen::VectorXd::Constant(2, 0.7);
+    made.beta = evaluate(posed(task, plan.over, made.at), made.theta_r, {choice}).beta();
     made.q = Eigen::VectorXd::Constant(2, 0.7);
     made.base = Eigen::VectorXd::LinSpaced(6, 0, 1);
     made.level = 2;
@@ -95,6 +97,57 @@ TEST_F(MapStoreTest, MergesParts) {
   EXPECT_EQ(csv_text(folder.path() / "all" / "map.csv.gz"),
             csv_text(folder.path() / "back" / "map.csv.gz"));
   EXPECT_EQ(open("all").known(), 3u);
+}
+
+/// Each posture is evaluated again.
+TEST_F(MapStoreTest, RejectsAValueThatThePostureDoesNotHave) {
+  MapCell wrong = cell(1);
+  wrong.beta *= 1 + 1e-4;
+  open("value").put(wrong);
+  EXPECT_THAT(rejection_of([&] { open("value").find({1}); }),
+              HasSubstr("map.csv.gz: cell 1: got beta"));
+  MapCell moved = cell(1);
+  moved.at[0] += 0.1;
+  open("place").put(moved);
+  EXPECT_THAT(rejection_of([&] { open("place").find({1}); }), HasSubstr("other coordinates"));
+  MapCell bound = cell(1);
+  bound.bound = 0.9 * bound.beta;
+  open("bound").put(bound);
+  EXPECT_THAT(rejection_of([&] { open("bound").find({1}); }), HasSubstr("got bound"));
+  MapCell beyond = cell(1);
+  beyond.theta_r[0] = 100;
+  open("posture").put(beyond);
+  EXPECT_THAT(rejection_of([&] { open("posture").find({1}); }), HasSubstr("expected nan"));
+}
+
+/// One part has bounds and checks, the other has not: the whole has what either has.
+TEST_F(MapStoreTest, MergesWhatOnlyOnePartHas) {
+  MapCell plain = cell(1);
+  plain.bound = kInfinity;
+  plain.scratch.reset();
+  MapCell weaker = cell(1);
+  weaker.bound = 9;
+  weaker.scratch = 0.25;
+  for (const auto& [name, made] :
+       {std::pair("plain", plain), {"whole", cell(1)}, {"weaker", weaker}}) {
+    MapStore store = open(name);
+    store.put(made);
+    store.write();
+  }
+  const auto path = [&](const char* name) { return std::string(folder.path() / name); };
+  const auto first_row = [&](const char* name) {
+    return read_csv(folder.path() / name / "map.csv.gz", {"bound", "scratch"});
+  };
+  merge_maps(folder.path() / "ab", {path("plain"), path("whole")});
+  EXPECT_EQ(csv_text(folder.path() / "ab" / "map.csv.gz"),
+            csv_text(folder.path() / "whole" / "map.csv.gz"));
+  for (const std::vector<std::string>& order : {std::vector{path("whole"), path("weaker")},
+                                                {path("weaker"), path("plain"), path("whole")}}) {
+    merge_maps(folder.path() / "all", order);
+    EXPECT_EQ(*first_row("all").number(0, "bound"), 7.5);
+    EXPECT_EQ(*first_row("all").number(0, "scratch"), 0.25);
+    std::filesystem::remove_all(folder.path() / "all");
+  }
 }
 
 TEST_F(MapStoreTest, MergesNoOtherValuesAndNoOtherMap) {

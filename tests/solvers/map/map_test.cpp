@@ -194,6 +194,74 @@ TEST(Map, ProvesBounds) {
   }
   EXPECT_EQ(found.checked(), 2);
   EXPECT_EQ(found.improved(), 0);
+  EXPECT_EQ(found.proven(), 2);
+  EXPECT_LE(found.widest_gap(), 0.0011);
+  EXPECT_THAT(summary(found), HasSubstr("proven    2 of 2 cells with a value to 0.1 %"));
+  const auto object = nlohmann::json::parse(to_json(found));
+  EXPECT_EQ(object["proven"], 2);
+  EXPECT_EQ(object["largest_bound"], std::max(found.cells[0].bound, found.cells[1].bound));
+}
+
+/// Gaps of 0, 0.5 / 1, 1 / 2 and 0.2 / 2 = 10 %; a cell without a value has none.
+TEST(Map, CountsBounds) {
+  CapabilityMap made;
+  made.plan.bound = true;
+  made.plan.gap = 0.1;
+  const auto add = [&](double beta, double bound) {
+    MapCell cell;
+    cell.conclude(std::isnan(beta) ? Status::kNoneFound : Status::kBestFound);
+    cell.beta = beta;
+    cell.bound = bound;
+    made.cells.push_back(cell);
+  };
+  add(1, 1);
+  add(1, 1.5);
+  add(-2, -1);
+  add(2, 2.2);
+  add(std::nan(""), kInfinity);
+  EXPECT_EQ(made.proven(), 2);
+  EXPECT_DOUBLE_EQ(made.widest_gap(), 0.5);
+  add(3, kInfinity);
+  EXPECT_EQ(made.proven(), 2);
+  EXPECT_EQ(made.widest_gap(), kInfinity);
+}
+
+/// The check of a map whose cells had one evaluation, at the default posture, still finds the
+/// optimum of planar/force, 3.4775 N (proven): it does not use the budget of the cells.
+TEST(Map, ChecksWithABudgetOfItsOwn) {
+  MapPlan plan = plan_over({{"azimuth", 0, 0, 1}});
+  plan.check = 1;
+  const Problem task = load_problem("planar/force");
+  const CapabilityMap found = map(task, plan, with_budget(1));
+  const double best = solve(posed(task, plan.over, Eigen::VectorXd::Zero(1)), {}).beta();
+  ASSERT_TRUE(found.cells[0].scratch);
+  EXPECT_LT(found.cells[0].beta, 0.9 * best);
+  EXPECT_NEAR(*found.cells[0].scratch, best, 1e-3 * best);
+  EXPECT_EQ(found.improved(), 1);
+  plan.check_budget = 1;
+  EXPECT_LT(map(task, plan, with_budget(1)).cells[0].scratch.value_or(0), 0.9 * best);
+}
+
+/// What has no bound is refused before the first cell.
+TEST(Map, RefusesBoundsAtOnce) {
+  MapPlan plan = plan_over({{"x", 0, 1, 2}});
+  plan.bound = true;
+  plan.computed = [](const MapCell&) { FAIL() << "a cell was computed"; };
+  const Problem task = load_problem("uvms/lift");
+  Options options = with_budget(20);
+  options.measure = "manipulability";
+  EXPECT_THAT(rejection_of([&] { map(task, plan, options); }),
+              HasSubstr("measure: got 'manipulability'"));
+  options.measure = "linf_polytope";
+  plan.seconds = std::nan("");
+  EXPECT_THAT(rejection_of([&] { map(task, plan, options); }), HasSubstr("seconds: got nan"));
+  plan.seconds = 60;
+  plan.gap = 0;
+  EXPECT_THAT(rejection_of([&] { map(task, plan, options); }), HasSubstr("gap: got 0"));
+  plan.gap = 1e-3;
+  Problem geared = task;
+  geared.robot.joints[2].gear = Gear{1, 1, 0};
+  EXPECT_THAT(rejection_of([&] { map(geared, plan, options); }), HasSubstr("by a gear"));
 }
 
 /// Improved are: 2 beside 1, a value beside none; not: 1.0009 beside 1, none beside none.
@@ -284,6 +352,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "uvms/lift", "tolerance: got nan"},
         BadPlan{"Check", changed(kSmall, [](MapPlan& p) { p.check = 2; }), "uvms/lift",
                 "check: got 2"},
+        BadPlan{"CheckBudget", changed(kSmall, [](MapPlan& p) { p.check_budget = -1; }),
+                "uvms/lift", "check_budget: got -1"},
         BadPlan{"Shard", changed(kSmall, [](MapPlan& p) { p.shard = 2; }), "uvms/lift",
                 "shard: got '2/1'"}),
     [](const auto& bad) { return std::string(bad.param.name); });
