@@ -233,6 +233,9 @@ std::string why_no_engine(const Problem& problem) {
   if (problem.motion && (problem.motion->has_factor() || problem.motion->transfer)) {
     return problem.name + ": one factor at all instants, expected a wrench along a path";
   }
+  if (problem.motion && !problem.scenarios.empty()) {
+    return problem.name + ": a list of scenarios in time, expected one wrench";
+  }
   if (!gears_at(problem.robot, problem.end_effector).empty()) {
     return problem.name + ": a gear before the end effector, expected none";
   }
