@@ -69,7 +69,8 @@ std::string infeasible_scenario(const Problem& problem,
                                 const TrajectoryProgram& program,
                                 const TrajectorySolution& solution) {
   const Eigen::MatrixXd& lambda = solution.lambda;
-  if (problem.scenarios.empty() || lambda.cols() != program.size() || !lambda.allFinite()) return "";
+  if (problem.scenarios.empty() || lambda.cols() != program.size() || !lambda.allFinite())
+    return "";
   const Eigen::VectorXd sizes = lambda.colwise().lpNorm<1>();
   const auto s = static_cast<std::size_t>(deciding_block(program, sizes).scenario);
   return describe(problem.scenarios, scenarios[s].choice);

@@ -11,10 +11,10 @@ namespace maxwrench {
 /// One scenario of a task in time: its limits of the efforts, and its wrench in world axes at the
 /// start of the path. A task without a list has one. Limits and wrench last for the whole motion.
 struct MotionScenario {
-  ScenarioChoice choice;               ///< c is that of the start
+  ScenarioChoice choice;                ///< c is that of the start
   const Zonotope* actuation = nullptr;  ///< of the problem
-  Matrix6Xd W = Matrix6Xd(6, 0);  ///< basis of the allowed wrenches; `hold`: no columns
-  Eigen::VectorXd c_w;            ///< objective by column (k)
+  Matrix6Xd W = Matrix6Xd(6, 0);        ///< basis of the allowed wrenches; `hold`: no columns
+  Eigen::VectorXd c_w;                  ///< objective by column (k)
 };
 
 /// The scenarios of a task in the order of `next`. The problem must outlive them.

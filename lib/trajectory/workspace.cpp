@@ -82,8 +82,8 @@ void TrajectoryEvaluator::Workspace::bound_start(const TrajectorySolverMaker& ma
 
 void TrajectoryEvaluator::Workspace::require_table(const Eigen::MatrixXd& knots) const {
   if (knots.rows() != motion.maps().rows() || knots.cols() != problem.redundancy()) {
-    throw std::invalid_argument("theta_r: got a table of " + std::to_string(knots.rows()) +
-                                " x " + std::to_string(knots.cols()) + " numbers, expected " +
+    throw std::invalid_argument("theta_r: got a table of " + std::to_string(knots.rows()) + " x " +
+                                std::to_string(knots.cols()) + " numbers, expected " +
                                 std::to_string(motion.maps().rows()) + " x " +
                                 std::to_string(problem.redundancy()) + " for " + problem.name);
   }
@@ -113,8 +113,8 @@ int TrajectoryEvaluator::Workspace::block_of(const SchemeMaps& maps, int knot) c
   return instant - (start_is_block(task, maps) ? 0 : 1);
 }
 
-void TrajectoryEvaluator::Workspace::solve_best(TrajectoryProgram& p, TrajectorySolver& with, TrajectorySolution& best,
-                int& t_h) {
+void TrajectoryEvaluator::Workspace::solve_best(TrajectoryProgram& p, TrajectorySolver& with,
+                                                TrajectorySolution& best, int& t_h) {
   if (!task.impulse) {
     with.solve(p, best);
     return;

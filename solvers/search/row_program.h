@@ -23,8 +23,8 @@ class RowProgram {
 
   /// Whether no evaluation is left.
   virtual bool ended() const = 0;
-  /// Evaluates the rows at y, once for repeated calls with the same y. Returns false if they have no
-  /// values there, or if `ended`.
+  /// Evaluates the rows at y, once for repeated calls with the same y. Returns false if they have
+  /// no values there, or if `ended`.
   virtual bool look(const Eigen::VectorXd& y) = 0;
   const Eigen::VectorXd& rows() const { return rows_; }
   /// The derivative of the rows at the last y for which `look` returned true.

@@ -86,7 +86,7 @@ void balance(unsigned, double* result, unsigned n, const double* point, double* 
 RowEnd solve_rows_by_slsqp(RowProgram& program, int points) {
   Eigen::VectorXd y = program.start();
   const RowOptimizer opt(nlopt_create(NLOPT_LD_SLSQP, static_cast<unsigned>(y.size())),
-                           nlopt_destroy);
+                         nlopt_destroy);
   RowSession session{program, opt.get(), y, {}, {}, {}, {}};
   for (Eigen::Index j = 0; j < program.row_min().size(); ++j) {
     const double low = program.row_min()[j], high = program.row_max()[j];

@@ -414,11 +414,16 @@ TEST(BadScenariosInTime, AreRejected) {
            "no such key except in static tasks");
     expect(kC, "set = [[0,0,0,0,0,0]]", "wrench.set[0]", "a wrench of nonzero length");
   }
+  // Twenty wrenches with each of the 256 sets of the eight thrusters dead.
+  std::string many = "set = [[0,0,0,0,0,1]";
+  for (int i = 2; i <= 20; ++i) many += ", [0,0,0,0,0," + std::to_string(i) + "]";
+  many += "]\n\n[loss]\nany = 8";
   expect_rejected({"long",
                    "valve_trajectory.toml",
-                   "k = 10",
-                   "k = 100\n\n[loss]\nany = 2",
-                   {"motion.k: got 100 knots of", "at most 5000 knots of all scenarios together"}},
+                   kC,
+                   many.c_str(),
+                   {"motion.k: got 10 knots of 5120 scenarios",
+                    "at most 5000 knots of all scenarios together"}},
                   "uvms/valve_trajectory");
 }
 

@@ -8,8 +8,8 @@
 
 namespace maxwrench {
 
-/// A shipped task in time of the underwater vehicle, with this table [wrench] ("": that of the task)
-/// and these further tables.
+/// A shipped task in time of the underwater vehicle, with this table [wrench] ("": that of the
+/// task) and these further tables.
 inline Problem task_in_time(const std::string& name, const std::string& wrench,
                             const std::string& tables) {
   const std::string folder = MAXWRENCH_SOURCE_DIR "/problems/uvms/";

@@ -150,9 +150,9 @@ TEST(MotionList, MoreScenariosNeverRaiseTheValue) {
 /// Central differences of the value, where one scenario decides.
 TEST(MotionList, GradientIsThatOfTheScenarioThatDecides) {
   constexpr double kStep = 1e-6;
-  for (const auto& [name, wrench] : {std::pair("valve_trajectory", Wrench::kPure),
-                                     std::pair("valve_trajectory", Wrench::kAny),
-                                     std::pair("valve_impulse", Wrench::kPure)}) {
+  for (const auto& [name, wrench] :
+       {std::pair("valve_trajectory", Wrench::kPure), std::pair("valve_trajectory", Wrench::kAny),
+        std::pair("valve_impulse", Wrench::kPure)}) {
     const Problem problem =
         task_in_time(name, "set = [[0,0,0,0,0,1], [0,0,2,0,0,1.5]]", kTwoLosses);
     TrajectoryEvaluator evaluator(problem, wrench, make_facets_or_ipm, false);
@@ -183,8 +183,8 @@ TEST(MotionList, NamesTheScenarioThatIsInfeasible) {
       "valve_trajectory", "",
       "[loss]\ncases = [['front_left_vertical'], ['front_left_horizontal', 'rear_left_horizontal', "
       "'front_right_horizontal']]\n");
-  const Trajectory trajectory = trajectory_of(
-      problem, constant_knots(problem, problem.theta_r_default), make_facets_or_ipm);
+  const Trajectory trajectory =
+      trajectory_of(problem, constant_knots(problem, problem.theta_r_default), make_facets_or_ipm);
   EXPECT_EQ(trajectory.status, Status::kInfeasible);
   EXPECT_THAT(trajectory.reason.str(), testing::HasSubstr("front_left_horizontal dead and "));
   EXPECT_EQ(trajectory.decides_at, -1);
@@ -221,7 +221,7 @@ TEST(MotionList, PayloadOfLossesIsTheLeast) {
 }
 
 /// The general solver of the assembled program agrees.
-TEST(MotionList, AssembledProgramAgrees) {
+TEST(MotionList, SLOW_AssembledProgramAgrees) {
   for (const MotionListForm& form : kMotionListForms) {
     Problem problem = task_in_time(form.task, form.wrench, form.tables);
     problem.robot.u_rate_max *= form.rates;
