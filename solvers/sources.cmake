@@ -20,7 +20,7 @@ set(maxwrench_solvers_sources
   pareto/front.cpp pareto/front_text.cpp pareto/weighted.cpp
   search/annealing.cpp search/batch.cpp search/cmaes.cpp search/composition.cpp search/facet_starts.cpp search/grid.cpp
   search/joint_program.cpp search/knot_starts.cpp search/local_search.cpp search/probe.cpp search/restart.cpp search/sample.cpp
-  search/slp.cpp search/slp_outcome.cpp search/slp_run.cpp search/starts.cpp search/trace.cpp
+  search/factor_program.cpp search/slp.cpp search/slp_outcome.cpp search/slp_run.cpp search/starts.cpp search/trace.cpp
   solve/active_limits.cpp solve/answer_json.cpp solve/evaluate_each.cpp solve/experiment.cpp solve/format.cpp solve/json_line.cpp solve/method.cpp
   solve/row.cpp solve/scenario_ends.cpp solve/scenario_sample.cpp solve/sensitivity.cpp solve/solve.cpp solve/summary.cpp solve/tank.cpp
   added_strategies.cpp strategies.cpp
@@ -54,7 +54,7 @@ if(MAXWRENCH_WITH_GLPK)
 endif()
 if(MAXWRENCH_WITH_NLOPT)
   list(APPEND maxwrench_solvers_sources
-    search/facet_sqp.cpp search/nlopt_run.cpp search/nlopt_searches.cpp)
+    search/facet_sqp.cpp search/nlopt_run.cpp search/nlopt_searches.cpp search/row_sqp.cpp)
 endif()
 if(MAXWRENCH_WITH_PAGMO)
   list(APPEND maxwrench_solvers_sources

@@ -69,7 +69,8 @@ void require_scenarios(const Problem& problem, const EvalOptions& options) {
 
 /// Prints the answer, with what the options ask of its scenarios.
 int report_scenarios(const EvalOptions& options, const Answer& answer) {
-  const bool valid = answer.posture.status == Status::kValid;
+  const bool valid = answer.task->motion ? answer.trajectory.status != Status::kInvalidPosture
+                                         : answer.posture.status == Status::kValid;
   if (options.scenarios && valid) {
     const std::vector<ScenarioEnds> ends = scenario_ends(answer);
     fmt::print("{}", options.json ? to_json(answer, ends) + "\n" : summary(answer) + summary(ends));

@@ -96,6 +96,7 @@ struct LeastEfforts {
 struct InstantLimits {
   double t = 0;                   ///< time [s]
   std::vector<LimitRate> limits;  ///< limits with a multiplier, largest effect first
+  std::string scenario = {};      ///< of a list of scenarios: the one that they belong to
 };
 
 /// What binds at an answer.

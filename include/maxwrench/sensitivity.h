@@ -22,9 +22,10 @@ struct ScenarioEnds {
 
 /// Computes the interval of each scenario at the posture of an answer.
 ///
-/// With a ball the scenarios are those of the list, each with all wrenches of the ball.
+/// With a ball the scenarios are those of the list, each with all wrenches of the ball. In time
+/// each scenario is solved alone at the same knots; `low` is then -infinity, or 0 for a payload.
 ///
-/// @param answer  of a static task with a list of scenarios, with a valid posture
+/// @param answer  of a task with a list of scenarios, with a valid posture or trajectory
 /// @return the intervals in the order of wrenches, limits and cases, the last load first
 /// @throws std::invalid_argument if the task has no list or there is no valid posture.
 std::vector<ScenarioEnds> scenario_ends(const Answer& answer);

@@ -30,11 +30,12 @@ struct Instant {
   Eigen::VectorXd tau_d;      ///< forces of the full dynamics (n) [N, N m] (eq:dynamics)
   Matrix6Xd J;                ///< Jacobian of the end effector (6×n)
   /// The direction, in the world; of a payload or a table of wrenches the wrench of 1 kg or of the
-  /// factor 1.
+  /// factor 1. Of a list of scenarios the wrench of the one that decides.
   Vector6d c = Vector6d::Zero();
   Vector6d h = Vector6d::Zero();  ///< the wrench that the robot exerts [N; N m]
   Eigen::VectorXd u;              ///< efforts (m)
-  /// The factor of c, of a task with one factor for all instants; otherwise NaN.
+  /// The factor of c, of a task with one factor for all instants or with a list of scenarios;
+  /// otherwise NaN.
   double factor = std::numeric_limits<double>::quiet_NaN();
   /// Returns the wrench along c [N or N m], or the factor of c.
   double beta() const { return std::isnan(factor) ? c.dot(h) : factor; }
@@ -54,10 +55,20 @@ struct Trajectory : Verdict {
   /// Of a transfer: how far the largest effort exceeds its limit between instants, as a share of
   /// the limit [-]. Negative: all are within their limits. NaN: not computed.
   double overshoot = std::numeric_limits<double>::quiet_NaN();
+  /// The same of the speeds of joints, at the extremes of their cubics, as a share of the limit
+  /// [-].
+  double speed_overshoot = std::numeric_limits<double>::quiet_NaN();
+  /// How far a joint exceeds its limits between instants, likewise [rad or m].
+  double limit_overshoot = std::numeric_limits<double>::quiet_NaN();
   Reason collision;          ///< the first knot that collides, and the bodies; empty: none collides
   int t_h = 0;               ///< of an impulse: the knot of the peak
   Eigen::MatrixXd gradient;  ///< gradient of the value (k×r)
   TrajectorySolution solution;  ///< the solution of the trajectory program
+  /// The scenario that decides, if the task has a list of scenarios: the first with the largest
+  /// share of the multipliers. Efforts and wrenches of the instants are its own; c is that of the
+  /// instant that decides.
+  ScenarioChoice decides;
+  int decides_at = -1;  ///< the instant that decides, in `instants`; -1: there is no value
 };
 
 /// A function that makes a solver of trajectory programs.
@@ -93,6 +104,9 @@ struct Clearance {
 };
 
 /// Evaluates trajectories of a task in time.
+///
+/// Of a list of scenarios, each has efforts of its own at all instants, and the value is the
+/// largest one that all of them hold.
 ///
 /// Use one object per thread. The table `knots` of its functions is k×r.
 class TrajectoryEvaluator {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -22,25 +23,36 @@ namespace maxwrench {
 ///                          t <= c_w,i'w_i for all i,  or with a peak p: t = c_w,p'w_p,
 ///                          or with `common`: t = c_w,i'w_i for all i
 ///
+/// An instant without an objective (c_w,i zero or of no columns) is only balanced: it has no row of
+/// t.
+///
 /// The elastic program has slacks s_i on the balance of the instants from `first_elastic` on. It
 /// maximises t - rho sum |s_i|_1.
+///
+/// A list of scenarios is one program: the instants of its S scenarios one after another, each with
+/// efforts and limits of its own, without rates from one scenario to the next, and with one t for
+/// all.
 ///
 /// A bordered program has additional variables y (p), for searches that move the postures in the
 /// same linear program. The balance then contains + G_i y, with the constraints y_min <= y <= y_max
 /// and r_min <= R y <= r_max.
 struct TrajectoryProgram {
-  /// Programs of the instants (N), all with the same actuation.
+  /// Programs of the instants (N), all with the same B and N; those of one scenario have the same
+  /// limits.
   std::vector<WrenchProgram> instants;
-  Eigen::VectorXd first_min,  ///< lower limits of u_0 (m)
-      first_max;              ///< upper limits of u_0 (m)
+  int scenarios = 1;          ///< S, which divides N
+  Eigen::VectorXd first_min,  ///< lower limits of u_0 (m), beside those of its scenario
+      first_max;              ///< upper limits of u_0 (m), likewise
   /// Limits of the changes of efforts (m×(N-1)), infinite where there is none.
   Eigen::MatrixXd du_max;
-  int peak = -1;  ///< instant p of the peak of an impulse; -1: max-min
+  /// Instant p of the peak of an impulse, of which there is one scenario; -1: max-min. The peak of
+  /// several scenarios is the only instant of each with an objective.
+  int peak = -1;
   /// Whether one factor holds at all instants, such as the mass of a payload: t = c_w,i'w_i. It
   /// needs one wrench column at each instant, c_w other than zero, and no peak.
   bool common = false;
   double rho = kInfinity;  ///< weight of the slack, per N and N m; infinite: no slack
-  int first_elastic = 0;   ///< the first instant with slack
+  int first_elastic = 0;   ///< the first instant of a scenario with slack
 
   std::vector<Eigen::MatrixXd> G;  ///< N matrices G_i (n×p); empty: no border
   Eigen::VectorXd y_min,           ///< lower limits of y (p)
@@ -51,6 +63,27 @@ struct TrajectoryProgram {
 
   /// Returns N, the number of instants.
   int size() const { return static_cast<int>(instants.size()); }
+  /// Returns the number of instants of a scenario, N / S.
+  int length() const { return size() / scenarios; }
+  /// Returns whether the balance of instant i has slacks.
+  bool slackens(int i) const { return elastic() && i % length() >= first_elastic; }
+  /// Returns whether instant i has a row of t.
+  bool bounds_value(int i) const {
+    const Eigen::VectorXd& c_w = instants[static_cast<std::size_t>(i)].c_w;
+    return peak < 0 && (common || (c_w.array() != 0).any());
+  }
+  /// Returns the lower limit of effort j at instant i.
+  double u_min(int j, int i) const {
+    const double own = instants[static_cast<std::size_t>(i)].actuation->u_min[j];
+    if (i % length() != 0) return own;
+    return scenarios == 1 ? first_min[j] : std::max(own, first_min[j]);
+  }
+  /// Returns the upper limit of effort j at instant i.
+  double u_max(int j, int i) const {
+    const double own = instants[static_cast<std::size_t>(i)].actuation->u_max[j];
+    if (i % length() != 0) return own;
+    return scenarios == 1 ? first_max[j] : std::min(own, first_max[j]);
+  }
   /// Returns p, the number of variables y.
   int border() const { return static_cast<int>(y_min.size()); }
   /// Returns whether the program has slacks.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include "maxwrench/capability.h"
 #include "maxwrench/problem.h"
@@ -38,6 +39,16 @@ bool next(const ScenarioList& list, ScenarioChoice& choice) {
   if (++choice.limits < static_cast<int>(list.limits.size())) return true;
   choice.limits = 0;
   return ++choice.wrench < static_cast<int>(list.wrenches.size());
+}
+
+std::vector<ScenarioChoice> all_scenarios(const ScenarioList& list) {
+  std::vector<ScenarioChoice> all;
+  if (list.empty()) return all;
+  ScenarioChoice each;
+  each.cases.resize(list.loads.size());
+  do all.push_back(each);
+  while (next(list, each));
+  return all;
 }
 
 Problem nominal(Problem problem) {

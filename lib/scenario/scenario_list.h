@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "maxwrench/capability.h"
 #include "maxwrench/scenario.h"
@@ -14,6 +15,9 @@ inline constexpr double kEndTolerance = 1e-9;
 /// Moves to the next scenario of a list, the cases of the last load first; false after the last
 /// one. The first one has zeros throughout.
 bool next(const ScenarioList& list, ScenarioChoice& choice);
+
+/// All scenarios of a list, in this order.
+std::vector<ScenarioChoice> all_scenarios(const ScenarioList& list);
 
 /// Throws std::invalid_argument, which names `what`, if the task has a list of scenarios.
 void require_no_scenarios(const Problem& problem, const std::string& what);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "lib/scenario/scenario_list.h"
 #include "lib/trajectory/motion_evaluator.h"
 #include "lib/trajectory/program.h"
 #include "maxwrench/problem.h"
@@ -69,12 +70,11 @@ bool askable(const Trajectory& trajectory, TankScript& script) {
 }
 
 /// The program of the instants with the requested wrench.
-TrajectoryProgram asking(const Problem& problem, const SchemeMaps& maps, int t_h,
-                         TankScript& script) {
+TrajectoryProgram asking(const Problem& problem, const std::vector<MotionScenario>& scenarios,
+                         const SchemeMaps& maps, int t_h, TankScript& script) {
   const MotionTask& task = *problem.motion;
-  TrajectoryProgram program =
-      make_trajectory_program(problem, *problem.motion, script.wrench, maps);
-  set_instants(problem, *problem.motion, script.wrench, maps, script.instants, program);
+  TrajectoryProgram program = make_trajectory_program(problem, task, scenarios, maps);
+  set_instants(problem, task, scenarios, maps, script.instants, program);
   program.rho = kElasticWeight;
   const double asked = (1 - script.margin) * script.planned;
   if (!task.impulse) {
@@ -107,6 +107,7 @@ Interpolation parse_interpolation(const std::string& name) {
 TankScript make_script(const Problem& problem, const Trajectory& trajectory, Wrench wrench,
                        TrajectorySolver& solver, const ScriptOptions& options) {
   check(options);
+  require_no_scenarios(problem, "virtual tank");
   const MotionTask& task = *problem.motion;
   if (task.has_factor()) {
     throw std::invalid_argument(problem.name + ": got " +
@@ -127,13 +128,14 @@ TankScript make_script(const Problem& problem, const Trajectory& trajectory, Wre
     script.conclude(Status::kInvalidPosture, motion.lost_reason());
     return script;
   }
-  const TrajectoryProgram program = asking(problem, maps, trajectory.t_h, script);
+  const std::vector<MotionScenario> scenarios = motion_scenarios(problem, wrench);
+  const TrajectoryProgram program = asking(problem, scenarios, maps, trajectory.t_h, script);
   TrajectorySolution solution;
   solver.solve(program, solution);
   script.conclude(solution.status, solution.reason.c_str());
   if (script.status != Status::kOptimal) return script;
   script.slack = solution.s.cwiseAbs().maxCoeff();
-  read_efforts(problem, *problem.motion, program, solution, script.instants);
+  read_efforts(problem, task, program, solution, scenarios.front(), 0, script.instants);
   if (script.instants.size() == 1) rest(task, script.instants);
   if (!task.impulse) stretch(task, script.instants);
   return script;

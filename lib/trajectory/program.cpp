@@ -1,5 +1,7 @@
 #include "lib/trajectory/program.h"
 
+#include <algorithm>
+
 #include "lib/math/rotated.h"
 #include "lib/trajectory/carried.h"
 
@@ -13,6 +15,29 @@ void set_block(const Instant& instant, const Matrix6Xd& W, WrenchProgram& block)
   block.JtW.noalias() = instant.J.transpose().lazyProduct(W);
 }
 
+/// The program of an instant in a scenario.
+WrenchProgram block_of(const Problem& problem, const MotionScenario& scenario, const Matrix6Xd& W,
+                       const Eigen::VectorXd& c_w) {
+  WrenchProgram program;
+  const Eigen::Index k = W.cols(), n = problem.robot.velocities();
+  program.actuation = scenario.actuation;
+  program.W = W;
+  program.C_2.resize(6, 0);
+  program.c_w = c_w;
+  program.w_min.setConstant(k, -kInfinity);
+  program.w_max.setConstant(k, kInfinity);
+  program.JtW.setZero(n, k);
+  program.tau_d.setZero(n);
+  return program;
+}
+
+/// How far the wrenches have turned since the start.
+Eigen::Matrix3d turn_of(const MotionTask& task, const Eigen::Matrix3d& back,
+                        const Instant& instant) {
+  return task.c_turns ? Eigen::Matrix3d(instant.end_effector.R * back)
+                      : Eigen::Matrix3d::Identity();
+}
+
 }  // namespace
 
 bool start_is_block(const MotionTask& task, const SchemeMaps& maps) {
@@ -20,33 +45,51 @@ bool start_is_block(const MotionTask& task, const SchemeMaps& maps) {
 }
 
 TrajectoryProgram make_trajectory_program(const Problem& problem, const MotionTask& task,
-                                          Wrench wrench, const SchemeMaps& maps) {
+                                          const std::vector<MotionScenario>& scenarios,
+                                          const SchemeMaps& maps) {
   const bool block = start_is_block(task, maps);
   const int skipped = maps.starts && !block ? 1 : 0;
-  const int N = maps.instants() - skipped, m = problem.robot.actuators();
+  const int length = maps.instants() - skipped, m = problem.robot.actuators();
+  const int N = length * static_cast<int>(scenarios.size());
   TrajectoryProgram program;
-  program.instants.assign(static_cast<std::size_t>(N), make_wrench_program(problem, wrench));
+  program.scenarios = static_cast<int>(scenarios.size());
+  program.common = task.has_factor();
+  program.instants.reserve(static_cast<std::size_t>(N));
+  for (const MotionScenario& scenario : scenarios) {
+    const WrenchProgram at = block_of(problem, scenario, scenario.W, scenario.c_w);
+    program.instants.insert(program.instants.end(), static_cast<std::size_t>(length), at);
+  }
   program.du_max = Eigen::MatrixXd::Constant(m, std::max(N - 1, 0), kInfinity);
-  program.first_min = problem.robot.actuation.u_min;
-  program.first_max = problem.robot.actuation.u_max;
+  program.first_min = scenarios.front().actuation->u_min;
+  program.first_max = scenarios.front().actuation->u_max;
+  if (scenarios.size() > 1) {  // each scenario has its own limits beside these
+    program.first_min.setConstant(-kInfinity);
+    program.first_max.setConstant(kInfinity);
+  }
   const auto limit = [&](int from) -> Eigen::VectorXd {
     const auto at = static_cast<std::size_t>(from);
     return problem.robot.u_rate_max * (maps.t[at + 1] - maps.t[at]);
   };
-  program.common = task.has_factor();
   for (WrenchProgram& at : program.instants) {
     if (!program.common) break;
     at.c_w.setOnes();
     if (task.payload) at.w_min.setZero();  // a mass
   }
-  if (task.rates) {
-    for (int i = 0; i + 1 < N; ++i) program.du_max.col(i) = limit(i + skipped);
+  for (int i = 0; task.rates && i + 1 < N; ++i) {
+    const int place = i % length;
+    if (place + 1 < length) program.du_max.col(i) = limit(place + skipped);
   }
   if (block) {
-    WrenchProgram& start = program.instants.front();
-    start = make_wrench_program(problem, Wrench::kPure);
-    start.w_min.setZero();
-    start.w_max.setZero();
+    for (std::size_t s = 0; s < scenarios.size(); ++s) {
+      WrenchProgram& start = program.instants[s * static_cast<std::size_t>(length)];
+      const bool hold = scenarios[s].c_w.isZero(0);
+      const Matrix6Xd W = scenarios[s].choice.c;
+      start = block_of(problem, scenarios[s], hold ? Matrix6Xd(6, 0) : W,
+                       Eigen::VectorXd::Ones(hold ? 0 : 1));
+      if (program.scenarios == 1) start.c_w = W.transpose() * problem.c;
+      start.w_min.setZero();
+      start.w_max.setZero();
+    }
     program.first_elastic = 1;
   } else if (maps.starts && task.start == Start::kZero && task.rates) {
     program.first_min = program.first_min.cwiseMax(-limit(0));
@@ -55,45 +98,59 @@ TrajectoryProgram make_trajectory_program(const Problem& problem, const MotionTa
   return program;
 }
 
-void set_instants(const Problem& problem, const MotionTask& task, Wrench wrench,
-                  const SchemeMaps& maps, std::vector<Instant>& instants,
-                  TrajectoryProgram& program) {
-  const std::size_t skipped = instants.size() - program.instants.size();
+void set_instants(const Problem& problem, const MotionTask& task,
+                  const std::vector<MotionScenario>& scenarios, const SchemeMaps& maps,
+                  std::vector<Instant>& instants, TrajectoryProgram& program) {
+  const auto length = static_cast<std::size_t>(program.length());
+  const std::size_t skipped = instants.size() - length;
   const Eigen::Matrix3d back = maps.x.front().pose.R.transpose();
-  const auto turn = [&](const Instant& instant) -> Eigen::Matrix3d {
-    return task.c_turns ? Eigen::Matrix3d(instant.end_effector.R * back)
-                        : Eigen::Matrix3d::Identity();
-  };
-  const Matrix6Xd own = wrench == Wrench::kPure ? Matrix6Xd(problem.c) : problem.W_any;
   for (std::size_t i = 0; i < instants.size(); ++i) {
     Instant& instant = instants[i];
+    const Eigen::Matrix3d turn = turn_of(task, back, instant);
     if (task.has_factor()) {
       instant.c = factored_wrench(problem.robot, task, instant.t, maps.x[i]);
-      set_block(instant, Matrix6Xd(instant.c), program.instants[i]);
-      continue;
+    } else {
+      instant.c = rotated(turn, scenarios.front().choice.c);
     }
-    instant.c = rotated(turn(instant), problem.c);
     if (i < skipped) continue;
     const bool start = i == 0 && start_is_block(task, maps);
-    set_block(instant, start ? Matrix6Xd(instant.c) : rotated(turn(instant), own),
-              program.instants[i - skipped]);
+    for (std::size_t s = 0; s < scenarios.size(); ++s) {
+      WrenchProgram& block = program.instants[s * length + i - skipped];
+      if (task.has_factor()) {
+        set_block(instant, Matrix6Xd(instant.c), block);
+      } else if (start) {
+        set_block(instant,
+                  Matrix6Xd(rotated(turn, scenarios[s].choice.c)).leftCols(block.columns()), block);
+      } else {
+        set_block(instant, rotated(turn, scenarios[s].W), block);
+      }
+    }
   }
 }
 
 void read_efforts(const Problem& problem, const MotionTask& task, const TrajectoryProgram& program,
-                  const TrajectorySolution& solution, std::vector<Instant>& instants) {
-  const std::size_t skipped = instants.size() - program.instants.size();
-  for (std::size_t i = 0; i < program.instants.size(); ++i) {
+                  const TrajectorySolution& solution, const MotionScenario& scenario, int number,
+                  std::vector<Instant>& instants) {
+  const auto length = static_cast<std::size_t>(program.length());
+  const std::size_t skipped = instants.size() - length;
+  const std::size_t first = static_cast<std::size_t>(number) * length;
+  const bool list = !problem.scenarios.empty();
+  const Eigen::Matrix3d back = instants.front().end_effector.R.transpose();
+  for (std::size_t i = 0; list && !task.has_factor() && i < instants.size(); ++i) {
+    instants[i].c = rotated(turn_of(task, back, instants[i]), scenario.choice.c);
+  }
+  for (std::size_t i = 0; i < length; ++i) {
     Instant& instant = instants[i + skipped];
-    instant.u = solution.u.col(static_cast<Eigen::Index>(i));
-    instant.h.noalias() = program.instants[i].W * solution.w[i];
-    if (program.common) instant.factor = solution.w[i][0];
+    const Eigen::VectorXd& w = solution.w[first + i];
+    instant.u = solution.u.col(static_cast<Eigen::Index>(first + i));
+    instant.h.noalias() = program.instants[first + i].W * w;
+    if (program.common || list) instant.factor = w.size() > 0 ? w[0] : 0;
   }
   if (skipped == 0) return;
   Instant& start = instants.front();
   start.h.setZero();
   if (task.start == Start::kFree) {
-    start.u = solution.u.col(0);
+    start.u = solution.u.col(static_cast<Eigen::Index>(first));
   } else {
     start.u = Eigen::VectorXd::Zero(problem.robot.actuators());
   }

@@ -19,13 +19,15 @@ class Layout {
     for (int i = 0; i + 1 < program.size(); ++i) {
       for (int j = 0; j < m_; ++j) rates_ += program.du_max(j, i) < kInfinity;
     }
+    for (int i = 0; i < program.size(); ++i) t_rows_ += program.bounds_value(i);
   }
 
   int n() const { return n_; }
   int m() const { return m_; }
   int rates() const { return rates_; }
   bool max_min() const { return program_.peak < 0; }
-  bool elastic(int i) const { return program_.elastic() && i >= program_.first_elastic; }
+  int t_rows() const { return t_rows_; }
+  bool elastic(int i) const { return program_.slackens(i); }
   bool limited(int j, int i) const {
     return i >= 0 && i + 1 < program_.size() && program_.du_max(j, i) < kInfinity;
   }
@@ -34,11 +36,11 @@ class Layout {
   }
   int first_rate_row() const { return n_ * program_.size(); }
   int first_t_row() const { return first_rate_row() + rates_; }
-  int first_r_row() const { return first_t_row() + (max_min() ? program_.size() : 0); }
+  int first_r_row() const { return first_t_row() + t_rows_; }
   int r_rows() const { return static_cast<int>(program_.R.rows()); }
   int rows() const { return first_r_row() + r_rows(); }
   int cols() const {
-    int count = rates_ + (max_min() ? 1 + program_.size() : 0) + program_.border() + r_rows();
+    int count = rates_ + (max_min() ? 1 : 0) + t_rows_ + program_.border() + r_rows();
     for (int i = 0; i < program_.size(); ++i) count += columns(i);
     return count;
   }
@@ -46,7 +48,7 @@ class Layout {
  private:
   const TrajectoryProgram& program_;
   int n_, m_;
-  int rates_ = 0;
+  int rates_ = 0, t_rows_ = 0;
 };
 
 /// Calls sink.column(cost, low, high) for each column of the assembled program, then
@@ -59,7 +61,10 @@ class Walk {
       : program_(program), layout_(program), sink_(sink) {}
 
   void run() {
-    for (int i = 0; i < program_.size(); ++i) instant(i);
+    for (int t_row = 0, i = 0; i < program_.size(); ++i) {
+      instant(i, layout_.first_t_row() + t_row);
+      t_row += program_.bounds_value(i);
+    }
     for (int row = 0, i = 0; i + 1 < program_.size(); ++i) {
       for (int j = 0; j < layout_.m(); ++j) {
         if (!layout_.limited(j, i)) continue;
@@ -76,7 +81,7 @@ class Walk {
   }
 
  private:
-  void instant(int i) {
+  void instant(int i, int t_row) {
     const WrenchProgram& at = program_.instants[i];
     const int row = i * layout_.n();
     efforts(i, row);
@@ -84,7 +89,7 @@ class Walk {
     for (int j = 0; j < at.columns(); ++j) {
       sink_.column(peak ? at.c_w[j] : 0, at.w_min[j], at.w_max[j]);
       for (int r = 0; r < layout_.n(); ++r) sink_.entry(row + r, -at.JtW(r, j));
-      if (layout_.max_min()) sink_.entry(layout_.first_t_row() + i, at.c_w[j]);
+      if (program_.bounds_value(i)) sink_.entry(t_row, at.c_w[j]);
     }
     if (!layout_.elastic(i)) return;
     for (const double sign : {1.0, -1.0}) {
@@ -102,8 +107,7 @@ class Walk {
     for (int j = 0; j < layout_.m(); ++j) ahead += layout_.limited(j, i - 1);
     rates_before_ = ahead - layout_.first_rate_row();
     for (int j = 0; j < layout_.m(); ++j) {
-      sink_.column(0, i == 0 ? program_.first_min[j] : set.u_min[j],
-                   i == 0 ? program_.first_max[j] : set.u_max[j]);
+      sink_.column(0, program_.u_min(j, i), program_.u_max(j, i));
       for (int r = 0; r < layout_.n(); ++r) {
         if (set.B(r, j) != 0) sink_.entry(row + r, set.B(r, j));
       }
@@ -115,8 +119,8 @@ class Walk {
   /// The columns of t and of the excess of each c_w'w over t.
   void lowest() {
     sink_.column(1, -kInfinity, kInfinity);
-    for (int i = 0; i < program_.size(); ++i) sink_.entry(layout_.first_t_row() + i, -1);
-    for (int i = 0; i < program_.size(); ++i) {
+    for (int i = 0; i < layout_.t_rows(); ++i) sink_.entry(layout_.first_t_row() + i, -1);
+    for (int i = 0; i < layout_.t_rows(); ++i) {
       sink_.column(0, 0, program_.common ? 0 : kInfinity);
       sink_.entry(layout_.first_t_row() + i, -1);
     }
@@ -174,10 +178,13 @@ bool is_finite(const Eigen::SparseMatrix<double>& R) {
 bool well_formed(const TrajectoryProgram& program) {
   const int N = program.size();
   if (N == 0 || program.peak >= N || !(program.rho > 0)) return false;
+  if (program.scenarios < 1 || N % program.scenarios != 0) return false;
+  if (program.scenarios > 1 && program.peak >= 0) return false;
   if (program.common && program.peak >= 0) return false;
   const Zonotope* const set = program.instants.front().actuation;
   for (const WrenchProgram& at : program.instants) {
-    if (at.actuation != set || !well_formed(at)) return false;
+    if (at.actuation != set && !(at.actuation && at.actuation->B == set->B)) return false;
+    if (!well_formed(at)) return false;
     if (program.common && (at.columns() != 1 || at.c_w[0] == 0)) return false;
   }
   const Eigen::Index m = set->actuators(), p = program.border(), rows = program.R.rows();
@@ -253,7 +260,9 @@ void read(const TrajectoryProgram& program, const LpSolution& answer,
     }
   }
   // The row c_w'w - t - z = b: raising b by one lowers the value by pi.
-  if (layout.max_min()) solution.pi = -sign * rows.segment(layout.first_t_row(), N);
+  for (int row = layout.first_t_row(), i = 0; i < N; ++i) {
+    if (program.bounds_value(i)) solution.pi[i] = -sign * rows[row++];
+  }
   if (!layout.max_min()) solution.pi[program.peak] = 1;
   solution.nu = sign * rows.tail(layout.r_rows());
   if (proof) return;
@@ -274,9 +283,9 @@ void read(const TrajectoryProgram& program, const LpSolution& answer,
   solution.y =
       answer.x.segment(layout.cols() - layout.r_rows() - program.border(), program.border());
   const auto along = [&](int i) { return program.instants[i].c_w.dot(solution.w[i]); };
-  solution.value = along(layout.max_min() ? 0 : program.peak);
-  for (int i = 1; layout.max_min() && i < N; ++i) {
-    solution.value = std::min(solution.value, along(i));
+  solution.value = layout.max_min() ? kInfinity : along(program.peak);
+  for (int i = 0; i < N; ++i) {
+    if (program.bounds_value(i)) solution.value = std::min(solution.value, along(i));
   }
 }
 

@@ -31,9 +31,7 @@ class Multipliers {
            solution_.mu.allFinite() && solution_.nu.allFinite();
   }
 
-  bool elastic(int i) const { return program_.elastic() && i >= program_.first_elastic; }
-  double u_min(int j, int i) const { return i == 0 ? program_.first_min[j] : set_.u_min[j]; }
-  double u_max(int j, int i) const { return i == 0 ? program_.first_max[j] : set_.u_max[j]; }
+  bool elastic(int i) const { return program_.slackens(i); }
 
   /// Calls f(slope, low, high) for the columns u, w, rates, y and R y, where slope is the
   /// coefficient in sign sum_i lambda_i'(B u_i - J'W w_i + G_i y) - mu'(rates) - nu'(R y), without
@@ -41,7 +39,8 @@ class Multipliers {
   template <class F>
   void columns(double sign, F&& f) const {
     for (int i = 0; i < program_.size(); ++i) {
-      for (int j = 0; j < m_; ++j) f(effort(sign, j, i), u_min(j, i), u_max(j, i));
+      for (int j = 0; j < m_; ++j)
+        f(effort(sign, j, i), program_.u_min(j, i), program_.u_max(j, i));
       if (i + 1 == program_.size()) continue;
       for (int j = 0; j < m_; ++j) {
         f(one(solution_.mu(j, i)), -program_.du_max(j, i), program_.du_max(j, i));
@@ -116,7 +115,7 @@ double worst_balance(const TrajectoryProgram& program, const TrajectorySolution&
   double worst = 0, price = 0;
   for (int i = 0; i < program.size(); ++i) {
     const WrenchProgram& at = program.instants[i];
-    const bool elastic = program.elastic() && i >= program.first_elastic;
+    const bool elastic = program.slackens(i);
     for (Eigen::Index r = 0; r < at.tau_d.size(); ++r) {
       double sum = -at.tau_d[r] + solution.s(r, i);
       for (int j = 0; j < at.actuation->actuators(); ++j) {
@@ -133,8 +132,7 @@ double worst_balance(const TrajectoryProgram& program, const TrajectorySolution&
   return worst;
 }
 
-double outside_limits(const TrajectoryProgram& program, const TrajectorySolution& solution,
-                      const Multipliers& data) {
+double outside_limits(const TrajectoryProgram& program, const TrajectorySolution& solution) {
   double worst = 0;
   const auto check = [&](double x, double low, double high) {
     raise_to(worst, low - x);
@@ -143,11 +141,11 @@ double outside_limits(const TrajectoryProgram& program, const TrajectorySolution
   for (int i = 0; i < program.size(); ++i) {
     const WrenchProgram& at = program.instants[i];
     const double along = at.c_w.dot(solution.w[i]);
-    if (program.peak < 0 && !program.common) raise_to(worst, solution.value - along);
+    if (program.bounds_value(i) && !program.common) raise_to(worst, solution.value - along);
     if (program.peak == i || program.common) raise_to(worst, std::abs(solution.value - along));
     for (int j = 0; j < at.columns(); ++j) check(solution.w[i][j], at.w_min[j], at.w_max[j]);
     for (int j = 0; j < at.actuation->actuators(); ++j) {
-      check(solution.u(j, i), data.u_min(j, i), data.u_max(j, i));
+      check(solution.u(j, i), program.u_min(j, i), program.u_max(j, i));
       if (i == 0) continue;
       const double most = program.du_max(j, i - 1);
       check(solution.u(j, i) - solution.u(j, i - 1), -most, most);
@@ -198,6 +196,9 @@ void add_dual(const TrajectoryProgram& program, const TrajectorySolution& soluti
     sum += solution.pi[i];
     if (!program.common) raise_to(residual.dual, -solution.pi[i]);
     if (program.peak >= 0) raise_to(residual.dual, std::abs(solution.pi[i] - (program.peak == i)));
+    if (program.peak < 0 && !program.bounds_value(i)) {
+      raise_to(residual.dual, std::abs(solution.pi[i]));
+    }
     for (int j = 0; j < at.columns(); ++j) {
       add(data.wrench(-1, solution.pi[i] * at.c_w[j], j, i), at.w_min[j], at.w_max[j]);
     }
@@ -211,12 +212,14 @@ void add_dual(const TrajectoryProgram& program, const TrajectorySolution& soluti
 
 /// Whether limits exclude each other. This proves infeasibility without multipliers.
 bool limits_cross(const TrajectoryProgram& program) {
-  const Zonotope& set = *program.instants.front().actuation;
   const auto crosses = [](const auto& low, const auto& high) {
     return (low.array() > high.array()).any();
   };
-  if (crosses(program.first_min, program.first_max)) return true;
-  if (program.size() > 1 && crosses(set.u_min, set.u_max)) return true;
+  for (int i = 0; i < program.size(); ++i) {
+    for (int j = 0; j < program.instants.front().actuation->actuators(); ++j) {
+      if (program.u_min(j, i) > program.u_max(j, i)) return true;
+    }
+  }
   if (program.du_max.size() > 0 && (program.du_max.array() < 0).any()) return true;
   if (crosses(program.y_min, program.y_max)) return true;
   if (program.R.rows() > 0 && crosses(program.r_min, program.r_max)) return true;
@@ -232,8 +235,7 @@ Residual recheck(const TrajectoryProgram& program, const TrajectorySolution& sol
   if (!primal_fits(program, solution)) return residual;
   bool price_is_right = false;
   residual.balance = worst_balance(program, solution, price_is_right);
-  residual.bounds =
-      std::max(outside_limits(program, solution, data), outside_rows(program, solution));
+  residual.bounds = std::max(outside_limits(program, solution), outside_rows(program, solution));
   if (!price_is_right || !data.fit()) return residual;
   residual.dual = 0;
   add_dual(program, solution, data, residual);

@@ -101,14 +101,16 @@ void allow_keys(const Block& task) {
   } else if (type != "static") {
     task.throw_bad_value("type", "'static', 'trajectory', 'impulse' or 'transfer'");
   }
-  for (const std::string_view key : {"environment", "uncertainty", "loss", "payload"}) {
-    const bool carried = key == "payload" && (type == "trajectory" || type == "transfer");
-    if (type == "static" || carried) {
-      keys.emplace_back(key);
-    } else if (task.has(key)) {
-      task.throw_bad_value(key, key == "payload" ? "no such key in an impulse"
-                                                 : "no such key except in static tasks");
-    }
+  keys.insert(keys.end(), {"uncertainty", "loss"});
+  if (type != "impulse") {
+    keys.emplace_back("payload");
+  } else if (task.has("payload")) {
+    task.throw_bad_value("payload", "no such key in an impulse");
+  }
+  if (type == "static") {
+    keys.emplace_back("environment");
+  } else if (task.has("environment")) {
+    task.throw_bad_value("environment", "no such key except in static tasks");
   }
   task.allow_only(keys);
 }

@@ -56,6 +56,21 @@ void require_payload(const PayloadSpec& payload) {
   require_coefficients("payload.added_mass_per_kg", payload.added_mass);
 }
 
+/// Rejects a payload whose forces in motion could not be computed.
+void require_moderate(const PayloadSpec& payload, double weight) {
+  const auto require = [](const char* key, const Eigen::VectorXd& numbers) {
+    if (numbers.lpNorm<Eigen::Infinity>() <= kMostPerUnit) return;
+    throw BadValue(key, shown(numbers), fmt::format("numbers of at most {:g}", kMostPerUnit));
+  };
+  require("payload.com", payload.com);
+  require("payload.cob", payload.cob.value_or(payload.com));
+  require("payload.inertia_per_kg", payload.inertia.reshaped());
+  require("payload.added_mass_per_kg", payload.added_mass);
+  if (weight <= kMostPerUnit) return;
+  throw BadValue("payload", fmt::format("a wrench of {:g} per kg", weight),
+                 fmt::format("one of at most {:g} N or N m per kg", kMostPerUnit));
+}
+
 }  // namespace
 
 void set_payload(const TaskSpec& task, Problem& problem) {
@@ -76,12 +91,15 @@ void set_payload(const TaskSpec& task, Problem& problem) {
   const bool weighs = c.stableNorm() >= kLeastPerUnit && c.stableNorm() <= kMostPerUnit;
   if (problem.motion) {
     require_one_factor(*problem.motion, "payload");
+    require_moderate(payload, c.stableNorm());
     if (problem.motion->table) {
       throw BadValue("wrench.file", "a table", "no such key beside payload: it is the wrench");
     }
     problem.motion->payload = body;
     problem.c = Vector6d::Unit(2);  // in motion a body without weight has its inertia
     if (weighs) problem.c = c.stableNormalized();
+    problem.scenarios.wrenches = {{.name = "", .c = problem.c}};
+    problem.scenarios.unit = "kg";
     return;
   }
   if (!weighs) {
@@ -127,6 +145,8 @@ void set_table(const TaskSpec& task, Problem& problem) {
                    fmt::format("a wrench from {:g} to {:g} N or N m", kLeastPerUnit, kMostPerUnit));
   }
   problem.c = rotated(problem.wrench_axes, table.wrenches.col(largest).stableNormalized());
+  problem.scenarios.wrenches = {{.name = "", .c = problem.c}};
+  problem.scenarios.unit = "-";
 }
 
 }  // namespace maxwrench

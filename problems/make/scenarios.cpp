@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kLargestWrench = 1e9;    // N or N m
 constexpr double kShortestWrench = 1e-9;  // likewise
+constexpr double kMostKnotsOfList = 5000;
 
 const Eigen::Vector3d& current_of(const TaskSpec& task) {
   return task.current ? *task.current : task.robot.current;
@@ -121,12 +122,40 @@ void require_few(const TaskSpec& task, double wrenches, double limits, double co
                              kMostScenarios));
 }
 
+/// Rejects uncertain loads in time, where they would change inertias as well.
+void require_known_loads(const UncertaintySpec& uncertainty) {
+  const auto require_none = [](bool given, const char* key) {
+    if (!given) return;
+    throw BadValue(fmt::format("uncertainty.{}", key), "a value",
+                   "no such key except in static tasks; tasks in time have thrust and torque");
+  };
+  require_none(!uncertainty.mass.empty(), "mass");
+  require_none(!uncertainty.com.empty(), "com");
+  require_none(!uncertainty.volume.empty(), "volume");
+  require_none(!uncertainty.cob.empty(), "cob");
+  require_none(uncertainty.trim != 0, "trim");
+  require_none(uncertainty.payload_mass != 0, "payload");
+  require_none(uncertainty.current_speed != 0 || !uncertainty.current_vectors.empty(), "current");
+}
+
+/// Rejects a list whose trajectory programs would be too large.
+void require_few_knots(double scenarios, const MotionTask& motion) {
+  if (scenarios == 1 || scenarios * motion.k <= kMostKnotsOfList) return;
+  throw BadValue("motion.k", fmt::format("{} knots of {:g} scenarios", motion.k, scenarios),
+                 fmt::format("at most {:g} knots of all scenarios together", kMostKnotsOfList));
+}
+
 }  // namespace
 
 void set_wrenches(const TaskSpec& task, Problem& problem) {
   const KeyOfLists given = key_of_lists(task);
-  if (problem.motion && !given.key.empty() && given.key != "payload") {
-    throw BadValue(given.key, given.got, "no such key except in static tasks");
+  if (problem.motion && given.key == "wrench.ball") {
+    throw BadValue(given.key, given.got,
+                   "no such key except in static tasks; wrench.set lists wrenches in time");
+  }
+  if (problem.motion && !current_of(task).isZero(0)) {
+    throw BadValue("environment.current", shown(current_of(task)),
+                   "no such key except in static tasks");
   }
   if (task.payload) return set_payload(task, problem);
   if (problem.motion && problem.motion->table) return set_table(task, problem);
@@ -184,6 +213,7 @@ void set_scenarios(const TaskSpec& task, Problem& problem) {
   ScenarioList& list = problem.scenarios;
   const UncertaintySpec known;
   const UncertaintySpec& uncertainty = task.uncertainty ? *task.uncertainty : known;
+  if (problem.motion) require_known_loads(uncertainty);
   list.loads = uncertain_loads(uncertainty, problem);
   if (!current_of(task).isZero(0)) list.loads.push_back(known_current(task, problem.robot));
   const std::vector<ActuatorLimits> limits = actuator_limits(task.loss, uncertainty, problem.robot);
@@ -191,6 +221,9 @@ void set_scenarios(const TaskSpec& task, Problem& problem) {
   for (const LoadGroup& group : list.loads) corners *= static_cast<double>(group.size());
   require_few(task, static_cast<double>(list.wrenches.size()), static_cast<double>(limits.size()),
               corners);
+  if (problem.motion) {
+    require_few_knots(static_cast<double>(list.wrenches.size() * limits.size()), *problem.motion);
+  }
   const Zonotope& actuation = problem.robot.actuation;
   const bool stated = !task.set.empty() || task.hold || list.ball || list.payload;
   const bool same_limits = limits.size() == 1 && limits[0].u_min == actuation.u_min &&

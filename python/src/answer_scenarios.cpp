@@ -9,7 +9,17 @@ namespace {
 py::object decides(const PyAnswer& self) {
   const Answer& answer = self.answer;
   if (!answer.has_value() || answer.task->scenarios.empty()) return py::none();
-  return py::str(describe(answer.task->scenarios, answer.capability.decides));
+  const bool in_time = answer.task->motion.has_value();
+  return py::str(describe(answer.task->scenarios,
+                          in_time ? answer.trajectory.decides : answer.capability.decides));
+}
+
+py::object decides_at(const PyAnswer& self) {
+  const Answer& answer = self.answer;
+  const Trajectory& trajectory = answer.trajectory;
+  const bool list = answer.has_value() && answer.task->motion && !answer.task->scenarios.empty();
+  if (!list || trajectory.decides_at < 0) return py::none();
+  return py::float_(trajectory.instants[static_cast<std::size_t>(trajectory.decides_at)].t);
 }
 
 py::list scenarios(const PyAnswer& self) {
@@ -59,11 +69,17 @@ void add_scenarios(py::class_<PyAnswer>& answer) {
           "decides", &decides,
           "The scenario that decides, if the task has a list of scenarios and there is a value, or "
           "None.")
-      .def("scenarios", &scenarios, R"(The interval of each scenario at this posture.
+      .def_property_readonly(
+          "decides_at", &decides_at,
+          "The time of the instant that decides [s], if the task is in time and has a list of "
+          "scenarios, or None.")
+      .def("scenarios", &scenarios, R"(The interval of each scenario at this posture or trajectory.
+
+In time each scenario is solved alone, and ``low`` is infinite, or 0 for a payload.
 
 Returns a list of dicts with ``name``, ``low``, ``high`` (infinite where there is no end) and
 ``held``: whether the interval has a point. Raises InputError if the task has no list of scenarios
-or the posture is invalid.
+or the posture or trajectory is invalid.
 )")
       .def("sample", &sample_of, py::arg("n"), py::arg("seed") = 0,
            py::arg("guaranteed") = py::none(),
@@ -85,7 +101,7 @@ Returns:
     that of each model. A model without a value counts as minus infinity.
 
 Raises:
-    InputError: the task has no list, the posture is invalid, or n < 1.
+    InputError: the task has no list or is in time, the posture is invalid, or n < 1.
 
 >>> push = maxwrench.load("fixed/push")
 >>> unsure = maxwrench.Static(push.robot, uncertainty={"torque": 0.1})

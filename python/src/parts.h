@@ -72,8 +72,6 @@ ContactSpec contact_in(const py::object& value);
 /// Reads the dicts of a task that have the keys of a task file: those of its table `[wrench]`, and
 /// the tables `uncertainty`, `loss` and `payload`, for the robot of `spec`.
 void read_scenario_arguments(const py::dict& wrench, const py::dict& tables, TaskSpec& spec);
-/// Reads c of a task in time, by default "z", or `payload` in place of it. `wrenches` stays.
-void read_wrench_in_time(py::dict& arguments, TaskSpec& spec);
 /// The table of wrenches over time in the argument `wrenches`, which leaves `arguments`; or none.
 std::optional<WrenchTable> wrenches_in(py::dict& arguments);
 /// The homogeneous matrix of a pose (4×4).

@@ -82,7 +82,7 @@ void read_scenario_arguments(const py::dict& wrench, const py::dict& tables, Tas
   const Block block = Block::of(table_of("", all, 0));
   try {
     read_scenario_tables(block, spec);
-    if (!spec.payload) read_wrenches(block.table("wrench"), spec);
+    if (!asked.empty()) read_wrenches(block.table("wrench"), spec);
   } catch (const BadInput& bad) {
     throw BadValue(bad.value());  // there is no file
   }

@@ -64,12 +64,12 @@ py::dict given_of(py::dict& arguments, std::initializer_list<const char*> names)
   return given;
 }
 
-/// Reads c, or what a static task has in place of it or beside it. Without any of them c is "z".
+/// Reads c, or what a task has in place of it or beside it. Without any of them c is "z".
 void read_scenarios(py::dict& arguments, TaskSpec& spec) {
   const py::dict tables = given_of(arguments, {"uncertainty", "loss", "payload"});
   py::dict wrench = given_of(arguments, {"set", "ball", "hold"});
-  const bool needs_c =
-      !wrench.contains("set") && !wrench.contains("ball") && !tables.contains("payload");
+  const bool needs_c = !wrench.contains("set") && !wrench.contains("ball") &&
+                       !tables.contains("payload") && !arguments.contains("wrenches");
   if (needs_c || arguments.contains("c")) {
     const Vector6d c = direction_in("c", taken(arguments, "c", py::str("z")));
     wrench["c"] = copy(Eigen::VectorXd(c));
@@ -79,12 +79,8 @@ void read_scenarios(py::dict& arguments, TaskSpec& spec) {
   if (!current.is_none()) spec.current = Eigen::Vector3d(vector("current", current, 3));
 }
 
-void read_wrench(py::dict& arguments, bool in_time, TaskSpec& spec) {
-  if (in_time) {
-    read_wrench_in_time(arguments, spec);
-  } else {
-    read_scenarios(arguments, spec);
-  }
+void read_wrench(py::dict& arguments, TaskSpec& spec) {
+  read_scenarios(arguments, spec);
   const std::string axes = text_in("frame", taken(arguments, "frame", py::str("world")));
   if (axes != "world" && axes != "end_effector") {
     throw BadValue("frame", shown(axes), "world or end_effector");
@@ -133,7 +129,7 @@ TaskSpec begin_spec(const PyRobot& robot, py::dict& arguments, bool in_time) {
     const py::object contact = taken(arguments, "contact");
     if (!contact.is_none()) spec.contact = contact_in(contact);
   }
-  read_wrench(arguments, in_time, spec);
+  read_wrench(arguments, spec);
   read_theta_r(arguments, spec);
   return spec;
 }

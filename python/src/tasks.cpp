@@ -217,8 +217,8 @@ Args:
         the robot carries along the path.
     wrenches: in place of c, a table of wrenches over time (N×7), rows [t, force, torque] with t
         from 0 to the duration of the path: the value is their factor.
-    others: as of ``Static``, but for pose, joints, free, range, along, contact, and the arguments
-        from set to loss.
+    others: as of ``Static``, but for pose, joints, free, range, along, contact and ball. Of the
+        uncertain values only thrust and torque.
 
 Raises:
     InputError: a value is wrong.

@@ -328,3 +328,19 @@ def test_a_proof_with_currents_leaves_them_out(tmp_path, rejects):
     proof = mw.certify(static(uncertainty={"current": {"speed": 0.05, "directions": 4}}), gap=0.1, seconds=20)
     assert proof.beta <= proof.bound
     rejects(proof.save, tmp_path / "current.proof")
+
+
+def test_a_list_in_time_is_the_least_of_its_scenarios():
+    push = mw.load("uvms/valve_trajectory")
+    wrenches = [[0, 0, 0, 0, 0, 1], [0, 0, 5, 0, 0, 1]]
+    path = mw.Path.screw(push.pose, 5, axis=[0, 0, 1], angle=math.pi)
+    both = mw.Trajectory(push.robot, path, 4, set=wrenches, loss={"cases": [["front_left_vertical"]]},
+                         theta_r=push.theta_r_names, theta_r_default=push.theta_r_default)
+    answer = mw.evaluate(both, push.theta_r_default)
+    each = answer.scenarios()
+    assert len(each) == 4 and all(one["held"] for one in each)
+    least = min(each, key=lambda one: one["high"])
+    assert answer.beta == pytest.approx(least["high"], abs=1e-6)
+    assert answer.decides == least["name"]
+    assert 0 <= answer.decides_at <= 5
+    assert mw.evaluate(push, push.theta_r_default).decides_at is None

@@ -77,9 +77,11 @@ ordered_json explanation_object(const Explanation& explanation) {
                              {"gap", known(held, efforts.gap)}};
   object["instants"] = ordered_json::array();
   for (const InstantLimits& instant : explanation.instants) {
-    object["instants"].push_back({{"t", instant.t},
-                                  {"words", where_limits_are(instant.limits)},
-                                  {"limits", limits_json(instant.limits)}});
+    ordered_json& added = object["instants"].emplace_back();
+    added["t"] = instant.t;
+    if (!instant.scenario.empty()) added["scenario"] = instant.scenario;
+    added["words"] = where_limits_are(instant.limits);
+    added["limits"] = limits_json(instant.limits);
   }
   return object;
 }

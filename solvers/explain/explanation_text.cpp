@@ -104,7 +104,9 @@ std::string efforts_text(const Explanation& e) {
 std::string instants_text(const Explanation& e) {
   std::string text;
   for (const InstantLimits& instant : e.instants) {
-    text += fmt::format("binds at {:.4f} s: {}\n", instant.t, where_limits_are(instant.limits));
+    text += fmt::format("binds at {:.4f} s{}: {}\n", instant.t,
+                        instant.scenario.empty() ? "" : " (" + instant.scenario + ")",
+                        where_limits_are(instant.limits));
     text += rates_table(instant.limits, e.unit);
   }
   return text + "no ranges, no other posture and no least efforts: " + e.efforts.missing + "\n";

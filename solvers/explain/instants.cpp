@@ -15,11 +15,13 @@ constexpr double kLeastPrice = 1e-6;
 /// limit of the rate may be tighter than that of the effort.
 LimitRate limit_at(const Answer& answer, Eigen::Index j, Eigen::Index i, double price) {
   const Robot& robot = answer.task->robot;
-  const Zonotope& set = robot.actuation;
+  const TrajectoryProgram& program = answer.program;
+  const auto actuator = static_cast<int>(j), block = static_cast<int>(i);
+  const Zonotope& set = *program.instants[static_cast<std::size_t>(i)].actuation;
   const bool upper = price > 0;
   const double own = upper ? set.u_max[j] : set.u_min[j];
-  const double first = (upper ? answer.program.first_max : answer.program.first_min)[j];
-  const bool starts = i == 0 && first != own;
+  const double first = upper ? program.u_max(actuator, block) : program.u_min(actuator, block);
+  const bool starts = block % program.length() == 0 && first != own;
   return {(starts ? "change from rest of " : "") + actuator_name(robot, j), actuator_unit(robot, j),
           upper ? LimitSide::kUpper : LimitSide::kLower, starts ? first : own, price};
 }
@@ -33,9 +35,8 @@ void explain_instants(const Answer& answer, Explanation& explanation) {
   Eigen::MatrixXd prices(robot.actuators(), blocks);
   for (Eigen::Index i = 0; i < blocks; ++i) prices.col(i) = effort_prices(robot, solution, i);
   const double least = kLeastPrice * prices.cwiseAbs().maxCoeff();
-  const auto skipped = static_cast<Eigen::Index>(answer.trajectory.instants.size()) - blocks;
   for (Eigen::Index i = 0; i < blocks; ++i) {
-    InstantLimits at{answer.trajectory.instants[static_cast<std::size_t>(i + skipped)].t, {}};
+    InstantLimits at{instant_of_block(answer, i).t, {}, scenario_of_block(answer, i)};
     const auto add = [&](const LimitRate& limit) {
       if (std::abs(limit.rate) > least && std::isfinite(limit.limit)) at.limits.push_back(limit);
     };

@@ -4,9 +4,7 @@
 
 namespace maxwrench {
 
-/// A local solve by SLSQP of NLopt, at most 400 points. SLSQP needs a number at every point: where
-/// there is no posture, all rows appear violated by ten half widths, so that SLSQP shortens its
-/// step.
+/// A local solve by SLSQP of NLopt (`solve_rows_by_slsqp`), at most 400 points.
 FacetEnd solve_facets_by_slsqp(FacetView& view);
 
 }  // namespace maxwrench

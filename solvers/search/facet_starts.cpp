@@ -92,7 +92,7 @@ bool FacetView::look(const Eigen::VectorXd& y) {
   return valid_;
 }
 
-const FacetView::Jacobian& FacetView::jacobian() {
+const RowProgram::Jacobian& FacetView::jacobian() {
   if (linear_) return jacobian_;
   linear_ = true;
   program_.linearize();

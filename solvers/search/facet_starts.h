@@ -6,6 +6,8 @@
 
 #include "lib/search/facet_program.h"
 #include "solvers/search/probe.h"
+#include "solvers/search/row_program.h"
+#include "solvers/search/row_sqp.h"
 
 namespace maxwrench {
 
@@ -17,7 +19,7 @@ namespace maxwrench {
 /// Each row is divided by its unit. The scale s_k is how much of wrench column k alone the start
 /// can bear, or |w_k| if that is larger. Each point counts as an evaluation of the probe, which
 /// reserves one for the end.
-class FacetView {
+class FacetView final : public RowProgram {
  public:
   /// All arguments must outlive this.
   FacetView(Probe& probe, FacetProgram& program, const Box& box);
@@ -25,22 +27,13 @@ class FacetView {
   /// Starts at an IK solution of theta_r, which counts as one evaluation. Returns false if theta_r
   /// has no solution of this number.
   bool set_out(const Eigen::VectorXd& theta_r, int ik_solution);
-  const Eigen::VectorXd& start() const { return start_; }
-  const Eigen::VectorXd& lower() const { return lower_; }
-  const Eigen::VectorXd& upper() const { return upper_; }
-  const Eigen::VectorXd& c_y() const { return c_y_; }
-  const Eigen::VectorXd& row_min() const { return row_min_; }
-  const Eigen::VectorXd& row_max() const { return row_max_; }
 
   /// Whether no evaluation is left except the reserved one.
-  bool ended() const { return probe_.left() < 2; }
-  /// Evaluates the rows at y, once for repeated calls with the same y. Returns false if there is no
-  /// posture, or if `ended`.
-  bool look(const Eigen::VectorXd& y);
-  const Eigen::VectorXd& rows() const { return rows_; }
-  /// The derivative of the rows at the last y for which `look` returned true. f×(d + k), by rows.
-  using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Jacobian& jacobian();
+  bool ended() const override { return probe_.left() < 2; }
+  /// False if there is no posture, or if `ended`.
+  bool look(const Eigen::VectorXd& y) override;
+  /// f×(d + k)
+  const Jacobian& jacobian() override;
 
   Eigen::VectorXd theta_r(const Eigen::VectorXd& y) const { return box_.theta_r(y.head(d_)); }
 
@@ -52,17 +45,13 @@ class FacetView {
   FacetProgram& program_;
   Eigen::Index d_;
   Eigen::VectorXd unit_, w_scale_;
-  Eigen::VectorXd start_, lower_, upper_, c_y_, row_min_, row_max_;
-  Eigen::VectorXd y_, rows_;
+  Eigen::VectorXd y_;
   bool valid_ = false, linear_ = false;
   Jacobian jacobian_;
 };
 
 /// Where a local solve ended, and the library's status.
-struct FacetEnd {
-  Eigen::VectorXd y;
-  std::string status;
-};
+using FacetEnd = RowEnd;
 
 /// A local solve from `view.start()`.
 using FacetSolve = std::function<FacetEnd(FacetView& view)>;

@@ -36,11 +36,14 @@ JointProgram::JointProgram(TrajectoryEvaluator& trajectories, const Eigen::Vecto
 
 void JointProgram::set_limits(const TrajectoryProgram& program, const KnotRows& rows,
                               const KnotRows& following) {
-  const Zonotope& set = *program.instants.front().actuation;
+  Eigen::Index limits = 0;
   for (int i = 0; i < N_; ++i) {
     const WrenchProgram& at = program.instants[static_cast<std::size_t>(i)];
-    lower_.segment(u0(i), m_) = i == 0 ? program.first_min : set.u_min;
-    upper_.segment(u0(i), m_) = i == 0 ? program.first_max : set.u_max;
+    limits += program.bounds_value(i);
+    for (int j = 0; j < m_; ++j) {
+      lower_[u0(i) + j] = program.u_min(j, i);
+      upper_[u0(i) + j] = program.u_max(j, i);
+    }
     lower_.segment(w0(i), at.columns()) = at.w_min;
     upper_.segment(w0(i), at.columns()) = at.w_max;
     if (i + 1 == N_) break;
@@ -57,7 +60,7 @@ void JointProgram::set_limits(const TrajectoryProgram& program, const KnotRows& 
     lower_[p_] = upper_[p_] = start_[p_] = 0;  // t is not used
   }
   const auto rates = static_cast<Eigen::Index>(rated_.size());
-  const Eigen::Index limits = path ? N_ : 0, R = rows.R.rows(), F = following.R.rows();
+  const Eigen::Index R = rows.R.rows(), F = following.R.rows();
   row_min_.setZero(n_ * N_ + limits + rates + R + F);
   row_max_ = row_min_;
   if (!program.common) row_min_.segment(n_ * N_, limits).setConstant(-kInfinity);
@@ -113,12 +116,12 @@ void JointProgram::fill_block(const TrajectoryProgram& program, int i) {
 
 void JointProgram::fill_linear(const TrajectoryProgram& program) {
   int row = n_ * N_;
-  if (program.peak < 0) {
-    for (int i = 0; i < N_; ++i, ++row) {
-      const WrenchProgram& at = program.instants[static_cast<std::size_t>(i)];
-      entries_.emplace_back(row, p_, 1);
-      for (int j = 0; j < at.columns(); ++j) entries_.emplace_back(row, w0(i) + j, -at.c_w[j]);
-    }
+  for (int i = 0; i < N_; ++i) {
+    if (!program.bounds_value(i)) continue;
+    const WrenchProgram& at = program.instants[static_cast<std::size_t>(i)];
+    entries_.emplace_back(row, p_, 1);
+    for (int j = 0; j < at.columns(); ++j) entries_.emplace_back(row, w0(i) + j, -at.c_w[j]);
+    ++row;
   }
   for (const auto& [i, j] : rated_) {
     entries_.emplace_back(row, u0(i + 1) + j, 1);

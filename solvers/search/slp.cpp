@@ -46,6 +46,12 @@ SlpOutcome compete(const TrajectoryObjective& objective, std::span<const Candida
   }
   running.clear();
   for (const auto& slp_run : slp_runs) running.push_back(slp_run.get());
+  parallel_for(threads, static_cast<long>(running.size()), [&](long i) {
+    SlpRun& slp_run = *running[static_cast<std::size_t>(i)];
+    const long before = slp_run.found().trace.evaluations();
+    slp_run.polish(share);
+    run.add(slp_run.found().trace.evaluations() - before);
+  });
   sort();
   for (SlpRun* slp_run : running) {
     if (slp_run->value() > outcome.worth) judge(*slp_run, run, outcome);

@@ -1,8 +1,13 @@
 #include "solvers/search/slp_run.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "solvers/search/factor_program.h"
 #include "solvers/trajectory/makers.h"
+#if MAXWRENCH_WITH_NLOPT
+#include "solvers/search/row_sqp.h"
+#endif
 
 namespace maxwrench {
 namespace {
@@ -15,6 +20,7 @@ constexpr double kSpare = 1e-9;          // m, added to the margin when knots ar
 constexpr int kApartRounds = 5;          // rounds of moving knots apart
 constexpr double kStepTolerance = 1e-6;  // of a linear program, whose answer is used only as a step
 constexpr double kConverged = 1e-9;      // predicted, relative to 1 + |f|
+[[maybe_unused]] constexpr int kPolishPoints = 400;
 
 }  // namespace
 
@@ -53,6 +59,23 @@ void SlpRun::optimise(long evaluations) {
     if (try_step()) program_ = linearize();
     done_ = done_ || !(radius_ > kSmallestRadius);
   }
+}
+
+void SlpRun::polish([[maybe_unused]] long evaluations) {
+#if MAXWRENCH_WITH_NLOPT
+  const long left = std::min<long>(kPolishPoints, evaluations - found_.trace.evaluations() - 1);
+  if (left < 3 || run_.ended() || best_.value == -kInfinity || shared_.size() > 0) return;
+  if (!FactorProgram::serves(trajectories_, trajectories_.dependent_rows().at.size() > 0)) return;
+  FactorProgram program(trajectories_, objective_->lower(), objective_->upper(), best_.theta_r,
+                        best_.value, left);
+  const RowEnd end = solve_rows_by_slsqp(program, kPolishPoints);
+  for (long point = 0; point < program.looked(); ++point) note(best_.theta_r, -kInfinity);
+  found_.calls.push_back({"slp", "sqp", program.looked()});
+  const Eigen::VectorXd x = inside(program.knots(end.y));
+  program_ = nullptr;
+  const double value = evaluate(x);
+  if (value > at_.value) at_ = {x, value};
+#endif
 }
 
 /// Returns whether the knots moved; then `trajectories_` is at the new point.

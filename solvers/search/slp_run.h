@@ -32,6 +32,12 @@ class SlpRun {
   /// one.
   void optimise(long evaluations);
 
+  /// Ends the local search of a trajectory with one factor at all instants by SLSQP between facets,
+  /// from the best point, until this many evaluations are used. Where efforts jump between their
+  /// limits, the optimum is no vertex of the linear programs, and these crawl. Does nothing for
+  /// other trajectories, and in a build without NLopt.
+  void polish(long evaluations);
+
   /// The most evaluations of `worth`: the program at the instants, and that between them.
   static constexpr int kJudgement = 2;
   /// The objective's value of a trajectory with this value at its instants. The two are the same if

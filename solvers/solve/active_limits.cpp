@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/scenario/scenario_list.h"
 #include "maxwrench/solve.h"
 #include "solvers/solve/format.h"
 
@@ -33,13 +34,14 @@ std::vector<WorthyLimit> dearest_first(std::vector<WorthyLimit> limits) {
 std::vector<WorthyLimit> limits_at(const Answer& answer, Eigen::Index i) {
   const Robot& robot = answer.task->robot;
   const TrajectorySolution& solution = answer.trajectory.solution;
-  const Zonotope& set = robot.actuation;
+  const Zonotope& set = *answer.program.instants[static_cast<std::size_t>(i)].actuation;
   std::vector<WorthyLimit> limits;
   const Eigen::VectorXd prices = effort_prices(robot, solution, i);
   for (Eigen::Index j = 0; j < prices.size(); ++j) {
     const bool upper = prices[j] > 0;
+    const double width = set.u_max[j] - set.u_min[j];
     limits.push_back(
-        {std::abs(prices[j]) * (set.u_max[j] - set.u_min[j]),
+        {prices[j] == 0 ? 0 : std::abs(prices[j]) * width,
          fmt::format("{} at {:g}{}", actuator_name(robot, j), upper ? set.u_max[j] : set.u_min[j],
                      robot.limits.empty() ? "" : fmt::format(" ({})", robot.limits))});
   }
@@ -76,6 +78,20 @@ Eigen::VectorXd effort_prices(const Robot& robot, const TrajectorySolution& solu
   return prices;
 }
 
+const Instant& instant_of_block(const Answer& answer, Eigen::Index i) {
+  const std::vector<Instant>& instants = answer.trajectory.instants;
+  const Eigen::Index length = answer.program.length();
+  const Eigen::Index skipped = static_cast<Eigen::Index>(instants.size()) - length;
+  return instants[static_cast<std::size_t>(i % length + skipped)];
+}
+
+std::string scenario_of_block(const Answer& answer, Eigen::Index i) {
+  const ScenarioList& list = answer.task->scenarios;
+  if (list.empty()) return "";
+  const auto number = static_cast<std::size_t>(i / answer.program.length());
+  return describe(list, all_scenarios(list)[number]);
+}
+
 std::vector<std::string> binding_limits(const Answer& answer) {
   const Eigen::VectorXd& pi = answer.trajectory.solution.pi;
   std::vector<Eigen::Index> worst;
@@ -86,11 +102,11 @@ std::vector<std::string> binding_limits(const Answer& answer) {
                    [&](Eigen::Index a, Eigen::Index b) { return pi[a] > pi[b]; });
   if (worst.size() > kMostInstants) worst.resize(kMostInstants);
   std::sort(worst.begin(), worst.end());
-  const auto skipped = static_cast<Eigen::Index>(answer.trajectory.instants.size()) - pi.size();
   std::vector<std::string> lines;
   for (const Eigen::Index i : worst) {
-    lines.push_back(fmt::format("binds at {:.4f} s: {}",
-                                answer.trajectory.instants[static_cast<std::size_t>(i + skipped)].t,
+    const std::string scenario = scenario_of_block(answer, i);
+    lines.push_back(fmt::format("binds at {:.4f} s{}: {}", instant_of_block(answer, i).t,
+                                scenario.empty() ? "" : " (" + scenario + ")",
                                 describe(limits_at(answer, i))));
   }
   return lines;
@@ -129,8 +145,14 @@ std::string fastest_joint(const Robot& robot, const Trajectory& trajectory) {
   return name == nullptr ? "none moves" : fmt::format("{:.0f} % {}", 100 * most, *name);
 }
 
-std::string nearest_limit(const Robot& robot, const Eigen::VectorXd& u) {
-  const Zonotope& set = robot.actuation;
+const Zonotope& reported_limits(const Answer& answer) {
+  const Problem& task = *answer.task;
+  if (task.scenarios.empty()) return task.robot.actuation;
+  const auto limits = static_cast<std::size_t>(answer.trajectory.decides.limits);
+  return task.scenarios.limits[limits].actuation;
+}
+
+std::string nearest_limit(const Robot& robot, const Zonotope& set, const Eigen::VectorXd& u) {
   double most = -1;
   Eigen::Index at = 0;
   for (Eigen::Index j = 0; j < u.size(); ++j) {

@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <cmath>
 
 #include "maxwrench/sensitivity.h"
 #include "maxwrench/solve.h"
 #include "maxwrench/version.h"
+#include "solvers/solve/active_limits.h"
 #include "solvers/solve/format.h"
 
 namespace maxwrench {
@@ -68,13 +70,13 @@ ordered_json task_json(const Answer& answer) {
 }
 
 /// In the order of u; `rate` is null if there is no limit.
-ordered_json actuators_json(const Robot& robot) {
+ordered_json actuators_json(const Robot& robot, const Zonotope& set) {
   ordered_json list = ordered_json::array();
   for (Eigen::Index i = 0; i < robot.actuators(); ++i) {
     const double rate = robot.u_rate_max[i];
     list.push_back({{"name", actuator_name(robot, i)},
-                    {"min", robot.actuation.u_min[i]},
-                    {"max", robot.actuation.u_max[i]},
+                    {"min", set.u_min[i]},
+                    {"max", set.u_max[i]},
                     {"rate", known(rate < kInfinity, rate)}});
   }
   return list;
@@ -161,14 +163,23 @@ void add_instants(const Answer& answer, ordered_json& object) {
   object["task"] = task_json(answer);
   object["value"] = known(answer.has_value(), trajectory.value);
   object["value_between_knots"] = trajectory.value_between_knots;
+  if (const ScenarioList& list = answer.task->scenarios; !list.empty()) {
+    const bool decided = answer.has_value() && trajectory.decides_at >= 0;
+    const auto at = static_cast<std::size_t>(std::max(0, trajectory.decides_at));
+    object["decides"] = known(decided, describe(list, trajectory.decides));
+    object["decides_at"] = known(decided, decided ? trajectory.instants[at].t : 0.0);
+  }
   if (answer.task->motion->transfer) {
-    object["overshoot"] = known(std::isfinite(trajectory.overshoot), trajectory.overshoot);
+    const auto number = [](double value) { return known(std::isfinite(value), value); };
+    object["overshoot"] = number(trajectory.overshoot);
+    object["speed_overshoot"] = number(trajectory.speed_overshoot);
+    object["limit_overshoot"] = number(trajectory.limit_overshoot);
   }
   object["between_knots_reason"] =
       known(!trajectory.between_knots_reason.empty(), trajectory.between_knots_reason.str());
   object["collision"] = known(!trajectory.collision.empty(), trajectory.collision.str());
   object["clearance"] = clearance_json(answer.clearance);
-  object["actuators"] = actuators_json(robot);
+  object["actuators"] = actuators_json(robot, reported_limits(answer));
   object["instants"] = ordered_json::array();
   for (const Instant& instant : trajectory.instants) {
     object["instants"].push_back(instant_json(robot, instant, answer.has_value()));

@@ -2,11 +2,13 @@
 #include <stdexcept>
 
 #include "lib/scenario/scenario_facets.h"
+#include "lib/scenario/scenario_list.h"
 #include "lib/scenario/scenario_program.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/sensitivity.h"
 #include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"
+#include "maxwrench/trajectory.h"
 #include "maxwrench/wrench_solver.h"
 
 namespace maxwrench {
@@ -77,6 +79,29 @@ class Ends {
   Capability result_;
 };
 
+/// The value of each scenario of a task in time alone, at the same knots.
+std::vector<ScenarioEnds> ends_in_time(const Answer& answer) {
+  if (answer.trajectory.status == Status::kInvalidPosture || answer.trajectory.knots.size() == 0) {
+    throw std::invalid_argument("scenarios: got an invalid trajectory, expected a valid one");
+  }
+  const ScenarioList& list = answer.task->scenarios;
+  const auto make = find_trajectory_solver(answer.choice.solver).make;
+  std::vector<ScenarioEnds> all;
+  Problem one = *answer.task;
+  for (const ScenarioChoice& choice : all_scenarios(list)) {
+    one.scenarios.wrenches = {list.wrenches[static_cast<std::size_t>(choice.wrench)]};
+    one.scenarios.limits = {list.limits[static_cast<std::size_t>(choice.limits)]};
+    TrajectoryEvaluator evaluator(one, answer.choice.wrench, make, false);
+    const Trajectory& alone = evaluator.evaluate(answer.trajectory.knots);
+    ScenarioEnds ends{describe(list, choice), -kInfinity, kInfinity, true};
+    if (alone.status == Status::kOptimal) ends.high = alone.value;
+    ends.held = alone.status == Status::kOptimal || alone.status == Status::kUnbounded;
+    if (answer.task->motion->payload) ends.low = 0;
+    all.push_back(ends);
+  }
+  return all;
+}
+
 }  // namespace
 
 std::vector<ScenarioEnds> scenario_ends(const Answer& answer) {
@@ -84,16 +109,14 @@ std::vector<ScenarioEnds> scenario_ends(const Answer& answer) {
     throw std::invalid_argument("scenarios: got a task without a list, expected one with " +
                                 std::string("wrench.set, uncertainty, loss or payload"));
   }
+  if (answer.task->motion) return ends_in_time(answer);
   if (answer.posture.status != Status::kValid) {
     throw std::invalid_argument("scenarios: got an invalid posture, expected a valid one");
   }
   const ScenarioList& list = answer.task->scenarios;
   std::vector<ScenarioEnds> all;
   Ends ends(*answer.task, answer.choice.wrench, answer.posture);
-  ScenarioChoice each;
-  each.cases.resize(list.loads.size());
-  do all.push_back(ends.of(each));
-  while (next(list, each));
+  for (const ScenarioChoice& each : all_scenarios(list)) all.push_back(ends.of(each));
   return all;
 }
 

@@ -83,6 +83,9 @@ ScenarioSample sample_scenarios(const Answer& answer, long draws, std::uint64_t 
     throw std::invalid_argument(
         "sample: got a task without a list of scenarios, expected one with uncertainty");
   }
+  if (answer.task->motion) {
+    throw std::invalid_argument("sample: got a task in time, expected a static task");
+  }
   if (answer.posture.status != Status::kValid) {
     throw std::invalid_argument("sample: got an invalid posture, expected a valid one");
   }

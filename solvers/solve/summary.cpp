@@ -40,7 +40,7 @@ void add_instants(const Answer& answer, std::string& text) {
     const Instant& instant = instants[static_cast<std::size_t>(i)];
     const std::string beta = answer.has_value() ? fmt::format("{:.5f}", instant.beta()) : "-";
     add(text, "{:>9.4f}  {:>9}  {}  {}\n", instant.t, beta, line(instant.q(problem.redundant)),
-        answer.has_value() ? nearest_limit(problem.robot, instant.u) : "");
+        answer.has_value() ? nearest_limit(problem.robot, reported_limits(answer), instant.u) : "");
   }
 }
 
@@ -52,9 +52,18 @@ void add_value(const Answer& answer, std::string& text) {
   } else {
     add(text, "value_between_knots none: {}\n", trajectory.between_knots_reason.c_str());
   }
+  if (!answer.task->scenarios.empty() && trajectory.decides_at >= 0) {
+    add(text, "decides  {} at {:.4f} s\n", describe(answer.task->scenarios, trajectory.decides),
+        trajectory.instants[static_cast<std::size_t>(trajectory.decides_at)].t);
+  }
   if (!std::isnan(trajectory.overshoot)) {
-    add(text, "overshoot {:>9.5f} of the limits between instants\n",
+    add(text, "overshoot {:>9.5f} of the limits of efforts between instants\n",
         std::max(0.0, trajectory.overshoot));
+  }
+  if (!std::isnan(trajectory.speed_overshoot)) {
+    add(text,
+        "overshoot {:>9.5f} of the limits of speeds, {:.5f} rad or m beyond those of joints\n",
+        std::max(0.0, trajectory.speed_overshoot), std::max(0.0, trajectory.limit_overshoot));
   }
   if (!trajectory.collision.empty()) add(text, "collides: {}\n", trajectory.collision.c_str());
 }

@@ -32,22 +32,26 @@ class AssembledTrajectory : public TrajectorySolver {
   /// The properties that determine the pattern of the assembled program.
   struct Shape {
     const Zonotope* actuation = nullptr;
-    std::vector<int> columns;
+    std::vector<std::pair<int, bool>> instants;  ///< wrench columns; whether they bound the value
     Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> rates;
-    int border = 0, first_elastic = 0;
+    int border = 0, first_elastic = 0, scenarios = 0;
     bool max_min = false, elastic = false;
     Eigen::SparseMatrix<double> R;
   };
 
+  static std::pair<int, bool> kind(const TrajectoryProgram& program, int i) {
+    return {program.instants[static_cast<std::size_t>(i)].columns(), program.bounds_value(i)};
+  }
+
   bool same_shape(const TrajectoryProgram& program) const {
     const Shape& s = shape_;
     bool same = s.actuation == program.instants.front().actuation &&
-                s.columns.size() == program.instants.size() && s.border == program.border() &&
+                s.instants.size() == program.instants.size() && s.border == program.border() &&
                 s.max_min == (program.peak < 0) && s.elastic == program.elastic() &&
-                s.first_elastic == program.first_elastic && s.R.rows() == program.R.rows() &&
-                s.R.nonZeros() == program.R.nonZeros();
+                s.first_elastic == program.first_elastic && s.scenarios == program.scenarios &&
+                s.R.rows() == program.R.rows() && s.R.nonZeros() == program.R.nonZeros();
     for (int i = 0; same && i < program.size(); ++i) {
-      same = s.columns[i] == program.instants[i].columns();
+      same = s.instants[i] == kind(program, i);
     }
     if (!same || (s.rates != (program.du_max.array() < kInfinity)).any()) return false;
     if (program.R.rows() == 0) return true;
@@ -60,11 +64,12 @@ class AssembledTrajectory : public TrajectorySolver {
 
   void keep_shape(const TrajectoryProgram& program) {
     shape_.actuation = program.instants.front().actuation;
-    shape_.columns.clear();
-    for (const WrenchProgram& at : program.instants) shape_.columns.push_back(at.columns());
+    shape_.instants.clear();
+    for (int i = 0; i < program.size(); ++i) shape_.instants.push_back(kind(program, i));
     shape_.rates = program.du_max.array() < kInfinity;
     shape_.border = program.border();
     shape_.first_elastic = program.first_elastic;
+    shape_.scenarios = program.scenarios;
     shape_.max_min = program.peak < 0;
     shape_.elastic = program.elastic();
     shape_.R = program.R;

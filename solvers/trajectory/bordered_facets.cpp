@@ -59,8 +59,8 @@ void BorderedFacets::collect(const TrajectoryProgram& program) {
 }
 
 void BorderedFacets::add_facets(const TrajectoryProgram& program, int instant) {
-  const Zonotope& set = *program.instants.front().actuation;
   const WrenchProgram& at = program.instants[instant];
+  const Zonotope& set = *at.actuation;
   auto y_slopes = y_slopes_.middleCols(static_cast<Eigen::Index>(rows_.size()), set.facet_pairs());
   y_slopes.noalias() = -program.G[instant].transpose() * set.N;
   const double flat = kFlat * at.JtW.norm() / at.c_w[0];

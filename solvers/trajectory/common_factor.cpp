@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/trajectory/by_facets.h"
+
 namespace maxwrench {
 namespace {
 
@@ -17,10 +19,8 @@ constexpr double kHeldRow = 1e-8;
 }  // namespace
 
 bool CommonFactor::suits(const TrajectoryProgram& program) {
-  const Zonotope& set = *program.instants.front().actuation;
   const auto single = [](const WrenchProgram& at) { return at.columns() == 1 && at.c_w[0] > 0; };
-  return program.common && program.border() == 0 && set.has_facets &&
-         program.first_min == set.u_min && program.first_max == set.u_max &&
+  return program.common && program.border() == 0 && starts_anywhere(program) &&
          std::all_of(program.instants.begin(), program.instants.end(), single);
 }
 

@@ -70,8 +70,8 @@ void Embedding::start(const TrajectoryProgram& program) {
   count_ = forms_.has_lo.sum() + forms_.has_hi.sum();
   const double mu = split() ? 0.5 * rho_ * kSlack : 30.0 / forms_.N;
   scale_ = forms_.scale;
-  for (int i = 0; forms_.t > 0 && i < forms_.N; ++i) {
-    scale_[forms_.stages[i].f0 + forms_.stages[i].count - 1] = 30;
+  for (const Forms::Stage& at : forms_.stages) {
+    if (at.has_t) scale_[at.f0 + at.count - 1] = 30;
   }
   low_.start(forms_.lo, forms_.has_lo, scale_, mu);
   high_.start(forms_.hi, forms_.has_hi, scale_, mu);

@@ -11,6 +11,8 @@ namespace {
 constexpr int kMostExchanges = 50;
 /// The excess over g from which a row counts as violated.
 constexpr double kExcess = 1e-12;
+/// Singular values below this share of the largest count as zero.
+constexpr double kRank = 1e-9;
 
 }  // namespace
 
@@ -19,8 +21,7 @@ bool EvenEfforts::prepare(const Zonotope& set) {
   set_ = &set;
   basis_.clear();
   Z_.resize(set.actuators(), 1);
-  if (!set.full_row_rank()) return false;
-  Z_ = svd(set.B).V.rightCols(set.actuators() - set.rank);
+  if (!set.full_row_rank() || !split(set)) return false;
   const Eigen::Index q = Z_.cols();
   if (q == 0) return true;
   if (q > kMostMoves) return false;
@@ -43,6 +44,34 @@ bool EvenEfforts::prepare(const Zonotope& set) {
   }
   for (SmallVector* v : {&point_, &right_, &weight_, &change_, &sign_}) v->resize(q + 1);
   return first_basis();
+}
+
+/// Sets Z, B^+ and the efforts of actuators without range.
+bool EvenEfforts::split(const Zonotope& set) {
+  std::vector<Eigen::Index> free;
+  fixed_.setZero(set.actuators());
+  for (Eigen::Index j = 0; j < set.actuators(); ++j) {
+    if (set.u_min[j] < set.u_max[j]) {
+      free.push_back(j);
+    } else {
+      fixed_[j] = set.u_min[j];
+    }
+  }
+  tau_0_.noalias() = set.B * fixed_;
+  rest_ = tau_0_;
+  if (static_cast<int>(free.size()) == set.actuators()) {
+    Z_ = svd(set.B).V.rightCols(set.actuators() - set.rank);
+    B_pinv_ = set.B_pinv;
+    return true;
+  }
+  const Eigen::MatrixXd B = set.B(Eigen::all, free);
+  const Svd parts = svd(B);
+  if (parts.rank(kRank) < set.dimension()) return false;
+  Z_.setZero(set.actuators(), B.cols() - B.rows());
+  Z_(free, Eigen::all) = parts.V.rightCols(Z_.cols());
+  B_pinv_.setZero(set.actuators(), set.dimension());
+  B_pinv_(free, Eigen::all) = pseudo_inverse(B);
+  return true;
 }
 
 /// Any q + 1 rows are linearly dependent; their signs are chosen so that the dependence becomes a
@@ -105,7 +134,9 @@ bool EvenEfforts::exchange(int entering, double sign) {
 bool EvenEfforts::solve(const Eigen::VectorXd& tau, Eigen::Ref<Eigen::VectorXd> u) {
   const Zonotope& set = *set_;
   const Eigen::Index q = Z_.cols();
-  u.noalias() = set.B_pinv.lazyProduct(tau);
+  rest_ = tau - tau_0_;
+  u.noalias() = B_pinv_.lazyProduct(rest_);
+  u += fixed_;
   if (q == 0) return true;
   for (std::size_t r = 0; r < moved_.size(); ++r) {
     const int j = moved_[r];

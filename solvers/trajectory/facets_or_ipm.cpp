@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "solvers/trajectory/by_facets.h"
 #include "solvers/trajectory/common_factor.h"
@@ -28,12 +29,22 @@ class FacetsOrIpm : public TrajectorySolver {
  private:
   /// For an elastic program, the hard one is tried.
   bool suits(const TrajectoryProgram& program) {
-    return program.border() == 0 && bounded_by_facets(program) &&
-           efforts_.prepare(*program.instants.front().actuation);
+    return program.border() == 0 && bounded_by_facets(program) && prepare_efforts(program);
   }
 
   bool suits_common(const TrajectoryProgram& program) {
-    return CommonFactor::suits(program) && efforts_.prepare(*program.instants.front().actuation);
+    return CommonFactor::suits(program) && prepare_efforts(program);
+  }
+
+  bool prepare_efforts(const TrajectoryProgram& program) {
+    efforts_.resize(static_cast<std::size_t>(program.scenarios));
+    for (int s = 0; s < program.scenarios; ++s) {
+      const auto first = static_cast<std::size_t>(s * program.length());
+      if (!efforts_[static_cast<std::size_t>(s)].prepare(*program.instants[first].actuation)) {
+        return false;
+      }
+    }
+    return true;
   }
 
   /// Returns true if `recheck` or a proof confirms the verdict.
@@ -122,7 +133,8 @@ class FacetsOrIpm : public TrajectorySolver {
       const WrenchProgram& at = program.instants[i];
       solution.w[i].setConstant(1, solution.value / at.c_w[0]);
       tau_ = at.tau_d + at.JtW.col(0) * solution.w[i][0];
-      if (!efforts_.solve(tau_, solution.u.col(i))) return false;
+      EvenEfforts& efforts = efforts_[static_cast<std::size_t>(i / program.length())];
+      if (!efforts.solve(tau_, solution.u.col(i))) return false;
     }
     return true;
   }
@@ -130,7 +142,7 @@ class FacetsOrIpm : public TrajectorySolver {
   std::unique_ptr<WrenchSolver> facets_ = make_facets();
   std::unique_ptr<TrajectorySolver> ipm_ = make_trajectory_ipm();
   CommonFactor factor_;
-  EvenEfforts efforts_;
+  std::vector<EvenEfforts> efforts_;  ///< of each scenario
   Capability capability_;
   Eigen::VectorXd lambda_, tau_;
 };

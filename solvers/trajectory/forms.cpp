@@ -42,7 +42,8 @@ void Forms::shape(const TrajectoryProgram& program, bool with_rates, bool with_s
   for (int i = 0; i < N; ++i) {
     const WrenchProgram& at = program.instants[i];
     const int k = at.columns();
-    next.elastic = with_slacks && program.elastic() && i >= program.first_elastic;
+    next.elastic = with_slacks && program.slackens(i);
+    next.has_t = program.bounds_value(i);
     stages[i] = next;
     merge(program, i);
     next = stages[i];
@@ -52,7 +53,8 @@ void Forms::shape(const TrajectoryProgram& program, bool with_rates, bool with_s
     for (int j = 0; j < k; ++j) next.w_count += has_limits(at, j);
     next.w = next.elastic ? n : 0;
     next.d = next.w + k + static_cast<int>(Z_.cols());
-    next.count = next.w0 + next.w_count + next.w + static_cast<int>(P_.cols()) + t;
+    next.count =
+        next.w0 + next.w_count + next.w + static_cast<int>(P_.cols()) + (next.has_t ? 1 : 0);
     stages[i] = next;
     next.x0 += next.d;
     next.f0 += next.count;
@@ -109,7 +111,7 @@ void Forms::fill_stage(const TrajectoryProgram& program, int i) {
   }
   for (int r = 0; r < at.efforts; ++r) {
     const int j = order[r];
-    limit(at.f0 + r, u_min(program, i)[j], u_max(program, i)[j], offsets_(j, i));
+    limit(at.f0 + r, program.u_min(j, i), program.u_max(j, i), offsets_(j, i));
   }
   if (at.merged()) {
     F_i(at.efforts, at.w) = 1;
@@ -122,7 +124,7 @@ void Forms::fill_stage(const TrajectoryProgram& program, int i) {
     F_i(row, at.w + j) = 1;
     limit(at.f0 + row++, data.w_min[j], data.w_max[j], 0);
   }
-  if (t == 0) return;
+  if (!at.has_t) return;
   F_i.row(at.count - 1).segment(at.w, data.columns()) = data.c_w.transpose();
   if (program.common) {
     equations.push_back(at.f0 + at.count - 1);
@@ -187,7 +189,7 @@ void Forms::apply(const Columns& X, Columns phi) const {
     with_dimension(at.d, [&]<int d>() {
       for (Eigen::Index c = 0; c < X.cols(); ++c) {
         map_stage<d>(F_of(at), X.col(c).data() + at.x0, phi.col(c).data() + at.f0);
-        if (t > 0) phi(at.f0 + at.count - 1, c) -= X(z0(), c);
+        if (at.has_t) phi(at.f0 + at.count - 1, c) -= X(z0(), c);
       }
     });
   }
@@ -221,7 +223,7 @@ void Forms::add_transposed(Columns g, Columns X) const {
       for (Eigen::Index c = 0; c < X.cols(); ++c) {
         const double* const in = g.col(c).data() + at.f0;
         add_transposed_stage<d>(F_of(at), in, X.col(c).data() + at.x0);
-        if (t > 0) X(z0(), c) -= in[at.count - 1];
+        if (at.has_t) X(z0(), c) -= in[at.count - 1];
       }
     });
   }

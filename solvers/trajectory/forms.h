@@ -30,7 +30,7 @@ struct Forms {
   void build(const TrajectoryProgram& program, bool with_rates = true, bool with_slacks = true);
 
   int N = 0;
-  int t = 0;      ///< 1 for max-min
+  int t = 0;      ///< 1 for max-min: whether z has t
   int p = 0;      ///< y
   int rated = 0;  ///< actuators with a rate limit at any instant
   int size = 0;   ///< number of all forms
@@ -44,6 +44,7 @@ struct Forms {
     int w0 = 0, w_count = 0;  ///< forms of limits of w, from f0 on
     int w = 0;                ///< index of the first w in x
     bool elastic = false;
+    bool has_t = false;  ///< whether its last form is c_w'w - t
     /// If one form w replaces all efforts that only the single w moves: the rows in `order` of the
     /// two that limit it; otherwise -1. The form comes after the other efforts.
     int lowest = -1, highest = -1;
@@ -100,12 +101,6 @@ struct Forms {
   void limit(int form, double low, double high, double offset);
   static bool has_limits(const WrenchProgram& at, int j) {
     return at.w_min[j] > -kInfiniteBound || at.w_max[j] < kInfiniteBound;
-  }
-  const Eigen::VectorXd& u_min(const TrajectoryProgram& program, int i) const {
-    return i == 0 ? program.first_min : actuation_->u_min;
-  }
-  const Eigen::VectorXd& u_max(const TrajectoryProgram& program, int i) const {
-    return i == 0 ? program.first_max : actuation_->u_max;
   }
 
   const Zonotope* actuation_ = nullptr;

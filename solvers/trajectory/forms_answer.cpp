@@ -40,7 +40,7 @@ void Forms::read_primal(const TrajectoryProgram& program, const Eigen::VectorXd&
       if (p > 0) u += D.row(at.f0 + r).dot(solution.y);
       solution.u(order[r], i) = u + offsets_(order[r], i);
     }
-    if (i == program.peak || t > 0) {
+    if (i == program.peak || at.has_t) {
       solution.value = std::min(solution.value, data.c_w.dot(solution.w[i]));
     }
     if (!at.elastic) continue;
@@ -67,7 +67,7 @@ void Forms::read_dual(const TrajectoryProgram& program, const Eigen::VectorXd& m
   }
   // In a proof, the multipliers of t sum to zero: those of limits on one side vanish.
   for (int i = 0; t > 0 && (!proof || program.common) && i < N; ++i) {
-    solution.pi[i] = -multipliers[stages[i].f0 + stages[i].count - 1];
+    if (stages[i].has_t) solution.pi[i] = -multipliers[stages[i].f0 + stages[i].count - 1];
   }
   if (t > 0 && !proof) solution.pi /= solution.pi.sum();
   if (proof && program.common) solution.pi /= tau;

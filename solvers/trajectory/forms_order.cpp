@@ -50,8 +50,8 @@ void Forms::order_actuators(const TrajectoryProgram& program, bool with_rates) {
 double Forms::end_of_w(const TrajectoryProgram& program, int i, int r, bool high) const {
   const int j = order[r];
   const double slope = slopes_(r, i);
-  const Eigen::VectorXd& limits = high == (slope > 0) ? u_max(program, i) : u_min(program, i);
-  return (limits[j] - offsets_(j, i)) / slope;
+  const double limit = high == (slope > 0) ? program.u_max(j, i) : program.u_min(j, i);
+  return (limit - offsets_(j, i)) / slope;
 }
 
 /// Computes offsets, slopes and, if only w moves the lone efforts, which of them limit w. If their
@@ -80,7 +80,7 @@ void Forms::merge(const TrajectoryProgram& program, int i) {
     const int j = order[r];
     for (const double w : {low, high}) {
       const double u = offsets_(j, i) + slopes_(r, i) * w;
-      if (!(u_min(program, i)[j] <= u && u <= u_max(program, i)[j])) return;
+      if (!(program.u_min(j, i) <= u && u <= program.u_max(j, i))) return;
     }
   }
   at.lowest = lowest;

@@ -84,10 +84,14 @@ void NormalMatrix::assemble_stage(const Forms& forms, const Eigen::VectorXd& the
     product<D>(F, at.count, F, at.count, weight.data(), at.count, 1, K);
   }
   if (forms.t == 0) return;
-  const int last = at.count - 1;
-  const double theta_t = theta[at.f0 + last];
   const int b = forms.t + forms.p;
   double* const E = E_.data() + E0_[i];
+  if (!at.has_t) {
+    for (int r = 0; r < at.d; ++r) E[r * b] = 0;
+    return;
+  }
+  const int last = at.count - 1;
+  const double theta_t = theta[at.f0 + last];
   for (int r = 0; r < at.d; ++r) E[r * b] = -theta_t * F[r * at.count + last];
   H_(0, 0) += theta_t;
 }

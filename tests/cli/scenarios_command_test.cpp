@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string>
 
 #include "tests/support/support.h"
 
@@ -24,6 +25,47 @@ TEST(ScenariosCommand, EvalSaysWhatDecides) {
   ASSERT_EQ(object["scenarios"].size(), 2u);
   EXPECT_NEAR(object["scenarios"][0]["high"], object["beta"], 1e-9);
   EXPECT_NEAR(object["critical"][5], object["beta"], 1e-9);
+}
+
+/// In time as well, with the instant.
+TEST(ScenariosCommand, EvalSaysWhatDecidesInTime) {
+  const std::string eval = "eval examples/tasks/turn_along_with_a_dead_thruster.toml --scenarios";
+  const CommandResult result = run_maxwrench(eval);
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("decides  front_"));
+  const json object = json::parse(run_maxwrench(eval + " --json").out);
+  ASSERT_EQ(object["scenarios"].size(), 3u);
+  double least = 1e9;
+  std::string name;
+  for (const json& each : object["scenarios"]) {
+    if (each["high"] >= least) continue;
+    least = each["high"];
+    name = each["name"];
+  }
+  EXPECT_EQ(object["decides"], name);
+  EXPECT_NEAR(object["beta"], least, 1e-6);
+  bool found = false;
+  for (const json& instant : object["instants"]) found |= instant["t"] == object["decides_at"];
+  EXPECT_TRUE(found);
+  for (const json& actuator : object["actuators"]) {
+    const bool dead = name == actuator["name"].get<std::string>() + " dead";
+    EXPECT_EQ(actuator["min"] == 0 && actuator["max"] == 0, dead) << actuator["name"];
+  }
+  const CommandResult explained =
+      run_maxwrench("eval examples/tasks/turn_along_with_a_dead_thruster.toml --explain");
+  EXPECT_EQ(explained.exit_status, 0) << explained.err;
+  EXPECT_THAT(explained.out, HasSubstr(" s (" + name + "): "));
+  const json alone = json::parse(
+      run_maxwrench("eval examples/tasks/turn_along_with_a_dead_thruster.toml --nominal --json")
+          .out);
+  const json shipped = json::parse(run_maxwrench("eval uvms/valve_trajectory --json").out);
+  EXPECT_EQ(alone["beta"], shipped["beta"]);
+  for (const std::string command : {"simulate", "certify"}) {
+    const CommandResult refused =
+        run_maxwrench(command + " examples/tasks/turn_along_with_a_dead_thruster.toml");
+    EXPECT_EQ(refused.exit_status, 2) << command << refused.out;
+    EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+  }
 }
 
 /// The nominal task is the shipped one.

@@ -180,9 +180,10 @@ const std::vector<BadList> kBadLists = {
     {"in_time",
      [](TaskSpec& t) {
        t = push_on_the_way();
-       t.loss = LossSpec{.any = 1};
+       t.uncertainty.emplace().trim = 0.1;
      },
-     "loss: got a table, expected no such key except in static tasks"},
+     "uncertainty.trim: got a value, expected no such key except in static tasks; tasks in time "
+     "have thrust and torque"},
     {"second_contact",
      [](TaskSpec& t) {
        t = push_on_wall();

@@ -168,23 +168,40 @@ INSTANTIATE_TEST_SUITE_P(All, BadScenarios, testing::ValuesIn(kBadScenarios),
 
 TEST_P(BadScenarios, IsRejected) { expect_rejected(GetParam(), "uvms/valve"); }
 
-/// Only static tasks have lists.
+/// What lists in time do not have.
 TEST(BadScenariosInTime, AreRejected) {
-  const std::string expected = "no such key except in static tasks";
   for (const char* task : {"uvms/valve_trajectory", "uvms/valve_impulse"}) {
     const std::string file = std::string(task).substr(5) + ".toml";
     const auto expect = [&](const std::string& from, const std::string& to,
-                            const std::string& message) {
+                            const std::string& message, const std::string& expected) {
       expect_rejected({"in_time", file.c_str(), from.c_str(), to.c_str(), {message, expected}},
                       task);
     };
-    for (const std::string table : {"uncertainty", "loss"}) {
-      expect("[motion]", "[" + table + "]\nany = 1\n\n[motion]", table + ": got a table");
+    for (const auto& [key, value] :
+         {std::pair("mass", "{ vehicle = 0.1 }"), std::pair("com", "{ vehicle = [0.1, 0, 0] }"),
+          std::pair("volume", "{ vehicle = 1e-5 }"), std::pair("cob", "{ vehicle = [0.1, 0, 0] }"),
+          std::pair("trim", "0.1"), std::pair("payload", "{ mass = 1, com = [0, 0, 0] }"),
+          std::pair("current", "{ speed = 0.1 }")}) {
+      expect("[motion]", std::string("[uncertainty]\n") + key + " = " + value + "\n\n[motion]",
+             std::string("uncertainty.") + key + ": got a value",
+             "no such key except in static tasks");
     }
-    expect(kC, "set = [[0,0,0,0,0,1]]", "wrench.set: got 1 wrenches");
-    expect(kC, "ball = { axes = [\"fx\"], radius = 1 }", "wrench.ball: got a table");
-    expect(kC, "c = [0,0,0,0,0,1]\nhold = true", "wrench.hold: got true");
+    expect("[motion]", "[loss]\nany = 0\n\n[motion]", "loss.any: got 0", "a whole number from 1");
+    expect(kC, "ball = { axes = [\"fx\"], radius = 1 }", "wrench.ball: got a table",
+           "no such key except in static tasks");
+    expect(kC, "set = [[0,0,0,0,0,0]]", "wrench.set[0]", "a wrench of nonzero length");
   }
+  // Twenty wrenches with each of the 256 sets of the eight thrusters dead.
+  std::string many = "set = [[0,0,0,0,0,1]";
+  for (int i = 2; i <= 20; ++i) many += ", [0,0,0,0,0," + std::to_string(i) + "]";
+  many += "]\n\n[loss]\nany = 8";
+  expect_rejected({"long",
+                   "valve_trajectory.toml",
+                   kC,
+                   many.c_str(),
+                   {"motion.k: got 10 knots of 5120 scenarios",
+                    "at most 5000 knots of all scenarios together"}},
+                  "uvms/valve_trajectory");
 }
 
 }  // namespace

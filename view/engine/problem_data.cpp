@@ -237,6 +237,9 @@ std::string why_no_engine(const Problem& problem) {
   if (problem.robot.collision && !made_of(*problem.robot.collision)) {
     return problem.name + ": a collision check of its own, expected that of the robot's shapes";
   }
+  if (problem.motion && !problem.scenarios.empty()) {
+    return problem.name + ": a list of scenarios in time, expected one wrench";
+  }
   return "";
 }
 

@@ -40,7 +40,8 @@ ordered_json explanation_json(const Answer& answer) {
 
 ordered_json scenarios_json(const Answer& answer) {
   const ScenarioList& list = answer.task->scenarios;
-  if (list.empty() || answer.posture.status != Status::kValid) return nullptr;
+  if (answer.task->motion || list.empty() || answer.posture.status != Status::kValid)
+    return nullptr;
   const bool solved = answer.has_value();
   const ScenarioChoice& decides = answer.capability.decides;
   const Zonotope& set =

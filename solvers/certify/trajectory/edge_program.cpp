@@ -24,9 +24,10 @@ EdgeProgram::EdgeProgram(const Problem& problem, const Eigen::MatrixXd& knots, i
       solver_(trajectory_solvers().front().make()) {
   const MotionTask& task = *problem.motion;
   const SchemeMaps& maps = motion_.maps();
-  loose_ = make_trajectory_program(problem, task, Wrench::kPure, maps);
+  const std::vector<MotionScenario> scenarios = motion_scenarios(problem, Wrench::kPure);
+  loose_ = make_trajectory_program(problem, task, scenarios, maps);
   motion_.evaluate(all_knots(task, knots), instants_);
-  set_instants(problem, task, Wrench::kPure, maps, instants_, loose_);
+  set_instants(problem, task, scenarios, maps, instants_, loose_);
   if (!task.impulse) return;
   const bool block = start_is_block(task, maps);
   // At rest and in balance, w_0 cannot exceed the static capability.

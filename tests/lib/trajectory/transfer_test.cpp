@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "lib/math/random.h"
+#include "lib/trajectory/overshoot.h"
+#include "lib/trajectory/scheme.h"
 #include "maxwrench/load.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/trajectory.h"
@@ -154,6 +157,31 @@ TEST(Transfer, ThatIsTooFastOrBeyondALimitIsInvalid) {
   EXPECT_NE(far.reason.str().find("joint limit: knot 4: q2"), std::string::npos)
       << far.reason.c_str();
   EXPECT_THROW(evaluator.evaluate(Eigen::MatrixXd::Zero(8, 2)), std::invalid_argument);
+}
+
+/// The extremes of the cubics, against a fine sample of the spline. The limits are tightened so
+/// that they are exceeded.
+TEST(Transfer, TellsHowFarJointsExceedTheirLimits) {
+  Problem problem = load_problem(MAXWRENCH_SOURCE_DIR "/examples/tasks/two_link/lift.toml");
+  Random random(5);
+  Eigen::MatrixXd Q = all_knots(*problem.motion, default_knots(problem));
+  for (Eigen::Index i = 1; i + 1 < Q.rows(); ++i) {
+    for (Eigen::Index j = 0; j < Q.cols(); ++j) Q(i, j) += random.uniform(-0.3, 0.3);
+  }
+  const JointOvershoot found = joint_overshoot_of(problem, Q, problem.motion->T);
+  const SchemeMaps maps = make_dense_spline(*problem.motion, 2000);
+  double speed = -1, place = -kInfinity;
+  for (Eigen::Index j = 0; j < Q.cols(); ++j) {
+    const double fastest = problem.robot.joints[static_cast<std::size_t>(j)].velocity_max;
+    speed = std::max(speed, (maps.V * Q.col(j)).lpNorm<Eigen::Infinity>() / fastest - 1);
+    const Eigen::VectorXd places = maps.P * Q.col(j);
+    place = std::max({place, places.maxCoeff() - problem.theta_r_max[j],
+                      problem.theta_r_min[j] - places.minCoeff()});
+  }
+  EXPECT_GE(found.speed, speed - 1e-12);
+  EXPECT_NEAR(found.speed, speed, 1e-6);
+  EXPECT_GE(found.place, place - 1e-12);
+  EXPECT_NEAR(found.place, place, 1e-6);
 }
 
 }  // namespace
