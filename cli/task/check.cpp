@@ -24,14 +24,23 @@ std::string base_axes(const Robot& robot) {
   return fmt::format("{{{}}}", fmt::join(names, ", "));
 }
 
+/// A gear has no limit of its own.
 std::string describe_gear(const Robot& robot, const Joint& joint) {
-  if (!joint.gear) return "";
-  return fmt::format(", mimics {}, ratio {:g}, offset {:g}",
+  return fmt::format("mimics {}, ratio {:g}, offset {:g}",
                      robot.joints[static_cast<std::size_t>(joint.gear->leader)].name,
                      joint.gear->ratio, joint.gear->offset);
 }
 
 void print_own_weight(const Robot& robot) {
+  const auto moving = robot.links.size() - 1;
+  const bool has_mass = std::any_of(robot.links.begin() + 1, robot.links.end(),
+                                    [](const Link& link) { return link.mass > 0; });
+  if (moving > 0 && !has_mass) {
+    fmt::print("  whether it holds its own weight is not known: {}\n",
+               moving == 1 ? "its moving link has no mass"
+                           : fmt::format("its {} moving links have no mass", moving));
+    return;
+  }
   const OwnWeight own = own_weight(robot, kSamples);
   if (own.share == 0) {
     fmt::print("  holds its own weight in all of {} random postures\n", kSamples);
@@ -80,8 +89,15 @@ void print(const Robot& robot) {
   }
   for (const Joint& j : robot.joints) {
     const bool turns = j.type == JointType::kRevolute;
-    fmt::print("  joint {:<19} {:g} .. {:g} {}, effort {:g} {}{}\n", j.name, j.q_min, j.q_max,
-               turns ? "rad" : "m", j.effort_max, turns ? "N m" : "N", describe_gear(robot, j));
+    fmt::print("  joint {:<19} {:g} .. {:g} {}, {}\n", j.name, j.q_min, j.q_max,
+               turns ? "rad" : "m",
+               j.gear ? describe_gear(robot, j)
+                      : fmt::format("effort {:g} {}", j.effort_max, turns ? "N m" : "N"));
+  }
+  for (const auto& [name, posture] : robot.states) {
+    std::vector<std::string> positions;
+    for (const auto& [joint, q] : posture) positions.push_back(fmt::format("{}={:g}", joint, q));
+    fmt::print("  posture {:<17} {}\n", name, fmt::join(positions, ", "));
   }
   if (!robot.limits.empty()) fmt::print("  limits in use: {}\n", robot.limits);
   print_own_weight(robot);

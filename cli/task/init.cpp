@@ -267,7 +267,7 @@ Problem first_task(const Robot& robot) {
     for (const int axis : {2, 0, 1, 5, 3, 4}) {
       spec.c = Vector6d::Unit(axis);
       try {
-        return make_at_some_posture(spec);
+        return make_at_good_posture(spec);
       } catch (const BadValue& bad) {
         if (!why) why = std::current_exception();
         if (bad.key() != "wrench.c") break;  // another axis does not help

@@ -114,6 +114,7 @@ void pose(const PoseOptions& options) {
 
 void add_pose(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<PoseOptions>();
+  options->source.locks_undriven = false;  // positions need no efforts
   CLI::App& command = *app.add_subcommand(
       "pose", "prints where end effectors and links are, with the base at its mount");
   command.add_option("robot", options->file, "robot or task file, a shipped task, or a URDF")

@@ -118,8 +118,11 @@ std::string option_of(const std::string& key, bool by_joints) {
 }
 
 /// Calls `make`. If it rejects a key that an option gives, names the option.
+///
+/// @param by_joints         whether the pose is given by joints
+/// @param evaluates_joints  whether the joints themselves are evaluated, at any posture
 template <class Make>
-auto naming_options(bool by_joints, const Make& make) {
+auto naming_options(bool by_joints, bool evaluates_joints, const Make& make) {
   try {
     return make();
   } catch (const BadInput& error) {
@@ -127,10 +130,10 @@ auto naming_options(bool by_joints, const Make& make) {
     if (bad.key().starts_with(kJointKey)) {
       reject("--joints", bad.key().substr(kJointKey.size()), bad.expected());
     }
-    if (bad.key() == "theta_r.joints") {
+    if (bad.key() == "theta_r.joints") {  // which the program chose
       throw BadValue(by_joints ? "--joints" : "--at", "a pose that is singular",
-                     "one from which the tool can move in all its directions (only eval --joints "
-                     "does without)");
+                     fmt::format("one from which the tool can move in all its directions{}",
+                                 evaluates_joints ? "" : " (only eval --joints does without)"));
     }
     const std::string option = option_of(bad.key(), by_joints);
     if (option.empty()) throw;
@@ -138,11 +141,30 @@ auto naming_options(bool by_joints, const Make& make) {
   }
 }
 
-void remark_warnings(const Robot& robot, const std::string& problem) {
+/// A word of a command line, in quotes if a shell would divide it.
+std::string word(const std::string& text) {
+  return text.find_first_of(" \t'\"$&;()*?<>|\\") == std::string::npos ? text : '"' + text + '"';
+}
+
+/// The command that prints the warnings of a robot, read with the same options.
+std::string check_command(const ProblemOptions& options, const std::string& problem) {
+  std::string command = "maxwrench check " + word(problem);
+  for (const auto& [option, value] :
+       {std::pair("--tool", &options.tool), std::pair("--base", &options.base),
+        std::pair("--srdf", &options.srdf), std::pair("--limits", &options.limits)}) {
+    if (*value) command += fmt::format(" {} {}", option, word(**value));
+  }
+  for (const std::string& package : options.packages) command += " --package " + word(package);
+  return command;
+}
+
+void remark_warnings(const Robot& robot, const ProblemOptions& options,
+                     const std::string& problem) {
   const std::size_t count = warnings_of(robot).size();
   if (count == 0) return;
-  complain_at_end(fmt::format("{} warning{} about the robot: 'maxwrench check {}' prints {}", count,
-                              count == 1 ? "" : "s", problem, count == 1 ? "it" : "them"));
+  complain_at_end(fmt::format("{} warning{} about the robot: '{}' prints {}", count,
+                              count == 1 ? "" : "s", check_command(options, problem),
+                              count == 1 ? "it" : "them"));
 }
 
 }  // namespace
@@ -229,6 +251,7 @@ void ProblemOptions::reject_for_toml(const std::string& problem, bool evaluates_
 UrdfOptions ProblemOptions::urdf_options() const {
   if (limits) reject("--limits", *limits, "none: a URDF has one set of limits");
   UrdfOptions options;
+  options.locks_undriven = locks_undriven;
   options.tool = tool.value_or("");
   if (tool && tool->empty()) reject("--tool", "", "the name of a link");
   if (base) options.base_axes = parse_axes(*base);
@@ -257,15 +280,16 @@ Problem ProblemOptions::load(const std::string& problem, bool evaluates_joints) 
   if (!is_urdf(problem)) {
     reject_for_toml(problem, evaluates_joints);
     Problem loaded = load_problem(problem, {limits.value_or("")});
-    if (counts_warnings) remark_warnings(loaded.robot, problem);
+    if (counts_warnings) remark_warnings(loaded.robot, *this, problem);
     return loaded;
   }
   UrdfOptions options = urdf_options();
   if (!evaluates_joints) options.posture = posture.value_or("");
-  Problem made = naming_options(gives_joints(), [&] {
+  Problem made = naming_options(gives_joints(), evaluates_joints && gives_joints(), [&] {
     return make_urdf_problem(problem, options, task(problem, evaluates_joints));
   });
-  if (counts_warnings) remark_warnings(made.robot, problem);
+  if (!counts_warnings) return made;
+  remark_warnings(made.robot, *this, problem);
   if (!at && !gives_joints()) {
     const Eigen::Vector3d p = made.pose.p, turn = rpy(made.pose.R);
     complain_at_end(fmt::format("no pose was given: the tool is at --at '{:.6g} / {:.6g}'",
@@ -276,7 +300,7 @@ Problem ProblemOptions::load(const std::string& problem, bool evaluates_joints) 
 
 Robot ProblemOptions::load_robot(const std::string& file) const {
   if (is_urdf(file)) {
-    return naming_options(false, [&] { return load_urdf(file, urdf_options()); });
+    return naming_options(false, false, [&] { return load_urdf(file, urdf_options()); });
   }
   reject_for_toml(file, true);
   const LoadOptions options{limits.value_or("")};

@@ -22,7 +22,9 @@ struct ProblemOptions {
   std::optional<std::string> tool, base, wrench_along, wrench_frame, at, joints, posture, srdf;
   std::optional<std::string> limits;
   std::vector<std::string> packages;
-  bool counts_warnings = true;  ///< whether `load` says how many warnings the robot has
+  bool counts_warnings = true;  ///< whether `load` says how many warnings the robot has, and which
+                                ///< pose was chosen
+  bool locks_undriven = true;   ///< as in `UrdfOptions`
 
   void add(CLI::App& app);                           ///< all
   void add_robot(CLI::App& app);                     ///< base, srdf, packages, tool, limits

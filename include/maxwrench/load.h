@@ -36,6 +36,9 @@ struct UrdfOptions {
   std::string posture = "";  ///< for `make_urdf_problem`: the named posture that gives the pose
   /// Folders of packages, in which `package://` is searched before other places.
   std::vector<std::filesystem::path> packages = {};
+  /// Whether a joint without effort that does not carry `tool` is locked. Forces need that;
+  /// positions do not.
+  bool locks_undriven = true;
 };
 
 /// Makes a robot from a URDF alone.

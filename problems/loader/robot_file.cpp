@@ -1,8 +1,10 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "lib/robot/chain.h"
 #include "maxwrench/load.h"
@@ -178,6 +180,20 @@ Collision read_collision(const Block& block, const UrdfTree& tree,
   return collision;
 }
 
+/// Warns of links in pairs of the SRDF that the URDF does not have.
+void warn_of_unknown_links(const Srdf& srdf, const std::string& file, const UrdfTree& tree,
+                           Robot& robot) {
+  std::set<std::string> unknown;
+  for (const auto& [a, b] : srdf.ignore) {
+    for (const std::string& link : {a, b}) {
+      if (!tree.bodies.contains(link)) unknown.insert(link);
+    }
+  }
+  if (unknown.empty()) return;
+  robot.warnings.push_back(fmt::format("{}: disable_collisions: not in the URDF, so no pair: {}",
+                                       file, fmt::join(unknown, ", ")));
+}
+
 /// Named postures of the TOML and of the SRDF.
 void read_states(const Block& root, const std::optional<Srdf>& srdf, Robot& robot) {
   if (srdf) robot.states = srdf->states;
@@ -244,6 +260,7 @@ Robot load_robot(const std::filesystem::path& file, const LoadOptions& options) 
     if (root.has("srdf")) {
       robot.files.push_back(named_file(root, "srdf").string());
       srdf = read_srdf(robot.files.back());
+      warn_of_unknown_links(*srdf, robot.files.back(), tree, robot);
     }
     if (root.has("base")) read_base(root.table("base"), tree, robot);
     const Block environment = root.table("environment");
@@ -270,7 +287,7 @@ Robot load_urdf(const std::filesystem::path& urdf, const UrdfOptions& options) {
   return in_files(file_of, [&] {
     UrdfChoices choices;
     choices.packages = options.packages;
-    if (!options.tool.empty()) choices.tips = {options.tool};
+    if (!options.tool.empty() && options.locks_undriven) choices.tips = {options.tool};
     const UrdfTree tree = read_urdf(urdf, choices);
     Robot robot;
     robot.name = tree.name;
@@ -296,6 +313,7 @@ Robot load_urdf(const std::filesystem::path& urdf, const UrdfOptions& options) {
     if (!options.srdf.empty()) {
       const Srdf srdf = read_srdf(options.srdf);
       robot.files.push_back(options.srdf.string());
+      warn_of_unknown_links(srdf, robot.files.back(), tree, robot);
       robot.states = srdf.states;
       collision.ignore = srdf.ignore;
       drop_pairs_without_shapes(collision);

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
+
 #include "lib/robot/spatial.h"
 #include "problems/loader/bad_input.h"
 #include "problems/loader/urdf_joint.h"
@@ -22,10 +25,15 @@ struct Reading {
   std::map<std::string, int> index_of;  ///< of joints in the tree
 };
 
-Eigen::Matrix3d inertia_of(const UrdfElement& inertial) {
-  const std::optional<UrdfElement> given = inertial.child_if_any("inertia");
-  if (!given) return Eigen::Matrix3d::Zero();
-  const auto value = [&](const char* name) { return given->number(name, 0); };
+/// Some makers leave an old <inertia> behind the new one; the first counts, as for other readers.
+Eigen::Matrix3d inertia_of(const UrdfElement& inertial, std::vector<std::string>& warnings) {
+  const std::vector<UrdfElement> given = inertial.children("inertia");
+  if (given.empty()) return Eigen::Matrix3d::Zero();
+  if (given.size() > 1) {
+    warnings.push_back(
+        fmt::format("{}.inertia: {} elements: the first one counts", inertial.key(), given.size()));
+  }
+  const auto value = [&](const char* name) { return given.front().number(name, 0); };
   // All are read before the first is stored: one that is no number ends the reading.
   const double xx = value("ixx"), yy = value("iyy"), zz = value("izz");
   const double xy = value("ixy"), xz = value("ixz"), yz = value("iyz");
@@ -44,7 +52,7 @@ void add_inertial(Reading& reading, const UrdfElement& link, const Body& body) {
   Pose<double> frame;
   if (inertial) {
     frame = origin_of(*inertial);
-    inertia = inertia_of(*inertial);
+    inertia = inertia_of(*inertial, reading.tree.warnings);
     if (const auto given = inertial->child_if_any("mass")) mass = given->number("value");
   }
   mass = choice.mass.value_or(mass);
@@ -151,9 +159,33 @@ void set_gears(Reading& reading) {
   }
 }
 
+/// The longest edge of a shape's bounding box in its own axes [m].
+double length_of(const Shape& shape) {
+  switch (shape.kind) {
+    case Shape::Kind::kBox:
+      return 2 * shape.half_sizes.maxCoeff();
+    case Shape::Kind::kCapsule:
+      return 2 * (shape.half_length + shape.radius);
+    case Shape::Kind::kCylinder:
+      return 2 * std::max(shape.half_length, shape.radius);
+    case Shape::Kind::kHull:
+      break;
+  }
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : shape.points) box.extend(point);
+  return box.isEmpty() ? 0 : box.sizes().maxCoeff() + 2 * shape.radius;
+}
+
 /// Lengths and masses that only other units explain.
 void suspect_units(UrdfTree& tree) {
   constexpr double kFar = 20, kHeavy = 5000;  // m, kg
+  std::string last;
+  for (const Shape& shape : tree.shapes) {  // one line for each link
+    if (length_of(shape) < kFar || shape.body == last) continue;
+    last = shape.body;
+    tree.warnings.push_back(fmt::format("link[{}].collision: a shape of {:.3g} m: millimetres?",
+                                        shape.body, length_of(shape)));
+  }
   for (const Joint& joint : tree.joints) {
     if (joint.placement.p.norm() < kFar) continue;
     tree.warnings.push_back(

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "lib/math/decompositions.h"
 #include "lib/math/random.h"
@@ -46,6 +47,13 @@ class Mobility {
     fold_gears(robot_, J_);
     J_.topRows<3>() /= reach_;
     return rank_ == 0 ? 0 : singular_values(J_)[rank_ - 1];
+  }
+
+  /// Whether the end effector is above the base's origin and within 45 degrees of its x axis.
+  bool is_in_front(const Eigen::VectorXd& q) {
+    kinematics_.set_joints(q);
+    const Eigen::Vector3d p = kinematics_.end_effector(tip_).p;
+    return p.z() > 0 && p.x() > std::abs(p.y());
   }
 
  private:
@@ -115,13 +123,11 @@ std::map<std::string, double> named_posture(const Robot& robot, std::string_view
   return posture;
 }
 
-Problem make_at_some_posture(TaskSpec task) {
+namespace {
+
+/// The task at the first of these postures that serves; at rest if none does.
+Problem make_at_first(TaskSpec& task, const std::vector<Eigen::VectorXd>& postures) {
   const Robot& robot = task.robot;
-  const int end_effector = find_end_effector("end_effector", task.end_effector, robot);
-  Mobility mobility(robot, end_effector);
-  std::vector<Eigen::VectorXd> postures = best_first(robot, mobility);
-  const Eigen::VectorXd rest = resting_joints(robot);
-  if (mobility.of(rest) > kMovesWell) postures.insert(postures.begin(), rest);
   for (const Eigen::VectorXd& q : postures) {
     task.posture = by_name(robot, q);
     try {
@@ -131,8 +137,26 @@ Problem make_at_some_posture(TaskSpec task) {
       continue;  // the next posture may do
     }
   }
-  task.posture = by_name(robot, rest);
+  task.posture = by_name(robot, resting_joints(robot));
   return make_problem(task);
+}
+
+}  // namespace
+
+Problem make_at_some_posture(TaskSpec task) {
+  Mobility mobility(task.robot, find_end_effector("end_effector", task.end_effector, task.robot));
+  std::vector<Eigen::VectorXd> postures = best_first(task.robot, mobility);
+  const Eigen::VectorXd rest = resting_joints(task.robot);
+  if (mobility.of(rest) > kMovesWell) postures.insert(postures.begin(), rest);
+  return make_at_first(task, postures);
+}
+
+Problem make_at_good_posture(TaskSpec task) {
+  Mobility mobility(task.robot, find_end_effector("end_effector", task.end_effector, task.robot));
+  std::vector<Eigen::VectorXd> postures = best_first(task.robot, mobility);
+  std::stable_partition(postures.begin(), postures.end(),
+                        [&](const Eigen::VectorXd& q) { return mobility.is_in_front(q); });
+  return make_at_first(task, postures);
 }
 
 }  // namespace maxwrench

@@ -20,4 +20,8 @@ std::map<std::string, double> named_posture(const Robot& robot, std::string_view
 /// @throws BadValue as `make_problem` for the posture at rest, if no posture serves.
 Problem make_at_some_posture(TaskSpec task);
 
+/// The same at a posture that serves as an example: away from the joints' limits, with the end
+/// effector in front of the base if a posture has it there.
+Problem make_at_good_posture(TaskSpec task);
+
 }  // namespace maxwrench

@@ -151,6 +151,21 @@ std::string dependents_of(const Problem& problem) {
                                     dependents_of(problem), why));
 }
 
+/// The program's choice of joints fails in all postures only if gears leave it none: the leader of
+/// a gear must be redundant.
+[[noreturn]] void throw_bad_gears(const Problem& problem) {
+  const Robot& robot = problem.robot;
+  const std::vector<int> leaders = leaders_to(robot, problem.end_effector);
+  throw BadValue(
+      "end_effector",
+      shown(robot.end_effectors[static_cast<std::size_t>(problem.end_effector)].name),
+      fmt::format("one that {} can move in all its directions{}", dependents_of(problem),
+                  leaders.empty() ? ""
+                                  : fmt::format(": the joint that leads a gear is in theta_r "
+                                                "(here {}). joints.NAME.lock fixes a gear",
+                                                names_of(robot, leaders))));
+}
+
 /// Whether the velocities of the base and the dependent joints move the end effector independently
 /// of each other in almost all postures.
 bool follow_independently(const Problem& problem) {
@@ -256,7 +271,8 @@ Eigen::VectorXd joints_by_name(const std::string& start, const std::map<std::str
         if (!joint.gear) names.push_back(joint.name);
       }
       throw BadValue(key, "an unknown key",
-                     fmt::format("a joint that moves: {}", fmt::join(names, ", ")));
+                     names.empty() ? "none: no joint of the robot moves"
+                                   : fmt::format("a joint that moves: {}", fmt::join(names, ", ")));
     }
     require_finite(key, position);
     q[found] = position;
@@ -299,6 +315,7 @@ void set_joints(const TaskSpec& task, Problem& problem) {
 void require_ik_solution(const TaskSpec& task, Problem& problem) {
   if (problem.dependent.empty()) return;
   if (!follow_independently(problem)) {
+    if (!task.joints) throw_bad_gears(problem);
     throw_bad_joints(task, problem, "they do in no posture: singular");
   }
   prepare_ik_solutions(problem);

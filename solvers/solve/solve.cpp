@@ -14,6 +14,7 @@
 #include "solvers/solve/method.h"
 #include "solvers/solve/one_instant.h"
 #include "solvers/solve/solve_from.h"
+#include "solvers/solve/why_none.h"
 
 namespace maxwrench {
 namespace {
@@ -243,7 +244,14 @@ Answer evaluate_posture(const Problem& task, const Eigen::VectorXd& q, const Opt
 }
 
 Answer solve(const Problem& task, const Options& options) {
-  return solve_from(std::make_shared<const Problem>(task), {}, options);
+  Answer answer = solve_from(std::make_shared<const Problem>(task), {}, options);
+  if (answer.status == Status::kNoneFound && !answer.has_posture()) {
+    // Not in `solve_from`: a map has many such cells.
+    const Method method = resolve(*answer.task, with_search(*answer.task, options));
+    const std::string why = why_none(*answer.task, method);
+    if (!why.empty()) answer.reason = answer.reason.str() + ": " + why;
+  }
+  return answer;
 }
 
 Answer solve_from(std::shared_ptr<const Problem> task, const std::vector<Eigen::VectorXd>& near,

@@ -19,6 +19,13 @@ void add(std::string& text, fmt::format_string<Values...> format, Values&&... va
   fmt::format_to(std::back_inserter(text), format, std::forward<Values>(values)...);
 }
 
+/// Whether a gear exerts this effort of u. Its bounds in the program only stand for "without
+/// limit".
+bool is_gear(const Robot& robot, Eigen::Index actuator) {
+  const Eigen::Index joint = actuator - static_cast<Eigen::Index>(robot.thrusters.size());
+  return joint >= 0 && robot.joints[static_cast<std::size_t>(joint)].gear.has_value();
+}
+
 /// The case in one line.
 std::string headline(const Answer& answer) {
   const Case& c = answer.choice;
@@ -118,8 +125,10 @@ void add_capability(const Answer& answer, std::string& text) {
       list.empty() ? problem.robot.actuation
                    : list.limits[static_cast<std::size_t>(capability.decides.limits)].actuation;
   for (Eigen::Index i = 0; i < capability.u.size(); ++i) {
-    add(text, "u {:>17.5f}  of {:g} .. {:g}  {}\n", capability.u[i], limits.u_min[i],
-        limits.u_max[i], actuator_name(problem.robot, i));
+    add(text, "u {:>17.5f}  of {}  {}\n", capability.u[i],
+        is_gear(problem.robot, i) ? "a gear, without limit"
+                                  : fmt::format("{:g} .. {:g}", limits.u_min[i], limits.u_max[i]),
+        actuator_name(problem.robot, i));
   }
   if (answer.trajectory.gradient.size() > 0) {
     add(text, "gradient {}\n", line(answer.trajectory.gradient.transpose()));

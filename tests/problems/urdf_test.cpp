@@ -31,6 +31,38 @@ TEST_F(UrdfTest, ShapesWithoutSizeOrOfOtherKindsAreLeftOut) {
   EXPECT_EQ(load(with("<box size='1 1 1'/><origin/>")).convex_bodies.size(), 1u);
 }
 
+/// A cube of 0.1 m, written in millimetres.
+TEST_F(UrdfTest, AMeshInMillimetresIsSuspected) {
+  std::ofstream(folder_.path() / "cube.obj")
+      << "v 0 0 0\nv 100 0 0\nv 0 100 0\nv 100 100 0\nv 0 0 100\nv 100 0 100\nv 0 100 100\n"
+         "v 100 100 100\nf 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+  const auto with = [](const std::string& scale) {
+    return link(
+        "base", 1,
+        "<collision><geometry><mesh filename='cube.obj' " + scale + "/></geometry></collision>");
+  };
+  for (const char* meshes : {"hull", "capsules"}) {
+    const std::string toml = "collision.meshes = '" + std::string(meshes) + "'\n";
+    const Robot robot = load(with(""), toml);
+    EXPECT_THAT(robot.warnings,
+                ElementsAre(testing::ContainsRegex("^link\\[base\\]\\.collision: a shape of "
+                                                   "[12][0-9][0-9] m: millimetres\\?$")));
+    EXPECT_THAT(load(with("scale='0.001 0.001 0.001'"), toml).warnings, IsEmpty());
+  }
+}
+
+TEST_F(UrdfTest, OfTwoInertiasTheFirstCounts) {
+  const auto tensor = [](double i) {
+    return "<inertia ixx='" + std::to_string(i) + "' ixy='0' ixz='0' iyy='" + std::to_string(i) +
+           "' iyz='0' izz='" + std::to_string(i) + "'/>";
+  };
+  const Robot robot = load("<link name='base'><inertial><mass value='1'/>" + tensor(2) + tensor(3) +
+                           "</inertial></link>");
+  EXPECT_NEAR(robot.links[0].inertia(0, 0), 2, 1e-12);
+  EXPECT_THAT(robot.warnings,
+              ElementsAre("link[base].inertial.inertia: 2 elements: the first one counts"));
+}
+
 TEST_F(UrdfTest, ElementsThatAreNotReadAreCountedOnce) {
   const Robot robot = load(link("base", 1, "<visual/><glow/><glow/>") + "<gazebo/><transmission/>");
   EXPECT_THAT(robot.warnings, IsEmpty());

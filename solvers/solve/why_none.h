@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "maxwrench/solve.h"
+
+namespace maxwrench {
+
+struct Method;
+
+/// Why a search may have found nothing: evaluates the default posture and random values of theta_r
+/// (of a task in time: the default throughout, and no reason for a transfer), and returns the most
+/// frequent reason among those without a value. The text names joints without effort if no efforts
+/// balance those postures. Empty if all of them have a value.
+std::string why_none(const Problem& task, const Method& method);
+
+}  // namespace maxwrench
