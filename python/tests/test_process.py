@@ -112,7 +112,7 @@ def test_ctrl_c_ends_an_experiment(name, options):
     # The whole would take most of a minute or more.
     task = mw.load(name)
     answer = mw.evaluate(task, task.theta_r_default)
-    interrupt = Interrupt(0.5)
+    interrupt = Interrupt(1.5)
     experiment = mw.simulate(answer, **options)
     assert time.perf_counter() - interrupt.time < AT_ONCE
     assert (experiment.status, experiment.reason) == ("budget_exhausted", "interrupted")
