@@ -112,7 +112,7 @@ Simulated simulated(const Task& task, const char* name, const Answer& own, const
   Simulated result;
   result.name = name;
   if (task.unit == kKilogram) {
-    result.cell = fmt::format("{:>8}", heaviest_load(reach, "cvode", {}));
+    result.cell = fmt::format("{:>8}", heaviest_load(reach, "cvode", {}).mass);
     return result;
   }
   result.run = simulate_posture(own, own.capability.beta, "cvode", {});

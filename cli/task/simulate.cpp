@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "benchmarks/tables/write_file.h"
+#include "cli/ctrl_c.h"
 #include "cli/task/load_and_solve.h"
 #include "maxwrench/figures.h"
 #include "maxwrench/solve.h"
@@ -88,13 +89,18 @@ void print_text(const Problem& problem, const SimulateOptions& options, const Ta
 
 int print_heaviest(const SimulateOptions& options, const Answer& answer) {
   const std::string& problem = answer.task->name;
-  const int mass = heaviest_load(answer, options.integrator, options.tank);
+  const HeaviestLoad load = heaviest_load(answer, options.integrator, options.tank);
+  const bool ended = load.status != Status::kBestFound;
   if (options.json) {
-    print_json({{"problem", problem}, {"heaviest", mass}});
+    print_json({{"problem", problem},
+                {"heaviest", load.mass},
+                {"status", to_string(load.status)},
+                {"reason", load.reason.str()}});
   } else {
-    fmt::print("{}  virtual tank  heaviest load {} kg\n", problem, mass);
+    fmt::print("{}  virtual tank  heaviest load {}{} kg{}{}\n", problem, ended ? "at least " : "",
+               load.mass, ended ? ", budget_exhausted: " : "", load.reason.c_str());
   }
-  return kAnswered;
+  return ended ? kOtherStatus : kAnswered;
 }
 
 TankRun simulate_answer(const SimulateOptions& options, const Answer& answer) {
@@ -253,7 +259,11 @@ void add_simulate(CLI::App& app, int& exit_status) {
   command.add_option("--figure", options->figure, "SVG file for the curves over time")
       ->excludes(heaviest);
   add_imperfections(command, options->tank.imperfections);
-  command.callback([options, &exit_status] { exit_status = simulate(*options); });
+  command.callback([options, &exit_status] {
+    const CtrlC ctrl_c;
+    options->tank.interrupted = ctrl_c.asked();
+    exit_status = simulate(*options);
+  });
 }
 
 }  // namespace maxwrench

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -63,6 +64,8 @@ struct TankOptions {
   Imperfections imperfections;  ///< how the robot differs from its model
   /// Tolerances and limits of the integration.
   IntegratorOptions integrator{1e-6, 1e-8, 100000, 1e-4};
+  /// Asked before each period; once it returns true, the experiment ends early. May be empty.
+  std::function<bool()> interrupted;
 };
 
 /// Checks the options of an experiment.
@@ -152,7 +155,7 @@ struct TankSummary {
 /// The record of an experiment.
 ///
 /// The status is kReached if the experiment ran to its end, or until the posture was lost.
-/// Otherwise the reason says why it ended early.
+/// Otherwise the reason says why it ended early: kBudgetExhausted after an interruption.
 struct TankRun : Verdict {
   std::vector<TankSample> samples;  ///< one for each period
   TankSummary summary;              ///< summary of the hold

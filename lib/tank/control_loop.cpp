@@ -75,6 +75,13 @@ bool ControlLoop::lost() const {
   return now.theta_r_error > kLost || now.position_error > kLost;
 }
 
+bool ControlLoop::goes_on() {
+  if (run.status != Status::kReached || lost()) return false;
+  if (!options_.interrupted || !options_.interrupted()) return true;
+  run.conclude(Status::kBudgetExhausted, "interrupted");
+  return false;
+}
+
 TankRun& ControlLoop::finish() {
   run.evaluations = ode_.evaluations();
   run.model_s = ode_.seconds();

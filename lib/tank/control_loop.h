@@ -34,7 +34,9 @@ class ControlLoop {
 
   /// Whether the posture was lost at the last sample (see kLost).
   bool lost() const;
-  bool accepts_starts() const { return run.status == Status::kReached && !lost(); }
+  /// Whether another step may follow: nothing failed, the posture is held and nobody interrupts,
+  /// which concludes the run.
+  bool goes_on();
 
   /// The run with its counts and times, but without its summary.
   TankRun& finish();

@@ -116,7 +116,7 @@ class MotionExperiment {
   void run_all() {
     const double T = script_.instants.back().t;
     const long periods = static_cast<long>(std::ceil(T / options_.period - 1e-9));
-    for (long k = 0; k < periods && loop_.accepts_starts() && !lost_; ++k) {
+    for (long k = 0; k < periods && !lost_ && loop_.goes_on(); ++k) {
       period(static_cast<double>(k) * options_.period,
              std::min(T, static_cast<double>(k + 1) * options_.period));
     }

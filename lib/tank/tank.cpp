@@ -50,7 +50,7 @@ class Experiment {
       const Stopwatch watch(loop_.run.total_s);
       const double length = (options_.until_hold ? 1 : 2) * options_.ramp + options_.hold;
       const long periods = std::lround(length / options_.period);
-      for (long k = 0; k < periods && loop_.accepts_starts(); ++k) period(k);
+      for (long k = 0; k < periods && loop_.goes_on(); ++k) period(k);
     }
     TankRun& run = loop_.finish();
     run.summary = summarise(problem_, target_, options_, run, loop_.lost());

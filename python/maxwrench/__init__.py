@@ -21,7 +21,8 @@ in the axes of the world; ``moved``, ``to_pinocchio`` and ``to_drake`` change po
 
 from . import _arguments, _core, _frames, _html, _map, _plot, _view
 from ._core import *  # noqa: F401,F403
-from ._core import Answer, Evaluations, Explanation, Map, Path, Pose, Robot, Task, __version__
+from ._core import Answer, Capability, Ellipsoid, Evaluations, Explanation, LpAnswer, Map, Path, Polytope, Pose, Robot, Task
+from ._core import __version__
 from ._frames import from_drake, from_pinocchio, moved, to_drake, to_pinocchio
 from ._errors import SearchEnded
 from ._parts import Contact, Direction, EndEffector, Gear, Hydrodynamics, Joint, Link, Shape, Thruster
@@ -48,6 +49,10 @@ setattr(Map, "grid", property(_map.grid_of))
 Map.plot = _map.plot_map
 Answer.wrench_at = _frames.wrench
 Answer._repr_html_ = _html.answer_html
+Capability._repr_html_ = _html.capability_html
+Ellipsoid._repr_html_ = _html.ellipsoid_html
+LpAnswer._repr_html_ = _html.lp_html
+Polytope._repr_html_ = _html.polytope_html
 Explanation._repr_html_ = _html.explanation_html
 Robot._repr_html_ = _html.robot_html
 Task._repr_html_ = _html.task_html

@@ -16,14 +16,18 @@ _TYPES = {
 }
 
 
-def _shortened(value):
+def shortened(value):
     text = " ".join(repr(value).split())
     return text if len(text) <= 60 else text[:57] + "..."
 
 
 def _explained(function, text, args, kwargs):
     """The error for arguments that pybind11 rejected with this text."""
-    signature = re.search(r"^\s+1\. (.*)$", text, re.MULTILINE).group(1)
+    signature = re.search(r"^\s+1\. (.*)$", text, re.MULTILINE).group(1).replace("maxwrench._core.", "maxwrench.")
+    try:
+        _signature(function).bind(*args, **kwargs)
+    except TypeError as error:  # names what is missing or unknown
+        return TypeError(f"{function.__name__}: {error}, expected {signature}")
     parameters = re.findall(r"(\w+): ([A-Za-z_][\w.]*)", signature.split(" -> ")[0])
     given = dict(zip((name for name, _ in parameters), args)) | kwargs
     for name, kind in parameters:
@@ -38,8 +42,8 @@ def _explained(function, text, args, kwargs):
         beyond = types is int and isinstance(value, int) and not 0 <= value < 2**31
         wrong = types is None or not isinstance(value, types) or beyond
         if wrong and not (isinstance(value, bool) and types is bool):
-            return bad_value(name, _shortened(value), expected)
-    return TypeError(f"{function.__name__}: missing or unknown arguments, expected {signature}")
+            return bad_value(name, shortened(value), expected)
+    return TypeError(f"{function.__name__}: arguments of a wrong type, expected {signature}")
 
 
 def _signature(function):

@@ -28,8 +28,13 @@ class MissingFileError(InputError, FileNotFoundError):
     """
 
 
-class SearchEnded(Exception):
-    """Ends a search: it used its budget, or the user interrupted it."""
+class SearchEnded(BaseException):
+    """Ends a search: it used its budget, or the user interrupted it. No Exception, so that a search
+    that survives the errors of its own steps by ``except Exception`` ends, too.
+
+    >>> issubclass(maxwrench.SearchEnded, Exception)
+    False
+    """
 
 
 for _error in (InputError, MissingFileError, SearchEnded):

@@ -105,6 +105,86 @@ def evaluations_html(evaluations):
     return _table(task.name, rows)
 
 
+def polytope_html(polytope):
+    """Returns a Polytope as an HTML table: status, size and the range along each direction.
+
+    >>> task = maxwrench.load("uvms/valve")
+    >>> "vertices" in maxwrench.polytope(task, task.theta_r_default)._repr_html_()
+    True
+    """
+    rows = _verdict(polytope)
+    if polytope.status == "optimal":
+        rows += [
+            ("dimension", str(polytope.dimension)),
+            ("vertices", str(len(polytope.vertices))),
+            ("facets", str(len(polytope.offsets))),
+            ("volume", _number(polytope.volume)),
+        ]
+        low, high = polytope.vertices.min(axis=0), polytope.vertices.max(axis=0)
+        rows += [(f"direction {i}", f"{a:.6g} .. {b:.6g}") for i, (a, b) in enumerate(zip(low, high))]
+    return _table("Polytope", rows)
+
+
+def ellipsoid_html(ellipsoid):
+    """Returns an Ellipsoid as an HTML table: status, centre, and each radius with its axis.
+
+    >>> task = maxwrench.load("uvms/valve")
+    >>> "radius" in maxwrench.ellipsoid(task, task.theta_r_default)._repr_html_()
+    True
+    """
+    rows = _verdict(ellipsoid)
+    if ellipsoid.status == "optimal":
+        rows += [("centre", _numbers(ellipsoid.centre)), ("volume", _number(ellipsoid.volume))]
+        radii = zip(ellipsoid.radii, ellipsoid.axes.T)
+        rows += [(f"radius {i}", f"{_number(r)} along {_numbers(axis)}") for i, (r, axis) in enumerate(radii)]
+    return _table("Ellipsoid", rows)
+
+
+def lp_html(answer):
+    """Returns an LpAnswer as an HTML table: status, objective, the numbers x and residuals.
+
+    >>> "objective" in maxwrench.linprog([1, 2], [[1, 1]], [1])._repr_html_()
+    True
+    """
+    rows = _verdict(answer)
+    if answer.status == "optimal":
+        rows += [("objective", _number(answer.objective)), ("x", _shortened_numbers(answer.x))]
+        rows.append(("residuals", ", ".join(f"{k} {v:.1e}" for k, v in answer.residual.items())))
+    rows.append(("iterations", f"{answer.iterations:,}"))
+    return _table("LpAnswer", rows)
+
+
+def capability_html(result):
+    """Returns a Capability as an HTML table: the value of one program, or how many have one.
+
+    >>> "beta" in maxwrench.scale([[1, 1]], [-1, -1], [1, 1], [0], [4])._repr_html_()
+    True
+    """
+    beta = np.asarray(result.beta)
+    if beta.ndim == 0:
+        rows = _verdict(result)
+        if result.status == "optimal":
+            rows += [("beta", _number(result.beta)), ("u", _shortened_numbers(result.u))]
+        return _table("Capability", rows)
+    valid = np.asarray(result.status) == "optimal"
+    rows = [("shape", str(beta.shape)), ("with a value", f"{int(valid.sum())} of {beta.size} programs")]
+    if valid.any():
+        largest, least = np.nanargmax(beta), np.nanargmin(beta)
+        for name, i in (("largest beta", largest), ("smallest beta", least)):
+            at = ", ".join(str(k) for k in np.unravel_index(i, beta.shape))
+            rows.append((name, f"{_number(beta.flat[i])} at [{at}]"))
+    return _table("Capability", rows)
+
+
+def _verdict(result):
+    """The rows of a status, with its reason if there is one."""
+    return [("status", result.status)] + ([("reason", result.reason)] if result.reason else [])
+
+
+def _shortened_numbers(values):
+    return _numbers(values) if len(values) <= 12 else f"{_numbers(values[:12])}, ... ({len(values)} numbers)"
+
+
 def _efforts(answer):
     if answer.u is None:
         return []

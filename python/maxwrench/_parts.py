@@ -25,6 +25,10 @@ class Hydrodynamics:
 
     Attributes: ``frame``, from the link to the body; ``added_mass`` (6) [kg; kg m^2];
     ``damping_linear`` (6) [N s/m; N m s]; ``damping_quadratic`` (6) [N s^2/m^2; N m s^2].
+
+    >>> sphere = maxwrench.Hydrodynamics(added_mass=[2, 2, 2, 0, 0, 0])   # half of the water that it displaces
+    >>> maxwrench.Link("float", mass=4, volume=0.004, hydrodynamics=[sphere]).hydrodynamics[0].added_mass[0]
+    2
     """
 
     frame: Pose = dataclasses.field(default_factory=Pose)
@@ -63,6 +67,9 @@ class Gear:
     between the base and an end effector in use.
 
     Attributes: ``leader``, the name or index of the other joint; ``ratio``; ``offset`` [rad or m].
+
+    >>> maxwrench.Joint("finger_2", 1, gear=maxwrench.Gear("finger_1", ratio=-1)).gear.leader
+    'finger_1'
     """
 
     leader: str | int
@@ -161,6 +168,10 @@ class Direction:
 
     Attributes: ``direction`` [force; torque] in contact axes (6); ``min`` and ``max``, the limits of its
     coordinate [N or N m].
+
+    >>> pull = maxwrench.Direction([0, 0, -1, 0, 0, 0], min=0, max=50)
+    >>> maxwrench.Contact("left_hand", forces="basis", basis=[pull]).basis[0].max
+    50
     """
 
     direction: ArrayLike

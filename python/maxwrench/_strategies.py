@@ -1,6 +1,7 @@
 """Measures and searches that users write."""
 
 from . import _core
+from ._arguments import shortened
 from ._errors import bad_value
 
 
@@ -61,9 +62,11 @@ class Search:
         raise NotImplementedError
 
 
-def _object(strategy, key):
+def _object(strategy, key, method):
     if isinstance(strategy, type):
         raise bad_value(key, f"the class {strategy.__name__}", f"an object: {strategy.__name__}()")
+    if not callable(getattr(strategy, method, None)):
+        raise bad_value(key, shortened(strategy), f"an object with {method}()")
     return strategy
 
 
@@ -73,8 +76,16 @@ def add_measure(measure):
     Raises:
         InputError: the name is empty, has other characters than letters, digits and "_", or is
             that of a built-in measure.
+
+    >>> class Reserve(maxwrench.Measure):
+    ...     name, unit = "reserve", "N"
+    ...     def value(self, posture):
+    ...         return numpy.min(posture.u_max - abs(numpy.linalg.lstsq(posture.B, posture.tau_d, rcond=None)[0]))
+    >>> maxwrench.add_measure(Reserve())
+    >>> maxwrench.evaluate("planar/force", [0, 0], measure="reserve").status
+    'optimal'
     """
-    _core._add_measure(_object(measure, "measure"))
+    _core._add_measure(_object(measure, "measure", "value"))
 
 
 def add_search(search):
@@ -82,5 +93,13 @@ def add_search(search):
 
     Raises:
         InputError: as ``add_measure``.
+
+    >>> class Ends(maxwrench.Search):
+    ...     name = "ends"
+    ...     def maximize(self, objective):
+    ...         objective.values([objective.lower, objective.upper])
+    >>> maxwrench.add_search(Ends())
+    >>> maxwrench.solve("planar/force", search="ends+lbfgs", budget=100).search
+    'ends+lbfgs'
     """
-    _core._add_search(_object(search, "search"))
+    _core._add_search(_object(search, "search", "maximize"))

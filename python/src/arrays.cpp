@@ -27,6 +27,14 @@ void require_shape(std::string_view key, const Array& array,
   }
 }
 
+/// Whether it is a masked array of NumPy, some numbers of which do not count.
+bool has_masked(const py::object& value) {
+  // Only subclasses of arrays are asked: the others are the usual case.
+  const PyTypeObject* plain = py::detail::npy_api::get().PyArray_Type_;
+  if (!py::isinstance<py::array>(value) || Py_TYPE(value.ptr()) == plain) return false;
+  return py::bool_(py::module_::import("numpy.ma").attr("is_masked")(value));
+}
+
 }  // namespace
 
 std::string shape_of(const Array& array) {
@@ -39,6 +47,9 @@ Array numbers(std::string_view key, const py::object& value) {
   const auto reject = [&](const std::string& got) {
     throw BadValue(key, got, "an array of real numbers");
   };
+  if (has_masked(value)) {
+    throw BadValue(key, "a masked array", "an array without masked numbers");
+  }
   py::array any = py::array::ensure(value);
   if (!any) {
     PyErr_Clear();

@@ -296,6 +296,11 @@ void add_capability(py::module_& m) {
   py::class_<Capabilities>(m, "Capability", R"(The result of ``capability`` or ``scale``.
 
 Arrays are read-only and NaN where there is no value.
+
+>>> J, tau_d = numpy.full((3, 6, 2), 0.5), numpy.zeros((3, 2))
+>>> result = maxwrench.capability(J, tau_d, [-2, -2], [2, 2], "x")
+>>> result.beta.shape, result.u.shape, result.status[0]
+((3,), (3, 2), 'optimal')
 )")
       .def_property_readonly(
           "beta",

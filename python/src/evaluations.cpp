@@ -51,6 +51,30 @@ py::object gradient_of(const py::object& self) {
   return rows_of<&Evaluations::gradient>(self);
 }
 
+py::tuple evaluations_state(const PyEvaluations& self) {
+  const Evaluations& rows = self.rows;
+  py::list status;
+  for (const Status each : rows.status) status.append(static_cast<int>(each));
+  return py::make_tuple(self.task, self.gradients, status, copy(rows.beta), copy(rows.gradient),
+                        copy(rows.q), copy(rows.base), copy(rows.u), copy(rows.h));
+}
+
+PyEvaluations evaluations_of(const py::tuple& state) {
+  PyEvaluations self{{}, state[0].cast<PyTask>(), state[1].cast<bool>()};
+  Evaluations& rows = self.rows;
+  for (const py::handle each : state[2]) {
+    rows.status.push_back(static_cast<Status>(each.cast<int>()));
+  }
+  const auto table = [&state](int i) { return matrix("state", state[std::size_t(i)]); };
+  rows.beta = vector("state", state[3]);
+  rows.gradient = table(4);
+  rows.q = table(5);
+  rows.base = table(6);
+  rows.u = table(7);
+  rows.h = table(8);
+  return self;
+}
+
 /// The Evaluations that evaluate(options) returns, in the background.
 template <class Evaluate>
 py::object evaluated(const PyTask& task, Eigen::Index rows, bool gradients, Options options,
@@ -116,7 +140,8 @@ Arrays have a row for each posture and are read-only views. They are NaN where t
       .def_property_readonly(
           "task", [](const PyEvaluations& e) { return e.task; }, "The Task.")
       .def("__len__", [](const PyEvaluations& e) { return e.rows.status.size(); })
-      .def("__repr__", &repr_of_evaluations);
+      .def("__repr__", &repr_of_evaluations)
+      .def(py::pickle(&evaluations_state, &evaluations_of));
 }
 
 }  // namespace maxwrench::python

@@ -10,11 +10,21 @@
 namespace maxwrench::python {
 namespace {
 
-/// An explanation, and its task.
+/// An explanation, and what it explains.
 struct PyExplanation {
   Explanation explanation;
-  PyTask task;
+  PyAnswer answer;
+  double share = 1;  ///< as of `explain`
 };
+
+PyExplanation explained(const PyAnswer& answer, double share) {
+  Explanation found;
+  {
+    const py::gil_scoped_release released;
+    found = explain(answer.answer, {share});
+  }
+  return {std::move(found), answer, share};
+}
 
 std::vector<BindingLimit> of_rates(const std::vector<LimitRate>& rates) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -30,7 +40,7 @@ std::string repr_of_limit(const BindingLimit& limit) {
 
 std::string repr_of_explanation(const PyExplanation& self) {
   const Explanation& e = self.explanation;
-  const std::string name = self.task.problem->name;
+  const std::string name = self.answer.task.problem->name;
   if (!e.missing.empty()) return fmt::format("<Explanation {}: {}>", name, e.missing);
   if (!e.instants.empty()) {
     return fmt::format("<Explanation {}: limits bind at {} instants>", name, e.instants.size());
@@ -96,7 +106,12 @@ front_left_vertical min -0.3841 1.48353
 )";
 
 void add_limit(py::module_& m) {
-  py::class_<BindingLimit> limit(m, "Limit", "A limit that determines a value; NaN: not known.");
+  py::class_<BindingLimit> limit(m, "Limit", R"(A limit that determines a value; NaN: not known.
+
+>>> limit = maxwrench.evaluate("planar/force", [0, 0]).explain().limits[0]
+>>> limit.name, limit.side, limit.limit, limit.unit, round(limit.rate, 5)
+('front_left', 'max', 1.0, 'N', 1.15534)
+)");
   limit
       .def_readonly("name", &BindingLimit::name,
                     "Name of the actuator, coordinate of theta_r, pair of bodies or force.")
@@ -120,7 +135,14 @@ void add_limit(py::module_& m) {
 
 void add_explanations(py::module_& m) {
   add_limit(m);
-  py::class_<PyExplanation>(m, "Explanation", "What binds: the limits that determine a value.")
+  py::class_<PyExplanation>(m, "Explanation", R"(What binds: the limits that determine a value.
+
+>>> explanation = maxwrench.evaluate("planar/force", [0, 0]).explain()
+>>> [limit.name for limit in explanation.limits]
+['front_left', 'rear_right']
+>>> round(sum(explanation.budget.values()) / explanation.beta, 9)
+1.0
+)")
       .def_property_readonly(
           "beta", [](const PyExplanation& e) { return e.explanation.beta; },
           "The value [unit]; NaN: there is none.")
@@ -148,7 +170,7 @@ void add_explanations(py::module_& m) {
       .def_property_readonly("missing", &missing_of,
                              "Why limits, ranges, best or u are not known; empty: they are.")
       .def_property_readonly(
-          "task", [](const PyExplanation& e) { return e.task; }, "The Task.")
+          "task", [](const PyExplanation& e) { return e.answer.task; }, "The Task.")
       .def(
           "summary", [](const PyExplanation& e) { return summary(e.explanation); },
           "Returns the text that the command prints.")
@@ -159,21 +181,15 @@ void add_explanations(py::module_& m) {
           },
           "Returns the JSON object of the command as a dict.")
       .def("__str__", [](const PyExplanation& e) { return summary(e.explanation); })
-      .def("__repr__", &repr_of_explanation);
+      .def("__repr__", &repr_of_explanation)
+      .def(py::pickle([](const PyExplanation& e) { return py::make_tuple(e.answer, e.share); },
+                      [](const py::tuple& state) {
+                        return explained(state[0].cast<PyAnswer>(), state[1].cast<double>());
+                      }));
 }
 
 void add_explain(py::class_<PyAnswer>& answer) {
-  answer.def(
-      "explain",
-      [](const PyAnswer& self, double share) {
-        Explanation found;
-        {
-          const py::gil_scoped_release released;
-          found = explain(self.answer, {share});
-        }
-        return PyExplanation{std::move(found), self.task};
-      },
-      py::kw_only(), py::arg("share") = 1.0, kExplain);
+  answer.def("explain", &explained, py::kw_only(), py::arg("share") = 1.0, kExplain);
 }
 
 }  // namespace maxwrench::python

@@ -109,7 +109,12 @@ Raises:
 
 void add_fronts(py::module_& m) {
   py::class_<Front>(m, "Front",
-                    "What one posture gives to several tasks, from ``pareto``. N points.")
+                    R"(What one posture gives to several tasks, from ``pareto``. N points.
+
+>>> front = maxwrench.pareto("uvms/valve", "uvms/lift", points=3, budget=100)
+>>> front.beta[0, 0] >= front.beta[-1, 0] and front.beta[0, 1] <= front.beta[-1, 1]
+True
+)")
       .def_property_readonly(
           "phi", [](const Front& f) { return numbers_of_points(f, &FrontPoint::phi); },
           "The angles of the weights (N) [rad].")

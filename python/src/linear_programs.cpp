@@ -104,7 +104,12 @@ Raises:
 }  // namespace
 
 void add_linear_programs(py::module_& m) {
-  py::class_<LpAnswer>(m, "LpAnswer", "The answer of ``linprog``.")
+  py::class_<LpAnswer>(m, "LpAnswer", R"(The answer of ``linprog``.
+
+>>> answer = maxwrench.linprog([1, 2], [[1, 1]], [1])
+>>> answer.status, answer.objective, answer.x
+('optimal', 2.0, array([0., 1.]))
+)")
       .def_property_readonly(
           "status", [](const LpAnswer& a) { return to_string(a.solution.status); },
           "optimal, infeasible, unbounded, budget_exhausted or numerical_error.")

@@ -171,7 +171,12 @@ True
 
 void add_maps(py::module_& m) {
   py::class_<PyMap>(m, "Map",
-                    "The best values over a grid, from ``map``. N cells of d coordinates.")
+                    R"(The best values over a grid, from ``map``. N cells of d coordinates.
+
+>>> reach = maxwrench.map("planar/force", {"azimuth": (0, 6, 3)}, budget=100)
+>>> reach.beta.shape, reach.task.name
+((3,), 'planar/force')
+)")
       .def_property_readonly(
           "task", [](const PyMap& self) { return self.task; }, "The Task.")
       .def_property_readonly("over", over_of, "The coordinates: low, high, number of values.")

@@ -9,7 +9,11 @@ PYBIND11_MODULE(_core, m) {
   m.doc() = "The compiled part of maxwrench; import maxwrench instead.";
   m.attr("__version__") = version();
   m.def("describe_build", &describe_build,
-        "Returns the version, how the module was built, and the libraries that it uses.");
+        R"(Returns the version, how the module was built, and the libraries that it uses.
+
+>>> maxwrench.describe_build().startswith("maxwrench " + maxwrench.__version__)
+True
+)");
   python::add_errors(m);
   python::add_poses(m);
   python::add_robots(m);

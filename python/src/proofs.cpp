@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include <cmath>
 #include <filesystem>
 #include <optional>
 
@@ -70,6 +71,55 @@ void save(const PyProof& self, const py::object& path) {
       .attr("write_bytes")(file, py::bytes(self.proof.certificate));
 }
 
+py::tuple proof_state(const PyProof& self) {
+  const Proof& proof = self.proof;
+  return py::make_tuple(PyAnswer{proof.answer, self.task}, self.task,
+                        static_cast<int>(proof.status), proof.reason.str(), proof.bound,
+                        proof.search, proof.boxes, proof.colliding, proof.search_s, proof.seconds,
+                        py::bytes(proof.certificate));
+}
+
+PyProof proof_of(const py::tuple& state) {
+  PyProof self{{}, state[1].cast<PyTask>()};
+  Proof& proof = self.proof;
+  proof.answer = state[0].cast<PyAnswer>().answer;
+  proof.conclude(static_cast<Status>(state[2].cast<int>()), state[3].cast<std::string>());
+  proof.bound = state[4].cast<double>();
+  proof.search = state[5].cast<std::string>();
+  proof.boxes = state[6].cast<long>();
+  proof.colliding = state[7].cast<long>();
+  proof.search_s = state[8].cast<double>();
+  proof.seconds = state[9].cast<double>();
+  proof.certificate = state[10].cast<std::string>();
+  return self;
+}
+
+/// What ``status``, ``beta`` and the others say, for tables and files.
+py::dict dict_of_proof(const PyProof& self) {
+  const Proof& proof = self.proof;
+  const auto number = [](double value) -> py::object {
+    if (!std::isfinite(value)) return py::none();
+    return py::float_(value);
+  };
+  py::dict parts;
+  parts["problem"] = self.task.problem->name;
+  parts["status"] = to_string(proof.status);
+  parts["reason"] = proof.reason.str();
+  parts["unit"] = proof.answer.unit;
+  parts["beta"] = proof.answer.has_value() ? number(proof.answer.beta()) : py::none();
+  parts["bound"] = number(proof.bound);
+  parts["gap"] = number(proof.gap());
+  parts["theta_r"] = py::none();
+  if (proof.answer.has_posture()) {
+    const Eigen::VectorXd& theta_r = proof.answer.posture.theta_r;
+    parts["theta_r"] = std::vector<double>(theta_r.begin(), theta_r.end());
+  }
+  parts["boxes"] = proof.boxes;
+  parts["colliding"] = proof.colliding;
+  parts["seconds"] = proof.seconds;
+  return parts;
+}
+
 py::object verify_file(const py::object& path, const py::object& task, int threads) {
   const std::string file = path_in("path", path);
   open_file(file, "a certificate");
@@ -122,7 +172,12 @@ Raises:
 }  // namespace
 
 void add_proofs(py::module_& m) {
-  py::class_<PyProof>(m, "Proof", "A proof of the largest capability, made by ``certify``.")
+  py::class_<PyProof>(m, "Proof", R"(A proof of the largest capability, made by ``certify``.
+
+>>> proof = maxwrench.certify("planar/force")
+>>> proof.status, proof.beta <= proof.bound
+('proven', True)
+)")
       .def_property_readonly(
           "status", [](const PyProof& p) { return to_string(p.proof.status); },
           "proven: the gap is as requested; bracket: the bound holds, but the gap is larger.")
@@ -159,8 +214,19 @@ void add_proofs(py::module_& m) {
       .def("save", &save, py::arg("path"),
            "Writes the certificate to the file path; ``verify`` and the command check it with "
            "independent code.")
-      .def("__repr__", &repr_of_proof);
-  py::class_<VerifiedProof>(m, "VerifiedProof", "The result of ``verify``. True if verified.")
+      .def_property_readonly(
+          "task", [](const PyProof& p) { return p.task; }, "The Task.")
+      .def("to_dict", &dict_of_proof,
+           "Returns all of these by name; None where a number is not finite.")
+      .def("__repr__", &repr_of_proof)
+      .def(py::pickle(&proof_state, &proof_of));
+  py::class_<VerifiedProof>(m, "VerifiedProof", R"(The result of ``verify``. True if verified.
+
+>>> maxwrench.certify("planar/force").save("force.cert")
+>>> checked = maxwrench.verify("force.cert")
+>>> bool(checked), checked.problem, checked.beta <= checked.bound
+(True, 'planar/force', True)
+)")
       .def_property_readonly(
           "verified", [](const VerifiedProof& v) { return v.rejection.empty(); },
           "Whether the certificate proves its claims.")
@@ -197,6 +263,10 @@ Returns:
 
 Raises:
     InputError: the file is missing, damaged or no certificate.
+
+>>> maxwrench.certify("planar/force").save("force.cert")
+>>> maxwrench.verify("force.cert").verified
+True
 )");
 }
 

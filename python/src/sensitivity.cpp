@@ -119,7 +119,13 @@ Raises:
 }  // namespace
 
 void add_sensitivity(py::module_& m) {
-  py::class_<LossEffect>(m, "Loss", "What a task is worth with some actuators lost.")
+  py::class_<LossEffect>(m, "Loss", R"(What a task is worth with some actuators lost.
+
+>>> cost = maxwrench.sensitivity("planar/force", actuators="elbow", friction=1, budget=50)
+>>> loss = cost.losses[1]
+>>> loss.name, loss.at_posture <= cost.losses[0].at_posture
+('elbow limp', True)
+)")
       .def_readonly("name", &LossEffect::name,
                     "What is lost, such as \"front_left dead\"; empty: nothing.")
       .def_property_readonly(
@@ -140,7 +146,12 @@ void add_sensitivity(py::module_& m) {
                            e.name.empty() ? "of nothing" : e.name, value_or_nan(e.at_posture),
                            value_or_nan(e.best));
       });
-  py::class_<Sensitivity>(m, "Sensitivity", "The losses of a task, compared by ``sensitivity``.")
+  py::class_<Sensitivity>(m, "Sensitivity", R"(The losses of a task, compared by ``sensitivity``.
+
+>>> cost = maxwrench.sensitivity("planar/force", actuators="elbow", friction=1, budget=50)
+>>> len(cost.losses), cost.unit, cost.all.at_posture <= cost.losses[0].at_posture
+(2, 'N', True)
+)")
       .def_readonly("losses", &Sensitivity::effects,
                     "Each Loss, in the order of the actuators; the first is of nothing.")
       .def_readonly("all", &Sensitivity::all,

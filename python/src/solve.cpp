@@ -217,14 +217,30 @@ void add_solve(py::module_& m) {
         py::arg("callback") = py::none(), kSolve);
   m.def(
       "measures", [] { return with_added(summaries(measures()), added_measures()); },
-      "Returns the measures: a line about each, by name.");
+      R"(Returns the measures: a line about each, by name.
+
+>>> "linf_polytope" in maxwrench.measures()
+True
+)");
   m.def(
       "solvers", [] { return summaries(wrench_solvers()); },
-      "Returns the solvers of the lower level: a line about each, by name.");
-  m.def("searches", &all_searches, "Returns the searches: a line about each, by name.");
+      R"(Returns the solvers of the lower level: a line about each, by name.
+
+>>> "facets" in maxwrench.solvers()
+True
+)");
+  m.def("searches", &all_searches, R"(Returns the searches: a line about each, by name.
+
+>>> "cmaes" in maxwrench.searches()
+True
+)");
   m.def(
       "integrators", [] { return summaries(integrators()); },
-      "Returns the integrators: a line about each, by name.");
+      R"(Returns the integrators: a line about each, by name.
+
+>>> "runge_kutta" in maxwrench.integrators()
+True
+)");
 }
 
 }  // namespace maxwrench::python

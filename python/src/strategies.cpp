@@ -112,7 +112,6 @@ void add_python_measure(const py::object& measure) {
   const std::string name = attribute_of(measure, "name", ""),
                     unit = attribute_of(measure, "unit", "");
   const std::string summary = attribute_of(measure, "__doc__", "a measure in Python");
-  if (!py::hasattr(measure, "value")) throw BadValue("measure", name, "an object with value()");
   const bool derivatives = py::hasattr(measure, "derivatives");
   add_measure({name.c_str(), summary.c_str(), false, flag_of(measure, "serves_any"),
                unit.empty() ? nullptr : unit.c_str(),
@@ -256,7 +255,6 @@ class PythonSearch : public Search {
 void add_python_search(const py::object& search) {
   const std::string name = attribute_of(search, "name", "");
   const std::string summary = attribute_of(search, "__doc__", "a search in Python");
-  if (!py::hasattr(search, "maximize")) throw BadValue("search", name, "an object with maximize()");
   SearchEntry entry{name.c_str(), summary.c_str(), flag_of(search, "local"),
                     [shared = share(search)] { return std::make_unique<PythonSearch>(shared); }};
   entry.accepts_starts = flag_of(search, "accepts_starts");
@@ -272,7 +270,16 @@ py::list points_of(const std::vector<Candidate>& candidates) {
 }
 
 void add_posture(py::module_& m) {
-  py::class_<PyPosture> posture(m, "Posture", "What a measure sees of a posture.");
+  py::class_<PyPosture> posture(m, "Posture", R"(What a measure sees of a posture.
+
+>>> class Lever(maxwrench.Measure):
+...     name, unit = "lever", "m"
+...     def value(self, posture):                        # of the last joint about z
+...         return numpy.linalg.norm(posture.J[:2, -1])
+>>> maxwrench.add_measure(Lever())
+>>> maxwrench.evaluate("planar/force", [0, 0], measure="lever").status
+'optimal'
+)");
   const auto member = [&posture](const char* name, auto PyPosture::*array, const char* doc) {
     posture.def_property_readonly(
         name, [array](const PyPosture& p) { return copy(p.*array); }, doc);
@@ -292,7 +299,15 @@ void add_objective(py::module_& m) {
       m, "Objective", R"(The function that a search maximises: beta at theta_r, or at stacked knots.
 
 Call it with a point (d); the value is -inf where there is none. The best point counts by itself.
-Once the budget is used or the user interrupts, a call ends the search by an exception.
+Once the budget is used or the user interrupts, a call ends the search by the exception SearchEnded.
+
+>>> class Middle(maxwrench.Search):
+...     name = "middle"
+...     def maximize(self, objective):
+...         objective((objective.lower + objective.upper) / 2)
+>>> maxwrench.add_search(Middle())
+>>> maxwrench.solve("planar/force", search="middle").evaluations
+1
 )")
       .def(
           "__call__", [](PyObjective& o, const py::object& x) { return o.evaluate(x, nullptr); },

@@ -6,6 +6,7 @@
 #include "maxwrench/strategies.h"
 #include "problems/make/bad_value.h"
 #include "python/src/arrays.h"
+#include "python/src/background.h"
 #include "python/src/parts.h"
 #include "python/src/words.h"
 #include "solvers/solve/tank.h"
@@ -13,10 +14,10 @@
 namespace maxwrench::python {
 namespace {
 
-/// An experiment, with the task whose wrench it held.
+/// An experiment, with the task of the answer that it carried out.
 struct PyExperiment {
   TankRun run;
-  std::shared_ptr<const Problem> task;
+  PyTask task;
 };
 
 /// What an experiment is asked for.
@@ -58,7 +59,7 @@ Request request_of(const std::string& integrator, const std::string& interpolati
   return request;
 }
 
-PyExperiment hold_posture(const Answer& answer, const Request& request) {
+TankRun hold_posture(const Answer& answer, const Request& request) {
   const Problem& task = *answer.task;
   const Eigen::VectorXd& theta_r = answer.posture.theta_r;
   // The controller holds the end effector at its pose for theta_r.
@@ -70,32 +71,31 @@ PyExperiment hold_posture(const Answer& answer, const Request& request) {
     throw BadValue("answer", shown(answer.choice.measure), "a posture with efforts and a wrench");
   }
   if (request.tank.load > 0) {
-    return {simulate_load(held, request.tank.load, request.integrator, request.tank), held.task};
+    return simulate_load(held, request.tank.load, request.integrator, request.tank);
   }
   const double planned =
       request.planned > 0 ? request.planned : held.task->c.dot(held.capability.h);
   if (!(planned > 0)) throw BadValue("planned", shown(planned), "a value > 0: none is possible");
-  return {simulate_posture(held, planned, request.integrator, request.tank), held.task};
+  return simulate_posture(held, planned, request.integrator, request.tank);
 }
 
-PyExperiment carry_out(const Answer& answer, const Request& request) {
+TankRun carry_out(const Answer& answer, const Request& request) {
   const Problem& task = *answer.task;
   ScriptOptions script;
   script.interpolation = request.interpolation.empty() ? usual_interpolation(task)
                                                        : parse_interpolation(request.interpolation);
   script.planned = request.planned;
   script.margin = request.tank.margin;
-  return {simulate_trajectory(task, answer.trajectory, answer.choice.wrench,
-                              find_trajectory_solver(answer.choice.solver), script,
-                              request.integrator, request.tank)
-              .run,
-          answer.task};
+  return simulate_trajectory(task, answer.trajectory, answer.choice.wrench,
+                             find_trajectory_solver(answer.choice.solver), script,
+                             request.integrator, request.tank)
+      .run;
 }
 
 PyExperiment simulate(const PyAnswer& given, const std::string& integrator,
                       const std::string& interpolation, double planned, const py::kwargs& options) {
   const Answer& answer = given.answer;
-  const Request request = request_of(integrator, interpolation, planned, options);
+  Request request = request_of(integrator, interpolation, planned, options);
   const std::vector<std::string> served = stiff_integrators();
   if (std::find(served.begin(), served.end(), integrator) == served.end()) {
     throw BadValue("integrator", shown(integrator), "one for stiff systems: " + shown(served));
@@ -104,9 +104,11 @@ PyExperiment simulate(const PyAnswer& given, const std::string& integrator,
     throw BadValue("answer", "a task with a second contact", "one without");
   }
   if (!answer.has_value()) throw BadValue("answer", answer.reason.str(), "one with a value");
-  PyExperiment result;
-  const py::gil_scoped_release released;
-  result = answer.task->motion ? carry_out(answer, request) : hold_posture(answer, request);
+  PyExperiment result{{}, given.task};
+  run_in_background(py::none(), [&](Watch& watch) {
+    request.tank.interrupted = [&watch] { return watch.stop.load(); };
+    result.run = answer.task->motion ? carry_out(answer, request) : hold_posture(answer, request);
+  });
   return result;
 }
 
@@ -129,14 +131,97 @@ py::array rows_of_samples(const PyExperiment& self, Eigen::Index cols, Row row) 
 
 std::string repr_of_experiment(const PyExperiment& self) {
   const TankSummary& summary = self.run.summary;
-  return fmt::format("<Experiment {}: {}, reading {:.6g} of {:.6g} planned {}>", self.task->name,
-                     summary.held ? "held" : "not held", reading_of(summary), summary.planned,
-                     self.task->unit());
+  return fmt::format("<Experiment {}: {}, reading {:.6g} of {:.6g} planned {}>",
+                     self.task.problem->name, summary.held ? "held" : "not held",
+                     reading_of(summary), summary.planned, self.task.problem->unit());
+}
+
+// ---- Pickled experiments
+
+/// The numbers of a sample beside its arrays; flags are 0 or 1.
+std::vector<double> tank_numbers(const TankSample& s) {
+  return {s.t,
+          s.planned,
+          s.reading,
+          s.shortfall,
+          double(s.saturated),
+          double(s.relaxed),
+          s.theta_r_error,
+          s.configuration_error,
+          s.position_error,
+          s.deflection_error,
+          s.violation,
+          s.off_axis_force,
+          s.off_axis_torque,
+          s.speed,
+          s.angle};
+}
+
+TankSample tank_sample(const std::vector<double>& n) {
+  TankSample s;
+  s.t = n[0];
+  s.planned = n[1];
+  s.reading = n[2];
+  s.shortfall = n[3];
+  s.saturated = n[4] != 0;
+  s.relaxed = n[5] != 0;
+  s.theta_r_error = n[6];
+  s.configuration_error = n[7];
+  s.position_error = n[8];
+  s.deflection_error = n[9];
+  s.violation = n[10];
+  s.off_axis_force = n[11];
+  s.off_axis_torque = n[12];
+  s.speed = n[13];
+  s.angle = n[14];
+  return s;
+}
+
+py::list samples_state(const TankRun& run) {
+  py::list list;
+  for (const TankSample& s : run.samples) {
+    list.append(
+        py::make_tuple(tank_numbers(s), copy(Eigen::VectorXd(s.h_e)), copy(s.u), copy(s.theta_r)));
+  }
+  return list;
+}
+
+/// What Python shows of the summary; the rest follows from the samples.
+py::tuple experiment_state(const PyExperiment& self) {
+  const TankRun& run = self.run;
+  const TankSummary& s = run.summary;
+  const py::object motion =
+      s.motion ? py::object(py::float_(s.motion->at_peak)) : py::object(py::none());
+  return py::make_tuple(self.task, static_cast<int>(run.status), run.reason.str(),
+                        samples_state(run), s.planned, s.mean, s.low, s.held, s.missed, motion);
+}
+
+PyExperiment experiment_of(const py::tuple& state) {
+  PyExperiment self{{}, state[0].cast<PyTask>()};
+  TankRun& run = self.run;
+  run.conclude(static_cast<Status>(state[1].cast<int>()), state[2].cast<std::string>());
+  for (const py::handle item : state[3]) {
+    const auto parts = item.cast<py::tuple>();
+    TankSample sample = tank_sample(parts[0].cast<std::vector<double>>());
+    sample.h_e = vector("state", parts[1], 6);
+    sample.u = vector("state", parts[2]);
+    sample.theta_r = vector("state", parts[3]);
+    run.samples.push_back(std::move(sample));
+  }
+  TankSummary& s = run.summary;
+  s.planned = state[4].cast<double>();
+  s.mean = state[5].cast<double>();
+  s.low = state[6].cast<double>();
+  s.held = state[7].cast<bool>();
+  s.missed = state[8].cast<std::string>();
+  if (!state[9].is_none()) s.motion.emplace().at_peak = state[9].cast<double>();
+  return self;
 }
 
 constexpr const char* kSimulate = R"(Carries out an answer in the virtual tank.
 
-A controller, thrusters with lag and a load cell show whether the robot holds the wrench.
+A controller, thrusters with lag and a load cell show whether the robot holds the wrench. Ctrl-C ends
+it; the record so far is returned, with status budget_exhausted.
 
 Args:
     answer: an Answer with a value, of one contact.
@@ -165,7 +250,15 @@ True
 }  // namespace
 
 void add_tank(py::module_& m) {
-  py::class_<PyExperiment> experiment(m, "Experiment", "The record of ``simulate``.");
+  py::class_<PyExperiment> experiment(m, "Experiment", R"(The record of ``simulate``.
+
+>>> answer = maxwrench.evaluate("planar/force", [0, 0])
+>>> experiment = maxwrench.simulate(answer, ramp=1, hold=1)
+>>> experiment.status, experiment.t.shape, experiment.h.shape
+('reached', (300,), (300, 6))
+>>> abs(experiment.reading - experiment.planned) < 0.02 * experiment.planned
+True
+)");
   const auto curve = [&experiment](const char* name, double TankSample::*member, const char* doc) {
     experiment.def_property_readonly(
         name,
@@ -189,7 +282,7 @@ void add_tank(py::module_& m) {
       .def_property_readonly(
           "u",
           [](const PyExperiment& e) {
-            return rows_of_samples(e, e.task->robot.actuators(),
+            return rows_of_samples(e, e.task.problem->robot.actuators(),
                                    [](const TankSample& s) { return s.u.transpose(); });
           },
           "Efforts (N×m) [N or N m].")
@@ -212,9 +305,12 @@ void add_tank(py::module_& m) {
           "reason", [](const PyExperiment& e) { return e.run.reason.str(); },
           "Why it ended early; empty if it did not.")
       .def(
-          "csv", [](const PyExperiment& e) { return tank_csv(*e.task, e.run); },
+          "csv", [](const PyExperiment& e) { return tank_csv(*e.task.problem, e.run); },
           "Returns the samples as a CSV table.")
-      .def("__repr__", &repr_of_experiment);
+      .def_property_readonly(
+          "task", [](const PyExperiment& e) { return e.task; }, "The Task.")
+      .def("__repr__", &repr_of_experiment)
+      .def(py::pickle(&experiment_state, &experiment_of));
   m.def("simulate", &simulate, py::arg("answer"), py::arg("integrator") = "cvode",
         py::arg("interpolation") = "", py::arg("planned") = 0.0, kSimulate);
 }

@@ -222,6 +222,11 @@ Args:
 
 Raises:
     InputError: a value is wrong.
+
+>>> motion = maxwrench.load("planar/trajectory")
+>>> path = maxwrench.Path.screw(motion.pose, duration=4, displacement=[0.2, 0.1, 0])
+>>> maxwrench.Trajectory(motion.robot, path, knots=6, c="x").knots
+6
 )";
 
 constexpr const char* kImpulse =
@@ -240,6 +245,10 @@ Args:
 
 Raises:
     InputError: a value is wrong.
+
+>>> force = maxwrench.load("planar/force")
+>>> maxwrench.Impulse(force.robot, force.pose, T=1, knots=3, theta_0=[0, 0], c="x").type
+'impulse'
 )";
 
 }  // namespace

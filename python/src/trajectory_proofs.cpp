@@ -79,7 +79,13 @@ py::object verify_motion(const std::string& file, const std::optional<Problem>& 
 void add_trajectory_proofs(py::module_& m) {
   py::class_<PyTrajectoryProof>(
       m, "TrajectoryProof",
-      "A proof of what a trajectory exerts at every instant, made by ``certify``.")
+      R"(A proof of what a trajectory exerts at every instant, made by ``certify``.
+
+>>> motion = maxwrench.load("planar/trajectory")
+>>> proof = maxwrench.certify(motion, motion.theta_r_default)
+>>> proof.status, proof.guaranteed <= proof.answer.beta
+('proven', True)
+)")
       .def_property_readonly(
           "status", [](const PyTrajectoryProof& p) { return to_string(p.proof.status); },
           "proven, or why not: invalid_posture, infeasible or numerical_error.")
@@ -114,7 +120,13 @@ void add_trajectory_proofs(py::module_& m) {
       .def("__repr__", &repr_of_trajectory_proof);
   py::class_<VerifiedTrajectory>(
       m, "VerifiedTrajectory",
-      "The result of ``verify`` for a certificate of a trajectory. True if verified.")
+      R"(The result of ``verify`` for a certificate of a trajectory. True if verified.
+
+>>> motion = maxwrench.load("planar/trajectory")
+>>> maxwrench.certify(motion, motion.theta_r_default).save("motion.cert")
+>>> maxwrench.verify("motion.cert").verified
+True
+)")
       .def_property_readonly(
           "verified", [](const VerifiedTrajectory& v) { return v.verified(); },
           "Whether the certificate proves its claims.")

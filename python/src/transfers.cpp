@@ -63,6 +63,13 @@ Returns:
 
 Raises:
     InputError: a value is wrong.
+
+>>> arm = maxwrench.load("fixed/push").robot
+>>> low = dict(zip(arm.joint_names, [0, 0.3, 0, -1.5, 0, -0.6, 0]))
+>>> high, point = low | {"joint_2": 0.8}, {"com": [0, 0, 0]}
+>>> carry = maxwrench.Transfer(arm, low, high, T=2, knots=6, payload=point)
+>>> carry.type, carry.default_knots.shape
+('transfer', (4, 7))
 )";
 
 }  // namespace

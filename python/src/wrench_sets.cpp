@@ -75,6 +75,53 @@ py::array triangles_of(const WrenchSet& set) {
   return array;
 }
 
+py::tuple polytope_state(const WrenchSet& s) {
+  return py::make_tuple(static_cast<int>(s.status), s.reason.str(), s.dimension,
+                        copy(RowMatrix(s.vertices)), copy(RowMatrix(s.efforts)),
+                        copy(RowMatrix(s.wrenches)), copy(RowMatrix(s.normals)), copy(s.offsets),
+                        s.faces, triangles_of(s), copy(RowMatrix(s.flat_normals)),
+                        copy(s.flat_offsets), s.volume, copy(s.ray), s.residual.balance,
+                        s.residual.bounds, s.residual.dual, s.residual.gap, s.programs);
+}
+
+WrenchSet polytope_of(const py::tuple& state) {
+  const auto table = [&state](int i) { return matrix("state", state[std::size_t(i)]); };
+  const auto number = [&state](int i) { return state[std::size_t(i)].cast<double>(); };
+  WrenchSet s;
+  s.conclude(static_cast<Status>(state[0].cast<int>()), state[1].cast<std::string>());
+  s.dimension = state[2].cast<int>();
+  s.vertices = table(3);
+  s.efforts = table(4);
+  s.wrenches = table(5);
+  s.normals = table(6);
+  s.offsets = vector("state", state[7]);
+  s.faces = state[8].cast<std::vector<std::vector<int>>>();
+  s.triangles = table(9).transpose().cast<int>();
+  s.flat_normals = table(10);
+  s.flat_offsets = vector("state", state[11]);
+  s.volume = number(12);
+  s.ray = vector("state", state[13]);
+  s.residual = {number(14), number(15), number(16), number(17)};
+  s.programs = state[18].cast<int>();
+  return s;
+}
+
+py::tuple ellipsoid_state(const WrenchEllipsoid& e) {
+  return py::make_tuple(static_cast<int>(e.status), e.reason.str(), copy(e.centre),
+                        copy(RowMatrix(e.axes)), copy(e.radii), e.volume, copy(e.ray));
+}
+
+WrenchEllipsoid ellipsoid_of(const py::tuple& state) {
+  WrenchEllipsoid e;
+  e.conclude(static_cast<Status>(state[0].cast<int>()), state[1].cast<std::string>());
+  e.centre = vector("state", state[2]);
+  e.axes = matrix("state", state[3]);
+  e.radii = vector("state", state[4]);
+  e.volume = state[5].cast<double>();
+  e.ray = vector("state", state[6]);
+  return e;
+}
+
 constexpr const char* kPolytope =
     R"(Computes the set of forces that the robot can exert at a posture.
 
@@ -113,6 +160,10 @@ Returns:
 
 Raises:
     InputError: as ``polytope``, and if an actuator cannot act in both directions.
+
+>>> in_plane = numpy.eye(6)[:, :2]                       # a planar robot bears any force across it
+>>> maxwrench.ellipsoid("planar/force", [0, 0], directions=in_plane).radii.shape
+(2,)
 )";
 
 }  // namespace
@@ -122,6 +173,11 @@ void add_wrench_sets(py::module_& m) {
 
 A flat set also satisfies flat_normals @ f == flat_offsets. Only a set of status optimal has
 vertices and faces.
+
+>>> in_plane = numpy.eye(6)[:, :2]
+>>> polytope = maxwrench.polytope("planar/force", [0, 0], directions=in_plane)
+>>> bool(numpy.all(polytope.normals @ polytope.vertices.T <= polytope.offsets[:, None] + 1e-9))
+True
 )")
       .def_property_readonly(
           "status", [](const WrenchSet& s) { return to_string(s.status); },
@@ -157,13 +213,21 @@ vertices and faces.
           "ray", [](const WrenchSet& s) { return copy(s.ray); },
           "Of an unbounded set: a direction without end (k).")
       .def_readonly("volume", &WrenchSet::volume, "Volume, area or length.")
-      .def("__repr__", [](const WrenchSet& s) {
-        return fmt::format("<Polytope: {}, {} vertices, {} facets, dimension {}>",
-                           to_string(s.status), s.vertices.cols(), s.normals.cols(), s.dimension);
-      });
+      .def("__repr__",
+           [](const WrenchSet& s) {
+             return fmt::format("<Polytope: {}, {} vertices, {} facets, dimension {}>",
+                                to_string(s.status), s.vertices.cols(), s.normals.cols(),
+                                s.dimension);
+           })
+      .def(py::pickle(&polytope_state, &polytope_of));
   py::class_<WrenchEllipsoid>(m, "Ellipsoid", R"(An ellipsoid of wrenches.
 
 It consists of the points centre + axes @ y with sum (y / radii)^2 <= 1.
+
+>>> in_plane = numpy.eye(6)[:, :2]
+>>> ellipsoid = maxwrench.ellipsoid("planar/force", [0, 0], directions=in_plane)
+>>> ellipsoid.status, ellipsoid.axes.shape, bool(ellipsoid.radii[0] >= ellipsoid.radii[1])
+('optimal', (2, 2), True)
 )")
       .def_property_readonly(
           "status", [](const WrenchEllipsoid& e) { return to_string(e.status); },
@@ -181,9 +245,12 @@ It consists of the points centre + axes @ y with sum (y / radii)^2 <= 1.
           "radii", [](const WrenchEllipsoid& e) { return copy(e.radii); },
           "Radius along each axis (k) [N or N m].")
       .def_readonly("volume", &WrenchEllipsoid::volume, "Volume, area or length.")
-      .def("__repr__", [](const WrenchEllipsoid& e) {
-        return fmt::format("<Ellipsoid: {}, dimension {}>", to_string(e.status), e.radii.size());
-      });
+      .def("__repr__",
+           [](const WrenchEllipsoid& e) {
+             return fmt::format("<Ellipsoid: {}, dimension {}>", to_string(e.status),
+                                e.radii.size());
+           })
+      .def(py::pickle(&ellipsoid_state, &ellipsoid_of));
   m.def("polytope", &polytope, py::arg("task"), py::arg("theta_r") = py::none(), py::kw_only(),
         py::arg("directions") = "force", py::arg("wrench") = "pure",
         py::arg("measure") = "linf_polytope", py::arg("solver") = "", kPolytope);

@@ -54,6 +54,16 @@ def test_what_is_not_numbers(rejects, value):
     assert rejects(mw.scale, None, value, [1, 1], [0, 0], [1, 0]).key == "lower"
 
 
+def test_masked_arrays(rejects):
+    masked = np.ma.masked_array([0.1, 0.2], mask=[False, True])
+    line = "theta_r: got a masked array, expected an array without masked numbers"
+    assert str(rejects(mw.evaluate, "planar/force", masked)) == line
+    assert rejects(mw.evaluate, "planar/force", np.ma.masked_array([[0.1, 0.2]] * 2, mask=[[0, 0], [0, 1]])).key == "theta_r"
+    assert rejects(mw.linprog, [1, 1], EYE, masked).key == "b"
+    # Where nothing is masked, all numbers count.
+    assert mw.evaluate("planar/force", np.ma.masked_array([0.1, 0.2])).beta == mw.evaluate("planar/force", [0.1, 0.2]).beta
+
+
 @pytest.mark.parametrize(
     "shape", [(), (0,), (1,), (3,), (0, 3), (2, 1), (5, 3), (1, 1, 2), (0, 0), (2, 0)], ids=str
 )

@@ -106,10 +106,19 @@ def test_wrong_types(rejects, call):
 
 @pytest.mark.parametrize("function", [mw.Static, mw.load, mw.evaluate, mw.solve], ids=lambda f: f.__name__)
 def test_unknown_arguments_are_type_errors(function):
-    first = [robot()] if function is mw.Static else ["planar/force"]
+    first = {mw.Static: [robot()], mw.evaluate: ["planar/force", GOOD]}.get(function, ["planar/force"])
     with pytest.raises(TypeError) as caught:
         function(*first, colour=3)
-    assert function is not mw.Static or "colour" in str(caught.value)
+    assert "colour" in str(caught.value) and len(str(caught.value).splitlines()) == 1
+
+
+def test_missing_arguments_are_named():
+    with pytest.raises(TypeError, match="solve: missing a required argument: 'task'"):
+        mw.solve()
+    with pytest.raises(TypeError, match="theta_r"):
+        mw.evaluate("planar/force")
+    with pytest.raises(TypeError, match="too many positional arguments"):
+        mw.solve("planar/force", 3)
 
 
 def test_a_path_with_a_zero_is_shown(rejects):

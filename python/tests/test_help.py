@@ -83,8 +83,9 @@ def test_signatures_are_those_of_python(name):
 EXAMPLES = {name: value for name, value in DOCUMENTED.items() if ">>>" in (value.__doc__ or "")}
 
 
-def test_there_are_examples():
-    assert {"load", "Static", "evaluate", "solve", "capability", "scale", "linprog", "Task", "Answer"} <= set(EXAMPLES)
+@pytest.mark.parametrize("name", [name for name, value in PUBLIC.items() if callable(value)])
+def test_each_function_and_class_has_an_example(name):
+    assert name in EXAMPLES
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
@@ -121,6 +122,11 @@ def objects():
         "Capability": mw.capability(J[0], [0, 0, 0], -limits, limits, "x"),
         "Capability of many": mw.capability(J, np.zeros((2, 3)), -limits, limits, "x"),
         "Capability without value": mw.capability(J[0], [9, 0, 0], -limits, limits, "x"),
+        "Polytope": mw.polytope(static, [0, 0], directions=np.eye(6)[:, :2]),
+        "Polytope without end": mw.polytope(static, [0, 0], directions=np.eye(6)[:, 2:3]),
+        "Ellipsoid": mw.ellipsoid(static, [0, 0], directions=np.eye(6)[:, :2]),
+        "Experiment": mw.simulate(mw.evaluate(static, [0, 0]), ramp=0.1, hold=0.1),
+        "Proof": mw.certify(static),
         "LpAnswer": mw.linprog([1, 2], [[1, 1]], [1]),
         "LpAnswer without value": mw.linprog([1], [[1]], [-1]),
     }

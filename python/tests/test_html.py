@@ -4,6 +4,7 @@ import re
 import xml.etree.ElementTree as xml
 
 import maxwrench as mw
+import numpy as np
 import pytest
 
 IN_TIME = mw.load("planar/trajectory")
@@ -18,6 +19,14 @@ OBJECTS = {
     "explanation without value": lambda: mw.evaluate("uvms/valve", [0, 0, 0, 0]).explain(),
     "explanation in time": lambda: mw.evaluate(IN_TIME, IN_TIME.theta_r_default).explain(),
     "evaluations": lambda: mw.evaluate("planar/force", [[0, 0], [0.3, 0.1]]),
+    "capability": lambda: mw.scale([[1, 1]], [-1, -1], [1, 1], [0], [4]),
+    "capability of many": lambda: mw.capability(np.full((3, 6, 2), 0.5), np.zeros((3, 2)), [-2, -2], [2, 2], "x"),
+    "capability without value": lambda: mw.capability(np.ones((6, 1)), [9], [-1], [1], "x"),
+    "ellipsoid": lambda: mw.ellipsoid("planar/force", [0, 0], directions=np.eye(6)[:, :2]),
+    "polytope": lambda: mw.polytope("planar/force", [0, 0], directions=np.eye(6)[:, :2]),
+    "polytope of a point out of reach": lambda: mw.polytope("uvms/valve", [0, 0, 0, 0]),
+    "program": lambda: mw.linprog([1, 2], [[1, 1]], [1]),
+    "program without a point": lambda: mw.linprog([1], [[1]], [-1]),
     "evaluations without value": lambda: mw.evaluate("uvms/valve", [[0, 0, 0, 0]]),
 }
 
@@ -39,6 +48,18 @@ def test_contents():
     assert table["status"] == answer.status and "u shoulder" in table
     table = rows(OBJECTS["evaluations without value"]()._repr_html_())
     assert table == {"with a value": "0 of 1 postures"}
+    # One unit of effort each way: B u = 2 of the 4 that are demanded.
+    table = rows(OBJECTS["capability"]()._repr_html_())
+    assert float(table["beta"]) == 0.5 and table["u"] == "1, 1"
+    # max x_1 + 2 x_2 on x_1 + x_2 = 1, x >= 0.
+    table = rows(OBJECTS["program"]()._repr_html_())
+    assert (table["objective"], table["x"]) == ("2", "0, 1")
+    assert rows(OBJECTS["program without a point"]()._repr_html_())["status"] == "infeasible"
+    ellipsoid = OBJECTS["ellipsoid"]()
+    assert rows(ellipsoid._repr_html_())["radius 1"].startswith(f"{ellipsoid.radii[1]:.6g} along ")
+    polytope = OBJECTS["polytope"]()
+    low, high = rows(polytope._repr_html_())["direction 0"].split(" .. ")
+    assert float(low) == pytest.approx(-float(high))  # the thrusters are symmetric
 
 
 def test_texts_are_escaped(tmp_path):

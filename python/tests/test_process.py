@@ -107,6 +107,34 @@ def test_ctrl_c_during_a_linear_program_is_not_lost():
     assert status == "budget_exhausted"
 
 
+@pytest.mark.parametrize("name, options", [("uvms/valve", {"hold": 1000}), ("uvms/valve_trajectory", {"period": 1e-5})])
+def test_ctrl_c_ends_an_experiment(name, options):
+    # The whole would take most of a minute or more.
+    task = mw.load(name)
+    answer = mw.evaluate(task, task.theta_r_default)
+    interrupt = Interrupt(1.5)
+    experiment = mw.simulate(answer, **options)
+    assert time.perf_counter() - interrupt.time < AT_ONCE
+    assert (experiment.status, experiment.reason) == ("budget_exhausted", "interrupted")
+    assert not experiment.held and "interrupted" in experiment.missed
+    assert 0 < len(experiment.t) < 50_000 and np.all(np.diff(experiment.t) > 0)
+    # What there is, is the beginning of the whole.
+    if "hold" in options:
+        whole = mw.simulate(answer, hold=1)
+        both = min(len(whole.t), len(experiment.t), 500)  # the ramp, 500 periods, is that of any hold
+        np.testing.assert_array_equal(experiment.readings[:both], whole.readings[:both])
+
+
+def test_more_threads_than_cores_say_nothing():
+    program = (
+        "import maxwrench as mw;"
+        "print([mw.solve('uvms/valve', search='sample', budget=2000, threads=n).beta for n in (1, 4, 64)])"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60)
+    one, four, many = eval(done.stdout)
+    assert done.stderr == "" and one == four == many
+
+
 def test_ctrl_c_of_a_terminal():
     # A whole process, as a user runs it: it goes on after the solve and ends by itself.
     program = (

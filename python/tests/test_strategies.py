@@ -213,6 +213,27 @@ def test_an_exception_in_a_search_reaches_the_caller():
         mw.solve("planar/force", search="fails", budget=10)
 
 
+@pytest.mark.parametrize("interrupted", [False, True])
+def test_a_search_that_survives_its_errors_ends(interrupted):
+    class Survives(mw.Search):
+        name = "survives"
+
+        def maximize(self, objective):
+            while True:
+                try:
+                    objective(objective.start)
+                    raise LookupError("a step of its own that fails")
+                except Exception:
+                    pass
+
+    mw.add_search(Survives())
+    budget = 10**8 if interrupted else 10
+    answer = mw.solve("planar/force", search="survives", budget=budget, callback=lambda n: interrupted)
+    assert answer.status == ("budget_exhausted" if interrupted else "best_found") and answer.has_value
+    assert interrupted or answer.evaluations == 10
+    assert not issubclass(mw.SearchEnded, Exception)
+
+
 def test_a_race_has_a_row_for_each_run():
     runs = mw.race(["planar/force"], ["sample", "random_points", "scipy_de"], seeds=2, budget=300)
     assert len(runs["beta"]) == 6 and set(runs["search"]) == {"sample", "random_points", "scipy_de"}
@@ -234,6 +255,11 @@ def test_a_search_that_only_computes_can_be_interrupted():
     assert answer.status == "budget_exhausted" and answer.evaluations == 1 and answer.has_value
     again = mw.solve("planar/force", search="random_points+cmaes", budget=200)  # nothing is left behind
     assert again.status == "best_found"
+
+
+def test_what_is_no_strategy(rejects):
+    assert str(rejects(mw.add_search, 3)) == "search: got 3, expected an object with maximize()"
+    assert str(rejects(mw.add_measure, "x")) == "measure: got 'x', expected an object with value()"
 
 
 def test_a_class_in_place_of_an_object(rejects):

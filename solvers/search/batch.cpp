@@ -1,5 +1,6 @@
 #include "maxwrench/batch.h"
 
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -70,7 +71,8 @@ void parallel_for(int threads, long count, const std::function<void(long)>& body
     for (long i = 0; i < count; ++i) body(i);
     return;
   }
-  tbb::task_arena arena(threads);
+  // More workers than cores are of no use, and TBB warns of those it does not have.
+  tbb::task_arena arena(std::min(threads, tbb::info::default_concurrency()));
   // Every body sees what the caller wrote before, and the caller sees what the bodies wrote. TBB
   // guarantees this, but a thread sanitizer does not know it; so these atomics state it again.
   std::atomic<long> begun{0}, ended{0};

@@ -51,17 +51,24 @@ TankRun simulate_load(const Answer& answer, double load, const std::string& inte
   return simulate_posture(answer, load * answer.task->robot.gravity, integrator, options);
 }
 
-int heaviest_load(const Answer& answer, const std::string& integrator, TankOptions options) {
+HeaviestLoad heaviest_load(const Answer& answer, const std::string& integrator,
+                           TankOptions options) {
   require_weight(answer);
   options.until_hold = true;
-  int held = 0;
+  HeaviestLoad heaviest;
+  heaviest.conclude(Status::kBestFound);
+  int& held = heaviest.mass;
   int lost = std::max(1, static_cast<int>(answer.beta_linf / answer.task->robot.gravity) + 2);
   while (lost - held > 1) {
     const int mass = (held + lost) / 2;
     const TankRun run = simulate_load(answer, mass, integrator, options);
+    if (run.status == Status::kBudgetExhausted && options.interrupted && options.interrupted()) {
+      heaviest.conclude(run.status, run.reason.c_str());  // says nothing about this mass
+      break;
+    }
     (run.summary.held ? held : lost) = mass;
   }
-  return held;
+  return heaviest;
 }
 
 TrajectoryExperiment simulate_trajectory(const Problem& problem, const Trajectory& trajectory,

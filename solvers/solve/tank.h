@@ -29,9 +29,15 @@ TankRun simulate_posture(const Answer& answer, double planned, const std::string
 TankRun simulate_load(const Answer& answer, double load, const std::string& integrator,
                       TankOptions options);
 
+/// A load in whole kilograms. The status is kBestFound, or kBudgetExhausted after an interruption.
+struct HeaviestLoad : Verdict {
+  int mass = 0;  ///< the largest mass that was seen to be carried [kg]
+};
+
 /// The largest whole number of kilograms that an otherwise free end effector carries for the whole
 /// hold at the posture. Found by bisection between zero and one more than the capability.
-int heaviest_load(const Answer& answer, const std::string& integrator, TankOptions options);
+HeaviestLoad heaviest_load(const Answer& answer, const std::string& integrator,
+                           TankOptions options);
 
 /// The planned experiment along a trajectory, and its result.
 struct TrajectoryExperiment {

@@ -67,6 +67,32 @@ TEST(CtrlC, TheTextSaysSo) {
   EXPECT_NE(result.out.find("\nbeta "), std::string::npos) << result.out;
 }
 
+/// A hold of a thousand seconds takes most of a minute.
+TEST(CtrlC, SimulatePrintsWhatItHas) {
+  const TemporaryFolder folder;
+  const CommandResult result =
+      interrupt("simulate uvms/valve --hold 1000 --json --out samples.csv", folder.path());
+  EXPECT_EQ(result.exit_status, 1) << result.err;
+  const json run = json::parse(result.out);
+  EXPECT_EQ(run["status"], "budget_exhausted");
+  EXPECT_EQ(run["reason"], "interrupted");
+  EXPECT_EQ(run["held"], false);
+  EXPECT_LT(run["end"], 1000);
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "samples.csv"));
+}
+
+/// What the interrupted experiment would have shown is not known, so it counts as neither.
+TEST(CtrlC, TheHeaviestLoadSoFar) {
+  const TemporaryFolder folder;
+  const CommandResult result =
+      interrupt("simulate uvms/lift --heaviest --hold 1000 --json", folder.path());
+  EXPECT_EQ(result.exit_status, 1) << result.err;
+  const json load = json::parse(result.out);
+  EXPECT_EQ(load["status"], "budget_exhausted");
+  EXPECT_EQ(load["reason"], "interrupted");
+  EXPECT_GE(load["heaviest"], 0);
+}
+
 /// The first is a wish, the second ends the program as if nobody listened.
 TEST(CtrlC, TheSecondEndsAtOnce) {
   EXPECT_EXIT(

@@ -75,7 +75,7 @@ TEST(ControlLoop, WhatBalancesIsLeftAlone) {
   EXPECT_LT(sample.violation, 1e-9);
   EXPECT_FALSE(sample.saturated);
   EXPECT_FALSE(sample.relaxed);
-  EXPECT_TRUE(rest.loop.accepts_starts());
+  EXPECT_TRUE(rest.loop.goes_on());
   const TankRun& run = rest.loop.finish();
   EXPECT_EQ(run.status, Status::kReached);
   EXPECT_EQ(run.requests, 5);
@@ -136,7 +136,7 @@ TEST(ControlLoop, EndsWhereTheIntegratorGivesUp) {
   ControlLoop loop(rest.problem, rest.options, integrator, rest.ode, rest.tracker);
   loop.request = rest.loop.request;
   EXPECT_DOUBLE_EQ(loop.step(0, rest.u, kPeriod, Vector6d::Zero(), Vector6d::Zero()), kPeriod / 2);
-  EXPECT_FALSE(loop.accepts_starts());
+  EXPECT_FALSE(loop.goes_on());
   EXPECT_EQ(loop.finish().status, Status::kBudgetExhausted);
   EXPECT_STREQ(loop.run.reason.c_str(), "no more steps");
 }
@@ -148,10 +148,10 @@ TEST(ControlLoop, IsLostBeyondTheLimitOnly) {
     TankSample& sample = rest.loop.run.samples.emplace_back();
     sample.*far = kLost;
     EXPECT_FALSE(rest.loop.lost());
-    EXPECT_TRUE(rest.loop.accepts_starts());
+    EXPECT_TRUE(rest.loop.goes_on());
     sample.*far = std::nextafter(kLost, 1);
     EXPECT_TRUE(rest.loop.lost());
-    EXPECT_FALSE(rest.loop.accepts_starts());
+    EXPECT_FALSE(rest.loop.goes_on());
     EXPECT_EQ(rest.loop.run.status, Status::kReached);
   }
   rest.loop.run.samples.emplace_back();  // only the last one counts

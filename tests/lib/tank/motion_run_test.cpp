@@ -220,6 +220,20 @@ TEST(TankMotion, ALastPeriodEndsWithTheTask) {
   EXPECT_EQ(tank.samples.back().t, 5);
 }
 
+TEST(TankMotion, AnInterruptionKeepsThePeriodsBeforeIt) {
+  const Problem problem = load_problem("planar/trajectory");
+  const TankScript script = script_of(problem, constant_knots(problem, problem.theta_r_default));
+  ASSERT_EQ(script.status, Status::kOptimal) << script.reason.c_str();
+  TankOptions options;
+  int asked = 0;
+  options.interrupted = [&asked] { return ++asked > 20; };
+  const TankRun part = run(problem, script, options);
+  EXPECT_EQ(part.status, Status::kBudgetExhausted);
+  EXPECT_EQ(part.reason.str(), "interrupted");
+  EXPECT_EQ(part.samples.size(), 20U);
+  EXPECT_FALSE(part.summary.held);
+}
+
 TEST(TankMotion, SaysWhyThereIsNothingToRun) {
   const Problem problem = turn_of(Scheme::kSpline);
   const TankScript beyond = script_of(problem, constant_knots(problem, Vector4d(9, 0, 0, 0)));

@@ -219,6 +219,31 @@ TEST(Tank, SLOW_CarriesWhatThePolytopeAllows) {
   }
 }
 
+TEST(Tank, AnInterruptionKeepsThePeriodsBeforeIt) {
+  const Problem problem = load_problem("planar/force");
+  const Answer row = planned(problem, Wrench::kPure, Eigen::Vector2d::Zero());
+  TankOptions options;
+  options.ramp = 0.3;
+  options.hold = 0.4;
+  const TankRun whole = run(problem, row, 0, options);
+  ASSERT_EQ(whole.status, Status::kReached) << whole.reason.c_str();
+  int asked = 0;
+  options.interrupted = [&asked] { return ++asked > 50; };  // during the hold
+  const TankRun part = run(problem, row, 0, options);
+  EXPECT_EQ(part.status, Status::kBudgetExhausted);
+  EXPECT_EQ(part.reason.str(), "interrupted");
+  EXPECT_EQ(asked, 51);  // and not again
+  ASSERT_EQ(part.samples.size(), 50U);
+  for (std::size_t i = 0; i < 50; ++i) EXPECT_EQ(part.samples[i].h_e, whole.samples[i].h_e) << i;
+  EXPECT_FALSE(part.summary.held);
+  EXPECT_EQ(part.summary.missed, "interrupted");
+  asked = 50;  // before the first period
+  const TankRun none = run(problem, row, 0, options);
+  EXPECT_EQ(none.status, Status::kBudgetExhausted);
+  EXPECT_TRUE(none.samples.empty());
+  EXPECT_FALSE(none.summary.held);
+}
+
 TEST(Tank, AnIntegratorThatFailsEndsItWithItsReason) {
   const Problem problem = load_problem("uvms/valve");
   TankOptions options;
