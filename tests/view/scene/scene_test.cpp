@@ -133,9 +133,9 @@ TEST(Scene, InstantsAreThoseOfTheTrajectory) {
 
 /// A page moves the row of the table whose time is nearest to its cursor.
 TEST(Scene, EachRowOfTheTableHasItsTime) {
-  for (const char* name :
-       {"planar/trajectory", "uvms/valve_impulse", "examples/tasks/carry_steel_along.toml",
-        "examples/tasks/two_link/luus.toml"}) {
+  for (const char* name : {"planar/trajectory", "uvms/valve_impulse",
+                           MAXWRENCH_SOURCE_DIR "/examples/tasks/carry_steel_along.toml",
+                           MAXWRENCH_SOURCE_DIR "/examples/tasks/two_link/luus.toml"}) {
     const Problem problem = load_problem(name);
     const Json scene = scene_with_default(problem);
     const auto times = scene["task"]["knot_times"].get<std::vector<double>>();

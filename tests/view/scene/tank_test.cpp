@@ -56,14 +56,14 @@ TEST(SceneTank, ReadsWhatSimulateReads) {
 /// 3000 periods of 0.01 s: lowest and highest readings of stretches, so none is lost.
 TEST(SceneTank, ALongExperimentKeepsItsExtremes) {
   const TemporaryFolder folder;
-  std::string task = read_text("problems/mobile/trajectory.toml");
+  std::string task = read_text(MAXWRENCH_SOURCE_DIR "/problems/mobile/trajectory.toml");
   const auto replace = [&task](const std::string& from, const std::string& to) {
     const std::size_t at = task.find(from);
     ASSERT_NE(at, std::string::npos) << from;
     task.replace(at, from.size(), to);
   };
   replace("T = 3\n", "T = 30\n");
-  replace("rover.toml", std::filesystem::absolute("problems/mobile/rover.toml").string());
+  replace("rover.toml", MAXWRENCH_SOURCE_DIR "/problems/mobile/rover.toml");
   write_file((folder.path() / "slow.toml").string(), task);
   const Answer answer = default_answer(load_problem((folder.path() / "slow.toml").string()));
   const Json tank = tank_of(answer);
@@ -103,7 +103,8 @@ TEST(SceneTank, RejectsWhatTheTankDoesNotSupport) {
     EXPECT_EQ(result.out, "");
   };
   rejects("planar/force", "--tank: got planar/force, a static task, expected a task in time");
-  rejects("examples/tasks/two_link/lift.toml", "expected a task in time with one wrench along c");
+  rejects(MAXWRENCH_SOURCE_DIR "/examples/tasks/two_link/lift.toml",
+          "expected a task in time with one wrench along c");
 }
 
 }  // namespace
