@@ -118,7 +118,13 @@ Raises:
 }  // namespace
 
 void add_margins(py::module_& m) {
-  py::class_<MotionMargin>(m, "Margin", "The margins of a motion, from ``margin``. N instants.")
+  py::class_<MotionMargin>(m, "Margin", R"(The margins of a motion, from ``margin``. N instants.
+
+>>> turn = maxwrench.load("planar/trajectory")
+>>> left = maxwrench.margin(turn, maxwrench.evaluate(turn, [0, 0]), task_wrench=True)
+>>> left.margin.min() == left.least
+True
+)")
       .def_property_readonly(
           "t", [](const MotionMargin& f) { return numbers_of(f, &InstantMargin::t); },
           "The times (N) [s].")

@@ -18,7 +18,8 @@ def test_there_are_pages():
 def test_code_of_a_page(page, tmp_path, monkeypatch, capsys):
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("Agg")
-    (tmp_path / "tests").symlink_to(DOCS.parent / "tests")  # with the robots of the pages
+    for folder in ("tests", "problems"):
+        (tmp_path / folder).symlink_to(DOCS.parent / folder)  # with the robots of the pages
     monkeypatch.chdir(tmp_path)
     text = page.read_text(encoding="utf-8")
     namespace = {"__name__": "page"}

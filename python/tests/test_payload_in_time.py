@@ -40,7 +40,7 @@ def test_a_table_of_wrenches():
 @pytest.mark.parametrize(
     "arguments, message",
     [
-        ({"payload": STEEL, "c": "z"}, "wrench.c"),
+        ({"payload": STEEL, "c": "z"}, "wrench: got a table"),
         ({"payload": STEEL, "wrenches": np.zeros((2, 7))}, "wrench.file"),
         ({"payload": STEEL, "scheme": "forward"}, "motion.scheme"),
         ({"payload": {"com": [0, 0, 0], "inertia_per_kg": [-1, 1, 1, 0, 0, 0]}}, "inertia_per_kg"),

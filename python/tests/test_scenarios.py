@@ -206,11 +206,25 @@ def test_nested_lists_without_end_are_rejected(rejects):
     rejects(static, loss={"cases": endless})
 
 
-def test_tasks_in_time_have_no_lists():
+def test_lists_in_time():
+    """Weaker thrusters, a limp joint without load and a second sense: each against the wrench alone."""
     task = mw.load("planar/trajectory")
     path = mw.Path.screw(task.pose, 2, angle=0.1)
-    with pytest.raises(TypeError, match="unexpected argument 'loss'"):
-        mw.Trajectory(task.robot, path, 4, loss={"any": 1})
+
+    def value(c="x", **tables):
+        return mw.evaluate(mw.Trajectory(task.robot, path, 4, c=c, **tables), task.theta_r_default)
+
+    alone, other = value(), value(c="-x")
+    assert alone.decides is None and alone.decides_at is None
+    both = value(c=None, set=[[1, 0, 0, 0, 0, 0], [-1, 0, 0, 0, 0, 0]])
+    assert both.beta == pytest.approx(min(alone.beta, other.beta), rel=1e-9)
+    assert both.decides == "wrench 2" and 0 <= both.decides_at <= 2
+    weaker = value(uncertainty={"thrust": 0.1})
+    assert weaker.beta < alone.beta and weaker.decides == "nominal"
+    assert value(loss={"cases": [["elbow"]], "friction": 1}).beta == pytest.approx(alone.beta)
+    assert not value(loss={"any": 1}).has_value
+    with pytest.raises(mw.InputError, match="uncertainty.mass"):
+        value(uncertainty={"mass": {"link_2": 0.1}})
 
 
 def test_the_nominal_task():
