@@ -211,12 +211,13 @@ def test_lists_in_time():
     task = mw.load("planar/trajectory")
     path = mw.Path.screw(task.pose, 2, angle=0.1)
 
-    def value(c="x", **tables):
-        return mw.evaluate(mw.Trajectory(task.robot, path, 4, c=c, **tables), task.theta_r_default)
+    def value(**tables):
+        wrench = {} if "set" in tables else {"c": "x"}
+        return mw.evaluate(mw.Trajectory(task.robot, path, 4, **{**wrench, **tables}), task.theta_r_default)
 
     alone, other = value(), value(c="-x")
     assert alone.decides is None and alone.decides_at is None
-    both = value(c=None, set=[[1, 0, 0, 0, 0, 0], [-1, 0, 0, 0, 0, 0]])
+    both = value(set=[[1, 0, 0, 0, 0, 0], [-1, 0, 0, 0, 0, 0]])
     assert both.beta == pytest.approx(min(alone.beta, other.beta), rel=1e-9)
     assert both.decides == "wrench 2" and 0 <= both.decides_at <= 2
     weaker = value(uncertainty={"thrust": 0.1})
