@@ -141,6 +141,7 @@ void add_eval(CLI::App& app, int& exit_status) {
   command
       .add_option("--guaranteed", options->guaranteed,
                   "with --sample: the value that models are compared with (default: beta)")
+      ->check(reject_empty)
       ->needs("--sample");
   command
       .add_option("--models", options->models,

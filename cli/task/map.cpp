@@ -126,18 +126,22 @@ void add_map(CLI::App& app, int& exit_status) {
       .add_option("--tolerance", options->plan.tolerance,
                   "the difference of corners, as a share, above which a cell is halved")
       ->capture_default_str();
-  command.add_option("--check", options->plan.check,
-                     "share of the cells that a search from scratch checks");
+  CLI::Option* check = command.add_option("--check", options->plan.check,
+                                          "share of the cells that a search from scratch checks");
   command
       .add_option("--check-budget", options->plan.check_budget,
                   "evaluations of such a search (default: it is restarted until another optimum is "
                   "unlikely)")
-      ->check(CLI::Range(1L, long{kMostBudget}));
-  command.add_flag("--certify", options->plan.bound, "also prove a bound in each cell");
+      ->check(CLI::Range(1L, long{kMostBudget}))
+      ->needs(check);
+  CLI::Option* certify =
+      command.add_flag("--certify", options->plan.bound, "also prove a bound in each cell");
   command.add_option("--gap", options->plan.gap, "the gap at which such a proof is complete")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->needs(certify);
   command.add_option("--time", options->plan.seconds, "seconds after which such a proof ends")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->needs(certify);
   command.add_option("--out", options->out, "folder for the cells, map.csv.gz")
       ->check(reject_empty);
   command.add_flag("--again", options->again, "compute existing cells again, too");

@@ -114,7 +114,7 @@ std::string describe(const ScenarioList& list, const ScenarioChoice& choice);
 
 /// Returns the task without uncertainty and loss: its wrenches with the nominal robot.
 ///
-/// A load with a single case is known, such as a current, and stays.
+/// A load with a single case without a name is known, such as a known current, and stays.
 /// A list that has one wrench, no ball and no payload then becomes an ordinary task, unless the
 /// wrench comes from a set, which keeps its length.
 Problem nominal(Problem problem);

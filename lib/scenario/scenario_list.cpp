@@ -55,7 +55,9 @@ Problem nominal(Problem problem) {
   ScenarioList& list = problem.scenarios;
   if (list.empty()) return problem;
   problem.digest.clear();  // that of the file is of the whole list
-  std::erase_if(list.loads, [](const LoadGroup& cases) { return cases.size() > 1; });
+  std::erase_if(list.loads, [](const LoadGroup& cases) {
+    return cases.size() > 1 || !cases.front().name.empty();
+  });
   list.limits.assign(1, {"", problem.robot.actuation});
   const bool plain = list.wrenches.size() == 1 && list.wrenches[0].c == problem.c && !list.ball &&
                      !list.payload && list.loads.empty();

@@ -86,7 +86,7 @@ TrajectoryProgram make_trajectory_program(const Problem& problem, const MotionTa
       const Matrix6Xd W = scenarios[s].choice.c;
       start = block_of(problem, scenarios[s], hold ? Matrix6Xd(6, 0) : W,
                        Eigen::VectorXd::Ones(hold ? 0 : 1));
-      if (program.scenarios == 1) start.c_w = W.transpose() * problem.c;
+      if (problem.scenarios.empty()) start.c_w = W.transpose() * problem.c;
       start.w_min.setZero();
       start.w_max.setZero();
     }

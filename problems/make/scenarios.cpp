@@ -214,6 +214,9 @@ void set_scenarios(const TaskSpec& task, Problem& problem) {
   const UncertaintySpec known;
   const UncertaintySpec& uncertainty = task.uncertainty ? *task.uncertainty : known;
   if (problem.motion) require_known_loads(uncertainty);
+  if (problem.motion && task.loss && task.loss->joints_lock) {
+    throw BadValue("loss.joints", "'locked'", "'limp' in tasks in time, where joints move");
+  }
   list.loads = uncertain_loads(uncertainty, problem);
   if (!current_of(task).isZero(0)) list.loads.push_back(known_current(task, problem.robot));
   const std::vector<ActuatorLimits> limits = actuator_limits(task.loss, uncertainty, problem.robot);

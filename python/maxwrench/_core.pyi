@@ -753,7 +753,7 @@ def margin(
     task: Task | _Path,
     motion: Mapping[str, ArrayLike] | _Path | Answer,
     *,
-    ball: _Names = ...,
+    ball: _Names | None = None,
     ball_frame: str = "world",
     task_wrench: bool = False,
     instants_per_interval: int = 1,

@@ -60,7 +60,13 @@ MotionMargin compute_margin(const py::object& task, const py::object& motion,
   if (ball_frame != "world" && ball_frame != "end_effector") {
     throw BadValue("ball_frame", shown(ball_frame), "world or end_effector");
   }
-  if (!task_wrench) set = margin_ball(names_in("ball", ball), ball_frame == "end_effector");
+  if (task_wrench && (!ball.is_none() || ball_frame != "world")) {
+    throw BadValue("task_wrench", "True", "False beside ball and ball_frame");
+  }
+  if (!task_wrench) {
+    const py::object axes = ball.is_none() ? py::object(py::make_tuple("fx", "fy", "fz")) : ball;
+    set = margin_ball(names_in("ball", axes), ball_frame == "end_effector");
+  }
   const std::vector<Instant> instants = instants_in(*of.problem, motion, instants_per_interval);
   const py::gil_scoped_release release;
   return motion_margin(*of.problem, instants, set);
@@ -98,7 +104,7 @@ Args:
         .. ``base_yaw`` of a base that moves [m, rad]; without these, the end effector keeps its pose
         or follows its path. ``NAME_dot`` and ``NAME_ddot`` are derivatives; without them they are
         those of a cubic spline.
-    ball: names of axes, all of forces or all of torques.
+    ball: names of axes, all of forces or all of torques. Default: fx, fy and fz.
     ball_frame: "world" or "end_effector": their axes.
     task_wrench: whether the set is that of the task, in place of a ball.
     instants_per_interval: instants for each row of a table without derivatives.
@@ -189,7 +195,7 @@ True
                            f.instants[static_cast<std::size_t>(f.worst)].t, f.instants.size());
       });
   m.def("margin", &compute_margin, py::arg("task"), py::arg("motion"), py::kw_only(),
-        py::arg("ball") = py::make_tuple("fx", "fy", "fz"), py::arg("ball_frame") = "world",
+        py::arg("ball") = py::none(), py::arg("ball_frame") = "world",
         py::arg("task_wrench") = false, py::arg("instants_per_interval") = 1, kMargin);
 }
 

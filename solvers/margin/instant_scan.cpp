@@ -62,8 +62,8 @@ Problem task_of_margins(const Problem& task, const MarginSet& set) {
   }
   const ScenarioList& own = task.scenarios;
   if (!own.loads.empty()) {
-    reject("uncertainty", "uncertain loads, which are loads at rest",
-           "a task without them, as --nominal makes it");
+    reject("uncertainty", "uncertain loads or a current, which are loads at rest",
+           "a task without them: --nominal leaves out uncertain ones");
   }
   Problem result = task;
   ScenarioList& list = result.scenarios;
@@ -102,7 +102,7 @@ void InstantForces::set(const Instant& instant) {
 }
 
 Vector6d InstantForces::wrench(int i) const {
-  if (of_task_ && task_.motion) return instant_->c;
+  if (of_task_ && task_.motion && task_.motion->has_factor()) return instant_->c;
   const Vector6d& c = task_.scenarios.wrenches[static_cast<std::size_t>(i)].c;
   return turns_ ? Vector6d(rotated(turn_, c)) : c;
 }

@@ -40,7 +40,8 @@ std::unique_ptr<FacetProgram> require_facets(const Objective& objective, const c
   if (program) return program;
   throw std::invalid_argument(std::string("search: got '") + search +
                               "', which supports only linf_polytope of a static task with few "
-                              "actuator facets, expected another search");
+                              "actuator facets, of a list with pure wrenches, expected another "
+                              "search");
 }
 
 }  // namespace

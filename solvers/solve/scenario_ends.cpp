@@ -89,6 +89,10 @@ std::vector<ScenarioEnds> ends_in_time(const Answer& answer) {
   std::vector<ScenarioEnds> all;
   Problem one = *answer.task;
   for (const ScenarioChoice& choice : all_scenarios(list)) {
+    if (list.wrenches[static_cast<std::size_t>(choice.wrench)].hold && answer.has_value()) {
+      all.push_back({describe(list, choice), -kInfinity, kInfinity, true});
+      continue;
+    }
     one.scenarios.wrenches = {list.wrenches[static_cast<std::size_t>(choice.wrench)]};
     one.scenarios.limits = {list.limits[static_cast<std::size_t>(choice.limits)]};
     TrajectoryEvaluator evaluator(one, answer.choice.wrench, make, false);

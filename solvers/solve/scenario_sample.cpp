@@ -18,6 +18,8 @@
 namespace maxwrench {
 namespace {
 
+constexpr long kMostDraws = 10'000'000;
+
 /// Any point of the box whose corners are the cases of a load. Generalised forces are affine in
 /// each coordinate alone, so the weights of the corners are products.
 LoadCase drawn_case(const LoadGroup& corners, Random& random) {
@@ -89,8 +91,8 @@ ScenarioSample sample_scenarios(const Answer& answer, long draws, std::uint64_t 
   if (answer.posture.status != Status::kValid) {
     throw std::invalid_argument("sample: got an invalid posture, expected a valid one");
   }
-  if (draws < 1) {
-    throw std::invalid_argument(fmt::format("sample: got {}, expected 1 or more", draws));
+  if (draws < 1 || draws > kMostDraws) {
+    throw std::invalid_argument(fmt::format("sample: got {}, expected 1 to {}", draws, kMostDraws));
   }
   if (guaranteed && !std::isfinite(*guaranteed)) {
     throw std::invalid_argument(

@@ -239,5 +239,19 @@ TEST(MotionList, SLOW_AssembledProgramAgrees) {
   }
 }
 
+/// A wrench of another length has a factor in proportion, also where the start holds a static
+/// wrench and slow thrusters keep the peak near it.
+TEST(MotionList, FactorsAreInverseToTheLengthOfTheWrench) {
+  const auto value_of = [](const std::string& wrench) {
+    Problem problem = task_in_time("valve_impulse", wrench, "");
+    problem.robot.u_rate_max *= 0.005;
+    const Eigen::MatrixXd knots = constant_knots(problem, problem.theta_r_default);
+    return trajectory_of(problem, knots, list_ipm).value;
+  };
+  const double alone = value_of("c = [0,0,0,0,0,1]");
+  EXPECT_NEAR(0.2 * value_of("set = [[0,0,0,0,0,0.2]]"), alone, 1e-6 * alone);
+  EXPECT_NEAR(5 * value_of("set = [[0,0,0,0,0,5]]"), alone, 1e-6 * alone);
+}
+
 }  // namespace
 }  // namespace maxwrench

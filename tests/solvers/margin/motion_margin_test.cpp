@@ -16,6 +16,7 @@
 #include "tests/support/refusals.h"
 #include "tests/support/scenario_task.h"
 #include "tests/support/support.h"
+#include "tests/support/task_in_time.h"
 
 namespace maxwrench {
 namespace {
@@ -288,6 +289,30 @@ TEST(MotionMargin, RejectsWhatItCannotServe) {
   expect_rejected("ball", [] { margin_ball({"fx", "fx"}); });
   expect_rejected("ball", [] { margin_ball({"fx", "tx"}); });
   expect_rejected("ball", [] { margin_ball({"gx"}); });
+}
+
+/// The set of a task in time: at each instant the least margin of its wrenches alone.
+TEST(MotionMargin, OfASetInTimeIsTheLeastOfItsWrenches) {
+  const auto margins_of = [](const std::string& wrench) {
+    const Problem task = task_in_time("valve_trajectory", wrench, "");
+    const Answer answer = evaluate(task, task.theta_r_default);
+    MarginSet set;
+    set.of_task = true;
+    return motion_margin(task, answer.trajectory.instants, set);
+  };
+  const std::vector<std::string> each = {"[0,0,-1,0,0,0]", "[0,-1,0,0,0,0]", "[-1,0,0,0,0,0]"};
+  const MotionMargin all = margins_of("set = [" + each[0] + "," + each[1] + "," + each[2] + "]");
+  std::vector<double> least(all.instants.size(), kInfinity);
+  for (const std::string& wrench : each) {
+    const MotionMargin alone = margins_of("set = [" + wrench + "]");
+    ASSERT_EQ(alone.instants.size(), least.size());
+    for (std::size_t i = 0; i < least.size(); ++i) {
+      least[i] = std::min(least[i], alone.instants[i].margin);
+    }
+  }
+  for (std::size_t i = 0; i < least.size(); ++i) {
+    EXPECT_NEAR(all.instants[i].margin, least[i], 1e-9 * (1 + least[i])) << i;
+  }
 }
 
 }  // namespace

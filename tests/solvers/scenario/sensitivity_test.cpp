@@ -84,7 +84,7 @@ TEST(ScenarioSample, RejectsWhatItCannotDraw) {
             "sample: got a task without a list of scenarios, expected one with uncertainty");
   const Problem task = scenario_task(kTurn, kParameters);
   EXPECT_EQ(rejection_of([&] { sample_scenarios(evaluate(task, task.theta_r_default), 0, 1); }),
-            "sample: got 0, expected 1 or more");
+            "sample: got 0, expected 1 to 10000000");
 }
 
 }  // namespace
