@@ -13,7 +13,7 @@ set(maxwrench_lib_sources
   robot/kinematics.cpp robot/problem.cpp robot/robot.cpp
   scenario/current_cases.cpp scenario/current_load.cpp scenario/scenario_facets.cpp scenario/scenario_list.cpp scenario/scenario_program.cpp
   scenario/static_load.cpp
-  search/capability.cpp search/facet_program.cpp search/list_rows.cpp
+  search/capability.cpp search/facet_program.cpp search/scenario_rows.cpp
   tank/control_loop.cpp tank/controller.cpp tank/effort_tracking.cpp tank/motion_run.cpp tank/ode.cpp tank/options.cpp
   tank/reference.cpp tank/script.cpp tank/summary.cpp tank/tank.cpp
   trajectory/carried.cpp trajectory/clearance.cpp trajectory/limits.cpp trajectory/motion_evaluator.cpp trajectory/motion_scenarios.cpp trajectory/objective.cpp trajectory/overshoot.cpp trajectory/path.cpp

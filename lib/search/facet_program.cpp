@@ -7,7 +7,7 @@
 
 #include "lib/posture/redundancy.h"
 #include "lib/robot/clearance_slope.h"
-#include "lib/search/list_rows.h"
+#include "lib/search/scenario_rows.h"
 #include "maxwrench/measure.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/problem.h"
@@ -19,7 +19,7 @@ namespace {
 /// [m] The lower bound of a clearance. It is positive because bodies that touch collide and a
 /// solver meets its bounds only up to rounding.
 constexpr double kLeastClearance = 1e-9;
-constexpr int kMostPairs = 200, kMostListRows = 1200;
+constexpr int kMostPairs = 200, kMostScenarioRows = 1200;
 constexpr double kClearanceUnit = 0.1;  // m
 
 std::vector<int> all_dependent_joints(const Problem& problem) {
@@ -78,7 +78,7 @@ struct FacetProgram::Workspace {
         pairs(known_pairs(p, check_collision)),
         following(all_dependent_joints(p)),
         slopes(p.robot.velocities(), p.redundancy()) {
-    if (ListRows::count(p, wrench) > 0) list.emplace(p);
+    if (ScenarioRows::count(p, wrench) > 0) list.emplace(p);
     set_w();
     set_bounds();
     const Eigen::Index count = row_min.size();
@@ -231,7 +231,7 @@ struct FacetProgram::Workspace {
   const Problem& problem;
   PostureEvaluator model;
   WrenchProgram program;
-  std::optional<ListRows> list;  ///< of a task with a list of scenarios
+  std::optional<ScenarioRows> list;  ///< of a task with a list of scenarios
   std::unique_ptr<Measure> measure;
   const std::vector<int> pairs, following;
   const Posture* posture = nullptr;
@@ -249,8 +249,8 @@ bool has_facet_program(const Problem& problem, Wrench wrench) {
   const Zonotope& actuation = problem.robot.actuation;
   if (problem.motion || !actuation.has_facets || actuation.facet_pairs() > kMostPairs) return false;
   if (problem.scenarios.empty()) return true;
-  const Eigen::Index rows = ListRows::count(problem, wrench);
-  return rows > 0 && rows <= kMostListRows;
+  const Eigen::Index rows = ScenarioRows::count(problem, wrench);
+  return rows > 0 && rows <= kMostScenarioRows;
 }
 
 FacetProgram::FacetProgram(const Problem& problem, Wrench wrench, const MeasureMaker& make,

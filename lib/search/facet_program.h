@@ -23,7 +23,7 @@ struct Problem;
 /// dependent joints, including those of the second arm [rad; m]. At fixed theta_r the optimum is
 /// that of the lower level. The program has no rows for pairs of bodies that have a collision test
 /// but no distance. Of a list of scenarios, w is the factor of its wrenches, and the first rows are
-/// those of `ListRows`.
+/// those of `ScenarioRows`.
 class FacetProgram {
  public:
   /// Keeps a reference to the problem, whose actuation must have facets. `make` makes

@@ -1,4 +1,4 @@
-#include "lib/search/list_rows.h"
+#include "lib/search/scenario_rows.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace maxwrench {
 namespace {
 
-class ListRowsOf : public testing::TestWithParam<ListForm> {
+class ScenarioRowsOf : public testing::TestWithParam<ListForm> {
  protected:
   /// Calls see(program, theta_r, w) at postures that have a value.
   template <class See>
@@ -36,20 +36,22 @@ class ListRowsOf : public testing::TestWithParam<ListForm> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(All, ListRowsOf, testing::ValuesIn(list_forms()), [](const auto& each) {
-  std::string name = each.param.name;
-  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(All, ScenarioRowsOf, testing::ValuesIn(list_forms()),
+                         [](const auto& each) {
+                           std::string name = each.param.name;
+                           for (char& c : name)
+                             c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+                           return name;
+                         });
 
 /// The value of the list keeps all rows, and no more does: its scan and the rows are two ways to
 /// the same end.
-TEST_P(ListRowsOf, HoldTheValueAndNoMore) {
+TEST_P(ScenarioRowsOf, HoldTheValueAndNoMore) {
   at_postures(1, [](const Problem& task, FacetProgram& program, const Eigen::VectorXd& theta_r,
                     const Eigen::VectorXd& w, Random&) {
     const auto exceeded = [&](double t) {
       EXPECT_TRUE(program.evaluate(theta_r, Eigen::VectorXd::Constant(1, t)));
-      const Eigen::Index rows = ListRows::count(task, Wrench::kPure);
+      const Eigen::Index rows = ScenarioRows::count(task, Wrench::kPure);
       return (program.rows() - program.row_max()).head(rows).maxCoeff();
     };
     EXPECT_LE(exceeded(w[0]), 1e-7 * (1 + std::abs(w[0])));
@@ -58,7 +60,7 @@ TEST_P(ListRowsOf, HoldTheValueAndNoMore) {
 }
 
 /// By theta_r and t, at any t. A row has a kink where its worst case changes, so few may differ.
-TEST_P(ListRowsOf, DerivativesAreThoseOfDifferences) {
+TEST_P(ScenarioRowsOf, DerivativesAreThoseOfDifferences) {
   long rows = 0, off = 0;
   at_postures(2, [&](const Problem& task, FacetProgram& program, const Eigen::VectorXd& theta_r,
                      const Eigen::VectorXd&, Random& random) {
@@ -74,7 +76,7 @@ TEST_P(ListRowsOf, DerivativesAreThoseOfDifferences) {
     const Eigen::VectorXd above = program.rows();
     if (!program.evaluate(theta_r - kStep * dtheta, w - kStep * dw)) return;
     const Eigen::VectorXd slope = (above - program.rows()) / (2 * kStep);
-    const Eigen::Index count = ListRows::count(task, Wrench::kPure);
+    const Eigen::Index count = ScenarioRows::count(task, Wrench::kPure);
     const auto size = (program.row_unit() + slope.cwiseAbs()).head(count).array();
     rows += count;
     off += ((exact - slope).head(count).array().abs() > 1e-5 * size).count();
@@ -84,7 +86,7 @@ TEST_P(ListRowsOf, DerivativesAreThoseOfDifferences) {
 
 /// The default search of a list solves between the facets and ends at its
 /// optimum, whatever the seed.
-TEST_P(ListRowsOf, SLOW_TheDefaultSearchEndsAtOneValue) {
+TEST_P(ScenarioRowsOf, SLOW_TheDefaultSearchEndsAtOneValue) {
   const Problem task = scenario_task(GetParam().wrench, GetParam().tables);
   EXPECT_EQ(default_search(task, "linf_polytope"), "facet_sqp+cmaes");
   double best = 0;
@@ -97,12 +99,12 @@ TEST_P(ListRowsOf, SLOW_TheDefaultSearchEndsAtOneValue) {
   }
 }
 
-TEST(ListRows, AreOfPureWrenchesWithFacets) {
+TEST(ScenarioRows, AreOfPureWrenchesWithFacets) {
   const Problem list = scenario_task("set = [[0,0,0,0,0,2], [0,0,0,0,0,-1]]", "");
   const Eigen::Index pairs = list.robot.actuation.facet_pairs();
-  EXPECT_EQ(ListRows::count(list, Wrench::kPure), 4 * pairs);
-  EXPECT_EQ(ListRows::count(list, Wrench::kAny), 0);  // w would be of one scenario
-  EXPECT_EQ(ListRows::count(load_problem("uvms/valve"), Wrench::kPure), 0);
+  EXPECT_EQ(ScenarioRows::count(list, Wrench::kPure), 4 * pairs);
+  EXPECT_EQ(ScenarioRows::count(list, Wrench::kAny), 0);  // w would be of one scenario
+  EXPECT_EQ(ScenarioRows::count(load_problem("uvms/valve"), Wrench::kPure), 0);
   EXPECT_EQ(default_search(list, "linf_polytope", Wrench::kAny), general_search());
   Options options;
   options.search = "facet_sqp";

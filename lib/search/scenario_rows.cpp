@@ -1,4 +1,4 @@
-#include "lib/search/list_rows.h"
+#include "lib/search/scenario_rows.h"
 
 #include <algorithm>
 
@@ -10,7 +10,7 @@ constexpr double kTied = 1e-9;
 
 }  // namespace
 
-ListRows::ListRows(const Problem& problem)
+ScenarioRows::ScenarioRows(const Problem& problem)
     : problem_(problem), set_(problem.robot.actuation), at_(problem), facets_(problem) {
   const Eigen::Index pairs = set_.facet_pairs();
   Eigen::VectorXd high = Eigen::VectorXd::Constant(pairs, kInfinity), low = -high;
@@ -30,7 +30,7 @@ ListRows::ListRows(const Problem& problem)
   seed_.w.setZero(1);
 }
 
-Eigen::Index ListRows::count(const Problem& problem, Wrench wrench) {
+Eigen::Index ScenarioRows::count(const Problem& problem, Wrench wrench) {
   const ScenarioList& list = problem.scenarios;
   const bool one_column = wrench == Wrench::kPure || list.F.cols() == 0;
   if (list.empty() || !one_column || !ScenarioFacets::serves(problem)) return 0;
@@ -38,7 +38,7 @@ Eigen::Index ListRows::count(const Problem& problem, Wrench wrench) {
          static_cast<Eigen::Index>(list.wrenches.size());
 }
 
-FacetSide ListRows::facet(Eigen::Index row) const {
+FacetSide ScenarioRows::facet(Eigen::Index row) const {
   const Eigen::Index pairs = set_.facet_pairs();
   FacetSide facet{row % pairs, row % (2 * pairs) < pairs ? 1.0 : -1.0, {}};
   int index = 0;
@@ -51,16 +51,18 @@ FacetSide ListRows::facet(Eigen::Index row) const {
   return facet;
 }
 
-void ListRows::set(const Posture& posture) {
+void ScenarioRows::set(const Posture& posture) {
   at_.set(posture);
   facets_.fill_rows(at_, load_, slope_);
 }
 
-void ListRows::fill(double t, Eigen::Ref<Eigen::VectorXd> rows) const { rows = load_ + t * slope_; }
+void ScenarioRows::fill(double t, Eigen::Ref<Eigen::VectorXd> rows) const {
+  rows = load_ + t * slope_;
+}
 
-void ListRows::differentiate(PostureEvaluator& model, double t,
-                             Eigen::Ref<Eigen::MatrixXd> by_theta_r,
-                             Eigen::Ref<Eigen::MatrixXd> by_t) {
+void ScenarioRows::differentiate(PostureEvaluator& model, double t,
+                                 Eigen::Ref<Eigen::MatrixXd> by_theta_r,
+                                 Eigen::Ref<Eigen::MatrixXd> by_t) {
   const Eigen::Index pairs = set_.facet_pairs();
   const Eigen::VectorXd& theta_r = at_.posture().theta_r;
   by_t = slope_;

@@ -16,11 +16,11 @@ namespace maxwrench {
 /// where the least is that over all limits: no row depends on which of them holds. A t that keeps
 /// all rows is a factor of every scenario. Where the worst case changes, a row has a kink; its
 /// derivative is that of one of the cases.
-class ListRows {
+class ScenarioRows {
  public:
   /// Keeps a reference to the problem.
-  explicit ListRows(const Problem& problem);
-  explicit ListRows(const Problem&& problem) = delete;
+  explicit ScenarioRows(const Problem& problem);
+  explicit ScenarioRows(const Problem&& problem) = delete;
 
   /// Whether the task has a list with these rows, and how many; 0: it has not.
   static Eigen::Index count(const Problem& problem, Wrench wrench);
