@@ -17,7 +17,7 @@
 namespace maxwrench {
 namespace {
 
-constexpr int kSamples = 100;
+constexpr int kPostures = 100;
 
 /// A verdict with its number.
 struct Count {
@@ -41,7 +41,7 @@ Counts count_postures(const Problem& task, const Method& method) {
   Counts counts;
   Random random(method.choice.seed);
   Eigen::VectorXd theta_r = task.theta_r_default;
-  for (int k = 0; k <= kSamples; ++k) {
+  for (int k = 0; k <= kPostures; ++k) {
     const Posture& posture = evaluate_best(model, theta_r, *measure, false, program, capability);
     count(verdict_of(task, posture, capability), counts);
     for (Eigen::Index i = 0; i < theta_r.size(); ++i) {
