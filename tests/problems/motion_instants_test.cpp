@@ -241,9 +241,9 @@ struct BadMotionFile {
 };
 void PrintTo(const BadMotionFile& bad, std::ostream* out) { *out << bad.name; }
 
-class BadMotionTable : public testing::TestWithParam<BadMotionFile> {};
+class BadInstantTable : public testing::TestWithParam<BadMotionFile> {};
 
-TEST_P(BadMotionTable, IsOneLine) {
+TEST_P(BadInstantTable, IsOneLine) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "motion.csv";
   std::ofstream(file) << GetParam().text;
@@ -256,7 +256,7 @@ TEST_P(BadMotionTable, IsOneLine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    All, BadMotionTable,
+    All, BadInstantTable,
     testing::Values(
         BadMotionFile{"no header", "planar/force", "0,1\n1,1\n", "line 1: got '0,1'"},
         BadMotionFile{"empty", "planar/force", "", "columns: got no t"},

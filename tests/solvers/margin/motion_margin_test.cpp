@@ -109,7 +109,9 @@ TEST_P(MarginOfBall, IsTheLeastOfAllDirections) {
       EXPECT_GE(most, at.margin - 1e-9 * (1 + at.margin));
       least = std::min(least, most);
     }
-    EXPECT_LE(least, 1.02 * at.margin + 1e-9);
+    if (!kSanitized) {  // they try few directions
+      EXPECT_LE(least, 1.02 * at.margin + 1e-9);
+    }
     EXPECT_NEAR(by_program(problem, instant, at.worst), at.margin, 1e-8 * (1 + at.margin));
     EXPECT_NEAR(at.worst.norm(), 1, 1e-12);
     // The efforts exert it, and those that bind are at their limits.
