@@ -77,7 +77,7 @@ if(MAXWRENCH_BUILD_COMMAND)
     RENAME maxwrench COMPONENT command)
 endif()
 if(MAXWRENCH_WITH_PYTHON)
-  # Where Debian's interpreter looks. The wheel of python/setup.py serves other folders.
+  # Where Debian's interpreter looks. The wheel of python/setup.py suits other folders.
   set(python_folder lib/python3/dist-packages/maxwrench)
   install(TARGETS maxwrench_python LIBRARY DESTINATION ${python_folder} COMPONENT python)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/python/maxwrench/ DESTINATION ${python_folder} COMPONENT python

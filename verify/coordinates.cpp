@@ -7,8 +7,8 @@
 namespace maxwrench {
 namespace {
 
-void throw_unless_served(bool serves, const Problem& problem) {
-  if (serves) return;
+void throw_unless_supported(bool supports, const Problem& problem) {
+  if (supports) return;
   throw std::invalid_argument(problem.name +
                               ": expected a static task in which a second contact, if there is "
                               "one, exerts nothing, and joints that move the end effector");
@@ -43,7 +43,7 @@ int place_of(const std::vector<int>& list, int joint) {
 
 PostureCoordinates::PostureCoordinates(const Problem& problem)
     : of_joint(problem.robot.joints.size(), -1), chain(joints_between(problem)) {
-  throw_unless_served(!problem.motion && problem.contact_columns() == 0, problem);
+  throw_unless_supported(!problem.motion && problem.contact_columns() == 0, problem);
   const Robot& robot = problem.robot;
   const int own = problem.redundancy(), given = static_cast<int>(problem.redundant.size());
   const auto add_joint = [&](int joint, int coordinate) {
@@ -77,7 +77,7 @@ PostureCoordinates::PostureCoordinates(const Problem& problem)
   regrasp = count();
   const bool around = problem.contact && problem.contact->surface == Surface::kCircle;
   while (at < own) variables.push_back({around, at++, 0, 0});
-  throw_unless_served(count() == next, problem);
+  throw_unless_supported(count() == next, problem);
   throw_on_moving_gears(problem, of_joint);
   for (Variable& variable : variables) {
     if (variable.coordinate >= own) continue;

@@ -50,11 +50,11 @@ std::string default_of(const Problem& problem, const Case& base) {
 
 /// The searches that support a problem, the default first.
 std::vector<std::string> searches_of(const Problem& problem, const Case& base) {
-  std::vector<std::string> served = served_searches(problem, base.measure, base.wrench);
+  std::vector<std::string> supported = supported_searches(problem, base.measure, base.wrench);
   const std::string first = default_of(problem, base);
-  std::erase(served, first);
-  served.insert(served.begin(), first);
-  return served;
+  std::erase(supported, first);
+  supported.insert(supported.begin(), first);
+  return supported;
 }
 
 /// The cost of the most expensive stage.

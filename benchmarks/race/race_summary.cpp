@@ -40,7 +40,7 @@ Standing standing_of(std::span<const Comparison> comparisons, const std::string&
   for (const Comparison& comparison : comparisons) {
     const Contender* contender = contender_of(comparison, search);
     standing.is_default = standing.is_default || comparison.default_search == search;
-    standing.served += contender ? 1 : 0;
+    standing.supported += contender ? 1 : 0;
     const double seconds =
         contender ? contender->expected(comparison.target(), &Spent::seconds) : kInfinity;
     standing.seconds.push_back(seconds);

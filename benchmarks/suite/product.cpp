@@ -25,18 +25,18 @@ bool has(const Names& names, const std::string& name) {
 
 /// The names of a column that are supported; an empty name means the first supported one, the
 /// default.
-Names wanted(const Names& column, const Names& served) {
-  if (column == Names{kAll} || served.empty()) return served;
+Names wanted(const Names& column, const Names& supported) {
+  if (column == Names{kAll} || supported.empty()) return supported;
   Names names;
   for (const std::string& name : column) {
-    if (name.empty() || has(served, name)) names.push_back(name.empty() ? served.front() : name);
+    if (name.empty() || has(supported, name)) names.push_back(name.empty() ? supported.front() : name);
   }
   return names;
 }
 
 /// The searches of a column whose stages are all supported.
 Names wanted_searches(const Names& column, const Problem& problem, const Case& c) {
-  const Names alone = served_searches(problem, c.measure, c.wrench);
+  const Names alone = supported_searches(problem, c.measure, c.wrench);
   const std::string usual = default_search(problem, c.measure, c.wrench);
   Names names = alone;
   std::erase(names, usual);
@@ -45,10 +45,10 @@ Names wanted_searches(const Names& column, const Problem& problem, const Case& c
   for (const std::string& name : column) {
     if (name.empty() || has(names, name)) continue;
     const std::vector<const SearchEntry*> stages = find_search(name).stages;
-    const bool serves = std::all_of(stages.begin(), stages.end(), [&](const SearchEntry* stage) {
+    const bool supports = std::all_of(stages.begin(), stages.end(), [&](const SearchEntry* stage) {
       return has(alone, stage->name);
     });
-    if (serves) names.push_back(name);
+    if (supports) names.push_back(name);
   }
   return wanted(column, names);
 }
@@ -86,7 +86,7 @@ void add_cases(const Problem& problem, const ProductColumns& columns, Case c,
     c.search.clear();
     c.budget = kUsualBudget;  // like in the row, although no search uses it
     for (const std::string& integrator :
-         wanted(columns.integrator, served_integrators(problem, c.measure))) {
+         wanted(columns.integrator, supported_integrators(problem, c.measure))) {
       c.integrator = integrator;
       cases.push_back(c);
     }
@@ -110,7 +110,7 @@ std::vector<Case> product(const Problem& problem, const ProductColumns& columns)
     for (const std::string& wrench : wanted(columns.wrench, {"pure", "any"})) {
       Case c{problem.name, measure, parse_wrench(wrench)};
       for (const std::string& solver :
-           wanted(columns.solver, served_solvers(problem, measure, c.wrench))) {
+           wanted(columns.solver, supported_solvers(problem, measure, c.wrench))) {
         c.solver = solver;
         for (const std::string& scheme : wanted(columns.scheme, schemes_of(problem))) {
           c.scheme = scheme;

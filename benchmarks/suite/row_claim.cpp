@@ -110,9 +110,9 @@ std::string reject_names(const Problem& problem, const Case& c) {
   if (complete.solver != c.solver) return fmt::format("solver: expected '{}'", complete.solver);
   if (c.budget != complete.budget) return "budget: expected at least 1";
   if (c.search.empty()) return "";
-  const std::vector<std::string> served = served_searches(problem, c.measure, c.wrench);
+  const std::vector<std::string> supported = supported_searches(problem, c.measure, c.wrench);
   for (const SearchEntry* stage : find_search(c.search).stages) {
-    if (std::find(served.begin(), served.end(), stage->name) == served.end()) {
+    if (std::find(supported.begin(), supported.end(), stage->name) == supported.end()) {
       return fmt::format("search: got '{}', expected one that supports the task", stage->name);
     }
   }

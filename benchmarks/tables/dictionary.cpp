@@ -97,7 +97,7 @@ constexpr ColumnMeaning kDictionary[] = {
     {"times_high", "", "upper end; empty: infinite, or fewer than 6"},
     {"p", "", "Wilcoxon's signed rank test of times, two-sided, corrected by Holm"},
     {"group", "", "group of races"},
-    {"served", "", "number of tasks in the group that the search supports"},
+    {"supported", "", "number of tasks in the group that the search supports"},
     {"typical", "", "expected time as a multiple of the fastest search's: median over tasks"},
     {"worst", "", "the largest of these"},
     {"reached_tenth", "",

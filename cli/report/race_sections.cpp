@@ -39,7 +39,7 @@ ReportSection standing_section(const std::vector<RaceGroup>& groups) {
       "Empirical distributions of the share of targets (10 %, 1 %, 0.1 % and 0.01 % below the best "
       "known value) that a search reached, and how it compares with the fastest search of each "
       "task. A task that a search does not support counts as missed.";
-  table.columns = {"group", "search", "served", "typical", "worst"};
+  table.columns = {"group", "search", "supported", "typical", "worst"};
   add_target_columns("reached_", table.columns);
   for (const RaceGroup& group : groups) {
     const std::vector<Standing> all = standings(group.races);
@@ -48,7 +48,7 @@ ReportSection standing_section(const std::vector<RaceGroup>& groups) {
     section.figures.push_back(draw_ecdf(panels, leaders(all, kNamedSearches), 1));
     for (const Standing& each : all) {
       auto& line = table.rows.emplace_back(std::vector<ReportCell>{
-          group.title, each.search, static_cast<double>(each.served), each.typical, each.worst});
+          group.title, each.search, static_cast<double>(each.supported), each.typical, each.worst});
       line.insert(line.end(), each.reached.begin(), each.reached.end());
     }
   }

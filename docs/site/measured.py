@@ -40,7 +40,7 @@ def search(name):
     return section("In the comparison of all static tasks", "*Typical* and *worst* compare the expected time to 0.1 % below the best with that of the best "
                    "search of each task. The other columns are the share of tasks and seeds [%] that came that near "
                    "([benchmarks](../../benchmarks.md#the-searches)).", ["tasks", "typical", "worst", "10 %", "1 %", "0.1 %", "0.01 %"],
-                   [[row["served"], digits(row["typical"]), digits(row["worst"]), *shares]])
+                   [[row["supported"], digits(row["typical"]), digits(row["worst"]), *shares]])
 
 
 def stages():

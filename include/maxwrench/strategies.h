@@ -27,7 +27,7 @@ struct MeasureEntry {
   const char* name;     ///< as on the command line
   const char* summary;  ///< one line of description
   bool needs_solver;    ///< false: a closed form, for which `make` ignores the solver
-  bool serves_any;      ///< false: rejects Wrench::kAny, which would have no meaning
+  bool supports_any;      ///< false: rejects Wrench::kAny, which would have no meaning
   const char* unit;     ///< of its value; null: that of the wrench along c
   /// Makes the measure for a problem, which must outlive it.
   std::function<std::unique_ptr<Measure>(const Problem&, std::unique_ptr<WrenchSolver>)> make;
@@ -136,7 +136,7 @@ std::span<const Absent> not_built_in();
 ///
 /// * `needs_solver` false: `make` gets no solver, and `Case::solver` must be empty or `kNoSolver`.
 ///   true: `make` gets the chosen solver of wrench programs.
-/// * `serves_any` true: the measure supports `Wrench::kAny`. If it needs no solver, tasks with
+/// * `supports_any` true: the measure supports `Wrench::kAny`. If it needs no solver, tasks with
 ///   finite limits of contact forces are then rejected, as for the closed forms.
 /// * `unit` null: the value is a wrench along c, in the unit of the task.
 ///

@@ -28,7 +28,7 @@ class ScenarioPolytope : public Measure {
         at_(problem),
         program_(problem, wrench) {
     const bool one_column = wrench == Wrench::kPure || list_.F.cols() == 0;
-    if (facets && one_column && ScenarioFacets::serves(problem)) facets_.emplace(problem);
+    if (facets && one_column && ScenarioFacets::supports(problem)) facets_.emplace(problem);
     if (list_.ball && !facets_) {
       throw std::invalid_argument(
           "wrench: got a ball, expected solver facets and pure wrenches, or a set in its place");

@@ -33,7 +33,7 @@ LoadCase case_of(const Eigen::VectorXd& numbers) {
 
 }  // namespace
 
-bool ScenarioFacets::serves(const Problem& problem) { return problem.robot.actuation.has_facets; }
+bool ScenarioFacets::supports(const Problem& problem) { return problem.robot.actuation.has_facets; }
 
 ScenarioFacets::ScenarioFacets(const Problem& problem)
     : problem_(problem),

@@ -28,7 +28,7 @@ class ScenarioFacets {
   explicit ScenarioFacets(const Problem&& problem) = delete;
 
   /// Whether the actuators of the task have facets.
-  static bool serves(const Problem& problem);
+  static bool supports(const Problem& problem);
 
   /// Computes both ends. Allocates nothing after the first call.
   void scan(ScenarioForces& at);

@@ -33,7 +33,7 @@ ScenarioRows::ScenarioRows(const Problem& problem)
 Eigen::Index ScenarioRows::count(const Problem& problem, Wrench wrench) {
   const ScenarioList& list = problem.scenarios;
   const bool one_column = wrench == Wrench::kPure || list.F.cols() == 0;
-  if (list.empty() || !one_column || !ScenarioFacets::serves(problem)) return 0;
+  if (list.empty() || !one_column || !ScenarioFacets::supports(problem)) return 0;
   return 2 * problem.robot.actuation.facet_pairs() *
          static_cast<Eigen::Index>(list.wrenches.size());
 }

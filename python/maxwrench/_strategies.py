@@ -9,7 +9,7 @@ class Measure:
     """A measure of your own. Subclass it, and add an object by ``add_measure``.
 
     Attributes: ``name``, by which ``solve`` and ``evaluate`` find it; ``unit`` of its values, None
-    for a wrench along c; ``serves_any``, whether ``wrench="any"`` has a meaning for it.
+    for a wrench along c; ``supports_any``, whether ``wrench="any"`` has a meaning for it.
 
     A method ``derivatives(posture)`` may return the derivatives of the value by tau_d (n) and by
     J (6×n). Without it they are central differences of ``value``. Either way a value should depend
@@ -29,7 +29,7 @@ class Measure:
 
     name = ""
     unit = None
-    serves_any = False
+    supports_any = False
 
     def value(self, posture):
         """Returns the value at a Posture; NaN where there is none."""

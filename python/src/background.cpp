@@ -101,8 +101,8 @@ void run_in_background(const py::object& callback, const std::function<void(Watc
 }
 
 void require_callback(const py::object& callback) {
-  const bool serves = callback.is_none() || callback.is(py::bool_(false));
-  if (serves || PyCallable_Check(callback.ptr()) != 0) return;
+  const bool supports = callback.is_none() || callback.is(py::bool_(false));
+  if (supports || PyCallable_Check(callback.ptr()) != 0) return;
   throw BadValue("callback", std::string(py::repr(callback)), "a function, None or False");
 }
 

@@ -163,7 +163,7 @@ Capabilities capability_of(const py::object& J_given, const py::object& tau_give
   choice.measure = measure;
   choice.solver = solver;
   choice.wrench = free.is_none() ? Wrench::kPure : Wrench::kAny;
-  if (!free.is_none() && !find_measure(measure).serves_any) {
+  if (!free.is_none() && !find_measure(measure).supports_any) {
     throw BadValue("free", "other wrenches", "None for measure " + measure);
   }
   const Method method = resolve(task, choice);

@@ -130,7 +130,7 @@ Args:
         numbers that it keeps throughout.
     measure: the measure; ``measures()`` lists them.
     wrench: "pure": only multiples of c; "any": other wrenches of the task may occur, too.
-    solver: the solver of the lower level; the first one that serves if empty.
+    solver: the solver of the lower level; the first one that supports if empty.
     check_collision: whether a posture that collides is invalid.
     gradients: for N postures, whether ``Evaluations.gradient`` is computed. One posture always has
         its gradient.

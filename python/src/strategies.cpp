@@ -113,7 +113,7 @@ void add_python_measure(const py::object& measure) {
                     unit = attribute_of(measure, "unit", "");
   const std::string summary = attribute_of(measure, "__doc__", "a measure in Python");
   const bool derivatives = py::hasattr(measure, "derivatives");
-  add_measure({name.c_str(), summary.c_str(), false, flag_of(measure, "serves_any"),
+  add_measure({name.c_str(), summary.c_str(), false, flag_of(measure, "supports_any"),
                unit.empty() ? nullptr : unit.c_str(),
                [shared = share(measure), derivatives](const Problem& task, auto) {
                  return make_python_measure(task, shared, derivatives);

@@ -96,9 +96,9 @@ PyExperiment simulate(const PyAnswer& given, const std::string& integrator,
                       const std::string& interpolation, double planned, const py::kwargs& options) {
   const Answer& answer = given.answer;
   Request request = request_of(integrator, interpolation, planned, options);
-  const std::vector<std::string> served = stiff_integrators();
-  if (std::find(served.begin(), served.end(), integrator) == served.end()) {
-    throw BadValue("integrator", shown(integrator), "one for stiff systems: " + shown(served));
+  const std::vector<std::string> supported = stiff_integrators();
+  if (std::find(supported.begin(), supported.end(), integrator) == supported.end()) {
+    throw BadValue("integrator", shown(integrator), "one for stiff systems: " + shown(supported));
   }
   if (answer.task->contact) {
     throw BadValue("answer", "a task with a second contact", "one without");

@@ -103,7 +103,7 @@ class FrontMaker {
                     [](const FrontPoint& point) { return point.theta_r.size() == 0; });
       for (FrontPoint& point : front_.points) finish(point);
       drop_dominated();
-      front_.conclude(Status::kNoneFound, "no posture that was found serves all tasks");
+      front_.conclude(Status::kNoneFound, "no posture that was found supports all tasks");
       if (front_.compromise.theta_r.size() > 0) {
         finish(front_.compromise);
         front_.conclude(Status::kBestFound);

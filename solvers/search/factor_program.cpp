@@ -19,7 +19,7 @@ double half_width(double low, double high) {
 
 }  // namespace
 
-bool FactorProgram::serves(const TrajectoryEvaluator& trajectories, bool dependent_joints) {
+bool FactorProgram::supports(const TrajectoryEvaluator& trajectories, bool dependent_joints) {
   const TrajectoryProgram& program = trajectories.program();
   return program.common && !dependent_joints && starts_anywhere(program) &&
          !(program.du_max.array() < kInfinity).any();

@@ -19,7 +19,7 @@ class FactorProgram final : public RowProgram {
  public:
   /// Whether the program of a task is of this kind: a common factor, facets, and neither rates of
   /// efforts nor dependent joints.
-  static bool serves(const TrajectoryEvaluator& trajectories, bool dependent_joints);
+  static bool supports(const TrajectoryEvaluator& trajectories, bool dependent_joints);
 
   /// Starts at the stacked knots x with the factor t. At most `points` points are evaluated.
   FactorProgram(TrajectoryEvaluator& trajectories, const Eigen::VectorXd& x_min,

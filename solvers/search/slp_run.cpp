@@ -65,7 +65,7 @@ void SlpRun::polish([[maybe_unused]] long evaluations) {
 #if MAXWRENCH_WITH_NLOPT
   const long left = std::min<long>(kPolishPoints, evaluations - found_.trace.evaluations() - 1);
   if (left < 3 || run_.ended() || best_.value == -kInfinity || shared_.size() > 0) return;
-  if (!FactorProgram::serves(trajectories_, trajectories_.dependent_rows().at.size() > 0)) return;
+  if (!FactorProgram::supports(trajectories_, trajectories_.dependent_rows().at.size() > 0)) return;
   FactorProgram program(trajectories_, objective_->lower(), objective_->upper(), best_.theta_r,
                         best_.value, left);
   const RowEnd end = solve_rows_by_slsqp(program, kPolishPoints);

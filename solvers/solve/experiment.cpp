@@ -68,19 +68,19 @@ double reading_of(const TankSummary& summary) {
   return std::isfinite(summary.motion->at_peak) ? summary.motion->at_peak : summary.low;
 }
 
-std::vector<std::string> served_integrators(const Problem& problem, const std::string& measure) {
+std::vector<std::string> supported_integrators(const Problem& problem, const std::string& measure) {
   const bool factor = problem.motion && problem.motion->has_factor();
-  const bool serves = !problem.contact && !factor && measure == Case().measure;
-  return serves ? stiff_integrators() : std::vector<std::string>();
+  const bool supports = !problem.contact && !factor && measure == Case().measure;
+  return supports ? stiff_integrators() : std::vector<std::string>();
 }
 
 Answer experiment(const Problem& task, const Options& options) {
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<std::string> served = served_integrators(task, options.measure);
-  if (std::find(served.begin(), served.end(), options.integrator) == served.end()) {
+  const std::vector<std::string> supported = supported_integrators(task, options.measure);
+  if (std::find(supported.begin(), supported.end(), options.integrator) == supported.end()) {
     throw std::invalid_argument(
         fmt::format("integrator: got '{}', expected one that supports measure {} of {}: {}",
-                    options.integrator, options.measure, task.name, fmt::join(served, " ")));
+                    options.integrator, options.measure, task.name, fmt::join(supported, " ")));
   }
   Answer answer;
   answer.task = std::make_shared<const Problem>(task);

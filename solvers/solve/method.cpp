@@ -19,7 +19,7 @@
 namespace maxwrench {
 namespace {
 
-bool serves(const WrenchSolverEntry& solver, const Problem& problem, Wrench wrench) {
+bool supports(const WrenchSolverEntry& solver, const Problem& problem, Wrench wrench) {
   const bool one_column = wrench == Wrench::kPure && problem.contact_columns() == 0;
   if (solver.one_column_only && !one_column) return false;
   return !solver.needs_facets || problem.robot.actuation.has_facets;
@@ -28,32 +28,32 @@ bool serves(const WrenchSolverEntry& solver, const Problem& problem, Wrench wren
 /// The lower-level solvers that support a measure and a wrench; a null entry for a closed form.
 std::vector<const WrenchSolverEntry*> solvers_for(const MeasureEntry& measure,
                                                   const Problem& problem, Wrench wrench) {
-  if (wrench == Wrench::kAny && !measure.serves_any) return {};
+  if (wrench == Wrench::kAny && !measure.supports_any) return {};
   if (!problem.scenarios.empty() && measure.name != Case().measure) return {};
   if (!measure.needs_solver) return {nullptr};
   if (problem.scenarios.payload && wrench == Wrench::kAny) return {};
   const bool facets_only = problem.scenarios.ball.has_value();
-  std::vector<const WrenchSolverEntry*> served;
+  std::vector<const WrenchSolverEntry*> supported;
   for (const WrenchSolverEntry& solver : wrench_solvers()) {
     if (facets_only && !solver.needs_facets) continue;
-    if (serves(solver, problem, wrench)) served.push_back(&solver);
+    if (supports(solver, problem, wrench)) supported.push_back(&solver);
   }
-  return served;
+  return supported;
 }
 
 const char* name_of(const WrenchSolverEntry* solver) { return solver ? solver->name : kNoSolver; }
 
 /// The solver with this name, or the first of the supported ones. Throws if it is not one of them.
-const WrenchSolverEntry* choose_solver(const std::vector<const WrenchSolverEntry*>& served,
+const WrenchSolverEntry* choose_solver(const std::vector<const WrenchSolverEntry*>& supported,
                                        const Problem& problem, const Case& c) {
-  if (c.solver.empty()) return served.front();
+  if (c.solver.empty()) return supported.front();
   if (c.solver != kNoSolver) find_wrench_solver(c.solver);
   std::vector<std::string> names;
-  for (const WrenchSolverEntry* solver : served) {
+  for (const WrenchSolverEntry* solver : supported) {
     if (c.solver == name_of(solver)) return solver;
     names.emplace_back(name_of(solver));
   }
-  const bool many = served.front() && !problem.robot.actuation.has_facets;
+  const bool many = supported.front() && !problem.robot.actuation.has_facets;
   throw std::invalid_argument(fmt::format(
       "solver: got '{}', which does not support measure {} with wrench {}{}{}, expected one of {}",
       c.solver, c.measure, to_string(c.wrench),
@@ -73,7 +73,7 @@ const TrajectorySolverEntry* trajectory_solver_of(const Problem& problem, const 
       std::any_of(stages.begin(), stages.end(), [&](const SearchEntry* stage) {
         return named(trajectory_searches(), stage->name) != trajectory_searches().end();
       });
-  if (!of_trajectories || !serves_as_trajectory(problem, c.measure)) return nullptr;
+  if (!of_trajectories || !supported_as_trajectory(problem, c.measure)) return nullptr;
   const auto same = named(trajectory_solvers(), c.solver);
   return same == trajectory_solvers().end() ? &trajectory_solvers().front() : &*same;
 }
@@ -86,8 +86,8 @@ bool limited(const Contact& contact) {
 }
 
 /// Closed forms handle free columns only, so they do not support a contact with limits.
-bool serves_limits(const MeasureEntry& measure, const Problem& problem) {
-  const bool closed_form = !measure.needs_solver && measure.serves_any;
+bool supports_limits(const MeasureEntry& measure, const Problem& problem) {
+  const bool closed_form = !measure.needs_solver && measure.supports_any;
   return !(closed_form && problem.contact && limited(*problem.contact));
 }
 
@@ -181,14 +181,14 @@ Method resolve_in_time(const Problem& problem, const Case& c) {
 
 LowerLevel resolve_lower_level(const Problem& problem, const Case& c) {
   const MeasureEntry& measure = find_measure(c.measure);
-  const auto served = solvers_for(measure, problem, c.wrench);
-  if (!problem.scenarios.empty()) require_scenario_case(problem, measure, served.empty());
-  if (served.empty()) {
+  const auto supported = solvers_for(measure, problem, c.wrench);
+  if (!problem.scenarios.empty()) require_scenario_case(problem, measure, supported.empty());
+  if (supported.empty()) {
     throw std::invalid_argument(fmt::format(
         "wrench: got 'any', which measure {} does not support, expected pure", c.measure));
   }
-  const WrenchSolverEntry* solver = choose_solver(served, problem, c);
-  if (!serves_limits(measure, problem)) {
+  const WrenchSolverEntry* solver = choose_solver(supported, problem, c);
+  if (!supports_limits(measure, problem)) {
     throw std::invalid_argument("measure: got " + c.measure +
                                 ", expected one with a solver: a closed form supports only zero "
                                 "and infinity as limits of contact.basis");
@@ -197,16 +197,16 @@ LowerLevel resolve_lower_level(const Problem& problem, const Case& c) {
           measure_maker(problem, measure, solver, c.wrench)};
 }
 
-bool serves_as_trajectory(const Problem& problem, const std::string& measure) {
+bool supported_as_trajectory(const Problem& problem, const std::string& measure) {
   return measure == Case().measure && !problem.contact && problem.free.count() == 0 &&
          gears_at(problem.robot, problem.end_effector).empty() && problem.scenarios.empty();
 }
 
-bool serves_between_facets(const Problem& problem, const std::string& measure, Wrench wrench) {
+bool supported_between_facets(const Problem& problem, const std::string& measure, Wrench wrench) {
   return measure == Case().measure && has_facet_program(problem, wrench);
 }
 
-std::vector<std::string> served_solvers(const Problem& problem, const std::string& measure,
+std::vector<std::string> supported_solvers(const Problem& problem, const std::string& measure,
                                         Wrench wrench) {
   std::vector<std::string> names;
   const MeasureEntry& entry = find_measure(measure);
@@ -216,14 +216,14 @@ std::vector<std::string> served_solvers(const Problem& problem, const std::strin
       names.emplace_back(solver.name);
     return names;
   }
-  if (!serves_limits(entry, problem)) return names;
+  if (!supports_limits(entry, problem)) return names;
   for (const WrenchSolverEntry* solver : solvers_for(entry, problem, wrench)) {
     names.emplace_back(name_of(solver));
   }
   return names;
 }
 
-std::vector<std::string> served_searches(const Problem& problem, const std::string& measure,
+std::vector<std::string> supported_searches(const Problem& problem, const std::string& measure,
                                          Wrench wrench) {
   std::vector<std::string> names;
   const auto add = [&](std::span<const SearchEntry> table) {
@@ -231,8 +231,8 @@ std::vector<std::string> served_searches(const Problem& problem, const std::stri
   };
   if (problem.motion) add(trajectory_searches());
   add(searches());
-  if (!problem.motion && serves_as_trajectory(problem, measure)) add(trajectory_searches());
-  if (serves_between_facets(problem, measure, wrench)) add(facet_searches());
+  if (!problem.motion && supported_as_trajectory(problem, measure)) add(trajectory_searches());
+  if (supported_between_facets(problem, measure, wrench)) add(facet_searches());
   return names;
 }
 
@@ -241,8 +241,8 @@ std::string default_search(const Problem& task, const std::string& measure, Wren
   const bool has_sqp =
       std::any_of(facet_searches().begin(), facet_searches().end(),
                   [](const SearchEntry& entry) { return entry.name == std::string("facet_sqp"); });
-  const bool serves = has_sqp && serves_between_facets(task, measure, wrench);
-  return serves ? "facet_sqp+cmaes" : general_search();
+  const bool supports = has_sqp && supported_between_facets(task, measure, wrench);
+  return supports ? "facet_sqp+cmaes" : general_search();
 }
 
 Case with_search(const Problem& task, Case c) {
@@ -275,12 +275,12 @@ int thread_count(int threads) {
 
 void set_scheme(const char* key, const std::string& scheme, Problem& problem) {
   MotionTask& task = *problem.motion;
-  const std::vector<std::string> served = task.has_factor()
+  const std::vector<std::string> supported = task.has_factor()
                                               ? std::vector<std::string>{to_string(Scheme::kSpline)}
                                               : scheme_names(task.impulse);
-  if (std::find(served.begin(), served.end(), scheme) == served.end()) {
+  if (std::find(supported.begin(), supported.end(), scheme) == supported.end()) {
     throw std::invalid_argument(fmt::format("{}: got '{}', expected one of {} for {} {}", key,
-                                            scheme, fmt::join(served, " "),
+                                            scheme, fmt::join(supported, " "),
                                             task.impulse ? "an" : "a", problem.type()));
   }
   const Scheme parsed = parse_scheme(scheme);

@@ -51,19 +51,19 @@ LowerLevel resolve_lower_level(const Problem&& problem, const Case& c) = delete;
 
 /// Whether trajectory searches support a static task, as a trajectory of one knot: only with
 /// linf_polytope and without a second contact.
-bool serves_as_trajectory(const Problem& problem, const std::string& measure);
+bool supported_as_trajectory(const Problem& problem, const std::string& measure);
 
 /// Whether searches between facets support the problem: linf_polytope of a static task, with few
 /// facets.
-bool serves_between_facets(const Problem& problem, const std::string& measure, Wrench wrench);
+bool supported_between_facets(const Problem& problem, const std::string& measure, Wrench wrench);
 
 /// The names of the lower-level solvers that support a measure and a wrench, `kNoSolver` for a
 /// closed form. Empty if the measure does not support the wrench. The first one is the default.
-std::vector<std::string> served_solvers(const Problem& problem, const std::string& measure,
+std::vector<std::string> supported_solvers(const Problem& problem, const std::string& measure,
                                         Wrench wrench);
 
 /// The single methods that support a measure, those of a task in time first.
-std::vector<std::string> served_searches(const Problem& problem, const std::string& measure,
+std::vector<std::string> supported_searches(const Problem& problem, const std::string& measure,
                                          Wrench wrench);
 
 /// Has no search if the case names none. Throws std::invalid_argument on a name that does not exist

@@ -24,7 +24,7 @@ class Ends {
         program_(problem, wrench),
         solver_(find_wrench_solver("condensed").make()),
         facets_((wrench == Wrench::kPure || list_.F.cols() == 0) &&
-                ScenarioFacets::serves(problem)) {
+                ScenarioFacets::supports(problem)) {
     at_.set(posture);
   }
 

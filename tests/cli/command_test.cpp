@@ -151,7 +151,7 @@ TEST(Command, BoxTakesOverWhereThereAreTooManyFacets) {
   const CommandResult many =
       run_maxwrench("eval force.toml --theta-r 0.3,-0.7 --json", copy.path());
   ASSERT_EQ(many.exit_status, 0) << many.err;
-  // Who asks for facets is told, not served by another.
+  // Who asks for facets is told, not supported by another.
   const CommandResult asked =
       run_maxwrench("eval force.toml --theta-r 0.3,-0.7 --solver facets", copy.path());
   EXPECT_EQ(asked.exit_status, 2);
@@ -162,7 +162,7 @@ TEST(Command, BoxTakesOverWhereThereAreTooManyFacets) {
   EXPECT_NEAR(a["beta"], b["beta"], 1e-9);
 }
 
-/// Whatever evaluates chooses the solver that serves the robot.
+/// Whatever evaluates chooses the solver that supports the robot.
 TEST(Command, WriteAndCompareTakeBoxWhereThereAreTooManyFacets) {
   EditedCopy copy;
   add_idle_thrusters(copy);

@@ -60,7 +60,7 @@ TEST(OwnMeasure, GetsTheChosenSolver) {
                }});
   const Problem problem = load_problem("planar/force");
   for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
-    for (const std::string& solver : served_solvers(problem, "linf_polytope", wrench)) {
+    for (const std::string& solver : supported_solvers(problem, "linf_polytope", wrench)) {
       Options options;
       options.wrench = wrench;
       options.solver = solver;

@@ -253,7 +253,7 @@ TEST(Threads, ShareARobot) {
 
 /// Ipopt, GLPK and Clp among them. Every other time with a new solver, so that some begin and end
 /// while others run.
-TEST(Threads, EveryLowerLevelSolverServesSeveralAtOnce) {
+TEST(Threads, EveryLowerLevelSolverSupportsSeveralAtOnce) {
   const Problem problem = load_problem("uvms/valve");
   PostureEvaluator model(problem, false);
   for (const WrenchSolverEntry& entry : wrench_solvers()) {
@@ -288,7 +288,7 @@ class Decay : public Ode {
   Eigen::VectorXd start_ = Eigen::VectorXd::Ones(3);
 };
 
-TEST(Threads, EveryIntegratorServesSeveralAtOnce) {
+TEST(Threads, EveryIntegratorSupportsSeveralAtOnce) {
   for (const IntegratorEntry& entry : integrators()) {
     at_once([&](int) {
       Decay decay;

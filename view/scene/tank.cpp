@@ -45,7 +45,7 @@ void require_tank(const Problem& problem, const std::string& measure, const std:
     throw std::invalid_argument(key + ": got " + problem.name +
                                 ", a static task, expected a task in time");
   }
-  if (served_integrators(problem, measure).empty()) {
+  if (supported_integrators(problem, measure).empty()) {
     throw std::invalid_argument(key + ": got " + problem.name +
                                 ", expected a task in time with one wrench along c, without a "
                                 "second contact");

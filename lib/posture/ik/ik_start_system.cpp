@@ -107,7 +107,7 @@ IkStartSystem::IkStartSystem(const Problem& problem)
   spread();
 }
 
-bool IkStartSystem::serves(const Problem& problem) const {
+bool IkStartSystem::supports(const Problem& problem) const {
   const auto r = chain_.parameters();
   return problem.redundancy() >= r && problem.pose.p == pose_.p && problem.pose.R == pose_.R &&
          problem.theta_r_min.head(r) == theta_r_min_ &&
@@ -336,7 +336,7 @@ void IkStartSystem::go_from_generic(const Eigen::VectorXd& theta_r, PathTracker&
 }
 
 std::shared_ptr<const IkStartSystem> serving_start_system(const Problem& problem) {
-  if (problem.start_system && problem.start_system->serves(problem)) return problem.start_system;
+  if (problem.start_system && problem.start_system->supports(problem)) return problem.start_system;
   return std::make_shared<const IkStartSystem>(problem);
 }
 

@@ -38,7 +38,7 @@ class IkStartSystem {
 
   /// Whether this is the start system of the problem: chain, pose and limits of theta_r are the
   /// same.
-  bool serves(const Problem& problem) const;
+  bool supports(const Problem& problem) const;
 
   const ToolChain& chain() const { return chain_; }
   const Pose<double>& pose() const { return pose_; }

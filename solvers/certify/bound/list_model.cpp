@@ -43,7 +43,7 @@ void leave_unit_load(int link, int component, Robot& robot) {
 }  // namespace
 
 ListModel::ListModel(const Problem& problem) : problem_(problem), kept_(problem) {
-  if (!ScenarioFacets::serves(problem)) {
+  if (!ScenarioFacets::supports(problem)) {
     reject_list(problem, "a list for actuators with too many facets", "one wrench");
   }
   if (list().payload && problem.free.count() > 0) {

@@ -26,7 +26,7 @@ inline constexpr double kBallStep = 1.0 / (1 << 30);
 class ListModel {
  public:
   /// Keeps a reference to the problem. Throws std::invalid_argument, with one line, for lists
-  /// without facets, without a scenario that is served, and as `LoopModel`.
+  /// without facets, without a scenario that is supported, and as `LoopModel`.
   explicit ListModel(const Problem& problem);
   explicit ListModel(const Problem&& problem) = delete;
   ListModel(const ListModel&) = delete;

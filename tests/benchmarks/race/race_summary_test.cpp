@@ -26,8 +26,8 @@ Contender contender_of(const std::string& search, const std::vector<Attempt>& at
 }
 
 /// Best known values 100 and 10. `slow` gets to a thousandth of both, in 100 and 80 evaluations.
-/// `fast` gets there on the first in 10, in one of two seeds on the second; `narrow` serves the
-/// second alone. `none` serves neither.
+/// `fast` gets there on the first in 10, in one of two seeds on the second; `narrow` supports the
+/// second alone. `none` supports neither.
 std::vector<Comparison> two_problems() {
   Comparison first;
   first.default_search = "slow";
@@ -105,8 +105,8 @@ TEST(RaceSummary, CountsWhatCameToEachTarget) {
   EXPECT_EQ(of(all, "fast").reached, (Shares{1, 0.75, 0.75, 0.5}));
   EXPECT_EQ(of(all, "narrow").reached, (Shares{0.5, 0.5, 0.5, 0.5}));
   EXPECT_EQ(of(all, "none").reached, (Shares{0, 0, 0, 0}));
-  EXPECT_EQ(of(all, "narrow").served, 1);
-  EXPECT_EQ(of(all, "none").served, 0);
+  EXPECT_EQ(of(all, "narrow").supported, 1);
+  EXPECT_EQ(of(all, "none").supported, 0);
 }
 
 TEST(RaceSummary, LeadersHoldTheDefaultWhereverItStands) {
@@ -120,7 +120,7 @@ TEST(RaceSummary, LeadersHoldTheDefaultWhereverItStands) {
 /// Sixteen triples of problem, seed and target; `fast` comes to 8 of them with 10 evaluations (the
 /// first problem: three targets of one seed, all four of the other, and a tenth on the second) and
 /// to 4 more with 60; `narrow` to 8 with 40.
-TEST(RaceSummary, DistributionOverTargetsCountsWhatIsNotServed) {
+TEST(RaceSummary, DistributionOverTargetsCountsWhatIsNotSupported) {
   const std::vector<Comparison> both = two_problems();
   const auto fast = target_ecdf(both, "fast", &Spent::evaluations);
   EXPECT_DOUBLE_EQ(share_reached(fast, 9), 0);

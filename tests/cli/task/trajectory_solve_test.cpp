@@ -55,7 +55,7 @@ TEST(TrajectorySolve, IsTheSameAtAnyThreadCount) {
 
 /// A static task is a trajectory of one knot for a trajectory search; what it finds is a posture
 /// like any other, which `eval` confirms, and no worse than that of a search of postures.
-TEST(TrajectorySolve, ServesAStaticTaskToo) {
+TEST(TrajectorySolve, SupportsAStaticTaskToo) {
   for (const char* wrench : {"pure", "any"}) {
     const std::string words = "solve uvms/lift --json --wrench " + std::string(wrench);
     json first;

@@ -79,7 +79,7 @@ TEST(UrdfCommand, SolvesWithAParkedBase) {
 }
 
 /// A six-joint arm on a fixed base has no theta_r.
-TEST(UrdfCommand, AnEmptyThetaRServesEveryCommand) {
+TEST(UrdfCommand, AnEmptyThetaRSuitsEveryCommand) {
   const UrdfFolder folder;
   const std::string arm = " ur10.urdf --tool tool0" + kAt;
   const json at_pose = folder.ask("eval" + arm);

@@ -15,7 +15,7 @@
 namespace maxwrench {
 namespace {
 
-/// Every measure with every solver of `solvers` that serves the problem.
+/// Every measure with every solver of `solvers` that supports the problem.
 std::vector<Case> cases_of(const Problem& problem, const std::vector<std::string>& solvers) {
   std::vector<Case> cases = product(problem, 1, 1);
   std::erase_if(cases, [&](const Case& c) {

@@ -49,7 +49,7 @@ class Evaluator {
   Capability capability_;
 };
 
-/// Every closed form, and every measure with every solver that serves the wrench.
+/// Every closed form, and every measure with every solver that supports the wrench.
 std::vector<Case> all_cases(const std::string& problem) {
   std::vector<Case> cases = product(load_problem(problem), 1, 1);
   std::erase_if(cases, [](const Case& c) { return c.search != general_search(); });

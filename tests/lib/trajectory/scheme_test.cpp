@@ -152,7 +152,7 @@ TEST(Scheme, OneKnotRests) {
   EXPECT_THROW(make_scheme(turn(Scheme::kSpline, 1)), std::invalid_argument);
 }
 
-TEST(Scheme, ServesOneKindOfTask) {
+TEST(Scheme, SupportsOneKindOfTask) {
   EXPECT_THROW(make_scheme(turn(Scheme::kBackward, 4)), std::invalid_argument);
   EXPECT_THROW(make_scheme(impulse(Scheme::kEnds, 4)), std::invalid_argument);
 }

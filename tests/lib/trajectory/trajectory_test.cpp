@@ -204,7 +204,7 @@ TEST(Trajectory, KnotsThatCollideAreReportedAndAvoided) {
   EXPECT_TRUE(blind.evaluate(constant_knots(problem, folded)).collision.empty());
 }
 
-TEST(Trajectory, ServesNoSecondContact) {
+TEST(Trajectory, SupportsNoSecondContact) {
   const Problem problem = load_problem("dual_arm/bar_wall");
   EXPECT_THROW(TrajectoryEvaluator(problem, Wrench::kPure, solver()), std::invalid_argument);
 }

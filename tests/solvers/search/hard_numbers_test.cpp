@@ -84,7 +84,7 @@ TEST(HardNumbers, InterruptedSearchesEvaluateNoMore) {
 TEST(HardNumbers, SLOW_EveryMethodRepeatsItselfInOneProcess) {
   for (const char* name : {"planar/force", "planar/trajectory", "uvms/lift_impulse"}) {
     const Problem problem = load_problem(name);
-    for (const std::string& search : served_searches(problem, "linf_polytope", Wrench::kPure)) {
+    for (const std::string& search : supported_searches(problem, "linf_polytope", Wrench::kPure)) {
       SCOPED_TRACE(search + " on " + name);
       Options options;
       options.search = search;

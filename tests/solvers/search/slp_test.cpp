@@ -160,7 +160,7 @@ TEST(Slp, SLOW_KeepsTheSpeedLimitOfADependentJoint) {
 
 /// A static problem is a trajectory of one knot: the independent model's best posture has 35.4077 N
 /// m.
-TEST(Slp, ServesAStaticProblemAsATrajectoryOfOneKnot) {
+TEST(Slp, SupportsAStaticProblemAsATrajectoryOfOneKnot) {
   const Problem problem = load_problem("uvms/valve");
   const auto objective = make_trajectory_objective(problem, Wrench::kPure,
                                                    find_trajectory_solver("facets_or_ipm").make);

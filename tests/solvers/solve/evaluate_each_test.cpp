@@ -66,7 +66,7 @@ TEST(EvaluateEach, EqualsSingleCallsWithEverySolver) {
   const Problem task = load_problem("uvms/valve");
   const Evaluations::Rows rows = random_rows(task, samples(100));
   for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
-    for (const std::string& solver : served_solvers(task, "linf_polytope", wrench)) {
+    for (const std::string& solver : supported_solvers(task, "linf_polytope", wrench)) {
       Options options;
       options.wrench = wrench;
       options.solver = solver;

@@ -67,8 +67,8 @@ TEST(Experiment, ALostPostureHasNoReading) {
 
 TEST(Experiment, RejectsWhatDoesNotServe) {
   const Problem wall = load_problem("dual_arm/bar_wall"), valve = load_problem("uvms/valve");
-  EXPECT_TRUE(served_integrators(wall, "linf_polytope").empty());
-  EXPECT_TRUE(served_integrators(valve, "ellipsoid").empty());
+  EXPECT_TRUE(supported_integrators(wall, "linf_polytope").empty());
+  EXPECT_TRUE(supported_integrators(valve, "ellipsoid").empty());
   EXPECT_THROW(experiment(wall, tried("dual_arm/bar_wall", "cvode")), std::invalid_argument);
   for (const char* name : {"arkode", "x", ""}) {
     EXPECT_THROW(experiment(valve, tried("uvms/valve", name)), std::invalid_argument);

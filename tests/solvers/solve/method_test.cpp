@@ -14,7 +14,7 @@
 namespace maxwrench {
 namespace {
 
-TEST(Method, DefaultsToTheFirstSolverThatServes) {
+TEST(Method, DefaultsToTheFirstSolverThatSupportsIt) {
   Problem problem = load_problem("planar/force");
   const auto lp = [&](const char* measure, Wrench wrench) {
     return resolve(problem, {problem.name, measure, wrench}).choice.solver;
@@ -96,10 +96,10 @@ TEST(Method, SearchesOfTrajectoriesServeStaticTasksByLinfPolytope) {
   EXPECT_EQ(solver("linf_polytope", Wrench::kPure, "simplex", "slp"), "simplex");
   EXPECT_EQ(solver("linf_polytope", Wrench::kPure, "", "grid"), "");
   EXPECT_EQ(solver("l2_polytope", Wrench::kPure, "", "slp"), "");
-  EXPECT_TRUE(serves_as_trajectory(problem, "linf_polytope"));
-  EXPECT_FALSE(serves_as_trajectory(problem, "ellipsoid"));
-  EXPECT_TRUE(serves_as_trajectory(load_problem("mobile/push"), "linf_polytope"));
-  EXPECT_FALSE(serves_as_trajectory(load_problem("planar/two_arms"), "linf_polytope"));
+  EXPECT_TRUE(supported_as_trajectory(problem, "linf_polytope"));
+  EXPECT_FALSE(supported_as_trajectory(problem, "ellipsoid"));
+  EXPECT_TRUE(supported_as_trajectory(load_problem("mobile/push"), "linf_polytope"));
+  EXPECT_FALSE(supported_as_trajectory(load_problem("planar/two_arms"), "linf_polytope"));
   const std::vector<Case> cases = product(problem, 1, 100);
   for (const SearchEntry& search : trajectory_searches()) {
     for (const Case& c : select(cases, {{"search", search.name}})) {
@@ -114,8 +114,8 @@ TEST(Method, SearchesOfTrajectoriesServeStaticTasksByLinfPolytope) {
 TEST(Method, SearchesBetweenFacetsServeLinfPolytopeWithFewFacets) {
   for (const char* name : {"planar/force", "planar/two_arms", "mobile/push"}) {
     const Problem problem = load_problem(name);
-    EXPECT_TRUE(serves_between_facets(problem, "linf_polytope", Wrench::kPure)) << name;
-    EXPECT_FALSE(serves_between_facets(problem, "l2_polytope", Wrench::kPure)) << name;
+    EXPECT_TRUE(supported_between_facets(problem, "linf_polytope", Wrench::kPure)) << name;
+    EXPECT_FALSE(supported_between_facets(problem, "l2_polytope", Wrench::kPure)) << name;
     const std::vector<Case> cases = product(problem, 1, 100);
     for (const SearchEntry& search : facet_searches()) {
       const std::vector<Case> its = select(cases, {{"search", search.name}});
@@ -125,9 +125,9 @@ TEST(Method, SearchesBetweenFacetsServeLinfPolytopeWithFewFacets) {
   }
   Problem many = load_problem("planar/force");
   many.robot.actuation.has_facets = false;
-  EXPECT_FALSE(serves_between_facets(many, "linf_polytope", Wrench::kPure));
+  EXPECT_FALSE(supported_between_facets(many, "linf_polytope", Wrench::kPure));
   EXPECT_FALSE(
-      serves_between_facets(load_problem("planar/trajectory"), "linf_polytope", Wrench::kPure));
+      supported_between_facets(load_problem("planar/trajectory"), "linf_polytope", Wrench::kPure));
 }
 
 TEST(Method, SelectKeepsWhatMatches) {

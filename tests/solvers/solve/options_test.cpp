@@ -40,7 +40,7 @@ TEST(Solve, RejectsOptionsOutOfRange) {
 TEST(Solve, EndsSoonWhenItIsInterrupted) {
   for (const char* name : {"planar/force", "planar/trajectory"}) {
     const Problem problem = load_problem(name);
-    std::vector<std::string> names = served_searches(problem, "linf_polytope", Wrench::kPure);
+    std::vector<std::string> names = supported_searches(problem, "linf_polytope", Wrench::kPure);
     names.insert(names.end(), {"sample+cmaes", "restart:sample+cmaes"});
     for (const std::string& search : names) {
       SCOPED_TRACE(search + " on " + name);

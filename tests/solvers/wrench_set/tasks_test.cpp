@@ -141,9 +141,9 @@ TEST_P(WrenchSetsOfTasks, PolytopesHaveTheCapabilityAlongC) {
 
 TEST_P(WrenchSetsOfTasks, EllipsoidsHaveTheCapabilityAlongC) {
   const Zonotope& actuation = problem_.robot.actuation;
-  const bool served = actuation.full_row_rank() && (actuation.u_min.array() < 0).all() &&
+  const bool supported = actuation.full_row_rank() && (actuation.u_min.array() < 0).all() &&
                       (actuation.u_max.array() > 0).all();
-  if (!served || problem_.contact_columns() > 0) return;
+  if (!supported || problem_.contact_columns() > 0) return;
   const Eigen::MatrixXd K = weighted_inverse(problem_.robot, "test");
   for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
     Case choice;

@@ -229,14 +229,14 @@ TEST(IkSolver, OfAPoseFarAway) {
 TEST(IkSolver, StartSystemIsOfOneProblem) {
   Problem problem = load_problem("mobile/push");
   ASSERT_NE(problem.start_system, nullptr);
-  EXPECT_TRUE(problem.start_system->serves(problem));
+  EXPECT_TRUE(problem.start_system->supports(problem));
   EXPECT_EQ(serving_start_system(problem), problem.start_system);
   problem.pose.p.x() += 0.01;
-  EXPECT_FALSE(problem.start_system->serves(problem));
+  EXPECT_FALSE(problem.start_system->supports(problem));
   EXPECT_NE(serving_start_system(problem), problem.start_system);
   problem = load_problem("mobile/push");
   problem.robot.joints[static_cast<std::size_t>(problem.dependent[0])].placement.p.z() += 0.01;
-  EXPECT_FALSE(problem.start_system->serves(problem));
+  EXPECT_FALSE(problem.start_system->supports(problem));
 }
 
 TEST(IkSolver, SLOW_OfAnUnreachablePoseAreNone) {

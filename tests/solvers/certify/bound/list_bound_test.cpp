@@ -27,7 +27,7 @@ void expect_bounded(const std::string& name, Problem task, int boxes, int postur
     const double low = evaluate_one(*objective, (box.lower + box.upper) / 2);
     BoxProof proof;
     bound->evaluate(box.lower, box.upper, std::isfinite(low) ? low : 0, bound->ceiling(), proof);
-    // The multiplier of a box serves any part of it.
+    // The multiplier of a box supports any part of it.
     BoxProof half = proof;
     Eigen::VectorXd upper = box.upper;
     upper[0] = (box.lower[0] + box.upper[0]) / 2;
@@ -142,7 +142,7 @@ TEST(ListBound, IsThatOfItsScenarios) {
 
 /// Joints that follow, and a base that only drives and turns. The value is the best over all IK
 /// solutions.
-TEST(ListBound, ServesDependentJoints) {
+TEST(ListBound, SupportsDependentJoints) {
   Problem task = load_problem("mobile/push");
   ScenarioList& list = task.scenarios;
   list.wrenches = {{.name = "", .c = task.c}};
