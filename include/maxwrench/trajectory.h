@@ -246,6 +246,14 @@ class TrajectoryObjective : public Objective {
   virtual double evaluate_throughout(const Eigen::VectorXd& x, double at_instants) = 0;
   /// Returns a clone for which the value `counts` counts.
   virtual std::unique_ptr<TrajectoryObjective> copy(TrajectoryValue counts) const = 0;
+  /// Returns the objective of the same task with fewer knots and instants.
+  ///
+  /// Its values at the instants cost a fraction, and its best trajectories are near those of the
+  /// task. So they can guide a search.
+  ///
+  /// @return nothing for an impulse, a transfer, a scheme other than `spline`, and a task that has
+  ///         few knots
+  virtual std::unique_ptr<TrajectoryObjective> coarser() const { return nullptr; }
   std::unique_ptr<Objective> clone() const final { return copy(counts()); }
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -11,11 +12,16 @@
 namespace maxwrench {
 namespace {
 
+/// Knots and instants per interval of the coarser objective. Five knots or more are coarsened.
+constexpr int kCoarseKnots = 4, kCoarseInstants = 2;
+
 class ObjectiveOfTrajectories final : public TrajectoryObjective {
  public:
   ObjectiveOfTrajectories(const Problem& problem, Wrench wrench, TrajectorySolverMaker make,
-                          bool check, TrajectoryValue counts)
-      : problem_(problem),
+                          bool check, TrajectoryValue counts,
+                          std::shared_ptr<const Problem> owned = nullptr)
+      : owned_(std::move(owned)),
+        problem_(problem),
         wrench_(wrench),
         make_(std::move(make)),
         check_(check),
@@ -63,10 +69,23 @@ class ObjectiveOfTrajectories final : public TrajectoryObjective {
   }
 
   std::unique_ptr<TrajectoryObjective> copy(TrajectoryValue counts) const override {
-    return make_trajectory_objective(problem_, wrench_, make_, check_, counts);
+    return std::make_unique<ObjectiveOfTrajectories>(problem_, wrench_, make_, check_, counts,
+                                                     owned_);
+  }
+
+  std::unique_ptr<TrajectoryObjective> coarser() const override {
+    const bool between = evaluator_.starts() || !problem_.motion || problem_.motion->transfer;
+    if (between || !evaluator_.smooth() || problem_.motion->k <= kCoarseKnots) return nullptr;
+    auto coarse = std::make_shared<Problem>(problem_);
+    coarse->motion->k = kCoarseKnots;
+    coarse->motion->instants_per_interval = kCoarseInstants;
+    const Problem& task = *coarse;
+    return std::make_unique<ObjectiveOfTrajectories>(
+        task, wrench_, make_, check_, TrajectoryValue::kAtInstants, std::move(coarse));
   }
 
  private:
+  std::shared_ptr<const Problem> owned_;  ///< the problem of a coarser objective; else null
   const Problem& problem_;
   Wrench wrench_;
   TrajectorySolverMaker make_;

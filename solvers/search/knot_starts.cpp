@@ -4,120 +4,29 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
-#include "lib/math/decompositions.h"
-#include "lib/math/random.h"
+#include "lib/math/cubic_spline.h"
+#include "solvers/search/knot_drawing.h"
 #include "solvers/search/slp_run.h"
 
 namespace maxwrench {
 namespace {
 
-constexpr long kSamples = 192;  // without the start; at most a tenth of the budget
-constexpr long kNearOf = 4;     // every fourth table is near the start
-constexpr double kNear = 0.5;   // [rad or m] distance of near tables, at most
-constexpr double kBump = 1.2;   // [rad or m] the largest wave that is added to a transfer
-constexpr int kWaves = 3;
-constexpr double kFar = 0.8;      // rad or m, between starts of the same round
-constexpr double kSame = 0.1;     // rad or m: closer starts belong to one family
-constexpr long kAlike = 48;       // largest number of local searches with all knots alike
+constexpr long kSamples = 192;      // without the start; at most a tenth of the budget
+constexpr long kNearOf = 4;         // every fourth table is near the start
+constexpr double kFar = 0.8;        // rad or m, between starts of the same round
+constexpr double kSame = 0.1;       // rad or m: closer starts belong to one family
+constexpr std::size_t kAlike = 48;  // largest number of local searches with all knots alike
 constexpr long kAlikeSteps = 30;  // evaluations of each; all together at most a fifth of the budget
+/// The same of the coarser objective, with the local searches after those with all knots alike.
+constexpr long kCoarseSamples = 384;
+constexpr std::size_t kCoarseAlike = 96, kCoarseFree = 24;
+constexpr long kCoarseAlikeSteps = 12, kCoarseFreeSteps = 24;
+constexpr long kLeastCoarse = 120;  // budget with which each of these stages has a start
 constexpr double kKickReach[] = {0.05, 0.15, 0.4, 0.8};  // rad or m
 constexpr double kHopeful = 0.8;  // families are at most (1 - this) (1 + |best|) below the best
-
-/// Draws tables around the start that satisfy the rows of the limits.
-class Drawing {
- public:
-  Drawing(const Objective& objective, const TrajectoryEvaluator& trajectories,
-          const Eigen::VectorXd& start)
-      : objective_(objective),
-        rows_(trajectories.rows()),
-        start_(start),
-        alike_(!trajectories.starts()),
-        knots_(trajectories.knots()),
-        between_(trajectories.starts() && trajectories.program().common) {
-    std::vector<Eigen::Index> equations;
-    for (Eigen::Index row = 0; row < rows_.r_min.size(); ++row) {
-      if (rows_.r_min[row] == rows_.r_max[row]) equations.push_back(row);
-    }
-    const Eigen::MatrixXd R = rows_.R;
-    equations_ = R(equations, Eigen::all);
-    if (!equations.empty()) inverse_ = pseudo_inverse(equations_);
-    const Eigen::Index moved = alike_ ? start.size() / trajectories.knots() : start.size();
-    const Eigen::Index times = start.size() / moved;
-    down_ = (objective.lower() - start).reshaped(moved, times).rowwise().maxCoeff();
-    up_ = (objective.upper() - start).reshaped(moved, times).rowwise().minCoeff();
-  }
-
-  Eigen::VectorXd draw(Random random, bool near) const {
-    if (between_) return bump(random, near ? kNear : kBump);
-    Eigen::VectorXd offset(down_.size());
-    for (Eigen::Index i = 0; i < offset.size(); ++i) {
-      offset[i] = near ? std::clamp(random.uniform(-kNear, kNear), down_[i], up_[i])
-                       : random.uniform(down_[i], up_[i]);
-    }
-    return moved(offset.replicate(start_.size() / offset.size(), 1));
-  }
-
-  /// Moves each number of the table by `reach` at most; with `alike`, each coordinate alike at all
-  /// knots.
-  Eigen::VectorXd kick(Random random, double reach, bool alike) const {
-    const Eigen::Index drawn = alike ? down_.size() : start_.size();
-    const Eigen::VectorXd offset =
-        Eigen::VectorXd::NullaryExpr(drawn, [&] { return random.uniform(-reach, reach); });
-    return moved(offset.replicate(start_.size() / drawn, 1)
-                     .cwiseMax(objective_.lower() - start_)
-                     .cwiseMin(objective_.upper() - start_));
-  }
-
- private:
-  /// Adds a smooth curve to each coordinate that vanishes at both ends of a transfer.
-  Eigen::VectorXd bump(Random& random, double reach) const {
-    const Eigen::Index r = start_.size() / knots_;
-    Eigen::MatrixXd offset = Eigen::MatrixXd::Zero(r, knots_);
-    for (int wave = 1; wave <= kWaves; ++wave) {
-      const Eigen::RowVectorXd shape = Eigen::RowVectorXd::NullaryExpr(knots_, [&](Eigen::Index i) {
-        return std::sin(wave * std::numbers::pi * static_cast<double>(i + 1) /
-                        static_cast<double>(knots_ + 1)) /
-               wave;
-      });
-      for (Eigen::Index j = 0; j < r; ++j) offset.row(j) += random.uniform(-reach, reach) * shape;
-    }
-    return moved(offset.reshaped()
-                     .cwiseMax(objective_.lower() - start_)
-                     .cwiseMin(objective_.upper() - start_));
-  }
-
-  Eigen::VectorXd moved(Eigen::VectorXd offset) const {
-    if (equations_.rows() > 0) offset -= inverse_ * (equations_ * offset);
-    return (start_ + share(offset) * offset)
-        .cwiseMax(objective_.lower())
-        .cwiseMin(objective_.upper());
-  }
-
-  /// The share of a step from the start that the rows permit.
-  double share(const Eigen::VectorXd& offset) const {
-    const Eigen::VectorXd at = rows_.R * start_, moved = rows_.R * offset;
-    double share = 1;
-    for (Eigen::Index row = 0; row < at.size(); ++row) {
-      if (std::abs(moved[row]) < 1e-12) continue;
-      const double room = moved[row] > 0 ? rows_.r_max[row] - at[row] : rows_.r_min[row] - at[row];
-      share = std::min(share, std::max(0.0, room / moved[row]));
-    }
-    return share;
-  }
-
-  const Objective& objective_;
-  const KnotRows& rows_;
-  const Eigen::VectorXd& start_;
-  bool alike_;  ///< whether the knots of a table move alike
-  Eigen::Index knots_;
-  bool between_;  ///< whether both ends are given: a transfer
-  Eigen::MatrixXd equations_, inverse_;
-  Eigen::VectorXd down_, up_;  ///< limits of the offset, for all knots if they move alike
-};
 
 double distance(const Candidate& a, const Candidate& b) {
   return (a.theta_r - b.theta_r).lpNorm<Eigen::Infinity>();
@@ -159,18 +68,30 @@ std::vector<Candidate> families(std::vector<Candidate> starts, double known) {
   return heads;
 }
 
-/// Evaluates `count` tables and returns those that have a value.
-std::vector<Candidate> with_value(const TrajectoryObjective& objective,
-                                  const SearchOptions& options, long count,
-                                  const std::function<Eigen::VectorXd(long)>& table, SearchRun& run,
-                                  Part& found) {
-  const bool guides = objective.counts() != TrajectoryValue::kAtInstants;
-  const auto at_instants = guides ? objective.copy(TrajectoryValue::kAtInstants) : nullptr;
+/// The values of `count` tables at the instants, -infinity for those that have none. `coarse`: the
+/// objective is not the function that the search maximises.
+std::vector<double> evaluate_tables(const TrajectoryObjective& objective,
+                                    const SearchOptions& options, long count,
+                                    const std::function<Eigen::VectorXd(long)>& table,
+                                    SearchRun& run, Part& found, bool coarse = false) {
+  const bool throughout = objective.counts() != TrajectoryValue::kAtInstants;
+  const bool guides = coarse || throughout;
+  const auto at_instants = throughout ? objective.copy(TrajectoryValue::kAtInstants) : nullptr;
   std::vector<double> values = evaluate_all(at_instants ? *at_instants : objective, count, table,
                                             options.threads, run, guides);
   Part seen;
   add(values, table, seen);
   join({guides ? Part{{}, Trace({}, seen.trace.evaluations())} : seen}, found);
+  return values;
+}
+
+/// Evaluates `count` tables and returns those that have a value.
+std::vector<Candidate> with_value(const TrajectoryObjective& objective,
+                                  const SearchOptions& options, long count,
+                                  const std::function<Eigen::VectorXd(long)>& table, SearchRun& run,
+                                  Part& found, bool coarse = false) {
+  const std::vector<double> values =
+      evaluate_tables(objective, options, count, table, run, found, coarse);
   std::vector<Candidate> valued;
   for (long i = 0; i < count; ++i) {
     const double value = values[static_cast<std::size_t>(i)];
@@ -179,34 +100,40 @@ std::vector<Candidate> with_value(const TrajectoryObjective& objective,
   return valued;
 }
 
-/// Evaluates the start and drawn tables and returns those that have a value.
+/// Evaluates the start and drawn tables, `most` in all, and returns those that have a value.
 std::vector<Candidate> sample(const TrajectoryObjective& objective, const SearchOptions& options,
-                              const Drawing& drawing, const Eigen::VectorXd& start, SearchRun& run,
-                              Part& found) {
+                              const KnotDrawing& drawing, const Eigen::VectorXd& start, long most,
+                              SearchRun& run, Part& found, bool coarse = false) {
   const auto table = [&](long i) {
     if (i == 0) return start;
     const auto stream = static_cast<std::uint64_t>(i);
     return drawing.draw(Random(options.seed, RandomUse::kSample, stream), i % kNearOf == 1);
   };
-  const long count = std::clamp(options.budget / 10, 1L, kSamples + 1);
-  return with_value(objective, options, count, table, run, found);
+  const long count = std::clamp(options.budget / 10, 1L, most);
+  return with_value(objective, options, count, table, run, found, coarse);
 }
 
-/// The results of local searches with all knots alike.
-std::vector<Candidate> optimise_alike(const TrajectoryObjective& objective,
-                                      const SearchOptions& options,
-                                      std::span<const Candidate> starts, SearchRun& run,
-                                      Part& found) {
-  const long count = std::min(static_cast<long>(starts.size()),
-                              std::min(kAlike, options.budget / 5 / kAlikeSteps));
+/// How local searches continue from starts.
+struct Descent {
+  bool alike;        ///< all knots take the same step
+  std::size_t most;  ///< number of local searches
+  long evaluations;  ///< of each; all together use at most a fifth of the budget
+  bool coarse;       ///< the objective is not the function that the search maximises
+};
+
+/// The results of local searches from the first of the starts.
+std::vector<Candidate> optimise(const TrajectoryObjective& objective, const SearchOptions& options,
+                                std::span<const Candidate> starts, const Descent& descent,
+                                SearchRun& run, Part& found) {
+  const auto share = static_cast<std::size_t>(options.budget / 5 / descent.evaluations);
   std::vector<std::unique_ptr<SlpRun>> slp_runs;
-  for (long i = 0; i < count; ++i) {
+  for (const Candidate& start : starts.first(std::min({starts.size(), descent.most, share}))) {
     slp_runs.push_back(
-        std::make_unique<SlpRun>(objective, starts[static_cast<std::size_t>(i)], run, true));
+        std::make_unique<SlpRun>(objective, start, run, descent.alike, descent.coarse));
   }
-  parallel_for(options.threads, count, [&](long i) {
+  parallel_for(options.threads, static_cast<long>(slp_runs.size()), [&](long i) {
     SlpRun& slp_run = *slp_runs[static_cast<std::size_t>(i)];
-    slp_run.optimise(kAlikeSteps);
+    slp_run.optimise(descent.evaluations);
     run.add(slp_run.found().trace.evaluations());
   });
   std::vector<Candidate> ends;
@@ -217,6 +144,23 @@ std::vector<Candidate> optimise_alike(const TrajectoryObjective& objective,
   }
   join(parts, found);
   return ends;
+}
+
+/// The clamped spline through a table of `knots` knots at another number of knots.
+Eigen::VectorXd resampled(const Eigen::VectorXd& x, Eigen::Index knots, Eigen::Index wanted) {
+  const Eigen::VectorXd at = Eigen::VectorXd::LinSpaced(knots, 0, 1);
+  const std::span<const double> times(at.data(), static_cast<std::size_t>(knots));
+  const Eigen::MatrixXd values = unstacked(x, knots).transpose();
+  const Eigen::MatrixXd bends = clamped_spline_bends(times, values);
+  Eigen::MatrixXd table(wanted, values.rows());
+  for (Eigen::Index i = 0; i < wanted; ++i) {
+    const SplineInstant instant =
+        spline_at(times, static_cast<double>(i) / static_cast<double>(wanted - 1));
+    Eigen::MatrixXd four(values.rows(), 4);
+    four << values.middleCols<2>(instant.interval), bends.middleCols<2>(instant.interval);
+    table.row(i) = (four * instant.weights.col(0)).transpose();
+  }
+  return stacked(table);
 }
 
 }  // namespace
@@ -239,14 +183,14 @@ std::vector<Candidate> draw_knot_starts(TrajectoryObjective& objective,
     return with_value(
         objective, options, 1, [&](long) { return start; }, run, found);
   }
-  const Drawing drawing(objective, objective.trajectories(), start);
-  return spread(sample(objective, options, drawing, start, run, found));
+  const KnotDrawing drawing(objective, objective.trajectories(), start);
+  return spread(sample(objective, options, drawing, start, kSamples + 1, run, found));
 }
 
 std::vector<Candidate> kick_knots(TrajectoryObjective& objective, const SearchOptions& options,
                                   const Candidate& best, long first, long count, SearchRun& run,
                                   Part& found) {
-  const Drawing drawing(objective, objective.trajectories(), best.theta_r);
+  const KnotDrawing drawing(objective, objective.trajectories(), best.theta_r);
   const auto table = [&](long i) {
     const auto number = static_cast<std::uint64_t>(first + i);
     return drawing.kick(Random(options.seed, RandomUse::kKick, number),
@@ -261,9 +205,58 @@ std::vector<Candidate> find_knot_starts(TrajectoryObjective& objective,
   if (starts.empty() || objective.dimension() == 0 || objective.trajectories().starts())
     return starts;
   std::vector<Candidate> ordered =
-      families(optimise_alike(objective, options, starts, run, found), starts.front().value);
+      families(optimise(objective, options, starts, {true, kAlike, kAlikeSteps, false}, run, found),
+               starts.front().value);
   ordered.insert(ordered.end(), starts.begin(), starts.end());
   return ordered;
+}
+
+std::vector<Candidate> find_coarse_starts(TrajectoryObjective& objective,
+                                          const SearchOptions& options, SearchRun& run,
+                                          Part& found) {
+  const auto coarse = objective.dimension() > 0 ? objective.coarser() : nullptr;
+  if (!coarse || options.budget < kLeastCoarse) return {};
+  const Eigen::Index knots = objective.trajectories().knots(), few = coarse->trajectories().knots();
+  const auto inside = [](const Objective& of, const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    return x.cwiseMax(of.lower()).cwiseMin(of.upper());
+  };
+  const Eigen::VectorXd start = Box(objective).start(options.start);
+  const Eigen::VectorXd coarse_start = inside(*coarse, resampled(start, knots, few));
+  const KnotDrawing drawing(*coarse, coarse->trajectories(), coarse_start);
+  const std::vector<Candidate> drawn =
+      spread(sample(*coarse, options, drawing, coarse_start, kCoarseSamples + 1, run, found, true));
+  if (drawn.empty()) return {};
+  const std::vector<Candidate> alike = families(
+      optimise(*coarse, options, drawn, {true, kCoarseAlike, kCoarseAlikeSteps, true}, run, found),
+      drawn.front().value);
+  const std::vector<Candidate> free =
+      optimise(*coarse, options, alike, {false, kCoarseFree, kCoarseFreeSteps, true}, run, found);
+  // The whole and the half step to each from where all knots are alike: the whole one may collide.
+  const std::vector<Candidate> best = families(free, -kInfinity);
+  std::vector<Eigen::VectorXd> tables;
+  for (const Candidate& end : best) {
+    const auto from =
+        std::find_if(free.begin(), free.end(),
+                     [&](const Candidate& other) { return other.theta_r == end.theta_r; }) -
+        free.begin();
+    const Eigen::VectorXd base =
+        inside(objective, resampled(alike[static_cast<std::size_t>(from)].theta_r, few, knots));
+    const Eigen::VectorXd step = resampled(end.theta_r, few, knots) - base;
+    const KnotDrawing steps(objective, objective.trajectories(), base);
+    tables.push_back(steps.moved(step));
+    tables.push_back(steps.moved(0.5 * step));
+  }
+  tables.push_back(start);
+  const auto table = [&](long i) { return tables[static_cast<std::size_t>(i)]; };
+  const std::vector<double> values =
+      evaluate_tables(objective, options, static_cast<long>(tables.size()), table, run, found);
+  std::vector<Candidate> starts;
+  for (std::size_t i = 0; i < tables.size(); i += 2) {
+    const bool half = i + 1 < tables.size() && values[i + 1] > values[i];
+    const std::size_t at = half ? i + 1 : i;
+    if (values[at] > -kInfinity) starts.push_back({tables[at], values[at]});
+  }
+  return starts;
 }
 
 }  // namespace maxwrench

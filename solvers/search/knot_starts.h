@@ -32,6 +32,16 @@ std::vector<Candidate> draw_knot_starts(TrajectoryObjective& objective,
 std::vector<Candidate> find_knot_starts(TrajectoryObjective& objective,
                                         const SearchOptions& options, SearchRun& run, Part& found);
 
+/// The starts of the local searches of `slp` where the task has a coarser objective. With that one,
+/// tables are drawn, then optimised with all knots moving alike, and the best of each family with
+/// knots of their own. The clamped splines through the results give tables of the task, shortened
+/// so far that they satisfy the rows of the limits. They come in the order of the coarse values;
+/// the search's start is the last one. Empty if there is no coarser objective, if the budget is too
+/// small, or if no table has a value.
+std::vector<Candidate> find_coarse_starts(TrajectoryObjective& objective,
+                                          const SearchOptions& options, SearchRun& run,
+                                          Part& found);
+
 /// Tables near a trajectory, numbers `first` to `first` + `count` - 1 of an endless series. The
 /// knots move alike or separately, those of an impulse always separately, by 0.05 to 0.8 [rad or m]
 /// at most, and satisfy the rows of the limits. Returns the tables that have a value: where a local

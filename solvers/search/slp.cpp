@@ -9,7 +9,8 @@
 namespace maxwrench {
 namespace {
 
-constexpr std::size_t kBatch = 8;  // local searches that compete
+constexpr std::size_t kBatch = 8;        // local searches that compete
+constexpr std::size_t kRankedBatch = 4;  // from starts that a coarser objective has ranked
 constexpr long kKicks = 24;  // tables near the best trajectory for a batch, of which many collide
 constexpr int kIdleBatches = 3;   // batches without a better trajectory before the search ends
 constexpr double kBetter = 1e-5;  // relative to 1 + |f|
@@ -74,7 +75,9 @@ class Slp : public Search {
     SearchRun run(options);
     SlpOutcome best;
     const auto left = [&] { return options.budget - best.found.trace.evaluations(); };
-    std::vector<Candidate> starts = find_knot_starts(objective, options, run, best.found);
+    std::vector<Candidate> starts = find_coarse_starts(objective, options, run, best.found);
+    const std::size_t batch = starts.empty() ? kBatch : kRankedBatch;
+    if (starts.empty()) starts = find_knot_starts(objective, options, run, best.found);
     if (!starts.empty() && left() >= SlpRun::kJudgement) {
       SlpRun slp_run(objective, *std::max_element(starts.begin(), starts.end(), is_less), run);
       best.trajectory = slp_run.best();
@@ -85,7 +88,7 @@ class Slp : public Search {
     if (objective.dimension() == 0) starts.clear();
     int idle = 0;  // batches
     while (idle < kIdleBatches && !starts.empty() && !run.ended()) {
-      const std::size_t size = std::min(kBatch, starts.size());
+      const std::size_t size = std::min(batch, starts.size());
       if (left() < (kJudged + kFewestOfLocalSearch) * static_cast<long>(size)) break;
       const SlpOutcome local_searches =
           compete(objective, std::span(starts).first(size), left(), options.threads, best, run);

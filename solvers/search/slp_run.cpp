@@ -24,13 +24,15 @@ constexpr double kConverged = 1e-9;      // predicted, relative to 1 + |f|
 
 }  // namespace
 
-SlpRun::SlpRun(const TrajectoryObjective& objective, Candidate start, SearchRun& run, bool alike)
+SlpRun::SlpRun(const TrajectoryObjective& objective, Candidate start, SearchRun& run, bool alike,
+               bool guides)
     : objective_(objective.copy(objective.counts())),
       trajectories_(objective_->trajectories()),
       run_(run),
       solver_(make_trajectory_ipm(kStepTolerance)),
       at_(std::move(start)),
       best_(at_),
+      guides_(guides || objective.counts() != TrajectoryValue::kAtInstants),
       radius_(kFirstRadius),
       reach_(trajectories_.rows().R.cwiseAbs() * Eigen::VectorXd::Ones(at_.theta_r.size())) {
   if (!alike) return;
@@ -110,7 +112,7 @@ double SlpRun::evaluate(const Eigen::VectorXd& x) {
   if (run_.ended()) return -kInfinity;
   double value = trajectories_.evaluate_elastic(unstacked(x, trajectories_.knots()), nullptr);
   if (std::isnan(value)) value = -kInfinity;
-  note(x, objective_->counts() == TrajectoryValue::kAtInstants ? value : -kInfinity);
+  note(x, guides_ ? -kInfinity : value);
   if (value > -kInfinity) coupled_ = trajectories_.coupled();
   if (value > best_.value) best_ = {x, value};
   return value;

@@ -25,8 +25,10 @@ class SlpRun {
  public:
   /// Takes a clone of the objective. `start` must have a value at its instants, which the local
   /// search maximises. `alike`: all knots take the same step, and the program has the coordinates
-  /// of one knot.
-  SlpRun(const TrajectoryObjective& objective, Candidate start, SearchRun& run, bool alike = false);
+  /// of one knot. `guides`: the objective is not the function that the search maximises, so none of
+  /// its values is reported.
+  SlpRun(const TrajectoryObjective& objective, Candidate start, SearchRun& run, bool alike = false,
+         bool guides = false);
 
   /// Continues until it has converged or has used this many evaluations. A linear program counts as
   /// one.
@@ -77,6 +79,7 @@ class SlpRun {
   std::unique_ptr<TrajectorySolver> solver_;
   bool coupled_ = true;  ///< at the last point with a value
   Candidate at_, best_;
+  bool guides_;  ///< the values at the instants are not those of the objective
   double radius_;
   Eigen::VectorXd reach_;  ///< of each row of the knots: sum of the magnitudes of its entries
   bool done_ = false;
