@@ -47,7 +47,9 @@ double bowl(const Eigen::VectorXd& x) {
 }
 
 std::vector<Landscape> landscapes() {
-  const auto constant = [](int d, double value) { return Eigen::VectorXd::Constant(d, value).eval(); };
+  const auto constant = [](int d, double value) {
+    return Eigen::VectorXd::Constant(d, value).eval();
+  };
   const Eigen::VectorXd one = constant(2, 1), two = constant(2, 2);
   const auto V = [](double a, double b) { return Eigen::VectorXd(Eigen::Vector2d(a, b)); };
   const double s = std::sqrt(0.5);

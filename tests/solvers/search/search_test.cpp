@@ -11,6 +11,7 @@
 #include "maxwrench/strategies.h"
 #include "solvers/search/makers.h"
 #include "tests/support/landscapes.h"
+#include "tests/support/support.h"
 
 namespace maxwrench {
 namespace {
@@ -57,7 +58,7 @@ void expect_equal(const SearchResult& one, const SearchResult& other) {
 }
 
 TEST_P(CompositionTest, FindsKnownMaxima) {
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+  for (std::uint64_t seed = 1; seed <= samples(5); ++seed) {
     for (Landscape& example : landscapes()) {
       SCOPED_TRACE(example.name + std::string(", seed ") + std::to_string(seed));
       SearchOptions options;
@@ -79,7 +80,7 @@ TEST_P(CompositionTest, NeedsLittleForAThousandth) {
     // With so little a few seeds in a hundred settle on the second of many peaks.
     const std::uint64_t allowed = example.name == std::string("starts_wanted") ? 2 : 0;
     std::uint64_t missed = 0;
-    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    for (std::uint64_t seed = 1; seed <= samples(20); ++seed) {
       SearchOptions options;
       options.seed = seed;
       options.budget = 3000;
@@ -143,9 +144,10 @@ TEST_P(SearchTest, ThreadsChangeNothing) {
   for (Landscape& example : landscapes()) {
     SCOPED_TRACE(example.name);
     SearchOptions options;
-    options.budget = 800;
+    options.budget = kSanitized ? 200 : 800;
     const SearchResult one = maximize(example.objective, options);
     for (const int threads : {1, 2, 8}) {
+      if (kSanitized && threads != 2) continue;
       options.threads = threads;
       expect_equal(one, maximize(example.objective, options));
     }
@@ -154,7 +156,7 @@ TEST_P(SearchTest, ThreadsChangeNothing) {
 
 TEST_P(SearchTest, KeepsTheBudgetAndCountsExactly) {
   for (Landscape& example : landscapes()) {
-    for (const long budget : {1, 2, 3, 7, 50, 1000}) {
+    for (const long budget : {1, 2, 3, 7, 50, kSanitized ? 300 : 1000}) {
       SCOPED_TRACE(example.name + std::string(", budget ") + std::to_string(budget));
       SearchOptions options;
       options.budget = budget;
@@ -222,7 +224,7 @@ TEST_P(SearchTest, KeepsTheHistoryOfItsImprovements) {
   for (Landscape& example : landscapes()) {
     SCOPED_TRACE(example.name);
     SearchOptions options;
-    options.budget = 1500;
+    options.budget = kSanitized ? 300 : 1500;
     const SearchResult result = maximize(example.objective, options);
     if (result.status != Status::kBestFound) continue;  // a local search in a bad place
     ASSERT_FALSE(result.history.empty());
