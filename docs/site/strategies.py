@@ -1,5 +1,6 @@
 """The pages of measures, solvers and searches: whether each name of the tables has one, their figures and their measured results."""
 
+import functools
 import hashlib
 import multiprocessing
 import pathlib
@@ -13,6 +14,7 @@ COMMAND = ROOT / "build/maxwrench"
 FAMILIES = {"measures": measures, "solvers": solvers, "searches": searches}
 
 
+@functools.cache
 def tables():
     """The line about each name, by family, as `list` prints them."""
     found, family = {name: {} for name in FAMILIES}, None

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "lib/math/random.h"
+#include "tests/support/support.h"
 
 namespace maxwrench {
 namespace {
@@ -154,7 +155,7 @@ TEST(DepthOrder, ARingIsOpened) {
 /// Any triangles, most of which pierce others, compared with the depth at each place.
 TEST(DepthOrder, TheNearestIsOnTopEverywhere) {
   Random random(7);
-  for (int round = 0; round < 10; ++round) {
+  for (int round = 0; round < samples(10); ++round) {
     std::vector<Face> faces;
     for (Rgb i = 1; i <= 40; ++i) {
       Face face{{}, i};

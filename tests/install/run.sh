@@ -141,7 +141,7 @@ bare/parent > bare.out 2> "$log" || fail "a build without libraries fails"
 holds bare.out "facets grid best_found" "simplex annealing best_found" "no clp" "no multistart"
 ! grep -q "^clp\|infeasible\|none_found" bare.out || fail "a build without libraries has no answers"
 
-# Installed, it serves a program with -march=native whose other files know nothing of us.
+# Installed, it links with a program built with -march=native whose other files know nothing of us.
 quietly cmake --install bare --prefix "$work/bare_prefix"
 quietly cmake -S native -B native/build -D CMAKE_CXX_COMPILER="$compiler" -D CMAKE_PREFIX_PATH="$work/bare_prefix" -D CMAKE_CXX_FLAGS=-O0
 quietly cmake --build native/build

@@ -7,7 +7,7 @@
 
 namespace maxwrench {
 
-/// A list of scenarios of each form that proofs serve.
+/// A list of scenarios of each form that proofs support.
 struct ListForm {
   const char* name;
   std::string wrench, tables;

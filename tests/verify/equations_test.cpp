@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/loops.h"
+#include "tests/support/support.h"
 #include "verify/model.h"
 
 namespace maxwrench {
@@ -123,7 +126,7 @@ TEST_P(EquationsOf, ExcludeNoPosture) {
   EquationsOverBox points(equations);
   Random random(3);
   int seen = 0;
-  for (int sample = 0; sample < 100; ++sample) {
+  for (int sample = 0; sample < 100 && seen < std::max(6, samples(100)); ++sample) {
     const ValuedPosture* const at = source.draw(random);
     if (at == nullptr) continue;
     ++seen;

@@ -6,6 +6,7 @@
 #include "maxwrench/solve.h"
 #include "tests/support/coded_tasks.h"
 #include "tests/support/list_tasks.h"
+#include "tests/support/support.h"
 #include "tests/support/written_proof.h"
 #include "verify/certificate.h"
 #include "verify/verify.h"
@@ -206,7 +207,7 @@ TEST(ListProof, RejectsOtherLists) {
         {"corners", lighter},
         {"corners", stronger},
         {"ball", smaller}}) {
-    WrittenProof at = written_list(form, 3e-2);
+    WrittenProof at = written_list(form, kSanitized ? 1e-1 : 3e-2);
     ASSERT_EQ(at.rejection(at.proof), "") << form;
     change(at.problem);
     EXPECT_NE(at.rejection(at.proof).find("another robot or task"), std::string::npos) << form;

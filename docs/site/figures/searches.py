@@ -1,5 +1,7 @@
 """A figure for each search: which postures of planar/force it evaluates, and how it approaches the best value of uvms/valve."""
 
+import functools
+
 import numpy as np
 
 import maxwrench as mw
@@ -42,6 +44,7 @@ def visited(search, budget=1000):
     return np.array(recorded.postures)
 
 
+@functools.cache  # `sample` stands in each figure
 def values_found(search):
     """The value with which each run ends: seeds × budgets."""
     runs = [[mw.solve("uvms/valve", search=search, seed=seed, budget=budget, threads=1, callback=False).beta for budget in BUDGETS]

@@ -14,8 +14,8 @@
 namespace maxwrench {
 namespace {
 
-/// Of all searches that serve: every evaluation passes the clock, of values or of something else,
-/// so that what was spent when a value rose is counted as the budget is.
+/// Of all searches that support the task: every evaluation passes the clock, of values or of
+/// something else, so that what was spent when a value rose is counted as the budget is.
 TEST(Comparison, ClockCountsWhatTheSearchCounts) {
   const Problem problem = load_problem("planar/force");
   for (const auto& table : {searches(), trajectory_searches(), facet_searches()}) {
@@ -51,7 +51,7 @@ TEST(Comparison, ValuesWithSlackAreNone) {
 
 /// Of a static task by linf_polytope those of trajectories and between facets too; then the plain
 /// way through each peer that is built in.
-TEST(Comparison, RacesTheSearchesThatServe) {
+TEST(Comparison, RacesTheSearchesThatSupportTheTask) {
   const Problem problem = load_problem("planar/force");
   const auto postures = static_cast<long>(searches().size()) + 1;  // and the default
   const auto trajectories = static_cast<long>(trajectory_searches().size());

@@ -67,8 +67,8 @@ TEST(Compare, WritesTheSameValuesAgain) {
   }
 }
 
-/// Searches that serve both problems stand before those that serve one; each line has as many cells
-/// as the head.
+/// Searches that support both problems stand before those that support one; each line has as many
+/// cells as the head.
 TEST(Compare, SumsUpOverAllProblems) {
   const TemporaryFolder folder;
   const CommandResult result =

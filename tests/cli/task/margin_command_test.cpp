@@ -48,7 +48,7 @@ TEST(MarginCommand, SetsAndInstantsAreNested) {
 
 /// The trajectory of the task itself, with the torque of the task: its value is the least of the
 /// instants, as the rates of its efforts do not bind.
-TEST(MarginCommand, ServesOurOwnTrajectories) {
+TEST(MarginCommand, AcceptsOurOwnTrajectories) {
   const std::string table = "results/trajectories/uvms_valve_trajectory_spline.csv";
   const json margin = json::parse(
       run_maxwrench("margin uvms/valve_trajectory --task-wrench --json --theta-r " + table).out);

@@ -134,7 +134,7 @@ TEST(TankMotion, ASplineImpulseReadsItsPeak) {
 }
 
 /// Its four steps hide a motion that no efforts make: the cell reads about as much without one.
-TEST(TankMotion, ABackwardImpulseDoesNotReachItsPeak) {
+TEST(TankMotion, SLOW_ABackwardImpulseDoesNotReachItsPeak) {
   Problem problem = load_problem("uvms/valve_impulse");
   problem.motion->scheme = Scheme::kBackward;
   const MatrixXd knots =
@@ -153,7 +153,7 @@ TEST(TankMotion, ABackwardImpulseDoesNotReachItsPeak) {
 }
 
 /// One knot: the robot rests, so it reads what it does in the static experiment.
-TEST(TankMotion, OneKnotIsTheStaticTank) {
+TEST(TankMotion, SLOW_OneKnotIsTheStaticTank) {
   Problem problem = turn_of(Scheme::kEnds);
   problem.motion->k = 1;
   const TankScript script = script_of(problem, constant_knots(problem, kStill));
@@ -173,7 +173,7 @@ TEST(TankMotion, OneKnotIsTheStaticTank) {
 }
 
 /// Gravity and water look alike from all sides: a task turned about the vertical reads the same.
-TEST(TankMotion, ATaskTurnedAboutTheVerticalReadsTheSame) {
+TEST(TankMotion, SLOW_ATaskTurnedAboutTheVerticalReadsTheSame) {
   const Problem problem = turn_of(Scheme::kSpline);
   Problem turned = problem;
   turned.pose.R = Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()).toRotationMatrix();

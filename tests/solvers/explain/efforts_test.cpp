@@ -100,7 +100,7 @@ TEST(LeastEfforts, OfAShareThatNoEffortsHoldSaySo) {
 }
 
 /// Weights exist for a motor that only pushes, and for one without limits.
-TEST(LeastEfforts, ServeMotorsOfOneDirectionAndWithoutLimits) {
+TEST(LeastEfforts, SupportMotorsOfOneDirectionAndWithoutLimits) {
   Problem task = make_problem(cartesian_push(Vector6d::Unit(1)));
   task = with_limit(with_limit(task, 0, LimitSide::kUpper, kInfinity), 0, LimitSide::kLower,
                     -kInfinity);

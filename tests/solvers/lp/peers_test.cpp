@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <thread>
 
@@ -10,6 +11,7 @@
 #include "solvers/lp/makers.h"
 #include "tests/support/netlib.h"
 #include "tests/support/programs.h"
+#include "tests/support/support.h"
 
 namespace maxwrench {
 namespace {
@@ -140,7 +142,7 @@ TEST_P(EveryLpSolver, SolvesInManyThreadsAtOnce) {
   std::vector<LinearProgram> programs;
   std::vector<double> expected;
   Random random(2);
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < std::max(5, samples(20)); ++i) {
     programs.push_back(random_program(random, 5, 10));
     LpSolution solution;
     GetParam().make()->solve(programs.back(), solution);

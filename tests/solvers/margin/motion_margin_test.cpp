@@ -271,7 +271,7 @@ TEST(InstantScan, AllocatesNothing) {
   }
 }
 
-TEST(MotionMargin, RejectsWhatItCannotServe) {
+TEST(MotionMargin, RejectsWhatItDoesNotSupport) {
   const Problem problem = load_problem("uvms/valve");
   Random random(1);
   const Instant instant = random_instant(problem, random, 0.1);

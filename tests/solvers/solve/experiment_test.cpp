@@ -65,7 +65,7 @@ TEST(Experiment, ALostPostureHasNoReading) {
   EXPECT_EQ(row.reason.str(), "the posture was lost before the end");
 }
 
-TEST(Experiment, RejectsWhatDoesNotServe) {
+TEST(Experiment, RejectsWhatIsNotSupported) {
   const Problem wall = load_problem("dual_arm/bar_wall"), valve = load_problem("uvms/valve");
   EXPECT_TRUE(supported_integrators(wall, "linf_polytope").empty());
   EXPECT_TRUE(supported_integrators(valve, "ellipsoid").empty());

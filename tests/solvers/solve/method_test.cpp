@@ -84,7 +84,7 @@ TEST(Method, ProductCrossesEverySearchAndEverySolverWithoutCrossingBoth) {
 }
 
 /// As trajectories of one knot, by the solver of the same name if there is one.
-TEST(Method, SearchesOfTrajectoriesServeStaticTasksByLinfPolytope) {
+TEST(Method, SearchesOfTrajectoriesSupportStaticTasksByLinfPolytope) {
   const Problem problem = load_problem("planar/force");
   const auto solver = [&](const char* measure, Wrench wrench, const char* lp, const char* search) {
     const TrajectorySolverEntry* entry =
@@ -111,7 +111,7 @@ TEST(Method, SearchesOfTrajectoriesServeStaticTasksByLinfPolytope) {
                std::invalid_argument);
 }
 
-TEST(Method, SearchesBetweenFacetsServeLinfPolytopeWithFewFacets) {
+TEST(Method, SearchesBetweenFacetsSupportLinfPolytopeWithFewFacets) {
   for (const char* name : {"planar/force", "planar/two_arms", "mobile/push"}) {
     const Problem problem = load_problem(name);
     EXPECT_TRUE(supported_between_facets(problem, "linf_polytope", Wrench::kPure)) << name;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -93,7 +94,7 @@ TEST(TrajectoryAgreement, OtherRobots) {
     const auto ipm = make_trajectory_ipm();
     const auto peer = find_trajectory_solver("simplex").make();
     TrajectoryTally tally;
-    for (int sample = 0; sample < 20; ++sample) {
+    for (int sample = 0; sample < std::max(4, samples(20)); ++sample) {
       TrajectoryProgram program = any_trajectory(problem, random);
       if (program.size() > 4) continue;
       TrajectorySolution reference;

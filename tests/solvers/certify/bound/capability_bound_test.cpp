@@ -120,7 +120,7 @@ std::string rejection(const std::string& name, const char* measure, Wrench wrenc
   return "";
 }
 
-TEST(CapabilityBound, RejectsWhatItDoesNotServe) {
+TEST(CapabilityBound, RejectsWhatItDoesNotSupport) {
   const auto rejected = [](const std::string& name, const char* measure, Wrench wrench,
                            const char* word) {
     const std::string text = rejection(name, measure, wrench);
