@@ -22,8 +22,7 @@ set(maxwrench_solvers_sources
   search/joint_program.cpp search/knot_starts.cpp search/local_search.cpp search/probe.cpp search/restart.cpp search/sample.cpp
   search/factor_program.cpp search/slp.cpp search/slp_outcome.cpp search/slp_run.cpp search/starts.cpp search/trace.cpp
   solve/active_limits.cpp solve/answer_json.cpp solve/evaluate_each.cpp solve/experiment.cpp solve/format.cpp solve/json_line.cpp solve/method.cpp
-  solve/row.cpp solve/scenario_ends.cpp solve/scenario_sample.cpp solve/scenario_values.cpp solve/sensitivity.cpp solve/solve.cpp solve/summary.cpp solve/tank.cpp
-  solve/too_weak.cpp solve/why_none.cpp
+  solve/row.cpp solve/scenario_ends.cpp solve/scenario_sample.cpp solve/sensitivity.cpp solve/solve.cpp solve/summary.cpp solve/tank.cpp solve/why_none.cpp
   added_strategies.cpp strategies.cpp
   trajectory/assembled.cpp trajectory/bordered_facets.cpp trajectory/by_facets.cpp trajectory/embedding.cpp
   trajectory/common_factor.cpp trajectory/embedding_passes.cpp trajectory/even_efforts.cpp trajectory/facets_or_ipm.cpp trajectory/forms.cpp
@@ -33,7 +32,8 @@ set(maxwrench_solvers_sources
   wrench/tableau/verdict.cpp
   wrench_set/boundary.cpp wrench_set/directions.cpp wrench_set/ellipsoid.cpp wrench_set/frame.cpp wrench_set/polytope.cpp
   wrench_set/support.cpp
-  margin/instant_scan.cpp margin/margin_text.cpp margin/motion_margin.cpp)
+  margin/instant_scan.cpp margin/margin_text.cpp margin/motion_margin.cpp
+  solve/scenario_values.cpp solve/too_weak.cpp)
 if(MAXWRENCH_WITH_SUNDIALS)
   list(APPEND maxwrench_solvers_sources
     integrator/arkode.cpp integrator/cvode.cpp integrator/ida.cpp integrator/sundials.cpp

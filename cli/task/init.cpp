@@ -180,10 +180,10 @@ std::string robot_text(const InitOptions& options, const Robot& robot, const fs:
   if (options.source.srdf) {
     text += fmt::format("srdf = {}\n", seen_from(folder, *options.source.srdf));
   }
-  text += "# The group of the SRDF whose joints move; the others are locked, at a named posture.\n";
-  text += options.source.group ? fmt::format("group = {}\n", quoted(*options.source.group))
-                               : "#group = \"NAME\"\n";
-  text += "#group_rest = \"NAME\"\n";
+  text +=
+      "# The group of the SRDF whose joints move, and the named posture in which the others are\n"
+      "# locked: group = \"NAME\", group_rest = \"POSTURE\"\n";
+  if (options.source.group) text += fmt::format("group = {}\n", quoted(*options.source.group));
   text += "# Folders, relative to this file, in which package:// is searched first.\n";
   std::vector<std::string> packages;
   for (const std::string& package : options.source.packages) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
@@ -36,22 +37,22 @@ class Members {
 
   const std::set<std::string>& joints() const { return members_; }
 
-  /// The links of the group that carry no other link of it, in the order of the group.
+  /// The links of the group that carry no other link of it, in the order of the group: those that
+  /// its joints move, or all of them if it moves none.
   std::vector<std::string> tips() const {
     std::set<std::string> carriers;
     for (const std::string& link : ends_) {
-      for (const UrdfElement* joint = joint_to(link); joint;) {
-        const std::string parent = end_of(*joint, "parent");
-        carriers.insert(parent);
-        joint = joint_to(parent);
-      }
+      const std::vector<std::string> path = path_to(link);
+      carriers.insert(path.begin() + 1, path.end());
     }
-    std::vector<std::string> tips;
+    std::vector<std::string> tips, moved;
     std::set<std::string> seen;
     for (const std::string& link : ends_) {
-      if (!carriers.contains(link) && seen.insert(link).second) tips.push_back(link);
+      if (carriers.contains(link) || !seen.insert(link).second) continue;
+      tips.push_back(link);
+      if (is_moved(link)) moved.push_back(link);
     }
-    return tips;
+    return moved.empty() ? tips : moved;
   }
 
  private:
@@ -65,17 +66,34 @@ class Members {
     reject(group_, fmt::format("a group of links of the URDF, which has no '{}'", name));
   }
 
+  /// The links from this one to the root.
+  std::vector<std::string> path_to(const std::string& link) const {
+    std::vector<std::string> path = {link};
+    while (const UrdfElement* joint = joint_to(path.back())) {
+      path.push_back(end_of(*joint, "parent"));
+    }
+    return path;
+  }
+
+  bool is_moved(const std::string& link) const {
+    const std::vector<std::string> path = path_to(link);
+    return std::any_of(path.begin(), path.end(), [this](const std::string& at) {
+      const UrdfElement* joint = joint_to(at);
+      return joint && !has_type(*joint, "fixed") && members_.contains(name_of(*joint));
+    });
+  }
+
+  /// The joints between two links, which may lead through a link that carries both.
   void add_chain(const std::string& base, const std::string& tip) {
     require_link(base);
     require_link(tip);
-    std::string at = tip;
-    while (at != base) {
-      const UrdfElement* joint = joint_to(at);
-      if (!joint) {
-        reject(group_, fmt::format("a chain whose tip '{}' stands on its base '{}'", tip, base));
-      }
-      members_.insert(name_of(*joint));
-      at = end_of(*joint, "parent");
+    std::vector<std::string> from = path_to(base), to = path_to(tip);
+    while (!from.empty() && !to.empty() && from.back() == to.back()) {
+      from.pop_back();
+      to.pop_back();
+    }
+    for (const auto* links : {&from, &to}) {
+      for (const std::string& link : *links) members_.insert(name_of(*joint_to(link)));
     }
     ends_.push_back(tip);
   }

@@ -10,16 +10,16 @@ namespace maxwrench {
 
 /// Locks the joints outside of `choices.group`.
 ///
-/// The joints of a chain are those from its base link to its tip link, that of a link is the one
-/// that leads to it. Joints that mimic others are not locked: they follow their leader. Each other
-/// joint outside stays where `choices.joints` locks it, else where `rest` or `state` of the group
-/// has it, else at zero or at its limit nearest to zero.
+/// The joints of a chain are those between its base link and its tip link, that of a link is the
+/// one that leads to it. Joints that mimic others are not locked: they follow their leader. Each
+/// other joint outside stays where `choices.joints` locks it, else where `rest` or `state` of the
+/// group has it, else at zero or at its limit nearest to zero.
 ///
 /// Adds a line to `notes` that says which joints move and where the others stay.
 ///
 /// @return the tips: the links of the group that carry no other link of it. A chain has one
-/// @throws BadValue of `group` if a link is not in the URDF, a chain's tip is not on its base or no
-///         joint moves, or of `rest` if it names no joint outside
+/// @throws BadValue of `group` if a link is not in the URDF or no joint moves, or of `rest` if it
+/// names no joint outside
 std::vector<std::string> lock_outside_of_group(const UrdfStructure& structure, UrdfChoices& choices,
                                                std::vector<std::string>& notes);
 

@@ -232,7 +232,7 @@ class Answer:
     def figure(self) -> str: ...
 
 class Limit:
-    to_dict: Callable[[], dict[str, Any]]
+    def to_dict(self) -> dict[str, Any]: ...
     @property
     def name(self) -> str: ...
     @property
@@ -285,7 +285,7 @@ class Explanation:
 
 class Evaluations:
     _repr_html_: Callable[..., Any]
-    to_dict: Callable[[], dict[str, Any]]
+    def to_dict(self) -> dict[str, Any]: ...
     @property
     def beta(self) -> _Array: ...
     @property
@@ -310,7 +310,7 @@ class Evaluations:
 
 class Capability:
     _repr_html_: Callable[..., Any]
-    to_dict: Callable[[], dict[str, Any]]
+    def to_dict(self) -> dict[str, Any]: ...
     @property
     def beta(self) -> Any: ...
     @property
@@ -326,7 +326,7 @@ class Capability:
 
 class LpAnswer:
     _repr_html_: Callable[..., Any]
-    to_dict: Callable[[], dict[str, Any]]
+    def to_dict(self) -> dict[str, Any]: ...
     @property
     def status(self) -> str: ...
     @property
@@ -345,7 +345,7 @@ class LpAnswer:
     def residual(self) -> dict[str, float]: ...
 
 class Experiment:
-    to_dict: Callable[[], dict[str, Any]]
+    def to_dict(self) -> dict[str, Any]: ...
     @property
     def task(self) -> Task: ...
     @property
@@ -377,7 +377,7 @@ class Experiment:
     def csv(self) -> str: ...
 
 class Loss:
-    to_dict: Callable[[], dict[str, Any]]
+    def to_dict(self) -> dict[str, Any]: ...
     @property
     def name(self) -> str: ...
     @property
@@ -525,7 +525,7 @@ class Proof:
     def save(self, path: _Path) -> None: ...
 
 class TrajectoryProof:
-    to_dict: Callable[[], dict[str, Any]]
+    def to_dict(self) -> dict[str, Any]: ...
     @property
     def status(self) -> str: ...
     @property
@@ -545,7 +545,7 @@ class TrajectoryProof:
     def save(self, path: _Path) -> None: ...
 
 class VerifiedTrajectory:
-    to_dict: Callable[[], dict[str, Any]]
+    def to_dict(self) -> dict[str, Any]: ...
     @property
     def verified(self) -> bool: ...
     @property
@@ -565,7 +565,7 @@ class VerifiedTrajectory:
     def __bool__(self) -> bool: ...
 
 class VerifiedProof:
-    to_dict: Callable[[], dict[str, Any]]
+    def to_dict(self) -> dict[str, Any]: ...
     @property
     def verified(self) -> bool: ...
     @property
@@ -588,7 +588,7 @@ class VerifiedProof:
 
 class Polytope:
     _repr_html_: Callable[..., Any]
-    to_dict: Callable[[], dict[str, Any]]
+    def to_dict(self) -> dict[str, Any]: ...
     @property
     def status(self) -> str: ...
     @property
@@ -618,7 +618,7 @@ class Polytope:
 
 class Ellipsoid:
     _repr_html_: Callable[..., Any]
-    to_dict: Callable[[], dict[str, Any]]
+    def to_dict(self) -> dict[str, Any]: ...
     @property
     def status(self) -> str: ...
     @property

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 
-def dict_of(result):
+def dict_of(self):
     """Returns what a result says, by the names of its attributes: numbers, texts, lists and dicts.
 
     Arrays become lists, numbers that are not finite None, a Task its name.
@@ -13,9 +13,9 @@ def dict_of(result):
     >>> maxwrench.linprog([1, 2], [[1, 1]], [1]).to_dict()["objective"]
     2.0
     """
-    kind = type(result)
+    kind = type(self)
     names = [name for name in dir(kind) if isinstance(getattr(kind, name), property)]
-    return {name: plain(getattr(result, name)) for name in names}
+    return {name: plain(getattr(self, name)) for name in names}
 
 
 def plain(value):

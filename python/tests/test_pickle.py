@@ -141,7 +141,7 @@ def results():
         "linprog": mw.linprog([1, 2], [[1, 1]], [1]),
         "infeasible": mw.linprog([1], [[1]], [-1]),
         "capability": mw.capability(np.full((3, 6, 2), 0.5), np.zeros((3, 2)), [-2, -2], [2, 2], "x"),
-        "one capability": mw.capability(np.full((6, 1), 0.5), [9.0], [-2.0], [2.0], "x"),
+        "one capability": mw.capability(np.zeros((6, 1)), [9.0], [-2.0], [2.0], "x"),
         "scale": mw.scale([[1, 1]], [-1, -1], [1, 1], [0], [4]),
         "limit": mw.evaluate(force, [0, 0]).explain().limits[0],
         "experiment": mw.simulate(mw.evaluate(force, [0, 0]), ramp=0.5, hold=0.5),

@@ -1,6 +1,8 @@
+#include "solvers/solve/scenario_values.h"
+
+#include <limits>
 #include <stdexcept>
 
-#include "maxwrench/sensitivity.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_solver.h"
 
@@ -9,12 +11,14 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// The optimum of one program. A wrench that is held has none: it is infinite if efforts balance it.
+/// The optimum of one program. A wrench that is held, and the start of an impulse, have none: it is
+/// infinite if efforts balance them.
 double value_of(const WrenchProgram& program, WrenchSolver& solver, Capability& result) {
   solver.solve(program, false, result);
   if (result.status == Status::kUnbounded) return kInfinity;
   if (result.status != Status::kOptimal) return kNone;
-  return program.c_w.isZero(0) ? kInfinity : result.beta;
+  const bool fixed = (program.w_min.array() == program.w_max.array()).all();
+  return fixed || program.c_w.isZero(0) ? kInfinity : result.beta;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "maxwrench/sensitivity.h"
 #include "solvers/solve/format.h"
+#include "solvers/solve/scenario_values.h"
 #include "view/scene/parts.h"
 
 namespace maxwrench {
@@ -52,21 +53,18 @@ ordered_json over_time(const Answer& answer) {
 ordered_json scenarios_in_time_json(const Answer& answer) {
   const ScenarioList& list = answer.task->scenarios;
   const Trajectory& trajectory = answer.trajectory;
-  if (list.empty() || trajectory.status == Status::kInvalidPosture ||
-      answer.program.size() == 0) {
+  if (list.empty() || trajectory.status == Status::kInvalidPosture || answer.program.size() == 0) {
     return nullptr;
   }
   const bool decided = answer.has_value() && trajectory.decides_at >= 0;
   const auto limits = static_cast<std::size_t>(decided ? trajectory.decides.limits : 0);
   const auto at = static_cast<std::size_t>(std::max(trajectory.decides_at, 0));
-  ordered_json object = {
-      {"decides", known(decided, describe(list, trajectory.decides))},
-      {"decides_at", known(decided, trajectory.instants.at(at).t)},
-      {"u_min", array(list.limits[limits].actuation.u_min)},
-      {"u_max", array(list.limits[limits].actuation.u_max)},
-      {"count", list.count()}};
-  const bool listed =
-      list.count() <= kMostScenariosInTime && answer.program.size() <= kMostNumbers;
+  ordered_json object = {{"decides", known(decided, describe(list, trajectory.decides))},
+                         {"decides_at", known(decided, trajectory.instants.at(at).t)},
+                         {"u_min", array(list.limits[limits].actuation.u_min)},
+                         {"u_max", array(list.limits[limits].actuation.u_max)},
+                         {"count", list.count()}};
+  const bool listed = list.count() <= kMostScenariosInTime && answer.program.size() <= kMostNumbers;
   object.update(listed ? over_time(answer) : ordered_json({{"t", nullptr}, {"ends", nullptr}}));
   return object;
 }

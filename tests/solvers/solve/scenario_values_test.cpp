@@ -1,3 +1,5 @@
+#include "solvers/solve/scenario_values.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -18,8 +20,8 @@ constexpr const char* kDeadThruster =
 
 Answer at_default(const Problem& task) { return evaluate(task, task.theta_r_default); }
 
-/// Without limits of effort rates the instants are independent: the value of a scenario alone is the
-/// least of its numbers, and that of the list the least of all.
+/// Without limits of effort rates the instants are independent: the value of a scenario alone is
+/// the least of its numbers, and that of the list the least of all.
 TEST(ScenarioValues, WithoutRatesTheLeastIsTheValue) {
   Problem task = load_problem(kDeadThruster);
   task.motion->rates = false;
