@@ -16,8 +16,8 @@
 namespace maxwrench {
 namespace {
 
-constexpr int kSampled = 400;     // values of theta_r, at most
-constexpr int kSolutions = 100;   // IK solutions that tell
+constexpr int kSampled = 400;    // values of theta_r, at most
+constexpr int kSolutions = 100;  // IK solutions that tell
 constexpr double kFarTooWeak = 1.0 / 3;
 
 /// How much of its load a posture bears.
@@ -106,8 +106,9 @@ TooWeak find_too_weak(const Problem& task, const Method& method) {
   if (solutions < kSolutions) return result;
   result.ik_solutions = tally.sum();
   result.why = fmt::format(
-      "in {} sampled postures the efforts bear at most {:.2g} % of the robot's own load{}", solutions,
-      100 * most, weakest < 0 ? "" : fmt::format("; too weak is {}", actuator_name(task.robot, weakest)));
+      "in {} sampled postures the efforts bear at most {:.2g} % of the robot's own load{}",
+      solutions, 100 * most,
+      weakest < 0 ? "" : fmt::format("; too weak is {}", actuator_name(task.robot, weakest)));
   return result;
 }
 
