@@ -25,10 +25,12 @@ Problem weakened(const std::string& name, double share) {
   return task;
 }
 
-TooWeak too_weak(const Problem& task) { return find_too_weak(task, resolve(task, with_search(task, {}))); }
+TooWeak too_weak(const Problem& task) {
+  return find_too_weak(task, resolve(task, with_search(task, {})));
+}
 
-/// Whether a posture of a robot with one motor for each joint bears the share s of its load with some
-/// wrench x c: |s tau_d,i + x a_i| <= e_i with a = J'c is an interval of x for each joint.
+/// Whether a posture of a robot with one motor for each joint bears the share s of its load with
+/// some wrench x c: |s tau_d,i + x a_i| <= e_i with a = J'c is an interval of x for each joint.
 bool bears(const Problem& task, const Posture& posture, double s) {
   const Eigen::VectorXd a = posture.J.transpose() * task.c;
   double low = -kInfinity, high = kInfinity;
