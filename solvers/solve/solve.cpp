@@ -247,10 +247,20 @@ Answer evaluate_posture(const Problem& task, const Eigen::VectorXd& q, const Opt
 
 namespace {
 
-/// The answer for a robot that is far too weak for its own load, if no search and no budget is
-/// asked for; nothing: it may not be.
+/// Whether a case has the search and the budget that `solve` uses if it names none.
+bool has_usual_search(const Problem& task, const Case& c) {
+  Case usual = c;
+  usual.search.clear();
+  usual.budget = 0;
+  usual = with_search(task, usual);
+  const Case given = with_search(task, c);
+  return given.search == usual.search && given.budget == usual.budget;
+}
+
+/// The answer for a robot that is far too weak for its own load, if no other search and no other
+/// budget is asked for; nothing: it may not be.
 std::optional<Answer> answer_of_too_weak(const Problem& task, const Options& options) {
-  if (!options.search.empty() || options.budget > 0) return std::nullopt;
+  if (!has_usual_search(task, options)) return std::nullopt;
   const auto start = Clock::now();
   const Method method = resolve(task, with_search(task, options));
   const TooWeak found = find_too_weak(task, method);

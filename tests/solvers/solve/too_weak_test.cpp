@@ -71,6 +71,10 @@ TEST(TooWeak, WithAThousandthOfItsEffortsItIsNot) {
   EXPECT_THAT(answer.reason.str(), HasSubstr("sampled postures the efforts bear at most "));
   EXPECT_THAT(answer.reason.str(), testing::ContainsRegex("; too weak is joint_[1-7]$"));
   EXPECT_EQ(answer.stopped, "the robot is far too weak");
+  // The command fills in the usual search before it solves.
+  Options filled;
+  static_cast<Case&>(filled) = with_search(task, {});
+  EXPECT_EQ(solve(task, filled).reason.str(), answer.reason.str());
 }
 
 /// What is asked for is done.
