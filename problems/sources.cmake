@@ -1,8 +1,8 @@
 set(maxwrench_problems_sources
   collision/collision.cpp collision/distance.cpp collision/gjk.cpp collision/grown_shape.cpp collision/shapes.cpp
-  loader/bad_input.cpp loader/block.cpp loader/contact_table.cpp loader/drives.cpp loader/knots.cpp loader/motion_file.cpp loader/motion_table.cpp
-  loader/number_table.cpp loader/path_table.cpp loader/robot_choices.cpp
-  loader/robot_file.cpp loader/scenario_tables.cpp loader/srdf.cpp loader/state_file.cpp loader/task_file.cpp
+  loader/bad_input.cpp loader/block.cpp loader/contact_table.cpp loader/drives.cpp loader/joint_group.cpp loader/knots.cpp loader/motion_file.cpp
+  loader/motion_table.cpp loader/number_table.cpp loader/path_table.cpp loader/robot_choices.cpp
+  loader/robot_file.cpp loader/robot_srdf.cpp loader/scenario_tables.cpp loader/srdf.cpp loader/state_file.cpp loader/task_file.cpp
   loader/urdf_element.cpp loader/urdf_joint.cpp loader/urdf_shape.cpp loader/urdf_structure.cpp loader/urdf_tree.cpp
   loader/urdf_visual.cpp loader/visuals.cpp loader/xacro.cpp
   make/bad_value.cpp make/base_motion.cpp make/coordinate_series.cpp make/motion_instants.cpp make/collision_shapes.cpp make/contact.cpp make/free_pose.cpp make/losses.cpp make/motion_task.cpp make/payload.cpp

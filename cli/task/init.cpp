@@ -180,6 +180,10 @@ std::string robot_text(const InitOptions& options, const Robot& robot, const fs:
   if (options.source.srdf) {
     text += fmt::format("srdf = {}\n", seen_from(folder, *options.source.srdf));
   }
+  text +=
+      "# The group of the SRDF whose joints move, and the named posture in which the others are\n"
+      "# locked: group = \"NAME\", group_rest = \"POSTURE\"\n";
+  if (options.source.group) text += fmt::format("group = {}\n", quoted(*options.source.group));
   text += "# Folders, relative to this file, in which package:// is searched first.\n";
   std::vector<std::string> packages;
   for (const std::string& package : options.source.packages) {
@@ -312,6 +316,8 @@ void add_init(CLI::App& app, int& exit_status) {
   command.add_option("--tool", options->source.tool,
                      "the link that is the end effector (default: all links at the ends)");
   command.add_option("--srdf", options->source.srdf, "SRDF file that robot.toml names");
+  command.add_option("--group", options->source.group,
+                     "the group of the SRDF whose joints move; the others are locked");
   command
       .add_option("--package", options->source.packages,
                   "folder of packages that robot.toml names (repeatable)")

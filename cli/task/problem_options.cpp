@@ -90,7 +90,7 @@ bool parse_frame(const std::string& text) {
 }
 
 /// "j1=0.3,j2=-1", or a TOML file of such lines.
-std::map<std::string, double> parse_joints(const std::string& text) {
+std::map<std::string, double> parse_joints(const char* option, const std::string& text) {
   if (is_file(text)) return Block::read(text).numbers_by_name();
   std::map<std::string, double> positions;
   std::istringstream words(text);
@@ -100,7 +100,7 @@ std::map<std::string, double> parse_joints(const std::string& text) {
     std::erase(name, ' ');
     const std::vector<double> number = numbers_in(word.substr(std::min(equals + 1, word.size())));
     if (name.empty() || number.size() != 1 || !positions.emplace(name, number[0]).second) {
-      reject("--joints", text,
+      reject(option, text,
              "JOINT=POSITION, each joint once, separated by commas, or a TOML file of such lines");
     }
   }
@@ -108,12 +108,14 @@ std::map<std::string, double> parse_joints(const std::string& text) {
 }
 
 /// The option that gives this key of a task made of a URDF; empty if none does.
-std::string option_of(const std::string& key, bool by_joints) {
+std::string option_of(const std::string& key, bool by_joints, bool gives_rest) {
   if (key == "end_effector" || key == "tool") return "--tool";
   if (key == "wrench.c") return "--wrench-along";
   if (key == "base.axes") return "--base";
   if (key == "pose.xyz" || key == "pose") return by_joints ? "--joints" : "--at";
   if (key == "posture") return "--posture";
+  if (key == "group") return "--group";
+  if (key == "rest") return gives_rest ? "--rest" : "--posture";
   return "";
 }
 
@@ -121,8 +123,9 @@ std::string option_of(const std::string& key, bool by_joints) {
 ///
 /// @param by_joints         whether the pose is given by joints
 /// @param evaluates_joints  whether the joints themselves are evaluated, at any posture
+/// @param gives_rest        whether `--rest` is given; else `--posture` gives what rests
 template <class Make>
-auto naming_options(bool by_joints, bool evaluates_joints, const Make& make) {
+auto naming_options(bool by_joints, bool evaluates_joints, bool gives_rest, const Make& make) {
   try {
     return make();
   } catch (const BadInput& error) {
@@ -135,7 +138,7 @@ auto naming_options(bool by_joints, bool evaluates_joints, const Make& make) {
                      fmt::format("one from which the tool can move in all its directions{}",
                                  evaluates_joints ? "" : " (only eval --joints does without)"));
     }
-    const std::string option = option_of(bad.key(), by_joints);
+    const std::string option = option_of(bad.key(), by_joints, gives_rest);
     if (option.empty()) throw;
     throw BadValue(option, bad.got(), bad.expected());
   }
@@ -151,7 +154,8 @@ std::string check_command(const ProblemOptions& options, const std::string& prob
   std::string command = "maxwrench check " + word(problem);
   for (const auto& [option, value] :
        {std::pair("--tool", &options.tool), std::pair("--base", &options.base),
-        std::pair("--srdf", &options.srdf), std::pair("--limits", &options.limits)}) {
+        std::pair("--srdf", &options.srdf), std::pair("--group", &options.group),
+        std::pair("--rest", &options.rest), std::pair("--limits", &options.limits)}) {
     if (*value) command += fmt::format(" {} {}", option, word(**value));
   }
   for (const std::string& package : options.packages) command += " --package " + word(package);
@@ -192,6 +196,11 @@ void ProblemOptions::add_robot(CLI::App& app) {
   app.add_option("--base", base,
                  "URDF: the free axes of the base, such as x,y,yaw; it is parked anywhere on them");
   app.add_option("--srdf", srdf, "URDF: SRDF file with collision pairs to leave out and postures");
+  app.add_option("--group", group,
+                 "URDF: the group of the SRDF whose joints move; the others are locked");
+  app.add_option("--rest", rest,
+                 "URDF: where the joints outside of the group are: a named posture, "
+                 "JOINT=POSITION,... or a TOML file of them (default: at rest)");
   app.add_option("--package", packages, "URDF: folder of packages (repeatable)")
       ->allow_extra_args(false)
       ->take_all();
@@ -231,13 +240,15 @@ bool ProblemOptions::describes_task() const {
 std::vector<NamedFile> ProblemOptions::inputs(const std::string& problem) const {
   return {{"problem", problem},
           {"--srdf", srdf.value_or("")},
-          {"--joints", joints && is_file(*joints) ? *joints : ""}};
+          {"--joints", joints && is_file(*joints) ? *joints : ""},
+          {"--rest", rest && is_file(*rest) ? *rest : ""}};
 }
 
 void ProblemOptions::reject_for_toml(const std::string& problem, bool evaluates_joints) const {
   const std::string expected = fmt::format("none: {} is not a URDF", problem);
   for (const auto& [option, value] :
        {std::pair("--tool", &tool), std::pair("--base", &base), std::pair("--srdf", &srdf),
+        std::pair("--group", &group), std::pair("--rest", &rest),
         std::pair("--wrench-along", &wrench_along), std::pair("--wrench-frame", &wrench_frame),
         std::pair("--at", &at)}) {
     if (*value) reject(option, **value, expected);
@@ -257,6 +268,14 @@ UrdfOptions ProblemOptions::urdf_options() const {
   if (base) options.base_axes = parse_axes(*base);
   if (srdf && !is_file(*srdf)) reject("--srdf", *srdf, "an SRDF file");
   options.srdf = srdf.value_or("");
+  if (group && group->empty()) reject("--group", "", "the name of a group");
+  options.group = group.value_or("");
+  if (rest && options.group.empty()) reject("--rest", *rest, "none without --group");
+  if (rest && (rest->find('=') != std::string::npos || is_file(*rest))) {
+    options.rest = parse_joints("--rest", *rest);
+  } else {
+    options.rest_posture = rest ? *rest : options.group.empty() ? "" : posture.value_or("");
+  }
   options.packages.assign(packages.begin(), packages.end());
   return options;
 }
@@ -269,7 +288,7 @@ TaskSpec ProblemOptions::task(const std::string& problem, bool evaluates_joints)
   if (at) {
     task.pose = parse_pose(*at);
   } else if (joints && !evaluates_joints) {
-    task.posture = parse_joints(*joints);
+    task.posture = parse_joints("--joints", *joints);
   } else {
     task.posture.emplace();
   }
@@ -285,9 +304,9 @@ Problem ProblemOptions::load(const std::string& problem, bool evaluates_joints) 
   }
   UrdfOptions options = urdf_options();
   if (!evaluates_joints) options.posture = posture.value_or("");
-  Problem made = naming_options(gives_joints(), evaluates_joints && gives_joints(), [&] {
-    return make_urdf_problem(problem, options, task(problem, evaluates_joints));
-  });
+  Problem made = naming_options(
+      gives_joints(), evaluates_joints && gives_joints(), rest.has_value(),
+      [&] { return make_urdf_problem(problem, options, task(problem, evaluates_joints)); });
   if (!counts_warnings) return made;
   remark_warnings(made.robot, *this, problem);
   if (!at && !gives_joints()) {
@@ -300,7 +319,8 @@ Problem ProblemOptions::load(const std::string& problem, bool evaluates_joints) 
 
 Robot ProblemOptions::load_robot(const std::string& file) const {
   if (is_urdf(file)) {
-    return naming_options(false, false, [&] { return load_urdf(file, urdf_options()); });
+    return naming_options(false, false, rest.has_value(),
+                          [&] { return load_urdf(file, urdf_options()); });
   }
   reject_for_toml(file, true);
   const LoadOptions options{limits.value_or("")};
@@ -314,7 +334,7 @@ Eigen::VectorXd ProblemOptions::positions(const Robot& robot) const {
   TaskSpec task;
   task.robot = robot;
   task.posture.emplace();
-  if (joints) task.posture = parse_joints(*joints);
+  if (joints) task.posture = parse_joints("--joints", *joints);
   if (posture) task.posture = named_posture(robot, "--posture", *posture);
   try {
     return joints_at_posture(task);

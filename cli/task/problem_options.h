@@ -19,15 +19,16 @@ std::vector<std::string> warnings_of(const Robot& robot);
 /// What makes a robot and a static task of a URDF, and what chooses among the limits of a robot in
 /// TOML. All are texts until they are parsed.
 struct ProblemOptions {
-  std::optional<std::string> tool, base, wrench_along, wrench_frame, at, joints, posture, srdf;
+  std::optional<std::string> tool, base, wrench_along, wrench_frame, at, joints, posture, srdf,
+      group, rest;
   std::optional<std::string> limits;
   std::vector<std::string> packages;
   bool counts_warnings = true;  ///< whether `load` says how many warnings the robot has, and which
                                 ///< pose was chosen
   bool locks_undriven = true;   ///< as in `UrdfOptions`
 
-  void add(CLI::App& app);                           ///< all
-  void add_robot(CLI::App& app);                     ///< base, srdf, packages, tool, limits
+  void add(CLI::App& app);        ///< all
+  void add_robot(CLI::App& app);  ///< base, srdf, group, rest, packages, tool, limits
   void add_joints(CLI::App& app, const char* what);  ///< joints, posture
 
   /// Whether the posture or the pose is given by joints.

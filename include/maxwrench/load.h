@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,14 @@ struct UrdfOptions {
   std::string posture = "";  ///< for `make_urdf_problem`: the named posture that gives the pose
   /// Folders of packages, in which `package://` is searched before other places.
   std::vector<std::filesystem::path> packages = {};
+  /// The group of the SRDF whose joints alone move; without `tool`, its tips are the end effectors.
+  /// Empty: all joints move.
+  std::string group = "";
+  /// The named posture of the SRDF in which joints outside of the group are locked. Empty: that of
+  /// `posture`; without it they are at rest.
+  std::string rest_posture = "";
+  /// Positions of joints outside of the group [rad or m], in place of those of that posture.
+  std::map<std::string, double> rest = {};
   /// Whether a joint without effort that does not carry `tool` is locked. Forces need that;
   /// positions do not.
   bool locks_undriven = true;

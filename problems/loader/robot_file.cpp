@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <set>
 
 #include "lib/robot/chain.h"
 #include "maxwrench/load.h"
@@ -12,7 +11,7 @@
 #include "problems/loader/block.h"
 #include "problems/loader/drives.h"
 #include "problems/loader/robot_choices.h"
-#include "problems/loader/srdf.h"
+#include "problems/loader/robot_srdf.h"
 #include "problems/loader/urdf_tree.h"
 #include "problems/make/robot.h"
 
@@ -59,6 +58,11 @@ void read_end_effectors(const Block& root, const UrdfTree& tree, Robot& robot) {
     block.allow_only({"link", "xyz", "rpy"});
     const Body& body = find_body(tree, block, "link", block.text("link"));
     robot.end_effectors.push_back({name, body.link, body.placement * read_placement(block)});
+  }
+  if (!robot.end_effectors.empty()) return;
+  for (const std::string& name : tree.group_tips) {
+    const Body& body = tree.bodies.at(name);
+    robot.end_effectors.push_back({name, body.link, body.placement});
   }
 }
 
@@ -157,8 +161,8 @@ void drop_pairs_without_shapes(Collision& collision) {
   });
 }
 
-Collision read_collision(const Block& block, const UrdfTree& tree,
-                         const std::optional<Srdf>& srdf) {
+/// @param more  pairs that an SRDF leaves out
+Collision read_collision(const Block& block, const UrdfTree& tree, const LinkPairs& more) {
   block.allow_only({"margin", "ignore", "capsules", "meshes"});
   Collision collision;
   collision.shapes = tree.shapes;
@@ -172,31 +176,14 @@ Collision read_collision(const Block& block, const UrdfTree& tree,
     find_body(tree, block, "ignore", a);
     find_body(tree, block, "ignore", b);
   }
-  if (srdf) {
-    collision.ignore.insert(collision.ignore.end(), srdf->ignore.begin(), srdf->ignore.end());
-  }
+  collision.ignore.insert(collision.ignore.end(), more.begin(), more.end());
   drop_pairs_without_shapes(collision);
   collision.margin = block.number("margin", 0);
   return collision;
 }
 
-/// Warns of links in pairs of the SRDF that the URDF does not have.
-void warn_of_unknown_links(const Srdf& srdf, const std::string& file, const UrdfTree& tree,
-                           Robot& robot) {
-  std::set<std::string> unknown;
-  for (const auto& [a, b] : srdf.ignore) {
-    for (const std::string& link : {a, b}) {
-      if (!tree.bodies.contains(link)) unknown.insert(link);
-    }
-  }
-  if (unknown.empty()) return;
-  robot.warnings.push_back(fmt::format("{}: disable_collisions: not in the URDF, so no pair: {}",
-                                       file, fmt::join(unknown, ", ")));
-}
-
-/// Named postures of the TOML and of the SRDF.
-void read_states(const Block& root, const std::optional<Srdf>& srdf, Robot& robot) {
-  if (srdf) robot.states = srdf->states;
+/// Named postures of the TOML, which count more than those of an SRDF.
+void read_states(const Block& root, Robot& robot) {
   for (const auto& [name, block] : root.named("states")) {
     robot.states[name] = block.numbers_by_name();
     for (const auto& [joint, position] : robot.states[name]) {
@@ -235,13 +222,20 @@ std::string thruster_key(const Block& thrusters, const std::string& key) {
   return key;
 }
 
+void require_group_for_rest(const UrdfOptions& options) {
+  if (!options.group.empty() || (options.rest_posture.empty() && options.rest.empty())) return;
+  throw BadValue("rest",
+                 shown(options.rest.empty() ? options.rest_posture : options.rest.begin()->first),
+                 "none without a group");
+}
+
 }  // namespace
 
 Robot load_robot(const std::filesystem::path& file, const LoadOptions& options) {
   const Block root = Block::read(file);
-  root.allow_only({"name", "urdf", "srdf", "packages", "base", "environment", "thrusters", "wheels",
-                   "joints", "links", "limits", "states", "end_effectors", "buoyancy",
-                   "hydrodynamics", "trim", "collision"});
+  root.allow_only({"name", "urdf", "srdf", "group", "group_rest", "packages", "base", "environment",
+                   "thrusters", "wheels", "joints", "links", "limits", "states", "end_effectors",
+                   "buoyancy", "hydrodynamics", "trim", "collision"});
   Robot robot;
   robot.name = root.text("name");
   robot.sources = root.sources("robot");
@@ -254,14 +248,16 @@ Robot load_robot(const std::filesystem::path& file, const LoadOptions& options) 
     return file;
   };
   return in_files(file_of, [&] {
-    const UrdfTree tree = read_urdf(urdf, read_choices(root));
-    std::optional<Srdf> srdf;
-    add_tree(tree, robot);
-    if (root.has("srdf")) {
-      robot.files.push_back(named_file(root, "srdf").string());
-      srdf = read_srdf(robot.files.back());
-      warn_of_unknown_links(*srdf, robot.files.back(), tree, robot);
+    UrdfChoices choices = read_choices(root);
+    const RobotSrdf srdf(root.has("srdf") ? named_file(root, "srdf") : std::filesystem::path());
+    if (root.has("group_rest") && !root.has("group")) {
+      root.throw_bad_value("group_rest", "no such key without group");
     }
+    srdf.choose_group("group", root.text("group", ""), "group_rest", root.text("group_rest", ""),
+                      choices);
+    const UrdfTree tree = read_urdf(urdf, choices);
+    add_tree(tree, robot);
+    srdf.add_to(tree, robot);
     if (root.has("base")) read_base(root.table("base"), tree, robot);
     const Block environment = root.table("environment");
     environment.allow_only({"gravity", "water_density", "current"});
@@ -277,8 +273,8 @@ Robot load_robot(const std::filesystem::path& file, const LoadOptions& options) 
     read_hydrodynamics(root, tree, robot);
     require_water(root, robot);
     read_trim(root, robot);
-    read_states(root, srdf, robot);
-    return finalize(robot, read_collision(root.table("collision"), tree, srdf));
+    read_states(root, robot);
+    return finalize(robot, read_collision(root.table("collision"), tree, srdf.ignored_pairs()));
   });
 }
 
@@ -288,6 +284,12 @@ Robot load_urdf(const std::filesystem::path& urdf, const UrdfOptions& options) {
     UrdfChoices choices;
     choices.packages = options.packages;
     if (!options.tool.empty() && options.locks_undriven) choices.tips = {options.tool};
+    const RobotSrdf srdf(options.srdf);
+    require_group_for_rest(options);
+    srdf.choose_group("group", options.group, options.rest_posture.empty() ? "posture" : "rest",
+                      options.rest_posture.empty() ? options.posture : options.rest_posture,
+                      choices);
+    if (choices.group) choices.group->rest = options.rest;
     const UrdfTree tree = read_urdf(urdf, choices);
     Robot robot;
     robot.name = tree.name;
@@ -297,7 +299,7 @@ Robot load_urdf(const std::filesystem::path& urdf, const UrdfOptions& options) {
       robot.end_effectors.push_back({name, body.link, body.placement});
     };
     if (options.tool.empty()) {
-      for (const std::string& name : tree.leaves) add_tool(name);
+      for (const std::string& name : choices.group ? tree.group_tips : tree.leaves) add_tool(name);
     } else if (tree.bodies.contains(options.tool)) {
       add_tool(options.tool);
     } else {
@@ -310,14 +312,9 @@ Robot load_urdf(const std::filesystem::path& urdf, const UrdfOptions& options) {
     Collision collision;
     collision.shapes = tree.shapes;
     collision.find_ignored = true;
-    if (!options.srdf.empty()) {
-      const Srdf srdf = read_srdf(options.srdf);
-      robot.files.push_back(options.srdf.string());
-      warn_of_unknown_links(srdf, robot.files.back(), tree, robot);
-      robot.states = srdf.states;
-      collision.ignore = srdf.ignore;
-      drop_pairs_without_shapes(collision);
-    }
+    srdf.add_to(tree, robot);
+    collision.ignore = srdf.ignored_pairs();
+    drop_pairs_without_shapes(collision);
     return finalize(robot, collision);
   });
 }

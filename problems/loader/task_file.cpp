@@ -188,6 +188,12 @@ std::string words_of(const TaskSpec& task, const UrdfOptions& options) {
       words += fmt::format(" {} {}", joint, position);
     }
   }
+  if (!options.group.empty()) {
+    words += fmt::format("; group {} rest {}", options.group, options.rest_posture);
+    for (const auto& [joint, position] : options.rest) {
+      words += fmt::format(" {} {}", joint, position);
+    }
+  }
   return words + words_of_scenarios(task);
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "problems/mesh/mesh_shape.h"
@@ -22,6 +23,7 @@ struct Mimic {
 struct JointChoice {
   std::optional<double> effort, velocity, lower, upper;
   std::optional<double> lock;  ///< the joint stays at this position
+  bool rests = false;          ///< it stays at zero, or at its limit nearest to zero
   std::optional<Mimic> mimic;
 };
 
@@ -33,6 +35,16 @@ struct LinkChoice {
   std::optional<MeshUse> meshes;
 };
 
+/// The group of an SRDF whose joints alone move.
+struct GroupChoice {
+  std::string name;
+  std::vector<std::pair<std::string, std::string>> chains;  ///< base link and tip link
+  std::vector<std::string> joints, links;
+  /// Where joints outside stay [rad or m]: those of `rest` have to be outside, `state` may have
+  /// any.
+  std::map<std::string, double> rest, state;
+};
+
 /// How to read a URDF.
 struct UrdfChoices {
   std::vector<std::filesystem::path> packages;  ///< where `package://` is searched first
@@ -42,6 +54,7 @@ struct UrdfChoices {
   /// The links that carry end effectors. A joint that carries none of them and has no effort is
   /// locked. Empty: no joint is.
   std::set<std::string> tips;
+  std::optional<GroupChoice> group;  ///< none: all joints move
 };
 
 /// What is chosen for a link or joint of this name; the default if nothing is.

@@ -55,6 +55,7 @@ class Reader {
     read_range(type == "continuous");
     read_effort(to_tip);
     if (choice_.lock) result_.locked = *choice_.lock;
+    if (choice_.rests && !result_.locked) result_.locked = nearest_to_zero();
     return result_;
   }
 
@@ -130,7 +131,7 @@ class Reader {
   }
 
   void read_effort(bool to_tip) {
-    if (choice_.lock) return;
+    if (choice_.lock || choice_.rests) return;
     const std::optional<UrdfElement> limit = from_.child_if_any("limit");
     const auto given = [&](const char* name, const std::optional<double>& choice) {
       if (choice || !limit || !limit->attribute(name)) return choice;
@@ -166,10 +167,14 @@ class Reader {
                               std::log10(effort + 1) == std::floor(std::log10(effort + 1)));
   }
 
+  double nearest_to_zero() const {
+    const double at = std::clamp(0.0, result_.joint.q_min, result_.joint.q_max);
+    return std::isfinite(at) ? at : 0.0;
+  }
+
   /// Where nothing drives the joint.
   void lock(std::string_view attribute, std::string_view what) {
-    const double at = std::clamp(0.0, result_.joint.q_min, result_.joint.q_max);
-    const double position = std::isfinite(at) ? at : 0.0;
+    const double position = nearest_to_zero();
     if (!result_.locked) result_.locked = position;
     warn(attribute, fmt::format("{}: the joint is locked at {:g}", what, position));
   }

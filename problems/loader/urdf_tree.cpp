@@ -7,6 +7,7 @@
 
 #include "lib/robot/spatial.h"
 #include "problems/loader/bad_input.h"
+#include "problems/loader/joint_group.h"
 #include "problems/loader/urdf_joint.h"
 #include "problems/loader/urdf_shape.h"
 #include "problems/loader/urdf_structure.h"
@@ -240,11 +241,13 @@ Pose<double> pose_from_xyz_rpy(const Eigen::Vector3d& xyz, const Eigen::Vector3d
   return {R, xyz};
 }
 
-UrdfTree read_urdf(const std::filesystem::path& file, const UrdfChoices& choices) {
+UrdfTree read_urdf(const std::filesystem::path& file, const UrdfChoices& given) {
   tinyxml2::XMLDocument document;
   UrdfTree tree;
   tree.files.push_back(file.string());
   const UrdfStructure structure = read_structure(file, document, tree.notes);
+  UrdfChoices choices = given;
+  if (choices.group) tree.group_tips = lock_outside_of_group(structure, choices, tree.notes);
   const auto require_known = [&](const auto& choices_by_name, const char* noun, const auto& known) {
     for (const auto& [name, choice] : choices_by_name) {
       if (!known(name)) {

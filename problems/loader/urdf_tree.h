@@ -25,9 +25,10 @@ struct UrdfTree {
   std::string root;
   std::vector<Link> links;  ///< named after the URDF link that their joint moves
   std::vector<Joint> joints;
-  std::map<std::string, Body> bodies;  ///< by name of the URDF link
-  std::vector<BodyPart> parts;         ///< one for each URDF link
-  std::vector<std::string> leaves;     ///< the URDF links without children that a joint moves
+  std::map<std::string, Body> bodies;   ///< by name of the URDF link
+  std::vector<BodyPart> parts;          ///< one for each URDF link
+  std::vector<std::string> leaves;      ///< the URDF links without children that a joint moves
+  std::vector<std::string> group_tips;  ///< of `UrdfChoices::group`: the links at its ends
   std::vector<Shape> shapes;
   std::vector<Visual> visuals;
   std::vector<std::string> warnings, notes, files;  ///< as in `Robot`

@@ -19,9 +19,10 @@ Units are SI: m, rad, N, N m, s. A wrench is [force; torque] that the robot exer
 in the axes of the world; ``moved``, ``to_pinocchio`` and ``to_drake`` change point, axes and order.
 """
 
-from . import _arguments, _core, _frames, _html, _map, _plot, _view
+from . import _arguments, _core, _dict, _frames, _html, _map, _plot, _view
 from ._core import *  # noqa: F401,F403
-from ._core import Answer, Capability, Ellipsoid, Evaluations, Explanation, LpAnswer, Map, Path, Polytope, Pose, Robot, Task
+from ._core import Answer, Capability, Ellipsoid, Evaluations, Experiment, Explanation, Limit, Loss, LpAnswer, Map, Path, Polytope
+from ._core import Pose, Robot, Task, TrajectoryProof, VerifiedProof, VerifiedTrajectory
 from ._core import __version__
 from ._frames import from_drake, from_pinocchio, moved, to_drake, to_pinocchio
 from ._errors import SearchEnded
@@ -42,6 +43,20 @@ _arguments.check_class(Path, methods=["at"], static=["spline", "screw"])
 _arguments.check_class(Robot, static=["from_urdf", "from_toml"])
 _arguments.check_class(Task, methods=["with_limits"])
 
+for _result in (
+    Capability,
+    Ellipsoid,
+    Evaluations,
+    Experiment,
+    Limit,
+    Loss,
+    LpAnswer,
+    Polytope,
+    TrajectoryProof,
+    VerifiedProof,
+    VerifiedTrajectory,
+):
+    setattr(_result, "to_dict", _dict.dict_of)
 Answer.plot = _plot.plot_answer
 Answer.view = _view.view_answer
 setattr(Map, "best", property(_map.best_of))

@@ -67,6 +67,8 @@ class Robot:
         base: _Names = "",
         tool: str = "",
         srdf: _Path | None = None,
+        group: str = "",
+        rest: str | dict[str, float] | None = None,
         packages: _Names = (),
     ) -> Robot: ...
     @staticmethod
@@ -230,6 +232,7 @@ class Answer:
     def figure(self) -> str: ...
 
 class Limit:
+    def to_dict(self) -> dict[str, Any]: ...
     @property
     def name(self) -> str: ...
     @property
@@ -282,6 +285,7 @@ class Explanation:
 
 class Evaluations:
     _repr_html_: Callable[..., Any]
+    def to_dict(self) -> dict[str, Any]: ...
     @property
     def beta(self) -> _Array: ...
     @property
@@ -306,6 +310,7 @@ class Evaluations:
 
 class Capability:
     _repr_html_: Callable[..., Any]
+    def to_dict(self) -> dict[str, Any]: ...
     @property
     def beta(self) -> Any: ...
     @property
@@ -321,6 +326,7 @@ class Capability:
 
 class LpAnswer:
     _repr_html_: Callable[..., Any]
+    def to_dict(self) -> dict[str, Any]: ...
     @property
     def status(self) -> str: ...
     @property
@@ -339,6 +345,7 @@ class LpAnswer:
     def residual(self) -> dict[str, float]: ...
 
 class Experiment:
+    def to_dict(self) -> dict[str, Any]: ...
     @property
     def task(self) -> Task: ...
     @property
@@ -370,6 +377,7 @@ class Experiment:
     def csv(self) -> str: ...
 
 class Loss:
+    def to_dict(self) -> dict[str, Any]: ...
     @property
     def name(self) -> str: ...
     @property
@@ -517,6 +525,7 @@ class Proof:
     def save(self, path: _Path) -> None: ...
 
 class TrajectoryProof:
+    def to_dict(self) -> dict[str, Any]: ...
     @property
     def status(self) -> str: ...
     @property
@@ -536,6 +545,7 @@ class TrajectoryProof:
     def save(self, path: _Path) -> None: ...
 
 class VerifiedTrajectory:
+    def to_dict(self) -> dict[str, Any]: ...
     @property
     def verified(self) -> bool: ...
     @property
@@ -555,6 +565,7 @@ class VerifiedTrajectory:
     def __bool__(self) -> bool: ...
 
 class VerifiedProof:
+    def to_dict(self) -> dict[str, Any]: ...
     @property
     def verified(self) -> bool: ...
     @property
@@ -577,6 +588,7 @@ class VerifiedProof:
 
 class Polytope:
     _repr_html_: Callable[..., Any]
+    def to_dict(self) -> dict[str, Any]: ...
     @property
     def status(self) -> str: ...
     @property
@@ -606,6 +618,7 @@ class Polytope:
 
 class Ellipsoid:
     _repr_html_: Callable[..., Any]
+    def to_dict(self) -> dict[str, Any]: ...
     @property
     def status(self) -> str: ...
     @property

@@ -1,55 +1,37 @@
-#include <pybind11/stl.h>
-
-#include "python/src/arrays.h"
+#include "python/src/fields.h"
 #include "python/src/parts.h"
 
 namespace maxwrench::python {
+template <class Archive>
+void fields(Archive& archive, IkCounts& c) {
+  archive(c.unreachable, c.most, c.found, c.beyond_limit, c.singular, c.collision, c.incomplete);
+}
+
+template <class Archive>
+void fields(Archive& archive, CallCount& c) {
+  archive(c.method, c.status, c.calls, c.evaluations);
+}
+
 namespace {
 
-py::tuple state_of(const IkCounts& c) {
-  return py::make_tuple(c.unreachable, c.most, c.found, c.beyond_limit, c.singular, c.collision,
-                        c.incomplete);
-}
-
-IkCounts counts_of(const py::tuple& state) {
-  const auto number = [&state](int i) { return state[std::size_t(i)].cast<long>(); };
-  return {number(0), number(1), number(2), number(3), number(4), number(5), number(6)};
-}
-
-py::tuple state_of(const Case& c) {
-  return py::make_tuple(c.problem, c.measure, to_string(c.wrench), c.solver, c.search, c.seed,
-                        c.budget, c.scheme);
-}
-
-Case case_of(const py::tuple& state) {
-  Case c;
-  c.problem = state[0].cast<std::string>();
-  c.measure = state[1].cast<std::string>();
-  c.wrench = parse_wrench(state[2].cast<std::string>());
-  c.solver = state[3].cast<std::string>();
-  c.search = state[4].cast<std::string>();
-  c.seed = state[5].cast<std::uint64_t>();
-  c.budget = state[6].cast<long>();
-  c.scheme = state[7].cast<std::string>();
-  return c;
-}
-
-py::list state_of(const std::vector<CallCount>& calls) {
-  py::list list;
-  for (const CallCount& call : calls) {
-    list.append(py::make_tuple(call.method, call.status, call.calls, call.evaluations));
-  }
-  return list;
-}
-
-std::vector<CallCount> calls_of(const py::list& state) {
+/// What pickle stores of an answer: the posture, and what its search did.
+struct AnswerState {
+  PyTask task;
+  Case choice;
+  RowMatrix given;
+  bool given_joints = false, collision = true;
+  Verdict verdict;
+  std::string unit, stopped;
+  long evaluations = 0, undecided = 0;
   std::vector<CallCount> calls;
-  for (const py::handle& item : state) {
-    const auto call = item.cast<py::tuple>();
-    calls.push_back({call[0].cast<std::string>(), call[1].cast<std::string>(), call[2].cast<long>(),
-                     call[3].cast<long>()});
-  }
-  return calls;
+  IkCounts ik_solutions;
+  double wall_s = 0;
+};
+
+template <class Archive>
+void fields(Archive& archive, AnswerState& s) {
+  archive(s.task, s.choice, s.given, s.given_joints, s.collision, s.verdict, s.unit, s.stopped,
+          s.evaluations, s.undecided, s.calls, s.ik_solutions, s.wall_s);
 }
 
 /// The answer of a posture or trajectory, without what its search did.
@@ -71,29 +53,37 @@ Answer evaluated(const Problem& task, const Case& choice, const RowMatrix& given
 
 py::tuple answer_state(const PyAnswer& self) {
   const Answer& a = self.answer;
-  const RowMatrix given =
-      a.given_joints ? RowMatrix(a.posture.q.transpose()) : RowMatrix(a.trajectory.knots);
-  return py::make_tuple(self.task, state_of(a.choice), copy(given), a.given_joints, a.collision,
-                        static_cast<int>(a.status), a.reason.str(), a.unit, a.evaluations,
-                        state_of(a.calls), a.stopped, a.undecided, state_of(a.ik_solutions),
-                        a.wall_s);
+  AnswerState state;
+  state.task = self.task;
+  state.choice = a.choice;
+  state.given = a.given_joints ? RowMatrix(a.posture.q.transpose()) : RowMatrix(a.trajectory.knots);
+  state.given_joints = a.given_joints;
+  state.collision = a.collision;
+  state.verdict = a;
+  state.unit = a.unit;
+  state.stopped = a.stopped;
+  state.evaluations = a.evaluations;
+  state.undecided = a.undecided;
+  state.calls = a.calls;
+  state.ik_solutions = a.ik_solutions;
+  state.wall_s = a.wall_s;
+  return pack(state);
 }
 
-PyAnswer answer_from_state(const py::tuple& state) {
-  const auto task = state[0].cast<PyTask>();
-  const Case choice = case_of(state[1]);
-  const RowMatrix given = matrix("knots", state[2]);
-  Answer a = evaluated(*task.problem, choice, given, state[3].cast<bool>(), state[4].cast<bool>());
-  a.choice = choice;
-  a.conclude(static_cast<Status>(state[5].cast<int>()), state[6].cast<std::string>());
-  a.unit = state[7].cast<std::string>();
-  a.evaluations = state[8].cast<long>();
-  a.calls = calls_of(state[9]);
-  a.stopped = state[10].cast<std::string>();
-  a.undecided = state[11].cast<long>();
-  a.ik_solutions = counts_of(state[12]);
-  a.wall_s = state[13].cast<double>();
-  return {std::move(a), task};
+PyAnswer answer_from_state(const py::tuple& given) {
+  const auto state = unpack<AnswerState>(given);
+  Answer a = evaluated(*state.task.problem, state.choice, state.given, state.given_joints,
+                       state.collision);
+  a.choice = state.choice;
+  static_cast<Verdict&>(a) = state.verdict;
+  a.unit = state.unit;
+  a.stopped = state.stopped;
+  a.evaluations = state.evaluations;
+  a.undecided = state.undecided;
+  a.calls = state.calls;
+  a.ik_solutions = state.ik_solutions;
+  a.wall_s = state.wall_s;
+  return {std::move(a), state.task};
 }
 
 }  // namespace maxwrench::python

@@ -12,6 +12,7 @@
 #include "problems/make/bad_value.h"
 #include "python/src/arrays.h"
 #include "python/src/background.h"
+#include "python/src/fields.h"
 #include "python/src/parts.h"
 #include "python/src/words.h"
 #include "solvers/solve/method.h"
@@ -82,6 +83,7 @@ struct Capabilities {
   Eigen::VectorXd beta;
   RowMatrix h, u, lambda;
 
+  Capabilities() = default;
   Capabilities(std::vector<py::ssize_t> leading, Eigen::Index m, Eigen::Index n)
       : shape(std::move(leading)) {
     const double none = std::numeric_limits<double>::quiet_NaN();
@@ -109,6 +111,11 @@ struct Capabilities {
     if (capability.lambda.size() > 0) lambda.row(i) = capability.lambda;
   }
 };
+
+template <class Archive>
+void fields(Archive& archive, Capabilities& c) {
+  archive(c.shape, c.status, c.reason, c.beta, c.h, c.u, c.lambda);
+}
 
 std::vector<py::ssize_t> leading_axes(const Array& J, const Array& tau_d) {
   const auto front = [](const Array& array, py::ssize_t last) {
@@ -336,7 +343,8 @@ Arrays are read-only and NaN where there is no value.
             return each(c, [&c](std::size_t i) { return c.reason[i]; });
           },
           "Why there is no value; empty if there is one.")
-      .def("__repr__", &repr_of_capability);
+      .def("__repr__", &repr_of_capability)
+      .def(py::pickle(&pack<Capabilities>, &unpack<Capabilities>));
   m.def("capability", &capability_of, py::arg("J"), py::arg("tau_d"), py::arg("lower"),
         py::arg("upper"), py::arg("c"), py::arg("B") = py::none(), py::kw_only(),
         py::arg("free") = py::none(), py::arg("measure") = Case().measure, py::arg("solver") = "",

@@ -5,9 +5,16 @@
 
 #include "maxwrench/explain.h"
 #include "python/src/arrays.h"
+#include "python/src/fields.h"
 #include "python/src/parts.h"
 
 namespace maxwrench::python {
+
+template <class Archive>
+void fields(Archive& archive, BindingLimit& l) {
+  archive(static_cast<LimitRate&>(l), l.share, l.gain, l.rate_up, l.rate_down, l.up, l.down);
+}
+
 namespace {
 
 /// An explanation, and what it explains.
@@ -128,7 +135,8 @@ void add_limit(py::module_& m) {
       .def_readonly("rate_down", &BindingLimit::rate_down, "The derivative for a falling limit.")
       .def_readonly("up", &BindingLimit::up, "How far the limit may rise at rate_up [unit].")
       .def_readonly("down", &BindingLimit::down, "How far it may fall at rate_down [unit].")
-      .def("__repr__", &repr_of_limit);
+      .def("__repr__", &repr_of_limit)
+      .def(py::pickle(&pack<BindingLimit>, &unpack<BindingLimit>));
 }
 
 }  // namespace

@@ -6,11 +6,33 @@
 #include "problems/make/bad_value.h"
 #include "python/src/arrays.h"
 #include "python/src/background.h"
+#include "python/src/fields.h"
 #include "python/src/parts.h"
 #include "python/src/words.h"
 
 namespace maxwrench::python {
+
+template <class Archive>
+void fields(Archive& archive, FrontPoint& p) {
+  archive(p.phi, p.weights, p.theta_r, p.beta, p.t, p.bound);
+}
+
 namespace {
+
+/// A front, as Python holds it.
+struct PyFront : Front {
+  std::vector<PyTask> tasks;  ///< one for each goal
+};
+
+template <class Archive>
+void fields(Archive& archive, PyFront& f) {
+  std::vector<PyAnswer> own;
+  for (std::size_t k = 0; k < f.own.size(); ++k) own.push_back({f.own[k], f.tasks[k]});
+  archive(static_cast<Verdict&>(f), own, f.tasks, f.points, f.compromise, f.dominated,
+          f.evaluations, f.wall_s);
+  f.own.clear();
+  for (PyAnswer& each : own) f.own.push_back(std::move(each.answer));
+}
 
 /// The tasks of a front: one Task or name, or a list of them.
 std::vector<py::object> tasks_in(const py::object& against) {
@@ -20,15 +42,19 @@ std::vector<py::object> tasks_in(const py::object& against) {
   return {against};
 }
 
-Front make_front(const py::object& task, const py::object& against, int points, bool certify,
-                 double gap, double seconds, const std::string& measure, const std::string& wrench,
-                 const std::string& against_measure, const std::string& against_wrench,
-                 const std::string& search, std::uint64_t seed, long budget, int threads,
-                 const py::object& callback) {
+PyFront make_front(const py::object& task, const py::object& against, int points, bool certify,
+                   double gap, double seconds, const std::string& measure,
+                   const std::string& wrench, const std::string& against_measure,
+                   const std::string& against_wrench, const std::string& search, std::uint64_t seed,
+                   long budget, int threads, const py::object& callback) {
+  PyFront result;
   std::vector<Goal> goals;
-  goals.push_back({*task_of(task).problem, measure, parse_wrench(wrench)});
+  result.tasks.push_back(task_of(task));
+  goals.push_back({*result.tasks.back().problem, measure, parse_wrench(wrench)});
   for (const py::object& other : tasks_in(against)) {
-    goals.push_back({*task_of(other).problem, against_measure.empty() ? measure : against_measure,
+    result.tasks.push_back(task_of(other));
+    goals.push_back({*result.tasks.back().problem,
+                     against_measure.empty() ? measure : against_measure,
                      parse_wrench(against_wrench.empty() ? wrench : against_wrench)});
   }
   FrontPlan plan;
@@ -41,11 +67,10 @@ Front make_front(const py::object& task, const py::object& against, int points, 
   options.seed = seed;
   options.budget = budget;
   options.threads = threads;
-  Front result;
   const Callback shown_line(callback, 0, goals.front().task.name);
   run_in_background(shown_line.function(), [&](Watch& watch) {
     options.interrupted = [&watch] { return watch.stop.load(); };
-    result = pareto(goals, plan, options);
+    static_cast<Front&>(result) = pareto(goals, plan, options);
   });
   return result;
 }
@@ -68,7 +93,7 @@ py::array numbers_of_points(const Front& front, double FrontPoint::*number) {
   return copy(all);
 }
 
-py::object compromise_of(const Front& front) {
+py::object compromise_of(const PyFront& front) {
   if (front.compromise.theta_r.size() == 0) return py::none();
   py::dict found;
   found["share"] = front.compromise.t;
@@ -108,34 +133,34 @@ Raises:
 }  // namespace
 
 void add_fronts(py::module_& m) {
-  py::class_<Front>(m, "Front",
-                    R"(What one posture gives to several tasks, from ``pareto``. N points.
+  py::class_<PyFront>(m, "Front",
+                      R"(What one posture gives to several tasks, from ``pareto``. N points.
 
 >>> front = maxwrench.pareto("uvms/valve", "uvms/lift", points=3, budget=100)
 >>> front.beta[0, 0] >= front.beta[-1, 0] and front.beta[0, 1] <= front.beta[-1, 1]
 True
 )")
       .def_property_readonly(
-          "phi", [](const Front& f) { return numbers_of_points(f, &FrontPoint::phi); },
+          "phi", [](const PyFront& f) { return numbers_of_points(f, &FrontPoint::phi); },
           "The angles of the weights (N) [rad].")
       .def_property_readonly(
-          "weights", [](const Front& f) { return rows_of_points(f, &FrontPoint::weights); },
+          "weights", [](const PyFront& f) { return rows_of_points(f, &FrontPoint::weights); },
           "The weights w (N, 2).")
       .def_property_readonly(
-          "beta", [](const Front& f) { return rows_of_points(f, &FrontPoint::beta); },
+          "beta", [](const PyFront& f) { return rows_of_points(f, &FrontPoint::beta); },
           "The values of both tasks (N, 2). None is dominated.")
       .def_property_readonly(
-          "theta_r", [](const Front& f) { return rows_of_points(f, &FrontPoint::theta_r); },
+          "theta_r", [](const PyFront& f) { return rows_of_points(f, &FrontPoint::theta_r); },
           "The postures (N, r) [rad or m].")
       .def_property_readonly(
-          "t", [](const Front& f) { return numbers_of_points(f, &FrontPoint::t); },
+          "t", [](const PyFront& f) { return numbers_of_points(f, &FrontPoint::t); },
           "The least of beta_k / w_k (N).")
       .def_property_readonly(
-          "bound", [](const Front& f) { return numbers_of_points(f, &FrontPoint::bound); },
+          "bound", [](const PyFront& f) { return numbers_of_points(f, &FrontPoint::bound); },
           "No posture has a larger t (N); infinity: not known.")
       .def_property_readonly(
           "own",
-          [](const Front& f) {
+          [](const PyFront& f) {
             Eigen::VectorXd best(static_cast<Eigen::Index>(f.own.size()));
             for (Eigen::Index k = 0; k < best.size(); ++k) {
               const Answer& own = f.own[static_cast<std::size_t>(k)];
@@ -148,28 +173,30 @@ True
                              "The posture with the largest worst share of each task's own best: a "
                              "dict of share, beta, theta_r; None: there is none.")
       .def_property_readonly(
-          "status", [](const Front& f) { return to_string(f.status); },
+          "status", [](const PyFront& f) { return to_string(f.status); },
           "\"best_found\", \"none_found\" or \"budget_exhausted\".")
       .def_property_readonly(
-          "reason", [](const Front& f) { return f.reason.str(); }, "Why there is no front.")
+          "reason", [](const PyFront& f) { return f.reason.str(); }, "Why there is no front.")
       .def(
-          "figure", [](const Front& f) { return front_figure(f); },
+          "figure", [](const PyFront& f) { return front_figure(f); },
           "Returns the SVG that the command draws.")
       .def(
-          "csv", [](const Front& f) { return front_csv(f); },
+          "csv", [](const PyFront& f) { return front_csv(f); },
           "Returns the points as CSV, the posture for all in the last row.")
       .def(
-          "summary", [](const Front& f) { return summary(f); },
+          "summary", [](const PyFront& f) { return summary(f); },
           "Returns the text that the command prints.")
       .def(
           "to_dict",
-          [](const Front& f) { return py::module_::import("json").attr("loads")(to_json(f)); },
+          [](const PyFront& f) { return py::module_::import("json").attr("loads")(to_json(f)); },
           "Returns the JSON object that the command prints, as a dict.")
-      .def("__len__", [](const Front& f) { return f.points.size(); })
-      .def("__str__", [](const Front& f) { return summary(f); })
-      .def("__repr__", [](const Front& f) {
-        return fmt::format("<Front: {} tasks, {} points>", f.own.size(), f.points.size());
-      });
+      .def("__len__", [](const PyFront& f) { return f.points.size(); })
+      .def("__str__", [](const PyFront& f) { return summary(f); })
+      .def("__repr__",
+           [](const PyFront& f) {
+             return fmt::format("<Front: {} tasks, {} points>", f.own.size(), f.points.size());
+           })
+      .def(py::pickle(&pack<PyFront>, &unpack<PyFront>));
   m.def("pareto", &make_front, py::arg("task"), py::arg("against"), py::kw_only(),
         py::arg("points") = FrontPlan().points, py::arg("certify") = false,
         py::arg("gap") = FrontPlan().gap, py::arg("seconds") = FrontPlan().seconds,

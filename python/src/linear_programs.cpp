@@ -6,6 +6,7 @@
 #include "maxwrench/strategies.h"
 #include "problems/make/bad_value.h"
 #include "python/src/arrays.h"
+#include "python/src/fields.h"
 #include "python/src/parts.h"
 #include "python/src/words.h"
 
@@ -17,6 +18,13 @@ struct LpAnswer {
   LpSolution solution;
   Residual residual;
 };
+
+template <class Archive>
+void fields(Archive& archive, LpAnswer& a) {
+  LpSolution& s = a.solution;
+  archive(static_cast<Verdict&>(s), s.x, s.lambda, s.certificate, s.objective, s.iterations,
+          a.residual);
+}
 
 /// A matrix of scipy.sparse, of any format.
 Eigen::SparseMatrix<double> sparse_matrix(const py::object& value) {
@@ -151,11 +159,14 @@ void add_linear_programs(py::module_& m) {
             return numbers;
           },
           "balance, bounds, dual and gap, recomputed from the data.")
-      .def("__repr__", [](const LpAnswer& a) {
-        const bool optimal = a.solution.status == Status::kOptimal;
-        return fmt::format("<LpAnswer: {}{}>", to_string(a.solution.status),
-                           optimal ? fmt::format(", objective {:.10g}", a.solution.objective) : "");
-      });
+      .def("__repr__",
+           [](const LpAnswer& a) {
+             const bool optimal = a.solution.status == Status::kOptimal;
+             return fmt::format(
+                 "<LpAnswer: {}{}>", to_string(a.solution.status),
+                 optimal ? fmt::format(", objective {:.10g}", a.solution.objective) : "");
+           })
+      .def(py::pickle(&pack<LpAnswer>, &unpack<LpAnswer>));
   m.def("linprog", &linprog, py::arg("c"), py::arg("A"), py::arg("b"), py::arg("l") = py::none(),
         py::arg("u") = py::none(), py::kw_only(), py::arg("solver") = "simplex", kLinprog);
 }

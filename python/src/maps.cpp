@@ -8,10 +8,29 @@
 #include "problems/make/bad_value.h"
 #include "python/src/arrays.h"
 #include "python/src/background.h"
+#include "python/src/fields.h"
 #include "python/src/parts.h"
 #include "python/src/words.h"
 
 namespace maxwrench::python {
+
+template <class Archive>
+void fields(Archive& archive, MapAxis& a) {
+  archive(a.name, a.low, a.high, a.count);
+}
+
+template <class Archive>
+void fields(Archive& archive, MapPlan& p) {
+  archive(p.over, p.refine, p.tolerance, p.check, p.check_budget, p.bound, p.gap, p.seconds,
+          p.shard, p.shards);
+}
+
+template <class Archive>
+void fields(Archive& archive, MapCell& c) {
+  archive(static_cast<Verdict&>(c), c.index, c.at, c.level, c.beta, c.unit, c.theta_r, c.q, c.base,
+          c.evaluations, c.bound, c.scratch);
+}
+
 namespace {
 
 /// A map, as Python holds it.
@@ -19,6 +38,14 @@ struct PyMap {
   CapabilityMap map;
   PyTask task;
 };
+
+template <class Archive>
+void fields(Archive& archive, PyMap& self) {
+  CapabilityMap& m = self.map;
+  archive(self.task, static_cast<Verdict&>(m), m.choice, m.plan, m.unit, m.cells, m.unchanging,
+          m.computed, m.wall_s);
+  m.task = self.task.problem;
+}
 
 MapAxis axis_in(const std::string& name, const py::handle& value) {
   const std::string key = "over." + name;
@@ -276,7 +303,8 @@ void add_maps(py::module_& m) {
           "Returns the JSON object that the command prints, as a dict.")
       .def("__str__", [](const PyMap& self) { return summary(self.map); })
       .def("__len__", [](const PyMap& self) { return self.map.cells.size(); })
-      .def("__repr__", repr_of_map);
+      .def("__repr__", repr_of_map)
+      .def(py::pickle(&pack<PyMap>, &unpack<PyMap>));
   m.def("map", &make_map, py::arg("task"), py::arg("over"), py::kw_only(), py::arg("refine") = 0,
         py::arg("tolerance") = MapPlan().tolerance, py::arg("check") = 0.0,
         py::arg("check_budget") = 0, py::arg("certify") = false, py::arg("gap") = MapPlan().gap,

@@ -8,10 +8,24 @@
 #include "maxwrench/motion_table.h"
 #include "problems/make/bad_value.h"
 #include "python/src/arrays.h"
+#include "python/src/fields.h"
 #include "python/src/parts.h"
 #include "python/src/words.h"
 
 namespace maxwrench::python {
+
+template <class Archive>
+void fields(Archive& archive, InstantMargin& m) {
+  archive(static_cast<Verdict&>(m), m.t, m.margin, m.worst, m.facet, m.limits, m.binding, m.u,
+          m.by_program);
+}
+
+template <class Archive>
+void fields(Archive& archive, MotionMargin& m) {
+  archive(static_cast<Verdict&>(m), m.problem, m.set, m.unit, m.instants, m.worst, m.infeasible,
+          m.residual, m.difference, m.wall_s, m.checks_s);
+}
+
 namespace {
 
 /// The table of a dict of columns.
@@ -189,11 +203,14 @@ True
           "Returns the JSON object that the command prints, as a dict.")
       .def("__len__", [](const MotionMargin& f) { return f.instants.size(); })
       .def("__str__", [](const MotionMargin& f) { return summary(f); })
-      .def("__repr__", [](const MotionMargin& f) {
-        return fmt::format("<Margin {}: {:.6g} {} at {:.6g} s, the least of {} instants>",
-                           f.problem, f.instants[static_cast<std::size_t>(f.worst)].margin, f.unit,
-                           f.instants[static_cast<std::size_t>(f.worst)].t, f.instants.size());
-      });
+      .def("__repr__",
+           [](const MotionMargin& f) {
+             return fmt::format("<Margin {}: {:.6g} {} at {:.6g} s, the least of {} instants>",
+                                f.problem, f.instants[static_cast<std::size_t>(f.worst)].margin,
+                                f.unit, f.instants[static_cast<std::size_t>(f.worst)].t,
+                                f.instants.size());
+           })
+      .def(py::pickle(&pack<MotionMargin>, &unpack<MotionMargin>));
   m.def("margin", &compute_margin, py::arg("task"), py::arg("motion"), py::kw_only(),
         py::arg("ball") = py::none(), py::arg("ball_frame") = "world",
         py::arg("task_wrench") = false, py::arg("instants_per_interval") = 1, kMargin);

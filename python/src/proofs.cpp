@@ -11,10 +11,19 @@
 #include "problems/loader/bad_input.h"
 #include "python/src/arrays.h"
 #include "python/src/background.h"
+#include "python/src/fields.h"
 #include "python/src/parts.h"
 #include "python/src/words.h"
 
 namespace maxwrench::python {
+
+template <class Archive>
+void fields(Archive& archive, VerifiedProof& p) {
+  archive(p.rejection, p.boxes, p.by_multiplier, p.by_collision, p.by_equations, p.by_parent,
+          p.ceiling, p.version, p.problem, p.measure, p.wrench, p.collision, p.unit, p.theta_r,
+          p.value, p.bound, p.seconds);
+}
+
 namespace {
 
 /// A proof, with the task that it was asked of.
@@ -22,6 +31,16 @@ struct PyProof {
   Proof proof;
   PyTask task;
 };
+
+template <class Archive>
+void fields(Archive& archive, PyProof& self) {
+  Proof& p = self.proof;
+  PyAnswer answer{p.answer, self.task};
+  archive(answer, self.task, static_cast<Verdict&>(p), p.bound, p.search, p.boxes, p.colliding,
+          p.search_s, p.seconds);
+  archive.bytes(p.certificate);
+  p.answer = std::move(answer.answer);
+}
 
 py::object certify_task(const py::object& task, const py::object& theta_r, double gap,
                         double seconds, const std::string& measure, const std::string& wrench,
@@ -69,29 +88,6 @@ void save(const PyProof& self, const py::object& path) {
   }
   py::module_::import("maxwrench._files")
       .attr("write_bytes")(file, py::bytes(self.proof.certificate));
-}
-
-py::tuple proof_state(const PyProof& self) {
-  const Proof& proof = self.proof;
-  return py::make_tuple(PyAnswer{proof.answer, self.task}, self.task,
-                        static_cast<int>(proof.status), proof.reason.str(), proof.bound,
-                        proof.search, proof.boxes, proof.colliding, proof.search_s, proof.seconds,
-                        py::bytes(proof.certificate));
-}
-
-PyProof proof_of(const py::tuple& state) {
-  PyProof self{{}, state[1].cast<PyTask>()};
-  Proof& proof = self.proof;
-  proof.answer = state[0].cast<PyAnswer>().answer;
-  proof.conclude(static_cast<Status>(state[2].cast<int>()), state[3].cast<std::string>());
-  proof.bound = state[4].cast<double>();
-  proof.search = state[5].cast<std::string>();
-  proof.boxes = state[6].cast<long>();
-  proof.colliding = state[7].cast<long>();
-  proof.search_s = state[8].cast<double>();
-  proof.seconds = state[9].cast<double>();
-  proof.certificate = state[10].cast<std::string>();
-  return self;
 }
 
 /// What ``status``, ``beta`` and the others say, for tables and files.
@@ -219,7 +215,7 @@ void add_proofs(py::module_& m) {
       .def("to_dict", &dict_of_proof,
            "Returns all of these by name; None where a number is not finite.")
       .def("__repr__", &repr_of_proof)
-      .def(py::pickle(&proof_state, &proof_of));
+      .def(py::pickle(&pack<PyProof>, &unpack<PyProof>));
   py::class_<VerifiedProof>(m, "VerifiedProof", R"(The result of ``verify``. True if verified.
 
 >>> maxwrench.certify("planar/force").save("force.cert")
@@ -240,10 +236,12 @@ void add_proofs(py::module_& m) {
       .def_property_readonly(
           "theta_r", [](const VerifiedProof& v) { return copy(v.theta_r); }, "The posture (r).")
       .def("__bool__", [](const VerifiedProof& v) { return v.rejection.empty(); })
-      .def("__repr__", [](const VerifiedProof& v) {
-        return fmt::format("<VerifiedProof {}: {}>", v.problem,
-                           v.rejection.empty() ? "verified" : "rejected: " + v.rejection);
-      });
+      .def("__repr__",
+           [](const VerifiedProof& v) {
+             return fmt::format("<VerifiedProof {}: {}>", v.problem,
+                                v.rejection.empty() ? "verified" : "rejected: " + v.rejection);
+           })
+      .def(py::pickle(&pack<VerifiedProof>, &unpack<VerifiedProof>));
   m.def("certify", &certify_task, py::arg("task"), py::arg("theta_r") = py::none(), py::kw_only(),
         py::arg("gap") = 1e-3, py::arg("seconds") = 60.0, py::arg("measure") = Case().measure,
         py::arg("wrench") = "pure", py::arg("search") = "", py::arg("seed") = 1,

@@ -12,12 +12,22 @@ namespace maxwrench::python {
 namespace {
 
 PyRobot from_urdf(const py::object& path, const py::object& base, const std::string& tool,
-                  const py::object& srdf, const py::object& packages) {
+                  const py::object& srdf, const std::string& group, const py::object& rest,
+                  const py::object& packages) {
   const std::string file = path_in("path", path);
   UrdfOptions options;
   options.tool = tool;
   options.base_axes = base_axes_in("base", base);
   if (!srdf.is_none()) options.srdf = path_in("srdf", srdf);
+  options.group = group;
+  if (py::isinstance<py::str>(rest)) {
+    options.rest_posture = rest.cast<std::string>();
+  } else if (py::isinstance<py::dict>(rest)) {
+    options.rest = numbers_by_name("rest", rest);
+  } else if (!rest.is_none()) {
+    throw BadValue("rest", std::string(py::repr(rest)),
+                   "the name of a posture, or a dict of joints and positions");
+  }
   py::list folders;
   if (py::isinstance<py::str>(packages)) {
     folders.append(packages);
@@ -34,6 +44,8 @@ PyRobot from_urdf(const py::object& path, const py::object& base, const std::str
   how["base"] = names_in("base", base);
   how["tool"] = tool;
   how["srdf"] = srdf;
+  how["group"] = group;
+  how["rest"] = rest;
   how["packages"] = folders;
   return {std::make_shared<const Robot>(load_urdf(file, options)), {"Robot.from_urdf", how}};
 }
@@ -103,7 +115,13 @@ Args:
     base: the free axes of the base, such as "x,y,yaw". The base is parked: it may stand anywhere
         along them, and its brakes hold any load. Empty: the base is fixed.
     tool: the link that is the end effector. Empty: each link without children.
-    srdf: SRDF file with collision pairs to leave out and named postures.
+    srdf: SRDF file with collision pairs to leave out, groups and named postures.
+    group: the group of the SRDF whose joints move. The other joints are locked; their motors are not
+        asked whether they hold. Without ``tool``, the links at its ends are the end effectors.
+        Empty: all joints move.
+    rest: where the other joints are: the name of a posture of the SRDF, or a dict of joints and
+        positions [rad or m]. Joints that it does not have are at zero, or at their limit nearest to
+        it.
     packages: folders of packages, in which ``package://`` is searched first.
 
 Raises:
@@ -124,8 +142,8 @@ code, and ``task.robot`` is the robot of a task.
 ['q1_shoulder_yaw', 'q2_shoulder_pitch', 'q3_elbow', 'q4_wrist_roll']
 )")
       .def_static("from_urdf", &from_urdf, py::arg("path"), py::kw_only(), py::arg("base") = "",
-                  py::arg("tool") = "", py::arg("srdf") = py::none(),
-                  py::arg("packages") = py::tuple(), kFromUrdf)
+                  py::arg("tool") = "", py::arg("srdf") = py::none(), py::arg("group") = "",
+                  py::arg("rest") = py::none(), py::arg("packages") = py::tuple(), kFromUrdf)
       .def_static("from_toml", &from_toml, py::arg("path"), py::kw_only(), py::arg("limits") = "",
                   R"(Reads a robot from a TOML file and the URDF that it names.
 

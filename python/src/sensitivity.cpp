@@ -9,10 +9,27 @@
 #include "problems/make/losses.h"
 #include "python/src/arrays.h"
 #include "python/src/background.h"
+#include "python/src/fields.h"
 #include "python/src/parts.h"
 #include "python/src/words.h"
 
 namespace maxwrench::python {
+
+/// What is shown of the answers: a lost actuator makes another task of each, which is not kept.
+template <class Archive>
+void fields(Archive& archive, LossEffect& effect) {
+  archive(effect.name);
+  for (Answer* a : {&effect.at_posture, &effect.best}) {
+    archive(static_cast<Verdict&>(*a), a->unit, a->choice, a->evaluations, a->trajectory.status,
+            a->trajectory.value, a->posture.theta_r);
+  }
+}
+
+template <class Archive>
+void fields(Archive& archive, Sensitivity& s) {
+  archive(s.effects, s.all);
+}
+
 namespace {
 
 double value_or_nan(const Answer& answer) {
@@ -141,11 +158,13 @@ void add_sensitivity(py::module_& m) {
             return copy(e.best.posture.theta_r);
           },
           "The best posture (r) [rad or m]; None: there is none.")
-      .def("__repr__", [](const LossEffect& e) {
-        return fmt::format("<Loss {}: {:.6g} at the posture, {:.6g} in the best one>",
-                           e.name.empty() ? "of nothing" : e.name, value_or_nan(e.at_posture),
-                           value_or_nan(e.best));
-      });
+      .def("__repr__",
+           [](const LossEffect& e) {
+             return fmt::format("<Loss {}: {:.6g} at the posture, {:.6g} in the best one>",
+                                e.name.empty() ? "of nothing" : e.name, value_or_nan(e.at_posture),
+                                value_or_nan(e.best));
+           })
+      .def(py::pickle(&pack<LossEffect>, &unpack<LossEffect>));
   py::class_<Sensitivity>(m, "Sensitivity", R"(The losses of a task, compared by ``sensitivity``.
 
 >>> cost = maxwrench.sensitivity("planar/force", actuators="elbow", friction=1, budget=50)
@@ -169,11 +188,13 @@ void add_sensitivity(py::module_& m) {
           },
           "Returns the JSON object that the command prints, as a dict.")
       .def("__str__", [](const Sensitivity& s) { return summary(s); })
-      .def("__repr__", [](const Sensitivity& s) {
-        return fmt::format("<Sensitivity {}: {} losses, {:.6g} {} with any of them>",
-                           s.all.at_posture.choice.problem, s.effects.size() - 1,
-                           value_or_nan(s.all.best), s.all.at_posture.unit);
-      });
+      .def("__repr__",
+           [](const Sensitivity& s) {
+             return fmt::format("<Sensitivity {}: {} losses, {:.6g} {} with any of them>",
+                                s.all.at_posture.choice.problem, s.effects.size() - 1,
+                                value_or_nan(s.all.best), s.all.at_posture.unit);
+           })
+      .def(py::pickle(&pack<Sensitivity>, &unpack<Sensitivity>));
   m.def("nominal", &nominal_task, py::arg("task"), kNominal);
   m.def("sensitivity", &compare_losses, py::arg("task"), py::arg("theta_r") = py::none(),
         py::kw_only(), py::arg("actuators") = py::make_tuple("thrusters"),

@@ -7,10 +7,18 @@
 #include "problems/make/bad_value.h"
 #include "python/src/arrays.h"
 #include "python/src/background.h"
+#include "python/src/fields.h"
 #include "python/src/parts.h"
 #include "python/src/words.h"
 
 namespace maxwrench::python {
+
+template <class Archive>
+void fields(Archive& archive, VerifiedTrajectory& v) {
+  archive(v.rejection, v.t, v.slices, v.places, v.clearance, v.version, v.problem, v.collision,
+          v.unit, v.knots, v.guaranteed, v.t_h, v.parts, v.seconds);
+}
+
 namespace {
 
 /// A proof in time, with the task that it was asked of.
@@ -18,6 +26,16 @@ struct PyTrajectoryProof {
   TrajectoryProof proof;
   PyTask task;
 };
+
+template <class Archive>
+void fields(Archive& archive, PyTrajectoryProof& self) {
+  TrajectoryProof& p = self.proof;
+  PyAnswer answer{p.answer, self.task};
+  archive(answer, self.task, static_cast<Verdict&>(p), p.guaranteed, p.t, p.parts, p.slices,
+          p.clearance, p.seconds);
+  archive.bytes(p.certificate);
+  p.answer = std::move(answer.answer);
+}
 
 void save_trajectory_proof(const PyTrajectoryProof& self, const py::object& path) {
   const std::string file = path_in("path", path);
@@ -117,7 +135,8 @@ void add_trajectory_proofs(py::module_& m) {
       .def("save", &save_trajectory_proof, py::arg("path"),
            "Writes the certificate to the file path; ``verify`` and the command check it with "
            "independent code.")
-      .def("__repr__", &repr_of_trajectory_proof);
+      .def("__repr__", &repr_of_trajectory_proof)
+      .def(py::pickle(&pack<PyTrajectoryProof>, &unpack<PyTrajectoryProof>));
   py::class_<VerifiedTrajectory>(
       m, "VerifiedTrajectory",
       R"(The result of ``verify`` for a certificate of a trajectory. True if verified.
@@ -144,10 +163,12 @@ True
           "knots", [](const VerifiedTrajectory& v) { return copy(RowMatrix(v.knots)); },
           "The knots (k×r).")
       .def("__bool__", [](const VerifiedTrajectory& v) { return v.verified(); })
-      .def("__repr__", [](const VerifiedTrajectory& v) {
-        return fmt::format("<VerifiedTrajectory {}: {}>", v.problem,
-                           v.verified() ? "verified" : "rejected: " + v.rejection);
-      });
+      .def("__repr__",
+           [](const VerifiedTrajectory& v) {
+             return fmt::format("<VerifiedTrajectory {}: {}>", v.problem,
+                                v.verified() ? "verified" : "rejected: " + v.rejection);
+           })
+      .def(py::pickle(&pack<VerifiedTrajectory>, &unpack<VerifiedTrajectory>));
 }
 
 }  // namespace maxwrench::python

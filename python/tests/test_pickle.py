@@ -1,5 +1,7 @@
 """Pickled results: what one wants back from another process, with the same bits."""
 
+import functools
+import json
 import multiprocessing
 import pickle
 
@@ -102,10 +104,83 @@ def test_ellipsoids():
     assert (loaded.status, loaded.reason, loaded.volume) == (ellipsoid.status, ellipsoid.reason, ellipsoid.volume)
 
 
-def test_what_has_no_pickle_says_so():
-    with pytest.raises(TypeError, match="LpAnswer") as caught:
-        pickle.dumps(mw.linprog([1, 2], [[1, 1]], [1]))
-    assert len(str(caught.value).splitlines()) == 1
+def everything(value):
+    """All that an object says: its attributes, with the bits of arrays, and the values of objects in it."""
+    if isinstance(value, np.ndarray):
+        return value.dtype, value.shape, value.tobytes()
+    if isinstance(value, float):
+        return np.float64(value).tobytes()  # NaN as well
+    if isinstance(value, (list, tuple)):
+        return [everything(item) for item in value]
+    if isinstance(value, dict):
+        return {key: everything(item) for key, item in value.items()}
+    if value is None or isinstance(value, (bool, int, str)):
+        return value
+    if isinstance(value, mw.Task):
+        return value.digest
+    names = [name for name in dir(type(value)) if isinstance(getattr(type(value), name), property)]
+    return {name: everything(getattr(value, name)) for name in names}
+
+
+MOTION = {"t": [0, 1, 2], "shoulder": [-0.8, -0.7, -0.8], "elbow": [1, 0.9, 1]}
+
+
+@functools.lru_cache
+def results():
+    force, motion = mw.load("planar/force"), mw.load("planar/trajectory")
+    proof = mw.certify(force)
+    moved = mw.certify(motion, motion.theta_r_default)
+    return {
+        "map": mw.map(force, {"azimuth": (0, 6, 3)}, budget=100, check=1.0),
+        "front": mw.pareto("uvms/valve", "uvms/lift", points=3, budget=100),
+        "sensitivity": mw.sensitivity(force, actuators="elbow", friction=1, budget=50),
+        "loss": mw.sensitivity(force, actuators="elbow", friction=1, budget=50).losses[1],
+        "margin": mw.margin(force, MOTION, ball=["fx", "fy"]),
+        "proof": proof,
+        "trajectory proof": moved,
+        "linprog": mw.linprog([1, 2], [[1, 1]], [1]),
+        "infeasible": mw.linprog([1], [[1]], [-1]),
+        "capability": mw.capability(np.full((3, 6, 2), 0.5), np.zeros((3, 2)), [-2, -2], [2, 2], "x"),
+        "one capability": mw.capability(np.zeros((6, 1)), [9.0], [-2.0], [2.0], "x"),
+        "scale": mw.scale([[1, 1]], [-1, -1], [1, 1], [0], [4]),
+        "limit": mw.evaluate(force, [0, 0]).explain().limits[0],
+        "experiment": mw.simulate(mw.evaluate(force, [0, 0]), ramp=0.5, hold=0.5),
+        "polytope": mw.polytope(force, [0, 0], directions=IN_PLANE),
+        "ellipsoid": mw.ellipsoid(force, [0, 0], directions=IN_PLANE),
+        "evaluations": mw.evaluate(force, [[0, 0], [0, 1.2]]),
+    }
+
+
+def test_all_results_are_pickled_and_are_data(tmp_path):
+    found = dict(results())
+    found["proof"].save(tmp_path / "a.cert")
+    found["trajectory proof"].save(tmp_path / "b.cert")
+    found["verified"] = mw.verify(tmp_path / "a.cert")
+    found["verified trajectory"] = mw.verify(tmp_path / "b.cert")
+    assert found["one capability"].status == "infeasible" and found["infeasible"].certificate.size == 1
+    for name, result in found.items():
+        loaded = again(result)
+        assert everything(loaded) == everything(result), name
+        assert repr(loaded) == repr(result) and str(loaded) == str(result), name
+        if hasattr(result, "__len__"):
+            assert len(loaded) == len(result), name
+        table = result.to_dict()
+        assert table and loaded.to_dict() == table, name
+        json.dumps(table, allow_nan=False)
+
+
+def test_pictures_and_files_of_pickled_results(tmp_path):
+    found = results()
+    for name in ("map", "front", "margin"):
+        assert again(found[name]).figure() == found[name].figure(), name
+    for name in ("front", "margin"):
+        assert again(found[name]).csv() == found[name].csv(), name
+    again(found["trajectory proof"]).save(tmp_path / "b.cert")
+    assert mw.verify(tmp_path / "b.cert")
+    values = {name: found[name].to_dict() for name in ("linprog", "capability", "one capability")}
+    assert values["linprog"]["objective"] == 2 and values["linprog"]["x"] == [0, 1]
+    assert values["capability"]["beta"] == found["capability"].beta.tolist()
+    assert values["one capability"]["beta"] is None  # NaN is no number of JSON
 
 
 def work(i):
@@ -117,3 +192,9 @@ def test_workers_return_evaluations():
     with multiprocessing.get_context("spawn").Pool(2) as pool:
         for rows, expected in zip(pool.map_async(work, range(2)).get(60), map(work, range(2))):
             assert_equal(rows, expected, ROWS)
+
+
+def test_a_worker_returns_all_results():
+    with multiprocessing.get_context("spawn").Pool(1) as pool:
+        received = pool.apply_async(results).get(120)
+    assert sorted(received) == sorted(results())

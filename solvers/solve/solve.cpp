@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "lib/posture/given_posture.h"
@@ -14,6 +15,7 @@
 #include "solvers/solve/method.h"
 #include "solvers/solve/one_instant.h"
 #include "solvers/solve/solve_from.h"
+#include "solvers/solve/too_weak.h"
 #include "solvers/solve/why_none.h"
 
 namespace maxwrench {
@@ -243,7 +245,39 @@ Answer evaluate_posture(const Problem& task, const Eigen::VectorXd& q, const Opt
   return answer;
 }
 
+namespace {
+
+/// Whether a case has the search and the budget that `solve` uses if it names none.
+bool has_usual_search(const Problem& task, const Case& c) {
+  Case usual = c;
+  usual.search.clear();
+  usual.budget = 0;
+  usual = with_search(task, usual);
+  const Case given = with_search(task, c);
+  return given.search == usual.search && given.budget == usual.budget;
+}
+
+/// The answer for a robot that is far too weak for its own load, if no other search and no other
+/// budget is asked for; nothing: it may not be.
+std::optional<Answer> answer_of_too_weak(const Problem& task, const Options& options) {
+  if (!has_usual_search(task, options)) return std::nullopt;
+  const auto start = Clock::now();
+  const Method method = resolve(task, with_search(task, options));
+  const TooWeak found = find_too_weak(task, method);
+  if (found.why.empty()) return std::nullopt;
+  Answer answer = begin(std::make_shared<const Problem>(task), method);
+  answer.conclude(Status::kNoneFound, found.why);
+  answer.evaluations = found.evaluations;
+  answer.ik_solutions = found.ik_solutions;
+  answer.stopped = "the robot is far too weak";
+  answer.wall_s = seconds_since(start);
+  return answer;
+}
+
+}  // namespace
+
 Answer solve(const Problem& task, const Options& options) {
+  if (std::optional<Answer> none = answer_of_too_weak(task, options)) return *std::move(none);
   Answer answer = solve_from(std::make_shared<const Problem>(task), {}, options);
   if (answer.status == Status::kNoneFound && !answer.has_posture()) {
     // Not in `solve_from`: a map has many such cells.

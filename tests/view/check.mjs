@@ -6,14 +6,16 @@ import { resolve } from "node:path";
 import { Browser } from "./browser.mjs";
 
 const [command, folder, ...chosen] = process.argv.slice(2);
+const kListInTime = "examples/tasks/turn_along_with_a_dead_thruster.toml";
+const inTime = (task) => task.includes("trajectory") || task === kListInTime;
 const out = resolve(folder);
 mkdirSync(out, { recursive: true });
 
 const kTasks = chosen.length ? chosen : ["uvms/valve", "uvms/valve_trajectory", "dual_arm/two_arms", "mobile/push", "planar/force", "fixed/push", "gallery/panda/lift",
-  "examples/tasks/lift_with_a_dead_thruster.toml"];
+  "examples/tasks/lift_with_a_dead_thruster.toml", kListInTime];
 const kSizes = [{ width: 1280, height: 800, scheme: "light" }, { width: 390, height: 844, scheme: "dark" }];
 const kBrowsers = 2; // beside each other
-const kWords = { "uvms/valve": ["--within", "1%"], "planar/force": ["--within", "2%", "--resolution", "0.02"], "uvms/valve_trajectory": ["--tank"] };  // more options of the command
+const kWords = { "uvms/valve": ["--within", "1%"], "planar/force": ["--within", "2%", "--resolution", "0.02"], "uvms/valve_trajectory": ["--tank"], [kListInTime]: ["--budget", "30"] };  // more options of the command
 const kMostBytes = 4e6;
 const kPause = 250;  // ms: the page lists the IK solutions when a slider has rested for 120 ms
 
@@ -56,7 +58,7 @@ async function checkPostures(page, task, name) {
   for (const each of shown) {
     await click(page, `posture-${each.name}`);
     check(near(await beta(page), each.beta), `${name}: ${each.name} has its value`);
-    if (task.includes("trajectory")) continue;
+    if (inTime(task)) continue;
     check(near(await beta(page), (await evaluate(task, each.theta)).beta), `${name}: ${each.name} has the value of eval`);
   }
 }
@@ -133,7 +135,10 @@ async function checkBeside(page, name, picture) {
   const entries = await page.evaluate("app.entries.length");
   check((await page.evaluate("document.querySelectorAll('.label.title').length")) === (entries > 1 ? entries : 0), `${name}: each picture has its title`);
   check((await page.evaluate("document.querySelectorAll('#compare thead th').length")) === entries + 1, `${name}: each posture has its column`);
-  if (picture) await page.screenshot(picture);
+  if (picture) {
+    await page.evaluate("document.getElementById('canvas').scrollIntoView()");
+    await page.screenshot(picture);
+  }
   await click(page, "show-beside");
 }
 
@@ -166,8 +171,32 @@ async function checkTime(page, name) {
   await page.until("Number(document.getElementById('instant').value) > 0.05");
   await page.evaluate("app.timeline.playing && document.getElementById('play').click()"); // a slow browser may have come to the end
   check((await page.evaluate("document.getElementById('play').ariaLabel")) === "Play", `${name}: it pauses`);
-  check((await page.evaluate("document.querySelectorAll('#curves svg').length")) === 4, `${name}: value, efforts, rates and tank have curves`);
+  check((await page.evaluate("document.querySelectorAll('#curves svg').length")) === 4, `${name}: value, efforts, rates, and the tank or the scenarios have curves`);
   await slide(page, "instant", frames[0][0]);
+}
+
+/** Which scenario decides, and what each allows, is what the command says; the text follows the cursor, and the least at the cursor is that of the curves. */
+async function checkScenariosInTime(page, task, name) {
+  const expected = JSON.parse(await run("eval", task, "--scenarios", "--json"));
+  const plain = (text) => text.replaceAll("_", " ");
+  await click(page, "posture-default");
+  await slide(page, "instant", expected.decides_at);
+  const text = async () => (await page.evaluate("document.getElementById('decides').textContent")).replaceAll("\u00a0", " ");
+  check((await text()).startsWith(`${plain(expected.decides)} decides at `), `${name}: "${await text()}"`);
+  const shown = await page.evaluate("app.entry.scenarios");
+  check(shown.ends.length === expected.scenarios.length, `${name}: ${shown.ends.length} scenarios are listed`);
+  for (const each of expected.scenarios) {
+    const listed = shown.ends.find((end) => end.name === each.name);
+    check(listed && near(listed.high, each.high), `${name}: ${each.name}: ${listed?.high}, eval has ${each.high}`);
+  }
+  for (const share of [0, 0.3, 1]) {
+    const t = shown.t[Math.round(share * (shown.t.length - 1))];
+    await slide(page, "instant", t);
+    const worst = shown.ends.reduce((a, b) => (b.values[shown.t.indexOf(t)] < a.values[shown.t.indexOf(t)] ? b : a));
+    check((await text()).includes(`least is left with ${plain(worst.name)}: `), `${name}: at ${t} s: "${await text()}"`);
+    check(Math.min(...worst.values) >= expected.beta * (1 - 1e-9), `${name}: rates only take away`);
+  }
+  check((await page.evaluate("document.querySelectorAll('#ends tbody tr').length")) === 2 * shown.ends.length, `${name}: all have a row`);
 }
 
 /** The experiment of the default trajectory is that of the command; one of the sliders has none. */
@@ -267,7 +296,12 @@ async function checkPage(browser, task, size) {
   }
   await checkSwitches(page, name);
   await checkBeside(page, name, `${file}_${size.width}_beside.png`);
-  if (task.includes("trajectory")) {
+  if (task === kListInTime) {
+    await checkTime(page, name);
+    await checkScenariosInTime(page, task, name);
+    await page.evaluate("document.getElementById('scenarios-section').scrollIntoView()");
+    await page.screenshot(`${file}_${size.width}_scenarios.png`);
+  } else if (inTime(task)) {
     await checkTime(page, name);
     if (wide) await checkTank(page, task, name);
     await checkKnots(page, task, name);
@@ -302,7 +336,8 @@ async function checkOtherScheme(page, task, name, size) {
 async function makePage(task) {
   const file = `${fileOf(task)}.html`;
   const start = Date.now();
-  await run("view", task, "--budget", "3000", "--out", file, ...(kWords[task] ?? []));
+  const words = kWords[task] ?? [];
+  await run("view", task, "--out", file, ...(words.includes("--budget") ? [] : ["--budget", "3000"]), ...words);
   const bytes = statSync(file).size;
   check(bytes < kMostBytes, `${task}: ${bytes} bytes`);
   console.log(`${task}: ${(bytes / 1e6).toFixed(2)} MB in ${((Date.now() - start) / 1000).toFixed(1)} s`);

@@ -54,6 +54,10 @@ nlohmann::ordered_json explanation_json(const Answer& answer);
 /// and the intervals of all of them unless there are many. Null without a list or a posture.
 nlohmann::ordered_json scenarios_json(const Answer& answer);
 
+/// The same of a task in time: which scenario decides and when, and what each allows at each
+/// instant. Null if there is no list or no valid trajectory.
+nlohmann::ordered_json scenarios_in_time_json(const Answer& answer);
+
 /// The experiment in the virtual tank along a trajectory, as `simulate` runs it by default: whether
 /// it was held, the reading that counts, and curves of what is planned and read along c. Null if
 /// the trajectory has no value.

@@ -85,6 +85,7 @@ ordered_json scene_of(const Problem& problem, const std::vector<Visual>& visuals
     }
     if (each.answer.trajectory.instants.empty()) continue;
     ordered_json entry = shown_json(each, kMostSets);
+    if (problem.motion) entry["scenarios"] = scenarios_in_time_json(each.answer);
     if (each.tank) entry["tank"] = tank_json(each.answer);
     if (!entry["frames"].empty()) scene["shown"].push_back(std::move(entry));
   }

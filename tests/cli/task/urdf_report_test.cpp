@@ -2,11 +2,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/support/support.h"
 
@@ -134,6 +138,92 @@ TEST_F(UrdfReport, CheckListsTheStatesOfAnSrdfAndItsUnknownLinks) {
   EXPECT_THAT(text, testing::ContainsRegex("  posture ready +arm=0.5\n"));
   EXPECT_THAT(text, HasSubstr("warning: robot.srdf: disable_collisions: not in the URDF, so no "
                               "pair: ghost\n"));
+}
+
+/// Two arms on a turning torso, and the groups of one of them.
+class SrdfCommand : public UrdfReport {
+ protected:
+  SrdfCommand() {
+    write("<link name='base'/>" + body("torso", 1) + body("left", 1) + body("hand", 1) +
+          body("right", 1) + hinge("waist", "base", "torso", 500, "0 0 1") +
+          hinge("shoulder", "torso", "left", 200) + hinge("elbow", "left", "hand", 100) +
+          hinge("other", "torso", "right", 200));
+    write_srdf(
+        "<group name='arm'><chain base_link='torso' tip_link='hand'/></group>"
+        "<group name='both'><group name='arm'/><joint name='other'/></group>"
+        "<group_state name='turned' group='both'><joint name='waist' value='0.5'/>"
+        "<joint name='elbow' value='0.25'/></group_state>");
+  }
+};
+
+TEST_F(SrdfCommand, CheckSaysWhichJointsMoveAndWhereTheOthersAre) {
+  EXPECT_THAT(run("check robot.urdf --srdf robot.srdf").out,
+              HasSubstr("note: groups of the SRDF, of which none was chosen: arm, both\n"));
+  const std::string text = run("check robot.urdf --srdf robot.srdf --group arm --rest turned").out;
+  EXPECT_THAT(text, HasSubstr("degrees of freedom 2: base {}, 2 joints\n"));
+  EXPECT_THAT(text, HasSubstr("end effectors hand (on hand)\n"));
+  EXPECT_THAT(text, HasSubstr("note: group arm: joints shoulder, elbow; locked at waist=0.5; 1 "
+                              "locked at rest\n"));
+}
+
+/// With both axes horizontal, the hand's frame is at 1 m (torso) + 1 m (left) + cos(0.25) in the
+/// direction in which the waist is turned.
+TEST_F(SrdfCommand, APostureAlsoPlacesTheJointsOutside) {
+  const std::string group = " robot.urdf --srdf robot.srdf --group arm ";
+  const auto hand = [&](const std::string& words) {
+    const CommandResult result = run("pose" + group + words + " --json");
+    EXPECT_EQ(result.exit_status, 0) << result.err;
+    return json::parse(result.out)["links"]["hand"]["position"];
+  };
+  const json turned = hand("--posture turned");
+  // base -> waist at 1 m, then the shoulder and the elbow 1 m further each.
+  EXPECT_NEAR(turned[0], 1 + 2 * std::cos(0.5), 1e-12);
+  EXPECT_NEAR(turned[1], 2 * std::sin(0.5), 1e-12);
+  EXPECT_NEAR(hand("--rest turned")[1], 2 * std::sin(0.5), 1e-12);
+  EXPECT_NEAR(hand("--rest waist=-0.25 --posture turned")[1], -2 * std::sin(0.25), 1e-12);
+  EXPECT_NEAR(hand("")[1], 0, 1e-12);
+  // A task needs no --tool: the tip of the group is it.
+  const CommandResult eval = run("eval" + group + "--posture turned --json");
+  ASSERT_EQ(eval.exit_status, 0) << eval.err;
+  const json answer = json::parse(eval.out);
+  EXPECT_EQ(answer["theta"]["elbow"], 0.25);
+  EXPECT_FALSE(answer["theta"].contains("waist"));
+  EXPECT_EQ(run("solve" + group + "--budget 50 --joints elbow=0.5 --json").exit_status, 0);
+}
+
+TEST_F(SrdfCommand, InitWritesTheGroup) {
+  ASSERT_EQ(run("init robot.urdf --srdf robot.srdf --group arm --out made").exit_status, 0);
+  const CommandResult made = run("check made/robot.toml");
+  EXPECT_EQ(made.exit_status, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("degrees of freedom 2: base {}, 2 joints\n"));
+  EXPECT_EQ(run("check made/task.toml").exit_status, 0);
+}
+
+TEST_F(SrdfCommand, WrongGroupsEndWithOneLine) {
+  const std::string srdf = " robot.urdf --srdf robot.srdf";
+  const std::vector<std::pair<std::string, std::string>> uses = {
+      {"check" + srdf + " --group leg",
+       "--group: got 'leg', expected a group of the SRDF: arm, both"},
+      {"eval" + srdf + " --group ''", "--group: got ''"},
+      {"check robot.urdf --group arm", "--group: got 'arm', expected an SRDF beside it"},
+      {"check" + srdf + " --group arm --rest bent",
+       "--rest: got 'bent', expected a named posture of the SRDF: turned"},
+      {"eval" + srdf + " --group arm --posture bent",
+       "--posture: got 'bent', expected a named posture of the SRDF: turned"},
+      {"solve" + srdf + " --group arm --posture bent",
+       "--posture: got 'bent', expected a named posture of the SRDF: turned"},
+      {"check" + srdf + " --group arm --rest elbow=0.1",
+       "--rest: got 'elbow', expected a joint outside of the group arm"},
+      {"check" + srdf + " --group arm --rest waist=", "--rest: got 'waist='"},
+      {"check" + srdf + " --rest turned", "--rest: got 'turned', expected none without --group"},
+      {"eval" + srdf + " --group both", "--tool: got nothing, expected an end effector"},
+      {"eval planar/force --group arm", "--group: got 'arm', expected none: planar/force is not"}};
+  for (const auto& [words, expected] : uses) {
+    const CommandResult result = run(words);
+    EXPECT_EQ(result.exit_status, 2) << words << '\n' << result.err;
+    EXPECT_THAT(result.err, HasSubstr(expected)) << words;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << words;
+  }
 }
 
 /// The example stands in front of the base.

@@ -160,7 +160,7 @@ export class App {
     this.panel.set(this.frame, this.entry, this.timed ? this.knot : null);
     showComparison(this.scene, entries, frames, this.name);
     showExplanation(this.entry.explanation, this.frame, this.frame.unit, this.entry.stale);
-    showScenarios(this.entry.scenarios, this.frame.unit, this.entry.stale);
+    showScenarios(this.entry.scenarios, this.frame.unit, this.entry.stale, this.timed ? this.t : undefined);
     this.timeline?.set(this.t);
     this.regions?.set(this.frame);
     this.describe();

@@ -88,15 +88,45 @@ export function showExplanation(explanation, frame, unit, stale) {
   if (details && open) details.open = true;
 }
 
-/** Writes which scenario decides, and the ends of all. */
-export function showScenarios(scenarios, unit, stale) {
+const endText = (value, none) => (value === null ? none : shown(value, 5));
+
+/** The ends of a list at a posture. */
+function endsTable({ ends }, unit) {
+  const rows = ends.map((each) => [words(each.name), ...(each.held ? [endText(each.low, "\u2212\u221e"), endText(each.high, "\u221e")] : ["not held", ""])]);
+  return table(["scenario", `from [${unit}]`, `to [${unit}]`], rows);
+}
+
+/** The instant whose numbers stand for a time. */
+const nearestIn = (times, t) => times.reduce((best, time, i) => (Math.abs(time - t) < Math.abs(times[best] - t) ? i : best), 0);
+
+/** The scenarios over the whole motion, each alone, and at an instant. */
+function endsInTime({ ends, t: times }, unit, t) {
+  const at = nearestIn(times, t);
+  const most = (each) => (each.held ? endText(each.high, "\u2013") : "not held");
+  return namedTable([`throughout [${unit}]`, `at ${shown(times[at], 3)} s [${unit}]`], ends.map((each) => [words(each.name), most(each), endText(each.values[at], "\u2013")]));
+}
+
+/** Which scenario has least left at a time; limits of effort rates join instants and are left out. */
+function worstAt({ ends, t: times }, unit, t) {
+  const at = nearestIn(times, t);
+  const left = ends.filter((each) => each.values[at] !== null);
+  if (!left.length) return "";
+  const worst = left.reduce((a, b) => (b.values[at] < a.values[at] ? b : a));
+  return ` At ${shown(times[at], 3)} s least is left with ${words(worst.name)}: ${withUnit(worst.values[at], unit, 5)}, limits of effort rates aside.`;
+}
+
+/** Writes which scenario decides, and the ends of all; `t` is the cursor of a task in time. */
+export function showScenarios(scenarios, unit, stale, t) {
   const section = byId("scenarios-section");
   section.hidden = !scenarios;
   section.classList.toggle("stale", Boolean(stale));
   if (!scenarios) return;
   const all = `of ${scenarios.count} scenario${scenarios.count === 1 ? "" : "s"}`;
-  byId("decides").textContent = scenarios.decides ? `${words(scenarios.decides)} decides, ${all}; the picture shows its efforts.` : `None decides, ${all}.`;
-  const end = (value, none) => (value === null ? none : shown(value, 5));
-  const rows = (scenarios.ends ?? []).map((each) => [words(each.name), ...(each.held ? [end(each.low, "\u2212\u221e"), end(each.high, "\u221e")] : ["not held", ""])]);
-  byId("ends").replaceChildren(...(rows.length ? [table(["scenario", `from [${unit}]`, `to [${unit}]`], rows)] : [make("p", { class: "note" }, "They are too many to be listed.")]));
+  const when = scenarios.decides_at === undefined || scenarios.decides_at === null ? "" : ` at ${shown(scenarios.decides_at, 4)} s`;
+  const decides = scenarios.decides ? `${words(scenarios.decides)} decides${when}, ${all}; the picture shows its efforts.` : `None decides, ${all}.`;
+  const listed = scenarios.ends?.length;
+  const inTime = listed && t !== undefined;
+  byId("decides").textContent = decides + (inTime ? worstAt(scenarios, unit, t) : "");
+  if (!listed) byId("ends").replaceChildren(make("p", { class: "note" }, "They are too many to be listed."));
+  else byId("ends").replaceChildren(inTime ? endsInTime(scenarios, unit, t) : endsTable(scenarios, unit));
 }

@@ -16,6 +16,15 @@ function tankPlot(tank, unit) {
     curves: [{ name: "planned", times, values: planned, soft: true }, { name: "reading of the virtual tank", times, values: reading, bold: true }] }];
 }
 
+const kMostScenarios = 12;
+
+/** What the scenarios allow over time, those with least first; the one that decides is bold. */
+function scenarioPlot(scenarios, unit) {
+  if (!scenarios?.ends) return [];
+  const curves = scenarios.ends.slice(0, kMostScenarios).map((each) => ({ name: words(each.name), times: scenarios.t, values: each.values.map((value) => value ?? NaN), bold: each.name === scenarios.decides }));
+  return [{ title: `scenarios [${unit}]`, zero: true, curves }];
+}
+
 /** How an experiment ended. */
 function verdictOf(tank, unit) {
   if (tank === null) return "The virtual tank has nothing to carry out.";
@@ -63,14 +72,14 @@ export class Timeline {
   }
 
   /** Draws the curves of a trajectory. One of the sliders has no experiment in the tank. */
-  setEntry({ frames, tank }) {
+  setEntry({ frames, tank, scenarios }) {
     this.frames = frames;
     this.tank = tank;
     this.end = frames[frames.length - 1].t;
     this.slider.max = this.end;
     const known = (curve) => curve.values.every(Number.isFinite);
     const unit = this.scene.task.unit;
-    this.plots = [...plotsOf(this.scene, frames), ...tankPlot(tank, unit)].map((plot) => ({ ...plot, curves: plot.curves.filter(known) })).filter((plot) => plot.curves.length);
+    this.plots = [...plotsOf(this.scene, frames), ...scenarioPlot(scenarios, unit), ...tankPlot(tank, unit)].map((plot) => ({ ...plot, curves: plot.curves.filter(known) })).filter((plot) => plot.curves.length);
     byId("curves").replaceChildren(...this.plots.map((plot) => this.draw(plot)));
     const asked = this.scene.shown.some((each) => each.tank);
     byId("tank").hidden = !asked;

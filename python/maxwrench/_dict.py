@@ -1,0 +1,38 @@
+"""Results as plain data: what json.dumps takes."""
+
+import math
+
+import numpy as np
+
+
+def dict_of(self):
+    """Returns what a result says, by the names of its attributes: numbers, texts, lists and dicts.
+
+    Arrays become lists, numbers that are not finite None, a Task its name.
+
+    >>> maxwrench.linprog([1, 2], [[1, 1]], [1]).to_dict()["objective"]
+    2.0
+    """
+    kind = type(self)
+    names = [name for name in dir(kind) if isinstance(getattr(kind, name), property)]
+    return {name: plain(getattr(self, name)) for name in names}
+
+
+def plain(value):
+    """Returns a value of an attribute as json.dumps takes it.
+
+    >>> import numpy
+    >>> maxwrench._dict.plain({"t": numpy.array([1.0, numpy.nan])})
+    {'t': [1.0, None]}
+    """
+    if isinstance(value, (np.ndarray, np.generic)):
+        value = value.tolist()
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if value is None or isinstance(value, (bool, int, str)):
+        return value
+    if isinstance(value, dict):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(item) for item in value]
+    return value.to_dict() if hasattr(value, "to_dict") else value.name
