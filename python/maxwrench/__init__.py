@@ -132,6 +132,7 @@ __all__ = [
     "searches",
     "sensitivity",
     "simulate",
+    "simulate_scenarios",
     "solve",
     "solvers",
     "table",
