@@ -114,6 +114,7 @@ class JointNlpSearch : public Search {
     const std::lock_guard guard(ipopt_lock());
     const auto application =
         make_ipopt_application("joint_nlp", kJointIterations, [](Ipopt::OptionsList& options) {
+          options.SetStringValue("mu_strategy", "monotone");
           options.SetNumericValue("tol", 1e-7);
         });
     const Ipopt::SmartPtr<JointNlp> nlp = new JointNlp(objective, program, until, run, found);

@@ -7,6 +7,7 @@
 
 #include "maxwrench/load.h"
 #include "maxwrench/scenario.h"
+#include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"
 #include "solvers/solve/tank_scenarios.h"
 #include "tests/support/coded_tasks.h"
@@ -68,8 +69,8 @@ TEST(TankDeath, TheThrusterExertsNothingFromThenOn) {
   EXPECT_LT(dead.summary.violation, 1e-6);
 }
 
-/// A controller that counts on a thruster for a while lets the posture go farther, and the transient
-/// takes longer.
+/// A controller that counts on a thruster for a while lets the posture go farther, and the
+/// transient takes longer.
 TEST(TankDeath, ALateNoticeCosts) {
   const TankRun at_once = lift_with_a_death(14.5, 7), late = lift_with_a_death(14.5, 7, 1);
   ASSERT_TRUE(at_once.summary.after && late.summary.after);

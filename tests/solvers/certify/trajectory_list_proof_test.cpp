@@ -89,7 +89,7 @@ TEST(TrajectoryListProof, RejectsWhatIsNotAProofOfTheList) {
       [](Claims& c) { c[2].knots(3, 0) += 1e-9; },
       [](Claims& c) { c[2].collision = false; },
       [](Claims& c) { c[1].y = c[0].y; },
-      [](Claims& c) { c[1].y.row(0).array() += 1; },
+      [](Claims& c) { c[1].y.array() += 1; },  // what is dead would exert something
   };
   const auto& [problem, proof, claims] = list_proof();
   for (std::size_t i = 0; i < all.size(); ++i) {

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "maxwrench/load.h"
+#include "maxwrench/sensitivity.h"
+#include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/trajectory.h"
 #include "tests/support/coded_tasks.h"
@@ -57,8 +59,9 @@ TEST(TankScenarios, TheValueOfAListIsHeldInEachScenario) {
   TankOptions options;
   options.until_hold = true;
   options.hold = 2;
-  const ScenarioExperiments experiments = simulate_scenarios(at_default(problem), 0, "cvode", options);
-  EXPECT_EQ(experiments.status, Status::kReached);
+  const ScenarioExperiments experiments =
+      simulate_scenarios(at_default(problem), 0, "cvode", options);
+  EXPECT_EQ(experiments.status, Status::kReached) << experiments.reason.c_str();
   EXPECT_NEAR(experiments.planned, 14.55665, 5e-5);  // an independent model
   ASSERT_EQ(experiments.all.size(), 9u);
   EXPECT_TRUE(experiments.held());
@@ -91,7 +94,8 @@ TEST(TankScenarios, EachScenarioExertsItsOwnWrench) {
   TankOptions options;
   options.until_hold = true;
   options.hold = 2;
-  const ScenarioExperiments experiments = simulate_scenarios(at_default(problem), 2, "cvode", options);
+  const ScenarioExperiments experiments =
+      simulate_scenarios(at_default(problem), 2, "cvode", options);
   ASSERT_EQ(experiments.all.size(), 3u);
   EXPECT_TRUE(experiments.held());
   EXPECT_NEAR(experiments.all[0].experiment.run.summary.mean, 2, 0.04);
@@ -109,7 +113,8 @@ TEST(TankScenarios, DeathsAreAddedToTheWrenchesOfTheIntactRobot) {
   options.until_hold = true;
   options.hold = 10;
   options.deaths = {death_of(problem.robot, "dies", "rear_left_vertical", 7)};
-  const ScenarioExperiments experiments = simulate_scenarios(at_default(problem), 0, "cvode", options);
+  const ScenarioExperiments experiments =
+      simulate_scenarios(at_default(problem), 0, "cvode", options);
   ASSERT_EQ(experiments.all.size(), 1u);
   EXPECT_EQ(experiments.all[0].scenario.name, "nominal");
   EXPECT_TRUE(experiments.held()) << experiments.all[0].experiment.run.summary.missed;
