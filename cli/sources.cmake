@@ -7,6 +7,6 @@ set(maxwrench_cli_sources
   suite/compare.cpp suite/merge.cpp suite/race_figures.cpp suite/race_table.cpp suite/row_writer.cpp suite/run.cpp suite/shard_option.cpp
   suite/workers.cpp
   task/check.cpp task/eval.cpp task/explain_option.cpp task/init.cpp task/list.cpp task/load_and_solve.cpp task/motion_options.cpp
-  task/own_weight.cpp task/plot.cpp task/pose.cpp task/problem_options.cpp task/simulate.cpp task/simulate_motion.cpp
+  task/own_weight.cpp task/plot.cpp task/pose.cpp task/problem_options.cpp task/dies_option.cpp task/simulate.cpp task/simulate_motion.cpp task/simulate_scenarios.cpp
   task/map.cpp task/pareto.cpp task/sensitivity.cpp task/solve.cpp task/state.cpp task/view.cpp
   task/margin.cpp)

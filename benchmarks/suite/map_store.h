@@ -6,10 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/tables/table.h"
-#include "maxwrench/map.h"
-#include "maxwrench/problem.h"
-#include "solvers/map/lattice.h"
+#include "benchmarks/suite/map_rows.h"
 
 namespace maxwrench {
 
@@ -37,16 +34,7 @@ class MapStore {
   void write() { table_.write(); }
 
  private:
-  MapCell read(const std::vector<std::string>& row) const;
-  void require_true(const MapCell& cell) const;
-
-  const Problem task_;
-  const std::vector<MapAxis> over_;
-  const Case choice_;
-  const Lattice lattice_;
-  std::vector<std::string> columns_;
-  std::size_t axes_, theta_r_, joints_;
-  std::string unit_, seed_;
+  const MapRows rows_;
   Table table_;
   std::map<std::vector<long>, MapCell> known_;
 };

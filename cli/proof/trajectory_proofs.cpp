@@ -45,6 +45,13 @@ nlohmann::ordered_json to_object(const TrajectoryProof& proof) {
           {"wall_s", proof.seconds}};
 }
 
+/// The scenario with the least factor, as a line of text; empty if there is no list.
+std::string decides_line(std::size_t scenarios, const std::string& decides) {
+  if (scenarios == 0) return "";
+  return fmt::format("decides    {}, of {} scenarios that are proven one by one\n", decides,
+                     scenarios);
+}
+
 void print_proof_of(const TrajectoryProof& proof, const Problem& problem, bool json) {
   const Answer& answer = proof.answer;
   const Trajectory& trajectory = answer.trajectory;
@@ -56,6 +63,7 @@ void print_proof_of(const TrajectoryProof& proof, const Problem& problem, bool j
     object["value_between_knots"] =
         known(std::isfinite(trajectory.value_between_knots), trajectory.value_between_knots);
     object["unit"] = answer.unit;
+    if (!proof.decides.empty()) object["decides"] = proof.decides;
     object["collision"] = answer.collision;
     object["version"] = version();
     print_json(object);
@@ -70,6 +78,9 @@ void print_proof_of(const TrajectoryProof& proof, const Problem& problem, bool j
       fmt::print("value_between_knots {:.5f} {}\n", trajectory.value_between_knots, answer.unit);
     }
     fmt::print("{}", guaranteed_line(proof));
+    if (proof.status == Status::kProven) {
+      fmt::print("{}", decides_line(static_cast<std::size_t>(proof.scenarios), proof.decides));
+    }
     if (proof.status == Status::kProven) {
       fmt::print("clearance  {}\n", words_of_clearance(proof.clearance));
       fmt::print("slices     {}, {} parts between knots, in {:.3g} s\n", proof.slices, proof.parts,
@@ -114,20 +125,22 @@ int verify_trajectory_file(const std::string& file, const std::string& problem, 
       file, [&](const std::string& name) { return load_problem(problem.empty() ? name : problem); },
       threads);
   if (json) {
-    print_json(
-        {{"problem", proof.problem},
-         {"status", proof.verified() ? "verified" : "rejected"},
-         {"reason", proof.rejection},
-         {"guaranteed", proof.guaranteed},
-         {"unit", proof.unit},
-         {"t", known(proof.t >= 0, proof.t)},
-         {"collision", proof.collision},
-         {"clearance", known(proof.verified() && std::isfinite(proof.clearance), proof.clearance)},
-         {"knots", proof.knots.rows()},
-         {"parts", proof.parts},
-         {"slices", proof.slices},
-         {"wall_s", proof.seconds},
-         {"version", proof.version}});
+    nlohmann::ordered_json object = {
+        {"problem", proof.problem},
+        {"status", proof.verified() ? "verified" : "rejected"},
+        {"reason", proof.rejection},
+        {"guaranteed", proof.guaranteed},
+        {"unit", proof.unit},
+        {"t", known(proof.t >= 0, proof.t)},
+        {"collision", proof.collision},
+        {"clearance", known(proof.verified() && std::isfinite(proof.clearance), proof.clearance)},
+        {"knots", proof.knots.rows()},
+        {"parts", proof.parts},
+        {"slices", proof.slices},
+        {"wall_s", proof.seconds},
+        {"version", proof.version}};
+    if (proof.scenarios > 0) object["decides"] = proof.decides;
+    print_json(object);
   } else {
     fmt::print("{}{}\n", proof.problem, proof.collision ? "" : "  collisions ignored");
     const std::string when = proof.t >= 0 ? fmt::format("t = {:.5g} s: ", proof.t) : "";
@@ -136,6 +149,7 @@ int verify_trajectory_file(const std::string& file, const std::string& problem, 
                !proof.verified() ? ", as claimed"
                : proof.t_h > 0   ? ": proven at the peak"
                                  : ": proven at every instant");
+    if (proof.verified()) fmt::print("{}", decides_line(proof.scenarios, proof.decides));
     if (proof.verified()) fmt::print("clearance  {}\n", words_of_clearance(proof.clearance));
     fmt::print("slices     {}, {} parts between knots\n", proof.slices, proof.parts);
     fmt::print("checked in {:.3g} s, written by maxwrench {}\n", proof.seconds, proof.version);

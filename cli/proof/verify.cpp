@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/suite/map_check.h"
+#include "benchmarks/suite/map_store.h"
 #include "cli/cli.h"
 #include "cli/output.h"
 #include "cli/proof/lp_proof.h"
@@ -93,7 +95,47 @@ int check_lp_file(const VerifyOptions& options) {
   return verified ? kAnswered : kOtherStatus;
 }
 
+/// The folder of a map, if the file is one or its table; else empty.
+std::filesystem::path map_folder(const std::string& file) {
+  const std::filesystem::path path = file;
+  if (std::filesystem::is_directory(path)) return path;
+  const bool table = path.filename() == "map.csv.gz" || path.filename() == "map.csv";
+  return table && holds_map(path.parent_path()) ? path.parent_path() : "";
+}
+
+int check_map_folder(const std::filesystem::path& folder, const VerifyOptions& options) {
+  if (!holds_map(folder)) {
+    throw std::invalid_argument(folder.string() +
+                                ": got a folder without map.json, expected one of 'map --out'");
+  }
+  const std::string& other = options.choice.problem;
+  const MapCheck check = check_map(
+      folder,
+      [&other](const std::string& name) { return load_problem(other.empty() ? name : other); },
+      options.sample, options.choice.seed, options.thread_count());
+  const bool verified = check.rejected.empty();
+  if (options.json) {
+    print_json({{"problem", check.problem},
+                {"status", verified ? "verified" : "rejected"},
+                {"cells", check.cells},
+                {"checked", check.checked},
+                {"values", check.values},
+                {"rejected", check.rejected}});
+  } else {
+    fmt::print("{}\n", check.problem);
+    if (!verified) fmt::print("rejected: {} of the checked cells\n", check.rejected.size());
+    fmt::print("{}: {} of {} cells, {} of them with a value, {} without\n",
+               verified ? "verified" : "checked", check.checked, check.cells, check.values,
+               check.checked - check.values);
+    for (const std::string& each : check.rejected) fmt::print("rejected: {}\n", each);
+  }
+  return verified ? kAnswered : kOtherStatus;
+}
+
 int check_file(const VerifyOptions& options) {
+  if (const auto folder = map_folder(options.file); !folder.empty()) {
+    return check_map_folder(folder, options);
+  }
   if (is_values_file(options.file)) {
     if (!options.choice.problem.empty()) {
       throw std::invalid_argument("--problem: got '" + options.choice.problem +
@@ -127,8 +169,9 @@ void add_verify(CLI::App& app, int& exit_status) {
   options->choice.problem.clear();
   CLI::App& command = *app.add_subcommand(
       "verify",
-      "checks a certificate of 'certify' or 'lp' with independent code, or rows of 'run'");
-  command.add_option("file", options->file, "certificate, or values.csv.gz")
+      "checks a certificate of 'certify' or 'lp' with independent code, rows of 'run', or cells of "
+      "'map'");
+  command.add_option("file", options->file, "certificate, values.csv.gz, or the folder of a map")
       ->required()
       ->check(reject_empty);
   command
@@ -137,10 +180,10 @@ void add_verify(CLI::App& app, int& exit_status) {
                   "it names)")
       ->check(reject_empty);
   command
-      .add_option("--sample", options->sample, "number of rows of values.csv.gz to check (0: all)")
+      .add_option("--sample", options->sample, "number of rows of values.csv.gz, or of cells of a map, to check (0: all)")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
-  command.add_option("--seed", options->choice.seed, "seed of the sample of rows")
+  command.add_option("--seed", options->choice.seed, "seed of the sample")
       ->capture_default_str()
       ->check(reject_seed);
   options->add_threads(command);

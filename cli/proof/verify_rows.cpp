@@ -7,14 +7,13 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <stdexcept>
 
 #include "benchmarks/suite/row_check.h"
 #include "benchmarks/tables/case_file.h"
+#include "benchmarks/tables/draw.h"
 #include "cli/cli.h"
 #include "cli/output.h"
-#include "lib/math/random.h"
 #include "maxwrench/batch.h"
 #include "maxwrench/load.h"
 #include "solvers/solve/format.h"
@@ -23,20 +22,6 @@
 
 namespace maxwrench {
 namespace {
-
-/// The rows to check.
-std::vector<std::size_t> draw(std::size_t all, std::size_t sample, std::uint64_t seed) {
-  std::vector<std::size_t> rows(all);
-  std::iota(rows.begin(), rows.end(), 0);
-  if (sample == 0 || sample >= all) return rows;
-  Random random(seed);
-  for (std::size_t i = 0; i < sample; ++i) {
-    const double left = static_cast<double>(all - i) * random.uniform(0, 1);
-    std::swap(rows[i], rows[std::min(all - 1, i + static_cast<std::size_t>(left))]);
-  }
-  rows.resize(sample);
-  return rows;
-}
 
 std::vector<RowCheck> check_all(const CsvFile& csv, const std::vector<std::size_t>& rows,
                                 int threads) {
@@ -79,7 +64,7 @@ int verify_rows(const std::string& file, std::size_t sample, std::uint64_t seed,
   rows_of_cases(csv);  // each once
   const std::size_t all = csv.rows.size();
   if (all == 0) throw std::invalid_argument(file + ": got no row, expected one or more");
-  const std::vector<std::size_t> rows = draw(all, sample, seed);
+  const std::vector<std::size_t> rows = draw_rows(all, sample, seed);
   const std::vector<RowCheck> checks = check_all(csv, rows, threads);
   double deviation = 0;
   std::vector<std::string> rejected;

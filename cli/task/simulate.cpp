@@ -18,13 +18,14 @@
 #include "maxwrench/strategies.h"
 #include "maxwrench/version.h"
 #include "solvers/solve/tank.h"
+#include "solvers/solve/tank_scenarios.h"
 
 namespace maxwrench {
 namespace {
 
 void print_object(const Problem& problem, const SimulateOptions& options, const TankRun& run) {
   const TankSummary& s = run.summary;
-  const nlohmann::ordered_json object = {
+  nlohmann::ordered_json object = {
       {"problem", problem.name},
       {"integrator", options.integrator},
       {"status", to_string(run.status)},
@@ -49,6 +50,8 @@ void print_object(const Problem& problem, const SimulateOptions& options, const 
       {"end", run.samples.empty() ? 0 : run.samples.back().t},
       {"wall_s", run.total_s},
       {"version", version()}};
+  if (!options.tank.deaths.empty()) object["dies"] = deaths_object(problem.robot, options.tank);
+  if (s.after) object["after"] = after_object(*s.after);
   print_json(object);
 }
 
@@ -71,7 +74,9 @@ void print_text(const Problem& problem, const SimulateOptions& options, const Ta
   const TankSummary& s = run.summary;
   fmt::print("{}  virtual tank  integrator {}\n", problem.name, options.integrator);
   fmt::print("planned     {:.5f} {}\n", s.planned, problem.unit());
+  print_deaths(problem.robot, options.tank);
   print_reading(options, s);
+  if (s.after) print_after(*s.after);
   if (std::isfinite(s.theta_r_error)) {
     fmt::print("error       {:.2g} rad of theta_r, {:.2g} of all joints and the base\n",
                s.theta_r_error, s.configuration_error);
@@ -103,6 +108,26 @@ int print_heaviest(const SimulateOptions& options, const Answer& answer) {
   return ended ? kOtherStatus : kAnswered;
 }
 
+/// Rejects options of a load where a list states the wrenches.
+void require_list_options(const Problem& problem, const SimulateOptions& options) {
+  require_tank_scenarios(problem);
+  for (const char* option : {"--load", "--heaviest"}) {
+    if (options.command->get_option(option)->count() == 0) continue;
+    throw std::invalid_argument(fmt::format(
+        "{}: got {}, a task with a list of scenarios, expected one wrench", option, problem.name));
+  }
+}
+
+int simulate_list(const SimulateOptions& options, const Answer& answer) {
+  if (!(options.planned > 0 || answer.capability.beta > 0)) {
+    throw std::invalid_argument(
+        fmt::format("--planned: got {}, expected a value > 0: none is possible here", 0));
+  }
+  return report_experiments(
+      *answer.task, options,
+      simulate_scenarios(answer, options.planned, options.integrator, options.tank));
+}
+
 TankRun simulate_answer(const SimulateOptions& options, const Answer& answer) {
   const TankOptions& tank = options.tank;
   if (tank.load > 0) return simulate_load(answer, tank.load, options.integrator, tank);
@@ -127,6 +152,7 @@ void require_stiff(const std::string& name) {
 }
 
 int simulate_static(const Problem& task, const SimulateOptions& options) {
+  if (!task.scenarios.empty()) require_list_options(task, options);
   // The controller holds the end effector at its pose for theta_r.
   const Eigen::VectorXd theta_r = theta_r_of(task, options.theta_r);
   const Problem problem = held_at(task, theta_r);
@@ -136,6 +162,7 @@ int simulate_static(const Problem& task, const SimulateOptions& options) {
     throw std::invalid_argument("--measure: got " + answer.choice.measure +
                                 ", expected one with a wrench");
   }
+  if (!problem.scenarios.empty()) return simulate_list(options, answer);
   if (options.heaviest) return print_heaviest(options, answer);
   const TankRun run = simulate_answer(options, answer);
   if (!options.out.empty()) write_file(options.out, tank_csv(problem, run));
@@ -147,7 +174,7 @@ int simulate_static(const Problem& task, const SimulateOptions& options) {
   return run.status == Status::kReached ? kAnswered : kOtherStatus;
 }
 
-int simulate(const SimulateOptions& options) {
+int simulate(SimulateOptions& options) {
   require_stiff(options.integrator);
   const Problem problem = load_apart(options.choice.problem, options.source, options.motion,
                                      {{"--theta-r", options.theta_r.value_or("")}},
@@ -156,6 +183,7 @@ int simulate(const SimulateOptions& options) {
     throw std::invalid_argument("problem: got " + problem.name +
                                 ", expected one without a second contact");
   }
+  options.dies.read(problem.robot, options.tank);
   if (problem.motion) return simulate_motion(problem, options);
   if (options.interpolation) {
     throw std::invalid_argument("--interpolation: got '" + *options.interpolation +
@@ -251,6 +279,7 @@ void add_simulate(CLI::App& app, int& exit_status) {
                               ->excludes(planned)
                               ->excludes(load);
   add_times(command, options->tank);
+  options->dies.add(command, options->tank);
   command
       .add_option("--integrator", options->integrator,
                   "integrator, one of those that 'maxwrench list' prints")

@@ -12,7 +12,7 @@
 #include "maxwrench/tank.h"
 #include "maxwrench/trajectory.h"
 #include "maxwrench/version.h"
-#include "solvers/solve/tank.h"
+#include "solvers/solve/tank_scenarios.h"
 
 namespace maxwrench {
 namespace {
@@ -43,22 +43,42 @@ Interpolation interpolation_of(const Problem& problem, const SimulateOptions& op
   return chosen;
 }
 
-MotionAnswer answer_of(const Problem& problem, const SimulateOptions& options) {
-  const Wrench wrench = options.read_options().wrench;
-  const TrajectorySolverEntry& lp = options.choice.solver.empty()
-                                        ? trajectory_solvers().front()
-                                        : find_trajectory_solver(options.choice.solver);
+/// A trajectory, and what is needed to carry it out.
+struct MotionPlan {
+  Wrench wrench = Wrench::kPure;
+  const TrajectorySolverEntry* lp = nullptr;
   ScriptOptions script;
-  script.interpolation = interpolation_of(problem, options);
-  script.planned = options.planned;
-  script.margin = options.tank.margin;
-  TrajectoryEvaluator evaluator(problem, wrench, lp.make);
+  Trajectory trajectory;
+};
+
+MotionPlan plan_of(const Problem& problem, const SimulateOptions& options) {
+  MotionPlan plan;
+  plan.wrench = options.read_options().wrench;
+  plan.lp = options.choice.solver.empty() ? &trajectory_solvers().front()
+                                          : &find_trajectory_solver(options.choice.solver);
+  plan.script.interpolation = interpolation_of(problem, options);
+  plan.script.planned = options.planned;
+  plan.script.margin = options.tank.margin;
+  TrajectoryEvaluator evaluator(problem, plan.wrench, plan.lp->make);
   evaluator.evaluate(knots_of(problem, options.theta_r));
   if (evaluator.trajectory().status == Status::kOptimal) evaluator.evaluate_between_knots();
-  const Trajectory& trajectory = evaluator.trajectory();
-  return {simulate_trajectory(problem, trajectory, wrench, lp, script, options.integrator,
-                              options.tank),
-          trajectory};
+  plan.trajectory = evaluator.trajectory();
+  return plan;
+}
+
+MotionAnswer answer_of(const Problem& problem, const SimulateOptions& options) {
+  const MotionPlan plan = plan_of(problem, options);
+  return {simulate_trajectory(problem, plan.trajectory, plan.wrench, *plan.lp, plan.script,
+                              options.integrator, options.tank),
+          plan.trajectory};
+}
+
+int simulate_motion_list(const Problem& problem, const SimulateOptions& options) {
+  require_tank_scenarios(problem);
+  const MotionPlan plan = plan_of(problem, options);
+  return report_experiments(problem, options,
+                            simulate_scenarios(problem, plan.trajectory, plan.wrench, *plan.lp,
+                                               plan.script, options.integrator, options.tank));
 }
 
 /// Adds the measurements; null where there is none.
@@ -102,6 +122,8 @@ void print_motion_object(const Problem& problem, const SimulateOptions& options,
                                    {"slack", answer.script.slack},
                                    {"t_h", answer.script.t_h}};
   add_measured(answer.run, object);
+  if (!options.tank.deaths.empty()) object["dies"] = deaths_object(problem.robot, options.tank);
+  if (answer.run.summary.after) object["after"] = after_object(*answer.run.summary.after);
   object["wall_s"] = answer.run.total_s;
   object["version"] = version();
   print_json(object);
@@ -145,7 +167,9 @@ void print_motion_text(const Problem& problem, const SimulateOptions& options,
   if (std::isfinite(answer.script.planned)) {
     fmt::print("planned     {:.5f} {}\n", answer.script.planned, problem.unit());
   }
+  print_deaths(problem.robot, options.tank);
   if (!run.samples.empty()) print_motion_reading(answer);
+  if (run.summary.after) print_after(*run.summary.after);
   print_end(run);
 }
 
@@ -153,6 +177,7 @@ void print_motion_text(const Problem& problem, const SimulateOptions& options,
 
 int simulate_motion(const Problem& problem, const SimulateOptions& options) {
   require_motion_options(problem, options);
+  if (!problem.scenarios.empty()) return simulate_motion_list(problem, options);
   const MotionAnswer answer = answer_of(problem, options);
   if (!options.out.empty() && answer.script.status == Status::kOptimal) {
     write_file(options.out, tank_csv(problem, answer.run));

@@ -43,6 +43,13 @@ struct Imperfections {
   std::uint64_t seed = 1;  ///< seed of the noise
 };
 
+/// An actuator that fails during an experiment: a thruster exerts no force any more, the drive of a
+/// joint no torque.
+struct ActuatorDeath {
+  int actuator = 0;  ///< index of its effort
+  double t = 0;  ///< time [s]; it exerts nothing from the first period that begins then or later
+};
+
 /// The options of an experiment as in the paper: ramp, hold, ramp.
 struct TankOptions {
   double ramp = 5,            ///< duration of each ramp [s]
@@ -60,8 +67,11 @@ struct TankOptions {
   double load = 0;
   /// Whether the experiment ends after the hold.
   bool until_hold = false;
-  LoadCell cell;                ///< the load cell
-  Imperfections imperfections;  ///< how the robot differs from its model
+  LoadCell cell;                      ///< the load cell
+  Imperfections imperfections;        ///< how the robot differs from its model
+  std::vector<ActuatorDeath> deaths;  ///< actuators that fail, each at most once
+  /// Time after which the controller no longer counts on an actuator that failed [s].
+  double noticed_after = 0;
   /// Tolerances and limits of the integration.
   IntegratorOptions integrator{1e-6, 1e-8, 100000, 1e-4};
   /// Asked before each period; once it returns true, the experiment ends early. May be empty.
@@ -72,10 +82,17 @@ struct TankOptions {
 ///
 /// All times, the lag and the stiffness must be positive, except that the hold may be zero. Nothing
 /// may be negative, infinite or NaN. The margin must be below 1. The experiment may have at most
-/// ten million periods.
+/// ten million periods. Of the deaths only the times are checked.
 ///
 /// @throws std::invalid_argument, with one line that names the key, otherwise.
 void check(const TankOptions& options);
+
+/// Checks the deaths of an experiment of `duration` [s].
+///
+/// @throws std::invalid_argument, with one line, unless each is that of an actuator of the robot,
+/// at
+///         most once, and before the end.
+void check_deaths(const TankOptions& options, const Robot& robot, double duration);
 
 /// Rejects a robot that cannot move in the tank: with gears, which its equation of motion lacks, or
 /// with links that no body can be (`Robot::no_dynamics`).
@@ -88,6 +105,8 @@ struct TargetWrench {
   Vector6d h;                     ///< wrench in world axes [N; N m]; with a load, its weight
   Eigen::VectorXd u;              ///< efforts to stay close to at the full wrench (m)
   Wrench wrench = Wrench::kPure;  ///< kAny: the cell may take any wrench of W_any across c
+  /// The wrench to which errors of the reading are relative [N, N m]; 0: the planned one.
+  double reference = 0;
 };
 
 /// One sample, at the end of a control period or where the integrator failed within one.
@@ -128,9 +147,19 @@ struct MotionSummary {
   int violations = 0;         ///< samples that exceed a limit of effort, rate or speed
 };
 
+/// What the cell reads after the last actuator failed, to the end of the hold or of the motion.
+struct AfterDeaths {
+  double t = 0;                    ///< when it failed [s]
+  double mean = 0,                 ///< mean of c'h_e after the transient [N, N m]; NaN: none is left
+      low = 0,                     ///< lowest c'h_e, in the transient as well
+      high = 0,                    ///< highest c'h_e
+      last = 0;                    ///< c'h_e at the end
+  double configuration_error = 0;  ///< largest `TankSample::configuration_error` [rad, m]
+};
+
 /// The summary of the hold of an experiment.
 ///
-/// Numbers are NaN if there was no hold. If the posture was lost, the largest errors include that
+/// Numbers are NaN if there was no hold, and leave out transients (kTransient). If the posture was lost, the largest errors include that
 /// instant. For a task in time the hold is the whole experiment.
 struct TankSummary {
   double planned = 0;           ///< planned wrench c'h [N, N m]
@@ -150,6 +179,8 @@ struct TankSummary {
   bool held = false;     ///< whether the wrench was held
   std::string missed;    ///< why not, each value with the largest that is allowed
   std::optional<MotionSummary> motion;  ///< summary of a task in time; none for a static one
+  /// What follows the last death; none without one, or if it comes after the hold.
+  std::optional<AfterDeaths> after;
 };
 
 /// The record of an experiment.
@@ -184,6 +215,12 @@ inline constexpr double kHeldPosition = 0.01;
 /// The largest violation of effort and rate limits of a wrench that counts as held: the error that
 /// the integrator leaves [N, N m, N/s].
 inline constexpr double kHeldViolation = 1e-3;
+/// The length of the transient after an actuator failed, times the bandwidth of the controller.
+///
+/// It begins with the failure, and its length counts from when the controller notices it. An error
+/// that falls with critical damping is then 0.3 % of what it was. Readings and errors of the
+/// transient do not count for the hold, unless the posture is lost; those after it do.
+inline constexpr double kTransient = 8;
 /// The lever that compares forces and torques across c [m]: about the size of a hand.
 ///
 /// Beside a planned force, a torque counts as the force at this lever. Beside a planned torque, a
@@ -260,6 +297,10 @@ struct ScriptOptions {
 ///
 /// @throws std::invalid_argument unless `planned` is finite and not negative, and 0 <= margin < 1.
 void check(const ScriptOptions& options);
+
+/// Returns the planned wrench along c of a script: that of the options, or the value of the
+/// trajectory. Of a list of scenarios it is a factor. NaN if there is none.
+double planned_wrench(const Trajectory& trajectory, const ScriptOptions& options);
 
 /// Finds efforts that exert exactly the requested wrench.
 ///

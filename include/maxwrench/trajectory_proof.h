@@ -35,6 +35,9 @@ struct TrajectoryProof : Verdict {
   /// every instant, in an impulse at its peak. NaN: none.
   double guaranteed = std::numeric_limits<double>::quiet_NaN();
   double t = std::numeric_limits<double>::quiet_NaN();  ///< where the proof fails [s]; NaN: nowhere
+  /// Of a list of scenarios: the one with the least proven factor, or the one without a proof.
+  std::string decides;
+  int scenarios = 0;             ///< number of proven scenarios of a list; 0: there is no list
   int parts = 0;                 ///< number of parts between knots: pieces of the efforts' splines
   long slices = 0;               ///< number of slices of time on which the efforts were enclosed
   double clearance = kInfinity;  ///< no bodies are closer than their margin plus this [m]
@@ -43,6 +46,9 @@ struct TrajectoryProof : Verdict {
 };
 
 /// Proves that a trajectory exerts a wrench at every instant, not only at samples.
+///
+/// Of a list of scenarios each is proven as a task of its own, and `guaranteed` is the least of
+/// their factors.
 ///
 /// The motion is the clamped cubic spline through the knots, whatever the scheme of the task. The
 /// proof holds for all t: limits of efforts, of their rates, of theta_r and of its rates, and no
@@ -70,15 +76,17 @@ TrajectoryProof solve_proven(const Problem& task, const Options& options = {},
 /// A certificate of a trajectory and the result of its check. The claims count only if it is
 /// verified.
 struct VerifiedTrajectory : TrajectoryVerification {
-  std::string version;    ///< the version of maxwrench that wrote the certificate
-  std::string problem;    ///< the name of the task
-  bool collision = true;  ///< whether bodies are kept apart
-  std::string unit;       ///< unit of the value
-  Eigen::MatrixXd knots;  ///< the knots (k×r)
-  double guaranteed = 0;  ///< the wrench along c that is exerted, in an impulse at its peak
-  int t_h = 0;            ///< the knot of the peak of an impulse; 0: a path
-  int parts = 0;          ///< as `TrajectoryProof::parts`
-  double seconds = 0;     ///< wall time of reading and checking [s]
+  std::string version;        ///< the version of maxwrench that wrote the certificate
+  std::string problem;        ///< the name of the task
+  bool collision = true;      ///< whether bodies are kept apart
+  std::string unit;           ///< unit of the value
+  Eigen::MatrixXd knots;      ///< the knots (k×r)
+  double guaranteed = 0;      ///< the wrench along c that is exerted, in an impulse at its peak
+  std::string decides;        ///< of a list, the scenario with the least factor
+  std::size_t scenarios = 0;  ///< number of scenarios of a list; 0: there is no list
+  int t_h = 0;                ///< the knot of the peak of an impulse; 0: a path
+  int parts = 0;              ///< as `TrajectoryProof::parts`
+  double seconds = 0;         ///< wall time of reading and checking [s]
 };
 
 /// Returns whether a file is a certificate of a trajectory.

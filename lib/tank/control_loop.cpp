@@ -2,12 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "lib/tank/ode.h"
 #include "lib/tank/stopwatch.h"
 #include "maxwrench/problem.h"
 
 namespace maxwrench {
+namespace {
+
+/// [s] Times that differ by less are the same: periods begin at sums with rounding errors.
+constexpr double kSameTime = 1e-9;
+
+}  // namespace
 
 ControlLoop::ControlLoop(const Problem& problem, const TankOptions& options, Integrator& integrator,
                          TankOde& ode, EffortTracker& tracker)
@@ -20,9 +27,28 @@ ControlLoop::ControlLoop(const Problem& problem, const TankOptions& options, Int
   run.conclude(Status::kReached);
 }
 
+void ControlLoop::begin(double t) {
+  t_ = t;
+  for (const ActuatorDeath& death : options_.deaths) {
+    if (t >= death.t - kSameTime && !ode_.is_dead(death.actuator)) ode_.kill(death.actuator);
+  }
+}
+
+/// An actuator that is known to be dead takes no part in the request: without a column in B, its
+/// effort does not count, and the tracking program leaves it at its preferred value, zero.
+void ControlLoop::leave_out_dead() {
+  for (const ActuatorDeath& death : options_.deaths) {
+    if (t_ < death.t + options_.noticed_after - kSameTime) continue;
+    request.B.col(death.actuator).setZero();
+    request.u_star[death.actuator] = 0;
+    request.lower[death.actuator] = request.upper[death.actuator] = 0;
+  }
+}
+
 double ControlLoop::step(double t_0, const Eigen::VectorXd& u_0, double t_1, const Vector6d& h_0,
                          const Vector6d& h_1) {
   u_0_ = u_0;
+  leave_out_dead();
   {
     const Stopwatch watch(run.qp_s);
     tracker_.solve(request, answer_);
@@ -58,13 +84,16 @@ TankSample ControlLoop::sample(double t_0, double t) const {
   return sample;
 }
 
-/// The violation by the actual efforts and by the commanded ones.
+/// The violation by the actual efforts and by the commanded ones. Dead actuators have no limits.
 double ControlLoop::violation(double dt, const Eigen::VectorXd& u) const {
   const Zonotope& limits = robot_.actuation;
-  const Eigen::ArrayXd rate = (u - u_0_).array().abs() / dt;
-  double most = std::max(0.0, (rate - robot_.u_rate_max.array()).maxCoeff());
-  for (const Eigen::VectorXd* each : {&u, &answer_.u}) {
-    most = std::max({most, (*each - limits.u_max).maxCoeff(), (limits.u_min - *each).maxCoeff()});
+  double most = 0;
+  for (Eigen::Index i = 0; i < u.size(); ++i) {
+    if (ode_.is_dead(i)) continue;
+    most = std::max(most, std::abs(u[i] - u_0_[i]) / dt - robot_.u_rate_max[i]);
+    for (const double each : {u[i], answer_.u[i]}) {
+      most = std::max({most, each - limits.u_max[i], limits.u_min[i] - each});
+    }
   }
   return most;
 }

@@ -23,6 +23,9 @@ class ControlLoop {
   EffortRequest request;  ///< for the next step
   TankRun run;
 
+  /// Lets the actuators fail whose time has come. Call it first in the period that begins at t.
+  void begin(double t);
+
   /// Moves the efforts from u_0 at t_0 to the answer to the request at t_1. h_0 and h_1 are exerted
   /// on the support of a load. Returns the time at which the step ended, which is before t_1 if the
   /// integrator failed.
@@ -42,6 +45,7 @@ class ControlLoop {
   TankRun& finish();
 
  private:
+  void leave_out_dead();
   void draw_noise();
   double violation(double dt, const Eigen::VectorXd& u) const;
 
@@ -51,6 +55,7 @@ class ControlLoop {
   TankOde& ode_;
   EffortTracker& tracker_;
   Random random_;
+  double t_ = 0;  ///< when the present period began
   Eigen::VectorXd u_0_;
   EffortAnswer answer_;
   OdeSolution path_;

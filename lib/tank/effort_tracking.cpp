@@ -32,6 +32,7 @@ void EffortTracker::solve(const EffortRequest& request, EffortAnswer& answer) {
   answer.shortfall = (request.B * answer.u - request.tau_c).lpNorm<Eigen::Infinity>();
   answer.relaxed = answer.shortfall > kMissed * scale;
   for (Eigen::Index i = 0; i < Q_.size(); ++i) {
+    if (request.lower[i] == request.upper[i]) continue;  // it was never free
     const double margin = kAtBound * (1 + std::abs(answer.u[i]));
     answer.saturated |=
         answer.u[i] - request.lower[i] < margin || request.upper[i] - answer.u[i] < margin;

@@ -16,7 +16,7 @@ struct EffortRequest {
 struct EffortAnswer {
   Eigen::VectorXd u;       ///< m, always within the bounds
   double shortfall = 0;    ///< max |B u - tau_c| [N, N m]; zero up to rounding unless relaxed
-  bool saturated = false;  ///< at least one effort is at a bound
+  bool saturated = false;  ///< at least one effort is at a bound; one that is fixed does not count
   bool relaxed = false;    ///< no u within the bounds reaches tau_c
   bool converged = true;   ///< false: iteration limit of the active set; u is in bounds
   int iterations = 0;      ///< of the active set; zero if the pseudo-inverse was within the bounds

@@ -54,7 +54,7 @@ class MotionExperiment {
       run_all();
     }
     TankRun& run = loop_.finish();
-    run.summary = summarise(script_, run, loop_.lost());
+    run.summary = summarise(script_, options_, run, loop_.lost());
     return std::move(run);
   }
 
@@ -135,6 +135,7 @@ class MotionExperiment {
   }
 
   void period(double t_0, double t_1) {
+    loop_.begin(t_0);
     ode_.read(ode_.initial(), motion_);
     const Eigen::VectorXd u = ode_.efforts(t_0);
     request(u, t_1 - t_0, t_1);
@@ -227,6 +228,7 @@ TankRun run_tank(const Problem& problem, const TankScript& script, Integrator& i
                  const TankOptions& options) {
   check(options);
   check(problem.robot);
+  if (!script.instants.empty()) check_deaths(options, problem.robot, script.instants.back().t);
   return MotionExperiment(problem, script, integrator, options).run();
 }
 

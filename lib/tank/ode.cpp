@@ -27,7 +27,8 @@ TankOde::TankOde(const Problem& problem, const Posture& posture, const TankOptio
       noise_(Eigen::VectorXd::Zero(rate_max_.size())),
       v_d_(problem.robot.velocities()),
       tau_d_(problem.robot.velocities()),
-      J_(6, problem.robot.velocities()) {
+      J_(6, problem.robot.velocities()),
+      dead_(static_cast<std::size_t>(problem.robot.actuators()), 0) {
   motion_ = {posture.base, posture.q, Eigen::VectorXd::Zero(problem.robot.velocities())};
   dynamics_.set_configuration(posture.base.R, posture.q);
   anchor_.pose = posture.base * dynamics_.kinematics().end_effector(tool_);
@@ -50,9 +51,17 @@ void TankOde::command(double t_0, const Eigen::VectorXd& u_0, double t_1,
   exerted_1_ = h_1;
 }
 
+void TankOde::kill(int actuator) {
+  dead_[static_cast<std::size_t>(actuator)] = 1;
+  if (actuator < rate_max_.size()) start_.tail(rate_max_.size())[actuator] = 0;
+}
+
 Eigen::VectorXd TankOde::efforts(double t) const {
   Eigen::VectorXd u = u_0_ + share(t) * (u_1_ - u_0_);
   u.head(rate_max_.size()) = start_.tail(rate_max_.size());
+  for (Eigen::Index i = 0; i < u.size(); ++i) {
+    if (is_dead(i)) u[i] = 0;
+  }
   return u;
 }
 
@@ -97,6 +106,11 @@ void TankOde::prepare(double t, const Eigen::VectorXd& y, Eigen::VectorXd& rates
                               .cwiseMax(-rate_max_)
                               .cwiseMin(rate_max_);
   u_.head(thrusters) = options_.imperfections.thrust_efficiency * thrust + noise_;
+  for (Eigen::Index i = 0; i < u_.size(); ++i) {
+    if (!is_dead(i)) continue;
+    u_[i] = 0;
+    if (i < thrusters) rates[rates.size() - thrusters + i] = 0;  // the thrust stays zero
+  }
   tau_ = problem_.robot.actuation.B * u_;
 }
 

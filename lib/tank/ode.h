@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "lib/robot/free_motion.h"
 #include "maxwrench/path.h"
 #include "maxwrench/tank.h"
@@ -26,6 +28,11 @@ class TankOde final : public Ode {
   /// Commands efforts and, with a load, the wrench on its support, from t_0 to t_1.
   void command(double t_0, const Eigen::VectorXd& u_0, double t_1, const Eigen::VectorXd& u_1,
                const Vector6d& h_0, const Vector6d& h_1);
+  /// Lets an actuator fail: from now on it exerts nothing, whatever is commanded.
+  void kill(int actuator);
+  bool is_dead(Eigen::Index actuator) const {
+    return dead_[static_cast<std::size_t>(actuator)] != 0;
+  }
   void set_noise(const Eigen::VectorXd& noise) { noise_ = noise; }
 
   const Eigen::VectorXd& initial() const override { return start_; }
@@ -66,6 +73,7 @@ class TankOde final : public Ode {
   double t_0_ = 0, t_1_ = 1;
   Motion motion_;
   Matrix6Xd J_;
+  std::vector<char> dead_;  ///< for each actuator whether it failed
   long evaluations_ = 0;
   double seconds_ = 0;
 };

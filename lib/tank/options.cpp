@@ -1,5 +1,7 @@
 #include <cmath>
+#include <set>
 #include <stdexcept>
+#include <string>
 
 #include "lib/math/require.h"
 #include "maxwrench/robot.h"
@@ -41,7 +43,24 @@ void check(const TankOptions& options) {
   require_not_negative("cell.damping_angular", options.cell.damping_angular);
   require_not_negative("imperfections.thrust_efficiency", options.imperfections.thrust_efficiency);
   require_not_negative("imperfections.thrust_noise", options.imperfections.thrust_noise);
+  for (const ActuatorDeath& death : options.deaths) require_not_negative("dies", death.t);
+  require_not_negative("noticed_after", options.noticed_after);
   check(options.integrator);
+}
+
+void check_deaths(const TankOptions& options, const Robot& robot, double duration) {
+  std::set<int> dead;
+  for (const ActuatorDeath& death : options.deaths) {
+    if (death.actuator < 0 || death.actuator >= robot.actuators()) {
+      throw std::invalid_argument("dies: got actuator " + std::to_string(death.actuator) +
+                                  ", expected one of " + std::to_string(robot.actuators()));
+    }
+    if (!dead.insert(death.actuator).second) {
+      throw std::invalid_argument("dies: got actuator " + std::to_string(death.actuator) +
+                                  " twice, expected each once");
+    }
+    require(death.t < duration, "dies", death.t, "a time before the end of the experiment");
+  }
 }
 
 void check(const Robot& robot) {

@@ -47,12 +47,6 @@ void rest(const MotionTask& task, std::vector<Instant>& instants) {
   instants.back().t = task.T;
 }
 
-double worth(const Trajectory& trajectory, const ScriptOptions& options) {
-  if (options.planned > 0) return options.planned;
-  return options.interpolation == Interpolation::kSpline ? trajectory.value_between_knots
-                                                         : trajectory.value;
-}
-
 /// Whether the trajectory has a wrench to request. If not, concludes with the reason.
 bool askable(const Trajectory& trajectory, TankScript& script) {
   if (trajectory.status == Status::kInvalidPosture) {
@@ -104,6 +98,12 @@ Interpolation parse_interpolation(const std::string& name) {
   throw std::invalid_argument("interpolation: got " + name + ", expected linear or spline");
 }
 
+double planned_wrench(const Trajectory& trajectory, const ScriptOptions& options) {
+  if (options.planned > 0) return options.planned;
+  return options.interpolation == Interpolation::kSpline ? trajectory.value_between_knots
+                                                         : trajectory.value;
+}
+
 TankScript make_script(const Problem& problem, const Trajectory& trajectory, Wrench wrench,
                        TrajectorySolver& solver, const ScriptOptions& options) {
   check(options);
@@ -118,7 +118,7 @@ TankScript make_script(const Problem& problem, const Trajectory& trajectory, Wre
   script.interpolation = options.interpolation;
   script.wrench = wrench;
   script.margin = options.margin;
-  script.planned = worth(trajectory, options);
+  script.planned = planned_wrench(trajectory, options);
   if (!askable(trajectory, script)) return script;
   script.path = task.impulse || task.k == 1 ? Path::constant(task.path.pose(0), task.T) : task.path;
   MotionEvaluator motion(problem, maps_of(task, options.interpolation));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "maxwrench/problem.h"
@@ -48,6 +49,42 @@ void take_means(double count, TankSummary& summary) {
   }
 }
 
+/// [s] When the transient ends that an actuator's failure causes.
+double end_of_transient(const TankOptions& options, const ActuatorDeath& death) {
+  return death.t + options.noticed_after + kTransient / options.bandwidth;
+}
+
+/// Whether a sample is in the transient of a failure. Those at the failure itself come before it.
+bool in_transient(const TankOptions& options, double t) {
+  const double half = options.period / 2;
+  return std::any_of(options.deaths.begin(), options.deaths.end(), [&](const ActuatorDeath& death) {
+    return t > death.t + half && t < end_of_transient(options, death) + half;
+  });
+}
+
+/// What the cell reads from the last failure to `end`; nothing if no sample is there.
+std::optional<AfterDeaths> read_after(const TankOptions& options, double end, const TankRun& run) {
+  if (options.deaths.empty()) return {};
+  AfterDeaths after;
+  for (const ActuatorDeath& death : options.deaths) after.t = std::max(after.t, death.t);
+  int count = 0, settled = 0;
+  for (const TankSample& sample : run.samples) {
+    const double half = options.period / 2;
+    if (sample.t < after.t + half || sample.t > end + half) continue;
+    after.low = count == 0 ? sample.reading : std::min(after.low, sample.reading);
+    after.high = count == 0 ? sample.reading : std::max(after.high, sample.reading);
+    after.last = sample.reading;
+    after.configuration_error = std::max(after.configuration_error, sample.configuration_error);
+    ++count;
+    if (in_transient(options, sample.t)) continue;
+    after.mean += sample.reading;
+    ++settled;
+  }
+  if (count == 0) return {};
+  after.mean = settled > 0 ? after.mean / settled : kNone;
+  return after;
+}
+
 /// Adds one sample of a task in time.
 void add_sample(const TankSample& sample, TankSummary& summary) {
   MotionSummary& motion = *summary.motion;
@@ -77,9 +114,14 @@ void allow(double most, const char* what, double value, TankSummary& summary) {
   summary.missed += text.data();
 }
 
+/// The largest error of a reading that is held.
+double room_of(const TargetWrench& target, const TankSummary& summary) {
+  return kHeldWrenchError * std::abs(target.reference != 0 ? target.reference : summary.planned);
+}
+
 void judge_reading(const Problem& problem, const TargetWrench& target, const TankOptions& options,
                    TankSummary& summary) {
-  const double room = kHeldWrenchError * std::abs(summary.planned);
+  const double room = room_of(target, summary);
   const double force = problem.c.head<3>().norm(), torque = problem.c.tail<3>().norm();
   const Vector6d across = unasked(problem, target, options, summary.across);
   allow(room, "reading off by", std::abs(summary.mean - summary.planned), summary);
@@ -91,6 +133,18 @@ void judge_reading(const Problem& problem, const TargetWrench& target, const Tan
 void judge_posture(double moved, TankSummary& summary) {
   allow(moved, "posture off by", summary.configuration_error, summary);
   allow(kHeldPosition, "end effector displaced by", summary.deflection_error, summary);
+}
+
+/// After the last failure, the reading counts on its own.
+void judge_after(double room, TankSummary& summary) {
+  if (!summary.after) return;
+  if (std::isnan(summary.after->mean)) {
+    if (!summary.missed.empty()) summary.missed += "; ";
+    summary.missed += "nothing is left after the transient of the last failure";
+  } else {
+    allow(room, "reading after the last failure off by",
+          std::abs(summary.after->mean - summary.planned), summary);
+  }
 }
 
 /// Call last: the wrench was held if the run reached its end and nothing was missed.
@@ -113,6 +167,7 @@ TankSummary summarise(const Problem& problem, const TargetWrench& target,
     summary.violation = std::max(summary.violation, sample.violation);
     const double into = sample.t - options.ramp;
     if (into < -options.period / 2 || into > options.hold + options.period / 2) continue;
+    if (in_transient(options, sample.t)) continue;
     const double reading = problem.c.dot(sample.h_e);
     summary.low = count == 0 ? reading : std::min(summary.low, reading);
     summary.high = count == 0 ? reading : std::max(summary.high, reading);
@@ -125,6 +180,7 @@ TankSummary summarise(const Problem& problem, const TargetWrench& target,
     summary.relaxed += sample.relaxed;
   }
   if (lost) reach(run.samples.back(), summary);
+  summary.after = read_after(options, options.ramp + options.hold, run);
   if (count == 0) {
     forget(summary, lost);
     summary.missed = "no hold";
@@ -133,12 +189,14 @@ TankSummary summarise(const Problem& problem, const TargetWrench& target,
     allow(kHeldViolation, "efforts or rates beyond their limits by", summary.violation, summary);
     judge_posture(kHeldThetaRError, summary);
     judge_reading(problem, target, options, summary);
+    judge_after(room_of(target, summary), summary);
   }
   conclude(run, lost, summary);
   return summary;
 }
 
-TankSummary summarise(const TankScript& script, const TankRun& run, bool lost) {
+TankSummary summarise(const TankScript& script, const TankOptions& options, const TankRun& run,
+                      bool lost) {
   TankSummary summary;
   summary.planned = script.planned;
   summary.across.setConstant(kNone);  // see the off-axis wrenches
@@ -153,18 +211,29 @@ TankSummary summarise(const TankScript& script, const TankRun& run, bool lost) {
   summary.low = kInfinity;
   summary.high = -kInfinity;
   double nearest = kInfinity;
+  int count = 0;
   for (const TankSample& sample : run.samples) {
+    if (in_transient(options, sample.t)) continue;
+    ++count;
     add_sample(sample, summary);
     if (!(std::abs(sample.t - script.t_h) < nearest)) continue;
     nearest = std::abs(sample.t - script.t_h);
     motion.at_peak = sample.reading;
   }
-  take_means(static_cast<double>(run.samples.size()), summary);
+  if (count == 0) {
+    forget(summary, lost);
+  } else {
+    take_means(count, summary);
+  }
+  summary.after = read_after(options, run.samples.back().t, run);
   const double missed =
       std::isfinite(script.t_h) ? std::abs(motion.at_peak - script.planned) : motion.deviation;
   allow(0, "samples beyond a limit of effort, rate or joint speed:", motion.violations, summary);
   judge_posture(kTrackedConfigurationError, summary);
   allow(kTrackedWrenchError * std::abs(script.planned), "reading off by", missed, summary);
+  if (!std::isfinite(script.t_h)) {
+    judge_after(kTrackedWrenchError * std::abs(script.planned), summary);
+  }
   conclude(run, lost, summary);
   return summary;
 }

@@ -9,6 +9,7 @@ namespace maxwrench {
 TankSummary summarise(const Problem& problem, const TargetWrench& target,
                       const TankOptions& options, const TankRun& run, bool lost);
 /// The same for an experiment in time, which counts as the hold as a whole.
-TankSummary summarise(const TankScript& script, const TankRun& run, bool lost);
+TankSummary summarise(const TankScript& script, const TankOptions& options, const TankRun& run,
+                      bool lost);
 
 }  // namespace maxwrench

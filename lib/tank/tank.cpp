@@ -21,6 +21,11 @@ double profile(double t, const TankOptions& options) {
   return down <= 0 ? 1 : std::max(0.0, 1 - down / options.ramp);
 }
 
+/// [s] The length of the experiment.
+double duration(const TankOptions& options) {
+  return (options.until_hold ? 1 : 2) * options.ramp + options.hold;
+}
+
 /// The problem with the load as a point mass at the end effector.
 Problem loaded(Problem problem, double load) {
   if (load == 0) return problem;
@@ -48,8 +53,7 @@ class Experiment {
   TankRun run() {
     {
       const Stopwatch watch(loop_.run.total_s);
-      const double length = (options_.until_hold ? 1 : 2) * options_.ramp + options_.hold;
-      const long periods = std::lround(length / options_.period);
+      const long periods = std::lround(duration(options_) / options_.period);
       for (long k = 0; k < periods && loop_.goes_on(); ++k) period(k);
     }
     TankRun& run = loop_.finish();
@@ -82,6 +86,7 @@ class Experiment {
   void period(long k) {
     const double t_0 = static_cast<double>(k) * options_.period;
     const double t_1 = static_cast<double>(k + 1) * options_.period;
+    loop_.begin(t_0);
     ode_.read(ode_.initial(), motion_);
     const Eigen::VectorXd u = ode_.efforts(t_0);
     const double s = profile(t_1, options_);
@@ -150,6 +155,7 @@ TankRun run_tank(const Problem& problem, const Posture& posture, const TargetWre
   check(options);
   require_no_scenarios(problem, "virtual tank");
   check(problem.robot);
+  check_deaths(options, problem.robot, duration(options));
   return Experiment(problem, posture, target, integrator, options).run();
 }
 

@@ -185,17 +185,19 @@ class TableMotion {
     Eigen::VectorXd rate = Eigen::VectorXd::Zero(joints), bend = rate;
     for (Eigen::Index joint = 0; joint < joints; ++joint) {
       const int column = column_of_joint_[static_cast<std::size_t>(joint)];
+      if (column < 0) continue;
+      instant.q[joint] = number(series_.values, column);
+      rate[joint] = number(series_.rates, column);
+      bend[joint] = number(series_.accelerations, column);
+    }
+    // A joint with a gear may come before the one that leads it.
+    for (Eigen::Index joint = 0; joint < joints; ++joint) {
       const std::optional<Gear>& gear = robot_.joints[static_cast<std::size_t>(joint)].gear;
-      if (gear) {
-        instant.q[joint] = gear->ratio * instant.q[gear->leader] + gear->offset;
-        rate[joint] = gear->ratio * rate[gear->leader];
-        bend[joint] = gear->ratio * bend[gear->leader];
-        require_at(static_cast<int>(joint), instant.q[joint]);
-      } else if (column >= 0) {
-        instant.q[joint] = number(series_.values, column);
-        rate[joint] = number(series_.rates, column);
-        bend[joint] = number(series_.accelerations, column);
-      }
+      if (!gear) continue;
+      instant.q[joint] = gear->ratio * instant.q[gear->leader] + gear->offset;
+      rate[joint] = gear->ratio * rate[gear->leader];
+      bend[joint] = gear->ratio * bend[gear->leader];
+      require_at(static_cast<int>(joint), instant.q[joint]);
     }
     Vector6d x, x_dot = Vector6d::Zero(), x_ddot = x_dot;
     x << robot_.mount.p, roll_pitch_yaw(robot_.mount.R);
@@ -285,6 +287,17 @@ class TableMotion {
       const Eigen::Matrix3d turn = instant.end_effector.R * problem_.pose.R.transpose();
       instant.c = turns ? rotated(turn, problem_.c) : problem_.c;
     }
+    require_finite(instant);
+  }
+
+  /// Rejects forces that are not finite, which too large numbers have.
+  void require_finite(const Instant& instant) const {
+    if (instant.tau_d.allFinite() && instant.J.allFinite() && instant.c.allFinite() &&
+        instant.end_effector.R.allFinite() && instant.end_effector.p.allFinite()) {
+      return;
+    }
+    throw BadValue(here(), "forces that are not finite",
+                   "coordinates and rates that are not too large");
   }
 
   /// The end effector's motion: x_dot = J v and x_ddot = J v_dot + J_dot v, with J_dot by dual

@@ -147,6 +147,7 @@ __all__ = [
     "searches",
     "sensitivity",
     "simulate",
+    "simulate_scenarios",
     "solve",
     "solvers",
     "table",

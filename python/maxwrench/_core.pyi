@@ -844,8 +844,15 @@ def simulate(
     integrator: str = "cvode",
     interpolation: str = "",
     planned: float = 0.0,
-    **options: float,
+    **options: float | Mapping[str, float],
 ) -> Experiment: ...
+def simulate_scenarios(
+    answer: Answer,
+    integrator: str = "cvode",
+    interpolation: str = "",
+    planned: float = 0.0,
+    **options: float | Mapping[str, float],
+) -> dict[str, Experiment]: ...
 def capability(
     J: ArrayLike,
     tau_d: ArrayLike,

@@ -8,28 +8,40 @@
 #include "python/src/arrays.h"
 #include "python/src/background.h"
 #include "python/src/parts.h"
+#include "python/src/tank_request.h"
 #include "python/src/words.h"
 #include "solvers/solve/tank.h"
 
 namespace maxwrench::python {
 namespace {
 
-/// An experiment, with the task of the answer that it carried out.
-struct PyExperiment {
-  TankRun run;
-  PyTask task;
-};
+/// {name: time}
+void read_deaths(const py::object& value, const Robot& robot, TankOptions& tank) {
+  if (!py::isinstance<py::dict>(value)) {
+    throw BadValue("dies", py::repr(value).cast<std::string>(),
+                   "a dict {name of an actuator: time in seconds}");
+  }
+  for (const auto& [name, t] : value.cast<py::dict>()) {
+    const py::object time = py::reinterpret_borrow<py::object>(t);
+    tank.deaths.push_back(
+        death_of(robot, "dies", py::str(name).cast<std::string>(), number_in("dies", time)));
+  }
+}
 
-/// What an experiment is asked for.
-struct Request {
-  std::string integrator, interpolation;
-  double planned = 0;
-  TankOptions tank;
-};
+}  // namespace
 
 /// Reads the options of the tank, each of which is a number; rejects other names.
-Request request_of(const std::string& integrator, const std::string& interpolation, double planned,
-                   const py::kwargs& options) {
+Request read_request(const PyAnswer& given, const std::string& integrator,
+                     const std::string& interpolation, double planned, const py::kwargs& options) {
+  const std::vector<std::string> supported = stiff_integrators();
+  if (std::find(supported.begin(), supported.end(), integrator) == supported.end()) {
+    throw BadValue("integrator", shown(integrator), "one for stiff systems: " + shown(supported));
+  }
+  const Answer& answer = given.answer;
+  if (answer.task->contact) {
+    throw BadValue("answer", "a task with a second contact", "one without");
+  }
+  if (!answer.has_value()) throw BadValue("answer", answer.reason.str(), "one with a value");
   Request request{integrator, interpolation, planned, {}};
   TankOptions& tank = request.tank;
   const std::map<std::string, double*> known = {
@@ -41,12 +53,17 @@ Request request_of(const std::string& integrator, const std::string& interpolati
       {"margin", &tank.margin},
       {"load", &tank.load},
       {"thrust_efficiency", &tank.imperfections.thrust_efficiency},
-      {"thrust_noise", &tank.imperfections.thrust_noise}};
+      {"thrust_noise", &tank.imperfections.thrust_noise},
+      {"noticed_after", &tank.noticed_after}};
   for (const auto& [key, value] : options) {
     const std::string name = key.cast<std::string>();
     if (name == "seed") {
       tank.imperfections.seed =
           std::uint64_t(integer_in("seed", py::reinterpret_borrow<py::object>(value)));
+      continue;
+    }
+    if (name == "dies") {
+      read_deaths(py::reinterpret_borrow<py::object>(value), answer.task->robot, tank);
       continue;
     }
     const auto found = known.find(name);
@@ -59,14 +76,29 @@ Request request_of(const std::string& integrator, const std::string& interpolati
   return request;
 }
 
-TankRun hold_posture(const Answer& answer, const Request& request) {
+Answer held_answer(const Answer& answer) {
   const Problem& task = *answer.task;
   const Eigen::VectorXd& theta_r = answer.posture.theta_r;
   // The controller holds the end effector at its pose for theta_r.
   Options options;
   static_cast<Case&>(options) = answer.choice;
   options.check_collision = answer.collision;
-  const Answer held = evaluate(held_at(task, theta_r), held_theta_r(task, theta_r), options);
+  return evaluate(held_at(task, theta_r), held_theta_r(task, theta_r), options);
+}
+
+ScriptOptions script_options(const Problem& task, const Request& request) {
+  ScriptOptions script;
+  script.interpolation = request.interpolation.empty() ? usual_interpolation(task)
+                                                       : parse_interpolation(request.interpolation);
+  script.planned = request.planned;
+  script.margin = request.tank.margin;
+  return script;
+}
+
+namespace {
+
+TankRun hold_posture(const Answer& answer, const Request& request) {
+  const Answer held = held_answer(answer);
   if (!held.has_value() || held.capability.u.size() == 0 || held.capability.w.size() == 0) {
     throw BadValue("answer", shown(answer.choice.measure), "a posture with efforts and a wrench");
   }
@@ -81,29 +113,20 @@ TankRun hold_posture(const Answer& answer, const Request& request) {
 
 TankRun carry_out(const Answer& answer, const Request& request) {
   const Problem& task = *answer.task;
-  ScriptOptions script;
-  script.interpolation = request.interpolation.empty() ? usual_interpolation(task)
-                                                       : parse_interpolation(request.interpolation);
-  script.planned = request.planned;
-  script.margin = request.tank.margin;
   return simulate_trajectory(task, answer.trajectory, answer.choice.wrench,
-                             find_trajectory_solver(answer.choice.solver), script,
-                             request.integrator, request.tank)
+                             find_trajectory_solver(answer.choice.solver),
+                             script_options(task, request), request.integrator, request.tank)
       .run;
 }
 
 PyExperiment simulate(const PyAnswer& given, const std::string& integrator,
                       const std::string& interpolation, double planned, const py::kwargs& options) {
   const Answer& answer = given.answer;
-  Request request = request_of(integrator, interpolation, planned, options);
-  const std::vector<std::string> supported = stiff_integrators();
-  if (std::find(supported.begin(), supported.end(), integrator) == supported.end()) {
-    throw BadValue("integrator", shown(integrator), "one for stiff systems: " + shown(supported));
+  if (!answer.task->scenarios.empty()) {
+    throw BadValue("answer", "a task with a list of scenarios",
+                   "one wrench; simulate_scenarios takes lists");
   }
-  if (answer.task->contact) {
-    throw BadValue("answer", "a task with a second contact", "one without");
-  }
-  if (!answer.has_value()) throw BadValue("answer", answer.reason.str(), "one with a value");
+  Request request = read_request(given, integrator, interpolation, planned, options);
   PyExperiment result{{}, given.task};
   run_in_background(py::none(), [&](Watch& watch) {
     request.tank.interrupted = [&watch] { return watch.stop.load(); };
@@ -235,6 +258,8 @@ Args:
     margin: fraction of the planned wrench that is not requested.
     load: mass that the end effector carries in place of the load cell [kg].
     thrust_efficiency, thrust_noise, seed: how the thrusters differ from the model.
+    dies: {name: time} of thrusters and joint drives that exert nothing from a time on [s].
+    noticed_after: time until the controller no longer counts on them [s].
 
 Returns:
     Experiment: the record.
@@ -313,6 +338,7 @@ True
       .def(py::pickle(&experiment_state, &experiment_of));
   m.def("simulate", &simulate, py::arg("answer"), py::arg("integrator") = "cvode",
         py::arg("interpolation") = "", py::arg("planned") = 0.0, kSimulate);
+  add_tank_scenarios(m);
 }
 
 }  // namespace maxwrench::python

@@ -53,6 +53,15 @@ bool IpoptNlp::get_starting_point(Index, bool, Number* x, bool, Number*, Number*
   return true;
 }
 
+IpoptNlp::Index IpoptNlp::get_number_of_nonlinear_variables() {
+  return shape_.nonlinear.empty() ? -1 : static_cast<Index>(shape_.nonlinear.size());
+}
+
+bool IpoptNlp::get_list_of_nonlinear_variables(Index, Index* variables) {
+  std::copy(shape_.nonlinear.begin(), shape_.nonlinear.end(), variables);
+  return true;
+}
+
 bool IpoptNlp::eval_f(Index n, const Number* x, bool, Number& f) {
   return caught_.run(false, [&] { return value(Point(x, n), f); });
 }

@@ -19,6 +19,9 @@ struct NlpShape {
   /// Row and column of each entry of the Jacobian that may differ from zero, in the order of
   /// `IpoptNlp::jacobian`.
   std::vector<std::pair<Ipopt::Index, Ipopt::Index>> entries;
+  /// The variables in which f or g is not linear; empty: all of them. The limited-memory Hessian is
+  /// of these alone.
+  std::vector<Ipopt::Index> nonlinear = {};
 };
 
 /// The entries of a sparse matrix, in the order of its values.
@@ -60,6 +63,8 @@ class IpoptNlp : public Ipopt::TNLP {
   bool get_bounds_info(Index n, Number* l, Number* u, Index m, Number* g_l, Number* g_u) final;
   bool get_starting_point(Index n, bool, Number* x, bool, Number*, Number*, Index, bool,
                           Number*) final;
+  Index get_number_of_nonlinear_variables() final;
+  bool get_list_of_nonlinear_variables(Index count, Index* variables) final;
   bool eval_f(Index n, const Number* x, bool, Number& f) final;
   bool eval_grad_f(Index n, const Number* x, bool, Number* slopes) final;
   bool eval_g(Index n, const Number* x, bool, Index m, Number* g) final;

@@ -19,7 +19,7 @@ class JointNlp final : public IpoptNlp {
  public:
   JointNlp(Objective& objective, JointProgram& program, long budget, SearchRun& run, Part& found)
       : IpoptNlp({program.start(), program.lower(), program.upper(), program.row_min(),
-                  program.row_max(), entries_of(program.jacobian())}),
+                  program.row_max(), entries_of(program.jacobian()), program.nonlinear()}),
         objective_(objective),
         program_(program),
         budget_(budget),
@@ -114,7 +114,7 @@ class JointNlpSearch : public Search {
     const std::lock_guard guard(ipopt_lock());
     const auto application =
         make_ipopt_application("joint_nlp", kJointIterations, [](Ipopt::OptionsList& options) {
-          options.SetStringValue("mu_strategy", "adaptive");
+          options.SetStringValue("mu_strategy", "monotone");
           options.SetNumericValue("tol", 1e-7);
         });
     const Ipopt::SmartPtr<JointNlp> nlp = new JointNlp(objective, program, until, run, found);

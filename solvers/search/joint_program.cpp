@@ -1,5 +1,7 @@
 #include "solvers/search/joint_program.h"
 
+#include <numeric>
+
 namespace maxwrench {
 
 JointProgram::JointProgram(TrajectoryEvaluator& trajectories, const Eigen::VectorXd& x_min,
@@ -71,6 +73,17 @@ void JointProgram::set_limits(const TrajectoryProgram& program, const KnotRows& 
   }
   row_min_.tail(R + F) << rows.r_min, following.r_min;
   row_max_.tail(R + F) << rows.r_max, following.r_max;
+}
+
+std::vector<int> JointProgram::nonlinear() const {
+  std::vector<int> variables(static_cast<std::size_t>(p_));
+  std::iota(variables.begin(), variables.end(), 0);
+  for (int i = 0; i < N_; ++i) {
+    for (int j = 0; j < w_[static_cast<std::size_t>(i)].size(); ++j) {
+      variables.push_back(w0(i) + j);
+    }
+  }
+  return variables;
 }
 
 void JointProgram::evaluate(const Eigen::VectorXd& X) {

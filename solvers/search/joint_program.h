@@ -29,6 +29,8 @@ class JointProgram {
   const Eigen::VectorXd& row_min() const { return row_min_; }
   const Eigen::VectorXd& row_max() const { return row_max_; }
   const Eigen::VectorXd& objective() const { return objective_; }  ///< linear, to be maximised
+  /// The variables in which the rows are not linear: the knots and the wrenches.
+  std::vector<int> nonlinear() const;
   auto knots(const Eigen::VectorXd& X) const { return X.head(p_); }
 
   /// Evaluates the rows at X and their derivative, whose pattern never changes.

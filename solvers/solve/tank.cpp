@@ -1,6 +1,7 @@
 #include "solvers/solve/tank.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/trajectory.h"
+#include "solvers/solve/format.h"
 
 namespace maxwrench {
 namespace {
@@ -32,16 +34,22 @@ void require_weight(const Answer& answer) {
 
 }  // namespace
 
-TankRun simulate_posture(const Answer& answer, double planned, const std::string& integrator,
-                         const TankOptions& options) {
-  const Problem& problem = *answer.task;
-  const Capability& capability = answer.capability;
+TargetWrench target_wrench(const Problem& problem, const Capability& capability, double planned,
+                           Wrench wrench) {
   // Beyond the capability, only the component along c grows. Below it, all components shrink
   // together, which is feasible because the set of efforts is convex.
   const double share = std::clamp(planned / problem.c.dot(capability.h), 0.0, 1.0);
-  TargetWrench target{share * capability.h, share * capability.u, answer.choice.wrench};
+  TargetWrench target{share * capability.h, share * capability.u, wrench};
   target.h += (planned - problem.c.dot(target.h)) * problem.c;
-  return run_tank(problem, answer.posture, target, *find_integrator(integrator).make(), options);
+  return target;
+}
+
+TankRun simulate_posture(const Answer& answer, double planned, const std::string& integrator,
+                         const TankOptions& options) {
+  const TargetWrench target =
+      target_wrench(*answer.task, answer.capability, planned, answer.choice.wrench);
+  return run_tank(*answer.task, answer.posture, target, *find_integrator(integrator).make(),
+                  options);
 }
 
 TankRun simulate_load(const Answer& answer, double load, const std::string& integrator,
@@ -83,6 +91,17 @@ TrajectoryExperiment simulate_trajectory(const Problem& problem, const Trajector
         run_tank(problem, experiment.script, *find_integrator(integrator).make(), options);
   }
   return experiment;
+}
+
+ActuatorDeath death_of(const Robot& robot, const std::string& key, const std::string& name,
+                       double t) {
+  std::vector<std::string> known;
+  for (int i = 0; i < robot.actuators(); ++i) {
+    known.push_back(actuator_name(robot, i));
+    if (known.back() == name) return {i, t};
+  }
+  throw std::invalid_argument(
+      fmt::format("{}: got '{}', expected one of {}", key, name, fmt::join(known, ", ")));
 }
 
 Interpolation usual_interpolation(const Problem& problem) {

@@ -8,6 +8,7 @@
 namespace maxwrench {
 
 struct Answer;
+struct Capability;
 struct TrajectorySolverEntry;
 struct Problem;
 
@@ -18,6 +19,17 @@ std::vector<std::string> supported_integrators(const Problem& problem, const std
 /// The reading that counts: the mean of a hold, the lowest along a path, that at the peak of an
 /// impulse.
 double reading_of(const TankSummary& summary);
+
+/// The actuator of this name, which dies at t [s].
+///
+/// @throws std::invalid_argument, in one line that begins with `key`, if there is none.
+ActuatorDeath death_of(const Robot& robot, const std::string& key, const std::string& name,
+                       double t);
+
+/// The wrench of an experiment with a planned c'h [N, N m]: that of a capability, smaller as a
+/// whole, or larger along c.
+TargetWrench target_wrench(const Problem& problem, const Capability& capability, double planned,
+                           Wrench wrench);
 
 /// The simulated experiment at the posture of a static task, with the wrench and the efforts of its
 /// capability. `planned` is the planned c'h, in place of the capability's own [N, N m].

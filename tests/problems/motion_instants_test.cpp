@@ -269,6 +269,8 @@ INSTANTIATE_TEST_SUITE_P(
                       "line 4: got t = 0 after 0"},
         BadMotionFile{"t falls", "planar/force", "t,shoulder,elbow\n0,1,1\n1,1,1\n0.5,1,1\n",
                       "line 4: got t = 0.5 after 1"},
+        BadMotionFile{"too large", "planar/force", "t,shoulder,elbow\n0,1,1\n1,1e300,1\n",
+                      "got forces that are not finite"},
         BadMotionFile{"unknown joint", "planar/force", "t,shoulder,elbo\n0,1,1\n1,1,1\n",
                       "columns: got elbo, expected one of"},
         BadMotionFile{"twice", "planar/force", "t,shoulder,shoulder\n0,1,1\n1,1,1\n",
@@ -295,6 +297,31 @@ INSTANTIATE_TEST_SUITE_P(
                       "line 3: got t = 99, expected a time of the path"},
         BadMotionFile{"second contact", "planar/two_arms", "t,a\n0,1\n1,1\n",
                       "contact: got a second contact"}));
+
+/// A joint that a gear moves may come before the joint that leads it: its motion is the same as
+/// with a column of its own.
+TEST(MotionInstants, AFollowerMayComeBeforeItsLeader) {
+  Problem problem = load_problem("fixed/push");
+  std::vector<std::string> names = joint_names(problem.robot);
+  MotionTable table = waves(names, 5, 2, 2);
+  table.values.col(0) = 0.5 * table.values.col(2).array() + 0.1;
+  table.rates.col(0) = 0.5 * table.rates.col(2);
+  table.accelerations.col(0) = 0.5 * table.accelerations.col(2);
+  const std::vector<Instant> stated = motion_instants(problem, table);
+  problem.robot.joints[0].gear = Gear{.leader = 2, .ratio = 0.5, .offset = 0.1};
+  const Eigen::Index others = table.values.cols() - 1;
+  table.names.erase(table.names.begin());
+  for (Eigen::MatrixXd* each : {&table.values, &table.rates, &table.accelerations}) {
+    *each = each->rightCols(others).eval();
+  }
+  const std::vector<Instant> geared = motion_instants(problem, table);
+  ASSERT_EQ(geared.size(), stated.size());
+  for (std::size_t i = 0; i < stated.size(); ++i) {
+    EXPECT_TRUE(geared[i].q.isApprox(stated[i].q, 1e-15)) << geared[i].q.transpose();
+    EXPECT_TRUE(geared[i].v.isApprox(stated[i].v, 1e-15)) << geared[i].v.transpose();
+    EXPECT_TRUE(geared[i].v_dot.isApprox(stated[i].v_dot, 1e-15)) << geared[i].v_dot.transpose();
+  }
+}
 
 /// Roll, pitch and yaw go on beyond a whole turn: the base does not spin back.
 TEST(MotionInstants, AnglesOfTheBaseGoOn) {

@@ -24,7 +24,7 @@ TrajectoryCertificate certified(const Problem& problem, const Eigen::MatrixXd& k
   const TemporaryFolder folder;
   const std::string file = folder.path() / "proof";
   std::ofstream(file, std::ios::binary) << proof.certificate;
-  return read_trajectory_certificate(file);
+  return read_trajectory_certificates(file).front();
 }
 
 }  // namespace maxwrench

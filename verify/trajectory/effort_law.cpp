@@ -146,6 +146,14 @@ auto EffortLaw::efforts(int interval, int edge, const Narrow& place, const Motio
   return u;
 }
 
+/// An actuator without a column in B and in B^+ has the effort y, here zero at all times.
+bool EffortLaw::exerts_nothing(std::size_t actuator) const {
+  const auto row = static_cast<Eigen::Index>(actuator);
+  const Zonotope& set = model_.problem().robot.actuation;
+  return set.B.col(row).isZero(0) && set.u_min[row] <= 0 && set.u_max[row] >= 0 &&
+         proof_.y.row(row).isZero(0);
+}
+
 MotionFault EffortLaw::check_limits(std::size_t actuator, const Quadratic& u,
                                     const Narrow& r) const {
   const Robot& robot = model_.problem().robot;
@@ -179,7 +187,7 @@ MotionFault EffortLaw::check_slice(int interval, int edge, double from, double t
   MotionFault fault;
   const std::vector<Quadratic> u = efforts(interval, edge, {from, to}, at, over);
   for (std::size_t i = 0; i < u.size() && fault.reason.empty(); ++i) {
-    fault = check_limits(i, u[i], r);
+    if (!exerts_nothing(i)) fault = check_limits(i, u[i], r);
   }
   for (std::size_t i = 0; i < at.off_axes.size() && fault.reason.empty(); ++i) {
     const Quadratic off = {at.off_axes[i].c[0], at.off_axes[i].c[1], over.off_axes[i].c[2]};

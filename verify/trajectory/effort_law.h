@@ -48,6 +48,7 @@ class EffortLaw {
   using Quadratic = std::array<Narrow, 3>;
 
   MotionFault check_slice(int interval, int edge, double from, double to) const;
+  bool exerts_nothing(std::size_t actuator) const;
   MotionFault check_limits(std::size_t actuator, const Quadratic& u, const Narrow& r) const;
   Quadratic spline(const double* at, Eigen::Index stride, int edge) const;
   std::vector<Quadratic> efforts(int interval, int edge, const Narrow& place,

@@ -11,6 +11,7 @@ namespace maxwrench {
 namespace {
 
 constexpr std::string_view kTrajectoryMagic = "maxwrench trajectory proof 1\n";
+constexpr std::string_view kTrajectoryListMagic = "maxwrench trajectory proof 2\n";
 
 void put_dynamics(ByteWriter& to, const Robot& robot) {
   for (const Link& link : robot.links) {
@@ -51,18 +52,7 @@ void put_motion(ByteWriter& to, const MotionTask& task) {
   to.whole(static_cast<std::uint64_t>(path.timing), 1);
 }
 
-}  // namespace
-
-std::uint64_t motion_digest(const Problem& problem) {
-  ByteWriter all;
-  all.whole(digest(problem), 8);
-  put_dynamics(all, problem.robot);
-  if (problem.motion) put_motion(all, *problem.motion);
-  return digest_of(all.text());
-}
-
-std::string certificate_text(const TrajectoryCertificate& proof) {
-  ByteWriter raw;
+void put_claim(ByteWriter& raw, const TrajectoryCertificate& proof) {
   raw.words(proof.version);
   raw.words(proof.problem);
   raw.whole(proof.collision ? 1 : 0, 1);
@@ -73,17 +63,10 @@ std::string certificate_text(const TrajectoryCertificate& proof) {
   raw.count(proof.parts);
   raw.matrix(proof.y);
   raw.matrix(proof.w);
-  return seal(kTrajectoryMagic, raw.text());
 }
 
-bool is_trajectory_certificate(const std::string& file) {
-  return begins_with(file, kTrajectoryMagic);
-}
-
-TrajectoryCertificate read_trajectory_certificate(const std::string& file) {
-  const std::string raw = unseal(file, kTrajectoryMagic);
-  ByteReader from(raw);
-  TrajectoryCertificate proof;
+/// Reads what `put_claim` wrote. False if the numbers cannot be those of a certificate.
+bool get_claim(ByteReader& from, TrajectoryCertificate& proof) {
   proof.version = from.words();
   proof.problem = from.words();
   proof.collision = from.whole(1) == 1;
@@ -96,13 +79,55 @@ TrajectoryCertificate read_trajectory_certificate(const std::string& file) {
   proof.y = from.matrix();
   const Eigen::MatrixXd w = from.matrix();
   const bool plain = fits_in_a_line(proof.version) && fits_in_a_line(proof.problem);
-  if (!plain || t_h > kMost || parts > kMost || (w.size() > 0 && w.cols() != 1) || !from.at_end()) {
-    throw std::invalid_argument(file + ": got a damaged file, expected a whole certificate");
+  if (!from.good() || !plain || t_h > kMost || parts > kMost || (w.size() > 0 && w.cols() != 1)) {
+    return false;
   }
   proof.t_h = static_cast<int>(t_h);
   proof.parts = static_cast<int>(parts);
   if (w.size() > 0) proof.w = w.col(0);
-  return proof;
+  return true;
+}
+
+}  // namespace
+
+std::uint64_t motion_digest(const Problem& problem) {
+  ByteWriter all;
+  all.whole(digest(problem), 8);
+  put_dynamics(all, problem.robot);
+  if (problem.motion) put_motion(all, *problem.motion);
+  return digest_of(all.text());
+}
+
+std::string certificate_text(const TrajectoryCertificate& proof) {
+  ByteWriter raw;
+  put_claim(raw, proof);
+  return seal(kTrajectoryMagic, raw.text());
+}
+
+std::string certificate_text(const std::vector<TrajectoryCertificate>& scenarios) {
+  ByteWriter raw;
+  raw.count(static_cast<Eigen::Index>(scenarios.size()));
+  for (const TrajectoryCertificate& each : scenarios) put_claim(raw, each);
+  return seal(kTrajectoryListMagic, raw.text());
+}
+
+bool is_trajectory_certificate(const std::string& file) {
+  return begins_with(file, kTrajectoryMagic) || begins_with(file, kTrajectoryListMagic);
+}
+
+std::vector<TrajectoryCertificate> read_trajectory_certificates(const std::string& file) {
+  const bool list = begins_with(file, kTrajectoryListMagic);
+  const std::string raw = unseal(file, list ? kTrajectoryListMagic : kTrajectoryMagic);
+  ByteReader from(raw);
+  constexpr std::size_t kLeastBytes = 64;  // of a certificate
+  const std::size_t count = list ? from.count(kLeastBytes) : 1;
+  std::vector<TrajectoryCertificate> all;
+  bool good = count > 0;
+  while (good && all.size() < count) good = get_claim(from, all.emplace_back());
+  if (!good || !from.at_end()) {
+    throw std::invalid_argument(file + ": got a damaged file, expected a whole certificate");
+  }
+  return all;
 }
 
 }  // namespace maxwrench

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "maxwrench/problem.h"
 
@@ -30,11 +31,16 @@ std::uint64_t motion_digest(const Problem& problem);
 /// The contents of a certificate file (`seal`).
 std::string certificate_text(const TrajectoryCertificate& certificate);
 
+/// The contents of a certificate file of a list of scenarios: a certificate of each, in the order
+/// of `scenario_task`.
+std::string certificate_text(const std::vector<TrajectoryCertificate>& scenarios);
+
 /// Whether a file is such a certificate.
 bool is_trajectory_certificate(const std::string& file);
 
-/// Throws std::invalid_argument, in one line with the name of the file, if the file is damaged or
-/// is not such a certificate. Does not check its claims.
-TrajectoryCertificate read_trajectory_certificate(const std::string& file);
+/// The certificate of a file, or those of all scenarios. Throws std::invalid_argument, in one line
+/// with the name of the file, if the file is damaged or is not such a certificate. Does not check
+/// its claims.
+std::vector<TrajectoryCertificate> read_trajectory_certificates(const std::string& file);
 
 }  // namespace maxwrench

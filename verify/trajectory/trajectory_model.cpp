@@ -74,6 +74,20 @@ void require_provable(const Problem& problem) {
   }
 }
 
+void require_provable_task(const Problem& problem) {
+  const ScenarioList& list = problem.scenarios;
+  if (list.empty()) return require_provable(problem);
+  for (const ScenarioWrench& wrench : list.wrenches) {
+    if (wrench.hold) throw_unprovable(problem, "wrench.hold", "a wrench in each scenario");
+  }
+  if (list.ball || list.payload || !list.loads.empty()) {
+    throw_unprovable(problem, "a ball, a payload or uncertain loads", "wrenches and limits");
+  }
+  Problem alone = problem;
+  alone.scenarios = {};
+  require_provable(alone);
+}
+
 TrajectoryModel::TrajectoryModel(const Problem& problem, const Eigen::MatrixXd& table)
     : problem_(problem),
       path_(problem.motion->path.as_screw().value()),

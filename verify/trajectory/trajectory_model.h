@@ -15,6 +15,9 @@ namespace maxwrench {
 /// rank.
 void require_provable(const Problem& problem);
 
+/// The same for a task that may have a list of scenarios: each is a task of its own, with a wrench.
+void require_provable_task(const Problem& problem);
+
 /// All that the balance of a motion depends on, as jets at a place of the motion.
 template <int N>
 struct MotionLoads {

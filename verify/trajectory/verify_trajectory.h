@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "maxwrench/verification.h"
 #include "verify/trajectory/effort_law.h"
 
@@ -22,5 +25,18 @@ MotionFault check_motion(const TrajectoryModel& model);
 /// @throws std::invalid_argument as `require_provable`.
 TrajectoryVerification verify(const Problem& problem, const TrajectoryCertificate& proof,
                               int threads);
+
+/// The check of certificates of a task, which may have a list of scenarios.
+struct TaskVerification : TrajectoryVerification {
+  double guaranteed = 0;  ///< what all certificates claim [unit of the task]
+  std::string decides;    ///< the scenario with the least claim; "" if there is no list
+};
+
+/// Checks certificates of one trajectory: one of each scenario of the list, in the order of
+/// `scenario_task`, or one of a task without a list. The scenarios are derived anew from the list.
+///
+/// @throws std::invalid_argument as `require_provable_task`.
+TaskVerification verify(const Problem& problem, const std::vector<TrajectoryCertificate>& proofs,
+                        int threads);
 
 }  // namespace maxwrench

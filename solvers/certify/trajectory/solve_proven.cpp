@@ -113,7 +113,7 @@ void take_search(const Answer& found, Answer& answer) {
 
 TrajectoryProof solve_proven(const Problem& task, const Options& options,
                              const TrajectoryProofOptions& how) {
-  require_provable(task);
+  require_provable_task(task);
   Problem tight = task;
   double wider = 0;
   Options proof_options = options;

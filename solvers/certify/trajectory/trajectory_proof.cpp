@@ -4,13 +4,16 @@
 
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
+#include <vector>
 
 #include "maxwrench/batch.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/version.h"
 #include "solvers/certify/trajectory/edge_program.h"
 #include "solvers/solve/method.h"
+#include "solvers/solve/scenario_alone.h"
 #include "verify/trajectory/motion_clearance.h"
 #include "verify/trajectory/verify_trajectory.h"
 
@@ -32,7 +35,7 @@ double seconds_from(ProofClock::time_point start) {
 }
 
 void require_provable_case(const Problem& task, const Options& options) {
-  require_provable(task);
+  require_provable_task(task);
   if (options.measure != "linf_polytope") {
     throw std::invalid_argument("measure: got " + options.measure +
                                 ", expected linf_polytope for a proof in time");
@@ -51,8 +54,9 @@ void require_parts(int parts) {
 /// One proof, from its task to its certificate.
 class TrajectoryProver {
  public:
+  /// `t_h`: the peak of an impulse; 0: the best one.
   TrajectoryProver(const Problem& task, const Eigen::MatrixXd& knots, const Options& options,
-                   const TrajectoryProofOptions& how)
+                   const TrajectoryProofOptions& how, int t_h = 0)
       : task_(task), how_(how), threads_(thread_count(options.threads)) {
     if (!options.check_collision) task_.robot.collision = nullptr;
     proof_.answer = evaluate(task_, knots, options);
@@ -61,15 +65,21 @@ class TrajectoryProver {
     claim_.collision = task_.robot.collision != nullptr;
     claim_.digest = motion_digest(task_);
     claim_.knots = knots;
-    claim_.t_h = task.motion->impulse ? proof_.answer.trajectory.t_h : 0;
+    if (task.motion->impulse) claim_.t_h = t_h > 0 ? t_h : proof_.answer.trajectory.t_h;
   }
 
   TrajectoryProof run() {
     const auto start = ProofClock::now();
     if (keeps_limits()) prove_wrench();
     proof_.seconds = seconds_from(start);
+    if (how_.keep_certificate && proof_.status == Status::kProven) {
+      proof_.certificate = certificate_text(best_);
+    }
     return std::move(proof_);
   }
+
+  /// What is proven, after `run`.
+  const TrajectoryCertificate& best() const { return best_; }
 
  private:
   void refuse(Status status, const std::string& reason, double t) {
@@ -147,15 +157,52 @@ class TrajectoryProver {
     proof_.parts = claim_.parts;
     proof_.slices = check.slices;
     proof_.clearance = check.clearance;
-    if (how_.keep_certificate) proof_.certificate = certificate_text(claim_);
+    best_ = claim_;
   }
 
   Problem task_;
   const TrajectoryProofOptions& how_;
   const int threads_;
-  TrajectoryCertificate claim_;
+  TrajectoryCertificate claim_, best_;
   TrajectoryProof proof_;
 };
+
+/// Proves one scenario after the other.
+TrajectoryProof prove_scenarios(const Problem& given, const Eigen::MatrixXd& knots,
+                                const Options& options, const TrajectoryProofOptions& how) {
+  Problem task = given;
+  if (!options.check_collision) task.robot.collision = nullptr;
+  TrajectoryProof all;
+  all.answer = evaluate(task, knots, options);
+  all.conclude(Status::kProven);
+  all.guaranteed = kInfinity;
+  std::vector<TrajectoryCertificate> claims;
+  for (int i = 0; i < scenario_count(task); ++i) {
+    const ScenarioTask one = scenario_alone(task, i);
+    require_provable(one.task);
+    TrajectoryProver prover(one.task, knots, options, how, all.answer.trajectory.t_h);
+    const TrajectoryProof proof = prover.run();
+    all.seconds += proof.seconds;
+    all.slices += proof.slices;
+    all.parts = std::max(all.parts, proof.parts);
+    all.clearance = std::min(all.clearance, proof.clearance);
+    if (proof.status != Status::kProven) {
+      all.conclude(proof.status, one.name + ": " + proof.reason.str());
+      all.t = proof.t;
+      all.decides = one.name;
+      all.guaranteed = std::numeric_limits<double>::quiet_NaN();
+      return all;
+    }
+    ++all.scenarios;
+    claims.push_back(prover.best());
+    const double factor = least_factor(proof.guaranteed, one.length);
+    if (!(factor < all.guaranteed)) continue;
+    all.guaranteed = factor;
+    all.decides = one.name;
+  }
+  if (how.keep_certificate) all.certificate = certificate_text(claims);
+  return all;
+}
 
 }  // namespace
 
@@ -163,6 +210,7 @@ TrajectoryProof certify_trajectory(const Problem& task, const Eigen::MatrixXd& k
                                    const Options& options, const TrajectoryProofOptions& how) {
   require_provable_case(task, options);
   require_parts(how.parts);
+  if (!task.scenarios.empty()) return prove_scenarios(task, knots, options, how);
   return TrajectoryProver(task, knots, options, how).run();
 }
 
@@ -174,17 +222,21 @@ VerifiedTrajectory verify_trajectory_certificate(
     const std::filesystem::path& file, const std::function<Problem(const std::string& name)>& load,
     int threads) {
   const auto start = ProofClock::now();
-  const TrajectoryCertificate claim = read_trajectory_certificate(file.string());
+  const std::vector<TrajectoryCertificate> claims = read_trajectory_certificates(file.string());
+  const TrajectoryCertificate& claim = claims.front();
   Problem task = load(claim.problem);
   if (!claim.collision) task.robot.collision = nullptr;
   VerifiedTrajectory result;
-  static_cast<TrajectoryVerification&>(result) = verify(task, claim, thread_count(threads));
+  const TaskVerification check = verify(task, claims, thread_count(threads));
+  static_cast<TrajectoryVerification&>(result) = check;
+  result.decides = check.decides;
+  result.scenarios = task.scenarios.empty() ? 0 : claims.size();
   result.version = claim.version;
   result.problem = task.name;
   result.collision = claim.collision;
   result.unit = task.unit();
   result.knots = claim.knots;
-  result.guaranteed = claim.value;
+  result.guaranteed = check.guaranteed;
   result.t_h = claim.t_h;
   result.parts = claim.parts;
   result.seconds = seconds_from(start);

@@ -1,0 +1,59 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "verify/trajectory/scenario_task.h"
+#include "verify/trajectory/verify_trajectory.h"
+
+namespace maxwrench {
+namespace {
+
+/// Empty, or why the certificates are not those of one trajectory of the list.
+std::string reject_list(const Problem& problem, const std::vector<TrajectoryCertificate>& proofs) {
+  const std::size_t count =
+      problem.scenarios.empty() ? 1 : static_cast<std::size_t>(scenario_count(problem));
+  if (proofs.size() != count) return "it is for another robot or task";
+  for (const TrajectoryCertificate& each : proofs) {
+    if (each.collision != proofs[0].collision || each.t_h != proofs[0].t_h ||
+        each.knots.rows() != proofs[0].knots.rows() ||
+        each.knots.cols() != proofs[0].knots.cols() ||
+        !(each.knots.array() == proofs[0].knots.array()).all()) {
+      return "its scenarios are of different trajectories";
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+TaskVerification verify(const Problem& problem, const std::vector<TrajectoryCertificate>& proofs,
+                        int threads) {
+  require_provable_task(problem);
+  TaskVerification result;
+  result.guaranteed = kInfinity;
+  result.rejection = reject_list(problem, proofs);
+  if (problem.scenarios.empty() && result.rejection.empty()) {
+    static_cast<TrajectoryVerification&>(result) = verify(problem, proofs[0], threads);
+    result.guaranteed = proofs[0].value;
+    return result;
+  }
+  for (std::size_t i = 0; i < proofs.size() && result.rejection.empty(); ++i) {
+    const ScenarioTask one = scenario_task(problem, static_cast<int>(i));
+    const TrajectoryVerification each = verify(one.task, proofs[i], threads);
+    result.slices += each.slices;
+    result.places += each.places;
+    result.clearance = std::min(result.clearance, each.clearance);
+    if (!each.verified()) {
+      result.rejection = one.name + ": " + each.rejection;
+      result.t = each.t;
+    }
+    const double factor = least_factor(proofs[i].value, one.length);
+    if (factor < result.guaranteed) {
+      result.guaranteed = factor;
+      result.decides = one.name;
+    }
+  }
+  return result;
+}
+
+}  // namespace maxwrench
