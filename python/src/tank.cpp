@@ -44,6 +44,10 @@ Request request_of(const std::string& integrator, const std::string& interpolati
       {"thrust_noise", &tank.imperfections.thrust_noise}};
   for (const auto& [key, value] : options) {
     const std::string name = key.cast<std::string>();
+    if (name == "invert_lag") {
+      tank.invert_lag = flag_in(name, py::reinterpret_borrow<py::object>(value));
+      continue;
+    }
     if (name == "seed") {
       tank.imperfections.seed =
           std::uint64_t(integer_in("seed", py::reinterpret_borrow<py::object>(value)));
@@ -231,6 +235,7 @@ Args:
     ramp, hold: duration of each ramp and of the hold of a static task [s].
     period: time between two commands [s].
     thruster_lag: time constant of the thrusters [s].
+    invert_lag: whether requested efforts are those that thrusters reach behind their lag.
     bandwidth: of the control of posture errors [rad/s].
     margin: fraction of the planned wrench that is not requested.
     load: mass that the end effector carries in place of the load cell [kg].
