@@ -49,8 +49,8 @@ struct TankOptions {
       hold = 5;               ///< duration of the hold [s]
   double period = 0.01;       ///< time between two commands [s]; efforts are linear in between
   double thruster_lag = 0.1;  ///< time constant of the thrusters, first order [s]
-  /// Whether the lag is inverted: requested efforts, and those of a script, have commands within the
-  /// limits. Joints near their speed limit then follow the planned acceleration (see `run_tank`).
+  /// Whether the efforts that the tracking program requests are those that the thrusters reach
+  /// behind their lag, from commands within the limits. In time the efforts of the script are, too.
   bool invert_lag = false;
   /// Bandwidth of the control of posture errors, critically damped [rad/s]. The default is a fifth
   /// of 1/thruster_lag, which the thrusters can follow.

@@ -97,9 +97,9 @@ class MotionExperiment {
     return follower_.motion();
   }
 
-  /// Whether the efforts are planned or requested with regard to the lag. A joint then needs no
-  /// distance from its speed limit, and may approach it as fast as planned.
-  bool knows_lag() const { return options_.invert_lag || problem_.motion->thruster_lag > 0; }
+  /// Whether the trajectory allows for the lag. The robot can then follow it up to the speed limit
+  /// of a joint, and needs no distance from it.
+  bool knows_lag() const { return problem_.motion->thruster_lag >= options_.thruster_lag; }
 
   /// Sets a_, the acceleration of all velocities at a motion: along the path, with corrections of
   /// the errors of theta_r.
