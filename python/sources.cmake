@@ -1,6 +1,6 @@
 set(maxwrench_python_sources
   src/answer_scenarios.cpp src/answer_state.cpp src/answers.cpp src/arrays.cpp src/background.cpp src/capability.cpp src/contacts.cpp
-  src/errors.cpp src/evaluations.cpp src/explanations.cpp src/fronts.cpp src/linear_programs.cpp src/maps.cpp src/module.cpp
+  src/errors.cpp src/evaluations.cpp src/explanations.cpp src/fronts.cpp src/held.cpp src/linear_programs.cpp src/maps.cpp src/module.cpp
   src/motion_arguments.cpp src/paths.cpp src/poses.cpp src/proofs.cpp src/robot_parts.cpp src/robots.cpp src/scenario_arguments.cpp
   src/sensitivity.cpp src/solve.cpp src/strategies.cpp src/tank.cpp src/tank_scenarios.cpp src/task_arguments.cpp src/tasks.cpp src/trajectory_proofs.cpp
   src/transfers.cpp src/view.cpp src/words.cpp src/wrench_sets.cpp

@@ -21,8 +21,11 @@ int reproduce(const ReproduceOptions& options) {
   const auto motion = [](const std::filesystem::path& folder, int threads) {
     return reproduce_motion(folder, threads, kTrajectoryBudget);
   };
+  const auto tank = [](const std::filesystem::path& folder, int threads) {
+    return reproduce_tank(folder, threads, kTrajectoryBudget);
+  };
   for (PaperTable (*const table)(const std::filesystem::path&, int) :
-       {reproduce_planar, reproduce_uvms, reproduce_dual, +motion}) {
+       {reproduce_planar, reproduce_uvms, reproduce_dual, +motion, +tank}) {
     const PaperTable done = table(options.out, options.thread_count());
     fmt::print("{}\n", done.text);
     all_solved = all_solved && done.all_solved;

@@ -192,7 +192,9 @@ void print(const MotionTask& motion) {
   if (motion.scheme == Scheme::kSpline) {
     fmt::print(", {} instants per interval", motion.instants_per_interval);
   }
-  fmt::print("; limits of effort rates {}\n", motion.rates ? "apply" : "do not apply");
+  fmt::print("; limits of effort rates {}", motion.rates ? "apply" : "do not apply");
+  if (motion.thruster_lag > 0) fmt::print("; lag of thrusters {:g} s", motion.thruster_lag);
+  fmt::print("\n");
   if (motion.impulse) {
     fmt::print("  peak at knot {}, start {} at theta_r [{:g}]\n",
                motion.t_h > 0 ? fmt::format("{}", motion.t_h) : "best", to_string(motion.start),

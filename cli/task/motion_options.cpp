@@ -33,6 +33,15 @@ void change_peak(const Problem& problem, const std::string& text, MotionTask& ta
   task.t_h = knot;
 }
 
+void change_lag(double lag, MotionTask& task) {
+  constexpr double kLongest = 1e3;
+  if (!(lag >= 0 && lag <= kLongest)) {
+    throw_bad_option("--thruster-lag", fmt::format("{}", lag),
+                     fmt::format("a time constant from 0 to {:g} s", kLongest));
+  }
+  task.thruster_lag = lag;
+}
+
 /// Whether the text begins like a number, and is not the name of a file.
 bool is_number(const std::string& text) {
   const std::size_t first = text.find_first_not_of("+-.");
@@ -45,17 +54,22 @@ bool is_number(const std::string& text) {
 void MotionOptions::add(CLI::App& app) {
   app.add_option("--scheme", scheme, "scheme that turns knots into motion (tasks in time)");
   app.add_option("--t-h", t_h, "knot of an impulse's peak, or best");
+  app.add_option("--thruster-lag", thruster_lag,
+                 "time constant of the thrusters whose commands the trajectory keeps within the "
+                 "limits [s] (tasks in time)");
 }
 
 void MotionOptions::change(Problem& problem) const {
   if (problem.motion) {
     if (scheme) set_scheme("--scheme", *scheme, problem);
     if (t_h) change_peak(problem, *t_h, *problem.motion);
+    if (thruster_lag) change_lag(*thruster_lag, *problem.motion);
     return;
   }
   const std::string expected = fmt::format("none: {} is a static task", problem.name);
   if (scheme) throw_bad_option("--scheme", *scheme, expected);
   if (t_h) throw_bad_option("--t-h", *t_h, expected);
+  if (thruster_lag) throw_bad_option("--thruster-lag", fmt::format("{}", *thruster_lag), expected);
 }
 
 void add_theta_r(CLI::App& app, std::optional<std::string>& theta_r) {

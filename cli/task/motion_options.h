@@ -14,6 +14,7 @@ struct Trajectory;
 /// Options of tasks in time.
 struct MotionOptions {
   std::optional<std::string> scheme, t_h;
+  std::optional<double> thruster_lag;
 
   void add(CLI::App& app);
   /// Replaces settings of the task. Throws std::invalid_argument if an option does not apply.

@@ -287,6 +287,9 @@ void add_simulate(CLI::App& app, int& exit_status) {
   command.add_option("--out", options->out, "CSV file for the time series")->excludes(heaviest);
   command.add_option("--figure", options->figure, "SVG file for the curves over time")
       ->excludes(heaviest);
+  command.add_flag("--invert-lag", options->tank.invert_lag,
+                   "request only efforts that the thrusters reach behind their lag, from commands "
+                   "within the limits");
   add_imperfections(command, options->tank.imperfections);
   command.callback([options, &exit_status] {
     const CtrlC ctrl_c;

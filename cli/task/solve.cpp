@@ -6,6 +6,7 @@
 #include "cli/cli.h"
 #include "cli/proof/trajectory_proofs.h"
 #include "cli/task/explain_option.h"
+#include "cli/task/held_option.h"
 #include "cli/task/load_and_solve.h"
 #include "maxwrench/load.h"
 
@@ -17,6 +18,7 @@ struct SolveOptions : CommonOptions {
   ProblemOptions source;
   std::string out;
   ExplainOption explain;
+  HeldOption held;
   bool proven = false;
 };
 
@@ -38,6 +40,11 @@ int solve_proven(const SolveOptions& options, const Problem& problem) {
 
 int solve(const SolveOptions& options, const Problem& problem) {
   if (options.proven) return solve_proven(options, problem);
+  if (options.held.tank()) {
+    const HeldTrajectory held = options.held.solve(problem, options.read_options());
+    write_knots(options, problem, held.answer);
+    return HeldOption::report(held, options.json);
+  }
   const Answer answer = solve_with_progress("solve", problem, options.read_options());
   write_knots(options, problem, answer);
   return options.explain.report(answer, options.json);
@@ -54,6 +61,7 @@ void add_solve(CLI::App& app, int& exit_status) {
   options->motion.add(command);
   options->source.add(command);
   options->explain.add(command);
+  options->held.add(command);
   options->add_threads(command);
   options->add_json(command);
   command.add_option("--out", options->out, "CSV file for the table of theta_r")
@@ -61,7 +69,9 @@ void add_solve(CLI::App& app, int& exit_status) {
   command
       .add_flag("--proven", options->proven,
                 "of a task in time: prove what the trajectory exerts at every instant")
-      ->excludes("--explain");
+      ->excludes("--explain")
+      ->excludes("--worth");
+  command.get_option("--explain")->excludes("--worth");
   command.callback([options, &exit_status] {
     exit_status = solve(*options, load_apart(options->choice.problem, options->source,
                                              options->motion, {}, {{"--out", options->out}}));

@@ -64,6 +64,17 @@ class Ode {
     F = y_dot - F;
     return true;
   }
+
+  /// Computes d F/d y + alpha d F/d y' of the residual, for Newton's method.
+  ///
+  /// The arguments are t, y (d), y' (d), alpha, and the d×d matrix that receives the result. Terms
+  /// that are small beside those that make the problem stiff may be left out. The default returns
+  /// false: the problem offers no such matrix, and the integrator uses differences of F.
+  virtual bool residual_jacobian(double /*t*/, const Eigen::VectorXd& /*y*/,
+                                 const Eigen::VectorXd& /*y_dot*/, double /*alpha*/,
+                                 Eigen::MatrixXd& /*dF*/) {
+    return false;
+  }
 };
 
 /// Tolerances and limits of an integration.

@@ -147,6 +147,9 @@ struct MotionTask {
   Scheme scheme = Scheme::kSpline;  ///< how the knots become a motion
   int instants_per_interval = 4;    ///< for the scheme `spline`; 16 in an impulse
   bool rates = true;                ///< whether the rate limits of efforts apply
+  /// Time constant of the thrusters for which their commands must be within the limits [s]. Zero:
+  /// the thrust equals the command.
+  double thruster_lag = 0;
   /// Whether c and W_any turn with the end effector. Those of the problem are valid at the start.
   bool c_turns = false;
   int t_h = 0;  ///< impulse only: the knot of the peak, 1 .. k; 0: the best one is chosen

@@ -56,6 +56,9 @@ struct TankOptions {
       hold = 5;               ///< duration of the hold [s]
   double period = 0.01;       ///< time between two commands [s]; efforts are linear in between
   double thruster_lag = 0.1;  ///< time constant of the thrusters, first order [s]
+  /// Whether the efforts that the tracking program requests are those that the thrusters reach
+  /// behind their lag, from commands within the limits. In time the efforts of the script are, too.
+  bool invert_lag = false;
   /// Bandwidth of the control of posture errors, critically damped [rad/s]. The default is a fifth
   /// of 1/thruster_lag, which the thrusters can follow.
   double bandwidth = 2;
@@ -292,10 +295,14 @@ struct ScriptOptions {
   double planned = 0;     ///< wrench along c [N, N m]; zero: the value, or on the spline
                           ///< `value_between_knots`
   double margin = 0.005;  ///< as `TankOptions::margin`
+  /// Time constant of the thrusters for which the commands of the efforts must be within their
+  /// limits [s], if it is longer than that of the task.
+  double thruster_lag = 0;
 };
 /// Checks the options of a script.
 ///
-/// @throws std::invalid_argument unless `planned` is finite and not negative, and 0 <= margin < 1.
+/// @throws std::invalid_argument unless `planned` and `thruster_lag` are finite and not negative, and
+///         0 <= margin < 1.
 void check(const ScriptOptions& options);
 
 /// Returns the planned wrench along c of a script: that of the options, or the value of the

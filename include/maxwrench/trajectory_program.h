@@ -20,8 +20,13 @@ namespace maxwrench {
 ///                          u_min <= u_i <= u_max (of the first: first_min, first_max)
 ///                          w_min,i <= w_i <= w_max,i
 ///                          |u_i+1 - u_i| <= du_max,i
+///                          u_min <= u_i+1 + lag_i (u_i+1 - u_i) <= u_max where lag_i > 0
 ///                          t <= c_w,i'w_i for all i,  or with a peak p: t = c_w,p'w_p,
 ///                          or with `common`: t = c_w,i'w_i for all i
+///
+/// lag_i is the time constant T of a thruster divided by the time between the instants. An effort
+/// that is linear between them follows, through a first-order lag, from the command u + T du/dt.
+/// Between two instants the command is linear as well, and its end is the tighter one of both.
 ///
 /// An instant without an objective (c_w,i zero or of no columns) is only balanced: it has no row of
 /// t.
@@ -45,6 +50,8 @@ struct TrajectoryProgram {
       first_max;              ///< upper limits of u_0 (m), likewise
   /// Limits of the changes of efforts (m×(N-1)), infinite where there is none.
   Eigen::MatrixXd du_max;
+  /// The lags (m×(N-1)) [-], 0 where the command equals the effort. Empty: all are 0.
+  Eigen::MatrixXd lag;
   /// Instant p of the peak of an impulse, of which there is one scenario; -1: max-min. The peak of
   /// several scenarios is the only instant of each with an objective.
   int peak = -1;
@@ -72,6 +79,8 @@ struct TrajectoryProgram {
     const Eigen::VectorXd& c_w = instants[static_cast<std::size_t>(i)].c_w;
     return peak < 0 && (common || (c_w.array() != 0).any());
   }
+  /// Returns whether the command of effort j has limits at the end of the interval after instant i.
+  bool lags(int j, int i) const { return lag.size() > 0 && lag(j, i) > 0; }
   /// Returns the lower limit of effort j at instant i.
   double u_min(int j, int i) const {
     const double own = instants[static_cast<std::size_t>(i)].actuation->u_min[j];
@@ -100,14 +109,18 @@ struct TrajectorySolution : Verdict {
   Eigen::VectorXd y;               ///< variables y (p)
   /// Multipliers of the balance (n×N): d value/d tau_d,i.
   ///
-  /// If the program is infeasible, lambda, mu and nu are the proof instead, with `common` also pi.
+  /// If the program is infeasible, lambda, mu, kappa and nu are the proof instead, with `common`
+  /// also pi.
   /// Then the supremum over the limits of
   ///
-  ///     sum_i lambda_i'(B u_i - (J'W)_i w_i + G_i y) - mu'(rates) - nu'R y (+ pi_i c_w,i'w_i)
+  ///     sum_i lambda_i'(B u_i - (J'W)_i w_i + G_i y) - mu'(rates) - kappa'(commands)
+  ///       - nu'R y (+ pi_i c_w,i'w_i)
   ///
-  /// is less than sum_i lambda_i'tau_d,i minus the contribution of the limits of rates and rows.
+  /// is less than sum_i lambda_i'tau_d,i minus the contribution of the limits of rates, commands
+  /// and rows.
   Eigen::MatrixXd lambda,
-      mu;  ///< multipliers of the rates (m×(N-1)): positive where u_i+1 - u_i is at its upper limit
+      mu,     ///< multipliers of the rates (m×(N-1)): positive where u_i+1 - u_i is at its upper limit
+      kappa;  ///< multipliers of the commands (m×(N-1)), likewise; empty: the program has no lag
   /// Multipliers of t <= c_w,i'w_i (N). Their sum is one. With a peak they are the unit vector of
   /// the peak. With `common` they have any sign, and in a proof their sum is zero.
   Eigen::VectorXd pi,
@@ -157,8 +170,8 @@ void read(const TrajectoryProgram& program, const LpSolution& answer, Trajectory
 
 /// Computes the residual of a solution from the data of the program.
 ///
-/// Balance: max |B u_i - (J'W)_i w_i + s_i + G_i y - tau_d,i|. Bounds: of u, w, y, rates, R y and
-/// of t <= c_w,i'w_i or t = c_w,i'w_i. Dual: in what has no limits, |lambda| in excess of rho, and
+/// Balance: max |B u_i - (J'W)_i w_i + s_i + G_i y - tau_d,i|. Bounds: of u, w, y, rates, commands, R y
+/// and of t <= c_w,i'w_i or t = c_w,i'w_i. Dual: in what has no limits, |lambda| in excess of rho, and
 /// |1 - sum pi|.
 /// Gap: dual objective less (value - price). A number that cannot be computed is infinite.
 ///
@@ -166,8 +179,8 @@ void read(const TrajectoryProgram& program, const LpSolution& answer, Trajectory
 /// @param solution  its solution
 Residual recheck(const TrajectoryProgram& program, const TrajectorySolution& solution);
 
-/// Returns whether lambda, mu, nu and with `common` pi prove that the program is infeasible, by the
-/// criterion of `verified`.
+/// Returns whether lambda, mu, kappa, nu and with `common` pi prove that the program is infeasible,
+/// by the criterion of `verified`.
 bool proves_infeasible(const TrajectoryProgram& program, const TrajectorySolution& solution);
 
 }  // namespace maxwrench

@@ -58,6 +58,44 @@ void configuration_rates(const Robot& robot, const Motion& motion, const Eigen::
   y_dot.segment(kPoseSize, motion.q.size()) = motion.v.tail(motion.q.size());
 }
 
+void configuration_slopes(const Robot& robot, const Motion& motion, const Eigen::VectorXd& y,
+                          Eigen::MatrixXd& slopes) {
+  const auto axes = static_cast<Eigen::Index>(robot.base_axes.size());
+  const Eigen::Vector3d e = y.segment<3>(4);
+  slopes.setZero(kPoseSize + motion.q.size(), axes + motion.q.size());
+  for (Eigen::Index i = 0; i < axes; ++i) {
+    const int axis = robot.base_axes[static_cast<std::size_t>(i)];
+    if (axis < 3) {
+      slopes.col(i).head<3>() = motion.base.R.col(axis);
+      continue;
+    }
+    const Eigen::Vector3d turn = Eigen::Vector3d::Unit(axis - 3);
+    slopes(3, i) = -0.5 * e.dot(turn);
+    slopes.block<3, 1>(4, i) = 0.5 * (y[3] * turn + e.cross(turn));
+  }
+  slopes.bottomRightCorner(motion.q.size(), motion.q.size()).setIdentity();
+}
+
+/// The vector part of 2 e^-1 de/|e|^2 is the turn of de, in base axes.
+void configuration_shifts(const Robot& robot, const Motion& motion, const Eigen::VectorXd& y,
+                          Eigen::MatrixXd& shifts) {
+  const auto axes = static_cast<Eigen::Index>(robot.base_axes.size());
+  const Eigen::Vector3d e = y.segment<3>(4);
+  const double scale = 2 / y.segment<4>(3).squaredNorm();
+  shifts.setZero(axes + motion.q.size(), kPoseSize + motion.q.size());
+  for (Eigen::Index i = 0; i < axes; ++i) {
+    const int axis = robot.base_axes[static_cast<std::size_t>(i)];
+    if (axis < 3) {
+      shifts.row(i).head<3>() = motion.base.R.col(axis).transpose();
+      continue;
+    }
+    const Eigen::Vector3d turn = Eigen::Vector3d::Unit(axis - 3);
+    shifts(i, 3) = -scale * e.dot(turn);
+    shifts.block<1, 3>(i, 4) = scale * (y[3] * turn - turn.cross(e)).transpose();
+  }
+  shifts.bottomRightCorner(motion.q.size(), motion.q.size()).setIdentity();
+}
+
 FreeMotion::FreeMotion(const Robot& robot, const Motion& start,
                        std::function<void(double, Eigen::VectorXd&)> tau)
     : robot_(robot),

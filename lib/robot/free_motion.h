@@ -33,6 +33,14 @@ void read_motion(const Eigen::VectorXd& y, Motion& motion);
 void configuration_rates(const Robot& robot, const Motion& motion, const Eigen::VectorXd& y,
                          Eigen::VectorXd& y_dot);
 
+/// The derivatives of these rates by v, c×n for the c entries of p, e and q.
+void configuration_slopes(const Robot& robot, const Motion& motion, const Eigen::VectorXd& y,
+                          Eigen::MatrixXd& slopes);
+/// The velocities, n×c, that change p, e and q by one per unit of time, for a base on its axes. A
+/// change of the length of e is no motion.
+void configuration_shifts(const Robot& robot, const Motion& motion, const Eigen::VectorXd& y,
+                          Eigen::MatrixXd& shifts);
+
 /// The configuration after `seconds` at the motion's constant velocities.
 Motion advanced(const Robot& robot, Motion motion, double seconds);
 

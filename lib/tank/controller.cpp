@@ -138,6 +138,16 @@ void PostureController::fill(const Motion& motion, const Vector6d& h, const Eige
   request.u_star = u_star;
   request.lower = robot.actuation.u_min.cwiseMax(u_before - reach);
   request.upper = robot.actuation.u_max.cwiseMin(u_before + reach);
+  if (!options_.invert_lag) return;
+  // The command at the end of the period, u + lag/period (u - u_before), is within the limits.
+  const auto thrusters = static_cast<Eigen::Index>(robot.thrusters.size());
+  const double lag = options_.thruster_lag / period;
+  const auto reached = [&](const Eigen::VectorXd& limit) -> Eigen::VectorXd {
+    return (limit + lag * u_before).head(thrusters) / (1 + lag);
+  };
+  auto lower = request.lower.head(thrusters), upper = request.upper.head(thrusters);
+  lower = lower.cwiseMax(reached(robot.actuation.u_min));
+  upper = upper.cwiseMin(reached(robot.actuation.u_max));
 }
 
 }  // namespace maxwrench

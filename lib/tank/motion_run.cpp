@@ -97,6 +97,10 @@ class MotionExperiment {
     return follower_.motion();
   }
 
+  /// Whether the trajectory allows for the lag. The robot can then follow it up to the speed limit
+  /// of a joint, and needs no distance from it.
+  bool knows_lag() const { return problem_.motion->thruster_lag >= options_.thruster_lag; }
+
   /// Sets a_, the acceleration of all velocities at a motion: along the path, with corrections of
   /// the errors of theta_r.
   void accelerate(const Motion& motion) {
@@ -108,7 +112,14 @@ class MotionExperiment {
     for (Eigen::Index i = 0; i < bend_.size(); ++i) {
       const int joint = problem_.redundant[static_cast<std::size_t>(i)];
       const double most = problem_.robot.joints[static_cast<std::size_t>(joint)].velocity_max;
-      bend_[i] = std::clamp(bend_[i], -(most + rate_[i]) / kBrake, (most - rate_[i]) / kBrake);
+      double low = -(most + rate_[i]) / kBrake, high = (most - rate_[i]) / kBrake;
+      if (knows_lag()) {
+        const double planned =
+            reference_.acceleration[i] + (reference_.rate[i] - rate_[i]) / kBrake;
+        low = std::min(low, planned);
+        high = std::max(high, planned);
+      }
+      bend_[i] = std::clamp(bend_[i], low, high);
     }
     a_ = follow(reference_.x, theta_r_, rate_, bend_).v_dot();
   }

@@ -1,5 +1,7 @@
 #include "lib/tank/ode.h"
 
+#include <cmath>
+
 #include "lib/tank/stopwatch.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/problem.h"
@@ -134,6 +136,37 @@ bool TankOde::residual(double t, const Eigen::VectorXd& y, const Eigen::VectorXd
   F = y_dot - rates_;
   F.segment(first, n) = tau_d_ + J_.transpose() * h_e_ - tau_;
   return F.allFinite();
+}
+
+/// A small change of the configuration moves the end effector by J dx, where dx are the velocities
+/// that would make that change in unit time.
+bool TankOde::residual_jacobian(double t, const Eigen::VectorXd& y, const Eigen::VectorXd& /*y_dot*/,
+                                double alpha, Eigen::MatrixXd& dF) {
+  const Stopwatch watch(seconds_);
+  ++evaluations_;
+  prepare(t, y, rates_);
+  const Robot& robot = problem_.robot;
+  const Eigen::Index n = v_d_.size(), thrusters = rate_max_.size();
+  const Eigen::Index v = motion_size(robot) - n, f = v + n;
+  dF = alpha * Eigen::MatrixXd::Identity(y.size(), y.size());
+  configuration_slopes(robot, motion_, y, shifts_);
+  dF.block(0, v, v, n) -= shifts_;
+  dynamics_.mass_matrix(M_);
+  const bool held = options_.load == 0;
+  if (held) pull_ = J_.transpose() * damping_.asDiagonal() * J_;
+  dF.block(v, v, n, n) = alpha * M_;
+  if (held) {
+    dF.block(v, v, n, n) += pull_;
+    configuration_shifts(robot, motion_, y, shifts_);
+    pull_ = J_.transpose() * stiffness_.asDiagonal() * J_;
+    dF.block(v, 0, n, v) = pull_ * shifts_;
+  }
+  dF.block(v, f, n, thrusters) =
+      -options_.imperfections.thrust_efficiency * robot.actuation.B.leftCols(thrusters);
+  for (Eigen::Index j = 0; j < thrusters; ++j) {
+    if (std::abs(rates_[f + j]) < rate_max_[j]) dF(f + j, f + j) += 1 / options_.thruster_lag;
+  }
+  return dF.allFinite();
 }
 
 }  // namespace maxwrench

@@ -41,6 +41,11 @@ class TankOde final : public Ode {
   bool residual(double t, const Eigen::VectorXd& y, const Eigen::VectorXd& y_dot,
                 Eigen::VectorXd& F) override;
 
+  /// The stiff terms of d F/d y + alpha d F/d y': masses, the cell's stiffness and damping, and the
+  /// lag. Coriolis forces, drag and weight are left out.
+  bool residual_jacobian(double t, const Eigen::VectorXd& y, const Eigen::VectorXd& y_dot,
+                         double alpha, Eigen::MatrixXd& dF) override;
+
   void read(const Eigen::VectorXd& y, Motion& motion) const { read_motion(y, motion); }
   /// The efforts in the state of `initial`, without noise and losses.
   Eigen::VectorXd efforts(double t) const;
@@ -74,6 +79,7 @@ class TankOde final : public Ode {
   Motion motion_;
   Matrix6Xd J_;
   std::vector<char> dead_;  ///< for each actuator whether it failed
+  Eigen::MatrixXd M_, shifts_, pull_;
   long evaluations_ = 0;
   double seconds_ = 0;
 };

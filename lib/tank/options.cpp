@@ -77,6 +77,7 @@ void check(const Robot& robot) {
 
 void check(const ScriptOptions& options) {
   require_not_negative("planned", options.planned);
+  require_not_negative("thruster_lag", options.thruster_lag);
   require_margin(options.margin);
 }
 

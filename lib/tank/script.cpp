@@ -64,9 +64,9 @@ bool askable(const Trajectory& trajectory, TankScript& script) {
 }
 
 /// The program of the instants with the requested wrench.
-TrajectoryProgram asking(const Problem& problem, const std::vector<MotionScenario>& scenarios,
-                         const SchemeMaps& maps, int t_h, TankScript& script) {
-  const MotionTask& task = *problem.motion;
+TrajectoryProgram asking(const Problem& problem, const MotionTask& task,
+                         const std::vector<MotionScenario>& scenarios, const SchemeMaps& maps,
+                         int t_h, TankScript& script) {
   TrajectoryProgram program = make_trajectory_program(problem, task, scenarios, maps);
   set_instants(problem, task, scenarios, maps, script.instants, program);
   program.rho = kElasticWeight;
@@ -108,7 +108,8 @@ TankScript make_script(const Problem& problem, const Trajectory& trajectory, Wre
                        TrajectorySolver& solver, const ScriptOptions& options) {
   check(options);
   require_no_scenarios(problem, "virtual tank");
-  const MotionTask& task = *problem.motion;
+  MotionTask task = *problem.motion;
+  task.thruster_lag = std::max(task.thruster_lag, options.thruster_lag);
   if (task.has_factor()) {
     throw std::invalid_argument(problem.name + ": got " +
                                 (task.payload ? "a payload" : "a table of wrenches") +
@@ -129,7 +130,7 @@ TankScript make_script(const Problem& problem, const Trajectory& trajectory, Wre
     return script;
   }
   const std::vector<MotionScenario> scenarios = motion_scenarios(problem, wrench);
-  const TrajectoryProgram program = asking(problem, scenarios, maps, trajectory.t_h, script);
+  const TrajectoryProgram program = asking(problem, task, scenarios, maps, trajectory.t_h, script);
   TrajectorySolution solution;
   solver.solve(program, solution);
   script.conclude(solution.status, solution.reason.c_str());

@@ -38,6 +38,33 @@ Eigen::Matrix3d turn_of(const MotionTask& task, const Eigen::Matrix3d& back,
                       : Eigen::Matrix3d::Identity();
 }
 
+/// The lags of all thrusters with a range, T over the time between instants. From no efforts at the
+/// start, the first instant reaches u_max/(1 + lag).
+void set_lags(const Problem& problem, const MotionTask& task, const SchemeMaps& maps, int skipped,
+              TrajectoryProgram& program) {
+  const auto thrusters = static_cast<Eigen::Index>(problem.robot.thrusters.size());
+  const auto lag = [&](int from) {
+    const auto at = static_cast<std::size_t>(from);
+    return task.thruster_lag / (maps.t[at + 1] - maps.t[at]);
+  };
+  program.lag.setZero(program.du_max.rows(), program.du_max.cols());
+  for (int i = 0; i + 1 < program.size(); ++i) {
+    const int place = i % program.length();
+    if (place + 1 == program.length()) continue;
+    const Zonotope& set = *program.instants[static_cast<std::size_t>(i)].actuation;
+    for (Eigen::Index j = 0; j < thrusters; ++j) {
+      if (set.u_min[j] < set.u_max[j]) program.lag(j, i) = lag(place + skipped);
+    }
+  }
+  if (!maps.starts || task.start != Start::kZero) return;
+  const Zonotope& set = problem.robot.actuation;
+  const double share = 1 / (1 + lag(0));
+  program.first_min.head(thrusters) =
+      program.first_min.head(thrusters).cwiseMax(share * set.u_min.head(thrusters));
+  program.first_max.head(thrusters) =
+      program.first_max.head(thrusters).cwiseMin(share * set.u_max.head(thrusters));
+}
+
 }  // namespace
 
 bool start_is_block(const MotionTask& task, const SchemeMaps& maps) {
@@ -79,6 +106,7 @@ TrajectoryProgram make_trajectory_program(const Problem& problem, const MotionTa
     const int place = i % length;
     if (place + 1 < length) program.du_max.col(i) = limit(place + skipped);
   }
+  if (task.thruster_lag > 0) set_lags(problem, task, maps, skipped, program);
   if (block) {
     for (std::size_t s = 0; s < scenarios.size(); ++s) {
       WrenchProgram& start = program.instants[s * static_cast<std::size_t>(length)];

@@ -171,7 +171,8 @@ double TrajectoryEvaluator::evaluate_elastic(const Eigen::MatrixXd& knots,
 
 bool TrajectoryEvaluator::coupled() const {
   const TrajectorySolution& solution = workspace_->elastic_solution;
-  return solution.price > kNoPrice || (solution.mu.array().abs() > kNoMultiplier).any();
+  return solution.price > kNoPrice || (solution.mu.array().abs() > kNoMultiplier).any() ||
+         (solution.kappa.array().abs() > kNoMultiplier).any();
 }
 
 const TrajectorySolution& TrajectoryEvaluator::elastic_solution() const {

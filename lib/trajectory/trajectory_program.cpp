@@ -7,9 +7,9 @@
 namespace maxwrench {
 namespace {
 
-/// The layout of the assembled program. Its columns are those of the instants, of the rates, t and
-/// the slack columns, y and the activities of R. Its rows are the balances, the rates, those of t
-/// and of R.
+/// The layout of the assembled program. Its columns are those of the instants, of the rates, of the
+/// commands, t and the slack columns, y and the activities of R. Its rows are the balances, the
+/// rates, the commands, those of t and of R.
 class Layout {
  public:
   explicit Layout(const TrajectoryProgram& program)
@@ -18,29 +18,34 @@ class Layout {
         m_(program.instants.front().actuation->actuators()) {
     for (int i = 0; i + 1 < program.size(); ++i) {
       for (int j = 0; j < m_; ++j) rates_ += program.du_max(j, i) < kInfinity;
+      for (int j = 0; j < m_; ++j) commands_ += program.lags(j, i);
     }
     for (int i = 0; i < program.size(); ++i) t_rows_ += program.bounds_value(i);
   }
 
   int n() const { return n_; }
   int m() const { return m_; }
-  int rates() const { return rates_; }
+  int commands() const { return commands_; }
   bool max_min() const { return program_.peak < 0; }
   int t_rows() const { return t_rows_; }
   bool elastic(int i) const { return program_.slackens(i); }
   bool limited(int j, int i) const {
     return i >= 0 && i + 1 < program_.size() && program_.du_max(j, i) < kInfinity;
   }
+  bool lags(int j, int i) const {
+    return i >= 0 && i + 1 < program_.size() && program_.lags(j, i);
+  }
   int columns(int i) const {
     return m_ + program_.instants[i].columns() + (elastic(i) ? 2 * n_ : 0);
   }
   int first_rate_row() const { return n_ * program_.size(); }
-  int first_t_row() const { return first_rate_row() + rates_; }
+  int first_command_row() const { return first_rate_row() + rates_; }
+  int first_t_row() const { return first_command_row() + commands_; }
   int first_r_row() const { return first_t_row() + t_rows_; }
   int r_rows() const { return static_cast<int>(program_.R.rows()); }
   int rows() const { return first_r_row() + r_rows(); }
   int cols() const {
-    int count = rates_ + (max_min() ? 1 : 0) + t_rows_ + program_.border() + r_rows();
+    int count = rates_ + commands_ + (max_min() ? 1 : 0) + t_rows_ + program_.border() + r_rows();
     for (int i = 0; i < program_.size(); ++i) count += columns(i);
     return count;
   }
@@ -48,7 +53,7 @@ class Layout {
  private:
   const TrajectoryProgram& program_;
   int n_, m_;
-  int rates_ = 0, t_rows_ = 0;
+  int rates_ = 0, commands_ = 0, t_rows_ = 0;
 };
 
 /// Calls sink.column(cost, low, high) for each column of the assembled program, then
@@ -70,6 +75,13 @@ class Walk {
         if (!layout_.limited(j, i)) continue;
         sink_.column(0, -program_.du_max(j, i), program_.du_max(j, i));
         sink_.entry(layout_.first_rate_row() + row++, -1);
+      }
+    }
+    for (int row = 0, i = 0; layout_.commands() > 0 && i + 1 < program_.size(); ++i) {
+      for (int j = 0; j < layout_.m(); ++j) {
+        if (!layout_.lags(j, i)) continue;
+        sink_.column(0, program_.u_min(j, i + 1), program_.u_max(j, i + 1));
+        sink_.entry(layout_.first_command_row() + row++, -1);
       }
     }
     if (layout_.max_min()) lowest();
@@ -106,6 +118,10 @@ class Walk {
     int ahead = behind;
     for (int j = 0; j < layout_.m(); ++j) ahead += layout_.limited(j, i - 1);
     rates_before_ = ahead - layout_.first_rate_row();
+    int command_behind = layout_.first_command_row() + commands_before_;
+    int command_ahead = command_behind;
+    for (int j = 0; j < layout_.m(); ++j) command_ahead += layout_.lags(j, i - 1);
+    commands_before_ = command_ahead - layout_.first_command_row();
     for (int j = 0; j < layout_.m(); ++j) {
       sink_.column(0, program_.u_min(j, i), program_.u_max(j, i));
       for (int r = 0; r < layout_.n(); ++r) {
@@ -113,6 +129,8 @@ class Walk {
       }
       if (layout_.limited(j, i - 1)) sink_.entry(behind++, 1);
       if (layout_.limited(j, i)) sink_.entry(ahead++, -1);
+      if (layout_.lags(j, i - 1)) sink_.entry(command_behind++, 1 + program_.lag(j, i - 1));
+      if (layout_.lags(j, i)) sink_.entry(command_ahead++, -program_.lag(j, i));
     }
   }
 
@@ -142,7 +160,7 @@ class Walk {
   const TrajectoryProgram& program_;
   Layout layout_;
   Sink& sink_;
-  int rates_before_ = 0;
+  int rates_before_ = 0, commands_before_ = 0;
 };
 
 struct Pattern {
@@ -196,6 +214,10 @@ bool well_formed(const TrajectoryProgram& program) {
   if (!limits(program.first_min, program.first_max, m)) return false;
   if (program.du_max.rows() != m || program.du_max.cols() != N - 1) return false;
   if (!(program.du_max.array() >= 0).all()) return false;
+  if (program.lag.size() > 0) {
+    if (program.lag.rows() != m || program.lag.cols() != N - 1) return false;
+    if (!program.lag.allFinite() || !(program.lag.array() >= 0).all()) return false;
+  }
   if (!limits(program.y_min, program.y_max, p) || !limits(program.r_min, program.r_max, rows)) {
     return false;
   }
@@ -252,11 +274,17 @@ void read(const TrajectoryProgram& program, const LpSolution& answer,
   const double sign = proof ? -1 : 1;
   solution.lambda.resize(layout.n(), N);
   solution.mu.setZero(layout.m(), N - 1);
+  solution.kappa.setZero(program.lag.rows(), program.lag.cols());
   solution.pi.setZero(N);
   for (int i = 0; i < N; ++i) solution.lambda.col(i) = rows.segment(i * layout.n(), layout.n());
   for (int row = layout.first_rate_row(), i = 0; i + 1 < N; ++i) {
     for (int j = 0; j < layout.m(); ++j) {
       if (layout.limited(j, i)) solution.mu(j, i) = sign * rows[row++];
+    }
+  }
+  for (int row = layout.first_command_row(), i = 0; i + 1 < N; ++i) {
+    for (int j = 0; j < layout.m(); ++j) {
+      if (layout.lags(j, i)) solution.kappa(j, i) = sign * rows[row++];
     }
   }
   // The row c_w'w - t - z = b: raising b by one lowers the value by pi.

@@ -28,14 +28,14 @@ class Multipliers {
     return solution_.lambda.rows() == n_ && solution_.lambda.cols() == N &&
            solution_.mu.rows() == m_ && solution_.mu.cols() == N - 1 &&
            solution_.nu.size() == program_.R.rows() && solution_.lambda.allFinite() &&
-           solution_.mu.allFinite() && solution_.nu.allFinite();
+           solution_.mu.allFinite() && solution_.nu.allFinite() && kappa_fits();
   }
 
   bool elastic(int i) const { return program_.slackens(i); }
 
-  /// Calls f(slope, low, high) for the columns u, w, rates, y and R y, where slope is the
-  /// coefficient in sign sum_i lambda_i'(B u_i - J'W w_i + G_i y) - mu'(rates) - nu'(R y), without
-  /// c_w.
+  /// Calls f(slope, low, high) for the columns u, w, rates, commands, y and R y, where slope is the
+  /// coefficient in sign sum_i lambda_i'(B u_i - J'W w_i + G_i y) - mu'(rates) - kappa'(commands)
+  /// - nu'(R y), without c_w.
   template <class F>
   void columns(double sign, F&& f) const {
     for (int i = 0; i < program_.size(); ++i) {
@@ -44,6 +44,10 @@ class Multipliers {
       if (i + 1 == program_.size()) continue;
       for (int j = 0; j < m_; ++j) {
         f(one(solution_.mu(j, i)), -program_.du_max(j, i), program_.du_max(j, i));
+      }
+      for (int j = 0; j < m_; ++j) {
+        if (!program_.lags(j, i)) continue;
+        f(one(solution_.kappa(j, i)), program_.u_min(j, i + 1), program_.u_max(j, i + 1));
       }
     }
     for (int j = 0; j < program_.border(); ++j) {
@@ -62,6 +66,12 @@ class Multipliers {
   }
 
  private:
+  bool kappa_fits() const {
+    if (program_.lag.size() == 0) return true;
+    return solution_.kappa.rows() == program_.lag.rows() &&
+           solution_.kappa.cols() == program_.lag.cols() && solution_.kappa.allFinite();
+  }
+
   static TermSum one(double value) {
     TermSum sum;
     sum.add(value);
@@ -73,6 +83,12 @@ class Multipliers {
     for (int r = 0; r < n_; ++r) slope.add(sign * set_.B(r, j) * solution_.lambda(r, i));
     if (i > 0) slope.add(-solution_.mu(j, i - 1));
     if (i + 1 < program_.size()) slope.add(solution_.mu(j, i));
+    if (i > 0 && program_.lags(j, i - 1)) {
+      slope.add(-(1 + program_.lag(j, i - 1)) * solution_.kappa(j, i - 1));
+    }
+    if (i + 1 < program_.size() && program_.lags(j, i)) {
+      slope.add(program_.lag(j, i) * solution_.kappa(j, i));
+    }
     return slope;
   }
 
@@ -148,7 +164,11 @@ double outside_limits(const TrajectoryProgram& program, const TrajectorySolution
       check(solution.u(j, i), program.u_min(j, i), program.u_max(j, i));
       if (i == 0) continue;
       const double most = program.du_max(j, i - 1);
-      check(solution.u(j, i) - solution.u(j, i - 1), -most, most);
+      const double change = solution.u(j, i) - solution.u(j, i - 1);
+      check(change, -most, most);
+      if (!program.lags(j, i - 1)) continue;
+      check(solution.u(j, i) + program.lag(j, i - 1) * change, program.u_min(j, i),
+            program.u_max(j, i));
     }
   }
   for (int j = 0; j < program.border(); ++j) {

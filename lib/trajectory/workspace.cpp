@@ -16,7 +16,15 @@ MotionTask task_of(const Problem& problem) {
     throw std::invalid_argument(problem.name +
                                 ": got a second contact, expected a task in time without one");
   }
-  if (problem.motion) return *problem.motion;
+  if (problem.motion) {
+    const bool open = problem.motion->impulse && problem.motion->start == Start::kZero;
+    if (open && problem.motion->thruster_lag > 0 && !problem.scenarios.empty()) {
+      throw std::invalid_argument(problem.name +
+                                  ": start.kind: got zero, expected another start for a list of "
+                                  "scenarios with motion.thruster_lag");
+    }
+    return *problem.motion;
+  }
   if (problem.free.count() > 0) {
     throw std::invalid_argument(problem.name +
                                 ": got free pose coordinates, expected a pose that is fixed");
@@ -64,6 +72,7 @@ void TrajectoryEvaluator::Workspace::bound_start(const TrajectorySolverMaker& ma
     start.first_min = start.instants[0].actuation->u_min;
     start.first_max = start.instants[0].actuation->u_max;
     start.du_max.resize(start.du_max.rows(), 0);
+    start.lag.resize(0, 0);
     start.peak = 0;
     TrajectorySolution best;
     make()->solve(start, best);

@@ -44,6 +44,14 @@ void require_transfer(const TaskSpec& task, Problem& problem) {
   }
 }
 
+/// Rejects a lag that is no time constant.
+void require_lag(const MotionTask& motion) {
+  constexpr double kLongest = 1e3;
+  if (motion.thruster_lag >= 0 && motion.thruster_lag <= kLongest) return;
+  throw BadValue("motion.thruster_lag", shown(motion.thruster_lag),
+                 fmt::format("a time constant from 0 to {:g} s", kLongest));
+}
+
 }  // namespace
 
 void require_dynamics(const Robot& robot) {
@@ -80,6 +88,7 @@ void set_motion(const TaskSpec& task, Problem& problem) {
     throw BadValue("motion.k", fmt::format("{}", motion.k), "2 or more for the scheme spline");
   }
   require_whole("motion.instants_per_interval", motion.instants_per_interval, kMostInstants);
+  require_lag(motion);
   if (motion.transfer) return require_transfer(task, problem);
   if (motion.impulse) {
     motion.path = Path::constant(problem.pose, motion.T);

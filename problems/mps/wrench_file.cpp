@@ -51,6 +51,11 @@ class TrajectoryNames {
         add_both("rate." + efforts_[j], i, lp);
       }
     }
+    for (int i = 0; i + 1 < program_.size(); ++i) {
+      for (std::size_t j = 0; j < efforts_.size(); ++j) {
+        if (program_.lags(static_cast<int>(j), i)) add_both("command." + efforts_[j], i, lp);
+      }
+    }
     if (program_.peak < 0) {
       lp.col_names.emplace_back("t");
       for (int i = 0; i < program_.size(); ++i) add_both("above_t", i, lp);

@@ -376,6 +376,26 @@ class Experiment:
     def reason(self) -> str: ...
     def csv(self) -> str: ...
 
+class HeldTrajectory:
+    @property
+    def status(self) -> str: ...
+    @property
+    def reason(self) -> str: ...
+    @property
+    def knots(self) -> _Array: ...
+    @property
+    def reading(self) -> float: ...
+    @property
+    def first(self) -> float: ...
+    @property
+    def share(self) -> float: ...
+    @property
+    def planned(self) -> float: ...
+    @property
+    def held(self) -> bool: ...
+    @property
+    def simulations(self) -> int: ...
+
 class Loss:
     def to_dict(self) -> dict[str, Any]: ...
     @property
@@ -853,6 +873,19 @@ def simulate_scenarios(
     planned: float = 0.0,
     **options: float | Mapping[str, float],
 ) -> dict[str, Experiment]: ...
+def solve_held(
+    task: Task | _Path,
+    *,
+    simulations: int = 200,
+    wrench: str = "pure",
+    solver: str = "",
+    search: str = "",
+    seed: int = 1,
+    budget: int = 0,
+    threads: int = 0,
+    integrator: str = "cvode",
+    callback: _Callback = None,
+) -> HeldTrajectory: ...
 def capability(
     J: ArrayLike,
     tau_d: ArrayLike,

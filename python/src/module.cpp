@@ -32,6 +32,7 @@ True
   python::add_capability(m);
   python::add_linear_programs(m);
   python::add_tank(m);
+  python::add_held(m);
   python::add_proofs(m);
   python::add_trajectory_proofs(m);
   python::add_wrench_sets(m);

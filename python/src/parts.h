@@ -101,6 +101,7 @@ void add_evaluations(py::module_& m);
 void add_capability(py::module_& m);
 void add_linear_programs(py::module_& m);
 void add_tank(py::module_& m);
+void add_held(py::module_& m);
 void add_proofs(py::module_& m);
 void add_trajectory_proofs(py::module_& m);
 void add_wrench_sets(py::module_& m);

@@ -57,6 +57,10 @@ Request read_request(const PyAnswer& given, const std::string& integrator,
       {"noticed_after", &tank.noticed_after}};
   for (const auto& [key, value] : options) {
     const std::string name = key.cast<std::string>();
+    if (name == "invert_lag") {
+      tank.invert_lag = flag_in(name, py::reinterpret_borrow<py::object>(value));
+      continue;
+    }
     if (name == "seed") {
       tank.imperfections.seed =
           std::uint64_t(integer_in("seed", py::reinterpret_borrow<py::object>(value)));
@@ -254,6 +258,7 @@ Args:
     ramp, hold: duration of each ramp and of the hold of a static task [s].
     period: time between two commands [s].
     thruster_lag: time constant of the thrusters [s].
+    invert_lag: whether requested efforts are those that thrusters reach behind their lag.
     bandwidth: of the control of posture errors [rad/s].
     margin: fraction of the planned wrench that is not requested.
     load: mass that the end effector carries in place of the load cell [kg].

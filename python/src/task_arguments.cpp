@@ -138,6 +138,8 @@ void read_scheme(py::dict& arguments, MotionTask& motion) {
   motion.scheme = parse_scheme(
       text_in("scheme", taken(arguments, "scheme", py::str(to_string(motion.scheme)))));
   motion.rates = flag_in("rates", taken(arguments, "rates", py::bool_(true)));
+  motion.thruster_lag =
+      number_in("thruster_lag", taken(arguments, "thruster_lag", py::float_(0.0)));
   const py::object instants = taken(arguments, "instants_per_interval");
   if (!instants.is_none())
     motion.instants_per_interval = integer_in("instants_per_interval", instants);

@@ -213,6 +213,7 @@ Args:
     scheme: how knots become a motion: "spline", "forward" or "ends".
     instants_per_interval: for the scheme "spline".
     rates: whether limits of the rates of efforts apply.
+    thruster_lag: time constant of the thrusters whose commands must be within the limits [s].
     payload: in place of c, a dict with the keys of ``[payload]``: the value is the mass [kg] that
         the robot carries along the path.
     wrenches: in place of c, a table of wrenches over time (N×7), rows [t, force, torque] with t

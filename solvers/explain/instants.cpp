@@ -33,13 +33,22 @@ void explain_instants(const Answer& answer, Explanation& explanation) {
   const TrajectorySolution& solution = answer.trajectory.solution;
   const Eigen::Index blocks = solution.lambda.cols();
   Eigen::MatrixXd prices(robot.actuators(), blocks);
-  for (Eigen::Index i = 0; i < blocks; ++i) prices.col(i) = effort_prices(robot, solution, i);
+  for (Eigen::Index i = 0; i < blocks; ++i) prices.col(i) = effort_prices(robot, answer.program, solution, i);
   const double least = kLeastPrice * prices.cwiseAbs().maxCoeff();
   for (Eigen::Index i = 0; i < blocks; ++i) {
     InstantLimits at{instant_of_block(answer, i).t, {}, scenario_of_block(answer, i)};
     const auto add = [&](const LimitRate& limit) {
       if (std::abs(limit.rate) > least && std::isfinite(limit.limit)) at.limits.push_back(limit);
     };
+    for (Eigen::Index j = 0; i > 0 && j < solution.kappa.rows(); ++j) {
+      const double kappa = solution.kappa(j, i - 1);
+      const bool upper = kappa > 0;
+      const auto actuator = static_cast<int>(j), block = static_cast<int>(i);
+      add({"command of " + actuator_name(robot, j), actuator_unit(robot, j),
+           upper ? LimitSide::kUpper : LimitSide::kLower,
+           upper ? answer.program.u_max(actuator, block) : answer.program.u_min(actuator, block),
+           kappa});
+    }
     for (Eigen::Index j = 0; j < prices.rows(); ++j) {
       add(limit_at(answer, j, i, prices(j, i)));
       if (i == solution.mu.cols()) continue;

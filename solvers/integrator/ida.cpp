@@ -1,4 +1,5 @@
 #include <ida/ida.h>
+#include <sunmatrix/sunmatrix_dense.h>
 
 #include "solvers/integrator/check_request.h"
 #include "solvers/integrator/makers.h"
@@ -24,6 +25,7 @@ class IdaSession : public sundials::Session {
     require(IDASetUserData(m, static_cast<Session*>(this)));
     require(IDASStolerances(m, options.relative_tolerance, options.absolute_tolerance));
     require(IDASetLinearSolver(m, linear_.get(), matrix_.get()));
+    if (ode.residual_jacobian(t_0, y_, y_dot_0, 1, dF_)) require(IDASetJacFn(m, jacobian));
     if (ode.roots() > 0) require(IDARootInit(m, ode.roots(), root_of_pair));
   }
 
@@ -57,11 +59,24 @@ class IdaSession : public sundials::Session {
       return kValue;
     });
   }
+  static int jacobian(double t, double alpha, N_Vector y, N_Vector y_dot, N_Vector /*F*/,
+                      SUNMatrix dF, void* self, N_Vector /*a*/, N_Vector /*b*/, N_Vector /*c*/) {
+    auto& s = static_cast<IdaSession&>(*static_cast<Session*>(self));
+    return s.caught_.run<int>(kGiveUp, [&]() -> int {
+      s.y_ = view(y);
+      s.y_dot_ = view(y_dot);
+      if (!s.ode_.residual_jacobian(t, s.y_, s.y_dot_, alpha, s.dF_)) return kNoValue;
+      const Eigen::Index d = s.y_.size();
+      Eigen::Map<Eigen::MatrixXd>(SUNDenseMatrix_Data(dF), d, d) = s.dF_;
+      return kValue;
+    });
+  }
   static int root_of_pair(double t, N_Vector y, N_Vector /*y_dot*/, double* g, void* self) {
     return root(t, y, g, self);
   }
 
   Eigen::VectorXd F_;
+  Eigen::MatrixXd dF_;
   sundials::Owned<_generic_N_Vector> rate_;
   sundials::Owned<void> memory_;
 };

@@ -22,7 +22,7 @@ double half_width(double low, double high) {
 bool FactorProgram::supports(const TrajectoryEvaluator& trajectories, bool dependent_joints) {
   const TrajectoryProgram& program = trajectories.program();
   return program.common && !dependent_joints && starts_anywhere(program) &&
-         !(program.du_max.array() < kInfinity).any();
+         !(program.du_max.array() < kInfinity).any() && !(program.lag.array() > 0).any();
 }
 
 FactorProgram::FactorProgram(TrajectoryEvaluator& trajectories, const Eigen::VectorXd& x_min,

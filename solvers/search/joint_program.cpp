@@ -51,6 +51,7 @@ void JointProgram::set_limits(const TrajectoryProgram& program, const KnotRows& 
     if (i + 1 == N_) break;
     for (int j = 0; j < m_; ++j) {
       if (program.du_max(j, i) < kInfinity) rated_.emplace_back(i, j);
+      if (program.lags(j, i)) lagged_.emplace_back(i, j);
     }
   }
   const bool path = program.peak < 0;
@@ -62,14 +63,20 @@ void JointProgram::set_limits(const TrajectoryProgram& program, const KnotRows& 
     lower_[p_] = upper_[p_] = start_[p_] = 0;  // t is not used
   }
   const auto rates = static_cast<Eigen::Index>(rated_.size());
+  const auto commands = static_cast<Eigen::Index>(lagged_.size());
   const Eigen::Index R = rows.R.rows(), F = following.R.rows();
-  row_min_.setZero(n_ * N_ + limits + rates + R + F);
+  row_min_.setZero(n_ * N_ + limits + rates + commands + R + F);
   row_max_ = row_min_;
   if (!program.common) row_min_.segment(n_ * N_, limits).setConstant(-kInfinity);
   for (Eigen::Index k = 0; k < rates; ++k) {
     const auto& [i, j] = rated_[static_cast<std::size_t>(k)];
     row_max_[n_ * N_ + limits + k] = program.du_max(j, i);
     row_min_[n_ * N_ + limits + k] = -program.du_max(j, i);
+  }
+  for (Eigen::Index k = 0; k < commands; ++k) {
+    const auto& [i, j] = lagged_[static_cast<std::size_t>(k)];
+    row_max_[n_ * N_ + limits + rates + k] = program.u_max(j, i + 1);
+    row_min_[n_ * N_ + limits + rates + k] = program.u_min(j, i + 1);
   }
   row_min_.tail(R + F) << rows.r_min, following.r_min;
   row_max_.tail(R + F) << rows.r_max, following.r_max;
@@ -139,6 +146,10 @@ void JointProgram::fill_linear(const TrajectoryProgram& program) {
   for (const auto& [i, j] : rated_) {
     entries_.emplace_back(row, u0(i + 1) + j, 1);
     entries_.emplace_back(row++, u0(i) + j, -1);
+  }
+  for (const auto& [i, j] : lagged_) {
+    entries_.emplace_back(row, u0(i + 1) + j, 1 + program.lag(j, i));
+    entries_.emplace_back(row++, u0(i) + j, -program.lag(j, i));
   }
   fill_rows(trajectories_.rows().R, row);
   fill_rows(trajectories_.dependent_rows().R,

@@ -36,7 +36,7 @@ std::vector<WorthyLimit> limits_at(const Answer& answer, Eigen::Index i) {
   const TrajectorySolution& solution = answer.trajectory.solution;
   const Zonotope& set = *answer.program.instants[static_cast<std::size_t>(i)].actuation;
   std::vector<WorthyLimit> limits;
-  const Eigen::VectorXd prices = effort_prices(robot, solution, i);
+  const Eigen::VectorXd prices = effort_prices(robot, answer.program, solution, i);
   for (Eigen::Index j = 0; j < prices.size(); ++j) {
     const bool upper = prices[j] > 0;
     const double width = set.u_max[j] - set.u_min[j];
@@ -55,6 +55,13 @@ std::vector<WorthyLimit> limits_at(const Answer& answer, Eigen::Index i) {
            fmt::format("rate of {} {}", actuator_name(robot, j), pair < i ? "before" : "after")});
     }
   }
+  for (Eigen::Index j = 0; i > 0 && j < solution.kappa.rows(); ++j) {
+    const double kappa = solution.kappa(j, i - 1);
+    if (kappa == 0) continue;
+    limits.push_back({std::abs(kappa) * (set.u_max[j] - set.u_min[j]),
+                      fmt::format("command of {} at {:g}", actuator_name(robot, j),
+                                  kappa > 0 ? set.u_max[j] : set.u_min[j])});
+  }
   return dearest_first(std::move(limits));
 }
 
@@ -70,11 +77,16 @@ std::string describe(const std::vector<WorthyLimit>& limits) {
 
 }  // namespace
 
-Eigen::VectorXd effort_prices(const Robot& robot, const TrajectorySolution& solution,
-                              Eigen::Index i) {
+Eigen::VectorXd effort_prices(const Robot& robot, const TrajectoryProgram& program,
+                              const TrajectorySolution& solution, Eigen::Index i) {
   Eigen::VectorXd prices = -robot.actuation.B.transpose() * solution.lambda.col(i);
   if (i > 0) prices -= solution.mu.col(i - 1);
   if (i < solution.mu.cols()) prices += solution.mu.col(i);
+  if (program.lag.size() == 0) return prices;
+  if (i > 0) {
+    prices -= ((1 + program.lag.col(i - 1).array()) * solution.kappa.col(i - 1).array()).matrix();
+  }
+  if (i < program.lag.cols()) prices += program.lag.col(i).cwiseProduct(solution.kappa.col(i));
   return prices;
 }
 
@@ -119,7 +131,7 @@ std::string dearest_efforts(const Answer& answer) {
   for (Eigen::Index j = 0; j < set.u_min.size(); ++j)
     limits.push_back({0, actuator_name(robot, j)});
   for (Eigen::Index i = 0; i < answer.trajectory.solution.lambda.cols(); ++i) {
-    const Eigen::VectorXd prices = effort_prices(robot, answer.trajectory.solution, i);
+    const Eigen::VectorXd prices = effort_prices(robot, answer.program, answer.trajectory.solution, i);
     for (Eigen::Index j = 0; j < prices.size(); ++j) {
       if (std::abs(prices[j]) < 1e-9) continue;  // it may have no limits
       limits[static_cast<std::size_t>(j)].worth +=

@@ -54,6 +54,7 @@ ordered_json task_json(const Answer& answer) {
   if (task.payload) object["payload"] = payload_json(*task.payload);
   if (task.table) object["wrench_file"] = task.table->file;
   object["rates"] = task.rates;
+  if (task.thruster_lag > 0) object["thruster_lag"] = task.thruster_lag;
   object["wrench"] = to_string(answer.choice.wrench);
   object["t_h"] = known(task.impulse && t_h > 0, t_h);
   object["u0"] = known(task.impulse, to_string(task.start));

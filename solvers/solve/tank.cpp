@@ -84,7 +84,11 @@ TrajectoryExperiment simulate_trajectory(const Problem& problem, const Trajector
                                          const ScriptOptions& script, const std::string& integrator,
                                          const TankOptions& options) {
   TrajectoryExperiment experiment;
-  experiment.script = make_script(problem, trajectory, wrench, *lp.make(), script);
+  ScriptOptions asked = script;
+  if (options.invert_lag) {
+    asked.thruster_lag = std::max(asked.thruster_lag, options.thruster_lag);
+  }
+  experiment.script = make_script(problem, trajectory, wrench, *lp.make(), asked);
   experiment.run.conclude(experiment.script.status, experiment.script.reason.c_str());
   if (experiment.script.status == Status::kOptimal) {
     experiment.run =

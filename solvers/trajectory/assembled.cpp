@@ -33,7 +33,7 @@ class AssembledTrajectory : public TrajectorySolver {
   struct Shape {
     const Zonotope* actuation = nullptr;
     std::vector<std::pair<int, bool>> instants;  ///< wrench columns; whether they bound the value
-    Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> rates;
+    Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> rates, lags;
     int border = 0, first_elastic = 0, scenarios = 0;
     bool max_min = false, elastic = false;
     Eigen::SparseMatrix<double> R;
@@ -49,11 +49,13 @@ class AssembledTrajectory : public TrajectorySolver {
                 s.instants.size() == program.instants.size() && s.border == program.border() &&
                 s.max_min == (program.peak < 0) && s.elastic == program.elastic() &&
                 s.first_elastic == program.first_elastic && s.scenarios == program.scenarios &&
+                s.lags.rows() == program.lag.rows() && s.lags.cols() == program.lag.cols() &&
                 s.R.rows() == program.R.rows() && s.R.nonZeros() == program.R.nonZeros();
     for (int i = 0; same && i < program.size(); ++i) {
       same = s.instants[i] == kind(program, i);
     }
     if (!same || (s.rates != (program.du_max.array() < kInfinity)).any()) return false;
+    if ((s.lags != (program.lag.array() > 0)).any()) return false;
     if (program.R.rows() == 0) return true;
     const auto equal = [](const int* a, const int* b, Eigen::Index count) {
       return std::equal(a, a + count, b);
@@ -67,6 +69,7 @@ class AssembledTrajectory : public TrajectorySolver {
     shape_.instants.clear();
     for (int i = 0; i < program.size(); ++i) shape_.instants.push_back(kind(program, i));
     shape_.rates = program.du_max.array() < kInfinity;
+    shape_.lags = program.lag.array() > 0;
     shape_.border = program.border();
     shape_.first_elastic = program.first_elastic;
     shape_.scenarios = program.scenarios;

@@ -109,6 +109,7 @@ class FacetsOrIpm : public TrajectorySolver {
     const Zonotope& set = *program.instants.front().actuation;
     solution.lambda.setZero(set.dimension(), program.size());
     solution.mu.setZero(set.actuators(), program.size() - 1);
+    solution.kappa.setZero(program.lag.rows(), program.lag.cols());
     solution.pi.setZero(program.size());
     solution.nu.setZero(program.R.rows());
   }

@@ -62,7 +62,8 @@ void Forms::shape(const TrajectoryProgram& program, bool with_rates, bool with_s
   }
   variables = next.x0 + t + p;
   rates0 = next.f0;
-  border0 = rates0 + rated * (N - 1);
+  commands0 = rates0 + rated * (N - 1);
+  border0 = commands0 + (lagged ? rated * (N - 1) : 0);
   size = border0 + p + static_cast<int>(program.R.rows());
   F.setZero(next.F0);
   D.setZero(border0, p);
@@ -76,6 +77,7 @@ void Forms::fill(const TrajectoryProgram& program) {
   equations.clear();
   for (int i = 0; i < N; ++i) fill_stage(program, i);
   fill_rates(program);
+  if (lagged) fill_commands(program);
   if (p > 0) fill_border(program);
   if (t > 0) cost[z0()] = 1;
   if (t == 0)
@@ -177,6 +179,22 @@ void Forms::fill_rates(const TrajectoryProgram& program) {
   }
 }
 
+/// (1 + lag) u_i+1 - lag u_i; an effort without lag has no limits here.
+void Forms::fill_commands(const TrajectoryProgram& program) {
+  lag.resize(rated, N - 1);
+  for (int i = 0; i + 1 < N; ++i) {
+    const int first = commands0 + rated * i, from = stages[i].f0, to = stages[i + 1].f0;
+    for (int r = 0; r < rated; ++r) {
+      const int j = order[r];
+      lag(r, i) = program.lag(j, i);
+      if (p > 0) D.row(first + r) = (1 + lag(r, i)) * D.row(to + r) - lag(r, i) * D.row(from + r);
+      if (!program.lags(j, i)) continue;
+      limit(first + r, program.u_min(j, i + 1), program.u_max(j, i + 1),
+            offsets_(j, i + 1) + lag(r, i) * (offsets_(j, i + 1) - offsets_(j, i)));
+    }
+  }
+}
+
 void Forms::fill_border(const TrajectoryProgram& program) {
   for (int j = 0; j < p; ++j) limit(border0 + j, program.y_min[j], program.y_max[j], 0);
   for (int r = 0; r < R->rows(); ++r) {
@@ -201,6 +219,11 @@ void Forms::apply(const Columns& X, Columns phi) const {
       out.segment(rates0 + rated * i, rated) =
           out.segment(stages[i + 1].f0, rated) - out.segment(stages[i].f0, rated);
     }
+    for (int i = 0; lagged && i + 1 < N; ++i) {
+      out.segment(commands0 + rated * i, rated) =
+          out.segment(stages[i + 1].f0, rated) +
+          lag.col(i).cwiseProduct(out.segment(rates0 + rated * i, rated));
+    }
     if (p > 0) out.segment(border0, p) = y;
     if (R->rows() > 0) out.tail(R->rows()).noalias() = *R * y;
   }
@@ -209,6 +232,11 @@ void Forms::apply(const Columns& X, Columns phi) const {
 void Forms::add_transposed(Columns g, Columns X) const {
   for (Eigen::Index c = 0; c < X.cols(); ++c) {
     auto in = g.col(c);
+    for (int i = 0; lagged && i + 1 < N; ++i) {
+      const auto command = in.segment(commands0 + rated * i, rated);
+      in.segment(stages[i + 1].f0, rated) += command;
+      in.segment(rates0 + rated * i, rated) += lag.col(i).cwiseProduct(command);
+    }
     for (int i = 0; rated > 0 && i + 1 < N; ++i) {
       const auto rate = in.segment(rates0 + rated * i, rated);
       in.segment(stages[i + 1].f0, rated) += rate;
@@ -239,6 +267,11 @@ bool Forms::keeps_rates(const TrajectoryProgram& program, const Eigen::VectorXd&
       const double change = phi[to + r] - phi[from + r];
       const double constant = offsets_(j, i + 1) - offsets_(j, i);
       if (!(std::abs(change + tau * constant) <= tau * program.du_max(j, i))) return false;
+      if (!program.lags(j, i)) continue;
+      const double command = phi[to + r] + tau * offsets_(j, i + 1) +
+                             program.lag(j, i) * (change + tau * constant);
+      const double low = program.u_min(j, i + 1), high = program.u_max(j, i + 1);
+      if (!(tau * low <= command && command <= tau * high)) return false;
     }
   }
   return true;

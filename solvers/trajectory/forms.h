@@ -18,6 +18,9 @@ namespace maxwrench {
 /// hi. An elastic instant has x = (s, w, v). Its slacks s are subtracted from tau_d, and they are
 /// forms that cost rho |s|; so the largest weights at the end form a diagonal block.
 ///
+/// With a lag, the efforts of the rates also have forms of their commands, for each pair of instants
+/// (1 + lag) phi_i+1 - lag phi_i after all rates. They are left out with the rates.
+///
 /// For most programs of trajectories, the answer of the program without rates or slacks satisfies
 /// the rates and needs no slack. So each may be left out, and the answer without them is valid for
 /// the whole program if it satisfies them (`keeps_rates`).
@@ -25,17 +28,18 @@ namespace maxwrench {
 /// The forms of an instant, phi = F x + D y (less t in the last one), are: efforts, those with
 /// rates first; the single w in place of the efforts that only w moves; w with limits; slacks or
 /// equations; c_w'w - t >= 0, or = 0 with `common`. Then follow the rates, which are differences of
-/// the instants' first forms, then y and R y. Constant parts are in lo and hi.
+/// the instants' first forms, the commands, then y and R y. Constant parts are in lo and hi.
 struct Forms {
   void build(const TrajectoryProgram& program, bool with_rates = true, bool with_slacks = true);
 
   int N = 0;
   int t = 0;      ///< 1 for max-min: whether z has t
   int p = 0;      ///< y
-  int rated = 0;  ///< actuators with a rate limit at any instant
+  int rated = 0;  ///< actuators with a rate limit or a lag at any instant
+  bool lagged = false;  ///< whether there are forms of commands
   int size = 0;   ///< number of all forms
   int variables = 0;
-  int rates0 = 0, border0 = 0;  ///< the first rate, the first of y
+  int rates0 = 0, commands0 = 0, border0 = 0;  ///< the first rate, command, and the first of y
   struct Stage {
     int d = 0, x0 = 0;        ///< number of variables and the first of them
     int count = 0, f0 = 0;    ///< number of forms and the first of them
@@ -52,7 +56,8 @@ struct Forms {
   };
   std::vector<Stage> stages;
   Eigen::VectorXd F;                   ///< count×d of each stage, by columns
-  RowMatrix D;                         ///< border0×p, of the instants' forms and the rates
+  RowMatrix D;                         ///< border0×p, of the instants' forms, rates and commands
+  Eigen::MatrixXd lag;                 ///< rated×(N-1), if there are forms of commands
   Eigen::VectorXd lo, hi;              ///< zero where infinite
   Eigen::VectorXd has_lo, has_hi;      ///< 1 or 0; if both are zero, an equation phi = hi
   Eigen::VectorXd scale;               ///< estimated distance of phi from its limits
@@ -72,7 +77,7 @@ struct Forms {
   /// X += transposed map of g; overwrites g.
   void add_transposed(Columns g, Columns X) const;
 
-  /// Whether the efforts at X (phi = phi(X)) satisfy the rates.
+  /// Whether the efforts at X (phi = phi(X)) satisfy the rates and the limits of commands.
   bool keeps_rates(const TrajectoryProgram& program, const Eigen::VectorXd& phi, double tau) const;
   /// Sets u, w, s, y, value and price.
   void read_primal(const TrajectoryProgram& program, const Eigen::VectorXd& X, double tau,
@@ -94,6 +99,7 @@ struct Forms {
   void fill_efforts(const TrajectoryProgram& program, int i);
   void fill_unreached(const TrajectoryProgram& program, int i);
   void fill_rates(const TrajectoryProgram& program);
+  void fill_commands(const TrajectoryProgram& program);
   void fill_border(const TrajectoryProgram& program);
   void level(const TrajectoryProgram& program, const Eigen::VectorXd& multipliers, double tau,
              int i, TrajectorySolution& solution);

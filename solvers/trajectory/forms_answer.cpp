@@ -65,6 +65,12 @@ void Forms::read_dual(const TrajectoryProgram& program, const Eigen::VectorXd& m
       solution.mu(order[r], i) = multipliers[rates0 + rated * i + r] / tau;
     }
   }
+  solution.kappa.setZero(program.lag.rows(), program.lag.cols());
+  for (int i = 0; lagged && i + 1 < N; ++i) {
+    for (int r = 0; r < rated; ++r) {
+      solution.kappa(order[r], i) = multipliers[commands0 + rated * i + r] / tau;
+    }
+  }
   // In a proof, the multipliers of t sum to zero: those of limits on one side vanish.
   for (int i = 0; t > 0 && (!proof || program.common) && i < N; ++i) {
     if (stages[i].has_t) solution.pi[i] = -multipliers[stages[i].f0 + stages[i].count - 1];
@@ -81,6 +87,10 @@ void Forms::read_dual(const TrajectoryProgram& program, const Eigen::VectorXd& m
       double g = effort_multiplier(multipliers, i, r) / tau;
       if (i > 0) g += solution.mu(j, i - 1);
       if (i + 1 < N) g -= solution.mu(j, i);
+      if (i > 0 && program.lags(j, i - 1)) {
+        g += (1 + program.lag(j, i - 1)) * solution.kappa(j, i - 1);
+      }
+      if (i + 1 < N && program.lags(j, i)) g -= program.lag(j, i) * solution.kappa(j, i);
       lambda -= actuation_->B_pinv.row(j).transpose() * g;
     }
     const int first = at.f0 + at.w0 + at.w_count + at.w;

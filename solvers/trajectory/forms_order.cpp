@@ -15,13 +15,13 @@ constexpr double kSlight = 1e-6;
 
 }  // namespace
 
-/// Actuators with rates come first; those without rates that the null space of B does not move come
+/// Actuators with rates or a lag come first; those without rates that the null space of B does not move come
 /// last.
 void Forms::order_actuators(const TrajectoryProgram& program, bool with_rates) {
   const int m = actuation_->actuators();
   const auto has_rate = [&](int j) {
     for (int i = 0; i + 1 < N; ++i) {
-      if (program.du_max(j, i) < kInfiniteBound) return true;
+      if (program.du_max(j, i) < kInfiniteBound || program.lags(j, i)) return true;
     }
     return false;
   };
@@ -31,6 +31,7 @@ void Forms::order_actuators(const TrajectoryProgram& program, bool with_rates) {
     if (has_rate(j)) order.push_back(j);
   }
   if (with_rates) rated = static_cast<int>(order.size());
+  lagged = with_rates && program.lag.size() > 0 && (program.lag.array() > 0).any();
   for (const bool moved : {true, false}) {
     for (int j = 0; j < m; ++j) {
       if (has_rate(j) || (Z_.row(j).lpNorm<1>() > kStill) != moved) continue;

@@ -19,7 +19,8 @@ class Ipm : public TrajectorySolver {
   void solve_well_formed(const TrajectoryProgram& program, TrajectorySolution& solution) override {
     solution.basis.clear();
     solution.iterations = 0;
-    bool rates = !(program.du_max.array() < kInfiniteBound).any();
+    const bool lag = program.lag.size() > 0 && (program.lag.array() > 0).any();
+    bool rates = !lag && !(program.du_max.array() < kInfiniteBound).any();
     bool slacks = !program.elastic();
     for (;;) {
       // Each has its own storage, so nothing is resized from call to call.

@@ -55,6 +55,7 @@ void NormalMatrix::assemble(const Forms& forms, const Eigen::VectorXd& theta) {
     weight_.segment(forms.stages[i].f0, forms.rated) += rate;
     weight_.segment(forms.stages[i + 1].f0, forms.rated) += rate;
   }
+  if (forms.lagged) add_commands(forms, theta);
   H_.setZero();
   if (forms.p > 0) E_.setZero();
   for (int i = 0; i < forms.N; ++i) {
@@ -65,6 +66,20 @@ void NormalMatrix::assemble(const Forms& forms, const Eigen::VectorXd& theta) {
   }
   if (forms.p > 0) border(forms, theta);
   if (forms.p > 0) border_limits(forms, theta);
+}
+
+/// (1 + lag) phi_i+1 - lag phi_i of the commands, beside phi_i+1 - phi_i of the rates.
+void NormalMatrix::add_commands(const Forms& forms, const Eigen::VectorXd& theta) {
+  coupling_.resize(forms.rated, forms.N - 1);
+  for (int i = 0; i + 1 < forms.N; ++i) {
+    for (int r = 0; r < forms.rated; ++r) {
+      const double lag = forms.lag(r, i);
+      const double command = theta[forms.commands0 + forms.rated * i + r];
+      weight_[forms.stages[i].f0 + r] += lag * lag * command;
+      weight_[forms.stages[i + 1].f0 + r] += (1 + lag) * (1 + lag) * command;
+      coupling_(r, i) = theta[forms.rates0 + forms.rated * i + r] + lag * (1 + lag) * command;
+    }
+  }
 }
 
 template <int D>
@@ -96,13 +111,15 @@ void NormalMatrix::assemble_stage(const Forms& forms, const Eigen::VectorXd& the
   H_(0, 0) += theta_t;
 }
 
-/// K_i+1,i = -C_i+1' Theta C_i of the rates between them.
+/// K_i+1,i = -C_i+1' Theta C_i of the rates and commands between them.
 template <int D>
 void NormalMatrix::couple(const Forms& forms, const Eigen::VectorXd& theta, int i) {
   const Forms::Stage& at = forms.stages[i];
   const Forms::Stage& next = forms.stages[i + 1];
   double* const S = S_.data() + S0_[i];
-  const auto rate = theta.segment(forms.rates0 + forms.rated * i, forms.rated);
+  const Eigen::Map<const Eigen::VectorXd> rate(
+      forms.lagged ? coupling_.col(i).data() : theta.data() + forms.rates0 + forms.rated * i,
+      forms.rated);
   if (D == Eigen::Dynamic || next.d != at.d) {
     const auto C = forms.F_of(at).topRows(forms.rated);
     const auto C_next = forms.F_of(next).topRows(forms.rated);
@@ -136,9 +153,26 @@ void NormalMatrix::border(const Forms& forms, const Eigen::VectorXd& theta) {
     if (i + 1 == forms.N || forms.rated == 0) continue;
     add(i, forms.rates0 + forms.rated * i, forms.rated, -1);
     add(i + 1, forms.rates0 + forms.rated * i, forms.rated, 1);
+    if (forms.lagged) border_commands(forms, i);
   }
   stack_ = theta.head(forms.border0).cwiseSqrt().asDiagonal() * forms.D;
   H_.bottomRightCorner(p, p).selfadjointView<Eigen::Lower>().rankUpdate(stack_.transpose());
+}
+
+/// Adds the border's columns of the commands from instant i to the next one: E += F'theta D.
+void NormalMatrix::border_commands(const Forms& forms, int i) {
+  const int p = forms.p, b = forms.t + p, first = forms.commands0 + forms.rated * i;
+  for (const int to : {0, 1}) {
+    const Forms::Stage& at = forms.stages[i + to];
+    Eigen::Map<RowMatrix> E(E_.data() + E0_[i + to], at.d, b);
+    const auto F = forms.F_of(at);
+    for (int c = 0; c < at.d; ++c) {
+      for (int r = 0; r < forms.rated; ++r) {
+        const double factor = to == 1 ? 1 + forms.lag(r, i) : -forms.lag(r, i);
+        E.row(c).tail(p) += (factor * F(r, c)) * stack_.row(first + r);
+      }
+    }
+  }
 }
 
 void NormalMatrix::border_limits(const Forms& forms, const Eigen::VectorXd& theta) {

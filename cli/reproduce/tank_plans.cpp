@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "benchmarks/suite/product.h"
+#include "benchmarks/tables/write_file.h"
+#include "cli/reproduce/reproduce.h"
+#include "maxwrench/load.h"
+#include "maxwrench/solve.h"
+#include "maxwrench/strategies.h"
+#include "maxwrench/trajectory_proof.h"
+#include "solvers/solve/method.h"
+#include "solvers/solve/tank.h"
+
+namespace maxwrench {
+namespace {
+
+/// One plan: a table of theta_r for a task, with what it is worth.
+struct TankPlan {
+  Problem problem;
+  std::string name;  ///< how it was found
+  Eigen::MatrixXd knots;
+};
+
+std::string plan_file(const Problem& problem, const char* suffix) {
+  std::string file =
+      fmt::format("{}_{}{}.csv", problem.name, to_string(problem.motion->scheme), suffix);
+  std::replace(file.begin(), file.end(), '/', '_');
+  return file;
+}
+
+std::string tank_number(double value) {
+  return std::isfinite(value) ? fmt::format("{:>8.3f}", value) : fmt::format("{:>8}", "none");
+}
+
+/// What is proven without regard to the lag; none for schemes that are no motion.
+double proven_value(const TankPlan& plan, int threads) {
+  if (plan.problem.motion->scheme != Scheme::kSpline) return std::nan("");
+  Problem problem = plan.problem;
+  problem.motion->thruster_lag = 0;
+  Options options;
+  options.threads = threads;
+  const TrajectoryProof proof = certify_trajectory(problem, plan.knots, options);
+  return proof.status == Status::kProven ? proof.guaranteed : std::nan("");
+}
+
+/// The line of a plan, executed with or without the inverse of the lag.
+std::string plan_line(const TankPlan& plan, double proven, bool inverse) {
+  const Problem& problem = plan.problem;
+  const TrajectorySolverEntry& solver = trajectory_solvers().front();
+  TrajectoryEvaluator evaluator(problem, Wrench::kPure, solver.make);
+  evaluator.evaluate(plan.knots);
+  if (evaluator.trajectory().status == Status::kOptimal) evaluator.evaluate_between_knots();
+  const Trajectory& trajectory = evaluator.trajectory();
+  TankOptions tank;
+  tank.invert_lag = inverse;
+  const ScriptOptions script{.interpolation = usual_interpolation(problem)};
+  const TrajectoryExperiment done =
+      simulate_trajectory(problem, trajectory, Wrench::kPure, solver, script, "cvode", tank);
+  const TankSummary& summary = done.run.summary;
+  const bool ran = !done.run.samples.empty();
+  const double reading = ran ? reading_of(summary) : std::nan("");
+  const char* const held = !ran ? "-" : summary.held ? "yes" : summary.lost ? "lost" : "no";
+  const double lag = problem.motion->thruster_lag;
+  return fmt::format("{:<9} {:<10} {:<5} {:<8} {} {} {} {} {:>8} {:>6} {:>5}\n",
+                     to_string(problem.motion->scheme), plan.name,
+                     lag > 0 ? fmt::format("{:g}", lag) : "none", inverse ? "inverse" : "lead",
+                     tank_number(trajectory.value), tank_number(trajectory.value_between_knots),
+                     tank_number(proven), tank_number(reading),
+                     ran ? fmt::format("{:.4f}", reading / done.script.planned) : "none",
+                     ran ? fmt::format("{:.3f}", summary.configuration_error) : "-", held);
+}
+
+/// The constant default, the trajectories of `reproduce_motion`, and the best one for the lag.
+std::vector<TankPlan> plans_of(const char* name, const std::filesystem::path& folder, int threads,
+                               long budget) {
+  std::vector<TankPlan> plans;
+  const Problem task = load_problem(name);
+  for (const std::string& scheme : scheme_names(task.motion->impulse)) {
+    Problem problem = task;
+    set_scheme("scheme", scheme, problem);
+    const std::filesystem::path file = folder / "trajectories" / plan_file(problem, "");
+    if (!std::filesystem::exists(file)) continue;
+    plans.push_back({problem, "optimised", load_knots(file, problem)});
+  }
+  plans.push_back({task, "constant", default_knots(task)});
+  Problem lagged = task;
+  lagged.motion->thruster_lag = TankOptions().thruster_lag;
+  plans.push_back({lagged, "constant", default_knots(task)});
+  Options options;
+  options.budget = budget;
+  options.threads = threads;
+  const Answer found = solve(lagged, options);
+  if (!found.has_value()) return plans;
+  plans.push_back({lagged, "optimised", found.trajectory.knots});
+  write_file(folder / "trajectories" / plan_file(lagged, "_lag"),
+             knots_csv(lagged, found.trajectory.knots));
+  return plans;
+}
+
+}  // namespace
+
+PaperTable reproduce_tank(const std::filesystem::path& folder, int threads, long budget) {
+  std::string text = fmt::format(
+      "What each trajectory is worth when the virtual tank executes it (docs/tank.md), N m.\n"
+      "lag: time constant of the thrusters that the trajectory allows for, s; none: none.\n"
+      "feedforward: lead: as always; inverse: efforts that the thrusters reach (--invert-lag).\n"
+      "value: at the instants; between: between knots; proven: at every instant, without regard\n"
+      "to the lag; reading: the least along a path, in an impulse that at t_h; share: the reading\n"
+      "over the value that is planned, of which {:g} % less is requested; error: of all joints\n"
+      "and the base, rad or m, at most {:g} is allowed.\n",
+      100 * TankOptions().margin, kTrackedConfigurationError);
+  for (const char* name : {"uvms/valve_trajectory", "uvms/valve_impulse", "uvms/lift_impulse"}) {
+    text += fmt::format(
+        "\n{}\nscheme    found_by   lag   feedfwd     value  between   proven  reading    share  "
+        "error  held\n",
+        name);
+    for (const TankPlan& plan : plans_of(name, folder, threads, budget)) {
+      const double proven = proven_value(plan, threads);
+      for (const bool inverse : {false, true}) text += plan_line(plan, proven, inverse);
+    }
+  }
+  write_file(folder / "tank_plans.txt", text);
+  return {text, true};
+}
+
+}  // namespace maxwrench
