@@ -54,19 +54,19 @@ class InstantModel {
     const ExtendedVector none = ExtendedVector::Zero(r);
     const ExtendedVector c = at.task.c.cast<Extended>();
     return {all_coordinates(at.task), at.task.theta_r_min, [&](const ExtendedVector& theta_r) {
-              ExtendedVector rows((2 + (moves ? 2 : 1) * r) * n), tau;
+              ExtendedVector rows((2 + (moves ? 2 : 1) * r) * n), load;
               posture.set(theta_r);
               loads.set(theta_r);
-              loads.evaluate({true, true, false}, none, none, tau);
-              rows.head(n) = posture.tau_d() + tau;
+              loads.evaluate({true, true, false}, none, none, load);
+              rows.head(n) = posture.tau_d() + load;
               rows.segment(n, n) = posture.J().transpose() * c;
               for (Eigen::Index j = 0; j < r; ++j) {
                 const ExtendedVector unit = ExtendedVector::Unit(r, j);
-                loads.evaluate({false, true, false}, none, unit, tau);
-                rows.segment((2 + j) * n, n) = tau;
+                loads.evaluate({false, true, false}, none, unit, load);
+                rows.segment((2 + j) * n, n) = load;
                 if (!moves) continue;
-                loads.evaluate({false, true, false}, unit, none, tau);
-                rows.segment((2 + r + j) * n, n) = tau;
+                loads.evaluate({false, true, false}, unit, none, load);
+                rows.segment((2 + r + j) * n, n) = load;
               }
               return rows;
             }};
@@ -292,7 +292,7 @@ Eigen::VectorXd joined(const Eigen::VectorXd& place, const Eigen::VectorXd& rate
 
 bool PlanInstant::rests() const {
   constexpr double kStill = 1e-12;  // the rows of a scheme's rates are rounded
-  const auto zero = [](const Eigen::VectorXd& x) { return x.lpNorm<Eigen::Infinity>() <= kStill; };
+  const auto zero = [](const Eigen::VectorXd& range) { return range.lpNorm<Eigen::Infinity>() <= kStill; };
   return x.twist.isZero(0) && zero(ranges.rate.low) && zero(ranges.rate.high);
 }
 

@@ -25,7 +25,7 @@ struct NarrowDual {
   friend NarrowDual operator-(NarrowDual x) {
     x.v = -x.v;
     if (x.varies) {
-      for (Narrow& d : x.d) d = -d;
+      for (Narrow& slope : x.d) slope = -slope;
     }
     return x;
   }
