@@ -7,7 +7,8 @@ set(maxwrench_solvers_sources
   certify/bound/multiplier_program.cpp certify/bound/pure_bound.cpp 
   certify/box_tree.cpp certify/certify.cpp certify/good_postures.cpp certify/halving.cpp certify/proof.cpp
   certify/proof_recorder.cpp
-  certify/trajectory/edge_program.cpp certify/trajectory/solve_proven.cpp certify/trajectory/trajectory_proof.cpp
+  certify/trajectory/edge_program.cpp certify/trajectory/instant_bound.cpp certify/trajectory/instant_objective.cpp
+  certify/trajectory/instant_ranges.cpp certify/trajectory/plan_bound.cpp certify/trajectory/quadratic_loads.cpp certify/trajectory/solve_proven.cpp certify/trajectory/trajectory_proof.cpp
   explain/best_posture.cpp explain/efforts.cpp explain/exits.cpp explain/explain.cpp explain/explanation_json.cpp
   explain/explanation_text.cpp explain/instants.cpp explain/limits.cpp
   integrator/runge_kutta.cpp

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -12,6 +13,7 @@
 #include "cli/ctrl_c.h"
 #include "cli/output.h"
 #include "cli/proof/good_postures.h"
+#include "cli/proof/plan_bounds.h"
 #include "cli/proof/prove.h"
 #include "cli/proof/trajectory_proofs.h"
 #include "cli/task/motion_options.h"
@@ -34,6 +36,7 @@ struct CertifyCommandOptions : CommonOptions {
   WithinOptions within;
   ProblemOptions source;
   std::optional<std::string> theta_r;  ///< of a task in time
+  bool bound = false;                  ///< of a task in time with theta_r: what no other exceeds
   MotionOptions motion;
 };
 
@@ -61,14 +64,33 @@ void throw_on_choices(const CertifyCommandOptions& options) {
   }
 }
 
-/// Proves a trajectory of a task in time. `command` has the options of static tasks, too.
+/// Throws if the command has one of these options.
+void reject_in_time(const CLI::App& command, std::initializer_list<const char*> names,
+                    const std::string& expected) {
+  for (const char* name : names) {
+    if (command.get_option(name)->count() == 0) continue;
+    throw std::invalid_argument(fmt::format("{}: got {}", name, expected));
+  }
+}
+
+/// Without a trajectory, bounds all trajectories of a task in time; else proves the given one.
+/// `command` has the options of static tasks, too.
 int certify_motion(const CertifyCommandOptions& options, const CLI::App& command,
                    const Problem& problem) {
-  for (const char* other : {"--gap", "--time", "--within", "--resolution", "--figure", "--boxes"}) {
-    if (command.get_option(other)->count() == 0) continue;
-    throw std::invalid_argument(
-        fmt::format("{}: got {}, a task in time, expected a static task", other, problem.name));
+  reject_in_time(command, {"--within", "--resolution", "--figure", "--boxes"},
+                 problem.name + ", a task in time, expected a static task");
+  if (!options.theta_r || options.bound) {
+    reject_in_time(command, {"--certificate"},
+                   "a bound on all trajectories, which has none, expected --theta-r without "
+                   "--bound");
+    const Eigen::MatrixXd knots =
+        options.theta_r ? knots_of(problem, options.theta_r) : Eigen::MatrixXd();
+    return bound_trajectories(problem, options.read_options(),
+                              {.gap = options.gap, .seconds = options.seconds}, knots,
+                              options.json);
   }
+  reject_in_time(command, {"--gap", "--time"},
+                 "the proof of one trajectory, expected it without --theta-r or with --bound");
   if (!options.certificate.empty() && options.motion.t_h) {
     throw std::invalid_argument("--certificate: got --t-h " + *options.motion.t_h +
                                 ", expected the peak that the task has without it");
@@ -207,6 +229,8 @@ void add_proof_options(CLI::App& command, CertifyCommandOptions& options) {
       ->check(reject_empty);
   options.within.add(command);
   add_theta_r(command, options.theta_r);
+  command.add_flag("--bound", options.bound,
+                   "of a task in time with --theta-r: what no trajectory exceeds, and the gap");
   options.motion.add(command);
   options.add_threads(command);
   options.add_json(command);
@@ -218,8 +242,9 @@ void add_certify(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<CertifyCommandOptions>();
   CLI::App& command = *app.add_subcommand(
       "certify",
-      "finds the largest capability and proves that no posture has more; of a task in time: proves "
-      "what a trajectory exerts at every instant");
+      "finds the largest capability and proves that no posture has more; of a task in time: what "
+      "no "
+      "trajectory exceeds or, with --theta-r, what a trajectory exerts at every instant");
   add_proof_options(command, *options);
   command.callback([options, &command, &exit_status] {
     require_apart(options->source.inputs(options->choice.problem),
@@ -237,8 +262,9 @@ void add_certify(CLI::App& app, int& exit_status) {
       exit_status = certify_motion(*options, command, problem);
       return;
     }
-    if (options->theta_r) {
-      throw std::invalid_argument("--theta-r: got " + problem.name +
+    if (options->theta_r || options->bound) {
+      throw std::invalid_argument(std::string(options->theta_r ? "--theta-r" : "--bound") +
+                                  ": got " + problem.name +
                                   ", a static task, expected a task in time");
     }
     throw_on_dependents(*options, problem);

@@ -140,8 +140,9 @@ bool TankOde::residual(double t, const Eigen::VectorXd& y, const Eigen::VectorXd
 
 /// A small change of the configuration moves the end effector by J dx, where dx are the velocities
 /// that would make that change in unit time.
-bool TankOde::residual_jacobian(double t, const Eigen::VectorXd& y, const Eigen::VectorXd& /*y_dot*/,
-                                double alpha, Eigen::MatrixXd& dF) {
+bool TankOde::residual_jacobian(double t, const Eigen::VectorXd& y,
+                                const Eigen::VectorXd& /*y_dot*/, double alpha,
+                                Eigen::MatrixXd& dF) {
   const Stopwatch watch(seconds_);
   ++evaluations_;
   prepare(t, y, rates_);
@@ -161,9 +162,9 @@ bool TankOde::residual_jacobian(double t, const Eigen::VectorXd& y, const Eigen:
     pull_ = J_.transpose() * stiffness_.asDiagonal() * J_;
     dF.block(v, 0, n, v) = pull_ * shifts_;
   }
-  dF.block(v, f, n, thrusters) =
-      -options_.imperfections.thrust_efficiency * robot.actuation.B.leftCols(thrusters);
   for (Eigen::Index j = 0; j < thrusters; ++j) {
+    if (is_dead(j)) continue;
+    dF.block(v, f + j, n, 1) = -options_.imperfections.thrust_efficiency * robot.actuation.B.col(j);
     if (std::abs(rates_[f + j]) < rate_max_[j]) dF(f + j, f + j) += 1 / options_.thruster_lag;
   }
   return dF.allFinite();

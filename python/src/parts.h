@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "maxwrench/certify.h"
 #include "maxwrench/path.h"
 #include "maxwrench/solve.h"
 #include "maxwrench/task.h"
@@ -62,9 +63,9 @@ PyAnswer answer_from_state(const py::tuple& state);
 /// theta_r of a posture, as one row, or knots (k×r) of a task in time.
 Eigen::MatrixXd knots_in(const Array& array, const Problem& task);
 /// `certify` of a task in time: a TrajectoryProof, of the knots in theta_r or, if that is None, of
-/// the trajectory that a search finds.
+/// the trajectory that a search finds, with the bound that none exceeds.
 py::object certify_motion(const PyTask& task, const py::object& theta_r, const Options& options,
-                          const py::object& callback);
+                          const ProofOptions& limits, const py::object& callback);
 /// `verify` of a certificate of a trajectory; `given` is the task in place of the one it names.
 py::object verify_motion(const std::string& file, const std::optional<Problem>& given, int threads);
 /// The second contact of a task: a maxwrench.Contact.

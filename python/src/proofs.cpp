@@ -55,13 +55,13 @@ py::object certify_task(const py::object& task, const py::object& theta_r, doubl
   options.budget = budget;
   options.threads = threads;
   if (of.problem->motion) {
-    if (gap != ProofOptions().gap) {
-      throw BadValue("gap", shown(gap), "no such argument of a task in time");
+    if (gap != ProofOptions().gap && !theta_r.is_none()) {
+      throw BadValue("gap", shown(gap), "no such argument of a task in time with theta_r");
     }
-    if (seconds != ProofOptions().seconds) {
-      throw BadValue("seconds", shown(seconds), "no such argument of a task in time");
+    if (seconds != ProofOptions().seconds && !theta_r.is_none()) {
+      throw BadValue("seconds", shown(seconds), "no such argument of a task in time with theta_r");
     }
-    return certify_motion(of, theta_r, options, callback);
+    return certify_motion(of, theta_r, options, {.gap = gap, .seconds = seconds}, callback);
   }
   if (!theta_r.is_none()) {
     throw BadValue("theta_r", "an array", "None: " + of.problem->name + " is a static task");
@@ -143,14 +143,13 @@ std::string repr_of_proof(const PyProof& self) {
 
 constexpr const char* kCertify =
     R"(Searches for the best posture, and proves how much larger a value can be. For a task in time:
-proves what a trajectory exerts at every instant.
+proves what a trajectory exerts at every instant, and without theta_r also what none exceeds.
 
 Args:
     task: a Task, or the name of one.
     theta_r: for a task in time, as of ``evaluate``; None: the trajectory that a search finds.
-    gap: for a static task, the proof ends once bound - beta is at most this share of beta; at
-        least 1e-8.
-    seconds: for a static task, the time limit of the proof, after the search [s].
+    gap: the proof of a bound ends once bound - beta is at most this share of beta; at least 1e-8.
+    seconds: the time limit of that proof, after the search [s].
     measure: "linf_polytope", "l2_polytope" or "ellipsoid"; for a task in time the first.
     wrench, search, seed, budget, threads, callback: as of ``solve``.
 

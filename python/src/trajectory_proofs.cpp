@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 
 #include "maxwrench/load.h"
+#include "maxwrench/plan_bound.h"
 #include "maxwrench/trajectory_proof.h"
 #include "problems/make/bad_value.h"
 #include "python/src/arrays.h"
@@ -25,6 +28,9 @@ namespace {
 struct PyTrajectoryProof {
   TrajectoryProof proof;
   PyTask task;
+  double bound = std::numeric_limits<double>::quiet_NaN();  ///< of all trajectories
+
+  double gap() const { return (bound - proof.answer.beta()) / std::abs(proof.answer.beta()); }
 };
 
 template <class Archive>
@@ -32,9 +38,23 @@ void fields(Archive& archive, PyTrajectoryProof& self) {
   TrajectoryProof& p = self.proof;
   PyAnswer answer{p.answer, self.task};
   archive(answer, self.task, static_cast<Verdict&>(p), p.guaranteed, p.t, p.parts, p.slices,
-          p.clearance, p.seconds);
+          p.clearance, p.seconds, self.bound);
   archive.bytes(p.certificate);
   p.answer = std::move(answer.answer);
+}
+
+/// What no trajectory exceeds; NaN for tasks that have no such bound.
+double bound_beside(const TrajectoryProof& proof, const Problem& problem, const Options& options,
+                    const ProofOptions& how) {
+  const Eigen::MatrixXd& knots = proof.answer.trajectory.knots;
+  if (knots.size() == 0) return std::numeric_limits<double>::quiet_NaN();
+  Options own = options;
+  own.search = "";  // the trajectory is given
+  try {
+    return bound_trajectories(problem, own, how, knots).bound;
+  } catch (const std::invalid_argument&) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
 }
 
 void save_trajectory_proof(const PyTrajectoryProof& self, const py::object& path) {
@@ -61,7 +81,7 @@ std::string repr_of_trajectory_proof(const PyTrajectoryProof& self) {
 }  // namespace
 
 py::object certify_motion(const PyTask& task, const py::object& theta_r, const Options& options,
-                          const py::object& callback) {
+                          const ProofOptions& limits, const py::object& callback) {
   TrajectoryProofOptions how;
   how.keep_certificate = true;
   PyTrajectoryProof result{{}, task};
@@ -78,6 +98,7 @@ py::object certify_motion(const PyTask& task, const py::object& theta_r, const O
     own.interrupted = [&watch] { return watch.stop.load(); };
     result.proof = knots.size() > 0 ? certify_trajectory(problem, knots, own, how)
                                     : solve_proven(problem, own, how);
+    if (knots.size() == 0) result.bound = bound_beside(result.proof, problem, own, limits);
   });
   return py::cast(std::move(result));
 }
@@ -123,6 +144,10 @@ void add_trajectory_proofs(py::module_& m) {
       .def_property_readonly(
           "t", [](const PyTrajectoryProof& p) { return p.proof.t; },
           "The instant of the reason [s]; NaN: none.")
+      .def_readonly("bound", &PyTrajectoryProof::bound,
+                    "What no trajectory of the task exceeds; NaN: it was given, or there is none.")
+      .def_property_readonly("gap", &PyTrajectoryProof::gap,
+                             "(bound - beta)/|beta|, beta that of ``answer``; NaN: no bound.")
       .def_property_readonly(
           "slices", [](const PyTrajectoryProof& p) { return p.proof.slices; },
           "The number of slices of time on which the efforts were enclosed.")

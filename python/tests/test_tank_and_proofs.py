@@ -82,7 +82,10 @@ def test_a_trajectory_is_proven_at_every_instant(tmp_path, command):
 def test_a_trajectory_is_found_and_proven():
     proof = mw.certify("planar/trajectory", budget=200, seed=2)
     assert proof.status == "proven" and proof.answer.status == "best_found"
-    assert 0 < proof.guaranteed <= proof.answer.beta
+    assert 0 < proof.guaranteed <= proof.answer.beta <= proof.bound < np.inf
+    assert proof.gap == pytest.approx((proof.bound - proof.answer.beta) / proof.answer.beta)
+    given = mw.certify("planar/trajectory", [0.3, 0.1])
+    assert np.isnan(given.bound) and np.isnan(given.gap)
 
 
 def test_an_unprovable_trajectory_says_when(tmp_path, rejects):

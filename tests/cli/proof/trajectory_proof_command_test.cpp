@@ -48,7 +48,7 @@ TEST(CertifyTrajectoryCommand, ProvesAndIsVerified) {
 TEST(CertifyTrajectoryCommand, RejectsADamagedCertificate) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "turn.proof";
-  run_maxwrench("certify planar/trajectory --certificate " + file);
+  run_maxwrench("certify planar/trajectory --theta-r 0.3,0.1 --certificate " + file);
   std::string text = read_text(file);
   text[text.size() / 2] ^= 1;
   std::ofstream(file, std::ios::binary) << text;
@@ -74,17 +74,38 @@ TEST(CertifyTrajectoryCommand, RefusesWithTheInstant) {
 /// One line each, with exit status 2.
 TEST(CertifyTrajectoryCommand, RejectsWhatDoesNotApply) {
   for (const char* words :
-       {"certify planar/trajectory --gap 0.1", "certify planar/trajectory --time 3",
+       {"certify planar/trajectory --theta-r 0,0 --gap 0.1",
+        "certify planar/trajectory --theta-r 0,0 --time 3",
+        "certify planar/trajectory --certificate x", "certify planar/force --bound",
+        "certify planar/trajectory --theta-r 0,0 --bound --certificate x",
         "certify planar/trajectory --within 1%", "certify planar/force --theta-r 0,0",
         "certify planar/force --scheme ends", "certify planar/trajectory --wrench any",
         "certify planar/trajectory --measure ellipsoid", "certify mobile/trajectory",
         "certify planar/trajectory --theta-r 0,0,0", "certify planar/trajectory --theta-r none.csv",
-        "certify uvms/valve_impulse --t-h 2 --certificate x", "solve planar/force --proven"}) {
+        "certify uvms/valve_impulse --theta-r 0,0,0,0 --t-h 2 --certificate x",
+        "solve planar/force --proven"}) {
     const CommandResult result = run_maxwrench(words);
     EXPECT_EQ(result.exit_status, 2) << words << result.out;
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << words << result.err;
     EXPECT_NE(result.err.find("expected"), std::string::npos) << words << result.err;
   }
+}
+
+/// Without a trajectory: no trajectory exceeds the bound.
+TEST(BoundTrajectoriesCommand, BoundsWhatItFinds) {
+  const CommandResult result = run_maxwrench("certify planar/trajectory --json");
+  EXPECT_EQ(result.exit_status, 1) << result.err;
+  const json bound = json::parse(result.out);
+  EXPECT_EQ(bound["status"], "bracket");
+  EXPECT_EQ(bound["certificate"], false);
+  const double value = bound["value"], most = bound["bound"], gap = bound["gap"];
+  EXPECT_LT(value, most);
+  EXPECT_DOUBLE_EQ(gap, (most - value) / value);
+  EXPECT_GE(most, bound["allowed"].get<double>());
+  const CommandResult text = run_maxwrench("certify planar/trajectory --theta-r 0.3,0.1 --bound");
+  EXPECT_EQ(text.exit_status, 1);
+  EXPECT_NE(text.out.find("of the given trajectory\nbound "), std::string::npos) << text.out;
+  EXPECT_NE(text.out.find("\nno certificate: "), std::string::npos) << text.out;
 }
 
 TEST(SolveProvenCommand, ProvesWhatItFinds) {
