@@ -6,6 +6,7 @@
 #include "cli/cli.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
+#include "maxwrench/transfer_searches.h"
 #include "maxwrench/version.h"
 
 namespace maxwrench {
@@ -92,6 +93,7 @@ std::string choices(const std::string& option) {
     add(searches());
     add(trajectory_searches());
     add(facet_searches());
+    add(transfer_searches());
   }
   if (option == "--integrator") add(integrators());
   if (option == "--wrench") names = "pure any";

@@ -81,7 +81,7 @@ foreach(library IPOPT CLP GLPK NLOPT PAGMO SUNDIALS)
   elseif(library STREQUAL PAGMO)
     maxwrench_need_files(PAGMO pagmo/config.hpp pagmo boost_serialization)
   elseif(library STREQUAL SUNDIALS)
-    maxwrench_need_files(SUNDIALS sundials/sundials_types.h sundials_arkode sundials_cvode sundials_ida sundials_nvecserial
+    maxwrench_need_files(SUNDIALS sundials/sundials_types.h sundials_arkode sundials_cvodes sundials_ida sundials_nvecserial
       sundials_sunlinsoldense sundials_sunmatrixdense sundials_sunnonlinsolfixedpoint)
   else()
     string(TOLOWER ${library} maxwrench_module)

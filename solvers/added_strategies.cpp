@@ -14,6 +14,7 @@
 #include "maxwrench/batch.h"
 #include "maxwrench/robot.h"
 #include "maxwrench/strategies.h"
+#include "maxwrench/transfer_searches.h"
 
 namespace maxwrench {
 namespace {
@@ -175,7 +176,8 @@ void add_search(SearchEntry entry) {
   bool taken = std::any_of(absent.begin(), absent.end(), [&entry](const Absent& other) {
     return std::string_view(other.family) == "search" && std::string_view(other.name) == entry.name;
   });
-  for (const auto table : {trajectory_searches(), searches(), facet_searches()}) {
+  for (const auto table :
+       {trajectory_searches(), searches(), facet_searches(), transfer_searches()}) {
     taken = taken || any_named(table, entry.name);
   }
   keep_texts("search", taken, entry);

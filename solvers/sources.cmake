@@ -42,6 +42,9 @@ if(MAXWRENCH_WITH_SUNDIALS)
   list(APPEND maxwrench_solvers_sources
     integrator/arkode.cpp integrator/cvode.cpp integrator/ida.cpp integrator/sundials.cpp
     search/nullspace.cpp)
+  list(APPEND maxwrench_solvers_sources
+    pontryagin/climb.cpp pontryagin/extremal.cpp pontryagin/extremal_flow.cpp pontryagin/least_effort_motion.cpp
+    search/pontryagin.cpp)
 endif()
 if(MAXWRENCH_WITH_IPOPT)
   list(APPEND maxwrench_solvers_sources

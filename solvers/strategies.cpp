@@ -9,6 +9,7 @@
 
 #include "maxwrench/problem.h"
 #include "maxwrench/solve.h"
+#include "maxwrench/transfer_searches.h"
 #include "solvers/added_strategies.h"
 #include "solvers/integrator/makers.h"
 #include "solvers/lp/makers.h"
@@ -87,6 +88,7 @@ constexpr struct {
     {MAXWRENCH_WITH_PAGMO, {"search", "de", "pagmo"}},
     {MAXWRENCH_WITH_PAGMO, {"search", "sade", "pagmo"}},
     {MAXWRENCH_WITH_SUNDIALS, {"search", "nullspace", "SUNDIALS"}},
+    {MAXWRENCH_WITH_SUNDIALS, {"search", "pontryagin", "SUNDIALS"}},
     {MAXWRENCH_WITH_SUNDIALS, {"integrator", "cvode", "SUNDIALS"}},
     {MAXWRENCH_WITH_SUNDIALS, {"integrator", "cvode_adams", "SUNDIALS"}},
     {MAXWRENCH_WITH_SUNDIALS, {"integrator", "arkode", "SUNDIALS"}},
@@ -99,6 +101,22 @@ std::vector<Absent> make_absent() {
     if (!built_in) absent.push_back(entry);
   }
   return absent;
+}
+
+/// Empty if none is built in.
+std::vector<SearchEntry> make_transfer_searches() {
+  return {
+#if MAXWRENCH_WITH_SUNDIALS
+    {"pontryagin",
+     "Pontryagin's maximum principle by multiple shooting (CVODES)",
+     false,
+     make_pontryagin,
+     false,
+     0,
+     5,
+     true},
+#endif
+  };
 }
 
 /// Empty if none is built in.
@@ -283,6 +301,10 @@ std::span<const SearchEntry> trajectory_searches() {
   };
   return kTrajectorySearches;
 }
+std::span<const SearchEntry> transfer_searches() {
+  static const std::vector<SearchEntry> kTransferSearches = make_transfer_searches();
+  return kTransferSearches;
+}
 std::span<const SearchEntry> facet_searches() {
   static const std::vector<SearchEntry> kFacetSearches = make_facet_searches();
   return kFacetSearches;
@@ -320,7 +342,9 @@ const TrajectorySolverEntry& find_trajectory_solver(std::string_view name) {
 const char* general_search() { return MAXWRENCH_WITH_NLOPT ? "crs2+cmaes" : "annealing+cmaes"; }
 NamedSearch find_search(std::string_view name) {
   return find_stages(
-      with_added({trajectory_searches(), searches(), facet_searches()}, added_searches()), name);
+      with_added({trajectory_searches(), searches(), facet_searches(), transfer_searches()},
+                 added_searches()),
+      name);
 }
 std::unique_ptr<Search> NamedSearch::make() const {
   if (restarts) return make_restart({name, false, stages, local});

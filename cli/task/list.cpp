@@ -6,6 +6,7 @@
 #include "cli/output.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
+#include "maxwrench/transfer_searches.h"
 
 namespace maxwrench {
 namespace {
@@ -48,6 +49,7 @@ int list() {
               trajectory_searches());
   print_table("searches between facets: for static tasks with linf_polytope and few facets",
               facet_searches());
+  print_table("searches for transfers", transfer_searches());
   print_table("integrators", integrators());
   for (const Absent& absent : not_built_in()) {
     fmt::print("not built in: {} {} (needs {})\n", absent.family, absent.name, absent.library);

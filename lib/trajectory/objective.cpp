@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "lib/trajectory/task_of.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/trajectory.h"
 
@@ -34,6 +35,7 @@ class ObjectiveOfTrajectories final : public TrajectoryObjective {
   const Eigen::VectorXd& upper() const override { return upper_; }
   const Verdict& verdict() const override { return verdict_; }
   const KnotRows* rows() const override { return &evaluator_.rows(); }
+  const Problem& problem() const { return problem_; }
   TrajectoryEvaluator& trajectories() override { return evaluator_; }
   TrajectoryValue counts() const override { return counts_; }
 
@@ -98,6 +100,13 @@ class ObjectiveOfTrajectories final : public TrajectoryObjective {
 };
 
 }  // namespace
+
+const Problem& task_of(const TrajectoryObjective& objective) {
+  const auto* made = dynamic_cast<const ObjectiveOfTrajectories*>(&objective);
+  if (made) return made->problem();
+  throw std::invalid_argument(
+      "objective: got one of another kind, expected one of make_trajectory_objective");
+}
 
 Eigen::VectorXd theta_r_at(const Problem& problem, const Instant& instant) {
   return instant.q(problem.redundant);

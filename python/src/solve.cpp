@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include "maxwrench/strategies.h"
+#include "maxwrench/transfer_searches.h"
 #include "problems/make/bad_value.h"
 #include "python/src/arrays.h"
 #include "python/src/background.h"
@@ -118,6 +119,7 @@ py::dict all_searches() {
   py::dict names = summaries(searches());
   names.attr("update")(summaries(trajectory_searches()));
   names.attr("update")(summaries(facet_searches()));
+  names.attr("update")(summaries(transfer_searches()));
   return with_added(names, added_searches());
 }
 

@@ -1,4 +1,4 @@
-#include <cvode/cvode.h>
+#include <cvodes/cvodes.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 

@@ -44,6 +44,8 @@ std::unique_ptr<Search> make_nullspace();
 
 std::unique_ptr<Search> make_pagmo_cmaes();
 
+std::unique_ptr<Search> make_pontryagin();
+
 std::unique_ptr<Search> make_sade();
 
 std::unique_ptr<Search> make_sample();

@@ -15,6 +15,7 @@
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/trajectory.h"
+#include "maxwrench/transfer_searches.h"
 
 namespace maxwrench {
 namespace {
@@ -207,7 +208,7 @@ bool supported_between_facets(const Problem& problem, const std::string& measure
 }
 
 std::vector<std::string> supported_solvers(const Problem& problem, const std::string& measure,
-                                        Wrench wrench) {
+                                           Wrench wrench) {
   std::vector<std::string> names;
   const MeasureEntry& entry = find_measure(measure);
   if (problem.motion) {
@@ -224,12 +225,13 @@ std::vector<std::string> supported_solvers(const Problem& problem, const std::st
 }
 
 std::vector<std::string> supported_searches(const Problem& problem, const std::string& measure,
-                                         Wrench wrench) {
+                                            Wrench wrench) {
   std::vector<std::string> names;
   const auto add = [&](std::span<const SearchEntry> table) {
     for (const SearchEntry& search : table) names.emplace_back(search.name);
   };
   if (problem.motion) add(trajectory_searches());
+  if (problem.motion && problem.motion->transfer) add(transfer_searches());
   add(searches());
   if (!problem.motion && supported_as_trajectory(problem, measure)) add(trajectory_searches());
   if (supported_between_facets(problem, measure, wrench)) add(facet_searches());
@@ -275,9 +277,9 @@ int thread_count(int threads) {
 
 void set_scheme(const char* key, const std::string& scheme, Problem& problem) {
   MotionTask& task = *problem.motion;
-  const std::vector<std::string> supported = task.has_factor()
-                                              ? std::vector<std::string>{to_string(Scheme::kSpline)}
-                                              : scheme_names(task.impulse);
+  const std::vector<std::string> supported =
+      task.has_factor() ? std::vector<std::string>{to_string(Scheme::kSpline)}
+                        : scheme_names(task.impulse);
   if (std::find(supported.begin(), supported.end(), scheme) == supported.end()) {
     throw std::invalid_argument(fmt::format("{}: got '{}', expected one of {} for {} {}", key,
                                             scheme, fmt::join(supported, " "),
