@@ -5,13 +5,14 @@
 #include <stdexcept>
 #include <string>
 
+#include "lib/trajectory/instant_evaluator.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/trajectory.h"
 
 namespace maxwrench {
 namespace {
 
-class ObjectiveOfTrajectories final : public TrajectoryObjective {
+class ObjectiveOfTrajectories final : public TrajectoryObjective, public InstantSource {
  public:
   ObjectiveOfTrajectories(const Problem& problem, Wrench wrench, TrajectorySolverMaker make,
                           bool check, TrajectoryValue counts)
@@ -64,6 +65,10 @@ class ObjectiveOfTrajectories final : public TrajectoryObjective {
 
   std::unique_ptr<TrajectoryObjective> copy(TrajectoryValue counts) const override {
     return make_trajectory_objective(problem_, wrench_, make_, check_, counts);
+  }
+  std::unique_ptr<InstantEvaluator> make_instants(
+      const InstantEvaluator::SolverMaker& make) const override {
+    return std::make_unique<InstantEvaluator>(problem_, wrench_, make, check_);
   }
 
  private:

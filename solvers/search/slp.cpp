@@ -74,7 +74,11 @@ class Slp : public Search {
     SearchRun run(options);
     SlpOutcome best;
     const auto left = [&] { return options.budget - best.found.trace.evaluations(); };
-    std::vector<Candidate> starts = find_knot_starts(objective, options, run, best.found);
+    std::vector<Candidate> starts = earlier_starts(objective, options, run, best.found);
+    if (left() > 0) {
+      const std::vector<Candidate> own = find_knot_starts(objective, options, run, best.found);
+      starts.insert(starts.end(), own.begin(), own.end());
+    }
     if (!starts.empty() && left() >= SlpRun::kJudgement) {
       SlpRun slp_run(objective, *std::max_element(starts.begin(), starts.end(), is_less), run);
       best.trajectory = slp_run.best();
